@@ -1,0 +1,52 @@
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include "cellcrush/vector.h"
+
+namespace cellcrush {
+
+/// Points sorted into square buckets, after the NBS search of Munjiza and Andrews (1998): time and memory grow as the number
+/// of points, whatever area they spread over.
+///
+/// Deviation from Eq. 40: the bucket is the floor of the coordinate; truncation toward zero would merge two at the origin.
+class BucketGrid {
+ public:
+  /// `size` is the wanted side of a bucket in mm; it is made larger where there would be more than kBucketsPerPoint buckets
+  /// a point. REQUIRES: at least one point, finite coordinates, size > 0.
+  BucketGrid(std::span<const Vector2> points, double size);
+
+  /// Calls visit(point index) for every point in the buckets that the box from `low` to `high` touches.
+  template <class Visit>
+  void visit_box(const Vector2& low, const Vector2& high, Visit&& visit) const {
+    const int x_first = std::max(column(low.x()), 0);
+    const int x_last = std::min(column(high.x()), columns_ - 1);
+    const int y_first = std::max(row(low.y()), 0);
+    const int y_last = std::min(row(high.y()), rows_ - 1);
+    for (int y = y_first; y <= y_last; ++y) {
+      for (int k = offset_[bucket(x_first, y)]; x_first <= x_last && k < offset_[bucket(x_last, y) + 1]; ++k) {
+        visit(sorted_[k]);
+      }
+    }
+  }
+
+  [[nodiscard]] double bucket_size() const { return size_; }
+
+ private:
+  static constexpr double kBucketsPerPoint = 4.0;
+
+  [[nodiscard]] int column(double x) const;
+  [[nodiscard]] int row(double y) const;
+  [[nodiscard]] std::size_t bucket(int x, int y) const { return static_cast<std::size_t>(y) * columns_ + x; }
+
+  Vector2 origin_;
+  double size_;
+  int columns_;
+  int rows_;
+  std::vector<int> offset_;  // into sorted_, one a bucket and the end
+  std::vector<int> sorted_;  // points by bucket
+};
+
+}  // namespace cellcrush

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "cellcrush/scene.h"
+#include "cellcrush/state.h"
+
+namespace cellcrush {
+
+/// Overwrites the contact forces between walls (section 4.2, Eq. 41-43) from the candidates.
+///
+/// Normal force k D + c dD/dt on the ball, shared by the segment's nodes as the foot lies between them. Mends to the paper:
+///  - distance to a capsule, ends included (contact/capsule.h);
+///  - one force per ball and polyline: of touching segments that share a node only the deepest pushes, so neither a convex
+///    joint nor the inner joints of a straight chain push twice;
+///  - the side on which a ball first touched is remembered until it leaves, so that one pressed past the mid-line is pushed
+///    back, not through;
+///  - the force never pulls (Eq. 43 does while walls part);
+///  - where ball and segment meet at a joint, they touch at no more than half of the ball's distance from it: walls can come
+///    no further apart there than the joint lets them.
+/// c is damping_ratio of critical damping of k with the effective mass 1/m = 1/m_ball + (1-s)^2/m_start + s^2/m_end.
+void evaluate_contact_forces(const Scene& scene, State& state);
+
+}  // namespace cellcrush

@@ -1,0 +1,113 @@
+#include "contact/find_contacts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "contact/bucket_grid.h"
+#include "contact/capsule.h"
+
+namespace cellcrush {
+namespace {
+
+struct Pair {
+  int ball;
+  int segment;
+};
+
+bool list_holds(const Scene& scene, const State& state) {
+  if (state.searched_position.size() != state.position.size()) {
+    return false;
+  }
+  const double limit = 0.25 * scene.contact.skin * scene.contact.skin;
+  for (std::size_t i = 0; i < state.position.size(); ++i) {
+    if ((state.position[i] - state.searched_position[i]).squaredNorm() > limit) {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool all_finite(const std::vector<Vector2>& points) {
+  return std::all_of(points.begin(), points.end(), [](const Vector2& point) { return point.allFinite(); });
+}
+
+/// Pairs closer than touch and skin, in the order of the segments.
+std::vector<Pair> pairs_within_reach(const Scene& scene, const State& state) {
+  double longest = 0.0;
+  for (const double length : state.length) {
+    longest = std::max(longest, length);
+  }
+  const double largest_radius = *std::max_element(scene.radius.begin(), scene.radius.end());
+  const BucketGrid grid(state.position, 0.5 * longest + largest_radius + scene.contact.skin);
+  std::vector<Pair> pairs;
+  for (std::size_t e = 0; e < scene.element_count(); ++e) {
+    const Element& element = scene.elements[e];
+    const Vector2& start = state.position[element.start];
+    const Vector2& end = state.position[element.end];
+    const double margin = 0.5 * element.thickness + scene.contact.skin;
+    const Vector2 reach = Vector2::Constant(margin + largest_radius);
+    grid.visit_box(start.cwiseMin(end) - reach, start.cwiseMax(end) + reach, [&](int ball) {
+      if (ball == element.start || ball == element.end) {
+        return;
+      }
+      const double range = margin + scene.radius[ball];
+      const Projection foot = project(state.position[ball], start, state.axis[e], state.length[e]);
+      if (foot.offset.squaredNorm() < range * range) {
+        pairs.push_back({ball, static_cast<int>(e)});
+      }
+    });
+  }
+  return pairs;
+}
+
+/// The node of the segment to which an element joins the ball, or -1.
+int joint_between(const Scene& scene, int ball, const Element& segment) {
+  for (int k = scene.incidence_offset[ball]; k < scene.incidence_offset[ball + 1]; ++k) {
+    const Element& own = scene.elements[scene.incidence[k]];
+    const int neighbour = own.start == ball ? own.end : own.start;
+    if (neighbour == segment.start || neighbour == segment.end) {
+      return neighbour;
+    }
+  }
+  return -1;
+}
+
+int remembered_side(const State& state, int ball, int segment) {
+  for (int k = state.candidate_offset[ball]; k < state.candidate_offset[ball + 1]; ++k) {
+    if (state.candidates[k].segment == segment) {
+      return state.candidates[k].side;
+    }
+  }
+  return 0;
+}
+
+}  // namespace
+
+void find_contacts(const Scene& scene, State& state) {
+  if (scene.contact.present && !list_holds(scene, state) && all_finite(state.position)) {
+    search_contacts(scene, state);
+  }
+}
+
+void search_contacts(const Scene& scene, State& state) {
+  const std::vector<Pair> pairs = pairs_within_reach(scene, state);
+  std::vector<int> offset(scene.particle_count() + 1, 0);
+  for (const Pair& pair : pairs) {
+    ++offset[pair.ball + 1];
+  }
+  for (std::size_t i = 1; i < offset.size(); ++i) {
+    offset[i] += offset[i - 1];
+  }
+  std::vector<ContactCandidate> candidates(pairs.size());
+  std::vector<int> next(offset.begin(), offset.end() - 1);
+  for (const Pair& pair : pairs) {
+    candidates[next[pair.ball]++] = {pair.segment, joint_between(scene, pair.ball, scene.elements[pair.segment]),
+                                     remembered_side(state, pair.ball, pair.segment)};
+  }
+  state.candidate_offset = std::move(offset);
+  state.candidates = std::move(candidates);
+  state.searched_position = state.position;
+  ++state.search_count;
+}
+
+}  // namespace cellcrush

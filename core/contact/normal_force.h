@@ -1,0 +1,24 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+namespace cellcrush {
+
+/// The two parts of a penalty force along the contact's normal, N; their sum is never negative.
+struct NormalForce {
+  double elastic;  ///< k D
+  double viscous;  ///< c dD/dt, at least -k D
+};
+
+/// Penalty force of a contact of depth D > 0 (mm) that deepens at `rate` (mm/s) (Eq. 43, the contact area taken into k and c).
+/// c = 2 damping_ratio sqrt(k m), with the effective mass m = 1 / inverse_mass. Deviation: the sum is clamped at 0, as a
+/// contact does not pull.
+inline NormalForce evaluate_normal_force(double stiffness, double damping_ratio, double inverse_mass, double depth,
+                                         double rate) {
+  const double elastic = stiffness * depth;
+  const double viscous = 2.0 * damping_ratio * std::sqrt(stiffness / inverse_mass) * rate;
+  return {elastic, std::max(viscous, -elastic)};
+}
+
+}  // namespace cellcrush

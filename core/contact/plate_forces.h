@@ -1,0 +1,13 @@
+#pragma once
+
+#include "cellcrush/scene.h"
+#include "cellcrush/state.h"
+
+namespace cellcrush {
+
+/// Overwrites the forces of the rigid, frictionless, unilateral plates on every particle whose ball reaches into them, by the
+/// penalty law of the walls. Forces are positive in compression: the impact plate pushes along the crush, the support plate
+/// against it.
+void evaluate_plate_forces(const Scene& scene, State& state);
+
+}  // namespace cellcrush

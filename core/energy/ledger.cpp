@@ -1,0 +1,98 @@
+#include "energy/ledger.h"
+
+namespace cellcrush {
+namespace {
+
+/// Books the half of the newest forces' work that belongs to the interval up to the state's time; `sign` is +1 to add it.
+void close_interval(const Scene& scene, const State& state, double sign, Ledger& ledger) {
+  const double half = 0.5 * scene.schedule.time_step;
+  const double plate = half * scene.plates.speed_at(state.time - half);
+  Ledger open;
+  for (std::size_t i = 0; i < scene.particle_count(); ++i) {
+    const MeanMotion mean = {half * state.velocity[i], half * state.spin[i], plate};
+    accumulate_work(scene, state, i, next_velocity(scene, state, i), mean, open);
+  }
+  ledger.contact += sign * open.contact;
+  ledger.contact_damping += sign * open.contact_damping;
+  ledger.friction += sign * open.friction;
+  ledger.mass_damping += sign * open.mass_damping;
+  ledger.external += sign * open.external;
+}
+
+double kinetic_energy(const Scene& scene, const State& state) {
+  double twice = 0.0;
+  for (std::size_t i = 0; i < scene.particle_count(); ++i) {
+    const NextVelocity next = next_velocity(scene, state, i);
+    twice += scene.mass[i] * state.velocity[i].dot(next.velocity) + scene.inertia[i] * state.spin[i] * next.spin;
+  }
+  return 0.5 * twice;
+}
+
+double elastic_energy(const Scene& scene, const State& state) {
+  const auto per_element = static_cast<Eigen::Index>(scene.fibre_count());
+  double energy = 0.0;
+  for (std::size_t e = 0; e < scene.element_count(); ++e) {
+    const Eigen::Map<const Eigen::ArrayXd> stress(&state.stress[e * scene.fibre_count()], per_element);
+    const double volume = scene.elements[e].thickness * scene.depth * state.length[e];
+    energy += volume * (scene.section.weight * stress.square()).sum();
+  }
+  return energy / (2.0 * scene.material.youngs_modulus);
+}
+
+}  // namespace
+
+PlateForces plate_forces_of(const State& state) {
+  PlateForces sum;
+  for (std::size_t i = 0; i < state.impact_force.size(); ++i) {
+    sum.impact += state.impact_force[i] + state.impact_damping_force[i];
+    sum.support += state.support_force[i] + state.support_damping_force[i];
+  }
+  return sum;
+}
+
+void accumulate_work(const Scene& scene, const State& state, std::size_t particle, const NextVelocity& next,
+                     const MeanMotion& mean, Ledger& ledger) {
+  ledger.contact -= state.contact_force[particle].dot(mean.displacement);
+  ledger.contact_damping -= state.contact_damping_force[particle].dot(mean.displacement);
+  if (scene.plates.present) {
+    const double along = mean.displacement[scene.plates.axis];
+    const double approach = mean.plate_displacement - along;
+    ledger.contact += state.impact_force[particle] * approach + state.support_force[particle] * along;
+    ledger.contact_damping +=
+        state.impact_damping_force[particle] * approach + state.support_damping_force[particle] * along;
+    ledger.external += (state.impact_force[particle] + state.impact_damping_force[particle]) * mean.plate_displacement;
+  }
+  if (scene.mass_damping > 0.0) {
+    const double half = 0.5 * scene.mass_damping;
+    ledger.mass_damping +=
+        half * (scene.mass[particle] * (state.velocity[particle] + next.velocity).dot(mean.displacement) +
+                scene.inertia[particle] * (state.spin[particle] + next.spin) * mean.turn);
+  }
+  if (!scene.loads.empty()) {
+    ledger.external += state.load_force[particle].dot(mean.displacement) + state.load_moment[particle] * mean.turn;
+  }
+}
+
+void open_ledger(const Scene& scene, State& state) {
+  close_interval(scene, state, -1.0, state.ledger);
+  state.ledger.initial = kinetic_energy(scene, state);
+}
+
+Energies evaluate_energies(const Scene& scene, const State& state) {
+  Ledger ledger = state.ledger;
+  close_interval(scene, state, 1.0, ledger);
+  Energies energies;
+  energies.kinetic = kinetic_energy(scene, state);
+  energies.elastic = elastic_energy(scene, state);
+  energies.plastic = ledger.plastic;
+  energies.contact = ledger.contact;
+  energies.contact_damping = ledger.contact_damping;
+  energies.friction = ledger.friction;
+  energies.mass_damping = ledger.mass_damping;
+  energies.external = ledger.external;
+  energies.residual = energies.external + ledger.initial - energies.kinetic - energies.elastic - energies.plastic -
+                      energies.contact - energies.contact_damping - energies.friction - energies.mass_damping;
+  return energies;
+}
+
+}  // namespace cellcrush

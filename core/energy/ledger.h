@@ -1,0 +1,52 @@
+#pragma once
+
+#include "cellcrush/scene.h"
+#include "cellcrush/state.h"
+#include "step/integrate_motion.h"
+
+namespace cellcrush {
+
+// The ledger of a run: work of the plates and loads = kinetic + elastic + plastic + contact + friction + damping + residual.
+// Every term is integrated by itself; the residual is what the integration lost or made.
+//
+// Forces act at whole steps, velocities stand half a step off. A force's work is F(t_n) . dt (v(n-1/2) + v(n+1/2)) / 2, the
+// trapezoidal rule over the displacements; with it kinetic energy is m v(n-1/2) . v(n+1/2) / 2 and a linear system closes to
+// round-off. Plastic work is the returned stress times the plastic strain increment and elastic energy a function of the
+// stresses alone, so that an unstable integration, which plasticity can hide as heat, opens the ledger.
+
+/// Displacements of a particle and of the impact plate that forces at one time do work over.
+struct MeanMotion {
+  Vector2 displacement;       ///< mm
+  double turn;                ///< rad
+  double plate_displacement;  ///< mm, along the crush
+};
+
+/// Sums of the plates' forces on all particles, N, compression positive.
+struct PlateForces {
+  double impact = 0.0;
+  double support = 0.0;
+};
+PlateForces plate_forces_of(const State& state);
+
+/// Adds the work that the forces on a particle do over a mean motion to the ledger.
+void accumulate_work(const Scene& scene, const State& state, std::size_t particle, const NextVelocity& next,
+                     const MeanMotion& mean, Ledger& ledger);
+
+/// Starts the ledger at time 0: books the kinetic energy and takes back the half step before it.
+void open_ledger(const Scene& scene, State& state);
+
+/// The ledger at the state's time, N mm. Positive dissipation; the residual is external + initial - all others.
+struct Energies {
+  double kinetic = 0.0;
+  double elastic = 0.0;
+  double plastic = 0.0;
+  double contact = 0.0;
+  double contact_damping = 0.0;
+  double friction = 0.0;
+  double mass_damping = 0.0;
+  double external = 0.0;
+  double residual = 0.0;
+};
+Energies evaluate_energies(const Scene& scene, const State& state);
+
+}  // namespace cellcrush

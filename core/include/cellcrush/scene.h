@@ -1,0 +1,124 @@
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "cellcrush/vector.h"
+
+namespace cellcrush {
+
+/// Bilinear elastic-plastic law with mixed hardening.
+struct Material {
+  double youngs_modulus = 0.0;      ///< E, MPa
+  double yield_stress = 0.0;        ///< MPa
+  double hardening_modulus = 0.0;   ///< H = E E_T / (E - E_T), MPa
+  double isotropic_fraction = 1.0;  ///< beta: 1 isotropic, 0 kinematic
+  double density = 0.0;             ///< tonne / mm^3
+};
+
+/// Where an element samples its stress: F fibres, which are Gauss points along it times Lobatto points through its depth
+/// (Eq. 30), axial point by axial point. With y the distance from the axis and s = x / l, Eq. 27 reads
+///   strain = stretch / l + (h / l) (start_factor theta_1 + end_factor theta_2).
+struct SectionRule {
+  int axial_points = 0;
+  int depth_points = 0;
+  Eigen::ArrayXd start_factor;  ///< F, (4 - 6 s) y / h
+  Eigen::ArrayXd end_factor;    ///< F, (2 - 6 s) y / h
+  Eigen::ArrayXd weight;        ///< F, share of the element's volume; they sum to 1
+
+  [[nodiscard]] std::size_t fibre_count() const { return static_cast<std::size_t>(weight.size()); }
+};
+
+/// A beam element: its nodes and its rectangular section.
+struct Element {
+  int start = 0;
+  int end = 0;
+  double thickness = 0.0;  ///< h, mm
+};
+
+/// A load on a node as a function of time: linear between the points, constant outside.
+struct NodalLoad {
+  enum class Component { x, y, rotation };
+  int node = 0;
+  Component component = Component::x;
+  std::vector<std::pair<double, double>> points;  ///< (s, N or N mm), times ascending, at least one
+
+  [[nodiscard]] double value_at(double time) const;
+};
+
+/// Motions of a node that a support holds.
+struct Support {
+  bool x = false;
+  bool y = false;
+  bool rotation = false;
+};
+
+/// The two rigid plates. The impact plate starts at the low end and moves along the crush; the support plate stands.
+struct Plates {
+  bool present = false;
+  int axis = 0;               ///< 0: crush along x, 1: along y
+  double impact_face = 0.0;   ///< mm, position of the face before loading
+  double support_face = 0.0;  ///< mm
+  double speed = 0.0;         ///< V, mm/s
+  double ramp_time = 0.0;     ///< s over which the speed rises linearly from 0
+  double stiffness = 0.0;     ///< N/mm, penalty of one particle
+
+  /// Speed at a time, mm/s.
+  [[nodiscard]] double speed_at(double time) const;
+};
+
+/// Penalty contact between walls (Eq. 41-43).
+struct ContactLaw {
+  bool present = false;
+  double stiffness = 0.0;      ///< k, N/mm
+  double damping_ratio = 0.0;  ///< share of critical damping
+  double skin = 0.0;           ///< mm by which candidates are collected beyond touch
+};
+
+/// When the run ends and what is taken from it, in steps.
+struct Schedule {
+  double time_step = 0.0;  ///< s
+  std::int64_t step_count = 0;
+  std::int64_t sample_interval = 0;
+  std::int64_t frame_interval = 0;
+};
+
+/// Everything that does not change over a run. Built and checked by build_scene; units mm, tonne, s, N, MPa.
+/// N particles, E elements.
+struct Scene {
+  // Mesh.
+  std::vector<Vector2> position;      ///< N, before loading
+  std::vector<double> mass;           ///< N, tonne (Eq. 1, 2)
+  std::vector<double> inertia;        ///< N, tonne mm^2 (Eq. 1, 3)
+  std::vector<double> radius;         ///< N, of the contact ball: half of the thickest wall at the particle
+  std::vector<Element> elements;      ///< E
+  std::vector<int> incidence_offset;  ///< N + 1, into incidence
+  std::vector<int> incidence;         ///< elements at each particle, ascending: sums run in this order
+  std::vector<Support> supports;      ///< N, or empty when nothing is held
+  std::vector<NodalLoad> loads;
+  std::vector<Vector2> initial_velocity;  ///< N, or empty when all start at rest
+  std::vector<double> initial_spin;       ///< N, or empty
+
+  // Model.
+  double depth = 0.0;  ///< b, mm
+  Material material;
+  SectionRule section;
+  ContactLaw contact;
+  Plates plates;
+  double mass_damping = 0.0;  ///< alpha, 1/s: force -alpha m v
+  Schedule schedule;
+
+  // Measures of the whole, for reports.
+  double length = 0.0;  ///< envelope along the crush, mm; strain counts from it
+  double width = 0.0;   ///< envelope across the crush, mm
+  double total_mass = 0.0;
+  double stable_step = 0.0;      ///< s, of the undeformed mesh (see scene/stable_step.h)
+  double collapse_stress = 0.0;  ///< MPa, quasi-static plastic collapse after Gibson and Ashby; 0 when unknown
+
+  [[nodiscard]] std::size_t particle_count() const { return position.size(); }
+  [[nodiscard]] std::size_t element_count() const { return elements.size(); }
+  [[nodiscard]] std::size_t fibre_count() const { return section.fibre_count(); }
+};
+
+}  // namespace cellcrush

@@ -1,0 +1,148 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace cellcrush {
+
+// What a user asks for, before anything is checked. It stands at the boundary, so names carry units and equal the field
+// paths of the case ("loading.speed_m_per_s"); Scene is the same in the units of the solver (mm, tonne, s, N, MPa).
+// A std::optional has no default and is reported when it is missing.
+
+/// Regular hexagons with walls along y; rows along x alternate `columns` and `columns - 1` cells.
+struct HexagonLattice {
+  std::optional<int> columns;
+  std::optional<int> rows;
+  std::optional<double> side_mm;
+  std::optional<double> wall_thickness_mm;
+  std::optional<double> vertical_wall_thickness_mm;  ///< default: wall_thickness_mm
+};
+
+struct SquareLattice {
+  std::optional<int> columns;
+  std::optional<int> rows;
+  std::optional<double> side_mm;
+  std::optional<double> wall_thickness_mm;
+};
+
+struct TriangleLattice {
+  std::optional<int> columns;
+  std::optional<int> rows;
+  std::optional<double> side_mm;
+  std::optional<double> wall_thickness_mm;
+};
+
+/// An explicit planar frame. Nodes are named by position in `nodes`.
+struct FrameLattice {
+  enum class Component { x, y, rotation };
+
+  struct Node {
+    double x_mm = 0.0;
+    double y_mm = 0.0;
+    double attached_mass_g = 0.0;
+    double attached_inertia_g_mm2 = 0.0;
+  };
+  struct Beam {
+    int start = 0;
+    int end = 0;
+    double thickness_mm = 0.0;
+    std::optional<int> elements;  ///< default: elements_per_wall of the spec
+  };
+  struct Support {
+    int node = 0;
+    bool fix_x = false;
+    bool fix_y = false;
+    bool fix_rotation = false;
+  };
+  /// Force in N or moment in N mm; the points are (time in s, value), linear between, constant outside.
+  struct NodalLoad {
+    int node = 0;
+    Component component = Component::x;
+    std::vector<std::pair<double, double>> points;
+  };
+  struct InitialVelocity {
+    int node = 0;
+    double x_m_per_s = 0.0;
+    double y_m_per_s = 0.0;
+    double rotation_rad_per_s = 0.0;
+  };
+
+  std::vector<Node> nodes;
+  std::vector<Beam> beams;
+  std::vector<Support> supports;
+  std::vector<NodalLoad> loads;
+  std::vector<InitialVelocity> initial_velocities;
+  bool self_contact = false;
+  std::optional<double> end_time_s;
+};
+
+struct Imperfection {
+  double amplitude_mm = 0.0;
+  std::uint64_t seed = 0;
+};
+
+struct MaterialSpec {
+  std::optional<double> youngs_modulus_mpa;
+  std::optional<double> yield_stress_mpa;
+  double hardening_modulus_mpa = 0.0;
+  double isotropic_fraction = 1.0;  ///< beta of the paper: 1 isotropic, 0 kinematic
+  std::optional<double> density_kg_per_m3;
+};
+
+struct SectionSpec {
+  int axial_points = 2;  ///< Gauss points along an element
+  int depth_points = 6;  ///< Lobatto points through the depth
+};
+
+struct ContactSpec {
+  double friction = 0.0;
+  double stiffness_factor = 0.25;  ///< k = stiffness_factor m_min / dt_crit^2
+  double damping_ratio = 0.2;      ///< share of critical damping
+};
+
+struct PlatesSpec {
+  double friction = 0.0;
+};
+
+struct LoadingSpec {
+  enum class Direction { x, y };
+  Direction direction = Direction::x;
+  std::optional<double> speed_m_per_s;
+  double end_strain = 0.8;
+  double ramp_strain = 0.0;
+};
+
+struct NumericsSpec {
+  double time_step_s = 0.0;  ///< 0: chosen
+  double mass_damping_per_s = 0.0;
+  enum class Fidelity { unspecified, draft, standard, reference };
+  Fidelity fidelity = Fidelity::unspecified;
+  int threads = 1;
+};
+
+struct OutputSpec {
+  int sample_count = 1000;
+  int frame_count = 50;
+};
+
+struct SceneSpec {
+  std::string title;
+  std::variant<std::monostate, HexagonLattice, SquareLattice, TriangleLattice, FrameLattice> lattice;
+  Imperfection imperfection;
+  std::optional<double> depth_mm;
+  int elements_per_wall = 2;
+  MaterialSpec material;
+  SectionSpec section;
+  ContactSpec contact;
+  PlatesSpec plates;
+  LoadingSpec loading;
+  NumericsSpec numerics;
+  OutputSpec output;
+};
+
+}  // namespace cellcrush

@@ -1,0 +1,104 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "cellcrush/problem.h"
+#include "cellcrush/sample.h"
+#include "cellcrush/scene_spec.h"
+#include "cellcrush/stage.h"
+
+namespace cellcrush {
+
+struct Scene;
+struct State;
+
+/// What building a scene gave: a scene, or all problems of the spec.
+struct SceneResult {
+  std::shared_ptr<const Scene> scene;  ///< null when there are problems
+  Problems problems;
+};
+
+/// Checks a spec and builds its scene. Never throws on a user's input; reports every problem at once.
+SceneResult build_scene(const SceneSpec& spec);
+
+/// The spec with every default that depends on other fields filled in (vertical walls, time step).
+/// REQUIRES: `scene` was built from `spec`.
+SceneSpec complete_spec(const SceneSpec& spec, const Scene& scene);
+
+/// What a scene is and what running it takes. Units: mm, tonne, s, MPa.
+struct SceneFacts {
+  std::int64_t particle_count = 0;
+  std::int64_t element_count = 0;
+  double mass = 0.0;              ///< tonne, of all walls
+  double relative_density = 0.0;  ///< mass over that of the solid envelope
+  double length = 0.0;            ///< envelope along the crush
+  double width = 0.0;             ///< envelope across it
+  double stable_step = 0.0;
+  double time_step = 0.0;
+  std::int64_t step_count = 0;
+  std::int64_t sample_interval = 0;  ///< steps
+  std::int64_t frame_interval = 0;   ///< steps
+  std::int64_t memory_bytes = 0;     ///< of scene and state
+  Theory theory;
+  std::vector<std::string> modelled;  ///< what is modelled and what is left out, a sentence each
+};
+SceneFacts facts_of(const Scene& scene);
+
+/// What does not change over a run, in the units of the solver.
+struct MeshView {
+  std::vector<int> element_nodes;  ///< start0 end0 start1 end1 ... of E elements
+  std::vector<float> thickness;    ///< mm, of E elements
+  double length = 0.0;             ///< envelope along the crush, mm
+  double width = 0.0;
+  double impact_plate = 0.0;  ///< the plates' faces before loading, along the crush, mm
+  double support_plate = 0.0;
+  bool along_y = false;
+};
+MeshView mesh_of(const Scene& scene);
+
+/// What to make of the samples of a run.
+Summary summarize(const Scene& scene, std::span<const Sample> samples);
+
+/// Why a run stopped.
+struct RunStatus {
+  enum class Kind { running, finished, diverged, energy_balance };
+  Kind kind = Kind::running;
+  std::string message;  ///< what happened, where and when; empty while running or finished
+  std::string remedy;   ///< what to do about it
+};
+
+/// A run of a scene. Not thread-safe; one thread at a time.
+class Simulation {
+ public:
+  explicit Simulation(std::shared_ptr<const Scene> scene);
+  ~Simulation();
+  Simulation(Simulation&&) noexcept;
+  Simulation& operator=(Simulation&&) noexcept;
+
+  /// Advances by at most `steps` and no further than the last step; nothing happens once status() is not `running`.
+  void advance(std::int64_t steps, StageObserver* observer = nullptr);
+
+  /// Scalars now; closes the interval over which stresses are means. Checks the run: after it status() may have changed.
+  Sample take_sample();
+
+  /// Fields now; `index` is copied into the frame.
+  FieldFrame take_frame(int index) const;
+
+  [[nodiscard]] RunStatus status() const;
+  [[nodiscard]] std::int64_t step() const;
+  [[nodiscard]] double time() const;
+  [[nodiscard]] double strain() const;
+  [[nodiscard]] const Scene& scene() const;
+  [[nodiscard]] const State& state() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace cellcrush

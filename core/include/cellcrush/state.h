@@ -1,0 +1,122 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "cellcrush/vector.h"
+
+namespace cellcrush {
+
+/// Forces by which an element resists (Eq. 31, 32), in the fixed frame: N and N mm. The force on the start node is the
+/// reverse of that on the end node.
+struct ElementForces {
+  Vector2 force_on_end = Vector2::Zero();
+  double moment_on_start = 0.0;
+  double moment_on_end = 0.0;
+};
+
+/// A ball and a segment that may touch before the list is made again.
+struct ContactCandidate {
+  int segment = 0;  ///< element
+  int joint = -1;   ///< node of the segment that an element joins to the ball; -1: none
+  int side = 0;     ///< +1 left, -1 right of the segment: where the ball was when it first touched; 0: not touching
+};
+
+/// Energies and works that are sums over time. N mm. Written by integrate_motion and evaluate_internal_forces.
+struct Ledger {
+  double plastic = 0.0;          ///< stress times plastic strain increment
+  double contact = 0.0;          ///< work against the elastic normal forces of contacts, walls' and plates'
+  double contact_damping = 0.0;  ///< work against the viscous forces of contacts
+  double friction = 0.0;
+  double mass_damping = 0.0;
+  double external = 0.0;  ///< work of the plates and of nodal loads
+  double initial = 0.0;   ///< kinetic energy at the start
+};
+
+/// Everything that a step changes. N particles, E elements, F fibres an element. Units mm, tonne, s, N, MPa, rad.
+/// visit_fields lists every field once; checkpoint, hash and comparison go through it.
+struct State {
+  std::int64_t step = 0;
+  double time = 0.0;
+
+  // Written by integrate_motion.
+  std::vector<Vector2> position;  ///< N
+  std::vector<Vector2> velocity;  ///< N, half a step before `time`
+  std::vector<double> rotation;   ///< N, since the start; for output only
+  std::vector<double> spin;       ///< N, rad/s, half a step before `time`
+  double impact_travel = 0.0;     ///< of the impact plate
+  double impact_impulse = 0.0;    ///< N s, of the impact plate on the lattice
+  double support_impulse = 0.0;   ///< N s, of the support plate on the lattice
+
+  // Written by evaluate_internal_forces.
+  std::vector<Vector2> axis;            ///< E, unit vector from start to end
+  std::vector<double> length;           ///< E
+  std::vector<double> stress;           ///< E x F, of the fibres, axial point by axial point, MPa
+  std::vector<double> back_stress;      ///< E x F, middle of the yield surface, MPa
+  std::vector<double> plastic_strain;   ///< E x F, accumulated (effective)
+  std::vector<ElementForces> internal;  ///< E
+
+  // Written by evaluate_loads; empty when the scene has no loads.
+  std::vector<Vector2> load_force;  ///< N
+  std::vector<double> load_moment;  ///< N, N mm
+
+  // Written by find_contacts; sides by evaluate_contact_forces.
+  std::vector<int> candidate_offset;         ///< N + 1, into candidates
+  std::vector<ContactCandidate> candidates;  ///< by ball, segments ascending
+  std::vector<Vector2> searched_position;    ///< N, where the particles were when the list was made
+  std::int64_t search_count = 0;
+
+  // Written by evaluate_contact_forces and evaluate_plate_forces.
+  std::vector<Vector2> contact_force;          ///< N, elastic part
+  std::vector<Vector2> contact_damping_force;  ///< N, viscous part
+  std::vector<double> impact_force;            ///< N, of the impact plate along the crush, elastic part
+  std::vector<double> impact_damping_force;    ///< N, viscous part
+  std::vector<double> support_force;           ///< N, of the support plate against the crush, elastic part
+  std::vector<double> support_damping_force;   ///< N, viscous part
+  double contact_stored = 0.0;                 ///< sum of k D^2 / 2 now
+  std::int64_t contact_count = 0;              ///< closed contacts between walls now
+  double deepest_penetration = 0.0;            ///< of a wall contact since the start, over its touching distance
+  double deepest_birth = 0.0;                  ///< the same, of contacts in the step in which they first touched
+
+  Ledger ledger;
+};
+
+/// Calls visitor(name, field) for every field of the state, in a fixed order. Fields are arithmetic or vectors of trivially
+/// copyable things.
+template <class S, class Visitor>
+void visit_fields(S& state, Visitor&& visitor) {
+  visitor("step", state.step);
+  visitor("time", state.time);
+  visitor("position", state.position);
+  visitor("velocity", state.velocity);
+  visitor("rotation", state.rotation);
+  visitor("spin", state.spin);
+  visitor("impact_travel", state.impact_travel);
+  visitor("impact_impulse", state.impact_impulse);
+  visitor("support_impulse", state.support_impulse);
+  visitor("axis", state.axis);
+  visitor("length", state.length);
+  visitor("stress", state.stress);
+  visitor("back_stress", state.back_stress);
+  visitor("plastic_strain", state.plastic_strain);
+  visitor("internal", state.internal);
+  visitor("load_force", state.load_force);
+  visitor("load_moment", state.load_moment);
+  visitor("candidate_offset", state.candidate_offset);
+  visitor("candidates", state.candidates);
+  visitor("searched_position", state.searched_position);
+  visitor("search_count", state.search_count);
+  visitor("contact_force", state.contact_force);
+  visitor("contact_damping_force", state.contact_damping_force);
+  visitor("impact_force", state.impact_force);
+  visitor("impact_damping_force", state.impact_damping_force);
+  visitor("support_force", state.support_force);
+  visitor("support_damping_force", state.support_damping_force);
+  visitor("contact_stored", state.contact_stored);
+  visitor("contact_count", state.contact_count);
+  visitor("deepest_penetration", state.deepest_penetration);
+  visitor("deepest_birth", state.deepest_birth);
+  visitor("ledger", state.ledger);
+}
+
+}  // namespace cellcrush

@@ -1,0 +1,58 @@
+#include "measure/sampler.h"
+
+#include "energy/ledger.h"
+
+namespace cellcrush {
+
+Sample Sampler::take(const Scene& scene, const State& state) {
+  Sample sample;
+  sample.step = state.step;
+  sample.time = state.time;
+  sample.travel = state.impact_travel;
+  if (scene.plates.present) {
+    sample.strain = state.impact_travel / scene.length;
+    const double area_times_interval = scene.width * scene.depth * (state.time - last_time_);
+    if (area_times_interval > 0.0) {
+      sample.stress_impact = (state.impact_impulse - last_impact_impulse_) / area_times_interval;
+      sample.stress_support = (state.support_impulse - last_support_impulse_) / area_times_interval;
+    }
+    last_time_ = state.time;
+    last_impact_impulse_ = state.impact_impulse;
+    last_support_impulse_ = state.support_impulse;
+  }
+  const Energies energies = evaluate_energies(scene, state);
+  sample.energy_kinetic = energies.kinetic;
+  sample.energy_elastic = energies.elastic;
+  sample.energy_plastic = energies.plastic;
+  sample.energy_contact = energies.contact;
+  sample.energy_friction = energies.friction;
+  sample.energy_damping = energies.contact_damping + energies.mass_damping;
+  sample.work_external = energies.external;
+  sample.energy_residual = energies.residual;
+  sample.energy_contact_stored = state.contact_stored;
+  sample.energy_contact_damping = energies.contact_damping;
+  sample.deepest_penetration = state.deepest_penetration;
+  sample.contact_count = state.contact_count;
+  return sample;
+}
+
+FieldFrame make_frame(const Scene& scene, const State& state, int index) {
+  FieldFrame frame;
+  frame.index = index;
+  frame.time = state.time;
+  frame.strain = scene.length > 0.0 ? state.impact_travel / scene.length : 0.0;
+  frame.position.reserve(2 * scene.particle_count());
+  for (const Vector2& position : state.position) {
+    frame.position.push_back(static_cast<float>(position.x()));
+    frame.position.push_back(static_cast<float>(position.y()));
+  }
+  frame.plastic_fraction.reserve(scene.element_count());
+  const auto per_element = static_cast<Eigen::Index>(scene.fibre_count());
+  for (std::size_t e = 0; e < scene.element_count(); ++e) {
+    const Eigen::Map<const Eigen::ArrayXd> plastic(&state.plastic_strain[e * scene.fibre_count()], per_element);
+    frame.plastic_fraction.push_back(static_cast<float>((plastic > 0.0).select(scene.section.weight, 0.0).sum()));
+  }
+  return frame;
+}
+
+}  // namespace cellcrush

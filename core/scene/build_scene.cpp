@@ -1,0 +1,168 @@
+#include <algorithm>
+#include <cmath>
+
+#include "cellcrush/simulation.h"
+#include "measure/theory.h"
+#include "scene/check_spec.h"
+#include "scene/frame.h"
+#include "scene/hexagon.h"
+#include "scene/masses.h"
+#include "scene/mesh.h"
+#include "scene/stable_step.h"
+#include "section/section_rule.h"
+
+namespace cellcrush {
+namespace {
+
+constexpr double kTonnePerMm3PerKgPerM3 = 1e-12;
+constexpr double kMmPerM = 1e3;
+
+/// Share of the stable step of the undeformed mesh that a chosen step takes.
+constexpr double kStepFraction = 0.9;
+/// A chosen step lets a particle at plate speed move by at most this share of the thinnest wall.
+constexpr double kTravelPerStep = 0.1;
+/// Contact candidates are collected this share of the shortest element beyond touch.
+constexpr double kSkinFraction = 0.35;
+
+Material material_of(const MaterialSpec& spec) {
+  return {*spec.youngs_modulus_mpa, *spec.yield_stress_mpa, spec.hardening_modulus_mpa, spec.isotropic_fraction,
+          *spec.density_kg_per_m3 * kTonnePerMm3PerKgPerM3};
+}
+
+double thinnest_wall(const Scene& scene) {
+  double least = scene.elements.front().thickness;
+  for (const Element& element : scene.elements) {
+    least = std::min(least, element.thickness);
+  }
+  return least;
+}
+
+double shortest_element(const Scene& scene) {
+  double least = (scene.position[scene.elements.front().end] - scene.position[scene.elements.front().start]).norm();
+  for (const Element& element : scene.elements) {
+    least = std::min(least, (scene.position[element.end] - scene.position[element.start]).norm());
+  }
+  return least;
+}
+
+void set_contact(const ContactSpec& spec, bool present, Scene& scene) {
+  const double lightest = *std::min_element(scene.mass.begin(), scene.mass.end());
+  const double stiffness = spec.stiffness_factor * lightest / (scene.stable_step * scene.stable_step);
+  scene.contact = {present, stiffness, spec.damping_ratio, kSkinFraction * shortest_element(scene)};
+}
+
+void set_plates(const LoadingSpec& spec, Scene& scene) {
+  const int axis = spec.direction == LoadingSpec::Direction::x ? 0 : 1;
+  double low = scene.position.front()[axis];
+  double high = low;
+  for (std::size_t i = 0; i < scene.particle_count(); ++i) {
+    low = std::min(low, scene.position[i][axis] - scene.radius[i]);
+    high = std::max(high, scene.position[i][axis] + scene.radius[i]);
+  }
+  const double speed = *spec.speed_m_per_s * kMmPerM;
+  const double ramp_time = 2.0 * spec.ramp_strain * scene.length / speed;
+  scene.plates = {true, axis, low, high, speed, ramp_time, scene.contact.stiffness};
+}
+
+double end_time_of(const SceneSpec& spec, const Scene& scene) {
+  if (const auto* frame = std::get_if<FrameLattice>(&spec.lattice)) {
+    return *frame->end_time_s;
+  }
+  return spec.loading.end_strain * scene.length / scene.plates.speed + 0.5 * scene.plates.ramp_time;
+}
+
+double chosen_step(const Scene& scene) {
+  double step = kStepFraction * scene.stable_step;
+  if (scene.plates.present) {
+    step = std::min(step, kTravelPerStep * thinnest_wall(scene) / scene.plates.speed);
+  }
+  return step;
+}
+
+void set_schedule(const SceneSpec& spec, Scene& scene) {
+  const double fixed = spec.numerics.time_step_s;
+  scene.schedule.time_step = fixed > 0.0 ? fixed : chosen_step(scene);
+  scene.schedule.step_count =
+      static_cast<std::int64_t>(std::ceil(end_time_of(spec, scene) / scene.schedule.time_step - 1e-9));
+  const auto interval = [&](int count) { return std::max<std::int64_t>(1, scene.schedule.step_count / count); };
+  scene.schedule.sample_interval = interval(spec.output.sample_count);
+  scene.schedule.frame_interval = interval(spec.output.frame_count);
+}
+
+void set_material_and_mesh(const SceneSpec& spec, Scene& scene) {
+  scene.depth = *spec.depth_mm;
+  scene.material = material_of(spec.material);
+  scene.section = make_section_rule(spec.section.axial_points, spec.section.depth_points);
+  Layout layout;
+  if (const auto* hexagon = std::get_if<HexagonLattice>(&spec.lattice)) {
+    layout = lay_out_hexagons(*hexagon, spec.elements_per_wall);
+    const Vector2 envelope = envelope_of(*hexagon);
+    const bool along_x = spec.loading.direction == LoadingSpec::Direction::x;
+    scene.length = along_x ? envelope.x() : envelope.y();
+    scene.width = along_x ? envelope.y() : envelope.x();
+    scene.collapse_stress = collapse_stress_of(*hexagon, scene.material.yield_stress);
+  } else {
+    layout = lay_out_frame(std::get<FrameLattice>(spec.lattice), spec.elements_per_wall);
+  }
+  Mesh mesh = divide_walls(layout);
+  scene.position = std::move(mesh.position);
+  scene.elements = std::move(mesh.elements);
+}
+
+void check_time_step(const SceneSpec& spec, const Scene& scene, Problems& problems) {
+  if (spec.numerics.time_step_s > scene.stable_step) {
+    problems.push_back(
+        {"numerics.time_step_s", to_text(spec.numerics.time_step_s),
+         "is above the largest stable step of this mesh, " + to_text(scene.stable_step) + " s.",
+         "Give a step of at most " + to_text(kStepFraction * scene.stable_step) + " s, or 0 to have it chosen.",
+         Problem::Kind::invalid});
+  }
+  constexpr double kMostSteps = 1e10;
+  if (spec.numerics.time_step_s > 0.0 && end_time_of(spec, scene) / spec.numerics.time_step_s > kMostSteps) {
+    problems.push_back({"numerics.time_step_s", to_text(spec.numerics.time_step_s), "makes more than 1e10 steps.",
+                        "Give a longer step, or 0 to have it chosen.", Problem::Kind::invalid});
+  }
+}
+
+}  // namespace
+
+SceneResult build_scene(const SceneSpec& spec) {
+  SceneResult result;
+  result.problems = check_spec(spec);
+  if (!result.problems.empty()) {
+    return result;
+  }
+  auto scene = std::make_shared<Scene>();
+  set_material_and_mesh(spec, *scene);
+  const auto* frame = std::get_if<FrameLattice>(&spec.lattice);
+  if (frame != nullptr) {
+    attach_to_frame(*frame, *scene);
+  }
+  lump_masses(*scene);
+  link_elements(*scene);
+  scene->stable_step = stable_step_of(*scene);
+  scene->mass_damping = spec.numerics.mass_damping_per_s;
+  set_contact(spec.contact, frame == nullptr || frame->self_contact, *scene);
+  if (frame == nullptr) {
+    set_plates(spec.loading, *scene);
+  }
+  check_time_step(spec, *scene, result.problems);
+  if (result.problems.empty()) {
+    set_schedule(spec, *scene);
+    result.scene = std::move(scene);
+  }
+  return result;
+}
+
+SceneSpec complete_spec(const SceneSpec& spec, const Scene& scene) {
+  SceneSpec complete = spec;
+  if (auto* hexagon = std::get_if<HexagonLattice>(&complete.lattice)) {
+    if (!hexagon->vertical_wall_thickness_mm) {
+      hexagon->vertical_wall_thickness_mm = hexagon->wall_thickness_mm;
+    }
+  }
+  complete.numerics.time_step_s = scene.schedule.time_step;
+  return complete;
+}
+
+}  // namespace cellcrush

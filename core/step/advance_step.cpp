@@ -1,0 +1,63 @@
+#include "step/advance_step.h"
+
+#include "beam/internal_forces.h"
+#include "contact/contact_forces.h"
+#include "contact/find_contacts.h"
+#include "contact/plate_forces.h"
+#include "energy/ledger.h"
+#include "step/integrate_motion.h"
+#include "step/loads.h"
+
+namespace cellcrush {
+namespace {
+
+class StageTeller {
+ public:
+  explicit StageTeller(StageObserver* observer) : observer_(observer) {}
+  void begin(Stage stage) const {
+    if (observer_ != nullptr) {
+      observer_->begin(stage);
+    }
+  }
+  void end_step() const {
+    if (observer_ != nullptr) {
+      observer_->end_step();
+    }
+  }
+
+ private:
+  StageObserver* observer_;
+};
+
+void evaluate_forces(const Scene& scene, State& state, const StageTeller& teller) {
+  teller.begin(Stage::evaluate_internal_forces);
+  evaluate_internal_forces(scene, state);
+  teller.begin(Stage::find_contacts);
+  find_contacts(scene, state);
+  teller.begin(Stage::evaluate_contact_forces);
+  evaluate_contact_forces(scene, state);
+  teller.begin(Stage::evaluate_plate_forces);
+  evaluate_plate_forces(scene, state);
+  teller.begin(Stage::evaluate_loads);
+  evaluate_loads(scene, state);
+}
+
+}  // namespace
+
+State make_initial_state(const Scene& scene) {
+  State state = place_particles(scene);
+  evaluate_forces(scene, state, StageTeller(nullptr));
+  stagger_velocities(scene, state);
+  open_ledger(scene, state);
+  return state;
+}
+
+void advance_step(const Scene& scene, State& state, StageObserver* observer) {
+  const StageTeller teller(observer);
+  teller.begin(Stage::integrate_motion);
+  integrate_motion(scene, state);
+  evaluate_forces(scene, state, teller);
+  teller.end_step();
+}
+
+}  // namespace cellcrush

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "cellcrush/scene.h"
+#include "cellcrush/stage.h"
+#include "cellcrush/state.h"
+
+namespace cellcrush {
+
+/// The state before the first step: particles in place, forces evaluated, velocities half a step back.
+State make_initial_state(const Scene& scene);
+
+/// Advances the state by one step of the explicit method: motion from the forces at the old time, then the forces at the
+/// new one. The observer, if any, is told when a stage begins.
+void advance_step(const Scene& scene, State& state, StageObserver* observer);
+
+}  // namespace cellcrush

@@ -1,0 +1,130 @@
+#include "step/integrate_motion.h"
+
+#include "energy/ledger.h"
+
+namespace cellcrush {
+namespace {
+
+struct Resultant {
+  Vector2 force;
+  double moment;
+};
+
+/// All forces on a particle but mass damping. Elements are summed in ascending order, so that the sum has the same bits
+/// whoever computes it.
+Resultant resultant_on(const Scene& scene, const State& state, std::size_t particle) {
+  Resultant sum = {state.contact_force[particle] + state.contact_damping_force[particle], 0.0};
+  if (scene.plates.present) {
+    sum.force[scene.plates.axis] += state.impact_force[particle] + state.impact_damping_force[particle] -
+                                    state.support_force[particle] - state.support_damping_force[particle];
+  }
+  if (!scene.loads.empty()) {
+    sum.force += state.load_force[particle];
+    sum.moment += state.load_moment[particle];
+  }
+  for (int k = scene.incidence_offset[particle]; k < scene.incidence_offset[particle + 1]; ++k) {
+    const int element = scene.incidence[k];
+    const ElementForces& internal = state.internal[element];
+    if (scene.elements[element].end == static_cast<int>(particle)) {
+      sum.force -= internal.force_on_end;
+      sum.moment -= internal.moment_on_end;
+    } else {
+      sum.force += internal.force_on_end;
+      sum.moment -= internal.moment_on_start;
+    }
+  }
+  return sum;
+}
+
+void hold(const Support& support, NextVelocity& next) {
+  if (support.x) {
+    next.velocity.x() = 0.0;
+  }
+  if (support.y) {
+    next.velocity.y() = 0.0;
+  }
+  if (support.rotation) {
+    next.spin = 0.0;
+  }
+}
+
+}  // namespace
+
+NextVelocity next_velocity(const Scene& scene, const State& state, std::size_t particle) {
+  const Resultant sum = resultant_on(scene, state, particle);
+  const double step = scene.schedule.time_step;
+  const double damping = 0.5 * scene.mass_damping * step;
+  const double keep = (1.0 - damping) / (1.0 + damping);
+  const double gain = step / (1.0 + damping);
+  NextVelocity next = {keep * state.velocity[particle] + (gain / scene.mass[particle]) * sum.force,
+                       keep * state.spin[particle] + gain / scene.inertia[particle] * sum.moment};
+  if (!scene.supports.empty()) {
+    hold(scene.supports[particle], next);
+  }
+  return next;
+}
+
+State place_particles(const Scene& scene) {
+  const std::size_t n = scene.particle_count();
+  const std::size_t e = scene.element_count();
+  State state;
+  state.position = scene.position;
+  state.velocity = scene.initial_velocity.empty() ? std::vector<Vector2>(n, Vector2::Zero()) : scene.initial_velocity;
+  state.spin = scene.initial_spin.empty() ? std::vector<double>(n, 0.0) : scene.initial_spin;
+  state.rotation.assign(n, 0.0);
+  for (const Element& element : scene.elements) {
+    const Vector2 span = scene.position[element.end] - scene.position[element.start];
+    state.length.push_back(span.norm());
+    state.axis.push_back(span / state.length.back());
+  }
+  for (auto* values : {&state.stress, &state.back_stress, &state.plastic_strain}) {
+    values->assign(e * scene.fibre_count(), 0.0);
+  }
+  state.internal.resize(e);
+  state.candidate_offset.assign(n + 1, 0);
+  state.contact_force.assign(n, Vector2::Zero());
+  state.contact_damping_force.assign(n, Vector2::Zero());
+  const std::size_t plate_entries = scene.plates.present ? n : 0;
+  for (auto* force :
+       {&state.impact_force, &state.impact_damping_force, &state.support_force, &state.support_damping_force}) {
+    force->assign(plate_entries, 0.0);
+  }
+  if (!scene.loads.empty()) {
+    state.load_force.assign(n, Vector2::Zero());
+    state.load_moment.assign(n, 0.0);
+  }
+  return state;
+}
+
+void stagger_velocities(const Scene& scene, State& state) {
+  for (std::size_t i = 0; i < scene.particle_count(); ++i) {
+    const NextVelocity next = next_velocity(scene, state, i);
+    state.velocity[i] -= 0.5 * (next.velocity - state.velocity[i]);
+    state.spin[i] -= 0.5 * (next.spin - state.spin[i]);
+  }
+}
+
+void integrate_motion(const Scene& scene, State& state) {
+  const double step = scene.schedule.time_step;
+  const double plate_speed_before = scene.plates.speed_at(state.time - 0.5 * step);
+  const double plate_speed_after = scene.plates.speed_at(state.time + 0.5 * step);
+  const double plate_displacement = 0.5 * step * (plate_speed_before + plate_speed_after);
+  for (std::size_t i = 0; i < scene.particle_count(); ++i) {
+    const NextVelocity next = next_velocity(scene, state, i);
+    const MeanMotion mean = {0.5 * step * (state.velocity[i] + next.velocity), 0.5 * step * (state.spin[i] + next.spin),
+                             plate_displacement};
+    accumulate_work(scene, state, i, next, mean, state.ledger);
+    state.velocity[i] = next.velocity;
+    state.spin[i] = next.spin;
+    state.position[i] += step * next.velocity;
+    state.rotation[i] += step * next.spin;
+  }
+  const PlateForces plates = plate_forces_of(state);
+  state.impact_impulse += step * plates.impact;
+  state.support_impulse += step * plates.support;
+  state.impact_travel += step * plate_speed_after;
+  ++state.step;
+  state.time = static_cast<double>(state.step) * step;
+}
+
+}  // namespace cellcrush

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "cellcrush/scene.h"
+#include "cellcrush/state.h"
+
+namespace cellcrush {
+
+/// Velocities of a particle half a step on, from those half a step back and the forces now (Eq. 4, central differences).
+/// Mass damping -alpha m v acts on the mean of both, so that it is exact to second order and stable at any alpha.
+struct NextVelocity {
+  Vector2 velocity;  ///< mm/s
+  double spin;       ///< rad/s
+};
+NextVelocity next_velocity(const Scene& scene, const State& state, std::size_t particle);
+
+/// A state with particles in place, at the scene's initial velocities, without forces.
+State place_particles(const Scene& scene);
+
+/// Moves the velocities from time 0 to half a step before it, with the forces at time 0.
+void stagger_velocities(const Scene& scene, State& state);
+
+/// Central differences over one step: velocities to half a step on, positions, rotations and the impact plate to the next
+/// time. Books the work of every force over the step in the ledger and the plates' impulses.
+void integrate_motion(const Scene& scene, State& state);
+
+}  // namespace cellcrush

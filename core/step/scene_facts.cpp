@@ -1,0 +1,73 @@
+#include "cellcrush/scene.h"
+#include "cellcrush/simulation.h"
+#include "cellcrush/state.h"
+#include "measure/theory.h"
+#include "scene/check_spec.h"
+
+namespace cellcrush {
+namespace {
+
+/// Bytes of a run: the state's and the scene's arrays. Contact candidates are counted at kCandidatesPerParticle, what a
+/// densified lattice has.
+std::int64_t memory_of(const Scene& scene) {
+  constexpr std::size_t kCandidatesPerParticle = 12;
+  const std::size_t per_particle =
+      9 * sizeof(Vector2) + 9 * sizeof(double) + 2 * sizeof(int) + kCandidatesPerParticle * sizeof(ContactCandidate);
+  const std::size_t per_element = sizeof(Element) + 2 * sizeof(int) + sizeof(Vector2) + sizeof(double) +
+                                  sizeof(ElementForces) + 3 * scene.fibre_count() * sizeof(double);
+  return static_cast<std::int64_t>(scene.particle_count() * per_particle + scene.element_count() * per_element);
+}
+
+std::vector<std::string> what_is_modelled(const Scene& scene) {
+  std::vector<std::string> lines;
+  lines.push_back("Walls: Euler beams of constant section, large rotation, " +
+                  std::to_string(scene.section.axial_points) + " Gauss x " +
+                  std::to_string(scene.section.depth_points) + " Lobatto points an element, " +
+                  (scene.material.hardening_modulus > 0.0 ? "bilinear with mixed hardening." : "perfectly plastic."));
+  lines.push_back(scene.contact.present ? "Contact between walls: frictionless penalty, ball to capsule."
+                                        : "Contact between walls: left out.");
+  if (scene.plates.present) {
+    lines.push_back("Plates: rigid, frictionless, unilateral; not meshed.");
+  }
+  lines.push_back(
+      "Left out: fracture, strain-rate dependence, thickening of shortened walls, motion out of the plane.");
+  return lines;
+}
+
+}  // namespace
+
+SceneFacts facts_of(const Scene& scene) {
+  SceneFacts facts;
+  facts.particle_count = static_cast<std::int64_t>(scene.particle_count());
+  facts.element_count = static_cast<std::int64_t>(scene.element_count());
+  facts.mass = scene.total_mass;
+  facts.relative_density = relative_density_of(scene);
+  facts.length = scene.length;
+  facts.width = scene.width;
+  facts.stable_step = scene.stable_step;
+  facts.time_step = scene.schedule.time_step;
+  facts.step_count = scene.schedule.step_count;
+  facts.sample_interval = scene.schedule.sample_interval;
+  facts.frame_interval = scene.schedule.frame_interval;
+  facts.memory_bytes = memory_of(scene);
+  facts.theory = theory_of(scene);
+  facts.modelled = what_is_modelled(scene);
+  return facts;
+}
+
+MeshView mesh_of(const Scene& scene) {
+  MeshView mesh;
+  for (const Element& element : scene.elements) {
+    mesh.element_nodes.push_back(element.start);
+    mesh.element_nodes.push_back(element.end);
+    mesh.thickness.push_back(static_cast<float>(element.thickness));
+  }
+  mesh.length = scene.length;
+  mesh.width = scene.width;
+  mesh.impact_plate = scene.plates.impact_face;
+  mesh.support_plate = scene.plates.support_face;
+  mesh.along_y = scene.plates.axis == 1;
+  return mesh;
+}
+
+}  // namespace cellcrush

@@ -1,0 +1,44 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "beam/internal_forces.h"
+#include "cellcrush/scene.h"
+#include "cellcrush/state.h"
+#include "scenes/frames.h"
+#include "step/integrate_motion.h"
+
+namespace cellcrush {
+namespace {
+
+// The motion is imposed, so nothing but the reverse motion can make stress.
+TEST(RigidSpin, ThousandTurnsLeaveStressAtRoundOff) {
+  const auto scene = scenes::build(scenes::hexagon_block(3, 2));
+  ASSERT_TRUE(scene);
+  State state = place_particles(*scene);
+  constexpr int kStepsPerTurn = 2000;
+  constexpr int kTurns = 1000;
+  const double turn = 2.0 * std::numbers::pi / kStepsPerTurn;
+  const Vector2 centre(5.0, 5.0);
+  std::fill(state.spin.begin(), state.spin.end(), turn / scene->schedule.time_step);
+  for (int step = 1; step <= kStepsPerTurn * kTurns; ++step) {
+    const double angle = turn * (step % kStepsPerTurn);
+    const double c = std::cos(angle);
+    const double s = std::sin(angle);
+    for (std::size_t i = 0; i < scene->particle_count(); ++i) {
+      const Vector2 arm = scene->position[i] - centre;
+      state.position[i] = centre + Vector2(c * arm.x() - s * arm.y(), s * arm.x() + c * arm.y());
+    }
+    state.step = step;
+    evaluate_internal_forces(*scene, state);
+  }
+  double greatest = 0.0;
+  for (const double stress : state.stress) {
+    greatest = std::max(greatest, std::abs(stress));
+  }
+  EXPECT_LT(greatest, 1e-6 * scene->material.yield_stress);
+}
+
+}  // namespace
+}  // namespace cellcrush

@@ -1,0 +1,75 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "cellcrush/presets.h"
+#include "cellcrush/state.h"
+#include "scenes/crossings.h"
+#include "scenes/frames.h"
+
+namespace cellcrush {
+namespace {
+
+/// Type I at 100 m/s to 80 % strain, with crossings of walls counted on 40 frames.
+struct Crush {
+  std::vector<Sample> samples;
+  Summary summary;
+  std::size_t crossings = 0;
+  double deepest_birth = 0.0;
+};
+
+Crush crush_type_i(double time_step) {
+  SceneSpec spec = find_preset("type-i")->spec;
+  spec.numerics.time_step_s = time_step;
+  spec.output.sample_count = 400;
+  const auto scene = scenes::build(spec);
+  const SceneFacts facts = facts_of(*scene);
+  Simulation simulation(scene);
+  Crush crush;
+  while (simulation.status().kind == RunStatus::Kind::running) {
+    simulation.advance(facts.sample_interval);
+    crush.samples.push_back(simulation.take_sample());
+    if (crush.samples.size() % 10 == 0) {
+      crush.crossings += scenes::find_crossings(*scene, simulation.state()).size();
+    }
+  }
+  EXPECT_EQ(simulation.status().kind, RunStatus::Kind::finished) << simulation.status().message;
+  crush.summary = summarize(*scene, crush.samples);
+  crush.deepest_birth = simulation.state().deepest_birth;
+  return crush;
+}
+
+void expect_sound_contact(const Crush& crush) {
+  EXPECT_EQ(crush.crossings, 0u);
+  EXPECT_LT(crush.summary.deepest_penetration, 0.25);
+  EXPECT_LT(crush.deepest_birth, 0.10);
+  for (const Sample& sample : crush.samples) {
+    EXPECT_GE(sample.energy_contact, -0.005 * sample.work_external) << "at strain " << sample.strain;
+  }
+}
+
+TEST(TypeI, CrushAt100MetresASecondAtThePapersStep) {
+  const Crush crush = crush_type_i(2e-7);
+  EXPECT_NEAR(crush.samples.back().strain, 0.8, 1e-3);
+  ASSERT_TRUE(crush.summary.plateau_stress_impact && crush.summary.plateau_stress_support);
+  RecordProperty("plateau_impact_mpa", std::to_string(*crush.summary.plateau_stress_impact));
+  EXPECT_GT(*crush.summary.plateau_stress_impact, 3.1);
+  EXPECT_LT(*crush.summary.plateau_stress_impact, 3.7);
+  EXPECT_GT(*crush.summary.plateau_stress_support, 0.38);
+  EXPECT_LT(*crush.summary.plateau_stress_support, 0.52);
+  EXPECT_LT(crush.summary.energy_error_relative, 0.025);
+  expect_sound_contact(crush);
+}
+
+TEST(TypeI, LedgerClosesWithinHalfAPercentAtHalfThePapersStep) {
+  const Crush crush = crush_type_i(1e-7);
+  EXPECT_LT(crush.summary.energy_error_relative, 0.005);
+  EXPECT_GT(*crush.summary.plateau_stress_impact, 3.1);
+  EXPECT_LT(*crush.summary.plateau_stress_impact, 3.7);
+  expect_sound_contact(crush);
+}
+
+}  // namespace
+}  // namespace cellcrush

@@ -1,0 +1,84 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "cellcrush/state.h"
+#include "energy/ledger.h"
+#include "scenes/frames.h"
+#include "step/advance_step.h"
+
+namespace cellcrush {
+namespace {
+
+Vector2 momentum_of(const Scene& scene, const State& state) {
+  Vector2 momentum = Vector2::Zero();
+  for (std::size_t i = 0; i < scene.particle_count(); ++i) {
+    momentum += scene.mass[i] * state.velocity[i];
+  }
+  return momentum;
+}
+
+// Theory-free: whatever the material does, the plates' forces are the change of the block's momentum and what mass damping
+// takes.
+TEST(Momentum, DifferenceOfThePlatesForcesIsTheBlocksMomentumRateToRoundOff) {
+  SceneSpec spec = scenes::hexagon_block(8, 5);
+  spec.numerics.mass_damping_per_s = 2000.0;
+  const auto scene = scenes::build(spec);
+  State state = make_initial_state(*scene);
+  const double step = scene->schedule.time_step;
+  double peak = 0.0;
+  double worst = 0.0;
+  for (int i = 0; i < 2000; ++i) {
+    const PlateForces plates = plate_forces_of(state);
+    const double before = momentum_of(*scene, state).x();
+    advance_step(*scene, state, nullptr);
+    const double after = momentum_of(*scene, state).x();
+    const double damping = scene->mass_damping * 0.5 * (before + after);
+    peak = std::max({peak, plates.impact, plates.support});
+    worst = std::max(worst, std::abs(plates.impact - plates.support - (after - before) / step - damping));
+  }
+  EXPECT_GT(peak, 100.0);
+  EXPECT_LT(worst, 1e-9 * peak);
+}
+
+TEST(Energy, LedgerClosesWithinOnePercentOverAWholeCrush) {
+  SceneSpec spec = scenes::hexagon_block(12, 5);
+  spec.numerics.mass_damping_per_s = 500.0;
+  spec.numerics.time_step_s = 1e-7;
+  const auto scene = scenes::build(spec);
+  const SceneFacts facts = facts_of(*scene);
+  Simulation simulation(scene);
+  std::vector<Sample> samples;
+  while (simulation.status().kind == RunStatus::Kind::running) {
+    simulation.advance(facts.sample_interval);
+    samples.push_back(simulation.take_sample());
+  }
+  const Sample& last = samples.back();
+  EXPECT_NEAR(last.strain, 0.8, 1e-3);
+  const double sum = last.energy_kinetic + last.energy_elastic + last.energy_plastic + last.energy_contact +
+                     last.energy_friction + last.energy_damping + last.energy_residual;
+  EXPECT_NEAR(sum, last.work_external, 1e-9 * last.work_external);
+  EXPECT_LT(summarize(*scene, samples).energy_error_relative, 0.01);
+  EXPECT_GT(last.energy_plastic, 0.2 * last.work_external);
+  EXPECT_GT(last.energy_contact, 0.0);
+  EXPECT_GT(last.energy_damping, last.energy_contact_damping);
+}
+
+TEST(Energy, ElasticStructureKeepsItsEnergyToRoundOffOfTheScheme) {
+  auto scene = scenes::build(scenes::hexagon_block(4, 3));
+  scene->material.yield_stress = 1e30;
+  scene->plates.present = false;
+  scene->contact.present = false;
+  scene->schedule.time_step = 0.5 * scene->stable_step;
+  scene->schedule.step_count = 20000;
+  scenes::stir(*scene, 10.0);
+  Simulation simulation(scene);
+  simulation.advance(20000);
+  const Sample sample = simulation.take_sample();
+  const double start = simulation.state().ledger.initial;
+  EXPECT_GT(sample.energy_elastic, 0.2 * start);
+  EXPECT_NEAR(sample.energy_residual / start, 0.0, 1e-4);
+}
+
+}  // namespace
+}  // namespace cellcrush

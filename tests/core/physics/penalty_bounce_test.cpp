@@ -1,0 +1,84 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "cellcrush/state.h"
+#include "scenes/frames.h"
+#include "step/advance_step.h"
+
+namespace cellcrush {
+namespace {
+
+/// A short beam flies flat onto a long one that is held at both ends: each of its two balls meets the wall like a mass on a
+/// spring, and no beam bends.
+struct Bounce {
+  double duration = 0.0;      // s
+  double peak_depth = 0.0;    // mm
+  double energy_ratio = 0.0;  // kinetic, after over before
+};
+
+constexpr double kSpeed = 1000.0;  // mm/s
+
+Bounce bounce(double omega_step, double damping_ratio, double& mass, double& stiffness) {
+  FrameLattice frame;
+  frame.nodes = {{-40.0, 0.0, 0.0, 0.0}, {40.0, 0.0, 0.0, 0.0}, {-5.0, 1.01, 0.0, 0.0}, {5.0, 1.01, 0.0, 0.0}};
+  frame.beams = {{0, 1, 1.0, 1}, {2, 3, 1.0, 1}};
+  frame.supports = {{0, true, true, true}, {1, true, true, true}};
+  frame.initial_velocities = {{2, 0.0, -kSpeed / 1e3, 0.0}, {3, 0.0, -kSpeed / 1e3, 0.0}};
+  frame.self_contact = true;
+  frame.end_time_s = 1.0;
+  SceneSpec spec;
+  spec.lattice = frame;
+  spec.depth_mm = 1.0;
+  spec.material.youngs_modulus_mpa = 70000.0;
+  spec.material.yield_stress_mpa = 1e9;
+  spec.material.density_kg_per_m3 = 2700.0;
+  spec.contact.damping_ratio = damping_ratio;
+  auto scene = scenes::build(spec);
+  mass = scene->mass[2];
+  const double step = scene->schedule.time_step;
+  scene->contact.stiffness = stiffness = mass * omega_step * omega_step / (step * step);
+  State state = make_initial_state(*scene);
+  Bounce result;
+  int touching = 0;
+  for (int i = 0; i < 100000 && (touching == 0 || state.contact_count > 0); ++i) {
+    advance_step(*scene, state, nullptr);
+    touching += state.contact_count > 0 ? 1 : 0;
+    result.peak_depth = std::max(result.peak_depth, state.deepest_penetration);
+    EXPECT_GE(state.contact_force[2].y() + state.contact_damping_force[2].y(), 0.0);
+  }
+  advance_step(*scene, state, nullptr);
+  result.duration = touching * step;
+  result.energy_ratio = std::pow(state.velocity[2].y() / kSpeed, 2);
+  return result;
+}
+
+TEST(PenaltyBounce, HasTheDepthDurationAndEnergyOfAMassOnASpring) {
+  double mass = 0.0;
+  double stiffness = 0.0;
+  const Bounce soft = bounce(0.2, 0.0, mass, stiffness);
+  EXPECT_NEAR(soft.peak_depth, kSpeed * std::sqrt(mass / stiffness), 0.01 * soft.peak_depth);
+  EXPECT_NEAR(soft.duration, std::numbers::pi * std::sqrt(mass / stiffness), 0.2 / std::numbers::pi * soft.duration);
+  EXPECT_GT(soft.energy_ratio, 0.991);
+  EXPECT_LT(soft.energy_ratio, 1.009);
+}
+
+TEST(PenaltyBounce, IsWorthlessWhenTooStiffForTheStep) {
+  double mass = 0.0;
+  double stiffness = 0.0;
+  const double ratio = bounce(1.8, 0.0, mass, stiffness).energy_ratio;
+  EXPECT_GT(std::abs(ratio - 1.0), 0.05);
+}
+
+TEST(PenaltyBounce, DampingTakesEnergyAndNeverPulls) {
+  double mass = 0.0;
+  double stiffness = 0.0;
+  const Bounce damped = bounce(0.2, 0.2, mass, stiffness);
+  // exp(-2 pi zeta / sqrt(1 - zeta^2)) for a contact that may pull; a little more is kept when it may not.
+  EXPECT_GT(damped.energy_ratio, 0.27);
+  EXPECT_LT(damped.energy_ratio, 0.45);
+}
+
+}  // namespace
+}  // namespace cellcrush

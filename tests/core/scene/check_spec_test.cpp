@@ -1,0 +1,97 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "cellcrush/presets.h"
+#include "cellcrush/simulation.h"
+#include "scenes/frames.h"
+
+namespace cellcrush {
+namespace {
+
+const Problem* find(const Problems& problems, const std::string& field) {
+  const auto found =
+      std::find_if(problems.begin(), problems.end(), [&](const Problem& problem) { return problem.field == field; });
+  return found == problems.end() ? nullptr : &*found;
+}
+
+TEST(CheckSpec, EveryPresetIsSound) {
+  for (const Preset& preset : presets()) {
+    EXPECT_TRUE(build_scene(preset.spec).problems.empty()) << preset.name;
+  }
+}
+
+TEST(CheckSpec, EmptyCaseNamesEverythingThatIsMissing) {
+  const Problems problems = build_scene({}).problems;
+  for (const char* field : {"lattice", "depth_mm", "material.youngs_modulus_mpa", "material.yield_stress_mpa",
+                            "material.density_kg_per_m3", "loading.speed_m_per_s"}) {
+    const Problem* problem = find(problems, field);
+    ASSERT_NE(problem, nullptr) << field;
+    EXPECT_FALSE(problem->remedy.empty());
+  }
+}
+
+TEST(CheckSpec, NamesAllProblemsAtOnceWithTheirValues) {
+  SceneSpec spec = scenes::hexagon_block(20, 7);
+  auto& hexagon = std::get<HexagonLattice>(spec.lattice);
+  hexagon.wall_thickness_mm = -0.1;
+  hexagon.vertical_wall_thickness_mm.reset();
+  spec.loading.speed_m_per_s = 0.0;
+  spec.material.density_kg_per_m3 = std::numeric_limits<double>::quiet_NaN();
+  spec.material.isotropic_fraction = -0.5;
+  spec.section.depth_points = 1;
+  const Problems problems = build_scene(spec).problems;
+  EXPECT_EQ(problems.size(), 5u);
+  ASSERT_NE(find(problems, "lattice.hexagon.wall_thickness_mm"), nullptr);
+  EXPECT_EQ(find(problems, "lattice.hexagon.wall_thickness_mm")->value, "-0.1");
+  EXPECT_NE(find(problems, "loading.speed_m_per_s"), nullptr);
+  ASSERT_NE(find(problems, "material.density_kg_per_m3"), nullptr);
+  EXPECT_NE(find(problems, "material.density_kg_per_m3")->message.find("finite"), std::string::npos);
+  EXPECT_NE(find(problems, "material.isotropic_fraction"), nullptr);
+  EXPECT_NE(find(problems, "section.depth_points"), nullptr);
+}
+
+TEST(CheckSpec, RefusesAFixedStepAboveTheStableOneAndSaysBoth) {
+  SceneSpec spec = scenes::hexagon_block(20, 7);
+  spec.numerics.time_step_s = 2.3e-7;
+  const Problems problems = build_scene(spec).problems;
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_EQ(problems[0].field, "numerics.time_step_s");
+  EXPECT_EQ(problems[0].value, "2.3e-07");
+  EXPECT_NE(problems[0].message.find("2.27"), std::string::npos) << problems[0].message;
+}
+
+TEST(CheckSpec, WhatIsNotBuiltIsUnimplementedAndNamed) {
+  SceneSpec spec = scenes::hexagon_block(20, 7);
+  spec.contact.friction = 0.2;
+  spec.plates.friction = 0.2;
+  spec.numerics.threads = 2;
+  spec.imperfection.amplitude_mm = 0.01;
+  const Problems problems = build_scene(spec).problems;
+  EXPECT_EQ(problems.size(), 4u);
+  for (const Problem& problem : problems) {
+    EXPECT_EQ(problem.kind, Problem::Kind::unimplemented) << problem.field;
+  }
+  spec = scenes::hexagon_block(20, 7);
+  spec.lattice = SquareLattice{};
+  EXPECT_NE(find(build_scene(spec).problems, "lattice.square"), nullptr);
+}
+
+TEST(CheckSpec, RefusesAMeshThatNoMachineHolds) {
+  SceneSpec spec = scenes::hexagon_block(10000, 10000);
+  EXPECT_NE(find(build_scene(spec).problems, "lattice.hexagon.columns"), nullptr);
+}
+
+TEST(CheckSpec, ChosenStepFollowsStabilityAndSpeed) {
+  SceneSpec spec = scenes::hexagon_block(20, 7);
+  spec.numerics.time_step_s = 0.0;
+  const auto slow = scenes::build(spec);
+  EXPECT_NEAR(slow->schedule.time_step, 0.9 * slow->stable_step, 1e-20);
+  spec.loading.speed_m_per_s = 200.0;
+  const auto fast = scenes::build(spec);
+  EXPECT_NEAR(fast->schedule.time_step, 0.1 * 0.3464 / 2e5, 1e-20);
+}
+
+}  // namespace
+}  // namespace cellcrush

@@ -1,0 +1,137 @@
+#include "section/fibres.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "section/section_rule.h"
+
+namespace cellcrush {
+namespace {
+
+/// An element's fibres under a strain history of pure stretch or pure bending.
+class Section {
+ public:
+  Section(const Material& material, int depth_points)
+      : material_(material),
+        rule_(make_section_rule(2, depth_points)),
+        stress_(rule_.fibre_count()),
+        back_stress_(rule_.fibre_count()),
+        plastic_strain_(rule_.fibre_count()) {}
+
+  FibreSums stretch(double strain_increment) { return integrate(strain_increment, 0.0, 0.0); }
+
+  /// Opposite turns of the ends, so that the curvature times the thickness grows by `increment` all along the element.
+  FibreSums bend(double increment) { return integrate(0.0, 0.5 * increment, -0.5 * increment); }
+
+  [[nodiscard]] double stress() const { return stress_.front(); }
+  [[nodiscard]] double plastic_strain() const { return plastic_strain_.front(); }
+
+ private:
+  FibreSums integrate(double membrane, double start, double end) {
+    return integrate_fibres(material_, rule_, membrane, start, end,
+                            {stress_.data(), back_stress_.data(), plastic_strain_.data()});
+  }
+
+  Material material_;
+  SectionRule rule_;
+  std::vector<double> stress_;
+  std::vector<double> back_stress_;
+  std::vector<double> plastic_strain_;
+};
+
+Material bilinear(double isotropic_fraction) {
+  const double modulus = 70000.0;
+  const double tangent = 700.0;
+  return {modulus, 100.0, modulus * tangent / (modulus - tangent), isotropic_fraction, 2.7e-9};
+}
+
+TEST(Fibres, YieldAlikeInTensionAndCompression) {
+  for (const double beta : {0.0, 0.5, 1.0}) {
+    Section pulled(bilinear(beta), 6);
+    Section pushed(bilinear(beta), 6);
+    for (int i = 0; i < 100; ++i) {
+      pulled.stretch(1e-4);
+      pushed.stretch(-1e-4);
+    }
+    EXPECT_DOUBLE_EQ(pulled.stress(), -pushed.stress());
+    EXPECT_NEAR(pulled.stress(), 100.0 + 700.0 * (0.01 - 100.0 / 70000.0), 1e-9) << "beta " << beta;
+  }
+}
+
+TEST(Fibres, ReverseYieldStressTellsIsotropicFromKinematicHardening) {
+  for (const double beta : {0.0, 0.25, 1.0}) {
+    Section section(bilinear(beta), 6);
+    for (int i = 0; i < 100; ++i) {
+      section.stretch(1e-4);
+    }
+    const double top = section.stress();
+    const double plastic = section.plastic_strain();
+    const double hardening = bilinear(beta).hardening_modulus;
+    // Twice the radius of the yield surface below the top: sigma_y + beta H eps_p is the radius.
+    const double reverse = top - 2.0 * (100.0 + beta * hardening * plastic);
+    const double elastic_range = (top - reverse) / 70000.0;
+    section.stretch(-elastic_range * 0.999999);
+    EXPECT_DOUBLE_EQ(section.plastic_strain(), plastic) << "beta " << beta;
+    section.stretch(-elastic_range * 0.01);
+    EXPECT_GT(section.plastic_strain(), plastic) << "beta " << beta;
+  }
+}
+
+// Symmetric strain cycles: kinematic hardening closes its loop from the second cycle on, isotropic hardening grows toward
+// elastic shakedown.
+TEST(Fibres, CyclesCloseWhenKinematicAndGrowWhenIsotropic) {
+  const auto tops = [](double beta) {
+    Section section(bilinear(beta), 6);
+    std::vector<double> stress;
+    for (int cycle = 0; cycle < 6; ++cycle) {
+      section.stretch(cycle == 0 ? 0.005 : 0.01);
+      stress.push_back(section.stress());
+      section.stretch(-0.01);
+    }
+    return stress;
+  };
+  const std::vector<double> kinematic = tops(0.0);
+  for (std::size_t i = 2; i < kinematic.size(); ++i) {
+    EXPECT_NEAR(kinematic[i], kinematic[1], 1e-9);
+  }
+  const std::vector<double> isotropic = tops(1.0);
+  for (std::size_t i = 1; i < isotropic.size(); ++i) {
+    EXPECT_GT(isotropic[i], isotropic[i - 1] + 1.0);
+    EXPECT_LT(isotropic[i], 350.0);  // E eps_max: elastic
+  }
+}
+
+// Moment over M_e = sigma_y b h^2 / 6 of a rectangular bilinear section (exact): (1 - E_T/E)(1.5 - 0.5 (k_e/k)^2) + E_T k/(E k_e).
+TEST(Fibres, BentSectionFollowsTheExactMomentCurvatureLaw) {
+  Section section(bilinear(1.0), 10);
+  const double yield_curvature = 2.0 * 100.0 / 70000.0;  // times h
+  const int steps = 500;
+  double worst = 0.0;
+  for (int i = 1; i <= steps; ++i) {
+    const double ratio = 5.0 * i / steps;
+    const FibreSums sums = section.bend(5.0 * yield_curvature / steps);
+    const double moment = (sums.moment_start - sums.moment_end) / 2.0 * 6.0 / 100.0;
+    const double exact = ratio <= 1.0 ? ratio : 0.99 * (1.5 - 0.5 / (ratio * ratio)) + 0.01 * ratio;
+    worst = std::max(worst, std::abs(moment / exact - 1.0));
+  }
+  EXPECT_LT(worst, 0.035);  // ten Lobatto points follow the spread of yield in steps of a fibre
+}
+
+TEST(Fibres, PlasticWorkOfACycleIsTheAreaOfItsLoop) {
+  Section section({70000.0, 100.0, 0.0, 1.0, 2.7e-9}, 6);
+  double work = 0.0;
+  const int steps = 1000;
+  for (const double direction : {1.0, -1.0, 1.0}) {
+    for (int i = 0; i < steps; ++i) {
+      work += section.stretch(direction * 0.01 / steps).plastic_work;
+    }
+  }
+  const double elastic_strain = 100.0 / 70000.0;
+  const double exact = 100.0 * ((0.01 - elastic_strain) + 2.0 * (0.01 - 2.0 * elastic_strain));
+  EXPECT_NEAR(work, exact, 1e-9 * exact);
+}
+
+}  // namespace
+}  // namespace cellcrush

@@ -1,0 +1,69 @@
+#include "section/quadrature.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "section/section_rule.h"
+
+namespace cellcrush {
+namespace {
+
+double integrate_power(const Quadrature& rule, int power) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < rule.points.size(); ++i) {
+    sum += rule.weights[i] * std::pow(rule.points[i], power);
+  }
+  return sum;
+}
+
+double exact_integral(int power) { return power % 2 == 1 ? 0.0 : 2.0 / (power + 1); }
+
+TEST(Quadrature, GaussIsExactToDegreeTwiceThePointsLessOne) {
+  for (int n = 1; n <= 10; ++n) {
+    for (int power = 0; power <= 2 * n - 1; ++power) {
+      EXPECT_NEAR(integrate_power(gauss_rule(n), power), exact_integral(power), 1e-13)
+          << n << " points, power " << power;
+    }
+    EXPECT_GT(std::abs(integrate_power(gauss_rule(n), 2 * n) - exact_integral(2 * n)), 1e-7);
+  }
+}
+
+TEST(Quadrature, LobattoIsExactToDegreeTwiceThePointsLessThreeAndHasTheEnds) {
+  for (int n = 2; n <= 10; ++n) {
+    const Quadrature rule = lobatto_rule(n);
+    EXPECT_DOUBLE_EQ(rule.points.front(), -1.0);
+    EXPECT_DOUBLE_EQ(rule.points.back(), 1.0);
+    for (int power = 0; power <= 2 * n - 3; ++power) {
+      EXPECT_NEAR(integrate_power(rule, power), exact_integral(power), 1e-13) << n << " points, power " << power;
+    }
+    EXPECT_GT(std::abs(integrate_power(rule, 2 * n - 2) - exact_integral(2 * n - 2)), 1e-7);
+  }
+}
+
+// Full plastic moment over the exact b h^2 / 4 sigma_y, by depth rule: sum of w |eta| with every fibre at yield.
+TEST(Quadrature, LobattoSectionHasItsKnownFullPlasticMoment) {
+  const std::pair<int, double> known[] = {{4, 1.0787}, {5, 0.9128}, {6, 1.0290},
+                                          {7, 0.9597}, {8, 1.0151}, {10, 1.0093}};
+  for (const auto& [points, ratio] : known) {
+    const Quadrature rule = lobatto_rule(points);
+    double moment = 0.0;
+    for (std::size_t i = 0; i < rule.points.size(); ++i) {
+      moment += rule.weights[i] * std::abs(rule.points[i]);
+    }
+    EXPECT_NEAR(moment, ratio, 1e-4) << points << " points";
+  }
+}
+
+TEST(SectionRule, GivesTheElasticStiffnessOfACubicBeam) {
+  // Unit E, b, h, l: moments of theta_1 are 4 EI/l and 2 EI/l, and stretch makes no moment.
+  const SectionRule rule = make_section_rule(2, 6);
+  const double inertia = 1.0 / 12.0;
+  EXPECT_NEAR((rule.weight * rule.start_factor * rule.start_factor).sum(), 4.0 * inertia, 1e-14);
+  EXPECT_NEAR((rule.weight * rule.start_factor * rule.end_factor).sum(), 2.0 * inertia, 1e-14);
+  EXPECT_NEAR((rule.weight * rule.start_factor).sum(), 0.0, 1e-15);
+  EXPECT_NEAR(rule.weight.sum(), 1.0, 1e-15);
+}
+
+}  // namespace
+}  // namespace cellcrush

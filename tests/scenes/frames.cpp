@@ -1,0 +1,63 @@
+#include "scenes/frames.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "cellcrush/presets.h"
+
+namespace cellcrush::scenes {
+
+std::shared_ptr<Scene> build(const SceneSpec& spec) {
+  const SceneResult result = build_scene(spec);
+  for (const Problem& problem : result.problems) {
+    ADD_FAILURE() << problem.field << " = " << problem.value << ": " << problem.message << " " << problem.remedy;
+  }
+  return result.scene ? std::make_shared<Scene>(*result.scene) : nullptr;
+}
+
+double Cantilever::first_frequency() {
+  constexpr double kMassPerLength = 7.85e-9;
+  return 3.516 * std::sqrt(kStiffness / kMassPerLength) / (kLength * kLength);
+}
+
+SceneSpec Cantilever::spec(int elements, FrameLattice::Component component, double value, double rise_time,
+                           double end_time) {
+  FrameLattice frame;
+  frame.nodes = {{0.0, 0.0, 0.0, 0.0}, {kLength, 0.0, 0.0, 0.0}};
+  frame.beams = {{0, 1, 1.0, elements}};
+  frame.supports = {{0, true, true, true}};
+  frame.loads = {{1, component, {{0.0, 0.0}, {rise_time, value}}}};
+  frame.end_time_s = end_time;
+  SceneSpec spec;
+  spec.lattice = frame;
+  spec.depth_mm = 1.0;
+  spec.material.youngs_modulus_mpa = 200000.0;
+  spec.material.yield_stress_mpa = 1e9;
+  spec.material.density_kg_per_m3 = 7850.0;
+  spec.section = {2, 3};
+  spec.numerics.mass_damping_per_s = 2.0 * first_frequency();
+  return spec;
+}
+
+SceneSpec hexagon_block(int columns, int rows) {
+  SceneSpec spec = find_preset("hexagon-small")->spec;
+  auto& hexagon = std::get<HexagonLattice>(spec.lattice);
+  hexagon.columns = columns;
+  hexagon.rows = rows;
+  return spec;
+}
+
+void stir(Scene& scene, double speed) {
+  std::mt19937_64 generator(20261120);
+  const auto draw = [&] { return speed * (static_cast<double>(generator() >> 11) * 0x1p-52 - 1.0); };
+  scene.initial_velocity.clear();
+  scene.initial_spin.clear();
+  for (std::size_t i = 0; i < scene.particle_count(); ++i) {
+    scene.initial_velocity.emplace_back(draw(), draw());
+    scene.initial_spin.push_back(draw());
+  }
+}
+
+}  // namespace cellcrush::scenes

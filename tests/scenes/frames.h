@@ -1,0 +1,31 @@
+#pragma once
+
+#include <memory>
+
+#include "cellcrush/scene.h"
+#include "cellcrush/simulation.h"
+
+namespace cellcrush::scenes {
+
+/// A scene whose spec has no problems; fails the test with their texts when it has.
+std::shared_ptr<Scene> build(const SceneSpec& spec);
+
+/// A cantilever along x, clamped at its left end, elastic, without contact: EI = 200000/12 N mm^2, L = 300 mm, h = 1 mm, so
+/// that EA L^2 / EI = 1.08e6. Its free end is node 1. Mass damping is twice the first natural frequency.
+struct Cantilever {
+  static constexpr double kLength = 300.0;
+  static constexpr double kStiffness = 200000.0 / 12.0;
+  static double first_frequency();
+
+  /// Load on the free end rises linearly to `value` over `rise_time` and stays.
+  static SceneSpec spec(int elements, FrameLattice::Component component, double value, double rise_time,
+                        double end_time);
+};
+
+/// A block of the hexagons of Type I, crushed along x at 100 m/s.
+SceneSpec hexagon_block(int columns, int rows);
+
+/// Small velocities in all directions for every particle, the same ones each time: what no symmetry hides from.
+void stir(Scene& scene, double speed);
+
+}  // namespace cellcrush::scenes
