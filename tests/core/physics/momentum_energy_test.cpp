@@ -37,6 +37,7 @@ TEST(Momentum, DifferenceOfThePlatesForcesIsTheBlocksMomentumRateToRoundOff) {
     peak = std::max({peak, plates.impact, plates.support});
     worst = std::max(worst, std::abs(plates.impact - plates.support - (after - before) / step - damping));
   }
+  RecordProperty("imbalance_over_peak_force_1e-12", std::to_string(1e12 * worst / peak));
   EXPECT_GT(peak, 100.0);
   EXPECT_LT(worst, 1e-9 * peak);
 }
@@ -58,7 +59,9 @@ TEST(Energy, LedgerClosesWithinOnePercentOverAWholeCrush) {
   const double sum = last.energy_kinetic + last.energy_elastic + last.energy_plastic + last.energy_contact +
                      last.energy_friction + last.energy_damping + last.energy_residual;
   EXPECT_NEAR(sum, last.work_external, 1e-9 * last.work_external);
-  EXPECT_LT(summarize(*scene, samples).energy_error_relative, 0.01);
+  const double error = summarize(*scene, samples).energy_error_relative;
+  RecordProperty("energy_error_relative", std::to_string(error));
+  EXPECT_LT(error, 0.01);
   EXPECT_GT(last.energy_plastic, 0.2 * last.work_external);
   EXPECT_GT(last.energy_contact, 0.0);
   EXPECT_GT(last.energy_damping, last.energy_contact_damping);

@@ -60,6 +60,7 @@ TEST(PenaltyBounce, HasTheDepthDurationAndEnergyOfAMassOnASpring) {
   const Bounce soft = bounce(0.2, 0.0, mass, stiffness);
   EXPECT_NEAR(soft.peak_depth, kSpeed * std::sqrt(mass / stiffness), 0.01 * soft.peak_depth);
   EXPECT_NEAR(soft.duration, std::numbers::pi * std::sqrt(mass / stiffness), 0.2 / std::numbers::pi * soft.duration);
+  RecordProperty("energy_ratio", std::to_string(soft.energy_ratio));
   EXPECT_GT(soft.energy_ratio, 0.991);
   EXPECT_LT(soft.energy_ratio, 1.009);
 }

@@ -66,6 +66,7 @@ TEST(StableStep, FreeElementIsStableAt099AndUnstableAt101OfTheLaw) {
 TEST(StableStep, LatticeTurnsUnstableBetween100And102OfTheLaw) {
   const auto scene = scenes::build(scenes::hexagon_block(6, 5));
   const double limit = first_unstable(*scene, 4000);
+  RecordProperty("first_unstable_fraction", std::to_string(limit));
   EXPECT_GT(limit, 0.9999);
   EXPECT_LT(limit, 1.02);
 }
