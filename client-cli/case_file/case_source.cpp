@@ -1,0 +1,63 @@
+#include "case_file/case_source.h"
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+
+#include "case_file/json_case.h"
+#include "case_file/set_field.h"
+#include "case_file/text_case.h"
+#include "command_error.h"
+#include "connection/connection.h"
+
+namespace cellcrush::client {
+
+namespace {
+
+constexpr std::string_view kPresetPrefix = "preset:";
+
+std::string read_all(const std::string& file) {
+  if (file == "-") return {std::istreambuf_iterator<char>(std::cin), {}};
+  std::error_code error;
+  if (std::filesystem::is_directory(file, error)) {
+    throw CommandError(ExitCode::refused, file + ": this is a folder; give a case file");
+  }
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) {
+    throw CommandError(ExitCode::refused, file + ": cannot be read: " + std::strerror(errno) +
+                                              "; give a case file or preset:NAME (`cellcrush presets` lists them)");
+  }
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+v1::Case read_file(const std::string& file) {
+  const std::string text = read_all(file);
+  const std::size_t begin = text.find_first_not_of(" \t\r\n");
+  const bool json = file.ends_with(".json") || (begin != std::string::npos && text[begin] == '{');
+  const std::string name = file == "-" ? "stdin" : file;
+  return json ? parse_json_case(text, name) : parse_text_case(text, name);
+}
+
+}  // namespace
+
+std::string preset_name(const std::string& source) {
+  return source.starts_with(kPresetPrefix) ? source.substr(kPresetPrefix.size()) : std::string();
+}
+
+v1::Case read_case(const std::string& source, const std::vector<std::string>& assignments, Connection& connection) {
+  v1::Case result;
+  if (source.starts_with(kPresetPrefix)) {
+    v1::GetPresetRequest request;
+    request.set_name(preset_name(source));
+    result = connection.call(connection.cases(), &v1::Cases::Stub::GetPreset, request).case_();
+  } else {
+    result = read_file(source);
+  }
+  for (const std::string& assignment : assignments) set_field(result, assignment);
+  return result;
+}
+
+}  // namespace cellcrush::client

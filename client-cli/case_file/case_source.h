@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cellcrush/v1/case.pb.h"
+
+namespace cellcrush::client {
+
+class Connection;
+
+/// Reads what the command line calls CASE: a file (protobuf text, or JSON when its name ends in .json or its text begins
+/// with "{"), "-" for the same on stdin, or "preset:NAME", which the server gives; then applies the `--set` assignments
+/// in order. Throws CommandError.
+v1::Case read_case(const std::string& source, const std::vector<std::string>& assignments, Connection& connection);
+
+/// NAME of "preset:NAME", or empty.
+std::string preset_name(const std::string& source);
+
+}  // namespace cellcrush::client

@@ -1,0 +1,151 @@
+#include "case_file/set_field.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <charconv>
+#include <string>
+#include <vector>
+
+#include "case_file/suggestion.h"
+#include "command_error.h"
+
+namespace cellcrush::client {
+
+namespace {
+
+using google::protobuf::FieldDescriptor;
+using google::protobuf::Message;
+
+struct PathPart {
+  std::string name;
+  int index = -1;  ///< of a repeated field's element; -1 without
+};
+
+[[noreturn]] void refuse(std::string_view path, const std::string& message) {
+  throw CommandError(ExitCode::refused, fmt::format("--set {}: {}", path, message));
+}
+
+template <typename Number>
+bool parse_number(std::string_view text, Number& number) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && end == text.data() + text.size();
+}
+
+PathPart parse_part(std::string_view path, std::string_view text) {
+  const std::size_t bracket = text.find('[');
+  if (bracket == std::string_view::npos) return {std::string(text), -1};
+  PathPart part{std::string(text.substr(0, bracket)), -1};
+  const std::string_view index = text.substr(bracket + 1);
+  if (!index.ends_with(']') || !parse_number(index.substr(0, index.size() - 1), part.index) || part.index < 0) {
+    refuse(path, fmt::format("\"{}\" is not an element; write it as {}[0], counted from 0", text, part.name));
+  }
+  return part;
+}
+
+std::vector<PathPart> parse_path(std::string_view path) {
+  std::vector<PathPart> parts;
+  std::string_view rest = path;
+  while (true) {
+    const std::size_t dot = rest.find('.');
+    parts.push_back(parse_part(path, rest.substr(0, dot)));
+    if (dot == std::string_view::npos) return parts;
+    rest.remove_prefix(dot + 1);
+  }
+}
+
+const FieldDescriptor& find_field(const Message& message, const PathPart& part, std::string_view path) {
+  const FieldDescriptor* field = message.GetDescriptor()->FindFieldByName(part.name);
+  if (field == nullptr) refuse(path, unknown_field_message(part.name, *message.GetDescriptor()));
+  if (field->is_repeated() && part.index < 0) {
+    refuse(path, fmt::format("\"{0}\" is a list; name an element as {0}[0], counted from 0", part.name));
+  }
+  if (!field->is_repeated() && part.index >= 0) refuse(path, fmt::format("\"{}\" is not a list", part.name));
+  if (field->is_repeated()) {
+    const int size = message.GetReflection()->FieldSize(message, field);
+    if (part.index >= size) refuse(path, fmt::format("\"{}\" has {} elements in this case", part.name, size));
+  }
+  return *field;
+}
+
+void refuse_other_member(const Message& message, const FieldDescriptor& field, std::string_view path) {
+  const auto* choice = field.real_containing_oneof();
+  if (choice == nullptr) return;
+  const FieldDescriptor* present = message.GetReflection()->GetOneofFieldDescriptor(message, choice);
+  if (present == nullptr || present == &field) return;
+  refuse(path,
+         fmt::format("this case has {0} \"{1}\", so that nothing in \"{2}\" can be set; take a case with {0} \"{2}\"",
+                     message.GetDescriptor()->name() == "Lattice" ? "the lattice" : "the field", present->name(),
+                     field.name()));
+}
+
+template <typename Number>
+Number number_or_refuse(std::string_view path, std::string_view value, std::string_view expected) {
+  Number number{};
+  if (!parse_number(value, number)) refuse(path, fmt::format("\"{}\" is not {}", value, expected));
+  return number;
+}
+
+void set_value(Message& message, const FieldDescriptor& field, int index, std::string_view path,
+               std::string_view value) {
+  const auto* reflection = message.GetReflection();
+  const auto put = [&](auto set, auto set_element, const auto& parsed) {
+    index < 0 ? (reflection->*set)(&message, &field, parsed)
+              : (reflection->*set_element)(&message, &field, index, parsed);
+  };
+  using Reflection = google::protobuf::Reflection;
+  switch (field.cpp_type()) {
+    case FieldDescriptor::CPPTYPE_DOUBLE:
+      return put(&Reflection::SetDouble, &Reflection::SetRepeatedDouble,
+                 number_or_refuse<double>(path, value, "a number, such as 0.35 or 2e-7"));
+    case FieldDescriptor::CPPTYPE_INT32:
+      return put(&Reflection::SetInt32, &Reflection::SetRepeatedInt32,
+                 number_or_refuse<std::int32_t>(path, value, "a whole number of 32 bits, such as 12"));
+    case FieldDescriptor::CPPTYPE_UINT64:
+      return put(&Reflection::SetUInt64, &Reflection::SetRepeatedUInt64,
+                 number_or_refuse<std::uint64_t>(path, value, "a whole number that is not negative, such as 12"));
+    case FieldDescriptor::CPPTYPE_BOOL:
+      if (value != "true" && value != "false") refuse(path, fmt::format("\"{}\" is neither true nor false", value));
+      return put(&Reflection::SetBool, &Reflection::SetRepeatedBool, value == "true");
+    case FieldDescriptor::CPPTYPE_STRING:
+      return put(&Reflection::SetString, &Reflection::SetRepeatedString, std::string(value));
+    case FieldDescriptor::CPPTYPE_ENUM: {
+      const auto* parsed = field.enum_type()->FindValueByName(std::string(value));
+      if (parsed == nullptr) refuse(path, unknown_enum_message(value, *field.enum_type()));
+      return put(&Reflection::SetEnum, &Reflection::SetRepeatedEnum, parsed);
+    }
+    case FieldDescriptor::CPPTYPE_MESSAGE:
+      refuse(path, fmt::format("\"{}\" is a group; set one of its fields: {}", field.name(),
+                               fmt::join(field_names(*field.message_type()), ", ")));
+    default:
+      refuse(path, fmt::format("a field of type {} cannot be set here; set it in a file", field.cpp_type_name()));
+  }
+}
+
+}  // namespace
+
+void set_field(v1::Case& target, std::string_view assignment) {
+  const std::size_t equals = assignment.find('=');
+  if (equals == std::string_view::npos || equals == 0) {
+    refuse(assignment, "expected PATH=VALUE, such as loading.speed_m_per_s=100");
+  }
+  const std::string_view path = assignment.substr(0, equals);
+  const std::vector<PathPart> parts = parse_path(path);
+  Message* message = &target;
+  for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
+    const FieldDescriptor& field = find_field(*message, parts[i], path);
+    if (field.cpp_type() != FieldDescriptor::CPPTYPE_MESSAGE) {
+      refuse(path, fmt::format("\"{}\" is a single value and has no field \"{}\"", field.name(), parts[i + 1].name));
+    }
+    refuse_other_member(*message, field, path);
+    const auto* reflection = message->GetReflection();
+    message = field.is_repeated() ? reflection->MutableRepeatedMessage(message, &field, parts[i].index)
+                                  : reflection->MutableMessage(message, &field);
+  }
+  const FieldDescriptor& field = find_field(*message, parts.back(), path);
+  refuse_other_member(*message, field, path);
+  set_value(*message, field, parts.back().index, path, assignment.substr(equals + 1));
+}
+
+}  // namespace cellcrush::client

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <google/protobuf/descriptor.h>
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace cellcrush::client {
+
+/// The candidate nearest to `word` by insertions, deletions, substitutions and swaps of neighbours (case does not count);
+/// empty when none is near enough to be meant.
+std::string find_nearest(std::string_view word, const std::vector<std::string>& candidates);
+
+/// Names of the fields of a message, in the order of their declaration.
+std::vector<std::string> field_names(const google::protobuf::Descriptor& type);
+
+/// What to say about a field that `type` does not have: a sentence with the nearest name, or all names when none is near.
+std::string unknown_field_message(std::string_view field, const google::protobuf::Descriptor& type);
+
+/// What to say about a value that `type` does not have: a sentence with all its names.
+std::string unknown_enum_message(std::string_view value, const google::protobuf::EnumDescriptor& type);
+
+}  // namespace cellcrush::client

@@ -1,0 +1,104 @@
+#include "chart/canvas.h"
+
+#include <cairo-svg.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include "command_error.h"
+#include "terminal/table.h"
+
+namespace cellcrush::client {
+
+namespace {
+
+using Surface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
+using Context = std::unique_ptr<cairo_t, decltype(&cairo_destroy)>;
+
+cairo_status_t append_bytes(void* closure, const unsigned char* data, unsigned int length) {
+  static_cast<std::string*>(closure)->append(reinterpret_cast<const char*>(data), length);
+  return CAIRO_STATUS_SUCCESS;
+}
+
+void check(cairo_status_t status) {
+  if (status == CAIRO_STATUS_SUCCESS) return;
+  throw CommandError(ExitCode::refused, std::string("the picture cannot be drawn: ") + cairo_status_to_string(status));
+}
+
+void set_font(cairo_t* context, const TextStyle& style) {
+  cairo_select_font_face(context, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL,
+                         style.bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_set_font_size(context, style.size);
+}
+
+}  // namespace
+
+PictureFormat picture_format(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  if (extension == ".png") return PictureFormat::png;
+  if (extension == ".svg") return PictureFormat::svg;
+  throw CommandError(ExitCode::refused, file.string() + ": a picture's name ends in .png or .svg");
+}
+
+std::string render_picture(PictureFormat format, double width, double height,
+                           const std::function<void(cairo_t*)>& draw) {
+  const bool svg = format == PictureFormat::svg;
+  std::string bytes;
+  const Surface surface(
+      svg ? cairo_svg_surface_create_for_stream(append_bytes, &bytes, width, height)
+          : cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(std::ceil(width * kPixelsPerUnit)),
+                                       static_cast<int>(std::ceil(height * kPixelsPerUnit))),
+      cairo_surface_destroy);
+  check(cairo_surface_status(surface.get()));
+  {
+    const Context context(cairo_create(surface.get()), cairo_destroy);
+    if (!svg) cairo_scale(context.get(), kPixelsPerUnit, kPixelsPerUnit);
+    cairo_set_source_rgb(context.get(), 1.0, 1.0, 1.0);
+    cairo_paint(context.get());
+    draw(context.get());
+    check(cairo_status(context.get()));
+  }
+  if (!svg) check(cairo_surface_write_to_png_stream(surface.get(), append_bytes, &bytes));
+  cairo_surface_finish(surface.get());
+  check(cairo_surface_status(surface.get()));
+  return bytes;
+}
+
+void set_colour(cairo_t* context, const Colour& colour) {
+  cairo_set_source_rgba(context, colour.red, colour.green, colour.blue, colour.opacity);
+}
+
+void draw_text(cairo_t* context, double x, double y, const std::string& text, const TextStyle& style) {
+  const double width = text_width(context, text, style);
+  const double shift = style.anchor == Anchor::left ? 0.0 : style.anchor == Anchor::middle ? -0.5 * width : -width;
+  cairo_save(context);
+  cairo_translate(context, x, y);
+  if (style.upwards) cairo_rotate(context, -0.5 * std::numbers::pi);
+  cairo_move_to(context, shift, 0.0);
+  set_colour(context, style.colour);
+  cairo_show_text(context, printable(text).c_str());
+  cairo_restore(context);
+  cairo_new_path(context);
+}
+
+double text_width(cairo_t* context, const std::string& text, const TextStyle& style) {
+  set_font(context, style);
+  cairo_text_extents_t extents;
+  cairo_text_extents(context, printable(text).c_str(), &extents);
+  return extents.x_advance;
+}
+
+std::string fit_text(cairo_t* context, const std::string& text, double width, const TextStyle& style) {
+  std::string fitted = text;
+  for (int columns = display_width(text) - 1; columns > 8 && text_width(context, fitted, style) > width; --columns) {
+    fitted = cut(text, columns);
+  }
+  return fitted;
+}
+
+}  // namespace cellcrush::client

@@ -1,0 +1,95 @@
+#include "chart/chart.h"
+
+#include <cmath>
+
+namespace cellcrush::client {
+
+namespace {
+
+constexpr Colour kBandColour{0.945, 0.935, 0.90};
+constexpr double kLegendRow = 20.0;
+constexpr double kSwatch = 26.0;
+constexpr double kLegendGap = 18.0;
+constexpr double kNoteHeight = 16.0;
+const TextStyle kLegendStyle{.size = 12.0};
+
+void apply(cairo_t* context, const LineStyle& style) {
+  set_colour(context, style.colour);
+  cairo_set_line_width(context, style.width);
+  cairo_set_line_join(context, CAIRO_LINE_JOIN_ROUND);
+  cairo_set_dash(context, style.dashes.data(), static_cast<int>(style.dashes.size()), 0.0);
+}
+
+void draw_curve(cairo_t* context, const Axes& axes, const Curve& curve) {
+  apply(context, curve.style);
+  bool begin = true;
+  for (std::size_t i = 0; i < curve.x.size(); ++i) {
+    const bool known = std::isfinite(curve.x[i]) && std::isfinite(curve.y[i]);
+    if (!known) {
+      begin = true;
+    } else if (begin) {
+      cairo_move_to(context, axes.x(curve.x[i]), axes.y(curve.y[i]));
+      begin = false;
+    } else {
+      cairo_line_to(context, axes.x(curve.x[i]), axes.y(curve.y[i]));
+    }
+  }
+  cairo_stroke(context);
+  cairo_set_dash(context, nullptr, 0, 0.0);
+}
+
+// Walks over the legend's entries, row by row, and answers its height; draws them too if `draw`.
+double lay_legend(cairo_t* context, const Rectangle& place, const Chart& chart, bool draw) {
+  double x = place.x;
+  double y = place.y;
+  for (const Curve& curve : chart.curves) {
+    if (curve.name.empty()) continue;
+    const std::string name = fit_text(context, curve.name, place.width - kSwatch - 8.0, kLegendStyle);
+    const double width = kSwatch + 8.0 + text_width(context, name, kLegendStyle) + kLegendGap;
+    if (x > place.x && x + width - kLegendGap > place.x + place.width) {
+      x = place.x;
+      y += kLegendRow;
+    }
+    if (draw) {
+      apply(context, curve.style);
+      cairo_move_to(context, x, y + 10.0);
+      cairo_line_to(context, x + kSwatch, y + 10.0);
+      cairo_stroke(context);
+      cairo_set_dash(context, nullptr, 0, 0.0);
+      draw_text(context, x + kSwatch + 8.0, y + 14.3, name, kLegendStyle);
+    }
+    x += width;
+  }
+  return x > place.x || y > place.y ? y + kLegendRow - place.y : 0.0;
+}
+
+}  // namespace
+
+void draw_chart(cairo_t* context, const Rectangle& place, const Chart& chart) {
+  const Rectangle legend{place.x + Axes::kLeft, place.y, place.width - Axes::kLeft, 0.0};
+  const double legend_height = lay_legend(context, legend, chart, true);
+  const double top = place.y + legend_height + 8.0;
+  const Axes axes({legend.x, top, legend.width - 8.0, place.y + place.height - top - Axes::kBelow - kNoteHeight},
+                  chart.x, chart.y);
+  const Rectangle& area = axes.area();
+  cairo_save(context);
+  cairo_rectangle(context, area.x, area.y, area.width, area.height);
+  cairo_clip(context);
+  for (const Band& band : chart.bands) {
+    set_colour(context, kBandColour);
+    cairo_rectangle(context, axes.x(band.from), area.y, axes.x(band.to) - axes.x(band.from), area.height);
+    cairo_fill(context);
+  }
+  axes.draw_grid(context);
+  for (const Curve& curve : chart.curves) draw_curve(context, axes, curve);
+  for (const Band& band : chart.bands) {
+    draw_text(context, 0.5 * (axes.x(band.from) + axes.x(band.to)), area.y + 16.0, band.text,
+              {.size = 11.0, .colour = kMutedInk, .anchor = Anchor::middle});
+  }
+  cairo_restore(context);
+  axes.draw_frame(context);
+  draw_text(context, area.x + area.width, area.y + area.height + Axes::kBelow + 10.0, chart.note,
+            {.size = 10.5, .colour = kMutedInk, .anchor = Anchor::right});
+}
+
+}  // namespace cellcrush::client

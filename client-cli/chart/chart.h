@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "chart/axes.h"
+
+namespace cellcrush::client {
+
+/// How a line is drawn; `dashes` as lengths on and off, empty for a solid line.
+struct LineStyle {
+  Colour colour = kInk;
+  double width = 1.5;
+  std::vector<double> dashes;
+};
+
+/// A line through points; x and y have equal length. Without a name it is not in the legend.
+struct Curve {
+  std::vector<double> x;
+  std::vector<double> y;
+  LineStyle style;
+  std::string name;
+};
+
+/// A shaded range of x with a small text at its top.
+struct Band {
+  double from = 0.0;
+  double to = 0.0;
+  std::string text;
+};
+
+/// Curves over common axes, with a legend above them.
+struct Chart {
+  Axis x;
+  Axis y;
+  std::vector<Band> bands;
+  std::vector<Curve> curves;
+  std::string note;  ///< small, below the axis on the right; may be empty
+};
+
+/// Draws a chart into `place`, legend, labels and note included.
+void draw_chart(cairo_t* context, const Rectangle& place, const Chart& chart);
+
+}  // namespace cellcrush::client

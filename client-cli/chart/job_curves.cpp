@@ -1,0 +1,172 @@
+#include "chart/job_curves.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "chart/smoothing.h"
+#include "terminal/number_text.h"
+
+namespace cellcrush::client {
+
+namespace {
+
+constexpr double kSmoothingWindow = 0.02;
+constexpr Colour kImpactColour{0.76, 0.20, 0.16};
+constexpr Colour kSupportColour{0.10, 0.38, 0.66};
+
+// The colours of Okabe and Ito that stand out on white, told apart by colour-blind readers too.
+constexpr std::array<Colour, 6> kJobColours = {{{0.00, 0.45, 0.70},
+                                                {0.84, 0.37, 0.00},
+                                                {0.00, 0.62, 0.45},
+                                                {0.80, 0.47, 0.65},
+                                                {0.90, 0.62, 0.00},
+                                                {0.34, 0.71, 0.91}}};
+
+struct PlateCurves {
+  std::vector<double> strain;
+  std::vector<double> impact;
+  std::vector<double> support;
+};
+
+PlateCurves curves_of(const JobHistory& history) {
+  PlateCurves curves;
+  for (const v1::Sample& sample : history.samples) {
+    if (!std::isfinite(sample.strain() + sample.stress_impact_mpa() + sample.stress_support_mpa())) continue;
+    curves.strain.push_back(sample.strain());
+    curves.impact.push_back(sample.stress_impact_mpa());
+    curves.support.push_back(sample.stress_support_mpa());
+  }
+  return curves;
+}
+
+PlateCurves smoothed(const PlateCurves& raw) {
+  return {raw.strain, running_mean(raw.strain, raw.impact, kSmoothingWindow),
+          running_mean(raw.strain, raw.support, kSmoothingWindow)};
+}
+
+// The highest stress worth showing: what lies before the lattice is crushed solid, with room above it.
+double find_top(const JobHistory& history, const PlateCurves& smooth) {
+  const v1::Summary& summary = history.job.summary();
+  const double solid = summary.has_densification_strain() ? summary.densification_strain() : 0.65;
+  std::vector<double> before;
+  for (std::size_t i = 0; i < smooth.strain.size(); ++i) {
+    if (smooth.strain[i] <= solid) before.push_back(std::max(smooth.impact[i], smooth.support[i]));
+  }
+  double top = before.empty() ? 0.0 : 1.5 * quantile(before, 0.95);
+  top = std::max(top, 1.6 * summary.theory().shock_mpa());
+  top = std::max({top, 1.8 * summary.plateau_stress_impact_mpa(), 1.8 * summary.plateau_stress_support_mpa()});
+  return top > 0.0 ? top : 1.0;
+}
+
+double highest(const PlateCurves& curves) {
+  double value = 0.0;
+  for (const double stress : curves.impact) value = std::max(value, stress);
+  for (const double stress : curves.support) value = std::max(value, stress);
+  return value;
+}
+
+double last_strain(const PlateCurves& curves) { return curves.strain.empty() ? 0.0 : curves.strain.back(); }
+
+Chart empty_chart(double strain, double top, double peak) {
+  Chart chart;
+  chart.x = {0.0, std::max(strain, 0.01), "nominal strain"};
+  chart.y = {0.0, top, "nominal stress (MPa)"};
+  chart.note = fmt::format("mean over {:.0f} % strain", 100 * kSmoothingWindow);
+  if (peak > 1.001 * top) chart.note += fmt::format("; peaks up to {} MPa leave the chart", number_text(peak, 2));
+  return chart;
+}
+
+Curve level(double stress, double from, double to, LineStyle style, std::string name) {
+  return {{from, to}, {stress, stress}, std::move(style), std::move(name)};
+}
+
+std::string with_plateau(const char* plate, bool known, double stress) {
+  return known ? fmt::format("{}: plateau {} MPa", plate, number_text(stress)) : plate;
+}
+
+}  // namespace
+
+std::string picture_name(const v1::Job& job) {
+  const std::string& title = job.case_().title();
+  std::string name = title.empty() ? job.name() : title;
+  if (!job.case_().loading().has_speed_m_per_s()) return name;
+  const std::string speed = fmt::format("{} m/s", job.case_().loading().speed_m_per_s());
+  return name.find(speed) == std::string::npos ? name + ", " + speed : name;
+}
+
+Chart build_job_chart(const JobHistory& history) {
+  const PlateCurves raw = curves_of(history);
+  const PlateCurves smooth = smoothed(raw);
+  const v1::Summary& summary = history.job.summary();
+  Chart chart = empty_chart(last_strain(raw), find_top(history, smooth), highest(raw));
+  chart.note += "; thin: every sample";
+  const auto faint = [](Colour colour) {
+    colour.opacity = 0.28;
+    return LineStyle{colour, 0.7, {}};
+  };
+  chart.curves.push_back({raw.strain, raw.impact, faint(kImpactColour), ""});
+  chart.curves.push_back({raw.strain, raw.support, faint(kSupportColour), ""});
+  chart.curves.push_back(
+      {smooth.strain,
+       smooth.impact,
+       {kImpactColour, 2.0, {}},
+       with_plateau("impact plate", summary.has_plateau_stress_impact_mpa(), summary.plateau_stress_impact_mpa())});
+  chart.curves.push_back(
+      {smooth.strain,
+       smooth.support,
+       {kSupportColour, 2.0, {}},
+       with_plateau("support plate", summary.has_plateau_stress_support_mpa(), summary.plateau_stress_support_mpa())});
+  if (summary.plateau_window_high() > summary.plateau_window_low()) {
+    const double low = summary.plateau_window_low();
+    const double high = summary.plateau_window_high();
+    chart.bands.push_back({low, high, "plateau window"});
+    if (summary.has_plateau_stress_impact_mpa()) {
+      chart.curves.push_back(level(summary.plateau_stress_impact_mpa(), low, high, {kInk, 1.8, {}}, ""));
+    }
+    if (summary.has_plateau_stress_support_mpa()) {
+      chart.curves.push_back(level(summary.plateau_stress_support_mpa(), low, high, {kInk, 1.8, {}}, ""));
+    }
+  }
+  if (summary.theory().shock_mpa() > 0.0) {
+    const v1::Theory& theory = summary.theory();
+    chart.curves.push_back(level(theory.shock_mpa(), 0.0, chart.x.high, {kMutedInk, 1.4, {8.0, 4.0}},
+                                 "shock theory: " + number_text(theory.shock_mpa()) + " MPa"));
+    chart.curves.push_back(level(theory.gibson_ashby_mpa(), 0.0, chart.x.high, {kMutedInk, 1.4, {2.0, 3.0}},
+                                 "Gibson-Ashby: " + number_text(theory.gibson_ashby_mpa()) + " MPa"));
+  }
+  return chart;
+}
+
+Chart build_comparison_chart(const std::vector<JobHistory>& histories) {
+  std::map<std::string, int> uses;
+  for (const JobHistory& history : histories) ++uses[picture_name(history.job)];
+  std::vector<Curve> curves;
+  double strain = 0.0;
+  double top = 0.0;
+  double peak = 0.0;
+  for (std::size_t i = 0; i < histories.size(); ++i) {
+    const v1::Job& job = histories[i].job;
+    const PlateCurves smooth = smoothed(curves_of(histories[i]));
+    const Colour colour = kJobColours[i % kJobColours.size()];
+    std::string name = picture_name(job);
+    if (uses[name] > 1) name += " (" + job.name() + ")";
+    if (job.summary().has_plateau_stress_impact_mpa()) {
+      name += fmt::format(": plateau {} MPa", number_text(job.summary().plateau_stress_impact_mpa()));
+    }
+    curves.push_back({smooth.strain, smooth.impact, {colour, 2.0, {}}, name});
+    curves.push_back({smooth.strain, smooth.support, {colour, 1.4, {5.0, 3.0}}, ""});
+    strain = std::max(strain, last_strain(smooth));
+    top = std::max(top, find_top(histories[i], smooth));
+    peak = std::max(peak, highest(smooth));
+  }
+  Chart chart = empty_chart(strain, top, peak);
+  chart.note += "; solid: impact plate, dashed: support plate";
+  chart.curves = std::move(curves);
+  return chart;
+}
+
+}  // namespace cellcrush::client

@@ -1,0 +1,144 @@
+#include "chart/lattice_drawing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "chart/colour_map.h"
+
+namespace cellcrush::client {
+
+namespace {
+
+constexpr int kShades = 32;
+constexpr double kThinnestWall = 0.5;  // units; thinner lines vanish
+constexpr double kPlateShare = 0.009;  // a plate's thickness as a share of the box's longer side
+constexpr Colour kPlateColour{0.35, 0.36, 0.40};
+
+bool has_plates(const v1::Mesh& mesh) { return mesh.support_plate_mm() > mesh.impact_plate_mm(); }
+
+double impact_plate_now(const MeshFrame& stage) {
+  const v1::Mesh& mesh = stage.mesh;
+  return mesh.impact_plate_mm() + stage.frame.strain() * (mesh.support_plate_mm() - mesh.impact_plate_mm());
+}
+
+void include(Box& box, double x, double y) {
+  if (!std::isfinite(x) || !std::isfinite(y)) return;
+  box.low_x = std::min(box.low_x, x);
+  box.high_x = std::max(box.high_x, x);
+  box.low_y = std::min(box.low_y, y);
+  box.high_y = std::max(box.high_y, y);
+}
+
+double plate_thickness(const Box& box) { return kPlateShare * std::max(box.width(), box.height()); }
+
+// Maps the plane to a place of the picture, the box in its middle.
+class Projection {
+ public:
+  Projection(const Rectangle& place, const Box& box)
+      : scale_(std::min(place.width / box.width(), place.height / box.height())),
+        x0_(place.x + 0.5 * (place.width - scale_ * box.width()) - scale_ * box.low_x),
+        y0_(place.y + 0.5 * (place.height + scale_ * box.height()) + scale_ * box.low_y) {}
+
+  [[nodiscard]] double scale() const { return scale_; }
+  [[nodiscard]] double x(double value) const { return x0_ + scale_ * value; }
+  [[nodiscard]] double y(double value) const { return y0_ - scale_ * value; }
+
+ private:
+  double scale_;
+  double x0_;
+  double y0_;
+};
+
+// A plate whose face is at `face`, lying on the side of `outwards` (-1 or 1) over the whole width of the box.
+void draw_plate(cairo_t* context, const Projection& projection, const Box& box, bool along_y, double face,
+                double outwards) {
+  const double thickness = plate_thickness(box);
+  const double low = std::min(face, face + outwards * thickness);
+  const double size = projection.scale() * thickness;
+  if (along_y) {
+    cairo_rectangle(context, projection.x(box.low_x), projection.y(low + thickness), projection.scale() * box.width(),
+                    size);
+  } else {
+    cairo_rectangle(context, projection.x(low), projection.y(box.high_y), size, projection.scale() * box.height());
+  }
+  set_colour(context, kPlateColour);
+  cairo_fill(context);
+}
+
+// Where the impact plate's face was before loading.
+void draw_start(cairo_t* context, const Projection& projection, const Box& box, const v1::Mesh& mesh) {
+  const double start = mesh.impact_plate_mm();
+  if (mesh.along_y()) {
+    cairo_move_to(context, projection.x(box.low_x), projection.y(start));
+    cairo_line_to(context, projection.x(box.high_x), projection.y(start));
+  } else {
+    cairo_move_to(context, projection.x(start), projection.y(box.low_y));
+    cairo_line_to(context, projection.x(start), projection.y(box.high_y));
+  }
+  const double dashes[] = {4.0, 4.0};
+  set_colour(context, {0.7, 0.7, 0.73});
+  cairo_set_line_width(context, 1.0);
+  cairo_set_dash(context, dashes, 2, 0.0);
+  cairo_stroke(context);
+  cairo_set_dash(context, nullptr, 0, 0.0);
+}
+
+// Walls of one shade and thickness are one path: that keeps a picture of ten thousand walls small.
+void draw_walls(cairo_t* context, const Projection& projection, const MeshFrame& stage) {
+  const v1::Mesh& mesh = stage.mesh;
+  std::map<std::pair<int, float>, std::vector<int>> groups;
+  for (int element = 0; element < mesh.thickness_mm_size(); ++element) {
+    const float share = std::clamp(stage.frame.plastic_fraction(element), 0.0F, 1.0F);
+    groups[{static_cast<int>(std::lround(share * kShades)), mesh.thickness_mm(element)}].push_back(element);
+  }
+  const auto point = [&](int element, int end) {
+    const int node = mesh.element_nodes(2 * element + end);
+    return std::pair(projection.x(stage.frame.position_mm(2 * node)),
+                     projection.y(stage.frame.position_mm(2 * node + 1)));
+  };
+  cairo_set_line_cap(context, CAIRO_LINE_CAP_ROUND);
+  for (const auto& [key, elements] : groups) {
+    set_colour(context, map_colour(static_cast<double>(key.first) / kShades));
+    cairo_set_line_width(context, std::max(projection.scale() * static_cast<double>(key.second), kThinnestWall));
+    for (const int element : elements) {
+      const auto [x0, y0] = point(element, 0);
+      const auto [x1, y1] = point(element, 1);
+      if (!std::isfinite(x0 + y0 + x1 + y1)) continue;
+      cairo_move_to(context, x0, y0);
+      cairo_line_to(context, x1, y1);
+    }
+    cairo_stroke(context);
+  }
+  cairo_set_line_cap(context, CAIRO_LINE_CAP_BUTT);
+}
+
+}  // namespace
+
+Box find_box(const std::vector<MeshFrame>& stages) {
+  const auto& first = stages.front().frame.position_mm();
+  Box box{first[0], first[0], first[1], first[1]};
+  for (const MeshFrame& stage : stages) {
+    const auto& position = stage.frame.position_mm();
+    for (int i = 0; i + 1 < position.size(); i += 2) include(box, position[i], position[i + 1]);
+    if (!has_plates(stage.mesh)) continue;
+    for (const double face : {stage.mesh.impact_plate_mm(), stage.mesh.support_plate_mm()}) {
+      stage.mesh.along_y() ? include(box, box.low_x, face) : include(box, face, box.low_y);
+    }
+  }
+  const double margin = std::max(plate_thickness(box), 1e-6) * 1.5;
+  return {box.low_x - margin, box.high_x + margin, box.low_y - margin, box.high_y + margin};
+}
+
+void draw_lattice(cairo_t* context, const Rectangle& place, const Box& box, const MeshFrame& stage) {
+  const Projection projection(place, box);
+  if (has_plates(stage.mesh)) {
+    if (stage.frame.strain() > 0.0) draw_start(context, projection, box, stage.mesh);
+    draw_plate(context, projection, box, stage.mesh.along_y(), impact_plate_now(stage), -1.0);
+    draw_plate(context, projection, box, stage.mesh.along_y(), stage.mesh.support_plate_mm(), 1.0);
+  }
+  draw_walls(context, projection, stage);
+}
+
+}  // namespace cellcrush::client

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace cellcrush::client {
+
+/// Round values on an axis: multiples of 1, 2 or 5 times a power of ten.
+struct Ticks {
+  double step = 0.0;
+  std::vector<double> values;  ///< ascending, within the range
+};
+
+/// At most `most` ticks from `low` to `high`. REQUIRES: low < high, both finite, most >= 2.
+Ticks find_ticks(double low, double high, int most);
+
+/// A tick's value with as many decimals as its step needs.
+std::string tick_label(double value, double step);
+
+}  // namespace cellcrush::client

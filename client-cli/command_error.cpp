@@ -1,0 +1,92 @@
+#include "command_error.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <utility>
+
+#include "google/rpc/status.pb.h"
+#include "terminal/json_text.h"
+#include "terminal/table.h"
+
+namespace cellcrush::client {
+
+namespace {
+
+v1::ProblemList problems_in(const grpc::Status& status) {
+  v1::ProblemList problems;
+  google::rpc::Status envelope;
+  if (!envelope.ParseFromString(status.error_details())) return problems;
+  for (const auto& detail : envelope.details()) {
+    v1::ProblemList part;
+    if (detail.Is<v1::ProblemList>() && detail.UnpackTo(&part)) problems.MergeFrom(part);
+  }
+  return problems;
+}
+
+std::string message_of(const grpc::Status& status) {
+  if (!status.error_message().empty()) return printable(status.error_message());
+  switch (status.error_code()) {
+    case grpc::StatusCode::UNIMPLEMENTED: return "the server cannot do this";
+    case grpc::StatusCode::DEADLINE_EXCEEDED: return "the server did not answer in time";
+    default: return fmt::format("the call ended with gRPC status {}", static_cast<int>(status.error_code()));
+  }
+}
+
+int status_code_of(ExitCode code) {
+  switch (code) {
+    case ExitCode::no_connection:
+    case ExitCode::cut_off: return grpc::StatusCode::UNAVAILABLE;
+    case ExitCode::not_found: return grpc::StatusCode::NOT_FOUND;
+    default: return grpc::StatusCode::INVALID_ARGUMENT;
+  }
+}
+
+}  // namespace
+
+CommandError::CommandError(ExitCode code, std::string message, v1::ProblemList problems)
+    : code_(code), message_(std::move(message)), problems_(std::move(problems)) {}
+
+CommandError error_of(const grpc::Status& status) {
+  v1::ProblemList problems = problems_in(status);
+  if (problems.problems_size() > 0) return problems_error(std::move(problems));
+  std::string message = message_of(status);
+  if (status.error_code() == grpc::StatusCode::UNIMPLEMENTED) message = "not implemented by this server: " + message;
+  return {exit_code_of(status.error_code()), std::move(message)};
+}
+
+CommandError problems_error(v1::ProblemList problems) {
+  const int count = problems.problems_size();
+  return {ExitCode::refused, fmt::format("the case has {} problem{}", count, count == 1 ? "" : "s"),
+          std::move(problems)};
+}
+
+std::string problems_text(const v1::ProblemList& problems) {
+  std::string text;
+  for (const v1::Problem& problem : problems.problems()) {
+    text += printable(problem.field());
+    if (!problem.value().empty()) text += " = " + printable(problem.value());
+    text += ": " + printable(problem.message());
+    if (problem.kind() == v1::Problem::UNIMPLEMENTED) text += " (not implemented by this server)";
+    text += '\n';
+    if (!problem.remedy().empty()) text += "    Remedy: " + printable(problem.remedy()) + '\n';
+  }
+  return text;
+}
+
+void print_error(const CommandError& error, bool json) {
+  if (json) {
+    if (error.problems().problems_size() > 0) {
+      fmt::print("{}\n", json_text(error.problems()));
+    } else {
+      google::rpc::Status status;
+      status.set_code(status_code_of(error.code()));
+      status.set_message(error.message());
+      fmt::print("{}\n", json_text(status));
+    }
+  }
+  fmt::print(stderr, "cellcrush: {}\n", error.message());
+  if (!json) fmt::print(stderr, "{}", problems_text(error.problems()));
+}
+
+}  // namespace cellcrush::client

@@ -1,0 +1,64 @@
+#include "command_line.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+
+#include "command_error.h"
+#include "commands/commands.h"
+
+namespace cellcrush::client {
+
+namespace {
+
+constexpr const char* kFooter =
+    "CASE is a file (protobuf text, or JSON), - for stdin, or preset:NAME.\n"
+    "Exit codes: 0 done, 1 the job failed or was cancelled, 2 usage, invalid case or refused, 3 no connection,\n"
+    "4 cut off before the end, 5 no such thing, 130 on Ctrl-C (the job goes on).";
+
+ExitCode run_action(const Session& session) {
+  try {
+    return session.action();
+  } catch (const CommandError& error) {
+    print_error(error, session.json);
+    return error.code();
+  } catch (const std::exception& error) {
+    print_error(CommandError(ExitCode::refused, error.what()), session.json);
+    return ExitCode::refused;
+  }
+}
+
+}  // namespace
+
+ExitCode run_command_line(int argc, char** argv) {
+  // gRPC's own log would mix with what is printed here; errors are reported in this program's words.
+  setenv("GRPC_VERBOSITY", "NONE", 0);
+  CLI::App app("Crushes cellular materials: submits cases to cellcrushd, watches them and draws what comes out.",
+               "cellcrush");
+  app.set_version_flag("--version", std::string("cellcrush " CELLCRUSH_VERSION));
+  app.require_subcommand(1);
+  app.footer(kFooter);
+  Session session;
+  add_case_commands(app, session);
+  add_submit_command(app, session);
+  add_watch_command(app, session);
+  add_show_command(app, session);
+  add_job_commands(app, session);
+  add_fetch_command(app, session);
+  add_plot_command(app, session);
+  add_queue_commands(app, session);
+  add_sweep_commands(app, session);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? ExitCode::done : ExitCode::refused;
+  }
+  const ExitCode code = run_action(session);
+  if (std::fflush(stdout) != 0 && code == ExitCode::done) return ExitCode::refused;
+  return code;
+}
+
+}  // namespace cellcrush::client

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "exit_code.h"
+
+namespace cellcrush::client {
+
+/// Runs the command that the arguments name; prints its answer on stdout and what goes wrong on stderr.
+ExitCode run_command_line(int argc, char** argv);
+
+}  // namespace cellcrush::client

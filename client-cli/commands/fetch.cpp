@@ -1,0 +1,142 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <thread>
+
+#include "commands/commands.h"
+#include "commands/history_csv.h"
+#include "terminal/case_text.h"
+#include "terminal/job_text.h"
+#include "terminal/json_text.h"
+#include "terminal/number_text.h"
+#include "terminal/output_file.h"
+
+namespace cellcrush::client {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kHdf5Signature = "\x89HDF\r\n\x1a\n";
+constexpr std::string_view kCaseSignature = "# Case of jobs/";
+
+struct FetchOptions {
+  std::string name;
+  std::string folder;
+  std::vector<double> frame_times;
+};
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error || !fs::is_directory(folder, error)) {
+    throw CommandError(ExitCode::refused, folder.string() + ": cannot be made a folder: " + error.message());
+  }
+}
+
+void write_file(const fs::path& path, std::string_view contents) {
+  OutputFile file(path);
+  file.write(contents);
+  file.commit();
+}
+
+// Writes chunks behind what has come already; whether the end was reached.
+grpc::Status download_from(Connection& connection, v1::DownloadResultRequest& request, OutputFile& file,
+                           std::int64_t& total) {
+  grpc::ClientContext context;
+  context.set_deadline(std::chrono::system_clock::now() + std::chrono::minutes(10));
+  const auto reader = connection.jobs().DownloadResult(&context, request);
+  v1::DownloadResultResponse chunk;
+  while (reader->Read(&chunk)) {
+    if (chunk.offset() != request.offset()) {
+      context.TryCancel();
+      return {grpc::StatusCode::DATA_LOSS, fmt::format("a part of the file is missing at byte {}", request.offset())};
+    }
+    file.write(chunk.data());
+    request.set_offset(chunk.offset() + static_cast<std::int64_t>(chunk.data().size()));
+    total = chunk.total_size();
+  }
+  return reader->Finish();
+}
+
+void download_result(Connection& connection, const std::string& name, const fs::path& path) {
+  constexpr int kAttempts = 5;
+  v1::DownloadResultRequest request;
+  request.set_name(name);
+  OutputFile file(path);
+  std::int64_t total = 0;
+  for (int attempt = 1;; ++attempt) {
+    const std::int64_t before = request.offset();
+    const grpc::Status status = download_from(connection, request, file, total);
+    if (status.ok() && total > 0 && request.offset() == total) return file.commit();
+    const ExitCode code = status.ok() ? ExitCode::cut_off : exit_code_of(status.error_code());
+    if (code == ExitCode::refused || code == ExitCode::not_found) throw error_of(status);
+    if (request.offset() > before) attempt = 1;
+    if (attempt == kAttempts) {
+      throw CommandError(ExitCode::cut_off,
+                         fmt::format("result.h5 was cut off at byte {} of {}: {}", request.offset(), total,
+                                     status.ok() ? "the stream ended early" : status.error_message()));
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(250 * attempt));
+  }
+}
+
+fs::path frame_path(const fs::path& folder, const MeshFrame& frame) {
+  return folder / fmt::format("frame_{:04}.csv", frame.frame.index());
+}
+
+ExitCode run_fetch(Session& session, const FetchOptions& options) {
+  Connection& connection = session.connection();
+  const std::string name = job_name(options.name);
+  v1::GetJobRequest get;
+  get.set_name(name);
+  const auto job = connection.call(connection.jobs(), &v1::Jobs::Stub::GetJob, get);
+  const fs::path folder(options.folder);
+  make_folder(folder);
+  check_may_overwrite(folder / "result.h5", kHdf5Signature);
+  check_may_overwrite(folder / "history.csv", history_header());
+  check_may_overwrite(folder / "case.txtpb", kCaseSignature);
+  std::vector<fs::path> written;
+  const auto put = [&](const fs::path& path, const std::string& contents) {
+    write_file(path, contents);
+    written.push_back(path);
+  };
+  put(folder / "case.txtpb", case_file_text(job.case_(), "Case of " + job.name()));
+  v1::GetHistoryRequest history;
+  history.set_name(name);
+  put(folder / "history.csv",
+      history_csv(connection.call(connection.jobs(), &v1::Jobs::Stub::GetHistory, history).samples()));
+  for (const double time : options.frame_times) {
+    v1::GetFrameRequest request;
+    request.set_name(name);
+    request.set_time_s(time);
+    const MeshFrame frame = fetch_frame(connection, request);
+    check_may_overwrite(frame_path(folder, frame), frame_header());
+    put(frame_path(folder, frame), frame_csv(frame));
+  }
+  download_result(connection, name, folder / "result.h5");
+  written.push_back(folder / "result.h5");
+  if (session.json) {
+    print_json(job);
+    return ExitCode::done;
+  }
+  for (const fs::path& path : written) {
+    fmt::print("{}  {}\n", path.string(), size_text(static_cast<std::int64_t>(fs::file_size(path))));
+  }
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_fetch_command(CLI::App& app, Session& session) {
+  const auto options = std::make_shared<FetchOptions>();
+  CLI::App* command =
+      add_command(app, session, "fetch", "Write a job's case.txtpb, history.csv and result.h5 into a folder",
+                  [&session, options] { return run_fetch(session, *options); });
+  command->add_option("NAME", options->name, "A job's name")->required();
+  command->add_option("-o,--output", options->folder, "The folder; it is made if need be")->required();
+  command->add_option("--frame", options->frame_times, "Also write the frame nearest to this time in s, as CSV")
+      ->allow_extra_args(false);
+}
+
+}  // namespace cellcrush::client

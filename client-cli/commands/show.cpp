@@ -1,0 +1,42 @@
+#include <fmt/format.h>
+
+#include "case_file/case_source.h"
+#include "commands/commands.h"
+#include "terminal/case_text.h"
+#include "terminal/job_text.h"
+#include "terminal/json_text.h"
+
+namespace cellcrush::client {
+
+namespace {
+
+void show_preset(Session& session, const std::string& name) {
+  Connection& connection = session.connection();
+  v1::GetPresetRequest request;
+  request.set_name(name);
+  const auto preset = connection.call(connection.cases(), &v1::Cases::Stub::GetPreset, request);
+  session.json ? print_json(preset) : fmt::print("{}", case_file_text(preset.case_(), preset_heading(preset)));
+}
+
+void show_job(Session& session, const std::string& name) {
+  Connection& connection = session.connection();
+  v1::GetJobRequest request;
+  request.set_name(job_name(name));
+  const auto job = connection.call(connection.jobs(), &v1::Jobs::Stub::GetJob, request);
+  session.json ? print_json(job) : fmt::print("{}", description_text(job));
+}
+
+}  // namespace
+
+void add_show_command(CLI::App& app, Session& session) {
+  const auto name = std::make_shared<std::string>();
+  CLI::App* command =
+      add_command(app, session, "show", "Print a preset as a complete case file, or describe a job", [&session, name] {
+        const std::string preset = preset_name(*name);
+        preset.empty() ? show_job(session, *name) : show_preset(session, preset);
+        return ExitCode::done;
+      });
+  command->add_option("NAME", *name, "preset:NAME, or a job's name")->required();
+}
+
+}  // namespace cellcrush::client

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "commands/commands.h"
+#include "connection/interruption.h"
+
+namespace cellcrush::client {
+
+/// Watches a job to its end and prints how it ended. On Ctrl-C says that the job goes on.
+ExitCode watch_job(Session& session, const std::string& name, const Interruption& interruption);
+
+}  // namespace cellcrush::client

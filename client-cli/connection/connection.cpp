@@ -1,0 +1,72 @@
+#include "connection/connection.h"
+
+#include <filesystem>
+#include <utility>
+
+namespace cellcrush::client {
+
+namespace {
+
+constexpr std::chrono::milliseconds kConnectPatience{1500};
+
+grpc::ChannelArguments channel_arguments() {
+  grpc::ChannelArguments arguments;
+  // Long histories come in one message.
+  arguments.SetMaxReceiveMessageSize(-1);
+  arguments.SetMaxSendMessageSize(-1);
+  // The server is meant directly, whatever proxy the environment names.
+  arguments.SetInt(GRPC_ARG_ENABLE_HTTP_PROXY, 0);
+  arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 100);
+  arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 500);
+  arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 1000);
+  return arguments;
+}
+
+}  // namespace
+
+Connection::Connection(std::string address)
+    : address_(std::move(address)),
+      channel_(grpc::CreateCustomChannel(address_, grpc::InsecureChannelCredentials(), channel_arguments())),
+      cases_(v1::Cases::NewStub(channel_)),
+      jobs_(v1::Jobs::NewStub(channel_)),
+      sweeps_(v1::Sweeps::NewStub(channel_)),
+      admin_(v1::Admin::NewStub(channel_)) {}
+
+v1::Cases::Stub& Connection::cases() {
+  require_server();
+  return *cases_;
+}
+
+v1::Jobs::Stub& Connection::jobs() {
+  require_server();
+  return *jobs_;
+}
+
+v1::Sweeps::Stub& Connection::sweeps() {
+  require_server();
+  return *sweeps_;
+}
+
+v1::Admin::Stub& Connection::admin() {
+  require_server();
+  return *admin_;
+}
+
+bool Connection::wait(std::chrono::milliseconds patience) {
+  return channel_->WaitForConnected(std::chrono::system_clock::now() + patience);
+}
+
+void Connection::require_server() {
+  if (connected_) return;
+  if (!wait(kConnectPatience)) {
+    std::string message = "no server answers at " + address_;
+    std::error_code error;
+    if (address_.starts_with("unix:") && !std::filesystem::exists(address_.substr(5), error)) {
+      message += " (there is no such socket)";
+    }
+    throw CommandError(ExitCode::no_connection, message + "; start cellcrushd, or name its address with --server");
+  }
+  connected_ = true;
+}
+
+}  // namespace cellcrush::client

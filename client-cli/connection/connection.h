@@ -1,0 +1,58 @@
+#pragma once
+
+#include <grpcpp/grpcpp.h>
+
+#include <chrono>
+#include <memory>
+#include <string>
+
+#include "cellcrush/v1/admin_service.grpc.pb.h"
+#include "cellcrush/v1/cases_service.grpc.pb.h"
+#include "cellcrush/v1/jobs_service.grpc.pb.h"
+#include "cellcrush/v1/sweeps_service.grpc.pb.h"
+#include "command_error.h"
+
+namespace cellcrush::client {
+
+/// A channel to one server, with a stub for each service. It connects on first use, and says within two seconds when no
+/// server answers. Not thread-safe, except that calls on the stubs are.
+class Connection {
+ public:
+  /// `address` as find_server_address answers it.
+  explicit Connection(std::string address);
+
+  v1::Cases::Stub& cases();
+  v1::Jobs::Stub& jobs();
+  v1::Sweeps::Stub& sweeps();
+  v1::Admin::Stub& admin();
+
+  /// Whether the server answers within `patience`.
+  bool wait(std::chrono::milliseconds patience);
+
+  /// One call with one answer. Throws CommandError when it does not end with OK, or takes longer than a minute.
+  template <typename Stub, typename Request, typename Response>
+  Response call(Stub& stub, grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*),
+                const Request& request) {
+    grpc::ClientContext context;
+    context.set_deadline(std::chrono::system_clock::now() + kPatience);
+    Response response;
+    const grpc::Status status = (stub.*method)(&context, request, &response);
+    if (!status.ok()) throw error_of(status);
+    return response;
+  }
+
+  static constexpr std::chrono::seconds kPatience{60};
+
+ private:
+  void require_server();
+
+  std::string address_;
+  std::shared_ptr<grpc::Channel> channel_;
+  bool connected_ = false;
+  std::unique_ptr<v1::Cases::Stub> cases_;
+  std::unique_ptr<v1::Jobs::Stub> jobs_;
+  std::unique_ptr<v1::Sweeps::Stub> sweeps_;
+  std::unique_ptr<v1::Admin::Stub> admin_;
+};
+
+}  // namespace cellcrush::client

@@ -1,0 +1,114 @@
+#include "terminal/case_text.h"
+
+#include <fmt/format.h>
+#include <google/protobuf/text_format.h>
+
+#include <sstream>
+
+#include "terminal/number_text.h"
+#include "terminal/table.h"
+
+namespace cellcrush::client {
+
+namespace {
+
+using Align = Table::Align;
+
+std::string lattice_text(const v1::Lattice& lattice) {
+  const auto cells = [](const char* kind, const auto& regular) {
+    return fmt::format("{}, {} x {} cells", kind, regular.columns(), regular.rows());
+  };
+  switch (lattice.kind_case()) {
+    case v1::Lattice::kHexagon: return cells("hexagons", lattice.hexagon());
+    case v1::Lattice::kSquare: return cells("squares", lattice.square());
+    case v1::Lattice::kTriangle: return cells("triangles", lattice.triangle());
+    case v1::Lattice::kFrame: return fmt::format("frame of {} beams", lattice.frame().beams_size());
+    default: return {};
+  }
+}
+
+std::string wrapped(const std::string& text, std::size_t width, const std::string& first, const std::string& next) {
+  std::istringstream words(text);
+  std::string result = first;
+  std::size_t column = first.size();
+  bool begin = true;
+  for (std::string word; words >> word; begin = false) {
+    if (!begin && column + 1 + word.size() > width) {
+      result += '\n' + next;
+      column = next.size();
+      begin = true;
+    }
+    if (!begin) result += ' ';
+    result += word;
+    column += word.size() + (begin ? 0 : 1);
+  }
+  return result + '\n';
+}
+
+}  // namespace
+
+std::string scene_text(const v1::Case& scene) {
+  std::string text = lattice_text(scene.lattice());
+  if (!scene.loading().has_speed_m_per_s()) return text;
+  const bool along_y = scene.loading().direction() == v1::Loading::Y;
+  text += fmt::format(", crushed along {} at {} m/s", along_y ? 'Y' : 'X', scene.loading().speed_m_per_s());
+  if (scene.loading().has_end_strain()) text += fmt::format(" to strain {}", scene.loading().end_strain());
+  return text;
+}
+
+std::string check_text(const v1::CheckCaseResponse& check) {
+  Table table({Align::left, Align::right, Align::left});
+  table.add({"particles", count_text(check.particle_count())});
+  table.add({"elements", count_text(check.element_count())});
+  table.add({"length along the crush", number_text(check.length_mm(), 4), "mm"});
+  table.add({"width across it", number_text(check.width_mm(), 4), "mm"});
+  table.add({"mass of the walls", number_text(check.mass_g(), 4), "g"});
+  table.add({"relative density", number_text(100 * check.relative_density()), "%"});
+  table.add({"stable step", number_text(check.stable_step_s(), 4), "s"});
+  table.add({"time step", number_text(check.time_step_s(), 4), "s"});
+  table.add({"steps", count_text(check.step_count())});
+  table.add({"predicted time", duration_text(check.predicted_seconds())});
+  table.add({"predicted result file", size_text(check.predicted_bytes())});
+  if (check.predicted_memory_bytes() > 0) table.add({"predicted memory", size_text(check.predicted_memory_bytes())});
+  if (check.theory().gibson_ashby_mpa() > 0) {
+    table.add({"theory: quasi-static (Gibson-Ashby)", number_text(check.theory().gibson_ashby_mpa()), "MPa"});
+    table.add({"theory: shock (Eq. 51)", number_text(check.theory().shock_mpa()), "MPa"});
+    table.add({"theory: densification strain", number_text(check.theory().densification_strain())});
+  }
+  const v1::Case& completed = check.completed_case();
+  std::string text;
+  if (!completed.title().empty()) text += printable(completed.title()) + '\n';
+  if (const std::string scene = scene_text(completed); !scene.empty()) text += scene + '\n';
+  if (!text.empty()) text += '\n';
+  text += table.text(2);
+  if (check.modelled_size() > 0) text += "\nmodelled, and left out\n";
+  for (const std::string& sentence : check.modelled()) text += wrapped(printable(sentence), 100, "  - ", "    ");
+  return text;
+}
+
+std::string case_file_text(const v1::Case& contents, const std::string& heading) {
+  std::string text;
+  std::istringstream lines(heading);
+  for (std::string line; std::getline(lines, line);)
+    text += line.empty() ? "#\n" : fmt::format("# {}\n", printable(line));
+  google::protobuf::TextFormat::Printer printer;
+  printer.SetUseUtf8StringEscaping(true);
+  std::string body;
+  printer.PrintToString(contents, &body);
+  return text + '\n' + body;
+}
+
+std::string preset_heading(const v1::Preset& preset) {
+  std::string heading = "preset:" + preset.name() + '\n' + wrapped(preset.title(), 110, "", "");
+  if (preset.assumptions_size() > 0) heading += "\nAssumptions:\n";
+  for (const std::string& assumption : preset.assumptions()) heading += wrapped(assumption, 110, "  - ", "    ");
+  return heading;
+}
+
+std::string preset_list_text(const v1::ListPresetsResponse& presets) {
+  Table table({Align::left, Align::left});
+  for (const v1::Preset& preset : presets.presets()) table.add({"preset:" + preset.name(), preset.title()});
+  return table.text();
+}
+
+}  // namespace cellcrush::client

@@ -1,0 +1,116 @@
+#include "terminal/job_text.h"
+
+#include <fmt/format.h>
+#include <google/protobuf/util/time_util.h>
+
+#include "exit_code.h"
+#include "terminal/case_text.h"
+#include "terminal/number_text.h"
+#include "terminal/table.h"
+
+namespace cellcrush::client {
+
+namespace {
+
+using Align = Table::Align;
+using google::protobuf::util::TimeUtil;
+
+std::string run_time_text(const v1::Job& job) {
+  if (!job.has_start_time() || !job.has_end_time()) return {};
+  return duration_text(1e-3 * static_cast<double>(TimeUtil::DurationToMilliseconds(job.end_time() - job.start_time())));
+}
+
+std::string time_text(const google::protobuf::Timestamp& time) {
+  return TimeUtil::ToString(TimeUtil::SecondsToTimestamp(time.seconds()));
+}
+
+std::string stress_text(double stress) { return number_text(stress) + " MPa"; }
+
+std::string summary_text(const v1::Summary& summary) {
+  Table table({Align::left, Align::right, Align::right, Align::left});
+  const std::string window =
+      fmt::format("{:.0f}-{:.0f} %", 100 * summary.plateau_window_low(), 100 * summary.plateau_window_high());
+  const bool theory = summary.has_theory() && summary.theory().shock_mpa() > 0;
+  const auto stress_row = [&](const char* plate, bool known, double stress, double expected, const char* source) {
+    table.add({fmt::format("plateau stress, {}, {}", plate, window), known ? stress_text(stress) : "not reached",
+               theory ? stress_text(expected) : "", theory ? source : ""});
+  };
+  table.add({"", "computed", theory ? "theory" : ""});
+  stress_row("impact plate", summary.has_plateau_stress_impact_mpa(), summary.plateau_stress_impact_mpa(),
+             summary.theory().shock_mpa(), "shock (Eq. 51)");
+  stress_row("support plate", summary.has_plateau_stress_support_mpa(), summary.plateau_stress_support_mpa(),
+             summary.theory().gibson_ashby_mpa(), "quasi-static (Gibson-Ashby)");
+  table.add({"densification strain",
+             summary.has_densification_strain() ? number_text(summary.densification_strain()) : "not reached",
+             theory ? number_text(summary.theory().densification_strain()) : "",
+             theory ? "1 - 1.4 relative density" : ""});
+  if (summary.has_plateau_stress_to_densification_mpa()) {
+    table.add({"plateau stress up to densification", stress_text(summary.plateau_stress_to_densification_mpa())});
+  }
+  table.add({"energy absorbed up to 50 % strain", number_text(1e-3 * summary.absorbed_energy_mj()) + " J"});
+  table.add({"energy ledger error", percent_text(summary.energy_error_relative(), 2)});
+  table.add({"deepest penetration", percent_text(summary.deepest_penetration()), "", "of the touching distance"});
+  return table.text(2);
+}
+
+}  // namespace
+
+std::string outcome_text(const v1::Job& job) {
+  std::string text = printable(job.name()) + " " + v1::JobState_Name(job.state());
+  if (job.state() == v1::FAILED && job.cause() != v1::JOB_CAUSE_UNSPECIFIED)
+    text += " (" + v1::JobCause_Name(job.cause()) + ")";
+  const std::string run_time = run_time_text(job);
+  if (!run_time.empty()) text += " after " + run_time;
+  if (job.has_summary()) {
+    text += fmt::format(": {} steps, {} of solver time", count_text(job.summary().step_count()),
+                        duration_text(job.summary().solver_seconds()));
+  }
+  text += '\n';
+  if (!job.cause_message().empty()) text += "  " + printable(job.cause_message()) + '\n';
+  if (!job.remedy().empty()) text += "  Remedy: " + printable(job.remedy()) + '\n';
+  if (job.has_summary()) text += '\n' + summary_text(job.summary());
+  return text;
+}
+
+std::string description_text(const v1::Job& job) {
+  Table table({Align::left, Align::left});
+  if (!job.case_().title().empty()) table.add({"title", job.case_().title()});
+  const std::string scene = scene_text(job.case_());
+  if (!scene.empty()) table.add({"case", scene});
+  for (const auto& [key, value] : job.labels()) table.add({"label " + key, value});
+  if (job.has_create_time()) table.add({"created", time_text(job.create_time())});
+  if (job.has_start_time()) table.add({"started", time_text(job.start_time())});
+  if (job.has_end_time()) table.add({"ended", time_text(job.end_time())});
+  if (job.worker_pid() != 0) table.add({"worker process", std::to_string(job.worker_pid())});
+  const v1::Progress& progress = job.progress();
+  if (job.has_progress() && !is_final(job.state())) {
+    table.add(
+        {"progress", fmt::format("{}, strain {:.3f}, step {} of {}", percent_text(progress.fraction()),
+                                 progress.strain(), count_text(progress.step()), count_text(progress.step_count()))});
+    if (job.state() == v1::RUNNING && progress.steps_per_second() > 0) {
+      table.add({"time left", duration_text(progress.seconds_left()) + " at " +
+                                  number_text(progress.steps_per_second()) + " steps/s"});
+    }
+    if (progress.has_plateau_so_far_mpa()) table.add({"plateau so far", stress_text(progress.plateau_so_far_mpa())});
+  }
+  return outcome_text(job) + '\n' + table.text(2);
+}
+
+std::string job_list_text(const std::vector<v1::Job>& jobs) {
+  if (jobs.empty()) return "no jobs\n";
+  Table table({Align::left, Align::left, Align::right, Align::right, Align::left, Align::left});
+  table.add({"NAME", "STATE", "DONE", "PLATEAU", "CREATED", "TITLE"});
+  for (const v1::Job& job : jobs) {
+    const bool plateau = job.summary().has_plateau_stress_impact_mpa();
+    const bool started = job.state() != v1::PENDING && job.has_progress();
+    const double done = job.state() == v1::SUCCEEDED ? 1.0 : job.progress().fraction();
+    table.add({job.name(), v1::JobState_Name(job.state()), started || done > 0.0 ? percent_text(done, 0) : "",
+               plateau ? stress_text(job.summary().plateau_stress_impact_mpa()) : "",
+               job.has_create_time() ? time_text(job.create_time()) : "", cut(job.case_().title(), 60)});
+  }
+  return table.text();
+}
+
+std::string job_name(const std::string& name) { return name.find('/') == std::string::npos ? "jobs/" + name : name; }
+
+}  // namespace cellcrush::client

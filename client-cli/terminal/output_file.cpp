@@ -1,0 +1,75 @@
+#include "terminal/output_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <utility>
+
+#include "command_error.h"
+
+namespace cellcrush::client {
+
+namespace {
+
+constexpr mode_t kReadableFile = 0666;
+
+mode_t find_umask() {
+  const mode_t mask = umask(0);
+  umask(mask);
+  return mask;
+}
+
+}  // namespace
+
+OutputFile::OutputFile(std::filesystem::path path) : path_(std::move(path)), temporary_(path_.string() + ".XXXXXX") {
+  const int descriptor = mkostemp(temporary_.data(), O_CLOEXEC);
+  if (descriptor < 0) {
+    throw CommandError(ExitCode::refused, path_.string() + ": cannot be written: " + std::strerror(errno));
+  }
+  // mkostemp makes files for their owner alone.
+  fchmod(descriptor, kReadableFile & ~find_umask());
+  file_ = fdopen(descriptor, "wb");
+}
+
+OutputFile::~OutputFile() {
+  if (file_ != nullptr) std::fclose(file_);
+  if (!temporary_.empty()) unlink(temporary_.c_str());
+}
+
+void OutputFile::write(std::string_view bytes) {
+  if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) fail("cannot be written");
+}
+
+void OutputFile::commit() {
+  if (std::fflush(file_) != 0 || fsync(fileno(file_)) != 0) fail("cannot be written");
+  const int closed = std::fclose(std::exchange(file_, nullptr));
+  if (closed != 0) fail("cannot be written");
+  if (std::rename(temporary_.c_str(), path_.c_str()) != 0) fail("cannot be put in place");
+  temporary_.clear();
+}
+
+void OutputFile::fail(const char* what) const {
+  throw CommandError(ExitCode::refused, path_.string() + ": " + what + ": " + std::strerror(errno));
+}
+
+void check_may_overwrite(const std::filesystem::path& path, std::string_view signature) {
+  std::error_code error;
+  const auto status = std::filesystem::symlink_status(path, error);
+  if (status.type() == std::filesystem::file_type::not_found) return;
+  std::string begin(signature.size(), '\0');
+  const bool regular = std::filesystem::is_regular_file(status);
+  if (regular) {
+    std::ifstream file(path, std::ios::binary);
+    file.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  }
+  if (regular && begin == signature) return;
+  throw CommandError(ExitCode::refused,
+                     path.string() + ": exists and was not written by cellcrush; move it away or name another folder");
+}
+
+}  // namespace cellcrush::client

@@ -1,0 +1,17 @@
+#pragma once
+
+namespace cellcrush::client {
+
+/// What the standard output can show.
+struct Terminal {
+  bool interactive = false;  ///< a terminal that can be redrawn in place
+  bool colour = false;       ///< interactive, and NO_COLOR is not set
+  bool unicode = false;      ///< the locale's text is UTF-8
+};
+
+Terminal find_terminal();
+
+/// Columns of the terminal now; 80 when it does not say.
+int terminal_width();
+
+}  // namespace cellcrush::client

@@ -1,0 +1,110 @@
+#include "terminal/watch_display.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <string>
+
+#include "terminal/json_text.h"
+#include "terminal/table.h"
+
+namespace cellcrush::client {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using namespace std::chrono_literals;
+
+// Every event as one line of JSON.
+class JsonDisplay : public WatchDisplay {
+ public:
+  void on_event(const v1::JobEvent& event) override {
+    view_.apply(event);
+    print_json(event);
+  }
+  void on_break(const std::string& reason) override {
+    fmt::print(stderr, "cellcrush: the stream broke ({}); picking it up again\n", reason);
+  }
+  void finish() override {}
+};
+
+// A line when the state changes, and otherwise at most one a second.
+class LineDisplay : public WatchDisplay {
+ public:
+  void on_event(const v1::JobEvent& event) override {
+    const v1::JobState before = view_.job().state();
+    view_.apply(event);
+    pending_ = !event.has_bookmark();
+    if (view_.job().state() != before || (pending_ && Clock::now() - printed_ >= 1s)) print();
+  }
+  void on_break(const std::string& reason) override {
+    fmt::print("{}  the stream broke ({}); picking it up again\n", view_.job().name(), reason);
+    std::fflush(stdout);
+  }
+  void finish() override {
+    if (pending_) print();
+  }
+
+ private:
+  void print() {
+    fmt::print("{}\n", progress_line(view_));
+    std::fflush(stdout);
+    printed_ = Clock::now();
+    pending_ = false;
+  }
+
+  Clock::time_point printed_;
+  bool pending_ = false;  ///< something came since the last line
+};
+
+// Lines redrawn in place at most ten times a second, each redraw in one write.
+class LiveDisplay : public WatchDisplay {
+ public:
+  explicit LiveDisplay(const Terminal& terminal) : terminal_(terminal) {}
+
+  void on_event(const v1::JobEvent& event) override {
+    const v1::JobState before = view_.job().state();
+    view_.apply(event);
+    if (lines_ == 0) fmt::print("{}\n", cut(heading(), terminal_width()));
+    if (view_.job().state() != before || Clock::now() - drawn_ >= 100ms) draw();
+  }
+  void on_break(const std::string& reason) override {
+    show({cut("the stream broke (" + reason + "); picking it up again", terminal_width() - 1)});
+  }
+  void finish() override { draw(); }
+
+ private:
+  [[nodiscard]] std::string heading() const {
+    const v1::Job& job = view_.job();
+    return printable(job.name()) + (job.case_().title().empty() ? "" : "  " + printable(job.case_().title()));
+  }
+
+  // The last column stays free: some terminals wrap when it is filled.
+  void draw() {
+    show(progress_lines(view_, terminal_width() - 1, terminal_));
+    drawn_ = Clock::now();
+  }
+
+  void show(const std::vector<std::string>& lines) {
+    std::string text = lines_ > 0 ? fmt::format("\x1b[{}A\r", lines_) : "\r";
+    for (const std::string& line : lines) text += line + "\x1b[K\n";
+    text += "\x1b[J";
+    std::fwrite(text.data(), 1, text.size(), stdout);
+    std::fflush(stdout);
+    lines_ = static_cast<int>(lines.size());
+  }
+
+  Terminal terminal_;
+  Clock::time_point drawn_;
+  int lines_ = 0;  ///< lines of the last redraw, above the cursor
+};
+
+}  // namespace
+
+std::unique_ptr<WatchDisplay> make_watch_display(bool json, const Terminal& terminal) {
+  if (json) return std::make_unique<JsonDisplay>();
+  if (terminal.interactive) return std::make_unique<LiveDisplay>(terminal);
+  return std::make_unique<LineDisplay>();
+}
+
+}  // namespace cellcrush::client

@@ -1,0 +1,157 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <set>
+
+#include "chart/colour_map.h"
+#include "chart/job_picture.h"
+#include "chart/lattice_drawing.h"
+#include "chart/smoothing.h"
+#include "chart/ticks.h"
+#include "command_error.h"
+#include "synthetic_crush.h"
+
+namespace cellcrush::client {
+namespace {
+
+using testing::synthetic_samples;
+using testing::synthetic_stage;
+
+TEST(Ticks, AreRoundAndNotTooMany) {
+  for (const double high : {0.013, 0.8, 1.0, 7.3, 45.0, 999.0, 12345.0}) {
+    for (const int most : {2, 5, 11}) {
+      const Ticks ticks = find_ticks(0.0, high, most);
+      ASSERT_LE(static_cast<int>(ticks.values.size()), most);
+      ASSERT_GE(ticks.values.size(), 1U);
+      double mantissa = ticks.step;
+      while (mantissa < 0.999) mantissa *= 10.0;
+      while (mantissa > 9.999) mantissa /= 10.0;
+      const double nearest = mantissa < 1.5 ? 1.0 : mantissa < 3.5 ? 2.0 : 5.0;
+      EXPECT_NEAR(mantissa, nearest, 1e-9) << high;
+      EXPECT_GE(ticks.values.front(), 0.0);
+      EXPECT_LE(ticks.values.back(), high * (1 + 1e-9));
+    }
+  }
+  EXPECT_EQ(find_ticks(0.0, 0.8, 10).values.size(), 9U);
+}
+
+TEST(Ticks, LabelsHaveTheDecimalsOfTheirStep) {
+  EXPECT_EQ(tick_label(0.30000000000000004, 0.1), "0.3");
+  EXPECT_EQ(tick_label(0.25, 0.05), "0.25");
+  EXPECT_EQ(tick_label(200.0, 50.0), "200");
+  EXPECT_EQ(tick_label(-1e-17, 0.1), "0.0");
+}
+
+TEST(Smoothing, KeepsAStraightLineAndRemovesAnAlternation) {
+  std::vector<double> x;
+  std::vector<double> line;
+  std::vector<double> alternating;
+  for (int i = 0; i <= 100; ++i) {
+    x.push_back(0.01 * i);
+    line.push_back(3.0 * i);
+    alternating.push_back(i % 2 == 0 ? 1.0 : -1.0);
+  }
+  EXPECT_NEAR(running_mean(x, line, 0.1005)[50], 150.0, 1e-9);
+  EXPECT_LT(std::abs(running_mean(x, alternating, 0.2)[50]), 0.1);
+  EXPECT_EQ(quantile({4.0, 1.0, 3.0, 2.0, 5.0}, 0.5), 3.0);
+}
+
+TEST(ColourMap, GrowsBrighterAndStaysReadableOnWhite) {
+  double before = -1.0;
+  for (int i = 0; i <= 100; ++i) {
+    const Colour colour = map_colour(0.01 * i);
+    const double brightness = 0.2126 * colour.red + 0.7152 * colour.green + 0.0722 * colour.blue;
+    EXPECT_GT(brightness, before - 0.005);
+    EXPECT_LT(brightness, 0.7);
+    before = brightness;
+  }
+}
+
+TEST(LatticeDrawing, TheBoxHoldsAllStagesAndBothPlatesAtTheStart) {
+  const Box box = find_box({synthetic_stage(10, 4, 0.2), synthetic_stage(10, 4, 0.6)});
+  EXPECT_LT(box.low_x, 0.0);
+  EXPECT_GT(box.high_x, 10 * 4 * std::sqrt(3.0));
+  EXPECT_LT(box.low_y, 0.0);
+  EXPECT_GT(box.high_y, (1.5 * 4 + 0.5) * 4);
+}
+
+TEST(Picture, TheFileNameChoosesTheFormat) {
+  EXPECT_EQ(picture_format("a.PNG"), PictureFormat::png);
+  EXPECT_EQ(picture_format("b/a.svg"), PictureFormat::svg);
+  EXPECT_THROW(picture_format("a.pdf"), CommandError);
+}
+
+struct Pixels {
+  int width = 0;
+  int height = 0;
+  std::set<std::uint32_t> colours;
+};
+
+Pixels read_png(const std::string& bytes) {
+  std::pair<const char*, std::size_t> rest(bytes.data(), bytes.size());
+  const auto read = [](void* closure, unsigned char* data, unsigned int length) {
+    auto& source = *static_cast<std::pair<const char*, std::size_t>*>(closure);
+    if (source.second < length) return CAIRO_STATUS_READ_ERROR;
+    std::memcpy(data, source.first, length);
+    source.first += length;
+    source.second -= length;
+    return CAIRO_STATUS_SUCCESS;
+  };
+  cairo_surface_t* surface = cairo_image_surface_create_from_png_stream(read, &rest);
+  EXPECT_EQ(cairo_surface_status(surface), CAIRO_STATUS_SUCCESS);
+  Pixels pixels{cairo_image_surface_get_width(surface), cairo_image_surface_get_height(surface), {}};
+  const unsigned char* data = cairo_image_surface_get_data(surface);
+  const int stride = cairo_image_surface_get_stride(surface);
+  for (int y = 0; y < pixels.height; ++y) {
+    for (int x = 0; x < pixels.width; ++x) {
+      std::uint32_t pixel = 0;
+      std::memcpy(&pixel, data + y * stride + 4 * x, 4);
+      pixels.colours.insert(pixel & 0xFFFFFF);
+    }
+  }
+  cairo_surface_destroy(surface);
+  return pixels;
+}
+
+JobHistory make_history() {
+  JobHistory history;
+  history.job.set_name("jobs/a");
+  history.job.set_state(v1::SUCCEEDED);
+  history.job.mutable_summary()->set_plateau_window_low(0.2);
+  history.job.mutable_summary()->set_plateau_window_high(0.4);
+  history.job.mutable_summary()->set_plateau_stress_impact_mpa(3.4);
+  history.samples = synthetic_samples(500, 0.8);
+  return history;
+}
+
+TEST(Picture, APngShowsLatticeAndCurve) {
+  const Pixels with = read_png(render_job_picture(PictureFormat::png, make_history(), {synthetic_stage(20, 6, 0.4)}));
+  const Pixels without = read_png(render_job_picture(PictureFormat::png, make_history(), {}));
+  EXPECT_EQ(with.width, 1000 * kPixelsPerUnit);
+  EXPECT_GT(with.height, without.height);
+  EXPECT_GT(without.colours.size(), 50U);
+  EXPECT_GT(with.colours.size(), without.colours.size() + 200);
+}
+
+TEST(Picture, AnSvgIsMarkupWithPaths) {
+  const std::string svg = render_job_picture(PictureFormat::svg, make_history(), {synthetic_stage(10, 4, 0.3, true)});
+  EXPECT_NE(svg.find("<svg"), std::string::npos);
+  EXPECT_NE(svg.find("<path"), std::string::npos);
+  EXPECT_NE(svg.find("</svg>"), std::string::npos);
+}
+
+TEST(Picture, OddDataIsDrawnAndDoesNoHarm) {
+  JobHistory history = make_history();
+  history.samples.resize(1);
+  EXPECT_FALSE(render_job_picture(PictureFormat::png, history, {}).empty());
+  history.samples[0].set_stress_impact_mpa(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_FALSE(render_job_picture(PictureFormat::png, history, {}).empty());
+  MeshFrame stage = synthetic_stage(4, 2, 0.1);
+  stage.frame.set_position_mm(4, std::numeric_limits<float>::infinity());
+  EXPECT_FALSE(render_job_picture(PictureFormat::png, history, {stage}).empty());
+  EXPECT_FALSE(render_comparison_picture(PictureFormat::png, {history, make_history()}).empty());
+}
+
+}  // namespace
+}  // namespace cellcrush::client

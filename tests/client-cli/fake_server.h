@@ -1,0 +1,77 @@
+#pragma once
+
+#include <grpcpp/grpcpp.h>
+
+#include <atomic>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "cellcrush/v1/admin_service.grpc.pb.h"
+#include "cellcrush/v1/cases_service.grpc.pb.h"
+#include "cellcrush/v1/jobs_service.grpc.pb.h"
+#include "cellcrush/v1/sweeps_service.grpc.pb.h"
+#include "connection/frames.h"
+
+namespace cellcrush::client::testing {
+
+/// What the server answers. Set it before the program under test runs.
+struct Script {
+  v1::Preset preset;
+  v1::CheckCaseResponse check;
+  grpc::Status create_status;
+  v1::Job job;                       ///< known under its name; other names are NOT_FOUND
+  std::vector<v1::JobEvent> events;  ///< behind the snapshot, with their sequence numbers
+  int cut_streams = 0;               ///< so many watches end with UNAVAILABLE before the last event
+  std::size_t events_before_cut = 3;
+  bool hold = false;  ///< a watch stays open behind the last event
+  std::vector<v1::Sample> samples;
+  std::vector<MeshFrame> stages;  ///< ascending in strain; frames are sent in two parts
+  std::string result;             ///< result.h5
+  int cut_downloads = 0;          ///< so many downloads end half way
+};
+
+/// What the server was asked.
+struct Asked {
+  std::vector<v1::CreateJobRequest> creates;
+  std::vector<std::int64_t> after_sequences;
+  std::vector<std::int64_t> offsets;
+  v1::Case checked;
+};
+
+/// A server of all services on a Unix socket in a temporary folder of its own, which goes with it. What the script has no
+/// answer for is UNIMPLEMENTED.
+class FakeServer {
+ public:
+  explicit FakeServer(Script script);
+  ~FakeServer();
+  FakeServer(const FakeServer&) = delete;
+  FakeServer& operator=(const FakeServer&) = delete;
+
+  [[nodiscard]] std::string address() const { return "unix:" + (folder_ / "s").string(); }
+  [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
+  [[nodiscard]] Asked asked() const;
+
+ private:
+  class Cases;
+  class Jobs;
+  struct Shared;
+
+  std::filesystem::path folder_;
+  std::unique_ptr<Shared> shared_;
+  std::unique_ptr<Cases> cases_;
+  std::unique_ptr<Jobs> jobs_;
+  v1::Sweeps::Service sweeps_;
+  v1::Admin::Service admin_;
+  std::unique_ptr<grpc::Server> server_;
+};
+
+/// A job of the preset's kind with a title and a speed.
+v1::Job make_job(v1::JobState state);
+
+/// Events of a run to its end in `state`: RUNNING, `samples` samples with progress between them, the end.
+std::vector<v1::JobEvent> make_events(int samples, v1::JobState state);
+
+}  // namespace cellcrush::client::testing

@@ -1,0 +1,154 @@
+#include <cairo.h>
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include "case_file/text_case.h"
+#include "fake_server.h"
+#include "program.h"
+#include "synthetic_crush.h"
+
+namespace cellcrush::client::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+Script finished_script() {
+  Script script;
+  script.job = make_job(v1::SUCCEEDED);
+  script.samples = synthetic_samples(400, 0.8);
+  for (const double strain : {0.0, 0.2, 0.4, 0.8}) script.stages.push_back(synthetic_stage(20, 6, strain));
+  script.stages[2].frame.set_index(20);
+  script.result = "\x89HDF\r\n\x1a\n" + std::string(123456, 'r');
+  return script;
+}
+
+std::string read_file(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+TEST(Fetch, WritesResultHistoryCaseAndFrame) {
+  const FakeServer server(finished_script());
+  const fs::path folder = server.folder() / "new" / "run";
+  const std::string time = std::to_string(finished_script().stages[2].frame.time_s() * 1.05);
+  const ProgramResult result =
+      run_program({"fetch", "jobs/test", "-o", folder, "--frame", time, "--server", server.address()});
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_EQ(read_file(folder / "result.h5"), finished_script().result);
+  const std::string history = read_file(folder / "history.csv");
+  EXPECT_EQ(first_line(history).find(
+                "time_s,travel_mm,strain,stress_impact_mpa,stress_support_mpa,energy_kinetic_mj,energy_elastic_mj,"
+                "energy_plastic_mj,energy_contact_mj,energy_friction_mj,energy_damping_mj,work_external_mj,"
+                "energy_residual_mj"),
+            0U);
+  EXPECT_EQ(std::count(history.begin(), history.end(), '\n'), 401);
+  EXPECT_EQ(parse_text_case(read_file(folder / "case.txtpb"), "case").title(), "Type I of the tests");
+  const std::string frame = read_file(folder / "frame_0020.csv");
+  EXPECT_EQ(std::count(frame.begin(), frame.end(), '\n'), 1 + finished_script().stages[2].mesh.thickness_mm_size());
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 4);
+}
+
+TEST(Fetch, AgainOverwritesItsOwnFilesAndNoOthers) {
+  const FakeServer server(finished_script());
+  const fs::path folder = server.folder() / "run";
+  ASSERT_EQ(run_program({"fetch", "test", "-o", folder, "--server", server.address()}).exit_code, 0);
+  EXPECT_EQ(run_program({"fetch", "test", "-o", folder, "--server", server.address()}).exit_code, 0);
+  std::ofstream(folder / "history.csv") << "my own notes\n";
+  const ProgramResult refused = run_program({"fetch", "test", "-o", folder, "--server", server.address()});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.errors.find("history.csv: exists and was not written by cellcrush"), std::string::npos)
+      << refused.errors;
+  EXPECT_EQ(read_file(folder / "history.csv"), "my own notes\n");
+}
+
+TEST(Fetch, ACutDownloadGoesOnWhereItStopped) {
+  Script script = finished_script();
+  script.cut_downloads = 1;
+  const FakeServer server(script);
+  const fs::path folder = server.folder() / "run";
+  EXPECT_EQ(run_program({"fetch", "test", "-o", folder, "--server", server.address()}).exit_code, 0);
+  EXPECT_EQ(read_file(folder / "result.h5"), script.result);
+  const auto offsets = server.asked().offsets;
+  ASSERT_EQ(offsets.size(), 2U);
+  EXPECT_EQ(offsets[1], static_cast<std::int64_t>(script.result.size() / 2));
+}
+
+TEST(Fetch, ADownloadThatStaysCutEndsWithFourAndLeavesNoHalfFile) {
+  Script script = finished_script();
+  script.cut_downloads = 1000;
+  const FakeServer server(script);
+  const fs::path folder = server.folder() / "run";
+  EXPECT_EQ(run_program({"fetch", "test", "-o", folder, "--server", server.address()}).exit_code, 4);
+  EXPECT_FALSE(fs::exists(folder / "result.h5"));
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 2);
+}
+
+TEST(Fetch, AJobWithoutAResultIsRefused) {
+  Script script = finished_script();
+  script.result.clear();
+  const FakeServer server(script);
+  const ProgramResult result =
+      run_program({"fetch", "test", "-o", server.folder() / "run", "--server", server.address()});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.errors.find("the job has no result yet"), std::string::npos);
+}
+
+TEST(Plot, AJobsPngHasTheRightSizeAndIsNotBlank) {
+  const FakeServer server(finished_script());
+  const std::string file = (server.folder() / "a.png").string();
+  const ProgramResult result = run_program({"plot", "jobs/test", "-o", file, "--server", server.address()});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_EQ(result.output, file + "\n");
+  EXPECT_EQ(read_file(file).substr(0, 8), "\x89PNG\r\n\x1a\n");
+  cairo_surface_t* surface = cairo_image_surface_create_from_png(file.c_str());
+  ASSERT_EQ(cairo_surface_status(surface), CAIRO_STATUS_SUCCESS);
+  EXPECT_EQ(cairo_image_surface_get_width(surface), 2000);
+  const int height = cairo_image_surface_get_height(surface);
+  EXPECT_GT(height, 1500);
+  const int stride = cairo_image_surface_get_stride(surface);
+  std::set<std::uint32_t> colours;
+  for (int i = 0; i + 4 <= height * stride; i += 4) {
+    std::uint32_t pixel = 0;
+    std::memcpy(&pixel, cairo_image_surface_get_data(surface) + i, 4);
+    colours.insert(pixel & 0xFFFFFF);
+  }
+  EXPECT_GT(colours.size(), 500U);
+  EXPECT_TRUE(colours.contains(0xFFFFFF));
+  cairo_surface_destroy(surface);
+}
+
+TEST(Plot, OneFrameCanBeChosenAndSvgWritten) {
+  const FakeServer server(finished_script());
+  const std::string one = (server.folder() / "one.svg").string();
+  const std::string three = (server.folder() / "three.svg").string();
+  EXPECT_EQ(run_program({"plot", "test", "-o", one, "--frame-strain", "0.41", "--server", server.address()}).exit_code,
+            0);
+  EXPECT_EQ(run_program({"plot", "test", "-o", three, "--server", server.address()}).exit_code, 0);
+  EXPECT_NE(read_file(one).find("</svg>"), std::string::npos);
+  EXPECT_GT(read_file(three).size(), read_file(one).size());
+}
+
+TEST(Plot, SeveralJobsShareOneChart) {
+  const FakeServer server(finished_script());
+  const std::string file = (server.folder() / "b.png").string();
+  EXPECT_EQ(run_program({"plot", "jobs/test", "jobs/test", "-o", file, "--server", server.address()}).exit_code, 0);
+  EXPECT_TRUE(fs::exists(file));
+}
+
+TEST(Plot, AJobWithoutSamplesAndAnUnknownFormatAreRefused) {
+  Script script = finished_script();
+  script.samples.clear();
+  const FakeServer server(script);
+  EXPECT_EQ(run_program({"plot", "test", "-o", server.folder() / "a.png", "--server", server.address()}).exit_code, 2);
+  EXPECT_EQ(run_program({"plot", "test", "-o", server.folder() / "a.pdf", "--server", server.address()}).exit_code, 2);
+}
+
+}  // namespace
+}  // namespace cellcrush::client::testing

@@ -1,0 +1,127 @@
+#include <google/protobuf/util/json_util.h>
+#include <google/protobuf/util/message_differencer.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "case_file/text_case.h"
+#include "cellcrush/v1/cases_service.pb.h"
+#include "fake_server.h"
+#include "program.h"
+
+namespace cellcrush::client::testing {
+namespace {
+
+using google::protobuf::util::JsonStringToMessage;
+using google::protobuf::util::MessageDifferencer;
+
+Script preset_script() {
+  Script script;
+  script.job = make_job(v1::SUCCEEDED);
+  script.preset.set_name("type-i");
+  script.preset.set_title("Type I of the tests");
+  script.preset.add_assumptions("The depth is that of the specimen.");
+  *script.preset.mutable_case_() = make_job(v1::RUNNING).case_();
+  return script;
+}
+
+TEST(Presets, AreListedAndShownAsACaseFileThatReadsBack) {
+  const FakeServer server(preset_script());
+  const ProgramResult list = run_program({"presets", "--server", server.address()});
+  EXPECT_EQ(list.exit_code, 0) << list.errors;
+  EXPECT_EQ(list.output, "preset:type-i  Type I of the tests\n");
+  const ProgramResult show = run_program({"show", "preset:type-i", "--server", server.address()});
+  EXPECT_NE(show.output.find("# Type I of the tests"), std::string::npos);
+  EXPECT_NE(show.output.find("#   - The depth is that of the specimen."), std::string::npos);
+  EXPECT_TRUE(MessageDifferencer::Equals(parse_text_case(show.output, "shown"), preset_script().preset.case_()));
+}
+
+TEST(Presets, JsonIsOneObjectWithTheProtosNames) {
+  const FakeServer server(preset_script());
+  const ProgramResult show = run_program({"show", "preset:type-i", "--json", "--server", server.address()});
+  v1::Preset preset;
+  ASSERT_TRUE(JsonStringToMessage(show.output, &preset).ok()) << show.output;
+  EXPECT_TRUE(MessageDifferencer::Equals(preset, preset_script().preset));
+  EXPECT_NE(show.output.find("\"speed_m_per_s\":100"), std::string::npos);
+}
+
+TEST(Check, PrintsATableWithUnitsOfTheCaseWithItsSettings) {
+  Script script = preset_script();
+  script.check.set_particle_count(8099);
+  script.check.set_element_count(9642);
+  script.check.set_mass_g(72.1534);
+  script.check.set_stable_step_s(2.31e-7);
+  script.check.set_predicted_seconds(49.6);
+  script.check.set_predicted_bytes(6543210);
+  script.check.mutable_theory()->set_gibson_ashby_mpa(0.3012);
+  script.check.add_modelled("Contact is looked for between walls of the same cell.");
+  const FakeServer server(script);
+  const ProgramResult result =
+      run_program({"check", "preset:type-i", "--set", "loading.speed_m_per_s=250", "--server", server.address()});
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  for (const char* part :
+       {"8099", "9642", "72.15  g", "2.310e-07  s", "50 s", "6.54 MB", "0.301  MPa", "  - Contact is looked for"}) {
+    EXPECT_NE(result.output.find(part), std::string::npos) << part << "\n" << result.output;
+  }
+  EXPECT_EQ(server.asked().checked.loading().speed_m_per_s(), 250.0);
+}
+
+TEST(Submit, SendsTheCaseWithIdAndLabelsAndPrintsTheJobsName) {
+  const FakeServer server(preset_script());
+  const ProgramResult result = run_program({"submit", "preset:type-i", "--set", "depth_mm=5", "--request-id", "abc",
+                                            "--label", "who=me", "--label", "why=a=b", "--server", server.address()});
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_EQ(result.output, "jobs/test\n");
+  const auto creates = server.asked().creates;
+  ASSERT_EQ(creates.size(), 1U);
+  EXPECT_EQ(creates[0].case_().depth_mm(), 5.0);
+  EXPECT_EQ(creates[0].request_id(), "abc");
+  EXPECT_EQ(creates[0].labels().at("who"), "me");
+  EXPECT_EQ(creates[0].labels().at("why"), "a=b");
+}
+
+TEST(Submit, ReadsTextAndJsonFromStdinAndFiles) {
+  const FakeServer server(preset_script());
+  EXPECT_EQ(run_program({"submit", "-", "--server", server.address()}, "depth_mm: 4").exit_code, 0);
+  EXPECT_EQ(run_program({"submit", "-", "--server", server.address()}, " {\"depth_mm\": 5}").exit_code, 0);
+  const std::string file = (server.folder() / "case.json").string();
+  std::ofstream(file) << R"({"depthMm": 6})";
+  EXPECT_EQ(run_program({"submit", file, "--server", server.address()}).exit_code, 0);
+  const auto creates = server.asked().creates;
+  ASSERT_EQ(creates.size(), 3U);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(creates[static_cast<std::size_t>(i)].case_().depth_mm(), 4.0 + i);
+}
+
+TEST(Submit, WithWatchFollowsTheJob) {
+  Script script = preset_script();
+  script.job = make_job(v1::RUNNING);
+  script.events = make_events(5, v1::FAILED);
+  const FakeServer server(script);
+  const ProgramResult result = run_program({"submit", "preset:type-i", "--watch", "--server", server.address()});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.output.find("jobs/test\n"), 0U) << result.output;
+  EXPECT_NE(result.output.find("SOLVER_DIVERGED"), std::string::npos);
+}
+
+TEST(List, WalksOverAllPages) {
+  const FakeServer server(preset_script());
+  const ProgramResult text = run_program({"list", "--server", server.address()});
+  EXPECT_EQ(text.exit_code, 0) << text.errors;
+  EXPECT_EQ(std::count(text.output.begin(), text.output.end(), '\n'), 3) << text.output;
+  EXPECT_NE(text.output.find("3.41 MPa"), std::string::npos);
+  v1::ListJobsResponse jobs;
+  ASSERT_TRUE(JsonStringToMessage(run_program({"list", "--json", "--server", server.address()}).output, &jobs).ok());
+  EXPECT_EQ(jobs.jobs_size(), 2);
+}
+
+TEST(Show, DescribesAJob) {
+  const FakeServer server(preset_script());
+  const ProgramResult result = run_program({"show", "jobs/test", "--server", server.address()});
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_NE(result.output.find("hexagons, 74 x 21 cells, crushed along X at 100 m/s to strain 0.8"), std::string::npos)
+      << result.output;
+  EXPECT_NE(result.output.find("1970-01-01T00:16:40Z"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace cellcrush::client::testing

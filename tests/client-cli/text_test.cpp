@@ -1,0 +1,81 @@
+#include <gtest/gtest.h>
+
+#include "command_error.h"
+#include "google/rpc/status.pb.h"
+#include "terminal/number_text.h"
+#include "terminal/table.h"
+
+namespace cellcrush::client {
+namespace {
+
+TEST(NumberText, KeepsSignificantDigits) {
+  EXPECT_EQ(number_text(3.41234), "3.41");
+  EXPECT_EQ(number_text(0.08664), "0.0866");
+  EXPECT_EQ(number_text(0.99961), "1.00");
+  EXPECT_EQ(number_text(512.69, 4), "512.7");
+  EXPECT_EQ(number_text(20504), "20504");
+  EXPECT_EQ(number_text(2e-7), "2.00e-07");
+  EXPECT_EQ(number_text(-0.5), "-0.500");
+  EXPECT_EQ(number_text(0.0), "0");
+  EXPECT_EQ(number_text(std::numeric_limits<double>::quiet_NaN()), "not a number");
+}
+
+TEST(NumberText, CountsDurationsAndSizes) {
+  EXPECT_EQ(count_text(9642), "9642");
+  EXPECT_EQ(count_text(20504), "20 504");
+  EXPECT_EQ(count_text(-1234567), "-1 234 567");
+  EXPECT_EQ(duration_text(0.84), "0.8 s");
+  EXPECT_EQ(duration_text(9.97), "10 s");
+  EXPECT_EQ(duration_text(59.6), "1 min 00 s");
+  EXPECT_EQ(duration_text(723), "12 min 03 s");
+  EXPECT_EQ(duration_text(3 * 3600 + 5 * 60), "3 h 05 min");
+  EXPECT_EQ(duration_text(-1), "unknown");
+  EXPECT_EQ(size_text(512), "512 B");
+  EXPECT_EQ(size_text(12345678), "12.3 MB");
+  EXPECT_EQ(size_text(999999), "1.00 MB");
+  EXPECT_EQ(percent_text(0.4731), "47.3 %");
+}
+
+TEST(Table, AlignsColumnsByCharactersAndNotBytes) {
+  Table table({Table::Align::left, Table::Align::right, Table::Align::left});
+  table.add({"a", "1", "mm"});
+  table.add({"bé", "22.5", ""});
+  EXPECT_EQ(table.text(1), " a      1  mm\n bé  22.5\n");
+}
+
+TEST(Table, CutsWideTextAndDisarmsControlCharacters) {
+  EXPECT_EQ(cut("honeycomb", 20), "honeycomb");
+  EXPECT_EQ(cut("a long honeycomb", 10), "a long ...");
+  EXPECT_EQ(display_width(cut("ééééééééééééé", 10)), 10);
+  EXPECT_EQ(printable("a\x1b[2Jb"), "a?[2Jb");
+}
+
+TEST(Problems, AreReadFromTheStatusDetailsAndPrintedWithRemedies) {
+  v1::ProblemList list;
+  v1::Problem& first = *list.add_problems();
+  first.set_field("loading.speed_m_per_s");
+  first.set_value("-5");
+  first.set_message("must be above 0");
+  first.set_remedy("give the plate's speed, such as 100");
+  v1::Problem& second = *list.add_problems();
+  second.set_field("lattice");
+  second.set_message("is missing");
+  google::rpc::Status envelope;
+  envelope.add_details()->PackFrom(list);
+  const grpc::Status status(grpc::StatusCode::INVALID_ARGUMENT, "refused", envelope.SerializeAsString());
+  const CommandError error = error_of(status);
+  EXPECT_EQ(error.code(), ExitCode::refused);
+  EXPECT_EQ(error.message(), "the case has 2 problems");
+  EXPECT_EQ(problems_text(error.problems()),
+            "loading.speed_m_per_s = -5: must be above 0\n    Remedy: give the plate's speed, such as 100\nlattice: is "
+            "missing\n");
+}
+
+TEST(Problems, RubbishInTheDetailsDoesNoHarm) {
+  const CommandError error = error_of({grpc::StatusCode::INVALID_ARGUMENT, "bad", "\xff\xfe rubbish"});
+  EXPECT_EQ(error.problems().problems_size(), 0);
+  EXPECT_EQ(error.message(), "bad");
+}
+
+}  // namespace
+}  // namespace cellcrush::client
