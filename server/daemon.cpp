@@ -1,0 +1,153 @@
+#include "daemon.h"
+
+#include <grpc/grpc.h>
+#include <grpcpp/ext/proto_server_reflection_plugin.h>
+#include <grpcpp/grpcpp.h>
+#include <grpcpp/health_check_service_interface.h>
+#include <spdlog/spdlog.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+#include "error.h"
+#include "jobs/local_process.h"
+#include "jobs/scheduler.h"
+#include "listen_address.h"
+#include "rpc/admin_service.h"
+#include "rpc/cases_service.h"
+#include "rpc/jobs_service.h"
+#include "rpc/sweeps_service.h"
+#include "store/data_folder.h"
+#include "store/journal.h"
+#include "store/journal_reader.h"
+#include "watch/hub.h"
+#include "watch/pump.h"
+#include "worker/step_cost.h"
+
+namespace cellcrush {
+namespace {
+
+constexpr int kLargestMessage = 4 * 1024 * 1024;
+constexpr int kPumpThreads = 2;
+constexpr std::chrono::seconds kCallsMayLast{2};
+
+int worker_limit(int asked) {
+  return asked > 0 ? asked : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+std::vector<ListenAddress> listen_addresses(const DaemonOptions& options) {
+  std::vector<ListenAddress> out;
+  for (const auto& text : options.listen) out.push_back(parse_listen_address(text));
+  if (out.empty()) {
+    out.push_back(parse_listen_address("unix:" + (options.data_folder / "cellcrushd.sock").string()));
+    out.push_back(parse_listen_address("127.0.0.1:50551"));
+  }
+  return out;
+}
+
+void prepare_grpc_once() {
+  static std::once_flag once;
+  std::call_once(once, [] {
+    grpc::EnableDefaultHealthCheckService(true);
+    grpc::reflection::InitProtoReflectionServerBuilderPlugin();
+  });
+}
+
+}  // namespace
+
+// Members are in the order of their dependence: each uses only those above it.
+struct Daemon::Impl {
+  explicit Impl(DaemonOptions given)
+      : options(std::move(given)),
+        wanted(listen_addresses(options)),
+        folder(options.data_folder),
+        journal(folder.journal(), [this](std::int64_t job) { hub.announce(job); }),
+        reader(folder.journal()),
+        executor(options.worker_program),
+        scheduler({folder, journal, reader, hub, executor}),
+        pump(kPumpThreads),
+        cases(worker::measure_step_cost()),
+        jobs({folder, journal, reader, hub, pump, scheduler, options.bookmark_interval}),
+        admin(worker_limit(options.workers)) {
+    listen();
+    scheduler.start(worker_limit(options.workers));
+    for (const char* service : {"cellcrush.v1.Cases", "cellcrush.v1.Jobs", "cellcrush.v1.Sweeps", "cellcrush.v1.Admin"})
+      server->GetHealthCheckService()->SetServingStatus(service, true);
+  }
+
+  ~Impl() { stop(); }
+
+  void listen() {
+    prepare_grpc_once();
+    grpc::ServerBuilder builder;
+    builder.SetMaxReceiveMessageSize(kLargestMessage);
+    // A port belongs to one daemon; without this a second one would share it.
+    builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
+    std::vector<int> ports(wanted.size(), 0);
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      if (wanted[i].kind == ListenAddress::Kind::unix_socket) remove_stale_socket(wanted[i].place);
+      builder.AddListeningPort(wanted[i].text(), grpc::InsecureServerCredentials(), &ports[i]);
+    }
+    for (grpc::Service* service : std::initializer_list<grpc::Service*>{&cases, &jobs, &sweeps, &admin})
+      builder.RegisterService(service);
+    server = builder.BuildAndStart();
+    for (std::size_t i = 0; i < wanted.size(); ++i) settle(wanted[i], ports[i]);
+    if (!server) throw ServiceError(ServiceError::Kind::failed_precondition, "The service could not be started.");
+  }
+
+  // Notes the address that a port was bound to, or says which could not be.
+  void settle(const ListenAddress& address, int port) {
+    if (port == 0) {
+      throw ServiceError(ServiceError::Kind::failed_precondition,
+                         "Cannot listen on " + address.text() +
+                             ": another program listens there, or it may not be used. Stop the other, or give another "
+                             "address with --listen.");
+    }
+    ListenAddress bound = address;
+    if (address.kind == ListenAddress::Kind::unix_socket) {
+      chmod(address.place.c_str(), 0600);
+    } else {
+      bound.port = port;
+    }
+    addresses.push_back(bound.text());
+  }
+
+  void stop() {
+    if (std::exchange(stopped, true)) return;
+    server->GetHealthCheckService()->SetServingStatus(false);
+    scheduler.stop();
+    pump.drain();
+    server->Shutdown(std::chrono::system_clock::now() + kCallsMayLast);
+    server->Wait();
+  }
+
+  DaemonOptions options;
+  std::vector<ListenAddress> wanted;
+  store::DataFolder folder;
+  watch::Hub hub;
+  store::Journal journal;
+  store::JournalReader reader;
+  jobs::LocalProcess executor;
+  jobs::Scheduler scheduler;
+  watch::Pump pump;
+  rpc::CasesService cases;
+  rpc::JobsService jobs;
+  rpc::SweepsService sweeps;
+  rpc::AdminService admin;
+  std::vector<std::string> addresses;
+  std::unique_ptr<grpc::Server> server;
+  bool stopped = false;
+};
+
+Daemon::Daemon(DaemonOptions options) : impl_(std::make_unique<Impl>(std::move(options))) {}
+
+Daemon::~Daemon() = default;
+
+const std::vector<std::string>& Daemon::addresses() const { return impl_->addresses; }
+
+void Daemon::stop() { impl_->stop(); }
+
+}  // namespace cellcrush

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace cellcrush {
+
+struct DaemonOptions {
+  /// Each "unix:PATH" or "HOST:PORT" (listen_address.h). Empty: a socket in the data folder and 127.0.0.1:50551.
+  std::vector<std::string> listen;
+  std::filesystem::path data_folder;
+  /// Jobs that run at once. 0: as many as this machine has cores.
+  int workers = 0;
+  /// Program that is started as `PROGRAM worker ...`.
+  std::filesystem::path worker_program = "/proc/self/exe";
+  /// Time without an event after which a watcher is sent a bookmark.
+  std::chrono::milliseconds bookmark_interval{15'000};
+};
+
+/// The whole service in one object: serves from its construction to stop. Several may live in one process, each with a
+/// data folder of its own.
+class Daemon {
+ public:
+  /// Throws ServiceError when it cannot start: the data folder is taken, an address is in use or refused.
+  explicit Daemon(DaemonOptions options);
+  /// Stops.
+  ~Daemon();
+  Daemon(const Daemon&) = delete;
+  Daemon& operator=(const Daemon&) = delete;
+
+  /// What it listens on, with real ports, in the form of --listen.
+  [[nodiscard]] const std::vector<std::string>& addresses() const;
+
+  /// Ends running workers (their jobs are FAILED, WORKER_LOST), closes watches and calls, within a few seconds. Jobs
+  /// that wait are run by the next daemon on the same data folder. Safe to call twice.
+  void stop();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace cellcrush

@@ -1,0 +1,165 @@
+#include "jobs/local_process.h"
+
+#include <spawn.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <system_error>
+#include <thread>
+
+#include "worker/report_stream.h"
+#include "worker/worker_main.h"
+
+namespace cellcrush::jobs {
+namespace {
+
+// A descriptor that closes itself and is not inherited.
+class Descriptor {
+ public:
+  explicit Descriptor(int value) : value_(value) {}
+  ~Descriptor() { reset(); }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+
+  [[nodiscard]] int get() const { return value_; }
+  void reset() {
+    if (value_ >= 0) close(value_);
+    value_ = -1;
+  }
+
+ private:
+  int value_;
+};
+
+// Starts the program with `socket` at worker::kSocket, and no other descriptors but the standard three. Returns 0 or an
+// errno.
+int spawn(const std::filesystem::path& program, int socket, pid_t& pid) {
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, socket, worker::kSocket);
+  posix_spawn_file_actions_addclosefrom_np(&actions, worker::kSocket + 1);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  sigset_t none;
+  sigset_t all;
+  sigemptyset(&none);
+  sigfillset(&all);
+  posix_spawnattr_setsigmask(&attributes, &none);
+  posix_spawnattr_setsigdefault(&attributes, &all);
+  // A group of its own: Ctrl-C at the daemon's terminal is the daemon's to handle.
+  posix_spawnattr_setpgroup(&attributes, 0);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
+
+  std::string name = program.string();
+  std::string command = "worker";
+  std::string option = "--daemon";
+  std::string daemon = std::to_string(getpid());
+  std::array<char*, 5> arguments = {name.data(), command.data(), option.data(), daemon.data(), nullptr};
+  const int error = posix_spawn(&pid, name.c_str(), &actions, &attributes, arguments.data(), environ);
+  posix_spawnattr_destroy(&attributes);
+  posix_spawn_file_actions_destroy(&actions);
+  return error;
+}
+
+// A started process; ended and waited for at the latest when this goes out of scope.
+class Child {
+ public:
+  explicit Child(pid_t pid) : pid_(pid) {}
+  ~Child() {
+    if (!reaped_) end();
+  }
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+
+  // Ends it at once. Returns its wait status.
+  int end() {
+    kill(pid_, SIGKILL);
+    return wait(0);
+  }
+
+  // Gives it some time to end by itself, for it has closed its socket.
+  int let_end() {
+    for (int i = 0; i < 500; ++i) {
+      const int status = wait(WNOHANG);
+      if (reaped_) return status;
+      std::this_thread::sleep_for(std::chrono::milliseconds(i < 50 ? 1 : 10));
+    }
+    return end();
+  }
+
+ private:
+  int wait(int flags) {
+    int status = 0;
+    pid_t waited = -1;
+    do {
+      waited = waitpid(pid_, &status, flags);
+    } while (waited < 0 && errno == EINTR);
+    reaped_ = waited != 0;
+    return status;
+  }
+
+  pid_t pid_;
+  bool reaped_ = false;
+};
+
+WorkerExit not_started(int error) {
+  WorkerExit out;
+  out.kind = WorkerExit::Kind::not_started;
+  out.reason = std::generic_category().message(error);
+  return out;
+}
+
+// Passes reports on until the worker says no more. False when what it said is no report.
+bool pass_on_reports(worker::ReportStream& stream, const WorkerEvents& events, WorkerExit& out) {
+  while (true) {
+    worker::Report report;
+    switch (stream.read(report)) {
+      case worker::ReportStream::Read::end: return true;
+      case worker::ReportStream::Read::broken: return false;
+      case worker::ReportStream::Read::message: break;
+    }
+    if (report.has_final()) {
+      out.final = report.final();
+    } else {
+      events.reported(report);
+    }
+  }
+}
+
+}  // namespace
+
+WorkerExit LocalProcess::run(const worker::Order& order, const WorkerEvents& events, const std::stop_token& stop) {
+  std::array<int, 2> ends{};
+  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) return not_started(errno);
+  const Descriptor socket(ends[0]);
+  Descriptor of_worker(ends[1]);
+  pid_t pid = 0;
+  if (const int error = spawn(program_, of_worker.get(), pid); error != 0) return not_started(error);
+  Child child(pid);
+  of_worker.reset();
+  events.started(pid);
+
+  // A request to stop ends the conversation, wherever it is.
+  const std::stop_callback hang_up(stop, [&socket] { shutdown(socket.get(), SHUT_RDWR); });
+  WorkerExit out;
+  worker::ReportStream stream(socket.get());
+  // When this fails the worker is gone, and reading tells the same.
+  stream.write(order);
+  const bool sound = pass_on_reports(stream, events, out);
+  if (!sound || stop.stop_requested()) {
+    child.end();
+    out.kind = sound ? WorkerExit::Kind::stopped : WorkerExit::Kind::broken;
+    return out;
+  }
+  const int status = child.let_end();
+  out.kind = WIFSIGNALED(status) ? WorkerExit::Kind::signalled : WorkerExit::Kind::exited;
+  out.code = WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status);
+  return out;
+}
+
+}  // namespace cellcrush::jobs

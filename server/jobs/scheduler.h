@@ -1,0 +1,60 @@
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <mutex>
+#include <stop_token>
+#include <thread>
+#include <vector>
+
+#include "jobs/executor.h"
+#include "store/data_folder.h"
+#include "store/journal.h"
+#include "store/journal_reader.h"
+#include "watch/hub.h"
+
+namespace cellcrush::jobs {
+
+/// Runs waiting jobs, oldest first, at most as many at once as there are slots. Each slot is a thread that lives as
+/// long as the scheduler and runs one job at a time. Thread-safe.
+class Scheduler {
+ public:
+  /// What the scheduler works with; all of it outlives the scheduler.
+  struct Parts {
+    const store::DataFolder& folder;
+    store::Journal& journal;
+    store::JournalReader& reader;
+    watch::Hub& hub;
+    Executor& executor;
+  };
+
+  explicit Scheduler(const Parts& parts) : parts_(parts) {}
+  ~Scheduler() { stop(); }
+  Scheduler(const Scheduler&) = delete;
+  Scheduler& operator=(const Scheduler&) = delete;
+
+  /// Marks the jobs that an earlier daemon left running as lost, queues those that wait, and starts the slots.
+  void start(int slots);
+
+  /// Queues a job that is PENDING in the journal.
+  void enqueue(std::int64_t job);
+
+  /// Ends running workers, marks their jobs as lost, and waits until the slots are done. Jobs that wait stay PENDING.
+  void stop();
+
+ private:
+  void fail_lost_jobs();
+  void run_slot(const std::stop_token& stop);
+  void run_job(std::int64_t job, const std::stop_token& stop);
+  void pass_on(std::int64_t job, watch::Channel& channel, const worker::Report& report);
+  void finish(std::int64_t job, const store::StateChange& outcome, const std::stop_token& stop);
+
+  Parts parts_;
+  std::mutex mutex_;
+  std::condition_variable_any changed_;
+  std::deque<std::int64_t> waiting_;
+  std::vector<std::jthread> slots_;
+};
+
+}  // namespace cellcrush::jobs

@@ -1,0 +1,86 @@
+// cellcrushd: parses flags, serves until a signal asks it to end. Exit codes: 0 ended in order, 1 could not start, 2
+// usage.
+#include <signal.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+#include <sys/stat.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include "daemon.h"
+#include "version.h"
+#include "worker/worker_main.h"
+
+namespace {
+
+std::filesystem::path default_data_folder() {
+  if (const char* data = std::getenv("XDG_DATA_HOME"); data != nullptr && *data == '/')
+    return std::filesystem::path(data) / "cellcrush";
+  if (const char* home = std::getenv("HOME"); home != nullptr && *home == '/')
+    return std::filesystem::path(home) / ".local/share/cellcrush";
+  return {};
+}
+
+// SIGTERM and SIGINT are waited for by main alone; blocked before any other thread exists.
+sigset_t block_signals() {
+  sigset_t signals;
+  sigemptyset(&signals);
+  sigaddset(&signals, SIGTERM);
+  sigaddset(&signals, SIGINT);
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  signal(SIGPIPE, SIG_IGN);
+  return signals;
+}
+
+int serve(const cellcrush::DaemonOptions& options, const sigset_t& signals) {
+  try {
+    cellcrush::Daemon daemon(options);
+    for (const auto& address : daemon.addresses()) std::printf("cellcrushd is listening on %s\n", address.c_str());
+    std::fflush(stdout);
+    int received = 0;
+    sigwait(&signals, &received);
+    spdlog::info("ends on {}", received == SIGTERM ? "SIGTERM" : "SIGINT");
+    daemon.stop();
+    return 0;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "cellcrushd: %s\n", error.what());
+    return 1;
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("cellcrushd hosts the solver: it takes cases over gRPC, runs them, and streams what comes of them.");
+  cellcrush::DaemonOptions options;
+  options.data_folder = default_data_folder();
+  app.add_option("--listen", options.listen,
+                 "unix:PATH or HOST:PORT, may be repeated; port 0 takes a free one "
+                 "(default: unix:DIR/cellcrushd.sock and 127.0.0.1:50551)");
+  app.add_option("--data", options.data_folder,
+                 "folder of jobs and results (default: $XDG_DATA_HOME/cellcrush or ~/.local/share/cellcrush)");
+  app.add_option("--workers", options.workers, "jobs that run at once (default: one for each core)")
+      ->check(CLI::Range(1, 1024));
+  app.set_version_flag("--version", std::string("cellcrushd ") + cellcrush::kSolverRevision);
+  // What the daemon itself starts; an empty group keeps it out of the help.
+  int daemon_process = 0;
+  CLI::App* worker = app.add_subcommand("worker")->group("");
+  worker->add_option("--daemon", daemon_process)->required();
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  umask(0077);
+  if (worker->parsed()) cellcrush::worker::worker_main(daemon_process);
+  if (options.data_folder.empty()) {
+    std::fprintf(stderr, "cellcrushd: neither XDG_DATA_HOME nor HOME is set. Give a data folder with --data.\n");
+    return 2;
+  }
+  const sigset_t signals = block_signals();
+  spdlog::set_default_logger(spdlog::stderr_color_mt("cellcrushd"));
+  return serve(options, signals);
+}

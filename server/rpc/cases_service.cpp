@@ -1,0 +1,55 @@
+#include "rpc/cases_service.h"
+
+#include <string>
+
+#include "rpc/error_table.h"
+#include "store/result_writer.h"
+#include "translate/check_case.h"
+#include "translate/preset_cases.h"
+
+namespace cellcrush::rpc {
+namespace {
+
+std::string known_presets() {
+  std::string out;
+  for (const auto& preset : translate::list_presets()) out += (out.empty() ? "" : ", ") + preset.name();
+  return out;
+}
+
+}  // namespace
+
+grpc::Status CasesService::CheckCase(grpc::ServerContext*, const v1::CheckCaseRequest* request,
+                                     v1::CheckCaseResponse* response) {
+  return answer([&] {
+    auto check = translate::check_case(request->case_());
+    *response = std::move(check.response);
+    if (response->problems_size() > 0) return grpc::Status::OK;
+    const auto elements = static_cast<double>(response->element_count());
+    response->set_predicted_seconds(step_cost_ * elements * static_cast<double>(response->step_count()));
+    response->set_predicted_bytes(store::predicted_result_bytes(response->particle_count(), response->element_count(),
+                                                                check.sample_count, check.frame_count));
+    return grpc::Status::OK;
+  });
+}
+
+grpc::Status CasesService::ListPresets(grpc::ServerContext*, const v1::ListPresetsRequest*,
+                                       v1::ListPresetsResponse* response) {
+  return answer([&] {
+    for (auto& preset : translate::list_presets()) *response->add_presets() = std::move(preset);
+    return grpc::Status::OK;
+  });
+}
+
+grpc::Status CasesService::GetPreset(grpc::ServerContext*, const v1::GetPresetRequest* request, v1::Preset* response) {
+  return answer([&] {
+    auto preset = translate::find_preset_case(request->name());
+    if (!preset) {
+      throw ServiceError(ServiceError::Kind::not_found,
+                         "There is no preset \"" + request->name() + "\". Known are: " + known_presets() + ".");
+    }
+    *response = *std::move(preset);
+    return grpc::Status::OK;
+  });
+}
+
+}  // namespace cellcrush::rpc

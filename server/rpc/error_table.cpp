@@ -1,0 +1,129 @@
+#include "rpc/error_table.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <new>
+
+#include "google/rpc/error_details.pb.h"
+#include "google/rpc/status.pb.h"
+
+namespace cellcrush::rpc {
+namespace {
+
+using Problems = google::protobuf::RepeatedPtrField<v1::Problem>;
+
+constexpr std::size_t kMostDetails = 4500;  // bytes, so that the trailer stays under 8 KiB when it is base64
+constexpr std::size_t kMostMessage = 600;
+constexpr std::size_t kMostValue = 100;
+
+grpc::StatusCode code_of(ServiceError::Kind kind) {
+  switch (kind) {
+    case ServiceError::Kind::invalid: return grpc::StatusCode::INVALID_ARGUMENT;
+    case ServiceError::Kind::not_found: return grpc::StatusCode::NOT_FOUND;
+    case ServiceError::Kind::already_exists: return grpc::StatusCode::ALREADY_EXISTS;
+    case ServiceError::Kind::failed_precondition: return grpc::StatusCode::FAILED_PRECONDITION;
+    case ServiceError::Kind::out_of_range: return grpc::StatusCode::OUT_OF_RANGE;
+    case ServiceError::Kind::unimplemented: return grpc::StatusCode::UNIMPLEMENTED;
+    case ServiceError::Kind::storage_full: return grpc::StatusCode::RESOURCE_EXHAUSTED;
+    case ServiceError::Kind::internal: break;
+  }
+  return grpc::StatusCode::INTERNAL;
+}
+
+// Cuts a text at a character's beginning.
+std::string shorten(std::string text, std::size_t most) {
+  if (text.size() <= most) return text;
+  while (most > 0 && (static_cast<unsigned char>(text[most]) & 0xC0U) == 0x80U) --most;
+  return text.substr(0, most) + "...";
+}
+
+std::string sentence_of(const Problems& problems) {
+  std::string out = problems.size() == 1 ? "The case has a problem: "
+                                         : "The case has " + std::to_string(problems.size()) + " problems: ";
+  bool first = true;
+  for (const auto& problem : problems) {
+    out += (first ? "" : " ") + problem.field() + " " + problem.message();
+    first = false;
+  }
+  return shorten(out, kMostMessage);
+}
+
+std::string details_of(grpc::StatusCode code, const std::string& message, const Problems& problems) {
+  google::rpc::Status status;
+  status.set_code(code);
+  status.set_message(message);
+  google::rpc::BadRequest bad_request;
+  v1::ProblemList list;
+  for (const auto& problem : problems) {
+    auto& violation = *bad_request.add_field_violations();
+    violation.set_field(problem.field());
+    violation.set_description(problem.message() + (problem.remedy().empty() ? "" : " " + problem.remedy()));
+    v1::Problem& listed = *list.add_problems();
+    listed = problem;
+    listed.set_value(shorten(problem.value(), kMostValue));
+  }
+  status.add_details()->PackFrom(bad_request);
+  status.add_details()->PackFrom(list);
+  return status.SerializeAsString();
+}
+
+v1::Problem note_on_rest(grpc::StatusCode code, int left_out) {
+  v1::Problem out;
+  out.set_field("case");
+  out.set_message("has " + std::to_string(left_out) + " more problems.");
+  out.set_remedy("CheckCase lists them all.");
+  out.set_kind(code == grpc::StatusCode::INVALID_ARGUMENT ? v1::Problem::INVALID : v1::Problem::UNIMPLEMENTED);
+  return out;
+}
+
+// The details of as many problems as fit, and of the rest its number.
+std::string bounded_details(grpc::StatusCode code, const std::string& message, const Problems& problems) {
+  std::string out = details_of(code, message, problems);
+  for (int kept = problems.size() - 1; out.size() > kMostDetails && kept >= 0; --kept) {
+    Problems some(problems.begin(), problems.begin() + kept);
+    *some.Add() = note_on_rest(code, problems.size() - kept);
+    out = details_of(code, message, some);
+  }
+  return out;
+}
+
+}  // namespace
+
+grpc::Status status_of(const Problems& problems) {
+  const bool invalid = std::any_of(problems.begin(), problems.end(), [](const v1::Problem& problem) {
+    return problem.kind() != v1::Problem::UNIMPLEMENTED;
+  });
+  const auto code = invalid ? grpc::StatusCode::INVALID_ARGUMENT : grpc::StatusCode::UNIMPLEMENTED;
+  const std::string message = sentence_of(problems);
+  return {code, message, bounded_details(code, message, problems)};
+}
+
+grpc::Status invalid_argument(const std::string& field, const std::string& message, const std::string& remedy) {
+  Problems problems;
+  v1::Problem& problem = *problems.Add();
+  problem.set_field(field);
+  problem.set_message(message);
+  problem.set_remedy(remedy);
+  problem.set_kind(v1::Problem::INVALID);
+  const auto code = grpc::StatusCode::INVALID_ARGUMENT;
+  const std::string sentence = shorten(field + " " + message + " " + remedy, kMostMessage);
+  return {code, sentence, bounded_details(code, sentence, problems)};
+}
+
+grpc::Status status_of(const std::exception& error) {
+  if (const auto* refused = dynamic_cast<const ServiceError*>(&error)) {
+    if (refused->kind() == ServiceError::Kind::internal) spdlog::error("A call failed: {}", error.what());
+    return {code_of(refused->kind()), shorten(error.what(), kMostMessage)};
+  }
+  if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr)
+    return {grpc::StatusCode::RESOURCE_EXHAUSTED, "There is not enough memory for this. Take a smaller case."};
+  spdlog::error("A call failed: {}", error.what());
+  return {grpc::StatusCode::INTERNAL, std::string("The daemon failed: ") + error.what()};
+}
+
+grpc::Status unimplemented(const std::string& call) {
+  return {grpc::StatusCode::UNIMPLEMENTED, call + " is not built yet."};
+}
+
+}  // namespace cellcrush::rpc

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <google/protobuf/repeated_ptr_field.h>
+#include <grpcpp/support/status.h>
+
+#include <exception>
+#include <string>
+
+#include "cellcrush/v1/problem.pb.h"
+#include "error.h"
+
+namespace cellcrush::rpc {
+
+// The one place that turns errors into gRPC statuses.
+
+/// A refused case. INVALID_ARGUMENT when any problem is INVALID, otherwise UNIMPLEMENTED. The details hold a
+/// google.rpc.Status with BadRequest and cellcrush.v1.ProblemList. A trailer may have 8 KiB: problems that do not fit
+/// are counted in a last entry that refers to CheckCase, which lists them all.
+/// REQUIRES: there is at least one problem.
+grpc::Status status_of(const google::protobuf::RepeatedPtrField<v1::Problem>& problems);
+
+/// A refused argument of a call, with its field in the details. The message goes on from the field's name: "is
+/// negative."
+grpc::Status invalid_argument(const std::string& field, const std::string& message, const std::string& remedy);
+
+/// Anything that was thrown.
+grpc::Status status_of(const std::exception& error);
+
+/// A call that is not built.
+grpc::Status unimplemented(const std::string& call);
+
+/// Runs the body of a call, which gives a status, and turns what it throws into one.
+template <class Body>
+grpc::Status answer(const Body& body) {
+  try {
+    return body();
+  } catch (const std::exception& error) {
+    return status_of(error);
+  }
+}
+
+}  // namespace cellcrush::rpc

@@ -1,0 +1,153 @@
+// The calls of Jobs that send files and frames in parts.
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <system_error>
+#include <vector>
+
+#include "jobs/job_state.h"
+#include "rpc/error_table.h"
+#include "rpc/jobs_service.h"
+#include "store/result_reader.h"
+#include "watch/frame_chunks.h"
+
+namespace cellcrush::rpc {
+namespace {
+
+constexpr std::size_t kDownloadChunk = 512 * 1024;
+
+// A file open for reading that closes itself.
+class InputFile {
+ public:
+  explicit InputFile(const std::filesystem::path& path)
+      : path_(path), descriptor_(open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
+    struct stat status {};
+    if (descriptor_ < 0 || fstat(descriptor_, &status) != 0) fail();
+    size_ = status.st_size;
+  }
+  ~InputFile() {
+    if (descriptor_ >= 0) close(descriptor_);
+  }
+  InputFile(const InputFile&) = delete;
+  InputFile& operator=(const InputFile&) = delete;
+
+  [[nodiscard]] std::int64_t size() const { return size_; }
+
+  // Up to `most` bytes from `offset` on; fewer only at the end.
+  [[nodiscard]] std::string read(std::int64_t offset, std::size_t most) const {
+    std::string out(std::min(most, static_cast<std::size_t>(size_ - offset)), '\0');
+    std::size_t done = 0;
+    while (done < out.size()) {
+      const auto count =
+          pread(descriptor_, out.data() + done, out.size() - done, offset + static_cast<std::int64_t>(done));
+      if (count < 0 && errno == EINTR) continue;
+      if (count <= 0) fail();
+      done += static_cast<std::size_t>(count);
+    }
+    return out;
+  }
+
+ private:
+  [[noreturn]] void fail() const {
+    throw ServiceError(ServiceError::Kind::internal,
+                       path_.string() + " cannot be read: " + std::generic_category().message(errno) + ".");
+  }
+
+  std::filesystem::path path_;
+  int descriptor_;
+  std::int64_t size_ = 0;
+};
+
+// Position of the value nearest to `wanted`.
+int nearest(const std::vector<double>& values, double wanted) {
+  const auto closer = [wanted](double a, double b) { return std::abs(a - wanted) < std::abs(b - wanted); };
+  return static_cast<int>(std::min_element(values.begin(), values.end(), closer) - values.begin());
+}
+
+v1::FieldFrame frame_of_result(const std::filesystem::path& path, const v1::GetFrameRequest& request) {
+  const store::ResultReader result(path);
+  const auto times = result.frame_times();
+  const int last = static_cast<int>(times.size()) - 1;
+  switch (request.which_case()) {
+    case v1::GetFrameRequest::kStrain: return result.frame(nearest(result.frame_strains(), request.strain()));
+    case v1::GetFrameRequest::kTimeS: return result.frame(nearest(times, request.time_s()));
+    case v1::GetFrameRequest::kIndex:
+      if (request.index() < -1 || request.index() > last) {
+        throw ServiceError(ServiceError::Kind::out_of_range,
+                           "index is " + std::to_string(request.index()) + ", but frames count from 0 to " +
+                               std::to_string(last) + ". Use one of them, or -1 for the last.");
+      }
+      return result.frame(request.index() == -1 ? last : request.index());
+    case v1::GetFrameRequest::WHICH_NOT_SET: break;
+  }
+  return result.frame(last);
+}
+
+}  // namespace
+
+v1::FieldFrame JobsService::find_frame(const store::StoredJob& stored, const v1::GetFrameRequest& request) {
+  if ((request.has_strain() && !std::isfinite(request.strain())) ||
+      (request.has_time_s() && !std::isfinite(request.time_s())))
+    throw ServiceError(ServiceError::Kind::invalid,
+                       "The strain or time of the frame is not a number. Use a finite one.");
+  if (stored.job.state() == v1::SUCCEEDED) return frame_of_result(parts_.folder.result(stored.number), request);
+  const auto channel = parts_.hub.find(stored.number);
+  const auto frame = channel ? channel->newest().frame : nullptr;
+  if (!frame) {
+    throw ServiceError(ServiceError::Kind::failed_precondition,
+                       stored.job.name() + " is " + v1::JobState_Name(stored.job.state()) +
+                           " and has no frame. A running job has its newest one, a job that SUCCEEDED has all.");
+  }
+  return *frame;
+}
+
+grpc::Status JobsService::GetFrame(grpc::ServerContext*, const v1::GetFrameRequest* request,
+                                   grpc::ServerWriter<v1::GetFrameResponse>* writer) {
+  return answer([&] {
+    const auto stored = find(request->name());
+    auto mesh = parts_.reader.mesh(stored.number);
+    for (auto& chunk : watch::chunks_of(find_frame(stored, *request))) {
+      v1::GetFrameResponse response;
+      if (chunk.part() == 0 && mesh) *response.mutable_mesh() = *std::move(mesh);
+      *response.mutable_chunk() = std::move(chunk);
+      if (!writer->Write(response)) return grpc::Status::CANCELLED;
+    }
+    return grpc::Status::OK;
+  });
+}
+
+grpc::Status JobsService::DownloadResult(grpc::ServerContext*, const v1::DownloadResultRequest* request,
+                                         grpc::ServerWriter<v1::DownloadResultResponse>* writer) {
+  return answer([&] {
+    const auto stored = find(request->name());
+    if (stored.job.state() != v1::SUCCEEDED) {
+      throw ServiceError(ServiceError::Kind::failed_precondition, stored.job.name() + " is " +
+                                                                      v1::JobState_Name(stored.job.state()) +
+                                                                      "; there is a result once it has SUCCEEDED.");
+    }
+    if (request->offset() < 0) return invalid_argument("offset", "is negative.", "Use 0 for the whole file.");
+    const InputFile file(parts_.folder.result(stored.number));
+    if (request->offset() > file.size()) {
+      throw ServiceError(ServiceError::Kind::out_of_range, "offset is " + std::to_string(request->offset()) +
+                                                               ", but the file has " + std::to_string(file.size()) +
+                                                               " bytes.");
+    }
+    // At least one message, so that the size is told even when nothing is left.
+    std::int64_t offset = request->offset();
+    do {
+      v1::DownloadResultResponse response;
+      response.set_offset(offset);
+      response.set_total_size(file.size());
+      response.set_data(file.read(offset, kDownloadChunk));
+      offset += static_cast<std::int64_t>(response.data().size());
+      if (!writer->Write(response)) return grpc::Status::CANCELLED;
+    } while (offset < file.size());
+    return grpc::Status::OK;
+  });
+}
+
+}  // namespace cellcrush::rpc

@@ -1,0 +1,58 @@
+#pragma once
+
+#include "cellcrush/v1/jobs_service.grpc.pb.h"
+#include "jobs/scheduler.h"
+#include "rpc/watch_reactor.h"
+#include "store/data_folder.h"
+#include "store/journal.h"
+#include "store/journal_reader.h"
+#include "watch/hub.h"
+
+namespace cellcrush::rpc {
+
+/// Jobs and their results. Thread-safe. Watches go through gRPC's callbacks and hold no thread; all other calls are
+/// short or bounded by the client's reading.
+class JobsService final : public v1::Jobs::WithCallbackMethod_WatchJob<v1::Jobs::Service> {
+ public:
+  /// All of it outlives the service.
+  struct Parts {
+    const store::DataFolder& folder;
+    store::Journal& journal;
+    store::JournalReader& reader;
+    watch::Hub& hub;
+    watch::Pump& pump;
+    jobs::Scheduler& scheduler;
+    std::chrono::milliseconds bookmark_interval;
+  };
+
+  explicit JobsService(const Parts& parts) : parts_(parts) {}
+
+  grpc::Status CreateJob(grpc::ServerContext* context, const v1::CreateJobRequest* request, v1::Job* response) override;
+  grpc::Status GetJob(grpc::ServerContext* context, const v1::GetJobRequest* request, v1::Job* response) override;
+  grpc::Status ListJobs(grpc::ServerContext* context, const v1::ListJobsRequest* request,
+                        v1::ListJobsResponse* response) override;
+  grpc::Status CancelJob(grpc::ServerContext* context, const v1::CancelJobRequest* request, v1::Job* response) override;
+  grpc::Status SuspendJob(grpc::ServerContext* context, const v1::SuspendJobRequest* request,
+                          v1::Job* response) override;
+  grpc::Status ResumeJob(grpc::ServerContext* context, const v1::ResumeJobRequest* request, v1::Job* response) override;
+  grpc::Status DeleteJob(grpc::ServerContext* context, const v1::DeleteJobRequest* request,
+                         v1::DeleteJobResponse* response) override;
+  grpc::ServerWriteReactor<v1::JobEvent>* WatchJob(grpc::CallbackServerContext* context,
+                                                   const v1::WatchJobRequest* request) override;
+  grpc::Status GetHistory(grpc::ServerContext* context, const v1::GetHistoryRequest* request,
+                          v1::GetHistoryResponse* response) override;
+  grpc::Status GetFrame(grpc::ServerContext* context, const v1::GetFrameRequest* request,
+                        grpc::ServerWriter<v1::GetFrameResponse>* writer) override;
+  grpc::Status DownloadResult(grpc::ServerContext* context, const v1::DownloadResultRequest* request,
+                              grpc::ServerWriter<v1::DownloadResultResponse>* writer) override;
+
+ private:
+  /// Throws ServiceError (not_found) when there is none.
+  store::StoredJob find(const std::string& name);
+  void add_progress(store::StoredJob& stored);
+  v1::FieldFrame find_frame(const store::StoredJob& stored, const v1::GetFrameRequest& request);
+
+  Parts parts_;
+};
+
+}  // namespace cellcrush::rpc

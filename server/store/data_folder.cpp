@@ -1,0 +1,72 @@
+#include "store/data_folder.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <system_error>
+
+#include "error.h"
+
+namespace cellcrush::store {
+namespace {
+
+[[noreturn]] void fail(const std::filesystem::path& path, int error) {
+  const bool full = error == ENOSPC || error == EDQUOT;
+  throw ServiceError(full ? ServiceError::Kind::storage_full : ServiceError::Kind::internal,
+                     path.string() + " cannot be used: " + std::generic_category().message(error) + ".");
+}
+
+void make_private_folder(const std::filesystem::path& path) {
+  std::error_code error;
+  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), error);
+  if (error) fail(path, error.value());
+  if (mkdir(path.c_str(), 0700) != 0 && errno != EEXIST) fail(path, errno);
+}
+
+std::string read_text(int file) {
+  std::array<char, 32> buffer{};
+  const auto count = pread(file, buffer.data(), buffer.size(), 0);
+  return count > 0 ? std::string(buffer.data(), static_cast<std::size_t>(count)) : "unknown";
+}
+
+}  // namespace
+
+DataFolder::DataFolder(const std::filesystem::path& root) {
+  make_private_folder(root);
+  std::error_code error;
+  root_ = std::filesystem::canonical(root, error);
+  if (error) fail(root, error.value());
+  make_private_folder(root_ / "jobs");
+  const auto lock_path = root_ / "lock";
+  lock_ = open(lock_path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+  if (lock_ < 0) fail(lock_path, errno);
+  if (flock(lock_, LOCK_EX | LOCK_NB) != 0) {
+    const std::string owner = read_text(lock_);
+    close(lock_);
+    throw ServiceError(ServiceError::Kind::failed_precondition,
+                       "The data folder " + root_.string() + " belongs to a daemon that runs (process " + owner +
+                           "). Stop it, or give this one another folder with --data.");
+  }
+  const std::string process = std::to_string(getpid());
+  if (ftruncate(lock_, 0) != 0 || pwrite(lock_, process.data(), process.size(), 0) < 0) {
+    const int reason = errno;
+    close(lock_);
+    fail(lock_path, reason);
+  }
+}
+
+DataFolder::~DataFolder() { close(lock_); }
+
+void DataFolder::prepare_job_folder(std::int64_t job) const {
+  const auto folder = job_folder(job);
+  std::error_code error;
+  std::filesystem::remove_all(folder, error);
+  if (error) fail(folder, error.value());
+  if (mkdir(folder.c_str(), 0700) != 0) fail(folder, errno);
+}
+
+}  // namespace cellcrush::store

@@ -1,0 +1,38 @@
+#include "store/durable_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+
+#include "error.h"
+
+namespace cellcrush::store {
+namespace {
+
+[[noreturn]] void fail(const std::filesystem::path& path, int error) {
+  const bool full = error == ENOSPC || error == EDQUOT || error == EFBIG;
+  throw ServiceError(full ? ServiceError::Kind::storage_full : ServiceError::Kind::internal,
+                     path.string() + " cannot be written: " + std::generic_category().message(error) + ".");
+}
+
+void synchronize(const std::filesystem::path& path, int flags) {
+  const int file = open(path.c_str(), flags | O_CLOEXEC);
+  if (file < 0) fail(path, errno);
+  const int error = fsync(file) == 0 ? 0 : errno;
+  close(file);
+  if (error != 0) fail(path, error);
+}
+
+}  // namespace
+
+void publish_file(const std::filesystem::path& from, const std::filesystem::path& to) {
+  synchronize(from, O_RDONLY);
+  std::error_code error;
+  std::filesystem::rename(from, to, error);
+  if (error) fail(to, error.value());
+  synchronize(to.parent_path(), O_RDONLY | O_DIRECTORY);
+}
+
+}  // namespace cellcrush::store

@@ -1,0 +1,201 @@
+#include "store/journal.h"
+
+#include <google/protobuf/util/time_util.h>
+#include <spdlog/spdlog.h>
+
+#include <utility>
+
+#include "error.h"
+#include "jobs/job_state.h"
+#include "store/journal_schema.h"
+
+namespace cellcrush::store {
+namespace {
+
+constexpr std::chrono::milliseconds kGatherTime{100};
+
+// What the journal keeps in one blob: all but what has a column of its own or is transient.
+std::string job_bytes(v1::Job job) {
+  job.clear_name();
+  job.clear_case_();
+  job.clear_progress();
+  return job.SerializeAsString();
+}
+
+void apply(const StateChange& change, v1::Job& job) {
+  const auto now = google::protobuf::util::TimeUtil::GetCurrentTime();
+  job.set_state(change.state);
+  job.set_cause(change.cause);
+  job.set_cause_message(change.message);
+  job.set_remedy(change.remedy);
+  job.set_worker_pid(change.worker_pid);
+  if (change.state == v1::RUNNING) *job.mutable_start_time() = now;
+  if (jobs::is_terminal(change.state)) *job.mutable_end_time() = now;
+  if (change.state == v1::SUCCEEDED) *job.mutable_summary() = change.summary;
+}
+
+}  // namespace
+
+Journal::Journal(const std::filesystem::path& path, Durable on_durable)
+    : on_durable_(std::move(on_durable)), database_(path) {
+  prepare_journal(database_);
+  committer_ = std::thread([this] { commit_gathered_regularly(); });
+}
+
+Journal::~Journal() {
+  {
+    const std::scoped_lock lock(gather_mutex_);
+    stopping_ = true;
+  }
+  stop_signal_.notify_all();
+  committer_.join();
+}
+
+Journal::Created Journal::create_job(v1::Job job, const std::string& request_id, const std::string& request_hash) {
+  Created created;
+  {
+    const std::scoped_lock lock(write_mutex_);
+    Transaction transaction(database_);
+    if (!request_id.empty()) {
+      Statement find(database_, "SELECT number, request_hash FROM jobs WHERE request_id = ?1");
+      if (find.bind_text(1, request_id).step()) {
+        if (find.bytes(1) == request_hash) return {find.integer(0), false};
+        throw ServiceError(ServiceError::Kind::already_exists,
+                           "The request_id \"" + request_id + "\" was used for another request, which made jobs/" +
+                               std::to_string(find.integer(0)) + ". Use a new request_id.");
+      }
+    }
+    job.set_state(v1::PENDING);
+    *job.mutable_create_time() = google::protobuf::util::TimeUtil::GetCurrentTime();
+    Statement insert(database_,
+                     "INSERT INTO jobs (state, job, submitted_case, request_id, request_hash, last_sequence) "
+                     "VALUES (?1, ?2, ?3, ?4, ?5, 1)");
+    insert.bind(1, job.state()).bind_blob(2, job_bytes(job)).bind_blob(3, job.case_().SerializeAsString());
+    if (!request_id.empty()) insert.bind_text(4, request_id).bind_text(5, request_hash);
+    insert.run();
+    Statement number(database_, "SELECT last_insert_rowid()");
+    number.step();
+    created.job = number.integer(0);
+    insert_event(created.job, 1, kStateEvent, job_bytes(job));
+    transaction.commit();
+  }
+  on_durable_(created.job);
+  return created;
+}
+
+void Journal::change_state(std::int64_t job, const StateChange& change) {
+  {
+    const std::scoped_lock lock(write_mutex_);
+    Gathered samples = take_gathered(job);
+    try {
+      Transaction transaction(database_);
+      v1::Job stored;
+      {
+        Statement read(database_, "SELECT job FROM jobs WHERE number = ?1");
+        if (!read.bind(1, job).step())
+          throw ServiceError(ServiceError::Kind::not_found, "There is no jobs/" + std::to_string(job) + ".");
+        stored.ParseFromString(read.bytes(0));
+      }
+      if (!jobs::may_follow(stored.state(), change.state)) {
+        throw ServiceError(ServiceError::Kind::failed_precondition,
+                           "jobs/" + std::to_string(job) + " is " + v1::JobState_Name(stored.state()) +
+                               " and cannot become " + v1::JobState_Name(change.state) + ".");
+      }
+      apply(change, stored);
+      insert_samples(job, samples[job]);
+      const std::int64_t sequence = last_sequence_of(job) + 1;
+      insert_event(job, sequence, kStateEvent, job_bytes(stored));
+      Statement update(database_, "UPDATE jobs SET state = ?2, job = ?3, last_sequence = ?4 WHERE number = ?1");
+      update.bind(1, job).bind(2, stored.state()).bind_blob(3, job_bytes(stored)).bind(4, sequence).run();
+      transaction.commit();
+    } catch (...) {
+      give_back(std::move(samples));
+      throw;
+    }
+  }
+  on_durable_(job);
+}
+
+void Journal::append_sample(std::int64_t job, const v1::Sample& sample) {
+  std::string bytes = sample.SerializeAsString();
+  const std::scoped_lock lock(gather_mutex_);
+  gathered_[job].push_back(std::move(bytes));
+}
+
+void Journal::set_mesh(std::int64_t job, const v1::Mesh& mesh) {
+  const std::scoped_lock lock(write_mutex_);
+  Statement insert(database_, "INSERT OR REPLACE INTO meshes (job, mesh) VALUES (?1, ?2)");
+  insert.bind(1, job).bind_blob(2, mesh.SerializeAsString()).run();
+}
+
+void Journal::commit_gathered_regularly() {
+  bool failing = false;
+  for (bool stop = false; !stop;) {
+    {
+      std::unique_lock lock(gather_mutex_);
+      stop = stop_signal_.wait_for(lock, kGatherTime, [this] { return stopping_; });
+    }
+    try {
+      commit_gathered();
+      failing = false;
+    } catch (const std::exception& error) {
+      // The samples were given back and are tried again; the same failure is told once.
+      if (!failing) spdlog::error("Samples cannot be made durable: {}", error.what());
+      failing = true;
+    }
+  }
+}
+
+void Journal::commit_gathered() {
+  Gathered samples;
+  {
+    const std::scoped_lock lock(write_mutex_);
+    samples = take_gathered(std::nullopt);
+    if (samples.empty()) return;
+    try {
+      Transaction transaction(database_);
+      for (const auto& [job, of_job] : samples) insert_samples(job, of_job);
+      transaction.commit();
+    } catch (...) {
+      give_back(std::move(samples));
+      throw;
+    }
+  }
+  for (const auto& [job, of_job] : samples) on_durable_(job);
+}
+
+std::int64_t Journal::last_sequence_of(std::int64_t job) {
+  Statement read(database_, "SELECT last_sequence FROM jobs WHERE number = ?1");
+  return read.bind(1, job).step() ? read.integer(0) : 0;
+}
+
+void Journal::insert_event(std::int64_t job, std::int64_t sequence, int kind, const std::string& payload) {
+  Statement insert(database_, "INSERT INTO events (job, sequence, kind, payload) VALUES (?1, ?2, ?3, ?4)");
+  insert.bind(1, job).bind(2, sequence).bind(3, kind).bind_blob(4, payload).run();
+}
+
+void Journal::insert_samples(std::int64_t job, const std::vector<std::string>& samples) {
+  if (samples.empty()) return;
+  std::int64_t sequence = last_sequence_of(job);
+  for (const auto& sample : samples) insert_event(job, ++sequence, kSampleEvent, sample);
+  Statement update(database_, "UPDATE jobs SET last_sequence = ?2 WHERE number = ?1");
+  update.bind(1, job).bind(2, sequence).run();
+}
+
+Journal::Gathered Journal::take_gathered(std::optional<std::int64_t> job) {
+  const std::scoped_lock lock(gather_mutex_);
+  if (!job) return std::exchange(gathered_, {});
+  Gathered taken;
+  if (auto node = gathered_.extract(*job)) taken.insert(std::move(node));
+  return taken;
+}
+
+void Journal::give_back(Gathered samples) {
+  const std::scoped_lock lock(gather_mutex_);
+  for (auto& [job, older] : samples) {
+    auto& newer = gathered_[job];
+    newer.insert(newer.begin(), std::make_move_iterator(older.begin()), std::make_move_iterator(older.end()));
+  }
+}
+
+}  // namespace cellcrush::store

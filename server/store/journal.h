@@ -1,0 +1,82 @@
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "cellcrush/v1/event.pb.h"
+#include "cellcrush/v1/job.pb.h"
+#include "store/sqlite.h"
+
+namespace cellcrush::store {
+
+/// A change of a job's state and what is known with it. Fields that do not apply are left empty.
+struct StateChange {
+  v1::JobState state = v1::JOB_STATE_UNSPECIFIED;
+  v1::JobCause cause = v1::JOB_CAUSE_UNSPECIFIED;
+  std::string message;
+  std::string remedy;
+  std::int64_t worker_pid = 0;
+  v1::Summary summary;  ///< kept when the state is SUCCEEDED
+};
+
+/// Writes the journal (journal_format.md). Thread-safe. Failures throw ServiceError; a failed write changes nothing.
+class Journal {
+ public:
+  /// Told of a job that has new durable events, from the thread that committed them; must not call back into the
+  /// journal.
+  using Durable = std::function<void(std::int64_t job)>;
+
+  Journal(const std::filesystem::path& path, Durable on_durable);
+  /// Commits what is gathered.
+  ~Journal();
+  Journal(const Journal&) = delete;
+  Journal& operator=(const Journal&) = delete;
+
+  struct Created {
+    std::int64_t job = 0;
+    bool is_new = true;
+  };
+  /// Makes a PENDING job from `job` (case, labels). The same request_id with the same hash gives the job made before;
+  /// with another one, already_exists is thrown. An empty request_id is none.
+  Created create_job(v1::Job job, const std::string& request_id, const std::string& request_hash);
+
+  /// Makes a change durable, and before it the samples gathered for the job. Throws failed_precondition when the state
+  /// may not follow the present one (jobs/job_state.h).
+  void change_state(std::int64_t job, const StateChange& change);
+
+  /// Gathers a sample; durable within about 100 ms. Never waits for the disk.
+  void append_sample(std::int64_t job, const v1::Sample& sample);
+
+  void set_mesh(std::int64_t job, const v1::Mesh& mesh);
+
+ private:
+  void commit_gathered_regularly();
+  void commit_gathered();
+  std::int64_t last_sequence_of(std::int64_t job);
+  void insert_event(std::int64_t job, std::int64_t sequence, int kind, const std::string& payload);
+  void insert_samples(std::int64_t job, const std::vector<std::string>& samples);
+
+  using Gathered = std::map<std::int64_t, std::vector<std::string>>;
+  /// All that is gathered, or what is gathered for one job.
+  Gathered take_gathered(std::optional<std::int64_t> job);
+  void give_back(Gathered samples);
+
+  Durable on_durable_;
+  std::mutex write_mutex_;   ///< the connection; taken before gather_mutex_
+  std::mutex gather_mutex_;  ///< gathered_ and stopping_
+  Database database_;
+  Gathered gathered_;  ///< samples that are not durable yet, as bytes, by job
+  std::condition_variable stop_signal_;
+  bool stopping_ = false;
+  std::thread committer_;
+};
+
+}  // namespace cellcrush::store

@@ -1,0 +1,89 @@
+#include "store/journal_reader.h"
+
+#include "jobs/job_state.h"
+#include "store/journal_schema.h"
+
+namespace cellcrush::store {
+namespace {
+
+// Columns: number, job, submitted_case, last_sequence.
+StoredJob read_job(const Statement& row) {
+  StoredJob out;
+  out.number = row.integer(0);
+  out.job.ParseFromString(row.bytes(1));
+  out.job.mutable_case_()->ParseFromString(row.bytes(2));
+  out.job.set_name(jobs::name_of(out.number));
+  out.last_sequence = row.integer(3);
+  return out;
+}
+
+}  // namespace
+
+JournalReader::JournalReader(const std::filesystem::path& path) : database_(path) {}
+
+std::optional<StoredJob> JournalReader::find_job(std::int64_t job) {
+  const std::scoped_lock lock(mutex_);
+  Statement read(database_, "SELECT number, job, submitted_case, last_sequence FROM jobs WHERE number = ?1");
+  if (!read.bind(1, job).step()) return std::nullopt;
+  return read_job(read);
+}
+
+std::vector<StoredJob> JournalReader::list_jobs(std::int64_t before, int limit) {
+  const std::scoped_lock lock(mutex_);
+  Statement read(database_,
+                 "SELECT number, job, submitted_case, last_sequence FROM jobs WHERE number < ?1 "
+                 "ORDER BY number DESC LIMIT ?2");
+  read.bind(1, before).bind(2, limit);
+  std::vector<StoredJob> out;
+  while (read.step()) out.push_back(read_job(read));
+  return out;
+}
+
+std::vector<std::int64_t> JournalReader::jobs_in(v1::JobState state) {
+  const std::scoped_lock lock(mutex_);
+  Statement read(database_, "SELECT number FROM jobs WHERE state = ?1 ORDER BY number");
+  read.bind(1, state);
+  std::vector<std::int64_t> out;
+  while (read.step()) out.push_back(read.integer(0));
+  return out;
+}
+
+std::vector<v1::JobEvent> JournalReader::events(std::int64_t job, std::int64_t after, int limit) {
+  const std::scoped_lock lock(mutex_);
+  Statement read(
+      database_,
+      "SELECT sequence, kind, payload FROM events WHERE job = ?1 AND sequence > ?2 ORDER BY sequence LIMIT ?3");
+  read.bind(1, job).bind(2, after).bind(3, limit);
+  std::vector<v1::JobEvent> out;
+  while (read.step()) {
+    v1::JobEvent& event = out.emplace_back();
+    event.set_sequence(read.integer(0));
+    if (read.integer(1) == kStateEvent) {
+      event.mutable_state()->ParseFromString(read.bytes(2));
+      event.mutable_state()->set_name(jobs::name_of(job));
+    } else {
+      event.mutable_sample()->ParseFromString(read.bytes(2));
+    }
+  }
+  return out;
+}
+
+std::vector<v1::Sample> JournalReader::samples(std::int64_t job) {
+  const std::scoped_lock lock(mutex_);
+  Statement read(database_, "SELECT payload FROM events WHERE job = ?1 AND kind = ?2 ORDER BY sequence");
+  read.bind(1, job).bind(2, kSampleEvent);
+  std::vector<v1::Sample> out;
+  while (read.step()) out.emplace_back().ParseFromString(read.bytes(0));
+  return out;
+}
+
+std::optional<v1::Mesh> JournalReader::mesh(std::int64_t job) {
+  const std::scoped_lock lock(mutex_);
+  Statement read(database_, "SELECT mesh FROM meshes WHERE job = ?1");
+  if (!read.bind(1, job).step()) return std::nullopt;
+  v1::Mesh mesh;
+  mesh.ParseFromString(read.bytes(0));
+  return mesh;
+}
+
+}  // namespace cellcrush::store

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "cellcrush/v1/event.pb.h"
+#include "cellcrush/v1/job.pb.h"
+#include "store/sqlite.h"
+
+namespace cellcrush::store {
+
+/// A job as the journal has it: name and case filled in, progress not.
+struct StoredJob {
+  std::int64_t number = 0;
+  v1::Job job;
+  std::int64_t last_sequence = 0;
+};
+
+/// Reads the journal beside its writer; sees what is committed. Thread-safe. Failures throw ServiceError.
+class JournalReader {
+ public:
+  /// REQUIRES: a Journal has been opened on the same path.
+  explicit JournalReader(const std::filesystem::path& path);
+
+  std::optional<StoredJob> find_job(std::int64_t job);
+
+  /// Newest first; only jobs with a number below `before`.
+  std::vector<StoredJob> list_jobs(std::int64_t before, int limit);
+
+  /// Numbers of the jobs in a state, oldest first.
+  std::vector<std::int64_t> jobs_in(v1::JobState state);
+
+  /// States (without their cases) and samples behind `after`, in order.
+  std::vector<v1::JobEvent> events(std::int64_t job, std::int64_t after, int limit);
+
+  std::vector<v1::Sample> samples(std::int64_t job);
+
+  /// Nothing while no worker has sent it.
+  std::optional<v1::Mesh> mesh(std::int64_t job);
+
+ private:
+  std::mutex mutex_;
+  Database database_;
+};
+
+}  // namespace cellcrush::store

@@ -1,0 +1,54 @@
+#include "store/journal_schema.h"
+
+#include "error.h"
+
+namespace cellcrush::store {
+namespace {
+
+constexpr std::int64_t kVersion = 1;
+
+constexpr const char* kTables = R"sql(
+CREATE TABLE jobs (
+  number INTEGER PRIMARY KEY AUTOINCREMENT,
+  state INTEGER NOT NULL,
+  job BLOB NOT NULL,
+  submitted_case BLOB NOT NULL,
+  request_id TEXT,
+  request_hash TEXT,
+  last_sequence INTEGER NOT NULL
+) STRICT;
+CREATE UNIQUE INDEX jobs_by_request ON jobs(request_id) WHERE request_id IS NOT NULL;
+CREATE INDEX jobs_by_state ON jobs(state);
+CREATE TABLE events (
+  job INTEGER NOT NULL REFERENCES jobs(number),
+  sequence INTEGER NOT NULL,
+  kind INTEGER NOT NULL,
+  payload BLOB NOT NULL,
+  PRIMARY KEY (job, sequence)
+) STRICT, WITHOUT ROWID;
+CREATE TABLE meshes (
+  job INTEGER PRIMARY KEY REFERENCES jobs(number),
+  mesh BLOB NOT NULL
+) STRICT;
+PRAGMA user_version = 1;
+)sql";
+
+}  // namespace
+
+void prepare_journal(Database& database) {
+  Transaction transaction(database);
+  std::int64_t version = 0;
+  {
+    Statement read(database, "PRAGMA user_version");
+    if (read.step()) version = read.integer(0);
+  }
+  if (version > kVersion) {
+    throw ServiceError(ServiceError::Kind::failed_precondition,
+                       "The journal is of version " + std::to_string(version) + ", and this daemon knows version " +
+                           std::to_string(kVersion) + ". Run a newer cellcrushd, or use another data folder.");
+  }
+  if (version == 0) database.execute(kTables);
+  transaction.commit();
+}
+
+}  // namespace cellcrush::store

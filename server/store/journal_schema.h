@@ -1,0 +1,14 @@
+#pragma once
+
+#include "store/sqlite.h"
+
+namespace cellcrush::store {
+
+/// Kinds of events in the journal.
+inline constexpr int kStateEvent = 1;
+inline constexpr int kSampleEvent = 2;
+
+/// Makes the tables of a new journal. Throws ServiceError (failed_precondition) for a journal of a later version.
+void prepare_journal(Database& database);
+
+}  // namespace cellcrush::store

@@ -1,0 +1,137 @@
+#include "store/result_writer.h"
+
+#include <google/protobuf/util/json_util.h>
+
+#include <algorithm>
+#include <functional>
+#include <utility>
+
+#include "store/case_hash.h"
+
+namespace cellcrush::store {
+namespace {
+
+Hdf5Handle make_group(hid_t file, const char* name) {
+  return {H5Gcreate2(file, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose,
+          std::string("Making the group ") + name};
+}
+
+std::string case_as_json(const v1::Case& submitted) {
+  google::protobuf::util::JsonPrintOptions options;
+  options.preserve_proto_field_names = true;
+  std::string json;
+  (void)google::protobuf::util::MessageToJsonString(submitted, &json, options);
+  return json;
+}
+
+std::string as_lines(const std::vector<std::string>& sentences) {
+  std::string out;
+  for (const auto& sentence : sentences) out += (out.empty() ? "" : "\n") + sentence;
+  return out;
+}
+
+void write_summary(hid_t file, const v1::Summary& summary) {
+  if (summary.has_plateau_stress_impact_mpa()) {
+    write_attribute(file, "plateau_stress_impact_mpa", summary.plateau_stress_impact_mpa());
+    write_attribute(file, "plateau_stress_mpa", summary.plateau_stress_impact_mpa());
+  }
+  if (summary.has_plateau_stress_support_mpa())
+    write_attribute(file, "plateau_stress_support_mpa", summary.plateau_stress_support_mpa());
+  write_attribute(file, "plateau_window_low", summary.plateau_window_low());
+  write_attribute(file, "plateau_window_high", summary.plateau_window_high());
+  if (summary.has_densification_strain()) write_attribute(file, "densification_strain", summary.densification_strain());
+  if (summary.has_plateau_stress_to_densification_mpa())
+    write_attribute(file, "plateau_stress_to_densification_mpa", summary.plateau_stress_to_densification_mpa());
+  write_attribute(file, "absorbed_energy_mj", summary.absorbed_energy_mj());
+  write_attribute(file, "energy_error_relative", summary.energy_error_relative());
+  write_attribute(file, "deepest_penetration", summary.deepest_penetration());
+  write_attribute(file, "step_count", static_cast<std::int64_t>(summary.step_count()));
+  write_attribute(file, "solver_seconds", summary.solver_seconds());
+  write_attribute(file, "theory_gibson_ashby_mpa", summary.theory().gibson_ashby_mpa());
+  write_attribute(file, "theory_shock_mpa", summary.theory().shock_mpa());
+}
+
+}  // namespace
+
+ResultWriter::ResultWriter(const std::filesystem::path& path, const v1::Mesh& mesh)
+    : particle_count_(static_cast<hsize_t>(mesh.particle_count())),
+      element_count_(static_cast<hsize_t>(mesh.thickness_mm_size())) {
+  silence_hdf5();
+  file_ =
+      Hdf5Handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose, "Making " + path.string());
+  write_mesh(mesh);
+  const Hdf5Handle history = make_group(file_.id(), "history");
+  for (std::size_t i = 0; i < kHistoryColumns.size(); ++i)
+    history_[i] = make_growing_dataset(history.id(), kHistoryColumns[i].name, H5T_IEEE_F64LE, {}, {kHistoryChunkRows});
+  const Hdf5Handle frames = make_group(file_.id(), "frames");
+  frame_time_ = make_growing_dataset(frames.id(), "time_s", H5T_IEEE_F64LE, {}, {kHistoryChunkRows});
+  frame_strain_ = make_growing_dataset(frames.id(), "strain", H5T_IEEE_F64LE, {}, {kHistoryChunkRows});
+  frame_position_ = make_growing_dataset(frames.id(), "position_mm", H5T_IEEE_F32LE, {particle_count_, 2},
+                                         {1, std::min<hsize_t>(particle_count_, kFrameChunkItems), 2});
+  frame_plastic_ = make_growing_dataset(frames.id(), "plastic_fraction", H5T_IEEE_F32LE, {element_count_},
+                                        {1, std::min<hsize_t>(element_count_, kFrameChunkItems)});
+}
+
+void ResultWriter::write_mesh(const v1::Mesh& mesh) {
+  mesh_ = make_group(file_.id(), "mesh");
+  write_dataset(mesh_.id(), "beam_nodes", H5T_NATIVE_INT32, {element_count_, 2}, mesh.element_nodes().data());
+  write_dataset(mesh_.id(), "thickness_mm", H5T_NATIVE_FLOAT, {element_count_}, mesh.thickness_mm().data());
+  write_attribute(mesh_.id(), "length_mm", mesh.length_mm());
+  write_attribute(mesh_.id(), "width_mm", mesh.width_mm());
+  write_attribute(mesh_.id(), "impact_plate_mm", mesh.impact_plate_mm());
+  write_attribute(mesh_.id(), "support_plate_mm", mesh.support_plate_mm());
+  write_attribute(mesh_.id(), "along_y", static_cast<std::int64_t>(mesh.along_y()));
+}
+
+void ResultWriter::add_sample(const v1::Sample& sample) {
+  gathered_.push_back(sample);
+  if (gathered_.size() >= kHistoryChunkRows) write_gathered();
+}
+
+void ResultWriter::write_gathered() {
+  if (gathered_.empty()) return;
+  std::vector<double> column(gathered_.size());
+  for (std::size_t i = 0; i < kHistoryColumns.size(); ++i) {
+    std::transform(gathered_.begin(), gathered_.end(), column.begin(), std::mem_fn(kHistoryColumns[i].get));
+    append_rows(history_[i].id(), H5T_NATIVE_DOUBLE, column.size(), column.data());
+  }
+  gathered_.clear();
+}
+
+void ResultWriter::add_frame(const v1::FieldFrame& frame) {
+  const double time = frame.time_s();
+  const double strain = frame.strain();
+  append_rows(frame_time_.id(), H5T_NATIVE_DOUBLE, 1, &time);
+  append_rows(frame_strain_.id(), H5T_NATIVE_DOUBLE, 1, &strain);
+  append_rows(frame_position_.id(), H5T_NATIVE_FLOAT, 1, frame.position_mm().data());
+  append_rows(frame_plastic_.id(), H5T_NATIVE_FLOAT, 1, frame.plastic_fraction().data());
+  if (!std::exchange(has_positions_, true))
+    write_dataset(mesh_.id(), "position_mm", H5T_NATIVE_FLOAT, {particle_count_, 2}, frame.position_mm().data());
+}
+
+void ResultWriter::finish(const ResultHeader& header, const v1::Summary& summary) {
+  write_gathered();
+  write_attribute(file_.id(), "case", case_as_json(header.submitted_case));
+  write_attribute(file_.id(), "case_hash", hash_of(header.submitted_case));
+  write_attribute(file_.id(), "modelled", as_lines(header.modelled));
+  write_attribute(file_.id(), "solver_revision", header.solver_revision);
+  write_attribute(file_.id(), "simd_target", header.simd_target);
+  write_attribute(file_.id(), "time_step_s", header.time_step_s);
+  write_summary(file_.id(), summary);
+  const std::string what = "Closing the result";
+  for (auto& column : history_) column.close(what);
+  for (auto* part : {&frame_time_, &frame_strain_, &frame_position_, &frame_plastic_, &mesh_}) part->close(what);
+  check_hdf5(H5Fflush(file_.id(), H5F_SCOPE_GLOBAL), what);
+  file_.close(what);
+}
+
+std::int64_t predicted_result_bytes(std::int64_t particles, std::int64_t elements, std::int64_t samples,
+                                    std::int64_t frames) {
+  constexpr std::int64_t kStructure = 65536;
+  const std::int64_t history = static_cast<std::int64_t>(kHistoryColumns.size()) * 8 * samples;
+  const std::int64_t mesh = 2 * 4 * particles + 3 * 4 * elements;
+  const std::int64_t per_frame = 2 * 8 + 2 * 4 * particles + 4 * elements;
+  return kStructure + history + mesh + frames * per_frame;
+}
+
+}  // namespace cellcrush::store

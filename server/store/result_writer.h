@@ -1,0 +1,58 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "cellcrush/v1/case.pb.h"
+#include "cellcrush/v1/sample.pb.h"
+#include "store/hdf5.h"
+#include "store/result_layout.h"
+
+namespace cellcrush::store {
+
+/// What a result says of itself, beside its numbers.
+struct ResultHeader {
+  v1::Case submitted_case;
+  std::string solver_revision;
+  std::string simd_target;
+  double time_step_s = 0.0;
+  std::vector<std::string> modelled;
+};
+
+/// Writes one result.h5 (result_format.md). Not thread-safe. Failures throw ServiceError: storage_full or internal.
+class ResultWriter {
+ public:
+  /// Begins a new file; one that is there is replaced.
+  ResultWriter(const std::filesystem::path& path, const v1::Mesh& mesh);
+
+  void add_sample(const v1::Sample& sample);
+  /// Frame 0 comes first: its positions are the mesh's.
+  void add_frame(const v1::FieldFrame& frame);
+  /// Writes what is gathered and the attributes, and closes the file. Nothing may follow.
+  void finish(const ResultHeader& header, const v1::Summary& summary);
+
+ private:
+  void write_mesh(const v1::Mesh& mesh);
+  void write_gathered();
+
+  hsize_t particle_count_;
+  hsize_t element_count_;
+  Hdf5Handle file_;
+  Hdf5Handle mesh_;
+  std::array<Hdf5Handle, kHistoryColumns.size()> history_;
+  Hdf5Handle frame_time_;
+  Hdf5Handle frame_strain_;
+  Hdf5Handle frame_position_;
+  Hdf5Handle frame_plastic_;
+  std::vector<v1::Sample> gathered_;
+  bool has_positions_ = false;
+};
+
+/// Bytes of a result's datasets before compression, with room for the file's own structure.
+std::int64_t predicted_result_bytes(std::int64_t particles, std::int64_t elements, std::int64_t samples,
+                                    std::int64_t frames);
+
+}  // namespace cellcrush::store

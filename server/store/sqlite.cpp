@@ -1,0 +1,99 @@
+#include "store/sqlite.h"
+
+#include <sqlite3.h>
+
+#include "error.h"
+
+namespace cellcrush::store {
+namespace {
+
+[[noreturn]] void fail(sqlite3* handle, int code) {
+  const bool full = (code & 0xFF) == SQLITE_FULL;
+  const std::string message = handle != nullptr ? sqlite3_errmsg(handle) : sqlite3_errstr(code);
+  throw ServiceError(full ? ServiceError::Kind::storage_full : ServiceError::Kind::internal,
+                     "The journal of the jobs cannot be used: " + message + ".");
+}
+
+}  // namespace
+
+Database::Database(const std::filesystem::path& path) {
+  sqlite3* handle = nullptr;
+  const int code =
+      sqlite3_open_v2(path.c_str(), &handle, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX, nullptr);
+  handle_.reset(handle);
+  if (code != SQLITE_OK) fail(handle, code);
+  sqlite3_extended_result_codes(handle, 1);
+  sqlite3_busy_timeout(handle, 10'000);
+  execute("PRAGMA journal_mode=WAL; PRAGMA synchronous=FULL; PRAGMA foreign_keys=ON;");
+}
+
+void Database::execute(const char* sql) {
+  const int code = sqlite3_exec(handle_.get(), sql, nullptr, nullptr, nullptr);
+  if (code != SQLITE_OK) fail(handle_.get(), code);
+}
+
+void Database::Close::operator()(sqlite3* handle) const { sqlite3_close_v2(handle); }
+
+Statement::Statement(const Database& database, std::string_view sql) : database_(database.raw()) {
+  sqlite3_stmt* handle = nullptr;
+  const int code = sqlite3_prepare_v2(database_, sql.data(), static_cast<int>(sql.size()), &handle, nullptr);
+  if (code != SQLITE_OK) fail(database_, code);
+  handle_.reset(handle);
+}
+
+Statement& Statement::bind(int parameter, std::int64_t value) {
+  if (const int code = sqlite3_bind_int64(handle_.get(), parameter, value); code != SQLITE_OK) fail(database_, code);
+  return *this;
+}
+
+Statement& Statement::bind_text(int parameter, const std::string& value) {
+  const int code =
+      sqlite3_bind_text64(handle_.get(), parameter, value.data(), value.size(), SQLITE_TRANSIENT, SQLITE_UTF8);
+  if (code != SQLITE_OK) fail(database_, code);
+  return *this;
+}
+
+Statement& Statement::bind_blob(int parameter, const std::string& value) {
+  const int code = sqlite3_bind_blob64(handle_.get(), parameter, value.data(), value.size(), SQLITE_TRANSIENT);
+  if (code != SQLITE_OK) fail(database_, code);
+  return *this;
+}
+
+bool Statement::step() {
+  const int code = sqlite3_step(handle_.get());
+  if (code == SQLITE_ROW) return true;
+  if (code != SQLITE_DONE) {
+    sqlite3_reset(handle_.get());
+    fail(database_, code);
+  }
+  return false;
+}
+
+void Statement::run() {
+  step();
+  sqlite3_reset(handle_.get());
+}
+
+std::int64_t Statement::integer(int column) const { return sqlite3_column_int64(handle_.get(), column); }
+
+std::string Statement::bytes(int column) const {
+  const void* data = sqlite3_column_blob(handle_.get(), column);
+  const int size = sqlite3_column_bytes(handle_.get(), column);
+  return data == nullptr ? std::string() : std::string(static_cast<const char*>(data), static_cast<std::size_t>(size));
+}
+
+void Statement::Finalize::operator()(sqlite3_stmt* handle) const { sqlite3_finalize(handle); }
+
+Transaction::Transaction(Database& database) : database_(database) { database_.execute("BEGIN IMMEDIATE"); }
+
+Transaction::~Transaction() {
+  // A failed commit may have rolled back already; there is nothing to do about a failing rollback.
+  if (open_) sqlite3_exec(database_.raw(), "ROLLBACK", nullptr, nullptr, nullptr);
+}
+
+void Transaction::commit() {
+  database_.execute("COMMIT");
+  open_ = false;
+}
+
+}  // namespace cellcrush::store

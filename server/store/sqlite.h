@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+
+struct sqlite3;
+struct sqlite3_stmt;
+
+namespace cellcrush::store {
+
+/// A connection to an SQLite file. Not thread-safe. Every failure throws ServiceError: storage_full when the disk is,
+/// otherwise internal.
+class Database {
+ public:
+  /// Opens or makes the file: WAL, synchronous=FULL, foreign keys on.
+  explicit Database(const std::filesystem::path& path);
+
+  /// Runs statements that give no rows.
+  void execute(const char* sql);
+
+  [[nodiscard]] sqlite3* raw() const { return handle_.get(); }
+
+ private:
+  struct Close {
+    void operator()(sqlite3* handle) const;
+  };
+  std::unique_ptr<sqlite3, Close> handle_;
+};
+
+/// A prepared statement; parameters and columns count from 1 and 0, as in SQLite.
+class Statement {
+ public:
+  Statement(const Database& database, std::string_view sql);
+
+  Statement& bind(int parameter, std::int64_t value);
+  Statement& bind_text(int parameter, const std::string& value);
+  Statement& bind_blob(int parameter, const std::string& value);
+
+  /// Goes to the next row; false when there is none.
+  bool step();
+  /// Runs a statement that gives no rows, and makes it ready for the next.
+  void run();
+
+  [[nodiscard]] std::int64_t integer(int column) const;
+  [[nodiscard]] std::string bytes(int column) const;
+
+ private:
+  struct Finalize {
+    void operator()(sqlite3_stmt* handle) const;
+  };
+  sqlite3* database_;
+  std::unique_ptr<sqlite3_stmt, Finalize> handle_;
+};
+
+/// A write transaction: rolled back unless it was committed.
+class Transaction {
+ public:
+  explicit Transaction(Database& database);
+  ~Transaction();
+  Transaction(const Transaction&) = delete;
+  Transaction& operator=(const Transaction&) = delete;
+
+  void commit();
+
+ private:
+  Database& database_;
+  bool open_ = true;
+};
+
+}  // namespace cellcrush::store

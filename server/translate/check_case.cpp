@@ -1,0 +1,65 @@
+#include "translate/check_case.h"
+
+#include "cellcrush/simulation.h"
+#include "translate/case_to_spec.h"
+#include "translate/problems.h"
+#include "translate/results.h"
+#include "translate/spec_to_case.h"
+
+namespace cellcrush::translate {
+namespace {
+
+std::int64_t divide_up(std::int64_t value, std::int64_t by) { return by > 0 ? (value + by - 1) / by : 0; }
+
+void describe(const SceneFacts& facts, v1::CheckCaseResponse& out) {
+  constexpr double kGramsPerTonne = 1e6;
+  out.set_particle_count(facts.particle_count);
+  out.set_element_count(facts.element_count);
+  out.set_mass_g(facts.mass * kGramsPerTonne);
+  out.set_relative_density(facts.relative_density);
+  out.set_length_mm(facts.length);
+  out.set_width_mm(facts.width);
+  out.set_stable_step_s(facts.stable_step);
+  out.set_time_step_s(facts.time_step);
+  out.set_step_count(facts.step_count);
+  out.set_predicted_memory_bytes(facts.memory_bytes);
+  *out.mutable_theory() = to_proto(facts.theory);
+  for (const auto& sentence : facts.modelled) out.add_modelled(sentence);
+}
+
+// A frame's nodes keep the names that the case gave them.
+void restore_node_names(const v1::Frame& submitted, v1::Frame& completed) {
+  const auto rename = [&submitted](std::string& id) { id = submitted.nodes(std::stoi(id)).id(); };
+  for (auto& node : *completed.mutable_nodes()) rename(*node.mutable_id());
+  for (auto& beam : *completed.mutable_beams()) {
+    rename(*beam.mutable_start());
+    rename(*beam.mutable_end());
+  }
+  for (auto& support : *completed.mutable_supports()) rename(*support.mutable_node());
+  for (auto& load : *completed.mutable_loads()) rename(*load.mutable_node());
+  for (auto& velocity : *completed.mutable_initial_velocities()) rename(*velocity.mutable_node());
+}
+
+}  // namespace
+
+CaseCheck check_case(const v1::Case& submitted) {
+  CaseCheck out;
+  const auto reading = to_spec(submitted);
+  const auto built = build_scene(reading.spec);
+  for (const Problems* problems : {&reading.problems, &built.problems}) {
+    for (const auto& problem : *problems) *out.response.add_problems() = to_proto(problem);
+  }
+  if (out.response.problems_size() > 0) return out;
+  const auto facts = facts_of(*built.scene);
+  describe(facts, out.response);
+  *out.response.mutable_completed_case() = to_case(complete_spec(reading.spec, *built.scene));
+  if (submitted.lattice().has_frame()) {
+    restore_node_names(submitted.lattice().frame(),
+                       *out.response.mutable_completed_case()->mutable_lattice()->mutable_frame());
+  }
+  out.sample_count = divide_up(facts.step_count, facts.sample_interval);
+  out.frame_count = divide_up(facts.step_count, facts.frame_interval) + 1;
+  return out;
+}
+
+}  // namespace cellcrush::translate

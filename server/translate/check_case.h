@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstdint>
+
+#include "cellcrush/v1/cases_service.pb.h"
+
+namespace cellcrush::translate {
+
+/// The solver's word on a case.
+struct CaseCheck {
+  v1::CheckCaseResponse response;  ///< all but predicted_seconds and predicted_bytes, or only problems
+  std::int64_t sample_count = 0;   ///< that the run will give
+  std::int64_t frame_count = 0;    ///< the same, with the undeformed one
+};
+
+/// Builds the case's scene and describes it, or reports all problems. Throws std::bad_alloc when the scene does not
+/// fit.
+CaseCheck check_case(const v1::Case& submitted);
+
+}  // namespace cellcrush::translate

@@ -1,0 +1,150 @@
+#include <string>
+#include <unordered_map>
+#include <utility>
+
+#include "translate/case_to_spec.h"
+#include "translate/problems.h"
+
+namespace cellcrush::translate {
+namespace {
+
+std::string item(const char* list, int position) {
+  return "lattice.frame." + std::string(list) + "[" + std::to_string(position) + "]";
+}
+
+Problem missing(const std::string& field) { return invalid_field(field, "", "is missing.", "Set it."); }
+
+// Reads one frame: the wire names nodes by id, the spec by position.
+class FrameReader {
+ public:
+  FrameReader(const v1::Frame& in, Problems& problems) : in_(in), problems_(problems) {}
+
+  FrameLattice read() {
+    read_nodes();
+    read_beams();
+    read_supports();
+    read_loads();
+    read_initial_velocities();
+    name_unimplemented();
+    if (in_.has_self_contact()) out_.self_contact = in_.self_contact();
+    if (in_.has_end_time_s()) out_.end_time_s = in_.end_time_s();
+    return std::move(out_);
+  }
+
+ private:
+  void read_nodes() {
+    for (int i = 0; i < in_.nodes_size(); ++i) {
+      const auto& node = in_.nodes(i);
+      const std::string path = item("nodes", i);
+      if (node.id().empty() || node.id().size() > 64) {
+        problems_.push_back(invalid_field(path + ".id", node.id(), "is empty or longer than 64 characters.",
+                                          "Give each node a short name of its own."));
+      } else if (!positions_.emplace(node.id(), i).second) {
+        problems_.push_back(invalid_field(path + ".id", node.id(), "is the name of another node too.",
+                                          "Give each node a name of its own."));
+      }
+      if (!node.has_x_mm()) problems_.push_back(missing(path + ".x_mm"));
+      if (!node.has_y_mm()) problems_.push_back(missing(path + ".y_mm"));
+      out_.nodes.push_back({node.x_mm(), node.y_mm(), node.attached_mass_g(), node.attached_inertia_g_mm2()});
+    }
+  }
+
+  void read_beams() {
+    for (int i = 0; i < in_.beams_size(); ++i) {
+      const auto& beam = in_.beams(i);
+      const std::string path = item("beams", i);
+      FrameLattice::Beam out;
+      out.start = find_node(path + ".start", beam.start());
+      out.end = find_node(path + ".end", beam.end());
+      if (!beam.has_thickness_mm()) problems_.push_back(missing(path + ".thickness_mm"));
+      out.thickness_mm = beam.thickness_mm();
+      if (beam.has_material())
+        problems_.push_back(
+            unimplemented_field(path + ".material", "is not built yet: all beams have the case's material."));
+      if (beam.has_elements()) out.elements = beam.elements();
+      out_.beams.push_back(out);
+    }
+  }
+
+  void read_supports() {
+    for (int i = 0; i < in_.supports_size(); ++i) {
+      const auto& support = in_.supports(i);
+      out_.supports.push_back({find_node(item("supports", i) + ".node", support.node()), support.fix_x(),
+                               support.fix_y(), support.fix_rotation()});
+    }
+  }
+
+  void read_loads() {
+    for (int i = 0; i < in_.loads_size(); ++i) {
+      const auto& load = in_.loads(i);
+      const std::string path = item("loads", i);
+      FrameLattice::NodalLoad out;
+      out.node = find_node(path + ".node", load.node());
+      out.component = component(path + ".component", load.component());
+      for (int k = 0; k < load.force_n_or_n_mm().points_size(); ++k) {
+        const auto& point = load.force_n_or_n_mm().points(k);
+        const std::string point_path = path + ".force_n_or_n_mm.points[" + std::to_string(k) + "]";
+        if (!point.has_time_s()) problems_.push_back(missing(point_path + ".time_s"));
+        if (!point.has_value()) problems_.push_back(missing(point_path + ".value"));
+        out.points.emplace_back(point.time_s(), point.value());
+      }
+      out_.loads.push_back(out);
+    }
+  }
+
+  void read_initial_velocities() {
+    for (int i = 0; i < in_.initial_velocities_size(); ++i) {
+      const auto& velocity = in_.initial_velocities(i);
+      out_.initial_velocities.push_back({find_node(item("initial_velocities", i) + ".node", velocity.node()),
+                                         velocity.x_m_per_s(), velocity.y_m_per_s(), velocity.rotation_rad_per_s()});
+    }
+  }
+
+  // What the wire can say and the spec cannot hold.
+  void name_unimplemented() {
+    if (in_.motions_size() > 0) problems_.push_back(unimplemented_field("lattice.frame.motions", "are not built yet."));
+    if (in_.distributed_loads_size() > 0)
+      problems_.push_back(unimplemented_field("lattice.frame.distributed_loads", "are not built yet."));
+    if (in_.has_gravity_x_m_per_s2())
+      problems_.push_back(unimplemented_field("lattice.frame.gravity_x_m_per_s2", "is not built yet."));
+    if (in_.has_gravity_y_m_per_s2())
+      problems_.push_back(unimplemented_field("lattice.frame.gravity_y_m_per_s2", "is not built yet."));
+    if (in_.watched_nodes_size() > 0)
+      problems_.push_back(unimplemented_field("lattice.frame.watched_nodes", "are not built yet."));
+  }
+
+  int find_node(const std::string& field, const std::string& id) {
+    const auto found = positions_.find(id);
+    if (found != positions_.end()) return found->second;
+    if (id.empty()) {
+      problems_.push_back(missing(field));
+    } else {
+      problems_.push_back(invalid_field(field, id, "is the name of no node.", "Name one of lattice.frame.nodes."));
+    }
+    return 0;
+  }
+
+  FrameLattice::Component component(const std::string& field, v1::Frame::Component value) {
+    switch (value) {
+      case v1::Frame::COMPONENT_X: return FrameLattice::Component::x;
+      case v1::Frame::COMPONENT_Y: return FrameLattice::Component::y;
+      case v1::Frame::COMPONENT_ROTATION: return FrameLattice::Component::rotation;
+      case v1::Frame::COMPONENT_UNSPECIFIED: problems_.push_back(missing(field)); break;
+      default:
+        problems_.push_back(invalid_field(field, std::to_string(value), "is no component that is known here.",
+                                          "Use COMPONENT_X, COMPONENT_Y or COMPONENT_ROTATION."));
+    }
+    return FrameLattice::Component::x;
+  }
+
+  const v1::Frame& in_;
+  Problems& problems_;
+  FrameLattice out_;
+  std::unordered_map<std::string, int> positions_;
+};
+
+}  // namespace
+
+FrameLattice to_spec(const v1::Frame& in, Problems& problems) { return FrameReader(in, problems).read(); }
+
+}  // namespace cellcrush::translate

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstdint>
+
+#include "cellcrush/sample.h"
+#include "cellcrush/simulation.h"
+#include "cellcrush/v1/sample.pb.h"
+
+namespace cellcrush::translate {
+
+// What a run gives, as it goes over the wire. The solver's N mm is the wire's mJ; all other units are the same.
+
+v1::Sample to_proto(const Sample& sample);
+v1::FieldFrame to_proto(const FieldFrame& frame);
+v1::Mesh to_proto(const MeshView& mesh, std::int64_t particle_count);
+v1::Theory to_proto(const Theory& theory);
+/// `solver_seconds`: processor time of the run, which the solver has no clock for.
+v1::Summary to_proto(const Summary& summary, double solver_seconds);
+
+}  // namespace cellcrush::translate

@@ -1,0 +1,139 @@
+#include "translate/spec_to_case.h"
+
+#include <string>
+#include <variant>
+
+namespace cellcrush::translate {
+namespace {
+
+template <class Out, class In>
+void write_regular(const In& in, Out& out) {
+  if (in.columns) out.set_columns(*in.columns);
+  if (in.rows) out.set_rows(*in.rows);
+  if (in.side_mm) out.set_side_mm(*in.side_mm);
+  if (in.wall_thickness_mm) out.set_wall_thickness_mm(*in.wall_thickness_mm);
+}
+
+v1::Frame::Component to_proto(FrameLattice::Component component) {
+  switch (component) {
+    case FrameLattice::Component::x: return v1::Frame::COMPONENT_X;
+    case FrameLattice::Component::y: return v1::Frame::COMPONENT_Y;
+    case FrameLattice::Component::rotation: return v1::Frame::COMPONENT_ROTATION;
+  }
+  return v1::Frame::COMPONENT_UNSPECIFIED;
+}
+
+void write_frame_structure(const FrameLattice& in, v1::Frame& out) {
+  for (std::size_t i = 0; i < in.nodes.size(); ++i) {
+    auto& node = *out.add_nodes();
+    node.set_id(std::to_string(i));
+    node.set_x_mm(in.nodes[i].x_mm);
+    node.set_y_mm(in.nodes[i].y_mm);
+    node.set_attached_mass_g(in.nodes[i].attached_mass_g);
+    node.set_attached_inertia_g_mm2(in.nodes[i].attached_inertia_g_mm2);
+  }
+  for (const auto& beam : in.beams) {
+    auto& added = *out.add_beams();
+    added.set_start(std::to_string(beam.start));
+    added.set_end(std::to_string(beam.end));
+    added.set_thickness_mm(beam.thickness_mm);
+    if (beam.elements) added.set_elements(*beam.elements);
+  }
+  for (const auto& support : in.supports) {
+    auto& added = *out.add_supports();
+    added.set_node(std::to_string(support.node));
+    added.set_fix_x(support.fix_x);
+    added.set_fix_y(support.fix_y);
+    added.set_fix_rotation(support.fix_rotation);
+  }
+}
+
+void write_frame(const FrameLattice& in, v1::Frame& out) {
+  write_frame_structure(in, out);
+  for (const auto& load : in.loads) {
+    auto& added = *out.add_loads();
+    added.set_node(std::to_string(load.node));
+    added.set_component(to_proto(load.component));
+    for (const auto& [time, value] : load.points) {
+      auto& point = *added.mutable_force_n_or_n_mm()->add_points();
+      point.set_time_s(time);
+      point.set_value(value);
+    }
+  }
+  for (const auto& velocity : in.initial_velocities) {
+    auto& added = *out.add_initial_velocities();
+    added.set_node(std::to_string(velocity.node));
+    added.set_x_m_per_s(velocity.x_m_per_s);
+    added.set_y_m_per_s(velocity.y_m_per_s);
+    added.set_rotation_rad_per_s(velocity.rotation_rad_per_s);
+  }
+  out.set_self_contact(in.self_contact);
+  if (in.end_time_s) out.set_end_time_s(*in.end_time_s);
+}
+
+void write_lattice(const SceneSpec& spec, v1::Lattice& out) {
+  if (const auto* hexagon = std::get_if<HexagonLattice>(&spec.lattice)) {
+    write_regular(*hexagon, *out.mutable_hexagon());
+    if (hexagon->vertical_wall_thickness_mm)
+      out.mutable_hexagon()->set_vertical_wall_thickness_mm(*hexagon->vertical_wall_thickness_mm);
+  } else if (const auto* square = std::get_if<SquareLattice>(&spec.lattice)) {
+    write_regular(*square, *out.mutable_square());
+  } else if (const auto* triangle = std::get_if<TriangleLattice>(&spec.lattice)) {
+    write_regular(*triangle, *out.mutable_triangle());
+  } else if (const auto* frame = std::get_if<FrameLattice>(&spec.lattice)) {
+    write_frame(*frame, *out.mutable_frame());
+  }
+  out.mutable_imperfection()->set_amplitude_mm(spec.imperfection.amplitude_mm);
+  out.mutable_imperfection()->set_seed(spec.imperfection.seed);
+}
+
+void write_material(const MaterialSpec& in, v1::Material& out) {
+  if (in.youngs_modulus_mpa) out.set_youngs_modulus_mpa(*in.youngs_modulus_mpa);
+  if (in.yield_stress_mpa) out.set_yield_stress_mpa(*in.yield_stress_mpa);
+  out.set_hardening_modulus_mpa(in.hardening_modulus_mpa);
+  out.set_isotropic_fraction(in.isotropic_fraction);
+  if (in.density_kg_per_m3) out.set_density_kg_per_m3(*in.density_kg_per_m3);
+}
+
+void write_loading(const LoadingSpec& in, v1::Loading& out) {
+  out.set_direction(in.direction == LoadingSpec::Direction::x ? v1::Loading::X : v1::Loading::Y);
+  if (in.speed_m_per_s) out.set_speed_m_per_s(*in.speed_m_per_s);
+  out.set_end_strain(in.end_strain);
+  out.set_ramp_strain(in.ramp_strain);
+}
+
+void write_numerics(const NumericsSpec& in, v1::Numerics& out) {
+  out.set_time_step_s(in.time_step_s);
+  out.set_mass_damping_per_s(in.mass_damping_per_s);
+  switch (in.fidelity) {
+    case NumericsSpec::Fidelity::unspecified: break;
+    case NumericsSpec::Fidelity::draft: out.set_fidelity(v1::Numerics::DRAFT); break;
+    case NumericsSpec::Fidelity::standard: out.set_fidelity(v1::Numerics::STANDARD); break;
+    case NumericsSpec::Fidelity::reference: out.set_fidelity(v1::Numerics::REFERENCE); break;
+  }
+  out.set_threads(in.threads);
+}
+
+}  // namespace
+
+v1::Case to_case(const SceneSpec& spec) {
+  v1::Case out;
+  out.set_title(spec.title);
+  write_lattice(spec, *out.mutable_lattice());
+  if (spec.depth_mm) out.set_depth_mm(*spec.depth_mm);
+  out.set_elements_per_wall(spec.elements_per_wall);
+  write_material(spec.material, *out.mutable_material());
+  out.mutable_section()->set_axial_points(spec.section.axial_points);
+  out.mutable_section()->set_depth_points(spec.section.depth_points);
+  out.mutable_contact()->set_friction(spec.contact.friction);
+  out.mutable_contact()->set_stiffness_factor(spec.contact.stiffness_factor);
+  out.mutable_contact()->set_damping_ratio(spec.contact.damping_ratio);
+  out.mutable_plates()->set_friction(spec.plates.friction);
+  write_loading(spec.loading, *out.mutable_loading());
+  write_numerics(spec.numerics, *out.mutable_numerics());
+  out.mutable_output()->set_sample_count(spec.output.sample_count);
+  out.mutable_output()->set_frame_count(spec.output.frame_count);
+  return out;
+}
+
+}  // namespace cellcrush::translate

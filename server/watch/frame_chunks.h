@@ -1,0 +1,16 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "cellcrush/v1/event.pb.h"
+
+namespace cellcrush::watch {
+
+/// Bytes of numbers that one part of a frame holds at most, so that every part passes gRPC's default limit of 4 MiB.
+inline constexpr std::size_t kChunkBytes = 3'000'000;
+
+/// A frame in parts: the arrays of all parts, appended in order, are those of the frame. A small frame is one part.
+std::vector<v1::FrameChunk> chunks_of(const v1::FieldFrame& frame, std::size_t chunk_bytes = kChunkBytes);
+
+}  // namespace cellcrush::watch

@@ -1,0 +1,61 @@
+#include "watch/hub.h"
+
+#include <utility>
+
+namespace cellcrush::watch {
+
+void Channel::publish(v1::Progress progress) {
+  const std::scoped_lock lock(mutex_);
+  newest_.progress = std::make_shared<const v1::Progress>(std::move(progress));
+  ++newest_.progress_count;
+  for (const auto& [id, wake] : wakes_) wake();
+}
+
+void Channel::publish(v1::FieldFrame frame) {
+  const std::scoped_lock lock(mutex_);
+  newest_.frame = std::make_shared<const v1::FieldFrame>(std::move(frame));
+  ++newest_.frame_count;
+  for (const auto& [id, wake] : wakes_) wake();
+}
+
+void Channel::announce() {
+  const std::scoped_lock lock(mutex_);
+  for (const auto& [id, wake] : wakes_) wake();
+}
+
+Channel::Newest Channel::newest() const {
+  const std::scoped_lock lock(mutex_);
+  return newest_;
+}
+
+std::uint64_t Channel::subscribe(Wake wake) {
+  const std::scoped_lock lock(mutex_);
+  wakes_.emplace(next_id_, std::move(wake));
+  return next_id_++;
+}
+
+void Channel::unsubscribe(std::uint64_t id) {
+  const std::scoped_lock lock(mutex_);
+  wakes_.erase(id);
+}
+
+std::shared_ptr<Channel> Hub::open(std::int64_t job) {
+  const std::scoped_lock lock(mutex_);
+  if (auto channel = channels_[job].lock()) return channel;
+  std::erase_if(channels_, [](const auto& entry) { return entry.second.expired(); });
+  auto channel = std::make_shared<Channel>();
+  channels_[job] = channel;
+  return channel;
+}
+
+std::shared_ptr<Channel> Hub::find(std::int64_t job) {
+  const std::scoped_lock lock(mutex_);
+  const auto found = channels_.find(job);
+  return found == channels_.end() ? nullptr : found->second.lock();
+}
+
+void Hub::announce(std::int64_t job) {
+  if (const auto channel = find(job)) channel->announce();
+}
+
+}  // namespace cellcrush::watch

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+
+#include "cellcrush/v1/job.pb.h"
+#include "cellcrush/v1/sample.pb.h"
+
+namespace cellcrush::watch {
+
+/// What is new of one job and not in the journal: the newest progress and frame. And who waits for news of it.
+/// Thread-safe. Whoever publishes never waits for a watcher.
+class Channel {
+ public:
+  /// Called on every change, from the publishing thread, under the channel's lock: must be quick and must not call
+  /// back.
+  using Wake = std::function<void()>;
+
+  struct Newest {
+    std::shared_ptr<const v1::Progress> progress;  ///< null before the first
+    std::shared_ptr<const v1::FieldFrame> frame;   ///< null before the first
+    std::uint64_t progress_count = 0;              ///< published so far
+    std::uint64_t frame_count = 0;
+  };
+
+  void publish(v1::Progress progress);
+  void publish(v1::FieldFrame frame);
+  /// There are new durable events in the journal.
+  void announce();
+
+  [[nodiscard]] Newest newest() const;
+
+  /// Returns the id to unsubscribe with. After unsubscribe returns, `wake` is not called again.
+  std::uint64_t subscribe(Wake wake);
+  void unsubscribe(std::uint64_t id);
+
+ private:
+  mutable std::mutex mutex_;
+  Newest newest_;
+  std::map<std::uint64_t, Wake> wakes_;
+  std::uint64_t next_id_ = 1;
+};
+
+/// The channels of all jobs that someone runs or watches. Thread-safe.
+class Hub {
+ public:
+  /// The job's channel; it lives as long as someone holds it.
+  std::shared_ptr<Channel> open(std::int64_t job);
+  /// The same, or null when nobody holds it.
+  std::shared_ptr<Channel> find(std::int64_t job);
+  /// Announces to the job's channel, if there is one.
+  void announce(std::int64_t job);
+
+ private:
+  std::mutex mutex_;
+  std::map<std::int64_t, std::weak_ptr<Channel>> channels_;
+};
+
+}  // namespace cellcrush::watch

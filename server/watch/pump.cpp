@@ -1,0 +1,85 @@
+#include "watch/pump.h"
+
+#include <chrono>
+
+namespace cellcrush::watch {
+
+Pump::Pump(int threads) {
+  threads_.emplace_back([this](const std::stop_token& stop) { tick(stop); });
+  for (int i = 0; i < threads; ++i) threads_.emplace_back([this](const std::stop_token& stop) { work(stop); });
+}
+
+Pump::~Pump() {
+  for (auto& thread : threads_) thread.request_stop();
+  threads_.clear();
+}
+
+void Pump::add(const std::shared_ptr<Task>& task) {
+  const std::scoped_lock lock(mutex_);
+  tasks_.push_back(task);
+  push(task);
+}
+
+void Pump::schedule(const std::shared_ptr<Task>& task) {
+  const std::scoped_lock lock(mutex_);
+  push(task);
+}
+
+void Pump::drain() {
+  {
+    const std::scoped_lock lock(mutex_);
+    draining_ = true;
+  }
+  schedule_all();
+}
+
+bool Pump::draining() const {
+  const std::scoped_lock lock(mutex_);
+  return draining_;
+}
+
+void Pump::push(const std::shared_ptr<Task>& task) {
+  if (task->queued_) return;
+  task->queued_ = true;
+  queue_.push_back(task);
+  changed_.notify_one();
+}
+
+void Pump::work(const std::stop_token& stop) {
+  while (true) {
+    std::shared_ptr<Task> task;
+    {
+      std::unique_lock lock(mutex_);
+      if (!changed_.wait(lock, stop, [this] { return !queue_.empty(); })) return;
+      task = std::move(queue_.front());
+      queue_.pop_front();
+      task->queued_ = false;
+    }
+    task->run();
+  }
+}
+
+void Pump::tick(const std::stop_token& stop) {
+  std::mutex never_shared;
+  std::condition_variable_any sleep;
+  while (!stop.stop_requested()) {
+    std::unique_lock lock(never_shared);
+    sleep.wait_for(lock, stop, std::chrono::seconds(1), [] { return false; });
+    schedule_all();
+  }
+}
+
+void Pump::schedule_all() {
+  // Dropped after the lock is released: a task's end may schedule others.
+  std::vector<std::shared_ptr<Task>> alive;
+  const std::scoped_lock lock(mutex_);
+  std::erase_if(tasks_, [&alive](const std::weak_ptr<Task>& task) {
+    alive.push_back(task.lock());
+    return alive.back() == nullptr;
+  });
+  for (const auto& task : alive) {
+    if (task) push(task);
+  }
+}
+
+}  // namespace cellcrush::watch

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <stop_token>
+#include <thread>
+#include <vector>
+
+namespace cellcrush::watch {
+
+/// A few threads that move all watchers on, so that many watchers need no thread each. A task runs soon after it was
+/// scheduled, and once a second as long as it exists. Thread-safe.
+class Pump {
+ public:
+  class Task {
+   public:
+    virtual ~Task() = default;
+    /// Does what can be done without waiting. May run in two threads at once.
+    virtual void run() = 0;
+
+   private:
+    friend class Pump;
+    bool queued_ = false;  ///< guarded by the pump's mutex
+  };
+
+  explicit Pump(int threads);
+  ~Pump();
+  Pump(const Pump&) = delete;
+  Pump& operator=(const Pump&) = delete;
+
+  /// Runs the task from now on once a second, and whenever it is scheduled.
+  void add(const std::shared_ptr<Task>& task);
+  /// Quick; may be called under other locks.
+  void schedule(const std::shared_ptr<Task>& task);
+
+  /// Tells the tasks that the daemon ends: they see draining() and close.
+  void drain();
+  [[nodiscard]] bool draining() const;
+
+ private:
+  void work(const std::stop_token& stop);
+  void tick(const std::stop_token& stop);
+  void schedule_all();
+  void push(const std::shared_ptr<Task>& task);  ///< REQUIRES: mutex_ is held
+
+  mutable std::mutex mutex_;
+  std::condition_variable_any changed_;
+  std::deque<std::shared_ptr<Task>> queue_;
+  std::vector<std::weak_ptr<Task>> tasks_;
+  bool draining_ = false;
+  std::vector<std::jthread> threads_;
+};
+
+}  // namespace cellcrush::watch

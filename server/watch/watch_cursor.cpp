@@ -1,0 +1,107 @@
+#include "watch/watch_cursor.h"
+
+#include <utility>
+
+#include "error.h"
+#include "jobs/job_state.h"
+#include "watch/frame_chunks.h"
+
+namespace cellcrush::watch {
+namespace {
+
+constexpr int kEventsAtOnce = 256;
+
+store::StoredJob find_job(store::JournalReader& journal, std::int64_t job) {
+  auto found = journal.find_job(job);
+  if (!found) throw ServiceError(ServiceError::Kind::not_found, "There is no " + jobs::name_of(job) + ".");
+  return *std::move(found);
+}
+
+}  // namespace
+
+WatchCursor::WatchCursor(store::JournalReader& journal, std::int64_t job, std::shared_ptr<const Channel> channel,
+                         std::int64_t after, bool frames)
+    : journal_(journal), job_(job), channel_(std::move(channel)), after_(after), frames_(frames) {
+  const auto stored = find_job(journal_, job_);
+  if (after < 0) {
+    throw ServiceError(ServiceError::Kind::invalid,
+                       "after_sequence is " + std::to_string(after) +
+                           "; it cannot be negative. Use the number of the last event seen.");
+  }
+  if (after > stored.last_sequence) {
+    throw ServiceError(ServiceError::Kind::out_of_range,
+                       "after_sequence is " + std::to_string(after) + ", but the last event of " + jobs::name_of(job) +
+                           " is " + std::to_string(stored.last_sequence) + ". Use the number of the last event seen.");
+  }
+  ended_ = jobs::is_terminal(stored.job.state()) && after == stored.last_sequence;
+}
+
+std::optional<v1::JobEvent> WatchCursor::next() {
+  if (!std::exchange(snapshot_sent_, true)) return snapshot();
+  if (ended_) return std::nullopt;
+  // The journal is read before the channel: the progress and frames before a job's end then come before its last event.
+  if (events_.empty()) {
+    auto read = journal_.events(job_, after_, kEventsAtOnce);
+    events_.assign(std::make_move_iterator(read.begin()), std::make_move_iterator(read.end()));
+  }
+  if (auto event = transient()) return event;
+  if (events_.empty()) return std::nullopt;
+  v1::JobEvent event = std::move(events_.front());
+  events_.pop_front();
+  after_ = event.sequence();
+  ended_ = event.has_state() && jobs::is_terminal(event.state().state());
+  return event;
+}
+
+v1::JobEvent WatchCursor::bookmark() const {
+  v1::JobEvent event;
+  event.set_sequence(after_);
+  event.mutable_bookmark();
+  return event;
+}
+
+v1::JobEvent WatchCursor::snapshot() {
+  v1::JobEvent event;
+  event.set_sequence(after_);
+  auto& snapshot = *event.mutable_snapshot();
+  *snapshot.mutable_job() = find_job(journal_, job_).job;
+  const auto newest = channel_->newest();
+  if (newest.progress && snapshot.job().state() == v1::RUNNING) {
+    *snapshot.mutable_job()->mutable_progress() = *newest.progress;
+    progress_given_ = newest.progress_count;
+  }
+  if (auto mesh = journal_.mesh(job_)) *snapshot.mutable_mesh() = *std::move(mesh);
+  return event;
+}
+
+std::optional<v1::JobEvent> WatchCursor::transient() {
+  v1::JobEvent event;
+  event.set_sequence(after_);
+  if (parts_.empty()) {
+    const auto newest = channel_->newest();
+    if (newest.progress && newest.progress_count > progress_given_) {
+      progress_given_ = newest.progress_count;
+      *event.mutable_progress() = *newest.progress;
+      return event;
+    }
+    if (frames_ && newest.frame && newest.frame_count > frames_given_) {
+      frames_given_ = newest.frame_count;
+      queue_frame(*newest.frame);
+    }
+  }
+  if (parts_.empty()) return std::nullopt;
+  *event.mutable_frame() = std::move(parts_.front());
+  parts_.pop_front();
+  return event;
+}
+
+void WatchCursor::queue_frame(const v1::FieldFrame& frame) {
+  auto parts = chunks_of(frame);
+  if (last_frame_) {
+    for (auto& part : parts) part.set_skipped(frame.index() - *last_frame_ - 1);
+  }
+  last_frame_ = frame.index();
+  parts_.assign(std::make_move_iterator(parts.begin()), std::make_move_iterator(parts.end()));
+}
+
+}  // namespace cellcrush::watch

@@ -1,0 +1,98 @@
+#include <gmock/gmock.h>
+
+#include <limits>
+
+#include "server/daemon_fixture.h"
+#include "server/small_case.h"
+
+namespace cellcrush::testing {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsSupersetOf;
+
+class CasesServiceTest : public DaemonFixture {
+ protected:
+  v1::CheckCaseResponse check(const v1::Case& submitted) {
+    v1::CheckCaseRequest request;
+    *request.mutable_case_() = submitted;
+    v1::CheckCaseResponse out;
+    const auto status = client().cases->CheckCase(bounded_context().get(), request, &out);
+    EXPECT_TRUE(status.ok()) << status.error_message();
+    return out;
+  }
+};
+
+TEST_F(CasesServiceTest, ACheckNamesAllProblemsAtOnce) {
+  v1::Case bad = small_case();
+  bad.mutable_lattice()->mutable_hexagon()->set_wall_thickness_mm(-0.1);
+  bad.mutable_material()->set_yield_stress_mpa(std::numeric_limits<double>::quiet_NaN());
+  bad.mutable_loading()->set_speed_m_per_s(0.0);
+  bad.mutable_loading()->set_direction(static_cast<v1::Loading::Direction>(9));
+  bad.clear_depth_mm();
+  const auto response = check(bad);
+  std::vector<std::string> fields;
+  for (const auto& problem : response.problems()) {
+    fields.push_back(problem.field());
+    EXPECT_FALSE(problem.message().empty());
+    EXPECT_FALSE(problem.remedy().empty());
+  }
+  EXPECT_THAT(fields, IsSupersetOf({"lattice.hexagon.wall_thickness_mm", "material.yield_stress_mpa",
+                                    "loading.speed_m_per_s", "loading.direction", "depth_mm"}));
+  EXPECT_EQ(response.particle_count(), 0);
+}
+
+TEST_F(CasesServiceTest, AnEmptyCaseIsAnAnswerWithProblems) { EXPECT_GE(check({}).problems_size(), 4); }
+
+TEST_F(CasesServiceTest, ASoundCaseIsDescribed) {
+  const auto response = check(small_case());
+  EXPECT_EQ(response.problems_size(), 0);
+  EXPECT_GT(response.particle_count(), 100);
+  EXPECT_GT(response.element_count(), response.particle_count());
+  EXPECT_GT(response.step_count(), 100);
+  EXPECT_GT(response.predicted_seconds(), 0.0);
+  EXPECT_LT(response.predicted_seconds(), 60.0);
+  EXPECT_GT(response.predicted_bytes(), 10'000);
+  EXPECT_EQ(response.completed_case().elements_per_wall(), 2);
+  EXPECT_GT(response.theory().shock_mpa(), response.theory().gibson_ashby_mpa());
+}
+
+TEST_F(CasesServiceTest, PresetsAreListedAndEachIsSound) {
+  auto client = this->client();
+  v1::ListPresetsResponse listed;
+  ASSERT_TRUE(client.cases->ListPresets(bounded_context().get(), {}, &listed).ok());
+  ASSERT_GE(listed.presets_size(), 1);
+  for (const auto& preset : listed.presets()) {
+    v1::GetPresetRequest request;
+    request.set_name(preset.name());
+    v1::Preset got;
+    ASSERT_TRUE(client.cases->GetPreset(bounded_context().get(), request, &got).ok()) << preset.name();
+    EXPECT_TRUE(got.has_case_()) << preset.name();
+    EXPECT_EQ(got.title(), preset.title());
+  }
+}
+
+TEST_F(CasesServiceTest, AnUnknownPresetIsNotFoundAndTheKnownOnesAreNamed) {
+  v1::GetPresetRequest request;
+  request.set_name("type-iv");
+  v1::Preset got;
+  const auto status = client().cases->GetPreset(bounded_context().get(), request, &got);
+  EXPECT_EQ(status.error_code(), grpc::StatusCode::NOT_FOUND);
+  EXPECT_THAT(status.error_message(), HasSubstr("type-iv"));
+  EXPECT_THAT(status.error_message(), HasSubstr("hexagon-small"));
+}
+
+TEST_F(CasesServiceTest, AMessageOverFourMebibytesIsRefusedAndTheDaemonGoesOn) {
+  v1::Case huge = small_case();
+  huge.set_title(std::string(5 * 1024 * 1024, 'x'));
+  v1::CheckCaseRequest request;
+  *request.mutable_case_() = huge;
+  v1::CheckCaseResponse response;
+  const auto status = client().cases->CheckCase(bounded_context().get(), request, &response);
+  EXPECT_EQ(status.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
+  EXPECT_THAT(status.error_message(), HasSubstr("4194304"));
+  EXPECT_EQ(check(small_case()).problems_size(), 0);
+}
+
+}  // namespace
+}  // namespace cellcrush::testing

@@ -1,0 +1,92 @@
+#include "server/daemon_fixture.h"
+
+#include <thread>
+
+namespace cellcrush::testing {
+
+std::unique_ptr<grpc::ClientContext> bounded_context() {
+  auto context = std::make_unique<grpc::ClientContext>();
+  context->set_deadline(std::chrono::system_clock::now() + std::chrono::seconds(60));
+  return context;
+}
+
+Client::Client(const std::string& address)
+    : channel(grpc::CreateChannel(address, grpc::InsecureChannelCredentials())),
+      cases(v1::Cases::NewStub(channel)),
+      jobs(v1::Jobs::NewStub(channel)) {}
+
+std::string Client::create(const v1::Case& submitted) {
+  v1::CreateJobRequest request;
+  *request.mutable_case_() = submitted;
+  v1::Job job;
+  const auto status = jobs->CreateJob(bounded_context().get(), request, &job);
+  EXPECT_TRUE(status.ok()) << status.error_message();
+  return job.name();
+}
+
+v1::Job Client::get(const std::string& job) {
+  v1::GetJobRequest request;
+  request.set_name(job);
+  v1::Job out;
+  const auto status = jobs->GetJob(bounded_context().get(), request, &out);
+  EXPECT_TRUE(status.ok()) << status.error_message();
+  return out;
+}
+
+Client::Watched Client::watch(const std::string& job, std::int64_t after_sequence, bool frames,
+                              const OnEvent& on_event) {
+  v1::WatchJobRequest request;
+  request.set_name(job);
+  request.set_after_sequence(after_sequence);
+  request.set_frames(frames);
+  const auto context = bounded_context();
+  const auto reader = jobs->WatchJob(context.get(), request);
+  Watched out;
+  v1::JobEvent event;
+  while (reader->Read(&event)) {
+    if (on_event) on_event(event);
+    out.events.push_back(event);
+  }
+  out.status = reader->Finish();
+  return out;
+}
+
+bool Client::wait_for_state(const std::string& job, v1::JobState state) {
+  for (int i = 0; i < 600; ++i) {
+    if (get(job).state() == state) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  return false;
+}
+
+std::string Client::download(const std::string& job, std::int64_t offset, grpc::Status& status) {
+  v1::DownloadResultRequest request;
+  request.set_name(job);
+  request.set_offset(offset);
+  const auto context = bounded_context();
+  const auto reader = jobs->DownloadResult(context.get(), request);
+  std::string out;
+  v1::DownloadResultResponse response;
+  while (reader->Read(&response)) {
+    EXPECT_EQ(response.offset(), offset + static_cast<std::int64_t>(out.size()));
+    out += response.data();
+  }
+  status = reader->Finish();
+  return out;
+}
+
+void DaemonFixture::start(const DaemonOptions& options) {
+  daemon_.reset();
+  daemon_ = std::make_unique<Daemon>(options);
+}
+
+DaemonOptions DaemonFixture::default_options() const {
+  DaemonOptions options;
+  options.data_folder = data_folder();
+  options.listen = {"unix:" + (folder_.path() / "socket").string()};
+  options.workers = 2;
+  options.worker_program = CELLCRUSHD_PROGRAM;
+  return options;
+}
+
+}  // namespace cellcrush::testing

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <grpcpp/grpcpp.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cellcrush/v1/cases_service.grpc.pb.h"
+#include "cellcrush/v1/jobs_service.grpc.pb.h"
+#include "daemon.h"
+#include "server/temporary_folder.h"
+
+namespace cellcrush::testing {
+
+/// A client of one daemon. Every call has a deadline of 60 s.
+class Client {
+ public:
+  explicit Client(const std::string& address);
+
+  /// What a watch gave, and how it ended.
+  struct Watched {
+    std::vector<v1::JobEvent> events;
+    grpc::Status status;
+  };
+  using OnEvent = std::function<void(const v1::JobEvent&)>;
+
+  /// Makes a job; fails the test when it is refused. Returns its name.
+  std::string create(const v1::Case& submitted);
+  v1::Job get(const std::string& job);
+  /// Watches to the end; `on_event` sees each event as it comes.
+  Watched watch(const std::string& job, std::int64_t after_sequence = 0, bool frames = false,
+                const OnEvent& on_event = {});
+  /// Waits until the job is in the state, at most 30 s; false when it never is.
+  bool wait_for_state(const std::string& job, v1::JobState state);
+  /// The whole result.h5, from an offset on.
+  std::string download(const std::string& job, std::int64_t offset, grpc::Status& status);
+
+  const std::shared_ptr<grpc::Channel> channel;
+  const std::unique_ptr<v1::Cases::Stub> cases;
+  const std::unique_ptr<v1::Jobs::Stub> jobs;
+};
+
+/// A context with a deadline of 60 s.
+std::unique_ptr<grpc::ClientContext> bounded_context();
+
+/// An embedded daemon on a socket in a folder of its own.
+class DaemonFixture : public ::testing::Test {
+ protected:
+  void SetUp() override { start(); }
+
+  void start() { start(default_options()); }
+  void start(const DaemonOptions& options);
+  [[nodiscard]] DaemonOptions default_options() const;
+  [[nodiscard]] std::filesystem::path data_folder() const { return folder_.path() / "data"; }
+  [[nodiscard]] Client client() const { return Client(daemon_->addresses().front()); }
+
+  TemporaryFolder folder_;
+  std::unique_ptr<Daemon> daemon_;
+};
+
+}  // namespace cellcrush::testing

@@ -1,0 +1,115 @@
+#include "server/daemon_process.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <fstream>
+#include <stdexcept>
+#include <thread>
+
+namespace cellcrush::testing {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Adds what is there to `text`; false at the end.
+bool read_some(int file, std::string& text, int wait_ms) {
+  pollfd waiting{file, POLLIN, 0};
+  if (poll(&waiting, 1, wait_ms) <= 0) return true;
+  std::array<char, 4096> buffer{};
+  const auto count = read(file, buffer.data(), buffer.size());
+  if (count <= 0) return false;
+  text.append(buffer.data(), static_cast<std::size_t>(count));
+  return true;
+}
+
+}  // namespace
+
+DaemonProcess::DaemonProcess(const std::vector<std::string>& arguments) {
+  std::array<int, 2> out{};
+  std::array<int, 2> error{};
+  if (pipe2(out.data(), O_CLOEXEC) != 0 || pipe2(error.data(), O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, out[1], STDOUT_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, error[1], STDERR_FILENO);
+  std::vector<std::string> words = {CELLCRUSHD_PROGRAM};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> pointers;
+  for (auto& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  const int failed = posix_spawn(&pid_, CELLCRUSHD_PROGRAM, &actions, nullptr, pointers.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  close(out[1]);
+  close(error[1]);
+  output_ = out[0];
+  error_output_ = error[0];
+  if (failed != 0) throw std::runtime_error("cellcrushd cannot be started");
+}
+
+DaemonProcess::~DaemonProcess() {
+  if (pid_ > 0) {
+    send_signal(SIGKILL);
+    waitpid(pid_, nullptr, 0);
+  }
+  close(output_);
+  close(error_output_);
+}
+
+std::vector<std::string> DaemonProcess::wait_for_addresses(std::size_t count) {
+  const std::string prefix = "cellcrushd is listening on ";
+  const auto limit = Clock::now() + std::chrono::seconds(30);
+  std::vector<std::string> addresses;
+  bool open = true;
+  while (open && addresses.size() < count && Clock::now() < limit) {
+    open = read_some(output_, text_, 100);
+    for (auto end = text_.find('\n'); end != std::string::npos; end = text_.find('\n')) {
+      if (text_.starts_with(prefix)) addresses.push_back(text_.substr(prefix.size(), end - prefix.size()));
+      text_.erase(0, end + 1);
+    }
+  }
+  return addresses;
+}
+
+void DaemonProcess::send_signal(int number) const { kill(pid_, number); }
+
+int DaemonProcess::wait() {
+  const auto limit = Clock::now() + std::chrono::seconds(20);
+  bool open = true;
+  while (open && Clock::now() < limit) open = read_some(error_output_, errors_, 100);
+  int status = 0;
+  pid_t ended = 0;
+  while ((ended = waitpid(pid_, &status, WNOHANG)) == 0 && Clock::now() < limit)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  if (ended == 0) {
+    send_signal(SIGKILL);
+    waitpid(pid_, &status, 0);
+  }
+  pid_ = -1;
+  return WIFSIGNALED(status) ? -1 - WTERMSIG(status) : WEXITSTATUS(status);
+}
+
+bool is_alive(pid_t process) {
+  std::ifstream status("/proc/" + std::to_string(process) + "/stat");
+  std::string line;
+  if (!std::getline(status, line)) return false;
+  // The state is the first letter behind the name, which stands in parentheses.
+  const auto end = line.rfind(')');
+  return end != std::string::npos && end + 2 < line.size() && line[end + 2] != 'Z';
+}
+
+bool wait_until_gone(pid_t process, std::chrono::milliseconds limit) {
+  const auto end = Clock::now() + limit;
+  while (Clock::now() < end) {
+    if (!is_alive(process)) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return !is_alive(process);
+}
+
+}  // namespace cellcrush::testing

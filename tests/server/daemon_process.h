@@ -1,0 +1,42 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+namespace cellcrush::testing {
+
+/// cellcrushd as a process of its own; killed at the latest when this goes away.
+class DaemonProcess {
+ public:
+  explicit DaemonProcess(const std::vector<std::string>& arguments);
+  ~DaemonProcess();
+  DaemonProcess(const DaemonProcess&) = delete;
+  DaemonProcess& operator=(const DaemonProcess&) = delete;
+
+  /// Reads until that many addresses were printed or the process ended, at most 30 s. Returns the addresses.
+  std::vector<std::string> wait_for_addresses(std::size_t count);
+
+  void send_signal(int number) const;
+  /// Waits for the end, at most 20 s, then kills. Returns the exit code, or -1 - signal when a signal ended it.
+  int wait();
+  /// What it has written to stderr; REQUIRES: wait was called.
+  [[nodiscard]] const std::string& errors() const { return errors_; }
+
+ private:
+  pid_t pid_ = -1;
+  int output_ = -1;
+  int error_output_ = -1;
+  std::string text_;
+  std::string errors_;
+};
+
+/// Whether the process is there and not a zombie.
+bool is_alive(pid_t process);
+
+/// Waits until it is not, at most that long; whether it went.
+bool wait_until_gone(pid_t process, std::chrono::milliseconds limit);
+
+}  // namespace cellcrush::testing

@@ -1,0 +1,163 @@
+#include "store/journal.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <optional>
+#include <thread>
+
+#include "error.h"
+#include "server/small_case.h"
+#include "server/temporary_folder.h"
+#include "store/journal_reader.h"
+
+namespace cellcrush::store {
+namespace {
+
+class JournalTest : public ::testing::Test {
+ protected:
+  void SetUp() override { reopen(); }
+
+  void reopen() {
+    reader_.reset();
+    journal_.reset();
+    journal_.emplace(path(), [this](std::int64_t) { ++told_; });
+    reader_.emplace(path());
+  }
+
+  [[nodiscard]] std::filesystem::path path() const { return folder_.path() / "journal.sqlite"; }
+
+  std::int64_t create(const std::string& request_id = "", const std::string& hash = "") {
+    v1::Job job;
+    *job.mutable_case_() = testing::small_case();
+    (*job.mutable_labels())["who"] = "me";
+    return journal_->create_job(job, request_id, hash).job;
+  }
+
+  void change(std::int64_t job, v1::JobState state) {
+    StateChange change;
+    change.state = state;
+    change.worker_pid = state == v1::RUNNING ? 4711 : 0;
+    change.summary.set_step_count(99);
+    journal_->change_state(job, change);
+  }
+
+  static v1::Sample sample(int step) {
+    v1::Sample out;
+    out.set_step(step);
+    return out;
+  }
+
+  testing::TemporaryFolder folder_;
+  std::atomic<int> told_ = 0;
+  std::optional<Journal> journal_;
+  std::optional<JournalReader> reader_;
+};
+
+TEST_F(JournalTest, AJobSurvivesReopening) {
+  const auto job = create();
+  change(job, v1::RUNNING);
+  journal_->append_sample(job, sample(1));
+  change(job, v1::SUCCEEDED);
+  reopen();
+  const auto stored = reader_->find_job(job);
+  ASSERT_TRUE(stored);
+  EXPECT_EQ(stored->job.name(), "jobs/" + std::to_string(job));
+  EXPECT_EQ(stored->job.state(), v1::SUCCEEDED);
+  EXPECT_EQ(stored->job.labels().at("who"), "me");
+  EXPECT_EQ(stored->job.case_().SerializeAsString(), testing::small_case().SerializeAsString());
+  EXPECT_EQ(stored->job.summary().step_count(), 99);
+  EXPECT_GT(stored->job.end_time().seconds(), 0);
+  EXPECT_GE(stored->job.start_time().seconds(), stored->job.create_time().seconds());
+  EXPECT_EQ(stored->last_sequence, 4);
+}
+
+TEST_F(JournalTest, EventsCountFromOneWithoutAGapAndStatesComeAfterTheSamplesBeforeThem) {
+  const auto job = create();
+  change(job, v1::RUNNING);
+  for (int i = 1; i <= 250; ++i) journal_->append_sample(job, sample(i));
+  change(job, v1::FAILED);
+  const auto events = reader_->events(job, 0, 1000);
+  ASSERT_EQ(events.size(), 253U);
+  for (std::size_t i = 0; i < events.size(); ++i) EXPECT_EQ(events[i].sequence(), static_cast<std::int64_t>(i) + 1);
+  EXPECT_EQ(events[0].state().state(), v1::PENDING);
+  EXPECT_EQ(events[1].state().worker_pid(), 4711);
+  for (int i = 1; i <= 250; ++i) EXPECT_EQ(events[static_cast<std::size_t>(i) + 1].sample().step(), i);
+  EXPECT_EQ(events.back().state().state(), v1::FAILED);
+  EXPECT_EQ(reader_->events(job, 252, 1000).size(), 1U);
+  EXPECT_EQ(reader_->samples(job).size(), 250U);
+}
+
+TEST_F(JournalTest, SamplesBecomeDurableByThemselvesAndAreAnnouncedAfterwards) {
+  const auto job = create();
+  const int before = told_;
+  journal_->append_sample(job, sample(1));
+  for (int i = 0; i < 200 && told_ == before; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_GT(told_, before);
+  EXPECT_EQ(reader_->samples(job).size(), 1U);
+}
+
+TEST_F(JournalTest, ClosingKeepsWhatIsGathered) {
+  const auto job = create();
+  journal_->append_sample(job, sample(5));
+  reopen();
+  ASSERT_EQ(reader_->samples(job).size(), 1U);
+  EXPECT_EQ(reader_->samples(job)[0].step(), 5);
+}
+
+TEST_F(JournalTest, ARequestIdMakesOneJobAndNoOtherRequestMayUseIt) {
+  const auto first = create("id", "hash");
+  reopen();
+  EXPECT_EQ(create("id", "hash"), first);
+  EXPECT_NE(create("other", "hash"), first);
+  EXPECT_EQ(reader_->list_jobs(1000, 10).size(), 2U);
+  try {
+    create("id", "another hash");
+    FAIL() << "The id was taken for another request.";
+  } catch (const ServiceError& error) {
+    EXPECT_EQ(error.kind(), ServiceError::Kind::already_exists);
+  }
+}
+
+TEST_F(JournalTest, AChangeThatMayNotBeChangesNothing) {
+  const auto job = create();
+  EXPECT_THROW(change(job, v1::SUCCEEDED), ServiceError);
+  EXPECT_EQ(reader_->find_job(job)->job.state(), v1::PENDING);
+  EXPECT_EQ(reader_->find_job(job)->last_sequence, 1);
+  EXPECT_THROW(change(job + 1, v1::RUNNING), ServiceError);
+}
+
+TEST_F(JournalTest, JobsAreListedNewestFirstAndFoundByState) {
+  const auto first = create();
+  const auto second = create();
+  change(first, v1::RUNNING);
+  const auto listed = reader_->list_jobs(1000, 10);
+  ASSERT_EQ(listed.size(), 2U);
+  EXPECT_EQ(listed[0].number, second);
+  EXPECT_EQ(reader_->list_jobs(second, 10).size(), 1U);
+  EXPECT_EQ(reader_->jobs_in(v1::RUNNING), std::vector<std::int64_t>{first});
+  EXPECT_EQ(reader_->jobs_in(v1::PENDING), std::vector<std::int64_t>{second});
+}
+
+TEST_F(JournalTest, AMeshIsKept) {
+  const auto job = create();
+  EXPECT_FALSE(reader_->mesh(job));
+  v1::Mesh mesh;
+  mesh.set_particle_count(12);
+  journal_->set_mesh(job, mesh);
+  EXPECT_EQ(reader_->mesh(job)->particle_count(), 12);
+}
+
+TEST_F(JournalTest, AJournalOfALaterVersionIsRefused) {
+  reader_.reset();
+  journal_.reset();
+  {
+    Database database(path());
+    database.execute("PRAGMA user_version = 2");
+  }
+  EXPECT_THROW(Journal(path(), [](std::int64_t) {}), ServiceError);
+}
+
+}  // namespace
+}  // namespace cellcrush::store

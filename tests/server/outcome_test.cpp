@@ -1,0 +1,68 @@
+#include "jobs/outcome.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+
+#include "error.h"
+
+namespace cellcrush::jobs {
+namespace {
+
+using ::testing::HasSubstr;
+
+WorkerExit exit_of(WorkerExit::Kind kind, int code) {
+  WorkerExit out;
+  out.kind = kind;
+  out.code = code;
+  return out;
+}
+
+TEST(Outcome, ASignalIsNamed) {
+  const auto out = outcome_of(exit_of(WorkerExit::Kind::signalled, SIGSEGV));
+  EXPECT_EQ(out.state, v1::FAILED);
+  EXPECT_EQ(out.cause, v1::WORKER_CRASHED);
+  EXPECT_THAT(out.message, HasSubstr("SIGSEGV (11)"));
+  EXPECT_FALSE(out.remedy.empty());
+}
+
+TEST(Outcome, AnEndWithoutAFinalReportIsACrashWithItsExitCode) {
+  const auto out = outcome_of(exit_of(WorkerExit::Kind::exited, 3));
+  EXPECT_EQ(out.cause, v1::WORKER_CRASHED);
+  EXPECT_THAT(out.message, HasSubstr("exit code 3"));
+}
+
+TEST(Outcome, AFinalReportCountsForMoreThanTheEndOfTheProcess) {
+  auto exit = exit_of(WorkerExit::Kind::signalled, SIGKILL);
+  exit.final.emplace();
+  exit.final->mutable_summary()->set_step_count(7);
+  const auto out = outcome_of(exit);
+  EXPECT_EQ(out.state, v1::SUCCEEDED);
+  EXPECT_EQ(out.summary.step_count(), 7);
+}
+
+TEST(Outcome, ADivergedRunKeepsTheSolversWords) {
+  auto exit = exit_of(WorkerExit::Kind::exited, 0);
+  exit.final.emplace();
+  exit.final->set_cause(v1::SOLVER_DIVERGED);
+  exit.final->set_message("Particle 3 is not a number.");
+  exit.final->set_remedy("Take a smaller step.");
+  const auto out = outcome_of(exit);
+  EXPECT_EQ(out.state, v1::FAILED);
+  EXPECT_EQ(out.cause, v1::SOLVER_DIVERGED);
+  EXPECT_EQ(out.message, "Particle 3 is not a number.");
+  EXPECT_EQ(out.remedy, "Take a smaller step.");
+}
+
+TEST(Outcome, AStoppedWorkerIsLost) {
+  EXPECT_EQ(outcome_of(exit_of(WorkerExit::Kind::stopped, 0)).cause, v1::WORKER_LOST);
+}
+
+TEST(Outcome, AFullDiskIsCalledSo) {
+  EXPECT_EQ(outcome_of(ServiceError(ServiceError::Kind::storage_full, "full")).cause, v1::DISK_FULL);
+  EXPECT_EQ(outcome_of(std::runtime_error("other")).cause, v1::WORKER_CRASHED);
+}
+
+}  // namespace
+}  // namespace cellcrush::jobs

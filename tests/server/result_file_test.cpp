@@ -1,0 +1,159 @@
+#include <gtest/gtest.h>
+#include <hdf5.h>
+
+#include <string>
+#include <vector>
+
+#include "error.h"
+#include "server/small_case.h"
+#include "server/temporary_folder.h"
+#include "store/case_hash.h"
+#include "store/result_reader.h"
+#include "store/result_writer.h"
+
+namespace cellcrush::store {
+namespace {
+
+constexpr int kSamples = 600;  // more than two chunks
+
+// What the layout says, read with HDF5 itself.
+std::vector<hsize_t> shape(hid_t file, const std::string& path) {
+  const Hdf5Handle dataset(H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose, path);
+  return shape_of(dataset.id());
+}
+
+bool is_type(hid_t file, const std::string& path, hid_t type) {
+  const Hdf5Handle dataset(H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose, path);
+  const Hdf5Handle stored(H5Dget_type(dataset.id()), H5Tclose, path);
+  return H5Tequal(stored.id(), type) > 0;
+}
+
+double number_attribute(hid_t file, const char* name) {
+  const Hdf5Handle attribute(H5Aopen(file, name, H5P_DEFAULT), H5Aclose, name);
+  double value = 0.0;
+  H5Aread(attribute.id(), H5T_NATIVE_DOUBLE, &value);
+  return value;
+}
+
+class ResultFileTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    v1::Mesh mesh;
+    mesh.set_particle_count(3);
+    for (const int node : {0, 1, 1, 2}) mesh.add_element_nodes(node);
+    for (const float thickness : {0.5F, 0.25F}) mesh.add_thickness_mm(thickness);
+    ResultWriter writer(path_, mesh);
+    for (int i = 0; i < kSamples; ++i) {
+      v1::Sample sample;
+      sample.set_time_s(i);
+      sample.set_strain(0.001 * i);
+      sample.set_energy_contact_damping_mj(2.0 * i);
+      sample.set_deepest_penetration(0.5);
+      writer.add_sample(sample);
+    }
+    for (int i = 0; i < 4; ++i) {
+      v1::FieldFrame frame;
+      frame.set_index(i);
+      frame.set_time_s(10.0 * i);
+      frame.set_strain(0.1 * i);
+      for (int k = 0; k < 6; ++k) frame.add_position_mm(static_cast<float>(100 * i + k));
+      for (int k = 0; k < 2; ++k) frame.add_plastic_fraction(static_cast<float>(i) / 4.0F);
+      writer.add_frame(frame);
+    }
+    v1::Summary summary;
+    summary.set_plateau_stress_impact_mpa(3.25);
+    summary.set_step_count(12345);
+    summary.set_energy_error_relative(0.01);
+    writer.finish({testing::small_case(), "1.2.3+abc", "scalar", 2e-7, {"Walls are beams.", "No friction."}}, summary);
+    file_ = Hdf5Handle(H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "opening");
+  }
+
+  testing::TemporaryFolder folder_;
+  std::filesystem::path path_ = folder_.path() / "result.h5";
+  Hdf5Handle file_;
+};
+
+TEST_F(ResultFileTest, HasTheAgreedDatasetsShapesAndTypes) {
+  for (const char* column : {"time_s", "travel_mm", "strain", "stress_impact_mpa", "stress_support_mpa",
+                             "energy_kinetic_mj", "energy_elastic_mj", "energy_plastic_mj", "energy_contact_mj",
+                             "energy_friction_mj", "energy_damping_mj", "work_external_mj", "energy_residual_mj",
+                             "energy_contact_stored_mj", "energy_contact_damping_mj", "deepest_penetration"}) {
+    const std::string path = std::string("/history/") + column;
+    EXPECT_EQ(shape(file_.id(), path), (std::vector<hsize_t>{kSamples})) << path;
+    EXPECT_TRUE(is_type(file_.id(), path, H5T_IEEE_F64LE)) << path;
+  }
+  EXPECT_EQ(shape(file_.id(), "/mesh/position_mm"), (std::vector<hsize_t>{3, 2}));
+  EXPECT_EQ(shape(file_.id(), "/mesh/beam_nodes"), (std::vector<hsize_t>{2, 2}));
+  EXPECT_EQ(shape(file_.id(), "/mesh/thickness_mm"), (std::vector<hsize_t>{2}));
+  EXPECT_EQ(shape(file_.id(), "/frames/time_s"), (std::vector<hsize_t>{4}));
+  EXPECT_EQ(shape(file_.id(), "/frames/strain"), (std::vector<hsize_t>{4}));
+  EXPECT_EQ(shape(file_.id(), "/frames/position_mm"), (std::vector<hsize_t>{4, 3, 2}));
+  EXPECT_EQ(shape(file_.id(), "/frames/plastic_fraction"), (std::vector<hsize_t>{4, 2}));
+  EXPECT_TRUE(is_type(file_.id(), "/frames/position_mm", H5T_IEEE_F32LE));
+  EXPECT_TRUE(is_type(file_.id(), "/frames/plastic_fraction", H5T_IEEE_F32LE));
+}
+
+TEST_F(ResultFileTest, TheHistoryIsExtendibleAndCompressed) {
+  const Hdf5Handle dataset(H5Dopen2(file_.id(), "/history/strain", H5P_DEFAULT), H5Dclose, "strain");
+  const Hdf5Handle space(H5Dget_space(dataset.id()), H5Sclose, "space");
+  hsize_t limit = 0;
+  H5Sget_simple_extent_dims(space.id(), nullptr, &limit);
+  EXPECT_EQ(limit, H5S_UNLIMITED);
+  const Hdf5Handle properties(H5Dget_create_plist(dataset.id()), H5Pclose, "properties");
+  EXPECT_EQ(H5Pget_layout(properties.id()), H5D_CHUNKED);
+  EXPECT_EQ(H5Pget_nfilters(properties.id()), 2);
+}
+
+TEST_F(ResultFileTest, SaysWhatItIsAndWhatCameOut) {
+  const ResultReader reader(path_);
+  EXPECT_NE(reader.text_attribute("case").find("\"wall_thickness_mm\":0.3464"), std::string::npos);
+  EXPECT_EQ(reader.text_attribute("case_hash"), hash_of(testing::small_case()));
+  EXPECT_EQ(reader.text_attribute("case_hash").size(), 64U);
+  EXPECT_EQ(reader.text_attribute("solver_revision"), "1.2.3+abc");
+  EXPECT_EQ(reader.text_attribute("simd_target"), "scalar");
+  EXPECT_EQ(reader.text_attribute("modelled"), "Walls are beams.\nNo friction.");
+  EXPECT_EQ(number_attribute(file_.id(), "step_count"), 12345.0);
+  EXPECT_EQ(number_attribute(file_.id(), "time_step_s"), 2e-7);
+  EXPECT_EQ(number_attribute(file_.id(), "plateau_stress_mpa"), 3.25);
+  EXPECT_EQ(number_attribute(file_.id(), "plateau_stress_impact_mpa"), 3.25);
+  EXPECT_GT(H5Aexists(file_.id(), "energy_error_relative"), 0);
+  EXPECT_EQ(H5Aexists(file_.id(), "densification_strain"), 0) << "what did not happen is absent";
+}
+
+TEST_F(ResultFileTest, IsReadBackAsItWasWritten) {
+  const ResultReader reader(path_);
+  const auto history = reader.history();
+  ASSERT_EQ(history.size(), static_cast<std::size_t>(kSamples));
+  for (int i = 0; i < kSamples; ++i) {
+    EXPECT_EQ(history[static_cast<std::size_t>(i)].time_s(), i);
+    EXPECT_EQ(history[static_cast<std::size_t>(i)].energy_contact_damping_mj(), 2.0 * i);
+  }
+  EXPECT_EQ(reader.frame_times(), (std::vector<double>{0.0, 10.0, 20.0, 30.0}));
+  const auto frame = reader.frame(2);
+  EXPECT_EQ(frame.index(), 2);
+  EXPECT_EQ(frame.position_mm(5), 205.0F);
+  EXPECT_EQ(frame.plastic_fraction(0), 0.5F);
+}
+
+TEST_F(ResultFileTest, ThePredictedSizeIsNotPassedAndNotFarOff) {
+  const auto predicted = predicted_result_bytes(3, 2, kSamples, 4);
+  const auto real = static_cast<std::int64_t>(std::filesystem::file_size(path_));
+  EXPECT_LT(real, predicted);
+  EXPECT_GT(16 * real, predicted);
+}
+
+TEST(ResultReader, AFileThatIsNoResultIsRefused) {
+  const testing::TemporaryFolder folder;
+  EXPECT_THROW(ResultReader(folder.path() / "absent.h5"), ServiceError);
+}
+
+TEST(CaseHash, IsThatOfTheContent) {
+  v1::Case one = testing::small_case();
+  const auto hash = hash_of(one);
+  EXPECT_EQ(hash_of(testing::small_case()), hash);
+  one.set_depth_mm(4.5);
+  EXPECT_NE(hash_of(one), hash);
+}
+
+}  // namespace
+}  // namespace cellcrush::store

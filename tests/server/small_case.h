@@ -1,0 +1,13 @@
+#pragma once
+
+#include "cellcrush/v1/case.pb.h"
+
+namespace cellcrush::testing {
+
+/// A few cells at 100 m/s, crushed to half their length: done in a fraction of a second.
+v1::Case small_case();
+
+/// So slow a crush of so many cells that it does not end during a test.
+v1::Case endless_case();
+
+}  // namespace cellcrush::testing

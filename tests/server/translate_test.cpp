@@ -1,0 +1,204 @@
+#include <gmock/gmock.h>
+#include <google/protobuf/util/message_differencer.h>
+#include <gtest/gtest.h>
+
+#include "cellcrush/presets.h"
+#include "server/small_case.h"
+#include "translate/case_to_spec.h"
+#include "translate/check_case.h"
+#include "translate/results.h"
+#include "translate/spec_to_case.h"
+
+namespace cellcrush {
+namespace {
+
+using google::protobuf::util::MessageDifferencer;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+std::vector<std::string> fields_of(const Problems& problems) {
+  std::vector<std::string> out;
+  for (const auto& problem : problems) out.push_back(problem.field);
+  return out;
+}
+
+std::vector<std::string> fields_of(const v1::CheckCaseResponse& response) {
+  std::vector<std::string> out;
+  for (const auto& problem : response.problems()) out.push_back(problem.field());
+  return out;
+}
+
+v1::Case frame_case() {
+  v1::Case out = testing::small_case();
+  auto& frame = *out.mutable_lattice()->mutable_frame();
+  for (const char* id : {"left", "right"}) {
+    auto& node = *frame.add_nodes();
+    node.set_id(id);
+    node.set_x_mm(frame.nodes_size() == 1 ? 0.0 : 100.0);
+    node.set_y_mm(0.0);
+  }
+  auto& beam = *frame.add_beams();
+  beam.set_start("left");
+  beam.set_end("right");
+  beam.set_thickness_mm(1.0);
+  auto& support = *frame.add_supports();
+  support.set_node("left");
+  support.set_fix_x(true);
+  support.set_fix_y(true);
+  auto& load = *frame.add_loads();
+  load.set_node("right");
+  load.set_component(v1::Frame::COMPONENT_Y);
+  auto& point = *load.mutable_force_n_or_n_mm()->add_points();
+  point.set_time_s(0.001);
+  point.set_value(5.0);
+  frame.set_end_time_s(0.01);
+  return out;
+}
+
+TEST(Translate, EveryPresetSurvivesTheWayToTheWireAndBack) {
+  ASSERT_FALSE(presets().empty());
+  for (const auto& preset : presets()) {
+    const v1::Case once = translate::to_case(preset.spec);
+    const auto reading = translate::to_spec(once);
+    EXPECT_THAT(reading.problems, IsEmpty()) << preset.name;
+    const v1::Case twice = translate::to_case(reading.spec);
+    EXPECT_TRUE(MessageDifferencer::Equals(once, twice)) << preset.name;
+    EXPECT_EQ(reading.spec.loading.speed_m_per_s, preset.spec.loading.speed_m_per_s);
+    EXPECT_EQ(reading.spec.lattice.index(), preset.spec.lattice.index());
+  }
+}
+
+TEST(Translate, AnEmptyCaseTakesTheSpecsDefaultsAndInventsNothing) {
+  const auto reading = translate::to_spec(v1::Case());
+  EXPECT_THAT(reading.problems, IsEmpty());
+  EXPECT_TRUE(std::holds_alternative<std::monostate>(reading.spec.lattice));
+  EXPECT_FALSE(reading.spec.depth_mm);
+  EXPECT_FALSE(reading.spec.material.youngs_modulus_mpa);
+  EXPECT_FALSE(reading.spec.loading.speed_m_per_s);
+  EXPECT_EQ(reading.spec.loading.end_strain, LoadingSpec().end_strain);
+  EXPECT_EQ(reading.spec.contact.damping_ratio, ContactSpec().damping_ratio);
+}
+
+TEST(Translate, ZeroIsNotLeftOut) {
+  v1::Case given;
+  given.mutable_contact()->set_damping_ratio(0.0);
+  given.mutable_loading()->set_speed_m_per_s(0.0);
+  const auto reading = translate::to_spec(given);
+  EXPECT_EQ(reading.spec.contact.damping_ratio, 0.0);
+  EXPECT_EQ(reading.spec.loading.speed_m_per_s, 0.0);
+}
+
+TEST(Translate, SquaresAndTrianglesKeepTheirFields) {
+  v1::Case given;
+  auto& square = *given.mutable_lattice()->mutable_square();
+  square.set_columns(3);
+  square.set_rows(2);
+  square.set_side_mm(5.0);
+  square.set_wall_thickness_mm(0.1);
+  const auto as_square = translate::to_spec(given).spec;
+  EXPECT_EQ(std::get<SquareLattice>(as_square.lattice).side_mm, 5.0);
+  EXPECT_TRUE(MessageDifferencer::Equals(translate::to_case(as_square).lattice().square(), given.lattice().square()));
+  given.mutable_lattice()->mutable_triangle()->set_rows(7);
+  EXPECT_EQ(std::get<TriangleLattice>(translate::to_spec(given).spec.lattice).rows, 7);
+}
+
+TEST(Translate, UnknownEnumNumbersAndALongTitleAreProblems) {
+  v1::Case given = testing::small_case();
+  given.mutable_loading()->set_direction(static_cast<v1::Loading::Direction>(17));
+  given.mutable_numerics()->set_fidelity(static_cast<v1::Numerics::Fidelity>(99));
+  std::string title;
+  for (int i = 0; i < 201; ++i) title += "ü";
+  given.set_title(title);
+  EXPECT_THAT(fields_of(translate::to_spec(given).problems),
+              ElementsAre("title", "loading.direction", "numerics.fidelity"));
+  given.set_title(title.substr(2));
+  EXPECT_THAT(fields_of(translate::to_spec(given).problems), ElementsAre("loading.direction", "numerics.fidelity"));
+}
+
+TEST(Translate, AFramesNodesAreFoundByName) {
+  const auto reading = translate::to_spec(frame_case());
+  EXPECT_THAT(reading.problems, IsEmpty());
+  const auto& frame = std::get<FrameLattice>(reading.spec.lattice);
+  EXPECT_EQ(frame.beams.at(0).end, 1);
+  EXPECT_EQ(frame.loads.at(0).node, 1);
+  EXPECT_EQ(frame.loads.at(0).component, FrameLattice::Component::y);
+  EXPECT_EQ(frame.loads.at(0).points.at(0), std::make_pair(0.001, 5.0));
+  const auto again = translate::to_spec(translate::to_case(reading.spec));
+  EXPECT_THAT(again.problems, IsEmpty());
+  EXPECT_EQ(std::get<FrameLattice>(again.spec.lattice).beams.at(0).end, 1);
+}
+
+TEST(Translate, AFramesWrongNamesAreProblemsWithTheirPaths) {
+  v1::Case given = frame_case();
+  auto& frame = *given.mutable_lattice()->mutable_frame();
+  frame.mutable_beams(0)->set_end("nowhere");
+  frame.mutable_nodes(1)->set_id("left");
+  frame.mutable_supports(0)->clear_node();
+  EXPECT_THAT(fields_of(translate::to_spec(given).problems),
+              ElementsAre("lattice.frame.nodes[1].id", "lattice.frame.beams[0].end", "lattice.frame.supports[0].node",
+                          "lattice.frame.loads[0].node"));
+}
+
+TEST(Translate, WhatTheSpecCannotHoldIsUnimplemented) {
+  v1::Case given = frame_case();
+  auto& frame = *given.mutable_lattice()->mutable_frame();
+  frame.add_motions();
+  frame.add_distributed_loads();
+  frame.set_gravity_y_m_per_s2(-9.81);
+  frame.add_watched_nodes("left");
+  frame.mutable_beams(0)->mutable_material()->set_density_kg_per_m3(1.0);
+  const auto problems = translate::to_spec(given).problems;
+  EXPECT_THAT(fields_of(problems),
+              ElementsAre("lattice.frame.beams[0].material", "lattice.frame.motions", "lattice.frame.distributed_loads",
+                          "lattice.frame.gravity_y_m_per_s2", "lattice.frame.watched_nodes"));
+  for (const auto& problem : problems) EXPECT_EQ(problem.kind, Problem::Kind::unimplemented) << problem.field;
+}
+
+TEST(Translate, ACheckTellsTheProblemsOfTheWireAndOfTheSolverAtOnce) {
+  v1::Case given = testing::small_case();
+  given.mutable_loading()->set_direction(static_cast<v1::Loading::Direction>(17));
+  given.mutable_lattice()->mutable_hexagon()->set_wall_thickness_mm(-1.0);
+  given.clear_depth_mm();
+  EXPECT_THAT(fields_of(translate::check_case(given).response),
+              ::testing::IsSupersetOf({"loading.direction", "lattice.hexagon.wall_thickness_mm", "depth_mm"}));
+}
+
+TEST(Translate, ACompletedFrameKeepsItsNodesNames) {
+  const auto check = translate::check_case(frame_case());
+  ASSERT_THAT(fields_of(check.response), IsEmpty());
+  EXPECT_EQ(check.response.completed_case().lattice().frame().nodes(1).id(), "right");
+  EXPECT_EQ(check.response.completed_case().lattice().frame().beams(0).end(), "right");
+}
+
+TEST(Translate, ASummaryKeepsAbsentValuesAbsent) {
+  Summary summary;
+  summary.plateau_stress_impact = 3.5;
+  const auto out = translate::to_proto(summary, 1.5);
+  EXPECT_EQ(out.plateau_stress_impact_mpa(), 3.5);
+  EXPECT_FALSE(out.has_densification_strain());
+  EXPECT_FALSE(out.has_plateau_stress_support_mpa());
+  EXPECT_EQ(out.solver_seconds(), 1.5);
+}
+
+TEST(Translate, EveryFieldOfASampleGoesOver) {
+  Sample sample;
+  sample.step = 1;
+  double value = 2.0;
+  for (double* field : {&sample.time, &sample.travel, &sample.strain, &sample.stress_impact, &sample.stress_support,
+                        &sample.energy_kinetic, &sample.energy_elastic, &sample.energy_plastic, &sample.energy_contact,
+                        &sample.energy_friction, &sample.energy_damping, &sample.work_external, &sample.energy_residual,
+                        &sample.energy_contact_stored, &sample.energy_contact_damping, &sample.deepest_penetration})
+    *field = value++;
+  sample.contact_count = 18;
+  const auto out = translate::to_proto(sample);
+  // Fields of the message are numbered in the same order.
+  const auto* reflection = v1::Sample::GetReflection();
+  for (int number = 2; number <= 17; ++number) {
+    EXPECT_EQ(reflection->GetDouble(out, v1::Sample::descriptor()->FindFieldByNumber(number)), number);
+  }
+  EXPECT_EQ(out.step(), 1);
+  EXPECT_EQ(out.contact_count(), 18);
+}
+
+}  // namespace
+}  // namespace cellcrush

@@ -1,0 +1,132 @@
+#include "watch/watch_cursor.h"
+
+#include <gtest/gtest.h>
+
+#include "error.h"
+#include "server/temporary_folder.h"
+#include "store/journal.h"
+#include "watch/frame_chunks.h"
+
+namespace cellcrush::watch {
+namespace {
+
+class WatchCursorTest : public ::testing::Test {
+ protected:
+  WatchCursor cursor(std::int64_t after = 0, bool frames = true) {
+    return {reader_, job_, hub_.open(job_), after, frames};
+  }
+
+  void change(v1::JobState state) {
+    store::StateChange change;
+    change.state = state;
+    journal_.change_state(job_, change);
+  }
+
+  void add_samples(int count) {
+    for (int i = 0; i < count; ++i) journal_.append_sample(job_, v1::Sample());
+  }
+
+  static v1::FieldFrame frame(int index) {
+    v1::FieldFrame out;
+    out.set_index(index);
+    out.add_position_mm(1.0F);
+    return out;
+  }
+
+  testing::TemporaryFolder folder_;
+  Hub hub_;
+  store::Journal journal_{folder_.path() / "journal.sqlite", [this](std::int64_t job) { hub_.announce(job); }};
+  store::JournalReader reader_{folder_.path() / "journal.sqlite"};
+  std::int64_t job_ = journal_.create_job({}, "", "").job;
+};
+
+TEST_F(WatchCursorTest, ASnapshotThenEverythingInOrderThenTheEnd) {
+  change(v1::RUNNING);
+  add_samples(600);
+  change(v1::SUCCEEDED);
+  auto cursor = this->cursor();
+  EXPECT_TRUE(cursor.next()->has_snapshot());
+  std::int64_t last = 0;
+  while (const auto event = cursor.next()) EXPECT_EQ(event->sequence(), ++last);
+  EXPECT_EQ(last, 603);
+  EXPECT_TRUE(cursor.ended());
+}
+
+TEST_F(WatchCursorTest, GoesOnBehindTheNumberItIsGiven) {
+  change(v1::RUNNING);
+  add_samples(10);
+  change(v1::FAILED);
+  auto cursor = this->cursor(11);
+  EXPECT_EQ(cursor.next()->sequence(), 11);
+  EXPECT_EQ(cursor.next()->sequence(), 12);
+  EXPECT_EQ(cursor.next()->state().state(), v1::FAILED);
+  EXPECT_TRUE(cursor.ended());
+  auto done = this->cursor(13);
+  EXPECT_FALSE(done.ended());
+  EXPECT_TRUE(done.next()->has_snapshot());
+  EXPECT_TRUE(done.ended());
+}
+
+TEST_F(WatchCursorTest, ANumberThatIsNotThereIsRefused) {
+  EXPECT_THROW(cursor(2), ServiceError);
+  EXPECT_THROW(cursor(-1), ServiceError);
+}
+
+TEST_F(WatchCursorTest, TheNewestFrameWinsAndTheGapIsTold) {
+  const auto channel = hub_.open(job_);
+  auto cursor = this->cursor();
+  cursor.next();
+  EXPECT_EQ(cursor.next()->state().state(), v1::PENDING);
+  channel->publish(frame(0));
+  EXPECT_EQ(cursor.next()->frame().frame().index(), 0);
+  for (int i = 1; i <= 4; ++i) channel->publish(frame(i));
+  const auto newest = cursor.next();
+  EXPECT_EQ(newest->frame().frame().index(), 4);
+  EXPECT_EQ(newest->frame().skipped(), 3);
+  EXPECT_FALSE(cursor.next());
+}
+
+TEST_F(WatchCursorTest, TheLastFrameComesBeforeTheLastEvent) {
+  const auto channel = hub_.open(job_);
+  change(v1::RUNNING);
+  auto cursor = this->cursor();
+  channel->publish(frame(7));
+  change(v1::SUCCEEDED);
+  bool seen = false;
+  while (const auto event = cursor.next()) {
+    seen = seen || event->has_frame();
+    const bool last = event->has_state() && event->state().state() == v1::SUCCEEDED;
+    EXPECT_TRUE(seen || !last);
+  }
+  EXPECT_TRUE(cursor.ended());
+}
+
+TEST_F(WatchCursorTest, FramesAreSentOnlyToThoseWhoAsk) {
+  hub_.open(job_)->publish(frame(0));
+  auto cursor = this->cursor(1, false);
+  EXPECT_TRUE(cursor.next()->has_snapshot());
+  EXPECT_FALSE(cursor.next());
+}
+
+TEST(FrameChunks, AreTheFrameAgainWhenAppended) {
+  v1::FieldFrame frame;
+  frame.set_index(3);
+  for (int i = 0; i < 26; ++i) frame.add_position_mm(static_cast<float>(i));
+  for (int i = 0; i < 9; ++i) frame.add_plastic_fraction(static_cast<float>(i) / 10.0F);
+  const auto chunks = chunks_of(frame, 40);
+  ASSERT_EQ(chunks.size(), 4U);
+  v1::FieldFrame again;
+  again.set_index(3);
+  int part = 0;
+  for (const auto& chunk : chunks) {
+    EXPECT_EQ(chunk.part(), part++);
+    EXPECT_EQ(chunk.part_count(), 4);
+    EXPECT_LE(chunk.frame().position_mm_size() + chunk.frame().plastic_fraction_size(), 10);
+    again.mutable_position_mm()->MergeFrom(chunk.frame().position_mm());
+    again.mutable_plastic_fraction()->MergeFrom(chunk.frame().plastic_fraction());
+  }
+  EXPECT_EQ(again.SerializeAsString(), frame.SerializeAsString());
+}
+
+}  // namespace
+}  // namespace cellcrush::watch

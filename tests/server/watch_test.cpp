@@ -1,0 +1,177 @@
+#include <chrono>
+#include <filesystem>
+#include <thread>
+
+#include "server/daemon_fixture.h"
+#include "server/small_case.h"
+#include "store/result_reader.h"
+
+namespace cellcrush::testing {
+namespace {
+
+using std::chrono::milliseconds;
+
+class WatchTest : public DaemonFixture {
+ protected:
+  // The numbered events: states and samples.
+  static std::vector<v1::JobEvent> numbered(const std::vector<v1::JobEvent>& events) {
+    std::vector<v1::JobEvent> out;
+    for (const auto& event : events) {
+      if (event.has_state() || event.has_sample()) out.push_back(event);
+    }
+    return out;
+  }
+
+  // Snapshot first, then the numbers after + 1, after + 2, ... to a last state, then OK.
+  static void expect_complete(const Client::Watched& watched, std::int64_t after) {
+    EXPECT_TRUE(watched.status.ok()) << watched.status.error_message();
+    ASSERT_FALSE(watched.events.empty());
+    EXPECT_TRUE(watched.events.front().has_snapshot());
+    const auto events = numbered(watched.events);
+    for (std::size_t i = 0; i < events.size(); ++i)
+      ASSERT_EQ(events[i].sequence(), after + static_cast<std::int64_t>(i) + 1);
+    ASSERT_TRUE(watched.events.back().has_state());
+    EXPECT_EQ(watched.events.back().state().state(), v1::SUCCEEDED);
+  }
+};
+
+TEST_F(WatchTest, AWatchIsCompleteAndEndsWhenTheResultCanBeRead) {
+  auto client = this->client();
+  const std::string job = client.create(small_case());
+  const auto watched = client.watch(job, 0, true, [&](const v1::JobEvent& event) {
+    if (!event.has_state() || event.state().state() != v1::SUCCEEDED) return;
+    const auto path = data_folder() / job / "result.h5";
+    ASSERT_TRUE(std::filesystem::exists(path));
+    EXPECT_GE(store::ResultReader(path).history().size(), 90U);
+    EXPECT_FALSE(std::filesystem::exists(path.string() + ".partial"));
+  });
+  expect_complete(watched, 0);
+  const auto events = numbered(watched.events);
+  EXPECT_GE(events.size(), 93U);
+  EXPECT_EQ(events[0].state().state(), v1::PENDING);
+  EXPECT_EQ(events[1].state().state(), v1::RUNNING);
+  EXPECT_GT(events[1].state().worker_pid(), 0);
+  EXPECT_EQ(events.back().state().worker_pid(), 0);
+  EXPECT_GT(events.back().state().summary().step_count(), 0);
+}
+
+TEST_F(WatchTest, FramesComeInOrderAndTheLastIsNotMissed) {
+  auto client = this->client();
+  const std::string job = client.create(small_case());
+  const auto watched = client.watch(job, 0, true);
+  expect_complete(watched, 0);
+  int last = -1;
+  for (const auto& event : watched.events) {
+    if (!event.has_frame()) continue;
+    EXPECT_EQ(event.frame().part_count(), 1);
+    EXPECT_GT(event.frame().frame().index(), last);
+    const int between = last < 0 ? 0 : event.frame().frame().index() - last - 1;
+    EXPECT_EQ(event.frame().skipped(), between);
+    last = event.frame().frame().index();
+  }
+  const store::ResultReader result(data_folder() / job / "result.h5");
+  EXPECT_EQ(last, static_cast<int>(result.frame_times().size()) - 1);
+}
+
+TEST_F(WatchTest, TwoWatchersAndALateOneSeeTheSame) {
+  auto client = this->client();
+  const std::string job = client.create(small_case());
+  Client::Watched other;
+  std::thread thread([&] { other = this->client().watch(job); });
+  const auto one = client.watch(job);
+  thread.join();
+  const auto late = client.watch(job);
+  for (const Client::Watched* watched : std::initializer_list<const Client::Watched*>{&one, &other, &late})
+    expect_complete(*watched, 0);
+  EXPECT_EQ(numbered(one.events).size(), numbered(other.events).size());
+  EXPECT_EQ(numbered(one.events).size(), numbered(late.events).size());
+  EXPECT_TRUE(late.events.front().snapshot().has_mesh());
+  EXPECT_EQ(late.events.front().snapshot().job().state(), v1::SUCCEEDED);
+}
+
+TEST_F(WatchTest, AWatchGoesOnWhereAnotherWasCutOff) {
+  auto client = this->client();
+  const std::string job = client.create(small_case());
+  std::int64_t last = 0;
+  {
+    v1::WatchJobRequest request;
+    request.set_name(job);
+    const auto context = bounded_context();
+    const auto reader = client.jobs->WatchJob(context.get(), request);
+    v1::JobEvent event;
+    while (last < 20 && reader->Read(&event)) last = event.sequence();
+    context->TryCancel();
+    while (reader->Read(&event)) {
+    }
+    EXPECT_EQ(reader->Finish().error_code(), grpc::StatusCode::CANCELLED);
+  }
+  ASSERT_EQ(last, 20);
+  const auto rest = client.watch(job, last);
+  expect_complete(rest, last);
+  EXPECT_EQ(rest.events.front().sequence(), last);
+  const auto nothing = client.watch(job, rest.events.back().sequence());
+  EXPECT_TRUE(nothing.status.ok());
+  EXPECT_EQ(nothing.events.size(), 1U);
+  EXPECT_EQ(client.watch(job, 1'000'000).status.error_code(), grpc::StatusCode::OUT_OF_RANGE);
+}
+
+TEST_F(WatchTest, AWatcherThatDoesNotReadHoldsUpNobody) {
+  auto client = this->client();
+  const std::string job = client.create(small_case());
+  v1::WatchJobRequest request;
+  request.set_name(job);
+  request.set_frames(true);
+  const auto context = bounded_context();
+  const auto sleeper = this->client().jobs->WatchJob(context.get(), request);
+  expect_complete(client.watch(job), 0);
+  std::vector<v1::JobEvent> events;
+  v1::JobEvent event;
+  while (sleeper->Read(&event)) events.push_back(event);
+  expect_complete({events, sleeper->Finish()}, 0);
+}
+
+TEST_F(WatchTest, ManyWatchersLeaveRoomForOtherCalls) {
+  auto client = this->client();
+  const std::string job = client.create(endless_case());
+  v1::WatchJobRequest request;
+  request.set_name(job);
+  std::vector<std::unique_ptr<grpc::ClientContext>> contexts;
+  std::vector<std::unique_ptr<grpc::ClientReader<v1::JobEvent>>> readers;
+  for (int i = 0; i < 200; ++i) {
+    contexts.push_back(bounded_context());
+    readers.push_back(client.jobs->WatchJob(contexts.back().get(), request));
+  }
+  v1::JobEvent event;
+  for (const auto& reader : readers) {
+    ASSERT_TRUE(reader->Read(&event));
+    EXPECT_TRUE(event.has_snapshot());
+  }
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_EQ(client.get(job).name(), job);
+  expect_complete(client.watch(client.create(small_case())), 0);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(30));
+  for (const auto& context : contexts) context->TryCancel();
+}
+
+TEST_F(WatchTest, AnIdleWatchGetsBookmarks) {
+  auto options = default_options();
+  options.bookmark_interval = milliseconds(200);
+  options.workers = 1;
+  start(options);
+  auto client = this->client();
+  client.create(endless_case());
+  const std::string waiting = client.create(small_case());
+  v1::WatchJobRequest request;
+  request.set_name(waiting);
+  const auto context = bounded_context();
+  const auto reader = client.jobs->WatchJob(context.get(), request);
+  v1::JobEvent event;
+  do {
+    ASSERT_TRUE(reader->Read(&event));
+  } while (!event.has_bookmark());
+  EXPECT_EQ(event.sequence(), 1);
+  context->TryCancel();
+}
+
+}  // namespace
+}  // namespace cellcrush::testing
