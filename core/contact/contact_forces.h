@@ -16,6 +16,9 @@ namespace cellcrush {
 ///  - the force never pulls (Eq. 43 does while walls part);
 ///  - where ball and segment meet at a joint, they touch at no more than half of the ball's distance from it: walls can come
 ///    no further apart there than the joint lets them.
+/// Friction (Eq. 44-47) grows with the slip along the segment, with the normal force's k, up to the friction coefficient times
+/// the normal force; a ball that slides from a segment to its neighbour takes it along. It acts at the walls' mid-lines: the
+/// couple of R and h/2 is left out, as in the paper.
 /// c is damping_ratio of critical damping of k with the effective mass 1/m = 1/m_ball + (1-s)^2/m_start + s^2/m_end.
 void evaluate_contact_forces(const Scene& scene, State& state);
 

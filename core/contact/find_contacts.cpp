@@ -72,13 +72,17 @@ int joint_between(const Scene& scene, int ball, const Element& segment) {
   return -1;
 }
 
-int remembered_side(const State& state, int ball, int segment) {
-  for (int k = state.candidate_offset[ball]; k < state.candidate_offset[ball + 1]; ++k) {
-    if (state.candidates[k].segment == segment) {
-      return state.candidates[k].side;
+/// What the list at hand remembers of a pair, or a fresh candidate.
+ContactCandidate candidate_for(const Scene& scene, const State& state, const Pair& pair) {
+  for (int k = state.candidate_offset[pair.ball]; k < state.candidate_offset[pair.ball + 1]; ++k) {
+    if (state.candidates[k].segment == pair.segment) {
+      return state.candidates[k];
     }
   }
-  return 0;
+  ContactCandidate fresh;
+  fresh.segment = pair.segment;
+  fresh.joint = joint_between(scene, pair.ball, scene.elements[pair.segment]);
+  return fresh;
 }
 
 }  // namespace
@@ -101,8 +105,7 @@ void search_contacts(const Scene& scene, State& state) {
   std::vector<ContactCandidate> candidates(pairs.size());
   std::vector<int> next(offset.begin(), offset.end() - 1);
   for (const Pair& pair : pairs) {
-    candidates[next[pair.ball]++] = {pair.segment, joint_between(scene, pair.ball, scene.elements[pair.segment]),
-                                     remembered_side(state, pair.ball, pair.segment)};
+    candidates[next[pair.ball]++] = candidate_for(scene, state, pair);
   }
   state.candidate_offset = std::move(offset);
   state.candidates = std::move(candidates);

@@ -1,8 +1,27 @@
 #include "contact/plate_forces.h"
 
+#include "contact/friction.h"
 #include "contact/normal_force.h"
 
 namespace cellcrush {
+
+namespace {
+
+/// The plates do not move across the crush, so a particle's slip is its own motion there.
+void add_plate_friction(const Scene& scene, State& state) {
+  const int across = 1 - scene.plates.axis;
+  for (std::size_t i = 0; i < scene.particle_count(); ++i) {
+    const double slip = scene.schedule.time_step * state.velocity[i][across];
+    const auto rub = [&](double normal_force, double& friction) {
+      friction = evaluate_friction(friction, scene.plates.stiffness, slip, scene.plates.friction * normal_force);
+      state.friction_force[i][across] += friction;
+    };
+    rub(state.impact_force[i] + state.impact_damping_force[i], state.impact_friction[i]);
+    rub(state.support_force[i] + state.support_damping_force[i], state.support_friction[i]);
+  }
+}
+
+}  // namespace
 
 void evaluate_plate_forces(const Scene& scene, State& state) {
   const Plates& plates = scene.plates;
@@ -26,6 +45,9 @@ void evaluate_plate_forces(const Scene& scene, State& state) {
          state.impact_damping_force[i]);
     push(i, place + scene.radius[i] - plates.support_face, speed, state.support_force[i],
          state.support_damping_force[i]);
+  }
+  if (plates.friction > 0.0) {
+    add_plate_friction(scene, state);
   }
 }
 

@@ -5,9 +5,9 @@
 
 namespace cellcrush {
 
-/// Overwrites the forces of the rigid, frictionless, unilateral plates on every particle whose ball reaches into them, by the
+/// Overwrites the forces of the rigid, unilateral plates on every particle whose ball reaches into them, by the
 /// penalty law of the walls. Forces are positive in compression: the impact plate pushes along the crush, the support plate
-/// against it.
+/// against it. Friction acts across the crush; it is added to friction_force, which evaluate_contact_forces has cleared.
 void evaluate_plate_forces(const Scene& scene, State& state);
 
 }  // namespace cellcrush

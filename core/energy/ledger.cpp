@@ -33,10 +33,12 @@ double elastic_energy(const Scene& scene, const State& state) {
   double energy = 0.0;
   for (std::size_t e = 0; e < scene.element_count(); ++e) {
     const Eigen::Map<const Eigen::ArrayXd> stress(&state.stress[e * scene.fibre_count()], per_element);
-    const double volume = scene.elements[e].thickness * scene.depth * state.length[e];
-    energy += volume * (scene.section.weight * stress.square()).sum();
+    const Element& element = scene.elements[e];
+    const double volume = element.thickness * scene.depth * state.length[e];
+    const double modulus = scene.materials[element.material].youngs_modulus;
+    energy += volume * (scene.section.weight * stress.square()).sum() / (2.0 * modulus);
   }
-  return energy / (2.0 * scene.material.youngs_modulus);
+  return energy;
 }
 
 }  // namespace
@@ -68,8 +70,14 @@ void accumulate_work(const Scene& scene, const State& state, std::size_t particl
         half * (scene.mass[particle] * (state.velocity[particle] + next.velocity).dot(mean.displacement) +
                 scene.inertia[particle] * (state.spin[particle] + next.spin) * mean.turn);
   }
-  if (!scene.loads.empty()) {
+  if (!state.friction_force.empty()) {
+    ledger.friction -= state.friction_force[particle].dot(mean.displacement);
+  }
+  if (scene.is_loaded()) {
     ledger.external += state.load_force[particle].dot(mean.displacement) + state.load_moment[particle] * mean.turn;
+  }
+  if (!scene.motions.empty()) {
+    ledger.external += next.reaction.dot(mean.displacement) + next.reaction_moment * mean.turn;
   }
 }
 

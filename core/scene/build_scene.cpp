@@ -5,7 +5,8 @@
 #include "measure/theory.h"
 #include "scene/check_spec.h"
 #include "scene/frame.h"
-#include "scene/hexagon.h"
+#include "scene/imperfection.h"
+#include "scene/lattices.h"
 #include "scene/masses.h"
 #include "scene/mesh.h"
 #include "scene/stable_step.h"
@@ -48,10 +49,10 @@ double shortest_element(const Scene& scene) {
 void set_contact(const ContactSpec& spec, bool present, Scene& scene) {
   const double lightest = *std::min_element(scene.mass.begin(), scene.mass.end());
   const double stiffness = spec.stiffness_factor * lightest / (scene.stable_step * scene.stable_step);
-  scene.contact = {present, stiffness, spec.damping_ratio, kSkinFraction * shortest_element(scene)};
+  scene.contact = {present, stiffness, spec.damping_ratio, spec.friction, kSkinFraction * shortest_element(scene)};
 }
 
-void set_plates(const LoadingSpec& spec, Scene& scene) {
+void set_plates(const LoadingSpec& spec, double friction, Scene& scene) {
   const int axis = spec.direction == LoadingSpec::Direction::x ? 0 : 1;
   double low = scene.position.front()[axis];
   double high = low;
@@ -61,7 +62,7 @@ void set_plates(const LoadingSpec& spec, Scene& scene) {
   }
   const double speed = *spec.speed_m_per_s * kMmPerM;
   const double ramp_time = 2.0 * spec.ramp_strain * scene.length / speed;
-  scene.plates = {true, axis, low, high, speed, ramp_time, scene.contact.stiffness};
+  scene.plates = {true, axis, low, high, speed, ramp_time, scene.contact.stiffness, friction};
 }
 
 double end_time_of(const SceneSpec& spec, const Scene& scene) {
@@ -89,22 +90,49 @@ void set_schedule(const SceneSpec& spec, Scene& scene) {
   scene.schedule.frame_interval = interval(spec.output.frame_count);
 }
 
+std::vector<Material> materials_of(const SceneSpec& spec) {
+  std::vector<Material> materials = {material_of(spec.material)};
+  if (const auto* frame = std::get_if<FrameLattice>(&spec.lattice)) {
+    for (const FrameLattice::Beam& beam : frame->beams) {
+      if (beam.material) {
+        materials.push_back(material_of(*beam.material));
+      }
+    }
+  }
+  return materials;
+}
+
+/// Lays out a regular lattice and takes its measures.
+template <class Lattice>
+Layout measure(const SceneSpec& spec, const Lattice& lattice, Layout layout, Scene& scene) {
+  const Vector2 envelope = envelope_of(lattice);
+  const bool along_x = spec.loading.direction == LoadingSpec::Direction::x;
+  scene.length = along_x ? envelope.x() : envelope.y();
+  scene.width = along_x ? envelope.y() : envelope.x();
+  scene.collapse_stress = collapse_stress_of(lattice, *spec.material.yield_stress_mpa, spec.loading.direction);
+  perturb(spec.imperfection, layout);
+  return layout;
+}
+
+Layout lay_out(const SceneSpec& spec, Scene& scene) {
+  const int elements = spec.elements_per_wall;
+  if (const auto* hexagon = std::get_if<HexagonLattice>(&spec.lattice)) {
+    return measure(spec, *hexagon, lay_out(*hexagon, spec.inclusions, elements), scene);
+  }
+  if (const auto* square = std::get_if<SquareLattice>(&spec.lattice)) {
+    return measure(spec, *square, lay_out(*square, elements), scene);
+  }
+  if (const auto* triangle = std::get_if<TriangleLattice>(&spec.lattice)) {
+    return measure(spec, *triangle, lay_out(*triangle, elements), scene);
+  }
+  return lay_out_frame(std::get<FrameLattice>(spec.lattice), elements);
+}
+
 void set_material_and_mesh(const SceneSpec& spec, Scene& scene) {
   scene.depth = *spec.depth_mm;
-  scene.material = material_of(spec.material);
+  scene.materials = materials_of(spec);
   scene.section = make_section_rule(spec.section.axial_points, spec.section.depth_points);
-  Layout layout;
-  if (const auto* hexagon = std::get_if<HexagonLattice>(&spec.lattice)) {
-    layout = lay_out_hexagons(*hexagon, spec.elements_per_wall);
-    const Vector2 envelope = envelope_of(*hexagon);
-    const bool along_x = spec.loading.direction == LoadingSpec::Direction::x;
-    scene.length = along_x ? envelope.x() : envelope.y();
-    scene.width = along_x ? envelope.y() : envelope.x();
-    scene.collapse_stress = collapse_stress_of(*hexagon, scene.material.yield_stress);
-  } else {
-    layout = lay_out_frame(std::get<FrameLattice>(spec.lattice), spec.elements_per_wall);
-  }
-  Mesh mesh = divide_walls(layout);
+  Mesh mesh = divide_walls(lay_out(spec, scene));
   scene.position = std::move(mesh.position);
   scene.elements = std::move(mesh.elements);
 }
@@ -136,7 +164,7 @@ SceneResult build_scene(const SceneSpec& spec) {
   set_material_and_mesh(spec, *scene);
   const auto* frame = std::get_if<FrameLattice>(&spec.lattice);
   if (frame != nullptr) {
-    attach_to_frame(*frame, *scene);
+    attach_to_frame(*frame, spec.elements_per_wall, *scene);
   }
   lump_masses(*scene);
   link_elements(*scene);
@@ -144,7 +172,7 @@ SceneResult build_scene(const SceneSpec& spec) {
   scene->mass_damping = spec.numerics.mass_damping_per_s;
   set_contact(spec.contact, frame == nullptr || frame->self_contact, *scene);
   if (frame == nullptr) {
-    set_plates(spec.loading, *scene);
+    set_plates(spec.loading, spec.plates.friction, *scene);
   }
   check_time_step(spec, *scene, result.problems);
   if (result.problems.empty()) {

@@ -15,7 +15,7 @@ class FrameChecker {
                  "Give at least two nodes.");
     }
     for (std::size_t i = 0; i < frame_.nodes.size(); ++i) {
-      const std::string path = "lattice.frame.nodes[" + std::to_string(i) + "].";
+      const std::string path = item("nodes", i);
       const FrameLattice::Node& node = frame_.nodes[i];
       check_.in_range(path + "x_mm", node.x_mm, {-1e9, 1e9}, " mm");
       check_.in_range(path + "y_mm", node.y_mm, {-1e9, 1e9}, " mm");
@@ -29,12 +29,15 @@ class FrameChecker {
       check_.add("lattice.frame.beams", "", "are missing.", "Give at least one beam.");
     }
     for (std::size_t i = 0; i < frame_.beams.size(); ++i) {
-      const std::string path = "lattice.frame.beams[" + std::to_string(i) + "].";
+      const std::string path = item("beams", i);
       const FrameLattice::Beam& beam = frame_.beams[i];
       const bool ends = node_exists(path + "start", beam.start) && node_exists(path + "end", beam.end);
       check_.positive(path + "thickness_mm", beam.thickness_mm, " mm");
       if (beam.elements) {
         check_.in_range(path + "elements", beam.elements, {1, 10000}, "");
+      }
+      if (beam.material) {
+        check_material(path + "material.", *beam.material, check_);
       }
       if (ends && length_of(beam) == 0.0) {
         check_.add(path + "end", std::to_string(beam.end), "makes a beam without length.",
@@ -43,32 +46,94 @@ class FrameChecker {
     }
   }
 
-  void check_loads() {
+  void check_supports() {
     for (std::size_t i = 0; i < frame_.supports.size(); ++i) {
-      node_exists("lattice.frame.supports[" + std::to_string(i) + "].node", frame_.supports[i].node);
+      node_exists(item("supports", i) + "node", frame_.supports[i].node);
     }
     for (std::size_t i = 0; i < frame_.initial_velocities.size(); ++i) {
-      node_exists("lattice.frame.initial_velocities[" + std::to_string(i) + "].node",
-                  frame_.initial_velocities[i].node);
+      const std::string path = item("initial_velocities", i);
+      const FrameLattice::InitialVelocity& velocity = frame_.initial_velocities[i];
+      node_exists(path + "node", velocity.node);
+      check_.in_range(path + "x_m_per_s", velocity.x_m_per_s, {-1e6, 1e6}, " m/s");
+      check_.in_range(path + "y_m_per_s", velocity.y_m_per_s, {-1e6, 1e6}, " m/s");
+      check_.in_range(path + "rotation_rad_per_s", velocity.rotation_rad_per_s, {-1e9, 1e9}, " rad/s");
     }
+    for (std::size_t i = 0; i < frame_.watched_nodes.size(); ++i) {
+      node_exists("lattice.frame.watched_nodes[" + std::to_string(i) + "]", frame_.watched_nodes[i]);
+    }
+  }
+
+  void check_loads() {
     for (std::size_t i = 0; i < frame_.loads.size(); ++i) {
-      const std::string path = "lattice.frame.loads[" + std::to_string(i) + "].";
+      const std::string path = item("loads", i);
       node_exists(path + "node", frame_.loads[i].node);
-      const auto& points = frame_.loads[i].points;
-      bool ordered = !points.empty();
-      for (std::size_t k = 0; k < points.size(); ++k) {
-        ordered = ordered && std::isfinite(points[k].first) && std::isfinite(points[k].second) &&
-                  (k == 0 || points[k - 1].first < points[k].first);
+      function_of_time(path + "force_n_or_n_mm", frame_.loads[i].points);
+    }
+    for (std::size_t i = 0; i < frame_.distributed_loads.size(); ++i) {
+      const std::string path = item("distributed_loads", i);
+      const FrameLattice::DistributedLoad& load = frame_.distributed_loads[i];
+      if (load.beam < 0 || load.beam >= static_cast<int>(frame_.beams.size())) {
+        check_.add(path + "beam", std::to_string(load.beam), "is no beam of the frame.",
+                   "Give a position in lattice.frame.beams, from 0.");
       }
-      if (!ordered) {
-        check_.add(path + "force_n_or_n_mm.points", "", "are not a function of time.",
-                   "Give at least one point, finite values, and times that ascend.");
+      if (!load.x_points.empty() || load.y_points.empty()) {
+        function_of_time(path + "x_n_per_mm", load.x_points);
+      }
+      if (!load.y_points.empty()) {
+        function_of_time(path + "y_n_per_mm", load.y_points);
       }
     }
+    check_.in_range("lattice.frame.gravity_x_m_per_s2", frame_.gravity_x_m_per_s2, {-1e9, 1e9}, " m/s2");
+    check_.in_range("lattice.frame.gravity_y_m_per_s2", frame_.gravity_y_m_per_s2, {-1e9, 1e9}, " m/s2");
     check_.positive("lattice.frame.end_time_s", frame_.end_time_s, " s");
   }
 
+  void check_motions() {
+    for (std::size_t i = 0; i < frame_.motions.size(); ++i) {
+      const std::string path = item("motions", i);
+      const FrameLattice::NodalMotion& motion = frame_.motions[i];
+      function_of_time(path + "displacement_mm_or_rad", motion.points);
+      if (node_exists(path + "node", motion.node)) {
+        check_single_motion(path, i);
+      }
+    }
+  }
+
  private:
+  static std::string item(const char* list, std::size_t position) {
+    return "lattice.frame." + std::string(list) + "[" + std::to_string(position) + "].";
+  }
+
+  /// A motion of a node is given once, and not held by a support as well.
+  void check_single_motion(const std::string& path, std::size_t index) {
+    const FrameLattice::NodalMotion& motion = frame_.motions[index];
+    for (std::size_t other = 0; other < index; ++other) {
+      if (frame_.motions[other].node == motion.node && frame_.motions[other].component == motion.component) {
+        check_.add(path + "component", "", "of this node is moved by another motion too.", "Give each motion once.");
+      }
+    }
+    for (const FrameLattice::Support& support : frame_.supports) {
+      const bool held = motion.component == FrameLattice::Component::x   ? support.fix_x
+                        : motion.component == FrameLattice::Component::y ? support.fix_y
+                                                                         : support.fix_rotation;
+      if (support.node == motion.node && held) {
+        check_.add(path + "component", "", "of this node is held by a support.", "Free it in the support.");
+      }
+    }
+  }
+
+  void function_of_time(const std::string& field, const FrameLattice::TimeFunction& points) {
+    bool ordered = !points.empty();
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      ordered = ordered && std::isfinite(points[k].first) && std::isfinite(points[k].second) &&
+                (k == 0 || points[k - 1].first < points[k].first);
+    }
+    if (!ordered) {
+      check_.add(field + ".points", "", "are not a function of time.",
+                 "Give at least one point, finite values, and times that ascend.");
+    }
+  }
+
   bool node_exists(const std::string& field, int node) {
     if (node >= 0 && node < static_cast<int>(frame_.nodes.size())) {
       return true;
@@ -89,11 +154,21 @@ class FrameChecker {
 
 }  // namespace
 
+void check_material(const std::string& path, const MaterialSpec& material, FieldChecker& check) {
+  check.positive(path + "youngs_modulus_mpa", material.youngs_modulus_mpa, " MPa");
+  check.positive(path + "yield_stress_mpa", material.yield_stress_mpa, " MPa");
+  check.in_range(path + "hardening_modulus_mpa", material.hardening_modulus_mpa, {0.0, 1e12}, " MPa");
+  check.in_range(path + "isotropic_fraction", material.isotropic_fraction, {0.0, 1.0}, "");
+  check.positive(path + "density_kg_per_m3", material.density_kg_per_m3, " kg/m3");
+}
+
 void check_frame(const FrameLattice& frame, FieldChecker& check) {
   FrameChecker checker(frame, check);
   checker.check_nodes();
   checker.check_beams();
+  checker.check_supports();
   checker.check_loads();
+  checker.check_motions();
 }
 
 }  // namespace cellcrush

@@ -1,5 +1,6 @@
 #include "scene/check_spec.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -12,59 +13,87 @@ namespace {
 
 constexpr double kMostElements = 2e6;
 
-void check_hexagons(const HexagonLattice& hexagon, int elements_per_wall, FieldChecker& check) {
-  const std::string path = "lattice.hexagon.";
-  const bool columns = check.in_range(path + "columns", hexagon.columns, {2, 10000}, " cells");
-  const bool rows = check.in_range(path + "rows", hexagon.rows, {1, 10000}, " cells");
-  const bool side = check.positive(path + "side_mm", hexagon.side_mm, " mm");
-  const double thickest = side ? 0.5 * *hexagon.side_mm : 1e12;
-  const FieldChecker::Range thickness = {.low = 0.0, .high = thickest, .low_open = true};
-  check.in_range(path + "wall_thickness_mm", hexagon.wall_thickness_mm, thickness, " mm (half of side_mm)");
-  if (hexagon.vertical_wall_thickness_mm) {
-    check.in_range(path + "vertical_wall_thickness_mm", hexagon.vertical_wall_thickness_mm, thickness,
-                   " mm (half of side_mm)");
-  }
+/// Checks the fields that all regular lattices have. `walls_per_cell` bounds the size of the mesh.
+template <class Lattice>
+void check_regular(const std::string& path, const Lattice& lattice, int fewest_columns, double walls_per_cell,
+                   int elements_per_wall, FieldChecker& check) {
+  const bool columns =
+      check.in_range(path + "columns", lattice.columns, {static_cast<double>(fewest_columns), 10000}, " cells");
+  const bool rows = check.in_range(path + "rows", lattice.rows, {1, 10000}, " cells");
+  const bool side = check.positive(path + "side_mm", lattice.side_mm, " mm");
+  const double thickest = side ? 0.5 * *lattice.side_mm : 1e12;
+  check.in_range(path + "wall_thickness_mm", lattice.wall_thickness_mm, {.low = 0.0, .high = thickest, .low_open = true},
+                 " mm (half of side_mm)");
   if (columns && rows) {
-    const double elements = 3.0 * *hexagon.columns * *hexagon.rows * elements_per_wall;
+    const double elements = walls_per_cell * *lattice.columns * *lattice.rows * elements_per_wall;
     if (elements > kMostElements) {
-      check.add(path + "columns", std::to_string(*hexagon.columns),
+      check.add(path + "columns", std::to_string(*lattice.columns),
                 "makes about " + to_text(std::round(elements)) + " elements with the rows and elements_per_wall given.",
-                "Keep columns x rows x 3 x elements_per_wall at or below " + to_text(kMostElements) + ".");
+                "Keep columns x rows x " + to_text(walls_per_cell) + " x elements_per_wall at or below " +
+                    to_text(kMostElements) + ".");
     }
   }
 }
 
+void check_hexagons(const HexagonLattice& hexagon, const Inclusions& inclusions, int elements_per_wall,
+                    FieldChecker& check) {
+  const std::string path = "lattice.hexagon.";
+  check_regular(path, hexagon, 2, 3.0, elements_per_wall, check);
+  const double thickest = hexagon.side_mm && *hexagon.side_mm > 0.0 ? 0.5 * *hexagon.side_mm : 1e12;
+  if (hexagon.vertical_wall_thickness_mm) {
+    check.in_range(path + "vertical_wall_thickness_mm", hexagon.vertical_wall_thickness_mm,
+                   {.low = 0.0, .high = thickest, .low_open = true}, " mm (half of side_mm)");
+  }
+  if (inclusions.rows.empty()) {
+    return;
+  }
+  for (std::size_t i = 0; i < inclusions.rows.size(); ++i) {
+    check.in_range("lattice.inclusions.rows[" + std::to_string(i) + "]", std::optional<int>(inclusions.rows[i]),
+                   {1.0, static_cast<double>(hexagon.rows.value_or(10000))}, " (a row of cells, from the bottom)");
+  }
+  const double thickness = std::max(hexagon.wall_thickness_mm.value_or(0.0),
+                                    hexagon.vertical_wall_thickness_mm.value_or(0.0));
+  if (check.in_range("lattice.inclusions.thickness_factor", inclusions.thickness_factor, {1.0, 1e12}, "") &&
+      inclusions.thickness_factor * thickness > thickest) {
+    check.add("lattice.inclusions.thickness_factor", to_text(inclusions.thickness_factor),
+              "makes stiff walls thicker than half of side_mm.",
+              "Give at most " + to_text(thickest / thickness) + ".");
+  }
+}
+
+void check_imperfection(const SceneSpec& spec, double side, FieldChecker& check) {
+  check.in_range("lattice.imperfection.amplitude_mm", spec.imperfection.amplitude_mm, {0.0, 0.1 * side},
+                 " mm (a tenth of side_mm)");
+}
+
 void check_lattice(const SceneSpec& spec, FieldChecker& check) {
+  const auto side_of = [](const auto& lattice) {
+    return lattice.side_mm && *lattice.side_mm > 0.0 ? *lattice.side_mm : 1e12;
+  };
   if (const auto* hexagon = std::get_if<HexagonLattice>(&spec.lattice)) {
-    check_hexagons(*hexagon, spec.elements_per_wall, check);
+    check_hexagons(*hexagon, spec.inclusions, spec.elements_per_wall, check);
+    check_imperfection(spec, side_of(*hexagon), check);
+    return;
+  }
+  if (const auto* square = std::get_if<SquareLattice>(&spec.lattice)) {
+    check_regular("lattice.square.", *square, 1, 2.0, spec.elements_per_wall, check);
+    check_imperfection(spec, side_of(*square), check);
+  } else if (const auto* triangle = std::get_if<TriangleLattice>(&spec.lattice)) {
+    check_regular("lattice.triangle.", *triangle, 1, 3.0, spec.elements_per_wall, check);
+    check_imperfection(spec, side_of(*triangle), check);
   } else if (const auto* frame = std::get_if<FrameLattice>(&spec.lattice)) {
     check_frame(*frame, check);
-  } else if (std::holds_alternative<SquareLattice>(spec.lattice)) {
-    check.add_unimplemented("lattice.square", "", "square lattices are not built yet.", "Use lattice.hexagon.");
-  } else if (std::holds_alternative<TriangleLattice>(spec.lattice)) {
-    check.add_unimplemented("lattice.triangle", "", "triangle lattices are not built yet.", "Use lattice.hexagon.");
+    if (spec.imperfection.amplitude_mm != 0.0) {
+      check.add("lattice.imperfection.amplitude_mm", to_text(spec.imperfection.amplitude_mm),
+                "is for regular lattices, not for a frame.", "Leave it out, and move the frame's nodes instead.");
+    }
   } else {
     check.add("lattice", "", "is missing.",
               "Give one of lattice.hexagon, lattice.square, lattice.triangle, lattice.frame.");
   }
-  check.in_range("lattice.imperfection.amplitude_mm", spec.imperfection.amplitude_mm, {0.0, 1e12}, " mm");
-  if (spec.imperfection.amplitude_mm > 0.0) {
-    check.add_unimplemented("lattice.imperfection.amplitude_mm", to_text(spec.imperfection.amplitude_mm),
-                            "imperfections are not built yet.", "Leave it out or set it to 0.");
-  }
-}
-
-void check_material(const MaterialSpec& material, FieldChecker& check) {
-  check.positive("material.youngs_modulus_mpa", material.youngs_modulus_mpa, " MPa");
-  check.positive("material.yield_stress_mpa", material.yield_stress_mpa, " MPa");
-  check.in_range("material.hardening_modulus_mpa", material.hardening_modulus_mpa, {0.0, 1e12}, " MPa");
-  check.in_range("material.isotropic_fraction", material.isotropic_fraction, {0.0, 1.0}, "");
-  check.positive("material.density_kg_per_m3", material.density_kg_per_m3, " kg/m3");
-}
-
-void check_friction(const std::string& field, double friction, FieldChecker& check) {
-  if (check.in_range(field, friction, {0.0, 10.0}, "") && friction > 0.0) {
-    check.add_unimplemented(field, to_text(friction), "friction is not built yet.", "Leave it out or set it to 0.");
+  if (!spec.inclusions.rows.empty()) {
+    check.add("lattice.inclusions.rows", std::to_string(spec.inclusions.rows.size()) + " rows",
+              "are for hexagons only.", "Leave them out, or use lattice.hexagon.");
   }
 }
 
@@ -104,14 +133,14 @@ Problems check_spec(const SceneSpec& spec) {
   check_lattice(spec, check);
   check.positive("depth_mm", spec.depth_mm, " mm");
   check.in_range("elements_per_wall", std::optional<int>(spec.elements_per_wall), {1, 64}, "");
-  check_material(spec.material, check);
+  check_material("material.", spec.material, check);
   check.in_range("section.axial_points", std::optional<int>(spec.section.axial_points), {1, 5}, "");
   check.in_range("section.depth_points", std::optional<int>(spec.section.depth_points), {2, 10}, "");
-  check_friction("contact.friction", spec.contact.friction, check);
+  check.in_range("contact.friction", spec.contact.friction, {0.0, 10.0}, "");
   check.in_range("contact.stiffness_factor", spec.contact.stiffness_factor, {.low = 0.0, .high = 1.0, .low_open = true},
                  "");
   check.in_range("contact.damping_ratio", spec.contact.damping_ratio, {0.0, 1.0}, "");
-  check_friction("plates.friction", spec.plates.friction, check);
+  check.in_range("plates.friction", spec.plates.friction, {0.0, 10.0}, "");
   if (!std::holds_alternative<FrameLattice>(spec.lattice)) {
     check_loading(spec.loading, check);
   }

@@ -6,13 +6,66 @@ namespace {
 constexpr double kTonnePerGram = 1e-6;
 constexpr double kMmPerM = 1e3;
 
-NodalLoad::Component component_of(FrameLattice::Component component) {
+Component component_of(FrameLattice::Component component) {
   switch (component) {
-    case FrameLattice::Component::x: return NodalLoad::Component::x;
-    case FrameLattice::Component::y: return NodalLoad::Component::y;
-    case FrameLattice::Component::rotation: break;
+    case FrameLattice::Component::x:
+      return Component::x;
+    case FrameLattice::Component::y:
+      return Component::y;
+    case FrameLattice::Component::rotation:
+      break;
   }
-  return NodalLoad::Component::rotation;
+  return Component::rotation;
+}
+
+int elements_of(const FrameLattice::Beam& beam, int elements_per_wall) {
+  return beam.elements.value_or(elements_per_wall);
+}
+
+void attach_holds(const FrameLattice& frame, Scene& scene) {
+  if (frame.supports.empty() && frame.motions.empty()) {
+    return;
+  }
+  scene.supports.assign(scene.particle_count(), {});
+  for (const FrameLattice::Support& support : frame.supports) {
+    Support& held = scene.supports[support.node];
+    held.x.held |= support.fix_x;
+    held.y.held |= support.fix_y;
+    held.rotation.held |= support.fix_rotation;
+  }
+  for (const FrameLattice::NodalMotion& motion : frame.motions) {
+    Support& held = scene.supports[motion.node];
+    const Component component = component_of(motion.component);
+    Hold& hold = component == Component::x ? held.x : component == Component::y ? held.y : held.rotation;
+    hold = {true, static_cast<int>(scene.motions.size())};
+    scene.motions.push_back({motion.points});
+  }
+}
+
+void attach_loads(const FrameLattice& frame, int elements_per_wall, Scene& scene) {
+  for (const FrameLattice::NodalLoad& load : frame.loads) {
+    scene.loads.push_back({load.node, component_of(load.component), {load.points}});
+  }
+  std::vector<int> first_element;
+  int next = 0;
+  for (const FrameLattice::Beam& beam : frame.beams) {
+    first_element.push_back(next);
+    next += elements_of(beam, elements_per_wall);
+  }
+  for (const FrameLattice::DistributedLoad& load : frame.distributed_loads) {
+    const int count = elements_of(frame.beams[load.beam], elements_per_wall);
+    for (int e = first_element[load.beam]; e < first_element[load.beam] + count; ++e) {
+      const Element& element = scene.elements[e];
+      const double length = (scene.position[element.end] - scene.position[element.start]).norm();
+      if (!load.x_points.empty()) {
+        scene.element_loads.push_back({e, Component::x, {load.x_points}, length});
+      }
+      if (!load.y_points.empty()) {
+        scene.element_loads.push_back({e, Component::y, {load.y_points}, length});
+      }
+    }
+  }
+  scene.gravity = Vector2(frame.gravity_x_m_per_s2, frame.gravity_y_m_per_s2) * kMmPerM;
 }
 
 }  // namespace
@@ -22,13 +75,15 @@ Layout lay_out_frame(const FrameLattice& frame, int elements_per_wall) {
   for (const FrameLattice::Node& node : frame.nodes) {
     layout.joints.emplace_back(node.x_mm, node.y_mm);
   }
+  int own_materials = 0;
   for (const FrameLattice::Beam& beam : frame.beams) {
-    layout.walls.push_back({beam.start, beam.end, beam.thickness_mm, beam.elements.value_or(elements_per_wall)});
+    const int material = beam.material ? ++own_materials : 0;
+    layout.walls.push_back({beam.start, beam.end, beam.thickness_mm, elements_of(beam, elements_per_wall), material});
   }
   return layout;
 }
 
-void attach_to_frame(const FrameLattice& frame, Scene& scene) {
+void attach_to_frame(const FrameLattice& frame, int elements_per_wall, Scene& scene) {
   const std::size_t count = scene.particle_count();
   scene.mass.assign(count, 0.0);
   scene.inertia.assign(count, 0.0);
@@ -36,15 +91,8 @@ void attach_to_frame(const FrameLattice& frame, Scene& scene) {
     scene.mass[i] = frame.nodes[i].attached_mass_g * kTonnePerGram;
     scene.inertia[i] = frame.nodes[i].attached_inertia_g_mm2 * kTonnePerGram;
   }
-  if (!frame.supports.empty()) {
-    scene.supports.assign(count, {});
-    for (const FrameLattice::Support& support : frame.supports) {
-      scene.supports[support.node] = {support.fix_x, support.fix_y, support.fix_rotation};
-    }
-  }
-  for (const FrameLattice::NodalLoad& load : frame.loads) {
-    scene.loads.push_back({load.node, component_of(load.component), load.points});
-  }
+  attach_holds(frame, scene);
+  attach_loads(frame, elements_per_wall, scene);
   if (!frame.initial_velocities.empty()) {
     scene.initial_velocity.assign(count, Vector2::Zero());
     scene.initial_spin.assign(count, 0.0);
@@ -53,6 +101,7 @@ void attach_to_frame(const FrameLattice& frame, Scene& scene) {
       scene.initial_spin[velocity.node] = velocity.rotation_rad_per_s;
     }
   }
+  scene.watched = frame.watched_nodes;
 }
 
 }  // namespace cellcrush

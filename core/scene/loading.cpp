@@ -4,7 +4,7 @@
 
 namespace cellcrush {
 
-double NodalLoad::value_at(double time) const {
+double TimeFunction::value_at(double time) const {
   const auto after = std::upper_bound(points.begin(), points.end(), time,
                                       [](double t, const std::pair<double, double>& point) { return t < point.first; });
   if (after == points.begin()) {

@@ -15,7 +15,7 @@ Mesh divide_walls(const Layout& layout) {
         next = static_cast<int>(mesh.position.size());
         mesh.position.emplace_back(from + (to - from) * (static_cast<double>(i) / wall.elements));
       }
-      mesh.elements.push_back({previous, next, wall.thickness});
+      mesh.elements.push_back({previous, next, wall.thickness, wall.material});
       previous = next;
     }
   }

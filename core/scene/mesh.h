@@ -13,6 +13,7 @@ struct Wall {
   int end = 0;
   double thickness = 0.0;  ///< mm
   int elements = 1;        ///< elements it is divided into
+  int material = 0;        ///< into Scene::materials
 };
 
 /// Joints and walls of a structure before it is divided into elements. Lengths in mm.

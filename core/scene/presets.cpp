@@ -1,7 +1,6 @@
 #include "cellcrush/presets.h"
 
 #include <algorithm>
-#include <array>
 
 namespace cellcrush {
 namespace {
@@ -57,10 +56,117 @@ Preset hexagon_small() {
   return preset;
 }
 
+const std::string kCountsAssumption =
+    "The paper's text and its particle counts contradict each other for Types II and III; there is a preset of each reading.";
+
+// Example 2, Types II and III. The wall thickness gives relative density 0.1 by Eq. 48 and 49.
+Preset type_ii(const std::string& reading, int columns, int rows, double side) {
+  Preset preset = type_i();
+  preset.name = "type-ii-" + reading;
+  preset.title = "Wu, Tsai and Lee, Example 2, Type II: squares at relative density 0.1, " + reading;
+  preset.spec.title = "Type II " + reading + ": " + std::to_string(columns) + " x " + std::to_string(rows) +
+                      " squares, crushed at 100 m/s";
+  preset.assumptions = {kMaterialAssumption, kCountsAssumption, kContactAssumption};
+  SquareLattice square;
+  square.columns = columns;
+  square.rows = rows;
+  square.side_mm = side;
+  square.wall_thickness_mm = 0.05132 * side;
+  preset.spec.lattice = square;
+  return preset;
+}
+
+Preset type_iii(const std::string& reading, int columns, int rows, double side) {
+  Preset preset = type_i();
+  preset.name = "type-iii-" + reading;
+  preset.title = "Wu, Tsai and Lee, Example 2, Type III: triangles at relative density 0.1, " + reading;
+  preset.spec.title = "Type III " + reading + ": " + std::to_string(columns) + " x " + std::to_string(rows) +
+                      " triangles, crushed at 100 m/s";
+  preset.assumptions = {kMaterialAssumption, kCountsAssumption, kContactAssumption,
+                        "The walls of one family lie along the crush."};
+  TriangleLattice triangle;
+  triangle.columns = columns;
+  triangle.rows = rows;
+  triangle.side_mm = side;
+  triangle.wall_thickness_mm = 0.02963 * side;
+  preset.spec.lattice = triangle;
+  return preset;
+}
+
+// Example 1: the quasi-static test of Papka and Kyriakides, by plain explicit steps slow enough for it.
+Preset papka_kyriakides(const std::string& number, double side, double thickness) {
+  SceneSpec spec;
+  spec.title = "Papka and Kyriakides, dimensions " + number + ": 15 rows of 10 and 9 hexagons, crushed along y at 1 m/s";
+  HexagonLattice hexagon;
+  hexagon.columns = 10;
+  hexagon.rows = 15;
+  hexagon.side_mm = side;
+  hexagon.wall_thickness_mm = thickness;
+  hexagon.vertical_wall_thickness_mm = 2.0 * thickness;
+  spec.lattice = hexagon;
+  spec.depth_mm = 1.0;
+  spec.material.youngs_modulus_mpa = 69000.0;
+  spec.material.yield_stress_mpa = 292.0;
+  spec.material.hardening_modulus_mpa = 69000.0 * 690.0 / (69000.0 - 690.0);
+  spec.material.density_kg_per_m3 = 2700.0;
+  spec.plates.friction = 0.2;
+  spec.loading.direction = LoadingSpec::Direction::y;
+  spec.loading.speed_m_per_s = 1.0;
+  spec.numerics.mass_damping_per_s = 100.0;
+  return {"papka-kyriakides-" + number,
+          "Wu, Tsai and Lee, Example 1, dimensions " + number + ": quasi-static crush of Al 5052-H39 hexagons, 814 particles",
+          {"The paper takes dynamic relaxation with a step of 2e-6 s, 6.4 times the stability limit of the real masses; here the "
+           "masses are real, and 1 m/s with mass damping of 100 1/s is slow enough to be quasi-static.",
+           "The paper's fixed plate A is the support plate; friction 0.2 acts at both plates and not between walls.",
+           kContactAssumption},
+          spec};
+}
+
+// Example 3: hexagons with lines of stiff cells.
+Preset inclusions(std::vector<int> rows) {
+  SceneSpec spec;
+  const std::string count = std::to_string(rows.size());
+  spec.title = count + " lines of stiff inclusions in 21 rows of 20 and 19 hexagons, crushed along y at 1 m/s";
+  HexagonLattice hexagon;
+  hexagon.columns = 20;
+  hexagon.rows = 21;
+  hexagon.side_mm = 5.0;
+  hexagon.wall_thickness_mm = 0.1;
+  hexagon.vertical_wall_thickness_mm = 0.1;
+  spec.lattice = hexagon;
+  spec.inclusions.rows = std::move(rows);
+  spec.depth_mm = 5.0;
+  spec.elements_per_wall = 10;
+  spec.material.youngs_modulus_mpa = 70000.0;
+  spec.material.yield_stress_mpa = 34.0;
+  spec.material.density_kg_per_m3 = 2700.0;
+  spec.loading.direction = LoadingSpec::Direction::y;
+  spec.loading.speed_m_per_s = 1.0;
+  return {"inclusions-" + count,
+          "Wu, Tsai and Lee, Example 3: " + count + " lines of stiff inclusions, 10 elements a wall",
+          {"The crush direction and the places of the lines stood only in lost figures: whole rows across the crush, evenly "
+           "spaced.",
+           "A stiff cell is one whose walls are 4 times as thick: 64 times as stiff in bending at the same stable step.",
+           "The step is chosen; the paper's 2e-8 s can be set.", kContactAssumption},
+          spec};
+}
+
 }  // namespace
 
 std::span<const Preset> presets() {
-  static const std::array<Preset, 2> kPresets = {hexagon_small(), type_i()};
+  static const std::vector<Preset> kPresets = {
+      hexagon_small(),
+      papka_kyriakides("1", 5.51, 0.1448),
+      papka_kyriakides("2", 5.49, 0.1194),
+      type_i(),
+      type_ii("as-stated", 128, 32, 4.0),
+      type_ii("as-counted", 73, 18, 512.0 / 73.0),
+      type_iii("as-stated", 128, 37, 4.0),
+      type_iii("as-counted", 74, 21, 512.0 / 74.0),
+      inclusions({}),
+      inclusions({8, 14}),
+      inclusions({3, 6, 9, 13, 16, 19}),
+  };
   return kPresets;
 }
 

@@ -17,7 +17,7 @@ double stable_step_of(const Scene& scene) {
   double least = std::numeric_limits<double>::infinity();
   for (const Element& element : scene.elements) {
     const double length = (scene.position[element.end] - scene.position[element.start]).norm();
-    least = std::min(least, stable_step_of_element(length, element.thickness, scene.material));
+    least = std::min(least, stable_step_of_element(length, element.thickness, scene.materials[element.material]));
   }
   return least;
 }

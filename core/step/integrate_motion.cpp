@@ -18,7 +18,10 @@ Resultant resultant_on(const Scene& scene, const State& state, std::size_t parti
     sum.force[scene.plates.axis] += state.impact_force[particle] + state.impact_damping_force[particle] -
                                     state.support_force[particle] - state.support_damping_force[particle];
   }
-  if (!scene.loads.empty()) {
+  if (!state.friction_force.empty()) {
+    sum.force += state.friction_force[particle];
+  }
+  if (scene.is_loaded()) {
     sum.force += state.load_force[particle];
     sum.moment += state.load_moment[particle];
   }
@@ -36,16 +39,29 @@ Resultant resultant_on(const Scene& scene, const State& state, std::size_t parti
   return sum;
 }
 
-void hold(const Support& support, NextVelocity& next) {
-  if (support.x) {
-    next.velocity.x() = 0.0;
+/// Velocity that makes a held motion follow its function over the coming step, 0 where it stands.
+double held_velocity(const Scene& scene, const State& state, const Hold& hold) {
+  if (hold.motion < 0) {
+    return 0.0;
   }
-  if (support.y) {
-    next.velocity.y() = 0.0;
-  }
-  if (support.rotation) {
-    next.spin = 0.0;
-  }
+  const TimeFunction& motion = scene.motions[hold.motion];
+  const double step = scene.schedule.time_step;
+  return (motion.value_at(state.time + step) - motion.value_at(state.time)) / step;
+}
+
+/// Puts held velocities in place of the free ones and notes the force that it takes.
+void apply_support(const Scene& scene, const State& state, const Support& support, double force_per_velocity,
+                   double moment_per_spin, NextVelocity& next) {
+  const auto put = [&](const Hold& hold, double& velocity, double per_velocity, double& reaction) {
+    if (hold.held) {
+      const double held = held_velocity(scene, state, hold);
+      reaction = per_velocity * (held - velocity);
+      velocity = held;
+    }
+  };
+  put(support.x, next.velocity.x(), force_per_velocity, next.reaction.x());
+  put(support.y, next.velocity.y(), force_per_velocity, next.reaction.y());
+  put(support.rotation, next.spin, moment_per_spin, next.reaction_moment);
 }
 
 }  // namespace
@@ -59,7 +75,8 @@ NextVelocity next_velocity(const Scene& scene, const State& state, std::size_t p
   NextVelocity next = {keep * state.velocity[particle] + (gain / scene.mass[particle]) * sum.force,
                        keep * state.spin[particle] + gain / scene.inertia[particle] * sum.moment};
   if (!scene.supports.empty()) {
-    hold(scene.supports[particle], next);
+    apply_support(scene, state, scene.supports[particle], scene.mass[particle] / gain, scene.inertia[particle] / gain,
+                  next);
   }
   return next;
 }
@@ -89,7 +106,14 @@ State place_particles(const Scene& scene) {
        {&state.impact_force, &state.impact_damping_force, &state.support_force, &state.support_damping_force}) {
     force->assign(plate_entries, 0.0);
   }
-  if (!scene.loads.empty()) {
+  if (scene.contact.friction > 0.0 || scene.plates.friction > 0.0) {
+    state.friction_force.assign(n, Vector2::Zero());
+  }
+  if (scene.plates.friction > 0.0) {
+    state.impact_friction.assign(n, 0.0);
+    state.support_friction.assign(n, 0.0);
+  }
+  if (scene.is_loaded()) {
     state.load_force.assign(n, Vector2::Zero());
     state.load_moment.assign(n, 0.0);
   }

@@ -10,6 +10,8 @@ namespace cellcrush {
 struct NextVelocity {
   Vector2 velocity;  ///< mm/s
   double spin;       ///< rad/s
+  Vector2 reaction = Vector2::Zero();  ///< N, of the supports
+  double reaction_moment = 0.0;        ///< N mm
 };
 NextVelocity next_velocity(const Scene& scene, const State& state, std::size_t particle);
 

@@ -3,20 +3,50 @@
 #include <algorithm>
 
 namespace cellcrush {
+namespace {
+
+void add_to(State& state, int node, Component component, double value) {
+  switch (component) {
+    case Component::x:
+      state.load_force[node].x() += value;
+      break;
+    case Component::y:
+      state.load_force[node].y() += value;
+      break;
+    case Component::rotation:
+      state.load_moment[node] += value;
+      break;
+  }
+}
+
+/// Half of the load to either node, and the end moments of a clamped beam under its part across the element.
+void add_element_load(const Scene& scene, State& state, const ElementLoad& load) {
+  const Element& element = scene.elements[load.element];
+  const double total = load.value.value_at(state.time) * load.length;
+  add_to(state, element.start, load.component, 0.5 * total);
+  add_to(state, element.end, load.component, 0.5 * total);
+  const Vector2 normal = normal_of(state.axis[load.element]);
+  const double across = total * (load.component == Component::x ? normal.x() : normal.y());
+  const double moment = across * state.length[load.element] / 12.0;
+  state.load_moment[element.start] += moment;
+  state.load_moment[element.end] -= moment;
+}
+
+}  // namespace
 
 void evaluate_loads(const Scene& scene, State& state) {
-  if (scene.loads.empty()) {
+  if (!scene.is_loaded()) {
     return;
   }
-  std::fill(state.load_force.begin(), state.load_force.end(), Vector2::Zero());
-  std::fill(state.load_moment.begin(), state.load_moment.end(), 0.0);
+  for (std::size_t i = 0; i < scene.particle_count(); ++i) {
+    state.load_force[i] = scene.mass[i] * scene.gravity;
+    state.load_moment[i] = 0.0;
+  }
   for (const NodalLoad& load : scene.loads) {
-    const double value = load.value_at(state.time);
-    switch (load.component) {
-      case NodalLoad::Component::x: state.load_force[load.node].x() += value; break;
-      case NodalLoad::Component::y: state.load_force[load.node].y() += value; break;
-      case NodalLoad::Component::rotation: state.load_moment[load.node] += value; break;
-    }
+    add_to(state, load.node, load.component, load.value.value_at(state.time));
+  }
+  for (const ElementLoad& load : scene.element_loads) {
+    add_element_load(scene, state, load);
   }
 }
 

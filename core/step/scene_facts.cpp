@@ -23,11 +23,15 @@ std::vector<std::string> what_is_modelled(const Scene& scene) {
   lines.push_back("Walls: Euler beams of constant section, large rotation, " +
                   std::to_string(scene.section.axial_points) + " Gauss x " +
                   std::to_string(scene.section.depth_points) + " Lobatto points an element, " +
-                  (scene.material.hardening_modulus > 0.0 ? "bilinear with mixed hardening." : "perfectly plastic."));
-  lines.push_back(scene.contact.present ? "Contact between walls: frictionless penalty, ball to capsule."
-                                        : "Contact between walls: left out.");
+                  (scene.materials.front().hardening_modulus > 0.0 ? "bilinear with mixed hardening." : "perfectly plastic."));
+  const auto friction_text = [](double friction) {
+    return friction > 0.0 ? "Coulomb friction " + to_text(friction) + "." : std::string("frictionless.");
+  };
+  lines.push_back(scene.contact.present
+                      ? "Contact between walls: penalty, ball to capsule, " + friction_text(scene.contact.friction)
+                      : "Contact between walls: left out.");
   if (scene.plates.present) {
-    lines.push_back("Plates: rigid, frictionless, unilateral; not meshed.");
+    lines.push_back("Plates: rigid, unilateral, not meshed, " + friction_text(scene.plates.friction));
   }
   lines.push_back(
       "Left out: fracture, strain-rate dependence, thickening of shortened walls, motion out of the plane.");

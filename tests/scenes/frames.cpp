@@ -17,6 +17,10 @@ std::shared_ptr<Scene> build(const SceneSpec& spec) {
   return result.scene ? std::make_shared<Scene>(*result.scene) : nullptr;
 }
 
+FrameLattice::Beam beam(int start, int end, double thickness_mm, int elements) {
+  return {start, end, thickness_mm, elements, std::nullopt};
+}
+
 double Cantilever::first_frequency() {
   constexpr double kMassPerLength = 7.85e-9;
   return 3.516 * std::sqrt(kStiffness / kMassPerLength) / (kLength * kLength);
@@ -26,7 +30,7 @@ SceneSpec Cantilever::spec(int elements, FrameLattice::Component component, doub
                            double end_time) {
   FrameLattice frame;
   frame.nodes = {{0.0, 0.0, 0.0, 0.0}, {kLength, 0.0, 0.0, 0.0}};
-  frame.beams = {{0, 1, 1.0, elements}};
+  frame.beams = {beam(0, 1, 1.0, elements)};
   frame.supports = {{0, true, true, true}};
   frame.loads = {{1, component, {{0.0, 0.0}, {rise_time, value}}}};
   frame.end_time_s = end_time;

@@ -10,6 +10,9 @@ namespace cellcrush::scenes {
 /// A scene whose spec has no problems; fails the test with their texts when it has.
 std::shared_ptr<Scene> build(const SceneSpec& spec);
 
+/// A beam of a frame, of the case's material.
+FrameLattice::Beam beam(int start, int end, double thickness_mm, int elements);
+
 /// A cantilever along x, clamped at its left end, elastic, without contact: EI = 200000/12 N mm^2, L = 300 mm, h = 1 mm, so
 /// that EA L^2 / EI = 1.08e6. Its free end is node 1. Mass damping is twice the first natural frequency.
 struct Cantilever {

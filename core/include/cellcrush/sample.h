@@ -6,6 +6,13 @@
 
 namespace cellcrush {
 
+/// Where a watched particle is, from its undeformed place: mm, mm, rad.
+struct WatchedNode {
+  double ux = 0.0;
+  double uy = 0.0;
+  double rotation = 0.0;
+};
+
 /// The scalars of a run at one moment. Units: mm, s, MPa, N mm (= mJ). Stresses are means over the interval since the
 /// sample before; energies are totals since the start.
 struct Sample {
@@ -27,6 +34,7 @@ struct Sample {
   double energy_contact_damping = 0.0;  ///< the contacts' part of energy_damping
   double deepest_penetration = 0.0;     ///< of a wall contact since the start, over the distance at which it touches
   std::int64_t contact_count = 0;       ///< wall contacts closed now
+  std::vector<WatchedNode> watched;     ///< in the order of the frame's watched nodes
 };
 
 /// The fields of a run at one moment.

@@ -35,23 +35,44 @@ struct Element {
   int start = 0;
   int end = 0;
   double thickness = 0.0;  ///< h, mm
+  int material = 0;        ///< into Scene::materials
 };
 
-/// A load on a node as a function of time: linear between the points, constant outside.
-struct NodalLoad {
-  enum class Component { x, y, rotation };
-  int node = 0;
-  Component component = Component::x;
-  std::vector<std::pair<double, double>> points;  ///< (s, N or N mm), times ascending, at least one
+/// A function of time: linear between its points, constant outside.
+struct TimeFunction {
+  std::vector<std::pair<double, double>> points;  ///< (s, value), times ascending, at least one
 
   [[nodiscard]] double value_at(double time) const;
 };
 
-/// Motions of a node that a support holds.
+/// Which of a particle's three motions is meant.
+enum class Component { x, y, rotation };
+
+/// A load on a node.
+struct NodalLoad {
+  int node = 0;
+  Component component = Component::x;
+  TimeFunction value;  ///< N or N mm
+};
+
+/// A load spread evenly over an element, in the fixed frame, on its undeformed length (Eq. 4).
+struct ElementLoad {
+  int element = 0;
+  Component component = Component::x;  ///< x or y
+  TimeFunction value;                  ///< N/mm
+  double length = 0.0;                 ///< undeformed, mm
+};
+
+/// What a support does with one motion of a particle.
+struct Hold {
+  bool held = false;
+  int motion = -1;  ///< into Scene::motions: the displacement it is made to follow; -1: none, it stands
+};
+
 struct Support {
-  bool x = false;
-  bool y = false;
-  bool rotation = false;
+  Hold x;
+  Hold y;
+  Hold rotation;
 };
 
 /// The two rigid plates. The impact plate starts at the low end and moves along the crush; the support plate stands.
@@ -63,6 +84,7 @@ struct Plates {
   double speed = 0.0;         ///< V, mm/s
   double ramp_time = 0.0;     ///< s over which the speed rises linearly from 0
   double stiffness = 0.0;     ///< N/mm, penalty of one particle
+  double friction = 0.0;      ///< Coulomb's coefficient
 
   /// Speed at a time, mm/s.
   [[nodiscard]] double speed_at(double time) const;
@@ -73,6 +95,7 @@ struct ContactLaw {
   bool present = false;
   double stiffness = 0.0;      ///< k, N/mm
   double damping_ratio = 0.0;  ///< share of critical damping
+  double friction = 0.0;       ///< Coulomb's coefficient
   double skin = 0.0;           ///< mm by which candidates are collected beyond touch
 };
 
@@ -91,18 +114,21 @@ struct Scene {
   std::vector<Vector2> position;      ///< N, before loading
   std::vector<double> mass;           ///< N, tonne (Eq. 1, 2)
   std::vector<double> inertia;        ///< N, tonne mm^2 (Eq. 1, 3)
-  std::vector<double> radius;         ///< N, of the contact ball: half of the thickest wall at the particle
+  std::vector<double> radius; ///< N, of the contact ball: half of the thickest wall that ends there
   std::vector<Element> elements;      ///< E
   std::vector<int> incidence_offset;  ///< N + 1, into incidence
   std::vector<int> incidence;         ///< elements at each particle, ascending: sums run in this order
   std::vector<Support> supports;      ///< N, or empty when nothing is held
+  std::vector<TimeFunction> motions;    ///< mm or rad, of held particles
   std::vector<NodalLoad> loads;
+  std::vector<ElementLoad> element_loads;
+  Vector2 gravity = Vector2::Zero();    ///< mm/s^2
   std::vector<Vector2> initial_velocity;  ///< N, or empty when all start at rest
   std::vector<double> initial_spin;       ///< N, or empty
 
   // Model.
   double depth = 0.0;  ///< b, mm
-  Material material;
+  std::vector<Material> materials;  ///< at least one
   SectionRule section;
   ContactLaw contact;
   Plates plates;
@@ -116,6 +142,9 @@ struct Scene {
   double stable_step = 0.0;      ///< s, of the undeformed mesh (see scene/stable_step.h)
   double collapse_stress = 0.0;  ///< MPa, quasi-static plastic collapse after Gibson and Ashby; 0 when unknown
 
+  std::vector<int> watched;  ///< particles whose motion samples keep
+
+  [[nodiscard]] bool is_loaded() const { return !loads.empty() || !element_loads.empty() || !gravity.isZero(); }
   [[nodiscard]] std::size_t particle_count() const { return position.size(); }
   [[nodiscard]] std::size_t element_count() const { return elements.size(); }
   [[nodiscard]] std::size_t fibre_count() const { return section.fibre_count(); }

@@ -37,9 +37,20 @@ struct TriangleLattice {
   std::optional<double> wall_thickness_mm;
 };
 
+struct MaterialSpec {
+  std::optional<double> youngs_modulus_mpa;
+  std::optional<double> yield_stress_mpa;
+  double hardening_modulus_mpa = 0.0;
+  double isotropic_fraction = 1.0;  ///< beta of the paper: 1 isotropic, 0 kinematic
+  std::optional<double> density_kg_per_m3;
+};
+
 /// An explicit planar frame. Nodes are named by position in `nodes`.
 struct FrameLattice {
   enum class Component { x, y, rotation };
+
+  /// A function of time: (s, value), linear between the points, constant outside.
+  using TimeFunction = std::vector<std::pair<double, double>>;
 
   struct Node {
     double x_mm = 0.0;
@@ -51,7 +62,8 @@ struct FrameLattice {
     int start = 0;
     int end = 0;
     double thickness_mm = 0.0;
-    std::optional<int> elements;  ///< default: elements_per_wall of the spec
+    std::optional<int> elements;           ///< default: elements_per_wall of the spec
+    std::optional<MaterialSpec> material;  ///< default: that of the spec
   };
   struct Support {
     int node = 0;
@@ -59,11 +71,23 @@ struct FrameLattice {
     bool fix_y = false;
     bool fix_rotation = false;
   };
-  /// Force in N or moment in N mm; the points are (time in s, value), linear between, constant outside.
+  /// Force in N or moment in N mm.
   struct NodalLoad {
     int node = 0;
     Component component = Component::x;
-    std::vector<std::pair<double, double>> points;
+    TimeFunction points;
+  };
+  /// Displacement in mm or rotation in rad from the undeformed place that a node is made to follow.
+  struct NodalMotion {
+    int node = 0;
+    Component component = Component::x;
+    TimeFunction points;
+  };
+  /// Load in N per mm of the undeformed beam, in the fixed frame (Eq. 4).
+  struct DistributedLoad {
+    int beam = 0;
+    TimeFunction x_points;  ///< empty: none
+    TimeFunction y_points;
   };
   struct InitialVelocity {
     int node = 0;
@@ -76,22 +100,25 @@ struct FrameLattice {
   std::vector<Beam> beams;
   std::vector<Support> supports;
   std::vector<NodalLoad> loads;
+  std::vector<NodalMotion> motions;
+  std::vector<DistributedLoad> distributed_loads;
   std::vector<InitialVelocity> initial_velocities;
+  double gravity_x_m_per_s2 = 0.0;
+  double gravity_y_m_per_s2 = 0.0;
   bool self_contact = false;
+  std::vector<int> watched_nodes;
   std::optional<double> end_time_s;
+};
+
+/// Rows of stiff cells in a lattice of hexagons: their walls are thicker.
+struct Inclusions {
+  std::vector<int> rows;  ///< counted from 1 at the bottom
+  double thickness_factor = 4.0;
 };
 
 struct Imperfection {
   double amplitude_mm = 0.0;
   std::uint64_t seed = 0;
-};
-
-struct MaterialSpec {
-  std::optional<double> youngs_modulus_mpa;
-  std::optional<double> yield_stress_mpa;
-  double hardening_modulus_mpa = 0.0;
-  double isotropic_fraction = 1.0;  ///< beta of the paper: 1 isotropic, 0 kinematic
-  std::optional<double> density_kg_per_m3;
 };
 
 struct SectionSpec {
@@ -134,6 +161,7 @@ struct SceneSpec {
   std::string title;
   std::variant<std::monostate, HexagonLattice, SquareLattice, TriangleLattice, FrameLattice> lattice;
   Imperfection imperfection;
+  Inclusions inclusions;
   std::optional<double> depth_mm;
   int elements_per_wall = 2;
   MaterialSpec material;

@@ -17,9 +17,11 @@ struct ElementForces {
 
 /// A ball and a segment that may touch before the list is made again.
 struct ContactCandidate {
-  int segment = 0;  ///< element
-  int joint = -1;   ///< node of the segment that an element joins to the ball; -1: none
-  int side = 0;     ///< +1 left, -1 right of the segment: where the ball was when it first touched; 0: not touching
+  int segment = 0;        ///< element
+  int joint = -1;         ///< node of the segment that an element joins to the ball; -1: none
+  int side = 0;           ///< +1 left, -1 right of the segment: where the ball was when it first touched; 0: not touching
+  int pushed = 0;         ///< 1: pushed on the ball in the newest step
+  double friction = 0.0;  ///< N, on the ball along the segment's axis; kept while it pushes
 };
 
 /// Energies and works that are sums over time. N mm. Written by integrate_motion and evaluate_internal_forces.
@@ -69,6 +71,9 @@ struct State {
   // Written by evaluate_contact_forces and evaluate_plate_forces.
   std::vector<Vector2> contact_force;          ///< N, elastic part
   std::vector<Vector2> contact_damping_force;  ///< N, viscous part
+  std::vector<Vector2> friction_force;         ///< N, of walls and plates; empty without friction
+  std::vector<double> impact_friction;         ///< N, of the impact plate across the crush; empty without friction
+  std::vector<double> support_friction;        ///< N, of the support plate across the crush; empty without friction
   std::vector<double> impact_force;            ///< N, of the impact plate along the crush, elastic part
   std::vector<double> impact_damping_force;    ///< N, viscous part
   std::vector<double> support_force;           ///< N, of the support plate against the crush, elastic part
@@ -108,6 +113,9 @@ void visit_fields(S& state, Visitor&& visitor) {
   visitor("search_count", state.search_count);
   visitor("contact_force", state.contact_force);
   visitor("contact_damping_force", state.contact_damping_force);
+  visitor("friction_force", state.friction_force);
+  visitor("impact_friction", state.impact_friction);
+  visitor("support_friction", state.support_friction);
   visitor("impact_force", state.impact_force);
   visitor("impact_damping_force", state.impact_damping_force);
   visitor("support_force", state.support_force);

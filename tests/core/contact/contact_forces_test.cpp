@@ -26,11 +26,11 @@ class Probe {
     }
     const int count = static_cast<int>(chain.size());
     for (int i = 0; i + 1 < count; ++i) {
-      frame.beams.push_back({i, i + 1, kThickness, 1});
+      frame.beams.push_back(scenes::beam(i, i + 1, kThickness, 1));
     }
     frame.nodes.push_back({0.0, 1000.0, 0.0, 0.0});
     frame.nodes.push_back({0.0, 990.0, 0.0, 0.0});
-    frame.beams.push_back({count, count + 1, kThickness, 1});
+    frame.beams.push_back(scenes::beam(count, count + 1, kThickness, 1));
     frame.self_contact = true;
     frame.end_time_s = 1.0;
     SceneSpec spec;

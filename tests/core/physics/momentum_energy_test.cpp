@@ -69,7 +69,7 @@ TEST(Energy, LedgerClosesWithinOnePercentOverAWholeCrush) {
 
 TEST(Energy, ElasticStructureKeepsItsEnergyToRoundOffOfTheScheme) {
   auto scene = scenes::build(scenes::hexagon_block(4, 3));
-  scene->material.yield_stress = 1e30;
+  scene->materials.front().yield_stress = 1e30;
   scene->plates.present = false;
   scene->contact.present = false;
   scene->schedule.time_step = 0.5 * scene->stable_step;

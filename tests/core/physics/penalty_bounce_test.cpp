@@ -23,7 +23,7 @@ constexpr double kSpeed = 1000.0;  // mm/s
 Bounce bounce(double omega_step, double damping_ratio, double& mass, double& stiffness) {
   FrameLattice frame;
   frame.nodes = {{-40.0, 0.0, 0.0, 0.0}, {40.0, 0.0, 0.0, 0.0}, {-5.0, 1.01, 0.0, 0.0}, {5.0, 1.01, 0.0, 0.0}};
-  frame.beams = {{0, 1, 1.0, 1}, {2, 3, 1.0, 1}};
+  frame.beams = {scenes::beam(0, 1, 1.0, 1), scenes::beam(2, 3, 1.0, 1)};
   frame.supports = {{0, true, true, true}, {1, true, true, true}};
   frame.initial_velocities = {{2, 0.0, -kSpeed / 1e3, 0.0}, {3, 0.0, -kSpeed / 1e3, 0.0}};
   frame.self_contact = true;

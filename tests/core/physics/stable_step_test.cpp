@@ -12,7 +12,7 @@ namespace {
 
 /// Whether a stirred elastic structure keeps its motion bounded at a fraction of the stable step.
 bool is_stable(Scene scene, double fraction, int steps) {
-  scene.material.yield_stress = 1e30;
+  scene.materials.front().yield_stress = 1e30;
   scene.contact.present = false;
   scene.plates.present = false;
   scenes::stir(scene, 1e-6);
@@ -40,7 +40,7 @@ double first_unstable(const Scene& scene, int steps) {
 std::shared_ptr<Scene> free_element(double length, double thickness) {
   FrameLattice frame;
   frame.nodes = {{0.0, 0.0, 0.0, 0.0}, {length * 0.6, length * 0.8, 0.0, 0.0}};
-  frame.beams = {{0, 1, thickness, 1}};
+  frame.beams = {scenes::beam(0, 1, thickness, 1)};
   frame.end_time_s = 1.0;
   SceneSpec spec;
   spec.lattice = frame;

@@ -64,18 +64,26 @@ TEST(CheckSpec, RefusesAFixedStepAboveTheStableOneAndSaysBoth) {
 
 TEST(CheckSpec, WhatIsNotBuiltIsUnimplementedAndNamed) {
   SceneSpec spec = scenes::hexagon_block(20, 7);
-  spec.contact.friction = 0.2;
-  spec.plates.friction = 0.2;
   spec.numerics.threads = 2;
-  spec.imperfection.amplitude_mm = 0.01;
+  spec.numerics.fidelity = NumericsSpec::Fidelity::draft;
   const Problems problems = build_scene(spec).problems;
-  EXPECT_EQ(problems.size(), 4u);
+  EXPECT_EQ(problems.size(), 2u);
   for (const Problem& problem : problems) {
     EXPECT_EQ(problem.kind, Problem::Kind::unimplemented) << problem.field;
   }
-  spec = scenes::hexagon_block(20, 7);
-  spec.lattice = SquareLattice{};
-  EXPECT_NE(find(build_scene(spec).problems, "lattice.square"), nullptr);
+}
+
+TEST(CheckSpec, ImperfectionAndInclusionsAreBoundedByTheLattice) {
+  SceneSpec spec = scenes::hexagon_block(20, 7);
+  spec.imperfection.amplitude_mm = 0.5;
+  spec.inclusions.rows = {0, 3, 8};
+  spec.inclusions.thickness_factor = 100.0;
+  const Problems problems = build_scene(spec).problems;
+  for (const char* field : {"lattice.imperfection.amplitude_mm", "lattice.inclusions.rows[0]", "lattice.inclusions.rows[2]",
+                            "lattice.inclusions.thickness_factor"}) {
+    EXPECT_NE(find(problems, field), nullptr) << field;
+  }
+  EXPECT_EQ(problems.size(), 4u);
 }
 
 TEST(CheckSpec, RefusesAMeshThatNoMachineHolds) {

@@ -1,4 +1,4 @@
-#include "scene/hexagon.h"
+#include "scene/lattices.h"
 
 #include <gtest/gtest.h>
 
@@ -36,7 +36,7 @@ TEST(Hexagons, AreAPlanarLatticeOfEqualWalls) {
   lattice.side_mm = 3.0;
   lattice.wall_thickness_mm = 0.2;
   lattice.vertical_wall_thickness_mm = 0.4;
-  const Layout layout = lay_out_hexagons(lattice, 2);
+  const Layout layout = lay_out(lattice, Inclusions{}, 2);
   const int cells = 3 * 9 + 3 * 8;
   EXPECT_EQ(static_cast<int>(layout.joints.size()) - static_cast<int>(layout.walls.size()) + cells, 1);  // Euler
   std::map<int, int> degree;

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <map>
+#include <utility>
+
+#include "cellcrush/vector.h"
+#include "scene/mesh.h"
+
+namespace cellcrush {
+
+/// Collects the walls of a regular lattice whose joints have whole coordinates on some grid; a joint or wall that several
+/// cells share is made once. Joints are numbered in the order in which they are first named.
+class LayoutBuilder {
+ public:
+  using GridPoint = std::pair<int, int>;
+
+  /// `unit` is the grid's spacing in x and in y, mm.
+  LayoutBuilder(const Vector2& unit, int elements_per_wall);
+
+  /// Adds a wall, or makes an existing one as thick as `thickness` (mm) when it is thinner.
+  void add_wall(GridPoint from, GridPoint to, double thickness);
+
+  Layout take() { return std::move(layout_); }
+
+ private:
+  int joint(GridPoint point);
+
+  Vector2 unit_;
+  int elements_per_wall_;
+  Layout layout_;
+  std::map<GridPoint, int> joints_;
+  std::map<std::pair<int, int>, std::size_t> walls_;
+};
+
+}  // namespace cellcrush

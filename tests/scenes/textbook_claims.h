@@ -1,0 +1,33 @@
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "cellcrush/sample.h"
+
+namespace cellcrush::scenes {
+
+// What the samples of the textbook frames must show, whether a test ran them itself or fetched them from a daemon. Each
+// reports through GoogleTest.
+
+/// Moment against curvature of a rectangular bilinear section, exact: with k_e the curvature at yield,
+///   M = (1 - E_T / E) M_e (1.5 - 0.5 (k_e / k)^2) + E_T I k;  the unloading slope is EI.
+void expect_moment_curvature_law(const std::vector<Sample>& samples, double peak);
+
+/// Plastic work of the cycles: the same from the second on; falling toward none.
+void expect_closed_cycles(const std::vector<Sample>& samples, int cycles);
+void expect_shakedown(const std::vector<Sample>& samples, int cycles);
+
+/// Force at the end over factor M_p / L, with the fibre rule's M_p (1.029 for six Lobatto points) and the sampling of the hinge
+/// 0.2113 of an element inside a joint, `lever` being the distance from the hinge to zero moment over L.
+void expect_limit_load(const std::vector<Sample>& samples, double WatchedNode::*component, double factor, double lever,
+                       int elements);
+
+/// First limit 1.8557 N at a deflection of 48.74 mm.
+void expect_lee_limit(const std::vector<Sample>& samples);
+
+/// Load over buckling load, and the end angle of the elastica in degrees.
+inline constexpr std::pair<double, double> kColumnAngles[] = {{1.01540, 20.0}, {1.15172, 60.0}, {1.39320, 90.0}};
+void expect_end_angle(const std::vector<Sample>& samples, double degrees);
+
+}  // namespace cellcrush::scenes
