@@ -1,0 +1,106 @@
+// What is wrong with a case is said with field paths and remedies, all at once, and costs the daemon nothing.
+#include <gmock/gmock.h>
+
+#include "e2e/daemon_test.h"
+
+namespace cellcrush::e2e {
+namespace {
+
+using testing::HasSubstr;
+
+class BadInput : public DaemonTest {
+ protected:
+  // Expects that `check` and `submit` both refuse, name every text of `expected`, and that the daemon still answers.
+  void expect_refused(const std::vector<std::string>& source, const std::vector<std::string>& expected) const {
+    for (const char* verb : {"check", "submit"}) {
+      std::vector<std::string> arguments{verb};
+      arguments.insert(arguments.end(), source.begin(), source.end());
+      const Outcome outcome = cellcrush(arguments);
+      EXPECT_EQ(outcome.exit_code, 2) << verb << ":\n" << outcome.all();
+      for (const std::string& text : expected) EXPECT_THAT(outcome.all(), HasSubstr(text)) << verb;
+    }
+    const Outcome listed = cellcrush({"list", "--json"});
+    EXPECT_EQ(listed.exit_code, 0) << "The daemon does not go on:\n" << listed.all();
+    EXPECT_THAT(listed.output, testing::Not(HasSubstr("jobs/"))) << "A refused case was queued.";
+  }
+
+  [[nodiscard]] std::string small() const { return write_file("small.txtpb", small_case()); }
+};
+
+TEST_F(BadInput, AnEmptyCaseNamesEveryRequiredField) {
+  expect_refused({write_file("empty.txtpb", "")},
+                 {"lattice", "depth_mm", "material.youngs_modulus_mpa", "material.yield_stress_mpa",
+                  "material.density_kg_per_m3", "loading.speed_m_per_s", "Remedy"});
+}
+
+TEST_F(BadInput, ANegativeThickness) {
+  expect_refused({small(), "--set", "lattice.hexagon.wall_thickness_mm=-0.3"},
+                 {"lattice.hexagon.wall_thickness_mm", "-0.3", "Remedy"});
+}
+
+TEST_F(BadInput, NotANumber) {
+  expect_refused({small(), "--set", "material.yield_stress_mpa=nan"}, {"material.yield_stress_mpa", "nan", "Remedy"});
+}
+
+TEST_F(BadInput, NotANumberInAFile) {
+  expect_refused({write_file("nan.txtpb", small_case() + "numerics { mass_damping_per_s: nan }\n")},
+                 {"numerics.mass_damping_per_s", "nan", "Remedy"});
+}
+
+TEST_F(BadInput, ASpeedOfZero) {
+  expect_refused({small(), "--set", "loading.speed_m_per_s=0"}, {"loading.speed_m_per_s", "0", "Remedy"});
+}
+
+TEST_F(BadInput, ATimeStepAboveTheStableLimit) {
+  expect_refused({small(), "--set", "numerics.time_step_s=1e-6"}, {"numerics.time_step_s", "stable", "Remedy"});
+}
+
+TEST_F(BadInput, AnUnknownPreset) { expect_refused({"preset:type-iv"}, {"type-iv", "hexagon-small"}); }
+
+TEST_F(BadInput, AMisspeltFieldInText) {
+  expect_refused({write_file("misspelt.txtpb", small_case() + "dept_mm: 4\n")},
+                 {"misspelt.txtpb:7:", "dept_mm", "depth_mm"});
+}
+
+TEST_F(BadInput, AMisspeltFieldInJson) {
+  expect_refused({write_file("misspelt.json", R"({"material": {"youngs_modulus": 69000}})")},
+                 {"misspelt.json", "material", "youngs_modulus"});
+}
+
+TEST_F(BadInput, AMisspeltFieldInSet) {
+  expect_refused({small(), "--set", "loading.speed=5"}, {"loading.speed", "speed_m_per_s"});
+}
+
+TEST_F(BadInput, ATruncatedFile) {
+  const std::string whole = small_case();
+  const std::string cut = whole.substr(0, whole.find("wall_thickness_mm"));
+  expect_refused({write_file("cut.txtpb", cut)}, {"cut.txtpb:"});
+  expect_refused({write_file("cut.json", R"({"lattice": {"hexagon": {"columns": 4,)")}, {"cut.json"});
+}
+
+TEST_F(BadInput, AFileThatIsNotThere) { expect_refused({(folder() / "absent.txtpb").string()}, {"absent.txtpb"}); }
+
+TEST_F(BadInput, SeveralProblemsAreAllNamedAtOnce) {
+  expect_refused({small(), "--set", "lattice.hexagon.wall_thickness_mm=-1", "--set", "depth_mm=0", "--set",
+                  "material.density_kg_per_m3=inf", "--set", "loading.speed_m_per_s=-5", "--set",
+                  "loading.end_strain=2", "--set", "section.depth_points=1"},
+                 {"lattice.hexagon.wall_thickness_mm", "depth_mm", "material.density_kg_per_m3",
+                  "loading.speed_m_per_s", "loading.end_strain", "section.depth_points"});
+}
+
+TEST_F(BadInput, WhatIsNotBuiltIsNamedAsSuch) {
+  expect_refused(
+      {write_file("square.txtpb",
+                  "lattice { square { columns: 4 rows: 3 side_mm: 4 wall_thickness_mm: 0.2 } }\ndepth_mm: 4\n"
+                  "material { youngs_modulus_mpa: 69000 yield_stress_mpa: 76 density_kg_per_m3: 2700 }\n"
+                  "loading { speed_m_per_s: 100 }\n")},
+      {"lattice.square", "not implemented"});
+}
+
+TEST_F(BadInput, AWrongCommandLine) {
+  EXPECT_EQ(cellcrush({"no-such-command"}).exit_code, 2);
+  EXPECT_EQ(cellcrush({"submit"}).exit_code, 2);
+}
+
+}  // namespace
+}  // namespace cellcrush::e2e

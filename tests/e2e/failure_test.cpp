@@ -1,0 +1,128 @@
+// What goes wrong outside the case: no server, no such job, a worker or a daemon that dies.
+#include <gmock/gmock.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "e2e/daemon_test.h"
+
+namespace cellcrush::e2e {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+class Failure : public DaemonTest {
+ protected:
+  // Submits a case that takes far longer than the test and returns its name once a worker runs it.
+  std::string start_long_job() {
+    const Outcome submitted = cellcrush({"submit", "preset:type-i", "--set", "loading.speed_m_per_s=1", "--json"});
+    EXPECT_EQ(submitted.exit_code, 0) << submitted.all();
+    const json object = json::parse(submitted.output, nullptr, false);
+    if (!object.is_object() || !object.contains("name")) {
+      ADD_FAILURE() << "No job in: " << submitted.all();
+      return "";
+    }
+    const std::string job = object["name"].get<std::string>();
+    for (int i = 0; i < 300; ++i) {
+      worker_ = worker_of(job);
+      if (worker_ > 0) return job;
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
+    ADD_FAILURE() << job << " was not started within 30 s.";
+    return job;
+  }
+
+  [[nodiscard]] json job_object(const std::string& job) const {
+    return json::parse(cellcrush({"show", job, "--json"}).output, nullptr, false);
+  }
+
+  [[nodiscard]] pid_t worker_of(const std::string& job) const {
+    const json object = job_object(job);
+    if (!object.is_object() || object["state"] != "RUNNING" || !object.contains("worker_pid")) return 0;
+    return static_cast<pid_t>(std::stol(object["worker_pid"].get<std::string>()));
+  }
+
+  // Whether the process ends within 10 s; a zombie counts as ended.
+  static bool ends(pid_t process) {
+    for (int i = 0; i < 100; ++i) {
+      if (kill(process, 0) != 0) return true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
+    return false;
+  }
+
+  pid_t worker_ = 0;
+};
+
+TEST_F(Failure, WithoutAServerTheCommandEndsWithinTwoSeconds) {
+  for (const std::string& address : {"unix:" + (folder() / "nobody").string(), std::string("127.0.0.1:1")}) {
+    const Outcome outcome = run({CELLCRUSH_PROGRAM, "list", "--server", address}, kShortLimit);
+    EXPECT_EQ(outcome.exit_code, 3) << outcome.all();
+    EXPECT_LT(outcome.seconds, 2.0) << address;
+    EXPECT_THAT(outcome.errors, HasSubstr(address));
+  }
+}
+
+TEST_F(Failure, AnUnknownJob) {
+  for (const char* verb : {"show", "watch"}) {
+    const Outcome outcome = cellcrush({verb, "jobs/no-such-job"});
+    EXPECT_EQ(outcome.exit_code, 5) << verb << ":\n" << outcome.all();
+    EXPECT_THAT(outcome.all(), HasSubstr("jobs/no-such-job"));
+  }
+  EXPECT_EQ(cellcrush({"fetch", "jobs/no-such-job", "-o", (folder() / "out").string()}).exit_code, 5);
+}
+
+TEST_F(Failure, AKilledWorkerFailsItsJobAndNothingElse) {
+  const std::string job = start_long_job();
+  Process watch(command({"watch", job}));
+  ASSERT_GT(worker_, 0);
+  ASSERT_EQ(kill(worker_, SIGKILL), 0);
+  const Outcome watched = watch.wait(kShortLimit);
+  EXPECT_EQ(watched.exit_code, 1) << watched.all();
+  EXPECT_THAT(watched.all(), HasSubstr("WORKER_CRASHED"));
+  const json object = job_object(job);
+  EXPECT_EQ(object["state"], "FAILED");
+  EXPECT_EQ(object["cause"], "WORKER_CRASHED");
+  EXPECT_THAT(object["cause_message"].get<std::string>(), testing::ContainsRegex("signal 9|SIGKILL|Killed"));
+  EXPECT_EQ(cellcrush({"submit", write_file("small.txtpb", small_case()), "--watch"}, kCrushLimit).exit_code, 0)
+      << "The daemon takes the next job.";
+}
+
+TEST_F(Failure, AKilledDaemonLeavesNoWorkerAndNoJobRunning) {
+  const std::string job = start_long_job();
+  ASSERT_GT(worker_, 0);
+  Process watch(command({"watch", job}));
+  ASSERT_TRUE(watch.wait_for_output("%", kShortLimit)) << watch.output() << watch.errors();
+  daemon().send(SIGKILL);
+  const Outcome watched = watch.wait(kShortLimit);
+  EXPECT_EQ(watched.exit_code, 4) << watched.all();
+  EXPECT_EQ(daemon().wait(kShortLimit).exit_code, 128 + SIGKILL);
+  EXPECT_TRUE(ends(worker_)) << "The worker outlives its daemon.";
+  start_daemon();
+  const json object = job_object(job);
+  EXPECT_EQ(object["state"], "FAILED");
+  EXPECT_EQ(object["cause"], "WORKER_LOST");
+}
+
+TEST_F(Failure, ADaemonThatIsAskedToEndTakesItsWorkersAlong) {
+  start_long_job();
+  ASSERT_GT(worker_, 0);
+  stop_daemon();
+  EXPECT_TRUE(ends(worker_)) << "The worker outlives its daemon.";
+}
+
+TEST_F(Failure, CtrlCLeavesTheJobRunning) {
+  const std::string job = start_long_job();
+  Process watch(command({"watch", job}));
+  ASSERT_TRUE(watch.wait_for_output("%", kShortLimit)) << watch.output() << watch.errors();
+  watch.send(SIGINT);
+  const Outcome watched = watch.wait(kShortLimit);
+  EXPECT_EQ(watched.exit_code, 130) << watched.all();
+  EXPECT_EQ(job_object(job)["state"], "RUNNING");
+}
+
+}  // namespace
+}  // namespace cellcrush::e2e

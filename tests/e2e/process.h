@@ -1,0 +1,55 @@
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+namespace cellcrush::e2e {
+
+/// How a program ended.
+struct Outcome {
+  int exit_code = -1;  ///< 128 + signal when a signal ended it; -1 when it was ended here because its time was up
+  bool timed_out = false;
+  std::string output;  ///< standard output
+  std::string errors;  ///< standard error
+  double seconds = 0.0;
+
+  /// Everything it said.
+  [[nodiscard]] std::string all() const { return output + errors; }
+};
+
+/// A program that runs beside the test, with an empty standard input, in a process group of its own. It is killed when
+/// the object or the test's process ends. Not thread-safe.
+class Process {
+ public:
+  /// Starts `command[0]`. Throws std::system_error when it cannot be started.
+  explicit Process(const std::vector<std::string>& command);
+  ~Process();
+  Process(const Process&) = delete;
+  Process& operator=(const Process&) = delete;
+
+  /// Reads until `text` stands in the output. False when the program ended or the time was up before.
+  bool wait_for_output(const std::string& text, std::chrono::milliseconds limit);
+
+  /// Reads until the program has ended; kills it when the time is up. REQUIRES: not called before.
+  Outcome wait(std::chrono::milliseconds limit);
+
+  void send(int signal) const;
+  [[nodiscard]] const std::string& output() const { return output_; }
+  [[nodiscard]] const std::string& errors() const { return errors_; }
+
+ private:
+  bool read_some(std::chrono::steady_clock::time_point deadline);
+
+  int id_ = -1;
+  int output_pipe_ = -1;
+  int error_pipe_ = -1;
+  std::string output_;
+  std::string errors_;
+  std::chrono::steady_clock::time_point start_;
+};
+
+/// Runs a program to its end.
+Outcome run(const std::vector<std::string>& command, std::chrono::milliseconds limit);
+
+}  // namespace cellcrush::e2e

@@ -1,0 +1,95 @@
+#include "house/house_rules.h"
+
+#include <algorithm>
+#include <set>
+#include <string_view>
+#include <tuple>
+
+#include "house/include_line.h"
+
+namespace cellcrush::house {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The entries of the project, then what tools leave at the root.
+constexpr std::string_view kRootEntries =
+    " CMakeLists.txt CMakePresets.json README.md CONTRIBUTING.md LICENSE .ci .clang-format .clang-tidy .gitignore"
+    " client-cli core deploy proto server tests"
+    " .git build .cache .idea .vscode compile_commands.json CMakeUserPresets.json ";
+
+bool is_agreed(const std::string& name) { return kRootEntries.find(" " + name + " ") != std::string_view::npos; }
+
+bool is_within(const std::string& path, const std::string& folder) { return path.starts_with(folder + "/"); }
+
+bool is_message_header(const std::string& target) { return target.ends_with(".pb.h"); }
+
+bool is_clock_or_file(const std::string& target) {
+  static const std::set<std::string> kHeaders{"chrono", "ctime", "filesystem", "fstream"};
+  return kHeaders.contains(target);
+}
+
+// The rules for one include of one file; `resolved` is empty when the header is none of the tree's.
+std::string broken_rule(const std::string& file, const std::string& target, const std::string& resolved) {
+  if (!is_within(file, "tests") && is_within(resolved, "tests")) return "nobody but tests includes tests";
+  if (is_within(file, "core")) {
+    if (is_clock_or_file(target)) return "core knows no clock and no files";
+    const bool package = resolved.empty() && (is_standard_header(target) || target.starts_with("Eigen/"));
+    if (!package && !is_within(resolved, "core")) return "core includes nothing outside core";
+    if (!package && is_within(file, "core/include") && !is_within(resolved, "core/include"))
+      return "core/include takes only headers of core/include";
+  }
+  if (is_within(file, "server") && is_within(resolved, "core") && !is_within(resolved, "core/include"))
+    return "server includes no header of core but those in core/include";
+  if (is_within(file, "client-cli") && (is_within(resolved, "core") || is_within(resolved, "server")))
+    return "client-cli includes no header of core or server";
+  return "";
+}
+
+void check_file(const fs::path& root, const std::string& file, std::vector<Violation>& violations) {
+  const std::vector<IncludeLine> includes = read_includes(root / file);
+  const bool has_message = std::any_of(includes.begin(), includes.end(),
+                                       [](const auto& include) { return is_message_header(include.target); });
+  for (const IncludeLine& include : includes) {
+    const std::string resolved = resolve_include(root, file, include.target);
+    std::string rule = broken_rule(file, include.target, resolved);
+    if (rule.empty() && has_message && is_within(file, "server") && !is_within(file, "server/translate") &&
+        is_within(resolved, "core"))
+      rule = "only server/translate joins messages and core's headers";
+    if (!rule.empty()) violations.push_back({file, include.line, rule + ", but this includes " + include.target + "."});
+  }
+}
+
+bool is_source(const fs::path& path) {
+  static const std::set<std::string> kExtensions{".h", ".hpp", ".inl", ".cpp", ".cc"};
+  return kExtensions.contains(path.extension().string());
+}
+
+}  // namespace
+
+std::vector<Violation> check_house(const fs::path& root) {
+  std::vector<Violation> violations;
+  for (const fs::directory_entry& entry : fs::directory_iterator(root)) {
+    const std::string name = entry.path().filename().string();
+    if (!is_agreed(name)) violations.push_back({name, 0, "The root of the tree holds agreed entries only."});
+  }
+  for (const char* folder : {"core", "server", "client-cli", "proto", "tests"}) {
+    if (!fs::exists(root / folder)) continue;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / folder)) {
+      if (!entry.is_regular_file() || !is_source(entry.path())) continue;
+      check_file(root, entry.path().lexically_relative(root).generic_string(), violations);
+    }
+  }
+  std::sort(violations.begin(), violations.end(),
+            [](const Violation& a, const Violation& b) { return std::tie(a.file, a.line) < std::tie(b.file, b.line); });
+  return violations;
+}
+
+std::string to_text(const std::vector<Violation>& violations) {
+  std::string text;
+  for (const Violation& violation : violations)
+    text += violation.file + ":" + std::to_string(violation.line) + ": " + violation.rule + "\n";
+  return text;
+}
+
+}  // namespace cellcrush::house

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace cellcrush::house {
+
+/// One place where the tree breaks a rule of the house.
+struct Violation {
+  std::string file;  ///< path from the root of the tree, with forward slashes
+  int line = 0;      ///< from 1; 0 when the entry itself breaks the rule
+  std::string rule;  ///< the rule and what broke it, a sentence
+};
+
+/// Reads every header and source file below `root` and reports all violations, in the order of the paths:
+///
+/// - core includes its own headers, the C++ library without clock and files, and Eigen;
+/// - core/include, which others may include, takes of core's headers only those in core/include;
+/// - server includes no header of core but those in core/include;
+/// - client-cli includes no header of core or server;
+/// - of server, only server/translate joins messages (*.pb.h) and core's headers in one file;
+/// - nobody but tests includes tests;
+/// - the root holds the agreed entries and no other.
+///
+/// Only what a file includes itself counts, not what those headers include. Throws std::filesystem::filesystem_error
+/// when the tree cannot be read.
+std::vector<Violation> check_house(const std::filesystem::path& root);
+
+/// "file:line: rule" a line, for messages.
+std::string to_text(const std::vector<Violation>& violations);
+
+}  // namespace cellcrush::house

@@ -1,0 +1,127 @@
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+
+#include "house/house_rules.h"
+#include "house/include_line.h"
+
+namespace cellcrush::house {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(House, NoArrowOfThisTreeTurns) {
+  const std::vector<Violation> violations = check_house(CELLCRUSH_SOURCE_ROOT);
+  EXPECT_TRUE(violations.empty()) << to_text(violations);
+}
+
+TEST(House, TheCheckReadsTheFilesOfThisTree) {
+  const fs::path root = CELLCRUSH_SOURCE_ROOT;
+  const std::vector<IncludeLine> includes = read_includes(root / "core/include/cellcrush/simulation.h");
+  ASSERT_FALSE(includes.empty());
+  EXPECT_EQ(resolve_include(root, "core/include/cellcrush/simulation.h", "cellcrush/problem.h"),
+            "core/include/cellcrush/problem.h");
+}
+
+// A small tree in which every arrow stands right, and in which one can be turned.
+class PlantedTree : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string pattern = (fs::temp_directory_path() / "cellcrush-house-XXXXXX").string();
+    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
+    root_ = pattern;
+    write("CMakeLists.txt", "");
+    write("core/include/cellcrush/scene.h", "#pragma once\n#include <vector>\n");
+    write("core/include/cellcrush/run.h", "#pragma once\n#include \"cellcrush/scene.h\"\n");
+    write("core/step/advance.h", "#pragma once\n#include <Eigen/Core>\n#include \"cellcrush/run.h\"\n");
+    write("core/step/advance.cpp", "#include \"step/advance.h\"\n#include <cmath>\n");
+    write("server/store/journal.h", "#pragma once\n#include <sqlite3.h>\n");
+    write("server/translate/case.cpp", "#include \"cellcrush/scene.h\"\n#include \"cellcrush/v1/case.pb.h\"\n");
+    write("server/worker/run.cpp", "#include \"cellcrush/run.h\"\n#include \"store/journal.h\"\n");
+    write("client-cli/main.cpp", "#include <CLI/CLI.hpp>\n#include \"cellcrush/v1/case.pb.h\"\n");
+    write("tests/core/helper.h", "#pragma once\n#include \"step/advance.h\"\n");
+    write("tests/server/case_test.cpp", "#include \"cellcrush/scene.h\"\n#include \"cellcrush/v1/case.pb.h\"\n");
+  }
+
+  void TearDown() override { fs::remove_all(root_); }
+
+  void write(const std::string& file, const std::string& text) const {
+    fs::create_directories((root_ / file).parent_path());
+    std::ofstream(root_ / file) << text;
+  }
+
+  // Plants `include` as line 3 of a file and expects that the check names that line, and nothing else.
+  void expect_found(const std::string& file, const std::string& include, const std::string& rule) const {
+    const std::string before = file.ends_with(".h") ? "#pragma once\n\n" : "// A file.\n\n";
+    write(file, before + "#include " + include + "\n");
+    const std::vector<Violation> violations = check_house(root_);
+    ASSERT_EQ(violations.size(), 1U) << to_text(violations);
+    EXPECT_EQ(violations[0].file, file);
+    EXPECT_EQ(violations[0].line, 3);
+    EXPECT_NE(violations[0].rule.find(rule), std::string::npos) << violations[0].rule;
+  }
+
+  fs::path root_;
+};
+
+TEST_F(PlantedTree, WithoutAPlantIsClean) { EXPECT_EQ(to_text(check_house(root_)), ""); }
+
+TEST_F(PlantedTree, CoreMayNotIncludeServer) {
+  expect_found("core/step/bad.cpp", "\"store/journal.h\"", "core includes nothing outside core");
+}
+
+TEST_F(PlantedTree, CoreMayNotIncludeServerByARelativePath) {
+  expect_found("core/step/bad.cpp", "\"../../server/store/journal.h\"", "core includes nothing outside core");
+}
+
+TEST_F(PlantedTree, CoreMayNotIncludeMessages) {
+  expect_found("core/step/bad.cpp", "\"cellcrush/v1/case.pb.h\"", "core includes nothing outside core");
+}
+
+TEST_F(PlantedTree, CoreMayNotIncludePackages) {
+  expect_found("core/step/bad.h", "<hdf5.h>", "core includes nothing outside core");
+}
+
+TEST_F(PlantedTree, CoreMayNotReadTheClock) {
+  expect_found("core/step/bad.cpp", "<chrono>", "core knows no clock and no files");
+}
+
+TEST_F(PlantedTree, PublicHeadersMayNotIncludePackages) {
+  expect_found("core/include/cellcrush/bad.h", "<spdlog/spdlog.h>", "core includes nothing outside core");
+}
+
+TEST_F(PlantedTree, PublicHeadersMayNotIncludePrivateOnes) {
+  expect_found("core/include/cellcrush/bad.h", "\"step/advance.h\"", "core/include takes only");
+}
+
+TEST_F(PlantedTree, ServerMayNotIncludePrivateHeadersOfCore) {
+  expect_found("server/worker/bad.cpp", "\"step/advance.h\"", "server includes no header of core but");
+}
+
+TEST_F(PlantedTree, ClientMayNotIncludeCore) {
+  expect_found("client-cli/bad.cpp", "<cellcrush/scene.h>", "client-cli includes no header of core or server");
+}
+
+TEST_F(PlantedTree, ClientMayNotIncludeServer) {
+  expect_found("client-cli/bad.cpp", "\"store/journal.h\"", "client-cli includes no header of core or server");
+}
+
+TEST_F(PlantedTree, OnlyTranslateJoinsMessagesAndCore) {
+  expect_found("server/worker/bad.cpp", "\"cellcrush/scene.h\"\n#include \"cellcrush/v1/case.pb.h\"",
+               "only server/translate joins");
+}
+
+TEST_F(PlantedTree, NobodyIncludesTests) {
+  expect_found("server/worker/bad.cpp", "\"tests/core/helper.h\"", "nobody but tests includes tests");
+}
+
+TEST_F(PlantedTree, TheRootTakesNoOtherEntry) {
+  write("tools/helper.py", "");
+  const std::vector<Violation> violations = check_house(root_);
+  ASSERT_EQ(violations.size(), 1U) << to_text(violations);
+  EXPECT_EQ(violations[0].file, "tools");
+}
+
+}  // namespace
+}  // namespace cellcrush::house
