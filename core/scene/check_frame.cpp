@@ -7,7 +7,8 @@ namespace {
 
 class FrameChecker {
  public:
-  FrameChecker(const FrameLattice& frame, FieldChecker& check) : frame_(frame), check_(check) {}
+  FrameChecker(const FrameLattice& frame, int elements_per_wall, FieldChecker& check)
+      : frame_(frame), elements_per_wall_(elements_per_wall), check_(check) {}
 
   void check_nodes() {
     if (frame_.nodes.size() < 2) {
@@ -25,6 +26,8 @@ class FrameChecker {
   }
 
   void check_beams() {
+    double elements = 0.0;
+    std::vector<bool> joined(frame_.nodes.size(), false);
     if (frame_.beams.empty()) {
       check_.add("lattice.frame.beams", "", "are missing.", "Give at least one beam.");
     }
@@ -39,10 +42,29 @@ class FrameChecker {
       if (beam.material) {
         check_material(path + "material.", *beam.material, check_);
       }
+      elements += std::max(1, beam.elements.value_or(elements_per_wall_));
       if (ends && length_of(beam) == 0.0) {
         check_.add(path + "end", std::to_string(beam.end), "makes a beam without length.",
                    "Join nodes at different places.");
       }
+      if (ends) {
+        joined[beam.start] = joined[beam.end] = true;
+      }
+    }
+    check_size(elements);
+    for (std::size_t i = 0; i < frame_.nodes.size(); ++i) {
+      if (!joined[i]) {
+        check_.add("lattice.frame.nodes[" + std::to_string(i) + "]", "", "belongs to no beam.",
+                   "Join it to a beam, or leave it out.");
+      }
+    }
+  }
+
+  void check_size(double elements) {
+    if (elements > kMostElements) {
+      check_.add("lattice.frame.beams", std::to_string(frame_.beams.size()),
+                 "make " + std::to_string(static_cast<std::int64_t>(elements)) + " elements.",
+                 "Keep the sum of their elements at or below " + std::to_string(static_cast<int>(kMostElements)) + ".");
     }
   }
 
@@ -149,6 +171,7 @@ class FrameChecker {
   }
 
   const FrameLattice& frame_;
+  int elements_per_wall_;
   FieldChecker& check_;
 };
 
@@ -162,8 +185,8 @@ void check_material(const std::string& path, const MaterialSpec& material, Field
   check.positive(path + "density_kg_per_m3", material.density_kg_per_m3, " kg/m3");
 }
 
-void check_frame(const FrameLattice& frame, FieldChecker& check) {
-  FrameChecker checker(frame, check);
+void check_frame(const FrameLattice& frame, int elements_per_wall, FieldChecker& check) {
+  FrameChecker checker(frame, elements_per_wall, check);
   checker.check_nodes();
   checker.check_beams();
   checker.check_supports();

@@ -9,6 +9,6 @@ namespace cellcrush {
 void check_material(const std::string& path, const MaterialSpec& material, FieldChecker& check);
 
 /// Checks an explicit frame: nodes that exist, beams of some length, loads with times in order.
-void check_frame(const FrameLattice& frame, FieldChecker& check);
+void check_frame(const FrameLattice& frame, int elements_per_wall, FieldChecker& check);
 
 }  // namespace cellcrush

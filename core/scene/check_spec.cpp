@@ -11,8 +11,6 @@
 namespace cellcrush {
 namespace {
 
-constexpr double kMostElements = 2e6;
-
 /// Checks the fields that all regular lattices have. `walls_per_cell` bounds the size of the mesh.
 template <class Lattice>
 void check_regular(const std::string& path, const Lattice& lattice, int fewest_columns, double walls_per_cell,
@@ -22,8 +20,8 @@ void check_regular(const std::string& path, const Lattice& lattice, int fewest_c
   const bool rows = check.in_range(path + "rows", lattice.rows, {1, 10000}, " cells");
   const bool side = check.positive(path + "side_mm", lattice.side_mm, " mm");
   const double thickest = side ? 0.5 * *lattice.side_mm : 1e12;
-  check.in_range(path + "wall_thickness_mm", lattice.wall_thickness_mm, {.low = 0.0, .high = thickest, .low_open = true},
-                 " mm (half of side_mm)");
+  check.in_range(path + "wall_thickness_mm", lattice.wall_thickness_mm,
+                 {.low = 0.0, .high = thickest, .low_open = true}, " mm (half of side_mm)");
   if (columns && rows) {
     const double elements = walls_per_cell * *lattice.columns * *lattice.rows * elements_per_wall;
     if (elements > kMostElements) {
@@ -51,13 +49,12 @@ void check_hexagons(const HexagonLattice& hexagon, const Inclusions& inclusions,
     check.in_range("lattice.inclusions.rows[" + std::to_string(i) + "]", std::optional<int>(inclusions.rows[i]),
                    {1.0, static_cast<double>(hexagon.rows.value_or(10000))}, " (a row of cells, from the bottom)");
   }
-  const double thickness = std::max(hexagon.wall_thickness_mm.value_or(0.0),
-                                    hexagon.vertical_wall_thickness_mm.value_or(0.0));
+  const double thickness =
+      std::max(hexagon.wall_thickness_mm.value_or(0.0), hexagon.vertical_wall_thickness_mm.value_or(0.0));
   if (check.in_range("lattice.inclusions.thickness_factor", inclusions.thickness_factor, {1.0, 1e12}, "") &&
       inclusions.thickness_factor * thickness > thickest) {
     check.add("lattice.inclusions.thickness_factor", to_text(inclusions.thickness_factor),
-              "makes stiff walls thicker than half of side_mm.",
-              "Give at most " + to_text(thickest / thickness) + ".");
+              "makes stiff walls thicker than half of side_mm.", "Give at most " + to_text(thickest / thickness) + ".");
   }
 }
 
@@ -82,7 +79,7 @@ void check_lattice(const SceneSpec& spec, FieldChecker& check) {
     check_regular("lattice.triangle.", *triangle, 1, 3.0, spec.elements_per_wall, check);
     check_imperfection(spec, side_of(*triangle), check);
   } else if (const auto* frame = std::get_if<FrameLattice>(&spec.lattice)) {
-    check_frame(*frame, check);
+    check_frame(*frame, spec.elements_per_wall, check);
     if (spec.imperfection.amplitude_mm != 0.0) {
       check.add("lattice.imperfection.amplitude_mm", to_text(spec.imperfection.amplitude_mm),
                 "is for regular lattices, not for a frame.", "Leave it out, and move the frame's nodes instead.");

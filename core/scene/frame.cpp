@@ -8,12 +8,9 @@ constexpr double kMmPerM = 1e3;
 
 Component component_of(FrameLattice::Component component) {
   switch (component) {
-    case FrameLattice::Component::x:
-      return Component::x;
-    case FrameLattice::Component::y:
-      return Component::y;
-    case FrameLattice::Component::rotation:
-      break;
+    case FrameLattice::Component::x: return Component::x;
+    case FrameLattice::Component::y: return Component::y;
+    case FrameLattice::Component::rotation: break;
   }
   return Component::rotation;
 }

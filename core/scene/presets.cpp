@@ -57,7 +57,8 @@ Preset hexagon_small() {
 }
 
 const std::string kCountsAssumption =
-    "The paper's text and its particle counts contradict each other for Types II and III; there is a preset of each reading.";
+    "The paper's text and its particle counts contradict each other for Types II and III; there is a preset of each "
+    "reading.";
 
 // Example 2, Types II and III. The wall thickness gives relative density 0.1 by Eq. 48 and 49.
 Preset type_ii(const std::string& reading, int columns, int rows, double side) {
@@ -96,7 +97,8 @@ Preset type_iii(const std::string& reading, int columns, int rows, double side) 
 // Example 1: the quasi-static test of Papka and Kyriakides, by plain explicit steps slow enough for it.
 Preset papka_kyriakides(const std::string& number, double side, double thickness) {
   SceneSpec spec;
-  spec.title = "Papka and Kyriakides, dimensions " + number + ": 15 rows of 10 and 9 hexagons, crushed along y at 1 m/s";
+  spec.title =
+      "Papka and Kyriakides, dimensions " + number + ": 15 rows of 10 and 9 hexagons, crushed along y at 1 m/s";
   HexagonLattice hexagon;
   hexagon.columns = 10;
   hexagon.rows = 15;
@@ -114,8 +116,10 @@ Preset papka_kyriakides(const std::string& number, double side, double thickness
   spec.loading.speed_m_per_s = 1.0;
   spec.numerics.mass_damping_per_s = 100.0;
   return {"papka-kyriakides-" + number,
-          "Wu, Tsai and Lee, Example 1, dimensions " + number + ": quasi-static crush of Al 5052-H39 hexagons, 814 particles",
-          {"The paper takes dynamic relaxation with a step of 2e-6 s, 6.4 times the stability limit of the real masses; here the "
+          "Wu, Tsai and Lee, Example 1, dimensions " + number +
+              ": quasi-static crush of Al 5052-H39 hexagons, 814 particles",
+          {"The paper takes dynamic relaxation with a step of 2e-6 s, 6.4 times the stability limit of the real "
+           "masses; here the "
            "masses are real, and 1 m/s with mass damping of 100 1/s is slow enough to be quasi-static.",
            "The paper's fixed plate A is the support plate; friction 0.2 acts at both plates and not between walls.",
            kContactAssumption},
@@ -142,13 +146,15 @@ Preset inclusions(std::vector<int> rows) {
   spec.material.density_kg_per_m3 = 2700.0;
   spec.loading.direction = LoadingSpec::Direction::y;
   spec.loading.speed_m_per_s = 1.0;
-  return {"inclusions-" + count,
-          "Wu, Tsai and Lee, Example 3: " + count + " lines of stiff inclusions, 10 elements a wall",
-          {"The crush direction and the places of the lines stood only in lost figures: whole rows across the crush, evenly "
-           "spaced.",
-           "A stiff cell is one whose walls are 4 times as thick: 64 times as stiff in bending at the same stable step.",
-           "The step is chosen; the paper's 2e-8 s can be set.", kContactAssumption},
-          spec};
+  return {
+      "inclusions-" + count,
+      "Wu, Tsai and Lee, Example 3: " + count + " lines of stiff inclusions, 10 elements a wall",
+      {"The crush direction and the places of the lines stood only in lost figures: whole rows across the crush, "
+       "evenly "
+       "spaced.",
+       "A stiff cell is one whose walls are 4 times as thick: 64 times as stiff in bending at the same stable step.",
+       "The step is chosen; the paper's 2e-8 s can be set.", kContactAssumption},
+      spec};
 }
 
 }  // namespace

@@ -95,6 +95,7 @@ void ResultWriter::write_gathered() {
     std::transform(gathered_.begin(), gathered_.end(), column.begin(), std::mem_fn(kHistoryColumns[i].get));
     append_rows(history_[i].id(), H5T_NATIVE_DOUBLE, column.size(), column.data());
   }
+  nodes_.append(file_.id(), gathered_);
   gathered_.clear();
 }
 
@@ -117,9 +118,11 @@ void ResultWriter::finish(const ResultHeader& header, const v1::Summary& summary
   write_attribute(file_.id(), "solver_revision", header.solver_revision);
   write_attribute(file_.id(), "simd_target", header.simd_target);
   write_attribute(file_.id(), "time_step_s", header.time_step_s);
+  write_attribute(file_.id(), "complete", static_cast<std::int64_t>(header.complete));
   write_summary(file_.id(), summary);
   const std::string what = "Closing the result";
   for (auto& column : history_) column.close(what);
+  nodes_.close();
   for (auto* part : {&frame_time_, &frame_strain_, &frame_position_, &frame_plastic_, &mesh_}) part->close(what);
   check_hdf5(H5Fflush(file_.id(), H5F_SCOPE_GLOBAL), what);
   file_.close(what);

@@ -9,6 +9,7 @@
 #include "cellcrush/v1/case.pb.h"
 #include "cellcrush/v1/sample.pb.h"
 #include "store/hdf5.h"
+#include "store/node_histories.h"
 #include "store/result_layout.h"
 
 namespace cellcrush::store {
@@ -20,6 +21,7 @@ struct ResultHeader {
   std::string simd_target;
   double time_step_s = 0.0;
   std::vector<std::string> modelled;
+  bool complete = true;  ///< whether the run reached its end
 };
 
 /// Writes one result.h5 (result_format.md). Not thread-safe. Failures throw ServiceError: storage_full or internal.
@@ -43,6 +45,7 @@ class ResultWriter {
   Hdf5Handle file_;
   Hdf5Handle mesh_;
   std::array<Hdf5Handle, kHistoryColumns.size()> history_;
+  NodeHistories nodes_;
   Hdf5Handle frame_time_;
   Hdf5Handle frame_strain_;
   Hdf5Handle frame_position_;

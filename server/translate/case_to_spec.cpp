@@ -44,14 +44,8 @@ void read_lattice(const v1::Lattice& in, SceneSpec& spec, Problems& problems) {
   }
   if (in.imperfection().has_amplitude_mm()) spec.imperfection.amplitude_mm = in.imperfection().amplitude_mm();
   if (in.imperfection().has_seed()) spec.imperfection.seed = in.imperfection().seed();
-}
-
-void read_material(const v1::Material& in, MaterialSpec& out) {
-  if (in.has_youngs_modulus_mpa()) out.youngs_modulus_mpa = in.youngs_modulus_mpa();
-  if (in.has_yield_stress_mpa()) out.yield_stress_mpa = in.yield_stress_mpa();
-  if (in.has_hardening_modulus_mpa()) out.hardening_modulus_mpa = in.hardening_modulus_mpa();
-  if (in.has_isotropic_fraction()) out.isotropic_fraction = in.isotropic_fraction();
-  if (in.has_density_kg_per_m3()) out.density_kg_per_m3 = in.density_kg_per_m3();
+  spec.inclusions.rows.assign(in.inclusions().rows().begin(), in.inclusions().rows().end());
+  if (in.inclusions().has_thickness_factor()) spec.inclusions.thickness_factor = in.inclusions().thickness_factor();
 }
 
 void read_section_and_contact(const v1::Case& in, SceneSpec& spec) {
@@ -95,6 +89,16 @@ void read_numerics(const v1::Numerics& in, NumericsSpec& out, Problems& problems
 
 }  // namespace
 
+MaterialSpec to_spec(const v1::Material& in) {
+  MaterialSpec out;
+  if (in.has_youngs_modulus_mpa()) out.youngs_modulus_mpa = in.youngs_modulus_mpa();
+  if (in.has_yield_stress_mpa()) out.yield_stress_mpa = in.yield_stress_mpa();
+  if (in.has_hardening_modulus_mpa()) out.hardening_modulus_mpa = in.hardening_modulus_mpa();
+  if (in.has_isotropic_fraction()) out.isotropic_fraction = in.isotropic_fraction();
+  if (in.has_density_kg_per_m3()) out.density_kg_per_m3 = in.density_kg_per_m3();
+  return out;
+}
+
 CaseReading to_spec(const v1::Case& in) {
   CaseReading out;
   SceneSpec& spec = out.spec;
@@ -106,7 +110,7 @@ CaseReading to_spec(const v1::Case& in) {
   read_lattice(in.lattice(), spec, out.problems);
   if (in.has_depth_mm()) spec.depth_mm = in.depth_mm();
   if (in.has_elements_per_wall()) spec.elements_per_wall = in.elements_per_wall();
-  read_material(in.material(), spec.material);
+  spec.material = to_spec(in.material());
   read_section_and_contact(in, spec);
   read_loading(in.loading(), spec.loading, out.problems);
   read_numerics(in.numerics(), spec.numerics, out.problems);

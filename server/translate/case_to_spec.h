@@ -21,4 +21,6 @@ CaseReading to_spec(const v1::Case& in);
 /// The frame's part of it; problems are appended.
 FrameLattice to_spec(const v1::Frame& in, Problems& problems);
 
+MaterialSpec to_spec(const v1::Material& in);
+
 }  // namespace cellcrush::translate

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cctype>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -10,6 +12,13 @@ namespace {
 
 std::string item(const char* list, int position) {
   return "lattice.frame." + std::string(list) + "[" + std::to_string(position) + "]";
+}
+
+// Ids name groups of the result file, so nothing that means something in a path is let in.
+bool is_name(const std::string& id) {
+  return !id.empty() && id.size() <= 64 && std::all_of(id.begin(), id.end(), [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '_' || c == '-';
+  });
 }
 
 Problem missing(const std::string& field) { return invalid_field(field, "", "is missing.", "Set it."); }
@@ -25,7 +34,11 @@ class FrameReader {
     read_supports();
     read_loads();
     read_initial_velocities();
-    name_unimplemented();
+    read_motions();
+    read_distributed_loads();
+    read_watched_nodes();
+    out_.gravity_x_m_per_s2 = in_.gravity_x_m_per_s2();
+    out_.gravity_y_m_per_s2 = in_.gravity_y_m_per_s2();
     if (in_.has_self_contact()) out_.self_contact = in_.self_contact();
     if (in_.has_end_time_s()) out_.end_time_s = in_.end_time_s();
     return std::move(out_);
@@ -36,9 +49,9 @@ class FrameReader {
     for (int i = 0; i < in_.nodes_size(); ++i) {
       const auto& node = in_.nodes(i);
       const std::string path = item("nodes", i);
-      if (node.id().empty() || node.id().size() > 64) {
-        problems_.push_back(invalid_field(path + ".id", node.id(), "is empty or longer than 64 characters.",
-                                          "Give each node a short name of its own."));
+      if (!is_name(node.id())) {
+        problems_.push_back(invalid_field(path + ".id", node.id(), "is no name of 1 to 64 letters, digits, '_' or '-'.",
+                                          "Give each node such a name of its own."));
       } else if (!positions_.emplace(node.id(), i).second) {
         problems_.push_back(invalid_field(path + ".id", node.id(), "is the name of another node too.",
                                           "Give each node a name of its own."));
@@ -58,9 +71,7 @@ class FrameReader {
       out.end = find_node(path + ".end", beam.end());
       if (!beam.has_thickness_mm()) problems_.push_back(missing(path + ".thickness_mm"));
       out.thickness_mm = beam.thickness_mm();
-      if (beam.has_material())
-        problems_.push_back(
-            unimplemented_field(path + ".material", "is not built yet: all beams have the case's material."));
+      if (beam.has_material()) out.material = to_spec(beam.material());
       if (beam.has_elements()) out.elements = beam.elements();
       out_.beams.push_back(out);
     }
@@ -78,17 +89,8 @@ class FrameReader {
     for (int i = 0; i < in_.loads_size(); ++i) {
       const auto& load = in_.loads(i);
       const std::string path = item("loads", i);
-      FrameLattice::NodalLoad out;
-      out.node = find_node(path + ".node", load.node());
-      out.component = component(path + ".component", load.component());
-      for (int k = 0; k < load.force_n_or_n_mm().points_size(); ++k) {
-        const auto& point = load.force_n_or_n_mm().points(k);
-        const std::string point_path = path + ".force_n_or_n_mm.points[" + std::to_string(k) + "]";
-        if (!point.has_time_s()) problems_.push_back(missing(point_path + ".time_s"));
-        if (!point.has_value()) problems_.push_back(missing(point_path + ".value"));
-        out.points.emplace_back(point.time_s(), point.value());
-      }
-      out_.loads.push_back(out);
+      out_.loads.push_back({find_node(path + ".node", load.node()), component(path + ".component", load.component()),
+                            read_function(path + ".force_n_or_n_mm", load.force_n_or_n_mm())});
     }
   }
 
@@ -100,17 +102,45 @@ class FrameReader {
     }
   }
 
-  // What the wire can say and the spec cannot hold.
-  void name_unimplemented() {
-    if (in_.motions_size() > 0) problems_.push_back(unimplemented_field("lattice.frame.motions", "are not built yet."));
-    if (in_.distributed_loads_size() > 0)
-      problems_.push_back(unimplemented_field("lattice.frame.distributed_loads", "are not built yet."));
-    if (in_.has_gravity_x_m_per_s2())
-      problems_.push_back(unimplemented_field("lattice.frame.gravity_x_m_per_s2", "is not built yet."));
-    if (in_.has_gravity_y_m_per_s2())
-      problems_.push_back(unimplemented_field("lattice.frame.gravity_y_m_per_s2", "is not built yet."));
-    if (in_.watched_nodes_size() > 0)
-      problems_.push_back(unimplemented_field("lattice.frame.watched_nodes", "are not built yet."));
+  void read_motions() {
+    for (int i = 0; i < in_.motions_size(); ++i) {
+      const auto& motion = in_.motions(i);
+      const std::string path = item("motions", i);
+      out_.motions.push_back({find_node(path + ".node", motion.node()),
+                              component(path + ".component", motion.component()),
+                              read_function(path + ".displacement_mm_or_rad", motion.displacement_mm_or_rad())});
+    }
+  }
+
+  void read_distributed_loads() {
+    for (int i = 0; i < in_.distributed_loads_size(); ++i) {
+      const auto& load = in_.distributed_loads(i);
+      const std::string path = item("distributed_loads", i);
+      if (!load.has_beam()) problems_.push_back(missing(path + ".beam"));
+      out_.distributed_loads.push_back({load.beam(), read_function(path + ".x_n_per_mm", load.x_n_per_mm()),
+                                        read_function(path + ".y_n_per_mm", load.y_n_per_mm())});
+    }
+  }
+
+  void read_watched_nodes() {
+    for (int i = 0; i < in_.watched_nodes_size(); ++i) {
+      const std::string field = item("watched_nodes", i);
+      const int node = find_node(field, in_.watched_nodes(i));
+      if (std::find(out_.watched_nodes.begin(), out_.watched_nodes.end(), node) != out_.watched_nodes.end())
+        problems_.push_back(invalid_field(field, in_.watched_nodes(i), "is watched already.", "Name each node once."));
+      out_.watched_nodes.push_back(node);
+    }
+  }
+
+  FrameLattice::TimeFunction read_function(const std::string& path, const v1::Frame::TimeFunction& in) {
+    FrameLattice::TimeFunction out;
+    for (int k = 0; k < in.points_size(); ++k) {
+      const std::string point = path + ".points[" + std::to_string(k) + "]";
+      if (!in.points(k).has_time_s()) problems_.push_back(missing(point + ".time_s"));
+      if (!in.points(k).has_value()) problems_.push_back(missing(point + ".value"));
+      out.emplace_back(in.points(k).time_s(), in.points(k).value());
+    }
+    return out;
   }
 
   int find_node(const std::string& field, const std::string& id) {

@@ -18,8 +18,4 @@ Problem invalid_field(std::string field, std::string value, std::string message,
   return {std::move(field), std::move(value), std::move(message), std::move(remedy), Problem::Kind::invalid};
 }
 
-Problem unimplemented_field(std::string field, std::string message) {
-  return {std::move(field), "", std::move(message), "Leave it out.", Problem::Kind::unimplemented};
-}
-
 }  // namespace cellcrush::translate

@@ -2,7 +2,7 @@
 
 namespace cellcrush::translate {
 
-v1::Sample to_proto(const Sample& sample) {
+v1::Sample to_proto(const Sample& sample, const google::protobuf::RepeatedPtrField<std::string>& watched_ids) {
   v1::Sample out;
   out.set_step(sample.step);
   out.set_time_s(sample.time);
@@ -22,6 +22,13 @@ v1::Sample to_proto(const Sample& sample) {
   out.set_energy_contact_damping_mj(sample.energy_contact_damping);
   out.set_deepest_penetration(sample.deepest_penetration);
   out.set_contact_count(sample.contact_count);
+  for (std::size_t i = 0; i < sample.watched.size(); ++i) {
+    auto& watched = *out.add_watched();
+    watched.set_node(watched_ids.Get(static_cast<int>(i)));
+    watched.set_ux_mm(sample.watched[i].ux);
+    watched.set_uy_mm(sample.watched[i].uy);
+    watched.set_rotation_rad(sample.watched[i].rotation);
+  }
   return out;
 }
 

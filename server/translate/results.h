@@ -10,7 +10,8 @@ namespace cellcrush::translate {
 
 // What a run gives, as it goes over the wire. The solver's N mm is the wire's mJ; all other units are the same.
 
-v1::Sample to_proto(const Sample& sample);
+/// `watched_ids`: ids of the frame's watched nodes, in the order of the sample's.
+v1::Sample to_proto(const Sample& sample, const google::protobuf::RepeatedPtrField<std::string>& watched_ids);
 v1::FieldFrame to_proto(const FieldFrame& frame);
 v1::Mesh to_proto(const MeshView& mesh, std::int64_t particle_count);
 v1::Theory to_proto(const Theory& theory);

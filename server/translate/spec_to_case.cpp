@@ -23,6 +23,22 @@ v1::Frame::Component to_proto(FrameLattice::Component component) {
   return v1::Frame::COMPONENT_UNSPECIFIED;
 }
 
+void write_material(const MaterialSpec& in, v1::Material& out) {
+  if (in.youngs_modulus_mpa) out.set_youngs_modulus_mpa(*in.youngs_modulus_mpa);
+  if (in.yield_stress_mpa) out.set_yield_stress_mpa(*in.yield_stress_mpa);
+  out.set_hardening_modulus_mpa(in.hardening_modulus_mpa);
+  out.set_isotropic_fraction(in.isotropic_fraction);
+  if (in.density_kg_per_m3) out.set_density_kg_per_m3(*in.density_kg_per_m3);
+}
+
+void write_function(const FrameLattice::TimeFunction& in, v1::Frame::TimeFunction& out) {
+  for (const auto& [time, value] : in) {
+    auto& point = *out.add_points();
+    point.set_time_s(time);
+    point.set_value(value);
+  }
+}
+
 void write_frame_structure(const FrameLattice& in, v1::Frame& out) {
   for (std::size_t i = 0; i < in.nodes.size(); ++i) {
     auto& node = *out.add_nodes();
@@ -38,6 +54,7 @@ void write_frame_structure(const FrameLattice& in, v1::Frame& out) {
     added.set_end(std::to_string(beam.end));
     added.set_thickness_mm(beam.thickness_mm);
     if (beam.elements) added.set_elements(*beam.elements);
+    if (beam.material) write_material(*beam.material, *added.mutable_material());
   }
   for (const auto& support : in.supports) {
     auto& added = *out.add_supports();
@@ -54,11 +71,19 @@ void write_frame(const FrameLattice& in, v1::Frame& out) {
     auto& added = *out.add_loads();
     added.set_node(std::to_string(load.node));
     added.set_component(to_proto(load.component));
-    for (const auto& [time, value] : load.points) {
-      auto& point = *added.mutable_force_n_or_n_mm()->add_points();
-      point.set_time_s(time);
-      point.set_value(value);
-    }
+    write_function(load.points, *added.mutable_force_n_or_n_mm());
+  }
+  for (const auto& motion : in.motions) {
+    auto& added = *out.add_motions();
+    added.set_node(std::to_string(motion.node));
+    added.set_component(to_proto(motion.component));
+    write_function(motion.points, *added.mutable_displacement_mm_or_rad());
+  }
+  for (const auto& load : in.distributed_loads) {
+    auto& added = *out.add_distributed_loads();
+    added.set_beam(load.beam);
+    if (!load.x_points.empty()) write_function(load.x_points, *added.mutable_x_n_per_mm());
+    if (!load.y_points.empty()) write_function(load.y_points, *added.mutable_y_n_per_mm());
   }
   for (const auto& velocity : in.initial_velocities) {
     auto& added = *out.add_initial_velocities();
@@ -67,7 +92,10 @@ void write_frame(const FrameLattice& in, v1::Frame& out) {
     added.set_y_m_per_s(velocity.y_m_per_s);
     added.set_rotation_rad_per_s(velocity.rotation_rad_per_s);
   }
+  out.set_gravity_x_m_per_s2(in.gravity_x_m_per_s2);
+  out.set_gravity_y_m_per_s2(in.gravity_y_m_per_s2);
   out.set_self_contact(in.self_contact);
+  for (const int node : in.watched_nodes) out.add_watched_nodes(std::to_string(node));
   if (in.end_time_s) out.set_end_time_s(*in.end_time_s);
 }
 
@@ -85,14 +113,10 @@ void write_lattice(const SceneSpec& spec, v1::Lattice& out) {
   }
   out.mutable_imperfection()->set_amplitude_mm(spec.imperfection.amplitude_mm);
   out.mutable_imperfection()->set_seed(spec.imperfection.seed);
-}
-
-void write_material(const MaterialSpec& in, v1::Material& out) {
-  if (in.youngs_modulus_mpa) out.set_youngs_modulus_mpa(*in.youngs_modulus_mpa);
-  if (in.yield_stress_mpa) out.set_yield_stress_mpa(*in.yield_stress_mpa);
-  out.set_hardening_modulus_mpa(in.hardening_modulus_mpa);
-  out.set_isotropic_fraction(in.isotropic_fraction);
-  if (in.density_kg_per_m3) out.set_density_kg_per_m3(*in.density_kg_per_m3);
+  if (!spec.inclusions.rows.empty()) {
+    out.mutable_inclusions()->mutable_rows()->Assign(spec.inclusions.rows.begin(), spec.inclusions.rows.end());
+    out.mutable_inclusions()->set_thickness_factor(spec.inclusions.thickness_factor);
+  }
 }
 
 void write_loading(const LoadingSpec& in, v1::Loading& out) {

@@ -110,7 +110,8 @@ class Run {
   void put_out_sample() {
     samples_.push_back(simulation_.take_sample());
     Report report;
-    *report.mutable_sample() = translate::to_proto(samples_.back());
+    *report.mutable_sample() =
+        translate::to_proto(samples_.back(), order_.case_().lattice().frame().watched_nodes());
     meter_.add(report.sample());
     writer_.add_sample(report.sample());
     send(report);

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "cellcrush/v1/sample.pb.h"
+#include "store/hdf5.h"
+
+namespace cellcrush::store {
+
+/// Writes /nodes/{id}/{ux_mm, uy_mm, rotation_rad} of a result: the motion of a frame's watched nodes, a row a sample, beside
+/// /history. Nothing is made for samples without watched nodes. Failures throw ServiceError.
+class NodeHistories {
+ public:
+  /// Appends the rows of some samples, all of which watch the same nodes. `file` is the open result.
+  void append(hid_t file, std::span<const v1::Sample> samples);
+  void close();
+
+ private:
+  struct Node {
+    Hdf5Handle group;
+    std::array<Hdf5Handle, 3> columns;
+  };
+
+  void make_nodes(hid_t file, const v1::Sample& sample);
+
+  Hdf5Handle nodes_;
+  std::vector<Node> written_;
+};
+
+}  // namespace cellcrush::store
