@@ -51,6 +51,10 @@ CommandError error_of(const grpc::Status& status) {
   v1::ProblemList problems = problems_in(status);
   if (problems.problems_size() > 0) return problems_error(std::move(problems));
   std::string message = message_of(status);
+  // gRPC's own words, with both sizes in bytes: "Received message larger than max (5000000 vs. 4194304)".
+  if (message.find("larger than max") != std::string::npos) {
+    message = "the message is over the size limit: " + message + "; make the case smaller";
+  }
   if (status.error_code() == grpc::StatusCode::UNIMPLEMENTED) message = "not implemented by this server: " + message;
   return {exit_code_of(status.error_code()), std::move(message)};
 }

@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* kFooter =
     "CASE is a file (protobuf text, or JSON), - for stdin, or preset:NAME.\n"
-    "Exit codes: 0 done, 1 the job failed or was cancelled, 2 usage, invalid case or refused, 3 no connection,\n"
+    "Exit codes: 0 done, 1 a job failed or was cancelled, 2 usage, invalid case or refused, 3 no connection,\n"
     "4 cut off before the end, 5 no such thing, 130 on Ctrl-C (the job goes on).";
 
 ExitCode run_action(const Session& session) {
@@ -46,11 +46,13 @@ ExitCode run_command_line(int argc, char** argv) {
   add_submit_command(app, session);
   add_watch_command(app, session);
   add_show_command(app, session);
+  add_list_command(app, session);
   add_job_commands(app, session);
   add_fetch_command(app, session);
   add_plot_command(app, session);
   add_queue_commands(app, session);
   add_sweep_commands(app, session);
+  add_table_command(app, session);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
-#include <iterator>
+#include <vector>
 
 #include "case_file/json_case.h"
 #include "case_file/set_field.h"
@@ -18,9 +18,25 @@ namespace cellcrush::client {
 namespace {
 
 constexpr std::string_view kPresetPrefix = "preset:";
+// Text is several times as long as the message it stands for; whatever is longer than this cannot fit into one.
+constexpr std::size_t kLargestText = 64 * 1024 * 1024;
+
+std::string read_stream(std::istream& stream, const std::string& name) {
+  std::string text;
+  std::vector<char> buffer(1 << 16);
+  while (stream.read(buffer.data(), static_cast<std::streamsize>(buffer.size())) || stream.gcount() > 0) {
+    text.append(buffer.data(), static_cast<std::size_t>(stream.gcount()));
+    if (text.size() > kLargestText) {
+      throw CommandError(ExitCode::refused, name +
+                                                ": is longer than 64 MiB of text, and the limit of a case is 4 MiB as "
+                                                "a message; make the case smaller");
+    }
+  }
+  return text;
+}
 
 std::string read_all(const std::string& file) {
-  if (file == "-") return {std::istreambuf_iterator<char>(std::cin), {}};
+  if (file == "-") return read_stream(std::cin, "stdin");
   std::error_code error;
   if (std::filesystem::is_directory(file, error)) {
     throw CommandError(ExitCode::refused, file + ": this is a folder; give a case file");
@@ -30,7 +46,7 @@ std::string read_all(const std::string& file) {
     throw CommandError(ExitCode::refused, file + ": cannot be read: " + std::strerror(errno) +
                                               "; give a case file or preset:NAME (`cellcrush presets` lists them)");
   }
-  return {std::istreambuf_iterator<char>(stream), {}};
+  return read_stream(stream, file);
 }
 
 v1::Case read_file(const std::string& file) {

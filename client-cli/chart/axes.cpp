@@ -31,17 +31,6 @@ double Axes::x(double value) const { return area_.x + area_.width * (value - x_.
 
 double Axes::y(double value) const { return area_.y + area_.height * (1.0 - (value - y_.low) / (y_.high - y_.low)); }
 
-void Axes::draw_grid(cairo_t* context) const {
-  set_colour(context, kGridInk);
-  cairo_set_line_width(context, 0.8);
-  for (const double tick : ticks_of(x_, area_.width, kUnitsPerTickAcross).values) {
-    line(context, x(tick), area_.y, x(tick), area_.y + area_.height);
-  }
-  for (const double tick : ticks_of(y_, area_.height, kUnitsPerTickUp).values) {
-    line(context, area_.x, y(tick), area_.x + area_.width, y(tick));
-  }
-}
-
 void Axes::draw_frame(cairo_t* context) const {
   const double bottom = area_.y + area_.height;
   cairo_set_line_width(context, 1.0);
@@ -52,6 +41,7 @@ void Axes::draw_frame(cairo_t* context) const {
   for (const double tick : across.values) {
     set_colour(context, kInk);
     line(context, x(tick), bottom, x(tick), bottom - kTickLength);
+    line(context, x(tick), area_.y, x(tick), area_.y + kTickLength);
     draw_text(context, x(tick), bottom + 17.0, tick_label(tick, across.step), kTickStyle);
   }
   const Ticks up = ticks_of(y_, area_.height, kUnitsPerTickUp);
@@ -60,6 +50,7 @@ void Axes::draw_frame(cairo_t* context) const {
   for (const double tick : up.values) {
     set_colour(context, kInk);
     line(context, area_.x, y(tick), area_.x + kTickLength, y(tick));
+    line(context, area_.x + area_.width, y(tick), area_.x + area_.width - kTickLength, y(tick));
     draw_text(context, area_.x - 7.0, y(tick) + 4.3, tick_label(tick, up.step), right_aligned);
   }
   draw_text(context, area_.x + 0.5 * area_.width, bottom + 38.0, x_.label, {.size = 13.0, .anchor = Anchor::middle});

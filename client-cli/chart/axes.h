@@ -22,8 +22,7 @@ class Axes {
   [[nodiscard]] double y(double value) const;
   [[nodiscard]] const Rectangle& area() const { return area_; }
 
-  void draw_grid(cairo_t* context) const;
-  /// The frame, ticks and labels, over what was plotted.
+  /// The frame, ticks (inwards, on all four sides) and labels, over what was plotted.
   void draw_frame(cairo_t* context) const;
 
   static constexpr double kLeft = 64.0;

@@ -18,7 +18,6 @@ struct Colour {
 
 inline constexpr Colour kInk{0.13, 0.13, 0.15};
 inline constexpr Colour kMutedInk{0.42, 0.42, 0.46};
-inline constexpr Colour kGridInk{0.90, 0.90, 0.92};
 
 /// A rectangle in units of a picture (1/96 inch), y downwards.
 struct Rectangle {

@@ -1,6 +1,7 @@
 #include "chart/chart.h"
 
 #include <cmath>
+#include <numbers>
 
 namespace cellcrush::client {
 
@@ -9,6 +10,7 @@ namespace {
 constexpr Colour kBandColour{0.945, 0.935, 0.90};
 constexpr double kLegendRow = 20.0;
 constexpr double kSwatch = 26.0;
+constexpr double kMarkerRadius = 4.2;
 constexpr double kLegendGap = 18.0;
 constexpr double kNoteHeight = 16.0;
 const TextStyle kLegendStyle{.size = 12.0};
@@ -20,7 +22,33 @@ void apply(cairo_t* context, const LineStyle& style) {
   cairo_set_dash(context, style.dashes.data(), static_cast<int>(style.dashes.size()), 0.0);
 }
 
+// A disc is full and a square is open, so that both can be told apart without their colours.
+void draw_marker(cairo_t* context, double x, double y, const Curve& curve) {
+  cairo_set_dash(context, nullptr, 0, 0.0);
+  cairo_set_line_width(context, 1.4);
+  cairo_new_path(context);
+  if (curve.marker == Marker::disc) {
+    cairo_arc(context, x, y, kMarkerRadius, 0.0, 2.0 * std::numbers::pi);
+    set_colour(context, curve.style.colour);
+    cairo_fill(context);
+  } else if (curve.marker == Marker::square) {
+    const double half = 0.9 * kMarkerRadius;
+    cairo_rectangle(context, x - half, y - half, 2.0 * half, 2.0 * half);
+    set_colour(context, {1.0, 1.0, 1.0});
+    cairo_fill_preserve(context);
+    set_colour(context, curve.style.colour);
+    cairo_stroke(context);
+  }
+}
+
+void draw_markers(cairo_t* context, const Axes& axes, const Curve& curve) {
+  for (std::size_t i = 0; i < curve.x.size(); ++i) {
+    if (std::isfinite(curve.x[i] + curve.y[i])) draw_marker(context, axes.x(curve.x[i]), axes.y(curve.y[i]), curve);
+  }
+}
+
 void draw_curve(cairo_t* context, const Axes& axes, const Curve& curve) {
+  if (curve.style.width <= 0.0) return;
   apply(context, curve.style);
   bool begin = true;
   for (std::size_t i = 0; i < curve.x.size(); ++i) {
@@ -38,6 +66,17 @@ void draw_curve(cairo_t* context, const Axes& axes, const Curve& curve) {
   cairo_set_dash(context, nullptr, 0, 0.0);
 }
 
+void draw_swatch(cairo_t* context, double x, double y, const Curve& curve) {
+  if (curve.style.width > 0.0) {
+    apply(context, curve.style);
+    cairo_move_to(context, x, y);
+    cairo_line_to(context, x + kSwatch, y);
+    cairo_stroke(context);
+    cairo_set_dash(context, nullptr, 0, 0.0);
+  }
+  draw_marker(context, x + 0.5 * kSwatch, y, curve);
+}
+
 // Walks over the legend's entries, row by row, and answers its height; draws them too if `draw`.
 double lay_legend(cairo_t* context, const Rectangle& place, const Chart& chart, bool draw) {
   double x = place.x;
@@ -51,11 +90,7 @@ double lay_legend(cairo_t* context, const Rectangle& place, const Chart& chart, 
       y += kLegendRow;
     }
     if (draw) {
-      apply(context, curve.style);
-      cairo_move_to(context, x, y + 10.0);
-      cairo_line_to(context, x + kSwatch, y + 10.0);
-      cairo_stroke(context);
-      cairo_set_dash(context, nullptr, 0, 0.0);
+      draw_swatch(context, x, y + 10.0, curve);
       draw_text(context, x + kSwatch + 8.0, y + 14.3, name, kLegendStyle);
     }
     x += width;
@@ -80,8 +115,8 @@ void draw_chart(cairo_t* context, const Rectangle& place, const Chart& chart) {
     cairo_rectangle(context, axes.x(band.from), area.y, axes.x(band.to) - axes.x(band.from), area.height);
     cairo_fill(context);
   }
-  axes.draw_grid(context);
   for (const Curve& curve : chart.curves) draw_curve(context, axes, curve);
+  for (const Curve& curve : chart.curves) draw_markers(context, axes, curve);
   for (const Band& band : chart.bands) {
     draw_text(context, 0.5 * (axes.x(band.from) + axes.x(band.to)), area.y + 16.0, band.text,
               {.size = 11.0, .colour = kMutedInk, .anchor = Anchor::middle});

@@ -7,19 +7,23 @@
 
 namespace cellcrush::client {
 
-/// How a line is drawn; `dashes` as lengths on and off, empty for a solid line.
+/// How a line is drawn; `dashes` as lengths on and off, empty for a solid line. A width of 0 draws none.
 struct LineStyle {
   Colour colour = kInk;
   double width = 1.5;
   std::vector<double> dashes;
 };
 
-/// A line through points; x and y have equal length. Without a name it is not in the legend.
+/// What stands at a point of a curve, in the colour of its line.
+enum class Marker { none, disc, square };
+
+/// A line through points, and marks at them; x and y have equal length. Without a name it is not in the legend.
 struct Curve {
   std::vector<double> x;
   std::vector<double> y;
   LineStyle style;
   std::string name;
+  Marker marker = Marker::none;
 };
 
 /// A shaded range of x with a small text at its top.
@@ -29,7 +33,7 @@ struct Band {
   std::string text;
 };
 
-/// Curves over common axes, with a legend above them.
+/// Curves over common axes, with a legend above them; later lines lie on top of earlier ones, and marks on top of lines.
 struct Chart {
   Axis x;
   Axis y;

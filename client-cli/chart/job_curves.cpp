@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 
+#include "chart/palette.h"
 #include "chart/smoothing.h"
 #include "terminal/number_text.h"
 
@@ -15,17 +15,6 @@ namespace cellcrush::client {
 namespace {
 
 constexpr double kSmoothingWindow = 0.02;
-constexpr Colour kImpactColour{0.76, 0.20, 0.16};
-constexpr Colour kSupportColour{0.10, 0.38, 0.66};
-
-// The colours of Okabe and Ito that stand out on white, told apart by colour-blind readers too.
-constexpr std::array<Colour, 6> kJobColours = {{{0.00, 0.45, 0.70},
-                                                {0.84, 0.37, 0.00},
-                                                {0.00, 0.62, 0.45},
-                                                {0.80, 0.47, 0.65},
-                                                {0.90, 0.62, 0.00},
-                                                {0.34, 0.71, 0.91}}};
-
 struct PlateCurves {
   std::vector<double> strain;
   std::vector<double> impact;
@@ -151,7 +140,7 @@ Chart build_comparison_chart(const std::vector<JobHistory>& histories) {
   for (std::size_t i = 0; i < histories.size(); ++i) {
     const v1::Job& job = histories[i].job;
     const PlateCurves smooth = smoothed(curves_of(histories[i]));
-    const Colour colour = kJobColours[i % kJobColours.size()];
+    const Colour colour = kSeriesColours[i % kSeriesColours.size()];
     std::string name = picture_name(job);
     if (uses[name] > 1) name += " (" + job.name() + ")";
     if (job.summary().has_plateau_stress_impact_mpa()) {

@@ -5,63 +5,36 @@
 #include <algorithm>
 
 #include "chart/colour_map.h"
-#include "chart/lattice_drawing.h"
+#include "chart/node_curves.h"
+#include "chart/stage_panels.h"
+#include "chart/sweep_curves.h"
 #include "terminal/case_text.h"
-#include "terminal/number_text.h"
+#include "terminal/lattice_text.h"
 
 namespace cellcrush::client {
 
 namespace {
 
 constexpr double kWidth = 1000.0;
+constexpr double kSweepWidth = 720.0;
 constexpr double kMargin = 26.0;
 constexpr double kInner = kWidth - 2.0 * kMargin;
 constexpr double kTitleHeight = 50.0;
 constexpr double kColourBarRoom = 380.0;  // of the subtitle's line
 constexpr double kChartHeight = 400.0;
-constexpr double kStageTitle = 20.0;
-constexpr double kGap = 14.0;
-constexpr double kTallestStage = 520.0;
-constexpr double kWideAspect = 1.7;
 const TextStyle kTitleStyle{.size = 18.0, .bold = true};
 const TextStyle kSubtitleStyle{.size = 12.5, .colour = kMutedInk};
 
-// Where the stages of a picture stand.
-struct StageLayout {
-  std::vector<Rectangle> places;  ///< of the drawings, titles not included
-  double bottom = 0.0;
-};
-
-StageLayout lay_stages(const Box& box, std::size_t count, double top) {
-  StageLayout layout{{}, top};
-  const double aspect = box.width() / box.height();
-  const bool stacked = count == 1 || aspect >= kWideAspect;
-  const double columns = stacked ? 1.0 : static_cast<double>(count);
-  const double width = (kInner - (columns - 1.0) * kGap) / columns;
-  const double height = std::min(width / aspect, kTallestStage);
-  for (std::size_t i = 0; i < count; ++i) {
-    const double x = stacked ? kMargin : kMargin + static_cast<double>(i) * (width + kGap);
-    const double y = stacked ? top + static_cast<double>(i) * (kStageTitle + height + kGap) : top;
-    layout.places.push_back({x, y + kStageTitle, width, height});
-    layout.bottom = y + kStageTitle + height + kGap;
-  }
-  return layout;
-}
-
-void draw_title(cairo_t* context, const std::string& title, const std::string& subtitle) {
-  draw_text(context, kMargin, kMargin + 14.0, fit_text(context, title, kInner, kTitleStyle), kTitleStyle);
-  draw_text(context, kMargin, kMargin + 36.0, fit_text(context, subtitle, kInner - kColourBarRoom, kSubtitleStyle),
+void draw_title(cairo_t* context, const std::string& title, const std::string& subtitle, double width,
+                double subtitle_width) {
+  draw_text(context, kMargin, kMargin + 14.0, fit_text(context, title, width, kTitleStyle), kTitleStyle);
+  draw_text(context, kMargin, kMargin + 36.0, fit_text(context, subtitle, subtitle_width, kSubtitleStyle),
             kSubtitleStyle);
 }
 
-void draw_stages(cairo_t* context, const StageLayout& layout, const Box& box, const std::vector<MeshFrame>& stages) {
-  for (std::size_t i = 0; i < stages.size(); ++i) {
-    const Rectangle& place = layout.places[i];
-    const v1::FieldFrame& frame = stages[i].frame;
-    const std::string time = frame.time_s() > 0 ? fmt::format(", {} ms", number_text(1e3 * frame.time_s())) : "";
-    draw_text(context, place.x, place.y - 5.0, fmt::format("strain {:.2f}{}", frame.strain(), time), {.size = 12.5});
-    draw_lattice(context, place, box, stages[i]);
-  }
+// (right, top) is the corner of the bar.
+void draw_plastic_bar(cairo_t* context, double top) {
+  draw_colour_bar(context, kWidth - kMargin - 6.0, top, 150.0, "plastic fraction of the wall");
 }
 
 std::string subtitle_of(const v1::Job& job) {
@@ -71,20 +44,52 @@ std::string subtitle_of(const v1::Job& job) {
   return text;
 }
 
+std::string sweep_title(const v1::SweepTable& table) {
+  for (const auto& row : table.rows()) {
+    if (!row.result().case_().title().empty()) return row.result().case_().title();
+  }
+  return "Plateau stress";
+}
+
+std::string sweep_subtitle(const std::string& name, const v1::SweepTable& table) {
+  std::string fields;
+  for (const std::string& field : table.fields()) fields += (fields.empty() ? "" : ", ") + axis_label(field);
+  std::string text = fmt::format("{} jobs over {}   ({})", table.rows_size(), fields, name);
+  const bool cells_vary = std::any_of(table.fields().begin(), table.fields().end(), [](const std::string& field) {
+    return field.ends_with(".columns") || field.ends_with(".rows");
+  });
+  if (table.rows_size() > 0 && !cells_vary) {
+    const std::string lattice = lattice_summary(table.rows(0).result().case_().lattice());
+    if (!lattice.empty()) text = lattice + ": " + text;
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string render_job_picture(PictureFormat format, const JobHistory& history, const std::vector<MeshFrame>& stages) {
   constexpr double kTop = kMargin + kTitleHeight;
-  const Box box = stages.empty() ? Box{} : find_box(stages);
-  const StageLayout layout = stages.empty() ? StageLayout{{}, kTop} : lay_stages(box, stages.size(), kTop);
-  const double height = layout.bottom + kChartHeight + kMargin;
+  const StagePanels panels = stages.empty() ? StagePanels{{}, {}, kTop} : lay_stages(stages, kMargin, kTop, kInner);
+  const double height = panels.bottom + kChartHeight + kMargin;
+  const bool frame = history.job.case_().lattice().has_frame();
   return render_picture(format, kWidth, height, [&](cairo_t* context) {
-    draw_title(context, picture_name(history.job), subtitle_of(history.job));
+    draw_title(context, picture_name(history.job), subtitle_of(history.job), kInner, kInner - kColourBarRoom);
     if (!stages.empty()) {
-      draw_colour_bar(context, kWidth - kMargin - 6.0, kMargin + 26.0, 150.0, "plastic fraction of the wall");
-      draw_stages(context, layout, box, stages);
+      draw_plastic_bar(context, kMargin + 26.0);
+      draw_stages(context, panels, stages);
     }
-    draw_chart(context, {kMargin, layout.bottom, kInner, kChartHeight}, build_job_chart(history));
+    draw_chart(context, {kMargin, panels.bottom, kInner, kChartHeight},
+               frame ? build_node_chart(history) : build_job_chart(history));
+  });
+}
+
+std::string render_stages_picture(PictureFormat format, const std::vector<MeshFrame>& stages) {
+  constexpr double kNarrowMargin = 12.0;
+  const StagePanels panels = lay_stages(stages, kMargin, kNarrowMargin, kInner);
+  const double height = panels.bottom + kColourBarHeight + kNarrowMargin;
+  return render_picture(format, kWidth, height, [&](cairo_t* context) {
+    draw_stages(context, panels, stages);
+    draw_plastic_bar(context, panels.bottom);
   });
 }
 
@@ -92,9 +97,22 @@ std::string render_comparison_picture(PictureFormat format, const std::vector<Jo
   const double height =
       kMargin + kTitleHeight + 1.2 * kChartHeight + 20.0 * static_cast<double>(histories.size()) + kMargin;
   return render_picture(format, kWidth, height, [&](cairo_t* context) {
-    draw_title(context, fmt::format("{} runs compared", histories.size()), "plate stress against nominal strain");
+    draw_title(context, fmt::format("{} runs compared", histories.size()), "plate stress against nominal strain",
+               kInner, kInner);
     const double top = kMargin + kTitleHeight;
     draw_chart(context, {kMargin, top, kInner, height - top - kMargin}, build_comparison_chart(histories));
+  });
+}
+
+std::string render_sweep_picture(PictureFormat format, const std::string& name, const v1::SweepTable& table) {
+  constexpr double kTop = kMargin + kTitleHeight;
+  constexpr double kInnerWidth = kSweepWidth - 2.0 * kMargin;
+  const Chart chart = build_sweep_chart(table);
+  // A legend of many series takes more lines.
+  const double chart_height = kChartHeight + 60.0 + 8.0 * static_cast<double>(chart.curves.size());
+  return render_picture(format, kSweepWidth, kTop + chart_height + kMargin, [&](cairo_t* context) {
+    draw_title(context, sweep_title(table), sweep_subtitle(name, table), kInnerWidth, kInnerWidth);
+    draw_chart(context, {kMargin, kTop, kInnerWidth, chart_height}, chart);
   });
 }
 

@@ -3,16 +3,22 @@
 #include <string>
 #include <vector>
 
+#include "cellcrush/v1/sweep.pb.h"
 #include "chart/job_curves.h"
 #include "connection/frames.h"
 
 namespace cellcrush::client {
 
-/// The picture of one job: the lattice at each of `stages` (may be empty), all at one scale, above its stress-strain
-/// curve. Wide lattices stand one above the other, others side by side.
+/// The picture of one job: the lattice at each of `stages` (may be empty), all at one scale, above its curves.
 std::string render_job_picture(PictureFormat format, const JobHistory& history, const std::vector<MeshFrame>& stages);
+
+/// The stages alone, without a title, as a figure with a caption needs them. REQUIRES: stages is not empty.
+std::string render_stages_picture(PictureFormat format, const std::vector<MeshFrame>& stages);
 
 /// The picture of several jobs: their curves over common axes.
 std::string render_comparison_picture(PictureFormat format, const std::vector<JobHistory>& histories);
+
+/// The picture of a sweep: plateau stress against what is varied. `name` is the sweep's.
+std::string render_sweep_picture(PictureFormat format, const std::string& name, const v1::SweepTable& table);
 
 }  // namespace cellcrush::client

@@ -16,8 +16,6 @@ constexpr double kThinnestWall = 0.5;  // units; thinner lines vanish
 constexpr double kPlateShare = 0.009;  // a plate's thickness as a share of the box's longer side
 constexpr Colour kPlateColour{0.35, 0.36, 0.40};
 
-bool has_plates(const v1::Mesh& mesh) { return mesh.support_plate_mm() > mesh.impact_plate_mm(); }
-
 double impact_plate_now(const MeshFrame& stage) {
   const v1::Mesh& mesh = stage.mesh;
   return mesh.impact_plate_mm() + stage.frame.strain() * (mesh.support_plate_mm() - mesh.impact_plate_mm());
@@ -37,7 +35,7 @@ double plate_thickness(const Box& box) { return kPlateShare * std::max(box.width
 class Projection {
  public:
   Projection(const Rectangle& place, const Box& box)
-      : scale_(std::min(place.width / box.width(), place.height / box.height())),
+      : scale_(drawing_scale(place, box)),
         x0_(place.x + 0.5 * (place.width - scale_ * box.width()) - scale_ * box.low_x),
         y0_(place.y + 0.5 * (place.height + scale_ * box.height()) + scale_ * box.low_y) {}
 
@@ -115,6 +113,12 @@ void draw_walls(cairo_t* context, const Projection& projection, const MeshFrame&
 }
 
 }  // namespace
+
+bool has_plates(const v1::Mesh& mesh) { return mesh.support_plate_mm() > mesh.impact_plate_mm(); }
+
+double drawing_scale(const Rectangle& place, const Box& box) {
+  return std::min(place.width / box.width(), place.height / box.height());
+}
 
 Box find_box(const std::vector<MeshFrame>& stages) {
   const auto& first = stages.front().frame.position_mm();

@@ -22,6 +22,12 @@ struct Box {
 /// The box that holds every stage with its plates, at the start and now. REQUIRES: stages is not empty.
 Box find_box(const std::vector<MeshFrame>& stages);
 
+/// Whether the lattice stands between two plates; an explicit frame does not.
+bool has_plates(const v1::Mesh& mesh);
+
+/// Units of the picture a millimetre takes when `box` is drawn into `place`.
+double drawing_scale(const Rectangle& place, const Box& box);
+
 /// Draws a lattice and its plates into `place`, at one scale for x and y: walls with their thickness, coloured by plastic
 /// fraction.
 void draw_lattice(cairo_t* context, const Rectangle& place, const Box& box, const MeshFrame& stage);

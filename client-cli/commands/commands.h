@@ -38,10 +38,12 @@ void add_case_commands(CLI::App& app, Session& session);  ///< presets, check
 void add_show_command(CLI::App& app, Session& session);
 void add_submit_command(CLI::App& app, Session& session);
 void add_watch_command(CLI::App& app, Session& session);
-void add_job_commands(CLI::App& app, Session& session);  ///< list, cancel, suspend, resume, delete
+void add_list_command(CLI::App& app, Session& session);
+void add_job_commands(CLI::App& app, Session& session);  ///< cancel, suspend, resume, delete
 void add_fetch_command(CLI::App& app, Session& session);
 void add_plot_command(CLI::App& app, Session& session);
 void add_queue_commands(CLI::App& app, Session& session);  ///< queue, drain
-void add_sweep_commands(CLI::App& app, Session& session);  ///< sweep, retry, table
+void add_sweep_commands(CLI::App& app, Session& session);  ///< sweep, retry
+void add_table_command(CLI::App& app, Session& session);
 
 }  // namespace cellcrush::client

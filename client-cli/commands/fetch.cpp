@@ -5,8 +5,8 @@
 
 #include "commands/commands.h"
 #include "commands/history_csv.h"
+#include "commands/resource_name.h"
 #include "terminal/case_text.h"
-#include "terminal/job_text.h"
 #include "terminal/json_text.h"
 #include "terminal/number_text.h"
 #include "terminal/output_file.h"
@@ -95,6 +95,7 @@ ExitCode run_fetch(Session& session, const FetchOptions& options) {
   make_folder(folder);
   check_may_overwrite(folder / "result.h5", kHdf5Signature);
   check_may_overwrite(folder / "history.csv", history_header());
+  check_may_overwrite(folder / "nodes.csv", nodes_header());
   check_may_overwrite(folder / "case.txtpb", kCaseSignature);
   std::vector<fs::path> written;
   const auto put = [&](const fs::path& path, const std::string& contents) {
@@ -104,8 +105,9 @@ ExitCode run_fetch(Session& session, const FetchOptions& options) {
   put(folder / "case.txtpb", case_file_text(job.case_(), "Case of " + job.name()));
   v1::GetHistoryRequest history;
   history.set_name(name);
-  put(folder / "history.csv",
-      history_csv(connection.call(connection.jobs(), &v1::Jobs::Stub::GetHistory, history).samples()));
+  const auto samples = connection.call(connection.jobs(), &v1::Jobs::Stub::GetHistory, history);
+  put(folder / "history.csv", history_csv(samples.samples()));
+  if (const std::string nodes = nodes_csv(samples.samples()); !nodes.empty()) put(folder / "nodes.csv", nodes);
   for (const double time : options.frame_times) {
     v1::GetFrameRequest request;
     request.set_name(name);
@@ -131,7 +133,7 @@ ExitCode run_fetch(Session& session, const FetchOptions& options) {
 void add_fetch_command(CLI::App& app, Session& session) {
   const auto options = std::make_shared<FetchOptions>();
   CLI::App* command =
-      add_command(app, session, "fetch", "Write a job's case.txtpb, history.csv and result.h5 into a folder",
+      add_command(app, session, "fetch", "Write a job's case.txtpb, history.csv, nodes.csv and result.h5 into a folder",
                   [&session, options] { return run_fetch(session, *options); });
   command->add_option("NAME", options->name, "A job's name")->required();
   command->add_option("-o,--output", options->folder, "The folder; it is made if need be")->required();

@@ -6,6 +6,8 @@
 #include <array>
 #include <iterator>
 
+#include "terminal/csv_cell.h"
+
 namespace cellcrush::client {
 
 namespace {
@@ -53,6 +55,19 @@ std::string history_csv(const google::protobuf::RepeatedPtrField<v1::Sample>& sa
     text += '\n';
   }
   return text;
+}
+
+std::string nodes_header() { return "time_s,node,ux_mm,uy_mm,rotation_rad"; }
+
+std::string nodes_csv(const google::protobuf::RepeatedPtrField<v1::Sample>& samples) {
+  std::string text;
+  for (const v1::Sample& sample : samples) {
+    for (const v1::WatchedNode& node : sample.watched()) {
+      fmt::format_to(std::back_inserter(text), "{},{},{},{},{}\n", sample.time_s(), csv_cell(node.node()), node.ux_mm(),
+                     node.uy_mm(), node.rotation_rad());
+    }
+  }
+  return text.empty() ? text : nodes_header() + '\n' + text;
 }
 
 std::string frame_header() { return "element,x0_mm,y0_mm,x1_mm,y1_mm,thickness_mm,plastic_fraction"; }

@@ -15,6 +15,12 @@ std::string history_header();
 /// Samples as CSV, a line each below the header; numbers are written so that they read back to the same bits.
 std::string history_csv(const google::protobuf::RepeatedPtrField<v1::Sample>& samples);
 
+/// The first line of a file of watched nodes.
+std::string nodes_header();
+
+/// The watched nodes of samples as CSV, a line for each node of each sample; empty when no sample has any.
+std::string nodes_csv(const google::protobuf::RepeatedPtrField<v1::Sample>& samples);
+
 /// The first line of a frame file.
 std::string frame_header();
 

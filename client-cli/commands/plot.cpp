@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "chart/job_picture.h"
 #include "commands/commands.h"
-#include "terminal/job_text.h"
+#include "commands/resource_name.h"
+#include "commands/stages.h"
 #include "terminal/json_text.h"
 #include "terminal/output_file.h"
 
@@ -16,73 +18,80 @@ struct PlotOptions {
   std::vector<std::string> names;
   std::string file;
   std::vector<double> frame_strains;
+  int strip = 0;  ///< frames evenly spaced over the run; 0: the default choice
+  bool frames_only = false;
 };
 
-JobHistory fetch_job(Connection& connection, const std::string& name) {
-  v1::GetJobRequest get;
-  get.set_name(name);
-  v1::GetHistoryRequest history;
-  history.set_name(name);
-  JobHistory result{connection.call(connection.jobs(), &v1::Jobs::Stub::GetJob, get), {}};
-  const auto samples = connection.call(connection.jobs(), &v1::Jobs::Stub::GetHistory, history);
-  result.samples.assign(samples.samples().begin(), samples.samples().end());
-  if (result.samples.empty()) {
-    throw CommandError(ExitCode::refused, name + " has no samples yet, so that there is nothing to draw");
-  }
-  return result;
+v1::Job fetch_job(Connection& connection, const std::string& name) {
+  v1::GetJobRequest request;
+  request.set_name(name);
+  return connection.call(connection.jobs(), &v1::Jobs::Stub::GetJob, request);
 }
 
-MeshFrame fetch_frame_at(Connection& connection, const std::string& name, double strain) {
-  v1::GetFrameRequest request;
-  request.set_name(name);
-  request.set_strain(strain);
-  return fetch_frame(connection, request);
+JobHistory fetch_history(Connection& connection, const v1::Job& job) {
+  v1::GetHistoryRequest request;
+  request.set_name(job.name());
+  const auto samples = connection.call(connection.jobs(), &v1::Jobs::Stub::GetHistory, request);
+  if (samples.samples_size() == 0) {
+    throw CommandError(ExitCode::refused, job.name() + " has no samples yet, so that there is nothing to draw");
+  }
+  return {job, {samples.samples().begin(), samples.samples().end()}};
 }
 
-// The frames at the strains that were asked for; else those at 20 % and 40 % strain, if they are clearly before the last
-// one, and the last one.
-std::vector<MeshFrame> fetch_stages(Connection& connection, const std::string& name,
-                                    const std::vector<double>& strains) {
-  constexpr double kApart = 0.05;
-  std::vector<MeshFrame> stages;
-  for (const double strain : strains) stages.push_back(fetch_frame_at(connection, name, strain));
-  if (!strains.empty()) return stages;
-  v1::GetFrameRequest request;
-  request.set_name(name);
-  request.set_index(-1);
-  const MeshFrame last = fetch_frame(connection, request);
-  for (const double strain : {0.2, 0.4}) {
-    if (strain >= last.frame.strain() - kApart) continue;
-    MeshFrame stage = fetch_frame_at(connection, name, strain);
-    // While a job runs the server may have fewer frames at hand.
-    if (stage.frame.index() != last.frame.index()) stages.push_back(std::move(stage));
+std::vector<MeshFrame> fetch_stages(Connection& connection, const std::string& name, const PlotOptions& options) {
+  if (options.strip > 0) return fetch_strip(connection, name, options.strip);
+  return options.frame_strains.empty() ? fetch_default_stages(connection, name)
+                                       : fetch_stages_at(connection, name, options.frame_strains);
+}
+
+void write_picture(const std::string& path, const std::string& picture) {
+  OutputFile file(path);
+  file.write(picture);
+  file.commit();
+}
+
+void plot_sweep(Session& session, const PlotOptions& options) {
+  const PictureFormat format = picture_format(options.file);
+  Connection& connection = session.connection();
+  v1::GetSweepTableRequest request;
+  request.set_name(options.names.front());
+  const auto table = connection.call(connection.sweeps(), &v1::Sweeps::Stub::GetSweepTable, request);
+  write_picture(options.file, render_sweep_picture(format, request.name(), table));
+  session.json ? print_json(table) : fmt::print("{}\n", options.file);
+}
+
+std::string render_jobs(Connection& connection, PictureFormat format, const v1::ListJobsResponse& jobs,
+                        const PlotOptions& options) {
+  if (options.frames_only) return render_stages_picture(format, fetch_stages(connection, jobs.jobs(0).name(), options));
+  std::vector<JobHistory> histories;
+  for (const v1::Job& job : jobs.jobs()) histories.push_back(fetch_history(connection, job));
+  if (histories.size() > 1) return render_comparison_picture(format, histories);
+  return render_job_picture(format, histories.front(), fetch_stages(connection, jobs.jobs(0).name(), options));
+}
+
+void plot_jobs(Session& session, const PlotOptions& options) {
+  const PictureFormat format = picture_format(options.file);
+  Connection& connection = session.connection();
+  v1::ListJobsResponse jobs;
+  for (const std::string& name : options.names) *jobs.add_jobs() = fetch_job(connection, job_name(name));
+  write_picture(options.file, render_jobs(connection, format, jobs, options));
+  session.json ? print_json(jobs) : fmt::print("{}\n", options.file);
+}
+
+void check_options(const PlotOptions& options) {
+  const auto refuse = [](const char* message) { throw CommandError(ExitCode::refused, message); };
+  const bool sweep = std::any_of(options.names.begin(), options.names.end(), names_sweep);
+  const bool frames = options.strip > 0 || options.frames_only || !options.frame_strains.empty();
+  if (sweep && options.names.size() > 1) refuse("plot: a sweep is drawn by itself; name one sweep, or jobs only");
+  if (frames && (sweep || options.names.size() > 1)) {
+    refuse("plot: --strip, --frame-strain and --frames-only are for one job; name one");
   }
-  stages.push_back(last);
-  return stages;
+  if (options.strip > 0 && !options.frame_strains.empty()) refuse("plot: give one of --strip and --frame-strain");
 }
 
 ExitCode run_plot(Session& session, const PlotOptions& options) {
-  const PictureFormat format = picture_format(options.file);
-  Connection& connection = session.connection();
-  std::vector<JobHistory> histories;
-  for (const std::string& name : options.names) histories.push_back(fetch_job(connection, job_name(name)));
-  std::string picture;
-  if (histories.size() == 1) {
-    const auto stages = fetch_stages(connection, histories.front().job.name(), options.frame_strains);
-    picture = render_job_picture(format, histories.front(), stages);
-  } else {
-    picture = render_comparison_picture(format, histories);
-  }
-  OutputFile file(options.file);
-  file.write(picture);
-  file.commit();
-  if (!session.json) {
-    fmt::print("{}\n", options.file);
-    return ExitCode::done;
-  }
-  v1::ListJobsResponse drawn;
-  for (const JobHistory& history : histories) *drawn.add_jobs() = history.job;
-  print_json(drawn);
+  check_options(options);
+  names_sweep(options.names.front()) ? plot_sweep(session, options) : plot_jobs(session, options);
   return ExitCode::done;
 }
 
@@ -90,14 +99,17 @@ ExitCode run_plot(Session& session, const PlotOptions& options) {
 
 void add_plot_command(CLI::App& app, Session& session) {
   const auto options = std::make_shared<PlotOptions>();
-  CLI::App* command =
-      add_command(app, session, "plot", "Draw a job's crush and stress-strain curve, or compare the curves of several",
-                  [&session, options] { return run_plot(session, *options); });
-  command->add_option("NAME", options->names, "Names of jobs")->required();
+  CLI::App* command = add_command(app, session, "plot",
+                                  "Draw a job's crush and stress-strain curve, compare several jobs, or draw a sweep",
+                                  [&session, options] { return run_plot(session, *options); });
+  command->add_option("NAME", options->names, "Names of jobs, or a sweep's")->required();
   command->add_option("-o,--output", options->file, "The picture: FILE.svg or FILE.png")->required();
   command
       ->add_option("--frame-strain", options->frame_strains, "Show the frame nearest to this strain (may be repeated)")
       ->allow_extra_args(false);
+  command->add_option("--strip", options->strip, "Show so many frames, evenly spaced over the run")
+      ->check(CLI::Range(1, 100));
+  command->add_flag("--frames-only", options->frames_only, "Draw the frames without title and curve, as for a paper");
 }
 
 }  // namespace cellcrush::client

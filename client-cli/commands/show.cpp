@@ -2,9 +2,11 @@
 
 #include "case_file/case_source.h"
 #include "commands/commands.h"
+#include "commands/resource_name.h"
 #include "terminal/case_text.h"
 #include "terminal/job_text.h"
 #include "terminal/json_text.h"
+#include "terminal/sweep_text.h"
 
 namespace cellcrush::client {
 
@@ -26,17 +28,28 @@ void show_job(Session& session, const std::string& name) {
   session.json ? print_json(job) : fmt::print("{}", description_text(job));
 }
 
+void show_sweep(Session& session, const std::string& name) {
+  Connection& connection = session.connection();
+  v1::GetSweepRequest request;
+  request.set_name(name);
+  const auto sweep = connection.call(connection.sweeps(), &v1::Sweeps::Stub::GetSweep, request);
+  session.json ? print_json(sweep) : fmt::print("{}", description_text(sweep));
+}
+
 }  // namespace
 
 void add_show_command(CLI::App& app, Session& session) {
   const auto name = std::make_shared<std::string>();
-  CLI::App* command =
-      add_command(app, session, "show", "Print a preset as a complete case file, or describe a job", [&session, name] {
-        const std::string preset = preset_name(*name);
-        preset.empty() ? show_job(session, *name) : show_preset(session, preset);
+  CLI::App* command = add_command(
+      app, session, "show", "Print a preset as a complete case file, or describe a job or a sweep", [&session, name] {
+        if (const std::string preset = preset_name(*name); !preset.empty()) {
+          show_preset(session, preset);
+        } else {
+          names_sweep(*name) ? show_sweep(session, *name) : show_job(session, *name);
+        }
         return ExitCode::done;
       });
-  command->add_option("NAME", *name, "preset:NAME, or a job's name")->required();
+  command->add_option("NAME", *name, "preset:NAME, or the name of a job or a sweep")->required();
 }
 
 }  // namespace cellcrush::client

@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <map>
 
 #include "case_file/case_source.h"
 #include "commands/commands.h"
+#include "commands/labels.h"
 #include "commands/watch.h"
 #include "terminal/json_text.h"
 
@@ -19,21 +19,11 @@ struct SubmitOptions {
   std::vector<std::string> labels;
 };
 
-void add_labels(v1::CreateJobRequest& request, const std::vector<std::string>& labels) {
-  for (const std::string& label : labels) {
-    const std::size_t equals = label.find('=');
-    if (equals == 0 || equals == std::string::npos) {
-      throw CommandError(ExitCode::refused, "--label " + label + ": expected KEY=VALUE");
-    }
-    (*request.mutable_labels())[label.substr(0, equals)] = label.substr(equals + 1);
-  }
-}
-
 ExitCode run_submit(Session& session, const SubmitOptions& options) {
   // From here on Ctrl-C ends the watch in order, also when it comes just after the job was queued.
   std::unique_ptr<Interruption> interruption;
   v1::CreateJobRequest request;
-  add_labels(request, options.labels);
+  *request.mutable_labels() = parse_labels(options.labels);
   request.set_request_id(options.request_id);
   Connection& connection = session.connection();
   *request.mutable_case_() = read_case(options.scene.source, options.scene.assignments, connection);
@@ -57,7 +47,7 @@ void add_submit_command(CLI::App& app, Session& session) {
   add_case_options(*command, options->scene);
   command->add_flag("--watch", options->watch, "Follow the job to its end");
   command->add_option("--request-id", options->request_id, "Submitting again with the same id gives the same job");
-  command->add_option("--label", options->labels, "KEY=VALUE: a label of the job")->allow_extra_args(false);
+  add_label_option(*command, options->labels);
 }
 
 }  // namespace cellcrush::client

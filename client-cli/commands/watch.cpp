@@ -4,33 +4,58 @@
 
 #include <cstdio>
 
+#include "commands/resource_name.h"
 #include "terminal/job_text.h"
+#include "terminal/json_text.h"
+#include "terminal/sweep_display.h"
+#include "terminal/sweep_table.h"
 #include "terminal/watch_display.h"
 
 namespace cellcrush::client {
 
+namespace {
+
+ExitCode say_interrupted(const std::string& name, bool ended) {
+  fmt::print(stderr, "\ncellcrush: the watch ends here; {} {}: `cellcrush watch {}` picks it up again\n", name,
+             ended ? "has ended" : "goes on", name);
+  return ExitCode::interrupted;
+}
+
+}  // namespace
+
 ExitCode watch_job(Session& session, const std::string& name, const Interruption& interruption) {
   const auto display = make_watch_display(session.json, find_terminal());
-  if (!follow_job(session.connection(), name, false, interruption, *display)) {
-    const v1::Job& job = display->view().job();
-    const bool ended = is_final(job.state());
-    fmt::print(stderr, "\ncellcrush: the watch ends here; {} {}: `cellcrush watch {}` picks it up again\n", name,
-               ended ? "has ended" : "goes on", name);
-    return ExitCode::interrupted;
-  }
-  display->finish();
+  const bool complete = follow_job(session.connection(), name, false, interruption, *display);
   const v1::Job& job = display->view().job();
+  if (!complete) return say_interrupted(name, is_final(job.state()));
+  display->finish();
   if (!session.json) fmt::print("{}", outcome_text(job));
   return exit_code_of(job.state());
 }
 
+ExitCode watch_sweep(Session& session, const std::string& name, const Interruption& interruption) {
+  const auto display = make_sweep_display(session.json, find_terminal());
+  const bool complete = follow_sweep(session.connection(), name, interruption, *display);
+  const SweepView& view = display->view();
+  const int jobs = static_cast<int>(view.jobs().size());
+  if (!complete) return say_interrupted(name, jobs > 0 && view.count_ended() == jobs);
+  display->finish();
+  Connection& connection = session.connection();
+  v1::GetSweepTableRequest request;
+  request.set_name(name);
+  const auto table = connection.call(connection.sweeps(), &v1::Sweeps::Stub::GetSweepTable, request);
+  session.json ? print_json(table) : fmt::print("\n{}", sweep_table_text(table));
+  return view.count(v1::SUCCEEDED) == jobs ? ExitCode::done : ExitCode::job_failed;
+}
+
 void add_watch_command(CLI::App& app, Session& session) {
   const auto name = std::make_shared<std::string>();
-  CLI::App* command = add_command(app, session, "watch", "Follow a job to its end", [&session, name] {
+  CLI::App* command = add_command(app, session, "watch", "Follow a job or a sweep to its end", [&session, name] {
     const Interruption interruption;
-    return watch_job(session, job_name(*name), interruption);
+    return names_sweep(*name) ? watch_sweep(session, *name, interruption)
+                              : watch_job(session, job_name(*name), interruption);
   });
-  command->add_option("NAME", *name, "A job's name")->required();
+  command->add_option("NAME", *name, "A job's or a sweep's name")->required();
 }
 
 }  // namespace cellcrush::client

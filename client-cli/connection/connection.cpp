@@ -1,5 +1,7 @@
 #include "connection/connection.h"
 
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <utility>
 
@@ -54,6 +56,16 @@ v1::Admin::Stub& Connection::admin() {
 
 bool Connection::wait(std::chrono::milliseconds patience) {
   return channel_->WaitForConnected(std::chrono::system_clock::now() + patience);
+}
+
+void Connection::check_request_size(std::int64_t size) {
+  if (size <= kLargestRequest) return;
+  constexpr double kMebibyte = 1024.0 * 1024.0;
+  throw CommandError(
+      ExitCode::refused,
+      fmt::format("the request takes {:.2f} MiB ({} bytes) and the limit of a message is {:.0f} MiB ({} "
+                  "bytes); make the case smaller, such as a frame of fewer nodes and beams",
+                  static_cast<double>(size) / kMebibyte, size, kLargestRequest / kMebibyte, kLargestRequest));
 }
 
 void Connection::require_server() {

@@ -3,6 +3,7 @@
 #include <grpcpp/grpcpp.h>
 
 #include <chrono>
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -29,10 +30,12 @@ class Connection {
   /// Whether the server answers within `patience`.
   bool wait(std::chrono::milliseconds patience);
 
-  /// One call with one answer. Throws CommandError when it does not end with OK, or takes longer than a minute.
+  /// One call with one answer. Throws CommandError when it does not end with OK, takes longer than a minute, or would be
+  /// larger than a server takes.
   template <typename Stub, typename Request, typename Response>
   Response call(Stub& stub, grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*),
                 const Request& request) {
+    check_request_size(static_cast<std::int64_t>(request.ByteSizeLong()));
     grpc::ClientContext context;
     context.set_deadline(std::chrono::system_clock::now() + kPatience);
     Response response;
@@ -42,8 +45,11 @@ class Connection {
   }
 
   static constexpr std::chrono::seconds kPatience{60};
+  /// Largest request that a server takes, in bytes: 4 MiB.
+  static constexpr std::int64_t kLargestRequest = 4 * 1024 * 1024;
 
  private:
+  static void check_request_size(std::int64_t size);
   void require_server();
 
   std::string address_;

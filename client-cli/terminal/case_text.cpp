@@ -5,6 +5,7 @@
 
 #include <sstream>
 
+#include "terminal/lattice_text.h"
 #include "terminal/number_text.h"
 #include "terminal/table.h"
 
@@ -13,19 +14,6 @@ namespace cellcrush::client {
 namespace {
 
 using Align = Table::Align;
-
-std::string lattice_text(const v1::Lattice& lattice) {
-  const auto cells = [](const char* kind, const auto& regular) {
-    return fmt::format("{}, {} x {} cells", kind, regular.columns(), regular.rows());
-  };
-  switch (lattice.kind_case()) {
-    case v1::Lattice::kHexagon: return cells("hexagons", lattice.hexagon());
-    case v1::Lattice::kSquare: return cells("squares", lattice.square());
-    case v1::Lattice::kTriangle: return cells("triangles", lattice.triangle());
-    case v1::Lattice::kFrame: return fmt::format("frame of {} beams", lattice.frame().beams_size());
-    default: return {};
-  }
-}
 
 std::string wrapped(const std::string& text, std::size_t width, const std::string& first, const std::string& next) {
   std::istringstream words(text);
@@ -45,10 +33,29 @@ std::string wrapped(const std::string& text, std::size_t width, const std::strin
   return result + '\n';
 }
 
+std::string material_text(const v1::Material& material) {
+  std::string text = fmt::format("E {} MPa, yield {} MPa, hardening {} MPa", material.youngs_modulus_mpa(),
+                                 material.yield_stress_mpa(), material.hardening_modulus_mpa());
+  if (material.hardening_modulus_mpa() > 0.0 && material.has_isotropic_fraction()) {
+    text += fmt::format(" ({} isotropic)", percent_text(material.isotropic_fraction(), 0));
+  }
+  return text + fmt::format(", {} kg/m3", material.density_kg_per_m3());
+}
+
+// What a crush has and a frame under loads of its own has not.
+void add_crush_rows(Table& table, const v1::CheckCaseResponse& check) {
+  table.add({"length along the crush", number_text(check.length_mm(), 4), "mm"});
+  table.add({"width across it", number_text(check.width_mm(), 4), "mm"});
+  table.add({"relative density", number_text(100 * check.relative_density()), "%"});
+}
+
 }  // namespace
 
 std::string scene_text(const v1::Case& scene) {
-  std::string text = lattice_text(scene.lattice());
+  std::string text = lattice_summary(scene.lattice());
+  if (scene.lattice().has_frame() && scene.lattice().frame().has_end_time_s()) {
+    text += fmt::format(", loaded for {} s", scene.lattice().frame().end_time_s());
+  }
   if (!scene.loading().has_speed_m_per_s()) return text;
   const bool along_y = scene.loading().direction() == v1::Loading::Y;
   text += fmt::format(", crushed along {} at {} m/s", along_y ? 'Y' : 'X', scene.loading().speed_m_per_s());
@@ -56,14 +63,28 @@ std::string scene_text(const v1::Case& scene) {
   return text;
 }
 
+std::string description_text(const v1::Case& scene) {
+  Table table({Align::left, Align::left});
+  for (const auto& [heading, line] : lattice_description(scene.lattice())) table.add({heading, line});
+  if (scene.has_depth_mm()) table.add({"depth", fmt::format("{} mm", scene.depth_mm())});
+  if (scene.has_material()) table.add({"material", material_text(scene.material())});
+  if (scene.contact().friction() > 0.0)
+    table.add({"friction between walls", fmt::format("{}", scene.contact().friction())});
+  if (scene.plates().friction() > 0.0)
+    table.add({"friction at the plates", fmt::format("{}", scene.plates().friction())});
+  if (scene.numerics().mass_damping_per_s() > 0.0) {
+    table.add({"mass damping", fmt::format("{} 1/s", scene.numerics().mass_damping_per_s())});
+  }
+  return table.text(2);
+}
+
 std::string check_text(const v1::CheckCaseResponse& check) {
+  const bool frame = check.completed_case().lattice().has_frame();
   Table table({Align::left, Align::right, Align::left});
   table.add({"particles", count_text(check.particle_count())});
   table.add({"elements", count_text(check.element_count())});
-  table.add({"length along the crush", number_text(check.length_mm(), 4), "mm"});
-  table.add({"width across it", number_text(check.width_mm(), 4), "mm"});
-  table.add({"mass of the walls", number_text(check.mass_g(), 4), "g"});
-  table.add({"relative density", number_text(100 * check.relative_density()), "%"});
+  table.add({frame ? "mass of the beams" : "mass of the walls", number_text(check.mass_g(), 4), "g"});
+  if (!frame) add_crush_rows(table, check);
   table.add({"stable step", number_text(check.stable_step_s(), 4), "s"});
   table.add({"time step", number_text(check.time_step_s(), 4), "s"});
   table.add({"steps", count_text(check.step_count())});
@@ -79,6 +100,7 @@ std::string check_text(const v1::CheckCaseResponse& check) {
   std::string text;
   if (!completed.title().empty()) text += printable(completed.title()) + '\n';
   if (const std::string scene = scene_text(completed); !scene.empty()) text += scene + '\n';
+  if (const std::string description = description_text(completed); !description.empty()) text += '\n' + description;
   if (!text.empty()) text += '\n';
   text += table.text(2);
   if (check.modelled_size() > 0) text += "\nmodelled, and left out\n";

@@ -9,6 +9,9 @@ namespace cellcrush::client {
 /// What a case is, in a line: "hexagons, 74 x 21 cells, crushed along X at 100 m/s to strain 0.8".
 std::string scene_text(const v1::Case& scene);
 
+/// What a case is made of, a line a heading: its lattice or frame, material and friction. Empty for an empty case.
+std::string description_text(const v1::Case& scene);
+
 /// What running a case takes, as a table with units, and what is modelled.
 std::string check_text(const v1::CheckCaseResponse& check);
 

@@ -3,6 +3,10 @@
 #include <fmt/format.h>
 #include <google/protobuf/util/time_util.h>
 
+#include <algorithm>
+#include <map>
+#include <utility>
+
 #include "exit_code.h"
 #include "terminal/case_text.h"
 #include "terminal/number_text.h"
@@ -20,14 +24,9 @@ std::string run_time_text(const v1::Job& job) {
   return duration_text(1e-3 * static_cast<double>(TimeUtil::DurationToMilliseconds(job.end_time() - job.start_time())));
 }
 
-std::string time_text(const google::protobuf::Timestamp& time) {
-  return TimeUtil::ToString(TimeUtil::SecondsToTimestamp(time.seconds()));
-}
-
 std::string stress_text(double stress) { return number_text(stress) + " MPa"; }
 
-std::string summary_text(const v1::Summary& summary) {
-  Table table({Align::left, Align::right, Align::right, Align::left});
+void add_crush_rows(Table& table, const v1::Summary& summary) {
   const std::string window =
       fmt::format("{:.0f}-{:.0f} %", 100 * summary.plateau_window_low(), 100 * summary.plateau_window_high());
   const bool theory = summary.has_theory() && summary.theory().shock_mpa() > 0;
@@ -48,9 +47,27 @@ std::string summary_text(const v1::Summary& summary) {
     table.add({"plateau stress up to densification", stress_text(summary.plateau_stress_to_densification_mpa())});
   }
   table.add({"energy absorbed up to 50 % strain", number_text(1e-3 * summary.absorbed_energy_mj()) + " J"});
+}
+
+std::string summary_text(const v1::Summary& summary, bool frame) {
+  Table table({Align::left, Align::right, Align::right, Align::left});
+  if (!frame) add_crush_rows(table, summary);
   table.add({"energy ledger error", percent_text(summary.energy_error_relative(), 2)});
   table.add({"deepest penetration", percent_text(summary.deepest_penetration()), "", "of the touching distance"});
   return table.text(2);
+}
+
+void add_progress_rows(Table& table, const v1::Job& job) {
+  const v1::Progress& progress = job.progress();
+  std::string text = percent_text(progress.fraction());
+  if (!job.case_().lattice().has_frame()) text += fmt::format(", strain {:.3f}", progress.strain());
+  table.add({"progress",
+             text + fmt::format(", step {} of {}", count_text(progress.step()), count_text(progress.step_count()))});
+  if (job.state() == v1::RUNNING && progress.steps_per_second() > 0) {
+    table.add({"time left", duration_text(progress.seconds_left()) + " at " + number_text(progress.steps_per_second()) +
+                                " steps/s"});
+  }
+  if (progress.has_plateau_so_far_mpa()) table.add({"plateau so far", stress_text(progress.plateau_so_far_mpa())});
 }
 
 }  // namespace
@@ -68,7 +85,7 @@ std::string outcome_text(const v1::Job& job) {
   text += '\n';
   if (!job.cause_message().empty()) text += "  " + printable(job.cause_message()) + '\n';
   if (!job.remedy().empty()) text += "  Remedy: " + printable(job.remedy()) + '\n';
-  if (job.has_summary()) text += '\n' + summary_text(job.summary());
+  if (job.has_summary()) text += '\n' + summary_text(job.summary(), job.case_().lattice().has_frame());
   return text;
 }
 
@@ -77,40 +94,47 @@ std::string description_text(const v1::Job& job) {
   if (!job.case_().title().empty()) table.add({"title", job.case_().title()});
   const std::string scene = scene_text(job.case_());
   if (!scene.empty()) table.add({"case", scene});
-  for (const auto& [key, value] : job.labels()) table.add({"label " + key, value});
+  if (!job.labels().empty()) table.add({"labels", labels_text(job.labels())});
   if (job.has_create_time()) table.add({"created", time_text(job.create_time())});
   if (job.has_start_time()) table.add({"started", time_text(job.start_time())});
   if (job.has_end_time()) table.add({"ended", time_text(job.end_time())});
   if (job.worker_pid() != 0) table.add({"worker process", std::to_string(job.worker_pid())});
-  const v1::Progress& progress = job.progress();
-  if (job.has_progress() && !is_final(job.state())) {
-    table.add(
-        {"progress", fmt::format("{}, strain {:.3f}, step {} of {}", percent_text(progress.fraction()),
-                                 progress.strain(), count_text(progress.step()), count_text(progress.step_count()))});
-    if (job.state() == v1::RUNNING && progress.steps_per_second() > 0) {
-      table.add({"time left", duration_text(progress.seconds_left()) + " at " +
-                                  number_text(progress.steps_per_second()) + " steps/s"});
-    }
-    if (progress.has_plateau_so_far_mpa()) table.add({"plateau so far", stress_text(progress.plateau_so_far_mpa())});
-  }
-  return outcome_text(job) + '\n' + table.text(2);
+  if (job.has_progress() && !is_final(job.state())) add_progress_rows(table, job);
+  const std::string scene_lines = description_text(job.case_());
+  return outcome_text(job) + '\n' + table.text(2) + (scene_lines.empty() ? "" : '\n' + scene_lines);
+}
+
+std::string labels_text(const google::protobuf::Map<std::string, std::string>& labels) {
+  const std::map<std::string, std::string> ordered(labels.begin(), labels.end());
+  std::string text;
+  for (const auto& [key, value] : ordered) text += fmt::format("{}{}={}", text.empty() ? "" : ", ", key, value);
+  return text;
+}
+
+std::string time_text(const google::protobuf::Timestamp& time) {
+  return TimeUtil::ToString(TimeUtil::SecondsToTimestamp(time.seconds()));
 }
 
 std::string job_list_text(const std::vector<v1::Job>& jobs) {
   if (jobs.empty()) return "no jobs\n";
-  Table table({Align::left, Align::left, Align::right, Align::right, Align::left, Align::left});
-  table.add({"NAME", "STATE", "DONE", "PLATEAU", "CREATED", "TITLE"});
+  const bool labels = std::any_of(jobs.begin(), jobs.end(), [](const v1::Job& job) { return !job.labels().empty(); });
+  Table table({Align::left, Align::left, Align::right, Align::right, Align::left, Align::left, Align::left});
+  const auto add = [&](std::vector<std::string> cells, const std::string& labels_cell, const std::string& title) {
+    if (labels) cells.push_back(labels_cell);
+    cells.push_back(title);
+    table.add(std::move(cells));
+  };
+  add({"NAME", "STATE", "DONE", "PLATEAU", "CREATED"}, "LABELS", "TITLE");
   for (const v1::Job& job : jobs) {
     const bool plateau = job.summary().has_plateau_stress_impact_mpa();
     const bool started = job.state() != v1::PENDING && job.has_progress();
     const double done = job.state() == v1::SUCCEEDED ? 1.0 : job.progress().fraction();
-    table.add({job.name(), v1::JobState_Name(job.state()), started || done > 0.0 ? percent_text(done, 0) : "",
-               plateau ? stress_text(job.summary().plateau_stress_impact_mpa()) : "",
-               job.has_create_time() ? time_text(job.create_time()) : "", cut(job.case_().title(), 60)});
+    add({job.name(), v1::JobState_Name(job.state()), started || done > 0.0 ? percent_text(done, 0) : "",
+         plateau ? stress_text(job.summary().plateau_stress_impact_mpa()) : "",
+         job.has_create_time() ? time_text(job.create_time()) : ""},
+        cut(labels_text(job.labels()), 40), cut(job.case_().title(), 60));
   }
   return table.text();
 }
-
-std::string job_name(const std::string& name) { return name.find('/') == std::string::npos ? "jobs/" + name : name; }
 
 }  // namespace cellcrush::client

@@ -14,10 +14,13 @@ std::string outcome_text(const v1::Job& job);
 /// All that is known of a job, for a reader.
 std::string description_text(const v1::Job& job);
 
-/// A line a job, with a heading.
+/// A line a job, with a heading; a column of labels when any job has one.
 std::string job_list_text(const std::vector<v1::Job>& jobs);
 
-/// A name as the server knows it: "jobs/NAME" for a NAME without a slash.
-std::string job_name(const std::string& name);
+/// Labels in the order of their keys: "batch=7, who=me".
+std::string labels_text(const google::protobuf::Map<std::string, std::string>& labels);
+
+/// "2026-03-01T12:00:00Z".
+std::string time_text(const google::protobuf::Timestamp& time);
 
 }  // namespace cellcrush::client

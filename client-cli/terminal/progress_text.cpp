@@ -27,9 +27,14 @@ std::string repeat(std::string_view piece, int times) {
 
 std::vector<std::string> progress_fields(const JobView& view) {
   const v1::Progress& progress = view.progress();
-  std::vector<std::string> fields = {fmt::format("strain {:.3f}", progress.strain()),
-                                     stress_text("impact", progress.stress_impact_mpa()),
-                                     stress_text("support", progress.stress_support_mpa())};
+  std::vector<std::string> fields;
+  if (view.job().case_().lattice().has_frame()) {
+    // A frame has no plates that measure strain and stress.
+    fields = {fmt::format("step {} of {}", count_text(progress.step()), count_text(progress.step_count()))};
+  } else {
+    fields = {fmt::format("strain {:.3f}", progress.strain()), stress_text("impact", progress.stress_impact_mpa()),
+              stress_text("support", progress.stress_support_mpa())};
+  }
   if (progress.has_plateau_so_far_mpa()) fields.push_back(stress_text("plateau", progress.plateau_so_far_mpa()));
   if (progress.steps_per_second() > 0) fields.push_back(number_text(progress.steps_per_second()) + " steps/s");
   return fields;
@@ -48,10 +53,11 @@ void JobView::apply(const v1::JobEvent& event) {
   switch (event.event_case()) {
     case v1::JobEvent::kSnapshot: job_ = event.snapshot().job(); break;
     case v1::JobEvent::kState: {
-      // A state may come without the progress that is known already.
-      const v1::Progress known = job_.progress();
+      // A state may come without the case and the progress that are known already.
+      const v1::Job known = job_;
       job_ = event.state();
-      if (!job_.has_progress()) *job_.mutable_progress() = known;
+      if (!job_.has_progress()) *job_.mutable_progress() = known.progress();
+      if (!job_.has_case_() && known.has_case_()) *job_.mutable_case_() = known.case_();
       // The last progress was reported a moment before the end.
       if (job_.state() == v1::SUCCEEDED) job_.mutable_progress()->set_fraction(1.0);
       break;

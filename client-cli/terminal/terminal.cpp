@@ -24,6 +24,12 @@ bool locale_is_utf8() {
   return false;
 }
 
+// All zeros when the standard output is no terminal.
+winsize window_size() {
+  winsize size = {};
+  return ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 ? size : winsize{};
+}
+
 }  // namespace
 
 Terminal find_terminal() {
@@ -36,9 +42,13 @@ Terminal find_terminal() {
 }
 
 int terminal_width() {
-  winsize size = {};
-  if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return 80;
-  return size.ws_col;
+  const int columns = window_size().ws_col;
+  return columns == 0 ? 80 : columns;
+}
+
+int terminal_height() {
+  const int lines = window_size().ws_row;
+  return lines == 0 ? 24 : lines;
 }
 
 }  // namespace cellcrush::client

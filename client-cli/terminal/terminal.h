@@ -14,4 +14,7 @@ Terminal find_terminal();
 /// Columns of the terminal now; 80 when it does not say.
 int terminal_width();
 
+/// Lines of the terminal now; 24 when it does not say.
+int terminal_height();
+
 }  // namespace cellcrush::client

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "terminal/json_text.h"
+#include "terminal/redraw.h"
 #include "terminal/table.h"
 
 namespace cellcrush::client {
@@ -65,11 +66,12 @@ class LiveDisplay : public WatchDisplay {
   void on_event(const v1::JobEvent& event) override {
     const v1::JobState before = view_.job().state();
     view_.apply(event);
-    if (lines_ == 0) fmt::print("{}\n", cut(heading(), terminal_width()));
+    if (!headed_) fmt::print("{}\n", cut(heading(), terminal_width() - 1));
+    headed_ = true;
     if (view_.job().state() != before || Clock::now() - drawn_ >= 100ms) draw();
   }
   void on_break(const std::string& reason) override {
-    show({cut("the stream broke (" + reason + "); picking it up again", terminal_width() - 1)});
+    redraw_.show({cut("the stream broke (" + reason + "); picking it up again", terminal_width() - 1)});
   }
   void finish() override { draw(); }
 
@@ -81,22 +83,14 @@ class LiveDisplay : public WatchDisplay {
 
   // The last column stays free: some terminals wrap when it is filled.
   void draw() {
-    show(progress_lines(view_, terminal_width() - 1, terminal_));
+    redraw_.show(progress_lines(view_, terminal_width() - 1, terminal_));
     drawn_ = Clock::now();
   }
 
-  void show(const std::vector<std::string>& lines) {
-    std::string text = lines_ > 0 ? fmt::format("\x1b[{}A\r", lines_) : "\r";
-    for (const std::string& line : lines) text += line + "\x1b[K\n";
-    text += "\x1b[J";
-    std::fwrite(text.data(), 1, text.size(), stdout);
-    std::fflush(stdout);
-    lines_ = static_cast<int>(lines.size());
-  }
-
   Terminal terminal_;
+  Redraw redraw_;
   Clock::time_point drawn_;
-  int lines_ = 0;  ///< lines of the last redraw, above the cursor
+  bool headed_ = false;
 };
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "chart/colour_map.h"
 #include "chart/job_picture.h"
 #include "chart/lattice_drawing.h"
+#include "chart/node_curves.h"
 #include "chart/smoothing.h"
 #include "chart/ticks.h"
 #include "command_error.h"
@@ -132,6 +133,36 @@ TEST(Picture, APngShowsLatticeAndCurve) {
   EXPECT_GT(with.height, without.height);
   EXPECT_GT(without.colours.size(), 50U);
   EXPECT_GT(with.colours.size(), without.colours.size() + 200);
+}
+
+TEST(Picture, TheStagesAloneHaveNoCurve) {
+  const std::vector<MeshFrame> stages = {synthetic_stage(20, 6, 0.0), synthetic_stage(20, 6, 0.4)};
+  const Pixels whole = read_png(render_job_picture(PictureFormat::png, make_history(), stages));
+  const Pixels alone = read_png(render_stages_picture(PictureFormat::png, stages));
+  EXPECT_EQ(alone.width, whole.width);
+  EXPECT_LT(alone.height, whole.height - 300 * kPixelsPerUnit);
+  EXPECT_GT(alone.colours.size(), 50U);
+}
+
+TEST(NodeChart, ShowsHowTheWatchedNodesOfAFrameMoved) {
+  JobHistory history;
+  history.job.mutable_case_()->mutable_lattice()->mutable_frame()->set_end_time_s(0.02);
+  for (int i = 0; i <= 20; ++i) {
+    v1::Sample& sample = history.samples.emplace_back();
+    sample.set_time_s(1e-3 * i);
+    sample.set_energy_kinetic_mj(i);
+    sample.add_watched()->set_node("tip");
+    sample.mutable_watched(0)->set_uy_mm(-0.1 * i);
+  }
+  const Chart moved = build_node_chart(history);
+  ASSERT_EQ(moved.curves.size(), 1U);
+  EXPECT_EQ(moved.curves[0].name, "y of tip");
+  EXPECT_NEAR(moved.curves[0].y.back(), -2.0, 1e-12);
+  EXPECT_NEAR(moved.x.high, 20.0, 1e-9);
+  EXPECT_LT(moved.y.low, -2.0);
+  EXPECT_FALSE(render_job_picture(PictureFormat::png, history, {}).empty());
+  for (v1::Sample& sample : history.samples) sample.clear_watched();
+  EXPECT_EQ(build_node_chart(history).y.label, "energy (mJ)");
 }
 
 TEST(Picture, AnSvgIsMarkupWithPaths) {

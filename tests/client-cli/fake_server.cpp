@@ -8,8 +8,6 @@
 #include <thread>
 #include <utility>
 
-#include "synthetic_crush.h"
-
 namespace cellcrush::client::testing {
 
 namespace {
@@ -79,8 +77,28 @@ class FakeServer::Jobs : public v1::Jobs::Service {
 
   grpc::Status ListJobs(grpc::ServerContext*, const v1::ListJobsRequest* request,
                         v1::ListJobsResponse* response) override {
+    const std::lock_guard lock(shared_.mutex);
+    shared_.asked.lists.push_back(*request);
     *response->add_jobs() = shared_.script.job;
     if (request->page_token().empty()) response->set_next_page_token("second");
+    return grpc::Status::OK;
+  }
+
+  grpc::Status CancelJob(grpc::ServerContext*, const v1::CancelJobRequest* request, v1::Job* response) override {
+    if (!shared_.script.changes_jobs) return {grpc::StatusCode::UNIMPLEMENTED, ""};
+    if (!knows(request->name())) return not_found(request->name());
+    const std::lock_guard lock(shared_.mutex);
+    shared_.asked.cancelled.push_back(request->name());
+    *response = shared_.script.job;
+    response->set_state(v1::CANCELLING);
+    return grpc::Status::OK;
+  }
+
+  grpc::Status DeleteJob(grpc::ServerContext*, const v1::DeleteJobRequest* request, v1::DeleteJobResponse*) override {
+    if (!shared_.script.changes_jobs) return {grpc::StatusCode::UNIMPLEMENTED, ""};
+    if (!knows(request->name())) return not_found(request->name());
+    const std::lock_guard lock(shared_.mutex);
+    shared_.asked.deleted.push_back(request->name());
     return grpc::Status::OK;
   }
 
@@ -178,11 +196,13 @@ FakeServer::FakeServer(Script script) : folder_(make_folder()), shared_(std::mak
   shared_->script = std::move(script);
   cases_ = std::make_unique<Cases>(*shared_);
   jobs_ = std::make_unique<Jobs>(*shared_);
+  sweeps_ = std::make_unique<FakeSweeps>(shared_->script.sweeps);
   grpc::ServerBuilder builder;
+  if (shared_->script.message_limit > 0) builder.SetMaxReceiveMessageSize(shared_->script.message_limit);
   builder.AddListeningPort(address(), grpc::InsecureServerCredentials());
   builder.RegisterService(cases_.get());
   builder.RegisterService(jobs_.get());
-  builder.RegisterService(&sweeps_);
+  builder.RegisterService(sweeps_.get());
   builder.RegisterService(&admin_);
   server_ = builder.BuildAndStart();
   if (server_ == nullptr) throw std::runtime_error("the server of the test does not start");
@@ -197,66 +217,9 @@ FakeServer::~FakeServer() {
 
 Asked FakeServer::asked() const {
   const std::lock_guard lock(shared_->mutex);
-  return shared_->asked;
-}
-
-v1::Job make_job(v1::JobState state) {
-  v1::Job job;
-  job.set_name("jobs/test");
-  job.set_state(state);
-  job.mutable_case_()->set_title("Type I of the tests");
-  job.mutable_case_()->mutable_loading()->set_speed_m_per_s(100.0);
-  job.mutable_case_()->mutable_loading()->set_end_strain(0.8);
-  job.mutable_case_()->mutable_lattice()->mutable_hexagon()->set_columns(74);
-  job.mutable_case_()->mutable_lattice()->mutable_hexagon()->set_rows(21);
-  if (state == v1::FAILED) {
-    job.set_cause(v1::SOLVER_DIVERGED);
-    job.set_cause_message("particle 12 left the scene at step 340");
-    job.set_remedy("lower numerics.time_step_s");
-  }
-  if (state == v1::SUCCEEDED) {
-    v1::Summary& summary = *job.mutable_summary();
-    summary.set_plateau_window_low(0.2);
-    summary.set_plateau_window_high(0.4);
-    summary.set_plateau_stress_impact_mpa(3.412);
-    summary.set_plateau_stress_support_mpa(0.4471);
-    summary.set_densification_strain(0.76);
-    summary.set_energy_error_relative(0.0123);
-    summary.set_deepest_penetration(0.121);
-    summary.set_step_count(20504);
-    summary.set_solver_seconds(45.3);
-    summary.mutable_theory()->set_shock_mpa(3.37);
-    summary.mutable_theory()->set_gibson_ashby_mpa(0.301);
-    summary.mutable_theory()->set_densification_strain(0.86);
-    job.mutable_start_time()->set_seconds(1000);
-    job.mutable_end_time()->set_seconds(1047);
-  }
-  return job;
-}
-
-std::vector<v1::JobEvent> make_events(int samples, v1::JobState state) {
-  std::vector<v1::JobEvent> events(1);
-  events.back().set_sequence(1);
-  *events.back().mutable_state() = make_job(v1::RUNNING);
-  const auto history = synthetic_samples(samples, 0.8);
-  for (int i = 0; i < samples; ++i) {
-    v1::JobEvent& sample = events.emplace_back();
-    sample.set_sequence(i + 2);
-    *sample.mutable_sample() = history[static_cast<std::size_t>(i)];
-    v1::JobEvent& progress = events.emplace_back();
-    progress.set_sequence(i + 2);
-    progress.mutable_progress()->set_fraction(static_cast<double>(i + 1) / samples);
-    progress.mutable_progress()->set_strain(sample.sample().strain());
-    progress.mutable_progress()->set_stress_impact_mpa(sample.sample().stress_impact_mpa());
-    progress.mutable_progress()->set_stress_support_mpa(sample.sample().stress_support_mpa());
-    progress.mutable_progress()->set_steps_per_second(431.0);
-    progress.mutable_progress()->set_seconds_left(0.05 * (samples - i - 1));
-    if (sample.sample().strain() > 0.2) progress.mutable_progress()->set_plateau_so_far_mpa(3.39);
-  }
-  v1::JobEvent& end = events.emplace_back();
-  end.set_sequence(samples + 2);
-  *end.mutable_state() = make_job(state);
-  return events;
+  Asked asked = shared_->asked;
+  asked.sweeps = sweeps_->asked();
+  return asked;
 }
 
 }  // namespace cellcrush::client::testing

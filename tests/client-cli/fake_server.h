@@ -12,8 +12,9 @@
 #include "cellcrush/v1/admin_service.grpc.pb.h"
 #include "cellcrush/v1/cases_service.grpc.pb.h"
 #include "cellcrush/v1/jobs_service.grpc.pb.h"
-#include "cellcrush/v1/sweeps_service.grpc.pb.h"
 #include "connection/frames.h"
+#include "fake_sweeps.h"
+#include "scripted_job.h"
 
 namespace cellcrush::client::testing {
 
@@ -31,6 +32,9 @@ struct Script {
   std::vector<MeshFrame> stages;  ///< ascending in strain; frames are sent in two parts
   std::string result;             ///< result.h5
   int cut_downloads = 0;          ///< so many downloads end half way
+  bool changes_jobs = false;      ///< whether CancelJob and DeleteJob are there
+  int message_limit = 0;          ///< bytes of a request it takes; 0 for gRPC's own limit
+  SweepScript sweeps;
 };
 
 /// What the server was asked.
@@ -39,6 +43,10 @@ struct Asked {
   std::vector<std::int64_t> after_sequences;
   std::vector<std::int64_t> offsets;
   v1::Case checked;
+  std::vector<v1::ListJobsRequest> lists;
+  std::vector<std::string> cancelled;
+  std::vector<std::string> deleted;
+  AskedOfSweeps sweeps;
 };
 
 /// A server of all services on a Unix socket in a temporary folder of its own, which goes with it. What the script has no
@@ -63,15 +71,9 @@ class FakeServer {
   std::unique_ptr<Shared> shared_;
   std::unique_ptr<Cases> cases_;
   std::unique_ptr<Jobs> jobs_;
-  v1::Sweeps::Service sweeps_;
+  std::unique_ptr<FakeSweeps> sweeps_;
   v1::Admin::Service admin_;
   std::unique_ptr<grpc::Server> server_;
 };
-
-/// A job of the preset's kind with a title and a speed.
-v1::Job make_job(v1::JobState state);
-
-/// Events of a run to its end in `state`: RUNNING, `samples` samples with progress between them, the end.
-std::vector<v1::JobEvent> make_events(int samples, v1::JobState state);
 
 }  // namespace cellcrush::client::testing

@@ -100,6 +100,29 @@ TEST(Fetch, AJobWithoutAResultIsRefused) {
   EXPECT_NE(result.errors.find("the job has no result yet"), std::string::npos);
 }
 
+TEST(Fetch, WritesTheWatchedNodesOfSamplesThatHaveAny) {
+  Script script = finished_script();
+  script.samples.resize(2);
+  for (v1::Sample& sample : script.samples) {
+    for (const char* id : {"tip", "a,b"}) {
+      v1::WatchedNode& node = *sample.add_watched();
+      node.set_node(id);
+      node.set_ux_mm(0.1);
+      node.set_uy_mm(-0.25);
+      node.set_rotation_rad(1e-3);
+    }
+  }
+  script.samples[0].set_time_s(0.001);
+  script.samples[1].set_time_s(0.002);
+  const FakeServer server(script);
+  const fs::path folder = server.folder() / "run";
+  ASSERT_EQ(run_program({"fetch", "test", "-o", folder, "--server", server.address()}).exit_code, 0);
+  EXPECT_EQ(read_file(folder / "nodes.csv"),
+            "time_s,node,ux_mm,uy_mm,rotation_rad\n"
+            "0.001,tip,0.1,-0.25,0.001\n0.001,\"a,b\",0.1,-0.25,0.001\n"
+            "0.002,tip,0.1,-0.25,0.001\n0.002,\"a,b\",0.1,-0.25,0.001\n");
+}
+
 TEST(Plot, AJobsPngHasTheRightSizeAndIsNotBlank) {
   const FakeServer server(finished_script());
   const std::string file = (server.folder() / "a.png").string();
@@ -133,6 +156,45 @@ TEST(Plot, OneFrameCanBeChosenAndSvgWritten) {
   EXPECT_EQ(run_program({"plot", "test", "-o", three, "--server", server.address()}).exit_code, 0);
   EXPECT_NE(read_file(one).find("</svg>"), std::string::npos);
   EXPECT_GT(read_file(three).size(), read_file(one).size());
+}
+
+TEST(Plot, AStripShowsFramesEvenlySpacedOverTheRunWithOrWithoutTheCurve) {
+  Script script = finished_script();
+  for (std::size_t i = 0; i < script.stages.size(); ++i) script.stages[i].frame.set_index(static_cast<int>(i));
+  const FakeServer server(script);
+  const std::string file = (server.folder() / "strip.svg").string();
+  ASSERT_EQ(run_program({"plot", "test", "--strip", "3", "-o", file, "--server", server.address()}).exit_code, 0);
+  const std::string whole = read_file(file);
+  const ProgramResult frames =
+      run_program({"plot", "test", "--strip", "3", "--frames-only", "-o", file, "--server", server.address()});
+  ASSERT_EQ(frames.exit_code, 0) << frames.errors;
+  EXPECT_LT(read_file(file).size(), whole.size());
+  ASSERT_EQ(run_program({"plot", "test", "--strip", "2", "--frames-only", "-o", file, "--server", server.address()})
+                .exit_code,
+            0);
+  const std::string two = read_file(file);
+  ASSERT_EQ(run_program({"plot", "test", "--strip", "50", "--frames-only", "-o", file, "--server", server.address()})
+                .exit_code,
+            0);
+  EXPECT_GT(2 * read_file(file).size(), 3 * two.size());
+  EXPECT_LT(read_file(file).size(), 3 * two.size()) << "a frame is shown once, however many are asked for";
+}
+
+TEST(Plot, OptionsThatDoNotGoTogetherAreRefused) {
+  const FakeServer server(finished_script());
+  const std::string file = (server.folder() / "a.png").string();
+  for (const std::vector<std::string>& words :
+       std::vector<std::vector<std::string>>{{"test", "test", "--strip", "3"},
+                                             {"test", "--strip", "3", "--frame-strain", "0.2"},
+                                             {"test", "--strip", "0"},
+                                             {"sweeps/1", "test"},
+                                             {"sweeps/1", "--frames-only"}}) {
+    std::vector<std::string> arguments = {"plot"};
+    arguments.insert(arguments.end(), words.begin(), words.end());
+    arguments.insert(arguments.end(), {"-o", file, "--server", server.address()});
+    EXPECT_EQ(run_program(arguments).exit_code, 2) << words[0] << words[1];
+  }
+  EXPECT_FALSE(fs::exists(file));
 }
 
 TEST(Plot, SeveralJobsShareOneChart) {

@@ -114,6 +114,51 @@ TEST(List, WalksOverAllPages) {
   EXPECT_EQ(jobs.jobs_size(), 2);
 }
 
+TEST(List, PassesFilterAndOrderAndStopsAtTheLimit) {
+  const FakeServer server(preset_script());
+  const ProgramResult result = run_program(
+      {"list", "--filter", "state = RUNNING", "--order", "create_time", "--limit", "1", "--server", server.address()});
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_EQ(std::count(result.output.begin(), result.output.end(), '\n'), 2) << result.output;
+  const auto lists = server.asked().lists;
+  ASSERT_EQ(lists.size(), 1U);
+  EXPECT_EQ(lists[0].filter(), "state = RUNNING");
+  EXPECT_EQ(lists[0].order_by(), "create_time");
+  EXPECT_EQ(lists[0].page_size(), 1);
+  EXPECT_EQ(run_program({"list", "--limit", "0", "--server", server.address()}).exit_code, 2);
+}
+
+TEST(List, ShowsLabelsWhereThereAreAny) {
+  Script script = preset_script();
+  const FakeServer plain(script);
+  EXPECT_EQ(run_program({"list", "--server", plain.address()}).output.find("LABELS"), std::string::npos);
+  (*script.job.mutable_labels())["who"] = "me";
+  (*script.job.mutable_labels())["batch"] = "7";
+  const FakeServer labelled(script);
+  const ProgramResult result = run_program({"list", "--server", labelled.address()});
+  EXPECT_NE(result.output.find("LABELS"), std::string::npos);
+  EXPECT_NE(result.output.find("batch=7, who=me"), std::string::npos) << result.output;
+}
+
+TEST(CancelAndDelete, NameTheJobAndSayHowItStands) {
+  Script script = preset_script();
+  script.changes_jobs = true;
+  const FakeServer server(script);
+  const ProgramResult cancel = run_program({"cancel", "test", "--server", server.address()});
+  EXPECT_EQ(cancel.exit_code, 0) << cancel.errors;
+  EXPECT_EQ(cancel.output, "jobs/test CANCELLING\n");
+  const ProgramResult deleted = run_program({"delete", "jobs/test", "--server", server.address()});
+  EXPECT_EQ(deleted.exit_code, 0) << deleted.errors;
+  EXPECT_EQ(deleted.output, "jobs/test deleted\n");
+  EXPECT_EQ(server.asked().cancelled, std::vector<std::string>{"jobs/test"});
+  EXPECT_EQ(server.asked().deleted, std::vector<std::string>{"jobs/test"});
+  EXPECT_EQ(run_program({"cancel", "none", "--server", server.address()}).exit_code, 5);
+  EXPECT_EQ(run_program({"delete", "none", "--server", server.address()}).exit_code, 5);
+  const ProgramResult sweep = run_program({"delete", "sweeps/1", "--server", server.address()});
+  EXPECT_EQ(sweep.exit_code, 2);
+  EXPECT_NE(sweep.errors.find("a sweep cannot be deleted as a whole"), std::string::npos) << sweep.errors;
+}
+
 TEST(Show, DescribesAJob) {
   const FakeServer server(preset_script());
   const ProgramResult result = run_program({"show", "jobs/test", "--server", server.address()});

@@ -108,6 +108,47 @@ TEST(Refusal, WhatTheServerDoesNotDoEndsWithTwo) {
   }
 }
 
+// A frame of so many nodes, each of which takes about 40 bytes in a message.
+void write_long_case(const std::string& file, int nodes) {
+  std::ofstream stream(file);
+  stream << "lattice { frame {\n";
+  for (int i = 0; i < nodes; ++i) stream << "nodes { id: \"node-number-" << i << "\" x_mm: 0.1 y_mm: 0.2 }\n";
+  stream << "} }\n";
+}
+
+TEST(Refusal, ARequestOverTheLimitOfAMessageIsNotSent) {
+  const FakeServer server(refusing_script());
+  const std::string file = (server.folder() / "long.txtpb").string();
+  write_long_case(file, 120000);
+  for (const char* command : {"submit", "check"}) {
+    const ProgramResult result = run_program({command, file, "--server", server.address()});
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_NE(result.errors.find("the limit of a message is 4 MiB (4194304 bytes)"), std::string::npos)
+        << result.errors;
+    EXPECT_NE(result.errors.find("the request takes "), std::string::npos);
+  }
+  EXPECT_TRUE(server.asked().creates.empty());
+}
+
+TEST(Refusal, AServersOwnLimitOfAMessageEndsWithTwo) {
+  Script script = refusing_script();
+  script.message_limit = 100000;
+  const FakeServer server(script);
+  const std::string file = (server.folder() / "long.txtpb").string();
+  write_long_case(file, 5000);
+  const ProgramResult result = run_program({"submit", file, "--server", server.address()});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.errors.find("the message is over the size limit"), std::string::npos) << result.errors;
+  EXPECT_NE(result.errors.find("100000"), std::string::npos) << result.errors;
+}
+
+TEST(Refusal, AnEndlessCaseFileIsNotReadToItsEnd) {
+  const FakeServer server(refusing_script());
+  const ProgramResult result = run_program({"check", "/dev/zero", "--server", server.address()});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.errors.find("the limit of a case is 4 MiB"), std::string::npos) << result.errors;
+}
+
 TEST(Refusal, UnknownNamesEndWithFive) {
   const FakeServer server(refusing_script());
   for (const std::vector<std::string>& words :

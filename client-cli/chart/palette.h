@@ -1,0 +1,20 @@
+#pragma once
+
+#include <array>
+
+#include "chart/canvas.h"
+
+namespace cellcrush::client {
+
+inline constexpr Colour kImpactColour{0.76, 0.20, 0.16};
+inline constexpr Colour kSupportColour{0.10, 0.38, 0.66};
+
+/// The colours of Okabe and Ito that stand out on white, told apart by colour-blind readers too.
+inline constexpr std::array<Colour, 6> kSeriesColours = {{{0.00, 0.45, 0.70},
+                                                          {0.84, 0.37, 0.00},
+                                                          {0.00, 0.62, 0.45},
+                                                          {0.80, 0.47, 0.65},
+                                                          {0.90, 0.62, 0.00},
+                                                          {0.34, 0.71, 0.91}}};
+
+}  // namespace cellcrush::client

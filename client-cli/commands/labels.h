@@ -1,0 +1,19 @@
+#pragma once
+
+#include <google/protobuf/map.h>
+
+#include <CLI/App.hpp>
+#include <string>
+#include <vector>
+
+namespace cellcrush::client {
+
+using Labels = google::protobuf::Map<std::string, std::string>;
+
+/// Adds --label, which may be repeated, to a command.
+void add_label_option(CLI::App& command, std::vector<std::string>& labels);
+
+/// Texts "KEY=VALUE" as labels. Throws CommandError (refused) for what has another form.
+Labels parse_labels(const std::vector<std::string>& texts);
+
+}  // namespace cellcrush::client

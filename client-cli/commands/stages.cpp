@@ -1,0 +1,71 @@
+#include "commands/stages.h"
+
+#include <utility>
+
+#include "chart/lattice_drawing.h"
+
+namespace cellcrush::client {
+
+namespace {
+
+MeshFrame fetch_frame_at(Connection& connection, const std::string& name, double strain) {
+  v1::GetFrameRequest request;
+  request.set_name(name);
+  request.set_strain(strain);
+  return fetch_frame(connection, request);
+}
+
+MeshFrame fetch_last_frame(Connection& connection, const std::string& name) {
+  v1::GetFrameRequest request;
+  request.set_name(name);
+  request.set_index(-1);
+  return fetch_frame(connection, request);
+}
+
+// The frame nearest to a share of the run: by strain, or by time where nothing is crushed.
+MeshFrame fetch_frame_of_share(Connection& connection, const std::string& name, const MeshFrame& last, double share) {
+  if (has_plates(last.mesh)) return fetch_frame_at(connection, name, share * last.frame.strain());
+  v1::GetFrameRequest request;
+  request.set_name(name);
+  request.set_time_s(share * last.frame.time_s());
+  return fetch_frame(connection, request);
+}
+
+}  // namespace
+
+std::vector<MeshFrame> fetch_strip(Connection& connection, const std::string& name, int count) {
+  const MeshFrame last = fetch_last_frame(connection, name);
+  std::vector<MeshFrame> stages;
+  for (int i = 0; i + 1 < count; ++i) {
+    MeshFrame stage = fetch_frame_of_share(connection, name, last, static_cast<double>(i) / (count - 1));
+    const bool known = !stages.empty() && stages.back().frame.index() == stage.frame.index();
+    if (!known && stage.frame.index() != last.frame.index()) stages.push_back(std::move(stage));
+  }
+  stages.push_back(last);
+  return stages;
+}
+
+std::vector<MeshFrame> fetch_default_stages(Connection& connection, const std::string& name) {
+  constexpr double kApart = 0.05;
+  const MeshFrame last = fetch_last_frame(connection, name);
+  const double end = has_plates(last.mesh) ? last.frame.strain() : 0.6;
+  std::vector<MeshFrame> stages;
+  for (const double strain : {0.2, 0.4}) {
+    if (strain >= end - kApart) continue;
+    MeshFrame stage = fetch_frame_of_share(connection, name, last, strain / end);
+    // While a job runs the server may have fewer frames at hand.
+    if (stage.frame.index() != last.frame.index()) stages.push_back(std::move(stage));
+  }
+  stages.push_back(last);
+  return stages;
+}
+
+std::vector<MeshFrame> fetch_stages_at(Connection& connection, const std::string& name,
+                                       const std::vector<double>& strains) {
+  std::vector<MeshFrame> stages;
+  stages.reserve(strains.size());
+  for (const double strain : strains) stages.push_back(fetch_frame_at(connection, name, strain));
+  return stages;
+}
+
+}  // namespace cellcrush::client

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+namespace cellcrush::client {
+
+/// y = constant + linear x + quadratic x^2.
+struct QuadraticFit {
+  double constant = 0.0;
+  double linear = 0.0;
+  double quadratic = 0.0;
+  double largest_residual = 0.0;  ///< greatest |y - fit| over the points
+
+  [[nodiscard]] double at(double x) const { return constant + x * (linear + x * quadratic); }
+};
+
+/// The least-squares fit through points; x and y have equal length. Nothing when there are fewer than three different
+/// finite x, so that the fit is not unique.
+std::optional<QuadraticFit> find_quadratic_fit(const std::vector<double>& x, const std::vector<double>& y);
+
+}  // namespace cellcrush::client

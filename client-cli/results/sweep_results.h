@@ -1,0 +1,51 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cellcrush/v1/sweep.pb.h"
+#include "results/quadratic_fit.h"
+
+namespace cellcrush::client {
+
+/// A figure of a job's result, as a column of a sweep's table.
+struct ResultColumn {
+  const char* group;                                           ///< first line of the heading, such as "plateau"
+  const char* heading;                                         ///< second line, such as "impact"
+  const char* unit;                                            ///< third line
+  const char* field;                                           ///< name with its unit, for CSV
+  double scale;                                                ///< from the summary's unit to the heading's
+  std::optional<double> (*value)(const v1::Summary& summary);  ///< in the summary's unit
+};
+
+/// The columns of a sweep's table, in their order.
+const std::vector<ResultColumn>& result_columns();
+
+/// A value of a varied field as short as it reads back: "50", "0.35".
+std::string value_text(double value);
+
+/// The rows of a sweep that differ in the first varied field alone, those with a plateau at both plates only.
+struct ResultSeries {
+  std::string name;                           ///< the other fields' values, "wall thickness = 0.3 mm"; may be empty
+  std::vector<double> x;                      ///< the first field's values, ascending
+  std::vector<const v1::Summary*> summaries;  ///< of the jobs there; they live as long as the table
+};
+
+/// A sweep's succeeded jobs as series, in the order in which the table first names them.
+std::vector<ResultSeries> split_series(const v1::SweepTable& table);
+
+/// Whether the first varied field is the speed of the crush.
+bool varies_speed_first(const v1::SweepTable& table);
+
+/// The values of a figure over a series.
+std::vector<double> values_of(const ResultSeries& series, double (*value)(const v1::Summary& summary));
+
+/// The fit of the impact plate's plateau stress in MPa; nothing without three different x.
+std::optional<QuadraticFit> find_plateau_fit(const ResultSeries& series);
+
+/// Eq. 51 as a function of speed, from the theory of the series: constant + quadratic V^2. Nothing when no job carries it.
+/// REQUIRES: x are speeds in m/s.
+std::optional<QuadraticFit> find_shock_curve(const ResultSeries& series);
+
+}  // namespace cellcrush::client

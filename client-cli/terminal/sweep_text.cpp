@@ -1,0 +1,90 @@
+#include "terminal/sweep_text.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "terminal/case_text.h"
+#include "terminal/job_text.h"
+#include "terminal/table.h"
+
+namespace cellcrush::client {
+
+namespace {
+
+using Align = Table::Align;
+
+std::string counts_text(const v1::Sweep& sweep) {
+  const std::map<std::string, int> ordered(sweep.state_counts().begin(), sweep.state_counts().end());
+  std::vector<std::string> parts;
+  for (const auto& [state, count] : ordered) {
+    if (count > 0) parts.push_back(fmt::format("{} {}", count, state));
+  }
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+std::string values_text(const v1::SweepAxis& axis) {
+  const auto range = [](const v1::SweepAxis::Range& values, const char* spacing) {
+    return fmt::format("{} values from {} to {}, {}", values.count(), values.first(), values.last(), spacing);
+  };
+  switch (axis.values_case()) {
+    case v1::SweepAxis::kList: return fmt::format("{}", fmt::join(axis.list().values(), ", "));
+    case v1::SweepAxis::kLinear: return range(axis.linear(), "evenly spaced");
+    case v1::SweepAxis::kLogarithmic: return range(axis.logarithmic(), "evenly spaced in the logarithm");
+    case v1::SweepAxis::kSeedCount: return fmt::format("1 to {}", axis.seed_count());
+    default: return {};
+  }
+}
+
+std::string varied_text(const v1::Sweep& sweep) {
+  std::vector<std::string> fields;
+  for (const v1::SweepAxis& axis : sweep.axes()) fields.push_back(axis.field());
+  return fields.empty() && sweep.points_size() > 0 ? "a list of points" : fmt::format("{}", fmt::join(fields, ", "));
+}
+
+}  // namespace
+
+std::string sweep_line(const v1::Sweep& sweep) {
+  std::string text = fmt::format("{}: {} job{}", sweep.name(), sweep.jobs_size(), sweep.jobs_size() == 1 ? "" : "s");
+  if (const std::string counts = counts_text(sweep); !counts.empty()) text += ", " + counts;
+  return printable(text) + '\n';
+}
+
+std::string description_text(const v1::Sweep& sweep) {
+  Table table({Align::left, Align::left});
+  if (!sweep.case_().title().empty()) table.add({"title", sweep.case_().title()});
+  const std::string scene = scene_text(sweep.case_());
+  if (!scene.empty()) table.add({"case", scene});
+  for (const v1::SweepAxis& axis : sweep.axes()) table.add({"over " + axis.field(), values_text(axis)});
+  if (sweep.points_size() > 0) table.add({"points", std::to_string(sweep.points_size())});
+  if (sweep.max_parallel() > 0) table.add({"jobs at once", std::to_string(sweep.max_parallel())});
+  if (sweep.max_failures() > 0) table.add({"stops after failures", std::to_string(sweep.max_failures())});
+  if (!sweep.labels().empty()) table.add({"labels", labels_text(sweep.labels())});
+  if (sweep.has_create_time()) table.add({"created", time_text(sweep.create_time())});
+  if (sweep.jobs_size() > 0) table.add({"jobs", fmt::format("{}", fmt::join(sweep.jobs(), ", "))});
+  return sweep_line(sweep) + '\n' + table.text(2);
+}
+
+std::string sweep_list_text(const std::vector<v1::Sweep>& sweeps) {
+  if (sweeps.empty()) return "no sweeps\n";
+  const bool labels =
+      std::any_of(sweeps.begin(), sweeps.end(), [](const v1::Sweep& sweep) { return !sweep.labels().empty(); });
+  Table table({Align::left, Align::right, Align::left, Align::left, Align::left, Align::left, Align::left});
+  const auto add = [&](std::vector<std::string> cells, const std::string& labels_cell, const std::string& title) {
+    if (labels) cells.push_back(labels_cell);
+    cells.push_back(title);
+    table.add(std::move(cells));
+  };
+  add({"NAME", "JOBS", "STATES", "OVER", "CREATED"}, "LABELS", "TITLE");
+  for (const v1::Sweep& sweep : sweeps) {
+    add({sweep.name(), std::to_string(sweep.jobs_size()), counts_text(sweep), cut(varied_text(sweep), 60),
+         sweep.has_create_time() ? time_text(sweep.create_time()) : ""},
+        cut(labels_text(sweep.labels()), 40), cut(sweep.case_().title(), 60));
+  }
+  return table.text();
+}
+
+}  // namespace cellcrush::client

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cellcrush/v1/sweep.pb.h"
+
+namespace cellcrush::client {
+
+/// A sweep in a line: "sweeps/3: 5 jobs, 1 RUNNING, 4 SUCCEEDED".
+std::string sweep_line(const v1::Sweep& sweep);
+
+/// All that is known of a sweep, for a reader: what is varied, how its jobs stand, and their names.
+std::string description_text(const v1::Sweep& sweep);
+
+/// A line a sweep, with a heading; a column of labels when any sweep has one.
+std::string sweep_list_text(const std::vector<v1::Sweep>& sweeps);
+
+}  // namespace cellcrush::client

@@ -1,0 +1,53 @@
+#include "chart/stage_panels.h"
+
+#include <gtest/gtest.h>
+
+#include "synthetic_crush.h"
+
+namespace cellcrush::client {
+namespace {
+
+using testing::synthetic_stage;
+
+std::vector<MeshFrame> stages_of(int columns, int rows, bool along_y, int count) {
+  std::vector<MeshFrame> stages;
+  for (int i = 0; i < count; ++i) stages.push_back(synthetic_stage(columns, rows, 0.8 * i / count, along_y));
+  return stages;
+}
+
+int columns_of(const StagePanels& panels) {
+  int columns = 0;
+  for (const Rectangle& place : panels.places) columns += place.y == panels.places.front().y ? 1 : 0;
+  return columns;
+}
+
+TEST(StagePanels, AWideLatticeIsStackedAndASquareOneStandsSideBySide) {
+  EXPECT_EQ(columns_of(lay_stages(stages_of(74, 21, false, 3), 0, 0, 948)), 1);
+  EXPECT_EQ(columns_of(lay_stages(stages_of(14, 21, true, 3), 0, 0, 948)), 3);
+  EXPECT_EQ(columns_of(lay_stages(stages_of(18, 21, true, 3), 0, 0, 948)), 3);
+}
+
+TEST(StagePanels, StayInsideTheWidthAndDoNotOverlap) {
+  for (const int count : {1, 2, 5, 6, 13, 40}) {
+    for (const bool tall : {false, true}) {
+      const auto panels = lay_stages(stages_of(tall ? 6 : 20, tall ? 9 : 5, tall, count), 10, 20, 500);
+      ASSERT_EQ(static_cast<int>(panels.places.size()), count);
+      for (std::size_t i = 0; i < panels.places.size(); ++i) {
+        const Rectangle& place = panels.places[i];
+        EXPECT_GT(place.width, 1.0);
+        EXPECT_GT(place.height, 1.0);
+        EXPECT_GE(place.x, 10.0);
+        EXPECT_GE(place.y, 20.0);
+        EXPECT_LE(place.x + place.width, 510.0 + 1e-9);
+        EXPECT_LE(place.y + place.height, panels.bottom);
+        for (std::size_t j = 0; j < i; ++j) {
+          const Rectangle& other = panels.places[j];
+          EXPECT_TRUE(other.x + other.width <= place.x + 1e-9 || other.y + other.height <= place.y + 1e-9);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace cellcrush::client

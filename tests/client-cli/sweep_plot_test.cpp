@@ -1,0 +1,49 @@
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "fake_server.h"
+#include "program.h"
+
+namespace cellcrush::client::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string read_file(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST(SweepPlot, IsDrawnAsPngAndSvg) {
+  Script script;
+  script.job = make_job(v1::SUCCEEDED);
+  script.sweeps = make_sweep_script({v1::SUCCEEDED, v1::SUCCEEDED, v1::SUCCEEDED, v1::FAILED});
+  const FakeServer server(script);
+  for (const char* name : {"a.png", "a.svg"}) {
+    const std::string file = (server.folder() / name).string();
+    const ProgramResult result = run_program({"plot", "sweeps/test", "-o", file, "--server", server.address()});
+    ASSERT_EQ(result.exit_code, 0) << result.errors;
+    EXPECT_EQ(result.output, file + "\n");
+    EXPECT_GT(read_file(file).size(), 5000U);
+  }
+  EXPECT_EQ(read_file(server.folder() / "a.png").substr(0, 8), "\x89PNG\r\n\x1a\n");
+  EXPECT_NE(read_file(server.folder() / "a.svg").find("</svg>"), std::string::npos);
+}
+
+TEST(SweepPlot, WithoutAPlateauIsRefusedAndAnUnknownSweepNotFound) {
+  Script script;
+  script.job = make_job(v1::SUCCEEDED);
+  script.sweeps = make_sweep_script({v1::CANCELLED, v1::FAILED});
+  const FakeServer server(script);
+  const std::string file = (server.folder() / "a.png").string();
+  const ProgramResult refused = run_program({"plot", "sweeps/test", "-o", file, "--server", server.address()});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.errors.find("nothing to draw"), std::string::npos) << refused.errors;
+  EXPECT_EQ(run_program({"plot", "sweeps/none", "-o", file, "--server", server.address()}).exit_code, 5);
+  EXPECT_FALSE(fs::exists(file));
+}
+
+}  // namespace
+}  // namespace cellcrush::client::testing

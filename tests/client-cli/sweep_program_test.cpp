@@ -1,0 +1,205 @@
+#include <google/protobuf/util/json_util.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <sstream>
+
+#include "fake_server.h"
+#include "program.h"
+#include "terminal/table.h"
+
+namespace cellcrush::client::testing {
+namespace {
+
+using google::protobuf::util::JsonStringToMessage;
+
+Script sweep_script(const std::vector<v1::JobState>& ends) {
+  Script script;
+  script.job = make_job(v1::SUCCEEDED);
+  script.preset.set_name("type-i");
+  *script.preset.mutable_case_() = make_job(v1::RUNNING).case_();
+  script.sweeps = make_sweep_script(ends);
+  return script;
+}
+
+const std::vector<v1::JobState> kThreeSucceed = {v1::SUCCEEDED, v1::SUCCEEDED, v1::SUCCEEDED};
+
+ProgramResult run_on(const FakeServer& server, std::vector<std::string> arguments) {
+  arguments.insert(arguments.end(), {"--server", server.address()});
+  return run_program(arguments);
+}
+
+int count_of(const std::string& text, const std::string& part) {
+  int count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
+TEST(Sweep, SendsTheCaseWithAGridOfAxesAndLabelsAndPrintsItsName) {
+  const FakeServer server(sweep_script(kThreeSucceed));
+  const ProgramResult result =
+      run_on(server, {"sweep", "preset:type-i", "--set", "depth_mm=5", "--over", "loading.speed_m_per_s=50,100,2e2",
+                      "--over", "lattice.hexagon.columns=20,40", "--label", "who=me", "--request-id", "abc"});
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_EQ(result.output, "sweeps/test\n");
+  const auto creates = server.asked().sweeps.creates;
+  ASSERT_EQ(creates.size(), 1U);
+  const v1::Sweep& sweep = creates[0].sweep();
+  EXPECT_EQ(creates[0].request_id(), "abc");
+  EXPECT_EQ(sweep.case_().depth_mm(), 5.0);
+  EXPECT_EQ(sweep.labels().at("who"), "me");
+  ASSERT_EQ(sweep.axes_size(), 2);
+  EXPECT_EQ(sweep.axes(0).field(), "loading.speed_m_per_s");
+  ASSERT_EQ(sweep.axes(0).list().values_size(), 3);
+  EXPECT_EQ(sweep.axes(0).list().values(2), 200.0);
+  EXPECT_EQ(sweep.axes(1).list().values(1), 40.0);
+}
+
+TEST(Sweep, BadAxesAreRefused) {
+  const FakeServer server(sweep_script(kThreeSucceed));
+  for (const char* axis : {"loading.speed_m_per_s", "=1,2", "a=1,,2", "a=1,x", "a="}) {
+    const ProgramResult result = run_on(server, {"sweep", "preset:type-i", "--over", axis});
+    EXPECT_EQ(result.exit_code, 2) << axis;
+    EXPECT_NE(result.errors.find(std::string("--over ") + axis), std::string::npos) << result.errors;
+  }
+  EXPECT_EQ(run_on(server, {"sweep", "preset:type-i", "--over", "a=1", "--over", "a=2"}).exit_code, 2);
+  EXPECT_EQ(run_on(server, {"sweep", "preset:type-i", "--over", "a=1", "--label", "x"}).exit_code, 2);
+  EXPECT_EQ(run_on(server, {"sweep", "preset:type-i"}).exit_code, 2);
+  EXPECT_TRUE(server.asked().sweeps.creates.empty());
+}
+
+TEST(SweepWatch, EndsWithTheTableAndZeroWhenAllSucceeded) {
+  const FakeServer server(sweep_script(kThreeSucceed));
+  const ProgramResult result =
+      run_on(server, {"sweep", "preset:type-i", "--over", "loading.speed_m_per_s=50,100,150", "--watch"});
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_EQ(result.output.find("sweeps/test\n"), 0U);
+  for (const char* part :
+       {"3 of 3 jobs ended", "loading.speed_m_per_s  job", "jobs/test-3  SUCCEEDED", "least-squares fit: 0.3"}) {
+    EXPECT_NE(result.output.find(part), std::string::npos) << part << "\n" << result.output;
+  }
+  EXPECT_LE(count_of(result.output, "jobs ended"), 4) << "at most a line a second\n" << result.output;
+  EXPECT_EQ(result.output.find('\x1b'), std::string::npos);
+}
+
+TEST(SweepWatch, EndsWithOneWhenAJobFailedOrWasCancelled) {
+  for (const v1::JobState state : {v1::FAILED, v1::CANCELLED}) {
+    const FakeServer server(sweep_script({v1::SUCCEEDED, state}));
+    const ProgramResult result = run_on(server, {"watch", "sweeps/test"});
+    EXPECT_EQ(result.exit_code, 1) << result.output;
+    EXPECT_NE(result.output.find("1 " + v1::JobState_Name(state)), std::string::npos) << result.output;
+  }
+}
+
+TEST(SweepWatch, ACutStreamIsPickedUpByItsTokenWithoutLoss) {
+  Script script = sweep_script(kThreeSucceed);
+  script.sweeps.cut_streams = 2;
+  script.sweeps.responses_before_cut = 7;
+  const FakeServer server(script);
+  const ProgramResult result = run_on(server, {"watch", "sweeps/test", "--json"});
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_EQ(server.asked().sweeps.tokens, (std::vector<std::string>{"", "7", "14"}));
+  EXPECT_EQ(count_of(result.output, "\"sample\":{"), 12);
+  std::istringstream lines(result.output);
+  for (std::string line; std::getline(lines, line);) {
+    EXPECT_EQ(line.front(), '{');
+    EXPECT_EQ(line.back(), '}');
+  }
+}
+
+TEST(SweepWatch, AStreamThatStaysCutEndsWithFour) {
+  Script script = sweep_script(kThreeSucceed);
+  script.sweeps.cut_streams = 1000;
+  script.sweeps.responses_before_cut = 0;
+  const FakeServer server(script);
+  const ProgramResult result = run_on(server, {"watch", "sweeps/test"});
+  EXPECT_EQ(result.exit_code, 4);
+  EXPECT_GE(server.asked().sweeps.tokens.size(), 3U);
+  EXPECT_LT(result.seconds, 15.0);
+  EXPECT_NE(result.errors.find("`cellcrush watch sweeps/test` picks it up"), std::string::npos) << result.errors;
+}
+
+TEST(SweepWatch, AStreamThatEndsBeforeItsJobsIsNotTakenForTheEnd) {
+  Script script = sweep_script(kThreeSucceed);
+  script.sweeps.responses.resize(script.sweeps.responses.size() - 1);
+  const FakeServer server(script);
+  EXPECT_EQ(run_on(server, {"watch", "sweeps/test"}).exit_code, 4);
+}
+
+TEST(SweepWatch, CtrlCLeavesTheSweepRunningAndSaysSo) {
+  Script script = sweep_script(kThreeSucceed);
+  script.sweeps.responses.resize(4);
+  script.sweeps.hold = true;
+  const FakeServer server(script);
+  Program program({"watch", "sweeps/test", "--server", server.address()});
+  ASSERT_TRUE(program.wait_for_output("0 of 3 jobs ended"));
+  program.interrupt();
+  const ProgramResult result = program.wait();
+  EXPECT_EQ(result.exit_code, 130);
+  EXPECT_NE(result.errors.find("sweeps/test goes on"), std::string::npos) << result.errors;
+}
+
+TEST(SweepWatch, OnATerminalThereIsALineAJobRedrawnInPlaceWithinItsWidth) {
+  const FakeServer server(sweep_script(kThreeSucceed));
+  for (const int columns : {40, 100}) {
+    const ProgramResult result = Program({"watch", "sweeps/test", "--server", server.address()}, columns).wait();
+    EXPECT_EQ(result.exit_code, 0) << result.output;
+    EXPECT_NE(result.output.find("\x1b[4A"), std::string::npos) << result.output;
+    // Behind the last redraw stands the table, which is as wide as it is.
+    std::istringstream lines(result.output.substr(0, result.output.rfind("\x1b[J")));
+    for (std::string line; std::getline(lines, line);) {
+      // Escape sequences take no room: ESC [ ... letter.
+      std::string shown;
+      for (std::size_t i = 0; i < line.size(); ++i) {
+        if (line[i] == '\x1b') {
+          while (i < line.size() && std::isalpha(static_cast<unsigned char>(line[i])) == 0) ++i;
+        } else if (line[i] != '\r') {
+          shown += line[i];
+        }
+      }
+      EXPECT_LT(display_width(shown), columns) << shown;
+    }
+  }
+}
+
+TEST(SweepTable, IsPrintedAsATextCsvOrJson) {
+  const FakeServer server(sweep_script({v1::SUCCEEDED, v1::FAILED}));
+  const ProgramResult text = run_on(server, {"table", "test"});
+  EXPECT_EQ(text.exit_code, 0) << text.errors;
+  EXPECT_NE(text.output.find("jobs/test-2 FAILED (SOLVER_DIVERGED)"), std::string::npos) << text.output;
+  const ProgramResult csv = run_on(server, {"table", "sweeps/test", "--csv"});
+  EXPECT_EQ(csv.output.find("loading.speed_m_per_s,job,state,"), 0U) << csv.output;
+  EXPECT_EQ(std::count(csv.output.begin(), csv.output.end(), '\n'), 3);
+  v1::SweepTable table;
+  ASSERT_TRUE(JsonStringToMessage(run_on(server, {"table", "test", "--json"}).output, &table).ok());
+  EXPECT_EQ(table.rows_size(), 2);
+  EXPECT_EQ(run_on(server, {"table", "test", "--json", "--csv"}).exit_code, 2);
+  EXPECT_EQ(run_on(server, {"table", "none"}).exit_code, 5);
+  EXPECT_EQ(run_on(server, {"table", "jobs/test"}).exit_code, 2);
+}
+
+TEST(SweepLife, CancelRetryShowAndListNameTheSweep) {
+  const FakeServer server(sweep_script({v1::SUCCEEDED, v1::FAILED}));
+  const ProgramResult cancel = run_on(server, {"cancel", "sweeps/test"});
+  EXPECT_EQ(cancel.exit_code, 0) << cancel.errors;
+  EXPECT_EQ(cancel.output, "sweeps/test: 2 jobs, 1 FAILED, 1 SUCCEEDED\n");
+  EXPECT_EQ(run_on(server, {"retry", "test"}).exit_code, 0);
+  const ProgramResult show = run_on(server, {"show", "sweeps/test"});
+  EXPECT_NE(show.output.find("over loading.speed_m_per_s  50, 100\n"), std::string::npos) << show.output;
+  EXPECT_NE(show.output.find("jobs/test-1, jobs/test-2\n"), std::string::npos) << show.output;
+  const ProgramResult list = run_on(server, {"list", "--sweeps"});
+  EXPECT_EQ(count_of(list.output, "sweeps/test"), 2) << list.output;
+  EXPECT_EQ(count_of(run_on(server, {"list", "--sweeps", "--limit", "1"}).output, "sweeps/test"), 1);
+  EXPECT_EQ(run_on(server, {"list", "--sweeps", "--filter", "x = 1"}).exit_code, 2);
+  const AskedOfSweeps asked = server.asked().sweeps;
+  EXPECT_EQ(asked.cancelled, std::vector<std::string>{"sweeps/test"});
+  EXPECT_EQ(asked.retried, std::vector<std::string>{"sweeps/test"});
+  for (const char* command : {"show", "cancel", "watch"}) {
+    EXPECT_EQ(run_on(server, {command, "sweeps/none"}).exit_code, 5) << command;
+  }
+  EXPECT_EQ(run_on(server, {"suspend", "sweeps/test"}).exit_code, 2);
+}
+
+}  // namespace
+}  // namespace cellcrush::client::testing

@@ -1,0 +1,210 @@
+#include "terminal/sweep_text.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "chart/sweep_curves.h"
+#include "command_error.h"
+#include "terminal/sweep_progress.h"
+#include "terminal/sweep_table.h"
+#include "terminal/table.h"
+
+namespace cellcrush::client {
+namespace {
+
+v1::Job make_job(int number, v1::JobState state, double speed) {
+  v1::Job job;
+  job.set_name("jobs/" + std::to_string(number));
+  job.set_state(state);
+  job.mutable_case_()->mutable_loading()->set_speed_m_per_s(speed);
+  if (state == v1::RUNNING || state == v1::SUCCEEDED) {
+    job.mutable_progress()->set_fraction(0.473);
+    job.mutable_progress()->set_strain(0.31);
+    job.mutable_progress()->set_plateau_so_far_mpa(3.39);
+  }
+  return job;
+}
+
+v1::SweepTable make_table(int succeeded) {
+  v1::SweepTable table;
+  table.add_fields("loading.speed_m_per_s");
+  for (int i = 1; i <= 4; ++i) {
+    const double speed = 50.0 * i;
+    auto& row = *table.add_rows();
+    row.add_values(speed);
+    *row.mutable_result() = make_job(i, i <= succeeded ? v1::SUCCEEDED : v1::FAILED, speed);
+    row.set_job(row.result().name());
+    if (i > succeeded) {
+      row.mutable_result()->set_cause(v1::ENERGY_BALANCE);
+      row.mutable_result()->set_cause_message("the ledger opened");
+      continue;
+    }
+    v1::Summary& summary = *row.mutable_result()->mutable_summary();
+    summary.set_step_count(1000);
+    summary.set_plateau_window_low(0.2);
+    summary.set_plateau_window_high(0.4);
+    summary.set_plateau_stress_impact_mpa(0.25 + 1e-4 * speed + 3e-4 * speed * speed);
+    summary.set_plateau_stress_support_mpa(0.44);
+    summary.set_absorbed_energy_mj(12345.0);
+    summary.set_energy_error_relative(0.0121);
+    summary.mutable_theory()->set_gibson_ashby_mpa(0.301);
+    summary.mutable_theory()->set_shock_mpa(0.301 + 3.1e-4 * speed * speed);
+  }
+  return table;
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+TEST(SweepTable, IsAlignedAndFollowedByTheFit) {
+  const std::string text = sweep_table_text(make_table(4));
+  const auto lines = lines_of(text);
+  ASSERT_GE(lines.size(), 7U);
+  EXPECT_EQ(lines[1].find("loading.speed_m_per_s  job     state"), 0U) << text;
+  EXPECT_EQ(lines[3].find("                   50  jobs/1  SUCCEEDED"), 0U) << text;
+  // The cells of a column end where its heading does.
+  const std::size_t impact = lines[1].find("impact") + 6;
+  EXPECT_EQ(lines[3].substr(impact - 4, 4), "1.00") << text;
+  EXPECT_EQ(lines[6].substr(impact - 4, 4), "12.3") << text;
+  for (const char* part :
+       {"0.440", "12.3", "0.301", "1.21", "from 20 to 40 % strain", "least-squares fit: 0.25 + 0.0001 V + 0.0003 V^2",
+        "Eq. 51:            0.301 + 0.00031 V^2"}) {
+    EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
+  }
+}
+
+TEST(SweepTable, WithFewerThanThreeResultsThereIsNoFitAndFailuresSayWhy) {
+  const std::string text = sweep_table_text(make_table(2));
+  EXPECT_EQ(text.find("least-squares"), std::string::npos) << text;
+  EXPECT_NE(text.find("jobs/3 FAILED (ENERGY_BALANCE): the ledger opened"), std::string::npos) << text;
+  EXPECT_NE(sweep_table_text(make_table(3)).find("least-squares"), std::string::npos);
+  v1::SweepTable depth = make_table(4);
+  depth.set_fields(0, "depth_mm");
+  EXPECT_EQ(sweep_table_text(depth).find("least-squares"), std::string::npos);
+}
+
+TEST(SweepTable, AsCsvHasAllDigitsAndEmptyCells) {
+  const auto lines = lines_of(sweep_table_csv(make_table(1)));
+  ASSERT_EQ(lines.size(), 5U);
+  EXPECT_EQ(lines[0],
+            "loading.speed_m_per_s,job,state,plateau_stress_impact_mpa,plateau_stress_support_mpa,"
+            "plateau_stress_to_densification_mpa,densification_strain,absorbed_energy_mj,gibson_ashby_mpa,shock_mpa,"
+            "energy_error_relative");
+  EXPECT_EQ(lines[1].find("50,jobs/1,SUCCEEDED,1.005,0.44,,,12345,0.301,"), 0U) << lines[1];
+  EXPECT_EQ(lines[2], "100,jobs/2,FAILED,,,,,,,,");
+}
+
+SweepView make_view(int jobs) {
+  SweepView view;
+  v1::WatchSweepResponse snapshot;
+  snapshot.mutable_snapshot()->set_name("sweeps/3");
+  snapshot.mutable_snapshot()->add_axes()->set_field("loading.speed_m_per_s");
+  for (int i = 1; i <= jobs; ++i) snapshot.mutable_snapshot()->add_jobs("jobs/" + std::to_string(i));
+  view.apply(snapshot);
+  for (int i = 1; i < jobs; ++i) {
+    v1::WatchSweepResponse response;
+    response.set_job("jobs/" + std::to_string(i));
+    const v1::JobState state = i == 1 ? v1::SUCCEEDED : i == jobs - 1 ? v1::RUNNING : v1::PENDING;
+    *response.mutable_event()->mutable_state() = make_job(i, state, 50.0 * i);
+    view.apply(response);
+  }
+  return view;
+}
+
+TEST(SweepProgress, HasALineAJobWithValuesStateBarStrainAndPlateau) {
+  const Terminal terminal{true, false, true};
+  const auto lines = sweep_progress_lines(make_view(4), 100, 24, terminal);
+  ASSERT_EQ(lines.size(), 5U);
+  EXPECT_EQ(lines[0], "sweeps/3  1 of 4 jobs ended, 1 RUNNING, 2 PENDING");
+  for (const char* part : {"speed_m_per_s=150", "RUNNING", "█", "47.3 %", "strain 0.31", "plateau 3.39 MPa"}) {
+    EXPECT_NE(lines[3].find(part), std::string::npos) << part << " in " << lines[3];
+  }
+  EXPECT_NE(lines[1].find("100.0 %"), std::string::npos) << lines[1];
+  EXPECT_NE(lines[4].find("jobs/4"), std::string::npos) << lines[4];
+  EXPECT_NE(lines[4].find("PENDING"), std::string::npos) << lines[4];
+}
+
+TEST(SweepProgress, FitsItsTerminal) {
+  const Terminal terminal{true, false, true};
+  for (const int jobs : {1, 3, 40}) {
+    for (const int width : {20, 40, 79, 100, 200}) {
+      const auto lines = sweep_progress_lines(make_view(jobs), width, 10, terminal);
+      EXPECT_LE(lines.size(), 10U);
+      for (const std::string& line : lines) EXPECT_LE(display_width(line), width) << line;
+    }
+  }
+  const auto lines = sweep_progress_lines(make_view(40), 100, 10, terminal);
+  EXPECT_EQ(lines.back(), "... and 32 more jobs");
+  EXPECT_TRUE(std::any_of(lines.begin(), lines.end(), [](const auto& line) {
+    return line.find("RUNNING  ") != std::string::npos;
+  })) << "the running job is among those that are shown";
+}
+
+TEST(SweepProgress, InALogIsOneLine) {
+  const std::string line = sweep_progress_line(make_view(4));
+  EXPECT_EQ(line, "sweeps/3  1 of 4 jobs ended, 1 RUNNING, 2 PENDING  speed_m_per_s=150 47.3 % plateau 3.39 MPa");
+}
+
+TEST(SweepText, DescribesTheAxesAndTheJobs) {
+  v1::Sweep sweep;
+  sweep.set_name("sweeps/3");
+  v1::SweepAxis& list = *sweep.add_axes();
+  list.set_field("loading.speed_m_per_s");
+  for (const double speed : {50.0, 100.0}) list.mutable_list()->add_values(speed);
+  v1::SweepAxis& seeds = *sweep.add_axes();
+  seeds.set_field("lattice.imperfection.seed");
+  seeds.set_seed_count(8);
+  sweep.add_jobs("jobs/1");
+  sweep.add_jobs("jobs/2");
+  (*sweep.mutable_state_counts())["SUCCEEDED"] = 2;
+  (*sweep.mutable_labels())["who"] = "me";
+  const std::string text = description_text(sweep);
+  for (const char* part : {"sweeps/3: 2 jobs, 2 SUCCEEDED\n", "over loading.speed_m_per_s      50, 100\n",
+                           "over lattice.imperfection.seed  1 to 8\n", "jobs/1, jobs/2\n", "who=me\n"}) {
+    EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
+  }
+  EXPECT_NE(sweep_list_text({sweep}).find("LABELS"), std::string::npos);
+  EXPECT_EQ(sweep_list_text({}), "no sweeps\n");
+}
+
+TEST(SweepChart, HasPointsFitAndTheoryOverSpeed) {
+  const Chart chart = build_sweep_chart(make_table(4));
+  EXPECT_EQ(chart.x.label, "speed (m/s)");
+  EXPECT_EQ(chart.x.low, 0.0);
+  EXPECT_GT(chart.x.high, 200.0);
+  ASSERT_EQ(chart.curves.size(), 5U);
+  EXPECT_EQ(chart.curves[0].marker, Marker::disc);
+  EXPECT_EQ(chart.curves[0].x, (std::vector<double>{50, 100, 150, 200}));
+  EXPECT_EQ(chart.curves[1].marker, Marker::square);
+  EXPECT_EQ(chart.curves[2].name, "quadratic fit: 0.25 + 1.00·10⁻⁴ V + 3.00·10⁻⁴ V²");
+  EXPECT_EQ(chart.curves[3].name, "Eq. 51 (shock)");
+  EXPECT_EQ(chart.curves[4].name, "Gibson-Ashby (quasi-static)");
+}
+
+TEST(SweepChart, SaysWhatIsMissingAndRefusesToDrawNothing) {
+  EXPECT_EQ(build_sweep_chart(make_table(2)).note, "2 of 4 jobs have no plateau");
+  EXPECT_THROW(build_sweep_chart(make_table(0)), CommandError);
+  EXPECT_THROW(build_sweep_chart(v1::SweepTable()), CommandError);
+}
+
+TEST(SweepChart, TwoFieldsGiveASeriesAValueOfTheSecond) {
+  v1::SweepTable table = make_table(4);
+  table.add_fields("lattice.hexagon.wall_thickness_mm");
+  for (int i = 0; i < 4; ++i) table.mutable_rows(i)->add_values(i % 2 == 0 ? 0.3 : 0.4);
+  const Chart chart = build_sweep_chart(table);
+  std::vector<std::string> names;
+  for (const Curve& curve : chart.curves) {
+    if (!curve.name.empty()) names.push_back(curve.name);
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{"wall thickness = 0.3 mm", "wall thickness = 0.4 mm"}));
+  EXPECT_NE(chart.note.find("squares: support plate"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace cellcrush::client
