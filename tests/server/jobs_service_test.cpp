@@ -66,15 +66,11 @@ TEST_F(JobsServiceTest, WhatIsNotBuiltIsUnimplementedAndNamed) {
   auto client = this->client();
   v1::CreateJobRequest request;
   *request.mutable_case_() = small_case();
-  auto& square = *request.mutable_case_()->mutable_lattice()->mutable_square();
-  square.set_columns(4);
-  square.set_rows(4);
-  square.set_side_mm(4.0);
-  square.set_wall_thickness_mm(0.1);
+  request.mutable_case_()->mutable_numerics()->set_threads(2);
   v1::Job job;
   const auto status = client.jobs->CreateJob(bounded_context().get(), request, &job);
   EXPECT_EQ(status.error_code(), grpc::StatusCode::UNIMPLEMENTED);
-  EXPECT_THAT(status.error_message(), HasSubstr("lattice.square"));
+  EXPECT_THAT(status.error_message(), HasSubstr("numerics.threads"));
   const auto cancel = client.jobs->CancelJob(bounded_context().get(), {}, &job);
   EXPECT_EQ(cancel.error_code(), grpc::StatusCode::UNIMPLEMENTED);
   EXPECT_THAT(cancel.error_message(), HasSubstr("CancelJob"));

@@ -1,0 +1,69 @@
+#include "scenes/textbook.h"
+
+#include "scenes/textbook_claims.h"
+#include "server/daemon_fixture.h"
+#include "store/hdf5.h"
+#include "translate/spec_to_case.h"
+
+namespace cellcrush::testing {
+namespace {
+
+// The textbook frames as jobs: what a user submits, held against the same closed forms as in the solver's own tests.
+class TextbookJobs : public DaemonFixture {
+ protected:
+  std::vector<Sample> run(const SceneSpec& spec) {
+    auto client = this->client();
+    job_ = client.create(translate::to_case(spec));
+    const auto watched = client.watch(job_);
+    EXPECT_TRUE(watched.status.ok()) << watched.status.error_message();
+    std::vector<Sample> samples;
+    for (const auto& event : watched.events) {
+      if (event.has_sample()) samples.push_back(sample_of(event.sample()));
+    }
+    EXPECT_EQ(client.get(job_).state(), v1::SUCCEEDED) << client.get(job_).cause_message();
+    return samples;
+  }
+
+  static Sample sample_of(const v1::Sample& in) {
+    Sample out;
+    out.time = in.time_s();
+    out.energy_plastic = in.energy_plastic_mj();
+    out.work_external = in.work_external_mj();
+    for (const auto& node : in.watched()) out.watched.push_back({node.ux_mm(), node.uy_mm(), node.rotation_rad()});
+    return out;
+  }
+
+  std::string job_;
+};
+
+TEST_F(TextbookJobs, SectionLawAndCyclesHold) {
+  scenes::expect_moment_curvature_law(run(scenes::bent_cantilever(1.6)), 1.6);
+  scenes::expect_closed_cycles(run(scenes::cycled_bar(0.0, 0.004, 5)), 5);
+  scenes::expect_shakedown(run(scenes::cycled_bar(1.0, 0.004, 10)), 10);
+}
+
+TEST_F(TextbookJobs, LimitLoadsHold) {
+  scenes::expect_limit_load(run(scenes::pushed_cantilever(8.0, 12)), &WatchedNode::uy, 1.0, 1.0, 12);
+  scenes::expect_limit_load(run(scenes::pushed_clamped_beam(3.0, 12)), &WatchedNode::uy, 8.0, 0.25, 12);
+  scenes::expect_limit_load(run(scenes::pushed_portal(8.0, 12)), &WatchedNode::ux, 4.0, 0.5, 12);
+}
+
+TEST_F(TextbookJobs, LeesFrameAndEulersColumnHold) {
+  scenes::expect_lee_limit(run(scenes::lee_frame(60.0)));
+  const auto& [ratio, degrees] = scenes::kColumnAngles[1];
+  scenes::expect_end_angle(run(scenes::buckled_column(ratio)), degrees);
+}
+
+TEST_F(TextbookJobs, WatchedNodesStandInTheResultBesideTheHistory) {
+  const std::vector<Sample> samples = run(scenes::cycled_bar(0.0, 0.004, 2));
+  const auto path = (data_folder() / job_ / "result.h5").string();
+  const store::Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "Opening the result");
+  const store::Hdf5Handle column(H5Dopen2(file.id(), "/nodes/1/ux_mm", H5P_DEFAULT), H5Dclose, "Opening the node");
+  ASSERT_EQ(store::shape_of(column.id()), std::vector<hsize_t>{samples.size()});
+  std::vector<double> values(samples.size());
+  store::read_rows(column.id(), H5T_NATIVE_DOUBLE, 0, values.size(), values.data());
+  for (std::size_t i = 0; i < samples.size(); ++i) EXPECT_EQ(values[i], samples[i].watched.front().ux) << i;
+}
+
+}  // namespace
+}  // namespace cellcrush::testing
