@@ -68,7 +68,13 @@ v1::Case read_case(const std::string& source, const std::vector<std::string>& as
   if (source.starts_with(kPresetPrefix)) {
     v1::GetPresetRequest request;
     request.set_name(preset_name(source));
-    result = connection.call(connection.cases(), &v1::Cases::Stub::GetPreset, request).case_();
+    try {
+      result = connection.call(connection.cases(), &v1::Cases::Stub::GetPreset, request).case_();
+    } catch (const CommandError& error) {
+      // As a CASE, a preset that does not exist is a wrong case and not a thing that was asked for.
+      if (error.code() != ExitCode::not_found) throw;
+      throw CommandError(ExitCode::refused, error.message());
+    }
   } else {
     result = read_file(source);
   }

@@ -47,6 +47,18 @@ std::string remaining_text(const JobView& view) {
   return duration_text(progress.seconds_left()) + " left";
 }
 
+// How far a state is in a job's life: what it has passed it does not show again.
+int rank_of(v1::JobState state) {
+  switch (state) {
+    case v1::JOB_STATE_UNSPECIFIED: return 0;
+    case v1::PENDING: return 1;
+    case v1::RUNNING:
+    case v1::SUSPENDED:
+    case v1::CANCELLING: return 2;
+    default: return 3;
+  }
+}
+
 }  // namespace
 
 void JobView::apply(const v1::JobEvent& event) {
@@ -55,6 +67,8 @@ void JobView::apply(const v1::JobEvent& event) {
     case v1::JobEvent::kState: {
       // A state may come without the case and the progress that are known already.
       const v1::Job known = job_;
+      // The states before the snapshot's are told again.
+      if (rank_of(event.state().state()) < rank_of(known.state())) break;
       job_ = event.state();
       if (!job_.has_progress()) *job_.mutable_progress() = known.progress();
       if (!job_.has_case_() && known.has_case_()) *job_.mutable_case_() = known.case_();
