@@ -89,12 +89,7 @@ TEST_F(BadInput, SeveralProblemsAreAllNamedAtOnce) {
 }
 
 TEST_F(BadInput, WhatIsNotBuiltIsNamedAsSuch) {
-  expect_refused(
-      {write_file("square.txtpb",
-                  "lattice { square { columns: 4 rows: 3 side_mm: 4 wall_thickness_mm: 0.2 } }\ndepth_mm: 4\n"
-                  "material { youngs_modulus_mpa: 69000 yield_stress_mpa: 76 density_kg_per_m3: 2700 }\n"
-                  "loading { speed_m_per_s: 100 }\n")},
-      {"lattice.square", "not implemented"});
+  expect_refused({small(), "--set", "numerics.threads=2"}, {"numerics.threads", "not implemented"});
 }
 
 TEST_F(BadInput, AWrongCommandLine) {

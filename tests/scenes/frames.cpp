@@ -21,6 +21,17 @@ FrameLattice::Beam beam(int start, int end, double thickness_mm, int elements) {
   return {start, end, thickness_mm, elements, std::nullopt};
 }
 
+SceneSpec elastic_frame(FrameLattice frame) {
+  frame.end_time_s = frame.end_time_s.value_or(1.0);
+  SceneSpec spec;
+  spec.lattice = std::move(frame);
+  spec.depth_mm = 1.0;
+  spec.material.youngs_modulus_mpa = 70000.0;
+  spec.material.yield_stress_mpa = 1e9;
+  spec.material.density_kg_per_m3 = 2700.0;
+  return spec;
+}
+
 double Cantilever::first_frequency() {
   constexpr double kMassPerLength = 7.85e-9;
   return 3.516 * std::sqrt(kStiffness / kMassPerLength) / (kLength * kLength);

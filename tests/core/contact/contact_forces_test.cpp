@@ -32,13 +32,7 @@ class Probe {
     frame.nodes.push_back({0.0, 990.0, 0.0, 0.0});
     frame.beams.push_back(scenes::beam(count, count + 1, kThickness, 1));
     frame.self_contact = true;
-    frame.end_time_s = 1.0;
-    SceneSpec spec;
-    spec.lattice = frame;
-    spec.depth_mm = 1.0;
-    spec.material.youngs_modulus_mpa = 70000.0;
-    spec.material.yield_stress_mpa = 1e6;
-    spec.material.density_kg_per_m3 = 2700.0;
+    SceneSpec spec = scenes::elastic_frame(frame);
     spec.contact.damping_ratio = 0.0;
     scene_ = scenes::build(spec);
     state_ = place_particles(*scene_);

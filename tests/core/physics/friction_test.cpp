@@ -36,13 +36,7 @@ struct Slope {
     frame.gravity_x_m_per_s2 = kGravity * std::sin(incline);
     frame.gravity_y_m_per_s2 = -kGravity * std::cos(incline);
     frame.self_contact = true;
-    frame.end_time_s = 1.0;
-    SceneSpec spec;
-    spec.lattice = frame;
-    spec.depth_mm = 1.0;
-    spec.material.youngs_modulus_mpa = 70000.0;
-    spec.material.yield_stress_mpa = 1e9;
-    spec.material.density_kg_per_m3 = 2700.0;
+    SceneSpec spec = scenes::elastic_frame(frame);
     spec.contact.friction = kFriction;
     scene = scenes::build(spec);
     state = make_initial_state(*scene);

@@ -27,13 +27,7 @@ Bounce bounce(double omega_step, double damping_ratio, double& mass, double& sti
   frame.supports = {{0, true, true, true}, {1, true, true, true}};
   frame.initial_velocities = {{2, 0.0, -kSpeed / 1e3, 0.0}, {3, 0.0, -kSpeed / 1e3, 0.0}};
   frame.self_contact = true;
-  frame.end_time_s = 1.0;
-  SceneSpec spec;
-  spec.lattice = frame;
-  spec.depth_mm = 1.0;
-  spec.material.youngs_modulus_mpa = 70000.0;
-  spec.material.yield_stress_mpa = 1e9;
-  spec.material.density_kg_per_m3 = 2700.0;
+  SceneSpec spec = scenes::elastic_frame(frame);
   spec.contact.damping_ratio = damping_ratio;
   auto scene = scenes::build(spec);
   mass = scene->mass[2];
