@@ -137,7 +137,29 @@ void set_material_and_mesh(const SceneSpec& spec, Scene& scene) {
   scene.elements = std::move(mesh.elements);
 }
 
-void check_time_step(const SceneSpec& spec, const Scene& scene, Problems& problems) {
+/// Whether any problem keeps the mesh from being built.
+bool spoil_mesh(const Problems& problems) {
+  return std::any_of(problems.begin(), problems.end(), [](const Problem& problem) {
+    const auto starts_with = [&](const char* path) { return problem.field.rfind(path, 0) == 0; };
+    return starts_with("lattice") || starts_with("material") || starts_with("depth_mm") ||
+           starts_with("elements_per_wall") || starts_with("section");
+  });
+}
+
+/// Mesh, masses and stable step. REQUIRES: no problem that spoils the mesh.
+std::shared_ptr<Scene> build_mesh(const SceneSpec& spec) {
+  auto scene = std::make_shared<Scene>();
+  set_material_and_mesh(spec, *scene);
+  if (const auto* frame = std::get_if<FrameLattice>(&spec.lattice)) {
+    attach_to_frame(*frame, spec.elements_per_wall, *scene);
+  }
+  lump_masses(*scene);
+  link_elements(*scene);
+  scene->stable_step = stable_step_of(*scene);
+  return scene;
+}
+
+void check_stability(const SceneSpec& spec, const Scene& scene, Problems& problems) {
   if (spec.numerics.time_step_s > scene.stable_step) {
     problems.push_back(
         {"numerics.time_step_s", to_text(spec.numerics.time_step_s),
@@ -145,10 +167,26 @@ void check_time_step(const SceneSpec& spec, const Scene& scene, Problems& proble
          "Give a step of at most " + to_text(kStepFraction * scene.stable_step) + " s, or 0 to have it chosen.",
          Problem::Kind::invalid});
   }
+}
+
+/// The field to blame when a run has more steps than any machine does.
+void check_step_count(const SceneSpec& spec, const Scene& scene, Problems& problems) {
   constexpr double kMostSteps = 1e10;
-  if (spec.numerics.time_step_s > 0.0 && end_time_of(spec, scene) / spec.numerics.time_step_s > kMostSteps) {
-    problems.push_back({"numerics.time_step_s", to_text(spec.numerics.time_step_s), "makes more than 1e10 steps.",
-                        "Give a longer step, or 0 to have it chosen.", Problem::Kind::invalid});
+  const double fixed = spec.numerics.time_step_s;
+  const double count = end_time_of(spec, scene) / (fixed > 0.0 ? fixed : chosen_step(scene));
+  if (count <= kMostSteps) {
+    return;
+  }
+  const std::string message = "makes " + to_text(std::round(count)) + " steps, more than 1e10.";
+  if (fixed > 0.0) {
+    problems.push_back({"numerics.time_step_s", to_text(fixed), message, "Give a longer step, or 0 to have it chosen.",
+                        Problem::Kind::invalid});
+  } else if (const auto* frame = std::get_if<FrameLattice>(&spec.lattice)) {
+    problems.push_back({"lattice.frame.end_time_s", to_text(*frame->end_time_s), message, "Give an earlier end.",
+                        Problem::Kind::invalid});
+  } else {
+    problems.push_back({"loading.speed_m_per_s", to_text(*spec.loading.speed_m_per_s), message, "Give a higher speed.",
+                        Problem::Kind::invalid});
   }
 }
 
@@ -157,27 +195,24 @@ void check_time_step(const SceneSpec& spec, const Scene& scene, Problems& proble
 SceneResult build_scene(const SceneSpec& spec) {
   SceneResult result;
   result.problems = check_spec(spec);
+  if (spoil_mesh(result.problems)) {
+    return result;
+  }
+  const std::shared_ptr<Scene> scene = build_mesh(spec);
+  check_stability(spec, *scene, result.problems);
   if (!result.problems.empty()) {
     return result;
   }
-  auto scene = std::make_shared<Scene>();
-  set_material_and_mesh(spec, *scene);
-  const auto* frame = std::get_if<FrameLattice>(&spec.lattice);
-  if (frame != nullptr) {
-    attach_to_frame(*frame, spec.elements_per_wall, *scene);
-  }
-  lump_masses(*scene);
-  link_elements(*scene);
-  scene->stable_step = stable_step_of(*scene);
   scene->mass_damping = spec.numerics.mass_damping_per_s;
+  const auto* frame = std::get_if<FrameLattice>(&spec.lattice);
   set_contact(spec.contact, frame == nullptr || frame->self_contact, *scene);
   if (frame == nullptr) {
     set_plates(spec.loading, spec.plates.friction, *scene);
   }
-  check_time_step(spec, *scene, result.problems);
+  check_step_count(spec, *scene, result.problems);
   if (result.problems.empty()) {
     set_schedule(spec, *scene);
-    result.scene = std::move(scene);
+    result.scene = scene;
   }
   return result;
 }

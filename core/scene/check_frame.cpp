@@ -107,7 +107,7 @@ class FrameChecker {
     }
     check_.in_range("lattice.frame.gravity_x_m_per_s2", frame_.gravity_x_m_per_s2, {-1e9, 1e9}, " m/s2");
     check_.in_range("lattice.frame.gravity_y_m_per_s2", frame_.gravity_y_m_per_s2, {-1e9, 1e9}, " m/s2");
-    check_.positive("lattice.frame.end_time_s", frame_.end_time_s, " s");
+    check_.in_range("lattice.frame.end_time_s", frame_.end_time_s, {1e-12, 1e12}, " s");
   }
 
   void check_motions() {

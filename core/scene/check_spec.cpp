@@ -20,8 +20,7 @@ void check_regular(const std::string& path, const Lattice& lattice, int fewest_c
   const bool rows = check.in_range(path + "rows", lattice.rows, {1, 10000}, " cells");
   const bool side = check.positive(path + "side_mm", lattice.side_mm, " mm");
   const double thickest = side ? 0.5 * *lattice.side_mm : 1e12;
-  check.in_range(path + "wall_thickness_mm", lattice.wall_thickness_mm,
-                 {.low = 0.0, .high = thickest, .low_open = true}, " mm (half of side_mm)");
+  check.in_range(path + "wall_thickness_mm", lattice.wall_thickness_mm, {1e-6, thickest}, " mm (half of side_mm)");
   if (columns && rows) {
     const double elements = walls_per_cell * *lattice.columns * *lattice.rows * elements_per_wall;
     if (elements > kMostElements) {
@@ -39,8 +38,8 @@ void check_hexagons(const HexagonLattice& hexagon, const Inclusions& inclusions,
   check_regular(path, hexagon, 2, 3.0, elements_per_wall, check);
   const double thickest = hexagon.side_mm && *hexagon.side_mm > 0.0 ? 0.5 * *hexagon.side_mm : 1e12;
   if (hexagon.vertical_wall_thickness_mm) {
-    check.in_range(path + "vertical_wall_thickness_mm", hexagon.vertical_wall_thickness_mm,
-                   {.low = 0.0, .high = thickest, .low_open = true}, " mm (half of side_mm)");
+    check.in_range(path + "vertical_wall_thickness_mm", hexagon.vertical_wall_thickness_mm, {1e-6, thickest},
+                   " mm (half of side_mm)");
   }
   if (inclusions.rows.empty()) {
     return;
@@ -95,10 +94,9 @@ void check_lattice(const SceneSpec& spec, FieldChecker& check) {
 }
 
 void check_loading(const LoadingSpec& loading, FieldChecker& check) {
-  check.in_range("loading.speed_m_per_s", loading.speed_m_per_s, {.low = 0.0, .high = 1000.0, .low_open = true},
-                 " m/s");
-  const bool end = check.in_range("loading.end_strain", loading.end_strain,
-                                  {.low = 0.0, .high = 0.95, .low_open = true, .high_open = true}, "");
+  check.in_range("loading.speed_m_per_s", loading.speed_m_per_s, {1e-6, 1000.0}, " m/s");
+  const bool end =
+      check.in_range("loading.end_strain", loading.end_strain, {.low = 1e-4, .high = 0.95, .high_open = true}, "");
   const double latest = end ? loading.end_strain : 0.95;
   check.in_range("loading.ramp_strain", loading.ramp_strain, {.low = 0.0, .high = latest, .high_open = true},
                  " (end_strain)");
@@ -134,8 +132,7 @@ Problems check_spec(const SceneSpec& spec) {
   check.in_range("section.axial_points", std::optional<int>(spec.section.axial_points), {1, 5}, "");
   check.in_range("section.depth_points", std::optional<int>(spec.section.depth_points), {2, 10}, "");
   check.in_range("contact.friction", spec.contact.friction, {0.0, 10.0}, "");
-  check.in_range("contact.stiffness_factor", spec.contact.stiffness_factor, {.low = 0.0, .high = 1.0, .low_open = true},
-                 "");
+  check.in_range("contact.stiffness_factor", spec.contact.stiffness_factor, {1e-6, 1.0}, "");
   check.in_range("contact.damping_ratio", spec.contact.damping_ratio, {0.0, 1.0}, "");
   check.in_range("plates.friction", spec.plates.friction, {0.0, 10.0}, "");
   if (!std::holds_alternative<FrameLattice>(spec.lattice)) {

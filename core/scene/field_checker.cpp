@@ -8,13 +8,14 @@ namespace cellcrush {
 namespace {
 
 constexpr double kLargest = 1e12;
+constexpr double kSmallest = 1e-6;  // far below anything real, far above where squares underflow
 
 std::string describe(const FieldChecker::Range& range, const std::string& unit) {
   if (range.high >= kLargest) {
-    return std::string(range.low_open ? "above " : "of at least ") + to_text(range.low) + unit;
+    return std::string("of at least ") + to_text(range.low) + unit;
   }
-  return std::string(range.low_open ? "above " : "from ") + to_text(range.low) +
-         (range.high_open ? " to below " : " to ") + to_text(range.high) + unit;
+  return std::string("from ") + to_text(range.low) + (range.high_open ? " to below " : " to ") + to_text(range.high) +
+         unit;
 }
 
 }  // namespace
@@ -25,7 +26,7 @@ bool FieldChecker::in_range(const std::string& field, double value, Range range,
     add(field, to_text(value), "is not a finite number.", remedy);
     return false;
   }
-  const bool too_low = range.low_open ? value <= range.low : value < range.low;
+  const bool too_low = value < range.low;
   const bool too_high = range.high_open ? value >= range.high : value > range.high;
   if (too_low || too_high) {
     add(field, to_text(value), too_low ? "is too small." : "is too large.", remedy);
@@ -49,7 +50,7 @@ bool FieldChecker::in_range(const std::string& field, const std::optional<int>& 
 }
 
 bool FieldChecker::positive(const std::string& field, const std::optional<double>& value, const std::string& unit) {
-  return in_range(field, value, {.low = 0.0, .high = kLargest, .low_open = true}, unit);
+  return in_range(field, value, {kSmallest, kLargest}, unit);
 }
 
 void FieldChecker::add(const std::string& field, const std::string& value, const std::string& message,

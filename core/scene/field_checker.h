@@ -16,7 +16,6 @@ class FieldChecker {
   struct Range {
     double low;
     double high;
-    bool low_open = false;   ///< the low end itself is refused
     bool high_open = false;  ///< the high end itself is refused
   };
 
@@ -26,7 +25,7 @@ class FieldChecker {
   bool in_range(const std::string& field, const std::optional<double>& value, Range range, const std::string& unit);
   bool in_range(const std::string& field, const std::optional<int>& value, Range range, const std::string& unit);
 
-  /// A value above 0 that is not absurdly large.
+  /// A value above 0, neither absurdly small nor absurdly large.
   bool positive(const std::string& field, const std::optional<double>& value, const std::string& unit);
 
   void add(const std::string& field, const std::string& value, const std::string& message, const std::string& remedy);
