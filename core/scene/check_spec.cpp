@@ -137,6 +137,9 @@ Problems check_spec(const SceneSpec& spec) {
   check.in_range("plates.friction", spec.plates.friction, {0.0, 10.0}, "");
   if (!std::holds_alternative<FrameLattice>(spec.lattice)) {
     check_loading(spec.loading, check);
+  } else if (spec.loading.speed_m_per_s) {
+    check.add("loading.speed_m_per_s", to_text(*spec.loading.speed_m_per_s), "is for lattices between plates.",
+              "Leave loading out; a frame is loaded by lattice.frame.loads and motions.");
   }
   check_numerics(spec.numerics, check);
   check.in_range("output.sample_count", std::optional<int>(spec.output.sample_count), {10, 100000}, " samples");

@@ -153,7 +153,8 @@ v1::Case to_case(const SceneSpec& spec) {
   out.mutable_contact()->set_stiffness_factor(spec.contact.stiffness_factor);
   out.mutable_contact()->set_damping_ratio(spec.contact.damping_ratio);
   out.mutable_plates()->set_friction(spec.plates.friction);
-  write_loading(spec.loading, *out.mutable_loading());
+  // A frame is loaded by its own fields.
+  if (!std::holds_alternative<FrameLattice>(spec.lattice)) write_loading(spec.loading, *out.mutable_loading());
   write_numerics(spec.numerics, *out.mutable_numerics());
   out.mutable_output()->set_sample_count(spec.output.sample_count);
   out.mutable_output()->set_frame_count(spec.output.frame_count);

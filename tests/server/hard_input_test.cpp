@@ -113,7 +113,9 @@ TEST(HardInput, SpoiledNumbersAreRefusedByTheirFields) {
         const auto response = translate::check_case(spoiled).response;
         ++tried;
         refused += response.problems_size() > 0 ? 1 : 0;
-        if (!std::isfinite(value)) EXPECT_TRUE(names(response, leaf.path)) << leaf.path << " = " << value;
+        if (!std::isfinite(value)) {
+          EXPECT_TRUE(names(response, leaf.path)) << leaf.path << " = " << value;
+        }
         for (const auto& problem : response.problems()) {
           EXPECT_FALSE(problem.field().empty()) << leaf.path << " = " << value;
           EXPECT_FALSE(problem.message().empty()) << problem.field();
@@ -141,7 +143,9 @@ TEST(HardInput, FieldsLeftOutAreNamedOrHaveADefault) {
       parent->GetReflection()->ClearField(parent, leaf.field);
       const auto response = translate::check_case(spoiled).response;
       refused += response.problems_size() > 0 ? 1 : 0;
-      if (response.problems_size() == 0) EXPECT_GT(response.step_count(), 0) << leaf.path;
+      if (response.problems_size() == 0) {
+        EXPECT_GT(response.step_count(), 0) << leaf.path;
+      }
     }
   }
   EXPECT_GT(refused, 40);
