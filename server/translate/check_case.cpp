@@ -37,6 +37,8 @@ void restore_node_names(const v1::Frame& submitted, v1::Frame& completed) {
   }
   for (auto& support : *completed.mutable_supports()) rename(*support.mutable_node());
   for (auto& load : *completed.mutable_loads()) rename(*load.mutable_node());
+  for (auto& motion : *completed.mutable_motions()) rename(*motion.mutable_node());
+  for (auto& watched : *completed.mutable_watched_nodes()) rename(watched);
   for (auto& velocity : *completed.mutable_initial_velocities()) rename(*velocity.mutable_node());
 }
 

@@ -30,6 +30,7 @@ std::vector<std::string> fields_of(const v1::CheckCaseResponse& response) {
 
 v1::Case frame_case() {
   v1::Case out = testing::small_case();
+  out.clear_loading();
   auto& frame = *out.mutable_lattice()->mutable_frame();
   for (const char* id : {"left", "right"}) {
     auto& node = *frame.add_nodes();
@@ -187,9 +188,12 @@ TEST(Translate, ACheckTellsTheProblemsOfTheWireAndOfTheSolverAtOnce) {
 }
 
 TEST(Translate, ACompletedFrameKeepsItsNodesNames) {
-  const auto check = translate::check_case(frame_case());
+  v1::Case given = frame_case();
+  given.mutable_lattice()->mutable_frame()->add_watched_nodes("right");
+  const auto check = translate::check_case(given);
   ASSERT_THAT(fields_of(check.response), IsEmpty());
   EXPECT_EQ(check.response.completed_case().lattice().frame().nodes(1).id(), "right");
+  EXPECT_EQ(check.response.completed_case().lattice().frame().watched_nodes(0), "right");
   EXPECT_EQ(check.response.completed_case().lattice().frame().beams(0).end(), "right");
 }
 
