@@ -153,13 +153,21 @@ TEST(Refusal, UnknownNamesEndWithFive) {
   const FakeServer server(refusing_script());
   for (const std::vector<std::string>& words :
        std::vector<std::vector<std::string>>{{"show", "preset:none"},
-                                             {"submit", "preset:none"},
                                              {"show", "jobs/none"},
                                              {"fetch", "none", "-o", server.folder() / "x"},
                                              {"plot", "none", "-o", server.folder() / "x.png"}}) {
     std::vector<std::string> arguments = words;
     arguments.insert(arguments.end(), {"--server", server.address()});
     EXPECT_EQ(run_program(arguments).exit_code, 5) << words[0] << " " << words[1];
+  }
+}
+
+TEST(Refusal, AnUnknownPresetAsACaseIsAWrongCase) {
+  const FakeServer server(refusing_script());
+  for (const char* command : {"check", "submit"}) {
+    const auto result = run_program({command, "preset:none", "--server", server.address()});
+    EXPECT_EQ(result.exit_code, 2) << command;
+    EXPECT_NE(result.errors.find("none"), std::string::npos) << result.errors;
   }
 }
 
