@@ -23,6 +23,7 @@
 #include "store/data_folder.h"
 #include "store/journal.h"
 #include "store/journal_reader.h"
+#include "store/sweep_reader.h"
 #include "watch/hub.h"
 #include "watch/pump.h"
 #include "worker/step_cost.h"
@@ -66,11 +67,13 @@ struct Daemon::Impl {
         folder(options.data_folder),
         journal(folder.journal(), [this](std::int64_t job) { hub.announce(job); }),
         reader(folder.journal()),
+        sweep_reader(folder.journal()),
         executor(options.worker_program),
-        scheduler({folder, journal, reader, hub, executor}),
+        scheduler({folder, journal, reader, sweep_reader, hub, executor}),
         pump(kPumpThreads),
         cases(worker::measure_step_cost()),
         jobs({folder, journal, reader, hub, pump, scheduler, options.bookmark_interval}),
+        sweeps({journal, reader, sweep_reader, hub, pump, scheduler, options.bookmark_interval}),
         admin(worker_limit(options.workers)) {
     listen();
     scheduler.start(worker_limit(options.workers));
@@ -130,6 +133,7 @@ struct Daemon::Impl {
   watch::Hub hub;
   store::Journal journal;
   store::JournalReader reader;
+  store::SweepReader sweep_reader;
   jobs::LocalProcess executor;
   jobs::Scheduler scheduler;
   watch::Pump pump;

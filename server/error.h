@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace cellcrush {
 
@@ -16,6 +17,7 @@ class ServiceError : public std::runtime_error {
     out_of_range,         ///< past the end of what there is
     unimplemented,        ///< meaningful, but not built
     storage_full,         ///< the disk or a quota has no room left
+    cancelled,            ///< the caller does not wait any more
     internal,             ///< a fault of this program or this machine
   };
 
@@ -25,6 +27,25 @@ class ServiceError : public std::runtime_error {
 
  private:
   Kind kind_;
+};
+
+/// A field of a call that cannot be right. The message goes on from the field's name: "is negative."
+class InvalidField : public std::runtime_error {
+ public:
+  InvalidField(std::string field, std::string message, std::string remedy)
+      : std::runtime_error(field + " " + message + " " + remedy),
+        field_(std::move(field)),
+        message_(std::move(message)),
+        remedy_(std::move(remedy)) {}
+
+  [[nodiscard]] const std::string& field() const { return field_; }
+  [[nodiscard]] const std::string& message() const { return message_; }
+  [[nodiscard]] const std::string& remedy() const { return remedy_; }
+
+ private:
+  std::string field_;
+  std::string message_;
+  std::string remedy_;
 };
 
 }  // namespace cellcrush

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <utility>
 
 namespace cellcrush::jobs {
@@ -28,8 +27,6 @@ constexpr std::array<Step, 14> kSteps = {{
     {v1::CANCELLING, v1::FAILED},
 }};
 
-constexpr std::string_view kCollection = "jobs/";
-
 }  // namespace
 
 bool may_follow(v1::JobState from, v1::JobState to) {
@@ -37,17 +34,5 @@ bool may_follow(v1::JobState from, v1::JobState to) {
 }
 
 bool is_terminal(v1::JobState state) { return state == v1::SUCCEEDED || state == v1::FAILED || state == v1::CANCELLED; }
-
-std::string name_of(std::int64_t job) { return std::string(kCollection) + std::to_string(job); }
-
-std::optional<std::int64_t> number_of(std::string_view name) {
-  if (!name.starts_with(kCollection)) return std::nullopt;
-  const std::string_view digits = name.substr(kCollection.size());
-  std::int64_t number = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-  // Only the one way of writing a number is a name: no sign, no leading zero.
-  if (error != std::errc() || number < 1 || std::to_string(number) != digits) return std::nullopt;
-  return number;
-}
 
 }  // namespace cellcrush::jobs

@@ -7,11 +7,11 @@
 
 #include <array>
 #include <cerrno>
-#include <chrono>
 #include <csignal>
 #include <system_error>
-#include <thread>
 
+#include "jobs/cancellation.h"
+#include "jobs/child.h"
 #include "worker/report_stream.h"
 #include "worker/worker_main.h"
 
@@ -66,47 +66,6 @@ int spawn(const std::filesystem::path& program, int socket, pid_t& pid) {
   return error;
 }
 
-// A started process; ended and waited for at the latest when this goes out of scope.
-class Child {
- public:
-  explicit Child(pid_t pid) : pid_(pid) {}
-  ~Child() {
-    if (!reaped_) end();
-  }
-  Child(const Child&) = delete;
-  Child& operator=(const Child&) = delete;
-
-  // Ends it at once. Returns its wait status.
-  int end() {
-    kill(pid_, SIGKILL);
-    return wait(0);
-  }
-
-  // Gives it some time to end by itself, for it has closed its socket.
-  int let_end() {
-    for (int i = 0; i < 500; ++i) {
-      const int status = wait(WNOHANG);
-      if (reaped_) return status;
-      std::this_thread::sleep_for(std::chrono::milliseconds(i < 50 ? 1 : 10));
-    }
-    return end();
-  }
-
- private:
-  int wait(int flags) {
-    int status = 0;
-    pid_t waited = -1;
-    do {
-      waited = waitpid(pid_, &status, flags);
-    } while (waited < 0 && errno == EINTR);
-    reaped_ = waited != 0;
-    return status;
-  }
-
-  pid_t pid_;
-  bool reaped_ = false;
-};
-
 WorkerExit not_started(int error) {
   WorkerExit out;
   out.kind = WorkerExit::Kind::not_started;
@@ -115,7 +74,8 @@ WorkerExit not_started(int error) {
 }
 
 // Passes reports on until the worker says no more. False when what it said is no report.
-bool pass_on_reports(worker::ReportStream& stream, const WorkerEvents& events, WorkerExit& out) {
+bool pass_on_reports(worker::ReportStream& stream, const WorkerEvents& events, Cancellation& cancellation,
+                     WorkerExit& out) {
   while (true) {
     worker::Report report;
     switch (stream.read(report)) {
@@ -125,6 +85,8 @@ bool pass_on_reports(worker::ReportStream& stream, const WorkerEvents& events, W
     }
     if (report.has_final()) {
       out.final = report.final();
+    } else if (report.has_stopping()) {
+      cancellation.acknowledged();
     } else {
       events.reported(report);
     }
@@ -133,7 +95,8 @@ bool pass_on_reports(worker::ReportStream& stream, const WorkerEvents& events, W
 
 }  // namespace
 
-WorkerExit LocalProcess::run(const worker::Order& order, const WorkerEvents& events, const std::stop_token& stop) {
+WorkerExit LocalProcess::run(const worker::Order& order, const WorkerEvents& events,
+                             const Interruptions& interruptions) {
   std::array<int, 2> ends{};
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) return not_started(errno);
   const Descriptor socket(ends[0]);
@@ -144,20 +107,27 @@ WorkerExit LocalProcess::run(const worker::Order& order, const WorkerEvents& eve
   of_worker.reset();
   events.started(pid);
 
-  // A request to stop ends the conversation, wherever it is.
-  const std::stop_callback hang_up(stop, [&socket] { shutdown(socket.get(), SHUT_RDWR); });
   WorkerExit out;
-  worker::ReportStream stream(socket.get());
-  // When this fails the worker is gone, and reading tells the same.
-  stream.write(order);
-  const bool sound = pass_on_reports(stream, events, out);
-  if (!sound || stop.stop_requested()) {
+  bool sound = true;
+  {
+    // A daemon that ends breaks the conversation off, wherever it is.
+    const std::stop_callback hang_up(interruptions.stop, [&socket] { shutdown(socket.get(), SHUT_RDWR); });
+    worker::ReportStream stream(socket.get());
+    // When this fails the worker is gone, and reading tells the same.
+    stream.write(order);
+    Cancellation cancellation(socket.get(), child, interruptions.cancel);
+    sound = pass_on_reports(stream, events, cancellation, out);
+  }
+  const bool cancelled = interruptions.cancel.stop_requested();
+  if (!sound || interruptions.stop.stop_requested()) {
     child.end();
-    out.kind = sound ? WorkerExit::Kind::stopped : WorkerExit::Kind::broken;
+    out.kind = !sound ? WorkerExit::Kind::broken : cancelled ? WorkerExit::Kind::cancelled : WorkerExit::Kind::stopped;
     return out;
   }
   const int status = child.let_end();
-  out.kind = WIFSIGNALED(status) ? WorkerExit::Kind::signalled : WorkerExit::Kind::exited;
+  out.kind = cancelled             ? WorkerExit::Kind::cancelled
+             : WIFSIGNALED(status) ? WorkerExit::Kind::signalled
+                                   : WorkerExit::Kind::exited;
   out.code = WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status);
   return out;
 }

@@ -13,7 +13,7 @@ class LocalProcess final : public Executor {
  public:
   explicit LocalProcess(std::filesystem::path program) : program_(std::move(program)) {}
 
-  WorkerExit run(const worker::Order& order, const WorkerEvents& events, const std::stop_token& stop) override;
+  WorkerExit run(const worker::Order& order, const WorkerEvents& events, const Interruptions& interruptions) override;
 
  private:
   std::filesystem::path program_;

@@ -29,7 +29,7 @@ std::string signal_name(int number) {
 store::StateChange of_final(const worker::Final& final) {
   if (final.cause() != v1::JOB_CAUSE_UNSPECIFIED) return failed(final.cause(), final.message(), final.remedy());
   store::StateChange out;
-  out.state = v1::SUCCEEDED;
+  out.state = final.cancelled() ? v1::CANCELLED : v1::SUCCEEDED;
   out.summary = final.summary();
   return out;
 }
@@ -41,6 +41,7 @@ store::StateChange outcome_of(const WorkerExit& exit) {
   const std::string again = "Submit the case again; if it happens again, report the case.";
   switch (exit.kind) {
     case WorkerExit::Kind::stopped: return worker_lost();
+    case WorkerExit::Kind::cancelled: return cancelled_without_result();
     case WorkerExit::Kind::not_started:
       return failed(v1::WORKER_CRASHED, "No worker process could be started: " + exit.reason + ".",
                     "Look into the limits on processes and memory, then submit the case again.");
@@ -63,6 +64,13 @@ store::StateChange outcome_of(const std::exception& error) {
     return failed(v1::DISK_FULL, error.what(), "Make room in the data folder and submit the case again.");
   return failed(v1::WORKER_CRASHED, std::string("The run could not be kept up: ") + error.what(),
                 "Look into the daemon's log, then submit the case again.");
+}
+
+store::StateChange cancelled_without_result() {
+  store::StateChange out;
+  out.state = v1::CANCELLED;
+  out.message = "The worker ended before it could close a result. The history is kept.";
+  return out;
 }
 
 store::StateChange worker_lost() {

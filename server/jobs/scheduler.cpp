@@ -3,34 +3,94 @@
 #include <spdlog/spdlog.h>
 
 #include <chrono>
+#include <filesystem>
+#include <optional>
+#include <system_error>
 
 #include "error.h"
+#include "jobs/deletion.h"
 #include "jobs/job_state.h"
 #include "jobs/outcome.h"
+#include "jobs/resource_name.h"
 
 namespace cellcrush::jobs {
+namespace {
+
+// The job was cancelled, and perhaps deleted, while a worker was started for it.
+struct Withdrawn {};
+
+}  // namespace
 
 void Scheduler::start(int slots) {
+  finish_deletions(parts_.reader, parts_.journal, parts_.folder);
   fail_lost_jobs();
-  for (const std::int64_t job : parts_.reader.jobs_in(v1::PENDING)) enqueue(job);
+  auto memberships = parts_.sweeps.memberships_of_waiting();
+  for (const std::int64_t job : parts_.reader.jobs_in(v1::PENDING)) waiting_.add(job, memberships[job]);
   for (int i = 0; i < slots; ++i) slots_.emplace_back([this](const std::stop_token& stop) { run_slot(stop); });
 }
 
 void Scheduler::fail_lost_jobs() {
-  for (const v1::JobState state : {v1::RUNNING, v1::CANCELLING}) {
-    for (const std::int64_t job : parts_.reader.jobs_in(state)) {
-      spdlog::warn("{} was left running by an earlier daemon: failed, worker lost", name_of(job));
-      parts_.journal.change_state(job, worker_lost());
-    }
+  for (const std::int64_t job : parts_.reader.jobs_in(v1::CANCELLING))
+    parts_.journal.change_state(job, cancelled_without_result());
+  for (const std::int64_t job : parts_.reader.jobs_in(v1::RUNNING)) {
+    spdlog::warn("{} was left running by an earlier daemon: failed, worker lost", name_of(job));
+    parts_.journal.change_state(job, worker_lost());
   }
 }
 
-void Scheduler::enqueue(std::int64_t job) {
+void Scheduler::enqueue(const std::vector<std::int64_t>& jobs, const WaitingJobs::Membership& membership) {
   {
     const std::scoped_lock lock(mutex_);
-    waiting_.push_back(job);
+    for (const std::int64_t job : jobs) waiting_.add(job, membership);
   }
-  changed_.notify_one();
+  changed_.notify_all();
+}
+
+void Scheduler::cancel(std::int64_t job) {
+  // Between reading a state and changing it the job may move on; it does so only a few times.
+  while (true) {
+    const auto stored = parts_.reader.find_job(job);
+    if (!stored) throw ServiceError(ServiceError::Kind::not_found, "There is no " + name_of(job) + ".");
+    const v1::JobState state = stored->job.state();
+    if (state == v1::CANCELLED || state == v1::CANCELLING) return;
+    if (is_terminal(state)) {
+      throw ServiceError(
+          ServiceError::Kind::failed_precondition,
+          name_of(job) + " has ended already: it is " + v1::JobState_Name(state) + " and cannot be cancelled.");
+    }
+    store::StateChange change;
+    change.state = state == v1::RUNNING ? v1::CANCELLING : v1::CANCELLED;
+    change.worker_pid = stored->job.worker_pid();
+    try {
+      parts_.journal.change_state(job, change);
+    } catch (const ServiceError& error) {
+      if (error.kind() == ServiceError::Kind::failed_precondition) continue;
+      throw;
+    }
+    std::stop_source worker(std::nostopstate);
+    {
+      const std::scoped_lock lock(mutex_);
+      if (const auto found = running_.find(job); found != running_.end()) worker = found->second;
+    }
+    worker.request_stop();
+    return;
+  }
+}
+
+void Scheduler::cancel_all(const std::vector<std::int64_t>& jobs) {
+  // First those that wait, so that no slot goes on to the next of them.
+  parts_.journal.cancel_waiting(jobs);
+  for (const std::int64_t job : jobs) {
+    const auto stored = parts_.reader.find_job(job);
+    if (!stored || is_terminal(stored->job.state())) continue;
+    try {
+      cancel(job);
+    } catch (const ServiceError& error) {
+      // It has ended, or was deleted, in the meantime.
+      const bool gone = error.kind() == ServiceError::Kind::not_found;
+      if (!gone && error.kind() != ServiceError::Kind::failed_precondition) throw;
+    }
+  }
 }
 
 void Scheduler::stop() {
@@ -40,42 +100,68 @@ void Scheduler::stop() {
 
 void Scheduler::run_slot(const std::stop_token& stop) {
   while (true) {
-    std::int64_t job = 0;
+    std::optional<WaitingJobs::Taken> taken;
     {
       std::unique_lock lock(mutex_);
-      changed_.wait(lock, stop, [this] { return !waiting_.empty(); });
-      if (stop.stop_requested()) return;
-      job = waiting_.front();
-      waiting_.pop_front();
+      changed_.wait(lock, stop, [this, &taken] { return (taken = waiting_.take()).has_value(); });
+      if (!taken || stop.stop_requested()) return;
     }
     try {
-      run_job(job, stop);
+      run_job(taken->job, stop);
+    } catch (const Withdrawn&) {
+      spdlog::info("{} was cancelled before it ran", name_of(taken->job));
     } catch (const std::exception& error) {
-      finish(job, outcome_of(error), stop);
+      finish(taken->job, outcome_of(error), stop);
     }
+    {
+      const std::scoped_lock lock(mutex_);
+      running_.erase(taken->job);
+      waiting_.give_back(*taken);
+    }
+    changed_.notify_all();
   }
 }
 
 void Scheduler::run_job(std::int64_t job, const std::stop_token& stop) {
   const auto stored = parts_.reader.find_job(job);
   if (!stored || stored->job.state() != v1::PENDING) return;
+  std::stop_token cancel;
+  {
+    const std::scoped_lock lock(mutex_);
+    cancel = running_[job].get_token();
+  }
+  const auto exit = run_worker(*stored, {stop, cancel});
+  // What a worker that was ended had begun.
+  std::error_code ignored;
+  std::filesystem::remove(parts_.folder.partial_result(job), ignored);
+  finish(job, outcome_of(exit), stop);
+}
+
+WorkerExit Scheduler::run_worker(const store::StoredJob& stored, const Interruptions& interruptions) {
+  const std::int64_t job = stored.number;
   const auto channel = parts_.hub.open(job);
   parts_.folder.prepare_job_folder(job);
   worker::Order order;
   order.set_job(name_of(job));
-  *order.mutable_case_() = stored->job.case_();
+  *order.mutable_case_() = stored.job.case_();
   order.set_result_path(parts_.folder.result(job).string());
 
   WorkerEvents events;
   events.started = [this, job](int pid) {
-    spdlog::info("{} runs in process {}", name_of(job), pid);
     store::StateChange running;
     running.state = v1::RUNNING;
     running.worker_pid = pid;
-    parts_.journal.change_state(job, running);
+    try {
+      parts_.journal.change_state(job, running);
+    } catch (const ServiceError& error) {
+      const bool gone = error.kind() == ServiceError::Kind::not_found;
+      if (gone || error.kind() == ServiceError::Kind::failed_precondition) throw Withdrawn();
+      throw;
+    }
+    spdlog::info("{} runs in process {}", name_of(job), pid);
   };
   events.reported = [this, job, &channel](const worker::Report& report) { pass_on(job, *channel, report); };
-  finish(job, outcome_of(parts_.executor.run(order, events, stop)), stop);
+  return parts_.executor.run(order, events, interruptions);
 }
 
 void Scheduler::pass_on(std::int64_t job, watch::Channel& channel, const worker::Report& report) {
@@ -85,6 +171,7 @@ void Scheduler::pass_on(std::int64_t job, watch::Channel& channel, const worker:
     case worker::Report::kFrame: channel.publish(report.frame()); break;
     case worker::Report::kProgress: channel.publish(report.progress()); break;
     case worker::Report::kFinal:
+    case worker::Report::kStopping:
     case worker::Report::REPORT_NOT_SET: break;
   }
 }
@@ -98,7 +185,8 @@ void Scheduler::finish(std::int64_t job, const store::StateChange& outcome, cons
       return;
     } catch (const ServiceError& error) {
       spdlog::error("The end of {} cannot be made durable: {}", name_of(job), error.what());
-      if (error.kind() == ServiceError::Kind::failed_precondition) return;
+      const bool gone = error.kind() == ServiceError::Kind::not_found;
+      if (gone || error.kind() == ServiceError::Kind::failed_precondition) return;
     }
     // A full disk may get room again. At the daemon's end the job stays RUNNING, and the next daemon marks it as lost.
     std::unique_lock lock(mutex_);

@@ -2,21 +2,23 @@
 
 #include <condition_variable>
 #include <cstdint>
-#include <deque>
+#include <map>
 #include <mutex>
 #include <stop_token>
 #include <thread>
 #include <vector>
 
 #include "jobs/executor.h"
+#include "jobs/waiting_jobs.h"
 #include "store/data_folder.h"
 #include "store/journal.h"
 #include "store/journal_reader.h"
+#include "store/sweep_reader.h"
 #include "watch/hub.h"
 
 namespace cellcrush::jobs {
 
-/// Runs waiting jobs, oldest first, at most as many at once as there are slots. Each slot is a thread that lives as
+/// Runs waiting jobs, oldest first, at most as many at once as there are slots and as their sweeps allow. Each slot is a thread that lives as
 /// long as the scheduler and runs one job at a time. Thread-safe.
 class Scheduler {
  public:
@@ -25,6 +27,7 @@ class Scheduler {
     const store::DataFolder& folder;
     store::Journal& journal;
     store::JournalReader& reader;
+    store::SweepReader& sweeps;
     watch::Hub& hub;
     Executor& executor;
   };
@@ -37,8 +40,16 @@ class Scheduler {
   /// Marks the jobs that an earlier daemon left running as lost, queues those that wait, and starts the slots.
   void start(int slots);
 
-  /// Queues a job that is PENDING in the journal.
-  void enqueue(std::int64_t job);
+  /// Queues jobs that are PENDING in the journal, of one sweep or of none.
+  void enqueue(const std::vector<std::int64_t>& jobs, const WaitingJobs::Membership& membership = {});
+
+  /// A job that waits is CANCELLED when this returns; one that runs is CANCELLING, and its worker is told. Nothing
+  /// happens to one that is either already. Throws ServiceError: not_found, or failed_precondition when it has ended
+  /// otherwise.
+  void cancel(std::int64_t job);
+
+  /// Cancels those of the jobs that have not ended.
+  void cancel_all(const std::vector<std::int64_t>& jobs);
 
   /// Ends running workers, marks their jobs as lost, and waits until the slots are done. Jobs that wait stay PENDING.
   void stop();
@@ -47,13 +58,15 @@ class Scheduler {
   void fail_lost_jobs();
   void run_slot(const std::stop_token& stop);
   void run_job(std::int64_t job, const std::stop_token& stop);
+  WorkerExit run_worker(const store::StoredJob& stored, const Interruptions& interruptions);
   void pass_on(std::int64_t job, watch::Channel& channel, const worker::Report& report);
   void finish(std::int64_t job, const store::StateChange& outcome, const std::stop_token& stop);
 
   Parts parts_;
   std::mutex mutex_;
   std::condition_variable_any changed_;
-  std::deque<std::int64_t> waiting_;
+  WaitingJobs waiting_;
+  std::map<std::int64_t, std::stop_source> running_;  ///< to cancel jobs that are in a slot
   std::vector<std::jthread> slots_;
 };
 

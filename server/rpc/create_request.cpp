@@ -1,29 +1,42 @@
 #include "rpc/create_request.h"
 
+#include "error.h"
 #include "store/case_hash.h"
 
 namespace cellcrush::rpc {
+namespace {
 
-std::optional<RequestFault> check_request(const v1::CreateJobRequest& request) {
-  if (request.request_id().size() > 128)
-    return RequestFault{"request_id", "has " + std::to_string(request.request_id().size()) + " characters.",
-                        "Use at most 128."};
-  if (request.labels_size() > 64)
-    return RequestFault{"labels", "are " + std::to_string(request.labels_size()) + ".", "Use at most 64."};
-  for (const auto& [key, value] : request.labels()) {
-    if (key.empty() || key.size() > 63)
-      return RequestFault{"labels", "have the key \"" + key + "\", which is empty or too long.",
-                          "Use 1 to 63 characters."};
-    if (value.size() > 255)
-      return RequestFault{"labels", "have too long a value for \"" + key + "\".", "Use at most 255 characters."};
-  }
-  return std::nullopt;
-}
+constexpr std::size_t kLongestId = 128;
+constexpr std::size_t kMostLabels = 64;
+constexpr std::size_t kLongestKey = 63;
+constexpr std::size_t kLongestValue = 255;
 
-std::string payload_hash(v1::CreateJobRequest request) {
+template <class Request>
+std::string hash_of_payload(Request& request) {
   request.clear_request_id();
   request.clear_validate_only();
   return store::hash_of(request);
 }
+
+}  // namespace
+
+void check_request(const std::string& request_id, const google::protobuf::Map<std::string, std::string>& labels,
+                   const std::string& prefix) {
+  if (request_id.size() > kLongestId)
+    throw InvalidField("request_id", "has " + std::to_string(request_id.size()) + " characters.", "Use at most 128.");
+  const std::string field = prefix + "labels";
+  if (labels.size() > kMostLabels)
+    throw InvalidField(field, "are " + std::to_string(labels.size()) + ".", "Use at most 64.");
+  for (const auto& [key, value] : labels) {
+    if (key.empty() || key.size() > kLongestKey)
+      throw InvalidField(field, "have the key \"" + key + "\", which is empty or too long.", "Use 1 to 63 characters.");
+    if (value.size() > kLongestValue)
+      throw InvalidField(field, "have too long a value for \"" + key + "\".", "Use at most 255 characters.");
+  }
+}
+
+std::string payload_hash(v1::CreateJobRequest request) { return hash_of_payload(request); }
+
+std::string payload_hash(v1::CreateSweepRequest request) { return hash_of_payload(request); }
 
 }  // namespace cellcrush::rpc

@@ -26,6 +26,7 @@ grpc::StatusCode code_of(ServiceError::Kind kind) {
     case ServiceError::Kind::out_of_range: return grpc::StatusCode::OUT_OF_RANGE;
     case ServiceError::Kind::unimplemented: return grpc::StatusCode::UNIMPLEMENTED;
     case ServiceError::Kind::storage_full: return grpc::StatusCode::RESOURCE_EXHAUSTED;
+    case ServiceError::Kind::cancelled: return grpc::StatusCode::CANCELLED;
     case ServiceError::Kind::internal: break;
   }
   return grpc::StatusCode::INTERNAL;
@@ -38,9 +39,9 @@ std::string shorten(std::string text, std::size_t most) {
   return text.substr(0, most) + "...";
 }
 
-std::string sentence_of(const Problems& problems) {
-  std::string out = problems.size() == 1 ? "The case has a problem: "
-                                         : "The case has " + std::to_string(problems.size()) + " problems: ";
+std::string sentence_of(const Problems& problems, const std::string& subject) {
+  std::string out = "The " + subject + " has ";
+  out += problems.size() == 1 ? "a problem: " : std::to_string(problems.size()) + " problems: ";
   bool first = true;
   for (const auto& problem : problems) {
     out += (first ? "" : " ") + problem.field() + " " + problem.message();
@@ -68,21 +69,23 @@ std::string details_of(grpc::StatusCode code, const std::string& message, const 
   return status.SerializeAsString();
 }
 
-v1::Problem note_on_rest(grpc::StatusCode code, int left_out) {
+v1::Problem note_on_rest(grpc::StatusCode code, const std::string& subject, int left_out) {
   v1::Problem out;
-  out.set_field("case");
+  out.set_field(subject);
   out.set_message("has " + std::to_string(left_out) + " more problems.");
-  out.set_remedy("CheckCase lists them all.");
+  out.set_remedy(subject == "case" ? "CheckCase lists them all."
+                                   : "Mend these first; the same call then names the rest.");
   out.set_kind(code == grpc::StatusCode::INVALID_ARGUMENT ? v1::Problem::INVALID : v1::Problem::UNIMPLEMENTED);
   return out;
 }
 
 // The details of as many problems as fit, and of the rest its number.
-std::string bounded_details(grpc::StatusCode code, const std::string& message, const Problems& problems) {
+std::string bounded_details(grpc::StatusCode code, const std::string& message, const Problems& problems,
+                            const std::string& subject) {
   std::string out = details_of(code, message, problems);
   for (int kept = problems.size() - 1; out.size() > kMostDetails && kept >= 0; --kept) {
     Problems some(problems.begin(), problems.begin() + kept);
-    *some.Add() = note_on_rest(code, problems.size() - kept);
+    *some.Add() = note_on_rest(code, subject, problems.size() - kept);
     out = details_of(code, message, some);
   }
   return out;
@@ -90,13 +93,13 @@ std::string bounded_details(grpc::StatusCode code, const std::string& message, c
 
 }  // namespace
 
-grpc::Status status_of(const Problems& problems) {
+grpc::Status status_of(const Problems& problems, const std::string& subject) {
   const bool invalid = std::any_of(problems.begin(), problems.end(), [](const v1::Problem& problem) {
     return problem.kind() != v1::Problem::UNIMPLEMENTED;
   });
   const auto code = invalid ? grpc::StatusCode::INVALID_ARGUMENT : grpc::StatusCode::UNIMPLEMENTED;
-  const std::string message = sentence_of(problems);
-  return {code, message, bounded_details(code, message, problems)};
+  const std::string message = sentence_of(problems, subject);
+  return {code, message, bounded_details(code, message, problems, subject)};
 }
 
 grpc::Status invalid_argument(const std::string& field, const std::string& message, const std::string& remedy) {
@@ -108,7 +111,7 @@ grpc::Status invalid_argument(const std::string& field, const std::string& messa
   problem.set_kind(v1::Problem::INVALID);
   const auto code = grpc::StatusCode::INVALID_ARGUMENT;
   const std::string sentence = shorten(field + " " + message + " " + remedy, kMostMessage);
-  return {code, sentence, bounded_details(code, sentence, problems)};
+  return {code, sentence, bounded_details(code, sentence, problems, "request")};
 }
 
 grpc::Status status_of(const std::exception& error) {
@@ -116,6 +119,8 @@ grpc::Status status_of(const std::exception& error) {
     if (refused->kind() == ServiceError::Kind::internal) spdlog::error("A call failed: {}", error.what());
     return {code_of(refused->kind()), shorten(error.what(), kMostMessage)};
   }
+  if (const auto* refused = dynamic_cast<const InvalidField*>(&error))
+    return invalid_argument(refused->field(), refused->message(), refused->remedy());
   if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr)
     return {grpc::StatusCode::RESOURCE_EXHAUSTED, "There is not enough memory for this. Take a smaller case."};
   spdlog::error("A call failed: {}", error.what());

@@ -13,11 +13,12 @@ namespace cellcrush::rpc {
 
 // The one place that turns errors into gRPC statuses.
 
-/// A refused case. INVALID_ARGUMENT when any problem is INVALID, otherwise UNIMPLEMENTED. The details hold a
+/// A refused case, or another subject that has fields of one. INVALID_ARGUMENT when any problem is INVALID, otherwise UNIMPLEMENTED. The details hold a
 /// google.rpc.Status with BadRequest and cellcrush.v1.ProblemList. A trailer may have 8 KiB: problems that do not fit
-/// are counted in a last entry that refers to CheckCase, which lists them all.
+/// are counted in a last entry, which refers to CheckCase when the subject is a case.
 /// REQUIRES: there is at least one problem.
-grpc::Status status_of(const google::protobuf::RepeatedPtrField<v1::Problem>& problems);
+grpc::Status status_of(const google::protobuf::RepeatedPtrField<v1::Problem>& problems,
+                       const std::string& subject = "case");
 
 /// A refused argument of a call, with its field in the details. The message goes on from the field's name: "is
 /// negative."

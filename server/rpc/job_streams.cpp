@@ -9,7 +9,7 @@
 #include <system_error>
 #include <vector>
 
-#include "jobs/job_state.h"
+#include "jobs/resource_name.h"
 #include "rpc/error_table.h"
 #include "rpc/jobs_service.h"
 #include "store/result_reader.h"
@@ -94,13 +94,15 @@ v1::FieldFrame JobsService::find_frame(const store::StoredJob& stored, const v1:
       (request.has_time_s() && !std::isfinite(request.time_s())))
     throw ServiceError(ServiceError::Kind::invalid,
                        "The strain or time of the frame is not a number. Use a finite one.");
-  if (stored.job.state() == v1::SUCCEEDED) return frame_of_result(parts_.folder.result(stored.number), request);
+  if (stored.job.has_summary()) return frame_of_result(parts_.folder.result(stored.number), request);
   const auto channel = parts_.hub.find(stored.number);
   const auto frame = channel ? channel->newest().frame : nullptr;
   if (!frame) {
-    throw ServiceError(ServiceError::Kind::failed_precondition,
-                       stored.job.name() + " is " + v1::JobState_Name(stored.job.state()) +
-                           " and has no frame. A running job has its newest one, a job that SUCCEEDED has all.");
+    throw ServiceError(
+        ServiceError::Kind::failed_precondition,
+        stored.job.name() + " is " + v1::JobState_Name(stored.job.state()) +
+            " and has no frame. A running job has its newest one; one that SUCCEEDED, or was cancelled while it ran, "
+            "has all.");
   }
   return *frame;
 }
@@ -124,10 +126,10 @@ grpc::Status JobsService::DownloadResult(grpc::ServerContext*, const v1::Downloa
                                          grpc::ServerWriter<v1::DownloadResultResponse>* writer) {
   return answer([&] {
     const auto stored = find(request->name());
-    if (stored.job.state() != v1::SUCCEEDED) {
-      throw ServiceError(ServiceError::Kind::failed_precondition, stored.job.name() + " is " +
-                                                                      v1::JobState_Name(stored.job.state()) +
-                                                                      "; there is a result once it has SUCCEEDED.");
+    if (!stored.job.has_summary()) {
+      throw ServiceError(ServiceError::Kind::failed_precondition,
+                         stored.job.name() + " is " + v1::JobState_Name(stored.job.state()) +
+                             " and has no result. A job has one once it has SUCCEEDED or was cancelled while it ran.");
     }
     if (request->offset() < 0) return invalid_argument("offset", "is negative.", "Use 0 for the whole file.");
     const InputFile file(parts_.folder.result(stored.number));

@@ -1,39 +1,19 @@
 #include "rpc/jobs_service.h"
 
-#include <algorithm>
-#include <charconv>
-#include <limits>
-#include <optional>
+#include <memory>
 #include <utility>
 
-#include "jobs/job_state.h"
+#include "jobs/deletion.h"
+#include "jobs/resource_name.h"
 #include "rpc/create_request.h"
 #include "rpc/error_table.h"
+#include "rpc/job_query.h"
+#include "rpc/page.h"
+#include "rpc/watch_reactor.h"
 #include "translate/check_case.h"
+#include "watch/job_source.h"
 
 namespace cellcrush::rpc {
-namespace {
-
-constexpr int kDefaultPage = 50;
-constexpr int kLargestPage = 1000;
-constexpr std::size_t kPageBytes = 3'000'000;  // a page ends early rather than pass a client's limit of 4 MiB
-
-// A page token is the number of the last job of the page before.
-std::optional<std::int64_t> parse_token(const std::string& token) {
-  std::int64_t number = 0;
-  const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), number);
-  if (error != std::errc() || end != token.data() + token.size() || number < 1) return std::nullopt;
-  return number;
-}
-
-// A watch that is refused before it begins.
-class RefusedWatch final : public grpc::ServerWriteReactor<v1::JobEvent> {
- public:
-  explicit RefusedWatch(const grpc::Status& status) { Finish(status); }
-  void OnDone() override { delete this; }
-};
-
-}  // namespace
 
 store::StoredJob JobsService::find(const std::string& name) {
   const auto number = jobs::number_of(name);
@@ -46,7 +26,7 @@ store::StoredJob JobsService::find(const std::string& name) {
 }
 
 void JobsService::add_progress(store::StoredJob& stored) {
-  if (stored.job.state() != v1::RUNNING) return;
+  if (stored.job.state() != v1::RUNNING && stored.job.state() != v1::CANCELLING) return;
   const auto channel = parts_.hub.find(stored.number);
   if (!channel) return;
   if (const auto progress = channel->newest().progress) *stored.job.mutable_progress() = *progress;
@@ -54,8 +34,7 @@ void JobsService::add_progress(store::StoredJob& stored) {
 
 grpc::Status JobsService::CreateJob(grpc::ServerContext*, const v1::CreateJobRequest* request, v1::Job* response) {
   return answer([&] {
-    if (const auto fault = check_request(*request))
-      return invalid_argument(fault->field, fault->message, fault->remedy);
+    check_request(request->request_id(), request->labels());
     const auto check = translate::check_case(request->case_());
     if (check.response.problems_size() > 0) return status_of(check.response.problems());
     v1::Job job;
@@ -66,7 +45,7 @@ grpc::Status JobsService::CreateJob(grpc::ServerContext*, const v1::CreateJobReq
       return grpc::Status::OK;
     }
     const auto created = parts_.journal.create_job(std::move(job), request->request_id(), payload_hash(*request));
-    if (created.is_new) parts_.scheduler.enqueue(created.job);
+    if (created.is_new) parts_.scheduler.enqueue({created.job});
     auto stored = find(jobs::name_of(created.job));
     add_progress(stored);
     *response = std::move(stored.job);
@@ -86,36 +65,36 @@ grpc::Status JobsService::GetJob(grpc::ServerContext*, const v1::GetJobRequest* 
 grpc::Status JobsService::ListJobs(grpc::ServerContext*, const v1::ListJobsRequest* request,
                                    v1::ListJobsResponse* response) {
   return answer([&] {
-    if (!request->filter().empty()) return unimplemented("The field filter of ListJobs");
-    if (!request->order_by().empty()) return unimplemented("The field order_by of ListJobs");
-    if (request->page_size() < 0) return invalid_argument("page_size", "is negative.", "Use 1 to 1000, or 0 for 50.");
-    const int size = request->page_size() == 0 ? kDefaultPage : std::min(request->page_size(), kLargestPage);
-    std::int64_t before = std::numeric_limits<std::int64_t>::max();
-    if (!request->page_token().empty()) {
-      const auto token = parse_token(request->page_token());
-      if (!token)
-        return invalid_argument("page_token", "is none of this daemon's.",
-                                "Use the next_page_token of the page before.");
-      before = *token;
-    }
-    auto stored = parts_.reader.list_jobs(before, size + 1);
+    const auto filter = parse_filter(request->filter());
+    const bool newest_first = parse_newest_first(request->order_by());
+    const std::string question = request->filter() + "\n" + (newest_first ? "newest" : "oldest");
+    const auto page = read_page(request->page_size(), request->page_token(), question);
+    auto stored = parts_.reader.list_jobs(filter, newest_first, page.after, page.size + 1);
+    std::int64_t last = 0;
     std::size_t bytes = 0;
     for (auto& job : stored) {
       bytes += job.job.ByteSizeLong();
-      const bool full = response->jobs_size() == size || (bytes > kPageBytes && response->jobs_size() > 0);
+      const bool full = response->jobs_size() == page.size || (bytes > kPageBytes && response->jobs_size() > 0);
       if (full) {
-        response->set_next_page_token(std::to_string(job.number + 1));
+        response->set_next_page_token(page_token(last, question));
         break;
       }
       add_progress(job);
+      last = job.number;
       *response->add_jobs() = std::move(job.job);
     }
     return grpc::Status::OK;
   });
 }
 
-grpc::Status JobsService::CancelJob(grpc::ServerContext*, const v1::CancelJobRequest*, v1::Job*) {
-  return unimplemented("CancelJob");
+grpc::Status JobsService::CancelJob(grpc::ServerContext*, const v1::CancelJobRequest* request, v1::Job* response) {
+  return answer([&] {
+    parts_.scheduler.cancel(find(request->name()).number);
+    auto stored = find(request->name());
+    add_progress(stored);
+    *response = std::move(stored.job);
+    return grpc::Status::OK;
+  });
 }
 
 grpc::Status JobsService::SuspendJob(grpc::ServerContext*, const v1::SuspendJobRequest*, v1::Job*) {
@@ -126,18 +105,22 @@ grpc::Status JobsService::ResumeJob(grpc::ServerContext*, const v1::ResumeJobReq
   return unimplemented("ResumeJob");
 }
 
-grpc::Status JobsService::DeleteJob(grpc::ServerContext*, const v1::DeleteJobRequest*, v1::DeleteJobResponse*) {
-  return unimplemented("DeleteJob");
+grpc::Status JobsService::DeleteJob(grpc::ServerContext*, const v1::DeleteJobRequest* request, v1::DeleteJobResponse*) {
+  return answer([&] {
+    jobs::delete_job(find(request->name()).number, parts_.journal, parts_.folder);
+    return grpc::Status::OK;
+  });
 }
 
 grpc::ServerWriteReactor<v1::JobEvent>* JobsService::WatchJob(grpc::CallbackServerContext*,
                                                               const v1::WatchJobRequest* request) {
   try {
-    const auto stored = find(request->name());
-    return WatchReactor::start({parts_.reader, parts_.hub, parts_.pump, parts_.bookmark_interval}, stored.number,
-                               *request);
+    const std::int64_t job = find(request->name()).number;
+    auto source = std::make_unique<watch::JobSource>(parts_.reader, parts_.hub, job, request->after_sequence(),
+                                                     request->frames());
+    return WatchReactor<watch::JobSource>::start(parts_.pump, parts_.bookmark_interval, std::move(source));
   } catch (const std::exception& error) {
-    return new RefusedWatch(status_of(error));
+    return new RefusedWatch<v1::JobEvent>(status_of(error));
   }
 }
 

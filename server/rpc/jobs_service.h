@@ -2,11 +2,11 @@
 
 #include "cellcrush/v1/jobs_service.grpc.pb.h"
 #include "jobs/scheduler.h"
-#include "rpc/watch_reactor.h"
 #include "store/data_folder.h"
 #include "store/journal.h"
 #include "store/journal_reader.h"
 #include "watch/hub.h"
+#include "watch/pump.h"
 
 namespace cellcrush::rpc {
 

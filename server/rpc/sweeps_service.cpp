@@ -1,36 +1,131 @@
 #include "rpc/sweeps_service.h"
 
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include "jobs/resource_name.h"
+#include "jobs/sweep_plan.h"
+#include "jobs/sweep_points.h"
+#include "rpc/create_request.h"
 #include "rpc/error_table.h"
+#include "rpc/page.h"
+#include "rpc/watch_reactor.h"
+#include "watch/sweep_source.h"
 
 namespace cellcrush::rpc {
+namespace {
 
-grpc::Status SweepsService::CreateSweep(grpc::ServerContext*, const v1::CreateSweepRequest*, v1::Sweep*) {
-  return unimplemented("CreateSweep");
+// What the caller decides; the rest is the daemon's.
+v1::CreateSweepRequest without_output(v1::CreateSweepRequest request) {
+  auto& sweep = *request.mutable_sweep();
+  sweep.clear_name();
+  sweep.clear_create_time();
+  sweep.clear_jobs();
+  sweep.clear_state_counts();
+  return request;
 }
 
-grpc::Status SweepsService::GetSweep(grpc::ServerContext*, const v1::GetSweepRequest*, v1::Sweep*) {
-  return unimplemented("GetSweep");
+void check_numbers(const v1::Sweep& sweep) {
+  if (sweep.max_parallel() < 0) throw InvalidField("sweep.max_parallel", "is negative.", "Use 0 for no limit.");
+  if (sweep.max_failures() < 0) throw InvalidField("sweep.max_failures", "is negative.", "Use 0 for no limit.");
 }
 
-grpc::Status SweepsService::ListSweeps(grpc::ServerContext*, const v1::ListSweepsRequest*, v1::ListSweepsResponse*) {
-  return unimplemented("ListSweeps");
+}  // namespace
+
+SweepsService::Found SweepsService::find(const std::string& name) {
+  const auto number = jobs::sweep_number_of(name);
+  auto sweep = number ? parts_.sweeps.find_sweep(*number) : std::nullopt;
+  if (!sweep) {
+    throw ServiceError(ServiceError::Kind::not_found,
+                       "There is no sweep \"" + name + "\". Names are like sweeps/12; ListSweeps gives them.");
+  }
+  return {*number, *std::move(sweep)};
 }
 
-grpc::Status SweepsService::CancelSweep(grpc::ServerContext*, const v1::CancelSweepRequest*, v1::Sweep*) {
-  return unimplemented("CancelSweep");
+grpc::Status SweepsService::CreateSweep(grpc::ServerContext* context, const v1::CreateSweepRequest* given,
+                                        v1::Sweep* response) {
+  return answer([&] {
+    const auto request = without_output(*given);
+    check_request(request.request_id(), request.sweep().labels(), "sweep.");
+    check_numbers(request.sweep());
+    if (request.sweep().max_failures() > 0) return unimplemented("The field sweep.max_failures of CreateSweep");
+    auto plan = jobs::plan_sweep(request.sweep(), [context] { return context->IsCancelled(); });
+    if (!plan.problems.empty()) return status_of(plan.problems, "sweep");
+    if (request.validate_only()) {
+      *response = request.sweep();
+      return grpc::Status::OK;
+    }
+    const auto created =
+        parts_.journal.create_sweep(request.sweep(), plan.jobs, request.request_id(), payload_hash(request));
+    if (created.is_new) parts_.scheduler.enqueue(created.jobs, {created.sweep, request.sweep().max_parallel()});
+    *response = find(jobs::sweep_name_of(created.sweep)).sweep;
+    return grpc::Status::OK;
+  });
+}
+
+grpc::Status SweepsService::GetSweep(grpc::ServerContext*, const v1::GetSweepRequest* request, v1::Sweep* response) {
+  return answer([&] {
+    *response = find(request->name()).sweep;
+    return grpc::Status::OK;
+  });
+}
+
+grpc::Status SweepsService::ListSweeps(grpc::ServerContext*, const v1::ListSweepsRequest* request,
+                                       v1::ListSweepsResponse* response) {
+  return answer([&] {
+    const auto page = read_page(request->page_size(), request->page_token(), "sweeps");
+    const std::int64_t before = page.after == 0 ? std::numeric_limits<std::int64_t>::max() : page.after;
+    std::size_t bytes = 0;
+    std::int64_t last = 0;
+    for (const std::int64_t number : parts_.sweeps.list_sweeps(before, page.size + 1)) {
+      auto sweep = parts_.sweeps.find_sweep(number);
+      bytes += sweep->ByteSizeLong();
+      if (response->sweeps_size() == page.size || (bytes > kPageBytes && response->sweeps_size() > 0)) {
+        response->set_next_page_token(page_token(last, "sweeps"));
+        break;
+      }
+      last = number;
+      *response->add_sweeps() = *std::move(sweep);
+    }
+    return grpc::Status::OK;
+  });
+}
+
+grpc::Status SweepsService::CancelSweep(grpc::ServerContext*, const v1::CancelSweepRequest* request,
+                                        v1::Sweep* response) {
+  return answer([&] {
+    const std::int64_t sweep = find(request->name()).number;
+    const auto jobs = parts_.sweeps.jobs_of(sweep);
+    parts_.scheduler.cancel_all(jobs);
+    *response = find(request->name()).sweep;
+    return grpc::Status::OK;
+  });
 }
 
 grpc::Status SweepsService::RetryFailedJobs(grpc::ServerContext*, const v1::RetryFailedJobsRequest*, v1::Sweep*) {
   return unimplemented("RetryFailedJobs");
 }
 
-grpc::Status SweepsService::WatchSweep(grpc::ServerContext*, const v1::WatchSweepRequest*,
-                                       grpc::ServerWriter<v1::WatchSweepResponse>*) {
-  return unimplemented("WatchSweep");
+grpc::ServerWriteReactor<v1::WatchSweepResponse>* SweepsService::WatchSweep(grpc::CallbackServerContext*,
+                                                                            const v1::WatchSweepRequest* request) {
+  try {
+    auto source = std::make_unique<watch::SweepSource>(parts_.reader, parts_.sweeps, parts_.hub,
+                                                       find(request->name()).number, request->resume_token());
+    return WatchReactor<watch::SweepSource>::start(parts_.pump, parts_.bookmark_interval, std::move(source));
+  } catch (const std::exception& error) {
+    return new RefusedWatch<v1::WatchSweepResponse>(status_of(error));
+  }
 }
 
-grpc::Status SweepsService::GetSweepTable(grpc::ServerContext*, const v1::GetSweepTableRequest*, v1::SweepTable*) {
-  return unimplemented("GetSweepTable");
+grpc::Status SweepsService::GetSweepTable(grpc::ServerContext*, const v1::GetSweepTableRequest* request,
+                                          v1::SweepTable* response) {
+  return answer([&] {
+    const auto found = find(request->name());
+    for (auto& field : jobs::swept_fields(found.sweep)) response->add_fields(std::move(field));
+    for (auto& row : parts_.sweeps.rows(found.number)) *response->add_rows() = std::move(row);
+    return grpc::Status::OK;
+  });
 }
 
 }  // namespace cellcrush::rpc

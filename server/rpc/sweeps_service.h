@@ -1,12 +1,35 @@
 #pragma once
 
+#include <chrono>
+#include <string>
+
 #include "cellcrush/v1/sweeps_service.grpc.pb.h"
+#include "jobs/scheduler.h"
+#include "store/journal.h"
+#include "store/journal_reader.h"
+#include "store/sweep_reader.h"
+#include "watch/hub.h"
+#include "watch/pump.h"
 
 namespace cellcrush::rpc {
 
-/// Sweeps are not built: every call answers UNIMPLEMENTED and names itself.
-class SweepsService final : public v1::Sweeps::Service {
+/// Sweeps: many jobs from one case. Thread-safe. Watches go through gRPC's callbacks and hold no thread.
+/// RetryFailedJobs and the field max_failures are not built: they answer UNIMPLEMENTED.
+class SweepsService final : public v1::Sweeps::WithCallbackMethod_WatchSweep<v1::Sweeps::Service> {
  public:
+  /// All of it outlives the service.
+  struct Parts {
+    store::Journal& journal;
+    store::JournalReader& reader;
+    store::SweepReader& sweeps;
+    watch::Hub& hub;
+    watch::Pump& pump;
+    jobs::Scheduler& scheduler;
+    std::chrono::milliseconds bookmark_interval;
+  };
+
+  explicit SweepsService(const Parts& parts) : parts_(parts) {}
+
   grpc::Status CreateSweep(grpc::ServerContext* context, const v1::CreateSweepRequest* request,
                            v1::Sweep* response) override;
   grpc::Status GetSweep(grpc::ServerContext* context, const v1::GetSweepRequest* request, v1::Sweep* response) override;
@@ -16,10 +39,20 @@ class SweepsService final : public v1::Sweeps::Service {
                            v1::Sweep* response) override;
   grpc::Status RetryFailedJobs(grpc::ServerContext* context, const v1::RetryFailedJobsRequest* request,
                                v1::Sweep* response) override;
-  grpc::Status WatchSweep(grpc::ServerContext* context, const v1::WatchSweepRequest* request,
-                          grpc::ServerWriter<v1::WatchSweepResponse>* writer) override;
+  grpc::ServerWriteReactor<v1::WatchSweepResponse>* WatchSweep(grpc::CallbackServerContext* context,
+                                                               const v1::WatchSweepRequest* request) override;
   grpc::Status GetSweepTable(grpc::ServerContext* context, const v1::GetSweepTableRequest* request,
                              v1::SweepTable* response) override;
+
+ private:
+  struct Found {
+    std::int64_t number = 0;
+    v1::Sweep sweep;
+  };
+  /// Throws ServiceError (not_found) when there is none.
+  Found find(const std::string& name);
+
+  Parts parts_;
 };
 
 }  // namespace cellcrush::rpc

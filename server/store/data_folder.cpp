@@ -62,11 +62,16 @@ DataFolder::DataFolder(const std::filesystem::path& root) {
 DataFolder::~DataFolder() { close(lock_); }
 
 void DataFolder::prepare_job_folder(std::int64_t job) const {
+  remove_job_folder(job);
+  const auto folder = job_folder(job);
+  if (mkdir(folder.c_str(), 0700) != 0) fail(folder, errno);
+}
+
+void DataFolder::remove_job_folder(std::int64_t job) const {
   const auto folder = job_folder(job);
   std::error_code error;
   std::filesystem::remove_all(folder, error);
   if (error) fail(folder, error.value());
-  if (mkdir(folder.c_str(), 0700) != 0) fail(folder, errno);
 }
 
 }  // namespace cellcrush::store

@@ -24,9 +24,16 @@ class DataFolder {
     return root_ / "jobs" / std::to_string(job);
   }
   [[nodiscard]] std::filesystem::path result(std::int64_t job) const { return job_folder(job) / "result.h5"; }
+  /// What the worker writes until the result is complete.
+  [[nodiscard]] std::filesystem::path partial_result(std::int64_t job) const {
+    return job_folder(job) / "result.h5.partial";
+  }
 
   /// Makes the job's folder, empty: what an earlier, broken-off run left in it is removed. Throws ServiceError.
   void prepare_job_folder(std::int64_t job) const;
+
+  /// Removes the job's folder and all in it; nothing happens when there is none. Throws ServiceError.
+  void remove_job_folder(std::int64_t job) const;
 
  private:
   std::filesystem::path root_;

@@ -7,20 +7,14 @@
 
 #include "error.h"
 #include "jobs/job_state.h"
+#include "jobs/resource_name.h"
+#include "store/job_bytes.h"
 #include "store/journal_schema.h"
 
 namespace cellcrush::store {
 namespace {
 
 constexpr std::chrono::milliseconds kGatherTime{100};
-
-// What the journal keeps in one blob: all but what has a column of its own or is transient.
-std::string job_bytes(v1::Job job) {
-  job.clear_name();
-  job.clear_case_();
-  job.clear_progress();
-  return job.SerializeAsString();
-}
 
 void apply(const StateChange& change, v1::Job& job) {
   const auto now = google::protobuf::util::TimeUtil::GetCurrentTime();
@@ -31,7 +25,7 @@ void apply(const StateChange& change, v1::Job& job) {
   job.set_worker_pid(change.worker_pid);
   if (change.state == v1::RUNNING) *job.mutable_start_time() = now;
   if (jobs::is_terminal(change.state)) *job.mutable_end_time() = now;
-  if (change.state == v1::SUCCEEDED) *job.mutable_summary() = change.summary;
+  if (change.summary) *job.mutable_summary() = *change.summary;
 }
 
 }  // namespace
@@ -51,62 +45,14 @@ Journal::~Journal() {
   committer_.join();
 }
 
-Journal::Created Journal::create_job(v1::Job job, const std::string& request_id, const std::string& request_hash) {
-  Created created;
-  {
-    const std::scoped_lock lock(write_mutex_);
-    Transaction transaction(database_);
-    if (!request_id.empty()) {
-      Statement find(database_, "SELECT number, request_hash FROM jobs WHERE request_id = ?1");
-      if (find.bind_text(1, request_id).step()) {
-        if (find.bytes(1) == request_hash) return {find.integer(0), false};
-        throw ServiceError(ServiceError::Kind::already_exists,
-                           "The request_id \"" + request_id + "\" was used for another request, which made jobs/" +
-                               std::to_string(find.integer(0)) + ". Use a new request_id.");
-      }
-    }
-    job.set_state(v1::PENDING);
-    *job.mutable_create_time() = google::protobuf::util::TimeUtil::GetCurrentTime();
-    Statement insert(database_,
-                     "INSERT INTO jobs (state, job, submitted_case, request_id, request_hash, last_sequence) "
-                     "VALUES (?1, ?2, ?3, ?4, ?5, 1)");
-    insert.bind(1, job.state()).bind_blob(2, job_bytes(job)).bind_blob(3, job.case_().SerializeAsString());
-    if (!request_id.empty()) insert.bind_text(4, request_id).bind_text(5, request_hash);
-    insert.run();
-    Statement number(database_, "SELECT last_insert_rowid()");
-    number.step();
-    created.job = number.integer(0);
-    insert_event(created.job, 1, kStateEvent, job_bytes(job));
-    transaction.commit();
-  }
-  on_durable_(created.job);
-  return created;
-}
-
 void Journal::change_state(std::int64_t job, const StateChange& change) {
   {
     const std::scoped_lock lock(write_mutex_);
     Gathered samples = take_gathered(job);
     try {
       Transaction transaction(database_);
-      v1::Job stored;
-      {
-        Statement read(database_, "SELECT job FROM jobs WHERE number = ?1");
-        if (!read.bind(1, job).step())
-          throw ServiceError(ServiceError::Kind::not_found, "There is no jobs/" + std::to_string(job) + ".");
-        stored.ParseFromString(read.bytes(0));
-      }
-      if (!jobs::may_follow(stored.state(), change.state)) {
-        throw ServiceError(ServiceError::Kind::failed_precondition,
-                           "jobs/" + std::to_string(job) + " is " + v1::JobState_Name(stored.state()) +
-                               " and cannot become " + v1::JobState_Name(change.state) + ".");
-      }
-      apply(change, stored);
       insert_samples(job, samples[job]);
-      const std::int64_t sequence = last_sequence_of(job) + 1;
-      insert_event(job, sequence, kStateEvent, job_bytes(stored));
-      Statement update(database_, "UPDATE jobs SET state = ?2, job = ?3, last_sequence = ?4 WHERE number = ?1");
-      update.bind(1, job).bind(2, stored.state()).bind_blob(3, job_bytes(stored)).bind(4, sequence).run();
+      write_change(job, change);
       transaction.commit();
     } catch (...) {
       give_back(std::move(samples));
@@ -114,6 +60,26 @@ void Journal::change_state(std::int64_t job, const StateChange& change) {
     }
   }
   on_durable_(job);
+}
+
+void Journal::write_change(std::int64_t job, const StateChange& change) {
+  v1::Job stored;
+  {
+    Statement read(database_, "SELECT job FROM jobs WHERE number = ?1");
+    if (!read.bind(1, job).step())
+      throw ServiceError(ServiceError::Kind::not_found, "There is no " + jobs::name_of(job) + ".");
+    stored.ParseFromString(read.bytes(0));
+  }
+  if (!jobs::may_follow(stored.state(), change.state)) {
+    throw ServiceError(ServiceError::Kind::failed_precondition,
+                       jobs::name_of(job) + " is " + v1::JobState_Name(stored.state()) + " and cannot become " +
+                           v1::JobState_Name(change.state) + ".");
+  }
+  apply(change, stored);
+  const std::int64_t sequence = last_sequence_of(job) + 1;
+  insert_event(job, sequence, kStateEvent, job_bytes(stored));
+  Statement update(database_, "UPDATE jobs SET state = ?2, job = ?3, last_sequence = ?4 WHERE number = ?1");
+  update.bind(1, job).bind(2, stored.state()).bind_blob(3, job_bytes(stored)).bind(4, sequence).run();
 }
 
 void Journal::append_sample(std::int64_t job, const v1::Sample& sample) {

@@ -13,6 +13,7 @@
 
 #include "cellcrush/v1/event.pb.h"
 #include "cellcrush/v1/job.pb.h"
+#include "cellcrush/v1/sweep.pb.h"
 #include "store/sqlite.h"
 
 namespace cellcrush::store {
@@ -24,7 +25,13 @@ struct StateChange {
   std::string message;
   std::string remedy;
   std::int64_t worker_pid = 0;
-  v1::Summary summary;  ///< kept when the state is SUCCEEDED
+  std::optional<v1::Summary> summary;  ///< present when there is a result
+};
+
+/// A job to be made as a part of a sweep.
+struct SweepJob {
+  v1::Job job;                 ///< case and labels
+  std::vector<double> values;  ///< of the sweep's fields, in their order
 };
 
 /// Writes the journal (journal_format.md). Thread-safe. Failures throw ServiceError; a failed write changes nothing.
@@ -48,6 +55,25 @@ class Journal {
   /// with another one, already_exists is thrown. An empty request_id is none.
   Created create_job(v1::Job job, const std::string& request_id, const std::string& request_hash);
 
+  struct CreatedSweep {
+    std::int64_t sweep = 0;
+    std::vector<std::int64_t> jobs;  ///< in the order given; empty unless is_new
+    bool is_new = true;
+  };
+  /// Makes a sweep and all its jobs, PENDING, or nothing. The request_id is that of create_job, among sweeps.
+  CreatedSweep create_sweep(v1::Sweep sweep, const std::vector<SweepJob>& jobs, const std::string& request_id,
+                            const std::string& request_hash);
+
+  /// Makes those of the jobs that are PENDING CANCELLED, all at once.
+  void cancel_waiting(const std::vector<std::int64_t>& jobs);
+
+  /// Removes a job that has ended, with its events and its place in a sweep, and notes that its folder is to be removed.
+  /// Throws not_found, or failed_precondition when it has not ended.
+  void delete_job(std::int64_t job);
+
+  /// Takes the note away.
+  void note_folder_removed(std::int64_t job);
+
   /// Makes a change durable, and before it the samples gathered for the job. Throws failed_precondition when the state
   /// may not follow the present one (jobs/job_state.h).
   void change_state(std::int64_t job, const StateChange& change);
@@ -60,6 +86,11 @@ class Journal {
  private:
   void commit_gathered_regularly();
   void commit_gathered();
+  // These need write_mutex_, and a transaction where they write.
+  std::optional<std::int64_t> find_request(const std::string& collection, const std::string& request_id,
+                                           const std::string& request_hash);
+  std::int64_t insert_job(v1::Job job, const std::string& request_id, const std::string& request_hash);
+  void write_change(std::int64_t job, const StateChange& change);
   std::int64_t last_sequence_of(std::int64_t job);
   void insert_event(std::int64_t job, std::int64_t sequence, int kind, const std::string& payload);
   void insert_samples(std::int64_t job, const std::vector<std::string>& samples);

@@ -1,10 +1,15 @@
 #include "store/journal_reader.h"
 
-#include "jobs/job_state.h"
+#include <string>
+#include <utility>
+
+#include "jobs/resource_name.h"
 #include "store/journal_schema.h"
 
 namespace cellcrush::store {
 namespace {
+
+constexpr int kBatch = 200;
 
 // Columns: number, job, submitted_case, last_sequence.
 StoredJob read_job(const Statement& row) {
@@ -28,14 +33,47 @@ std::optional<StoredJob> JournalReader::find_job(std::int64_t job) {
   return read_job(read);
 }
 
-std::vector<StoredJob> JournalReader::list_jobs(std::int64_t before, int limit) {
+bool JournalReader::has_job(std::int64_t job) {
   const std::scoped_lock lock(mutex_);
-  Statement read(database_,
-                 "SELECT number, job, submitted_case, last_sequence FROM jobs WHERE number < ?1 "
-                 "ORDER BY number DESC LIMIT ?2");
-  read.bind(1, before).bind(2, limit);
+  return Statement(database_, "SELECT 1 FROM jobs WHERE number = ?1").bind(1, job).step();
+}
+
+std::vector<StoredJob> JournalReader::list_jobs(const JobFilter& wanted, bool newest_first, std::int64_t after,
+                                                int limit) {
+  std::vector<StoredJob> out;
+  // In batches, so that a long search does not keep other readers out.
+  while (true) {
+    auto batch = read_batch(wanted, newest_first, after);
+    if (batch.empty()) return out;
+    after = batch.back().number;
+    for (auto& job : batch) {
+      if (!matches(wanted, job.job)) continue;
+      out.push_back(std::move(job));
+      if (static_cast<int>(out.size()) == limit) return out;
+    }
+  }
+}
+
+std::vector<StoredJob> JournalReader::read_batch(const JobFilter& wanted, bool newest_first, std::int64_t after) {
+  const std::scoped_lock lock(mutex_);
+  std::string sql = "SELECT number, job, submitted_case, last_sequence FROM jobs WHERE ";
+  sql += newest_first ? "(?1 = 0 OR number < ?1)" : "number > ?1";
+  if (!wanted.states.empty()) sql += " AND state = ?2";
+  sql += newest_first ? " ORDER BY number DESC" : " ORDER BY number";
+  sql += " LIMIT " + std::to_string(kBatch);
+  Statement read(database_, sql);
+  read.bind(1, after);
+  if (!wanted.states.empty()) read.bind(2, wanted.states.front());
   std::vector<StoredJob> out;
   while (read.step()) out.push_back(read_job(read));
+  return out;
+}
+
+std::vector<std::int64_t> JournalReader::deleted_jobs() {
+  const std::scoped_lock lock(mutex_);
+  Statement read(database_, "SELECT number FROM deleted_jobs ORDER BY number");
+  std::vector<std::int64_t> out;
+  while (read.step()) out.push_back(read.integer(0));
   return out;
 }
 

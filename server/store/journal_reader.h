@@ -8,6 +8,7 @@
 
 #include "cellcrush/v1/event.pb.h"
 #include "cellcrush/v1/job.pb.h"
+#include "store/job_filter.h"
 #include "store/sqlite.h"
 
 namespace cellcrush::store {
@@ -27,8 +28,15 @@ class JournalReader {
 
   std::optional<StoredJob> find_job(std::int64_t job);
 
-  /// Newest first; only jobs with a number below `before`.
-  std::vector<StoredJob> list_jobs(std::int64_t before, int limit);
+  /// Whether there is such a job.
+  bool has_job(std::int64_t job);
+
+  /// Up to `limit` of the wanted jobs behind the one with the number `after` (0: from the beginning), in the order of
+  /// their numbers or, with `newest_first`, against it.
+  std::vector<StoredJob> list_jobs(const JobFilter& wanted, bool newest_first, std::int64_t after, int limit);
+
+  /// Numbers of the jobs whose folders are still to be removed.
+  std::vector<std::int64_t> deleted_jobs();
 
   /// Numbers of the jobs in a state, oldest first.
   std::vector<std::int64_t> jobs_in(v1::JobState state);
@@ -42,6 +50,8 @@ class JournalReader {
   std::optional<v1::Mesh> mesh(std::int64_t job);
 
  private:
+  std::vector<StoredJob> read_batch(const JobFilter& wanted, bool newest_first, std::int64_t after);
+
   std::mutex mutex_;
   Database database_;
 };

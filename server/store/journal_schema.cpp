@@ -5,9 +5,9 @@
 namespace cellcrush::store {
 namespace {
 
-constexpr std::int64_t kVersion = 1;
+constexpr std::int64_t kVersion = 2;
 
-constexpr const char* kTables = R"sql(
+constexpr const char* kJobTables = R"sql(
 CREATE TABLE jobs (
   number INTEGER PRIMARY KEY AUTOINCREMENT,
   state INTEGER NOT NULL,
@@ -33,6 +33,30 @@ CREATE TABLE meshes (
 PRAGMA user_version = 1;
 )sql";
 
+// From version 1 to 2.
+constexpr const char* kSweepTables = R"sql(
+CREATE TABLE sweeps (
+  number INTEGER PRIMARY KEY AUTOINCREMENT,
+  sweep BLOB NOT NULL,
+  max_parallel INTEGER NOT NULL,
+  request_id TEXT,
+  request_hash TEXT
+) STRICT;
+CREATE UNIQUE INDEX sweeps_by_request ON sweeps(request_id) WHERE request_id IS NOT NULL;
+CREATE TABLE sweep_jobs (
+  sweep INTEGER NOT NULL REFERENCES sweeps(number),
+  position INTEGER NOT NULL,
+  job INTEGER NOT NULL REFERENCES jobs(number),
+  point BLOB NOT NULL,
+  PRIMARY KEY (sweep, position)
+) STRICT, WITHOUT ROWID;
+CREATE UNIQUE INDEX sweep_jobs_by_job ON sweep_jobs(job);
+CREATE TABLE deleted_jobs (
+  number INTEGER PRIMARY KEY
+) STRICT;
+PRAGMA user_version = 2;
+)sql";
+
 }  // namespace
 
 void prepare_journal(Database& database) {
@@ -47,7 +71,8 @@ void prepare_journal(Database& database) {
                        "The journal is of version " + std::to_string(version) + ", and this daemon knows version " +
                            std::to_string(kVersion) + ". Run a newer cellcrushd, or use another data folder.");
   }
-  if (version == 0) database.execute(kTables);
+  if (version < 1) database.execute(kJobTables);
+  if (version < 2) database.execute(kSweepTables);
   transaction.commit();
 }
 

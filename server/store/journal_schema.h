@@ -8,7 +8,8 @@ namespace cellcrush::store {
 inline constexpr int kStateEvent = 1;
 inline constexpr int kSampleEvent = 2;
 
-/// Makes the tables of a new journal. Throws ServiceError (failed_precondition) for a journal of a later version.
+/// Makes the tables of a new journal, and those that an earlier version lacks. Throws ServiceError (failed_precondition)
+/// for a journal of a later version.
 void prepare_journal(Database& database);
 
 }  // namespace cellcrush::store

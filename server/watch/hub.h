@@ -57,6 +57,7 @@ class Hub {
  private:
   std::mutex mutex_;
   std::map<std::int64_t, std::weak_ptr<Channel>> channels_;
+  std::size_t kept_ = 0;  ///< channels at the last time when the dead ones were removed
 };
 
 }  // namespace cellcrush::watch

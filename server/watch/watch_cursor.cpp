@@ -4,6 +4,7 @@
 
 #include "error.h"
 #include "jobs/job_state.h"
+#include "jobs/resource_name.h"
 #include "watch/frame_chunks.h"
 
 namespace cellcrush::watch {
@@ -11,17 +12,21 @@ namespace {
 
 constexpr int kEventsAtOnce = 256;
 
+ServiceError no_such(std::int64_t job) {
+  return {ServiceError::Kind::not_found, "There is no " + jobs::name_of(job) + "."};
+}
+
 store::StoredJob find_job(store::JournalReader& journal, std::int64_t job) {
   auto found = journal.find_job(job);
-  if (!found) throw ServiceError(ServiceError::Kind::not_found, "There is no " + jobs::name_of(job) + ".");
+  if (!found) throw no_such(job);
   return *std::move(found);
 }
 
 }  // namespace
 
 WatchCursor::WatchCursor(store::JournalReader& journal, std::int64_t job, std::shared_ptr<const Channel> channel,
-                         std::int64_t after, bool frames)
-    : journal_(journal), job_(job), channel_(std::move(channel)), after_(after), frames_(frames) {
+                         std::int64_t after, Wanted wanted)
+    : journal_(journal), job_(job), channel_(std::move(channel)), after_(after), wanted_(wanted) {
   const auto stored = find_job(journal_, job_);
   if (after < 0) {
     throw ServiceError(ServiceError::Kind::invalid,
@@ -45,7 +50,10 @@ std::optional<v1::JobEvent> WatchCursor::next() {
     events_.assign(std::make_move_iterator(read.begin()), std::make_move_iterator(read.end()));
   }
   if (auto event = transient()) return event;
-  if (events_.empty()) return std::nullopt;
+  if (events_.empty()) {
+    if (!journal_.has_job(job_)) throw no_such(job_);
+    return std::nullopt;
+  }
   v1::JobEvent event = std::move(events_.front());
   events_.pop_front();
   after_ = event.sequence();
@@ -70,7 +78,7 @@ v1::JobEvent WatchCursor::snapshot() {
     *snapshot.mutable_job()->mutable_progress() = *newest.progress;
     progress_given_ = newest.progress_count;
   }
-  if (auto mesh = journal_.mesh(job_)) *snapshot.mutable_mesh() = *std::move(mesh);
+  if (auto mesh = wanted_.mesh ? journal_.mesh(job_) : std::nullopt) *snapshot.mutable_mesh() = *std::move(mesh);
   return event;
 }
 
@@ -84,7 +92,7 @@ std::optional<v1::JobEvent> WatchCursor::transient() {
       *event.mutable_progress() = *newest.progress;
       return event;
     }
-    if (frames_ && newest.frame && newest.frame_count > frames_given_) {
+    if (wanted_.frames && newest.frame && newest.frame_count > frames_given_) {
       frames_given_ = newest.frame_count;
       queue_frame(*newest.frame);
     }

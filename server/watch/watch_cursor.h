@@ -15,13 +15,20 @@ namespace cellcrush::watch {
 /// slow watcher holds up nobody and costs no memory. Not thread-safe.
 class WatchCursor {
  public:
+  /// What is sent beside states, samples and progress.
+  struct Wanted {
+    bool frames = false;
+    bool mesh = true;  ///< in the snapshot
+  };
+
   /// Events up to `after` are not sent again. Throws ServiceError: invalid when `after` is negative, out_of_range when
   /// the job has no such event yet, not_found when there is no such job.
   WatchCursor(store::JournalReader& journal, std::int64_t job, std::shared_ptr<const Channel> channel,
-              std::int64_t after, bool frames);
+              std::int64_t after, Wanted wanted);
 
   /// The next message: a snapshot, then states and samples in order, with the newest progress and frame between them.
-  /// Nothing when there is none now. Throws ServiceError when the journal cannot be read.
+  /// Nothing when there is none now. Throws ServiceError: not_found when the job was deleted meanwhile, or when the
+  /// journal cannot be read.
   std::optional<v1::JobEvent> next();
 
   /// Whether the job's last event has been given.
@@ -29,6 +36,9 @@ class WatchCursor {
 
   /// A sign of life: everything up to its sequence number has been given.
   [[nodiscard]] v1::JobEvent bookmark() const;
+
+  /// Number of the last state or sample that was given.
+  [[nodiscard]] std::int64_t sequence() const { return after_; }
 
  private:
   v1::JobEvent snapshot();
@@ -39,7 +49,7 @@ class WatchCursor {
   std::int64_t job_;
   std::shared_ptr<const Channel> channel_;
   std::int64_t after_;  ///< sequence number of the last state or sample given
-  bool frames_;
+  Wanted wanted_;
   bool snapshot_sent_ = false;
   bool ended_ = false;
   std::deque<v1::JobEvent> events_;   ///< read from the journal, not given yet

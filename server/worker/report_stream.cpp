@@ -55,4 +55,9 @@ ReportStream::Read ReportStream::read(google::protobuf::MessageLite& message) {
   return message.ParseFromString(bytes) ? Read::message : Read::broken;
 }
 
+bool ReportStream::at_end() const {
+  char next = 0;
+  return recv(socket_, &next, 1, MSG_PEEK | MSG_DONTWAIT) == 0;
+}
+
 }  // namespace cellcrush::worker

@@ -21,6 +21,9 @@ class ReportStream {
   /// Waits for a message.
   Read read(google::protobuf::MessageLite& message);
 
+  /// Whether the other side says no more and all it said was read. Does not wait.
+  [[nodiscard]] bool at_end() const;
+
  private:
   int socket_;
 };

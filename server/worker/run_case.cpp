@@ -52,9 +52,10 @@ double processor_seconds() {
 // One run: what is advanced, and where its output goes.
 class Run {
  public:
-  Run(const Order& order, const Reporter& report)
+  Run(const Order& order, const Reporter& report, const StopAsked& stop_asked)
       : order_(order),
         report_(report),
+        stop_asked_(stop_asked),
         scene_(build(order.case_())),
         facts_(facts_of(*scene_)),
         simulation_(scene_),
@@ -68,7 +69,7 @@ class Run {
     *mesh.mutable_mesh() = mesh_;
     send(mesh);
     put_out_frame();
-    while (simulation_.step() < facts_.step_count) {
+    while (simulation_.step() < facts_.step_count && !stopping_) {
       advance_to_next_output();
       const auto status = simulation_.status();
       if (status.kind == RunStatus::Kind::diverged) return failure(v1::SOLVER_DIVERGED, status.message, status.remedy);
@@ -79,7 +80,8 @@ class Run {
   }
 
  private:
-  // Advances in pieces of about 50 ms, so that progress is told in time, then takes what is due.
+  // Advances in pieces of about 50 ms, so that progress is told and a wish to stop is heard in time, then takes what is
+  // due.
   void advance_to_next_output() {
     const std::int64_t next =
         std::min({next_multiple(facts_.sample_interval), next_multiple(facts_.frame_interval), facts_.step_count});
@@ -97,8 +99,12 @@ class Run {
       piece_ = now - start < std::chrono::milliseconds(25) ? 2 * piece_ : std::max<std::int64_t>(1, piece_ / 2);
       piece_ = std::min(piece_, facts_.step_count);
       put_out_progress(now);
+      if (stop_asked_()) {
+        acknowledge_stop();
+        break;
+      }
     }
-    const bool last = simulation_.step() == facts_.step_count;
+    const bool last = stopping_ || simulation_.step() == facts_.step_count;
     if (last || simulation_.step() % facts_.sample_interval == 0) put_out_sample();
     if (last || simulation_.step() % facts_.frame_interval == 0) put_out_frame();
   }
@@ -110,8 +116,7 @@ class Run {
   void put_out_sample() {
     samples_.push_back(simulation_.take_sample());
     Report report;
-    *report.mutable_sample() =
-        translate::to_proto(samples_.back(), order_.case_().lattice().frame().watched_nodes());
+    *report.mutable_sample() = translate::to_proto(samples_.back(), order_.case_().lattice().frame().watched_nodes());
     meter_.add(report.sample());
     writer_.add_sample(report.sample());
     send(report);
@@ -132,10 +137,20 @@ class Run {
     }
   }
 
+  void acknowledge_stop() {
+    stopping_ = true;
+    Report report;
+    report.mutable_stopping();
+    send(report);
+  }
+
   Final complete() {
+    const bool whole = simulation_.step() == facts_.step_count;
     Final out;
+    out.set_cancelled(!whole);
     *out.mutable_summary() = translate::to_proto(summarize(*scene_, samples_), processor_seconds());
-    writer_.finish({order_.case_(), kSolverRevision, "scalar", facts_.time_step, facts_.modelled}, out.summary());
+    writer_.finish({order_.case_(), kSolverRevision, "scalar", facts_.time_step, facts_.modelled, whole},
+                   out.summary());
     store::publish_file(partial_path_, order_.result_path());
     return out;
   }
@@ -146,6 +161,7 @@ class Run {
 
   const Order& order_;
   const Reporter& report_;
+  const StopAsked& stop_asked_;
   std::shared_ptr<const Scene> scene_;
   SceneFacts facts_;
   Simulation simulation_;
@@ -156,6 +172,7 @@ class Run {
   std::vector<Sample> samples_;
   int frame_count_ = 0;
   std::int64_t piece_ = 16;
+  bool stopping_ = false;  ///< asked to end before the last step
 };
 
 Final failure_of(const ServiceError& error) {
@@ -166,10 +183,10 @@ Final failure_of(const ServiceError& error) {
 
 }  // namespace
 
-std::optional<Final> run_case(const Order& order, const Reporter& report) {
+std::optional<Final> run_case(const Order& order, const Reporter& report, const StopAsked& stop_asked) {
   std::optional<Final> out;
   try {
-    out = Run(order, report).to_the_end();
+    out = Run(order, report, stop_asked).to_the_end();
   } catch (const NobodyListens&) {
     out.reset();
   } catch (const ServiceError& error) {

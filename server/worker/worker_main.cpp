@@ -21,7 +21,8 @@ void worker_main(int daemon) {
   ReportStream stream(kSocket);
   Order order;
   if (stream.read(order) != ReportStream::Read::message) _exit(kNoReport);
-  const auto final = run_case(order, [&stream](const Report& report) { return stream.write(report); });
+  const auto final = run_case(
+      order, [&stream](const Report& report) { return stream.write(report); }, [&stream] { return stream.at_end(); });
   if (!final) _exit(kNoReport);
   Report report;
   *report.mutable_final() = *final;

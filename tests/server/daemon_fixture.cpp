@@ -13,7 +13,8 @@ std::unique_ptr<grpc::ClientContext> bounded_context() {
 Client::Client(const std::string& address)
     : channel(grpc::CreateChannel(address, grpc::InsecureChannelCredentials())),
       cases(v1::Cases::NewStub(channel)),
-      jobs(v1::Jobs::NewStub(channel)) {}
+      jobs(v1::Jobs::NewStub(channel)),
+      sweeps(v1::Sweeps::NewStub(channel)) {}
 
 std::string Client::create(const v1::Case& submitted) {
   v1::CreateJobRequest request;
@@ -31,6 +32,29 @@ v1::Job Client::get(const std::string& job) {
   const auto status = jobs->GetJob(bounded_context().get(), request, &out);
   EXPECT_TRUE(status.ok()) << status.error_message();
   return out;
+}
+
+grpc::Status Client::cancel(const std::string& job) {
+  v1::CancelJobRequest request;
+  request.set_name(job);
+  v1::Job out;
+  return jobs->CancelJob(bounded_context().get(), request, &out);
+}
+
+grpc::Status Client::remove(const std::string& job) {
+  v1::DeleteJobRequest request;
+  request.set_name(job);
+  v1::DeleteJobResponse out;
+  return jobs->DeleteJob(bounded_context().get(), request, &out);
+}
+
+std::vector<v1::Sample> Client::history(const std::string& job) {
+  v1::GetHistoryRequest request;
+  request.set_name(job);
+  v1::GetHistoryResponse out;
+  const auto status = jobs->GetHistory(bounded_context().get(), request, &out);
+  EXPECT_TRUE(status.ok()) << status.error_message();
+  return {out.samples().begin(), out.samples().end()};
 }
 
 Client::Watched Client::watch(const std::string& job, std::int64_t after_sequence, bool frames,

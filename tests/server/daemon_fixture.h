@@ -11,6 +11,7 @@
 
 #include "cellcrush/v1/cases_service.grpc.pb.h"
 #include "cellcrush/v1/jobs_service.grpc.pb.h"
+#include "cellcrush/v1/sweeps_service.grpc.pb.h"
 #include "daemon.h"
 #include "server/temporary_folder.h"
 
@@ -31,6 +32,9 @@ class Client {
   /// Makes a job; fails the test when it is refused. Returns its name.
   std::string create(const v1::Case& submitted);
   v1::Job get(const std::string& job);
+  grpc::Status cancel(const std::string& job);
+  grpc::Status remove(const std::string& job);
+  std::vector<v1::Sample> history(const std::string& job);
   /// Watches to the end; `on_event` sees each event as it comes.
   Watched watch(const std::string& job, std::int64_t after_sequence = 0, bool frames = false,
                 const OnEvent& on_event = {});
@@ -42,6 +46,7 @@ class Client {
   const std::shared_ptr<grpc::Channel> channel;
   const std::unique_ptr<v1::Cases::Stub> cases;
   const std::unique_ptr<v1::Jobs::Stub> jobs;
+  const std::unique_ptr<v1::Sweeps::Stub> sweeps;
 };
 
 /// A context with a deadline of 60 s.

@@ -38,16 +38,5 @@ TEST(JobState, OnlyARunSucceeds) {
   EXPECT_FALSE(may_follow(v1::SUSPENDED, v1::SUCCEEDED));
 }
 
-TEST(JobName, IsReadBackAsItIsWritten) {
-  EXPECT_EQ(name_of(12), "jobs/12");
-  EXPECT_EQ(number_of("jobs/12"), 12);
-}
-
-TEST(JobName, NothingElseIsAName) {
-  for (const char* name : {"", "12", "jobs/", "jobs/0", "jobs/-1", "jobs/+1", "jobs/012", "jobs/1 ", "jobs/1/2",
-                           "jobs/x", "jobs/99999999999999999999"})
-    EXPECT_FALSE(number_of(name)) << name;
-}
-
 }  // namespace
 }  // namespace cellcrush::jobs

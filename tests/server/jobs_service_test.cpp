@@ -4,7 +4,6 @@
 #include <iterator>
 #include <thread>
 
-#include "cellcrush/v1/sweeps_service.grpc.pb.h"
 #include "google/rpc/status.pb.h"
 #include "server/daemon_fixture.h"
 #include "server/small_case.h"
@@ -71,13 +70,9 @@ TEST_F(JobsServiceTest, WhatIsNotBuiltIsUnimplementedAndNamed) {
   const auto status = client.jobs->CreateJob(bounded_context().get(), request, &job);
   EXPECT_EQ(status.error_code(), grpc::StatusCode::UNIMPLEMENTED);
   EXPECT_THAT(status.error_message(), HasSubstr("numerics.threads"));
-  const auto cancel = client.jobs->CancelJob(bounded_context().get(), {}, &job);
-  EXPECT_EQ(cancel.error_code(), grpc::StatusCode::UNIMPLEMENTED);
-  EXPECT_THAT(cancel.error_message(), HasSubstr("CancelJob"));
-  v1::Sweep sweep;
-  const auto made = v1::Sweeps::NewStub(client.channel)->CreateSweep(bounded_context().get(), {}, &sweep);
-  EXPECT_EQ(made.error_code(), grpc::StatusCode::UNIMPLEMENTED);
-  EXPECT_THAT(made.error_message(), HasSubstr("CreateSweep"));
+  const auto suspended = client.jobs->SuspendJob(bounded_context().get(), {}, &job);
+  EXPECT_EQ(suspended.error_code(), grpc::StatusCode::UNIMPLEMENTED);
+  EXPECT_THAT(suspended.error_message(), HasSubstr("SuspendJob"));
 }
 
 TEST_F(JobsServiceTest, ValidateOnlyQueuesNothing) {
@@ -113,31 +108,6 @@ TEST_F(JobsServiceTest, ARequestIdMakesOneJob) {
             grpc::StatusCode::INVALID_ARGUMENT);
 }
 
-TEST_F(JobsServiceTest, ListsNewestFirstInPages) {
-  auto client = this->client();
-  for (int i = 0; i < 5; ++i) client.create(small_case());
-  v1::ListJobsRequest request;
-  request.set_page_size(2);
-  std::vector<std::string> names;
-  for (int page = 0; page < 3; ++page) {
-    v1::ListJobsResponse response;
-    ASSERT_TRUE(client.jobs->ListJobs(bounded_context().get(), request, &response).ok());
-    for (const auto& job : response.jobs()) names.push_back(job.name());
-    EXPECT_EQ(response.next_page_token().empty(), page == 2);
-    request.set_page_token(response.next_page_token());
-  }
-  EXPECT_EQ(names, (std::vector<std::string>{"jobs/5", "jobs/4", "jobs/3", "jobs/2", "jobs/1"}));
-  v1::ListJobsResponse response;
-  request.set_page_token("nonsense");
-  EXPECT_EQ(client.jobs->ListJobs(bounded_context().get(), request, &response).error_code(),
-            grpc::StatusCode::INVALID_ARGUMENT);
-  request.clear_page_token();
-  request.set_filter("state = RUNNING");
-  const auto filtered = client.jobs->ListJobs(bounded_context().get(), request, &response);
-  EXPECT_EQ(filtered.error_code(), grpc::StatusCode::UNIMPLEMENTED);
-  EXPECT_THAT(filtered.error_message(), HasSubstr("filter"));
-}
-
 TEST_F(JobsServiceTest, UnknownNamesAreNotFound) {
   auto client = this->client();
   for (const char* name : {"jobs/77", "nonsense", ""}) {
@@ -149,6 +119,8 @@ TEST_F(JobsServiceTest, UnknownNamesAreNotFound) {
     grpc::Status status;
     client.download(name, 0, status);
     EXPECT_EQ(status.error_code(), grpc::StatusCode::NOT_FOUND);
+    EXPECT_EQ(client.cancel(name).error_code(), grpc::StatusCode::NOT_FOUND);
+    EXPECT_EQ(client.remove(name).error_code(), grpc::StatusCode::NOT_FOUND);
   }
 }
 

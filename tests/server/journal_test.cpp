@@ -11,6 +11,7 @@
 #include "server/small_case.h"
 #include "server/temporary_folder.h"
 #include "store/journal_reader.h"
+#include "store/sweep_reader.h"
 
 namespace cellcrush::store {
 namespace {
@@ -39,7 +40,7 @@ class JournalTest : public ::testing::Test {
     StateChange change;
     change.state = state;
     change.worker_pid = state == v1::RUNNING ? 4711 : 0;
-    change.summary.set_step_count(99);
+    if (state == v1::SUCCEEDED) change.summary.emplace().set_step_count(99);
     journal_->change_state(job, change);
   }
 
@@ -111,7 +112,7 @@ TEST_F(JournalTest, ARequestIdMakesOneJobAndNoOtherRequestMayUseIt) {
   reopen();
   EXPECT_EQ(create("id", "hash"), first);
   EXPECT_NE(create("other", "hash"), first);
-  EXPECT_EQ(reader_->list_jobs(1000, 10).size(), 2U);
+  EXPECT_EQ(reader_->list_jobs({}, true, 0, 10).size(), 2U);
   try {
     create("id", "another hash");
     FAIL() << "The id was taken for another request.";
@@ -132,10 +133,11 @@ TEST_F(JournalTest, JobsAreListedNewestFirstAndFoundByState) {
   const auto first = create();
   const auto second = create();
   change(first, v1::RUNNING);
-  const auto listed = reader_->list_jobs(1000, 10);
+  const auto listed = reader_->list_jobs({}, true, 0, 10);
   ASSERT_EQ(listed.size(), 2U);
   EXPECT_EQ(listed[0].number, second);
-  EXPECT_EQ(reader_->list_jobs(second, 10).size(), 1U);
+  EXPECT_EQ(reader_->list_jobs({}, true, second, 10).size(), 1U);
+  EXPECT_EQ(reader_->list_jobs({}, false, 0, 10)[0].number, first);
   EXPECT_EQ(reader_->jobs_in(v1::RUNNING), std::vector<std::int64_t>{first});
   EXPECT_EQ(reader_->jobs_in(v1::PENDING), std::vector<std::int64_t>{second});
 }
@@ -149,14 +151,121 @@ TEST_F(JournalTest, AMeshIsKept) {
   EXPECT_EQ(reader_->mesh(job)->particle_count(), 12);
 }
 
+TEST_F(JournalTest, AFilterLooksThroughMoreJobsThanAPageHolds) {
+  for (int i = 0; i < 500; ++i) create();
+  change(3, v1::RUNNING);
+  JobFilter filter;
+  filter.states = {v1::RUNNING};
+  filter.labels = {{"who", "me"}};
+  const auto listed = reader_->list_jobs(filter, true, 0, 10);
+  ASSERT_EQ(listed.size(), 1U);
+  EXPECT_EQ(listed[0].number, 3);
+  filter.labels = {{"who", "you"}};
+  EXPECT_TRUE(reader_->list_jobs(filter, true, 0, 10).empty());
+  filter = {};
+  filter.titles = {"FEW"};
+  EXPECT_EQ(reader_->list_jobs(filter, false, 450, 100).size(), 50U);
+}
+
+TEST_F(JournalTest, ADeletedJobLeavesNothingButTheNoteOnItsFolder) {
+  const auto job = create("id", "hash");
+  EXPECT_THROW(journal_->delete_job(job), ServiceError);
+  change(job, v1::CANCELLED);
+  journal_->set_mesh(job, {});
+  journal_->delete_job(job);
+  EXPECT_FALSE(reader_->has_job(job));
+  EXPECT_FALSE(reader_->mesh(job));
+  EXPECT_TRUE(reader_->events(job, 0, 10).empty());
+  EXPECT_THROW(journal_->delete_job(job), ServiceError);
+  reopen();
+  EXPECT_EQ(reader_->deleted_jobs(), std::vector<std::int64_t>{job});
+  journal_->note_folder_removed(job);
+  EXPECT_TRUE(reader_->deleted_jobs().empty());
+  EXPECT_GT(create("id", "hash"), job) << "Numbers are not used again.";
+}
+
 TEST_F(JournalTest, AJournalOfALaterVersionIsRefused) {
   reader_.reset();
   journal_.reset();
   {
     Database database(path());
-    database.execute("PRAGMA user_version = 2");
+    database.execute("PRAGMA user_version = 3");
   }
   EXPECT_THROW(Journal(path(), [](std::int64_t) {}), ServiceError);
+}
+
+TEST_F(JournalTest, AJournalOfTheFirstVersionIsBroughtUpToDate) {
+  const auto job = create();
+  reader_.reset();
+  journal_.reset();
+  {
+    // What the first version had: no sweeps, and no note of deletions.
+    Database database(path());
+    database.execute("DROP TABLE sweep_jobs; DROP TABLE sweeps; DROP TABLE deleted_jobs; PRAGMA user_version = 1;");
+  }
+  reopen();
+  EXPECT_TRUE(reader_->has_job(job));
+  SweepJob member;
+  member.values = {50.0};
+  const auto made = journal_->create_sweep({}, {member, member}, "", "");
+  EXPECT_EQ(SweepReader(path()).jobs_of(made.sweep), made.jobs);
+}
+
+class SweepJournalTest : public JournalTest {
+ protected:
+  static std::vector<SweepJob> three_jobs() {
+    std::vector<SweepJob> out(3);
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      *out[i].job.mutable_case_() = testing::small_case();
+      out[i].values = {50.0 * static_cast<double>(i + 1)};
+    }
+    return out;
+  }
+};
+
+TEST_F(SweepJournalTest, ASweepSurvivesReopening) {
+  v1::Sweep sweep;
+  sweep.add_axes()->set_field("loading.speed_m_per_s");
+  sweep.set_max_parallel(2);
+  const auto made = journal_->create_sweep(sweep, three_jobs(), "", "");
+  change(made.jobs[0], v1::RUNNING);
+  reopen();
+  SweepReader sweeps(path());
+  const auto found = sweeps.find_sweep(made.sweep);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->name(), "sweeps/1");
+  EXPECT_EQ(found->axes(0).field(), "loading.speed_m_per_s");
+  EXPECT_EQ(found->jobs_size(), 3);
+  EXPECT_EQ(found->state_counts().at("RUNNING"), 1);
+  EXPECT_EQ(found->state_counts().at("PENDING"), 2);
+  EXPECT_GT(found->create_time().seconds(), 0);
+  const auto rows = sweeps.rows(made.sweep);
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_EQ(rows[2].values(0), 150.0);
+  EXPECT_EQ(rows[0].result().state(), v1::RUNNING);
+  const auto memberships = sweeps.memberships_of_waiting();
+  ASSERT_EQ(memberships.size(), 2U);
+  EXPECT_EQ(memberships.at(made.jobs[1]).max_parallel, 2);
+}
+
+TEST_F(SweepJournalTest, ARequestIdMakesOneSweep) {
+  const auto first = journal_->create_sweep({}, three_jobs(), "id", "hash");
+  const auto second = journal_->create_sweep({}, three_jobs(), "id", "hash");
+  EXPECT_TRUE(first.is_new);
+  EXPECT_FALSE(second.is_new);
+  EXPECT_EQ(second.sweep, first.sweep);
+  EXPECT_THROW(journal_->create_sweep({}, three_jobs(), "id", "another"), ServiceError);
+  EXPECT_EQ(reader_->jobs_in(v1::PENDING).size(), 3U) << "The others made no jobs.";
+}
+
+TEST_F(SweepJournalTest, WaitingJobsAreCancelledTogetherAndDeletedOnesLeaveTheSweep) {
+  const auto made = journal_->create_sweep({}, three_jobs(), "", "");
+  change(made.jobs[1], v1::RUNNING);
+  journal_->cancel_waiting(made.jobs);
+  EXPECT_EQ(reader_->jobs_in(v1::CANCELLED).size(), 2U);
+  EXPECT_EQ(reader_->jobs_in(v1::RUNNING).size(), 1U);
+  journal_->delete_job(made.jobs[0]);
+  EXPECT_EQ(SweepReader(path()).jobs_of(made.sweep), (std::vector<std::int64_t>{made.jobs[1], made.jobs[2]}));
 }
 
 }  // namespace

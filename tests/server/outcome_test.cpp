@@ -39,7 +39,8 @@ TEST(Outcome, AFinalReportCountsForMoreThanTheEndOfTheProcess) {
   exit.final->mutable_summary()->set_step_count(7);
   const auto out = outcome_of(exit);
   EXPECT_EQ(out.state, v1::SUCCEEDED);
-  EXPECT_EQ(out.summary.step_count(), 7);
+  ASSERT_TRUE(out.summary);
+  EXPECT_EQ(out.summary->step_count(), 7);
 }
 
 TEST(Outcome, ADivergedRunKeepsTheSolversWords) {
@@ -57,6 +58,27 @@ TEST(Outcome, ADivergedRunKeepsTheSolversWords) {
 
 TEST(Outcome, AStoppedWorkerIsLost) {
   EXPECT_EQ(outcome_of(exit_of(WorkerExit::Kind::stopped, 0)).cause, v1::WORKER_LOST);
+}
+
+TEST(Outcome, ACancelledRunKeepsItsSummaryIfItHasOne) {
+  auto exit = exit_of(WorkerExit::Kind::cancelled, 0);
+  EXPECT_EQ(outcome_of(exit).state, v1::CANCELLED);
+  EXPECT_FALSE(outcome_of(exit).summary);
+  EXPECT_FALSE(outcome_of(exit).message.empty());
+  exit.final.emplace();
+  exit.final->set_cancelled(true);
+  exit.final->mutable_summary()->set_step_count(5);
+  const auto out = outcome_of(exit);
+  EXPECT_EQ(out.state, v1::CANCELLED);
+  ASSERT_TRUE(out.summary);
+  EXPECT_EQ(out.summary->step_count(), 5);
+}
+
+TEST(Outcome, ARunThatWasDoneBeforeItWasCancelledHasSucceeded) {
+  auto exit = exit_of(WorkerExit::Kind::cancelled, 0);
+  exit.final.emplace();
+  exit.final->mutable_summary();
+  EXPECT_EQ(outcome_of(exit).state, v1::SUCCEEDED);
 }
 
 TEST(Outcome, AFullDiskIsCalledSo) {

@@ -13,7 +13,7 @@ namespace {
 class WatchCursorTest : public ::testing::Test {
  protected:
   WatchCursor cursor(std::int64_t after = 0, bool frames = true) {
-    return {reader_, job_, hub_.open(job_), after, frames};
+    return {reader_, job_, hub_.open(job_), after, {frames, true}};
   }
 
   void change(v1::JobState state) {
@@ -106,6 +106,24 @@ TEST_F(WatchCursorTest, FramesAreSentOnlyToThoseWhoAsk) {
   auto cursor = this->cursor(1, false);
   EXPECT_TRUE(cursor.next()->has_snapshot());
   EXPECT_FALSE(cursor.next());
+}
+
+TEST_F(WatchCursorTest, AJobThatIsDeletedMeanwhileIsNotFound) {
+  change(v1::RUNNING);
+  add_samples(600);
+  change(v1::CANCELLING);
+  change(v1::CANCELLED);
+  auto cursor = this->cursor();
+  for (int i = 0; i < 100; ++i) ASSERT_TRUE(cursor.next());
+  journal_.delete_job(job_);
+  try {
+    while (cursor.next()) {
+    }
+    FAIL() << "The watch goes on without its job.";
+  } catch (const ServiceError& error) {
+    EXPECT_EQ(error.kind(), ServiceError::Kind::not_found);
+  }
+  EXPECT_FALSE(cursor.ended());
 }
 
 TEST(FrameChunks, AreTheFrameAgainWhenAppended) {

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace cellcrush::jobs {
+
+/// "jobs/12" for 12.
+std::string name_of(std::int64_t job);
+
+/// 12 for "jobs/12"; nothing for what cannot be the name of a job.
+std::optional<std::int64_t> number_of(std::string_view name);
+
+/// "sweeps/12" for 12.
+std::string sweep_name_of(std::int64_t sweep);
+
+/// 12 for "sweeps/12"; nothing for what cannot be the name of a sweep.
+std::optional<std::int64_t> sweep_number_of(std::string_view name);
+
+}  // namespace cellcrush::jobs

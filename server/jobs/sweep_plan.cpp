@@ -1,0 +1,125 @@
+#include "jobs/sweep_plan.h"
+
+#include <map>
+#include <string>
+#include <utility>
+
+#include "error.h"
+#include "jobs/case_field.h"
+#include "jobs/sweep_points.h"
+#include "translate/check_case.h"
+
+namespace cellcrush::jobs {
+namespace {
+
+constexpr std::size_t kLongestTitle = 200;                 // of a case, in bytes
+constexpr std::size_t kMostCaseBytes = 256 * 1024 * 1024;  // of all cases of a sweep
+
+void cut(std::string& text, std::size_t most) {
+  if (text.size() <= most) return;
+  while (most > 0 && (static_cast<unsigned char>(text[most]) & 0xC0U) == 0x80U) --most;
+  text.resize(most);
+}
+
+// "loading.speed_m_per_s = 50, lattice.hexagon.rows = 6".
+std::string text_of_point(const std::vector<std::string>& fields, const std::vector<double>& values) {
+  std::string out;
+  for (std::size_t i = 0; i < fields.size(); ++i) out += (i == 0 ? "" : ", ") + fields[i] + " = " + text_of(values[i]);
+  return out;
+}
+
+// The case's own title is cut rather than the values.
+std::string title_of(std::string title, std::string point) {
+  cut(point, kLongestTitle);
+  if (point.size() + 2 >= kLongestTitle) return point;
+  cut(title, kLongestTitle - point.size() - 2);
+  return title.empty() ? point : title + ", " + point;
+}
+
+// Gathers problems; those that differ only in their point are one.
+class ProblemsOfPoints {
+ public:
+  explicit ProblemsOfPoints(std::size_t points) : points_(points) {}
+
+  void add(v1::Problem problem, std::size_t position, const std::string& point) {
+    const std::string key = problem.SerializeAsString();
+    const auto [found, is_new] = seen_.try_emplace(key, entries_.size());
+    if (is_new) entries_.push_back({std::move(problem), position, point, 0});
+    ++entries_[found->second].count;
+  }
+
+  google::protobuf::RepeatedPtrField<v1::Problem> take() {
+    google::protobuf::RepeatedPtrField<v1::Problem> out;
+    for (auto& entry : entries_) {
+      std::string where = " This is so at point " + std::to_string(entry.first + 1) + " of " + std::to_string(points_) +
+                          " (" + entry.point + ")";
+      if (entry.count > 1) where += " and at " + std::to_string(entry.count - 1) + " more";
+      entry.problem.set_message(entry.problem.message() + where + ".");
+      *out.Add() = std::move(entry.problem);
+    }
+    return out;
+  }
+
+ private:
+  struct Entry {
+    v1::Problem problem;
+    std::size_t first = 0;
+    std::string point;
+    std::size_t count = 0;
+  };
+
+  std::size_t points_;
+  std::map<std::string, std::size_t> seen_;
+  std::vector<Entry> entries_;
+};
+
+v1::Problem problem_of(const InvalidField& refused) {
+  v1::Problem out;
+  out.set_field(refused.field());
+  out.set_message(refused.message());
+  out.set_remedy(refused.remedy());
+  out.set_kind(v1::Problem::INVALID);
+  return out;
+}
+
+// The case of a point and what is wrong with it.
+v1::Case build_case(const v1::Sweep& sweep, const std::vector<std::string>& fields, const std::vector<double>& values,
+                    const std::string& point, std::vector<v1::Problem>& problems) {
+  v1::Case out = sweep.case_();
+  try {
+    for (std::size_t i = 0; i < fields.size(); ++i) set_case_field(out, fields[i], values[i]);
+  } catch (const InvalidField& refused) {
+    problems.push_back(problem_of(refused));
+    return out;
+  }
+  const auto check = translate::check_case(out);
+  problems.assign(check.response.problems().begin(), check.response.problems().end());
+  out.set_title(title_of(out.title(), point));
+  return out;
+}
+
+}  // namespace
+
+SweepPlan plan_sweep(const v1::Sweep& sweep, const std::function<bool()>& given_up) {
+  const SweepPoints points = expand(sweep);
+  if (sweep.case_().ByteSizeLong() * points.values.size() > kMostCaseBytes) {
+    throw InvalidField("sweep", "has " + std::to_string(points.values.size()) + " points of so large a case.",
+                       "Use fewer points, so that all their cases have at most 256 MiB.");
+  }
+  SweepPlan out;
+  ProblemsOfPoints problems(points.values.size());
+  for (std::size_t i = 0; i < points.values.size(); ++i) {
+    if (given_up()) throw ServiceError(ServiceError::Kind::cancelled, "Nobody waits for the sweep. None was made.");
+    const std::string point = text_of_point(points.fields, points.values[i]);
+    std::vector<v1::Problem> of_point;
+    v1::Job job;
+    *job.mutable_case_() = build_case(sweep, points.fields, points.values[i], point, of_point);
+    *job.mutable_labels() = sweep.labels();
+    for (auto& problem : of_point) problems.add(std::move(problem), i, point);
+    out.jobs.push_back({std::move(job), points.values[i]});
+  }
+  out.problems = problems.take();
+  return out;
+}
+
+}  // namespace cellcrush::jobs

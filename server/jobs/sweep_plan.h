@@ -1,0 +1,22 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "cellcrush/v1/problem.pb.h"
+#include "cellcrush/v1/sweep.pb.h"
+#include "store/journal.h"
+
+namespace cellcrush::jobs {
+
+/// The jobs that a sweep asks for, or what is wrong with its points.
+struct SweepPlan {
+  std::vector<store::SweepJob> jobs;  ///< in the order of the points; complete only without problems
+  google::protobuf::RepeatedPtrField<v1::Problem> problems;  ///< those that several points share are one
+};
+
+/// Makes the case of every point, with the values in its title, and checks it as CheckCase does. Throws InvalidField when
+/// the sweep itself cannot be right, and ServiceError (cancelled) once `given_up` says that nobody waits any more.
+SweepPlan plan_sweep(const v1::Sweep& sweep, const std::function<bool()>& given_up);
+
+}  // namespace cellcrush::jobs

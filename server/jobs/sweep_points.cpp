@@ -1,0 +1,129 @@
+#include "jobs/sweep_points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <set>
+
+#include "error.h"
+
+namespace cellcrush::jobs {
+namespace {
+
+const char* const kFewer = "Use at most 10000 in one sweep.";
+
+std::string axis_field(int axis) { return "sweep.axes[" + std::to_string(axis) + "]"; }
+
+// `at` gives the value at a share of the way, 0 to 1.
+std::vector<double> spaced(const v1::SweepAxis::Range& range, const std::string& name,
+                           const std::function<double(double)>& at) {
+  if (!std::isfinite(range.first()) || !std::isfinite(range.last()))
+    throw InvalidField(name, "has an end that is no number.", "Use two finite ends.");
+  if (range.count() < 2)
+    throw InvalidField(name + ".count", "is " + std::to_string(range.count()) + ".", "Use at least 2.");
+  if (static_cast<std::size_t>(range.count()) > kMostPoints)
+    throw InvalidField(name + ".count", "is " + std::to_string(range.count()) + ".", kFewer);
+  std::vector<double> out;
+  out.reserve(static_cast<std::size_t>(range.count()));
+  for (int i = 0; i < range.count(); ++i) out.push_back(at(static_cast<double>(i) / (range.count() - 1)));
+  // The ends are exact.
+  out.front() = range.first();
+  out.back() = range.last();
+  return out;
+}
+
+std::vector<double> values_of(const v1::SweepAxis& axis, const std::string& name) {
+  switch (axis.values_case()) {
+    case v1::SweepAxis::kList:
+      if (axis.list().values().empty()) throw InvalidField(name + ".list", "has no values.", "Name at least one.");
+      return {axis.list().values().begin(), axis.list().values().end()};
+    case v1::SweepAxis::kLinear: {
+      const auto& range = axis.linear();
+      return spaced(range, name + ".linear",
+                    [&](double share) { return range.first() + share * (range.last() - range.first()); });
+    }
+    case v1::SweepAxis::kLogarithmic: {
+      const auto& range = axis.logarithmic();
+      if (!(range.first() > 0.0) || !(range.last() > 0.0))
+        throw InvalidField(name + ".logarithmic", "has an end that is not above 0.", "Use two ends above 0.");
+      return spaced(range, name + ".logarithmic",
+                    [&](double share) { return range.first() * std::pow(range.last() / range.first(), share); });
+    }
+    case v1::SweepAxis::kSeedCount: {
+      if (axis.seed_count() < 1 || static_cast<std::size_t>(axis.seed_count()) > kMostPoints)
+        throw InvalidField(name + ".seed_count", "is " + std::to_string(axis.seed_count()) + ".", "Use 1 to 10000.");
+      std::vector<double> out;
+      for (int seed = 1; seed <= axis.seed_count(); ++seed) out.push_back(seed);
+      return out;
+    }
+    case v1::SweepAxis::VALUES_NOT_SET: break;
+  }
+  throw InvalidField(name, "has no values.", "Give list, linear, logarithmic or seed_count.");
+}
+
+std::vector<std::vector<double>> grid(const v1::Sweep& sweep) {
+  std::vector<std::vector<double>> points = {{}};
+  std::set<std::string> seen;
+  for (int i = 0; i < sweep.axes_size(); ++i) {
+    const auto& axis = sweep.axes(i);
+    if (axis.field().empty()) throw InvalidField(axis_field(i) + ".field", "is missing.", "Name a field of the case.");
+    if (!seen.insert(axis.field()).second)
+      throw InvalidField(axis_field(i) + ".field", "is " + axis.field() + " again.",
+                         "Give all its values on one axis.");
+    const auto values = values_of(axis, axis_field(i));
+    if (values.size() * points.size() > kMostPoints)
+      throw InvalidField("sweep.axes", "have more than 10000 combinations.", kFewer);
+    std::vector<std::vector<double>> next;
+    for (const auto& point : points) {
+      for (const double value : values) {
+        next.push_back(point);
+        next.back().push_back(value);
+      }
+    }
+    points = std::move(next);
+  }
+  return points;
+}
+
+std::vector<std::vector<double>> listed(const v1::Sweep& sweep, const std::vector<std::string>& fields) {
+  if (static_cast<std::size_t>(sweep.points_size()) > kMostPoints)
+    throw InvalidField("sweep.points", "are " + std::to_string(sweep.points_size()) + ".", kFewer);
+  std::vector<std::vector<double>> out;
+  for (int i = 0; i < sweep.points_size(); ++i) {
+    const auto& given = sweep.points(i).fields();
+    auto& values = out.emplace_back();
+    for (const auto& field : fields) {
+      if (const auto found = given.find(field); found != given.end()) values.push_back(found->second);
+    }
+    if (values.empty() || values.size() != fields.size() || given.size() != fields.size()) {
+      throw InvalidField("sweep.points[" + std::to_string(i) + "].fields", "are not those of the first point.",
+                         "Give every point a value for each of the same fields, at least one.");
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<std::string> swept_fields(const v1::Sweep& sweep) {
+  std::vector<std::string> out;
+  for (const auto& axis : sweep.axes()) out.push_back(axis.field());
+  if (sweep.axes().empty() && !sweep.points().empty()) {
+    for (const auto& [field, value] : sweep.points(0).fields()) out.push_back(field);
+    std::sort(out.begin(), out.end());
+  }
+  return out;
+}
+
+SweepPoints expand(const v1::Sweep& sweep) {
+  if (sweep.axes().empty() && sweep.points().empty())
+    throw InvalidField("sweep.axes", "are missing.", "Name the fields to vary and their values, or give points.");
+  if (!sweep.axes().empty() && !sweep.points().empty())
+    throw InvalidField("sweep.points", "are given beside axes.", "Give either axes or points.");
+  SweepPoints out;
+  out.fields = swept_fields(sweep);
+  out.values = sweep.points().empty() ? grid(sweep) : listed(sweep, out.fields);
+  return out;
+}
+
+}  // namespace cellcrush::jobs

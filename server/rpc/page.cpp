@@ -1,0 +1,45 @@
+#include "rpc/page.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdio>
+
+#include "error.h"
+
+namespace cellcrush::rpc {
+namespace {
+
+constexpr int kDefaultSize = 50;
+constexpr int kLargestSize = 1000;
+
+// FNV-1a, which tells lists apart; nothing is kept secret by it.
+std::string mark_of(const std::string& question) {
+  std::uint32_t hash = 2166136261U;
+  for (const char character : question) hash = (hash ^ static_cast<unsigned char>(character)) * 16777619U;
+  std::array<char, 9> text{};
+  std::snprintf(text.data(), text.size(), "%08x", static_cast<unsigned>(hash));
+  return text.data();
+}
+
+}  // namespace
+
+Page read_page(int page_size, const std::string& page_token_text, const std::string& question) {
+  if (page_size < 0) throw InvalidField("page_size", "is negative.", "Use 1 to 1000, or 0 for 50.");
+  Page out;
+  out.size = page_size == 0 ? kDefaultSize : std::min(page_size, kLargestSize);
+  if (page_token_text.empty()) return out;
+  const char* end = page_token_text.data() + page_token_text.size();
+  const auto [stopped, error] = std::from_chars(page_token_text.data(), end, out.after);
+  if (error != std::errc() || out.after < 1 || page_token_text != page_token(out.after, question)) {
+    throw InvalidField("page_token", "is no token of this list.",
+                       "Use the next_page_token of the page before, with the same filter and order_by.");
+  }
+  return out;
+}
+
+std::string page_token(std::int64_t last, const std::string& question) {
+  return std::to_string(last) + "-" + mark_of(question);
+}
+
+}  // namespace cellcrush::rpc

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cellcrush/v1/job.pb.h"
+
+namespace cellcrush::store {
+
+/// Which jobs are wanted: those that meet all conditions.
+struct JobFilter {
+  std::vector<v1::JobState> states;
+  std::vector<std::pair<std::string, std::string>> labels;  ///< key and value
+  std::vector<std::string> titles;                          ///< each a part of the case's title, in any case of letters
+};
+
+/// Whether a job, with its case, meets the conditions.
+bool matches(const JobFilter& filter, const v1::Job& job);
+
+}  // namespace cellcrush::store

@@ -1,0 +1,77 @@
+#include "store/sweep_reader.h"
+
+#include "cellcrush/v1/job.pb.h"
+#include "jobs/resource_name.h"
+
+namespace cellcrush::store {
+
+SweepReader::SweepReader(const std::filesystem::path& path) : database_(path) {}
+
+std::optional<v1::Sweep> SweepReader::find_sweep(std::int64_t sweep) {
+  const std::scoped_lock lock(mutex_);
+  v1::Sweep out;
+  Statement read(database_, "SELECT sweep FROM sweeps WHERE number = ?1");
+  if (!read.bind(1, sweep).step()) return std::nullopt;
+  out.ParseFromString(read.bytes(0));
+  out.set_name(jobs::sweep_name_of(sweep));
+  Statement members(database_,
+                    "SELECT jobs.number, jobs.state FROM sweep_jobs JOIN jobs ON jobs.number = sweep_jobs.job "
+                    "WHERE sweep_jobs.sweep = ?1 ORDER BY sweep_jobs.position");
+  members.bind(1, sweep);
+  auto& counts = *out.mutable_state_counts();
+  while (members.step()) {
+    out.add_jobs(jobs::name_of(members.integer(0)));
+    ++counts[v1::JobState_Name(static_cast<v1::JobState>(members.integer(1)))];
+  }
+  return out;
+}
+
+std::vector<std::int64_t> SweepReader::list_sweeps(std::int64_t before, int limit) {
+  const std::scoped_lock lock(mutex_);
+  Statement read(database_, "SELECT number FROM sweeps WHERE number < ?1 ORDER BY number DESC LIMIT ?2");
+  read.bind(1, before).bind(2, limit);
+  std::vector<std::int64_t> out;
+  while (read.step()) out.push_back(read.integer(0));
+  return out;
+}
+
+std::vector<std::int64_t> SweepReader::jobs_of(std::int64_t sweep) {
+  const std::scoped_lock lock(mutex_);
+  Statement read(database_, "SELECT job FROM sweep_jobs WHERE sweep = ?1 ORDER BY position");
+  read.bind(1, sweep);
+  std::vector<std::int64_t> out;
+  while (read.step()) out.push_back(read.integer(0));
+  return out;
+}
+
+std::vector<v1::SweepTable::Row> SweepReader::rows(std::int64_t sweep) {
+  const std::scoped_lock lock(mutex_);
+  Statement read(database_,
+                 "SELECT sweep_jobs.point, jobs.number, jobs.job FROM sweep_jobs JOIN jobs "
+                 "ON jobs.number = sweep_jobs.job WHERE sweep_jobs.sweep = ?1 ORDER BY sweep_jobs.position");
+  read.bind(1, sweep);
+  std::vector<v1::SweepTable::Row> out;
+  while (read.step()) {
+    v1::SweepTable::Row& row = out.emplace_back();
+    row.ParseFromString(read.bytes(0));
+    row.set_job(jobs::name_of(read.integer(1)));
+    row.mutable_result()->ParseFromString(read.bytes(2));
+    row.mutable_result()->set_name(row.job());
+    row.mutable_result()->clear_labels();
+  }
+  return out;
+}
+
+std::map<std::int64_t, SweepReader::Membership> SweepReader::memberships_of_waiting() {
+  const std::scoped_lock lock(mutex_);
+  Statement read(database_,
+                 "SELECT sweep_jobs.job, sweeps.number, sweeps.max_parallel FROM jobs "
+                 "JOIN sweep_jobs ON sweep_jobs.job = jobs.number JOIN sweeps ON sweeps.number = sweep_jobs.sweep "
+                 "WHERE jobs.state = ?1");
+  read.bind(1, v1::PENDING);
+  std::map<std::int64_t, Membership> out;
+  while (read.step()) out[read.integer(0)] = {read.integer(1), static_cast<int>(read.integer(2))};
+  return out;
+}
+
+}  // namespace cellcrush::store

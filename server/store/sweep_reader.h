@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "cellcrush/v1/sweep.pb.h"
+#include "store/sqlite.h"
+
+namespace cellcrush::store {
+
+/// Reads the journal's sweeps beside its writer; sees what is committed. Thread-safe. Failures throw ServiceError.
+class SweepReader {
+ public:
+  /// REQUIRES: a Journal has been opened on the same path.
+  explicit SweepReader(const std::filesystem::path& path);
+
+  /// With its name, its jobs in the order of the points, and how many are in each state.
+  std::optional<v1::Sweep> find_sweep(std::int64_t sweep);
+
+  /// Numbers below `before`, newest first.
+  std::vector<std::int64_t> list_sweeps(std::int64_t before, int limit);
+
+  /// The sweep's jobs in the order of the points.
+  std::vector<std::int64_t> jobs_of(std::int64_t sweep);
+
+  /// A row a job in the order of the points; of each result the case and the labels are left out.
+  std::vector<v1::SweepTable::Row> rows(std::int64_t sweep);
+
+  /// The sweep a job belongs to, and how many of its jobs may run at once.
+  struct Membership {
+    std::int64_t sweep = 0;
+    int max_parallel = 0;  ///< 0: any number
+  };
+  /// Of the jobs that are PENDING and belong to a sweep.
+  std::map<std::int64_t, Membership> memberships_of_waiting();
+
+ private:
+  std::mutex mutex_;
+  Database database_;
+};
+
+}  // namespace cellcrush::store

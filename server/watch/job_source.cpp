@@ -1,0 +1,18 @@
+#include "watch/job_source.h"
+
+#include <utility>
+
+namespace cellcrush::watch {
+
+JobSource::JobSource(store::JournalReader& journal, Hub& hub, std::int64_t job, std::int64_t after, bool frames)
+    : channel_(hub.open(job)), cursor_(journal, job, channel_, after, {frames, true}) {}
+
+void JobSource::open(std::function<void()> wake) { subscription_ = channel_->subscribe(std::move(wake)); }
+
+void JobSource::close() { channel_->unsubscribe(subscription_); }
+
+std::string JobSource::resume_advice() const {
+  return "with after_sequence " + std::to_string(cursor_.bookmark().sequence());
+}
+
+}  // namespace cellcrush::watch

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "watch/hub.h"
+#include "watch/watch_cursor.h"
+
+namespace cellcrush::watch {
+
+/// What a WatchJob sends: a cursor, and the channel that tells when it has more. Not thread-safe but for the wake.
+class JobSource {
+ public:
+  using Message = v1::JobEvent;
+
+  /// Throws ServiceError like WatchCursor.
+  JobSource(store::JournalReader& journal, Hub& hub, std::int64_t job, std::int64_t after, bool frames);
+
+  /// Calls `wake` from now on whenever there may be more; from other threads, under locks: it must be quick.
+  void open(std::function<void()> wake);
+  /// After this returns, `wake` is not called again.
+  void close();
+
+  std::optional<v1::JobEvent> next() { return cursor_.next(); }
+  [[nodiscard]] bool ended() const { return cursor_.ended(); }
+  [[nodiscard]] v1::JobEvent bookmark() const { return cursor_.bookmark(); }
+  /// How a watch that is broken off is continued, as the end of a sentence.
+  [[nodiscard]] std::string resume_advice() const;
+
+ private:
+  std::shared_ptr<Channel> channel_;
+  WatchCursor cursor_;
+  std::uint64_t subscription_ = 0;
+};
+
+}  // namespace cellcrush::watch

@@ -1,0 +1,142 @@
+#include "watch/sweep_source.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "error.h"
+#include "jobs/resource_name.h"
+
+namespace cellcrush::watch {
+namespace {
+
+constexpr int kLongestTurn = 256;
+
+}  // namespace
+
+void SweepSource::News::add(std::size_t position) {
+  const std::scoped_lock lock(mutex_);
+  if (is_queued_[position]) return;
+  is_queued_[position] = true;
+  queue_.push_back(position);
+}
+
+void SweepSource::News::add_first(std::size_t position) {
+  const std::scoped_lock lock(mutex_);
+  if (is_queued_[position]) return;
+  is_queued_[position] = true;
+  queue_.push_front(position);
+}
+
+std::optional<std::size_t> SweepSource::News::take() {
+  const std::scoped_lock lock(mutex_);
+  if (queue_.empty()) return std::nullopt;
+  const std::size_t position = queue_.front();
+  queue_.pop_front();
+  is_queued_[position] = false;
+  return position;
+}
+
+SweepSource::SweepSource(store::JournalReader& journal, store::SweepReader& sweeps, Hub& hub, std::int64_t sweep,
+                         const std::string& resume_token)
+    : journal_(journal), sweeps_(sweeps), sweep_(sweep) {
+  std::map<std::int64_t, JobPlace> given;
+  if (!resume_token.empty()) given = parse_resume_token(sweep, resume_token);
+  auto jobs = sweeps.jobs_of(sweep);
+  std::sort(jobs.begin(), jobs.end());
+  for (const std::int64_t job : jobs) {
+    const auto found = given.find(job);
+    places_.push_back(found == given.end() ? JobPlace{job, 0, false} : found->second);
+    members_.push_back({hub.open(job), 0, std::nullopt});
+  }
+  news_ = std::make_shared<News>(places_.size());
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    if (places_[i].ended) continue;
+    ++left_;
+    news_->add(i);
+  }
+}
+
+void SweepSource::open(const std::function<void()>& wake) {
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    if (places_[i].ended) continue;
+    members_[i].subscription = members_[i].channel->subscribe([news = news_, wake, i] {
+      news->add(i);
+      wake();
+    });
+  }
+}
+
+void SweepSource::close() {
+  for (auto& member : members_) member.channel->unsubscribe(member.subscription);
+}
+
+std::optional<v1::WatchSweepResponse> SweepSource::next() {
+  if (!std::exchange(snapshot_sent_, true)) return snapshot();
+  while (const auto position = news_->take()) {
+    if (places_[*position].ended) continue;
+    auto message = next_of(*position);
+    if (!message) {
+      in_turn_ = 0;
+      continue;
+    }
+    // It may have more: its turn goes on, or it queues again.
+    if (++in_turn_ < kLongestTurn) {
+      news_->add_first(*position);
+    } else {
+      in_turn_ = 0;
+      news_->add(*position);
+    }
+    return message;
+  }
+  return std::nullopt;
+}
+
+std::optional<v1::WatchSweepResponse> SweepSource::next_of(std::size_t position) {
+  JobPlace& place = places_[position];
+  auto& cursor = members_[position].cursor;
+  try {
+    if (!cursor) {
+      cursor.emplace(journal_, place.job, members_[position].channel, place.sequence,
+                     WatchCursor::Wanted{false, false});
+    }
+    auto event = cursor->next();
+    place.sequence = cursor->sequence();
+    if (cursor->ended()) end(position);
+    if (!event) return std::nullopt;
+    v1::WatchSweepResponse out;
+    out.set_job(jobs::name_of(place.job));
+    if (event->has_state() || event->has_sample() || place.ended)
+      out.set_resume_token(resume_token_of(sweep_, places_));
+    *out.mutable_event() = *std::move(event);
+    return out;
+  } catch (const ServiceError& error) {
+    if (error.kind() != ServiceError::Kind::not_found) throw;
+  }
+  // The job was deleted: the sweep goes on without it.
+  end(position);
+  return std::nullopt;
+}
+
+void SweepSource::end(std::size_t position) {
+  places_[position].ended = true;
+  members_[position].cursor.reset();
+  --left_;
+}
+
+v1::WatchSweepResponse SweepSource::bookmark() const {
+  v1::WatchSweepResponse out;
+  out.mutable_event()->mutable_bookmark();
+  out.set_resume_token(resume_token_of(sweep_, places_));
+  return out;
+}
+
+v1::WatchSweepResponse SweepSource::snapshot() {
+  auto sweep = sweeps_.find_sweep(sweep_);
+  if (!sweep) throw ServiceError(ServiceError::Kind::not_found, "There is no " + jobs::sweep_name_of(sweep_) + ".");
+  v1::WatchSweepResponse out;
+  *out.mutable_snapshot() = *std::move(sweep);
+  out.set_resume_token(resume_token_of(sweep_, places_));
+  return out;
+}
+
+}  // namespace cellcrush::watch

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cellcrush/v1/sweeps_service.pb.h"
+#include "store/journal_reader.h"
+#include "store/sweep_reader.h"
+#include "watch/hub.h"
+#include "watch/resume_token.h"
+#include "watch/watch_cursor.h"
+
+namespace cellcrush::watch {
+
+/// What a WatchSweep sends: the sweep's snapshot, then of each job what its WatchCursor gives, without mesh and frames.
+/// Jobs with news take turns, and only they are looked at. A job's cursor goes with its last event, so that a watcher of
+/// a large sweep costs little. Not thread-safe but for the wake.
+class SweepSource {
+ public:
+  using Message = v1::WatchSweepResponse;
+
+  /// An empty token begins with everything. Throws ServiceError: not_found, or invalid for another sweep's token.
+  SweepSource(store::JournalReader& journal, store::SweepReader& sweeps, Hub& hub, std::int64_t sweep,
+              const std::string& resume_token);
+
+  /// Calls `wake` from now on whenever there may be more; from other threads, under locks: it must be quick.
+  void open(const std::function<void()>& wake);
+  /// After this returns, `wake` is not called again.
+  void close();
+
+  /// Throws ServiceError when the journal cannot be read, or out_of_range when the token named an event that is not
+  /// there.
+  std::optional<v1::WatchSweepResponse> next();
+  [[nodiscard]] bool ended() const { return snapshot_sent_ && left_ == 0; }
+  [[nodiscard]] v1::WatchSweepResponse bookmark() const;
+  [[nodiscard]] static std::string resume_advice() { return "with the resume_token that came last"; }
+
+ private:
+  struct Member {
+    std::shared_ptr<Channel> channel;
+    std::uint64_t subscription = 0;
+    std::optional<WatchCursor> cursor;
+  };
+
+  // Positions of the jobs with news, each at most once; shared with the wakes.
+  class News {
+   public:
+    explicit News(std::size_t jobs) : is_queued_(jobs, false) {}
+    void add(std::size_t position);
+    void add_first(std::size_t position);
+    std::optional<std::size_t> take();
+
+   private:
+    std::mutex mutex_;
+    std::deque<std::size_t> queue_;
+    std::vector<bool> is_queued_;
+  };
+
+  v1::WatchSweepResponse snapshot();
+  std::optional<v1::WatchSweepResponse> next_of(std::size_t position);
+  void end(std::size_t position);
+
+  store::JournalReader& journal_;
+  store::SweepReader& sweeps_;
+  std::int64_t sweep_;
+  std::vector<JobPlace> places_;  ///< of all jobs, by ascending number
+  std::vector<Member> members_;   ///< beside places_
+  std::shared_ptr<News> news_;
+  std::size_t left_ = 0;  ///< jobs whose last event was not given yet
+  int in_turn_ = 0;       ///< messages that the job whose turn it is has given
+  bool snapshot_sent_ = false;
+};
+
+}  // namespace cellcrush::watch

@@ -1,0 +1,197 @@
+#include <gmock/gmock.h>
+#include <signal.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <thread>
+
+#include "server/daemon_fixture.h"
+#include "server/daemon_process.h"
+#include "server/small_case.h"
+#include "store/journal.h"
+#include "store/result_reader.h"
+
+namespace cellcrush::testing {
+namespace {
+
+using ::testing::HasSubstr;
+using Clock = std::chrono::steady_clock;
+
+class JobLifeTest : public DaemonFixture {
+ protected:
+  // A job that runs and has given samples.
+  std::string running_job() {
+    auto client = this->client();
+    const std::string job = client.create(endless_case());
+    for (int i = 0; i < 600 && client.history(job).size() < 5; ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    EXPECT_GE(client.history(job).size(), 5U);
+    EXPECT_EQ(client.get(job).state(), v1::RUNNING);
+    return job;
+  }
+
+  [[nodiscard]] std::filesystem::path folder_of(const std::string& job) const { return data_folder() / job; }
+};
+
+TEST_F(JobLifeTest, ARunningJobStopsAndWhatItHasComputedIsKept) {
+  auto client = this->client();
+  const std::string job = running_job();
+  const auto worker = static_cast<pid_t>(client.get(job).worker_pid());
+  const auto start = Clock::now();
+  ASSERT_TRUE(client.cancel(job).ok());
+  const auto watched = client.watch(job);
+  const auto taken = std::chrono::duration<double>(Clock::now() - start).count();
+  std::cout << "cancelled within " << taken << " s\n";
+  EXPECT_LT(taken, 2.0) << "A second, and as much again for a machine that is busy.";
+  EXPECT_TRUE(watched.status.ok());
+  EXPECT_EQ(watched.events.back().state().state(), v1::CANCELLED);
+  EXPECT_FALSE(is_alive(worker));
+
+  const auto cancelled = client.get(job);
+  EXPECT_EQ(cancelled.state(), v1::CANCELLED);
+  EXPECT_EQ(cancelled.cause(), v1::JOB_CAUSE_UNSPECIFIED);
+  EXPECT_EQ(cancelled.worker_pid(), 0);
+  ASSERT_TRUE(cancelled.has_summary());
+  EXPECT_FALSE(cancelled.summary().has_plateau_stress_impact_mpa());
+  const auto history = client.history(job);
+  EXPECT_EQ(history.back().step(), cancelled.summary().step_count());
+
+  grpc::Status status;
+  const std::string bytes = client.download(job, 0, status);
+  ASSERT_TRUE(status.ok()) << status.error_message();
+  const auto copy = folder_.path() / "copy.h5";
+  std::ofstream(copy, std::ios::binary) << bytes;
+  const store::ResultReader result(copy);
+  const auto stored = result.history();
+  ASSERT_EQ(stored.size(), history.size());
+  EXPECT_EQ(stored.back().strain(), history.back().strain());
+  EXPECT_GE(result.frame_times().size(), 2U);
+  EXPECT_EQ(result.frame_times().back(), stored.back().time_s());
+  EXPECT_THAT(result.text_attribute("case"), HasSubstr("A few cells"));
+  EXPECT_FALSE(std::filesystem::exists(folder_of(job) / "result.h5.partial"));
+}
+
+TEST_F(JobLifeTest, AWaitingJobIsCancelledAtOnceAndNeverRuns) {
+  auto options = default_options();
+  options.workers = 1;
+  start(options);
+  auto client = this->client();
+  const std::string first = running_job();
+  const std::string waiting = client.create(small_case());
+  const std::string next = client.create(small_case());
+  ASSERT_TRUE(client.cancel(waiting).ok());
+  EXPECT_EQ(client.get(waiting).state(), v1::CANCELLED);
+  ASSERT_TRUE(client.cancel(first).ok());
+  EXPECT_TRUE(client.wait_for_state(next, v1::SUCCEEDED));
+  EXPECT_EQ(client.watch(waiting).events.size(), 3U) << "Its snapshot, PENDING and CANCELLED.";
+  EXPECT_FALSE(client.get(waiting).has_start_time());
+  grpc::Status status;
+  client.download(waiting, 0, status);
+  EXPECT_EQ(status.error_code(), grpc::StatusCode::FAILED_PRECONDITION);
+}
+
+TEST_F(JobLifeTest, CancellingAgainChangesNothingAndAnEndedJobCannotBeCancelled) {
+  auto client = this->client();
+  const std::string job = running_job();
+  ASSERT_TRUE(client.cancel(job).ok());
+  ASSERT_TRUE(client.cancel(job).ok());
+  ASSERT_TRUE(client.wait_for_state(job, v1::CANCELLED));
+  ASSERT_TRUE(client.cancel(job).ok());
+  EXPECT_EQ(client.get(job).state(), v1::CANCELLED);
+  const std::string done = client.create(small_case());
+  ASSERT_TRUE(client.wait_for_state(done, v1::SUCCEEDED));
+  const auto refused = client.cancel(done);
+  EXPECT_EQ(refused.error_code(), grpc::StatusCode::FAILED_PRECONDITION);
+  EXPECT_THAT(refused.error_message(), HasSubstr("SUCCEEDED"));
+}
+
+TEST_F(JobLifeTest, ManyCancelledAtAnyMomentAllEndInOrder) {
+  auto client = this->client();
+  std::vector<std::string> jobs;
+  for (int i = 0; i < 20; ++i) {
+    jobs.push_back(client.create(i % 2 == 0 ? endless_case() : small_case()));
+    std::this_thread::sleep_for(std::chrono::milliseconds(7 * (i % 5)));
+    const auto status = client.cancel(jobs.back());
+    EXPECT_TRUE(status.ok() || status.error_code() == grpc::StatusCode::FAILED_PRECONDITION) << status.error_message();
+  }
+  for (const auto& job : jobs) {
+    const auto watched = client.watch(job);
+    EXPECT_TRUE(watched.status.ok());
+    const auto state = watched.events.back().state().state();
+    EXPECT_TRUE(state == v1::CANCELLED || state == v1::SUCCEEDED) << job << v1::JobState_Name(state);
+    EXPECT_EQ(client.get(job).has_summary(), std::filesystem::exists(folder_of(job) / "result.h5")) << job;
+  }
+}
+
+TEST_F(JobLifeTest, AWorkerThatDoesNotReactIsEnded) {
+  auto client = this->client();
+  const std::string job = running_job();
+  const auto worker = static_cast<pid_t>(client.get(job).worker_pid());
+  ASSERT_EQ(kill(worker, SIGSTOP), 0);
+  ASSERT_TRUE(client.cancel(job).ok());
+  EXPECT_EQ(client.get(job).state(), v1::CANCELLING);
+  ASSERT_TRUE(client.wait_for_state(job, v1::CANCELLED));
+  EXPECT_FALSE(is_alive(worker));
+  EXPECT_FALSE(client.get(job).has_summary());
+  EXPECT_THAT(client.get(job).cause_message(), HasSubstr("history is kept"));
+  EXPECT_FALSE(client.history(job).empty());
+  EXPECT_FALSE(std::filesystem::exists(folder_of(job) / "result.h5.partial"));
+}
+
+TEST_F(JobLifeTest, ACancelledJobWhoseDaemonEndsStaysCancelled) {
+  auto client = this->client();
+  const std::string job = running_job();
+  const auto worker = static_cast<pid_t>(client.get(job).worker_pid());
+  ASSERT_EQ(kill(worker, SIGSTOP), 0);
+  ASSERT_TRUE(client.cancel(job).ok());
+  daemon_->stop();
+  EXPECT_FALSE(is_alive(worker));
+  start();
+  EXPECT_EQ(this->client().get(job).state(), v1::CANCELLED);
+}
+
+TEST_F(JobLifeTest, ADeletedJobIsGoneWithAllItLeft) {
+  auto client = this->client();
+  const std::string job = client.create(small_case());
+  ASSERT_TRUE(client.wait_for_state(job, v1::SUCCEEDED));
+  ASSERT_TRUE(std::filesystem::exists(folder_of(job) / "result.h5"));
+  ASSERT_TRUE(client.remove(job).ok());
+  EXPECT_FALSE(std::filesystem::exists(folder_of(job)));
+  EXPECT_EQ(client.remove(job).error_code(), grpc::StatusCode::NOT_FOUND);
+  EXPECT_EQ(client.watch(job).status.error_code(), grpc::StatusCode::NOT_FOUND);
+  v1::ListJobsResponse listed;
+  ASSERT_TRUE(client.jobs->ListJobs(bounded_context().get(), {}, &listed).ok());
+  EXPECT_EQ(listed.jobs_size(), 0);
+  EXPECT_EQ(client.create(small_case()), "jobs/2") << "Its number is not used again.";
+}
+
+TEST_F(JobLifeTest, AJobThatHasNotEndedIsNotDeleted) {
+  auto client = this->client();
+  const std::string job = running_job();
+  const auto refused = client.remove(job);
+  EXPECT_EQ(refused.error_code(), grpc::StatusCode::FAILED_PRECONDITION);
+  EXPECT_THAT(refused.error_message(), HasSubstr("Cancel it first"));
+  ASSERT_TRUE(client.cancel(job).ok());
+  ASSERT_TRUE(client.wait_for_state(job, v1::CANCELLED));
+  EXPECT_TRUE(client.remove(job).ok());
+  EXPECT_FALSE(std::filesystem::exists(folder_of(job)));
+}
+
+TEST_F(JobLifeTest, AFolderThatADeletionLeftBehindGoesAtTheNextStart) {
+  auto client = this->client();
+  const std::string job = client.create(small_case());
+  ASSERT_TRUE(client.wait_for_state(job, v1::SUCCEEDED));
+  daemon_.reset();
+  {
+    store::Journal journal(data_folder() / "journal.sqlite", [](std::int64_t) {});
+    journal.delete_job(1);
+  }
+  ASSERT_TRUE(std::filesystem::exists(folder_of(job)));
+  start();
+  EXPECT_FALSE(std::filesystem::exists(folder_of(job)));
+}
+
+}  // namespace
+}  // namespace cellcrush::testing

@@ -1,0 +1,136 @@
+#include "watch/sweep_source.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "error.h"
+#include "server/temporary_folder.h"
+#include "store/journal.h"
+
+namespace cellcrush::watch {
+namespace {
+
+class SweepSourceTest : public ::testing::Test {
+ protected:
+  SweepSource source(const std::string& token = "") { return {reader_, sweeps_, hub_, made_.sweep, token}; }
+
+  void change(std::int64_t job, v1::JobState state) {
+    store::StateChange change;
+    change.state = state;
+    journal_.change_state(job, change);
+  }
+
+  void run(std::int64_t job, int samples) {
+    change(job, v1::RUNNING);
+    for (int i = 0; i < samples; ++i) journal_.append_sample(job, v1::Sample());
+    change(job, v1::SUCCEEDED);
+  }
+
+  // Each job's numbered events must count on from what is in `seen`.
+  static void note(const v1::WatchSweepResponse& response, std::map<std::string, std::int64_t>& seen) {
+    const auto& event = response.event();
+    if (event.has_state() || event.has_sample()) {
+      EXPECT_EQ(event.sequence(), ++seen[response.job()]) << response.job();
+    }
+  }
+
+  testing::TemporaryFolder folder_;
+  Hub hub_;
+  store::Journal journal_{folder_.path() / "journal.sqlite", [this](std::int64_t job) { hub_.announce(job); }};
+  store::JournalReader reader_{folder_.path() / "journal.sqlite"};
+  store::SweepReader sweeps_{folder_.path() / "journal.sqlite"};
+  store::Journal::CreatedSweep made_ = journal_.create_sweep({}, std::vector<store::SweepJob>(3), "", "");
+};
+
+TEST_F(SweepSourceTest, TheSweepComesFirstThenEveryJobInItsOrderThenTheEnd) {
+  for (const std::int64_t job : made_.jobs) run(job, 600);
+  auto source = this->source();
+  const auto first = source.next();
+  EXPECT_TRUE(first->job().empty());
+  EXPECT_EQ(first->snapshot().jobs_size(), 3);
+  std::map<std::string, std::int64_t> seen;
+  std::map<std::string, int> snapshots;
+  while (const auto response = source.next()) {
+    if (response->event().has_snapshot()) ++snapshots[response->job()];
+    EXPECT_EQ(snapshots[response->job()], 1) << "Nothing comes before a job's snapshot.";
+    note(*response, seen);
+  }
+  for (const std::int64_t job : made_.jobs) EXPECT_EQ(seen["jobs/" + std::to_string(job)], 603);
+  EXPECT_TRUE(source.ended());
+}
+
+TEST_F(SweepSourceTest, EveryTokenContinuesWithoutLossAndWithoutRepetition) {
+  for (const std::int64_t job : made_.jobs) run(job, 5);
+  auto whole = source();
+  std::vector<v1::WatchSweepResponse> all;
+  while (auto response = whole.next()) all.push_back(*std::move(response));
+  std::map<std::string, std::int64_t> seen;
+  for (const auto& response : all) {
+    note(response, seen);
+    if (response.resume_token().empty()) continue;
+    auto rest = seen;
+    auto continued = source(response.resume_token());
+    while (const auto next = continued.next()) note(*next, rest);
+    for (const std::int64_t job : made_.jobs) EXPECT_EQ(rest["jobs/" + std::to_string(job)], 8);
+    EXPECT_TRUE(continued.ended());
+  }
+}
+
+TEST_F(SweepSourceTest, NewsOfAJobWakeTheWatcherAndOnlyThatJobSpeaks) {
+  auto source = this->source();
+  int woken = 0;
+  source.open([&woken] { ++woken; });
+  while (source.next()) {
+  }
+  EXPECT_FALSE(source.ended());
+  woken = 0;
+  change(made_.jobs[1], v1::RUNNING);
+  EXPECT_GT(woken, 0);
+  const auto response = source.next();
+  ASSERT_TRUE(response);
+  EXPECT_EQ(response->job(), "jobs/" + std::to_string(made_.jobs[1]));
+  EXPECT_FALSE(source.next());
+  const auto bookmark = source.bookmark();
+  EXPECT_TRUE(bookmark.event().has_bookmark());
+  EXPECT_FALSE(bookmark.resume_token().empty());
+  source.close();
+  woken = 0;
+  change(made_.jobs[1], v1::SUCCEEDED);
+  EXPECT_EQ(woken, 0);
+}
+
+TEST_F(SweepSourceTest, AJobThatIsDeletedMeanwhileIsLeftOut) {
+  auto source = this->source();
+  while (source.next()) {
+  }
+  journal_.cancel_waiting(made_.jobs);
+  journal_.delete_job(made_.jobs[0]);
+  source.open([] {});
+  auto late = this->source();
+  while (late.next()) {
+  }
+  EXPECT_TRUE(late.ended());
+  source.close();
+}
+
+TEST_F(SweepSourceTest, AnotherSweepsTokenAndNonsenseAreRefused) {
+  for (const char* token : {"x", "2:1+3=0;", "1", "1:1+3", "1:1+-3=0;", "1:1+99999999999=0;", "1:1+3=x;"})
+    EXPECT_THROW(source(token), ServiceError) << token;
+}
+
+TEST(ResumeToken, ManyJobsInTheSamePlaceAreShort) {
+  std::vector<JobPlace> places;
+  for (std::int64_t i = 1; i <= 10'000; ++i) places.push_back({i, i <= 5000 ? 7 * i : 1, i <= 5000});
+  places[5000].sequence = 33;
+  const auto token = resume_token_of(4, places);
+  EXPECT_LT(token.size(), 60U);
+  const auto read = parse_resume_token(4, token);
+  ASSERT_EQ(read.size(), 10'000U);
+  EXPECT_TRUE(read.at(5000).ended);
+  EXPECT_EQ(read.at(5001).sequence, 33);
+  EXPECT_EQ(read.at(10'000).sequence, 1);
+}
+
+}  // namespace
+}  // namespace cellcrush::watch

@@ -1,0 +1,246 @@
+#include <gmock/gmock.h>
+
+#include <chrono>
+#include <iostream>
+
+#include "google/rpc/status.pb.h"
+#include "server/small_case.h"
+#include "server/sweep_requests.h"
+
+namespace cellcrush::testing {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+class SweepsServiceTest : public DaemonFixture {
+ protected:
+  grpc::Status refusal(const v1::CreateSweepRequest& request) {
+    v1::Sweep sweep;
+    return client().sweeps->CreateSweep(bounded_context().get(), request, &sweep);
+  }
+
+  int job_count() {
+    v1::ListJobsRequest request;
+    request.set_page_size(1000);
+    v1::ListJobsResponse response;
+    EXPECT_TRUE(client().jobs->ListJobs(bounded_context().get(), request, &response).ok());
+    return response.jobs_size();
+  }
+
+  static v1::ProblemList problems_of(const grpc::Status& status) {
+    google::rpc::Status details;
+    EXPECT_TRUE(details.ParseFromString(status.error_details()));
+    v1::ProblemList list;
+    EXPECT_TRUE(details.details_size() > 1 && details.details(1).UnpackTo(&list));
+    return list;
+  }
+};
+
+TEST_F(SweepsServiceTest, ThreeSpeedsGiveATableOfThreeResults) {
+  auto client = this->client();
+  auto request = sweep_of(small_case(), kSpeed, {50.0, 100.0, 200.0});
+  (*request.mutable_sweep()->mutable_labels())["batch"] = "speeds";
+  const auto sweep = create(client, request);
+  EXPECT_EQ(sweep.name(), "sweeps/1");
+  EXPECT_THAT(sweep.jobs(), ElementsAre("jobs/1", "jobs/2", "jobs/3"));
+  ASSERT_TRUE(wait_for_count(client, sweep.name(), v1::SUCCEEDED, 3));
+  v1::GetSweepTableRequest asked;
+  asked.set_name(sweep.name());
+  v1::SweepTable table;
+  ASSERT_TRUE(client.sweeps->GetSweepTable(bounded_context().get(), asked, &table).ok());
+  EXPECT_THAT(table.fields(), ElementsAre(kSpeed));
+  ASSERT_EQ(table.rows_size(), 3);
+  double plateau = 0.0;
+  for (int i = 0; i < 3; ++i) {
+    const auto& row = table.rows(i);
+    EXPECT_EQ(row.job(), sweep.jobs(i));
+    EXPECT_THAT(row.values(), ElementsAre(50.0 * (1 << i)));
+    EXPECT_EQ(row.result().state(), v1::SUCCEEDED);
+    EXPECT_GT(row.result().summary().plateau_stress_impact_mpa(), plateau) << "Faster is stiffer.";
+    EXPECT_GT(row.result().summary().theory().shock_mpa(), 0.0);
+    plateau = row.result().summary().plateau_stress_impact_mpa();
+    const auto job = client.get(row.job());
+    EXPECT_EQ(job.case_().loading().speed_m_per_s(), row.values(0));
+    EXPECT_EQ(job.labels().at("batch"), "speeds");
+  }
+  EXPECT_EQ(client.get("jobs/1").case_().title(), "A few cells, loading.speed_m_per_s = 50");
+}
+
+TEST_F(SweepsServiceTest, ABadPointLeavesNoJobAndIsNamed) {
+  auto request = sweep_of(small_case(), kSpeed, {50.0, -100.0, 200.0});
+  auto& rows = *request.mutable_sweep()->add_axes();
+  rows.set_field("lattice.hexagon.rows");
+  for (const double value : {5.0, 2.5, 0.0}) rows.mutable_list()->add_values(value);
+  const auto status = refusal(request);
+  EXPECT_EQ(status.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
+  EXPECT_THAT(status.error_message(), HasSubstr("The sweep has 3 problems"));
+  const auto list = problems_of(status);
+  ASSERT_EQ(list.problems_size(), 3);
+  EXPECT_EQ(list.problems(0).field(), "lattice.hexagon.rows");
+  EXPECT_THAT(list.problems(0).message(), HasSubstr("is 2.5, which is no whole number"));
+  EXPECT_THAT(list.problems(0).message(),
+              HasSubstr("at point 2 of 9 (loading.speed_m_per_s = 50, lattice.hexagon.rows = 2.5) and at 2 more"));
+  EXPECT_EQ(list.problems(1).field(), "lattice.hexagon.rows");
+  EXPECT_EQ(list.problems(2).field(), "loading.speed_m_per_s");
+  EXPECT_THAT(list.problems(2).message(), HasSubstr("at point 4 of 9"));
+  EXPECT_EQ(job_count(), 0);
+  v1::ListSweepsResponse sweeps;
+  ASSERT_TRUE(client().sweeps->ListSweeps(bounded_context().get(), {}, &sweeps).ok());
+  EXPECT_EQ(sweeps.sweeps_size(), 0);
+}
+
+TEST_F(SweepsServiceTest, WhatIsNoSweepIsRefusedByField) {
+  const auto expect = [this](const v1::CreateSweepRequest& request, const std::string& text) {
+    const auto status = refusal(request);
+    EXPECT_EQ(status.error_code(), grpc::StatusCode::INVALID_ARGUMENT) << text;
+    EXPECT_THAT(status.error_message(), HasSubstr(text));
+  };
+  v1::CreateSweepRequest request;
+  expect(request, "sweep.axes are missing");
+  expect(sweep_of(small_case(), "loading.velocity", {1.0}), "loading.velocity is no field of a case");
+  expect(sweep_of(small_case(), "title", {1.0}), "title is not a single number");
+  expect(sweep_of(small_case(), "lattice.square.rows", {1.0}), "lattice.square.rows is not in the case");
+  request = sweep_of(small_case(), kSpeed, {1.0});
+  request.mutable_sweep()->set_max_parallel(-1);
+  expect(request, "sweep.max_parallel is negative");
+  request = sweep_of(small_case(), kSpeed, {1.0});
+  request.set_request_id(std::string(129, 'x'));
+  expect(request, "request_id");
+  request = sweep_of(small_case(), kSpeed, {1.0});
+  (*request.mutable_sweep()->mutable_labels())[""] = "x";
+  expect(request, "sweep.labels");
+  request = sweep_of(small_case(), kSpeed, {1.0});
+  request.mutable_sweep()->set_max_failures(1);
+  EXPECT_EQ(refusal(request).error_code(), grpc::StatusCode::UNIMPLEMENTED);
+  EXPECT_THAT(refusal(request).error_message(), HasSubstr("sweep.max_failures"));
+}
+
+TEST_F(SweepsServiceTest, ValidateOnlyQueuesNothing) {
+  auto client = this->client();
+  auto request = sweep_of(small_case(), kSpeed, {50.0, 100.0});
+  request.set_validate_only(true);
+  EXPECT_TRUE(create(client, request).name().empty());
+  EXPECT_EQ(job_count(), 0);
+}
+
+TEST_F(SweepsServiceTest, ARequestIdMakesOneSweep) {
+  auto client = this->client();
+  auto request = sweep_of(small_case(), kSpeed, {50.0, 100.0});
+  request.set_request_id("the same");
+  const auto first = create(client, request);
+  EXPECT_EQ(create(client, request).name(), first.name());
+  EXPECT_EQ(job_count(), 2);
+  request.mutable_sweep()->mutable_axes(0)->mutable_list()->add_values(150.0);
+  EXPECT_EQ(refusal(request).error_code(), grpc::StatusCode::ALREADY_EXISTS);
+  EXPECT_EQ(job_count(), 2);
+}
+
+TEST_F(SweepsServiceTest, AThousandPointsAreQueuedTogetherAndCancelledTogether) {
+  auto client = this->client();
+  auto request = sweep_of(endless_case(), kSpeed, {1.0});
+  request.mutable_sweep()->clear_axes();
+  auto& seeds = *request.mutable_sweep()->add_axes();
+  seeds.set_field("lattice.imperfection.seed");
+  seeds.set_seed_count(1000);
+  *request.mutable_sweep()->mutable_case_() = small_case();
+  request.mutable_sweep()->mutable_case_()->mutable_lattice()->mutable_imperfection()->set_amplitude_mm(0.1);
+  const auto start = std::chrono::steady_clock::now();
+  const auto sweep = create(client, request);
+  const auto made = std::chrono::steady_clock::now();
+  EXPECT_EQ(sweep.jobs_size(), 1000);
+  v1::CancelSweepRequest cancel;
+  cancel.set_name(sweep.name());
+  v1::Sweep cancelled;
+  ASSERT_TRUE(client.sweeps->CancelSweep(bounded_context().get(), cancel, &cancelled).ok());
+  const auto ended = std::chrono::steady_clock::now();
+  std::cout << "1000 points: made in " << std::chrono::duration<double>(made - start).count() << " s, cancelled in "
+            << std::chrono::duration<double>(ended - made).count() << " s\n";
+  EXPECT_EQ(count_in(cancelled, v1::PENDING), 0);
+  EXPECT_GT(count_in(cancelled, v1::CANCELLED), 500);
+  const auto watched = watch_sweep(client, sweep.name());
+  EXPECT_TRUE(watched.status.ok()) << watched.status.error_message();
+  const auto after = get_sweep(client, sweep.name());
+  EXPECT_EQ(count_in(after, v1::CANCELLED) + count_in(after, v1::SUCCEEDED), 1000);
+  EXPECT_EQ(client.get(sweep.jobs(999)).case_().lattice().imperfection().seed(), 1000U);
+}
+
+TEST_F(SweepsServiceTest, CancellingStopsRunningJobsAndKeepsWhatHasEnded) {
+  auto client = this->client();
+  const auto sweep = create(client, sweep_of(endless_case(), kSpeed, {1.0, 1.5, 2.0}));
+  ASSERT_TRUE(wait_for_count(client, sweep.name(), v1::RUNNING, 2));
+  v1::CancelSweepRequest cancel;
+  cancel.set_name(sweep.name());
+  v1::Sweep out;
+  ASSERT_TRUE(client.sweeps->CancelSweep(bounded_context().get(), cancel, &out).ok());
+  EXPECT_EQ(count_in(out, v1::RUNNING) + count_in(out, v1::PENDING), 0);
+  ASSERT_TRUE(wait_for_count(client, sweep.name(), v1::CANCELLED, 3));
+  EXPECT_TRUE(client.sweeps->CancelSweep(bounded_context().get(), cancel, &out).ok()) << "Again changes nothing.";
+  EXPECT_EQ(count_in(out, v1::CANCELLED), 3);
+}
+
+TEST_F(SweepsServiceTest, ASweepKeepsToItsShareOfTheWorkers) {
+  auto client = this->client();
+  auto request = sweep_of(endless_case(), kSpeed, {1.0, 1.5, 2.0});
+  request.mutable_sweep()->set_max_parallel(1);
+  const auto sweep = create(client, request);
+  const std::string other = client.create(small_case());
+  EXPECT_TRUE(client.wait_for_state(other, v1::SUCCEEDED)) << "The second worker is free for others.";
+  const auto now = get_sweep(client, sweep.name());
+  EXPECT_EQ(count_in(now, v1::RUNNING), 1);
+  EXPECT_EQ(count_in(now, v1::PENDING), 2);
+  ASSERT_TRUE(client.cancel(now.jobs(0)).ok());
+  EXPECT_TRUE(client.wait_for_state(now.jobs(1), v1::RUNNING));
+  EXPECT_EQ(client.get(now.jobs(2)).state(), v1::PENDING);
+}
+
+TEST_F(SweepsServiceTest, SweepsAreListedInPagesAndUnknownOnesAreNotFound) {
+  auto client = this->client();
+  for (int i = 0; i < 3; ++i) create(client, sweep_of(small_case(), kSpeed, {300.0}));
+  v1::ListSweepsRequest request;
+  request.set_page_size(2);
+  v1::ListSweepsResponse response;
+  ASSERT_TRUE(client.sweeps->ListSweeps(bounded_context().get(), request, &response).ok());
+  ASSERT_EQ(response.sweeps_size(), 2);
+  EXPECT_EQ(response.sweeps(0).name(), "sweeps/3");
+  EXPECT_EQ(response.sweeps(0).jobs(0), "jobs/3");
+  create(client, sweep_of(small_case(), kSpeed, {300.0}));
+  request.set_page_token(response.next_page_token());
+  v1::ListSweepsResponse rest;
+  ASSERT_TRUE(client.sweeps->ListSweeps(bounded_context().get(), request, &rest).ok());
+  ASSERT_EQ(rest.sweeps_size(), 1);
+  EXPECT_EQ(rest.sweeps(0).name(), "sweeps/1");
+  EXPECT_TRUE(rest.next_page_token().empty());
+  v1::GetSweepRequest unknown;
+  unknown.set_name("sweeps/9");
+  v1::Sweep sweep;
+  EXPECT_EQ(client.sweeps->GetSweep(bounded_context().get(), unknown, &sweep).error_code(),
+            grpc::StatusCode::NOT_FOUND);
+  EXPECT_EQ(watch_sweep(client, "jobs/1").status.error_code(), grpc::StatusCode::NOT_FOUND);
+}
+
+TEST_F(SweepsServiceTest, AHalfDoneSweepIsFinishedByTheNextDaemon) {
+  auto options = default_options();
+  options.workers = 1;
+  start(options);
+  std::string name;
+  {
+    auto client = this->client();
+    auto request = sweep_of(small_case(), kSpeed, {});
+    for (int i = 0; i < 8; ++i) request.mutable_sweep()->mutable_axes(0)->mutable_list()->add_values(50.0 + i);
+    request.mutable_sweep()->set_max_parallel(1);
+    name = create(client, request).name();
+    ASSERT_TRUE(client.wait_for_state("jobs/2", v1::SUCCEEDED));
+  }
+  daemon_->stop();
+  start(options);
+  auto client = this->client();
+  EXPECT_TRUE(watch_sweep(client, name).status.ok());
+  const auto sweep = get_sweep(client, name);
+  EXPECT_EQ(sweep.jobs_size(), 8);
+  EXPECT_LE(count_in(sweep, v1::FAILED), 1) << "Only the job that ran may be lost.";
+  EXPECT_EQ(count_in(sweep, v1::SUCCEEDED) + count_in(sweep, v1::FAILED), 8);
+}
+
+}  // namespace
+}  // namespace cellcrush::testing
