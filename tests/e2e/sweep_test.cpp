@@ -1,0 +1,76 @@
+// The second day: a sweep and its table, a job that is cancelled, one that is deleted.
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "e2e/daemon_test.h"
+
+namespace cellcrush::e2e {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+class SecondDay : public DaemonTest {
+ protected:
+  [[nodiscard]] std::string small() const { return write_file("small.txtpb", small_case()); }
+
+  // The first word of what a command printed.
+  static std::string first_word(const Outcome& outcome) {
+    return outcome.output.substr(0, outcome.output.find_first_of(" \n"));
+  }
+};
+
+TEST_F(SecondDay, AVelocitySweepEndsInATableWithTheoryBesideIt) {
+  const Outcome sweep =
+      cellcrush({"sweep", small(), "--over", "loading.speed_m_per_s=50,100,200", "--watch"}, kCrushLimit);
+  ASSERT_EQ(sweep.exit_code, 0) << sweep.all();
+  EXPECT_THAT(sweep.output, HasSubstr("sweeps/"));
+  EXPECT_THAT(sweep.output, HasSubstr("Eq. 51"));
+  const std::string name = first_word(sweep);
+  const Outcome table = cellcrush({"table", name, "--json"});
+  ASSERT_EQ(table.exit_code, 0) << table.all();
+  const json rows = json::parse(table.output)["rows"];
+  ASSERT_EQ(rows.size(), 3U);
+  double before = 0.0;
+  for (const json& row : rows) {
+    EXPECT_EQ(row["result"]["state"], "SUCCEEDED");
+    const double plateau = row["result"]["summary"]["plateau_stress_impact_mpa"];
+    EXPECT_GT(plateau, before) << "the plateau grows with the speed";
+    before = plateau;
+  }
+  const Outcome chart = cellcrush({"plot", name, "-o", folder() / "sweep.png"});
+  EXPECT_EQ(chart.exit_code, 0) << chart.all();
+  EXPECT_GT(std::filesystem::file_size(folder() / "sweep.png"), 10000U);
+}
+
+TEST_F(SecondDay, ABadPointRefusesTheWholeSweep) {
+  const Outcome sweep = cellcrush({"sweep", small(), "--over", "loading.speed_m_per_s=50,-1"});
+  EXPECT_EQ(sweep.exit_code, 2);
+  EXPECT_THAT(sweep.all(), HasSubstr("loading.speed_m_per_s"));
+  const Outcome list = cellcrush({"list", "--json"});
+  EXPECT_FALSE(json::parse(list.output).contains("jobs")) << list.output;
+}
+
+TEST_F(SecondDay, ACancelledJobKeepsWhatItComputedAndCanThenBeDeleted) {
+  const Outcome submitted = cellcrush({"submit", "preset:type-i"});
+  ASSERT_EQ(submitted.exit_code, 0) << submitted.all();
+  const std::string job = first_word(submitted);
+  EXPECT_EQ(cellcrush({"delete", job}).exit_code, 2) << "a job that runs is not deleted";
+  const auto deadline = std::chrono::steady_clock::now() + kShortLimit;
+  json shown;
+  do {
+    shown = json::parse(cellcrush({"show", job, "--json"}).output);
+  } while (!shown["progress"].contains("step") && std::chrono::steady_clock::now() < deadline);
+  ASSERT_EQ(cellcrush({"cancel", job}).exit_code, 0);
+  EXPECT_EQ(cellcrush({"watch", job}).exit_code, 1);
+  EXPECT_EQ(json::parse(cellcrush({"show", job, "--json"}).output)["state"], "CANCELLED");
+  const Outcome fetched = cellcrush({"fetch", job, "-o", folder() / "partial"});
+  EXPECT_EQ(fetched.exit_code, 0) << fetched.all();
+  EXPECT_GT(std::filesystem::file_size(folder() / "partial" / "result.h5"), 1000U);
+  EXPECT_EQ(cellcrush({"delete", job}).exit_code, 0);
+  EXPECT_EQ(cellcrush({"show", job}).exit_code, 5);
+}
+
+}  // namespace
+}  // namespace cellcrush::e2e
