@@ -17,8 +17,8 @@ void evaluate_internal_forces(const Scene& scene, State& state) {
     const BeamSection section = {element.thickness, scene.depth * element.thickness};
     const std::size_t first = e * scene.fibre_count();
     const Fibres fibres = {&state.stress[first], &state.back_stress[first], &state.plastic_strain[first]};
-    state.internal[e] =
-        evaluate_element(deformation, previous_length, scene.materials[element.material], section, scene.section, fibres, plastic_work);
+    state.internal[e] = evaluate_element(deformation, previous_length, scene.materials[element.material], section,
+                                         scene.section, fibres, plastic_work);
     state.axis[e] = deformation.axis;
     state.length[e] = deformation.length;
   }

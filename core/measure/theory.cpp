@@ -14,8 +14,7 @@ double collapse_stress_of(const SquareLattice& lattice, double yield_stress, Loa
 }
 
 double collapse_stress_of(const TriangleLattice& lattice, double yield_stress, LoadingSpec::Direction direction) {
-  const double factor =
-      direction == LoadingSpec::Direction::x ? 2.0 / std::numbers::sqrt3 : std::numbers::sqrt3;
+  const double factor = direction == LoadingSpec::Direction::x ? 2.0 / std::numbers::sqrt3 : std::numbers::sqrt3;
   return factor * yield_stress * *lattice.wall_thickness_mm / *lattice.side_mm;
 }
 

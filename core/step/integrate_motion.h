@@ -8,8 +8,8 @@ namespace cellcrush {
 /// Velocities of a particle half a step on, from those half a step back and the forces now (Eq. 4, central differences).
 /// Mass damping -alpha m v acts on the mean of both, so that it is exact to second order and stable at any alpha.
 struct NextVelocity {
-  Vector2 velocity;  ///< mm/s
-  double spin;       ///< rad/s
+  Vector2 velocity;                    ///< mm/s
+  double spin;                         ///< rad/s
   Vector2 reaction = Vector2::Zero();  ///< N, of the supports
   double reaction_moment = 0.0;        ///< N mm
 };

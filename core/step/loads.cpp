@@ -7,15 +7,9 @@ namespace {
 
 void add_to(State& state, int node, Component component, double value) {
   switch (component) {
-    case Component::x:
-      state.load_force[node].x() += value;
-      break;
-    case Component::y:
-      state.load_force[node].y() += value;
-      break;
-    case Component::rotation:
-      state.load_moment[node] += value;
-      break;
+    case Component::x: state.load_force[node].x() += value; break;
+    case Component::y: state.load_force[node].y() += value; break;
+    case Component::rotation: state.load_moment[node] += value; break;
   }
 }
 

@@ -20,10 +20,10 @@ std::int64_t memory_of(const Scene& scene) {
 
 std::vector<std::string> what_is_modelled(const Scene& scene) {
   std::vector<std::string> lines;
-  lines.push_back("Walls: Euler beams of constant section, large rotation, " +
-                  std::to_string(scene.section.axial_points) + " Gauss x " +
-                  std::to_string(scene.section.depth_points) + " Lobatto points an element, " +
-                  (scene.materials.front().hardening_modulus > 0.0 ? "bilinear with mixed hardening." : "perfectly plastic."));
+  lines.push_back(
+      "Walls: Euler beams of constant section, large rotation, " + std::to_string(scene.section.axial_points) +
+      " Gauss x " + std::to_string(scene.section.depth_points) + " Lobatto points an element, " +
+      (scene.materials.front().hardening_modulus > 0.0 ? "bilinear with mixed hardening." : "perfectly plastic."));
   const auto friction_text = [](double friction) {
     return friction > 0.0 ? "Coulomb friction " + to_text(friction) + "." : std::string("frictionless.");
   };

@@ -114,20 +114,20 @@ struct Scene {
   std::vector<Vector2> position;      ///< N, before loading
   std::vector<double> mass;           ///< N, tonne (Eq. 1, 2)
   std::vector<double> inertia;        ///< N, tonne mm^2 (Eq. 1, 3)
-  std::vector<double> radius; ///< N, of the contact ball: half of the thickest wall that ends there
+  std::vector<double> radius;         ///< N, of the contact ball: half of the thickest wall that ends there
   std::vector<Element> elements;      ///< E
   std::vector<int> incidence_offset;  ///< N + 1, into incidence
   std::vector<int> incidence;         ///< elements at each particle, ascending: sums run in this order
   std::vector<Support> supports;      ///< N, or empty when nothing is held
-  std::vector<TimeFunction> motions;    ///< mm or rad, of held particles
+  std::vector<TimeFunction> motions;  ///< mm or rad, of held particles
   std::vector<NodalLoad> loads;
   std::vector<ElementLoad> element_loads;
-  Vector2 gravity = Vector2::Zero();    ///< mm/s^2
+  Vector2 gravity = Vector2::Zero();      ///< mm/s^2
   std::vector<Vector2> initial_velocity;  ///< N, or empty when all start at rest
   std::vector<double> initial_spin;       ///< N, or empty
 
   // Model.
-  double depth = 0.0;  ///< b, mm
+  double depth = 0.0;               ///< b, mm
   std::vector<Material> materials;  ///< at least one
   SectionRule section;
   ContactLaw contact;

@@ -37,7 +37,8 @@ TEST(RigidSpin, ThousandTurnsLeaveStressAtRoundOff) {
   for (const double stress : state.stress) {
     greatest = std::max(greatest, std::abs(stress));
   }
-  RecordProperty("greatest_stress_over_yield_1e-9", std::to_string(1e9 * greatest / scene->materials.front().yield_stress));
+  RecordProperty("greatest_stress_over_yield_1e-9",
+                 std::to_string(1e9 * greatest / scene->materials.front().yield_stress));
   EXPECT_LT(greatest, 1e-6 * scene->materials.front().yield_stress);
 }
 

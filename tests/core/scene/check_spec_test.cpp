@@ -79,8 +79,8 @@ TEST(CheckSpec, ImperfectionAndInclusionsAreBoundedByTheLattice) {
   spec.inclusions.rows = {0, 3, 8};
   spec.inclusions.thickness_factor = 100.0;
   const Problems problems = build_scene(spec).problems;
-  for (const char* field : {"lattice.imperfection.amplitude_mm", "lattice.inclusions.rows[0]", "lattice.inclusions.rows[2]",
-                            "lattice.inclusions.thickness_factor"}) {
+  for (const char* field : {"lattice.imperfection.amplitude_mm", "lattice.inclusions.rows[0]",
+                            "lattice.inclusions.rows[2]", "lattice.inclusions.thickness_factor"}) {
     EXPECT_NE(find(problems, field), nullptr) << field;
   }
   EXPECT_EQ(problems.size(), 4u);

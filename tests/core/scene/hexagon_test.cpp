@@ -1,5 +1,3 @@
-#include "scene/lattices.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,6 +6,7 @@
 #include "cellcrush/presets.h"
 #include "cellcrush/scene.h"
 #include "cellcrush/simulation.h"
+#include "scene/lattices.h"
 #include "scenes/frames.h"
 
 namespace cellcrush {

@@ -28,7 +28,8 @@ TEST(Presets, HaveExactlyTheParticlesOfThePaper) {
 }
 
 TEST(Presets, ExampleTwoHasOneLengthWidthAndMass) {
-  for (const char* name : {"type-i", "type-ii-as-stated", "type-ii-as-counted", "type-iii-as-stated", "type-iii-as-counted"}) {
+  for (const char* name :
+       {"type-i", "type-ii-as-stated", "type-ii-as-counted", "type-iii-as-stated", "type-iii-as-counted"}) {
     const auto scene = scenes::build(find_preset(name)->spec);
     const SceneFacts facts = facts_of(*scene);
     EXPECT_NEAR(facts.length, 512.0, 1.0) << name;
