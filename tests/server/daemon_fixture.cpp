@@ -4,9 +4,9 @@
 
 namespace cellcrush::testing {
 
-std::unique_ptr<grpc::ClientContext> bounded_context() {
+std::unique_ptr<grpc::ClientContext> bounded_context(std::chrono::seconds bound) {
   auto context = std::make_unique<grpc::ClientContext>();
-  context->set_deadline(std::chrono::system_clock::now() + std::chrono::seconds(60));
+  context->set_deadline(std::chrono::system_clock::now() + bound);
   return context;
 }
 
@@ -63,7 +63,7 @@ Client::Watched Client::watch(const std::string& job, std::int64_t after_sequenc
   request.set_name(job);
   request.set_after_sequence(after_sequence);
   request.set_frames(frames);
-  const auto context = bounded_context();
+  const auto context = bounded_context(std::chrono::minutes(4));
   const auto reader = jobs->WatchJob(context.get(), request);
   Watched out;
   v1::JobEvent event;

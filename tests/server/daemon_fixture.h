@@ -17,7 +17,7 @@
 
 namespace cellcrush::testing {
 
-/// A client of one daemon. Every call has a deadline of 60 s.
+/// A client of one daemon. Every call has a deadline of 60 s, a watch one of 4 minutes.
 class Client {
  public:
   explicit Client(const std::string& address);
@@ -49,8 +49,8 @@ class Client {
   const std::unique_ptr<v1::Sweeps::Stub> sweeps;
 };
 
-/// A context with a deadline of 60 s.
-std::unique_ptr<grpc::ClientContext> bounded_context();
+/// A context with a deadline.
+std::unique_ptr<grpc::ClientContext> bounded_context(std::chrono::seconds bound = std::chrono::seconds(60));
 
 /// An embedded daemon on a socket in a folder of its own.
 class DaemonFixture : public ::testing::Test {

@@ -1,0 +1,60 @@
+// Any bytes as a case file: read as the command line reads them, then checked as the daemon checks them. Nothing may crash or
+// hang, and every refusal names its field, what is wrong and what to do.
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include "case_file/json_case.h"
+#include "case_file/text_case.h"
+#include "command_error.h"
+#include "translate/check_case.h"
+
+namespace cellcrush {
+namespace {
+
+/// A mesh that takes seconds to build is right, but tells the fuzzer nothing.
+constexpr double kMostElements = 20000.0;
+
+template <class Lattice>
+double cells_of(const Lattice& lattice) {
+  return static_cast<double>(lattice.columns()) * lattice.rows();
+}
+
+bool is_large(const v1::Case& given) {
+  const double per_wall = given.has_elements_per_wall() ? given.elements_per_wall() : 2.0;
+  const v1::Lattice& lattice = given.lattice();
+  double elements =
+      3.0 * per_wall * (cells_of(lattice.hexagon()) + cells_of(lattice.square()) + cells_of(lattice.triangle()));
+  for (const auto& beam : lattice.frame().beams()) elements += beam.has_elements() ? beam.elements() : per_wall;
+  return elements > kMostElements;
+}
+
+void check(const v1::Case& given) {
+  const auto response = translate::check_case(given).response;
+  for (const v1::Problem& problem : response.problems()) {
+    if (problem.field().empty() || problem.message().empty() || problem.remedy().empty()) {
+      std::fprintf(stderr, "a refusal without field, message or remedy: %s\n", problem.ShortDebugString().c_str());
+      std::abort();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace cellcrush
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace cellcrush;
+  const std::string text(reinterpret_cast<const char*>(data), size);
+  v1::Case given;
+  try {
+    const bool json = !text.empty() && text.front() == '{';
+    given = json ? client::parse_json_case(text, "fuzz") : client::parse_text_case(text, "fuzz");
+  } catch (const client::CommandError&) {
+    return 0;
+  }
+  if (!is_large(given)) {
+    check(given);
+  }
+  return 0;
+}
