@@ -80,6 +80,7 @@ ContactCandidate candidate_for(const Scene& scene, const State& state, const Pai
     }
   }
   ContactCandidate fresh;
+  fresh.ball = pair.ball;
   fresh.segment = pair.segment;
   fresh.joint = joint_between(scene, pair.ball, scene.elements[pair.segment]);
   return fresh;

@@ -17,11 +17,12 @@ struct ElementForces {
 
 /// A ball and a segment that may touch before the list is made again.
 struct ContactCandidate {
-  int segment = 0;  ///< element
-  int joint = -1;   ///< node of the segment that an element joins to the ball; -1: none
-  int side = 0;     ///< +1 left, -1 right of the segment: where the ball was when it first touched; 0: not touching
-  int pushed = 0;   ///< 1: pushed on the ball in the newest step
-  double friction = 0.0;  ///< N, on the ball along the segment's axis; kept while it pushes
+  int ball = 0;             ///< particle
+  int segment = 0;          ///< element
+  int joint = -1;           ///< node of the segment that an element joins to the ball; -1: none
+  std::int16_t side = 0;    ///< +1 left, -1 right of the segment: where the ball first touched; 0: not touching
+  std::int16_t pushed = 0;  ///< 1: pushed on the ball in the newest step
+  double friction = 0.0;    ///< N, on the ball along the segment's axis; kept while it pushes
 };
 
 /// Energies and works that are sums over time. N mm. Written by integrate_motion and evaluate_internal_forces.
