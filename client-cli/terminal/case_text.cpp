@@ -34,7 +34,7 @@ std::string wrapped(const std::string& text, std::size_t width, const std::strin
 }
 
 std::string material_text(const v1::Material& material) {
-  std::string text = fmt::format("E {} MPa, yield {} MPa, hardening {} MPa", material.youngs_modulus_mpa(),
+  std::string text = fmt::format("E {:.6g} MPa, yield {:.6g} MPa, hardening {:.6g} MPa", material.youngs_modulus_mpa(),
                                  material.yield_stress_mpa(), material.hardening_modulus_mpa());
   if (material.hardening_modulus_mpa() > 0.0 && material.has_isotropic_fraction()) {
     text += fmt::format(" ({} isotropic)", percent_text(material.isotropic_fraction(), 0));

@@ -15,13 +15,13 @@ std::string plural(int count, const char* noun) { return fmt::format("{} {}{}", 
 
 template <typename Regular>
 std::string walls_text(const Regular& regular) {
-  return fmt::format("{} mm long, {} mm thick", regular.side_mm(), regular.wall_thickness_mm());
+  return fmt::format("{:.6g} mm long, {:.6g} mm thick", regular.side_mm(), regular.wall_thickness_mm());
 }
 
 template <typename Values>
 std::string range_text(const Values& values) {
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
-  return *low == *high ? fmt::format("{}", *low) : fmt::format("{} to {}", *low, *high);
+  return *low == *high ? fmt::format("{:.6g}", *low) : fmt::format("{:.6g} to {:.6g}", *low, *high);
 }
 
 // The first names of a list, and how many more there are.
@@ -110,14 +110,14 @@ void describe_walls(const char* kind, const Regular& regular, Lines& lines) {
 void describe_hexagon(const v1::Lattice::Hexagon& hexagon, Lines& lines) {
   describe_walls("hexagons", hexagon, lines);
   if (hexagon.has_vertical_wall_thickness_mm() && hexagon.vertical_wall_thickness_mm() != hexagon.wall_thickness_mm()) {
-    lines.back().second += fmt::format("; those along y {} mm", hexagon.vertical_wall_thickness_mm());
+    lines.back().second += fmt::format("; those along y {:.6g} mm", hexagon.vertical_wall_thickness_mm());
   }
 }
 
 void describe_changes(const v1::Lattice& lattice, Lines& lines) {
   if (lattice.imperfection().amplitude_mm() > 0.0) {
     lines.emplace_back("imperfection",
-                       fmt::format("joints off by up to {} mm, seed {}", lattice.imperfection().amplitude_mm(),
+                       fmt::format("joints off by up to {:.6g} mm, seed {}", lattice.imperfection().amplitude_mm(),
                                    lattice.imperfection().seed()));
   }
   if (lattice.inclusions().rows_size() > 0) {

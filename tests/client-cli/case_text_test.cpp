@@ -68,6 +68,12 @@ TEST(CaseText, RegularLatticesAreDescribed) {
   EXPECT_EQ(description_text(v1::Case()), "");
 }
 
+TEST(CaseText, MeasuresAreRoundedForReading) {
+  expect_parts(description_text(parse("lattice { triangle { columns: 74 rows: 21 side_mm: 6.918918918918919 "
+                                      "wall_thickness_mm: 0.20500756756756758 } }")),
+               {"6.91892 mm long, 0.205008 mm thick\n"});
+}
+
 TEST(CaseText, TheCheckOfAFrameLeavesOutWhatOnlyACrushHas) {
   v1::CheckCaseResponse check;
   *check.mutable_completed_case() = parse(kFrame);
