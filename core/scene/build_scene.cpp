@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "cellcrush/simulation.h"
 #include "measure/theory.h"
@@ -25,8 +26,14 @@ constexpr double kTravelPerStep = 0.1;
 /// Contact candidates are collected this share of the shortest element beyond touch.
 constexpr double kSkinFraction = 0.35;
 
+/// What a fibre along the wall shows. In plane strain it is held across: elastically E / (1 - nu^2); flowing, the stress
+/// along it is 2 / sqrt 3 of the effective stress and its strain sqrt 3 / 2 of the effective one.
 Material material_of(const MaterialSpec& spec) {
-  return {*spec.youngs_modulus_mpa, *spec.yield_stress_mpa, spec.hardening_modulus_mpa, spec.isotropic_fraction,
+  const bool held = spec.plane == MaterialSpec::Plane::strain;
+  const double elastic = held ? 1.0 / (1.0 - spec.poissons_ratio * spec.poissons_ratio) : 1.0;
+  const double flowing = held ? 2.0 / std::numbers::sqrt3 : 1.0;
+  return {elastic * *spec.youngs_modulus_mpa, flowing * *spec.yield_stress_mpa,
+          flowing * flowing * spec.hardening_modulus_mpa, spec.isotropic_fraction,
           *spec.density_kg_per_m3 * kTonnePerMm3PerKgPerM3};
 }
 
@@ -131,7 +138,7 @@ Layout lay_out(const SceneSpec& spec, Scene& scene) {
 void set_material_and_mesh(const SceneSpec& spec, Scene& scene) {
   scene.depth = *spec.depth_mm;
   scene.materials = materials_of(spec);
-  scene.section = make_section_rule(spec.section.axial_points, spec.section.depth_points);
+  scene.section = make_section_rule(spec.section);
   Mesh mesh = divide_walls(lay_out(spec, scene));
   scene.position = std::move(mesh.position);
   scene.elements = std::move(mesh.elements);
@@ -224,6 +231,7 @@ SceneSpec complete_spec(const SceneSpec& spec, const Scene& scene) {
       hexagon->vertical_wall_thickness_mm = hexagon->wall_thickness_mm;
     }
   }
+  complete.section = complete_section(spec.section);
   complete.numerics.time_step_s = scene.schedule.time_step;
   return complete;
 }

@@ -17,18 +17,25 @@ struct Material {
   double density = 0.0;             ///< tonne / mm^3
 };
 
-/// Where an element samples its stress: F fibres, which are Gauss points along it times Lobatto points through its depth
-/// (Eq. 30), axial point by axial point. With y the distance from the axis and s = x / l, Eq. 27 reads
-///   strain = stretch / l + (h / l) (start_factor theta_1 + end_factor theta_2).
+/// Where an element samples its stress: P sections along it, s = x / l, times D points through its depth (Eq. 30); F = P D
+/// fibres, section by section. Both weights integrate over a length of 1 and sum to 1.
 struct SectionRule {
-  int axial_points = 0;
-  int depth_points = 0;
-  Eigen::ArrayXd start_factor;  ///< F, (4 - 6 s) y / h
-  Eigen::ArrayXd end_factor;    ///< F, (2 - 6 s) y / h
-  Eigen::ArrayXd weight;        ///< F, share of the element's volume; they sum to 1
+  /// Whether the curvature may leave its straight line (Eq. 27) for that with which the moment stays one.
+  bool force_based = false;
+  Eigen::ArrayXd along;         ///< P, s of the sections
+  Eigen::ArrayXd along_weight;  ///< P
+  Eigen::ArrayXd offset;        ///< D, y / h of the points, y being the distance from the axis to the left
+  Eigen::ArrayXd depth_weight;  ///< D
 
-  [[nodiscard]] std::size_t fibre_count() const { return static_cast<std::size_t>(weight.size()); }
+  [[nodiscard]] std::size_t section_count() const { return static_cast<std::size_t>(along.size()); }
+  [[nodiscard]] std::size_t depth_count() const { return static_cast<std::size_t>(offset.size()); }
+  [[nodiscard]] std::size_t fibre_count() const { return section_count() * depth_count(); }
 };
+
+/// Mean over an element's volume of what its fibres have, D x P.
+inline double mean_over(const SectionRule& rule, const Eigen::ArrayXXd& values) {
+  return rule.depth_weight.matrix().dot((values.matrix() * rule.along_weight.matrix()));
+}
 
 /// A beam element: its nodes and its rectangular section.
 struct Element {
