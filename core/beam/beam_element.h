@@ -1,5 +1,6 @@
 #pragma once
 
+#include "beam/beam_section.h"
 #include "beam/deformation.h"
 #include "beam/section_curvatures.h"
 #include "cellcrush/scene.h"
@@ -7,12 +8,6 @@
 #include "section/fibres.h"
 
 namespace cellcrush {
-
-/// The rectangular section of an element.
-struct BeamSection {
-  double thickness;  ///< h, mm
-  double area;       ///< b h, mm^2
-};
 
 /// Rotations of an element's ends over a step, times h / l.
 struct Bend {
@@ -100,7 +95,7 @@ ElementForces evaluate_element(const Deformation& deformation, double previous_l
           : return_element<kDepthPoints, kHardening>(material, rule, membrane,
                                                      straight_curvatures(rule, bend.start, bend.end), fibres, next);
   commit_fibres<kHardening>(material, rule.fibre_count(), next, fibres);
-  plastic_work += section.area * previous_length * sums.plastic_work;
+  plastic_work += section.volume * sums.plastic_work;
   const double moment_start = unit * sums.moments.start;
   const double moment_end = unit * sums.moments.end;
   const double shear = -(moment_start + moment_end) / deformation.length;  // Eq. 31

@@ -20,14 +20,16 @@ void evaluate_elements(const Scene& scene, State& state) {
     const Deformation deformation =
         reverse_motion(state.position[element.end] - state.position[element.start], state.axis[e], previous_length,
                        step * state.spin[element.start], step * state.spin[element.end]);
-    const BeamSection section = {element.thickness, scene.depth * element.thickness};
+    const BeamSection section = section_of(scene, e, previous_length);
+    Material material = scene.materials[element.material];
+    material.youngs_modulus *= section.stiffness;
     const std::size_t first = e * scene.fibre_count();
     const Fibres fibres = {&state.stress[first], &state.back_stress[first], &state.plastic_strain[first]};
     const SectionMemory memory = {state.section_unbalance.data() + e * remembered,
                                   state.section_tangent.data() + e * remembered};
-    state.internal[e] = evaluate_element<kDepthPoints, kHardening>(
-        deformation, previous_length, scene.materials[element.material], section, scene.section, fibres, memory,
-        state.internal[e], plastic_work);
+    state.internal[e] =
+        evaluate_element<kDepthPoints, kHardening>(deformation, previous_length, material, section, scene.section,
+                                                   fibres, memory, state.internal[e], plastic_work);
     state.axis[e] = deformation.axis;
     state.length[e] = deformation.length;
   }

@@ -1,5 +1,7 @@
 #include "energy/ledger.h"
 
+#include "beam/beam_section.h"
+
 namespace cellcrush {
 namespace {
 
@@ -35,9 +37,9 @@ double elastic_energy(const Scene& scene, const State& state) {
   for (std::size_t e = 0; e < scene.element_count(); ++e) {
     const Eigen::Map<const Eigen::ArrayXXd> stress(&state.stress[e * scene.fibre_count()], depth, sections);
     const Element& element = scene.elements[e];
-    const double volume = element.thickness * scene.depth * state.length[e];
-    const double modulus = scene.materials[element.material].youngs_modulus;
-    energy += volume * mean_over(scene.section, stress.square()) / (2.0 * modulus);
+    const BeamSection section = section_of(scene, e, state.length[e]);
+    const double modulus = section.stiffness * scene.materials[element.material].youngs_modulus;
+    energy += section.volume * mean_over(scene.section, stress.square()) / (2.0 * modulus);
   }
   return energy;
 }

@@ -118,15 +118,16 @@ struct Schedule {
 /// N particles, E elements.
 struct Scene {
   // Mesh.
-  std::vector<Vector2> position;      ///< N, before loading
-  std::vector<double> mass;           ///< N, tonne (Eq. 1, 2)
-  std::vector<double> inertia;        ///< N, tonne mm^2 (Eq. 1, 3)
-  std::vector<double> radius;         ///< N, of the contact ball: half of the thickest wall that ends there
-  std::vector<Element> elements;      ///< E
-  std::vector<int> incidence_offset;  ///< N + 1, into incidence
-  std::vector<int> incidence;         ///< elements at each particle, ascending: sums run in this order
-  std::vector<Support> supports;      ///< N, or empty when nothing is held
-  std::vector<TimeFunction> motions;  ///< mm or rad, of held particles
+  std::vector<Vector2> position;          ///< N, before loading
+  std::vector<double> mass;               ///< N, tonne (Eq. 1, 2)
+  std::vector<double> inertia;            ///< N, tonne mm^2 (Eq. 1, 3)
+  std::vector<double> radius;             ///< N, of the contact ball: half of the thickest wall that ends there
+  std::vector<Element> elements;          ///< E
+  std::vector<double> undeformed_length;  ///< E, mm
+  std::vector<int> incidence_offset;      ///< N + 1, into incidence
+  std::vector<int> incidence;             ///< elements at each particle, ascending: sums run in this order
+  std::vector<Support> supports;          ///< N, or empty when nothing is held
+  std::vector<TimeFunction> motions;      ///< mm or rad, of held particles
   std::vector<NodalLoad> loads;
   std::vector<ElementLoad> element_loads;
   Vector2 gravity = Vector2::Zero();      ///< mm/s^2
@@ -137,6 +138,7 @@ struct Scene {
   double depth = 0.0;               ///< b, mm
   std::vector<Material> materials;  ///< at least one
   SectionRule section;
+  bool constant_area = false;  ///< walls that change their length keep their area (the paper) instead of their volume
   ContactLaw contact;
   Plates plates;
   double mass_damping = 0.0;  ///< alpha, 1/s: force -alpha m v

@@ -135,8 +135,13 @@ struct SectionSpec {
     full_moment,  ///< exact area, bending stiffness and full plastic moment
     lobatto       ///< the paper
   };
+  enum class Area {
+    constant_volume,  ///< a wall that is squashed short thickens
+    constant_area     ///< the paper
+  };
   Formulation formulation = Formulation::force_based;
   DepthRule depth_rule = DepthRule::full_moment;
+  Area area = Area::constant_volume;
   std::optional<int> axial_points;  ///< default: 4 force-based (3 to 5), 2 displacement-based (1 to 5)
   std::optional<int> depth_points;  ///< default: 4 full-moment (4 or 6), 6 Lobatto (2 to 10)
 };

@@ -52,11 +52,11 @@ struct State {
   double support_impulse = 0.0;   ///< N s, of the support plate on the lattice
 
   // Written by evaluate_internal_forces.
-  std::vector<Vector2> axis;            ///< E, unit vector from start to end
-  std::vector<double> length;           ///< E
-  std::vector<double> stress;           ///< E x F, of the fibres, axial point by axial point, MPa
-  std::vector<double> back_stress;      ///< E x F, middle of the yield surface, MPa
-  std::vector<double> plastic_strain;   ///< E x F, accumulated (effective)
+  std::vector<Vector2> axis;              ///< E, unit vector from start to end
+  std::vector<double> length;             ///< E
+  std::vector<double> stress;             ///< E x F, of the fibres, axial point by axial point, MPa
+  std::vector<double> back_stress;        ///< E x F, middle of the yield surface, MPa
+  std::vector<double> plastic_strain;     ///< E x F, accumulated (effective)
   std::vector<double> section_unbalance;  ///< E x P of a force-based rule (beam/section_curvatures.h), else empty; MPa
   std::vector<double> section_tangent;    ///< the same, 1
   std::vector<ElementForces> internal;    ///< E
