@@ -1,5 +1,7 @@
 #include "energy/ledger.h"
 
+#include "beam/beam_section.h"
+
 namespace cellcrush {
 namespace {
 
@@ -29,14 +31,15 @@ double kinetic_energy(const Scene& scene, const State& state) {
 }
 
 double elastic_energy(const Scene& scene, const State& state) {
-  const auto per_element = static_cast<Eigen::Index>(scene.fibre_count());
+  const auto sections = static_cast<Eigen::Index>(scene.section.section_count());
+  const auto depth = static_cast<Eigen::Index>(scene.section.depth_count());
   double energy = 0.0;
   for (std::size_t e = 0; e < scene.element_count(); ++e) {
-    const Eigen::Map<const Eigen::ArrayXd> stress(&state.stress[e * scene.fibre_count()], per_element);
+    const Eigen::Map<const Eigen::ArrayXXd> stress(&state.stress[e * scene.fibre_count()], depth, sections);
     const Element& element = scene.elements[e];
-    const double volume = element.thickness * scene.depth * state.length[e];
-    const double modulus = scene.materials[element.material].youngs_modulus;
-    energy += volume * (scene.section.weight * stress.square()).sum() / (2.0 * modulus);
+    const BeamSection section = section_of(scene, e, state.length[e]);
+    const double modulus = section.stiffness * scene.materials[element.material].youngs_modulus;
+    energy += section.volume * mean_over(scene.section, stress.square()) / (2.0 * modulus);
   }
   return energy;
 }

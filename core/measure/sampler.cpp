@@ -51,10 +51,11 @@ FieldFrame make_frame(const Scene& scene, const State& state, int index) {
     frame.position.push_back(static_cast<float>(position.y()));
   }
   frame.plastic_fraction.reserve(scene.element_count());
-  const auto per_element = static_cast<Eigen::Index>(scene.fibre_count());
+  const auto sections = static_cast<Eigen::Index>(scene.section.section_count());
+  const auto depth = static_cast<Eigen::Index>(scene.section.depth_count());
   for (std::size_t e = 0; e < scene.element_count(); ++e) {
-    const Eigen::Map<const Eigen::ArrayXd> plastic(&state.plastic_strain[e * scene.fibre_count()], per_element);
-    frame.plastic_fraction.push_back(static_cast<float>((plastic > 0.0).select(scene.section.weight, 0.0).sum()));
+    const Eigen::Map<const Eigen::ArrayXXd> plastic(&state.plastic_strain[e * scene.fibre_count()], depth, sections);
+    frame.plastic_fraction.push_back(static_cast<float>(mean_over(scene.section, (plastic > 0.0).cast<double>())));
   }
   return frame;
 }

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "cellcrush/simulation.h"
 #include "measure/theory.h"
@@ -20,13 +21,19 @@ constexpr double kMmPerM = 1e3;
 
 /// Share of the stable step of the undeformed mesh that a chosen step takes.
 constexpr double kStepFraction = 0.9;
-/// A chosen step lets a particle at plate speed move by at most this share of the thinnest wall.
-constexpr double kTravelPerStep = 0.1;
+/// The contact's step lets a particle at plate speed move by at most this share of the thinnest wall.
+constexpr double kTravelPerStep = 0.08;
 /// Contact candidates are collected this share of the shortest element beyond touch.
 constexpr double kSkinFraction = 0.35;
 
+/// What a fibre along the wall shows. In plane strain it is held across: elastically E / (1 - nu^2); flowing, the stress
+/// along it is 2 / sqrt 3 of the effective stress and its strain sqrt 3 / 2 of the effective one.
 Material material_of(const MaterialSpec& spec) {
-  return {*spec.youngs_modulus_mpa, *spec.yield_stress_mpa, spec.hardening_modulus_mpa, spec.isotropic_fraction,
+  const bool held = spec.plane == MaterialSpec::Plane::strain;
+  const double elastic = held ? 1.0 / (1.0 - spec.poissons_ratio * spec.poissons_ratio) : 1.0;
+  const double flowing = held ? 2.0 / std::numbers::sqrt3 : 1.0;
+  return {elastic * *spec.youngs_modulus_mpa, flowing * *spec.yield_stress_mpa,
+          flowing * flowing * spec.hardening_modulus_mpa, spec.isotropic_fraction,
           *spec.density_kg_per_m3 * kTonnePerMm3PerKgPerM3};
 }
 
@@ -46,10 +53,28 @@ double shortest_element(const Scene& scene) {
   return least;
 }
 
-void set_contact(const ContactSpec& spec, bool present, Scene& scene) {
+/// The step that elements and contact can bear: the stable step, or that in which a particle at plate speed moves by
+/// kTravelPerStep of the thinnest wall.
+double longest_step(const SceneSpec& spec, const Scene& scene) {
+  if (std::holds_alternative<FrameLattice>(spec.lattice)) {
+    return scene.stable_step;
+  }
+  return std::min(scene.stable_step, kTravelPerStep * thinnest_wall(scene) / (*spec.loading.speed_m_per_s * kMmPerM));
+}
+
+double step_of(const SceneSpec& spec, const Scene& scene) {
+  const double fixed = spec.numerics.time_step_s;
+  return fixed > 0.0 ? fixed : kStepFraction * longest_step(spec, scene);
+}
+
+/// The penalty that the longest step can bear, or a longer one that was asked for: a ball at plate speed sinks in by
+/// V sqrt(m / k), so that what the step allows to be reached between two looks is also what stops it.
+void set_contact(const SceneSpec& spec, bool present, Scene& scene) {
   const double lightest = *std::min_element(scene.mass.begin(), scene.mass.end());
-  const double stiffness = spec.stiffness_factor * lightest / (scene.stable_step * scene.stable_step);
-  scene.contact = {present, stiffness, spec.damping_ratio, spec.friction, kSkinFraction * shortest_element(scene)};
+  const double step = std::max(longest_step(spec, scene), spec.numerics.time_step_s);
+  const double stiffness = spec.contact.stiffness_factor * lightest / (step * step);
+  scene.contact = {present, stiffness, spec.contact.damping_ratio, spec.contact.friction,
+                   kSkinFraction * shortest_element(scene)};
 }
 
 void set_plates(const LoadingSpec& spec, double friction, Scene& scene) {
@@ -72,17 +97,8 @@ double end_time_of(const SceneSpec& spec, const Scene& scene) {
   return spec.loading.end_strain * scene.length / scene.plates.speed + 0.5 * scene.plates.ramp_time;
 }
 
-double chosen_step(const Scene& scene) {
-  double step = kStepFraction * scene.stable_step;
-  if (scene.plates.present) {
-    step = std::min(step, kTravelPerStep * thinnest_wall(scene) / scene.plates.speed);
-  }
-  return step;
-}
-
 void set_schedule(const SceneSpec& spec, Scene& scene) {
-  const double fixed = spec.numerics.time_step_s;
-  scene.schedule.time_step = fixed > 0.0 ? fixed : chosen_step(scene);
+  scene.schedule.time_step = step_of(spec, scene);
   scene.schedule.step_count =
       static_cast<std::int64_t>(std::ceil(end_time_of(spec, scene) / scene.schedule.time_step - 1e-9));
   const auto interval = [&](int count) { return std::max<std::int64_t>(1, scene.schedule.step_count / count); };
@@ -131,10 +147,14 @@ Layout lay_out(const SceneSpec& spec, Scene& scene) {
 void set_material_and_mesh(const SceneSpec& spec, Scene& scene) {
   scene.depth = *spec.depth_mm;
   scene.materials = materials_of(spec);
-  scene.section = make_section_rule(spec.section.axial_points, spec.section.depth_points);
+  scene.section = make_section_rule(spec.section);
   Mesh mesh = divide_walls(lay_out(spec, scene));
   scene.position = std::move(mesh.position);
   scene.elements = std::move(mesh.elements);
+  for (const Element& element : scene.elements) {
+    scene.undeformed_length.push_back((scene.position[element.end] - scene.position[element.start]).norm());
+  }
+  scene.constant_area = spec.section.area == SectionSpec::Area::constant_area;
 }
 
 /// Whether any problem keeps the mesh from being built.
@@ -173,7 +193,7 @@ void check_stability(const SceneSpec& spec, const Scene& scene, Problems& proble
 void check_step_count(const SceneSpec& spec, const Scene& scene, Problems& problems) {
   constexpr double kMostSteps = 1e10;
   const double fixed = spec.numerics.time_step_s;
-  const double count = end_time_of(spec, scene) / (fixed > 0.0 ? fixed : chosen_step(scene));
+  const double count = end_time_of(spec, scene) / step_of(spec, scene);
   if (count <= kMostSteps) {
     return;
   }
@@ -205,7 +225,7 @@ SceneResult build_scene(const SceneSpec& spec) {
   }
   scene->mass_damping = spec.numerics.mass_damping_per_s;
   const auto* frame = std::get_if<FrameLattice>(&spec.lattice);
-  set_contact(spec.contact, frame == nullptr || frame->self_contact, *scene);
+  set_contact(spec, frame == nullptr || frame->self_contact, *scene);
   if (frame == nullptr) {
     set_plates(spec.loading, spec.plates.friction, *scene);
   }
@@ -224,6 +244,7 @@ SceneSpec complete_spec(const SceneSpec& spec, const Scene& scene) {
       hexagon->vertical_wall_thickness_mm = hexagon->wall_thickness_mm;
     }
   }
+  complete.section = complete_section(spec.section);
   complete.numerics.time_step_s = scene.schedule.time_step;
   return complete;
 }

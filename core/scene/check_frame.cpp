@@ -182,6 +182,7 @@ void check_material(const std::string& path, const MaterialSpec& material, Field
   check.positive(path + "yield_stress_mpa", material.yield_stress_mpa, " MPa");
   check.in_range(path + "hardening_modulus_mpa", material.hardening_modulus_mpa, {0.0, 1e12}, " MPa");
   check.in_range(path + "isotropic_fraction", material.isotropic_fraction, {0.0, 1.0}, "");
+  check.in_range(path + "poissons_ratio", material.poissons_ratio, {0.0, 0.5}, "");
   check.positive(path + "density_kg_per_m3", material.density_kg_per_m3, " kg/m3");
 }
 

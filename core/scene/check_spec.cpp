@@ -7,6 +7,7 @@
 
 #include "scene/check_frame.h"
 #include "scene/field_checker.h"
+#include "section/section_rule.h"
 
 namespace cellcrush {
 namespace {
@@ -93,6 +94,21 @@ void check_lattice(const SceneSpec& spec, FieldChecker& check) {
   }
 }
 
+void check_section(const SectionSpec& section, FieldChecker& check) {
+  const SectionSpec whole = complete_section(section);
+  const bool force_based = section.formulation == SectionSpec::Formulation::force_based;
+  check.in_range("section.axial_points", whole.axial_points,
+                 force_based ? FieldChecker::Range{3, 5} : FieldChecker::Range{1, 5},
+                 force_based ? " (force-based; displacement-based: 1 to 5)" : "");
+  if (section.depth_rule == SectionSpec::DepthRule::lobatto) {
+    check.in_range("section.depth_points", whole.depth_points, {2, 10}, "");
+  } else if (*whole.depth_points != 4 && *whole.depth_points != 6) {
+    check.add("section.depth_points", std::to_string(*whole.depth_points),
+              "is not a number that the full-moment rule has.",
+              "Give 4 or 6, or section.depth_rule LOBATTO with 2 to 10.");
+  }
+}
+
 void check_loading(const LoadingSpec& loading, FieldChecker& check) {
   check.in_range("loading.speed_m_per_s", loading.speed_m_per_s, {1e-6, 1000.0}, " m/s");
   const bool end =
@@ -129,8 +145,7 @@ Problems check_spec(const SceneSpec& spec) {
   check.positive("depth_mm", spec.depth_mm, " mm");
   check.in_range("elements_per_wall", std::optional<int>(spec.elements_per_wall), {1, 64}, "");
   check_material("material.", spec.material, check);
-  check.in_range("section.axial_points", std::optional<int>(spec.section.axial_points), {1, 5}, "");
-  check.in_range("section.depth_points", std::optional<int>(spec.section.depth_points), {2, 10}, "");
+  check_section(spec.section, check);
   check.in_range("contact.friction", spec.contact.friction, {0.0, 10.0}, "");
   check.in_range("contact.stiffness_factor", spec.contact.stiffness_factor, {1e-6, 1.0}, "");
   check.in_range("contact.damping_ratio", spec.contact.damping_ratio, {0.0, 1.0}, "");

@@ -1,26 +1,89 @@
 #include "section/section_rule.h"
 
+#include <Eigen/LU>
+#include <cmath>
+
 #include "section/quadrature.h"
 
 namespace cellcrush {
+namespace {
 
-SectionRule make_section_rule(int axial_points, int depth_points) {
-  const Quadrature along = gauss_rule(axial_points);
-  const Quadrature through = lobatto_rule(depth_points);
-  const Eigen::Index count = static_cast<Eigen::Index>(axial_points) * depth_points;
-  SectionRule rule{axial_points, depth_points, Eigen::ArrayXd(count), Eigen::ArrayXd(count), Eigen::ArrayXd(count)};
-  Eigen::Index fibre = 0;
-  for (std::size_t i = 0; i < along.points.size(); ++i) {
-    const double s = 0.5 * (1.0 + along.points[i]);
-    for (std::size_t j = 0; j < through.points.size(); ++j) {
-      const double offset = 0.5 * through.points[j];
-      rule.start_factor[fibre] = (4.0 - 6.0 * s) * offset;
-      rule.end_factor[fibre] = (2.0 - 6.0 * s) * offset;
-      rule.weight[fibre] = 0.25 * along.weights[i] * through.weights[j];
-      ++fibre;
-    }
+/// Joints and two inner points, of degree 3 with whatever end weight.
+Quadrature short_ended_rule() {
+  constexpr double kEndWeight = 0.1;  // on [-1, 1]
+  const double inner_weight = 1.0 - kEndWeight;
+  const double inner = std::sqrt((1.0 / 3.0 - kEndWeight) / inner_weight);
+  return {{-1.0, -inner, inner, 1.0}, {kEndWeight, inner_weight, inner_weight, kEndWeight}};
+}
+
+Quadrature along_rule(const SectionSpec& spec) {
+  if (spec.formulation == SectionSpec::Formulation::displacement_based) {
+    return gauss_rule(*spec.axial_points);
+  }
+  return *spec.axial_points == 4 ? short_ended_rule() : lobatto_rule(*spec.axial_points);
+}
+
+/// Points at +-places whose weights have the sum 2, the first moment of |y| 1 and the second moment of y 2/3, as the section
+/// itself: area, full plastic moment and bending stiffness.
+Quadrature full_moment_rule(int points) {
+  Quadrature rule;
+  const auto add_pair = [&](double place, double weight) {
+    rule.points.insert(rule.points.begin(), -place);
+    rule.points.push_back(place);
+    rule.weights.insert(rule.weights.begin(), weight);
+    rule.weights.push_back(weight);
+  };
+  if (points == 4) {
+    constexpr double kOuter = 0.805;
+    const double inner = (0.5 * kOuter - 1.0 / 3.0) / (kOuter - 0.5);
+    const double outer_weight = (0.5 - inner) / (kOuter - inner);
+    add_pair(inner, 1.0 - outer_weight);
+    add_pair(kOuter, outer_weight);
+    return rule;
+  }
+  const Eigen::Vector3d places(0.15, 0.52, 0.88);
+  Eigen::Matrix3d moments;
+  moments << Eigen::RowVector3d::Ones(), places.transpose(), places.transpose().cwiseAbs2();
+  const Eigen::Vector3d weights = moments.inverse() * Eigen::Vector3d(1.0, 0.5, 1.0 / 3.0);
+  for (Eigen::Index i = 0; i < places.size(); ++i) {
+    add_pair(places[i], weights[i]);
   }
   return rule;
+}
+
+Quadrature depth_rule(const SectionSpec& spec) {
+  return spec.depth_rule == SectionSpec::DepthRule::lobatto ? lobatto_rule(*spec.depth_points)
+                                                            : full_moment_rule(*spec.depth_points);
+}
+
+Eigen::ArrayXd to_array(const std::vector<double>& values) {
+  return Eigen::Map<const Eigen::ArrayXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
+}  // namespace
+
+SectionRule make_section_rule(const SectionSpec& spec) {
+  const SectionSpec whole = complete_section(spec);
+  const Quadrature along = along_rule(whole);
+  const Quadrature through = depth_rule(whole);
+  SectionRule rule;
+  rule.force_based = whole.formulation == SectionSpec::Formulation::force_based;
+  rule.along = 0.5 * (1.0 + to_array(along.points));
+  rule.along_weight = 0.5 * to_array(along.weights);
+  rule.offset = 0.5 * to_array(through.points);
+  rule.depth_weight = 0.5 * to_array(through.weights);
+  return rule;
+}
+
+SectionSpec complete_section(const SectionSpec& spec) {
+  SectionSpec whole = spec;
+  if (!whole.axial_points) {
+    whole.axial_points = spec.formulation == SectionSpec::Formulation::force_based ? 4 : 2;
+  }
+  if (!whole.depth_points) {
+    whole.depth_points = spec.depth_rule == SectionSpec::DepthRule::full_moment ? 4 : 6;
+  }
+  return whole;
 }
 
 }  // namespace cellcrush

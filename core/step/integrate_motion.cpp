@@ -97,6 +97,10 @@ State place_particles(const Scene& scene) {
   for (auto* values : {&state.stress, &state.back_stress, &state.plastic_strain}) {
     values->assign(e * scene.fibre_count(), 0.0);
   }
+  if (scene.section.force_based) {
+    state.section_unbalance.assign(e * scene.section.section_count(), 0.0);
+    state.section_tangent.assign(e * scene.section.section_count(), 1.0);
+  }
   state.internal.resize(e);
   state.candidate_offset.assign(n + 1, 0);
   state.contact_force.assign(n, Vector2::Zero());

@@ -14,15 +14,17 @@ std::int64_t memory_of(const Scene& scene) {
   const std::size_t per_particle =
       9 * sizeof(Vector2) + 9 * sizeof(double) + 2 * sizeof(int) + kCandidatesPerParticle * sizeof(ContactCandidate);
   const std::size_t per_element = sizeof(Element) + 2 * sizeof(int) + sizeof(Vector2) + sizeof(double) +
-                                  sizeof(ElementForces) + 3 * scene.fibre_count() * sizeof(double);
+                                  sizeof(ElementForces) + (3 * scene.fibre_count() + 2 * scene.section.section_count()) * sizeof(double);
   return static_cast<std::int64_t>(scene.particle_count() * per_particle + scene.element_count() * per_element);
 }
 
 std::vector<std::string> what_is_modelled(const Scene& scene) {
   std::vector<std::string> lines;
   lines.push_back(
-      "Walls: Euler beams of constant section, large rotation, " + std::to_string(scene.section.axial_points) +
-      " Gauss x " + std::to_string(scene.section.depth_points) + " Lobatto points an element, " +
+      "Walls: Euler beams of constant section, large rotation, " +
+      std::string(scene.section.force_based ? "force-based, " : "displacement-based, ") +
+      std::to_string(scene.section.section_count()) + " x " + std::to_string(scene.section.depth_count()) +
+      " points an element, " +
       (scene.materials.front().hardening_modulus > 0.0 ? "bilinear with mixed hardening." : "perfectly plastic."));
   const auto friction_text = [](double friction) {
     return friction > 0.0 ? "Coulomb friction " + to_text(friction) + "." : std::string("frictionless.");

@@ -51,7 +51,6 @@ SceneSpec Cantilever::spec(int elements, FrameLattice::Component component, doub
   spec.material.youngs_modulus_mpa = 200000.0;
   spec.material.yield_stress_mpa = 1e9;
   spec.material.density_kg_per_m3 = 7850.0;
-  spec.section = {2, 3};
   spec.numerics.mass_damping_per_s = 2.0 * first_frequency();
   return spec;
 }

@@ -56,6 +56,7 @@ SceneSpec bent_cantilever(double peak) {
   frame.loads = {{1, Component::rotation, {{0.0, 0.0}, {0.5 * end, peak * PlasticFrame::kYieldMoment}, {end, 0.0}}}};
   SceneSpec spec = frame_spec(std::move(frame), PlasticFrame::kModulus, PlasticFrame::kYieldStress, frequency, 80.0);
   spec.material.hardening_modulus_mpa = PlasticFrame::kModulus / 99.0;  // E E_T / (E - E_T) with E_T = E / 100
+  spec.section.depth_rule = SectionSpec::DepthRule::lobatto;
   spec.section.depth_points = 10;
   return spec;
 }
@@ -129,7 +130,6 @@ SceneSpec lee_frame(double deflection) {
   frame.watched_nodes = {2};
   SceneSpec spec = frame_spec(std::move(frame), 720.0, 1e9, frequency, periods);
   spec.depth_mm = 3.0;
-  spec.section.depth_points = 3;
   return spec;
 }
 

@@ -18,10 +18,8 @@ void expect_moment_curvature_law(const std::vector<Sample>& samples, double peak
 void expect_closed_cycles(const std::vector<Sample>& samples, int cycles);
 void expect_shakedown(const std::vector<Sample>& samples, int cycles);
 
-/// Force at the end over factor M_p / L, with the fibre rule's M_p (1.029 for six Lobatto points) and the sampling of the hinge
-/// 0.2113 of an element inside a joint, `lever` being the distance from the hinge to zero moment over L.
-void expect_limit_load(const std::vector<Sample>& samples, double WatchedNode::*component, double factor, double lever,
-                       int elements);
+/// Force at the end is factor M_p / L, and it stays there.
+void expect_limit_load(const std::vector<Sample>& samples, double WatchedNode::*component, double factor);
 
 /// First limit 1.8557 N at a deflection of 48.74 mm.
 void expect_lee_limit(const std::vector<Sample>& samples);

@@ -17,18 +17,25 @@ struct Material {
   double density = 0.0;             ///< tonne / mm^3
 };
 
-/// Where an element samples its stress: F fibres, which are Gauss points along it times Lobatto points through its depth
-/// (Eq. 30), axial point by axial point. With y the distance from the axis and s = x / l, Eq. 27 reads
-///   strain = stretch / l + (h / l) (start_factor theta_1 + end_factor theta_2).
+/// Where an element samples its stress: P sections along it, s = x / l, times D points through its depth (Eq. 30); F = P D
+/// fibres, section by section. Both weights integrate over a length of 1 and sum to 1.
 struct SectionRule {
-  int axial_points = 0;
-  int depth_points = 0;
-  Eigen::ArrayXd start_factor;  ///< F, (4 - 6 s) y / h
-  Eigen::ArrayXd end_factor;    ///< F, (2 - 6 s) y / h
-  Eigen::ArrayXd weight;        ///< F, share of the element's volume; they sum to 1
+  /// Whether the curvature may leave its straight line (Eq. 27) for that with which the moment stays one.
+  bool force_based = false;
+  Eigen::ArrayXd along;         ///< P, s of the sections
+  Eigen::ArrayXd along_weight;  ///< P
+  Eigen::ArrayXd offset;        ///< D, y / h of the points, y being the distance from the axis to the left
+  Eigen::ArrayXd depth_weight;  ///< D
 
-  [[nodiscard]] std::size_t fibre_count() const { return static_cast<std::size_t>(weight.size()); }
+  [[nodiscard]] std::size_t section_count() const { return static_cast<std::size_t>(along.size()); }
+  [[nodiscard]] std::size_t depth_count() const { return static_cast<std::size_t>(offset.size()); }
+  [[nodiscard]] std::size_t fibre_count() const { return section_count() * depth_count(); }
 };
+
+/// Mean over an element's volume of what its fibres have, D x P.
+inline double mean_over(const SectionRule& rule, const Eigen::ArrayXXd& values) {
+  return rule.depth_weight.matrix().dot((values.matrix() * rule.along_weight.matrix()));
+}
 
 /// A beam element: its nodes and its rectangular section.
 struct Element {
@@ -111,15 +118,16 @@ struct Schedule {
 /// N particles, E elements.
 struct Scene {
   // Mesh.
-  std::vector<Vector2> position;      ///< N, before loading
-  std::vector<double> mass;           ///< N, tonne (Eq. 1, 2)
-  std::vector<double> inertia;        ///< N, tonne mm^2 (Eq. 1, 3)
-  std::vector<double> radius;         ///< N, of the contact ball: half of the thickest wall that ends there
-  std::vector<Element> elements;      ///< E
-  std::vector<int> incidence_offset;  ///< N + 1, into incidence
-  std::vector<int> incidence;         ///< elements at each particle, ascending: sums run in this order
-  std::vector<Support> supports;      ///< N, or empty when nothing is held
-  std::vector<TimeFunction> motions;  ///< mm or rad, of held particles
+  std::vector<Vector2> position;          ///< N, before loading
+  std::vector<double> mass;               ///< N, tonne (Eq. 1, 2)
+  std::vector<double> inertia;            ///< N, tonne mm^2 (Eq. 1, 3)
+  std::vector<double> radius;             ///< N, of the contact ball: half of the thickest wall that ends there
+  std::vector<Element> elements;          ///< E
+  std::vector<double> undeformed_length;  ///< E, mm
+  std::vector<int> incidence_offset;      ///< N + 1, into incidence
+  std::vector<int> incidence;             ///< elements at each particle, ascending: sums run in this order
+  std::vector<Support> supports;          ///< N, or empty when nothing is held
+  std::vector<TimeFunction> motions;      ///< mm or rad, of held particles
   std::vector<NodalLoad> loads;
   std::vector<ElementLoad> element_loads;
   Vector2 gravity = Vector2::Zero();      ///< mm/s^2
@@ -130,6 +138,7 @@ struct Scene {
   double depth = 0.0;               ///< b, mm
   std::vector<Material> materials;  ///< at least one
   SectionRule section;
+  bool constant_area = false;  ///< walls that change their length keep their area (the paper) instead of their volume
   ContactLaw contact;
   Plates plates;
   double mass_damping = 0.0;  ///< alpha, 1/s: force -alpha m v

@@ -42,6 +42,10 @@ struct MaterialSpec {
   std::optional<double> yield_stress_mpa;
   double hardening_modulus_mpa = 0.0;
   double isotropic_fraction = 1.0;  ///< beta of the paper: 1 isotropic, 0 kinematic
+  /// Whether a wall is free to contract along the lattice's depth, or held: wide walls yield at 2 / sqrt 3 of the yield stress.
+  enum class Plane { stress, strain };
+  Plane plane = Plane::stress;
+  double poissons_ratio = 0.33;  ///< plane strain only: Young's modulus over 1 - nu^2
   std::optional<double> density_kg_per_m3;
 };
 
@@ -121,9 +125,25 @@ struct Imperfection {
   std::uint64_t seed = 0;
 };
 
+/// How an element follows what its wall does between its nodes (section/section_rule.h).
 struct SectionSpec {
-  int axial_points = 2;  ///< Gauss points along an element
-  int depth_points = 6;  ///< Lobatto points through the depth
+  enum class Formulation {
+    force_based,        ///< the moment is straight along an element, as equilibrium has it; the curvature follows
+    displacement_based  ///< the paper: the curvature is straight (Eq. 27)
+  };
+  enum class DepthRule {
+    full_moment,  ///< exact area, bending stiffness and full plastic moment
+    lobatto       ///< the paper
+  };
+  enum class Area {
+    constant_volume,  ///< a wall that is squashed short thickens
+    constant_area     ///< the paper
+  };
+  Formulation formulation = Formulation::force_based;
+  DepthRule depth_rule = DepthRule::full_moment;
+  Area area = Area::constant_volume;
+  std::optional<int> axial_points;  ///< default: 4 force-based (3 to 5), 2 displacement-based (1 to 5)
+  std::optional<int> depth_points;  ///< default: 4 full-moment (4 or 6), 6 Lobatto (2 to 10)
 };
 
 struct ContactSpec {

@@ -52,12 +52,14 @@ struct State {
   double support_impulse = 0.0;   ///< N s, of the support plate on the lattice
 
   // Written by evaluate_internal_forces.
-  std::vector<Vector2> axis;            ///< E, unit vector from start to end
-  std::vector<double> length;           ///< E
-  std::vector<double> stress;           ///< E x F, of the fibres, axial point by axial point, MPa
-  std::vector<double> back_stress;      ///< E x F, middle of the yield surface, MPa
-  std::vector<double> plastic_strain;   ///< E x F, accumulated (effective)
-  std::vector<ElementForces> internal;  ///< E
+  std::vector<Vector2> axis;              ///< E, unit vector from start to end
+  std::vector<double> length;             ///< E
+  std::vector<double> stress;             ///< E x F, of the fibres, axial point by axial point, MPa
+  std::vector<double> back_stress;        ///< E x F, middle of the yield surface, MPa
+  std::vector<double> plastic_strain;     ///< E x F, accumulated (effective)
+  std::vector<double> section_unbalance;  ///< E x P of a force-based rule (beam/section_curvatures.h), else empty; MPa
+  std::vector<double> section_tangent;    ///< the same, 1
+  std::vector<ElementForces> internal;    ///< E
 
   // Written by evaluate_loads; empty when the scene has no loads.
   std::vector<Vector2> load_force;  ///< N
@@ -105,6 +107,8 @@ void visit_fields(S& state, Visitor&& visitor) {
   visitor("stress", state.stress);
   visitor("back_stress", state.back_stress);
   visitor("plastic_strain", state.plastic_strain);
+  visitor("section_unbalance", state.section_unbalance);
+  visitor("section_tangent", state.section_tangent);
   visitor("internal", state.internal);
   visitor("load_force", state.load_force);
   visitor("load_moment", state.load_moment);

@@ -24,8 +24,8 @@ TEST(TypeI, HasExactlyTheParticlesElementsAndMassOfThePaper) {
   EXPECT_NEAR(facts.width, 128.0, 1e-9);
   EXPECT_DOUBLE_EQ(facts.time_step, 2e-7);
   EXPECT_NEAR(static_cast<double>(facts.step_count), 20500.0, 20.0);
-  EXPECT_EQ(scene->section.axial_points, 2);
-  EXPECT_EQ(scene->section.depth_points, 6);
+  EXPECT_EQ(scene->section.section_count(), 4u);
+  EXPECT_EQ(scene->section.depth_count(), 4u);
 }
 
 TEST(Hexagons, AreAPlanarLatticeOfEqualWalls) {

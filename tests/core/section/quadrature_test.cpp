@@ -55,14 +55,59 @@ TEST(Quadrature, LobattoSectionHasItsKnownFullPlasticMoment) {
   }
 }
 
+SectionSpec section(SectionSpec::Formulation formulation, int axial_points, SectionSpec::DepthRule depth_rule,
+                    int depth_points) {
+  SectionSpec spec;
+  spec.formulation = formulation;
+  spec.depth_rule = depth_rule;
+  spec.axial_points = axial_points;
+  spec.depth_points = depth_points;
+  return spec;
+}
+
+const SectionSpec kSpecs[] = {
+    section(SectionSpec::Formulation::displacement_based, 2, SectionSpec::DepthRule::lobatto, 6),
+    section(SectionSpec::Formulation::displacement_based, 3, SectionSpec::DepthRule::full_moment, 4),
+    section(SectionSpec::Formulation::force_based, 3, SectionSpec::DepthRule::full_moment, 6),
+    section(SectionSpec::Formulation::force_based, 4, SectionSpec::DepthRule::full_moment, 4),
+    section(SectionSpec::Formulation::force_based, 5, SectionSpec::DepthRule::lobatto, 10),
+};
+
 TEST(SectionRule, GivesTheElasticStiffnessOfACubicBeam) {
   // Unit E, b, h, l: moments of theta_1 are 4 EI/l and 2 EI/l, and stretch makes no moment.
-  const SectionRule rule = make_section_rule(2, 6);
-  const double inertia = 1.0 / 12.0;
-  EXPECT_NEAR((rule.weight * rule.start_factor * rule.start_factor).sum(), 4.0 * inertia, 1e-14);
-  EXPECT_NEAR((rule.weight * rule.start_factor * rule.end_factor).sum(), 2.0 * inertia, 1e-14);
-  EXPECT_NEAR((rule.weight * rule.start_factor).sum(), 0.0, 1e-15);
-  EXPECT_NEAR(rule.weight.sum(), 1.0, 1e-15);
+  for (const SectionSpec& spec : kSpecs) {
+    const SectionRule rule = make_section_rule(spec);
+    const double inertia = (rule.depth_weight * rule.offset.square()).sum();
+    EXPECT_NEAR(inertia, 1.0 / 12.0, 1e-14);
+    const Eigen::ArrayXd start = 4.0 - 6.0 * rule.along;
+    const Eigen::ArrayXd end = 2.0 - 6.0 * rule.along;
+    EXPECT_NEAR((rule.along_weight * start * start).sum(), 4.0, 1e-13);
+    EXPECT_NEAR((rule.along_weight * start * end).sum(), 2.0, 1e-13);
+    EXPECT_NEAR((rule.depth_weight * rule.offset).sum(), 0.0, 1e-15);
+    EXPECT_NEAR(rule.along_weight.sum(), 1.0, 1e-14);
+    EXPECT_NEAR(rule.depth_weight.sum(), 1.0, 1e-14);
+    EXPECT_GT(rule.along_weight.minCoeff(), 0.0);
+    EXPECT_GT(rule.depth_weight.minCoeff(), 0.0);
+  }
+}
+
+TEST(SectionRule, FullMomentRulesHaveTheExactFullPlasticMoment) {
+  for (const int points : {4, 6}) {
+    SectionSpec spec;
+    spec.depth_points = points;
+    const SectionRule rule = make_section_rule(spec);
+    EXPECT_NEAR((rule.depth_weight * rule.offset.abs()).sum(), 0.25, 1e-14) << points << " points";
+  }
+}
+
+TEST(SectionRule, ForceBasedRulesHaveASectionAtEitherJoint) {
+  for (const int points : {3, 4, 5}) {
+    SectionSpec spec;
+    spec.axial_points = points;
+    const SectionRule rule = make_section_rule(spec);
+    EXPECT_EQ(rule.along[0], 0.0);
+    EXPECT_EQ(rule.along[points - 1], 1.0);
+  }
 }
 
 }  // namespace

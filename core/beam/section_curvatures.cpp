@@ -1,0 +1,99 @@
+#include "beam/section_curvatures.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cellcrush {
+namespace {
+
+/// Least share of the elastic stiffness that a section is given: it keeps the element's flexibility finite.
+constexpr double kLeastTangent = 0.01;
+
+/// Rotation over moment of the element, a symmetric 2 x 2 matrix, and the rotations that its unbalance asks for.
+struct Flexibility {
+  double start = 0.0;
+  double mixed = 0.0;
+  double end = 0.0;
+  double unbalance_start = 0.0;
+  double unbalance_end = 0.0;
+
+  /// End moments that turn the ends by the given rotations.
+  [[nodiscard]] EndMoments moments_for(double bend_start, double bend_end) const {
+    const double a = bend_start - unbalance_start;
+    const double b = bend_end - unbalance_end;
+    const double inverse = 1.0 / (start * end - mixed * mixed);
+    return {inverse * (end * a - mixed * b), inverse * (start * b - mixed * a)};
+  }
+};
+
+}  // namespace
+
+PerSection balanced_curvatures(const SectionRule& rule, const Material& material, const EndMoments& moments,
+                               SectionMemory memory, double bend_start, double bend_end) {
+  const std::size_t count = rule.section_count();
+  const double elastic = 12.0 / material.youngs_modulus;  // h times curvature, over moment by b h^2
+  PerSection curvature;
+  for (bool turned_back = true; turned_back;) {
+    Flexibility flexibility;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double s = rule.along[static_cast<Eigen::Index>(i)];
+      const double weighted = rule.along_weight[static_cast<Eigen::Index>(i)] * elastic / memory.tangent[i];
+      flexibility.start += weighted * (1.0 - s) * (1.0 - s);
+      flexibility.mixed -= weighted * (1.0 - s) * s;
+      flexibility.end += weighted * s * s;
+      flexibility.unbalance_start += weighted * (1.0 - s) * memory.unbalance[i];
+      flexibility.unbalance_end -= weighted * s * memory.unbalance[i];
+    }
+    const EndMoments increment = flexibility.moments_for(bend_start, bend_end);
+    turned_back = false;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double s = rule.along[static_cast<Eigen::Index>(i)];
+      curvature[i] = elastic / memory.tangent[i] * (increment.at(s) + memory.unbalance[i]);
+      const double moment = moments.at(s) - memory.unbalance[i];
+      if (memory.tangent[i] < 1.0 && curvature[i] * moment < 0.0) {
+        memory.tangent[i] = 1.0;
+        turned_back = true;
+      }
+    }
+  }
+  return curvature;
+}
+
+PerSection moments_of_sections(const SectionRule& rule, const EndMoments& moments, SectionMemory memory) {
+  PerSection moment;
+  for (std::size_t i = 0; i < rule.section_count(); ++i) {
+    moment[i] = moments.at(rule.along[static_cast<Eigen::Index>(i)]) - memory.unbalance[i];
+  }
+  return moment;
+}
+
+bool remember_sections(const SectionRule& rule, const Material& material, const PerSection& before,
+                       const EndMoments& moments, const PerSection& after, const PerSection& curvature,
+                       SectionMemory memory) {
+  constexpr double kRoundOff = 1e-12;  // of Young's modulus
+  constexpr double kInBalance = 0.02;  // of the full plastic moment
+  const double youngs_modulus = material.youngs_modulus;
+  double worst = 0.0;
+  for (std::size_t i = 0; i < rule.section_count(); ++i) {
+    const double s = rule.along[static_cast<Eigen::Index>(i)];
+    const double elastic_increment = youngs_modulus / 12.0 * curvature[i];
+    if (std::abs(elastic_increment) > kRoundOff * youngs_modulus) {
+      const double tangent = (after[i] - before[i]) / elastic_increment;
+      memory.tangent[i] = tangent > 1.0 - 1e-6 ? 1.0 : std::max(tangent, kLeastTangent);
+    }
+    const double unbalance = moments.at(s) - after[i];
+    memory.unbalance[i] = std::abs(unbalance) > kRoundOff * youngs_modulus ? unbalance : 0.0;
+    worst = std::max(worst, std::abs(unbalance));
+  }
+  return worst <= kInBalance * 0.25 * material.yield_stress;
+}
+
+bool is_straight(const SectionRule& rule, SectionMemory memory) {
+  bool straight = true;
+  for (std::size_t i = 0; i < rule.section_count(); ++i) {
+    straight = straight && memory.tangent[i] == 1.0 && memory.unbalance[i] == 0.0;
+  }
+  return straight;
+}
+
+}  // namespace cellcrush
