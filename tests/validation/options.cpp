@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <functional>
+#include <map>
 #include <stdexcept>
 
 #include "cellcrush/presets.h"
@@ -33,6 +34,18 @@ int count_of(const std::string& name, const std::string& text) {
   return static_cast<int>(value);
 }
 
+template <class Value>
+Value choice(const std::string& name, const std::string& text, const std::map<std::string, Value>& values) {
+  std::string allowed;
+  for (const auto& [word, value] : values) {
+    if (word == text) {
+      return value;
+    }
+    allowed += (allowed.empty() ? "" : " or ") + word;
+  }
+  throw std::invalid_argument(name + "=" + text + ": is not known; give " + allowed + ".");
+}
+
 const std::vector<Option>& all_options() {
   static const std::vector<Option> kOptions = {
       {"speed", "speed of the impact plate, m/s",
@@ -41,6 +54,30 @@ const std::vector<Option>& all_options() {
        [](Options& o, const std::string& v) { o.spec.loading.end_strain = number_of("end_strain", v); }},
       {"elements", "elements a wall",
        [](Options& o, const std::string& v) { o.spec.elements_per_wall = count_of("elements", v); }},
+      {"formulation", "force_based or displacement_based",
+       [](Options& o, const std::string& v) {
+         using Formulation = SectionSpec::Formulation;
+         o.spec.section.formulation = choice(
+             "formulation", v,
+             {{"force_based", Formulation::force_based}, {"displacement_based", Formulation::displacement_based}});
+       }},
+      {"depth_rule", "full_moment or lobatto",
+       [](Options& o, const std::string& v) {
+         using DepthRule = SectionSpec::DepthRule;
+         o.spec.section.depth_rule = choice<DepthRule>(
+             "depth_rule", v, {{"full_moment", DepthRule::full_moment}, {"lobatto", DepthRule::lobatto}});
+       }},
+      {"area", "constant_volume or constant_area",
+       [](Options& o, const std::string& v) {
+         using Area = SectionSpec::Area;
+         o.spec.section.area = choice<Area>(
+             "area", v, {{"constant_volume", Area::constant_volume}, {"constant_area", Area::constant_area}});
+       }},
+      {"plane", "stress or strain",
+       [](Options& o, const std::string& v) {
+         using Plane = MaterialSpec::Plane;
+         o.spec.material.plane = choice<Plane>("plane", v, {{"stress", Plane::stress}, {"strain", Plane::strain}});
+       }},
       {"axial_points", "sections along an element",
        [](Options& o, const std::string& v) { o.spec.section.axial_points = count_of("axial_points", v); }},
       {"depth_points", "fibres through the depth",
