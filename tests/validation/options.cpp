@@ -57,7 +57,7 @@ const std::vector<Option>& all_options() {
       {"formulation", "force_based or displacement_based",
        [](Options& o, const std::string& v) {
          using Formulation = SectionSpec::Formulation;
-         o.spec.section.formulation = choice(
+         o.spec.section.formulation = choice<Formulation>(
              "formulation", v,
              {{"force_based", Formulation::force_based}, {"displacement_based", Formulation::displacement_based}});
        }},
