@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+#include "cellcrush/sample.h"
+#include "scenes/dynamic_frames.h"
+
+namespace cellcrush::scenes {
+
+// What the samples of the dynamic frames must show, whether a test ran them itself or fetched them from a daemon. Each
+// reports through GoogleTest.
+
+/// The struck cantilever comes to rest, but for elastic vibration, within 2 % of Parkes's deflection and 3 % of his time; the
+/// plastic work is the energy it was struck with but for what vibrates on, within 1 %.
+void expect_parkes(const std::vector<Sample>& samples);
+
+/// The spinning bar's mean stretch is rho omega^2 L^3 / 3 E, that of its lumped masses within 0.1 %, and its energy is
+/// kept: it swings with the explicit steps by a millionth and does not drift.
+void expect_steady_stretch(const std::vector<Sample>& samples, int elements);
+
+/// Greatest deflection of the step-loaded cantilever over that at rest: 2 within a hundredth, of the modes' sum.
+void expect_dynamic_factor(const std::vector<Sample>& samples, const StepLoadedCantilever& cantilever);
+
+/// Root mean square over the samples of the deflection's difference to the modes' sum, over the static deflection.
+double modal_error(const std::vector<Sample>& samples, const StepLoadedCantilever& cantilever);
+
+}  // namespace cellcrush::scenes
