@@ -21,7 +21,11 @@ constexpr double kMmPerM = 1e3;
 /// Share of the stable step of the undeformed mesh that a chosen step takes.
 constexpr double kStepFraction = 0.9;
 /// A chosen step lets a particle at plate speed move by at most this share of the thinnest wall.
-constexpr double kTravelPerStep = 0.1;
+constexpr double kTravelPerStep = 0.05;
+/// A free particle at plate speed that meets a wall sinks in by this share of the thinnest wall.
+constexpr double kImpactDepth = 0.2;
+/// Stiffest contact that a given step bears: 2 / sqrt 2 is the limit of two free particles, less that of their elements.
+constexpr double kStiffestContactTurn = 0.6;
 /// Contact candidates are collected this share of the shortest element beyond touch.
 constexpr double kSkinFraction = 0.35;
 
@@ -46,10 +50,23 @@ double shortest_element(const Scene& scene) {
   return least;
 }
 
-void set_contact(const ContactSpec& spec, bool present, Scene& scene) {
+/// Angular frequency of the lightest particle on its contact, 1/s (E9). It follows from the mesh and the plates' speed, so
+/// that refining the step converges to one solution; a given step that is too long for it bounds it.
+double contact_frequency(const SceneSpec& spec, const Scene& scene) {
+  const double of_mesh = std::sqrt(spec.contact.stiffness_factor) / scene.stable_step;
+  if (std::holds_alternative<FrameLattice>(spec.lattice)) {
+    return of_mesh;
+  }
+  const double of_impact = *spec.loading.speed_m_per_s * kMmPerM / (kImpactDepth * thinnest_wall(scene));
+  const double step = spec.numerics.time_step_s;
+  return std::max(of_mesh, step > 0.0 ? std::min(of_impact, kStiffestContactTurn / step) : of_impact);
+}
+
+void set_contact(const SceneSpec& spec, bool present, Scene& scene) {
   const double lightest = *std::min_element(scene.mass.begin(), scene.mass.end());
-  const double stiffness = spec.stiffness_factor * lightest / (scene.stable_step * scene.stable_step);
-  scene.contact = {present, stiffness, spec.damping_ratio, spec.friction, kSkinFraction * shortest_element(scene)};
+  const double frequency = contact_frequency(spec, scene);
+  scene.contact = {present, lightest * frequency * frequency, spec.contact.damping_ratio, spec.contact.friction,
+                   kSkinFraction * shortest_element(scene)};
 }
 
 void set_plates(const LoadingSpec& spec, double friction, Scene& scene) {
@@ -205,7 +222,7 @@ SceneResult build_scene(const SceneSpec& spec) {
   }
   scene->mass_damping = spec.numerics.mass_damping_per_s;
   const auto* frame = std::get_if<FrameLattice>(&spec.lattice);
-  set_contact(spec.contact, frame == nullptr || frame->self_contact, *scene);
+  set_contact(spec, frame == nullptr || frame->self_contact, *scene);
   if (frame == nullptr) {
     set_plates(spec.loading, spec.plates.friction, *scene);
   }
