@@ -19,7 +19,6 @@ struct Touch {
   int segment;
   double share;    ///< of the foot along the segment: 0 at its start, 1 at its end
   double depth;    ///< D, mm
-  double reach;    ///< distance at which they touch, mm
   Vector2 normal;  ///< from the segment to the ball
   bool is_new;     ///< did not touch in the step before
 };
@@ -31,12 +30,11 @@ std::vector<int> overlapping(const Scene& scene, State& state) {
   std::size_t count = 0;
   for (std::size_t k = 0; k < state.candidates.size(); ++k) {
     ContactCandidate& candidate = state.candidates[k];
-    const Element& element = scene.elements[candidate.segment];
-    const Projection foot = project(state.position[candidate.ball], state.position[element.start],
-                                    state.axis[candidate.segment], state.length[candidate.segment]);
-    const double reach = scene.radius[candidate.ball] + 0.5 * element.thickness;
-    const int overlaps = static_cast<int>(foot.offset.squaredNorm() < reach * reach);
-    candidate.side = static_cast<std::int16_t>(candidate.side * overlaps);
+    const Projection foot =
+        project(state.position[candidate.ball], state.position[scene.elements[candidate.segment].start],
+                state.axis[candidate.segment], state.length[candidate.segment]);
+    const int overlaps = static_cast<int>(foot.offset.squaredNorm() < candidate.reach * candidate.reach);
+    candidate.side *= overlaps;
     found[count] = static_cast<int>(k);
     count += static_cast<std::size_t>(overlaps);
   }
@@ -44,56 +42,34 @@ std::vector<int> overlapping(const Scene& scene, State& state) {
   return found;
 }
 
-/// Looks whether an overlapping candidate touches, and keeps its side up to date.
-bool find_touch(const Scene& scene, State& state, int index, Touch& touch) {
+/// The touch of an overlapping candidate; keeps its side up to date.
+Touch touch_of(const Scene& scene, State& state, int index) {
   ContactCandidate& candidate = state.candidates[index];
-  const Element& element = scene.elements[candidate.segment];
-  const Vector2& ball = state.position[candidate.ball];
   const double length = state.length[candidate.segment];
   const Vector2& axis = state.axis[candidate.segment];
-  const Projection foot = project(ball, state.position[element.start], axis, length);
-  const double full_reach = scene.radius[candidate.ball] + 0.5 * element.thickness;
-  double reach = full_reach;
-  if (candidate.joint >= 0) {
-    reach = std::min(reach, 0.5 * (ball - state.position[candidate.joint]).norm());
-  }
-  const bool inside = foot.along > 0.0 && foot.along < length;
+  const Projection foot =
+      project(state.position[candidate.ball], state.position[scene.elements[candidate.segment].start], axis, length);
   const double signed_distance = cross(axis, foot.offset);
-  const bool touched_before = candidate.side != 0;
-  double distance = foot.offset.norm();
-  if (inside) {
-    const int side_now = signed_distance >= 0.0 ? 1 : -1;
-    const int side = touched_before ? candidate.side : side_now;
-    distance = side * signed_distance;
-    touch.normal = side * normal_of(axis);
-  } else {
-    touch.normal = distance > 0.0 ? Vector2(foot.offset / distance) : normal_of(axis);
+  const bool inside = foot.along > 0.0 && foot.along < length;
+  const bool is_new = candidate.side == 0;
+  if (is_new || !inside) {
+    // A ball that goes round an end comes to the other side by right.
+    candidate.side = signed_distance >= 0.0 ? 1 : -1;
   }
-  if (distance >= reach) {
-    candidate.side = 0;
-    return false;
+  double distance = candidate.side * signed_distance;
+  Vector2 normal = candidate.side * normal_of(axis);
+  if (!inside) {
+    distance = foot.offset.norm();
+    normal = distance > 0.0 ? Vector2(foot.offset / distance) : normal;
   }
-  if (!touched_before) {
-    candidate.side = static_cast<std::int16_t>(signed_distance >= 0.0 ? 1 : -1);
-  }
-  touch.candidate = index;
-  touch.ball = candidate.ball;
-  touch.segment = candidate.segment;
-  touch.share = foot.along / length;
-  touch.depth = reach - distance;
-  touch.reach = full_reach;
-  touch.is_new = !touched_before;
-  return true;
+  return {index, candidate.ball, candidate.segment, foot.along / length, candidate.reach - distance, normal, is_new};
 }
 
 /// All touches, by ball.
 std::vector<Touch> find_touches(const Scene& scene, State& state) {
   std::vector<Touch> touches;
-  Touch touch{};
   for (const int index : overlapping(scene, state)) {
-    if (find_touch(scene, state, index, touch)) {
-      touches.push_back(touch);
-    }
+    touches.push_back(touch_of(scene, state, index));
   }
   return touches;
 }
@@ -160,7 +136,7 @@ double apply_normal_force(const Scene& scene, State& state, const Touch& touch) 
   add_pair(scene, touch, force.viscous * touch.normal, state.contact_damping_force);
   state.contact_stored += 0.5 * scene.contact.stiffness * touch.depth * touch.depth;
   ++state.contact_count;
-  const double relative_depth = touch.depth / touch.reach;
+  const double relative_depth = touch.depth / std::min(2.0 * scene.radius[touch.ball], element.thickness);
   state.deepest_penetration = std::max(state.deepest_penetration, relative_depth);
   if (touch.is_new) {
     state.deepest_birth = std::max(state.deepest_birth, relative_depth);
@@ -168,17 +144,23 @@ double apply_normal_force(const Scene& scene, State& state, const Touch& touch) 
   return force.elastic + force.viscous;
 }
 
+/// Along the segment where the ball touches its side, turned with the normal round its ends.
+Vector2 tangent_of(const State& state, const Touch& touch) {
+  const int side = state.candidates[touch.candidate].side;
+  return side * Vector2(touch.normal.y(), -touch.normal.x());
+}
+
 /// Friction that a ball brings along: that of the candidate itself, or of a neighbour that pushed until the step before and
-/// from which the ball has slid on.
+/// from which the ball has slid on. Both run along the polyline, the one way on its left and the other on its right.
 double friction_before(const Scene& scene, const State& state, const Touch& touch) {
   const ContactCandidate& own = state.candidates[touch.candidate];
   if (own.pushed != 0) {
-    return own.friction;
+    return own.friction * own.pushed * own.side;
   }
   for (int k = state.candidate_offset[touch.ball]; k < state.candidate_offset[touch.ball + 1]; ++k) {
     const ContactCandidate& other = state.candidates[k];
     if (other.pushed != 0 && share_a_node(scene.elements[touch.segment], scene.elements[other.segment])) {
-      return other.friction * (state.axis[touch.segment].dot(state.axis[other.segment]) >= 0.0 ? 1.0 : -1.0);
+      return other.friction * other.pushed * own.side;
     }
   }
   return 0.0;
@@ -190,9 +172,8 @@ void apply_friction(const Scene& scene, State& state, const std::vector<Touch>& 
   std::vector<double> friction;
   for (std::size_t i = 0; i < pushing.size(); ++i) {
     const Touch& touch = pushing[i];
-    const double slip =
-        scene.schedule.time_step *
-        (state.velocity[touch.ball] - segment_velocity(scene, state, touch)).dot(state.axis[touch.segment]);
+    const Vector2 slide = state.velocity[touch.ball] - segment_velocity(scene, state, touch);
+    const double slip = scene.schedule.time_step * slide.dot(tangent_of(state, touch));
     friction.push_back(evaluate_friction(friction_before(scene, state, touch), scene.contact.stiffness, slip,
                                          scene.contact.friction * normal_forces[i]));
   }
@@ -202,9 +183,9 @@ void apply_friction(const Scene& scene, State& state, const std::vector<Touch>& 
   }
   for (std::size_t i = 0; i < pushing.size(); ++i) {
     ContactCandidate& candidate = state.candidates[pushing[i].candidate];
-    candidate.pushed = 1;
+    candidate.pushed = candidate.side;
     candidate.friction = friction[i];
-    add_pair(scene, pushing[i], friction[i] * state.axis[candidate.segment], state.friction_force);
+    add_pair(scene, pushing[i], friction[i] * tangent_of(state, pushing[i]), state.friction_force);
   }
 }
 

@@ -98,7 +98,7 @@ TEST(CheckSpec, ChosenStepFollowsStabilityAndSpeed) {
   EXPECT_NEAR(slow->schedule.time_step, 0.9 * slow->stable_step, 1e-20);
   spec.loading.speed_m_per_s = 200.0;
   const auto fast = scenes::build(spec);
-  EXPECT_NEAR(fast->schedule.time_step, 0.1 * 0.3464 / 2e5, 1e-20);
+  EXPECT_NEAR(fast->schedule.time_step, 0.05 * 0.3464 / 2e5, 1e-20);
 }
 
 }  // namespace
