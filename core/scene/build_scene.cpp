@@ -4,6 +4,7 @@
 
 #include "cellcrush/simulation.h"
 #include "measure/theory.h"
+#include "scene/check_overlap.h"
 #include "scene/check_spec.h"
 #include "scene/frame.h"
 #include "scene/imperfection.h"
@@ -188,6 +189,9 @@ SceneResult build_scene(const SceneSpec& spec) {
   scene->mass_damping = spec.numerics.mass_damping_per_s;
   const auto* frame = std::get_if<FrameLattice>(&spec.lattice);
   set_contact(spec, frame == nullptr || frame->self_contact, *scene);
+  if (scene->contact.present) {
+    result.problems = check_overlap(spec, *scene);
+  }
   if (frame == nullptr) {
     set_plates(spec.loading, spec.plates.friction, *scene);
   }
