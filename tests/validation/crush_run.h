@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "cellcrush/sample.h"
+#include "cellcrush/scene_spec.h"
+#include "cellcrush/simulation.h"
+
+namespace cellcrush::validation {
+
+/// First local limit of a crush: the greatest mean of the two plates' stresses, smoothed over 0.005 of strain, at strains of
+/// 2 to 20 %, and the least after it up to 14 % strain.
+struct Limit {
+  double stress = 0.0;       ///< MPa
+  double strain = 0.0;       ///< where it stands
+  double least_after = 0.0;  ///< MPa
+};
+
+/// A crush from beginning to end and what it amounts to.
+struct CrushRun {
+  RunStatus status;
+  SceneFacts facts;
+  std::vector<Sample> samples;
+  Summary summary;
+  Limit limit;
+  double deepest_birth = 0.0;           ///< of a wall contact, over the distance at which it touches
+  double contact_work_share = 0.0;      ///< least accumulated contact work over the external work done by then
+  double plate_force_difference = 0.0;  ///< |mean impact - mean support| / mean impact, beyond 5 % strain
+  double kinetic_share = 0.0;    ///< greatest kinetic energy over the plastic work done by then, beyond 5 % strain
+  double seconds = 0.0;          ///< of wall time
+  std::uint64_t state_hash = 0;  ///< of the last state
+};
+
+/// Runs a preset's spec to its end, or to the moment at which it stopped. Throws std::invalid_argument with all problems of a
+/// spec that has any.
+CrushRun run_crush(const SceneSpec& spec);
+
+}  // namespace cellcrush::validation

@@ -1,0 +1,115 @@
+#include "validation/crush_table.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace cellcrush::validation {
+namespace {
+
+std::string text_of(double value) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.6g", value);
+  return text;
+}
+
+std::string text_of(const std::optional<double>& value) { return value ? text_of(*value) : ""; }
+
+std::string hash_text(std::uint64_t hash) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%016llx", static_cast<unsigned long long>(hash));
+  return text;
+}
+
+std::string name_of(RunStatus::Kind kind) {
+  switch (kind) {
+    case RunStatus::Kind::running: return "running";
+    case RunStatus::Kind::finished: return "finished";
+    case RunStatus::Kind::diverged: return "diverged";
+    case RunStatus::Kind::energy_balance: break;
+  }
+  return "energy_balance";
+}
+
+using Cells = std::vector<std::pair<std::string, std::string>>;
+
+Cells cells_of(const Options& options, const CrushRun& run) {
+  const Summary& summary = run.summary;
+  return {
+      {"preset", options.preset},
+      {"options", options.changes},
+      {"status", name_of(run.status.kind)},
+      {"end_strain", text_of(run.samples.back().strain)},
+      {"plateau_stress_impact", text_of(summary.plateau_stress_impact)},
+      {"plateau_stress_support", text_of(summary.plateau_stress_support)},
+      {"plateau_stress_to_densification", text_of(summary.plateau_stress_to_densification)},
+      {"limit_stress", text_of(run.limit.stress)},
+      {"limit_strain", text_of(run.limit.strain)},
+      {"least_stress_after_limit", text_of(run.limit.least_after)},
+      {"densification_strain", text_of(summary.densification_strain)},
+      {"absorbed_energy", text_of(summary.absorbed_energy)},
+      {"energy_error_relative", text_of(summary.energy_error_relative)},
+      {"deepest_penetration", text_of(summary.deepest_penetration)},
+      {"deepest_birth", text_of(run.deepest_birth)},
+      {"contact_work_share", text_of(run.contact_work_share)},
+      {"plate_force_difference", text_of(run.plate_force_difference)},
+      {"kinetic_share", text_of(run.kinetic_share)},
+      {"theory_gibson_ashby", text_of(summary.theory.gibson_ashby)},
+      {"theory_shock", text_of(summary.theory.shock)},
+      {"time_step", text_of(run.facts.time_step)},
+      {"steps", std::to_string(summary.step_count)},
+      {"seconds", text_of(run.seconds)},
+      {"state_hash", hash_text(run.state_hash)},
+  };
+}
+
+std::ofstream open(const std::string& file, std::ios::openmode mode) {
+  std::ofstream stream(file, mode);
+  if (!stream) {
+    throw std::runtime_error(file + ": cannot be written; give a file in a folder that exists.");
+  }
+  return stream;
+}
+
+}  // namespace
+
+void append_row(const std::string& file, const Options& options, const CrushRun& run) {
+  const bool is_new = !std::filesystem::exists(file) || std::filesystem::is_empty(file);
+  std::ofstream stream = open(file, std::ios::app);
+  std::string names;
+  std::string values;
+  for (const auto& [name, value] : cells_of(options, run)) {
+    names += (names.empty() ? "" : ",") + name;
+    values += (values.empty() ? "" : ",") + value;
+  }
+  stream << (is_new ? names + "\n" : "") << values << "\n";
+}
+
+void write_curve(const std::string& file, const CrushRun& run) {
+  std::ofstream stream = open(file, std::ios::trunc);
+  stream << "strain,stress_impact,stress_support,work_external,kinetic,elastic,plastic,contact,friction,damping,"
+            "residual\n";
+  for (const Sample& sample : run.samples) {
+    stream << text_of(sample.strain);
+    for (const double value : {sample.stress_impact, sample.stress_support, sample.work_external, sample.energy_kinetic,
+                               sample.energy_elastic, sample.energy_plastic, sample.energy_contact,
+                               sample.energy_friction, sample.energy_damping, sample.energy_residual}) {
+      stream << "," << text_of(value);
+    }
+    stream << "\n";
+  }
+}
+
+std::string describe(const Options& options, const CrushRun& run) {
+  std::string text;
+  for (const auto& [name, value] : cells_of(options, run)) {
+    text += name + std::string(34 - name.size(), ' ') + value + "\n";
+  }
+  return text + run.status.message;
+}
+
+}  // namespace cellcrush::validation

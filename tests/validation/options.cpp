@@ -1,0 +1,158 @@
+#include "validation/options.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <functional>
+#include <map>
+#include <stdexcept>
+
+#include "cellcrush/presets.h"
+
+namespace cellcrush::validation {
+namespace {
+
+struct Option {
+  std::string name;
+  std::string meaning;
+  std::function<void(Options&, const std::string&)> apply;
+};
+
+double number_of(const std::string& name, const std::string& text) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (text.empty() || *end != '\0' || !std::isfinite(value)) {
+    throw std::invalid_argument(name + "=" + text + ": is no number; give one such as " + name + "=2.");
+  }
+  return value;
+}
+
+int count_of(const std::string& name, const std::string& text) {
+  const double value = number_of(name, text);
+  if (value < 0.0 || value > 1e9 || value != std::floor(value)) {
+    throw std::invalid_argument(name + "=" + text + ": is no count; give a whole number from 0.");
+  }
+  return static_cast<int>(value);
+}
+
+template <class Value>
+Value choice(const std::string& name, const std::string& text, const std::map<std::string, Value>& values) {
+  std::string allowed;
+  for (const auto& [word, value] : values) {
+    if (word == text) {
+      return value;
+    }
+    allowed += (allowed.empty() ? "" : " or ") + word;
+  }
+  throw std::invalid_argument(name + "=" + text + ": is not known; give " + allowed + ".");
+}
+
+const std::vector<Option>& all_options() {
+  static const std::vector<Option> kOptions = {
+      {"speed", "speed of the impact plate, m/s",
+       [](Options& o, const std::string& v) { o.spec.loading.speed_m_per_s = number_of("speed", v); }},
+      {"end_strain", "nominal strain at which the run ends",
+       [](Options& o, const std::string& v) { o.spec.loading.end_strain = number_of("end_strain", v); }},
+      {"elements", "elements a wall",
+       [](Options& o, const std::string& v) { o.spec.elements_per_wall = count_of("elements", v); }},
+      {"formulation", "force_based or displacement_based",
+       [](Options& o, const std::string& v) {
+         using Formulation = SectionSpec::Formulation;
+         o.spec.section.formulation = choice<Formulation>(
+             "formulation", v,
+             {{"force_based", Formulation::force_based}, {"displacement_based", Formulation::displacement_based}});
+       }},
+      {"depth_rule", "full_moment or lobatto",
+       [](Options& o, const std::string& v) {
+         using DepthRule = SectionSpec::DepthRule;
+         o.spec.section.depth_rule = choice<DepthRule>(
+             "depth_rule", v, {{"full_moment", DepthRule::full_moment}, {"lobatto", DepthRule::lobatto}});
+       }},
+      {"area", "constant_volume or constant_area",
+       [](Options& o, const std::string& v) {
+         using Area = SectionSpec::Area;
+         o.spec.section.area = choice<Area>(
+             "area", v, {{"constant_volume", Area::constant_volume}, {"constant_area", Area::constant_area}});
+       }},
+      {"plane", "stress or strain",
+       [](Options& o, const std::string& v) {
+         using Plane = MaterialSpec::Plane;
+         o.spec.material.plane = choice<Plane>("plane", v, {{"stress", Plane::stress}, {"strain", Plane::strain}});
+       }},
+      {"axial_points", "sections along an element",
+       [](Options& o, const std::string& v) { o.spec.section.axial_points = count_of("axial_points", v); }},
+      {"depth_points", "fibres through the depth",
+       [](Options& o, const std::string& v) { o.spec.section.depth_points = count_of("depth_points", v); }},
+      {"seed", "of the imperfection",
+       [](Options& o, const std::string& v) { o.spec.imperfection.seed = count_of("seed", v); }},
+      {"amplitude", "of the imperfection, mm",
+       [](Options& o, const std::string& v) { o.spec.imperfection.amplitude_mm = number_of("amplitude", v); }},
+      {"time_step", "s; 0: chosen",
+       [](Options& o, const std::string& v) { o.spec.numerics.time_step_s = number_of("time_step", v); }},
+      {"mass_damping", "1/s",
+       [](Options& o, const std::string& v) { o.spec.numerics.mass_damping_per_s = number_of("mass_damping", v); }},
+      {"contact_stiffness", "k in m_min / dt_crit^2",
+       [](Options& o, const std::string& v) { o.spec.contact.stiffness_factor = number_of("contact_stiffness", v); }},
+      {"contact_damping", "share of critical damping",
+       [](Options& o, const std::string& v) { o.spec.contact.damping_ratio = number_of("contact_damping", v); }},
+      {"yield_stress", "MPa",
+       [](Options& o, const std::string& v) { o.spec.material.yield_stress_mpa = number_of("yield_stress", v); }},
+      {"samples", "of the curve",
+       [](Options& o, const std::string& v) { o.spec.output.sample_count = count_of("samples", v); }},
+      {"table", "CSV file to which a row of results is appended",
+       [](Options& o, const std::string& v) { o.table_file = v; }},
+      {"curve", "CSV file of the stress-strain curve", [](Options& o, const std::string& v) { o.curve_file = v; }},
+  };
+  return kOptions;
+}
+
+const Option& option_named(const std::string& name) {
+  for (const Option& option : all_options()) {
+    if (option.name == name) {
+      return option;
+    }
+  }
+  throw std::invalid_argument(name + ": is no option. The options are\n" + describe_options());
+}
+
+void apply_word(Options& options, const std::string& word) {
+  const std::size_t equals = word.find('=');
+  if (equals == std::string::npos) {
+    throw std::invalid_argument(word + ": is not of the form name=value.");
+  }
+  const std::string name = word.substr(0, equals);
+  option_named(name).apply(options, word.substr(equals + 1));
+  if (name != "table" && name != "curve") {
+    options.changes += (options.changes.empty() ? "" : " ") + word;
+  }
+}
+
+}  // namespace
+
+Options read_options(const std::vector<std::string>& words) {
+  const Preset* preset = words.empty() ? nullptr : find_preset(words.front());
+  if (preset == nullptr) {
+    std::string names;
+    for (const Preset& known : presets()) {
+      names += "\n  " + known.name;
+    }
+    throw std::invalid_argument((words.empty() ? "No preset is given" : words.front() + ": is no preset") +
+                                ". The presets are" + names);
+  }
+  Options options;
+  options.preset = preset->name;
+  options.spec = preset->spec;
+  for (std::size_t i = 1; i < words.size(); ++i) {
+    apply_word(options, words[i]);
+  }
+  return options;
+}
+
+std::string describe_options() {
+  std::string text;
+  for (const Option& option : all_options()) {
+    text += "  " + option.name + "=...  " + option.meaning + "\n";
+  }
+  return text;
+}
+
+}  // namespace cellcrush::validation
