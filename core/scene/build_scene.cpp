@@ -133,9 +133,7 @@ std::shared_ptr<Scene> build_mesh(const SceneSpec& spec) {
   if (const auto* frame = std::get_if<FrameLattice>(&spec.lattice)) {
     attach_to_frame(*frame, spec.elements_per_wall, *scene);
   }
-  if (spec.numerics.mass_scaling > 1.0) {
-    scene->mass_scaling = {spec.numerics.mass_scaling, 3.0};
-  }
+  scene->mass_scaling = {spec.numerics.mass_scaling, spec.numerics.rotary_scaling};
   lump_masses(*scene);
   link_elements(*scene);
   scene->stable_step = stable_step_of(*scene);

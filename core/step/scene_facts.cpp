@@ -38,10 +38,10 @@ std::vector<std::string> what_is_modelled(const Scene& scene) {
   if (scene.plates.present) {
     lines.push_back("Plates: rigid, unilateral, not meshed, " + friction_text(scene.plates.friction));
   }
-  if (scene.mass_scaling.mass > 1.0) {
-    lines.push_back("Masses: fictitious, " + to_text(scene.mass_scaling.mass) +
-                    " times the real ones (rotary inertia " +
-                    to_text(scene.mass_scaling.mass * scene.mass_scaling.rotary) + " times), for slow crushes only.");
+  if (scene.mass_scaling.mass * scene.mass_scaling.rotary > 1.0) {
+    lines.push_back(
+        "Masses: fictitious, " + to_text(scene.mass_scaling.mass) + " times the real ones (rotary inertia " +
+        to_text(scene.mass_scaling.mass * scene.mass_scaling.rotary) + " times), so for slow crushes only.");
   }
   lines.push_back("Left out: fracture, strain-rate dependence, motion out of the plane.");
   return lines;

@@ -167,8 +167,10 @@ struct LoadingSpec {
 struct NumericsSpec {
   double time_step_s = 0.0;  ///< 0: chosen
   double mass_damping_per_s = 0.0;
-  /// Fictitious masses for slow crushes (dynamic relaxation): all masses times this, rotary inertia three times as much again.
+  /// Fictitious masses for slow crushes (dynamic relaxation): masses and rotary inertias times the first, rotary inertias times
+  /// the second as well.
   double mass_scaling = 1.0;
+  double rotary_scaling = 1.0;
   enum class Fidelity { unspecified, draft, standard, reference };
   Fidelity fidelity = Fidelity::unspecified;
   int threads = 1;
