@@ -75,14 +75,16 @@ ElementSums return_balanced(const Material& material, const SectionRule& rule, d
 /// `plastic_work`. `memory` is that of a force-based element's sections and is not touched otherwise. The elastic element is
 /// the cubic beam either way, so the stable step is the same.
 ///
-/// Deviations: the shear force of Eq. 31 takes the current length, with which alone angular momentum is kept; the forward
+/// Deviations: strains are taken over the mean length of the step (Eq. 24-26 take l_a), with which a way there and back leaves
+/// no strain and the work of the forces is that of the stresses; the shear force of Eq. 31 takes the current length, with which alone angular momentum is kept; the forward
 /// rotation of Eq. 32 is the current axis itself, so no rotation matrix and no sign convention are needed.
 template <int kDepthPoints, bool kHardening>
 ElementForces evaluate_element(const Deformation& deformation, double previous_length, const Material& material,
                                const BeamSection& section, const SectionRule& rule, Fibres fibres, SectionMemory memory,
                                const ElementForces& previous, double& plastic_work) {
-  const double membrane = deformation.stretch / previous_length;
-  const double slenderness = section.thickness / previous_length;
+  const double mean_length = 0.5 * (previous_length + deformation.length);
+  const double membrane = deformation.stretch / mean_length;
+  const double slenderness = section.thickness / mean_length;
   const Bend bend = {slenderness * deformation.rotation_start, slenderness * deformation.rotation_end};
   std::array<double, kMostFibres> stress;
   std::array<double, kMostFibres> plastic_increment;

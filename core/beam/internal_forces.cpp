@@ -20,7 +20,7 @@ void evaluate_elements(const Scene& scene, State& state) {
     const Deformation deformation =
         reverse_motion(state.position[element.end] - state.position[element.start], state.axis[e], previous_length,
                        step * state.spin[element.start], step * state.spin[element.end]);
-    const BeamSection section = section_of(scene, e, previous_length);
+    const BeamSection section = section_of(scene, e, deformation.length);
     Material material = scene.materials[element.material];
     material.youngs_modulus *= section.stiffness;
     const std::size_t first = e * scene.fibre_count();

@@ -1,136 +1,14 @@
 #include "contact/contact_forces.h"
 
 #include <algorithm>
-#include <cmath>
-#include <span>
 #include <vector>
 
-#include "contact/capsule.h"
+#include "contact/find_touches.h"
 #include "contact/friction.h"
 #include "contact/normal_force.h"
 
 namespace cellcrush {
 namespace {
-
-/// A ball that touches a segment.
-struct Touch {
-  int candidate;  ///< into the state's candidates
-  int ball;
-  int segment;
-  double share;    ///< of the foot along the segment: 0 at its start, 1 at its end
-  double depth;    ///< D, mm
-  double reach;    ///< distance at which they touch, mm
-  Vector2 normal;  ///< from the segment to the ball
-  bool is_new;     ///< did not touch in the step before
-};
-
-/// Candidates whose capsules overlap, ascending; all others forget their side. Few of the many do: a branch for each would
-/// be guessed wrong too often, so the list is written by counting on.
-std::vector<int> overlapping(const Scene& scene, State& state) {
-  std::vector<int> found(state.candidates.size());
-  std::size_t count = 0;
-  for (std::size_t k = 0; k < state.candidates.size(); ++k) {
-    ContactCandidate& candidate = state.candidates[k];
-    const Element& element = scene.elements[candidate.segment];
-    const Projection foot = project(state.position[candidate.ball], state.position[element.start],
-                                    state.axis[candidate.segment], state.length[candidate.segment]);
-    const double reach = scene.radius[candidate.ball] + 0.5 * element.thickness;
-    const int overlaps = static_cast<int>(foot.offset.squaredNorm() < reach * reach);
-    candidate.side = static_cast<std::int16_t>(candidate.side * overlaps);
-    found[count] = static_cast<int>(k);
-    count += static_cast<std::size_t>(overlaps);
-  }
-  found.resize(count);
-  return found;
-}
-
-/// Looks whether an overlapping candidate touches, and keeps its side up to date.
-bool find_touch(const Scene& scene, State& state, int index, Touch& touch) {
-  ContactCandidate& candidate = state.candidates[index];
-  const Element& element = scene.elements[candidate.segment];
-  const Vector2& ball = state.position[candidate.ball];
-  const double length = state.length[candidate.segment];
-  const Vector2& axis = state.axis[candidate.segment];
-  const Projection foot = project(ball, state.position[element.start], axis, length);
-  const double full_reach = scene.radius[candidate.ball] + 0.5 * element.thickness;
-  double reach = full_reach;
-  if (candidate.joint >= 0) {
-    reach = std::min(reach, 0.5 * (ball - state.position[candidate.joint]).norm());
-  }
-  const bool inside = foot.along > 0.0 && foot.along < length;
-  const double signed_distance = cross(axis, foot.offset);
-  const bool touched_before = candidate.side != 0;
-  double distance = foot.offset.norm();
-  if (inside) {
-    const int side_now = signed_distance >= 0.0 ? 1 : -1;
-    const int side = touched_before ? candidate.side : side_now;
-    distance = side * signed_distance;
-    touch.normal = side * normal_of(axis);
-  } else {
-    touch.normal = distance > 0.0 ? Vector2(foot.offset / distance) : normal_of(axis);
-  }
-  if (distance >= reach) {
-    candidate.side = 0;
-    return false;
-  }
-  if (!touched_before) {
-    candidate.side = static_cast<std::int16_t>(signed_distance >= 0.0 ? 1 : -1);
-  }
-  touch.candidate = index;
-  touch.ball = candidate.ball;
-  touch.segment = candidate.segment;
-  touch.share = foot.along / length;
-  touch.depth = reach - distance;
-  touch.reach = full_reach;
-  touch.is_new = !touched_before;
-  return true;
-}
-
-/// All touches, by ball.
-std::vector<Touch> find_touches(const Scene& scene, State& state) {
-  std::vector<Touch> touches;
-  Touch touch{};
-  for (const int index : overlapping(scene, state)) {
-    if (find_touch(scene, state, index, touch)) {
-      touches.push_back(touch);
-    }
-  }
-  return touches;
-}
-
-bool share_a_node(const Element& a, const Element& b) {
-  return a.start == b.start || a.start == b.end || a.end == b.start || a.end == b.end;
-}
-
-/// Whether another touching segment of the same polyline is nearer to the ball.
-bool yields_to_neighbour(const Scene& scene, std::span<const Touch> touches_of_ball, std::size_t index) {
-  const Touch& touch = touches_of_ball[index];
-  for (std::size_t i = 0; i < touches_of_ball.size(); ++i) {
-    const Touch& other = touches_of_ball[i];
-    const bool deeper = other.depth > touch.depth || (other.depth == touch.depth && i < index);
-    if (i != index && deeper && share_a_node(scene.elements[touch.segment], scene.elements[other.segment])) {
-      return true;
-    }
-  }
-  return false;
-}
-
-/// Of each ball's touches, those that push on it.
-std::vector<Touch> pushing_of(const Scene& scene, const std::vector<Touch>& touches) {
-  std::vector<Touch> pushing;
-  for (std::size_t first = 0, last = 0; first < touches.size(); first = last) {
-    while (last < touches.size() && touches[last].ball == touches[first].ball) {
-      ++last;
-    }
-    const std::span<const Touch> touches_of_ball(&touches[first], last - first);
-    for (std::size_t i = 0; i < touches_of_ball.size(); ++i) {
-      if (!yields_to_neighbour(scene, touches_of_ball, i)) {
-        pushing.push_back(touches_of_ball[i]);
-      }
-    }
-  }
-  return pushing;
-}
 
 /// Adds a force on the ball and its reaction on the segment, shared by the lever rule.
 void add_pair(const Scene& scene, const Touch& touch, const Vector2& force, std::vector<Vector2>& forces) {
@@ -146,7 +24,20 @@ Vector2 segment_velocity(const Scene& scene, const State& state, const Touch& to
   return (1.0 - touch.share) * state.velocity[element.start] + touch.share * state.velocity[element.end];
 }
 
-/// Adds the normal force of a touch; returns its size in N.
+/// Takes back half of what the touch of two balls would store: the node's ball counts the pair as well, and pushes on its
+/// own where the node lies under the ball's segments.
+void take_back_node(const Scene& scene, State& state, const Touch& touch) {
+  if (touch.node < 0) {
+    return;
+  }
+  const double stiffness = 0.5 * scene.contact.stiffness;
+  const Vector2 force = stiffness * touch.node_depth * touch.node_normal;
+  state.contact_force[touch.ball] -= force;
+  state.contact_force[touch.node] += force;
+  state.contact_stored -= 0.5 * stiffness * touch.node_depth * touch.node_depth;
+}
+
+/// Adds the normal force of a touch; returns what of it friction goes by, N.
 double apply_normal_force(const Scene& scene, State& state, const Touch& touch) {
   const Element& element = scene.elements[touch.segment];
   const double to_end = touch.share;
@@ -154,46 +45,71 @@ double apply_normal_force(const Scene& scene, State& state, const Touch& touch) 
   const double rate = touch.normal.dot(segment_velocity(scene, state, touch) - state.velocity[touch.ball]);
   const double inverse_mass = 1.0 / scene.mass[touch.ball] + to_start * to_start / scene.mass[element.start] +
                               to_end * to_end / scene.mass[element.end];
-  const NormalForce force =
-      evaluate_normal_force(scene.contact.stiffness, scene.contact.damping_ratio, inverse_mass, touch.depth, rate);
-  add_pair(scene, touch, force.elastic * touch.normal, state.contact_force);
-  add_pair(scene, touch, force.viscous * touch.normal, state.contact_damping_force);
+  const NormalForce net = evaluate_normal_force(scene.contact.stiffness, scene.contact.damping_ratio, inverse_mass,
+                                                touch.net_depth, touch.has_pair ? rate : 0.0);
+  add_pair(scene, touch, scene.contact.stiffness * touch.depth * touch.normal, state.contact_force);
+  add_pair(scene, touch, net.viscous * touch.normal, state.contact_damping_force);
   state.contact_stored += 0.5 * scene.contact.stiffness * touch.depth * touch.depth;
+  take_back_node(scene, state, touch);
   ++state.contact_count;
-  const double relative_depth = touch.depth / touch.reach;
+  const double relative_depth = touch.depth / std::min(2.0 * scene.radius[touch.ball], element.thickness);
   state.deepest_penetration = std::max(state.deepest_penetration, relative_depth);
   if (touch.is_new) {
     state.deepest_birth = std::max(state.deepest_birth, relative_depth);
   }
-  return force.elastic + force.viscous;
+  return net.elastic + net.viscous;
 }
 
-/// Friction that a ball brings along: that of the candidate itself, or of a neighbour that pushed until the step before and
-/// from which the ball has slid on.
-double friction_before(const Scene& scene, const State& state, const Touch& touch) {
+/// Along the segment where the ball touches its side, turned with the normal round its ends.
+Vector2 tangent_of(const State& state, const Touch& touch) {
+  const int side = state.candidates[touch.candidate].side;
+  return side * Vector2(touch.normal.y(), -touch.normal.x());
+}
+
+/// Which candidates push with friction in this step.
+std::vector<bool> rubbing(const State& state, const std::vector<Touch>& pushing) {
+  std::vector<bool> result(state.candidates.size(), false);
+  for (const Touch& touch : pushing) {
+    result[touch.candidate] = touch.has_pair;
+  }
+  return result;
+}
+
+/// Friction that a touch takes over: its own, or that of a touch which it follows. A ball slides on from a neighbour; of two
+/// balls the one hands over to the other. All run along the polyline, one way on its left and the other on its right.
+double friction_before(const Scene& scene, const State& state, const Touch& touch, const std::vector<bool>& rubs) {
   const ContactCandidate& own = state.candidates[touch.candidate];
   if (own.pushed != 0) {
-    return own.friction;
+    return own.friction * own.pushed * own.side;
   }
-  for (int k = state.candidate_offset[touch.ball]; k < state.candidate_offset[touch.ball + 1]; ++k) {
-    const ContactCandidate& other = state.candidates[k];
-    if (other.pushed != 0 && share_a_node(scene.elements[touch.segment], scene.elements[other.segment])) {
-      return other.friction * (state.axis[touch.segment].dot(state.axis[other.segment]) >= 0.0 ? 1.0 : -1.0);
+  const auto handed_over = [&](int ball, const auto& follows) {
+    for (int k = state.candidate_offset[ball]; k < state.candidate_offset[ball + 1]; ++k) {
+      const ContactCandidate& other = state.candidates[k];
+      if (other.pushed != 0 && !rubs[k] && follows(scene.elements[other.segment])) {
+        return other.friction * other.pushed * own.side;
+      }
     }
+    return 0.0;
+  };
+  const double of_neighbour =
+      handed_over(touch.ball, [&](const Element& other) { return share_a_node(other, scene.elements[touch.segment]); });
+  if (of_neighbour != 0.0 || touch.node < 0) {
+    return of_neighbour;
   }
-  return 0.0;
+  return handed_over(touch.node,
+                     [&](const Element& other) { return other.start == touch.ball || other.end == touch.ball; });
 }
 
 /// Overwrites the friction of all candidates by that of the touches that push now, and adds the forces.
 void apply_friction(const Scene& scene, State& state, const std::vector<Touch>& pushing,
                     const std::vector<double>& normal_forces) {
+  const std::vector<bool> rubs = rubbing(state, pushing);
   std::vector<double> friction;
   for (std::size_t i = 0; i < pushing.size(); ++i) {
     const Touch& touch = pushing[i];
-    const double slip =
-        scene.schedule.time_step *
-        (state.velocity[touch.ball] - segment_velocity(scene, state, touch)).dot(state.axis[touch.segment]);
-    friction.push_back(evaluate_friction(friction_before(scene, state, touch), scene.contact.stiffness, slip,
+    const Vector2 slide = state.velocity[touch.ball] - segment_velocity(scene, state, touch);
+    const double slip = scene.schedule.time_step * slide.dot(tangent_of(state, touch));
+    friction.push_back(evaluate_friction(friction_before(scene, state, touch, rubs), scene.contact.stiffness, slip,
                                          scene.contact.friction * normal_forces[i]));
   }
   for (ContactCandidate& candidate : state.candidates) {
@@ -202,9 +118,9 @@ void apply_friction(const Scene& scene, State& state, const std::vector<Touch>& 
   }
   for (std::size_t i = 0; i < pushing.size(); ++i) {
     ContactCandidate& candidate = state.candidates[pushing[i].candidate];
-    candidate.pushed = 1;
+    candidate.pushed = pushing[i].has_pair ? candidate.side : 0;
     candidate.friction = friction[i];
-    add_pair(scene, pushing[i], friction[i] * state.axis[candidate.segment], state.friction_force);
+    add_pair(scene, pushing[i], friction[i] * tangent_of(state, pushing[i]), state.friction_force);
   }
 }
 
@@ -219,7 +135,7 @@ void evaluate_contact_forces(const Scene& scene, State& state) {
   std::fill(state.contact_damping_force.begin(), state.contact_damping_force.end(), Vector2::Zero());
   state.contact_stored = 0.0;
   state.contact_count = 0;
-  const std::vector<Touch> pushing = pushing_of(scene, find_touches(scene, state));
+  const std::vector<Touch> pushing = find_touches(scene, state);
   std::vector<double> normal_forces;
   for (const Touch& touch : pushing) {
     normal_forces.push_back(apply_normal_force(scene, state, touch));

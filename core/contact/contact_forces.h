@@ -10,15 +10,15 @@ namespace cellcrush {
 /// Normal force k D + c dD/dt on the ball, shared by the segment's nodes as the foot lies between them. Mends to the paper:
 ///  - distance to a capsule, ends included (contact/capsule.h);
 ///  - one force per ball and polyline: of touching segments that share a node only the deepest pushes, so neither a convex
-///    joint nor the inner joints of a straight chain push twice;
-///  - the side on which a ball first touched is remembered until it leaves, so that one pressed past the mid-line is pushed
-///    back, not through;
+///    joint nor the inner joints of a straight chain push twice. The elastic part is the gradient of the energy stored;
+///  - the side on which a ball first touched is remembered until it leaves or goes round an end, so that one pressed past
+///    the mid-line is pushed back, not through;
 ///  - the force never pulls (Eq. 43 does while walls part);
-///  - where ball and segment meet at a joint, they touch at no more than half of the ball's distance from it: walls can come
-///    no further apart there than the joint lets them.
-/// Friction (Eq. 44-47) grows with the slip along the segment, with the normal force's k, up to the friction coefficient times
-/// the normal force; a ball that slides from a segment to its neighbour takes it along. It acts at the walls' mid-lines: the
-/// couple of R and h/2 is left out, as in the paper.
+///  - ball and segment that a short way along the walls joins touch at a share of that way (contact/wall_paths.h).
+/// Friction (Eq. 44-47) grows with the slip across the normal, with the normal force's k, up to the friction coefficient
+/// times the normal force; a ball that slides from a segment to its neighbour takes it along. A contact with a segment that
+/// shares no node with the one before begins without. It acts at the walls' mid-lines: the couple of R and h/2 is left out,
+/// as in the paper.
 /// c is damping_ratio of critical damping of k with the effective mass 1/m = 1/m_ball + (1-s)^2/m_start + s^2/m_end.
 void evaluate_contact_forces(const Scene& scene, State& state);
 

@@ -5,6 +5,7 @@
 
 #include "contact/bucket_grid.h"
 #include "contact/capsule.h"
+#include "contact/wall_paths.h"
 
 namespace cellcrush {
 namespace {
@@ -60,20 +61,8 @@ std::vector<Pair> pairs_within_reach(const Scene& scene, const State& state) {
   return pairs;
 }
 
-/// The node of the segment to which an element joins the ball, or -1.
-int joint_between(const Scene& scene, int ball, const Element& segment) {
-  for (int k = scene.incidence_offset[ball]; k < scene.incidence_offset[ball + 1]; ++k) {
-    const Element& own = scene.elements[scene.incidence[k]];
-    const int neighbour = own.start == ball ? own.end : own.start;
-    if (neighbour == segment.start || neighbour == segment.end) {
-      return neighbour;
-    }
-  }
-  return -1;
-}
-
 /// What the list at hand remembers of a pair, or a fresh candidate.
-ContactCandidate candidate_for(const Scene& scene, const State& state, const Pair& pair) {
+ContactCandidate candidate_for(const State& state, const Pair& pair, WallPaths& paths) {
   for (int k = state.candidate_offset[pair.ball]; k < state.candidate_offset[pair.ball + 1]; ++k) {
     if (state.candidates[k].segment == pair.segment) {
       return state.candidates[k];
@@ -82,8 +71,18 @@ ContactCandidate candidate_for(const Scene& scene, const State& state, const Pai
   ContactCandidate fresh;
   fresh.ball = pair.ball;
   fresh.segment = pair.segment;
-  fresh.joint = joint_between(scene, pair.ball, scene.elements[pair.segment]);
+  fresh.reach = paths.reach_of(pair.ball, pair.segment);
   return fresh;
+}
+
+/// The pairs by ball, segments ascending; `offset` is into the result.
+std::vector<Pair> sort_by_ball(const std::vector<Pair>& pairs, const std::vector<int>& offset) {
+  std::vector<Pair> sorted(pairs.size());
+  std::vector<int> next(offset.begin(), offset.end() - 1);
+  for (const Pair& pair : pairs) {
+    sorted[next[pair.ball]++] = pair;
+  }
+  return sorted;
 }
 
 }  // namespace
@@ -103,10 +102,11 @@ void search_contacts(const Scene& scene, State& state) {
   for (std::size_t i = 1; i < offset.size(); ++i) {
     offset[i] += offset[i - 1];
   }
-  std::vector<ContactCandidate> candidates(pairs.size());
-  std::vector<int> next(offset.begin(), offset.end() - 1);
-  for (const Pair& pair : pairs) {
-    candidates[next[pair.ball]++] = candidate_for(scene, state, pair);
+  std::vector<ContactCandidate> candidates;
+  candidates.reserve(pairs.size());
+  WallPaths paths(scene);
+  for (const Pair& pair : sort_by_ball(pairs, offset)) {
+    candidates.push_back(candidate_for(state, pair, paths));
   }
   state.candidate_offset = std::move(offset);
   state.candidates = std::move(candidates);

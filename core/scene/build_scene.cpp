@@ -4,6 +4,7 @@
 
 #include "cellcrush/simulation.h"
 #include "measure/theory.h"
+#include "scene/check_overlap.h"
 #include "scene/check_spec.h"
 #include "scene/frame.h"
 #include "scene/imperfection.h"
@@ -11,6 +12,7 @@
 #include "scene/masses.h"
 #include "scene/mesh.h"
 #include "scene/stable_step.h"
+#include "scene/time_step.h"
 #include "section/section_rule.h"
 
 namespace cellcrush {
@@ -18,13 +20,6 @@ namespace {
 
 constexpr double kTonnePerMm3PerKgPerM3 = 1e-12;
 constexpr double kMmPerM = 1e3;
-
-/// Share of the stable step of the undeformed mesh that a chosen step takes.
-constexpr double kStepFraction = 0.9;
-/// The contact's step lets a particle at plate speed move by at most this share of the thinnest wall.
-constexpr double kTravelPerStep = 0.08;
-/// Contact candidates are collected this share of the shortest element beyond touch.
-constexpr double kSkinFraction = 0.35;
 
 /// What a fibre along the wall shows. In plane strain it is held across: elastically E / (1 - nu^2); flowing, the stress
 /// along it is 2 / sqrt 3 of the effective stress and its strain sqrt 3 / 2 of the effective one.
@@ -37,44 +32,9 @@ Material material_of(const MaterialSpec& spec) {
           *spec.density_kg_per_m3 * kTonnePerMm3PerKgPerM3};
 }
 
-double thinnest_wall(const Scene& scene) {
-  double least = scene.elements.front().thickness;
-  for (const Element& element : scene.elements) {
-    least = std::min(least, element.thickness);
-  }
-  return least;
-}
-
-double shortest_element(const Scene& scene) {
-  double least = (scene.position[scene.elements.front().end] - scene.position[scene.elements.front().start]).norm();
-  for (const Element& element : scene.elements) {
-    least = std::min(least, (scene.position[element.end] - scene.position[element.start]).norm());
-  }
-  return least;
-}
-
-/// The step that elements and contact can bear: the stable step, or that in which a particle at plate speed moves by
-/// kTravelPerStep of the thinnest wall.
-double longest_step(const SceneSpec& spec, const Scene& scene) {
-  if (std::holds_alternative<FrameLattice>(spec.lattice)) {
-    return scene.stable_step;
-  }
-  return std::min(scene.stable_step, kTravelPerStep * thinnest_wall(scene) / (*spec.loading.speed_m_per_s * kMmPerM));
-}
-
-double step_of(const SceneSpec& spec, const Scene& scene) {
-  const double fixed = spec.numerics.time_step_s;
-  return fixed > 0.0 ? fixed : kStepFraction * longest_step(spec, scene);
-}
-
-/// The penalty that the longest step can bear, or a longer one that was asked for: a ball at plate speed sinks in by
-/// V sqrt(m / k), so that what the step allows to be reached between two looks is also what stops it.
 void set_contact(const SceneSpec& spec, bool present, Scene& scene) {
-  const double lightest = *std::min_element(scene.mass.begin(), scene.mass.end());
-  const double step = std::max(longest_step(spec, scene), spec.numerics.time_step_s);
-  const double stiffness = spec.contact.stiffness_factor * lightest / (step * step);
-  scene.contact = {present, stiffness, spec.contact.damping_ratio, spec.contact.friction,
-                   kSkinFraction * shortest_element(scene)};
+  scene.contact = {present, penalty_stiffness(spec, scene), spec.contact.damping_ratio, spec.contact.friction,
+                   contact_skin(scene)};
 }
 
 void set_plates(const LoadingSpec& spec, double friction, Scene& scene) {
@@ -98,7 +58,7 @@ double end_time_of(const SceneSpec& spec, const Scene& scene) {
 }
 
 void set_schedule(const SceneSpec& spec, Scene& scene) {
-  scene.schedule.time_step = step_of(spec, scene);
+  scene.schedule.time_step = time_step_of(spec, scene);
   scene.schedule.step_count =
       static_cast<std::int64_t>(std::ceil(end_time_of(spec, scene) / scene.schedule.time_step - 1e-9));
   const auto interval = [&](int count) { return std::max<std::int64_t>(1, scene.schedule.step_count / count); };
@@ -154,7 +114,7 @@ void set_material_and_mesh(const SceneSpec& spec, Scene& scene) {
   for (const Element& element : scene.elements) {
     scene.undeformed_length.push_back((scene.position[element.end] - scene.position[element.start]).norm());
   }
-  scene.constant_area = spec.section.area == SectionSpec::Area::constant_area;
+  scene.constant_area = spec.section.area_rule == SectionSpec::AreaRule::constant_area;
 }
 
 /// Whether any problem keeps the mesh from being built.
@@ -173,6 +133,7 @@ std::shared_ptr<Scene> build_mesh(const SceneSpec& spec) {
   if (const auto* frame = std::get_if<FrameLattice>(&spec.lattice)) {
     attach_to_frame(*frame, spec.elements_per_wall, *scene);
   }
+  scene->mass_scaling = {spec.numerics.mass_scaling, spec.numerics.rotary_scaling};
   lump_masses(*scene);
   link_elements(*scene);
   scene->stable_step = stable_step_of(*scene);
@@ -193,7 +154,7 @@ void check_stability(const SceneSpec& spec, const Scene& scene, Problems& proble
 void check_step_count(const SceneSpec& spec, const Scene& scene, Problems& problems) {
   constexpr double kMostSteps = 1e10;
   const double fixed = spec.numerics.time_step_s;
-  const double count = end_time_of(spec, scene) / step_of(spec, scene);
+  const double count = end_time_of(spec, scene) / time_step_of(spec, scene);
   if (count <= kMostSteps) {
     return;
   }
@@ -226,6 +187,9 @@ SceneResult build_scene(const SceneSpec& spec) {
   scene->mass_damping = spec.numerics.mass_damping_per_s;
   const auto* frame = std::get_if<FrameLattice>(&spec.lattice);
   set_contact(spec, frame == nullptr || frame->self_contact, *scene);
+  if (scene->contact.present) {
+    result.problems = check_overlap(spec, *scene);
+  }
   if (frame == nullptr) {
     set_plates(spec.loading, spec.plates.friction, *scene);
   }

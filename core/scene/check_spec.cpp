@@ -121,6 +121,8 @@ void check_loading(const LoadingSpec& loading, FieldChecker& check) {
 void check_numerics(const NumericsSpec& numerics, FieldChecker& check) {
   check.in_range("numerics.time_step_s", numerics.time_step_s, {0.0, 1.0}, " s (0: chosen)");
   check.in_range("numerics.mass_damping_per_s", numerics.mass_damping_per_s, {0.0, 1e12}, " 1/s");
+  check.in_range("numerics.mass_scaling", numerics.mass_scaling, {1.0, 1e6}, " (1: the real masses)");
+  check.in_range("numerics.rotary_scaling", numerics.rotary_scaling, {1.0, 1e3}, " (1: the real inertias)");
   if (numerics.fidelity != NumericsSpec::Fidelity::unspecified) {
     check.add_unimplemented("numerics.fidelity", "", "fidelity presets are not built yet.", "Leave it out.");
   }

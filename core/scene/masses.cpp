@@ -12,9 +12,10 @@ void lump_masses(Scene& scene) {
     const double length = (scene.position[element.end] - scene.position[element.start]).norm();
     const double half_mass = 0.5 * scene.materials[element.material].density * scene.depth * element.thickness * length;
     const double gyration_squared = element.thickness * element.thickness / 12.0;
+    const double lumped = scene.mass_scaling.mass * half_mass;
     for (const int node : {element.start, element.end}) {
-      scene.mass[node] += half_mass;
-      scene.inertia[node] += half_mass * gyration_squared;
+      scene.mass[node] += lumped;
+      scene.inertia[node] += scene.mass_scaling.rotary * lumped * gyration_squared;
       scene.radius[node] = std::max(scene.radius[node], 0.5 * element.thickness);
     }
     scene.total_mass += 2.0 * half_mass;

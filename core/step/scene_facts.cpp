@@ -14,7 +14,8 @@ std::int64_t memory_of(const Scene& scene) {
   const std::size_t per_particle =
       9 * sizeof(Vector2) + 9 * sizeof(double) + 2 * sizeof(int) + kCandidatesPerParticle * sizeof(ContactCandidate);
   const std::size_t per_element = sizeof(Element) + 2 * sizeof(int) + sizeof(Vector2) + sizeof(double) +
-                                  sizeof(ElementForces) + (3 * scene.fibre_count() + 2 * scene.section.section_count()) * sizeof(double);
+                                  sizeof(ElementForces) +
+                                  (3 * scene.fibre_count() + 2 * scene.section.section_count()) * sizeof(double);
   return static_cast<std::int64_t>(scene.particle_count() * per_particle + scene.element_count() * per_element);
 }
 
@@ -32,11 +33,17 @@ std::vector<std::string> what_is_modelled(const Scene& scene) {
   lines.push_back(scene.contact.present
                       ? "Contact between walls: penalty, ball to capsule, " + friction_text(scene.contact.friction)
                       : "Contact between walls: left out.");
+  lines.push_back(scene.constant_area ? "Walls that shorten keep the area of their section."
+                                      : "Walls that shorten keep their volume; their thickness in the plane stays.");
   if (scene.plates.present) {
     lines.push_back("Plates: rigid, unilateral, not meshed, " + friction_text(scene.plates.friction));
   }
-  lines.push_back(
-      "Left out: fracture, strain-rate dependence, thickening of shortened walls, motion out of the plane.");
+  if (scene.mass_scaling.mass * scene.mass_scaling.rotary > 1.0) {
+    lines.push_back(
+        "Masses: fictitious, " + to_text(scene.mass_scaling.mass) + " times the real ones (rotary inertia " +
+        to_text(scene.mass_scaling.mass * scene.mass_scaling.rotary) + " times), so for slow crushes only.");
+  }
+  lines.push_back("Left out: fracture, strain-rate dependence, motion out of the plane.");
   return lines;
 }
 

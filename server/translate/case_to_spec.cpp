@@ -1,8 +1,10 @@
 #include "translate/case_to_spec.h"
 
 #include <algorithm>
+#include <initializer_list>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "translate/problems.h"
 
@@ -48,9 +50,38 @@ void read_lattice(const v1::Lattice& in, SceneSpec& spec, Problems& problems) {
   if (in.inclusions().has_thickness_factor()) spec.inclusions.thickness_factor = in.inclusions().thickness_factor();
 }
 
-void read_section_and_contact(const v1::Case& in, SceneSpec& spec) {
-  if (in.section().has_axial_points()) spec.section.axial_points = in.section().axial_points();
-  if (in.section().has_depth_points()) spec.section.depth_points = in.section().depth_points();
+// Sets `out` to what the wire's value means; the value 0, unspecified, leaves it.
+template <class Wire, class Out>
+void read_choice(Wire in, std::initializer_list<std::pair<Wire, Out>> meanings, const std::string& field,
+                 const std::string& names, Out& out, Problems& problems) {
+  const auto* found =
+      std::find_if(meanings.begin(), meanings.end(), [&](const auto& pair) { return pair.first == in; });
+  if (found != meanings.end()) {
+    out = found->second;
+  } else if (static_cast<int>(in) != 0) {
+    problems.push_back(
+        invalid_field(field, std::to_string(in), "is none of the values that are known here.", "Use " + names + "."));
+  }
+}
+
+void read_section(const v1::Section& in, SectionSpec& out, Problems& problems) {
+  if (in.has_axial_points()) out.axial_points = in.axial_points();
+  if (in.has_depth_points()) out.depth_points = in.depth_points();
+  read_choice(in.formulation(),
+              {{v1::Section::FORCE_BASED, SectionSpec::Formulation::force_based},
+               {v1::Section::DISPLACEMENT_BASED, SectionSpec::Formulation::displacement_based}},
+              "section.formulation", "FORCE_BASED or DISPLACEMENT_BASED", out.formulation, problems);
+  read_choice(in.depth_rule(),
+              {{v1::Section::FULL_MOMENT, SectionSpec::DepthRule::full_moment},
+               {v1::Section::LOBATTO, SectionSpec::DepthRule::lobatto}},
+              "section.depth_rule", "FULL_MOMENT or LOBATTO", out.depth_rule, problems);
+  read_choice(in.area_rule(),
+              {{v1::Section::CONSTANT_VOLUME, SectionSpec::AreaRule::constant_volume},
+               {v1::Section::CONSTANT_AREA, SectionSpec::AreaRule::constant_area}},
+              "section.area_rule", "CONSTANT_VOLUME or CONSTANT_AREA", out.area_rule, problems);
+}
+
+void read_contact(const v1::Case& in, SceneSpec& spec) {
   if (in.contact().has_friction()) spec.contact.friction = in.contact().friction();
   if (in.contact().has_stiffness_factor()) spec.contact.stiffness_factor = in.contact().stiffness_factor();
   if (in.contact().has_damping_ratio()) spec.contact.damping_ratio = in.contact().damping_ratio();
@@ -58,14 +89,9 @@ void read_section_and_contact(const v1::Case& in, SceneSpec& spec) {
 }
 
 void read_loading(const v1::Loading& in, LoadingSpec& out, Problems& problems) {
-  switch (in.direction()) {
-    case v1::Loading::DIRECTION_UNSPECIFIED:
-    case v1::Loading::X: out.direction = LoadingSpec::Direction::x; break;
-    case v1::Loading::Y: out.direction = LoadingSpec::Direction::y; break;
-    default:
-      problems.push_back(invalid_field("loading.direction", std::to_string(in.direction()),
-                                       "is no direction that is known here.", "Use X or Y."));
-  }
+  read_choice(in.direction(),
+              {{v1::Loading::X, LoadingSpec::Direction::x}, {v1::Loading::Y, LoadingSpec::Direction::y}},
+              "loading.direction", "X or Y", out.direction, problems);
   if (in.has_speed_m_per_s()) out.speed_m_per_s = in.speed_m_per_s();
   if (in.has_end_strain()) out.end_strain = in.end_strain();
   if (in.has_ramp_strain()) out.ramp_strain = in.ramp_strain();
@@ -73,29 +99,32 @@ void read_loading(const v1::Loading& in, LoadingSpec& out, Problems& problems) {
 
 void read_numerics(const v1::Numerics& in, NumericsSpec& out, Problems& problems) {
   using Fidelity = NumericsSpec::Fidelity;
-  switch (in.fidelity()) {
-    case v1::Numerics::FIDELITY_UNSPECIFIED: out.fidelity = Fidelity::unspecified; break;
-    case v1::Numerics::DRAFT: out.fidelity = Fidelity::draft; break;
-    case v1::Numerics::STANDARD: out.fidelity = Fidelity::standard; break;
-    case v1::Numerics::REFERENCE: out.fidelity = Fidelity::reference; break;
-    default:
-      problems.push_back(invalid_field("numerics.fidelity", std::to_string(in.fidelity()),
-                                       "is no fidelity that is known here.", "Use DRAFT, STANDARD or REFERENCE."));
-  }
+  read_choice(in.fidelity(),
+              {{v1::Numerics::DRAFT, Fidelity::draft},
+               {v1::Numerics::STANDARD, Fidelity::standard},
+               {v1::Numerics::REFERENCE, Fidelity::reference}},
+              "numerics.fidelity", "DRAFT, STANDARD or REFERENCE", out.fidelity, problems);
   if (in.has_time_step_s()) out.time_step_s = in.time_step_s();
+  if (in.has_mass_scaling()) out.mass_scaling = in.mass_scaling();
+  if (in.has_rotary_scaling()) out.rotary_scaling = in.rotary_scaling();
   if (in.has_mass_damping_per_s()) out.mass_damping_per_s = in.mass_damping_per_s();
   if (in.has_threads()) out.threads = in.threads();
 }
 
 }  // namespace
 
-MaterialSpec to_spec(const v1::Material& in) {
+MaterialSpec to_spec(const v1::Material& in, const std::string& path, Problems& problems) {
   MaterialSpec out;
   if (in.has_youngs_modulus_mpa()) out.youngs_modulus_mpa = in.youngs_modulus_mpa();
   if (in.has_yield_stress_mpa()) out.yield_stress_mpa = in.yield_stress_mpa();
   if (in.has_hardening_modulus_mpa()) out.hardening_modulus_mpa = in.hardening_modulus_mpa();
   if (in.has_isotropic_fraction()) out.isotropic_fraction = in.isotropic_fraction();
   if (in.has_density_kg_per_m3()) out.density_kg_per_m3 = in.density_kg_per_m3();
+  read_choice(in.plane(),
+              {{v1::Material::PLANE_STRESS, MaterialSpec::Plane::stress},
+               {v1::Material::PLANE_STRAIN, MaterialSpec::Plane::strain}},
+              path + "plane", "PLANE_STRESS or PLANE_STRAIN", out.plane, problems);
+  if (in.has_poissons_ratio()) out.poissons_ratio = in.poissons_ratio();
   return out;
 }
 
@@ -110,8 +139,9 @@ CaseReading to_spec(const v1::Case& in) {
   read_lattice(in.lattice(), spec, out.problems);
   if (in.has_depth_mm()) spec.depth_mm = in.depth_mm();
   if (in.has_elements_per_wall()) spec.elements_per_wall = in.elements_per_wall();
-  spec.material = to_spec(in.material());
-  read_section_and_contact(in, spec);
+  spec.material = to_spec(in.material(), "material.", out.problems);
+  read_section(in.section(), spec.section, out.problems);
+  read_contact(in, spec);
   read_loading(in.loading(), spec.loading, out.problems);
   read_numerics(in.numerics(), spec.numerics, out.problems);
   if (in.output().has_sample_count()) spec.output.sample_count = in.output().sample_count();

@@ -21,6 +21,7 @@ CaseReading to_spec(const v1::Case& in);
 /// The frame's part of it; problems are appended.
 FrameLattice to_spec(const v1::Frame& in, Problems& problems);
 
-MaterialSpec to_spec(const v1::Material& in);
+/// A material whose fields' paths begin with `path`.
+MaterialSpec to_spec(const v1::Material& in, const std::string& path, Problems& problems);
 
 }  // namespace cellcrush::translate

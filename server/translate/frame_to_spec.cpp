@@ -71,7 +71,7 @@ class FrameReader {
       out.end = find_node(path + ".end", beam.end());
       if (!beam.has_thickness_mm()) problems_.push_back(missing(path + ".thickness_mm"));
       out.thickness_mm = beam.thickness_mm();
-      if (beam.has_material()) out.material = to_spec(beam.material());
+      if (beam.has_material()) out.material = to_spec(beam.material(), path + ".material.", problems_);
       if (beam.has_elements()) out.elements = beam.elements();
       out_.beams.push_back(out);
     }

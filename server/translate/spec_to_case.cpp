@@ -29,6 +29,8 @@ void write_material(const MaterialSpec& in, v1::Material& out) {
   out.set_hardening_modulus_mpa(in.hardening_modulus_mpa);
   out.set_isotropic_fraction(in.isotropic_fraction);
   if (in.density_kg_per_m3) out.set_density_kg_per_m3(*in.density_kg_per_m3);
+  out.set_plane(in.plane == MaterialSpec::Plane::stress ? v1::Material::PLANE_STRESS : v1::Material::PLANE_STRAIN);
+  out.set_poissons_ratio(in.poissons_ratio);
 }
 
 void write_function(const FrameLattice::TimeFunction& in, v1::Frame::TimeFunction& out) {
@@ -126,9 +128,22 @@ void write_loading(const LoadingSpec& in, v1::Loading& out) {
   out.set_ramp_strain(in.ramp_strain);
 }
 
+void write_section(const SectionSpec& in, v1::Section& out) {
+  if (in.axial_points) out.set_axial_points(*in.axial_points);
+  if (in.depth_points) out.set_depth_points(*in.depth_points);
+  out.set_formulation(in.formulation == SectionSpec::Formulation::force_based ? v1::Section::FORCE_BASED
+                                                                              : v1::Section::DISPLACEMENT_BASED);
+  out.set_depth_rule(in.depth_rule == SectionSpec::DepthRule::full_moment ? v1::Section::FULL_MOMENT
+                                                                          : v1::Section::LOBATTO);
+  out.set_area_rule(in.area_rule == SectionSpec::AreaRule::constant_volume ? v1::Section::CONSTANT_VOLUME
+                                                                           : v1::Section::CONSTANT_AREA);
+}
+
 void write_numerics(const NumericsSpec& in, v1::Numerics& out) {
   out.set_time_step_s(in.time_step_s);
   out.set_mass_damping_per_s(in.mass_damping_per_s);
+  out.set_mass_scaling(in.mass_scaling);
+  out.set_rotary_scaling(in.rotary_scaling);
   switch (in.fidelity) {
     case NumericsSpec::Fidelity::unspecified: break;
     case NumericsSpec::Fidelity::draft: out.set_fidelity(v1::Numerics::DRAFT); break;
@@ -147,8 +162,7 @@ v1::Case to_case(const SceneSpec& spec) {
   if (spec.depth_mm) out.set_depth_mm(*spec.depth_mm);
   out.set_elements_per_wall(spec.elements_per_wall);
   write_material(spec.material, *out.mutable_material());
-  out.mutable_section()->set_axial_points(spec.section.axial_points);
-  out.mutable_section()->set_depth_points(spec.section.depth_points);
+  write_section(spec.section, *out.mutable_section());
   out.mutable_contact()->set_friction(spec.contact.friction);
   out.mutable_contact()->set_stiffness_factor(spec.contact.stiffness_factor);
   out.mutable_contact()->set_damping_ratio(spec.contact.damping_ratio);

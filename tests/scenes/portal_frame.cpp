@@ -45,7 +45,7 @@ SceneSpec portal(const FrameLattice::NodalLoad& dead, int moved_node, Component 
   spec.material.youngs_modulus_mpa = PortalFrame::kModulus;
   spec.material.yield_stress_mpa = PortalFrame::kYieldStress;
   spec.material.density_kg_per_m3 = 7850.0;
-  spec.numerics.mass_damping_per_s = 0.4 * frequency;
+  spec.numerics.mass_damping_per_s = 0.1 * frequency;
   spec.output.sample_count = 600;
   return spec;
 }

@@ -8,8 +8,8 @@
 namespace cellcrush::scenes {
 
 /// A perfectly plastic portal frame, clamped below (all members L 100, h 4, b 1 mm; E / sigma_y = 10000, so that it collapses
-/// before it has changed its shape), with a dead load on one place and another moved until it collapses: H on the left corner to the right, V on the middle of the beam downward. The moved node is watched
-/// first, the loaded one second.
+/// before it has changed its shape), with a dead load on one place and another moved until it collapses: H on the left corner
+/// to the right, V on the middle of the beam downward. The moved node is watched first, the loaded one second.
 struct PortalFrame {
   static constexpr double kLength = 100.0;  // mm, of every member
   static constexpr double kThickness = 4.0;

@@ -69,8 +69,8 @@ const std::vector<Option>& all_options() {
        }},
       {"area", "constant_volume or constant_area",
        [](Options& o, const std::string& v) {
-         using Area = SectionSpec::Area;
-         o.spec.section.area = choice<Area>(
+         using Area = SectionSpec::AreaRule;
+         o.spec.section.area_rule = choice<Area>(
              "area", v, {{"constant_volume", Area::constant_volume}, {"constant_area", Area::constant_area}});
        }},
       {"plane", "stress or strain",

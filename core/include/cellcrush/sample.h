@@ -32,7 +32,7 @@ struct Sample {
   double energy_residual = 0.0;         ///< work_external minus all energies
   double energy_contact_stored = 0.0;   ///< sum of k D^2 / 2 now
   double energy_contact_damping = 0.0;  ///< the contacts' part of energy_damping
-  double deepest_penetration = 0.0;     ///< of a wall contact since the start, over the distance at which it touches
+  double deepest_penetration = 0.0;     ///< of a wall contact since the start, over the thinner wall's thickness
   std::int64_t contact_count = 0;       ///< wall contacts closed now
   std::vector<WatchedNode> watched;     ///< in the order of the frame's watched nodes
 };

@@ -106,6 +106,12 @@ struct ContactLaw {
   double skin = 0.0;           ///< mm by which candidates are collected beyond touch
 };
 
+/// Fictitious masses: particles' masses are the real ones times `mass`, their rotary inertia times mass and rotary.
+struct MassScaling {
+  double mass = 1.0;
+  double rotary = 1.0;
+};
+
 /// When the run ends and what is taken from it, in steps.
 struct Schedule {
   double time_step = 0.0;  ///< s
@@ -141,13 +147,14 @@ struct Scene {
   bool constant_area = false;  ///< walls that change their length keep their area (the paper) instead of their volume
   ContactLaw contact;
   Plates plates;
+  MassScaling mass_scaling;
   double mass_damping = 0.0;  ///< alpha, 1/s: force -alpha m v
   Schedule schedule;
 
   // Measures of the whole, for reports.
-  double length = 0.0;  ///< envelope along the crush, mm; strain counts from it
-  double width = 0.0;   ///< envelope across the crush, mm
-  double total_mass = 0.0;
+  double length = 0.0;           ///< envelope along the crush, mm; strain counts from it
+  double width = 0.0;            ///< envelope across the crush, mm
+  double total_mass = 0.0;       ///< real, tonne
   double stable_step = 0.0;      ///< s, of the undeformed mesh (see scene/stable_step.h)
   double collapse_stress = 0.0;  ///< MPa, quasi-static plastic collapse after Gibson and Ashby; 0 when unknown
 

@@ -135,13 +135,13 @@ struct SectionSpec {
     full_moment,  ///< exact area, bending stiffness and full plastic moment
     lobatto       ///< the paper
   };
-  enum class Area {
+  enum class AreaRule {
     constant_volume,  ///< a wall that is squashed short thickens
     constant_area     ///< the paper
   };
   Formulation formulation = Formulation::force_based;
   DepthRule depth_rule = DepthRule::full_moment;
-  Area area = Area::constant_volume;
+  AreaRule area_rule = AreaRule::constant_volume;
   std::optional<int> axial_points;  ///< default: 4 force-based (3 to 5), 2 displacement-based (1 to 5)
   std::optional<int> depth_points;  ///< default: 4 full-moment (4 or 6), 6 Lobatto (2 to 10)
 };
@@ -167,6 +167,10 @@ struct LoadingSpec {
 struct NumericsSpec {
   double time_step_s = 0.0;  ///< 0: chosen
   double mass_damping_per_s = 0.0;
+  /// Fictitious masses for slow crushes (dynamic relaxation): masses and rotary inertias times the first, rotary inertias times
+  /// the second as well.
+  double mass_scaling = 1.0;
+  double rotary_scaling = 1.0;
   enum class Fidelity { unspecified, draft, standard, reference };
   Fidelity fidelity = Fidelity::unspecified;
   int threads = 1;

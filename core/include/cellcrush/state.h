@@ -15,14 +15,14 @@ struct ElementForces {
   double moment_on_end = 0.0;
 };
 
-/// A ball and a segment that may touch before the list is made again.
+/// A ball and a segment that may touch before the list is made again. Without padding: its bytes are hashed.
 struct ContactCandidate {
-  int ball = 0;             ///< particle
-  int segment = 0;          ///< element
-  int joint = -1;           ///< node of the segment that an element joins to the ball; -1: none
-  std::int16_t side = 0;    ///< +1 left, -1 right of the segment: where the ball first touched; 0: not touching
-  std::int16_t pushed = 0;  ///< 1: pushed on the ball in the newest step
-  double friction = 0.0;    ///< N, on the ball along the segment's axis; kept while it pushes
+  int ball = 0;           ///< particle
+  int segment = 0;        ///< element
+  double reach = 0.0;     ///< mm, distance at which they touch
+  int side = 0;           ///< +1 left, -1 right of the segment: where the ball is, or came from; 0: not touching
+  int pushed = 0;         ///< the side from which it pushed on the ball in the newest step; 0: it did not
+  double friction = 0.0;  ///< N, on the ball, along the segment, round its ends with it; kept while it pushes
 };
 
 /// Energies and works that are sums over time. N mm. Written by integrate_motion and evaluate_internal_forces.
@@ -83,7 +83,7 @@ struct State {
   std::vector<double> support_damping_force;   ///< N, viscous part
   double contact_stored = 0.0;                 ///< sum of k D^2 / 2 now
   std::int64_t contact_count = 0;              ///< closed contacts between walls now
-  double deepest_penetration = 0.0;            ///< of a wall contact since the start, over its touching distance
+  double deepest_penetration = 0.0;            ///< of a wall contact since the start, over the thinner wall's thickness
   double deepest_birth = 0.0;                  ///< the same, of contacts in the step in which they first touched
 
   Ledger ledger;

@@ -37,7 +37,8 @@ double first_unstable(const Scene& scene, int steps) {
   return 2.0;
 }
 
-std::shared_ptr<Scene> free_element(double length, double thickness) {
+std::shared_ptr<Scene> free_element(double length, double thickness, double mass_scaling = 1.0,
+                                    double rotary_scaling = 1.0) {
   FrameLattice frame;
   frame.nodes = {{0.0, 0.0, 0.0, 0.0}, {length * 0.6, length * 0.8, 0.0, 0.0}};
   frame.beams = {scenes::beam(0, 1, thickness, 1)};
@@ -48,7 +49,17 @@ std::shared_ptr<Scene> free_element(double length, double thickness) {
   spec.material.youngs_modulus_mpa = 69000.0;
   spec.material.yield_stress_mpa = 76.0;
   spec.material.density_kg_per_m3 = 2700.0;
+  spec.numerics.mass_scaling = mass_scaling;
+  spec.numerics.rotary_scaling = rotary_scaling;
   return scenes::build(spec);
+}
+
+TEST(StableStep, LawHoldsForFictitiousMasses) {
+  for (const double rotary : {1.0, 3.0, 10.0}) {
+    const auto scene = free_element(2.0, 0.3464, 4.0, rotary);
+    EXPECT_TRUE(is_stable(*scene, 0.99, 5000)) << rotary;
+    EXPECT_FALSE(is_stable(*scene, 1.01, 5000)) << rotary;
+  }
 }
 
 TEST(StableStep, FreeElementIsStableAt099AndUnstableAt101OfTheLaw) {

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "cellcrush/problem.h"
+#include "cellcrush/scene.h"
+#include "cellcrush/scene_spec.h"
+
+namespace cellcrush {
+
+/// Problems of walls that lie in each other before loading: contact would throw them apart in the first step. Names the
+/// beams of a frame, or the thickness of a lattice, and where.
+/// REQUIRES: the mesh of the spec, masses lumped, elements linked.
+Problems check_overlap(const SceneSpec& spec, const Scene& scene);
+
+}  // namespace cellcrush

@@ -1,0 +1,114 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "beam/beam_section.h"
+#include "cellcrush/scene.h"
+#include "cellcrush/simulation.h"
+#include "cellcrush/state.h"
+#include "scene/stable_step.h"
+#include "scenes/frames.h"
+
+namespace cellcrush {
+namespace {
+
+constexpr double kYieldStress = 76.0;
+constexpr double kSide = 4.0;
+constexpr double kThickness = 0.3464;
+
+/// A wall of two elements, held straight, that is squashed to a share of its length, slowly beside elastic waves.
+SceneSpec squashed_wall(SectionSpec::AreaRule rule, double share) {
+  FrameLattice frame;
+  frame.nodes = {{0.0, 0.0, 0.0, 0.0}, {kSide, 0.0, 0.0, 0.0}};
+  frame.beams = {scenes::beam(0, 1, kThickness, 2)};
+  frame.supports = {{0, true, true, true}, {1, false, true, true}};
+  const double end = 2e-4;
+  frame.motions = {{1, FrameLattice::Component::x, {{0.0, 0.0}, {end, -(1.0 - share) * kSide}}}};
+  frame.watched_nodes = {1};
+  frame.end_time_s = end;
+  SceneSpec spec = scenes::elastic_frame(frame);
+  spec.material.youngs_modulus_mpa = 69000.0;
+  spec.material.yield_stress_mpa = kYieldStress;
+  spec.material.density_kg_per_m3 = 2700.0;
+  spec.numerics.mass_damping_per_s = 1e5;
+  spec.section.area_rule = rule;
+  return spec;
+}
+
+struct Squash {
+  double shortest = 1.0;  ///< least length of an element over its undeformed one
+  double plastic = 0.0;   ///< N mm
+  double residual = 0.0;  ///< share of the work
+};
+
+Squash squash(SectionSpec::AreaRule rule, double share) {
+  Simulation simulation(scenes::build(squashed_wall(rule, share)));
+  Squash result;
+  Sample sample;
+  while (simulation.status().kind == RunStatus::Kind::running) {
+    simulation.advance(2);
+    sample = simulation.take_sample();
+    for (std::size_t e = 0; e < simulation.scene().element_count(); ++e) {
+      result.shortest =
+          std::min(result.shortest, simulation.state().length[e] / simulation.scene().undeformed_length[e]);
+    }
+  }
+  result.plastic = sample.energy_plastic;
+  result.residual = sample.energy_residual / sample.work_external;
+  return result;
+}
+
+TEST(SquashedWall, AtConstantVolumeShortensEvenlyAndTakesTheWorkOfItsVolume) {
+  for (const double share : {0.7, 0.5, 0.3}) {
+    const Squash result = squash(SectionSpec::AreaRule::constant_volume, share);
+    EXPECT_NEAR(result.shortest, share, 0.02);
+    const double work = kSide * kThickness * kYieldStress * std::log(1.0 / share);
+    EXPECT_NEAR(result.plastic, work, 0.02 * work) << share;
+    EXPECT_LT(std::abs(result.residual), 0.01) << share;
+  }
+}
+
+// What the bounded modulus stores without work is (sigma_y / 2E) / (share^2 ln(1 / share)) of the plastic work: 2.4 % at 0.1.
+TEST(SquashedWall, SquashedToATenthTheLedgerShowsTheBoundedModulus) {
+  const Squash result = squash(SectionSpec::AreaRule::constant_volume, 0.1);
+  EXPECT_NEAR(result.shortest, 0.1, 0.01);
+  const double stored = kYieldStress / (2.0 * 69000.0) / (0.01 * std::log(10.0));
+  EXPECT_NEAR(-result.residual, stored, 0.01);
+}
+
+// The paper's constant area gives no resistance that grows: one of two elements takes all the shortening, until it has no
+// length left.
+TEST(SquashedWall, AtConstantAreaOneElementIsSquashedToNothing) {
+  EXPECT_LT(squash(SectionSpec::AreaRule::constant_area, 0.3).shortest, 0.05);
+}
+
+// The stiffness that is left makes the frequency of a squashed element at most that of one at 0.95 of its length.
+TEST(SquashedWall, VibratesNoFasterThanTheUndeformedOne) {
+  const Material material = {69000.0, kYieldStress, 0.0, 1.0, 2.7e-9};
+  const double undeformed = 2.0;
+  for (const double share : {0.9, 0.5, 0.2, 0.05}) {
+    const double length = share * undeformed;
+    // Mass and volume stay, and so does the density.
+    Material squashed = material;
+    squashed.youngs_modulus *= bounded_stiffness(length, undeformed, kThickness, false);
+    EXPECT_NEAR(stable_step_of_element(length, kThickness, squashed, {}),
+                stable_step_of_element(kShortenedTo * undeformed, kThickness, material, {}), 1e-15)
+        << share;
+  }
+}
+
+TEST(PlaneStrain, WallIsStifferAndYieldsLater) {
+  SceneSpec spec = squashed_wall(SectionSpec::AreaRule::constant_volume, 0.5);
+  spec.material.plane = MaterialSpec::Plane::strain;
+  spec.material.poissons_ratio = 0.3;
+  const auto scene = scenes::build(spec);
+  EXPECT_NEAR(scene->materials[0].youngs_modulus, 69000.0 / 0.91, 1e-6);
+  EXPECT_NEAR(scene->materials[0].yield_stress, kYieldStress * 1.1547, 0.001);
+  spec.material.poissons_ratio = 0.6;
+  const Problems problems = build_scene(spec).problems;
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_EQ(problems[0].field, "material.poissons_ratio");
+}
+
+}  // namespace
+}  // namespace cellcrush

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "cellcrush/scene.h"
+#include "cellcrush/state.h"
+
+namespace cellcrush::scenes {
+
+/// A chain of elements 1 mm thick, and the tip of a short beam that is moved about by hand. Contact without damping.
+class Probe {
+ public:
+  static constexpr double kThickness = 1.0;
+
+  /// Segment i runs from chain[i] to chain[i + 1], or backwards where `reversed` says so.
+  explicit Probe(const std::vector<Vector2>& chain, double friction = 0.0, const std::vector<bool>& reversed = {});
+
+  /// Normal force on the tip when it stands there; its beam points away along `outward`.
+  Vector2 force_at(const Vector2& place, const Vector2& outward);
+
+  /// Friction on the tip after it has been dragged there from where it was, within one step.
+  Vector2 drag_to(const Vector2& place, const Vector2& outward);
+
+  [[nodiscard]] const Scene& scene() const { return *scene_; }
+  [[nodiscard]] double stiffness() const { return scene_->contact.stiffness; }
+  State& state() { return state_; }
+
+ private:
+  void place_tip(const Vector2& place, const Vector2& outward);
+
+  std::shared_ptr<Scene> scene_;
+  State state_;
+  int tip_ = 0;
+};
+
+}  // namespace cellcrush::scenes
