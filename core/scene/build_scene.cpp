@@ -5,6 +5,7 @@
 #include "measure/theory.h"
 #include "scene/check_overlap.h"
 #include "scene/check_spec.h"
+#include "scene/contact_law.h"
 #include "scene/frame.h"
 #include "scene/imperfection.h"
 #include "scene/lattices.h"
@@ -23,51 +24,10 @@ constexpr double kMmPerM = 1e3;
 constexpr double kStepFraction = 0.9;
 /// A chosen step lets a particle at plate speed move by at most this share of the thinnest wall.
 constexpr double kTravelPerStep = 0.05;
-/// A free particle at plate speed that meets a wall sinks in by this share of the thinnest wall.
-constexpr double kImpactDepth = 0.2;
-/// Stiffest contact that a given step bears: 2 / sqrt 2 is the limit of two free particles, less that of their elements.
-constexpr double kStiffestContactTurn = 0.6;
-/// Contact candidates are collected this share of the shortest element beyond touch.
-constexpr double kSkinFraction = 0.35;
 
 Material material_of(const MaterialSpec& spec) {
   return {*spec.youngs_modulus_mpa, *spec.yield_stress_mpa, spec.hardening_modulus_mpa, spec.isotropic_fraction,
           *spec.density_kg_per_m3 * kTonnePerMm3PerKgPerM3};
-}
-
-double thinnest_wall(const Scene& scene) {
-  double least = scene.elements.front().thickness;
-  for (const Element& element : scene.elements) {
-    least = std::min(least, element.thickness);
-  }
-  return least;
-}
-
-double shortest_element(const Scene& scene) {
-  double least = (scene.position[scene.elements.front().end] - scene.position[scene.elements.front().start]).norm();
-  for (const Element& element : scene.elements) {
-    least = std::min(least, (scene.position[element.end] - scene.position[element.start]).norm());
-  }
-  return least;
-}
-
-/// Angular frequency of the lightest particle on its contact, 1/s (E9). It follows from the mesh and the plates' speed, so
-/// that refining the step converges to one solution; a given step that is too long for it bounds it.
-double contact_frequency(const SceneSpec& spec, const Scene& scene) {
-  const double of_mesh = std::sqrt(spec.contact.stiffness_factor) / scene.stable_step;
-  if (std::holds_alternative<FrameLattice>(spec.lattice)) {
-    return of_mesh;
-  }
-  const double of_impact = *spec.loading.speed_m_per_s * kMmPerM / (kImpactDepth * thinnest_wall(scene));
-  const double step = spec.numerics.time_step_s;
-  return std::max(of_mesh, step > 0.0 ? std::min(of_impact, kStiffestContactTurn / step) : of_impact);
-}
-
-void set_contact(const SceneSpec& spec, bool present, Scene& scene) {
-  const double lightest = *std::min_element(scene.mass.begin(), scene.mass.end());
-  const double frequency = contact_frequency(spec, scene);
-  scene.contact = {present, lightest * frequency * frequency, spec.contact.damping_ratio, spec.contact.friction,
-                   kSkinFraction * shortest_element(scene)};
 }
 
 void set_plates(const LoadingSpec& spec, double friction, Scene& scene) {
@@ -94,6 +54,10 @@ double chosen_step(const Scene& scene) {
   double step = kStepFraction * scene.stable_step;
   if (scene.plates.present) {
     step = std::min(step, kTravelPerStep * thinnest_wall(scene) / scene.plates.speed);
+  }
+  if (scene.contact.present) {
+    const double lightest = *std::min_element(scene.mass.begin(), scene.mass.end());
+    step = std::min(step, kStepFraction * contact_step_of(scene.contact, lightest));
   }
   return step;
 }
@@ -223,7 +187,7 @@ SceneResult build_scene(const SceneSpec& spec) {
   }
   scene->mass_damping = spec.numerics.mass_damping_per_s;
   const auto* frame = std::get_if<FrameLattice>(&spec.lattice);
-  set_contact(spec, frame == nullptr || frame->self_contact, *scene);
+  scene->contact = contact_law_of(spec, frame == nullptr || frame->self_contact, *scene);
   if (scene->contact.present) {
     result.problems = check_overlap(spec, *scene);
   }
