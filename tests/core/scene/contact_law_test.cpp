@@ -46,7 +46,7 @@ TEST(ContactLaw, ARowBetweenContactsIsStableUpToItsStep) {
     const double damping = 2.0 * ratio * std::sqrt(kStiffness * 0.5 * kMass);  // of two masses kMass
     const double limit = contact_step_of({true, kStiffness, ratio, 0.0, 0.0}, kMass);
     EXPECT_LT(growth_of_ring(kStiffness, damping, kMass, 0.99 * limit), 20.0) << ratio;
-    EXPECT_GT(growth_of_ring(kStiffness, damping, kMass, 1.01 * limit), 1e6) << ratio;
+    EXPECT_GT(growth_of_ring(kStiffness, damping, kMass, 1.01 * limit), 1e3) << ratio;
   }
 }
 
