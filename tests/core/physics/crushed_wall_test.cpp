@@ -59,7 +59,7 @@ SectionSpec displacement_based(int depth_points) {
   SectionSpec section;
   section.formulation = SectionSpec::Formulation::displacement_based;
   section.depth_rule = SectionSpec::DepthRule::lobatto;
-  section.area = SectionSpec::Area::constant_area;
+  section.area_rule = SectionSpec::AreaRule::constant_area;
   section.axial_points = 2;
   section.depth_points = depth_points;
   return section;
