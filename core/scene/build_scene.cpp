@@ -6,6 +6,7 @@
 #include "measure/theory.h"
 #include "scene/check_overlap.h"
 #include "scene/check_spec.h"
+#include "scene/contact_law.h"
 #include "scene/frame.h"
 #include "scene/imperfection.h"
 #include "scene/lattices.h"
@@ -30,11 +31,6 @@ Material material_of(const MaterialSpec& spec) {
   return {elastic * *spec.youngs_modulus_mpa, flowing * *spec.yield_stress_mpa,
           flowing * flowing * spec.hardening_modulus_mpa, spec.isotropic_fraction,
           *spec.density_kg_per_m3 * kTonnePerMm3PerKgPerM3};
-}
-
-void set_contact(const SceneSpec& spec, bool present, Scene& scene) {
-  scene.contact = {present, penalty_stiffness(spec, scene), spec.contact.damping_ratio, spec.contact.friction,
-                   contact_skin(scene)};
 }
 
 void set_plates(const LoadingSpec& spec, double friction, Scene& scene) {
@@ -186,7 +182,7 @@ SceneResult build_scene(const SceneSpec& spec) {
   }
   scene->mass_damping = spec.numerics.mass_damping_per_s;
   const auto* frame = std::get_if<FrameLattice>(&spec.lattice);
-  set_contact(spec, frame == nullptr || frame->self_contact, *scene);
+  scene->contact = contact_law_of(spec, frame == nullptr || frame->self_contact, *scene);
   if (scene->contact.present) {
     result.problems = check_overlap(spec, *scene);
   }

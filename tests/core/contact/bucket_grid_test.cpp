@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 #include <set>
+#include <utility>
+#include <vector>
 
-#include "contact/capsule.h"
 #include "contact/find_contacts.h"
 #include "scenes/frames.h"
 #include "step/advance_step.h"
@@ -45,41 +47,96 @@ TEST(BucketGrid, AParticleThrownFarAwayCostsNoMemory) {
   EXPECT_GT(grid.bucket_size(), 1e7);
 }
 
-// The list must hold every pair closer than touch and skin, and no ball against its own elements.
+/// Pairs of ball and segment.
+using Pairs = std::set<std::pair<int, int>>;
+
+Pairs listed_pairs(const State& state) {
+  Pairs pairs;
+  for (std::size_t ball = 0; ball + 1 < state.candidate_offset.size(); ++ball) {
+    for (int k = state.candidate_offset[ball]; k < state.candidate_offset[ball + 1]; ++k) {
+      EXPECT_EQ(state.candidates[k].ball, static_cast<int>(ball));
+      EXPECT_TRUE(pairs.emplace(static_cast<int>(ball), state.candidates[k].segment).second) << "listed twice";
+    }
+  }
+  return pairs;
+}
+
+/// Every pair closer than touch and skin, and no ball against its own elements. Distances by halving the segment, not by the
+/// projection of the search.
+Pairs near_pairs(const Scene& scene, const State& state) {
+  Pairs pairs;
+  for (int ball = 0; ball < static_cast<int>(scene.particle_count()); ++ball) {
+    for (int e = 0; e < static_cast<int>(scene.element_count()); ++e) {
+      const Element& element = scene.elements[e];
+      if (ball == element.start || ball == element.end) {
+        continue;
+      }
+      const Vector2& point = state.position[ball];
+      Vector2 a = state.position[element.start];
+      Vector2 b = state.position[element.end];
+      for (int i = 0; i < 60; ++i) {
+        ((point - a).squaredNorm() < (point - b).squaredNorm() ? b : a) = 0.5 * (a + b);
+      }
+      if ((point - a).norm() < scene.radius[ball] + 0.5 * element.thickness + scene.contact.skin) {
+        pairs.emplace(ball, e);
+      }
+    }
+  }
+  return pairs;
+}
+
+void search(const Scene& scene, State& state) {
+  for (std::size_t e = 0; e < scene.element_count(); ++e) {
+    const Vector2 span = state.position[scene.elements[e].end] - state.position[scene.elements[e].start];
+    state.length[e] = span.norm();
+    state.axis[e] = state.length[e] > 0.0 ? Vector2(span / state.length[e]) : Vector2(1.0, 0.0);
+  }
+  search_contacts(scene, state);
+}
+
 TEST(ContactSearch, AgreesWithBruteForceOnAShakenLattice) {
   const auto scene = scenes::build(scenes::hexagon_block(6, 5));
-  State state = make_initial_state(*scene);
+  State state = place_particles(*scene);
   std::mt19937 generator(3);
   std::uniform_real_distribution<double> shake(-1.2, 1.2);
   for (Vector2& position : state.position) {
     position = Vector2(0.4, 1.0).cwiseProduct(position) + Vector2(shake(generator) - 20.0, shake(generator) - 20.0);
   }
-  for (std::size_t e = 0; e < scene->element_count(); ++e) {
-    const Vector2 span = state.position[scene->elements[e].end] - state.position[scene->elements[e].start];
-    state.length[e] = span.norm();
-    state.axis[e] = span / state.length[e];
-  }
-  search_contacts(*scene, state);
-  std::set<std::pair<int, int>> listed;
-  for (int ball = 0; ball < static_cast<int>(scene->particle_count()); ++ball) {
-    for (int k = state.candidate_offset[ball]; k < state.candidate_offset[ball + 1]; ++k) {
-      EXPECT_TRUE(listed.emplace(ball, state.candidates[k].segment).second);
-    }
-  }
-  std::set<std::pair<int, int>> near;
-  for (int ball = 0; ball < static_cast<int>(scene->particle_count()); ++ball) {
-    for (int e = 0; e < static_cast<int>(scene->element_count()); ++e) {
-      const Element& element = scene->elements[e];
-      const Projection foot =
-          project(state.position[ball], state.position[element.start], state.axis[e], state.length[e]);
-      if (ball != element.start && ball != element.end &&
-          foot.offset.norm() < scene->radius[ball] + 0.5 * element.thickness + scene->contact.skin) {
-        near.emplace(ball, e);
-      }
-    }
-  }
+  search(*scene, state);
+  const Pairs near = near_pairs(*scene, state);
   EXPECT_GT(near.size(), 200u);
-  EXPECT_EQ(listed, near);
+  EXPECT_EQ(listed_pairs(state), near);
+}
+
+// Walls of a lattice thrown about at random: sparse and dense, round the origin and far from it, in a line, on one point.
+TEST(ContactSearch, AgreesWithBruteForceOnRandomScenes) {
+  const auto scene = scenes::build(scenes::hexagon_block(4, 4));
+  std::mt19937 generator(11);
+  std::uniform_real_distribution<double> even(-1.0, 1.0);
+  std::size_t most = 0;
+  for (const Vector2& middle : {Vector2(0.0, 0.0), Vector2(-3e3, 7e2), Vector2(-1e6, -1e6)}) {
+    for (const Vector2& spread : {Vector2(300.0, 300.0), Vector2(30.0, 30.0), Vector2(4.0, 4.0), Vector2(0.1, 0.1),
+                                  Vector2(50.0, 0.0), Vector2(0.0, 20.0), Vector2(1e4, 1.0), Vector2(0.0, 0.0)}) {
+      State state = place_particles(*scene);
+      for (Vector2& position : state.position) {
+        position = middle + spread.cwiseProduct(Vector2(even(generator), even(generator)));
+      }
+      search(*scene, state);
+      const Pairs near = near_pairs(*scene, state);
+      EXPECT_EQ(listed_pairs(state), near) << middle.transpose() << " spread " << spread.transpose();
+      most = std::max(most, near.size());
+    }
+  }
+  EXPECT_EQ(most, scene->element_count() * (scene->particle_count() - 2));  // on one point, all
+}
+
+// One particle flies away: the buckets must not grow with the distance, nor lose the rest.
+TEST(ContactSearch, AgreesWithBruteForceWhenAParticleIsLost) {
+  const auto scene = scenes::build(scenes::hexagon_block(4, 4));
+  State state = place_particles(*scene);
+  state.position[7] = {4e7, -2e7};
+  search(*scene, state);
+  EXPECT_EQ(listed_pairs(state), near_pairs(*scene, state));
 }
 
 TEST(ContactSearch, CandidatesAParticleDoNotGrowWithTheLattice) {

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "cellcrush/state.h"
@@ -81,6 +82,84 @@ TEST(Friction, ABlockSticksBelowTheAngleOfFrictionAndSlidesAboveIt) {
   above.advance(duration);
   const double acceleration = 1000.0 * kGravity * (std::sin(incline) - kFriction * std::cos(incline));
   EXPECT_NEAR(above.way(), 0.5 * acceleration * duration * duration, 0.05 * above.way());
+}
+
+/// The tip of an upright beam that is dragged along a straight chain of 20 held segments under a constant load, which
+/// presses it `depth` mm into the chain before it sets out. Speed in mm/s.
+struct Drag {
+  static constexpr int kSegments = 20;
+  static constexpr double kSegment = 5.0;  // mm
+  std::shared_ptr<Scene> scene;
+  State state;
+  int tip = kSegments + 1;
+  double load = 0.0;
+  double departure = 0.0;  // s
+  double arrival = 0.0;
+
+  Drag(double speed, double depth) {
+    FrameLattice frame;
+    for (int i = 0; i <= kSegments; ++i) {
+      frame.nodes.push_back({kSegment * i, 0.0, 0.0, 0.0});
+      frame.supports.push_back({i, true, true, true});
+    }
+    for (int i = 0; i < kSegments; ++i) {
+      frame.beams.push_back(scenes::beam(i, i + 1, 1.0, 1));
+    }
+    frame.nodes.push_back({2.3, 1.0, 0.0, 0.0});
+    frame.nodes.push_back({2.3, 11.0, 0.0, 0.0});
+    frame.beams.push_back(scenes::beam(tip, tip + 1, 1.0, 1));
+    const double way = kSegments * kSegment - 4.6;
+    departure = 0.5 * way / speed;
+    arrival = 1.5 * way / speed;
+    for (const int node : {tip, tip + 1}) {
+      frame.supports.push_back({node, false, false, true});
+      frame.motions.push_back({node, FrameLattice::Component::x, {{0.0, 0.0}, {departure, 0.0}, {arrival, way}}});
+    }
+    frame.self_contact = true;
+    SceneSpec spec = scenes::elastic_frame(frame);
+    spec.contact.friction = kFriction;
+    load = scenes::build(spec)->contact.stiffness * depth;
+    std::get<FrameLattice>(spec.lattice).loads = {
+        {tip, FrameLattice::Component::y, {{0.0, 0.0}, {0.3 * departure, -load}}}};
+    scene = scenes::build(spec);
+    state = make_initial_state(*scene);
+  }
+
+  [[nodiscard]] double way() const { return state.position[tip].x() - scene->position[tip].x(); }
+};
+
+// Two balls and two segments touch at each of the 19 joints; the forces must not show it.
+TEST(Friction, ABallSlidesAlongAStraightChainWithoutChatter) {
+  for (const double depth : {0.002, 0.1}) {
+    Drag drag(50e3, depth);
+    double least = 1e9;
+    double most = 0.0;
+    double least_friction = 1e9;
+    double most_friction = 0.0;
+    while (drag.state.time < drag.arrival) {
+      advance_step(*drag.scene, drag.state, nullptr);
+      if (drag.way() > 0.1) {
+        const Vector2 normal = drag.state.contact_force[drag.tip] + drag.state.contact_damping_force[drag.tip];
+        const Vector2 friction = drag.state.friction_force[drag.tip];
+        ASSERT_NEAR(normal.x(), 0.0, 1e-5 * drag.load);
+        ASSERT_NEAR(friction.y(), 0.0, 1e-5 * drag.load);
+        least = std::min(least, normal.y() / drag.load);
+        most = std::max(most, normal.y() / drag.load);
+        least_friction = std::min(least_friction, -friction.x() / (kFriction * drag.load));
+        most_friction = std::max(most_friction, -friction.x() / (kFriction * drag.load));
+      }
+    }
+    EXPECT_NEAR(least, 1.0, 1e-3);
+    EXPECT_NEAR(most, 1.0, 1e-3);
+    EXPECT_NEAR(least_friction, 1.0, 1e-3);
+    EXPECT_NEAR(most_friction, 1.0, 1e-3);
+    const Energies energies = evaluate_energies(*drag.scene, drag.state);
+    const double heat = kFriction * drag.load * drag.way();
+    EXPECT_NEAR(energies.friction, heat, 2e-4 * heat);  // it sticks for the first steps
+    EXPECT_LT(energies.contact_damping, 1e-4 * energies.friction);
+    EXPECT_NEAR(energies.contact, drag.state.contact_stored, 1e-4 * energies.friction);
+    EXPECT_LT(std::abs(energies.residual), 1e-6 * energies.friction);
+  }
 }
 
 TEST(Friction, PlatesHoldTheEndsOfALatticeThatSpreads) {

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -73,6 +74,62 @@ TEST(PenaltyBounce, DampingTakesEnergyAndNeverPulls) {
   // exp(-2 pi zeta / sqrt(1 - zeta^2)) for a contact that may pull; a little more is kept when it may not.
   EXPECT_GT(damped.energy_ratio, 0.27);
   EXPECT_LT(damped.energy_ratio, 0.45);
+}
+
+// The default stiffness: 0.5 m_min / dt_crit^2 for two of the lightest particles, at 0.9 of dt_crit.
+TEST(PenaltyBounce, OfTheLightestPairAtTheChosenStepIsWithinSevenPercent) {
+  const auto scene = scenes::build(scenes::hexagon_block(4, 3));
+  const double lightest = *std::min_element(scene->mass.begin(), scene->mass.end());
+  const double omega = std::sqrt(scene->contact.stiffness * 2.0 / lightest);
+  const double omega_step = omega * 0.9 * scene->stable_step;
+  EXPECT_NEAR(omega_step, 0.636, 1e-3);
+  double mass = 0.0;
+  double stiffness = 0.0;
+  EXPECT_NEAR(bounce(omega_step, 0.0, mass, stiffness).energy_ratio, 1.0, 0.07);
+}
+
+/// A short beam that lies on a held one under gravity, swinging about its resting depth by half of it.
+struct Resting {
+  std::shared_ptr<Scene> scene;
+  State state;
+  double depth = 0.0;  // mm, at rest
+
+  explicit Resting(double omega_step) {
+    FrameLattice frame;
+    frame.nodes = {{-40.0, 0.0, 0.0, 0.0}, {40.0, 0.0, 0.0, 0.0}, {-5.0, 1.01, 0.0, 0.0}, {5.0, 1.01, 0.0, 0.0}};
+    frame.beams = {scenes::beam(0, 1, 1.0, 1), scenes::beam(2, 3, 1.0, 1)};
+    frame.supports = {{0, true, true, true}, {1, true, true, true}};
+    frame.gravity_y_m_per_s2 = -1e4;
+    frame.self_contact = true;
+    SceneSpec spec = scenes::elastic_frame(frame);
+    spec.contact.damping_ratio = 0.0;
+    scene = scenes::build(spec);
+    const double step = scene->schedule.time_step;
+    scene->contact.stiffness = scene->mass[2] * omega_step * omega_step / (step * step);
+    depth = scene->mass[2] * 1e7 / scene->contact.stiffness;
+    scene->position[2].y() = scene->position[3].y() = 1.0 - 0.5 * depth;
+    state = make_initial_state(*scene);
+  }
+
+  /// The energy of the swing that central differences keep: velocities half a step off, places of two steps.
+  [[nodiscard]] double swing_energy() const {
+    const double velocity = state.velocity[2].y();
+    const double now = state.position[2].y() - (1.0 - depth);
+    const double before = now - scene->schedule.time_step * velocity;
+    return 0.5 * scene->mass[2] * velocity * velocity + 0.5 * scene->contact.stiffness * now * before;
+  }
+};
+
+TEST(PenaltyContact, RestsForAMillionStepsWithoutGainingEnergy) {
+  for (const double omega_step : {0.636, 1.8}) {
+    Resting resting(omega_step);
+    advance_step(*resting.scene, resting.state, nullptr);
+    const double before = resting.swing_energy();
+    for (int i = 0; i < 1000000; ++i) {
+      advance_step(*resting.scene, resting.state, nullptr);
+    }
+    EXPECT_NEAR(resting.swing_energy() / before, 1.0, 1e-6) << omega_step;
+  }
 }
 
 }  // namespace

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "cellcrush/scene.h"
+#include "cellcrush/scene_spec.h"
+
+namespace cellcrush {
+
+/// The contact law of a case (Eq. 43; the paper gives neither k nor c):
+///   k = m_min max(stiffness_factor / dt_crit^2, (V / (0.2 h_min))^2),
+/// so that a particle at plate speed sinks in by a fifth of the thinnest wall at most. k follows from the mesh and the speed,
+/// so that refining the step converges to one solution; only a given step that is too long for the second term bounds it.
+/// REQUIRES: masses and stable step of the mesh.
+ContactLaw contact_law_of(const SceneSpec& spec, bool present, const Scene& scene);
+
+/// Largest step of a row of particles of mass m between contacts: its stiffest mode has omega = 2 sqrt(k / m) and sqrt(2)
+/// times the damping ratio z of one contact. With viscous forces of velocities half a step old it is stable for
+///   omega dt <= 2 (sqrt(1 + 2 z^2) - sqrt(2) z).
+double contact_step_of(const ContactLaw& law, double mass);
+
+double thinnest_wall(const Scene& scene);
+
+}  // namespace cellcrush
