@@ -13,6 +13,7 @@
 namespace cellcrush::validation {
 namespace {
 
+constexpr double kFlowing = 0.10;  ///< strain at which every lattice of the presets has begun to collapse
 constexpr double kSettled = 0.05;  ///< strain from which a crush is asked to be quasi-static
 
 std::shared_ptr<const Scene> build(const SceneSpec& spec) {
@@ -80,11 +81,12 @@ double least_contact_work_share(std::span<const Sample> samples) {
   return least;
 }
 
-double greatest_kinetic_share(std::span<const Sample> samples) {
+/// Greatest kinetic energy over another energy of the same moment, beyond a strain.
+double greatest_kinetic_share(std::span<const Sample> samples, double Sample::*energy, double from) {
   double greatest = 0.0;
   for (const Sample& sample : samples) {
-    if (sample.strain > kSettled && sample.energy_plastic > 0.0) {
-      greatest = std::max(greatest, sample.energy_kinetic / sample.energy_plastic);
+    if (sample.strain > from && sample.*energy > 0.0) {
+      greatest = std::max(greatest, sample.energy_kinetic / (sample.*energy));
     }
   }
   return greatest;
@@ -109,7 +111,9 @@ CrushRun run_crush(const SceneSpec& spec) {
   run.deepest_birth = simulation.state().deepest_birth;
   run.contact_work_share = least_contact_work_share(run.samples);
   run.plate_force_difference = plate_force_difference(run.samples);
-  run.kinetic_share = greatest_kinetic_share(run.samples);
+  run.kinetic_over_work = greatest_kinetic_share(run.samples, &Sample::work_external, kSettled);
+  run.kinetic_over_plastic = greatest_kinetic_share(run.samples, &Sample::energy_plastic, kSettled);
+  run.kinetic_over_plastic_flowing = greatest_kinetic_share(run.samples, &Sample::energy_plastic, kFlowing);
   run.state_hash = scenes::hash_of(simulation.state());
   return run;
 }

@@ -27,9 +27,11 @@ struct CrushRun {
   double deepest_birth = 0.0;           ///< of a wall contact, over the distance at which it touches
   double contact_work_share = 0.0;      ///< least accumulated contact work over the external work done by then
   double plate_force_difference = 0.0;  ///< |mean impact - mean support| / mean impact, beyond 5 % strain
-  double kinetic_share = 0.0;    ///< greatest kinetic energy over the plastic work done by then, beyond 5 % strain
-  double seconds = 0.0;          ///< of wall time
-  std::uint64_t state_hash = 0;  ///< of the last state
+  double kinetic_over_work = 0.0;       ///< greatest kinetic energy over the external work by then, beyond 5 % strain
+  double kinetic_over_plastic = 0.0;    ///< the same over the plastic work, beyond 5 % strain
+  double kinetic_over_plastic_flowing = 0.0;  ///< the same beyond 10 %, where the knee of the curve is passed
+  double seconds = 0.0;                       ///< of wall time
+  std::uint64_t state_hash = 0;               ///< of the last state
 };
 
 /// Runs a preset's spec to its end, or to the moment at which it stopped. Throws std::invalid_argument with all problems of a
