@@ -80,22 +80,23 @@ std::optional<Front> find_front(const Columns& columns, const Profile& profile, 
   const int step = find_step(strains);
   const int behind = step - kColumnsOfFront;  // last column behind the front
   const int ahead = step + kColumnsOfFront;   // first column ahead of it
-  if (behind < kColumnsBeside || last - ahead < kColumnsBeside) {
+  const int middle = (ahead + last) / 2;      // of what lies ahead
+  if (behind < kColumnsBeside || middle - ahead < kColumnsBeside) {
     return std::nullopt;
   }
   Front front;
   front.strain_behind = mean_strain(columns, profile, 0, behind);
-  front.strain_ahead = mean_strain(columns, profile, ahead, last);
+  front.strain_ahead = mean_strain(columns, profile, ahead, middle);
   front.velocity_behind = mean_velocity(columns, profile, 0, behind);
   front.velocity_ahead = mean_velocity(columns, profile, ahead, last);
   const double jump = front.strain_behind - front.strain_ahead;
-  const double scatter = std::max(scatter_of(strains, 0, behind), scatter_of(strains, ahead, last));
+  const double scatter = std::max(scatter_of(strains, 0, behind), scatter_of(strains, ahead, middle));
   if (jump < kLeastJump || front.strain_behind >= 1.0 || scatter > kMostScatter * jump ||
       front.velocity_behind - front.velocity_ahead < kLeastVelocityJump * plate_speed) {
     return std::nullopt;
   }
-  const double length = columns.place[last] - columns.place[0];
-  const double shortening = profile.displacement[0] - profile.displacement[last];
+  const double length = columns.place[middle] - columns.place[0];
+  const double shortening = profile.displacement[0] - profile.displacement[middle];
   front.position = columns.place[0] + (shortening - front.strain_ahead * length) / jump;
   front.solid_fraction_behind = relative_density / (1.0 - front.strain_behind);
   const auto walls_behind = [&](const std::vector<double>& area) {

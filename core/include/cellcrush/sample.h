@@ -27,7 +27,7 @@ enum class CrushMode {
 struct Front {
   double position = 0.0;         ///< mm of the undeformed length, from the impact end
   double strain_behind = 0.0;    ///< nominal, mean from the impact end to the front
-  double strain_ahead = 0.0;     ///< nominal, mean from the front to the support end
+  double strain_ahead = 0.0;     ///< nominal, mean from the front half of the way to the support end
   double velocity_behind = 0.0;  ///< mm/s along the crush, mean over the mass
   double velocity_ahead = 0.0;
   double solid_fraction_behind =
