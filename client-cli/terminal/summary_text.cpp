@@ -125,7 +125,7 @@ std::string summary_text(const v1::Summary& summary, bool frame) {
     add_quasi_static_rows(table, summary);
   }
   table.add({"energy ledger error", percent_text(summary.energy_error_relative(), 2)});
-  table.add({"deepest penetration", percent_text(summary.deepest_penetration()), "", "of the touching distance"});
+  table.add({"deepest penetration", percent_text(summary.deepest_penetration()), "", "of the thinner wall"});
   std::string text = table.text(2);
   if (!frame && summary.has_front()) text += '\n' + front_text(summary.front());
   if (summary.has_ledger()) text += '\n' + ledger_text(summary.ledger());

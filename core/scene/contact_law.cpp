@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kMmPerM = 1e3;
 /// Share of the thinnest wall by which a free particle at plate speed sinks in.
-constexpr double kImpactDepth = 0.2;
+constexpr double kImpactDepth = 0.16;
 /// Most that a given step turns the lightest particle on its contact, rad.
 constexpr double kMostTurn = 0.6;
 /// Contact candidates are collected this share of the shortest element beyond touch.

