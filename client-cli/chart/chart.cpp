@@ -22,7 +22,7 @@ void apply(cairo_t* context, const LineStyle& style) {
   cairo_set_dash(context, style.dashes.data(), static_cast<int>(style.dashes.size()), 0.0);
 }
 
-// A disc is full and a square is open, so that both can be told apart without their colours.
+// A disc is full, a square open and a cross two strokes, so that they can be told apart without their colours.
 void draw_marker(cairo_t* context, double x, double y, const Curve& curve) {
   cairo_set_dash(context, nullptr, 0, 0.0);
   cairo_set_line_width(context, 1.4);
@@ -36,6 +36,13 @@ void draw_marker(cairo_t* context, double x, double y, const Curve& curve) {
     cairo_rectangle(context, x - half, y - half, 2.0 * half, 2.0 * half);
     set_colour(context, {1.0, 1.0, 1.0});
     cairo_fill_preserve(context);
+    set_colour(context, curve.style.colour);
+    cairo_stroke(context);
+  } else if (curve.marker == Marker::cross) {
+    for (const double slope : {1.0, -1.0}) {
+      cairo_move_to(context, x - kMarkerRadius, y - slope * kMarkerRadius);
+      cairo_line_to(context, x + kMarkerRadius, y + slope * kMarkerRadius);
+    }
     set_colour(context, curve.style.colour);
     cairo_stroke(context);
   }

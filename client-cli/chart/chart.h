@@ -15,7 +15,7 @@ struct LineStyle {
 };
 
 /// What stands at a point of a curve, in the colour of its line.
-enum class Marker { none, disc, square };
+enum class Marker { none, disc, square, cross };
 
 /// A line through points, and marks at them; x and y have equal length. Without a name it is not in the legend.
 struct Curve {

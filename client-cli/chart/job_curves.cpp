@@ -123,7 +123,12 @@ Chart build_job_chart(const JobHistory& history) {
   if (summary.theory().shock_mpa() > 0.0) {
     const v1::Theory& theory = summary.theory();
     chart.curves.push_back(level(theory.shock_mpa(), 0.0, chart.x.high, {kMutedInk, 1.4, {8.0, 4.0}},
-                                 "shock theory: " + number_text(theory.shock_mpa()) + " MPa"));
+                                 "Eq. 51: " + number_text(theory.shock_mpa()) + " MPa"));
+    if (summary.has_front()) {
+      const double shock = summary.front().shock_mpa();
+      chart.curves.push_back(level(shock, 0.0, chart.x.high, {kMutedInk, 1.4, {10.0, 3.0, 2.0, 3.0}},
+                                   "Eq. 52, jumps measured: " + number_text(shock) + " MPa"));
+    }
     chart.curves.push_back(level(theory.gibson_ashby_mpa(), 0.0, chart.x.high, {kMutedInk, 1.4, {2.0, 3.0}},
                                  "Gibson-Ashby: " + number_text(theory.gibson_ashby_mpa()) + " MPa"));
   }

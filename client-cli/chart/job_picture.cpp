@@ -5,11 +5,13 @@
 #include <algorithm>
 
 #include "chart/colour_map.h"
+#include "chart/energy_curves.h"
 #include "chart/node_curves.h"
 #include "chart/stage_panels.h"
 #include "chart/sweep_curves.h"
 #include "terminal/case_text.h"
 #include "terminal/lattice_text.h"
+#include "terminal/summary_text.h"
 
 namespace cellcrush::client {
 
@@ -22,6 +24,8 @@ constexpr double kInner = kWidth - 2.0 * kMargin;
 constexpr double kTitleHeight = 50.0;
 constexpr double kColourBarRoom = 380.0;  // of the subtitle's line
 constexpr double kChartHeight = 400.0;
+constexpr double kEnergyHeight = 300.0;
+constexpr double kChartGap = 14.0;
 const TextStyle kTitleStyle{.size = 18.0, .bold = true};
 const TextStyle kSubtitleStyle{.size = 12.5, .colour = kMutedInk};
 
@@ -40,6 +44,10 @@ void draw_plastic_bar(cairo_t* context, double top) {
 std::string subtitle_of(const v1::Job& job) {
   const std::string scene = scene_text(job.case_());
   std::string text = scene.empty() ? job.name() : scene + "   (" + job.name() + ")";
+  const v1::CrushMode mode = job.summary().crush_mode();
+  if (mode != v1::CRUSH_MODE_UNSPECIFIED && mode != v1::CRUSH_MODE_NONE) {
+    text += ", crush mode " + crush_mode_text(mode);
+  }
   if (job.state() != v1::SUCCEEDED) text += ", " + v1::JobState_Name(job.state());
   return text;
 }
@@ -70,8 +78,9 @@ std::string sweep_subtitle(const std::string& name, const v1::SweepTable& table)
 std::string render_job_picture(PictureFormat format, const JobHistory& history, const std::vector<MeshFrame>& stages) {
   constexpr double kTop = kMargin + kTitleHeight;
   const StagePanels panels = stages.empty() ? StagePanels{{}, {}, kTop} : lay_stages(stages, kMargin, kTop, kInner);
-  const double height = panels.bottom + kChartHeight + kMargin;
   const bool frame = history.job.case_().lattice().has_frame();
+  const double curves_bottom = panels.bottom + kChartHeight + kChartGap;
+  const double height = curves_bottom + (frame ? 0.0 : kEnergyHeight) + kMargin;
   return render_picture(format, kWidth, height, [&](cairo_t* context) {
     draw_title(context, picture_name(history.job), subtitle_of(history.job), kInner, kInner - kColourBarRoom);
     if (!stages.empty()) {
@@ -80,6 +89,7 @@ std::string render_job_picture(PictureFormat format, const JobHistory& history, 
     }
     draw_chart(context, {kMargin, panels.bottom, kInner, kChartHeight},
                frame ? build_node_chart(history) : build_job_chart(history));
+    if (!frame) draw_chart(context, {kMargin, curves_bottom, kInner, kEnergyHeight}, build_energy_chart(history));
   });
 }
 

@@ -9,7 +9,8 @@
 
 namespace cellcrush::client {
 
-/// The picture of one job: the lattice at each of `stages` (may be empty), all at one scale, above its curves.
+/// The picture of one job: the lattice at each of `stages` (may be empty), all at one scale, above its curves; of a
+/// crush these are the stresses and the ledger.
 std::string render_job_picture(PictureFormat format, const JobHistory& history, const std::vector<MeshFrame>& stages);
 
 /// The stages alone, without a title, as a figure with a caption needs them. REQUIRES: stages is not empty.

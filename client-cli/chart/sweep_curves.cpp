@@ -68,7 +68,8 @@ std::string fit_name(const QuadraticFit& fit) {
   const auto term = [](double value, const char* factor) {
     return fmt::format(" {} {} {}", std::signbit(value) ? "−" : "+", digits_text(std::abs(value)), factor);
   };
-  return "quadratic fit: " + digits_text(fit.constant) + term(fit.linear, "V") + term(fit.quadratic, "V²");
+  const char* kind = fit.passes_through() ? "quadratic through the points: " : "quadratic fit: ";
+  return kind + digits_text(fit.constant) + term(fit.linear, "V") + term(fit.quadratic, "V²");
 }
 
 // Theory's two stresses over a series, in muted or in the series' own colour.
@@ -90,6 +91,17 @@ void add_theory(Chart& chart, const ResultSeries& series, bool speed, const Colo
       {series.x, values_of(series, quasi_static), dotted, named ? "Gibson-Ashby (quasi-static)" : ""});
 }
 
+// Eq. 52 at those jobs that have a front.
+void add_measured_shock(Chart& chart, const ResultSeries& series, const Colour& colour, const char* name) {
+  Curve curve{{}, {}, {colour, 0.0, {}}, name, Marker::cross};
+  for (std::size_t i = 0; i < series.x.size(); ++i) {
+    if (!series.summaries[i]->has_front()) continue;
+    curve.x.push_back(series.x[i]);
+    curve.y.push_back(series.summaries[i]->front().shock_mpa());
+  }
+  if (!curve.x.empty()) chart.curves.push_back(std::move(curve));
+}
+
 // The plateau at the impact plate: marks, and as a line the fit where there is one.
 void add_impact(Chart& chart, const ResultSeries& series, const std::optional<QuadraticFit>& fit, const Colour& colour,
                 const std::string& name) {
@@ -104,6 +116,7 @@ void add_only_series(Chart& chart, const ResultSeries& series, bool speed) {
   const LineStyle solid{kImpactColour, 1.6, {}};
   if (fit) chart.curves.push_back(sampled(*fit, series.x.front(), series.x.back(), solid, fit_name(*fit)));
   add_theory(chart, series, speed, kMutedInk, true);
+  add_measured_shock(chart, series, kInk, "Eq. 52 (shock, jumps measured)");
 }
 
 void add_series(Chart& chart, const ResultSeries& series, bool speed, const Colour& colour) {
@@ -115,6 +128,7 @@ void add_series(Chart& chart, const ResultSeries& series, bool speed, const Colo
   Colour faint = colour;
   faint.opacity = 0.55;
   add_theory(chart, series, speed, faint, false);
+  add_measured_shock(chart, series, colour, "");
 }
 
 double highest(const Chart& chart) {
@@ -150,7 +164,7 @@ Chart build_sweep_chart(const v1::SweepTable& table) {
       add_series(chart, all[i], speed, kSeriesColours[i % kSeriesColours.size()]);
     chart.note = "discs: impact plate; squares: support plate; ";
     if (speed) chart.note += "solid: quadratic fit; ";
-    chart.note += "dashed: Eq. 51; dotted: Gibson-Ashby";
+    chart.note += "dashed: Eq. 51; crosses: Eq. 52; dotted: Gibson-Ashby";
   }
   const double top = highest(chart);
   chart.y.high = top > 0.0 ? 1.08 * top : 1.0;

@@ -5,7 +5,7 @@
 
 namespace cellcrush::client {
 
-/// Plateau stress at both plates against the first varied field, with Eq. 51 and Gibson-Ashby beside it; when speed alone
+/// Plateau stress at both plates against the first varied field, with Eq. 51, Eq. 52 and Gibson-Ashby beside it; when speed alone
 /// is varied also the quadratic fit. Several varied fields give a series a combination of the others. Throws CommandError
 /// (refused) when no job has a plateau yet, or nothing is varied.
 Chart build_sweep_chart(const v1::SweepTable& table);

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <iterator>
+#include <optional>
 
 #include "terminal/csv_cell.h"
 
@@ -14,26 +15,47 @@ namespace {
 
 struct Column {
   const char* name;
-  double (v1::Sample::*value)() const;
+  std::optional<double> (*value)(const v1::Sample& sample);
 };
 
+template <double (v1::Sample::*Get)() const>
+constexpr Column sample_column(const char* name) {
+  return {name, [](const v1::Sample& sample) { return std::optional((sample.*Get)()); }};
+}
+
+template <double (v1::Front::*Get)() const>
+constexpr Column front_column(const char* name) {
+  return {name, [](const v1::Sample& sample) {
+            return sample.has_front() ? std::optional((sample.front().*Get)()) : std::nullopt;
+          }};
+}
+
 constexpr std::array kColumns = {
-    Column{"time_s", &v1::Sample::time_s},
-    Column{"travel_mm", &v1::Sample::travel_mm},
-    Column{"strain", &v1::Sample::strain},
-    Column{"stress_impact_mpa", &v1::Sample::stress_impact_mpa},
-    Column{"stress_support_mpa", &v1::Sample::stress_support_mpa},
-    Column{"energy_kinetic_mj", &v1::Sample::energy_kinetic_mj},
-    Column{"energy_elastic_mj", &v1::Sample::energy_elastic_mj},
-    Column{"energy_plastic_mj", &v1::Sample::energy_plastic_mj},
-    Column{"energy_contact_mj", &v1::Sample::energy_contact_mj},
-    Column{"energy_friction_mj", &v1::Sample::energy_friction_mj},
-    Column{"energy_damping_mj", &v1::Sample::energy_damping_mj},
-    Column{"work_external_mj", &v1::Sample::work_external_mj},
-    Column{"energy_residual_mj", &v1::Sample::energy_residual_mj},
-    Column{"energy_contact_stored_mj", &v1::Sample::energy_contact_stored_mj},
-    Column{"energy_contact_damping_mj", &v1::Sample::energy_contact_damping_mj},
-    Column{"deepest_penetration", &v1::Sample::deepest_penetration},
+    sample_column<&v1::Sample::time_s>("time_s"),
+    sample_column<&v1::Sample::travel_mm>("travel_mm"),
+    sample_column<&v1::Sample::strain>("strain"),
+    sample_column<&v1::Sample::stress_impact_mpa>("stress_impact_mpa"),
+    sample_column<&v1::Sample::stress_support_mpa>("stress_support_mpa"),
+    sample_column<&v1::Sample::energy_kinetic_mj>("energy_kinetic_mj"),
+    sample_column<&v1::Sample::energy_elastic_mj>("energy_elastic_mj"),
+    sample_column<&v1::Sample::energy_plastic_mj>("energy_plastic_mj"),
+    sample_column<&v1::Sample::energy_contact_mj>("energy_contact_mj"),
+    sample_column<&v1::Sample::energy_friction_mj>("energy_friction_mj"),
+    sample_column<&v1::Sample::energy_damping_mj>("energy_damping_mj"),
+    sample_column<&v1::Sample::work_external_mj>("work_external_mj"),
+    sample_column<&v1::Sample::energy_residual_mj>("energy_residual_mj"),
+    sample_column<&v1::Sample::energy_contact_stored_mj>("energy_contact_stored_mj"),
+    sample_column<&v1::Sample::energy_contact_damping_mj>("energy_contact_damping_mj"),
+    sample_column<&v1::Sample::deepest_penetration>("deepest_penetration"),
+    sample_column<&v1::Sample::solid_fraction>("solid_fraction"),
+    sample_column<&v1::Sample::collapsed_fraction>("collapsed_fraction"),
+    front_column<&v1::Front::position_mm>("front_position_mm"),
+    front_column<&v1::Front::strain_behind>("front_strain_behind"),
+    front_column<&v1::Front::strain_ahead>("front_strain_ahead"),
+    front_column<&v1::Front::velocity_behind_m_per_s>("front_velocity_behind_m_per_s"),
+    front_column<&v1::Front::velocity_ahead_m_per_s>("front_velocity_ahead_m_per_s"),
+    front_column<&v1::Front::solid_fraction_behind>("front_solid_fraction_behind"),
+    front_column<&v1::Front::wall_fraction_behind>("front_wall_fraction_behind"),
 };
 
 }  // namespace
@@ -49,7 +71,8 @@ std::string history_csv(const google::protobuf::RepeatedPtrField<v1::Sample>& sa
   for (const v1::Sample& sample : samples) {
     const char* separator = "";
     for (const Column& column : kColumns) {
-      fmt::format_to(std::back_inserter(text), "{}{}", separator, (sample.*column.value)());
+      text += separator;
+      if (const auto value = column.value(sample)) fmt::format_to(std::back_inserter(text), "{}", *value);
       separator = ",";
     }
     text += '\n';

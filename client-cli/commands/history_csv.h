@@ -12,7 +12,8 @@ namespace cellcrush::client {
 /// The first line of a history file: the names of its columns, those of /history in result.h5 first.
 std::string history_header();
 
-/// Samples as CSV, a line each below the header; numbers are written so that they read back to the same bits.
+/// Samples as CSV, a line each below the header; numbers are written so that they read back to the same bits, and
+/// what a sample lacks (a front) is empty.
 std::string history_csv(const google::protobuf::RepeatedPtrField<v1::Sample>& samples);
 
 /// The first line of a file of watched nodes.

@@ -42,6 +42,7 @@ std::optional<QuadraticFit> find_quadratic_fit(const std::vector<double>& x, con
   const double along_p = product(y, p) / product(p, p);
   const double along_q = product(y, q) / product(q, q);
   QuadraticFit fit;
+  fit.point_count = static_cast<int>(x.size());
   fit.quadratic = along_q;
   fit.linear = along_p - along_q * (slope + 2.0 * centre);
   fit.constant = mean(y) - along_p * centre + along_q * (centre * centre + slope * centre - offset);

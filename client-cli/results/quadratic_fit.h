@@ -11,6 +11,10 @@ struct QuadraticFit {
   double linear = 0.0;
   double quadratic = 0.0;
   double largest_residual = 0.0;  ///< greatest |y - fit| over the points
+  int point_count = 0;
+
+  /// Whether it passes through all of its points whatever they are, so that its residual is round-off.
+  [[nodiscard]] bool passes_through() const { return point_count == 3; }
 
   [[nodiscard]] double at(double x) const { return constant + x * (linear + x * quadratic); }
 };

@@ -47,6 +47,10 @@ const std::vector<ResultColumn>& result_columns() {
        [](const v1::Summary& s) { return theory(s, s.theory().gibson_ashby_mpa()); }},
       {"theory", "Eq. 51", "MPa", "shock_mpa", 1.0,
        [](const v1::Summary& s) { return theory(s, s.theory().shock_mpa()); }},
+      {"theory", "Eq. 52", "MPa", "front_shock_mpa", 1.0,
+       [](const v1::Summary& s) { return known(s.has_front(), s.front().shock_mpa()); }},
+      {"front", "strain", "", "front_strain_behind", 1.0,
+       [](const v1::Summary& s) { return known(s.has_front(), s.front().strain_behind()); }},
       {"ledger", "error", "%", "energy_error_relative", 100.0,
        [](const v1::Summary& s) { return known(s.step_count() > 0, s.energy_error_relative()); }},
   };
@@ -105,7 +109,7 @@ std::optional<QuadraticFit> find_shock_curve(const ResultSeries& series) {
     const v1::Theory& job_theory = series.summaries[i]->theory();
     if (series.x[i] <= 0.0 || job_theory.shock_mpa() <= 0.0) continue;
     const double rise = job_theory.shock_mpa() - job_theory.gibson_ashby_mpa();
-    return QuadraticFit{job_theory.gibson_ashby_mpa(), 0.0, rise / (series.x[i] * series.x[i]), 0.0};
+    return QuadraticFit{job_theory.gibson_ashby_mpa(), 0.0, rise / (series.x[i] * series.x[i]), 0.0, 0};
   }
   return std::nullopt;
 }

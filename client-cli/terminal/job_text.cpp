@@ -10,6 +10,7 @@
 #include "exit_code.h"
 #include "terminal/case_text.h"
 #include "terminal/number_text.h"
+#include "terminal/summary_text.h"
 #include "terminal/table.h"
 
 namespace cellcrush::client {
@@ -22,39 +23,6 @@ using google::protobuf::util::TimeUtil;
 std::string run_time_text(const v1::Job& job) {
   if (!job.has_start_time() || !job.has_end_time()) return {};
   return duration_text(1e-3 * static_cast<double>(TimeUtil::DurationToMilliseconds(job.end_time() - job.start_time())));
-}
-
-std::string stress_text(double stress) { return number_text(stress) + " MPa"; }
-
-void add_crush_rows(Table& table, const v1::Summary& summary) {
-  const std::string window =
-      fmt::format("{:.0f}-{:.0f} %", 100 * summary.plateau_window_low(), 100 * summary.plateau_window_high());
-  const bool theory = summary.has_theory() && summary.theory().shock_mpa() > 0;
-  const auto stress_row = [&](const char* plate, bool known, double stress, double expected, const char* source) {
-    table.add({fmt::format("plateau stress, {}, {}", plate, window), known ? stress_text(stress) : "not reached",
-               theory ? stress_text(expected) : "", theory ? source : ""});
-  };
-  table.add({"", "computed", theory ? "theory" : ""});
-  stress_row("impact plate", summary.has_plateau_stress_impact_mpa(), summary.plateau_stress_impact_mpa(),
-             summary.theory().shock_mpa(), "shock (Eq. 51)");
-  stress_row("support plate", summary.has_plateau_stress_support_mpa(), summary.plateau_stress_support_mpa(),
-             summary.theory().gibson_ashby_mpa(), "quasi-static (Gibson-Ashby)");
-  table.add({"densification strain",
-             summary.has_densification_strain() ? number_text(summary.densification_strain()) : "not reached",
-             theory ? number_text(summary.theory().densification_strain()) : "",
-             theory ? "1 - 1.4 relative density" : ""});
-  if (summary.has_plateau_stress_to_densification_mpa()) {
-    table.add({"plateau stress up to densification", stress_text(summary.plateau_stress_to_densification_mpa())});
-  }
-  table.add({"energy absorbed up to 50 % strain", number_text(1e-3 * summary.absorbed_energy_mj()) + " J"});
-}
-
-std::string summary_text(const v1::Summary& summary, bool frame) {
-  Table table({Align::left, Align::right, Align::right, Align::left});
-  if (!frame) add_crush_rows(table, summary);
-  table.add({"energy ledger error", percent_text(summary.energy_error_relative(), 2)});
-  table.add({"deepest penetration", percent_text(summary.deepest_penetration()), "", "of the touching distance"});
-  return table.text(2);
 }
 
 void add_progress_rows(Table& table, const v1::Job& job) {

@@ -8,6 +8,7 @@
 #include "results/sweep_results.h"
 #include "terminal/csv_cell.h"
 #include "terminal/number_text.h"
+#include "terminal/summary_text.h"
 #include "terminal/table.h"
 
 namespace cellcrush::client {
@@ -23,8 +24,9 @@ std::string window_text(const v1::SweepTable& table) {
     if (summary.plateau_window_high() <= summary.plateau_window_low()) continue;
     return fmt::format(
         "plateau: mean stress at the plate from {:.0f} to {:.0f} % strain; to dens.: at the impact plate up to "
-        "the densification strain\nabsorbed energy: work of the impact plate up to 50 % strain; theory: "
-        "Gibson-Ashby (quasi-static) and Eq. 51 (shock)\n",
+        "the densification strain\nabsorbed energy: work of the impact plate up to 50 % strain; front strain: of the "
+        "material behind the front\ntheory: Gibson-Ashby (quasi-static), Eq. 51 (shock), Eq. 52 (shock with the jumps "
+        "measured at the front); crush mode: where cells collapse\n",
         100 * summary.plateau_window_low(), 100 * summary.plateau_window_high());
   }
   return {};
@@ -40,10 +42,11 @@ std::string fit_text(const v1::SweepTable& table) {
   if (!varies_speed_first(table) || table.fields_size() != 1 || all.empty()) return {};
   const auto fit = find_plateau_fit(all.front());
   if (!fit) return {};
-  std::string text = fmt::format(
-      "\nplateau at the impact plate in MPa, V in m/s\n  least-squares fit: {:.4g}{}{}, off by at most {}\n",
-      fit->constant, signed_term(fit->linear, "V"), signed_term(fit->quadratic, "V^2"),
-      number_text(fit->largest_residual, 2));
+  std::string text = fmt::format("\nplateau at the impact plate in MPa, V in m/s\n  {}{:.4g}{}{}, {}\n",
+                                 fit->passes_through() ? "quadratic:         " : "least-squares fit: ", fit->constant,
+                                 signed_term(fit->linear, "V"), signed_term(fit->quadratic, "V^2"),
+                                 fit->passes_through() ? "through the three points, so that it shows no error"
+                                                       : "off by at most " + number_text(fit->largest_residual, 2));
   if (const auto shock = find_shock_curve(all.front())) {
     text += fmt::format("  Eq. 51:            {:.4g}{}\n", shock->constant, signed_term(shock->quadratic, "V^2"));
   }
@@ -69,6 +72,7 @@ std::string sweep_table_text(const v1::SweepTable& results) {
   std::vector<Align> alignment(fields, Align::right);
   alignment.insert(alignment.end(), {Align::left, Align::left});
   alignment.insert(alignment.end(), result_columns().size(), Align::right);
+  alignment.push_back(Align::left);
   Table table(alignment);
   std::vector<std::string> groups(fields + 2);
   std::vector<std::string> headings(results.fields().begin(), results.fields().end());
@@ -79,6 +83,8 @@ std::string sweep_table_text(const v1::SweepTable& results) {
     headings.emplace_back(column.heading);
     units.emplace_back(column.unit);
   }
+  groups.emplace_back("crush");
+  headings.emplace_back("mode");
   for (auto* heading : {&groups, &headings, &units}) table.add(std::move(*heading));
   for (const Row& row : results.rows()) {
     std::vector<std::string> cells;
@@ -89,6 +95,8 @@ std::string sweep_table_text(const v1::SweepTable& results) {
       const auto value = column.value(row.result().summary());
       cells.push_back(value ? number_text(column.scale * *value) : "-");
     }
+    const std::string mode = crush_mode_text(row.result().summary().crush_mode());
+    cells.push_back(mode.empty() ? "-" : mode);
     table.add(std::move(cells));
   }
   std::string text = table.text();
@@ -101,7 +109,7 @@ std::string sweep_table_csv(const v1::SweepTable& results) {
   for (const std::string& field : results.fields()) text += csv_cell(field) + ',';
   text += "job,state";
   for (const ResultColumn& column : result_columns()) text += fmt::format(",{}", column.field);
-  text += '\n';
+  text += ",crush_mode\n";
   for (const Row& row : results.rows()) {
     for (int i = 0; i < results.fields_size(); ++i) {
       text += (i < row.values_size() ? value_text(row.values(i)) : std::string()) + ',';
@@ -111,7 +119,7 @@ std::string sweep_table_csv(const v1::SweepTable& results) {
       const auto value = column.value(row.result().summary());
       text += ',' + (value ? fmt::format("{}", *value) : std::string());
     }
-    text += '\n';
+    text += ',' + crush_mode_text(row.result().summary().crush_mode()) + '\n';
   }
   return text;
 }

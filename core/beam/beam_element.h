@@ -15,14 +15,6 @@ struct Bend {
   double end;
 };
 
-/// What the sections of an element sum to (Eq. 28, row by row), before its area and thickness are put on. MPa.
-struct ElementSums {
-  double axial = 0.0;
-  EndMoments moments;
-  double plastic_work = 0.0;
-  PerSection moment{};  ///< of each section
-};
-
 /// Returns the fibres of all sections under given increments of curvature, and sums them.
 template <int kDepthPoints, bool kHardening>
 ElementSums return_element(const Material& material, const SectionRule& rule, double membrane,
@@ -48,23 +40,23 @@ template <int kDepthPoints, bool kHardening>
 ElementSums return_balanced(const Material& material, const SectionRule& rule, double membrane, Bend bend,
                             const EndMoments& before, Fibres fibres, FibreStep next, SectionMemory memory) {
   constexpr int kMostPasses = 4;  // one is enough in 97 of 100 steps of an element
+  const bool straight = is_straight(rule, memory);
+  PerSection curvature = straight ? straight_curvatures(rule, bend.start, bend.end)
+                                  : balanced_curvatures(rule, material, before, memory, bend.start, bend.end);
+  ElementSums element = return_element<kDepthPoints, kHardening>(material, rule, membrane, curvature, fibres, next);
+  if (straight && element.plastic_work == 0.0) {
+    return element;  // elastic: in balance by itself, and nothing to remember
+  }
   const PerSection moment_before = moments_of_sections(rule, before, memory);
-  PerSection curvature = is_straight(rule, memory)
-                             ? straight_curvatures(rule, bend.start, bend.end)
-                             : balanced_curvatures(rule, material, before, memory, bend.start, bend.end);
-  for (int pass = 1;; ++pass) {
-    const ElementSums element =
-        return_element<kDepthPoints, kHardening>(material, rule, membrane, curvature, fibres, next);
-    const bool balanced =
-        remember_sections(rule, material, moment_before, element.moments, element.moment, curvature, memory);
-    if (balanced || pass == kMostPasses) {
-      return element;
-    }
+  for (int pass = 1;
+       !remember_sections(rule, material, moment_before, element, curvature, memory) && pass < kMostPasses; ++pass) {
     const PerSection moved = balanced_curvatures(rule, material, element.moments, memory, 0.0, 0.0);
     for (std::size_t i = 0; i < rule.section_count(); ++i) {
       curvature[i] += moved[i];
     }
+    element = return_element<kDepthPoints, kHardening>(material, rule, membrane, curvature, fibres, next);
   }
+  return element;
 }
 
 /// Integrates the fibres of a straight two-node element over a step and gives its nodal forces in the fixed frame

@@ -68,8 +68,7 @@ PerSection moments_of_sections(const SectionRule& rule, const EndMoments& moment
 }
 
 bool remember_sections(const SectionRule& rule, const Material& material, const PerSection& before,
-                       const EndMoments& moments, const PerSection& after, const PerSection& curvature,
-                       SectionMemory memory) {
+                       const ElementSums& now, const PerSection& curvature, SectionMemory memory) {
   constexpr double kRoundOff = 1e-12;  // of Young's modulus
   constexpr double kInBalance = 0.02;  // of the full plastic moment
   const double youngs_modulus = material.youngs_modulus;
@@ -78,10 +77,10 @@ bool remember_sections(const SectionRule& rule, const Material& material, const 
     const double s = rule.along[static_cast<Eigen::Index>(i)];
     const double elastic_increment = youngs_modulus / 12.0 * curvature[i];
     if (std::abs(elastic_increment) > kRoundOff * youngs_modulus) {
-      const double tangent = (after[i] - before[i]) / elastic_increment;
+      const double tangent = (now.moment[i] - before[i]) / elastic_increment;
       memory.tangent[i] = tangent > 1.0 - 1e-6 ? 1.0 : std::max(tangent, kLeastTangent);
     }
-    const double unbalance = moments.at(s) - after[i];
+    const double unbalance = now.moments.at(s) - now.moment[i];
     memory.unbalance[i] = std::abs(unbalance) > kRoundOff * youngs_modulus ? unbalance : 0.0;
     worst = std::max(worst, std::abs(unbalance));
   }

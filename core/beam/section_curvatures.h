@@ -27,6 +27,14 @@ struct EndMoments {
   [[nodiscard]] double at(double s) const { return (1.0 - s) * start - s * end; }
 };
 
+/// What the sections of an element sum to (Eq. 28, row by row), before its area and thickness are put on. MPa.
+struct ElementSums {
+  double axial = 0.0;
+  EndMoments moments;
+  double plastic_work = 0.0;
+  PerSection moment{};  ///< of each section
+};
+
 /// Increments of curvature times h that are a straight line along the element (Eq. 27), from the end rotations times h / l.
 inline PerSection straight_curvatures(const SectionRule& rule, double bend_start, double bend_end) {
   PerSection curvature;
@@ -47,11 +55,10 @@ PerSection balanced_curvatures(const SectionRule& rule, const Material& material
 /// Moments of the sections over b h^2 that the memory tells, MPa.
 PerSection moments_of_sections(const SectionRule& rule, const EndMoments& moments, SectionMemory memory);
 
-/// Brings the memory up to date after the sections' moments have gone from `before` to `after` under increments of curvature
-/// times h; `moments` are the end moments now. Returns whether every section is in balance to 2 % of the full plastic moment.
+/// Brings the memory up to date after the sections' moments have gone from `before` to those of `now` under increments of
+/// curvature times h. Returns whether every section is in balance to 2 % of the full plastic moment.
 bool remember_sections(const SectionRule& rule, const Material& material, const PerSection& before,
-                       const EndMoments& moments, const PerSection& after, const PerSection& curvature,
-                       SectionMemory memory);
+                       const ElementSums& now, const PerSection& curvature, SectionMemory memory);
 
 /// Whether the curvature of an element at rest in `memory` is a straight line: all sections elastic and balanced.
 bool is_straight(const SectionRule& rule, SectionMemory memory);

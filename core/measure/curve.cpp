@@ -34,17 +34,17 @@ std::optional<double> Curve::mean(double low, double high) const {
   return (integral(high) - integral(low)) / (high - low);
 }
 
-std::optional<double> Curve::densification() const {
-  constexpr double kHalfWindow = 0.005;
+std::optional<double> Curve::densification(double window) const {
+  const double half = 0.5 * window;
   constexpr double kFall = 0.95;
   double greatest = 0.0;
   double onset = 0.0;
   double newest = 0.0;
   for (const double strain : strain_) {
-    if (strain < kHalfWindow || strain > strain_.back() - kHalfWindow) {
+    if (strain < half || strain > strain_.back() - half) {
       continue;
     }
-    const double smooth = (integral(strain + kHalfWindow) - integral(strain - kHalfWindow)) / (2.0 * kHalfWindow);
+    const double smooth = (integral(strain + half) - integral(strain - half)) / (2.0 * half);
     if (smooth <= 0.0) {
       continue;
     }

@@ -22,8 +22,9 @@ class Curve {
 
   /// Onset of densification: the strain of the greatest maximum of the energy-absorption efficiency
   ///   eta(eps) = (1 / sigma) integral_0^eps sigma d eps,
-  /// sigma smoothed over 0.01 of strain. Nothing while eta has not fallen by 5 % after it.
-  [[nodiscard]] std::optional<double> densification() const;
+  /// sigma smoothed over a window of strain. Nothing while eta has not fallen by 5 % after it.
+  static constexpr double kSmoothing = 0.01;
+  [[nodiscard]] std::optional<double> densification(double window = kSmoothing) const;
 
  private:
   std::vector<double> strain_;    // of the samples, with a 0 before them

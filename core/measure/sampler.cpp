@@ -1,8 +1,48 @@
 #include "measure/sampler.h"
 
 #include "energy/ledger.h"
+#include "measure/crush_mode.h"
+#include "measure/front.h"
+#include "measure/theory.h"
 
 namespace cellcrush {
+namespace {
+
+/// The crush mode is looked for each time that so many more of the cells have collapsed: it takes as long as many steps.
+constexpr double kLookEvery = 0.04;
+
+}  // namespace
+
+Sampler::Sampler(const Scene& scene) : next_look_(kModeFrom) {
+  if (scene.plates.present) {
+    cells_ = find_cells(scene);
+    columns_ = divide_into_columns(scene, cells_.field.pitch);
+    relative_density_ = relative_density_of(scene);
+  }
+}
+
+void Sampler::measure_stress(const Scene& scene, const State& state, Sample& sample) {
+  const double area_times_interval = scene.width * scene.depth * (state.time - last_time_);
+  if (area_times_interval > 0.0) {
+    sample.stress_impact = (state.impact_impulse - last_impact_impulse_) / area_times_interval;
+    sample.stress_support = (state.support_impulse - last_support_impulse_) / area_times_interval;
+  }
+  last_time_ = state.time;
+  last_impact_impulse_ = state.impact_impulse;
+  last_support_impulse_ = state.support_impulse;
+}
+
+void Sampler::measure_collapse(const Scene& scene, const State& state, Sample& sample) {
+  sample.solid_fraction = relative_density_ / (1.0 - sample.strain);
+  const CollapseField field = find_collapse(cells_, state.position);
+  sample.collapsed_fraction = collapsed_fraction_of(field);
+  if (sample.collapsed_fraction >= next_look_ && next_look_ <= kModeTo) {
+    sample.crush_mode = find_crush_mode(field);
+    next_look_ = sample.collapsed_fraction + kLookEvery;
+  }
+  sample.front = find_front(columns_, measure_columns(columns_, scene, state), scene.plates.speed_at(state.time),
+                            relative_density_);
+}
 
 Sample Sampler::take(const Scene& scene, const State& state) {
   Sample sample;
@@ -11,14 +51,8 @@ Sample Sampler::take(const Scene& scene, const State& state) {
   sample.travel = state.impact_travel;
   if (scene.plates.present) {
     sample.strain = state.impact_travel / scene.length;
-    const double area_times_interval = scene.width * scene.depth * (state.time - last_time_);
-    if (area_times_interval > 0.0) {
-      sample.stress_impact = (state.impact_impulse - last_impact_impulse_) / area_times_interval;
-      sample.stress_support = (state.support_impulse - last_support_impulse_) / area_times_interval;
-    }
-    last_time_ = state.time;
-    last_impact_impulse_ = state.impact_impulse;
-    last_support_impulse_ = state.support_impulse;
+    measure_stress(scene, state, sample);
+    measure_collapse(scene, state, sample);
   }
   const Energies energies = evaluate_energies(scene, state);
   sample.energy_kinetic = energies.kinetic;

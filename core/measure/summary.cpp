@@ -2,7 +2,9 @@
 #include <cmath>
 
 #include "cellcrush/simulation.h"
+#include "measure/collapse.h"
 #include "measure/curve.h"
+#include "measure/shock.h"
 #include "measure/theory.h"
 
 namespace cellcrush {
@@ -24,7 +26,83 @@ double energy_error_of(std::span<const Sample> samples) {
   return error;
 }
 
+/// Strain over which the stress is smoothed to find densification. The stress behind a front swings as column after column
+/// of cells is run over, which is no densification: it is smoothed over two columns at least.
+double smoothing_window(const Scene& scene, bool front) {
+  return front ? std::max(Curve::kSmoothing, 2.0 * find_cells(scene).field.pitch / scene.length) : Curve::kSmoothing;
+}
+
+/// The mode that most looks at the collapse gave.
+void set_crush_mode(std::span<const Sample> samples, Summary& summary) {
+  const auto looks = [&](CrushMode mode) {
+    return std::count_if(samples.begin(), samples.end(),
+                         [&](const Sample& sample) { return sample.crush_mode == mode; });
+  };
+  for (const Sample& sample : samples) {
+    if (sample.crush_mode == CrushMode::none) {
+      continue;
+    }
+    if (summary.crush_mode == CrushMode::none || looks(sample.crush_mode) > looks(summary.crush_mode)) {
+      summary.crush_mode = sample.crush_mode;
+      summary.crush_mode_strain = sample.strain;
+    }
+  }
+}
+
+/// Difference of both plates' mean stresses over a range of strain, over the mean of both; nothing where there is no stress.
+std::optional<double> plate_difference(const Curve& impact, const Curve& support, double low, double high) {
+  const auto impact_mean = impact.mean(low, high);
+  const auto support_mean = support.mean(low, high);
+  if (!impact_mean || !support_mean || *impact_mean + *support_mean <= 0.0) {
+    return std::nullopt;
+  }
+  return 2.0 * std::abs(*impact_mean - *support_mean) / (*impact_mean + *support_mean);
+}
+
+double kinetic_share(std::span<const Sample> samples) {
+  double share = 0.0;
+  for (const Sample& sample : samples) {
+    if (sample.strain >= Summary::kQuasiStaticFrom && sample.energy_plastic > sample.energy_elastic) {
+      share = std::max(share, sample.energy_kinetic / sample.energy_plastic);
+    }
+  }
+  return share;
+}
+
+std::optional<QuasiStatic> find_quasi_static(std::span<const Sample> samples, const Curve& impact,
+                                             const Curve& support) {
+  constexpr double kRoundOff = 1e-9;
+  constexpr double kFrom = Summary::kQuasiStaticFrom;
+  constexpr double kWindow = Summary::kQuasiStaticWindow;
+  const double end = samples.back().strain;
+  const int windows = static_cast<int>((end - kFrom) / kWindow + kRoundOff);
+  const auto whole = windows > 0 ? plate_difference(impact, support, kFrom, end) : std::nullopt;
+  if (!whole) {
+    return std::nullopt;
+  }
+  QuasiStatic found{*whole, *whole, kinetic_share(samples)};
+  for (int i = 0; i < windows; ++i) {
+    const auto part = plate_difference(impact, support, kFrom + i * kWindow, kFrom + (i + 1) * kWindow);
+    found.plate_difference_greatest = std::max(found.plate_difference_greatest, part.value_or(0.0));
+  }
+  return found;
+}
+
 }  // namespace
+
+std::optional<double> Summary::shock_error() const {
+  if (!plateau_stress_impact || *plateau_stress_impact <= 0.0 || theory.shock <= 0.0) {
+    return std::nullopt;
+  }
+  return theory.shock / *plateau_stress_impact - 1.0;
+}
+
+std::optional<double> Summary::front_shock_error() const {
+  if (!plateau_stress_impact || *plateau_stress_impact <= 0.0 || !front) {
+    return std::nullopt;
+  }
+  return front->shock / *plateau_stress_impact - 1.0;
+}
 
 Summary summarize(const Scene& scene, std::span<const Sample> samples) {
   Summary summary;
@@ -42,10 +120,16 @@ Summary summarize(const Scene& scene, std::span<const Sample> samples) {
   const Curve support(samples, &Sample::stress_support);
   summary.plateau_stress_impact = impact.mean(Summary::kPlateauLow, Summary::kPlateauHigh);
   summary.plateau_stress_support = support.mean(Summary::kPlateauLow, Summary::kPlateauHigh);
-  summary.densification_strain = impact.densification();
+  if (summary.plateau_stress_support) {
+    summary.front = summarize_front(scene, samples, *summary.plateau_stress_support);
+  }
+  summary.densification_strain = impact.densification(smoothing_window(scene, summary.front.has_value()));
   if (summary.densification_strain) {
     summary.plateau_stress_to_densification = impact.mean(0.0, *summary.densification_strain);
+    summary.solid_fraction_at_densification = relative_density_of(scene) / (1.0 - *summary.densification_strain);
   }
+  set_crush_mode(samples, summary);
+  summary.quasi_static = find_quasi_static(samples, impact, support);
   const double volume = scene.length * scene.width * scene.depth;
   summary.absorbed_energy = volume * impact.integral(std::min(kAbsorbedTo, samples.back().strain));
   return summary;

@@ -80,9 +80,7 @@ SectionSpec complete_section(const SectionSpec& spec) {
   if (!whole.axial_points) {
     whole.axial_points = spec.formulation == SectionSpec::Formulation::force_based ? 4 : 2;
   }
-  if (!whole.depth_points) {
-    whole.depth_points = spec.depth_rule == SectionSpec::DepthRule::full_moment ? 4 : 6;
-  }
+  whole.depth_points = whole.depth_points.value_or(6);
   return whole;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
@@ -13,16 +14,16 @@
 namespace cellcrush {
 
 struct Simulation::Impl {
+  explicit Impl(std::shared_ptr<const Scene> built)
+      : scene(std::move(built)), state(make_initial_state(*scene)), sampler(*scene) {}
+
   std::shared_ptr<const Scene> scene;
   State state;
   Sampler sampler;
   RunStatus status;
 };
 
-Simulation::Simulation(std::shared_ptr<const Scene> scene) : impl_(std::make_unique<Impl>()) {
-  impl_->state = make_initial_state(*scene);
-  impl_->scene = std::move(scene);
-}
+Simulation::Simulation(std::shared_ptr<const Scene> scene) : impl_(std::make_unique<Impl>(std::move(scene))) {}
 
 Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;

@@ -1,36 +1,71 @@
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <limits>
 
 #include "cellcrush/v1/sample.pb.h"
 
 namespace cellcrush::store {
 
-/// A column of /history: its dataset's name and the field of the sample it holds.
+/// A column of /history: its dataset's name and the field of the sample it holds. What a sample lacks is not a number.
 struct HistoryColumn {
   const char* name;
-  double (v1::Sample::*get)() const;
-  void (v1::Sample::*set)(double);
+  double (*get)(const v1::Sample& sample);
+  void (*set)(v1::Sample& sample, double value);
 };
 
+/// The column of a field of the sample itself.
+template <double (v1::Sample::*Get)() const, void (v1::Sample::*Set)(double)>
+constexpr HistoryColumn sample_column(const char* name) {
+  return {name, [](const v1::Sample& sample) { return (sample.*Get)(); },
+          [](v1::Sample& sample, double value) { (sample.*Set)(value); }};
+}
+
+/// The column of a field of the sample's front, which not every sample has.
+template <double (v1::Front::*Get)() const, void (v1::Front::*Set)(double)>
+constexpr HistoryColumn front_column(const char* name) {
+  return {name,
+          [](const v1::Sample& sample) {
+            return sample.has_front() ? (sample.front().*Get)() : std::numeric_limits<double>::quiet_NaN();
+          },
+          [](v1::Sample& sample, double value) {
+            if (!std::isnan(value)) (sample.mutable_front()->*Set)(value);
+          }};
+}
+
 /// All columns of /history; result_format.md says what they mean.
-inline constexpr std::array<HistoryColumn, 16> kHistoryColumns = {{
-    {"time_s", &v1::Sample::time_s, &v1::Sample::set_time_s},
-    {"travel_mm", &v1::Sample::travel_mm, &v1::Sample::set_travel_mm},
-    {"strain", &v1::Sample::strain, &v1::Sample::set_strain},
-    {"stress_impact_mpa", &v1::Sample::stress_impact_mpa, &v1::Sample::set_stress_impact_mpa},
-    {"stress_support_mpa", &v1::Sample::stress_support_mpa, &v1::Sample::set_stress_support_mpa},
-    {"energy_kinetic_mj", &v1::Sample::energy_kinetic_mj, &v1::Sample::set_energy_kinetic_mj},
-    {"energy_elastic_mj", &v1::Sample::energy_elastic_mj, &v1::Sample::set_energy_elastic_mj},
-    {"energy_plastic_mj", &v1::Sample::energy_plastic_mj, &v1::Sample::set_energy_plastic_mj},
-    {"energy_contact_mj", &v1::Sample::energy_contact_mj, &v1::Sample::set_energy_contact_mj},
-    {"energy_friction_mj", &v1::Sample::energy_friction_mj, &v1::Sample::set_energy_friction_mj},
-    {"energy_damping_mj", &v1::Sample::energy_damping_mj, &v1::Sample::set_energy_damping_mj},
-    {"work_external_mj", &v1::Sample::work_external_mj, &v1::Sample::set_work_external_mj},
-    {"energy_residual_mj", &v1::Sample::energy_residual_mj, &v1::Sample::set_energy_residual_mj},
-    {"energy_contact_stored_mj", &v1::Sample::energy_contact_stored_mj, &v1::Sample::set_energy_contact_stored_mj},
-    {"energy_contact_damping_mj", &v1::Sample::energy_contact_damping_mj, &v1::Sample::set_energy_contact_damping_mj},
-    {"deepest_penetration", &v1::Sample::deepest_penetration, &v1::Sample::set_deepest_penetration},
+inline constexpr std::array<HistoryColumn, 25> kHistoryColumns = {{
+    sample_column<&v1::Sample::time_s, &v1::Sample::set_time_s>("time_s"),
+    sample_column<&v1::Sample::travel_mm, &v1::Sample::set_travel_mm>("travel_mm"),
+    sample_column<&v1::Sample::strain, &v1::Sample::set_strain>("strain"),
+    sample_column<&v1::Sample::stress_impact_mpa, &v1::Sample::set_stress_impact_mpa>("stress_impact_mpa"),
+    sample_column<&v1::Sample::stress_support_mpa, &v1::Sample::set_stress_support_mpa>("stress_support_mpa"),
+    sample_column<&v1::Sample::energy_kinetic_mj, &v1::Sample::set_energy_kinetic_mj>("energy_kinetic_mj"),
+    sample_column<&v1::Sample::energy_elastic_mj, &v1::Sample::set_energy_elastic_mj>("energy_elastic_mj"),
+    sample_column<&v1::Sample::energy_plastic_mj, &v1::Sample::set_energy_plastic_mj>("energy_plastic_mj"),
+    sample_column<&v1::Sample::energy_contact_mj, &v1::Sample::set_energy_contact_mj>("energy_contact_mj"),
+    sample_column<&v1::Sample::energy_friction_mj, &v1::Sample::set_energy_friction_mj>("energy_friction_mj"),
+    sample_column<&v1::Sample::energy_damping_mj, &v1::Sample::set_energy_damping_mj>("energy_damping_mj"),
+    sample_column<&v1::Sample::work_external_mj, &v1::Sample::set_work_external_mj>("work_external_mj"),
+    sample_column<&v1::Sample::energy_residual_mj, &v1::Sample::set_energy_residual_mj>("energy_residual_mj"),
+    sample_column<&v1::Sample::energy_contact_stored_mj, &v1::Sample::set_energy_contact_stored_mj>(
+        "energy_contact_stored_mj"),
+    sample_column<&v1::Sample::energy_contact_damping_mj, &v1::Sample::set_energy_contact_damping_mj>(
+        "energy_contact_damping_mj"),
+    sample_column<&v1::Sample::deepest_penetration, &v1::Sample::set_deepest_penetration>("deepest_penetration"),
+    sample_column<&v1::Sample::solid_fraction, &v1::Sample::set_solid_fraction>("solid_fraction"),
+    sample_column<&v1::Sample::collapsed_fraction, &v1::Sample::set_collapsed_fraction>("collapsed_fraction"),
+    front_column<&v1::Front::position_mm, &v1::Front::set_position_mm>("front_position_mm"),
+    front_column<&v1::Front::strain_behind, &v1::Front::set_strain_behind>("front_strain_behind"),
+    front_column<&v1::Front::strain_ahead, &v1::Front::set_strain_ahead>("front_strain_ahead"),
+    front_column<&v1::Front::velocity_behind_m_per_s, &v1::Front::set_velocity_behind_m_per_s>(
+        "front_velocity_behind_m_per_s"),
+    front_column<&v1::Front::velocity_ahead_m_per_s, &v1::Front::set_velocity_ahead_m_per_s>(
+        "front_velocity_ahead_m_per_s"),
+    front_column<&v1::Front::solid_fraction_behind, &v1::Front::set_solid_fraction_behind>(
+        "front_solid_fraction_behind"),
+    front_column<&v1::Front::wall_fraction_behind, &v1::Front::set_wall_fraction_behind>("front_wall_fraction_behind"),
 }};
 
 /// Rows of a chunk of /history, and rows that the writer gathers before it writes them.

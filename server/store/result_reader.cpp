@@ -1,7 +1,5 @@
 #include "store/result_reader.h"
 
-#include <functional>
-
 #include "error.h"
 #include "store/result_layout.h"
 
@@ -32,7 +30,7 @@ std::vector<v1::Sample> ResultReader::history() const {
     if (out.empty()) out.resize(values.size());
     if (out.size() != values.size())
       throw ServiceError(ServiceError::Kind::internal, "The columns of the history differ in length.");
-    for (std::size_t i = 0; i < values.size(); ++i) std::invoke(layout.set, out[i], values[i]);
+    for (std::size_t i = 0; i < values.size(); ++i) layout.set(out[i], values[i]);
   }
   return out;
 }

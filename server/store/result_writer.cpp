@@ -3,10 +3,10 @@
 #include <google/protobuf/util/json_util.h>
 
 #include <algorithm>
-#include <functional>
 #include <utility>
 
 #include "store/case_hash.h"
+#include "store/summary_attributes.h"
 
 namespace cellcrush::store {
 namespace {
@@ -28,27 +28,6 @@ std::string as_lines(const std::vector<std::string>& sentences) {
   std::string out;
   for (const auto& sentence : sentences) out += (out.empty() ? "" : "\n") + sentence;
   return out;
-}
-
-void write_summary(hid_t file, const v1::Summary& summary) {
-  if (summary.has_plateau_stress_impact_mpa()) {
-    write_attribute(file, "plateau_stress_impact_mpa", summary.plateau_stress_impact_mpa());
-    write_attribute(file, "plateau_stress_mpa", summary.plateau_stress_impact_mpa());
-  }
-  if (summary.has_plateau_stress_support_mpa())
-    write_attribute(file, "plateau_stress_support_mpa", summary.plateau_stress_support_mpa());
-  write_attribute(file, "plateau_window_low", summary.plateau_window_low());
-  write_attribute(file, "plateau_window_high", summary.plateau_window_high());
-  if (summary.has_densification_strain()) write_attribute(file, "densification_strain", summary.densification_strain());
-  if (summary.has_plateau_stress_to_densification_mpa())
-    write_attribute(file, "plateau_stress_to_densification_mpa", summary.plateau_stress_to_densification_mpa());
-  write_attribute(file, "absorbed_energy_mj", summary.absorbed_energy_mj());
-  write_attribute(file, "energy_error_relative", summary.energy_error_relative());
-  write_attribute(file, "deepest_penetration", summary.deepest_penetration());
-  write_attribute(file, "step_count", static_cast<std::int64_t>(summary.step_count()));
-  write_attribute(file, "solver_seconds", summary.solver_seconds());
-  write_attribute(file, "theory_gibson_ashby_mpa", summary.theory().gibson_ashby_mpa());
-  write_attribute(file, "theory_shock_mpa", summary.theory().shock_mpa());
 }
 
 }  // namespace
@@ -92,7 +71,7 @@ void ResultWriter::write_gathered() {
   if (gathered_.empty()) return;
   std::vector<double> column(gathered_.size());
   for (std::size_t i = 0; i < kHistoryColumns.size(); ++i) {
-    std::transform(gathered_.begin(), gathered_.end(), column.begin(), std::mem_fn(kHistoryColumns[i].get));
+    std::transform(gathered_.begin(), gathered_.end(), column.begin(), kHistoryColumns[i].get);
     append_rows(history_[i].id(), H5T_NATIVE_DOUBLE, column.size(), column.data());
   }
   nodes_.append(file_.id(), gathered_);
@@ -119,7 +98,7 @@ void ResultWriter::finish(const ResultHeader& header, const v1::Summary& summary
   write_attribute(file_.id(), "simd_target", header.simd_target);
   write_attribute(file_.id(), "time_step_s", header.time_step_s);
   write_attribute(file_.id(), "complete", static_cast<std::int64_t>(header.complete));
-  write_summary(file_.id(), summary);
+  write_summary_attributes(file_.id(), summary);
   const std::string what = "Closing the result";
   for (auto& column : history_) column.close(what);
   nodes_.close();

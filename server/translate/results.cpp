@@ -1,6 +1,71 @@
 #include "translate/results.h"
 
 namespace cellcrush::translate {
+namespace {
+
+constexpr double kMPerMm = 1e-3;
+
+v1::Front to_proto(const Front& front) {
+  v1::Front out;
+  out.set_position_mm(front.position);
+  out.set_strain_behind(front.strain_behind);
+  out.set_strain_ahead(front.strain_ahead);
+  out.set_velocity_behind_m_per_s(kMPerMm * front.velocity_behind);
+  out.set_velocity_ahead_m_per_s(kMPerMm * front.velocity_ahead);
+  out.set_solid_fraction_behind(front.solid_fraction_behind);
+  out.set_wall_fraction_behind(front.wall_fraction_behind);
+  return out;
+}
+
+v1::FrontSummary to_proto(const FrontSummary& front) {
+  v1::FrontSummary out;
+  out.set_strain_behind(front.strain_behind);
+  out.set_strain_ahead(front.strain_ahead);
+  out.set_velocity_behind_m_per_s(kMPerMm * front.velocity_behind);
+  out.set_velocity_ahead_m_per_s(kMPerMm * front.velocity_ahead);
+  out.set_solid_fraction_behind(front.solid_fraction_behind);
+  out.set_wall_fraction_behind(front.wall_fraction_behind);
+  out.set_stress_ahead_mpa(front.stress_ahead);
+  out.set_shock_mpa(front.shock);
+  out.set_window_share(front.window_share);
+  return out;
+}
+
+v1::QuasiStatic to_proto(const QuasiStatic& quasi_static) {
+  v1::QuasiStatic out;
+  out.set_plate_difference_relative(quasi_static.plate_difference);
+  out.set_plate_difference_greatest(quasi_static.plate_difference_greatest);
+  out.set_kinetic_share(quasi_static.kinetic_share);
+  return out;
+}
+
+v1::CrushMode to_proto(CrushMode mode) {
+  switch (mode) {
+    case CrushMode::none: return v1::CRUSH_MODE_NONE;
+    case CrushMode::x: return v1::CRUSH_MODE_X;
+    case CrushMode::v: return v1::CRUSH_MODE_V;
+    case CrushMode::i: return v1::CRUSH_MODE_I;
+    case CrushMode::c: return v1::CRUSH_MODE_C;
+    case CrushMode::mixed: return v1::CRUSH_MODE_MIXED;
+  }
+  return v1::CRUSH_MODE_UNSPECIFIED;
+}
+
+v1::Ledger ledger_of(const Sample& sample) {
+  v1::Ledger out;
+  out.set_work_external_mj(sample.work_external);
+  out.set_kinetic_mj(sample.energy_kinetic);
+  out.set_elastic_mj(sample.energy_elastic);
+  out.set_plastic_mj(sample.energy_plastic);
+  out.set_contact_mj(sample.energy_contact);
+  out.set_friction_mj(sample.energy_friction);
+  out.set_contact_damping_mj(sample.energy_contact_damping);
+  out.set_mass_damping_mj(sample.energy_damping - sample.energy_contact_damping);
+  out.set_residual_mj(sample.energy_residual);
+  return out;
+}
+
+}  // namespace
 
 v1::Sample to_proto(const Sample& sample, const google::protobuf::RepeatedPtrField<std::string>& watched_ids) {
   v1::Sample out;
@@ -22,6 +87,9 @@ v1::Sample to_proto(const Sample& sample, const google::protobuf::RepeatedPtrFie
   out.set_energy_contact_damping_mj(sample.energy_contact_damping);
   out.set_deepest_penetration(sample.deepest_penetration);
   out.set_contact_count(sample.contact_count);
+  out.set_solid_fraction(sample.solid_fraction);
+  out.set_collapsed_fraction(sample.collapsed_fraction);
+  if (sample.front) *out.mutable_front() = to_proto(*sample.front);
   for (std::size_t i = 0; i < sample.watched.size(); ++i) {
     auto& watched = *out.add_watched();
     watched.set_node(watched_ids.Get(static_cast<int>(i)));
@@ -63,7 +131,7 @@ v1::Theory to_proto(const Theory& theory) {
   return out;
 }
 
-v1::Summary to_proto(const Summary& summary, double solver_seconds) {
+v1::Summary to_proto(const Summary& summary, const Sample& last, double solver_seconds) {
   v1::Summary out;
   if (summary.plateau_stress_impact) out.set_plateau_stress_impact_mpa(*summary.plateau_stress_impact);
   if (summary.plateau_stress_support) out.set_plateau_stress_support_mpa(*summary.plateau_stress_support);
@@ -78,6 +146,15 @@ v1::Summary to_proto(const Summary& summary, double solver_seconds) {
   out.set_step_count(summary.step_count);
   out.set_solver_seconds(solver_seconds);
   *out.mutable_theory() = to_proto(summary.theory);
+  out.set_crush_mode(to_proto(summary.crush_mode));
+  if (summary.crush_mode_strain) out.set_crush_mode_strain(*summary.crush_mode_strain);
+  if (summary.front) *out.mutable_front() = to_proto(*summary.front);
+  if (const auto error = summary.front_shock_error()) out.mutable_front()->set_shock_error_relative(*error);
+  if (const auto error = summary.shock_error()) out.set_shock_error_relative(*error);
+  if (summary.solid_fraction_at_densification)
+    out.set_solid_fraction_at_densification(*summary.solid_fraction_at_densification);
+  if (summary.quasi_static) *out.mutable_quasi_static() = to_proto(*summary.quasi_static);
+  *out.mutable_ledger() = ledger_of(last);
   return out;
 }
 

@@ -15,7 +15,7 @@ v1::Sample to_proto(const Sample& sample, const google::protobuf::RepeatedPtrFie
 v1::FieldFrame to_proto(const FieldFrame& frame);
 v1::Mesh to_proto(const MeshView& mesh, std::int64_t particle_count);
 v1::Theory to_proto(const Theory& theory);
-/// `solver_seconds`: processor time of the run, which the solver has no clock for.
-v1::Summary to_proto(const Summary& summary, double solver_seconds);
+/// `last`: the last sample of the run, for the ledger. `solver_seconds`: processor time of the run, which the solver has no clock for.
+v1::Summary to_proto(const Summary& summary, const Sample& last, double solver_seconds);
 
 }  // namespace cellcrush::translate

@@ -148,7 +148,7 @@ class Run {
     const bool whole = simulation_.step() == facts_.step_count;
     Final out;
     out.set_cancelled(!whole);
-    *out.mutable_summary() = translate::to_proto(summarize(*scene_, samples_), processor_seconds());
+    *out.mutable_summary() = translate::to_proto(summarize(*scene_, samples_), samples_.back(), processor_seconds());
     writer_.finish({order_.case_(), kSolverRevision, "scalar", facts_.time_step, facts_.modelled, whole},
                    out.summary());
     store::publish_file(partial_path_, order_.result_path());

@@ -29,6 +29,18 @@ v1::Job make_job(v1::JobState state) {
     summary.set_deepest_penetration(0.121);
     summary.set_step_count(20504);
     summary.set_solver_seconds(45.3);
+    summary.set_crush_mode(v1::CRUSH_MODE_I);
+    summary.set_crush_mode_strain(0.11);
+    summary.set_shock_error_relative(-0.0123);
+    summary.mutable_front()->set_strain_behind(0.905);
+    summary.mutable_front()->set_stress_ahead_mpa(0.391);
+    summary.mutable_front()->set_solid_fraction_behind(1.07);
+    summary.mutable_front()->set_wall_fraction_behind(1.02);
+    summary.mutable_front()->set_shock_mpa(3.431);
+    summary.mutable_front()->set_shock_error_relative(0.0056);
+    summary.mutable_ledger()->set_work_external_mj(20000.0);
+    summary.mutable_ledger()->set_plastic_mj(17800.0);
+    summary.mutable_ledger()->set_contact_damping_mj(2200.0);
     summary.mutable_theory()->set_shock_mpa(3.37);
     summary.mutable_theory()->set_gibson_ashby_mpa(0.301);
     summary.mutable_theory()->set_densification_strain(0.86);

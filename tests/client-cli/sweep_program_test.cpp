@@ -76,7 +76,7 @@ TEST(SweepWatch, EndsWithTheTableAndZeroWhenAllSucceeded) {
   EXPECT_EQ(result.exit_code, 0) << result.errors;
   EXPECT_EQ(result.output.find("sweeps/test\n"), 0U);
   for (const char* part :
-       {"3 of 3 jobs ended", "loading.speed_m_per_s  job", "jobs/test-3  SUCCEEDED", "least-squares fit: 0.3"}) {
+       {"3 of 3 jobs ended", "loading.speed_m_per_s  job", "jobs/test-3  SUCCEEDED", "quadratic:         0.3"}) {
     EXPECT_NE(result.output.find(part), std::string::npos) << part << "\n" << result.output;
   }
   EXPECT_LE(count_of(result.output, "jobs ended"), 4) << "at most a line a second\n" << result.output;

@@ -49,6 +49,8 @@ v1::SweepTable make_table(int succeeded) {
     summary.set_plateau_stress_support_mpa(0.44);
     summary.set_absorbed_energy_mj(12345.0);
     summary.set_energy_error_relative(0.0121);
+    summary.set_crush_mode(i == 1 ? v1::CRUSH_MODE_V : v1::CRUSH_MODE_I);
+    if (i > 1) summary.mutable_front()->set_shock_mpa(0.27 + 2.9e-4 * speed * speed);
     summary.mutable_theory()->set_gibson_ashby_mpa(0.301);
     summary.mutable_theory()->set_shock_mpa(0.301 + 3.1e-4 * speed * speed);
   }
@@ -83,7 +85,11 @@ TEST(SweepTable, WithFewerThanThreeResultsThereIsNoFitAndFailuresSayWhy) {
   const std::string text = sweep_table_text(make_table(2));
   EXPECT_EQ(text.find("least-squares"), std::string::npos) << text;
   EXPECT_NE(text.find("jobs/3 FAILED (ENERGY_BALANCE): the ledger opened"), std::string::npos) << text;
-  EXPECT_NE(sweep_table_text(make_table(3)).find("least-squares"), std::string::npos);
+  const std::string three = sweep_table_text(make_table(3));
+  EXPECT_EQ(three.find("least-squares"), std::string::npos) << three;
+  EXPECT_EQ(three.find("off by"), std::string::npos) << three;
+  EXPECT_NE(three.find("quadratic:         0.25 + 0.0001 V + 0.0003 V^2, through the three points"), std::string::npos)
+      << three;
   v1::SweepTable depth = make_table(4);
   depth.set_fields(0, "depth_mm");
   EXPECT_EQ(sweep_table_text(depth).find("least-squares"), std::string::npos);
@@ -95,9 +101,10 @@ TEST(SweepTable, AsCsvHasAllDigitsAndEmptyCells) {
   EXPECT_EQ(lines[0],
             "loading.speed_m_per_s,job,state,plateau_stress_impact_mpa,plateau_stress_support_mpa,"
             "plateau_stress_to_densification_mpa,densification_strain,absorbed_energy_mj,gibson_ashby_mpa,shock_mpa,"
-            "energy_error_relative");
+            "front_shock_mpa,front_strain_behind,energy_error_relative,crush_mode");
   EXPECT_EQ(lines[1].find("50,jobs/1,SUCCEEDED,1.005,0.44,,,12345,0.301,"), 0U) << lines[1];
-  EXPECT_EQ(lines[2], "100,jobs/2,FAILED,,,,,,,,");
+  EXPECT_NE(lines[1].find(",0.0121,V"), std::string::npos) << lines[1];
+  EXPECT_EQ(lines[2], "100,jobs/2,FAILED,,,,,,,,,,,");
 }
 
 SweepView make_view(int jobs) {
@@ -178,13 +185,16 @@ TEST(SweepChart, HasPointsFitAndTheoryOverSpeed) {
   EXPECT_EQ(chart.x.label, "speed (m/s)");
   EXPECT_EQ(chart.x.low, 0.0);
   EXPECT_GT(chart.x.high, 200.0);
-  ASSERT_EQ(chart.curves.size(), 5U);
+  ASSERT_EQ(chart.curves.size(), 6U);
   EXPECT_EQ(chart.curves[0].marker, Marker::disc);
   EXPECT_EQ(chart.curves[0].x, (std::vector<double>{50, 100, 150, 200}));
   EXPECT_EQ(chart.curves[1].marker, Marker::square);
   EXPECT_EQ(chart.curves[2].name, "quadratic fit: 0.25 + 1.00·10⁻⁴ V + 3.00·10⁻⁴ V²");
   EXPECT_EQ(chart.curves[3].name, "Eq. 51 (shock)");
   EXPECT_EQ(chart.curves[4].name, "Gibson-Ashby (quasi-static)");
+  EXPECT_EQ(chart.curves[5].name, "Eq. 52 (shock, jumps measured)");
+  EXPECT_EQ(chart.curves[5].x, (std::vector<double>{100, 150, 200})) << "the slowest job has no front";
+  EXPECT_EQ(build_sweep_chart(make_table(3)).curves[2].name.find("quadratic through the points: "), 0U);
 }
 
 TEST(SweepChart, SaysWhatIsMissingAndRefusesToDrawNothing) {

@@ -119,7 +119,8 @@ TEST_F(Crush, TheFetchedFileHasTheLayoutThatOthersRead) {
   const std::vector<double> strain = result.values("/history/strain");
   EXPECT_NEAR(strain.back(), 0.5, 0.01);
   const std::vector<std::string> attributes = result.attributes();
-  for (const char* name : {"plateau_stress_mpa", "energy_error_relative", "step_count"})
+  for (const char* name :
+       {"plateau_stress_mpa", "energy_error_relative", "step_count", "crush_mode", "ledger_contact_damping_mj"})
     EXPECT_THAT(attributes, Contains(name));
 }
 
@@ -153,7 +154,13 @@ TEST_F(Crush, AJobIsListedAndShownAlsoAfterARestart) {
   const json object = json::parse(shown.output, nullptr, false);
   ASSERT_TRUE(object.is_object()) << shown.output;
   EXPECT_EQ(object["state"], "SUCCEEDED");
-  EXPECT_GT(object["summary"]["plateau_stress_impact_mpa"].get<double>(), 0.0);
+  const json& summary = object["summary"];
+  EXPECT_GT(summary["plateau_stress_impact_mpa"].get<double>(), 0.0);
+  EXPECT_EQ(summary["crush_mode"], "CRUSH_MODE_I");
+  EXPECT_GT(summary["ledger"]["contact_damping_mj"].get<double>(), 0.0);
+  const Outcome text = cellcrush({"show", job});
+  EXPECT_THAT(text.output, testing::ContainsRegex("crush mode +I"));
+  EXPECT_THAT(text.output, HasSubstr("contact damping"));
 }
 
 TEST_F(Crush, APresetPrintsACaseThatIsTakenAgain) {

@@ -49,6 +49,7 @@ class ResultFileTest : public ::testing::Test {
       sample.set_strain(0.001 * i);
       sample.set_energy_contact_damping_mj(2.0 * i);
       sample.set_deepest_penetration(0.5);
+      if (i >= 100) sample.mutable_front()->set_strain_behind(0.9);
       writer.add_sample(sample);
     }
     for (int i = 0; i < 4; ++i) {
@@ -64,6 +65,9 @@ class ResultFileTest : public ::testing::Test {
     summary.set_plateau_stress_impact_mpa(3.25);
     summary.set_step_count(12345);
     summary.set_energy_error_relative(0.01);
+    summary.set_crush_mode(v1::CRUSH_MODE_V);
+    summary.mutable_front()->set_shock_mpa(3.3);
+    summary.mutable_ledger()->set_contact_damping_mj(7.5);
     writer.finish({testing::small_case(), "1.2.3+abc", "scalar", 2e-7, {"Walls are beams.", "No friction."}}, summary);
     file_ = Hdf5Handle(H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "opening");
   }
@@ -74,10 +78,31 @@ class ResultFileTest : public ::testing::Test {
 };
 
 TEST_F(ResultFileTest, HasTheAgreedDatasetsShapesAndTypes) {
-  for (const char* column : {"time_s", "travel_mm", "strain", "stress_impact_mpa", "stress_support_mpa",
-                             "energy_kinetic_mj", "energy_elastic_mj", "energy_plastic_mj", "energy_contact_mj",
-                             "energy_friction_mj", "energy_damping_mj", "work_external_mj", "energy_residual_mj",
-                             "energy_contact_stored_mj", "energy_contact_damping_mj", "deepest_penetration"}) {
+  for (const char* column : {"time_s",
+                             "travel_mm",
+                             "strain",
+                             "stress_impact_mpa",
+                             "stress_support_mpa",
+                             "energy_kinetic_mj",
+                             "energy_elastic_mj",
+                             "energy_plastic_mj",
+                             "energy_contact_mj",
+                             "energy_friction_mj",
+                             "energy_damping_mj",
+                             "work_external_mj",
+                             "energy_residual_mj",
+                             "energy_contact_stored_mj",
+                             "energy_contact_damping_mj",
+                             "deepest_penetration",
+                             "solid_fraction",
+                             "collapsed_fraction",
+                             "front_position_mm",
+                             "front_strain_behind",
+                             "front_strain_ahead",
+                             "front_velocity_behind_m_per_s",
+                             "front_velocity_ahead_m_per_s",
+                             "front_solid_fraction_behind",
+                             "front_wall_fraction_behind"}) {
     const std::string path = std::string("/history/") + column;
     EXPECT_EQ(shape(file_.id(), path), (std::vector<hsize_t>{kSamples})) << path;
     EXPECT_TRUE(is_type(file_.id(), path, H5T_IEEE_F64LE)) << path;
@@ -117,6 +142,10 @@ TEST_F(ResultFileTest, SaysWhatItIsAndWhatCameOut) {
   EXPECT_EQ(number_attribute(file_.id(), "plateau_stress_mpa"), 3.25);
   EXPECT_EQ(number_attribute(file_.id(), "plateau_stress_impact_mpa"), 3.25);
   EXPECT_GT(H5Aexists(file_.id(), "energy_error_relative"), 0);
+  EXPECT_EQ(reader.text_attribute("crush_mode"), "V");
+  EXPECT_EQ(number_attribute(file_.id(), "front_shock_mpa"), 3.3);
+  EXPECT_EQ(number_attribute(file_.id(), "ledger_contact_damping_mj"), 7.5);
+  EXPECT_EQ(H5Aexists(file_.id(), "quasi_static_kinetic_share"), 0);
   EXPECT_EQ(H5Aexists(file_.id(), "densification_strain"), 0) << "what did not happen is absent";
 }
 
@@ -127,6 +156,7 @@ TEST_F(ResultFileTest, IsReadBackAsItWasWritten) {
   for (int i = 0; i < kSamples; ++i) {
     EXPECT_EQ(history[static_cast<std::size_t>(i)].time_s(), i);
     EXPECT_EQ(history[static_cast<std::size_t>(i)].energy_contact_damping_mj(), 2.0 * i);
+    EXPECT_EQ(history[static_cast<std::size_t>(i)].has_front(), i >= 100) << i;
   }
   EXPECT_EQ(reader.frame_times(), (std::vector<double>{0.0, 10.0, 20.0, 30.0}));
   const auto frame = reader.frame(2);

@@ -200,10 +200,15 @@ TEST(Translate, ACompletedFrameKeepsItsNodesNames) {
 TEST(Translate, ASummaryKeepsAbsentValuesAbsent) {
   Summary summary;
   summary.plateau_stress_impact = 3.5;
-  const auto out = translate::to_proto(summary, 1.5);
+  const auto out = translate::to_proto(summary, Sample(), 1.5);
   EXPECT_EQ(out.plateau_stress_impact_mpa(), 3.5);
   EXPECT_FALSE(out.has_densification_strain());
   EXPECT_FALSE(out.has_plateau_stress_support_mpa());
+  EXPECT_FALSE(out.has_front());
+  EXPECT_FALSE(out.has_quasi_static());
+  EXPECT_FALSE(out.has_crush_mode_strain());
+  EXPECT_FALSE(out.has_shock_error_relative());
+  EXPECT_EQ(out.crush_mode(), v1::CRUSH_MODE_NONE);
   EXPECT_EQ(out.solver_seconds(), 1.5);
 }
 
@@ -217,6 +222,9 @@ TEST(Translate, EveryFieldOfASampleGoesOver) {
                         &sample.energy_contact_stored, &sample.energy_contact_damping, &sample.deepest_penetration})
     *field = value++;
   sample.contact_count = 18;
+  sample.solid_fraction = 20.0;
+  sample.collapsed_fraction = 21.0;
+  sample.front = Front{1.0, 2.0, 3.0, 4e3, 5e3, 6.0, 7.0};
   const auto out = translate::to_proto(sample, {});
   // Fields of the message are numbered in the same order.
   const auto* reflection = v1::Sample::GetReflection();
@@ -225,6 +233,41 @@ TEST(Translate, EveryFieldOfASampleGoesOver) {
   }
   EXPECT_EQ(out.step(), 1);
   EXPECT_EQ(out.contact_count(), 18);
+  EXPECT_EQ(out.solid_fraction(), 20.0);
+  EXPECT_EQ(out.collapsed_fraction(), 21.0);
+  for (int number = 1; number <= 7; ++number) {
+    EXPECT_NEAR(v1::Front::GetReflection()->GetDouble(out.front(), v1::Front::descriptor()->FindFieldByNumber(number)),
+                number, 1e-12);
+  }
+  sample.front.reset();
+  EXPECT_FALSE(translate::to_proto(sample, {}).has_front());
+}
+
+TEST(Translate, ASummaryCarriesFrontModeSteadinessAndLedger) {
+  Summary summary;
+  summary.plateau_stress_impact = 2.0;
+  summary.theory.shock = 2.2;
+  summary.crush_mode = CrushMode::v;
+  summary.crush_mode_strain = 0.12;
+  summary.front = FrontSummary{0.9, 0.1, 1e5, 2e3, 1.1, 1.05, 0.4, 1.9, 0.75};
+  summary.quasi_static = QuasiStatic{0.01, 0.02, 0.003};
+  Sample last;
+  last.work_external = 10.0;
+  last.energy_damping = 3.0;
+  last.energy_contact_damping = 2.0;
+  last.energy_residual = -0.5;
+  const auto out = translate::to_proto(summary, last, 1.5);
+  EXPECT_EQ(out.crush_mode(), v1::CRUSH_MODE_V);
+  EXPECT_EQ(out.crush_mode_strain(), 0.12);
+  EXPECT_NEAR(out.shock_error_relative(), 0.1, 1e-12);
+  EXPECT_NEAR(out.front().shock_error_relative(), -0.05, 1e-12);
+  EXPECT_EQ(out.front().velocity_behind_m_per_s(), 100.0);
+  EXPECT_EQ(out.front().stress_ahead_mpa(), 0.4);
+  EXPECT_EQ(out.front().window_share(), 0.75);
+  EXPECT_EQ(out.quasi_static().plate_difference_greatest(), 0.02);
+  EXPECT_EQ(out.ledger().contact_damping_mj(), 2.0);
+  EXPECT_EQ(out.ledger().mass_damping_mj(), 1.0);
+  EXPECT_EQ(out.ledger().residual_mj(), -0.5);
 }
 
 }  // namespace

@@ -143,7 +143,7 @@ struct SectionSpec {
   DepthRule depth_rule = DepthRule::full_moment;
   AreaRule area_rule = AreaRule::constant_volume;
   std::optional<int> axial_points;  ///< default: 4 force-based (3 to 5), 2 displacement-based (1 to 5)
-  std::optional<int> depth_points;  ///< default: 4 full-moment (4 or 6), 6 Lobatto (2 to 10)
+  std::optional<int> depth_points;  ///< default: 6 (full-moment: 4 or 6, Lobatto: 2 to 10)
 };
 
 struct ContactSpec {

@@ -57,6 +57,34 @@ void expect_sound_contact(const Crush& crush) {
   }
 }
 
+/// Eq. 52 with the jumps of the cells' motion, which knows nothing of the impact plate's stress, foretells that stress, and
+/// lies closer to it than Eq. 51.
+void expect_shock_theory(const Crush& crush) {
+  ASSERT_TRUE(crush.summary.front && crush.summary.shock_error() && crush.summary.front_shock_error());
+  EXPECT_NEAR(*crush.summary.front_shock_error(), 0.0, 0.03);
+  EXPECT_LT(std::abs(*crush.summary.front_shock_error()), std::abs(*crush.summary.shock_error()));
+  EXPECT_GT(crush.summary.front->strain_behind, 0.89);
+  EXPECT_LT(crush.summary.front->strain_behind, 0.92);
+  EXPECT_EQ(crush.summary.front->window_share, 1.0);
+  EXPECT_EQ(crush.summary.crush_mode, CrushMode::i);
+  testing::Test::RecordProperty("shock_eq_51_mpa", std::to_string(crush.summary.theory.shock));
+  testing::Test::RecordProperty("shock_eq_52_mpa", std::to_string(crush.summary.front->shock));
+  testing::Test::RecordProperty("strain_behind", std::to_string(crush.summary.front->strain_behind));
+  // Kinematics: the front advances at the jump of velocity over the jump of strain.
+  const Sample* first = nullptr;
+  const Sample* last = nullptr;
+  for (const Sample& sample : crush.samples) {
+    if (sample.front && sample.strain >= Summary::kPlateauLow && sample.strain <= Summary::kPlateauHigh) {
+      first = first == nullptr ? &sample : first;
+      last = &sample;
+    }
+  }
+  const double advance = (last->front->position - first->front->position) / (last->time - first->time);
+  const FrontSummary& front = *crush.summary.front;
+  const double expected = (front.velocity_behind - front.velocity_ahead) / (front.strain_behind - front.strain_ahead);
+  EXPECT_NEAR(advance, expected, 0.03 * expected);
+}
+
 TEST(TypeI, CrushAt100MetresASecondAtThePapersStep) {
   const Crush crush = crush_type_i(2e-7);
   EXPECT_NEAR(crush.samples.back().strain, 0.8, 1e-3);
@@ -67,6 +95,7 @@ TEST(TypeI, CrushAt100MetresASecondAtThePapersStep) {
   EXPECT_LT(*crush.summary.plateau_stress_support, 0.52);
   EXPECT_LT(crush.summary.energy_error_relative, 0.025);
   expect_sound_contact(crush);
+  expect_shock_theory(crush);
 }
 
 TEST(TypeI, LedgerClosesWithinHalfAPercentAtHalfThePapersStep) {

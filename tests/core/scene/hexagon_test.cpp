@@ -27,7 +27,7 @@ TEST(TypeI, HasExactlyTheParticlesElementsAndMassOfThePaper) {
   fixed.numerics.time_step_s = 2e-7;
   EXPECT_NEAR(static_cast<double>(facts_of(*scenes::build(fixed)).step_count), 20500.0, 20.0);
   EXPECT_EQ(scene->section.section_count(), 4u);
-  EXPECT_EQ(scene->section.depth_count(), 4u);
+  EXPECT_EQ(scene->section.depth_count(), 6u);
 }
 
 TEST(Hexagons, AreAPlanarLatticeOfEqualWalls) {

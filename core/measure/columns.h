@@ -1,0 +1,34 @@
+#pragma once
+
+#include <vector>
+
+#include "cellcrush/scene.h"
+#include "cellcrush/state.h"
+
+namespace cellcrush {
+
+/// The material of a lattice in columns across the crush, numbered from the impact end. A particle belongs to the two
+/// columns nearest to its undeformed place, shared by the lever rule, so that a uniform strain is found exactly and no
+/// column depends on the round-off of a place on its border. K columns, N particles.
+struct Columns {
+  std::vector<double> place;      ///< K, mm, mean distance of the mass from the impact end, undeformed
+  std::vector<double> mass;       ///< K, tonne
+  std::vector<double> wall_area;  ///< K, mm^2, length times thickness of the walls, undeformed
+  std::vector<int> lower;         ///< N, the nearest column at or below the particle; never the last
+  std::vector<double> share;      ///< N, of the particle that belongs to the column above `lower`
+  int axis = 0;                   ///< of the crush
+};
+
+/// Columns a cell apart. `pitch`: mean extent of a cell along the crush, mm. REQUIRES: a scene with plates.
+Columns divide_into_columns(const Scene& scene, double pitch);
+
+/// How the columns have moved.
+struct Profile {
+  std::vector<double> displacement;  ///< K, mm along the crush, mean over the mass
+  std::vector<double> velocity;      ///< K, mm/s along the crush, mean over the mass
+  std::vector<double> wall_area;     ///< K, mm^2, length times thickness of the walls now
+};
+
+Profile measure_columns(const Columns& columns, const Scene& scene, const State& state);
+
+}  // namespace cellcrush

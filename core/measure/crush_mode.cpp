@@ -1,0 +1,234 @@
+#include "measure/crush_mode.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+namespace cellcrush {
+namespace {
+
+/// A band: cells whose distance from a mid-line, along the crush, is at most half of a width.
+struct Band {
+  CrushMode kind = CrushMode::none;
+  double agreement = 0.0;
+  std::vector<bool> inside;  ///< C
+};
+
+/// Looks over mid-lines of one kind for the band that agrees best with the collapsed cells. A band has one, two or four
+/// arms, and each of them has to be there: kLeastOfArm of its cells have collapsed, and they are kLeastOfBand of an even
+/// share of the band's.
+class BandSearch {
+ public:
+  BandSearch(const CollapseField& field, CrushMode kind, int arms, double to_beat) : field_(field), arms_(arms) {
+    best_.kind = kind;
+    best_.agreement = to_beat;
+    bins_ = static_cast<std::size_t>(field.length * bins_per_mm()) + 1;
+    for (const bool collapsed : field.collapsed) {
+      collapsed_ += collapsed ? 1.0 : 0.0;
+    }
+  }
+
+  /// Tries every width round a mid-line: `distance` gives a cell's distance from it along the crush, mm, and `arm` the
+  /// number of the arm that it would belong to.
+  template <class Distance, class Arm>
+  void try_line(const Distance& distance, const Arm& arm) {
+    counts_.assign(bins_ * arms_, {});
+    const auto bin_of = [&](std::size_t cell) {
+      return static_cast<std::size_t>(distance(field_.along[cell], field_.across[cell]) * bins_per_mm());
+    };
+    for (std::size_t cell = 0; cell < field_.along.size(); ++cell) {
+      const std::size_t bin = bin_of(cell);
+      if (bin < bins_) {
+        Count& count = counts_[bin * arms_ + arm(field_.along[cell], field_.across[cell])];
+        count.all += 1.0;
+        count.hit += field_.collapsed[cell] ? 1.0 : 0.0;
+      }
+    }
+    if (const auto width = find_width()) {
+      best_.inside.resize(field_.along.size());
+      for (std::size_t cell = 0; cell < field_.along.size(); ++cell) {
+        best_.inside[cell] = bin_of(cell) <= *width;
+      }
+    }
+  }
+
+  [[nodiscard]] const Band& best() const { return best_; }
+
+ private:
+  /// Cells of an arm, and those of them that have collapsed.
+  struct Count {
+    double all = 0.0;
+    double hit = 0.0;
+  };
+
+  [[nodiscard]] double bins_per_mm() const { return 2.0 / field_.pitch; }
+
+  /// The last bin of the width that agrees best, when it beats the best so far.
+  std::optional<std::size_t> find_width() {
+    constexpr double kLeastOfArm = 0.4;
+    constexpr double kLeastOfBand = 0.4;
+    std::optional<std::size_t> width;
+    std::array<Count, 4> arm{};
+    Count band;
+    for (std::size_t bin = 0; bin < bins_; ++bin) {
+      for (int i = 0; i < arms_; ++i) {
+        const Count& count = counts_[bin * arms_ + i];
+        arm[i].all += count.all;
+        arm[i].hit += count.hit;
+        band.all += count.all;
+        band.hit += count.hit;
+      }
+      const double agreement = 2.0 * band.hit / (band.all + collapsed_);
+      const bool whole = std::all_of(arm.begin(), arm.begin() + arms_, [&](const Count& part) {
+        return part.hit >= kLeastOfArm * part.all && part.hit >= kLeastOfBand * band.hit / arms_;
+      });
+      if (whole && agreement > best_.agreement) {
+        best_.agreement = agreement;
+        width = bin;
+      }
+    }
+    return width;
+  }
+
+  const CollapseField& field_;
+  int arms_;
+  Band best_;
+  std::size_t bins_ = 0;       // of half a cell
+  std::vector<Count> counts_;  // by distance and arm
+  double collapsed_ = 0.0;
+};
+
+/// Places along the crush that are tried, half a cell apart.
+template <class Try>
+void for_each_place(const CollapseField& field, const Try& attempt) {
+  for (double place = 0.0; place <= field.length; place += 0.5 * field.pitch) {
+    attempt(place);
+  }
+}
+
+/// Slopes that are tried, as what a band runs along the crush over a distance across it; those that a lattice of this width
+/// can tell from none.
+std::vector<double> slopes_of(const CollapseField& field) {
+  constexpr double kLeastRun = 3.0;  // cells along the crush over half of the width
+  std::vector<double> slopes;
+  for (const double degrees : {15.0, 25.0, 35.0, 45.0, 55.0, 65.0}) {
+    const double slope = std::tan(degrees * std::numbers::pi / 180.0);
+    if (slope * 0.5 * field.width >= kLeastRun * field.pitch) {
+      slopes.push_back(slope);
+    }
+  }
+  return slopes;
+}
+
+void search_i(const CollapseField& field, BandSearch& search) {
+  for_each_place(field, [&](double place) {
+    search.try_line([=](double s, double) { return std::abs(s - place); }, [](double, double) { return 0; });
+  });
+}
+
+void search_v(const CollapseField& field, BandSearch& search) {
+  for (const double slope : slopes_of(field)) {
+    for (const double middle : {0.3, 0.4, 0.5, 0.6, 0.7}) {
+      const double apex = middle * field.width;
+      for (const double hand : {slope, -slope}) {
+        for_each_place(field, [&](double place) {
+          search.try_line([=](double s, double t) { return std::abs(s - place - hand * std::abs(t - apex)); },
+                          [=](double, double t) { return t < apex ? 0 : 1; });
+        });
+      }
+    }
+  }
+}
+
+/// Both hands of crossing bands, of four arms; with the crossing on a side they are a V that lies there, of two.
+void search_crossing(const CollapseField& field, bool inside, std::initializer_list<double> crossings,
+                     BandSearch& search) {
+  for (const double slope : slopes_of(field)) {
+    for (const double crossing : crossings) {
+      const double across = crossing * field.width;
+      for_each_place(field, [&](double place) {
+        search.try_line(
+            [=](double s, double t) { return std::abs(std::abs(s - place) - slope * std::abs(t - across)); },
+            [=](double s, double t) { return (s < place ? 0 : 1) + (inside && t < across ? 2 : 0); });
+      });
+    }
+  }
+}
+
+void search_c(const CollapseField& field, BandSearch& search) {
+  for (const double slope : slopes_of(field)) {
+    for (const double middle : {0.4, 0.5, 0.6}) {
+      const double apex = middle * field.width;
+      for (const double bow : {2.0 * slope / field.width, -2.0 * slope / field.width}) {
+        for_each_place(field, [&](double place) {
+          search.try_line([=](double s, double t) { return std::abs(s - place - bow * (t - apex) * (t - apex)); },
+                          [=](double, double t) { return t < apex ? 0 : 1; });
+        });
+      }
+    }
+  }
+}
+
+/// The band of any kind that agrees best; a later kind has to be clearly better than those before it.
+Band find_band(const CollapseField& field) {
+  Band best;
+  const auto consider = [&](CrushMode kind, int arms, const auto& look) {
+    BandSearch search(field, kind, arms, best.agreement + (best.inside.empty() ? 0.0 : kClearlyBetter));
+    look(search);
+    if (!search.best().inside.empty()) {
+      best = search.best();
+    }
+  };
+  consider(CrushMode::i, 1, [&](BandSearch& search) { search_i(field, search); });
+  consider(CrushMode::v, 2, [&](BandSearch& search) { search_v(field, search); });
+  consider(CrushMode::v, 2, [&](BandSearch& search) { search_crossing(field, false, {0.0, 1.0}, search); });
+  consider(CrushMode::x, 4, [&](BandSearch& search) {
+    search_crossing(field, true, {0.3, 0.4, 0.5, 0.6, 0.7}, search);
+  });
+  consider(CrushMode::c, 2, [&](BandSearch& search) { search_c(field, search); });
+  return best;
+}
+
+double count(const std::vector<bool>& cells) {
+  return static_cast<double>(std::count(cells.begin(), cells.end(), true));
+}
+
+}  // namespace
+
+double collapsed_fraction_of(const CollapseField& field) {
+  return field.collapsed.empty() ? 0.0 : count(field.collapsed) / static_cast<double>(field.collapsed.size());
+}
+
+CrushMode find_crush_mode(const CollapseField& field, double* agreement) {
+  constexpr int kMostBands = 3;
+  constexpr double kWorthAnother = 0.25;  // of the collapsed cells
+  const double collapsed = count(field.collapsed);
+  CollapseField rest = field;
+  CrushMode kind = CrushMode::none;
+  double inside = 0.0;
+  double hit = 0.0;
+  for (int bands = 0; bands < kMostBands && collapsed > 0.0; ++bands) {
+    const Band band = find_band(rest);
+    if (band.inside.empty() || (band.agreement < kLeastAgreement && bands > 0)) {
+      break;
+    }
+    kind = kind == CrushMode::none || kind == band.kind ? band.kind : CrushMode::mixed;
+    inside += count(band.inside);
+    for (std::size_t cell = 0; cell < band.inside.size(); ++cell) {
+      hit += band.inside[cell] && rest.collapsed[cell] ? 1.0 : 0.0;
+      rest.collapsed[cell] = rest.collapsed[cell] && !band.inside[cell];
+    }
+    if (count(rest.collapsed) < kWorthAnother * collapsed) {
+      break;
+    }
+  }
+  const double whole = collapsed > 0.0 ? 2.0 * hit / (inside + collapsed) : 0.0;
+  if (agreement != nullptr) {
+    *agreement = whole;
+  }
+  return collapsed == 0.0 || whole >= kLeastAgreement ? kind : CrushMode::mixed;
+}
+
+}  // namespace cellcrush

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "cellcrush/scene.h"
+
+namespace cellcrush {
+
+/// The faces (cells) of a planar lattice: loops of particles, counter-clockwise. C faces.
+struct Faces {
+  std::vector<int> offset;      ///< C + 1, into particles
+  std::vector<int> particles;   ///< the loops one after another
+  std::vector<double> area;     ///< C, mm^2, undeformed; above 0
+  std::vector<Vector2> centre;  ///< C, mm, undeformed: mean of the corners of the loop
+
+  [[nodiscard]] std::size_t count() const { return area.size(); }
+};
+
+/// Traces the faces of the graph that elements make of particles by walking along half-edges: at a particle the walk turns
+/// into the next element clockwise, so that the face stays at its left. The outer face, which is walked clockwise, is left
+/// out. REQUIRES: a planar drawing, in which elements meet at particles only.
+Faces trace_faces(std::span<const Vector2> position, std::span<const Element> elements);
+
+/// Areas of the faces at other positions of the same particles over their undeformed areas, C. An area that is turned
+/// inside out is negative.
+std::vector<double> area_ratios(const Faces& faces, std::span<const Vector2> position);
+
+}  // namespace cellcrush

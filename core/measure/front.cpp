@@ -1,0 +1,110 @@
+#include "measure/front.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+
+namespace cellcrush {
+namespace {
+
+std::vector<double> strains_of(const Columns& columns, const Profile& profile) {
+  std::vector<double> strains;
+  for (std::size_t k = 0; k + 1 < columns.place.size(); ++k) {
+    strains.push_back((profile.displacement[k] - profile.displacement[k + 1]) /
+                      (columns.place[k + 1] - columns.place[k]));
+  }
+  return strains;
+}
+
+/// Sums over the first n values, n = 0 ... size.
+std::vector<double> running_sums(const std::vector<double>& values) {
+  std::vector<double> sums = {0.0};
+  for (const double value : values) {
+    sums.push_back(sums.back() + value);
+  }
+  return sums;
+}
+
+/// How many values come before the split into two means that leaves the least squares.
+int find_step(const std::vector<double>& values) {
+  const auto count = static_cast<int>(values.size());
+  const std::vector<double> sum = running_sums(values);
+  int best = 0;
+  double greatest = 0.0;
+  for (int before = 1; before < count; ++before) {
+    const double after_sum = sum[count] - sum[before];
+    const double explained = sum[before] * sum[before] / before + after_sum * after_sum / (count - before);
+    if (explained > greatest) {
+      greatest = explained;
+      best = before;
+    }
+  }
+  return best;
+}
+
+/// Root mean square of the values from one up to another about their mean.
+double scatter_of(const std::vector<double>& values, int from, int to) {
+  double sum = 0.0;
+  double squares = 0.0;
+  for (int k = from; k < to; ++k) {
+    sum += values[k];
+    squares += values[k] * values[k];
+  }
+  const double mean = sum / (to - from);
+  return std::sqrt(std::max(0.0, squares / (to - from) - mean * mean));
+}
+
+/// Mean strain of the material between two columns.
+double mean_strain(const Columns& columns, const Profile& profile, int from, int to) {
+  return (profile.displacement[from] - profile.displacement[to]) / (columns.place[to] - columns.place[from]);
+}
+
+/// Mean of a velocity over the mass of the columns from one up to another.
+double mean_velocity(const Columns& columns, const Profile& profile, int from, int to) {
+  double momentum = 0.0;
+  double mass = 0.0;
+  for (int k = from; k <= to; ++k) {
+    momentum += columns.mass[k] * profile.velocity[k];
+    mass += columns.mass[k];
+  }
+  return momentum / mass;
+}
+
+}  // namespace
+
+std::optional<Front> find_front(const Columns& columns, const Profile& profile, double plate_speed,
+                                double relative_density) {
+  const auto last = static_cast<int>(columns.place.size()) - 1;
+  const std::vector<double> strains = strains_of(columns, profile);
+  const int step = find_step(strains);
+  const int behind = step - kColumnsOfFront;  // last column behind the front
+  const int ahead = step + kColumnsOfFront;   // first column ahead of it
+  const int middle = (ahead + last) / 2;      // of what lies ahead
+  if (behind < kColumnsBeside || middle - ahead < kColumnsBeside) {
+    return std::nullopt;
+  }
+  Front front;
+  front.strain_behind = mean_strain(columns, profile, 0, behind);
+  front.strain_ahead = mean_strain(columns, profile, ahead, middle);
+  front.velocity_behind = mean_velocity(columns, profile, 0, behind);
+  front.velocity_ahead = mean_velocity(columns, profile, ahead, last);
+  const double jump = front.strain_behind - front.strain_ahead;
+  const double scatter = std::max(scatter_of(strains, 0, behind), scatter_of(strains, ahead, middle));
+  if (jump < kLeastJump || front.strain_behind >= 1.0 || scatter > kMostScatter * jump ||
+      front.velocity_behind - front.velocity_ahead < kLeastVelocityJump * plate_speed) {
+    return std::nullopt;
+  }
+  const double length = columns.place[middle] - columns.place[0];
+  const double shortening = profile.displacement[0] - profile.displacement[middle];
+  front.position = columns.place[0] + (shortening - front.strain_ahead * length) / jump;
+  front.solid_fraction_behind = relative_density / (1.0 - front.strain_behind);
+  const auto walls_behind = [&](const std::vector<double>& area) {
+    return std::accumulate(area.begin(), area.begin() + behind + 1, 0.0);
+  };
+  front.wall_fraction_behind =
+      front.solid_fraction_behind * walls_behind(profile.wall_area) / walls_behind(columns.wall_area);
+  return front;
+}
+
+}  // namespace cellcrush

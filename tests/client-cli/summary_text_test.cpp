@@ -1,0 +1,93 @@
+#include "terminal/summary_text.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "chart/energy_curves.h"
+#include "chart/job_curves.h"
+#include "commands/history_csv.h"
+#include "scripted_job.h"
+#include "synthetic_crush.h"
+
+namespace cellcrush::client {
+namespace {
+
+using ::testing::ContainsRegex;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+TEST(SummaryText, HasBothShockTheoriesWithTheirErrorsFrontModeAndLedger) {
+  const std::string text = summary_text(testing::make_job(v1::SUCCEEDED).summary(), false);
+  EXPECT_THAT(text, ContainsRegex("3.41 MPa +3.37 MPa  shock \\(Eq. 51\\), -1.2 %"));
+  EXPECT_THAT(text, ContainsRegex("3.43 MPa  shock, jumps measured \\(Eq. 52\\), \\+0.6 %"));
+  EXPECT_THAT(text, ContainsRegex("crush mode +I +told at strain 0.11"));
+  EXPECT_THAT(text, ContainsRegex("strain +0.905"));
+  EXPECT_THAT(text, ContainsRegex("0.391 +MPa, sigma_A"));
+  EXPECT_THAT(text, ContainsRegex("1.07 +by the walls' undeformed volume"));
+  EXPECT_THAT(text, ContainsRegex("contact damping +2.20 J +11.00 %"));
+  EXPECT_THAT(text, Not(HasSubstr("energy at the start")));
+  EXPECT_THAT(text, Not(HasSubstr("plates' stresses differ")));
+}
+
+TEST(SummaryText, SaysHowSteadyASlowCrushWasAndNothingOfAFastOne) {
+  v1::Summary summary;
+  summary.mutable_quasi_static()->set_plate_difference_relative(0.0058);
+  summary.mutable_quasi_static()->set_plate_difference_greatest(0.021);
+  summary.mutable_quasi_static()->set_kinetic_share(0.0052);
+  const std::string slow = summary_text(summary, false);
+  EXPECT_THAT(slow, ContainsRegex("plates' stresses differ beyond 5 % strain by +0.58 %.*at most 2.10 %"));
+  EXPECT_THAT(slow, ContainsRegex("kinetic energy at most +0.52 % +of the plastic work"));
+  summary.mutable_quasi_static()->set_kinetic_share(0.9);
+  EXPECT_THAT(summary_text(summary, false), Not(HasSubstr("plates' stresses differ")));
+}
+
+TEST(SummaryText, OfAFrameIsTheLedgerWithWhatItStartedWith) {
+  v1::Summary summary;
+  summary.mutable_ledger()->set_work_external_mj(500.0);
+  summary.mutable_ledger()->set_kinetic_mj(2000.0);
+  const std::string text = summary_text(summary, true);
+  EXPECT_THAT(text, ContainsRegex("energy at the start +1.50 J +75.00 %"));
+  EXPECT_THAT(text, Not(HasSubstr("plateau")));
+}
+
+JobHistory history_with_damping() {
+  JobHistory history{testing::make_job(v1::SUCCEEDED), testing::synthetic_samples(50, 0.8)};
+  for (v1::Sample& sample : history.samples) {
+    sample.set_work_external_mj(1000.0 * sample.strain());
+    sample.set_energy_plastic_mj(890.0 * sample.strain());
+    sample.set_energy_damping_mj(110.0 * sample.strain());
+    sample.set_energy_contact_damping_mj(100.0 * sample.strain());
+  }
+  return history;
+}
+
+TEST(EnergyChart, HasALineOfItsOwnForContactDampingAndNoneForWhatStaysZero) {
+  const Chart chart = build_energy_chart(history_with_damping());
+  std::vector<std::string> names;
+  for (const Curve& curve : chart.curves) names.push_back(curve.name);
+  EXPECT_THAT(names,
+              ::testing::ElementsAre("work of the plates", "plastic", "contact damping", "mass damping", "residual"));
+  EXPECT_NEAR(chart.curves[2].y.back(), 0.08, 1e-12);
+  EXPECT_NEAR(chart.curves[3].y.back(), 0.008, 1e-12);
+}
+
+TEST(JobChart, HasALevelOfEquation52) {
+  const Chart chart = build_job_chart(history_with_damping());
+  EXPECT_EQ(std::count_if(chart.curves.begin(), chart.curves.end(),
+                          [](const Curve& curve) { return curve.name == "Eq. 52, jumps measured: 3.43 MPa"; }),
+            1);
+}
+
+TEST(HistoryCsv, LeavesTheFrontsCellsEmptyWhereThereIsNone) {
+  google::protobuf::RepeatedPtrField<v1::Sample> samples;
+  samples.Add();
+  samples.Add()->mutable_front()->set_position_mm(12.5);
+  const std::string text = history_csv(samples);
+  EXPECT_THAT(text, HasSubstr("energy_contact_damping_mj,deepest_penetration,solid_fraction,collapsed_fraction,"
+                              "front_position_mm,front_strain_behind"));
+  EXPECT_THAT(text, HasSubstr(",0,0,,,,,,,\n"));
+  EXPECT_THAT(text, HasSubstr(",0,0,12.5,0,0,0,0,0,0\n"));
+}
+
+}  // namespace
+}  // namespace cellcrush::client
