@@ -34,8 +34,9 @@ class MeanStress {
   explicit MeanStress(std::span<const Sample> samples)
       : impact_(samples, &Sample::stress_impact), support_(samples, &Sample::stress_support) {}
 
+  static constexpr double kHalfWindow = 0.0025;
+
   [[nodiscard]] double at(double strain) const {
-    constexpr double kHalfWindow = 0.0025;
     const auto integral = [&](double to) { return 0.5 * (impact_.integral(to) + support_.integral(to)); };
     return (integral(strain + kHalfWindow) - integral(strain - kHalfWindow)) / (2.0 * kHalfWindow);
   }
@@ -47,16 +48,17 @@ class MeanStress {
 
 Limit find_limit(std::span<const Sample> samples) {
   const MeanStress stress(samples);
+  const double last = samples.back().strain - MeanStress::kHalfWindow;
   Limit limit;
   for (const Sample& sample : samples) {
-    if (sample.strain >= 0.02 && sample.strain <= 0.20 && stress.at(sample.strain) > limit.stress) {
+    if (sample.strain >= 0.02 && sample.strain <= std::min(0.20, last) && stress.at(sample.strain) > limit.stress) {
       limit.stress = stress.at(sample.strain);
       limit.strain = sample.strain;
     }
   }
   limit.least_after = limit.stress;
   for (const Sample& sample : samples) {
-    if (sample.strain > limit.strain && sample.strain <= 0.14) {
+    if (sample.strain > limit.strain && sample.strain <= std::min(0.14, last)) {
       limit.least_after = std::min(limit.least_after, stress.at(sample.strain));
     }
   }
