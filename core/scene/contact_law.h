@@ -6,8 +6,8 @@
 namespace cellcrush {
 
 /// The contact law of a case (Eq. 43; the paper gives neither k nor c):
-///   k = m_min max(stiffness_factor / dt_crit^2, (V / (0.2 h_min))^2),
-/// so that a particle at plate speed sinks in by a fifth of the thinnest wall at most. k follows from the mesh and the speed,
+///   k = m_min max(stiffness_factor / dt_crit^2, (V / (0.16 h_min))^2),
+/// so that a particle at plate speed sinks in by 0.16 of the thinnest wall at most. k follows from the mesh and the speed,
 /// so that refining the step converges to one solution; only a given step that is too long for the second term bounds it.
 /// REQUIRES: masses and stable step of the mesh.
 ContactLaw contact_law_of(const SceneSpec& spec, bool present, const Scene& scene);

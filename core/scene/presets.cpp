@@ -21,9 +21,9 @@ const std::string kMaterialAssumption =
 const std::string kThicknessAssumption =
     "Eq. 50 of the paper is inverted: the wall thickness 0.3464 mm is that of relative density 0.1, (2/sqrt(3)) h/L.";
 const std::string kContactAssumption =
-    "The paper gives neither penalty stiffness nor contact damping: walls hit at the plate's speed sink in by a fifth "
-    "of "
-    "their thickness, and a fifth of critical.";
+    "The paper gives neither penalty stiffness nor contact damping: a particle at the plate's speed sinks into a wall "
+    "by at "
+    "most a sixth of its thickness; damping is a fifth of critical.";
 const std::string kStepAssumption =
     "The step and the points of the elements are the defaults; the paper's are numerics.time_step_s 2e-7, "
     "section.formulation DISPLACEMENT_BASED, section.depth_rule LOBATTO and section.area_rule CONSTANT_AREA.";

@@ -62,13 +62,12 @@ void expect_quasi_static(const CrushRun& run) {
   EXPECT_LT(run.summary.energy_error_relative, 0.01);
 }
 
-/// The limit stands at 7 to 12 % strain; plateau and densification are those of the other programs.
-void expect_course(const CrushRun& run, const Example& example) {
-  EXPECT_GT(run.limit.strain, 0.07);
-  EXPECT_LT(run.limit.strain, 0.12);
+/// Plateau and densification are those of the other programs. Of the default elements the onset scatters more than theirs:
+/// seeds of 0.01 mm put that of dimensions 2 at 0.68 to 0.77.
+void expect_course(const CrushRun& run, const Example& example, double onset_tolerance) {
   EXPECT_NEAR(run.summary.plateau_stress_impact.value_or(0.0) / example.plateau_stress, 1.0, 0.06);
   EXPECT_NEAR(run.summary.plateau_stress_support.value_or(0.0) / example.plateau_stress, 1.0, 0.06);
-  EXPECT_NEAR(run.summary.densification_strain.value_or(0.0), 0.73, 0.04);
+  EXPECT_NEAR(run.summary.densification_strain.value_or(0.0), 0.73, onset_tolerance);
 }
 
 /// Up to the limit all rows are crushed alike, so that its stress is that of one wall, exact, at the same strain; the free
@@ -85,6 +84,8 @@ void expect_limit_of_the_exact_wall(const CrushRun& run, const Example& example)
 
 void expect_limit_of_other_programs(const CrushRun& run, const Example& example) {
   EXPECT_NEAR(run.limit.stress / example.limit_stress, 1.0, example.limit_tolerance);
+  EXPECT_GT(run.limit.strain, 0.075);
+  EXPECT_LT(run.limit.strain, 0.12);
 }
 
 TEST(Example1, Dimensions1OfThePapersElementsCollapsesAsInOtherPrograms) {
@@ -92,14 +93,14 @@ TEST(Example1, Dimensions1OfThePapersElementsCollapsesAsInOtherPrograms) {
   expect_quasi_static(run);
   expect_limit_of_other_programs(run, kDimensions1);
   EXPECT_LT(run.limit.least_after, 0.90 * run.limit.stress);
-  expect_course(run, kDimensions1);
+  expect_course(run, kDimensions1, 0.04);
 }
 
 TEST(Example1, Dimensions2OfThePapersElementsCollapsesAsInOtherPrograms) {
   const CrushRun run = crush(kDimensions2, papers_elements());
   expect_quasi_static(run);
   expect_limit_of_other_programs(run, kDimensions2);
-  expect_course(run, kDimensions2);
+  expect_course(run, kDimensions2, 0.04);
 }
 
 TEST(Example1, Dimensions1OfDefaultElementsCollapsesAtTheStressOfItsExactWall) {
@@ -107,14 +108,14 @@ TEST(Example1, Dimensions1OfDefaultElementsCollapsesAtTheStressOfItsExactWall) {
   expect_quasi_static(run);
   expect_limit_of_the_exact_wall(run, kDimensions1);
   EXPECT_LT(run.limit.least_after, 0.90 * run.limit.stress);
-  expect_course(run, kDimensions1);
+  expect_course(run, kDimensions1, 0.06);
 }
 
 TEST(Example1, Dimensions2OfDefaultElementsCollapsesAtTheStressOfItsExactWall) {
   const CrushRun run = crush(kDimensions2, {});
   expect_quasi_static(run);
   expect_limit_of_the_exact_wall(run, kDimensions2);
-  expect_course(run, kDimensions2);
+  expect_course(run, kDimensions2, 0.06);
 }
 
 }  // namespace
