@@ -8,6 +8,7 @@
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
 #include "measure/curve.h"
+#include "scenes/crossings.h"
 #include "scenes/state_hash.h"
 
 namespace cellcrush::validation {
@@ -102,9 +103,14 @@ CrushRun run_crush(const SceneSpec& spec) {
   run.facts = facts_of(*scene);
   const auto start = std::chrono::steady_clock::now();
   Simulation simulation(scene);
+  std::int64_t next_frame = run.facts.frame_interval;
   while (simulation.status().kind == RunStatus::Kind::running) {
     simulation.advance(run.facts.sample_interval);
     run.samples.push_back(simulation.take_sample());
+    if (simulation.step() >= next_frame) {
+      next_frame += run.facts.frame_interval;
+      run.crossings += static_cast<std::int64_t>(scenes::find_crossings(*scene, simulation.state()).size());
+    }
   }
   run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   run.status = simulation.status();

@@ -24,7 +24,8 @@ struct CrushRun {
   std::vector<Sample> samples;
   Summary summary;
   Limit limit;
-  double deepest_birth = 0.0;           ///< of a wall contact, over the distance at which it touches
+  std::int64_t crossings = 0;           ///< pairs of walls that cross, in all frames
+  double deepest_birth = 0.0;           ///< of a wall contact, over the thinner wall's thickness
   double contact_work_share = 0.0;      ///< least accumulated contact work over the external work done by then
   double plate_force_difference = 0.0;  ///< |mean impact - mean support| / mean impact, beyond 5 % strain
   double kinetic_over_work = 0.0;       ///< greatest kinetic energy over the external work by then, beyond 5 % strain

@@ -35,10 +35,25 @@ std::string name_of(RunStatus::Kind kind) {
   return "energy_balance";
 }
 
+std::string name_of(CrushMode mode) {
+  switch (mode) {
+    case CrushMode::none: return "none";
+    case CrushMode::x: return "X";
+    case CrushMode::v: return "V";
+    case CrushMode::i: return "I";
+    case CrushMode::c: return "C";
+    case CrushMode::mixed: break;
+  }
+  return "mixed";
+}
+
 using Cells = std::vector<std::pair<std::string, std::string>>;
 
 Cells cells_of(const Options& options, const CrushRun& run) {
   const Summary& summary = run.summary;
+  const auto front_text = [&](double FrontSummary::*measure) {
+    return summary.front ? text_of((*summary.front).*measure) : std::string();
+  };
   return {
       {"preset", options.preset},
       {"options", options.changes},
@@ -60,6 +75,17 @@ Cells cells_of(const Options& options, const CrushRun& run) {
       {"kinetic_over_work", text_of(run.kinetic_over_work)},
       {"kinetic_over_plastic", text_of(run.kinetic_over_plastic)},
       {"kinetic_over_plastic_flowing", text_of(run.kinetic_over_plastic_flowing)},
+      {"crossings", std::to_string(run.crossings)},
+      {"crush_mode", name_of(summary.crush_mode)},
+      {"front_strain_behind", front_text(&FrontSummary::strain_behind)},
+      {"front_strain_ahead", front_text(&FrontSummary::strain_ahead)},
+      {"front_velocity_behind", front_text(&FrontSummary::velocity_behind)},
+      {"front_velocity_ahead", front_text(&FrontSummary::velocity_ahead)},
+      {"front_solid_fraction", front_text(&FrontSummary::solid_fraction_behind)},
+      {"front_wall_fraction", front_text(&FrontSummary::wall_fraction_behind)},
+      {"front_stress_ahead", front_text(&FrontSummary::stress_ahead)},
+      {"front_shock", front_text(&FrontSummary::shock)},
+      {"front_window_share", front_text(&FrontSummary::window_share)},
       {"theory_gibson_ashby", text_of(summary.theory.gibson_ashby)},
       {"theory_shock", text_of(summary.theory.shock)},
       {"time_step", text_of(run.facts.time_step)},
