@@ -123,6 +123,7 @@ SceneSpec BarImpact::spec(int elements) {
   frame.end_time_s = kGap / kSpeed + 2.0 * duration();
   SceneSpec spec = elastic_frame(std::move(frame));
   spec.contact.damping_ratio = 0.0;
+  spec.contact.stiffness_factor = 0.25;
   spec.output.sample_count = 2000;
   return spec;
 }

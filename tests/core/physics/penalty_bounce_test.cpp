@@ -76,13 +76,13 @@ TEST(PenaltyBounce, DampingTakesEnergyAndNeverPulls) {
   EXPECT_LT(damped.energy_ratio, 0.45);
 }
 
-// The default stiffness: 0.5 m_min / dt_crit^2 for two of the lightest particles, at 0.9 of dt_crit.
+// The default stiffness at 100 m/s, two of the lightest particles: k = m (V / 0.16 h)^2, and V dt = 0.05 h.
 TEST(PenaltyBounce, OfTheLightestPairAtTheChosenStepIsWithinSevenPercent) {
   const auto scene = scenes::build(scenes::hexagon_block(4, 3));
   const double lightest = *std::min_element(scene->mass.begin(), scene->mass.end());
   const double omega = std::sqrt(scene->contact.stiffness * 2.0 / lightest);
-  const double omega_step = omega * 0.9 * scene->stable_step;
-  EXPECT_NEAR(omega_step, 0.636, 1e-3);
+  const double omega_step = omega * scene->schedule.time_step;
+  EXPECT_NEAR(omega_step, std::sqrt(2.0) * 0.05 / 0.16, 1e-3);
   double mass = 0.0;
   double stiffness = 0.0;
   EXPECT_NEAR(bounce(omega_step, 0.0, mass, stiffness).energy_ratio, 1.0, 0.07);
