@@ -20,9 +20,17 @@ struct Crush {
   double deepest_birth = 0.0;
 };
 
-Crush crush_type_i(double time_step) {
+/// The paper's elements and step.
+SceneSpec of_the_paper() {
   SceneSpec spec = find_preset("type-i")->spec;
-  spec.numerics.time_step_s = time_step;
+  spec.numerics.time_step_s = 2e-7;
+  spec.section.formulation = SectionSpec::Formulation::displacement_based;
+  spec.section.depth_rule = SectionSpec::DepthRule::lobatto;
+  spec.section.area_rule = SectionSpec::AreaRule::constant_area;
+  return spec;
+}
+
+Crush crush(SceneSpec spec) {
   spec.output.sample_count = 400;
   const auto scene = scenes::build(spec);
   const SceneFacts facts = facts_of(*scene);
@@ -85,25 +93,30 @@ void expect_shock_theory(const Crush& crush) {
   EXPECT_NEAR(advance, expected, 0.03 * expected);
 }
 
-TEST(TypeI, CrushAt100MetresASecondAtThePapersStep) {
-  const Crush crush = crush_type_i(2e-7);
-  EXPECT_NEAR(crush.samples.back().strain, 0.8, 1e-3);
-  ASSERT_TRUE(crush.summary.plateau_stress_impact && crush.summary.plateau_stress_support);
-  EXPECT_GT(*crush.summary.plateau_stress_impact, 3.1);
-  EXPECT_LT(*crush.summary.plateau_stress_impact, 3.7);
-  EXPECT_GT(*crush.summary.plateau_stress_support, 0.38);
-  EXPECT_LT(*crush.summary.plateau_stress_support, 0.52);
-  EXPECT_LT(crush.summary.energy_error_relative, 0.025);
-  expect_sound_contact(crush);
-  expect_shock_theory(crush);
+TEST(TypeI, CrushAt100MetresASecondWithThePapersElementsAndStep) {
+  const Crush paper = crush(of_the_paper());
+  EXPECT_NEAR(paper.samples.back().strain, 0.8, 1e-3);
+  ASSERT_TRUE(paper.summary.plateau_stress_impact && paper.summary.plateau_stress_support);
+  EXPECT_GT(*paper.summary.plateau_stress_impact, 3.1);
+  EXPECT_LT(*paper.summary.plateau_stress_impact, 3.7);
+  EXPECT_GT(*paper.summary.plateau_stress_support, 0.38);
+  EXPECT_LT(*paper.summary.plateau_stress_support, 0.52);
+  EXPECT_LT(paper.summary.energy_error_relative, 0.025);
+  expect_sound_contact(paper);
+  expect_shock_theory(paper);
 }
 
-TEST(TypeI, LedgerClosesWithinHalfAPercentAtHalfThePapersStep) {
-  const Crush crush = crush_type_i(1e-7);
-  EXPECT_LT(crush.summary.energy_error_relative, 0.005);
-  EXPECT_GT(*crush.summary.plateau_stress_impact, 3.1);
-  EXPECT_LT(*crush.summary.plateau_stress_impact, 3.7);
-  expect_sound_contact(crush);
+// The support stress of the paper's elements falls from 0.46 to 0.39 MPa with 8 of them a wall; ours begin below.
+TEST(TypeI, CrushAt100MetresASecondByDefaultClosesItsLedgerWithinOnePercent) {
+  const Crush ours = crush(find_preset("type-i")->spec);
+  ASSERT_TRUE(ours.summary.plateau_stress_impact && ours.summary.plateau_stress_support);
+  EXPECT_GT(*ours.summary.plateau_stress_impact, 3.1);
+  EXPECT_LT(*ours.summary.plateau_stress_impact, 3.7);
+  EXPECT_GT(*ours.summary.plateau_stress_support, 0.30);
+  EXPECT_LT(*ours.summary.plateau_stress_support, 0.42);
+  EXPECT_LT(ours.summary.energy_error_relative, 0.01);
+  expect_sound_contact(ours);
+  expect_shock_theory(ours);
 }
 
 }  // namespace
