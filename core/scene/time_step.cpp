@@ -1,6 +1,8 @@
 #include "scene/time_step.h"
 
 #include <algorithm>
+#include <cmath>
+#include <variant>
 
 #include "scene/contact_law.h"
 
@@ -8,6 +10,12 @@ namespace cellcrush {
 namespace {
 
 constexpr double kTravelPerStep = 0.05;  // of the thinnest wall, by the plate
+constexpr double kTurnOfStacks = 0.17;   // rad, of the lightest particle on its contact
+
+/// Whether walls lie along the crush and are stacked in it.
+bool stacks(const SceneSpec& spec) {
+  return std::holds_alternative<SquareLattice>(spec.lattice) || std::holds_alternative<TriangleLattice>(spec.lattice);
+}
 
 }  // namespace
 
@@ -22,6 +30,9 @@ double time_step_of(const SceneSpec& spec, const Scene& scene) {
   if (scene.contact.present) {
     const double lightest = *std::min_element(scene.mass.begin(), scene.mass.end());
     step = std::min(step, kStepFraction * contact_step_of(scene.contact, lightest));
+    if (stacks(spec)) {
+      step = std::min(step, kTurnOfStacks * std::sqrt(lightest / scene.contact.stiffness));
+    }
   }
   return step;
 }
