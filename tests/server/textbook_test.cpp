@@ -1,5 +1,6 @@
 #include "scenes/textbook.h"
 
+#include "scenes/dynamic_claims.h"
 #include "scenes/textbook_claims.h"
 #include "server/daemon_fixture.h"
 #include "store/hdf5.h"
@@ -27,6 +28,8 @@ class TextbookJobs : public DaemonFixture {
   static Sample sample_of(const v1::Sample& in) {
     Sample out;
     out.time = in.time_s();
+    out.energy_kinetic = in.energy_kinetic_mj();
+    out.energy_elastic = in.energy_elastic_mj();
     out.energy_plastic = in.energy_plastic_mj();
     out.work_external = in.work_external_mj();
     for (const auto& node : in.watched()) out.watched.push_back({node.ux_mm(), node.uy_mm(), node.rotation_rad()});
@@ -46,6 +49,13 @@ TEST_F(TextbookJobs, LimitLoadsHold) {
   scenes::expect_limit_load(run(scenes::pushed_cantilever(8.0, 12)), &WatchedNode::uy, 1.0);
   scenes::expect_limit_load(run(scenes::pushed_clamped_beam(3.0, 12)), &WatchedNode::uy, 8.0);
   scenes::expect_limit_load(run(scenes::pushed_portal(8.0, 12)), &WatchedNode::ux, 4.0);
+}
+
+TEST_F(TextbookJobs, MotionsOfStruckSpinningAndLoadedBeamsHold) {
+  scenes::expect_parkes(run(scenes::StruckCantilever::spec(20, 4.0 * scenes::StruckCantilever::duration())));
+  scenes::expect_steady_stretch(run(scenes::SpinningBar::spec(8, 60.0)), 8);
+  const scenes::StepLoadedCantilever cantilever;
+  scenes::expect_dynamic_factor(run(cantilever.spec(16, cantilever.first_period(), 0)), cantilever);
 }
 
 TEST_F(TextbookJobs, LeesFrameSnapsThrough) { scenes::expect_lee_limit(run(scenes::lee_frame(60.0))); }
