@@ -7,7 +7,6 @@
 
 #include "scene/check_frame.h"
 #include "scene/field_checker.h"
-#include "section/section_rule.h"
 
 namespace cellcrush {
 namespace {
@@ -95,15 +94,14 @@ void check_lattice(const SceneSpec& spec, FieldChecker& check) {
 }
 
 void check_section(const SectionSpec& section, FieldChecker& check) {
-  const SectionSpec whole = complete_section(section);
   const bool force_based = section.formulation == SectionSpec::Formulation::force_based;
-  check.in_range("section.axial_points", whole.axial_points,
+  check.in_range("section.axial_points", std::optional(section.axial_count()),
                  force_based ? FieldChecker::Range{3, 5} : FieldChecker::Range{1, 5},
                  force_based ? " (force-based; displacement-based: 1 to 5)" : "");
   if (section.depth_rule == SectionSpec::DepthRule::lobatto) {
-    check.in_range("section.depth_points", whole.depth_points, {2, 10}, "");
-  } else if (*whole.depth_points != 4 && *whole.depth_points != 6) {
-    check.add("section.depth_points", std::to_string(*whole.depth_points),
+    check.in_range("section.depth_points", std::optional(section.depth_count()), {2, 10}, "");
+  } else if (section.depth_count() != 4 && section.depth_count() != 6) {
+    check.add("section.depth_points", std::to_string(section.depth_count()),
               "is not a number that the full-moment rule has.",
               "Give 4 or 6, or section.depth_rule LOBATTO with 2 to 10.");
   }

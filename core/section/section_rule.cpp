@@ -18,9 +18,9 @@ Quadrature short_ended_rule() {
 
 Quadrature along_rule(const SectionSpec& spec) {
   if (spec.formulation == SectionSpec::Formulation::displacement_based) {
-    return gauss_rule(*spec.axial_points);
+    return gauss_rule(spec.axial_count());
   }
-  return *spec.axial_points == 4 ? short_ended_rule() : lobatto_rule(*spec.axial_points);
+  return spec.axial_count() == 4 ? short_ended_rule() : lobatto_rule(spec.axial_count());
 }
 
 /// Points at +-places whose weights have the sum 2, the first moment of |y| 1 and the second moment of y 2/3, as the section
@@ -52,8 +52,8 @@ Quadrature full_moment_rule(int points) {
 }
 
 Quadrature depth_rule(const SectionSpec& spec) {
-  return spec.depth_rule == SectionSpec::DepthRule::lobatto ? lobatto_rule(*spec.depth_points)
-                                                            : full_moment_rule(*spec.depth_points);
+  return spec.depth_rule == SectionSpec::DepthRule::lobatto ? lobatto_rule(spec.depth_count())
+                                                            : full_moment_rule(spec.depth_count());
 }
 
 Eigen::ArrayXd to_array(const std::vector<double>& values) {
@@ -63,25 +63,15 @@ Eigen::ArrayXd to_array(const std::vector<double>& values) {
 }  // namespace
 
 SectionRule make_section_rule(const SectionSpec& spec) {
-  const SectionSpec whole = complete_section(spec);
-  const Quadrature along = along_rule(whole);
-  const Quadrature through = depth_rule(whole);
+  const Quadrature along = along_rule(spec);
+  const Quadrature through = depth_rule(spec);
   SectionRule rule;
-  rule.force_based = whole.formulation == SectionSpec::Formulation::force_based;
+  rule.force_based = spec.formulation == SectionSpec::Formulation::force_based;
   rule.along = 0.5 * (1.0 + to_array(along.points));
   rule.along_weight = 0.5 * to_array(along.weights);
   rule.offset = 0.5 * to_array(through.points);
   rule.depth_weight = 0.5 * to_array(through.weights);
   return rule;
-}
-
-SectionSpec complete_section(const SectionSpec& spec) {
-  SectionSpec whole = spec;
-  if (!whole.axial_points) {
-    whole.axial_points = spec.formulation == SectionSpec::Formulation::force_based ? 4 : 2;
-  }
-  whole.depth_points = whole.depth_points.value_or(6);
-  return whole;
 }
 
 }  // namespace cellcrush

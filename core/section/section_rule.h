@@ -17,7 +17,4 @@ namespace cellcrush {
 /// REQUIRES: a spec that check_spec has passed.
 SectionRule make_section_rule(const SectionSpec& spec);
 
-/// The spec with the numbers of points that its rules have by default.
-SectionSpec complete_section(const SectionSpec& spec);
-
 }  // namespace cellcrush

@@ -144,6 +144,11 @@ struct SectionSpec {
   AreaRule area_rule = AreaRule::constant_volume;
   std::optional<int> axial_points;  ///< default: 4 force-based (3 to 5), 2 displacement-based (1 to 5)
   std::optional<int> depth_points;  ///< default: 6 (full-moment: 4 or 6, Lobatto: 2 to 10)
+
+  [[nodiscard]] int axial_count() const {
+    return axial_points.value_or(formulation == Formulation::force_based ? 4 : 2);
+  }
+  [[nodiscard]] int depth_count() const { return depth_points.value_or(6); }
 };
 
 struct ContactSpec {
