@@ -10,7 +10,7 @@ namespace cellcrush {
 namespace {
 
 constexpr double kTravelPerStep = 0.05;  // of the thinnest wall, by the plate
-constexpr double kTurnOfStacks = 0.17;   // rad, of the lightest particle on its contact
+constexpr double kTurnOfStacks = 0.11;   // rad, of the lightest particle on its contact
 
 /// Whether walls lie along the crush and are stacked in it.
 bool stacks(const SceneSpec& spec) {
