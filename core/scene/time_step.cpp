@@ -10,11 +10,21 @@ namespace cellcrush {
 namespace {
 
 constexpr double kTravelPerStep = 0.05;  // of the thinnest wall, by the plate
-constexpr double kTurnOfStacks = 0.11;   // rad, of the lightest particle on its contact
 
 /// Whether walls lie along the crush and are stacked in it.
 bool stacks(const SceneSpec& spec) {
   return std::holds_alternative<SquareLattice>(spec.lattice) || std::holds_alternative<TriangleLattice>(spec.lattice);
+}
+
+/// Greatest turn in a step of the lightest particle on its contact, rad: less where the crush is slow against
+/// sqrt(sigma_y / rho), and its work therefore small.
+double turn_of_stacks(const Scene& scene) {
+  constexpr double kTurn = 0.11;
+  constexpr double kFast = 0.45;  // speed over sqrt(sigma_y / rho)
+  constexpr double kLeastShare = 1.0 / 3.0;
+  const Material& material = scene.materials.front();
+  const double speed = scene.plates.speed / std::sqrt(material.yield_stress / material.density);
+  return kTurn * std::clamp(speed / kFast, kLeastShare, 1.0);
 }
 
 }  // namespace
@@ -31,7 +41,7 @@ double time_step_of(const SceneSpec& spec, const Scene& scene) {
     const double lightest = *std::min_element(scene.mass.begin(), scene.mass.end());
     step = std::min(step, kStepFraction * contact_step_of(scene.contact, lightest));
     if (stacks(spec)) {
-      step = std::min(step, kTurnOfStacks * std::sqrt(lightest / scene.contact.stiffness));
+      step = std::min(step, turn_of_stacks(scene) * std::sqrt(lightest / scene.contact.stiffness));
     }
   }
   return step;

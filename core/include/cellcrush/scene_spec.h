@@ -153,7 +153,7 @@ struct SectionSpec {
 
 struct ContactSpec {
   double friction = 0.0;
-  double stiffness_factor = 0.1;  ///< k = stiffness_factor m_min / dt_crit^2
+  double stiffness_factor = 0.12;  ///< k = stiffness_factor m_min / dt_crit^2
   double damping_ratio = 0.2;     ///< share of critical damping
 };
 
