@@ -14,8 +14,12 @@ using PerSection = std::array<double, kMostSections>;
 
 /// What the sections of a force-based element remember from step to step, in the state's arrays.
 struct SectionMemory {
-  double* unbalance;  ///< moment that the section lacks to the line through the end moments, over b h^2, MPa
-  double* tangent;    ///< share of the elastic bending stiffness that it showed in the newest step
+  double* unbalance;       ///< moment that the section lacks to the line through the end moments, over b h^2, MPa
+  double* tangent;         ///< share of the elastic bending stiffness that it showed in the newest step
+  std::size_t stride = 1;  ///< from a section to the next
+
+  [[nodiscard]] double& unbalance_of(std::size_t section) const { return unbalance[section * stride]; }
+  [[nodiscard]] double& tangent_of(std::size_t section) const { return tangent[section * stride]; }
 };
 
 /// End moments over b h^2, MPa: what sections' moments do work with on the nodes' rotations (Eq. 28).

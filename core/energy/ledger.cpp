@@ -1,6 +1,7 @@
 #include "energy/ledger.h"
 
 #include "beam/beam_section.h"
+#include "beam/element_place.h"
 
 namespace cellcrush {
 namespace {
@@ -30,17 +31,19 @@ double kinetic_energy(const Scene& scene, const State& state) {
   return 0.5 * twice;
 }
 
+using StridedMap = Eigen::Map<const Eigen::ArrayXXd, 0, Eigen::Stride<Eigen::Dynamic, Eigen::Dynamic>>;
+
 double elastic_energy(const Scene& scene, const State& state) {
   const auto sections = static_cast<Eigen::Index>(scene.section.section_count());
   const auto depth = static_cast<Eigen::Index>(scene.section.depth_count());
   double energy = 0.0;
-  for (std::size_t e = 0; e < scene.element_count(); ++e) {
-    const Eigen::Map<const Eigen::ArrayXXd> stress(&state.stress[e * scene.fibre_count()], depth, sections);
-    const Element& element = scene.elements[e];
-    const BeamSection section = section_of(scene, e, state.length[e]);
-    const double modulus = section.stiffness * scene.materials[element.material].youngs_modulus;
+  visit_elements(scene, [&](const ElementPlace& place, int wall) {
+    const StridedMap stress(&state.stress[place.index(scene.fibre_count(), 0)], depth, sections,
+                            {depth * static_cast<Eigen::Index>(place.stride), static_cast<Eigen::Index>(place.stride)});
+    const BeamSection section = section_of(scene, wall, state.length[place.element]);
+    const double modulus = section.stiffness * scene.materials[scene.walls.material[wall]].youngs_modulus;
     energy += section.volume * mean_over(scene.section, stress.square()) / (2.0 * modulus);
-  }
+  });
   return energy;
 }
 

@@ -22,6 +22,34 @@ void lump_masses(Scene& scene) {
   }
 }
 
+namespace {
+
+/// Calls visit(joint, index into State::wall_force) for every end of a wall: of a block its starts, then its ends.
+template <class Visit>
+void visit_wall_ends(const Scene& scene, Visit&& visit) {
+  for (const WallBlock& block : scene.walls.blocks) {
+    for (const std::vector<int>* joints : {&scene.walls.start, &scene.walls.end}) {
+      const int first = 2 * block.first_wall + (joints == &scene.walls.start ? 0 : block.walls);
+      for (int w = 0; w < block.walls; ++w) {
+        visit((*joints)[block.first_wall + w], first + w);
+      }
+    }
+  }
+}
+
+void link_wall_ends(Scene& scene) {
+  scene.wall_end_offset.assign(static_cast<std::size_t>(scene.joint_count) + 1, 0);
+  visit_wall_ends(scene, [&](int joint, int) { ++scene.wall_end_offset[joint + 1]; });
+  for (int joint = 0; joint < scene.joint_count; ++joint) {
+    scene.wall_end_offset[joint + 1] += scene.wall_end_offset[joint];
+  }
+  scene.wall_ends.resize(2 * scene.walls.start.size());
+  std::vector<int> next(scene.wall_end_offset.begin(), scene.wall_end_offset.end() - 1);
+  visit_wall_ends(scene, [&](int joint, int end) { scene.wall_ends[next[joint]++] = end; });
+}
+
+}  // namespace
+
 void link_elements(Scene& scene) {
   scene.incidence_offset.assign(scene.particle_count() + 1, 0);
   for (const Element& element : scene.elements) {
@@ -37,6 +65,7 @@ void link_elements(Scene& scene) {
     scene.incidence[next[scene.elements[e].start]++] = static_cast<int>(e);
     scene.incidence[next[scene.elements[e].end]++] = static_cast<int>(e);
   }
+  link_wall_ends(scene);
 }
 
 }  // namespace cellcrush

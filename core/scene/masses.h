@@ -9,7 +9,7 @@ namespace cellcrush {
 /// attached masses are put in before.
 void lump_masses(Scene& scene);
 
-/// Fills incidence_offset and incidence.
+/// Fills incidence_offset, incidence, wall_end_offset and wall_ends.
 void link_elements(Scene& scene);
 
 }  // namespace cellcrush

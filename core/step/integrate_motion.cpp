@@ -10,10 +10,11 @@ struct Resultant {
   double moment;
 };
 
-/// All forces on a particle but mass damping. Elements are summed in ascending order, so that the sum has the same bits
-/// whoever computes it.
+/// All forces on a particle but mass damping.
 Resultant resultant_on(const Scene& scene, const State& state, std::size_t particle) {
-  Resultant sum = {state.contact_force[particle] + state.contact_damping_force[particle], 0.0};
+  Resultant sum = {
+      state.internal_force[particle] + state.contact_force[particle] + state.contact_damping_force[particle],
+      state.internal_moment[particle]};
   if (scene.plates.present) {
     sum.force[scene.plates.axis] += state.impact_force[particle] + state.impact_damping_force[particle] -
                                     state.support_force[particle] - state.support_damping_force[particle];
@@ -24,17 +25,6 @@ Resultant resultant_on(const Scene& scene, const State& state, std::size_t parti
   if (scene.is_loaded()) {
     sum.force += state.load_force[particle];
     sum.moment += state.load_moment[particle];
-  }
-  for (int k = scene.incidence_offset[particle]; k < scene.incidence_offset[particle + 1]; ++k) {
-    const int element = scene.incidence[k];
-    const ElementForces& internal = state.internal[element];
-    if (scene.elements[element].end == static_cast<int>(particle)) {
-      sum.force -= internal.force_on_end;
-      sum.moment -= internal.moment_on_end;
-    } else {
-      sum.force += internal.force_on_end;
-      sum.moment -= internal.moment_on_start;
-    }
   }
   return sum;
 }
@@ -94,14 +84,23 @@ State place_particles(const Scene& scene) {
     state.length.push_back(span.norm());
     state.axis.push_back(span / state.length.back());
   }
-  for (auto* values : {&state.stress, &state.back_stress, &state.plastic_strain}) {
-    values->assign(e * scene.fibre_count(), 0.0);
+  state.stress.assign(e * scene.fibre_count(), 0.0);
+  if (scene.has_hardening()) {
+    state.back_stress.assign(e * scene.fibre_count(), 0.0);
+    state.plastic_strain.assign(e * scene.fibre_count(), 0.0);
+  } else {
+    state.flowed.assign(e, 0);
   }
   if (scene.section.force_based) {
     state.section_unbalance.assign(e * scene.section.section_count(), 0.0);
     state.section_tangent.assign(e * scene.section.section_count(), 1.0);
+    state.start_moment.assign(e, 0.0);
+    state.end_moment.assign(e, 0.0);
   }
-  state.internal.resize(e);
+  state.wall_force.assign(2 * scene.walls.start.size(), Vector2::Zero());
+  state.wall_moment.assign(2 * scene.walls.start.size(), 0.0);
+  state.internal_force.assign(n, Vector2::Zero());
+  state.internal_moment.assign(n, 0.0);
   state.candidate_offset.assign(n + 1, 0);
   state.contact_force.assign(n, Vector2::Zero());
   state.contact_damping_force.assign(n, Vector2::Zero());

@@ -7,14 +7,6 @@
 
 namespace cellcrush {
 
-/// Forces by which an element resists (Eq. 31, 32), in the fixed frame: N and N mm. The force on the start node is the
-/// reverse of that on the end node.
-struct ElementForces {
-  Vector2 force_on_end = Vector2::Zero();
-  double moment_on_start = 0.0;
-  double moment_on_end = 0.0;
-};
-
 /// A ball and a segment that may touch before the list is made again. Without padding: its bytes are hashed.
 struct ContactCandidate {
   int ball = 0;           ///< particle
@@ -54,12 +46,18 @@ struct State {
   // Written by evaluate_internal_forces.
   std::vector<Vector2> axis;              ///< E, unit vector from start to end
   std::vector<double> length;             ///< E
-  std::vector<double> stress;             ///< E x F, of the fibres, axial point by axial point, MPa
-  std::vector<double> back_stress;        ///< E x F, middle of the yield surface, MPa
-  std::vector<double> plastic_strain;     ///< E x F, accumulated (effective)
+  std::vector<double> stress;             ///< E x F, of the fibres, MPa; the order is that of beam/element_place.h
+  std::vector<double> back_stress;        ///< E x F, middle of the yield surface, MPa; empty without hardening
+  std::vector<double> plastic_strain;     ///< E x F, accumulated (effective); empty without hardening
+  std::vector<std::uint64_t> flowed;      ///< E, bit f: fibre f has flowed; empty with hardening
   std::vector<double> section_unbalance;  ///< E x P of a force-based rule (beam/section_curvatures.h), else empty; MPa
   std::vector<double> section_tangent;    ///< the same, 1
-  std::vector<ElementForces> internal;    ///< E
+  std::vector<double> start_moment;       ///< E of a force-based rule, else empty: on the start node, N mm
+  std::vector<double> end_moment;         ///< the same, on the end node
+  std::vector<Vector2> wall_force;        ///< 2 W, of walls on joints: of a block's walls at their starts, then ends; N
+  std::vector<double> wall_moment;        ///< 2 W, N mm
+  std::vector<Vector2> internal_force;    ///< N, of all elements on the particle
+  std::vector<double> internal_moment;    ///< N, N mm
 
   // Written by evaluate_loads; empty when the scene has no loads.
   std::vector<Vector2> load_force;  ///< N
@@ -107,9 +105,15 @@ void visit_fields(S& state, Visitor&& visitor) {
   visitor("stress", state.stress);
   visitor("back_stress", state.back_stress);
   visitor("plastic_strain", state.plastic_strain);
+  visitor("flowed", state.flowed);
   visitor("section_unbalance", state.section_unbalance);
   visitor("section_tangent", state.section_tangent);
-  visitor("internal", state.internal);
+  visitor("start_moment", state.start_moment);
+  visitor("end_moment", state.end_moment);
+  visitor("wall_force", state.wall_force);
+  visitor("wall_moment", state.wall_moment);
+  visitor("internal_force", state.internal_force);
+  visitor("internal_moment", state.internal_moment);
   visitor("load_force", state.load_force);
   visitor("load_moment", state.load_moment);
   visitor("candidate_offset", state.candidate_offset);
