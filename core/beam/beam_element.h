@@ -43,11 +43,13 @@ ElementSums return_element(const Material& material, const SectionRule& rule, do
   return element;
 }
 
+/// Passes of a force-based element; one is enough in 97 of 100 steps of an element.
+inline constexpr int kMostPasses = 4;
+
 /// The same for a force-based element: curvature is moved between the sections until their moments lie on a line.
 template <int kDepthPoints, bool kHardening>
 ElementSums return_balanced(const Material& material, const SectionRule& rule, double membrane, Bend bend,
                             const EndMoments& before, Fibres fibres, FibreStep next, SectionMemory memory) {
-  constexpr int kMostPasses = 4;  // one is enough in 97 of 100 steps of an element
   const bool straight = is_straight(rule, memory);
   PerSection curvature = straight ? straight_curvatures(rule, bend.start, bend.end)
                                   : balanced_curvatures(rule, material, before, memory, bend.start, bend.end);

@@ -5,6 +5,8 @@
 #include "beam/beam_element.h"
 #include "beam/deformation.h"
 #include "beam/element_place.h"
+#include "beam/wide_walls.h"
+#include "simd/target.h"
 
 namespace cellcrush {
 namespace {
@@ -93,7 +95,9 @@ void sum_joint_forces(const Scene& scene, State& state) {
 }  // namespace
 
 void evaluate_internal_forces(const Scene& scene, State& state) {
-  if (scene.has_hardening()) {
+  if (use_wide_kernels() && evaluate_walls_wide(scene, state)) {
+    // done
+  } else if (scene.has_hardening()) {
     evaluate_all<true>(scene, state);
   } else {
     evaluate_all<false>(scene, state);

@@ -6,9 +6,6 @@
 namespace cellcrush {
 namespace {
 
-/// Least share of the elastic stiffness that a section is given: it keeps the element's flexibility finite.
-constexpr double kLeastTangent = 0.01;
-
 /// Rotation over moment of the element, a symmetric 2 x 2 matrix, and the rotations that its unbalance asks for.
 struct Flexibility {
   double start = 0.0;
@@ -69,19 +66,17 @@ PerSection moments_of_sections(const SectionRule& rule, const EndMoments& moment
 
 bool remember_sections(const SectionRule& rule, const Material& material, const PerSection& before,
                        const ElementSums& now, const PerSection& curvature, SectionMemory memory) {
-  constexpr double kRoundOff = 1e-12;  // of Young's modulus
-  constexpr double kInBalance = 0.02;  // of the full plastic moment
   const double youngs_modulus = material.youngs_modulus;
   double worst = 0.0;
   for (std::size_t i = 0; i < rule.section_count(); ++i) {
     const double s = rule.along[static_cast<Eigen::Index>(i)];
     const double elastic_increment = youngs_modulus / 12.0 * curvature[i];
-    if (std::abs(elastic_increment) > kRoundOff * youngs_modulus) {
+    if (std::abs(elastic_increment) > kSectionRoundOff * youngs_modulus) {
       const double tangent = (now.moment[i] - before[i]) / elastic_increment;
       memory.tangent_of(i) = tangent > 1.0 - 1e-6 ? 1.0 : std::max(tangent, kLeastTangent);
     }
     const double unbalance = now.moments.at(s) - now.moment[i];
-    memory.unbalance_of(i) = std::abs(unbalance) > kRoundOff * youngs_modulus ? unbalance : 0.0;
+    memory.unbalance_of(i) = std::abs(unbalance) > kSectionRoundOff * youngs_modulus ? unbalance : 0.0;
     worst = std::max(worst, std::abs(unbalance));
   }
   return worst <= kInBalance * 0.25 * material.yield_stress;
