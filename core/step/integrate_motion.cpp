@@ -1,6 +1,8 @@
 #include "step/integrate_motion.h"
 
 #include "energy/ledger.h"
+#include "simd/target.h"
+#include "step/wide_motion.h"
 
 namespace cellcrush {
 namespace {
@@ -15,10 +17,6 @@ Resultant resultant_on(const Scene& scene, const State& state, std::size_t parti
   Resultant sum = {
       state.internal_force[particle] + state.contact_force[particle] + state.contact_damping_force[particle],
       state.internal_moment[particle]};
-  if (scene.plates.present) {
-    sum.force[scene.plates.axis] += state.impact_force[particle] + state.impact_damping_force[particle] -
-                                    state.support_force[particle] - state.support_damping_force[particle];
-  }
   if (!state.friction_force.empty()) {
     sum.force += state.friction_force[particle];
   }
@@ -104,11 +102,6 @@ State place_particles(const Scene& scene) {
   state.candidate_offset.assign(n + 1, 0);
   state.contact_force.assign(n, Vector2::Zero());
   state.contact_damping_force.assign(n, Vector2::Zero());
-  const std::size_t plate_entries = scene.plates.present ? n : 0;
-  for (auto* force :
-       {&state.impact_force, &state.impact_damping_force, &state.support_force, &state.support_damping_force}) {
-    force->assign(plate_entries, 0.0);
-  }
   if (scene.contact.friction > 0.0 || scene.plates.friction > 0.0) {
     state.friction_force.assign(n, Vector2::Zero());
   }
@@ -131,24 +124,35 @@ void stagger_velocities(const Scene& scene, State& state) {
   }
 }
 
-void integrate_motion(const Scene& scene, State& state) {
+namespace {
+
+/// Moves all particles by a step and books the work of the forces on them.
+void move_particles(const Scene& scene, State& state) {
   const double step = scene.schedule.time_step;
-  const double plate_speed_before = scene.plates.speed_at(state.time - 0.5 * step);
-  const double plate_speed_after = scene.plates.speed_at(state.time + 0.5 * step);
-  const double plate_displacement = 0.5 * step * (plate_speed_before + plate_speed_after);
   for (std::size_t i = 0; i < scene.particle_count(); ++i) {
     const NextVelocity next = next_velocity(scene, state, i);
-    const MeanMotion mean = {0.5 * step * (state.velocity[i] + next.velocity), 0.5 * step * (state.spin[i] + next.spin),
-                             plate_displacement};
+    const MeanMotion mean = {0.5 * step * (state.velocity[i] + next.velocity),
+                             0.5 * step * (state.spin[i] + next.spin)};
     accumulate_work(scene, state, i, next, mean, state.ledger);
     state.velocity[i] = next.velocity;
     state.spin[i] = next.spin;
     state.position[i] += step * next.velocity;
     state.rotation[i] += step * next.spin;
   }
-  const PlateForces plates = plate_forces_of(state);
-  state.impact_impulse += step * plates.impact;
-  state.support_impulse += step * plates.support;
+}
+
+}  // namespace
+
+void integrate_motion(const Scene& scene, State& state) {
+  const double step = scene.schedule.time_step;
+  const double plate_speed_before = scene.plates.speed_at(state.time - 0.5 * step);
+  const double plate_speed_after = scene.plates.speed_at(state.time + 0.5 * step);
+  if (!(use_wide_kernels() && move_particles_wide(scene, state))) {
+    move_particles(scene, state);
+  }
+  accumulate_plate_work(state, 0.5 * step * (plate_speed_before + plate_speed_after), state.ledger);
+  state.impact_impulse += step * state.impact_force.total();
+  state.support_impulse += step * state.support_force.total();
   state.impact_travel += step * plate_speed_after;
   ++state.step;
   state.time = static_cast<double>(state.step) * step;

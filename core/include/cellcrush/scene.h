@@ -149,19 +149,21 @@ struct Schedule {
 /// N particles, E elements.
 struct Scene {
   // Mesh.
-  std::vector<Vector2> position;      ///< N, before loading
-  std::vector<double> mass;           ///< N, tonne (Eq. 1, 2)
-  std::vector<double> inertia;        ///< N, tonne mm^2 (Eq. 1, 3)
-  std::vector<double> radius;         ///< N, of the contact ball: half of the thickest wall that ends there
-  std::vector<Element> elements;      ///< E
-  Walls walls;                        ///< W
-  std::vector<int> incidence_offset;  ///< N + 1, into incidence
-  std::vector<int> incidence;         ///< elements at each particle, ascending
-  int joint_count = 0;                ///< the joints come first, then the particles inside the walls
-  std::vector<int> wall_end_offset;   ///< joints + 1, into wall_ends
-  std::vector<int> wall_ends;         ///< at each joint, into State::wall_force, ascending: sums run in this order
-  std::vector<Support> supports;      ///< N, or empty when nothing is held
-  std::vector<TimeFunction> motions;  ///< mm or rad, of held particles
+  std::vector<Vector2> position;        ///< N, before loading
+  std::vector<double> mass;             ///< N, tonne (Eq. 1, 2)
+  std::vector<double> inertia;          ///< N, tonne mm^2 (Eq. 1, 3)
+  std::vector<double> inverse_mass;     ///< N, 1 / tonne
+  std::vector<double> inverse_inertia;  ///< N
+  std::vector<double> radius;           ///< N, of the contact ball: half of the thickest wall that ends there
+  std::vector<Element> elements;        ///< E
+  Walls walls;                          ///< W
+  std::vector<int> incidence_offset;    ///< N + 1, into incidence
+  std::vector<int> incidence;           ///< elements at each particle, ascending
+  int joint_count = 0;                  ///< the joints come first, then the particles inside the walls
+  std::vector<int> wall_end_offset;     ///< joints + 1, into wall_ends
+  std::vector<int> wall_ends;           ///< at each joint, into State::wall_force, ascending: sums run in this order
+  std::vector<Support> supports;        ///< N, or empty when nothing is held
+  std::vector<TimeFunction> motions;    ///< mm or rad, of held particles
   std::vector<NodalLoad> loads;
   std::vector<ElementLoad> element_loads;
   Vector2 gravity = Vector2::Zero();      ///< mm/s^2

@@ -17,6 +17,14 @@ struct ContactCandidate {
   double friction = 0.0;  ///< N, on the ball, along the segment, round its ends with it; kept while it pushes
 };
 
+/// Force of a plate, N, compression positive.
+struct PlateForce {
+  double elastic = 0.0;
+  double viscous = 0.0;
+
+  [[nodiscard]] double total() const { return elastic + viscous; }
+};
+
 /// Energies and works that are sums over time. N mm. Written by integrate_motion and evaluate_internal_forces.
 struct Ledger {
   double plastic = 0.0;          ///< stress times plastic strain increment
@@ -70,15 +78,13 @@ struct State {
   std::int64_t search_count = 0;
 
   // Written by evaluate_contact_forces and evaluate_plate_forces.
-  std::vector<Vector2> contact_force;          ///< N, elastic part
+  std::vector<Vector2> contact_force;          ///< N, of walls and plates, elastic part
   std::vector<Vector2> contact_damping_force;  ///< N, viscous part
   std::vector<Vector2> friction_force;         ///< N, of walls and plates; empty without friction
   std::vector<double> impact_friction;         ///< N, of the impact plate across the crush; empty without friction
   std::vector<double> support_friction;        ///< N, of the support plate across the crush; empty without friction
-  std::vector<double> impact_force;            ///< N, of the impact plate along the crush, elastic part
-  std::vector<double> impact_damping_force;    ///< N, viscous part
-  std::vector<double> support_force;           ///< N, of the support plate against the crush, elastic part
-  std::vector<double> support_damping_force;   ///< N, viscous part
+  PlateForce impact_force;                     ///< of the impact plate on the lattice, along the crush
+  PlateForce support_force;                    ///< of the support plate on the lattice, against the crush
   double contact_stored = 0.0;                 ///< sum of k D^2 / 2 now
   std::int64_t contact_count = 0;              ///< closed contacts between walls now
   double deepest_penetration = 0.0;            ///< of a wall contact since the start, over the thinner wall's thickness
@@ -126,9 +132,7 @@ void visit_fields(S& state, Visitor&& visitor) {
   visitor("impact_friction", state.impact_friction);
   visitor("support_friction", state.support_friction);
   visitor("impact_force", state.impact_force);
-  visitor("impact_damping_force", state.impact_damping_force);
   visitor("support_force", state.support_force);
-  visitor("support_damping_force", state.support_damping_force);
   visitor("contact_stored", state.contact_stored);
   visitor("contact_count", state.contact_count);
   visitor("deepest_penetration", state.deepest_penetration);
