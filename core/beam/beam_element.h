@@ -9,6 +9,14 @@
 
 namespace cellcrush {
 
+/// Forces by which an element resists (Eq. 31, 32), in the fixed frame: N and N mm. The force on the start node is the
+/// reverse of that on the end node.
+struct ElementForces {
+  Vector2 force_on_end = Vector2::Zero();
+  double moment_on_start = 0.0;
+  double moment_on_end = 0.0;
+};
+
 /// Rotations of an element's ends over a step, times h / l.
 struct Bend {
   double start;
@@ -22,8 +30,8 @@ ElementSums return_element(const Material& material, const SectionRule& rule, do
   ElementSums element;
   for (std::size_t i = 0; i < rule.section_count(); ++i) {
     const std::size_t first = i * rule.depth_count();
-    const SectionSums section = return_section<kDepthPoints, kHardening>(material, rule, membrane, curvature[i],
-                                                                         fibres.from(first), next.from(first));
+    const SectionSums section = return_section<kDepthPoints, kHardening>(material, rule, membrane, curvature[i], fibres,
+                                                                         first, next.from(first));
     const double s = rule.along[static_cast<Eigen::Index>(i)];
     const double weight = rule.along_weight[static_cast<Eigen::Index>(i)];
     element.axial += weight * section.axial;
@@ -35,11 +43,13 @@ ElementSums return_element(const Material& material, const SectionRule& rule, do
   return element;
 }
 
+/// Passes of a force-based element; one is enough in 97 of 100 steps of an element.
+inline constexpr int kMostPasses = 4;
+
 /// The same for a force-based element: curvature is moved between the sections until their moments lie on a line.
 template <int kDepthPoints, bool kHardening>
 ElementSums return_balanced(const Material& material, const SectionRule& rule, double membrane, Bend bend,
                             const EndMoments& before, Fibres fibres, FibreStep next, SectionMemory memory) {
-  constexpr int kMostPasses = 4;  // one is enough in 97 of 100 steps of an element
   const bool straight = is_straight(rule, memory);
   PerSection curvature = straight ? straight_curvatures(rule, bend.start, bend.end)
                                   : balanced_curvatures(rule, material, before, memory, bend.start, bend.end);
@@ -62,7 +72,8 @@ ElementSums return_balanced(const Material& material, const SectionRule& rule, d
 /// Integrates the fibres of a straight two-node element over a step and gives its nodal forces in the fixed frame
 /// (Eq. 24-32).
 ///
-/// `previous_length` is the length of the material frame, at the start of the step (l_a); `previous` are the forces then.
+/// `previous_length` is the length of the material frame, at the start of the step (l_a); the moments on start and end are
+/// those then, which only a force-based element looks at.
 /// Adds the plastic work of the step (stress after the return times plastic strain increment times volume, N mm) to
 /// `plastic_work`. `memory` is that of a force-based element's sections and is not touched otherwise. The elastic element is
 /// the cubic beam either way, so the stable step is the same.
@@ -73,7 +84,7 @@ ElementSums return_balanced(const Material& material, const SectionRule& rule, d
 template <int kDepthPoints, bool kHardening>
 ElementForces evaluate_element(const Deformation& deformation, double previous_length, const Material& material,
                                const BeamSection& section, const SectionRule& rule, Fibres fibres, SectionMemory memory,
-                               const ElementForces& previous, double& plastic_work) {
+                               double moment_on_start, double moment_on_end, double& plastic_work) {
   const double mean_length = 0.5 * (previous_length + deformation.length);
   const double membrane = deformation.stretch / mean_length;
   const double slenderness = section.thickness / mean_length;
@@ -82,7 +93,7 @@ ElementForces evaluate_element(const Deformation& deformation, double previous_l
   std::array<double, kMostFibres> plastic_increment;
   const FibreStep next = {stress.data(), plastic_increment.data()};
   const double unit = section.area * section.thickness;
-  const EndMoments before = {previous.moment_on_start / unit, previous.moment_on_end / unit};
+  const EndMoments before = {moment_on_start / unit, moment_on_end / unit};
   const ElementSums sums =
       rule.force_based
           ? return_balanced<kDepthPoints, kHardening>(material, rule, membrane, bend, before, fibres, next, memory)

@@ -32,12 +32,12 @@ inline double bounded_stiffness(double length, double undeformed, double thickne
          (1.0 + four_gyration_squared / (length * length));
 }
 
-/// Section of an element of the given length. Plastic flow keeps a wall's volume: the area is V_0 / l, the thickness in the
+/// Section of an element of a wall, of the given length. Plastic flow keeps a wall's volume: the area is V_0 / l, the thickness in the
 /// plane being kept. With constant area, as in the paper, a wall under its yield force would shorten without end, one element
 /// of it before the others.
-inline BeamSection section_of(const Scene& scene, std::size_t element, double length) {
-  const double thickness = scene.elements[element].thickness;
-  const double undeformed = scene.undeformed_length[element];
+inline BeamSection section_of(const Scene& scene, int wall, double length) {
+  const double thickness = scene.walls.thickness[wall];
+  const double undeformed = scene.walls.undeformed_length[wall];
   const double area = scene.depth * thickness;
   const double stiffness = bounded_stiffness(length, undeformed, thickness, scene.constant_area);
   if (scene.constant_area) {

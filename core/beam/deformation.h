@@ -6,16 +6,18 @@
 
 namespace cellcrush {
 
+/// Sine up to which the turn of a step is a series; the first term left out is below 1e-17 of the angle.
+inline constexpr double kSmallTurn = 0.02;
+
 /// Angle by which the unit vector `from` must turn to point along the unit vector `to`, counter-clockwise positive, in
 /// (-pi, pi]. Exact to round-off for increments of any size, both signs.
 ///
 /// Deviation from Eq. 9: the arc cosine of the dot product loses the sign, and is 0 below 2e-8 rad. The sine is the cross
 /// product; its inverse is a series where it is small, as it is in every step of a sound run.
 inline double turn_between(const Vector2& from, const Vector2& to) {
-  constexpr double kSeriesLimit = 0.02;  // the first term left out is below 1e-17 of the angle
   const double sine = cross(from, to);
   const double cosine = from.dot(to);
-  if (std::abs(sine) < kSeriesLimit && cosine > 0.0) {
+  if (std::abs(sine) < kSmallTurn && cosine > 0.0) {
     const double square = sine * sine;
     return sine *
            (1.0 + square * (1.0 / 6.0 + square * (3.0 / 40.0 + square * (15.0 / 336.0 + square * 105.0 / 3456.0))));

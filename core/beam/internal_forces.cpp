@@ -4,35 +4,68 @@
 
 #include "beam/beam_element.h"
 #include "beam/deformation.h"
+#include "beam/element_place.h"
+#include "beam/wide_walls.h"
+#include "simd/target.h"
 
 namespace cellcrush {
 namespace {
+
+/// Adds an element's forces to the particles inside its wall, or notes them for the joints.
+void put_forces(const Scene& scene, State& state, const ElementPlace& place, int wall, const ElementForces& forces) {
+  const Element& element = scene.elements[place.element];
+  const auto lane = static_cast<int>(place.element - place.row);
+  const std::size_t at_start = 2 * static_cast<std::size_t>(wall) - static_cast<std::size_t>(lane);
+  if (element.start < scene.joint_count) {
+    state.wall_force[at_start] = forces.force_on_end;
+    state.wall_moment[at_start] = -forces.moment_on_start;
+  } else {
+    state.internal_force[element.start] += forces.force_on_end;
+    state.internal_moment[element.start] -= forces.moment_on_start;
+  }
+  if (element.end < scene.joint_count) {
+    state.wall_force[at_start + place.stride] = -forces.force_on_end;
+    state.wall_moment[at_start + place.stride] = -forces.moment_on_end;
+  } else {
+    state.internal_force[element.end] = -forces.force_on_end;
+    state.internal_moment[element.end] = -forces.moment_on_end;
+  }
+}
 
 /// Fixed numbers of points compile to straight code; 0 takes the rule's.
 template <int kDepthPoints, bool kHardening>
 void evaluate_elements(const Scene& scene, State& state) {
   const double step = state.step == 0 ? 0.0 : scene.schedule.time_step;
+  const bool force_based = scene.section.force_based;
   double plastic_work = 0.0;
-  const std::size_t remembered = scene.section.force_based ? scene.section.section_count() : 0;
-  for (std::size_t e = 0; e < scene.element_count(); ++e) {
+  visit_elements(scene, [&](const ElementPlace& place, int wall) {
+    const std::size_t e = place.element;
     const Element& element = scene.elements[e];
     const double previous_length = state.length[e];
     const Deformation deformation =
         reverse_motion(state.position[element.end] - state.position[element.start], state.axis[e], previous_length,
                        step * state.spin[element.start], step * state.spin[element.end]);
-    const BeamSection section = section_of(scene, e, deformation.length);
+    const BeamSection section = section_of(scene, wall, deformation.length);
     Material material = scene.materials[element.material];
     material.youngs_modulus *= section.stiffness;
-    const std::size_t first = e * scene.fibre_count();
-    const Fibres fibres = {&state.stress[first], &state.back_stress[first], &state.plastic_strain[first]};
-    const SectionMemory memory = {state.section_unbalance.data() + e * remembered,
-                                  state.section_tangent.data() + e * remembered};
-    state.internal[e] =
-        evaluate_element<kDepthPoints, kHardening>(deformation, previous_length, material, section, scene.section,
-                                                   fibres, memory, state.internal[e], plastic_work);
+    const std::size_t fibre = place.index(scene.fibre_count(), 0);
+    const Fibres fibres = {&state.stress[fibre], kHardening ? &state.back_stress[fibre] : nullptr,
+                           kHardening ? &state.plastic_strain[fibre] : nullptr, kHardening ? nullptr : &state.flowed[e],
+                           place.stride};
+    const std::size_t remembered = force_based ? place.index(scene.section.section_count(), 0) : 0;
+    const SectionMemory memory = {state.section_unbalance.data() + remembered,
+                                  state.section_tangent.data() + remembered, place.stride};
+    const ElementForces forces = evaluate_element<kDepthPoints, kHardening>(
+        deformation, previous_length, material, section, scene.section, fibres, memory,
+        force_based ? state.start_moment[e] : 0.0, force_based ? state.end_moment[e] : 0.0, plastic_work);
     state.axis[e] = deformation.axis;
     state.length[e] = deformation.length;
-  }
+    if (force_based) {
+      state.start_moment[e] = forces.moment_on_start;
+      state.end_moment[e] = forces.moment_on_end;
+    }
+    put_forces(scene, state, place, wall, forces);
+  });
   state.ledger.plastic += plastic_work;
 }
 
@@ -45,15 +78,31 @@ void evaluate_all(const Scene& scene, State& state) {
   }
 }
 
+/// Sums the walls' forces on the joints, in a fixed order, so that the sums have the same bits whoever computes them.
+void sum_joint_forces(const Scene& scene, State& state) {
+  for (int joint = 0; joint < scene.joint_count; ++joint) {
+    Vector2 force = Vector2::Zero();
+    double moment = 0.0;
+    for (int k = scene.wall_end_offset[joint]; k < scene.wall_end_offset[joint + 1]; ++k) {
+      force += state.wall_force[scene.wall_ends[k]];
+      moment += state.wall_moment[scene.wall_ends[k]];
+    }
+    state.internal_force[joint] = force;
+    state.internal_moment[joint] = moment;
+  }
+}
+
 }  // namespace
 
 void evaluate_internal_forces(const Scene& scene, State& state) {
-  if (std::any_of(scene.materials.begin(), scene.materials.end(),
-                  [](const Material& material) { return material.hardening_modulus > 0.0; })) {
+  if (use_wide_kernels() && evaluate_walls_wide(scene, state)) {
+    // done
+  } else if (scene.has_hardening()) {
     evaluate_all<true>(scene, state);
   } else {
     evaluate_all<false>(scene, state);
   }
+  sum_joint_forces(scene, state);
 }
 
 }  // namespace cellcrush

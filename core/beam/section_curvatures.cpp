@@ -6,9 +6,6 @@
 namespace cellcrush {
 namespace {
 
-/// Least share of the elastic stiffness that a section is given: it keeps the element's flexibility finite.
-constexpr double kLeastTangent = 0.01;
-
 /// Rotation over moment of the element, a symmetric 2 x 2 matrix, and the rotations that its unbalance asks for.
 struct Flexibility {
   double start = 0.0;
@@ -37,21 +34,21 @@ PerSection balanced_curvatures(const SectionRule& rule, const Material& material
     Flexibility flexibility;
     for (std::size_t i = 0; i < count; ++i) {
       const double s = rule.along[static_cast<Eigen::Index>(i)];
-      const double weighted = rule.along_weight[static_cast<Eigen::Index>(i)] * elastic / memory.tangent[i];
+      const double weighted = rule.along_weight[static_cast<Eigen::Index>(i)] * elastic / memory.tangent_of(i);
       flexibility.start += weighted * (1.0 - s) * (1.0 - s);
       flexibility.mixed -= weighted * (1.0 - s) * s;
       flexibility.end += weighted * s * s;
-      flexibility.unbalance_start += weighted * (1.0 - s) * memory.unbalance[i];
-      flexibility.unbalance_end -= weighted * s * memory.unbalance[i];
+      flexibility.unbalance_start += weighted * (1.0 - s) * memory.unbalance_of(i);
+      flexibility.unbalance_end -= weighted * s * memory.unbalance_of(i);
     }
     const EndMoments increment = flexibility.moments_for(bend_start, bend_end);
     turned_back = false;
     for (std::size_t i = 0; i < count; ++i) {
       const double s = rule.along[static_cast<Eigen::Index>(i)];
-      curvature[i] = elastic / memory.tangent[i] * (increment.at(s) + memory.unbalance[i]);
-      const double moment = moments.at(s) - memory.unbalance[i];
-      if (memory.tangent[i] < 1.0 && curvature[i] * moment < 0.0) {
-        memory.tangent[i] = 1.0;
+      curvature[i] = elastic / memory.tangent_of(i) * (increment.at(s) + memory.unbalance_of(i));
+      const double moment = moments.at(s) - memory.unbalance_of(i);
+      if (memory.tangent_of(i) < 1.0 && curvature[i] * moment < 0.0) {
+        memory.tangent_of(i) = 1.0;
         turned_back = true;
       }
     }
@@ -62,26 +59,24 @@ PerSection balanced_curvatures(const SectionRule& rule, const Material& material
 PerSection moments_of_sections(const SectionRule& rule, const EndMoments& moments, SectionMemory memory) {
   PerSection moment;
   for (std::size_t i = 0; i < rule.section_count(); ++i) {
-    moment[i] = moments.at(rule.along[static_cast<Eigen::Index>(i)]) - memory.unbalance[i];
+    moment[i] = moments.at(rule.along[static_cast<Eigen::Index>(i)]) - memory.unbalance_of(i);
   }
   return moment;
 }
 
 bool remember_sections(const SectionRule& rule, const Material& material, const PerSection& before,
                        const ElementSums& now, const PerSection& curvature, SectionMemory memory) {
-  constexpr double kRoundOff = 1e-12;  // of Young's modulus
-  constexpr double kInBalance = 0.02;  // of the full plastic moment
   const double youngs_modulus = material.youngs_modulus;
   double worst = 0.0;
   for (std::size_t i = 0; i < rule.section_count(); ++i) {
     const double s = rule.along[static_cast<Eigen::Index>(i)];
     const double elastic_increment = youngs_modulus / 12.0 * curvature[i];
-    if (std::abs(elastic_increment) > kRoundOff * youngs_modulus) {
+    if (std::abs(elastic_increment) > kSectionRoundOff * youngs_modulus) {
       const double tangent = (now.moment[i] - before[i]) / elastic_increment;
-      memory.tangent[i] = tangent > 1.0 - 1e-6 ? 1.0 : std::max(tangent, kLeastTangent);
+      memory.tangent_of(i) = tangent > 1.0 - 1e-6 ? 1.0 : std::max(tangent, kLeastTangent);
     }
     const double unbalance = now.moments.at(s) - now.moment[i];
-    memory.unbalance[i] = std::abs(unbalance) > kRoundOff * youngs_modulus ? unbalance : 0.0;
+    memory.unbalance_of(i) = std::abs(unbalance) > kSectionRoundOff * youngs_modulus ? unbalance : 0.0;
     worst = std::max(worst, std::abs(unbalance));
   }
   return worst <= kInBalance * 0.25 * material.yield_stress;
@@ -90,7 +85,7 @@ bool remember_sections(const SectionRule& rule, const Material& material, const 
 bool is_straight(const SectionRule& rule, SectionMemory memory) {
   bool straight = true;
   for (std::size_t i = 0; i < rule.section_count(); ++i) {
-    straight = straight && memory.tangent[i] == 1.0 && memory.unbalance[i] == 0.0;
+    straight = straight && memory.tangent_of(i) == 1.0 && memory.unbalance_of(i) == 0.0;
   }
   return straight;
 }

@@ -10,12 +10,23 @@ namespace cellcrush {
 /// Most sections along an element, and most fibres in it.
 inline constexpr std::size_t kMostSections = 5;
 inline constexpr std::size_t kMostFibres = 10 * kMostSections;
+
+/// Least share of the elastic stiffness that a section is given: it keeps the element's flexibility finite.
+inline constexpr double kLeastTangent = 0.01;
+/// Moments that are nothing, over b h^2 E, and curvatures that are, times h.
+inline constexpr double kSectionRoundOff = 1e-12;
+/// Unbalance that is left to the next step, of the full plastic moment.
+inline constexpr double kInBalance = 0.02;
 using PerSection = std::array<double, kMostSections>;
 
 /// What the sections of a force-based element remember from step to step, in the state's arrays.
 struct SectionMemory {
-  double* unbalance;  ///< moment that the section lacks to the line through the end moments, over b h^2, MPa
-  double* tangent;    ///< share of the elastic bending stiffness that it showed in the newest step
+  double* unbalance;       ///< moment that the section lacks to the line through the end moments, over b h^2, MPa
+  double* tangent;         ///< share of the elastic bending stiffness that it showed in the newest step
+  std::size_t stride = 1;  ///< from a section to the next
+
+  [[nodiscard]] double& unbalance_of(std::size_t section) const { return unbalance[section * stride]; }
+  [[nodiscard]] double& tangent_of(std::size_t section) const { return tangent[section * stride]; }
 };
 
 /// End moments over b h^2, MPa: what sections' moments do work with on the nodes' rotations (Eq. 28).

@@ -128,13 +128,13 @@ void apply_friction(const Scene& scene, State& state, const std::vector<Touch>& 
 
 void evaluate_contact_forces(const Scene& scene, State& state) {
   std::fill(state.friction_force.begin(), state.friction_force.end(), Vector2::Zero());
-  if (!scene.contact.present) {
-    return;
-  }
   std::fill(state.contact_force.begin(), state.contact_force.end(), Vector2::Zero());
   std::fill(state.contact_damping_force.begin(), state.contact_damping_force.end(), Vector2::Zero());
   state.contact_stored = 0.0;
   state.contact_count = 0;
+  if (!scene.contact.present) {
+    return;
+  }
   const std::vector<Touch> pushing = find_touches(scene, state);
   std::vector<double> normal_forces;
   for (const Touch& touch : pushing) {

@@ -4,20 +4,38 @@
 #include "contact/normal_force.h"
 
 namespace cellcrush {
-
 namespace {
 
-/// The plates do not move across the crush, so a particle's slip is its own motion there.
-void add_plate_friction(const Scene& scene, State& state) {
-  const int across = 1 - scene.plates.axis;
-  for (std::size_t i = 0; i < scene.particle_count(); ++i) {
-    const double slip = scene.schedule.time_step * state.velocity[i][across];
-    const auto rub = [&](double normal_force, double& friction) {
-      friction = evaluate_friction(friction, scene.plates.stiffness, slip, scene.plates.friction * normal_force);
-      state.friction_force[i][across] += friction;
-    };
-    rub(state.impact_force[i] + state.impact_damping_force[i], state.impact_friction[i]);
-    rub(state.support_force[i] + state.support_damping_force[i], state.support_friction[i]);
+/// One of the two plates as it is now.
+struct Plate {
+  double face;       ///< mm
+  double velocity;   ///< mm/s
+  double outward;    ///< +1 or -1: from its face into the lattice, along the crush
+  PlateForce& sum;   ///< of its forces on all particles
+  double* friction;  ///< of each particle; null without friction
+};
+
+/// Pushes one particle; the plates do not move across the crush, so its slip is its own motion there.
+void push(const Scene& scene, State& state, const Plate& plate, std::size_t particle) {
+  const int axis = scene.plates.axis;
+  const double depth = scene.radius[particle] - plate.outward * (state.position[particle][axis] - plate.face);
+  NormalForce force = {0.0, 0.0};
+  if (depth > 0.0) {
+    const double rate = plate.outward * (plate.velocity - state.velocity[particle][axis]);
+    force = evaluate_normal_force(scene.plates.stiffness, scene.contact.damping_ratio, 1.0 / scene.mass[particle],
+                                  depth, rate);
+    state.contact_stored += 0.5 * force.elastic * depth;
+    state.contact_force[particle][axis] += plate.outward * force.elastic;
+    state.contact_damping_force[particle][axis] += plate.outward * force.viscous;
+    plate.sum.elastic += force.elastic;
+    plate.sum.viscous += force.viscous;
+  }
+  if (plate.friction != nullptr) {
+    const double slip = scene.schedule.time_step * state.velocity[particle][1 - axis];
+    double& friction = plate.friction[particle];
+    friction = evaluate_friction(friction, scene.plates.stiffness, slip,
+                                 scene.plates.friction * (force.elastic + force.viscous));
+    state.friction_force[particle][1 - axis] += friction;
   }
 }
 
@@ -28,26 +46,23 @@ void evaluate_plate_forces(const Scene& scene, State& state) {
   if (!plates.present) {
     return;
   }
-  const double impact_face = plates.impact_face + state.impact_travel;
-  const double plate_speed = plates.speed_at(state.time - 0.5 * scene.schedule.time_step);
-  const auto push = [&](std::size_t i, double depth, double rate, double& elastic, double& viscous) {
-    const NormalForce force = depth > 0.0 ? evaluate_normal_force(plates.stiffness, scene.contact.damping_ratio,
-                                                                  1.0 / scene.mass[i], depth, rate)
-                                          : NormalForce{0.0, 0.0};
-    elastic = force.elastic;
-    viscous = force.viscous;
-    state.contact_stored += 0.5 * force.elastic * (depth > 0.0 ? depth : 0.0);
-  };
+  state.impact_force = {};
+  state.support_force = {};
+  const bool rubs = plates.friction > 0.0;
+  const Plate impact = {plates.impact_face + state.impact_travel,
+                        plates.speed_at(state.time - 0.5 * scene.schedule.time_step), 1.0, state.impact_force,
+                        rubs ? state.impact_friction.data() : nullptr};
+  const Plate support = {plates.support_face, 0.0, -1.0, state.support_force,
+                         rubs ? state.support_friction.data() : nullptr};
   for (std::size_t i = 0; i < scene.particle_count(); ++i) {
     const double place = state.position[i][plates.axis];
-    const double speed = state.velocity[i][plates.axis];
-    push(i, impact_face + scene.radius[i] - place, plate_speed - speed, state.impact_force[i],
-         state.impact_damping_force[i]);
-    push(i, place + scene.radius[i] - plates.support_face, speed, state.support_force[i],
-         state.support_damping_force[i]);
-  }
-  if (plates.friction > 0.0) {
-    add_plate_friction(scene, state);
+    // Friction ends in the step in which a particle leaves its plate, so that particles are looked at that still have some.
+    if (place - scene.radius[i] < impact.face || (rubs && impact.friction[i] != 0.0)) {
+      push(scene, state, impact, i);
+    }
+    if (place + scene.radius[i] > support.face || (rubs && support.friction[i] != 0.0)) {
+      push(scene, state, support, i);
+    }
   }
 }
 

@@ -1,6 +1,7 @@
 #include "energy/ledger.h"
 
 #include "beam/beam_section.h"
+#include "beam/element_place.h"
 
 namespace cellcrush {
 namespace {
@@ -8,12 +9,12 @@ namespace {
 /// Books the half of the newest forces' work that belongs to the interval up to the state's time; `sign` is +1 to add it.
 void close_interval(const Scene& scene, const State& state, double sign, Ledger& ledger) {
   const double half = 0.5 * scene.schedule.time_step;
-  const double plate = half * scene.plates.speed_at(state.time - half);
   Ledger open;
   for (std::size_t i = 0; i < scene.particle_count(); ++i) {
-    const MeanMotion mean = {half * state.velocity[i], half * state.spin[i], plate};
+    const MeanMotion mean = {half * state.velocity[i], half * state.spin[i]};
     accumulate_work(scene, state, i, next_velocity(scene, state, i), mean, open);
   }
+  accumulate_plate_work(state, half * scene.plates.speed_at(state.time - half), open);
   ledger.contact += sign * open.contact;
   ledger.contact_damping += sign * open.contact_damping;
   ledger.friction += sign * open.friction;
@@ -30,43 +31,28 @@ double kinetic_energy(const Scene& scene, const State& state) {
   return 0.5 * twice;
 }
 
+using StridedMap = Eigen::Map<const Eigen::ArrayXXd, 0, Eigen::Stride<Eigen::Dynamic, Eigen::Dynamic>>;
+
 double elastic_energy(const Scene& scene, const State& state) {
   const auto sections = static_cast<Eigen::Index>(scene.section.section_count());
   const auto depth = static_cast<Eigen::Index>(scene.section.depth_count());
   double energy = 0.0;
-  for (std::size_t e = 0; e < scene.element_count(); ++e) {
-    const Eigen::Map<const Eigen::ArrayXXd> stress(&state.stress[e * scene.fibre_count()], depth, sections);
-    const Element& element = scene.elements[e];
-    const BeamSection section = section_of(scene, e, state.length[e]);
-    const double modulus = section.stiffness * scene.materials[element.material].youngs_modulus;
+  visit_elements(scene, [&](const ElementPlace& place, int wall) {
+    const StridedMap stress(&state.stress[place.index(scene.fibre_count(), 0)], depth, sections,
+                            {depth * static_cast<Eigen::Index>(place.stride), static_cast<Eigen::Index>(place.stride)});
+    const BeamSection section = section_of(scene, wall, state.length[place.element]);
+    const double modulus = section.stiffness * scene.materials[scene.walls.material[wall]].youngs_modulus;
     energy += section.volume * mean_over(scene.section, stress.square()) / (2.0 * modulus);
-  }
+  });
   return energy;
 }
 
 }  // namespace
 
-PlateForces plate_forces_of(const State& state) {
-  PlateForces sum;
-  for (std::size_t i = 0; i < state.impact_force.size(); ++i) {
-    sum.impact += state.impact_force[i] + state.impact_damping_force[i];
-    sum.support += state.support_force[i] + state.support_damping_force[i];
-  }
-  return sum;
-}
-
 void accumulate_work(const Scene& scene, const State& state, std::size_t particle, const NextVelocity& next,
                      const MeanMotion& mean, Ledger& ledger) {
   ledger.contact -= state.contact_force[particle].dot(mean.displacement);
   ledger.contact_damping -= state.contact_damping_force[particle].dot(mean.displacement);
-  if (scene.plates.present) {
-    const double along = mean.displacement[scene.plates.axis];
-    const double approach = mean.plate_displacement - along;
-    ledger.contact += state.impact_force[particle] * approach + state.support_force[particle] * along;
-    ledger.contact_damping +=
-        state.impact_damping_force[particle] * approach + state.support_damping_force[particle] * along;
-    ledger.external += (state.impact_force[particle] + state.impact_damping_force[particle]) * mean.plate_displacement;
-  }
   if (scene.mass_damping > 0.0) {
     const double half = 0.5 * scene.mass_damping;
     ledger.mass_damping +=
@@ -82,6 +68,12 @@ void accumulate_work(const Scene& scene, const State& state, std::size_t particl
   if (!scene.motions.empty()) {
     ledger.external += next.reaction.dot(mean.displacement) + next.reaction_moment * mean.turn;
   }
+}
+
+void accumulate_plate_work(const State& state, double displacement, Ledger& ledger) {
+  ledger.contact += state.impact_force.elastic * displacement;
+  ledger.contact_damping += state.impact_force.viscous * displacement;
+  ledger.external += state.impact_force.total() * displacement;
 }
 
 void open_ledger(const Scene& scene, State& state) {

@@ -14,23 +14,19 @@ namespace cellcrush {
 // round-off. Plastic work is the returned stress times the plastic strain increment and elastic energy a function of the
 // stresses alone, so that an unstable integration, which plasticity can hide as heat, opens the ledger.
 
-/// Displacements of a particle and of the impact plate that forces at one time do work over.
+/// Displacement of a particle that forces at one time do work over.
 struct MeanMotion {
-  Vector2 displacement;       ///< mm
-  double turn;                ///< rad
-  double plate_displacement;  ///< mm, along the crush
+  Vector2 displacement;  ///< mm
+  double turn;           ///< rad
 };
-
-/// Sums of the plates' forces on all particles, N, compression positive.
-struct PlateForces {
-  double impact = 0.0;
-  double support = 0.0;
-};
-PlateForces plate_forces_of(const State& state);
 
 /// Adds the work that the forces on a particle do over a mean motion to the ledger.
 void accumulate_work(const Scene& scene, const State& state, std::size_t particle, const NextVelocity& next,
                      const MeanMotion& mean, Ledger& ledger);
+
+/// Adds the work of the impact plate over a mean displacement of it, mm. On the particles' side its forces are among the
+/// contacts'.
+void accumulate_plate_work(const State& state, double displacement, Ledger& ledger);
 
 /// Starts the ledger at time 0: books the kinetic energy and takes back the half step before it.
 void open_ledger(const Scene& scene, State& state);

@@ -1,5 +1,6 @@
 #include "measure/sampler.h"
 
+#include "beam/element_place.h"
 #include "energy/ledger.h"
 #include "measure/crush_mode.h"
 #include "measure/front.h"
@@ -87,10 +88,16 @@ FieldFrame make_frame(const Scene& scene, const State& state, int index) {
   frame.plastic_fraction.reserve(scene.element_count());
   const auto sections = static_cast<Eigen::Index>(scene.section.section_count());
   const auto depth = static_cast<Eigen::Index>(scene.section.depth_count());
-  for (std::size_t e = 0; e < scene.element_count(); ++e) {
-    const Eigen::Map<const Eigen::ArrayXXd> plastic(&state.plastic_strain[e * scene.fibre_count()], depth, sections);
-    frame.plastic_fraction.push_back(static_cast<float>(mean_over(scene.section, (plastic > 0.0).cast<double>())));
-  }
+  Eigen::ArrayXXd flowed(depth, sections);
+  visit_elements(scene, [&](const ElementPlace& place, int) {
+    for (Eigen::Index i = 0; i < flowed.size(); ++i) {
+      const auto fibre = static_cast<std::size_t>(i);
+      flowed(i) = state.flowed.empty()
+                      ? (state.plastic_strain[place.index(scene.fibre_count(), fibre)] > 0.0 ? 1.0 : 0.0)
+                      : static_cast<double>(state.flowed[place.element] >> fibre & 1U);
+    }
+    frame.plastic_fraction.push_back(static_cast<float>(mean_over(scene.section, flowed)));
+  });
   return frame;
 }
 

@@ -104,12 +104,7 @@ void set_material_and_mesh(const SceneSpec& spec, Scene& scene) {
   scene.depth = *spec.depth_mm;
   scene.materials = materials_of(spec);
   scene.section = make_section_rule(spec.section);
-  Mesh mesh = divide_walls(lay_out(spec, scene));
-  scene.position = std::move(mesh.position);
-  scene.elements = std::move(mesh.elements);
-  for (const Element& element : scene.elements) {
-    scene.undeformed_length.push_back((scene.position[element.end] - scene.position[element.start]).norm());
-  }
+  divide_walls(lay_out(spec, scene), scene);
   scene.constant_area = spec.section.area_rule == SectionSpec::AreaRule::constant_area;
 }
 
@@ -127,7 +122,7 @@ std::shared_ptr<Scene> build_mesh(const SceneSpec& spec) {
   auto scene = std::make_shared<Scene>();
   set_material_and_mesh(spec, *scene);
   if (const auto* frame = std::get_if<FrameLattice>(&spec.lattice)) {
-    attach_to_frame(*frame, spec.elements_per_wall, *scene);
+    attach_to_frame(*frame, *scene);
   }
   scene->mass_scaling = {spec.numerics.mass_scaling, spec.numerics.rotary_scaling};
   lump_masses(*scene);

@@ -31,8 +31,9 @@ double contact_frequency(const SceneSpec& spec, const Scene& scene) {
 ContactLaw contact_law_of(const SceneSpec& spec, bool present, const Scene& scene) {
   const double lightest = *std::min_element(scene.mass.begin(), scene.mass.end());
   const double frequency = contact_frequency(spec, scene);
-  return {present, lightest * frequency * frequency, spec.contact.damping_ratio, spec.contact.friction,
-          kSkinFraction * *std::min_element(scene.undeformed_length.begin(), scene.undeformed_length.end())};
+  return {
+      present, lightest * frequency * frequency, spec.contact.damping_ratio, spec.contact.friction,
+      kSkinFraction * *std::min_element(scene.walls.undeformed_length.begin(), scene.walls.undeformed_length.end())};
 }
 
 double contact_step_of(const ContactLaw& law, double mass) {

@@ -1,5 +1,7 @@
 #include "scene/frame.h"
 
+#include <algorithm>
+
 namespace cellcrush {
 namespace {
 
@@ -39,21 +41,21 @@ void attach_holds(const FrameLattice& frame, Scene& scene) {
   }
 }
 
-void attach_loads(const FrameLattice& frame, int elements_per_wall, Scene& scene) {
+/// The block in which a beam lies: beams are walls.
+const WallBlock& block_of(const Walls& walls, int beam) {
+  return *std::find_if(walls.blocks.begin(), walls.blocks.end(),
+                       [&](const WallBlock& block) { return beam < block.first_wall + block.walls; });
+}
+
+void attach_loads(const FrameLattice& frame, Scene& scene) {
   for (const FrameLattice::NodalLoad& load : frame.loads) {
     scene.loads.push_back({load.node, component_of(load.component), {load.points}});
   }
-  std::vector<int> first_element;
-  int next = 0;
-  for (const FrameLattice::Beam& beam : frame.beams) {
-    first_element.push_back(next);
-    next += elements_of(beam, elements_per_wall);
-  }
   for (const FrameLattice::DistributedLoad& load : frame.distributed_loads) {
-    const int count = elements_of(frame.beams[load.beam], elements_per_wall);
-    for (int e = first_element[load.beam]; e < first_element[load.beam] + count; ++e) {
-      const Element& element = scene.elements[e];
-      const double length = (scene.position[element.end] - scene.position[element.start]).norm();
+    const WallBlock& block = block_of(scene.walls, load.beam);
+    const double length = scene.walls.undeformed_length[load.beam];
+    for (int j = 0; j < block.elements; ++j) {
+      const int e = block.first_element + j * block.walls + load.beam - block.first_wall;
       if (!load.x_points.empty()) {
         scene.element_loads.push_back({e, Component::x, {load.x_points}, length});
       }
@@ -80,7 +82,7 @@ Layout lay_out_frame(const FrameLattice& frame, int elements_per_wall) {
   return layout;
 }
 
-void attach_to_frame(const FrameLattice& frame, int elements_per_wall, Scene& scene) {
+void attach_to_frame(const FrameLattice& frame, Scene& scene) {
   const std::size_t count = scene.particle_count();
   scene.mass.assign(count, 0.0);
   scene.inertia.assign(count, 0.0);
@@ -89,7 +91,7 @@ void attach_to_frame(const FrameLattice& frame, int elements_per_wall, Scene& sc
     scene.inertia[i] = frame.nodes[i].attached_inertia_g_mm2 * kTonnePerGram;
   }
   attach_holds(frame, scene);
-  attach_loads(frame, elements_per_wall, scene);
+  attach_loads(frame, scene);
   if (!frame.initial_velocities.empty()) {
     scene.initial_velocity.assign(count, Vector2::Zero());
     scene.initial_spin.assign(count, 0.0);

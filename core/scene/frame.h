@@ -12,6 +12,6 @@ Layout lay_out_frame(const FrameLattice& frame, int elements_per_wall);
 
 /// Puts a frame's attached masses, supports, motions, loads, gravity, initial velocities and watched nodes on the scene.
 /// REQUIRES: the scene's mesh is that of the frame; lump_masses has not run yet.
-void attach_to_frame(const FrameLattice& frame, int elements_per_wall, Scene& scene);
+void attach_to_frame(const FrameLattice& frame, Scene& scene);
 
 }  // namespace cellcrush

@@ -20,7 +20,39 @@ void lump_masses(Scene& scene) {
     }
     scene.total_mass += 2.0 * half_mass;
   }
+  for (std::size_t i = 0; i < scene.particle_count(); ++i) {
+    scene.inverse_mass.push_back(1.0 / scene.mass[i]);
+    scene.inverse_inertia.push_back(1.0 / scene.inertia[i]);
+  }
 }
+
+namespace {
+
+/// Calls visit(joint, index into State::wall_force) for every end of a wall: of a block its starts, then its ends.
+template <class Visit>
+void visit_wall_ends(const Scene& scene, Visit&& visit) {
+  for (const WallBlock& block : scene.walls.blocks) {
+    for (const std::vector<int>* joints : {&scene.walls.start, &scene.walls.end}) {
+      const int first = 2 * block.first_wall + (joints == &scene.walls.start ? 0 : block.walls);
+      for (int w = 0; w < block.walls; ++w) {
+        visit((*joints)[block.first_wall + w], first + w);
+      }
+    }
+  }
+}
+
+void link_wall_ends(Scene& scene) {
+  scene.wall_end_offset.assign(static_cast<std::size_t>(scene.joint_count) + 1, 0);
+  visit_wall_ends(scene, [&](int joint, int) { ++scene.wall_end_offset[joint + 1]; });
+  for (int joint = 0; joint < scene.joint_count; ++joint) {
+    scene.wall_end_offset[joint + 1] += scene.wall_end_offset[joint];
+  }
+  scene.wall_ends.resize(2 * scene.walls.start.size());
+  std::vector<int> next(scene.wall_end_offset.begin(), scene.wall_end_offset.end() - 1);
+  visit_wall_ends(scene, [&](int joint, int end) { scene.wall_ends[next[joint]++] = end; });
+}
+
+}  // namespace
 
 void link_elements(Scene& scene) {
   scene.incidence_offset.assign(scene.particle_count() + 1, 0);
@@ -37,6 +69,7 @@ void link_elements(Scene& scene) {
     scene.incidence[next[scene.elements[e].start]++] = static_cast<int>(e);
     scene.incidence[next[scene.elements[e].end]++] = static_cast<int>(e);
   }
+  link_wall_ends(scene);
 }
 
 }  // namespace cellcrush

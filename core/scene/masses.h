@@ -4,12 +4,12 @@
 
 namespace cellcrush {
 
-/// Fills mass, inertia, radius and total_mass of the scene from its elements (Eq. 1-3): each element gives half of its mass
+/// Fills masses, inertias, their inverses, radius and total_mass of the scene from its elements (Eq. 1-3): each element gives half of its mass
 /// rho b h l to either node, and that mass times gamma^2 = h^2 / 12 as rotary inertia, both scaled by mass_scaling. Adds to what is there, so that
 /// attached masses are put in before.
 void lump_masses(Scene& scene);
 
-/// Fills incidence_offset and incidence.
+/// Fills incidence_offset, incidence, wall_end_offset and wall_ends.
 void link_elements(Scene& scene);
 
 }  // namespace cellcrush

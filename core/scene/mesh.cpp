@@ -1,25 +1,56 @@
 #include "scene/mesh.h"
 
 namespace cellcrush {
+namespace {
 
-Mesh divide_walls(const Layout& layout) {
-  Mesh mesh;
-  mesh.position = layout.joints;
-  for (const Wall& wall : layout.walls) {
-    const Vector2 from = layout.joints[wall.start];
-    const Vector2 to = layout.joints[wall.end];
-    int previous = wall.start;
-    for (int i = 1; i <= wall.elements; ++i) {
-      int next = wall.end;
-      if (i < wall.elements) {
-        next = static_cast<int>(mesh.position.size());
-        mesh.position.emplace_back(from + (to - from) * (static_cast<double>(i) / wall.elements));
+/// Walls from `first` on that go into one block.
+int walls_in_block(const Layout& layout, std::size_t first) {
+  int count = 0;
+  for (std::size_t w = first;
+       w < layout.walls.size() && count < kMostWallsInBlock && layout.walls[w].elements == layout.walls[first].elements;
+       ++w) {
+    ++count;
+  }
+  return count;
+}
+
+void divide_block(const Layout& layout, const WallBlock& block, Scene& scene) {
+  const auto inner = [&](int j, int w) { return block.first_inner + j * block.walls + w; };
+  for (int j = 0; j < block.elements; ++j) {
+    for (int w = 0; w < block.walls; ++w) {
+      const LayoutWall& wall = layout.walls[block.first_wall + w];
+      const bool is_last = j + 1 == block.elements;
+      scene.elements.push_back(
+          {j == 0 ? wall.start : inner(j - 1, w), is_last ? wall.end : inner(j, w), wall.thickness, wall.material});
+      if (!is_last) {
+        const Vector2& from = layout.joints[wall.start];
+        const double share = static_cast<double>(j + 1) / wall.elements;
+        scene.position.emplace_back(from + (layout.joints[wall.end] - from) * share);
       }
-      mesh.elements.push_back({previous, next, wall.thickness, wall.material});
-      previous = next;
     }
   }
-  return mesh;
+}
+
+}  // namespace
+
+void divide_walls(const Layout& layout, Scene& scene) {
+  scene.position = layout.joints;
+  scene.joint_count = static_cast<int>(layout.joints.size());
+  for (std::size_t w = 0; w < layout.walls.size();) {
+    const WallBlock block = {static_cast<int>(w), walls_in_block(layout, w), layout.walls[w].elements,
+                             static_cast<int>(scene.elements.size()), static_cast<int>(scene.position.size())};
+    divide_block(layout, block, scene);
+    scene.walls.blocks.push_back(block);
+    w += static_cast<std::size_t>(block.walls);
+  }
+  for (const LayoutWall& wall : layout.walls) {
+    const double length = (layout.joints[wall.end] - layout.joints[wall.start]).norm();
+    scene.walls.start.push_back(wall.start);
+    scene.walls.end.push_back(wall.end);
+    scene.walls.thickness.push_back(wall.thickness);
+    scene.walls.undeformed_length.push_back(length / wall.elements);
+    scene.walls.material.push_back(wall.material);
+  }
 }
 
 }  // namespace cellcrush

@@ -8,7 +8,7 @@
 namespace cellcrush {
 
 /// A straight wall between two joints.
-struct Wall {
+struct LayoutWall {
   int start = 0;
   int end = 0;
   double thickness = 0.0;  ///< mm
@@ -19,16 +19,11 @@ struct Wall {
 /// Joints and walls of a structure before it is divided into elements. Lengths in mm.
 struct Layout {
   std::vector<Vector2> joints;
-  std::vector<Wall> walls;
+  std::vector<LayoutWall> walls;
 };
 
-/// Particles and elements. The joints come first, then the particles inside the walls, wall by wall; the elements of a wall
-/// follow each other from its start to its end.
-struct Mesh {
-  std::vector<Vector2> position;
-  std::vector<Element> elements;
-};
-
-Mesh divide_walls(const Layout& layout);
+/// Divides the walls into elements: fills the scene's positions, elements and walls. The joints come first, then the
+/// particles inside the walls, block by block. Walls that follow each other and have equally many elements share a block.
+void divide_walls(const Layout& layout, Scene& scene);
 
 }  // namespace cellcrush

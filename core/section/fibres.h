@@ -1,20 +1,21 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 
 #include "cellcrush/scene.h"
 
 namespace cellcrush {
 
-/// What fibres remember, in the state's arrays. MPa; plastic_strain is the accumulated (effective) one.
+/// What the fibres of an element remember, in the state's arrays, every `stride`-th value of them. MPa; plastic_strain is the
+/// accumulated (effective) one. Without hardening there is neither back stress nor plastic strain, but a bit for each fibre
+/// that has flowed.
 struct Fibres {
   double* __restrict stress;
   double* __restrict back_stress;
   double* __restrict plastic_strain;
-
-  [[nodiscard]] Fibres from(std::size_t first) const {
-    return {stress + first, back_stress + first, plastic_strain + first};
-  }
+  std::uint64_t* __restrict flowed;
+  std::size_t stride = 1;
 };
 
 /// Where a step's return writes, before it is committed: stress and signed plastic strain increment of each fibre.
@@ -34,6 +35,7 @@ struct SectionSums {
 };
 
 /// Radial return of the fibres of one section over a step (Eq. 33-39), from what they remember, which is left as it is.
+/// `first` is the section's first fibre of the element.
 ///
 /// Strain increments are membrane + bending y / h: `bending` is the increment of curvature times h, positive where the left
 /// side stretches. Without kHardening neither back stress nor plastic strain is looked at.
@@ -42,7 +44,7 @@ struct SectionSums {
 /// stress lies beyond the yield surface is what clamping takes off.
 template <int kDepthPoints, bool kHardening>
 SectionSums return_section(const Material& material, const SectionRule& rule, double membrane, double bending,
-                           Fibres fibres, FibreStep next) {
+                           Fibres fibres, std::size_t first, FibreStep next) {
   const double modulus = material.youngs_modulus;
   const double inverse = 1.0 / (modulus + material.hardening_modulus);
   const double isotropic = material.isotropic_fraction * material.hardening_modulus;
@@ -51,10 +53,11 @@ SectionSums return_section(const Material& material, const SectionRule& rule, do
   const Eigen::Index count = kDepthPoints > 0 ? kDepthPoints : rule.offset.size();
   SectionSums sums;
   for (Eigen::Index i = 0; i < count; ++i) {
-    const double trial = fibres.stress[i] + modulus * (membrane + bending * offset[i]);  // Eq. 34
-    const double reduced = kHardening ? trial - fibres.back_stress[i] : trial;           // Eq. 35
-    const double yield =
-        kHardening ? material.yield_stress + isotropic * fibres.plastic_strain[i] : material.yield_stress;  // Eq. 33
+    const std::size_t place = (first + static_cast<std::size_t>(i)) * fibres.stride;
+    const double trial = fibres.stress[place] + modulus * (membrane + bending * offset[i]);  // Eq. 34
+    const double reduced = kHardening ? trial - fibres.back_stress[place] : trial;           // Eq. 35
+    const double yield = kHardening ? material.yield_stress + isotropic * fibres.plastic_strain[place]
+                                    : material.yield_stress;  // Eq. 33
     const double clamped = reduced > yield ? yield : (reduced < -yield ? -yield : reduced);
     const double plastic_increment = inverse * (reduced - clamped);  // Eq. 37, 38
     const double stress = trial - modulus * plastic_increment;       // Eq. 36
@@ -73,10 +76,13 @@ template <bool kHardening>
 void commit_fibres(const Material& material, std::size_t count, FibreStep step, Fibres fibres) {
   const double kinematic = (1.0 - material.isotropic_fraction) * material.hardening_modulus;
   for (std::size_t i = 0; i < count; ++i) {
-    fibres.stress[i] = step.stress[i];
-    fibres.plastic_strain[i] += std::abs(step.plastic_increment[i]);
+    const std::size_t place = i * fibres.stride;
+    fibres.stress[place] = step.stress[i];
     if constexpr (kHardening) {
-      fibres.back_stress[i] += kinematic * step.plastic_increment[i];
+      fibres.plastic_strain[place] += std::abs(step.plastic_increment[i]);
+      fibres.back_stress[place] += kinematic * step.plastic_increment[i];
+    } else {
+      *fibres.flowed |= static_cast<std::uint64_t>(step.plastic_increment[i] != 0.0) << i;
     }
   }
 }

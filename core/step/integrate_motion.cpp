@@ -1,6 +1,8 @@
 #include "step/integrate_motion.h"
 
 #include "energy/ledger.h"
+#include "simd/target.h"
+#include "step/wide_motion.h"
 
 namespace cellcrush {
 namespace {
@@ -10,31 +12,17 @@ struct Resultant {
   double moment;
 };
 
-/// All forces on a particle but mass damping. Elements are summed in ascending order, so that the sum has the same bits
-/// whoever computes it.
+/// All forces on a particle but mass damping.
 Resultant resultant_on(const Scene& scene, const State& state, std::size_t particle) {
-  Resultant sum = {state.contact_force[particle] + state.contact_damping_force[particle], 0.0};
-  if (scene.plates.present) {
-    sum.force[scene.plates.axis] += state.impact_force[particle] + state.impact_damping_force[particle] -
-                                    state.support_force[particle] - state.support_damping_force[particle];
-  }
+  Resultant sum = {
+      state.internal_force[particle] + state.contact_force[particle] + state.contact_damping_force[particle],
+      state.internal_moment[particle]};
   if (!state.friction_force.empty()) {
     sum.force += state.friction_force[particle];
   }
   if (scene.is_loaded()) {
     sum.force += state.load_force[particle];
     sum.moment += state.load_moment[particle];
-  }
-  for (int k = scene.incidence_offset[particle]; k < scene.incidence_offset[particle + 1]; ++k) {
-    const int element = scene.incidence[k];
-    const ElementForces& internal = state.internal[element];
-    if (scene.elements[element].end == static_cast<int>(particle)) {
-      sum.force -= internal.force_on_end;
-      sum.moment -= internal.moment_on_end;
-    } else {
-      sum.force += internal.force_on_end;
-      sum.moment -= internal.moment_on_start;
-    }
   }
   return sum;
 }
@@ -94,22 +82,26 @@ State place_particles(const Scene& scene) {
     state.length.push_back(span.norm());
     state.axis.push_back(span / state.length.back());
   }
-  for (auto* values : {&state.stress, &state.back_stress, &state.plastic_strain}) {
-    values->assign(e * scene.fibre_count(), 0.0);
+  state.stress.assign(e * scene.fibre_count(), 0.0);
+  if (scene.has_hardening()) {
+    state.back_stress.assign(e * scene.fibre_count(), 0.0);
+    state.plastic_strain.assign(e * scene.fibre_count(), 0.0);
+  } else {
+    state.flowed.assign(e, 0);
   }
   if (scene.section.force_based) {
     state.section_unbalance.assign(e * scene.section.section_count(), 0.0);
     state.section_tangent.assign(e * scene.section.section_count(), 1.0);
+    state.start_moment.assign(e, 0.0);
+    state.end_moment.assign(e, 0.0);
   }
-  state.internal.resize(e);
+  state.wall_force.assign(2 * scene.walls.start.size(), Vector2::Zero());
+  state.wall_moment.assign(2 * scene.walls.start.size(), 0.0);
+  state.internal_force.assign(n, Vector2::Zero());
+  state.internal_moment.assign(n, 0.0);
   state.candidate_offset.assign(n + 1, 0);
   state.contact_force.assign(n, Vector2::Zero());
   state.contact_damping_force.assign(n, Vector2::Zero());
-  const std::size_t plate_entries = scene.plates.present ? n : 0;
-  for (auto* force :
-       {&state.impact_force, &state.impact_damping_force, &state.support_force, &state.support_damping_force}) {
-    force->assign(plate_entries, 0.0);
-  }
   if (scene.contact.friction > 0.0 || scene.plates.friction > 0.0) {
     state.friction_force.assign(n, Vector2::Zero());
   }
@@ -132,24 +124,35 @@ void stagger_velocities(const Scene& scene, State& state) {
   }
 }
 
-void integrate_motion(const Scene& scene, State& state) {
+namespace {
+
+/// Moves all particles by a step and books the work of the forces on them.
+void move_particles(const Scene& scene, State& state) {
   const double step = scene.schedule.time_step;
-  const double plate_speed_before = scene.plates.speed_at(state.time - 0.5 * step);
-  const double plate_speed_after = scene.plates.speed_at(state.time + 0.5 * step);
-  const double plate_displacement = 0.5 * step * (plate_speed_before + plate_speed_after);
   for (std::size_t i = 0; i < scene.particle_count(); ++i) {
     const NextVelocity next = next_velocity(scene, state, i);
-    const MeanMotion mean = {0.5 * step * (state.velocity[i] + next.velocity), 0.5 * step * (state.spin[i] + next.spin),
-                             plate_displacement};
+    const MeanMotion mean = {0.5 * step * (state.velocity[i] + next.velocity),
+                             0.5 * step * (state.spin[i] + next.spin)};
     accumulate_work(scene, state, i, next, mean, state.ledger);
     state.velocity[i] = next.velocity;
     state.spin[i] = next.spin;
     state.position[i] += step * next.velocity;
     state.rotation[i] += step * next.spin;
   }
-  const PlateForces plates = plate_forces_of(state);
-  state.impact_impulse += step * plates.impact;
-  state.support_impulse += step * plates.support;
+}
+
+}  // namespace
+
+void integrate_motion(const Scene& scene, State& state) {
+  const double step = scene.schedule.time_step;
+  const double plate_speed_before = scene.plates.speed_at(state.time - 0.5 * step);
+  const double plate_speed_after = scene.plates.speed_at(state.time + 0.5 * step);
+  if (!(use_wide_kernels() && move_particles_wide(scene, state))) {
+    move_particles(scene, state);
+  }
+  accumulate_plate_work(state, 0.5 * step * (plate_speed_before + plate_speed_after), state.ledger);
+  state.impact_impulse += step * state.impact_force.total();
+  state.support_impulse += step * state.support_force.total();
   state.impact_travel += step * plate_speed_after;
   ++state.step;
   state.time = static_cast<double>(state.step) * step;

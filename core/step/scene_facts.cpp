@@ -14,8 +14,10 @@ std::int64_t memory_of(const Scene& scene) {
   const std::size_t per_particle =
       9 * sizeof(Vector2) + 9 * sizeof(double) + 2 * sizeof(int) + kCandidatesPerParticle * sizeof(ContactCandidate);
   const std::size_t per_element = sizeof(Element) + 2 * sizeof(int) + sizeof(Vector2) + sizeof(double) +
-                                  sizeof(ElementForces) +
-                                  (3 * scene.fibre_count() + 2 * scene.section.section_count()) * sizeof(double);
+                                  3 * (sizeof(Vector2) + sizeof(double)) / 2 + sizeof(std::uint64_t) +
+                                  ((scene.has_hardening() ? 3 : 1) * scene.fibre_count() +
+                                   (scene.section.force_based ? 2 * scene.section.section_count() + 2 : 0)) *
+                                      sizeof(double);
   return static_cast<std::int64_t>(scene.particle_count() * per_particle + scene.element_count() * per_element);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -43,6 +44,30 @@ struct Element {
   int end = 0;
   double thickness = 0.0;  ///< h, mm
   int material = 0;        ///< into Scene::materials
+};
+
+/// Most walls that lie side by side in a block.
+inline constexpr int kMostWallsInBlock = 8;
+
+/// Walls of equally many elements, side by side: element j of the block's wall w is first_element + j * walls + w, the
+/// particle behind it inside the wall first_inner + j * walls + w. What elements remember lies in the same order, so that a
+/// step of the chain takes the walls of a block at once.
+struct WallBlock {
+  int first_wall = 0;  ///< into the arrays of Walls
+  int walls = 0;       ///< 1 ... kMostWallsInBlock
+  int elements = 0;    ///< of each wall
+  int first_element = 0;
+  int first_inner = 0;
+};
+
+/// The walls between joints, W of them, block by block. All elements of a wall are alike.
+struct Walls {
+  std::vector<WallBlock> blocks;
+  std::vector<int> start;                 ///< W, particle
+  std::vector<int> end;                   ///< W, particle
+  std::vector<double> thickness;          ///< W, mm
+  std::vector<double> undeformed_length;  ///< W, of one element, mm
+  std::vector<int> material;              ///< W, into Scene::materials
 };
 
 /// A function of time: linear between its points, constant outside.
@@ -124,16 +149,21 @@ struct Schedule {
 /// N particles, E elements.
 struct Scene {
   // Mesh.
-  std::vector<Vector2> position;          ///< N, before loading
-  std::vector<double> mass;               ///< N, tonne (Eq. 1, 2)
-  std::vector<double> inertia;            ///< N, tonne mm^2 (Eq. 1, 3)
-  std::vector<double> radius;             ///< N, of the contact ball: half of the thickest wall that ends there
-  std::vector<Element> elements;          ///< E
-  std::vector<double> undeformed_length;  ///< E, mm
-  std::vector<int> incidence_offset;      ///< N + 1, into incidence
-  std::vector<int> incidence;             ///< elements at each particle, ascending: sums run in this order
-  std::vector<Support> supports;          ///< N, or empty when nothing is held
-  std::vector<TimeFunction> motions;      ///< mm or rad, of held particles
+  std::vector<Vector2> position;        ///< N, before loading
+  std::vector<double> mass;             ///< N, tonne (Eq. 1, 2)
+  std::vector<double> inertia;          ///< N, tonne mm^2 (Eq. 1, 3)
+  std::vector<double> inverse_mass;     ///< N, 1 / tonne
+  std::vector<double> inverse_inertia;  ///< N
+  std::vector<double> radius;           ///< N, of the contact ball: half of the thickest wall that ends there
+  std::vector<Element> elements;        ///< E
+  Walls walls;                          ///< W
+  std::vector<int> incidence_offset;    ///< N + 1, into incidence
+  std::vector<int> incidence;           ///< elements at each particle, ascending
+  int joint_count = 0;                  ///< the joints come first, then the particles inside the walls
+  std::vector<int> wall_end_offset;     ///< joints + 1, into wall_ends
+  std::vector<int> wall_ends;           ///< at each joint, into State::wall_force, ascending: sums run in this order
+  std::vector<Support> supports;        ///< N, or empty when nothing is held
+  std::vector<TimeFunction> motions;    ///< mm or rad, of held particles
   std::vector<NodalLoad> loads;
   std::vector<ElementLoad> element_loads;
   Vector2 gravity = Vector2::Zero();      ///< mm/s^2
@@ -160,6 +190,10 @@ struct Scene {
 
   std::vector<int> watched;  ///< particles whose motion samples keep
 
+  [[nodiscard]] bool has_hardening() const {
+    return std::any_of(materials.begin(), materials.end(),
+                       [](const Material& material) { return material.hardening_modulus > 0.0; });
+  }
   [[nodiscard]] bool is_loaded() const { return !loads.empty() || !element_loads.empty() || !gravity.isZero(); }
   [[nodiscard]] std::size_t particle_count() const { return position.size(); }
   [[nodiscard]] std::size_t element_count() const { return elements.size(); }

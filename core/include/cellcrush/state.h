@@ -7,14 +7,6 @@
 
 namespace cellcrush {
 
-/// Forces by which an element resists (Eq. 31, 32), in the fixed frame: N and N mm. The force on the start node is the
-/// reverse of that on the end node.
-struct ElementForces {
-  Vector2 force_on_end = Vector2::Zero();
-  double moment_on_start = 0.0;
-  double moment_on_end = 0.0;
-};
-
 /// A ball and a segment that may touch before the list is made again. Without padding: its bytes are hashed.
 struct ContactCandidate {
   int ball = 0;           ///< particle
@@ -23,6 +15,14 @@ struct ContactCandidate {
   int side = 0;           ///< +1 left, -1 right of the segment: where the ball is, or came from; 0: not touching
   int pushed = 0;         ///< the side from which it pushed on the ball in the newest step; 0: it did not
   double friction = 0.0;  ///< N, on the ball, along the segment, round its ends with it; kept while it pushes
+};
+
+/// Force of a plate, N, compression positive.
+struct PlateForce {
+  double elastic = 0.0;
+  double viscous = 0.0;
+
+  [[nodiscard]] double total() const { return elastic + viscous; }
 };
 
 /// Energies and works that are sums over time. N mm. Written by integrate_motion and evaluate_internal_forces.
@@ -54,12 +54,18 @@ struct State {
   // Written by evaluate_internal_forces.
   std::vector<Vector2> axis;              ///< E, unit vector from start to end
   std::vector<double> length;             ///< E
-  std::vector<double> stress;             ///< E x F, of the fibres, axial point by axial point, MPa
-  std::vector<double> back_stress;        ///< E x F, middle of the yield surface, MPa
-  std::vector<double> plastic_strain;     ///< E x F, accumulated (effective)
+  std::vector<double> stress;             ///< E x F, of the fibres, MPa; the order is that of beam/element_place.h
+  std::vector<double> back_stress;        ///< E x F, middle of the yield surface, MPa; empty without hardening
+  std::vector<double> plastic_strain;     ///< E x F, accumulated (effective); empty without hardening
+  std::vector<std::uint64_t> flowed;      ///< E, bit f: fibre f has flowed; empty with hardening
   std::vector<double> section_unbalance;  ///< E x P of a force-based rule (beam/section_curvatures.h), else empty; MPa
   std::vector<double> section_tangent;    ///< the same, 1
-  std::vector<ElementForces> internal;    ///< E
+  std::vector<double> start_moment;       ///< E of a force-based rule, else empty: on the start node, N mm
+  std::vector<double> end_moment;         ///< the same, on the end node
+  std::vector<Vector2> wall_force;        ///< 2 W, of walls on joints: of a block's walls at their starts, then ends; N
+  std::vector<double> wall_moment;        ///< 2 W, N mm
+  std::vector<Vector2> internal_force;    ///< N, of all elements on the particle
+  std::vector<double> internal_moment;    ///< N, N mm
 
   // Written by evaluate_loads; empty when the scene has no loads.
   std::vector<Vector2> load_force;  ///< N
@@ -72,15 +78,13 @@ struct State {
   std::int64_t search_count = 0;
 
   // Written by evaluate_contact_forces and evaluate_plate_forces.
-  std::vector<Vector2> contact_force;          ///< N, elastic part
+  std::vector<Vector2> contact_force;          ///< N, of walls and plates, elastic part
   std::vector<Vector2> contact_damping_force;  ///< N, viscous part
   std::vector<Vector2> friction_force;         ///< N, of walls and plates; empty without friction
   std::vector<double> impact_friction;         ///< N, of the impact plate across the crush; empty without friction
   std::vector<double> support_friction;        ///< N, of the support plate across the crush; empty without friction
-  std::vector<double> impact_force;            ///< N, of the impact plate along the crush, elastic part
-  std::vector<double> impact_damping_force;    ///< N, viscous part
-  std::vector<double> support_force;           ///< N, of the support plate against the crush, elastic part
-  std::vector<double> support_damping_force;   ///< N, viscous part
+  PlateForce impact_force;                     ///< of the impact plate on the lattice, along the crush
+  PlateForce support_force;                    ///< of the support plate on the lattice, against the crush
   double contact_stored = 0.0;                 ///< sum of k D^2 / 2 now
   std::int64_t contact_count = 0;              ///< closed contacts between walls now
   double deepest_penetration = 0.0;            ///< of a wall contact since the start, over the thinner wall's thickness
@@ -107,9 +111,15 @@ void visit_fields(S& state, Visitor&& visitor) {
   visitor("stress", state.stress);
   visitor("back_stress", state.back_stress);
   visitor("plastic_strain", state.plastic_strain);
+  visitor("flowed", state.flowed);
   visitor("section_unbalance", state.section_unbalance);
   visitor("section_tangent", state.section_tangent);
-  visitor("internal", state.internal);
+  visitor("start_moment", state.start_moment);
+  visitor("end_moment", state.end_moment);
+  visitor("wall_force", state.wall_force);
+  visitor("wall_moment", state.wall_moment);
+  visitor("internal_force", state.internal_force);
+  visitor("internal_moment", state.internal_moment);
   visitor("load_force", state.load_force);
   visitor("load_moment", state.load_moment);
   visitor("candidate_offset", state.candidate_offset);
@@ -122,9 +132,7 @@ void visit_fields(S& state, Visitor&& visitor) {
   visitor("impact_friction", state.impact_friction);
   visitor("support_friction", state.support_friction);
   visitor("impact_force", state.impact_force);
-  visitor("impact_damping_force", state.impact_damping_force);
   visitor("support_force", state.support_force);
-  visitor("support_damping_force", state.support_damping_force);
   visitor("contact_stored", state.contact_stored);
   visitor("contact_count", state.contact_count);
   visitor("deepest_penetration", state.deepest_penetration);

@@ -31,8 +31,9 @@ class Element {
     const BeamSection section = {kThickness, area, area * kLength, 1.0};
     const ElementForces before = forces_;
     forces_ = evaluate_element<0, true>(deformation, kLength, material_, section, rule_,
-                                        {stress_.data(), back_stress_.data(), plastic_strain_.data()},
-                                        {unbalance_.data(), tangent_.data()}, before, plastic_work_);
+                                        {stress_.data(), back_stress_.data(), plastic_strain_.data(), nullptr},
+                                        {unbalance_.data(), tangent_.data()}, before.moment_on_start,
+                                        before.moment_on_end, plastic_work_);
     work_ += 0.5 * (before.moment_on_start + forces_.moment_on_start) * start +
              0.5 * (before.moment_on_end + forces_.moment_on_end) * end;
   }

@@ -50,7 +50,7 @@ Squash squash(SectionSpec::AreaRule rule, double share) {
     sample = simulation.take_sample();
     for (std::size_t e = 0; e < simulation.scene().element_count(); ++e) {
       result.shortest =
-          std::min(result.shortest, simulation.state().length[e] / simulation.scene().undeformed_length[e]);
+          std::min(result.shortest, simulation.state().length[e] / simulation.scene().walls.undeformed_length.front());
     }
   }
   result.plastic = sample.energy_plastic;

@@ -41,7 +41,7 @@ TEST(Hexagons, AreAPlanarLatticeOfEqualWalls) {
   const int cells = 3 * 9 + 3 * 8;
   EXPECT_EQ(static_cast<int>(layout.joints.size()) - static_cast<int>(layout.walls.size()) + cells, 1);  // Euler
   std::map<int, int> degree;
-  for (const Wall& wall : layout.walls) {
+  for (const LayoutWall& wall : layout.walls) {
     const Vector2 span = layout.joints[wall.end] - layout.joints[wall.start];
     EXPECT_NEAR(span.norm(), 3.0, 1e-12);
     EXPECT_EQ(wall.thickness, std::abs(span.x()) < 1e-9 ? 0.4 : 0.2);

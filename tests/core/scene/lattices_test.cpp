@@ -51,7 +51,7 @@ Lattice lattice_of(int columns, int rows) {
 void expect_planar(const Layout& layout, int cells, const Vector2& envelope) {
   EXPECT_EQ(static_cast<int>(layout.joints.size()) - static_cast<int>(layout.walls.size()) + cells, 1);  // Euler
   Vector2 high = Vector2::Zero();
-  for (const Wall& wall : layout.walls) {
+  for (const LayoutWall& wall : layout.walls) {
     EXPECT_NEAR((layout.joints[wall.end] - layout.joints[wall.start]).norm(), 3.0, 1e-12);
   }
   for (const Vector2& joint : layout.joints) {
@@ -74,7 +74,7 @@ TEST(Lattices, StiffRowsThickenAllWallsOfTheirCells) {
   auto hexagon = lattice_of<HexagonLattice>(5, 4);
   const Layout layout = lay_out(hexagon, Inclusions{{2}, 4.0}, 1);
   int thick = 0;
-  for (const Wall& wall : layout.walls) {
+  for (const LayoutWall& wall : layout.walls) {
     thick += wall.thickness == 0.8 ? 1 : 0;
     EXPECT_TRUE(wall.thickness == 0.8 || wall.thickness == 0.2);
   }

@@ -37,11 +37,11 @@ class Section {
 
  private:
   SectionSums integrate(double membrane, double bending) {
-    const Fibres fibres = {stress_.data(), back_stress_.data(), plastic_strain_.data()};
+    const Fibres fibres = {stress_.data(), back_stress_.data(), plastic_strain_.data(), nullptr};
     std::vector<double> stress(stress_.size());
     std::vector<double> plastic_increment(stress_.size());
     const FibreStep next = {stress.data(), plastic_increment.data()};
-    const SectionSums sums = return_section<0, true>(material_, rule_, membrane, bending, fibres, next);
+    const SectionSums sums = return_section<0, true>(material_, rule_, membrane, bending, fibres, 0, next);
     commit_fibres<true>(material_, stress_.size(), next, fibres);
     return sums;
   }

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+
+#include "cellcrush/scene.h"
+
+namespace cellcrush {
+
+/// Where an element's values lie in the state's arrays. The elements at the same place of a block's walls make a row, and a
+/// row's values lie one after another, walls innermost.
+struct ElementPlace {
+  std::size_t element = 0;
+  std::size_t row = 0;     ///< first element of the row
+  std::size_t stride = 0;  ///< walls of the block
+
+  /// Index of value i of the element, in an array that has `per_element` of them for each.
+  [[nodiscard]] std::size_t index(std::size_t per_element, std::size_t i) const {
+    return row * per_element + i * stride + (element - row);
+  }
+};
+
+/// Calls visit(place, wall) for every element, ascending.
+template <class Visit>
+void visit_elements(const Scene& scene, Visit&& visit) {
+  for (const WallBlock& block : scene.walls.blocks) {
+    for (int j = 0; j < block.elements; ++j) {
+      const auto row = static_cast<std::size_t>(block.first_element + j * block.walls);
+      for (int w = 0; w < block.walls; ++w) {
+        visit(ElementPlace{row + w, row, static_cast<std::size_t>(block.walls)}, block.first_wall + w);
+      }
+    }
+  }
+}
+
+}  // namespace cellcrush

@@ -1,0 +1,144 @@
+#include "step/wide_motion.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "step/wide_motion.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "simd/lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace cellcrush::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Lanes over which works are summed, whatever the target's are: the sums then have the same bits.
+constexpr int kSumLanes = 8;
+
+/// Works of the forces on the particles, each lane's by itself; see Ledger.
+struct LaneWorks {
+  double contact[kSumLanes] = {};
+  double contact_damping[kSumLanes] = {};
+  double friction[kSumLanes] = {};
+  double mass_damping[kSumLanes] = {};
+};
+
+double sum_of(const double* lanes) {
+  double sum = 0.0;
+  for (int lane = 0; lane < kSumLanes; ++lane) {
+    sum += lanes[lane];
+  }
+  return sum;
+}
+
+/// Subtracts force . displacement from a work.
+template <class D>
+HWY_INLINE void spend(D d, const Points<D>& force, const Points<D>& displacement, double* HWY_RESTRICT work) {
+  hn::StoreU(hn::Sub(hn::LoadU(d, work), dot(force, displacement)), d, work);
+}
+
+/// See next_velocity.
+struct Motion {
+  double step;
+  double keep;
+  double gain;
+  double half_damping;
+};
+
+template <bool kFriction, bool kMassDamping, class D>
+HWY_INLINE void move(D d, const Scene& scene, State& state, const Motion& motion, std::size_t i, int lane,
+                     LaneWorks& works) {
+  const Points<D> contact = load_points(d, &state.contact_force[i]);
+  const Points<D> viscous = load_points(d, &state.contact_damping_force[i]);
+  Points<D> force = load_points(d, &state.internal_force[i]);
+  force = {hn::Add(force.x, hn::Add(contact.x, viscous.x)), hn::Add(force.y, hn::Add(contact.y, viscous.y))};
+  Points<D> friction;
+  if constexpr (kFriction) {
+    friction = load_points(d, &state.friction_force[i]);
+    force = {hn::Add(force.x, friction.x), hn::Add(force.y, friction.y)};
+  }
+  const auto keep = hn::Set(d, motion.keep);
+  const auto gain = hn::Set(d, motion.gain);
+  const auto per_force = hn::Mul(gain, hn::LoadU(d, &scene.inverse_mass[i]));
+  const auto per_moment = hn::Mul(gain, hn::LoadU(d, &scene.inverse_inertia[i]));
+  const Points<D> velocity = load_points(d, &state.velocity[i]);
+  const Points<D> next = {hn::MulAdd(per_force, force.x, hn::Mul(keep, velocity.x)),
+                          hn::MulAdd(per_force, force.y, hn::Mul(keep, velocity.y))};
+  const auto spin = hn::LoadU(d, &state.spin[i]);
+  const auto next_spin = hn::MulAdd(per_moment, hn::LoadU(d, &state.internal_moment[i]), hn::Mul(keep, spin));
+  const auto half = hn::Set(d, 0.5 * motion.step);
+  const Points<D> sum = {hn::Add(velocity.x, next.x), hn::Add(velocity.y, next.y)};
+  const Points<D> mean = {hn::Mul(half, sum.x), hn::Mul(half, sum.y)};
+  spend(d, contact, mean, works.contact + lane);
+  spend(d, viscous, mean, works.contact_damping + lane);
+  if constexpr (kFriction) {
+    spend(d, friction, mean, works.friction + lane);
+  }
+  if constexpr (kMassDamping) {
+    const auto of_mass = hn::Set(d, -motion.half_damping);
+    const auto momentum = hn::Mul(of_mass, hn::LoadU(d, &scene.mass[i]));
+    const auto spin_sum = hn::Add(spin, next_spin);
+    const auto turning = hn::Mul(hn::Mul(hn::Mul(of_mass, hn::LoadU(d, &scene.inertia[i])), spin_sum), half);
+    double* work = works.mass_damping + lane;
+    spend(d, Points<D>{hn::Mul(momentum, sum.x), hn::Mul(momentum, sum.y)}, mean, work);
+    hn::StoreU(hn::NegMulAdd(turning, spin_sum, hn::LoadU(d, work)), d, work);
+  }
+  const auto step = hn::Set(d, motion.step);
+  const Points<D> position = load_points(d, &state.position[i]);
+  store_points(d, next, &state.velocity[i]);
+  hn::StoreU(next_spin, d, &state.spin[i]);
+  store_points(d, Points<D>{hn::MulAdd(step, next.x, position.x), hn::MulAdd(step, next.y, position.y)},
+               &state.position[i]);
+  hn::StoreU(hn::MulAdd(step, next_spin, hn::LoadU(d, &state.rotation[i])), d, &state.rotation[i]);
+}
+
+template <bool kFriction, bool kMassDamping>
+void move_all(const Scene& scene, State& state) {
+  const hn::CappedTag<double, kSumLanes> wide;
+  const hn::CappedTag<double, 1> one;
+  const double step = scene.schedule.time_step;
+  const double damping = 0.5 * scene.mass_damping * step;
+  const Motion motion = {step, (1.0 - damping) / (1.0 + damping), step / (1.0 + damping), 0.5 * scene.mass_damping};
+  const auto lanes = hn::Lanes(wide);
+  const std::size_t count = scene.particle_count();
+  LaneWorks works;
+  std::size_t i = 0;
+  for (; i + lanes <= count; i += lanes) {
+    move<kFriction, kMassDamping>(wide, scene, state, motion, i, static_cast<int>(i % kSumLanes), works);
+  }
+  for (; i < count; ++i) {
+    move<kFriction, kMassDamping>(one, scene, state, motion, i, static_cast<int>(i % kSumLanes), works);
+  }
+  state.ledger.contact += sum_of(works.contact);
+  state.ledger.contact_damping += sum_of(works.contact_damping);
+  state.ledger.friction += sum_of(works.friction);
+  state.ledger.mass_damping += sum_of(works.mass_damping);
+}
+
+void move_wide(const Scene& scene, State& state) {
+  const bool damped = scene.mass_damping > 0.0;
+  if (state.friction_force.empty()) {
+    damped ? move_all<false, true>(scene, state) : move_all<false, false>(scene, state);
+  } else {
+    damped ? move_all<true, true>(scene, state) : move_all<true, false>(scene, state);
+  }
+}
+
+}  // namespace cellcrush::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace cellcrush {
+
+HWY_EXPORT(move_wide);
+
+bool move_particles_wide(const Scene& scene, State& state) {
+  if (!scene.supports.empty() || !scene.motions.empty() || scene.is_loaded()) {
+    return false;
+  }
+  HWY_DYNAMIC_DISPATCH(move_wide)(scene, state);
+  return true;
+}
+
+}  // namespace cellcrush
+#endif
