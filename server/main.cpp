@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <string>
 
+#include "cellcrush/simd.h"
 #include "daemon.h"
 #include "version.h"
 #include "worker/worker_main.h"
@@ -33,6 +34,18 @@ sigset_t block_signals() {
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   signal(SIGPIPE, SIG_IGN);
   return signals;
+}
+
+// CELLCRUSH_SIMD names the kernel to use, for the daemon and the workers, which inherit it.
+bool choose_kernel() {
+  const char* name = std::getenv("CELLCRUSH_SIMD");
+  if (name == nullptr || cellcrush::use_simd_target(name)) return true;
+  std::string known;
+  for (const auto& target : cellcrush::simd_targets()) known += (known.empty() ? "" : ", ") + target;
+  std::fprintf(stderr,
+               "cellcrushd: CELLCRUSH_SIMD is '%s', which this processor cannot run. Give one of %s, or unset it.\n",
+               name, known.c_str());
+  return false;
 }
 
 int serve(const cellcrush::DaemonOptions& options, const sigset_t& signals) {
@@ -74,6 +87,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
+  if (!choose_kernel()) return 2;
   umask(0077);
   if (worker->parsed()) cellcrush::worker::worker_main(daemon_process);
   if (options.data_folder.empty()) {

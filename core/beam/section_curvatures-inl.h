@@ -82,6 +82,7 @@ HWY_INLINE void balanced_curvatures(D d, const SectionRule& rule, const LaneMate
                                     hn::Vec<D> bend_end, LaneMemory<kSections, D>& memory,
                                     hn::Vec<D>* HWY_RESTRICT curvature) {
   const auto elastic = hn::Div(hn::Set(d, 12.0), material.modulus);
+  const auto round_off = hn::Mul(hn::Set(d, kSectionRoundOff), material.modulus);
   for (bool turned_back = true; turned_back;) {
     auto start = hn::Zero(d);
     auto mixed = hn::Zero(d);
@@ -110,8 +111,9 @@ HWY_INLINE void balanced_curvatures(D d, const SectionRule& rule, const LaneMate
       const double s = rule.along[i];
       curvature[i] = hn::Mul(flexibility[i], hn::Add(increment.at(d, s), memory.unbalance[i]));
       const auto moment = hn::Sub(moments.at(d, s), memory.unbalance[i]);
-      const auto turns_back = hn::And(active, hn::And(hn::Lt(memory.tangent[i], hn::Set(d, 1.0)),
-                                                      hn::Lt(hn::Mul(curvature[i], moment), hn::Zero(d))));
+      const auto turns_back = hn::And(
+          hn::And(active, hn::Gt(hn::Abs(moment), round_off)),
+          hn::And(hn::Lt(memory.tangent[i], hn::Set(d, 1.0)), hn::Lt(hn::Mul(curvature[i], moment), hn::Zero(d))));
       memory.tangent[i] = hn::IfThenElse(turns_back, hn::Set(d, 1.0), memory.tangent[i]);
       turned_back = turned_back || !hn::AllFalse(d, turns_back);
     }

@@ -29,6 +29,7 @@ PerSection balanced_curvatures(const SectionRule& rule, const Material& material
                                SectionMemory memory, double bend_start, double bend_end) {
   const std::size_t count = rule.section_count();
   const double elastic = 12.0 / material.youngs_modulus;  // h times curvature, over moment by b h^2
+  const double round_off = kSectionRoundOff * material.youngs_modulus;
   PerSection curvature;
   for (bool turned_back = true; turned_back;) {
     Flexibility flexibility;
@@ -47,7 +48,7 @@ PerSection balanced_curvatures(const SectionRule& rule, const Material& material
       const double s = rule.along[static_cast<Eigen::Index>(i)];
       curvature[i] = elastic / memory.tangent_of(i) * (increment.at(s) + memory.unbalance_of(i));
       const double moment = moments.at(s) - memory.unbalance_of(i);
-      if (memory.tangent_of(i) < 1.0 && curvature[i] * moment < 0.0) {
+      if (memory.tangent_of(i) < 1.0 && std::abs(moment) > round_off && curvature[i] * moment < 0.0) {
         memory.tangent_of(i) = 1.0;
         turned_back = true;
       }

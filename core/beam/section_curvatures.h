@@ -59,7 +59,7 @@ inline PerSection straight_curvatures(const SectionRule& rule, double bend_start
 /// Increments of curvature times h with which the moment becomes a straight line along the element, as equilibrium has it,
 /// and that add up to the end rotations times h / l (force-based element of Spacone, Filippou and Taucer, 1996). The
 /// sections' stiffness is what they showed last; what it is wrong by is the unbalance, for another pass or the next step.
-/// A section that has flowed but now turns back is taken as elastic.
+/// A section that has flowed but now turns back is taken as elastic; one that was squashed and bears no moment has no back.
 PerSection balanced_curvatures(const SectionRule& rule, const Material& material, const EndMoments& moments,
                                SectionMemory memory, double bend_start, double bend_end);
 

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "cellcrush/simd.h"
 #include "cellcrush/simulation.h"
 #include "error.h"
 #include "store/durable_file.h"
@@ -149,7 +150,7 @@ class Run {
     Final out;
     out.set_cancelled(!whole);
     *out.mutable_summary() = translate::to_proto(summarize(*scene_, samples_), samples_.back(), processor_seconds());
-    writer_.finish({order_.case_(), kSolverRevision, "scalar", facts_.time_step, facts_.modelled, whole},
+    writer_.finish({order_.case_(), kSolverRevision, simd_target(), facts_.time_step, facts_.modelled, whole},
                    out.summary());
     store::publish_file(partial_path_, order_.result_path());
     return out;

@@ -1,0 +1,128 @@
+#include "cellcrush/simd.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "cellcrush/presets.h"
+#include "cellcrush/state.h"
+#include "scenes/frames.h"
+#include "scenes/state_hash.h"
+
+namespace cellcrush {
+namespace {
+
+/// Crushes for 1000 steps with a kernel, then goes back to the best one.
+State crush(const SceneSpec& spec, const std::string& target, int steps = 1000) {
+  EXPECT_TRUE(use_simd_target(target)) << target;
+  Simulation simulation(scenes::build(spec));
+  simulation.advance(steps);
+  EXPECT_TRUE(use_simd_target(""));
+  return simulation.state();
+}
+
+/// Greatest distance between the same particles, mm.
+double distance_between(const State& one, const State& other) {
+  double greatest = 0.0;
+  for (std::size_t i = 0; i < one.position.size(); ++i) {
+    greatest = std::max(greatest, (one.position[i] - other.position[i]).norm());
+  }
+  return greatest;
+}
+
+SceneSpec of_the_paper(SceneSpec spec) {
+  spec.section.formulation = SectionSpec::Formulation::displacement_based;
+  spec.section.depth_rule = SectionSpec::DepthRule::lobatto;
+  spec.section.area_rule = SectionSpec::AreaRule::constant_area;
+  return spec;
+}
+
+/// Blocks with an odd number of walls, so that some are advanced side by side and some alone.
+SceneSpec block(int elements) {
+  SceneSpec spec = scenes::hexagon_block(8, 5);
+  spec.elements_per_wall = elements;
+  spec.imperfection = {0.01, 1};
+  return spec;
+}
+
+SceneSpec with_friction_and_hardening(SceneSpec spec) {
+  spec.contact.friction = 0.2;
+  spec.plates.friction = 0.2;
+  spec.material.hardening_modulus_mpa = 700.0;
+  spec.material.isotropic_fraction = 0.5;
+  spec.numerics.mass_damping_per_s = 1000.0;
+  return spec;
+}
+
+SceneSpec squares() {
+  SceneSpec spec = find_preset("type-ii-as-counted")->spec;
+  auto& lattice = std::get<SquareLattice>(spec.lattice);
+  lattice.columns = 9;
+  lattice.rows = 5;
+  return spec;
+}
+
+struct Compared {
+  const char* name;
+  SceneSpec spec;
+  int steps;        ///< over which the same motion is asked for
+  double distance;  ///< mm, between the same particles
+};
+
+// Force-based elements decide by thresholds whether a section turns back and whether it is in balance enough; a last bit
+// may turn such a decision, as it may where walls touch. Their motions part sooner.
+std::vector<Compared> scenes_to_compare() {
+  return {{"paper", of_the_paper(block(2)), 1000, 1e-7},
+          {"one element a wall", of_the_paper(block(1)), 1000, 1e-7},
+          {"paper, hardening, friction, damping", with_friction_and_hardening(of_the_paper(block(2))), 1000, 1e-7},
+          {"default", block(2), 60, 1e-7},
+          {"four elements a wall", block(4), 60, 1e-7},
+          {"hardening, friction, damping", with_friction_and_hardening(block(2)), 60, 1e-7},
+          {"squares", squares(), 60, 1e-7}};
+}
+
+TEST(Simd, EveryTargetMovesTheParticlesAsTheReferenceDoes) {
+  for (const auto& [name, spec, steps, bound] : scenes_to_compare()) {
+    const State reference = crush(spec, "scalar", steps);
+    ASSERT_GT(reference.ledger.plastic, 0.0) << name;
+    for (const std::string& target : simd_targets()) {
+      const State wide = crush(spec, target, steps);
+      EXPECT_LT(distance_between(reference, wide), bound) << name << ", " << target;
+      EXPECT_EQ(wide.flowed, reference.flowed) << name << ", " << target;
+    }
+  }
+}
+
+TEST(Simd, EveryTargetDoesTheWorkOfTheReferenceOverAThousandSteps) {
+  for (const auto& [name, spec, steps, bound] : scenes_to_compare()) {
+    const Ledger reference = crush(spec, "scalar").ledger;
+    for (const std::string& target : simd_targets()) {
+      const Ledger wide = crush(spec, target).ledger;
+      EXPECT_NEAR(wide.external, reference.external, 0.01 * reference.external) << name << ", " << target;
+      EXPECT_NEAR(wide.plastic, reference.plastic, 0.01 * reference.external) << name << ", " << target;
+      EXPECT_NEAR(wide.contact_damping, reference.contact_damping, 0.01 * reference.external) << name << ", " << target;
+    }
+  }
+}
+
+TEST(Simd, VectorTargetsWithFusedMultiplyAddGiveTheSameBits) {
+  const std::vector<std::string> targets = simd_targets();
+  const auto has = [&](const char* name) { return std::find(targets.begin(), targets.end(), name) != targets.end(); };
+  if (!has("avx2") || !has("avx512")) {
+    GTEST_SKIP() << "This processor has no AVX-512.";
+  }
+  for (const auto& [name, spec, steps, bound] : scenes_to_compare()) {
+    EXPECT_EQ(scenes::hash_of(crush(spec, "avx2")), scenes::hash_of(crush(spec, "avx512"))) << name;
+  }
+}
+
+TEST(Simd, AnUnknownTargetIsRefusedAndChangesNothing) {
+  const std::string before = simd_target();
+  EXPECT_FALSE(use_simd_target("abacus"));
+  EXPECT_EQ(simd_target(), before);
+  EXPECT_EQ(simd_targets().back(), "scalar");
+}
+
+}  // namespace
+}  // namespace cellcrush
