@@ -15,7 +15,8 @@ struct Violation {
 
 /// Reads every header and source file below `root` and reports all violations, in the order of the paths:
 ///
-/// - core includes its own headers, the C++ library without clock and files, and Eigen;
+/// - core includes its own headers, the C++ library without clock and files, Eigen, and, but for its public headers,
+///   Highway;
 /// - core/include, which others may include, takes of core's headers only those in core/include;
 /// - server includes no header of core but those in core/include;
 /// - client-cli includes no header of core or server;

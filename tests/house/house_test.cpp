@@ -87,6 +87,10 @@ TEST_F(PlantedTree, CoreMayNotReadTheClock) {
   expect_found("core/step/bad.cpp", "<chrono>", "core knows no clock and no files");
 }
 
+TEST_F(PlantedTree, PublicHeadersMayNotShowVectorTypes) {
+  expect_found("core/include/cellcrush/bad.h", "<hwy/highway.h>", "core includes nothing outside core");
+}
+
 TEST_F(PlantedTree, PublicHeadersMayNotIncludePackages) {
   expect_found("core/include/cellcrush/bad.h", "<spdlog/spdlog.h>", "core includes nothing outside core");
 }
