@@ -19,17 +19,24 @@ struct ElementPlace {
   }
 };
 
+/// Calls visit(block, first element) for every row, ascending.
+template <class Visit>
+void visit_rows(const Scene& scene, Visit&& visit) {
+  for (const WallBlock& block : scene.walls.blocks) {
+    for (int j = 0; j < block.elements; ++j) {
+      visit(block, static_cast<std::size_t>(block.first_element + j * block.walls));
+    }
+  }
+}
+
 /// Calls visit(place, wall) for every element, ascending.
 template <class Visit>
 void visit_elements(const Scene& scene, Visit&& visit) {
-  for (const WallBlock& block : scene.walls.blocks) {
-    for (int j = 0; j < block.elements; ++j) {
-      const auto row = static_cast<std::size_t>(block.first_element + j * block.walls);
-      for (int w = 0; w < block.walls; ++w) {
-        visit(ElementPlace{row + w, row, static_cast<std::size_t>(block.walls)}, block.first_wall + w);
-      }
+  visit_rows(scene, [&](const WallBlock& block, std::size_t row) {
+    for (int w = 0; w < block.walls; ++w) {
+      visit(ElementPlace{row + w, row, static_cast<std::size_t>(block.walls)}, block.first_wall + w);
     }
-  }
+  });
 }
 
 }  // namespace cellcrush

@@ -1,48 +1,55 @@
 #include "energy/ledger.h"
 
+#include <array>
+
 #include "beam/beam_section.h"
 #include "beam/element_place.h"
 
 namespace cellcrush {
 namespace {
 
-/// Books the half of the newest forces' work that belongs to the interval up to the state's time; `sign` is +1 to add it.
-void close_interval(const Scene& scene, const State& state, double sign, Ledger& ledger) {
-  const double half = 0.5 * scene.schedule.time_step;
-  Ledger open;
-  for (std::size_t i = 0; i < scene.particle_count(); ++i) {
-    const MeanMotion mean = {half * state.velocity[i], half * state.spin[i]};
-    accumulate_work(scene, state, i, next_velocity(scene, state, i), mean, open);
-  }
-  accumulate_plate_work(state, half * scene.plates.speed_at(state.time - half), open);
-  ledger.contact += sign * open.contact;
-  ledger.contact_damping += sign * open.contact_damping;
-  ledger.friction += sign * open.friction;
-  ledger.mass_damping += sign * open.mass_damping;
-  ledger.external += sign * open.external;
-}
+/// Kinetic energy at the state's time, and the half of the newest forces' work that belongs to the interval up to it.
+struct Instant {
+  double kinetic = 0.0;
+  Ledger half;
+};
 
-double kinetic_energy(const Scene& scene, const State& state) {
+Instant look_at_motion(const Scene& scene, const State& state) {
+  const double half = 0.5 * scene.schedule.time_step;
+  Instant instant;
   double twice = 0.0;
   for (std::size_t i = 0; i < scene.particle_count(); ++i) {
     const NextVelocity next = next_velocity(scene, state, i);
+    accumulate_work(scene, state, i, next, {half * state.velocity[i], half * state.spin[i]}, instant.half);
     twice += scene.mass[i] * state.velocity[i].dot(next.velocity) + scene.inertia[i] * state.spin[i] * next.spin;
   }
-  return 0.5 * twice;
+  accumulate_plate_work(state, half * scene.plates.speed_at(state.time - half), instant.half);
+  instant.kinetic = 0.5 * twice;
+  return instant;
 }
 
-using StridedMap = Eigen::Map<const Eigen::ArrayXXd, 0, Eigen::Stride<Eigen::Dynamic, Eigen::Dynamic>>;
-
+/// Row by row of the blocks: the values of a row's fibre lie side by side.
 double elastic_energy(const Scene& scene, const State& state) {
-  const auto sections = static_cast<Eigen::Index>(scene.section.section_count());
-  const auto depth = static_cast<Eigen::Index>(scene.section.depth_count());
+  const SectionRule& rule = scene.section;
+  const std::size_t fibres = rule.fibre_count();
   double energy = 0.0;
-  visit_elements(scene, [&](const ElementPlace& place, int wall) {
-    const StridedMap stress(&state.stress[place.index(scene.fibre_count(), 0)], depth, sections,
-                            {depth * static_cast<Eigen::Index>(place.stride), static_cast<Eigen::Index>(place.stride)});
-    const BeamSection section = section_of(scene, wall, state.length[place.element]);
-    const double modulus = section.stiffness * scene.materials[scene.walls.material[wall]].youngs_modulus;
-    energy += section.volume * mean_over(scene.section, stress.square()) / (2.0 * modulus);
+  visit_rows(scene, [&](const WallBlock& block, std::size_t row) {
+    const auto walls = static_cast<std::size_t>(block.walls);
+    std::array<double, kMostWallsInBlock> squares{};
+    for (std::size_t fibre = 0; fibre < fibres; ++fibre) {
+      const double weight = rule.along_weight[static_cast<Eigen::Index>(fibre / rule.depth_count())] *
+                            rule.depth_weight[static_cast<Eigen::Index>(fibre % rule.depth_count())];
+      const double* stress = &state.stress[row * fibres + fibre * walls];
+      for (std::size_t w = 0; w < walls; ++w) {
+        squares[w] += weight * stress[w] * stress[w];
+      }
+    }
+    for (std::size_t w = 0; w < walls; ++w) {
+      const auto wall = block.first_wall + static_cast<int>(w);
+      const BeamSection section = section_of(scene, wall, state.length[row + w]);
+      const double modulus = section.stiffness * scene.materials[scene.walls.material[wall]].youngs_modulus;
+      energy += section.volume * squares[w] / (2.0 * modulus);
+    }
   });
   return energy;
 }
@@ -77,24 +84,29 @@ void accumulate_plate_work(const State& state, double displacement, Ledger& ledg
 }
 
 void open_ledger(const Scene& scene, State& state) {
-  close_interval(scene, state, -1.0, state.ledger);
-  state.ledger.initial = kinetic_energy(scene, state);
+  const Instant start = look_at_motion(scene, state);
+  state.ledger.contact -= start.half.contact;
+  state.ledger.contact_damping -= start.half.contact_damping;
+  state.ledger.friction -= start.half.friction;
+  state.ledger.mass_damping -= start.half.mass_damping;
+  state.ledger.external -= start.half.external;
+  state.ledger.initial = start.kinetic;
 }
 
 Energies evaluate_energies(const Scene& scene, const State& state) {
-  Ledger ledger = state.ledger;
-  close_interval(scene, state, 1.0, ledger);
+  const Instant now = look_at_motion(scene, state);
   Energies energies;
-  energies.kinetic = kinetic_energy(scene, state);
+  energies.kinetic = now.kinetic;
   energies.elastic = elastic_energy(scene, state);
-  energies.plastic = ledger.plastic;
-  energies.contact = ledger.contact;
-  energies.contact_damping = ledger.contact_damping;
-  energies.friction = ledger.friction;
-  energies.mass_damping = ledger.mass_damping;
-  energies.external = ledger.external;
-  energies.residual = energies.external + ledger.initial - energies.kinetic - energies.elastic - energies.plastic -
-                      energies.contact - energies.contact_damping - energies.friction - energies.mass_damping;
+  energies.plastic = state.ledger.plastic;
+  energies.contact = state.ledger.contact + now.half.contact;
+  energies.contact_damping = state.ledger.contact_damping + now.half.contact_damping;
+  energies.friction = state.ledger.friction + now.half.friction;
+  energies.mass_damping = state.ledger.mass_damping + now.half.mass_damping;
+  energies.external = state.ledger.external + now.half.external;
+  energies.residual = energies.external + state.ledger.initial - energies.kinetic - energies.elastic -
+                      energies.plastic - energies.contact - energies.contact_damping - energies.friction -
+                      energies.mass_damping;
   return energies;
 }
 
