@@ -70,11 +70,19 @@ void evaluate_elements(const Scene& scene, State& state) {
 }
 
 template <bool kHardening>
-void evaluate_all(const Scene& scene, State& state) {
+void evaluate_rule(const Scene& scene, State& state) {
   switch (scene.section.depth_count()) {
     case 4: evaluate_elements<4, kHardening>(scene, state); break;
     case 6: evaluate_elements<6, kHardening>(scene, state); break;
     default: evaluate_elements<0, kHardening>(scene, state); break;
+  }
+}
+
+void evaluate_walls(const Scene& scene, State& state) {
+  if (scene.has_hardening()) {
+    evaluate_rule<true>(scene, state);
+  } else {
+    evaluate_rule<false>(scene, state);
   }
 }
 
@@ -95,12 +103,8 @@ void sum_joint_forces(const Scene& scene, State& state) {
 }  // namespace
 
 void evaluate_internal_forces(const Scene& scene, State& state) {
-  if (use_wide_kernels() && evaluate_walls_wide(scene, state)) {
-    // done
-  } else if (scene.has_hardening()) {
-    evaluate_all<true>(scene, state);
-  } else {
-    evaluate_all<false>(scene, state);
+  if (!use_wide_kernels() || !evaluate_walls_wide(scene, state)) {
+    evaluate_walls(scene, state);
   }
   sum_joint_forces(scene, state);
 }

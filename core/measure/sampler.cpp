@@ -12,6 +12,21 @@ namespace {
 /// The crush mode is looked for each time that so many more of the cells have collapsed: it takes as long as many steps.
 constexpr double kLookEvery = 0.04;
 
+/// Share of an element's volume whose fibres have flowed.
+double flowed_fraction(const Scene& scene, const State& state, const ElementPlace& place) {
+  const SectionRule& rule = scene.section;
+  double fraction = 0.0;
+  for (std::size_t fibre = 0; fibre < rule.fibre_count(); ++fibre) {
+    const bool flowed = state.flowed.empty() ? state.plastic_strain[place.index(rule.fibre_count(), fibre)] > 0.0
+                                             : (state.flowed[place.element] >> fibre & 1U) != 0;
+    if (flowed) {
+      fraction += rule.along_weight[static_cast<Eigen::Index>(fibre / rule.depth_count())] *
+                  rule.depth_weight[static_cast<Eigen::Index>(fibre % rule.depth_count())];
+    }
+  }
+  return fraction;
+}
+
 }  // namespace
 
 Sampler::Sampler(const Scene& scene) : next_look_(kModeFrom) {
@@ -86,17 +101,8 @@ FieldFrame make_frame(const Scene& scene, const State& state, int index) {
     frame.position.push_back(static_cast<float>(position.y()));
   }
   frame.plastic_fraction.reserve(scene.element_count());
-  const auto sections = static_cast<Eigen::Index>(scene.section.section_count());
-  const auto depth = static_cast<Eigen::Index>(scene.section.depth_count());
-  Eigen::ArrayXXd flowed(depth, sections);
   visit_elements(scene, [&](const ElementPlace& place, int) {
-    for (Eigen::Index i = 0; i < flowed.size(); ++i) {
-      const auto fibre = static_cast<std::size_t>(i);
-      flowed(i) = state.flowed.empty()
-                      ? (state.plastic_strain[place.index(scene.fibre_count(), fibre)] > 0.0 ? 1.0 : 0.0)
-                      : static_cast<double>(state.flowed[place.element] >> fibre & 1U);
-    }
-    frame.plastic_fraction.push_back(static_cast<float>(mean_over(scene.section, flowed)));
+    frame.plastic_fraction.push_back(static_cast<float>(flowed_fraction(scene, state, place)));
   });
   return frame;
 }

@@ -33,11 +33,6 @@ struct SectionRule {
   [[nodiscard]] std::size_t fibre_count() const { return section_count() * depth_count(); }
 };
 
-/// Mean over an element's volume of what its fibres have, D x P.
-inline double mean_over(const SectionRule& rule, const Eigen::ArrayXXd& values) {
-  return rule.depth_weight.matrix().dot((values.matrix() * rule.along_weight.matrix()));
-}
-
 /// A beam element: its nodes and its rectangular section.
 struct Element {
   int start = 0;
