@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 
 namespace cellcrush {
@@ -14,6 +15,8 @@ constexpr double kImpactDepth = 0.16;
 constexpr double kMostTurn = 0.6;
 /// Contact candidates are collected this share of the shortest element beyond touch.
 constexpr double kSkinFraction = 0.35;
+/// The same of a face's candidates.
+constexpr double kFaceSkinFraction = 0.20;
 
 /// Angular frequency of the lightest particle on its contact, 1/s.
 double contact_frequency(const SceneSpec& spec, const Scene& scene) {
@@ -31,8 +34,10 @@ double contact_frequency(const SceneSpec& spec, const Scene& scene) {
 ContactLaw contact_law_of(const SceneSpec& spec, bool present, const Scene& scene) {
   const double lightest = *std::min_element(scene.mass.begin(), scene.mass.end());
   const double frequency = contact_frequency(spec, scene);
+  const double shortest = *std::min_element(scene.undeformed_length.begin(), scene.undeformed_length.end());
+  const char* fs = std::getenv("FSKIN");
   return {present, lightest * frequency * frequency, spec.contact.damping_ratio, spec.contact.friction,
-          kSkinFraction * *std::min_element(scene.undeformed_length.begin(), scene.undeformed_length.end())};
+          kSkinFraction * shortest, fs ? atof(fs) : kFaceSkinFraction * shortest};
 }
 
 double contact_step_of(const ContactLaw& law, double mass) {

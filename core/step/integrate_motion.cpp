@@ -102,7 +102,6 @@ State place_particles(const Scene& scene) {
     state.section_tangent.assign(e * scene.section.section_count(), 1.0);
   }
   state.internal.resize(e);
-  state.candidate_offset.assign(n + 1, 0);
   state.contact_force.assign(n, Vector2::Zero());
   state.contact_damping_force.assign(n, Vector2::Zero());
   const std::size_t plate_entries = scene.plates.present ? n : 0;

@@ -12,7 +12,7 @@ namespace {
 std::int64_t memory_of(const Scene& scene) {
   constexpr std::size_t kCandidatesPerParticle = 12;
   const std::size_t per_particle =
-      9 * sizeof(Vector2) + 9 * sizeof(double) + 2 * sizeof(int) + kCandidatesPerParticle * sizeof(ContactCandidate);
+      9 * sizeof(Vector2) + 9 * sizeof(double) + 2 * sizeof(int) + kCandidatesPerParticle * (2 * sizeof(int) + sizeof(double));
   const std::size_t per_element = sizeof(Element) + 2 * sizeof(int) + sizeof(Vector2) + sizeof(double) +
                                   sizeof(ElementForces) +
                                   (3 * scene.fibre_count() + 2 * scene.section.section_count()) * sizeof(double);
