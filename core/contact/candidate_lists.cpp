@@ -65,7 +65,7 @@ void replace_list(State& state, int face, const std::vector<Candidate>& candidat
   }
   list.count = count;
   const auto places = static_cast<std::int64_t>(state.candidate_ball.size());
-  if (places > 2 * state.candidate_count + kEmptyPlaces) {
+  if (places > state.candidate_count + state.candidate_count / 4 + kEmptyPlaces) {
     close_up(state);
   }
 }

@@ -119,7 +119,7 @@ ContactFaces build_contact_faces(const Scene& scene) {
   const FaceLoops loops = trace_loops(scene.position, scene.elements);
   ContactFaces faces;
   faces.premise = premise_of(scene, loops);
-  if (faces.hold()) {
+  if (faces.are_enough()) {
     take_faces(scene, loops, faces);
     group_faces(scene, faces);
   }

@@ -111,8 +111,8 @@ void apply_friction(const Scene& scene, State& state, const std::vector<Touch>& 
     const Touch& touch = pushing[i];
     const Vector2 slide = state.velocity[touch.ball] - segment_velocity(scene, state, touch);
     const double slip = scene.schedule.time_step * slide.dot(tangent_of(state, touch));
-    friction.push_back(evaluate_friction(friction_before(scene, state, touch, pushing, before), scene.contact.stiffness, slip,
-                                         scene.contact.friction * normal_forces[i]));
+    friction.push_back(evaluate_friction(friction_before(scene, state, touch, pushing, before), scene.contact.stiffness,
+                                         slip, scene.contact.friction * normal_forces[i]));
   }
   for (ContactMemory& memory : state.touching) {
     memory.pushed = 0;
@@ -137,9 +137,11 @@ void evaluate_contact_forces(const Scene& scene, State& state) {
   std::fill(state.contact_damping_force.begin(), state.contact_damping_force.end(), Vector2::Zero());
   state.contact_stored = 0.0;
   state.contact_count = 0;
-  const std::vector<ContactMemory> before = scene.contact.friction > 0.0 ? state.touching : std::vector<ContactMemory>();
+  const std::vector<ContactMemory> before =
+      scene.contact.friction > 0.0 ? state.touching : std::vector<ContactMemory>();
   const std::vector<Touch> pushing = find_touches(scene, state);
   std::vector<double> normal_forces;
+  normal_forces.reserve(pushing.size());
   for (const Touch& touch : pushing) {
     normal_forces.push_back(apply_normal_force(scene, state, touch));
   }

@@ -1,6 +1,7 @@
 #include "contact/face_pairs.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -12,9 +13,6 @@
 
 namespace cellcrush {
 namespace {
-
-/// Corners from which on a face's particles are sorted into buckets.
-constexpr int kManyCorners = 64;
 
 bool cross_each_other(const State& state, const Element& one, const Element& other) {
   const auto side_of = [&](const Element& line, int particle) {
@@ -36,6 +34,7 @@ class FaceFinder {
         count_(scene.faces.corner_count(face)),
         particle_(&scene.faces.particle[scene.faces.offset[face]]),
         element_(&scene.faces.element[scene.faces.offset[face]]) {
+    place_.reserve(count_);
     for (int corner = 0; corner < count_; ++corner) {
       place_.push_back(state.position[particle_[corner]]);
       largest_radius_ = std::max(largest_radius_, scene.radius[particle_[corner]]);
@@ -47,7 +46,7 @@ class FaceFinder {
   /// Every pair: the corners' squared distances from a segment in one loop, then what is near.
   void visit_all() {
     double least = std::numeric_limits<double>::max();
-    std::vector<double> squared_distance(place_.size());
+    std::array<double, kManyCorners> squared_distance;
     for (int corner = 0; corner < count_; ++corner) {
       const int e = element_[corner];
       const Vector2 start = state_.position[scene_.elements[e].start];
@@ -116,7 +115,8 @@ class FaceFinder {
 
   [[nodiscard]] bool is_listed_elsewhere(int ball, int segment) const {
     const auto other_side = [&](int element) {
-      return scene_.faces.side[2 * element] == face_ ? scene_.faces.side[2 * element + 1] : scene_.faces.side[2 * element];
+      return scene_.faces.side[2 * element] == face_ ? scene_.faces.side[2 * element + 1]
+                                                     : scene_.faces.side[2 * element];
     };
     const int other = other_side(segment);
     if (other > face_) {

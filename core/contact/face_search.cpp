@@ -12,6 +12,8 @@ namespace {
 
 /// Share of a face's budget below which it is not worth to look again.
 constexpr double kWorthAnotherLook = 0.1;
+/// Skin of a face of many corners, in skins of the others.
+constexpr double kWideSkin = 3.5;
 
 void begin(const Scene& scene, State& state) {
   const ContactFaces& faces = scene.faces;
@@ -43,9 +45,10 @@ double spread_of_velocities(const ContactFaces& faces, const State& state, int g
   for (int lane = 0; lane < kLanes; ++lane) {
     low[lane] = high[lane] = state.velocity[member[0]];
   }
+  // A velocity first: a minimum overwrites its first operand.
   const auto take = [&](int lane, int i) {
-    low[lane] = low[lane].cwiseMin(state.velocity[member[i]]);
-    high[lane] = high[lane].cwiseMax(state.velocity[member[i]]);
+    low[lane] = state.velocity[member[i]].cwiseMin(low[lane]);
+    high[lane] = state.velocity[member[i]].cwiseMax(high[lane]);
   };
   int i = 0;
   for (; i + kLanes <= count; i += kLanes) {
@@ -76,29 +79,43 @@ double spread_of_displacements(const ContactFaces& faces, const State& state, in
   return (high - low).norm();
 }
 
+bool is_finite(const ContactFaces& faces, const State& state, int face) {
+  return std::all_of(faces.particle.begin() + faces.offset[face], faces.particle.begin() + faces.offset[face + 1],
+                     [&](int particle) { return state.position[particle].allFinite(); });
+}
+
+/// Faces of many corners are as large as the lattice, move as fast and are searched by a grid: rarely, with a wide skin.
+double skin_of(const Scene& scene, int face) {
+  return scene.faces.corner_count(face) < kManyCorners ? scene.contact.face_skin : kWideSkin * scene.contact.face_skin;
+}
+
 void make_list(const Scene& scene, State& state, int face) {
-  const FacePairs pairs = find_face_pairs(scene, state, face, scene.contact.face_skin);
+  const double skin = skin_of(scene, face);
+  const FacePairs pairs = find_face_pairs(scene, state, face, skin);
   if (pairs.crossed) {
     give_up(state);
     return;
   }
   replace_list(state, face, pairs.candidates);
   // Of a face with candidates no more than the skin: an end that has gone through a segment is found while it is near.
-  state.face_budget[face] = pairs.candidates.empty() ? pairs.least_gap : scene.contact.face_skin;
+  state.face_budget[face] = pairs.candidates.empty() ? pairs.least_gap : skin;
   for (int k = scene.faces.offset[face]; k < scene.faces.offset[face + 1]; ++k) {
     state.face_searched_position[k] = state.position[scene.faces.particle[k]];
   }
   ++state.face_search_count;
 }
 
-/// Sets the alarm of a face anew, with a list made anew if need be.
+/// Sets the alarm of a face anew, with a list made anew if need be. A face with a particle that is lost stays as it is.
 void look_at(const Scene& scene, State& state, int group, int face) {
   ++state.face_look_count;
-  double left = 0.0;
-  if (state.face_budget[face] > 0.0) {
-    left = state.face_budget[face] - spread_of_displacements(scene.faces, state, face);
+  const double budget = state.face_budget[face];
+  double left = budget;
+  if (budget > 0.0) {
+    left -= spread_of_displacements(scene.faces, state, face);
   }
-  if (!(left > kWorthAnotherLook * state.face_budget[face])) {
+  if (!is_finite(scene.faces, state, face)) {
+    left = std::numeric_limits<double>::max();
+  } else if (left <= kWorthAnotherLook * budget) {
     make_list(scene, state, face);
     if (state.crossing_step >= 0) {
       return;
@@ -129,7 +146,8 @@ void search_faces(const Scene& scene, State& state) {
     begin(scene, state);
   }
   for (int group = 0; group < scene.faces.group_count() && state.crossing_step < 0; ++group) {
-    state.group_travel[group] += scene.schedule.time_step * spread_of_velocities(scene.faces, state, group);
+    const double spread = spread_of_velocities(scene.faces, state, group);
+    state.group_travel[group] += std::isfinite(spread) ? scene.schedule.time_step * spread : 0.0;
     if (state.group_alarm[group] <= state.group_travel[group]) {
       look_at_group(scene, state, group);
     }

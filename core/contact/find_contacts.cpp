@@ -9,10 +9,10 @@ void find_contacts(const Scene& scene, State& state) {
   if (!scene.contact.present) {
     return;
   }
-  if (scene.faces.hold() && state.crossing_step < 0) {
+  if (scene.faces.are_enough() && state.crossing_step < 0) {
     search_faces(scene, state);
   }
-  if (!scene.faces.hold() || state.crossing_step >= 0) {
+  if (!scene.faces.are_enough() || state.crossing_step >= 0) {
     search_buckets(scene, state);
   }
 }

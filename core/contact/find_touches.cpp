@@ -188,6 +188,7 @@ void share_with_node(const Scene& scene, const State& state, Touch& touch) {
 std::vector<Touch> find_touches(const Scene& scene, State& state) {
   const std::vector<Touch> touches = touches_of(scene, state);
   std::vector<Touch> pushing;
+  pushing.reserve(touches.size());
   for (std::size_t first = 0, last = 0; first < touches.size(); first = last) {
     while (last < touches.size() && touches[last].ball == touches[first].ball) {
       ++last;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 
 namespace cellcrush {
@@ -15,7 +14,7 @@ constexpr double kImpactDepth = 0.16;
 constexpr double kMostTurn = 0.6;
 /// Contact candidates are collected this share of the shortest element beyond touch.
 constexpr double kSkinFraction = 0.35;
-/// The same of a face's candidates.
+/// The same of a face's candidates, whose list is cheap to make.
 constexpr double kFaceSkinFraction = 0.20;
 
 /// Angular frequency of the lightest particle on its contact, 1/s.
@@ -35,9 +34,12 @@ ContactLaw contact_law_of(const SceneSpec& spec, bool present, const Scene& scen
   const double lightest = *std::min_element(scene.mass.begin(), scene.mass.end());
   const double frequency = contact_frequency(spec, scene);
   const double shortest = *std::min_element(scene.undeformed_length.begin(), scene.undeformed_length.end());
-  const char* fs = std::getenv("FSKIN");
-  return {present, lightest * frequency * frequency, spec.contact.damping_ratio, spec.contact.friction,
-          kSkinFraction * shortest, fs ? atof(fs) : kFaceSkinFraction * shortest};
+  return {present,
+          lightest * frequency * frequency,
+          spec.contact.damping_ratio,
+          spec.contact.friction,
+          kSkinFraction * shortest,
+          kFaceSkinFraction * shortest};
 }
 
 double contact_step_of(const ContactLaw& law, double mass) {

@@ -82,15 +82,16 @@ struct State {
   std::int64_t search_count = 0;
 
   // The same, of a search by faces (contact/face_search.h): F faces, C corners, G groups. Empty when by buckets.
-  std::vector<FaceList> face_list;             ///< F
-  std::vector<double> face_budget;             ///< F, mm by which gaps may close before a pair that is not listed touches
-  std::vector<double> face_alarm;              ///< F, travel of its group at which a face is looked at next
+  std::vector<FaceList> face_list;  ///< F
+  std::vector<double> face_budget;  ///< F, mm by which gaps may close before a pair that is not listed touches
+  std::vector<double> face_alarm;   ///< F, travel of its group at which a face is looked at next
   std::vector<Vector2> face_searched_position;  ///< C, where the corners were when the face's list was made
-  std::vector<double> group_travel;            ///< G, mm by which gaps of the group can have closed since the start
-  std::vector<double> group_alarm;             ///< G, the least of its faces
-  std::int64_t face_look_count = 0;            ///< faces looked at since the start
-  std::int64_t face_search_count = 0;          ///< faces whose list was made anew since the start
-  std::int64_t crossing_step = -1;             ///< in which walls were found to have crossed, from when on the search is by buckets
+  std::vector<double> group_travel;             ///< G, mm by which gaps of the group can have closed since the start
+  std::vector<double> group_alarm;              ///< G, the least of its faces
+  std::int64_t face_look_count = 0;             ///< faces looked at since the start
+  std::int64_t face_search_count = 0;           ///< faces whose list was made anew since the start
+  std::int64_t crossing_step =
+      -1;  ///< in which walls were found to have crossed, from when on the search is by buckets
 
   // Written by evaluate_contact_forces.
   std::vector<ContactMemory> touching;  ///< pairs that touch now, by ball, segments ascending
