@@ -31,6 +31,9 @@ class FaceAudit : public testing::TestWithParam<Case> {
     } else if (lattice == "triangle") {
       spec.lattice = TriangleLattice{8, 6, 4.0, 0.02963 * 4.0};
     }
+    if (lattice == "thick") {
+      spec.lattice = HexagonLattice{8, 6, 4.0, 0.25, 0.5};
+    }
     spec.loading.speed_m_per_s = GetParam().speed;
     spec.loading.end_strain = 0.6;
     spec.contact.friction = spec.plates.friction = GetParam().friction;
@@ -126,8 +129,9 @@ std::string name_of(const testing::TestParamInfo<Case>& test) {
 
 INSTANTIATE_TEST_SUITE_P(Crush, FaceAudit,
                          testing::Values(Case{"hexagon", 25, 0.3}, Case{"hexagon", 100, 0.0}, Case{"hexagon", 100, 0.3},
-                                         Case{"square", 25, 0.3}, Case{"square", 100, 0.3}, Case{"triangle", 25, 0.3},
-                                         Case{"triangle", 100, 0.0}, Case{"triangle", 100, 0.3}),
+                                         Case{"thick", 100, 0.0}, Case{"square", 25, 0.3}, Case{"square", 100, 0.3},
+                                         Case{"triangle", 25, 0.3}, Case{"triangle", 100, 0.0},
+                                         Case{"triangle", 100, 0.3}),
                          name_of);
 
 }  // namespace
