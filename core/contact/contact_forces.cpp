@@ -62,31 +62,34 @@ double apply_normal_force(const Scene& scene, State& state, const Touch& touch) 
 
 /// Along the segment where the ball touches its side, turned with the normal round its ends.
 Vector2 tangent_of(const State& state, const Touch& touch) {
-  const int side = state.candidates[touch.candidate].side;
+  const int side = state.touching[touch.memory].side;
   return side * Vector2(touch.normal.y(), -touch.normal.x());
 }
 
-/// Which candidates push with friction in this step.
-std::vector<bool> rubbing(const State& state, const std::vector<Touch>& pushing) {
-  std::vector<bool> result(state.candidates.size(), false);
-  for (const Touch& touch : pushing) {
-    result[touch.candidate] = touch.has_pair;
-  }
-  return result;
+/// Whether a pair pushes with friction in this step.
+bool rubs(const std::vector<Touch>& pushing, const ContactMemory& pair) {
+  const auto precedes = [](const Touch& touch, const ContactMemory& other) {
+    return touch.ball != other.ball ? touch.ball < other.ball : touch.segment < other.segment;
+  };
+  const auto found = std::lower_bound(pushing.begin(), pushing.end(), pair, precedes);
+  return found != pushing.end() && found->ball == pair.ball && found->segment == pair.segment && found->has_pair;
 }
 
 /// Friction that a touch takes over: its own, or that of a touch which it follows. A ball slides on from a neighbour; of two
 /// balls the one hands over to the other. All run along the polyline, one way on its left and the other on its right.
-double friction_before(const Scene& scene, const State& state, const Touch& touch, const std::vector<bool>& rubs) {
-  const ContactCandidate& own = state.candidates[touch.candidate];
+/// `before`: what touched in the step before.
+double friction_before(const Scene& scene, const State& state, const Touch& touch, const std::vector<Touch>& pushing,
+                       const std::vector<ContactMemory>& before) {
+  const ContactMemory& own = state.touching[touch.memory];
   if (own.pushed != 0) {
     return own.friction * own.pushed * own.side;
   }
   const auto handed_over = [&](int ball, const auto& follows) {
-    for (int k = state.candidate_offset[ball]; k < state.candidate_offset[ball + 1]; ++k) {
-      const ContactCandidate& other = state.candidates[k];
-      if (other.pushed != 0 && !rubs[k] && follows(scene.elements[other.segment])) {
-        return other.friction * other.pushed * own.side;
+    const auto precedes = [](const ContactMemory& memory, int other) { return memory.ball < other; };
+    auto other = std::lower_bound(before.begin(), before.end(), ball, precedes);
+    for (; other != before.end() && other->ball == ball; ++other) {
+      if (other->pushed != 0 && !rubs(pushing, *other) && follows(scene.elements[other->segment])) {
+        return other->friction * other->pushed * own.side;
       }
     }
     return 0.0;
@@ -100,26 +103,25 @@ double friction_before(const Scene& scene, const State& state, const Touch& touc
                      [&](const Element& other) { return other.start == touch.ball || other.end == touch.ball; });
 }
 
-/// Overwrites the friction of all candidates by that of the touches that push now, and adds the forces.
+/// Overwrites the friction of all that touch by that of the touches that push now, and adds the forces.
 void apply_friction(const Scene& scene, State& state, const std::vector<Touch>& pushing,
-                    const std::vector<double>& normal_forces) {
-  const std::vector<bool> rubs = rubbing(state, pushing);
+                    const std::vector<ContactMemory>& before, const std::vector<double>& normal_forces) {
   std::vector<double> friction;
   for (std::size_t i = 0; i < pushing.size(); ++i) {
     const Touch& touch = pushing[i];
     const Vector2 slide = state.velocity[touch.ball] - segment_velocity(scene, state, touch);
     const double slip = scene.schedule.time_step * slide.dot(tangent_of(state, touch));
-    friction.push_back(evaluate_friction(friction_before(scene, state, touch, rubs), scene.contact.stiffness, slip,
-                                         scene.contact.friction * normal_forces[i]));
+    friction.push_back(evaluate_friction(friction_before(scene, state, touch, pushing, before), scene.contact.stiffness,
+                                         slip, scene.contact.friction * normal_forces[i]));
   }
-  for (ContactCandidate& candidate : state.candidates) {
-    candidate.pushed = 0;
-    candidate.friction = 0.0;
+  for (ContactMemory& memory : state.touching) {
+    memory.pushed = 0;
+    memory.friction = 0.0;
   }
   for (std::size_t i = 0; i < pushing.size(); ++i) {
-    ContactCandidate& candidate = state.candidates[pushing[i].candidate];
-    candidate.pushed = pushing[i].has_pair ? candidate.side : 0;
-    candidate.friction = friction[i];
+    ContactMemory& memory = state.touching[pushing[i].memory];
+    memory.pushed = pushing[i].has_pair ? memory.side : 0;
+    memory.friction = friction[i];
     add_pair(scene, pushing[i], friction[i] * tangent_of(state, pushing[i]), state.friction_force);
   }
 }
@@ -132,16 +134,16 @@ void evaluate_contact_forces(const Scene& scene, State& state) {
   std::fill(state.contact_damping_force.begin(), state.contact_damping_force.end(), Vector2::Zero());
   state.contact_stored = 0.0;
   state.contact_count = 0;
-  if (!scene.contact.present) {
-    return;
-  }
+  const std::vector<ContactMemory> before =
+      scene.contact.friction > 0.0 ? state.touching : std::vector<ContactMemory>();
   const std::vector<Touch> pushing = find_touches(scene, state);
   std::vector<double> normal_forces;
+  normal_forces.reserve(pushing.size());
   for (const Touch& touch : pushing) {
     normal_forces.push_back(apply_normal_force(scene, state, touch));
   }
   if (scene.contact.friction > 0.0) {
-    apply_friction(scene, state, pushing, normal_forces);
+    apply_friction(scene, state, pushing, before, normal_forces);
   }
 }
 

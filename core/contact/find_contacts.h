@@ -5,14 +5,13 @@
 
 namespace cellcrush {
 
-/// Makes the list of balls and segments that may touch (section 4.1), when the one at hand no longer holds: it was made with
-/// a skin beyond touch, and holds until some particle has moved by half of it. Candidates carry over what they remember.
+/// Keeps the list of balls and segments that may touch: no pair that is not listed touches now. A ball stands at every
+/// particle; it is never held against the elements that end at it.
 ///
-/// A ball stands at every particle; it is never held against the elements that end at it.
+/// By faces (contact/face_search.h) where the scene's faces allow it (contact/contact_faces.h), else by buckets
+/// (contact/bucket_search.h); from the step on in which walls are found to have crossed, by buckets.
+/// REQUIRES: particles have moved by the time step times their velocities since the call before.
 /// After a non-finite position the list is left as it is; the run is stopped by its check of the state.
 void find_contacts(const Scene& scene, State& state);
-
-/// Makes the list now.
-void search_contacts(const Scene& scene, State& state);
 
 }  // namespace cellcrush

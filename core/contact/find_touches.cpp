@@ -2,28 +2,29 @@
 
 #include <span>
 
+#include "contact/candidate_lists.h"
 #include "contact/capsule.h"
+#include "contact/find_overlaps.h"
 
 namespace cellcrush {
 namespace {
 
-/// Candidates whose capsules overlap, ascending; all others forget their side. Few of the many do: a branch for each would
-/// be guessed wrong too often, so the list is written by counting on.
-std::vector<int> overlapping(const Scene& scene, State& state) {
-  std::vector<int> found(state.candidates.size());
-  std::size_t count = 0;
-  for (std::size_t k = 0; k < state.candidates.size(); ++k) {
-    ContactCandidate& candidate = state.candidates[k];
-    const Projection foot =
-        project(state.position[candidate.ball], state.position[scene.elements[candidate.segment].start],
-                state.axis[candidate.segment], state.length[candidate.segment]);
-    const int overlaps = static_cast<int>(foot.offset.squaredNorm() < candidate.reach * candidate.reach);
-    candidate.side *= overlaps;
-    found[count] = static_cast<int>(k);
-    count += static_cast<std::size_t>(overlaps);
+/// What is remembered of the pairs: what was of those that touched before, nothing of the others. Both run by ball.
+std::vector<ContactMemory> remember(const std::vector<Candidate>& pairs, const std::vector<ContactMemory>& before) {
+  std::vector<ContactMemory> memories;
+  memories.reserve(pairs.size());
+  std::size_t next = 0;
+  for (const Candidate& pair : pairs) {
+    const auto precedes = [&](const ContactMemory& memory) {
+      return memory.ball != pair.ball ? memory.ball < pair.ball : memory.segment < pair.segment;
+    };
+    while (next < before.size() && precedes(before[next])) {
+      ++next;
+    }
+    const bool known = next < before.size() && before[next].ball == pair.ball && before[next].segment == pair.segment;
+    memories.push_back(known ? before[next] : ContactMemory{pair.ball, pair.segment, 0, 0, 0.0});
   }
-  found.resize(count);
-  return found;
+  return memories;
 }
 
 /// Whether the ball lies before the node's own ball, and not above the side of one of its segments.
@@ -40,32 +41,33 @@ bool lies_before(const Scene& scene, const State& state, int ball, int node) {
   return true;
 }
 
-/// The touch of an overlapping candidate; keeps its side up to date.
-Touch touch_of(const Scene& scene, State& state, int index) {
-  ContactCandidate& candidate = state.candidates[index];
-  const double length = state.length[candidate.segment];
-  const Vector2& axis = state.axis[candidate.segment];
+/// The touch of an overlapping pair; keeps its side up to date.
+Touch touch_of(const Scene& scene, State& state, int index, double reach) {
+  ContactMemory& memory = state.touching[index];
+  const double length = state.length[memory.segment];
+  const Vector2& axis = state.axis[memory.segment];
   const Projection foot =
-      project(state.position[candidate.ball], state.position[scene.elements[candidate.segment].start], axis, length);
+      project(state.position[memory.ball], state.position[scene.elements[memory.segment].start], axis, length);
   const double signed_distance = cross(axis, foot.offset);
   const bool inside = foot.along > 0.0 && foot.along < length;
-  const bool is_new = candidate.side == 0;
+  const bool is_new = memory.side == 0;
   if (is_new || !inside) {
     // A ball that goes round an end comes to the other side by right.
-    candidate.side = signed_distance >= 0.0 ? 1 : -1;
+    memory.side = signed_distance >= 0.0 ? 1 : -1;
   }
-  double distance = candidate.side * signed_distance;
-  Vector2 normal = candidate.side * normal_of(axis);
+  double distance = memory.side * signed_distance;
+  Vector2 normal = memory.side * normal_of(axis);
   if (!inside) {
     distance = foot.offset.norm();
     normal = distance > 0.0 ? Vector2(foot.offset / distance) : normal;
   }
   Touch touch;
-  touch.candidate = index;
-  touch.ball = candidate.ball;
-  touch.segment = candidate.segment;
+  touch.memory = index;
+  touch.ball = memory.ball;
+  touch.segment = memory.segment;
   touch.share = foot.along / length;
-  touch.depth = candidate.reach - distance;
+  touch.reach = reach;
+  touch.depth = reach - distance;
   touch.normal = normal;
   touch.is_new = is_new;
   return touch;
@@ -73,9 +75,12 @@ Touch touch_of(const Scene& scene, State& state, int index) {
 
 /// All touches, by ball.
 std::vector<Touch> touches_of(const Scene& scene, State& state) {
+  const std::vector<Candidate> pairs = find_overlaps(scene, state);
+  state.touching = remember(pairs, state.touching);
   std::vector<Touch> touches;
-  for (const int index : overlapping(scene, state)) {
-    touches.push_back(touch_of(scene, state, index));
+  touches.reserve(pairs.size());
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    touches.push_back(touch_of(scene, state, static_cast<int>(i), pairs[i].reach));
   }
   return touches;
 }
@@ -103,7 +108,7 @@ void find_node(const Scene& scene, const State& state, std::span<const Touch> to
     for (const int node : {element.start, element.end}) {
       const Vector2 away = state.position[touch.ball] - state.position[node];
       const double distance = away.norm();
-      const double depth = state.candidates[touch.candidate].reach - distance;
+      const double depth = touch.reach - distance;
       if (depth > pushing.node_depth && distance > 0.0) {
         pushing.node = node;
         pushing.node_depth = depth;
@@ -134,6 +139,7 @@ void share_with_node(const Scene& scene, const State& state, Touch& touch) {
 std::vector<Touch> find_touches(const Scene& scene, State& state) {
   const std::vector<Touch> touches = touches_of(scene, state);
   std::vector<Touch> pushing;
+  pushing.reserve(touches.size());
   for (std::size_t first = 0, last = 0; first < touches.size(); first = last) {
     while (last < touches.size() && touches[last].ball == touches[first].ball) {
       ++last;

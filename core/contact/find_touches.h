@@ -9,9 +9,10 @@ namespace cellcrush {
 
 /// A ball that is pushed by a segment.
 struct Touch {
-  int candidate = 0;  ///< into the state's candidates
+  int memory = 0;  ///< into State::touching
   int ball = 0;
   int segment = 0;
+  double reach = 0.0;   ///< mm, distance at which they touch
   double share = 0.0;   ///< of the foot along the segment: 0 at its start, 1 at its end
   double depth = 0.0;   ///< D, mm
   Vector2 normal;       ///< from the segment to the ball
@@ -29,7 +30,8 @@ struct Touch {
       0.0;  ///< mm: k times it is the normal force by which its viscous force is bounded and friction goes
 };
 
-/// The touches that push, by ball: of touching segments that share a node only the deepest. Keeps the candidates' sides.
+/// Overwrites State::touching by the pairs that overlap now: those that did before keep what they remember. Of them the
+/// touches that push, by ball, segments ascending: of touching segments that share a node only the deepest.
 std::vector<Touch> find_touches(const Scene& scene, State& state);
 
 inline bool share_a_node(const Element& a, const Element& b) {

@@ -17,6 +17,22 @@ double WallPaths::reach_of(int ball, int segment) {
   return std::min(full, kTouchingShare * std::min(way_[element.start], way_[element.end]));
 }
 
+std::vector<int> WallPaths::segments_near(int ball, double largest) {
+  walk_from(ball, largest / kTouchingShare);
+  std::vector<int> segments;
+  for (const int particle : reached_) {
+    for (int k = scene_.incidence_offset[particle]; k < scene_.incidence_offset[particle + 1]; ++k) {
+      const Element& element = scene_.elements[scene_.incidence[k]];
+      if (element.start != ball && element.end != ball) {
+        segments.push_back(scene_.incidence[k]);
+      }
+    }
+  }
+  std::sort(segments.begin(), segments.end());
+  segments.erase(std::unique(segments.begin(), segments.end()), segments.end());
+  return segments;
+}
+
 // Dijkstra's algorithm. In most lattices it ends at the ball: the next particle is farther than the limit.
 void WallPaths::walk_from(int ball, double limit) {
   constexpr double kFar = std::numeric_limits<double>::infinity();
@@ -47,6 +63,27 @@ void WallPaths::walk_from(int ball, double limit) {
       }
     }
   }
+}
+
+LimitedReaches find_limited_reaches(const Scene& scene) {
+  double thickest = 0.0;
+  for (const Element& element : scene.elements) {
+    thickest = std::max(thickest, element.thickness);
+  }
+  LimitedReaches limited;
+  limited.offset.push_back(0);
+  WallPaths paths(scene);
+  for (int ball = 0; ball < static_cast<int>(scene.particle_count()); ++ball) {
+    for (const int segment : paths.segments_near(ball, thickest)) {
+      const double reach = paths.reach_of(ball, segment);
+      if (reach < scene.radius[ball] + 0.5 * scene.elements[segment].thickness) {
+        limited.segment.push_back(segment);
+        limited.reach.push_back(reach);
+      }
+    }
+    limited.offset.push_back(static_cast<int>(limited.segment.size()));
+  }
+  return limited;
 }
 
 }  // namespace cellcrush

@@ -20,6 +20,10 @@ class WallPaths {
   /// to the segment's nearer end if that is less. Cheap for balls in the order of particles.
   double reach_of(int ball, int segment);
 
+  /// Segments but the ball's own that reach_of may limit, ascending. `largest`: the greatest radius and half thickness there
+  /// is, mm.
+  std::vector<int> segments_near(int ball, double largest);
+
  private:
   /// Ways from the ball to all particles nearer than the limit.
   void walk_from(int ball, double limit);
@@ -30,5 +34,8 @@ class WallPaths {
   std::vector<double> way_;   // of all particles, infinite where not reached; empty until the first walk
   std::vector<int> reached_;  // particles with a finite way
 };
+
+/// The limited reaches of all pairs of a scene.
+LimitedReaches find_limited_reaches(const Scene& scene);
 
 }  // namespace cellcrush

@@ -1,49 +1,9 @@
 #include "measure/faces.h"
 
-#include <algorithm>
-#include <cmath>
+#include "scene/face_loops.h"
 
 namespace cellcrush {
 namespace {
-
-/// Half-edge 2 e runs from the start of element e to its end, 2 e + 1 back.
-int opposite(int half_edge) { return half_edge ^ 1; }
-
-int origin_of(std::span<const Element> elements, int half_edge) {
-  const Element& element = elements[static_cast<std::size_t>(half_edge / 2)];
-  return half_edge % 2 == 0 ? element.start : element.end;
-}
-
-/// For each half-edge the one that follows it round the face at its left.
-std::vector<int> find_followers(std::span<const Vector2> position, std::span<const Element> elements) {
-  const int count = 2 * static_cast<int>(elements.size());
-  std::vector<std::vector<int>> leaving(position.size());
-  std::vector<double> angle(static_cast<std::size_t>(count));
-  for (int half_edge = 0; half_edge < count; ++half_edge) {
-    const int origin = origin_of(elements, half_edge);
-    const Vector2 along = position[origin_of(elements, opposite(half_edge))] - position[origin];
-    angle[half_edge] = std::atan2(along.y(), along.x());
-    leaving[origin].push_back(half_edge);
-  }
-  std::vector<int> follower(static_cast<std::size_t>(count));
-  for (std::vector<int>& fan : leaving) {
-    std::sort(fan.begin(), fan.end(), [&](int a, int b) { return angle[a] < angle[b]; });
-    for (std::size_t i = 0; i < fan.size(); ++i) {
-      follower[opposite(fan[i])] = fan[(i + fan.size() - 1) % fan.size()];
-    }
-  }
-  return follower;
-}
-
-double area_of(std::span<const int> loop, std::span<const Vector2> position) {
-  double twice = 0.0;
-  // Relative to a corner of the face, so that the area of a small face far from the origin keeps its digits.
-  const Vector2& base = position[loop.front()];
-  for (std::size_t i = 0; i + 1 < loop.size(); ++i) {
-    twice += cross(position[loop[i]] - base, position[loop[i + 1]] - base);
-  }
-  return 0.5 * twice;
-}
 
 Vector2 mean_of(std::span<const int> loop, std::span<const Vector2> position) {
   Vector2 sum = Vector2::Zero();
@@ -56,22 +16,15 @@ Vector2 mean_of(std::span<const int> loop, std::span<const Vector2> position) {
 }  // namespace
 
 Faces trace_faces(std::span<const Vector2> position, std::span<const Element> elements) {
-  const std::vector<int> follower = find_followers(position, elements);
-  std::vector<bool> walked(follower.size(), false);
+  const FaceLoops loops = trace_loops(position, elements);
   Faces faces;
   faces.offset.push_back(0);
-  std::vector<int> loop;
-  for (int first = 0; first < static_cast<int>(follower.size()); ++first) {
-    loop.clear();
-    for (int half_edge = first; !walked[half_edge]; half_edge = follower[half_edge]) {
-      walked[half_edge] = true;
-      loop.push_back(origin_of(elements, half_edge));
-    }
-    const double area = loop.empty() ? 0.0 : area_of(loop, position);
-    if (area > 0.0) {
+  for (std::size_t i = 0; i < loops.count(); ++i) {
+    if (loops.area[i] > 0.0) {
+      const std::span<const int> loop = loops.particles_of(i);
       faces.particles.insert(faces.particles.end(), loop.begin(), loop.end());
       faces.offset.push_back(static_cast<int>(faces.particles.size()));
-      faces.area.push_back(area);
+      faces.area.push_back(loops.area[i]);
       faces.centre.push_back(mean_of(loop, position));
     }
   }
@@ -84,7 +37,7 @@ std::vector<double> area_ratios(const Faces& faces, std::span<const Vector2> pos
   for (std::size_t face = 0; face < faces.count(); ++face) {
     const std::size_t begin = faces.offset[face];
     const std::span<const int> loop(&faces.particles[begin], faces.offset[face + 1] - begin);
-    ratios.push_back(area_of(loop, position) / faces.area[face]);
+    ratios.push_back(area_within(loop, position) / faces.area[face]);
   }
   return ratios;
 }

@@ -17,9 +17,8 @@ struct Faces {
   [[nodiscard]] std::size_t count() const { return area.size(); }
 };
 
-/// Traces the faces of the graph that elements make of particles by walking along half-edges: at a particle the walk turns
-/// into the next element clockwise, so that the face stays at its left. The outer face, which is walked clockwise, is left
-/// out. REQUIRES: a planar drawing, in which elements meet at particles only.
+/// Traces the faces of the graph that elements make of particles (scene/face_loops.h) but the outer one.
+/// REQUIRES: a planar drawing, in which elements meet at particles only.
 Faces trace_faces(std::span<const Vector2> position, std::span<const Element> elements);
 
 /// Areas of the faces at other positions of the same particles over their undeformed areas, C. An area that is turned

@@ -83,6 +83,7 @@ Sample Sampler::take(const Scene& scene, const State& state) {
   sample.energy_contact_damping = energies.contact_damping;
   sample.deepest_penetration = state.deepest_penetration;
   sample.contact_count = state.contact_count;
+  sample.walls_crossed = state.crossing_step >= 0;
   for (const int node : scene.watched) {
     const Vector2 displacement = state.position[node] - scene.position[node];
     sample.watched.push_back({displacement.x(), displacement.y(), state.rotation[node]});

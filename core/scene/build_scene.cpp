@@ -3,6 +3,8 @@
 #include <numbers>
 
 #include "cellcrush/simulation.h"
+#include "contact/contact_faces.h"
+#include "contact/wall_paths.h"
 #include "measure/theory.h"
 #include "scene/check_overlap.h"
 #include "scene/check_spec.h"
@@ -60,6 +62,19 @@ void set_schedule(const SceneSpec& spec, Scene& scene) {
   const auto interval = [&](int count) { return std::max<std::int64_t>(1, scene.schedule.step_count / count); };
   scene.schedule.sample_interval = interval(spec.output.sample_count);
   scene.schedule.frame_interval = interval(spec.output.frame_count);
+}
+
+/// REQUIRES: walls that lie in each other have been refused.
+void prepare_search(const SceneSpec& spec, Scene& scene) {
+  if (!scene.contact.present) {
+    return;
+  }
+  scene.limited_reaches = find_limited_reaches(scene);
+  if (spec.contact.search == ContactSpec::Search::faces) {
+    scene.faces = build_contact_faces(scene);
+  } else {
+    scene.faces.premise = ContactFaces::Premise::not_asked;
+  }
 }
 
 std::vector<Material> materials_of(const SceneSpec& spec) {
@@ -186,6 +201,7 @@ SceneResult build_scene(const SceneSpec& spec) {
   }
   check_step_count(spec, *scene, result.problems);
   if (result.problems.empty()) {
+    prepare_search(spec, *scene);
     set_schedule(spec, *scene);
     result.scene = scene;
   }

@@ -99,7 +99,6 @@ State place_particles(const Scene& scene) {
   state.wall_moment.assign(2 * scene.walls.start.size(), 0.0);
   state.internal_force.assign(n, Vector2::Zero());
   state.internal_moment.assign(n, 0.0);
-  state.candidate_offset.assign(n + 1, 0);
   state.contact_force.assign(n, Vector2::Zero());
   state.contact_damping_force.assign(n, Vector2::Zero());
   if (scene.contact.friction > 0.0 || scene.plates.friction > 0.0) {

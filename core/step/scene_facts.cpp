@@ -1,6 +1,7 @@
 #include "cellcrush/scene.h"
 #include "cellcrush/simulation.h"
 #include "cellcrush/state.h"
+#include "contact/candidate_lists.h"
 #include "measure/theory.h"
 #include "scene/check_spec.h"
 
@@ -12,13 +13,28 @@ namespace {
 std::int64_t memory_of(const Scene& scene) {
   constexpr std::size_t kCandidatesPerParticle = 12;
   const std::size_t per_particle =
-      9 * sizeof(Vector2) + 9 * sizeof(double) + 2 * sizeof(int) + kCandidatesPerParticle * sizeof(ContactCandidate);
+      9 * sizeof(Vector2) + 9 * sizeof(double) + 2 * sizeof(int) + kCandidatesPerParticle * sizeof(Candidate);
   const std::size_t per_element = sizeof(Element) + 2 * sizeof(int) + sizeof(Vector2) + sizeof(double) +
                                   3 * (sizeof(Vector2) + sizeof(double)) / 2 + sizeof(std::uint64_t) +
                                   ((scene.has_hardening() ? 3 : 1) * scene.fibre_count() +
                                    (scene.section.force_based ? 2 * scene.section.section_count() + 2 : 0)) *
                                       sizeof(double);
-  return static_cast<std::int64_t>(scene.particle_count() * per_particle + scene.element_count() * per_element);
+  const std::size_t per_corner = 2 * sizeof(int) + sizeof(Vector2);
+  return static_cast<std::int64_t>(scene.particle_count() * per_particle + scene.element_count() * per_element +
+                                   scene.faces.particle.size() * per_corner);
+}
+
+std::string search_text(ContactFaces::Premise premise) {
+  using Premise = ContactFaces::Premise;
+  switch (premise) {
+    case Premise::holds: return "by the faces of the lattice";
+    case Premise::several_parts: return "by buckets, as there are parts that nothing joins";
+    case Premise::not_closed: return "by buckets, as there are walls that close no face";
+    case Premise::not_planar: return "by buckets, as walls cross without a joint";
+    case Premise::no_contact:
+    case Premise::not_asked: break;
+  }
+  return "by buckets";
 }
 
 std::vector<std::string> what_is_modelled(const Scene& scene) {
@@ -35,6 +51,9 @@ std::vector<std::string> what_is_modelled(const Scene& scene) {
   lines.push_back(scene.contact.present
                       ? "Contact between walls: penalty, ball to capsule, " + friction_text(scene.contact.friction)
                       : "Contact between walls: left out.");
+  if (scene.contact.present) {
+    lines.push_back("Contacts are searched " + search_text(scene.faces.premise) + ".");
+  }
   lines.push_back(scene.constant_area ? "Walls that shorten keep the area of their section."
                                       : "Walls that shorten keep their volume; their thickness in the plane stays.");
   if (scene.plates.present) {

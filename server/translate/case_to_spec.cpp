@@ -81,10 +81,13 @@ void read_section(const v1::Section& in, SectionSpec& out, Problems& problems) {
               "section.area_rule", "CONSTANT_VOLUME or CONSTANT_AREA", out.area_rule, problems);
 }
 
-void read_contact(const v1::Case& in, SceneSpec& spec) {
+void read_contact(const v1::Case& in, SceneSpec& spec, Problems& problems) {
   if (in.contact().has_friction()) spec.contact.friction = in.contact().friction();
   if (in.contact().has_stiffness_factor()) spec.contact.stiffness_factor = in.contact().stiffness_factor();
   if (in.contact().has_damping_ratio()) spec.contact.damping_ratio = in.contact().damping_ratio();
+  read_choice(in.contact().search(),
+              {{v1::Contact::FACES, ContactSpec::Search::faces}, {v1::Contact::BUCKETS, ContactSpec::Search::buckets}},
+              "contact.search", "FACES or BUCKETS", spec.contact.search, problems);
   if (in.plates().has_friction()) spec.plates.friction = in.plates().friction();
 }
 
@@ -141,7 +144,7 @@ CaseReading to_spec(const v1::Case& in) {
   if (in.has_elements_per_wall()) spec.elements_per_wall = in.elements_per_wall();
   spec.material = to_spec(in.material(), "material.", out.problems);
   read_section(in.section(), spec.section, out.problems);
-  read_contact(in, spec);
+  read_contact(in, spec, out.problems);
   read_loading(in.loading(), spec.loading, out.problems);
   read_numerics(in.numerics(), spec.numerics, out.problems);
   if (in.output().has_sample_count()) spec.output.sample_count = in.output().sample_count();

@@ -87,6 +87,7 @@ v1::Sample to_proto(const Sample& sample, const google::protobuf::RepeatedPtrFie
   out.set_energy_contact_damping_mj(sample.energy_contact_damping);
   out.set_deepest_penetration(sample.deepest_penetration);
   out.set_contact_count(sample.contact_count);
+  out.set_walls_crossed(sample.walls_crossed);
   out.set_solid_fraction(sample.solid_fraction);
   out.set_collapsed_fraction(sample.collapsed_fraction);
   if (sample.front) *out.mutable_front() = to_proto(*sample.front);

@@ -82,7 +82,7 @@ void ContactOfFourTimesTheCells(benchmark::State& bench) {
     large_seconds += time_contact(large);
   }
   const auto candidates_a_particle = [](const Crushed& crushed) {
-    return static_cast<double>(crushed.state.candidates.size()) / static_cast<double>(crushed.scene->particle_count());
+    return static_cast<double>(crushed.state.candidate_count) / static_cast<double>(crushed.scene->particle_count());
   };
   bench.counters["ratio"] = 4.0 * large_seconds / small_seconds;
   bench.counters["candidates_a_particle_small"] = candidates_a_particle(small);

@@ -1,7 +1,7 @@
 #include "scenes/probe.h"
 
+#include "contact/bucket_search.h"
 #include "contact/contact_forces.h"
-#include "contact/find_contacts.h"
 #include "scenes/frames.h"
 #include "step/integrate_motion.h"
 
@@ -34,7 +34,7 @@ void Probe::place_tip(const Vector2& place, const Vector2& outward) {
   state_.position[tip_ - 1] = place + 10.0 * outward;
   state_.axis.back() = -outward;
   state_.length.back() = 10.0;
-  search_contacts(*scene_, state_);
+  list_by_buckets(*scene_, state_);
 }
 
 Vector2 Probe::force_at(const Vector2& place, const Vector2& outward) {

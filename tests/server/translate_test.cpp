@@ -89,6 +89,20 @@ TEST(Translate, ZeroIsNotLeftOut) {
   EXPECT_EQ(reading.spec.loading.speed_m_per_s, 0.0);
 }
 
+TEST(Translate, TheSearchOfContactsIsByFacesUnlessBucketsAreAskedFor) {
+  v1::Case given;
+  EXPECT_EQ(translate::to_spec(given).spec.contact.search, ContactSpec::Search::faces);
+  given.mutable_contact()->set_search(v1::Contact::BUCKETS);
+  const auto reading = translate::to_spec(given);
+  EXPECT_THAT(reading.problems, IsEmpty());
+  EXPECT_EQ(reading.spec.contact.search, ContactSpec::Search::buckets);
+  EXPECT_EQ(translate::to_case(reading.spec).contact().search(), v1::Contact::BUCKETS);
+  given.mutable_contact()->set_search(static_cast<v1::Contact::Search>(7));
+  const auto refused = translate::to_spec(given).problems;
+  ASSERT_EQ(refused.size(), 1u);
+  EXPECT_EQ(refused.front().field, "contact.search");
+}
+
 TEST(Translate, SquaresAndTrianglesKeepTheirFields) {
   v1::Case given;
   auto& square = *given.mutable_lattice()->mutable_square();

@@ -98,6 +98,11 @@ const std::vector<Option>& all_options() {
        [](Options& o, const std::string& v) { o.spec.contact.stiffness_factor = number_of("contact_stiffness", v); }},
       {"contact_damping", "share of critical damping",
        [](Options& o, const std::string& v) { o.spec.contact.damping_ratio = number_of("contact_damping", v); }},
+      {"search", "faces or buckets",
+       [](Options& o, const std::string& v) {
+         using Search = ContactSpec::Search;
+         o.spec.contact.search = choice<Search>("search", v, {{"faces", Search::faces}, {"buckets", Search::buckets}});
+       }},
       {"yield_stress", "MPa",
        [](Options& o, const std::string& v) { o.spec.material.yield_stress_mpa = number_of("yield_stress", v); }},
       {"samples", "of the curve",

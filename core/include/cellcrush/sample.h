@@ -56,6 +56,7 @@ struct Sample {
   double energy_contact_damping = 0.0;     ///< the contacts' part of energy_damping
   double deepest_penetration = 0.0;        ///< of a wall contact since the start, over the thinner wall's thickness
   std::int64_t contact_count = 0;          ///< wall contacts closed now
+  bool walls_crossed = false;              ///< found by the search by faces, which then gave over to that by buckets
   double solid_fraction = 0.0;             ///< between the plates: relative density / (1 - strain)
   double collapsed_fraction = 0.0;         ///< share of the cells that have collapsed (measure/crush_mode.h)
   CrushMode crush_mode = CrushMode::none;  ///< told from the cells that have collapsed now, where it was looked for

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "cellcrush/contact_faces.h"
 #include "cellcrush/vector.h"
 
 namespace cellcrush {
@@ -124,6 +125,15 @@ struct ContactLaw {
   double damping_ratio = 0.0;  ///< share of critical damping
   double friction = 0.0;       ///< Coulomb's coefficient
   double skin = 0.0;           ///< mm by which candidates are collected beyond touch
+  double face_skin = 0.0;      ///< the same of a face's candidates
+};
+
+/// Pairs of ball and segment that touch nearer than radius and half thickness, because a short way along the walls joins
+/// them (contact/wall_paths.h). N particles.
+struct LimitedReaches {
+  std::vector<int> offset;    ///< N + 1, by ball, into the others; empty: none
+  std::vector<int> segment;   ///< ascending for each ball
+  std::vector<double> reach;  ///< mm
 };
 
 /// Fictitious masses: particles' masses are the real ones times `mass`, their rotary inertia times mass and rotary.
@@ -171,6 +181,8 @@ struct Scene {
   SectionRule section;
   bool constant_area = false;  ///< walls that change their length keep their area (the paper) instead of their volume
   ContactLaw contact;
+  LimitedReaches limited_reaches;  ///< empty without contact
+  ContactFaces faces;              ///< by which contacts are searched, where their premise holds
   Plates plates;
   MassScaling mass_scaling;
   double mass_damping = 0.0;  ///< alpha, 1/s: force -alpha m v
@@ -189,6 +201,18 @@ struct Scene {
     return std::any_of(materials.begin(), materials.end(),
                        [](const Material& material) { return material.hardening_modulus > 0.0; });
   }
+  /// Distance at which a ball and a segment touch, mm.
+  [[nodiscard]] double reach_of(int ball, int segment) const {
+    if (!limited_reaches.offset.empty()) {
+      for (int k = limited_reaches.offset[ball]; k < limited_reaches.offset[ball + 1]; ++k) {
+        if (limited_reaches.segment[k] == segment) {
+          return limited_reaches.reach[k];
+        }
+      }
+    }
+    return radius[ball] + 0.5 * elements[segment].thickness;
+  }
+
   [[nodiscard]] bool is_loaded() const { return !loads.empty() || !element_loads.empty() || !gravity.isZero(); }
   [[nodiscard]] std::size_t particle_count() const { return position.size(); }
   [[nodiscard]] std::size_t element_count() const { return elements.size(); }

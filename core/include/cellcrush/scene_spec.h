@@ -152,9 +152,14 @@ struct SectionSpec {
 };
 
 struct ContactSpec {
+  enum class Search {
+    faces,   ///< by the faces of the lattice, where they are enough (contact/contact_faces.h)
+    buckets  ///< the paper: in space (section 4.1)
+  };
   double friction = 0.0;
   double stiffness_factor = 0.12;  ///< k = stiffness_factor m_min / dt_crit^2
   double damping_ratio = 0.2;     ///< share of critical damping
+  Search search = Search::faces;
 };
 
 struct PlatesSpec {

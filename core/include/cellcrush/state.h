@@ -7,14 +7,20 @@
 
 namespace cellcrush {
 
-/// A ball and a segment that may touch before the list is made again. Without padding: its bytes are hashed.
-struct ContactCandidate {
+/// What is remembered of a ball and a segment that touch. Without padding: its bytes are hashed.
+struct ContactMemory {
   int ball = 0;           ///< particle
   int segment = 0;        ///< element
-  double reach = 0.0;     ///< mm, distance at which they touch
-  int side = 0;           ///< +1 left, -1 right of the segment: where the ball is, or came from; 0: not touching
-  int pushed = 0;         ///< the side from which it pushed on the ball in the newest step; 0: it did not
+  int side = 0;           ///< +1 left, -1 right of the segment: where the ball is, or came from
+  int pushed = 0;         ///< the side from which it pushed on the ball with friction in the newest step; 0: it did not
   double friction = 0.0;  ///< N, on the ball, along the segment, round its ends with it; kept while it pushes
+};
+
+/// Where the candidates of a face stand: `count` of them from `first` on, then empty places up to `room`.
+struct FaceList {
+  int first = 0;
+  int count = 0;
+  int room = 0;
 };
 
 /// Force of a plate, N, compression positive.
@@ -71,11 +77,30 @@ struct State {
   std::vector<Vector2> load_force;  ///< N
   std::vector<double> load_moment;  ///< N, N mm
 
-  // Written by find_contacts; sides by evaluate_contact_forces.
-  std::vector<int> candidate_offset;         ///< N + 1, into candidates
-  std::vector<ContactCandidate> candidates;  ///< by ball, segments ascending
-  std::vector<Vector2> searched_position;    ///< N, where the particles were when the list was made
+  // Written by find_contacts. K places for candidates: balls and segments that may touch before they are looked for again.
+  std::vector<int> candidate_ball;      ///< K, particle
+  std::vector<int> candidate_segment;   ///< K, element
+  std::vector<double> candidate_reach;  ///< K, mm, distance at which they touch; 0: an empty place
+  std::int64_t candidate_count = 0;     ///< of the places that are not empty
+
+  // The same, of a search by buckets; empty where contacts are searched by faces.
+  std::vector<Vector2> searched_position;  ///< N, where the particles were when the list was made
   std::int64_t search_count = 0;
+
+  // The same, of a search by faces (contact/face_search.h): F faces, C corners, G groups. Empty when by buckets.
+  std::vector<FaceList> face_list;  ///< F
+  std::vector<double> face_budget;  ///< F, mm by which gaps may close before a pair that is not listed touches
+  std::vector<double> face_alarm;   ///< F, travel of its group at which a face is looked at next
+  std::vector<Vector2> face_searched_position;  ///< C, where the corners were when the face's list was made
+  std::vector<double> group_travel;             ///< G, mm by which gaps of the group can have closed since the start
+  std::vector<double> group_alarm;              ///< G, the least of its faces
+  std::int64_t face_look_count = 0;             ///< faces looked at since the start
+  std::int64_t face_search_count = 0;           ///< faces whose list was made anew since the start
+  std::int64_t crossing_step =
+      -1;  ///< in which walls were found to have crossed, from when on the search is by buckets
+
+  // Written by evaluate_contact_forces.
+  std::vector<ContactMemory> touching;  ///< pairs that touch now, by ball, segments ascending
 
   // Written by evaluate_contact_forces and evaluate_plate_forces.
   std::vector<Vector2> contact_force;          ///< N, of walls and plates, elastic part
@@ -122,10 +147,22 @@ void visit_fields(S& state, Visitor&& visitor) {
   visitor("internal_moment", state.internal_moment);
   visitor("load_force", state.load_force);
   visitor("load_moment", state.load_moment);
-  visitor("candidate_offset", state.candidate_offset);
-  visitor("candidates", state.candidates);
+  visitor("candidate_ball", state.candidate_ball);
+  visitor("candidate_segment", state.candidate_segment);
+  visitor("candidate_reach", state.candidate_reach);
+  visitor("candidate_count", state.candidate_count);
   visitor("searched_position", state.searched_position);
   visitor("search_count", state.search_count);
+  visitor("face_list", state.face_list);
+  visitor("face_budget", state.face_budget);
+  visitor("face_alarm", state.face_alarm);
+  visitor("face_searched_position", state.face_searched_position);
+  visitor("group_travel", state.group_travel);
+  visitor("group_alarm", state.group_alarm);
+  visitor("face_look_count", state.face_look_count);
+  visitor("face_search_count", state.face_search_count);
+  visitor("crossing_step", state.crossing_step);
+  visitor("touching", state.touching);
   visitor("contact_force", state.contact_force);
   visitor("contact_damping_force", state.contact_damping_force);
   visitor("friction_force", state.friction_force);

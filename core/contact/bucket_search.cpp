@@ -1,0 +1,64 @@
+#include "contact/bucket_search.h"
+
+#include <algorithm>
+
+#include "contact/bucket_grid.h"
+#include "contact/capsule.h"
+
+namespace cellcrush {
+namespace {
+
+bool list_holds(const Scene& scene, const State& state) {
+  if (state.searched_position.size() != state.position.size()) {
+    return false;
+  }
+  const double limit = 0.25 * scene.contact.skin * scene.contact.skin;
+  for (std::size_t i = 0; i < state.position.size(); ++i) {
+    if ((state.position[i] - state.searched_position[i]).squaredNorm() > limit) {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool all_finite(const std::vector<Vector2>& points) {
+  return std::all_of(points.begin(), points.end(), [](const Vector2& point) { return point.allFinite(); });
+}
+
+}  // namespace
+
+void search_buckets(const Scene& scene, State& state) {
+  if (!list_holds(scene, state) && all_finite(state.position)) {
+    list_by_buckets(scene, state);
+  }
+}
+
+void list_by_buckets(const Scene& scene, State& state) {
+  state.candidate_ball.clear();
+  state.candidate_segment.clear();
+  state.candidate_reach.clear();
+  const double longest = *std::max_element(state.length.begin(), state.length.end());
+  const double largest_radius = *std::max_element(scene.radius.begin(), scene.radius.end());
+  const double skin = scene.contact.skin;
+  const BucketGrid grid(state.position, 0.5 * longest + largest_radius + skin);
+  for (std::size_t e = 0; e < scene.element_count(); ++e) {
+    const Element& element = scene.elements[e];
+    const Vector2& start = state.position[element.start];
+    const Vector2& end = state.position[element.end];
+    const Vector2 margin = Vector2::Constant(0.5 * element.thickness + largest_radius + skin);
+    grid.visit_box(start.cwiseMin(end) - margin, start.cwiseMax(end) + margin, [&](int ball) {
+      const double range = scene.radius[ball] + 0.5 * element.thickness + skin;
+      const Projection foot = project(state.position[ball], start, state.axis[e], state.length[e]);
+      if (ball != element.start && ball != element.end && foot.offset.squaredNorm() < range * range) {
+        state.candidate_ball.push_back(ball);
+        state.candidate_segment.push_back(static_cast<int>(e));
+        state.candidate_reach.push_back(scene.reach_of(ball, static_cast<int>(e)));
+      }
+    });
+  }
+  state.candidate_count = static_cast<std::int64_t>(state.candidate_ball.size());
+  state.searched_position = state.position;
+  ++state.search_count;
+}
+
+}  // namespace cellcrush

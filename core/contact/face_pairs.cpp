@@ -1,0 +1,158 @@
+#include "contact/face_pairs.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include "contact/bucket_grid.h"
+#include "contact/capsule.h"
+#include "contact/find_touches.h"
+#include "scene/face_loops.h"
+
+namespace cellcrush {
+namespace {
+
+bool cross_each_other(const State& state, const Element& one, const Element& other) {
+  const auto side_of = [&](const Element& line, int particle) {
+    const Vector2& start = state.position[line.start];
+    return cross(state.position[line.end] - start, state.position[particle] - start);
+  };
+  return !share_a_node(one, other) && side_of(one, other.start) * side_of(one, other.end) < 0.0 &&
+         side_of(other, one.start) * side_of(other, one.end) < 0.0;
+}
+
+/// The balls and segments of one face.
+class FaceFinder {
+ public:
+  FaceFinder(const Scene& scene, const State& state, int face, double skin)
+      : scene_(scene),
+        state_(state),
+        face_(face),
+        skin_(skin),
+        count_(scene.faces.corner_count(face)),
+        particle_(&scene.faces.particle[scene.faces.offset[face]]),
+        element_(&scene.faces.element[scene.faces.offset[face]]) {
+    place_.reserve(count_);
+    for (int corner = 0; corner < count_; ++corner) {
+      place_.push_back(state.position[particle_[corner]]);
+      largest_radius_ = std::max(largest_radius_, scene.radius[particle_[corner]]);
+      thickest_ = std::max(thickest_, scene.elements[element_[corner]].thickness);
+      longest_ = std::max(longest_, state.length[element_[corner]]);
+    }
+  }
+
+  /// Every pair: the corners' squared distances from a segment in one loop, then what is near.
+  void visit_all() {
+    double least = std::numeric_limits<double>::max();
+    std::array<double, kManyCorners> squared_distance;
+    for (int corner = 0; corner < count_; ++corner) {
+      const int e = element_[corner];
+      const Vector2 start = state_.position[scene_.elements[e].start];
+      const Vector2 axis = state_.axis[e];
+      const double length = state_.length[e];
+      for (int i = 0; i < count_; ++i) {
+        squared_distance[i] = project(place_[i], start, axis, length).offset.squaredNorm();
+      }
+      const int next = corner + 1 < count_ ? corner + 1 : 0;
+      squared_distance[corner] = squared_distance[next] = std::numeric_limits<double>::max();
+      const double range = largest_radius_ + 0.5 * scene_.elements[e].thickness + skin_;
+      for (int i = 0; i < count_; ++i) {
+        if (squared_distance[i] >= range * range || !keep(i, e, squared_distance[i])) {
+          least = std::min(least, squared_distance[i]);
+        }
+      }
+    }
+    pairs_.least_gap = std::max(skin_, std::sqrt(least) - largest_radius_ - 0.5 * thickest_);
+  }
+
+  void visit_near() {
+    const BucketGrid grid(place_, 0.5 * longest_ + largest_radius_ + skin_);
+    for (int corner = 0; corner < count_; ++corner) {
+      const int e = element_[corner];
+      const Element& element = scene_.elements[e];
+      const Vector2& start = state_.position[element.start];
+      const Vector2& end = state_.position[element.end];
+      const Vector2 margin = Vector2::Constant(0.5 * element.thickness + largest_radius_ + skin_);
+      grid.visit_box(start.cwiseMin(end) - margin, start.cwiseMax(end) + margin, [&](int i) {
+        if (particle_[i] != element.start && particle_[i] != element.end) {
+          keep(i, e, project(place_[i], start, state_.axis[e], state_.length[e]).offset.squaredNorm());
+        }
+      });
+    }
+    pairs_.least_gap = skin_;
+  }
+
+  [[nodiscard]] bool is_turned() const {
+    const bool is_outer = face_ == scene_.faces.count() - 1;
+    const double area = area_within({particle_, static_cast<std::size_t>(count_)}, state_.position);
+    return is_outer ? area > 0.0 : area < 0.0;
+  }
+
+  FacePairs take() {
+    pairs_.crossed = pairs_.crossed || is_turned();
+    return std::move(pairs_);
+  }
+
+ private:
+  /// Lists a pair that is near enough; says whether it was.
+  bool keep(int corner, int segment, double squared_distance) {
+    const int ball = particle_[corner];
+    const double reach = scene_.reach_of(ball, segment);
+    if (squared_distance >= (reach + skin_) * (reach + skin_)) {
+      return false;
+    }
+    const int before = corner > 0 ? corner - 1 : count_ - 1;
+    const Element& element = scene_.elements[segment];
+    pairs_.crossed = pairs_.crossed || cross_each_other(state_, scene_.elements[element_[before]], element) ||
+                     cross_each_other(state_, scene_.elements[element_[corner]], element);
+    if (!is_listed_elsewhere(ball, segment)) {
+      pairs_.candidates.push_back({ball, segment, reach});
+    }
+    return true;
+  }
+
+  [[nodiscard]] bool is_listed_elsewhere(int ball, int segment) const {
+    const auto other_side = [&](int element) {
+      return scene_.faces.side[2 * element] == face_ ? scene_.faces.side[2 * element + 1]
+                                                     : scene_.faces.side[2 * element];
+    };
+    const int other = other_side(segment);
+    if (other > face_) {
+      return false;
+    }
+    const std::span<const int> around(&scene_.incidence[scene_.incidence_offset[ball]],
+                                      scene_.incidence_offset[ball + 1] - scene_.incidence_offset[ball]);
+    return std::any_of(around.begin(), around.end(), [&](int element) {
+      return scene_.faces.side[2 * element] == other || scene_.faces.side[2 * element + 1] == other;
+    });
+  }
+
+  const Scene& scene_;
+  const State& state_;
+  int face_;
+  double skin_;
+  int count_;
+  const int* particle_;
+  const int* element_;
+  std::vector<Vector2> place_;
+  double largest_radius_ = 0.0;
+  double thickest_ = 0.0;
+  double longest_ = 0.0;
+  FacePairs pairs_;
+};
+
+}  // namespace
+
+FacePairs find_face_pairs(const Scene& scene, const State& state, int face, double skin) {
+  FaceFinder finder(scene, state, face, skin);
+  if (scene.faces.corner_count(face) < kManyCorners) {
+    finder.visit_all();
+  } else {
+    finder.visit_near();
+  }
+  return finder.take();
+}
+
+}  // namespace cellcrush

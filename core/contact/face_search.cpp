@@ -1,0 +1,157 @@
+#include "contact/face_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "contact/candidate_lists.h"
+#include "contact/face_pairs.h"
+
+namespace cellcrush {
+namespace {
+
+/// Share of a face's budget below which it is not worth to look again.
+constexpr double kWorthAnotherLook = 0.1;
+/// Skin of a face of many corners, in skins of the others.
+constexpr double kWideSkin = 3.5;
+
+void begin(const Scene& scene, State& state) {
+  const ContactFaces& faces = scene.faces;
+  state.face_list.resize(faces.count());
+  state.face_budget.assign(faces.count(), 0.0);
+  state.face_alarm.assign(faces.count(), 0.0);
+  state.face_searched_position.assign(faces.particle.size(), Vector2::Zero());
+  state.group_travel.assign(faces.group_count(), 0.0);
+  state.group_alarm.assign(faces.group_count(), 0.0);
+}
+
+void give_up(State& state) {
+  state.crossing_step = state.step;
+  state.face_list.clear();
+  state.face_budget.clear();
+  state.face_alarm.clear();
+  state.face_searched_position.clear();
+  state.group_travel.clear();
+  state.group_alarm.clear();
+}
+
+/// Diagonal of the box round the velocities of a group, mm/s.
+double spread_of_velocities(const ContactFaces& faces, const State& state, int group) {
+  constexpr int kLanes = 4;  // not to wait for one minimum after the other
+  const int* member = &faces.member[faces.member_offset[group]];
+  const int count = faces.member_offset[group + 1] - faces.member_offset[group];
+  Vector2 low[kLanes];
+  Vector2 high[kLanes];
+  for (int lane = 0; lane < kLanes; ++lane) {
+    low[lane] = high[lane] = state.velocity[member[0]];
+  }
+  // A velocity first: a minimum overwrites its first operand.
+  const auto take = [&](int lane, int i) {
+    low[lane] = state.velocity[member[i]].cwiseMin(low[lane]);
+    high[lane] = state.velocity[member[i]].cwiseMax(high[lane]);
+  };
+  int i = 0;
+  for (; i + kLanes <= count; i += kLanes) {
+    for (int lane = 0; lane < kLanes; ++lane) {
+      take(lane, i + lane);
+    }
+  }
+  for (; i < count; ++i) {
+    take(0, i);
+  }
+  for (int lane = 1; lane < kLanes; ++lane) {
+    low[0] = low[0].cwiseMin(low[lane]);
+    high[0] = high[0].cwiseMax(high[lane]);
+  }
+  return (high[0] - low[0]).norm();
+}
+
+/// Diagonal of the box round the displacements of a face's particles since its list was made, mm.
+double spread_of_displacements(const ContactFaces& faces, const State& state, int face) {
+  const int first = faces.offset[face];
+  Vector2 low = state.position[faces.particle[first]] - state.face_searched_position[first];
+  Vector2 high = low;
+  for (int k = first + 1; k < faces.offset[face + 1]; ++k) {
+    const Vector2 displacement = state.position[faces.particle[k]] - state.face_searched_position[k];
+    low = low.cwiseMin(displacement);
+    high = high.cwiseMax(displacement);
+  }
+  return (high - low).norm();
+}
+
+bool is_finite(const ContactFaces& faces, const State& state, int face) {
+  return std::all_of(faces.particle.begin() + faces.offset[face], faces.particle.begin() + faces.offset[face + 1],
+                     [&](int particle) { return state.position[particle].allFinite(); });
+}
+
+/// Faces of many corners are as large as the lattice, move as fast and are searched by a grid: rarely, with a wide skin.
+double skin_of(const Scene& scene, int face) {
+  return scene.faces.corner_count(face) < kManyCorners ? scene.contact.face_skin : kWideSkin * scene.contact.face_skin;
+}
+
+void make_list(const Scene& scene, State& state, int face) {
+  const double skin = skin_of(scene, face);
+  const FacePairs pairs = find_face_pairs(scene, state, face, skin);
+  if (pairs.crossed) {
+    give_up(state);
+    return;
+  }
+  replace_list(state, face, pairs.candidates);
+  // Of a face with candidates no more than the skin: an end that has gone through a segment is found while it is near.
+  state.face_budget[face] = pairs.candidates.empty() ? pairs.least_gap : skin;
+  for (int k = scene.faces.offset[face]; k < scene.faces.offset[face + 1]; ++k) {
+    state.face_searched_position[k] = state.position[scene.faces.particle[k]];
+  }
+  ++state.face_search_count;
+}
+
+/// Sets the alarm of a face anew, with a list made anew if need be. A face with a particle that is lost stays as it is.
+void look_at(const Scene& scene, State& state, int group, int face) {
+  ++state.face_look_count;
+  const double budget = state.face_budget[face];
+  double left = budget;
+  if (budget > 0.0) {
+    left -= spread_of_displacements(scene.faces, state, face);
+  }
+  if (!is_finite(scene.faces, state, face)) {
+    left = std::numeric_limits<double>::max();
+  } else if (left <= kWorthAnotherLook * budget) {
+    make_list(scene, state, face);
+    if (state.crossing_step >= 0) {
+      return;
+    }
+    left = state.face_budget[face];
+  }
+  state.face_alarm[face] = state.group_travel[group] + left;
+}
+
+void look_at_group(const Scene& scene, State& state, int group) {
+  double least = std::numeric_limits<double>::max();
+  for (int face = scene.faces.group_offset[group]; face < scene.faces.group_offset[group + 1]; ++face) {
+    if (state.face_alarm[face] <= state.group_travel[group]) {
+      look_at(scene, state, group, face);
+      if (state.crossing_step >= 0) {
+        return;
+      }
+    }
+    least = std::min(least, state.face_alarm[face]);
+  }
+  state.group_alarm[group] = least;
+}
+
+}  // namespace
+
+void search_faces(const Scene& scene, State& state) {
+  if (state.face_list.empty()) {
+    begin(scene, state);
+  }
+  for (int group = 0; group < scene.faces.group_count() && state.crossing_step < 0; ++group) {
+    const double spread = spread_of_velocities(scene.faces, state, group);
+    state.group_travel[group] += std::isfinite(spread) ? scene.schedule.time_step * spread : 0.0;
+    if (state.group_alarm[group] <= state.group_travel[group]) {
+      look_at_group(scene, state, group);
+    }
+  }
+}
+
+}  // namespace cellcrush

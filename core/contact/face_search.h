@@ -1,0 +1,23 @@
+#pragma once
+
+#include "cellcrush/scene.h"
+#include "cellcrush/state.h"
+
+namespace cellcrush {
+
+/// The search by faces: a ball is held against the segments of its faces only (contact/contact_faces.h says why that is
+/// enough), and a face is looked at only when a gap in it can have closed.
+///
+/// The bound is rigorous. A gap between a ball and a segment closes by no more than two particles of the face come nearer to
+/// each other, and in a step of dt no two particles of a group of faces do so by more than `dt |v_high - v_low|`, the
+/// diagonal of the box that holds the group's velocities. The sum of that is the group's travel. Each face has a budget: the
+/// least gap, beyond touch, of the pairs that are not in its list, and is let be while the group has not travelled that far.
+/// Then it is looked at: the diagonal of the box that holds its particles' displacements since its list was made is what its
+/// gaps have closed by at most. What is left of the budget is granted; if too little is left, the list is made anew. A face
+/// whose gaps are all wider than the skin has no candidates.
+///
+/// When a look finds that walls have crossed, crossing_step is set, the lists are given up, and the search by buckets takes
+/// over for good.
+void search_faces(const Scene& scene, State& state);
+
+}  // namespace cellcrush

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "cellcrush/scene.h"
+
+namespace cellcrush {
+
+/// The loops round all faces of a planar drawing, each with its face at the left: inner faces run counter-clockwise, the
+/// outer border of a part clockwise. Every element is in two loops, once each way. L loops.
+struct FaceLoops {
+  std::vector<int> offset;    ///< L + 1, into corners
+  std::vector<int> particle;  ///< corners of the loops, one loop after another
+  std::vector<int> element;   ///< the element from each corner to the next
+  std::vector<double> area;   ///< L, mm^2; negative for outer borders, 0 round a tree
+
+  [[nodiscard]] std::size_t count() const { return area.size(); }
+  [[nodiscard]] std::span<const int> particles_of(std::size_t loop) const {
+    return std::span(particle).subspan(offset[loop], offset[loop + 1] - offset[loop]);
+  }
+};
+
+/// Walks along half-edges: at a particle the walk turns into the next element clockwise, so that the face stays at its left.
+/// REQUIRES: elements of some length.
+FaceLoops trace_loops(std::span<const Vector2> position, std::span<const Element> elements);
+
+/// Area within a loop of particles, mm^2; negative where it runs clockwise.
+double area_within(std::span<const int> loop, std::span<const Vector2> position);
+
+}  // namespace cellcrush

@@ -1,0 +1,138 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+
+#include "cellcrush/simulation.h"
+#include "cellcrush/state.h"
+#include "contact/bucket_search.h"
+#include "contact/contact_forces.h"
+#include "scenes/frames.h"
+#include "scenes/near_pairs.h"
+
+namespace cellcrush {
+namespace {
+
+struct Case {
+  const char* lattice;
+  double speed;     // m/s
+  double friction;  // of walls and plates
+};
+
+/// Small blocks at relative density 0.1, crushed to 60 %, every few steps held against the search by buckets.
+class FaceAudit : public testing::TestWithParam<Case> {
+ protected:
+  static SceneSpec spec() {
+    SceneSpec spec = scenes::hexagon_block(8, 6);
+    const std::string lattice = GetParam().lattice;
+    if (lattice == "square") {
+      spec.lattice = SquareLattice{8, 6, 4.0, 0.05132 * 4.0};
+    } else if (lattice == "triangle") {
+      spec.lattice = TriangleLattice{8, 6, 4.0, 0.02963 * 4.0};
+    }
+    if (lattice == "thick") {
+      spec.lattice = HexagonLattice{8, 6, 4.0, 0.25, 0.5};
+    }
+    spec.loading.speed_m_per_s = GetParam().speed;
+    spec.loading.end_strain = 0.6;
+    spec.contact.friction = spec.plates.friction = GetParam().friction;
+    spec.imperfection = {0.01, 1};
+    spec.numerics.time_step_s = 0.0;
+    return spec;
+  }
+};
+
+/// The particle at which the foot of a ball on a segment's round end lies; -1 when it lies between the ends.
+int end_below(const Scene& scene, const State& state, const scenes::Overlap& overlap) {
+  const Element& element = scene.elements[overlap.segment];
+  const double along = (state.position[overlap.ball] - state.position[element.start]).dot(state.axis[overlap.segment]);
+  return along <= 0.0 ? element.start : along >= state.length[overlap.segment] ? element.end : -1;
+}
+
+/// Whether another segment at the particle borders a face of the ball's, or is the ball's own: then it has the same ball.
+bool has_ball_of(const Scene& scene, const scenes::FaceNeighbours& neighbours, int particle, int ball) {
+  const auto first = scene.incidence.begin() + scene.incidence_offset[particle];
+  const auto last = scene.incidence.begin() + scene.incidence_offset[particle + 1];
+  return std::any_of(first, last, [&](int segment) {
+    const Element& element = scene.elements[segment];
+    return element.start == ball || element.end == ball || neighbours.share_a_face(ball, segment);
+  });
+}
+
+/// The state with all candidates that the buckets find.
+State with_candidates_of_buckets(const Scene& scene, const State& state) {
+  State copy = state;
+  list_by_buckets(scene, copy);
+  return copy;
+}
+
+/// Greatest difference of the normal forces on a particle, N.
+double difference_of_forces(const State& a, const State& b) {
+  double greatest = 0.0;
+  for (std::size_t i = 0; i < a.position.size(); ++i) {
+    greatest = std::max({greatest, (a.contact_force[i] - b.contact_force[i]).norm(),
+                         (a.contact_damping_force[i] - b.contact_damping_force[i]).norm()});
+  }
+  return greatest;
+}
+
+// Of the overlaps that share no face, those on a round end are found by a segment beside it that ends at the same particle.
+// What is left reaches through a wall, lies above another segment of its polyline, and does not push.
+TEST_P(FaceAudit, FindsEveryTouchThatPushesWithTheForceOfTheBuckets) {
+  const auto scene = scenes::build(spec());
+  const scenes::FaceNeighbours neighbours(*scene);
+  Simulation simulation(scene);
+  std::int64_t all = 0;
+  std::int64_t through_a_wall = 0;
+  double deepest = 0.0;     // of those, over the wall's thickness
+  double difference = 0.0;  // of the forces, over k h
+  const std::int64_t interval = std::max<std::int64_t>(1, scene->schedule.step_count / 300);
+  while (simulation.status().kind == RunStatus::Kind::running) {
+    simulation.advance(interval);
+    State state = simulation.state();
+    const scenes::Pairs listed = scenes::listed_pairs(state);
+    for (const scenes::Overlap& overlap : scenes::overlaps_by_buckets(*scene, state)) {
+      ++all;
+      if (overlap.depth < 1e-9 || listed.count({overlap.ball, overlap.segment}) == 1) {
+        continue;
+      }
+      ASSERT_FALSE(neighbours.share_a_face(overlap.ball, overlap.segment)) << "in step " << state.step;
+      const int end = end_below(*scene, state, overlap);
+      if (end < 0 || !has_ball_of(*scene, neighbours, end, overlap.ball)) {
+        ++through_a_wall;
+        deepest = std::max(deepest, overlap.depth / scene->elements[overlap.segment].thickness);
+      }
+    }
+    State reference = with_candidates_of_buckets(*scene, state);
+    evaluate_contact_forces(*scene, state);
+    evaluate_contact_forces(*scene, reference);
+    const double scale = scene->contact.stiffness * scene->elements.front().thickness;
+    difference = std::max(difference, difference_of_forces(state, reference) / scale);
+  }
+  EXPECT_EQ(simulation.status().kind, RunStatus::Kind::finished);
+  EXPECT_LT(simulation.state().crossing_step, 0);
+  EXPECT_GT(all, 4000);
+  RecordProperty("touches", std::to_string(all));
+  RecordProperty("through_a_wall", std::to_string(through_a_wall));
+  RecordProperty("deepest_through_a_wall", std::to_string(deepest));
+  RecordProperty("difference_of_forces", std::to_string(difference));
+  EXPECT_LE(through_a_wall, all / 250);
+  EXPECT_LE(deepest, 0.15);
+  EXPECT_LE(difference, 1e-9);
+}
+
+std::string name_of(const testing::TestParamInfo<Case>& test) {
+  return std::string(test.param.lattice) + "At" + std::to_string(static_cast<int>(test.param.speed)) +
+         (test.param.friction > 0.0 ? "WithFriction" : "");
+}
+
+INSTANTIATE_TEST_SUITE_P(Crush, FaceAudit,
+                         testing::Values(Case{"hexagon", 25, 0.3}, Case{"hexagon", 100, 0.0}, Case{"hexagon", 100, 0.3},
+                                         Case{"thick", 100, 0.0}, Case{"square", 25, 0.3}, Case{"square", 100, 0.3},
+                                         Case{"triangle", 25, 0.3}, Case{"triangle", 100, 0.0},
+                                         Case{"triangle", 100, 0.3}),
+                         name_of);
+
+}  // namespace
+}  // namespace cellcrush

@@ -1,0 +1,91 @@
+#include "scenes/near_pairs.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "contact/bucket_search.h"
+#include "scene/face_loops.h"
+
+namespace cellcrush::scenes {
+namespace {
+
+double distance_between(const Vector2& point, Vector2 a, Vector2 b) {
+  for (int i = 0; i < 60; ++i) {
+    ((point - a).squaredNorm() < (point - b).squaredNorm() ? b : a) = 0.5 * (a + b);
+  }
+  return (point - a).norm();
+}
+
+}  // namespace
+
+Pairs listed_pairs(const State& state) {
+  Pairs pairs;
+  for (std::size_t k = 0; k < state.candidate_ball.size(); ++k) {
+    if (state.candidate_reach[k] > 0.0) {
+      EXPECT_TRUE(pairs.emplace(state.candidate_ball[k], state.candidate_segment[k]).second) << "listed twice";
+    }
+  }
+  EXPECT_EQ(static_cast<std::int64_t>(pairs.size()), state.candidate_count);
+  return pairs;
+}
+
+Pairs near_pairs(const Scene& scene, const State& state, double margin) {
+  Pairs pairs;
+  for (int ball = 0; ball < static_cast<int>(scene.particle_count()); ++ball) {
+    for (int e = 0; e < static_cast<int>(scene.element_count()); ++e) {
+      const Element& element = scene.elements[e];
+      if (ball != element.start && ball != element.end &&
+          distance_between(state.position[ball], state.position[element.start], state.position[element.end]) <
+              scene.reach_of(ball, e) + margin) {
+        pairs.emplace(ball, e);
+      }
+    }
+  }
+  return pairs;
+}
+
+std::vector<Overlap> overlaps_by_buckets(const Scene& scene, const State& state) {
+  State copy;
+  copy.position = state.position;
+  copy.axis = state.axis;
+  copy.length = state.length;
+  list_by_buckets(scene, copy);
+  std::vector<Overlap> overlaps;
+  for (std::size_t k = 0; k < copy.candidate_ball.size(); ++k) {
+    const Element& element = scene.elements[copy.candidate_segment[k]];
+    const double depth =
+        copy.candidate_reach[k] - distance_between(copy.position[copy.candidate_ball[k]], copy.position[element.start],
+                                                   copy.position[element.end]);
+    if (depth > 0.0) {
+      overlaps.push_back({copy.candidate_ball[k], copy.candidate_segment[k], depth});
+    }
+  }
+  return overlaps;
+}
+
+void follow_positions(const Scene& scene, State& state) {
+  for (std::size_t e = 0; e < scene.element_count(); ++e) {
+    const Vector2 span = state.position[scene.elements[e].end] - state.position[scene.elements[e].start];
+    state.length[e] = span.norm();
+    state.axis[e] = state.length[e] > 0.0 ? Vector2(span / state.length[e]) : Vector2(1.0, 0.0);
+  }
+}
+
+FaceNeighbours::FaceNeighbours(const Scene& scene)
+    : faces_of_particle_(scene.particle_count()), faces_of_element_(scene.element_count()) {
+  const FaceLoops loops = trace_loops(scene.position, scene.elements);
+  for (std::size_t loop = 0; loop < loops.count(); ++loop) {
+    for (int k = loops.offset[loop]; k < loops.offset[loop + 1]; ++k) {
+      faces_of_particle_[loops.particle[k]].insert(static_cast<int>(loop));
+      faces_of_element_[loops.element[k]].insert(static_cast<int>(loop));
+    }
+  }
+}
+
+bool FaceNeighbours::share_a_face(int ball, int segment) const {
+  return std::any_of(faces_of_particle_[ball].begin(), faces_of_particle_[ball].end(),
+                     [&](int face) { return faces_of_element_[segment].count(face) > 0; });
+}
+
+}  // namespace cellcrush::scenes

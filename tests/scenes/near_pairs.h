@@ -1,0 +1,44 @@
+#pragma once
+
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "cellcrush/scene.h"
+#include "cellcrush/state.h"
+
+namespace cellcrush::scenes {
+
+/// Pairs of ball and segment.
+using Pairs = std::set<std::pair<int, int>>;
+
+/// The candidates that a state has; fails the test when one is listed twice.
+Pairs listed_pairs(const State& state);
+
+/// Every pair that is less than `margin` (mm) apart beyond touch, no ball against its own elements. By brute force; distances
+/// by halving the segment, not by the projection of the search.
+Pairs near_pairs(const Scene& scene, const State& state, double margin);
+
+/// Pairs that overlap now, by the buckets' list of the same positions, with their depth in mm.
+struct Overlap {
+  int ball = 0;
+  int segment = 0;
+  double depth = 0.0;
+};
+std::vector<Overlap> overlaps_by_buckets(const Scene& scene, const State& state);
+
+/// Axes and lengths of a state's positions.
+void follow_positions(const Scene& scene, State& state);
+
+/// Whether a ball and a segment border a common face, by faces traced anew from the undeformed lattice.
+class FaceNeighbours {
+ public:
+  explicit FaceNeighbours(const Scene& scene);
+  [[nodiscard]] bool share_a_face(int ball, int segment) const;
+
+ private:
+  std::vector<std::set<int>> faces_of_particle_;
+  std::vector<std::set<int>> faces_of_element_;
+};
+
+}  // namespace cellcrush::scenes
