@@ -174,9 +174,9 @@ State crush(const SceneSpec& spec, int steps) {
 TEST(FaceSearch, GivesTheSameBitsAsBucketsWhileAllThatTouchesSharesAFace) {
   SceneSpec spec = scenes::hexagon_block(8, 5);
   spec.contact.friction = 0.2;
-  const State by_faces = crush(spec, 1200);
+  const State by_faces = crush(spec, 1000);
   spec.contact.search = ContactSpec::Search::buckets;
-  const State by_buckets = crush(spec, 1200);
+  const State by_buckets = crush(spec, 1000);
   ASSERT_GT(by_faces.contact_count, 10);
   EXPECT_TRUE(by_buckets.face_list.empty());
   EXPECT_GT(by_buckets.search_count, 5);
