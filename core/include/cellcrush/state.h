@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "cellcrush/lane_vector.h"
 #include "cellcrush/vector.h"
 
 namespace cellcrush {
@@ -58,20 +59,20 @@ struct State {
   double support_impulse = 0.0;   ///< N s, of the support plate on the lattice
 
   // Written by evaluate_internal_forces.
-  std::vector<Vector2> axis;              ///< E, unit vector from start to end
-  std::vector<double> length;             ///< E
-  std::vector<double> stress;             ///< E x F, of the fibres, MPa; the order is that of beam/element_place.h
-  std::vector<double> back_stress;        ///< E x F, middle of the yield surface, MPa; empty without hardening
-  std::vector<double> plastic_strain;     ///< E x F, accumulated (effective); empty without hardening
-  std::vector<std::uint64_t> flowed;      ///< E, bit f: fibre f has flowed; empty with hardening
-  std::vector<double> section_unbalance;  ///< E x P of a force-based rule (beam/section_curvatures.h), else empty; MPa
-  std::vector<double> section_tangent;    ///< the same, 1
-  std::vector<double> start_moment;       ///< E of a force-based rule, else empty: on the start node, N mm
-  std::vector<double> end_moment;         ///< the same, on the end node
-  std::vector<Vector2> wall_force;        ///< 2 W, of walls on joints: of a block's walls at their starts, then ends; N
-  std::vector<double> wall_moment;        ///< 2 W, N mm
-  std::vector<Vector2> internal_force;    ///< N, of all elements on the particle
-  std::vector<double> internal_moment;    ///< N, N mm
+  LaneVector<Vector2> axis;              ///< E, unit vector from start to end
+  LaneVector<double> length;             ///< E
+  LaneVector<double> stress;             ///< E x F, of the fibres, MPa; the order is that of beam/element_place.h
+  LaneVector<double> back_stress;        ///< E x F, middle of the yield surface, MPa; empty without hardening
+  LaneVector<double> plastic_strain;     ///< E x F, accumulated (effective); empty without hardening
+  LaneVector<std::uint64_t> flowed;      ///< E, bit f: fibre f has flowed; empty with hardening
+  LaneVector<double> section_unbalance;  ///< E x P of a force-based rule (beam/section_curvatures.h), else empty; MPa
+  LaneVector<double> section_tangent;    ///< the same, 1
+  LaneVector<double> start_moment;       ///< E of a force-based rule, else empty: on the start node, N mm
+  LaneVector<double> end_moment;         ///< the same, on the end node
+  LaneVector<Vector2> wall_force;        ///< 2 W, of walls on joints: of a block's walls at their starts, then ends; N
+  LaneVector<double> wall_moment;        ///< 2 W, N mm
+  std::vector<Vector2> internal_force;   ///< N, of all elements on the particle
+  std::vector<double> internal_moment;   ///< N, N mm
 
   // Written by evaluate_loads; empty when the scene has no loads.
   std::vector<Vector2> load_force;  ///< N
