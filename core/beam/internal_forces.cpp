@@ -60,6 +60,7 @@ void evaluate_elements(const Scene& scene, State& state) {
         force_based ? state.start_moment[e] : 0.0, force_based ? state.end_moment[e] : 0.0, plastic_work);
     state.axis[e] = deformation.axis;
     state.length[e] = deformation.length;
+    state.inverse_length[e] = 1.0 / deformation.length;
     if (force_based) {
       state.start_moment[e] = forces.moment_on_start;
       state.end_moment[e] = forces.moment_on_end;

@@ -28,6 +28,7 @@ struct LaneDeformation {
   hn::Vec<D> rotation_end;
   hn::Vec<D> length;
   hn::Vec<D> inverse_length;
+  hn::Vec<D> inverse_mean;  ///< of the mean length of the step
   Points<D> axis;
 };
 
@@ -54,15 +55,42 @@ HWY_INLINE hn::Vec<D> turn_between(D d, const Points<D>& from, const Points<D>& 
   return hn::IfThenElse(is_small, turn, hn::LoadU(d, values[2]));
 }
 
+/// 1 / sqrt(square) and 2 / (length + previous length), where the lengths differ by so little that series from the inverse
+/// of the previous length give all digits: dividers are the slowest part of a processor. Else divided.
+template <class D>
+HWY_INLINE void invert_lengths(D d, hn::Vec<D> square, hn::Vec<D> previous_length, hn::Vec<D> previous_inverse,
+                               LaneDeformation<D>& deformation) {
+  constexpr double kSmallMiss = 2e-3;  // the first terms left out are below 1e-17
+  const auto one = hn::Set(d, 1.0);
+  const auto half = hn::Set(d, 0.5);
+  const auto miss = hn::NegMulAdd(square, hn::Mul(previous_inverse, previous_inverse), one);
+  const auto series = hn::MulAdd(miss, hn::MulAdd(miss, hn::Set(d, 0.375), half), one);
+  const auto near = hn::Mul(previous_inverse, series);
+  const auto left = hn::NegMulAdd(square, hn::Mul(near, near), one);
+  deformation.inverse_length = hn::MulAdd(hn::Mul(near, half), left, near);
+  deformation.length = hn::Mul(square, deformation.inverse_length);
+  const auto mean = hn::Mul(half, hn::Add(deformation.length, previous_length));
+  const auto guess = hn::Mul(half, hn::Add(deformation.inverse_length, previous_inverse));
+  const auto rest = hn::NegMulAdd(mean, guess, one);
+  deformation.inverse_mean = hn::MulAdd(hn::Mul(guess, rest), hn::Add(one, rest), guess);
+  const auto is_small = hn::Lt(hn::Abs(miss), hn::Set(d, kSmallMiss));
+  if (HWY_UNLIKELY(!hn::AllTrue(d, is_small))) {
+    const auto length = hn::Sqrt(square);
+    deformation.length = hn::IfThenElse(is_small, deformation.length, length);
+    deformation.inverse_length = hn::IfThenElse(is_small, deformation.inverse_length, hn::Div(one, length));
+    deformation.inverse_mean =
+        hn::IfThenElse(is_small, deformation.inverse_mean, hn::Div(hn::Set(d, 2.0), hn::Add(length, previous_length)));
+  }
+}
+
 /// See reverse_motion.
 template <class D>
 HWY_INLINE LaneDeformation<D> reverse_motion(D d, const Points<D>& start, const Points<D>& end,
                                              const Points<D>& previous_axis, hn::Vec<D> previous_length,
-                                             hn::Vec<D> turn_start, hn::Vec<D> turn_end) {
+                                             hn::Vec<D> previous_inverse, hn::Vec<D> turn_start, hn::Vec<D> turn_end) {
   const Points<D> span = {hn::Sub(end.x, start.x), hn::Sub(end.y, start.y)};
   LaneDeformation<D> deformation;
-  deformation.length = hn::Sqrt(dot(span, span));
-  deformation.inverse_length = hn::Div(hn::Set(d, 1.0), deformation.length);
+  invert_lengths(d, dot(span, span), previous_length, previous_inverse, deformation);
   deformation.axis = {hn::Mul(span.x, deformation.inverse_length), hn::Mul(span.y, deformation.inverse_length)};
   const auto rigid_turn = turn_between(d, previous_axis, deformation.axis);
   deformation.stretch = hn::Sub(deformation.length, previous_length);
@@ -111,11 +139,10 @@ HWY_INLINE LaneSection<D> section_of(D d, const Scene& scene, hn::Vec<D> undefor
 }
 
 /// See return_element.
-template <int kSections, int kDepthPoints, bool kHardening, class D>
+template <int kSections, int kDepthPoints, bool kHardening, class D, class Step>
 HWY_INLINE LaneSums<kSections, D> return_element(D d, const LaneMaterial<D>& material, const SectionRule& rule,
                                                  hn::Vec<D> membrane, const hn::Vec<D>* HWY_RESTRICT curvature,
-                                                 const Fibres& fibres, hn::Vec<D>* HWY_RESTRICT stress,
-                                                 hn::Vec<D>* HWY_RESTRICT plastic_increment) {
+                                                 const Fibres& fibres, Step& next) {
   LaneSums<kSections, D> element;
   element.axial = hn::Zero(d);
   element.moments = {hn::Zero(d), hn::Zero(d)};
@@ -123,8 +150,7 @@ HWY_INLINE LaneSums<kSections, D> return_element(D d, const LaneMaterial<D>& mat
   for (int i = 0; i < kSections; ++i) {
     const int first = i * kDepthPoints;
     const auto section = return_section<kDepthPoints, kHardening>(d, material, rule, membrane, curvature[i], fibres,
-                                                                  static_cast<std::size_t>(first), stress + first,
-                                                                  plastic_increment + first);
+                                                                  static_cast<std::size_t>(first), next);
     const double s = rule.along[i];
     const double weight = rule.along_weight[i];
     element.axial = hn::MulAdd(hn::Set(d, weight), section.axial, element.axial);
@@ -140,9 +166,7 @@ HWY_INLINE LaneSums<kSections, D> return_element(D d, const LaneMaterial<D>& mat
 template <int kSections, int kDepthPoints, bool kHardening, class D>
 HWY_INLINE LaneSums<kSections, D> return_balanced(D d, const LaneMaterial<D>& material, const SectionRule& rule,
                                                   hn::Vec<D> membrane, hn::Vec<D> bend_start, hn::Vec<D> bend_end,
-                                                  const LaneMoments<D>& before, const Fibres& fibres,
-                                                  hn::Vec<D>* HWY_RESTRICT stress,
-                                                  hn::Vec<D>* HWY_RESTRICT plastic_increment,
+                                                  const LaneMoments<D>& before, const Fibres& fibres, KeptStep<D>& next,
                                                   const SectionMemory& place) {
   LaneMemory<kSections, D> memory;
   memory.load(d, place);
@@ -156,8 +180,8 @@ HWY_INLINE LaneSums<kSections, D> return_balanced(D d, const LaneMaterial<D>& ma
       curvature[i] = hn::IfThenElse(straight, curvature[i], balanced[i]);
     }
   }
-  auto element = return_element<kSections, kDepthPoints, kHardening>(d, material, rule, membrane, curvature, fibres,
-                                                                     stress, plastic_increment);
+  auto element =
+      return_element<kSections, kDepthPoints, kHardening>(d, material, rule, membrane, curvature, fibres, next);
   auto active = hn::Not(hn::And(straight, hn::Eq(element.plastic_work, hn::Zero(d))));
   if (hn::AllFalse(d, active)) {
     return element;  // elastic: in balance by themselves, and nothing to remember
@@ -177,8 +201,7 @@ HWY_INLINE LaneSums<kSections, D> return_balanced(D d, const LaneMaterial<D>& ma
     for (int i = 0; i < kSections; ++i) {
       curvature[i] = hn::Add(curvature[i], hn::IfThenElseZero(active, moved[i]));
     }
-    element = return_element<kSections, kDepthPoints, kHardening>(d, material, rule, membrane, curvature, fibres,
-                                                                  stress, plastic_increment);
+    element = return_element<kSections, kDepthPoints, kHardening>(d, material, rule, membrane, curvature, fibres, next);
   }
   memory.store(d, place);
   return element;

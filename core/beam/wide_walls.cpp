@@ -141,36 +141,38 @@ class WallChain {
     const SectionRule& rule = scene_.section;
     const int e = row + lane_;
     const V previous_length = hn::LoadU(d_, &state_.length[e]);
-    const LaneDeformation<D> deformation = reverse_motion(
-        d_, start.position, end.position, load_points(d_, &state_.axis[e]), previous_length, start.turn, end.turn);
+    const LaneDeformation<D> deformation =
+        reverse_motion(d_, start.position, end.position, load_points(d_, &state_.axis[e]), previous_length,
+                       hn::LoadU(d_, &state_.inverse_length[e]), start.turn, end.turn);
     store_points(d_, deformation.axis, &state_.axis[e]);
     hn::StoreU(deformation.length, d_, &state_.length[e]);
+    hn::StoreU(deformation.inverse_length, d_, &state_.inverse_length[e]);
     const LaneSection<D> section = section_of(d_, scene_, undeformed_, thickness_, deformation);
     LaneMaterial<D> material = material_;
     bound_stiffness(d_, deformation.length, undeformed_, thickness_, scene_.constant_area, material);
-    const V inverse_mean = hn::Div(hn::Set(d_, 2.0), hn::Add(previous_length, deformation.length));
-    const V membrane = hn::Mul(deformation.stretch, inverse_mean);
-    const V slenderness = hn::Mul(thickness_, inverse_mean);
+    const V membrane = hn::Mul(deformation.stretch, deformation.inverse_mean);
+    const V slenderness = hn::Mul(thickness_, deformation.inverse_mean);
     const V bend_start = hn::Mul(slenderness, deformation.rotation_start);
     const V bend_end = hn::Mul(slenderness, deformation.rotation_end);
     const V unit = hn::Mul(section.area, thickness_);
     const Fibres fibres = fibres_of(row);
-    V stress[kSections * kDepthPoints];
-    V plastic_increment[kSections * kDepthPoints];
     LaneSums<kSections, D> sums;
     if constexpr (kForceBased) {
       const LaneMoments<D> before = {hn::Div(hn::LoadU(d_, &state_.start_moment[e]), unit),
                                      hn::Div(hn::LoadU(d_, &state_.end_moment[e]), unit)};
+      V stress[kSections * kDepthPoints];
+      V plastic_increment[kSections * kDepthPoints];
+      KeptStep<D> next = {stress, plastic_increment};
       sums = return_balanced<kSections, kDepthPoints, kHardening>(d_, material, rule, membrane, bend_start, bend_end,
-                                                                  before, fibres, stress, plastic_increment,
-                                                                  memory_of(row));
+                                                                  before, fibres, next, memory_of(row));
+      commit_fibres<kHardening>(material, kSections * kDepthPoints, next, fibres);
     } else {
       V curvature[kSections];
       straight_curvatures<kSections>(d_, rule, bend_start, bend_end, curvature);
-      sums = return_element<kSections, kDepthPoints, kHardening>(d_, material, rule, membrane, curvature, fibres,
-                                                                 stress, plastic_increment);
+      CommittedStep<kHardening, D> next(material, fibres);
+      sums = return_element<kSections, kDepthPoints, kHardening>(d_, material, rule, membrane, curvature, fibres, next);
+      next.finish();
     }
-    commit_fibres<kHardening>(d_, material, kSections * kDepthPoints, stress, plastic_increment, fibres);
     work = hn::MulAdd(section.volume, sums.plastic_work, work);
     const V moment_start = hn::Mul(unit, sums.moments.start);
     const V moment_end = hn::Mul(unit, sums.moments.end);

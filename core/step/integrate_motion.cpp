@@ -80,6 +80,7 @@ State place_particles(const Scene& scene) {
   for (const Element& element : scene.elements) {
     const Vector2 span = scene.position[element.end] - scene.position[element.start];
     state.length.push_back(span.norm());
+    state.inverse_length.push_back(1.0 / span.norm());
     state.axis.push_back(span / state.length.back());
   }
   state.stress.assign(e * scene.fibre_count(), 0.0);

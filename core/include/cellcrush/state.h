@@ -61,6 +61,7 @@ struct State {
   // Written by evaluate_internal_forces.
   LaneVector<Vector2> axis;              ///< E, unit vector from start to end
   LaneVector<double> length;             ///< E
+  LaneVector<double> inverse_length;     ///< E, 1/mm
   LaneVector<double> stress;             ///< E x F, of the fibres, MPa; the order is that of beam/element_place.h
   LaneVector<double> back_stress;        ///< E x F, middle of the yield surface, MPa; empty without hardening
   LaneVector<double> plastic_strain;     ///< E x F, accumulated (effective); empty without hardening
@@ -134,6 +135,7 @@ void visit_fields(S& state, Visitor&& visitor) {
   visitor("support_impulse", state.support_impulse);
   visitor("axis", state.axis);
   visitor("length", state.length);
+  visitor("inverse_length", state.inverse_length);
   visitor("stress", state.stress);
   visitor("back_stress", state.back_stress);
   visitor("plastic_strain", state.plastic_strain);
