@@ -78,7 +78,8 @@ double difference_of_forces(const State& a, const State& b) {
 }
 
 // Of the overlaps that share no face, those on a round end are found by a segment beside it that ends at the same particle.
-// What is left reaches through a wall, lies above another segment of its polyline, and does not push.
+// What is left reaches through a wall, no deeper than any contact may, lies above another segment of its polyline, and does
+// not push.
 TEST_P(FaceAudit, FindsEveryTouchThatPushesWithTheForceOfTheBuckets) {
   const auto scene = scenes::build(spec());
   const scenes::FaceNeighbours neighbours(*scene);
@@ -118,7 +119,7 @@ TEST_P(FaceAudit, FindsEveryTouchThatPushesWithTheForceOfTheBuckets) {
   RecordProperty("deepest_through_a_wall", std::to_string(deepest));
   RecordProperty("difference_of_forces", std::to_string(difference));
   EXPECT_LE(through_a_wall, all / 250);
-  EXPECT_LE(deepest, 0.15);
+  EXPECT_LT(deepest, 0.25);
   EXPECT_LE(difference, 1e-9);
 }
 
