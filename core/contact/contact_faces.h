@@ -18,7 +18,7 @@ namespace cellcrush {
 ///    same particle border the face, and give the same touch. Only the end of a wall that is thicker than these stands out
 ///    of them; it is felt by the particle's own ball, which has the radius of the thickest wall, not by this one;
 ///  - a ball that reaches a segment through the wall between them, pressed flat at a sharp joint. In crushes of blocks of
-///    hexagons, squares and triangles these are up to 0.22 % of what overlaps, up to 0.08 of the wall deep; each lies above a
+///    hexagons, squares and triangles these are up to 0.4 % of what overlaps, up to 0.17 of the wall deep; each lies above a
 ///    nearer segment of its polyline, so that none of them pushes (tests/core/crush/face_audit_test.cpp).
 ///
 /// When it is not enough:
