@@ -6,31 +6,18 @@
 #include "cellcrush/state.h"
 #include "scenes/crossings.h"
 #include "scenes/frames.h"
+#include "scenes/small_block.h"
 
 namespace cellcrush {
 namespace {
 
-struct Case {
-  const char* lattice;
-  double speed;     // m/s
-  double friction;  // of walls and plates
-};
+using scenes::SmallBlock;
 
-/// Small blocks at relative density 0.1, crushed to 80 % at the chosen step.
-class ContactSoundness : public testing::TestWithParam<Case> {
+/// Small blocks crushed to 80 % at the chosen step.
+class ContactSoundness : public testing::TestWithParam<SmallBlock> {
  protected:
   static SceneSpec spec() {
-    SceneSpec spec = scenes::hexagon_block(12, 6);
-    const std::string lattice = GetParam().lattice;
-    if (lattice == "square") {
-      spec.lattice = SquareLattice{12, 6, 4.0, 0.05132 * 4.0};
-    } else if (lattice == "triangle") {
-      spec.lattice = TriangleLattice{12, 6, 4.0, 0.02963 * 4.0};
-    }
-    spec.loading.speed_m_per_s = GetParam().speed;
-    spec.contact.friction = spec.plates.friction = GetParam().friction;
-    spec.imperfection = {0.01, 1};
-    spec.numerics.time_step_s = 0.0;
+    SceneSpec spec = scenes::spec_of(GetParam(), 12, 6);
     spec.output.sample_count = 100;
     return spec;
   }
@@ -63,20 +50,15 @@ TEST_P(ContactSoundness, NoWallsCrossAndContactMakesNoEnergy) {
   RecordProperty("contact_damping_relative", std::to_string(sample.energy_contact_damping / sample.work_external));
 }
 
-std::string name_of(const testing::TestParamInfo<Case>& test) {
-  return std::string(test.param.lattice) + "At" + std::to_string(static_cast<int>(test.param.speed)) +
-         (test.param.friction > 0.0 ? "WithFriction" : "");
-}
-
-INSTANTIATE_TEST_SUITE_P(Crush, ContactSoundness,
-                         testing::Values(Case{"hexagon", 25, 0.0}, Case{"hexagon", 100, 0.0}, Case{"hexagon", 100, 0.3},
-                                         Case{"hexagon", 200, 0.0}, Case{"hexagon", 200, 0.3}, Case{"square", 25, 0.3},
-                                         Case{"square", 50, 0.0}, Case{"square", 100, 0.0}, Case{"square", 100, 0.3},
-                                         Case{"square", 200, 0.0}, Case{"square", 200, 0.3}, Case{"triangle", 25, 0.0},
-                                         Case{"triangle", 50, 0.3}, Case{"triangle", 100, 0.0},
-                                         Case{"triangle", 100, 0.3}, Case{"triangle", 200, 0.0},
-                                         Case{"triangle", 200, 0.3}),
-                         name_of);
+INSTANTIATE_TEST_SUITE_P(
+    Crush, ContactSoundness,
+    testing::Values(SmallBlock{"hexagon", 25, 0.0}, SmallBlock{"hexagon", 100, 0.0}, SmallBlock{"hexagon", 100, 0.3},
+                    SmallBlock{"hexagon", 200, 0.0}, SmallBlock{"hexagon", 200, 0.3}, SmallBlock{"square", 25, 0.3},
+                    SmallBlock{"square", 50, 0.0}, SmallBlock{"square", 100, 0.0}, SmallBlock{"square", 100, 0.3},
+                    SmallBlock{"square", 200, 0.0}, SmallBlock{"square", 200, 0.3}, SmallBlock{"triangle", 25, 0.0},
+                    SmallBlock{"triangle", 50, 0.3}, SmallBlock{"triangle", 100, 0.0}, SmallBlock{"triangle", 100, 0.3},
+                    SmallBlock{"triangle", 200, 0.0}, SmallBlock{"triangle", 200, 0.3}),
+    scenes::name_of);
 
 }  // namespace
 }  // namespace cellcrush

@@ -10,35 +10,19 @@
 #include "contact/contact_forces.h"
 #include "scenes/frames.h"
 #include "scenes/near_pairs.h"
+#include "scenes/small_block.h"
 
 namespace cellcrush {
 namespace {
 
-struct Case {
-  const char* lattice;
-  double speed;     // m/s
-  double friction;  // of walls and plates
-};
+using scenes::SmallBlock;
 
-/// Small blocks at relative density 0.1, crushed to 60 %, every few steps held against the search by buckets.
-class FaceAudit : public testing::TestWithParam<Case> {
+/// Small blocks crushed to 60 %, every few steps held against the search by buckets.
+class FaceAudit : public testing::TestWithParam<SmallBlock> {
  protected:
   static SceneSpec spec() {
-    SceneSpec spec = scenes::hexagon_block(8, 6);
-    const std::string lattice = GetParam().lattice;
-    if (lattice == "square") {
-      spec.lattice = SquareLattice{8, 6, 4.0, 0.05132 * 4.0};
-    } else if (lattice == "triangle") {
-      spec.lattice = TriangleLattice{8, 6, 4.0, 0.02963 * 4.0};
-    }
-    if (lattice == "thick") {
-      spec.lattice = HexagonLattice{8, 6, 4.0, 0.25, 0.5};
-    }
-    spec.loading.speed_m_per_s = GetParam().speed;
+    SceneSpec spec = scenes::spec_of(GetParam(), 8, 6);
     spec.loading.end_strain = 0.6;
-    spec.contact.friction = spec.plates.friction = GetParam().friction;
-    spec.imperfection = {0.01, 1};
-    spec.numerics.time_step_s = 0.0;
     return spec;
   }
 };
@@ -123,17 +107,13 @@ TEST_P(FaceAudit, FindsEveryTouchThatPushesWithTheForceOfTheBuckets) {
   EXPECT_LE(difference, 1e-9);
 }
 
-std::string name_of(const testing::TestParamInfo<Case>& test) {
-  return std::string(test.param.lattice) + "At" + std::to_string(static_cast<int>(test.param.speed)) +
-         (test.param.friction > 0.0 ? "WithFriction" : "");
-}
-
 INSTANTIATE_TEST_SUITE_P(Crush, FaceAudit,
-                         testing::Values(Case{"hexagon", 25, 0.3}, Case{"hexagon", 100, 0.0}, Case{"hexagon", 100, 0.3},
-                                         Case{"thick", 100, 0.0}, Case{"square", 25, 0.3}, Case{"square", 100, 0.3},
-                                         Case{"triangle", 25, 0.3}, Case{"triangle", 100, 0.0},
-                                         Case{"triangle", 100, 0.3}),
-                         name_of);
+                         testing::Values(SmallBlock{"hexagon", 25, 0.3}, SmallBlock{"hexagon", 100, 0.0},
+                                         SmallBlock{"hexagon", 100, 0.3}, SmallBlock{"thick", 100, 0.0},
+                                         SmallBlock{"square", 25, 0.3}, SmallBlock{"square", 100, 0.3},
+                                         SmallBlock{"triangle", 25, 0.3}, SmallBlock{"triangle", 100, 0.0},
+                                         SmallBlock{"triangle", 100, 0.3}),
+                         scenes::name_of);
 
 }  // namespace
 }  // namespace cellcrush

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "cellcrush/scene_spec.h"
+
+namespace cellcrush::scenes {
+
+/// A small block at relative density 0.1 and how it is crushed; "hexagon", "square", "triangle", or "thick" for hexagons whose
+/// vertical walls are twice as thick.
+struct SmallBlock {
+  const char* lattice;
+  double speed;     // m/s
+  double friction;  // of walls and plates
+};
+
+/// The block with a small imperfection and the chosen step.
+SceneSpec spec_of(const SmallBlock& block, int columns, int rows);
+
+/// Names the instance of a test.
+std::string name_of(const testing::TestParamInfo<SmallBlock>& test);
+
+}  // namespace cellcrush::scenes
