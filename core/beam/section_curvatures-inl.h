@@ -8,6 +8,7 @@
 
 #include <hwy/highway.h>
 
+#include "beam/rule_factors.h"
 #include "beam/section_curvatures.h"
 #include "section/fibres-inl.h"
 
@@ -66,20 +67,20 @@ struct LaneMemory {
 };
 
 /// See straight_curvatures.
-template <int kSections, class D>
-HWY_INLINE void straight_curvatures(D d, const SectionRule& rule, hn::Vec<D> bend_start, hn::Vec<D> bend_end,
-                                    hn::Vec<D>* HWY_RESTRICT curvature) {
+template <int kSections, int kDepthPoints, class D>
+HWY_INLINE void straight_curvatures(D d, const RuleFactors<kSections, kDepthPoints>& rule, hn::Vec<D> bend_start,
+                                    hn::Vec<D> bend_end, hn::Vec<D>* HWY_RESTRICT curvature) {
   for (int i = 0; i < kSections; ++i) {
-    const double s = rule.along[i];
-    curvature[i] = hn::MulAdd(hn::Set(d, 4.0 - 6.0 * s), bend_start, hn::Mul(hn::Set(d, 2.0 - 6.0 * s), bend_end));
+    curvature[i] =
+        hn::MulAdd(hn::Set(d, rule.bend_start[i]), bend_start, hn::Mul(hn::Set(d, rule.bend_end[i]), bend_end));
   }
 }
 
 /// See balanced_curvatures; `active` are the lanes that are asked for, the others' memory is left alone.
-template <int kSections, class D>
-HWY_INLINE void balanced_curvatures(D d, const SectionRule& rule, const LaneMaterial<D>& material,
-                                    const LaneMoments<D>& moments, hn::Mask<D> active, hn::Vec<D> bend_start,
-                                    hn::Vec<D> bend_end, LaneMemory<kSections, D>& memory,
+template <int kSections, int kDepthPoints, class D>
+HWY_INLINE void balanced_curvatures(D d, const RuleFactors<kSections, kDepthPoints>& rule,
+                                    const LaneMaterial<D>& material, const LaneMoments<D>& moments, hn::Mask<D> active,
+                                    hn::Vec<D> bend_start, hn::Vec<D> bend_end, LaneMemory<kSections, D>& memory,
                                     hn::Vec<D>* HWY_RESTRICT curvature) {
   const auto elastic = hn::Div(hn::Set(d, 12.0), material.modulus);
   const auto round_off = hn::Mul(hn::Set(d, kSectionRoundOff), material.modulus);
@@ -121,11 +122,11 @@ HWY_INLINE void balanced_curvatures(D d, const SectionRule& rule, const LaneMate
 }
 
 /// See remember_sections; returns the lanes that are in balance.
-template <int kSections, class D>
-HWY_INLINE hn::Mask<D> remember_sections(D d, const SectionRule& rule, const LaneMaterial<D>& material,
-                                         const hn::Vec<D>* HWY_RESTRICT before, const LaneSums<kSections, D>& now,
-                                         const hn::Vec<D>* HWY_RESTRICT curvature, hn::Mask<D> active,
-                                         LaneMemory<kSections, D>& memory) {
+template <int kSections, int kDepthPoints, class D>
+HWY_INLINE hn::Mask<D> remember_sections(D d, const RuleFactors<kSections, kDepthPoints>& rule,
+                                         const LaneMaterial<D>& material, const hn::Vec<D>* HWY_RESTRICT before,
+                                         const LaneSums<kSections, D>& now, const hn::Vec<D>* HWY_RESTRICT curvature,
+                                         hn::Mask<D> active, LaneMemory<kSections, D>& memory) {
   const auto round_off = hn::Mul(hn::Set(d, kSectionRoundOff), material.modulus);
   auto worst = hn::Zero(d);
   for (int i = 0; i < kSections; ++i) {

@@ -8,6 +8,7 @@
 
 #include <hwy/highway.h>
 
+#include "beam/beam_element.h"
 #include "beam/beam_section.h"
 #include "beam/deformation.h"
 #include "beam/section_curvatures-inl.h"
@@ -99,14 +100,6 @@ HWY_INLINE LaneDeformation<D> reverse_motion(D d, const Points<D>& start, const 
   return deformation;
 }
 
-/// See BeamSection.
-template <class D>
-struct LaneSection {
-  hn::Vec<D> thickness;
-  hn::Vec<D> area;
-  hn::Vec<D> volume;
-};
-
 /// Bounds the modulus of lanes that have been squashed short; see bounded_stiffness.
 template <class D>
 HWY_INLINE void bound_stiffness(D d, hn::Vec<D> length, hn::Vec<D> undeformed, hn::Vec<D> thickness, bool constant_area,
@@ -126,53 +119,57 @@ HWY_INLINE void bound_stiffness(D d, hn::Vec<D> length, hn::Vec<D> undeformed, h
   material.inverse = hn::Div(one, hn::Add(material.modulus, material.hardening));
 }
 
-/// See section_of.
+/// Area of the lanes' elements; see section_of.
 template <class D>
-HWY_INLINE LaneSection<D> section_of(D d, const Scene& scene, hn::Vec<D> undeformed, hn::Vec<D> thickness,
-                                     const LaneDeformation<D>& deformation) {
+HWY_INLINE hn::Vec<D> area_of(D d, const Scene& scene, hn::Vec<D> undeformed, hn::Vec<D> thickness,
+                              hn::Vec<D> inverse_length) {
   const auto area = hn::Mul(hn::Set(d, scene.depth), thickness);
-  if (scene.constant_area) {
-    return {thickness, area, hn::Mul(area, deformation.length)};
-  }
-  const auto volume = hn::Mul(area, undeformed);
-  return {thickness, hn::Mul(volume, deformation.inverse_length), volume};
+  return scene.constant_area ? area : hn::Mul(hn::Mul(area, undeformed), inverse_length);
+}
+
+/// Volume of the lanes' elements; see section_of.
+template <class D>
+HWY_INLINE hn::Vec<D> volume_of(D d, const Scene& scene, hn::Vec<D> undeformed, hn::Vec<D> thickness,
+                                hn::Vec<D> length) {
+  return hn::Mul(hn::Mul(hn::Set(d, scene.depth), thickness), scene.constant_area ? length : undeformed);
 }
 
 /// See return_element.
-template <int kSections, int kDepthPoints, bool kHardening, class D, class Step>
-HWY_INLINE LaneSums<kSections, D> return_element(D d, const LaneMaterial<D>& material, const SectionRule& rule,
-                                                 hn::Vec<D> membrane, const hn::Vec<D>* HWY_RESTRICT curvature,
-                                                 const Fibres& fibres, Step& next) {
+template <bool kHardening, int kSections, int kDepthPoints, class D, class Step>
+HWY_INLINE LaneSums<kSections, D> return_element(D d, const LaneMaterial<D>& material,
+                                                 const RuleFactors<kSections, kDepthPoints>& rule, hn::Vec<D> membrane,
+                                                 const hn::Vec<D>* HWY_RESTRICT curvature, const Fibres& fibres,
+                                                 Step& next) {
   LaneSums<kSections, D> element;
   element.axial = hn::Zero(d);
   element.moments = {hn::Zero(d), hn::Zero(d)};
   element.plastic_work = hn::Zero(d);
   for (int i = 0; i < kSections; ++i) {
-    const int first = i * kDepthPoints;
-    const auto section = return_section<kDepthPoints, kHardening>(d, material, rule, membrane, curvature[i], fibres,
-                                                                  static_cast<std::size_t>(first), next);
-    const double s = rule.along[i];
-    const double weight = rule.along_weight[i];
-    element.axial = hn::MulAdd(hn::Set(d, weight), section.axial, element.axial);
-    element.moments.start = hn::MulAdd(hn::Set(d, weight * (4.0 - 6.0 * s)), section.moment, element.moments.start);
-    element.moments.end = hn::MulAdd(hn::Set(d, weight * (2.0 - 6.0 * s)), section.moment, element.moments.end);
-    element.plastic_work = hn::MulAdd(hn::Set(d, weight), section.plastic_work, element.plastic_work);
+    const auto first = static_cast<std::size_t>(i * kDepthPoints);
+    const auto section = return_section<kDepthPoints, kHardening>(d, material, rule.offset, rule.depth_weight, membrane,
+                                                                  curvature[i], fibres, first, next);
+    const auto weight = hn::Set(d, rule.along_weight[i]);
+    element.axial = hn::MulAdd(weight, section.axial, element.axial);
+    element.moments.start = hn::MulAdd(hn::Set(d, rule.moment_start[i]), section.moment, element.moments.start);
+    element.moments.end = hn::MulAdd(hn::Set(d, rule.moment_end[i]), section.moment, element.moments.end);
+    element.plastic_work = hn::MulAdd(weight, section.plastic_work, element.plastic_work);
     element.moment[i] = section.moment;
   }
   return element;
 }
 
 /// See return_balanced.
-template <int kSections, int kDepthPoints, bool kHardening, class D>
-HWY_INLINE LaneSums<kSections, D> return_balanced(D d, const LaneMaterial<D>& material, const SectionRule& rule,
-                                                  hn::Vec<D> membrane, hn::Vec<D> bend_start, hn::Vec<D> bend_end,
+template <bool kHardening, int kSections, int kDepthPoints, class D>
+HWY_INLINE LaneSums<kSections, D> return_balanced(D d, const LaneMaterial<D>& material,
+                                                  const RuleFactors<kSections, kDepthPoints>& rule, hn::Vec<D> membrane,
+                                                  hn::Vec<D> bend_start, hn::Vec<D> bend_end,
                                                   const LaneMoments<D>& before, const Fibres& fibres, KeptStep<D>& next,
                                                   const SectionMemory& place) {
   LaneMemory<kSections, D> memory;
   memory.load(d, place);
   const auto straight = memory.is_straight(d);
   hn::Vec<D> curvature[kSections];
-  straight_curvatures<kSections>(d, rule, bend_start, bend_end, curvature);
+  straight_curvatures(d, rule, bend_start, bend_end, curvature);
   if (!hn::AllTrue(d, straight)) {
     hn::Vec<D> balanced[kSections];
     balanced_curvatures(d, rule, material, before, hn::Not(straight), bend_start, bend_end, memory, balanced);
@@ -180,8 +177,7 @@ HWY_INLINE LaneSums<kSections, D> return_balanced(D d, const LaneMaterial<D>& ma
       curvature[i] = hn::IfThenElse(straight, curvature[i], balanced[i]);
     }
   }
-  auto element =
-      return_element<kSections, kDepthPoints, kHardening>(d, material, rule, membrane, curvature, fibres, next);
+  auto element = return_element<kHardening>(d, material, rule, membrane, curvature, fibres, next);
   auto active = hn::Not(hn::And(straight, hn::Eq(element.plastic_work, hn::Zero(d))));
   if (hn::AllFalse(d, active)) {
     return element;  // elastic: in balance by themselves, and nothing to remember
@@ -201,7 +197,7 @@ HWY_INLINE LaneSums<kSections, D> return_balanced(D d, const LaneMaterial<D>& ma
     for (int i = 0; i < kSections; ++i) {
       curvature[i] = hn::Add(curvature[i], hn::IfThenElseZero(active, moved[i]));
     }
-    element = return_element<kSections, kDepthPoints, kHardening>(d, material, rule, membrane, curvature, fibres, next);
+    element = return_element<kHardening>(d, material, rule, membrane, curvature, fibres, next);
   }
   memory.store(d, place);
   return element;

@@ -82,16 +82,13 @@ class CommittedStep {
 
 /// Radial return of the fibres of one section (Eq. 33-39); see return_section. `next` is a KeptStep or a CommittedStep.
 template <int kDepthPoints, bool kHardening, class D, class Step>
-HWY_INLINE LaneSectionSums<D> return_section(D d, const LaneMaterial<D>& material, const SectionRule& rule,
-                                             hn::Vec<D> membrane, hn::Vec<D> bending, const Fibres& fibres,
-                                             std::size_t first, Step& next) {
-  const double* HWY_RESTRICT offset = rule.offset.data();
-  const double* HWY_RESTRICT weight = rule.depth_weight.data();
-  const int count = kDepthPoints > 0 ? kDepthPoints : static_cast<int>(rule.depth_count());
+HWY_INLINE LaneSectionSums<D> return_section(D d, const LaneMaterial<D>& material, const double* HWY_RESTRICT offset,
+                                             const double* HWY_RESTRICT weight, hn::Vec<D> membrane, hn::Vec<D> bending,
+                                             const Fibres& fibres, std::size_t first, Step& next) {
   const auto stretched = hn::Mul(material.modulus, membrane);
   const auto bent = hn::Mul(material.modulus, bending);
   LaneSectionSums<D> sums = {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
-  for (int i = 0; i < count; ++i) {
+  for (int i = 0; i < kDepthPoints; ++i) {
     const std::size_t fibre = first + static_cast<std::size_t>(i);
     const std::size_t place = fibre * fibres.stride;
     const auto trial =
