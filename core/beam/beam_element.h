@@ -24,9 +24,9 @@ struct Bend {
 };
 
 /// Returns the fibres of all sections under given increments of curvature, and sums them.
-template <int kDepthPoints, bool kHardening>
+template <int kDepthPoints, bool kHardening, class T>
 ElementSums return_element(const Material& material, const SectionRule& rule, double membrane,
-                           const PerSection& curvature, Fibres fibres, FibreStep next) {
+                           const PerSection& curvature, const Fibres<T>& fibres, FibreStep next) {
   ElementSums element;
   for (std::size_t i = 0; i < rule.section_count(); ++i) {
     const std::size_t first = i * rule.depth_count();
@@ -47,9 +47,10 @@ ElementSums return_element(const Material& material, const SectionRule& rule, do
 inline constexpr int kMostPasses = 4;
 
 /// The same for a force-based element: curvature is moved between the sections until their moments lie on a line.
-template <int kDepthPoints, bool kHardening>
+template <int kDepthPoints, bool kHardening, class T>
 ElementSums return_balanced(const Material& material, const SectionRule& rule, double membrane, Bend bend,
-                            const EndMoments& before, Fibres fibres, FibreStep next, SectionMemory memory) {
+                            const EndMoments& before, const Fibres<T>& fibres, FibreStep next,
+                            SectionMemory<T> memory) {
   const bool straight = is_straight(rule, memory);
   PerSection curvature = straight ? straight_curvatures(rule, bend.start, bend.end)
                                   : balanced_curvatures(rule, material, before, memory, bend.start, bend.end);
@@ -72,8 +73,8 @@ ElementSums return_balanced(const Material& material, const SectionRule& rule, d
 /// Integrates the fibres of a straight two-node element over a step and gives its nodal forces in the fixed frame
 /// (Eq. 24-32).
 ///
-/// `previous_length` is the length of the material frame, at the start of the step (l_a); the moments on start and end are
-/// those then, which only a force-based element looks at.
+/// `previous_length` is the length of the material frame, at the start of the step (l_a). `moments` are those on the nodes
+/// over b h^2, then, which only a force-based element looks at, and are brought up to date.
 /// Adds the plastic work of the step (stress after the return times plastic strain increment times volume, N mm) to
 /// `plastic_work`. `memory` is that of a force-based element's sections and is not touched otherwise. The elastic element is
 /// the cubic beam either way, so the stable step is the same.
@@ -81,10 +82,10 @@ ElementSums return_balanced(const Material& material, const SectionRule& rule, d
 /// Deviations: strains are taken over the mean length of the step (Eq. 24-26 take l_a), with which a way there and back leaves
 /// no strain and the work of the forces is that of the stresses; the shear force of Eq. 31 takes the current length, with which alone angular momentum is kept; the forward
 /// rotation of Eq. 32 is the current axis itself, so no rotation matrix and no sign convention are needed.
-template <int kDepthPoints, bool kHardening>
+template <int kDepthPoints, bool kHardening, class T>
 ElementForces evaluate_element(const Deformation& deformation, double previous_length, const Material& material,
-                               const BeamSection& section, const SectionRule& rule, Fibres fibres, SectionMemory memory,
-                               double moment_on_start, double moment_on_end, double& plastic_work) {
+                               const BeamSection& section, const SectionRule& rule, const Fibres<T>& fibres,
+                               SectionMemory<T> memory, EndMoments& moments, double& plastic_work) {
   const double mean_length = 0.5 * (previous_length + deformation.length);
   const double membrane = deformation.stretch / mean_length;
   const double slenderness = section.thickness / mean_length;
@@ -93,14 +94,14 @@ ElementForces evaluate_element(const Deformation& deformation, double previous_l
   std::array<double, kMostFibres> plastic_increment;
   const FibreStep next = {stress.data(), plastic_increment.data()};
   const double unit = section.area * section.thickness;
-  const EndMoments before = {moment_on_start / unit, moment_on_end / unit};
   const ElementSums sums =
       rule.force_based
-          ? return_balanced<kDepthPoints, kHardening>(material, rule, membrane, bend, before, fibres, next, memory)
+          ? return_balanced<kDepthPoints, kHardening>(material, rule, membrane, bend, moments, fibres, next, memory)
           : return_element<kDepthPoints, kHardening>(material, rule, membrane,
                                                      straight_curvatures(rule, bend.start, bend.end), fibres, next);
   commit_fibres<kHardening>(material, rule.fibre_count(), next, fibres);
   plastic_work += section.volume * sums.plastic_work;
+  moments = sums.moments;
   const double moment_start = unit * sums.moments.start;
   const double moment_end = unit * sums.moments.end;
   const double shear = -(moment_start + moment_end) / deformation.length;  // Eq. 31

@@ -33,8 +33,8 @@ void put_forces(const Scene& scene, State& state, const ElementPlace& place, int
 }
 
 /// Fixed numbers of points compile to straight code; 0 takes the rule's.
-template <int kDepthPoints, bool kHardening>
-void evaluate_elements(const Scene& scene, State& state) {
+template <int kDepthPoints, bool kHardening, class T>
+void evaluate_elements(const Scene& scene, State& state, FibreMemory<T>& memory) {
   const double step = state.step == 0 ? 0.0 : scene.schedule.time_step;
   const bool force_based = scene.section.force_based;
   double plastic_work = 0.0;
@@ -49,41 +49,45 @@ void evaluate_elements(const Scene& scene, State& state) {
     Material material = scene.materials[element.material];
     material.youngs_modulus *= section.stiffness;
     const std::size_t fibre = place.index(scene.fibre_count(), 0);
-    const Fibres fibres = {&state.stress[fibre], kHardening ? &state.back_stress[fibre] : nullptr,
-                           kHardening ? &state.plastic_strain[fibre] : nullptr, kHardening ? nullptr : &state.flowed[e],
-                           place.stride};
+    const Fibres<T> fibres = {&memory.stress[fibre], kHardening ? &memory.back_stress[fibre] : nullptr,
+                              kHardening ? &memory.plastic_strain[fibre] : nullptr,
+                              kHardening ? nullptr : &memory.flowed[e], place.stride};
     const std::size_t remembered = force_based ? place.index(scene.section.section_count(), 0) : 0;
-    const SectionMemory memory = {state.section_unbalance.data() + remembered,
-                                  state.section_tangent.data() + remembered, place.stride};
+    const SectionMemory<T> sections = {memory.section_unbalance.data() + remembered,
+                                       memory.section_flexibility.data() + remembered, place.stride};
+    EndMoments moments;
+    if (force_based) {
+      moments = {memory.start_moment[e], memory.end_moment[e]};
+    }
     const ElementForces forces = evaluate_element<kDepthPoints, kHardening>(
-        deformation, previous_length, material, section, scene.section, fibres, memory,
-        force_based ? state.start_moment[e] : 0.0, force_based ? state.end_moment[e] : 0.0, plastic_work);
+        deformation, previous_length, material, section, scene.section, fibres, sections, moments, plastic_work);
     state.axis[e] = deformation.axis;
     state.length[e] = deformation.length;
     state.inverse_length[e] = 1.0 / deformation.length;
     if (force_based) {
-      state.start_moment[e] = forces.moment_on_start;
-      state.end_moment[e] = forces.moment_on_end;
+      memory.start_moment[e] = static_cast<T>(moments.start);
+      memory.end_moment[e] = static_cast<T>(moments.end);
     }
     put_forces(scene, state, place, wall, forces);
   });
   state.ledger.plastic += plastic_work;
 }
 
-template <bool kHardening>
-void evaluate_rule(const Scene& scene, State& state) {
+template <bool kHardening, class T>
+void evaluate_rule(const Scene& scene, State& state, FibreMemory<T>& memory) {
   switch (scene.section.depth_count()) {
-    case 4: evaluate_elements<4, kHardening>(scene, state); break;
-    case 6: evaluate_elements<6, kHardening>(scene, state); break;
-    default: evaluate_elements<0, kHardening>(scene, state); break;
+    case 4: evaluate_elements<4, kHardening>(scene, state, memory); break;
+    case 6: evaluate_elements<6, kHardening>(scene, state, memory); break;
+    default: evaluate_elements<0, kHardening>(scene, state, memory); break;
   }
 }
 
-void evaluate_walls(const Scene& scene, State& state) {
+template <class T>
+void evaluate_walls(const Scene& scene, State& state, FibreMemory<T>& memory) {
   if (scene.has_hardening()) {
-    evaluate_rule<true>(scene, state);
+    evaluate_rule<true>(scene, state, memory);
   } else {
-    evaluate_rule<false>(scene, state);
+    evaluate_rule<false>(scene, state, memory);
   }
 }
 
@@ -105,7 +109,8 @@ void sum_joint_forces(const Scene& scene, State& state) {
 
 void evaluate_internal_forces(const Scene& scene, State& state) {
   if (!use_wide_kernels() || !evaluate_walls_wide(scene, state)) {
-    evaluate_walls(scene, state);
+    scene.single_fibres ? evaluate_walls(scene, state, state.single_fibres)
+                        : evaluate_walls(scene, state, state.fibres);
   }
   sum_joint_forces(scene, state);
 }

@@ -8,6 +8,7 @@
 
 #include <hwy/highway.h>
 
+#include <algorithm>
 #include <span>
 
 #include "beam/wall_lanes-inl.h"
@@ -19,38 +20,53 @@ namespace cellcrush::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Materials of the lanes from what a test of them gives.
+/// Materials of the lanes; `modulus` and `hardening` are E and H.
 template <class D>
 HWY_INLINE LaneMaterial<D> complete(D d, hn::Vec<D> modulus, hn::Vec<D> yield, hn::Vec<D> hardening,
                                     hn::Vec<D> isotropic) {
+  using T = hn::TFromD<D>;
   return {modulus,
           yield,
-          hn::Div(hn::Set(d, 1.0), hn::Add(modulus, hardening)),
+          hn::Div(hn::Set(d, T(1.0)), hn::Add(modulus, hardening)),
           hn::Mul(isotropic, hardening),
-          hn::Mul(hn::Sub(hn::Set(d, 1.0), isotropic), hardening),
-          hardening};
+          hn::Mul(hn::Sub(hn::Set(d, T(1.0)), isotropic), hardening),
+          hardening,
+          hn::Div(hn::Set(d, T(12.0)), modulus)};
 }
 
 /// One material in all lanes.
 template <class D>
 HWY_INLINE LaneMaterial<D> uniform_material(D d, const Material& material) {
-  return complete(d, hn::Set(d, material.youngs_modulus), hn::Set(d, material.yield_stress),
-                  hn::Set(d, material.hardening_modulus), hn::Set(d, material.isotropic_fraction));
+  const auto set = [&](double value) HWY_ATTR { return hn::Set(d, static_cast<hn::TFromD<D>>(value)); };
+  return complete(d, set(material.youngs_modulus), set(material.yield_stress), set(material.hardening_modulus),
+                  set(material.isotropic_fraction));
 }
 
 /// Materials of the walls from `wall` on.
 template <class D>
 HWY_INLINE LaneMaterial<D> material_of(D d, const Scene& scene, int wall) {
-  double values[4][kMostWallsInBlock];
+  using T = hn::TFromD<D>;
+  T values[4][kMostWallsInBlock];
   for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) {
     const Material& material = scene.materials[scene.walls.material[wall + lane]];
-    values[0][lane] = material.youngs_modulus;
-    values[1][lane] = material.yield_stress;
-    values[2][lane] = material.hardening_modulus;
-    values[3][lane] = material.isotropic_fraction;
+    values[0][lane] = static_cast<T>(material.youngs_modulus);
+    values[1][lane] = static_cast<T>(material.yield_stress);
+    values[2][lane] = static_cast<T>(material.hardening_modulus);
+    values[3][lane] = static_cast<T>(material.isotropic_fraction);
   }
   return complete(d, hn::LoadU(d, values[0]), hn::LoadU(d, values[1]), hn::LoadU(d, values[2]),
                   hn::LoadU(d, values[3]));
+}
+
+/// The material with a share of its modulus.
+template <class D>
+HWY_INLINE LaneMaterial<D> with_stiffness(D d, const LaneMaterial<D>& material, hn::Vec<D> share) {
+  using T = hn::TFromD<D>;
+  LaneMaterial<D> softer = material;
+  softer.modulus = hn::Mul(material.modulus, share);
+  softer.inverse = hn::Div(hn::Set(d, T(1.0)), hn::Add(softer.modulus, material.hardening));
+  softer.bending_flexibility = hn::Div(hn::Set(d, T(12.0)), softer.modulus);
+  return softer;
 }
 
 /// Position and turn of the particles at one end of the lanes' elements.
@@ -68,54 +84,64 @@ struct LaneForces {
   hn::Vec<D> moment_on_end;
 };
 
-/// What passes between the three loops over a chunk's elements, in the elements' order.
+/// What passes between the three loops over a chunk's elements, in the fibres' precision T and the elements' order.
+template <class T>
 class ChunkValues {
  public:
-  explicit ChunkValues(std::size_t elements) : elements_(elements), values_(6 * elements) {}
+  explicit ChunkValues(std::size_t elements) : elements_(elements), values_(8 * elements) {}
 
-  double* membrane() { return values_.data(); }  ///< increment of the strain at the axis
-  double* bend_start() { return membrane() + elements_; }
-  double* bend_end() { return bend_start() + elements_; }  ///< rotations of the ends times h / l
-  double* axial() { return bend_end() + elements_; }       ///< see ElementSums
-  double* moment_start() { return axial() + elements_; }
-  double* moment_end() { return moment_start() + elements_; }
+  T* membrane() { return values_.data(); }  ///< increment of the strain at the axis
+  T* bend_start() { return of(1); }         ///< rotation of the start times h / l
+  T* bend_end() { return of(2); }
+  T* stiffness() { return of(3); }  ///< see bounded_stiffness
+  T* axial() { return of(4); }      ///< see ElementSums
+  T* moment_start() { return of(5); }
+  T* moment_end() { return of(6); }
+  T* plastic_work() { return of(7); }
 
  private:
+  T* of(std::size_t i) { return values_.data() + i * elements_; }
+
   std::size_t elements_;
-  LaneVector<double> values_;
+  LaneVector<T> values_;
 };
 
-/// A step of some neighbouring blocks' walls. Three short loops, over geometry, fibres and forces, are a quarter faster than
-/// one: the processor works at several elements at a time, where each by itself is a long chain of operations.
-template <int kSections, int kDepthPoints, bool kForceBased, bool kHardening, class D>
+/// A step of some neighbouring blocks' walls. Three short loops, over geometry, fibres and forces: the processor works at
+/// several elements at a time, where each by itself is a long chain of operations, and the fibres may be in single precision
+/// (lanes F) where motion and forces are in double (lanes D).
+template <int kSections, int kDepthPoints, bool kForceBased, bool kHardening, class D, class F>
 class WallChunk {
   using V = hn::Vec<D>;
+  using T = hn::TFromD<F>;
+  using VF = hn::Vec<F>;
 
  public:
-  WallChunk(const Scene& scene, State& state, double step, const RuleFactors<kSections, kDepthPoints>& rule,
-            std::span<const WallBlock> blocks, ChunkValues& values)
+  WallChunk(const Scene& scene, State& state, FibreMemory<T>& memory, double step,
+            const RuleFactors<kSections, kDepthPoints, T>& rule, std::span<const WallBlock> blocks,
+            ChunkValues<T>& values)
       : scene_(scene),
         state_(state),
+        memory_(memory),
         step_(step),
         rule_(rule),
         blocks_(blocks),
         values_(values),
         first_(blocks.front().first_element),
-        uniform_(uniform_material(d_, scene.materials.front())) {}
+        uniform_(uniform_material(f_, scene.materials.front())) {}
 
   /// Adds the plastic work to that of the lanes.
   HWY_INLINE void advance(double* HWY_RESTRICT plastic_work) {
-    visit_lanes([&](const WallBlock& block, int lane) HWY_ATTR { reverse_motions(block, lane); });
-    visit_lanes([&](const WallBlock& block, int lane) HWY_ATTR { return_fibres(block, lane, plastic_work + lane); });
-    visit_lanes([&](const WallBlock& block, int lane) HWY_ATTR { put_forces(block, lane); });
+    visit_lanes(d_, [&](const WallBlock& block, int lane) HWY_ATTR { reverse_motions(block, lane); });
+    visit_lanes(f_, [&](const WallBlock& block, int lane) HWY_ATTR { return_fibres(block, lane); });
+    visit_lanes(d_, [&](const WallBlock& block, int lane) HWY_ATTR { put_forces(block, lane, plastic_work + lane); });
   }
 
  private:
   /// Calls visit(block, lane) for every lot of walls that fills the lanes.
-  template <class Visit>
-  HWY_INLINE void visit_lanes(Visit&& visit) const {
+  template <class Lanes, class Visit>
+  HWY_INLINE void visit_lanes(Lanes lanes, Visit&& visit) const {
     for (const WallBlock& block : blocks_) {
-      for (int lane = 0; lane < block.walls; lane += static_cast<int>(hn::MaxLanes(d_))) {
+      for (int lane = 0; lane < block.walls; lane += static_cast<int>(hn::MaxLanes(lanes))) {
         visit(block, lane);
       }
     }
@@ -133,9 +159,10 @@ class WallChunk {
   }
 
   /// From the motion of the ends to the strains of the step; see evaluate_element.
-  HWY_INLINE void reverse_motions(const WallBlock& block, int lane) const {
+  HWY_INLINE void reverse_motions(const WallBlock& block, int lane) {
     const int wall = block.first_wall + lane;
     const V thickness = hn::LoadU(d_, &scene_.walls.thickness[wall]);
+    const V undeformed = hn::LoadU(d_, &scene_.walls.undeformed_length[wall]);
     LaneNode<D> start = gather_joint(&scene_.walls.start[wall]);
     for (int j = 0; j < block.elements; ++j) {
       const int e = block.first_element + j * block.walls + lane;
@@ -148,80 +175,89 @@ class WallChunk {
       hn::StoreU(deformation.length, d_, &state_.length[e]);
       hn::StoreU(deformation.inverse_length, d_, &state_.inverse_length[e]);
       const V slenderness = hn::Mul(thickness, deformation.inverse_mean);
-      hn::StoreU(hn::Mul(deformation.stretch, deformation.inverse_mean), d_, values_.membrane() + (e - first_));
-      hn::StoreU(hn::Mul(slenderness, deformation.rotation_start), d_, values_.bend_start() + (e - first_));
-      hn::StoreU(hn::Mul(slenderness, deformation.rotation_end), d_, values_.bend_end() + (e - first_));
+      store_as(d_, hn::Mul(deformation.stretch, deformation.inverse_mean), values_.membrane() + (e - first_));
+      store_as(d_, hn::Mul(slenderness, deformation.rotation_start), values_.bend_start() + (e - first_));
+      store_as(d_, hn::Mul(slenderness, deformation.rotation_end), values_.bend_end() + (e - first_));
+      if (HWY_UNLIKELY(!hn::AllFalse(d_, is_short(d_, deformation.length, undeformed)))) {
+        note_stiffness(e, bounded_stiffness(d_, deformation.length, undeformed, thickness, scene_.constant_area));
+      }
       start = end;
     }
   }
 
-  HWY_INLINE Fibres fibres_of(int row, int lane, int stride) const {
+  /// Few chunks have squashed elements: the others' array is never filled.
+  HWY_INLINE void note_stiffness(int element, V stiffness) {
+    if (!is_squashed_) {
+      std::fill(values_.stiffness(), values_.axial(), T(1.0));
+      is_squashed_ = true;
+    }
+    store_as(d_, stiffness, values_.stiffness() + (element - first_));
+  }
+
+  HWY_INLINE Fibres<T> fibres_of(int row, int lane, int stride) const {
     const std::size_t first = row * scene_.fibre_count() + lane;
-    return {&state_.stress[first], kHardening ? &state_.back_stress[first] : nullptr,
-            kHardening ? &state_.plastic_strain[first] : nullptr, kHardening ? nullptr : &state_.flowed[row + lane],
+    return {&memory_.stress[first], kHardening ? &memory_.back_stress[first] : nullptr,
+            kHardening ? &memory_.plastic_strain[first] : nullptr, kHardening ? nullptr : &memory_.flowed[row + lane],
             static_cast<std::size_t>(stride)};
   }
 
-  HWY_INLINE SectionMemory memory_of(int row, int lane, int stride) const {
+  HWY_INLINE SectionMemory<T> sections_of(int row, int lane, int stride) const {
     const std::size_t first = row * scene_.section.section_count() + lane;
-    return {&state_.section_unbalance[first], &state_.section_tangent[first], static_cast<std::size_t>(stride)};
+    return {&memory_.section_unbalance[first], &memory_.section_flexibility[first], static_cast<std::size_t>(stride)};
+  }
+
+  /// Moments on the nodes of element `e` and the following, over b h^2.
+  HWY_INLINE T* moment_start(int e) const {
+    return kForceBased ? &memory_.start_moment[e] : values_.moment_start() + (e - first_);
+  }
+  HWY_INLINE T* moment_end(int e) const {
+    return kForceBased ? &memory_.end_moment[e] : values_.moment_end() + (e - first_);
   }
 
   /// From the strains to the sums of the stresses.
-  HWY_INLINE void return_fibres(const WallBlock& block, int lane, double* HWY_RESTRICT plastic_work) const {
-    const int wall = block.first_wall + lane;
-    const V thickness = hn::LoadU(d_, &scene_.walls.thickness[wall]);
-    const V undeformed = hn::LoadU(d_, &scene_.walls.undeformed_length[wall]);
-    const LaneMaterial<D> of_wall = scene_.materials.size() == 1 ? uniform_ : material_of(d_, scene_, wall);
-    V work = hn::LoadU(d_, plastic_work);
+  HWY_INLINE void return_fibres(const WallBlock& block, int lane) const {
+    const LaneMaterial<F> of_wall =
+        scene_.materials.size() == 1 ? uniform_ : material_of(f_, scene_, block.first_wall + lane);
     for (int j = 0; j < block.elements; ++j) {
       const int row = block.first_element + j * block.walls;
       const int e = row + lane;
-      const V length = hn::LoadU(d_, &state_.length[e]);
-      LaneMaterial<D> material = of_wall;
-      bound_stiffness(d_, length, undeformed, thickness, scene_.constant_area, material);
-      const V membrane = hn::LoadU(d_, values_.membrane() + (e - first_));
-      const V bend_start = hn::LoadU(d_, values_.bend_start() + (e - first_));
-      const V bend_end = hn::LoadU(d_, values_.bend_end() + (e - first_));
-      const Fibres fibres = fibres_of(row, lane, block.walls);
-      LaneSums<kSections, D> sums;
+      const LaneMaterial<F> material =
+          is_squashed_ ? with_stiffness(f_, of_wall, hn::LoadU(f_, values_.stiffness() + (e - first_))) : of_wall;
+      const VF membrane = hn::LoadU(f_, values_.membrane() + (e - first_));
+      const VF bend_start = hn::LoadU(f_, values_.bend_start() + (e - first_));
+      const VF bend_end = hn::LoadU(f_, values_.bend_end() + (e - first_));
+      const Fibres<T> fibres = fibres_of(row, lane, block.walls);
+      LaneSums<kSections, F> sums;
       if constexpr (kForceBased) {
-        const V inverse_length = hn::LoadU(d_, &state_.inverse_length[e]);
-        const V unit = hn::Mul(area_of(d_, scene_, undeformed, thickness, inverse_length), thickness);
-        const LaneMoments<D> before = {hn::Div(hn::LoadU(d_, &state_.start_moment[e]), unit),
-                                       hn::Div(hn::LoadU(d_, &state_.end_moment[e]), unit)};
-        V stress[kSections * kDepthPoints];
-        V plastic_increment[kSections * kDepthPoints];
-        KeptStep<D> next = {stress, plastic_increment};
-        sums = return_balanced<kHardening>(d_, material, rule_, membrane, bend_start, bend_end, before, fibres, next,
-                                           memory_of(row, lane, block.walls));
-        commit_fibres<kHardening>(material, kSections * kDepthPoints, next, fibres);
+        const LaneMoments<F> before = {hn::LoadU(f_, moment_start(e)), hn::LoadU(f_, moment_end(e))};
+        sums = return_balanced<kHardening>(f_, material, rule_, membrane, bend_start, bend_end, before, fibres,
+                                           sections_of(row, lane, block.walls));
       } else {
-        V curvature[kSections];
-        straight_curvatures(d_, rule_, bend_start, bend_end, curvature);
-        CommittedStep<kHardening, D> next(material, fibres);
-        sums = return_element<kHardening>(d_, material, rule_, membrane, curvature, fibres, next);
-        next.finish();
+        VF curvature[kSections];
+        straight_curvatures(f_, rule_, bend_start, bend_end, curvature);
+        sums = return_element<kHardening>(f_, material, rule_, membrane, curvature, fibres, fibres);
       }
-      work = hn::MulAdd(volume_of(d_, scene_, undeformed, thickness, length), sums.plastic_work, work);
-      hn::StoreU(sums.axial, d_, values_.axial() + (e - first_));
-      hn::StoreU(sums.moments.start, d_, values_.moment_start() + (e - first_));
-      hn::StoreU(sums.moments.end, d_, values_.moment_end() + (e - first_));
+      hn::StoreU(sums.axial, f_, values_.axial() + (e - first_));
+      hn::StoreU(sums.moments.start, f_, moment_start(e));
+      hn::StoreU(sums.moments.end, f_, moment_end(e));
+      hn::StoreU(sums.plastic_work, f_, values_.plastic_work() + (e - first_));
     }
-    hn::StoreU(work, d_, plastic_work);
   }
 
   /// From the sums of the stresses to the forces on the particles.
-  HWY_INLINE void put_forces(const WallBlock& block, int lane) const {
+  HWY_INLINE void put_forces(const WallBlock& block, int lane, double* HWY_RESTRICT plastic_work) const {
     const int wall = block.first_wall + lane;
     const V thickness = hn::LoadU(d_, &scene_.walls.thickness[wall]);
     const V undeformed = hn::LoadU(d_, &scene_.walls.undeformed_length[wall]);
     const std::size_t ends = 2 * static_cast<std::size_t>(block.first_wall) + lane;
     const V zero = hn::Zero(d_);
     LaneForces<D> before = {{zero, zero}, zero, zero};
+    V work = hn::LoadU(d_, plastic_work);
     for (int j = 0; j < block.elements; ++j) {
       const int e = block.first_element + j * block.walls + lane;
       const LaneForces<D> forces = forces_of(e, undeformed, thickness);
+      work = hn::MulAdd(volume_of(d_, scene_, undeformed, thickness, hn::LoadU(d_, &state_.length[e])),
+                        load_as(d_, values_.plastic_work() + (e - first_)), work);
       if (j == 0) {
         put_on_joints(ends, forces.force_on_end, hn::Neg(forces.moment_on_start));
       } else {
@@ -236,24 +272,21 @@ class WallChunk {
     }
     put_on_joints(ends + block.walls, {hn::Neg(before.force_on_end.x), hn::Neg(before.force_on_end.y)},
                   hn::Neg(before.moment_on_end));
+    hn::StoreU(work, d_, plastic_work);
   }
 
   HWY_INLINE LaneForces<D> forces_of(int e, V undeformed, V thickness) const {
     const V inverse_length = hn::LoadU(d_, &state_.inverse_length[e]);
     const V area = area_of(d_, scene_, undeformed, thickness, inverse_length);
     const V unit = hn::Mul(area, thickness);
-    const V moment_start = hn::Mul(unit, hn::LoadU(d_, values_.moment_start() + (e - first_)));
-    const V moment_end = hn::Mul(unit, hn::LoadU(d_, values_.moment_end() + (e - first_)));
-    if constexpr (kForceBased) {
-      hn::StoreU(moment_start, d_, &state_.start_moment[e]);
-      hn::StoreU(moment_end, d_, &state_.end_moment[e]);
-    }
-    const V shear = hn::Mul(hn::Neg(hn::Add(moment_start, moment_end)), inverse_length);  // Eq. 31
-    const V axial = hn::Mul(area, hn::LoadU(d_, values_.axial() + (e - first_)));
+    const V on_start = hn::Mul(unit, load_as(d_, moment_start(e)));
+    const V on_end = hn::Mul(unit, load_as(d_, moment_end(e)));
+    const V shear = hn::Mul(hn::Neg(hn::Add(on_start, on_end)), inverse_length);  // Eq. 31
+    const V axial = hn::Mul(area, load_as(d_, values_.axial() + (e - first_)));
     const Points<D> axis = load_points(d_, &state_.axis[e]);
     return {{hn::MulSub(axial, axis.x, hn::Mul(shear, axis.y)), hn::MulAdd(axial, axis.y, hn::Mul(shear, axis.x))},
-            moment_start,
-            moment_end};
+            on_start,
+            on_end};
   }
 
   HWY_INLINE void put_on_joints(std::size_t end, const Points<D>& force, V moment) const {
@@ -262,14 +295,17 @@ class WallChunk {
   }
 
   static constexpr D d_{};
+  static constexpr F f_{};
   const Scene& scene_;
   State& state_;
+  FibreMemory<T>& memory_;
   const double step_;
-  const RuleFactors<kSections, kDepthPoints>& rule_;
+  const RuleFactors<kSections, kDepthPoints, T>& rule_;
   const std::span<const WallBlock> blocks_;
-  ChunkValues& values_;
+  ChunkValues<T>& values_;
   const int first_;
-  const LaneMaterial<D> uniform_;
+  const LaneMaterial<F> uniform_;
+  bool is_squashed_ = false;
 };
 
 }  // namespace cellcrush::HWY_NAMESPACE

@@ -100,23 +100,24 @@ HWY_INLINE LaneDeformation<D> reverse_motion(D d, const Points<D>& start, const 
   return deformation;
 }
 
-/// Bounds the modulus of lanes that have been squashed short; see bounded_stiffness.
+/// Lanes that have been squashed short; see kShortenedTo.
 template <class D>
-HWY_INLINE void bound_stiffness(D d, hn::Vec<D> length, hn::Vec<D> undeformed, hn::Vec<D> thickness, bool constant_area,
-                                LaneMaterial<D>& material) {
+HWY_INLINE hn::Mask<D> is_short(D d, hn::Vec<D> length, hn::Vec<D> undeformed) {
+  return hn::Lt(length, hn::Mul(hn::Set(d, kShortenedTo), undeformed));
+}
+
+/// See bounded_stiffness.
+template <class D>
+HWY_INLINE hn::Vec<D> bounded_stiffness(D d, hn::Vec<D> length, hn::Vec<D> undeformed, hn::Vec<D> thickness,
+                                        bool constant_area) {
   const auto bound = hn::Mul(hn::Set(d, kShortenedTo), undeformed);
-  const auto is_short = hn::Lt(length, bound);
-  if (HWY_LIKELY(hn::AllFalse(d, is_short))) {
-    return;
-  }
   const auto one = hn::Set(d, 1.0);
   const auto gyration = hn::Mul(hn::Mul(thickness, thickness), hn::Set(d, 1.0 / 3.0));
   const auto ratio = hn::Div(length, bound);
   const auto at_bound = hn::Add(one, hn::Div(gyration, hn::Mul(bound, bound)));
   const auto now = hn::Add(one, hn::Div(gyration, hn::Mul(length, length)));
   const auto share = hn::Div(hn::Mul(constant_area ? ratio : hn::Mul(ratio, ratio), at_bound), now);
-  material.modulus = hn::Mul(material.modulus, hn::IfThenElse(is_short, share, one));
-  material.inverse = hn::Div(one, hn::Add(material.modulus, material.hardening));
+  return hn::IfThenElse(is_short(d, length, undeformed), share, one);
 }
 
 /// Area of the lanes' elements; see section_of.
@@ -135,11 +136,13 @@ HWY_INLINE hn::Vec<D> volume_of(D d, const Scene& scene, hn::Vec<D> undeformed, 
 }
 
 /// See return_element.
-template <bool kHardening, int kSections, int kDepthPoints, class D, class Step>
+template <bool kHardening, int kSections, int kDepthPoints, class D>
 HWY_INLINE LaneSums<kSections, D> return_element(D d, const LaneMaterial<D>& material,
-                                                 const RuleFactors<kSections, kDepthPoints>& rule, hn::Vec<D> membrane,
-                                                 const hn::Vec<D>* HWY_RESTRICT curvature, const Fibres& fibres,
-                                                 Step& next) {
+                                                 const RuleFactors<kSections, kDepthPoints, hn::TFromD<D>>& rule,
+                                                 hn::Vec<D> membrane, const hn::Vec<D>* HWY_RESTRICT curvature,
+                                                 const Fibres<hn::TFromD<D>>& before,
+                                                 const Fibres<hn::TFromD<D>>& after) {
+  FibreWriter<kHardening, D> next(material, before, after);
   LaneSums<kSections, D> element;
   element.axial = hn::Zero(d);
   element.moments = {hn::Zero(d), hn::Zero(d)};
@@ -147,7 +150,7 @@ HWY_INLINE LaneSums<kSections, D> return_element(D d, const LaneMaterial<D>& mat
   for (int i = 0; i < kSections; ++i) {
     const auto first = static_cast<std::size_t>(i * kDepthPoints);
     const auto section = return_section<kDepthPoints, kHardening>(d, material, rule.offset, rule.depth_weight, membrane,
-                                                                  curvature[i], fibres, first, next);
+                                                                  curvature[i], before, first, next);
     const auto weight = hn::Set(d, rule.along_weight[i]);
     element.axial = hn::MulAdd(weight, section.axial, element.axial);
     element.moments.start = hn::MulAdd(hn::Set(d, rule.moment_start[i]), section.moment, element.moments.start);
@@ -155,16 +158,19 @@ HWY_INLINE LaneSums<kSections, D> return_element(D d, const LaneMaterial<D>& mat
     element.plastic_work = hn::MulAdd(weight, section.plastic_work, element.plastic_work);
     element.moment[i] = section.moment;
   }
+  next.finish();
   return element;
 }
 
 /// See return_balanced.
 template <bool kHardening, int kSections, int kDepthPoints, class D>
 HWY_INLINE LaneSums<kSections, D> return_balanced(D d, const LaneMaterial<D>& material,
-                                                  const RuleFactors<kSections, kDepthPoints>& rule, hn::Vec<D> membrane,
-                                                  hn::Vec<D> bend_start, hn::Vec<D> bend_end,
-                                                  const LaneMoments<D>& before, const Fibres& fibres, KeptStep<D>& next,
-                                                  const SectionMemory& place) {
+                                                  const RuleFactors<kSections, kDepthPoints, hn::TFromD<D>>& rule,
+                                                  hn::Vec<D> membrane, hn::Vec<D> bend_start, hn::Vec<D> bend_end,
+                                                  const LaneMoments<D>& before, const Fibres<hn::TFromD<D>>& fibres,
+                                                  const SectionMemory<hn::TFromD<D>>& place) {
+  FibreCopy<kSections * kDepthPoints, kHardening, D> copy(fibres);
+  const Fibres<hn::TFromD<D>> remembered = copy.fibres();
   LaneMemory<kSections, D> memory;
   memory.load(d, place);
   const auto straight = memory.is_straight(d);
@@ -177,7 +183,7 @@ HWY_INLINE LaneSums<kSections, D> return_balanced(D d, const LaneMaterial<D>& ma
       curvature[i] = hn::IfThenElse(straight, curvature[i], balanced[i]);
     }
   }
-  auto element = return_element<kHardening>(d, material, rule, membrane, curvature, fibres, next);
+  auto element = return_element<kHardening>(d, material, rule, membrane, curvature, remembered, fibres);
   auto active = hn::Not(hn::And(straight, hn::Eq(element.plastic_work, hn::Zero(d))));
   if (hn::AllFalse(d, active)) {
     return element;  // elastic: in balance by themselves, and nothing to remember
@@ -197,7 +203,7 @@ HWY_INLINE LaneSums<kSections, D> return_balanced(D d, const LaneMaterial<D>& ma
     for (int i = 0; i < kSections; ++i) {
       curvature[i] = hn::Add(curvature[i], hn::IfThenElseZero(active, moved[i]));
     }
-    element = return_element<kHardening>(d, material, rule, membrane, curvature, fibres, next);
+    element = return_element<kHardening>(d, material, rule, membrane, curvature, remembered, fibres);
   }
   memory.store(d, place);
   return element;

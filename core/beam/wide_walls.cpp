@@ -35,21 +35,25 @@ std::size_t element_count(std::span<const WallBlock> chunk) {
 }
 
 /// Full blocks go through the target's vectors, others wall by wall.
-template <int kSections, int kDepthPoints, bool kForceBased, bool kHardening>
-void evaluate_blocks(const Scene& scene, State& state) {
+template <int kSections, int kDepthPoints, bool kForceBased, bool kHardening, class T>
+void evaluate_blocks(const Scene& scene, State& state, FibreMemory<T>& memory) {
   using Wide = hn::CappedTag<double, kMostWallsInBlock>;
+  using WideFibres = hn::CappedTag<T, kMostWallsInBlock>;
   using One = hn::CappedTag<double, 1>;
+  using OneFibre = hn::CappedTag<T, 1>;
   const double step = state.step == 0 ? 0.0 : scene.schedule.time_step;
-  const RuleFactors<kSections, kDepthPoints> rule(scene.section);
+  const RuleFactors<kSections, kDepthPoints, T> rule(scene.section);
   double plastic_work[kMostWallsInBlock] = {};
   for (std::span<const WallBlock> left = scene.walls.blocks; !left.empty();) {
     const std::span<const WallBlock> chunk = chunk_from(left);
-    ChunkValues values(element_count(chunk));
+    ChunkValues<T> values(element_count(chunk));
     if (chunk.front().walls == kMostWallsInBlock) {
-      WallChunk<kSections, kDepthPoints, kForceBased, kHardening, Wide>(scene, state, step, rule, chunk, values)
+      WallChunk<kSections, kDepthPoints, kForceBased, kHardening, Wide, WideFibres>(scene, state, memory, step, rule,
+                                                                                    chunk, values)
           .advance(plastic_work);
     } else {
-      WallChunk<kSections, kDepthPoints, kForceBased, kHardening, One>(scene, state, step, rule, chunk, values)
+      WallChunk<kSections, kDepthPoints, kForceBased, kHardening, One, OneFibre>(scene, state, memory, step, rule,
+                                                                                 chunk, values)
           .advance(plastic_work);
     }
     left = left.subspan(chunk.size());
@@ -59,28 +63,34 @@ void evaluate_blocks(const Scene& scene, State& state) {
   }
 }
 
-template <int kSections, int kDepthPoints, bool kForceBased>
-void evaluate_rule(const Scene& scene, State& state) {
+template <int kSections, int kDepthPoints, bool kForceBased, class T>
+void evaluate_rule(const Scene& scene, State& state, FibreMemory<T>& memory) {
   if (scene.has_hardening()) {
-    evaluate_blocks<kSections, kDepthPoints, kForceBased, true>(scene, state);
+    evaluate_blocks<kSections, kDepthPoints, kForceBased, true>(scene, state, memory);
   } else {
-    evaluate_blocks<kSections, kDepthPoints, kForceBased, false>(scene, state);
+    evaluate_blocks<kSections, kDepthPoints, kForceBased, false>(scene, state, memory);
   }
 }
 
-bool evaluate_wide(const Scene& scene, State& state) {
+template <class T>
+bool evaluate_memory(const Scene& scene, State& state, FibreMemory<T>& memory) {
   const SectionRule& rule = scene.section;
   const auto is = [&](bool force_based, std::size_t sections, std::size_t depth) HWY_ATTR {
     return rule.force_based == force_based && rule.section_count() == sections && rule.depth_count() == depth;
   };
   if (is(true, 4, 6)) {
-    evaluate_rule<4, 6, true>(scene, state);
+    evaluate_rule<4, 6, true>(scene, state, memory);
   } else if (is(false, 2, 6)) {
-    evaluate_rule<2, 6, false>(scene, state);
+    evaluate_rule<2, 6, false>(scene, state, memory);
   } else {
     return false;
   }
   return true;
+}
+
+bool evaluate_wide(const Scene& scene, State& state) {
+  return scene.single_fibres ? evaluate_memory(scene, state, state.single_fibres)
+                             : evaluate_memory(scene, state, state.fibres);
 }
 
 }  // namespace cellcrush::HWY_NAMESPACE

@@ -29,7 +29,8 @@ Instant look_at_motion(const Scene& scene, const State& state) {
 }
 
 /// Row by row of the blocks: the values of a row's fibre lie side by side.
-double elastic_energy(const Scene& scene, const State& state) {
+template <class T>
+double elastic_energy(const Scene& scene, const State& state, const FibreMemory<T>& memory) {
   const SectionRule& rule = scene.section;
   const std::size_t fibres = rule.fibre_count();
   double energy = 0.0;
@@ -39,7 +40,7 @@ double elastic_energy(const Scene& scene, const State& state) {
     for (std::size_t fibre = 0; fibre < fibres; ++fibre) {
       const double weight = rule.along_weight[static_cast<Eigen::Index>(fibre / rule.depth_count())] *
                             rule.depth_weight[static_cast<Eigen::Index>(fibre % rule.depth_count())];
-      const double* stress = &state.stress[row * fibres + fibre * walls];
+      const T* stress = &memory.stress[row * fibres + fibre * walls];
       for (std::size_t w = 0; w < walls; ++w) {
         squares[w] += weight * stress[w] * stress[w];
       }
@@ -97,7 +98,8 @@ Energies evaluate_energies(const Scene& scene, const State& state) {
   const Instant now = look_at_motion(scene, state);
   Energies energies;
   energies.kinetic = now.kinetic;
-  energies.elastic = elastic_energy(scene, state);
+  energies.elastic = scene.single_fibres ? elastic_energy(scene, state, state.single_fibres)
+                                         : elastic_energy(scene, state, state.fibres);
   energies.plastic = state.ledger.plastic;
   energies.contact = state.ledger.contact + now.half.contact;
   energies.contact_damping = state.ledger.contact_damping + now.half.contact_damping;

@@ -13,12 +13,13 @@ namespace {
 constexpr double kLookEvery = 0.04;
 
 /// Share of an element's volume whose fibres have flowed.
-double flowed_fraction(const Scene& scene, const State& state, const ElementPlace& place) {
+template <class T>
+double flowed_fraction(const Scene& scene, const FibreMemory<T>& fibres, const ElementPlace& place) {
   const SectionRule& rule = scene.section;
   double fraction = 0.0;
   for (std::size_t fibre = 0; fibre < rule.fibre_count(); ++fibre) {
-    const bool flowed = state.flowed.empty() ? state.plastic_strain[place.index(rule.fibre_count(), fibre)] > 0.0
-                                             : (state.flowed[place.element] >> fibre & 1U) != 0;
+    const bool flowed = fibres.flowed.empty() ? fibres.plastic_strain[place.index(rule.fibre_count(), fibre)] > T(0.0)
+                                              : (fibres.flowed[place.element] >> fibre & 1U) != 0;
     if (flowed) {
       fraction += rule.along_weight[static_cast<Eigen::Index>(fibre / rule.depth_count())] *
                   rule.depth_weight[static_cast<Eigen::Index>(fibre % rule.depth_count())];
@@ -103,7 +104,9 @@ FieldFrame make_frame(const Scene& scene, const State& state, int index) {
   }
   frame.plastic_fraction.reserve(scene.element_count());
   visit_elements(scene, [&](const ElementPlace& place, int) {
-    frame.plastic_fraction.push_back(static_cast<float>(flowed_fraction(scene, state, place)));
+    frame.plastic_fraction.push_back(static_cast<float>(scene.single_fibres
+                                                            ? flowed_fraction(scene, state.single_fibres, place)
+                                                            : flowed_fraction(scene, state.fibres, place)));
   });
   return frame;
 }

@@ -121,6 +121,8 @@ void set_material_and_mesh(const SceneSpec& spec, Scene& scene) {
   scene.section = make_section_rule(spec.section);
   divide_walls(lay_out(spec, scene), scene);
   scene.constant_area = spec.section.area_rule == SectionSpec::AreaRule::constant_area;
+  scene.single_fibres = spec.numerics.fibre_precision == NumericsSpec::FibrePrecision::single_precision &&
+                        scene.fibre_count() <= kMostSingleFibres;
 }
 
 /// Whether any problem keeps the mesh from being built.

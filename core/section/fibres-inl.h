@@ -20,10 +20,11 @@ template <class D>
 struct LaneMaterial {
   hn::Vec<D> modulus;
   hn::Vec<D> yield_stress;
-  hn::Vec<D> inverse;    ///< 1 / (E + H)
-  hn::Vec<D> isotropic;  ///< beta H
-  hn::Vec<D> kinematic;  ///< (1 - beta) H
-  hn::Vec<D> hardening;  ///< H
+  hn::Vec<D> inverse;              ///< 1 / (E + H)
+  hn::Vec<D> isotropic;            ///< beta H
+  hn::Vec<D> kinematic;            ///< (1 - beta) H
+  hn::Vec<D> hardening;            ///< H
+  hn::Vec<D> bending_flexibility;  ///< 12 / E: h times the curvature that a moment over b h^2 causes
 };
 
 template <class D>
@@ -33,58 +34,87 @@ struct LaneSectionSums {
   hn::Vec<D> plastic_work;
 };
 
-/// Keeps the step of an element's fibres, stress and plastic increment, to be committed later or not at all.
-template <class D>
-struct KeptStep {
-  hn::Vec<D>* HWY_RESTRICT stress;
-  hn::Vec<D>* HWY_RESTRICT plastic_increment;
-
-  HWY_INLINE void put(std::size_t fibre, hn::Vec<D> new_stress, hn::Vec<D> increment) {
-    stress[fibre] = new_stress;
-    plastic_increment[fibre] = increment;
-  }
-};
-
-/// Makes the fibres remember a step at once (Eq. 39); see commit_fibres.
+/// Makes an element's fibres remember a step (Eq. 39): what they remembered is read from `before` and written to `after`,
+/// which may be the same.
 template <bool kHardening, class D>
-class CommittedStep {
+class FibreWriter {
  public:
-  HWY_INLINE CommittedStep(const LaneMaterial<D>& material, const Fibres& fibres)
-      : material_(material), fibres_(fibres) {}
+  HWY_INLINE FibreWriter(const LaneMaterial<D>& material, const Fibres<hn::TFromD<D>>& before,
+                         const Fibres<hn::TFromD<D>>& after)
+      : material_(material), before_(before), after_(after) {}
 
   HWY_INLINE void put(std::size_t fibre, hn::Vec<D> stress, hn::Vec<D> increment) {
-    const std::size_t place = fibre * fibres_.stride;
-    hn::StoreU(stress, d_, fibres_.stress + place);
+    const std::size_t from = fibre * before_.stride;
+    const std::size_t to = fibre * after_.stride;
+    hn::StoreU(stress, d_, after_.stress + to);
     if constexpr (kHardening) {
-      double* strain = fibres_.plastic_strain + place;
-      double* back = fibres_.back_stress + place;
-      hn::StoreU(hn::Add(hn::LoadU(d_, strain), hn::Abs(increment)), d_, strain);
-      hn::StoreU(hn::MulAdd(material_.kinematic, increment, hn::LoadU(d_, back)), d_, back);
+      const auto strain = hn::LoadU(d_, before_.plastic_strain + from);
+      const auto back = hn::LoadU(d_, before_.back_stress + from);
+      hn::StoreU(hn::Add(strain, hn::Abs(increment)), d_, after_.plastic_strain + to);
+      hn::StoreU(hn::MulAdd(material_.kinematic, increment, back), d_, after_.back_stress + to);
     } else {
       const auto flows = hn::RebindMask(bits_, hn::Ne(increment, hn::Zero(d_)));
-      flowed_ = hn::Or(flowed_, hn::IfThenElseZero(flows, hn::Set(bits_, std::uint64_t{1} << fibre)));
+      flowed_ = hn::Or(flowed_, hn::IfThenElseZero(flows, hn::Set(bits_, Bits{1} << fibre)));
     }
   }
 
   HWY_INLINE void finish() {
     if constexpr (!kHardening) {
-      hn::StoreU(hn::Or(flowed_, hn::LoadU(bits_, fibres_.flowed)), bits_, fibres_.flowed);
+      hn::StoreU(hn::Or(flowed_, hn::LoadU(bits_, before_.flowed)), bits_, after_.flowed);
     }
   }
 
  private:
+  using Bits = typename FibreMemory<hn::TFromD<D>>::Bits;
+
   static constexpr D d_{};
   static constexpr hn::RebindToUnsigned<D> bits_{};
   const LaneMaterial<D>& material_;
-  const Fibres& fibres_;
+  const Fibres<hn::TFromD<D>>& before_;
+  const Fibres<hn::TFromD<D>>& after_;
   hn::Vec<hn::RebindToUnsigned<D>> flowed_ = hn::Zero(bits_);
 };
 
-/// Radial return of the fibres of one section (Eq. 33-39); see return_section. `next` is a KeptStep or a CommittedStep.
-template <int kDepthPoints, bool kHardening, class D, class Step>
-HWY_INLINE LaneSectionSums<D> return_section(D d, const LaneMaterial<D>& material, const double* HWY_RESTRICT offset,
-                                             const double* HWY_RESTRICT weight, hn::Vec<D> membrane, hn::Vec<D> bending,
-                                             const Fibres& fibres, std::size_t first, Step& next) {
+/// A copy of what the lanes' fibres remember, from which a step can be taken more than once.
+template <int kFibres, bool kHardening, class D>
+class FibreCopy {
+ public:
+  HWY_INLINE explicit FibreCopy(const Fibres<hn::TFromD<D>>& fibres) {
+    for (int i = 0; i < kFibres; ++i) {
+      const std::size_t from = static_cast<std::size_t>(i) * fibres.stride;
+      hn::Store(hn::LoadU(d_, fibres.stress + from), d_, stress_ + i * kLanes);
+      if constexpr (kHardening) {
+        hn::Store(hn::LoadU(d_, fibres.back_stress + from), d_, back_stress_ + i * kLanes);
+        hn::Store(hn::LoadU(d_, fibres.plastic_strain + from), d_, plastic_strain_ + i * kLanes);
+      }
+    }
+    if constexpr (!kHardening) {
+      hn::Store(hn::LoadU(bits_, fibres.flowed), bits_, flowed_);
+    }
+  }
+
+  HWY_INLINE Fibres<hn::TFromD<D>> fibres() { return {stress_, back_stress_, plastic_strain_, flowed_, kLanes}; }
+
+ private:
+  using T = hn::TFromD<D>;
+
+  static constexpr D d_{};
+  static constexpr hn::RebindToUnsigned<D> bits_{};
+  static constexpr std::size_t kLanes = hn::MaxLanes(D());
+  static constexpr std::size_t kHardeningFibres = kHardening ? kFibres : 1;
+  alignas(64) T stress_[kFibres * kLanes];
+  alignas(64) T back_stress_[kHardeningFibres * kLanes];
+  alignas(64) T plastic_strain_[kHardeningFibres * kLanes];
+  alignas(64) typename FibreMemory<T>::Bits flowed_[kLanes];
+};
+
+/// Radial return of the fibres of one section (Eq. 33-39); see return_section.
+template <int kDepthPoints, bool kHardening, class D>
+HWY_INLINE LaneSectionSums<D> return_section(D d, const LaneMaterial<D>& material,
+                                             const hn::TFromD<D>* HWY_RESTRICT offset,
+                                             const hn::TFromD<D>* HWY_RESTRICT weight, hn::Vec<D> membrane,
+                                             hn::Vec<D> bending, const Fibres<hn::TFromD<D>>& fibres, std::size_t first,
+                                             FibreWriter<kHardening, D>& next) {
   const auto stretched = hn::Mul(material.modulus, membrane);
   const auto bent = hn::Mul(material.modulus, bending);
   LaneSectionSums<D> sums = {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
@@ -116,17 +146,6 @@ HWY_INLINE LaneSectionSums<D> return_section(D d, const LaneMaterial<D>& materia
     sums.plastic_work = hn::Mul(material.inverse, sums.plastic_work);
   }
   return sums;
-}
-
-/// Makes the fibres remember a kept step.
-template <bool kHardening, class D>
-HWY_INLINE void commit_fibres(const LaneMaterial<D>& material, int count, const KeptStep<D>& kept,
-                              const Fibres& fibres) {
-  CommittedStep<kHardening, D> step(material, fibres);
-  for (int i = 0; i < count; ++i) {
-    step.put(static_cast<std::size_t>(i), kept.stress[i], kept.plastic_increment[i]);
-  }
-  step.finish();
 }
 
 }  // namespace cellcrush::HWY_NAMESPACE

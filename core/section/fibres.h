@@ -4,17 +4,19 @@
 #include <cstdint>
 
 #include "cellcrush/scene.h"
+#include "cellcrush/state.h"
 
 namespace cellcrush {
 
 /// What the fibres of an element remember, in the state's arrays, every `stride`-th value of them. MPa; plastic_strain is the
 /// accumulated (effective) one. Without hardening there is neither back stress nor plastic strain, but a bit for each fibre
-/// that has flowed.
+/// that has flowed. T: double or float.
+template <class T>
 struct Fibres {
-  double* __restrict stress;
-  double* __restrict back_stress;
-  double* __restrict plastic_strain;
-  std::uint64_t* __restrict flowed;
+  T* __restrict stress;
+  T* __restrict back_stress;
+  T* __restrict plastic_strain;
+  typename FibreMemory<T>::Bits* __restrict flowed;
   std::size_t stride = 1;
 };
 
@@ -41,10 +43,10 @@ struct SectionSums {
 /// side stretches. Without kHardening neither back stress nor plastic strain is looked at.
 /// Deviation from the paper: the yield test and the plastic increment take the absolute value of the reduced stress
 /// (Eq. 35-38 leave it out, which would let a compressed fibre never yield). Written without a branch: what of the reduced
-/// stress lies beyond the yield surface is what clamping takes off.
-template <int kDepthPoints, bool kHardening>
+/// stress lies beyond the yield surface is what clamping takes off. Computed in double precision, whatever is remembered.
+template <int kDepthPoints, bool kHardening, class T>
 SectionSums return_section(const Material& material, const SectionRule& rule, double membrane, double bending,
-                           Fibres fibres, std::size_t first, FibreStep next) {
+                           const Fibres<T>& fibres, std::size_t first, FibreStep next) {
   const double modulus = material.youngs_modulus;
   const double inverse = 1.0 / (modulus + material.hardening_modulus);
   const double isotropic = material.isotropic_fraction * material.hardening_modulus;
@@ -72,17 +74,18 @@ SectionSums return_section(const Material& material, const SectionRule& rule, do
 }
 
 /// Makes the fibres remember a step (Eq. 39).
-template <bool kHardening>
-void commit_fibres(const Material& material, std::size_t count, FibreStep step, Fibres fibres) {
+template <bool kHardening, class T>
+void commit_fibres(const Material& material, std::size_t count, FibreStep step, const Fibres<T>& fibres) {
+  using Bits = typename FibreMemory<T>::Bits;
   const double kinematic = (1.0 - material.isotropic_fraction) * material.hardening_modulus;
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t place = i * fibres.stride;
-    fibres.stress[place] = step.stress[i];
+    fibres.stress[place] = static_cast<T>(step.stress[i]);
     if constexpr (kHardening) {
-      fibres.plastic_strain[place] += std::abs(step.plastic_increment[i]);
-      fibres.back_stress[place] += kinematic * step.plastic_increment[i];
+      fibres.plastic_strain[place] += static_cast<T>(std::abs(step.plastic_increment[i]));
+      fibres.back_stress[place] += static_cast<T>(kinematic * step.plastic_increment[i]);
     } else {
-      *fibres.flowed |= static_cast<std::uint64_t>(step.plastic_increment[i] != 0.0) << i;
+      *fibres.flowed |= static_cast<Bits>(step.plastic_increment[i] != 0.0) << i;
     }
   }
 }

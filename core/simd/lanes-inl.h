@@ -47,6 +47,27 @@ HWY_INLINE void store_points(D d, const Points<D>& points, Vector2* to) {
   }
 }
 
+/// Consecutive numbers of an array, in the lanes' precision.
+template <class D>
+HWY_INLINE hn::Vec<D> load_as(D d, const double* values) {
+  return hn::LoadU(d, values);
+}
+template <class D>
+HWY_INLINE hn::Vec<D> load_as(D d, const float* values) {
+  return hn::PromoteTo(d, hn::LoadU(hn::Rebind<float, D>(), values));
+}
+
+/// Stores numbers in the array's precision.
+template <class D>
+HWY_INLINE void store_as(D d, hn::Vec<D> values, double* to) {
+  hn::StoreU(values, d, to);
+}
+template <class D>
+HWY_INLINE void store_as(D, hn::Vec<D> values, float* to) {
+  const hn::Rebind<float, D> narrow;
+  hn::StoreU(hn::DemoteTo(narrow, values), narrow, to);
+}
+
 /// Indices for gathering doubles, from ints.
 template <class D>
 HWY_INLINE hn::Vec<hn::RebindToSigned<D>> load_indices(D, const int* indices) {

@@ -69,9 +69,31 @@ NextVelocity next_velocity(const Scene& scene, const State& state, std::size_t p
   return next;
 }
 
+namespace {
+
+/// Fibres without stress that have never flowed.
+template <class T>
+void place_fibres(const Scene& scene, FibreMemory<T>& fibres) {
+  const std::size_t elements = scene.element_count();
+  fibres.stress.assign(elements * scene.fibre_count(), T(0.0));
+  if (scene.has_hardening()) {
+    fibres.back_stress.assign(elements * scene.fibre_count(), T(0.0));
+    fibres.plastic_strain.assign(elements * scene.fibre_count(), T(0.0));
+  } else {
+    fibres.flowed.assign(elements, 0);
+  }
+  if (scene.section.force_based) {
+    fibres.section_unbalance.assign(elements * scene.section.section_count(), T(0.0));
+    fibres.section_flexibility.assign(elements * scene.section.section_count(), T(1.0));
+    fibres.start_moment.assign(elements, T(0.0));
+    fibres.end_moment.assign(elements, T(0.0));
+  }
+}
+
+}  // namespace
+
 State place_particles(const Scene& scene) {
   const std::size_t n = scene.particle_count();
-  const std::size_t e = scene.element_count();
   State state;
   state.position = scene.position;
   state.velocity = scene.initial_velocity.empty() ? std::vector<Vector2>(n, Vector2::Zero()) : scene.initial_velocity;
@@ -83,19 +105,7 @@ State place_particles(const Scene& scene) {
     state.inverse_length.push_back(1.0 / span.norm());
     state.axis.push_back(span / state.length.back());
   }
-  state.stress.assign(e * scene.fibre_count(), 0.0);
-  if (scene.has_hardening()) {
-    state.back_stress.assign(e * scene.fibre_count(), 0.0);
-    state.plastic_strain.assign(e * scene.fibre_count(), 0.0);
-  } else {
-    state.flowed.assign(e, 0);
-  }
-  if (scene.section.force_based) {
-    state.section_unbalance.assign(e * scene.section.section_count(), 0.0);
-    state.section_tangent.assign(e * scene.section.section_count(), 1.0);
-    state.start_moment.assign(e, 0.0);
-    state.end_moment.assign(e, 0.0);
-  }
+  scene.single_fibres ? place_fibres(scene, state.single_fibres) : place_fibres(scene, state.fibres);
   state.wall_force.assign(2 * scene.walls.start.size(), Vector2::Zero());
   state.wall_moment.assign(2 * scene.walls.start.size(), 0.0);
   state.internal_force.assign(n, Vector2::Zero());

@@ -107,6 +107,10 @@ void read_numerics(const v1::Numerics& in, NumericsSpec& out, Problems& problems
                {v1::Numerics::STANDARD, Fidelity::standard},
                {v1::Numerics::REFERENCE, Fidelity::reference}},
               "numerics.fidelity", "DRAFT, STANDARD or REFERENCE", out.fidelity, problems);
+  read_choice(in.fibre_precision(),
+              {{v1::Numerics::SINGLE, NumericsSpec::FibrePrecision::single_precision},
+               {v1::Numerics::DOUBLE, NumericsSpec::FibrePrecision::double_precision}},
+              "numerics.fibre_precision", "SINGLE or DOUBLE", out.fibre_precision, problems);
   if (in.has_time_step_s()) out.time_step_s = in.time_step_s();
   if (in.has_mass_scaling()) out.mass_scaling = in.mass_scaling();
   if (in.has_rotary_scaling()) out.rotary_scaling = in.rotary_scaling();

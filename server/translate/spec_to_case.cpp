@@ -144,6 +144,8 @@ void write_numerics(const NumericsSpec& in, v1::Numerics& out) {
   out.set_mass_damping_per_s(in.mass_damping_per_s);
   out.set_mass_scaling(in.mass_scaling);
   out.set_rotary_scaling(in.rotary_scaling);
+  out.set_fibre_precision(in.fibre_precision == NumericsSpec::FibrePrecision::single_precision ? v1::Numerics::SINGLE
+                                                                                               : v1::Numerics::DOUBLE);
   switch (in.fidelity) {
     case NumericsSpec::Fidelity::unspecified: break;
     case NumericsSpec::Fidelity::draft: out.set_fidelity(v1::Numerics::DRAFT); break;

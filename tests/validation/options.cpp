@@ -94,6 +94,12 @@ const std::vector<Option>& all_options() {
        [](Options& o, const std::string& v) { o.spec.numerics.mass_scaling = number_of("mass_scaling", v); }},
       {"rotary_scaling", "fictitious rotary inertias",
        [](Options& o, const std::string& v) { o.spec.numerics.rotary_scaling = number_of("rotary_scaling", v); }},
+      {"fibre_precision", "single or double",
+       [](Options& o, const std::string& v) {
+         using Precision = NumericsSpec::FibrePrecision;
+         o.spec.numerics.fibre_precision = choice<Precision>(
+             "fibre_precision", v, {{"single", Precision::single_precision}, {"double", Precision::double_precision}});
+       }},
       {"contact_stiffness", "k in m_min / dt_crit^2",
        [](Options& o, const std::string& v) { o.spec.contact.stiffness_factor = number_of("contact_stiffness", v); }},
       {"contact_damping", "share of critical damping",

@@ -42,8 +42,11 @@ struct Element {
   int material = 0;        ///< into Scene::materials
 };
 
+/// Most fibres of an element that are kept in single precision: there is a bit for each in 32.
+inline constexpr std::size_t kMostSingleFibres = 32;
+
 /// Most walls that lie side by side in a block.
-inline constexpr int kMostWallsInBlock = 8;
+inline constexpr int kMostWallsInBlock = 16;
 
 /// Walls of equally many elements, side by side: element j of the block's wall w is first_element + j * walls + w, the
 /// particle behind it inside the wall first_inner + j * walls + w. What elements remember lies in the same order, so that a
@@ -179,6 +182,7 @@ struct Scene {
   double depth = 0.0;               ///< b, mm
   std::vector<Material> materials;  ///< at least one
   SectionRule section;
+  bool single_fibres = false;  ///< fibres are kept, and returned by vectors, in single precision
   bool constant_area = false;  ///< walls that change their length keep their area (the paper) instead of their volume
   ContactLaw contact;
   LimitedReaches limited_reaches;  ///< empty without contact

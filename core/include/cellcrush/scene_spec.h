@@ -158,7 +158,7 @@ struct ContactSpec {
   };
   double friction = 0.0;
   double stiffness_factor = 0.12;  ///< k = stiffness_factor m_min / dt_crit^2
-  double damping_ratio = 0.2;     ///< share of critical damping
+  double damping_ratio = 0.2;      ///< share of critical damping
   Search search = Search::faces;
 };
 
@@ -181,6 +181,9 @@ struct NumericsSpec {
   /// the second as well.
   double mass_scaling = 1.0;
   double rotary_scaling = 1.0;
+  /// Of the fibres' stresses; motion, forces and works are in double precision either way. See kMostSingleFibres.
+  enum class FibrePrecision { double_precision, single_precision };
+  FibrePrecision fibre_precision = FibrePrecision::single_precision;
   enum class Fidelity { unspecified, draft, standard, reference };
   Fidelity fidelity = Fidelity::unspecified;
   int threads = 1;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 #include "cellcrush/lane_vector.h"
@@ -15,6 +16,24 @@ struct ContactMemory {
   int side = 0;           ///< +1 left, -1 right of the segment: where the ball is, or came from
   int pushed = 0;         ///< the side from which it pushed on the ball with friction in the newest step; 0: it did not
   double friction = 0.0;  ///< N, on the ball, along the segment, round its ends with it; kept while it pushes
+};
+
+/// What the fibres and the sections of elements remember, in numbers of type T. E elements of F fibres and P sections; the
+/// order is that of beam/element_place.h. MPa.
+template <class T>
+struct FibreMemory {
+  using Bits = std::conditional_t<sizeof(T) == sizeof(std::uint64_t), std::uint64_t, std::uint32_t>;
+
+  LaneVector<T> stress;          ///< E x F
+  LaneVector<T> back_stress;     ///< E x F, middle of the yield surface; empty without hardening
+  LaneVector<T> plastic_strain;  ///< E x F, accumulated (effective); empty without hardening
+  LaneVector<Bits> flowed;       ///< E, bit f: fibre f has flowed; empty with hardening
+
+  // Of a force-based rule (beam/section_curvatures.h), else empty.
+  LaneVector<T> section_unbalance;    ///< E x P
+  LaneVector<T> section_flexibility;  ///< E x P, 1
+  LaneVector<T> start_moment;         ///< E, on the start node, over b h^2
+  LaneVector<T> end_moment;           ///< E, on the end node, over b h^2
 };
 
 /// Where the candidates of a face stand: `count` of them from `first` on, then empty places up to `room`.
@@ -59,21 +78,15 @@ struct State {
   double support_impulse = 0.0;   ///< N s, of the support plate on the lattice
 
   // Written by evaluate_internal_forces.
-  LaneVector<Vector2> axis;              ///< E, unit vector from start to end
-  LaneVector<double> length;             ///< E
-  LaneVector<double> inverse_length;     ///< E, 1/mm
-  LaneVector<double> stress;             ///< E x F, of the fibres, MPa; the order is that of beam/element_place.h
-  LaneVector<double> back_stress;        ///< E x F, middle of the yield surface, MPa; empty without hardening
-  LaneVector<double> plastic_strain;     ///< E x F, accumulated (effective); empty without hardening
-  LaneVector<std::uint64_t> flowed;      ///< E, bit f: fibre f has flowed; empty with hardening
-  LaneVector<double> section_unbalance;  ///< E x P of a force-based rule (beam/section_curvatures.h), else empty; MPa
-  LaneVector<double> section_tangent;    ///< the same, 1
-  LaneVector<double> start_moment;       ///< E of a force-based rule, else empty: on the start node, N mm
-  LaneVector<double> end_moment;         ///< the same, on the end node
-  LaneVector<Vector2> wall_force;        ///< 2 W, of walls on joints: of a block's walls at their starts, then ends; N
-  LaneVector<double> wall_moment;        ///< 2 W, N mm
-  std::vector<Vector2> internal_force;   ///< N, of all elements on the particle
-  std::vector<double> internal_moment;   ///< N, N mm
+  LaneVector<Vector2> axis;             ///< E, unit vector from start to end
+  LaneVector<double> length;            ///< E
+  LaneVector<double> inverse_length;    ///< E, 1/mm
+  FibreMemory<double> fibres;           ///< empty where they are in single precision
+  FibreMemory<float> single_fibres;     ///< empty where they are in double precision
+  LaneVector<Vector2> wall_force;       ///< 2 W, of walls on joints: of a block's walls at their starts, then ends; N
+  LaneVector<double> wall_moment;       ///< 2 W, N mm
+  std::vector<Vector2> internal_force;  ///< N, of all elements on the particle
+  std::vector<double> internal_moment;  ///< N, N mm
 
   // Written by evaluate_loads; empty when the scene has no loads.
   std::vector<Vector2> load_force;  ///< N
@@ -120,6 +133,18 @@ struct State {
   Ledger ledger;
 };
 
+template <class M, class Visitor>
+void visit_fibre_fields(M& memory, Visitor&& visitor) {
+  visitor("stress", memory.stress);
+  visitor("back_stress", memory.back_stress);
+  visitor("plastic_strain", memory.plastic_strain);
+  visitor("flowed", memory.flowed);
+  visitor("section_unbalance", memory.section_unbalance);
+  visitor("section_flexibility", memory.section_flexibility);
+  visitor("start_moment", memory.start_moment);
+  visitor("end_moment", memory.end_moment);
+}
+
 /// Calls visitor(name, field) for every field of the state, in a fixed order. Fields are arithmetic or vectors of trivially
 /// copyable things.
 template <class S, class Visitor>
@@ -136,14 +161,8 @@ void visit_fields(S& state, Visitor&& visitor) {
   visitor("axis", state.axis);
   visitor("length", state.length);
   visitor("inverse_length", state.inverse_length);
-  visitor("stress", state.stress);
-  visitor("back_stress", state.back_stress);
-  visitor("plastic_strain", state.plastic_strain);
-  visitor("flowed", state.flowed);
-  visitor("section_unbalance", state.section_unbalance);
-  visitor("section_tangent", state.section_tangent);
-  visitor("start_moment", state.start_moment);
-  visitor("end_moment", state.end_moment);
+  visit_fibre_fields(state.fibres, visitor);
+  visit_fibre_fields(state.single_fibres, visitor);
   visitor("wall_force", state.wall_force);
   visitor("wall_moment", state.wall_moment);
   visitor("internal_force", state.internal_force);

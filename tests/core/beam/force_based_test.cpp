@@ -22,7 +22,7 @@ class Element {
         back_stress_(rule_.fibre_count()),
         plastic_strain_(rule_.fibre_count()),
         unbalance_(rule_.section_count()),
-        tangent_(rule_.section_count(), 1.0) {}
+        flexibility_(rule_.section_count(), 1.0) {}
 
   /// Turns the ends by increments in rad; the moments are those after it, over the full plastic moment.
   void turn(double start, double end) {
@@ -30,10 +30,10 @@ class Element {
     const double area = kThickness;
     const BeamSection section = {kThickness, area, area * kLength, 1.0};
     const ElementForces before = forces_;
-    forces_ = evaluate_element<0, true>(deformation, kLength, material_, section, rule_,
-                                        {stress_.data(), back_stress_.data(), plastic_strain_.data(), nullptr},
-                                        {unbalance_.data(), tangent_.data()}, before.moment_on_start,
-                                        before.moment_on_end, plastic_work_);
+    const Fibres<double> fibres = {stress_.data(), back_stress_.data(), plastic_strain_.data(), nullptr};
+    const SectionMemory<double> sections = {unbalance_.data(), flexibility_.data()};
+    forces_ = evaluate_element<0, true>(deformation, kLength, material_, section, rule_, fibres, sections, moments_,
+                                        plastic_work_);
     work_ += 0.5 * (before.moment_on_start + forces_.moment_on_start) * start +
              0.5 * (before.moment_on_end + forces_.moment_on_end) * end;
   }
@@ -60,7 +60,8 @@ class Element {
   std::vector<double> back_stress_;
   std::vector<double> plastic_strain_;
   std::vector<double> unbalance_;
-  std::vector<double> tangent_;
+  std::vector<double> flexibility_;
+  EndMoments moments_;
   ElementForces forces_;
   double plastic_work_ = 0.0;
   double work_ = 0.0;

@@ -37,7 +37,7 @@ class Section {
 
  private:
   SectionSums integrate(double membrane, double bending) {
-    const Fibres fibres = {stress_.data(), back_stress_.data(), plastic_strain_.data(), nullptr};
+    const Fibres<double> fibres = {stress_.data(), back_stress_.data(), plastic_strain_.data(), nullptr};
     std::vector<double> stress(stress_.size());
     std::vector<double> plastic_increment(stress_.size());
     const FibreStep next = {stress.data(), plastic_increment.data()};
