@@ -92,8 +92,8 @@ void evaluate_walls(const Scene& scene, State& state, FibreMemory<T>& memory) {
 }
 
 /// Sums the walls' forces on the joints, in a fixed order, so that the sums have the same bits whoever computes them.
-void sum_joint_forces(const Scene& scene, State& state) {
-  for (int joint = 0; joint < scene.joint_count; ++joint) {
+void sum_joint_forces(const Scene& scene, State& state, std::size_t first, std::size_t end) {
+  for (std::size_t joint = first; joint < end; ++joint) {
     Vector2 force = Vector2::Zero();
     double moment = 0.0;
     for (int k = scene.wall_end_offset[joint]; k < scene.wall_end_offset[joint + 1]; ++k) {
@@ -107,12 +107,13 @@ void sum_joint_forces(const Scene& scene, State& state) {
 
 }  // namespace
 
-void evaluate_internal_forces(const Scene& scene, State& state) {
-  if (!use_wide_kernels() || !evaluate_walls_wide(scene, state)) {
+void evaluate_internal_forces(const Scene& scene, State& state, Workers& workers) {
+  if (!use_wide_kernels() || !evaluate_walls_wide(scene, state, workers)) {
     scene.single_fibres ? evaluate_walls(scene, state, state.single_fibres)
                         : evaluate_walls(scene, state, state.fibres);
   }
-  sum_joint_forces(scene, state);
+  workers.share(static_cast<std::size_t>(scene.joint_count),
+                [&](std::size_t first, std::size_t end) { sum_joint_forces(scene, state, first, end); });
 }
 
 }  // namespace cellcrush

@@ -1,6 +1,7 @@
 #include "beam/wide_walls.h"
 
 #include <span>
+#include <vector>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "beam/wide_walls.cpp"
@@ -14,83 +15,83 @@ namespace cellcrush::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Elements of a chunk: few enough that what passes between its loops stays in the nearest cache.
-constexpr int kElementsPerChunk = 128;
-
-/// Blocks from `first` on that make a chunk: all full or none.
-std::span<const WallBlock> chunk_from(std::span<const WallBlock> blocks) {
-  const bool is_full = blocks.front().walls == kMostWallsInBlock;
-  std::size_t count = 0;
-  for (int elements = 0; count < blocks.size() && (blocks[count].walls == kMostWallsInBlock) == is_full; ++count) {
-    elements += blocks[count].walls * blocks[count].elements;
-    if (count > 0 && elements > kElementsPerChunk) {
-      break;
-    }
-  }
-  return blocks.first(count);
-}
-
 std::size_t element_count(std::span<const WallBlock> chunk) {
   return chunk.back().first_element + chunk.back().walls * chunk.back().elements - chunk.front().first_element;
 }
 
-/// Full blocks go through the target's vectors, others wall by wall.
+/// Plastic work of a chunk's step. Full blocks go through the target's vectors, others wall by wall.
 template <int kSections, int kDepthPoints, bool kForceBased, bool kHardening, class T>
-void evaluate_blocks(const Scene& scene, State& state, FibreMemory<T>& memory) {
+double advance_chunk(const Scene& scene, State& state, FibreMemory<T>& memory,
+                     const RuleFactors<kSections, kDepthPoints, T>& rule, std::span<const WallBlock> chunk) {
   using Wide = hn::CappedTag<double, kMostWallsInBlock>;
   using WideFibres = hn::CappedTag<T, kMostWallsInBlock>;
   using One = hn::CappedTag<double, 1>;
   using OneFibre = hn::CappedTag<T, 1>;
   const double step = state.step == 0 ? 0.0 : scene.schedule.time_step;
-  const RuleFactors<kSections, kDepthPoints, T> rule(scene.section);
+  ChunkValues<T> values(element_count(chunk));
   double plastic_work[kMostWallsInBlock] = {};
-  for (std::span<const WallBlock> left = scene.walls.blocks; !left.empty();) {
-    const std::span<const WallBlock> chunk = chunk_from(left);
-    ChunkValues<T> values(element_count(chunk));
-    if (chunk.front().walls == kMostWallsInBlock) {
-      WallChunk<kSections, kDepthPoints, kForceBased, kHardening, Wide, WideFibres>(scene, state, memory, step, rule,
-                                                                                    chunk, values)
-          .advance(plastic_work);
-    } else {
-      WallChunk<kSections, kDepthPoints, kForceBased, kHardening, One, OneFibre>(scene, state, memory, step, rule,
-                                                                                 chunk, values)
-          .advance(plastic_work);
-    }
-    left = left.subspan(chunk.size());
+  if (chunk.front().walls == kMostWallsInBlock) {
+    WallChunk<kSections, kDepthPoints, kForceBased, kHardening, Wide, WideFibres>(scene, state, memory, step, rule,
+                                                                                  chunk, values)
+        .advance(plastic_work);
+  } else {
+    WallChunk<kSections, kDepthPoints, kForceBased, kHardening, One, OneFibre>(scene, state, memory, step, rule, chunk,
+                                                                               values)
+        .advance(plastic_work);
   }
+  double sum = 0.0;
+  for (const double work : plastic_work) {
+    sum += work;
+  }
+  return sum;
+}
+
+/// Every chunk's work is a number of its own, so that the sum does not depend on who computes them.
+template <int kSections, int kDepthPoints, bool kForceBased, bool kHardening, class T>
+void evaluate_blocks(const Scene& scene, State& state, FibreMemory<T>& memory, Workers& workers) {
+  const RuleFactors<kSections, kDepthPoints, T> rule(scene.section);
+  const std::span<const WallBlock> blocks = scene.walls.blocks;
+  const std::vector<int>& offset = scene.walls.chunk_offset;
+  std::vector<double> plastic_work(offset.size() - 1);
+  workers.share(plastic_work.size(), [&](std::size_t first, std::size_t end) HWY_ATTR {
+    for (std::size_t c = first; c < end; ++c) {
+      plastic_work[c] = advance_chunk<kSections, kDepthPoints, kForceBased, kHardening>(
+          scene, state, memory, rule, blocks.subspan(offset[c], offset[c + 1] - offset[c]));
+    }
+  });
   for (const double work : plastic_work) {
     state.ledger.plastic += work;
   }
 }
 
 template <int kSections, int kDepthPoints, bool kForceBased, class T>
-void evaluate_rule(const Scene& scene, State& state, FibreMemory<T>& memory) {
+void evaluate_rule(const Scene& scene, State& state, FibreMemory<T>& memory, Workers& workers) {
   if (scene.has_hardening()) {
-    evaluate_blocks<kSections, kDepthPoints, kForceBased, true>(scene, state, memory);
+    evaluate_blocks<kSections, kDepthPoints, kForceBased, true>(scene, state, memory, workers);
   } else {
-    evaluate_blocks<kSections, kDepthPoints, kForceBased, false>(scene, state, memory);
+    evaluate_blocks<kSections, kDepthPoints, kForceBased, false>(scene, state, memory, workers);
   }
 }
 
 template <class T>
-bool evaluate_memory(const Scene& scene, State& state, FibreMemory<T>& memory) {
+bool evaluate_memory(const Scene& scene, State& state, FibreMemory<T>& memory, Workers& workers) {
   const SectionRule& rule = scene.section;
   const auto is = [&](bool force_based, std::size_t sections, std::size_t depth) HWY_ATTR {
     return rule.force_based == force_based && rule.section_count() == sections && rule.depth_count() == depth;
   };
   if (is(true, 4, 6)) {
-    evaluate_rule<4, 6, true>(scene, state, memory);
+    evaluate_rule<4, 6, true>(scene, state, memory, workers);
   } else if (is(false, 2, 6)) {
-    evaluate_rule<2, 6, false>(scene, state, memory);
+    evaluate_rule<2, 6, false>(scene, state, memory, workers);
   } else {
     return false;
   }
   return true;
 }
 
-bool evaluate_wide(const Scene& scene, State& state) {
-  return scene.single_fibres ? evaluate_memory(scene, state, state.single_fibres)
-                             : evaluate_memory(scene, state, state.fibres);
+bool evaluate_wide(const Scene& scene, State& state, Workers& workers) {
+  return scene.single_fibres ? evaluate_memory(scene, state, state.single_fibres, workers)
+                             : evaluate_memory(scene, state, state.fibres, workers);
 }
 
 }  // namespace cellcrush::HWY_NAMESPACE
@@ -101,7 +102,9 @@ namespace cellcrush {
 
 HWY_EXPORT(evaluate_wide);
 
-bool evaluate_walls_wide(const Scene& scene, State& state) { return HWY_DYNAMIC_DISPATCH(evaluate_wide)(scene, state); }
+bool evaluate_walls_wide(const Scene& scene, State& state, Workers& workers) {
+  return HWY_DYNAMIC_DISPATCH(evaluate_wide)(scene, state, workers);
+}
 
 }  // namespace cellcrush
 #endif

@@ -31,6 +31,27 @@ void divide_block(const Layout& layout, const WallBlock& block, Scene& scene) {
   }
 }
 
+/// Elements of a chunk: few enough that what passes between the loops over it stays in the nearest cache.
+constexpr int kElementsInChunk = 128;
+
+/// Puts neighbouring blocks that are all full, or all not, into chunks.
+std::vector<int> chunk_offsets(const std::vector<WallBlock>& blocks) {
+  std::vector<int> offsets = {0};
+  int elements = 0;
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    const int more = blocks[i].walls * blocks[i].elements;
+    const bool is_alike =
+        i == 0 || (blocks[i].walls == kMostWallsInBlock) == (blocks[i - 1].walls == kMostWallsInBlock);
+    if (elements > 0 && (elements + more > kElementsInChunk || !is_alike)) {
+      offsets.push_back(static_cast<int>(i));
+      elements = 0;
+    }
+    elements += more;
+  }
+  offsets.push_back(static_cast<int>(blocks.size()));
+  return offsets;
+}
+
 }  // namespace
 
 void divide_walls(const Layout& layout, Scene& scene) {
@@ -43,6 +64,7 @@ void divide_walls(const Layout& layout, Scene& scene) {
     scene.walls.blocks.push_back(block);
     w += static_cast<std::size_t>(block.walls);
   }
+  scene.walls.chunk_offset = chunk_offsets(scene.walls.blocks);
   for (const LayoutWall& wall : layout.walls) {
     const double length = (layout.joints[wall.end] - layout.joints[wall.start]).norm();
     scene.walls.start.push_back(wall.start);

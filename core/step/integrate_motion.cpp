@@ -153,11 +153,11 @@ void move_particles(const Scene& scene, State& state) {
 
 }  // namespace
 
-void integrate_motion(const Scene& scene, State& state) {
+void integrate_motion(const Scene& scene, State& state, Workers& workers) {
   const double step = scene.schedule.time_step;
   const double plate_speed_before = scene.plates.speed_at(state.time - 0.5 * step);
   const double plate_speed_after = scene.plates.speed_at(state.time + 0.5 * step);
-  if (!(use_wide_kernels() && move_particles_wide(scene, state))) {
+  if (!(use_wide_kernels() && move_particles_wide(scene, state, workers))) {
     move_particles(scene, state);
   }
   accumulate_plate_work(state, 0.5 * step * (plate_speed_before + plate_speed_after), state.ledger);

@@ -2,6 +2,7 @@
 
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
+#include "parallel/workers.h"
 
 namespace cellcrush {
 
@@ -23,6 +24,6 @@ void stagger_velocities(const Scene& scene, State& state);
 
 /// Central differences over one step: velocities to half a step on, positions, rotations and the impact plate to the next
 /// time. Books the work of every force over the step in the ledger and the plates' impulses.
-void integrate_motion(const Scene& scene, State& state);
+void integrate_motion(const Scene& scene, State& state, Workers& workers);
 
 }  // namespace cellcrush

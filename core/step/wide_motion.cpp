@@ -1,5 +1,8 @@
 #include "step/wide_motion.h"
 
+#include <algorithm>
+#include <vector>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "step/wide_motion.cpp"
 #include <hwy/foreach_target.h>
@@ -92,35 +95,59 @@ HWY_INLINE void move(D d, const Scene& scene, State& state, const Motion& motion
   hn::StoreU(hn::MulAdd(step, next_spin, hn::LoadU(d, &state.rotation[i])), d, &state.rotation[i]);
 }
 
+/// Works of a chunk's particles.
+struct ChunkWorks {
+  double contact = 0.0;
+  double contact_damping = 0.0;
+  double friction = 0.0;
+  double mass_damping = 0.0;
+};
+
 template <bool kFriction, bool kMassDamping>
-void move_all(const Scene& scene, State& state) {
+ChunkWorks move_chunk(const Scene& scene, State& state, const Motion& motion, std::size_t first, std::size_t end) {
   const hn::CappedTag<double, kSumLanes> wide;
   const hn::CappedTag<double, 1> one;
+  const auto lanes = hn::Lanes(wide);
+  LaneWorks works;
+  std::size_t i = first;
+  for (; i + lanes <= end; i += lanes) {
+    move<kFriction, kMassDamping>(wide, scene, state, motion, i, static_cast<int>(i % kSumLanes), works);
+  }
+  for (; i < end; ++i) {
+    move<kFriction, kMassDamping>(one, scene, state, motion, i, static_cast<int>(i % kSumLanes), works);
+  }
+  return {sum_of(works.contact), sum_of(works.contact_damping), sum_of(works.friction), sum_of(works.mass_damping)};
+}
+
+/// Every chunk's works are numbers of their own, so that the sums do not depend on who computes them.
+template <bool kFriction, bool kMassDamping>
+void move_all(const Scene& scene, State& state, Workers& workers) {
+  constexpr std::size_t kChunk = 512;
   const double step = scene.schedule.time_step;
   const double damping = 0.5 * scene.mass_damping * step;
   const Motion motion = {step, (1.0 - damping) / (1.0 + damping), step / (1.0 + damping), 0.5 * scene.mass_damping};
-  const auto lanes = hn::Lanes(wide);
   const std::size_t count = scene.particle_count();
-  LaneWorks works;
-  std::size_t i = 0;
-  for (; i + lanes <= count; i += lanes) {
-    move<kFriction, kMassDamping>(wide, scene, state, motion, i, static_cast<int>(i % kSumLanes), works);
+  std::vector<ChunkWorks> works((count + kChunk - 1) / kChunk);
+  workers.share(works.size(), [&](std::size_t first, std::size_t end) HWY_ATTR {
+    for (std::size_t c = first; c < end; ++c) {
+      works[c] =
+          move_chunk<kFriction, kMassDamping>(scene, state, motion, c * kChunk, std::min((c + 1) * kChunk, count));
+    }
+  });
+  for (const ChunkWorks& work : works) {
+    state.ledger.contact += work.contact;
+    state.ledger.contact_damping += work.contact_damping;
+    state.ledger.friction += work.friction;
+    state.ledger.mass_damping += work.mass_damping;
   }
-  for (; i < count; ++i) {
-    move<kFriction, kMassDamping>(one, scene, state, motion, i, static_cast<int>(i % kSumLanes), works);
-  }
-  state.ledger.contact += sum_of(works.contact);
-  state.ledger.contact_damping += sum_of(works.contact_damping);
-  state.ledger.friction += sum_of(works.friction);
-  state.ledger.mass_damping += sum_of(works.mass_damping);
 }
 
-void move_wide(const Scene& scene, State& state) {
+void move_wide(const Scene& scene, State& state, Workers& workers) {
   const bool damped = scene.mass_damping > 0.0;
   if (state.friction_force.empty()) {
-    damped ? move_all<false, true>(scene, state) : move_all<false, false>(scene, state);
+    damped ? move_all<false, true>(scene, state, workers) : move_all<false, false>(scene, state, workers);
   } else {
-    damped ? move_all<true, true>(scene, state) : move_all<true, false>(scene, state);
+    damped ? move_all<true, true>(scene, state, workers) : move_all<true, false>(scene, state, workers);
   }
 }
 
@@ -132,11 +159,11 @@ namespace cellcrush {
 
 HWY_EXPORT(move_wide);
 
-bool move_particles_wide(const Scene& scene, State& state) {
+bool move_particles_wide(const Scene& scene, State& state, Workers& workers) {
   if (!scene.supports.empty() || !scene.motions.empty() || scene.is_loaded()) {
     return false;
   }
-  HWY_DYNAMIC_DISPATCH(move_wide)(scene, state);
+  HWY_DYNAMIC_DISPATCH(move_wide)(scene, state, workers);
   return true;
 }
 

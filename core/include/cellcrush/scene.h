@@ -62,9 +62,10 @@ struct WallBlock {
 /// The walls between joints, W of them, block by block. All elements of a wall are alike.
 struct Walls {
   std::vector<WallBlock> blocks;
-  std::vector<int> start;                 ///< W, particle
-  std::vector<int> end;                   ///< W, particle
-  std::vector<double> thickness;          ///< W, mm
+  std::vector<int> chunk_offset;  ///< into blocks: of the first of those that a thread takes at once, and their end
+  std::vector<int> start;         ///< W, particle
+  std::vector<int> end;           ///< W, particle
+  std::vector<double> thickness;  ///< W, mm
   std::vector<double> undeformed_length;  ///< W, of one element, mm
   std::vector<int> material;              ///< W, into Scene::materials
 };

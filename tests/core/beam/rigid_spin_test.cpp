@@ -19,6 +19,7 @@ TEST(RigidSpin, ThousandTurnsLeaveStressAtRoundOff) {
   const auto scene = scenes::build(spec);
   ASSERT_TRUE(scene);
   State state = place_particles(*scene);
+  Workers workers(1);
   constexpr int kStepsPerTurn = 400;
   constexpr int kTurns = 1000;
   const double turn = 2.0 * std::numbers::pi / kStepsPerTurn;
@@ -33,7 +34,7 @@ TEST(RigidSpin, ThousandTurnsLeaveStressAtRoundOff) {
       state.position[i] = centre + Vector2(c * arm.x() - s * arm.y(), s * arm.x() + c * arm.y());
     }
     state.step = step;
-    evaluate_internal_forces(*scene, state);
+    evaluate_internal_forces(*scene, state, workers);
   }
   ASSERT_FALSE(state.fibres.stress.empty());
   double greatest = 0.0;

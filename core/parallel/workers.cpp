@@ -1,0 +1,76 @@
+#include "parallel/workers.h"
+
+#include <hwy/cache_control.h>
+
+namespace cellcrush {
+namespace {
+
+/// Looks at a flag before its thread gives way to others: some ten microseconds, longer than the gaps between a step's loops.
+constexpr int kLooks = 1000;
+
+/// Returns when the condition holds, after at most kLooks looks.
+template <class Condition>
+bool spin_until(const Condition& holds) {
+  for (int look = 0; look < kLooks; ++look) {
+    if (holds()) {
+      return true;
+    }
+    hwy::Pause();
+  }
+  return false;
+}
+
+}  // namespace
+
+Workers::Workers(int count) {
+  for (int part = 1; part < count; ++part) {
+    threads_.emplace_back([this, part] { work(part); });
+  }
+}
+
+Workers::~Workers() {
+  stopped_.store(true);
+  round_.fetch_add(1, std::memory_order_release);
+  round_.notify_all();
+  for (std::thread& thread : threads_) {
+    thread.join();
+  }
+}
+
+void Workers::run(const Job& job) {
+  job_ = job;
+  pending_.store(static_cast<int>(threads_.size()), std::memory_order_relaxed);
+  round_.fetch_add(1, std::memory_order_release);
+  round_.notify_all();
+  do_part(0);
+  const auto all_are_done = [this] { return pending_.load(std::memory_order_acquire) == 0; };
+  while (!spin_until(all_are_done)) {
+    std::this_thread::yield();
+  }
+}
+
+void Workers::do_part(int part) const {
+  const auto parts = static_cast<std::size_t>(count());
+  const auto start_of = [&](std::size_t p) { return job_.items * p / parts; };
+  const std::size_t first = start_of(static_cast<std::size_t>(part));
+  const std::size_t end = start_of(static_cast<std::size_t>(part) + 1);
+  if (first < end) {
+    job_.call(job_.task, first, end);
+  }
+}
+
+void Workers::work(int part) {
+  for (std::uint64_t done = 0;; ++done) {
+    const auto has_job = [&] { return round_.load(std::memory_order_acquire) != done; };
+    if (!spin_until(has_job)) {
+      round_.wait(done, std::memory_order_acquire);
+    }
+    if (stopped_.load()) {
+      return;
+    }
+    do_part(part);
+    pending_.fetch_sub(1, std::memory_order_acq_rel);
+  }
+}
+
+}  // namespace cellcrush

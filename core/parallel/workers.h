@@ -1,0 +1,54 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <thread>
+#include <vector>
+
+namespace cellcrush {
+
+/// Threads that share the loops of a step; the caller is the first of them. A loop's items are dealt out in even, contiguous
+/// parts, one a thread, always to the same threads, so that their caches keep them. What a loop computes must not depend on
+/// the deal: then the bits are the same for any number of threads.
+class Workers {
+ public:
+  /// REQUIRES: count >= 1.
+  explicit Workers(int count);
+  ~Workers();
+  Workers(const Workers&) = delete;
+  Workers& operator=(const Workers&) = delete;
+
+  [[nodiscard]] int count() const { return static_cast<int>(threads_.size()) + 1; }
+
+  /// Calls task(first, end) for the parts of the items 0 ... items - 1 and returns when all are done. The task must not throw.
+  template <class Task>
+  void share(std::size_t items, const Task& task) {
+    if (threads_.empty()) {
+      task(std::size_t{0}, items);
+      return;
+    }
+    run({&task, items, [](const void* shared, std::size_t first, std::size_t end) {
+           (*static_cast<const Task*>(shared))(first, end);
+         }});
+  }
+
+ private:
+  struct Job {
+    const void* task = nullptr;
+    std::size_t items = 0;
+    void (*call)(const void* task, std::size_t first, std::size_t end) = nullptr;
+  };
+
+  void run(const Job& job);
+  void do_part(int part) const;
+  void work(int part);
+
+  Job job_;
+  alignas(64) std::atomic<std::uint64_t> round_{0};  // of the newest job
+  alignas(64) std::atomic<int> pending_{0};          // threads that are not done with it
+  std::atomic<bool> stopped_{false};
+  std::vector<std::thread> threads_;
+};
+
+}  // namespace cellcrush

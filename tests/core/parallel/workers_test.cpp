@@ -1,0 +1,82 @@
+#include "parallel/workers.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <numeric>
+#include <thread>
+#include <vector>
+
+namespace cellcrush {
+namespace {
+
+TEST(Workers, DealOutEveryItemOnceInContiguousParts) {
+  for (const int count : {1, 2, 3, 7}) {
+    Workers workers(count);
+    EXPECT_EQ(workers.count(), count);
+    for (const std::size_t items : {0u, 1u, 2u, 5u, 1000u}) {
+      std::vector<int> visits(items, 0);
+      workers.share(items, [&](std::size_t first, std::size_t end) {
+        for (std::size_t i = first; i < end; ++i) {
+          ++visits[i];
+        }
+      });
+      EXPECT_EQ(visits, std::vector<int>(items, 1)) << count << " threads, " << items << " items";
+    }
+  }
+}
+
+TEST(Workers, GiveTheSameItemsToTheSameThread) {
+  Workers workers(3);
+  std::vector<std::thread::id> before(9);
+  for (int round = 0; round < 100; ++round) {
+    std::vector<std::thread::id> now(9);
+    workers.share(now.size(), [&](std::size_t first, std::size_t end) {
+      for (std::size_t i = first; i < end; ++i) {
+        now[i] = std::this_thread::get_id();
+      }
+    });
+    if (round > 0) {
+      EXPECT_EQ(now, before);
+    }
+    before = now;
+  }
+  EXPECT_EQ(before.front(), std::this_thread::get_id());
+}
+
+// Each loop reads what the other threads wrote in the loop before.
+TEST(Workers, ALoopSeesAllThatTheLoopBeforeWrote) {
+  Workers workers(4);
+  std::vector<long> values(64, 1);
+  for (int round = 0; round < 2000; ++round) {
+    std::vector<long> next(values.size());
+    workers.share(values.size(), [&](std::size_t first, std::size_t end) {
+      for (std::size_t i = first; i < end; ++i) {
+        next[i] = (values[i] + values[(i + 31) % values.size()]) % 1000003;
+      }
+    });
+    values = next;
+  }
+  long expected = 1;
+  for (int round = 0; round < 2000; ++round) {
+    expected = 2 * expected % 1000003;
+  }
+  EXPECT_EQ(values, std::vector<long>(values.size(), expected));
+}
+
+TEST(Workers, WakeAfterARest) {
+  Workers workers(2);
+  for (int round = 0; round < 3; ++round) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    std::vector<int> visits(2, 0);
+    workers.share(2, [&](std::size_t first, std::size_t end) {
+      for (std::size_t i = first; i < end; ++i) {
+        visits[i] = 1;
+      }
+    });
+    EXPECT_EQ(std::accumulate(visits.begin(), visits.end(), 0), 2);
+  }
+}
+
+}  // namespace
+}  // namespace cellcrush
