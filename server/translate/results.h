@@ -4,6 +4,7 @@
 
 #include "cellcrush/sample.h"
 #include "cellcrush/simulation.h"
+#include "cellcrush/v1/job.pb.h"
 #include "cellcrush/v1/sample.pb.h"
 
 namespace cellcrush::translate {
@@ -15,6 +16,8 @@ v1::Sample to_proto(const Sample& sample, const google::protobuf::RepeatedPtrFie
 v1::FieldFrame to_proto(const FieldFrame& frame);
 v1::Mesh to_proto(const MeshView& mesh, std::int64_t particle_count);
 v1::Theory to_proto(const Theory& theory);
+/// Why a run that stopped by itself failed; JOB_CAUSE_UNSPECIFIED when it did not.
+v1::JobCause cause_of(RunStatus::Kind kind);
 /// `last`: the last sample of the run, for the ledger. `solver_seconds`: processor time of the run, which the solver has no clock for.
 v1::Summary to_proto(const Summary& summary, const Sample& last, double solver_seconds);
 
