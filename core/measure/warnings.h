@@ -26,8 +26,8 @@ Warning warn_of_crossing(const Scene& scene, const State& state, double strain);
 /// the energy is compared with.
 double turnover_of(const Sample& sample);
 
-/// The samples' warnings, and those of the ledger: by step. Samples before a hundredth of the greatest turnover, which compare two small
-/// numbers, do not count.
+/// The samples' warnings, and those of the ledger: by step. Samples before a hundredth of the greatest turnover, which
+/// compare two small numbers, do not count.
 std::vector<Warning> collect_warnings(std::span<const Sample> samples);
 
 }  // namespace cellcrush
