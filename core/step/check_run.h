@@ -10,8 +10,9 @@ namespace cellcrush {
 /// Share of the work done by which the ledger may be open, and that contacts may have made.
 inline constexpr double kLargestEnergyError = 0.10;
 
-/// Rotation of a particle in a step, rad, up to which sines are angles to 1 %. Sound crushes up to 400 m/s stay under 0.05.
-/// The ends of an element that turns so fast move at half of the speed of sound in it, at the longest stable step.
+/// Rotation of a particle in a step, rad, up to which sines are angles to 1 %. Sound crushes up to 400 m/s stay under
+/// 0.05. The ends of an element that turns so fast move at half of the speed of sound in it, at the longest stable
+/// step.
 inline constexpr double kLargestRotation = 0.25;
 
 /// Says whether the result of a run is still true: `running`, or with place, step and remedy in words

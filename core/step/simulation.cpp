@@ -27,8 +27,8 @@ struct Simulation::Impl {
     }
   }
 
-  /// Frames kept over a run in case it fails: often enough to see it come, seldom enough to take less than a hundredth of
-  /// the time.
+  /// Frames kept over a run in case it fails: often enough to see it come, seldom enough to take less than a hundredth
+  /// of the time.
   static constexpr std::int64_t kFramesKept = 100;
 
   std::shared_ptr<const Scene> scene;

@@ -121,8 +121,8 @@ TEST(Adhesion, AViscousContactPullsOnWallsThatPartUnlessItIsClamped) {
   }
 }
 
-// With the gap R + h/2 for every pair, walls of many short elements touch themselves round every joint before loading and
-// the block bursts. Pairs joined by a short way touch at 0.4 of it.
+// With the gap R + h/2 for every pair, walls of many short elements touch themselves round every joint before loading
+// and the block bursts. Pairs joined by a short way touch at 0.4 of it.
 TEST(ThickNeighbours, TouchAtEveryJointBeforeLoadingWithTheLiteralGap) {
   SceneSpec spec = scenes::hexagon_block(4, 3);
   std::get<HexagonLattice>(spec.lattice).wall_thickness_mm = 0.8;

@@ -22,8 +22,8 @@ struct Slide {
   double swing = 0.0;      ///< mm/s, of the speed in the second half
 };
 
-/// A block on an incline that is to stand, by central differences; `friction` gives the force on it from its velocity and
-/// the slip of the step.
+/// A block on an incline that is to stand, by central differences; `friction` gives the force on it from its velocity
+/// and the slip of the step.
 template <class Friction>
 Slide stand(double step, Friction&& friction) {
   const double normal = kMass * kGravity * std::cos(kIncline);
@@ -41,8 +41,8 @@ Slide stand(double step, Friction&& friction) {
   return slide;
 }
 
-// Coulomb's law as it stands, -mu N sign(v), turns round in most steps and swings by what one step gives: a stick-slip that
-// the step makes. Friction.ABlockSticksBelowTheAngleOfFriction is the whole solver on such an incline.
+// Coulomb's law as it stands, -mu N sign(v), turns round in most steps and swings by what one step gives: a stick-slip
+// that the step makes. Friction.ABlockSticksBelowTheAngleOfFriction is the whole solver on such an incline.
 TEST(StickSlip, OfASignOfTheSpeedIsLockedToTheStepAndOfASpringIsNot) {
   const auto sign = [](double velocity, double, double, double bound) {
     return velocity > 0.0 ? -bound : velocity < 0.0 ? bound : 0.0;

@@ -37,7 +37,8 @@ Vector2 force_of_every_segment(const std::vector<Vector2>& chain, const Vector2&
   return force;
 }
 
-// A ball that goes round a convex joint at one depth falls into a gap between the ends, and is born deep on the other side.
+// A ball that goes round a convex joint at one depth falls into a gap between the ends, and is born deep on the other
+// side.
 TEST(DeadZone, OfSegmentsThatEndAtTheirNodesIsTheWholeFanOfAConvexJoint) {
   const double bend = std::numbers::pi / 3.0;
   const std::vector<Vector2> chain = {-20.0 * direction(-bend), {0.0, 0.0}, {20.0, 0.0}};

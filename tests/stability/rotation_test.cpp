@@ -14,8 +14,8 @@ using scenes::Probe;
 
 Vector2 direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
-// A bar that turns 400 steps a turn, for three turns: the angle of its direction jumps by a turn at every half turn, and an
-// element whose nodes have not jumped along would be bent by it. The increment of the axis has no such place.
+// A bar that turns 400 steps a turn, for three turns: the angle of its direction jumps by a turn at every half turn,
+// and an element whose nodes have not jumped along would be bent by it. The increment of the axis has no such place.
 TEST(ManyTurns, TheAngleOfADirectionJumpsWhereTheIncrementOfTheAxisDoesNot) {
   const double turn = 2.0 * std::numbers::pi / 400.0;
   double worst_of_angles = 0.0;
@@ -31,8 +31,8 @@ TEST(ManyTurns, TheAngleOfADirectionJumpsWhereTheIncrementOfTheAxisDoesNot) {
   EXPECT_NEAR(worst_of_angles, 2.0 * std::numbers::pi, 1e-9);
 }
 
-// A slow spin in the paper's steps: 1e-9 rad a step, for ten million steps. The arc cosine of Eq. 9 sees none of it, and the
-// element is bent by all that its nodes have turned.
+// A slow spin in the paper's steps: 1e-9 rad a step, for ten million steps. The arc cosine of Eq. 9 sees none of it,
+// and the element is bent by all that its nodes have turned.
 TEST(SmallIncrements, AreLostToTheArcCosineAndBendAnElementThatOnlySpins) {
   constexpr double kTurn = 1e-9;
   constexpr int kSteps = 10'000'000;
@@ -56,8 +56,8 @@ TEST(LargeIncrements, BeyondHalfATurnAreSeenAsTheOtherWay) {
   EXPECT_NEAR(deformation.rotation_start, 2.0 * std::numbers::pi, 1e-12);  // a rigid turn, felt as a full turn of bend
 }
 
-// Two beams in touch, dragged against each other and then turned as one. Friction that is kept as a vector stays where it
-// was while the walls turn away from it; kept along the segment it turns with them, and so does the normal force.
+// Two beams in touch, dragged against each other and then turned as one. Friction that is kept as a vector stays where
+// it was while the walls turn away from it; kept along the segment it turns with them, and so does the normal force.
 TEST(Objectivity, ForcesOfAContactTurnWithItsWalls) {
   constexpr double kDistance = 0.9 * Probe::kThickness;
   constexpr double kFriction = 100.0;  // sticks

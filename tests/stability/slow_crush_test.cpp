@@ -61,7 +61,8 @@ TEST(MassScaling, TurnsASlowCrushIntoADynamicOneAndThePlatesTell) {
   }));
 }
 
-// Damping against the ground bears the cells like a thick oil: the impact plate pushes it, the support plate feels less.
+// Damping against the ground bears the cells like a thick oil: the impact plate pushes it, the support plate feels
+// less.
 TEST(MassDamping, HoldsTheCrushUpAndThePlatesTell) {
   SceneSpec spec = slow_block();
   spec.numerics.mass_damping_per_s = 1e5;

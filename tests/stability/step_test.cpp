@@ -47,7 +47,8 @@ struct WatchedRun {
   }
 };
 
-/// A small block whose run is in steps of `share` of the stable one, as if nothing else bounded them; 0: the chosen step.
+/// A small block whose run is in steps of `share` of the stable one, as if nothing else bounded them; 0: the chosen
+/// step.
 std::shared_ptr<Scene> block(const char* lattice, double speed, double share, double end_strain = 0.8,
                              double stiffness_factor = 0.12) {
   SceneSpec spec = scenes::spec_of({lattice, speed, 0.0}, 12, 6);
@@ -93,8 +94,8 @@ void expect_last_good_is_kept(const WatchedRun& run) {
   }
 }
 
-// Plasticity takes what the instability makes: no motion is seen that a sound crush does not show as well. Only the ledger
-// tells.
+// Plasticity takes what the instability makes: no motion is seen that a sound crush does not show as well. Only the
+// ledger tells.
 TEST(StepBeyondTheLimit, HidesItsEnergyAsPlasticHeatAndOnlyTheLedgerShowsIt) {
   const WatchedRun sound(block("hexagon", 100.0, 0.0));
   EXPECT_EQ(sound.status.kind, Kind::finished);
@@ -156,8 +157,8 @@ TEST(NonFiniteMotion, EndsTheRunByNameAndKeepsTheLastFrameOfNumbers) {
   expect_last_good_is_kept(run);
 }
 
-// 400 m/s in steps of 0.9 of the stable one: the plate moves by a quarter of a wall in a step, walls are born deep in each
-// other and thrown through. The ledger books what contacts make like any other work and closes.
+// 400 m/s in steps of 0.9 of the stable one: the plate moves by a quarter of a wall in a step, walls are born deep in
+// each other and thrown through. The ledger books what contacts make like any other work and closes.
 TEST(StepTooLongForTheSpeed, MakesAThousandTimesTheWorkUnlessContactsAreWatched) {
   const State sound = unwatched(block("hexagon", 400.0, 0.0));
   const State state = unwatched(block("hexagon", 400.0, 0.9));
@@ -193,7 +194,8 @@ TEST(StepTooLongForTheSpeed, IsAWarningWhileOnlyWallsCross) {
       << run.summary.warnings.front().message;
 }
 
-// Walls stacked along the crush ring among their contacts: at 0.9 of the step that a single one would bear they make energy.
+// Walls stacked along the crush ring among their contacts: at 0.9 of the step that a single one would bear they make
+// energy.
 TEST(DensifiedStack, MakesEnergyAtTheStepThatASingleContactBears) {
   const double single = 1.0;  // stiffness over m / dt_crit^2: omega dt = 0.9 for one particle between contacts
   const WatchedRun ringing(block("triangle", 25.0, 0.9, 0.8, single));
@@ -206,8 +208,8 @@ TEST(DensifiedStack, MakesEnergyAtTheStepThatASingleContactBears) {
   EXPECT_LT(chosen.time_step, 0.5 * chosen.stable_step);
 }
 
-// A bar that turns by 0.3 rad in a step is torn by its own spin; one that turns by more than half a turn is seen turning the
-// other way (LargeIncrements.BeyondHalfATurnAreSeenAsTheOtherWay).
+// A bar that turns by 0.3 rad in a step is torn by its own spin; one that turns by more than half a turn is seen
+// turning the other way (LargeIncrements.BeyondHalfATurnAreSeenAsTheOtherWay).
 TEST(LargeIncrements, EndTheRunByName) {
   const auto scene = scenes::build(scenes::SpinningBar::spec(8, 4.0));
   const double spin = 0.3 / scene->schedule.time_step;

@@ -12,8 +12,8 @@
 namespace cellcrush {
 namespace {
 
-/// A straight elastic column, clamped at both ends, that is shortened by six times its buckling strain within some periods
-/// of its buckling; its middle stands aside by `offset` mm.
+/// A straight elastic column, clamped at both ends, that is shortened by six times its buckling strain within some
+/// periods of its buckling; its middle stands aside by `offset` mm.
 struct Column {
   static constexpr double kLength = 20.0;  // mm
   double aside = 0.0;                      ///< of its middle in the end, mm
@@ -31,8 +31,8 @@ struct Column {
   }
 };
 
-// A column that stands exactly straight bears six times its buckling load: no force points aside but round-off. A thousandth
-// of its length is enough; lattices get theirs from a seed (Imperfection.IsBoundedSeededAndRepeatable).
+// A column that stands exactly straight bears six times its buckling load: no force points aside but round-off. A
+// thousandth of its length is enough; lattices get theirs from a seed (Imperfection.IsBoundedSeededAndRepeatable).
 TEST(PerfectSymmetry, NeverBucklesAndASmallImperfectionDoes) {
   const Column perfect(0.0);
   const Column imperfect(0.001 * Column::kLength);
@@ -58,8 +58,8 @@ double greatest_distance(const State& a, const State& b) {
   return most;
 }
 
-// A change of the size of round-off chooses another way to fold: sums in the order in which threads happen to end would do
-// the same. Sums in a fixed order give the same bits again.
+// A change of the size of round-off chooses another way to fold: sums in the order in which threads happen to end would
+// do the same. Sums in a fixed order give the same bits again.
 TEST(RoundOff, ChoosesTheFoldsUnlessSumsHaveAFixedOrder) {
   const State first = crush_with(1e-3);
   const State nearly = crush_with(1e-3 * (1.0 + 1e-12));

@@ -90,8 +90,8 @@ class Simulation {
   /// Advances by at most `steps` and no further than the last step; nothing happens once status() is not `running`.
   void advance(std::int64_t steps, StageObserver* observer = nullptr);
 
-  /// Scalars now; closes the interval over which stresses are means. Checks the run: after it status() may have changed, and
-  /// a sample that fails the check is no result.
+  /// Scalars now; closes the interval over which stresses are means. Checks the run: after it status() may have
+  /// changed, and a sample that fails the check is no result.
   Sample take_sample();
 
   /// Fields now; `index` is copied into the frame.
