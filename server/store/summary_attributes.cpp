@@ -84,9 +84,9 @@ void write_summary_attributes(hid_t file, const v1::Summary& summary) {
   write_attribute(file, "solver_seconds", summary.solver_seconds());
   write_attribute(file, "theory_gibson_ashby_mpa", summary.theory().gibson_ashby_mpa());
   write_attribute(file, "theory_shock_mpa", summary.theory().shock_mpa());
+  write_warnings(file, summary);
   write_collapse(file, summary);
   write_ledger(file, summary.ledger());
-  write_warnings(file, summary);
 }
 
 }  // namespace cellcrush::store

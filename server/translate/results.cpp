@@ -39,18 +39,6 @@ v1::QuasiStatic to_proto(const QuasiStatic& quasi_static) {
   return out;
 }
 
-v1::CrushMode to_proto(CrushMode mode) {
-  switch (mode) {
-    case CrushMode::none: return v1::CRUSH_MODE_NONE;
-    case CrushMode::x: return v1::CRUSH_MODE_X;
-    case CrushMode::v: return v1::CRUSH_MODE_V;
-    case CrushMode::i: return v1::CRUSH_MODE_I;
-    case CrushMode::c: return v1::CRUSH_MODE_C;
-    case CrushMode::mixed: return v1::CRUSH_MODE_MIXED;
-  }
-  return v1::CRUSH_MODE_UNSPECIFIED;
-}
-
 v1::WarningKind to_proto(Warning::Kind kind) {
   switch (kind) {
     case Warning::Kind::deep_penetration: return v1::DEEP_PENETRATION;
@@ -69,6 +57,18 @@ v1::Warning to_proto(const Warning& warning) {
   out.set_message(warning.message);
   out.set_remedy(warning.remedy);
   return out;
+}
+
+v1::CrushMode to_proto(CrushMode mode) {
+  switch (mode) {
+    case CrushMode::none: return v1::CRUSH_MODE_NONE;
+    case CrushMode::x: return v1::CRUSH_MODE_X;
+    case CrushMode::v: return v1::CRUSH_MODE_V;
+    case CrushMode::i: return v1::CRUSH_MODE_I;
+    case CrushMode::c: return v1::CRUSH_MODE_C;
+    case CrushMode::mixed: return v1::CRUSH_MODE_MIXED;
+  }
+  return v1::CRUSH_MODE_UNSPECIFIED;
 }
 
 v1::Ledger ledger_of(const Sample& sample) {
@@ -122,6 +122,18 @@ v1::Sample to_proto(const Sample& sample, const google::protobuf::RepeatedPtrFie
   return out;
 }
 
+v1::JobCause cause_of(RunStatus::Kind kind) {
+  switch (kind) {
+    case RunStatus::Kind::running:
+    case RunStatus::Kind::finished: return v1::JOB_CAUSE_UNSPECIFIED;
+    case RunStatus::Kind::diverged: return v1::SOLVER_DIVERGED;
+    case RunStatus::Kind::large_rotation: return v1::LARGE_ROTATION;
+    case RunStatus::Kind::energy_balance: return v1::ENERGY_BALANCE;
+    case RunStatus::Kind::contact_energy: return v1::CONTACT_ENERGY;
+  }
+  return v1::JOB_CAUSE_UNSPECIFIED;
+}
+
 v1::FieldFrame to_proto(const FieldFrame& frame) {
   v1::FieldFrame out;
   out.set_index(frame.index);
@@ -153,18 +165,6 @@ v1::Theory to_proto(const Theory& theory) {
   return out;
 }
 
-v1::JobCause cause_of(RunStatus::Kind kind) {
-  switch (kind) {
-    case RunStatus::Kind::running:
-    case RunStatus::Kind::finished: return v1::JOB_CAUSE_UNSPECIFIED;
-    case RunStatus::Kind::diverged: return v1::SOLVER_DIVERGED;
-    case RunStatus::Kind::large_rotation: return v1::LARGE_ROTATION;
-    case RunStatus::Kind::energy_balance: return v1::ENERGY_BALANCE;
-    case RunStatus::Kind::contact_energy: return v1::CONTACT_ENERGY;
-  }
-  return v1::JOB_CAUSE_UNSPECIFIED;
-}
-
 v1::Summary to_proto(const Summary& summary, const Sample& last, double solver_seconds) {
   v1::Summary out;
   if (summary.plateau_stress_impact) out.set_plateau_stress_impact_mpa(*summary.plateau_stress_impact);
@@ -177,6 +177,7 @@ v1::Summary to_proto(const Summary& summary, const Sample& last, double solver_s
   out.set_absorbed_energy_mj(summary.absorbed_energy);
   out.set_energy_error_relative(summary.energy_error_relative);
   out.set_deepest_penetration(summary.deepest_penetration);
+  for (const Warning& warning : summary.warnings) *out.add_warnings() = to_proto(warning);
   out.set_step_count(summary.step_count);
   out.set_solver_seconds(solver_seconds);
   *out.mutable_theory() = to_proto(summary.theory);
@@ -189,7 +190,6 @@ v1::Summary to_proto(const Summary& summary, const Sample& last, double solver_s
     out.set_solid_fraction_at_densification(*summary.solid_fraction_at_densification);
   if (summary.quasi_static) *out.mutable_quasi_static() = to_proto(*summary.quasi_static);
   *out.mutable_ledger() = ledger_of(last);
-  for (const Warning& warning : summary.warnings) *out.add_warnings() = to_proto(warning);
   return out;
 }
 

@@ -11,13 +11,14 @@ namespace cellcrush::translate {
 
 // What a run gives, as it goes over the wire. The solver's N mm is the wire's mJ; all other units are the same.
 
+/// Why a run that stopped by itself failed; JOB_CAUSE_UNSPECIFIED when it did not.
+v1::JobCause cause_of(RunStatus::Kind kind);
+
 /// `watched_ids`: ids of the frame's watched nodes, in the order of the sample's.
 v1::Sample to_proto(const Sample& sample, const google::protobuf::RepeatedPtrField<std::string>& watched_ids);
 v1::FieldFrame to_proto(const FieldFrame& frame);
 v1::Mesh to_proto(const MeshView& mesh, std::int64_t particle_count);
 v1::Theory to_proto(const Theory& theory);
-/// Why a run that stopped by itself failed; JOB_CAUSE_UNSPECIFIED when it did not.
-v1::JobCause cause_of(RunStatus::Kind kind);
 /// `last`: the last sample of the run, for the ledger. `solver_seconds`: processor time of the run, which the solver has no clock for.
 v1::Summary to_proto(const Summary& summary, const Sample& last, double solver_seconds);
 
