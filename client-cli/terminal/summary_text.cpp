@@ -83,6 +83,11 @@ void add_quasi_static_rows(Table& table, const v1::Summary& summary) {
   table.add({"kinetic energy at most", percent_text(found.kinetic_share(), 2), "", "of the plastic work"});
 }
 
+std::string warning_text(const v1::Warning& warning) {
+  return fmt::format("  Warning ({}): {}\n    Remedy: {}\n", v1::WarningKind_Name(warning.kind()),
+                     printable(warning.message()), printable(warning.remedy()));
+}
+
 std::string ledger_text(const v1::Ledger& ledger) {
   Table table({Align::left, Align::right, Align::right});
   const double spent = ledger.kinetic_mj() + ledger.elastic_mj() + ledger.plastic_mj() + ledger.contact_mj() +
@@ -127,6 +132,7 @@ std::string summary_text(const v1::Summary& summary, bool frame) {
   table.add({"energy ledger error", percent_text(summary.energy_error_relative(), 2)});
   table.add({"deepest penetration", percent_text(summary.deepest_penetration()), "", "of the thinner wall"});
   std::string text = table.text(2);
+  for (const v1::Warning& warning : summary.warnings()) text += '\n' + warning_text(warning);
   if (!frame && summary.has_front()) text += '\n' + front_text(summary.front());
   if (summary.has_ledger()) text += '\n' + ledger_text(summary.ledger());
   return text;

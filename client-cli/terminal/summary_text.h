@@ -13,7 +13,7 @@ std::string stress_text(double stress);
 std::string crush_mode_text(v1::CrushMode mode);
 
 /// What a run amounts to: of a crush its plateau stresses with theory beside them, front, crush mode and how quasi-static
-/// it was where it was slow; of any run its ledger and contact. `frame`: it has no plates.
+/// it was where it was slow; of any run its ledger and contact, and what its reader must know. `frame`: it has no plates.
 std::string summary_text(const v1::Summary& summary, bool frame);
 
 }  // namespace cellcrush::client

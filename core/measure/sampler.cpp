@@ -5,6 +5,7 @@
 #include "measure/crush_mode.h"
 #include "measure/front.h"
 #include "measure/theory.h"
+#include "measure/warnings.h"
 
 namespace cellcrush {
 namespace {
@@ -61,6 +62,17 @@ void Sampler::measure_collapse(const Scene& scene, const State& state, Sample& s
                             relative_density_);
 }
 
+void Sampler::find_warnings(const Scene& scene, const State& state, Sample& sample) {
+  if (!told_of_depth_ && state.deepest_penetration > kDeepPenetration) {
+    sample.warnings.push_back(warn_of_depth(scene, state, sample.strain));
+    told_of_depth_ = true;
+  }
+  if (!told_of_crossing_ && sample.walls_crossed) {
+    sample.warnings.push_back(warn_of_crossing(scene, state, sample.strain));
+    told_of_crossing_ = true;
+  }
+}
+
 Sample Sampler::take(const Scene& scene, const State& state) {
   Sample sample;
   sample.step = state.step;
@@ -85,6 +97,7 @@ Sample Sampler::take(const Scene& scene, const State& state) {
   sample.deepest_penetration = state.deepest_penetration;
   sample.contact_count = state.contact_count;
   sample.walls_crossed = state.crossing_step >= 0;
+  find_warnings(scene, state, sample);
   for (const int node : scene.watched) {
     const Vector2 displacement = state.position[node] - scene.position[node];
     sample.watched.push_back({displacement.x(), displacement.y(), state.rotation[node]});

@@ -21,6 +21,7 @@ class Sampler {
  private:
   void measure_stress(const Scene& scene, const State& state, Sample& sample);
   void measure_collapse(const Scene& scene, const State& state, Sample& sample);
+  void find_warnings(const Scene& scene, const State& state, Sample& sample);
 
   Cells cells_;
   Columns columns_;
@@ -28,6 +29,8 @@ class Sampler {
   double last_time_ = 0.0;
   double last_impact_impulse_ = 0.0;
   double last_support_impulse_ = 0.0;
+  bool told_of_depth_ = false;
+  bool told_of_crossing_ = false;
   double next_look_;  ///< share of collapsed cells from which the crush mode is looked for next
 };
 

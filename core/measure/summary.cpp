@@ -6,6 +6,7 @@
 #include "measure/curve.h"
 #include "measure/shock.h"
 #include "measure/theory.h"
+#include "measure/warnings.h"
 
 namespace cellcrush {
 namespace {
@@ -113,6 +114,7 @@ Summary summarize(const Scene& scene, std::span<const Sample> samples) {
   summary.step_count = samples.back().step;
   summary.deepest_penetration = samples.back().deepest_penetration;
   summary.energy_error_relative = energy_error_of(samples);
+  summary.warnings = collect_warnings(samples);
   if (!scene.plates.present) {
     return summary;
   }

@@ -2,35 +2,101 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "measure/text.h"
+#include "measure/warnings.h"
 #include "scene/check_spec.h"
 
 namespace cellcrush {
 namespace {
 
-std::string moment_of(const State& state) {
-  return "at step " + std::to_string(state.step) + ", t = " + to_text(state.time) + " s";
+constexpr const char* kShorterStep = "Give a shorter numerics.time_step_s, or 0 to have it chosen.";
+
+bool is_finite(const State& state, std::size_t particle) {
+  return state.position[particle].allFinite() && state.velocity[particle].allFinite() &&
+         std::isfinite(state.spin[particle]);
+}
+
+bool has_finite_forces(const State& state, std::size_t particle) {
+  return state.internal_force[particle].allFinite() && std::isfinite(state.internal_moment[particle]) &&
+         state.contact_force[particle].allFinite() && state.contact_damping_force[particle].allFinite();
+}
+
+/// The first particle that is lost, if any.
+template <class Predicate>
+std::optional<std::size_t> find_lost(const Scene& scene, Predicate&& is_kept) {
+  for (std::size_t i = 0; i < scene.particle_count(); ++i) {
+    if (!is_kept(i)) {
+      return i;
+    }
+  }
+  return std::nullopt;
+}
+
+/// What a step that is too long shakes most.
+std::string fastest_place(const Scene& scene, const State& state) {
+  const auto slower = [](const Vector2& a, const Vector2& b) { return a.squaredNorm() < b.squaredNorm(); };
+  const auto fastest = std::max_element(state.velocity.begin(), state.velocity.end(), slower);
+  return "; the fastest is " + place_of(scene, static_cast<std::size_t>(fastest - state.velocity.begin())) + ", at " +
+         to_text(std::round(fastest->norm() / 100.0) / 10.0) + " m/s";
+}
+
+RunStatus diverged(const State& state, const std::string& what) {
+  return {RunStatus::Kind::diverged, what + " is not finite at " + moment_of(state.step, state.time) + ".",
+          kShorterStep};
+}
+
+RunStatus check_rotation(const Scene& scene, const State& state) {
+  const auto smaller = [](double a, double b) { return std::abs(a) < std::abs(b); };
+  const auto most = std::max_element(state.spin.begin(), state.spin.end(), smaller);
+  const double rotation = std::abs(*most) * scene.schedule.time_step;
+  if (rotation <= kLargestRotation) {
+    return {};
+  }
+  return {RunStatus::Kind::large_rotation,
+          "The step turns " + place_of(scene, static_cast<std::size_t>(most - state.spin.begin())) + ", by " +
+              to_text(std::round(100.0 * rotation) / 100.0) + " rad, where increments are to be small (under " +
+              to_text(kLargestRotation) + "), at " + moment_of(state.step, state.time) + ".",
+          kShorterStep};
+}
+
+RunStatus check_energy(const Scene& scene, const State& state, const Sample& sample) {
+  if (!std::isfinite(sample.energy_residual)) {
+    const auto lost = find_lost(scene, [&](std::size_t i) { return has_finite_forces(state, i); });
+    return diverged(state, lost ? "The force on " + place_of(scene, *lost) + "," : "The energy");
+  }
+  const double turnover = turnover_of(sample);
+  if (turnover <= 0.0) {
+    return {};
+  }
+  if (std::abs(sample.energy_residual) > kLargestEnergyError * turnover) {
+    return {RunStatus::Kind::energy_balance,
+            "The energy ledger is open by " + percent_of(sample.energy_residual / turnover) + " of the work done at " +
+                moment_of(state.step, state.time) + ": the time integration is not stable" +
+                fastest_place(scene, state) + ".",
+            "Give a shorter numerics.time_step_s; crushed walls are shorter than those the stable step is taken from."};
+  }
+  if (-sample.energy_contact > kLargestEnergyError * turnover) {
+    return {RunStatus::Kind::contact_energy,
+            "Contacts have made " + percent_of(-sample.energy_contact / turnover) + " of the work done by " +
+                moment_of(state.step, state.time) + ": walls met first when they were " +
+                percent_of(state.deepest_birth) + " of their thickness in each other" + fastest_place(scene, state) +
+                ".",
+            "Give a shorter numerics.time_step_s, or 0 to have it chosen: the plate is to move by a twentieth of the "
+            "thinnest wall in a step at most."};
+  }
+  return {};
 }
 
 }  // namespace
 
 RunStatus check_run(const Scene& scene, const State& state, const Sample& sample) {
-  for (std::size_t i = 0; i < scene.particle_count(); ++i) {
-    if (!state.position[i].allFinite() || !state.velocity[i].allFinite() || !std::isfinite(state.spin[i])) {
-      return {RunStatus::Kind::diverged,
-              "The motion of particle " + std::to_string(i) + ", at (" + to_text(scene.position[i].x()) + ", " +
-                  to_text(scene.position[i].y()) + ") mm before loading, is not finite " + moment_of(state) + ".",
-              "Give a shorter numerics.time_step_s, or 0 to have it chosen."};
-    }
+  if (const auto lost = find_lost(scene, [&](std::size_t i) { return is_finite(state, i); })) {
+    return diverged(state, "The motion of " + place_of(scene, *lost) + ",");
   }
-  const double turnover = std::max(std::abs(sample.work_external), sample.energy_kinetic + state.ledger.initial);
-  if (turnover > 0.0 && !(std::abs(sample.energy_residual) <= kLargestEnergyError * turnover)) {
-    return {RunStatus::Kind::energy_balance,
-            "The energy ledger is open by " + to_text(std::round(1000.0 * sample.energy_residual / turnover) / 10.0) +
-                " % of the work done " + moment_of(state) + ": the time integration is not stable.",
-            "Give a shorter numerics.time_step_s; crushed walls are shorter than those the stable step is taken from."};
-  }
-  return {};
+  const RunStatus rotation = check_rotation(scene, state);
+  return rotation.kind != RunStatus::Kind::running ? rotation : check_energy(scene, state, sample);
 }
 
 }  // namespace cellcrush

@@ -27,10 +27,13 @@ std::string signal_name(int number) {
 }
 
 store::StateChange of_final(const worker::Final& final) {
-  if (final.cause() != v1::JOB_CAUSE_UNSPECIFIED) return failed(final.cause(), final.message(), final.remedy());
   store::StateChange out;
-  out.state = final.cancelled() ? v1::CANCELLED : v1::SUCCEEDED;
-  out.summary = final.summary();
+  if (final.cause() != v1::JOB_CAUSE_UNSPECIFIED) {
+    out = failed(final.cause(), final.message(), final.remedy());
+  } else {
+    out.state = final.cancelled() ? v1::CANCELLED : v1::SUCCEEDED;
+  }
+  if (final.has_summary()) out.summary = final.summary();
   return out;
 }
 

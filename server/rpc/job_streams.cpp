@@ -101,8 +101,8 @@ v1::FieldFrame JobsService::find_frame(const store::StoredJob& stored, const v1:
     throw ServiceError(
         ServiceError::Kind::failed_precondition,
         stored.job.name() + " is " + v1::JobState_Name(stored.job.state()) +
-            " and has no frame. A running job has its newest one; one that SUCCEEDED, or was cancelled while it ran, "
-            "has all.");
+            " and has no frame. A running job has its newest one; one that SUCCEEDED, or was cancelled or found "
+            "untrue while it ran, has all.");
   }
   return *frame;
 }
@@ -129,7 +129,8 @@ grpc::Status JobsService::DownloadResult(grpc::ServerContext*, const v1::Downloa
     if (!stored.job.has_summary()) {
       throw ServiceError(ServiceError::Kind::failed_precondition,
                          stored.job.name() + " is " + v1::JobState_Name(stored.job.state()) +
-                             " and has no result. A job has one once it has SUCCEEDED or was cancelled while it ran.");
+                             " and has no result. A job has one once it has SUCCEEDED, or was cancelled or found "
+                             "untrue while it ran.");
     }
     if (request->offset() < 0) return invalid_argument("offset", "is negative.", "Use 0 for the whole file.");
     const InputFile file(parts_.folder.result(stored.number));

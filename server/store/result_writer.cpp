@@ -98,6 +98,7 @@ void ResultWriter::finish(const ResultHeader& header, const v1::Summary& summary
   write_attribute(file_.id(), "simd_target", header.simd_target);
   write_attribute(file_.id(), "time_step_s", header.time_step_s);
   write_attribute(file_.id(), "complete", static_cast<std::int64_t>(header.complete));
+  if (!header.failure.empty()) write_attribute(file_.id(), "failure", header.failure);
   write_summary_attributes(file_.id(), summary);
   const std::string what = "Closing the result";
   for (auto& column : history_) column.close(what);

@@ -21,7 +21,8 @@ struct ResultHeader {
   std::string simd_target;
   double time_step_s = 0.0;
   std::vector<std::string> modelled;
-  bool complete = true;  ///< whether the run reached its end
+  bool complete = true;   ///< whether the run reached its end
+  std::string failure{};  ///< why the solver ended the run; empty when it did not
 };
 
 /// Writes one result.h5 (result_format.md). Not thread-safe. Failures throw ServiceError: storage_full or internal.

@@ -44,6 +44,13 @@ void write_collapse(hid_t file, const v1::Summary& summary) {
   }
 }
 
+void write_warnings(hid_t file, const v1::Summary& summary) {
+  std::string lines;
+  for (const v1::Warning& warning : summary.warnings())
+    lines += (lines.empty() ? "" : "\n") + v1::WarningKind_Name(warning.kind()) + ": " + warning.message();
+  if (!lines.empty()) write_attribute(file, "warnings", lines);
+}
+
 void write_ledger(hid_t file, const v1::Ledger& ledger) {
   write_attribute(file, "ledger_work_external_mj", ledger.work_external_mj());
   write_attribute(file, "ledger_kinetic_mj", ledger.kinetic_mj());
@@ -77,6 +84,7 @@ void write_summary_attributes(hid_t file, const v1::Summary& summary) {
   write_attribute(file, "solver_seconds", summary.solver_seconds());
   write_attribute(file, "theory_gibson_ashby_mpa", summary.theory().gibson_ashby_mpa());
   write_attribute(file, "theory_shock_mpa", summary.theory().shock_mpa());
+  write_warnings(file, summary);
   write_collapse(file, summary);
   write_ledger(file, summary.ledger());
 }

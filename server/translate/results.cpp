@@ -39,6 +39,26 @@ v1::QuasiStatic to_proto(const QuasiStatic& quasi_static) {
   return out;
 }
 
+v1::WarningKind to_proto(Warning::Kind kind) {
+  switch (kind) {
+    case Warning::Kind::deep_penetration: return v1::DEEP_PENETRATION;
+    case Warning::Kind::walls_crossed: return v1::WALLS_CROSSED;
+    case Warning::Kind::energy_drift: return v1::ENERGY_DRIFT;
+    case Warning::Kind::contact_energy: return v1::CONTACTS_MAKE_ENERGY;
+  }
+  return v1::WARNING_KIND_UNSPECIFIED;
+}
+
+v1::Warning to_proto(const Warning& warning) {
+  v1::Warning out;
+  out.set_kind(to_proto(warning.kind));
+  out.set_step(warning.step);
+  out.set_strain(warning.strain);
+  out.set_message(warning.message);
+  out.set_remedy(warning.remedy);
+  return out;
+}
+
 v1::CrushMode to_proto(CrushMode mode) {
   switch (mode) {
     case CrushMode::none: return v1::CRUSH_MODE_NONE;
@@ -98,7 +118,20 @@ v1::Sample to_proto(const Sample& sample, const google::protobuf::RepeatedPtrFie
     watched.set_uy_mm(sample.watched[i].uy);
     watched.set_rotation_rad(sample.watched[i].rotation);
   }
+  for (const Warning& warning : sample.warnings) *out.add_warnings() = to_proto(warning);
   return out;
+}
+
+v1::JobCause cause_of(RunStatus::Kind kind) {
+  switch (kind) {
+    case RunStatus::Kind::running:
+    case RunStatus::Kind::finished: return v1::JOB_CAUSE_UNSPECIFIED;
+    case RunStatus::Kind::diverged: return v1::SOLVER_DIVERGED;
+    case RunStatus::Kind::large_rotation: return v1::LARGE_ROTATION;
+    case RunStatus::Kind::energy_balance: return v1::ENERGY_BALANCE;
+    case RunStatus::Kind::contact_energy: return v1::CONTACT_ENERGY;
+  }
+  return v1::JOB_CAUSE_UNSPECIFIED;
 }
 
 v1::FieldFrame to_proto(const FieldFrame& frame) {
@@ -144,6 +177,7 @@ v1::Summary to_proto(const Summary& summary, const Sample& last, double solver_s
   out.set_absorbed_energy_mj(summary.absorbed_energy);
   out.set_energy_error_relative(summary.energy_error_relative);
   out.set_deepest_penetration(summary.deepest_penetration);
+  for (const Warning& warning : summary.warnings) *out.add_warnings() = to_proto(warning);
   out.set_step_count(summary.step_count);
   out.set_solver_seconds(solver_seconds);
   *out.mutable_theory() = to_proto(summary.theory);

@@ -4,11 +4,15 @@
 
 #include "cellcrush/sample.h"
 #include "cellcrush/simulation.h"
+#include "cellcrush/v1/job.pb.h"
 #include "cellcrush/v1/sample.pb.h"
 
 namespace cellcrush::translate {
 
 // What a run gives, as it goes over the wire. The solver's N mm is the wire's mJ; all other units are the same.
+
+/// Why a run that stopped by itself failed; JOB_CAUSE_UNSPECIFIED when it did not.
+v1::JobCause cause_of(RunStatus::Kind kind);
 
 /// `watched_ids`: ids of the frame's watched nodes, in the order of the sample's.
 v1::Sample to_proto(const Sample& sample, const google::protobuf::RepeatedPtrField<std::string>& watched_ids);

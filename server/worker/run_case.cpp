@@ -69,13 +69,10 @@ class Run {
     Report mesh;
     *mesh.mutable_mesh() = mesh_;
     send(mesh);
-    put_out_frame();
+    put_out_frame(simulation_.take_frame(frame_count_));
     while (simulation_.step() < facts_.step_count && !stopping_) {
       advance_to_next_output();
-      const auto status = simulation_.status();
-      if (status.kind == RunStatus::Kind::diverged) return failure(v1::SOLVER_DIVERGED, status.message, status.remedy);
-      if (status.kind == RunStatus::Kind::energy_balance)
-        return failure(v1::ENERGY_BALANCE, status.message, status.remedy);
+      if (failed()) break;
     }
     return complete();
   }
@@ -107,7 +104,13 @@ class Run {
     }
     const bool last = stopping_ || simulation_.step() == facts_.step_count;
     if (last || simulation_.step() % facts_.sample_interval == 0) put_out_sample();
-    if (last || simulation_.step() % facts_.frame_interval == 0) put_out_frame();
+    if (failed()) return;
+    if (last || simulation_.step() % facts_.frame_interval == 0) put_out_frame(simulation_.take_frame(frame_count_));
+  }
+
+  // Whether the solver found its own result untrue.
+  [[nodiscard]] bool failed() const {
+    return translate::cause_of(simulation_.status().kind) != v1::JOB_CAUSE_UNSPECIFIED;
   }
 
   [[nodiscard]] std::int64_t next_multiple(std::int64_t interval) const {
@@ -115,7 +118,9 @@ class Run {
   }
 
   void put_out_sample() {
-    samples_.push_back(simulation_.take_sample());
+    Sample sample = simulation_.take_sample();
+    if (failed()) return;
+    samples_.push_back(std::move(sample));
     Report report;
     *report.mutable_sample() = translate::to_proto(samples_.back(), order_.case_().lattice().frame().watched_nodes());
     meter_.add(report.sample());
@@ -123,9 +128,11 @@ class Run {
     send(report);
   }
 
-  void put_out_frame() {
+  void put_out_frame(const FieldFrame& frame) {
     Report report;
-    *report.mutable_frame() = translate::to_proto(simulation_.take_frame(frame_count_++));
+    *report.mutable_frame() = translate::to_proto(frame);
+    last_frame_time_ = frame.time;
+    ++frame_count_;
     writer_.add_frame(report.frame());
     send(report);
   }
@@ -145,13 +152,26 @@ class Run {
     send(report);
   }
 
+  // The frame that the solver kept from before its failure.
+  void put_out_last_good_frame() {
+    FieldFrame frame = simulation_.last_good_frame();
+    if (frame.time <= last_frame_time_) return;
+    frame.index = frame_count_;
+    put_out_frame(frame);
+  }
+
+  // Closes the result, of a run that failed with what was computed before.
   Final complete() {
-    const bool whole = simulation_.step() == facts_.step_count;
-    Final out;
-    out.set_cancelled(!whole);
-    *out.mutable_summary() = translate::to_proto(summarize(*scene_, samples_), samples_.back(), processor_seconds());
-    writer_.finish({order_.case_(), kSolverRevision, simd_target(), facts_.time_step, facts_.modelled, whole},
-                   out.summary());
+    const RunStatus status = simulation_.status();
+    const bool whole = !failed() && simulation_.step() == facts_.step_count;
+    if (failed()) put_out_last_good_frame();
+    Final out = failure(translate::cause_of(status.kind), status.message, status.remedy);
+    out.set_cancelled(!whole && !failed());
+    *out.mutable_summary() = translate::to_proto(summarize(*scene_, samples_),
+                                                 samples_.empty() ? Sample{} : samples_.back(), processor_seconds());
+    writer_.finish(
+        {order_.case_(), kSolverRevision, simd_target(), facts_.time_step, facts_.modelled, whole, status.message},
+        out.summary());
     store::publish_file(partial_path_, order_.result_path());
     return out;
   }
@@ -172,6 +192,7 @@ class Run {
   store::ResultWriter writer_;
   std::vector<Sample> samples_;
   int frame_count_ = 0;
+  double last_frame_time_ = 0.0;  ///< s
   std::int64_t piece_ = 16;
   bool stopping_ = false;  ///< asked to end before the last step
 };

@@ -15,7 +15,8 @@ using StopAsked = std::function<bool()>;
 
 /// Runs one job from its case to its complete result.h5 and says how it ended: the mesh, then samples, frames and
 /// progress are reported on the way, the final report is returned. A run that is asked to stop takes a last sample and
-/// frame and ends like any other, with what there is. Never throws on what a case or a disk can do.
+/// frame and ends like any other, with what there is; one that the solver ends because its result is untrue leaves what
+/// was computed before, and the last good frame. Never throws on what a case or a disk can do.
 /// Nothing is returned when the reporter said that nobody listens.
 std::optional<Final> run_case(const Order& order, const Reporter& report, const StopAsked& stop_asked);
 

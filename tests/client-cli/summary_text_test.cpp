@@ -41,6 +41,18 @@ TEST(SummaryText, SaysHowSteadyASlowCrushWasAndNothingOfAFastOne) {
   EXPECT_THAT(summary_text(summary, false), Not(HasSubstr("plates' stresses differ")));
 }
 
+TEST(SummaryText, NamesWarningsWithTheirRemedies) {
+  v1::Summary summary;
+  EXPECT_THAT(summary_text(summary, false), Not(HasSubstr("Warning")));
+  v1::Warning& warning = *summary.add_warnings();
+  warning.set_kind(v1::DEEP_PENETRATION);
+  warning.set_message("Walls have overlapped by 61 %.");
+  warning.set_remedy("Give a shorter numerics.time_step_s.");
+  const std::string text = summary_text(summary, false);
+  EXPECT_THAT(text, HasSubstr("Warning (DEEP_PENETRATION): Walls have overlapped by 61 %.\n"));
+  EXPECT_THAT(text, HasSubstr("Remedy: Give a shorter numerics.time_step_s.\n"));
+}
+
 TEST(SummaryText, OfAFrameIsTheLedgerWithWhatItStartedWith) {
   v1::Summary summary;
   summary.mutable_ledger()->set_work_external_mj(500.0);

@@ -16,6 +16,7 @@
 namespace cellcrush::testing {
 namespace {
 
+using ::testing::AnyOf;
 using ::testing::HasSubstr;
 using Clock = std::chrono::steady_clock;
 
@@ -71,6 +72,45 @@ TEST_F(JobLifeTest, ARunningJobStopsAndWhatItHasComputedIsKept) {
   EXPECT_EQ(result.frame_times().back(), stored.back().time_s());
   EXPECT_THAT(result.text_attribute("case"), HasSubstr("A few cells"));
   EXPECT_FALSE(std::filesystem::exists(folder_of(job) / "result.h5.partial"));
+}
+
+// Thin triangles at a speed and with contacts that the step is far too long for.
+TEST_F(JobLifeTest, ARunThatIsUntrueFailsByNameAndKeepsWhatItComputedBefore) {
+  auto client = this->client();
+  v1::Case bad = small_case();
+  auto& triangle = *bad.mutable_lattice()->mutable_triangle();
+  triangle.set_columns(12);
+  triangle.set_rows(6);
+  triangle.set_side_mm(4.0);
+  triangle.set_wall_thickness_mm(0.1185);
+  bad.mutable_loading()->set_speed_m_per_s(400.0);
+  bad.mutable_contact()->set_stiffness_factor(1.0);
+  bad.mutable_numerics()->set_time_step_s(2.26e-7);
+  bad.mutable_output()->set_sample_count(1000);
+  bad.mutable_output()->set_frame_count(1);
+  const std::string job = client.create(bad);
+  EXPECT_TRUE(client.watch(job).status.ok());
+  const auto failed = client.get(job);
+  EXPECT_EQ(failed.state(), v1::FAILED);
+  EXPECT_THAT(failed.cause(), AnyOf(v1::LARGE_ROTATION, v1::CONTACT_ENERGY));
+  EXPECT_THAT(failed.cause_message(), HasSubstr("step "));
+  EXPECT_THAT(failed.cause_message(), HasSubstr("mm before loading"));
+  EXPECT_THAT(failed.remedy(), HasSubstr("numerics.time_step_s"));
+  ASSERT_TRUE(failed.has_summary());
+
+  grpc::Status status;
+  const std::string bytes = client.download(job, 0, status);
+  ASSERT_TRUE(status.ok()) << status.error_message();
+  const auto copy = folder_.path() / "copy.h5";
+  std::ofstream(copy, std::ios::binary) << bytes;
+  const store::ResultReader result(copy);
+  EXPECT_EQ(result.text_attribute("failure"), failed.cause_message());
+  const auto history = result.history();
+  EXPECT_EQ(history.size(), client.history(job).size());
+  ASSERT_GE(history.size(), 5U);
+  ASSERT_EQ(result.frame_times().size(), 2U) << "The undeformed lattice and the last good frame.";
+  EXPECT_LE(result.frame_times().back(), history.back().time_s());
+  EXPECT_GE(result.frame_times().back(), 0.8 * history.back().time_s());
 }
 
 TEST_F(JobLifeTest, AWaitingJobIsCancelledAtOnceAndNeverRuns) {

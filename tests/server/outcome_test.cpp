@@ -56,6 +56,17 @@ TEST(Outcome, ADivergedRunKeepsTheSolversWords) {
   EXPECT_EQ(out.remedy, "Take a smaller step.");
 }
 
+TEST(Outcome, ARunThatTheSolverFoundUntrueKeepsWhatItComputedBefore) {
+  auto exit = exit_of(WorkerExit::Kind::exited, 0);
+  exit.final.emplace();
+  exit.final->set_cause(v1::CONTACT_ENERGY);
+  exit.final->mutable_summary()->set_step_count(7);
+  const auto out = outcome_of(exit);
+  EXPECT_EQ(out.state, v1::FAILED);
+  ASSERT_TRUE(out.summary);
+  EXPECT_EQ(out.summary->step_count(), 7);
+}
+
 TEST(Outcome, AStoppedWorkerIsLost) {
   EXPECT_EQ(outcome_of(exit_of(WorkerExit::Kind::stopped, 0)).cause, v1::WORKER_LOST);
 }

@@ -30,9 +30,11 @@ std::string name_of(RunStatus::Kind kind) {
     case RunStatus::Kind::running: return "running";
     case RunStatus::Kind::finished: return "finished";
     case RunStatus::Kind::diverged: return "diverged";
-    case RunStatus::Kind::energy_balance: break;
+    case RunStatus::Kind::large_rotation: return "large_rotation";
+    case RunStatus::Kind::energy_balance: return "energy_balance";
+    case RunStatus::Kind::contact_energy: break;
   }
-  return "energy_balance";
+  return "contact_energy";
 }
 
 std::string name_of(CrushMode mode) {

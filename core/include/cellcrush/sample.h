@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace cellcrush {
@@ -35,6 +36,21 @@ struct Front {
   double wall_fraction_behind = 0.0;  ///< the same with the walls' lengths of now: what the model holds there
 };
 
+/// What a run went on with but a reader of its result must know. Each kind is told once, where it was first seen.
+struct Warning {
+  enum class Kind {
+    deep_penetration,  ///< walls overlapped by more than half of the thinner one's thickness
+    walls_crossed,     ///< a wall passed through another
+    energy_drift,      ///< the ledger was open by more than a hundredth of the work done
+    contact_energy     ///< contacts had made more than a hundredth of the work done
+  };
+  Kind kind = Kind::deep_penetration;
+  std::int64_t step = 0;
+  double strain = 0.0;  ///< nominal; 0 of a frame
+  std::string message;  ///< what, when and where
+  std::string remedy;   ///< what to do about it
+};
+
 /// The scalars of a run at one moment. Units: mm, s, MPa, N mm (= mJ). Stresses are means over the interval since the
 /// sample before; energies are totals since the start.
 struct Sample {
@@ -62,6 +78,7 @@ struct Sample {
   CrushMode crush_mode = CrushMode::none;  ///< told from the cells that have collapsed now, where it was looked for
   std::optional<Front> front;
   std::vector<WatchedNode> watched;  ///< in the order of the frame's watched nodes
+  std::vector<Warning> warnings;     ///< of contacts, first seen at this sample
 };
 
 /// The fields of a run at one moment.
@@ -121,6 +138,7 @@ struct Summary {
   std::optional<FrontSummary> front;        ///< absent unless half of the plateau window's samples have a front
   std::optional<QuasiStatic> quasi_static;  ///< absent when the run ended before its first window
   Theory theory;
+  std::vector<Warning> warnings;  ///< of all samples, and of the ledger, by step
 
   /// Theory over the plateau at the impact plate, minus 1; absent with either.
   [[nodiscard]] std::optional<double> shock_error() const;        ///< of Eq. 51

@@ -66,7 +66,14 @@ Summary summarize(const Scene& scene, std::span<const Sample> samples);
 
 /// Why a run stopped.
 struct RunStatus {
-  enum class Kind { running, finished, diverged, energy_balance };
+  enum class Kind {
+    running,
+    finished,
+    diverged,        ///< a motion or a force is no longer finite
+    large_rotation,  ///< a particle turned by more in a step than the kinematics are made for
+    energy_balance,  ///< the ledger is open
+    contact_energy   ///< contacts have made energy
+  };
   Kind kind = Kind::running;
   std::string message;  ///< what happened, where and when; empty while running or finished
   std::string remedy;   ///< what to do about it
@@ -83,11 +90,16 @@ class Simulation {
   /// Advances by at most `steps` and no further than the last step; nothing happens once status() is not `running`.
   void advance(std::int64_t steps, StageObserver* observer = nullptr);
 
-  /// Scalars now; closes the interval over which stresses are means. Checks the run: after it status() may have changed.
+  /// Scalars now; closes the interval over which stresses are means. Checks the run: after it status() may have
+  /// changed, and a sample that fails the check is no result.
   Sample take_sample();
 
   /// Fields now; `index` is copied into the frame.
   FieldFrame take_frame(int index) const;
+
+  /// Fields of the newest sample that was kept for the case that the run fails: it passed the check, and lies at most a
+  /// hundredth of the run's steps before the newest that did. The undeformed state before there is one. Its index is 0.
+  [[nodiscard]] const FieldFrame& last_good_frame() const;
 
   [[nodiscard]] RunStatus status() const;
   [[nodiscard]] std::int64_t step() const;

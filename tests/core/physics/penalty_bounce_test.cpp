@@ -5,14 +5,14 @@
 #include <numbers>
 
 #include "cellcrush/state.h"
+#include "scenes/beam_over_beam.h"
 #include "scenes/frames.h"
 #include "step/advance_step.h"
 
 namespace cellcrush {
 namespace {
 
-/// A short beam flies flat onto a long one that is held at both ends: each of its two balls meets the wall like a mass on a
-/// spring, and no beam bends.
+/// What the short beam shows that flies onto the long one.
 struct Bounce {
   double duration = 0.0;      // s
   double peak_depth = 0.0;    // mm
@@ -22,13 +22,7 @@ struct Bounce {
 constexpr double kSpeed = 1000.0;  // mm/s
 
 Bounce bounce(double omega_step, double damping_ratio, double& mass, double& stiffness) {
-  FrameLattice frame;
-  frame.nodes = {{-40.0, 0.0, 0.0, 0.0}, {40.0, 0.0, 0.0, 0.0}, {-5.0, 1.01, 0.0, 0.0}, {5.0, 1.01, 0.0, 0.0}};
-  frame.beams = {scenes::beam(0, 1, 1.0, 1), scenes::beam(2, 3, 1.0, 1)};
-  frame.supports = {{0, true, true, true}, {1, true, true, true}};
-  frame.initial_velocities = {{2, 0.0, -kSpeed / 1e3, 0.0}, {3, 0.0, -kSpeed / 1e3, 0.0}};
-  frame.self_contact = true;
-  SceneSpec spec = scenes::elastic_frame(frame);
+  SceneSpec spec = scenes::beam_over_beam(kSpeed / 1e3, 0.0);
   spec.contact.damping_ratio = damping_ratio;
   auto scene = scenes::build(spec);
   mass = scene->mass[2];
@@ -95,15 +89,7 @@ struct Resting {
   double depth = 0.0;  // mm, at rest
 
   explicit Resting(double omega_step) {
-    FrameLattice frame;
-    frame.nodes = {{-40.0, 0.0, 0.0, 0.0}, {40.0, 0.0, 0.0, 0.0}, {-5.0, 1.01, 0.0, 0.0}, {5.0, 1.01, 0.0, 0.0}};
-    frame.beams = {scenes::beam(0, 1, 1.0, 1), scenes::beam(2, 3, 1.0, 1)};
-    frame.supports = {{0, true, true, true}, {1, true, true, true}};
-    frame.gravity_y_m_per_s2 = -1e4;
-    frame.self_contact = true;
-    SceneSpec spec = scenes::elastic_frame(frame);
-    spec.contact.damping_ratio = 0.0;
-    scene = scenes::build(spec);
+    scene = scenes::build(scenes::beam_over_beam(0.0, 1e4));
     const double step = scene->schedule.time_step;
     scene->contact.stiffness = scene->mass[2] * omega_step * omega_step / (step * step);
     depth = scene->mass[2] * 1e7 / scene->contact.stiffness;

@@ -1,0 +1,110 @@
+#include "measure/warnings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "contact/capsule.h"
+#include "measure/text.h"
+
+namespace cellcrush {
+namespace {
+
+constexpr const char* kShorterStep =
+    "Give a shorter numerics.time_step_s, or 0 to have it chosen, and see whether the stresses stay.";
+
+/// Overlap of a pair that touches, over the thinner wall's thickness.
+double depth_of(const Scene& scene, const State& state, const ContactMemory& pair) {
+  const Element& element = scene.elements[pair.segment];
+  const double length = state.length[pair.segment];
+  const Vector2& axis = state.axis[pair.segment];
+  const Projection foot = project(state.position[pair.ball], state.position[element.start], axis, length);
+  const bool inside = foot.along > 0.0 && foot.along < length;
+  const double distance = inside ? pair.side * cross(axis, foot.offset) : foot.offset.norm();
+  return (scene.reach_of(pair.ball, pair.segment) - distance) /
+         std::min(2.0 * scene.radius[pair.ball], element.thickness);
+}
+
+/// "; deepest now at particle 7, at (1, 2) mm before loading, in the wall of element 9"; empty while nothing touches.
+std::string deepest_place(const Scene& scene, const State& state) {
+  const auto deepest = std::max_element(state.touching.begin(), state.touching.end(),
+                                        [&](const ContactMemory& a, const ContactMemory& b) {
+                                          return depth_of(scene, state, a) < depth_of(scene, state, b);
+                                        });
+  if (deepest == state.touching.end()) {
+    return "";
+  }
+  return "; deepest now at " + place_of(scene, deepest->ball) + ", in the wall of element " +
+         std::to_string(deepest->segment);
+}
+
+/// The warning of a quantity over the turnover, told where it is first beyond kEnergyDrift, with its greatest value.
+template <class Quantity>
+void add_drift(std::span<const Sample> samples, Warning::Kind kind, const std::string& what, Quantity&& quantity,
+               std::vector<Warning>& warnings) {
+  double most = 0.0;
+  for (const Sample& sample : samples) {
+    most = std::max(most, turnover_of(sample));
+  }
+  const Sample* first = nullptr;
+  double greatest = 0.0;
+  for (const Sample& sample : samples) {
+    const double turnover = turnover_of(sample);
+    if (turnover <= 0.01 * most) {
+      continue;
+    }
+    const double share = quantity(sample) / turnover;
+    if (share > kEnergyDrift && first == nullptr) {
+      first = &sample;
+    }
+    greatest = std::max(greatest, share);
+  }
+  if (first != nullptr) {
+    warnings.push_back({kind, first->step, first->strain,
+                        what + " more than 1 % of the work done from " + moment_of(first->step, first->time) +
+                            " on, at most " + percent_of(greatest) + ".",
+                        kShorterStep});
+  }
+}
+
+}  // namespace
+
+Warning warn_of_depth(const Scene& scene, const State& state, double strain) {
+  return {Warning::Kind::deep_penetration, state.step, strain,
+          "Walls have overlapped by " + percent_of(state.deepest_penetration) + " of the thinner one's thickness by " +
+              moment_of(state.step, state.time) + deepest_place(scene, state) + ".",
+          std::string(kShorterStep) + " A greater contact.stiffness_factor keeps slow walls apart."};
+}
+
+Warning warn_of_crossing(const Scene& scene, const State& state, double strain) {
+  const double time = static_cast<double>(state.crossing_step) * scene.schedule.time_step;
+  return {Warning::Kind::walls_crossed, state.crossing_step, strain,
+          "Walls were found to have crossed at " + moment_of(state.crossing_step, time) +
+              "; contacts are searched in space since" + deepest_place(scene, state) + ".",
+          kShorterStep};
+}
+
+double turnover_of(const Sample& sample) {
+  const double initial = sample.energy_residual + sample.energy_kinetic + sample.energy_elastic +
+                         sample.energy_plastic + sample.energy_contact + sample.energy_friction +
+                         sample.energy_damping - sample.work_external;
+  return std::max(std::abs(sample.work_external), sample.energy_kinetic + initial);
+}
+
+std::vector<Warning> collect_warnings(std::span<const Sample> samples) {
+  std::vector<Warning> warnings;
+  for (const Sample& sample : samples) {
+    warnings.insert(warnings.end(), sample.warnings.begin(), sample.warnings.end());
+  }
+  add_drift(
+      samples, Warning::Kind::energy_drift, "The energy ledger is open by",
+      [](const Sample& sample) { return std::abs(sample.energy_residual); }, warnings);
+  add_drift(
+      samples, Warning::Kind::contact_energy, "Contacts have made",
+      [](const Sample& sample) { return -sample.energy_contact; }, warnings);
+  std::stable_sort(warnings.begin(), warnings.end(),
+                   [](const Warning& a, const Warning& b) { return a.step < b.step; });
+  return warnings;
+}
+
+}  // namespace cellcrush

@@ -1,0 +1,141 @@
+// Failure modes of contact between two walls: each without its guard, and with it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "cellcrush/state.h"
+#include "contact/normal_force.h"
+#include "scenes/beam_over_beam.h"
+#include "scenes/frames.h"
+#include "step/advance_step.h"
+
+namespace cellcrush {
+namespace {
+
+constexpr double kReach = 1.0;  // mm, of two beams
+
+/// A beam that flies onto another, and where it is after it has had the time to fly back.
+struct Flight {
+  std::shared_ptr<Scene> scene;
+  State state;
+
+  /// A free ball at this speed would sink in by `depth` mm; the step is that in which the beam flies `advance` mm.
+  Flight(double speed_m_per_s, double depth, double advance) {
+    scene = scenes::build(scenes::beam_over_beam(speed_m_per_s, 0.0));
+    const double speed = 1e3 * speed_m_per_s;
+    scene->contact.stiffness = scene->mass[2] * std::pow(speed / depth, 2);
+    scene->schedule.time_step = advance / speed;
+    state = make_initial_state(*scene);
+  }
+
+  /// Height of the flown beam over the other, mm, after the way of 20 mm.
+  double height(bool remembers_sides) {
+    const double speed = std::abs(scene->initial_velocity[2].y());
+    while (state.time < 20.0 / speed) {
+      if (!remembers_sides) {
+        state.touching.clear();
+      }
+      advance_step(*scene, state, nullptr);
+    }
+    return state.position[2].y();
+  }
+};
+
+// 1/2 m V^2 > 1/2 k g^2: the spring is used up before the beam stands.
+TEST(Tunnelling, AContactTooSoftForTheSpeedLetsAWallThrough) {
+  EXPECT_LT(Flight(100.0, 3.0 * kReach, 0.01).height(true), -5.0);
+  EXPECT_GT(Flight(100.0, 0.16 * kReach, 0.01).height(true), 5.0);  // as stiff as that of lattices
+}
+
+// V dt > R + h/2: the beam is above in one step and below in the next.
+TEST(Tunnelling, AStepTooLongForTheSpeedHopsOverAWall) {
+  Flight hop(100.0, 0.16 * kReach, 2.1 * kReach);
+  EXPECT_LT(hop.height(true), -5.0);
+  EXPECT_EQ(hop.state.deepest_penetration, 0.0) << "no contact was seen, so nothing can tell";
+  EXPECT_GT(Flight(100.0, 0.16 * kReach, 0.05 * kReach).height(true), 5.0);  // the chosen step of lattices
+}
+
+// Between plates the chosen step cannot hop: the plate moves by a twentieth of the thinnest wall.
+TEST(Tunnelling, TheChosenStepOfALatticeFollowsTheSpeed) {
+  for (const double speed : {100.0, 200.0, 400.0, 1000.0}) {
+    SceneSpec spec = scenes::hexagon_block(4, 3);
+    spec.loading.speed_m_per_s = speed;
+    const auto scene = scenes::build(spec);
+    EXPECT_LE(1e3 * speed * scene->schedule.time_step, 0.05 * 0.3464 * (1.0 + 1e-9)) << speed;
+  }
+}
+
+// Eq. 42 pushes a ball on once it is past the mid-line. The side of first touch brings it back.
+TEST(SignFlip, ABallPressedPastTheMidLineIsPulledThroughUnlessItsSideIsRemembered) {
+  Flight forgetful(100.0, 1.5 * kReach, 0.01);
+  EXPECT_LT(forgetful.height(false), -5.0);
+  EXPECT_GT(std::abs(forgetful.state.velocity[2].y()), 1e3 * 100.0 * 0.5);
+  Flight mindful(100.0, 1.5 * kReach, 0.01);
+  EXPECT_GT(mindful.height(true), 5.0);
+  EXPECT_NEAR(mindful.state.velocity[2].y(), 1e3 * 100.0, 1e3);
+}
+
+// Walls that lie in each other from the start are a wound spring that no work was done on. It is refused by name
+// (InitialOverlap.ABeamWithinReachOfAnotherIsNamed).
+TEST(StartOverlap, WallsThatBeginInEachOtherFlyApartOnEnergyThatNobodyPut) {
+  const auto scene = scenes::build(scenes::beam_over_beam(0.0, 0.0));
+  scene->position[2].y() = scene->position[3].y() = 0.5 * kReach;
+  Simulation simulation(scene);
+  simulation.advance(50);
+  EXPECT_GT(simulation.state().velocity[2].y(), 1e3);
+  EXPECT_EQ(simulation.take_sample().work_external, 0.0);
+}
+
+// Beyond omega dt = 2 a resting contact throws what lies on it; up to there it keeps its energy for a million steps
+// (PenaltyContact.RestsForAMillionStepsWithoutGainingEnergy).
+TEST(RestingContact, ThrowsWhatLiesOnItWhenTooStiffForTheStep) {
+  const auto fastest_at = [](double omega_step) {
+    const auto scene = scenes::build(scenes::beam_over_beam(0.0, 1e4));
+    const double step = scene->schedule.time_step;
+    scene->contact.stiffness = scene->mass[2] * omega_step * omega_step / (step * step);
+    const double depth = scene->mass[2] * 1e7 / scene->contact.stiffness;
+    scene->position[2].y() = scene->position[3].y() = kReach - 0.9 * depth;
+    State state = make_initial_state(*scene);
+    double fastest = 0.0;
+    for (int i = 0; i < 2000; ++i) {
+      advance_step(*scene, state, nullptr);
+      fastest = std::max(fastest, std::abs(state.velocity[2].y()));
+    }
+    return fastest / (1e7 * step);  // over the speed of one step's fall
+  };
+  EXPECT_LT(fastest_at(1.8), 1.0);
+  EXPECT_GT(fastest_at(2.05), 10.0);
+}
+
+// Eq. 43 with c > 0 pulls on walls that part.
+TEST(Adhesion, AViscousContactPullsOnWallsThatPartUnlessItIsClamped) {
+  constexpr double kStiffness = 100.0;
+  constexpr double kDampingRatio = 0.2;
+  constexpr double kInverseMass = 1e8;
+  constexpr double kDepth = 0.01;
+  const double damping = 2.0 * kDampingRatio * std::sqrt(kStiffness / kInverseMass);
+  for (const double rate : {-1e4, -1e5, -1e6}) {
+    EXPECT_LT(kStiffness * kDepth + damping * rate, 0.0);  // Eq. 43 as it stands
+    const NormalForce force = evaluate_normal_force(kStiffness, kDampingRatio, kInverseMass, kDepth, rate);
+    EXPECT_EQ(force.elastic + force.viscous, 0.0) << rate;
+  }
+}
+
+// With the gap R + h/2 for every pair, walls of many short elements touch themselves round every joint before loading
+// and the block bursts. Pairs joined by a short way touch at 0.4 of it.
+TEST(ThickNeighbours, TouchAtEveryJointBeforeLoadingWithTheLiteralGap) {
+  SceneSpec spec = scenes::hexagon_block(4, 3);
+  std::get<HexagonLattice>(spec.lattice).wall_thickness_mm = 0.8;
+  spec.elements_per_wall = 8;
+  const auto scene = scenes::build(spec);
+  const State sound = make_initial_state(*scene);
+  EXPECT_EQ(sound.contact_count, 0);
+  EXPECT_EQ(sound.contact_stored, 0.0);
+  scene->limited_reaches = {};
+  const State literal = make_initial_state(*scene);
+  EXPECT_GT(literal.contact_count, 300);
+  EXPECT_GT(literal.deepest_penetration, 0.3);
+}
+
+}  // namespace
+}  // namespace cellcrush

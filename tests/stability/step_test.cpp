@@ -1,0 +1,227 @@
+// Steps that are too long: each run as one that nobody watches, and as one that is sampled.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "cellcrush/state.h"
+#include "scenes/dynamic_frames.h"
+#include "scenes/frames.h"
+#include "scenes/small_block.h"
+
+namespace cellcrush {
+namespace {
+
+using Kind = RunStatus::Kind;
+
+/// A run to its end, or to what ended it.
+struct WatchedRun {
+  std::shared_ptr<Scene> scene;
+  RunStatus status;
+  std::vector<Sample> samples;
+  Summary summary;
+  FieldFrame last_good;
+  std::int64_t step = 0;
+
+  explicit WatchedRun(std::shared_ptr<Scene> built) : scene(std::move(built)) {
+    Simulation simulation(scene);
+    while (simulation.status().kind == Kind::running) {
+      simulation.advance(scene->schedule.sample_interval);
+      Sample sample = simulation.take_sample();
+      const Kind kind = simulation.status().kind;
+      if (kind == Kind::running || kind == Kind::finished) {
+        samples.push_back(std::move(sample));
+      }
+    }
+    status = simulation.status();
+    summary = summarize(*scene, samples);
+    last_good = simulation.last_good_frame();
+    step = simulation.step();
+  }
+
+  [[nodiscard]] bool warns_of(Warning::Kind kind) const {
+    return std::any_of(summary.warnings.begin(), summary.warnings.end(),
+                       [&](const Warning& warning) { return warning.kind == kind; });
+  }
+};
+
+/// A small block whose run is in steps of `share` of the stable one, as if nothing else bounded them; 0: the chosen
+/// step.
+std::shared_ptr<Scene> block(const char* lattice, double speed, double share, double end_strain = 0.8,
+                             double stiffness_factor = 0.12) {
+  SceneSpec spec = scenes::spec_of({lattice, speed, 0.0}, 12, 6);
+  spec.loading.end_strain = end_strain;
+  spec.contact.stiffness_factor = stiffness_factor;
+  spec.output.sample_count = 200;
+  auto scene = scenes::build(spec);
+  if (share > 0.0) {
+    Schedule& schedule = scene->schedule;
+    const double end = static_cast<double>(schedule.step_count) * schedule.time_step;
+    schedule.time_step = share * scene->stable_step;
+    schedule.step_count = std::llround(end / schedule.time_step);
+    schedule.sample_interval = std::max<std::int64_t>(1, schedule.step_count / 200);
+  }
+  return scene;
+}
+
+/// The state at the end of a run that nobody looks at: no check can end it.
+State unwatched(const std::shared_ptr<Scene>& scene) {
+  Simulation simulation(scene);
+  simulation.advance(scene->schedule.step_count);
+  return simulation.state();
+}
+
+bool is_finite(const FieldFrame& frame) {
+  return std::all_of(frame.position.begin(), frame.position.end(), [](float value) { return std::isfinite(value); });
+}
+
+void expect_named(const WatchedRun& run) {
+  EXPECT_NE(run.status.message.find("step " + std::to_string(run.step)), std::string::npos) << run.status.message;
+  EXPECT_NE(run.status.message.find("particle "), std::string::npos) << run.status.message;
+  EXPECT_NE(run.status.message.find("mm before loading"), std::string::npos) << run.status.message;
+  EXPECT_NE(run.status.remedy.find("numerics.time_step_s"), std::string::npos) << run.status.remedy;
+}
+
+void expect_last_good_is_kept(const WatchedRun& run) {
+  EXPECT_TRUE(is_finite(run.last_good));
+  EXPECT_EQ(run.last_good.position.size(), 2 * run.scene->particle_count());
+  EXPECT_LT(run.last_good.time, static_cast<double>(run.step) * run.scene->schedule.time_step);
+  if (!run.samples.empty()) {
+    EXPECT_LE(run.last_good.time, run.samples.back().time);
+    EXPECT_GE(run.last_good.strain, run.samples.back().strain - 0.011);
+  }
+}
+
+// Plasticity takes what the instability makes: no motion is seen that a sound crush does not show as well. Only the
+// ledger tells.
+TEST(StepBeyondTheLimit, HidesItsEnergyAsPlasticHeatAndOnlyTheLedgerShowsIt) {
+  const WatchedRun sound(block("hexagon", 100.0, 0.0));
+  EXPECT_EQ(sound.status.kind, Kind::finished);
+  EXPECT_LT(sound.summary.energy_error_relative, 0.01);
+  EXPECT_TRUE(sound.summary.warnings.empty());
+
+  const auto scene = block("hexagon", 100.0, 1.02);
+  const State state = unwatched(scene);
+  for (const Vector2& velocity : state.velocity) {
+    EXPECT_LT(velocity.norm(), 10.0 * scene->plates.speed);
+  }
+  const WatchedRun drifting(scene);
+  EXPECT_EQ(drifting.status.kind, Kind::finished);
+  EXPECT_NEAR(*drifting.summary.plateau_stress_impact, *sound.summary.plateau_stress_impact,
+              0.15 * *sound.summary.plateau_stress_impact);
+  EXPECT_TRUE(drifting.warns_of(Warning::Kind::energy_drift)) << drifting.summary.energy_error_relative;
+}
+
+TEST(StepBeyondTheLimit, EndsByNameWithItsStepItsPlaceAndTheLastGoodFrame) {
+  for (const double share : {1.1, 1.5, 3.0}) {
+    const WatchedRun run(block("hexagon", 100.0, share));
+    EXPECT_EQ(run.status.kind, Kind::energy_balance) << share;
+    expect_named(run);
+    expect_last_good_is_kept(run);
+  }
+}
+
+// Without flow nothing takes the energy, and the motion grows without bound.
+TEST(StepBeyondTheLimit, OfAnElasticStructureGrowsWithoutBound) {
+  constexpr double kStir = 1.0;  // mm/s
+  auto scene = block("hexagon", 100.0, 1.3);
+  scene->materials.front().yield_stress = 1e30;
+  scene->contact.present = scene->plates.present = false;
+  scenes::stir(*scene, kStir);
+  scene->schedule.step_count = 2000;
+  scene->schedule.sample_interval = 500;
+  double fastest = 0.0;
+  for (const Vector2& velocity : unwatched(scene).velocity) {
+    fastest = std::max(fastest, velocity.norm());
+  }
+  EXPECT_GT(fastest, 1e6 * kStir);
+  const WatchedRun run(scene);
+  EXPECT_EQ(run.status.kind, Kind::large_rotation) << run.status.message;
+  expect_named(run);
+  expect_last_good_is_kept(run);
+}
+
+TEST(NonFiniteMotion, EndsTheRunByNameAndKeepsTheLastFrameOfNumbers) {
+  const auto scene = block("hexagon", 100.0, 0.0);
+  scene->initial_velocity.assign(scene->particle_count(), Vector2::Zero());
+  scene->initial_velocity[5].x() = std::numeric_limits<double>::infinity();
+  const State state = unwatched(scene);
+  EXPECT_GT(std::count_if(state.position.begin(), state.position.end(),
+                          [](const Vector2& position) { return !position.allFinite(); }),
+            200);  // it has spread
+  const WatchedRun run(scene);
+  EXPECT_EQ(run.status.kind, Kind::diverged);
+  expect_named(run);
+  expect_last_good_is_kept(run);
+}
+
+// 400 m/s in steps of 0.9 of the stable one: the plate moves by a quarter of a wall in a step, walls are born deep in
+// each other and thrown through. The ledger books what contacts make like any other work and closes.
+TEST(StepTooLongForTheSpeed, MakesAThousandTimesTheWorkUnlessContactsAreWatched) {
+  const State sound = unwatched(block("hexagon", 400.0, 0.0));
+  const State state = unwatched(block("hexagon", 400.0, 0.9));
+  EXPECT_GT(state.ledger.external, 100.0 * sound.ledger.external);
+  EXPECT_GE(state.crossing_step, 0);
+  for (const char* lattice : {"hexagon", "square", "triangle"}) {
+    const WatchedRun run(block(lattice, 400.0, 0.9));
+    EXPECT_EQ(run.status.kind, Kind::contact_energy) << lattice << run.status.message;
+    expect_named(run);
+    expect_last_good_is_kept(run);
+    const WatchedRun chosen(block(lattice, 400.0, 0.0, 0.4));
+    EXPECT_EQ(chosen.status.kind, Kind::finished) << lattice << chosen.status.message;
+    EXPECT_LT(chosen.summary.energy_error_relative, 0.01) << lattice;
+    EXPECT_FALSE(chosen.warns_of(Warning::Kind::contact_energy)) << lattice;
+  }
+}
+
+// At the longest step that may be given the law of contact is as soft as that step wants, and walls sink in deeper.
+TEST(StepTooLongForTheSpeed, IsAWarningWhileOnlyWallsCross) {
+  SceneSpec spec = scenes::spec_of({"hexagon", 1000.0, 0.0}, 12, 6);
+  spec.numerics.time_step_s = 2.26e-7;
+  spec.output.sample_count = 200;
+  const WatchedRun run(scenes::build(spec));
+  EXPECT_EQ(run.status.kind, Kind::finished) << run.status.message;
+  EXPECT_GT(run.summary.deepest_penetration, 0.5);
+  ASSERT_TRUE(run.warns_of(Warning::Kind::deep_penetration));
+  EXPECT_EQ(run.warns_of(Warning::Kind::walls_crossed), run.samples.back().walls_crossed);
+  for (const Warning& warning : run.summary.warnings) {
+    EXPECT_NE(warning.message.find("step "), std::string::npos) << warning.message;
+    EXPECT_FALSE(warning.remedy.empty());
+  }
+  EXPECT_NE(run.summary.warnings.front().message.find("particle "), std::string::npos)
+      << run.summary.warnings.front().message;
+}
+
+// Walls stacked along the crush ring among their contacts: at 0.9 of the step that a single one would bear they make
+// energy.
+TEST(DensifiedStack, MakesEnergyAtTheStepThatASingleContactBears) {
+  const double single = 1.0;  // stiffness over m / dt_crit^2: omega dt = 0.9 for one particle between contacts
+  const WatchedRun ringing(block("triangle", 25.0, 0.9, 0.8, single));
+  EXPECT_EQ(ringing.status.kind, Kind::finished) << ringing.status.message;
+  EXPECT_TRUE(ringing.warns_of(Warning::Kind::contact_energy));
+  const WatchedRun sound(block("triangle", 25.0, 0.5, 0.8, single));
+  EXPECT_EQ(sound.status.kind, Kind::finished) << sound.status.message;
+  EXPECT_TRUE(sound.summary.warnings.empty());
+  const SceneFacts chosen = facts_of(*block("triangle", 25.0, 0.0, 0.8, single));
+  EXPECT_LT(chosen.time_step, 0.5 * chosen.stable_step);
+}
+
+// A bar that turns by 0.3 rad in a step is torn by its own spin; one that turns by more than half a turn is seen
+// turning the other way (LargeIncrements.BeyondHalfATurnAreSeenAsTheOtherWay).
+TEST(LargeIncrements, EndTheRunByName) {
+  const auto scene = scenes::build(scenes::SpinningBar::spec(8, 4.0));
+  const double spin = 0.3 / scene->schedule.time_step;
+  for (std::size_t i = 0; i < scene->particle_count(); ++i) {
+    scene->initial_spin[i] = spin;
+    scene->initial_velocity[i] = Vector2(0.0, spin * scene->position[i].x());
+  }
+  scene->schedule.sample_interval = 1;
+  const WatchedRun run(scene);
+  EXPECT_EQ(run.status.kind, Kind::large_rotation) << run.status.message;
+  expect_named(run);
+}
+
+}  // namespace
+}  // namespace cellcrush
