@@ -19,6 +19,7 @@ struct Simulation::Impl {
 
   std::shared_ptr<const Scene> scene;
   State state;
+  Workspace workspace;
   Sampler sampler;
   RunStatus status;
 };
@@ -32,7 +33,7 @@ Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 void Simulation::advance(std::int64_t steps, StageObserver* observer) {
   const std::int64_t last = std::min(impl_->state.step + steps, impl_->scene->schedule.step_count);
   while (impl_->status.kind == RunStatus::Kind::running && impl_->state.step < last) {
-    advance_step(*impl_->scene, impl_->state, observer);
+    advance_step(*impl_->scene, impl_->state, impl_->workspace, observer);
   }
   if (impl_->status.kind == RunStatus::Kind::running && impl_->state.step >= impl_->scene->schedule.step_count) {
     impl_->status.kind = RunStatus::Kind::finished;
