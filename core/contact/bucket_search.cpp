@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "contact/bucket_grid.h"
+#include "contact/candidate_lists.h"
 #include "contact/capsule.h"
 
 namespace cellcrush {
@@ -34,9 +35,7 @@ void search_buckets(const Scene& scene, State& state) {
 }
 
 void list_by_buckets(const Scene& scene, State& state) {
-  state.candidate_ball.clear();
-  state.candidate_segment.clear();
-  state.candidate_reach.clear();
+  clear_candidates(state);
   const double longest = *std::max_element(state.length.begin(), state.length.end());
   const double largest_radius = *std::max_element(scene.radius.begin(), scene.radius.end());
   const double skin = scene.contact.skin;
@@ -57,6 +56,7 @@ void list_by_buckets(const Scene& scene, State& state) {
     });
   }
   state.candidate_count = static_cast<std::int64_t>(state.candidate_ball.size());
+  fill_batch(state);
   state.searched_position = state.position;
   ++state.search_count;
 }

@@ -1,14 +1,15 @@
 #include "contact/candidate_lists.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace cellcrush {
 namespace {
 
-/// Lists have room for a multiple of so many.
-constexpr int kRoom = 4;
-/// Empty places that are always let be.
-constexpr std::int64_t kEmptyPlaces = 1024;
+/// Empty batches that are always let be.
+constexpr std::int64_t kEmptyBatches = 128;
+
+int batches_for(int count) { return (count + kCandidateBatch - 1) / kCandidateBatch; }
 
 void put(State& state, int place, const Candidate& candidate) {
   state.candidate_ball[place] = candidate.ball;
@@ -22,26 +23,33 @@ void resize(State& state, std::size_t size) {
   state.candidate_reach.resize(size, 0.0);
 }
 
+/// Wakes the batches of a list.
+void wake(State& state, const FaceList& list) {
+  const auto first = state.batch_alarm.begin() + list.first / kCandidateBatch;
+  std::fill(first, first + list.room / kCandidateBatch, 0.0);
+}
+
 /// Gives a list another place, at the end. What it held is lost.
 void move_to_end(State& state, FaceList& list, int count) {
   for (int i = 0; i < list.count; ++i) {
     put(state, list.first + i, Candidate());
   }
   list.first = static_cast<int>(state.candidate_ball.size());
-  list.room = (count + kRoom - 1) / kRoom * kRoom;
+  list.room = batches_for(count) * kCandidateBatch;
   list.count = 0;
   resize(state, state.candidate_ball.size() + list.room);
+  state.batch_group.resize(state.candidate_ball.size() / kCandidateBatch, list.group);
+  state.batch_alarm.resize(state.batch_group.size(), 0.0);
 }
 
 void close_up(State& state) {
   const std::vector<int> ball = std::move(state.candidate_ball);
   const std::vector<int> segment = std::move(state.candidate_segment);
   const std::vector<double> reach = std::move(state.candidate_reach);
-  resize(state, 0);
+  clear_candidates(state);
   for (FaceList& list : state.face_list) {
     const FaceList before = list;
     list.count = 0;
-    list.room = 0;
     move_to_end(state, list, before.count);
     list.count = before.count;
     for (int i = 0; i < list.count; ++i) {
@@ -57,6 +65,7 @@ void replace_list(State& state, int face, const std::vector<Candidate>& candidat
   FaceList& list = state.face_list[face];
   const int count = static_cast<int>(candidates.size());
   state.candidate_count += count - list.count;
+  state.batch_count += batches_for(count) - batches_for(list.count);
   if (count > list.room) {
     move_to_end(state, list, count);
   }
@@ -64,10 +73,20 @@ void replace_list(State& state, int face, const std::vector<Candidate>& candidat
     put(state, list.first + i, i < count ? candidates[i] : Candidate());
   }
   list.count = count;
-  const auto places = static_cast<std::int64_t>(state.candidate_ball.size());
-  if (places > state.candidate_count + state.candidate_count / 4 + kEmptyPlaces) {
+  wake(state, list);
+  if (static_cast<std::int64_t>(state.batch_group.size()) > state.batch_count + state.batch_count / 4 + kEmptyBatches) {
     close_up(state);
   }
+}
+
+void fill_batch(State& state) {
+  resize(state, static_cast<std::size_t>(batches_for(static_cast<int>(state.candidate_ball.size()))) * kCandidateBatch);
+}
+
+void clear_candidates(State& state) {
+  resize(state, 0);
+  state.batch_group.clear();
+  state.batch_alarm.clear();
 }
 
 }  // namespace cellcrush

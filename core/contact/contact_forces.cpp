@@ -1,149 +1,152 @@
 #include "contact/contact_forces.h"
 
 #include <algorithm>
+#include <span>
 #include <vector>
 
-#include "contact/find_touches.h"
+#include "contact/evaluate_touches.h"
+#include "contact/find_overlaps.h"
+#include "contact/find_pushes.h"
 #include "contact/friction.h"
 #include "contact/normal_force.h"
+#include "contact/remember_touches.h"
 
 namespace cellcrush {
 namespace {
 
-/// Adds a force on the ball and its reaction on the segment, shared by the lever rule.
-void add_pair(const Scene& scene, const Touch& touch, const Vector2& force, std::vector<Vector2>& forces) {
-  const Element& element = scene.elements[touch.segment];
-  forces[touch.ball] += force;
-  forces[element.start] -= (1.0 - touch.share) * force;
-  forces[element.end] -= touch.share * force;
-}
-
-/// Velocity of the segment where it touches the ball.
-Vector2 segment_velocity(const Scene& scene, const State& state, const Touch& touch) {
-  const Element& element = scene.elements[touch.segment];
-  return (1.0 - touch.share) * state.velocity[element.start] + touch.share * state.velocity[element.end];
+/// Adds a force on the ball of a touch and its reaction on the segment, shared by the lever rule.
+void add_pair(const Scene& scene, const State& state, const Touches& touches, int touch, const Vector2& force,
+              std::vector<Vector2>& forces) {
+  const Element& element = scene.elements[state.touching.segment[touch]];
+  const double share = touches.share[touch];
+  forces[state.touching.ball[touch]] += force;
+  forces[element.start] -= (1.0 - share) * force;
+  forces[element.end] -= share * force;
 }
 
 /// Takes back half of what the touch of two balls would store: the node's ball counts the pair as well, and pushes on its
 /// own where the node lies under the ball's segments.
-void take_back_node(const Scene& scene, State& state, const Touch& touch) {
-  if (touch.node < 0) {
-    return;
-  }
+void take_back_node(const Scene& scene, State& state, const Touches& touches, int node_touch) {
   const double stiffness = 0.5 * scene.contact.stiffness;
-  const Vector2 force = stiffness * touch.node_depth * touch.node_normal;
-  state.contact_force[touch.ball] -= force;
-  state.contact_force[touch.node] += force;
-  state.contact_stored -= 0.5 * stiffness * touch.node_depth * touch.node_depth;
+  const double depth = touches.node_depth[node_touch];
+  const Vector2 force = stiffness * depth * touches.node_normal[node_touch];
+  state.contact_force[state.touching.ball[node_touch]] -= force;
+  state.contact_force[touches.node[node_touch]] += force;
+  state.contact_stored -= 0.5 * stiffness * depth * depth;
 }
 
-/// Adds the normal force of a touch; returns what of it friction goes by, N.
-double apply_normal_force(const Scene& scene, State& state, const Touch& touch) {
-  const Element& element = scene.elements[touch.segment];
-  const double to_end = touch.share;
-  const double to_start = 1.0 - touch.share;
-  const double rate = touch.normal.dot(segment_velocity(scene, state, touch) - state.velocity[touch.ball]);
-  const double inverse_mass = 1.0 / scene.mass[touch.ball] + to_start * to_start / scene.mass[element.start] +
-                              to_end * to_end / scene.mass[element.end];
-  const NormalForce net = evaluate_normal_force(scene.contact.stiffness, scene.contact.damping_ratio, inverse_mass,
-                                                touch.net_depth, touch.has_pair ? rate : 0.0);
-  add_pair(scene, touch, scene.contact.stiffness * touch.depth * touch.normal, state.contact_force);
-  add_pair(scene, touch, net.viscous * touch.normal, state.contact_damping_force);
-  state.contact_stored += 0.5 * scene.contact.stiffness * touch.depth * touch.depth;
-  take_back_node(scene, state, touch);
-  ++state.contact_count;
-  const double relative_depth = touch.depth / std::min(2.0 * scene.radius[touch.ball], element.thickness);
-  state.deepest_penetration = std::max(state.deepest_penetration, relative_depth);
-  if (touch.is_new) {
-    state.deepest_birth = std::max(state.deepest_birth, relative_depth);
+/// Adds the normal force of a touch, and notes what of it friction goes by.
+void apply_normal_force(const Scene& scene, State& state, const Touches& touches, Push& push) {
+  const int touch = push.touch;
+  const double stiffness = scene.contact.stiffness;
+  const double depth = touches.depth[touch];
+  add_pair(scene, state, touches, touch, stiffness * depth * touches.normal[touch], state.contact_force);
+  state.contact_stored += 0.5 * stiffness * depth * depth;
+  if (push.has_pair) {
+    const NormalForce net = without_pull(stiffness * push.net_depth, touches.viscous[touch]);
+    add_pair(scene, state, touches, touch, net.viscous * touches.normal[touch], state.contact_damping_force);
+    push.normal_force = net.elastic + net.viscous;
   }
-  return net.elastic + net.viscous;
+  if (push.node_touch != Push::kNone) {
+    take_back_node(scene, state, touches, push.node_touch);
+  }
+  const double thinner =
+      std::min(2.0 * scene.radius[state.touching.ball[touch]], scene.elements[state.touching.segment[touch]].thickness);
+  state.deepest_penetration = std::max(state.deepest_penetration, depth / thinner);
+  if (touches.known[touch] == Touches::kNew) {
+    state.deepest_birth = std::max(state.deepest_birth, depth / thinner);
+  }
 }
 
 /// Along the segment where the ball touches its side, turned with the normal round its ends.
-Vector2 tangent_of(const State& state, const Touch& touch) {
-  const int side = state.touching[touch.memory].side;
-  return side * Vector2(touch.normal.y(), -touch.normal.x());
+Vector2 tangent_of(const State& state, const Touches& touches, int touch) {
+  const Vector2& normal = touches.normal[touch];
+  return state.touching.side[touch] * Vector2(normal.y(), -normal.x());
 }
 
-/// Whether a pair pushes with friction in this step.
-bool rubs(const std::vector<Touch>& pushing, const ContactMemory& pair) {
-  const auto precedes = [](const Touch& touch, const ContactMemory& other) {
-    return touch.ball != other.ball ? touch.ball < other.ball : touch.segment < other.segment;
-  };
-  const auto found = std::lower_bound(pushing.begin(), pushing.end(), pair, precedes);
-  return found != pushing.end() && found->ball == pair.ball && found->segment == pair.segment && found->has_pair;
-}
+/// What friction is handed over by.
+struct Friction {
+  const Scene& scene;
+  const State& state;
+  const Touches& touches;
+  const TouchMemory& before;  ///< what touched in the step before
+  std::span<const Push> pushes;
 
-/// Friction that a touch takes over: its own, or that of a touch which it follows. A ball slides on from a neighbour; of two
-/// balls the one hands over to the other. All run along the polyline, one way on its left and the other on its right.
-/// `before`: what touched in the step before.
-double friction_before(const Scene& scene, const State& state, const Touch& touch, const std::vector<Touch>& pushing,
-                       const std::vector<ContactMemory>& before) {
-  const ContactMemory& own = state.touching[touch.memory];
-  if (own.pushed != 0) {
-    return own.friction * own.pushed * own.side;
+  /// Whether a pair that touched before pushes with friction in this step.
+  [[nodiscard]] bool still_rubs(int other) const {
+    const auto precedes = [&](const Push& push, int memory) {
+      const int ball = state.touching.ball[push.touch];
+      return ball != before.ball[memory] ? ball < before.ball[memory]
+                                         : state.touching.segment[push.touch] < before.segment[memory];
+    };
+    const auto found = std::lower_bound(pushes.begin(), pushes.end(), other, precedes);
+    return found != pushes.end() && touches.known[found->touch] == other && found->has_pair;
   }
-  const auto handed_over = [&](int ball, const auto& follows) {
-    const auto precedes = [](const ContactMemory& memory, int other) { return memory.ball < other; };
-    auto other = std::lower_bound(before.begin(), before.end(), ball, precedes);
-    for (; other != before.end() && other->ball == ball; ++other) {
-      if (other->pushed != 0 && !rubs(pushing, *other) && follows(scene.elements[other->segment])) {
-        return other->friction * other->pushed * own.side;
+
+  /// Friction, along the polyline, of a touch of the ball in the step before that rubs no more and that `follows(element)`.
+  template <class Follows>
+  [[nodiscard]] double handed_over(int ball, const Follows& follows) const {
+    const auto first = std::lower_bound(before.ball.begin(), before.ball.end(), ball);
+    for (auto other = static_cast<int>(first - before.ball.begin());
+         other < static_cast<int>(before.count()) && before.ball[other] == ball; ++other) {
+      if (before.pushed[other] != 0 && !still_rubs(other) && follows(scene.elements[before.segment[other]])) {
+        return before.friction[other] * before.pushed[other];
       }
     }
     return 0.0;
-  };
-  const double of_neighbour =
-      handed_over(touch.ball, [&](const Element& other) { return share_a_node(other, scene.elements[touch.segment]); });
-  if (of_neighbour != 0.0 || touch.node < 0) {
-    return of_neighbour;
   }
-  return handed_over(touch.node,
-                     [&](const Element& other) { return other.start == touch.ball || other.end == touch.ball; });
-}
+
+  /// Friction that a touch takes over: its own, or that of a touch which it follows. A ball slides on from a neighbour; of
+  /// two balls the one hands over to the other. All run along the polyline, one way on its left and the other on its right.
+  [[nodiscard]] double before_of(const Push& push) const {
+    const int ball = state.touching.ball[push.touch];
+    const int side = state.touching.side[push.touch];
+    const int known = touches.known[push.touch];
+    if (known != Touches::kNew && before.pushed[known] != 0) {
+      return before.friction[known] * before.pushed[known] * side;
+    }
+    const Element& own = scene.elements[state.touching.segment[push.touch]];
+    const double of_neighbour = handed_over(ball, [&](const Element& other) { return share_a_node(other, own); });
+    if (of_neighbour != 0.0 || push.node_touch == Push::kNone) {
+      return of_neighbour * side;
+    }
+    return side * handed_over(touches.node[push.node_touch],
+                              [&](const Element& other) { return other.start == ball || other.end == ball; });
+  }
+};
 
 /// Overwrites the friction of all that touch by that of the touches that push now, and adds the forces.
-void apply_friction(const Scene& scene, State& state, const std::vector<Touch>& pushing,
-                    const std::vector<ContactMemory>& before, const std::vector<double>& normal_forces) {
-  std::vector<double> friction;
-  for (std::size_t i = 0; i < pushing.size(); ++i) {
-    const Touch& touch = pushing[i];
-    const Vector2 slide = state.velocity[touch.ball] - segment_velocity(scene, state, touch);
-    const double slip = scene.schedule.time_step * slide.dot(tangent_of(state, touch));
-    friction.push_back(evaluate_friction(friction_before(scene, state, touch, pushing, before), scene.contact.stiffness,
-                                         slip, scene.contact.friction * normal_forces[i]));
-  }
-  for (ContactMemory& memory : state.touching) {
-    memory.pushed = 0;
-    memory.friction = 0.0;
-  }
-  for (std::size_t i = 0; i < pushing.size(); ++i) {
-    ContactMemory& memory = state.touching[pushing[i].memory];
-    memory.pushed = pushing[i].has_pair ? memory.side : 0;
-    memory.friction = friction[i];
-    add_pair(scene, pushing[i], friction[i] * tangent_of(state, pushing[i]), state.friction_force);
+void apply_friction(const Scene& scene, State& state, const ContactWorkspace& workspace) {
+  const Touches& touches = workspace.touches;
+  state.touching.pushed.assign(state.touching.count(), 0);
+  state.touching.friction.assign(state.touching.count(), 0.0);
+  const Friction friction = {scene, state, touches, workspace.before, workspace.pushes};
+  for (const Push& push : workspace.pushes) {
+    const double now = evaluate_friction(friction.before_of(push), scene.contact.stiffness, touches.slip[push.touch],
+                                         scene.contact.friction * push.normal_force);
+    state.touching.friction[push.touch] = now;
+    state.touching.pushed[push.touch] = push.has_pair ? state.touching.side[push.touch] : 0;
+    add_pair(scene, state, touches, push.touch, now * tangent_of(state, touches, push.touch), state.friction_force);
   }
 }
 
 }  // namespace
 
-void evaluate_contact_forces(const Scene& scene, State& state) {
+void evaluate_contact_forces(const Scene& scene, State& state, ContactWorkspace& workspace) {
   std::fill(state.friction_force.begin(), state.friction_force.end(), Vector2::Zero());
   std::fill(state.contact_force.begin(), state.contact_force.end(), Vector2::Zero());
   std::fill(state.contact_damping_force.begin(), state.contact_damping_force.end(), Vector2::Zero());
   state.contact_stored = 0.0;
-  state.contact_count = 0;
-  const std::vector<ContactMemory> before =
-      scene.contact.friction > 0.0 ? state.touching : std::vector<ContactMemory>();
-  const std::vector<Touch> pushing = find_touches(scene, state);
-  std::vector<double> normal_forces;
-  normal_forces.reserve(pushing.size());
-  for (const Touch& touch : pushing) {
-    normal_forces.push_back(apply_normal_force(scene, state, touch));
+  find_overlaps(scene, state, workspace);
+  remember_touches(state, workspace);
+  evaluate_touches(scene, state, workspace.touches);
+  find_pushes(scene, state, workspace);
+  for (Push& push : workspace.pushes) {
+    apply_normal_force(scene, state, workspace.touches, push);
   }
+  state.contact_count = static_cast<std::int64_t>(workspace.pushes.size());
   if (scene.contact.friction > 0.0) {
-    apply_friction(scene, state, pushing, before, normal_forces);
+    apply_friction(scene, state, workspace);
   }
 }
 

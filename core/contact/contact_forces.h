@@ -2,6 +2,7 @@
 
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
+#include "contact/contact_workspace.h"
 
 namespace cellcrush {
 
@@ -20,6 +21,11 @@ namespace cellcrush {
 /// shares no node with the one before begins without. It acts at the walls' mid-lines: the couple of R and h/2 is left out,
 /// as in the paper.
 /// c is damping_ratio of critical damping of k with the effective mass 1/m = 1/m_ball + (1-s)^2/m_start + s^2/m_end.
-void evaluate_contact_forces(const Scene& scene, State& state);
+///
+/// Five short loops over arrays (contact/contact_workspace.h): candidates that overlap, what is remembered of them, how they
+/// stand and move, which of them push, the forces. The first and the third, of all pairs alike, are also written for vector
+/// instructions; forces are summed in the order of balls and segments, so that the sums have the same bits however pairs were
+/// found.
+void evaluate_contact_forces(const Scene& scene, State& state, ContactWorkspace& workspace);
 
 }  // namespace cellcrush

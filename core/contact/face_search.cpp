@@ -18,6 +18,11 @@ constexpr double kWideSkin = 3.5;
 void begin(const Scene& scene, State& state) {
   const ContactFaces& faces = scene.faces;
   state.face_list.resize(faces.count());
+  for (int group = 0; group < faces.group_count(); ++group) {
+    for (int face = faces.group_offset[group]; face < faces.group_offset[group + 1]; ++face) {
+      state.face_list[face].group = group;
+    }
+  }
   state.face_budget.assign(faces.count(), 0.0);
   state.face_alarm.assign(faces.count(), 0.0);
   state.face_searched_position.assign(faces.particle.size(), Vector2::Zero());
@@ -33,6 +38,8 @@ void give_up(State& state) {
   state.face_searched_position.clear();
   state.group_travel.clear();
   state.group_alarm.clear();
+  state.batch_count = 0;
+  clear_candidates(state);
 }
 
 /// Diagonal of the box round the velocities of a group, mm/s.

@@ -1,10 +1,8 @@
 #include "contact/find_overlaps.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdint>
-#include <numeric>
-#include <span>
+#include <cmath>
+#include <limits>
 
 #include "contact/capsule.h"
 #include "contact/wide_overlaps.h"
@@ -13,65 +11,56 @@
 namespace cellcrush {
 namespace {
 
-/// Places from `first` to `end` of candidates whose capsules overlap. Few of the many do: a branch for each would be guessed
-/// wrong too often, so they are written by counting on.
-std::size_t find_overlapping_plain(const Scene& scene, const State& state, std::size_t first, std::size_t end,
-                                   std::span<std::int64_t> found) {
+/// Notes the places of a batch that overlap, from found[0] on; returns how many, and the least gap of the others.
+std::size_t test_batch(const Scene& scene, const State& state, std::size_t batch, std::int64_t* found,
+                       double& least_gap) {
   std::size_t count = 0;
-  for (std::size_t k = first; k < end; ++k) {
-    const int segment = state.candidate_segment[k];
+  least_gap = std::numeric_limits<double>::infinity();
+  for (std::size_t k = batch * kCandidateBatch; k < (batch + 1) * kCandidateBatch; ++k) {
     const double reach = state.candidate_reach[k];
+    if (reach == 0.0) {
+      continue;
+    }
+    const int segment = state.candidate_segment[k];
     const Projection foot =
         project(state.position[state.candidate_ball[k]], state.position[scene.elements[segment].start],
                 state.axis[segment], state.length[segment]);
-    found[count] = static_cast<std::int64_t>(k);
-    count += static_cast<std::size_t>(foot.offset.squaredNorm() < reach * reach);
+    const double squared_distance = foot.offset.squaredNorm();
+    if (squared_distance < reach * reach) {
+      found[count++] = static_cast<std::int64_t>(k);
+    } else {
+      least_gap = std::min(least_gap, std::sqrt(squared_distance) - reach);
+    }
   }
   return count;
 }
 
-/// Candidates whose capsules overlap, in the order of their places.
-std::vector<Candidate> find_overlapping(const Scene& scene, const State& state) {
-  constexpr std::size_t kBatch = 256;
-  std::array<std::int64_t, kBatch + kSparePlaces> found;
-  std::vector<Candidate> overlapping;
-  const std::size_t places = state.candidate_ball.size();
-  const auto find_in_batch = use_wide_kernels() ? find_overlapping_wide : find_overlapping_plain;
-  for (std::size_t first = 0; first < places; first += kBatch) {
-    const std::size_t count = find_in_batch(scene, state, first, std::min(first + kBatch, places), found);
-    for (std::size_t i = 0; i < count; ++i) {
-      const auto k = static_cast<std::size_t>(found[i]);
-      overlapping.push_back({state.candidate_ball[k], state.candidate_segment[k], state.candidate_reach[k]});
+std::size_t find_overlapping_plain(const Scene& scene, State& state, std::size_t first, std::size_t end,
+                                   std::int64_t* found) {
+  std::size_t count = 0;
+  const bool sleeps = !state.batch_alarm.empty();
+  for (std::size_t batch = first; batch < end; ++batch) {
+    const double travel = sleeps ? state.group_travel[state.batch_group[batch]] : 0.0;
+    if (sleeps && travel < state.batch_alarm[batch]) {
+      continue;
     }
+    double least_gap = 0.0;
+    const std::size_t overlaps = test_batch(scene, state, batch, found + count, least_gap);
+    if (sleeps) {
+      state.batch_alarm[batch] = overlaps > 0 ? 0.0 : travel + least_gap;
+    }
+    count += overlaps;
   }
-  return overlapping;
-}
-
-/// By ball, segments ascending: first by lots of balls, then within each, which has few.
-std::vector<Candidate> sort_by_ball(const std::vector<Candidate>& pairs, std::size_t particle_count) {
-  constexpr int kBallsPerLot = 32;
-  std::vector<int> end(particle_count / kBallsPerLot + 2, 0);
-  for (const Candidate& pair : pairs) {
-    ++end[pair.ball / kBallsPerLot + 1];
-  }
-  std::partial_sum(end.begin(), end.end(), end.begin());
-  std::vector<Candidate> sorted(pairs.size());
-  for (const Candidate& pair : pairs) {
-    sorted[end[pair.ball / kBallsPerLot]++] = pair;
-  }
-  const auto before = [](const Candidate& a, const Candidate& b) {
-    return a.ball != b.ball ? a.ball < b.ball : a.segment < b.segment;
-  };
-  for (std::size_t lot = 0, first = 0; lot + 1 < end.size(); first = end[lot++]) {
-    std::sort(sorted.begin() + static_cast<std::ptrdiff_t>(first), sorted.begin() + end[lot], before);
-  }
-  return sorted;
+  return count;
 }
 
 }  // namespace
 
-std::vector<Candidate> find_overlaps(const Scene& scene, const State& state) {
-  return sort_by_ball(find_overlapping(scene, state), scene.particle_count());
+void find_overlaps(const Scene& scene, State& state, ContactWorkspace& workspace) {
+  workspace.overlapping.resize(state.candidate_ball.size() + kSparePlaces);
+  const auto find_overlapping = use_wide_kernels() ? find_overlapping_wide : find_overlapping_plain;
+  workspace.overlap_count =
+      find_overlapping(scene, state, 0, state.candidate_ball.size() / kCandidateBatch, workspace.overlapping.data());
 }
 
 }  // namespace cellcrush

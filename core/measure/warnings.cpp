@@ -13,29 +13,34 @@ namespace {
 constexpr const char* kShorterStep =
     "Give a shorter numerics.time_step_s, or 0 to have it chosen, and see whether the stresses stay.";
 
-/// Overlap of a pair that touches, over the thinner wall's thickness.
-double depth_of(const Scene& scene, const State& state, const ContactMemory& pair) {
-  const Element& element = scene.elements[pair.segment];
-  const double length = state.length[pair.segment];
-  const Vector2& axis = state.axis[pair.segment];
-  const Projection foot = project(state.position[pair.ball], state.position[element.start], axis, length);
+/// Overlap of pair `t` of those that touch, over the thinner wall's thickness.
+double depth_of(const Scene& scene, const State& state, std::size_t t) {
+  const int ball = state.touching.ball[t];
+  const int segment = state.touching.segment[t];
+  const Element& element = scene.elements[segment];
+  const double length = state.length[segment];
+  const Vector2& axis = state.axis[segment];
+  const Projection foot = project(state.position[ball], state.position[element.start], axis, length);
   const bool inside = foot.along > 0.0 && foot.along < length;
-  const double distance = inside ? pair.side * cross(axis, foot.offset) : foot.offset.norm();
-  return (scene.reach_of(pair.ball, pair.segment) - distance) /
-         std::min(2.0 * scene.radius[pair.ball], element.thickness);
+  const double distance = inside ? state.touching.side[t] * cross(axis, foot.offset) : foot.offset.norm();
+  return (scene.reach_of(ball, segment) - distance) / std::min(2.0 * scene.radius[ball], element.thickness);
 }
 
 /// "; deepest now at particle 7, at (1, 2) mm before loading, in the wall of element 9"; empty while nothing touches.
 std::string deepest_place(const Scene& scene, const State& state) {
-  const auto deepest = std::max_element(state.touching.begin(), state.touching.end(),
-                                        [&](const ContactMemory& a, const ContactMemory& b) {
-                                          return depth_of(scene, state, a) < depth_of(scene, state, b);
-                                        });
-  if (deepest == state.touching.end()) {
+  if (state.touching.count() == 0) {
     return "";
   }
-  return "; deepest now at " + place_of(scene, deepest->ball) + ", in the wall of element " +
-         std::to_string(deepest->segment);
+  std::size_t deepest = 0;
+  double most = depth_of(scene, state, 0);
+  for (std::size_t t = 1; t < state.touching.count(); ++t) {
+    if (const double depth = depth_of(scene, state, t); depth > most) {
+      deepest = t;
+      most = depth;
+    }
+  }
+  return "; deepest now at " + place_of(scene, state.touching.ball[deepest]) + ", in the wall of element " +
+         std::to_string(state.touching.segment[deepest]);
 }
 
 /// The warning of a quantity over the turnover, told where it is first beyond kEnergyDrift, with its greatest value.

@@ -124,11 +124,7 @@ void check_numerics(const NumericsSpec& numerics, FieldChecker& check) {
   if (numerics.fidelity != NumericsSpec::Fidelity::unspecified) {
     check.add_unimplemented("numerics.fidelity", "", "fidelity presets are not built yet.", "Leave it out.");
   }
-  if (check.in_range("numerics.threads", std::optional<int>(numerics.threads), {1, 1024}, " threads") &&
-      numerics.threads > 1) {
-    check.add_unimplemented("numerics.threads", std::to_string(numerics.threads),
-                            "more than one thread a job is not built yet.", "Leave it out or set it to 1.");
-  }
+  check.in_range("numerics.threads", std::optional<int>(numerics.threads), {1, 1024}, " threads");
 }
 
 }  // namespace

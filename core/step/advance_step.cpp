@@ -29,13 +29,13 @@ class StageTeller {
   StageObserver* observer_;
 };
 
-void evaluate_forces(const Scene& scene, State& state, const StageTeller& teller) {
+void evaluate_forces(const Scene& scene, State& state, Workspace& workspace, const StageTeller& teller) {
   teller.begin(Stage::evaluate_internal_forces);
-  evaluate_internal_forces(scene, state);
+  evaluate_internal_forces(scene, state, workspace.workers);
   teller.begin(Stage::find_contacts);
   find_contacts(scene, state);
   teller.begin(Stage::evaluate_contact_forces);
-  evaluate_contact_forces(scene, state);
+  evaluate_contact_forces(scene, state, workspace.contact);
   teller.begin(Stage::evaluate_plate_forces);
   evaluate_plate_forces(scene, state);
   teller.begin(Stage::evaluate_loads);
@@ -46,18 +46,24 @@ void evaluate_forces(const Scene& scene, State& state, const StageTeller& teller
 
 State make_initial_state(const Scene& scene) {
   State state = place_particles(scene);
-  evaluate_forces(scene, state, StageTeller(nullptr));
+  Workspace workspace;
+  evaluate_forces(scene, state, workspace, StageTeller(nullptr));
   stagger_velocities(scene, state);
   open_ledger(scene, state);
   return state;
 }
 
-void advance_step(const Scene& scene, State& state, StageObserver* observer) {
+void advance_step(const Scene& scene, State& state, Workspace& workspace, StageObserver* observer) {
   const StageTeller teller(observer);
   teller.begin(Stage::integrate_motion);
-  integrate_motion(scene, state);
-  evaluate_forces(scene, state, teller);
+  integrate_motion(scene, state, workspace.workers);
+  evaluate_forces(scene, state, workspace, teller);
   teller.end_step();
+}
+
+void advance_step(const Scene& scene, State& state, StageObserver* observer) {
+  Workspace workspace;
+  advance_step(scene, state, workspace, observer);
 }
 
 }  // namespace cellcrush

@@ -3,6 +3,7 @@
 #include "cellcrush/scene.h"
 #include "cellcrush/stage.h"
 #include "cellcrush/state.h"
+#include "step/workspace.h"
 
 namespace cellcrush {
 
@@ -10,7 +11,10 @@ namespace cellcrush {
 State make_initial_state(const Scene& scene);
 
 /// Advances the state by one step of the explicit method: motion from the forces at the old time, then the forces at the
-/// new one. The observer, if any, is told when a stage begins.
+/// new one. The observer, if any, is told when a stage begins. `workspace` is kept for the next step.
+void advance_step(const Scene& scene, State& state, Workspace& workspace, StageObserver* observer);
+
+/// The same of a single step, with room of its own.
 void advance_step(const Scene& scene, State& state, StageObserver* observer);
 
 }  // namespace cellcrush

@@ -14,9 +14,10 @@
 namespace cellcrush {
 
 struct Simulation::Impl {
-  explicit Impl(std::shared_ptr<const Scene> built)
+  Impl(std::shared_ptr<const Scene> built, int threads)
       : scene(std::move(built)),
         state(make_initial_state(*scene)),
+        workspace(threads),
         sampler(*scene),
         last_good(make_frame(*scene, state, 0)) {}
 
@@ -33,13 +34,15 @@ struct Simulation::Impl {
 
   std::shared_ptr<const Scene> scene;
   State state;
+  Workspace workspace;
   Sampler sampler;
   RunStatus status;
   FieldFrame last_good;
   std::int64_t last_good_step = 0;
 };
 
-Simulation::Simulation(std::shared_ptr<const Scene> scene) : impl_(std::make_unique<Impl>(std::move(scene))) {}
+Simulation::Simulation(std::shared_ptr<const Scene> scene, int threads)
+    : impl_(std::make_unique<Impl>(std::move(scene), threads)) {}
 
 Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
@@ -48,7 +51,7 @@ Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 void Simulation::advance(std::int64_t steps, StageObserver* observer) {
   const std::int64_t last = std::min(impl_->state.step + steps, impl_->scene->schedule.step_count);
   while (impl_->status.kind == RunStatus::Kind::running && impl_->state.step < last) {
-    advance_step(*impl_->scene, impl_->state, observer);
+    advance_step(*impl_->scene, impl_->state, impl_->workspace, observer);
   }
   if (impl_->status.kind == RunStatus::Kind::running && impl_->state.step >= impl_->scene->schedule.step_count) {
     impl_->status.kind = RunStatus::Kind::finished;

@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <optional>
@@ -26,6 +27,7 @@ void Scheduler::start(int slots) {
   fail_lost_jobs();
   auto memberships = parts_.sweeps.memberships_of_waiting();
   for (const std::int64_t job : parts_.reader.jobs_in(v1::PENDING)) waiting_.add(job, memberships[job]);
+  free_cores_ = slots;
   for (int i = 0; i < slots; ++i) slots_.emplace_back([this](const std::stop_token& stop) { run_slot(stop); });
 }
 
@@ -101,13 +103,15 @@ void Scheduler::stop() {
 void Scheduler::run_slot(const std::stop_token& stop) {
   while (true) {
     std::optional<WaitingJobs::Taken> taken;
+    int cores = 1;
     {
       std::unique_lock lock(mutex_);
-      changed_.wait(lock, stop, [this, &taken] { return (taken = waiting_.take()).has_value(); });
+      changed_.wait(lock, stop, [this, &taken] { return free_cores_ > 0 && (taken = waiting_.take()).has_value(); });
       if (!taken || stop.stop_requested()) return;
+      --free_cores_;
     }
     try {
-      run_job(taken->job, stop);
+      run_job(taken->job, cores, stop);
     } catch (const Withdrawn&) {
       spdlog::info("{} was cancelled before it ran", name_of(taken->job));
     } catch (const std::exception& error) {
@@ -117,12 +121,13 @@ void Scheduler::run_slot(const std::stop_token& stop) {
       const std::scoped_lock lock(mutex_);
       running_.erase(taken->job);
       waiting_.give_back(*taken);
+      free_cores_ += cores;
     }
     changed_.notify_all();
   }
 }
 
-void Scheduler::run_job(std::int64_t job, const std::stop_token& stop) {
+void Scheduler::run_job(std::int64_t job, int& cores, const std::stop_token& stop) {
   const auto stored = parts_.reader.find_job(job);
   if (!stored || stored->job.state() != v1::PENDING) return;
   std::stop_token cancel;
@@ -130,14 +135,22 @@ void Scheduler::run_job(std::int64_t job, const std::stop_token& stop) {
     const std::scoped_lock lock(mutex_);
     cancel = running_[job].get_token();
   }
-  const auto exit = run_worker(*stored, {stop, cancel});
+  cores += take_cores(stored->job.case_().numerics().threads() - 1);
+  const auto exit = run_worker(*stored, cores, {stop, cancel});
   // What a worker that was ended had begun.
   std::error_code ignored;
   std::filesystem::remove(parts_.folder.partial_result(job), ignored);
   finish(job, outcome_of(exit), stop);
 }
 
-WorkerExit Scheduler::run_worker(const store::StoredJob& stored, const Interruptions& interruptions) {
+int Scheduler::take_cores(int asked) {
+  const std::scoped_lock lock(mutex_);
+  const int taken = std::clamp(free_cores_ - static_cast<int>(waiting_.count()), 0, std::max(asked, 0));
+  free_cores_ -= taken;
+  return taken;
+}
+
+WorkerExit Scheduler::run_worker(const store::StoredJob& stored, int threads, const Interruptions& interruptions) {
   const std::int64_t job = stored.number;
   const auto channel = parts_.hub.open(job);
   parts_.folder.prepare_job_folder(job);
@@ -145,6 +158,7 @@ WorkerExit Scheduler::run_worker(const store::StoredJob& stored, const Interrupt
   order.set_job(name_of(job));
   *order.mutable_case_() = stored.job.case_();
   order.set_result_path(parts_.folder.result(job).string());
+  order.set_threads(threads);
 
   WorkerEvents events;
   events.started = [this, job](int pid) {

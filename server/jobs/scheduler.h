@@ -19,7 +19,8 @@
 namespace cellcrush::jobs {
 
 /// Runs waiting jobs, oldest first, at most as many at once as there are slots and as their sweeps allow. Each slot is a thread that lives as
-/// long as the scheduler and runs one job at a time. Thread-safe.
+/// long as the scheduler and runs one job at a time. Jobs that ask for several threads get those cores that no other job
+/// uses or waits for when they start: side by side comes first. Thread-safe.
 class Scheduler {
  public:
   /// What the scheduler works with; all of it outlives the scheduler.
@@ -57,8 +58,10 @@ class Scheduler {
  private:
   void fail_lost_jobs();
   void run_slot(const std::stop_token& stop);
-  void run_job(std::int64_t job, const std::stop_token& stop);
-  WorkerExit run_worker(const store::StoredJob& stored, const Interruptions& interruptions);
+  /// Adds those that it takes to the cores of the slot.
+  void run_job(std::int64_t job, int& cores, const std::stop_token& stop);
+  WorkerExit run_worker(const store::StoredJob& stored, int threads, const Interruptions& interruptions);
+  int take_cores(int asked);
   void pass_on(std::int64_t job, watch::Channel& channel, const worker::Report& report);
   void finish(std::int64_t job, const store::StateChange& outcome, const std::stop_token& stop);
 
@@ -67,6 +70,7 @@ class Scheduler {
   std::condition_variable_any changed_;
   WaitingJobs waiting_;
   std::map<std::int64_t, std::stop_source> running_;  ///< to cancel jobs that are in a slot
+  int free_cores_ = 0;  ///< one for each slot, and those that jobs use are taken off
   std::vector<std::jthread> slots_;
 };
 

@@ -16,6 +16,8 @@ class WaitingJobs {
 
   void add(std::int64_t job, const Membership& membership);
 
+  [[nodiscard]] std::size_t count() const { return waiting_.size(); }
+
   /// The oldest job whose sweep lets it run, which counts as running from now on. Nothing when there is none.
   struct Taken {
     std::int64_t job = 0;

@@ -19,6 +19,7 @@ struct ResultHeader {
   v1::Case submitted_case;
   std::string solver_revision;
   std::string simd_target;
+  int threads = 1;
   double time_step_s = 0.0;
   std::vector<std::string> modelled;
   bool complete = true;   ///< whether the run reached its end

@@ -19,7 +19,6 @@ std::vector<v1::Case> probes() {
   hexagon.mutable_loading()->set_ramp_strain(0.01);
   hexagon.mutable_numerics()->set_mass_damping_per_s(1.0);
   hexagon.mutable_numerics()->set_fidelity(v1::Numerics::STANDARD);
-  hexagon.mutable_numerics()->set_threads(2);
   return {hexagon};
 }
 

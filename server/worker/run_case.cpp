@@ -59,7 +59,7 @@ class Run {
         stop_asked_(stop_asked),
         scene_(build(order.case_())),
         facts_(facts_of(*scene_)),
-        simulation_(scene_),
+        simulation_(scene_, order.threads()),
         meter_(facts_.step_count, Summary::kPlateauLow, Summary::kPlateauHigh, ProgressMeter::Clock::now()),
         mesh_(translate::to_proto(mesh_of(*scene_), facts_.particle_count)),
         partial_path_(order.result_path() + ".partial"),
@@ -170,7 +170,7 @@ class Run {
     *out.mutable_summary() = translate::to_proto(summarize(*scene_, samples_),
                                                  samples_.empty() ? Sample{} : samples_.back(), processor_seconds());
     writer_.finish(
-        {order_.case_(), kSolverRevision, simd_target(), facts_.time_step, facts_.modelled, whole, status.message},
+        {order_.case_(), kSolverRevision, simd_target(), facts_.time_step, facts_.modelled, order_.threads(), whole, status.message},
         out.summary());
     store::publish_file(partial_path_, order_.result_path());
     return out;

@@ -89,7 +89,7 @@ TEST_F(BadInput, SeveralProblemsAreAllNamedAtOnce) {
 }
 
 TEST_F(BadInput, WhatIsNotBuiltIsNamedAsSuch) {
-  expect_refused({small(), "--set", "numerics.threads=2"}, {"numerics.threads", "not implemented"});
+  expect_refused({small(), "--set", "numerics.fidelity=DRAFT"}, {"numerics.fidelity", "not implemented"});
 }
 
 TEST_F(BadInput, AWrongCommandLine) {

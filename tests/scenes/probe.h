@@ -5,6 +5,7 @@
 
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
+#include "contact/contact_workspace.h"
 
 namespace cellcrush::scenes {
 
@@ -31,6 +32,7 @@ class Probe {
 
   std::shared_ptr<Scene> scene_;
   State state_;
+  ContactWorkspace workspace_;
   int tip_ = 0;
 };
 

@@ -82,7 +82,8 @@ struct RunStatus {
 /// A run of a scene. Not thread-safe; one thread at a time.
 class Simulation {
  public:
-  explicit Simulation(std::shared_ptr<const Scene> scene);
+  /// Steps run on so many threads; the results have the same bits for any number of them. REQUIRES: threads >= 1.
+  explicit Simulation(std::shared_ptr<const Scene> scene, int threads = 1);
   ~Simulation();
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;

@@ -9,13 +9,18 @@
 
 namespace cellcrush {
 
-/// What is remembered of a ball and a segment that touch. Without padding: its bytes are hashed.
-struct ContactMemory {
-  int ball = 0;           ///< particle
-  int segment = 0;        ///< element
-  int side = 0;           ///< +1 left, -1 right of the segment: where the ball is, or came from
-  int pushed = 0;         ///< the side from which it pushed on the ball with friction in the newest step; 0: it did not
-  double friction = 0.0;  ///< N, on the ball, along the segment, round its ends with it; kept while it pushes
+/// What is remembered of the T pairs of a ball and a segment that touch; by ball, segments ascending.
+struct TouchMemory {
+  std::vector<int> ball;     ///< T, particle
+  std::vector<int> segment;  ///< T, element
+  std::vector<int> side;     ///< T, +1 left, -1 right of the segment: where the ball is, or came from
+  std::vector<int> pushed;   ///< T, the side from which it pushed on the ball with friction in the newest step; 0: it
+                             ///< did not. Empty without friction
+  std::vector<double>
+      friction;  ///< T, N, on the ball, along the segment, round its ends with it; kept while it pushes.
+                 ///< Empty without friction
+
+  [[nodiscard]] std::size_t count() const { return ball.size(); }
 };
 
 /// What the fibres and the sections of elements remember, in numbers of type T. E elements of F fibres and P sections; the
@@ -36,11 +41,15 @@ struct FibreMemory {
   LaneVector<T> end_moment;           ///< E, on the end node, over b h^2
 };
 
-/// Where the candidates of a face stand: `count` of them from `first` on, then empty places up to `room`.
+/// Candidates that are tested together, and sleep together.
+inline constexpr int kCandidateBatch = 8;
+
+/// Where the candidates of a face stand: `count` of them from `first` on, then empty places up to `room`; whole batches.
 struct FaceList {
   int first = 0;
   int count = 0;
   int room = 0;
+  int group = 0;  ///< of faces, to which it belongs
 };
 
 /// Force of a plate, N, compression positive.
@@ -92,7 +101,8 @@ struct State {
   std::vector<Vector2> load_force;  ///< N
   std::vector<double> load_moment;  ///< N, N mm
 
-  // Written by find_contacts. K places for candidates: balls and segments that may touch before they are looked for again.
+  // Written by find_contacts. K places for candidates, in whole batches: balls and segments that may touch before they are
+  // looked for again.
   std::vector<int> candidate_ball;      ///< K, particle
   std::vector<int> candidate_segment;   ///< K, element
   std::vector<double> candidate_reach;  ///< K, mm, distance at which they touch; 0: an empty place
@@ -109,13 +119,17 @@ struct State {
   std::vector<Vector2> face_searched_position;  ///< C, where the corners were when the face's list was made
   std::vector<double> group_travel;             ///< G, mm by which gaps of the group can have closed since the start
   std::vector<double> group_alarm;              ///< G, the least of its faces
+  std::vector<int> batch_group;                 ///< K / kCandidateBatch, group of the batch's face
+  std::int64_t batch_count = 0;                 ///< batches that the faces' candidates need
   std::int64_t face_look_count = 0;             ///< faces looked at since the start
   std::int64_t face_search_count = 0;           ///< faces whose list was made anew since the start
   std::int64_t crossing_step =
       -1;  ///< in which walls were found to have crossed, from when on the search is by buckets
 
   // Written by evaluate_contact_forces.
-  std::vector<ContactMemory> touching;  ///< pairs that touch now, by ball, segments ascending
+  TouchMemory touching;             ///< of the pairs that touch now
+  std::vector<double> batch_alarm;  ///< K / kCandidateBatch, travel of the group at which a batch is tested next, when
+                                    ///< none of it touched; 0 after find_contacts has changed it. Empty when by buckets
 
   // Written by evaluate_contact_forces and evaluate_plate_forces.
   std::vector<Vector2> contact_force;          ///< N, of walls and plates, elastic part
@@ -181,10 +195,17 @@ void visit_fields(S& state, Visitor&& visitor) {
   visitor("face_searched_position", state.face_searched_position);
   visitor("group_travel", state.group_travel);
   visitor("group_alarm", state.group_alarm);
+  visitor("batch_group", state.batch_group);
+  visitor("batch_count", state.batch_count);
   visitor("face_look_count", state.face_look_count);
   visitor("face_search_count", state.face_search_count);
   visitor("crossing_step", state.crossing_step);
-  visitor("touching", state.touching);
+  visitor("touching_ball", state.touching.ball);
+  visitor("touching_segment", state.touching.segment);
+  visitor("touching_side", state.touching.side);
+  visitor("touching_pushed", state.touching.pushed);
+  visitor("touching_friction", state.touching.friction);
+  visitor("batch_alarm", state.batch_alarm);
   visitor("contact_force", state.contact_force);
   visitor("contact_damping_force", state.contact_damping_force);
   visitor("friction_force", state.friction_force);

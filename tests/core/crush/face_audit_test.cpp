@@ -90,8 +90,9 @@ TEST_P(FaceAudit, FindsEveryTouchThatPushesWithTheForceOfTheBuckets) {
       }
     }
     State reference = with_candidates_of_buckets(*scene, state);
-    evaluate_contact_forces(*scene, state);
-    evaluate_contact_forces(*scene, reference);
+    ContactWorkspace workspace;
+    evaluate_contact_forces(*scene, state, workspace);
+    evaluate_contact_forces(*scene, reference, workspace);
     const double scale = scene->contact.stiffness * scene->elements.front().thickness;
     difference = std::max(difference, difference_of_forces(state, reference) / scale);
   }

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "cellcrush/state.h"
+
+namespace cellcrush {
+
+/// A candidate that overlaps without having been found where it was in the step before.
+struct Newcomer {
+  int ball = 0;
+  int segment = 0;
+  std::int64_t place = 0;  ///< into State::candidate_ball
+};
+
+/// How the pairs of State::touching stand to each other in this step; T of them, in the same order.
+struct Touches {
+  std::vector<double> reach;         ///< T, mm, distance at which they touch
+  std::vector<int> known;            ///< T, place among the pairs that touched in the step before; kNew: did not
+  std::vector<double> share;         ///< T, of the foot along the segment: 0 at its start, 1 at its end
+  std::vector<double> depth;         ///< T, D, mm
+  std::vector<Vector2> normal;       ///< T, from the segment to the ball
+  std::vector<double> viscous;       ///< T, c dD/dt, N, before it is held to what does not pull
+  std::vector<double> slip;          ///< T, mm by which the ball slid along the segment in the step
+  std::vector<int> node;             ///< T, the segment's particle nearer to the ball
+  std::vector<double> node_depth;    ///< T, of the balls of both, mm; over 0: they touch. 0 where they coincide
+  std::vector<Vector2> node_normal;  ///< T, from that particle to the ball
+
+  static constexpr int kNew = -1;
+
+  void resize(std::size_t count);
+};
+
+/// A touch that pushes.
+struct Push {
+  int touch = 0;  ///< into State::touching
+
+  // Two balls that touch are found by each of them, and a ball over a node of a straight chain by the node's ball, too: what
+  // such a pair would store is taken back, half of it with either touch.
+  int node_touch = kNone;  ///< the touch whose node of the polyline is nearest to the ball, whose ball it touches
+
+  /// Of the pair's viscous force and friction, this touch has all or none.
+  bool has_pair = true;
+  double net_depth = 0.0;     ///< mm: k times it bounds the viscous force
+  double normal_force = 0.0;  ///< N, that friction goes by
+
+  static constexpr int kNone = -1;
+};
+
+/// Room for evaluate_contact_forces, kept from step to step so that none allocates. No result depends on what it holds.
+struct ContactWorkspace {
+  std::vector<std::int64_t> overlapping;  ///< places of the candidates that overlap now, kSparePlaces at the end
+  std::size_t overlap_count = 0;
+  std::vector<int> rank;  ///< of each candidate, where in State::touching it was when it last touched: a guess
+  std::vector<std::int64_t> place;  ///< of each pair of `before`: of its candidate, if it overlaps now
+  std::vector<Newcomer> newcomers;
+  TouchMemory before;  ///< State::touching of the step before
+  Touches touches;
+  std::vector<Push> pushes;
+};
+
+}  // namespace cellcrush

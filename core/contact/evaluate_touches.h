@@ -1,0 +1,14 @@
+#pragma once
+
+#include "cellcrush/scene.h"
+#include "cellcrush/state.h"
+#include "contact/contact_workspace.h"
+
+namespace cellcrush {
+
+/// Overwrites how the pairs of State::touching stand to each other (contact/capsule.h), their free viscous force and their
+/// slip, and keeps the sides up to date: a pair that is new, and a ball beyond an end of its segment, is on the side where it
+/// stands. Reads their reach.
+void evaluate_touches(const Scene& scene, State& state, Touches& touches);
+
+}  // namespace cellcrush

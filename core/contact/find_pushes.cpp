@@ -1,0 +1,98 @@
+#include "contact/find_pushes.h"
+
+namespace cellcrush {
+namespace {
+
+/// The touches of one ball, from `first` to `end`.
+struct BallTouches {
+  const Scene& scene;
+  const State& state;
+  const Touches& touches;
+  int first;
+  int end;
+
+  [[nodiscard]] const Element& element(int touch) const { return scene.elements[state.touching.segment[touch]]; }
+
+  /// Whether another touching segment of the same polyline is nearer to the ball.
+  [[nodiscard]] bool yields_to_neighbour(int touch) const {
+    for (int other = first; other < end; ++other) {
+      const double lead = touches.depth[other] - touches.depth[touch];
+      const bool deeper = lead > 0.0 || (lead == 0.0 && other < touch);
+      if (other != touch && deeper && share_a_node(element(touch), element(other))) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  /// The touch with the nearest node of the polyline to which the pushing segment belongs, if the two balls touch.
+  [[nodiscard]] int node_touch(int pushing) const {
+    int nearest = Push::kNone;
+    double depth = 0.0;
+    for (int touch = first; touch < end; ++touch) {
+      if (touches.node_depth[touch] > depth && (touch == pushing || share_a_node(element(touch), element(pushing)))) {
+        nearest = touch;
+        depth = touches.node_depth[touch];
+      }
+    }
+    return nearest;
+  }
+};
+
+/// Whether the ball lies before the node's own ball, and not above the side of one of its segments.
+bool lies_before(const Scene& scene, const State& state, int ball, int node) {
+  const Vector2 away = state.position[ball] - state.position[node];
+  for (int k = scene.incidence_offset[node]; k < scene.incidence_offset[node + 1]; ++k) {
+    const int e = scene.incidence[k];
+    const bool begins = scene.elements[e].start == node;
+    const int other = begins ? scene.elements[e].end : scene.elements[e].start;
+    if (other != ball && (begins ? 1.0 : -1.0) * state.axis[e].dot(away) > 0.0) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Divides the normal force between the touch and that of the node's ball on the ball's own segments.
+void share_with_node(const Scene& scene, const State& state, const Touches& touches, Push& push) {
+  const int touch = push.touch;
+  const int ball = state.touching.ball[touch];
+  const double share = touches.share[touch];
+  push.net_depth = touches.depth[touch];
+  if (share > 0.0 && share < 1.0) {
+    if (push.node_touch != Push::kNone && !lies_before(scene, state, touches.node[push.node_touch], ball)) {
+      push.net_depth -=
+          0.5 * touches.node_depth[push.node_touch] * touches.normal[touch].dot(touches.node_normal[push.node_touch]);
+    }
+    return;
+  }
+  // Two balls touch: the first of them has the pair, or the one that lies over the other's segments.
+  const int end = touches.node[touch];
+  push.has_pair = ball < end && lies_before(scene, state, end, ball);
+  push.net_depth = push.has_pair ? push.net_depth : 0.0;
+}
+
+}  // namespace
+
+void find_pushes(const Scene& scene, const State& state, ContactWorkspace& workspace) {
+  const std::vector<int>& ball = state.touching.ball;
+  const int count = static_cast<int>(ball.size());
+  workspace.pushes.clear();
+  for (int first = 0, end = 0; first < count; first = end) {
+    while (end < count && ball[end] == ball[first]) {
+      ++end;
+    }
+    const BallTouches of_ball = {scene, state, workspace.touches, first, end};
+    for (int touch = first; touch < end; ++touch) {
+      if (!of_ball.yields_to_neighbour(touch)) {
+        Push push;
+        push.touch = touch;
+        push.node_touch = of_ball.node_touch(touch);
+        share_with_node(scene, state, workspace.touches, push);
+        workspace.pushes.push_back(push);
+      }
+    }
+  }
+}
+
+}  // namespace cellcrush

@@ -1,0 +1,165 @@
+#include "contact/wide_touches.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "contact/wide_touches.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "simd/lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace cellcrush::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// A few indices, of as many as there are lanes.
+template <class D>
+struct Indices {
+  hn::Vec<hn::Rebind<int, D>> narrow;
+
+  [[nodiscard]] HWY_INLINE hn::Vec<hn::RebindToSigned<D>> wide() const {
+    return hn::PromoteTo(hn::RebindToSigned<D>(), narrow);
+  }
+};
+
+/// Balls and their segments with both particles.
+template <class D>
+struct PairIndices {
+  Indices<D> ball;
+  Indices<D> segment;
+  Indices<D> start;
+  Indices<D> end;
+};
+
+template <class D>
+HWY_INLINE PairIndices<D> pair_indices(D, const Scene& scene, const TouchMemory& touching, std::size_t i) {
+  constexpr int kInts = sizeof(Element) / sizeof(int);
+  const hn::Rebind<int, D> narrow;
+  const auto segment = hn::LoadU(narrow, &touching.segment[i]);
+  const auto element = hn::Mul(segment, hn::Set(narrow, kInts));
+  return {{hn::LoadU(narrow, &touching.ball[i])},
+          {segment},
+          {hn::GatherIndex(narrow, &scene.elements.front().start, element)},
+          {hn::GatherIndex(narrow, &scene.elements.front().end, element)}};
+}
+
+template <class D>
+HWY_INLINE Points<D> difference(const Points<D>& a, const Points<D>& b) {
+  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y)};
+}
+
+template <class D>
+HWY_INLINE Points<D> choose(hn::Mask<D> mask, const Points<D>& yes, const Points<D>& no) {
+  return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y)};
+}
+
+/// Where the foot of a ball lies, its side of the segment, and the normal there.
+template <class D>
+struct Stand {
+  hn::Vec<D> share;
+  hn::Vec<D> side;  // +1 or -1
+  Points<D> normal;
+};
+
+template <class D>
+HWY_INLINE Stand<D> evaluate_stand(D d, State& state, Touches& touches, const PairIndices<D>& pair, std::size_t i) {
+  const hn::Rebind<int, D> narrow;
+  const auto zero = hn::Zero(d);
+  const auto one = hn::Set(d, 1.0);
+  const Vector2* positions = state.position.data();
+  const Points<D> axis = gather_points(d, state.axis.data(), pair.segment.wide());
+  const auto length = hn::GatherIndex(d, state.length.data(), pair.segment.wide());
+  const Points<D> ball = gather_points(d, positions, pair.ball.wide());
+  const Points<D> from_start = difference<D>(ball, gather_points(d, positions, pair.start.wide()));
+  const Points<D> from_end = difference<D>(ball, gather_points(d, positions, pair.end.wide()));
+  const auto end_is_nearer = hn::Lt(dot(from_end, from_end), dot(from_start, from_start));
+  const Points<D> from_node = choose<D>(end_is_nearer, from_end, from_start);
+  const auto node_distance = hn::Sqrt(dot(from_node, from_node));
+  const auto ahead = dot(from_start, axis);
+  const auto is_ahead = hn::Gt(ahead, zero);
+  const auto inside = hn::And(is_ahead, hn::Lt(ahead, length));
+  const auto at_end = hn::IfThenElse(is_ahead, one, zero);
+  const auto share = hn::IfThenElse(inside, hn::Div(ahead, length), at_end);
+  const auto signed_distance = cross(axis, from_start);
+
+  // A ball that goes round an end comes to the other side by right.
+  const auto before = hn::PromoteTo(d, hn::LoadU(narrow, &state.touching.side[i]));
+  const auto now = hn::IfThenElse(hn::Ge(signed_distance, zero), one, hn::Set(d, -1.0));
+  const auto side = hn::IfThenElse(hn::And(inside, hn::Ne(before, zero)), before, now);
+  hn::StoreU(hn::DemoteTo(narrow, side), narrow, &state.touching.side[i]);
+
+  const Points<D> across = {hn::Neg(hn::Mul(side, axis.y)), hn::Mul(side, axis.x)};
+  const auto apart = hn::Gt(node_distance, zero);
+  const Points<D> unit = {hn::Div(from_node.x, node_distance), hn::Div(from_node.y, node_distance)};
+  const Points<D> node_normal = choose<D>(apart, unit, across);
+  const auto reach = hn::LoadU(d, &touches.reach[i]);
+  const auto distance = hn::IfThenElse(inside, hn::Mul(side, signed_distance), node_distance);
+  const Points<D> normal = choose<D>(inside, across, node_normal);
+  hn::StoreU(hn::Sub(reach, distance), d, &touches.depth[i]);
+  hn::StoreU(share, d, &touches.share[i]);
+  store_points(d, normal, &touches.normal[i]);
+  const auto node =
+      hn::IfThenElse(end_is_nearer, hn::PromoteTo(d, pair.end.narrow), hn::PromoteTo(d, pair.start.narrow));
+  hn::StoreU(hn::DemoteTo(narrow, node), narrow, &touches.node[i]);
+  hn::StoreU(hn::IfThenElseZero(apart, hn::Sub(reach, node_distance)), d, &touches.node_depth[i]);
+  store_points(d, node_normal, &touches.node_normal[i]);
+  return {share, side, normal};
+}
+
+template <class D>
+HWY_INLINE void evaluate_motion(D d, const Scene& scene, const State& state, Touches& touches,
+                                const PairIndices<D>& pair, const Stand<D>& stand, std::size_t i) {
+  const auto to_end = stand.share;
+  const auto to_start = hn::Sub(hn::Set(d, 1.0), to_end);
+  const Points<D> start = gather_points(d, state.velocity.data(), pair.start.wide());
+  const Points<D> end = gather_points(d, state.velocity.data(), pair.end.wide());
+  const Points<D> ball = gather_points(d, state.velocity.data(), pair.ball.wide());
+  const Points<D> closing = {hn::MulAdd(to_start, start.x, hn::MulSub(to_end, end.x, ball.x)),
+                             hn::MulAdd(to_start, start.y, hn::MulSub(to_end, end.y, ball.y))};
+  const double* inverse_masses = scene.inverse_mass.data();
+  const auto of_start = hn::GatherIndex(d, inverse_masses, pair.start.wide());
+  const auto of_end = hn::GatherIndex(d, inverse_masses, pair.end.wide());
+  const auto of_ball = hn::GatherIndex(d, inverse_masses, pair.ball.wide());
+  const auto inverse_mass =
+      hn::MulAdd(hn::Mul(to_start, to_start), of_start, hn::MulAdd(hn::Mul(to_end, to_end), of_end, of_ball));
+  const auto critical = hn::Sqrt(hn::Div(hn::Set(d, scene.contact.stiffness), inverse_mass));
+  const auto damping = hn::Mul(hn::Set(d, 2.0 * scene.contact.damping_ratio), critical);
+  hn::StoreU(hn::Mul(damping, dot(stand.normal, closing)), d, &touches.viscous[i]);
+  const auto slide = hn::Mul(stand.side, cross(stand.normal, closing));
+  hn::StoreU(hn::Mul(hn::Set(d, scene.schedule.time_step), slide), d, &touches.slip[i]);
+}
+
+template <class D>
+HWY_INLINE void evaluate_pairs(D d, const Scene& scene, State& state, Touches& touches, std::size_t i) {
+  const PairIndices<D> pair = pair_indices(d, scene, state.touching, i);
+  const Stand<D> stand = evaluate_stand(d, state, touches, pair, i);
+  evaluate_motion(d, scene, state, touches, pair, stand, i);
+}
+
+void evaluate_all(const Scene& scene, State& state, Touches& touches) {
+  const hn::CappedTag<double, 8> wide;
+  const hn::CappedTag<double, 1> one;
+  const std::size_t count = state.touching.count();
+  std::size_t i = 0;
+  for (; i + hn::Lanes(wide) <= count; i += hn::Lanes(wide)) {
+    evaluate_pairs(wide, scene, state, touches, i);
+  }
+  for (; i < count; ++i) {
+    evaluate_pairs(one, scene, state, touches, i);
+  }
+}
+
+}  // namespace cellcrush::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace cellcrush {
+
+HWY_EXPORT(evaluate_all);
+
+void evaluate_touches_wide(const Scene& scene, State& state, Touches& touches) {
+  HWY_DYNAMIC_DISPATCH(evaluate_all)(scene, state, touches);
+}
+
+}  // namespace cellcrush
+#endif

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "contact/contact_workspace.h"
+#include "parallel/workers.h"
+
+namespace cellcrush {
+
+/// Threads and room that the stages of a step work with, kept from step to step so that no step starts or allocates. It belongs to no state: any step
+/// of any state of the scene may use it, and none depends on what it holds.
+struct Workspace {
+  explicit Workspace(int threads = 1) : workers(threads) {}
+
+  Workers workers;
+  ContactWorkspace contact;
+};
+
+}  // namespace cellcrush
