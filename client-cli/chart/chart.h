@@ -17,13 +17,17 @@ struct LineStyle {
 /// What stands at a point of a curve, in the colour of its line.
 enum class Marker { none, disc, square, cross };
 
-/// A line through points, and marks at them; x and y have equal length. Without a name it is not in the legend.
+/// A line through points, and marks at them; x and y have equal length. Without a name it is not in the legend. `low`, `high`
+/// and `labels` are empty or as long: the ends of an upright bar through each point, and a small text beside it.
 struct Curve {
   std::vector<double> x;
   std::vector<double> y;
   LineStyle style;
   std::string name;
   Marker marker = Marker::none;
+  std::vector<double> low;
+  std::vector<double> high;
+  std::vector<std::string> labels;
 };
 
 /// A shaded range of x with a small text at its top.

@@ -1,0 +1,58 @@
+#include "worker/stage_timer.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+
+namespace cellcrush::worker {
+namespace {
+
+void spend(std::chrono::milliseconds time) { std::this_thread::sleep_for(time); }
+
+/// A step of two stages.
+void step(StageTimer& timer, std::chrono::milliseconds first, std::chrono::milliseconds second) {
+  using enum Stage;
+  timer.begin(integrate_motion);
+  spend(first);
+  timer.begin(find_contacts);
+  spend(second);
+  timer.end_step();
+}
+
+TEST(StageTimer, KnowsNothingBeforeTheFirstStep) {
+  for (const double seconds : StageTimer().seconds()) EXPECT_EQ(seconds, 0.0);
+}
+
+TEST(StageTimer, GivesEachStageItsTime) {
+  StageTimer timer(1);
+  step(timer, std::chrono::milliseconds(2), std::chrono::milliseconds(6));
+  spend(std::chrono::milliseconds(20));  // between steps: no stage's
+  step(timer, std::chrono::milliseconds(2), std::chrono::milliseconds(6));
+  const auto seconds = timer.seconds();
+  EXPECT_GE(seconds[0], 0.004);
+  EXPECT_GE(seconds[2], 0.012);
+  EXPECT_EQ(seconds[1] + seconds[3] + seconds[4] + seconds[5], 0.0);
+}
+
+TEST(StageTimer, TakesWhatItDidNotLookAtAsTheMeanOfWhatItDid) {
+  StageTimer every(1);
+  StageTimer third(3);
+  for (int i = 0; i < 9; ++i) {
+    // Only every third step takes time, and those are the ones that are looked at.
+    const std::chrono::milliseconds time(i % 3 == 0 ? 3 : 0);
+    step(every, time, time);
+    step(third, time, time);
+  }
+  EXPECT_GE(every.seconds()[0], 0.009);
+  EXPECT_GE(third.seconds()[0], 0.027);
+  EXPECT_GT(third.seconds()[0], 1.5 * every.seconds()[0]);
+}
+
+TEST(StageTimer, NamesEveryStage) {
+  EXPECT_STREQ(kStageNames[static_cast<int>(Stage::integrate_motion)], "integrate_motion");
+  EXPECT_STREQ(kStageNames[static_cast<int>(Stage::evaluate_loads)], "evaluate_loads");
+}
+
+}  // namespace
+}  // namespace cellcrush::worker
