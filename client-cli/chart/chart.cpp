@@ -1,6 +1,7 @@
 #include "chart/chart.h"
 
 #include <cmath>
+#include <utility>
 
 #include "chart/marks.h"
 
@@ -74,6 +75,15 @@ double lay_legend(cairo_t* context, const Rectangle& place, const Chart& chart, 
 }
 
 }  // namespace
+
+Curve level_curve(double value, double from, double to, LineStyle style, std::string name) {
+  Curve curve;
+  curve.x = {from, to};
+  curve.y = {value, value};
+  curve.style = std::move(style);
+  curve.name = std::move(name);
+  return curve;
+}
 
 void draw_chart(cairo_t* context, const Rectangle& place, const Chart& chart) {
   const Rectangle legend{place.x + Axes::kLeft, place.y, place.width - Axes::kLeft, 0.0};

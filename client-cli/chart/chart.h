@@ -25,10 +25,13 @@ struct Curve {
   LineStyle style;
   std::string name;
   Marker marker = Marker::none;
-  std::vector<double> low;
-  std::vector<double> high;
-  std::vector<std::string> labels;
+  std::vector<double> low = {};
+  std::vector<double> high = {};
+  std::vector<std::string> labels = {};
 };
+
+/// A line at one height.
+Curve level_curve(double value, double from, double to, LineStyle style, std::string name);
 
 /// A shaded range of x with a small text at its top.
 struct Band {

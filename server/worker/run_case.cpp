@@ -17,6 +17,7 @@
 #include "translate/results.h"
 #include "version.h"
 #include "worker/progress_meter.h"
+#include "worker/stage_timer.h"
 
 namespace cellcrush::worker {
 namespace {
@@ -89,7 +90,7 @@ class Run {
     while (simulation_.step() < next) {
       const std::int64_t before = simulation_.step();
       const auto start = ProgressMeter::Clock::now();
-      simulation_.advance(std::min(piece_, next - before));
+      simulation_.advance(std::min(piece_, next - before), &stage_timer_);
       const auto now = ProgressMeter::Clock::now();
       if (simulation_.step() == before) {
         put_out_sample();
@@ -149,7 +150,8 @@ class Run {
     const bool whole = simulation_.step() == facts_.step_count;
     Final out;
     out.set_cancelled(!whole);
-    *out.mutable_summary() = translate::to_proto(summarize(*scene_, samples_), samples_.back(), processor_seconds());
+    *out.mutable_summary() = translate::to_proto(summarize(*scene_, samples_), samples_.back(),
+                                                 {processor_seconds(), stage_timer_.seconds()});
     writer_.finish({order_.case_(), kSolverRevision, simd_target(), facts_.time_step, facts_.modelled, whole},
                    out.summary());
     store::publish_file(partial_path_, order_.result_path());
@@ -166,6 +168,7 @@ class Run {
   std::shared_ptr<const Scene> scene_;
   SceneFacts facts_;
   Simulation simulation_;
+  StageTimer stage_timer_;
   ProgressMeter meter_;
   v1::Mesh mesh_;
   std::filesystem::path partial_path_;

@@ -20,10 +20,11 @@ constexpr double kHeight = 330.0;
 constexpr double kMargin = 12.0;
 constexpr double kMostTimesTheTime = 1.5;
 constexpr double kMostBytes = 600.0;
+const client::LineStyle kBound{client::kMutedInk, 1.2, {6.0, 4.0}};
 
 Curve curve_of(const std::vector<Measured>& measured, const std::vector<std::pair<const char*, double>>& terms,
                std::string name, int colour) {
-  Curve curve{{}, {}, {client::kSeriesColours[colour], 1.6, {}}, std::move(name), Marker::disc, {}, {}, {}};
+  Curve curve{{}, {}, {client::kSeriesColours[colour], 1.6, {}}, std::move(name), Marker::disc};
   for (const Measured& row : measured) {
     double sum = 0.0;
     for (const auto& [counter, factor] : terms) sum += factor * row.counters.at(counter);
@@ -31,11 +32,6 @@ Curve curve_of(const std::vector<Measured>& measured, const std::vector<std::pai
     curve.y.push_back(sum);
   }
   return curve;
-}
-
-Curve bound(double value, std::string name, const client::Axis& x) {
-  return {
-      {x.low, x.high}, {value, value}, {client::kMutedInk, 1.2, {6.0, 4.0}}, std::move(name), Marker::none, {}, {}, {}};
 }
 
 Chart build_chart(std::vector<Curve> curves, const std::string& label) {
@@ -58,7 +54,8 @@ Chart time_chart(const std::vector<Measured>& measured) {
        curve_of(measured, {{"integrate_motion_ns", 1.0}, {"evaluate_internal_forces_ns", 1.0}}, "walls and motion", 1),
        curve_of(measured, {{"find_contacts_ns", 1.0}, {"evaluate_contact_forces_ns", 1.0}}, "contacts", 2)},
       "time an element-step (ns)");
-  chart.curves.push_back(bound(kMostTimesTheTime * chart.curves.front().y.front(), "1.5 times the smallest", chart.x));
+  chart.curves.push_back(client::level_curve(kMostTimesTheTime * chart.curves.front().y.front(), chart.x.low,
+                                             chart.x.high, kBound, "1.5 times the smallest"));
   leave_room(chart);
   return chart;
 }
@@ -68,7 +65,7 @@ Chart memory_chart(const std::vector<Measured>& measured) {
       {curve_of(measured, {{"bytes_an_element", 1.0}}, "most resident", 0),
        curve_of(measured, {{"scene_array_bytes_an_element", 1.0}, {"state_array_bytes_an_element", 1.0}}, "arrays", 3)},
       "memory (bytes an element)");
-  chart.curves.push_back(bound(kMostBytes, "600 bytes", chart.x));
+  chart.curves.push_back(client::level_curve(kMostBytes, chart.x.low, chart.x.high, kBound, "600 bytes"));
   leave_room(chart);
   return chart;
 }
