@@ -1,5 +1,6 @@
 #include "bench/machine.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <ctime>
@@ -35,7 +36,8 @@ double kilobytes_in_status(const char* key) {
 }  // namespace
 
 std::string processor_name() {
-  const std::string name = value_in("/proc/cpuinfo", "model name");
+  std::string name = value_in("/proc/cpuinfo", "model name");
+  std::replace(name.begin(), name.end(), ',', ' ');
   return name.empty() ? "unknown" : name;
 }
 

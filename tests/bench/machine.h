@@ -4,7 +4,7 @@
 
 namespace cellcrush::bench {
 
-/// Name of the processor, as the kernel tells it; "unknown" where it does not.
+/// Name of the processor, as the kernel tells it, without commas; "unknown" where it does not.
 std::string processor_name();
 
 /// Today, as 2001-12-31.
