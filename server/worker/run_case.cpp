@@ -1,7 +1,6 @@
 #include "worker/run_case.h"
 
 #include <algorithm>
-#include <ctime>
 #include <filesystem>
 #include <new>
 #include <stdexcept>
@@ -16,6 +15,7 @@
 #include "translate/case_to_spec.h"
 #include "translate/results.h"
 #include "version.h"
+#include "worker/processor_time.h"
 #include "worker/progress_meter.h"
 #include "worker/stage_timer.h"
 
@@ -43,12 +43,6 @@ std::shared_ptr<const Scene> build(const v1::Case& submitted) {
     throw std::runtime_error("the case is no longer accepted: " + problems.front().field + ": " +
                              problems.front().message);
   return built.scene;
-}
-
-double processor_seconds() {
-  timespec time{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
 // One run: what is advanced, and where its output goes.
@@ -151,7 +145,7 @@ class Run {
     Final out;
     out.set_cancelled(!whole);
     *out.mutable_summary() = translate::to_proto(summarize(*scene_, samples_), samples_.back(),
-                                                 {processor_seconds(), stage_timer_.seconds()});
+                                                 {processor_seconds(CLOCK_PROCESS_CPUTIME_ID), stage_timer_.seconds()});
     writer_.finish({order_.case_(), kSolverRevision, simd_target(), facts_.time_step, facts_.modelled, whole},
                    out.summary());
     store::publish_file(partial_path_, order_.result_path());

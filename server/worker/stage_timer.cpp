@@ -1,10 +1,12 @@
 #include "worker/stage_timer.h"
 
+#include "worker/processor_time.h"
+
 namespace cellcrush::worker {
 
 void StageTimer::begin(Stage stage) {
   if (steps_ % interval_ != 0) return;
-  const Clock::time_point now = Clock::now();
+  const double now = processor_seconds(CLOCK_THREAD_CPUTIME_ID);
   close(now);
   stage_ = static_cast<int>(stage);
   since_ = now;
@@ -12,7 +14,7 @@ void StageTimer::begin(Stage stage) {
 
 void StageTimer::end_step() {
   if (stage_ >= 0) {
-    close(Clock::now());
+    close(processor_seconds(CLOCK_THREAD_CPUTIME_ID));
     stage_ = -1;
     ++timed_steps_;
   }
@@ -27,9 +29,8 @@ std::array<double, kStageCount> StageTimer::seconds() const {
   return all;
 }
 
-void StageTimer::close(Clock::time_point now) {
-  if (stage_ >= 0)
-    timed_seconds_[static_cast<std::size_t>(stage_)] += std::chrono::duration<double>(now - since_).count();
+void StageTimer::close(double now) {
+  if (stage_ >= 0) timed_seconds_[static_cast<std::size_t>(stage_)] += now - since_;
 }
 
 }  // namespace cellcrush::worker

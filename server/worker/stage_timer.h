@@ -1,15 +1,15 @@
 #pragma once
 
 #include <array>
-#include <chrono>
 #include <cstdint>
 
 #include "cellcrush/stage.h"
 
 namespace cellcrush::worker {
 
-/// Time by stage of a run, from every so many-th step: a reading of the clock takes some 25 ns, which the steps of a small
-/// lattice would feel. A run that advances in pieces is handed the same timer each time. Not thread-safe.
+/// Processor time by stage of a run, from every so many-th step: a reading of the clock takes some 200 ns, which the steps of a
+/// small lattice would feel. A run that advances in pieces is handed the same timer each time. Not thread-safe; the thread that
+/// advances is the one that is timed.
 class StageTimer : public StageObserver {
  public:
   /// A prime: what recurs every so many steps is caught as often as it is due.
@@ -21,20 +21,18 @@ class StageTimer : public StageObserver {
   void begin(Stage stage) override;
   void end_step() override;
 
-  /// Wall time in each stage over all steps so far, s, in the order of kStageNames; what was not looked at is taken as the mean of
+  /// Time in each stage over all steps so far, s, in the order of kStageNames; what was not looked at is taken as the mean of
   /// what was. All 0 before the first step.
   [[nodiscard]] std::array<double, kStageCount> seconds() const;
 
  private:
-  using Clock = std::chrono::steady_clock;
-
-  void close(Clock::time_point now);
+  void close(double now);
 
   int interval_;
   std::int64_t steps_ = 0;
   std::int64_t timed_steps_ = 0;
-  int stage_ = -1;  ///< that is being timed; -1: none
-  Clock::time_point since_;
+  int stage_ = -1;      ///< that is being timed; -1: none
+  double since_ = 0.0;  ///< processor time at which it began
   std::array<double, kStageCount> timed_seconds_{};
 };
 

@@ -9,6 +9,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "worker/processor_time.h"
+
 namespace cellcrush::bench {
 namespace {
 
@@ -48,11 +50,7 @@ std::string today() {
   return text;
 }
 
-double processor_seconds() {
-  timespec time{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
+double processor_seconds() { return worker::processor_seconds(CLOCK_PROCESS_CPUTIME_ID); }
 
 double resident_bytes() { return kilobytes_in_status("VmRSS"); }
 

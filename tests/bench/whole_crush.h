@@ -15,12 +15,12 @@ struct CrushCost {
   double strain = 0.0;                            ///< at which it ended
   double seconds = 0.0;                           ///< processor time of the run
   double build_seconds = 0.0;                     ///< processor time before it
-  std::array<double, kStageCount> stage_seconds;  ///< wall time in the stages
-  double base_bytes = 0.0;                        ///< resident before the scene was built
-  double build_bytes = 0.0;                       ///< the most that was resident until the run began, beyond base_bytes
-  double peak_bytes = 0.0;                        ///< the same until the run's end
-  double scene_bytes = 0.0;                       ///< of the scene's arrays
-  double state_bytes = 0.0;                       ///< of the state's arrays at the end
+  std::array<double, kStageCount> stage_seconds;  ///< processor time in the stages
+  double base_bytes = 0.0;   ///< resident before the scene was built, when a small crush has been done
+  double build_bytes = 0.0;  ///< the most that was resident until the run began, beyond base_bytes
+  double peak_bytes = 0.0;   ///< the same until the run's end
+  double scene_bytes = 0.0;  ///< of the scene's arrays
+  double state_bytes = 0.0;  ///< of the state's arrays at the end
 };
 
 /// Crushes in a process of its own, so that its memory is nothing else's, by a kernel. `list_arrays` writes there what arrays

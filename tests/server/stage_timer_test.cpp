@@ -2,16 +2,20 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
-#include <thread>
+#include "worker/processor_time.h"
 
 namespace cellcrush::worker {
 namespace {
 
-void spend(std::chrono::milliseconds time) { std::this_thread::sleep_for(time); }
+/// Keeps this thread busy for some milliseconds of its own time, however busy the machine is.
+void spend(int milliseconds) {
+  const double end = processor_seconds(CLOCK_THREAD_CPUTIME_ID) + 1e-3 * milliseconds;
+  while (processor_seconds(CLOCK_THREAD_CPUTIME_ID) < end) {
+  }
+}
 
 /// A step of two stages.
-void step(StageTimer& timer, std::chrono::milliseconds first, std::chrono::milliseconds second) {
+void step(StageTimer& timer, int first, int second) {
   using enum Stage;
   timer.begin(integrate_motion);
   spend(first);
@@ -26,9 +30,9 @@ TEST(StageTimer, KnowsNothingBeforeTheFirstStep) {
 
 TEST(StageTimer, GivesEachStageItsTime) {
   StageTimer timer(1);
-  step(timer, std::chrono::milliseconds(2), std::chrono::milliseconds(6));
-  spend(std::chrono::milliseconds(20));  // between steps: no stage's
-  step(timer, std::chrono::milliseconds(2), std::chrono::milliseconds(6));
+  step(timer, 2, 6);
+  spend(20);  // between steps: no stage's
+  step(timer, 2, 6);
   const auto seconds = timer.seconds();
   EXPECT_GE(seconds[0], 0.004);
   EXPECT_GE(seconds[2], 0.012);
@@ -40,7 +44,7 @@ TEST(StageTimer, TakesWhatItDidNotLookAtAsTheMeanOfWhatItDid) {
   StageTimer third(3);
   for (int i = 0; i < 9; ++i) {
     // Only every third step takes time, and those are the ones that are looked at.
-    const std::chrono::milliseconds time(i % 3 == 0 ? 3 : 0);
+    const int time = i % 3 == 0 ? 3 : 0;
     step(every, time, time);
     step(third, time, time);
   }
