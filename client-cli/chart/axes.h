@@ -9,10 +9,11 @@ namespace cellcrush::client {
 struct Axis {
   double low = 0.0;
   double high = 1.0;
-  std::string label;  ///< with its unit
+  std::string label;         ///< with its unit
+  bool logarithmic = false;  ///< then 0 < low; what is not above 0 has no place on it
 };
 
-/// Two linear axes round a plotting area.
+/// Two axes round a plotting area.
 class Axes {
  public:
   /// `area` is the plotting area itself; labels stand outside of it, within kLeft and kBelow.

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <stdexcept>
 
-#include "command_error.h"
 #include "terminal/table.h"
 
 namespace cellcrush::client {
@@ -25,7 +25,7 @@ cairo_status_t append_bytes(void* closure, const unsigned char* data, unsigned i
 
 void check(cairo_status_t status) {
   if (status == CAIRO_STATUS_SUCCESS) return;
-  throw CommandError(ExitCode::refused, std::string("the picture cannot be drawn: ") + cairo_status_to_string(status));
+  throw std::runtime_error(std::string("the picture cannot be drawn: ") + cairo_status_to_string(status));
 }
 
 void set_font(cairo_t* context, const TextStyle& style) {
@@ -42,7 +42,7 @@ PictureFormat picture_format(const std::filesystem::path& file) {
                  [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
   if (extension == ".png") return PictureFormat::png;
   if (extension == ".svg") return PictureFormat::svg;
-  throw CommandError(ExitCode::refused, file.string() + ": a picture's name ends in .png or .svg");
+  throw std::invalid_argument(file.string() + ": a picture's name ends in .png or .svg");
 }
 
 std::string render_picture(PictureFormat format, double width, double height,

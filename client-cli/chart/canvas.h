@@ -29,13 +29,13 @@ struct Rectangle {
 
 enum class PictureFormat { png, svg };
 
-/// The format that a file's name asks for. Throws CommandError (refused) when it ends in neither .png nor .svg.
+/// The format that a file's name asks for. Throws std::invalid_argument when it ends in neither .png nor .svg.
 PictureFormat picture_format(const std::filesystem::path& file);
 
 /// PNG pictures have this many pixels a unit.
 inline constexpr int kPixelsPerUnit = 2;
 
-/// The bytes of a picture on a white ground; `draw` draws in units.
+/// The bytes of a picture on a white ground; `draw` draws in units. Throws std::runtime_error when it cannot be drawn.
 std::string render_picture(PictureFormat format, double width, double height,
                            const std::function<void(cairo_t*)>& draw);
 

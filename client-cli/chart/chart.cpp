@@ -1,7 +1,9 @@
 #include "chart/chart.h"
 
 #include <cmath>
-#include <numbers>
+#include <utility>
+
+#include "chart/marks.h"
 
 namespace cellcrush::client {
 
@@ -10,7 +12,6 @@ namespace {
 constexpr Colour kBandColour{0.945, 0.935, 0.90};
 constexpr double kLegendRow = 20.0;
 constexpr double kSwatch = 26.0;
-constexpr double kMarkerRadius = 4.2;
 constexpr double kLegendGap = 18.0;
 constexpr double kNoteHeight = 16.0;
 const TextStyle kLegendStyle{.size = 12.0};
@@ -20,38 +21,6 @@ void apply(cairo_t* context, const LineStyle& style) {
   cairo_set_line_width(context, style.width);
   cairo_set_line_join(context, CAIRO_LINE_JOIN_ROUND);
   cairo_set_dash(context, style.dashes.data(), static_cast<int>(style.dashes.size()), 0.0);
-}
-
-// A disc is full, a square open and a cross two strokes, so that they can be told apart without their colours.
-void draw_marker(cairo_t* context, double x, double y, const Curve& curve) {
-  cairo_set_dash(context, nullptr, 0, 0.0);
-  cairo_set_line_width(context, 1.4);
-  cairo_new_path(context);
-  if (curve.marker == Marker::disc) {
-    cairo_arc(context, x, y, kMarkerRadius, 0.0, 2.0 * std::numbers::pi);
-    set_colour(context, curve.style.colour);
-    cairo_fill(context);
-  } else if (curve.marker == Marker::square) {
-    const double half = 0.9 * kMarkerRadius;
-    cairo_rectangle(context, x - half, y - half, 2.0 * half, 2.0 * half);
-    set_colour(context, {1.0, 1.0, 1.0});
-    cairo_fill_preserve(context);
-    set_colour(context, curve.style.colour);
-    cairo_stroke(context);
-  } else if (curve.marker == Marker::cross) {
-    for (const double slope : {1.0, -1.0}) {
-      cairo_move_to(context, x - kMarkerRadius, y - slope * kMarkerRadius);
-      cairo_line_to(context, x + kMarkerRadius, y + slope * kMarkerRadius);
-    }
-    set_colour(context, curve.style.colour);
-    cairo_stroke(context);
-  }
-}
-
-void draw_markers(cairo_t* context, const Axes& axes, const Curve& curve) {
-  for (std::size_t i = 0; i < curve.x.size(); ++i) {
-    if (std::isfinite(curve.x[i] + curve.y[i])) draw_marker(context, axes.x(curve.x[i]), axes.y(curve.y[i]), curve);
-  }
 }
 
 void draw_curve(cairo_t* context, const Axes& axes, const Curve& curve) {
@@ -81,7 +50,7 @@ void draw_swatch(cairo_t* context, double x, double y, const Curve& curve) {
     cairo_stroke(context);
     cairo_set_dash(context, nullptr, 0, 0.0);
   }
-  draw_marker(context, x + 0.5 * kSwatch, y, curve);
+  draw_marker(context, x + 0.5 * kSwatch, y, curve.marker, curve.style.colour);
 }
 
 // Walks over the legend's entries, row by row, and answers its height; draws them too if `draw`.
@@ -107,6 +76,15 @@ double lay_legend(cairo_t* context, const Rectangle& place, const Chart& chart, 
 
 }  // namespace
 
+Curve level_curve(double value, double from, double to, LineStyle style, std::string name) {
+  Curve curve;
+  curve.x = {from, to};
+  curve.y = {value, value};
+  curve.style = std::move(style);
+  curve.name = std::move(name);
+  return curve;
+}
+
 void draw_chart(cairo_t* context, const Rectangle& place, const Chart& chart) {
   const Rectangle legend{place.x + Axes::kLeft, place.y, place.width - Axes::kLeft, 0.0};
   const double legend_height = lay_legend(context, legend, chart, true);
@@ -123,7 +101,7 @@ void draw_chart(cairo_t* context, const Rectangle& place, const Chart& chart) {
     cairo_fill(context);
   }
   for (const Curve& curve : chart.curves) draw_curve(context, axes, curve);
-  for (const Curve& curve : chart.curves) draw_markers(context, axes, curve);
+  for (const Curve& curve : chart.curves) draw_marks(context, axes, curve);
   for (const Band& band : chart.bands) {
     draw_text(context, 0.5 * (axes.x(band.from) + axes.x(band.to)), area.y + 16.0, band.text,
               {.size = 11.0, .colour = kMutedInk, .anchor = Anchor::middle});

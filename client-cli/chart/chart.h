@@ -17,14 +17,21 @@ struct LineStyle {
 /// What stands at a point of a curve, in the colour of its line.
 enum class Marker { none, disc, square, cross };
 
-/// A line through points, and marks at them; x and y have equal length. Without a name it is not in the legend.
+/// A line through points, and marks at them; x and y have equal length. Without a name it is not in the legend. `low`, `high`
+/// and `labels` are empty or as long: the ends of an upright bar through each point, and a small text beside it.
 struct Curve {
   std::vector<double> x;
   std::vector<double> y;
   LineStyle style;
   std::string name;
   Marker marker = Marker::none;
+  std::vector<double> low = {};
+  std::vector<double> high = {};
+  std::vector<std::string> labels = {};
 };
+
+/// A line at one height.
+Curve level_curve(double value, double from, double to, LineStyle style, std::string name);
 
 /// A shaded range of x with a small text at its top.
 struct Band {

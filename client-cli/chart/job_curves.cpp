@@ -69,10 +69,6 @@ Chart empty_chart(double strain, double top, double peak) {
   return chart;
 }
 
-Curve level(double stress, double from, double to, LineStyle style, std::string name) {
-  return {{from, to}, {stress, stress}, std::move(style), std::move(name)};
-}
-
 std::string with_plateau(const char* plate, bool known, double stress) {
   return known ? fmt::format("{}: plateau {} MPa", plate, number_text(stress)) : plate;
 }
@@ -114,23 +110,23 @@ Chart build_job_chart(const JobHistory& history) {
     const double high = summary.plateau_window_high();
     chart.bands.push_back({low, high, "plateau window"});
     if (summary.has_plateau_stress_impact_mpa()) {
-      chart.curves.push_back(level(summary.plateau_stress_impact_mpa(), low, high, {kInk, 1.8, {}}, ""));
+      chart.curves.push_back(level_curve(summary.plateau_stress_impact_mpa(), low, high, {kInk, 1.8, {}}, ""));
     }
     if (summary.has_plateau_stress_support_mpa()) {
-      chart.curves.push_back(level(summary.plateau_stress_support_mpa(), low, high, {kInk, 1.8, {}}, ""));
+      chart.curves.push_back(level_curve(summary.plateau_stress_support_mpa(), low, high, {kInk, 1.8, {}}, ""));
     }
   }
   if (summary.theory().shock_mpa() > 0.0) {
     const v1::Theory& theory = summary.theory();
-    chart.curves.push_back(level(theory.shock_mpa(), 0.0, chart.x.high, {kMutedInk, 1.4, {8.0, 4.0}},
-                                 "Eq. 51: " + number_text(theory.shock_mpa()) + " MPa"));
+    chart.curves.push_back(level_curve(theory.shock_mpa(), 0.0, chart.x.high, {kMutedInk, 1.4, {8.0, 4.0}},
+                                       "Eq. 51: " + number_text(theory.shock_mpa()) + " MPa"));
     if (summary.has_front()) {
       const double shock = summary.front().shock_mpa();
-      chart.curves.push_back(level(shock, 0.0, chart.x.high, {kMutedInk, 1.4, {10.0, 3.0, 2.0, 3.0}},
-                                   "Eq. 52, jumps measured: " + number_text(shock) + " MPa"));
+      chart.curves.push_back(level_curve(shock, 0.0, chart.x.high, {kMutedInk, 1.4, {10.0, 3.0, 2.0, 3.0}},
+                                         "Eq. 52, jumps measured: " + number_text(shock) + " MPa"));
     }
-    chart.curves.push_back(level(theory.gibson_ashby_mpa(), 0.0, chart.x.high, {kMutedInk, 1.4, {2.0, 3.0}},
-                                 "Gibson-Ashby: " + number_text(theory.gibson_ashby_mpa()) + " MPa"));
+    chart.curves.push_back(level_curve(theory.gibson_ashby_mpa(), 0.0, chart.x.high, {kMutedInk, 1.4, {2.0, 3.0}},
+                                       "Gibson-Ashby: " + number_text(theory.gibson_ashby_mpa()) + " MPa"));
   }
   return chart;
 }

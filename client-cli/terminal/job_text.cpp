@@ -38,6 +38,22 @@ void add_progress_rows(Table& table, const v1::Job& job) {
   if (progress.has_plateau_so_far_mpa()) table.add({"plateau so far", stress_text(progress.plateau_so_far_mpa())});
 }
 
+std::string stage_times_text(const v1::StageTimes& times) {
+  const std::pair<const char*, double> stages[] = {
+      {"integrate motion", times.integrate_motion_s()},  {"internal forces", times.evaluate_internal_forces_s()},
+      {"find contacts", times.find_contacts_s()},        {"contact forces", times.evaluate_contact_forces_s()},
+      {"plate forces", times.evaluate_plate_forces_s()}, {"loads", times.evaluate_loads_s()}};
+  double all = 0.0;
+  for (const auto& [name, seconds] : stages) all += seconds;
+  if (all <= 0.0) return {};
+  Table table({Align::left, Align::right, Align::right});
+  table.add({"time of the steps by stage", number_text(all) + " s"});
+  for (const auto& [name, seconds] : stages) {
+    table.add({name, number_text(seconds) + " s", percent_text(seconds / all)});
+  }
+  return table.text(2);
+}
+
 }  // namespace
 
 std::string outcome_text(const v1::Job& job) {
@@ -69,7 +85,9 @@ std::string description_text(const v1::Job& job) {
   if (job.worker_pid() != 0) table.add({"worker process", std::to_string(job.worker_pid())});
   if (job.has_progress() && !is_final(job.state())) add_progress_rows(table, job);
   const std::string scene_lines = description_text(job.case_());
-  return outcome_text(job) + '\n' + table.text(2) + (scene_lines.empty() ? "" : '\n' + scene_lines);
+  const std::string stage_lines = stage_times_text(job.summary().stage_times());
+  return outcome_text(job) + (stage_lines.empty() ? "" : '\n' + stage_lines) + '\n' + table.text(2) +
+         (scene_lines.empty() ? "" : '\n' + scene_lines);
 }
 
 std::string labels_text(const google::protobuf::Map<std::string, std::string>& labels) {

@@ -63,6 +63,15 @@ void write_ledger(hid_t file, const v1::Ledger& ledger) {
   write_attribute(file, "ledger_residual_mj", ledger.residual_mj());
 }
 
+void write_stage_times(hid_t file, const v1::StageTimes& times) {
+  write_attribute(file, "stage_integrate_motion_s", times.integrate_motion_s());
+  write_attribute(file, "stage_evaluate_internal_forces_s", times.evaluate_internal_forces_s());
+  write_attribute(file, "stage_find_contacts_s", times.find_contacts_s());
+  write_attribute(file, "stage_evaluate_contact_forces_s", times.evaluate_contact_forces_s());
+  write_attribute(file, "stage_evaluate_plate_forces_s", times.evaluate_plate_forces_s());
+  write_attribute(file, "stage_evaluate_loads_s", times.evaluate_loads_s());
+}
+
 }  // namespace
 
 void write_summary_attributes(hid_t file, const v1::Summary& summary) {
@@ -87,6 +96,7 @@ void write_summary_attributes(hid_t file, const v1::Summary& summary) {
   write_warnings(file, summary);
   write_collapse(file, summary);
   write_ledger(file, summary.ledger());
+  write_stage_times(file, summary.stage_times());
 }
 
 }  // namespace cellcrush::store

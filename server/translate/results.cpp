@@ -71,6 +71,18 @@ v1::CrushMode to_proto(CrushMode mode) {
   return v1::CRUSH_MODE_UNSPECIFIED;
 }
 
+v1::StageTimes to_proto(const std::array<double, kStageCount>& seconds) {
+  const auto of = [&](Stage stage) { return seconds[static_cast<std::size_t>(stage)]; };
+  v1::StageTimes out;
+  out.set_integrate_motion_s(of(Stage::integrate_motion));
+  out.set_evaluate_internal_forces_s(of(Stage::evaluate_internal_forces));
+  out.set_find_contacts_s(of(Stage::find_contacts));
+  out.set_evaluate_contact_forces_s(of(Stage::evaluate_contact_forces));
+  out.set_evaluate_plate_forces_s(of(Stage::evaluate_plate_forces));
+  out.set_evaluate_loads_s(of(Stage::evaluate_loads));
+  return out;
+}
+
 v1::Ledger ledger_of(const Sample& sample) {
   v1::Ledger out;
   out.set_work_external_mj(sample.work_external);
@@ -165,7 +177,7 @@ v1::Theory to_proto(const Theory& theory) {
   return out;
 }
 
-v1::Summary to_proto(const Summary& summary, const Sample& last, double solver_seconds) {
+v1::Summary to_proto(const Summary& summary, const Sample& last, const RunTime& time) {
   v1::Summary out;
   if (summary.plateau_stress_impact) out.set_plateau_stress_impact_mpa(*summary.plateau_stress_impact);
   if (summary.plateau_stress_support) out.set_plateau_stress_support_mpa(*summary.plateau_stress_support);
@@ -179,7 +191,7 @@ v1::Summary to_proto(const Summary& summary, const Sample& last, double solver_s
   out.set_deepest_penetration(summary.deepest_penetration);
   for (const Warning& warning : summary.warnings) *out.add_warnings() = to_proto(warning);
   out.set_step_count(summary.step_count);
-  out.set_solver_seconds(solver_seconds);
+  out.set_solver_seconds(time.processor);
   *out.mutable_theory() = to_proto(summary.theory);
   out.set_crush_mode(to_proto(summary.crush_mode));
   if (summary.crush_mode_strain) out.set_crush_mode_strain(*summary.crush_mode_strain);
@@ -190,6 +202,7 @@ v1::Summary to_proto(const Summary& summary, const Sample& last, double solver_s
     out.set_solid_fraction_at_densification(*summary.solid_fraction_at_densification);
   if (summary.quasi_static) *out.mutable_quasi_static() = to_proto(*summary.quasi_static);
   *out.mutable_ledger() = ledger_of(last);
+  *out.mutable_stage_times() = to_proto(time.stages);
   return out;
 }
 

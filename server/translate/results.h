@@ -1,9 +1,11 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "cellcrush/sample.h"
 #include "cellcrush/simulation.h"
+#include "cellcrush/stage.h"
 #include "cellcrush/v1/job.pb.h"
 #include "cellcrush/v1/sample.pb.h"
 
@@ -19,7 +21,13 @@ v1::Sample to_proto(const Sample& sample, const google::protobuf::RepeatedPtrFie
 v1::FieldFrame to_proto(const FieldFrame& frame);
 v1::Mesh to_proto(const MeshView& mesh, std::int64_t particle_count);
 v1::Theory to_proto(const Theory& theory);
-/// `last`: the last sample of the run, for the ledger. `solver_seconds`: processor time of the run, which the solver has no clock for.
-v1::Summary to_proto(const Summary& summary, const Sample& last, double solver_seconds);
+
+/// What a run took, s; the solver has no clock for it.
+struct RunTime {
+  double processor = 0.0;
+  std::array<double, kStageCount> stages{};  ///< in the order of kStageNames
+};
+/// `last`: the last sample of the run, for the ledger.
+v1::Summary to_proto(const Summary& summary, const Sample& last, const RunTime& time);
 
 }  // namespace cellcrush::translate

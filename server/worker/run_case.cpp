@@ -1,7 +1,6 @@
 #include "worker/run_case.h"
 
 #include <algorithm>
-#include <ctime>
 #include <filesystem>
 #include <new>
 #include <stdexcept>
@@ -16,7 +15,9 @@
 #include "translate/case_to_spec.h"
 #include "translate/results.h"
 #include "version.h"
+#include "worker/processor_time.h"
 #include "worker/progress_meter.h"
+#include "worker/stage_timer.h"
 
 namespace cellcrush::worker {
 namespace {
@@ -42,12 +43,6 @@ std::shared_ptr<const Scene> build(const v1::Case& submitted) {
     throw std::runtime_error("the case is no longer accepted: " + problems.front().field + ": " +
                              problems.front().message);
   return built.scene;
-}
-
-double processor_seconds() {
-  timespec time{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
 // One run: what is advanced, and where its output goes.
@@ -86,7 +81,7 @@ class Run {
     while (simulation_.step() < next) {
       const std::int64_t before = simulation_.step();
       const auto start = ProgressMeter::Clock::now();
-      simulation_.advance(std::min(piece_, next - before));
+      simulation_.advance(std::min(piece_, next - before), &stage_timer_);
       const auto now = ProgressMeter::Clock::now();
       if (simulation_.step() == before) {
         put_out_sample();
@@ -167,11 +162,12 @@ class Run {
     if (failed()) put_out_last_good_frame();
     Final out = failure(translate::cause_of(status.kind), status.message, status.remedy);
     out.set_cancelled(!whole && !failed());
-    *out.mutable_summary() = translate::to_proto(summarize(*scene_, samples_),
-                                                 samples_.empty() ? Sample{} : samples_.back(), processor_seconds());
-    writer_.finish(
-        {order_.case_(), kSolverRevision, simd_target(), facts_.time_step, facts_.modelled, order_.threads(), whole, status.message},
-        out.summary());
+    *out.mutable_summary() =
+        translate::to_proto(summarize(*scene_, samples_), samples_.empty() ? Sample{} : samples_.back(),
+                            {processor_seconds(CLOCK_PROCESS_CPUTIME_ID), stage_timer_.seconds()});
+    writer_.finish({order_.case_(), kSolverRevision, simd_target(), facts_.time_step, facts_.modelled, order_.threads(),
+                    whole, status.message},
+                   out.summary());
     store::publish_file(partial_path_, order_.result_path());
     return out;
   }
@@ -186,6 +182,7 @@ class Run {
   std::shared_ptr<const Scene> scene_;
   SceneFacts facts_;
   Simulation simulation_;
+  StageTimer stage_timer_;
   ProgressMeter meter_;
   v1::Mesh mesh_;
   std::filesystem::path partial_path_;

@@ -1,125 +1,111 @@
-// Cost of the solver on blocks of Type I's hexagons, from a state that is crushed to 30 % strain.
-//   solver_bench                              all
-//   solver_bench --benchmark_filter=Contact   how contact grows with the lattice
+// Time of a step of crushed lattices, by stage and by SIMD target, each beside the plain text in the same run. An iteration
+// restores the state and takes some steps; the least of them counts.
+//   solver_bench                                              all
+//   solver_bench --benchmark_filter=type-i-paper/45/avx512    one
+//   solver_bench --csv=FILE --commit=NAME                     with rows for a table
 #include <benchmark/benchmark.h>
 
-#include <array>
-#include <chrono>
-#include <string>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <vector>
 
-#include "cellcrush/state.h"
-#include "scenes/frames.h"
+#include "bench/bench_flags.h"
+#include "bench/crushed_states.h"
+#include "bench/machine.h"
+#include "cellcrush/simd.h"
 #include "step/advance_step.h"
+#include "worker/stage_timer.h"
 
-namespace cellcrush {
+namespace cellcrush::bench {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+constexpr int kIterations = 7;
+constexpr double kElementSteps = 1e6;  ///< of an iteration
+constexpr int kTimedSteps = 5;         ///< one in so many, for the split by stage
 
-struct Crushed {
-  std::shared_ptr<const Scene> scene;
-  State state;
+/// Processor time of an element-step, ns, and its parts.
+struct Cost {
+  double all = 0.0;
+  std::array<double, kStageCount> stages{};
 };
 
-Crushed crush(int columns, int rows) {
-  SceneSpec spec = scenes::hexagon_block(columns, rows);
-  spec.loading.end_strain = 0.3;
-  const auto scene = scenes::build(spec);
-  Simulation simulation(scene);
-  simulation.advance(scene->schedule.step_count);
-  return {scene, simulation.state()};
+/// Steps on from a copy of the crushed state. The stages are timed in some of the steps and scaled to the time of all.
+Cost time_steps(const CrushedStates::Crushed& crushed, const std::string& target) {
+  use_simd_target(target);
+  const auto elements = static_cast<double>(crushed.scene->element_count());
+  const int steps = std::max(20, static_cast<int>(kElementSteps / elements));
+  State state = crushed.state;
+  worker::StageTimer timer(kTimedSteps);
+  const double start = processor_seconds();
+  for (int i = 0; i < steps; ++i) {
+    advance_step(*crushed.scene, state, &timer);
+  }
+  Cost cost;
+  cost.all = 1e9 * (processor_seconds() - start) / (steps * elements);
+  cost.stages = timer.seconds();
+  double sum = 0.0;
+  for (const double seconds : cost.stages) sum += seconds;
+  for (double& stage : cost.stages) stage *= cost.all / sum;
+  return cost;
 }
 
-class StageClock : public StageObserver {
- public:
-  void begin(Stage stage) override {
-    const Clock::time_point now = Clock::now();
-    close(now);
-    current_ = static_cast<int>(stage);
-    since_ = now;
-  }
-  void end_step() override {
-    close(Clock::now());
-    current_ = -1;
-  }
-  [[nodiscard]] double seconds(Stage stage) const { return seconds_[static_cast<int>(stage)]; }
+bool is_less(const Cost& one, const Cost& other) { return one.all < other.all; }
 
- private:
-  void close(Clock::time_point now) {
-    if (current_ >= 0) {
-      seconds_[current_] += std::chrono::duration<double>(now - since_).count();
+void time_crush(benchmark::State& bench, CrushedStates& states, const scenes::Crush& crush, double strain,
+                const std::string& target) {
+  const CrushedStates::Crushed& crushed = states.at(crush, strain);
+  std::vector<Cost> costs;
+  std::vector<Cost> plain;
+  for (auto _ : bench) {
+    costs.push_back(time_steps(crushed, target));
+    plain.push_back(target == "scalar" ? costs.back() : time_steps(crushed, "scalar"));
+    bench.SetIterationTime(1e-9 * costs.back().all);
+  }
+  std::sort(costs.begin(), costs.end(), is_less);
+  const Cost& least = costs.front();
+  const double scalar = std::min_element(plain.begin(), plain.end(), is_less)->all;
+  bench.counters["element_step_ns"] = least.all;
+  for (int i = 0; i < kStageCount; ++i) {
+    bench.counters[std::string(kStageNames[i]) + "_ns"] = least.stages[i];
+  }
+  bench.counters["scalar_ns"] = scalar;
+  bench.counters["times_as_fast_as_scalar"] = scalar / least.all;
+  bench.counters["spread"] = costs[costs.size() / 2].all / least.all - 1.0;
+  bench.counters["elements"] = static_cast<double>(crushed.scene->element_count());
+  bench.SetLabel(target);
+}
+
+void add_all(const Flags& flags) {
+  const auto states = std::make_shared<CrushedStates>(flags.states);
+  for (const scenes::Crush& crush : scenes::crushes()) {
+    for (const double strain : crush.strains) {
+      for (const std::string& target : simd_targets()) {
+        const std::string name = crush.name + "/" + std::to_string(std::lround(100.0 * strain)) + "/" + target;
+        benchmark::RegisterBenchmark(
+            name.c_str(), [=](benchmark::State& bench) { time_crush(bench, *states, crush, strain, target); })
+            ->Unit(benchmark::kNanosecond)
+            ->UseManualTime()
+            ->Iterations(kIterations);
+      }
     }
   }
-
-  std::array<double, kStageCount> seconds_{};
-  int current_ = -1;
-  Clock::time_point since_;
-};
-
-/// Seconds of the contact stages in ten lives of a list of candidates, stepped on from the crushed state.
-double time_contact(const Crushed& crushed) {
-  constexpr int kSteps = 140;
-  State state = crushed.state;
-  StageClock clock;
-  for (int i = 0; i < kSteps; ++i) {
-    advance_step(*crushed.scene, state, &clock);
-  }
-  return clock.seconds(Stage::find_contacts) + clock.seconds(Stage::evaluate_contact_forces);
 }
 
-// Both sizes are timed in turn within one run; the counter `ratio` is what four times the cells cost. Four times across the
-// crush keeps the crushed share; twice either way makes it larger, which the candidates a particle show. Timed in whole
-// steps: contact alone, over and over on one state, is faster on small blocks, whose branches the processor learns by heart.
-void ContactOfFourTimesTheCells(benchmark::State& bench) {
-  const Crushed small = crush(static_cast<int>(bench.range(0)), static_cast<int>(bench.range(1)));
-  const Crushed large = crush(static_cast<int>(bench.range(2)), static_cast<int>(bench.range(3)));
-  double small_seconds = 0.0;
-  double large_seconds = 0.0;
-  for (auto _ : bench) {
-    for (int i = 0; i < 4; ++i) {
-      small_seconds += time_contact(small);
-    }
-    large_seconds += time_contact(large);
-  }
-  const auto candidates_a_particle = [](const Crushed& crushed) {
-    return static_cast<double>(crushed.state.candidate_count) / static_cast<double>(crushed.scene->particle_count());
-  };
-  bench.counters["ratio"] = 4.0 * large_seconds / small_seconds;
-  bench.counters["candidates_a_particle_small"] = candidates_a_particle(small);
-  bench.counters["candidates_a_particle_large"] = candidates_a_particle(large);
+std::vector<std::string> counters() {
+  std::vector<std::string> names = {"elements", "element_step_ns", "scalar_ns", "times_as_fast_as_scalar", "spread"};
+  for (const char* stage : kStageNames) names.push_back(std::string(stage) + "_ns");
+  return names;
 }
-BENCHMARK(ContactOfFourTimesTheCells)
-    ->ArgNames({"columns", "rows", "large_columns", "large_rows"})
-    ->Args({20, 10, 40, 20})
-    ->Args({37, 21, 37, 84})
-    ->Args({37, 21, 74, 42})
-    ->Unit(benchmark::kMillisecond)
-    ->Iterations(10);
 
-// Nanoseconds an element-step, by stage.
-void Step(benchmark::State& bench) {
-  const Crushed crushed = crush(static_cast<int>(bench.range(0)), static_cast<int>(bench.range(1)));
-  State state = crushed.state;
-  StageClock clock;
-  for (auto _ : bench) {
-    advance_step(*crushed.scene, state, &clock);
-  }
-  const double element_steps =
-      static_cast<double>(crushed.scene->element_count()) * static_cast<double>(bench.iterations());
-  const std::pair<const char*, Stage> stages[] = {{"integrate_motion_ns", Stage::integrate_motion},
-                                                  {"internal_forces_ns", Stage::evaluate_internal_forces},
-                                                  {"find_contacts_ns", Stage::find_contacts},
-                                                  {"contact_forces_ns", Stage::evaluate_contact_forces},
-                                                  {"plate_forces_ns", Stage::evaluate_plate_forces}};
-  double total = 0.0;
-  for (const auto& [name, stage] : stages) {
-    const double nanoseconds = 1e9 * clock.seconds(stage) / element_steps;
-    bench.counters[name] = nanoseconds;
-    total += nanoseconds;
-  }
-  bench.counters["element_step_ns"] = total;
+void draw_nothing(const std::string& file, const std::vector<Measured>&) {
+  throw std::invalid_argument("--chart=" + file + ": these benchmarks have no chart; crush_bench draws one.");
 }
-BENCHMARK(Step)->Args({20, 7})->Args({74, 21})->Unit(benchmark::kMicrosecond)->Iterations(1000);
 
 }  // namespace
-}  // namespace cellcrush
+}  // namespace cellcrush::bench
+
+int main(int count, char** words) {
+  using namespace cellcrush::bench;
+  return run_benchmarks(count, words, counters(), add_all, draw_nothing);
+}

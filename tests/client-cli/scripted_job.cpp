@@ -29,6 +29,8 @@ v1::Job make_job(v1::JobState state) {
     summary.set_deepest_penetration(0.121);
     summary.set_step_count(20504);
     summary.set_solver_seconds(45.3);
+    summary.mutable_stage_times()->set_evaluate_internal_forces_s(30.0);
+    summary.mutable_stage_times()->set_find_contacts_s(10.0);
     summary.set_crush_mode(v1::CRUSH_MODE_I);
     summary.set_crush_mode_strain(0.11);
     summary.set_shock_error_relative(-0.0123);

@@ -8,6 +8,7 @@
 #include "commands/history_csv.h"
 #include "scripted_job.h"
 #include "synthetic_crush.h"
+#include "terminal/job_text.h"
 
 namespace cellcrush::client {
 namespace {
@@ -81,6 +82,16 @@ TEST(EnergyChart, HasALineOfItsOwnForContactDampingAndNoneForWhatStaysZero) {
               ::testing::ElementsAre("work of the plates", "plastic", "contact damping", "mass damping", "residual"));
   EXPECT_NEAR(chart.curves[2].y.back(), 0.08, 1e-12);
   EXPECT_NEAR(chart.curves[3].y.back(), 0.008, 1e-12);
+}
+
+TEST(JobText, TellsWhereTheTimeWentWhereItIsKnown) {
+  v1::Job job = testing::make_job(v1::SUCCEEDED);
+  const std::string text = description_text(job);
+  EXPECT_THAT(text, HasSubstr("time of the steps by stage  40.0 s"));
+  EXPECT_THAT(text, HasSubstr("internal forces             30.0 s  75.0 %"));
+  EXPECT_THAT(text, HasSubstr("find contacts               10.0 s  25.0 %"));
+  job.mutable_summary()->clear_stage_times();
+  EXPECT_EQ(description_text(job).find("by stage"), std::string::npos);
 }
 
 TEST(JobChart, HasALevelOfEquation52) {

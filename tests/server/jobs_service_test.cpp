@@ -168,6 +168,7 @@ TEST_F(JobsServiceTest, TheResultHoldsWhatTheHistorySays) {
   EXPECT_NEAR(stored.back().strain(), small_case().loading().end_strain(), 1e-3);
   EXPECT_GT(finished.summary().plateau_stress_impact_mpa(), 0.0);
   EXPECT_GT(finished.summary().solver_seconds(), 0.0);
+  EXPECT_GT(finished.summary().stage_times().evaluate_internal_forces_s(), 0.0);
 }
 
 TEST_F(JobsServiceTest, FramesAreFoundByIndexStrainAndTime) {

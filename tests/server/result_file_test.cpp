@@ -68,6 +68,7 @@ class ResultFileTest : public ::testing::Test {
     summary.set_crush_mode(v1::CRUSH_MODE_V);
     summary.mutable_front()->set_shock_mpa(3.3);
     summary.mutable_ledger()->set_contact_damping_mj(7.5);
+    summary.mutable_stage_times()->set_find_contacts_s(0.25);
     writer.finish({testing::small_case(), "1.2.3+abc", "scalar", 2e-7, {"Walls are beams.", "No friction."}}, summary);
     file_ = Hdf5Handle(H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "opening");
   }
@@ -145,6 +146,7 @@ TEST_F(ResultFileTest, SaysWhatItIsAndWhatCameOut) {
   EXPECT_EQ(reader.text_attribute("crush_mode"), "V");
   EXPECT_EQ(number_attribute(file_.id(), "front_shock_mpa"), 3.3);
   EXPECT_EQ(number_attribute(file_.id(), "ledger_contact_damping_mj"), 7.5);
+  EXPECT_EQ(number_attribute(file_.id(), "stage_find_contacts_s"), 0.25);
   EXPECT_EQ(H5Aexists(file_.id(), "quasi_static_kinetic_share"), 0);
   EXPECT_EQ(H5Aexists(file_.id(), "densification_strain"), 0) << "what did not happen is absent";
 }

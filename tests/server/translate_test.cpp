@@ -214,7 +214,7 @@ TEST(Translate, ACompletedFrameKeepsItsNodesNames) {
 TEST(Translate, ASummaryKeepsAbsentValuesAbsent) {
   Summary summary;
   summary.plateau_stress_impact = 3.5;
-  const auto out = translate::to_proto(summary, Sample(), 1.5);
+  const auto out = translate::to_proto(summary, Sample(), {1.5});
   EXPECT_EQ(out.plateau_stress_impact_mpa(), 3.5);
   EXPECT_FALSE(out.has_densification_strain());
   EXPECT_FALSE(out.has_plateau_stress_support_mpa());
@@ -270,7 +270,7 @@ TEST(Translate, ASummaryCarriesFrontModeSteadinessAndLedger) {
   last.energy_damping = 3.0;
   last.energy_contact_damping = 2.0;
   last.energy_residual = -0.5;
-  const auto out = translate::to_proto(summary, last, 1.5);
+  const auto out = translate::to_proto(summary, last, {1.5, {1.0, 2.0, 3.0, 4.0, 5.0, 6.0}});
   EXPECT_EQ(out.crush_mode(), v1::CRUSH_MODE_V);
   EXPECT_EQ(out.crush_mode_strain(), 0.12);
   EXPECT_NEAR(out.shock_error_relative(), 0.1, 1e-12);
@@ -282,6 +282,12 @@ TEST(Translate, ASummaryCarriesFrontModeSteadinessAndLedger) {
   EXPECT_EQ(out.ledger().contact_damping_mj(), 2.0);
   EXPECT_EQ(out.ledger().mass_damping_mj(), 1.0);
   EXPECT_EQ(out.ledger().residual_mj(), -0.5);
+  EXPECT_EQ(out.stage_times().integrate_motion_s(), 1.0);
+  EXPECT_EQ(out.stage_times().evaluate_internal_forces_s(), 2.0);
+  EXPECT_EQ(out.stage_times().find_contacts_s(), 3.0);
+  EXPECT_EQ(out.stage_times().evaluate_contact_forces_s(), 4.0);
+  EXPECT_EQ(out.stage_times().evaluate_plate_forces_s(), 5.0);
+  EXPECT_EQ(out.stage_times().evaluate_loads_s(), 6.0);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <ctime>
 #include <stdexcept>
 
 #include "cellcrush/scene.h"
@@ -105,8 +106,10 @@ CrushRun run_crush(const SceneSpec& spec) {
   Simulation simulation(scene);
   std::int64_t next_frame = run.facts.frame_interval;
   while (simulation.status().kind == RunStatus::Kind::running) {
+    const std::clock_t before = std::clock();
     simulation.advance(run.facts.sample_interval);
     run.samples.push_back(simulation.take_sample());
+    run.processor_seconds += static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC;
     if (simulation.step() >= next_frame) {
       next_frame += run.facts.frame_interval;
       run.crossings += static_cast<std::int64_t>(scenes::find_crossings(*scene, simulation.state()).size());

@@ -32,6 +32,7 @@ struct CrushRun {
   double kinetic_over_plastic = 0.0;    ///< the same over the plastic work, beyond 5 % strain
   double kinetic_over_plastic_flowing = 0.0;  ///< the same beyond 10 %, where the knee of the curve is passed
   double seconds = 0.0;                       ///< of wall time
+  double processor_seconds = 0.0;             ///< of the steps and samples alone
   std::uint64_t state_hash = 0;               ///< of the last state
 };
 

@@ -5,8 +5,6 @@
 #include <fstream>
 #include <optional>
 #include <stdexcept>
-#include <utility>
-#include <vector>
 
 namespace cellcrush::validation {
 namespace {
@@ -48,8 +46,6 @@ std::string name_of(CrushMode mode) {
   }
   return "mixed";
 }
-
-using Cells = std::vector<std::pair<std::string, std::string>>;
 
 Cells cells_of(const Options& options, const CrushRun& run) {
   const Summary& summary = run.summary;
@@ -107,16 +103,20 @@ std::ofstream open(const std::string& file, std::ios::openmode mode) {
 
 }  // namespace
 
-void append_row(const std::string& file, const Options& options, const CrushRun& run) {
+void append_row(const std::string& file, const Options& options, const CrushRun& run, const Cells& leading) {
   const bool is_new = !std::filesystem::exists(file) || std::filesystem::is_empty(file);
   std::ofstream stream = open(file, std::ios::app);
+  Cells cells = leading;
+  const Cells measures = cells_of(options, run);
+  cells.insert(cells.end(), measures.begin(), measures.end());
   std::string names;
   std::string values;
-  for (const auto& [name, value] : cells_of(options, run)) {
+  for (const auto& [name, value] : cells) {
     names += (names.empty() ? "" : ",") + name;
     values += (values.empty() ? "" : ",") + value;
   }
-  stream << (is_new ? names + "\n" : "") << values << "\n";
+  // One write, so that two programs may append to the same file.
+  stream << (is_new ? names + "\n" : "") + values + "\n" << std::flush;
 }
 
 void write_curve(const std::string& file, const CrushRun& run) {

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "cellcrush/presets.h"
+#include "cellcrush/simulation.h"
 
 namespace cellcrush::validation {
 namespace {
@@ -88,6 +89,8 @@ const std::vector<Option>& all_options() {
        [](Options& o, const std::string& v) { o.spec.imperfection.amplitude_mm = number_of("amplitude", v); }},
       {"time_step", "s; 0: chosen",
        [](Options& o, const std::string& v) { o.spec.numerics.time_step_s = number_of("time_step", v); }},
+      {"step_factor", "of the step that is given or chosen",
+       [](Options& o, const std::string& v) { o.step_factor = number_of("step_factor", v); }},
       {"mass_damping", "1/s",
        [](Options& o, const std::string& v) { o.spec.numerics.mass_damping_per_s = number_of("mass_damping", v); }},
       {"mass_scaling", "fictitious masses",
@@ -158,6 +161,12 @@ Options read_options(const std::vector<std::string>& words) {
   options.spec = preset->spec;
   for (std::size_t i = 1; i < words.size(); ++i) {
     apply_word(options, words[i]);
+  }
+  // A spec with problems has no step; run_crush tells them.
+  if (options.step_factor != 1.0) {
+    if (const SceneResult result = build_scene(options.spec); result.scene) {
+      options.spec.numerics.time_step_s = options.step_factor * facts_of(*result.scene).time_step;
+    }
   }
   return options;
 }

@@ -11,9 +11,10 @@ namespace cellcrush::validation {
 struct Options {
   SceneSpec spec;
   std::string preset;
-  std::string changes;     ///< the words that changed the preset, as given, separated by blanks
-  std::string table_file;  ///< CSV to which a row is appended; empty: none
-  std::string curve_file;  ///< CSV of the curve; empty: none
+  std::string changes;       ///< the words that changed the preset, as given, separated by blanks
+  double step_factor = 1.0;  ///< by which the step was made another; done in `spec`
+  std::string table_file;    ///< CSV to which a row is appended; empty: none
+  std::string curve_file;    ///< CSV of the curve; empty: none
 };
 
 /// Reads `preset [name=value ...]`. Throws std::invalid_argument, with what was found and what is allowed, on an unknown

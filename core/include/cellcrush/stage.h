@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 namespace cellcrush {
 
 /// The stages of a step, in their order; the same names stand in advance_step, in timers and in core/README.md.
@@ -12,6 +14,11 @@ enum class Stage {
   evaluate_loads,
 };
 inline constexpr int kStageCount = 6;
+
+/// Their names, in the order of the enumerators.
+inline constexpr std::array<const char*, kStageCount> kStageNames = {
+    "integrate_motion",        "evaluate_internal_forces", "find_contacts",
+    "evaluate_contact_forces", "evaluate_plate_forces",    "evaluate_loads"};
 
 /// Told when a stage begins, and when the step ends. The solver has no clock: who wants times brings one.
 class StageObserver {

@@ -7,6 +7,7 @@
 #include "cellcrush/presets.h"
 #include "cellcrush/state.h"
 #include "scenes/crossings.h"
+#include "scenes/crushes.h"
 #include "scenes/frames.h"
 
 namespace cellcrush {
@@ -19,16 +20,6 @@ struct Crush {
   std::size_t crossings = 0;
   double deepest_birth = 0.0;
 };
-
-/// The paper's elements and step.
-SceneSpec of_the_paper() {
-  SceneSpec spec = find_preset("type-i")->spec;
-  spec.numerics.time_step_s = 2e-7;
-  spec.section.formulation = SectionSpec::Formulation::displacement_based;
-  spec.section.depth_rule = SectionSpec::DepthRule::lobatto;
-  spec.section.area_rule = SectionSpec::AreaRule::constant_area;
-  return spec;
-}
 
 Crush crush(SceneSpec spec) {
   spec.output.sample_count = 400;
@@ -103,7 +94,7 @@ void expect_plateaus(const Crush& crush, double support_low, double support_high
 }
 
 TEST(TypeI, CrushAt100MetresASecondWithThePapersElementsAndStep) {
-  const Crush paper = crush(of_the_paper());
+  const Crush paper = crush(scenes::papers_type_i());
   EXPECT_NEAR(paper.samples.back().strain, 0.8, 1e-3);
   expect_plateaus(paper, 0.38, 0.52);
   EXPECT_LT(paper.summary.energy_error_relative, 0.025);

@@ -7,6 +7,7 @@
 
 #include "cellcrush/presets.h"
 #include "cellcrush/state.h"
+#include "scenes/crushes.h"
 #include "scenes/frames.h"
 #include "scenes/state_hash.h"
 
@@ -29,13 +30,6 @@ double distance_between(const State& one, const State& other) {
     greatest = std::max(greatest, (one.position[i] - other.position[i]).norm());
   }
   return greatest;
-}
-
-SceneSpec of_the_paper(SceneSpec spec) {
-  spec.section.formulation = SectionSpec::Formulation::displacement_based;
-  spec.section.depth_rule = SectionSpec::DepthRule::lobatto;
-  spec.section.area_rule = SectionSpec::AreaRule::constant_area;
-  return spec;
 }
 
 SceneSpec in_double_precision(SceneSpec spec) {
@@ -84,11 +78,10 @@ struct Compared {
 // Force-based elements decide by thresholds whether a section turns back and whether it is in balance enough; a last bit
 // may turn such a decision, as it may where walls touch. Their motions part sooner.
 std::vector<Compared> scenes_to_compare() {
-  return {{"paper", of_the_paper(block(2)), 1000, 1e-7},
-          {"one element a wall", of_the_paper(block(1)), 1000, 1e-7},
-          {"paper, hardening, friction, damping", with_friction_and_hardening(of_the_paper(block(2))), 1000, 1e-7},
-          {"paper, single precision", in_single_precision(of_the_paper(block(2))), 1000, 1e-4},
-          {"default, single precision", in_single_precision(block(2)), 60, 1e-3},
+  return {{"paper", scenes::with_the_papers_elements(block(2)), 1000, 1e-7},
+          {"one element a wall", scenes::with_the_papers_elements(block(1)), 1000, 1e-7},
+          {"paper, hardening, friction, damping",
+           with_friction_and_hardening(scenes::with_the_papers_elements(block(2))), 1000, 1e-7},
           {"default", block(2), 60, 1e-7},
           {"four elements a wall", block(4), 60, 1e-7},
           {"hardening, friction, damping", with_friction_and_hardening(block(2)), 60, 1e-7},

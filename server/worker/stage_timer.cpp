@@ -1,0 +1,36 @@
+#include "worker/stage_timer.h"
+
+#include "worker/processor_time.h"
+
+namespace cellcrush::worker {
+
+void StageTimer::begin(Stage stage) {
+  if (steps_ % interval_ != 0) return;
+  const double now = processor_seconds(CLOCK_THREAD_CPUTIME_ID);
+  close(now);
+  stage_ = static_cast<int>(stage);
+  since_ = now;
+}
+
+void StageTimer::end_step() {
+  if (stage_ >= 0) {
+    close(processor_seconds(CLOCK_THREAD_CPUTIME_ID));
+    stage_ = -1;
+    ++timed_steps_;
+  }
+  ++steps_;
+}
+
+std::array<double, kStageCount> StageTimer::seconds() const {
+  std::array<double, kStageCount> all = timed_seconds_;
+  for (double& seconds : all) {
+    seconds *= timed_steps_ > 0 ? static_cast<double>(steps_) / static_cast<double>(timed_steps_) : 0.0;
+  }
+  return all;
+}
+
+void StageTimer::close(double now) {
+  if (stage_ >= 0) timed_seconds_[static_cast<std::size_t>(stage_)] += now - since_;
+}
+
+}  // namespace cellcrush::worker

@@ -1,0 +1,92 @@
+// Whole crushes, each in a process of its own: time all in and memory, and how both grow with the lattice.
+//   crush_bench                                       all: some minutes
+//   crush_bench --benchmark_filter=whole              Type I to 80 % strain, by every kernel
+//   crush_bench --benchmark_filter=cells --chart=FILE.svg   1, 4, 16, 64 times the cells to 20 % strain
+#include <benchmark/benchmark.h>
+
+#include <exception>
+
+#include "bench/bench_flags.h"
+#include "bench/growth_chart.h"
+#include "bench/whole_crush.h"
+#include "cellcrush/simd.h"
+#include "scenes/crushes.h"
+
+namespace cellcrush::bench {
+namespace {
+
+constexpr int kMostTimes = 64;
+constexpr double kGrowthStrain = 0.20;
+constexpr double kMegabyte = 1e6;
+
+void time_whole(benchmark::State& bench, const SceneSpec& spec, const std::string& target, bool list_arrays) {
+  for (auto _ : bench) {
+    try {
+      const CrushCost cost = crush_apart(spec, target, list_arrays);
+      const double nanoseconds = 1e9 / (cost.steps * cost.elements);
+      bench.SetIterationTime(cost.seconds);
+      bench.counters["elements"] = cost.elements;
+      bench.counters["steps"] = cost.steps;
+      bench.counters["seconds"] = cost.seconds;
+      bench.counters["build_seconds"] = cost.build_seconds;
+      bench.counters["element_step_ns"] = cost.seconds * nanoseconds;
+      for (int i = 0; i < kStageCount; ++i) {
+        bench.counters[std::string(kStageNames[i]) + "_ns"] = cost.stage_seconds[i] * nanoseconds;
+      }
+      bench.counters["process_mb"] = (cost.base_bytes + cost.peak_bytes) / kMegabyte;
+      bench.counters["bytes_an_element"] = cost.peak_bytes / cost.elements;
+      bench.counters["build_bytes_an_element"] = cost.build_bytes / cost.elements;
+      bench.counters["scene_array_bytes_an_element"] = cost.scene_bytes / cost.elements;
+      bench.counters["state_array_bytes_an_element"] = cost.state_bytes / cost.elements;
+    } catch (const std::exception& error) {
+      bench.SkipWithError(error.what());
+    }
+  }
+  bench.SetLabel(target);
+}
+
+void add(const std::string& name, const SceneSpec& spec, const std::string& target, bool list_arrays = false) {
+  benchmark::RegisterBenchmark(name.c_str(),
+                               [=](benchmark::State& bench) { time_whole(bench, spec, target, list_arrays); })
+      ->Unit(benchmark::kMillisecond)
+      ->UseManualTime()
+      ->Iterations(1);
+}
+
+void add_all(const Flags&) {
+  for (const std::string& target : simd_targets()) {
+    add("whole/type-i-paper/" + target, scenes::papers_type_i(), target);
+  }
+  for (int times = 1; times <= kMostTimes; times *= 4) {
+    SceneSpec spec = scenes::papers_type_i_wider(times);
+    // Samples and frames as far apart as those of the whole crush.
+    const double share = kGrowthStrain / spec.loading.end_strain;
+    spec.output.sample_count = static_cast<int>(share * spec.output.sample_count);
+    spec.output.frame_count = static_cast<int>(share * spec.output.frame_count);
+    spec.loading.end_strain = kGrowthStrain;
+    add("cells/" + std::to_string(times), spec, simd_targets().front(), times == kMostTimes);
+  }
+}
+
+std::vector<std::string> counters() {
+  std::vector<std::string> names = {"elements",
+                                    "steps",
+                                    "seconds",
+                                    "build_seconds",
+                                    "process_mb",
+                                    "bytes_an_element",
+                                    "build_bytes_an_element",
+                                    "scene_array_bytes_an_element",
+                                    "state_array_bytes_an_element",
+                                    "element_step_ns"};
+  for (const char* stage : kStageNames) names.push_back(std::string(stage) + "_ns");
+  return names;
+}
+
+}  // namespace
+}  // namespace cellcrush::bench
+
+int main(int count, char** words) {
+  using namespace cellcrush::bench;
+  return run_benchmarks(count, words, counters(), add_all, draw_growth);
+}

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace cellcrush::bench {
+
+/// A crush that is done in several ways: a preset and changes of it, in words that validation::read_options takes.
+struct Variant {
+  std::string name;  ///< "group:label", such as "elements:4"
+  std::vector<std::string> words;
+};
+
+struct VariedScene {
+  std::string name;
+  std::vector<std::string> words;  ///< the preset, then changes that all variants have
+  std::vector<Variant> variants;
+};
+
+/// Reads a list: "[scene] preset words..." begins a scene, the lines below it are "group:label words..."; # begins a remark.
+/// Throws std::invalid_argument that names the file and the line on anything else, or when it cannot be read.
+std::vector<VariedScene> read_variants(const std::string& file);
+
+/// What a variant is run with for a seed: the scene's words, the variant's, the seed.
+std::vector<std::string> words_of(const VariedScene& scene, const Variant& variant, int seed);
+
+}  // namespace cellcrush::bench

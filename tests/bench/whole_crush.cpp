@@ -1,0 +1,91 @@
+#include "bench/whole_crush.h"
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <stdexcept>
+#include <vector>
+
+#include "bench/array_bytes.h"
+#include "bench/machine.h"
+#include "cellcrush/simd.h"
+#include "scenes/frames.h"
+#include "worker/stage_timer.h"
+
+namespace cellcrush::bench {
+namespace {
+
+void write_arrays(const Scene& scene, const State& state) {
+  const auto elements = static_cast<double>(scene.element_count());
+  std::fprintf(stderr, "%.0f elements, bytes an element:\n", elements);
+  for (const auto& [name, bytes] : array_bytes(scene, state)) {
+    if (bytes > elements) std::fprintf(stderr, "%8.1f %s\n", bytes / elements, name.c_str());
+  }
+}
+
+/// What the program itself takes is in memory when something small has been crushed.
+void warm_up() {
+  Simulation simulation(scenes::build(scenes::hexagon_block(4, 3)));
+  simulation.advance(50);
+  simulation.take_sample();
+  simulation.take_frame(0);
+}
+
+/// Samples and frames are taken as the case asks; a frame is dropped, as a worker does that has sent it.
+CrushCost crush(const SceneSpec& spec, const std::string& target, bool list_arrays) {
+  use_simd_target(target);
+  warm_up();
+  CrushCost cost;
+  cost.base_bytes = resident_bytes();
+  const double begin = processor_seconds();
+  const auto scene = scenes::build(spec);
+  const SceneFacts facts = facts_of(*scene);
+  const double start = processor_seconds();
+  cost.build_seconds = start - begin;
+  cost.build_bytes = greatest_resident_bytes() - cost.base_bytes;
+  Simulation simulation(scene);
+  worker::StageTimer timer;
+  std::vector<Sample> samples;
+  int frames = 0;
+  while (simulation.status().kind == RunStatus::Kind::running) {
+    simulation.advance(facts.sample_interval, &timer);
+    samples.push_back(simulation.take_sample());
+    if (simulation.step() >= frames * facts.frame_interval) simulation.take_frame(frames++);
+  }
+  cost.seconds = processor_seconds() - start;
+  cost.elements = static_cast<double>(facts.element_count);
+  cost.steps = static_cast<double>(simulation.step());
+  cost.strain = samples.back().strain;
+  cost.stage_seconds = timer.seconds();
+  cost.peak_bytes = greatest_resident_bytes() - cost.base_bytes;
+  for (const auto& [name, bytes] : array_bytes(*scene, simulation.state())) {
+    (name.starts_with("scene.") ? cost.scene_bytes : cost.state_bytes) += bytes;
+  }
+  if (list_arrays) write_arrays(*scene, simulation.state());
+  return cost;
+}
+
+}  // namespace
+
+CrushCost crush_apart(const SceneSpec& spec, const std::string& target, bool list_arrays) {
+  int ends[2];
+  if (pipe(ends) != 0) throw std::runtime_error("no pipe for a process of its own.");
+  const pid_t child = fork();
+  if (child == 0) {
+    close(ends[0]);
+    const CrushCost cost = crush(spec, target, list_arrays);
+    _exit(write(ends[1], &cost, sizeof(cost)) == sizeof(cost) ? 0 : 1);
+  }
+  close(ends[1]);
+  CrushCost cost;
+  const bool told = child > 0 && read(ends[0], &cost, sizeof(cost)) == sizeof(cost);
+  close(ends[0]);
+  if (child > 0) waitpid(child, nullptr, 0);
+  if (!told || cost.strain < spec.loading.end_strain - 0.001) {
+    throw std::runtime_error("the crush did not reach its end.");
+  }
+  return cost;
+}
+
+}  // namespace cellcrush::bench

@@ -1,0 +1,69 @@
+#include "scenes/crushes.h"
+
+#include "cellcrush/presets.h"
+
+namespace cellcrush::scenes {
+namespace {
+
+/// Lattices of the other types with the paper's elements, at the step that is chosen for them.
+SceneSpec papers(const char* preset) { return with_the_papers_elements(find_preset(preset)->spec); }
+
+SceneSpec with_friction() {
+  SceneSpec spec = papers_type_i();
+  spec.contact.friction = 0.2;
+  spec.plates.friction = 0.2;
+  return spec;
+}
+
+SceneSpec with_hardening() {
+  SceneSpec spec = papers_type_i();
+  spec.material.hardening_modulus_mpa = 700.0;
+  spec.material.isotropic_fraction = 0.5;
+  return spec;
+}
+
+/// A part of Type I that has about as many elements, at the step that is chosen for it.
+SceneSpec with_elements(int elements, int columns, int rows) {
+  SceneSpec spec = papers_type_i();
+  auto& lattice = std::get<HexagonLattice>(spec.lattice);
+  lattice.columns = columns;
+  lattice.rows = rows;
+  spec.elements_per_wall = elements;
+  spec.numerics.time_step_s = 0.0;
+  return spec;
+}
+
+}  // namespace
+
+SceneSpec with_the_papers_elements(SceneSpec spec) {
+  spec.section.formulation = SectionSpec::Formulation::displacement_based;
+  spec.section.depth_rule = SectionSpec::DepthRule::lobatto;
+  spec.section.area_rule = SectionSpec::AreaRule::constant_area;
+  return spec;
+}
+
+SceneSpec papers_type_i() {
+  SceneSpec spec = papers("type-i");
+  spec.numerics.time_step_s = 2e-7;
+  return spec;
+}
+
+SceneSpec papers_type_i_wider(int times) {
+  SceneSpec spec = papers_type_i();
+  auto& lattice = std::get<HexagonLattice>(spec.lattice);
+  lattice.rows = times * *lattice.rows;
+  return spec;
+}
+
+std::vector<Crush> crushes() {
+  return {{"type-i-paper", papers_type_i(), {0.20, 0.45, 0.80}},
+          {"type-i-default", find_preset("type-i")->spec, {0.20, 0.45, 0.80}},
+          {"squares", papers("type-ii-as-counted"), {0.20}},
+          {"triangles", papers("type-iii-as-counted"), {0.20}},
+          {"friction", with_friction(), {0.45}},
+          {"hardening", with_hardening(), {0.45}},
+          {"four-elements", with_elements(4, 52, 15), {0.20}},
+          {"ten-elements", with_elements(10, 33, 9), {0.20}}};
+}
+
+}  // namespace cellcrush::scenes
