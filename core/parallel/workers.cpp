@@ -5,8 +5,8 @@
 namespace cellcrush {
 namespace {
 
-/// Looks at a flag before its thread gives way to others: some ten microseconds, longer than the gaps between a step's loops.
-constexpr int kLooks = 1000;
+/// Looks at a flag before its thread gives way to others: some hundred microseconds, longer than the gaps between a step's loops.
+constexpr int kLooks = 4000;
 
 /// Returns when the condition holds, after at most kLooks looks.
 template <class Condition>

@@ -165,7 +165,7 @@ class Run {
     *out.mutable_summary() =
         translate::to_proto(summarize(*scene_, samples_), samples_.empty() ? Sample{} : samples_.back(),
                             {processor_seconds(CLOCK_PROCESS_CPUTIME_ID), stage_timer_.seconds()});
-    writer_.finish({order_.case_(), kSolverRevision, simd_target(), facts_.time_step, facts_.modelled, order_.threads(),
+    writer_.finish({order_.case_(), kSolverRevision, simd_target(), order_.threads(), facts_.time_step, facts_.modelled,
                     whole, status.message},
                    out.summary());
     store::publish_file(partial_path_, order_.result_path());

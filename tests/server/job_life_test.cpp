@@ -10,6 +10,7 @@
 #include "server/daemon_fixture.h"
 #include "server/daemon_process.h"
 #include "server/small_case.h"
+#include "server/sweep_requests.h"
 #include "store/journal.h"
 #include "store/result_reader.h"
 
@@ -35,6 +36,36 @@ class JobLifeTest : public DaemonFixture {
 
   [[nodiscard]] std::filesystem::path folder_of(const std::string& job) const { return data_folder() / job; }
 };
+
+std::ptrdiff_t threads_of(std::int64_t process) {
+  const std::filesystem::directory_iterator tasks("/proc/" + std::to_string(process) + "/task");
+  return std::distance(begin(tasks), end(tasks));
+}
+
+TEST_F(JobLifeTest, AJobThatAsksForThreadsTakesTheCoresThatNobodyElseUses) {
+  auto client = this->client();
+  auto threaded = endless_case();
+  threaded.mutable_numerics()->set_threads(8);
+  const std::string both = client.create(threaded);
+  ASSERT_TRUE(client.wait_for_state(both, v1::RUNNING));
+  const std::string waits = client.create(threaded);
+  for (int i = 0; i < 600 && client.history(both).empty(); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  const auto with_both = threads_of(client.get(both).worker_pid());
+  EXPECT_EQ(client.get(waits).state(), v1::PENDING);
+  ASSERT_TRUE(client.cancel(both).ok());
+
+  // With another job at once, each has a core of the two.
+  ASSERT_TRUE(client.wait_for_state(waits, v1::RUNNING));
+  ASSERT_TRUE(client.cancel(waits).ok());
+  const v1::Sweep sweep = create(client, sweep_of(threaded, kSpeed, {1.0, 2.0}));
+  for (const auto& job : sweep.jobs()) {
+    ASSERT_TRUE(client.wait_for_state(job, v1::RUNNING));
+    for (int i = 0; i < 600 && client.history(job).empty(); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    EXPECT_EQ(threads_of(client.get(job).worker_pid()), with_both - 1) << job;
+  }
+}
 
 TEST_F(JobLifeTest, ARunningJobStopsAndWhatItHasComputedIsKept) {
   auto client = this->client();

@@ -69,7 +69,8 @@ class ResultFileTest : public ::testing::Test {
     summary.mutable_front()->set_shock_mpa(3.3);
     summary.mutable_ledger()->set_contact_damping_mj(7.5);
     summary.mutable_stage_times()->set_find_contacts_s(0.25);
-    writer.finish({testing::small_case(), "1.2.3+abc", "scalar", 2e-7, {"Walls are beams.", "No friction."}}, summary);
+    writer.finish({testing::small_case(), "1.2.3+abc", "scalar", 3, 2e-7, {"Walls are beams.", "No friction."}},
+                  summary);
     file_ = Hdf5Handle(H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "opening");
   }
 
@@ -138,6 +139,7 @@ TEST_F(ResultFileTest, SaysWhatItIsAndWhatCameOut) {
   EXPECT_EQ(reader.text_attribute("solver_revision"), "1.2.3+abc");
   EXPECT_EQ(reader.text_attribute("simd_target"), "scalar");
   EXPECT_EQ(reader.text_attribute("modelled"), "Walls are beams.\nNo friction.");
+  EXPECT_EQ(number_attribute(file_.id(), "threads"), 3.0);
   EXPECT_EQ(number_attribute(file_.id(), "step_count"), 12345.0);
   EXPECT_EQ(number_attribute(file_.id(), "time_step_s"), 2e-7);
   EXPECT_EQ(number_attribute(file_.id(), "plateau_stress_mpa"), 3.25);

@@ -57,10 +57,11 @@ void expect_sound_contact(const Crush& crush) {
 }
 
 /// Eq. 52 with the jumps of the cells' motion, which knows nothing of the impact plate's stress, foretells that stress, and
-/// lies closer to it than Eq. 51.
+/// lies closer to it than Eq. 51. One seed of an imperfection gives a plateau with a standard deviation of 1.2 to 1.4 %, so
+/// a single crush is held to three and a half of them.
 void expect_shock_theory(const Crush& crush) {
   ASSERT_TRUE(crush.summary.front && crush.summary.shock_error() && crush.summary.front_shock_error());
-  EXPECT_NEAR(*crush.summary.front_shock_error(), 0.0, 0.03);
+  EXPECT_NEAR(*crush.summary.front_shock_error(), 0.0, 0.05);
   EXPECT_LT(std::abs(*crush.summary.front_shock_error()), std::abs(*crush.summary.shock_error()));
   EXPECT_GT(crush.summary.front->strain_behind, 0.89);
   EXPECT_LT(crush.summary.front->strain_behind, 0.92);

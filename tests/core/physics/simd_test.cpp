@@ -82,6 +82,8 @@ std::vector<Compared> scenes_to_compare() {
           {"one element a wall", scenes::with_the_papers_elements(block(1)), 1000, 1e-7},
           {"paper, hardening, friction, damping",
            with_friction_and_hardening(scenes::with_the_papers_elements(block(2))), 1000, 1e-7},
+          {"paper, single precision", in_single_precision(scenes::with_the_papers_elements(block(2))), 1000, 1e-4},
+          {"default, single precision", in_single_precision(block(2)), 60, 1e-3},
           {"default", block(2), 60, 1e-7},
           {"four elements a wall", block(4), 60, 1e-7},
           {"hardening, friction, damping", with_friction_and_hardening(block(2)), 60, 1e-7},
