@@ -36,6 +36,7 @@ void search_buckets(const Scene& scene, State& state) {
 
 void list_by_buckets(const Scene& scene, State& state) {
   clear_candidates(state);
+  state.candidate_count = 0;
   const double longest = *std::max_element(state.length.begin(), state.length.end());
   const double largest_radius = *std::max_element(scene.radius.begin(), scene.radius.end());
   const double skin = scene.contact.skin;
@@ -49,13 +50,11 @@ void list_by_buckets(const Scene& scene, State& state) {
       const double range = scene.radius[ball] + 0.5 * element.thickness + skin;
       const Projection foot = project(state.position[ball], start, state.axis[e], state.length[e]);
       if (ball != element.start && ball != element.end && foot.offset.squaredNorm() < range * range) {
-        state.candidate_ball.push_back(ball);
-        state.candidate_segment.push_back(static_cast<int>(e));
-        state.candidate_reach.push_back(scene.reach_of(ball, static_cast<int>(e)));
+        const int segment = static_cast<int>(e);
+        add_candidate(state, {ball, segment, scene.reach_of(ball, segment)});
       }
     });
   }
-  state.candidate_count = static_cast<std::int64_t>(state.candidate_ball.size());
   fill_batch(state);
   state.searched_position = state.position;
   ++state.search_count;

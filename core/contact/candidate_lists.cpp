@@ -1,6 +1,6 @@
 #include "contact/candidate_lists.h"
 
-#include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace cellcrush {
@@ -9,24 +9,23 @@ namespace {
 /// Empty batches that are always let be.
 constexpr std::int64_t kEmptyBatches = 128;
 
+/// Alarm of what is not tested.
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
 int batches_for(int count) { return (count + kCandidateBatch - 1) / kCandidateBatch; }
 
 void put(State& state, int place, const Candidate& candidate) {
   state.candidate_ball[place] = candidate.ball;
   state.candidate_segment[place] = candidate.segment;
   state.candidate_reach[place] = candidate.reach;
+  state.candidate_alarm[place] = candidate.reach > 0.0 ? 0.0 : kNever;
 }
 
 void resize(State& state, std::size_t size) {
   state.candidate_ball.resize(size, 0);
   state.candidate_segment.resize(size, 0);
   state.candidate_reach.resize(size, 0.0);
-}
-
-/// Wakes the batches of a list.
-void wake(State& state, const FaceList& list) {
-  const auto first = state.batch_alarm.begin() + list.first / kCandidateBatch;
-  std::fill(first, first + list.room / kCandidateBatch, 0.0);
+  state.candidate_alarm.resize(size, kNever);
 }
 
 /// Gives a list another place, at the end. What it held is lost.
@@ -39,7 +38,6 @@ void move_to_end(State& state, FaceList& list, int count) {
   list.count = 0;
   resize(state, state.candidate_ball.size() + list.room);
   state.batch_group.resize(state.candidate_ball.size() / kCandidateBatch, list.group);
-  state.batch_alarm.resize(state.batch_group.size(), 0.0);
 }
 
 void close_up(State& state) {
@@ -73,10 +71,23 @@ void replace_list(State& state, int face, const std::vector<Candidate>& candidat
     put(state, list.first + i, i < count ? candidates[i] : Candidate());
   }
   list.count = count;
-  wake(state, list);
   if (static_cast<std::int64_t>(state.batch_group.size()) > state.batch_count + state.batch_count / 4 + kEmptyBatches) {
     close_up(state);
   }
+}
+
+void wake_candidate(State& state, int place, int ball, int segment) {
+  const auto k = static_cast<std::size_t>(place);
+  // Of a list that was made anew, and in which it was not found to overlap, it is tested anyhow.
+  if (k < state.candidate_ball.size() && state.candidate_ball[k] == ball && state.candidate_segment[k] == segment) {
+    state.candidate_alarm[k] = 0.0;
+  }
+}
+
+void add_candidate(State& state, const Candidate& candidate) {
+  resize(state, state.candidate_ball.size() + 1);
+  put(state, static_cast<int>(state.candidate_ball.size()) - 1, candidate);
+  ++state.candidate_count;
 }
 
 void fill_batch(State& state) {
@@ -86,7 +97,6 @@ void fill_batch(State& state) {
 void clear_candidates(State& state) {
   resize(state, 0);
   state.batch_group.clear();
-  state.batch_alarm.clear();
 }
 
 }  // namespace cellcrush

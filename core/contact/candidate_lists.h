@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "cellcrush/state.h"
@@ -17,6 +18,17 @@ struct Candidate {
 /// loop: a list that has outgrown its room goes to the end, and empty places are pairs that never touch. When a fifth of
 /// the batches and more are empty, the lists are moved together in the order of the faces.
 void replace_list(State& state, int face, const std::vector<Candidate>& candidates);
+
+/// A pair that was found at `place` has parted: it is tested again from the next step on.
+void wake_candidate(State& state, int place, int ball, int segment);
+
+/// What the group of a batch has travelled; 0 by buckets.
+inline double travel_of_batch(const State& state, std::size_t batch) {
+  return state.batch_group.empty() ? 0.0 : state.group_travel[state.batch_group[batch]];
+}
+
+/// Lists one more, of no face.
+void add_candidate(State& state, const Candidate& candidate);
 
 /// Fills the last batch up with empty places.
 void fill_batch(State& state);

@@ -14,6 +14,12 @@
 namespace cellcrush {
 namespace {
 
+void clear(std::vector<Vector2>& forces) {
+  // As one row of numbers, which is cleared by the widest stores.
+  double* first = forces.empty() ? nullptr : forces.front().data();
+  std::fill_n(first, 2 * forces.size(), 0.0);
+}
+
 /// Adds a force on the ball of a touch and its reaction on the segment, shared by the lever rule.
 void add_pair(const Scene& scene, const State& state, const Touches& touches, int touch, const Vector2& force,
               std::vector<Vector2>& forces) {
@@ -133,13 +139,13 @@ void apply_friction(const Scene& scene, State& state, const ContactWorkspace& wo
 }  // namespace
 
 void evaluate_contact_forces(const Scene& scene, State& state, ContactWorkspace& workspace) {
-  std::fill(state.friction_force.begin(), state.friction_force.end(), Vector2::Zero());
-  std::fill(state.contact_force.begin(), state.contact_force.end(), Vector2::Zero());
-  std::fill(state.contact_damping_force.begin(), state.contact_damping_force.end(), Vector2::Zero());
+  clear(state.friction_force);
+  clear(state.contact_force);
+  clear(state.contact_damping_force);
   state.contact_stored = 0.0;
   find_overlaps(scene, state, workspace);
-  remember_touches(state, workspace);
-  evaluate_touches(scene, state, workspace.touches);
+  remember_touches(scene, state, workspace);
+  evaluate_touches(scene, state, workspace);
   find_pushes(scene, state, workspace);
   for (Push& push : workspace.pushes) {
     apply_normal_force(scene, state, workspace.touches, push);

@@ -2,8 +2,15 @@
 
 namespace cellcrush {
 
+void AwakeCandidates::resize() {
+  ball.resize(count());
+  segment.resize(count());
+  reach.resize(count());
+  travel.resize(count());
+  alarm.resize(count());
+}
+
 void Touches::resize(std::size_t count) {
-  reach.resize(count);
   known.resize(count);
   share.resize(count);
   depth.resize(count);

@@ -8,19 +8,31 @@
 
 namespace cellcrush {
 
-/// A candidate that overlaps without having been found where it was in the step before.
+/// The candidates that are tested in a step.
+struct AwakeCandidates {
+  std::vector<std::int64_t> place;  ///< into State::candidate_ball, ascending
+  std::vector<int> ball;
+  std::vector<int> segment;
+  std::vector<double> reach;   ///< mm
+  std::vector<double> travel;  ///< mm, of the group; by buckets the lowest there is
+  std::vector<double> alarm;   ///< mm, travel at which it is tested next; infinite: it overlaps
+
+  [[nodiscard]] std::size_t count() const { return place.size(); }
+  void resize();
+};
+
+/// A pair that touches and did not in the step before.
 struct Newcomer {
   int ball = 0;
   int segment = 0;
-  std::int64_t place = 0;  ///< into State::candidate_ball
+  int place = 0;  ///< into State::candidate_ball
 };
 
 /// How the pairs of State::touching stand to each other in this step; T of them, in the same order.
 struct Touches {
-  std::vector<double> reach;         ///< T, mm, distance at which they touch
   std::vector<int> known;            ///< T, place among the pairs that touched in the step before; kNew: did not
   std::vector<double> share;         ///< T, of the foot along the segment: 0 at its start, 1 at its end
-  std::vector<double> depth;         ///< T, D, mm
+  std::vector<double> depth;         ///< T, D, mm; not over 0: they have parted
   std::vector<Vector2> normal;       ///< T, from the segment to the ball
   std::vector<double> viscous;       ///< T, c dD/dt, N, before it is held to what does not pull
   std::vector<double> slip;          ///< T, mm by which the ball slid along the segment in the step
@@ -51,13 +63,12 @@ struct Push {
 
 /// Room for evaluate_contact_forces, kept from step to step so that none allocates. No result depends on what it holds.
 struct ContactWorkspace {
-  std::vector<std::int64_t> overlapping;  ///< places of the candidates that overlap now, kSparePlaces at the end
-  std::size_t overlap_count = 0;
-  std::vector<int> rank;  ///< of each candidate, where in State::touching it was when it last touched: a guess
-  std::vector<std::int64_t> place;  ///< of each pair of `before`: of its candidate, if it overlaps now
+  AwakeCandidates awake;
+  std::vector<int> found;  ///< places of the candidates that have begun to overlap, ascending
   std::vector<Newcomer> newcomers;
   TouchMemory before;  ///< State::touching of the step before
   Touches touches;
+  std::vector<std::int64_t> parted;  ///< of State::touching, then room for kSpareParted
   std::vector<Push> pushes;
 };
 

@@ -1,5 +1,6 @@
 #include "contact/evaluate_touches.h"
 
+#include "contact/candidate_lists.h"
 #include "contact/normal_force.h"
 #include "contact/wide_touches.h"
 #include "simd/target.h"
@@ -7,7 +8,8 @@
 namespace cellcrush {
 namespace {
 
-void evaluate_touch(const Scene& scene, State& state, Touches& touches, std::size_t i) {
+/// Returns whether the pair has parted.
+bool evaluate_touch(const Scene& scene, State& state, Touches& touches, std::size_t i) {
   const int ball = state.touching.ball[i];
   const int segment = state.touching.segment[i];
   const Element& element = scene.elements[segment];
@@ -40,27 +42,42 @@ void evaluate_touch(const Scene& scene, State& state, Touches& touches, std::siz
                               (1.0 - share) * (1.0 - share) * scene.inverse_mass[element.start] +
                               share * share * scene.inverse_mass[element.end];
 
-  state.touching.side[i] = side;
+  const double reach = state.touching.reach[i];
+  const double depth = reach - (inside ? side * signed_distance : node_distance);
+  state.touching.side[i] = depth > 0.0 ? side : 0;
   touches.share[i] = share;
-  touches.depth[i] = touches.reach[i] - (inside ? side * signed_distance : node_distance);
+  touches.depth[i] = depth;
   touches.normal[i] = normal;
   touches.viscous[i] =
       viscous_force(scene.contact.stiffness, scene.contact.damping_ratio, inverse_mass, normal.dot(closing));
   touches.slip[i] = scene.schedule.time_step * side * cross(normal, closing);
   touches.node[i] = end_is_nearer ? element.end : element.start;
-  touches.node_depth[i] = node_distance > 0.0 ? touches.reach[i] - node_distance : 0.0;
+  touches.node_depth[i] = node_distance > 0.0 ? reach - node_distance : 0.0;
   touches.node_normal[i] = node_normal;
+  return !(depth > 0.0);
+}
+
+std::size_t evaluate_touches_plain(const Scene& scene, State& state, Touches& touches, std::int64_t* parted) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < state.touching.count(); ++i) {
+    if (evaluate_touch(scene, state, touches, i)) {
+      parted[count++] = static_cast<std::int64_t>(i);
+    }
+  }
+  return count;
 }
 
 }  // namespace
 
-void evaluate_touches(const Scene& scene, State& state, Touches& touches) {
-  if (use_wide_kernels()) {
-    evaluate_touches_wide(scene, state, touches);
-    return;
-  }
-  for (std::size_t i = 0; i < state.touching.count(); ++i) {
-    evaluate_touch(scene, state, touches, i);
+void evaluate_touches(const Scene& scene, State& state, ContactWorkspace& workspace) {
+  workspace.parted.resize(state.touching.count() + kSpareParted);
+  const auto evaluate = use_wide_kernels() ? evaluate_touches_wide : evaluate_touches_plain;
+  const std::size_t count = evaluate(scene, state, workspace.touches, workspace.parted.data());
+  state.parted.clear();
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto i = static_cast<int>(workspace.parted[k]);
+    state.parted.push_back(i);
+    wake_candidate(state, state.touching.place[i], state.touching.ball[i], state.touching.segment[i]);
   }
 }
 

@@ -1,9 +1,9 @@
 #include "contact/find_overlaps.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "contact/candidate_lists.h"
 #include "contact/capsule.h"
 #include "contact/wide_overlaps.h"
 #include "simd/target.h"
@@ -11,56 +11,60 @@
 namespace cellcrush {
 namespace {
 
-/// Notes the places of a batch that overlap, from found[0] on; returns how many, and the least gap of the others.
-std::size_t test_batch(const Scene& scene, const State& state, std::size_t batch, std::int64_t* found,
-                       double& least_gap) {
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+std::size_t find_awake_plain(const State& state, std::size_t first, std::size_t end, std::int64_t* places) {
   std::size_t count = 0;
-  least_gap = std::numeric_limits<double>::infinity();
-  for (std::size_t k = batch * kCandidateBatch; k < (batch + 1) * kCandidateBatch; ++k) {
-    const double reach = state.candidate_reach[k];
-    if (reach == 0.0) {
-      continue;
-    }
-    const int segment = state.candidate_segment[k];
-    const Projection foot =
-        project(state.position[state.candidate_ball[k]], state.position[scene.elements[segment].start],
-                state.axis[segment], state.length[segment]);
-    const double squared_distance = foot.offset.squaredNorm();
-    if (squared_distance < reach * reach) {
-      found[count++] = static_cast<std::int64_t>(k);
-    } else {
-      least_gap = std::min(least_gap, std::sqrt(squared_distance) - reach);
-    }
+  for (std::size_t place = first; place < end; ++place) {
+    const bool asleep = travel_of_batch(state, place / kCandidateBatch) < state.candidate_alarm[place];
+    places[count] = static_cast<std::int64_t>(place);
+    count += asleep ? 0 : 1;
   }
   return count;
 }
 
-std::size_t find_overlapping_plain(const Scene& scene, State& state, std::size_t first, std::size_t end,
-                                   std::int64_t* found) {
-  std::size_t count = 0;
-  const bool sleeps = !state.batch_alarm.empty();
-  for (std::size_t batch = first; batch < end; ++batch) {
-    const double travel = sleeps ? state.group_travel[state.batch_group[batch]] : 0.0;
-    if (sleeps && travel < state.batch_alarm[batch]) {
-      continue;
-    }
-    double least_gap = 0.0;
-    const std::size_t overlaps = test_batch(scene, state, batch, found + count, least_gap);
-    if (sleeps) {
-      state.batch_alarm[batch] = overlaps > 0 ? 0.0 : travel + least_gap;
-    }
-    count += overlaps;
+void test_awake_plain(const Scene& scene, const State& state, AwakeCandidates& awake) {
+  for (std::size_t i = 0; i < awake.count(); ++i) {
+    const int segment = awake.segment[i];
+    const double reach = awake.reach[i];
+    const Projection foot = project(state.position[awake.ball[i]], state.position[scene.elements[segment].start],
+                                    state.axis[segment], state.length[segment]);
+    const double squared_distance = foot.offset.squaredNorm();
+    const double gap = std::sqrt(squared_distance) - reach;
+    awake.alarm[i] = squared_distance < reach * reach ? kNever : awake.travel[i] + gap;
   }
-  return count;
+}
+
+/// What the test reads of the candidates that are awake.
+void collect(const State& state, AwakeCandidates& awake) {
+  const bool sleeps = !state.batch_group.empty();
+  awake.resize();
+  for (std::size_t i = 0; i < awake.count(); ++i) {
+    const std::int64_t place = awake.place[i];
+    awake.ball[i] = state.candidate_ball[place];
+    awake.segment[i] = state.candidate_segment[place];
+    awake.reach[i] = state.candidate_reach[place];
+    awake.travel[i] = sleeps ? travel_of_batch(state, place / kCandidateBatch) : -kNever;
+  }
 }
 
 }  // namespace
 
 void find_overlaps(const Scene& scene, State& state, ContactWorkspace& workspace) {
-  workspace.overlapping.resize(state.candidate_ball.size() + kSparePlaces);
-  const auto find_overlapping = use_wide_kernels() ? find_overlapping_wide : find_overlapping_plain;
-  workspace.overlap_count =
-      find_overlapping(scene, state, 0, state.candidate_ball.size() / kCandidateBatch, workspace.overlapping.data());
+  AwakeCandidates& awake = workspace.awake;
+  const std::size_t places = state.candidate_ball.size();
+  awake.place.resize(places + kSparePlaces);
+  const bool is_wide = use_wide_kernels();
+  awake.place.resize((is_wide ? find_awake_wide : find_awake_plain)(state, 0, places, awake.place.data()));
+  collect(state, awake);
+  (is_wide ? test_awake_wide : test_awake_plain)(scene, state, awake);
+  workspace.found.clear();
+  for (std::size_t i = 0; i < awake.count(); ++i) {
+    state.candidate_alarm[awake.place[i]] = awake.alarm[i];
+    if (awake.alarm[i] == kNever) {
+      workspace.found.push_back(static_cast<int>(awake.place[i]));
+    }
+  }
 }
 
 }  // namespace cellcrush

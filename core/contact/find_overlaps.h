@@ -6,11 +6,11 @@
 
 namespace cellcrush {
 
-/// Overwrites ContactWorkspace::overlapping by the places of the candidates whose capsules overlap now, ascending.
+/// Overwrites ContactWorkspace::found by the places of the candidates that have begun to overlap.
 ///
-/// Where contacts are searched by faces, a batch of candidates of which none overlaps sleeps until its least gap can have
-/// closed: until its group has travelled that far (contact/face_search.h). Lists are made by ascending gaps, so that those
-/// that touch are together. The batches that do not touch are seven in eight, and tested in one step of ten.
+/// A candidate that touches is not tested: its pair is evaluated in every step. Where contacts are searched by faces, one
+/// that does not touch sleeps until its gap can have closed, until its group has travelled that far (contact/face_search.h).
+/// By buckets all the others are tested.
 void find_overlaps(const Scene& scene, State& state, ContactWorkspace& workspace);
 
 }  // namespace cellcrush

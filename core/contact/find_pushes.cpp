@@ -39,6 +39,20 @@ struct BallTouches {
   }
 };
 
+/// Those of the ball of a touch.
+BallTouches touches_of_ball(const Scene& scene, const State& state, const Touches& touches, int touch) {
+  const std::vector<int>& ball = state.touching.ball;
+  int first = touch;
+  while (first > 0 && ball[first - 1] == ball[touch]) {
+    --first;
+  }
+  int end = touch + 1;
+  while (end < static_cast<int>(ball.size()) && ball[end] == ball[touch]) {
+    ++end;
+  }
+  return {scene, state, touches, first, end};
+}
+
 /// Whether the ball lies before the node's own ball, and not above the side of one of its segments.
 bool lies_before(const Scene& scene, const State& state, int ball, int node) {
   const Vector2 away = state.position[ball] - state.position[node];
@@ -58,7 +72,6 @@ void share_with_node(const Scene& scene, const State& state, const Touches& touc
   const int touch = push.touch;
   const int ball = state.touching.ball[touch];
   const double share = touches.share[touch];
-  push.net_depth = touches.depth[touch];
   if (share > 0.0 && share < 1.0) {
     if (push.node_touch != Push::kNone && !lies_before(scene, state, touches.node[push.node_touch], ball)) {
       push.net_depth -=
@@ -75,23 +88,28 @@ void share_with_node(const Scene& scene, const State& state, const Touches& touc
 }  // namespace
 
 void find_pushes(const Scene& scene, const State& state, ContactWorkspace& workspace) {
+  const Touches& touches = workspace.touches;
   const std::vector<int>& ball = state.touching.ball;
   const int count = static_cast<int>(ball.size());
   workspace.pushes.clear();
-  for (int first = 0, end = 0; first < count; first = end) {
-    while (end < count && ball[end] == ball[first]) {
-      ++end;
+  for (int touch = 0; touch < count; ++touch) {
+    const double depth = touches.depth[touch];
+    if (!(depth > 0.0)) {
+      continue;
     }
-    const BallTouches of_ball = {scene, state, workspace.touches, first, end};
-    for (int touch = first; touch < end; ++touch) {
-      if (!of_ball.yields_to_neighbour(touch)) {
-        Push push;
-        push.touch = touch;
-        push.node_touch = of_ball.node_touch(touch);
-        share_with_node(scene, state, workspace.touches, push);
-        workspace.pushes.push_back(push);
+    Push push;
+    push.touch = touch;
+    push.net_depth = depth;
+    // Nine in ten stand alone over the inside of a segment.
+    if (state.touching.linked[touch] != 0 || touches.node_depth[touch] > 0.0) {
+      const BallTouches of_ball = touches_of_ball(scene, state, touches, touch);
+      if (of_ball.yields_to_neighbour(touch)) {
+        continue;
       }
+      push.node_touch = of_ball.node_touch(touch);
+      share_with_node(scene, state, touches, push);
     }
+    workspace.pushes.push_back(push);
   }
 }
 

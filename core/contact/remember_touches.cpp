@@ -2,107 +2,148 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <numeric>
 #include <utility>
+
+#include "contact/find_pushes.h"
 
 namespace cellcrush {
 namespace {
 
-/// No candidate: the pair touches no more.
-constexpr std::int64_t kGone = -1;
+bool comes_before(int ball, int segment, const Newcomer& pair) {
+  return ball != pair.ball ? ball < pair.ball : segment < pair.segment;
+}
 
-std::int64_t key_of(int ball, int segment) { return (static_cast<std::int64_t>(ball) << 32) + segment; }
-
-/// Place of a pair among those before; kNew if it was not among them.
-int find_before(const TouchMemory& before, const Newcomer& pair) {
-  int first = 0;
-  int end = static_cast<int>(before.count());
-  while (first < end) {
-    const int middle = (first + end) / 2;
-    if (key_of(before.ball[middle], before.segment[middle]) < key_of(pair.ball, pair.segment)) {
+/// Of the pairs that touched before, the first that does not come before this one.
+std::size_t place_among(const TouchMemory& touching, const Newcomer& pair) {
+  std::size_t first = 0;
+  for (std::size_t end = touching.count(); first < end;) {
+    const std::size_t middle = (first + end) / 2;
+    if (comes_before(touching.ball[middle], touching.segment[middle], pair)) {
       first = middle + 1;
     } else {
       end = middle;
     }
   }
-  const bool found = first < static_cast<int>(before.count()) && before.ball[first] == pair.ball &&
-                     before.segment[first] == pair.segment;
-  return found ? first : Touches::kNew;
+  return first;
 }
 
-/// Notes the candidates of the pairs that touched before; the others become newcomers.
-void recognize(const State& state, ContactWorkspace& workspace) {
-  const TouchMemory& before = workspace.before;
-  workspace.rank.resize(state.candidate_ball.size());
-  workspace.place.assign(before.count(), kGone);
+/// Sorts out what was found: pairs that touch all along, in a list that was made anew, and newcomers.
+void recognize(State& state, ContactWorkspace& workspace) {
+  TouchMemory& touching = state.touching;
   workspace.newcomers.clear();
-  for (std::size_t i = 0; i < workspace.overlap_count; ++i) {
-    const std::int64_t place = workspace.overlapping[i];
-    const auto rank = static_cast<std::size_t>(workspace.rank[place]);
-    const int ball = state.candidate_ball[place];
-    const int segment = state.candidate_segment[place];
-    if (rank < before.count() && before.ball[rank] == ball && before.segment[rank] == segment) {
-      workspace.place[rank] = place;
+  for (const int place : workspace.found) {
+    const Newcomer pair = {state.candidate_ball[place], state.candidate_segment[place], place};
+    const std::size_t at = place_among(touching, pair);
+    const bool touches = at < touching.count() && touching.ball[at] == pair.ball &&
+                         touching.segment[at] == pair.segment && touching.side[at] != 0;
+    if (touches) {
+      touching.place[at] = place;
     } else {
-      workspace.newcomers.push_back({ball, segment, place});
+      workspace.newcomers.push_back(pair);
     }
   }
+  std::sort(workspace.newcomers.begin(), workspace.newcomers.end(),
+            [](const Newcomer& a, const Newcomer& b) { return comes_before(a.ball, a.segment, b); });
 }
 
-/// Of the newcomers, those whose list was made anew are known all the same; sorts the others.
-void sort_newcomers(ContactWorkspace& workspace) {
-  std::vector<Newcomer>& newcomers = workspace.newcomers;
-  const auto is_known = [&](const Newcomer& pair) {
-    const int known = find_before(workspace.before, pair);
-    if (known != Touches::kNew) {
-      workspace.place[known] = pair.place;
+/// Calls visit(field, field of the other) for what a pair keeps while it touches.
+template <class Visit>
+void visit_kept(TouchMemory& touching, const TouchMemory& before, Visit&& visit) {
+  visit(touching.ball, before.ball);
+  visit(touching.segment, before.segment);
+  visit(touching.reach, before.reach);
+  visit(touching.place, before.place);
+  visit(touching.linked, before.linked);
+  visit(touching.side, before.side);
+}
+
+/// The pairs that touch from now on, written one after the other.
+class Writer {
+ public:
+  Writer(State& state, ContactWorkspace& workspace)
+      : state_(state), before_(workspace.before), known_(workspace.touches.known) {
+    const std::size_t count = before_.count() - state.parted.size() + workspace.newcomers.size();
+    visit_kept(state.touching, before_, [&](auto& field, const auto&) { field.resize(count); });
+    workspace.touches.resize(count);
+  }
+
+  /// Those before up to this one, but the parted.
+  void copy_until(std::size_t end) {
+    while (next_ < end) {
+      const bool parts = parted_ < state_.parted.size() && static_cast<std::size_t>(state_.parted[parted_]) < end;
+      copy_run(parts ? static_cast<std::size_t>(state_.parted[parted_]) : end);
+      if (parts) {
+        ++parted_;
+        ++next_;
+      }
     }
-    return known != Touches::kNew;
-  };
-  newcomers.erase(std::remove_if(newcomers.begin(), newcomers.end(), is_known), newcomers.end());
-  std::sort(newcomers.begin(), newcomers.end(),
-            [](const Newcomer& a, const Newcomer& b) { return key_of(a.ball, a.segment) < key_of(b.ball, b.segment); });
-}
+  }
 
-void resize(TouchMemory& touching, std::size_t count) {
-  touching.ball.resize(count);
-  touching.segment.resize(count);
-  touching.side.resize(count);
+  void put(const Newcomer& pair) {
+    TouchMemory& touching = state_.touching;
+    touching.ball[count_] = pair.ball;
+    touching.segment[count_] = pair.segment;
+    touching.reach[count_] = state_.candidate_reach[pair.place];
+    touching.place[count_] = pair.place;
+    touching.linked[count_] = 0;
+    touching.side[count_] = 0;
+    known_[count_] = Touches::kNew;
+    ++count_;
+  }
+
+ private:
+  void copy_run(std::size_t end) {
+    visit_kept(state_.touching, before_, [&](auto& field, const auto& old) {
+      std::copy(old.begin() + static_cast<std::ptrdiff_t>(next_), old.begin() + static_cast<std::ptrdiff_t>(end),
+                field.begin() + static_cast<std::ptrdiff_t>(count_));
+    });
+    const auto first = known_.begin() + static_cast<std::ptrdiff_t>(count_);
+    std::iota(first, first + static_cast<std::ptrdiff_t>(end - next_), static_cast<int>(next_));
+    count_ += end - next_;
+    next_ = end;
+  }
+
+  State& state_;
+  const TouchMemory& before_;
+  std::vector<int>& known_;
+  std::size_t count_ = 0;   // written
+  std::size_t next_ = 0;    // of those before
+  std::size_t parted_ = 0;  // passed of State::parted
+};
+
+/// Says anew which pairs of a ball are linked.
+void link(const Scene& scene, TouchMemory& touching, int ball) {
+  const auto [first, last] = std::equal_range(touching.ball.begin(), touching.ball.end(), ball);
+  const auto begin = static_cast<std::size_t>(first - touching.ball.begin());
+  const auto end = static_cast<std::size_t>(last - touching.ball.begin());
+  for (std::size_t i = begin; i < end; ++i) {
+    touching.linked[i] = 0;
+    for (std::size_t j = begin; j < end; ++j) {
+      const bool joined =
+          j != i && share_a_node(scene.elements[touching.segment[i]], scene.elements[touching.segment[j]]);
+      touching.linked[i] |= joined ? 1 : 0;
+    }
+  }
 }
 
 }  // namespace
 
-void remember_touches(State& state, ContactWorkspace& workspace) {
-  std::swap(state.touching, workspace.before);
+void remember_touches(const Scene& scene, State& state, ContactWorkspace& workspace) {
   recognize(state, workspace);
-  sort_newcomers(workspace);
-  const TouchMemory& before = workspace.before;
-  TouchMemory& touching = state.touching;
-  resize(touching, workspace.overlap_count);
-  workspace.touches.resize(workspace.overlap_count);
-  std::size_t count = 0;
-  const auto put = [&](std::int64_t place, int ball, int segment, int side, int known) {
-    touching.ball[count] = ball;
-    touching.segment[count] = segment;
-    touching.side[count] = side;
-    workspace.touches.reach[count] = state.candidate_reach[place];
-    workspace.touches.known[count] = known;
-    workspace.rank[place] = static_cast<int>(count);
-    ++count;
-  };
-  std::size_t known = 0;
-  const auto put_known_until = [&](std::int64_t key) {
-    for (; known < before.count() && key_of(before.ball[known], before.segment[known]) < key; ++known) {
-      if (workspace.place[known] != kGone) {
-        put(workspace.place[known], before.ball[known], before.segment[known], before.side[known],
-            static_cast<int>(known));
-      }
-    }
-  };
+  std::swap(state.touching, workspace.before);
+  Writer writer(state, workspace);
   for (const Newcomer& pair : workspace.newcomers) {
-    put_known_until(key_of(pair.ball, pair.segment));
-    put(pair.place, pair.ball, pair.segment, 0, Touches::kNew);
+    writer.copy_until(place_among(workspace.before, pair));
+    writer.put(pair);
   }
-  put_known_until(INT64_MAX);
+  writer.copy_until(workspace.before.count());
+  for (const Newcomer& pair : workspace.newcomers) {
+    link(scene, state.touching, pair.ball);
+  }
+  for (const int gone : state.parted) {
+    link(scene, state.touching, workspace.before.ball[gone]);
+  }
 }
 
 }  // namespace cellcrush

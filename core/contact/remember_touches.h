@@ -1,16 +1,15 @@
 #pragma once
 
+#include "cellcrush/scene.h"
 #include "cellcrush/state.h"
 #include "contact/contact_workspace.h"
 
 namespace cellcrush {
 
-/// Overwrites State::touching by the candidates that overlap now, with what is remembered of those that did before, and the
-/// reach and the place among those before of ContactWorkspace::touches. Puts what touched before into
-/// ContactWorkspace::before.
+/// Takes the pairs that have parted out of State::touching and puts those in that have been found to overlap. What touched
+/// before goes to ContactWorkspace::before; Touches::known tells where it was there.
 ///
-/// Without sorting: nearly all pairs touch for many steps, and each candidate knows where its pair stood when it last
-/// touched. Only the others are sorted, and merged into the order that there is.
-void remember_touches(State& state, ContactWorkspace& workspace);
+/// Nearly all pairs touch for many steps: they are copied in long runs between the few that come and go.
+void remember_touches(const Scene& scene, State& state, ContactWorkspace& workspace);
 
 }  // namespace cellcrush

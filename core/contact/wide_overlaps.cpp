@@ -5,9 +5,9 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include <bit>
 #include <limits>
 
+#include "contact/candidate_lists.h"
 #include "simd/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -15,39 +15,39 @@ namespace cellcrush::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Doubles = hn::CappedTag<double, kCandidateBatch>;
-constexpr int kLanes = hn::MaxLanes(Doubles());
-
 /// How balls stand to segments, w being the way from the segment's start to the ball and u the segment.
+template <class D>
 struct Standing {
-  hn::Vec<Doubles> reach;
-  hn::Vec<Doubles> squared_distance;  // w.w, from the start
-  hn::Vec<Doubles> foot;              // w.u
-  hn::Vec<Doubles> squared_length;    // u.u
+  hn::Vec<D> reach;
+  hn::Vec<D> squared_distance;  // w.w, from the start
+  hn::Vec<D> foot;              // w.u
+  hn::Vec<D> squared_length;    // u.u
 };
 
-HWY_INLINE Standing standing_at(const Scene& scene, const State& state, std::size_t place) {
+template <class D>
+HWY_INLINE Standing<D> standing_of(D d, const Scene& scene, const State& state, const AwakeCandidates& awake,
+                                   std::size_t i) {
   constexpr int kInts = sizeof(Element) / sizeof(int);
-  const Doubles d;
-  const hn::RebindToSigned<Doubles> wide;
-  const hn::Rebind<int, Doubles> narrow;
   const Vector2* positions = state.position.data();
-  const auto segment = hn::Mul(hn::LoadU(narrow, &state.candidate_segment[place]), hn::Set(narrow, kInts));
+  const hn::RebindToSigned<D> wide;
+  const hn::Rebind<int, D> narrow;
+  const auto element = hn::Mul(hn::LoadU(narrow, &awake.segment[i]), hn::Set(narrow, kInts));
   const auto node = [&](const int* nodes) HWY_ATTR {
-    return gather_points(d, positions, hn::PromoteTo(wide, hn::GatherIndex(narrow, nodes, segment)));
+    return gather_points(d, positions, hn::PromoteTo(wide, hn::GatherIndex(narrow, nodes, element)));
   };
-  const Points<Doubles> start = node(&scene.elements.front().start);
-  const Points<Doubles> end = node(&scene.elements.front().end);
-  const Points<Doubles> ball = gather_points(d, positions, load_indices(d, &state.candidate_ball[place]));
-  const Points<Doubles> along = {hn::Sub(end.x, start.x), hn::Sub(end.y, start.y)};
-  const Points<Doubles> away = {hn::Sub(ball.x, start.x), hn::Sub(ball.y, start.y)};
-  return {hn::LoadU(d, &state.candidate_reach[place]), dot(away, away), dot(away, along), dot(along, along)};
+  const Points<D> start = node(&scene.elements.front().start);
+  const Points<D> end = node(&scene.elements.front().end);
+  const Points<D> ball = gather_points(d, positions, load_indices(d, &awake.ball[i]));
+  const Points<D> along = {hn::Sub(end.x, start.x), hn::Sub(end.y, start.y)};
+  const Points<D> away = {hn::Sub(ball.x, start.x), hn::Sub(ball.y, start.y)};
+  return {hn::LoadU(d, &awake.reach[i]), dot(away, away), dot(away, along), dot(along, along)};
 }
 
 /// Lanes whose ball is nearer to its segment than their reach: to the line along it where the ball stands beside it, else to
 /// the nearer end. Without a division: the square of the distance to the line is w.w - (w.u)^2 / u.u.
-HWY_INLINE hn::Mask<Doubles> overlap(const Standing& at) {
-  const auto zero = hn::Zero(Doubles());
+template <class D>
+HWY_INLINE hn::Mask<D> overlap(D d, const Standing<D>& at) {
+  const auto zero = hn::Zero(d);
   const auto beyond_reach = hn::NegMulAdd(at.reach, at.reach, at.squared_distance);  // of the start, squares
   const auto at_start = hn::Lt(beyond_reach, zero);
   const auto of_end = hn::Add(hn::Sub(beyond_reach, hn::Add(at.foot, at.foot)), at.squared_length);
@@ -57,80 +57,52 @@ HWY_INLINE hn::Mask<Doubles> overlap(const Standing& at) {
   return hn::Or(hn::Or(at_start, at_end), hn::And(stands_beside, beside));
 }
 
-/// Distances beyond touch; infinite of empty places.
-HWY_INLINE hn::Vec<Doubles> gap(const Standing& at) {
-  const Doubles d;
+/// Distances beyond touch.
+template <class D>
+HWY_INLINE hn::Vec<D> gap(D d, const Standing<D>& at) {
   const auto zero = hn::Zero(d);
   const auto share = hn::Div(hn::Min(hn::Max(at.foot, zero), at.squared_length), at.squared_length);
   // w.w - 2 s w.u + s^2 u.u
   const auto part = hn::NegMulAdd(share, at.squared_length, hn::Add(at.foot, at.foot));
   const auto squared = hn::NegMulAdd(share, part, at.squared_distance);
-  const auto distance = hn::Sqrt(hn::Max(squared, zero));
-  const auto never = hn::Set(d, std::numeric_limits<double>::infinity());
-  return hn::IfThenElse(hn::Gt(at.reach, zero), hn::Sub(distance, at.reach), never);
+  return hn::Sub(hn::Sqrt(hn::Max(squared, zero)), at.reach);
 }
 
-/// Notes the places of a batch that overlap; where none does, sets its alarm if it has one.
-HWY_INLINE std::size_t test_batch(const Scene& scene, const State& state, std::size_t batch, double travel,
-                                  double* alarm, std::int64_t* found) {
-  const Doubles d;
-  const hn::RebindToSigned<Doubles> places;
-  Standing at[kCandidateBatch / kLanes];
+std::size_t find_awake(const State& state, std::size_t first, std::size_t end, std::int64_t* places) {
+  const hn::CappedTag<double, kCandidateBatch> d;
+  const hn::RebindToSigned<decltype(d)> wide;
   std::size_t count = 0;
-  for (int part = 0; part < kCandidateBatch / kLanes; ++part) {
-    const std::size_t place = batch * kCandidateBatch + part * kLanes;
-    at[part] = standing_at(scene, state, place);
-    const auto overlaps = hn::RebindMask(places, overlap(at[part]));
-    count += hn::CompressStore(hn::Iota(places, static_cast<std::int64_t>(place)), overlaps, places, found + count);
-  }
-  if (alarm != nullptr) {
-    *alarm = 0.0;
-    if (count == 0) {
-      auto least = gap(at[0]);
-      for (int part = 1; part < kCandidateBatch / kLanes; ++part) {
-        least = hn::Min(least, gap(at[part]));
+  for (std::size_t batch = first; batch < end; batch += kCandidateBatch) {
+    const auto travel = hn::Set(d, travel_of_batch(state, batch / kCandidateBatch));
+    for (std::size_t place = batch; place < batch + kCandidateBatch; place += hn::Lanes(d)) {
+      const auto asleep = hn::Lt(travel, hn::LoadU(d, &state.candidate_alarm[place]));
+      if (!hn::AllTrue(d, asleep)) {
+        const auto awake = hn::RebindMask(wide, hn::Not(asleep));
+        count += hn::CompressStore(hn::Iota(wide, static_cast<std::int64_t>(place)), awake, wide, places + count);
       }
-      *alarm = travel + hn::GetLane(hn::MinOfLanes(d, least));
     }
   }
   return count;
 }
 
-/// Bit i: batch first + i is to be tested. As many as there are lanes.
-HWY_INLINE unsigned awake(const State& state, std::size_t first) {
-  const Doubles d;
-  const auto travel = hn::GatherIndex(d, state.group_travel.data(), load_indices(d, &state.batch_group[first]));
-  const auto sleeps = hn::Lt(travel, hn::LoadU(d, &state.batch_alarm[first]));
-  std::uint8_t bits[8] = {};
-  hn::StoreMaskBits(d, hn::Not(sleeps), bits);
-  return bits[0];
+template <class D>
+HWY_INLINE void test(D d, const Scene& scene, const State& state, AwakeCandidates& awake, std::size_t i) {
+  const Standing<D> at = standing_of(d, scene, state, awake, i);
+  const auto next = hn::Add(hn::LoadU(d, &awake.travel[i]), gap(d, at));
+  const auto never = hn::Set(d, std::numeric_limits<double>::infinity());
+  hn::StoreU(hn::IfThenElse(overlap(d, at), never, next), d, &awake.alarm[i]);
 }
 
-std::size_t find_overlapping(const Scene& scene, State& state, std::size_t first, std::size_t end,
-                             std::int64_t* found) {
-  std::size_t count = 0;
-  if (state.batch_alarm.empty()) {
-    for (std::size_t batch = first; batch < end; ++batch) {
-      count += test_batch(scene, state, batch, 0.0, nullptr, found + count);
-    }
-    return count;
+void test_awake(const Scene& scene, const State& state, AwakeCandidates& awake) {
+  const hn::CappedTag<double, 8> wide;
+  const hn::CappedTag<double, 1> one;
+  std::size_t i = 0;
+  for (; i + hn::Lanes(wide) <= awake.count(); i += hn::Lanes(wide)) {
+    test(wide, scene, state, awake, i);
   }
-  const auto test = [&](std::size_t batch) HWY_ATTR {
-    const double travel = state.group_travel[state.batch_group[batch]];
-    count += test_batch(scene, state, batch, travel, &state.batch_alarm[batch], found + count);
-  };
-  std::size_t batch = first;
-  for (; batch + kLanes <= end; batch += kLanes) {
-    for (unsigned bits = awake(state, batch); bits != 0; bits &= bits - 1) {
-      test(batch + std::countr_zero(bits));
-    }
+  for (; i < awake.count(); ++i) {
+    test(one, scene, state, awake, i);
   }
-  for (; batch < end; ++batch) {
-    if (!(state.group_travel[state.batch_group[batch]] < state.batch_alarm[batch])) {
-      test(batch);
-    }
-  }
-  return count;
 }
 
 }  // namespace cellcrush::HWY_NAMESPACE
@@ -139,11 +111,15 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace cellcrush {
 
-HWY_EXPORT(find_overlapping);
+HWY_EXPORT(find_awake);
+HWY_EXPORT(test_awake);
 
-std::size_t find_overlapping_wide(const Scene& scene, State& state, std::size_t first, std::size_t end,
-                                  std::int64_t* found) {
-  return HWY_DYNAMIC_DISPATCH(find_overlapping)(scene, state, first, end, found);
+std::size_t find_awake_wide(const State& state, std::size_t first, std::size_t end, std::int64_t* places) {
+  return HWY_DYNAMIC_DISPATCH(find_awake)(state, first, end, places);
+}
+
+void test_awake_wide(const Scene& scene, const State& state, AwakeCandidates& awake) {
+  HWY_DYNAMIC_DISPATCH(test_awake)(scene, state, awake);
 }
 
 }  // namespace cellcrush

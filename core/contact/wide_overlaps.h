@@ -5,16 +5,20 @@
 
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
+#include "contact/contact_workspace.h"
 
 namespace cellcrush {
 
-/// Writes the places of the candidates that overlap in the batches from `first` to `end` to `found`, ascending, and returns
-/// how many there are, with the processor's vector instructions; see find_overlaps. REQUIRES: `found` has room for all places
-/// of the batches and kSparePlaces more.
-std::size_t find_overlapping_wide(const Scene& scene, State& state, std::size_t first, std::size_t end,
-                                  std::int64_t* found);
+// The loops of find_overlaps with the processor's vector instructions.
+
+/// Writes the places from `first` to `end`, whole batches, of the candidates that are awake; returns how many there are.
+/// REQUIRES: room for all of them and kSparePlaces more.
+std::size_t find_awake_wide(const State& state, std::size_t first, std::size_t end, std::int64_t* places);
 
 /// Room that vectors may write over.
 inline constexpr std::size_t kSparePlaces = 8;
+
+/// Overwrites the alarms of those that are awake: infinite of those that overlap.
+void test_awake_wide(const Scene& scene, const State& state, AwakeCandidates& awake);
 
 }  // namespace cellcrush

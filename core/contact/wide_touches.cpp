@@ -53,9 +53,10 @@ HWY_INLINE Points<D> choose(hn::Mask<D> mask, const Points<D>& yes, const Points
   return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y)};
 }
 
-/// Where the foot of a ball lies, its side of the segment, and the normal there.
+/// Where the foot of a ball lies, how deep, its side of the segment, and the normal there.
 template <class D>
 struct Stand {
+  hn::Vec<D> depth;
   hn::Vec<D> share;
   hn::Vec<D> side;  // +1 or -1
   Points<D> normal;
@@ -86,16 +87,18 @@ HWY_INLINE Stand<D> evaluate_stand(D d, State& state, Touches& touches, const Pa
   const auto before = hn::PromoteTo(d, hn::LoadU(narrow, &state.touching.side[i]));
   const auto now = hn::IfThenElse(hn::Ge(signed_distance, zero), one, hn::Set(d, -1.0));
   const auto side = hn::IfThenElse(hn::And(inside, hn::Ne(before, zero)), before, now);
-  hn::StoreU(hn::DemoteTo(narrow, side), narrow, &state.touching.side[i]);
 
   const Points<D> across = {hn::Neg(hn::Mul(side, axis.y)), hn::Mul(side, axis.x)};
   const auto apart = hn::Gt(node_distance, zero);
   const Points<D> unit = {hn::Div(from_node.x, node_distance), hn::Div(from_node.y, node_distance)};
   const Points<D> node_normal = choose<D>(apart, unit, across);
-  const auto reach = hn::LoadU(d, &touches.reach[i]);
+  const auto reach = hn::LoadU(d, &state.touching.reach[i]);
   const auto distance = hn::IfThenElse(inside, hn::Mul(side, signed_distance), node_distance);
   const Points<D> normal = choose<D>(inside, across, node_normal);
-  hn::StoreU(hn::Sub(reach, distance), d, &touches.depth[i]);
+  const auto depth = hn::Sub(reach, distance);
+  const auto side_kept = hn::IfThenElseZero(hn::Gt(depth, zero), side);
+  hn::StoreU(hn::DemoteTo(narrow, side_kept), narrow, &state.touching.side[i]);
+  hn::StoreU(depth, d, &touches.depth[i]);
   hn::StoreU(share, d, &touches.share[i]);
   store_points(d, normal, &touches.normal[i]);
   const auto node =
@@ -103,7 +106,7 @@ HWY_INLINE Stand<D> evaluate_stand(D d, State& state, Touches& touches, const Pa
   hn::StoreU(hn::DemoteTo(narrow, node), narrow, &touches.node[i]);
   hn::StoreU(hn::IfThenElseZero(apart, hn::Sub(reach, node_distance)), d, &touches.node_depth[i]);
   store_points(d, node_normal, &touches.node_normal[i]);
-  return {share, side, normal};
+  return {depth, share, side, normal};
 }
 
 template <class D>
@@ -129,24 +132,32 @@ HWY_INLINE void evaluate_motion(D d, const Scene& scene, const State& state, Tou
   hn::StoreU(hn::Mul(hn::Set(d, scene.schedule.time_step), slide), d, &touches.slip[i]);
 }
 
+/// Returns the lanes whose pairs have parted.
 template <class D>
-HWY_INLINE void evaluate_pairs(D d, const Scene& scene, State& state, Touches& touches, std::size_t i) {
+HWY_INLINE hn::Mask<D> evaluate_pairs(D d, const Scene& scene, State& state, Touches& touches, std::size_t i) {
   const PairIndices<D> pair = pair_indices(d, scene, state.touching, i);
   const Stand<D> stand = evaluate_stand(d, state, touches, pair, i);
   evaluate_motion(d, scene, state, touches, pair, stand, i);
+  return hn::Not(hn::Gt(stand.depth, hn::Zero(d)));
 }
 
-void evaluate_all(const Scene& scene, State& state, Touches& touches) {
-  const hn::CappedTag<double, 8> wide;
+std::size_t evaluate_all(const Scene& scene, State& state, Touches& touches, std::int64_t* parted) {
+  const hn::CappedTag<double, kSpareParted> wide;
   const hn::CappedTag<double, 1> one;
+  const hn::RebindToSigned<decltype(wide)> places;
   const std::size_t count = state.touching.count();
+  std::size_t parted_count = 0;
   std::size_t i = 0;
   for (; i + hn::Lanes(wide) <= count; i += hn::Lanes(wide)) {
-    evaluate_pairs(wide, scene, state, touches, i);
+    const auto apart = hn::RebindMask(places, evaluate_pairs(wide, scene, state, touches, i));
+    parted_count +=
+        hn::CompressStore(hn::Iota(places, static_cast<std::int64_t>(i)), apart, places, parted + parted_count);
   }
   for (; i < count; ++i) {
-    evaluate_pairs(one, scene, state, touches, i);
+    parted[parted_count] = static_cast<std::int64_t>(i);
+    parted_count += hn::AllTrue(one, evaluate_pairs(one, scene, state, touches, i)) ? 1 : 0;
   }
+  return parted_count;
 }
 
 }  // namespace cellcrush::HWY_NAMESPACE
@@ -157,8 +168,8 @@ namespace cellcrush {
 
 HWY_EXPORT(evaluate_all);
 
-void evaluate_touches_wide(const Scene& scene, State& state, Touches& touches) {
-  HWY_DYNAMIC_DISPATCH(evaluate_all)(scene, state, touches);
+std::size_t evaluate_touches_wide(const Scene& scene, State& state, Touches& touches, std::int64_t* parted) {
+  return HWY_DYNAMIC_DISPATCH(evaluate_all)(scene, state, touches, parted);
 }
 
 }  // namespace cellcrush

@@ -11,11 +11,14 @@ namespace cellcrush {
 
 /// What is remembered of the T pairs of a ball and a segment that touch; by ball, segments ascending.
 struct TouchMemory {
-  std::vector<int> ball;     ///< T, particle
-  std::vector<int> segment;  ///< T, element
-  std::vector<int> side;     ///< T, +1 left, -1 right of the segment: where the ball is, or came from
-  std::vector<int> pushed;   ///< T, the side from which it pushed on the ball with friction in the newest step; 0: it
-                             ///< did not. Empty without friction
+  std::vector<int> ball;      ///< T, particle
+  std::vector<int> segment;   ///< T, element
+  std::vector<double> reach;  ///< T, mm, distance at which they touch
+  std::vector<int> place;     ///< T, of the candidate by which the pair was found; its list may be another since then
+  std::vector<int> linked;    ///< T, 1: shares a particle with the segment of another of the ball's pairs; 0: with none
+  std::vector<int> side;      ///< T, +1 left, -1 right of the segment: where the ball is, or came from; 0: has parted
+  std::vector<int> pushed;    ///< T, the side from which it pushed on the ball with friction in the newest step; 0: it
+                              ///< did not. Empty without friction
   std::vector<double>
       friction;  ///< T, N, on the ball, along the segment, round its ends with it; kept while it pushes.
                  ///< Empty without friction
@@ -41,7 +44,7 @@ struct FibreMemory {
   LaneVector<T> end_moment;           ///< E, on the end node, over b h^2
 };
 
-/// Candidates that are tested together, and sleep together.
+/// Candidates that stand together, of one face.
 inline constexpr int kCandidateBatch = 8;
 
 /// Where the candidates of a face stand: `count` of them from `first` on, then empty places up to `room`; whole batches.
@@ -127,9 +130,10 @@ struct State {
       -1;  ///< in which walls were found to have crossed, from when on the search is by buckets
 
   // Written by evaluate_contact_forces.
-  TouchMemory touching;             ///< of the pairs that touch now
-  std::vector<double> batch_alarm;  ///< K / kCandidateBatch, travel of the group at which a batch is tested next, when
-                                    ///< none of it touched; 0 after find_contacts has changed it. Empty when by buckets
+  TouchMemory touching;     ///< of the pairs that touch now, and those that have parted in this step
+  std::vector<int> parted;  ///< of `touching`, ascending: those that have parted
+  /// K, travel of the group at which a candidate is tested next; infinite while it is in `touching`, and of empty places.
+  std::vector<double> candidate_alarm;
 
   // Written by evaluate_contact_forces and evaluate_plate_forces.
   std::vector<Vector2> contact_force;          ///< N, of walls and plates, elastic part
@@ -202,10 +206,14 @@ void visit_fields(S& state, Visitor&& visitor) {
   visitor("crossing_step", state.crossing_step);
   visitor("touching_ball", state.touching.ball);
   visitor("touching_segment", state.touching.segment);
+  visitor("touching_reach", state.touching.reach);
+  visitor("touching_place", state.touching.place);
+  visitor("touching_linked", state.touching.linked);
   visitor("touching_side", state.touching.side);
   visitor("touching_pushed", state.touching.pushed);
   visitor("touching_friction", state.touching.friction);
-  visitor("batch_alarm", state.batch_alarm);
+  visitor("parted", state.parted);
+  visitor("candidate_alarm", state.candidate_alarm);
   visitor("contact_force", state.contact_force);
   visitor("contact_damping_force", state.contact_damping_force);
   visitor("friction_force", state.friction_force);
