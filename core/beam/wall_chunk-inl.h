@@ -88,7 +88,13 @@ struct LaneForces {
 template <class T>
 class ChunkValues {
  public:
-  explicit ChunkValues(std::size_t elements) : elements_(elements), values_(8 * elements) {}
+  /// Makes room for so many elements, whose values are undefined.
+  void hold(std::size_t elements) {
+    elements_ = elements;
+    if (values_.size() < 8 * elements) {
+      values_.resize(8 * elements);
+    }
+  }
 
   T* membrane() { return values_.data(); }  ///< increment of the strain at the axis
   T* bend_start() { return of(1); }         ///< rotation of the start times h / l
@@ -102,7 +108,7 @@ class ChunkValues {
  private:
   T* of(std::size_t i) { return values_.data() + i * elements_; }
 
-  std::size_t elements_;
+  std::size_t elements_ = 0;
   LaneVector<T> values_;
 };
 

@@ -22,13 +22,14 @@ std::size_t element_count(std::span<const WallBlock> chunk) {
 /// Plastic work of a chunk's step. Full blocks go through the target's vectors, others wall by wall.
 template <int kSections, int kDepthPoints, bool kForceBased, bool kHardening, class T>
 double advance_chunk(const Scene& scene, State& state, FibreMemory<T>& memory,
-                     const RuleFactors<kSections, kDepthPoints, T>& rule, std::span<const WallBlock> chunk) {
+                     const RuleFactors<kSections, kDepthPoints, T>& rule, std::span<const WallBlock> chunk,
+                     ChunkValues<T>& values) {
   using Wide = hn::CappedTag<double, kMostWallsInBlock>;
   using WideFibres = hn::CappedTag<T, kMostWallsInBlock>;
   using One = hn::CappedTag<double, 1>;
   using OneFibre = hn::CappedTag<T, 1>;
   const double step = state.step == 0 ? 0.0 : scene.schedule.time_step;
-  ChunkValues<T> values(element_count(chunk));
+  values.hold(element_count(chunk));
   double plastic_work[kMostWallsInBlock] = {};
   if (chunk.front().walls == kMostWallsInBlock) {
     WallChunk<kSections, kDepthPoints, kForceBased, kHardening, Wide, WideFibres>(scene, state, memory, step, rule,
@@ -54,9 +55,10 @@ void evaluate_blocks(const Scene& scene, State& state, FibreMemory<T>& memory, W
   const std::vector<int>& offset = scene.walls.chunk_offset;
   std::vector<double> plastic_work(offset.size() - 1);
   workers.share(plastic_work.size(), [&](std::size_t first, std::size_t end) HWY_ATTR {
+    ChunkValues<T> values;
     for (std::size_t c = first; c < end; ++c) {
       plastic_work[c] = advance_chunk<kSections, kDepthPoints, kForceBased, kHardening>(
-          scene, state, memory, rule, blocks.subspan(offset[c], offset[c + 1] - offset[c]));
+          scene, state, memory, rule, blocks.subspan(offset[c], offset[c + 1] - offset[c]), values);
     }
   });
   for (const double work : plastic_work) {

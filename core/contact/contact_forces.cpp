@@ -14,10 +14,16 @@
 namespace cellcrush {
 namespace {
 
-void clear(std::vector<Vector2>& forces) {
-  // As one row of numbers, which is cleared by the widest stores.
-  double* first = forces.empty() ? nullptr : forces.front().data();
-  std::fill_n(first, 2 * forces.size(), 0.0);
+/// Each thread clears what it will move, so that its cache has it.
+void clear_forces(State& state, Workers& workers) {
+  workers.share(state.position.size(), [&](std::size_t first, std::size_t end) {
+    for (auto* forces : {&state.contact_force, &state.contact_damping_force, &state.friction_force}) {
+      if (!forces->empty()) {
+        // As one row of numbers, which is cleared by the widest stores.
+        std::fill_n(forces->front().data() + 2 * first, 2 * (end - first), 0.0);
+      }
+    }
+  });
 }
 
 /// Adds a force on the ball of a touch and its reaction on the segment, shared by the lever rule.
@@ -138,15 +144,14 @@ void apply_friction(const Scene& scene, State& state, const ContactWorkspace& wo
 
 }  // namespace
 
-void evaluate_contact_forces(const Scene& scene, State& state, ContactWorkspace& workspace) {
-  clear(state.friction_force);
-  clear(state.contact_force);
-  clear(state.contact_damping_force);
+void evaluate_contact_forces(const Scene& scene, State& state, ContactWorkspace& workspace, Workers& workers) {
+  workspace.parts.resize(static_cast<std::size_t>(workers.count()));
+  clear_forces(state, workers);
   state.contact_stored = 0.0;
-  find_overlaps(scene, state, workspace);
+  find_overlaps(scene, state, workspace, workers);
   remember_touches(scene, state, workspace);
-  evaluate_touches(scene, state, workspace);
-  find_pushes(scene, state, workspace);
+  evaluate_touches(scene, state, workspace, workers);
+  find_pushes(scene, state, workspace, workers);
   for (Push& push : workspace.pushes) {
     apply_normal_force(scene, state, workspace.touches, push);
   }

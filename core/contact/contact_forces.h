@@ -3,6 +3,7 @@
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
 #include "contact/contact_workspace.h"
+#include "parallel/workers.h"
 
 namespace cellcrush {
 
@@ -26,6 +27,6 @@ namespace cellcrush {
 /// stand and move, which of them push, the forces. The first and the third, of all pairs alike, are also written for vector
 /// instructions; forces are summed in the order of balls and segments, so that the sums have the same bits however pairs were
 /// found.
-void evaluate_contact_forces(const Scene& scene, State& state, ContactWorkspace& workspace);
+void evaluate_contact_forces(const Scene& scene, State& state, ContactWorkspace& workspace, Workers& workers);
 
 }  // namespace cellcrush

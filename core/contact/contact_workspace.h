@@ -61,15 +61,23 @@ struct Push {
   static constexpr int kNone = -1;
 };
 
+/// What a thread works with; what it makes is put behind what those before it made.
+struct ContactPart {
+  AwakeCandidates awake;
+  std::vector<int> found;            ///< places of the candidates that have begun to overlap, ascending
+  std::vector<std::int64_t> parted;  ///< of State::touching, then room for kSpareParted
+  std::size_t parted_count = 0;
+  std::vector<Push> pushes;
+};
+
 /// Room for evaluate_contact_forces, kept from step to step so that none allocates. No result depends on what it holds.
 struct ContactWorkspace {
-  AwakeCandidates awake;
-  std::vector<int> found;  ///< places of the candidates that have begun to overlap, ascending
+  std::vector<ContactPart> parts;  ///< one a thread
+  std::vector<int> found;          ///< of all parts
   std::vector<Newcomer> newcomers;
   TouchMemory before;  ///< State::touching of the step before
   Touches touches;
-  std::vector<std::int64_t> parted;  ///< of State::touching, then room for kSpareParted
-  std::vector<Push> pushes;
+  std::vector<Push> pushes;  ///< of all parts
 };
 
 }  // namespace cellcrush

@@ -57,9 +57,10 @@ bool evaluate_touch(const Scene& scene, State& state, Touches& touches, std::siz
   return !(depth > 0.0);
 }
 
-std::size_t evaluate_touches_plain(const Scene& scene, State& state, Touches& touches, std::int64_t* parted) {
+std::size_t evaluate_touches_plain(const Scene& scene, State& state, Touches& touches, std::size_t first,
+                                   std::size_t end, std::int64_t* parted) {
   std::size_t count = 0;
-  for (std::size_t i = 0; i < state.touching.count(); ++i) {
+  for (std::size_t i = first; i < end; ++i) {
     if (evaluate_touch(scene, state, touches, i)) {
       parted[count++] = static_cast<std::int64_t>(i);
     }
@@ -69,15 +70,20 @@ std::size_t evaluate_touches_plain(const Scene& scene, State& state, Touches& to
 
 }  // namespace
 
-void evaluate_touches(const Scene& scene, State& state, ContactWorkspace& workspace) {
-  workspace.parted.resize(state.touching.count() + kSpareParted);
+void evaluate_touches(const Scene& scene, State& state, ContactWorkspace& workspace, Workers& workers) {
   const auto evaluate = use_wide_kernels() ? evaluate_touches_wide : evaluate_touches_plain;
-  const std::size_t count = evaluate(scene, state, workspace.touches, workspace.parted.data());
+  workers.share_parts(state.touching.count(), kSpareParted, [&](std::size_t p, std::size_t first, std::size_t end) {
+    ContactPart& part = workspace.parts[p];
+    part.parted.resize(end - first + kSpareParted);
+    part.parted_count = evaluate(scene, state, workspace.touches, first, end, part.parted.data());
+  });
   state.parted.clear();
-  for (std::size_t k = 0; k < count; ++k) {
-    const auto i = static_cast<int>(workspace.parted[k]);
-    state.parted.push_back(i);
-    wake_candidate(state, state.touching.place[i], state.touching.ball[i], state.touching.segment[i]);
+  for (const ContactPart& part : workspace.parts) {
+    for (std::size_t k = 0; k < part.parted_count; ++k) {
+      const auto i = static_cast<int>(part.parted[k]);
+      state.parted.push_back(i);
+      wake_candidate(state, state.touching.place[i], state.touching.ball[i], state.touching.segment[i]);
+    }
   }
 }
 

@@ -48,22 +48,33 @@ void collect(const State& state, AwakeCandidates& awake) {
   }
 }
 
-}  // namespace
-
-void find_overlaps(const Scene& scene, State& state, ContactWorkspace& workspace) {
-  AwakeCandidates& awake = workspace.awake;
-  const std::size_t places = state.candidate_ball.size();
-  awake.place.resize(places + kSparePlaces);
+/// The candidates from `first` to `end` that overlap; sets the alarms of the others that are awake.
+void find_overlaps_in(const Scene& scene, State& state, std::size_t first, std::size_t end, ContactPart& part) {
+  AwakeCandidates& awake = part.awake;
+  awake.place.resize(end - first + kSparePlaces);
   const bool is_wide = use_wide_kernels();
-  awake.place.resize((is_wide ? find_awake_wide : find_awake_plain)(state, 0, places, awake.place.data()));
+  awake.place.resize((is_wide ? find_awake_wide : find_awake_plain)(state, first, end, awake.place.data()));
   collect(state, awake);
   (is_wide ? test_awake_wide : test_awake_plain)(scene, state, awake);
-  workspace.found.clear();
+  part.found.clear();
   for (std::size_t i = 0; i < awake.count(); ++i) {
     state.candidate_alarm[awake.place[i]] = awake.alarm[i];
     if (awake.alarm[i] == kNever) {
-      workspace.found.push_back(static_cast<int>(awake.place[i]));
+      part.found.push_back(static_cast<int>(awake.place[i]));
     }
+  }
+}
+
+}  // namespace
+
+void find_overlaps(const Scene& scene, State& state, ContactWorkspace& workspace, Workers& workers) {
+  workers.share_parts(state.candidate_ball.size(), kCandidateBatch,
+                      [&](std::size_t part, std::size_t first, std::size_t end) {
+                        find_overlaps_in(scene, state, first, end, workspace.parts[part]);
+                      });
+  workspace.found.clear();
+  for (const ContactPart& part : workspace.parts) {
+    workspace.found.insert(workspace.found.end(), part.found.begin(), part.found.end());
   }
 }
 

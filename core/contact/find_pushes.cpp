@@ -85,14 +85,11 @@ void share_with_node(const Scene& scene, const State& state, const Touches& touc
   push.net_depth = push.has_pair ? push.net_depth : 0.0;
 }
 
-}  // namespace
-
-void find_pushes(const Scene& scene, const State& state, ContactWorkspace& workspace) {
-  const Touches& touches = workspace.touches;
-  const std::vector<int>& ball = state.touching.ball;
-  const int count = static_cast<int>(ball.size());
-  workspace.pushes.clear();
-  for (int touch = 0; touch < count; ++touch) {
+/// The touches from `first` to `end` that push.
+void find_pushes_in(const Scene& scene, const State& state, const Touches& touches, int first, int end,
+                    std::vector<Push>& pushes) {
+  pushes.clear();
+  for (int touch = first; touch < end; ++touch) {
     const double depth = touches.depth[touch];
     if (!(depth > 0.0)) {
       continue;
@@ -109,7 +106,20 @@ void find_pushes(const Scene& scene, const State& state, ContactWorkspace& works
       push.node_touch = of_ball.node_touch(touch);
       share_with_node(scene, state, touches, push);
     }
-    workspace.pushes.push_back(push);
+    pushes.push_back(push);
+  }
+}
+
+}  // namespace
+
+void find_pushes(const Scene& scene, const State& state, ContactWorkspace& workspace, Workers& workers) {
+  workers.share_parts(state.touching.count(), 1, [&](std::size_t part, std::size_t first, std::size_t end) {
+    find_pushes_in(scene, state, workspace.touches, static_cast<int>(first), static_cast<int>(end),
+                   workspace.parts[part].pushes);
+  });
+  workspace.pushes.clear();
+  for (const ContactPart& part : workspace.parts) {
+    workspace.pushes.insert(workspace.pushes.end(), part.pushes.begin(), part.pushes.end());
   }
 }
 

@@ -3,12 +3,13 @@
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
 #include "contact/contact_workspace.h"
+#include "parallel/workers.h"
 
 namespace cellcrush {
 
 /// Overwrites ContactWorkspace::pushes by the touches that push, by ball, segments ascending: of touching segments that share
 /// a node only the deepest. Reads the touches.
-void find_pushes(const Scene& scene, const State& state, ContactWorkspace& workspace);
+void find_pushes(const Scene& scene, const State& state, ContactWorkspace& workspace, Workers& workers);
 
 inline bool share_a_node(const Element& a, const Element& b) {
   return a.start == b.start || a.start == b.end || a.end == b.start || a.end == b.end;

@@ -141,19 +141,19 @@ HWY_INLINE hn::Mask<D> evaluate_pairs(D d, const Scene& scene, State& state, Tou
   return hn::Not(hn::Gt(stand.depth, hn::Zero(d)));
 }
 
-std::size_t evaluate_all(const Scene& scene, State& state, Touches& touches, std::int64_t* parted) {
+std::size_t evaluate_all(const Scene& scene, State& state, Touches& touches, std::size_t first, std::size_t end,
+                         std::int64_t* parted) {
   const hn::CappedTag<double, kSpareParted> wide;
   const hn::CappedTag<double, 1> one;
   const hn::RebindToSigned<decltype(wide)> places;
-  const std::size_t count = state.touching.count();
   std::size_t parted_count = 0;
-  std::size_t i = 0;
-  for (; i + hn::Lanes(wide) <= count; i += hn::Lanes(wide)) {
+  std::size_t i = first;
+  for (; i + hn::Lanes(wide) <= end; i += hn::Lanes(wide)) {
     const auto apart = hn::RebindMask(places, evaluate_pairs(wide, scene, state, touches, i));
     parted_count +=
         hn::CompressStore(hn::Iota(places, static_cast<std::int64_t>(i)), apart, places, parted + parted_count);
   }
-  for (; i < count; ++i) {
+  for (; i < end; ++i) {
     parted[parted_count] = static_cast<std::int64_t>(i);
     parted_count += hn::AllTrue(one, evaluate_pairs(one, scene, state, touches, i)) ? 1 : 0;
   }
@@ -168,8 +168,9 @@ namespace cellcrush {
 
 HWY_EXPORT(evaluate_all);
 
-std::size_t evaluate_touches_wide(const Scene& scene, State& state, Touches& touches, std::int64_t* parted) {
-  return HWY_DYNAMIC_DISPATCH(evaluate_all)(scene, state, touches, parted);
+std::size_t evaluate_touches_wide(const Scene& scene, State& state, Touches& touches, std::size_t first,
+                                  std::size_t end, std::int64_t* parted) {
+  return HWY_DYNAMIC_DISPATCH(evaluate_all)(scene, state, touches, first, end, parted);
 }
 
 }  // namespace cellcrush

@@ -2,6 +2,8 @@
 
 #include <hwy/cache_control.h>
 
+#include <algorithm>
+
 namespace cellcrush {
 namespace {
 
@@ -23,7 +25,7 @@ bool spin_until(const Condition& holds) {
 }  // namespace
 
 Workers::Workers(int count) {
-  for (int part = 1; part < count; ++part) {
+  for (std::size_t part = 1; part < static_cast<std::size_t>(count); ++part) {
     threads_.emplace_back([this, part] { work(part); });
   }
 }
@@ -49,17 +51,13 @@ void Workers::run(const Job& job) {
   }
 }
 
-void Workers::do_part(int part) const {
-  const auto parts = static_cast<std::size_t>(count());
-  const auto start_of = [&](std::size_t p) { return job_.items * p / parts; };
-  const std::size_t first = start_of(static_cast<std::size_t>(part));
-  const std::size_t end = start_of(static_cast<std::size_t>(part) + 1);
-  if (first < end) {
-    job_.call(job_.task, first, end);
-  }
+void Workers::do_part(std::size_t part) const {
+  const std::size_t grains = (job_.items + job_.grain - 1) / job_.grain;
+  const auto start_of = [&](std::size_t p) { return std::min(job_.items, start_of_part(grains, p) * job_.grain); };
+  job_.call(job_.task, part, start_of(part), start_of(part + 1));
 }
 
-void Workers::work(int part) {
+void Workers::work(std::size_t part) {
   for (std::uint64_t done = 0;; ++done) {
     const auto has_job = [&] { return round_.load(std::memory_order_acquire) != done; };
     if (!spin_until(has_job)) {

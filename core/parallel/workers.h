@@ -21,15 +21,27 @@ class Workers {
 
   [[nodiscard]] int count() const { return static_cast<int>(threads_.size()) + 1; }
 
+  /// Where a part of so many items starts; the part after the last starts at their end.
+  [[nodiscard]] std::size_t start_of_part(std::size_t items, std::size_t part) const {
+    return items * part / static_cast<std::size_t>(count());
+  }
+
   /// Calls task(first, end) for the parts of the items 0 ... items - 1 and returns when all are done. The task must not throw.
   template <class Task>
   void share(std::size_t items, const Task& task) {
+    share_parts(items, 1, [&](std::size_t, std::size_t first, std::size_t end) { task(first, end); });
+  }
+
+  /// The same of task(part, first, end), with parts 0 ... count() - 1, all of which are called, and starts of parts that are
+  /// multiples of `grain`.
+  template <class Task>
+  void share_parts(std::size_t items, std::size_t grain, const Task& task) {
     if (threads_.empty()) {
-      task(std::size_t{0}, items);
+      task(std::size_t{0}, std::size_t{0}, items);
       return;
     }
-    run({&task, items, [](const void* shared, std::size_t first, std::size_t end) {
-           (*static_cast<const Task*>(shared))(first, end);
+    run({&task, items, grain, [](const void* shared, std::size_t part, std::size_t first, std::size_t end) {
+           (*static_cast<const Task*>(shared))(part, first, end);
          }});
   }
 
@@ -37,12 +49,13 @@ class Workers {
   struct Job {
     const void* task = nullptr;
     std::size_t items = 0;
-    void (*call)(const void* task, std::size_t first, std::size_t end) = nullptr;
+    std::size_t grain = 1;
+    void (*call)(const void* task, std::size_t part, std::size_t first, std::size_t end) = nullptr;
   };
 
   void run(const Job& job);
-  void do_part(int part) const;
-  void work(int part);
+  void do_part(std::size_t part) const;
+  void work(std::size_t part);
 
   Job job_;
   alignas(64) std::atomic<std::uint64_t> round_{0};  // of the newest job

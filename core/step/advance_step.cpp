@@ -35,7 +35,7 @@ void evaluate_forces(const Scene& scene, State& state, Workspace& workspace, con
   teller.begin(Stage::find_contacts);
   find_contacts(scene, state);
   teller.begin(Stage::evaluate_contact_forces);
-  evaluate_contact_forces(scene, state, workspace.contact);
+  evaluate_contact_forces(scene, state, workspace.contact, workspace.workers);
   teller.begin(Stage::evaluate_plate_forces);
   evaluate_plate_forces(scene, state);
   teller.begin(Stage::evaluate_loads);

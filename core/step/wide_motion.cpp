@@ -111,29 +111,48 @@ ChunkWorks move_chunk(const Scene& scene, State& state, const Motion& motion, st
   LaneWorks works;
   std::size_t i = first;
   for (; i + lanes <= end; i += lanes) {
-    move<kFriction, kMassDamping>(wide, scene, state, motion, i, static_cast<int>(i % kSumLanes), works);
+    move<kFriction, kMassDamping>(wide, scene, state, motion, i, static_cast<int>((i - first) % kSumLanes), works);
   }
   for (; i < end; ++i) {
-    move<kFriction, kMassDamping>(one, scene, state, motion, i, static_cast<int>(i % kSumLanes), works);
+    move<kFriction, kMassDamping>(one, scene, state, motion, i, static_cast<int>((i - first) % kSumLanes), works);
   }
   return {sum_of(works.contact), sum_of(works.contact_damping), sum_of(works.friction), sum_of(works.mass_damping)};
 }
 
-/// Every chunk's works are numbers of their own, so that the sums do not depend on who computes them.
+/// Particles that are dealt out together: their chunks begin at the first.
+struct Group {
+  std::size_t first;
+  std::size_t end;
+
+  static constexpr std::size_t kChunk = 256;
+
+  [[nodiscard]] std::size_t chunk_count() const { return (end - first + kChunk - 1) / kChunk; }
+};
+
+/// Every chunk's works are numbers of their own, so that the sums do not depend on who computes them. Joints and particles
+/// inside walls are dealt out each by themselves, as the joints' sums and the walls are, so that a thread finds in its cache
+/// what it has written.
 template <bool kFriction, bool kMassDamping>
 void move_all(const Scene& scene, State& state, Workers& workers) {
-  constexpr std::size_t kChunk = 512;
   const double step = scene.schedule.time_step;
   const double damping = 0.5 * scene.mass_damping * step;
   const Motion motion = {step, (1.0 - damping) / (1.0 + damping), step / (1.0 + damping), 0.5 * scene.mass_damping};
-  const std::size_t count = scene.particle_count();
-  std::vector<ChunkWorks> works((count + kChunk - 1) / kChunk);
-  workers.share(works.size(), [&](std::size_t first, std::size_t end) HWY_ATTR {
-    for (std::size_t c = first; c < end; ++c) {
-      works[c] =
-          move_chunk<kFriction, kMassDamping>(scene, state, motion, c * kChunk, std::min((c + 1) * kChunk, count));
-    }
-  });
+  const auto joints = static_cast<std::size_t>(scene.joint_count);
+  const Group groups[] = {{0, joints}, {joints, scene.particle_count()}};
+  std::vector<ChunkWorks> works(groups[0].chunk_count() + groups[1].chunk_count());
+  workers.share_parts(
+      static_cast<std::size_t>(workers.count()), 1, [&](std::size_t part, std::size_t, std::size_t) HWY_ATTR {
+        std::size_t before = 0;
+        for (const Group& group : groups) {
+          const std::size_t chunks = group.chunk_count();
+          for (std::size_t c = workers.start_of_part(chunks, part); c < workers.start_of_part(chunks, part + 1); ++c) {
+            const std::size_t first = group.first + c * Group::kChunk;
+            works[before + c] = move_chunk<kFriction, kMassDamping>(scene, state, motion, first,
+                                                                    std::min(first + Group::kChunk, group.end));
+          }
+          before += chunks;
+        }
+      });
   for (const ChunkWorks& work : works) {
     state.ledger.contact += work.contact;
     state.ledger.contact_damping += work.contact_damping;

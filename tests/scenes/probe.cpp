@@ -40,7 +40,7 @@ void Probe::place_tip(const Vector2& place, const Vector2& outward) {
 Vector2 Probe::force_at(const Vector2& place, const Vector2& outward) {
   place_tip(place, outward);
   state_.velocity[tip_] = Vector2::Zero();
-  evaluate_contact_forces(*scene_, state_, workspace_);
+  evaluate_contact_forces(*scene_, state_, workspace_, workers_);
   return state_.contact_force[tip_];
 }
 
@@ -48,7 +48,7 @@ Vector2 Probe::drag_to(const Vector2& place, const Vector2& outward) {
   const Vector2 velocity = (place - state_.position[tip_]) / scene_->schedule.time_step;
   place_tip(place, outward);
   state_.velocity[tip_] = velocity;
-  evaluate_contact_forces(*scene_, state_, workspace_);
+  evaluate_contact_forces(*scene_, state_, workspace_, workers_);
   return state_.friction_force[tip_];
 }
 

@@ -33,6 +33,7 @@ class Probe {
   std::shared_ptr<Scene> scene_;
   State state_;
   ContactWorkspace workspace_;
+  Workers workers_{1};
   int tip_ = 0;
 };
 

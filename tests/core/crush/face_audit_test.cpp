@@ -91,8 +91,9 @@ TEST_P(FaceAudit, FindsEveryTouchThatPushesWithTheForceOfTheBuckets) {
     }
     State reference = with_candidates_of_buckets(*scene, state);
     ContactWorkspace workspace;
-    evaluate_contact_forces(*scene, state, workspace);
-    evaluate_contact_forces(*scene, reference, workspace);
+    Workers workers(1);
+    evaluate_contact_forces(*scene, state, workspace, workers);
+    evaluate_contact_forces(*scene, reference, workspace, workers);
     const double scale = scene->contact.stiffness * scene->elements.front().thickness;
     difference = std::max(difference, difference_of_forces(state, reference) / scale);
   }
