@@ -1,24 +1,25 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <vector>
 
 #include "cellcrush/state.h"
 
 namespace cellcrush {
 
-/// The candidates that are tested in a step.
+/// The candidates that are tested in a step: the first `count` of each array.
 struct AwakeCandidates {
-  std::vector<std::int64_t> place;  ///< into State::candidate_ball, ascending
+  std::vector<int> place;  ///< into State::candidate_ball, ascending
   std::vector<int> ball;
   std::vector<int> segment;
   std::vector<double> reach;   ///< mm
   std::vector<double> travel;  ///< mm, of the group; by buckets the lowest there is
   std::vector<double> alarm;   ///< mm, travel at which it is tested next; infinite: it overlaps
 
-  [[nodiscard]] std::size_t count() const { return place.size(); }
-  void resize();
+  std::size_t count = 0;
+
+  /// Room for so many; the arrays do not shrink.
+  void make_room(std::size_t most);
 };
 
 /// A pair that touches and did not in the step before.
@@ -68,7 +69,6 @@ struct ContactWorkspace {
   std::vector<Newcomer> newcomers;
   TouchMemory before;  ///< State::touching of the step before
   Touches touches;
-  std::vector<std::int64_t> parted;  ///< of State::touching, then room for kSpareParted
   std::vector<Push> pushes;
 };
 

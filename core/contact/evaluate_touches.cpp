@@ -57,11 +57,11 @@ bool evaluate_touch(const Scene& scene, State& state, Touches& touches, std::siz
   return !(depth > 0.0);
 }
 
-std::size_t evaluate_touches_plain(const Scene& scene, State& state, Touches& touches, std::int64_t* parted) {
+std::size_t evaluate_touches_plain(const Scene& scene, State& state, Touches& touches) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < state.touching.count(); ++i) {
     if (evaluate_touch(scene, state, touches, i)) {
-      parted[count++] = static_cast<std::int64_t>(i);
+      state.parted[count++] = static_cast<int>(i);
     }
   }
   return count;
@@ -70,13 +70,10 @@ std::size_t evaluate_touches_plain(const Scene& scene, State& state, Touches& to
 }  // namespace
 
 void evaluate_touches(const Scene& scene, State& state, ContactWorkspace& workspace) {
-  workspace.parted.resize(state.touching.count() + kSpareParted);
+  state.parted.resize(state.touching.count());
   const auto evaluate = use_wide_kernels() ? evaluate_touches_wide : evaluate_touches_plain;
-  const std::size_t count = evaluate(scene, state, workspace.touches, workspace.parted.data());
-  state.parted.clear();
-  for (std::size_t k = 0; k < count; ++k) {
-    const auto i = static_cast<int>(workspace.parted[k]);
-    state.parted.push_back(i);
+  state.parted.resize(evaluate(scene, state, workspace.touches));
+  for (const int i : state.parted) {
     wake_candidate(state, state.touching.place[i], state.touching.ball[i], state.touching.segment[i]);
   }
 }
