@@ -14,27 +14,44 @@
 namespace cellcrush {
 namespace {
 
-/// Each thread clears what it will move, so that its cache has it.
-void clear_forces(State& state, Workers& workers) {
-  workers.share(state.position.size(), [&](std::size_t first, std::size_t end) {
-    for (auto* forces : {&state.contact_force, &state.contact_damping_force, &state.friction_force}) {
-      if (!forces->empty()) {
-        // As one row of numbers, which is cleared by the widest stores.
-        std::fill_n(forces->front().data() + 2 * first, 2 * (end - first), 0.0);
-      }
+/// Clears the forces of contacts where the step before left some: at the particles of pairs and of plates.
+void clear_forces(const Scene& scene, State& state) {
+  const auto clear = [&](std::vector<Vector2>& field) {
+    Vector2* forces = field.data();
+    for (std::size_t i = 0; i < state.touching.count(); ++i) {
+      const Element& element = scene.elements[state.touching.segment[i]];
+      forces[state.touching.ball[i]].setZero();
+      forces[element.start].setZero();
+      forces[element.end].setZero();
     }
-  });
+    for (const int particle : state.plate_touching) {
+      forces[particle].setZero();
+    }
+  };
+  clear(state.contact_force);
+  clear(state.contact_damping_force);
+  if (!state.friction_force.empty()) {
+    clear(state.friction_force);
+  }
 }
 
-/// Adds a force on the ball of a touch and its reaction on the segment, shared by the lever rule.
-void add_pair(const Scene& scene, const State& state, const Touches& touches, int touch, const Vector2& force,
-              std::vector<Vector2>& forces) {
-  const Element& element = scene.elements[state.touching.segment[touch]];
-  const double share = touches.share[touch];
-  forces[state.touching.ball[touch]] += force;
-  forces[element.start] -= (1.0 - share) * force;
-  forces[element.end] -= share * force;
-}
+/// A force on the ball of a touch and its reaction on the segment, shared by the lever rule.
+struct PairForces {
+  int ball;
+  const Element& element;
+  double share;
+
+  PairForces(const Scene& scene, const State& state, const Touches& touches, int touch)
+      : ball(state.touching.ball[touch]),
+        element(scene.elements[state.touching.segment[touch]]),
+        share(touches.share[touch]) {}
+
+  void add(const Vector2& force, Vector2* forces) const {
+    forces[ball] += force;
+    forces[element.start] -= (1.0 - share) * force;
+    forces[element.end] -= share * force;
+  }
+};
 
 /// Takes back half of what the touch of two balls would store: the node's ball counts the pair as well, and pushes on its
 /// own where the node lies under the ball's segments.
@@ -47,27 +64,42 @@ void take_back_node(const Scene& scene, State& state, const Touches& touches, in
   state.contact_stored -= 0.5 * stiffness * depth * depth;
 }
 
-/// Adds the normal force of a touch, and notes what of it friction goes by.
-void apply_normal_force(const Scene& scene, State& state, const Touches& touches, Push& push) {
-  const int touch = push.touch;
-  const double stiffness = scene.contact.stiffness;
+/// Notes how deep a touch is, over the thinner of its walls.
+void note_depth(State& state, const Touches& touches, int touch, double thinner) {
   const double depth = touches.depth[touch];
-  add_pair(scene, state, touches, touch, stiffness * depth * touches.normal[touch], state.contact_force);
-  state.contact_stored += 0.5 * stiffness * depth * depth;
-  if (push.has_pair) {
-    const NormalForce net = without_pull(stiffness * push.net_depth, touches.viscous[touch]);
-    add_pair(scene, state, touches, touch, net.viscous * touches.normal[touch], state.contact_damping_force);
-    push.normal_force = net.elastic + net.viscous;
+  // Without a division but for a record.
+  if (depth > state.deepest_penetration * thinner) {
+    state.deepest_penetration = depth / thinner;
   }
-  if (push.node_touch != Push::kNone) {
-    take_back_node(scene, state, touches, push.node_touch);
+  if (touches.known[touch] == Touches::kNew && depth > state.deepest_birth * thinner) {
+    state.deepest_birth = depth / thinner;
   }
-  const double thinner =
-      std::min(2.0 * scene.radius[state.touching.ball[touch]], scene.elements[state.touching.segment[touch]].thickness);
-  state.deepest_penetration = std::max(state.deepest_penetration, depth / thinner);
-  if (touches.known[touch] == Touches::kNew) {
-    state.deepest_birth = std::max(state.deepest_birth, depth / thinner);
+}
+
+/// Adds the normal forces, and notes what of each friction goes by.
+void apply_normal_forces(const Scene& scene, State& state, ContactWorkspace& workspace) {
+  const Touches& touches = workspace.touches;
+  const double stiffness = scene.contact.stiffness;
+  Vector2* forces = state.contact_force.data();
+  Vector2* damping_forces = state.contact_damping_force.data();
+  double squared_depths = 0.0;
+  for (Push& push : workspace.pushes) {
+    const double depth = touches.depth[push.touch];
+    const Vector2 normal = touches.normal[push.touch];
+    const PairForces pair(scene, state, touches, push.touch);
+    pair.add(stiffness * depth * normal, forces);
+    squared_depths += depth * depth;
+    if (push.has_pair) {
+      const NormalForce net = without_pull(stiffness * push.net_depth, touches.viscous[push.touch]);
+      pair.add(net.viscous * normal, damping_forces);
+      push.normal_force = net.elastic + net.viscous;
+    }
+    if (push.node_touch != Push::kNone) {
+      take_back_node(scene, state, touches, push.node_touch);
+    }
+    note_depth(state, touches, push.touch, std::min(2.0 * scene.radius[pair.ball], pair.element.thickness));
   }
+  state.contact_stored += 0.5 * stiffness * squared_depths;
 }
 
 /// Along the segment where the ball touches its side, turned with the normal round its ends.
@@ -138,7 +170,8 @@ void apply_friction(const Scene& scene, State& state, const ContactWorkspace& wo
                                          scene.contact.friction * push.normal_force);
     state.touching.friction[push.touch] = now;
     state.touching.pushed[push.touch] = push.has_pair ? state.touching.side[push.touch] : 0;
-    add_pair(scene, state, touches, push.touch, now * tangent_of(state, touches, push.touch), state.friction_force);
+    const PairForces pair(scene, state, touches, push.touch);
+    pair.add(now * tangent_of(state, touches, push.touch), state.friction_force.data());
   }
 }
 
@@ -146,15 +179,13 @@ void apply_friction(const Scene& scene, State& state, const ContactWorkspace& wo
 
 void evaluate_contact_forces(const Scene& scene, State& state, ContactWorkspace& workspace, Workers& workers) {
   workspace.parts.resize(static_cast<std::size_t>(workers.count()));
-  clear_forces(state, workers);
+  clear_forces(scene, state);
   state.contact_stored = 0.0;
   find_overlaps(scene, state, workspace, workers);
   remember_touches(scene, state, workspace);
   evaluate_touches(scene, state, workspace, workers);
   find_pushes(scene, state, workspace, workers);
-  for (Push& push : workspace.pushes) {
-    apply_normal_force(scene, state, workspace.touches, push);
-  }
+  apply_normal_forces(scene, state, workspace);
   state.contact_count = static_cast<std::int64_t>(workspace.pushes.size());
   if (scene.contact.friction > 0.0) {
     apply_friction(scene, state, workspace);

@@ -2,12 +2,15 @@
 
 namespace cellcrush {
 
-void AwakeCandidates::resize() {
-  ball.resize(count());
-  segment.resize(count());
-  reach.resize(count());
-  travel.resize(count());
-  alarm.resize(count());
+void AwakeCandidates::make_room(std::size_t most) {
+  if (place.size() < most) {
+    place.resize(most);
+    ball.resize(most);
+    segment.resize(most);
+    reach.resize(most);
+    travel.resize(most);
+    alarm.resize(most);
+  }
 }
 
 void Touches::resize(std::size_t count) {

@@ -1,24 +1,25 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <vector>
 
 #include "cellcrush/state.h"
 
 namespace cellcrush {
 
-/// The candidates that are tested in a step.
+/// The candidates that are tested in a step: the first `count` of each array.
 struct AwakeCandidates {
-  std::vector<std::int64_t> place;  ///< into State::candidate_ball, ascending
+  std::vector<int> place;  ///< into State::candidate_ball, ascending
   std::vector<int> ball;
   std::vector<int> segment;
   std::vector<double> reach;   ///< mm
   std::vector<double> travel;  ///< mm, of the group; by buckets the lowest there is
   std::vector<double> alarm;   ///< mm, travel at which it is tested next; infinite: it overlaps
 
-  [[nodiscard]] std::size_t count() const { return place.size(); }
-  void resize();
+  std::size_t count = 0;
+
+  /// Room for so many; the arrays do not shrink.
+  void make_room(std::size_t most);
 };
 
 /// A pair that touches and did not in the step before.
@@ -64,9 +65,8 @@ struct Push {
 /// What a thread works with; what it makes is put behind what those before it made.
 struct ContactPart {
   AwakeCandidates awake;
-  std::vector<int> found;            ///< places of the candidates that have begun to overlap, ascending
-  std::vector<std::int64_t> parted;  ///< of State::touching, then room for kSpareParted
-  std::size_t parted_count = 0;
+  std::vector<int> found;   ///< places of the candidates that have begun to overlap, ascending
+  std::vector<int> parted;  ///< of State::touching
   std::vector<Push> pushes;
 };
 

@@ -58,11 +58,11 @@ bool evaluate_touch(const Scene& scene, State& state, Touches& touches, std::siz
 }
 
 std::size_t evaluate_touches_plain(const Scene& scene, State& state, Touches& touches, std::size_t first,
-                                   std::size_t end, std::int64_t* parted) {
+                                   std::size_t end, int* parted) {
   std::size_t count = 0;
   for (std::size_t i = first; i < end; ++i) {
     if (evaluate_touch(scene, state, touches, i)) {
-      parted[count++] = static_cast<std::int64_t>(i);
+      parted[count++] = static_cast<int>(i);
     }
   }
   return count;
@@ -72,15 +72,14 @@ std::size_t evaluate_touches_plain(const Scene& scene, State& state, Touches& to
 
 void evaluate_touches(const Scene& scene, State& state, ContactWorkspace& workspace, Workers& workers) {
   const auto evaluate = use_wide_kernels() ? evaluate_touches_wide : evaluate_touches_plain;
-  workers.share_parts(state.touching.count(), kSpareParted, [&](std::size_t p, std::size_t first, std::size_t end) {
-    ContactPart& part = workspace.parts[p];
-    part.parted.resize(end - first + kSpareParted);
-    part.parted_count = evaluate(scene, state, workspace.touches, first, end, part.parted.data());
+  workers.share_parts(state.touching.count(), kCandidateBatch, [&](std::size_t p, std::size_t first, std::size_t end) {
+    std::vector<int>& parted = workspace.parts[p].parted;
+    parted.resize(end - first);
+    parted.resize(evaluate(scene, state, workspace.touches, first, end, parted.data()));
   });
   state.parted.clear();
   for (const ContactPart& part : workspace.parts) {
-    for (std::size_t k = 0; k < part.parted_count; ++k) {
-      const auto i = static_cast<int>(part.parted[k]);
+    for (const int i : part.parted) {
       state.parted.push_back(i);
       wake_candidate(state, state.touching.place[i], state.touching.ball[i], state.touching.segment[i]);
     }

@@ -13,18 +13,18 @@ namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-std::size_t find_awake_plain(const State& state, std::size_t first, std::size_t end, std::int64_t* places) {
+std::size_t find_awake_plain(const State& state, std::size_t first, std::size_t end, int* places) {
   std::size_t count = 0;
   for (std::size_t place = first; place < end; ++place) {
     const bool asleep = travel_of_batch(state, place / kCandidateBatch) < state.candidate_alarm[place];
-    places[count] = static_cast<std::int64_t>(place);
+    places[count] = static_cast<int>(place);
     count += asleep ? 0 : 1;
   }
   return count;
 }
 
 void test_awake_plain(const Scene& scene, const State& state, AwakeCandidates& awake) {
-  for (std::size_t i = 0; i < awake.count(); ++i) {
+  for (std::size_t i = 0; i < awake.count; ++i) {
     const int segment = awake.segment[i];
     const double reach = awake.reach[i];
     const Projection foot = project(state.position[awake.ball[i]], state.position[scene.elements[segment].start],
@@ -38,9 +38,8 @@ void test_awake_plain(const Scene& scene, const State& state, AwakeCandidates& a
 /// What the test reads of the candidates that are awake.
 void collect(const State& state, AwakeCandidates& awake) {
   const bool sleeps = !state.batch_group.empty();
-  awake.resize();
-  for (std::size_t i = 0; i < awake.count(); ++i) {
-    const std::int64_t place = awake.place[i];
+  for (std::size_t i = 0; i < awake.count; ++i) {
+    const auto place = static_cast<std::size_t>(awake.place[i]);
     awake.ball[i] = state.candidate_ball[place];
     awake.segment[i] = state.candidate_segment[place];
     awake.reach[i] = state.candidate_reach[place];
@@ -51,16 +50,16 @@ void collect(const State& state, AwakeCandidates& awake) {
 /// The candidates from `first` to `end` that overlap; sets the alarms of the others that are awake.
 void find_overlaps_in(const Scene& scene, State& state, std::size_t first, std::size_t end, ContactPart& part) {
   AwakeCandidates& awake = part.awake;
-  awake.place.resize(end - first + kSparePlaces);
+  awake.make_room(end - first);
   const bool is_wide = use_wide_kernels();
-  awake.place.resize((is_wide ? find_awake_wide : find_awake_plain)(state, first, end, awake.place.data()));
+  awake.count = (is_wide ? find_awake_wide : find_awake_plain)(state, first, end, awake.place.data());
   collect(state, awake);
   (is_wide ? test_awake_wide : test_awake_plain)(scene, state, awake);
   part.found.clear();
-  for (std::size_t i = 0; i < awake.count(); ++i) {
+  for (std::size_t i = 0; i < awake.count; ++i) {
     state.candidate_alarm[awake.place[i]] = awake.alarm[i];
     if (awake.alarm[i] == kNever) {
-      part.found.push_back(static_cast<int>(awake.place[i]));
+      part.found.push_back(awake.place[i]);
     }
   }
 }

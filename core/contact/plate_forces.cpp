@@ -2,6 +2,8 @@
 
 #include "contact/friction.h"
 #include "contact/normal_force.h"
+#include "contact/wide_plates.h"
+#include "simd/target.h"
 
 namespace cellcrush {
 namespace {
@@ -30,13 +32,26 @@ void push(const Scene& scene, State& state, const Plate& plate, std::size_t part
     plate.sum.elastic += force.elastic;
     plate.sum.viscous += force.viscous;
   }
-  if (plate.friction != nullptr) {
+  if (plate.friction != nullptr && (depth > 0.0 || plate.friction[particle] != 0.0)) {
     const double slip = scene.schedule.time_step * state.velocity[particle][1 - axis];
     double& friction = plate.friction[particle];
     friction = evaluate_friction(friction, scene.plates.stiffness, slip,
                                  scene.plates.friction * (force.elastic + force.viscous));
     state.friction_force[particle][1 - axis] += friction;
   }
+}
+
+std::size_t find_near_plates_plain(const Scene& scene, const State& state, double impact_face, double support_face,
+                                   int* near) {
+  std::size_t count = 0;
+  const bool rubs = !state.impact_friction.empty();
+  for (std::size_t i = 0; i < scene.particle_count(); ++i) {
+    const double place = state.position[i][scene.plates.axis];
+    const bool reaches = place - scene.radius[i] < impact_face || place + scene.radius[i] > support_face;
+    near[count] = static_cast<int>(i);
+    count += reaches || (rubs && (state.impact_friction[i] != 0.0 || state.support_friction[i] != 0.0)) ? 1 : 0;
+  }
+  return count;
 }
 
 }  // namespace
@@ -54,15 +69,12 @@ void evaluate_plate_forces(const Scene& scene, State& state) {
                         rubs ? state.impact_friction.data() : nullptr};
   const Plate support = {plates.support_face, 0.0, -1.0, state.support_force,
                          rubs ? state.support_friction.data() : nullptr};
-  for (std::size_t i = 0; i < scene.particle_count(); ++i) {
-    const double place = state.position[i][plates.axis];
-    // Friction ends in the step in which a particle leaves its plate, so that particles are looked at that still have some.
-    if (place - scene.radius[i] < impact.face || (rubs && impact.friction[i] != 0.0)) {
-      push(scene, state, impact, i);
-    }
-    if (place + scene.radius[i] > support.face || (rubs && support.friction[i] != 0.0)) {
-      push(scene, state, support, i);
-    }
+  state.plate_touching.resize(scene.particle_count());
+  const auto find_near = use_wide_kernels() ? find_near_plates_wide : find_near_plates_plain;
+  state.plate_touching.resize(find_near(scene, state, impact.face, support.face, state.plate_touching.data()));
+  for (const int particle : state.plate_touching) {
+    push(scene, state, impact, static_cast<std::size_t>(particle));
+    push(scene, state, support, static_cast<std::size_t>(particle));
   }
 }
 

@@ -8,6 +8,9 @@ namespace cellcrush {
 /// Overwrites the forces of the rigid, unilateral plates on every particle whose ball reaches into them, by the
 /// penalty law of the walls. Forces are positive in compression: the impact plate pushes along the crush, the support plate
 /// against it. Friction acts across the crush; it is added to friction_force, which evaluate_contact_forces has cleared.
+///
+/// All particles are held against the plates, eight at a time; of those few that reach a plate, or that leave it in this step
+/// with some friction, are the forces evaluated.
 void evaluate_plate_forces(const Scene& scene, State& state);
 
 }  // namespace cellcrush

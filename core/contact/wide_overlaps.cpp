@@ -15,6 +15,8 @@ namespace cellcrush::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
+constexpr int kMostLanes = 8;
+
 /// How balls stand to segments, w being the way from the segment's start to the ball and u the segment.
 template <class D>
 struct Standing {
@@ -27,17 +29,17 @@ struct Standing {
 template <class D>
 HWY_INLINE Standing<D> standing_of(D d, const Scene& scene, const State& state, const AwakeCandidates& awake,
                                    std::size_t i) {
-  constexpr int kInts = sizeof(Element) / sizeof(int);
   const Vector2* positions = state.position.data();
-  const hn::RebindToSigned<D> wide;
-  const hn::Rebind<int, D> narrow;
-  const auto element = hn::Mul(hn::LoadU(narrow, &awake.segment[i]), hn::Set(narrow, kInts));
-  const auto node = [&](const int* nodes) HWY_ATTR {
-    return gather_points(d, positions, hn::PromoteTo(wide, hn::GatherIndex(narrow, nodes, element)));
-  };
-  const Points<D> start = node(&scene.elements.front().start);
-  const Points<D> end = node(&scene.elements.front().end);
-  const Points<D> ball = gather_points(d, positions, load_indices(d, &awake.ball[i]));
+  int start_nodes[kMostLanes];
+  int end_nodes[kMostLanes];
+  for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) {
+    const Element& element = scene.elements[awake.segment[i + lane]];
+    start_nodes[lane] = element.start;
+    end_nodes[lane] = element.end;
+  }
+  const Points<D> start = gather_points(d, positions, start_nodes);
+  const Points<D> end = gather_points(d, positions, end_nodes);
+  const Points<D> ball = gather_points(d, positions, &awake.ball[i]);
   const Points<D> along = {hn::Sub(end.x, start.x), hn::Sub(end.y, start.y)};
   const Points<D> away = {hn::Sub(ball.x, start.x), hn::Sub(ball.y, start.y)};
   return {hn::LoadU(d, &awake.reach[i]), dot(away, away), dot(away, along), dot(along, along)};
@@ -68,18 +70,14 @@ HWY_INLINE hn::Vec<D> gap(D d, const Standing<D>& at) {
   return hn::Sub(hn::Sqrt(hn::Max(squared, zero)), at.reach);
 }
 
-std::size_t find_awake(const State& state, std::size_t first, std::size_t end, std::int64_t* places) {
+std::size_t find_awake(const State& state, std::size_t first, std::size_t end, int* places) {
   const hn::CappedTag<double, kCandidateBatch> d;
-  const hn::RebindToSigned<decltype(d)> wide;
   std::size_t count = 0;
   for (std::size_t batch = first; batch < end; batch += kCandidateBatch) {
     const auto travel = hn::Set(d, travel_of_batch(state, batch / kCandidateBatch));
     for (std::size_t place = batch; place < batch + kCandidateBatch; place += hn::Lanes(d)) {
       const auto asleep = hn::Lt(travel, hn::LoadU(d, &state.candidate_alarm[place]));
-      if (!hn::AllTrue(d, asleep)) {
-        const auto awake = hn::RebindMask(wide, hn::Not(asleep));
-        count += hn::CompressStore(hn::Iota(wide, static_cast<std::int64_t>(place)), awake, wide, places + count);
-      }
+      count += write_set_lanes(d, hn::Not(asleep), place, places + count);
     }
   }
   return count;
@@ -94,13 +92,13 @@ HWY_INLINE void test(D d, const Scene& scene, const State& state, AwakeCandidate
 }
 
 void test_awake(const Scene& scene, const State& state, AwakeCandidates& awake) {
-  const hn::CappedTag<double, 8> wide;
+  const hn::CappedTag<double, kMostLanes> wide;
   const hn::CappedTag<double, 1> one;
   std::size_t i = 0;
-  for (; i + hn::Lanes(wide) <= awake.count(); i += hn::Lanes(wide)) {
+  for (; i + hn::Lanes(wide) <= awake.count; i += hn::Lanes(wide)) {
     test(wide, scene, state, awake, i);
   }
-  for (; i < awake.count(); ++i) {
+  for (; i < awake.count; ++i) {
     test(one, scene, state, awake, i);
   }
 }
@@ -114,7 +112,7 @@ namespace cellcrush {
 HWY_EXPORT(find_awake);
 HWY_EXPORT(test_awake);
 
-std::size_t find_awake_wide(const State& state, std::size_t first, std::size_t end, std::int64_t* places) {
+std::size_t find_awake_wide(const State& state, std::size_t first, std::size_t end, int* places) {
   return HWY_DYNAMIC_DISPATCH(find_awake)(state, first, end, places);
 }
 

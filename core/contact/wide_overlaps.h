@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
@@ -12,11 +11,8 @@ namespace cellcrush {
 // The loops of find_overlaps with the processor's vector instructions.
 
 /// Writes the places from `first` to `end`, whole batches, of the candidates that are awake; returns how many there are.
-/// REQUIRES: room for all of them and kSparePlaces more.
-std::size_t find_awake_wide(const State& state, std::size_t first, std::size_t end, std::int64_t* places);
-
-/// Room that vectors may write over.
-inline constexpr std::size_t kSparePlaces = 8;
+/// REQUIRES: room for all of them.
+std::size_t find_awake_wide(const State& state, std::size_t first, std::size_t end, int* places);
 
 /// Overwrites the alarms of those that are awake: infinite of those that overlap.
 void test_awake_wide(const Scene& scene, const State& state, AwakeCandidates& awake);

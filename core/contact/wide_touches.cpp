@@ -12,35 +12,27 @@ namespace cellcrush::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// A few indices, of as many as there are lanes.
-template <class D>
-struct Indices {
-  hn::Vec<hn::Rebind<int, D>> narrow;
+constexpr int kMostLanes = 8;
 
-  [[nodiscard]] HWY_INLINE hn::Vec<hn::RebindToSigned<D>> wide() const {
-    return hn::PromoteTo(hn::RebindToSigned<D>(), narrow);
-  }
-};
-
-/// Balls and their segments with both particles.
-template <class D>
+/// Balls and their segments with both particles, a pair a lane.
 struct PairIndices {
-  Indices<D> ball;
-  Indices<D> segment;
-  Indices<D> start;
-  Indices<D> end;
+  const int* ball;
+  const int* segment;
+  int start[kMostLanes];
+  int end[kMostLanes];
 };
 
 template <class D>
-HWY_INLINE PairIndices<D> pair_indices(D, const Scene& scene, const TouchMemory& touching, std::size_t i) {
-  constexpr int kInts = sizeof(Element) / sizeof(int);
-  const hn::Rebind<int, D> narrow;
-  const auto segment = hn::LoadU(narrow, &touching.segment[i]);
-  const auto element = hn::Mul(segment, hn::Set(narrow, kInts));
-  return {{hn::LoadU(narrow, &touching.ball[i])},
-          {segment},
-          {hn::GatherIndex(narrow, &scene.elements.front().start, element)},
-          {hn::GatherIndex(narrow, &scene.elements.front().end, element)}};
+HWY_INLINE PairIndices pair_indices(D d, const Scene& scene, const TouchMemory& touching, std::size_t i) {
+  PairIndices pair;
+  pair.ball = &touching.ball[i];
+  pair.segment = &touching.segment[i];
+  for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) {
+    const Element& element = scene.elements[pair.segment[lane]];
+    pair.start[lane] = element.start;
+    pair.end[lane] = element.end;
+  }
+  return pair;
 }
 
 template <class D>
@@ -63,16 +55,16 @@ struct Stand {
 };
 
 template <class D>
-HWY_INLINE Stand<D> evaluate_stand(D d, State& state, Touches& touches, const PairIndices<D>& pair, std::size_t i) {
+HWY_INLINE Stand<D> evaluate_stand(D d, State& state, Touches& touches, const PairIndices& pair, std::size_t i) {
   const hn::Rebind<int, D> narrow;
   const auto zero = hn::Zero(d);
   const auto one = hn::Set(d, 1.0);
   const Vector2* positions = state.position.data();
-  const Points<D> axis = gather_points(d, state.axis.data(), pair.segment.wide());
-  const auto length = hn::GatherIndex(d, state.length.data(), pair.segment.wide());
-  const Points<D> ball = gather_points(d, positions, pair.ball.wide());
-  const Points<D> from_start = difference<D>(ball, gather_points(d, positions, pair.start.wide()));
-  const Points<D> from_end = difference<D>(ball, gather_points(d, positions, pair.end.wide()));
+  const Points<D> axis = gather_points(d, state.axis.data(), pair.segment);
+  const auto length = hn::GatherIndex(d, state.length.data(), load_indices(d, pair.segment));
+  const Points<D> ball = gather_points(d, positions, pair.ball);
+  const Points<D> from_start = difference<D>(ball, gather_points(d, positions, pair.start));
+  const Points<D> from_end = difference<D>(ball, gather_points(d, positions, pair.end));
   const auto end_is_nearer = hn::Lt(dot(from_end, from_end), dot(from_start, from_start));
   const Points<D> from_node = choose<D>(end_is_nearer, from_end, from_start);
   const auto node_distance = hn::Sqrt(dot(from_node, from_node));
@@ -90,7 +82,8 @@ HWY_INLINE Stand<D> evaluate_stand(D d, State& state, Touches& touches, const Pa
 
   const Points<D> across = {hn::Neg(hn::Mul(side, axis.y)), hn::Mul(side, axis.x)};
   const auto apart = hn::Gt(node_distance, zero);
-  const Points<D> unit = {hn::Div(from_node.x, node_distance), hn::Div(from_node.y, node_distance)};
+  const auto per_distance = hn::Div(one, node_distance);
+  const Points<D> unit = {hn::Mul(from_node.x, per_distance), hn::Mul(from_node.y, per_distance)};
   const Points<D> node_normal = choose<D>(apart, unit, across);
   const auto reach = hn::LoadU(d, &state.touching.reach[i]);
   const auto distance = hn::IfThenElse(inside, hn::Mul(side, signed_distance), node_distance);
@@ -101,8 +94,8 @@ HWY_INLINE Stand<D> evaluate_stand(D d, State& state, Touches& touches, const Pa
   hn::StoreU(depth, d, &touches.depth[i]);
   hn::StoreU(share, d, &touches.share[i]);
   store_points(d, normal, &touches.normal[i]);
-  const auto node =
-      hn::IfThenElse(end_is_nearer, hn::PromoteTo(d, pair.end.narrow), hn::PromoteTo(d, pair.start.narrow));
+  const auto node = hn::IfThenElse(end_is_nearer, hn::PromoteTo(d, hn::LoadU(narrow, pair.end)),
+                                   hn::PromoteTo(d, hn::LoadU(narrow, pair.start)));
   hn::StoreU(hn::DemoteTo(narrow, node), narrow, &touches.node[i]);
   hn::StoreU(hn::IfThenElseZero(apart, hn::Sub(reach, node_distance)), d, &touches.node_depth[i]);
   store_points(d, node_normal, &touches.node_normal[i]);
@@ -110,19 +103,19 @@ HWY_INLINE Stand<D> evaluate_stand(D d, State& state, Touches& touches, const Pa
 }
 
 template <class D>
-HWY_INLINE void evaluate_motion(D d, const Scene& scene, const State& state, Touches& touches,
-                                const PairIndices<D>& pair, const Stand<D>& stand, std::size_t i) {
+HWY_INLINE void evaluate_motion(D d, const Scene& scene, const State& state, Touches& touches, const PairIndices& pair,
+                                const Stand<D>& stand, std::size_t i) {
   const auto to_end = stand.share;
   const auto to_start = hn::Sub(hn::Set(d, 1.0), to_end);
-  const Points<D> start = gather_points(d, state.velocity.data(), pair.start.wide());
-  const Points<D> end = gather_points(d, state.velocity.data(), pair.end.wide());
-  const Points<D> ball = gather_points(d, state.velocity.data(), pair.ball.wide());
+  const Points<D> start = gather_points(d, state.velocity.data(), pair.start);
+  const Points<D> end = gather_points(d, state.velocity.data(), pair.end);
+  const Points<D> ball = gather_points(d, state.velocity.data(), pair.ball);
   const Points<D> closing = {hn::MulAdd(to_start, start.x, hn::MulSub(to_end, end.x, ball.x)),
                              hn::MulAdd(to_start, start.y, hn::MulSub(to_end, end.y, ball.y))};
   const double* inverse_masses = scene.inverse_mass.data();
-  const auto of_start = hn::GatherIndex(d, inverse_masses, pair.start.wide());
-  const auto of_end = hn::GatherIndex(d, inverse_masses, pair.end.wide());
-  const auto of_ball = hn::GatherIndex(d, inverse_masses, pair.ball.wide());
+  const auto of_start = hn::GatherIndex(d, inverse_masses, load_indices(d, pair.start));
+  const auto of_end = hn::GatherIndex(d, inverse_masses, load_indices(d, pair.end));
+  const auto of_ball = hn::GatherIndex(d, inverse_masses, load_indices(d, pair.ball));
   const auto inverse_mass =
       hn::MulAdd(hn::Mul(to_start, to_start), of_start, hn::MulAdd(hn::Mul(to_end, to_end), of_end, of_ball));
   const auto critical = hn::Sqrt(hn::Div(hn::Set(d, scene.contact.stiffness), inverse_mass));
@@ -135,27 +128,25 @@ HWY_INLINE void evaluate_motion(D d, const Scene& scene, const State& state, Tou
 /// Returns the lanes whose pairs have parted.
 template <class D>
 HWY_INLINE hn::Mask<D> evaluate_pairs(D d, const Scene& scene, State& state, Touches& touches, std::size_t i) {
-  const PairIndices<D> pair = pair_indices(d, scene, state.touching, i);
+  const PairIndices pair = pair_indices(d, scene, state.touching, i);
   const Stand<D> stand = evaluate_stand(d, state, touches, pair, i);
   evaluate_motion(d, scene, state, touches, pair, stand, i);
   return hn::Not(hn::Gt(stand.depth, hn::Zero(d)));
 }
 
 std::size_t evaluate_all(const Scene& scene, State& state, Touches& touches, std::size_t first, std::size_t end,
-                         std::int64_t* parted) {
-  const hn::CappedTag<double, kSpareParted> wide;
+                         int* parted) {
+  const hn::CappedTag<double, kMostLanes> wide;
   const hn::CappedTag<double, 1> one;
-  const hn::RebindToSigned<decltype(wide)> places;
   std::size_t parted_count = 0;
   std::size_t i = first;
   for (; i + hn::Lanes(wide) <= end; i += hn::Lanes(wide)) {
-    const auto apart = hn::RebindMask(places, evaluate_pairs(wide, scene, state, touches, i));
-    parted_count +=
-        hn::CompressStore(hn::Iota(places, static_cast<std::int64_t>(i)), apart, places, parted + parted_count);
+    const auto apart = evaluate_pairs(wide, scene, state, touches, i);
+    parted_count += write_set_lanes(wide, apart, i, parted + parted_count);
   }
   for (; i < end; ++i) {
-    parted[parted_count] = static_cast<std::int64_t>(i);
-    parted_count += hn::AllTrue(one, evaluate_pairs(one, scene, state, touches, i)) ? 1 : 0;
+    const auto apart = evaluate_pairs(one, scene, state, touches, i);
+    parted_count += write_set_lanes(one, apart, i, parted + parted_count);
   }
   return parted_count;
 }
@@ -169,7 +160,7 @@ namespace cellcrush {
 HWY_EXPORT(evaluate_all);
 
 std::size_t evaluate_touches_wide(const Scene& scene, State& state, Touches& touches, std::size_t first,
-                                  std::size_t end, std::int64_t* parted) {
+                                  std::size_t end, int* parted) {
   return HWY_DYNAMIC_DISPATCH(evaluate_all)(scene, state, touches, first, end, parted);
 }
 

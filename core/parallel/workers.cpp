@@ -24,8 +24,8 @@ bool spin_until(const Condition& holds) {
 
 }  // namespace
 
-Workers::Workers(int count) {
-  for (std::size_t part = 1; part < static_cast<std::size_t>(count); ++part) {
+Workers::Workers(int count) : claimed_(static_cast<std::size_t>(count)) {
+  for (std::size_t part = 1; part < claimed_.size(); ++part) {
     threads_.emplace_back([this, part] { work(part); });
   }
 }
@@ -41,24 +41,34 @@ Workers::~Workers() {
 
 void Workers::run(const Job& job) {
   job_ = job;
-  pending_.store(static_cast<int>(threads_.size()), std::memory_order_relaxed);
-  round_.fetch_add(1, std::memory_order_release);
+  pending_.store(static_cast<int>(claimed_.size()), std::memory_order_relaxed);
+  const std::uint64_t round = round_.fetch_add(1, std::memory_order_release) + 1;
   round_.notify_all();
-  do_part(0);
+  for (std::size_t part = 0; part < claimed_.size(); ++part) {
+    if (claim(part, round)) {
+      do_part(part);
+    }
+  }
   const auto all_are_done = [this] { return pending_.load(std::memory_order_acquire) == 0; };
   while (!spin_until(all_are_done)) {
     std::this_thread::yield();
   }
 }
 
-void Workers::do_part(std::size_t part) const {
+void Workers::do_part(std::size_t part) {
   const std::size_t grains = (job_.items + job_.grain - 1) / job_.grain;
   const auto start_of = [&](std::size_t p) { return std::min(job_.items, start_of_part(grains, p) * job_.grain); };
   job_.call(job_.task, part, start_of(part), start_of(part + 1));
+  pending_.fetch_sub(1, std::memory_order_acq_rel);
+}
+
+bool Workers::claim(std::size_t part, std::uint64_t round) {
+  std::uint64_t before = claimed_[part].load(std::memory_order_relaxed);
+  return before < round && claimed_[part].compare_exchange_strong(before, round, std::memory_order_acq_rel);
 }
 
 void Workers::work(std::size_t part) {
-  for (std::uint64_t done = 0;; ++done) {
+  for (std::uint64_t done = 0;;) {
     const auto has_job = [&] { return round_.load(std::memory_order_acquire) != done; };
     if (!spin_until(has_job)) {
       round_.wait(done, std::memory_order_acquire);
@@ -66,8 +76,11 @@ void Workers::work(std::size_t part) {
     if (stopped_.load()) {
       return;
     }
-    do_part(part);
-    pending_.fetch_sub(1, std::memory_order_acq_rel);
+    done = round_.load(std::memory_order_acquire);
+    // A round that is over has been claimed, so the job of a claimed round is still there.
+    if (claim(part, done)) {
+      do_part(part);
+    }
   }
 }
 

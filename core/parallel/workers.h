@@ -9,8 +9,9 @@
 namespace cellcrush {
 
 /// Threads that share the loops of a step; the caller is the first of them. A loop's items are dealt out in even, contiguous
-/// parts, one a thread, always to the same threads, so that their caches keep them. What a loop computes must not depend on
-/// the deal: then the bits are the same for any number of threads.
+/// parts, one a thread, always to the same threads, so that their caches keep them; only a part whose thread has not begun
+/// when the caller is done with its own, because the machine is busy, is taken by the caller. What a loop computes must not
+/// depend on the deal: then the bits are the same for any number of threads.
 class Workers {
  public:
   /// REQUIRES: count >= 1.
@@ -54,12 +55,14 @@ class Workers {
   };
 
   void run(const Job& job);
-  void do_part(std::size_t part) const;
+  void do_part(std::size_t part);
+  bool claim(std::size_t part, std::uint64_t round);
   void work(std::size_t part);
 
   Job job_;
   alignas(64) std::atomic<std::uint64_t> round_{0};  // of the newest job
-  alignas(64) std::atomic<int> pending_{0};          // threads that are not done with it
+  alignas(64) std::atomic<int> pending_{0};          // parts that are not done
+  std::vector<std::atomic<std::uint64_t>> claimed_;  // of each part, the newest round in which somebody took it
   std::atomic<bool> stopped_{false};
   std::vector<std::thread> threads_;
 };

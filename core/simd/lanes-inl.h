@@ -8,6 +8,10 @@
 
 #include <hwy/highway.h>
 
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
 #include "cellcrush/vector.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -82,6 +86,58 @@ HWY_INLINE Points<D> gather_points(D d, const Vector2* points, hn::Vec<hn::Rebin
   const double* values = points->data();
   const auto twice = hn::Add(indices, indices);
   return {hn::GatherIndex(d, values, twice), hn::GatherIndex(d, values + 1, twice)};
+}
+
+#if HWY_TARGET != HWY_SCALAR
+/// Points that lie one after the other, the low half first.
+template <class D, class Half>
+HWY_INLINE Points<D> part_points(D d, Half low, Half high) {
+  return {hn::ConcatEven(d, high, low), hn::ConcatOdd(d, high, low)};
+}
+#endif
+
+/// Points of an array, of indices in memory: they are loaded whole and parted then.
+template <class D>
+HWY_INLINE Points<D> gather_points(D d, const Vector2* points, const int* indices) {
+#if HWY_TARGET != HWY_SCALAR
+  const auto load = [&](int lane)
+                        HWY_ATTR { return hn::LoadU(hn::CappedTag<double, 2>(), points[indices[lane]].data()); };
+  if constexpr (hn::MaxLanes(D()) == 2) {
+    return part_points(d, load(0), load(1));
+  }
+  if constexpr (hn::MaxLanes(D()) >= 4) {
+    const hn::CappedTag<double, 4> two_points;
+    const auto pair = [&](int lane) HWY_ATTR { return hn::Combine(two_points, load(lane + 1), load(lane)); };
+    if constexpr (hn::MaxLanes(D()) == 4) {
+      return part_points(d, pair(0), pair(2));
+    } else {
+      return part_points(d, hn::Combine(d, pair(2), pair(0)), hn::Combine(d, pair(6), pair(4)));
+    }
+  }
+#endif
+  if constexpr (hn::MaxLanes(D()) == 1) {
+    const double* values = points[indices[0]].data();
+    return {hn::Set(d, values[0]), hn::Set(d, values[1])};
+  }
+}
+
+/// Bits of the lanes that are set.
+template <class D>
+HWY_INLINE unsigned bits_of(D d, hn::Mask<D> mask) {
+  std::uint8_t bits[8] = {};
+  hn::StoreMaskBits(d, mask, bits);
+  return bits[0];
+}
+
+/// Writes the numbers of the lanes that are set, counted from `first`; returns how many there are. For masks of which few
+/// are set: one by one, which takes less time than a vector compressed.
+template <class D>
+HWY_INLINE std::size_t write_set_lanes(D d, hn::Mask<D> mask, std::size_t first, int* numbers) {
+  std::size_t count = 0;
+  for (unsigned bits = bits_of(d, mask); bits != 0; bits &= bits - 1) {
+    numbers[count++] = static_cast<int>(first) + std::countr_zero(bits);
+  }
+  return count;
 }
 
 template <class D>

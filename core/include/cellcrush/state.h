@@ -135,7 +135,10 @@ struct State {
   /// K, travel of the group at which a candidate is tested next; infinite while it is in `touching`, and of empty places.
   std::vector<double> candidate_alarm;
 
-  // Written by evaluate_contact_forces and evaluate_plate_forces.
+  // Written by evaluate_plate_forces.
+  std::vector<int> plate_touching;  ///< particles that a plate has acted on in the newest step, ascending
+
+  // Written by evaluate_contact_forces and evaluate_plate_forces; 0 but of particles that touch, or have parted just now.
   std::vector<Vector2> contact_force;          ///< N, of walls and plates, elastic part
   std::vector<Vector2> contact_damping_force;  ///< N, viscous part
   std::vector<Vector2> friction_force;         ///< N, of walls and plates; empty without friction
@@ -214,6 +217,7 @@ void visit_fields(S& state, Visitor&& visitor) {
   visitor("touching_friction", state.touching.friction);
   visitor("parted", state.parted);
   visitor("candidate_alarm", state.candidate_alarm);
+  visitor("plate_touching", state.plate_touching);
   visitor("contact_force", state.contact_force);
   visitor("contact_damping_force", state.contact_damping_force);
   visitor("friction_force", state.friction_force);

@@ -26,24 +26,6 @@ TEST(Workers, DealOutEveryItemOnceInContiguousParts) {
   }
 }
 
-TEST(Workers, GiveTheSameItemsToTheSameThread) {
-  Workers workers(3);
-  std::vector<std::thread::id> before(9);
-  for (int round = 0; round < 100; ++round) {
-    std::vector<std::thread::id> now(9);
-    workers.share(now.size(), [&](std::size_t first, std::size_t end) {
-      for (std::size_t i = first; i < end; ++i) {
-        now[i] = std::this_thread::get_id();
-      }
-    });
-    if (round > 0) {
-      EXPECT_EQ(now, before);
-    }
-    before = now;
-  }
-  EXPECT_EQ(before.front(), std::this_thread::get_id());
-}
-
 // Each loop reads what the other threads wrote in the loop before.
 TEST(Workers, ALoopSeesAllThatTheLoopBeforeWrote) {
   Workers workers(4);
