@@ -6,6 +6,7 @@
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
 #include "contact/contact_workspace.h"
+#include "parallel/workers.h"
 
 namespace cellcrush::scenes {
 
