@@ -92,19 +92,10 @@ class FaceFinder {
 
   FacePairs take() {
     pairs_.crossed = pairs_.crossed || is_turned();
-    std::stable_sort(near_.begin(), near_.end(), [](const Near& a, const Near& b) { return a.gap < b.gap; });
-    for (const Near& pair : near_) {
-      pairs_.candidates.push_back(pair.candidate);
-    }
     return std::move(pairs_);
   }
 
  private:
-  struct Near {
-    double gap;  ///< mm
-    Candidate candidate;
-  };
-
   /// Lists a pair that is near enough; says whether it was.
   bool keep(int corner, int segment, double squared_distance) {
     const int ball = particle_[corner];
@@ -117,7 +108,7 @@ class FaceFinder {
     pairs_.crossed = pairs_.crossed || cross_each_other(state_, scene_.elements[element_[before]], element) ||
                      cross_each_other(state_, scene_.elements[element_[corner]], element);
     if (!is_listed_elsewhere(ball, segment)) {
-      near_.push_back({std::sqrt(squared_distance) - reach, {ball, segment, reach}});
+      pairs_.candidates.push_back({ball, segment, reach});
     }
     return true;
   }
@@ -149,7 +140,6 @@ class FaceFinder {
   double largest_radius_ = 0.0;
   double thickest_ = 0.0;
   double longest_ = 0.0;
-  std::vector<Near> near_;
   FacePairs pairs_;
 };
 

@@ -13,8 +13,7 @@ inline constexpr int kManyCorners = 64;
 
 /// What lies near each other in a face.
 struct FacePairs {
-  std::vector<Candidate> candidates;  ///< closer than touch and skin, by ascending gaps; of pairs that two faces share,
-                                      ///< those of this face
+  std::vector<Candidate> candidates;  ///< closer than touch and skin; of pairs that two faces share, those of this face
   double least_gap = 0.0;  ///< mm that all other pairs of the face are apart beyond touch, at least; over the skin
   bool crossed = false;    ///< walls of the face have crossed, or it is turned inside out
 };

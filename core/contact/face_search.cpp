@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "contact/candidate_lists.h"
 #include "contact/face_pairs.h"
+#include "contact/wide_velocities.h"
+#include "simd/target.h"
 
 namespace cellcrush {
 namespace {
@@ -42,35 +45,23 @@ void give_up(State& state) {
   clear_candidates(state);
 }
 
+VelocityBox box_of_velocities_plain(const State& state, std::span<const int> members) {
+  VelocityBox box = {state.velocity[members.front()], state.velocity[members.front()]};
+  for (const int particle : members) {
+    // A velocity first: a minimum overwrites its first operand.
+    box.low = state.velocity[particle].cwiseMin(box.low);
+    box.high = state.velocity[particle].cwiseMax(box.high);
+  }
+  return box;
+}
+
 /// Diagonal of the box round the velocities of a group, mm/s.
 double spread_of_velocities(const ContactFaces& faces, const State& state, int group) {
-  constexpr int kLanes = 4;  // not to wait for one minimum after the other
-  const int* member = &faces.member[faces.member_offset[group]];
-  const int count = faces.member_offset[group + 1] - faces.member_offset[group];
-  Vector2 low[kLanes];
-  Vector2 high[kLanes];
-  for (int lane = 0; lane < kLanes; ++lane) {
-    low[lane] = high[lane] = state.velocity[member[0]];
-  }
-  // A velocity first: a minimum overwrites its first operand.
-  const auto take = [&](int lane, int i) {
-    low[lane] = state.velocity[member[i]].cwiseMin(low[lane]);
-    high[lane] = state.velocity[member[i]].cwiseMax(high[lane]);
-  };
-  int i = 0;
-  for (; i + kLanes <= count; i += kLanes) {
-    for (int lane = 0; lane < kLanes; ++lane) {
-      take(lane, i + lane);
-    }
-  }
-  for (; i < count; ++i) {
-    take(0, i);
-  }
-  for (int lane = 1; lane < kLanes; ++lane) {
-    low[0] = low[0].cwiseMin(low[lane]);
-    high[0] = high[0].cwiseMax(high[lane]);
-  }
-  return (high[0] - low[0]).norm();
+  const int first = faces.member_offset[group];
+  const std::span<const int> members(&faces.member[first], faces.member_offset[group + 1] - first);
+  const VelocityBox box =
+      use_wide_kernels() ? box_of_velocities_wide(state, members) : box_of_velocities_plain(state, members);
+  return (box.high - box.low).norm();
 }
 
 /// Diagonal of the box round the displacements of a face's particles since its list was made, mm.

@@ -97,7 +97,7 @@ void find_pushes_in(const Scene& scene, const State& state, const Touches& touch
     Push push;
     push.touch = touch;
     push.net_depth = depth;
-    // Nine in ten stand alone over the inside of a segment.
+    // Most stand alone over the inside of a segment.
     if (state.touching.linked[touch] != 0 || touches.node_depth[touch] > 0.0) {
       const BallTouches of_ball = touches_of_ball(scene, state, touches, touch);
       if (of_ball.yields_to_neighbour(touch)) {

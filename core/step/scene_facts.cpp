@@ -2,18 +2,22 @@
 #include "cellcrush/simulation.h"
 #include "cellcrush/state.h"
 #include "contact/candidate_lists.h"
+#include "contact/contact_workspace.h"
 #include "measure/theory.h"
 #include "scene/check_spec.h"
 
 namespace cellcrush {
 namespace {
 
-/// Bytes of a run: the state's and the scene's arrays. Contact candidates are counted at kCandidatesPerParticle, what a
-/// densified lattice has.
+/// Bytes of a run: the state's and the scene's arrays. Contact candidates are counted at kCandidatesPerParticle, pairs that
+/// touch one a particle: what a densified lattice has.
 std::int64_t memory_of(const Scene& scene) {
-  constexpr std::size_t kCandidatesPerParticle = 12;
-  const std::size_t per_particle =
-      9 * sizeof(Vector2) + 9 * sizeof(double) + 2 * sizeof(int) + kCandidatesPerParticle * sizeof(Candidate);
+  constexpr std::size_t kCandidatesPerParticle = 6;
+  // What is remembered of it in two steps, how it stands, and what pushes.
+  constexpr std::size_t kBytesPerTouch = 2 * (5 * sizeof(int) + sizeof(double)) + 2 * sizeof(int) + 5 * sizeof(double) +
+                                         2 * sizeof(Vector2) + sizeof(Push);
+  const std::size_t per_particle = 9 * sizeof(Vector2) + 9 * sizeof(double) + 2 * sizeof(int) +
+                                   kCandidatesPerParticle * (sizeof(Candidate) + sizeof(double)) + kBytesPerTouch;
   const std::size_t per_element = sizeof(Element) + 2 * sizeof(int) + sizeof(Vector2) + sizeof(double) +
                                   3 * (sizeof(Vector2) + sizeof(double)) / 2 + sizeof(std::uint64_t) +
                                   ((scene.has_hardening() ? 3 : 1) * scene.fibre_count() +

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "contact/bucket_search.h"
+#include "contact/contact_forces.h"
 #include "contact/find_contacts.h"
 #include "measure/sampler.h"
 #include "scenes/crossings.h"
@@ -106,14 +107,28 @@ TEST(FaceSearch, AgreesWithBruteForceOnRandomPlanarStates) {
   }
 }
 
+/// The pairs that push or could.
+Pairs touching_pairs(const State& state) {
+  Pairs pairs;
+  const TouchMemory& touching = state.touching;
+  for (std::size_t i = 0; i < touching.count(); ++i) {
+    if (touching.side[i] != 0) {
+      EXPECT_TRUE(pairs.emplace(touching.ball[i], touching.segment[i]).second) << "touches twice";
+    }
+  }
+  EXPECT_EQ(pairs.size() + state.parted.size(), touching.count());
+  return pairs;
+}
+
 // The particles are thrown about at random round a lattice that is squeezed flat and drawn out again, faster and slower,
-// with rests and with steps as long as the skin: no pair of a face may touch that is not listed in the very step.
+// with rests and with steps as long as the skin: no pair of a face may touch that is not listed and found in the very step.
 TEST(FaceSearch, MissesNoTouchUnderRandomKicks) {
   for (const char* lattice : {"hexagon", "square", "triangle"}) {
     const auto scene = scenes::build(block_of(lattice));
     const double step = scene->schedule.time_step;
     const FaceNeighbours neighbours(*scene);
     State state = make_initial_state(*scene);
+    ContactWorkspace workspace;
     std::mt19937 generator(17);
     std::uniform_real_distribution<double> even(-1.0, 1.0);
     double squeeze = 1.0;
@@ -135,11 +150,14 @@ TEST(FaceSearch, MissesNoTouchUnderRandomKicks) {
       scenes::follow_positions(*scene, state);
       find_contacts(*scene, state);
       ASSERT_LT(state.crossing_step, 0) << lattice << " at " << squeeze;
+      evaluate_contact_forces(*scene, state, workspace);
       const Pairs listed = listed_pairs(state);
+      const Pairs touching = touching_pairs(state);
       for (const scenes::Overlap& overlap : scenes::overlaps_by_buckets(*scene, state)) {
         if (overlap.depth > 1e-9 && neighbours.share_a_face(overlap.ball, overlap.segment)) {
           ++touches;
           ASSERT_TRUE(listed.count({overlap.ball, overlap.segment}) == 1) << lattice << " in step " << i;
+          ASSERT_TRUE(touching.count({overlap.ball, overlap.segment}) == 1) << lattice << " in step " << i;
         }
       }
     }
@@ -174,9 +192,9 @@ State crush(const SceneSpec& spec, int steps) {
 TEST(FaceSearch, GivesTheSameBitsAsBucketsWhileAllThatTouchesSharesAFace) {
   SceneSpec spec = scenes::hexagon_block(8, 5);
   spec.contact.friction = 0.2;
-  const State by_faces = crush(spec, 1000);
+  const State by_faces = crush(spec, 1200);
   spec.contact.search = ContactSpec::Search::buckets;
-  const State by_buckets = crush(spec, 1000);
+  const State by_buckets = crush(spec, 1200);
   ASSERT_GT(by_faces.contact_count, 10);
   EXPECT_TRUE(by_buckets.face_list.empty());
   EXPECT_GT(by_buckets.search_count, 5);
