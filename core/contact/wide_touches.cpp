@@ -88,7 +88,8 @@ HWY_INLINE Stand<D> evaluate_stand(D d, State& state, Touches& touches, const Pa
   const auto reach = hn::LoadU(d, &state.touching.reach[i]);
   const auto distance = hn::IfThenElse(inside, hn::Mul(side, signed_distance), node_distance);
   const Points<D> normal = choose<D>(inside, across, node_normal);
-  const auto depth = hn::Sub(reach, distance);
+  const auto overlap = hn::Sub(reach, distance);
+  const auto depth = hn::IfThenElseZero(hn::Lt(overlap, hn::Add(reach, reach)), overlap);
   const auto side_kept = hn::IfThenElseZero(hn::Gt(depth, zero), side);
   hn::StoreU(hn::DemoteTo(narrow, side_kept), narrow, &state.touching.side[i]);
   hn::StoreU(depth, d, &touches.depth[i]);

@@ -1,6 +1,7 @@
 // Failure modes of contact between two walls: each without its guard, and with it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "cellcrush/state.h"
@@ -33,7 +34,7 @@ struct Flight {
     const double speed = std::abs(scene->initial_velocity[2].y());
     while (state.time < 20.0 / speed) {
       if (!remembers_sides) {
-        state.touching.clear();
+        std::fill(state.touching.side.begin(), state.touching.side.end(), 0);
       }
       advance_step(*scene, state, nullptr);
     }

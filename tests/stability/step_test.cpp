@@ -178,7 +178,7 @@ TEST(StepTooLongForTheSpeed, MakesAThousandTimesTheWorkUnlessContactsAreWatched)
 
 // At the longest step that may be given the law of contact is as soft as that step wants, and walls sink in deeper.
 TEST(StepTooLongForTheSpeed, IsAWarningWhileOnlyWallsCross) {
-  SceneSpec spec = scenes::spec_of({"hexagon", 1000.0, 0.0}, 12, 6);
+  SceneSpec spec = scenes::spec_of({"hexagon", 800.0, 0.0}, 12, 6);
   spec.numerics.time_step_s = 2.26e-7;
   spec.output.sample_count = 200;
   const WatchedRun run(scenes::build(spec));

@@ -129,6 +129,7 @@ TEST(FaceSearch, MissesNoTouchUnderRandomKicks) {
     const FaceNeighbours neighbours(*scene);
     State state = make_initial_state(*scene);
     ContactWorkspace workspace;
+    Workers workers(1);
     std::mt19937 generator(17);
     std::uniform_real_distribution<double> even(-1.0, 1.0);
     double squeeze = 1.0;
@@ -150,7 +151,7 @@ TEST(FaceSearch, MissesNoTouchUnderRandomKicks) {
       scenes::follow_positions(*scene, state);
       find_contacts(*scene, state);
       ASSERT_LT(state.crossing_step, 0) << lattice << " at " << squeeze;
-      evaluate_contact_forces(*scene, state, workspace);
+      evaluate_contact_forces(*scene, state, workspace, workers);
       const Pairs listed = listed_pairs(state);
       const Pairs touching = touching_pairs(state);
       for (const scenes::Overlap& overlap : scenes::overlaps_by_buckets(*scene, state)) {
