@@ -70,7 +70,7 @@ class Scheduler {
   std::condition_variable_any changed_;
   WaitingJobs waiting_;
   std::map<std::int64_t, std::stop_source> running_;  ///< to cancel jobs that are in a slot
-  int free_cores_ = 0;  ///< one for each slot, and those that jobs use are taken off
+  int free_cores_ = 0;                                ///< one for each slot, and those that jobs use are taken off
   std::vector<std::jthread> slots_;
 };
 
