@@ -23,12 +23,26 @@ using Clock = std::chrono::steady_clock;
 
 class JobLifeTest : public DaemonFixture {
  protected:
+  static void wait_for_samples(Client& client, const std::string& job, std::size_t count) {
+    for (int i = 0; i < 600 && client.history(job).size() < count; ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+
+  // The job's result.h5, downloaded.
+  std::filesystem::path fetched_result(Client& client, const std::string& job) {
+    grpc::Status status;
+    const std::string bytes = client.download(job, 0, status);
+    EXPECT_TRUE(status.ok()) << status.error_message();
+    auto copy = folder_.path() / "copy.h5";
+    std::ofstream(copy, std::ios::binary) << bytes;
+    return copy;
+  }
+
   // A job that runs and has given samples.
   std::string running_job() {
     auto client = this->client();
     const std::string job = client.create(endless_case());
-    for (int i = 0; i < 600 && client.history(job).size() < 5; ++i)
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    wait_for_samples(client, job, 5);
     EXPECT_GE(client.history(job).size(), 5U);
     EXPECT_EQ(client.get(job).state(), v1::RUNNING);
     return job;
@@ -49,8 +63,7 @@ TEST_F(JobLifeTest, AJobThatAsksForThreadsTakesTheCoresThatNobodyElseUses) {
   const std::string both = client.create(threaded);
   ASSERT_TRUE(client.wait_for_state(both, v1::RUNNING));
   const std::string waits = client.create(threaded);
-  for (int i = 0; i < 600 && client.history(both).empty(); ++i)
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  wait_for_samples(client, both, 1);
   const auto with_both = threads_of(client.get(both).worker_pid());
   EXPECT_EQ(client.get(waits).state(), v1::PENDING);
   ASSERT_TRUE(client.cancel(both).ok());
@@ -61,8 +74,7 @@ TEST_F(JobLifeTest, AJobThatAsksForThreadsTakesTheCoresThatNobodyElseUses) {
   const v1::Sweep sweep = create(client, sweep_of(threaded, kSpeed, {1.0, 2.0}));
   for (const auto& job : sweep.jobs()) {
     ASSERT_TRUE(client.wait_for_state(job, v1::RUNNING));
-    for (int i = 0; i < 600 && client.history(job).empty(); ++i)
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    wait_for_samples(client, job, 1);
     EXPECT_EQ(threads_of(client.get(job).worker_pid()), with_both - 1) << job;
   }
 }
@@ -90,12 +102,7 @@ TEST_F(JobLifeTest, ARunningJobStopsAndWhatItHasComputedIsKept) {
   const auto history = client.history(job);
   EXPECT_EQ(history.back().step(), cancelled.summary().step_count());
 
-  grpc::Status status;
-  const std::string bytes = client.download(job, 0, status);
-  ASSERT_TRUE(status.ok()) << status.error_message();
-  const auto copy = folder_.path() / "copy.h5";
-  std::ofstream(copy, std::ios::binary) << bytes;
-  const store::ResultReader result(copy);
+  const store::ResultReader result(fetched_result(client, job));
   const auto stored = result.history();
   ASSERT_EQ(stored.size(), history.size());
   EXPECT_EQ(stored.back().strain(), history.back().strain());
@@ -129,12 +136,7 @@ TEST_F(JobLifeTest, ARunThatIsUntrueFailsByNameAndKeepsWhatItComputedBefore) {
   EXPECT_THAT(failed.remedy(), HasSubstr("numerics.time_step_s"));
   ASSERT_TRUE(failed.has_summary());
 
-  grpc::Status status;
-  const std::string bytes = client.download(job, 0, status);
-  ASSERT_TRUE(status.ok()) << status.error_message();
-  const auto copy = folder_.path() / "copy.h5";
-  std::ofstream(copy, std::ios::binary) << bytes;
-  const store::ResultReader result(copy);
+  const store::ResultReader result(fetched_result(client, job));
   EXPECT_EQ(result.text_attribute("failure"), failed.cause_message());
   const auto history = result.history();
   EXPECT_EQ(history.size(), client.history(job).size());
