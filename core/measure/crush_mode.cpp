@@ -25,32 +25,30 @@ class BandSearch {
     best_.kind = kind;
     best_.agreement = to_beat;
     bins_ = static_cast<std::size_t>(field.length * bins_per_mm()) + 1;
-    for (const bool collapsed : field.collapsed) {
-      collapsed_ += collapsed ? 1.0 : 0.0;
-    }
+    hit_.assign(field.collapsed.begin(), field.collapsed.end());
+    collapsed_ = static_cast<double>(std::count(hit_.begin(), hit_.end(), 1));
+    bin_of_.resize(field.along.size());
   }
 
   /// Tries every width round a mid-line: `distance` gives a cell's distance from it along the crush, mm, and `arm` the
   /// number of the arm that it would belong to.
   template <class Distance, class Arm>
   void try_line(const Distance& distance, const Arm& arm) {
-    counts_.assign(bins_ * arms_, {});
-    const auto bin_of = [&](std::size_t cell) {
-      return static_cast<std::size_t>(distance(field_.along[cell], field_.across[cell]) * bins_per_mm());
-    };
-    for (std::size_t cell = 0; cell < field_.along.size(); ++cell) {
-      const std::size_t bin = bin_of(cell);
-      if (bin < bins_) {
-        Count& count = counts_[bin * arms_ + arm(field_.along[cell], field_.across[cell])];
-        count.all += 1.0;
-        count.hit += field_.collapsed[cell] ? 1.0 : 0.0;
-      }
+    counts_.assign((bins_ + 1) * arms_, {});
+    // Cells beyond the widest band share a bin behind the others.
+    for (std::size_t cell = 0; cell < bin_of_.size(); ++cell) {
+      const double bin = distance(field_.along[cell], field_.across[cell]) * bins_per_mm();
+      bin_of_[cell] = static_cast<int>(std::min(bin, static_cast<double>(bins_)));
+    }
+    for (std::size_t cell = 0; cell < bin_of_.size(); ++cell) {
+      Count& count =
+          counts_[static_cast<std::size_t>(bin_of_[cell]) * arms_ + arm(field_.along[cell], field_.across[cell])];
+      ++count.all;
+      count.hit += hit_[cell];
     }
     if (const auto width = find_width()) {
-      best_.inside.resize(field_.along.size());
-      for (std::size_t cell = 0; cell < field_.along.size(); ++cell) {
-        best_.inside[cell] = bin_of(cell) <= *width;
-      }
+      best_.inside.resize(bin_of_.size());
+      std::transform(bin_of_.begin(), bin_of_.end(), best_.inside.begin(), [&](int bin) { return bin <= *width; });
     }
   }
 
@@ -59,17 +57,17 @@ class BandSearch {
  private:
   /// Cells of an arm, and those of them that have collapsed.
   struct Count {
-    double all = 0.0;
-    double hit = 0.0;
+    int all = 0;
+    int hit = 0;
   };
 
   [[nodiscard]] double bins_per_mm() const { return 2.0 / field_.pitch; }
 
   /// The last bin of the width that agrees best, when it beats the best so far.
-  std::optional<std::size_t> find_width() {
+  std::optional<int> find_width() {
     constexpr double kLeastOfArm = 0.4;
     constexpr double kLeastOfBand = 0.4;
-    std::optional<std::size_t> width;
+    std::optional<int> width;
     std::array<Count, 4> arm{};
     Count band;
     for (std::size_t bin = 0; bin < bins_; ++bin) {
@@ -81,12 +79,12 @@ class BandSearch {
         band.hit += count.hit;
       }
       const double agreement = 2.0 * band.hit / (band.all + collapsed_);
-      const bool whole = std::all_of(arm.begin(), arm.begin() + arms_, [&](const Count& part) {
+      const auto is_there = [&](const Count& part) {
         return part.hit >= kLeastOfArm * part.all && part.hit >= kLeastOfBand * band.hit / arms_;
-      });
-      if (whole && agreement > best_.agreement) {
+      };
+      if (agreement > best_.agreement && std::all_of(arm.begin(), arm.begin() + arms_, is_there)) {
         best_.agreement = agreement;
-        width = bin;
+        width = static_cast<int>(bin);
       }
     }
     return width;
@@ -97,13 +95,16 @@ class BandSearch {
   Band best_;
   std::size_t bins_ = 0;       // of half a cell
   std::vector<Count> counts_;  // by distance and arm
+  std::vector<int> bin_of_;    // C, of the line that is tried
+  std::vector<int> hit_;       // C, 1: has collapsed
   double collapsed_ = 0.0;
 };
 
-/// Places along the crush that are tried, half a cell apart.
+/// Places along the crush that are tried, so many cells apart: half a cell for straight bands; a cell for the others, of
+/// which there are a hundred times as many.
 template <class Try>
-void for_each_place(const CollapseField& field, const Try& attempt) {
-  for (double place = 0.0; place <= field.length; place += 0.5 * field.pitch) {
+void for_each_place(const CollapseField& field, double cells, const Try& attempt) {
+  for (double place = 0.0; place <= field.length; place += cells * field.pitch) {
     attempt(place);
   }
 }
@@ -123,7 +124,7 @@ std::vector<double> slopes_of(const CollapseField& field) {
 }
 
 void search_i(const CollapseField& field, BandSearch& search) {
-  for_each_place(field, [&](double place) {
+  for_each_place(field, 0.5, [&](double place) {
     search.try_line([=](double s, double) { return std::abs(s - place); }, [](double, double) { return 0; });
   });
 }
@@ -133,7 +134,7 @@ void search_v(const CollapseField& field, BandSearch& search) {
     for (const double middle : {0.3, 0.4, 0.5, 0.6, 0.7}) {
       const double apex = middle * field.width;
       for (const double hand : {slope, -slope}) {
-        for_each_place(field, [&](double place) {
+        for_each_place(field, 0.5, [&](double place) {
           search.try_line([=](double s, double t) { return std::abs(s - place - hand * std::abs(t - apex)); },
                           [=](double, double t) { return t < apex ? 0 : 1; });
         });
@@ -148,7 +149,7 @@ void search_crossing(const CollapseField& field, bool inside, std::initializer_l
   for (const double slope : slopes_of(field)) {
     for (const double crossing : crossings) {
       const double across = crossing * field.width;
-      for_each_place(field, [&](double place) {
+      for_each_place(field, 1.0, [&](double place) {
         search.try_line(
             [=](double s, double t) { return std::abs(std::abs(s - place) - slope * std::abs(t - across)); },
             [=](double s, double t) { return (s < place ? 0 : 1) + (inside && t < across ? 2 : 0); });
@@ -162,7 +163,7 @@ void search_c(const CollapseField& field, BandSearch& search) {
     for (const double middle : {0.4, 0.5, 0.6}) {
       const double apex = middle * field.width;
       for (const double bow : {2.0 * slope / field.width, -2.0 * slope / field.width}) {
-        for_each_place(field, [&](double place) {
+        for_each_place(field, 1.0, [&](double place) {
           search.try_line([=](double s, double t) { return std::abs(s - place - bow * (t - apex) * (t - apex)); },
                           [=](double, double t) { return t < apex ? 0 : 1; });
         });
