@@ -100,11 +100,10 @@ class BandSearch {
   double collapsed_ = 0.0;
 };
 
-/// Places along the crush that are tried, so many cells apart: half a cell for straight bands; a cell for the others, of
-/// which there are a hundred times as many.
+/// Places along the crush that are tried, half a cell apart.
 template <class Try>
-void for_each_place(const CollapseField& field, double cells, const Try& attempt) {
-  for (double place = 0.0; place <= field.length; place += cells * field.pitch) {
+void for_each_place(const CollapseField& field, const Try& attempt) {
+  for (double place = 0.0; place <= field.length; place += 0.5 * field.pitch) {
     attempt(place);
   }
 }
@@ -124,7 +123,7 @@ std::vector<double> slopes_of(const CollapseField& field) {
 }
 
 void search_i(const CollapseField& field, BandSearch& search) {
-  for_each_place(field, 0.5, [&](double place) {
+  for_each_place(field, [&](double place) {
     search.try_line([=](double s, double) { return std::abs(s - place); }, [](double, double) { return 0; });
   });
 }
@@ -134,7 +133,7 @@ void search_v(const CollapseField& field, BandSearch& search) {
     for (const double middle : {0.3, 0.4, 0.5, 0.6, 0.7}) {
       const double apex = middle * field.width;
       for (const double hand : {slope, -slope}) {
-        for_each_place(field, 0.5, [&](double place) {
+        for_each_place(field, [&](double place) {
           search.try_line([=](double s, double t) { return std::abs(s - place - hand * std::abs(t - apex)); },
                           [=](double, double t) { return t < apex ? 0 : 1; });
         });
@@ -149,7 +148,7 @@ void search_crossing(const CollapseField& field, bool inside, std::initializer_l
   for (const double slope : slopes_of(field)) {
     for (const double crossing : crossings) {
       const double across = crossing * field.width;
-      for_each_place(field, 1.0, [&](double place) {
+      for_each_place(field, [&](double place) {
         search.try_line(
             [=](double s, double t) { return std::abs(std::abs(s - place) - slope * std::abs(t - across)); },
             [=](double s, double t) { return (s < place ? 0 : 1) + (inside && t < across ? 2 : 0); });
@@ -163,7 +162,7 @@ void search_c(const CollapseField& field, BandSearch& search) {
     for (const double middle : {0.4, 0.5, 0.6}) {
       const double apex = middle * field.width;
       for (const double bow : {2.0 * slope / field.width, -2.0 * slope / field.width}) {
-        for_each_place(field, 1.0, [&](double place) {
+        for_each_place(field, [&](double place) {
           search.try_line([=](double s, double t) { return std::abs(s - place - bow * (t - apex) * (t - apex)); },
                           [=](double, double t) { return t < apex ? 0 : 1; });
         });
@@ -176,7 +175,11 @@ void search_c(const CollapseField& field, BandSearch& search) {
 Band find_band(const CollapseField& field) {
   Band best;
   const auto consider = [&](CrushMode kind, int arms, const auto& look) {
-    BandSearch search(field, kind, arms, best.agreement + (best.inside.empty() ? 0.0 : kClearlyBetter));
+    const double to_beat = best.agreement + (best.inside.empty() ? 0.0 : kClearlyBetter);
+    if (to_beat >= 1.0) {
+      return;
+    }
+    BandSearch search(field, kind, arms, to_beat);
     look(search);
     if (!search.best().inside.empty()) {
       best = search.best();
