@@ -69,13 +69,14 @@ struct Daemon::Impl {
         reader(folder.journal()),
         sweep_reader(folder.journal()),
         executor(options.worker_program),
-        scheduler({folder, journal, reader, sweep_reader, hub, executor}),
+        scheduler({folder, journal, reader, sweep_reader, hub, executor, metrics}),
         pump(kPumpThreads),
         cases(worker::measure_step_cost()),
         jobs({folder, journal, reader, hub, pump, scheduler, options.bookmark_interval}),
         sweeps({journal, reader, sweep_reader, hub, pump, scheduler, options.bookmark_interval}),
         admin(worker_limit(options.workers)) {
     listen();
+    serve_metrics();
     scheduler.start(worker_limit(options.workers));
     for (const char* service : {"cellcrush.v1.Cases", "cellcrush.v1.Jobs", "cellcrush.v1.Sweeps", "cellcrush.v1.Admin"})
       server->GetHealthCheckService()->SetServingStatus(service, true);
@@ -118,6 +119,16 @@ struct Daemon::Impl {
     addresses.push_back(bound.text());
   }
 
+  void serve_metrics() {
+    if (options.metrics.empty()) return;
+    const ListenAddress address = parse_listen_address(options.metrics);
+    if (address.kind != ListenAddress::Kind::tcp)
+      throw ServiceError(ServiceError::Kind::invalid, "Cannot serve metrics on " + options.metrics +
+                                                          ": they are served over HTTP. Use --metrics HOST:PORT.");
+    metrics_url = "http://" + metrics.serve(address).text() + "/metrics";
+    spdlog::info("metrics are served on {}", metrics_url);
+  }
+
   void stop() {
     if (std::exchange(stopped, true)) return;
     server->GetHealthCheckService()->SetServingStatus(false);
@@ -135,6 +146,7 @@ struct Daemon::Impl {
   store::JournalReader reader;
   store::SweepReader sweep_reader;
   jobs::LocalProcess executor;
+  metrics::Metrics metrics;
   jobs::Scheduler scheduler;
   watch::Pump pump;
   rpc::CasesService cases;
@@ -142,6 +154,7 @@ struct Daemon::Impl {
   rpc::SweepsService sweeps;
   rpc::AdminService admin;
   std::vector<std::string> addresses;
+  std::string metrics_url;
   std::unique_ptr<grpc::Server> server;
   bool stopped = false;
 };
@@ -151,6 +164,8 @@ Daemon::Daemon(DaemonOptions options) : impl_(std::make_unique<Impl>(std::move(o
 Daemon::~Daemon() = default;
 
 const std::vector<std::string>& Daemon::addresses() const { return impl_->addresses; }
+
+const std::string& Daemon::metrics_url() const { return impl_->metrics_url; }
 
 void Daemon::stop() { impl_->stop(); }
 

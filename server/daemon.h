@@ -12,6 +12,8 @@ struct DaemonOptions {
   /// Each "unix:PATH" or "HOST:PORT" (listen_address.h). Empty: a socket in the data folder and 127.0.0.1:50551.
   std::vector<std::string> listen;
   std::filesystem::path data_folder;
+  /// "HOST:PORT" at which metrics are served over HTTP. Empty: nowhere.
+  std::string metrics;
   /// Jobs that run at once. 0: as many as this machine has cores.
   int workers = 0;
   /// Program that is started as `PROGRAM worker ...`.
@@ -33,6 +35,9 @@ class Daemon {
 
   /// What it listens on, with real ports, in the form of --listen.
   [[nodiscard]] const std::vector<std::string>& addresses() const;
+
+  /// Where metrics are served, with the real port: "http://HOST:PORT/metrics"; empty: nowhere.
+  [[nodiscard]] const std::string& metrics_url() const;
 
   /// Ends running workers (their jobs are FAILED, WORKER_LOST), closes watches and calls, within a few seconds. Jobs
   /// that wait are run by the next daemon on the same data folder. Safe to call twice.

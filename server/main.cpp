@@ -75,6 +75,8 @@ int main(int argc, char** argv) {
                  "(default: unix:DIR/cellcrushd.sock and 127.0.0.1:50551)");
   app.add_option("--data", options.data_folder,
                  "folder of jobs and results (default: $XDG_DATA_HOME/cellcrush or ~/.local/share/cellcrush)");
+  app.add_option("--metrics", options.metrics,
+                 "HOST:PORT at which metrics for Prometheus are served over HTTP, at /metrics (default: nowhere)");
   app.add_option("--workers", options.workers, "jobs that run at once (default: one for each core)")
       ->check(CLI::Range(1, 1024));
   app.set_version_flag("--version", std::string("cellcrushd ") + cellcrush::kSolverRevision);

@@ -161,7 +161,7 @@ Preset inclusions(std::vector<int> rows) {
       {"The crush direction and the places of the lines stood only in lost figures: whole rows across the crush, "
        "evenly "
        "spaced.",
-       "A stiff cell is one whose walls are 4 times as thick: 64 times as stiff in bending at the same stable step.",
+       "A stiff cell has walls 4 times as thick and does not deform; MESHED, its walls are 64 times as stiff in bending.",
        "The step is chosen; the paper's 2e-8 s can be set.", kContactAssumption},
       spec};
 }

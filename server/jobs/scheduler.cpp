@@ -44,6 +44,7 @@ void Scheduler::enqueue(const std::vector<std::int64_t>& jobs, const WaitingJobs
   {
     const std::scoped_lock lock(mutex_);
     for (const std::int64_t job : jobs) waiting_.add(job, membership);
+    tell_metrics();
   }
   changed_.notify_all();
 }
@@ -122,6 +123,7 @@ void Scheduler::run_slot(const std::stop_token& stop) {
       running_.erase(taken->job);
       waiting_.give_back(*taken);
       free_cores_ += cores;
+      tell_metrics();
     }
     changed_.notify_all();
   }
@@ -134,6 +136,7 @@ void Scheduler::run_job(std::int64_t job, int& cores, const std::stop_token& sto
   {
     const std::scoped_lock lock(mutex_);
     cancel = running_[job].get_token();
+    tell_metrics();
   }
   cores += take_cores(stored->job.case_().numerics().threads() - 1);
   const auto exit = run_worker(*stored, cores, {stop, cancel});
@@ -194,6 +197,7 @@ void Scheduler::finish(std::int64_t job, const store::StateChange& outcome, cons
   while (true) {
     try {
       parts_.journal.change_state(job, outcome);
+      parts_.metrics.count_ended(outcome.state, outcome.summary ? &*outcome.summary : nullptr);
       spdlog::info("{} {}{}{}", name_of(job), v1::JobState_Name(outcome.state), outcome.message.empty() ? "" : ": ",
                    outcome.message);
       return;

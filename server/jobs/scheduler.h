@@ -10,6 +10,7 @@
 
 #include "jobs/executor.h"
 #include "jobs/waiting_jobs.h"
+#include "metrics/metrics.h"
 #include "store/data_folder.h"
 #include "store/journal.h"
 #include "store/journal_reader.h"
@@ -31,6 +32,7 @@ class Scheduler {
     store::SweepReader& sweeps;
     watch::Hub& hub;
     Executor& executor;
+    metrics::Metrics& metrics;
   };
 
   explicit Scheduler(const Parts& parts) : parts_(parts) {}
@@ -62,6 +64,8 @@ class Scheduler {
   void run_job(std::int64_t job, int& cores, const std::stop_token& stop);
   WorkerExit run_worker(const store::StoredJob& stored, int threads, const Interruptions& interruptions);
   int take_cores(int asked);
+  /// REQUIRES: mutex_ is held.
+  void tell_metrics() { parts_.metrics.set_jobs(waiting_.count(), running_.size()); }
   void pass_on(std::int64_t job, watch::Channel& channel, const worker::Report& report);
   void finish(std::int64_t job, const store::StateChange& outcome, const std::stop_token& stop);
 

@@ -119,6 +119,8 @@ const std::vector<Option>& all_options() {
        }},
       {"yield_stress", "MPa",
        [](Options& o, const std::string& v) { o.spec.material.yield_stress_mpa = number_of("yield_stress", v); }},
+      {"hardening", "modulus, MPa",
+       [](Options& o, const std::string& v) { o.spec.material.hardening_modulus_mpa = number_of("hardening", v); }},
       {"samples", "of the curve",
        [](Options& o, const std::string& v) { o.spec.output.sample_count = count_of("samples", v); }},
       {"table", "CSV file to which a row of results is appended",

@@ -1,0 +1,113 @@
+#include <arpa/inet.h>
+#include <gmock/gmock.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <string>
+#include <thread>
+
+#include "error.h"
+#include "server/daemon_fixture.h"
+#include "server/small_case.h"
+
+namespace cellcrush::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+class MetricsTest : public DaemonFixture {
+ protected:
+  void SetUp() override {
+    DaemonOptions options = default_options();
+    options.metrics = "127.0.0.1:0";
+    start(options);
+  }
+
+  /// What a GET of the daemon's metrics answers, head and body.
+  [[nodiscard]] std::string scrape() const {
+    const std::string& url = daemon_->metrics_url();
+    const std::string port = url.substr(url.rfind(':') + 1, url.rfind('/') - url.rfind(':') - 1);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(static_cast<std::uint16_t>(std::stoi(port)));
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    const int socket = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    EXPECT_EQ(connect(socket, reinterpret_cast<const sockaddr*>(&address), sizeof(address)), 0) << url;
+    const std::string request = "GET /metrics HTTP/1.0\r\n\r\n";
+    EXPECT_EQ(write(socket, request.data(), request.size()), static_cast<ssize_t>(request.size()));
+    std::string answer;
+    char piece[4096];
+    for (ssize_t count = 0; (count = read(socket, piece, sizeof(piece))) > 0;)
+      answer.append(piece, static_cast<std::size_t>(count));
+    close(socket);
+    return answer;
+  }
+
+  /// The first answer in which the series has the value, within 10 s: a job's end is told to watchers first.
+  std::string scrape_until(const std::string& series, double value) const {
+    std::string answer = scrape();
+    for (int i = 0; i < 200 && answer.find("\n" + series + " ") == std::string::npos; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+      answer = scrape();
+    }
+    EXPECT_EQ(value_of(answer, series), value);
+    return answer;
+  }
+
+  /// Value of a line of the answer; fails the test when there is none.
+  [[nodiscard]] static double value_of(const std::string& answer, const std::string& series) {
+    const auto at = answer.find("\n" + series + " ");
+    EXPECT_NE(at, std::string::npos) << series << " in\n" << answer;
+    return at == std::string::npos ? -1.0 : std::stod(answer.substr(at + series.size() + 2));
+  }
+};
+
+TEST_F(MetricsTest, TellJobsStepsAndTheTimeOfEachStage) {
+  const std::string before = scrape();
+  EXPECT_THAT(before, HasSubstr("200 OK"));
+  EXPECT_EQ(value_of(before, "cellcrush_jobs_running"), 0.0);
+  EXPECT_EQ(value_of(before, "cellcrush_stage_seconds_total{stage=\"find_contacts\"}"), 0.0);
+
+  const std::string job = client().create(small_case());
+  ASSERT_TRUE(client().watch(job).status.ok());
+  const v1::Summary summary = client().get(job).summary();
+  const std::string after = scrape_until("cellcrush_jobs_ended_total{state=\"SUCCEEDED\"}", 1.0);
+  EXPECT_EQ(value_of(after, "cellcrush_steps_total"), static_cast<double>(summary.step_count()));
+  const double seconds = summary.stage_times().evaluate_internal_forces_s();
+  EXPECT_GT(seconds, 0.0);
+  EXPECT_NEAR(value_of(after, "cellcrush_stage_seconds_total{stage=\"evaluate_internal_forces\"}"), seconds,
+              1e-5 * seconds);
+}
+
+TEST_F(MetricsTest, TellWhatRunsAndWaits) {
+  DaemonOptions options = default_options();
+  options.metrics = "127.0.0.1:0";
+  options.workers = 1;
+  options.data_folder = folder_.path() / "one-worker";
+  start(options);
+  const std::string running = client().create(endless_case());
+  ASSERT_TRUE(client().wait_for_state(running, v1::RUNNING));
+  client().create(endless_case());
+  const std::string answer = scrape();
+  EXPECT_EQ(value_of(answer, "cellcrush_jobs_running"), 1.0);
+  EXPECT_EQ(value_of(answer, "cellcrush_jobs_waiting"), 1.0);
+  EXPECT_TRUE(client().cancel(running).ok());
+  ASSERT_TRUE(client().wait_for_state(running, v1::CANCELLED));
+  scrape_until("cellcrush_jobs_ended_total{state=\"CANCELLED\"}", 1.0);
+}
+
+TEST_F(MetricsTest, AreServedToThisMachineOnly) {
+  DaemonOptions options = default_options();
+  options.data_folder = folder_.path() / "other";
+  for (const char* address : {"0.0.0.0:0", "unix:/nowhere", "127.0.0.1:port"}) {
+    options.metrics = address;
+    EXPECT_THROW(Daemon{options}, ServiceError) << address;
+  }
+  const std::string& url = daemon_->metrics_url();
+  options.metrics = url.substr(7, url.rfind('/') - 7);  // taken
+  EXPECT_THROW(Daemon{options}, ServiceError);
+}
+
+}  // namespace
+}  // namespace cellcrush::testing
