@@ -1,6 +1,7 @@
 #include "energy/ledger.h"
 
 #include <array>
+#include <vector>
 
 #include "beam/beam_section.h"
 #include "beam/element_place.h"
@@ -18,6 +19,7 @@ struct Instant {
 Instant look_at_motion(const Scene& scene, const State& state) {
   const double half = 0.5 * scene.schedule.time_step;
   Instant instant;
+  const DampedStep damped = damped_step_of(scene);
   double twice = 0.0;
   for (std::size_t body = 0; body < scene.rigid.count(); ++body) {
     const NextVelocity next = next_velocity_of_body(scene, state, body);
@@ -28,7 +30,7 @@ Instant look_at_motion(const Scene& scene, const State& state) {
              scene.rigid.inertia[body] * state.rigid_spin[body] * next.spin;
   }
   for (std::size_t i = first_free_particle(scene); i < scene.particle_count(); ++i) {
-    const NextVelocity next = next_velocity(scene, state, i);
+    const NextVelocity next = next_velocity(scene, state, damped, i);
     accumulate_work(scene, state, i, next, {half * state.velocity[i], half * state.spin[i]}, instant.half);
     twice += scene.mass[i] * state.velocity[i].dot(next.velocity) + scene.inertia[i] * state.spin[i] * next.spin;
   }
@@ -37,28 +39,41 @@ Instant look_at_motion(const Scene& scene, const State& state) {
   return instant;
 }
 
-/// Row by row of the blocks: the values of a row's fibre lie side by side.
+/// Weighted squares of the stresses of a row's elements, whose values of a fibre lie side by side. A full row's loops have
+/// fixed bounds, so that the compiler makes vectors of them.
+template <int kWalls, class T>
+std::array<T, kMostWallsInBlock> weighted_squares(const std::vector<T>& weight, const T* stress, int walls) {
+  const int count = kWalls > 0 ? kWalls : walls;
+  std::array<T, kMostWallsInBlock> squares{};
+  for (const T of_fibre : weight) {
+    for (int w = 0; w < count; ++w) {
+      squares[w] += of_fibre * stress[w] * stress[w];
+    }
+    stress += count;
+  }
+  return squares;
+}
+
 template <class T>
 double elastic_energy(const Scene& scene, const State& state, const FibreMemory<T>& memory) {
   const SectionRule& rule = scene.section;
-  const std::size_t fibres = rule.fibre_count();
+  std::vector<T> weight;
+  for (const double along : rule.along_weight) {
+    for (const double through : rule.depth_weight) {
+      weight.push_back(static_cast<T>(along * through));
+    }
+  }
   double energy = 0.0;
   visit_rows(scene, [&](const WallBlock& block, std::size_t row) {
-    const auto walls = static_cast<std::size_t>(block.walls);
-    std::array<double, kMostWallsInBlock> squares{};
-    for (std::size_t fibre = 0; fibre < fibres; ++fibre) {
-      const double weight = rule.along_weight[static_cast<Eigen::Index>(fibre / rule.depth_count())] *
-                            rule.depth_weight[static_cast<Eigen::Index>(fibre % rule.depth_count())];
-      const T* stress = &memory.stress[row * fibres + fibre * walls];
-      for (std::size_t w = 0; w < walls; ++w) {
-        squares[w] += weight * stress[w] * stress[w];
-      }
-    }
-    for (std::size_t w = 0; w < walls; ++w) {
-      const auto wall = block.first_wall + static_cast<int>(w);
+    const T* stress = &memory.stress[row * weight.size()];
+    const auto squares = block.walls == kMostWallsInBlock
+                             ? weighted_squares<kMostWallsInBlock>(weight, stress, block.walls)
+                             : weighted_squares<0>(weight, stress, block.walls);
+    for (int w = 0; w < block.walls; ++w) {
+      const int wall = block.first_wall + w;
       const BeamSection section = section_of(scene, wall, state.length[row + w]);
       const double modulus = section.stiffness * scene.materials[scene.walls.material[wall]].youngs_modulus;
-      energy += section.volume * squares[w] / (2.0 * modulus);
+      energy += section.volume * static_cast<double>(squares[w]) / (2.0 * modulus);
     }
   });
   return energy;

@@ -56,11 +56,11 @@ DampedStep damped_step_of(const Scene& scene) {
   return {(1.0 - damping) / (1.0 + damping), step / (1.0 + damping)};
 }
 
-NextVelocity next_velocity(const Scene& scene, const State& state, std::size_t particle) {
+NextVelocity next_velocity(const Scene& scene, const State& state, const DampedStep& damped, std::size_t particle) {
   const Resultant sum = resultant_on(scene, state, particle);
-  const auto [keep, gain] = damped_step_of(scene);
-  NextVelocity next = {keep * state.velocity[particle] + (gain / scene.mass[particle]) * sum.force,
-                       keep * state.spin[particle] + gain / scene.inertia[particle] * sum.moment};
+  const auto [keep, gain] = damped;
+  NextVelocity next = {keep * state.velocity[particle] + gain * scene.inverse_mass[particle] * sum.force,
+                       keep * state.spin[particle] + gain * scene.inverse_inertia[particle] * sum.moment};
   if (!scene.supports.empty()) {
     apply_support(scene, state, scene.supports[particle], scene.mass[particle] / gain, scene.inertia[particle] / gain,
                   next);
@@ -128,8 +128,9 @@ State place_particles(const Scene& scene) {
 
 void stagger_velocities(const Scene& scene, State& state) {
   stagger_rigid_bodies(scene, state);
+  const DampedStep damped = damped_step_of(scene);
   for (std::size_t i = first_free_particle(scene); i < scene.particle_count(); ++i) {
-    const NextVelocity next = next_velocity(scene, state, i);
+    const NextVelocity next = next_velocity(scene, state, damped, i);
     state.velocity[i] -= 0.5 * (next.velocity - state.velocity[i]);
     state.spin[i] -= 0.5 * (next.spin - state.spin[i]);
   }
@@ -140,8 +141,9 @@ namespace {
 /// Moves all free particles by a step and books the work of the forces on them.
 void move_particles(const Scene& scene, State& state) {
   const double step = scene.schedule.time_step;
+  const DampedStep damped = damped_step_of(scene);
   for (std::size_t i = first_free_particle(scene); i < scene.particle_count(); ++i) {
-    const NextVelocity next = next_velocity(scene, state, i);
+    const NextVelocity next = next_velocity(scene, state, damped, i);
     const MeanMotion mean = {0.5 * step * (state.velocity[i] + next.velocity),
                              0.5 * step * (state.spin[i] + next.spin)};
     accumulate_work(scene, state, i, next, mean, state.ledger);

@@ -33,7 +33,7 @@ struct NextVelocity {
   Vector2 reaction = Vector2::Zero();  ///< N, of the supports
   double reaction_moment = 0.0;        ///< N mm
 };
-NextVelocity next_velocity(const Scene& scene, const State& state, std::size_t particle);
+NextVelocity next_velocity(const Scene& scene, const State& state, const DampedStep& damped, std::size_t particle);
 
 /// A state with particles in place, at the scene's initial velocities, without forces.
 State place_particles(const Scene& scene);
