@@ -82,7 +82,7 @@ std::vector<Precision> precisions(const VariedScene& scene, const std::vector<Cs
     const double expected = measure.absolute ? 0.0 : reference.mean;
     const double variance = found.variance_of_mean() + (measure.absolute ? 0.0 : reference.variance_of_mean());
     all.push_back({variant.name, found.seconds, std::abs(found.mean - expected) / scale,
-                   2.0 * std::sqrt(variance) / scale, found.count, false});
+                   2.0 * std::sqrt(variance) / scale, found.deviation / scale, found.count, false});
   }
   mark_front(all);
   return all;

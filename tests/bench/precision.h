@@ -19,12 +19,16 @@ inline const std::vector<Measure> kMeasures = {{"plateau_stress_support", "plate
                                                {"limit_stress", "limit stress", false},
                                                {"energy_error_relative", "ledger", true}};
 
+/// The variant from which errors are, unless another is named.
+inline const std::string kConverged = "converged:8";
+
 /// A variant's error of one measure, over its seeds.
 struct Precision {
   std::string variant;
   double seconds = 0.0;      ///< mean processor time of a crush
   double error = 0.0;        ///< relative, of the mean over the seeds from the converged one's
   double uncertainty = 0.0;  ///< two standard errors of that, from the scatter of both over their seeds
+  double scatter = 0.0;      ///< standard deviation of one of its crushes, relative
   int seeds = 0;
   bool on_front = false;  ///< none is as fast and surer: an error counts no less than its uncertainty
 };

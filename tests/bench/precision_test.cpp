@@ -50,6 +50,7 @@ TEST(Precision, IsTheDistanceOfMeansWithTwoStandardErrorsOfBoth) {
   EXPECT_NEAR(found[0].error, 0.5, 1e-9);
   EXPECT_NEAR(found[0].seconds, 1.0, 1e-9);
   EXPECT_NEAR(found[0].uncertainty, 2.0 * 0.01 * std::sqrt(2.0), 1e-9);
+  EXPECT_NEAR(found[0].scatter, 0.01 * std::sqrt(2.0), 1e-9);
   EXPECT_NEAR(found[1].error, 0.005, 1e-9);
 }
 

@@ -142,8 +142,9 @@ struct SectionSpec {
   Formulation formulation = Formulation::force_based;
   DepthRule depth_rule = DepthRule::full_moment;
   AreaRule area_rule = AreaRule::constant_volume;
-  std::optional<int> axial_points;  ///< default: 4 force-based (3 to 5), 2 displacement-based (1 to 5)
-  std::optional<int> depth_points;  ///< default: 6 (full-moment: 4 or 6, Lobatto: 2 to 10)
+  // Default: what the fidelity says for force-based, full-moment sections, else 4 force-based, 2 displacement-based, 6.
+  std::optional<int> axial_points;  ///< force-based 3 to 5, displacement-based 1 to 5
+  std::optional<int> depth_points;  ///< full-moment 4 or 6, Lobatto 2 to 10
 
   [[nodiscard]] int axial_count() const {
     return axial_points.value_or(formulation == Formulation::force_based ? 4 : 2);
@@ -184,6 +185,7 @@ struct NumericsSpec {
   /// Of the fibres' stresses; motion, forces and works are in double precision either way. See kMostSingleFibres.
   enum class FibrePrecision { double_precision, single_precision };
   FibrePrecision fibre_precision = FibrePrecision::single_precision;
+  /// A point of the measured front of speed against accuracy, which fills in what is left out (fidelity.h).
   enum class Fidelity { unspecified, draft, standard, reference };
   Fidelity fidelity = Fidelity::unspecified;
   int threads = 1;
@@ -200,7 +202,7 @@ struct SceneSpec {
   Imperfection imperfection;
   Inclusions inclusions;
   std::optional<double> depth_mm;
-  int elements_per_wall = 2;
+  std::optional<int> elements_per_wall;  ///< default: that of the fidelity, else 2
   MaterialSpec material;
   SectionSpec section;
   ContactSpec contact;
