@@ -33,7 +33,6 @@ const v1::FidelityForecast* find_measured(const v1::CheckCaseResponse& check) {
 std::vector<std::string> row_of(const v1::FidelityForecast& forecast) {
   std::vector<std::string> row = {v1::Numerics::Fidelity_Name(forecast.fidelity()),
                                   fmt::format("{}", forecast.elements_per_wall()),
-                                  fmt::format("{} x {}", forecast.axial_points(), forecast.depth_points()),
                                   duration_text(forecast.predicted_seconds())};
   for (const v1::MeasuredError& error : forecast.errors()) row.push_back(error_text(error));
   if (forecast.errors_size() == 0) {
@@ -57,8 +56,8 @@ std::string scatter_text(const v1::FidelityForecast& measured) {
 std::string fidelity_text(const v1::CheckCaseResponse& check) {
   if (check.fidelities_size() == 0) return {};
   const v1::FidelityForecast* measured = find_measured(check);
-  std::vector<std::string> heading = {"fidelity", "elements a wall", "points", "predicted time"};
-  std::vector<Align> columns = {Align::left, Align::right, Align::right, Align::right};
+  std::vector<std::string> heading = {"fidelity", "elements a wall", "predicted time"};
+  std::vector<Align> columns = {Align::left, Align::right, Align::right};
   if (measured != nullptr) {
     for (const v1::MeasuredError& error : measured->errors()) heading.push_back("error, " + printable(error.scene()));
   } else {

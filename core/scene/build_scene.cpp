@@ -220,6 +220,8 @@ SceneSpec complete_spec(const SceneSpec& spec, const Scene& scene) {
       hexagon->vertical_wall_thickness_mm = hexagon->wall_thickness_mm;
     }
   }
+  complete.section.axial_points = spec.section.axial_count();
+  complete.section.depth_points = spec.section.depth_count();
   complete.numerics.time_step_s = scene.schedule.time_step;
   return complete;
 }

@@ -16,58 +16,40 @@ const FidelityPoint* find_point(Fidelity fidelity) {
   return nullptr;
 }
 
-/// Fields by which a spec goes another way than a point that was measured.
+/// Fields that a spec gives otherwise than they were when a point was measured, and that would change its error.
 std::vector<std::string> fields_beside(const FidelityPoint& point, const SceneSpec& spec) {
+  const SceneSpec plain;
   std::vector<std::string> fields;
   const auto add_if = [&fields](bool other, const char* field) {
     if (other) fields.emplace_back(field);
   };
-  const SectionSpec& section = spec.section;
   add_if(spec.elements_per_wall.value_or(point.elements_per_wall) != point.elements_per_wall, "elements_per_wall");
-  add_if(section.formulation != SectionSpec::Formulation::force_based, "section.formulation");
-  add_if(section.depth_rule != SectionSpec::DepthRule::full_moment, "section.depth_rule");
-  add_if(section.area_rule != SectionSpec::AreaRule::constant_volume, "section.area_rule");
-  add_if(section.axial_points.value_or(point.axial_points) != point.axial_points, "section.axial_points");
-  add_if(section.depth_points.value_or(point.depth_points) != point.depth_points, "section.depth_points");
-  add_if(spec.numerics.mass_scaling != 1.0, "numerics.mass_scaling");
-  add_if(spec.numerics.rotary_scaling != 1.0, "numerics.rotary_scaling");
+  add_if(spec.section.formulation != plain.section.formulation, "section.formulation");
+  add_if(spec.section.depth_rule != plain.section.depth_rule, "section.depth_rule");
+  add_if(spec.section.area_rule != plain.section.area_rule, "section.area_rule");
+  add_if(spec.section.axial_count() != plain.section.axial_count(), "section.axial_points");
+  add_if(spec.section.depth_count() != plain.section.depth_count(), "section.depth_points");
+  add_if(spec.numerics.mass_scaling != plain.numerics.mass_scaling, "numerics.mass_scaling");
+  add_if(spec.numerics.rotary_scaling != plain.numerics.rotary_scaling, "numerics.rotary_scaling");
   return fields;
 }
 
 }  // namespace
 
 SceneSpec fill_in_fidelity(const SceneSpec& spec) {
-  SceneSpec filled = spec;
-  SectionSpec& section = filled.section;
   const FidelityPoint* point = find_point(spec.numerics.fidelity);
-  if (point != nullptr) {
-    filled.elements_per_wall = spec.elements_per_wall.value_or(point->elements_per_wall);
-    if (section.formulation == SectionSpec::Formulation::force_based) {
-      section.axial_points = section.axial_points.value_or(point->axial_points);
-    }
-    if (section.depth_rule == SectionSpec::DepthRule::full_moment) {
-      section.depth_points = section.depth_points.value_or(point->depth_points);
-    }
-  }
-  filled.elements_per_wall = filled.elements_per_wall.value_or(kElementsPerWall);
-  section.axial_points = section.axial_count();
-  section.depth_points = section.depth_count();
+  SceneSpec filled = spec;
+  filled.elements_per_wall =
+      spec.elements_per_wall.value_or(point != nullptr ? point->elements_per_wall : kElementsPerWall);
   return filled;
 }
 
 std::string describe_fidelity(const SceneSpec& spec) {
   const FidelityPoint* point = find_point(spec.numerics.fidelity);
   if (point == nullptr) return {};
-  const SceneSpec filled = fill_in_fidelity(spec);
-  std::string fields;
-  const auto add = [&fields](const char* field, const std::optional<int>& before, const std::optional<int>& after) {
-    if (before) return;
-    fields += std::string(fields.empty() ? " " : ", ") + field + " " + std::to_string(*after);
-  };
-  add("elements_per_wall", spec.elements_per_wall, filled.elements_per_wall);
-  add("section.axial_points", spec.section.axial_points, filled.section.axial_points);
-  add("section.depth_points", spec.section.depth_points, filled.section.depth_points);
-  return "Fidelity " + point->name + " fills in" + (fields.empty() ? " nothing: all is given" : fields) + ".";
+  return "Fidelity " + point->name +
+         (spec.elements_per_wall ? ": elements_per_wall is given, which is all that it would fill in."
+                                 : ": " + std::to_string(point->elements_per_wall) + " elements a wall.");
 }
 
 std::vector<FidelityForecast> forecast_fidelities(const SceneSpec& spec) {

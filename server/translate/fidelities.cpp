@@ -10,8 +10,6 @@ namespace {
 void write_forecast(const FidelityForecast& in, double step_cost, v1::FidelityForecast& out) {
   out.set_fidelity(to_proto(in.point.fidelity));
   out.set_elements_per_wall(in.point.elements_per_wall);
-  out.set_axial_points(in.point.axial_points);
-  out.set_depth_points(in.point.depth_points);
   out.set_element_count(in.element_count);
   out.set_step_count(in.step_count);
   out.set_predicted_seconds(step_cost * in.point.step_cost * static_cast<double>(in.element_count) *

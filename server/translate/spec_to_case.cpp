@@ -129,8 +129,8 @@ void write_loading(const LoadingSpec& in, v1::Loading& out) {
 }
 
 void write_section(const SectionSpec& in, v1::Section& out) {
-  if (in.axial_points) out.set_axial_points(*in.axial_points);
-  if (in.depth_points) out.set_depth_points(*in.depth_points);
+  out.set_axial_points(in.axial_count());
+  out.set_depth_points(in.depth_count());
   out.set_formulation(in.formulation == SectionSpec::Formulation::force_based ? v1::Section::FORCE_BASED
                                                                               : v1::Section::DISPLACEMENT_BASED);
   out.set_depth_rule(in.depth_rule == SectionSpec::DepthRule::full_moment ? v1::Section::FULL_MOMENT

@@ -14,7 +14,7 @@ const std::string kFolder = CELLCRUSH_BENCH_FOLDER;
 
 /// What a fidelity fills in, and what it was measured with.
 auto settings_of(const SceneSpec& spec) {
-  return std::tuple(*spec.elements_per_wall, *spec.section.axial_points, *spec.section.depth_points,
+  return std::tuple(*spec.elements_per_wall, spec.section.axial_count(), spec.section.depth_count(),
                     spec.section.formulation, spec.section.depth_rule, spec.section.area_rule,
                     spec.numerics.time_step_s, spec.numerics.mass_scaling, spec.numerics.rotary_scaling,
                     spec.numerics.fibre_precision, spec.contact.stiffness_factor, spec.contact.search);

@@ -20,14 +20,12 @@ struct MeasuredError {
   [[nodiscard]] double claimed() const { return error > uncertainty ? error : uncertainty; }
 };
 
-/// A point of the measured front of speed against accuracy, and what it fills in where a spec leaves it out. The points of
-/// the sections are those of force-based elements with the full-moment rule; others keep their own.
+/// A point of the measured front of speed against accuracy: what it fills in where a spec leaves it out, and what it was
+/// measured to be worth with all else as by default.
 struct FidelityPoint {
   NumericsSpec::Fidelity fidelity = NumericsSpec::Fidelity::unspecified;
   std::string name;  ///< as cases write it
   int elements_per_wall = 0;
-  int axial_points = 0;
-  int depth_points = 0;
   double step_cost = 1.0;  ///< time of an element-step over that of STANDARD
   std::vector<MeasuredError> errors;
 };

@@ -142,9 +142,8 @@ struct SectionSpec {
   Formulation formulation = Formulation::force_based;
   DepthRule depth_rule = DepthRule::full_moment;
   AreaRule area_rule = AreaRule::constant_volume;
-  // Default: what the fidelity says for force-based, full-moment sections, else 4 force-based, 2 displacement-based, 6.
-  std::optional<int> axial_points;  ///< force-based 3 to 5, displacement-based 1 to 5
-  std::optional<int> depth_points;  ///< full-moment 4 or 6, Lobatto 2 to 10
+  std::optional<int> axial_points;  ///< default: 4 force-based (3 to 5), 2 displacement-based (1 to 5)
+  std::optional<int> depth_points;  ///< default: 6 (full-moment: 4 or 6, Lobatto: 2 to 10)
 
   [[nodiscard]] int axial_count() const {
     return axial_points.value_or(formulation == Formulation::force_based ? 4 : 2);

@@ -27,7 +27,8 @@ struct SceneResult {
 SceneResult build_scene(const SceneSpec& spec);
 
 /// The spec with every default that depends on other fields filled in (vertical walls, what its fidelity says, time
-/// step). REQUIRES: `scene` was built from `spec`.
+/// step).
+/// REQUIRES: `scene` was built from `spec`.
 SceneSpec complete_spec(const SceneSpec& spec, const Scene& scene);
 
 /// What a scene is and what running it takes. Units: mm, tonne, s, MPa.

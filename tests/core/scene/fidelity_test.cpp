@@ -26,22 +26,15 @@ std::uint64_t hash_after_steps(const SceneSpec& spec) {
 }
 
 TEST(Fidelity, WithoutOneTheDefaultsStay) {
-  SceneSpec spec = fill_in_fidelity(block(Fidelity::unspecified));
-  EXPECT_EQ(spec.elements_per_wall, 2);
-  EXPECT_EQ(spec.section.axial_points, 4);
-  EXPECT_EQ(spec.section.depth_points, 6);
-  spec = block(Fidelity::unspecified);
-  spec.section.formulation = SectionSpec::Formulation::displacement_based;
-  EXPECT_EQ(fill_in_fidelity(spec).section.axial_points, 2);
+  const SceneSpec spec = block(Fidelity::unspecified);
+  EXPECT_EQ(fill_in_fidelity(spec).elements_per_wall, 2);
   EXPECT_EQ(describe_fidelity(spec), "");
 }
 
-TEST(Fidelity, IsTheSameCrushBitForBitAsTheFieldsThatItFillsIn) {
+TEST(Fidelity, IsTheSameCrushBitForBitAsWhatItFillsIn) {
   for (const FidelityPoint& point : fidelity_points()) {
     SceneSpec spelled = block(Fidelity::unspecified);
     spelled.elements_per_wall = point.elements_per_wall;
-    spelled.section.axial_points = point.axial_points;
-    spelled.section.depth_points = point.depth_points;
     EXPECT_EQ(hash_after_steps(block(point.fidelity)), hash_after_steps(spelled)) << point.name;
   }
 }
@@ -49,26 +42,12 @@ TEST(Fidelity, IsTheSameCrushBitForBitAsTheFieldsThatItFillsIn) {
 TEST(Fidelity, WhatIsGivenStays) {
   for (const FidelityPoint& point : fidelity_points()) {
     SceneSpec spec = block(point.fidelity);
-    spec.elements_per_wall = 3;
-    spec.section.axial_points = 5;
-    const SceneSpec filled = fill_in_fidelity(spec);
-    EXPECT_EQ(filled.elements_per_wall, 3);
-    EXPECT_EQ(filled.section.axial_points, 5);
-    EXPECT_EQ(filled.section.depth_points, point.depth_points);
     EXPECT_EQ(describe_fidelity(spec),
-              "Fidelity " + point.name + " fills in section.depth_points " + std::to_string(point.depth_points) + ".");
+              "Fidelity " + point.name + ": " + std::to_string(point.elements_per_wall) + " elements a wall.");
+    spec.elements_per_wall = 3;
+    EXPECT_EQ(fill_in_fidelity(spec).elements_per_wall, 3);
+    EXPECT_NE(describe_fidelity(spec).find("is given"), std::string::npos);
   }
-}
-
-// The points of a fidelity are those of force-based, full-moment sections.
-TEST(Fidelity, OtherSectionsKeepTheirOwnPoints) {
-  SceneSpec spec = block(Fidelity::draft);
-  spec.section.formulation = SectionSpec::Formulation::displacement_based;
-  spec.section.depth_rule = SectionSpec::DepthRule::lobatto;
-  const SceneSpec filled = fill_in_fidelity(spec);
-  EXPECT_EQ(filled.section.axial_points, 2);
-  EXPECT_EQ(filled.section.depth_points, 6);
-  EXPECT_EQ(filled.elements_per_wall, fidelity_points().front().elements_per_wall);
 }
 
 TEST(Fidelity, IsCompletedAndTold) {
@@ -77,8 +56,6 @@ TEST(Fidelity, IsCompletedAndTold) {
     const auto scene = scenes::build(spec);
     const SceneSpec complete = complete_spec(spec, *scene);
     EXPECT_EQ(complete.elements_per_wall, point.elements_per_wall);
-    EXPECT_EQ(complete.section.axial_points, point.axial_points);
-    EXPECT_EQ(complete.section.depth_points, point.depth_points);
     const auto modelled = facts_of(*scene).modelled;
     EXPECT_EQ(std::count(modelled.begin(), modelled.end(), describe_fidelity(spec)), 1) << point.name;
   }
