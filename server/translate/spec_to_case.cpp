@@ -146,7 +146,7 @@ void write_numerics(const NumericsSpec& in, v1::Numerics& out) {
   out.set_rotary_scaling(in.rotary_scaling);
   out.set_fibre_precision(in.fibre_precision == NumericsSpec::FibrePrecision::single_precision ? v1::Numerics::SINGLE
                                                                                                : v1::Numerics::DOUBLE);
-  out.set_fidelity(to_proto(in.fidelity));
+  out.set_fidelity(translate::to_proto(in.fidelity));
   out.set_threads(in.threads);
 }
 

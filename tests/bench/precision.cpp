@@ -41,8 +41,6 @@ Statistics statistics_of(const VariedScene& scene, const Variant& variant, const
   return statistics;
 }
 
-double counted_error(const Precision& precision) { return std::max(precision.error, precision.uncertainty); }
-
 void mark_front(std::vector<Precision>& all) {
   std::vector<Precision*> by_time;
   for (Precision& precision : all) by_time.push_back(&precision);
@@ -50,12 +48,14 @@ void mark_front(std::vector<Precision>& all) {
             [](const auto* one, const auto* other) { return one->seconds < other->seconds; });
   double least = std::numeric_limits<double>::infinity();
   for (Precision* precision : by_time) {
-    precision->on_front = counted_error(*precision) < least;
-    least = std::min(least, counted_error(*precision));
+    precision->on_front = claimed_error(*precision) < least;
+    least = std::min(least, claimed_error(*precision));
   }
 }
 
 }  // namespace
+
+double claimed_error(const Precision& precision) { return std::max(precision.error, precision.uncertainty); }
 
 bool is_of(const CsvRow& row, const VariedScene& scene, const Variant& variant) {
   const std::string seed = row.at("seed");

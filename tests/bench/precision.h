@@ -33,6 +33,9 @@ struct Precision {
   bool on_front = false;  ///< none is as fast and surer: an error counts no less than its uncertainty
 };
 
+/// No error below its uncertainty is claimed.
+double claimed_error(const Precision& precision);
+
 /// Of every variant of a scene that has rows of at least two seeds, in the list's order. `converged` names the variant from which
 /// the errors are; `scatter` becomes the relative standard deviation of one of its crushes. Rows of variants whose words have
 /// changed since are left out, and so are crushes that did not finish. Throws std::invalid_argument when the converged variant has
