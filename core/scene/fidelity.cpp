@@ -62,6 +62,7 @@ std::vector<FidelityForecast> forecast_fidelities(const SceneSpec& spec) {
     if (!built.scene) continue;
     const SceneFacts facts = facts_of(*built.scene);
     FidelityForecast forecast{point, facts.step_count, facts.element_count, fields_beside(point, spec)};
+    forecast.point.elements_per_wall = *fill_in_fidelity(asked).elements_per_wall;
     if (!forecast.given.empty()) forecast.point.errors.clear();
     forecasts.push_back(std::move(forecast));
   }

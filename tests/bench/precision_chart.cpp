@@ -82,7 +82,7 @@ Chart build_chart(const VariedScene& scene, const std::vector<Precision>& all, d
     high = std::max(high, scatter);
   }
   chart.y = {0.5 * low, 1.6 * high, "relative error", true};
-  chart.note = "bars: two standard errors of the mean over the seeds; no mark below them: errors there are unknown";
+  chart.note = "bars: 95 % intervals of the mean over the seeds; an error inside is drawn at its end";
   return chart;
 }
 

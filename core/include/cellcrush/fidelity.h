@@ -13,7 +13,7 @@ namespace cellcrush {
 struct MeasuredError {
   std::string scene;         ///< in words
   double error = 0.0;        ///< of the mean of the plateau stress at the support plate
-  double uncertainty = 0.0;  ///< two standard errors of that; an error below it is not known to be there
+  double uncertainty = 0.0;  ///< half of its 95 % interval; an error below it is not known to be there
   double scatter = 0.0;      ///< standard deviation of one crush
 
   /// No error below its uncertainty is claimed.
@@ -41,10 +41,10 @@ std::string describe_fidelity(const SceneSpec& spec);
 
 /// What a spec would take and be worth at a fidelity.
 struct FidelityForecast {
-  FidelityPoint point;  ///< without errors when they are not known: the spec itself gives what the point would fill in
+  FidelityPoint point;  ///< with the elements a wall that the spec then has; without errors where `given` is not empty
   std::int64_t step_count = 0;
   std::int64_t element_count = 0;
-  std::vector<std::string> given;  ///< the fields that the spec gives otherwise
+  std::vector<std::string> given;  ///< fields that the spec gives otherwise than they were measured
 };
 
 /// Of every fidelity at which the spec, a lattice between plates, can be built; none for frames, of which nothing was

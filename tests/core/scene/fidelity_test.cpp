@@ -80,13 +80,14 @@ TEST(Fidelity, NoErrorIsToldOfWhatWasNotMeasured) {
   spec.numerics.rotary_scaling = 3.0;
   for (const FidelityForecast& forecast : forecast_fidelities(spec)) {
     EXPECT_TRUE(forecast.point.errors.empty());
+    EXPECT_EQ(forecast.point.elements_per_wall, 3);
     EXPECT_EQ(forecast.given,
               (std::vector<std::string>{"elements_per_wall", "section.depth_rule", "numerics.rotary_scaling"}));
   }
   EXPECT_TRUE(forecast_fidelities(scenes::Cantilever::spec(4, FrameLattice::Component::y, 1.0, 0.1, 0.2)).empty());
 }
 
-// A step that two elements a wall can bear and four cannot.
+// A step that two elements a wall can bear and eight cannot.
 TEST(Fidelity, OneAtWhichTheCaseCannotRunIsNotForecast) {
   SceneSpec spec = block(Fidelity::unspecified);
   spec.numerics.time_step_s = 2e-7;
