@@ -11,9 +11,9 @@ const std::vector<FidelityPoint>& fidelity_points() {
   const std::string slow = "Example 1 at 1 m/s";
   // From tests/bench/results/work_precision.csv.
   static const std::vector<FidelityPoint> kPoints = {
-      {Fidelity::draft, "DRAFT", 1, 0.8, {{fast, 0.5, 0.03, 0.03}, {slow, 0.5, 0.03, 0.03}}},
-      {Fidelity::standard, "STANDARD", 2, 1.0, {{fast, 0.1, 0.03, 0.03}, {slow, 0.02, 0.03, 0.03}}},
-      {Fidelity::reference, "REFERENCE", 8, 0.9, {{fast, 0.01, 0.02, 0.03}, {slow, 0.01, 0.01, 0.03}}},
+      {Fidelity::draft, "DRAFT", 1, 1.06, {{fast, 0.114, 0.028, 0.026}, {slow, 0.027, 0.085, 0.027}}},
+      {Fidelity::standard, "STANDARD", 2, 1.0, {{fast, 0.004, 0.012, 0.010}, {slow, 0.004, 0.053, 0.017}}},
+      {Fidelity::reference, "REFERENCE", 8, 0.80, {{fast, 0.0, 0.008, 0.007}, {slow, 0.0, 0.039, 0.004}}},
   };
   return kPoints;
 }
