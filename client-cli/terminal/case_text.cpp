@@ -5,6 +5,7 @@
 
 #include <sstream>
 
+#include "terminal/fidelity_text.h"
 #include "terminal/lattice_text.h"
 #include "terminal/number_text.h"
 #include "terminal/table.h"
@@ -102,7 +103,7 @@ std::string check_text(const v1::CheckCaseResponse& check) {
   if (const std::string scene = scene_text(completed); !scene.empty()) text += scene + '\n';
   if (const std::string description = description_text(completed); !description.empty()) text += '\n' + description;
   if (!text.empty()) text += '\n';
-  text += table.text(2);
+  text += table.text(2) + fidelity_text(check);
   if (check.modelled_size() > 0) text += "\nmodelled, and left out\n";
   for (const std::string& sentence : check.modelled()) text += wrapped(printable(sentence), 100, "  - ", "    ");
   return text;

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "cellcrush/fidelity.h"
 #include "cellcrush/simulation.h"
 #include "contact/contact_faces.h"
 #include "contact/wall_paths.h"
@@ -103,7 +104,7 @@ Layout measure(const SceneSpec& spec, const Lattice& lattice, Layout layout, Sce
 }
 
 Layout lay_out(const SceneSpec& spec, Scene& scene) {
-  const int elements = spec.elements_per_wall;
+  const int elements = *spec.elements_per_wall;
   if (const auto* hexagon = std::get_if<HexagonLattice>(&spec.lattice)) {
     return measure(spec, *hexagon, lay_out(*hexagon, spec.inclusions, elements), scene);
   }
@@ -185,7 +186,8 @@ void check_step_count(const SceneSpec& spec, const Scene& scene, Problems& probl
 
 }  // namespace
 
-SceneResult build_scene(const SceneSpec& spec) {
+SceneResult build_scene(const SceneSpec& given) {
+  const SceneSpec spec = fill_in_fidelity(given);
   SceneResult result;
   result.problems = check_spec(spec);
   if (spoil_mesh(result.problems)) {
@@ -209,13 +211,14 @@ SceneResult build_scene(const SceneSpec& spec) {
   if (result.problems.empty()) {
     prepare_search(spec, *scene);
     set_schedule(spec, *scene);
+    scene->fidelity = describe_fidelity(given);
     result.scene = scene;
   }
   return result;
 }
 
 SceneSpec complete_spec(const SceneSpec& spec, const Scene& scene) {
-  SceneSpec complete = spec;
+  SceneSpec complete = fill_in_fidelity(spec);
   if (auto* hexagon = std::get_if<HexagonLattice>(&complete.lattice)) {
     if (!hexagon->vertical_wall_thickness_mm) {
       hexagon->vertical_wall_thickness_mm = hexagon->wall_thickness_mm;

@@ -63,7 +63,7 @@ Problems check_overlap(const SceneSpec& spec, const Scene& scene) {
              "Make walls thinner, or give longer elements.", Problem::Kind::invalid}};
   }
   if (frame != nullptr) {
-    return name_beams(*frame, spec.elements_per_wall, overlaps.found);
+    return name_beams(*frame, *spec.elements_per_wall, overlaps.found);
   }
   if (overlaps.found.empty()) {
     return {};

@@ -73,18 +73,18 @@ void check_lattice(const SceneSpec& spec, FieldChecker& check) {
     return lattice.side_mm && *lattice.side_mm > 0.0 ? *lattice.side_mm : 1e12;
   };
   if (const auto* hexagon = std::get_if<HexagonLattice>(&spec.lattice)) {
-    check_hexagons(*hexagon, spec.inclusions, spec.elements_per_wall, check);
+    check_hexagons(*hexagon, spec.inclusions, *spec.elements_per_wall, check);
     check_imperfection(spec, side_of(*hexagon), check);
     return;
   }
   if (const auto* square = std::get_if<SquareLattice>(&spec.lattice)) {
-    check_regular("lattice.square.", *square, 1, 2.0, spec.elements_per_wall, check);
+    check_regular("lattice.square.", *square, 1, 2.0, *spec.elements_per_wall, check);
     check_imperfection(spec, side_of(*square), check);
   } else if (const auto* triangle = std::get_if<TriangleLattice>(&spec.lattice)) {
-    check_regular("lattice.triangle.", *triangle, 1, 3.0, spec.elements_per_wall, check);
+    check_regular("lattice.triangle.", *triangle, 1, 3.0, *spec.elements_per_wall, check);
     check_imperfection(spec, side_of(*triangle), check);
   } else if (const auto* frame = std::get_if<FrameLattice>(&spec.lattice)) {
-    check_frame(*frame, spec.elements_per_wall, check);
+    check_frame(*frame, *spec.elements_per_wall, check);
     if (spec.imperfection.amplitude_mm != 0.0) {
       check.add("lattice.imperfection.amplitude_mm", to_text(spec.imperfection.amplitude_mm),
                 "is for regular lattices, not for a frame.", "Leave it out, and move the frame's nodes instead.");
@@ -127,9 +127,6 @@ void check_numerics(const NumericsSpec& numerics, FieldChecker& check) {
   check.in_range("numerics.mass_damping_per_s", numerics.mass_damping_per_s, {0.0, 1e12}, " 1/s");
   check.in_range("numerics.mass_scaling", numerics.mass_scaling, {1.0, 1e6}, " (1: the real masses)");
   check.in_range("numerics.rotary_scaling", numerics.rotary_scaling, {1.0, 1e3}, " (1: the real inertias)");
-  if (numerics.fidelity != NumericsSpec::Fidelity::unspecified) {
-    check.add_unimplemented("numerics.fidelity", "", "fidelity presets are not built yet.", "Leave it out.");
-  }
   check.in_range("numerics.threads", std::optional<int>(numerics.threads), {1, 1024}, " threads");
 }
 
@@ -145,7 +142,7 @@ Problems check_spec(const SceneSpec& spec) {
   FieldChecker check;
   check_lattice(spec, check);
   check.positive("depth_mm", spec.depth_mm, " mm");
-  check.in_range("elements_per_wall", std::optional<int>(spec.elements_per_wall), {1, 64}, "");
+  check.in_range("elements_per_wall", spec.elements_per_wall, {1, 64}, "");
   check_material("material.", spec.material, check);
   check_section(spec.section, check);
   check.in_range("contact.friction", spec.contact.friction, {0.0, 10.0}, "");

@@ -58,9 +58,4 @@ void FieldChecker::add(const std::string& field, const std::string& value, const
   problems_.push_back({field, value, message, remedy, Problem::Kind::invalid});
 }
 
-void FieldChecker::add_unimplemented(const std::string& field, const std::string& value, const std::string& message,
-                                     const std::string& remedy) {
-  problems_.push_back({field, value, message, remedy, Problem::Kind::unimplemented});
-}
-
 }  // namespace cellcrush

@@ -29,8 +29,6 @@ class FieldChecker {
   bool positive(const std::string& field, const std::optional<double>& value, const std::string& unit);
 
   void add(const std::string& field, const std::string& value, const std::string& message, const std::string& remedy);
-  void add_unimplemented(const std::string& field, const std::string& value, const std::string& message,
-                         const std::string& remedy);
 
   Problems take() { return std::move(problems_); }
 

@@ -73,6 +73,9 @@ std::vector<std::string> what_is_modelled(const Scene& scene) {
         "Masses: fictitious, " + to_text(scene.mass_scaling.mass) + " times the real ones (rotary inertia " +
         to_text(scene.mass_scaling.mass * scene.mass_scaling.rotary) + " times), so for slow crushes only.");
   }
+  if (!scene.fidelity.empty()) {
+    lines.push_back(scene.fidelity);
+  }
   lines.push_back("Left out: fracture, strain-rate dependence, motion out of the plane.");
   return lines;
 }

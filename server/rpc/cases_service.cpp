@@ -5,6 +5,7 @@
 #include "rpc/error_table.h"
 #include "store/result_writer.h"
 #include "translate/check_case.h"
+#include "translate/fidelities.h"
 #include "translate/preset_cases.h"
 
 namespace cellcrush::rpc {
@@ -26,6 +27,7 @@ grpc::Status CasesService::CheckCase(grpc::ServerContext*, const v1::CheckCaseRe
     if (response->problems_size() > 0) return grpc::Status::OK;
     const auto elements = static_cast<double>(response->element_count());
     response->set_predicted_seconds(step_cost_ * elements * static_cast<double>(response->step_count()));
+    translate::add_fidelities(request->case_(), step_cost_, *response);
     response->set_predicted_bytes(store::predicted_result_bytes(response->particle_count(), response->element_count(),
                                                                 check.sample_count, check.frame_count));
     return grpc::Status::OK;

@@ -149,23 +149,28 @@ void write_numerics(const NumericsSpec& in, v1::Numerics& out) {
   out.set_rotary_scaling(in.rotary_scaling);
   out.set_fibre_precision(in.fibre_precision == NumericsSpec::FibrePrecision::single_precision ? v1::Numerics::SINGLE
                                                                                                : v1::Numerics::DOUBLE);
-  switch (in.fidelity) {
-    case NumericsSpec::Fidelity::unspecified: break;
-    case NumericsSpec::Fidelity::draft: out.set_fidelity(v1::Numerics::DRAFT); break;
-    case NumericsSpec::Fidelity::standard: out.set_fidelity(v1::Numerics::STANDARD); break;
-    case NumericsSpec::Fidelity::reference: out.set_fidelity(v1::Numerics::REFERENCE); break;
-  }
+  out.set_fidelity(translate::to_proto(in.fidelity));
   out.set_threads(in.threads);
 }
 
 }  // namespace
+
+v1::Numerics::Fidelity to_proto(NumericsSpec::Fidelity fidelity) {
+  switch (fidelity) {
+    case NumericsSpec::Fidelity::unspecified: break;
+    case NumericsSpec::Fidelity::draft: return v1::Numerics::DRAFT;
+    case NumericsSpec::Fidelity::standard: return v1::Numerics::STANDARD;
+    case NumericsSpec::Fidelity::reference: return v1::Numerics::REFERENCE;
+  }
+  return v1::Numerics::FIDELITY_UNSPECIFIED;
+}
 
 v1::Case to_case(const SceneSpec& spec) {
   v1::Case out;
   out.set_title(spec.title);
   write_lattice(spec, *out.mutable_lattice());
   if (spec.depth_mm) out.set_depth_mm(*spec.depth_mm);
-  out.set_elements_per_wall(spec.elements_per_wall);
+  if (spec.elements_per_wall) out.set_elements_per_wall(*spec.elements_per_wall);
   write_material(spec.material, *out.mutable_material());
   write_section(spec.section, *out.mutable_section());
   out.mutable_contact()->set_friction(spec.contact.friction);

@@ -9,4 +9,6 @@ namespace cellcrush::translate {
 /// ...
 v1::Case to_case(const SceneSpec& spec);
 
+v1::Numerics::Fidelity to_proto(NumericsSpec::Fidelity fidelity);
+
 }  // namespace cellcrush::translate

@@ -18,7 +18,6 @@ std::vector<v1::Case> probes() {
   hexagon.mutable_plates()->set_friction(0.1);
   hexagon.mutable_loading()->set_ramp_strain(0.01);
   hexagon.mutable_numerics()->set_mass_damping_per_s(1.0);
-  hexagon.mutable_numerics()->set_fidelity(v1::Numerics::STANDARD);
   return {hexagon};
 }
 

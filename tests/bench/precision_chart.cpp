@@ -38,8 +38,10 @@ std::vector<Curve> group_curves(const VariedScene& scene, const std::vector<Prec
     for (const Precision& precision : all) {
       if (group_of(precision.variant) != groups[i]) continue;
       curve.x.push_back(precision.seconds);
-      curve.y.push_back(std::max(precision.error, kLeastError));
-      curve.low.push_back(precision.error - precision.uncertainty);
+      const double error = claimed_error(precision);
+      const bool sure = error > precision.uncertainty;
+      curve.y.push_back(std::max(error, kLeastError));
+      curve.low.push_back(sure ? error - precision.uncertainty : error);
       curve.high.push_back(precision.error + precision.uncertainty);
       curve.labels.push_back(label_of(precision.variant));
     }
@@ -55,7 +57,7 @@ Curve front_curve(std::vector<Precision> all) {
   for (const Precision& precision : all) {
     if (!precision.on_front) continue;
     curve.x.push_back(precision.seconds);
-    curve.y.push_back(std::max({precision.error, precision.uncertainty, kLeastError}));
+    curve.y.push_back(std::max(claimed_error(precision), kLeastError));
   }
   return curve;
 }
@@ -70,7 +72,7 @@ Chart build_chart(const VariedScene& scene, const std::vector<Precision>& all, d
   double low = 1.0;
   double high = kLeastError;
   for (const Precision& precision : all) {
-    low = std::min(low, std::max(precision.error, kLeastError));
+    low = std::min(low, std::max(claimed_error(precision), kLeastError));
     high = std::max(high, precision.error + precision.uncertainty);
   }
   if (scatter > 0.0) {
@@ -80,7 +82,7 @@ Chart build_chart(const VariedScene& scene, const std::vector<Precision>& all, d
     high = std::max(high, scatter);
   }
   chart.y = {0.5 * low, 1.6 * high, "relative error", true};
-  chart.note = "bars: two standard errors of the mean over the seeds";
+  chart.note = "bars: 95 % intervals of the mean over the seeds; an error inside is drawn at its end";
   return chart;
 }
 

@@ -131,7 +131,7 @@ void obey(const std::vector<std::string>& words) {
     run(scenes, words[2], Settings({words.begin() + 3, words.end()}, {{"seeds", "5"}, {"part", "1/1"}, {"scene", ""}}));
   } else {
     chart(scenes, words[2], words[3],
-          Settings({words.begin() + 4, words.end()}, {{"scene", ""}, {"converged", "converged:reference"}}));
+          Settings({words.begin() + 4, words.end()}, {{"scene", ""}, {"converged", kConverged}}));
   }
 }
 

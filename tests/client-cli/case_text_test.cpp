@@ -3,6 +3,7 @@
 #include <google/protobuf/text_format.h>
 #include <gtest/gtest.h>
 
+#include "terminal/fidelity_text.h"
 #include "terminal/job_text.h"
 
 namespace cellcrush::client {
@@ -85,6 +86,33 @@ TEST(CaseText, TheCheckOfAFrameLeavesOutWhatOnlyACrushHas) {
   EXPECT_EQ(frame.find("across it"), std::string::npos) << frame;
   *check.mutable_completed_case() = parse("lattice { square { columns: 20 rows: 12 } }");
   expect_parts(check_text(check), {"squares, 20 x 12 cells", "relative density", "width across it"});
+}
+
+TEST(FidelityText, ATimeAndAnErrorAFidelityAndNoneBelowItsScatter) {
+  v1::CheckCaseResponse check;
+  ASSERT_TRUE(google::protobuf::TextFormat::ParseFromString(R"(
+    fidelities { fidelity: DRAFT elements_per_wall: 1 predicted_seconds: 12
+      errors { scene: "Type I" error_relative: 0.21 uncertainty_relative: 0.02 scatter_relative: 0.03 } }
+    fidelities { fidelity: STANDARD elements_per_wall: 2 predicted_seconds: 130
+      errors { scene: "Type I" error_relative: 0.013 uncertainty_relative: 0.025 scatter_relative: 0.04 } })",
+                                                            &check));
+  const std::string text = fidelity_text(check);
+  expect_parts(text, {"DRAFT", "12 s", "21.0 % +- 2.0 %", "STANDARD", "2 min 10 s", "under 2.5 %", "error, Type I",
+                      "One crush of DRAFT scatters by 3.0 % of Type I"});
+  EXPECT_EQ(text.find("1.3 %"), std::string::npos) << text;
+  expect_parts(check_text(check), {text.c_str()});
+}
+
+TEST(FidelityText, WhatTheCaseGivesOtherwiseHasNoKnownError) {
+  v1::CheckCaseResponse check;
+  EXPECT_EQ(fidelity_text(check), "");
+  auto& forecast = *check.add_fidelities();
+  forecast.set_fidelity(v1::Numerics::REFERENCE);
+  forecast.add_given_fields("elements_per_wall");
+  forecast.add_given_fields("section.depth_rule");
+  const std::string text = fidelity_text(check);
+  expect_parts(text, {"REFERENCE", "not known, as the case gives elements_per_wall, section.depth_rule\n"});
+  EXPECT_EQ(text.find("scatters"), std::string::npos) << text;
 }
 
 TEST(JobText, AFramesSummaryHasNoPlateau) {

@@ -88,10 +88,6 @@ TEST_F(BadInput, SeveralProblemsAreAllNamedAtOnce) {
                   "loading.speed_m_per_s", "loading.end_strain", "section.depth_points"});
 }
 
-TEST_F(BadInput, WhatIsNotBuiltIsNamedAsSuch) {
-  expect_refused({small(), "--set", "numerics.fidelity=DRAFT"}, {"numerics.fidelity", "not implemented"});
-}
-
 TEST_F(BadInput, AWrongCommandLine) {
   EXPECT_EQ(cellcrush({"no-such-command"}).exit_code, 2);
   EXPECT_EQ(cellcrush({"submit"}).exit_code, 2);

@@ -57,6 +57,36 @@ TEST_F(CasesServiceTest, ASoundCaseIsDescribed) {
   EXPECT_GT(response.theory().shock_mpa(), response.theory().gibson_ashby_mpa());
 }
 
+TEST_F(CasesServiceTest, EachFidelityIsToldBeforeAnythingRuns) {
+  const auto plain = check(small_case());
+  ASSERT_EQ(plain.fidelities_size(), 3);
+  EXPECT_LT(plain.fidelities(0).predicted_seconds(), plain.fidelities(1).predicted_seconds());
+  EXPECT_LT(plain.fidelities(1).predicted_seconds(), plain.fidelities(2).predicted_seconds());
+  for (const auto& forecast : plain.fidelities()) {
+    EXPECT_GT(forecast.errors_size(), 0);
+    v1::Case asked = small_case();
+    asked.mutable_numerics()->set_fidelity(forecast.fidelity());
+    const auto response = check(asked);
+    EXPECT_EQ(response.completed_case().elements_per_wall(), forecast.elements_per_wall());
+    EXPECT_EQ(response.element_count(), forecast.element_count());
+    EXPECT_EQ(response.step_count(), forecast.step_count());
+    EXPECT_EQ(response.predicted_seconds(), forecast.predicted_seconds());
+  }
+}
+
+// A preset that would give what a fidelity fills in could not be run at one.
+TEST_F(CasesServiceTest, APresetTakesItsFidelitysElements) {
+  v1::GetPresetRequest request;
+  request.set_name("hexagon-small");
+  v1::Preset preset;
+  ASSERT_TRUE(client().cases->GetPreset(bounded_context().get(), request, &preset).ok());
+  preset.mutable_case_()->mutable_numerics()->set_fidelity(v1::Numerics::REFERENCE);
+  const auto response = check(preset.case_());
+  ASSERT_EQ(response.fidelities_size(), 3);
+  EXPECT_EQ(response.completed_case().elements_per_wall(), response.fidelities(2).elements_per_wall());
+  EXPECT_EQ(response.fidelities(2).given_fields_size(), 0);
+}
+
 TEST_F(CasesServiceTest, PresetsAreListedAndEachIsSound) {
   auto client = this->client();
   v1::ListPresetsResponse listed;

@@ -63,13 +63,7 @@ TEST_F(JobsServiceTest, ARefusedCaseCarriesItsProblemsAndQueuesNothing) {
 
 TEST_F(JobsServiceTest, WhatIsNotBuiltIsUnimplementedAndNamed) {
   auto client = this->client();
-  v1::CreateJobRequest request;
-  *request.mutable_case_() = small_case();
-  request.mutable_case_()->mutable_numerics()->set_fidelity(v1::Numerics::DRAFT);
   v1::Job job;
-  const auto status = client.jobs->CreateJob(bounded_context().get(), request, &job);
-  EXPECT_EQ(status.error_code(), grpc::StatusCode::UNIMPLEMENTED);
-  EXPECT_THAT(status.error_message(), HasSubstr("numerics.fidelity"));
   const auto suspended = client.jobs->SuspendJob(bounded_context().get(), {}, &job);
   EXPECT_EQ(suspended.error_code(), grpc::StatusCode::UNIMPLEMENTED);
   EXPECT_THAT(suspended.error_message(), HasSubstr("SuspendJob"));

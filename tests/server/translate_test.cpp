@@ -6,6 +6,7 @@
 #include "server/small_case.h"
 #include "translate/case_to_spec.h"
 #include "translate/check_case.h"
+#include "translate/fidelities.h"
 #include "translate/results.h"
 #include "translate/spec_to_case.h"
 
@@ -101,6 +102,35 @@ TEST(Translate, TheSearchOfContactsIsByFacesUnlessBucketsAreAskedFor) {
   const auto refused = translate::to_spec(given).problems;
   ASSERT_EQ(refused.size(), 1u);
   EXPECT_EQ(refused.front().field, "contact.search");
+}
+
+TEST(Translate, AFidelityGoesBothWaysAndWhatItFillsInStaysLeftOutUntilTheCaseIsCompleted) {
+  for (const auto fidelity : {v1::Numerics::DRAFT, v1::Numerics::STANDARD, v1::Numerics::REFERENCE}) {
+    v1::Case given = testing::small_case();
+    given.mutable_numerics()->set_fidelity(fidelity);
+    const v1::Case there_and_back = translate::to_case(translate::to_spec(given).spec);
+    EXPECT_EQ(there_and_back.numerics().fidelity(), fidelity);
+    EXPECT_FALSE(there_and_back.has_elements_per_wall());
+    const v1::Case completed = translate::check_case(given).response.completed_case();
+    EXPECT_EQ(completed.numerics().fidelity(), fidelity);
+    EXPECT_TRUE(completed.has_elements_per_wall());
+  }
+}
+
+TEST(Translate, ForecastsAreTimesOfOneCoreAndTheOneAskedForIsThePrediction) {
+  constexpr double kStepCost = 1e-7;
+  v1::Case given = testing::small_case();
+  given.mutable_numerics()->set_fidelity(v1::Numerics::STANDARD);
+  auto response = translate::check_case(given).response;
+  translate::add_fidelities(given, kStepCost, response);
+  ASSERT_EQ(response.fidelities_size(), 3);
+  const auto& standard = response.fidelities(1);
+  EXPECT_EQ(standard.fidelity(), v1::Numerics::STANDARD);
+  EXPECT_NEAR(standard.predicted_seconds(),
+              kStepCost * static_cast<double>(response.element_count() * response.step_count()), 1e-9);
+  EXPECT_EQ(response.predicted_seconds(), standard.predicted_seconds());
+  EXPECT_GT(standard.errors(0).uncertainty_relative(), 0.0);
+  EXPECT_FALSE(standard.errors(0).scene().empty());
 }
 
 TEST(Translate, SquaresAndTrianglesKeepTheirFields) {

@@ -213,6 +213,7 @@ struct Scene {
   double total_mass = 0.0;       ///< real, tonne
   double stable_step = 0.0;      ///< s, of the undeformed mesh (see scene/stable_step.h)
   double collapse_stress = 0.0;  ///< MPa, quasi-static plastic collapse after Gibson and Ashby; 0 when unknown
+  std::string fidelity;          ///< what it filled in, a sentence; empty without one
 
   std::vector<int> watched;  ///< particles whose motion samples keep
 

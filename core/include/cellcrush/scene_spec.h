@@ -189,6 +189,7 @@ struct NumericsSpec {
   /// Of the fibres' stresses; motion, forces and works are in double precision either way. See kMostSingleFibres.
   enum class FibrePrecision { double_precision, single_precision };
   FibrePrecision fibre_precision = FibrePrecision::single_precision;
+  /// A point of the measured front of speed against accuracy, which fills in what is left out (fidelity.h).
   enum class Fidelity { unspecified, draft, standard, reference };
   Fidelity fidelity = Fidelity::unspecified;
   int threads = 1;
@@ -205,7 +206,7 @@ struct SceneSpec {
   Imperfection imperfection;
   Inclusions inclusions;
   std::optional<double> depth_mm;
-  int elements_per_wall = 2;
+  std::optional<int> elements_per_wall;  ///< default: that of the fidelity, else 2
   MaterialSpec material;
   SectionSpec section;
   ContactSpec contact;

@@ -26,7 +26,8 @@ struct SceneResult {
 /// Checks a spec and builds its scene. Never throws on a user's input; reports every problem at once.
 SceneResult build_scene(const SceneSpec& spec);
 
-/// The spec with every default that depends on other fields filled in (vertical walls, time step).
+/// The spec with every default that depends on other fields filled in (vertical walls, what its fidelity says, time
+/// step).
 /// REQUIRES: `scene` was built from `spec`.
 SceneSpec complete_spec(const SceneSpec& spec, const Scene& scene);
 

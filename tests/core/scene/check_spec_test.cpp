@@ -62,15 +62,6 @@ TEST(CheckSpec, RefusesAFixedStepAboveTheStableOneAndSaysBoth) {
   EXPECT_NE(problems[0].message.find("2.27"), std::string::npos) << problems[0].message;
 }
 
-TEST(CheckSpec, WhatIsNotBuiltIsUnimplementedAndNamed) {
-  SceneSpec spec = scenes::hexagon_block(20, 7);
-  spec.numerics.fidelity = NumericsSpec::Fidelity::draft;
-  const Problems problems = build_scene(spec).problems;
-  ASSERT_EQ(problems.size(), 1u);
-  EXPECT_EQ(problems[0].field, "numerics.fidelity");
-  EXPECT_EQ(problems[0].kind, Problem::Kind::unimplemented);
-}
-
 TEST(CheckSpec, ImperfectionAndInclusionsAreBoundedByTheLattice) {
   SceneSpec spec = scenes::hexagon_block(20, 7);
   spec.imperfection.amplitude_mm = 0.5;

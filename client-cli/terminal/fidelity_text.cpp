@@ -1,0 +1,80 @@
+#include "terminal/fidelity_text.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <string>
+#include <vector>
+
+#include "terminal/number_text.h"
+#include "terminal/table.h"
+
+namespace cellcrush::client {
+
+namespace {
+
+using Align = Table::Align;
+
+// No error is claimed that the scatter of seeds would hide.
+std::string error_text(const v1::MeasuredError& error) {
+  if (error.error_relative() <= error.uncertainty_relative())
+    return fmt::format("under {}", percent_text(error.uncertainty_relative()));
+  return fmt::format("{} +- {}", percent_text(error.error_relative()), percent_text(error.uncertainty_relative()));
+}
+
+// The forecast that names the scenes in which errors were measured; null when the case's own fields leave none.
+const v1::FidelityForecast* find_measured(const v1::CheckCaseResponse& check) {
+  for (const v1::FidelityForecast& forecast : check.fidelities()) {
+    if (forecast.errors_size() > 0) return &forecast;
+  }
+  return nullptr;
+}
+
+std::vector<std::string> row_of(const v1::FidelityForecast& forecast) {
+  std::vector<std::string> row = {v1::Numerics::Fidelity_Name(forecast.fidelity()),
+                                  fmt::format("{}", forecast.elements_per_wall()),
+                                  duration_text(forecast.predicted_seconds())};
+  for (const v1::MeasuredError& error : forecast.errors()) row.push_back(error_text(error));
+  if (forecast.errors_size() == 0) {
+    row.push_back("not known, as the case gives " +
+                  printable(fmt::format("{}", fmt::join(forecast.given_fields(), ", "))));
+  }
+  return row;
+}
+
+std::string scatter_text(const v1::FidelityForecast& measured) {
+  std::string text;
+  for (const v1::MeasuredError& error : measured.errors()) {
+    text += fmt::format("{}{} of {}", text.empty() ? "" : ", ", percent_text(error.scatter_relative()),
+                        printable(error.scene()));
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string fidelity_text(const v1::CheckCaseResponse& check) {
+  if (check.fidelities_size() == 0) return {};
+  const v1::FidelityForecast* measured = find_measured(check);
+  std::vector<std::string> heading = {"fidelity", "elements a wall", "predicted time"};
+  std::vector<Align> columns = {Align::left, Align::right, Align::right};
+  if (measured != nullptr) {
+    for (const v1::MeasuredError& error : measured->errors()) heading.push_back("error, " + printable(error.scene()));
+  } else {
+    heading.push_back("error");
+  }
+  columns.resize(heading.size(), Align::left);
+  Table table(columns);
+  table.add(heading);
+  for (const v1::FidelityForecast& forecast : check.fidelities()) table.add(row_of(forecast));
+  std::string text = "\nspeed against accuracy, by numerics.fidelity\n" + table.text(2);
+  if (measured != nullptr) {
+    text += fmt::format(
+        "  Errors are those of the mean plateau stress at the support plate in the scenes named, from the converged\n"
+        "  solution. One crush of {} scatters by {}.\n",
+        v1::Numerics::Fidelity_Name(measured->fidelity()), scatter_text(*measured));
+  }
+  return text;
+}
+
+}  // namespace cellcrush::client

@@ -1,0 +1,72 @@
+#include "cellcrush/fidelity.h"
+
+#include "cellcrush/simulation.h"
+
+namespace cellcrush {
+namespace {
+
+using Fidelity = NumericsSpec::Fidelity;
+
+constexpr int kElementsPerWall = 2;  // where nothing is said
+
+const FidelityPoint* find_point(Fidelity fidelity) {
+  for (const FidelityPoint& point : fidelity_points()) {
+    if (point.fidelity == fidelity) return &point;
+  }
+  return nullptr;
+}
+
+/// Fields that a spec gives otherwise than they were when a point was measured, and that would change its error.
+std::vector<std::string> fields_beside(const FidelityPoint& point, const SceneSpec& spec) {
+  const SceneSpec plain;
+  std::vector<std::string> fields;
+  const auto add_if = [&fields](bool other, const char* field) {
+    if (other) fields.emplace_back(field);
+  };
+  add_if(spec.elements_per_wall.value_or(point.elements_per_wall) != point.elements_per_wall, "elements_per_wall");
+  add_if(spec.section.formulation != plain.section.formulation, "section.formulation");
+  add_if(spec.section.depth_rule != plain.section.depth_rule, "section.depth_rule");
+  add_if(spec.section.area_rule != plain.section.area_rule, "section.area_rule");
+  add_if(spec.section.axial_count() != plain.section.axial_count(), "section.axial_points");
+  add_if(spec.section.depth_count() != plain.section.depth_count(), "section.depth_points");
+  add_if(spec.numerics.mass_scaling != plain.numerics.mass_scaling, "numerics.mass_scaling");
+  add_if(spec.numerics.rotary_scaling != plain.numerics.rotary_scaling, "numerics.rotary_scaling");
+  return fields;
+}
+
+}  // namespace
+
+SceneSpec fill_in_fidelity(const SceneSpec& spec) {
+  const FidelityPoint* point = find_point(spec.numerics.fidelity);
+  SceneSpec filled = spec;
+  filled.elements_per_wall =
+      spec.elements_per_wall.value_or(point != nullptr ? point->elements_per_wall : kElementsPerWall);
+  return filled;
+}
+
+std::string describe_fidelity(const SceneSpec& spec) {
+  const FidelityPoint* point = find_point(spec.numerics.fidelity);
+  if (point == nullptr) return {};
+  return "Fidelity " + point->name +
+         (spec.elements_per_wall ? ": elements_per_wall is given, which is all that it would fill in."
+                                 : ": " + std::to_string(point->elements_per_wall) + " elements a wall.");
+}
+
+std::vector<FidelityForecast> forecast_fidelities(const SceneSpec& spec) {
+  std::vector<FidelityForecast> forecasts;
+  if (std::holds_alternative<FrameLattice>(spec.lattice)) return forecasts;
+  for (const FidelityPoint& point : fidelity_points()) {
+    SceneSpec asked = spec;
+    asked.numerics.fidelity = point.fidelity;
+    const SceneResult built = build_scene(asked);
+    if (!built.scene) continue;
+    const SceneFacts facts = facts_of(*built.scene);
+    FidelityForecast forecast{point, facts.step_count, facts.element_count, fields_beside(point, spec)};
+    forecast.point.elements_per_wall = *fill_in_fidelity(asked).elements_per_wall;
+    if (!forecast.given.empty()) forecast.point.errors.clear();
+    forecasts.push_back(std::move(forecast));
+  }
+  return forecasts;
+}
+
+}  // namespace cellcrush
