@@ -2,7 +2,6 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <stdexcept>
 
@@ -119,19 +118,19 @@ void append_row(const std::string& file, const Options& options, const CrushRun&
   stream << (is_new ? names + "\n" : "") + values + "\n" << std::flush;
 }
 
-void write_curve(const std::string& file, const CrushRun& run) {
-  std::ofstream stream = open(file, std::ios::trunc);
-  stream << "strain,stress_impact,stress_support,work_external,kinetic,elastic,plastic,contact,friction,damping,"
-            "residual\n";
-  for (const Sample& sample : run.samples) {
-    stream << text_of(sample.strain);
-    for (const double value : {sample.stress_impact, sample.stress_support, sample.work_external, sample.energy_kinetic,
-                               sample.energy_elastic, sample.energy_plastic, sample.energy_contact,
-                               sample.energy_friction, sample.energy_damping, sample.energy_residual}) {
-      stream << "," << text_of(value);
-    }
-    stream << "\n";
+CurveFile::CurveFile(const std::string& file) : stream_(open(file, std::ios::trunc)) {
+  stream_ << "strain,stress_impact,stress_support,work_external,kinetic,elastic,plastic,contact,friction,damping,"
+             "residual\n";
+}
+
+void CurveFile::add(const Sample& sample) {
+  stream_ << text_of(sample.strain);
+  for (const double value : {sample.stress_impact, sample.stress_support, sample.work_external, sample.energy_kinetic,
+                             sample.energy_elastic, sample.energy_plastic, sample.energy_contact,
+                             sample.energy_friction, sample.energy_damping, sample.energy_residual}) {
+    stream_ << "," << text_of(value);
   }
+  stream_ << "\n" << std::flush;
 }
 
 std::string describe(const Options& options, const CrushRun& run) {

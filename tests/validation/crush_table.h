@@ -1,5 +1,6 @@
 #pragma once
 
+#include <fstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,8 +17,16 @@ using Cells = std::vector<std::pair<std::string, std::string>>;
 /// the run did not reach is an empty cell. Throws std::runtime_error when the file cannot be written.
 void append_row(const std::string& file, const Options& options, const CrushRun& run, const Cells& leading = {});
 
-/// Writes the curve, a row a sample: strain, the plates' stresses, the energies in N mm.
-void write_curve(const std::string& file, const CrushRun& run);
+/// Writes a curve as it comes, a row a sample: strain, the plates' stresses, the energies in N mm.
+class CurveFile {
+ public:
+  /// Throws std::runtime_error when the file cannot be written.
+  explicit CurveFile(const std::string& file);
+  void add(const Sample& sample);
+
+ private:
+  std::ofstream stream_;
+};
 
 /// The same row, a measure a line, to be read.
 std::string describe(const Options& options, const CrushRun& run);

@@ -116,9 +116,15 @@ const std::vector<Option>& all_options() {
        [](Options& o, const std::string& v) { o.spec.material.yield_stress_mpa = number_of("yield_stress", v); }},
       {"samples", "of the curve",
        [](Options& o, const std::string& v) { o.spec.output.sample_count = count_of("samples", v); }},
+      {"frame_count", "frames of the lattice that are taken",
+       [](Options& o, const std::string& v) { o.spec.output.frame_count = count_of("frame_count", v); }},
+      {"until", "strain at which the run is broken off, samples and frames being those of the whole run",
+       [](Options& o, const std::string& v) { o.until = number_of("until", v); }},
       {"table", "CSV file to which a row of results is appended",
        [](Options& o, const std::string& v) { o.table_file = v; }},
       {"curve", "CSV file of the stress-strain curve", [](Options& o, const std::string& v) { o.curve_file = v; }},
+      {"frames", "file of the lattice's frames, of which validation_pictures draws strips",
+       [](Options& o, const std::string& v) { o.frames_file = v; }},
   };
   return kOptions;
 }
@@ -139,7 +145,7 @@ void apply_word(Options& options, const std::string& word) {
   }
   const std::string name = word.substr(0, equals);
   option_named(name).apply(options, word.substr(equals + 1));
-  if (name != "table" && name != "curve") {
+  if (name != "table" && name != "curve" && name != "frames") {
     options.changes += (options.changes.empty() ? "" : " ") + word;
   }
 }
