@@ -11,8 +11,8 @@
 
 namespace cellcrush::validation {
 
-/// First local limit of a crush: the greatest mean of the two plates' stresses, smoothed over 0.005 of strain, at strains of
-/// 2 to 20 %, and the least after it up to 14 % strain.
+/// First local limit of a crush: the greatest mean of the two plates' stresses, smoothed over 0.005 of strain, at
+/// strains of 2 to 20 %, and the least after it up to 14 % strain.
 struct Limit {
   double stress = 0.0;       ///< MPa
   double strain = 0.0;       ///< where it stands
@@ -45,8 +45,8 @@ struct CrushWatch {
   std::function<void(const FieldFrame&)> on_frame;  ///< of the undeformed lattice first
 };
 
-/// Runs a preset's spec to its end, or to the moment at which it stopped, or to the first sample at the strain `until` or
-/// beyond. Throws std::invalid_argument with all problems of a spec that has any.
+/// Runs a preset's spec to its end, or to the moment at which it stopped, or to the first sample at the strain `until`
+/// or beyond. Throws std::invalid_argument with all problems of a spec that has any.
 CrushRun run_crush(const SceneSpec& spec, double until = std::numeric_limits<double>::infinity(),
                    const CrushWatch& watch = {});
 

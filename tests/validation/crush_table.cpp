@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <optional>
 #include <stdexcept>
 
@@ -92,19 +93,11 @@ Cells cells_of(const Options& options, const CrushRun& run) {
   };
 }
 
-std::ofstream open(const std::string& file, std::ios::openmode mode) {
-  std::ofstream stream(file, mode);
-  if (!stream) {
-    throw std::runtime_error(file + ": cannot be written; give a file in a folder that exists.");
-  }
-  return stream;
-}
-
 }  // namespace
 
 void append_row(const std::string& file, const Options& options, const CrushRun& run, const Cells& leading) {
   const bool is_new = !std::filesystem::exists(file) || std::filesystem::is_empty(file);
-  std::ofstream stream = open(file, std::ios::app);
+  std::ofstream stream(file, std::ios::app);
   Cells cells = leading;
   const Cells measures = cells_of(options, run);
   cells.insert(cells.end(), measures.begin(), measures.end());
@@ -116,21 +109,9 @@ void append_row(const std::string& file, const Options& options, const CrushRun&
   }
   // One write, so that two programs may append to the same file.
   stream << (is_new ? names + "\n" : "") + values + "\n" << std::flush;
-}
-
-CurveFile::CurveFile(const std::string& file) : stream_(open(file, std::ios::trunc)) {
-  stream_ << "strain,stress_impact,stress_support,work_external,kinetic,elastic,plastic,contact,friction,damping,"
-             "residual\n";
-}
-
-void CurveFile::add(const Sample& sample) {
-  stream_ << text_of(sample.strain);
-  for (const double value : {sample.stress_impact, sample.stress_support, sample.work_external, sample.energy_kinetic,
-                             sample.energy_elastic, sample.energy_plastic, sample.energy_contact,
-                             sample.energy_friction, sample.energy_damping, sample.energy_residual}) {
-    stream_ << "," << text_of(value);
+  if (!stream) {
+    throw std::runtime_error(file + ": cannot be written; give a file in a folder that exists.");
   }
-  stream_ << "\n" << std::flush;
 }
 
 std::string describe(const Options& options, const CrushRun& run) {

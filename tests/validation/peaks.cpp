@@ -12,7 +12,8 @@ struct Point {
   double stress = 0.0;
 };
 
-/// The smoothed curve at the samples' strains. Near its ends the window is cut, so that no stress of beyond them is needed.
+/// The smoothed curve at the samples' strains. Near its ends the window is cut, so that no stress of beyond them is
+/// needed.
 std::vector<Point> smooth(std::span<const Sample> samples, const Curve& curve, double last) {
   std::vector<Point> points = {{0.0, 0.0}};
   for (const Sample& sample : samples) {
@@ -28,7 +29,8 @@ std::vector<Point> smooth(std::span<const Sample> samples, const Curve& curve, d
   return points;
 }
 
-/// The least stress from point `top` up to where the curve rises above it, going by `step`; none rises higher: up to the end.
+/// The least stress from point `top` up to where the curve rises above it, going by `step`; none rises higher: up to
+/// the end.
 double valley(const std::vector<Point>& points, std::size_t top, int step) {
   double least = points[top].stress;
   for (std::size_t i = top; i < points.size() && points[i].stress <= points[top].stress; i += step) {

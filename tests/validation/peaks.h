@@ -16,13 +16,13 @@ struct Peak {
 };
 
 // Peaks are counted on the mean of the stress over kPeakSmoothing of strain, up to a last strain, and are salient whose
-// prominence, as of mountains, is kSalient of the plateau or more. The curve begins at no stress, so that what rises from there is
-// judged by its other side; what rises to the last strain and does not fall again is no peak.
+// prominence, as of mountains, is kSalient of the plateau or more. The curve begins at no stress, so that what rises
+// from there is judged by its other side; what rises to the last strain and does not fall again is no peak.
 inline constexpr double kPeakSmoothing = 0.01;
 inline constexpr double kSalient = 0.15;
 
-/// The salient peaks of the impact plate's stress up to the strain `last`, by strain. The plateau is the mean from 0 to `last`.
-/// `last` is the strain of densification, where there is one, so that what is crushed solid counts for none.
+/// The salient peaks of the impact plate's stress up to the strain `last`, by strain. The plateau is the mean from 0 to
+/// `last`. `last` is the strain of densification, where there is one, so that what is crushed solid counts for none.
 std::vector<Peak> find_salient_peaks(std::span<const Sample> samples, double last);
 
 }  // namespace cellcrush::validation

@@ -1,5 +1,7 @@
 #include "validation/provenance.h"
 
+#include <filesystem>
+
 #include "bench/machine.h"
 #include "cellcrush/simd.h"
 
@@ -7,6 +9,7 @@ namespace cellcrush::validation {
 
 Cells provenance_of(const Options& options) {
   return {{"command", "validate " + options.preset + (options.changes.empty() ? "" : " ") + options.changes},
+          {"curve", std::filesystem::path(options.curve_file).filename()},
           {"case_hash", case_hash_of(options.spec)},
           {"revision", source_revision()},
           {"machine", bench::processor_name() + " " + simd_target()},

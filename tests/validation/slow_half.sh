@@ -1,7 +1,7 @@
 #!/bin/sh
-# Example 2 of the paper at 2 and 10 m/s, with 50 and 100 m/s beside them, and Example 3: crushes of minutes to hours, one after
-# another. Each leaves a row of FOLDER/slow_half.csv, its curve and its frames; what has its row is left out, so that the script can
-# be stopped and gone on with. Names choose some of them; `list` tells all.
+# Example 2 of the paper at 2 and 10 m/s, with 50 and 100 m/s beside them, and Example 3: crushes of minutes to hours,
+# one after another. Each leaves a row of FOLDER/slow_half.csv, its curve and its frames; what has its row is left out,
+# so that the script can be stopped and gone on with. Names choose some of them; `list` tells all.
 #   tests/validation/slow_half.sh build/ci/bin/validate FOLDER [NAME ...]
 #   tests/validation/slow_half.sh list
 set -eu
@@ -38,7 +38,8 @@ for lines in 0 2 6; do run inclusions-$lines inclusions-$lines end_strain=0.85 s
 run inclusions-0-papers-step inclusions-0 end_strain=0.85 samples=2000 frame_count=40 time_step=2e-8
 for seed in 2 3; do
   for lines in 0 2 6; do
-    run inclusions-$lines-seed-$seed inclusions-$lines end_strain=0.85 samples=2000 frame_count=40 amplitude=0.001 seed=$seed
+    run inclusions-$lines-seed-$seed inclusions-$lines end_strain=0.85 samples=2000 frame_count=40 \
+      amplitude=0.001 seed=$seed
   done
 done
 for reading in as-counted as-stated; do

@@ -1,12 +1,16 @@
-// Runs a preset and says what its crush amounts to; beside it a row of a table, the curve as CSV and the lattice's frames.
+// Runs a preset and says what its crush amounts to; beside it a row of a table, the curve as CSV and the lattice's
+// frames.
 //   validate papka-kyriakides-1 elements=4 table=runs.csv curve=curve.csv frames=frames
 
 #include <exception>
 #include <iostream>
 #include <optional>
+#include <stdexcept>
 
+#include "cellcrush/simd.h"
 #include "validation/crush_run.h"
 #include "validation/crush_table.h"
+#include "validation/curve_file.h"
 #include "validation/frames_file.h"
 #include "validation/options.h"
 #include "validation/provenance.h"
@@ -16,6 +20,14 @@ namespace {
 
 /// Curve and frames are written as they come.
 CrushRun run(const Options& options) {
+  if (!use_simd_target(options.simd_target)) {
+    std::string targets;
+    for (const std::string& target : simd_targets()) {
+      targets += (targets.empty() ? "" : " or ") + target;
+    }
+    throw std::invalid_argument("simd=" + options.simd_target + ": this processor cannot run it; give " + targets +
+                                ".");
+  }
   std::optional<CurveFile> curve;
   std::optional<FramesFile> frames;
   CrushWatch watch;
