@@ -48,10 +48,10 @@ Chart empty_chart(double fastest, double highest) {
   return chart;
 }
 
-std::string fit_text(const client::QuadraticFit& fit) {
+std::string fit_text(const std::string& preset, const client::QuadraticFit& fit) {
   char text[96];
-  std::snprintf(text, sizeof(text), "%.3f %+.2e V %+.3e V\u00b2", fit.constant, fit.linear, fit.quadratic);
-  return text;
+  std::snprintf(text, sizeof(text), ": %.3f %+.2e V %+.2e V\u00b2", fit.constant, fit.linear, fit.quadratic);
+  return preset + text;
 }
 
 }  // namespace
@@ -107,13 +107,13 @@ Chart fit_chart(const std::vector<std::vector<Plateau>>& presets, double to_spee
     const std::vector<double> speed = take(plateaus, &Plateau::speed);
     const std::vector<double> impact = take(plateaus, &Plateau::impact);
     const auto fit = client::find_quadratic_fit(speed, impact);
-    Curve line{{}, {}, {colour, 1.5, {}}, fit ? fit_text(*fit) : ""};
+    Curve line{{}, {}, {colour, 1.5, {}}, fit ? fit_text(plateaus.front().preset, *fit) : ""};
     for (int i = 0; fit && i <= kPoints; ++i) {
       line.x.push_back(to_speed * i / kPoints);
       line.y.push_back(fit->at(line.x.back()));
     }
     curves.push_back(std::move(line));
-    curves.push_back({speed, impact, {colour, 0.0, {}}, plateaus.front().preset, Marker::disc});
+    curves.push_back({speed, impact, {colour, 0.0, {}}, fit ? "" : plateaus.front().preset, Marker::disc});
     for (const Plateau& plateau : plateaus) {
       highest = plateau.speed <= to_speed ? std::max(highest, plateau.impact) : highest;
     }
