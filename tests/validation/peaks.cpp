@@ -12,17 +12,14 @@ struct Point {
   double stress = 0.0;
 };
 
-/// The smoothed curve at the samples' strains. Near its ends the window is cut, so that no stress of beyond them is
-/// needed.
+/// The smoothed curve at the samples' strains from the first full window on. Near the end the window is cut, so that no
+/// stress of beyond it is needed.
 std::vector<Point> smooth(std::span<const Sample> samples, const Curve& curve, double last) {
-  std::vector<Point> points = {{0.0, 0.0}};
+  std::vector<Point> points;
   for (const Sample& sample : samples) {
-    if (sample.strain > last) {
-      break;
-    }
-    const double low = std::max(0.0, sample.strain - 0.5 * kPeakSmoothing);
+    const double low = sample.strain - 0.5 * kPeakSmoothing;
     const double high = std::min(samples.back().strain, sample.strain + 0.5 * kPeakSmoothing);
-    if (high > low) {
+    if (low >= 0.0 && high > low && sample.strain <= last) {
       points.push_back({sample.strain, (curve.integral(high) - curve.integral(low)) / (high - low)});
     }
   }

@@ -15,9 +15,10 @@ struct Peak {
       0.0;  ///< MPa by which the curve must be left before it rises higher, to that side where it is less
 };
 
-// Peaks are counted on the mean of the stress over kPeakSmoothing of strain, up to a last strain, and are salient whose
-// prominence, as of mountains, is kSalient of the plateau or more. The curve begins at no stress, so that what rises
-// from there is judged by its other side; what rises to the last strain and does not fall again is no peak.
+// Peaks are counted on the mean of the stress over kPeakSmoothing of strain, from the first full window to a last
+// strain, and are salient whose prominence, as of mountains, is kSalient of the plateau or more. What falls from the
+// first window on, as the wave of a sudden start does, and what rises to the last strain and does not fall again, is no
+// peak.
 inline constexpr double kPeakSmoothing = 0.01;
 inline constexpr double kSalient = 0.15;
 

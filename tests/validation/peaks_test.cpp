@@ -47,6 +47,13 @@ TEST(Peaks, AreNotMadeByWhatRingsFasterThanTheSmoothing) {
   EXPECT_TRUE(find_salient_peaks(samples_of(stress, 0.5, 5000), 0.5).empty());
 }
 
+TEST(Peaks, AreNotMadeByTheWaveOfASuddenStart) {
+  const auto stress = [](double e) { return e < 0.003 ? 9.0 : 1.0 + bump(e, 0.05, 0.5); };
+  const auto peaks = find_salient_peaks(samples_of(stress, 0.5, 1000), 0.5);
+  ASSERT_EQ(peaks.size(), 1U);
+  EXPECT_NEAR(peaks[0].strain, 0.05, 0.001);
+}
+
 TEST(Peaks, BeyondTheLastStrainAndRisesThatDoNotFallAreNone) {
   const auto stress = [](double e) { return 1.0 + bump(e, 0.2, 0.5) + bump(e, 0.55, 0.5) + (e > 0.4 ? e - 0.4 : 0.0); };
   const auto peaks = find_salient_peaks(samples_of(stress, 0.6, 1200), 0.5);
