@@ -126,6 +126,7 @@ void describe_changes(const v1::Lattice& lattice, Lines& lines) {
     if (lattice.inclusions().has_thickness_factor()) {
       text += fmt::format(", walls {} times as thick", lattice.inclusions().thickness_factor());
     }
+    text += lattice.inclusions().model() == v1::Lattice::Inclusions::MESHED ? ", meshed" : ", rigid";
     lines.emplace_back("inclusions", std::move(text));
   }
 }

@@ -68,6 +68,12 @@ struct ContactPart {
   std::vector<int> found;   ///< places of the candidates that have begun to overlap, ascending
   std::vector<int> parted;  ///< of State::touching
   std::vector<Push> pushes;
+
+  /// Of State::plate_touching, while it is made.
+  struct {
+    std::size_t first = 0;
+    std::size_t count = 0;
+  } near_plates;
 };
 
 /// Room for evaluate_contact_forces, kept from step to step so that none allocates. No result depends on what it holds.

@@ -139,13 +139,17 @@ void look_at_group(const Scene& scene, State& state, int group) {
 
 }  // namespace
 
-void search_faces(const Scene& scene, State& state) {
+void search_faces(const Scene& scene, State& state, Workers& workers) {
   if (state.face_list.empty()) {
     begin(scene, state);
   }
+  workers.share(state.group_travel.size(), [&](std::size_t first, std::size_t end) {
+    for (std::size_t group = first; group < end; ++group) {
+      const double spread = spread_of_velocities(scene.faces, state, static_cast<int>(group));
+      state.group_travel[group] += std::isfinite(spread) ? scene.schedule.time_step * spread : 0.0;
+    }
+  });
   for (int group = 0; group < scene.faces.group_count() && state.crossing_step < 0; ++group) {
-    const double spread = spread_of_velocities(scene.faces, state, group);
-    state.group_travel[group] += std::isfinite(spread) ? scene.schedule.time_step * spread : 0.0;
     if (state.group_alarm[group] <= state.group_travel[group]) {
       look_at_group(scene, state, group);
     }

@@ -2,6 +2,7 @@
 
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
+#include "parallel/workers.h"
 
 namespace cellcrush {
 
@@ -18,6 +19,6 @@ namespace cellcrush {
 ///
 /// When a look finds that walls have crossed, crossing_step is set, the lists are given up, and the search by buckets takes
 /// over for good.
-void search_faces(const Scene& scene, State& state);
+void search_faces(const Scene& scene, State& state, Workers& workers);
 
 }  // namespace cellcrush

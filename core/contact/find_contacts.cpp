@@ -5,12 +5,12 @@
 
 namespace cellcrush {
 
-void find_contacts(const Scene& scene, State& state) {
+void find_contacts(const Scene& scene, State& state, Workers& workers) {
   if (!scene.contact.present) {
     return;
   }
   if (scene.faces.are_enough() && state.crossing_step < 0) {
-    search_faces(scene, state);
+    search_faces(scene, state, workers);
   }
   if (!scene.faces.are_enough() || state.crossing_step >= 0) {
     search_buckets(scene, state);

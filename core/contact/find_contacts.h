@@ -2,6 +2,7 @@
 
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
+#include "parallel/workers.h"
 
 namespace cellcrush {
 
@@ -12,6 +13,6 @@ namespace cellcrush {
 /// (contact/bucket_search.h); from the step on in which walls are found to have crossed, by buckets.
 /// REQUIRES: particles have moved by the time step times their velocities since the call before.
 /// After a non-finite position the list is left as it is; the run is stopped by its check of the state.
-void find_contacts(const Scene& scene, State& state);
+void find_contacts(const Scene& scene, State& state, Workers& workers);
 
 }  // namespace cellcrush

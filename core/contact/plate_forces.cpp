@@ -1,5 +1,7 @@
 #include "contact/plate_forces.h"
 
+#include <algorithm>
+
 #include "contact/friction.h"
 #include "contact/normal_force.h"
 #include "contact/wide_plates.h"
@@ -41,22 +43,40 @@ void push(const Scene& scene, State& state, const Plate& plate, std::size_t part
   }
 }
 
-std::size_t find_near_plates_plain(const Scene& scene, const State& state, double impact_face, double support_face,
-                                   int* near) {
+std::size_t find_near_plates_plain(const Scene& scene, const State& state, const PlateFaces& faces, std::size_t first,
+                                   std::size_t end, int* near) {
   std::size_t count = 0;
   const bool rubs = !state.impact_friction.empty();
-  for (std::size_t i = 0; i < scene.particle_count(); ++i) {
+  for (std::size_t i = first; i < end; ++i) {
     const double place = state.position[i][scene.plates.axis];
-    const bool reaches = place - scene.radius[i] < impact_face || place + scene.radius[i] > support_face;
+    const bool reaches = place - scene.radius[i] < faces.impact || place + scene.radius[i] > faces.support;
     near[count] = static_cast<int>(i);
     count += reaches || (rubs && (state.impact_friction[i] != 0.0 || state.support_friction[i] != 0.0)) ? 1 : 0;
   }
   return count;
 }
 
+/// Fills State::plate_touching: each thread writes behind where its particles begin, then the parts are moved together.
+void find_near_plates(const Scene& scene, State& state, const PlateFaces& faces, ContactWorkspace& workspace,
+                      Workers& workers) {
+  const auto find_near = use_wide_kernels() ? find_near_plates_wide : find_near_plates_plain;
+  std::vector<int>& near = state.plate_touching;
+  near.resize(scene.particle_count());
+  workspace.parts.resize(static_cast<std::size_t>(workers.count()));
+  workers.share_parts(near.size(), kCandidateBatch, [&](std::size_t part, std::size_t first, std::size_t end) {
+    workspace.parts[part].near_plates = {first, find_near(scene, state, faces, first, end, near.data() + first)};
+  });
+  auto last = near.begin();
+  for (const ContactPart& part : workspace.parts) {
+    const auto first = near.begin() + static_cast<std::ptrdiff_t>(part.near_plates.first);
+    last = std::copy(first, first + static_cast<std::ptrdiff_t>(part.near_plates.count), last);
+  }
+  near.erase(last, near.end());
+}
+
 }  // namespace
 
-void evaluate_plate_forces(const Scene& scene, State& state) {
+void evaluate_plate_forces(const Scene& scene, State& state, ContactWorkspace& workspace, Workers& workers) {
   const Plates& plates = scene.plates;
   if (!plates.present) {
     return;
@@ -69,9 +89,7 @@ void evaluate_plate_forces(const Scene& scene, State& state) {
                         rubs ? state.impact_friction.data() : nullptr};
   const Plate support = {plates.support_face, 0.0, -1.0, state.support_force,
                          rubs ? state.support_friction.data() : nullptr};
-  state.plate_touching.resize(scene.particle_count());
-  const auto find_near = use_wide_kernels() ? find_near_plates_wide : find_near_plates_plain;
-  state.plate_touching.resize(find_near(scene, state, impact.face, support.face, state.plate_touching.data()));
+  find_near_plates(scene, state, {impact.face, support.face}, workspace, workers);
   for (const int particle : state.plate_touching) {
     push(scene, state, impact, static_cast<std::size_t>(particle));
     push(scene, state, support, static_cast<std::size_t>(particle));

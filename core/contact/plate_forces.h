@@ -2,6 +2,8 @@
 
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
+#include "contact/contact_workspace.h"
+#include "parallel/workers.h"
 
 namespace cellcrush {
 
@@ -11,6 +13,6 @@ namespace cellcrush {
 ///
 /// All particles are held against the plates, eight at a time; of those few that reach a plate, or that leave it in this step
 /// with some friction, are the forces evaluated.
-void evaluate_plate_forces(const Scene& scene, State& state);
+void evaluate_plate_forces(const Scene& scene, State& state, ContactWorkspace& workspace, Workers& workers);
 
 }  // namespace cellcrush

@@ -12,13 +12,9 @@ namespace cellcrush::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-struct Faces {
-  double impact;
-  double support;
-};
-
 template <class D>
-HWY_INLINE hn::Mask<D> reaches_plate(D d, const Scene& scene, const State& state, const Faces& faces, std::size_t i) {
+HWY_INLINE hn::Mask<D> reaches_plate(D d, const Scene& scene, const State& state, const PlateFaces& faces,
+                                     std::size_t i) {
   const Points<D> position = load_points(d, &state.position[i]);
   const auto place = scene.plates.axis == 0 ? position.x : position.y;
   const auto radius = hn::LoadU(d, &scene.radius[i]);
@@ -32,18 +28,16 @@ HWY_INLINE hn::Mask<D> reaches_plate(D d, const Scene& scene, const State& state
   return reaches;
 }
 
-std::size_t find_near_plates(const Scene& scene, const State& state, double impact_face, double support_face,
-                             int* near) {
+std::size_t find_near_plates(const Scene& scene, const State& state, const PlateFaces& faces, std::size_t first,
+                             std::size_t end, int* near) {
   const hn::CappedTag<double, 8> wide;
   const hn::CappedTag<double, 1> one;
-  const Faces faces = {impact_face, support_face};
-  const std::size_t particle_count = scene.particle_count();
   std::size_t count = 0;
-  std::size_t i = 0;
-  for (; i + hn::Lanes(wide) <= particle_count; i += hn::Lanes(wide)) {
+  std::size_t i = first;
+  for (; i + hn::Lanes(wide) <= end; i += hn::Lanes(wide)) {
     count += write_set_lanes(wide, reaches_plate(wide, scene, state, faces, i), i, near + count);
   }
-  for (; i < particle_count; ++i) {
+  for (; i < end; ++i) {
     count += write_set_lanes(one, reaches_plate(one, scene, state, faces, i), i, near + count);
   }
   return count;
@@ -57,9 +51,9 @@ namespace cellcrush {
 
 HWY_EXPORT(find_near_plates);
 
-std::size_t find_near_plates_wide(const Scene& scene, const State& state, double impact_face, double support_face,
-                                  int* near) {
-  return HWY_DYNAMIC_DISPATCH(find_near_plates)(scene, state, impact_face, support_face, near);
+std::size_t find_near_plates_wide(const Scene& scene, const State& state, const PlateFaces& faces, std::size_t first,
+                                  std::size_t end, int* near) {
+  return HWY_DYNAMIC_DISPATCH(find_near_plates)(scene, state, faces, first, end, near);
 }
 
 }  // namespace cellcrush

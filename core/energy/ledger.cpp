@@ -4,6 +4,7 @@
 
 #include "beam/beam_section.h"
 #include "beam/element_place.h"
+#include "step/rigid_motion.h"
 
 namespace cellcrush {
 namespace {
@@ -18,7 +19,15 @@ Instant look_at_motion(const Scene& scene, const State& state) {
   const double half = 0.5 * scene.schedule.time_step;
   Instant instant;
   double twice = 0.0;
-  for (std::size_t i = 0; i < scene.particle_count(); ++i) {
+  for (std::size_t body = 0; body < scene.rigid.count(); ++body) {
+    const NextVelocity next = next_velocity_of_body(scene, state, body);
+    visit_body(scene, state, body, next, [&](std::size_t i, const NextVelocity& of_particle) {
+      accumulate_work(scene, state, i, of_particle, {half * state.velocity[i], half * state.spin[i]}, instant.half);
+    });
+    twice += scene.rigid.mass[body] * state.rigid_velocity[body].dot(next.velocity) +
+             scene.rigid.inertia[body] * state.rigid_spin[body] * next.spin;
+  }
+  for (std::size_t i = first_free_particle(scene); i < scene.particle_count(); ++i) {
     const NextVelocity next = next_velocity(scene, state, i);
     accumulate_work(scene, state, i, next, {half * state.velocity[i], half * state.spin[i]}, instant.half);
     twice += scene.mass[i] * state.velocity[i].dot(next.velocity) + scene.inertia[i] * state.spin[i] * next.spin;

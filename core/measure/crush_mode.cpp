@@ -25,32 +25,30 @@ class BandSearch {
     best_.kind = kind;
     best_.agreement = to_beat;
     bins_ = static_cast<std::size_t>(field.length * bins_per_mm()) + 1;
-    for (const bool collapsed : field.collapsed) {
-      collapsed_ += collapsed ? 1.0 : 0.0;
-    }
+    hit_.assign(field.collapsed.begin(), field.collapsed.end());
+    collapsed_ = static_cast<double>(std::count(hit_.begin(), hit_.end(), 1));
+    bin_of_.resize(field.along.size());
   }
 
   /// Tries every width round a mid-line: `distance` gives a cell's distance from it along the crush, mm, and `arm` the
   /// number of the arm that it would belong to.
   template <class Distance, class Arm>
   void try_line(const Distance& distance, const Arm& arm) {
-    counts_.assign(bins_ * arms_, {});
-    const auto bin_of = [&](std::size_t cell) {
-      return static_cast<std::size_t>(distance(field_.along[cell], field_.across[cell]) * bins_per_mm());
-    };
-    for (std::size_t cell = 0; cell < field_.along.size(); ++cell) {
-      const std::size_t bin = bin_of(cell);
-      if (bin < bins_) {
-        Count& count = counts_[bin * arms_ + arm(field_.along[cell], field_.across[cell])];
-        count.all += 1.0;
-        count.hit += field_.collapsed[cell] ? 1.0 : 0.0;
-      }
+    counts_.assign((bins_ + 1) * arms_, {});
+    // Cells beyond the widest band share a bin behind the others.
+    for (std::size_t cell = 0; cell < bin_of_.size(); ++cell) {
+      const double bin = distance(field_.along[cell], field_.across[cell]) * bins_per_mm();
+      bin_of_[cell] = static_cast<int>(std::min(bin, static_cast<double>(bins_)));
+    }
+    for (std::size_t cell = 0; cell < bin_of_.size(); ++cell) {
+      Count& count =
+          counts_[static_cast<std::size_t>(bin_of_[cell]) * arms_ + arm(field_.along[cell], field_.across[cell])];
+      ++count.all;
+      count.hit += hit_[cell];
     }
     if (const auto width = find_width()) {
-      best_.inside.resize(field_.along.size());
-      for (std::size_t cell = 0; cell < field_.along.size(); ++cell) {
-        best_.inside[cell] = bin_of(cell) <= *width;
-      }
+      best_.inside.resize(bin_of_.size());
+      std::transform(bin_of_.begin(), bin_of_.end(), best_.inside.begin(), [&](int bin) { return bin <= *width; });
     }
   }
 
@@ -59,17 +57,17 @@ class BandSearch {
  private:
   /// Cells of an arm, and those of them that have collapsed.
   struct Count {
-    double all = 0.0;
-    double hit = 0.0;
+    int all = 0;
+    int hit = 0;
   };
 
   [[nodiscard]] double bins_per_mm() const { return 2.0 / field_.pitch; }
 
   /// The last bin of the width that agrees best, when it beats the best so far.
-  std::optional<std::size_t> find_width() {
+  std::optional<int> find_width() {
     constexpr double kLeastOfArm = 0.4;
     constexpr double kLeastOfBand = 0.4;
-    std::optional<std::size_t> width;
+    std::optional<int> width;
     std::array<Count, 4> arm{};
     Count band;
     for (std::size_t bin = 0; bin < bins_; ++bin) {
@@ -81,12 +79,12 @@ class BandSearch {
         band.hit += count.hit;
       }
       const double agreement = 2.0 * band.hit / (band.all + collapsed_);
-      const bool whole = std::all_of(arm.begin(), arm.begin() + arms_, [&](const Count& part) {
+      const auto is_there = [&](const Count& part) {
         return part.hit >= kLeastOfArm * part.all && part.hit >= kLeastOfBand * band.hit / arms_;
-      });
-      if (whole && agreement > best_.agreement) {
+      };
+      if (agreement > best_.agreement && std::all_of(arm.begin(), arm.begin() + arms_, is_there)) {
         best_.agreement = agreement;
-        width = bin;
+        width = static_cast<int>(bin);
       }
     }
     return width;
@@ -97,6 +95,8 @@ class BandSearch {
   Band best_;
   std::size_t bins_ = 0;       // of half a cell
   std::vector<Count> counts_;  // by distance and arm
+  std::vector<int> bin_of_;    // C, of the line that is tried
+  std::vector<int> hit_;       // C, 1: has collapsed
   double collapsed_ = 0.0;
 };
 
@@ -175,7 +175,11 @@ void search_c(const CollapseField& field, BandSearch& search) {
 Band find_band(const CollapseField& field) {
   Band best;
   const auto consider = [&](CrushMode kind, int arms, const auto& look) {
-    BandSearch search(field, kind, arms, best.agreement + (best.inside.empty() ? 0.0 : kClearlyBetter));
+    const double to_beat = best.agreement + (best.inside.empty() ? 0.0 : kClearlyBetter);
+    if (to_beat >= 1.0) {
+      return;
+    }
+    BandSearch search(field, kind, arms, to_beat);
     look(search);
     if (!search.best().inside.empty()) {
       best = search.best();

@@ -121,6 +121,7 @@ FieldFrame make_frame(const Scene& scene, const State& state, int index) {
                                                             ? flowed_fraction(scene, state.single_fibres, place)
                                                             : flowed_fraction(scene, state.fibres, place)));
   });
+  frame.plastic_fraction.resize(scene.element_count(), 0.0F);
   return frame;
 }
 

@@ -14,6 +14,7 @@
 #include "scene/lattices.h"
 #include "scene/masses.h"
 #include "scene/mesh.h"
+#include "scene/rigid_bodies.h"
 #include "scene/stable_step.h"
 #include "scene/time_step.h"
 #include "section/section_rule.h"
@@ -119,7 +120,9 @@ void set_material_and_mesh(const SceneSpec& spec, Scene& scene) {
   scene.depth = *spec.depth_mm;
   scene.materials = materials_of(spec);
   scene.section = make_section_rule(spec.section);
-  divide_walls(lay_out(spec, scene), scene);
+  Layout layout = lay_out(spec, scene);
+  scene.rigid.offset = put_rigid_bodies_first(layout);
+  divide_walls(layout, scene);
   scene.constant_area = spec.section.area_rule == SectionSpec::AreaRule::constant_area;
   scene.single_fibres = spec.numerics.fibre_precision == NumericsSpec::FibrePrecision::single_precision &&
                         scene.fibre_count() <= kMostSingleFibres;
@@ -143,6 +146,7 @@ std::shared_ptr<Scene> build_mesh(const SceneSpec& spec) {
   }
   scene->mass_scaling = {spec.numerics.mass_scaling, spec.numerics.rotary_scaling};
   lump_masses(*scene);
+  lump_rigid_bodies(*scene);
   link_elements(*scene);
   scene->stable_step = stable_step_of(*scene);
   return scene;

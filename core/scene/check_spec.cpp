@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <set>
 
 #include "scene/check_frame.h"
 #include "scene/field_checker.h"
@@ -47,6 +48,11 @@ void check_hexagons(const HexagonLattice& hexagon, const Inclusions& inclusions,
   for (std::size_t i = 0; i < inclusions.rows.size(); ++i) {
     check.in_range("lattice.inclusions.rows[" + std::to_string(i) + "]", std::optional<int>(inclusions.rows[i]),
                    {1.0, static_cast<double>(hexagon.rows.value_or(10000))}, " (a row of cells, from the bottom)");
+  }
+  const std::set<int> stiff(inclusions.rows.begin(), inclusions.rows.end());
+  if (inclusions.model == Inclusions::Model::rigid && hexagon.rows && static_cast<int>(stiff.size()) >= *hexagon.rows) {
+    check.add("lattice.inclusions.rows", std::to_string(stiff.size()) + " rows", "leaves no cell that deforms.",
+              "Leave a row out, or set lattice.inclusions.model to MESHED.");
   }
   const double thickness =
       std::max(hexagon.wall_thickness_mm.value_or(0.0), hexagon.vertical_wall_thickness_mm.value_or(0.0));

@@ -22,6 +22,7 @@ Layout lay_out(const HexagonLattice& lattice, const Inclusions& inclusions, int 
   for (int row = 0; row < *lattice.rows; ++row) {
     const bool stiff = std::find(inclusions.rows.begin(), inclusions.rows.end(), row + 1) != inclusions.rows.end();
     const double factor = stiff ? inclusions.thickness_factor : 1.0;
+    const bool rigid = stiff && inclusions.model == Inclusions::Model::rigid;
     const int shift = row % 2;  // odd rows are one cell shorter and start half a pitch in
     for (int column = 0; column < *lattice.columns - shift; ++column) {
       const int x = 2 * column + shift;
@@ -30,7 +31,7 @@ Layout lay_out(const HexagonLattice& lattice, const Inclusions& inclusions, int 
       const std::array<GridPoint, 6> corner = {
           {{x + 1, y}, {x + 2, y + 1}, {x + 2, y + 3}, {x + 1, y + 4}, {x, y + 3}, {x, y + 1}}};
       for (int i = 0; i < 6; ++i) {
-        builder.add_wall(corner[i], corner[(i + 1) % 6], factor * (i == 1 || i == 4 ? vertical : slanted));
+        builder.add_wall(corner[i], corner[(i + 1) % 6], factor * (i == 1 || i == 4 ? vertical : slanted), rigid);
       }
     }
   }

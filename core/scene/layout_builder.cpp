@@ -7,15 +7,16 @@ namespace cellcrush {
 LayoutBuilder::LayoutBuilder(const Vector2& unit, int elements_per_wall)
     : unit_(unit), elements_per_wall_(elements_per_wall) {}
 
-void LayoutBuilder::add_wall(GridPoint from, GridPoint to, double thickness) {
+void LayoutBuilder::add_wall(GridPoint from, GridPoint to, double thickness, bool rigid) {
   const int start = joint(from);
   const int end = joint(to);
   const auto [entry, is_new] = walls_.emplace(std::minmax(start, end), layout_.walls.size());
   if (is_new) {
-    layout_.walls.push_back({start, end, thickness, elements_per_wall_});
+    layout_.walls.push_back({start, end, thickness, elements_per_wall_, 0, rigid});
   } else {
-    double& existing = layout_.walls[entry->second].thickness;
-    existing = std::max(existing, thickness);
+    LayoutWall& existing = layout_.walls[entry->second];
+    existing.thickness = std::max(existing.thickness, thickness);
+    existing.rigid = existing.rigid || rigid;
   }
 }
 

@@ -17,8 +17,8 @@ class LayoutBuilder {
   /// `unit` is the grid's spacing in x and in y, mm.
   LayoutBuilder(const Vector2& unit, int elements_per_wall);
 
-  /// Adds a wall, or makes an existing one as thick as `thickness` (mm) when it is thinner.
-  void add_wall(GridPoint from, GridPoint to, double thickness);
+  /// Adds a wall, or makes an existing one as thick as `thickness` (mm) when it is thinner, and rigid when `rigid`.
+  void add_wall(GridPoint from, GridPoint to, double thickness, bool rigid = false);
 
   Layout take() { return std::move(layout_); }
 

@@ -1,14 +1,15 @@
 #include "scene/mesh.h"
 
+#include <algorithm>
+
 namespace cellcrush {
 namespace {
 
-/// Walls from `first` on that go into one block.
-int walls_in_block(const Layout& layout, std::size_t first) {
+/// Walls from `first` on, before `end`, that go into one block.
+int walls_in_block(const Layout& layout, std::size_t first, std::size_t end) {
   int count = 0;
   for (std::size_t w = first;
-       w < layout.walls.size() && count < kMostWallsInBlock && layout.walls[w].elements == layout.walls[first].elements;
-       ++w) {
+       w < end && count < kMostWallsInBlock && layout.walls[w].elements == layout.walls[first].elements; ++w) {
     ++count;
   }
   return count;
@@ -57,21 +58,28 @@ std::vector<int> chunk_offsets(const std::vector<WallBlock>& blocks) {
 void divide_walls(const Layout& layout, Scene& scene) {
   scene.position = layout.joints;
   scene.joint_count = static_cast<int>(layout.joints.size());
-  for (std::size_t w = 0; w < layout.walls.size();) {
-    const WallBlock block = {static_cast<int>(w), walls_in_block(layout, w), layout.walls[w].elements,
+  const auto rigid =
+      std::find_if(layout.walls.begin(), layout.walls.end(), [](const LayoutWall& wall) { return wall.rigid; });
+  const auto count = static_cast<std::size_t>(rigid - layout.walls.begin());
+  for (std::size_t w = 0; w < count;) {
+    const WallBlock block = {static_cast<int>(w), walls_in_block(layout, w, count), layout.walls[w].elements,
                              static_cast<int>(scene.elements.size()), static_cast<int>(scene.position.size())};
     divide_block(layout, block, scene);
     scene.walls.blocks.push_back(block);
     w += static_cast<std::size_t>(block.walls);
   }
   scene.walls.chunk_offset = chunk_offsets(scene.walls.blocks);
-  for (const LayoutWall& wall : layout.walls) {
-    const double length = (layout.joints[wall.end] - layout.joints[wall.start]).norm();
-    scene.walls.start.push_back(wall.start);
-    scene.walls.end.push_back(wall.end);
-    scene.walls.thickness.push_back(wall.thickness);
-    scene.walls.undeformed_length.push_back(length / wall.elements);
-    scene.walls.material.push_back(wall.material);
+  for (auto wall = layout.walls.begin(); wall != rigid; ++wall) {
+    const double length = (layout.joints[wall->end] - layout.joints[wall->start]).norm();
+    scene.walls.start.push_back(wall->start);
+    scene.walls.end.push_back(wall->end);
+    scene.walls.thickness.push_back(wall->thickness);
+    scene.walls.undeformed_length.push_back(length / wall->elements);
+    scene.walls.material.push_back(wall->material);
+  }
+  scene.rigid.first_element = static_cast<int>(scene.elements.size());
+  for (auto wall = rigid; wall != layout.walls.end(); ++wall) {
+    scene.elements.push_back({wall->start, wall->end, wall->thickness, wall->material});
   }
 }
 

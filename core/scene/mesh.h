@@ -14,6 +14,7 @@ struct LayoutWall {
   double thickness = 0.0;  ///< mm
   int elements = 1;        ///< elements it is divided into
   int material = 0;        ///< into Scene::materials
+  bool rigid = false;      ///< part of a rigid body: not divided
 };
 
 /// Joints and walls of a structure before it is divided into elements. Lengths in mm.
@@ -24,6 +25,7 @@ struct Layout {
 
 /// Divides the walls into elements: fills the scene's positions, elements and walls. The joints come first, then the
 /// particles inside the walls, block by block. Walls that follow each other and have equally many elements share a block.
+/// Rigid walls are an element each, behind all others. REQUIRES: they are the last.
 void divide_walls(const Layout& layout, Scene& scene);
 
 }  // namespace cellcrush

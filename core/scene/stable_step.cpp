@@ -15,11 +15,11 @@ double stable_step_of_element(double length, double thickness, const Material& m
 }
 
 double stable_step_of(const Scene& scene) {
+  const Walls& walls = scene.walls;
   double least = std::numeric_limits<double>::infinity();
-  for (const Element& element : scene.elements) {
-    const double length = (scene.position[element.end] - scene.position[element.start]).norm();
-    least = std::min(least, stable_step_of_element(length, element.thickness, scene.materials[element.material],
-                                                   scene.mass_scaling));
+  for (std::size_t w = 0; w < walls.start.size(); ++w) {
+    least = std::min(least, stable_step_of_element(walls.undeformed_length[w], walls.thickness[w],
+                                                   scene.materials[walls.material[w]], scene.mass_scaling));
   }
   return least;
 }

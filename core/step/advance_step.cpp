@@ -33,11 +33,11 @@ void evaluate_forces(const Scene& scene, State& state, Workspace& workspace, con
   teller.begin(Stage::evaluate_internal_forces);
   evaluate_internal_forces(scene, state, workspace.workers);
   teller.begin(Stage::find_contacts);
-  find_contacts(scene, state);
+  find_contacts(scene, state, workspace.workers);
   teller.begin(Stage::evaluate_contact_forces);
   evaluate_contact_forces(scene, state, workspace.contact, workspace.workers);
   teller.begin(Stage::evaluate_plate_forces);
-  evaluate_plate_forces(scene, state);
+  evaluate_plate_forces(scene, state, workspace.contact, workspace.workers);
   teller.begin(Stage::evaluate_loads);
   evaluate_loads(scene, state);
 }

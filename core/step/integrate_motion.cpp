@@ -2,17 +2,11 @@
 
 #include "energy/ledger.h"
 #include "simd/target.h"
+#include "step/rigid_motion.h"
 #include "step/wide_motion.h"
 
 namespace cellcrush {
-namespace {
 
-struct Resultant {
-  Vector2 force;
-  double moment;
-};
-
-/// All forces on a particle but mass damping.
 Resultant resultant_on(const Scene& scene, const State& state, std::size_t particle) {
   Resultant sum = {
       state.internal_force[particle] + state.contact_force[particle] + state.contact_damping_force[particle],
@@ -26,6 +20,8 @@ Resultant resultant_on(const Scene& scene, const State& state, std::size_t parti
   }
   return sum;
 }
+
+namespace {
 
 /// Velocity that makes a held motion follow its function over the coming step, 0 where it stands.
 double held_velocity(const Scene& scene, const State& state, const Hold& hold) {
@@ -54,12 +50,15 @@ void apply_support(const Scene& scene, const State& state, const Support& suppor
 
 }  // namespace
 
-NextVelocity next_velocity(const Scene& scene, const State& state, std::size_t particle) {
-  const Resultant sum = resultant_on(scene, state, particle);
+DampedStep damped_step_of(const Scene& scene) {
   const double step = scene.schedule.time_step;
   const double damping = 0.5 * scene.mass_damping * step;
-  const double keep = (1.0 - damping) / (1.0 + damping);
-  const double gain = step / (1.0 + damping);
+  return {(1.0 - damping) / (1.0 + damping), step / (1.0 + damping)};
+}
+
+NextVelocity next_velocity(const Scene& scene, const State& state, std::size_t particle) {
+  const Resultant sum = resultant_on(scene, state, particle);
+  const auto [keep, gain] = damped_step_of(scene);
   NextVelocity next = {keep * state.velocity[particle] + (gain / scene.mass[particle]) * sum.force,
                        keep * state.spin[particle] + gain / scene.inertia[particle] * sum.moment};
   if (!scene.supports.empty()) {
@@ -123,11 +122,13 @@ State place_particles(const Scene& scene) {
     state.load_force.assign(n, Vector2::Zero());
     state.load_moment.assign(n, 0.0);
   }
+  place_rigid_bodies(scene, state);
   return state;
 }
 
 void stagger_velocities(const Scene& scene, State& state) {
-  for (std::size_t i = 0; i < scene.particle_count(); ++i) {
+  stagger_rigid_bodies(scene, state);
+  for (std::size_t i = first_free_particle(scene); i < scene.particle_count(); ++i) {
     const NextVelocity next = next_velocity(scene, state, i);
     state.velocity[i] -= 0.5 * (next.velocity - state.velocity[i]);
     state.spin[i] -= 0.5 * (next.spin - state.spin[i]);
@@ -136,10 +137,10 @@ void stagger_velocities(const Scene& scene, State& state) {
 
 namespace {
 
-/// Moves all particles by a step and books the work of the forces on them.
+/// Moves all free particles by a step and books the work of the forces on them.
 void move_particles(const Scene& scene, State& state) {
   const double step = scene.schedule.time_step;
-  for (std::size_t i = 0; i < scene.particle_count(); ++i) {
+  for (std::size_t i = first_free_particle(scene); i < scene.particle_count(); ++i) {
     const NextVelocity next = next_velocity(scene, state, i);
     const MeanMotion mean = {0.5 * step * (state.velocity[i] + next.velocity),
                              0.5 * step * (state.spin[i] + next.spin)};
@@ -157,6 +158,7 @@ void integrate_motion(const Scene& scene, State& state, Workers& workers) {
   const double step = scene.schedule.time_step;
   const double plate_speed_before = scene.plates.speed_at(state.time - 0.5 * step);
   const double plate_speed_after = scene.plates.speed_at(state.time + 0.5 * step);
+  move_rigid_bodies(scene, state);
   if (!(use_wide_kernels() && move_particles_wide(scene, state, workers))) {
     move_particles(scene, state);
   }

@@ -6,6 +6,25 @@
 
 namespace cellcrush {
 
+/// Sum of the forces on a particle, and of the moments; mass damping aside.
+struct Resultant {
+  Vector2 force;  ///< N
+  double moment;  ///< N mm
+};
+Resultant resultant_on(const Scene& scene, const State& state, std::size_t particle);
+
+/// Mass damping over a step: the part of a velocity that stays, and the time in which a force adds to it (E2).
+struct DampedStep {
+  double keep;
+  double gain;  ///< s
+};
+DampedStep damped_step_of(const Scene& scene);
+
+/// The first particle that belongs to no rigid body.
+inline std::size_t first_free_particle(const Scene& scene) {
+  return static_cast<std::size_t>(scene.rigid.particle_count());
+}
+
 /// Velocities of a particle half a step on, from those half a step back and the forces now (Eq. 4, central differences).
 /// Mass damping -alpha m v acts on the mean of both, so that it is exact to second order and stable at any alpha.
 struct NextVelocity {

@@ -63,6 +63,11 @@ std::vector<std::string> what_is_modelled(const Scene& scene) {
   if (scene.plates.present) {
     lines.push_back("Plates: rigid, unilateral, not meshed, " + friction_text(scene.plates.friction));
   }
+  if (scene.rigid.count() > 0) {
+    lines.push_back("Stiff cells: rigid, in " + std::to_string(scene.rigid.count()) +
+                    (scene.rigid.count() == 1 ? " body" : " bodies") +
+                    ", not meshed inside; the step does not depend on them.");
+  }
   if (scene.mass_scaling.mass * scene.mass_scaling.rotary > 1.0) {
     lines.push_back(
         "Masses: fictitious, " + to_text(scene.mass_scaling.mass) + " times the real ones (rotary inertia " +

@@ -138,7 +138,8 @@ void move_all(const Scene& scene, State& state, Workers& workers) {
   const double damping = 0.5 * scene.mass_damping * step;
   const Motion motion = {step, (1.0 - damping) / (1.0 + damping), step / (1.0 + damping), 0.5 * scene.mass_damping};
   const auto joints = static_cast<std::size_t>(scene.joint_count);
-  const Group groups[] = {{0, joints}, {joints, scene.particle_count()}};
+  const Group groups[] = {{static_cast<std::size_t>(scene.rigid.particle_count()), joints},
+                          {joints, scene.particle_count()}};
   std::vector<ChunkWorks> works(groups[0].chunk_count() + groups[1].chunk_count());
   workers.share_parts(
       static_cast<std::size_t>(workers.count()), 1, [&](std::size_t part, std::size_t, std::size_t) HWY_ATTR {

@@ -46,8 +46,6 @@ void read_lattice(const v1::Lattice& in, SceneSpec& spec, Problems& problems) {
   }
   if (in.imperfection().has_amplitude_mm()) spec.imperfection.amplitude_mm = in.imperfection().amplitude_mm();
   if (in.imperfection().has_seed()) spec.imperfection.seed = in.imperfection().seed();
-  spec.inclusions.rows.assign(in.inclusions().rows().begin(), in.inclusions().rows().end());
-  if (in.inclusions().has_thickness_factor()) spec.inclusions.thickness_factor = in.inclusions().thickness_factor();
 }
 
 // Sets `out` to what the wire's value means; the value 0, unspecified, leaves it.
@@ -62,6 +60,15 @@ void read_choice(Wire in, std::initializer_list<std::pair<Wire, Out>> meanings, 
     problems.push_back(
         invalid_field(field, std::to_string(in), "is none of the values that are known here.", "Use " + names + "."));
   }
+}
+
+void read_inclusions(const v1::Lattice::Inclusions& in, Inclusions& out, Problems& problems) {
+  out.rows.assign(in.rows().begin(), in.rows().end());
+  if (in.has_thickness_factor()) out.thickness_factor = in.thickness_factor();
+  read_choice(in.model(),
+              {{v1::Lattice::Inclusions::RIGID, Inclusions::Model::rigid},
+               {v1::Lattice::Inclusions::MESHED, Inclusions::Model::meshed}},
+              "lattice.inclusions.model", "RIGID or MESHED", out.model, problems);
 }
 
 void read_section(const v1::Section& in, SectionSpec& out, Problems& problems) {
@@ -144,6 +151,7 @@ CaseReading to_spec(const v1::Case& in) {
   }
   spec.title = in.title();
   read_lattice(in.lattice(), spec, out.problems);
+  read_inclusions(in.lattice().inclusions(), spec.inclusions, out.problems);
   if (in.has_depth_mm()) spec.depth_mm = in.depth_mm();
   if (in.has_elements_per_wall()) spec.elements_per_wall = in.elements_per_wall();
   spec.material = to_spec(in.material(), "material.", out.problems);

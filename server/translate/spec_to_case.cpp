@@ -118,6 +118,9 @@ void write_lattice(const SceneSpec& spec, v1::Lattice& out) {
   if (!spec.inclusions.rows.empty()) {
     out.mutable_inclusions()->mutable_rows()->Assign(spec.inclusions.rows.begin(), spec.inclusions.rows.end());
     out.mutable_inclusions()->set_thickness_factor(spec.inclusions.thickness_factor);
+    out.mutable_inclusions()->set_model(spec.inclusions.model == Inclusions::Model::rigid
+                                            ? v1::Lattice::Inclusions::RIGID
+                                            : v1::Lattice::Inclusions::MESHED);
   }
 }
 

@@ -24,6 +24,8 @@ std::vector<std::pair<std::string, double>> array_bytes(const Scene& scene, cons
       {"scene.walls", bytes_of(scene.walls.blocks) + bytes_of(scene.walls.start) + bytes_of(scene.walls.end) +
                           bytes_of(scene.walls.thickness) + bytes_of(scene.walls.undeformed_length) +
                           bytes_of(scene.walls.material) + bytes_of(scene.walls.chunk_offset)},
+      {"scene.rigid", bytes_of(scene.rigid.offset) + bytes_of(scene.rigid.centre) + bytes_of(scene.rigid.mass) +
+                          bytes_of(scene.rigid.inertia)},
       {"scene.incidence", bytes_of(scene.incidence_offset) + bytes_of(scene.incidence)},
       {"scene.wall_ends", bytes_of(scene.wall_end_offset) + bytes_of(scene.wall_ends)},
       {"scene.supports", bytes_of(scene.supports)},

@@ -62,7 +62,7 @@ TEST(CaseText, RegularLatticesAreDescribed) {
                              "vertical_wall_thickness_mm: 0.4 } inclusions { rows: 3 rows: 6 thickness_factor: 4 } } "
                              "contact { friction: 0.3 } material { youngs_modulus_mpa: 68000 yield_stress_mpa: 130 "
                              "hardening_modulus_mpa: 680 isotropic_fraction: 1 density_kg_per_m3: 2700 }")),
-      {"5 mm long, 0.2 mm thick; those along y 0.4 mm\n", "stiff cells in rows 3, 6, walls 4 times as thick\n",
+      {"5 mm long, 0.2 mm thick; those along y 0.4 mm\n", "stiff cells in rows 3, 6, walls 4 times as thick, rigid\n",
        "friction between walls  0.3\n",
        "E 68000 MPa, yield 130 MPa, hardening 680 MPa (100 % isotropic), 2700 kg/m3\n"});
   EXPECT_EQ(description_text(v1::Case()), "");

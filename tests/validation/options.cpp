@@ -74,6 +74,11 @@ const std::vector<Option>& all_options() {
          o.spec.section.area_rule = choice<Area>(
              "area", v, {{"constant_volume", Area::constant_volume}, {"constant_area", Area::constant_area}});
        }},
+      {"inclusions", "rigid or meshed",
+       [](Options& o, const std::string& v) {
+         using Model = Inclusions::Model;
+         o.spec.inclusions.model = choice<Model>("inclusions", v, {{"rigid", Model::rigid}, {"meshed", Model::meshed}});
+       }},
       {"plane", "stress or strain",
        [](Options& o, const std::string& v) {
          using Plane = MaterialSpec::Plane;

@@ -70,6 +70,19 @@ struct Walls {
   std::vector<int> material;              ///< W, into Scene::materials
 };
 
+/// Parts of the lattice that move without deforming, B of them. Their particles come first, body by body, and their walls,
+/// an element each, last among the elements: they bear no stress, but others touch them.
+struct RigidBodies {
+  std::vector<int> offset;      ///< B + 1, particles; empty: there are none
+  std::vector<Vector2> centre;  ///< B, of mass, before loading, mm
+  std::vector<double> mass;     ///< B, tonne
+  std::vector<double> inertia;  ///< B, about the centre, tonne mm^2
+  int first_element = 0;
+
+  [[nodiscard]] std::size_t count() const { return mass.size(); }
+  [[nodiscard]] int particle_count() const { return offset.empty() ? 0 : offset.back(); }
+};
+
 /// A function of time: linear between its points, constant outside.
 struct TimeFunction {
   std::vector<std::pair<double, double>> points;  ///< (s, value), times ascending, at least one
@@ -166,13 +179,14 @@ struct Scene {
   std::vector<double> radius;           ///< N, of the contact ball: half of the thickest wall that ends there
   std::vector<Element> elements;        ///< E
   Walls walls;                          ///< W
-  std::vector<int> incidence_offset;    ///< N + 1, into incidence
-  std::vector<int> incidence;           ///< elements at each particle, ascending
-  int joint_count = 0;                  ///< the joints come first, then the particles inside the walls
-  std::vector<int> wall_end_offset;     ///< joints + 1, into wall_ends
-  std::vector<int> wall_ends;           ///< at each joint, into State::wall_force, ascending: sums run in this order
-  std::vector<Support> supports;        ///< N, or empty when nothing is held
-  std::vector<TimeFunction> motions;    ///< mm or rad, of held particles
+  RigidBodies rigid;
+  std::vector<int> incidence_offset;  ///< N + 1, into incidence
+  std::vector<int> incidence;         ///< elements at each particle, ascending
+  int joint_count = 0;  ///< the joints come first, of rigid bodies first of all, then the particles inside walls
+  std::vector<int> wall_end_offset;   ///< joints + 1, into wall_ends
+  std::vector<int> wall_ends;         ///< at each joint, into State::wall_force, ascending: sums run in this order
+  std::vector<Support> supports;      ///< N, or empty when nothing is held
+  std::vector<TimeFunction> motions;  ///< mm or rad, of held particles
   std::vector<NodalLoad> loads;
   std::vector<ElementLoad> element_loads;
   Vector2 gravity = Vector2::Zero();      ///< mm/s^2

@@ -116,8 +116,13 @@ struct FrameLattice {
 
 /// Rows of stiff cells in a lattice of hexagons: their walls are thicker.
 struct Inclusions {
+  enum class Model {
+    rigid,  ///< cells that are joined move as one rigid body
+    meshed  ///< their walls are beams like the others
+  };
   std::vector<int> rows;  ///< counted from 1 at the bottom
   double thickness_factor = 4.0;
+  Model model = Model::rigid;
 };
 
 struct Imperfection {

@@ -81,13 +81,17 @@ struct State {
   double time = 0.0;
 
   // Written by integrate_motion.
-  std::vector<Vector2> position;  ///< N
-  std::vector<Vector2> velocity;  ///< N, half a step before `time`
-  std::vector<double> rotation;   ///< N, since the start; for output only
-  std::vector<double> spin;       ///< N, rad/s, half a step before `time`
-  double impact_travel = 0.0;     ///< of the impact plate
-  double impact_impulse = 0.0;    ///< N s, of the impact plate on the lattice
-  double support_impulse = 0.0;   ///< N s, of the support plate on the lattice
+  std::vector<Vector2> position;        ///< N
+  std::vector<Vector2> velocity;        ///< N, half a step before `time`
+  std::vector<double> rotation;         ///< N, since the start; for output only
+  std::vector<double> spin;             ///< N, rad/s, half a step before `time`
+  std::vector<Vector2> rigid_centre;    ///< B rigid bodies, of mass
+  std::vector<Vector2> rigid_velocity;  ///< B, half a step before `time`
+  std::vector<double> rigid_rotation;   ///< B, since the start
+  std::vector<double> rigid_spin;       ///< B, half a step before `time`
+  double impact_travel = 0.0;           ///< of the impact plate
+  double impact_impulse = 0.0;          ///< N s, of the impact plate on the lattice
+  double support_impulse = 0.0;         ///< N s, of the support plate on the lattice
 
   // Written by evaluate_internal_forces.
   LaneVector<Vector2> axis;             ///< E, unit vector from start to end
@@ -176,6 +180,10 @@ void visit_fields(S& state, Visitor&& visitor) {
   visitor("velocity", state.velocity);
   visitor("rotation", state.rotation);
   visitor("spin", state.spin);
+  visitor("rigid_centre", state.rigid_centre);
+  visitor("rigid_velocity", state.rigid_velocity);
+  visitor("rigid_rotation", state.rigid_rotation);
+  visitor("rigid_spin", state.rigid_spin);
   visitor("impact_travel", state.impact_travel);
   visitor("impact_impulse", state.impact_impulse);
   visitor("support_impulse", state.support_impulse);

@@ -82,6 +82,7 @@ TEST(FaceSearch, AgreesWithBruteForceOnRandomPlanarStates) {
     std::mt19937 generator(5);
     std::size_t most = 0;
     int planar = 0;
+    Workers workers(1);
     for (int round = 0; round < 40; ++round) {
       State state = place_particles(*scene);
       const PlanarMap map(generator);
@@ -93,7 +94,7 @@ TEST(FaceSearch, AgreesWithBruteForceOnRandomPlanarStates) {
       }
       ++planar;
       scenes::follow_positions(*scene, state);
-      find_contacts(*scene, state);
+      find_contacts(*scene, state, workers);
       ASSERT_LT(state.crossing_step, 0) << lattice << round;
       const Pairs listed = listed_pairs(state);
       const double skin = scene->contact.face_skin;
@@ -149,7 +150,7 @@ TEST(FaceSearch, MissesNoTouchUnderRandomKicks) {
       }
       ++state.step;
       scenes::follow_positions(*scene, state);
-      find_contacts(*scene, state);
+      find_contacts(*scene, state, workers);
       ASSERT_LT(state.crossing_step, 0) << lattice << " at " << squeeze;
       evaluate_contact_forces(*scene, state, workspace, workers);
       const Pairs listed = listed_pairs(state);
@@ -177,8 +178,9 @@ TEST(FaceSearch, AnOpenLatticeHasNoCandidatesAndIsSeldomLookedAt) {
   for (Vector2& velocity : state.velocity) {
     velocity = {1e5, -3e4};  // all alike: no gap closes
   }
+  Workers workers(1);
   for (int i = 0; i < 100; ++i) {
-    find_contacts(*scene, state);
+    find_contacts(*scene, state, workers);
   }
   EXPECT_EQ(state.face_look_count, scene->faces.count());
 }
@@ -234,11 +236,12 @@ void move_one(const Scene& scene, State& state, int particle, const Vector2& goa
   std::fill(state.velocity.begin(), state.velocity.end(), Vector2::Zero());
   const Vector2 way = (goal - state.position[particle]) / steps;
   state.velocity[particle] = way / scene.schedule.time_step;
+  Workers workers(1);
   for (int i = 0; i < steps; ++i) {
     state.position[particle] += way;
     ++state.step;
     scenes::follow_positions(scene, state);
-    find_contacts(scene, state);
+    find_contacts(scene, state, workers);
   }
 }
 
@@ -286,13 +289,14 @@ TEST(FaceSearch, GoesOverToBucketsWhenAFaceIsTurnedInsideOut) {
 TEST(FaceSearch, LeavesTheListsAsTheyAreAfterAPositionThatIsNotFinite) {
   const auto scene = scenes::build(scenes::hexagon_block(5, 4));
   State state = make_initial_state(*scene);
+  Workers workers(1);
   for (const double lost : {std::nan(""), HUGE_VAL}) {
     State spoiled = state;
     spoiled.velocity[30] = {lost, 0.0};
     spoiled.position[30] = {lost, lost};
     scenes::follow_positions(*scene, spoiled);
-    find_contacts(*scene, spoiled);
-    find_contacts(*scene, spoiled);
+    find_contacts(*scene, spoiled, workers);
+    find_contacts(*scene, spoiled, workers);
     EXPECT_EQ(spoiled.candidate_count, 0);
     EXPECT_LT(spoiled.crossing_step, 0);
     EXPECT_EQ(spoiled.face_search_count, state.face_search_count);

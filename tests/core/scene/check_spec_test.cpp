@@ -84,6 +84,18 @@ TEST(CheckSpec, ImperfectionAndInclusionsAreBoundedByTheLattice) {
   EXPECT_EQ(problems.size(), 4u);
 }
 
+TEST(CheckSpec, RefusesALatticeOfRigidCellsAlone) {
+  SceneSpec spec = scenes::hexagon_block(8, 3);
+  spec.inclusions.rows = {1, 2, 3, 2};
+  const Problems problems = build_scene(spec).problems;
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_EQ(problems[0].field, "lattice.inclusions.rows");
+  spec.inclusions.model = Inclusions::Model::meshed;
+  EXPECT_TRUE(build_scene(spec).problems.empty());
+  spec.inclusions = {{1, 3}};
+  EXPECT_TRUE(build_scene(spec).problems.empty());
+}
+
 TEST(CheckSpec, RefusesAMeshThatNoMachineHolds) {
   SceneSpec spec = scenes::hexagon_block(10000, 10000);
   EXPECT_NE(find(build_scene(spec).problems, "lattice.hexagon.columns"), nullptr);
