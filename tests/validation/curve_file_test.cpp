@@ -69,6 +69,9 @@ TEST(Course, HasTheOnsetOfDensificationAndThePeaksBeforeIt) {
   EXPECT_NEAR(course.densification, 0.6, 0.01);
   EXPECT_NEAR(course.densification_travel, 60.0, 1.0);
   EXPECT_NEAR(course.plateau, 2.07, 0.02);
+  // 2 + 100 x is twice (1.24 + 2 x + 50 x^2) / (0.6 + x) at x = 0.0221.
+  EXPECT_TRUE(course.risen);
+  EXPECT_NEAR(course.rise_travel, 62.2, 0.2);
   ASSERT_EQ(course.peaks.size(), 1U);
   EXPECT_NEAR(course.peaks[0].strain, 0.3, 0.02);
 }
@@ -76,6 +79,7 @@ TEST(Course, HasTheOnsetOfDensificationAndThePeaksBeforeIt) {
 TEST(Course, OfACrushThatHasNotDensifiedEndsWithIt) {
   const Course course = find_course(crush(0.5));
   EXPECT_FALSE(course.densified);
+  EXPECT_FALSE(course.risen);
   EXPECT_NEAR(course.densification, 0.499, 0.002);
   EXPECT_TRUE(course_row("name", course).starts_with("name,>0."));
 }

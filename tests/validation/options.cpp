@@ -112,6 +112,8 @@ const std::vector<Option>& all_options() {
        [](Options& o, const std::string& v) { o.spec.contact.stiffness_factor = number_of("contact_stiffness", v); }},
       {"contact_damping", "share of critical damping",
        [](Options& o, const std::string& v) { o.spec.contact.damping_ratio = number_of("contact_damping", v); }},
+      {"plate_friction", "Coulomb's coefficient at the plates",
+       [](Options& o, const std::string& v) { o.spec.plates.friction = number_of("plate_friction", v); }},
       {"search", "faces or buckets",
        [](Options& o, const std::string& v) {
          using Search = ContactSpec::Search;

@@ -35,11 +35,18 @@ for speed in 2 10 50 100; do
     for reading in as-counted as-stated; do strip type-$type-$reading-$speed 0.05,0.1,0.2,0.4 "$speed m/s"; done
   done
 done
-for lines in 0 2 6; do strip inclusions-$lines 0.13,0.25,0.4,0.55,0.7 ""; done
+strip type-i-2-plate-friction 0.05,0.1,0.2,0.4 "2 m/s"
+for lines in 0 2 6; do
+  strip inclusions-$lines 0.13,0.25,0.4,0.55,0.7 ""
+  strip inclusions-$lines-plate-friction 0.13,0.25,0.4,0.55,0.7 ""
+done
 
-curves type-i-slow.svg strain "$folder/type-i-2.csv=2 m/s" "$folder/type-i-10.csv=10 m/s"
+curves type-i-slow.svg strain "$folder/type-i-2.csv=2 m/s" \
+  "$folder/type-i-2-plate-friction.csv=2 m/s, friction 0.2 at the plates" "$folder/type-i-10.csv=10 m/s"
 curves inclusions-2.svg travel "$folder/inclusions-0.csv=no inclusions" "$folder/inclusions-2.csv=2 lines"
 curves inclusions-6.svg travel "$folder/inclusions-0.csv=no inclusions" "$folder/inclusions-6.csv=6 lines"
+curves inclusions-plate-friction.svg travel "$folder/inclusions-0-plate-friction.csv=no inclusions" \
+  "$folder/inclusions-2-plate-friction.csv=2 lines" "$folder/inclusions-6-plate-friction.csv=6 lines"
 curves inclusions-step.svg travel "$folder/inclusions-0.csv=chosen step" \
   "$folder/inclusions-0-papers-step.csv=step of 2e-8 s"
 
@@ -47,4 +54,4 @@ tables=$others,$folder/slow_half.csv
 "$report" theory "$pictures/type-i-plateaus.svg" tables="$tables" type-i
 "$report" fits "$pictures/plateaus-as-counted.svg" tables="$tables" type-i type-ii-as-counted type-iii-as-counted
 "$report" fits "$pictures/plateaus-as-stated.svg" tables="$tables" type-i type-ii-as-stated type-iii-as-stated
-"$report" courses "$folder"/type-i-*.csv "$folder"/inclusions-*.csv >"$pictures/courses.csv"
+"$report" courses "$folder"/inclusions-*.csv >"$pictures/courses.csv"

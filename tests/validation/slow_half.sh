@@ -35,6 +35,11 @@ run() {
 
 for speed in 10 2 50 100; do run type-i-$speed type-i speed=$speed frame_count=40; done
 for lines in 0 2 6; do run inclusions-$lines inclusions-$lines end_strain=0.85 samples=2000 frame_count=40; done
+# The paper names no friction at the plates here, and 0.2 in Example 1.
+for lines in 0 2 6; do
+  run inclusions-$lines-plate-friction inclusions-$lines end_strain=0.85 samples=2000 frame_count=40 plate_friction=0.2
+done
+run type-i-2-plate-friction type-i speed=2 frame_count=40 plate_friction=0.2
 run inclusions-0-papers-step inclusions-0 end_strain=0.85 samples=2000 frame_count=40 time_step=2e-8
 for seed in 2 3; do
   for lines in 0 2 6; do
@@ -45,7 +50,7 @@ done
 for reading in as-counted as-stated; do
   for speed in 100 50 10 2; do
     for type in ii iii; do
-      run type-$type-$reading-$speed type-$type-$reading speed=$speed end_strain=0.5 frame_count=40
+      run type-$type-$reading-$speed type-$type-$reading speed=$speed end_strain=0.45 frame_count=40
     done
   done
 done
