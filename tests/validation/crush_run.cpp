@@ -98,20 +98,33 @@ double greatest_kinetic_share(std::span<const Sample> samples, double Sample::*e
 
 }  // namespace
 
-CrushRun run_crush(const SceneSpec& spec) {
+CrushRun run_crush(const SceneSpec& spec, double until, const CrushWatch& watch) {
   const auto scene = build(spec);
+  if (watch.on_start) {
+    watch.on_start(*scene);
+  }
   CrushRun run;
   run.facts = facts_of(*scene);
   const auto start = std::chrono::steady_clock::now();
   Simulation simulation(scene);
-  std::int64_t next_frame = run.facts.frame_interval;
-  while (simulation.status().kind == RunStatus::Kind::running) {
+  int frames = 0;
+  const auto take_frame = [&] {
+    if (watch.on_frame) {
+      watch.on_frame(simulation.take_frame(frames));
+    }
+    ++frames;
+  };
+  take_frame();
+  while (simulation.status().kind == RunStatus::Kind::running && simulation.strain() < until) {
     const std::clock_t before = std::clock();
     simulation.advance(run.facts.sample_interval);
     run.samples.push_back(simulation.take_sample());
     run.processor_seconds += static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC;
-    if (simulation.step() >= next_frame) {
-      next_frame += run.facts.frame_interval;
+    if (watch.on_sample) {
+      watch.on_sample(run.samples.back());
+    }
+    if (simulation.step() >= frames * run.facts.frame_interval) {
+      take_frame();
       run.crossings += static_cast<std::int64_t>(scenes::find_crossings(*scene, simulation.state()).size());
     }
   }

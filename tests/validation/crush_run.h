@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <limits>
 #include <vector>
 
 #include "cellcrush/sample.h"
@@ -9,8 +11,8 @@
 
 namespace cellcrush::validation {
 
-/// First local limit of a crush: the greatest mean of the two plates' stresses, smoothed over 0.005 of strain, at strains of
-/// 2 to 20 %, and the least after it up to 14 % strain.
+/// First local limit of a crush: the greatest mean of the two plates' stresses, smoothed over 0.005 of strain, at
+/// strains of 2 to 20 %, and the least after it up to 14 % strain.
 struct Limit {
   double stress = 0.0;       ///< MPa
   double strain = 0.0;       ///< where it stands
@@ -36,8 +38,16 @@ struct CrushRun {
   std::uint64_t state_hash = 0;               ///< of the last state
 };
 
-/// Runs a preset's spec to its end, or to the moment at which it stopped. Throws std::invalid_argument with all problems of a
-/// spec that has any.
-CrushRun run_crush(const SceneSpec& spec);
+/// What is done while a crush goes on; each may be empty.
+struct CrushWatch {
+  std::function<void(const Scene&)> on_start;
+  std::function<void(const Sample&)> on_sample;
+  std::function<void(const FieldFrame&)> on_frame;  ///< of the undeformed lattice first
+};
+
+/// Runs a preset's spec to its end, or to the moment at which it stopped, or to the first sample at the strain `until`
+/// or beyond. Throws std::invalid_argument with all problems of a spec that has any.
+CrushRun run_crush(const SceneSpec& spec, double until = std::numeric_limits<double>::infinity(),
+                   const CrushWatch& watch = {});
 
 }  // namespace cellcrush::validation

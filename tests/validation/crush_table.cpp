@@ -93,19 +93,11 @@ Cells cells_of(const Options& options, const CrushRun& run) {
   };
 }
 
-std::ofstream open(const std::string& file, std::ios::openmode mode) {
-  std::ofstream stream(file, mode);
-  if (!stream) {
-    throw std::runtime_error(file + ": cannot be written; give a file in a folder that exists.");
-  }
-  return stream;
-}
-
 }  // namespace
 
 void append_row(const std::string& file, const Options& options, const CrushRun& run, const Cells& leading) {
   const bool is_new = !std::filesystem::exists(file) || std::filesystem::is_empty(file);
-  std::ofstream stream = open(file, std::ios::app);
+  std::ofstream stream(file, std::ios::app);
   Cells cells = leading;
   const Cells measures = cells_of(options, run);
   cells.insert(cells.end(), measures.begin(), measures.end());
@@ -117,20 +109,8 @@ void append_row(const std::string& file, const Options& options, const CrushRun&
   }
   // One write, so that two programs may append to the same file.
   stream << (is_new ? names + "\n" : "") + values + "\n" << std::flush;
-}
-
-void write_curve(const std::string& file, const CrushRun& run) {
-  std::ofstream stream = open(file, std::ios::trunc);
-  stream << "strain,stress_impact,stress_support,work_external,kinetic,elastic,plastic,contact,friction,damping,"
-            "residual\n";
-  for (const Sample& sample : run.samples) {
-    stream << text_of(sample.strain);
-    for (const double value : {sample.stress_impact, sample.stress_support, sample.work_external, sample.energy_kinetic,
-                               sample.energy_elastic, sample.energy_plastic, sample.energy_contact,
-                               sample.energy_friction, sample.energy_damping, sample.energy_residual}) {
-      stream << "," << text_of(value);
-    }
-    stream << "\n";
+  if (!stream) {
+    throw std::runtime_error(file + ": cannot be written; give a file in a folder that exists.");
   }
 }
 

@@ -112,6 +112,8 @@ const std::vector<Option>& all_options() {
        [](Options& o, const std::string& v) { o.spec.contact.stiffness_factor = number_of("contact_stiffness", v); }},
       {"contact_damping", "share of critical damping",
        [](Options& o, const std::string& v) { o.spec.contact.damping_ratio = number_of("contact_damping", v); }},
+      {"plate_friction", "Coulomb's coefficient at the plates",
+       [](Options& o, const std::string& v) { o.spec.plates.friction = number_of("plate_friction", v); }},
       {"search", "faces or buckets",
        [](Options& o, const std::string& v) {
          using Search = ContactSpec::Search;
@@ -123,9 +125,17 @@ const std::vector<Option>& all_options() {
        [](Options& o, const std::string& v) { o.spec.material.hardening_modulus_mpa = number_of("hardening", v); }},
       {"samples", "of the curve",
        [](Options& o, const std::string& v) { o.spec.output.sample_count = count_of("samples", v); }},
+      {"frame_count", "frames of the lattice that are taken",
+       [](Options& o, const std::string& v) { o.spec.output.frame_count = count_of("frame_count", v); }},
+      {"until", "strain at which the run is broken off, samples and frames being those of the whole run",
+       [](Options& o, const std::string& v) { o.until = number_of("until", v); }},
+      {"simd", "kernel to use, one that the processor has",
+       [](Options& o, const std::string& v) { o.simd_target = v; }},
       {"table", "CSV file to which a row of results is appended",
        [](Options& o, const std::string& v) { o.table_file = v; }},
       {"curve", "CSV file of the stress-strain curve", [](Options& o, const std::string& v) { o.curve_file = v; }},
+      {"frames", "file of the lattice's frames, of which validation_pictures draws strips",
+       [](Options& o, const std::string& v) { o.frames_file = v; }},
   };
   return kOptions;
 }
@@ -139,6 +149,11 @@ const Option& option_named(const std::string& name) {
   throw std::invalid_argument(name + ": is no option. The options are\n" + describe_options());
 }
 
+/// What says where to write and by which kernel, not what to crush.
+bool changes_no_crush(const std::string& name) {
+  return name == "table" || name == "curve" || name == "frames" || name == "simd";
+}
+
 void apply_word(Options& options, const std::string& word) {
   const std::size_t equals = word.find('=');
   if (equals == std::string::npos) {
@@ -146,7 +161,7 @@ void apply_word(Options& options, const std::string& word) {
   }
   const std::string name = word.substr(0, equals);
   option_named(name).apply(options, word.substr(equals + 1));
-  if (name != "table" && name != "curve") {
+  if (!changes_no_crush(name)) {
     options.changes += (options.changes.empty() ? "" : " ") + word;
   }
 }

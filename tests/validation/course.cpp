@@ -1,0 +1,64 @@
+#include "validation/course.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "measure/curve.h"
+
+namespace cellcrush::validation {
+namespace {
+
+/// The last sample at which the smoothed stress is no more than twice the mean up to it; the last of all where none is.
+const Sample& last_below_twice_the_mean(std::span<const Sample> samples, const Curve& curve) {
+  const double half = 0.5 * Curve::kSmoothing;
+  const Sample* found = &samples.back();
+  for (const Sample& sample : samples) {
+    const double low = sample.strain - half;
+    const double high = sample.strain + half;
+    if (low >= 0.0 && high <= samples.back().strain &&
+        (curve.integral(high) - curve.integral(low)) / (2.0 * half) <=
+            2.0 * curve.integral(sample.strain) / sample.strain) {
+      found = &sample;
+    }
+  }
+  return *found;
+}
+
+}  // namespace
+
+Course find_course(std::span<const Sample> samples) {
+  const Curve curve(samples, &Sample::stress_impact);
+  const Sample& last = samples.back();
+  const auto onset = curve.densification();
+  Course course;
+  course.densified = onset.has_value();
+  course.densification = onset.value_or(last.strain);
+  course.densification_travel = course.densification * last.travel / last.strain;
+  const Sample& rise = last_below_twice_the_mean(samples, curve);
+  course.risen = rise.strain + Curve::kSmoothing < last.strain;
+  course.rise_travel = course.risen ? rise.travel : last.travel;
+  course.plateau = curve.integral(course.densification) / course.densification;
+  course.peaks =
+      find_salient_peaks(samples, std::max(course.densification, course.rise_travel * last.strain / last.travel));
+  return course;
+}
+
+std::string course_names() {
+  return "crush,densification_strain,densification_travel,rise_travel,plateau,peak_count,peaks";
+}
+
+std::string course_row(const std::string& name, const Course& course) {
+  char text[128];
+  std::snprintf(text, sizeof(text), ",%s%.4f,%.2f,%s%.2f,%.5g,%zu,", course.densified ? "" : ">", course.densification,
+                course.densification_travel, course.risen ? "" : ">", course.rise_travel, course.plateau,
+                course.peaks.size());
+  std::string row = name + text;
+  for (const Peak& peak : course.peaks) {
+    std::snprintf(text, sizeof(text), "%s%.4f:%.5g:%.5g", &peak == course.peaks.data() ? "" : " ", peak.strain,
+                  peak.stress, peak.prominence);
+    row += text;
+  }
+  return row;
+}
+
+}  // namespace cellcrush::validation

@@ -1,0 +1,126 @@
+#include "validation/plateau_charts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <iterator>
+#include <map>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+
+#include "bench/csv_table.h"
+#include "chart/palette.h"
+#include "results/quadratic_fit.h"
+#include "validation/options.h"
+
+namespace cellcrush::validation {
+namespace {
+
+using client::Chart;
+using client::Curve;
+using client::Marker;
+
+std::vector<std::string> words_of(const std::string& text) {
+  std::istringstream stream(text);
+  return {std::istream_iterator<std::string>(stream), {}};
+}
+
+/// Whether nothing is changed that a plateau depends on but the speed.
+bool is_plain(const std::vector<std::string>& words) {
+  static const std::set<std::string> kPlain = {"speed", "end_strain", "samples", "frame_count"};
+  return std::all_of(words.begin(), words.end(),
+                     [](const std::string& word) { return kPlain.contains(word.substr(0, word.find('='))); });
+}
+
+std::vector<double> take(const std::vector<Plateau>& plateaus, double Plateau::*field) {
+  std::vector<double> values;
+  std::transform(plateaus.begin(), plateaus.end(), std::back_inserter(values),
+                 [&](const Plateau& plateau) { return plateau.*field; });
+  return values;
+}
+
+Chart empty_chart(double fastest, double highest) {
+  Chart chart;
+  chart.x = {0.0, 1.05 * fastest, "speed of the impact plate (m/s)"};
+  chart.y = {0.0, 1.1 * highest, "plateau stress (MPa)"};
+  chart.note = "means over strains of 0.20 to 0.40";
+  return chart;
+}
+
+std::string fit_text(const std::string& preset, const client::QuadraticFit& fit) {
+  char text[96];
+  std::snprintf(text, sizeof(text), ": %.3f %+.2e V %+.2e V\u00b2", fit.constant, fit.linear, fit.quadratic);
+  return preset + text;
+}
+
+}  // namespace
+
+std::vector<Plateau> read_plateaus(const std::vector<std::string>& tables, const std::string& preset) {
+  std::map<double, Plateau> by_speed;
+  for (const std::string& table : tables) {
+    for (const bench::CsvRow& row : bench::read_csv(table)) {
+      std::vector<std::string> words = words_of(row.at("options"));
+      const double impact = bench::number_in(row, "plateau_stress_impact");
+      if (row.at("preset") != preset || !is_plain(words) || !std::isfinite(impact)) {
+        continue;
+      }
+      words.insert(words.begin(), preset);
+      const double speed = *read_options(words).spec.loading.speed_m_per_s;
+      by_speed[speed] = {preset,
+                         speed,
+                         impact,
+                         bench::number_in(row, "plateau_stress_support"),
+                         bench::number_in(row, "theory_shock"),
+                         bench::number_in(row, "front_shock")};
+    }
+  }
+  if (by_speed.empty()) {
+    throw std::invalid_argument(preset +
+                                ": stands in none of the tables with a plateau; give the tables that validate wrote.");
+  }
+  std::vector<Plateau> plateaus;
+  for (const auto& [speed, plateau] : by_speed) {
+    plateaus.push_back(plateau);
+  }
+  return plateaus;
+}
+
+Chart theory_chart(const std::vector<Plateau>& plateaus) {
+  const std::vector<double> speed = take(plateaus, &Plateau::speed);
+  const std::vector<double> shock = take(plateaus, &Plateau::shock);
+  Chart chart = empty_chart(speed.back(), *std::max_element(shock.begin(), shock.end()));
+  chart.curves = {
+      {speed, shock, {client::kMutedInk, 1.4, {8.0, 4.0}}, "Eq. 51"},
+      {speed, take(plateaus, &Plateau::front), {client::kInk, 1.4, {}}, "Eq. 52, jumps measured", Marker::cross},
+      {speed, take(plateaus, &Plateau::impact), {client::kImpactColour, 0.0, {}}, "impact plate", Marker::disc},
+      {speed, take(plateaus, &Plateau::support), {client::kSupportColour, 0.0, {}}, "support plate", Marker::square}};
+  return chart;
+}
+
+Chart fit_chart(const std::vector<std::vector<Plateau>>& presets, double to_speed) {
+  constexpr int kPoints = 100;
+  double highest = 0.0;
+  std::vector<Curve> curves;
+  for (const std::vector<Plateau>& plateaus : presets) {
+    const client::Colour colour = client::kSeriesColours[curves.size() / 2 % client::kSeriesColours.size()];
+    const std::vector<double> speed = take(plateaus, &Plateau::speed);
+    const std::vector<double> impact = take(plateaus, &Plateau::impact);
+    const auto fit = client::find_quadratic_fit(speed, impact);
+    Curve line{{}, {}, {colour, 1.5, {}}, fit ? fit_text(plateaus.front().preset, *fit) : ""};
+    for (int i = 0; fit && i <= kPoints; ++i) {
+      line.x.push_back(to_speed * i / kPoints);
+      line.y.push_back(fit->at(line.x.back()));
+    }
+    curves.push_back(std::move(line));
+    curves.push_back({speed, impact, {colour, 0.0, {}}, fit ? "" : plateaus.front().preset, Marker::disc});
+    for (const Plateau& plateau : plateaus) {
+      highest = plateau.speed <= to_speed ? std::max(highest, plateau.impact) : highest;
+    }
+  }
+  Chart chart = empty_chart(to_speed, highest);
+  chart.curves = std::move(curves);
+  return chart;
+}
+
+}  // namespace cellcrush::validation

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "chart/chart.h"
+
+namespace cellcrush::validation {
+
+/// A crush's plateau beside its theories, of a row of a table that validate wrote.
+struct Plateau {
+  std::string preset;
+  double speed = 0.0;    ///< m/s
+  double impact = 0.0;   ///< MPa, as the others
+  double support = 0.0;  ///< MPa
+  double shock = 0.0;    ///< MPa, Eq. 51
+  double front = 0.0;    ///< MPa, Eq. 52; not a number without a front
+};
+
+/// Of the crushes of a preset at its own settings but for the speed and what is output, by speed; of several at one
+/// speed that of the last table. Throws std::invalid_argument on a table that is none, or without such a row.
+std::vector<Plateau> read_plateaus(const std::vector<std::string>& tables, const std::string& preset);
+
+/// The plateaus of a preset at both plates against the speed, with Eq. 51 and 52.
+client::Chart theory_chart(const std::vector<Plateau>& plateaus);
+
+/// The impact plateaus of several presets against the speed, up to a speed, with quadratic fits through all of them.
+client::Chart fit_chart(const std::vector<std::vector<Plateau>>& presets, double to_speed);
+
+}  // namespace cellcrush::validation

@@ -1,0 +1,56 @@
+#!/bin/sh
+# Example 2 of the paper at 2 and 10 m/s, with 50 and 100 m/s beside them, and Example 3: crushes of minutes to hours,
+# one after another. Each leaves a row of FOLDER/slow_half.csv, its curve and its frames; what has its row is left out,
+# so that the script can be stopped and gone on with. Names choose some of them; `list` tells all.
+#   tests/validation/slow_half.sh build/ci/bin/validate FOLDER [NAME ...]
+#   tests/validation/slow_half.sh list
+set -eu
+validate=$1
+if [ "$validate" = list ]; then
+  wanted= folder= table=
+else
+  folder=$2 table=$2/slow_half.csv
+  shift 2
+  wanted=" $* "
+  mkdir -p "$folder"
+fi
+
+# run NAME PRESET [name=value ...]
+run() {
+  name=$1
+  shift
+  if [ "$validate" = list ]; then
+    echo "$name: validate $*"
+    return
+  fi
+  case $wanted in "  " | *" $name "*) ;; *) return ;; esac
+  if [ -f "$table" ] && grep -q "^validate $*," "$table"; then
+    echo "$name: done already"
+    return
+  fi
+  echo "$name"
+  "$validate" "$@" table="$table" curve="$folder/$name.csv" frames="$folder/$name.frames" >"$folder/$name.txt" ||
+    echo "$name: stopped before its end, see $folder/$name.txt"
+}
+
+for speed in 10 2 50 100; do run type-i-$speed type-i speed=$speed frame_count=40; done
+for lines in 0 2 6; do run inclusions-$lines inclusions-$lines end_strain=0.85 samples=2000 frame_count=40; done
+# The paper names no friction at the plates here, and 0.2 in Example 1.
+for lines in 0 2 6; do
+  run inclusions-$lines-plate-friction inclusions-$lines end_strain=0.85 samples=2000 frame_count=40 plate_friction=0.2
+done
+run type-i-2-plate-friction type-i speed=2 frame_count=40 plate_friction=0.2
+run inclusions-0-papers-step inclusions-0 end_strain=0.85 samples=2000 frame_count=40 time_step=2e-8
+for seed in 2 3; do
+  for lines in 0 2 6; do
+    run inclusions-$lines-seed-$seed inclusions-$lines end_strain=0.85 samples=2000 frame_count=40 \
+      amplitude=0.001 seed=$seed
+  done
+done
+for reading in as-counted as-stated; do
+  for speed in 100 50 10 2; do
+    for type in ii iii; do
+      run type-$type-$reading-$speed type-$type-$reading speed=$speed end_strain=0.45 frame_count=40
+    done
+  done
+done
