@@ -11,8 +11,8 @@ namespace cellcrush {
 /// What the crushes of a scene were found to be off by at a point of the chart, over seeds of a tiny imperfection.
 /// Relative to the mean of the converged crush.
 struct MeasuredError {
-  std::string scene;         ///< in words
-  double error = 0.0;        ///< of the mean of the plateau stress at the support plate
+  std::string measure;       ///< what of which scene, in words
+  double error = 0.0;        ///< of its mean
   double uncertainty = 0.0;  ///< half of its 95 % interval; an error below it is not known to be there
   double scatter = 0.0;      ///< standard deviation of one crush
 
