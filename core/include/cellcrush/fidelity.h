@@ -41,7 +41,8 @@ std::string describe_fidelity(const SceneSpec& spec);
 
 /// What a spec would take and be worth at a fidelity.
 struct FidelityForecast {
-  FidelityPoint point;  ///< with the elements a wall that the spec then has; without errors where `given` is not empty
+  FidelityPoint
+      point;  ///< with the elements a wall that the spec then has; nothing measured where `given` is not empty
   std::int64_t step_count = 0;
   std::int64_t element_count = 0;
   std::vector<std::string> given;  ///< fields that the spec gives otherwise than they were measured
