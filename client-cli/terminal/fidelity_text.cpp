@@ -45,8 +45,8 @@ std::vector<std::string> row_of(const v1::FidelityForecast& forecast) {
 std::string scatter_text(const v1::FidelityForecast& measured) {
   std::string text;
   for (const v1::MeasuredError& error : measured.errors()) {
-    text += fmt::format("{}{} of {}", text.empty() ? "" : ", ", percent_text(error.scatter_relative()),
-                        printable(error.scene()));
+    text += fmt::format("{}{} ({})", text.empty() ? "" : ", ", percent_text(error.scatter_relative()),
+                        printable(error.measure()));
   }
   return text;
 }
@@ -59,7 +59,7 @@ std::string fidelity_text(const v1::CheckCaseResponse& check) {
   std::vector<std::string> heading = {"fidelity", "elements a wall", "predicted time"};
   std::vector<Align> columns = {Align::left, Align::right, Align::right};
   if (measured != nullptr) {
-    for (const v1::MeasuredError& error : measured->errors()) heading.push_back("error, " + printable(error.scene()));
+    for (const v1::MeasuredError& error : measured->errors()) heading.push_back(printable(error.measure()));
   } else {
     heading.push_back("error");
   }
@@ -70,8 +70,8 @@ std::string fidelity_text(const v1::CheckCaseResponse& check) {
   std::string text = "\nspeed against accuracy, by numerics.fidelity\n" + table.text(2);
   if (measured != nullptr) {
     text += fmt::format(
-        "  Errors are those of the mean plateau stress at the support plate in the scenes named, from the converged\n"
-        "  solution. One crush of {} scatters by {}.\n",
+        "  Errors are those of means over seeds, from the converged solutions of the scenes named. One crush of {}\n"
+        "  scatters by {}.\n",
         v1::Numerics::Fidelity_Name(measured->fidelity()), scatter_text(*measured));
   }
   return text;

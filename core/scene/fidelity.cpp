@@ -18,13 +18,14 @@ const FidelityPoint* find_point(Fidelity fidelity) {
 
 /// Fields that a spec gives otherwise than they were when a point was measured, and that would change its error.
 std::vector<std::string> fields_beside(const FidelityPoint& point, const SceneSpec& spec) {
-  const SceneSpec plain;
+  SceneSpec plain;
+  plain.section.formulation = spec.section.formulation;
   std::vector<std::string> fields;
   const auto add_if = [&fields](bool other, const char* field) {
     if (other) fields.emplace_back(field);
   };
   add_if(spec.elements_per_wall.value_or(point.elements_per_wall) != point.elements_per_wall, "elements_per_wall");
-  add_if(spec.section.formulation != plain.section.formulation, "section.formulation");
+  add_if(spec.section.formulation != SectionSpec().formulation, "section.formulation");
   add_if(spec.section.depth_rule != plain.section.depth_rule, "section.depth_rule");
   add_if(spec.section.area_rule != plain.section.area_rule, "section.area_rule");
   add_if(spec.section.axial_count() != plain.section.axial_count(), "section.axial_points");
@@ -49,7 +50,7 @@ std::string describe_fidelity(const SceneSpec& spec) {
   if (point == nullptr) return {};
   return "Fidelity " + point->name +
          (spec.elements_per_wall ? ": elements_per_wall is given, which is all that it would fill in."
-                                 : ": " + std::to_string(point->elements_per_wall) + " elements a wall.");
+                                 : ": elements_per_wall is " + std::to_string(point->elements_per_wall) + ".");
 }
 
 std::vector<FidelityForecast> forecast_fidelities(const SceneSpec& spec) {
@@ -63,7 +64,10 @@ std::vector<FidelityForecast> forecast_fidelities(const SceneSpec& spec) {
     const SceneFacts facts = facts_of(*built.scene);
     FidelityForecast forecast{point, facts.step_count, facts.element_count, fields_beside(point, spec)};
     forecast.point.elements_per_wall = *fill_in_fidelity(asked).elements_per_wall;
-    if (!forecast.given.empty()) forecast.point.errors.clear();
+    if (!forecast.given.empty()) {
+      forecast.point.errors.clear();
+      forecast.point.step_cost = 1.0;
+    }
     forecasts.push_back(std::move(forecast));
   }
   return forecasts;

@@ -16,7 +16,7 @@ void write_forecast(const FidelityForecast& in, double step_cost, v1::FidelityFo
                             static_cast<double>(in.step_count));
   for (const auto& measured : in.point.errors) {
     auto& error = *out.add_errors();
-    error.set_scene(measured.scene);
+    error.set_measure(measured.measure);
     error.set_error_relative(measured.error);
     error.set_uncertainty_relative(measured.uncertainty);
     error.set_scatter_relative(measured.scatter);

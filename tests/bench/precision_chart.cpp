@@ -18,7 +18,7 @@ constexpr double kPanelWidth = 560.0;
 constexpr double kPanelHeight = 430.0;
 constexpr double kTitleHeight = 26.0;
 constexpr double kMargin = 14.0;
-constexpr double kLeastError = 1e-4;
+constexpr double kLeastError = 1e-6;
 
 std::string group_of(const std::string& variant) { return variant.substr(0, variant.find(':')); }
 std::string label_of(const std::string& variant) { return variant.substr(variant.find(':') + 1); }

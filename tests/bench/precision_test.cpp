@@ -90,12 +90,14 @@ TEST(Variants, AreReadByScenesAndAWrongLineIsNamed) {
   EXPECT_EQ(words_of(scenes[0], scenes[0].variants[0], 3),
             (std::vector<std::string>{"type-i", "speed=50", "elements=4", "seed=3"}));
   EXPECT_EQ(scenes[1].variants[0].name, "c:d");
-  std::ofstream(file) << "[one] type-i\nwrong\n";
-  try {
-    read_variants(file);
-    ADD_FAILURE() << "a line without a group was taken";
-  } catch (const std::invalid_argument& error) {
-    EXPECT_NE(std::string(error.what()).find(":2: "), std::string::npos) << error.what();
+  for (const char* wrong : {"wrong", "group:1,3"}) {
+    std::ofstream(file) << "[one] type-i\n" << wrong << "\n";
+    try {
+      read_variants(file);
+      ADD_FAILURE() << wrong << " was taken";
+    } catch (const std::invalid_argument& error) {
+      EXPECT_NE(std::string(error.what()).find(":2: "), std::string::npos) << error.what();
+    }
   }
   std::filesystem::remove_all(pattern);
 }

@@ -38,6 +38,8 @@ std::vector<VariedScene> read_variants(const std::string& file) {
     } else {
       if (scenes.empty()) refuse("stands before the first scene; begin one with [name] preset words...");
       if (first.find(':') == std::string::npos) refuse("is no variant; write group:label words...");
+      if (first.find(',') != std::string::npos)
+        refuse("has a comma, which would part a cell of the table; leave it out.");
       scenes.back().variants.push_back({first, behind_first(words)});
     }
   }

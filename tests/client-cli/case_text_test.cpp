@@ -92,13 +92,13 @@ TEST(FidelityText, ATimeAndAnErrorAFidelityAndNoneBelowItsScatter) {
   v1::CheckCaseResponse check;
   ASSERT_TRUE(google::protobuf::TextFormat::ParseFromString(R"(
     fidelities { fidelity: DRAFT elements_per_wall: 1 predicted_seconds: 12
-      errors { scene: "Type I" error_relative: 0.21 uncertainty_relative: 0.02 scatter_relative: 0.03 } }
+      errors { measure: "plateau of Type I" error_relative: 0.21 uncertainty_relative: 0.02 scatter_relative: 0.03 } }
     fidelities { fidelity: STANDARD elements_per_wall: 2 predicted_seconds: 130
-      errors { scene: "Type I" error_relative: 0.013 uncertainty_relative: 0.025 scatter_relative: 0.04 } })",
+      errors { measure: "plateau of Type I" error_relative: 0.013 uncertainty_relative: 0.025 scatter_relative: 0.04 } })",
                                                             &check));
   const std::string text = fidelity_text(check);
-  expect_parts(text, {"DRAFT", "12 s", "21.0 % +- 2.0 %", "STANDARD", "2 min 10 s", "under 2.5 %", "error, Type I",
-                      "One crush of DRAFT scatters by 3.0 % of Type I"});
+  expect_parts(text, {"DRAFT", "12 s", "21.0 % +- 2.0 %", "STANDARD", "2 min 10 s", "under 2.5 %", "plateau of Type I",
+                      "One crush of DRAFT\n  scatters by 3.0 % (plateau of Type I)"});
   EXPECT_EQ(text.find("1.3 %"), std::string::npos) << text;
   expect_parts(check_text(check), {text.c_str()});
 }

@@ -130,7 +130,7 @@ TEST(Translate, ForecastsAreTimesOfOneCoreAndTheOneAskedForIsThePrediction) {
               kStepCost * static_cast<double>(response.element_count() * response.step_count()), 1e-9);
   EXPECT_EQ(response.predicted_seconds(), standard.predicted_seconds());
   EXPECT_GT(standard.errors(0).uncertainty_relative(), 0.0);
-  EXPECT_FALSE(standard.errors(0).scene().empty());
+  EXPECT_FALSE(standard.errors(0).measure().empty());
 }
 
 TEST(Translate, SquaresAndTrianglesKeepTheirFields) {

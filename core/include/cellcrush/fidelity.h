@@ -11,8 +11,8 @@ namespace cellcrush {
 /// What the crushes of a scene were found to be off by at a point of the chart, over seeds of a tiny imperfection.
 /// Relative to the mean of the converged crush.
 struct MeasuredError {
-  std::string scene;         ///< in words
-  double error = 0.0;        ///< of the mean of the plateau stress at the support plate
+  std::string measure;       ///< what of which scene, in words
+  double error = 0.0;        ///< of its mean
   double uncertainty = 0.0;  ///< half of its 95 % interval; an error below it is not known to be there
   double scatter = 0.0;      ///< standard deviation of one crush
 
@@ -41,7 +41,8 @@ std::string describe_fidelity(const SceneSpec& spec);
 
 /// What a spec would take and be worth at a fidelity.
 struct FidelityForecast {
-  FidelityPoint point;  ///< with the elements a wall that the spec then has; without errors where `given` is not empty
+  FidelityPoint
+      point;  ///< with the elements a wall that the spec then has; nothing measured where `given` is not empty
   std::int64_t step_count = 0;
   std::int64_t element_count = 0;
   std::vector<std::string> given;  ///< fields that the spec gives otherwise than they were measured

@@ -43,7 +43,7 @@ TEST(Fidelity, WhatIsGivenStays) {
   for (const FidelityPoint& point : fidelity_points()) {
     SceneSpec spec = block(point.fidelity);
     EXPECT_EQ(describe_fidelity(spec),
-              "Fidelity " + point.name + ": " + std::to_string(point.elements_per_wall) + " elements a wall.");
+              "Fidelity " + point.name + ": elements_per_wall is " + std::to_string(point.elements_per_wall) + ".");
     spec.elements_per_wall = 3;
     EXPECT_EQ(fill_in_fidelity(spec).elements_per_wall, 3);
     EXPECT_NE(describe_fidelity(spec).find("is given"), std::string::npos);
@@ -81,6 +81,7 @@ TEST(Fidelity, NoErrorIsToldOfWhatWasNotMeasured) {
   for (const FidelityForecast& forecast : forecast_fidelities(spec)) {
     EXPECT_TRUE(forecast.point.errors.empty());
     EXPECT_EQ(forecast.point.elements_per_wall, 3);
+    EXPECT_EQ(forecast.point.step_cost, 1.0);
     EXPECT_EQ(forecast.given,
               (std::vector<std::string>{"elements_per_wall", "section.depth_rule", "numerics.rotary_scaling"}));
   }
