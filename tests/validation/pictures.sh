@@ -43,6 +43,8 @@ done
 
 curves type-i-slow.svg strain "$folder/type-i-2.csv=2 m/s" \
   "$folder/type-i-2-plate-friction.csv=2 m/s, friction 0.2 at the plates" "$folder/type-i-10.csv=10 m/s"
+curves inclusions-0.svg travel "$folder/inclusions-0.csv=no inclusions" \
+  "$folder/inclusions-0-seed-2.csv=imperfections of 0.001 mm, seed 2" "$folder/inclusions-0-seed-3.csv=seed 3"
 curves inclusions-2.svg travel "$folder/inclusions-0.csv=no inclusions" "$folder/inclusions-2.csv=2 lines"
 curves inclusions-6.svg travel "$folder/inclusions-0.csv=no inclusions" "$folder/inclusions-6.csv=6 lines"
 curves inclusions-plate-friction.svg travel "$folder/inclusions-0-plate-friction.csv=no inclusions" \
