@@ -50,7 +50,7 @@ Chart empty_chart(double fastest, double highest) {
 
 std::string fit_text(const std::string& preset, const client::QuadraticFit& fit) {
   char text[96];
-  std::snprintf(text, sizeof(text), ": %.3f %+.2e V %+.2e V\u00b2", fit.constant, fit.linear, fit.quadratic);
+  std::snprintf(text, sizeof(text), ": %.2f %+.4f V %+.6f V\u00b2", fit.constant, fit.linear, fit.quadratic);
   return preset + text;
 }
 

@@ -24,7 +24,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-constexpr double kWidth = 820.0;
+constexpr double kWidth = 960.0;
 constexpr double kHeight = 420.0;
 constexpr double kMargin = 12.0;
 constexpr double kSlow = 60.0;  // m/s, the end of a chart of the slow crushes

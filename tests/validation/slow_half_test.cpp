@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "bench/csv_table.h"
+#include "measure/curve.h"
 #include "validation/crush_run.h"
 #include "validation/curve_file.h"
 #include "validation/options.h"
@@ -43,30 +44,43 @@ void PrintTo(const Kept& kept, std::ostream* stream) { *stream << kept.curve; }
 
 class SlowHalf : public testing::TestWithParam<Kept> {};
 
-/// Chaos comes later. AVX2 and AVX-512 give the same six digits up to here, the plain text and SSE4 stresses that
-/// differ by up to 0.7 % of the greatest so far: three times that is allowed. Samples are those of the whole run.
+/// Waves ring from sample to sample and depend on the last bit sooner than their mean: at 1 m/s samples of two kernels
+/// differ by 12 % of the greatest stress before 2 % strain, means over 0.5 % of strain by 0.9 %, the works at the end
+/// by 0.04 %; at 10 m/s by 0.12, 0.02 and 0.04 %. Of means twice that is allowed. AVX2 and AVX-512 give the same six
+/// digits.
 TEST_P(SlowHalf, BeginsAsItsKeptCurve) {
   constexpr double kUntil = 0.02;
-  constexpr double kTolerance = 0.02;  // of the greatest stress so far
-  const Options options = read_options(GetParam().words);
-  const CrushRun run = run_crush(options.spec, kUntil);
+  constexpr double kWindow = 0.005;
+  constexpr double kMeanTolerance = 0.02;  // of the greatest stress so far
+  constexpr double kWorkTolerance = 0.002;
+  const CrushRun run = run_crush(read_options(GetParam().words).spec, kUntil);
+  const std::vector<Sample>& now = run.samples;
   const std::vector<Sample> kept = read_curve(kRecords / GetParam().curve);
-  ASSERT_GE(kept.size(), run.samples.size());
-  ASSERT_GE(run.samples.size(), 10U);
-  ASSERT_GE(run.samples.back().strain, kUntil);
-  double greatest = 0.0;
+  ASSERT_GE(kept.size(), now.size());
+  ASSERT_GE(now.size(), 10U);
+  ASSERT_GE(now.back().strain, kUntil);
   double worst = 0.0;
-  for (std::size_t i = 0; i < run.samples.size(); ++i) {
-    const Sample& now = run.samples[i];
-    ASSERT_NEAR(now.strain / kept[i].strain, 1.0, 1e-5) << "sample " << i;
-    greatest = std::max({greatest, kept[i].stress_impact, kept[i].stress_support});
-    for (const auto stress : {&Sample::stress_impact, &Sample::stress_support}) {
-      const double difference = std::abs(now.*stress - kept[i].*stress);
-      EXPECT_LE(difference, kTolerance * greatest) << "at strain " << now.strain;
+  for (const auto stress : {&Sample::stress_impact, &Sample::stress_support}) {
+    const Curve curve_now(now, stress);
+    const Curve curve_kept(kept, stress);
+    double greatest = 0.0;
+    for (std::size_t i = 0; i < now.size(); ++i) {
+      const double strain = now[i].strain;
+      ASSERT_NEAR(strain / kept[i].strain, 1.0, 1e-5) << "sample " << i;
+      greatest = std::max({greatest, kept[i].stress_impact, kept[i].stress_support});
+      if (strain < kWindow) {
+        continue;
+      }
+      const auto mean = [&](const Curve& curve) {
+        return (curve.integral(strain) - curve.integral(strain - kWindow)) / kWindow;
+      };
+      const double difference = std::abs(mean(curve_now) - mean(curve_kept));
+      EXPECT_LE(difference, kMeanTolerance * greatest) << "at strain " << strain;
       worst = std::max(worst, difference / greatest);
     }
   }
   RecordProperty("worst_difference", std::to_string(worst));
+  EXPECT_NEAR(now.back().work_external / kept[now.size() - 1].work_external, 1.0, kWorkTolerance);
   EXPECT_LT(run.summary.energy_error_relative, 0.01);
 }
 
