@@ -15,12 +15,12 @@ namespace {
 
 using client::MeshFrame;
 
-constexpr double kWidth = 760.0;
+constexpr double kWidth = 700.0;
 constexpr double kMargin = 10.0;
 constexpr double kGap = 12.0;
 constexpr double kTitle = 18.0;
 constexpr double kFarthest = 0.03;  // of a frame's strain from the one that is asked
-const client::TextStyle kTitleStyle{.size = 10.5};
+const client::TextStyle kTitleStyle{.size = 9.5};
 
 const FieldFrame& nearest_frame(const StripRow& row, double strain) {
   const auto& frames = row.kept.frames;
