@@ -1,7 +1,6 @@
 #include "rpc/admin_service.h"
 
 #include "rpc/error_table.h"
-#include "translate/unimplemented_fields.h"
 #include "version.h"
 
 namespace cellcrush::rpc {
@@ -11,7 +10,6 @@ grpc::Status AdminService::GetCapabilities(grpc::ServerContext*, const v1::GetCa
   return answer([&] {
     response->set_version(kSolverRevision);
     response->set_worker_limit(worker_limit_);
-    for (auto& field : translate::unimplemented_fields()) response->add_unimplemented_fields(std::move(field));
     return grpc::Status::OK;
   });
 }
