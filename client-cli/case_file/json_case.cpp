@@ -51,7 +51,7 @@ std::string explain_value(const std::string& path, const std::string& value, con
 }
 
 // The library's message with the path in front, and with what is expected or may have been meant.
-std::string explain(const std::string& message) {
+std::string explain_json(const std::string& message) {
   static const std::regex kUnknownField(R"re((?:\(([^)]*)\) )?([^ ]*): Cannot find field\.)re");
   static const std::regex kBadValue(R"re(\(([^)]*)\): (invalid value "?([^"]*)"? for type .*))re");
   std::smatch match;
@@ -77,8 +77,8 @@ v1::Case parse_json_case(const std::string& text, const std::string& file) {
   v1::Case result;
   const auto status = google::protobuf::util::JsonStringToMessage(text, &result);
   if (!status.ok()) {
-    throw CommandError(ExitCode::refused,
-                       fmt::format("the case cannot be read\n{}: {}", file, explain(std::string(status.message()))));
+    throw CommandError(ExitCode::refused, fmt::format("the case cannot be read\n{}: {}", file,
+                                                      explain_json(std::string(status.message()))));
   }
   return result;
 }

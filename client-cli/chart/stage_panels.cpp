@@ -17,7 +17,7 @@ constexpr double kGap = 14.0;
 constexpr double kPage = 880.0;      // height of all stages
 constexpr double kWideAspect = 1.7;  // from here on a lattice is clearly wider than high
 constexpr double kRowPreference = 1.35;
-const TextStyle kTitleStyle{.size = 12.5};
+const TextStyle kPanelTitleStyle{.size = 12.5};
 
 struct Grid {
   int columns = 1;
@@ -91,7 +91,7 @@ StagePanels lay_stages(const std::vector<MeshFrame>& stages, double left, double
 void draw_stages(cairo_t* context, const StagePanels& panels, const std::vector<MeshFrame>& stages) {
   for (std::size_t i = 0; i < stages.size(); ++i) {
     const Rectangle& place = panels.places[i];
-    draw_text(context, place.x, place.y - 5.0, stage_text(stages[i], i, stages.size()), kTitleStyle);
+    draw_text(context, place.x, place.y - 5.0, stage_text(stages[i], i, stages.size()), kPanelTitleStyle);
     draw_lattice(context, place, panels.box, stages[i]);
   }
   draw_scale_bar(context, panels.places.back(), panels.box);

@@ -17,7 +17,7 @@ namespace {
 constexpr std::string_view kColourOn = "\x1b[36m";
 constexpr std::string_view kColourOff = "\x1b[0m";
 
-std::string stress_text(const char* where, double stress) { return fmt::format("{} {:6.3f} MPa", where, stress); }
+std::string stress_at(const char* where, double stress) { return fmt::format("{} {:6.3f} MPa", where, stress); }
 
 std::string repeat(std::string_view piece, int times) {
   std::string text;
@@ -32,10 +32,10 @@ std::vector<std::string> progress_fields(const JobView& view) {
     // A frame has no plates that measure strain and stress.
     fields = {fmt::format("step {} of {}", count_text(progress.step()), count_text(progress.step_count()))};
   } else {
-    fields = {fmt::format("strain {:.3f}", progress.strain()), stress_text("impact", progress.stress_impact_mpa()),
-              stress_text("support", progress.stress_support_mpa())};
+    fields = {fmt::format("strain {:.3f}", progress.strain()), stress_at("impact", progress.stress_impact_mpa()),
+              stress_at("support", progress.stress_support_mpa())};
   }
-  if (progress.has_plateau_so_far_mpa()) fields.push_back(stress_text("plateau", progress.plateau_so_far_mpa()));
+  if (progress.has_plateau_so_far_mpa()) fields.push_back(stress_at("plateau", progress.plateau_so_far_mpa()));
   if (progress.steps_per_second() > 0) fields.push_back(number_text(progress.steps_per_second()) + " steps/s");
   return fields;
 }

@@ -19,12 +19,12 @@ namespace cellcrush::jobs {
 namespace {
 
 // A descriptor that closes itself and is not inherited.
-class Descriptor {
+class OwnedFile {
  public:
-  explicit Descriptor(int value) : value_(value) {}
-  ~Descriptor() { reset(); }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
+  explicit OwnedFile(int value) : value_(value) {}
+  ~OwnedFile() { reset(); }
+  OwnedFile(const OwnedFile&) = delete;
+  OwnedFile& operator=(const OwnedFile&) = delete;
 
   [[nodiscard]] int get() const { return value_; }
   void reset() {
@@ -99,8 +99,8 @@ WorkerExit LocalProcess::run(const worker::Order& order, const WorkerEvents& eve
                              const Interruptions& interruptions) {
   std::array<int, 2> ends{};
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) return not_started(errno);
-  const Descriptor socket(ends[0]);
-  Descriptor of_worker(ends[1]);
+  const OwnedFile socket(ends[0]);
+  OwnedFile of_worker(ends[1]);
   pid_t pid = 0;
   if (const int error = spawn(program_, of_worker.get(), pid); error != 0) return not_started(error);
   Child child(pid);

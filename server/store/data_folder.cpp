@@ -10,21 +10,16 @@
 #include <system_error>
 
 #include "error.h"
+#include "store/durable_file.h"
 
 namespace cellcrush::store {
 namespace {
 
-[[noreturn]] void fail(const std::filesystem::path& path, int error) {
-  const bool full = error == ENOSPC || error == EDQUOT;
-  throw ServiceError(full ? ServiceError::Kind::storage_full : ServiceError::Kind::internal,
-                     path.string() + " cannot be used: " + std::generic_category().message(error) + ".");
-}
-
 void make_private_folder(const std::filesystem::path& path) {
   std::error_code error;
   if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), error);
-  if (error) fail(path, error.value());
-  if (mkdir(path.c_str(), 0700) != 0 && errno != EEXIST) fail(path, errno);
+  if (error) throw_file_error(path, "used", error.value());
+  if (mkdir(path.c_str(), 0700) != 0 && errno != EEXIST) throw_file_error(path, "used", errno);
 }
 
 std::string read_text(int file) {
@@ -39,11 +34,11 @@ DataFolder::DataFolder(const std::filesystem::path& root) {
   make_private_folder(root);
   std::error_code error;
   root_ = std::filesystem::canonical(root, error);
-  if (error) fail(root, error.value());
+  if (error) throw_file_error(root, "used", error.value());
   make_private_folder(root_ / "jobs");
   const auto lock_path = root_ / "lock";
   lock_ = open(lock_path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
-  if (lock_ < 0) fail(lock_path, errno);
+  if (lock_ < 0) throw_file_error(lock_path, "used", errno);
   if (flock(lock_, LOCK_EX | LOCK_NB) != 0) {
     const std::string owner = read_text(lock_);
     close(lock_);
@@ -55,7 +50,7 @@ DataFolder::DataFolder(const std::filesystem::path& root) {
   if (ftruncate(lock_, 0) != 0 || pwrite(lock_, process.data(), process.size(), 0) < 0) {
     const int reason = errno;
     close(lock_);
-    fail(lock_path, reason);
+    throw_file_error(lock_path, "used", reason);
   }
 }
 
@@ -64,14 +59,14 @@ DataFolder::~DataFolder() { close(lock_); }
 void DataFolder::prepare_job_folder(std::int64_t job) const {
   remove_job_folder(job);
   const auto folder = job_folder(job);
-  if (mkdir(folder.c_str(), 0700) != 0) fail(folder, errno);
+  if (mkdir(folder.c_str(), 0700) != 0) throw_file_error(folder, "used", errno);
 }
 
 void DataFolder::remove_job_folder(std::int64_t job) const {
   const auto folder = job_folder(job);
   std::error_code error;
   std::filesystem::remove_all(folder, error);
-  if (error) fail(folder, error.value());
+  if (error) throw_file_error(folder, "used", error.value());
 }
 
 }  // namespace cellcrush::store

@@ -9,20 +9,22 @@
 #include "error.h"
 
 namespace cellcrush::store {
-namespace {
 
-[[noreturn]] void fail(const std::filesystem::path& path, int error) {
+void throw_file_error(const std::filesystem::path& path, std::string_view used, int error) {
   const bool full = error == ENOSPC || error == EDQUOT || error == EFBIG;
-  throw ServiceError(full ? ServiceError::Kind::storage_full : ServiceError::Kind::internal,
-                     path.string() + " cannot be written: " + std::generic_category().message(error) + ".");
+  throw ServiceError(
+      full ? ServiceError::Kind::storage_full : ServiceError::Kind::internal,
+      path.string() + " cannot be " + std::string(used) + ": " + std::generic_category().message(error) + ".");
 }
+
+namespace {
 
 void synchronize(const std::filesystem::path& path, int flags) {
   const int file = open(path.c_str(), flags | O_CLOEXEC);
-  if (file < 0) fail(path, errno);
+  if (file < 0) throw_file_error(path, "written", errno);
   const int error = fsync(file) == 0 ? 0 : errno;
   close(file);
-  if (error != 0) fail(path, error);
+  if (error != 0) throw_file_error(path, "written", error);
 }
 
 }  // namespace
@@ -31,7 +33,7 @@ void publish_file(const std::filesystem::path& from, const std::filesystem::path
   synchronize(from, O_RDONLY);
   std::error_code error;
   std::filesystem::rename(from, to, error);
-  if (error) fail(to, error.value());
+  if (error) throw_file_error(to, "written", error.value());
   synchronize(to.parent_path(), O_RDONLY | O_DIRECTORY);
 }
 

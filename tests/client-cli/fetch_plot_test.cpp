@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <cstring>
 #include <fstream>
-#include <iterator>
 #include <set>
 
 #include "case_file/text_case.h"
@@ -25,11 +24,6 @@ Script finished_script() {
   script.stages[2].frame.set_index(20);
   script.result = "\x89HDF\r\n\x1a\n" + std::string(123456, 'r');
   return script;
-}
-
-std::string read_file(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }

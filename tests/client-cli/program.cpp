@@ -10,6 +10,8 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <stdexcept>
 
 namespace cellcrush::client::testing {
@@ -121,6 +123,11 @@ ProgramResult Program::wait() {
 
 ProgramResult run_program(const std::vector<std::string>& arguments, const std::string& input) {
   return Program(arguments, 0, input).wait();
+}
+
+std::string read_file(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 }  // namespace cellcrush::client::testing

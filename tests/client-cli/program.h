@@ -2,6 +2,7 @@
 
 #include <sys/types.h>
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -42,5 +43,8 @@ class Program {
 
 /// Runs the program to its end.
 ProgramResult run_program(const std::vector<std::string>& arguments, const std::string& input = {});
+
+/// All bytes of a file that a command wrote; none when there is no such file.
+std::string read_file(const std::filesystem::path& path);
 
 }  // namespace cellcrush::client::testing

@@ -1,8 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <iterator>
-
 #include "fake_server.h"
 #include "program.h"
 
@@ -10,11 +7,6 @@ namespace cellcrush::client::testing {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string read_file(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 TEST(SweepPlot, IsDrawnAsPngAndSvg) {
   Script script;
