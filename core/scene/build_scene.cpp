@@ -58,7 +58,9 @@ double end_time_of(const SceneSpec& spec, const Scene& scene) {
 }
 
 void set_schedule(const SceneSpec& spec, Scene& scene) {
-  scene.schedule.time_step = time_step_of(spec, scene);
+  const TimeStep step = time_step_of(spec, scene);
+  scene.schedule.time_step = step.seconds;
+  scene.schedule.bound = step.bound;
   scene.schedule.step_count =
       static_cast<std::int64_t>(std::ceil(end_time_of(spec, scene) / scene.schedule.time_step - 1e-9));
   const auto interval = [&](int count) { return std::max<std::int64_t>(1, scene.schedule.step_count / count); };
@@ -167,7 +169,7 @@ void check_stability(const SceneSpec& spec, const Scene& scene, Problems& proble
 void check_step_count(const SceneSpec& spec, const Scene& scene, Problems& problems) {
   constexpr double kMostSteps = 1e10;
   const double fixed = spec.numerics.time_step_s;
-  const double count = end_time_of(spec, scene) / time_step_of(spec, scene);
+  const double count = end_time_of(spec, scene) / time_step_of(spec, scene).seconds;
   if (count <= kMostSteps) {
     return;
   }

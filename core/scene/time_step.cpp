@@ -29,19 +29,24 @@ double turn_of_stacks(const Scene& scene) {
 
 }  // namespace
 
-double time_step_of(const SceneSpec& spec, const Scene& scene) {
+TimeStep time_step_of(const SceneSpec& spec, const Scene& scene) {
   if (spec.numerics.time_step_s > 0.0) {
-    return spec.numerics.time_step_s;
+    return {spec.numerics.time_step_s, StepBound::asked_for};
   }
-  double step = kStepFraction * scene.stable_step;
+  TimeStep step = {kStepFraction * scene.stable_step, StepBound::elements};
+  const auto hold_to = [&step](double seconds, StepBound bound) {
+    if (seconds < step.seconds) {
+      step = {seconds, bound};
+    }
+  };
   if (scene.plates.present) {
-    step = std::min(step, kTravelPerStep * thinnest_wall(scene) / scene.plates.speed);
+    hold_to(kTravelPerStep * thinnest_wall(scene) / scene.plates.speed, StepBound::plate_travel);
   }
   if (scene.contact.present) {
     const double lightest = *std::min_element(scene.mass.begin(), scene.mass.end());
-    step = std::min(step, kStepFraction * contact_step_of(scene.contact, lightest));
+    hold_to(kStepFraction * contact_step_of(scene.contact, lightest), StepBound::contacts);
     if (stacks(spec)) {
-      step = std::min(step, turn_of_stacks(scene) * std::sqrt(lightest / scene.contact.stiffness));
+      hold_to(turn_of_stacks(scene) * std::sqrt(lightest / scene.contact.stiffness), StepBound::stacked_walls);
     }
   }
   return step;

@@ -5,7 +5,12 @@
 
 namespace cellcrush {
 
-/// The step of a run in s: the one that is asked for, or the least of
+struct TimeStep {
+  double seconds = 0.0;
+  StepBound bound = StepBound::asked_for;
+};
+
+/// The step of a run: the one that is asked for, or the least of
 ///  - 0.9 of the stable step of the mesh (E11),
 ///  - the time in which the plate moves by a twentieth of the thinnest wall: walls approach each other by up to 1.7 times
 ///    that in a step, and a contact is born as deep,
@@ -16,7 +21,7 @@ namespace cellcrush {
 ///    falls with the speed, it is by 45 % strain: squares at 25 m/s 2.0, 0.7, 0.2 at 0.29, 0.11, 0.08 rad, triangles 1.0, 0.2
 ///    at 0.11, 0.056 rad; triangles at 50, 75, 100 m/s 0.4, 0.2, 0.1 at 0.11 rad; hexagons none at 0.31.
 /// REQUIRES: masses, stable step and contact law of the scene.
-double time_step_of(const SceneSpec& spec, const Scene& scene);
+TimeStep time_step_of(const SceneSpec& spec, const Scene& scene);
 
 /// The share of the stable step in it.
 inline constexpr double kStepFraction = 0.9;

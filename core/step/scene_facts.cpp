@@ -4,7 +4,7 @@
 #include "contact/candidate_lists.h"
 #include "contact/contact_workspace.h"
 #include "measure/theory.h"
-#include "scene/check_spec.h"
+#include "step/what_is_modelled.h"
 
 namespace cellcrush {
 namespace {
@@ -26,58 +26,6 @@ std::int64_t memory_of(const Scene& scene) {
   const std::size_t per_corner = 2 * sizeof(int) + sizeof(Vector2);
   return static_cast<std::int64_t>(scene.particle_count() * per_particle + scene.element_count() * per_element +
                                    scene.faces.particle.size() * per_corner);
-}
-
-std::string search_text(ContactFaces::Premise premise) {
-  using Premise = ContactFaces::Premise;
-  switch (premise) {
-    case Premise::holds: return "by the faces of the lattice";
-    case Premise::several_parts: return "by buckets, as there are parts that nothing joins";
-    case Premise::not_closed: return "by buckets, as there are walls that close no face";
-    case Premise::not_planar: return "by buckets, as walls cross without a joint";
-    case Premise::no_contact:
-    case Premise::not_asked: break;
-  }
-  return "by buckets";
-}
-
-std::vector<std::string> what_is_modelled(const Scene& scene) {
-  std::vector<std::string> lines;
-  lines.push_back(
-      "Walls: Euler beams of constant section, large rotation, " +
-      std::string(scene.section.force_based ? "force-based, " : "displacement-based, ") +
-      std::to_string(scene.section.section_count()) + " x " + std::to_string(scene.section.depth_count()) +
-      " points an element, " +
-      (scene.materials.front().hardening_modulus > 0.0 ? "bilinear with mixed hardening." : "perfectly plastic."));
-  const auto friction_text = [](double friction) {
-    return friction > 0.0 ? "Coulomb friction " + to_text(friction) + "." : std::string("frictionless.");
-  };
-  lines.push_back(scene.contact.present
-                      ? "Contact between walls: penalty, ball to capsule, " + friction_text(scene.contact.friction)
-                      : "Contact between walls: left out.");
-  if (scene.contact.present) {
-    lines.push_back("Contacts are searched " + search_text(scene.faces.premise) + ".");
-  }
-  lines.push_back(scene.constant_area ? "Walls that shorten keep the area of their section."
-                                      : "Walls that shorten keep their volume; their thickness in the plane stays.");
-  if (scene.plates.present) {
-    lines.push_back("Plates: rigid, unilateral, not meshed, " + friction_text(scene.plates.friction));
-  }
-  if (scene.rigid.count() > 0) {
-    lines.push_back("Stiff cells: rigid, in " + std::to_string(scene.rigid.count()) +
-                    (scene.rigid.count() == 1 ? " body" : " bodies") +
-                    ", not meshed inside; the step does not depend on them.");
-  }
-  if (scene.mass_scaling.mass * scene.mass_scaling.rotary > 1.0) {
-    lines.push_back(
-        "Masses: fictitious, " + to_text(scene.mass_scaling.mass) + " times the real ones (rotary inertia " +
-        to_text(scene.mass_scaling.mass * scene.mass_scaling.rotary) + " times), so for slow crushes only.");
-  }
-  if (!scene.fidelity.empty()) {
-    lines.push_back(scene.fidelity);
-  }
-  lines.push_back("Left out: fracture, strain-rate dependence, motion out of the plane.");
-  return lines;
 }
 
 }  // namespace

@@ -160,8 +160,12 @@ struct MassScaling {
 };
 
 /// When the run ends and what is taken from it, in steps.
+/// What gave the step its length (scene/time_step.h).
+enum class StepBound { asked_for, elements, plate_travel, contacts, stacked_walls };
+
 struct Schedule {
   double time_step = 0.0;  ///< s
+  StepBound bound = StepBound::asked_for;
   std::int64_t step_count = 0;
   std::int64_t sample_interval = 0;
   std::int64_t frame_interval = 0;

@@ -113,19 +113,6 @@ TEST(ContactFaces, AreLeftOutWhereNotAskedFor) {
   EXPECT_EQ(scenes::build(spec)->faces.premise, Premise::not_asked);
 }
 
-TEST(ContactFaces, WhatIsModelledSaysHowContactsAreSearched) {
-  const auto text_of = [](const Scene& scene) {
-    std::string text;
-    for (const std::string& line : facts_of(scene).modelled) {
-      text += line + "\n";
-    }
-    return text;
-  };
-  const auto has = [](const std::string& text, const char* words) { return text.find(words) != std::string::npos; };
-  EXPECT_TRUE(has(text_of(*scenes::build(scenes::hexagon_block(4, 3))), "searched by the faces of the lattice."));
-  EXPECT_TRUE(has(text_of(*frame_of(kSquare, {{0, 1}, {1, 2}, {2, 3}})), "by buckets, as there are walls that close no face."));
-}
-
 // The table that the searches read against the walk from each ball, on walls as thick as their elements are long.
 TEST(LimitedReaches, AreThoseOfTheWalkAlongTheWalls) {
   SceneSpec spec = scenes::hexagon_block(3, 2);

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cellcrush/scene.h"
+
+namespace cellcrush {
+
+/// What is modelled and what is left out, with the reason of each shortcut; a sentence or two each.
+std::vector<std::string> what_is_modelled(const Scene& scene);
+
+}  // namespace cellcrush

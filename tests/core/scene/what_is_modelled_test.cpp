@@ -1,0 +1,57 @@
+#include "step/what_is_modelled.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cellcrush/presets.h"
+#include "scenes/frames.h"
+
+namespace cellcrush {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+// As `check` and result.h5 tell it: every shortcut with its reason, and what was asked for as such.
+TEST(WhatIsModelled, SaysWhyEachShortcutIsTaken) {
+  const SceneSpec spec = scenes::hexagon_block(4, 3);
+  const auto said = what_is_modelled(*scenes::build(spec));
+  EXPECT_THAT(said, Contains(HasSubstr("by the faces of the lattice: it is one part, plane and closed")));
+  EXPECT_THAT(said, Contains(HasSubstr("perfectly plastic, so each remembers its stress alone")));
+  EXPECT_THAT(said, Contains(HasSubstr("in single precision: half as much to remember")));
+  EXPECT_THAT(said, Contains(HasSubstr("Plates: rigid, unilateral, not meshed")));
+  EXPECT_THAT(said, Contains(HasSubstr("Symmetry: not used")));
+  EXPECT_THAT(said, Not(Contains(HasSubstr("as asked for"))));
+}
+
+TEST(WhatIsModelled, SaysWhatWasAskedFor) {
+  SceneSpec spec = scenes::hexagon_block(4, 3);
+  spec.contact.search = ContactSpec::Search::buckets;
+  spec.numerics.fibre_precision = NumericsSpec::FibrePrecision::double_precision;
+  spec.numerics.time_step_s = 1e-8;
+  spec.material.hardening_modulus_mpa = 1000.0;
+  const auto said = what_is_modelled(*scenes::build(spec));
+  EXPECT_THAT(said, Contains("Contacts are searched by buckets in space, as asked for (contact.search)."));
+  EXPECT_THAT(said, Contains("Step: as asked for (numerics.time_step_s)."));
+  EXPECT_THAT(said, Contains(HasSubstr("each remembers its back stress and flow, in double precision")));
+}
+
+TEST(WhatIsModelled, NamesTheBoundOfTheStep) {
+  const auto step_of = [](const char* preset, double speed) {
+    SceneSpec spec = find_preset(preset)->spec;
+    spec.loading.speed_m_per_s = speed;
+    for (const std::string& line : what_is_modelled(*scenes::build(spec))) {
+      if (line.rfind("Step: ", 0) == 0) {
+        return line;
+      }
+    }
+    return std::string();
+  };
+  EXPECT_THAT(step_of("type-i", 10.0), HasSubstr("lightest, stiffest element"));
+  EXPECT_THAT(step_of("type-i", 400.0), HasSubstr("plate moves by a twentieth"));
+  EXPECT_THAT(step_of("type-iii-as-counted", 10.0), HasSubstr("stacked along the crush"));
+}
+
+}  // namespace
+}  // namespace cellcrush
