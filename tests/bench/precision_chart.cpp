@@ -45,6 +45,10 @@ std::vector<Curve> group_curves(const VariedScene& scene, const std::vector<Prec
       curve.high.push_back(precision.error + precision.uncertainty);
       curve.labels.push_back(label_of(precision.variant));
     }
+    if (curve.x.size() == 1) {  // the legend says it, without a word among the points
+      curve.name += " " + curve.labels.front();
+      curve.labels.clear();
+    }
     if (!curve.x.empty()) curves.push_back(std::move(curve));
   }
   return curves;

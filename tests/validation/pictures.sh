@@ -38,19 +38,16 @@ for speed in 2 10 50 100; do
   done
 done
 strip type-i-2-plate-friction 0.05,0.1,0.2,0.4 "2 m/s"
-for lines in 0 2 6; do
-  strip inclusions-$lines 0.13,0.25,0.4,0.55,0.7 ""
-  strip inclusions-$lines-plate-friction 0.13,0.25,0.4,0.55,0.7 ""
-done
+for name in inclusions-0 inclusions-2 inclusions-0-frictionless; do strip $name 0.13,0.25,0.4,0.55,0.7 ""; done
+strip inclusions-6 0.13,0.25,0.4,0.55,0.65 ""
 
 curves type-i-slow.svg strain "type-i-2=2 m/s" \
   "type-i-2-plate-friction=2 m/s, friction 0.2 at the plates" "type-i-10=10 m/s"
 curves inclusions-0.svg travel "inclusions-0=no inclusions" \
-  "inclusions-0-seed-2=imperfections of 0.001 mm, seed 2" "inclusions-0-seed-3=seed 3"
+  "inclusions-0-seed-2=imperfections of 0.001 mm, seed 2" "inclusions-0-seed-3=seed 3" \
+  "inclusions-0-frictionless=no friction at the plates"
 curves inclusions-2.svg travel "inclusions-0=no inclusions" "inclusions-2=2 lines"
 curves inclusions-6.svg travel "inclusions-0=no inclusions" "inclusions-6=6 lines"
-curves inclusions-plate-friction.svg travel "inclusions-0-plate-friction=no inclusions" \
-  "inclusions-2-plate-friction=2 lines" "inclusions-6-plate-friction=6 lines"
 curves inclusions-step.svg travel "inclusions-0=chosen step" \
   "inclusions-0-papers-step=step of 2e-8 s"
 

@@ -159,10 +159,10 @@ struct MassScaling {
   double rotary = 1.0;
 };
 
-/// When the run ends and what is taken from it, in steps.
 /// What gave the step its length (scene/time_step.h).
 enum class StepBound { asked_for, elements, plate_travel, contacts, stacked_walls };
 
+/// When the run ends and what is taken from it, in steps.
 struct Schedule {
   double time_step = 0.0;  ///< s
   StepBound bound = StepBound::asked_for;
