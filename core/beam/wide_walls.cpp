@@ -77,16 +77,13 @@ void evaluate_rule(const Scene& scene, State& state, FibreMemory<T>& memory, Wor
 
 template <class T>
 bool evaluate_memory(const Scene& scene, State& state, FibreMemory<T>& memory, Workers& workers) {
-  const SectionRule& rule = scene.section;
-  const auto is = [&](bool force_based, std::size_t sections, std::size_t depth) HWY_ATTR {
-    return rule.force_based == force_based && rule.section_count() == sections && rule.depth_count() == depth;
-  };
-  if (is(true, 4, 6)) {
-    evaluate_rule<4, 6, true>(scene, state, memory, workers);
-  } else if (is(false, 2, 6)) {
-    evaluate_rule<2, 6, false>(scene, state, memory, workers);
-  } else {
+  if (!has_vector_kernel(scene.section)) {
     return false;
+  }
+  if (scene.section.force_based) {
+    evaluate_rule<4, 6, true>(scene, state, memory, workers);
+  } else {
+    evaluate_rule<2, 6, false>(scene, state, memory, workers);
   }
   return true;
 }

@@ -6,8 +6,15 @@
 
 namespace cellcrush {
 
+/// Whether the vector kernels are compiled for a rule: for the default's 4 x 6 points, force-based, and the paper's 2 x 6,
+/// displacement-based. Others are left to the plain text.
+inline bool has_vector_kernel(const SectionRule& rule) {
+  const std::size_t sections = rule.force_based ? 4 : 2;
+  return rule.section_count() == sections && rule.depth_count() == 6;
+}
+
 /// The elements' part of evaluate_internal_forces with the processor's vector instructions, the walls of a block at once: the
-/// same equations as evaluate_element. Returns false, and does nothing, for section rules that it is not compiled for.
+/// same equations as evaluate_element. Returns false, and does nothing, for section rules without a vector kernel.
 bool evaluate_walls_wide(const Scene& scene, State& state, Workers& workers);
 
 }  // namespace cellcrush

@@ -37,6 +37,18 @@ TEST(WhatIsModelled, SaysWhatWasAskedFor) {
   EXPECT_THAT(said, Contains(HasSubstr("each remembers its back stress and flow, in double precision")));
 }
 
+// A formulation that is changed alone keeps the points of the other.
+TEST(WhatIsModelled, WarnsOfPointsThatHaveNoVectorKernel) {
+  SceneSpec spec = scenes::hexagon_block(4, 3);
+  const auto has_none = Contains(HasSubstr("these have no vector kernel"));
+  EXPECT_THAT(what_is_modelled(*scenes::build(spec)), Not(has_none));
+  spec.section.formulation = SectionSpec::Formulation::displacement_based;
+  spec.section.axial_points = 4;
+  EXPECT_THAT(what_is_modelled(*scenes::build(spec)), has_none);
+  spec.section.axial_points = 2;
+  EXPECT_THAT(what_is_modelled(*scenes::build(spec)), Not(has_none));
+}
+
 TEST(WhatIsModelled, NamesTheBoundOfTheStep) {
   const auto step_of = [](const char* preset, double speed) {
     SceneSpec spec = find_preset(preset)->spec;
