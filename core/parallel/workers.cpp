@@ -73,10 +73,11 @@ void Workers::work(std::size_t part) {
     if (!spin_until(has_job)) {
       round_.wait(done, std::memory_order_acquire);
     }
+    done = round_.load(std::memory_order_acquire);
+    // After the round: that of the destructor has no job.
     if (stopped_.load()) {
       return;
     }
-    done = round_.load(std::memory_order_acquire);
     // A round that is over has been claimed, so the job of a claimed round is still there.
     if (claim(part, done)) {
       do_part(part);
