@@ -18,6 +18,17 @@ class Sampler {
   /// REQUIRES: `scene` is that of the constructor.
   Sample take(const Scene& scene, const State& state);
 
+  /// Calls visitor(field) for all that a sample leaves for the next one.
+  template <class Visitor>
+  void visit_memory(Visitor&& visitor) {
+    visitor(last_time_);
+    visitor(last_impact_impulse_);
+    visitor(last_support_impulse_);
+    visitor(told_of_depth_);
+    visitor(told_of_crossing_);
+    visitor(next_look_);
+  }
+
  private:
   void measure_stress(const Scene& scene, const State& state, Sample& sample);
   void measure_collapse(const Scene& scene, const State& state, Sample& sample);

@@ -41,6 +41,22 @@ struct Simulation::Impl {
   std::int64_t last_good_step = 0;
 };
 
+namespace {
+
+// Changes with what follows it in a checkpoint.
+constexpr std::uint64_t kCheckpointFormat = 0x63656C6C63720001;
+
+/// Whether the states are of equal scenes, so far as their lists tell.
+bool fit(const State& one, const State& other) {
+  return one.position.size() == other.position.size() && one.rotation.size() == other.rotation.size() &&
+         one.rigid_centre.size() == other.rigid_centre.size() && one.length.size() == other.length.size() &&
+         one.fibres.stress.size() == other.fibres.stress.size() &&
+         one.single_fibres.stress.size() == other.single_fibres.stress.size() &&
+         one.wall_force.size() == other.wall_force.size() && one.contact_force.size() == other.contact_force.size();
+}
+
+}  // namespace
+
 Simulation::Simulation(std::shared_ptr<const Scene> scene, int threads)
     : impl_(std::make_unique<Impl>(std::move(scene), threads)) {}
 
@@ -72,6 +88,49 @@ Sample Simulation::take_sample() {
 FieldFrame Simulation::take_frame(int index) const { return make_frame(*impl_->scene, impl_->state, index); }
 
 const FieldFrame& Simulation::last_good_frame() const { return impl_->last_good; }
+
+std::string Simulation::checkpoint() const {
+  std::string out;
+  ByteWriter writer(out);
+  writer.put(kCheckpointFormat);
+  put_state(writer, impl_->state);
+  impl_->sampler.visit_memory([&writer](const auto& field) { writer.put(field); });
+  writer.put(impl_->last_good.time);
+  writer.put(impl_->last_good.strain);
+  writer.put(impl_->last_good.position);
+  writer.put(impl_->last_good.plastic_fraction);
+  writer.put(impl_->last_good_step);
+  return out;
+}
+
+bool Simulation::restore(std::string_view checkpoint) {
+  ByteReader reader(checkpoint);
+  std::uint64_t format = 0;
+  State state;
+  Sampler sampler(*impl_->scene);
+  FieldFrame last_good;
+  std::int64_t last_good_step = 0;
+  reader.take(format);
+  if (format != kCheckpointFormat) {
+    return false;
+  }
+  take_state(reader, state);
+  sampler.visit_memory([&reader](auto& field) { reader.take(field); });
+  reader.take(last_good.time);
+  reader.take(last_good.strain);
+  reader.take(last_good.position);
+  reader.take(last_good.plastic_fraction);
+  reader.take(last_good_step);
+  if (!reader.sound() || !reader.at_end() || !fit(state, impl_->state)) {
+    return false;
+  }
+  impl_->state = std::move(state);
+  impl_->sampler = std::move(sampler);
+  impl_->last_good = std::move(last_good);
+  impl_->last_good_step = last_good_step;
+  impl_->status = {};
+  return true;
+}
 
 RunStatus Simulation::status() const { return impl_->status; }
 std::int64_t Simulation::step() const { return impl_->state.step; }

@@ -1,9 +1,9 @@
 #include "bench/state_file.h"
 
-#include <cstdint>
 #include <fstream>
+#include <sstream>
 #include <stdexcept>
-#include <type_traits>
+#include <string>
 
 namespace cellcrush::bench {
 namespace {
@@ -16,21 +16,13 @@ std::runtime_error broken(const std::filesystem::path& file, const char* what) {
 
 void save_state(const std::filesystem::path& file, const State& state) {
   std::filesystem::create_directories(file.parent_path());
+  std::string bytes;
+  ByteWriter writer(bytes);
+  put_state(writer, state);
   const std::filesystem::path partial = file.string() + ".partial";
   {
     std::ofstream stream(partial, std::ios::binary);
-    const auto put = [&](const void* from, std::size_t bytes) {
-      stream.write(static_cast<const char*>(from), static_cast<std::streamsize>(bytes));
-    };
-    visit_fields(state, [&](const char*, const auto& field) {
-      if constexpr (requires { field.data(); }) {
-        const std::uint64_t count = field.size();
-        put(&count, sizeof(count));
-        put(field.data(), count * sizeof(field[0]));
-      } else {
-        put(&field, sizeof(field));
-      }
-    });
+    stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     stream.flush();
     if (!stream) throw broken(file, "cannot be written; give --states a folder that can.");
   }
@@ -40,22 +32,13 @@ void save_state(const std::filesystem::path& file, const State& state) {
 std::optional<State> load_state(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream) return std::nullopt;
+  std::ostringstream bytes;
+  bytes << stream.rdbuf();
+  const std::string read = std::move(bytes).str();
+  ByteReader reader(read);
   State state;
-  const auto take = [&](void* to, std::size_t bytes) {
-    if (!stream.read(static_cast<char*>(to), static_cast<std::streamsize>(bytes))) {
-      throw broken(file, "is cut short; remove it.");
-    }
-  };
-  visit_fields(state, [&](const char*, auto& field) {
-    if constexpr (requires { field.data(); }) {
-      std::uint64_t count = 0;
-      take(&count, sizeof(count));
-      field.resize(count);
-      take(field.data(), count * sizeof(field[0]));
-    } else {
-      take(&field, sizeof(field));
-    }
-  });
+  take_state(reader, state);
+  if (!reader.sound() || !reader.at_end()) throw broken(file, "is cut short; remove it.");
   return state;
 }
 

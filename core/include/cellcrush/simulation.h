@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cellcrush/problem.h"
@@ -102,6 +103,14 @@ class Simulation {
   /// Fields of the newest sample that was kept for the case that the run fails: it passed the check, and lies at most a
   /// hundredth of the run's steps before the newest that did. The undeformed state before there is one. Its index is 0.
   [[nodiscard]] const FieldFrame& last_good_frame() const;
+
+  /// All that the run needs to go on from here, for the same build on the same kind of processor: whatever is done after
+  /// restore() has the same bits as if the run had not been left.
+  [[nodiscard]] std::string checkpoint() const;
+
+  /// Goes on from a checkpoint of a run of an equal scene that had not stopped. False, and nothing has happened, when the
+  /// bytes are none.
+  bool restore(std::string_view checkpoint);
 
   [[nodiscard]] RunStatus status() const;
   [[nodiscard]] std::int64_t step() const;

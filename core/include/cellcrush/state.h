@@ -4,6 +4,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "cellcrush/byte_stream.h"
 #include "cellcrush/lane_vector.h"
 #include "cellcrush/vector.h"
 
@@ -238,6 +239,14 @@ void visit_fields(S& state, Visitor&& visitor) {
   visitor("deepest_penetration", state.deepest_penetration);
   visitor("deepest_birth", state.deepest_birth);
   visitor("ledger", state.ledger);
+}
+
+/// Every field as it stands, for the same build on the same kind of processor.
+inline void put_state(ByteWriter& writer, const State& state) {
+  visit_fields(state, [&writer](const char*, const auto& field) { writer.put(field); });
+}
+inline void take_state(ByteReader& reader, State& state) {
+  visit_fields(state, [&reader](const char*, auto& field) { reader.take(field); });
 }
 
 }  // namespace cellcrush
