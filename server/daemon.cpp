@@ -68,8 +68,9 @@ struct Daemon::Impl {
         journal(folder.journal(), [this](std::int64_t job) { hub.announce(job); }),
         reader(folder.journal()),
         sweep_reader(folder.journal()),
-        executor(options.worker_program),
-        scheduler({folder, journal, reader, sweep_reader, hub, executor, metrics}),
+        executor(options.worker_program, options.stall_limit),
+        runner({folder, journal, reader, hub, executor, metrics, options.checkpoint_interval}),
+        scheduler({folder, journal, reader, sweep_reader, metrics, runner}),
         pump(kPumpThreads),
         cases(worker::measure_step_cost()),
         jobs({folder, journal, reader, hub, pump, scheduler, options.bookmark_interval}),
@@ -147,6 +148,7 @@ struct Daemon::Impl {
   store::SweepReader sweep_reader;
   jobs::LocalProcess executor;
   metrics::Metrics metrics;
+  jobs::JobRunner runner;
   jobs::Scheduler scheduler;
   watch::Pump pump;
   rpc::CasesService cases;

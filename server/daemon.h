@@ -18,6 +18,10 @@ struct DaemonOptions {
   int workers = 0;
   /// Program that is started as `PROGRAM worker ...`.
   std::filesystem::path worker_program = "/proc/self/exe";
+  /// Clock time between two checkpoints of a running job.
+  std::chrono::milliseconds checkpoint_interval{60'000};
+  /// A worker that says nothing and uses no processor time for so long is replaced.
+  std::chrono::milliseconds stall_limit{20'000};
   /// Time without an event after which a watcher is sent a bookmark.
   std::chrono::milliseconds bookmark_interval{15'000};
 };
@@ -39,7 +43,7 @@ class Daemon {
   /// Where metrics are served, with the real port: "http://HOST:PORT/metrics"; empty: nowhere.
   [[nodiscard]] const std::string& metrics_url() const;
 
-  /// Ends running workers (their jobs are FAILED, WORKER_LOST), closes watches and calls, within a few seconds. Jobs
+  /// Lets running workers leave their jobs at a checkpoint, closes watches and calls, within a few seconds. These jobs and those
   /// that wait are run by the next daemon on the same data folder. Safe to call twice.
   void stop();
 

@@ -6,6 +6,8 @@
 #include <sys/stat.h>
 
 #include <CLI/CLI.hpp>
+#include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
@@ -79,11 +81,15 @@ int main(int argc, char** argv) {
                  "HOST:PORT at which metrics for Prometheus are served over HTTP, at /metrics (default: nowhere)");
   app.add_option("--workers", options.workers, "jobs that run at once (default: one for each core)")
       ->check(CLI::Range(1, 1024));
+  double checkpoint_seconds = 60.0;
+  app.add_option("--checkpoint-interval", checkpoint_seconds,
+                 "seconds of clock between two checkpoints of a running job (default: 60)")
+      ->check(CLI::Range(0.01, 86400.0));
   app.set_version_flag("--version", std::string("cellcrushd ") + cellcrush::kSolverRevision);
   // What the daemon itself starts; an empty group keeps it out of the help.
-  int daemon_process = 0;
+  std::filesystem::path job_folder;
   CLI::App* worker = app.add_subcommand("worker")->group("");
-  worker->add_option("--daemon", daemon_process)->required();
+  worker->add_option("--folder", job_folder)->required();
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -91,11 +97,12 @@ int main(int argc, char** argv) {
   }
   if (!choose_kernel()) return 2;
   umask(0077);
-  if (worker->parsed()) cellcrush::worker::worker_main(daemon_process);
+  if (worker->parsed()) cellcrush::worker::worker_main(job_folder);
   if (options.data_folder.empty()) {
     std::fprintf(stderr, "cellcrushd: neither XDG_DATA_HOME nor HOME is set. Give a data folder with --data.\n");
     return 2;
   }
+  options.checkpoint_interval = std::chrono::milliseconds(std::llround(1000.0 * checkpoint_seconds));
   const sigset_t signals = block_signals();
   spdlog::set_default_logger(spdlog::stderr_color_mt("cellcrushd"));
   return serve(options, signals);

@@ -31,6 +31,7 @@ void add_progress_rows(Table& table, const v1::Job& job) {
   if (!job.case_().lattice().has_frame()) text += fmt::format(", strain {:.3f}", progress.strain());
   table.add({"progress",
              text + fmt::format(", step {} of {}", count_text(progress.step()), count_text(progress.step_count()))});
+  if (progress.stalled()) table.add({"", "the worker stands still, and is replaced if that goes on"});
   if (job.state() == v1::RUNNING && progress.steps_per_second() > 0) {
     table.add({"time left", duration_text(progress.seconds_left()) + " at " + number_text(progress.steps_per_second()) +
                                 " steps/s"});
@@ -83,6 +84,11 @@ std::string description_text(const v1::Job& job) {
   if (job.has_start_time()) table.add({"started", time_text(job.start_time())});
   if (job.has_end_time()) table.add({"ended", time_text(job.end_time())});
   if (job.worker_pid() != 0) table.add({"worker process", std::to_string(job.worker_pid())});
+  if (job.attempt() > 1) {
+    table.add(
+        {"workers", fmt::format("{}, as {} {} lost or left the job; what they did since a checkpoint was done again",
+                                job.attempt(), job.attempt() - 1, job.attempt() == 2 ? "was" : "were")});
+  }
   if (job.has_progress() && !is_final(job.state())) add_progress_rows(table, job);
   const std::string scene_lines = description_text(job.case_());
   const std::string stage_lines = stage_times_text(job.summary().stage_times());

@@ -5,6 +5,7 @@
 #include <stop_token>
 #include <string>
 
+#include "worker/job_folder.h"
 #include "worker/report.pb.h"
 
 namespace cellcrush::jobs {
@@ -15,8 +16,11 @@ struct WorkerExit {
     not_started,  ///< no worker could be started; `reason` says why
     exited,       ///< ended by itself with `code`
     signalled,    ///< ended by the signal `code`
+    gone,         ///< ended, and was no child of this daemon: how is not known
     broken,       ///< said something that is no report, and was ended
-    stopped,      ///< ended because the daemon ends
+    stalled,      ///< used no processor time for long, and was ended
+    stopped,      ///< left the job because the daemon ends
+    suspended,    ///< left the job because it is suspended
     cancelled,    ///< the job was cancelled, and it ended by itself or, when it did not in time, was ended
   };
   Kind kind = Kind::exited;
@@ -27,14 +31,15 @@ struct WorkerExit {
 
 /// What the executor tells while a worker runs, from the thread that called run.
 struct WorkerEvents {
-  std::function<void(int pid)> started;                 ///< before the worker is told what to do
-  std::function<void(const worker::Report&)> reported;  ///< all reports but the final one and `stopping`
+  std::function<void(int pid)> started;                 ///< a worker runs, of this daemon or of one before it
+  std::function<void(const worker::Report&)> reported;  ///< all reports but the final one and `stopping`; some again
 };
 
-/// Wishes of others while a worker runs.
+/// Wishes of others while a worker runs. A worker that does not heed one in time is ended.
 struct Interruptions {
-  std::stop_token stop;    ///< the daemon ends: the worker is ended at once
-  std::stop_token cancel;  ///< the job is cancelled: the worker is told, and ended if it does not react within 2 s
+  std::stop_token stop;     ///< the daemon ends: the worker is to leave the job at a checkpoint
+  std::stop_token suspend;  ///< the worker is to leave the job at a checkpoint
+  std::stop_token cancel;   ///< the worker is to end the job with what there is
 };
 
 /// Runs jobs in worker processes. Thread-safe: many runs at once.
@@ -42,10 +47,16 @@ class Executor {
  public:
   virtual ~Executor() = default;
 
-  /// Runs one job to its end; waits for it. The worker is gone when this returns. An exception thrown by `events` ends
-  /// the worker and is passed on.
-  /// REQUIRES: the calling thread lives as long as the worker.
-  virtual WorkerExit run(const worker::Order& order, const WorkerEvents& events,
+  /// Whether a worker runs in the folder.
+  virtual bool has_worker(const worker::JobFolder& folder) = 0;
+
+  /// Tells all that workers have reported in the folder. How the job ended, if the last of them has ended it. REQUIRES: none runs
+  /// in it.
+  virtual std::optional<WorkerExit> take_last_word(const worker::JobFolder& folder, const WorkerEvents& events) = 0;
+
+  /// Goes along with the worker that runs in the folder, or starts one; waits until it has ended or left the job. All that
+  /// the folder's workers have reported is told. An exception thrown by `events` ends the worker and is passed on.
+  virtual WorkerExit run(const worker::JobFolder& folder, const worker::Order& order, const WorkerEvents& events,
                          const Interruptions& interruptions) = 0;
 };
 

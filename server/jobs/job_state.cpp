@@ -10,16 +10,17 @@ namespace {
 using Step = std::pair<v1::JobState, v1::JobState>;
 
 // Every change that there is.
-constexpr std::array<Step, 14> kSteps = {{
+constexpr std::array<Step, 15> kSteps = {{
     {v1::PENDING, v1::RUNNING},
     {v1::PENDING, v1::CANCELLED},
+    {v1::PENDING, v1::SUSPENDED},
     {v1::PENDING, v1::FAILED},  // no worker could be started
     {v1::RUNNING, v1::SUCCEEDED},
     {v1::RUNNING, v1::FAILED},
     {v1::RUNNING, v1::SUSPENDED},
+    {v1::RUNNING, v1::PENDING},  // the worker was lost, or the daemon ended
     {v1::RUNNING, v1::CANCELLING},
     {v1::SUSPENDED, v1::PENDING},
-    {v1::SUSPENDED, v1::RUNNING},
     {v1::SUSPENDED, v1::CANCELLED},
     {v1::SUSPENDED, v1::FAILED},
     {v1::CANCELLING, v1::CANCELLED},

@@ -1,55 +1,42 @@
 #include "jobs/local_process.h"
 
+#include <fcntl.h>
 #include <spawn.h>
-#include <sys/socket.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <fstream>
+#include <string>
 #include <system_error>
 
-#include "jobs/cancellation.h"
-#include "jobs/child.h"
-#include "worker/report_stream.h"
+#include "jobs/worker_follower.h"
+#include "jobs/worker_process.h"
+#include "store/durable_file.h"
 #include "worker/worker_main.h"
 
 namespace cellcrush::jobs {
 namespace {
 
-// A descriptor that closes itself and is not inherited.
-class OwnedFile {
- public:
-  explicit OwnedFile(int value) : value_(value) {}
-  ~OwnedFile() { reset(); }
-  OwnedFile(const OwnedFile&) = delete;
-  OwnedFile& operator=(const OwnedFile&) = delete;
-
-  [[nodiscard]] int get() const { return value_; }
-  void reset() {
-    if (value_ >= 0) close(value_);
-    value_ = -1;
-  }
-
- private:
-  int value_;
-};
-
-// Starts the program with `socket` at worker::kSocket, and no other descriptors but the standard three. Returns 0 or an
-// errno.
-int spawn(const std::filesystem::path& program, int socket, pid_t& pid) {
+// Starts a worker in the folder, with no other descriptors but the standard three, which are those of nobody: it outlives the
+// daemon. Returns 0 or an errno.
+int spawn(const std::filesystem::path& program, const worker::JobFolder& folder, pid_t& pid) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, socket, worker::kSocket);
-  posix_spawn_file_actions_addclosefrom_np(&actions, worker::kSocket + 1);
+  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_addclosefrom_np(&actions, STDERR_FILENO + 1);
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
-  sigset_t none;
+  sigset_t wishes;
   sigset_t all;
-  sigemptyset(&none);
+  sigemptyset(&wishes);
+  sigaddset(&wishes, worker::kSuspendSignal);
+  sigaddset(&wishes, worker::kCancelSignal);
   sigfillset(&all);
-  posix_spawnattr_setsigmask(&attributes, &none);
+  posix_spawnattr_setsigmask(&attributes, &wishes);
   posix_spawnattr_setsigdefault(&attributes, &all);
   // A group of its own: Ctrl-C at the daemon's terminal is the daemon's to handle.
   posix_spawnattr_setpgroup(&attributes, 0);
@@ -57,9 +44,9 @@ int spawn(const std::filesystem::path& program, int socket, pid_t& pid) {
 
   std::string name = program.string();
   std::string command = "worker";
-  std::string option = "--daemon";
-  std::string daemon = std::to_string(getpid());
-  std::array<char*, 5> arguments = {name.data(), command.data(), option.data(), daemon.data(), nullptr};
+  std::string option = "--folder";
+  std::string place = folder.root().string();
+  std::array<char*, 5> arguments = {name.data(), command.data(), option.data(), place.data(), nullptr};
   const int error = posix_spawn(&pid, name.c_str(), &actions, &attributes, arguments.data(), environ);
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
@@ -73,63 +60,59 @@ WorkerExit not_started(int error) {
   return out;
 }
 
-// Passes reports on until the worker says no more. False when what it said is no report.
-bool pass_on_reports(worker::ReportStream& stream, const WorkerEvents& events, Cancellation& cancellation,
-                     WorkerExit& out) {
-  while (true) {
-    worker::Report report;
-    switch (stream.read(report)) {
-      case worker::ReportStream::Read::end: return true;
-      case worker::ReportStream::Read::broken: return false;
-      case worker::ReportStream::Read::message: break;
-    }
-    if (report.has_final()) {
-      out.final = report.final();
-    } else if (report.has_stopping()) {
-      cancellation.acknowledged();
-    } else {
-      events.reported(report);
-    }
+void write_order(const worker::JobFolder& folder, const worker::Order& order) {
+  std::ofstream file(folder.order(), std::ios::binary | std::ios::trunc);
+  order.SerializeToOstream(&file);
+  file.flush();
+  if (!file) store::throw_file_error(folder.order(), "written", errno);
+}
+
+WorkerExit follow(WorkerProcess& process, WorkerFollower& follower, const WorkerEvents& events) {
+  try {
+    events.started(process.number());
+    return follower.follow(process);
+  } catch (...) {
+    process.end();
+    throw;
   }
 }
 
 }  // namespace
 
-WorkerExit LocalProcess::run(const worker::Order& order, const WorkerEvents& events,
-                             const Interruptions& interruptions) {
-  std::array<int, 2> ends{};
-  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) return not_started(errno);
-  const OwnedFile socket(ends[0]);
-  OwnedFile of_worker(ends[1]);
-  pid_t pid = 0;
-  if (const int error = spawn(program_, of_worker.get(), pid); error != 0) return not_started(error);
-  Child child(pid);
-  of_worker.reset();
-  events.started(pid);
+bool LocalProcess::has_worker(const worker::JobFolder& folder) { return WorkerProcess::find(folder).has_value(); }
 
+std::optional<WorkerExit> LocalProcess::take_last_word(const worker::JobFolder& folder, const WorkerEvents& events) {
+  const Interruptions none;
+  WorkerFollower follower(folder, events, none, stall_limit_);
   WorkerExit out;
-  bool sound = true;
-  {
-    // A daemon that ends breaks the conversation off, wherever it is.
-    const std::stop_callback hang_up(interruptions.stop, [&socket] { shutdown(socket.get(), SHUT_RDWR); });
-    worker::ReportStream stream(socket.get());
-    // When this fails the worker is gone, and reading tells the same.
-    stream.write(order);
-    Cancellation cancellation(socket.get(), child, interruptions.cancel);
-    sound = pass_on_reports(stream, events, cancellation, out);
-  }
-  const bool cancelled = interruptions.cancel.stop_requested();
-  if (!sound || interruptions.stop.stop_requested()) {
-    child.end();
-    out.kind = !sound ? WorkerExit::Kind::broken : cancelled ? WorkerExit::Kind::cancelled : WorkerExit::Kind::stopped;
+  out.kind = WorkerExit::Kind::broken;
+  if (!follower.catch_up()) return out;
+  if (!follower.last_word() || follower.last_word()->has_suspended_step()) return std::nullopt;
+  out.kind = WorkerExit::Kind::gone;
+  out.final = follower.last_word();
+  return out;
+}
+
+WorkerExit LocalProcess::run(const worker::JobFolder& folder, const worker::Order& order, const WorkerEvents& events,
+                             const Interruptions& interruptions) {
+  auto process = WorkerProcess::find(folder);
+  WorkerFollower follower(folder, events, interruptions, stall_limit_);
+  WorkerExit out;
+  if (!follower.catch_up()) {
+    if (process) process->end();
+    out.kind = WorkerExit::Kind::broken;
     return out;
   }
-  const int status = child.let_end();
-  out.kind = cancelled             ? WorkerExit::Kind::cancelled
-             : WIFSIGNALED(status) ? WorkerExit::Kind::signalled
-                                   : WorkerExit::Kind::exited;
-  out.code = WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status);
-  return out;
+  if (process) return follow(*process, follower, events);
+  write_order(folder, order);
+  pid_t child = 0;
+  if (const int error = spawn(program_, folder, child); error != 0) return not_started(error);
+  process.emplace(WorkerProcess::of_child(child));
+  out = follow(*process, follower, events);
+  if (out.kind != WorkerExit::Kind::exited || out.code != worker::kFolderIsClaimed) return out;
+  // One that an earlier daemon had just started was faster.
+  auto faster = WorkerProcess::find(folder);
+  return faster ? follow(*faster, follower, events) : out;
 }
 
 }  // namespace cellcrush::jobs

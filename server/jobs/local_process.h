@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <utility>
 
@@ -7,16 +8,21 @@
 
 namespace cellcrush::jobs {
 
-/// Workers as child processes on this machine: `program worker --daemon PID`, with a socket at descriptor 3. The kernel
-/// ends a worker together with the thread that started it.
+/// Workers as processes on this machine: `program worker --folder DIR`. They outlive the daemon.
 class LocalProcess final : public Executor {
  public:
-  explicit LocalProcess(std::filesystem::path program) : program_(std::move(program)) {}
+  /// A worker that says nothing and uses no processor time for `stall_limit` is stalled.
+  LocalProcess(std::filesystem::path program, std::chrono::milliseconds stall_limit)
+      : program_(std::move(program)), stall_limit_(stall_limit) {}
 
-  WorkerExit run(const worker::Order& order, const WorkerEvents& events, const Interruptions& interruptions) override;
+  bool has_worker(const worker::JobFolder& folder) override;
+  std::optional<WorkerExit> take_last_word(const worker::JobFolder& folder, const WorkerEvents& events) override;
+  WorkerExit run(const worker::JobFolder& folder, const worker::Order& order, const WorkerEvents& events,
+                 const Interruptions& interruptions) override;
 
  private:
   std::filesystem::path program_;
+  std::chrono::milliseconds stall_limit_;
 };
 
 }  // namespace cellcrush::jobs

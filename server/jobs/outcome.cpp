@@ -37,28 +37,64 @@ store::StateChange of_final(const worker::Final& final) {
   return out;
 }
 
+bool is_last_word(const WorkerExit& exit) { return exit.final && !exit.final->has_suspended_step(); }
+
+// What became of a worker, and what to do if it happens again and again.
+struct Loss {
+  std::string what;
+  std::string remedy = "Submit the case again; if it happens again, report the case.";
+};
+
+Loss loss_of(const WorkerExit& exit) {
+  switch (exit.kind) {
+    case WorkerExit::Kind::not_started:
+      return {"No worker process could be started: " + exit.reason + ".",
+              "Look into the limits on processes and memory, then submit the case again."};
+    case WorkerExit::Kind::broken: return {"The worker process sent what is no report, and was ended."};
+    case WorkerExit::Kind::stalled:
+      return {"The worker process stood still, and was ended.", "Look whether the machine or its disk stood still."};
+    case WorkerExit::Kind::signalled:
+      if (exit.code == SIGKILL)
+        return {"The worker process was ended by " + signal_name(exit.code) + ".",
+                "Look whether the machine ran out of memory, then submit the case again."};
+      return {"The worker process was ended by " + signal_name(exit.code) + "."};
+    case WorkerExit::Kind::gone: return {"The worker process ended without a final report."};
+    default: break;
+  }
+  if (exit.final) return {"The worker process was asked to leave the job by another program."};
+  return {"The worker process ended with exit code " + std::to_string(exit.code) + " and without a final report."};
+}
+
 }  // namespace
 
+bool is_lost(const WorkerExit& exit) {
+  if (is_last_word(exit)) return false;
+  return exit.kind != WorkerExit::Kind::stopped && exit.kind != WorkerExit::Kind::suspended &&
+         exit.kind != WorkerExit::Kind::cancelled;
+}
+
 store::StateChange outcome_of(const WorkerExit& exit) {
-  if (exit.final) return of_final(*exit.final);
-  const std::string again = "Submit the case again; if it happens again, report the case.";
+  if (is_last_word(exit)) return of_final(*exit.final);
+  store::StateChange out;
   switch (exit.kind) {
-    case WorkerExit::Kind::stopped: return worker_lost();
+    case WorkerExit::Kind::stopped:
+      out.state = v1::PENDING;
+      out.message = "The daemon ended; the next one goes on from the last checkpoint.";
+      return out;
+    case WorkerExit::Kind::suspended: out.state = v1::SUSPENDED; return out;
     case WorkerExit::Kind::cancelled: return cancelled_without_result();
-    case WorkerExit::Kind::not_started:
-      return failed(v1::WORKER_CRASHED, "No worker process could be started: " + exit.reason + ".",
-                    "Look into the limits on processes and memory, then submit the case again.");
-    case WorkerExit::Kind::broken:
-      return failed(v1::WORKER_CRASHED, "The worker process sent what is no report, and was ended.", again);
-    case WorkerExit::Kind::signalled:
-      return failed(
-          v1::WORKER_CRASHED, "The worker process was ended by " + signal_name(exit.code) + ".",
-          exit.code == SIGKILL ? "Look whether the machine ran out of memory, then submit the case again." : again);
-    case WorkerExit::Kind::exited: break;
+    default: break;
   }
-  return failed(v1::WORKER_CRASHED,
-                "The worker process ended with exit code " + std::to_string(exit.code) + " and without a final report.",
-                again);
+  const Loss loss = loss_of(exit);
+  return failed(v1::WORKER_CRASHED, loss.what, loss.remedy);
+}
+
+store::StateChange tried_again(store::StateChange lost) {
+  lost.state = v1::PENDING;
+  lost.cause = v1::JOB_CAUSE_UNSPECIFIED;
+  lost.message += " Another goes on from the last checkpoint.";
+  lost.remedy.clear();
+  return lost;
 }
 
 store::StateChange outcome_of(const std::exception& error) {
@@ -76,9 +112,8 @@ store::StateChange cancelled_without_result() {
   return out;
 }
 
-store::StateChange worker_lost() {
-  return failed(v1::WORKER_LOST, "The daemon ended while the job ran, and the worker with it.",
-                "Submit the case again.");
+store::StateChange worker_missing() {
+  return failed(v1::WORKER_LOST, "The worker process went while there was no daemon.", "Submit the case again.");
 }
 
 }  // namespace cellcrush::jobs

@@ -4,39 +4,42 @@
 
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
 #include <optional>
-#include <system_error>
 
 #include "error.h"
 #include "jobs/deletion.h"
 #include "jobs/job_state.h"
-#include "jobs/outcome.h"
 #include "jobs/resource_name.h"
 
 namespace cellcrush::jobs {
-namespace {
-
-// The job was cancelled, and perhaps deleted, while a worker was started for it.
-struct Withdrawn {};
-
-}  // namespace
-
 void Scheduler::start(int slots) {
   finish_deletions(parts_.reader, parts_.journal, parts_.folder);
-  fail_lost_jobs();
+  free_cores_ = slots;
+  clean_up();
+  reconcile();
   auto memberships = parts_.sweeps.memberships_of_waiting();
   for (const std::int64_t job : parts_.reader.jobs_in(v1::PENDING)) waiting_.add(job, memberships[job]);
-  free_cores_ = slots;
   for (int i = 0; i < slots; ++i) slots_.emplace_back([this](const std::stop_token& stop) { run_slot(stop); });
 }
 
-void Scheduler::fail_lost_jobs() {
-  for (const std::int64_t job : parts_.reader.jobs_in(v1::CANCELLING))
-    parts_.journal.change_state(job, cancelled_without_result());
-  for (const std::int64_t job : parts_.reader.jobs_in(v1::RUNNING)) {
-    spdlog::warn("{} was left running by an earlier daemon: failed, worker lost", name_of(job));
-    parts_.journal.change_state(job, worker_lost());
+// What a daemon that was killed did not come to remove.
+void Scheduler::clean_up() {
+  for (const std::int64_t job : parts_.folder.jobs_with_reports()) {
+    const auto stored = parts_.reader.find_job(job);
+    if (stored && is_terminal(stored->job.state())) parts_.folder.clean_job_folder(job);
+  }
+}
+
+void Scheduler::reconcile() {
+  for (const v1::JobState state : {v1::RUNNING, v1::CANCELLING}) {
+    for (const std::int64_t job : parts_.reader.jobs_in(state)) {
+      if (parts_.runner.reconcile(job) != JobRunner::Left::runs) continue;
+      spdlog::info("{} still runs in the worker that an earlier daemon started", name_of(job));
+      const std::scoped_lock lock(mutex_);
+      --free_cores_;
+      if (state == v1::CANCELLING) running_[job].cancel.request_stop();
+      slots_.emplace_back([this, job](const std::stop_token& stop) { run({job, {}}, stop); });
+    }
   }
 }
 
@@ -52,9 +55,8 @@ void Scheduler::enqueue(const std::vector<std::int64_t>& jobs, const WaitingJobs
 void Scheduler::cancel(std::int64_t job) {
   // Between reading a state and changing it the job may move on; it does so only a few times.
   while (true) {
-    const auto stored = parts_.reader.find_job(job);
-    if (!stored) throw ServiceError(ServiceError::Kind::not_found, "There is no " + name_of(job) + ".");
-    const v1::JobState state = stored->job.state();
+    const auto stored = find(job);
+    const v1::JobState state = stored.job.state();
     if (state == v1::CANCELLED || state == v1::CANCELLING) return;
     if (is_terminal(state)) {
       throw ServiceError(
@@ -63,7 +65,8 @@ void Scheduler::cancel(std::int64_t job) {
     }
     store::StateChange change;
     change.state = state == v1::RUNNING ? v1::CANCELLING : v1::CANCELLED;
-    change.worker_pid = stored->job.worker_pid();
+    change.worker_pid = stored.job.worker_pid();
+    if (state == v1::SUSPENDED) change.message = "It was suspended and has no result. The history is kept.";
     try {
       parts_.journal.change_state(job, change);
     } catch (const ServiceError& error) {
@@ -73,11 +76,54 @@ void Scheduler::cancel(std::int64_t job) {
     std::stop_source worker(std::nostopstate);
     {
       const std::scoped_lock lock(mutex_);
-      if (const auto found = running_.find(job); found != running_.end()) worker = found->second;
+      waiting_.remove(job);
+      if (const auto found = running_.find(job); found != running_.end()) worker = found->second.cancel;
     }
     worker.request_stop();
     return;
   }
+}
+
+void Scheduler::suspend(std::int64_t job, const std::function<bool()>& given_up) {
+  while (true) {
+    const v1::JobState state = find(job).job.state();
+    if (state == v1::SUSPENDED) return;
+    if (state != v1::PENDING && state != v1::RUNNING) {
+      throw ServiceError(ServiceError::Kind::failed_precondition,
+                         name_of(job) + " is " + v1::JobState_Name(state) + " and cannot be suspended.");
+    }
+    if (given_up()) throw ServiceError(ServiceError::Kind::cancelled, name_of(job) + " was not suspended in time.");
+    std::unique_lock lock(mutex_);
+    const auto found = running_.find(job);
+    if (found != running_.end()) {
+      found->second.suspend.request_stop();
+      changed_.wait_for(lock, std::chrono::milliseconds(100), [this, job] { return !running_.contains(job); });
+      continue;
+    }
+    waiting_.remove(job);
+    lock.unlock();
+    if (state != v1::PENDING) continue;
+    store::StateChange change;
+    change.state = v1::SUSPENDED;
+    try {
+      parts_.journal.change_state(job, change);
+    } catch (const ServiceError& error) {
+      if (error.kind() != ServiceError::Kind::failed_precondition) throw;
+    }
+  }
+}
+
+void Scheduler::resume(std::int64_t job) {
+  const v1::JobState state = find(job).job.state();
+  if (state == v1::PENDING || state == v1::RUNNING) return;
+  if (state != v1::SUSPENDED) {
+    throw ServiceError(ServiceError::Kind::failed_precondition,
+                       name_of(job) + " is " + v1::JobState_Name(state) + " and cannot be resumed.");
+  }
+  store::StateChange change;
+  change.state = v1::PENDING;
+  parts_.journal.change_state(job, change);
+  enqueue({job}, parts_.sweeps.memberships_of_waiting()[job]);
 }
 
 void Scheduler::cancel_all(const std::vector<std::int64_t>& jobs) {
@@ -104,112 +150,50 @@ void Scheduler::stop() {
 void Scheduler::run_slot(const std::stop_token& stop) {
   while (true) {
     std::optional<WaitingJobs::Taken> taken;
-    int cores = 1;
     {
       std::unique_lock lock(mutex_);
       changed_.wait(lock, stop, [this, &taken] { return free_cores_ > 0 && (taken = waiting_.take()).has_value(); });
       if (!taken || stop.stop_requested()) return;
       --free_cores_;
     }
-    try {
-      run_job(taken->job, cores, stop);
-    } catch (const Withdrawn&) {
-      spdlog::info("{} was cancelled before it ran", name_of(taken->job));
-    } catch (const std::exception& error) {
-      finish(taken->job, outcome_of(error), stop);
-    }
-    {
-      const std::scoped_lock lock(mutex_);
-      running_.erase(taken->job);
-      waiting_.give_back(*taken);
-      free_cores_ += cores;
-      tell_metrics();
-    }
-    changed_.notify_all();
+    run(*taken, stop);
   }
 }
 
-void Scheduler::run_job(std::int64_t job, int& cores, const std::stop_token& stop) {
-  const auto stored = parts_.reader.find_job(job);
-  if (!stored || stored->job.state() != v1::PENDING) return;
-  std::stop_token cancel;
+void Scheduler::run(const WaitingJobs::Taken& taken, const std::stop_token& stop) {
+  Wishes wishes;
   {
     const std::scoped_lock lock(mutex_);
-    cancel = running_[job].get_token();
+    wishes = running_[taken.job];
     tell_metrics();
   }
-  cores += take_cores(stored->job.case_().numerics().threads() - 1);
-  const auto exit = run_worker(*stored, cores, {stop, cancel});
-  // What a worker that was ended had begun.
-  std::error_code ignored;
-  std::filesystem::remove(parts_.folder.partial_result(job), ignored);
-  finish(job, outcome_of(exit), stop);
+  const auto stored = parts_.reader.find_job(taken.job);
+  const int extra = stored ? take_cores(stored->job.case_().numerics().threads() - 1) : 0;
+  const bool again =
+      parts_.runner.run(taken.job, 1 + extra, {stop, wishes.suspend.get_token(), wishes.cancel.get_token()});
+  {
+    const std::scoped_lock lock(mutex_);
+    running_.erase(taken.job);
+    waiting_.give_back(taken);
+    if (again) waiting_.add(taken.job, taken.membership);
+    free_cores_ += 1 + extra;
+    tell_metrics();
+  }
+  changed_.notify_all();
 }
 
 int Scheduler::take_cores(int asked) {
   const std::scoped_lock lock(mutex_);
-  const int taken = std::clamp(free_cores_ - static_cast<int>(waiting_.count()), 0, std::max(asked, 0));
+  const int most = std::max(free_cores_ - static_cast<int>(waiting_.count()), 0);
+  const int taken = std::clamp(asked, 0, most);
   free_cores_ -= taken;
   return taken;
 }
 
-WorkerExit Scheduler::run_worker(const store::StoredJob& stored, int threads, const Interruptions& interruptions) {
-  const std::int64_t job = stored.number;
-  const auto channel = parts_.hub.open(job);
-  parts_.folder.prepare_job_folder(job);
-  worker::Order order;
-  order.set_job(name_of(job));
-  *order.mutable_case_() = stored.job.case_();
-  order.set_result_path(parts_.folder.result(job).string());
-  order.set_threads(threads);
-
-  WorkerEvents events;
-  events.started = [this, job](int pid) {
-    store::StateChange running;
-    running.state = v1::RUNNING;
-    running.worker_pid = pid;
-    try {
-      parts_.journal.change_state(job, running);
-    } catch (const ServiceError& error) {
-      const bool gone = error.kind() == ServiceError::Kind::not_found;
-      if (gone || error.kind() == ServiceError::Kind::failed_precondition) throw Withdrawn();
-      throw;
-    }
-    spdlog::info("{} runs in process {}", name_of(job), pid);
-  };
-  events.reported = [this, job, &channel](const worker::Report& report) { pass_on(job, *channel, report); };
-  return parts_.executor.run(order, events, interruptions);
-}
-
-void Scheduler::pass_on(std::int64_t job, watch::Channel& channel, const worker::Report& report) {
-  switch (report.report_case()) {
-    case worker::Report::kMesh: parts_.journal.set_mesh(job, report.mesh()); break;
-    case worker::Report::kSample: parts_.journal.append_sample(job, report.sample()); break;
-    case worker::Report::kFrame: channel.publish(report.frame()); break;
-    case worker::Report::kProgress: channel.publish(report.progress()); break;
-    case worker::Report::kFinal:
-    case worker::Report::kStopping:
-    case worker::Report::REPORT_NOT_SET: break;
-  }
-}
-
-void Scheduler::finish(std::int64_t job, const store::StateChange& outcome, const std::stop_token& stop) {
-  while (true) {
-    try {
-      parts_.journal.change_state(job, outcome);
-      parts_.metrics.count_ended(outcome.state, outcome.summary ? &*outcome.summary : nullptr);
-      spdlog::info("{} {}{}{}", name_of(job), v1::JobState_Name(outcome.state), outcome.message.empty() ? "" : ": ",
-                   outcome.message);
-      return;
-    } catch (const ServiceError& error) {
-      spdlog::error("The end of {} cannot be made durable: {}", name_of(job), error.what());
-      const bool gone = error.kind() == ServiceError::Kind::not_found;
-      if (gone || error.kind() == ServiceError::Kind::failed_precondition) return;
-    }
-    // A full disk may get room again. At the daemon's end the job stays RUNNING, and the next daemon marks it as lost.
-    std::unique_lock lock(mutex_);
-    if (changed_.wait_for(lock, stop, std::chrono::seconds(1), [] { return false; }) || stop.stop_requested()) return;
-  }
+store::StoredJob Scheduler::find(std::int64_t job) {
+  auto stored = parts_.reader.find_job(job);
+  if (!stored) throw ServiceError(ServiceError::Kind::not_found, "There is no " + name_of(job) + ".");
+  return *std::move(stored);
 }
 
 }  // namespace cellcrush::jobs

@@ -2,20 +2,20 @@
 
 #include <condition_variable>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <stop_token>
 #include <thread>
 #include <vector>
 
-#include "jobs/executor.h"
+#include "jobs/job_runner.h"
 #include "jobs/waiting_jobs.h"
 #include "metrics/metrics.h"
 #include "store/data_folder.h"
 #include "store/journal.h"
 #include "store/journal_reader.h"
 #include "store/sweep_reader.h"
-#include "watch/hub.h"
 
 namespace cellcrush::jobs {
 
@@ -30,9 +30,8 @@ class Scheduler {
     store::Journal& journal;
     store::JournalReader& reader;
     store::SweepReader& sweeps;
-    watch::Hub& hub;
-    Executor& executor;
     metrics::Metrics& metrics;
+    JobRunner& runner;
   };
 
   explicit Scheduler(const Parts& parts) : parts_(parts) {}
@@ -40,7 +39,8 @@ class Scheduler {
   Scheduler(const Scheduler&) = delete;
   Scheduler& operator=(const Scheduler&) = delete;
 
-  /// Marks the jobs that an earlier daemon left running as lost, queues those that wait, and starts the slots.
+  /// Goes along with the workers that an earlier daemon left running, queues the jobs that wait and those whose worker is gone, and
+  /// starts the slots.
   void start(int slots);
 
   /// Queues jobs that are PENDING in the journal, of one sweep or of none.
@@ -54,27 +54,43 @@ class Scheduler {
   /// Cancels those of the jobs that have not ended.
   void cancel_all(const std::vector<std::int64_t>& jobs);
 
-  /// Ends running workers, marks their jobs as lost, and waits until the slots are done. Jobs that wait stay PENDING.
+  /// A job that waits is SUSPENDED when this returns; one that runs is, too, or has ended. Nothing happens to one that is SUSPENDED
+  /// already. Throws ServiceError: not_found, failed_precondition when it has ended or is CANCELLING, or cancelled when
+  /// `given_up` says so first.
+  void suspend(std::int64_t job, const std::function<bool()>& given_up);
+
+  /// Queues a job that is SUSPENDED; nothing happens to one that waits or runs. Throws ServiceError: not_found, or
+  /// failed_precondition.
+  void resume(std::int64_t job);
+
+  /// Lets running workers leave their jobs at a checkpoint, and waits until the slots are done. These jobs and those that wait are
+  /// PENDING for the next daemon.
   void stop();
 
  private:
-  void fail_lost_jobs();
+  /// Of others, for a job that runs.
+  struct Wishes {
+    std::stop_source suspend;
+    std::stop_source cancel;
+  };
+
+  void reconcile();
+  void clean_up();
   void run_slot(const std::stop_token& stop);
-  /// Adds those that it takes to the cores of the slot.
-  void run_job(std::int64_t job, int& cores, const std::stop_token& stop);
-  WorkerExit run_worker(const store::StoredJob& stored, int threads, const Interruptions& interruptions);
+  /// Has the job run by this thread; it holds a core, and more if it asks for them and there are.
+  void run(const WaitingJobs::Taken& taken, const std::stop_token& stop);
   int take_cores(int asked);
+  store::StoredJob find(std::int64_t job);
   /// REQUIRES: mutex_ is held.
   void tell_metrics() { parts_.metrics.set_jobs(waiting_.count(), running_.size()); }
-  void pass_on(std::int64_t job, watch::Channel& channel, const worker::Report& report);
-  void finish(std::int64_t job, const store::StateChange& outcome, const std::stop_token& stop);
 
   Parts parts_;
   std::mutex mutex_;
   std::condition_variable_any changed_;
   WaitingJobs waiting_;
-  std::map<std::int64_t, std::stop_source> running_;  ///< to cancel jobs that are in a slot
-  int free_cores_ = 0;                                ///< one for each slot, and those that jobs use are taken off
+  std::map<std::int64_t, Wishes> running_;
+  int free_cores_ =
+      0;  ///< one for each slot, and those that jobs use are taken off; below 0 after a restart with fewer
   std::vector<std::jthread> slots_;
 };
 

@@ -6,6 +6,10 @@ namespace cellcrush::jobs {
 
 void WaitingJobs::add(std::int64_t job, const Membership& membership) { waiting_.push_back({job, membership}); }
 
+void WaitingJobs::remove(std::int64_t job) {
+  std::erase_if(waiting_, [job](const Taken& entry) { return entry.job == job; });
+}
+
 std::optional<WaitingJobs::Taken> WaitingJobs::take() {
   const auto may_run = [this](const Taken& entry) {
     const auto running = running_.find(entry.membership.sweep);

@@ -16,6 +16,9 @@ class WaitingJobs {
 
   void add(std::int64_t job, const Membership& membership);
 
+  /// Nothing happens when it does not wait.
+  void remove(std::int64_t job);
+
   [[nodiscard]] std::size_t count() const { return waiting_.size(); }
 
   /// The oldest job whose sweep lets it run, which counts as running from now on. Nothing when there is none.

@@ -94,7 +94,7 @@ v1::FieldFrame JobsService::find_frame(const store::StoredJob& stored, const v1:
       (request.has_time_s() && !std::isfinite(request.time_s())))
     throw ServiceError(ServiceError::Kind::invalid,
                        "The strain or time of the frame is not a number. Use a finite one.");
-  if (stored.job.has_summary()) return frame_of_result(parts_.folder.result(stored.number), request);
+  if (stored.job.has_summary()) return frame_of_result(parts_.folder.job_folder(stored.number).result(), request);
   const auto channel = parts_.hub.find(stored.number);
   const auto frame = channel ? channel->newest().frame : nullptr;
   if (!frame) {
@@ -133,7 +133,7 @@ grpc::Status JobsService::DownloadResult(grpc::ServerContext*, const v1::Downloa
                              "untrue while it ran.");
     }
     if (request->offset() < 0) return invalid_argument("offset", "is negative.", "Use 0 for the whole file.");
-    const InputFile file(parts_.folder.result(stored.number));
+    const InputFile file(parts_.folder.job_folder(stored.number).result());
     if (request->offset() > file.size()) {
       throw ServiceError(ServiceError::Kind::out_of_range, "offset is " + std::to_string(request->offset()) +
                                                                ", but the file has " + std::to_string(file.size()) +

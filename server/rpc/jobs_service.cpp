@@ -97,12 +97,21 @@ grpc::Status JobsService::CancelJob(grpc::ServerContext*, const v1::CancelJobReq
   });
 }
 
-grpc::Status JobsService::SuspendJob(grpc::ServerContext*, const v1::SuspendJobRequest*, v1::Job*) {
-  return unimplemented("SuspendJob");
+grpc::Status JobsService::SuspendJob(grpc::ServerContext* context, const v1::SuspendJobRequest* request,
+                                     v1::Job* response) {
+  return answer([&] {
+    parts_.scheduler.suspend(find(request->name()).number, [context] { return context->IsCancelled(); });
+    *response = find(request->name()).job;
+    return grpc::Status::OK;
+  });
 }
 
-grpc::Status JobsService::ResumeJob(grpc::ServerContext*, const v1::ResumeJobRequest*, v1::Job*) {
-  return unimplemented("ResumeJob");
+grpc::Status JobsService::ResumeJob(grpc::ServerContext*, const v1::ResumeJobRequest* request, v1::Job* response) {
+  return answer([&] {
+    parts_.scheduler.resume(find(request->name()).number);
+    *response = find(request->name()).job;
+    return grpc::Status::OK;
+  });
 }
 
 grpc::Status JobsService::DeleteJob(grpc::ServerContext*, const v1::DeleteJobRequest* request, v1::DeleteJobResponse*) {

@@ -56,14 +56,30 @@ DataFolder::DataFolder(const std::filesystem::path& root) {
 
 DataFolder::~DataFolder() { close(lock_); }
 
-void DataFolder::prepare_job_folder(std::int64_t job) const {
-  remove_job_folder(job);
+void DataFolder::make_job_folder(std::int64_t job) const { make_private_folder(job_folder(job).root()); }
+
+void DataFolder::clean_job_folder(std::int64_t job) const {
   const auto folder = job_folder(job);
-  if (mkdir(folder.c_str(), 0700) != 0) throw_file_error(folder, "used", errno);
+  // The reports last: while they are there, the folder is known to hold more than a result.
+  for (const auto& path : {folder.partial_result(), folder.order(), folder.claim(), folder.partial_checkpoint(),
+                           folder.previous_checkpoint(), folder.checkpoint(), folder.reports()}) {
+    std::error_code error;
+    std::filesystem::remove(path, error);
+    if (error) throw_file_error(path, "removed", error.value());
+  }
+}
+
+std::vector<std::int64_t> DataFolder::jobs_with_reports() const {
+  std::vector<std::int64_t> out;
+  for (const auto& entry : std::filesystem::directory_iterator(root_ / "jobs")) {
+    if (!std::filesystem::exists(worker::JobFolder(entry.path()).reports())) continue;
+    out.push_back(std::strtoll(entry.path().filename().c_str(), nullptr, 10));
+  }
+  return out;
 }
 
 void DataFolder::remove_job_folder(std::int64_t job) const {
-  const auto folder = job_folder(job);
+  const auto folder = job_folder(job).root();
   std::error_code error;
   std::filesystem::remove_all(folder, error);
   if (error) throw_file_error(folder, "used", error.value());

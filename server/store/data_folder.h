@@ -3,6 +3,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
+
+#include "worker/job_folder.h"
 
 namespace cellcrush::store {
 
@@ -20,17 +23,18 @@ class DataFolder {
   DataFolder& operator=(const DataFolder&) = delete;
 
   [[nodiscard]] std::filesystem::path journal() const { return root_ / "journal.sqlite"; }
-  [[nodiscard]] std::filesystem::path job_folder(std::int64_t job) const {
-    return root_ / "jobs" / std::to_string(job);
-  }
-  [[nodiscard]] std::filesystem::path result(std::int64_t job) const { return job_folder(job) / "result.h5"; }
-  /// What the worker writes until the result is complete.
-  [[nodiscard]] std::filesystem::path partial_result(std::int64_t job) const {
-    return job_folder(job) / "result.h5.partial";
+  [[nodiscard]] worker::JobFolder job_folder(std::int64_t job) const {
+    return worker::JobFolder(root_ / "jobs" / std::to_string(job));
   }
 
-  /// Makes the job's folder, empty: what an earlier, broken-off run left in it is removed. Throws ServiceError.
-  void prepare_job_folder(std::int64_t job) const;
+  /// Makes the job's folder if there is none. Throws ServiceError.
+  void make_job_folder(std::int64_t job) const;
+
+  /// Leaves nothing but the result in the folder of a job that has ended. Throws ServiceError.
+  void clean_job_folder(std::int64_t job) const;
+
+  /// Numbers of the jobs whose folders hold more than a result.
+  [[nodiscard]] std::vector<std::int64_t> jobs_with_reports() const;
 
   /// Removes the job's folder and all in it; nothing happens when there is none. Throws ServiceError.
   void remove_job_folder(std::int64_t job) const;

@@ -23,7 +23,10 @@ void apply(const StateChange& change, v1::Job& job) {
   job.set_cause_message(change.message);
   job.set_remedy(change.remedy);
   job.set_worker_pid(change.worker_pid);
-  if (change.state == v1::RUNNING) *job.mutable_start_time() = now;
+  if (change.state == v1::RUNNING) {
+    job.set_attempt(job.attempt() + 1);
+    if (!job.has_start_time()) *job.mutable_start_time() = now;
+  }
   if (jobs::is_terminal(change.state)) *job.mutable_end_time() = now;
   if (change.summary) *job.mutable_summary() = *change.summary;
 }

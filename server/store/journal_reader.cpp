@@ -115,6 +115,14 @@ std::vector<v1::Sample> JournalReader::samples(std::int64_t job) {
   return out;
 }
 
+std::int64_t JournalReader::last_sampled_step(std::int64_t job) {
+  const std::scoped_lock lock(mutex_);
+  Statement read(database_, "SELECT payload FROM events WHERE job = ?1 AND kind = ?2 ORDER BY sequence DESC LIMIT 1");
+  if (!read.bind(1, job).bind(2, kSampleEvent).step()) return -1;
+  v1::Sample sample;
+  return sample.ParseFromString(read.bytes(0)) ? sample.step() : -1;
+}
+
 std::optional<v1::Mesh> JournalReader::mesh(std::int64_t job) {
   const std::scoped_lock lock(mutex_);
   Statement read(database_, "SELECT mesh FROM meshes WHERE job = ?1");

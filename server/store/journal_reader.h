@@ -46,6 +46,9 @@ class JournalReader {
 
   std::vector<v1::Sample> samples(std::int64_t job);
 
+  /// Step of the newest sample; -1 before the first.
+  std::int64_t last_sampled_step(std::int64_t job);
+
   /// Nothing while no worker has sent it.
   std::optional<v1::Mesh> mesh(std::int64_t job);
 

@@ -13,6 +13,7 @@ void Channel::publish(v1::Progress progress) {
 
 void Channel::publish(v1::FieldFrame frame) {
   const std::scoped_lock lock(mutex_);
+  if (newest_.frame && frame.index() <= newest_.frame->index()) return;
   newest_.frame = std::make_shared<const v1::FieldFrame>(std::move(frame));
   ++newest_.frame_count;
   for (const auto& [id, wake] : wakes_) wake();

@@ -27,6 +27,7 @@ class Channel {
   };
 
   void publish(v1::Progress progress);
+  /// A frame that is no newer than the newest one is not: a worker that goes on from a checkpoint sends some again.
   void publish(v1::FieldFrame frame);
   /// There are new durable events in the journal.
   void announce();

@@ -10,8 +10,13 @@ constexpr double kNewShare = 0.3;  // weight of the newest reading of the speed
 
 }  // namespace
 
-ProgressMeter::ProgressMeter(std::int64_t step_count, double plateau_low, double plateau_high, Clock::time_point start)
-    : step_count_(step_count), plateau_low_(plateau_low), plateau_high_(plateau_high), last_time_(start) {}
+ProgressMeter::ProgressMeter(std::int64_t step_count, double plateau_low, double plateau_high, Clock::time_point start,
+                             std::int64_t first_step)
+    : step_count_(step_count),
+      plateau_low_(plateau_low),
+      plateau_high_(plateau_high),
+      last_time_(start),
+      last_step_(first_step) {}
 
 void ProgressMeter::add(const v1::Sample& sample) {
   // A sample's stress is the mean since the sample before it.

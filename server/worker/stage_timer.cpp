@@ -23,8 +23,9 @@ void StageTimer::end_step() {
 
 std::array<double, kStageCount> StageTimer::seconds() const {
   std::array<double, kStageCount> all = timed_seconds_;
-  for (double& seconds : all) {
-    seconds *= timed_steps_ > 0 ? static_cast<double>(steps_) / static_cast<double>(timed_steps_) : 0.0;
+  const double steps_of_each = timed_steps_ > 0 ? static_cast<double>(steps_) / static_cast<double>(timed_steps_) : 0.0;
+  for (std::size_t stage = 0; stage < all.size(); ++stage) {
+    all[stage] = earlier_seconds_[stage] + all[stage] * steps_of_each;
   }
   return all;
 }

@@ -21,6 +21,9 @@ class StageTimer : public StageObserver {
   void begin(Stage stage) override;
   void end_step() override;
 
+  /// What an earlier part of the run took, s, in the order of kStageNames.
+  void set_earlier(const std::array<double, kStageCount>& seconds) { earlier_seconds_ = seconds; }
+
   /// Time in each stage over all steps so far, s, in the order of kStageNames; what was not looked at is taken as the mean of
   /// what was. All 0 before the first step.
   [[nodiscard]] std::array<double, kStageCount> seconds() const;
@@ -34,6 +37,7 @@ class StageTimer : public StageObserver {
   int stage_ = -1;      ///< that is being timed; -1: none
   double since_ = 0.0;  ///< processor time at which it began
   std::array<double, kStageCount> timed_seconds_{};
+  std::array<double, kStageCount> earlier_seconds_{};
 };
 
 }  // namespace cellcrush::worker

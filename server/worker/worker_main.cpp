@@ -1,33 +1,42 @@
 #include "worker/worker_main.h"
 
-#include <sys/prctl.h>
 #include <unistd.h>
 
-#include <csignal>
+#include <fstream>
 
-#include "worker/report_stream.h"
-#include "worker/run_case.h"
+#include "worker/claim.h"
+#include "worker/run_job.h"
 
 namespace cellcrush::worker {
 namespace {
 
-constexpr int kNoReport = 3;
+// The signals stay blocked; that one waits is seen by all threads.
+StopWish pending_wish() {
+  sigset_t pending;
+  sigpending(&pending);
+  if (sigismember(&pending, kCancelSignal) == 1) return StopWish::cancel;
+  return sigismember(&pending, kSuspendSignal) == 1 ? StopWish::suspend : StopWish::none;
+}
+
+void block_wishes() {
+  sigset_t wishes;
+  sigemptyset(&wishes);
+  sigaddset(&wishes, kSuspendSignal);
+  sigaddset(&wishes, kCancelSignal);
+  sigprocmask(SIG_BLOCK, &wishes, nullptr);
+}
 
 }  // namespace
 
-void worker_main(int daemon) {
-  // From here on the kernel ends this process with the daemon; if the daemon is gone already, it is too late for that.
-  if (prctl(PR_SET_PDEATHSIG, SIGKILL) != 0 || getppid() != daemon) _exit(kNoReport);
-  ReportStream stream(kSocket);
+void worker_main(const std::filesystem::path& folder) {
+  block_wishes();
+  const JobFolder job(folder);
+  if (!claim(job)) _exit(kFolderIsClaimed);
   Order order;
-  if (stream.read(order) != ReportStream::Read::message) _exit(kNoReport);
-  const auto final = run_case(
-      order, [&stream](const Report& report) { return stream.write(report); }, [&stream] { return stream.at_end(); });
-  if (!final) _exit(kNoReport);
-  Report report;
-  *report.mutable_final() = *final;
+  std::ifstream file(job.order(), std::ios::binary);
+  if (!file || !order.ParseFromIstream(&file)) _exit(kNoReport);
   // _exit: the result is closed and durable, and nothing that runs at exit may turn a success into a crash.
-  _exit(stream.write(report) ? 0 : kNoReport);
+  _exit(run_job(job, order, pending_wish) ? kReported : kNoReport);
 }
 
 }  // namespace cellcrush::worker

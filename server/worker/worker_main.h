@@ -1,13 +1,21 @@
 #pragma once
 
+#include <csignal>
+#include <filesystem>
+
 namespace cellcrush::worker {
 
-/// Descriptor at which a worker process finds its socket.
-inline constexpr int kSocket = 3;
+/// How a worker process ends.
+inline constexpr int kReported = 0;         ///< its last report says how the run ended
+inline constexpr int kNoReport = 3;         ///< it could not say how
+inline constexpr int kFolderIsClaimed = 4;  ///< another worker runs the job
 
-/// The whole of a worker process: reads its Order from kSocket, runs the job and reports. `daemon`: process that
-/// started it; the worker ends with it. Does not return: the process ends with 0 after a final report, otherwise with
-/// 3.
-[[noreturn]] void worker_main(int daemon);
+/// What a worker is told by; both are blocked when it starts.
+inline constexpr int kSuspendSignal = SIGTERM;
+inline constexpr int kCancelSignal = SIGUSR1;
+
+/// The whole of a worker process: claims the job's folder, reads its Order there, runs the job and reports. It outlives the
+/// daemon that started it. Does not return.
+[[noreturn]] void worker_main(const std::filesystem::path& folder);
 
 }  // namespace cellcrush::worker

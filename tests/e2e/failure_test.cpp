@@ -75,23 +75,24 @@ TEST_F(Failure, AnUnknownJob) {
   EXPECT_EQ(cellcrush({"fetch", "jobs/no-such-job", "-o", (folder() / "out").string()}).exit_code, 5);
 }
 
-TEST_F(Failure, AKilledWorkerFailsItsJobAndNothingElse) {
+TEST_F(Failure, AKilledWorkerIsReplacedAndItsJobGoesOn) {
   const std::string job = start_long_job();
-  Process watch(command({"watch", job}));
   ASSERT_GT(worker_, 0);
   ASSERT_EQ(kill(worker_, SIGKILL), 0);
-  const Outcome watched = watch.wait(kShortLimit);
-  EXPECT_EQ(watched.exit_code, 1) << watched.all();
-  EXPECT_THAT(watched.all(), HasSubstr("WORKER_CRASHED"));
-  const json object = job_object(job);
-  EXPECT_EQ(object["state"], "FAILED");
-  EXPECT_EQ(object["cause"], "WORKER_CRASHED");
-  EXPECT_THAT(object["cause_message"].get<std::string>(), testing::ContainsRegex("signal 9|SIGKILL|Killed"));
+  pid_t next = worker_;
+  for (int i = 0; i < 300 && (next == worker_ || next == 0); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    next = worker_of(job);
+  }
+  EXPECT_NE(next, worker_);
+  const Outcome shown = cellcrush({"show", job});
+  EXPECT_THAT(shown.output, HasSubstr("RUNNING"));
+  EXPECT_THAT(shown.output, HasSubstr("2, as 1 was lost or left the job")) << shown.all();
   EXPECT_EQ(cellcrush({"submit", write_file("small.txtpb", small_case()), "--watch"}, kCrushLimit).exit_code, 0)
       << "The daemon takes the next job.";
 }
 
-TEST_F(Failure, AKilledDaemonLeavesNoWorkerAndNoJobRunning) {
+TEST_F(Failure, AKilledDaemonLosesNoJobAndNoWorker) {
   const std::string job = start_long_job();
   ASSERT_GT(worker_, 0);
   Process watch(command({"watch", job}));
@@ -100,18 +101,33 @@ TEST_F(Failure, AKilledDaemonLeavesNoWorkerAndNoJobRunning) {
   const Outcome watched = watch.wait(kShortLimit);
   EXPECT_EQ(watched.exit_code, 4) << watched.all();
   EXPECT_EQ(daemon().wait(kShortLimit).exit_code, 128 + SIGKILL);
-  EXPECT_TRUE(ends(worker_)) << "The worker outlives its daemon.";
+  EXPECT_EQ(kill(worker_, 0), 0) << "The worker goes with its daemon.";
   start_daemon();
-  const json object = job_object(job);
-  EXPECT_EQ(object["state"], "FAILED");
-  EXPECT_EQ(object["cause"], "WORKER_LOST");
+  EXPECT_EQ(worker_of(job), worker_);
+  EXPECT_EQ(cellcrush({"cancel", job}).exit_code, 0);
+  EXPECT_TRUE(ends(worker_)) << "The next daemon has no hold of it.";
 }
 
-TEST_F(Failure, ADaemonThatIsAskedToEndTakesItsWorkersAlong) {
-  start_long_job();
+TEST_F(Failure, ADaemonThatIsAskedToEndLeavesItsJobsAtACheckpoint) {
+  const std::string job = start_long_job();
   ASSERT_GT(worker_, 0);
   stop_daemon();
   EXPECT_TRUE(ends(worker_)) << "The worker outlives its daemon.";
+  start_daemon();
+  for (int i = 0; i < 300 && worker_of(job) == 0; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  EXPECT_GT(worker_of(job), 0);
+}
+
+TEST_F(Failure, AJobIsSuspendedAndResumed) {
+  const std::string job = start_long_job();
+  const Outcome suspended = cellcrush({"suspend", job});
+  EXPECT_EQ(suspended.exit_code, 0) << suspended.all();
+  EXPECT_THAT(suspended.output, HasSubstr("SUSPENDED"));
+  EXPECT_TRUE(ends(worker_));
+  const Outcome resumed = cellcrush({"resume", job});
+  EXPECT_EQ(resumed.exit_code, 0) << resumed.all();
+  for (int i = 0; i < 300 && worker_of(job) == 0; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  EXPECT_GT(worker_of(job), 0);
 }
 
 TEST_F(Failure, CtrlCLeavesTheJobRunning) {

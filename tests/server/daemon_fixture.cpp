@@ -41,6 +41,20 @@ grpc::Status Client::cancel(const std::string& job) {
   return jobs->CancelJob(bounded_context().get(), request, &out);
 }
 
+grpc::Status Client::suspend(const std::string& job) {
+  v1::SuspendJobRequest request;
+  request.set_name(job);
+  v1::Job out;
+  return jobs->SuspendJob(bounded_context().get(), request, &out);
+}
+
+grpc::Status Client::resume(const std::string& job) {
+  v1::ResumeJobRequest request;
+  request.set_name(job);
+  v1::Job out;
+  return jobs->ResumeJob(bounded_context().get(), request, &out);
+}
+
 grpc::Status Client::remove(const std::string& job) {
   v1::DeleteJobRequest request;
   request.set_name(job);

@@ -33,6 +33,8 @@ class Client {
   std::string create(const v1::Case& submitted);
   v1::Job get(const std::string& job);
   grpc::Status cancel(const std::string& job);
+  grpc::Status suspend(const std::string& job);
+  grpc::Status resume(const std::string& job);
   grpc::Status remove(const std::string& job);
   std::vector<v1::Sample> history(const std::string& job);
   /// Watches to the end; `on_event` sees each event as it comes.

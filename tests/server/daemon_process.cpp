@@ -12,6 +12,8 @@
 #include <stdexcept>
 #include <thread>
 
+#include "worker/claim.h"
+
 namespace cellcrush::testing {
 namespace {
 
@@ -101,6 +103,13 @@ bool is_alive(pid_t process) {
   // The state is the first letter behind the name, which stands in parentheses.
   const auto end = line.rfind(')');
   return end != std::string::npos && end + 2 < line.size() && line[end + 2] != 'Z';
+}
+
+void kill_workers(const std::filesystem::path& data_folder) {
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(data_folder / "jobs", none)) {
+    if (const auto claimed = worker::find_claim(worker::JobFolder(entry.path()))) kill(claimed->process, SIGKILL);
+  }
 }
 
 bool wait_until_gone(pid_t process, std::chrono::milliseconds limit) {

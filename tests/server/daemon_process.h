@@ -3,6 +3,7 @@
 #include <sys/types.h>
 
 #include <chrono>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,9 @@ class DaemonProcess {
 
 /// Whether the process is there and not a zombie.
 bool is_alive(pid_t process);
+
+/// Kills the workers that a daemon which was killed has left behind.
+void kill_workers(const std::filesystem::path& data_folder);
 
 /// Waits until it is not, at most that long; whether it went.
 bool wait_until_gone(pid_t process, std::chrono::milliseconds limit);

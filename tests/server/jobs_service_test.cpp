@@ -61,14 +61,6 @@ TEST_F(JobsServiceTest, ARefusedCaseCarriesItsProblemsAndQueuesNothing) {
   EXPECT_EQ(listed.jobs_size(), 0);
 }
 
-TEST_F(JobsServiceTest, WhatIsNotBuiltIsUnimplementedAndNamed) {
-  auto client = this->client();
-  v1::Job job;
-  const auto suspended = client.jobs->SuspendJob(bounded_context().get(), {}, &job);
-  EXPECT_EQ(suspended.error_code(), grpc::StatusCode::UNIMPLEMENTED);
-  EXPECT_THAT(suspended.error_message(), HasSubstr("SuspendJob"));
-}
-
 TEST_F(JobsServiceTest, ValidateOnlyQueuesNothing) {
   auto client = this->client();
   v1::CreateJobRequest request;

@@ -67,8 +67,34 @@ TEST(Outcome, ARunThatTheSolverFoundUntrueKeepsWhatItComputedBefore) {
   EXPECT_EQ(out.summary->step_count(), 7);
 }
 
-TEST(Outcome, AStoppedWorkerIsLost) {
-  EXPECT_EQ(outcome_of(exit_of(WorkerExit::Kind::stopped, 0)).cause, v1::WORKER_LOST);
+TEST(Outcome, AJobThatWasLeftWaitsOrIsSuspended) {
+  EXPECT_EQ(outcome_of(exit_of(WorkerExit::Kind::stopped, 0)).state, v1::PENDING);
+  EXPECT_EQ(outcome_of(exit_of(WorkerExit::Kind::suspended, 0)).state, v1::SUSPENDED);
+}
+
+TEST(Outcome, OnlyALossWithoutALastWordIsALoss) {
+  using Kind = WorkerExit::Kind;
+  for (const auto kind : {Kind::not_started, Kind::exited, Kind::signalled, Kind::gone, Kind::broken, Kind::stalled}) {
+    auto exit = exit_of(kind, 1);
+    EXPECT_TRUE(is_lost(exit));
+    EXPECT_EQ(outcome_of(exit).cause, v1::WORKER_CRASHED);
+    const auto again = tried_again(outcome_of(exit));
+    EXPECT_EQ(again.state, v1::PENDING);
+    EXPECT_EQ(again.cause, v1::JOB_CAUSE_UNSPECIFIED);
+    EXPECT_THAT(again.message, HasSubstr("last checkpoint"));
+    exit.final.emplace();
+    exit.final->set_cause(v1::SOLVER_DIVERGED);
+    EXPECT_FALSE(is_lost(exit)) << "A diverged solution is not tried again.";
+  }
+  for (const auto kind : {Kind::stopped, Kind::suspended, Kind::cancelled}) EXPECT_FALSE(is_lost(exit_of(kind, 0)));
+}
+
+TEST(Outcome, AWorkerThatAnotherProgramMadeLeaveIsALoss) {
+  auto exit = exit_of(WorkerExit::Kind::exited, 0);
+  exit.final.emplace();
+  exit.final->set_suspended_step(7);
+  EXPECT_TRUE(is_lost(exit));
+  EXPECT_THAT(outcome_of(exit).message, HasSubstr("another program"));
 }
 
 TEST(Outcome, ACancelledRunKeepsItsSummaryIfItHasOne) {

@@ -21,6 +21,16 @@ v1::Case small_case() {
   return out;
 }
 
+v1::Case case_of_seconds() {
+  v1::Case out = small_case();
+  out.mutable_lattice()->mutable_hexagon()->set_columns(12);
+  out.mutable_lattice()->mutable_hexagon()->set_rows(8);
+  out.mutable_loading()->set_speed_m_per_s(5.0);
+  out.mutable_output()->set_sample_count(200);
+  out.mutable_output()->set_frame_count(20);
+  return out;
+}
+
 v1::Case endless_case() {
   v1::Case out = small_case();
   out.mutable_lattice()->mutable_hexagon()->set_columns(40);

@@ -7,6 +7,9 @@ namespace cellcrush::testing {
 /// A few cells at 100 m/s, crushed to half their length: done in a fraction of a second.
 v1::Case small_case();
 
+/// A small crush that takes some seconds, with 200 samples and 20 frames.
+v1::Case case_of_seconds();
+
 /// So slow a crush of so many cells that it does not end during a test.
 v1::Case endless_case();
 

@@ -1,0 +1,175 @@
+#include "jobs/job_runner.h"
+
+#include <spdlog/spdlog.h>
+
+#include <condition_variable>
+#include <memory>
+
+#include "error.h"
+#include "jobs/job_state.h"
+#include "jobs/outcome.h"
+#include "jobs/resource_name.h"
+
+namespace cellcrush::jobs {
+namespace {
+
+// The job was cancelled, suspended or deleted while a worker was started for it.
+struct Withdrawn {};
+
+void log_begin(const std::string& job, const worker::Begun& begun) {
+  for (const auto& refused : begun.refused_checkpoints()) spdlog::warn("{}: {}", job, refused);
+  if (begun.step() > 0) spdlog::info("{} goes on from step {}", job, begun.step());
+}
+
+// Waits a second, or for the daemon's end.
+void pause(const std::stop_token& stop) {
+  std::mutex never_shared;
+  std::condition_variable_any sleep;
+  std::unique_lock lock(never_shared);
+  sleep.wait_for(lock, stop, std::chrono::seconds(1), [] { return false; });
+}
+
+}  // namespace
+
+bool JobRunner::run(std::int64_t job, int threads, const Interruptions& interruptions) {
+  const auto stored = parts_.reader.find_job(job);
+  if (!stored || stored->job.state() == v1::SUSPENDED || is_terminal(stored->job.state())) return false;
+  store::StateChange next;
+  try {
+    next = after(*stored, run_worker(*stored, threads, interruptions));
+  } catch (const Withdrawn&) {
+    spdlog::info("{} was withdrawn before it ran", name_of(job));
+    return false;
+  } catch (const std::exception& error) {
+    next = outcome_of(error);
+  }
+  if (next.state != v1::JOB_STATE_UNSPECIFIED) write(job, next, interruptions.stop);
+  return next.state == v1::PENDING || next.state == v1::JOB_STATE_UNSPECIFIED;
+}
+
+JobRunner::Left JobRunner::reconcile(std::int64_t job) {
+  const auto folder = parts_.folder.job_folder(job);
+  if (parts_.executor.has_worker(folder)) return Left::runs;
+  const auto stored = parts_.reader.find_job(job);
+  if (!stored) return Left::ended;
+  parts_.folder.make_job_folder(job);
+  const auto last_word = parts_.executor.take_last_word(folder, events_of(*stored));
+  store::StateChange next = tried_again(worker_missing());
+  if (last_word) {
+    next = outcome_of(*last_word);
+  } else if (stored->job.state() == v1::CANCELLING) {
+    next = cancelled_without_result();
+  }
+  write(job, next, {});
+  return next.state == v1::PENDING ? Left::waits : Left::ended;
+}
+
+WorkerExit JobRunner::run_worker(const store::StoredJob& stored, int threads, const Interruptions& interruptions) {
+  parts_.folder.make_job_folder(stored.number);
+  worker::Order order;
+  order.set_job(name_of(stored.number));
+  *order.mutable_case_() = stored.job.case_();
+  order.set_threads(threads);
+  order.set_checkpoint_interval_s(std::chrono::duration<double>(parts_.checkpoint_interval).count());
+  return parts_.executor.run(parts_.folder.job_folder(stored.number), order, events_of(stored), interruptions);
+}
+
+WorkerEvents JobRunner::events_of(const store::StoredJob& stored) {
+  const std::int64_t job = stored.number;
+  WorkerEvents events;
+  events.started = [this, job](int pid) {
+    const auto now = parts_.reader.find_job(job);
+    if (!now) throw Withdrawn();
+    // It runs already: an earlier daemon started the worker.
+    if (now->job.state() == v1::CANCELLING || now->job.state() == v1::RUNNING) return;
+    store::StateChange running;
+    running.state = v1::RUNNING;
+    running.worker_pid = pid;
+    try {
+      parts_.journal.change_state(job, running);
+    } catch (const ServiceError& error) {
+      const bool gone = error.kind() == ServiceError::Kind::not_found;
+      if (gone || error.kind() == ServiceError::Kind::failed_precondition) throw Withdrawn();
+      throw;
+    }
+    spdlog::info("{} runs in process {}", name_of(job), pid);
+  };
+  events.reported = [this, job, channel = parts_.hub.open(job), last_step = parts_.reader.last_sampled_step(job)](
+                        const worker::Report& report) mutable { pass_on(job, last_step, *channel, report); };
+  return events;
+}
+
+// Samples that were said before come again with the same bits.
+void JobRunner::pass_on(std::int64_t job, std::int64_t& last_step, watch::Channel& channel,
+                        const worker::Report& report) {
+  switch (report.report_case()) {
+    case worker::Report::kBegun: log_begin(name_of(job), report.begun()); break;
+    case worker::Report::kMesh: parts_.journal.set_mesh(job, report.mesh()); break;
+    case worker::Report::kSample:
+      if (report.sample().step() <= last_step) break;
+      last_step = report.sample().step();
+      parts_.journal.append_sample(job, report.sample());
+      break;
+    case worker::Report::kFrame: channel.publish(report.frame()); break;
+    case worker::Report::kProgress: channel.publish(report.progress()); break;
+    case worker::Report::kFinal:
+    case worker::Report::kStopping:
+    case worker::Report::REPORT_NOT_SET: break;
+  }
+}
+
+store::StateChange JobRunner::after(const store::StoredJob& stored, const WorkerExit& exit) {
+  auto next = outcome_of(exit);
+  if (!is_lost(exit)) return next;
+  if (!got_further(stored.number)) return next;
+  spdlog::warn("{}: {}", name_of(stored.number), next.message);
+  if (exit.kind != WorkerExit::Kind::not_started) return tried_again(std::move(next));
+  // The job is PENDING as it was.
+  return {};
+}
+
+// Whether the job may be tried again after a loss.
+bool JobRunner::got_further(std::int64_t job) {
+  const std::int64_t step = parts_.reader.last_sampled_step(job);
+  const std::scoped_lock lock(mutex_);
+  Losses& losses = losses_[job];
+  if (step > losses.step) losses = {0, step};
+  if (++losses.count < kMostLosses) return true;
+  losses_.erase(job);
+  return false;
+}
+
+void JobRunner::write(std::int64_t job, const store::StateChange& change, const std::stop_token& stop) {
+  while (true) {
+    try {
+      parts_.journal.change_state(job, change);
+      spdlog::info("{} {}{}{}", name_of(job), v1::JobState_Name(change.state), change.message.empty() ? "" : ": ",
+                   change.message);
+      if (is_terminal(change.state)) tidy_up(job, change);
+      return;
+    } catch (const ServiceError& error) {
+      spdlog::error("The end of {} cannot be made durable: {}", name_of(job), error.what());
+      const bool gone = error.kind() == ServiceError::Kind::not_found;
+      if (gone || error.kind() == ServiceError::Kind::failed_precondition) return;
+    }
+    // A full disk may get room again. At the daemon's end the job stays as it is, and the next daemon reconciles it.
+    pause(stop);
+    if (stop.stop_requested() || !stop.stop_possible()) return;
+  }
+}
+
+void JobRunner::tidy_up(std::int64_t job, const store::StateChange& change) {
+  parts_.metrics.count_ended(change.state, change.summary ? &*change.summary : nullptr);
+  {
+    const std::scoped_lock lock(mutex_);
+    losses_.erase(job);
+  }
+  try {
+    parts_.folder.clean_job_folder(job);
+  } catch (const ServiceError& error) {
+    spdlog::warn("What {} left beside its result is removed at the daemon's next start: {}", name_of(job),
+                 error.what());
+  }
+}
+
+}  // namespace cellcrush::jobs

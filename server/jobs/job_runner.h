@@ -1,0 +1,68 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <mutex>
+
+#include "jobs/executor.h"
+#include "metrics/metrics.h"
+#include "store/data_folder.h"
+#include "store/journal.h"
+#include "store/journal_reader.h"
+#include "watch/hub.h"
+
+namespace cellcrush::jobs {
+
+/// Runs a job in a worker and writes in the journal what comes of it. A job whose worker is lost waits for another one, until
+/// kMostLosses in a row have got no further than the one before. Thread-safe.
+class JobRunner {
+ public:
+  static constexpr int kMostLosses = 3;
+
+  /// What the runner works with; all of it outlives the runner.
+  struct Parts {
+    const store::DataFolder& folder;
+    store::Journal& journal;
+    store::JournalReader& reader;
+    watch::Hub& hub;
+    Executor& executor;
+    metrics::Metrics& metrics;
+    std::chrono::milliseconds checkpoint_interval;
+  };
+
+  explicit JobRunner(const Parts& parts) : parts_(parts) {}
+
+  /// Runs a job that is PENDING, or goes along with the worker that has it, until it has ended or was left. Whether it is
+  /// PENDING again, to be tried again.
+  bool run(std::int64_t job, int threads, const Interruptions& interruptions);
+
+  /// What became of a job that an earlier daemon left RUNNING or CANCELLING.
+  enum class Left {
+    runs,   ///< its worker lives; `run` goes along with it
+    waits,  ///< it is PENDING, for its worker is gone
+    ended,
+  };
+  Left reconcile(std::int64_t job);
+
+ private:
+  WorkerExit run_worker(const store::StoredJob& stored, int threads, const Interruptions& interruptions);
+  WorkerEvents events_of(const store::StoredJob& stored);
+  void pass_on(std::int64_t job, std::int64_t& last_step, watch::Channel& channel, const worker::Report& report);
+  store::StateChange after(const store::StoredJob& stored, const WorkerExit& exit);
+  bool got_further(std::int64_t job);
+  /// Tries until it can be written or `stop` is requested; once when that cannot be.
+  void write(std::int64_t job, const store::StateChange& change, const std::stop_token& stop);
+  void tidy_up(std::int64_t job, const store::StateChange& change);
+
+  struct Losses {
+    int count = 0;
+    std::int64_t step = -1;  ///< of the newest sample at the last one
+  };
+
+  Parts parts_;
+  std::mutex mutex_;
+  std::map<std::int64_t, Losses> losses_;
+};
+
+}  // namespace cellcrush::jobs

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+
+#include "jobs/executor.h"
+#include "jobs/worker_process.h"
+#include "worker/report_log.h"
+
+namespace cellcrush::jobs {
+
+/// Goes along with what the workers of one job report, from the first one on, and hands wishes on to the one that runs. Not
+/// thread-safe. Failures throw ServiceError.
+class WorkerFollower {
+ public:
+  WorkerFollower(const worker::JobFolder& folder, const WorkerEvents& events, const Interruptions& interruptions,
+                 std::chrono::milliseconds stall_limit);
+  ~WorkerFollower();
+  WorkerFollower(const WorkerFollower&) = delete;
+  WorkerFollower& operator=(const WorkerFollower&) = delete;
+
+  /// Passes on what workers before have reported. Their last word, if the last of them had one. False when what they wrote is
+  /// no report.
+  bool catch_up();
+  [[nodiscard]] const std::optional<worker::Final>& last_word() const { return final_; }
+
+  /// Goes along with a worker until it has ended.
+  WorkerExit follow(WorkerProcess& process);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  enum class Reading { nothing_new, something_new, broken };
+
+  Reading read_reports(bool live);
+  void wait(const WorkerProcess& process) const;
+  void hand_on_wishes(const WorkerProcess& process);
+  bool is_stalled(const WorkerProcess& process, Reading reading);
+  void tell_that_it_stands_still();
+  WorkerExit exit_of(WorkerProcess& process, WorkerExit::Kind ended_for) const;
+
+  const WorkerEvents& events_;
+  const Interruptions& interruptions_;
+  std::chrono::milliseconds stall_limit_;
+  int changes_ = -1;  ///< inotify of the reports
+  int wishes_ = -1;   ///< eventfd, readable once there is a wish
+  worker::ReportLogReader reader_;
+  std::optional<worker::Final> final_;
+  v1::Progress progress_;  ///< the newest
+  bool acknowledged_ = false;
+  std::optional<Clock::time_point> limit_;  ///< when a worker that was told of a wish is ended
+  bool told_to_leave_ = false;
+  bool told_to_end_ = false;
+  Clock::time_point last_sign_;  ///< of life
+  std::uint64_t used_ = 0;       ///< processor time at last_sign_, in the kernel's ticks
+};
+
+}  // namespace cellcrush::jobs

@@ -1,0 +1,93 @@
+#include "worker/checkpoint_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include <cerrno>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <system_error>
+
+#include "store/durable_file.h"
+
+namespace cellcrush::worker {
+namespace {
+
+// "CELLCRUSH CHECKPOINT 1 CRC-32 SIZE\n", then a Checkpoint of that many bytes.
+constexpr const char* kTitle = "CELLCRUSH CHECKPOINT 1";
+
+std::uint64_t crc_of(const std::string& bytes) {
+  return crc32_z(0, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
+}
+
+void write_file(const std::filesystem::path& path, const std::string& bytes) {
+  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
+  if (file < 0) store::throw_file_error(path, "written", errno);
+  int error = 0;
+  for (std::size_t done = 0; done < bytes.size() && error == 0;) {
+    const auto written = write(file, bytes.data() + done, bytes.size() - done);
+    if (written >= 0)
+      done += static_cast<std::size_t>(written);
+    else if (errno != EINTR)
+      error = errno;
+  }
+  if (close(file) != 0 && error == 0) error = errno;
+  if (error != 0) store::throw_file_error(path, "written", error);
+}
+
+// The checkpoint, or why it cannot be used.
+struct Reading {
+  std::optional<Checkpoint> checkpoint;
+  std::string refused;
+};
+
+Reading read(const std::filesystem::path& path, const Checkpoint::Origin& wanted) {
+  const std::string name = path.filename().string();
+  std::ifstream file(path, std::ios::binary);
+  std::string head;
+  if (!std::getline(file, head)) return {std::nullopt, name + " is empty."};
+  const std::string bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  const std::string whole =
+      std::string(kTitle) + " " + std::to_string(crc_of(bytes)) + " " + std::to_string(bytes.size());
+  Reading out;
+  if (head != whole || !out.checkpoint.emplace().ParseFromString(bytes)) {
+    out.checkpoint.reset();
+    out.refused = name + " is damaged.";
+  } else if (out.checkpoint->origin().SerializeAsString() != wanted.SerializeAsString()) {
+    out.refused = name + " is of solver " + out.checkpoint->origin().solver_revision() + " with " +
+                  out.checkpoint->origin().simd_target() + ", and this is " + wanted.solver_revision() + " with " +
+                  wanted.simd_target() + ".";
+    out.checkpoint.reset();
+  }
+  return out;
+}
+
+}  // namespace
+
+void write_checkpoint(const JobFolder& folder, const Checkpoint& checkpoint) {
+  const std::string bytes = checkpoint.SerializeAsString();
+  std::string file = std::string(kTitle) + " " + std::to_string(crc_of(bytes)) + " " + std::to_string(bytes.size());
+  file += "\n" + bytes;
+  write_file(folder.partial_checkpoint(), file);
+  std::error_code none_yet;
+  std::filesystem::rename(folder.checkpoint(), folder.previous_checkpoint(), none_yet);
+  store::publish_file(folder.partial_checkpoint(), folder.checkpoint());
+}
+
+FoundCheckpoint find_checkpoint(const JobFolder& folder, const Checkpoint::Origin& origin) {
+  FoundCheckpoint out;
+  for (const auto& path : {folder.checkpoint(), folder.previous_checkpoint()}) {
+    if (!std::filesystem::exists(path)) continue;
+    auto reading = read(path, origin);
+    if (reading.checkpoint) {
+      out.checkpoint = std::move(reading.checkpoint);
+      return out;
+    }
+    out.refused.push_back(std::move(reading.refused));
+  }
+  return out;
+}
+
+}  // namespace cellcrush::worker

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstdint>
+#include <optional>
+
+#include "worker/job_folder.h"
+
+namespace cellcrush::worker {
+
+/// Takes the job's folder for this process, until it ends: a lock on the file `worker`, which then holds the process's number
+/// and start time. False when another worker has it.
+bool claim(const JobFolder& folder);
+
+/// Which process runs a job; its start time, in the kernel's ticks since boot, tells it from a later one with the same number.
+struct Claim {
+  pid_t process = 0;
+  std::uint64_t start_time = 0;
+};
+
+/// The process that has claimed the folder and lives; nothing when none has.
+std::optional<Claim> find_claim(const JobFolder& folder);
+
+/// Start time and processor time of a process, in the kernel's ticks; nothing when there is none of that number.
+struct ProcessTimes {
+  std::uint64_t start = 0;
+  std::uint64_t used = 0;
+};
+std::optional<ProcessTimes> times_of(pid_t process);
+
+}  // namespace cellcrush::worker

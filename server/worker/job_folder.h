@@ -1,0 +1,29 @@
+#pragma once
+
+#include <filesystem>
+#include <utility>
+
+namespace cellcrush::worker {
+
+/// What a job's folder holds: the result, and while the job has not ended what its worker and the daemon share
+/// (job_folder.md).
+class JobFolder {
+ public:
+  explicit JobFolder(std::filesystem::path root) : root_(std::move(root)) {}
+
+  [[nodiscard]] const std::filesystem::path& root() const { return root_; }
+  [[nodiscard]] std::filesystem::path order() const { return root_ / "order"; }
+  [[nodiscard]] std::filesystem::path claim() const { return root_ / "worker"; }
+  [[nodiscard]] std::filesystem::path reports() const { return root_ / "reports"; }
+  [[nodiscard]] std::filesystem::path checkpoint() const { return root_ / "checkpoint"; }
+  [[nodiscard]] std::filesystem::path previous_checkpoint() const { return root_ / "checkpoint.previous"; }
+  [[nodiscard]] std::filesystem::path partial_checkpoint() const { return root_ / "checkpoint.partial"; }
+  [[nodiscard]] std::filesystem::path result() const { return root_ / "result.h5"; }
+  /// What the worker writes until the result is complete.
+  [[nodiscard]] std::filesystem::path partial_result() const { return root_ / "result.h5.partial"; }
+
+ private:
+  std::filesystem::path root_;
+};
+
+}  // namespace cellcrush::worker

@@ -1,0 +1,120 @@
+#include "worker/report_log.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <cerrno>
+
+#include "store/durable_file.h"
+
+namespace cellcrush::worker {
+namespace {
+
+constexpr std::size_t kHead = 8;
+constexpr std::uint32_t kLargest = 1U << 30U;
+constexpr std::size_t kReadAhead = 65536;
+
+void append_number(std::string& bytes, std::uint32_t value) {
+  for (unsigned i = 0; i < 4; ++i) bytes.push_back(static_cast<char>((value >> (8U * i)) & 0xFFU));
+}
+
+std::uint32_t number_at(const char* bytes) {
+  std::uint32_t out = 0;
+  for (unsigned i = 0; i < 4; ++i) out |= static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[i])) << (8U * i);
+  return out;
+}
+
+std::uint32_t checksum_of(const char* bytes, std::size_t size) {
+  return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const unsigned char*>(bytes), size));
+}
+
+}  // namespace
+
+ReportLog::ReportLog(const std::filesystem::path& path)
+    : path_(path), file_(open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600)) {
+  if (file_ < 0) store::throw_file_error(path, "written", errno);
+  ReportLogReader reader(path);
+  Report report;
+  while (reader.read(report) == ReportLogReader::Read::message) continue;
+  cut(reader.offset());
+}
+
+ReportLog::~ReportLog() {
+  if (file_ >= 0) close(file_);
+}
+
+void ReportLog::cut(std::uint64_t size) {
+  if (ftruncate(file_, static_cast<off_t>(size)) != 0) store::throw_file_error(path_, "written", errno);
+  size_ = size;
+}
+
+void ReportLog::append(const Report& report) {
+  const std::string message = report.SerializeAsString();
+  std::string record;
+  record.reserve(kHead + message.size());
+  append_number(record, static_cast<std::uint32_t>(message.size()));
+  append_number(record, checksum_of(message.data(), message.size()));
+  record += message;
+  for (std::size_t done = 0; done < record.size();) {
+    const auto written = write(file_, record.data() + done, record.size() - done);
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) {
+      const int error = errno;
+      cut(size_);
+      store::throw_file_error(path_, "written", error);
+    }
+    done += static_cast<std::size_t>(written);
+  }
+  size_ += record.size();
+}
+
+void ReportLog::synchronize() {
+  if (fdatasync(file_) != 0) store::throw_file_error(path_, "written", errno);
+}
+
+ReportLogReader::ReportLogReader(const std::filesystem::path& path) : file_(open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
+  if (file_ < 0) store::throw_file_error(path, "read", errno);
+}
+
+ReportLogReader::~ReportLogReader() { close(file_); }
+
+// Makes that many bytes of the record available.
+bool ReportLogReader::fill(std::size_t size) {
+  while (buffer_.size() - taken_ < size) {
+    buffer_.erase(0, taken_);
+    taken_ = 0;
+    const std::size_t known = buffer_.size();
+    buffer_.resize(std::max(size, known + kReadAhead));
+    const auto count =
+        pread(file_, buffer_.data() + known, buffer_.size() - known, static_cast<off_t>(offset_ + known));
+    buffer_.resize(known + static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return false;
+  }
+  return true;
+}
+
+// What was read of a record that is not whole may be cut off and written anew.
+ReportLogReader::Read ReportLogReader::nothing_whole() {
+  buffer_.clear();
+  taken_ = 0;
+  return Read::end;
+}
+
+ReportLogReader::Read ReportLogReader::read(Report& report) {
+  if (!fill(kHead)) return nothing_whole();
+  const std::uint32_t size = number_at(buffer_.data() + taken_);
+  if (size > kLargest) return Read::broken;
+  if (!fill(kHead + size)) return nothing_whole();
+  const char* record = buffer_.data() + taken_;
+  const char* message = record + kHead;
+  if (checksum_of(message, size) != number_at(record + 4)) return Read::broken;
+  if (!report.ParseFromArray(message, static_cast<int>(size))) return Read::broken;
+  taken_ += kHead + size;
+  offset_ += kHead + size;
+  return Read::message;
+}
+
+}  // namespace cellcrush::worker

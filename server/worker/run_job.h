@@ -1,0 +1,27 @@
+#pragma once
+
+#include <functional>
+
+#include "worker/job_folder.h"
+#include "worker/report.pb.h"
+
+namespace cellcrush::worker {
+
+/// What others wish of a run.
+enum class StopWish {
+  none,
+  suspend,  ///< leave it at a checkpoint
+  cancel,   ///< end it with what there is
+};
+
+/// Asked about every 50 ms.
+using StopAsked = std::function<StopWish()>;
+
+/// Runs a job, from its newest checkpoint or its beginning to its complete result.h5 or until others wish otherwise, and says
+/// all of it in the folder's reports: the mesh, then samples, frames and progress, and how it ended. A run that is cancelled
+/// takes a last sample and frame and ends like any other, with what there is; one that the solver ends because its result is
+/// untrue leaves what was computed before, and the last good frame. Never throws on what a case or a disk can do. False when
+/// how it ended could not be said.
+bool run_job(const JobFolder& folder, const Order& order, const StopAsked& stop_asked);
+
+}  // namespace cellcrush::worker

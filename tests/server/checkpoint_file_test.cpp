@@ -1,0 +1,102 @@
+#include "worker/checkpoint_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "server/temporary_folder.h"
+
+namespace cellcrush::worker {
+namespace {
+
+using ::testing::HasSubstr;
+
+class CheckpointFileTest : public ::testing::Test {
+ protected:
+  static Checkpoint::Origin origin() {
+    Checkpoint::Origin out;
+    out.set_solver_revision("1.0");
+    out.set_simd_target("avx2");
+    out.set_case_hash("abc");
+    return out;
+  }
+
+  void write(std::int64_t step) const {
+    Checkpoint checkpoint;
+    *checkpoint.mutable_origin() = origin();
+    checkpoint.set_step(step);
+    checkpoint.set_simulation(std::string(5000, 's'));
+    write_checkpoint(job_, checkpoint);
+  }
+
+  static std::string read(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  }
+
+  static void replace(const std::filesystem::path& path, const std::string& bytes) {
+    std::ofstream(path, std::ios::binary) << bytes;
+  }
+
+  testing::TemporaryFolder folder_;
+  JobFolder job_{folder_.path()};
+};
+
+TEST_F(CheckpointFileTest, TheNewestCounts) {
+  EXPECT_FALSE(find_checkpoint(job_, origin()).checkpoint);
+  for (const std::int64_t step : {10, 20, 30}) write(step);
+  const auto found = find_checkpoint(job_, origin());
+  ASSERT_TRUE(found.checkpoint);
+  EXPECT_EQ(found.checkpoint->step(), 30);
+  EXPECT_TRUE(found.refused.empty());
+}
+
+TEST_F(CheckpointFileTest, ATornOrBitFlippedOneIsRefusedByNameAndTheOneBeforeCounts) {
+  write(10);
+  write(20);
+  const std::string whole = read(job_.checkpoint());
+  for (std::size_t i = 0; i < whole.size(); i += 13) {
+    std::string flipped = whole;
+    flipped[i] = static_cast<char>(flipped[i] ^ 1);
+    for (const auto& bytes : {flipped, whole.substr(0, i)}) {
+      replace(job_.checkpoint(), bytes);
+      const auto found = find_checkpoint(job_, origin());
+      ASSERT_TRUE(found.checkpoint) << i;
+      EXPECT_EQ(found.checkpoint->step(), 10) << i;
+      ASSERT_EQ(found.refused.size(), 1U) << i;
+      EXPECT_THAT(found.refused[0], HasSubstr("checkpoint is "));
+    }
+  }
+}
+
+TEST_F(CheckpointFileTest, KilledBetweenTheTwoNamesTheOneBeforeCounts) {
+  write(10);
+  write(20);
+  std::filesystem::rename(job_.checkpoint(), job_.previous_checkpoint());
+  replace(job_.partial_checkpoint(), "half");
+  const auto found = find_checkpoint(job_, origin());
+  ASSERT_TRUE(found.checkpoint);
+  EXPECT_EQ(found.checkpoint->step(), 20);
+}
+
+TEST_F(CheckpointFileTest, OneOfAnotherSolverOrProcessorOrCaseIsRefused) {
+  write(10);
+  auto newer = origin();
+  newer.set_solver_revision("1.1");
+  const auto found = find_checkpoint(job_, newer);
+  EXPECT_FALSE(found.checkpoint);
+  ASSERT_EQ(found.refused.size(), 1U);
+  EXPECT_THAT(found.refused[0], HasSubstr("1.1"));
+  auto scalar = origin();
+  scalar.set_simd_target("scalar");
+  EXPECT_FALSE(find_checkpoint(job_, scalar).checkpoint);
+  auto other = origin();
+  other.set_case_hash("abd");
+  EXPECT_FALSE(find_checkpoint(job_, other).checkpoint);
+}
+
+}  // namespace
+}  // namespace cellcrush::worker

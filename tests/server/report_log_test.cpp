@@ -1,0 +1,98 @@
+#include "worker/report_log.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <thread>
+
+#include "error.h"
+#include "server/temporary_folder.h"
+
+namespace cellcrush::worker {
+namespace {
+
+using Read = ReportLogReader::Read;
+
+class ReportLogTest : public ::testing::Test {
+ protected:
+  static Report frame_report(int index, int floats = 100) {
+    Report report;
+    report.mutable_frame()->set_index(index);
+    report.mutable_frame()->mutable_position_mm()->Resize(floats, 1.0F);
+    return report;
+  }
+
+  [[nodiscard]] std::filesystem::path path() const { return folder_.path() / "reports"; }
+
+  [[nodiscard]] std::string bytes() const {
+    std::ifstream file(path(), std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  }
+
+  void write_bytes(const std::string& text) const { std::ofstream(path(), std::ios::binary) << text; }
+
+  testing::TemporaryFolder folder_;
+};
+
+TEST_F(ReportLogTest, ReportsComeWholeAndInOrderWhileTheyAreWritten) {
+  constexpr int kCount = 300;
+  ReportLog log(path());
+  std::thread writer([&log] {
+    for (int i = 0; i < kCount; ++i) log.append(frame_report(i, 20'000));
+  });
+  ReportLogReader reader(path());
+  Report report;
+  for (int next = 0; next < kCount;) {
+    const Read read = reader.read(report);
+    ASSERT_NE(read, Read::broken);
+    if (read == Read::message) {
+      ASSERT_EQ(report.frame().index(), next++);
+    }
+  }
+  EXPECT_EQ(reader.read(report), Read::end);
+  writer.join();
+}
+
+TEST_F(ReportLogTest, WhatAKilledWriterLeftHalfWrittenIsCutOffWhereverItWasKilled) {
+  ReportLog(path()).append(frame_report(0));
+  const std::string first = bytes();
+  ReportLog(path()).append(frame_report(1));
+  const std::string both = bytes();
+  for (std::size_t size = first.size(); size < both.size(); size += 7) {
+    write_bytes(both.substr(0, size));
+    ReportLogReader reader(path());
+    Report report;
+    ASSERT_EQ(reader.read(report), Read::message);
+    ASSERT_EQ(reader.read(report), Read::end) << size;
+    // The reader has seen the half, and goes on behind what is written in its place.
+    ReportLog(path()).append(frame_report(2));
+    ASSERT_EQ(reader.read(report), Read::message) << size;
+    EXPECT_EQ(report.frame().index(), 2);
+  }
+}
+
+TEST_F(ReportLogTest, AFlippedBitIsBroken) {
+  {
+    ReportLog log(path());
+    log.append(frame_report(0));
+    log.append(frame_report(1));
+  }
+  const std::string whole = bytes();
+  for (std::size_t at = 4; at < whole.size() / 2; at += 11) {
+    std::string flipped = whole;
+    flipped[at] = static_cast<char>(flipped[at] ^ 4);
+    write_bytes(flipped);
+    Report report;
+    EXPECT_EQ(ReportLogReader(path()).read(report), Read::broken) << at;
+  }
+}
+
+TEST_F(ReportLogTest, AnAbsentLogIsAnErrorThatNamesIt) {
+  EXPECT_THROW(ReportLogReader(folder_.path() / "absent"), ServiceError);
+}
+
+}  // namespace
+}  // namespace cellcrush::worker
