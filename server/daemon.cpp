@@ -69,7 +69,7 @@ struct Daemon::Impl {
         reader(folder.journal()),
         sweep_reader(folder.journal()),
         executor(options.worker_program),
-        scheduler({folder, journal, reader, sweep_reader, hub, executor, metrics}),
+        scheduler({folder, journal, reader, hub, executor, metrics}),
         pump(kPumpThreads),
         cases(worker::measure_step_cost()),
         jobs({folder, journal, reader, hub, pump, scheduler, options.bookmark_interval}),

@@ -25,8 +25,7 @@ struct Withdrawn {};
 void Scheduler::start(int slots) {
   finish_deletions(parts_.reader, parts_.journal, parts_.folder);
   fail_lost_jobs();
-  auto memberships = parts_.sweeps.memberships_of_waiting();
-  for (const std::int64_t job : parts_.reader.jobs_in(v1::PENDING)) waiting_.add(job, memberships[job]);
+  for (const auto& job : parts_.reader.queued_jobs(v1::PENDING)) waiting_.add(job);
   free_cores_ = slots;
   for (int i = 0; i < slots; ++i) slots_.emplace_back([this](const std::stop_token& stop) { run_slot(stop); });
 }
@@ -40,10 +39,10 @@ void Scheduler::fail_lost_jobs() {
   }
 }
 
-void Scheduler::enqueue(const std::vector<std::int64_t>& jobs, const WaitingJobs::Membership& membership) {
+void Scheduler::enqueue(const std::vector<store::QueuedJob>& jobs) {
   {
     const std::scoped_lock lock(mutex_);
-    for (const std::int64_t job : jobs) waiting_.add(job, membership);
+    for (const auto& job : jobs) waiting_.add(job);
     tell_metrics();
   }
   changed_.notify_all();
@@ -103,7 +102,7 @@ void Scheduler::stop() {
 
 void Scheduler::run_slot(const std::stop_token& stop) {
   while (true) {
-    std::optional<WaitingJobs::Taken> taken;
+    std::optional<store::QueuedJob> taken;
     int cores = 1;
     {
       std::unique_lock lock(mutex_);

@@ -14,12 +14,11 @@
 #include "store/data_folder.h"
 #include "store/journal.h"
 #include "store/journal_reader.h"
-#include "store/sweep_reader.h"
 #include "watch/hub.h"
 
 namespace cellcrush::jobs {
 
-/// Runs waiting jobs, oldest first, at most as many at once as there are slots and as their sweeps allow. Each slot is a thread that lives as
+/// Runs waiting jobs in the order of WaitingJobs, at most as many at once as there are slots and as their sweeps allow. Each slot is a thread that lives as
 /// long as the scheduler and runs one job at a time. Jobs that ask for several threads get those cores that no other job
 /// uses or waits for when they start: side by side comes first. Thread-safe.
 class Scheduler {
@@ -29,7 +28,6 @@ class Scheduler {
     const store::DataFolder& folder;
     store::Journal& journal;
     store::JournalReader& reader;
-    store::SweepReader& sweeps;
     watch::Hub& hub;
     Executor& executor;
     metrics::Metrics& metrics;
@@ -43,8 +41,8 @@ class Scheduler {
   /// Marks the jobs that an earlier daemon left running as lost, queues those that wait, and starts the slots.
   void start(int slots);
 
-  /// Queues jobs that are PENDING in the journal, of one sweep or of none.
-  void enqueue(const std::vector<std::int64_t>& jobs, const WaitingJobs::Membership& membership = {});
+  /// Queues jobs that are PENDING in the journal.
+  void enqueue(const std::vector<store::QueuedJob>& jobs);
 
   /// A job that waits is CANCELLED when this returns; one that runs is CANCELLING, and its worker is told. Nothing
   /// happens to one that is either already. Throws ServiceError: not_found, or failed_precondition when it has ended

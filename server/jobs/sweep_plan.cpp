@@ -116,8 +116,9 @@ SweepPlan plan_sweep(const v1::Sweep& sweep, const std::function<bool()>& given_
     v1::Job job;
     *job.mutable_case_() = build_case(sweep, points.fields, points.values[i], point, checker, verdict);
     *job.mutable_labels() = sweep.labels();
+    job.set_priority(sweep.priority());
     for (auto& problem : verdict.problems) problems.add(std::move(problem), i, point);
-    out.jobs.push_back({std::move(job), points.values[i]});
+    out.jobs.push_back({std::move(job), points.values[i], verdict.element_steps});
   }
   out.problems = problems.take();
   return out;

@@ -27,8 +27,19 @@ v1::CreateSweepRequest without_output(v1::CreateSweepRequest request) {
 }
 
 void check_numbers(const v1::Sweep& sweep) {
+  check_priority(sweep.priority(), "sweep.priority");
   if (sweep.max_parallel() < 0) throw InvalidField("sweep.max_parallel", "is negative.", "Use 0 for no limit.");
   if (sweep.max_failures() < 0) throw InvalidField("sweep.max_failures", "is negative.", "Use 0 for no limit.");
+}
+
+std::vector<store::QueuedJob> queued_jobs(const store::Journal::CreatedSweep& created, const jobs::SweepPlan& plan,
+                                          const v1::Sweep& sweep) {
+  std::vector<store::QueuedJob> out;
+  for (std::size_t i = 0; i < created.jobs.size(); ++i) {
+    out.push_back({created.jobs[i], created.jobs.front(), sweep.priority(), plan.jobs[i].element_steps, created.sweep,
+                   sweep.max_parallel()});
+  }
+  return out;
 }
 
 }  // namespace
@@ -58,7 +69,7 @@ grpc::Status SweepsService::CreateSweep(grpc::ServerContext* context, const v1::
     }
     const auto created =
         parts_.journal.create_sweep(request.sweep(), plan.jobs, request.request_id(), payload_hash(request));
-    if (created.is_new) parts_.scheduler.enqueue(created.jobs, {created.sweep, request.sweep().max_parallel()});
+    if (created.is_new) parts_.scheduler.enqueue(queued_jobs(created, plan, request.sweep()));
     *response = find(jobs::sweep_name_of(created.sweep)).sweep;
     return grpc::Status::OK;
   });

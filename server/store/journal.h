@@ -30,8 +30,9 @@ struct StateChange {
 
 /// A job to be made as a part of a sweep.
 struct SweepJob {
-  v1::Job job;                 ///< case and labels
-  std::vector<double> values;  ///< of the sweep's fields, in their order
+  v1::Job job;                     ///< case, labels, priority
+  std::vector<double> values;      ///< of the sweep's fields, in their order
+  std::int64_t element_steps = 0;  ///< elements times steps of its run
 };
 
 /// Writes the journal (journal_format.md). Thread-safe. Failures throw ServiceError; a failed write changes nothing.
@@ -51,9 +52,10 @@ class Journal {
     std::int64_t job = 0;
     bool is_new = true;
   };
-  /// Makes a PENDING job from `job` (case, labels). The same request_id with the same hash gives the job made before;
-  /// with another one, already_exists is thrown. An empty request_id is none.
-  Created create_job(v1::Job job, const std::string& request_id, const std::string& request_hash);
+  /// Makes a PENDING job from `job` (case, labels, priority). The same request_id with the same hash gives the job made
+  /// before; with another one, already_exists is thrown. An empty request_id is none.
+  Created create_job(v1::Job job, const std::string& request_id, const std::string& request_hash,
+                     std::int64_t element_steps = 0);
 
   struct CreatedSweep {
     std::int64_t sweep = 0;
@@ -89,7 +91,6 @@ class Journal {
   // These need write_mutex_, and a transaction where they write.
   std::optional<std::int64_t> find_request(const std::string& collection, const std::string& request_id,
                                            const std::string& request_hash);
-  std::int64_t insert_job(v1::Job job, const std::string& request_id, const std::string& request_hash);
   void write_change(std::int64_t job, const StateChange& change);
   std::int64_t last_sequence_of(std::int64_t job);
   void insert_event(std::int64_t job, std::int64_t sequence, int kind, const std::string& payload);

@@ -140,6 +140,36 @@ TEST(List, ShowsLabelsWhereThereAreAny) {
   EXPECT_NE(result.output.find("batch=7, who=me"), std::string::npos) << result.output;
 }
 
+TEST(Submit, SendsAPriorityAndRefusesOneOutOfRange) {
+  const FakeServer server(preset_script());
+  for (const char* priority : {"7", "-7"}) {
+    const ProgramResult result =
+        run_program({"submit", "preset:type-i", "--priority", priority, "--server", server.address()});
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+  }
+  const auto creates = server.asked().creates;
+  ASSERT_EQ(creates.size(), 2U);
+  EXPECT_EQ(creates[0].priority(), 7);
+  EXPECT_EQ(creates[1].priority(), -7);
+  EXPECT_EQ(run_program({"submit", "preset:type-i", "--priority", "101", "--server", server.address()}).exit_code, 2);
+}
+
+TEST(ListAndShow, TellAPriorityOnlyWhereThereIsOne) {
+  Script script = preset_script();
+  const FakeServer plain(script);
+  EXPECT_EQ(run_program({"list", "--server", plain.address()}).output.find("PRIORITY"), std::string::npos);
+  EXPECT_EQ(run_program({"show", "jobs/test", "--server", plain.address()}).output.find("priority"), std::string::npos);
+  script.job.set_priority(-12);
+  script.job.set_retry_of("jobs/before");
+  const FakeServer server(script);
+  const ProgramResult list = run_program({"list", "--server", server.address()});
+  EXPECT_NE(list.output.find("PRIORITY"), std::string::npos);
+  EXPECT_NE(list.output.find("  -12  "), std::string::npos) << list.output;
+  const ProgramResult show = run_program({"show", "jobs/test", "--server", server.address()});
+  EXPECT_NE(show.output.find("priority  -12"), std::string::npos) << show.output;
+  EXPECT_NE(show.output.find("retry of  jobs/before"), std::string::npos) << show.output;
+}
+
 TEST(CancelAndDelete, NameTheJobAndSayHowItStands) {
   Script script = preset_script();
   script.changes_jobs = true;
