@@ -60,7 +60,6 @@ grpc::Status SweepsService::CreateSweep(grpc::ServerContext* context, const v1::
     const auto request = without_output(*given);
     check_request(request.request_id(), request.sweep().labels(), "sweep.");
     check_numbers(request.sweep());
-    if (request.sweep().max_failures() > 0) return unimplemented("The field sweep.max_failures of CreateSweep");
     auto plan = jobs::plan_sweep(request.sweep(), [context] { return context->IsCancelled(); });
     if (!plan.problems.empty()) return status_of(plan.problems, "sweep");
     if (request.validate_only()) {
@@ -114,8 +113,13 @@ grpc::Status SweepsService::CancelSweep(grpc::ServerContext*, const v1::CancelSw
   });
 }
 
-grpc::Status SweepsService::RetryFailedJobs(grpc::ServerContext*, const v1::RetryFailedJobsRequest*, v1::Sweep*) {
-  return unimplemented("RetryFailedJobs");
+grpc::Status SweepsService::RetryFailedJobs(grpc::ServerContext*, const v1::RetryFailedJobsRequest* request,
+                                            v1::Sweep* response) {
+  return answer([&] {
+    parts_.scheduler.enqueue(parts_.journal.retry_failed(find(request->name()).number));
+    *response = find(request->name()).sweep;
+    return grpc::Status::OK;
+  });
 }
 
 grpc::ServerWriteReactor<v1::WatchSweepResponse>* SweepsService::WatchSweep(grpc::CallbackServerContext*,

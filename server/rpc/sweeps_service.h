@@ -14,7 +14,6 @@
 namespace cellcrush::rpc {
 
 /// Sweeps: many jobs from one case. Thread-safe. Watches go through gRPC's callbacks and hold no thread.
-/// RetryFailedJobs and the field max_failures are not built: they answer UNIMPLEMENTED.
 class SweepsService final : public v1::Sweeps::WithCallbackMethod_WatchSweep<v1::Sweeps::Service> {
  public:
   /// All of it outlives the service.

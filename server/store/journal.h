@@ -14,6 +14,7 @@
 #include "cellcrush/v1/event.pb.h"
 #include "cellcrush/v1/job.pb.h"
 #include "cellcrush/v1/sweep.pb.h"
+#include "store/queued_job.h"
 #include "store/sqlite.h"
 
 namespace cellcrush::store {
@@ -66,6 +67,10 @@ class Journal {
   CreatedSweep create_sweep(v1::Sweep sweep, const std::vector<SweepJob>& jobs, const std::string& request_id,
                             const std::string& request_hash);
 
+  /// Makes new PENDING jobs of those of the sweep that FAILED or that max_failures cancelled. They take the places of the
+  /// old ones, which stay as jobs without a sweep. Returns them in the order of the points.
+  std::vector<QueuedJob> retry_failed(std::int64_t sweep);
+
   /// Makes those of the jobs that are PENDING CANCELLED, all at once.
   void cancel_waiting(const std::vector<std::int64_t>& jobs);
 
@@ -77,7 +82,8 @@ class Journal {
   void note_folder_removed(std::int64_t job);
 
   /// Makes a change durable, and before it the samples gathered for the job. Throws failed_precondition when the state
-  /// may not follow the present one (jobs/job_state.h).
+  /// may not follow the present one (jobs/job_state.h). When a job of a sweep FAILED and its max_failures is reached, those
+  /// of its jobs that are PENDING are CANCELLED with it.
   void change_state(std::int64_t job, const StateChange& change);
 
   /// Gathers a sample; durable within about 100 ms. Never waits for the disk.
@@ -92,6 +98,8 @@ class Journal {
   std::optional<std::int64_t> find_request(const std::string& collection, const std::string& request_id,
                                            const std::string& request_hash);
   void write_change(std::int64_t job, const StateChange& change);
+  std::vector<std::int64_t> stop_failing_sweep(std::int64_t failed_job);
+  std::vector<std::int64_t> jobs_of_sweep_in(std::int64_t sweep, v1::JobState state);
   std::int64_t last_sequence_of(std::int64_t job);
   void insert_event(std::int64_t job, std::int64_t sequence, int kind, const std::string& payload);
   void insert_samples(std::int64_t job, const std::vector<std::string>& samples);
