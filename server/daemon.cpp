@@ -71,10 +71,11 @@ struct Daemon::Impl {
         executor(options.worker_program),
         scheduler({folder, journal, reader, hub, executor, metrics}),
         pump(kPumpThreads),
-        cases(worker::measure_step_cost()),
+        step_cost(worker::measure_step_cost()),
+        cases(step_cost),
         jobs({folder, journal, reader, hub, pump, scheduler, options.bookmark_interval}),
         sweeps({journal, reader, sweep_reader, hub, pump, scheduler, options.bookmark_interval}),
-        admin(worker_limit(options.workers)) {
+        admin({reader, hub, {worker_limit(options.workers), step_cost}}) {
     listen();
     serve_metrics();
     scheduler.start(worker_limit(options.workers));
@@ -149,6 +150,7 @@ struct Daemon::Impl {
   metrics::Metrics metrics;
   jobs::Scheduler scheduler;
   watch::Pump pump;
+  double step_cost;
   rpc::CasesService cases;
   rpc::JobsService jobs;
   rpc::SweepsService sweeps;

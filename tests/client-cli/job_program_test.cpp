@@ -170,6 +170,33 @@ TEST(ListAndShow, TellAPriorityOnlyWhereThereIsOne) {
   EXPECT_NE(show.output.find("retry of  jobs/before"), std::string::npos) << show.output;
 }
 
+TEST(Queue, IsATableInTheOrderOfTheStartsAndJson) {
+  Script script = preset_script();
+  v1::Queue& queue = script.queue.emplace();
+  const FakeServer empty(script);
+  EXPECT_EQ(run_program({"queue", "--server", empty.address()}).output, "the queue is empty\n");
+  for (const char* job : {"jobs/7", "jobs/12"}) {
+    auto& entry = *queue.add_entries();
+    entry.set_job(job);
+    entry.set_reason("All 2 workers are busy.");
+    entry.set_seconds_until_start(64.0);
+  }
+  const FakeServer server(script);
+  EXPECT_EQ(run_program({"queue", "--server", server.address()}).output,
+            "JOB       STARTS IN  REASON\n"
+            "jobs/7   1 min 04 s  All 2 workers are busy.\n"
+            "jobs/12  1 min 04 s  All 2 workers are busy.\n");
+  queue.mutable_entries(0)->set_priority(3);
+  queue.set_more_count(12'345);
+  const FakeServer full(script);
+  const ProgramResult table = run_program({"queue", "--server", full.address()});
+  EXPECT_NE(table.output.find("PRIORITY  REASON\n"), std::string::npos) << table.output;
+  EXPECT_NE(table.output.find("and 12 345 more\n"), std::string::npos) << table.output;
+  v1::Queue read;
+  ASSERT_TRUE(JsonStringToMessage(run_program({"queue", "--json", "--server", full.address()}).output, &read).ok());
+  EXPECT_TRUE(MessageDifferencer::Equals(read, queue));
+}
+
 TEST(CancelAndDelete, NameTheJobAndSayHowItStands) {
   Script script = preset_script();
   script.changes_jobs = true;

@@ -5,6 +5,7 @@
 #include <iostream>
 #include <thread>
 
+#include "cellcrush/v1/admin_service.grpc.pb.h"
 #include "server/small_case.h"
 #include "server/sweep_requests.h"
 
@@ -34,6 +35,13 @@ class JobOrderTest : public DaemonFixture {
     EXPECT_TRUE(status.ok()) << status.error_message();
     EXPECT_EQ(job.priority(), priority);
     return job.name();
+  }
+
+  static v1::Queue queue_of(Client& client) {
+    v1::Queue out;
+    const auto status = v1::Admin::NewStub(client.channel)->GetQueue(bounded_context().get(), {}, &out);
+    EXPECT_TRUE(status.ok()) << status.error_message();
+    return out;
   }
 
   // The jobs, all endless, in the order in which they start. Each is cancelled once it runs.
@@ -92,6 +100,34 @@ TEST_F(JobOrderTest, AJobOfAHigherPriorityStartsBeforeOlderOnesAndStopsNone) {
   ASSERT_TRUE(client.cancel(running).ok());
   EXPECT_THAT(by_start(client, {sweep.jobs(0), sweep.jobs(1), plain, urgent}),
               ElementsAre(urgent, plain, sweep.jobs(0), sweep.jobs(1)));
+}
+
+TEST_F(JobOrderTest, TheQueueTellsTheOrderInWhichJobsStartAndWhyTheyWait) {
+  auto client = this->client();
+  EXPECT_EQ(queue_of(client).entries_size(), 0);
+  const std::string running = client.create(endless_case());
+  ASSERT_TRUE(client.wait_for_state(running, v1::RUNNING));
+  auto request = sweep_of(endless_case(), kSpeed, {4.0, 1.0, 2.0});
+  request.mutable_sweep()->set_max_parallel(1);
+  create(client, request);
+  const std::string plain = client.create(endless_case());
+  const std::string urgent = create_with_priority(client, endless_case(), 7);
+  const auto queue = queue_of(client);
+  std::vector<std::string> told;
+  double before = 0.0;
+  for (const auto& entry : queue.entries()) {
+    told.push_back(entry.job());
+    EXPECT_GT(entry.seconds_until_start(), before) << entry.job();
+    before = entry.seconds_until_start();
+  }
+  EXPECT_EQ(queue.more_count(), 0);
+  ASSERT_THAT(told, ElementsAre(urgent, "jobs/3", "jobs/4", "jobs/2", plain));
+  EXPECT_EQ(queue.entries(0).priority(), 7);
+  EXPECT_EQ(queue.entries(0).reason(), "The only worker is busy.");
+  EXPECT_EQ(queue.entries(3).reason(), "The only worker is busy, and 3 jobs start before it.");
+  ASSERT_TRUE(client.cancel(running).ok());
+  EXPECT_EQ(by_start(client, told), told);
+  EXPECT_EQ(queue_of(client).entries_size(), 0);
 }
 
 TEST_F(JobOrderTest, APriorityOutOfRangeIsRefused) {
