@@ -9,10 +9,13 @@
 
 #include <algorithm>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <utility>
 
 #include "error.h"
+#include "jobs/admission.h"
+#include "jobs/housekeeping.h"
 #include "jobs/local_process.h"
 #include "jobs/scheduler.h"
 #include "listen_address.h"
@@ -70,15 +73,19 @@ struct Daemon::Impl {
         sweep_reader(folder.journal()),
         executor(options.worker_program, options.stall_limit),
         runner({folder, journal, reader, hub, executor, metrics, options.checkpoint_interval}),
-        scheduler({folder, journal, reader, sweep_reader, metrics, runner}),
+        scheduler({folder, journal, reader, metrics, runner}),
         pump(kPumpThreads),
-        cases(worker::measure_step_cost()),
-        jobs({folder, journal, reader, hub, pump, scheduler, options.bookmark_interval}),
-        sweeps({journal, reader, sweep_reader, hub, pump, scheduler, options.bookmark_interval}),
-        admin(worker_limit(options.workers)) {
+        step_cost(worker::measure_step_cost()),
+        admission(folder, options.limits),
+        cases(step_cost),
+        jobs({folder, journal, reader, hub, pump, scheduler, admission, options.bookmark_interval}),
+        sweeps({journal, reader, sweep_reader, hub, pump, scheduler, admission, options.bookmark_interval}),
+        admin({reader, hub, {worker_limit(options.workers), step_cost}, [this] { drain(); }}) {
     listen();
     serve_metrics();
     scheduler.start(worker_limit(options.workers));
+    housekeeping.emplace(jobs::Housekeeping::Parts{folder, journal, reader, admission, scheduler,
+                                                   options.housekeeping_interval, options.keep_ended_jobs});
     for (const char* service : {"cellcrush.v1.Cases", "cellcrush.v1.Jobs", "cellcrush.v1.Sweeps", "cellcrush.v1.Admin"})
       server->GetHealthCheckService()->SetServingStatus(service, true);
   }
@@ -130,9 +137,17 @@ struct Daemon::Impl {
     spdlog::info("metrics are served on {}", metrics_url);
   }
 
+  void drain() {
+    admission.drain();
+    server->GetHealthCheckService()->SetServingStatus(false);
+    if (options.on_drain) options.on_drain();
+  }
+
   void stop() {
     if (std::exchange(stopped, true)) return;
+    admission.drain();
     server->GetHealthCheckService()->SetServingStatus(false);
+    housekeeping.reset();
     scheduler.stop();
     pump.drain();
     server->Shutdown(std::chrono::system_clock::now() + kCallsMayLast);
@@ -151,6 +166,8 @@ struct Daemon::Impl {
   jobs::JobRunner runner;
   jobs::Scheduler scheduler;
   watch::Pump pump;
+  double step_cost;
+  jobs::Admission admission;
   rpc::CasesService cases;
   rpc::JobsService jobs;
   rpc::SweepsService sweeps;
@@ -158,6 +175,7 @@ struct Daemon::Impl {
   std::vector<std::string> addresses;
   std::string metrics_url;
   std::unique_ptr<grpc::Server> server;
+  std::optional<jobs::Housekeeping> housekeeping;
   bool stopped = false;
 };
 

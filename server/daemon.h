@@ -2,9 +2,12 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
+
+#include "jobs/admission.h"
 
 namespace cellcrush {
 
@@ -22,6 +25,14 @@ struct DaemonOptions {
   std::chrono::milliseconds checkpoint_interval{60'000};
   /// A worker that says nothing and uses no processor time for so long is replaced.
   std::chrono::milliseconds stall_limit{20'000};
+  /// What new jobs are held to.
+  jobs::Admission::Limits limits;
+  /// Time for which jobs that have ended are kept; 0: for good.
+  std::chrono::seconds keep_ended_jobs{0};
+  /// Between two looks at the disk and at jobs that ended long ago.
+  std::chrono::milliseconds housekeeping_interval{5'000};
+  /// Called when a client has asked the daemon to end, which is then to be stopped.
+  std::function<void()> on_drain;
   /// Time without an event after which a watcher is sent a bookmark.
   std::chrono::milliseconds bookmark_interval{15'000};
 };

@@ -17,6 +17,8 @@ class ServiceError : public std::runtime_error {
     out_of_range,         ///< past the end of what there is
     unimplemented,        ///< meaningful, but not built
     storage_full,         ///< the disk or a quota has no room left
+    exhausted,            ///< beyond a limit of this daemon
+    unavailable,          ///< not now; later again
     cancelled,            ///< the caller does not wait any more
     internal,             ///< a fault of this program or this machine
   };

@@ -4,6 +4,7 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <chrono>
@@ -81,6 +82,21 @@ int main(int argc, char** argv) {
                  "HOST:PORT at which metrics for Prometheus are served over HTTP, at /metrics (default: nowhere)");
   app.add_option("--workers", options.workers, "jobs that run at once (default: one for each core)")
       ->check(CLI::Range(1, 1024));
+  app.set_config("--config", "", "file of options in TOML, a line each: their long names without the dashes");
+  constexpr std::int64_t kMebibyte = 1024 * 1024;
+  std::int64_t memory_mib = 0;
+  std::int64_t free_mib = 256;
+  double keep_days = 0.0;
+  app.add_option("--max-queued-jobs", options.limits.queued_jobs, "jobs that may wait (default: 100000)")
+      ->check(CLI::Range(1, 10'000'000));
+  app.add_option("--max-job-memory", memory_mib,
+                 "MiB that a job may be predicted to need (default: what the machine has)")
+      ->check(CLI::Range(1, 1 << 30));
+  app.add_option("--min-free-disk", free_mib,
+                 "MiB that are kept free in the data folder: below it no job is taken and none runs (default: 256)")
+      ->check(CLI::Range(0, 1 << 30));
+  app.add_option("--keep-ended-jobs", keep_days, "days after which a job that has ended is deleted (default: never)")
+      ->check(CLI::Range(0.0, 36500.0));
   double checkpoint_seconds = 60.0;
   app.add_option("--checkpoint-interval", checkpoint_seconds,
                  "seconds of clock between two checkpoints of a running job (default: 60)")
@@ -102,6 +118,10 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "cellcrushd: neither XDG_DATA_HOME nor HOME is set. Give a data folder with --data.\n");
     return 2;
   }
+  options.limits.job_memory_bytes = memory_mib * kMebibyte;
+  options.limits.free_disk_bytes = free_mib * kMebibyte;
+  options.keep_ended_jobs = std::chrono::seconds(std::llround(86400.0 * keep_days));
+  options.on_drain = [] { kill(getpid(), SIGTERM); };
   options.checkpoint_interval = std::chrono::milliseconds(std::llround(1000.0 * checkpoint_seconds));
   const sigset_t signals = block_signals();
   spdlog::set_default_logger(spdlog::stderr_color_mt("cellcrushd"));

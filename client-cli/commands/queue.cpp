@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "commands/commands.h"
 #include "terminal/json_text.h"
 #include "terminal/number_text.h"
@@ -11,13 +13,21 @@ namespace {
 
 std::string queue_text(const v1::Queue& queue) {
   if (queue.entries_size() == 0) return "the queue is empty\n";
-  Table table({Table::Align::left, Table::Align::right, Table::Align::left});
-  table.add({"JOB", "STARTS IN", "REASON"});
+  const bool priorities = std::any_of(queue.entries().begin(), queue.entries().end(),
+                                      [](const v1::Queue::Entry& entry) { return entry.priority() != 0; });
+  Table table({Table::Align::left, Table::Align::right, Table::Align::left, Table::Align::left});
+  const auto add = [&](const std::string& job, const std::string& start, const std::string& priority,
+                       const std::string& reason) {
+    priorities ? table.add({job, start, priority, reason}) : table.add({job, start, reason});
+  };
+  add("JOB", "STARTS IN", "PRIORITY", "REASON");
   for (const auto& entry : queue.entries()) {
-    table.add({entry.job(), entry.seconds_until_start() > 0 ? duration_text(entry.seconds_until_start()) : "",
-               entry.reason()});
+    add(entry.job(), entry.seconds_until_start() > 0 ? duration_text(entry.seconds_until_start()) : "",
+        entry.priority() != 0 ? std::to_string(entry.priority()) : "", entry.reason());
   }
-  return table.text();
+  std::string text = table.text();
+  if (queue.more_count() > 0) text += fmt::format("and {} more\n", count_text(queue.more_count()));
+  return text;
 }
 
 ExitCode run_queue(Session& session) {
@@ -37,7 +47,8 @@ ExitCode run_drain(Session& session) {
 }  // namespace
 
 void add_queue_commands(CLI::App& app, Session& session) {
-  add_command(app, session, "queue", "Say what waits, what runs, and why", [&session] { return run_queue(session); });
+  add_command(app, session, "queue", "Say what waits, in the order in which it will start, and why",
+              [&session] { return run_queue(session); });
   add_command(app, session, "drain", "Let the server end after its running jobs",
               [&session] { return run_drain(session); });
 }

@@ -5,6 +5,7 @@
 #include "case_file/case_source.h"
 #include "commands/commands.h"
 #include "commands/labels.h"
+#include "commands/priority.h"
 #include "commands/watch.h"
 #include "terminal/json_text.h"
 
@@ -17,6 +18,7 @@ struct SubmitOptions {
   bool watch = false;
   std::string request_id;
   std::vector<std::string> labels;
+  int priority = 0;
 };
 
 ExitCode run_submit(Session& session, const SubmitOptions& options) {
@@ -25,6 +27,7 @@ ExitCode run_submit(Session& session, const SubmitOptions& options) {
   v1::CreateJobRequest request;
   *request.mutable_labels() = parse_labels(options.labels);
   request.set_request_id(options.request_id);
+  request.set_priority(options.priority);
   Connection& connection = session.connection();
   *request.mutable_case_() = read_case(options.scene.source, options.scene.assignments, connection);
   if (options.watch) interruption = std::make_unique<Interruption>();
@@ -48,6 +51,7 @@ void add_submit_command(CLI::App& app, Session& session) {
   command->add_flag("--watch", options->watch, "Follow the job to its end");
   command->add_option("--request-id", options->request_id, "Submitting again with the same id gives the same job");
   add_label_option(*command, options->labels);
+  add_priority_option(*command, options->priority);
 }
 
 }  // namespace cellcrush::client

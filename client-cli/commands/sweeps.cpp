@@ -6,6 +6,7 @@
 #include "case_file/case_source.h"
 #include "commands/commands.h"
 #include "commands/labels.h"
+#include "commands/priority.h"
 #include "commands/resource_name.h"
 #include "commands/watch.h"
 #include "terminal/json_text.h"
@@ -20,6 +21,9 @@ struct SweepOptions {
   std::vector<std::string> axes;
   std::vector<std::string> labels;
   std::string request_id;
+  int priority = 0;
+  int max_parallel = 0;
+  int max_failures = 0;
   bool watch = false;
 };
 
@@ -51,6 +55,9 @@ v1::CreateSweepRequest build_request(const SweepOptions& options) {
   request.set_request_id(options.request_id);
   v1::Sweep& sweep = *request.mutable_sweep();
   *sweep.mutable_labels() = parse_labels(options.labels);
+  sweep.set_priority(options.priority);
+  sweep.set_max_parallel(options.max_parallel);
+  sweep.set_max_failures(options.max_failures);
   for (const std::string& text : options.axes) {
     v1::SweepAxis axis = parse_axis(text);
     for (const v1::SweepAxis& other : sweep.axes()) {
@@ -101,6 +108,11 @@ void add_sweep_commands(CLI::App& app, Session& session) {
   sweep->add_flag("--watch", options->watch, "Follow its jobs to their ends and print the table");
   sweep->add_option("--request-id", options->request_id, "Asking again with the same id gives the same sweep");
   add_label_option(*sweep, options->labels);
+  add_priority_option(*sweep, options->priority);
+  sweep->add_option("--max-parallel", options->max_parallel, "Jobs of the sweep that run at once (default: all)")
+      ->check(CLI::PositiveNumber);
+  sweep->add_option("--max-failures", options->max_failures, "Failed jobs after which the rest is not started")
+      ->check(CLI::PositiveNumber);
   const auto name = std::make_shared<std::string>();
   CLI::App* retry = add_command(app, session, "retry", "Queue a sweep's failed jobs again",
                                 [&session, name] { return run_retry(session, *name); });

@@ -80,6 +80,8 @@ std::string description_text(const v1::Job& job) {
   const std::string scene = scene_text(job.case_());
   if (!scene.empty()) table.add({"case", scene});
   if (!job.labels().empty()) table.add({"labels", labels_text(job.labels())});
+  if (job.priority() != 0) table.add({"priority", std::to_string(job.priority())});
+  if (!job.retry_of().empty()) table.add({"retry of", job.retry_of()});
   if (job.has_create_time()) table.add({"created", time_text(job.create_time())});
   if (job.has_start_time()) table.add({"started", time_text(job.start_time())});
   if (job.has_end_time()) table.add({"ended", time_text(job.end_time())});
@@ -110,13 +112,17 @@ std::string time_text(const google::protobuf::Timestamp& time) {
 std::string job_list_text(const std::vector<v1::Job>& jobs) {
   if (jobs.empty()) return "no jobs\n";
   const bool labels = std::any_of(jobs.begin(), jobs.end(), [](const v1::Job& job) { return !job.labels().empty(); });
-  Table table({Align::left, Align::left, Align::right, Align::right, Align::left, Align::left, Align::left});
-  const auto add = [&](std::vector<std::string> cells, const std::string& labels_cell, const std::string& title) {
+  const bool priorities = std::any_of(jobs.begin(), jobs.end(), [](const v1::Job& job) { return job.priority() != 0; });
+  Table table(
+      {Align::left, Align::left, Align::right, Align::right, Align::left, Align::left, Align::left, Align::left});
+  const auto add = [&](std::vector<std::string> cells, const std::string& priority, const std::string& labels_cell,
+                       const std::string& title) {
+    if (priorities) cells.push_back(priority);
     if (labels) cells.push_back(labels_cell);
     cells.push_back(title);
     table.add(std::move(cells));
   };
-  add({"NAME", "STATE", "DONE", "PLATEAU", "CREATED"}, "LABELS", "TITLE");
+  add({"NAME", "STATE", "DONE", "PLATEAU", "CREATED"}, "PRIORITY", "LABELS", "TITLE");
   for (const v1::Job& job : jobs) {
     const bool plateau = job.summary().has_plateau_stress_impact_mpa();
     const bool started = job.state() != v1::PENDING && job.has_progress();
@@ -124,7 +130,8 @@ std::string job_list_text(const std::vector<v1::Job>& jobs) {
     add({job.name(), v1::JobState_Name(job.state()), started || done > 0.0 ? percent_text(done, 0) : "",
          plateau ? stress_text(job.summary().plateau_stress_impact_mpa()) : "",
          job.has_create_time() ? time_text(job.create_time()) : ""},
-        cut(labels_text(job.labels()), 40), cut(job.case_().title(), 60));
+        job.priority() != 0 ? std::to_string(job.priority()) : "", cut(labels_text(job.labels()), 40),
+        cut(job.case_().title(), 60));
   }
   return table.text();
 }

@@ -60,6 +60,7 @@ std::string description_text(const v1::Sweep& sweep) {
   if (!scene.empty()) table.add({"case", scene});
   for (const v1::SweepAxis& axis : sweep.axes()) table.add({"over " + axis.field(), values_text(axis)});
   if (sweep.points_size() > 0) table.add({"points", std::to_string(sweep.points_size())});
+  if (sweep.priority() != 0) table.add({"priority", std::to_string(sweep.priority())});
   if (sweep.max_parallel() > 0) table.add({"jobs at once", std::to_string(sweep.max_parallel())});
   if (sweep.max_failures() > 0) table.add({"stops after failures", std::to_string(sweep.max_failures())});
   if (!sweep.labels().empty()) table.add({"labels", labels_text(sweep.labels())});
@@ -72,17 +73,23 @@ std::string sweep_list_text(const std::vector<v1::Sweep>& sweeps) {
   if (sweeps.empty()) return "no sweeps\n";
   const bool labels =
       std::any_of(sweeps.begin(), sweeps.end(), [](const v1::Sweep& sweep) { return !sweep.labels().empty(); });
-  Table table({Align::left, Align::right, Align::left, Align::left, Align::left, Align::left, Align::left});
-  const auto add = [&](std::vector<std::string> cells, const std::string& labels_cell, const std::string& title) {
+  const bool priorities =
+      std::any_of(sweeps.begin(), sweeps.end(), [](const v1::Sweep& sweep) { return sweep.priority() != 0; });
+  Table table(
+      {Align::left, Align::right, Align::left, Align::left, Align::left, Align::left, Align::left, Align::left});
+  const auto add = [&](std::vector<std::string> cells, const std::string& priority, const std::string& labels_cell,
+                       const std::string& title) {
+    if (priorities) cells.push_back(priority);
     if (labels) cells.push_back(labels_cell);
     cells.push_back(title);
     table.add(std::move(cells));
   };
-  add({"NAME", "JOBS", "STATES", "OVER", "CREATED"}, "LABELS", "TITLE");
+  add({"NAME", "JOBS", "STATES", "OVER", "CREATED"}, "PRIORITY", "LABELS", "TITLE");
   for (const v1::Sweep& sweep : sweeps) {
     add({sweep.name(), std::to_string(sweep.jobs_size()), counts_text(sweep), cut(varied_text(sweep), 60),
          sweep.has_create_time() ? time_text(sweep.create_time()) : ""},
-        cut(labels_text(sweep.labels()), 40), cut(sweep.case_().title(), 60));
+        sweep.priority() != 0 ? std::to_string(sweep.priority()) : "", cut(labels_text(sweep.labels()), 40),
+        cut(sweep.case_().title(), 60));
   }
   return table.text();
 }

@@ -18,41 +18,27 @@ constexpr double kSkinFraction = 0.35;
 constexpr double kFaceSkinFraction = 0.20;
 
 /// Angular frequency of the lightest particle on its contact, 1/s.
-double contact_frequency(const SceneSpec& spec, const Scene& scene) {
-  const double of_mesh = std::sqrt(spec.contact.stiffness_factor) / scene.stable_step;
+double contact_frequency(const SceneSpec& spec, const MeshMeasures& mesh) {
+  const double of_mesh = std::sqrt(spec.contact.stiffness_factor) / mesh.stable_step;
   if (std::holds_alternative<FrameLattice>(spec.lattice)) {
     return of_mesh;
   }
-  const double of_impact = *spec.loading.speed_m_per_s * kMmPerM / (kImpactDepth * thinnest_wall(scene));
+  const double of_impact = *spec.loading.speed_m_per_s * kMmPerM / (kImpactDepth * mesh.thinnest_wall);
   const double step = spec.numerics.time_step_s;
   return std::max(of_mesh, step > 0.0 ? std::min(of_impact, kMostTurn / step) : of_impact);
 }
 
 }  // namespace
 
-ContactLaw contact_law_of(const SceneSpec& spec, bool present, const Scene& scene) {
-  const double lightest = *std::min_element(scene.mass.begin(), scene.mass.end());
-  const double frequency = contact_frequency(spec, scene);
-  const double shortest = *std::min_element(scene.walls.undeformed_length.begin(), scene.walls.undeformed_length.end());
-  return {present,
-          lightest * frequency * frequency,
-          spec.contact.damping_ratio,
-          spec.contact.friction,
-          kSkinFraction * shortest,
-          kFaceSkinFraction * shortest};
+ContactLaw contact_law_of(const SceneSpec& spec, const MeshMeasures& mesh) {
+  const double frequency = contact_frequency(spec, mesh);
+  return {mesh.contact,          mesh.lightest_mass * frequency * frequency, spec.contact.damping_ratio,
+          spec.contact.friction, kSkinFraction * mesh.shortest_element,      kFaceSkinFraction * mesh.shortest_element};
 }
 
 double contact_step_of(const ContactLaw& law, double mass) {
   const double ratio = std::numbers::sqrt2 * law.damping_ratio;
   return (std::sqrt(1.0 + ratio * ratio) - ratio) * std::sqrt(mass / law.stiffness);
-}
-
-double thinnest_wall(const Scene& scene) {
-  double least = scene.elements.front().thickness;
-  for (const Element& element : scene.elements) {
-    least = std::min(least, element.thickness);
-  }
-  return least;
 }
 
 }  // namespace cellcrush

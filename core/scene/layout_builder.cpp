@@ -3,6 +3,13 @@
 #include <algorithm>
 
 namespace cellcrush {
+namespace {
+
+std::uint64_t bits_of(const std::pair<int, int>& pair) {
+  return std::uint64_t{static_cast<std::uint32_t>(pair.first)} << 32U | static_cast<std::uint32_t>(pair.second);
+}
+
+}  // namespace
 
 LayoutBuilder::LayoutBuilder(const Vector2& unit, int elements_per_wall)
     : unit_(unit), elements_per_wall_(elements_per_wall) {}
@@ -10,7 +17,7 @@ LayoutBuilder::LayoutBuilder(const Vector2& unit, int elements_per_wall)
 void LayoutBuilder::add_wall(GridPoint from, GridPoint to, double thickness, bool rigid) {
   const int start = joint(from);
   const int end = joint(to);
-  const auto [entry, is_new] = walls_.emplace(std::minmax(start, end), layout_.walls.size());
+  const auto [entry, is_new] = walls_.emplace(bits_of(std::minmax(start, end)), layout_.walls.size());
   if (is_new) {
     layout_.walls.push_back({start, end, thickness, elements_per_wall_, 0, rigid});
   } else {
@@ -21,7 +28,7 @@ void LayoutBuilder::add_wall(GridPoint from, GridPoint to, double thickness, boo
 }
 
 int LayoutBuilder::joint(GridPoint point) {
-  const auto [entry, is_new] = joints_.emplace(point, static_cast<int>(layout_.joints.size()));
+  const auto [entry, is_new] = joints_.emplace(bits_of(point), static_cast<int>(layout_.joints.size()));
   if (is_new) {
     layout_.joints.emplace_back(unit_.x() * point.first, unit_.y() * point.second);
   }

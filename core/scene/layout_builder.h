@@ -1,6 +1,7 @@
 #pragma once
 
-#include <map>
+#include <cstdint>
+#include <unordered_map>
 #include <utility>
 
 #include "cellcrush/vector.h"
@@ -28,8 +29,8 @@ class LayoutBuilder {
   Vector2 unit_;
   int elements_per_wall_;
   Layout layout_;
-  std::map<GridPoint, int> joints_;
-  std::map<std::pair<int, int>, std::size_t> walls_;
+  std::unordered_map<std::uint64_t, int> joints_;         ///< by the bits of their grid points
+  std::unordered_map<std::uint64_t, std::size_t> walls_;  ///< by those of their joints, the lower one first
 };
 
 }  // namespace cellcrush

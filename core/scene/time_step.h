@@ -2,6 +2,7 @@
 
 #include "cellcrush/scene.h"
 #include "cellcrush/scene_spec.h"
+#include "scene/mesh_part.h"
 
 namespace cellcrush {
 
@@ -20,8 +21,7 @@ struct TimeStep {
 ///    contacts that ring among each other make energy, as the square of the turn. In per cent of the plate's work, which
 ///    falls with the speed, it is by 45 % strain: squares at 25 m/s 2.0, 0.7, 0.2 at 0.29, 0.11, 0.08 rad, triangles 1.0, 0.2
 ///    at 0.11, 0.056 rad; triangles at 50, 75, 100 m/s 0.4, 0.2, 0.1 at 0.11 rad; hexagons none at 0.31.
-/// REQUIRES: masses, stable step and contact law of the scene.
-TimeStep time_step_of(const SceneSpec& spec, const Scene& scene);
+TimeStep time_step_of(const SceneSpec& spec, const MeshMeasures& mesh, const ContactLaw& contact, const Plates& plates);
 
 /// The share of the stable step in it.
 inline constexpr double kStepFraction = 0.9;

@@ -19,7 +19,7 @@ struct WorkerExit {
     gone,         ///< ended, and was no child of this daemon: how is not known
     broken,       ///< said something that is no report, and was ended
     stalled,      ///< used no processor time for long, and was ended
-    stopped,      ///< left the job because the daemon ends
+    stopped,      ///< left the job because the daemon ends or the disk is nearly full
     suspended,    ///< left the job because it is suspended
     cancelled,    ///< the job was cancelled, and it ended by itself or, when it did not in time, was ended
   };
@@ -37,7 +37,8 @@ struct WorkerEvents {
 
 /// Wishes of others while a worker runs. A worker that does not heed one in time is ended.
 struct Interruptions {
-  std::stop_token stop;     ///< the daemon ends: the worker is to leave the job at a checkpoint
+  std::stop_token
+      stop;  ///< the daemon ends, or the disk is nearly full: the worker is to leave the job at a checkpoint
   std::stop_token suspend;  ///< the worker is to leave the job at a checkpoint
   std::stop_token cancel;   ///< the worker is to end the job with what there is
 };

@@ -149,6 +149,7 @@ void JobRunner::write(std::int64_t job, const store::StateChange& change, const 
       return;
     } catch (const ServiceError& error) {
       spdlog::error("The end of {} cannot be made durable: {}", name_of(job), error.what());
+      if (error.kind() == ServiceError::Kind::storage_full) parts_.folder.give_up_ballast();
       const bool gone = error.kind() == ServiceError::Kind::not_found;
       if (gone || error.kind() == ServiceError::Kind::failed_precondition) return;
     }

@@ -79,7 +79,7 @@ store::StateChange outcome_of(const WorkerExit& exit) {
   switch (exit.kind) {
     case WorkerExit::Kind::stopped:
       out.state = v1::PENDING;
-      out.message = "The daemon ended; the next one goes on from the last checkpoint.";
+      out.message = "The worker left it at a checkpoint; another goes on from there.";
       return out;
     case WorkerExit::Kind::suspended: out.state = v1::SUSPENDED; return out;
     case WorkerExit::Kind::cancelled: return cancelled_without_result();

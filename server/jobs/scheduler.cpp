@@ -17,8 +17,7 @@ void Scheduler::start(int slots) {
   free_cores_ = slots;
   clean_up();
   reconcile();
-  auto memberships = parts_.sweeps.memberships_of_waiting();
-  for (const std::int64_t job : parts_.reader.jobs_in(v1::PENDING)) waiting_.add(job, memberships[job]);
+  for (const auto& job : parts_.reader.queued_jobs(v1::PENDING)) waiting_.add(job);
   for (int i = 0; i < slots; ++i) slots_.emplace_back([this](const std::stop_token& stop) { run_slot(stop); });
 }
 
@@ -32,21 +31,22 @@ void Scheduler::clean_up() {
 
 void Scheduler::reconcile() {
   for (const v1::JobState state : {v1::RUNNING, v1::CANCELLING}) {
-    for (const std::int64_t job : parts_.reader.jobs_in(state)) {
-      if (parts_.runner.reconcile(job) != JobRunner::Left::runs) continue;
-      spdlog::info("{} still runs in the worker that an earlier daemon started", name_of(job));
+    for (const auto& job : parts_.reader.queued_jobs(state)) {
+      if (parts_.runner.reconcile(job.job) != JobRunner::Left::runs) continue;
+      spdlog::info("{} still runs in the worker that an earlier daemon started", name_of(job.job));
       const std::scoped_lock lock(mutex_);
       --free_cores_;
-      if (state == v1::CANCELLING) running_[job].cancel.request_stop();
-      slots_.emplace_back([this, job](const std::stop_token& stop) { run({job, {}}, stop); });
+      waiting_.count_running(job);
+      if (state == v1::CANCELLING) running_[job.job].cancel.request_stop();
+      slots_.emplace_back([this, job](const std::stop_token& stop) { run(job, stop); });
     }
   }
 }
 
-void Scheduler::enqueue(const std::vector<std::int64_t>& jobs, const WaitingJobs::Membership& membership) {
+void Scheduler::enqueue(const std::vector<store::QueuedJob>& jobs) {
   {
     const std::scoped_lock lock(mutex_);
-    for (const std::int64_t job : jobs) waiting_.add(job, membership);
+    for (const auto& job : jobs) waiting_.add(job);
     tell_metrics();
   }
   changed_.notify_all();
@@ -123,7 +123,9 @@ void Scheduler::resume(std::int64_t job) {
   store::StateChange change;
   change.state = v1::PENDING;
   parts_.journal.change_state(job, change);
-  enqueue({job}, parts_.sweeps.memberships_of_waiting()[job]);
+  auto waiting = parts_.reader.queued_jobs(v1::PENDING);
+  std::erase_if(waiting, [job](const store::QueuedJob& other) { return other.job != job; });
+  enqueue(waiting);
 }
 
 void Scheduler::cancel_all(const std::vector<std::int64_t>& jobs) {
@@ -142,6 +144,26 @@ void Scheduler::cancel_all(const std::vector<std::int64_t>& jobs) {
   }
 }
 
+bool Scheduler::hold(bool held) {
+  std::vector<std::stop_source> leave;
+  {
+    const std::scoped_lock lock(mutex_);
+    if (held == held_) return false;
+    held_ = held;
+    if (held) {
+      for (auto& [job, wishes] : running_) leave.push_back(wishes.leave);
+    }
+  }
+  for (auto& source : leave) source.request_stop();
+  changed_.notify_all();
+  return true;
+}
+
+std::size_t Scheduler::waiting_count() {
+  const std::scoped_lock lock(mutex_);
+  return waiting_.count();
+}
+
 void Scheduler::stop() {
   for (auto& slot : slots_) slot.request_stop();
   slots_.clear();
@@ -149,10 +171,11 @@ void Scheduler::stop() {
 
 void Scheduler::run_slot(const std::stop_token& stop) {
   while (true) {
-    std::optional<WaitingJobs::Taken> taken;
+    std::optional<store::QueuedJob> taken;
     {
       std::unique_lock lock(mutex_);
-      changed_.wait(lock, stop, [this, &taken] { return free_cores_ > 0 && (taken = waiting_.take()).has_value(); });
+      changed_.wait(lock, stop,
+                    [this, &taken] { return !held_ && free_cores_ > 0 && (taken = waiting_.take()).has_value(); });
       if (!taken || stop.stop_requested()) return;
       --free_cores_;
     }
@@ -160,7 +183,7 @@ void Scheduler::run_slot(const std::stop_token& stop) {
   }
 }
 
-void Scheduler::run(const WaitingJobs::Taken& taken, const std::stop_token& stop) {
+void Scheduler::run(const store::QueuedJob& taken, const std::stop_token& stop) {
   Wishes wishes;
   {
     const std::scoped_lock lock(mutex_);
@@ -169,13 +192,14 @@ void Scheduler::run(const WaitingJobs::Taken& taken, const std::stop_token& stop
   }
   const auto stored = parts_.reader.find_job(taken.job);
   const int extra = stored ? take_cores(stored->job.case_().numerics().threads() - 1) : 0;
-  const bool again =
-      parts_.runner.run(taken.job, 1 + extra, {stop, wishes.suspend.get_token(), wishes.cancel.get_token()});
+  const std::stop_callback leave_at_the_end(stop, [&wishes] { wishes.leave.request_stop(); });
+  const bool again = parts_.runner.run(
+      taken.job, 1 + extra, {wishes.leave.get_token(), wishes.suspend.get_token(), wishes.cancel.get_token()});
   {
     const std::scoped_lock lock(mutex_);
     running_.erase(taken.job);
     waiting_.give_back(taken);
-    if (again) waiting_.add(taken.job, taken.membership);
+    if (again) waiting_.add(taken);
     free_cores_ += 1 + extra;
     tell_metrics();
   }

@@ -15,11 +15,10 @@
 #include "store/data_folder.h"
 #include "store/journal.h"
 #include "store/journal_reader.h"
-#include "store/sweep_reader.h"
 
 namespace cellcrush::jobs {
 
-/// Runs waiting jobs, oldest first, at most as many at once as there are slots and as their sweeps allow. Each slot is a thread that lives as
+/// Runs waiting jobs in the order of WaitingJobs, at most as many at once as there are slots and as their sweeps allow. Each slot is a thread that lives as
 /// long as the scheduler and runs one job at a time. Jobs that ask for several threads get those cores that no other job
 /// uses or waits for when they start: side by side comes first. Thread-safe.
 class Scheduler {
@@ -29,7 +28,6 @@ class Scheduler {
     const store::DataFolder& folder;
     store::Journal& journal;
     store::JournalReader& reader;
-    store::SweepReader& sweeps;
     metrics::Metrics& metrics;
     JobRunner& runner;
   };
@@ -43,8 +41,8 @@ class Scheduler {
   /// starts the slots.
   void start(int slots);
 
-  /// Queues jobs that are PENDING in the journal, of one sweep or of none.
-  void enqueue(const std::vector<std::int64_t>& jobs, const WaitingJobs::Membership& membership = {});
+  /// Queues jobs that are PENDING in the journal.
+  void enqueue(const std::vector<store::QueuedJob>& jobs);
 
   /// A job that waits is CANCELLED when this returns; one that runs is CANCELLING, and its worker is told. Nothing
   /// happens to one that is either already. Throws ServiceError: not_found, or failed_precondition when it has ended
@@ -63,6 +61,11 @@ class Scheduler {
   /// failed_precondition.
   void resume(std::int64_t job);
 
+  /// While held, no job runs: workers leave theirs at a checkpoint, and none starts. Whether that is a change.
+  bool hold(bool held);
+
+  [[nodiscard]] std::size_t waiting_count();
+
   /// Lets running workers leave their jobs at a checkpoint, and waits until the slots are done. These jobs and those that wait are
   /// PENDING for the next daemon.
   void stop();
@@ -70,6 +73,7 @@ class Scheduler {
  private:
   /// Of others, for a job that runs.
   struct Wishes {
+    std::stop_source leave;
     std::stop_source suspend;
     std::stop_source cancel;
   };
@@ -78,7 +82,7 @@ class Scheduler {
   void clean_up();
   void run_slot(const std::stop_token& stop);
   /// Has the job run by this thread; it holds a core, and more if it asks for them and there are.
-  void run(const WaitingJobs::Taken& taken, const std::stop_token& stop);
+  void run(const store::QueuedJob& taken, const std::stop_token& stop);
   int take_cores(int asked);
   store::StoredJob find(std::int64_t job);
   /// REQUIRES: mutex_ is held.
@@ -91,6 +95,7 @@ class Scheduler {
   std::map<std::int64_t, Wishes> running_;
   int free_cores_ =
       0;  ///< one for each slot, and those that jobs use are taken off; below 0 after a restart with fewer
+  bool held_ = false;
   std::vector<std::jthread> slots_;
 };
 

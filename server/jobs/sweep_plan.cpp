@@ -7,6 +7,7 @@
 #include "error.h"
 #include "jobs/case_field.h"
 #include "jobs/sweep_points.h"
+#include "translate/case_checker.h"
 #include "translate/check_case.h"
 
 namespace cellcrush::jobs {
@@ -82,18 +83,18 @@ v1::Problem problem_of(const InvalidField& refused) {
   return out;
 }
 
-// The case of a point and what is wrong with it.
+// The case of a point, and what the solver says of it.
 v1::Case build_case(const v1::Sweep& sweep, const std::vector<std::string>& fields, const std::vector<double>& values,
-                    const std::string& point, std::vector<v1::Problem>& problems) {
+                    const std::string& point, translate::CaseChecker& checker,
+                    translate::CaseChecker::Verdict& verdict) {
   v1::Case out = sweep.case_();
   try {
     for (std::size_t i = 0; i < fields.size(); ++i) set_case_field(out, fields[i], values[i]);
   } catch (const InvalidField& refused) {
-    problems.push_back(problem_of(refused));
+    verdict.problems.push_back(problem_of(refused));
     return out;
   }
-  const auto check = translate::check_case(out);
-  problems.assign(check.response.problems().begin(), check.response.problems().end());
+  verdict = checker.check(out);
   out.set_title(title_of(out.title(), point));
   return out;
 }
@@ -108,17 +109,27 @@ SweepPlan plan_sweep(const v1::Sweep& sweep, const std::function<bool()>& given_
   }
   SweepPlan out;
   ProblemsOfPoints problems(points.values.size());
+  translate::CaseChecker checker;
+  std::size_t largest = 0;
+  std::int64_t most_elements = 0;
   for (std::size_t i = 0; i < points.values.size(); ++i) {
     if (given_up()) throw ServiceError(ServiceError::Kind::cancelled, "Nobody waits for the sweep. None was made.");
     const std::string point = text_of_point(points.fields, points.values[i]);
-    std::vector<v1::Problem> of_point;
+    translate::CaseChecker::Verdict verdict;
     v1::Job job;
-    *job.mutable_case_() = build_case(sweep, points.fields, points.values[i], point, of_point);
+    *job.mutable_case_() = build_case(sweep, points.fields, points.values[i], point, checker, verdict);
     *job.mutable_labels() = sweep.labels();
-    for (auto& problem : of_point) problems.add(std::move(problem), i, point);
-    out.jobs.push_back({std::move(job), points.values[i]});
+    job.set_priority(sweep.priority());
+    for (auto& problem : verdict.problems) problems.add(std::move(problem), i, point);
+    if (verdict.element_count > most_elements) {
+      most_elements = verdict.element_count;
+      largest = i;
+    }
+    out.jobs.push_back({std::move(job), points.values[i], verdict.element_steps});
   }
   out.problems = problems.take();
+  if (out.problems.empty())
+    out.largest_memory_bytes = translate::check_case(out.jobs[largest].job.case_()).response.predicted_memory_bytes();
   return out;
 }
 

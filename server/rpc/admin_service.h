@@ -1,13 +1,26 @@
 #pragma once
 
+#include <functional>
+
 #include "cellcrush/v1/admin_service.grpc.pb.h"
+#include "jobs/queue_forecast.h"
+#include "store/journal_reader.h"
+#include "watch/hub.h"
 
 namespace cellcrush::rpc {
 
 /// What the daemon is and can do. Thread-safe.
 class AdminService final : public v1::Admin::Service {
  public:
-  explicit AdminService(int worker_limit) : worker_limit_(worker_limit) {}
+  /// All of it outlives the service.
+  struct Parts {
+    store::JournalReader& reader;
+    watch::Hub& hub;
+    jobs::WorkerFacts workers;
+    std::function<void()> drain;
+  };
+
+  explicit AdminService(const Parts& parts) : parts_(parts) {}
 
   grpc::Status GetCapabilities(grpc::ServerContext* context, const v1::GetCapabilitiesRequest* request,
                                v1::Capabilities* response) override;
@@ -16,7 +29,9 @@ class AdminService final : public v1::Admin::Service {
                      v1::DrainResponse* response) override;
 
  private:
-  int worker_limit_;
+  std::vector<jobs::RunningJob> running_jobs(v1::JobState state);
+
+  Parts parts_;
 };
 
 }  // namespace cellcrush::rpc

@@ -10,6 +10,7 @@ constexpr std::size_t kLongestId = 128;
 constexpr std::size_t kMostLabels = 64;
 constexpr std::size_t kLongestKey = 63;
 constexpr std::size_t kLongestValue = 255;
+constexpr int kHighestPriority = 100;
 
 template <class Request>
 std::string hash_of_payload(Request& request) {
@@ -33,6 +34,11 @@ void check_request(const std::string& request_id, const google::protobuf::Map<st
     if (value.size() > kLongestValue)
       throw InvalidField(field, "have too long a value for \"" + key + "\".", "Use at most 255 characters.");
   }
+}
+
+void check_priority(int priority, const std::string& field) {
+  if (priority < -kHighestPriority || priority > kHighestPriority)
+    throw InvalidField(field, "is " + std::to_string(priority) + ".", "Use -100 to 100; higher ones start first.");
 }
 
 std::string payload_hash(v1::CreateJobRequest request) { return hash_of_payload(request); }

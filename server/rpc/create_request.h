@@ -14,6 +14,9 @@ namespace cellcrush::rpc {
 void check_request(const std::string& request_id, const google::protobuf::Map<std::string, std::string>& labels,
                    const std::string& prefix = "");
 
+/// Throws InvalidField unless it is -100 to 100.
+void check_priority(int priority, const std::string& field);
+
 /// What the request asks for, whatever its id: equal for a repetition of the same call.
 std::string payload_hash(v1::CreateJobRequest request);
 std::string payload_hash(v1::CreateSweepRequest request);

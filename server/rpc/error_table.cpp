@@ -25,7 +25,9 @@ grpc::StatusCode code_of(ServiceError::Kind kind) {
     case ServiceError::Kind::failed_precondition: return grpc::StatusCode::FAILED_PRECONDITION;
     case ServiceError::Kind::out_of_range: return grpc::StatusCode::OUT_OF_RANGE;
     case ServiceError::Kind::unimplemented: return grpc::StatusCode::UNIMPLEMENTED;
-    case ServiceError::Kind::storage_full: return grpc::StatusCode::RESOURCE_EXHAUSTED;
+    case ServiceError::Kind::storage_full:
+    case ServiceError::Kind::exhausted: return grpc::StatusCode::RESOURCE_EXHAUSTED;
+    case ServiceError::Kind::unavailable: return grpc::StatusCode::UNAVAILABLE;
     case ServiceError::Kind::cancelled: return grpc::StatusCode::CANCELLED;
     case ServiceError::Kind::internal: break;
   }

@@ -35,17 +35,26 @@ void JobsService::add_progress(store::StoredJob& stored) {
 grpc::Status JobsService::CreateJob(grpc::ServerContext*, const v1::CreateJobRequest* request, v1::Job* response) {
   return answer([&] {
     check_request(request->request_id(), request->labels());
+    check_priority(request->priority(), "priority");
     const auto check = translate::check_case(request->case_());
     if (check.response.problems_size() > 0) return status_of(check.response.problems());
     v1::Job job;
     *job.mutable_case_() = request->case_();
     *job.mutable_labels() = request->labels();
+    job.set_priority(request->priority());
     if (request->validate_only()) {
       *response = std::move(job);
       return grpc::Status::OK;
     }
-    const auto created = parts_.journal.create_job(std::move(job), request->request_id(), payload_hash(*request));
-    if (created.is_new) parts_.scheduler.enqueue({created.job});
+    const std::int64_t element_steps = check.response.element_count() * check.response.step_count();
+    const std::string hash = payload_hash(*request);
+    if (!parts_.journal.find_job_request(request->request_id(), hash))
+      parts_.admission.admit(parts_.scheduler.waiting_count(), 1, check.response.predicted_memory_bytes());
+    const auto created = parts_.journal.create_job(std::move(job), request->request_id(), hash, element_steps);
+    if (created.is_new) {
+      store::QueuedJob queued{created.job, created.job, request->priority(), element_steps};
+      parts_.scheduler.enqueue({queued});
+    }
     auto stored = find(jobs::name_of(created.job));
     add_progress(stored);
     *response = std::move(stored.job);

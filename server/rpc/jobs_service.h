@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cellcrush/v1/jobs_service.grpc.pb.h"
+#include "jobs/admission.h"
 #include "jobs/scheduler.h"
 #include "store/data_folder.h"
 #include "store/journal.h"
@@ -22,6 +23,7 @@ class JobsService final : public v1::Jobs::WithCallbackMethod_WatchJob<v1::Jobs:
     watch::Hub& hub;
     watch::Pump& pump;
     jobs::Scheduler& scheduler;
+    const jobs::Admission& admission;
     std::chrono::milliseconds bookmark_interval;
   };
 

@@ -27,8 +27,19 @@ v1::CreateSweepRequest without_output(v1::CreateSweepRequest request) {
 }
 
 void check_numbers(const v1::Sweep& sweep) {
+  check_priority(sweep.priority(), "sweep.priority");
   if (sweep.max_parallel() < 0) throw InvalidField("sweep.max_parallel", "is negative.", "Use 0 for no limit.");
   if (sweep.max_failures() < 0) throw InvalidField("sweep.max_failures", "is negative.", "Use 0 for no limit.");
+}
+
+std::vector<store::QueuedJob> queued_jobs(const store::Journal::CreatedSweep& created, const jobs::SweepPlan& plan,
+                                          const v1::Sweep& sweep) {
+  std::vector<store::QueuedJob> out;
+  for (std::size_t i = 0; i < created.jobs.size(); ++i) {
+    out.push_back({created.jobs[i], created.jobs.front(), sweep.priority(), plan.jobs[i].element_steps, created.sweep,
+                   sweep.max_parallel()});
+  }
+  return out;
 }
 
 }  // namespace
@@ -49,16 +60,17 @@ grpc::Status SweepsService::CreateSweep(grpc::ServerContext* context, const v1::
     const auto request = without_output(*given);
     check_request(request.request_id(), request.sweep().labels(), "sweep.");
     check_numbers(request.sweep());
-    if (request.sweep().max_failures() > 0) return unimplemented("The field sweep.max_failures of CreateSweep");
     auto plan = jobs::plan_sweep(request.sweep(), [context] { return context->IsCancelled(); });
     if (!plan.problems.empty()) return status_of(plan.problems, "sweep");
     if (request.validate_only()) {
       *response = request.sweep();
       return grpc::Status::OK;
     }
-    const auto created =
-        parts_.journal.create_sweep(request.sweep(), plan.jobs, request.request_id(), payload_hash(request));
-    if (created.is_new) parts_.scheduler.enqueue(created.jobs, {created.sweep, request.sweep().max_parallel()});
+    const std::string hash = payload_hash(request);
+    if (!parts_.journal.find_sweep_request(request.request_id(), hash))
+      parts_.admission.admit(parts_.scheduler.waiting_count(), plan.jobs.size(), plan.largest_memory_bytes);
+    const auto created = parts_.journal.create_sweep(request.sweep(), plan.jobs, request.request_id(), hash);
+    if (created.is_new) parts_.scheduler.enqueue(queued_jobs(created, plan, request.sweep()));
     *response = find(jobs::sweep_name_of(created.sweep)).sweep;
     return grpc::Status::OK;
   });
@@ -103,8 +115,15 @@ grpc::Status SweepsService::CancelSweep(grpc::ServerContext*, const v1::CancelSw
   });
 }
 
-grpc::Status SweepsService::RetryFailedJobs(grpc::ServerContext*, const v1::RetryFailedJobsRequest*, v1::Sweep*) {
-  return unimplemented("RetryFailedJobs");
+grpc::Status SweepsService::RetryFailedJobs(grpc::ServerContext*, const v1::RetryFailedJobsRequest* request,
+                                            v1::Sweep* response) {
+  return answer([&] {
+    const std::int64_t sweep = find(request->name()).number;
+    parts_.admission.admit(parts_.scheduler.waiting_count(), 1, 0);
+    parts_.scheduler.enqueue(parts_.journal.retry_failed(sweep));
+    *response = find(request->name()).sweep;
+    return grpc::Status::OK;
+  });
 }
 
 grpc::ServerWriteReactor<v1::WatchSweepResponse>* SweepsService::WatchSweep(grpc::CallbackServerContext*,

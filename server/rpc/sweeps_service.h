@@ -4,6 +4,7 @@
 #include <string>
 
 #include "cellcrush/v1/sweeps_service.grpc.pb.h"
+#include "jobs/admission.h"
 #include "jobs/scheduler.h"
 #include "store/journal.h"
 #include "store/journal_reader.h"
@@ -14,7 +15,6 @@
 namespace cellcrush::rpc {
 
 /// Sweeps: many jobs from one case. Thread-safe. Watches go through gRPC's callbacks and hold no thread.
-/// RetryFailedJobs and the field max_failures are not built: they answer UNIMPLEMENTED.
 class SweepsService final : public v1::Sweeps::WithCallbackMethod_WatchSweep<v1::Sweeps::Service> {
  public:
   /// All of it outlives the service.
@@ -25,6 +25,7 @@ class SweepsService final : public v1::Sweeps::WithCallbackMethod_WatchSweep<v1:
     watch::Hub& hub;
     watch::Pump& pump;
     jobs::Scheduler& scheduler;
+    const jobs::Admission& admission;
     std::chrono::milliseconds bookmark_interval;
   };
 

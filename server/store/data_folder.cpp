@@ -15,6 +15,8 @@
 namespace cellcrush::store {
 namespace {
 
+constexpr off_t kBallastBytes = 4 * 1024 * 1024;
+
 void make_private_folder(const std::filesystem::path& path) {
   std::error_code error;
   if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), error);
@@ -67,6 +69,26 @@ void DataFolder::clean_job_folder(std::int64_t job) const {
     std::filesystem::remove(path, error);
     if (error) throw_file_error(path, "removed", error.value());
   }
+}
+
+std::int64_t DataFolder::free_bytes() const {
+  std::error_code error;
+  const auto space = std::filesystem::space(root_, error);
+  if (error) throw_file_error(root_, "used", error.value());
+  return static_cast<std::int64_t>(space.available);
+}
+
+void DataFolder::keep_ballast() const {
+  const int file = open(ballast().c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
+  if (file < 0) return;
+  const bool made = posix_fallocate(file, 0, kBallastBytes) == 0;
+  close(file);
+  if (!made) give_up_ballast();
+}
+
+void DataFolder::give_up_ballast() const {
+  std::error_code none;
+  std::filesystem::remove(ballast(), none);
 }
 
 std::vector<std::int64_t> DataFolder::jobs_with_reports() const {

@@ -12,6 +12,7 @@ namespace cellcrush::store {
 /// The folder that one daemon at a time owns:
 ///   lock            held while a daemon runs; holds its process number
 ///   journal.sqlite  journal_format.md
+///   ballast         room for when the disk is full
 ///   jobs/N/         what job N leaves: result.h5 (result_format.md)
 class DataFolder {
  public:
@@ -33,6 +34,14 @@ class DataFolder {
   /// Leaves nothing but the result in the folder of a job that has ended. Throws ServiceError.
   void clean_job_folder(std::int64_t job) const;
 
+  /// Bytes that the disk has left for this user.
+  [[nodiscard]] std::int64_t free_bytes() const;
+
+  /// A file that holds some room for when the disk is full, so that what is owed can still be written. `keep` makes it where there
+  /// is none and room for it, `give_up` removes it.
+  void keep_ballast() const;
+  void give_up_ballast() const;
+
   /// Numbers of the jobs whose folders hold more than a result.
   [[nodiscard]] std::vector<std::int64_t> jobs_with_reports() const;
 
@@ -40,6 +49,8 @@ class DataFolder {
   void remove_job_folder(std::int64_t job) const;
 
  private:
+  [[nodiscard]] std::filesystem::path ballast() const { return root_ / "ballast"; }
+
   std::filesystem::path root_;
   int lock_ = -1;
 };

@@ -49,6 +49,7 @@ Journal::~Journal() {
 }
 
 void Journal::change_state(std::int64_t job, const StateChange& change) {
+  std::vector<std::int64_t> stopped;
   {
     const std::scoped_lock lock(write_mutex_);
     Gathered samples = take_gathered(job);
@@ -56,6 +57,7 @@ void Journal::change_state(std::int64_t job, const StateChange& change) {
       Transaction transaction(database_);
       insert_samples(job, samples[job]);
       write_change(job, change);
+      if (change.state == v1::FAILED) stopped = stop_failing_sweep(job);
       transaction.commit();
     } catch (...) {
       give_back(std::move(samples));
@@ -63,6 +65,7 @@ void Journal::change_state(std::int64_t job, const StateChange& change) {
     }
   }
   on_durable_(job);
+  for (const std::int64_t other : stopped) on_durable_(other);
 }
 
 void Journal::write_change(std::int64_t job, const StateChange& change) {

@@ -14,6 +14,7 @@
 #include "cellcrush/v1/event.pb.h"
 #include "cellcrush/v1/job.pb.h"
 #include "cellcrush/v1/sweep.pb.h"
+#include "store/queued_job.h"
 #include "store/sqlite.h"
 
 namespace cellcrush::store {
@@ -30,8 +31,9 @@ struct StateChange {
 
 /// A job to be made as a part of a sweep.
 struct SweepJob {
-  v1::Job job;                 ///< case and labels
-  std::vector<double> values;  ///< of the sweep's fields, in their order
+  v1::Job job;                     ///< case, labels, priority
+  std::vector<double> values;      ///< of the sweep's fields, in their order
+  std::int64_t element_steps = 0;  ///< elements times steps of its run
 };
 
 /// Writes the journal (journal_format.md). Thread-safe. Failures throw ServiceError; a failed write changes nothing.
@@ -51,9 +53,10 @@ class Journal {
     std::int64_t job = 0;
     bool is_new = true;
   };
-  /// Makes a PENDING job from `job` (case, labels). The same request_id with the same hash gives the job made before;
-  /// with another one, already_exists is thrown. An empty request_id is none.
-  Created create_job(v1::Job job, const std::string& request_id, const std::string& request_hash);
+  /// Makes a PENDING job from `job` (case, labels, priority). The same request_id with the same hash gives the job made
+  /// before; with another one, already_exists is thrown. An empty request_id is none.
+  Created create_job(v1::Job job, const std::string& request_id, const std::string& request_hash,
+                     std::int64_t element_steps = 0);
 
   struct CreatedSweep {
     std::int64_t sweep = 0;
@@ -63,6 +66,14 @@ class Journal {
   /// Makes a sweep and all its jobs, PENDING, or nothing. The request_id is that of create_job, among sweeps.
   CreatedSweep create_sweep(v1::Sweep sweep, const std::vector<SweepJob>& jobs, const std::string& request_id,
                             const std::string& request_hash);
+
+  /// Makes new PENDING jobs of those of the sweep that FAILED or that max_failures cancelled. They take the places of the
+  /// old ones, which stay as jobs without a sweep. Returns them in the order of the points.
+  std::vector<QueuedJob> retry_failed(std::int64_t sweep);
+
+  /// The job or sweep that an earlier request of that id made; nothing when there was none. Throws as create_job does.
+  std::optional<std::int64_t> find_job_request(const std::string& request_id, const std::string& request_hash);
+  std::optional<std::int64_t> find_sweep_request(const std::string& request_id, const std::string& request_hash);
 
   /// Makes those of the jobs that are PENDING CANCELLED, all at once.
   void cancel_waiting(const std::vector<std::int64_t>& jobs);
@@ -75,7 +86,8 @@ class Journal {
   void note_folder_removed(std::int64_t job);
 
   /// Makes a change durable, and before it the samples gathered for the job. Throws failed_precondition when the state
-  /// may not follow the present one (jobs/job_state.h).
+  /// may not follow the present one (jobs/job_state.h). When a job of a sweep FAILED and its max_failures is reached, those
+  /// of its jobs that are PENDING are CANCELLED with it.
   void change_state(std::int64_t job, const StateChange& change);
 
   /// Gathers a sample; durable within about 100 ms. Never waits for the disk.
@@ -89,8 +101,9 @@ class Journal {
   // These need write_mutex_, and a transaction where they write.
   std::optional<std::int64_t> find_request(const std::string& collection, const std::string& request_id,
                                            const std::string& request_hash);
-  std::int64_t insert_job(v1::Job job, const std::string& request_id, const std::string& request_hash);
   void write_change(std::int64_t job, const StateChange& change);
+  std::vector<std::int64_t> stop_failing_sweep(std::int64_t failed_job);
+  std::vector<std::int64_t> jobs_of_sweep_in(std::int64_t sweep, v1::JobState state);
   std::int64_t last_sequence_of(std::int64_t job);
   void insert_event(std::int64_t job, std::int64_t sequence, int kind, const std::string& payload);
   void insert_samples(std::int64_t job, const std::vector<std::string>& samples);

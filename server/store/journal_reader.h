@@ -9,6 +9,7 @@
 #include "cellcrush/v1/event.pb.h"
 #include "cellcrush/v1/job.pb.h"
 #include "store/job_filter.h"
+#include "store/queued_job.h"
 #include "store/sqlite.h"
 
 namespace cellcrush::store {
@@ -40,6 +41,9 @@ class JournalReader {
 
   /// Numbers of the jobs in a state, oldest first.
   std::vector<std::int64_t> jobs_in(v1::JobState state);
+
+  /// The jobs in a state, oldest first, with what the scheduler asks of them.
+  std::vector<QueuedJob> queued_jobs(v1::JobState state);
 
   /// States (without their cases) and samples behind `after`, in order.
   std::vector<v1::JobEvent> events(std::int64_t job, std::int64_t after, int limit);

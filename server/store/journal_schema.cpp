@@ -5,7 +5,7 @@
 namespace cellcrush::store {
 namespace {
 
-constexpr std::int64_t kVersion = 2;
+constexpr std::int64_t kVersion = 3;
 
 constexpr const char* kJobTables = R"sql(
 CREATE TABLE jobs (
@@ -57,6 +57,19 @@ CREATE TABLE deleted_jobs (
 PRAGMA user_version = 2;
 )sql";
 
+// From version 2 to 3. Each column has a value that is right for what is there: jobs of a sweep were submitted with its first.
+constexpr const char* kQueueColumns = R"sql(
+ALTER TABLE jobs ADD COLUMN priority INTEGER NOT NULL DEFAULT 0;
+ALTER TABLE jobs ADD COLUMN submission INTEGER;
+ALTER TABLE jobs ADD COLUMN element_steps INTEGER NOT NULL DEFAULT 0;
+ALTER TABLE sweeps ADD COLUMN max_failures INTEGER NOT NULL DEFAULT 0;
+ALTER TABLE sweep_jobs ADD COLUMN stopped INTEGER NOT NULL DEFAULT 0;
+UPDATE jobs SET submission = (
+  SELECT first.job FROM sweep_jobs AS own JOIN sweep_jobs AS first ON first.sweep = own.sweep
+  WHERE own.job = jobs.number ORDER BY first.position LIMIT 1);
+PRAGMA user_version = 3;
+)sql";
+
 }  // namespace
 
 void prepare_journal(Database& database) {
@@ -73,6 +86,7 @@ void prepare_journal(Database& database) {
   }
   if (version < 1) database.execute(kJobTables);
   if (version < 2) database.execute(kSweepTables);
+  if (version < 3) database.execute(kQueueColumns);
   transaction.commit();
 }
 

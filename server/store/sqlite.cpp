@@ -32,6 +32,8 @@ void Database::execute(const char* sql) {
   if (code != SQLITE_OK) fail(handle_.get(), code);
 }
 
+std::int64_t Database::last_number() const { return sqlite3_last_insert_rowid(handle_.get()); }
+
 void Database::Close::operator()(sqlite3* handle) const { sqlite3_close_v2(handle); }
 
 Statement::Statement(const Database& database, std::string_view sql) : database_(database.raw()) {
@@ -56,6 +58,11 @@ Statement& Statement::bind_text(int parameter, const std::string& value) {
 Statement& Statement::bind_blob(int parameter, const std::string& value) {
   const int code = sqlite3_bind_blob64(handle_.get(), parameter, value.data(), value.size(), SQLITE_TRANSIENT);
   if (code != SQLITE_OK) fail(database_, code);
+  return *this;
+}
+
+Statement& Statement::bind_null(int parameter) {
+  if (const int code = sqlite3_bind_null(handle_.get(), parameter); code != SQLITE_OK) fail(database_, code);
   return *this;
 }
 

@@ -21,6 +21,9 @@ class Database {
   /// Runs statements that give no rows.
   void execute(const char* sql);
 
+  /// Number of the row that was inserted last.
+  [[nodiscard]] std::int64_t last_number() const;
+
   [[nodiscard]] sqlite3* raw() const { return handle_.get(); }
 
  private:
@@ -38,6 +41,7 @@ class Statement {
   Statement& bind(int parameter, std::int64_t value);
   Statement& bind_text(int parameter, const std::string& value);
   Statement& bind_blob(int parameter, const std::string& value);
+  Statement& bind_null(int parameter);
 
   /// Goes to the next row; false when there is none.
   bool step();

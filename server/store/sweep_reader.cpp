@@ -62,16 +62,4 @@ std::vector<v1::SweepTable::Row> SweepReader::rows(std::int64_t sweep) {
   return out;
 }
 
-std::map<std::int64_t, SweepReader::Membership> SweepReader::memberships_of_waiting() {
-  const std::scoped_lock lock(mutex_);
-  Statement read(database_,
-                 "SELECT sweep_jobs.job, sweeps.number, sweeps.max_parallel FROM jobs "
-                 "JOIN sweep_jobs ON sweep_jobs.job = jobs.number JOIN sweeps ON sweeps.number = sweep_jobs.sweep "
-                 "WHERE jobs.state = ?1");
-  read.bind(1, v1::PENDING);
-  std::map<std::int64_t, Membership> out;
-  while (read.step()) out[read.integer(0)] = {read.integer(1), static_cast<int>(read.integer(2))};
-  return out;
-}
-
 }  // namespace cellcrush::store

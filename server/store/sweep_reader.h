@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <map>
 #include <mutex>
 #include <optional>
 #include <vector>
@@ -29,14 +28,6 @@ class SweepReader {
 
   /// A row a job in the order of the points; of each result the case and the labels are left out.
   std::vector<v1::SweepTable::Row> rows(std::int64_t sweep);
-
-  /// The sweep a job belongs to, and how many of its jobs may run at once.
-  struct Membership {
-    std::int64_t sweep = 0;
-    int max_parallel = 0;  ///< 0: any number
-  };
-  /// Of the jobs that are PENDING and belong to a sweep.
-  std::map<std::int64_t, Membership> memberships_of_waiting();
 
  private:
   std::mutex mutex_;

@@ -192,10 +192,25 @@ class FakeServer::Jobs : public v1::Jobs::Service {
   Shared& shared_;
 };
 
+class FakeServer::Admin : public v1::Admin::Service {
+ public:
+  explicit Admin(Shared& shared) : shared_(shared) {}
+
+  grpc::Status GetQueue(grpc::ServerContext*, const v1::GetQueueRequest*, v1::Queue* response) override {
+    if (!shared_.script.queue) return {grpc::StatusCode::UNIMPLEMENTED, ""};
+    *response = *shared_.script.queue;
+    return grpc::Status::OK;
+  }
+
+ private:
+  Shared& shared_;
+};
+
 FakeServer::FakeServer(Script script) : folder_(make_folder()), shared_(std::make_unique<Shared>()) {
   shared_->script = std::move(script);
   cases_ = std::make_unique<Cases>(*shared_);
   jobs_ = std::make_unique<Jobs>(*shared_);
+  admin_ = std::make_unique<Admin>(*shared_);
   sweeps_ = std::make_unique<FakeSweeps>(shared_->script.sweeps);
   grpc::ServerBuilder builder;
   if (shared_->script.message_limit > 0) builder.SetMaxReceiveMessageSize(shared_->script.message_limit);
@@ -203,7 +218,7 @@ FakeServer::FakeServer(Script script) : folder_(make_folder()), shared_(std::mak
   builder.RegisterService(cases_.get());
   builder.RegisterService(jobs_.get());
   builder.RegisterService(sweeps_.get());
-  builder.RegisterService(&admin_);
+  builder.RegisterService(admin_.get());
   server_ = builder.BuildAndStart();
   if (server_ == nullptr) throw std::runtime_error("the server of the test does not start");
 }

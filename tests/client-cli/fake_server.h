@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,7 @@ struct Script {
   bool changes_jobs = false;      ///< whether CancelJob and DeleteJob are there
   int message_limit = 0;          ///< bytes of a request it takes; 0 for gRPC's own limit
   SweepScript sweeps;
+  std::optional<v1::Queue> queue;  ///< of GetQueue
 };
 
 /// What the server was asked.
@@ -63,6 +65,7 @@ class FakeServer {
   [[nodiscard]] Asked asked() const;
 
  private:
+  class Admin;
   class Cases;
   class Jobs;
   struct Shared;
@@ -72,7 +75,7 @@ class FakeServer {
   std::unique_ptr<Cases> cases_;
   std::unique_ptr<Jobs> jobs_;
   std::unique_ptr<FakeSweeps> sweeps_;
-  v1::Admin::Service admin_;
+  std::unique_ptr<Admin> admin_;
   std::unique_ptr<grpc::Server> server_;
 };
 

@@ -140,6 +140,63 @@ TEST(List, ShowsLabelsWhereThereAreAny) {
   EXPECT_NE(result.output.find("batch=7, who=me"), std::string::npos) << result.output;
 }
 
+TEST(Submit, SendsAPriorityAndRefusesOneOutOfRange) {
+  const FakeServer server(preset_script());
+  for (const char* priority : {"7", "-7"}) {
+    const ProgramResult result =
+        run_program({"submit", "preset:type-i", "--priority", priority, "--server", server.address()});
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+  }
+  const auto creates = server.asked().creates;
+  ASSERT_EQ(creates.size(), 2U);
+  EXPECT_EQ(creates[0].priority(), 7);
+  EXPECT_EQ(creates[1].priority(), -7);
+  EXPECT_EQ(run_program({"submit", "preset:type-i", "--priority", "101", "--server", server.address()}).exit_code, 2);
+}
+
+TEST(ListAndShow, TellAPriorityOnlyWhereThereIsOne) {
+  Script script = preset_script();
+  const FakeServer plain(script);
+  EXPECT_EQ(run_program({"list", "--server", plain.address()}).output.find("PRIORITY"), std::string::npos);
+  EXPECT_EQ(run_program({"show", "jobs/test", "--server", plain.address()}).output.find("priority"), std::string::npos);
+  script.job.set_priority(-12);
+  script.job.set_retry_of("jobs/before");
+  const FakeServer server(script);
+  const ProgramResult list = run_program({"list", "--server", server.address()});
+  EXPECT_NE(list.output.find("PRIORITY"), std::string::npos);
+  EXPECT_NE(list.output.find("  -12  "), std::string::npos) << list.output;
+  const ProgramResult show = run_program({"show", "jobs/test", "--server", server.address()});
+  EXPECT_NE(show.output.find("priority  -12"), std::string::npos) << show.output;
+  EXPECT_NE(show.output.find("retry of  jobs/before"), std::string::npos) << show.output;
+}
+
+TEST(Queue, IsATableInTheOrderOfTheStartsAndJson) {
+  Script script = preset_script();
+  v1::Queue& queue = script.queue.emplace();
+  const FakeServer empty(script);
+  EXPECT_EQ(run_program({"queue", "--server", empty.address()}).output, "the queue is empty\n");
+  for (const char* job : {"jobs/7", "jobs/12"}) {
+    auto& entry = *queue.add_entries();
+    entry.set_job(job);
+    entry.set_reason("All 2 workers are busy.");
+    entry.set_seconds_until_start(64.0);
+  }
+  const FakeServer server(script);
+  EXPECT_EQ(run_program({"queue", "--server", server.address()}).output,
+            "JOB       STARTS IN  REASON\n"
+            "jobs/7   1 min 04 s  All 2 workers are busy.\n"
+            "jobs/12  1 min 04 s  All 2 workers are busy.\n");
+  queue.mutable_entries(0)->set_priority(3);
+  queue.set_more_count(12'345);
+  const FakeServer full(script);
+  const ProgramResult table = run_program({"queue", "--server", full.address()});
+  EXPECT_NE(table.output.find("PRIORITY  REASON\n"), std::string::npos) << table.output;
+  EXPECT_NE(table.output.find("and 12 345 more\n"), std::string::npos) << table.output;
+  v1::Queue read;
+  ASSERT_TRUE(JsonStringToMessage(run_program({"queue", "--json", "--server", full.address()}).output, &read).ok());
+  EXPECT_TRUE(MessageDifferencer::Equals(read, queue));
+}
+
 TEST(CancelAndDelete, NameTheJobAndSayHowItStands) {
   Script script = preset_script();
   script.changes_jobs = true;

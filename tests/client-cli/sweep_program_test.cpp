@@ -40,7 +40,8 @@ TEST(Sweep, SendsTheCaseWithAGridOfAxesAndLabelsAndPrintsItsName) {
   const FakeServer server(sweep_script(kThreeSucceed));
   const ProgramResult result =
       run_on(server, {"sweep", "preset:type-i", "--set", "depth_mm=5", "--over", "loading.speed_m_per_s=50,100,2e2",
-                      "--over", "lattice.hexagon.columns=20,40", "--label", "who=me", "--request-id", "abc"});
+                      "--over", "lattice.hexagon.columns=20,40", "--label", "who=me", "--request-id", "abc",
+                      "--priority", "-3", "--max-parallel", "4", "--max-failures", "2"});
   EXPECT_EQ(result.exit_code, 0) << result.errors;
   EXPECT_EQ(result.output, "sweeps/test\n");
   const auto creates = server.asked().sweeps.creates;
@@ -49,6 +50,9 @@ TEST(Sweep, SendsTheCaseWithAGridOfAxesAndLabelsAndPrintsItsName) {
   EXPECT_EQ(creates[0].request_id(), "abc");
   EXPECT_EQ(sweep.case_().depth_mm(), 5.0);
   EXPECT_EQ(sweep.labels().at("who"), "me");
+  EXPECT_EQ(sweep.priority(), -3);
+  EXPECT_EQ(sweep.max_parallel(), 4);
+  EXPECT_EQ(sweep.max_failures(), 2);
   ASSERT_EQ(sweep.axes_size(), 2);
   EXPECT_EQ(sweep.axes(0).field(), "loading.speed_m_per_s");
   ASSERT_EQ(sweep.axes(0).list().values_size(), 3);

@@ -189,10 +189,17 @@ TEST_F(JournalTest, AJournalOfALaterVersionIsRefused) {
   journal_.reset();
   {
     Database database(path());
-    database.execute("PRAGMA user_version = 3");
+    database.execute("PRAGMA user_version = 4");
   }
   EXPECT_THROW(Journal(path(), [](std::int64_t) {}), ServiceError);
 }
+
+// What the second version had: no priorities, submissions and predictions.
+constexpr const char* kWithoutQueueColumnsOfJobs =
+    "ALTER TABLE jobs DROP COLUMN priority; ALTER TABLE jobs DROP COLUMN submission; "
+    "ALTER TABLE jobs DROP COLUMN element_steps;";
+constexpr const char* kWithoutQueueColumnsOfSweeps =
+    "ALTER TABLE sweeps DROP COLUMN max_failures; ALTER TABLE sweep_jobs DROP COLUMN stopped;";
 
 TEST_F(JournalTest, AJournalOfTheFirstVersionIsBroughtUpToDate) {
   const auto job = create();
@@ -201,7 +208,9 @@ TEST_F(JournalTest, AJournalOfTheFirstVersionIsBroughtUpToDate) {
   {
     // What the first version had: no sweeps, and no note of deletions.
     Database database(path());
-    database.execute("DROP TABLE sweep_jobs; DROP TABLE sweeps; DROP TABLE deleted_jobs; PRAGMA user_version = 1;");
+    database.execute("DROP TABLE sweep_jobs; DROP TABLE sweeps; DROP TABLE deleted_jobs;");
+    database.execute(kWithoutQueueColumnsOfJobs);
+    database.execute("PRAGMA user_version = 1;");
   }
   reopen();
   EXPECT_TRUE(reader_->has_job(job));
@@ -243,9 +252,58 @@ TEST_F(SweepJournalTest, ASweepSurvivesReopening) {
   ASSERT_EQ(rows.size(), 3U);
   EXPECT_EQ(rows[2].values(0), 150.0);
   EXPECT_EQ(rows[0].result().state(), v1::RUNNING);
-  const auto memberships = sweeps.memberships_of_waiting();
-  ASSERT_EQ(memberships.size(), 2U);
-  EXPECT_EQ(memberships.at(made.jobs[1]).max_parallel, 2);
+  const auto waiting = reader_->queued_jobs(v1::PENDING);
+  ASSERT_EQ(waiting.size(), 2U);
+  EXPECT_EQ(waiting[0].job, made.jobs[1]);
+  EXPECT_EQ(waiting[0].sweep, made.sweep);
+  EXPECT_EQ(waiting[0].max_parallel, 2);
+}
+
+TEST_F(SweepJournalTest, WhatDecidesTheOrderOfWaitingJobsSurvivesReopening) {
+  auto jobs = three_jobs();
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    jobs[i].element_steps = 1'000'000'000'000 * static_cast<std::int64_t>(i + 1);
+    jobs[i].job.set_priority(-7);
+  }
+  const auto made = journal_->create_sweep({}, jobs, "", "");
+  v1::Job urgent;
+  urgent.set_priority(12);
+  const auto alone = journal_->create_job(urgent, "", "", 42).job;
+  reopen();
+  const auto waiting = reader_->queued_jobs(v1::PENDING);
+  ASSERT_EQ(waiting.size(), 4U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(waiting[i].submission, made.jobs.front());
+    EXPECT_EQ(waiting[i].element_steps, jobs[i].element_steps);
+    EXPECT_EQ(waiting[i].priority, -7);
+  }
+  EXPECT_EQ(waiting[3].submission, alone);
+  EXPECT_EQ(waiting[3].element_steps, 42);
+  EXPECT_EQ(waiting[3].priority, 12);
+  EXPECT_EQ(waiting[3].sweep, 0);
+}
+
+TEST_F(SweepJournalTest, AJournalOfTheSecondVersionKeepsItsJobsInTheirOrder) {
+  const auto made = journal_->create_sweep({}, three_jobs(), "", "");
+  const auto alone = create();
+  reader_.reset();
+  journal_.reset();
+  {
+    Database database(path());
+    database.execute(kWithoutQueueColumnsOfJobs);
+    database.execute(kWithoutQueueColumnsOfSweeps);
+    database.execute("PRAGMA user_version = 2;");
+  }
+  reopen();
+  const auto waiting = reader_->queued_jobs(v1::PENDING);
+  ASSERT_EQ(waiting.size(), 4U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(waiting[i].job, made.jobs[i]);
+    EXPECT_EQ(waiting[i].submission, made.jobs.front());
+    EXPECT_EQ(waiting[i].priority, 0);
+  }
+  EXPECT_EQ(waiting[3].submission, alone);
+  EXPECT_EQ(SweepReader(path()).rows(made.sweep).size(), 3U);
 }
 
 TEST_F(SweepJournalTest, ARequestIdMakesOneSweep) {

@@ -21,6 +21,8 @@ struct HexagonLattice {
   std::optional<double> side_mm;
   std::optional<double> wall_thickness_mm;
   std::optional<double> vertical_wall_thickness_mm;  ///< default: wall_thickness_mm
+
+  bool operator==(const HexagonLattice&) const = default;
 };
 
 struct SquareLattice {
@@ -28,6 +30,8 @@ struct SquareLattice {
   std::optional<int> rows;
   std::optional<double> side_mm;
   std::optional<double> wall_thickness_mm;
+
+  bool operator==(const SquareLattice&) const = default;
 };
 
 struct TriangleLattice {
@@ -35,6 +39,8 @@ struct TriangleLattice {
   std::optional<int> rows;
   std::optional<double> side_mm;
   std::optional<double> wall_thickness_mm;
+
+  bool operator==(const TriangleLattice&) const = default;
 };
 
 struct MaterialSpec {
@@ -47,6 +53,8 @@ struct MaterialSpec {
   Plane plane = Plane::stress;
   double poissons_ratio = 0.33;  ///< plane strain only: Young's modulus over 1 - nu^2
   std::optional<double> density_kg_per_m3;
+
+  bool operator==(const MaterialSpec&) const = default;
 };
 
 /// An explicit planar frame. Nodes are named by position in `nodes`.
@@ -61,6 +69,7 @@ struct FrameLattice {
     double y_mm = 0.0;
     double attached_mass_g = 0.0;
     double attached_inertia_g_mm2 = 0.0;
+    bool operator==(const Node&) const = default;
   };
   struct Beam {
     int start = 0;
@@ -68,36 +77,42 @@ struct FrameLattice {
     double thickness_mm = 0.0;
     std::optional<int> elements;           ///< default: elements_per_wall of the spec
     std::optional<MaterialSpec> material;  ///< default: that of the spec
+    bool operator==(const Beam&) const = default;
   };
   struct Support {
     int node = 0;
     bool fix_x = false;
     bool fix_y = false;
     bool fix_rotation = false;
+    bool operator==(const Support&) const = default;
   };
   /// Force in N or moment in N mm.
   struct NodalLoad {
     int node = 0;
     Component component = Component::x;
     TimeFunction points;
+    bool operator==(const NodalLoad&) const = default;
   };
   /// Displacement in mm or rotation in rad from the undeformed place that a node is made to follow.
   struct NodalMotion {
     int node = 0;
     Component component = Component::x;
     TimeFunction points;
+    bool operator==(const NodalMotion&) const = default;
   };
   /// Load in N per mm of the undeformed beam, in the fixed frame (Eq. 4).
   struct DistributedLoad {
     int beam = 0;
     TimeFunction x_points;  ///< empty: none
     TimeFunction y_points;
+    bool operator==(const DistributedLoad&) const = default;
   };
   struct InitialVelocity {
     int node = 0;
     double x_m_per_s = 0.0;
     double y_m_per_s = 0.0;
     double rotation_rad_per_s = 0.0;
+    bool operator==(const InitialVelocity&) const = default;
   };
 
   std::vector<Node> nodes;
@@ -112,6 +127,8 @@ struct FrameLattice {
   bool self_contact = false;
   std::vector<int> watched_nodes;
   std::optional<double> end_time_s;
+
+  bool operator==(const FrameLattice&) const = default;
 };
 
 /// Rows of stiff cells in a lattice of hexagons: their walls are thicker.
@@ -123,11 +140,15 @@ struct Inclusions {
   std::vector<int> rows;  ///< counted from 1 at the bottom
   double thickness_factor = 4.0;
   Model model = Model::rigid;
+
+  bool operator==(const Inclusions&) const = default;
 };
 
 struct Imperfection {
   double amplitude_mm = 0.0;
   std::uint64_t seed = 0;
+
+  bool operator==(const Imperfection&) const = default;
 };
 
 /// How an element follows what its wall does between its nodes (section/section_rule.h).
@@ -154,6 +175,8 @@ struct SectionSpec {
     return axial_points.value_or(formulation == Formulation::force_based ? 4 : 2);
   }
   [[nodiscard]] int depth_count() const { return depth_points.value_or(6); }
+
+  bool operator==(const SectionSpec&) const = default;
 };
 
 struct ContactSpec {
@@ -165,10 +188,14 @@ struct ContactSpec {
   double stiffness_factor = 0.12;  ///< k = stiffness_factor m_min / dt_crit^2
   double damping_ratio = 0.2;      ///< share of critical damping
   Search search = Search::faces;
+
+  bool operator==(const ContactSpec&) const = default;
 };
 
 struct PlatesSpec {
   double friction = 0.0;
+
+  bool operator==(const PlatesSpec&) const = default;
 };
 
 struct LoadingSpec {
@@ -177,6 +204,8 @@ struct LoadingSpec {
   std::optional<double> speed_m_per_s;
   double end_strain = 0.8;
   double ramp_strain = 0.0;
+
+  bool operator==(const LoadingSpec&) const = default;
 };
 
 struct NumericsSpec {
@@ -193,11 +222,15 @@ struct NumericsSpec {
   enum class Fidelity { unspecified, draft, standard, reference };
   Fidelity fidelity = Fidelity::unspecified;
   int threads = 1;
+
+  bool operator==(const NumericsSpec&) const = default;
 };
 
 struct OutputSpec {
   int sample_count = 1000;
   int frame_count = 50;
+
+  bool operator==(const OutputSpec&) const = default;
 };
 
 struct SceneSpec {
@@ -214,6 +247,8 @@ struct SceneSpec {
   LoadingSpec loading;
   NumericsSpec numerics;
   OutputSpec output;
+
+  bool operator==(const SceneSpec&) const = default;
 };
 
 }  // namespace cellcrush

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+
+#include "cellcrush/problem.h"
+#include "cellcrush/scene.h"
+#include "cellcrush/scene_spec.h"
+
+namespace cellcrush {
+
+/// The spec with what its mesh does not depend on as by default: speed, strains, contact and plates, steps, output. Specs
+/// that are equal in this part have the same mesh.
+SceneSpec mesh_part_of(const SceneSpec& spec);
+
+/// Mesh, masses and stable step. REQUIRES: a mesh part in which nothing spoils the mesh.
+std::shared_ptr<Scene> build_mesh(const SceneSpec& part);
+
+/// What the rest of a scene takes from its mesh. Units mm, tonne, s, MPa.
+struct MeshMeasures {
+  std::size_t element_count = 0;
+  double length = 0.0;  ///< envelope along the crush
+  double low = 0.0;     ///< of the walls' surfaces along the crush
+  double high = 0.0;
+  double stable_step = 0.0;
+  double lightest_mass = 0.0;  ///< of a particle
+  double shortest_element = 0.0;
+  double thinnest_wall = 0.0;
+  Material material;     ///< of the lattice
+  bool contact = false;  ///< whether walls touch each other
+  Problems overlaps;     ///< walls that lie in each other before loading
+};
+
+/// REQUIRES: `scene` is the mesh of the part.
+MeshMeasures measure_mesh(const SceneSpec& part, const Scene& scene);
+
+}  // namespace cellcrush

@@ -1,0 +1,100 @@
+#include "scene/run_plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/check_spec.h"
+#include "scene/contact_law.h"
+#include "scene/time_step.h"
+
+namespace cellcrush {
+namespace {
+
+constexpr double kMmPerM = 1e3;
+
+Plates plates_of(const SceneSpec& spec, const MeshMeasures& mesh, double stiffness) {
+  const int axis = spec.loading.direction == LoadingSpec::Direction::x ? 0 : 1;
+  const double speed = *spec.loading.speed_m_per_s * kMmPerM;
+  const double ramp_time = 2.0 * spec.loading.ramp_strain * mesh.length / speed;
+  return {true, axis, mesh.low, mesh.high, speed, ramp_time, stiffness, spec.plates.friction};
+}
+
+double end_time_of(const SceneSpec& spec, const MeshMeasures& mesh, const Plates& plates) {
+  if (const auto* frame = std::get_if<FrameLattice>(&spec.lattice)) {
+    return *frame->end_time_s;
+  }
+  return spec.loading.end_strain * mesh.length / plates.speed + 0.5 * plates.ramp_time;
+}
+
+Schedule schedule_of(const SceneSpec& spec, const TimeStep& step, double end_time) {
+  Schedule schedule;
+  schedule.time_step = step.seconds;
+  schedule.bound = step.bound;
+  schedule.step_count = static_cast<std::int64_t>(std::ceil(end_time / schedule.time_step - 1e-9));
+  const auto interval = [&](int count) { return std::max<std::int64_t>(1, schedule.step_count / count); };
+  schedule.sample_interval = interval(spec.output.sample_count);
+  schedule.frame_interval = interval(spec.output.frame_count);
+  return schedule;
+}
+
+void check_stability(const SceneSpec& spec, const MeshMeasures& mesh, Problems& problems) {
+  if (spec.numerics.time_step_s > mesh.stable_step) {
+    problems.push_back(
+        {"numerics.time_step_s", to_text(spec.numerics.time_step_s),
+         "is above the largest stable step of this mesh, " + to_text(mesh.stable_step) + " s.",
+         "Give a step of at most " + to_text(kStepFraction * mesh.stable_step) + " s, or 0 to have it chosen.",
+         Problem::Kind::invalid});
+  }
+}
+
+/// The field to blame when a run has more steps than any machine does.
+void check_step_count(const SceneSpec& spec, double count, Problems& problems) {
+  constexpr double kMostSteps = 1e10;
+  if (count <= kMostSteps) {
+    return;
+  }
+  const double fixed = spec.numerics.time_step_s;
+  const std::string message = "makes " + to_text(std::round(count)) + " steps, more than 1e10.";
+  if (fixed > 0.0) {
+    problems.push_back({"numerics.time_step_s", to_text(fixed), message, "Give a longer step, or 0 to have it chosen.",
+                        Problem::Kind::invalid});
+  } else if (const auto* frame = std::get_if<FrameLattice>(&spec.lattice)) {
+    problems.push_back({"lattice.frame.end_time_s", to_text(*frame->end_time_s), message, "Give an earlier end.",
+                        Problem::Kind::invalid});
+  } else {
+    problems.push_back({"loading.speed_m_per_s", to_text(*spec.loading.speed_m_per_s), message, "Give a higher speed.",
+                        Problem::Kind::invalid});
+  }
+}
+
+}  // namespace
+
+RunPlan plan_run(const SceneSpec& spec, const MeshMeasures& mesh, Problems& problems) {
+  RunPlan plan;
+  check_stability(spec, mesh, problems);
+  if (!problems.empty()) {
+    return plan;
+  }
+  plan.contact = contact_law_of(spec, mesh);
+  problems = mesh.overlaps;
+  if (!std::holds_alternative<FrameLattice>(spec.lattice)) {
+    plan.plates = plates_of(spec, mesh, plan.contact.stiffness);
+  }
+  const TimeStep step = time_step_of(spec, mesh, plan.contact, plan.plates);
+  const double end_time = end_time_of(spec, mesh, plan.plates);
+  check_step_count(spec, end_time / step.seconds, problems);
+  if (problems.empty()) {
+    plan.schedule = schedule_of(spec, step, end_time);
+  }
+  return plan;
+}
+
+bool spoil_mesh(const Problems& problems) {
+  return std::any_of(problems.begin(), problems.end(), [](const Problem& problem) {
+    const auto starts_with = [&](const char* path) { return problem.field.rfind(path, 0) == 0; };
+    return starts_with("lattice") || starts_with("material") || starts_with("depth_mm") ||
+           starts_with("elements_per_wall") || starts_with("section");
+  });
+}
+
+}  // namespace cellcrush

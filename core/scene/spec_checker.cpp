@@ -1,0 +1,59 @@
+#include "cellcrush/spec_checker.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "cellcrush/fidelity.h"
+#include "scene/check_spec.h"
+#include "scene/mesh_part.h"
+#include "scene/run_plan.h"
+
+namespace cellcrush {
+namespace {
+
+/// As many as the last axis of a grid over the lattice may have values.
+constexpr std::size_t kMostMeshes = 64;
+
+}  // namespace
+
+struct SpecChecker::KnownMesh {
+  SceneSpec part;
+  MeshMeasures measures;
+};
+
+SpecChecker::SpecChecker() = default;
+SpecChecker::~SpecChecker() = default;
+
+SpecChecker::Verdict SpecChecker::check(const SceneSpec& given) {
+  const SceneSpec spec = fill_in_fidelity(given);
+  Verdict verdict;
+  verdict.problems = check_spec(spec);
+  if (spoil_mesh(verdict.problems)) {
+    return verdict;
+  }
+  const MeshMeasures& mesh = mesh_of(mesh_part_of(spec)).measures;
+  const RunPlan plan = plan_run(spec, mesh, verdict.problems);
+  if (verdict.problems.empty()) {
+    verdict.element_count = static_cast<std::int64_t>(mesh.element_count);
+    verdict.step_count = plan.schedule.step_count;
+  }
+  return verdict;
+}
+
+const SpecChecker::KnownMesh& SpecChecker::mesh_of(SceneSpec part) {
+  const auto found =
+      std::find_if(known_.begin(), known_.end(), [&part](const auto& known) { return known->part == part; });
+  if (found != known_.end()) {
+    return **found;
+  }
+  auto known = std::make_unique<KnownMesh>();
+  known->measures = measure_mesh(part, *build_mesh(part));
+  known->part = std::move(part);
+  known_.push_front(std::move(known));
+  if (known_.size() > kMostMeshes) {
+    known_.pop_back();
+  }
+  return *known_.front();
+}
+
+}  // namespace cellcrush

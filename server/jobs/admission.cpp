@@ -1,0 +1,51 @@
+#include "jobs/admission.h"
+
+#include <unistd.h>
+
+#include <string>
+
+#include "error.h"
+
+namespace cellcrush::jobs {
+namespace {
+
+constexpr std::int64_t kMebibyte = 1024 * 1024;
+
+std::string mebibytes(std::int64_t bytes) { return std::to_string(bytes / kMebibyte) + " MiB"; }
+
+std::int64_t memory_of_the_machine() { return std::int64_t{sysconf(_SC_PHYS_PAGES)} * sysconf(_SC_PAGESIZE); }
+
+}  // namespace
+
+Admission::Admission(const store::DataFolder& folder, const Limits& limits) : folder_(folder), limits_(limits) {
+  if (limits_.job_memory_bytes == 0) limits_.job_memory_bytes = memory_of_the_machine();
+}
+
+void Admission::admit(std::size_t waiting, std::size_t count, std::int64_t memory_bytes) const {
+  if (draining_) {
+    throw ServiceError(ServiceError::Kind::unavailable,
+                       "The daemon is about to end and takes no new jobs. Submit again once it is back.");
+  }
+  if (static_cast<std::int64_t>(waiting + count) > limits_.queued_jobs) {
+    throw ServiceError(ServiceError::Kind::exhausted,
+                       "The queue holds " + std::to_string(waiting) + " jobs, and with " + std::to_string(count) +
+                           " more it would hold over " + std::to_string(limits_.queued_jobs) +
+                           ". Wait until some have run, or start the daemon with a higher --max-queued-jobs.");
+  }
+  if (memory_bytes > limits_.job_memory_bytes) {
+    throw ServiceError(ServiceError::Kind::exhausted,
+                       "The run would need about " + mebibytes(memory_bytes) + " of memory, and a job may need " +
+                           mebibytes(limits_.job_memory_bytes) +
+                           ". Take fewer cells or elements_per_wall, or a larger machine.");
+  }
+  if (!has_room()) {
+    throw ServiceError(ServiceError::Kind::storage_full,
+                       "The disk of the data folder has " + mebibytes(folder_.free_bytes()) + " left, and " +
+                           mebibytes(limits_.free_disk_bytes) +
+                           " are kept free. Make room there or delete jobs, then submit again.");
+  }
+}
+
+bool Admission::has_room() const { return folder_.free_bytes() >= limits_.free_disk_bytes; }
+
+}  // namespace cellcrush::jobs

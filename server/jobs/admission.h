@@ -1,0 +1,38 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+
+#include "store/data_folder.h"
+
+namespace cellcrush::jobs {
+
+/// Decides whether the daemon takes new jobs. Thread-safe.
+class Admission {
+ public:
+  struct Limits {
+    std::int64_t queued_jobs = 100'000;
+    std::int64_t job_memory_bytes = 0;  ///< that a job may be predicted to need; 0: what the machine has
+    std::int64_t free_disk_bytes = 0;   ///< that are to be left in the data folder
+  };
+
+  /// `folder` outlives this object.
+  Admission(const store::DataFolder& folder, const Limits& limits);
+
+  /// From now on no job is taken.
+  void drain() { draining_ = true; }
+
+  /// Whether so many more jobs, of which the largest needs so much memory, can be taken when `waiting` wait already. Throws ServiceError:
+  /// unavailable while draining, exhausted beyond a limit, storage_full.
+  void admit(std::size_t waiting, std::size_t count, std::int64_t memory_bytes) const;
+
+  /// Whether the disk has room for running jobs.
+  [[nodiscard]] bool has_room() const;
+
+ private:
+  const store::DataFolder& folder_;
+  Limits limits_;
+  std::atomic<bool> draining_ = false;
+};
+
+}  // namespace cellcrush::jobs

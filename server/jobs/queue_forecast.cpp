@@ -1,0 +1,108 @@
+#include "jobs/queue_forecast.h"
+
+#include <algorithm>
+#include <queue>
+#include <string>
+#include <utility>
+
+#include "jobs/resource_name.h"
+#include "jobs/waiting_jobs.h"
+
+namespace cellcrush::jobs {
+namespace {
+
+std::string before_it(int count, const char* joint) {
+  if (count == 0) return ".";
+  return joint + std::to_string(count) + (count == 1 ? " job starts before it." : " jobs start before it.");
+}
+
+std::string all_workers(int count) {
+  return count == 1 ? "The only worker is busy" : "All " + std::to_string(count) + " workers are busy";
+}
+
+std::string at_its_limit(const store::QueuedJob& job) {
+  const std::string limit = std::to_string(job.max_parallel) + (job.max_parallel == 1 ? " job" : " jobs");
+  return "Its sweep, " + sweep_name_of(job.sweep) + ", already runs the " + limit + " that max_parallel allows";
+}
+
+// The workers as time goes on.
+class Play {
+ public:
+  Play(const std::vector<RunningJob>& running, const std::vector<store::QueuedJob>& waiting, const WorkerFacts& workers)
+      : workers_(workers), free_(workers.count) {
+    for (const auto& [job, seconds_left] : running) {
+      waiting_.count_running(job);
+      now_.count_running(job);
+      begin(job, seconds_left);
+    }
+    for (const auto& job : waiting) waiting_.add(job);
+    all_busy_ = free_ <= 0;
+  }
+
+  // The next job that starts, and when; false when there is none.
+  bool next(store::QueuedJob& job, double& seconds) {
+    while (true) {
+      if (free_ > 0) {
+        if (const auto taken = waiting_.take()) {
+          job = *taken;
+          seconds = time_;
+          begin(job, workers_.step_cost * static_cast<double>(job.element_steps));
+          return true;
+        }
+      }
+      if (ends_.empty()) return false;
+      time_ = std::max(time_, ends_.top().first);
+      waiting_.give_back(ends_.top().second);
+      ends_.pop();
+      ++free_;
+    }
+  }
+
+  // Why a job that `before` others precede does not run now.
+  [[nodiscard]] std::string reason(const store::QueuedJob& job, double seconds, int before) const {
+    if (now_.is_held_back(job)) return at_its_limit(job) + before_it(before, ", and ");
+    if (all_busy_) return all_workers(workers_.count) + before_it(before, ", and ");
+    return seconds > 0.0 ? before_it(before, "") : "A worker takes it now.";
+  }
+
+ private:
+  struct Later {
+    bool operator()(const auto& one, const auto& other) const { return one.first > other.first; }
+  };
+  using End = std::pair<double, store::QueuedJob>;
+
+  void begin(const store::QueuedJob& job, double seconds) {
+    ends_.emplace(time_ + seconds, job);
+    --free_;
+  }
+
+  WorkerFacts workers_;
+  int free_;
+  WaitingJobs waiting_;
+  WaitingJobs now_;  ///< what runs before anything more starts
+  bool all_busy_ = false;
+  double time_ = 0.0;
+  std::priority_queue<End, std::vector<End>, Later> ends_;
+};
+
+}  // namespace
+
+v1::Queue forecast_queue(const std::vector<RunningJob>& running, const std::vector<store::QueuedJob>& waiting,
+                         const WorkerFacts& workers) {
+  Play play(running, waiting, workers);
+  v1::Queue out;
+  store::QueuedJob job;
+  double seconds = 0.0;
+  while (out.entries_size() < kMostEntries && play.next(job, seconds)) {
+    const int before = out.entries_size();
+    auto& entry = *out.add_entries();
+    entry.set_job(name_of(job.job));
+    entry.set_reason(play.reason(job, seconds, before));
+    entry.set_seconds_until_start(seconds);
+    entry.set_priority(job.priority);
+  }
+  out.set_more_count(static_cast<int>(waiting.size()) - out.entries_size());
+  return out;
+}
+
+}  // namespace cellcrush::jobs

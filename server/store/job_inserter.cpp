@@ -1,0 +1,42 @@
+#include "store/job_inserter.h"
+
+#include <google/protobuf/util/time_util.h>
+
+#include <memory>
+#include <utility>
+
+#include "store/job_bytes.h"
+#include "store/journal_schema.h"
+
+namespace cellcrush::store {
+
+JobInserter::JobInserter(const Database& database)
+    : database_(database),
+      job_(database,
+           "INSERT INTO jobs (state, job, submitted_case, request_id, request_hash, last_sequence, priority, "
+           "submission, "
+           "element_steps) VALUES (?1, ?2, ?3, ?4, ?5, 1, ?6, ?7, ?8)"),
+      event_(database, "INSERT INTO events (job, sequence, kind, payload) VALUES (?1, 1, ?2, ?3)") {}
+
+std::int64_t JobInserter::insert(v1::Job job, const JobEntry& entry) {
+  job.set_state(v1::PENDING);
+  *job.mutable_create_time() = google::protobuf::util::TimeUtil::GetCurrentTime();
+  // Taken out, so that the bytes are made without a copy of it.
+  const std::unique_ptr<v1::Case> submitted(job.release_case_());
+  const std::int64_t priority = job.priority();
+  const std::string bytes = job_bytes(std::move(job));
+  job_.bind(1, v1::PENDING).bind_blob(2, bytes).bind_blob(3, submitted ? submitted->SerializeAsString() : "");
+  if (entry.request_id.empty()) {
+    job_.bind_null(4).bind_null(5);
+  } else {
+    job_.bind_text(4, entry.request_id).bind_text(5, entry.request_hash);
+  }
+  job_.bind(6, priority).bind(8, entry.element_steps);
+  entry.submission ? job_.bind(7, *entry.submission) : job_.bind_null(7);
+  job_.run();
+  const std::int64_t number = database_.last_number();
+  event_.bind(1, number).bind(2, kStateEvent).bind_blob(3, bytes).run();
+  return number;
+}
+
+}  // namespace cellcrush::store

@@ -1,0 +1,165 @@
+// How sweeps come into the journal, and what is done to several of their jobs at once.
+#include <google/protobuf/util/time_util.h>
+
+#include <utility>
+
+#include "jobs/resource_name.h"
+#include "store/job_inserter.h"
+#include "store/journal.h"
+
+namespace cellcrush::store {
+namespace {
+
+// Sweeps keep what was asked for; their jobs and states are looked up.
+std::string sweep_bytes(v1::Sweep sweep) {
+  sweep.clear_name();
+  sweep.clear_jobs();
+  sweep.clear_state_counts();
+  return sweep.SerializeAsString();
+}
+
+// What becomes of a job that waits when its sweep has failed too often.
+StateChange stopped_by_failures(std::int64_t sweep, std::size_t failed, std::int64_t limit) {
+  const std::string name = jobs::sweep_name_of(sweep);
+  StateChange out;
+  out.state = v1::CANCELLED;
+  out.message = (failed == 1 ? "1 job of " : std::to_string(failed) + " jobs of ") + name +
+                " failed, and its max_failures is " + std::to_string(limit) + ", so this one was not started.";
+  out.remedy = "Look into the failed jobs, then queue them and this one again: cellcrush retry " + name + ".";
+  return out;
+}
+
+// An ended job of a sweep, and the job that is to take its place.
+struct Retry {
+  v1::Job job;
+  QueuedJob queued;  // of the ended one
+};
+
+std::vector<Retry> jobs_to_retry(const Database& database, std::int64_t sweep) {
+  Statement read(
+      database,
+      "SELECT jobs.number, jobs.job, jobs.submitted_case, jobs.element_steps, sweeps.max_parallel "
+      "FROM sweep_jobs JOIN jobs ON jobs.number = sweep_jobs.job JOIN sweeps ON sweeps.number = sweep_jobs.sweep "
+      "WHERE sweep_jobs.sweep = ?1 AND (jobs.state = ?2 OR (jobs.state = ?3 AND sweep_jobs.stopped)) "
+      "ORDER BY sweep_jobs.position");
+  read.bind(1, sweep).bind(2, v1::FAILED).bind(3, v1::CANCELLED);
+  std::vector<Retry> out;
+  while (read.step()) {
+    auto& [job, queued] = out.emplace_back();
+    v1::Job ended;
+    ended.ParseFromString(read.bytes(1));
+    *job.mutable_labels() = ended.labels();
+    job.set_priority(ended.priority());
+    job.set_retry_of(jobs::name_of(read.integer(0)));
+    job.mutable_case_()->ParseFromString(read.bytes(2));
+    queued = {read.integer(0), 0, ended.priority(), read.integer(3), sweep, static_cast<int>(read.integer(4))};
+  }
+  return out;
+}
+
+}  // namespace
+
+Journal::CreatedSweep Journal::create_sweep(v1::Sweep sweep, const std::vector<SweepJob>& jobs,
+                                            const std::string& request_id, const std::string& request_hash) {
+  CreatedSweep created;
+  {
+    const std::scoped_lock lock(write_mutex_);
+    Transaction transaction(database_);
+    if (const auto before = find_request("sweeps", request_id, request_hash)) return {*before, {}, false};
+    *sweep.mutable_create_time() = google::protobuf::util::TimeUtil::GetCurrentTime();
+    Statement insert(database_,
+                     "INSERT INTO sweeps (sweep, max_parallel, request_id, request_hash, max_failures) "
+                     "VALUES (?1, ?2, ?3, ?4, ?5)");
+    insert.bind_blob(1, sweep_bytes(sweep)).bind(2, sweep.max_parallel()).bind(5, sweep.max_failures());
+    if (!request_id.empty()) insert.bind_text(3, request_id).bind_text(4, request_hash);
+    insert.run();
+    created.sweep = database_.last_number();
+    JobInserter inserter(database_);
+    Statement join(database_, "INSERT INTO sweep_jobs (sweep, position, job, point) VALUES (?1, ?2, ?3, ?4)");
+    JobEntry entry;
+    for (const auto& made : jobs) {
+      v1::SweepTable::Row point;
+      point.mutable_values()->Add(made.values.begin(), made.values.end());
+      const auto position = static_cast<std::int64_t>(created.jobs.size());
+      entry.element_steps = made.element_steps;
+      created.jobs.push_back(inserter.insert(made.job, entry));
+      entry.submission = created.jobs.front();
+      join.bind(1, created.sweep).bind(2, position).bind(3, created.jobs.back());
+      join.bind_blob(4, point.SerializeAsString()).run();
+    }
+    transaction.commit();
+  }
+  for (const std::int64_t job : created.jobs) on_durable_(job);
+  return created;
+}
+
+std::vector<QueuedJob> Journal::retry_failed(std::int64_t sweep) {
+  std::vector<QueuedJob> retried;
+  {
+    const std::scoped_lock lock(write_mutex_);
+    Transaction transaction(database_);
+    JobInserter inserter(database_);
+    Statement replace(database_, "UPDATE sweep_jobs SET job = ?2, stopped = 0 WHERE job = ?1");
+    for (const auto& failed : jobs_to_retry(database_, sweep)) {
+      QueuedJob queued = failed.queued;
+      JobEntry entry;
+      entry.element_steps = queued.element_steps;
+      if (!retried.empty()) entry.submission = retried.front().job;
+      queued.job = inserter.insert(failed.job, entry);
+      queued.submission = entry.submission.value_or(queued.job);
+      replace.bind(1, failed.queued.job).bind(2, queued.job).run();
+      retried.push_back(queued);
+    }
+    transaction.commit();
+  }
+  for (const auto& job : retried) on_durable_(job.job);
+  return retried;
+}
+
+std::vector<std::int64_t> Journal::stop_failing_sweep(std::int64_t failed_job) {
+  Statement find(database_,
+                 "SELECT sweeps.number, sweeps.max_failures FROM sweep_jobs JOIN sweeps "
+                 "ON sweeps.number = sweep_jobs.sweep WHERE sweep_jobs.job = ?1 AND sweeps.max_failures > 0");
+  if (!find.bind(1, failed_job).step()) return {};
+  const std::int64_t sweep = find.integer(0);
+  const std::int64_t limit = find.integer(1);
+  const auto failed = jobs_of_sweep_in(sweep, v1::FAILED);
+  if (static_cast<std::int64_t>(failed.size()) < limit) return {};
+  auto waiting = jobs_of_sweep_in(sweep, v1::PENDING);
+  Statement mark(database_, "UPDATE sweep_jobs SET stopped = 1 WHERE job = ?1");
+  for (const std::int64_t job : waiting) {
+    write_change(job, stopped_by_failures(sweep, failed.size(), limit));
+    mark.bind(1, job).run();
+  }
+  return waiting;
+}
+
+std::vector<std::int64_t> Journal::jobs_of_sweep_in(std::int64_t sweep, v1::JobState state) {
+  Statement read(database_,
+                 "SELECT jobs.number FROM sweep_jobs JOIN jobs ON jobs.number = sweep_jobs.job "
+                 "WHERE sweep_jobs.sweep = ?1 AND jobs.state = ?2 ORDER BY sweep_jobs.position");
+  read.bind(1, sweep).bind(2, state);
+  std::vector<std::int64_t> out;
+  while (read.step()) out.push_back(read.integer(0));
+  return out;
+}
+
+void Journal::cancel_waiting(const std::vector<std::int64_t>& jobs) {
+  StateChange cancelled;
+  cancelled.state = v1::CANCELLED;
+  std::vector<std::int64_t> changed;
+  {
+    const std::scoped_lock lock(write_mutex_);
+    Transaction transaction(database_);
+    for (const std::int64_t job : jobs) {
+      Statement read(database_, "SELECT 1 FROM jobs WHERE number = ?1 AND state = ?2");
+      if (!read.bind(1, job).bind(2, v1::PENDING).step()) continue;
+      write_change(job, cancelled);
+      changed.push_back(job);
+    }
+    transaction.commit();
+  }
+  for (const std::int64_t job : changed) on_durable_(job);
+}
+
+}  // namespace cellcrush::store

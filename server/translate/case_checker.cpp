@@ -1,0 +1,26 @@
+#include "translate/case_checker.h"
+
+#include "cellcrush/spec_checker.h"
+#include "translate/case_to_spec.h"
+#include "translate/problems.h"
+
+namespace cellcrush::translate {
+
+CaseChecker::CaseChecker() : specs_(std::make_unique<SpecChecker>()) {}
+
+CaseChecker::~CaseChecker() = default;
+
+CaseChecker::Verdict CaseChecker::check(const v1::Case& submitted) {
+  Verdict out;
+  const auto reading = to_spec(submitted);
+  const auto verdict = specs_->check(reading.spec);
+  for (const Problems* problems : {&reading.problems, &verdict.problems}) {
+    for (const auto& problem : *problems) out.problems.push_back(to_proto(problem));
+  }
+  if (!out.problems.empty()) return out;
+  out.element_count = verdict.element_count;
+  out.element_steps = verdict.element_count * verdict.step_count;
+  return out;
+}
+
+}  // namespace cellcrush::translate

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "cellcrush/v1/case.pb.h"
+#include "cellcrush/v1/problem.pb.h"
+
+namespace cellcrush {
+class SpecChecker;
+}
+
+namespace cellcrush::translate {
+
+/// Checks many cases with the problems of check_case and without its description. Cases that have the same mesh cost microseconds
+/// but for the first. Not thread-safe. Throws std::bad_alloc when a mesh does not fit.
+class CaseChecker {
+ public:
+  CaseChecker();
+  ~CaseChecker();
+  CaseChecker(const CaseChecker&) = delete;
+  CaseChecker& operator=(const CaseChecker&) = delete;
+
+  struct Verdict {
+    std::vector<v1::Problem> problems;
+    std::int64_t element_count = 0;  ///< 0 when there are problems
+    std::int64_t element_steps = 0;  ///< elements times steps of the run; 0 when there are problems
+  };
+  Verdict check(const v1::Case& submitted);
+
+ private:
+  std::unique_ptr<SpecChecker> specs_;
+};
+
+}  // namespace cellcrush::translate

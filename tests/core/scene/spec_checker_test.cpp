@@ -1,0 +1,139 @@
+#include "cellcrush/spec_checker.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <functional>
+#include <iostream>
+#include <limits>
+
+#include "cellcrush/presets.h"
+#include "cellcrush/simulation.h"
+#include "scenes/frames.h"
+
+namespace cellcrush {
+namespace {
+
+std::string text_of(const Problems& problems) {
+  std::string text;
+  for (const Problem& problem : problems) {
+    text += problem.field + " " + problem.value + " " + problem.message + " " + problem.remedy + "\n";
+  }
+  return text;
+}
+
+void expect_same_verdict(SpecChecker& checker, const SceneSpec& spec) {
+  const SceneResult built = build_scene(spec);
+  const SpecChecker::Verdict verdict = checker.check(spec);
+  EXPECT_EQ(text_of(verdict.problems), text_of(built.problems));
+  const SceneFacts facts = built.scene ? facts_of(*built.scene) : SceneFacts();
+  EXPECT_EQ(verdict.element_count, facts.element_count);
+  EXPECT_EQ(verdict.step_count, facts.step_count);
+}
+
+using Change = std::function<void(SceneSpec&)>;
+
+/// Each way in which a spec may differ from the one before it, good and bad.
+std::vector<Change> changes() {
+  const auto hexagon = [](SceneSpec& spec) -> HexagonLattice& { return std::get<HexagonLattice>(spec.lattice); };
+  return {
+      [](SceneSpec& spec) { spec.loading.speed_m_per_s = 20.0; },
+      [](SceneSpec& spec) { spec.loading.speed_m_per_s = -20.0; },
+      [](SceneSpec& spec) { spec.loading.speed_m_per_s = 1e-6; },
+      [](SceneSpec& spec) { spec.loading.speed_m_per_s.reset(); },
+      [](SceneSpec& spec) { spec.loading.end_strain = 0.3; },
+      [](SceneSpec& spec) { spec.loading.ramp_strain = 0.1; },
+      [](SceneSpec& spec) { spec.loading.direction = LoadingSpec::Direction::y; },
+      [](SceneSpec& spec) { spec.contact.stiffness_factor = 0.01; },
+      [](SceneSpec& spec) { spec.contact.damping_ratio = 0.9; },
+      [](SceneSpec& spec) { spec.contact.search = ContactSpec::Search::buckets; },
+      [](SceneSpec& spec) { spec.plates.friction = 11.0; },
+      [](SceneSpec& spec) { spec.numerics.time_step_s = 1e-9; },
+      [](SceneSpec& spec) { spec.numerics.time_step_s = 1e-3; },
+      [](SceneSpec& spec) { spec.numerics.mass_scaling = 4.0; },
+      [](SceneSpec& spec) { spec.numerics.rotary_scaling = 3.0; },
+      [](SceneSpec& spec) { spec.numerics.fidelity = NumericsSpec::Fidelity::draft; },
+      [](SceneSpec& spec) { spec.numerics.threads = 0; },
+      [](SceneSpec& spec) { spec.output.sample_count = 1; },
+      [](SceneSpec& spec) { spec.elements_per_wall = 3; },
+      [](SceneSpec& spec) { spec.depth_mm = 8.0; },
+      [](SceneSpec& spec) {
+        spec.imperfection = {0.1, 7};
+      },
+      [](SceneSpec& spec) {
+        spec.imperfection = {0.1, 8};
+      },
+      [](SceneSpec& spec) { spec.material.youngs_modulus_mpa = 2e5; },
+      [](SceneSpec& spec) { spec.material.density_kg_per_m3 = std::numeric_limits<double>::quiet_NaN(); },
+      [=](SceneSpec& spec) { hexagon(spec).rows = 5; },
+      [=](SceneSpec& spec) { hexagon(spec).wall_thickness_mm = 0.1; },
+      [=](SceneSpec& spec) { hexagon(spec).wall_thickness_mm = 1.9; },
+      [](SceneSpec& spec) { spec.inclusions.rows = {2}; },
+      [](SceneSpec& spec) {
+        spec.lattice = SquareLattice{6, 5, 4.0, 0.2};
+      },
+      [](SceneSpec& spec) { spec.lattice = std::monostate(); },
+  };
+}
+
+TEST(SpecChecker, SaysOfEverySpecWhatBuildingItsSceneSaysWhateverWasCheckedBefore) {
+  SpecChecker checker;
+  const SceneSpec plain = scenes::hexagon_block(8, 6);
+  for (const Change& change : changes()) {
+    SceneSpec changed = plain;
+    change(changed);
+    expect_same_verdict(checker, changed);
+    expect_same_verdict(checker, plain);
+    // Two changes at once, of which one may be known and the other not.
+    changed.loading.speed_m_per_s = 33.0;
+    expect_same_verdict(checker, changed);
+  }
+  for (const Change& change : changes()) {
+    SceneSpec changed = plain;
+    change(changed);
+    expect_same_verdict(checker, changed);
+  }
+}
+
+TEST(SpecChecker, SaysOfAFrameThatOverlapsWhatBuildingItsSceneSays) {
+  SpecChecker checker;
+  SceneSpec spec;
+  spec.depth_mm = 1.0;
+  spec.elements_per_wall = 4;
+  spec.material.youngs_modulus_mpa = 69000.0;
+  spec.material.yield_stress_mpa = 76.0;
+  spec.material.density_kg_per_m3 = 2700.0;
+  FrameLattice frame;
+  frame.nodes = {{0.0, 0.0}, {20.0, 0.0}, {10.0, -5.0}, {10.0, 5.0}};
+  frame.beams.resize(2);
+  frame.beams[0].end = 1;
+  frame.beams[1].start = 2;
+  frame.beams[1].end = 3;
+  for (FrameLattice::Beam& beam : frame.beams) beam.thickness_mm = 0.5;
+  frame.end_time_s = 1e-4;
+  for (const bool self_contact : {false, true}) {
+    for (const double end_time : {1e-4, 2e-4, 1e9}) {
+      frame.self_contact = self_contact;
+      frame.end_time_s = end_time;
+      spec.lattice = frame;
+      expect_same_verdict(checker, spec);
+    }
+  }
+  EXPECT_EQ(checker.check(spec).problems.empty(), false);
+}
+
+TEST(SpecChecker, AThousandSpeedsOfOneMeshAreCheckedInNoTime) {
+  SceneSpec spec = find_preset("type-i")->spec;
+  SpecChecker checker;
+  const auto start = std::chrono::steady_clock::now();
+  for (int i = 0; i < 1000; ++i) {
+    spec.loading.speed_m_per_s = 50.0 + 0.1 * i;
+    EXPECT_TRUE(checker.check(spec).problems.empty());
+  }
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  std::cout << "1000 speeds of type-i: " << seconds << " s\n";
+  EXPECT_LT(seconds, 1.0);
+}
+
+}  // namespace
+}  // namespace cellcrush

@@ -1,0 +1,173 @@
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <chrono>
+#include <iostream>
+#include <thread>
+
+#include "cellcrush/v1/admin_service.grpc.pb.h"
+#include "server/small_case.h"
+#include "server/sweep_requests.h"
+
+namespace cellcrush::testing {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+class JobOrderTest : public DaemonFixture {
+ protected:
+  // One worker, so that jobs start one after another.
+  void SetUp() override { start_one_worker(); }
+
+  void start_one_worker() {
+    auto options = default_options();
+    options.workers = 1;
+    start(options);
+  }
+
+  static std::string create_with_priority(Client& client, const v1::Case& submitted, int priority) {
+    v1::CreateJobRequest request;
+    *request.mutable_case_() = submitted;
+    request.set_priority(priority);
+    v1::Job job;
+    const auto status = client.jobs->CreateJob(bounded_context().get(), request, &job);
+    EXPECT_TRUE(status.ok()) << status.error_message();
+    EXPECT_EQ(job.priority(), priority);
+    return job.name();
+  }
+
+  static v1::Queue queue_of(Client& client) {
+    v1::Queue out;
+    const auto status = v1::Admin::NewStub(client.channel)->GetQueue(bounded_context().get(), {}, &out);
+    EXPECT_TRUE(status.ok()) << status.error_message();
+    return out;
+  }
+
+  // The jobs, all endless, in the order in which they start. Each is cancelled once it runs.
+  static std::vector<std::string> by_start(Client& client, std::vector<std::string> jobs) {
+    std::vector<std::string> out;
+    for (int i = 0; i < 1200 && !jobs.empty(); ++i) {
+      const auto running = std::find_if(jobs.begin(), jobs.end(), [&client](const std::string& job) {
+        return client.get(job).state() == v1::RUNNING;
+      });
+      if (running == jobs.end()) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        continue;
+      }
+      EXPECT_TRUE(client.cancel(*running).ok());
+      out.push_back(*running);
+      jobs.erase(running);
+    }
+    return out;
+  }
+};
+
+TEST_F(JobOrderTest, TheJobsOfASweepStartLongestFirst) {
+  auto client = this->client();
+  // At half the speed a crush has twice the steps.
+  const auto sweep = create(client, sweep_of(endless_case(), kSpeed, {4.0, 2.0, 1.0, 2.0}));
+  EXPECT_THAT(by_start(client, {sweep.jobs().begin(), sweep.jobs().end()}),
+              ElementsAre("jobs/3", "jobs/2", "jobs/4", "jobs/1"));
+}
+
+TEST_F(JobOrderTest, TheNextDaemonStartsTheRestOfASweepLongestFirstToo) {
+  {
+    auto client = this->client();
+    const std::string running = client.create(endless_case());
+    create(client, sweep_of(endless_case(), kSpeed, {4.0, 1.0, 2.0}));
+    ASSERT_TRUE(client.wait_for_state(running, v1::RUNNING));
+  }
+  daemon_->stop();
+  start_one_worker();
+  auto client = this->client();
+  client.cancel("jobs/1");
+  EXPECT_THAT(by_start(client, {"jobs/2", "jobs/3", "jobs/4"}), ElementsAre("jobs/3", "jobs/4", "jobs/2"));
+}
+
+TEST_F(JobOrderTest, AJobOfAHigherPriorityStartsBeforeOlderOnesAndStopsNone) {
+  auto client = this->client();
+  const std::string running = client.create(endless_case());
+  ASSERT_TRUE(client.wait_for_state(running, v1::RUNNING));
+  auto request = sweep_of(endless_case(), kSpeed, {1.0, 2.0});
+  request.mutable_sweep()->set_priority(-1);
+  const auto sweep = create(client, request);
+  EXPECT_EQ(sweep.priority(), -1);
+  EXPECT_EQ(client.get(sweep.jobs(0)).priority(), -1);
+  const std::string plain = client.create(endless_case());
+  const std::string urgent = create_with_priority(client, endless_case(), 100);
+  EXPECT_EQ(client.get(running).state(), v1::RUNNING);
+  ASSERT_TRUE(client.cancel(running).ok());
+  EXPECT_THAT(by_start(client, {sweep.jobs(0), sweep.jobs(1), plain, urgent}),
+              ElementsAre(urgent, plain, sweep.jobs(0), sweep.jobs(1)));
+}
+
+TEST_F(JobOrderTest, TheQueueTellsTheOrderInWhichJobsStartAndWhyTheyWait) {
+  auto client = this->client();
+  EXPECT_EQ(queue_of(client).entries_size(), 0);
+  const std::string running = client.create(endless_case());
+  ASSERT_TRUE(client.wait_for_state(running, v1::RUNNING));
+  auto request = sweep_of(endless_case(), kSpeed, {4.0, 1.0, 2.0});
+  request.mutable_sweep()->set_max_parallel(1);
+  create(client, request);
+  const std::string plain = client.create(endless_case());
+  const std::string urgent = create_with_priority(client, endless_case(), 7);
+  const auto queue = queue_of(client);
+  std::vector<std::string> told;
+  double before = 0.0;
+  for (const auto& entry : queue.entries()) {
+    told.push_back(entry.job());
+    EXPECT_GT(entry.seconds_until_start(), before) << entry.job();
+    before = entry.seconds_until_start();
+  }
+  EXPECT_EQ(queue.more_count(), 0);
+  ASSERT_THAT(told, ElementsAre(urgent, "jobs/3", "jobs/4", "jobs/2", plain));
+  EXPECT_EQ(queue.entries(0).priority(), 7);
+  EXPECT_EQ(queue.entries(0).reason(), "The only worker is busy.");
+  EXPECT_EQ(queue.entries(3).reason(), "The only worker is busy, and 3 jobs start before it.");
+  ASSERT_TRUE(client.cancel(running).ok());
+  EXPECT_EQ(by_start(client, told), told);
+  EXPECT_EQ(queue_of(client).entries_size(), 0);
+}
+
+TEST_F(JobOrderTest, APriorityOutOfRangeIsRefused) {
+  auto client = this->client();
+  v1::CreateJobRequest request;
+  *request.mutable_case_() = small_case();
+  request.set_priority(101);
+  v1::Job job;
+  const auto status = client.jobs->CreateJob(bounded_context().get(), request, &job);
+  EXPECT_EQ(status.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
+  EXPECT_THAT(status.error_message(), HasSubstr("priority is 101. Use -100 to 100"));
+  auto sweep = sweep_of(small_case(), kSpeed, {100.0});
+  sweep.mutable_sweep()->set_priority(-101);
+  v1::Sweep made;
+  EXPECT_THAT(client.sweeps->CreateSweep(bounded_context().get(), sweep, &made).error_message(),
+              HasSubstr("sweep.priority is -101"));
+}
+
+TEST_F(JobOrderTest, AThousandSpeedsOfTypeIAreQueuedTogether) {
+  auto client = this->client();
+  v1::GetPresetRequest wanted;
+  wanted.set_name("type-i");
+  v1::Preset preset;
+  ASSERT_TRUE(client.cases->GetPreset(bounded_context().get(), wanted, &preset).ok());
+  auto request = sweep_of(preset.case_(), kSpeed, {});
+  auto& speeds = *request.mutable_sweep()->mutable_axes(0)->mutable_linear();
+  speeds.set_first(20.0);
+  speeds.set_last(220.0);
+  speeds.set_count(1000);
+  const auto start = std::chrono::steady_clock::now();
+  const auto sweep = create(client, request);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  std::cout << "type-i at 1000 speeds: queued in " << seconds << " s\n";
+  EXPECT_EQ(sweep.jobs_size(), 1000);
+  EXPECT_LT(seconds, 2.0) << "It takes about 0.1 s; building every scene takes 4 s.";
+  v1::CancelSweepRequest cancel;
+  cancel.set_name(sweep.name());
+  v1::Sweep cancelled;
+  EXPECT_TRUE(client.sweeps->CancelSweep(bounded_context().get(), cancel, &cancelled).ok());
+}
+
+}  // namespace
+}  // namespace cellcrush::testing

@@ -1,0 +1,164 @@
+// What the daemon does not take, what it does when the disk is nearly full, and how it ends on request.
+#include <gmock/gmock.h>
+#include <signal.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include "cellcrush/v1/admin_service.grpc.pb.h"
+#include "server/daemon_fixture.h"
+#include "server/daemon_process.h"
+#include "server/small_case.h"
+#include "server/sweep_requests.h"
+
+namespace cellcrush::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+class LimitsTest : public DaemonFixture {
+ protected:
+  static grpc::Status try_to_create(Client& client, const v1::Case& submitted, const std::string& request_id = "") {
+    v1::CreateJobRequest request;
+    *request.mutable_case_() = submitted;
+    request.set_request_id(request_id);
+    v1::Job job;
+    return client.jobs->CreateJob(bounded_context().get(), request, &job);
+  }
+
+  [[nodiscard]] std::int64_t free_bytes() const {
+    return static_cast<std::int64_t>(std::filesystem::space(folder_.path()).available);
+  }
+};
+
+TEST_F(LimitsTest, BeyondTheQueuesDepthNothingIsTakenAndTheRemedyIsNamed) {
+  auto options = default_options();
+  options.workers = 1;
+  options.limits.queued_jobs = 2;
+  start(options);
+  auto client = this->client();
+  const std::string running = client.create(endless_case());
+  ASSERT_TRUE(client.wait_for_state(running, v1::RUNNING));
+  client.create(small_case());
+  ASSERT_TRUE(try_to_create(client, small_case(), "second").ok());
+  const auto refused = try_to_create(client, small_case());
+  EXPECT_EQ(refused.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
+  EXPECT_THAT(refused.error_message(), HasSubstr("--max-queued-jobs"));
+  EXPECT_TRUE(try_to_create(client, small_case(), "second").ok()) << "What was taken before is told again.";
+  v1::Sweep sweep;
+  const auto points = sweep_of(small_case(), kSpeed, {50.0, 100.0});
+  EXPECT_EQ(client.sweeps->CreateSweep(bounded_context().get(), points, &sweep).error_code(),
+            grpc::StatusCode::RESOURCE_EXHAUSTED);
+}
+
+TEST_F(LimitsTest, AJobThatNeedsMoreMemoryThanThereIsIsRefused) {
+  auto options = default_options();
+  options.limits.job_memory_bytes = 1024 * 1024;
+  start(options);
+  auto client = this->client();
+  const auto refused = try_to_create(client, endless_case());
+  EXPECT_EQ(refused.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
+  EXPECT_THAT(refused.error_message(), HasSubstr("elements_per_wall"));
+  EXPECT_TRUE(try_to_create(client, small_case()).ok());
+  v1::Sweep sweep;
+  const auto points = sweep_of(endless_case(), kSpeed, {50.0, 100.0});
+  EXPECT_EQ(client.sweeps->CreateSweep(bounded_context().get(), points, &sweep).error_code(),
+            grpc::StatusCode::RESOURCE_EXHAUSTED);
+}
+
+TEST_F(LimitsTest, WithTooLittleRoomOnTheDiskNothingIsTaken) {
+  auto options = default_options();
+  options.limits.free_disk_bytes = 2 * free_bytes();
+  start(options);
+  auto client = this->client();
+  const auto refused = try_to_create(client, small_case());
+  EXPECT_EQ(refused.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
+  EXPECT_THAT(refused.error_message(), HasSubstr("Make room"));
+  v1::ListJobsResponse listed;
+  EXPECT_TRUE(client.jobs->ListJobs(bounded_context().get(), {}, &listed).ok()) << "It can still be read.";
+}
+
+// The disk is that of the temporary folder; a large file takes its room and gives it back.
+TEST_F(LimitsTest, RunningJobsAreLeftWhileTheDiskIsNearlyFullAndGoOnWhenThereIsRoom) {
+  constexpr std::int64_t kTaken = 512 * 1024 * 1024;
+  const std::int64_t before = free_bytes();
+  if (before < 2 * kTaken) GTEST_SKIP() << "The disk of the temporary folder has too little room for this test.";
+  auto options = default_options();
+  options.limits.free_disk_bytes = before - kTaken / 2;
+  options.housekeeping_interval = std::chrono::milliseconds(50);
+  start(options);
+  auto client = this->client();
+  const std::string job = client.create(endless_case());
+  ASSERT_TRUE(client.wait_for_state(job, v1::RUNNING));
+
+  const auto file = folder_.path() / "large";
+  std::ofstream(file).close();
+  const std::string command = "fallocate -l " + std::to_string(kTaken) + " " + file.string();
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  EXPECT_TRUE(client.wait_for_state(job, v1::PENDING));
+  EXPECT_EQ(try_to_create(client, small_case()).error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
+  std::filesystem::remove(file);
+  EXPECT_TRUE(client.wait_for_state(job, v1::RUNNING));
+  EXPECT_EQ(client.get(job).attempt(), 2);
+  ASSERT_TRUE(client.cancel(job).ok());
+}
+
+TEST_F(LimitsTest, AJobThatEndedLongAgoIsDeletedAndOthersAreNot) {
+  auto options = default_options();
+  options.keep_ended_jobs = std::chrono::seconds(2);
+  options.housekeeping_interval = std::chrono::milliseconds(50);
+  start(options);
+  auto client = this->client();
+  const std::string waits = client.create(endless_case());
+  const std::string job = client.create(small_case());
+  ASSERT_TRUE(client.wait_for_state(job, v1::SUCCEEDED));
+  v1::GetJobRequest request;
+  request.set_name(job);
+  v1::Job found;
+  auto status = client.jobs->GetJob(bounded_context().get(), request, &found);
+  EXPECT_TRUE(status.ok()) << "Not before its time.";
+  for (int i = 0; i < 200 && status.ok(); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    status = client.jobs->GetJob(bounded_context().get(), request, &found);
+  }
+  EXPECT_EQ(status.error_code(), grpc::StatusCode::NOT_FOUND);
+  EXPECT_EQ(client.get(waits).state(), v1::RUNNING);
+  ASSERT_TRUE(client.cancel(waits).ok());
+}
+
+TEST_F(LimitsTest, DrainedItTakesNoJobEndsAndLeavesWhatRuns) {
+  const std::string socket = "unix:" + (folder_.path() / "other").string();
+  const std::vector<std::string> arguments = {"--data", (folder_.path() / "drained").string(), "--listen", socket};
+  DaemonProcess daemon(arguments);
+  ASSERT_EQ(daemon.wait_for_addresses(1).size(), 1U);
+  Client client(socket);
+  const std::string job = client.create(endless_case());
+  ASSERT_TRUE(client.wait_for_state(job, v1::RUNNING));
+  const auto worker = static_cast<pid_t>(client.get(job).worker_pid());
+  v1::DrainResponse response;
+  ASSERT_TRUE(v1::Admin::NewStub(client.channel)->Drain(bounded_context().get(), {}, &response).ok());
+  EXPECT_EQ(daemon.wait(), 0);
+  EXPECT_FALSE(is_alive(worker));
+  DaemonProcess next(arguments);
+  ASSERT_EQ(next.wait_for_addresses(1).size(), 1U);
+  Client again(socket);
+  EXPECT_TRUE(again.wait_for_state(job, v1::RUNNING));
+  ASSERT_TRUE(again.cancel(job).ok());
+  EXPECT_TRUE(again.wait_for_state(job, v1::CANCELLED));
+}
+
+TEST_F(LimitsTest, WhileItDrainsNewJobsAreRefusedAndOldOnesServed) {
+  auto client = this->client();
+  const std::string job = client.create(small_case());
+  v1::DrainResponse response;
+  ASSERT_TRUE(v1::Admin::NewStub(client.channel)->Drain(bounded_context().get(), {}, &response).ok());
+  const auto refused = try_to_create(client, small_case());
+  EXPECT_EQ(refused.error_code(), grpc::StatusCode::UNAVAILABLE);
+  EXPECT_THAT(refused.error_message(), HasSubstr("about to end"));
+  EXPECT_TRUE(client.watch(job).status.ok());
+}
+
+}  // namespace
+}  // namespace cellcrush::testing

@@ -1,0 +1,203 @@
+#include <gmock/gmock.h>
+#include <signal.h>
+
+#include "server/daemon_process.h"
+#include "server/small_case.h"
+#include "server/sweep_requests.h"
+
+namespace cellcrush::testing {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class SweepFailuresTest : public DaemonFixture {
+ protected:
+  void SetUp() override { start_with(CELLCRUSHD_PROGRAM); }
+
+  // One worker, run by that program.
+  void start_with(const std::filesystem::path& program) {
+    auto options = default_options();
+    options.workers = 1;
+    options.worker_program = program;
+    start(options);
+  }
+
+  static v1::CreateSweepRequest six_points(int max_failures) {
+    // All take equally long, so that they start in their order.
+    auto out = sweep_of(small_case(), "plates.friction", {0.0, 0.1, 0.2, 0.3, 0.4, 0.5});
+    out.mutable_sweep()->set_max_failures(max_failures);
+    return out;
+  }
+
+  static grpc::Status retry(Client& client, const std::string& sweep, v1::Sweep& out) {
+    v1::RetryFailedJobsRequest request;
+    request.set_name(sweep);
+    return client.sweeps->RetryFailedJobs(bounded_context().get(), request, &out);
+  }
+
+  static v1::Sweep retry(Client& client, const std::string& sweep) {
+    v1::Sweep out;
+    const auto status = retry(client, sweep, out);
+    EXPECT_TRUE(status.ok()) << status.error_message();
+    return out;
+  }
+
+  // Kills the job's worker once it runs, so that it FAILED.
+  static void crash(Client& client, const std::string& job) {
+    ASSERT_TRUE(client.wait_for_state(job, v1::RUNNING));
+    ASSERT_EQ(kill(static_cast<pid_t>(client.get(job).worker_pid()), SIGKILL), 0);
+    ASSERT_TRUE(client.wait_for_state(job, v1::FAILED));
+  }
+
+  static v1::SweepTable table_of(Client& client, const std::string& sweep) {
+    v1::GetSweepTableRequest request;
+    request.set_name(sweep);
+    v1::SweepTable out;
+    EXPECT_TRUE(client.sweeps->GetSweepTable(bounded_context().get(), request, &out).ok());
+    return out;
+  }
+};
+
+TEST_F(SweepFailuresTest, AfterMaxFailuresTheJobsThatWaitAreCancelledAndSayWhy) {
+  start_with("/bin/false");
+  auto client = this->client();
+  const auto sweep = create(client, six_points(2));
+  EXPECT_EQ(sweep.max_failures(), 2);
+  EXPECT_TRUE(watch_sweep(client, sweep.name()).status.ok()) << "A watch ends with the jobs that were not started.";
+  const auto after = get_sweep(client, sweep.name());
+  EXPECT_EQ(count_in(after, v1::FAILED), 2);
+  EXPECT_EQ(count_in(after, v1::CANCELLED), 4);
+  const auto stopped = client.get(sweep.jobs(5));
+  EXPECT_EQ(stopped.state(), v1::CANCELLED);
+  EXPECT_THAT(stopped.cause_message(), HasSubstr("2 jobs of sweeps/1 failed, and its max_failures is 2"));
+  EXPECT_THAT(stopped.remedy(), HasSubstr("cellcrush retry sweeps/1"));
+  EXPECT_EQ(stopped.cause(), v1::JOB_CAUSE_UNSPECIFIED);
+}
+
+TEST_F(SweepFailuresTest, WithoutMaxFailuresEveryJobIsTriedAndOtherJobsAreNotTouched) {
+  start_with("/bin/false");
+  auto client = this->client();
+  const auto unlimited = create(client, six_points(0));
+  ASSERT_TRUE(wait_for_count(client, unlimited.name(), v1::FAILED, 6));
+  const auto limited = create(client, six_points(1));
+  const std::string other = client.create(small_case());
+  EXPECT_TRUE(client.wait_for_state(other, v1::FAILED)) << "It is no job of the sweep that stopped.";
+  EXPECT_EQ(count_in(get_sweep(client, limited.name()), v1::CANCELLED), 5);
+}
+
+TEST_F(SweepFailuresTest, FailuresBeforeADaemonsEndCountAfterIt) {
+  std::string name;
+  std::string other;
+  {
+    auto client = this->client();
+    auto request = six_points(2);
+    *request.mutable_sweep()->mutable_case_() = endless_case();
+    const auto sweep = create(client, request);
+    name = sweep.name();
+    ASSERT_TRUE(client.wait_for_state(sweep.jobs(0), v1::RUNNING));
+    v1::CreateJobRequest first;
+    *first.mutable_case_() = endless_case();
+    first.set_priority(1);
+    v1::Job job;
+    ASSERT_TRUE(client.jobs->CreateJob(bounded_context().get(), first, &job).ok());
+    other = job.name();
+    crash(client, sweep.jobs(0));
+    ASSERT_TRUE(client.wait_for_state(other, v1::RUNNING));
+    EXPECT_EQ(count_in(get_sweep(client, name), v1::PENDING), 5);
+  }
+  daemon_->stop();
+  start_with("/bin/false");
+  auto client = this->client();
+  client.cancel(other);  // unless it is lost already
+  EXPECT_TRUE(watch_sweep(client, name).status.ok());
+  const auto after = get_sweep(client, name);
+  EXPECT_EQ(count_in(after, v1::FAILED), 2) << "One before and one after.";
+  EXPECT_EQ(count_in(after, v1::CANCELLED), 4);
+}
+
+TEST_F(SweepFailuresTest, RetryQueuesWhatFailedAndWhatWasStoppedAndNothingElse) {
+  auto client = this->client();
+  auto request = six_points(1);
+  (*request.mutable_sweep()->mutable_labels())["batch"] = "a";
+  request.mutable_sweep()->set_priority(3);
+  request.mutable_sweep()->set_max_failures(1);
+  *request.mutable_sweep()->mutable_case_() = endless_case();
+  // The first of those that take longest is the second point, as the first has fewer steps.
+  request.mutable_sweep()->clear_axes();
+  for (const double strain : {0.0001, 0.5, 0.5, 0.5}) {
+    auto& fields = *request.mutable_sweep()->add_points()->mutable_fields();
+    fields["loading.end_strain"] = strain;
+    fields["loading.speed_m_per_s"] = strain < 0.1 ? 100.0 : 1.0;
+  }
+  const auto sweep = create(client, request);
+  ASSERT_TRUE(client.wait_for_state(sweep.jobs(1), v1::RUNNING));
+  ASSERT_TRUE(client.cancel(sweep.jobs(2)).ok());
+  crash(client, sweep.jobs(1));
+  ASSERT_TRUE(client.wait_for_state(sweep.jobs(0), v1::CANCELLED));
+
+  const auto retried = retry(client, sweep.name());
+  EXPECT_THAT(retried.jobs(), ElementsAre("jobs/5", "jobs/6", sweep.jobs(2), "jobs/7"));
+  EXPECT_EQ(client.get(sweep.jobs(2)).cause_message(), "") << "What its owner cancelled stays so.";
+  const auto again = client.get("jobs/6");
+  EXPECT_EQ(again.retry_of(), sweep.jobs(1));
+  EXPECT_EQ(again.labels().at("batch"), "a");
+  EXPECT_EQ(again.priority(), 3);
+  EXPECT_EQ(again.case_().SerializeAsString(), client.get(sweep.jobs(1)).case_().SerializeAsString());
+  EXPECT_EQ(client.get(sweep.jobs(1)).state(), v1::FAILED) << "The old job stays as it was.";
+  EXPECT_TRUE(client.get(sweep.jobs(1)).retry_of().empty());
+  const auto table = table_of(client, sweep.name());
+  ASSERT_EQ(table.rows_size(), 4);
+  EXPECT_EQ(table.rows(1).job(), "jobs/6");
+  EXPECT_THAT(table.rows(1).values(), ElementsAre(0.5, 1.0)) << "The point is the same.";
+
+  EXPECT_THAT(retry(client, sweep.name()).jobs(), ElementsAre("jobs/5", "jobs/6", sweep.jobs(2), "jobs/7"))
+      << "A second call finds none.";
+  ASSERT_TRUE(client.wait_for_state("jobs/6", v1::RUNNING)) << "The longest comes first again.";
+}
+
+TEST_F(SweepFailuresTest, AStoppedSweepIsRetriedToItsEndByTheNextDaemon) {
+  start_with("/bin/false");
+  std::string name;
+  {
+    auto client = this->client();
+    name = create(client, six_points(2)).name();
+    ASSERT_TRUE(wait_for_count(client, name, v1::CANCELLED, 4));
+  }
+  daemon_->stop();
+  start_with(CELLCRUSHD_PROGRAM);
+  auto client = this->client();
+  retry(client, name);
+  ASSERT_TRUE(wait_for_count(client, name, v1::SUCCEEDED, 6));
+  const auto watched = watch_sweep(client, name);
+  EXPECT_TRUE(watched.status.ok()) << watched.status.error_message();
+  EXPECT_EQ(watched.responses.front().snapshot().jobs(0), "jobs/7") << "A new watch sees the new jobs.";
+}
+
+TEST_F(SweepFailuresTest, AWatchFromBeforeTheRetryEndsWithTheOldJobs) {
+  auto client = this->client();
+  const auto sweep = create(client, sweep_of(endless_case(), kSpeed, {1.0, 2.0}));
+  crash(client, sweep.jobs(0));
+  ASSERT_TRUE(client.wait_for_state(sweep.jobs(1), v1::RUNNING));
+  const auto before = watch_sweep(client, sweep.name(), "", 3);
+  const auto retried = retry(client, sweep.name());
+  EXPECT_THAT(retried.jobs(), ElementsAre("jobs/3", sweep.jobs(1)));
+  ASSERT_TRUE(client.cancel(sweep.jobs(1)).ok());
+  ASSERT_TRUE(client.wait_for_state("jobs/3", v1::RUNNING));
+  ASSERT_TRUE(client.cancel("jobs/3").ok());
+  // Its token names a job that the sweep has no more.
+  const auto after = watch_sweep(client, sweep.name(), before.responses.back().resume_token());
+  EXPECT_TRUE(after.status.ok()) << after.status.error_message();
+  EXPECT_THAT(after.responses.front().snapshot().jobs(), ElementsAre("jobs/3", sweep.jobs(1)));
+}
+
+TEST_F(SweepFailuresTest, RetryingWhatIsNoSweepIsNotFound) {
+  auto client = this->client();
+  v1::Sweep out;
+  EXPECT_EQ(retry(client, "sweeps/9", out).error_code(), grpc::StatusCode::NOT_FOUND);
+  EXPECT_EQ(retry(client, "jobs/1", out).error_code(), grpc::StatusCode::NOT_FOUND);
+}
+
+}  // namespace
+}  // namespace cellcrush::testing
