@@ -107,8 +107,10 @@ TEST_F(LostWorkerTest, AJobWhoseWorkersAreKilledAtRandomMomentsHasTheSameBits) {
   EXPECT_TRUE(numbers_of(client, job) == expected);
   EXPECT_EQ(client.history(job).size(), expected.history.size());
   expect_sound_events(client, job);
+  for (int i = 0; i < 200 && std::filesystem::exists(file_of(job, "reports")); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  EXPECT_FALSE(std::filesystem::exists(file_of(job, "reports"))) << "Soon nothing but the result is left.";
   EXPECT_FALSE(std::filesystem::exists(file_of(job, "checkpoint")));
-  EXPECT_FALSE(std::filesystem::exists(file_of(job, "reports")));
 }
 
 TEST_F(LostWorkerTest, ASuspendedJobHoldsStillOverARestartAndHasTheSameBitsWhenItIsResumed) {
