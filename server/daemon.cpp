@@ -68,7 +68,9 @@ struct Daemon::Impl {
       : options(std::move(given)),
         wanted(listen_addresses(options)),
         folder(options.data_folder),
-        journal(folder.journal(), [this](std::int64_t job) { hub.announce(job); }),
+        journal(
+            folder.journal(), [this](std::int64_t job) { hub.announce(job); },
+            [this](double seconds) { metrics.observe_commit(seconds); }),
         reader(folder.journal()),
         sweep_reader(folder.journal()),
         executor(options.worker_program, options.stall_limit),
@@ -78,8 +80,8 @@ struct Daemon::Impl {
         step_cost(worker::measure_step_cost()),
         admission(folder, options.limits),
         cases(step_cost),
-        jobs({folder, journal, reader, hub, pump, scheduler, admission, options.bookmark_interval}),
-        sweeps({journal, reader, sweep_reader, hub, pump, scheduler, admission, options.bookmark_interval}),
+        jobs({folder, journal, reader, hub, pump, scheduler, admission, metrics, options.bookmark_interval}),
+        sweeps({journal, reader, sweep_reader, hub, pump, scheduler, admission, metrics, options.bookmark_interval}),
         admin({reader, hub, {worker_limit(options.workers), step_cost}, [this] { drain(); }}) {
     listen();
     serve_metrics();
@@ -158,11 +160,11 @@ struct Daemon::Impl {
   std::vector<ListenAddress> wanted;
   store::DataFolder folder;
   watch::Hub hub;
+  metrics::Metrics metrics;
   store::Journal journal;
   store::JournalReader reader;
   store::SweepReader sweep_reader;
   jobs::LocalProcess executor;
-  metrics::Metrics metrics;
   jobs::JobRunner runner;
   jobs::Scheduler scheduler;
   watch::Pump pump;

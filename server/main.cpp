@@ -15,6 +15,7 @@
 
 #include "cellcrush/simd.h"
 #include "daemon.h"
+#include "log_format.h"
 #include "version.h"
 #include "worker/worker_main.h"
 
@@ -97,6 +98,9 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(0, 1 << 30));
   app.add_option("--keep-ended-jobs", keep_days, "days after which a job that has ended is deleted (default: never)")
       ->check(CLI::Range(0.0, 36500.0));
+  std::string log_format = "text";
+  app.add_option("--log-format", log_format, "text or json, an object a line (default: text)")
+      ->check(CLI::IsMember({"text", "json"}));
   double checkpoint_seconds = 60.0;
   app.add_option("--checkpoint-interval", checkpoint_seconds,
                  "seconds of clock between two checkpoints of a running job (default: 60)")
@@ -125,5 +129,6 @@ int main(int argc, char** argv) {
   options.checkpoint_interval = std::chrono::milliseconds(std::llround(1000.0 * checkpoint_seconds));
   const sigset_t signals = block_signals();
   spdlog::set_default_logger(spdlog::stderr_color_mt("cellcrushd"));
+  if (log_format == "json") spdlog::set_formatter(cellcrush::make_json_formatter());
   return serve(options, signals);
 }

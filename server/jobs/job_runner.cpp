@@ -43,6 +43,7 @@ bool JobRunner::run(std::int64_t job, int threads, const Interruptions& interrup
   } catch (const std::exception& error) {
     next = outcome_of(error);
   }
+  parts_.metrics.set_speed(job, 0.0);
   if (next.state != v1::JOB_STATE_UNSPECIFIED) write(job, next, interruptions.stop);
   return next.state == v1::PENDING || next.state == v1::JOB_STATE_UNSPECIFIED;
 }
@@ -111,7 +112,10 @@ void JobRunner::pass_on(std::int64_t job, std::int64_t& last_step, watch::Channe
       parts_.journal.append_sample(job, report.sample());
       break;
     case worker::Report::kFrame: channel.publish(report.frame()); break;
-    case worker::Report::kProgress: channel.publish(report.progress()); break;
+    case worker::Report::kProgress:
+      parts_.metrics.set_speed(job, report.progress().stalled() ? 0.0 : report.progress().steps_per_second());
+      channel.publish(report.progress());
+      break;
     case worker::Report::kFinal:
     case worker::Report::kStopping:
     case worker::Report::REPORT_NOT_SET: break;

@@ -3,9 +3,12 @@
 #include <prometheus/counter.h>
 #include <prometheus/exposer.h>
 #include <prometheus/gauge.h>
+#include <prometheus/histogram.h>
 #include <prometheus/registry.h>
 
 #include <exception>
+#include <map>
+#include <mutex>
 #include <optional>
 #include <string>
 
@@ -22,6 +25,12 @@ prometheus::Gauge& gauge(prometheus::Registry& registry, const char* name, const
 
 Counters& counters(prometheus::Registry& registry, const char* name, const char* help) {
   return prometheus::BuildCounter().Name(name).Help(help).Register(registry);
+}
+
+// Bounds from a tenth of a millisecond to ten seconds.
+prometheus::Histogram& histogram(prometheus::Registry& registry, const char* name, const char* help) {
+  const prometheus::Histogram::BucketBoundaries bounds = {1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.3, 1.0, 3.0, 10.0};
+  return prometheus::BuildHistogram().Name(name).Help(help).Register(registry).Add({}, bounds);
 }
 
 /// Calls visit(stage, seconds) for every stage of a step, by the names of the fields, which end in "_s".
@@ -56,6 +65,16 @@ struct Metrics::Impl {
       counters(*registry, "cellcrush_steps_total", "Time steps of jobs that have ended with a result.").Add({});
   Counters& stages =
       counters(*registry, "cellcrush_stage_seconds_total", "Processor time of those steps, by stage of a step.");
+  prometheus::Gauge& speed = gauge(*registry, "cellcrush_steps_per_second", "Time steps a second of running jobs.");
+  prometheus::Histogram& commits =
+      histogram(*registry, "cellcrush_commit_seconds", "Time that it takes to make something durable.");
+  prometheus::Histogram& events =
+      histogram(*registry, "cellcrush_event_seconds", "Time from news of a watched job to its message on the stream.");
+  prometheus::Gauge& watchers = gauge(*registry, "cellcrush_watchers", "Open watches.");
+  prometheus::Counter& skipped =
+      counters(*registry, "cellcrush_skipped_frames_total", "Frames that watchers were too slow for.").Add({});
+  std::mutex mutex;
+  std::map<std::int64_t, double> speeds;  ///< by job
   std::optional<prometheus::Exposer> exposer;
 };
 
@@ -82,6 +101,26 @@ void Metrics::set_jobs(std::size_t waiting, std::size_t running) {
   impl_->waiting.Set(static_cast<double>(waiting));
   impl_->running.Set(static_cast<double>(running));
 }
+
+void Metrics::set_speed(std::int64_t job, double steps_per_second) {
+  const std::scoped_lock lock(impl_->mutex);
+  if (steps_per_second > 0.0) {
+    impl_->speeds[job] = steps_per_second;
+  } else {
+    impl_->speeds.erase(job);
+  }
+  double all = 0.0;
+  for (const auto& [running, speed] : impl_->speeds) all += speed;
+  impl_->speed.Set(all);
+}
+
+void Metrics::observe_commit(double seconds) { impl_->commits.Observe(seconds); }
+
+void Metrics::observe_event(double seconds) { impl_->events.Observe(seconds); }
+
+void Metrics::count_watcher(int change) { impl_->watchers.Increment(change); }
+
+void Metrics::count_skipped_frames(int frames) { impl_->skipped.Increment(frames); }
 
 void Metrics::count_ended(v1::JobState state, const v1::Summary* summary) {
   impl_->ended.Add({{"state", v1::JobState_Name(state)}}).Increment();

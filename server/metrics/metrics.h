@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 
 #include "cellcrush/v1/job.pb.h"
@@ -15,6 +16,11 @@ namespace cellcrush::metrics {
 ///   cellcrush_jobs_ended_total{state="SUCCEEDED"}    since the daemon's start, by the state in which they ended
 ///   cellcrush_steps_total                            time steps of ended jobs that left a result
 ///   cellcrush_stage_seconds_total{stage="..."}       their processor time by stage of a step (the fields of StageTimes)
+///   cellcrush_steps_per_second                       of all running jobs, as they told it last
+///   cellcrush_commit_seconds                         histogram: what it takes to make a change or some samples durable
+///   cellcrush_event_seconds                          histogram: from news of a watched job to its message on the stream
+///   cellcrush_watchers                               open watches
+///   cellcrush_skipped_frames_total                   frames that watchers were too slow for
 ///
 /// Thread-safe.
 class Metrics {
@@ -29,6 +35,12 @@ class Metrics {
   ListenAddress serve(const ListenAddress& address);
 
   void set_jobs(std::size_t waiting, std::size_t running);
+
+  void set_speed(std::int64_t job, double steps_per_second);
+  void observe_commit(double seconds);
+  void observe_event(double seconds);
+  void count_watcher(int change);
+  void count_skipped_frames(int frames);
 
   /// `summary` is null for a job without a result.
   void count_ended(v1::JobState state, const v1::Summary* summary);

@@ -3,6 +3,7 @@
 #include "cellcrush/v1/jobs_service.grpc.pb.h"
 #include "jobs/admission.h"
 #include "jobs/scheduler.h"
+#include "metrics/metrics.h"
 #include "store/data_folder.h"
 #include "store/journal.h"
 #include "store/journal_reader.h"
@@ -24,6 +25,7 @@ class JobsService final : public v1::Jobs::WithCallbackMethod_WatchJob<v1::Jobs:
     watch::Pump& pump;
     jobs::Scheduler& scheduler;
     const jobs::Admission& admission;
+    metrics::Metrics& metrics;
     std::chrono::milliseconds bookmark_interval;
   };
 

@@ -6,6 +6,7 @@
 #include "cellcrush/v1/sweeps_service.grpc.pb.h"
 #include "jobs/admission.h"
 #include "jobs/scheduler.h"
+#include "metrics/metrics.h"
 #include "store/journal.h"
 #include "store/journal_reader.h"
 #include "store/sweep_reader.h"
@@ -26,6 +27,7 @@ class SweepsService final : public v1::Sweeps::WithCallbackMethod_WatchSweep<v1:
     watch::Pump& pump;
     jobs::Scheduler& scheduler;
     const jobs::Admission& admission;
+    metrics::Metrics& metrics;
     std::chrono::milliseconds bookmark_interval;
   };
 

@@ -2,15 +2,31 @@
 
 #include <grpcpp/grpcpp.h>
 
+#include <atomic>
 #include <chrono>
+#include <cstdint>
 #include <memory>
 #include <mutex>
 #include <utility>
 
+#include "cellcrush/v1/event.pb.h"
+#include "cellcrush/v1/sweeps_service.pb.h"
+#include "metrics/metrics.h"
 #include "rpc/error_table.h"
 #include "watch/pump.h"
 
 namespace cellcrush::rpc {
+
+/// What watches work with; all of it outlives them.
+struct WatchParts {
+  watch::Pump& pump;
+  metrics::Metrics& metrics;
+  std::chrono::milliseconds bookmark_interval;
+};
+
+/// Frames that were left out before this message.
+inline int skipped_before(const v1::JobEvent& event) { return event.has_frame() ? event.frame().skipped() : 0; }
+inline int skipped_before(const v1::WatchSweepResponse&) { return 0; }
 
 /// One open watch: moves messages from its source to the stream, one at a time, as fast as the client takes them. It
 /// keeps itself until gRPC is done with it. Source is watch::JobSource or watch::SweepSource, or has the same members.
@@ -19,23 +35,23 @@ class WatchReactor final : public grpc::ServerWriteReactor<typename Source::Mess
  public:
   using Message = typename Source::Message;
 
-  static grpc::ServerWriteReactor<Message>* start(watch::Pump& pump, std::chrono::milliseconds bookmark_interval,
-                                                  std::unique_ptr<Source> source) {
-    auto reactor = std::make_shared<WatchReactor>(pump, bookmark_interval, std::move(source));
+  static grpc::ServerWriteReactor<Message>* start(const WatchParts& parts, std::unique_ptr<Source> source) {
+    auto reactor = std::make_shared<WatchReactor>(parts, std::move(source));
     reactor->self_ = reactor;
     {
       // The pump may run the reactor while the source is being opened.
       const std::scoped_lock lock(reactor->mutex_);
-      reactor->source_->open([&pump, weak = std::weak_ptr<WatchReactor>(reactor)] {
-        if (auto alive = weak.lock()) pump.schedule(alive);
+      reactor->source_->open([weak = std::weak_ptr<WatchReactor>(reactor)] {
+        if (auto alive = weak.lock()) alive->wake(alive);
       });
     }
-    pump.add(reactor);
+    parts.pump.add(reactor);
     return reactor.get();
   }
 
-  WatchReactor(watch::Pump& pump, std::chrono::milliseconds bookmark_interval, std::unique_ptr<Source> source)
-      : pump_(pump), bookmark_interval_(bookmark_interval), source_(std::move(source)) {}
+  WatchReactor(const WatchParts& parts, std::unique_ptr<Source> source) : parts_(parts), source_(std::move(source)) {
+    parts_.metrics.count_watcher(1);
+  }
 
   void run() override {
     Action action = Action::none;
@@ -43,7 +59,10 @@ class WatchReactor final : public grpc::ServerWriteReactor<typename Source::Mess
       const std::scoped_lock lock(mutex_);
       action = decide();
     }
-    if (action == Action::write) this->StartWrite(&message_);
+    if (action == Action::write) {
+      tell_metrics();
+      this->StartWrite(&message_);
+    }
     if (action == Action::finish) this->Finish(status_);
   }
 
@@ -53,7 +72,7 @@ class WatchReactor final : public grpc::ServerWriteReactor<typename Source::Mess
       writing_ = false;
       if (!ok) cancelled_ = true;
     }
-    pump_.schedule(self_);
+    parts_.pump.schedule(self_);
   }
 
   void OnCancel() override {
@@ -61,11 +80,12 @@ class WatchReactor final : public grpc::ServerWriteReactor<typename Source::Mess
       const std::scoped_lock lock(mutex_);
       cancelled_ = true;
     }
-    pump_.schedule(self_);
+    parts_.pump.schedule(self_);
   }
 
   void OnDone() override {
     source_->close();
+    parts_.metrics.count_watcher(-1);
     // The last reference goes with `self`, or with the pump if it still holds one.
     const auto self = std::move(self_);
   }
@@ -82,11 +102,11 @@ class WatchReactor final : public grpc::ServerWriteReactor<typename Source::Mess
     try {
       auto next = source_->next();
       if (!next && source_->ended()) return close(grpc::Status::OK);
-      if (!next && pump_.draining()) {
+      if (!next && parts_.pump.draining()) {
         return close({grpc::StatusCode::UNAVAILABLE,
                       "The daemon ends. Watch again " + source_->resume_advice() + " once it is back."});
       }
-      if (!next && Clock::now() - last_write_ >= bookmark_interval_) next = source_->bookmark();
+      if (!next && Clock::now() - last_write_ >= parts_.bookmark_interval) next = source_->bookmark();
       if (!next) return Action::none;
       message_ = *std::move(next);
     } catch (const std::exception& error) {
@@ -97,15 +117,31 @@ class WatchReactor final : public grpc::ServerWriteReactor<typename Source::Mess
     return Action::write;
   }
 
+  /// There is news.
+  void wake(const std::shared_ptr<WatchReactor>& self) {
+    std::int64_t none = 0;
+    news_since_.compare_exchange_strong(none, Clock::now().time_since_epoch().count());
+    parts_.pump.schedule(self);
+  }
+
+  void tell_metrics() {
+    if (const int skipped = skipped_before(message_); skipped > 0) parts_.metrics.count_skipped_frames(skipped);
+    if (const std::int64_t since = news_since_.exchange(0); since != 0) {
+      const Clock::duration taken = Clock::now().time_since_epoch() - Clock::duration(since);
+      parts_.metrics.observe_event(std::chrono::duration<double>(taken).count());
+    }
+  }
+
   Action close(grpc::Status status) {
     status_ = std::move(status);
     finished_ = true;
     return Action::finish;
   }
 
-  watch::Pump& pump_;
-  std::chrono::milliseconds bookmark_interval_;
+  WatchParts parts_;
   std::shared_ptr<WatchReactor> self_;
+  std::atomic<std::int64_t> news_since_ =
+      0;  ///< Clock's count when the news came that no message was sent for; 0: there is none
 
   std::mutex mutex_;                ///< guards all below
   std::unique_ptr<Source> source_;  ///< close is called without it, when nothing else is any more

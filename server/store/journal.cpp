@@ -3,6 +3,7 @@
 #include <google/protobuf/util/time_util.h>
 #include <spdlog/spdlog.h>
 
+#include <chrono>
 #include <utility>
 
 #include "error.h"
@@ -33,10 +34,16 @@ void apply(const StateChange& change, v1::Job& job) {
 
 }  // namespace
 
-Journal::Journal(const std::filesystem::path& path, Durable on_durable)
-    : on_durable_(std::move(on_durable)), database_(path) {
+Journal::Journal(const std::filesystem::path& path, Durable on_durable, Committed on_commit)
+    : on_durable_(std::move(on_durable)), on_commit_(std::move(on_commit)), database_(path) {
   prepare_journal(database_);
   committer_ = std::thread([this] { commit_gathered_regularly(); });
+}
+
+void Journal::commit(Transaction& transaction) {
+  const auto start = std::chrono::steady_clock::now();
+  transaction.commit();
+  if (on_commit_) on_commit_(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
 }
 
 Journal::~Journal() {
@@ -58,7 +65,7 @@ void Journal::change_state(std::int64_t job, const StateChange& change) {
       insert_samples(job, samples[job]);
       write_change(job, change);
       if (change.state == v1::FAILED) stopped = stop_failing_sweep(job);
-      transaction.commit();
+      commit(transaction);
     } catch (...) {
       give_back(std::move(samples));
       throw;
@@ -127,7 +134,7 @@ void Journal::commit_gathered() {
     try {
       Transaction transaction(database_);
       for (const auto& [job, of_job] : samples) insert_samples(job, of_job);
-      transaction.commit();
+      commit(transaction);
     } catch (...) {
       give_back(std::move(samples));
       throw;

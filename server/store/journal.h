@@ -43,7 +43,10 @@ class Journal {
   /// journal.
   using Durable = std::function<void(std::int64_t job)>;
 
-  Journal(const std::filesystem::path& path, Durable on_durable);
+  /// Told how many seconds a commit took, from the thread that committed.
+  using Committed = std::function<void(double seconds)>;
+
+  Journal(const std::filesystem::path& path, Durable on_durable, Committed on_commit = {});
   /// Commits what is gathered.
   ~Journal();
   Journal(const Journal&) = delete;
@@ -113,7 +116,11 @@ class Journal {
   Gathered take_gathered(std::optional<std::int64_t> job);
   void give_back(Gathered samples);
 
+  /// Commits and tells how long it took.
+  void commit(Transaction& transaction);
+
   Durable on_durable_;
+  Committed on_commit_;
   std::mutex write_mutex_;   ///< the connection; taken before gather_mutex_
   std::mutex gather_mutex_;  ///< gathered_ and stopping_
   Database database_;

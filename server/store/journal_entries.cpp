@@ -17,7 +17,7 @@ Journal::Created Journal::create_job(v1::Job job, const std::string& request_id,
     Transaction transaction(database_);
     if (const auto before = find_request("jobs", request_id, request_hash)) return {*before, false};
     created.job = JobInserter(database_).insert(std::move(job), {request_id, request_hash, {}, element_steps});
-    transaction.commit();
+    commit(transaction);
   }
   on_durable_(created.job);
   return created;
@@ -42,7 +42,7 @@ void Journal::delete_job(std::int64_t job) {
                             "DELETE FROM sweep_jobs WHERE job = ?1", "DELETE FROM jobs WHERE number = ?1",
                             "INSERT INTO deleted_jobs (number) VALUES (?1)"})
       Statement(database_, sql).bind(1, job).run();
-    transaction.commit();
+    commit(transaction);
   }
   on_durable_(job);
 }

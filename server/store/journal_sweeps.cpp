@@ -87,7 +87,7 @@ Journal::CreatedSweep Journal::create_sweep(v1::Sweep sweep, const std::vector<S
       join.bind(1, created.sweep).bind(2, position).bind(3, created.jobs.back());
       join.bind_blob(4, point.SerializeAsString()).run();
     }
-    transaction.commit();
+    commit(transaction);
   }
   for (const std::int64_t job : created.jobs) on_durable_(job);
   return created;
@@ -110,7 +110,7 @@ std::vector<QueuedJob> Journal::retry_failed(std::int64_t sweep) {
       replace.bind(1, failed.queued.job).bind(2, queued.job).run();
       retried.push_back(queued);
     }
-    transaction.commit();
+    commit(transaction);
   }
   for (const auto& job : retried) on_durable_(job.job);
   return retried;
@@ -157,7 +157,7 @@ void Journal::cancel_waiting(const std::vector<std::int64_t>& jobs) {
       write_change(job, cancelled);
       changed.push_back(job);
     }
-    transaction.commit();
+    commit(transaction);
   }
   for (const std::int64_t job : changed) on_durable_(job);
 }

@@ -109,5 +109,32 @@ TEST_F(MetricsTest, AreServedToThisMachineOnly) {
   EXPECT_THROW(Daemon{options}, ServiceError);
 }
 
+TEST_F(MetricsTest, TellWatchersSpeedCommitsAndEvents) {
+  auto client = this->client();
+  const std::string job = client.create(endless_case());
+  double speed = 0.0;
+  double watchers = 0.0;
+  const auto context = bounded_context();
+  v1::WatchJobRequest request;
+  request.set_name(job);
+  const auto reader = client.jobs->WatchJob(context.get(), request);
+  v1::JobEvent event;
+  for (int i = 0; i < 500 && (speed == 0.0 || watchers == 0.0) && reader->Read(&event); ++i) {
+    if (!event.has_progress()) continue;
+    const std::string now = scrape();
+    speed = value_of(now, "cellcrush_steps_per_second");
+    watchers = value_of(now, "cellcrush_watchers");
+  }
+  EXPECT_GT(speed, 100.0);
+  EXPECT_EQ(watchers, 1.0);
+  ASSERT_TRUE(client.cancel(job).ok());
+  while (reader->Read(&event)) continue;
+  EXPECT_TRUE(reader->Finish().ok());
+  const std::string after = scrape_until("cellcrush_watchers", 0.0);
+  EXPECT_GE(value_of(after, "cellcrush_commit_seconds_count"), 4.0) << "Made, RUNNING, CANCELLING, CANCELLED.";
+  EXPECT_GE(value_of(after, "cellcrush_event_seconds_count"), 4.0);
+  scrape_until("cellcrush_steps_per_second", 0.0);
+}
+
 }  // namespace
 }  // namespace cellcrush::testing
