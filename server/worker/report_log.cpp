@@ -80,26 +80,26 @@ ReportLogReader::ReportLogReader(const std::filesystem::path& path) : file_(open
 
 ReportLogReader::~ReportLogReader() { close(file_); }
 
-// Makes that many bytes of the record available.
+// Makes that many bytes of the record available. The buffer is never made smaller: to size it anew would fill it with zeros.
 bool ReportLogReader::fill(std::size_t size) {
-  while (buffer_.size() - taken_ < size) {
-    buffer_.erase(0, taken_);
+  while (end_ - taken_ < size) {
+    std::copy(buffer_.begin() + static_cast<std::ptrdiff_t>(taken_),
+              buffer_.begin() + static_cast<std::ptrdiff_t>(end_), buffer_.begin());
+    end_ -= taken_;
     taken_ = 0;
-    const std::size_t known = buffer_.size();
-    buffer_.resize(std::max(size, known + kReadAhead));
-    const auto count =
-        pread(file_, buffer_.data() + known, buffer_.size() - known, static_cast<off_t>(offset_ + known));
-    buffer_.resize(known + static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
+    if (buffer_.size() < std::max(size, kReadAhead)) buffer_.resize(std::max(size, kReadAhead));
+    const auto count = pread(file_, buffer_.data() + end_, buffer_.size() - end_, static_cast<off_t>(offset_ + end_));
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) return false;
+    end_ += static_cast<std::size_t>(count);
   }
   return true;
 }
 
 // What was read of a record that is not whole may be cut off and written anew.
 ReportLogReader::Read ReportLogReader::nothing_whole() {
-  buffer_.clear();
   taken_ = 0;
+  end_ = 0;
   return Read::end;
 }
 

@@ -59,8 +59,9 @@ class ReportLogReader {
 
   int file_;
   std::uint64_t offset_ = 0;
-  std::string buffer_;     ///< bytes of the file, read ahead; those behind the first taken_ begin at offset_
-  std::size_t taken_ = 0;  ///< of buffer_
+  std::string buffer_;  ///< holds bytes of the file from taken_ to end_, which begin at offset_
+  std::size_t taken_ = 0;
+  std::size_t end_ = 0;
 };
 
 }  // namespace cellcrush::worker

@@ -20,6 +20,7 @@ class DaemonProcess {
   /// Reads until that many addresses were printed or the process ended, at most 30 s. Returns the addresses.
   std::vector<std::string> wait_for_addresses(std::size_t count);
 
+  [[nodiscard]] pid_t number() const { return pid_; }
   void send_signal(int number) const;
   /// Waits for the end, at most 20 s, then kills. Returns the exit code, or -1 - signal when a signal ended it.
   int wait();

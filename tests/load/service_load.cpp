@@ -1,0 +1,182 @@
+// Measures the service under load, on this machine, while jobs run. Prints a figure a line; asserts nothing.
+#include <fmt/core.h>
+
+#include <atomic>
+#include <chrono>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "load/figures.h"
+#include "server/daemon_fixture.h"
+#include "server/daemon_process.h"
+#include "server/small_case.h"
+
+namespace cellcrush::load {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using testing::Client;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+// Submits jobs one after the other that wait behind all others; the times that the calls took.
+std::vector<double> submit(const std::string& address, int count, std::vector<std::string>* names = nullptr) {
+  Client client(address);
+  v1::CreateJobRequest request;
+  *request.mutable_case_() = testing::small_case();
+  request.set_priority(-100);
+  std::vector<double> out;
+  for (int i = 0; i < count; ++i) {
+    v1::Job job;
+    const auto start = Clock::now();
+    const auto status = client.jobs->CreateJob(testing::bounded_context().get(), request, &job);
+    out.push_back(seconds_since(start));
+    if (!status.ok()) fmt::print("a submit failed: {}\n", status.error_message());
+    if (names != nullptr) names->push_back(job.name());
+  }
+  return out;
+}
+
+void measure_submits(const std::string& address) {
+  const auto start = Clock::now();
+  fmt::print("durable submits of one client, {}\n", describe(submit(address, 1000)));
+  fmt::print("  that is {:.0f} a second\n", 1000.0 / seconds_since(start));
+  const auto together = Clock::now();
+  std::vector<std::jthread> clients;
+  for (int i = 0; i < 8; ++i) clients.emplace_back([&address] { submit(address, 250); });
+  clients.clear();
+  fmt::print("durable submits of eight clients: {:.0f} a second\n", 2000.0 / seconds_since(together));
+}
+
+// Two watchers on each of a hundred waiting jobs, which are then cancelled: from before the call to the watcher, with the call, the
+// change and its commit.
+void measure_events(const std::string& address) {
+  std::vector<std::string> jobs;
+  submit(address, 100, &jobs);
+  std::vector<std::atomic<Clock::time_point>> called(jobs.size());
+  std::mutex mutex;
+  std::vector<double> latencies;
+  std::atomic<int> watching = 0;
+  {
+    std::vector<std::jthread> watchers;
+    for (std::size_t i = 0; i < 2 * jobs.size(); ++i) {
+      watchers.emplace_back([&, i] {
+        Client(address).watch(jobs[i / 2], 0, false, [&](const v1::JobEvent& event) {
+          if (event.has_snapshot()) ++watching;
+          if (!event.has_state() || event.state().state() != v1::CANCELLED) return;
+          const double taken = seconds_since(called[i / 2].load());
+          const std::scoped_lock lock(mutex);
+          latencies.push_back(taken);
+        });
+      });
+    }
+    while (watching < 200) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    Client client(address);
+    for (std::size_t i = 0; i < jobs.size(); ++i) {
+      called[i] = Clock::now();
+      client.cancel(jobs[i]);
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+  }
+  fmt::print("from a call to cancel to 200 watchers of 100 jobs, {}\n", describe(std::move(latencies)));
+}
+
+// Type I for some ten thousand steps, with about ten frames a second of some 120 kB.
+v1::Case framed_case(Client& client) {
+  v1::GetPresetRequest request;
+  request.set_name("type-i");
+  v1::Preset preset;
+  if (!client.cases->GetPreset(testing::bounded_context().get(), request, &preset).ok()) fmt::print("no type-i\n");
+  v1::Case out = preset.case_();
+  out.mutable_loading()->set_end_strain(0.3);
+  out.mutable_output()->set_frame_count(60);
+  return out;
+}
+
+struct Run {
+  double solver_seconds = 0.0;
+  double daemon_seconds = 0.0;
+  double clock_seconds = 0.0;
+  std::size_t frames = 0;
+};
+
+Run run(const std::string& address, int daemon, int watchers) {
+  Client client(address);
+  Run out;
+  const auto start = Clock::now();
+  const double before = processor_time_of(daemon);
+  v1::CreateJobRequest request;
+  *request.mutable_case_() = framed_case(client);
+  request.set_priority(100);
+  v1::Job job;
+  client.jobs->CreateJob(testing::bounded_context().get(), request, &job);
+  std::atomic<std::size_t> frames = 0;
+  {
+    std::vector<std::jthread> threads;
+    for (int i = 0; i < watchers; ++i) {
+      threads.emplace_back([&] {
+        Client(address).watch(job.name(), 0, true,
+                              [&frames](const v1::JobEvent& event) { frames += event.has_frame(); });
+      });
+    }
+    client.watch(job.name());
+  }
+  out.clock_seconds = seconds_since(start);
+  out.daemon_seconds = processor_time_of(daemon) - before;
+  out.solver_seconds = client.get(job.name()).summary().solver_seconds();
+  out.frames = frames;
+  return out;
+}
+
+void measure_runs(const std::string& address, int daemon) {
+  constexpr int kPairs = 3;
+  Run alone;
+  Run watched;
+  for (int i = 0; i < kPairs; ++i) {
+    const Run a = run(address, daemon, 0);
+    const Run b = run(address, daemon, 200);
+    alone.solver_seconds += a.solver_seconds;
+    alone.daemon_seconds += a.daemon_seconds;
+    watched.solver_seconds += b.solver_seconds;
+    watched.daemon_seconds += b.daemon_seconds;
+    watched.clock_seconds += b.clock_seconds;
+    watched.frames += b.frames;
+  }
+  fmt::print("Type I to 30 %, {} pairs: the daemon takes {:.2f} % of the solver's processor time\n", kPairs,
+             100.0 * alone.daemon_seconds / alone.solver_seconds);
+  fmt::print("  with 200 watchers of its frames: solver {:.2f} s against {:.2f} s, {:.2f} times; daemon {:.2f} s\n",
+             watched.solver_seconds / kPairs, alone.solver_seconds / kPairs,
+             watched.solver_seconds / alone.solver_seconds, watched.daemon_seconds / kPairs);
+  fmt::print("  they were sent {:.1f} frames a second each\n",
+             static_cast<double>(watched.frames) / 200.0 / watched.clock_seconds);
+}
+
+int measure(const std::filesystem::path& folder) {
+  const std::string address = "unix:" + (folder / "socket").string();
+  testing::DaemonProcess daemon(
+      {"--data", (folder / "data").string(), "--listen", address, "--workers", "1", "--log-format", "json"});
+  if (daemon.wait_for_addresses(1).empty()) {
+    fmt::print("the daemon does not start\n");
+    return 1;
+  }
+  measure_runs(address, daemon.number());
+  Client client(address);
+  const std::string busy = client.create(testing::endless_case());
+  client.wait_for_state(busy, v1::RUNNING);
+  measure_submits(address);
+  measure_events(address);
+  fmt::print("the daemon's memory: {:.0f} MiB\n", memory_of(daemon.number()));
+  client.cancel(busy);
+  return 0;
+}
+
+}  // namespace
+}  // namespace cellcrush::load
+
+int main() {
+  const cellcrush::testing::TemporaryFolder folder;
+  const int result = cellcrush::load::measure(folder.path());
+  cellcrush::testing::kill_workers(folder.path() / "data");
+  return result;
+}
