@@ -18,6 +18,7 @@ class ServiceError : public std::runtime_error {
     unimplemented,        ///< meaningful, but not built
     storage_full,         ///< the disk or a quota has no room left
     cancelled,            ///< the caller does not wait any more
+    data_loss,            ///< something stored cannot be read any more
     internal,             ///< a fault of this program or this machine
   };
 

@@ -9,6 +9,7 @@
 #include "jobs/job_state.h"
 #include "jobs/resource_name.h"
 #include "store/job_bytes.h"
+#include "store/journal_mending.h"
 #include "store/journal_schema.h"
 
 namespace cellcrush::store {
@@ -36,6 +37,7 @@ void apply(const StateChange& change, v1::Job& job) {
 Journal::Journal(const std::filesystem::path& path, Durable on_durable)
     : on_durable_(std::move(on_durable)), database_(path) {
   prepare_journal(database_);
+  mend_jobs(database_);
   committer_ = std::thread([this] { commit_gathered_regularly(); });
 }
 
@@ -68,10 +70,13 @@ void Journal::change_state(std::int64_t job, const StateChange& change) {
 void Journal::write_change(std::int64_t job, const StateChange& change) {
   v1::Job stored;
   {
-    Statement read(database_, "SELECT job FROM jobs WHERE number = ?1");
+    Statement read(database_, "SELECT job, state FROM jobs WHERE number = ?1");
     if (!read.bind(1, job).step())
       throw ServiceError(ServiceError::Kind::not_found, "There is no " + jobs::name_of(job) + ".");
-    stored.ParseFromString(read.bytes(0));
+    if (!read_job_bytes(read.bytes(0), read.integer(1), stored)) {
+      throw ServiceError(ServiceError::Kind::data_loss, "The journal's entry of " + jobs::name_of(job) +
+                                                            " cannot be read. Restart the daemon, which mends it.");
+    }
   }
   if (!jobs::may_follow(stored.state(), change.state)) {
     throw ServiceError(ServiceError::Kind::failed_precondition,
