@@ -20,6 +20,7 @@ class ServiceError : public std::runtime_error {
     exhausted,            ///< beyond a limit of this daemon
     unavailable,          ///< not now; later again
     cancelled,            ///< the caller does not wait any more
+    data_loss,            ///< something stored cannot be read any more
     internal,             ///< a fault of this program or this machine
   };
 

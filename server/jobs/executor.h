@@ -55,6 +55,9 @@ class Executor {
   /// in it.
   virtual std::optional<WorkerExit> take_last_word(const worker::JobFolder& folder, const WorkerEvents& events) = 0;
 
+  /// Ends the worker that runs in the folder, if one does.
+  virtual void end_worker(const worker::JobFolder& folder) = 0;
+
   /// Goes along with the worker that runs in the folder, or starts one; waits until it has ended or left the job. All that
   /// the folder's workers have reported is told. An exception thrown by `events` ends the worker and is passed on.
   virtual WorkerExit run(const worker::JobFolder& folder, const worker::Order& order, const WorkerEvents& events,

@@ -42,6 +42,7 @@ bool JobRunner::run(std::int64_t job, int threads, const Interruptions& interrup
     return false;
   } catch (const std::exception& error) {
     next = outcome_of(error);
+    end_leftover(job);
   }
   parts_.metrics.set_speed(job, 0.0);
   if (next.state != v1::JOB_STATE_UNSPECIFIED) write(job, next, interruptions.stop);
@@ -54,16 +55,22 @@ JobRunner::Left JobRunner::reconcile(std::int64_t job) {
   const auto stored = parts_.reader.find_job(job);
   if (!stored) return Left::ended;
   parts_.folder.make_job_folder(job);
-  const auto last_word = parts_.executor.take_last_word(folder, events_of(*stored));
   store::StateChange next = tried_again(worker_missing());
-  if (last_word) {
-    next = outcome_of(*last_word);
-  } else if (stored->job.state() == v1::CANCELLING) {
-    next = cancelled_without_result();
+  try {
+    if (const auto last_word = parts_.executor.take_last_word(folder, events_of(*stored))) {
+      next = outcome_of(*last_word);
+    } else if (stored->job.state() == v1::CANCELLING) {
+      next = cancelled_without_result();
+    }
+  } catch (const ServiceError& error) {
+    if (error.kind() != ServiceError::Kind::data_loss) throw;
+    next = outcome_of(error);
   }
   write(job, next, {});
   return next.state == v1::PENDING ? Left::waits : Left::ended;
 }
+
+void JobRunner::end_leftover(std::int64_t job) { parts_.executor.end_worker(parts_.folder.job_folder(job)); }
 
 WorkerExit JobRunner::run_worker(const store::StoredJob& stored, int threads, const Interruptions& interruptions) {
   parts_.folder.make_job_folder(stored.number);

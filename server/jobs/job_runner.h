@@ -45,6 +45,9 @@ class JobRunner {
   };
   Left reconcile(std::int64_t job);
 
+  /// Ends the worker of a job that has ended otherwise, if there is one.
+  void end_leftover(std::int64_t job);
+
  private:
   WorkerExit run_worker(const store::StoredJob& stored, int threads, const Interruptions& interruptions);
   WorkerEvents events_of(const store::StoredJob& stored);

@@ -93,6 +93,10 @@ std::optional<WorkerExit> LocalProcess::take_last_word(const worker::JobFolder& 
   return out;
 }
 
+void LocalProcess::end_worker(const worker::JobFolder& folder) {
+  if (auto process = WorkerProcess::find(folder)) process->end();
+}
+
 WorkerExit LocalProcess::run(const worker::JobFolder& folder, const worker::Order& order, const WorkerEvents& events,
                              const Interruptions& interruptions) {
   auto process = WorkerProcess::find(folder);

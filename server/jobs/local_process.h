@@ -17,6 +17,7 @@ class LocalProcess final : public Executor {
 
   bool has_worker(const worker::JobFolder& folder) override;
   std::optional<WorkerExit> take_last_word(const worker::JobFolder& folder, const WorkerEvents& events) override;
+  void end_worker(const worker::JobFolder& folder) override;
   WorkerExit run(const worker::JobFolder& folder, const worker::Order& order, const WorkerEvents& events,
                  const Interruptions& interruptions) override;
 

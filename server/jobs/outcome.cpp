@@ -101,6 +101,8 @@ store::StateChange outcome_of(const std::exception& error) {
   const auto* refused = dynamic_cast<const ServiceError*>(&error);
   if (refused != nullptr && refused->kind() == ServiceError::Kind::storage_full)
     return failed(v1::DISK_FULL, error.what(), "Make room in the data folder and submit the case again.");
+  if (refused != nullptr && refused->kind() == ServiceError::Kind::data_loss)
+    return failed(v1::STORE_CORRUPT, error.what(), "Submit the case again, and look whether the disk is sound.");
   return failed(v1::WORKER_CRASHED, std::string("The run could not be kept up: ") + error.what(),
                 "Look into the daemon's log, then submit the case again.");
 }

@@ -25,7 +25,9 @@ void Scheduler::start(int slots) {
 void Scheduler::clean_up() {
   for (const std::int64_t job : parts_.folder.jobs_with_reports()) {
     const auto stored = parts_.reader.find_job(job);
-    if (stored && is_terminal(stored->job.state())) parts_.folder.clean_job_folder(job);
+    if (!stored || !is_terminal(stored->job.state())) continue;
+    parts_.runner.end_leftover(job);
+    parts_.folder.clean_job_folder(job);
   }
 }
 

@@ -29,6 +29,7 @@ grpc::StatusCode code_of(ServiceError::Kind kind) {
     case ServiceError::Kind::exhausted: return grpc::StatusCode::RESOURCE_EXHAUSTED;
     case ServiceError::Kind::unavailable: return grpc::StatusCode::UNAVAILABLE;
     case ServiceError::Kind::cancelled: return grpc::StatusCode::CANCELLED;
+    case ServiceError::Kind::data_loss: return grpc::StatusCode::DATA_LOSS;
     case ServiceError::Kind::internal: break;
   }
   return grpc::StatusCode::INTERNAL;
@@ -118,7 +119,9 @@ grpc::Status invalid_argument(const std::string& field, const std::string& messa
 
 grpc::Status status_of(const std::exception& error) {
   if (const auto* refused = dynamic_cast<const ServiceError*>(&error)) {
-    if (refused->kind() == ServiceError::Kind::internal) spdlog::error("A call failed: {}", error.what());
+    const bool is_fault =
+        refused->kind() == ServiceError::Kind::internal || refused->kind() == ServiceError::Kind::data_loss;
+    if (is_fault) spdlog::error("A call failed: {}", error.what());
     return {code_of(refused->kind()), shorten(error.what(), kMostMessage)};
   }
   if (const auto* refused = dynamic_cast<const InvalidField*>(&error))

@@ -10,6 +10,7 @@
 #include "jobs/job_state.h"
 #include "jobs/resource_name.h"
 #include "store/job_bytes.h"
+#include "store/journal_mending.h"
 #include "store/journal_schema.h"
 
 namespace cellcrush::store {
@@ -37,6 +38,7 @@ void apply(const StateChange& change, v1::Job& job) {
 Journal::Journal(const std::filesystem::path& path, Durable on_durable, Committed on_commit)
     : on_durable_(std::move(on_durable)), on_commit_(std::move(on_commit)), database_(path) {
   prepare_journal(database_);
+  mend_jobs(database_);
   committer_ = std::thread([this] { commit_gathered_regularly(); });
 }
 
@@ -78,10 +80,13 @@ void Journal::change_state(std::int64_t job, const StateChange& change) {
 void Journal::write_change(std::int64_t job, const StateChange& change) {
   v1::Job stored;
   {
-    Statement read(database_, "SELECT job FROM jobs WHERE number = ?1");
+    Statement read(database_, "SELECT job, state FROM jobs WHERE number = ?1");
     if (!read.bind(1, job).step())
       throw ServiceError(ServiceError::Kind::not_found, "There is no " + jobs::name_of(job) + ".");
-    stored.ParseFromString(read.bytes(0));
+    if (!read_job_bytes(read.bytes(0), read.integer(1), stored)) {
+      throw ServiceError(ServiceError::Kind::data_loss, "The journal's entry of " + jobs::name_of(job) +
+                                                            " cannot be read. Restart the daemon, which mends it.");
+    }
   }
   if (!jobs::may_follow(stored.state(), change.state)) {
     throw ServiceError(ServiceError::Kind::failed_precondition,
@@ -156,7 +161,11 @@ void Journal::insert_event(std::int64_t job, std::int64_t sequence, int kind, co
 void Journal::insert_samples(std::int64_t job, const std::vector<std::string>& samples) {
   if (samples.empty()) return;
   std::int64_t sequence = last_sequence_of(job);
-  for (const auto& sample : samples) insert_event(job, ++sequence, kSampleEvent, sample);
+  {
+    Statement insert(database_, "INSERT INTO events (job, sequence, kind, payload) VALUES (?1, ?2, ?3, ?4)");
+    insert.bind(1, job).bind(3, kSampleEvent);
+    for (const auto& sample : samples) insert.bind(2, ++sequence).bind_blob(4, sample).run();
+  }
   Statement update(database_, "UPDATE jobs SET last_sequence = ?2 WHERE number = ?1");
   update.bind(1, job).bind(2, sequence).run();
 }

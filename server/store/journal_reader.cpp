@@ -1,9 +1,13 @@
 #include "store/journal_reader.h"
 
+#include <spdlog/spdlog.h>
+
 #include <string>
 #include <utility>
 
+#include "error.h"
 #include "jobs/resource_name.h"
+#include "store/journal_mending.h"
 #include "store/journal_schema.h"
 
 namespace cellcrush::store {
@@ -11,15 +15,28 @@ namespace {
 
 constexpr int kBatch = 200;
 
-// Columns: number, job, submitted_case, last_sequence.
+// Columns: number, job, submitted_case, last_sequence, state. What was damaged since the journal was opened is shown as such.
 StoredJob read_job(const Statement& row) {
   StoredJob out;
   out.number = row.integer(0);
-  out.job.ParseFromString(row.bytes(1));
-  out.job.mutable_case_()->ParseFromString(row.bytes(2));
+  if (!read_job_bytes(row.bytes(1), row.integer(4), out.job)) set_corrupt(out.job);
+  if (!out.job.mutable_case_()->ParseFromString(row.bytes(2))) out.job.mutable_case_()->Clear();
   out.job.set_name(jobs::name_of(out.number));
   out.last_sequence = row.integer(3);
   return out;
+}
+
+// An event's payload. False when it cannot be read.
+bool read_event(int kind, const std::string& payload, v1::JobEvent& event) {
+  if (kind != kStateEvent) return event.mutable_sample()->ParseFromString(payload);
+  return event.mutable_state()->ParseFromString(payload) && event.state().state() != v1::JOB_STATE_UNSPECIFIED;
+}
+
+ServiceError unreadable_event(std::int64_t job, std::int64_t sequence) {
+  const std::string number = std::to_string(sequence);
+  return {ServiceError::Kind::data_loss, "Event " + number + " of " + jobs::name_of(job) +
+                                             " cannot be read: the journal was damaged. A watch with after_sequence " +
+                                             number + " goes on behind it."};
 }
 
 }  // namespace
@@ -28,7 +45,7 @@ JournalReader::JournalReader(const std::filesystem::path& path) : database_(path
 
 std::optional<StoredJob> JournalReader::find_job(std::int64_t job) {
   const std::scoped_lock lock(mutex_);
-  Statement read(database_, "SELECT number, job, submitted_case, last_sequence FROM jobs WHERE number = ?1");
+  Statement read(database_, "SELECT number, job, submitted_case, last_sequence, state FROM jobs WHERE number = ?1");
   if (!read.bind(1, job).step()) return std::nullopt;
   return read_job(read);
 }
@@ -56,7 +73,7 @@ std::vector<StoredJob> JournalReader::list_jobs(const JobFilter& wanted, bool ne
 
 std::vector<StoredJob> JournalReader::read_batch(const JobFilter& wanted, bool newest_first, std::int64_t after) {
   const std::scoped_lock lock(mutex_);
-  std::string sql = "SELECT number, job, submitted_case, last_sequence FROM jobs WHERE ";
+  std::string sql = "SELECT number, job, submitted_case, last_sequence, state FROM jobs WHERE ";
   sql += newest_first ? "(?1 = 0 OR number < ?1)" : "number > ?1";
   if (!wanted.states.empty()) sql += " AND state = ?2";
   sql += newest_first ? " ORDER BY number DESC" : " ORDER BY number";
@@ -96,31 +113,36 @@ std::vector<v1::JobEvent> JournalReader::events(std::int64_t job, std::int64_t a
   while (read.step()) {
     v1::JobEvent& event = out.emplace_back();
     event.set_sequence(read.integer(0));
-    if (read.integer(1) == kStateEvent) {
-      event.mutable_state()->ParseFromString(read.bytes(2));
-      event.mutable_state()->set_name(jobs::name_of(job));
-    } else {
-      event.mutable_sample()->ParseFromString(read.bytes(2));
+    if (!read_event(static_cast<int>(read.integer(1)), read.bytes(2), event)) {
+      if (out.size() == 1) throw unreadable_event(job, event.sequence());
+      // Those before it can be given.
+      out.pop_back();
+      break;
     }
+    if (event.has_state()) event.mutable_state()->set_name(jobs::name_of(job));
   }
   return out;
 }
 
 std::vector<v1::Sample> JournalReader::samples(std::int64_t job) {
   const std::scoped_lock lock(mutex_);
-  Statement read(database_, "SELECT payload FROM events WHERE job = ?1 AND kind = ?2 ORDER BY sequence");
+  Statement read(database_, "SELECT payload, sequence FROM events WHERE job = ?1 AND kind = ?2 ORDER BY sequence");
   read.bind(1, job).bind(2, kSampleEvent);
   std::vector<v1::Sample> out;
-  while (read.step()) out.emplace_back().ParseFromString(read.bytes(0));
+  while (read.step()) {
+    if (!out.emplace_back().ParseFromString(read.bytes(0))) throw unreadable_event(job, read.integer(1));
+  }
   return out;
 }
 
 std::int64_t JournalReader::last_sampled_step(std::int64_t job) {
   const std::scoped_lock lock(mutex_);
-  Statement read(database_, "SELECT payload FROM events WHERE job = ?1 AND kind = ?2 ORDER BY sequence DESC LIMIT 1");
+  Statement read(database_,
+                 "SELECT payload, sequence FROM events WHERE job = ?1 AND kind = ?2 ORDER BY sequence DESC LIMIT 1");
   if (!read.bind(1, job).bind(2, kSampleEvent).step()) return -1;
   v1::Sample sample;
-  return sample.ParseFromString(read.bytes(0)) ? sample.step() : -1;
+  if (!sample.ParseFromString(read.bytes(0))) throw unreadable_event(job, read.integer(1));
+  return sample.step();
 }
 
 std::optional<v1::Mesh> JournalReader::mesh(std::int64_t job) {
@@ -128,8 +150,9 @@ std::optional<v1::Mesh> JournalReader::mesh(std::int64_t job) {
   Statement read(database_, "SELECT mesh FROM meshes WHERE job = ?1");
   if (!read.bind(1, job).step()) return std::nullopt;
   v1::Mesh mesh;
-  mesh.ParseFromString(read.bytes(0));
-  return mesh;
+  if (mesh.ParseFromString(read.bytes(0))) return mesh;
+  spdlog::error("The mesh of {} cannot be read: the journal was damaged.", jobs::name_of(job));
+  return std::nullopt;
 }
 
 }  // namespace cellcrush::store

@@ -21,7 +21,8 @@ struct StoredJob {
   std::int64_t last_sequence = 0;
 };
 
-/// Reads the journal beside its writer; sees what is committed. Thread-safe. Failures throw ServiceError.
+/// Reads the journal beside its writer; sees what is committed. Thread-safe. Failures throw ServiceError: data_loss for an event
+/// that cannot be read.
 class JournalReader {
  public:
   /// REQUIRES: a Journal has been opened on the same path.
@@ -45,7 +46,8 @@ class JournalReader {
   /// The jobs in a state, oldest first, with what the scheduler asks of them.
   std::vector<QueuedJob> queued_jobs(v1::JobState state);
 
-  /// States (without their cases) and samples behind `after`, in order.
+  /// States (without their cases) and samples behind `after`, in order. Ends before one that cannot be read; throws data_loss
+  /// when that is the first.
   std::vector<v1::JobEvent> events(std::int64_t job, std::int64_t after, int limit);
 
   std::vector<v1::Sample> samples(std::int64_t job);
@@ -53,7 +55,7 @@ class JournalReader {
   /// Step of the newest sample; -1 before the first.
   std::int64_t last_sampled_step(std::int64_t job);
 
-  /// Nothing while no worker has sent it.
+  /// Nothing while no worker has sent it, or when it cannot be read.
   std::optional<v1::Mesh> mesh(std::int64_t job);
 
  private:

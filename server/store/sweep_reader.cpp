@@ -1,7 +1,10 @@
 #include "store/sweep_reader.h"
 
+#include <spdlog/spdlog.h>
+
 #include "cellcrush/v1/job.pb.h"
 #include "jobs/resource_name.h"
+#include "store/journal_mending.h"
 
 namespace cellcrush::store {
 
@@ -12,7 +15,10 @@ std::optional<v1::Sweep> SweepReader::find_sweep(std::int64_t sweep) {
   v1::Sweep out;
   Statement read(database_, "SELECT sweep FROM sweeps WHERE number = ?1");
   if (!read.bind(1, sweep).step()) return std::nullopt;
-  out.ParseFromString(read.bytes(0));
+  if (!out.ParseFromString(read.bytes(0))) {
+    spdlog::error("What was asked for in {} cannot be read: the journal was damaged.", jobs::sweep_name_of(sweep));
+    out.Clear();
+  }
   out.set_name(jobs::sweep_name_of(sweep));
   Statement members(database_,
                     "SELECT jobs.number, jobs.state FROM sweep_jobs JOIN jobs ON jobs.number = sweep_jobs.job "
@@ -47,15 +53,18 @@ std::vector<std::int64_t> SweepReader::jobs_of(std::int64_t sweep) {
 std::vector<v1::SweepTable::Row> SweepReader::rows(std::int64_t sweep) {
   const std::scoped_lock lock(mutex_);
   Statement read(database_,
-                 "SELECT sweep_jobs.point, jobs.number, jobs.job FROM sweep_jobs JOIN jobs "
+                 "SELECT sweep_jobs.point, jobs.number, jobs.job, jobs.state FROM sweep_jobs JOIN jobs "
                  "ON jobs.number = sweep_jobs.job WHERE sweep_jobs.sweep = ?1 ORDER BY sweep_jobs.position");
   read.bind(1, sweep);
   std::vector<v1::SweepTable::Row> out;
   while (read.step()) {
     v1::SweepTable::Row& row = out.emplace_back();
-    row.ParseFromString(read.bytes(0));
+    if (!row.ParseFromString(read.bytes(0))) {
+      spdlog::error("A point of {} cannot be read: the journal was damaged.", jobs::sweep_name_of(sweep));
+      row.Clear();
+    }
     row.set_job(jobs::name_of(read.integer(1)));
-    row.mutable_result()->ParseFromString(read.bytes(2));
+    if (!read_job_bytes(read.bytes(2), read.integer(3), *row.mutable_result())) set_corrupt(*row.mutable_result());
     row.mutable_result()->set_name(row.job());
     row.mutable_result()->clear_labels();
   }

@@ -8,6 +8,7 @@
 
 #include "server/daemon_fixture.h"
 #include "server/daemon_process.h"
+#include "server/job_numbers.h"
 #include "server/small_case.h"
 #include "worker/claim.h"
 
@@ -21,11 +22,6 @@ class AdoptionTest : public ::testing::Test {
   [[nodiscard]] std::string socket() const { return "unix:" + (folder_.path() / "socket").string(); }
   [[nodiscard]] std::vector<std::string> arguments() const {
     return {"--data", (folder_.path() / "data").string(), "--listen", socket(), "--workers", "1"};
-  }
-
-  static void wait_for_samples(Client& client, const std::string& job, std::size_t count) {
-    for (int i = 0; i < 600 && client.history(job).size() < count; ++i)
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
 
   // Starts a daemon, lets it run the case, and kills it once there are samples. The job's worker.

@@ -10,8 +10,8 @@ std::unique_ptr<grpc::ClientContext> bounded_context(std::chrono::seconds bound)
   return context;
 }
 
-Client::Client(const std::string& address)
-    : channel(grpc::CreateChannel(address, grpc::InsecureChannelCredentials())),
+Client::Client(const std::string& address, const grpc::ChannelArguments& arguments)
+    : channel(grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), arguments)),
       cases(v1::Cases::NewStub(channel)),
       jobs(v1::Jobs::NewStub(channel)),
       sweeps(v1::Sweeps::NewStub(channel)) {}

@@ -20,7 +20,7 @@ namespace cellcrush::testing {
 /// A client of one daemon. Every call has a deadline of 60 s, a watch one of 4 minutes.
 class Client {
  public:
-  explicit Client(const std::string& address);
+  explicit Client(const std::string& address, const grpc::ChannelArguments& arguments = {});
 
   /// What a watch gave, and how it ended.
   struct Watched {

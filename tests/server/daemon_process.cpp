@@ -36,6 +36,8 @@ DaemonProcess::DaemonProcess(const std::vector<std::string>& arguments) {
   std::array<int, 2> out{};
   std::array<int, 2> error{};
   if (pipe2(out.data(), O_CLOEXEC) != 0 || pipe2(error.data(), O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
+  // Nobody reads the log before wait; a daemon that fills the pipe would stand still.
+  fcntl(error[1], F_SETPIPE_SZ, 1 << 20);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, out[1], STDOUT_FILENO);
@@ -76,6 +78,16 @@ std::vector<std::string> DaemonProcess::wait_for_addresses(std::size_t count) {
     }
   }
   return addresses;
+}
+
+std::size_t DaemonProcess::resident_bytes() const {
+  std::ifstream status("/proc/" + std::to_string(pid_) + "/status");
+  std::string word;
+  std::size_t kibibytes = 0;
+  while (status >> word) {
+    if (word == "VmRSS:" && status >> kibibytes) break;
+  }
+  return kibibytes * 1024;
 }
 
 void DaemonProcess::send_signal(int number) const { kill(pid_, number); }

@@ -24,6 +24,8 @@ class DaemonProcess {
   void send_signal(int number) const;
   /// Waits for the end, at most 20 s, then kills. Returns the exit code, or -1 - signal when a signal ended it.
   int wait();
+  /// Memory that is resident; 0 when it has ended.
+  [[nodiscard]] std::size_t resident_bytes() const;
   /// What it has written to stderr; REQUIRES: wait was called.
   [[nodiscard]] const std::string& errors() const { return errors_; }
 

@@ -79,6 +79,7 @@ TEST(ErrorTable, EveryKindHasItsStatus) {
   EXPECT_EQ(code(Kind::out_of_range), grpc::StatusCode::OUT_OF_RANGE);
   EXPECT_EQ(code(Kind::unimplemented), grpc::StatusCode::UNIMPLEMENTED);
   EXPECT_EQ(code(Kind::storage_full), grpc::StatusCode::RESOURCE_EXHAUSTED);
+  EXPECT_EQ(code(Kind::data_loss), grpc::StatusCode::DATA_LOSS);
   EXPECT_EQ(code(Kind::internal), grpc::StatusCode::INTERNAL);
   EXPECT_EQ(status_of(std::bad_alloc()).error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
 }

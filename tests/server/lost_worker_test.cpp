@@ -5,18 +5,19 @@
 #include <chrono>
 #include <filesystem>
 #include <iostream>
-#include <random>
 #include <thread>
 
 #include "server/daemon_fixture.h"
 #include "server/daemon_process.h"
+#include "server/job_numbers.h"
 #include "server/small_case.h"
-#include "store/result_reader.h"
+#include "server/watch_contract.h"
 
 namespace cellcrush::testing {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using Clock = std::chrono::steady_clock;
 
 class LostWorkerTest : public DaemonFixture {
@@ -35,83 +36,23 @@ class LostWorkerTest : public DaemonFixture {
     return static_cast<pid_t>(client.get(job).worker_pid());
   }
 
-  static void wait_for_samples(Client& client, const std::string& job, std::size_t count) {
-    for (int i = 0; i < 600 && client.history(job).size() < count; ++i)
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  }
-
   [[nodiscard]] std::filesystem::path file_of(const std::string& job, const char* name) const {
     return data_folder() / job / name;
   }
 
-  // All numbers of a result that are no times of a clock.
-  struct Numbers {
-    std::vector<std::string> history;
-    std::vector<std::string> frames;
-    std::string summary;
-
-    bool operator==(const Numbers&) const = default;
-  };
-  Numbers numbers_of(Client& client, const std::string& job) {
-    Numbers out;
-    const store::ResultReader result(file_of(job, "result.h5"));
-    for (const auto& sample : result.history()) out.history.push_back(sample.SerializeAsString());
-    const int frames = static_cast<int>(result.frame_times().size());
-    for (int i = 0; i < frames; ++i) out.frames.push_back(result.frame(i).SerializeAsString());
-    auto summary = client.get(job).summary();
-    summary.clear_solver_seconds();
-    summary.clear_stage_times();
-    out.summary = summary.SerializeAsString();
-    return out;
+  JobNumbers numbers_of(Client& client, const std::string& job) {
+    return testing::numbers_of(client, data_folder(), job);
   }
 
   // That a watch from the beginning has every event once and in order.
   static void expect_sound_events(Client& client, const std::string& job) {
-    const auto watched = client.watch(job);
+    WatchContract contract;
+    const auto watched = client.watch(job, 0, false, [&](const v1::JobEvent& event) { contract.see(event); });
     EXPECT_TRUE(watched.status.ok()) << watched.status.error_message();
-    std::int64_t sequence = 0;
-    std::int64_t step = -1;
-    for (const auto& event : watched.events) {
-      if (!event.has_state() && !event.has_sample()) continue;
-      EXPECT_EQ(event.sequence(), ++sequence);
-      if (!event.has_sample()) continue;
-      EXPECT_GT(event.sample().step(), step);
-      step = event.sample().step();
-    }
+    contract.end(watched.status);
+    EXPECT_THAT(contract.broken(), IsEmpty());
   }
 };
-
-TEST_F(LostWorkerTest, AJobWhoseWorkersAreKilledAtRandomMomentsHasTheSameBits) {
-  auto client = this->client();
-  const std::string whole = client.create(case_of_seconds());
-  ASSERT_TRUE(client.watch(whole).status.ok());
-  const auto expected = numbers_of(client, whole);
-  ASSERT_GT(expected.history.size(), 100U);
-
-  const std::string job = client.create(case_of_seconds());
-  std::mt19937 random(7);
-  int kills = 0;
-  for (; kills < 8; ++kills) {
-    const auto newest = client.history(job).size();
-    wait_for_samples(client, job, newest + 5);
-    std::this_thread::sleep_for(std::chrono::milliseconds(random() % 150));
-    const auto now = client.get(job);
-    if (now.state() == v1::SUCCEEDED) break;
-    if (now.worker_pid() > 0) kill(static_cast<pid_t>(now.worker_pid()), SIGKILL);
-  }
-  ASSERT_TRUE(client.watch(job).status.ok());
-  const auto ended = client.get(job);
-  std::cout << kills << " kills, " << ended.attempt() << " workers\n";
-  ASSERT_EQ(ended.state(), v1::SUCCEEDED) << ended.cause_message();
-  EXPECT_GE(ended.attempt(), 3);
-  EXPECT_TRUE(numbers_of(client, job) == expected);
-  EXPECT_EQ(client.history(job).size(), expected.history.size());
-  expect_sound_events(client, job);
-  for (int i = 0; i < 200 && std::filesystem::exists(file_of(job, "reports")); ++i)
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  EXPECT_FALSE(std::filesystem::exists(file_of(job, "reports"))) << "Soon nothing but the result is left.";
-  EXPECT_FALSE(std::filesystem::exists(file_of(job, "checkpoint")));
-}
 
 TEST_F(LostWorkerTest, ASuspendedJobHoldsStillOverARestartAndHasTheSameBitsWhenItIsResumed) {
   auto client = this->client();

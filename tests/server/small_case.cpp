@@ -21,6 +21,16 @@ v1::Case small_case() {
   return out;
 }
 
+v1::Case tiny_case() {
+  v1::Case out = small_case();
+  out.mutable_lattice()->mutable_hexagon()->set_columns(4);
+  out.mutable_lattice()->mutable_hexagon()->set_rows(3);
+  out.mutable_loading()->set_end_strain(0.3);
+  out.mutable_output()->set_sample_count(20);
+  out.mutable_output()->set_frame_count(2);
+  return out;
+}
+
 v1::Case case_of_seconds() {
   v1::Case out = small_case();
   out.mutable_lattice()->mutable_hexagon()->set_columns(12);

@@ -7,6 +7,9 @@ namespace cellcrush::testing {
 /// A few cells at 100 m/s, crushed to half their length: done in a fraction of a second.
 v1::Case small_case();
 
+/// Fewer cells, to three tenths, with 20 samples: a worker's start takes as long.
+v1::Case tiny_case();
+
 /// A small crush that takes some seconds, with 200 samples and 20 frames.
 v1::Case case_of_seconds();
 

@@ -1,0 +1,107 @@
+#include "store/journal_mending.h"
+
+#include <google/protobuf/util/time_util.h>
+#include <spdlog/spdlog.h>
+
+#include <vector>
+
+#include "jobs/job_state.h"
+#include "jobs/resource_name.h"
+#include "store/job_bytes.h"
+#include "store/journal_schema.h"
+
+namespace cellcrush::store {
+namespace {
+
+struct DamagedJob {
+  std::int64_t number = 0;
+  std::int64_t state = 0;
+  std::int64_t last_sequence = 0;
+  v1::Job job;
+  bool has_job = false;
+  bool has_case = false;
+};
+
+std::vector<DamagedJob> find_damaged(const Database& database) {
+  Statement read(database, "SELECT number, state, last_sequence, job, submitted_case FROM jobs ORDER BY number");
+  std::vector<DamagedJob> out;
+  while (read.step()) {
+    DamagedJob row{read.integer(0), read.integer(1), read.integer(2), {}, false, false};
+    const std::string submitted = read.bytes(4);
+    row.has_job = read_job_bytes(read.bytes(3), row.state, row.job);
+    row.has_case = !submitted.empty() && v1::Case().ParseFromString(submitted);
+    if (!row.has_job || !row.has_case) out.push_back(std::move(row));
+  }
+  return out;
+}
+
+// The newest state event has the same bytes as the job.
+bool restore_job(const Database& database, DamagedJob& row) {
+  Statement read(database, "SELECT payload FROM events WHERE job = ?1 AND kind = ?2 ORDER BY sequence DESC LIMIT 1");
+  read.bind(1, row.number).bind(2, kStateEvent);
+  return read.step() && read_job_bytes(read.bytes(0), row.state, row.job);
+}
+
+void write_row(const Database& database, const DamagedJob& row) {
+  Statement update(database, "UPDATE jobs SET state = ?2, job = ?3, last_sequence = ?4 WHERE number = ?1");
+  update.bind(1, row.number).bind(2, row.job.state()).bind_blob(3, job_bytes(row.job));
+  update.bind(4, row.last_sequence).run();
+}
+
+void end_job(const Database& database, DamagedJob& row) {
+  const bool had_ended = jobs::is_terminal(static_cast<v1::JobState>(row.state));
+  set_corrupt(row.job);
+  const auto now = google::protobuf::util::TimeUtil::GetCurrentTime();
+  if (!row.job.has_create_time()) *row.job.mutable_create_time() = now;
+  *row.job.mutable_end_time() = now;
+  // Nothing comes behind the event of a job's end.
+  if (!had_ended) {
+    Statement insert(database, "INSERT INTO events (job, sequence, kind, payload) VALUES (?1, ?2, ?3, ?4)");
+    insert.bind(1, row.number).bind(2, ++row.last_sequence).bind(3, kStateEvent);
+    insert.bind_blob(4, job_bytes(row.job)).run();
+  }
+  write_row(database, row);
+}
+
+void mend(const Database& database, DamagedJob& row) {
+  const std::string name = jobs::name_of(row.number);
+  const bool had_ended = jobs::is_terminal(static_cast<v1::JobState>(row.state));
+  const bool restored = !row.has_job && restore_job(database, row);
+  if (restored) {
+    spdlog::warn("The journal's entry of {} could not be read and was restored from its newest event.", name);
+    write_row(database, row);
+  }
+  if (!row.has_case && (row.has_job || restored) && had_ended) {
+    spdlog::error("The case of {} cannot be read any more; the rest of the job can.", name);
+    return;
+  }
+  if (restored && row.has_case) return;
+  end_job(database, row);
+  spdlog::error("{} is FAILED with STORE_CORRUPT: {}", name, row.job.cause_message());
+}
+
+}  // namespace
+
+bool read_job_bytes(const std::string& bytes, std::int64_t state, v1::Job& job) {
+  if (job.ParseFromString(bytes) && job.state() == state) return true;
+  job.Clear();
+  return false;
+}
+
+void set_corrupt(v1::Job& job) {
+  job.set_state(v1::FAILED);
+  job.set_cause(v1::STORE_CORRUPT);
+  job.set_cause_message("What the journal had of the job cannot be read: the file was damaged.");
+  job.set_remedy("Submit the case again, and look whether the disk is sound.");
+  job.clear_worker_pid();
+}
+
+void mend_jobs(Database& database) {
+  auto damaged = find_damaged(database);
+  if (damaged.empty()) return;
+  Transaction transaction(database);
+  for (auto& row : damaged) mend(database, row);
+  transaction.commit();
+}
+
+}  // namespace cellcrush::store

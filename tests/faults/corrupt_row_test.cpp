@@ -1,0 +1,183 @@
+// A row of the journal that a disk has damaged while there was no daemon.
+#include <gmock/gmock.h>
+#include <signal.h>
+
+#include <iostream>
+
+#include "faults/fault_fixture.h"
+#include "faults/filled_journal.h"
+#include "faults/rounds.h"
+#include "server/job_numbers.h"
+#include "server/small_case.h"
+#include "server/watch_contract.h"
+#include "store/journal_reader.h"
+
+namespace cellcrush::testing {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+class CorruptRowTest : public FaultFixture {
+ protected:
+  // Replaces a blob by bytes that are no message.
+  void damage(const std::string& table, const std::string& column, const std::string& where) const {
+    const store::Database database(journal());
+    store::Statement(database, "UPDATE " + table + " SET " + column + " = ?1 WHERE " + where)
+        .bind_blob(1, std::string(40, '\xff'))
+        .run();
+  }
+
+  // Many jobs that wait; the first runs once a daemon is there.
+  void fill() {
+    fill_journal(data_folder(), count_, endless_case());
+    store::JournalReader reader(journal());
+    for (auto& stored : reader.list_jobs({}, false, 1, static_cast<int>(count_)))
+      before_[stored.job.name()] = std::move(stored.job);
+  }
+
+  // That all jobs but the first are served as they were, except `damaged`.
+  void expect_the_others_intact(Client& client, const std::string& damaged) {
+    auto after = all_jobs(client);
+    EXPECT_EQ(after.size(), static_cast<std::size_t>(count_));
+    int intact = 0;
+    for (const auto& [name, job] : before_) {
+      if (name == damaged) continue;
+      ASSERT_EQ(after[name].SerializeAsString(), job.SerializeAsString()) << name;
+      ++intact;
+    }
+    std::cout << "one damaged row of " << count_ << " jobs: " << intact << " others served as they were\n";
+  }
+
+  // A watch behind `after` keeps the contract. Its end.
+  static grpc::Status watch_soundly(Client& client, const std::string& job, std::int64_t after,
+                                    std::int64_t& sequence) {
+    WatchContract contract(after);
+    const auto watched = client.watch(job, after, false, [&](const v1::JobEvent& event) { contract.see(event); });
+    contract.end(watched.status);
+    EXPECT_THAT(contract.broken(), IsEmpty());
+    sequence = contract.sequence();
+    return watched.status;
+  }
+
+  // Kills the daemon while the job runs, damages its newest sample, and starts the next daemon.
+  void damage_a_running_job(std::string& job, pid_t& worker, bool kill_worker) {
+    start_daemon(arguments_);
+    auto client = this->client();
+    job = client.create(endless_case());
+    wait_for_samples(client, job, 10);
+    worker = static_cast<pid_t>(client.get(job).worker_pid());
+    kill_daemon();
+    ASSERT_GT(worker, 0);
+    if (kill_worker) kill(worker, SIGKILL);
+    const std::string number = job.substr(5);
+    damage("events", "payload",
+           "job = " + number + " AND sequence = (SELECT MAX(sequence) FROM events WHERE job = " + number + ")");
+    start_daemon(arguments_);
+  }
+
+  const std::int64_t count_ = rounds(500, 10'000);
+  const std::vector<std::string> arguments_ = {"--workers", "1"};
+  std::map<std::string, v1::Job> before_;
+};
+
+TEST_F(CorruptRowTest, AJobThatCannotBeReadIsRestoredFromItsNewestEvent) {
+  fill();
+  damage("jobs", "job", "number = 77");
+  start_daemon(arguments_);
+  auto client = this->client();
+  expect_the_others_intact(client, "none");
+  EXPECT_THAT(stop_daemon(), HasSubstr("entry of jobs/77 could not be read and was restored"));
+}
+
+TEST_F(CorruptRowTest, AWaitingJobWhoseCaseCannotBeReadFailsAndTheOthersGoOn) {
+  fill();
+  damage("jobs", "submitted_case", "number = 77");
+  start_daemon(arguments_);
+  auto client = this->client();
+  expect_the_others_intact(client, "jobs/77");
+  const auto job = client.get("jobs/77");
+  EXPECT_EQ(job.state(), v1::FAILED);
+  EXPECT_EQ(job.cause(), v1::STORE_CORRUPT);
+  EXPECT_THAT(job.cause_message(), HasSubstr("cannot be read"));
+  EXPECT_FALSE(job.remedy().empty());
+  std::int64_t last = 0;
+  EXPECT_TRUE(watch_soundly(client, "jobs/77", 0, last).ok());
+  EXPECT_EQ(last, 2);
+  EXPECT_TRUE(client.remove("jobs/77").ok());
+  EXPECT_THAT(stop_daemon(), HasSubstr("jobs/77 is FAILED with STORE_CORRUPT"));
+}
+
+TEST_F(CorruptRowTest, AJobOfWhichNothingCanBeReadFailsAndTheOthersGoOn) {
+  fill();
+  damage("jobs", "job", "number = 77");
+  damage("events", "payload", "job = 77");
+  start_daemon(arguments_);
+  auto client = this->client();
+  expect_the_others_intact(client, "jobs/77");
+  EXPECT_EQ(client.get("jobs/77").cause(), v1::STORE_CORRUPT);
+  std::int64_t last = 0;
+  const auto status = watch_soundly(client, "jobs/77", 0, last);
+  EXPECT_EQ(status.error_code(), grpc::StatusCode::DATA_LOSS);
+  EXPECT_THAT(status.error_message(), HasSubstr("Event 1 of jobs/77"));
+  EXPECT_TRUE(watch_soundly(client, "jobs/77", 1, last).ok());
+  EXPECT_EQ(last, 2);
+}
+
+TEST_F(CorruptRowTest, ASampleThatCannotBeReadCostsOnlyItself) {
+  start_daemon(arguments_);
+  std::string job;
+  std::string next;
+  {
+    auto client = this->client();
+    job = client.create(tiny_case());
+    next = client.create(tiny_case());
+    for (const auto& name : {job, next}) EXPECT_TRUE(client.wait_for_state(name, v1::SUCCEEDED));
+  }
+  stop_daemon();
+  damage("events", "payload", "job = " + job.substr(5) + " AND sequence = 10");
+  start_daemon(arguments_);
+  auto client = this->client();
+  EXPECT_EQ(client.get(job).state(), v1::SUCCEEDED);
+  std::int64_t last = 0;
+  EXPECT_EQ(watch_soundly(client, job, 0, last).error_code(), grpc::StatusCode::DATA_LOSS);
+  EXPECT_EQ(last, 9) << "What comes before it is given.";
+  EXPECT_TRUE(watch_soundly(client, job, 10, last).ok()) << "What comes behind it is given.";
+  EXPECT_GT(last, 20);
+  v1::GetHistoryRequest request;
+  request.set_name(job);
+  v1::GetHistoryResponse history;
+  const auto status = client.jobs->GetHistory(bounded_context().get(), request, &history);
+  EXPECT_EQ(status.error_code(), grpc::StatusCode::DATA_LOSS);
+  grpc::Status downloaded;
+  EXPECT_GT(client.download(job, 0, downloaded).size(), 1000U);
+  EXPECT_TRUE(watch_soundly(client, next, 0, last).ok());
+  EXPECT_EQ(client.history(next).size(), 21U);
+  EXPECT_THAT(stop_daemon(), HasSubstr("Event 10 of " + job + " cannot be read"));
+}
+
+TEST_F(CorruptRowTest, AnAdoptedJobWhoseNewestSampleCannotBeReadFailsAndItsWorkerEnds) {
+  std::string job;
+  pid_t worker = 0;
+  damage_a_running_job(job, worker, false);
+  auto client = this->client();
+  EXPECT_TRUE(client.wait_for_state(job, v1::FAILED));
+  EXPECT_EQ(client.get(job).cause(), v1::STORE_CORRUPT);
+  EXPECT_TRUE(wait_until_gone(worker, std::chrono::seconds(10)));
+  const std::string next = client.create(tiny_case());
+  EXPECT_TRUE(client.wait_for_state(next, v1::SUCCEEDED));
+}
+
+TEST_F(CorruptRowTest, ALostJobWhoseNewestSampleCannotBeReadFailsAndTheDaemonStarts) {
+  std::string job;
+  pid_t worker = 0;
+  damage_a_running_job(job, worker, true);
+  auto client = this->client();
+  EXPECT_EQ(client.get(job).state(), v1::FAILED);
+  EXPECT_EQ(client.get(job).cause(), v1::STORE_CORRUPT);
+  const std::string next = client.create(tiny_case());
+  EXPECT_TRUE(client.wait_for_state(next, v1::SUCCEEDED));
+}
+
+}  // namespace
+}  // namespace cellcrush::testing

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "server/daemon_fixture.h"
+#include "server/daemon_process.h"
+#include "server/temporary_folder.h"
+
+namespace cellcrush::testing {
+
+/// A client that tries to connect again within a tenth of a second, and shares its connection with nobody. Its calls are to wait
+/// for the connection (wait_for_ready): between calls gRPC looks after it only every five seconds.
+Client impatient_client(const std::string& address);
+
+/// All jobs, by name.
+std::map<std::string, v1::Job> all_jobs(Client& client);
+
+/// A daemon as a process, which is killed and started again on the same folder. No process is left at the end.
+class FaultFixture : public ::testing::Test {
+ protected:
+  void TearDown() override;
+
+  /// Starts a daemon and waits until it serves; fails the test when it does not within 30 s.
+  void start_daemon(const std::vector<std::string>& more_arguments = {});
+  /// Without waiting for it.
+  void begin_daemon(const std::vector<std::string>& more_arguments = {});
+  /// SIGKILL. Its workers go on.
+  void kill_daemon();
+  /// SIGTERM, and the whole of what it wrote in its log.
+  std::string stop_daemon();
+
+  [[nodiscard]] Client client() const { return impatient_client(address()); }
+  [[nodiscard]] std::string address() const { return "unix:" + (folder_.path() / "socket").string(); }
+  [[nodiscard]] std::filesystem::path data_folder() const { return folder_.path() / "data"; }
+  [[nodiscard]] std::filesystem::path journal() const { return data_folder() / "journal.sqlite"; }
+
+  TemporaryFolder folder_;
+  std::unique_ptr<DaemonProcess> daemon_;
+};
+
+}  // namespace cellcrush::testing

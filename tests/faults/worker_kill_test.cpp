@@ -1,0 +1,77 @@
+// The bits of a job whose workers are killed.
+#include <gmock/gmock.h>
+#include <signal.h>
+
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <random>
+#include <thread>
+
+#include "faults/fault_fixture.h"
+#include "faults/rounds.h"
+#include "server/job_numbers.h"
+#include "server/small_case.h"
+#include "server/watch_contract.h"
+
+namespace cellcrush::testing {
+namespace {
+
+class WorkerKillTest : public FaultFixture {
+ protected:
+  // Runs the case and kills its workers at random moments, at most so many. How many were.
+  static int run_and_kill(Client& client, const std::string& job, std::mt19937& random, int most) {
+    for (int kills = 0; kills < most; ++kills) {
+      wait_for_samples(client, job, client.history(job).size() + 5);
+      std::this_thread::sleep_for(std::chrono::milliseconds(random() % 150));
+      const auto now = client.get(job);
+      if (now.state() == v1::SUCCEEDED) return kills;
+      if (now.worker_pid() > 0) kill(static_cast<pid_t>(now.worker_pid()), SIGKILL);
+    }
+    return most;
+  }
+
+  // What the workers left goes soon after the job's end.
+  void expect_nothing_left(const std::string& job) const {
+    const auto reports = data_folder() / job / "reports";
+    for (int i = 0; i < 100 && std::filesystem::exists(reports); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    EXPECT_FALSE(std::filesystem::exists(reports));
+    EXPECT_FALSE(std::filesystem::exists(data_folder() / job / "checkpoint"));
+  }
+};
+
+TEST_F(WorkerKillTest, AJobWhoseWorkersAreKilledAtRandomMomentsHasTheSameBits) {
+  start_daemon({"--workers", "1", "--checkpoint-interval", "0.05"});
+  auto client = this->client();
+  const std::string whole = client.create(case_of_seconds());
+  ASSERT_TRUE(client.watch(whole).status.ok());
+  const auto expected = numbers_of(client, data_folder(), whole);
+  ASSERT_GT(expected.history.size(), 100U);
+
+  std::mt19937 random(7);
+  const int wanted = rounds(5, 25);
+  int kills = 0;
+  int jobs = 0;
+  int workers = 0;
+  for (; kills < wanted && jobs < wanted; ++jobs) {
+    const std::string job = client.create(case_of_seconds());
+    kills += run_and_kill(client, job, random, wanted - kills);
+    WatchContract contract;
+    const auto watched = client.watch(job, 0, false, [&](const v1::JobEvent& event) { contract.see(event); });
+    contract.end(watched.status);
+    EXPECT_TRUE(watched.status.ok()) << watched.status.error_message();
+    EXPECT_THAT(contract.broken(), ::testing::IsEmpty());
+    const auto ended = client.get(job);
+    workers += ended.attempt();
+    ASSERT_EQ(ended.state(), v1::SUCCEEDED) << ended.cause_message();
+    EXPECT_TRUE(numbers_of(client, data_folder(), job) == expected);
+    EXPECT_EQ(client.history(job).size(), expected.history.size());
+    expect_nothing_left(job);
+  }
+  EXPECT_GT(workers, jobs);
+  std::cout << kills << " kills, " << workers << " workers, " << jobs << " jobs with the same bits\n";
+}
+
+}  // namespace
+}  // namespace cellcrush::testing

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "server/daemon_fixture.h"
+
+namespace cellcrush::testing {
+
+/// All numbers of a job's result that are no times of a clock.
+struct JobNumbers {
+  std::vector<std::string> history;
+  std::vector<std::string> frames;
+  std::string summary;
+
+  bool operator==(const JobNumbers&) const = default;
+};
+
+/// Of a job that has a result.
+JobNumbers numbers_of(Client& client, const std::filesystem::path& data_folder, const std::string& job);
+
+/// Waits until the job has so many samples, at most 12 s.
+void wait_for_samples(Client& client, const std::string& job, std::size_t count);
+
+}  // namespace cellcrush::testing

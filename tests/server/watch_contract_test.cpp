@@ -1,0 +1,76 @@
+// That the validator of watches sees what is wrong with one.
+#include "server/watch_contract.h"
+
+#include <gmock/gmock.h>
+
+namespace cellcrush::testing {
+namespace {
+
+v1::JobEvent snapshot_at(std::int64_t sequence) {
+  v1::JobEvent out;
+  out.set_sequence(sequence);
+  out.mutable_snapshot()->mutable_job()->set_state(v1::RUNNING);
+  return out;
+}
+
+v1::JobEvent state_at(std::int64_t sequence, v1::JobState state) {
+  v1::JobEvent out;
+  out.set_sequence(sequence);
+  out.mutable_state()->set_state(state);
+  return out;
+}
+
+v1::JobEvent sampled_at(std::int64_t sequence, std::int64_t step) {
+  v1::JobEvent out;
+  out.set_sequence(sequence);
+  out.mutable_sample()->set_step(step);
+  return out;
+}
+
+v1::JobEvent frame_at(std::int64_t sequence, int index, int skipped, int part = 0, int parts = 1) {
+  v1::JobEvent out;
+  out.set_sequence(sequence);
+  out.mutable_frame()->mutable_frame()->set_index(index);
+  out.mutable_frame()->set_skipped(skipped);
+  out.mutable_frame()->set_part(part);
+  out.mutable_frame()->set_part_count(parts);
+  return out;
+}
+
+// How many promises such a watch breaks.
+std::size_t broken_by(const std::vector<v1::JobEvent>& events, const grpc::Status& status = grpc::Status::CANCELLED,
+                      std::int64_t after = 0) {
+  WatchContract contract(after);
+  for (const auto& event : events) contract.see(event);
+  contract.end(status);
+  return contract.broken().size();
+}
+
+TEST(WatchContractTest, ASoundWatchBreaksNothing) {
+  EXPECT_EQ(broken_by({snapshot_at(0), state_at(1, v1::PENDING), state_at(2, v1::RUNNING), frame_at(2, 0, 0),
+                       sampled_at(3, 5), frame_at(3, 4, 3, 0, 2), frame_at(3, 4, 3, 1, 2), state_at(4, v1::SUCCEEDED)},
+                      grpc::Status::OK),
+            0U);
+  EXPECT_EQ(broken_by({snapshot_at(7), sampled_at(8, 1)}, grpc::Status::CANCELLED, 7), 0U);
+}
+
+TEST(WatchContractTest, EveryPromiseThatIsBrokenIsSeen) {
+  const auto pending = state_at(1, v1::PENDING);
+  EXPECT_GT(broken_by({pending}), 0U) << "no snapshot";
+  EXPECT_GT(broken_by({snapshot_at(0), pending, snapshot_at(1)}), 0U) << "two snapshots";
+  EXPECT_GT(broken_by({snapshot_at(1), pending}), 0U) << "a snapshot of another place";
+  EXPECT_GT(broken_by({snapshot_at(0), pending, sampled_at(3, 1)}), 0U) << "an event is missing";
+  EXPECT_GT(broken_by({snapshot_at(0), pending, pending}), 0U) << "an event comes twice";
+  EXPECT_GT(broken_by({snapshot_at(0), pending, sampled_at(2, 4), sampled_at(3, 4)}), 0U) << "a sample comes twice";
+  EXPECT_GT(broken_by({snapshot_at(0), state_at(1, v1::RUNNING)}), 0U) << "a wrong first state";
+  EXPECT_GT(broken_by({snapshot_at(0), pending, state_at(2, v1::SUCCEEDED)}), 0U) << "a state that cannot follow";
+  EXPECT_GT(broken_by({snapshot_at(0), pending, state_at(2, v1::CANCELLED), sampled_at(3, 1)}), 0U)
+      << "more behind the end";
+  EXPECT_GT(broken_by({snapshot_at(0), pending}, grpc::Status::OK), 0U) << "OK too early";
+  EXPECT_GT(broken_by({snapshot_at(0), pending, frame_at(1, 3, 0), frame_at(1, 3, 0)}), 0U) << "a frame twice";
+  EXPECT_GT(broken_by({snapshot_at(0), pending, frame_at(1, 0, 0), frame_at(1, 3, 0)}), 0U) << "frames not counted";
+  EXPECT_GT(broken_by({snapshot_at(0), pending, frame_at(1, 0, 0, 0, 2), sampled_at(2, 1)}), 0U) << "half a frame";
+}
+
+}  // namespace
+}  // namespace cellcrush::testing
