@@ -1,7 +1,7 @@
 // A row of the journal that a disk has damaged while there was no daemon.
 #include <gmock/gmock.h>
-#include <signal.h>
 
+#include <csignal>
 #include <iostream>
 
 #include "faults/fault_fixture.h"

@@ -1,7 +1,7 @@
 // Checkpoints that a disk has damaged while there was no daemon.
 #include <gmock/gmock.h>
-#include <signal.h>
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -34,7 +34,7 @@ class DamagedCheckpointTest : public FaultFixture {
   std::string leave_a_job() {
     start_daemon(arguments_);
     auto client = this->client();
-    const std::string job = client.create(case_of_seconds());
+    std::string job = client.create(case_of_seconds());
     wait_for_samples(client, job, 30 + random_() % 60);
     const auto worker = static_cast<pid_t>(client.get(job).worker_pid());
     EXPECT_GT(worker, 0);

@@ -1,6 +1,6 @@
 #include "faults/fault_fixture.h"
 
-#include <signal.h>
+#include <csignal>
 
 namespace cellcrush::testing {
 

@@ -1,15 +1,17 @@
 // The bits of a job whose workers are killed.
 #include <gmock/gmock.h>
-#include <signal.h>
 
 #include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <iostream>
 #include <random>
 #include <thread>
+#include <utility>
 
 #include "faults/fault_fixture.h"
 #include "faults/rounds.h"
+#include "jobs/job_state.h"
 #include "server/job_numbers.h"
 #include "server/small_case.h"
 #include "server/watch_contract.h"
@@ -21,12 +23,15 @@ class WorkerKillTest : public FaultFixture {
  protected:
   // Runs the case and kills its workers at random moments, at most so many. How many were.
   static int run_and_kill(Client& client, const std::string& job, std::mt19937& random, int most) {
-    for (int kills = 0; kills < most; ++kills) {
+    pid_t last = 0;
+    for (int kills = 0; kills < most;) {
       wait_for_samples(client, job, client.history(job).size() + 5);
       std::this_thread::sleep_for(std::chrono::milliseconds(random() % 150));
       const auto now = client.get(job);
-      if (now.state() == v1::SUCCEEDED) return kills;
-      if (now.worker_pid() > 0) kill(static_cast<pid_t>(now.worker_pid()), SIGKILL);
+      if (jobs::is_terminal(now.state())) return kills;
+      const auto worker = static_cast<pid_t>(now.worker_pid());
+      if (worker == 0 || worker == std::exchange(last, worker)) continue;
+      if (kill(worker, SIGKILL) == 0) ++kills;
     }
     return most;
   }
@@ -54,7 +59,7 @@ TEST_F(WorkerKillTest, AJobWhoseWorkersAreKilledAtRandomMomentsHasTheSameBits) {
   int kills = 0;
   int jobs = 0;
   int workers = 0;
-  for (; kills < wanted && jobs < wanted; ++jobs) {
+  for (; kills < wanted && jobs < 2 * wanted; ++jobs) {
     const std::string job = client.create(case_of_seconds());
     kills += run_and_kill(client, job, random, wanted - kills);
     WatchContract contract;
