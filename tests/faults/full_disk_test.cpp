@@ -44,7 +44,8 @@ class FullDiskTest : public FaultFixture {
 };
 
 TEST_F(FullDiskTest, AFullDiskEndsTheJobWithACauseAndTheDaemonGoesOnOnceThereIsRoom) {
-  start_daemon({"--workers", "1", "--checkpoint-interval", "0.05"});
+  // Nothing is kept free, so that the disk gets full.
+  start_daemon({"--workers", "1", "--checkpoint-interval", "0.05", "--min-free-disk", "0"});
   auto client = this->client();
   const std::string job = client.create(endless_case());
   wait_for_samples(client, job, 20);

@@ -267,6 +267,7 @@ TEST_F(SweepJournalTest, WhatDecidesTheOrderOfWaitingJobsSurvivesReopening) {
   }
   const auto made = journal_->create_sweep({}, jobs, "", "");
   v1::Job urgent;
+  urgent.mutable_case_()->set_title("Urgent");
   urgent.set_priority(12);
   const auto alone = journal_->create_job(urgent, "", "", 42).job;
   reopen();
