@@ -9,6 +9,7 @@
 #include "rpc/error_table.h"
 #include "rpc/job_query.h"
 #include "rpc/page.h"
+#include "rpc/request_limits.h"
 #include "rpc/watch_reactor.h"
 #include "translate/check_case.h"
 #include "watch/job_source.h"
@@ -16,6 +17,7 @@
 namespace cellcrush::rpc {
 
 store::StoredJob JobsService::find(const std::string& name) {
+  check_length("name", name, kLongestName);
   const auto number = jobs::number_of(name);
   auto stored = number ? parts_.reader.find_job(*number) : std::nullopt;
   if (!stored) {
@@ -74,6 +76,8 @@ grpc::Status JobsService::GetJob(grpc::ServerContext*, const v1::GetJobRequest* 
 grpc::Status JobsService::ListJobs(grpc::ServerContext*, const v1::ListJobsRequest* request,
                                    v1::ListJobsResponse* response) {
   return answer([&] {
+    check_length("filter", request->filter(), kLongestFilter);
+    check_length("order_by", request->order_by(), kLongestOrder);
     const auto filter = parse_filter(request->filter());
     const bool newest_first = parse_newest_first(request->order_by());
     const std::string question = request->filter() + "\n" + (newest_first ? "newest" : "oldest");

@@ -10,6 +10,7 @@
 #include "rpc/create_request.h"
 #include "rpc/error_table.h"
 #include "rpc/page.h"
+#include "rpc/request_limits.h"
 #include "rpc/watch_reactor.h"
 #include "watch/sweep_source.h"
 
@@ -45,6 +46,7 @@ std::vector<store::QueuedJob> queued_jobs(const store::Journal::CreatedSweep& cr
 }  // namespace
 
 SweepsService::Found SweepsService::find(const std::string& name) {
+  check_length("name", name, kLongestName);
   const auto number = jobs::sweep_number_of(name);
   auto sweep = number ? parts_.sweeps.find_sweep(*number) : std::nullopt;
   if (!sweep) {
@@ -129,6 +131,7 @@ grpc::Status SweepsService::RetryFailedJobs(grpc::ServerContext*, const v1::Retr
 grpc::ServerWriteReactor<v1::WatchSweepResponse>* SweepsService::WatchSweep(grpc::CallbackServerContext*,
                                                                             const v1::WatchSweepRequest* request) {
   try {
+    check_length("resume_token", request->resume_token(), kLongestResumeToken);
     auto source = std::make_unique<watch::SweepSource>(parts_.reader, parts_.sweeps, parts_.hub,
                                                        find(request->name()).number, request->resume_token());
     return WatchReactor<watch::SweepSource>::start(parts_.pump, parts_.bookmark_interval, std::move(source));
