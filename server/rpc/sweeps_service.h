@@ -3,6 +3,7 @@
 #include <chrono>
 #include <string>
 
+#include "access/gate.h"
 #include "cellcrush/v1/sweeps_service.grpc.pb.h"
 #include "jobs/admission.h"
 #include "jobs/scheduler.h"
@@ -26,6 +27,7 @@ class SweepsService final : public v1::Sweeps::WithCallbackMethod_WatchSweep<v1:
     watch::Pump& pump;
     jobs::Scheduler& scheduler;
     const jobs::Admission& admission;
+    const access::Gate& gate;
     std::chrono::milliseconds bookmark_interval;
   };
 
@@ -52,6 +54,8 @@ class SweepsService final : public v1::Sweeps::WithCallbackMethod_WatchSweep<v1:
   };
   /// Throws ServiceError (not_found) when there is none.
   Found find(const std::string& name);
+  /// Number of a sweep that the caller may change. Throws also ServiceError (permission_denied).
+  std::int64_t find_own(const grpc::ServerContext& context, const std::string& name);
 
   Parts parts_;
 };
