@@ -13,6 +13,7 @@
 #include <thread>
 #include <utility>
 
+#include "access/gate.h"
 #include "error.h"
 #include "jobs/admission.h"
 #include "jobs/housekeeping.h"
@@ -37,18 +38,42 @@ namespace {
 constexpr int kLargestMessage = 4 * 1024 * 1024;
 constexpr int kPumpThreads = 2;
 constexpr std::chrono::seconds kCallsMayLast{2};
+constexpr int kHandshakeMilliseconds = 5000;
 
 int worker_limit(int asked) {
   return asked > 0 ? asked : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
+ListenAddress metrics_address(const std::string& text) {
+  const ListenAddress out = parse_listen_address(text);
+  const auto refuse = [&text](const char* why) {
+    throw ServiceError(ServiceError::Kind::invalid, "Cannot serve metrics on " + text + why);
+  };
+  if (out.kind != ListenAddress::Kind::tcp) refuse(": they are served over HTTP. Use --metrics HOST:PORT.");
+  if (!out.is_loopback()) {
+    refuse(
+        ", which others can reach: they are served without TLS and to whoever asks. Use a loopback address, such as "
+        "--metrics 127.0.0.1:9464, and a proxy or an SSH tunnel from elsewhere.");
+  }
+  return out;
+}
+
 std::vector<ListenAddress> listen_addresses(const DaemonOptions& options) {
   std::vector<ListenAddress> out;
   for (const auto& text : options.listen) out.push_back(parse_listen_address(text));
+  if (!options.metrics.empty())
+    static_cast<void>(metrics_address(options.metrics));  // refused before anything is opened
   if (out.empty()) {
     out.push_back(parse_listen_address("unix:" + (options.data_folder / "cellcrushd.sock").string()));
     out.push_back(parse_listen_address("127.0.0.1:50551"));
   }
+  return out;
+}
+
+std::vector<std::shared_ptr<grpc::ServerCredentials>> credentials_for(const access::Gate& gate,
+                                                                      const std::vector<ListenAddress>& addresses) {
+  std::vector<std::shared_ptr<grpc::ServerCredentials>> out;
+  for (const auto& address : addresses) out.push_back(gate.credentials_for(address));
   return out;
 }
 
@@ -67,6 +92,8 @@ struct Daemon::Impl {
   explicit Impl(DaemonOptions given)
       : options(std::move(given)),
         wanted(listen_addresses(options)),
+        gate(options.access),
+        credentials(credentials_for(gate, wanted)),
         folder(options.data_folder),
         journal(
             folder.journal(), [this](std::int64_t job) { hub.announce(job); },
@@ -80,8 +107,8 @@ struct Daemon::Impl {
         step_cost(worker::measure_step_cost()),
         admission(folder, options.limits),
         cases(step_cost),
-        jobs({folder, journal, reader, hub, pump, scheduler, admission, metrics, options.bookmark_interval}),
-        sweeps({journal, reader, sweep_reader, hub, pump, scheduler, admission, metrics, options.bookmark_interval}),
+        jobs({folder, journal, reader, hub, pump, scheduler, admission, metrics, gate, options.bookmark_interval}),
+        sweeps({journal, reader, sweep_reader, hub, pump, scheduler, admission, metrics, gate, options.bookmark_interval}),
         admin({reader, hub, {worker_limit(options.workers), step_cost}, [this] { drain(); }}) {
     listen();
     serve_metrics();
@@ -100,10 +127,12 @@ struct Daemon::Impl {
     builder.SetMaxReceiveMessageSize(kLargestMessage);
     // A port belongs to one daemon; without this a second one would share it.
     builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
+    // Whoever connects and says nothing is let go.
+    builder.AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, kHandshakeMilliseconds);
     std::vector<int> ports(wanted.size(), 0);
     for (std::size_t i = 0; i < wanted.size(); ++i) {
       if (wanted[i].kind == ListenAddress::Kind::unix_socket) remove_stale_socket(wanted[i].place);
-      builder.AddListeningPort(wanted[i].text(), grpc::InsecureServerCredentials(), &ports[i]);
+      builder.AddListeningPort(wanted[i].text(), credentials[i], &ports[i]);
     }
     for (grpc::Service* service : std::initializer_list<grpc::Service*>{&cases, &jobs, &sweeps, &admin})
       builder.RegisterService(service);
@@ -131,11 +160,7 @@ struct Daemon::Impl {
 
   void serve_metrics() {
     if (options.metrics.empty()) return;
-    const ListenAddress address = parse_listen_address(options.metrics);
-    if (address.kind != ListenAddress::Kind::tcp)
-      throw ServiceError(ServiceError::Kind::invalid, "Cannot serve metrics on " + options.metrics +
-                                                          ": they are served over HTTP. Use --metrics HOST:PORT.");
-    metrics_url = "http://" + metrics.serve(address).text() + "/metrics";
+    metrics_url = "http://" + metrics.serve(metrics_address(options.metrics)).text() + "/metrics";
     spdlog::info("metrics are served on {}", metrics_url);
   }
 
@@ -158,6 +183,8 @@ struct Daemon::Impl {
 
   DaemonOptions options;
   std::vector<ListenAddress> wanted;
+  access::Gate gate;
+  std::vector<std::shared_ptr<grpc::ServerCredentials>> credentials;  ///< of the wanted addresses
   store::DataFolder folder;
   watch::Hub hub;
   metrics::Metrics metrics;

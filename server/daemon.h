@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "access/gate.h"
 #include "jobs/admission.h"
 
 namespace cellcrush {
@@ -15,7 +16,9 @@ struct DaemonOptions {
   /// Each "unix:PATH" or "HOST:PORT" (listen_address.h). Empty: a socket in the data folder and 127.0.0.1:50551.
   std::vector<std::string> listen;
   std::filesystem::path data_folder;
-  /// "HOST:PORT" at which metrics are served over HTTP. Empty: nowhere.
+  /// Who may call on TCP, and by what he is known.
+  access::Options access;
+  /// "HOST:PORT" of loopback at which metrics are served over HTTP. Empty: nowhere.
   std::string metrics;
   /// Jobs that run at once. 0: as many as this machine has cores.
   int workers = 0;

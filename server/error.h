@@ -19,6 +19,8 @@ class ServiceError : public std::runtime_error {
     storage_full,         ///< the disk or a quota has no room left
     exhausted,            ///< beyond a limit of this daemon
     unavailable,          ///< not now; later again
+    unauthenticated,      ///< nobody knows who calls
+    permission_denied,    ///< the caller may not do this
     cancelled,            ///< the caller does not wait any more
     data_loss,            ///< something stored cannot be read any more
     internal,             ///< a fault of this program or this machine

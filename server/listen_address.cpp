@@ -19,10 +19,16 @@ namespace {
   throw ServiceError(ServiceError::Kind::invalid, "Cannot listen on \"" + std::string(text) + "\": " + why);
 }
 
-bool is_loopback(const std::string& host) {
-  if (host == "localhost" || host == "[::1]") return true;
-  in_addr address{};
-  return inet_pton(AF_INET, host.c_str(), &address) == 1 && (ntohl(address.s_addr) >> 24U) == 127U;
+// Whether it is "[ADDRESS]" of IPv6.
+bool read_ipv6(const std::string& host, in6_addr& address) {
+  if (host.size() < 2 || host.front() != '[' || host.back() != ']') return false;
+  return inet_pton(AF_INET6, host.substr(1, host.size() - 2).c_str(), &address) == 1;
+}
+
+bool is_address(const std::string& host) {
+  in_addr ipv4{};
+  in6_addr ipv6{};
+  return host == "localhost" || inet_pton(AF_INET, host.c_str(), &ipv4) == 1 || read_ipv6(host, ipv6);
 }
 
 ListenAddress parse_unix(std::string_view text, std::string_view path) {
@@ -42,6 +48,14 @@ std::string ListenAddress::text() const {
   return kind == Kind::unix_socket ? "unix:" + place : place + ":" + std::to_string(port);
 }
 
+bool ListenAddress::is_loopback() const {
+  if (kind == Kind::unix_socket || place == "localhost") return true;
+  in_addr ipv4{};
+  if (inet_pton(AF_INET, place.c_str(), &ipv4) == 1) return (ntohl(ipv4.s_addr) >> 24U) == 127U;
+  in6_addr ipv6{};
+  return read_ipv6(place, ipv6) && IN6_IS_ADDR_LOOPBACK(&ipv6);
+}
+
 ListenAddress parse_listen_address(std::string_view text) {
   if (text.starts_with("unix:")) return parse_unix(text, text.substr(5));
   const auto colon = text.rfind(':');
@@ -51,10 +65,10 @@ ListenAddress parse_listen_address(std::string_view text) {
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), out.port);
   if (error != std::errc() || end != digits.data() + digits.size() || out.port < 0 || out.port > 65535)
     refuse(text, "the port is a number from 0 to 65535; 0 takes one that is free.");
-  if (!is_loopback(out.place)) {
+  if (!is_address(out.place)) {
     refuse(text,
-           "the host is not loopback, and calls are not authenticated yet. Use 127.0.0.1, localhost or [::1], and an "
-           "SSH tunnel from elsewhere.");
+           "the host is none of this machine's addresses. Use 127.0.0.1, localhost or [::1], another of its addresses, "
+           "or 0.0.0.0 for all.");
   }
   return out;
 }

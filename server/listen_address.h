@@ -5,7 +5,7 @@
 
 namespace cellcrush {
 
-/// Where the daemon listens: a socket in the file system, or a port of this machine's loopback interface.
+/// Where the daemon listens: a socket in the file system, or a port of one of this machine's addresses.
 struct ListenAddress {
   enum class Kind { unix_socket, tcp };
   Kind kind = Kind::tcp;
@@ -14,10 +14,13 @@ struct ListenAddress {
 
   /// In the form of --listen: "unix:PATH" or "HOST:PORT".
   [[nodiscard]] std::string text() const;
+
+  /// Whether nothing but this machine reaches it: a socket, or a loopback address.
+  [[nodiscard]] bool is_loopback() const;
 };
 
-/// Reads "unix:PATH" or "HOST:PORT". Throws ServiceError (invalid) for anything else, for a path too long for a socket,
-/// and for a host that is not loopback: calls are not authenticated, so nobody else may reach them.
+/// Reads "unix:PATH" or "HOST:PORT", where the host is "localhost", an IPv4 address or an IPv6 address in brackets. Throws
+/// ServiceError (invalid) for anything else, and for a path too long for a socket.
 ListenAddress parse_listen_address(std::string_view text);
 
 /// Removes what an ended daemon left at the path. Throws ServiceError (failed_precondition) when something answers

@@ -13,6 +13,7 @@
 #include <cstdlib>
 #include <string>
 
+#include "access/token_file.h"
 #include "cellcrush/simd.h"
 #include "daemon.h"
 #include "log_format.h"
@@ -52,6 +53,22 @@ bool choose_kernel() {
   return false;
 }
 
+// Two lines on stdout, the token and what the file takes; words about them on stderr.
+int print_token(const std::string& name, const std::string& scope) {
+  try {
+    const auto made = cellcrush::access::make_token(name, cellcrush::access::parse_scope(scope).value());
+    std::printf("%s\n%s\n", made.token.c_str(), made.line.c_str());
+    std::fprintf(
+        stderr,
+        "The first line is the token: give it to its owner, it is not kept. The second one, which has its hash "
+        "only, goes into the file of --tokens.\n");
+    return 0;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "cellcrushd: %s\n", error.what());
+    return 2;
+  }
+}
+
 int serve(const cellcrush::DaemonOptions& options, const sigset_t& signals) {
   try {
     cellcrush::Daemon daemon(options);
@@ -79,6 +96,18 @@ int main(int argc, char** argv) {
                  "(default: unix:DIR/cellcrushd.sock and 127.0.0.1:50551)");
   app.add_option("--data", options.data_folder,
                  "folder of jobs and results (default: $XDG_DATA_HOME/cellcrush or ~/.local/share/cellcrush)");
+  app.add_option("--tls-cert", options.access.tls_certificate,
+                 "PEM file of this server's certificate; every HOST:PORT then takes TLS only");
+  app.add_option("--tls-key", options.access.tls_key, "PEM file of the certificate's key");
+  app.add_option(
+      "--tls-client-ca", options.access.tls_client_authority,
+      "PEM file of the authority that signs clients' certificates; one is then asked of every client on TCP");
+  std::string certificate_scope = "submit";
+  app.add_option("--tls-client-scope", certificate_scope,
+                 "what those may do who show such a certificate: read, submit or admin (default: submit)")
+      ->check(CLI::IsMember({"read", "submit", "admin"}));
+  app.add_option("--tokens", options.access.tokens,
+                 "file of the tokens that calls on TCP must carry, a line each (see `cellcrushd token`)");
   app.add_option("--metrics", options.metrics,
                  "HOST:PORT at which metrics for Prometheus are served over HTTP, at /metrics (default: nowhere)");
   app.add_option("--workers", options.workers, "jobs that run at once (default: one for each core)")
@@ -106,6 +135,13 @@ int main(int argc, char** argv) {
                  "seconds of clock between two checkpoints of a running job (default: 60)")
       ->check(CLI::Range(0.01, 86400.0));
   app.set_version_flag("--version", std::string("cellcrushd ") + cellcrush::kSolverRevision);
+  std::string token_name;
+  std::string token_scope;
+  CLI::App* token = app.add_subcommand("token", "print a new token and its line for the file of --tokens, and end");
+  token->add_option("NAME", token_name, "whom the token is for")->required();
+  token->add_option("--scope", token_scope, "read; submit: also make jobs and change one's own; admin: all")
+      ->required()
+      ->check(CLI::IsMember({"read", "submit", "admin"}));
   // What the daemon itself starts; an empty group keeps it out of the help.
   std::filesystem::path job_folder;
   CLI::App* worker = app.add_subcommand("worker")->group("");
@@ -115,6 +151,8 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
+  if (token->parsed()) return print_token(token_name, token_scope);
+  options.access.certificate_scope = cellcrush::access::parse_scope(certificate_scope).value();
   if (!choose_kernel()) return 2;
   umask(0077);
   if (worker->parsed()) cellcrush::worker::worker_main(job_folder);

@@ -45,7 +45,10 @@ ExitCode run_check(Session& session, const CaseOptions& options) {
 }  // namespace
 
 Connection& Session::connection() {
-  if (connection_ == nullptr) connection_ = std::make_unique<Connection>(find_server_address(server));
+  if (connection_ == nullptr) {
+    const std::string address = find_server_address(server);
+    connection_ = std::make_unique<Connection>(address, read_credentials(credentials, address));
+  }
   return *connection_;
 }
 
@@ -56,6 +59,13 @@ CLI::App* add_command(CLI::App& app, Session& session, const std::string& name, 
   command->add_option("--server", session.server,
                       "unix:PATH or HOST:PORT (default: $CELLCRUSH_SERVER, else the daemon's socket in the user's data "
                       "folder, else 127.0.0.1:50551)");
+  command->add_option("--tls-ca", session.credentials.authority,
+                      "PEM file of the authority that signed the server's certificate; makes a HOST:PORT one of TLS "
+                      "(default: $CELLCRUSH_TLS_CA)");
+  command->add_option("--tls-cert", session.credentials.certificate, "PEM file of a certificate to show to the server");
+  command->add_option("--tls-key", session.credentials.key, "PEM file of that certificate's key");
+  command->add_option("--token-file", session.credentials.token,
+                      "File of the token for a HOST:PORT (default: $CELLCRUSH_TOKEN_FILE, or $CELLCRUSH_TOKEN itself)");
   command->callback([&session, action = std::move(action)] { session.action = action; });
   return command;
 }

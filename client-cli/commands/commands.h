@@ -14,6 +14,7 @@ namespace cellcrush::client {
 struct Session {
   bool json = false;
   std::string server;
+  CredentialFiles credentials;
   std::function<ExitCode()> action;  ///< set by the command that the arguments name; may throw CommandError
 
   /// The server's connection, made on first use.
@@ -23,7 +24,7 @@ struct Session {
   std::unique_ptr<Connection> connection_;
 };
 
-/// Adds a command with --json and --server, which runs `action` on the options the caller adds to it.
+/// Adds a command with --json, --server and the options of CredentialFiles, which runs `action` on the options the caller adds to it.
 CLI::App* add_command(CLI::App& app, Session& session, const std::string& name, const std::string& description,
                       std::function<ExitCode()> action);
 

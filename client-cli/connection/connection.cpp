@@ -2,14 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <utility>
+
+#include "connection/connection_failure.h"
 
 namespace cellcrush::client {
 
 namespace {
 
 constexpr std::chrono::milliseconds kConnectPatience{1500};
+constexpr std::chrono::milliseconds kReasonPatience{200};
 
 grpc::ChannelArguments channel_arguments() {
   grpc::ChannelArguments arguments;
@@ -26,9 +28,10 @@ grpc::ChannelArguments channel_arguments() {
 
 }  // namespace
 
-Connection::Connection(std::string address)
+Connection::Connection(std::string address, Credentials credentials)
     : address_(std::move(address)),
-      channel_(grpc::CreateCustomChannel(address_, grpc::InsecureChannelCredentials(), channel_arguments())),
+      credentials_(std::move(credentials)),
+      channel_(open_channel(address_, credentials_, channel_arguments())),
       cases_(v1::Cases::NewStub(channel_)),
       jobs_(v1::Jobs::NewStub(channel_)),
       sweeps_(v1::Sweeps::NewStub(channel_)),
@@ -68,15 +71,18 @@ void Connection::check_request_size(std::int64_t size) {
                   static_cast<double>(size) / kMebibyte, size, kLargestRequest / kMebibyte, kLargestRequest));
 }
 
+std::string Connection::last_failure() {
+  // A call on a channel that does not connect ends at once with the reason.
+  grpc::ClientContext context;
+  context.set_deadline(std::chrono::system_clock::now() + kReasonPatience);
+  v1::Capabilities response;
+  return admin_->GetCapabilities(&context, v1::GetCapabilitiesRequest(), &response).error_message();
+}
+
 void Connection::require_server() {
   if (connected_) return;
   if (!wait(kConnectPatience)) {
-    std::string message = "no server answers at " + address_;
-    std::error_code error;
-    if (address_.starts_with("unix:") && !std::filesystem::exists(address_.substr(5), error)) {
-      message += " (there is no such socket)";
-    }
-    throw CommandError(ExitCode::no_connection, message + "; start cellcrushd, or name its address with --server");
+    throw CommandError(ExitCode::no_connection, connection_failure_text(address_, credentials_, last_failure()));
   }
   connected_ = true;
 }

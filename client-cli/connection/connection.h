@@ -12,6 +12,7 @@
 #include "cellcrush/v1/jobs_service.grpc.pb.h"
 #include "cellcrush/v1/sweeps_service.grpc.pb.h"
 #include "command_error.h"
+#include "connection/credentials.h"
 
 namespace cellcrush::client {
 
@@ -20,7 +21,7 @@ namespace cellcrush::client {
 class Connection {
  public:
   /// `address` as find_server_address answers it.
-  explicit Connection(std::string address);
+  explicit Connection(std::string address, Credentials credentials = {});
 
   v1::Cases::Stub& cases();
   v1::Jobs::Stub& jobs();
@@ -51,8 +52,11 @@ class Connection {
  private:
   static void check_request_size(std::int64_t size);
   void require_server();
+  /// Why the channel does not connect, in gRPC's words.
+  std::string last_failure();
 
   std::string address_;
+  Credentials credentials_;
   std::shared_ptr<grpc::Channel> channel_;
   bool connected_ = false;
   std::unique_ptr<v1::Cases::Stub> cases_;

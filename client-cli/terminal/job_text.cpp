@@ -82,6 +82,7 @@ std::string description_text(const v1::Job& job) {
   if (!job.labels().empty()) table.add({"labels", labels_text(job.labels())});
   if (job.priority() != 0) table.add({"priority", std::to_string(job.priority())});
   if (!job.retry_of().empty()) table.add({"retry of", job.retry_of()});
+  if (!job.owner().empty()) table.add({"owner", job.owner()});
   if (job.has_create_time()) table.add({"created", time_text(job.create_time())});
   if (job.has_start_time()) table.add({"started", time_text(job.start_time())});
   if (job.has_end_time()) table.add({"ended", time_text(job.end_time())});

@@ -64,6 +64,7 @@ std::string description_text(const v1::Sweep& sweep) {
   if (sweep.max_parallel() > 0) table.add({"jobs at once", std::to_string(sweep.max_parallel())});
   if (sweep.max_failures() > 0) table.add({"stops after failures", std::to_string(sweep.max_failures())});
   if (!sweep.labels().empty()) table.add({"labels", labels_text(sweep.labels())});
+  if (!sweep.owner().empty()) table.add({"owner", sweep.owner()});
   if (sweep.has_create_time()) table.add({"created", time_text(sweep.create_time())});
   if (sweep.jobs_size() > 0) table.add({"jobs", fmt::format("{}", fmt::join(sweep.jobs(), ", "))});
   return sweep_line(sweep) + '\n' + table.text(2);

@@ -132,6 +132,7 @@ class FrameChecker {
     for (std::size_t other = 0; other < index; ++other) {
       if (frame_.motions[other].node == motion.node && frame_.motions[other].component == motion.component) {
         check_.add(path + "component", "", "of this node is moved by another motion too.", "Give each motion once.");
+        break;
       }
     }
     for (const FrameLattice::Support& support : frame_.supports) {
@@ -140,6 +141,7 @@ class FrameChecker {
                                                                          : support.fix_rotation;
       if (support.node == motion.node && held) {
         check_.add(path + "component", "", "of this node is held by a support.", "Free it in the support.");
+        break;
       }
     }
   }

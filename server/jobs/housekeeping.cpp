@@ -50,7 +50,7 @@ void Housekeeping::delete_old_jobs() {
   for (const v1::JobState state : {v1::SUCCEEDED, v1::FAILED, v1::CANCELLED}) {
     std::int64_t last = 0;
     while (true) {
-      const auto jobs = parts_.reader.list_jobs({{state}, {}, {}}, false, last, kAtOnce);
+      const auto jobs = parts_.reader.list_jobs({{state}, {}, {}, {}}, false, last, kAtOnce);
       for (const auto& stored : jobs) {
         last = stored.number;
         if (TimeUtil::TimestampToSeconds(stored.job.end_time()) >= limit) continue;

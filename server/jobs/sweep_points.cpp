@@ -11,6 +11,17 @@ namespace cellcrush::jobs {
 namespace {
 
 const char* const kFewer = "Use at most 10000 in one sweep.";
+constexpr int kMostFields = 32;
+constexpr std::size_t kLongestField = 256;
+
+void check_fields(const std::vector<std::string>& fields, const std::string& subject) {
+  if (fields.size() > kMostFields)
+    throw InvalidField(subject, "vary " + std::to_string(fields.size()) + " fields.", "Vary at most 32.");
+  for (const auto& field : fields) {
+    if (field.size() > kLongestField)
+      throw InvalidField(subject, "name a field of " + std::to_string(field.size()) + " bytes.", "Use at most 256.");
+  }
+}
 
 std::string axis_field(int axis) { return "sweep.axes[" + std::to_string(axis) + "]"; }
 
@@ -122,6 +133,7 @@ SweepPoints expand(const v1::Sweep& sweep) {
     throw InvalidField("sweep.points", "are given beside axes.", "Give either axes or points.");
   SweepPoints out;
   out.fields = swept_fields(sweep);
+  check_fields(out.fields, sweep.points().empty() ? "sweep.axes" : "sweep.points");
   out.values = sweep.points().empty() ? grid(sweep) : listed(sweep, out.fields);
   return out;
 }

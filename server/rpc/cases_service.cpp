@@ -3,6 +3,7 @@
 #include <string>
 
 #include "rpc/error_table.h"
+#include "rpc/request_limits.h"
 #include "store/result_writer.h"
 #include "translate/check_case.h"
 #include "translate/fidelities.h"
@@ -44,6 +45,7 @@ grpc::Status CasesService::ListPresets(grpc::ServerContext*, const v1::ListPrese
 
 grpc::Status CasesService::GetPreset(grpc::ServerContext*, const v1::GetPresetRequest* request, v1::Preset* response) {
   return answer([&] {
+    check_length("name", request->name(), kLongestName);
     auto preset = translate::find_preset_case(request->name());
     if (!preset) {
       throw ServiceError(ServiceError::Kind::not_found,

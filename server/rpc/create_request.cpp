@@ -1,5 +1,6 @@
 #include "rpc/create_request.h"
 
+#include "access/scope.h"
 #include "error.h"
 #include "store/case_hash.h"
 
@@ -13,10 +14,11 @@ constexpr std::size_t kLongestValue = 255;
 constexpr int kHighestPriority = 100;
 
 template <class Request>
-std::string hash_of_payload(Request& request) {
+std::string hash_of_payload(Request& request, const std::string& owner) {
   request.clear_request_id();
   request.clear_validate_only();
-  return store::hash_of(request);
+  // As it was before there were owners, for requests that a journal has.
+  return store::hash_of(request) + (owner == access::kLocal ? "" : " " + owner);
 }
 
 }  // namespace
@@ -41,8 +43,12 @@ void check_priority(int priority, const std::string& field) {
     throw InvalidField(field, "is " + std::to_string(priority) + ".", "Use -100 to 100; higher ones start first.");
 }
 
-std::string payload_hash(v1::CreateJobRequest request) { return hash_of_payload(request); }
+std::string payload_hash(v1::CreateJobRequest request, const std::string& owner) {
+  return hash_of_payload(request, owner);
+}
 
-std::string payload_hash(v1::CreateSweepRequest request) { return hash_of_payload(request); }
+std::string payload_hash(v1::CreateSweepRequest request, const std::string& owner) {
+  return hash_of_payload(request, owner);
+}
 
 }  // namespace cellcrush::rpc

@@ -17,8 +17,8 @@ void check_request(const std::string& request_id, const google::protobuf::Map<st
 /// Throws InvalidField unless it is -100 to 100.
 void check_priority(int priority, const std::string& field);
 
-/// What the request asks for, whatever its id: equal for a repetition of the same call.
-std::string payload_hash(v1::CreateJobRequest request);
-std::string payload_hash(v1::CreateSweepRequest request);
+/// What the request asks for, whatever its id, and for whom: equal for a repetition of the same call by the same owner.
+std::string payload_hash(v1::CreateJobRequest request, const std::string& owner);
+std::string payload_hash(v1::CreateSweepRequest request, const std::string& owner);
 
 }  // namespace cellcrush::rpc

@@ -28,6 +28,8 @@ grpc::StatusCode code_of(ServiceError::Kind kind) {
     case ServiceError::Kind::storage_full:
     case ServiceError::Kind::exhausted: return grpc::StatusCode::RESOURCE_EXHAUSTED;
     case ServiceError::Kind::unavailable: return grpc::StatusCode::UNAVAILABLE;
+    case ServiceError::Kind::unauthenticated: return grpc::StatusCode::UNAUTHENTICATED;
+    case ServiceError::Kind::permission_denied: return grpc::StatusCode::PERMISSION_DENIED;
     case ServiceError::Kind::cancelled: return grpc::StatusCode::CANCELLED;
     case ServiceError::Kind::data_loss: return grpc::StatusCode::DATA_LOSS;
     case ServiceError::Kind::internal: break;

@@ -11,7 +11,7 @@ namespace cellcrush::rpc {
 namespace {
 
 constexpr const char* kUnderstood =
-    "Understood are state = STATE, label.KEY = \"value\" and title : \"text\", joined by AND.";
+    "Understood are state = STATE, owner = \"NAME\", label.KEY = \"value\" and title : \"text\", joined by AND.";
 
 // Goes through the text once, a condition at a time.
 class Reader {
@@ -39,6 +39,9 @@ class Reader {
     if (field == "state") {
       expect('=');
       out.states.push_back(state());
+    } else if (field == "owner") {
+      expect('=');
+      out.owners.push_back(value());
     } else if (field == "title") {
       expect(':');
       out.titles.push_back(value());
@@ -47,7 +50,7 @@ class Reader {
       expect('=');
       out.labels.emplace_back(key, value());
     } else {
-      refuse(start, "state, label.KEY or title is expected");
+      refuse(start, "state, owner, label.KEY or title is expected");
     }
   }
 

@@ -8,6 +8,7 @@ namespace cellcrush::rpc {
 
 /// Reads the filter of ListJobs, a part of AIP-160: conditions joined by AND,
 ///   state = RUNNING            one of the states' names
+///   owner = "NAME"             who made the job
 ///   label.KEY = "value"        the job has that label; KEY may be quoted
 ///   title : "text"             the case's title contains the text, in any case of letters
 /// A value may stand without quotes when it has only letters, digits and . _ - / in it. Empty: all jobs. Throws

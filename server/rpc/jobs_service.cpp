@@ -9,6 +9,7 @@
 #include "rpc/error_table.h"
 #include "rpc/job_query.h"
 #include "rpc/page.h"
+#include "rpc/request_limits.h"
 #include "rpc/watch_reactor.h"
 #include "translate/check_case.h"
 #include "watch/job_source.h"
@@ -16,6 +17,7 @@
 namespace cellcrush::rpc {
 
 store::StoredJob JobsService::find(const std::string& name) {
+  check_length("name", name, kLongestName);
   const auto number = jobs::number_of(name);
   auto stored = number ? parts_.reader.find_job(*number) : std::nullopt;
   if (!stored) {
@@ -25,6 +27,12 @@ store::StoredJob JobsService::find(const std::string& name) {
   return *std::move(stored);
 }
 
+std::int64_t JobsService::find_own(const grpc::ServerContext& context, const std::string& name) {
+  const auto stored = find(name);
+  parts_.gate.require_own(context, stored.job.owner(), stored.job.name());
+  return stored.number;
+}
+
 void JobsService::add_progress(store::StoredJob& stored) {
   if (stored.job.state() != v1::RUNNING && stored.job.state() != v1::CANCELLING) return;
   const auto channel = parts_.hub.find(stored.number);
@@ -32,7 +40,8 @@ void JobsService::add_progress(store::StoredJob& stored) {
   if (const auto progress = channel->newest().progress) *stored.job.mutable_progress() = *progress;
 }
 
-grpc::Status JobsService::CreateJob(grpc::ServerContext*, const v1::CreateJobRequest* request, v1::Job* response) {
+grpc::Status JobsService::CreateJob(grpc::ServerContext* context, const v1::CreateJobRequest* request,
+                                    v1::Job* response) {
   return answer([&] {
     check_request(request->request_id(), request->labels());
     check_priority(request->priority(), "priority");
@@ -42,12 +51,13 @@ grpc::Status JobsService::CreateJob(grpc::ServerContext*, const v1::CreateJobReq
     *job.mutable_case_() = request->case_();
     *job.mutable_labels() = request->labels();
     job.set_priority(request->priority());
+    job.set_owner(parts_.gate.caller_of(*context).name);
     if (request->validate_only()) {
       *response = std::move(job);
       return grpc::Status::OK;
     }
     const std::int64_t element_steps = check.response.element_count() * check.response.step_count();
-    const std::string hash = payload_hash(*request);
+    const std::string hash = payload_hash(*request, job.owner());
     if (!parts_.journal.find_job_request(request->request_id(), hash))
       parts_.admission.admit(parts_.scheduler.waiting_count(), 1, check.response.predicted_memory_bytes());
     const auto created = parts_.journal.create_job(std::move(job), request->request_id(), hash, element_steps);
@@ -74,6 +84,8 @@ grpc::Status JobsService::GetJob(grpc::ServerContext*, const v1::GetJobRequest* 
 grpc::Status JobsService::ListJobs(grpc::ServerContext*, const v1::ListJobsRequest* request,
                                    v1::ListJobsResponse* response) {
   return answer([&] {
+    check_length("filter", request->filter(), kLongestFilter);
+    check_length("order_by", request->order_by(), kLongestOrder);
     const auto filter = parse_filter(request->filter());
     const bool newest_first = parse_newest_first(request->order_by());
     const std::string question = request->filter() + "\n" + (newest_first ? "newest" : "oldest");
@@ -96,9 +108,10 @@ grpc::Status JobsService::ListJobs(grpc::ServerContext*, const v1::ListJobsReque
   });
 }
 
-grpc::Status JobsService::CancelJob(grpc::ServerContext*, const v1::CancelJobRequest* request, v1::Job* response) {
+grpc::Status JobsService::CancelJob(grpc::ServerContext* context, const v1::CancelJobRequest* request,
+                                    v1::Job* response) {
   return answer([&] {
-    parts_.scheduler.cancel(find(request->name()).number);
+    parts_.scheduler.cancel(find_own(*context, request->name()));
     auto stored = find(request->name());
     add_progress(stored);
     *response = std::move(stored.job);
@@ -109,23 +122,25 @@ grpc::Status JobsService::CancelJob(grpc::ServerContext*, const v1::CancelJobReq
 grpc::Status JobsService::SuspendJob(grpc::ServerContext* context, const v1::SuspendJobRequest* request,
                                      v1::Job* response) {
   return answer([&] {
-    parts_.scheduler.suspend(find(request->name()).number, [context] { return context->IsCancelled(); });
+    parts_.scheduler.suspend(find_own(*context, request->name()), [context] { return context->IsCancelled(); });
     *response = find(request->name()).job;
     return grpc::Status::OK;
   });
 }
 
-grpc::Status JobsService::ResumeJob(grpc::ServerContext*, const v1::ResumeJobRequest* request, v1::Job* response) {
+grpc::Status JobsService::ResumeJob(grpc::ServerContext* context, const v1::ResumeJobRequest* request,
+                                    v1::Job* response) {
   return answer([&] {
-    parts_.scheduler.resume(find(request->name()).number);
+    parts_.scheduler.resume(find_own(*context, request->name()));
     *response = find(request->name()).job;
     return grpc::Status::OK;
   });
 }
 
-grpc::Status JobsService::DeleteJob(grpc::ServerContext*, const v1::DeleteJobRequest* request, v1::DeleteJobResponse*) {
+grpc::Status JobsService::DeleteJob(grpc::ServerContext* context, const v1::DeleteJobRequest* request,
+                                    v1::DeleteJobResponse*) {
   return answer([&] {
-    jobs::delete_job(find(request->name()).number, parts_.journal, parts_.folder);
+    jobs::delete_job(find_own(*context, request->name()), parts_.journal, parts_.folder);
     return grpc::Status::OK;
   });
 }

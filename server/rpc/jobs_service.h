@@ -1,5 +1,6 @@
 #pragma once
 
+#include "access/gate.h"
 #include "cellcrush/v1/jobs_service.grpc.pb.h"
 #include "jobs/admission.h"
 #include "jobs/scheduler.h"
@@ -26,6 +27,7 @@ class JobsService final : public v1::Jobs::WithCallbackMethod_WatchJob<v1::Jobs:
     jobs::Scheduler& scheduler;
     const jobs::Admission& admission;
     metrics::Metrics& metrics;
+    const access::Gate& gate;
     std::chrono::milliseconds bookmark_interval;
   };
 
@@ -53,6 +55,8 @@ class JobsService final : public v1::Jobs::WithCallbackMethod_WatchJob<v1::Jobs:
  private:
   /// Throws ServiceError (not_found) when there is none.
   store::StoredJob find(const std::string& name);
+  /// Number of a job that the caller may change. Throws also ServiceError (permission_denied).
+  std::int64_t find_own(const grpc::ServerContext& context, const std::string& name);
   void add_progress(store::StoredJob& stored);
   v1::FieldFrame find_frame(const store::StoredJob& stored, const v1::GetFrameRequest& request);
 

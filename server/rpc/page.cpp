@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "error.h"
+#include "rpc/request_limits.h"
 
 namespace cellcrush::rpc {
 namespace {
@@ -29,6 +30,7 @@ Page read_page(int page_size, const std::string& page_token_text, const std::str
   Page out;
   out.size = page_size == 0 ? kDefaultSize : std::min(page_size, kLargestSize);
   if (page_token_text.empty()) return out;
+  check_length("page_token", page_token_text, kLongestPageToken);
   const char* end = page_token_text.data() + page_token_text.size();
   const auto [stopped, error] = std::from_chars(page_token_text.data(), end, out.after);
   if (error != std::errc() || out.after < 1 || page_token_text != page_token(out.after, question)) {

@@ -10,6 +10,7 @@
 #include "rpc/create_request.h"
 #include "rpc/error_table.h"
 #include "rpc/page.h"
+#include "rpc/request_limits.h"
 #include "rpc/watch_reactor.h"
 #include "watch/sweep_source.h"
 
@@ -23,6 +24,7 @@ v1::CreateSweepRequest without_output(v1::CreateSweepRequest request) {
   sweep.clear_create_time();
   sweep.clear_jobs();
   sweep.clear_state_counts();
+  sweep.clear_owner();
   return request;
 }
 
@@ -45,6 +47,7 @@ std::vector<store::QueuedJob> queued_jobs(const store::Journal::CreatedSweep& cr
 }  // namespace
 
 SweepsService::Found SweepsService::find(const std::string& name) {
+  check_length("name", name, kLongestName);
   const auto number = jobs::sweep_number_of(name);
   auto sweep = number ? parts_.sweeps.find_sweep(*number) : std::nullopt;
   if (!sweep) {
@@ -54,19 +57,27 @@ SweepsService::Found SweepsService::find(const std::string& name) {
   return {*number, *std::move(sweep)};
 }
 
+std::int64_t SweepsService::find_own(const grpc::ServerContext& context, const std::string& name) {
+  const auto found = find(name);
+  parts_.gate.require_own(context, found.sweep.owner(), found.sweep.name());
+  return found.number;
+}
+
 grpc::Status SweepsService::CreateSweep(grpc::ServerContext* context, const v1::CreateSweepRequest* given,
                                         v1::Sweep* response) {
   return answer([&] {
-    const auto request = without_output(*given);
+    auto request = without_output(*given);
     check_request(request.request_id(), request.sweep().labels(), "sweep.");
     check_numbers(request.sweep());
+    const std::string owner = parts_.gate.caller_of(*context).name;
+    const std::string hash = payload_hash(request, owner);
+    request.mutable_sweep()->set_owner(owner);
     auto plan = jobs::plan_sweep(request.sweep(), [context] { return context->IsCancelled(); });
     if (!plan.problems.empty()) return status_of(plan.problems, "sweep");
     if (request.validate_only()) {
       *response = request.sweep();
       return grpc::Status::OK;
     }
-    const std::string hash = payload_hash(request);
     if (!parts_.journal.find_sweep_request(request.request_id(), hash))
       parts_.admission.admit(parts_.scheduler.waiting_count(), plan.jobs.size(), plan.largest_memory_bytes);
     const auto created = parts_.journal.create_sweep(request.sweep(), plan.jobs, request.request_id(), hash);
@@ -104,10 +115,10 @@ grpc::Status SweepsService::ListSweeps(grpc::ServerContext*, const v1::ListSweep
   });
 }
 
-grpc::Status SweepsService::CancelSweep(grpc::ServerContext*, const v1::CancelSweepRequest* request,
+grpc::Status SweepsService::CancelSweep(grpc::ServerContext* context, const v1::CancelSweepRequest* request,
                                         v1::Sweep* response) {
   return answer([&] {
-    const std::int64_t sweep = find(request->name()).number;
+    const std::int64_t sweep = find_own(*context, request->name());
     const auto jobs = parts_.sweeps.jobs_of(sweep);
     parts_.scheduler.cancel_all(jobs);
     *response = find(request->name()).sweep;
@@ -115,10 +126,10 @@ grpc::Status SweepsService::CancelSweep(grpc::ServerContext*, const v1::CancelSw
   });
 }
 
-grpc::Status SweepsService::RetryFailedJobs(grpc::ServerContext*, const v1::RetryFailedJobsRequest* request,
+grpc::Status SweepsService::RetryFailedJobs(grpc::ServerContext* context, const v1::RetryFailedJobsRequest* request,
                                             v1::Sweep* response) {
   return answer([&] {
-    const std::int64_t sweep = find(request->name()).number;
+    const std::int64_t sweep = find_own(*context, request->name());
     parts_.admission.admit(parts_.scheduler.waiting_count(), 1, 0);
     parts_.scheduler.enqueue(parts_.journal.retry_failed(sweep));
     *response = find(request->name()).sweep;
@@ -129,6 +140,7 @@ grpc::Status SweepsService::RetryFailedJobs(grpc::ServerContext*, const v1::Retr
 grpc::ServerWriteReactor<v1::WatchSweepResponse>* SweepsService::WatchSweep(grpc::CallbackServerContext*,
                                                                             const v1::WatchSweepRequest* request) {
   try {
+    check_length("resume_token", request->resume_token(), kLongestResumeToken);
     auto source = std::make_unique<watch::SweepSource>(parts_.reader, parts_.sweeps, parts_.hub,
                                                        find(request->name()).number, request->resume_token());
     return WatchReactor<watch::SweepSource>::start({parts_.pump, parts_.metrics, parts_.bookmark_interval},

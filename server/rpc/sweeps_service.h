@@ -3,6 +3,7 @@
 #include <chrono>
 #include <string>
 
+#include "access/gate.h"
 #include "cellcrush/v1/sweeps_service.grpc.pb.h"
 #include "jobs/admission.h"
 #include "jobs/scheduler.h"
@@ -28,6 +29,7 @@ class SweepsService final : public v1::Sweeps::WithCallbackMethod_WatchSweep<v1:
     jobs::Scheduler& scheduler;
     const jobs::Admission& admission;
     metrics::Metrics& metrics;
+    const access::Gate& gate;
     std::chrono::milliseconds bookmark_interval;
   };
 
@@ -54,6 +56,8 @@ class SweepsService final : public v1::Sweeps::WithCallbackMethod_WatchSweep<v1:
   };
   /// Throws ServiceError (not_found) when there is none.
   Found find(const std::string& name);
+  /// Number of a sweep that the caller may change. Throws also ServiceError (permission_denied).
+  std::int64_t find_own(const grpc::ServerContext& context, const std::string& name);
 
   Parts parts_;
 };

@@ -20,6 +20,8 @@ bool matches(const JobFilter& filter, const v1::Job& job) {
   };
   return std::all_of(filter.states.begin(), filter.states.end(),
                      [&job](v1::JobState state) { return job.state() == state; }) &&
+         std::all_of(filter.owners.begin(), filter.owners.end(),
+                     [&job](const std::string& owner) { return job.owner() == owner; }) &&
          std::all_of(filter.labels.begin(), filter.labels.end(), has_label) &&
          std::all_of(filter.titles.begin(), filter.titles.end(),
                      [&job](const std::string& part) { return contains(job.case_().title(), part); });

@@ -13,6 +13,7 @@ struct JobFilter {
   std::vector<v1::JobState> states;
   std::vector<std::pair<std::string, std::string>> labels;  ///< key and value
   std::vector<std::string> titles;                          ///< each a part of the case's title, in any case of letters
+  std::vector<std::string> owners;
 };
 
 /// Whether a job, with its case, meets the conditions.

@@ -1,6 +1,7 @@
 #include "translate/case_checker.h"
 
 #include "cellcrush/spec_checker.h"
+#include "translate/case_size.h"
 #include "translate/case_to_spec.h"
 #include "translate/problems.h"
 
@@ -12,6 +13,8 @@ CaseChecker::~CaseChecker() = default;
 
 CaseChecker::Verdict CaseChecker::check(const v1::Case& submitted) {
   Verdict out;
+  for (auto& problem : find_long_lists(submitted)) out.problems.push_back(std::move(problem));
+  if (!out.problems.empty()) return out;
   const auto reading = to_spec(submitted);
   const auto verdict = specs_->check(reading.spec);
   for (const Problems* problems : {&reading.problems, &verdict.problems}) {

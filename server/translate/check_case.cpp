@@ -1,6 +1,7 @@
 #include "translate/check_case.h"
 
 #include "cellcrush/simulation.h"
+#include "translate/case_size.h"
 #include "translate/case_to_spec.h"
 #include "translate/problems.h"
 #include "translate/results.h"
@@ -46,11 +47,14 @@ void restore_node_names(const v1::Frame& submitted, v1::Frame& completed) {
 
 CaseCheck check_case(const v1::Case& submitted) {
   CaseCheck out;
+  *out.response.mutable_problems() = find_long_lists(submitted);
+  if (out.response.problems_size() > 0) return out;
   const auto reading = to_spec(submitted);
   const auto built = build_scene(reading.spec);
   for (const Problems* problems : {&reading.problems, &built.problems}) {
     for (const auto& problem : *problems) *out.response.add_problems() = to_proto(problem);
   }
+  cut_problems(*out.response.mutable_problems());
   if (out.response.problems_size() > 0) return out;
   const auto facts = facts_of(*built.scene);
   describe(facts, out.response);

@@ -27,7 +27,8 @@ double now() { return std::chrono::duration<double>(std::chrono::steady_clock::n
   setenv("LC_ALL", "C.UTF-8", 1);
   setenv("TERM", "xterm", 1);
   unsetenv("NO_COLOR");
-  unsetenv("CELLCRUSH_SERVER");
+  for (const char* name : {"CELLCRUSH_SERVER", "CELLCRUSH_TLS_CA", "CELLCRUSH_TOKEN_FILE", "CELLCRUSH_TOKEN"})
+    unsetenv(name);
   execv(CELLCRUSH_PROGRAM, words.data());
   _exit(127);
 }

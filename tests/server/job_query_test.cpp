@@ -38,7 +38,7 @@ TEST(JobFilter, NothingIsNoCondition) {
 }
 
 TEST(JobFilter, AFaultIsNamedWithItsPlaceAndWhatIsUnderstood) {
-  EXPECT_THAT(refusal_of("speed = 3"), HasSubstr("position 1: state, label.KEY or title is expected"));
+  EXPECT_THAT(refusal_of("speed = 3"), HasSubstr("position 1: state, owner, label.KEY or title is expected"));
   EXPECT_THAT(refusal_of("state = DONE"), HasSubstr("position 9: one of PENDING, RUNNING"));
   EXPECT_THAT(refusal_of("state = JOB_STATE_UNSPECIFIED"), HasSubstr("position 9"));
   EXPECT_THAT(refusal_of("state : RUNNING"), HasSubstr("position 7: = is expected"));

@@ -1,0 +1,55 @@
+#include "connection/connection_failure.h"
+
+#include <filesystem>
+
+namespace cellcrush::client {
+
+namespace {
+
+bool has_part(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
+
+std::string host_of(const std::string& address) { return address.substr(0, address.rfind(':')); }
+
+// Nothing was there to end the connection.
+bool was_not_reached(const std::string& reason) {
+  for (const char* part : {"Connection refused", "No route to host", "unreachable", "timed out", "Timeout", "DNS"}) {
+    if (has_part(reason, part)) return true;
+  }
+  return reason.empty() || has_part(reason, "Deadline");
+}
+
+std::string tls_failure_text(const std::string& address, const std::string& reason) {
+  if (has_part(reason, "certificate verify failed") || has_part(reason, "CERTIFICATE_VERIFY_FAILED")) {
+    return "the server at " + address +
+           " shows a certificate that the authority of --tls-ca has not signed or that is not valid now; name the "
+           "authority that signed it, or have it renewed";
+  }
+  if (has_part(reason, "Peer name") || has_part(reason, "Hostname")) {
+    return "the server at " + address + " shows a certificate that is not one of " + host_of(address) +
+           "; name the host in --server as its certificate does";
+  }
+  if (has_part(reason, "wrong version number") || has_part(reason, "WRONG_VERSION_NUMBER")) {
+    return "the server at " + address + " does not talk TLS; leave out --tls-ca and CELLCRUSH_TLS_CA";
+  }
+  return "the server at " + address +
+         " has ended the connection; if it asks for a certificate, show one that its authority has signed, with "
+         "--tls-cert and --tls-key";
+}
+
+}  // namespace
+
+std::string connection_failure_text(const std::string& address, const Credentials& credentials,
+                                    const std::string& reason) {
+  std::error_code error;
+  const bool is_socket = address.starts_with("unix:");
+  if (!is_socket && !was_not_reached(reason)) {
+    if (credentials.tls) return tls_failure_text(address, reason);
+    return "the server at " + address +
+           " does not answer in plain text; if it talks TLS, name the authority of its certificate with --tls-ca";
+  }
+  std::string message = "no server answers at " + address;
+  if (is_socket && !std::filesystem::exists(address.substr(5), error)) message += " (there is no such socket)";
+  return message + "; start cellcrushd, or name its address with --server";
+}
+
+}  // namespace cellcrush::client

@@ -1,0 +1,143 @@
+#include "connection/credentials.h"
+
+#include <arpa/inet.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+#include "command_error.h"
+
+namespace cellcrush::client {
+
+namespace {
+
+using grpc::experimental::InterceptionHookPoints;
+
+// The option, else the variable, with the name under which messages speak of it.
+struct NamedText {
+  std::string source;
+  std::string text;
+};
+
+NamedText option_or_variable(const std::string& option_name, const std::string& option, const char* variable) {
+  if (!option.empty()) return {option_name, option};
+  const char* value = std::getenv(variable);
+  return {variable, value == nullptr ? "" : value};
+}
+
+std::string read_credential_file(const NamedText& path) {
+  constexpr std::size_t kLargest = 1024 * 1024;
+  std::ifstream stream(path.text, std::ios::binary);
+  std::string text;
+  for (std::istreambuf_iterator<char> next(stream), end; next != end && text.size() <= kLargest; ++next) text += *next;
+  if (!stream) throw CommandError(ExitCode::refused, path.source + " " + path.text + ": cannot be read");
+  if (text.empty()) throw CommandError(ExitCode::refused, path.source + " " + path.text + ": is empty");
+  if (text.size() > kLargest) throw CommandError(ExitCode::refused, path.source + " " + path.text + ": is too large");
+  return text;
+}
+
+std::string read_pem(const NamedText& path, const std::string& kind) {
+  std::string text = read_credential_file(path);
+  if (text.find("-----BEGIN ") == std::string::npos || text.find(kind + "-----") == std::string::npos) {
+    throw CommandError(ExitCode::refused,
+                       path.source + " " + path.text + ": holds no " + kind + " in PEM (-----BEGIN " + kind + "-----)");
+  }
+  return text;
+}
+
+// A token may stand on a line with an end; it goes into a header, which takes printable characters only.
+std::string checked_token(std::string text, const std::string& source) {
+  while (!text.empty() && (text.back() == '\n' || text.back() == '\r' || text.back() == ' ')) text.pop_back();
+  const bool printable =
+      std::all_of(text.begin(), text.end(), [](char character) { return character > ' ' && character <= '~'; });
+  if (text.empty() || text.size() > 1024 || !printable)
+    throw CommandError(ExitCode::refused, source + ": holds no token, which is a single word");
+  return text;
+}
+
+std::string find_token(const std::string& file_option) {
+  const NamedText file = option_or_variable("--token-file", file_option, "CELLCRUSH_TOKEN_FILE");
+  if (!file.text.empty()) return checked_token(read_credential_file(file), file.source + " " + file.text);
+  const NamedText token = option_or_variable("", "", "CELLCRUSH_TOKEN");
+  return token.text.empty() ? "" : checked_token(token.text, token.source);
+}
+
+bool is_this_machine(const std::string& address) {
+  const std::string host = address.substr(0, address.rfind(':'));
+  in_addr ipv4{};
+  return host == "localhost" || host == "[::1]" ||
+         (inet_pton(AF_INET, host.c_str(), &ipv4) == 1 && (ntohl(ipv4.s_addr) >> 24U) == 127U);
+}
+
+// Adds the token to what a call sends first.
+class TokenSender final : public grpc::experimental::Interceptor {
+ public:
+  explicit TokenSender(std::string value) : value_(std::move(value)) {}
+
+  void Intercept(grpc::experimental::InterceptorBatchMethods* methods) override {
+    if (methods->QueryInterceptionHookPoint(InterceptionHookPoints::PRE_SEND_INITIAL_METADATA))
+      methods->GetSendInitialMetadata()->emplace("authorization", value_);
+    methods->Proceed();
+  }
+
+ private:
+  std::string value_;
+};
+
+class TokenSenderFactory final : public grpc::experimental::ClientInterceptorFactoryInterface {
+ public:
+  explicit TokenSenderFactory(const std::string& token) : value_("Bearer " + token) {}
+
+  grpc::experimental::Interceptor* CreateClientInterceptor(grpc::experimental::ClientRpcInfo*) override {
+    return new TokenSender(value_);
+  }
+
+ private:
+  std::string value_;
+};
+
+}  // namespace
+
+Credentials read_credentials(const CredentialFiles& files, const std::string& address) {
+  Credentials out;
+  if (address.starts_with("unix:")) return out;
+  if (files.certificate.empty() != files.key.empty())
+    throw CommandError(ExitCode::refused, "--tls-cert and --tls-key go together; give both, or none");
+  const NamedText authority = option_or_variable("--tls-ca", files.authority, "CELLCRUSH_TLS_CA");
+  if (authority.text.empty() && !files.certificate.empty())
+    throw CommandError(ExitCode::refused, "--tls-cert needs the authority of the server's certificate; give --tls-ca");
+  out.token = find_token(files.token);
+  if (!authority.text.empty()) {
+    out.tls = true;
+    out.authority = read_pem(authority, "CERTIFICATE");
+    if (!files.certificate.empty()) {
+      out.certificate = read_pem({"--tls-cert", files.certificate}, "CERTIFICATE");
+      out.key = read_pem({"--tls-key", files.key}, "PRIVATE KEY");
+    }
+  }
+  if (!out.token.empty() && !out.tls && !is_this_machine(address)) {
+    throw CommandError(ExitCode::refused,
+                       "the token is not sent to " + address +
+                           " in plain text, where others could read it; name the authority of the server's certificate "
+                           "with --tls-ca or CELLCRUSH_TLS_CA");
+  }
+  return out;
+}
+
+std::shared_ptr<grpc::Channel> open_channel(const std::string& address, const Credentials& credentials,
+                                            const grpc::ChannelArguments& arguments) {
+  auto channel_credentials = grpc::InsecureChannelCredentials();
+  if (credentials.tls) {
+    channel_credentials = grpc::SslCredentials({credentials.authority, credentials.key, credentials.certificate});
+  }
+  std::vector<std::unique_ptr<grpc::experimental::ClientInterceptorFactoryInterface>> interceptors;
+  if (!credentials.token.empty()) interceptors.push_back(std::make_unique<TokenSenderFactory>(credentials.token));
+  return grpc::experimental::CreateCustomChannelWithInterceptors(address, channel_credentials, arguments,
+                                                                 std::move(interceptors));
+}
+
+}  // namespace cellcrush::client

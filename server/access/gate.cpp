@@ -1,0 +1,137 @@
+#include "access/gate.h"
+
+#include <strings.h>
+
+#include "access/method_scopes.h"
+#include "error.h"
+#include "rpc/error_table.h"
+
+namespace cellcrush::access {
+namespace {
+
+constexpr const char* kAskForToken = "Whoever runs the server makes one: cellcrushd token NAME --scope SCOPE.";
+
+[[noreturn]] void refuse_options(const std::string& why) { throw ServiceError(ServiceError::Kind::invalid, why); }
+
+[[noreturn]] void refuse_caller(const std::string& why) {
+  throw ServiceError(ServiceError::Kind::unauthenticated, why);
+}
+
+std::string_view view_of(const grpc::string_ref& text) { return {text.data(), text.size()}; }
+
+}  // namespace
+
+// Asks every call of a port who makes it, before it reaches a service.
+class Gate::Check final : public grpc::AuthMetadataProcessor {
+ public:
+  explicit Check(const Gate& gate) : gate_(gate) {}
+
+  // It computes a hash and waits for nothing.
+  [[nodiscard]] bool IsBlocking() const override { return false; }
+
+  // Nothing is kept in the context: it is shared by all calls of a connection, which may have different tokens.
+  grpc::Status Process(const InputMetadata& metadata, grpc::AuthContext* context, OutputMetadata*,
+                       OutputMetadata*) override {
+    return rpc::answer([&] {
+      const auto found = metadata.find(":path");
+      const std::string_view path = found == metadata.end() ? std::string_view() : view_of(found->second);
+      const auto needed = needed_scope(path);
+      if (!needed) return grpc::Status::OK;
+      const Caller caller = gate_.identify(metadata, *context);
+      if (caller.scope >= *needed) return grpc::Status::OK;
+      throw ServiceError(ServiceError::Kind::permission_denied,
+                         std::string(path.substr(path.rfind('/') + 1)) + " needs the scope " + name_of(*needed) +
+                             ", and " + caller.name + " has " + name_of(caller.scope) + ".");
+    });
+  }
+
+ private:
+  const Gate& gate_;
+};
+
+Gate::Gate(const Options& options) : certificate_scope_(options.certificate_scope) {
+  if (options.tls_certificate.empty() != options.tls_key.empty())
+    refuse_options("--tls-cert and --tls-key go together. Give both, or none.");
+  if (!options.tls_client_authority.empty() && options.tls_certificate.empty())
+    refuse_options("--tls-client-ca needs TLS. Give --tls-cert and --tls-key with it.");
+  if (!options.tls_certificate.empty())
+    tls_ = read_tls_files(options.tls_certificate, options.tls_key, options.tls_client_authority);
+  if (!options.tokens.empty()) tokens_.emplace(options.tokens);
+}
+
+std::shared_ptr<grpc::ServerCredentials> Gate::credentials_for(const ListenAddress& address) const {
+  if (address.kind == ListenAddress::Kind::unix_socket) return grpc::InsecureServerCredentials();
+  if (!address.is_loopback() && (!tls_ || !asks_who_calls())) {
+    refuse_options("Cannot listen on " + address.text() + ", which others can reach, without " +
+                   (tls_ ? "" : "TLS (--tls-cert FILE --tls-key FILE) and ") +
+                   "a way to tell who calls (--tokens FILE or --tls-client-ca FILE). Give " + (tls_ ? "one" : "these") +
+                   ", or listen on 127.0.0.1, localhost or [::1].");
+  }
+  std::shared_ptr<grpc::ServerCredentials> out;
+  if (tls_) {
+    grpc::SslServerCredentialsOptions options(tls_->client_authority.empty()
+                                                  ? GRPC_SSL_DONT_REQUEST_CLIENT_CERTIFICATE
+                                                  : GRPC_SSL_REQUEST_AND_REQUIRE_CLIENT_CERTIFICATE_AND_VERIFY);
+    options.pem_key_cert_pairs.push_back({tls_->key, tls_->certificate});
+    options.pem_root_certs = tls_->client_authority;
+    out = grpc::SslServerCredentials(options);
+  } else if (tokens_) {
+    // Plain text that stays on this machine; unlike insecure credentials, these let calls be checked.
+    out = grpc::experimental::LocalServerCredentials(LOCAL_TCP);
+  } else {
+    return grpc::InsecureServerCredentials();
+  }
+  if (asks_who_calls()) out->SetAuthMetadataProcessor(std::make_shared<Check>(*this));
+  return out;
+}
+
+Caller Gate::identify(const Metadata& metadata, const grpc::AuthContext& context) const {
+  return tokens_ ? caller_of_token(metadata) : caller_of_certificate(context);
+}
+
+Caller Gate::caller_of_token(const Metadata& metadata) const {
+  constexpr std::string_view kBearer = "Bearer ";
+  const auto [first, last] = metadata.equal_range("authorization");
+  if (first == last) {
+    refuse_caller(
+        std::string("This server takes calls with a token, and this one has none. Give it in a file: --token-file "
+                    "FILE or CELLCRUSH_TOKEN_FILE. ") +
+        kAskForToken);
+  }
+  const std::string_view value = view_of(first->second);
+  const bool is_bearer =
+      value.size() > kBearer.size() && strncasecmp(value.data(), kBearer.data(), kBearer.size()) == 0;
+  if (std::next(first) != last || !is_bearer)
+    refuse_caller("The authorization of this call is not one \"Bearer TOKEN\". Send that.");
+  const auto caller = tokens_->find(value.substr(kBearer.size()));
+  if (!caller) refuse_caller(std::string("The token of this call is none that this server knows. ") + kAskForToken);
+  return *caller;
+}
+
+Caller Gate::caller_of_certificate(const grpc::AuthContext& context) const {
+  const auto names = context.FindPropertyValues("x509_common_name");
+  const std::string_view name = names.size() == 1 ? view_of(names.front()) : std::string_view();
+  if (!is_caller_name(name)) {
+    refuse_caller(
+        "The certificate of this call has no common name that can name its owner. Use one with 1 to 64 printable "
+        "characters without spaces, quotes, backslashes and #, other than \"local\".");
+  }
+  return {std::string(name), certificate_scope_};
+}
+
+Caller Gate::caller_of(const grpc::ServerContextBase& context) const {
+  if (!asks_who_calls() || context.peer().starts_with("unix:")) return {kLocal, Scope::admin};
+  return identify(context.client_metadata(), *context.auth_context());
+}
+
+void Gate::require_own(const grpc::ServerContextBase& context, const std::string& owner,
+                       const std::string& name) const {
+  const Caller caller = caller_of(context);
+  if (caller.scope == Scope::admin || caller.name == owner) return;
+  throw ServiceError(ServiceError::Kind::permission_denied,
+                     name + " belongs to " + (owner.empty() ? "nobody" : owner) + ", and " + caller.name +
+                         " has the scope " + name_of(caller.scope) +
+                         ", which changes one's own only. Ask its owner, or one who has the scope admin.");
+}
+
+}  // namespace cellcrush::access

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <grpcpp/grpcpp.h>
+#include <grpcpp/security/auth_metadata_processor.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "access/scope.h"
+#include "access/tls_files.h"
+#include "access/token_file.h"
+#include "listen_address.h"
+
+namespace cellcrush::access {
+
+/// Files that say who may call, as the options of the daemon name them; empty ones are not given.
+struct Options {
+  std::filesystem::path tls_certificate;
+  std::filesystem::path tls_key;
+  std::filesystem::path tls_client_authority;
+  std::filesystem::path tokens;
+  /// Of those who show a certificate; where there are tokens too, these say it.
+  Scope certificate_scope = Scope::submit;
+};
+
+/// Who may call, and what. Every call on TCP passes it before it reaches a service; the Unix socket is guarded by its
+/// file's permissions. Thread-safe.
+class Gate {
+ public:
+  /// Reads the files. Throws ServiceError (invalid) for options that do not go together, and for a file that cannot be used.
+  explicit Gate(const Options& options);
+
+  /// With what a server listens on the address, including the check of each call. The gate outlives the server. Throws
+  /// ServiceError (invalid) where others could reach it and there is no TLS, or neither tokens nor clients' certificates.
+  [[nodiscard]] std::shared_ptr<grpc::ServerCredentials> credentials_for(const ListenAddress& address) const;
+
+  /// Who makes a call that has passed.
+  [[nodiscard]] Caller caller_of(const grpc::ServerContextBase& context) const;
+
+  /// Throws ServiceError (permission_denied) unless the caller owns `name` or has the scope admin.
+  void require_own(const grpc::ServerContextBase& context, const std::string& owner, const std::string& name) const;
+
+ private:
+  using Metadata = std::multimap<grpc::string_ref, grpc::string_ref>;
+  class Check;
+
+  /// Throws ServiceError (unauthenticated) for a call without what it needs.
+  [[nodiscard]] Caller identify(const Metadata& metadata, const grpc::AuthContext& context) const;
+  [[nodiscard]] Caller caller_of_token(const Metadata& metadata) const;
+  [[nodiscard]] Caller caller_of_certificate(const grpc::AuthContext& context) const;
+  [[nodiscard]] bool asks_who_calls() const { return tokens_ || (tls_ && !tls_->client_authority.empty()); }
+
+  std::optional<TlsFiles> tls_;
+  std::optional<TokenFile> tokens_;
+  Scope certificate_scope_;
+};
+
+}  // namespace cellcrush::access

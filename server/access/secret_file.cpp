@@ -1,0 +1,60 @@
+#include "access/secret_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <system_error>
+
+#include "error.h"
+
+namespace cellcrush::access {
+namespace {
+
+constexpr std::size_t kLargestNamedFile = 1024 * 1024;
+
+// A descriptor that closes itself.
+struct OpenFile {
+  explicit OpenFile(const std::filesystem::path& path)
+      : descriptor(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {}
+  ~OpenFile() {
+    if (descriptor >= 0) close(descriptor);
+  }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+
+  int descriptor;
+};
+
+std::string reason() { return "cannot be read: " + std::generic_category().message(errno) + "."; }
+
+}  // namespace
+
+void refuse_file(const std::string& option, const std::filesystem::path& path, const std::string& why) {
+  throw ServiceError(ServiceError::Kind::invalid, option + " " + path.string() + ": " + why);
+}
+
+std::string read_named_file(const std::string& option, const std::filesystem::path& path, Secrecy secrecy) {
+  const OpenFile file(path);
+  struct stat status {};
+  // Asked of what was opened, so that nobody can change it in between.
+  if (file.descriptor < 0 || fstat(file.descriptor, &status) != 0) refuse_file(option, path, reason());
+  if (!S_ISREG(status.st_mode)) refuse_file(option, path, "is no file.");
+  if (secrecy == Secrecy::secret && (status.st_mode & S_IROTH) != 0)
+    refuse_file(option, path, "can be read by others. Shut them out: chmod 600 " + path.string());
+  if (secrecy == Secrecy::secret && (status.st_mode & (S_IWGRP | S_IWOTH)) != 0)
+    refuse_file(option, path, "can be written by others than its owner. Shut them out: chmod 600 " + path.string());
+  std::string text;
+  std::array<char, 65536> buffer{};
+  ssize_t count = 0;
+  while ((count = read(file.descriptor, buffer.data(), buffer.size())) > 0) {
+    text.append(buffer.data(), static_cast<std::size_t>(count));
+    if (text.size() > kLargestNamedFile) refuse_file(option, path, "is larger than 1 MiB. Is it another file?");
+  }
+  if (count < 0) refuse_file(option, path, reason());
+  return text;
+}
+
+}  // namespace cellcrush::access

@@ -1,0 +1,112 @@
+#include "access/token_file.h"
+
+#include <openssl/crypto.h>
+#include <openssl/rand.h>
+#include <openssl/sha.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "access/secret_file.h"
+#include "error.h"
+
+namespace cellcrush::access {
+namespace {
+
+constexpr const char* kTokensOption = "--tokens";
+constexpr std::size_t kLongestToken = 1024;
+constexpr std::string_view kDigits = "0123456789abcdef";
+constexpr const char* kNameRule =
+    "A name has 1 to 64 printable characters without spaces, quotes, backslashes and #, and is not \"local\".";
+
+template <class Bytes>
+std::string hex_of(const Bytes& bytes) {
+  std::string out;
+  for (const unsigned char byte : bytes) {
+    out.push_back(kDigits[byte >> 4U]);
+    out.push_back(kDigits[byte & 15U]);
+  }
+  return out;
+}
+
+// False when the text is not twice as many digits as there are bytes.
+template <class Bytes>
+bool read_hex(std::string text, Bytes& bytes) {
+  if (text.size() != 2 * bytes.size()) return false;
+  std::transform(text.begin(), text.end(), text.begin(), [](char digit) {
+    return digit >= 'A' && digit <= 'F' ? static_cast<char>(digit - 'A' + 'a') : digit;
+  });
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    const auto high = kDigits.find(text[2 * i]);
+    const auto low = kDigits.find(text[2 * i + 1]);
+    if (high == std::string_view::npos || low == std::string_view::npos) return false;
+    bytes[i] = static_cast<unsigned char>(16 * high + low);
+  }
+  return true;
+}
+
+std::array<unsigned char, 32> sha256_of(std::string_view text) {
+  std::array<unsigned char, 32> out{};
+  SHA256(reinterpret_cast<const unsigned char*>(text.data()), text.size(), out.data());
+  return out;
+}
+
+}  // namespace
+
+TokenFile::TokenFile(const std::filesystem::path& path) {
+  std::istringstream lines(read_named_file(kTokensOption, path, Secrecy::secret));
+  int line_number = 0;
+  for (std::string line; std::getline(lines, line);) add(line, kTokensOption, path, ++line_number);
+  if (entries_.empty())
+    refuse_file(kTokensOption, path, "holds no token. Make one with `cellcrushd token NAME --scope SCOPE`.");
+}
+
+void TokenFile::add(const std::string& line, const std::string& option, const std::filesystem::path& path,
+                    int line_number) {
+  std::istringstream words(line.substr(0, line.find('#')));
+  std::string name;
+  std::string scope_name;
+  std::string digits;
+  std::string rest;
+  if (!(words >> name)) return;
+  // The line is not repeated: a token may have been written where its hash belongs.
+  const std::string where = "line " + std::to_string(line_number) + " ";
+  if (!(words >> scope_name >> digits) || words >> rest)
+    refuse_file(option, path, where + "is not of the form NAME SCOPE SHA256-HEX.");
+  if (!is_caller_name(name)) refuse_file(option, path, where + "has a name that cannot be one. " + kNameRule);
+  const auto scope = parse_scope(scope_name);
+  if (!scope) refuse_file(option, path, where + "has none of the scopes read, submit and admin.");
+  Entry entry{{name, *scope}, {}};
+  if (!read_hex(digits, entry.hash)) refuse_file(option, path, where + "has a hash that is not 64 hexadecimal digits.");
+  for (const Entry& before : entries_) {
+    if (before.hash == entry.hash) refuse_file(option, path, where + "has the hash of a line before it.");
+    if (before.caller.name == name && before.caller.scope != *scope)
+      refuse_file(option, path, where + "gives " + name + " another scope than a line before it.");
+  }
+  entries_.push_back(std::move(entry));
+}
+
+std::optional<Caller> TokenFile::find(std::string_view token) const {
+  if (token.size() > kLongestToken) return std::nullopt;
+  const Hash hash = sha256_of(token);
+  const Entry* found = nullptr;
+  // All are compared, whichever it is.
+  for (const Entry& entry : entries_) {
+    if (CRYPTO_memcmp(entry.hash.data(), hash.data(), hash.size()) == 0) found = &entry;
+  }
+  return found == nullptr ? std::nullopt : std::optional(found->caller);
+}
+
+NewToken make_token(const std::string& name, Scope scope) {
+  if (!is_caller_name(name))
+    throw ServiceError(ServiceError::Kind::invalid, "\"" + name + "\" cannot be the name of a token. " + kNameRule);
+  std::array<unsigned char, 32> random{};
+  if (RAND_bytes(random.data(), static_cast<int>(random.size())) != 1)
+    throw ServiceError(ServiceError::Kind::internal, "This machine has no random numbers to give.");
+  NewToken out;
+  out.token = hex_of(random);
+  out.line = name + " " + name_of(scope) + " " + hex_of(sha256_of(out.token));
+  return out;
+}
+
+}  // namespace cellcrush::access

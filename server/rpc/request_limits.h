@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+namespace cellcrush::rpc {
+
+// Lengths of what a request may carry beside a case, in bytes. They are far beyond what is of use, so that a caller does not
+// keep the daemon busy with a text of 4 MiB, which a message may have.
+inline constexpr std::size_t kLongestName = 128;
+inline constexpr std::size_t kLongestFilter = 4096;
+inline constexpr std::size_t kLongestOrder = 128;
+inline constexpr std::size_t kLongestPageToken = 128;
+inline constexpr std::size_t kLongestResumeToken = 1024 * 1024;
+
+/// Throws InvalidField when the text is longer.
+void check_length(const std::string& field, const std::string& text, std::size_t longest);
+
+}  // namespace cellcrush::rpc

@@ -1,0 +1,153 @@
+#include <gmock/gmock.h>
+#include <google/protobuf/descriptor.h>
+#include <google/protobuf/descriptor_database.h>
+#include <sys/stat.h>
+
+#include "access/method_scopes.h"
+#include "access/tls_files.h"
+#include "access/token_file.h"
+#include "cellcrush/v1/admin_service.pb.h"
+#include "error.h"
+#include "server/certificates.h"
+#include "server/temporary_folder.h"
+
+namespace cellcrush::access {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+using testing::write_secret;
+
+template <class Action>
+std::string access_refusal_of(const Action& action) {
+  try {
+    action();
+  } catch (const ServiceError& refused) {
+    return refused.what();
+  }
+  return "";
+}
+
+/// Calls visit for every service of this project that is linked here.
+template <class Visit>
+void visit_services(const Visit& visit) {
+  const auto* pool = google::protobuf::DescriptorPool::generated_pool();
+  std::vector<std::string> files;
+  google::protobuf::DescriptorPool::internal_generated_database()->FindAllFileNames(&files);
+  for (const auto& name : files) {
+    if (!name.starts_with("cellcrush/v1/")) continue;
+    const auto* file = pool->FindFileByName(name);
+    for (int i = 0; i < file->service_count(); ++i) visit(*file->service(i));
+  }
+}
+
+TEST(MethodScopes, EveryMethodOfEveryServiceIsInTheTable) {
+  int methods = 0;
+  visit_services([&methods](const google::protobuf::ServiceDescriptor& service) {
+    for (int i = 0; i < service.method_count(); ++i, ++methods) {
+      const std::string path = "/" + service.full_name() + "/" + service.method(i)->name();
+      EXPECT_TRUE(has_scope_entry(path)) << path << " is not in server/access/method_scopes.cpp";
+    }
+  });
+  EXPECT_GT(methods, 20);
+}
+
+TEST(MethodScopes, WhatIsNotInTheTableNeedsAdminAndHealthIsOpen) {
+  for (const char* path : {"", "/", "/cellcrush.v1.Jobs/", "/cellcrush.v1.Jobs/Unknown", "/cellcrush.v1.jobs/GetJob",
+                           "cellcrush.v1.Jobs/GetJob", "/grpc.health.v1.Health/Other"})
+    EXPECT_EQ(needed_scope(path), Scope::admin) << path;
+  EXPECT_EQ(needed_scope("/grpc.health.v1.Health/Check"), std::nullopt);
+  EXPECT_EQ(needed_scope("/cellcrush.v1.Jobs/GetJob"), Scope::read);
+  EXPECT_EQ(needed_scope("/cellcrush.v1.Sweeps/RetryFailedJobs"), Scope::submit);
+  EXPECT_EQ(needed_scope("/cellcrush.v1.Admin/Drain"), Scope::admin);
+}
+
+class TokenFileTest : public ::testing::Test {
+ protected:
+  [[nodiscard]] std::string refusal(const std::string& text) const {
+    write_secret(path(), text);
+    return access_refusal_of([this] { const TokenFile tokens(path()); });
+  }
+  [[nodiscard]] std::filesystem::path path() const { return folder_.path() / "tokens"; }
+
+  testing::TemporaryFolder folder_;
+};
+
+TEST_F(TokenFileTest, ATokenThatWasMadeIsFoundWithItsNameAndScope) {
+  const NewToken anna = make_token("anna", Scope::submit);
+  const NewToken second = make_token("anna", Scope::submit);
+  const NewToken robot = make_token("robot@host", Scope::read);
+  EXPECT_EQ(anna.token.size(), 64U);
+  EXPECT_NE(anna.token, second.token);
+  EXPECT_THAT(anna.line, AllOf(StartsWith("anna submit "), ::testing::Not(HasSubstr(anna.token))));
+  write_secret(path(), "# who may call\n\n" + anna.line + " # until spring\r\n  " + robot.line + "\n" + second.line);
+  const TokenFile tokens(path());
+  for (const auto& token : {anna.token, second.token}) {
+    ASSERT_TRUE(tokens.find(token));
+    EXPECT_EQ(tokens.find(token)->name, "anna");
+    EXPECT_EQ(tokens.find(token)->scope, Scope::submit);
+  }
+  ASSERT_TRUE(tokens.find(robot.token));
+  EXPECT_EQ(tokens.find(robot.token)->scope, Scope::read);
+  const std::string hash = anna.line.substr(anna.line.rfind(' ') + 1);
+  for (const auto& wrong : {std::string(), hash, anna.token + "0", anna.token.substr(1), std::string(100'000, 'a')})
+    EXPECT_FALSE(tokens.find(wrong)) << wrong.substr(0, 80);
+}
+
+TEST_F(TokenFileTest, AWrongLineIsNamedByItsNumberAndNotRepeated) {
+  const std::string line = make_token("anna", Scope::submit).line;
+  const std::string hash = line.substr(line.rfind(' ') + 1);
+  EXPECT_THAT(refusal("anna submit"), AllOf(StartsWith("--tokens " + path().string()), HasSubstr("line 1")));
+  EXPECT_THAT(refusal("\nanna submit secret"), AllOf(HasSubstr("line 2"), ::testing::Not(HasSubstr("secret"))));
+  EXPECT_THAT(refusal(line + " more"), HasSubstr("NAME SCOPE SHA256-HEX"));
+  EXPECT_THAT(refusal("anna all " + hash), HasSubstr("read, submit and admin"));
+  EXPECT_THAT(refusal("local admin " + hash), HasSubstr("name"));
+  EXPECT_THAT(refusal("an\"na admin " + hash), HasSubstr("name"));
+  EXPECT_THAT(refusal("anna admin " + hash.substr(1) + "g"), HasSubstr("hexadecimal"));
+  EXPECT_THAT(refusal(line + "\nbob read " + hash), HasSubstr("line 2"));
+  EXPECT_THAT(refusal(line + "\nanna admin " + std::string(64, '0')), HasSubstr("another scope"));
+  EXPECT_THAT(refusal("# none yet\n"), HasSubstr("cellcrushd token"));
+}
+
+TEST_F(TokenFileTest, AFileThatOthersCanReadOrWriteIsRefused) {
+  const std::string line = make_token("anna", Scope::submit).line;
+  for (const mode_t mode : {0644U, 0604U, 0620U, 0602U}) {
+    write_secret(path(), line);
+    chmod(path().c_str(), mode);
+    EXPECT_THAT(access_refusal_of([this] { const TokenFile tokens(path()); }), HasSubstr("chmod 600")) << mode;
+  }
+  chmod(path().c_str(), 0440);
+  EXPECT_EQ(access_refusal_of([this] { const TokenFile tokens(path()); }), "");
+  EXPECT_THAT(access_refusal_of([this] { const TokenFile tokens(folder_.path()); }), HasSubstr("is no file"));
+  EXPECT_THAT(access_refusal_of([this] { const TokenFile tokens(folder_.path() / "none"); }),
+              HasSubstr("No such file"));
+}
+
+TEST(TlsFilesTest, UnsoundFilesAreRefusedByTheirOptionAndName) {
+  const testing::TemporaryFolder folder;
+  const testing::Authority authority(folder.path(), "authority");
+  const auto good = authority.sign("good");
+  const auto other = authority.sign("other");
+  const auto expired = authority.sign("expired", {"server", "DNS:localhost", -7200, -3600});
+  const auto early = authority.sign("early", {"server", "DNS:localhost", 3600, 7200});
+  const auto text = folder.path() / "text";
+  write_secret(text, "no certificate");
+  const auto refusal = [](const auto& certificate, const auto& key, const std::filesystem::path& clients = {}) {
+    return access_refusal_of([&] { read_tls_files(certificate, key, clients); });
+  };
+  EXPECT_EQ(refusal(good.certificate, good.key), "");
+  EXPECT_EQ(refusal(good.certificate, good.key, authority.certificate()), "");
+  EXPECT_THAT(refusal(folder.path() / "none", good.key), StartsWith("--tls-cert " + (folder.path() / "none").string()));
+  EXPECT_THAT(refusal(text, good.key), AllOf(StartsWith("--tls-cert"), HasSubstr("no certificate")));
+  EXPECT_THAT(refusal(expired.certificate, expired.key), HasSubstr("expired on"));
+  EXPECT_THAT(refusal(early.certificate, early.key), HasSubstr("not valid before"));
+  EXPECT_THAT(refusal(good.certificate, text), AllOf(StartsWith("--tls-key"), HasSubstr("no private key")));
+  EXPECT_THAT(refusal(good.certificate, other.key), HasSubstr("not the key of the certificate"));
+  EXPECT_THAT(refusal(good.certificate, good.key, text), StartsWith("--tls-client-ca"));
+  chmod(good.key.c_str(), 0644);
+  EXPECT_THAT(refusal(good.certificate, good.key), HasSubstr("can be read by others"));
+}
+
+}  // namespace
+}  // namespace cellcrush::access

@@ -1,0 +1,87 @@
+#include "server/gate_fixture.h"
+
+#include <utility>
+
+#include "access/token_file.h"
+#include "error.h"
+
+namespace cellcrush::testing {
+namespace {
+
+using Scope = access::Scope;
+
+constexpr std::chrono::seconds kAtOnce{1};
+
+}  // namespace
+
+void GateFixture::SetUp() {
+  std::string lines;
+  for (const auto& [name, scope] : {std::pair("reader", Scope::read), std::pair("anna", Scope::submit),
+                                    std::pair("bob", Scope::submit), std::pair("chief", Scope::admin)}) {
+    const auto made = access::make_token(name, scope);
+    tokens_[name] = made.token;
+    lines += made.line + "\n";
+  }
+  write_secret(folder_.path() / "tokens", lines);
+}
+
+DaemonOptions GateFixture::tcp_options(const std::string& address) const {
+  DaemonOptions options = default_options();
+  options.listen.push_back(address);
+  return options;
+}
+
+DaemonOptions GateFixture::with_tokens(DaemonOptions options) const {
+  options.access.tokens = folder_.path() / "tokens";
+  return options;
+}
+
+DaemonOptions GateFixture::with_tls(DaemonOptions options, const CertificateRequest& request) const {
+  const auto server = authority_.sign("server", request);
+  options.access.tls_certificate = server.certificate;
+  options.access.tls_key = server.key;
+  return options;
+}
+
+std::string GateFixture::refusal_of_start(const DaemonOptions& options) {
+  try {
+    start(options);
+  } catch (const ServiceError& refused) {
+    return refused.what();
+  }
+  return "";
+}
+
+std::shared_ptr<grpc::Channel> GateFixture::channel(const Visitor& visitor, const std::string& host) const {
+  auto credentials = grpc::InsecureChannelCredentials();
+  if (!visitor.authority.empty()) {
+    grpc::SslCredentialsOptions options;
+    options.pem_root_certs = text_of_file(visitor.authority);
+    options.pem_cert_chain = text_of_file(visitor.shown.certificate);
+    options.pem_private_key = text_of_file(visitor.shown.key);
+    credentials = grpc::SslCredentials(options);
+    if (!visitor.token.empty())
+      credentials = grpc::CompositeChannelCredentials(credentials, grpc::AccessTokenCredentials(visitor.token));
+  }
+  const std::string& address = daemon_->addresses().back();
+  return grpc::CreateChannel(host + address.substr(address.rfind(':')), credentials);
+}
+
+std::unique_ptr<grpc::ClientContext> GateFixture::context_of(const Visitor& visitor) {
+  auto out = bounded_context(std::chrono::seconds(10));
+  if (visitor.authority.empty() && !visitor.token.empty()) out->AddMetadata("authorization", "Bearer " + visitor.token);
+  return out;
+}
+
+grpc::Status GateFixture::list(const Visitor& visitor, const std::string& host) const {
+  const auto jobs = v1::Jobs::NewStub(channel(visitor, host));
+  const auto begin = std::chrono::steady_clock::now();
+  v1::ListJobsResponse response;
+  const auto status = jobs->ListJobs(context_of(visitor).get(), {}, &response);
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, kAtOnce) << status.error_message();
+  return status;
+}
+
+Visitor GateFixture::with(const std::string& name) const { return {authority_.certificate(), {}, tokens_.at(name)}; }
+
+}  // namespace cellcrush::testing

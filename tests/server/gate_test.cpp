@@ -1,0 +1,169 @@
+#include <gmock/gmock.h>
+#include <grpcpp/generic/generic_stub.h>
+
+#include "cellcrush/v1/admin_service.grpc.pb.h"
+#include "error.h"
+#include "server/gate_fixture.h"
+#include "server/small_case.h"
+
+namespace cellcrush::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+class GateTest : public GateFixture {};
+
+TEST_F(GateTest, AnAddressThatOthersReachIsRefusedWithoutTlsOrAWayToTellWhoCalls) {
+  for (const char* address : {"0.0.0.0:0", "[::]:0", "192.0.2.1:0"}) {
+    EXPECT_THAT(refusal_of_start(tcp_options(address)), HasSubstr("--tls-cert FILE --tls-key FILE")) << address;
+    EXPECT_THAT(refusal_of_start(with_tokens(tcp_options(address))), HasSubstr("--tls-cert")) << address;
+    EXPECT_THAT(refusal_of_start(with_tls(tcp_options(address))), HasSubstr("--tokens FILE or --tls-client-ca FILE"));
+  }
+  DaemonOptions half = with_tls(tcp_options());
+  half.access.tls_key.clear();
+  EXPECT_THAT(refusal_of_start(half), HasSubstr("go together"));
+  DaemonOptions clients = tcp_options();
+  clients.access.tls_client_authority = authority_.certificate();
+  EXPECT_THAT(refusal_of_start(clients), HasSubstr("--tls-client-ca needs TLS"));
+  DaemonOptions missing = tcp_options();
+  missing.access.tokens = folder_.path() / "none";
+  EXPECT_THAT(refusal_of_start(missing), HasSubstr("--tokens " + (folder_.path() / "none").string()));
+  DaemonOptions metrics = default_options();
+  metrics.metrics = "0.0.0.0:0";
+  EXPECT_THAT(refusal_of_start(metrics), HasSubstr("--metrics 127.0.0.1"));
+  EXPECT_FALSE(std::filesystem::exists(data_folder())) << "Nothing is opened before.";
+  EXPECT_EQ(refusal_of_start(with_tokens(with_tls(tcp_options("0.0.0.0:0")))), "");
+}
+
+TEST_F(GateTest, TcpTakesGoodTokensOnlyAndTheSocketNeedsNone) {
+  start(with_tokens(with_tls(tcp_options())));
+  EXPECT_TRUE(list(with("reader")).ok());
+  Visitor none{authority_.certificate(), {}, ""};
+  EXPECT_EQ(list(none).error_code(), grpc::StatusCode::UNAUTHENTICATED);
+  EXPECT_THAT(list(none).error_message(), HasSubstr("--token-file"));
+  for (const std::string& wrong : {tokens_.at("anna") + "0", tokens_.at("anna").substr(1), std::string("x")}) {
+    const auto status = list({authority_.certificate(), {}, wrong});
+    EXPECT_EQ(status.error_code(), grpc::StatusCode::UNAUTHENTICATED);
+    EXPECT_THAT(status.error_message(), HasSubstr("cellcrushd token"));
+  }
+  v1::ListJobsResponse response;
+  EXPECT_TRUE(client().jobs->ListJobs(bounded_context().get(), {}, &response).ok());
+}
+
+TEST_F(GateTest, TokensGuardAPlainPortOfLoopbackToo) {
+  start(with_tokens(tcp_options()));
+  EXPECT_TRUE(list({{}, {}, tokens_.at("reader")}).ok());
+  EXPECT_EQ(list({{}, {}, "wrong"}).error_code(), grpc::StatusCode::UNAUTHENTICATED);
+  EXPECT_EQ(list({}).error_code(), grpc::StatusCode::UNAUTHENTICATED);
+}
+
+TEST_F(GateTest, TwoTokensInOneCallAreRefused) {
+  start(with_tokens(tcp_options()));
+  const auto jobs = v1::Jobs::NewStub(channel({}));
+  const auto context = bounded_context();
+  context->AddMetadata("authorization", "Bearer " + tokens_.at("chief"));
+  context->AddMetadata("authorization", "Bearer wrong");
+  v1::ListJobsResponse response;
+  EXPECT_EQ(jobs->ListJobs(context.get(), {}, &response).error_code(), grpc::StatusCode::UNAUTHENTICATED);
+}
+
+TEST_F(GateTest, CallsOfOneConnectionAreEachTakenForTheirOwn) {
+  start(with_tokens(tcp_options()));
+  const auto jobs = v1::Jobs::NewStub(channel({}));
+  for (const char* name : {"anna", "bob", "anna"}) {
+    v1::CreateJobRequest request;
+    *request.mutable_case_() = small_case();
+    v1::Job job;
+    ASSERT_TRUE(jobs->CreateJob(context_of({{}, {}, tokens_.at(name)}).get(), request, &job).ok());
+    EXPECT_EQ(job.owner(), name);
+  }
+  v1::Job job;
+  EXPECT_EQ(jobs->CreateJob(bounded_context().get(), {}, &job).error_code(), grpc::StatusCode::UNAUTHENTICATED);
+}
+
+TEST_F(GateTest, HealthIsOpenAndReflectionIsNot) {
+  start(with_tokens(tcp_options()));
+  const auto call = [this](const std::string& method, const Visitor& visitor) {
+    grpc::GenericStub stub(channel(visitor));
+    grpc::CompletionQueue queue;
+    const auto context = context_of(visitor);
+    const grpc::Slice nothing("");
+    const auto rpc = stub.PrepareUnaryCall(context.get(), method, grpc::ByteBuffer(&nothing, 1), &queue);
+    rpc->StartCall();
+    grpc::ByteBuffer response;
+    grpc::Status status;
+    void* tag = nullptr;
+    bool ok = false;
+    rpc->Finish(&response, &status, nullptr);
+    queue.Next(&tag, &ok);
+    return status.error_code();
+  };
+  EXPECT_EQ(call("/grpc.health.v1.Health/Check", {}), grpc::StatusCode::OK);
+  const std::string reflection = "/grpc.reflection.v1alpha.ServerReflection/ServerReflectionInfo";
+  EXPECT_EQ(call(reflection, {}), grpc::StatusCode::UNAUTHENTICATED);
+  EXPECT_EQ(call("/cellcrush.v1.Jobs/Unknown", {}), grpc::StatusCode::UNAUTHENTICATED);
+  EXPECT_EQ(call("/cellcrush.v1.Jobs/Unknown", {{}, {}, tokens_.at("bob")}), grpc::StatusCode::PERMISSION_DENIED);
+  EXPECT_EQ(call("/cellcrush.v1.Jobs/Unknown", {{}, {}, tokens_.at("chief")}), grpc::StatusCode::UNIMPLEMENTED);
+}
+
+TEST_F(GateTest, AScopeThatIsTooSmallIsToldTheOneThatIsNeeded) {
+  start(with_tokens(with_tls(tcp_options())));
+  const auto denied = [](const grpc::Status& status, const std::string& scope) {
+    EXPECT_EQ(status.error_code(), grpc::StatusCode::PERMISSION_DENIED) << status.error_message();
+    EXPECT_THAT(status.error_message(), HasSubstr("needs the scope " + scope));
+  };
+  const auto reader = v1::Jobs::NewStub(channel(with("reader")));
+  v1::CreateJobRequest create;
+  *create.mutable_case_() = small_case();
+  v1::Job job;
+  denied(reader->CreateJob(bounded_context().get(), create, &job), "submit");
+  const auto sweeps = v1::Sweeps::NewStub(channel(with("reader")));
+  v1::Sweep sweep;
+  denied(sweeps->CreateSweep(bounded_context().get(), {}, &sweep), "submit");
+  const auto admin = v1::Admin::NewStub(channel(with("anna")));
+  v1::DrainResponse drained;
+  denied(admin->Drain(bounded_context().get(), {}, &drained), "admin");
+  // A watch is a stream, and passes the same gate.
+  v1::WatchJobRequest watch;
+  watch.set_name("jobs/1");
+  v1::JobEvent event;
+  const auto context = bounded_context();
+  const auto stream = v1::Jobs::NewStub(channel({authority_.certificate(), {}, ""}))->WatchJob(context.get(), watch);
+  EXPECT_FALSE(stream->Read(&event));
+  EXPECT_EQ(stream->Finish().error_code(), grpc::StatusCode::UNAUTHENTICATED);
+}
+
+TEST_F(GateTest, ACertificateNamesItsOwnerAndOneOfAnotherAuthorityIsNotLetIn) {
+  DaemonOptions options = with_tls(tcp_options());
+  options.access.tls_client_authority = authority_.certificate();
+  start(options);
+  const Visitor anna{authority_.certificate(), authority_.sign("anna", {"anna"}), ""};
+  const auto jobs = v1::Jobs::NewStub(channel(anna));
+  v1::CreateJobRequest request;
+  *request.mutable_case_() = small_case();
+  v1::Job job;
+  const auto status = jobs->CreateJob(bounded_context().get(), request, &job);
+  ASSERT_TRUE(status.ok()) << status.error_message();
+  EXPECT_EQ(job.owner(), "anna");
+  const auto admin = v1::Admin::NewStub(channel(anna));
+  v1::DrainResponse drained;
+  EXPECT_EQ(admin->Drain(bounded_context().get(), {}, &drained).error_code(), grpc::StatusCode::PERMISSION_DENIED);
+  const auto refused = [this](const CertificateFiles& shown) {
+    return list({authority_.certificate(), shown, ""}).error_code();
+  };
+  EXPECT_EQ(refused({}), grpc::StatusCode::UNAVAILABLE);
+  EXPECT_EQ(refused(other_authority_.sign("eve", {"anna"})), grpc::StatusCode::UNAVAILABLE);
+  EXPECT_EQ(refused(authority_.sign("old", {"anna", "", -7200, -3600})), grpc::StatusCode::UNAVAILABLE);
+  EXPECT_EQ(refused(authority_.sign("liar", {"local"})), grpc::StatusCode::UNAUTHENTICATED);
+}
+
+TEST_F(GateTest, AClientIsNotFooledByAnotherServer) {
+  start(with_tokens(with_tls(tcp_options(), {"server", "DNS:cellcrush.example,IP:127.0.0.1"})));
+  EXPECT_TRUE(list(with("anna")).ok());
+  EXPECT_EQ(list({other_authority_.certificate(), {}, tokens_.at("anna")}).error_code(), grpc::StatusCode::UNAVAILABLE);
+  EXPECT_EQ(list(with("anna"), "localhost").error_code(), grpc::StatusCode::UNAVAILABLE) << "Another host's name.";
+  EXPECT_EQ(list({}).error_code(), grpc::StatusCode::UNAVAILABLE) << "Plain text.";
+}
+
+}  // namespace
+}  // namespace cellcrush::testing

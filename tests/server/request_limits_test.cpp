@@ -1,0 +1,104 @@
+#include <gmock/gmock.h>
+
+#include "server/daemon_fixture.h"
+#include "server/small_case.h"
+#include "translate/check_case.h"
+
+namespace cellcrush::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+class RequestLimitsTest : public DaemonFixture {
+ protected:
+  static void expect_refusal(const grpc::Status& status, const std::string& words) {
+    EXPECT_EQ(status.error_code(), grpc::StatusCode::INVALID_ARGUMENT) << words;
+    EXPECT_THAT(status.error_message(), HasSubstr(words));
+    EXPECT_LT(status.error_message().size(), 1000U);
+  }
+};
+
+TEST_F(RequestLimitsTest, TooLongTextsAreRefusedByTheirField) {
+  const Client daemon = client();
+  const std::string long_text(1'000'000, 'a');
+  v1::GetJobRequest get;
+  get.set_name("jobs/" + long_text);
+  v1::Job job;
+  expect_refusal(daemon.jobs->GetJob(bounded_context().get(), get, &job), "name has 1000005 bytes. Use at most 128.");
+  v1::GetSweepRequest get_sweep;
+  get_sweep.set_name(long_text);
+  v1::Sweep sweep;
+  expect_refusal(daemon.sweeps->GetSweep(bounded_context().get(), get_sweep, &sweep), "name has 1000000 bytes");
+  v1::GetPresetRequest get_preset;
+  get_preset.set_name(long_text);
+  v1::Preset preset;
+  expect_refusal(daemon.cases->GetPreset(bounded_context().get(), get_preset, &preset), "name has 1000000 bytes");
+  for (const char* field : {"filter", "order_by", "page_token"}) {
+    v1::ListJobsRequest list;
+    list.GetReflection()->SetString(&list, list.GetDescriptor()->FindFieldByName(field), long_text);
+    v1::ListJobsResponse listed;
+    expect_refusal(daemon.jobs->ListJobs(bounded_context().get(), list, &listed), field + std::string(" has 1000000"));
+  }
+  v1::CreateJobRequest create;
+  *create.mutable_case_() = small_case();
+  create.set_request_id(long_text);
+  expect_refusal(daemon.jobs->CreateJob(bounded_context().get(), create, &job), "request_id");
+  create.clear_request_id();
+  (*create.mutable_labels())[long_text] = "value";
+  expect_refusal(daemon.jobs->CreateJob(bounded_context().get(), create, &job), "labels");
+  v1::WatchSweepRequest watch;
+  watch.set_name("sweeps/1");
+  watch.set_resume_token(long_text + long_text);
+  const auto context = bounded_context();
+  const auto stream = daemon.sweeps->WatchSweep(context.get(), watch);
+  v1::WatchSweepResponse event;
+  EXPECT_FALSE(stream->Read(&event));
+  expect_refusal(stream->Finish(), "resume_token has 2000000 bytes");
+}
+
+TEST_F(RequestLimitsTest, ASweepOverManyFieldsIsRefused) {
+  const Client daemon = client();
+  v1::CreateSweepRequest request;
+  *request.mutable_sweep()->mutable_case_() = small_case();
+  for (int i = 0; i < 33; ++i) {
+    auto& axis = *request.mutable_sweep()->add_axes();
+    axis.set_field("field" + std::to_string(i));
+    axis.mutable_list()->add_values(1.0);
+  }
+  v1::Sweep sweep;
+  expect_refusal(daemon.sweeps->CreateSweep(bounded_context().get(), request, &sweep), "vary 33 fields");
+  request.mutable_sweep()->clear_axes();
+  auto& axis = *request.mutable_sweep()->add_axes();
+  axis.set_field(std::string(100'000, 'a'));
+  axis.mutable_list()->add_values(1.0);
+  expect_refusal(daemon.sweeps->CreateSweep(bounded_context().get(), request, &sweep), "field of 100000 bytes");
+}
+
+// Two bytes of a message make an entry with several problems: nothing may grow with them.
+TEST(CaseLimits, MillionsOfEmptyEntriesAreRefusedByTheirNumber) {
+  v1::Case submitted = small_case();
+  auto& frame = *submitted.mutable_lattice()->mutable_frame();
+  for (int i = 0; i < 2'000'000; ++i) frame.add_beams();
+  const auto response = translate::check_case(submitted).response;
+  ASSERT_EQ(response.problems_size(), 1);
+  EXPECT_EQ(response.problems(0).field(), "lattice.frame.beams");
+  EXPECT_EQ(response.problems(0).remedy(), "Give at most 200000.");
+}
+
+TEST(CaseLimits, OfVeryManyProblemsTheRestIsCounted) {
+  v1::Case submitted = small_case();
+  auto& frame = *submitted.mutable_lattice()->mutable_frame();
+  for (int i = 0; i < 10'000; ++i) {
+    auto& motion = *frame.add_motions();
+    motion.set_node("a");
+    motion.set_component(v1::Frame::COMPONENT_X);
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  const auto response = translate::check_case(submitted).response;
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
+  ASSERT_EQ(response.problems_size(), 1001);
+  EXPECT_THAT(response.problems(1000).message(), HasSubstr("more problems."));
+}
+
+}  // namespace
+}  // namespace cellcrush::testing
