@@ -108,7 +108,8 @@ struct Daemon::Impl {
         admission(folder, options.limits),
         cases(step_cost),
         jobs({folder, journal, reader, hub, pump, scheduler, admission, metrics, gate, options.bookmark_interval}),
-        sweeps({journal, reader, sweep_reader, hub, pump, scheduler, admission, metrics, gate, options.bookmark_interval}),
+        sweeps(
+            {journal, reader, sweep_reader, hub, pump, scheduler, admission, metrics, gate, options.bookmark_interval}),
         admin({reader, hub, {worker_limit(options.workers), step_cost}, [this] { drain(); }}) {
     listen();
     serve_metrics();
