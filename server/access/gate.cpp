@@ -2,6 +2,8 @@
 
 #include <strings.h>
 
+#include <iterator>
+
 #include "access/method_scopes.h"
 #include "error.h"
 #include "rpc/error_table.h"

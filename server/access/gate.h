@@ -4,6 +4,7 @@
 #include <grpcpp/security/auth_metadata_processor.h>
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
