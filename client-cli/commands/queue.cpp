@@ -40,7 +40,8 @@ ExitCode run_queue(Session& session) {
 ExitCode run_drain(Session& session) {
   Connection& connection = session.connection();
   const auto response = connection.call(connection.admin(), &v1::Admin::Stub::Drain, v1::DrainRequest());
-  session.json ? print_json(response) : fmt::print("the server takes no new jobs and ends after the running ones\n");
+  session.json ? print_json(response)
+               : fmt::print("the server takes no new jobs, leaves the running ones at a checkpoint and ends\n");
   return ExitCode::done;
 }
 
@@ -49,7 +50,7 @@ ExitCode run_drain(Session& session) {
 void add_queue_commands(CLI::App& app, Session& session) {
   add_command(app, session, "queue", "Say what waits, in the order in which it will start, and why",
               [&session] { return run_queue(session); });
-  add_command(app, session, "drain", "Let the server end after its running jobs",
+  add_command(app, session, "drain", "Let the server leave its running jobs at a checkpoint and end",
               [&session] { return run_drain(session); });
 }
 

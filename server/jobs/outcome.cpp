@@ -81,7 +81,12 @@ store::StateChange outcome_of(const WorkerExit& exit) {
       out.state = v1::PENDING;
       out.message = "The worker left it at a checkpoint; another goes on from there.";
       return out;
-    case WorkerExit::Kind::suspended: out.state = v1::SUSPENDED; return out;
+    case WorkerExit::Kind::suspended:
+      out.state = v1::SUSPENDED;
+      out.message = "It was left at a checkpoint";
+      if (exit.final) out.message += ", at step " + std::to_string(exit.final->suspended_step());
+      out.message += ".";
+      return out;
     case WorkerExit::Kind::cancelled: return cancelled_without_result();
     default: break;
   }

@@ -69,7 +69,12 @@ TEST(Outcome, ARunThatTheSolverFoundUntrueKeepsWhatItComputedBefore) {
 
 TEST(Outcome, AJobThatWasLeftWaitsOrIsSuspended) {
   EXPECT_EQ(outcome_of(exit_of(WorkerExit::Kind::stopped, 0)).state, v1::PENDING);
-  EXPECT_EQ(outcome_of(exit_of(WorkerExit::Kind::suspended, 0)).state, v1::SUSPENDED);
+  auto suspended = exit_of(WorkerExit::Kind::suspended, 0);
+  EXPECT_EQ(outcome_of(suspended).state, v1::SUSPENDED);
+  suspended.final.emplace();
+  suspended.final->set_suspended_step(1234);
+  EXPECT_EQ(outcome_of(suspended).state, v1::SUSPENDED);
+  EXPECT_THAT(outcome_of(suspended).message, HasSubstr("step 1234"));
 }
 
 TEST(Outcome, OnlyALossWithoutALastWordIsALoss) {
