@@ -24,7 +24,6 @@ grpc::StatusCode code_of(ServiceError::Kind kind) {
     case ServiceError::Kind::already_exists: return grpc::StatusCode::ALREADY_EXISTS;
     case ServiceError::Kind::failed_precondition: return grpc::StatusCode::FAILED_PRECONDITION;
     case ServiceError::Kind::out_of_range: return grpc::StatusCode::OUT_OF_RANGE;
-    case ServiceError::Kind::unimplemented: return grpc::StatusCode::UNIMPLEMENTED;
     case ServiceError::Kind::storage_full:
     case ServiceError::Kind::exhausted: return grpc::StatusCode::RESOURCE_EXHAUSTED;
     case ServiceError::Kind::unavailable: return grpc::StatusCode::UNAVAILABLE;
@@ -132,10 +131,6 @@ grpc::Status status_of(const std::exception& error) {
     return {grpc::StatusCode::RESOURCE_EXHAUSTED, "There is not enough memory for this. Take a smaller case."};
   spdlog::error("A call failed: {}", error.what());
   return {grpc::StatusCode::INTERNAL, std::string("The daemon failed: ") + error.what()};
-}
-
-grpc::Status unimplemented(const std::string& call) {
-  return {grpc::StatusCode::UNIMPLEMENTED, call + " is not built yet."};
 }
 
 }  // namespace cellcrush::rpc

@@ -27,9 +27,6 @@ grpc::Status invalid_argument(const std::string& field, const std::string& messa
 /// Anything that was thrown.
 grpc::Status status_of(const std::exception& error);
 
-/// A call that is not built.
-grpc::Status unimplemented(const std::string& call);
-
 /// Runs the body of a call, which gives a status, and turns what it throws into one.
 template <class Body>
 grpc::Status answer(const Body& body) {

@@ -94,15 +94,6 @@ std::vector<std::int64_t> JournalReader::deleted_jobs() {
   return out;
 }
 
-std::vector<std::int64_t> JournalReader::jobs_in(v1::JobState state) {
-  const std::scoped_lock lock(mutex_);
-  Statement read(database_, "SELECT number FROM jobs WHERE state = ?1 ORDER BY number");
-  read.bind(1, state);
-  std::vector<std::int64_t> out;
-  while (read.step()) out.push_back(read.integer(0));
-  return out;
-}
-
 std::vector<v1::JobEvent> JournalReader::events(std::int64_t job, std::int64_t after, int limit) {
   const std::scoped_lock lock(mutex_);
   Statement read(

@@ -40,9 +40,6 @@ class JournalReader {
   /// Numbers of the jobs whose folders are still to be removed.
   std::vector<std::int64_t> deleted_jobs();
 
-  /// Numbers of the jobs in a state, oldest first.
-  std::vector<std::int64_t> jobs_in(v1::JobState state);
-
   /// The jobs in a state, oldest first, with what the scheduler asks of them.
   std::vector<QueuedJob> queued_jobs(v1::JobState state);
 

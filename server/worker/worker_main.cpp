@@ -10,7 +10,7 @@
 namespace cellcrush::worker {
 namespace {
 
-// The signals stay blocked; that one waits is seen by all threads.
+// The signals are blocked from the start and stay so; that one waits is seen by all threads.
 StopWish pending_wish() {
   sigset_t pending;
   sigpending(&pending);
@@ -18,18 +18,9 @@ StopWish pending_wish() {
   return sigismember(&pending, kSuspendSignal) == 1 ? StopWish::suspend : StopWish::none;
 }
 
-void block_wishes() {
-  sigset_t wishes;
-  sigemptyset(&wishes);
-  sigaddset(&wishes, kSuspendSignal);
-  sigaddset(&wishes, kCancelSignal);
-  sigprocmask(SIG_BLOCK, &wishes, nullptr);
-}
-
 }  // namespace
 
 void worker_main(const std::filesystem::path& folder) {
-  block_wishes();
   const JobFolder job(folder);
   if (!claim(job)) _exit(kFolderIsClaimed);
   Order order;

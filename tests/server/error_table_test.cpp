@@ -77,7 +77,6 @@ TEST(ErrorTable, EveryKindHasItsStatus) {
   EXPECT_EQ(code(Kind::already_exists), grpc::StatusCode::ALREADY_EXISTS);
   EXPECT_EQ(code(Kind::failed_precondition), grpc::StatusCode::FAILED_PRECONDITION);
   EXPECT_EQ(code(Kind::out_of_range), grpc::StatusCode::OUT_OF_RANGE);
-  EXPECT_EQ(code(Kind::unimplemented), grpc::StatusCode::UNIMPLEMENTED);
   EXPECT_EQ(code(Kind::storage_full), grpc::StatusCode::RESOURCE_EXHAUSTED);
   EXPECT_EQ(code(Kind::data_loss), grpc::StatusCode::DATA_LOSS);
   EXPECT_EQ(code(Kind::internal), grpc::StatusCode::INTERNAL);

@@ -9,6 +9,7 @@
 
 #include "server/daemon_fixture.h"
 #include "server/daemon_process.h"
+#include "server/job_numbers.h"
 #include "server/small_case.h"
 #include "server/sweep_requests.h"
 #include "store/journal.h"
@@ -23,11 +24,6 @@ using Clock = std::chrono::steady_clock;
 
 class JobLifeTest : public DaemonFixture {
  protected:
-  static void wait_for_samples(Client& client, const std::string& job, std::size_t count) {
-    for (int i = 0; i < 600 && client.history(job).size() < count; ++i)
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  }
-
   // The job's result.h5, downloaded.
   std::filesystem::path fetched_result(Client& client, const std::string& job) {
     grpc::Status status;

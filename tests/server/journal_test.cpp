@@ -138,8 +138,10 @@ TEST_F(JournalTest, JobsAreListedNewestFirstAndFoundByState) {
   EXPECT_EQ(listed[0].number, second);
   EXPECT_EQ(reader_->list_jobs({}, true, second, 10).size(), 1U);
   EXPECT_EQ(reader_->list_jobs({}, false, 0, 10)[0].number, first);
-  EXPECT_EQ(reader_->jobs_in(v1::RUNNING), std::vector<std::int64_t>{first});
-  EXPECT_EQ(reader_->jobs_in(v1::PENDING), std::vector<std::int64_t>{second});
+  ASSERT_EQ(reader_->queued_jobs(v1::RUNNING).size(), 1U);
+  EXPECT_EQ(reader_->queued_jobs(v1::RUNNING)[0].job, first);
+  ASSERT_EQ(reader_->queued_jobs(v1::PENDING).size(), 1U);
+  EXPECT_EQ(reader_->queued_jobs(v1::PENDING)[0].job, second);
 }
 
 TEST_F(JournalTest, AMeshIsKept) {
@@ -314,15 +316,15 @@ TEST_F(SweepJournalTest, ARequestIdMakesOneSweep) {
   EXPECT_FALSE(second.is_new);
   EXPECT_EQ(second.sweep, first.sweep);
   EXPECT_THROW(journal_->create_sweep({}, three_jobs(), "id", "another"), ServiceError);
-  EXPECT_EQ(reader_->jobs_in(v1::PENDING).size(), 3U) << "The others made no jobs.";
+  EXPECT_EQ(reader_->queued_jobs(v1::PENDING).size(), 3U) << "The others made no jobs.";
 }
 
 TEST_F(SweepJournalTest, WaitingJobsAreCancelledTogetherAndDeletedOnesLeaveTheSweep) {
   const auto made = journal_->create_sweep({}, three_jobs(), "", "");
   change(made.jobs[1], v1::RUNNING);
   journal_->cancel_waiting(made.jobs);
-  EXPECT_EQ(reader_->jobs_in(v1::CANCELLED).size(), 2U);
-  EXPECT_EQ(reader_->jobs_in(v1::RUNNING).size(), 1U);
+  EXPECT_EQ(reader_->queued_jobs(v1::CANCELLED).size(), 2U);
+  EXPECT_EQ(reader_->queued_jobs(v1::RUNNING).size(), 1U);
   journal_->delete_job(made.jobs[0]);
   EXPECT_EQ(SweepReader(path()).jobs_of(made.sweep), (std::vector<std::int64_t>{made.jobs[1], made.jobs[2]}));
 }
