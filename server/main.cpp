@@ -122,6 +122,11 @@ int main(int argc, char** argv) {
   app.add_option("--max-job-memory", memory_mib,
                  "MiB that a job may be predicted to need (default: what the machine has)")
       ->check(CLI::Range(1, 1 << 30));
+  double job_seconds = 0.0;
+  app.add_option(
+         "--max-job-time", job_seconds,
+         "seconds of clock that a job's workers may take in all; it then ends with what there is (default: no limit)")
+      ->check(CLI::Range(0.0, 1e9));
   app.add_option("--min-free-disk", free_mib,
                  "MiB that are kept free in the data folder: below it no job is taken and none runs (default: 256)")
       ->check(CLI::Range(0, 1 << 30));
@@ -162,6 +167,7 @@ int main(int argc, char** argv) {
   }
   options.limits.job_memory_bytes = memory_mib * kMebibyte;
   options.limits.free_disk_bytes = free_mib * kMebibyte;
+  options.limits.job_time = std::chrono::duration<double>(job_seconds);
   options.keep_ended_jobs = std::chrono::seconds(std::llround(86400.0 * keep_days));
   options.on_drain = [] { kill(getpid(), SIGTERM); };
   options.checkpoint_interval = std::chrono::milliseconds(std::llround(1000.0 * checkpoint_seconds));

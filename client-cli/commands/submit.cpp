@@ -6,6 +6,7 @@
 #include "commands/commands.h"
 #include "commands/labels.h"
 #include "commands/priority.h"
+#include "commands/time_limit.h"
 #include "commands/watch.h"
 #include "terminal/json_text.h"
 
@@ -19,6 +20,7 @@ struct SubmitOptions {
   std::string request_id;
   std::vector<std::string> labels;
   int priority = 0;
+  double time_limit_s = 0.0;
 };
 
 ExitCode run_submit(Session& session, const SubmitOptions& options) {
@@ -28,6 +30,7 @@ ExitCode run_submit(Session& session, const SubmitOptions& options) {
   *request.mutable_labels() = parse_labels(options.labels);
   request.set_request_id(options.request_id);
   request.set_priority(options.priority);
+  request.set_time_limit_s(options.time_limit_s);
   Connection& connection = session.connection();
   *request.mutable_case_() = read_case(options.scene.source, options.scene.assignments, connection);
   if (options.watch) interruption = std::make_unique<Interruption>();
@@ -52,6 +55,7 @@ void add_submit_command(CLI::App& app, Session& session) {
   command->add_option("--request-id", options->request_id, "Submitting again with the same id gives the same job");
   add_label_option(*command, options->labels);
   add_priority_option(*command, options->priority);
+  add_time_limit_option(*command, options->time_limit_s);
 }
 
 }  // namespace cellcrush::client

@@ -8,6 +8,7 @@
 #include "commands/labels.h"
 #include "commands/priority.h"
 #include "commands/resource_name.h"
+#include "commands/time_limit.h"
 #include "commands/watch.h"
 #include "terminal/json_text.h"
 #include "terminal/sweep_text.h"
@@ -22,6 +23,7 @@ struct SweepOptions {
   std::vector<std::string> labels;
   std::string request_id;
   int priority = 0;
+  double time_limit_s = 0.0;
   int max_parallel = 0;
   int max_failures = 0;
   bool watch = false;
@@ -56,6 +58,7 @@ v1::CreateSweepRequest build_request(const SweepOptions& options) {
   v1::Sweep& sweep = *request.mutable_sweep();
   *sweep.mutable_labels() = parse_labels(options.labels);
   sweep.set_priority(options.priority);
+  sweep.set_time_limit_s(options.time_limit_s);
   sweep.set_max_parallel(options.max_parallel);
   sweep.set_max_failures(options.max_failures);
   for (const std::string& text : options.axes) {
@@ -109,6 +112,7 @@ void add_sweep_commands(CLI::App& app, Session& session) {
   sweep->add_option("--request-id", options->request_id, "Asking again with the same id gives the same sweep");
   add_label_option(*sweep, options->labels);
   add_priority_option(*sweep, options->priority);
+  add_time_limit_option(*sweep, options->time_limit_s);
   sweep->add_option("--max-parallel", options->max_parallel, "Jobs of the sweep that run at once (default: all)")
       ->check(CLI::PositiveNumber);
   sweep->add_option("--max-failures", options->max_failures, "Failed jobs after which the rest is not started")

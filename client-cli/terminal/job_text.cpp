@@ -81,6 +81,7 @@ std::string description_text(const v1::Job& job) {
   if (!scene.empty()) table.add({"case", scene});
   if (!job.labels().empty()) table.add({"labels", labels_text(job.labels())});
   if (job.priority() != 0) table.add({"priority", std::to_string(job.priority())});
+  if (job.time_limit_s() > 0.0) table.add({"time limit", duration_text(job.time_limit_s())});
   if (!job.retry_of().empty()) table.add({"retry of", job.retry_of()});
   if (!job.owner().empty()) table.add({"owner", job.owner()});
   if (job.has_create_time()) table.add({"created", time_text(job.create_time())});

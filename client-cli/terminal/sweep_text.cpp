@@ -61,6 +61,7 @@ std::string description_text(const v1::Sweep& sweep) {
   for (const v1::SweepAxis& axis : sweep.axes()) table.add({"over " + axis.field(), values_text(axis)});
   if (sweep.points_size() > 0) table.add({"points", std::to_string(sweep.points_size())});
   if (sweep.priority() != 0) table.add({"priority", std::to_string(sweep.priority())});
+  if (sweep.time_limit_s() > 0.0) table.add({"time limit", duration_text(sweep.time_limit_s())});
   if (sweep.max_parallel() > 0) table.add({"jobs at once", std::to_string(sweep.max_parallel())});
   if (sweep.max_failures() > 0) table.add({"stops after failures", std::to_string(sweep.max_failures())});
   if (!sweep.labels().empty()) table.add({"labels", labels_text(sweep.labels())});

@@ -1,7 +1,9 @@
 #include "jobs/admission.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <string>
 
 #include "error.h"
@@ -19,6 +21,16 @@ std::int64_t memory_of_the_machine() { return std::int64_t{sysconf(_SC_PHYS_PAGE
 
 Admission::Admission(const store::DataFolder& folder, const Limits& limits) : folder_(folder), limits_(limits) {
   if (limits_.job_memory_bytes == 0) limits_.job_memory_bytes = memory_of_the_machine();
+}
+
+void Admission::check_time_limit(double seconds, const std::string& field) const {
+  if (!std::isfinite(seconds) || seconds < 0.0)
+    throw InvalidField(field, fmt::format("is {}.", seconds), "Use seconds above 0, or 0 for no limit of its own.");
+  const double most = limits_.job_time.count();
+  if (most > 0.0 && seconds > most) {
+    throw InvalidField(field, fmt::format("is {} s, and this daemon lets a job take {} s.", seconds, most),
+                       fmt::format("Use at most {}, or start the daemon with a higher --max-job-time.", most));
+  }
 }
 
 void Admission::admit(std::size_t waiting, std::size_t count, std::int64_t memory_bytes) const {

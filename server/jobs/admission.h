@@ -1,7 +1,9 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
+#include <string>
 
 #include "store/data_folder.h"
 
@@ -12,8 +14,9 @@ class Admission {
  public:
   struct Limits {
     std::int64_t queued_jobs = 100'000;
-    std::int64_t job_memory_bytes = 0;  ///< that a job may be predicted to need; 0: what the machine has
-    std::int64_t free_disk_bytes = 0;   ///< that are to be left in the data folder
+    std::int64_t job_memory_bytes = 0;            ///< that a job may be predicted to need; 0: what the machine has
+    std::int64_t free_disk_bytes = 0;             ///< that are to be left in the data folder
+    std::chrono::duration<double> job_time{0.0};  ///< of the clock that a job's workers may take; 0: no limit
   };
 
   /// `folder` outlives this object.
@@ -21,6 +24,9 @@ class Admission {
 
   /// From now on no job is taken.
   void drain() { draining_ = true; }
+
+  /// Checks the seconds that a job asks for. Throws InvalidField.
+  void check_time_limit(double seconds, const std::string& field) const;
 
   /// Whether so many more jobs, of which the largest needs so much memory, can be taken when `waiting` wait already. Throws ServiceError:
   /// unavailable while draining, exhausted beyond a limit, storage_full.

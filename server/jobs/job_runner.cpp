@@ -72,13 +72,23 @@ JobRunner::Left JobRunner::reconcile(std::int64_t job) {
 
 void JobRunner::end_leftover(std::int64_t job) { parts_.executor.end_worker(parts_.folder.job_folder(job)); }
 
-WorkerExit JobRunner::run_worker(const store::StoredJob& stored, int threads, const Interruptions& interruptions) {
-  parts_.folder.make_job_folder(stored.number);
+worker::Order JobRunner::order_of(const store::StoredJob& stored) const {
   worker::Order order;
   order.set_job(name_of(stored.number));
   *order.mutable_case_() = stored.job.case_();
-  order.set_threads(threads);
+  order.set_threads(1);
   order.set_checkpoint_interval_s(std::chrono::duration<double>(parts_.checkpoint_interval).count());
+  // The daemon's limit may be another than when the job was accepted.
+  const double own = stored.job.time_limit_s();
+  const bool daemons = parts_.longest_job_s > 0.0 && (own == 0.0 || own > parts_.longest_job_s);
+  order.set_time_limit_s(daemons ? parts_.longest_job_s : own);
+  return order;
+}
+
+WorkerExit JobRunner::run_worker(const store::StoredJob& stored, int threads, const Interruptions& interruptions) {
+  parts_.folder.make_job_folder(stored.number);
+  worker::Order order = order_of(stored);
+  order.set_threads(threads);
   return parts_.executor.run(parts_.folder.job_folder(stored.number), order, events_of(stored), interruptions);
 }
 
@@ -132,7 +142,7 @@ void JobRunner::pass_on(std::int64_t job, std::int64_t& last_step, watch::Channe
 store::StateChange JobRunner::after(const store::StoredJob& stored, const WorkerExit& exit) {
   auto next = outcome_of(exit);
   if (!is_lost(exit)) return next;
-  if (!got_further(stored.number)) return next;
+  if (!got_further(stored.number)) return given_up(stored, std::move(next));
   spdlog::warn("{}: {}", name_of(stored.number), next.message);
   if (exit.kind != WorkerExit::Kind::not_started) return tried_again(std::move(next));
   // The job is PENDING as it was.
@@ -148,6 +158,23 @@ bool JobRunner::got_further(std::int64_t job) {
   if (++losses.count < kMostLosses) return true;
   losses_.erase(job);
   return false;
+}
+
+// What the job's workers reported until they were lost is kept as a result where that can be.
+store::StateChange JobRunner::given_up(const store::StoredJob& stored, store::StateChange loss) {
+  worker::Order order = order_of(stored);
+  auto& end = *order.mutable_given_up();
+  end.set_cause(loss.cause);
+  end.set_message(loss.message);
+  end.set_remedy(loss.remedy);
+  try {
+    const auto exit =
+        parts_.executor.run(parts_.folder.job_folder(stored.number), order, events_of(stored), Interruptions{});
+    if (!is_lost(exit)) return outcome_of(exit);
+  } catch (const std::exception& error) {
+    spdlog::warn("{} has no result: {}", name_of(stored.number), error.what());
+  }
+  return loss;
 }
 
 void JobRunner::write(std::int64_t job, const store::StateChange& change, const std::stop_token& stop) {

@@ -15,7 +15,8 @@
 namespace cellcrush::jobs {
 
 /// Runs a job in a worker and writes in the journal what comes of it. A job whose worker is lost waits for another one, until
-/// kMostLosses in a row have got no further than the one before. Thread-safe.
+/// kMostLosses in a row have got no further than the one before; a last worker then makes a result of what they reported.
+/// Thread-safe.
 class JobRunner {
  public:
   static constexpr int kMostLosses = 3;
@@ -29,6 +30,7 @@ class JobRunner {
     Executor& executor;
     metrics::Metrics& metrics;
     std::chrono::milliseconds checkpoint_interval;
+    double longest_job_s;  ///< clock time that a job's workers may take; 0: no limit
   };
 
   explicit JobRunner(const Parts& parts) : parts_(parts) {}
@@ -49,11 +51,13 @@ class JobRunner {
   void end_leftover(std::int64_t job);
 
  private:
+  worker::Order order_of(const store::StoredJob& stored) const;
   WorkerExit run_worker(const store::StoredJob& stored, int threads, const Interruptions& interruptions);
   WorkerEvents events_of(const store::StoredJob& stored);
   void pass_on(std::int64_t job, std::int64_t& last_step, watch::Channel& channel, const worker::Report& report);
   store::StateChange after(const store::StoredJob& stored, const WorkerExit& exit);
   bool got_further(std::int64_t job);
+  store::StateChange given_up(const store::StoredJob& stored, store::StateChange loss);
   /// Tries until it can be written or `stop` is requested; once when that cannot be.
   void write(std::int64_t job, const store::StateChange& change, const std::stop_token& stop);
   void tidy_up(std::int64_t job, const store::StateChange& change);

@@ -120,6 +120,7 @@ SweepPlan plan_sweep(const v1::Sweep& sweep, const std::function<bool()>& given_
     *job.mutable_case_() = build_case(sweep, points.fields, points.values[i], point, checker, verdict);
     *job.mutable_labels() = sweep.labels();
     job.set_priority(sweep.priority());
+    job.set_time_limit_s(sweep.time_limit_s());
     job.set_owner(sweep.owner());
     for (auto& problem : verdict.problems) problems.add(std::move(problem), i, point);
     if (verdict.element_count > most_elements) {

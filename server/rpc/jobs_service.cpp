@@ -45,12 +45,14 @@ grpc::Status JobsService::CreateJob(grpc::ServerContext* context, const v1::Crea
   return answer([&] {
     check_request(request->request_id(), request->labels());
     check_priority(request->priority(), "priority");
+    parts_.admission.check_time_limit(request->time_limit_s(), "time_limit_s");
     const auto check = translate::check_case(request->case_());
     if (check.response.problems_size() > 0) return status_of(check.response.problems());
     v1::Job job;
     *job.mutable_case_() = request->case_();
     *job.mutable_labels() = request->labels();
     job.set_priority(request->priority());
+    job.set_time_limit_s(request->time_limit_s());
     job.set_owner(parts_.gate.caller_of(*context).name);
     if (request->validate_only()) {
       *response = std::move(job);

@@ -69,6 +69,7 @@ grpc::Status SweepsService::CreateSweep(grpc::ServerContext* context, const v1::
     auto request = without_output(*given);
     check_request(request.request_id(), request.sweep().labels(), "sweep.");
     check_numbers(request.sweep());
+    parts_.admission.check_time_limit(request.sweep().time_limit_s(), "sweep.time_limit_s");
     const std::string owner = parts_.gate.caller_of(*context).name;
     const std::string hash = payload_hash(request, owner);
     request.mutable_sweep()->set_owner(owner);

@@ -50,6 +50,7 @@ std::vector<Retry> jobs_to_retry(const Database& database, std::int64_t sweep) {
     ended.ParseFromString(read.bytes(1));
     *job.mutable_labels() = ended.labels();
     job.set_priority(ended.priority());
+    job.set_time_limit_s(ended.time_limit_s());
     job.set_owner(ended.owner());
     job.set_retry_of(jobs::name_of(read.integer(0)));
     job.mutable_case_()->ParseFromString(read.bytes(2));

@@ -23,7 +23,7 @@ struct ResultHeader {
   double time_step_s = 0.0;
   std::vector<std::string> modelled;
   bool complete = true;   ///< whether the run reached its end
-  std::string failure{};  ///< why the solver ended the run; empty when it did not
+  std::string failure{};  ///< why the run failed; empty when it did not
 };
 
 /// Writes one result.h5 (result_format.md). Not thread-safe. Failures throw ServiceError: storage_full or internal.

@@ -4,6 +4,7 @@
 #include <unistd.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
@@ -87,6 +88,14 @@ FoundCheckpoint find_checkpoint(const JobFolder& folder, const Checkpoint::Origi
     }
     out.refused.push_back(std::move(reading.refused));
   }
+  return out;
+}
+
+translate::RunTime run_time_of(const Checkpoint& checkpoint) {
+  translate::RunTime out;
+  out.processor = checkpoint.processor_seconds();
+  std::copy_n(checkpoint.stage_seconds().begin(), std::min(kStageCount, checkpoint.stage_seconds_size()),
+              out.stages.begin());
   return out;
 }
 

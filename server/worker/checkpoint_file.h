@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "translate/results.h"
 #include "worker/job_folder.h"
 #include "worker/report.pb.h"
 
@@ -21,5 +22,8 @@ struct FoundCheckpoint {
 
 /// The newest checkpoint that is whole and of the same solver, processor kind and case.
 FoundCheckpoint find_checkpoint(const JobFolder& folder, const Checkpoint::Origin& origin);
+
+/// Processor time of the run until the checkpoint.
+translate::RunTime run_time_of(const Checkpoint& checkpoint);
 
 }  // namespace cellcrush::worker

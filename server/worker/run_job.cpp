@@ -1,22 +1,22 @@
 #include "worker/run_job.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <new>
 #include <optional>
 #include <stdexcept>
 #include <utility>
 
-#include "cellcrush/sample_bytes.h"
-#include "cellcrush/simd.h"
 #include "error.h"
-#include "store/case_hash.h"
-#include "translate/case_to_spec.h"
 #include "translate/results.h"
-#include "version.h"
 #include "worker/checkpoint_file.h"
+#include "worker/give_up.h"
+#include "worker/job_scene.h"
+#include "worker/origin.h"
 #include "worker/processor_time.h"
 #include "worker/run_output.h"
 #include "worker/stage_timer.h"
@@ -34,26 +34,6 @@ Final failure(v1::JobCause cause, std::string message, std::string remedy) {
   return out;
 }
 
-std::shared_ptr<const Scene> build(const v1::Case& submitted) {
-  const auto reading = translate::to_spec(submitted);
-  auto built = build_scene(reading.spec);
-  Problems problems = reading.problems;
-  problems.insert(problems.end(), built.problems.begin(), built.problems.end());
-  // The daemon has checked the case, so this is an older job that this version no longer accepts.
-  if (!problems.empty())
-    throw std::runtime_error("the case is no longer accepted: " + problems.front().field + ": " +
-                             problems.front().message);
-  return built.scene;
-}
-
-Checkpoint::Origin origin_of(const Order& order) {
-  Checkpoint::Origin out;
-  out.set_solver_revision(kSolverRevision);
-  out.set_simd_target(simd_target());
-  out.set_case_hash(store::hash_of(order.case_()));
-  return out;
-}
-
 // One run: what is advanced, and where its output goes.
 class Run {
  public:
@@ -63,7 +43,7 @@ class Run {
         log_(log),
         stop_asked_(stop_asked),
         origin_(origin_of(order)),
-        scene_(build(order.case_())),
+        scene_(scene_of(order)),
         facts_(facts_of(*scene_)),
         simulation_(scene_, order.threads()) {}
 
@@ -75,7 +55,7 @@ class Run {
     output_->put_mesh();
     if (!resumes) output_->put_frame(simulation_.take_frame(0));
     last_checkpoint_ = Clock::now();
-    while (simulation_.step() < facts_.step_count && wish_ != StopWish::cancel) {
+    while (simulation_.step() < facts_.step_count && !ends_early()) {
       advance_to_next_output();
       if (failed()) break;
       if (wish_ == StopWish::suspend) return suspend();
@@ -85,31 +65,26 @@ class Run {
 
  private:
   bool restore(const Checkpoint& checkpoint) {
-    auto samples = samples_of(checkpoint.samples());
-    if (!samples || !simulation_.restore(checkpoint.simulation())) return false;
-    output_.emplace(folder_, log_, order_.case_(), *scene_);
-    if (!output_->restore(*std::move(samples), checkpoint.frame_count(), checkpoint.step())) return false;
-    earlier_seconds_ = checkpoint.processor_seconds();
-    std::array<double, kStageCount> stages{};
-    std::copy_n(checkpoint.stage_seconds().begin(), std::min(kStageCount, checkpoint.stage_seconds_size()),
-                stages.begin());
-    stage_timer_.set_earlier(stages);
+    if (!simulation_.restore(checkpoint.simulation())) return false;
+    output_.emplace(folder_, log_, order_, scene_);
+    if (!output_->restore(checkpoint)) return false;
+    const auto earlier = run_time_of(checkpoint);
+    earlier_seconds_ = earlier.processor;
+    stage_timer_.set_earlier(earlier.stages);
+    earlier_clock_seconds_ = checkpoint.clock_seconds();
     return true;
   }
 
   // What an earlier worker said is said again with the same bits, or the job is another.
   void begin_anew() {
-    ReportLogReader reader(folder_.reports());
-    Report report;
-    while (reader.read(report) == ReportLogReader::Read::message) {
-      if (!report.has_begun() || report.begun().origin().SerializeAsString() == origin_.SerializeAsString()) continue;
+    if (const auto other = find_other_origin(folder_, origin_)) {
       throw ServiceError(ServiceError::Kind::failed_precondition,
-                         "The job was begun by solver " + report.begun().origin().solver_revision() + " with " +
-                             report.begun().origin().simd_target() + ", and cannot be gone on with by " +
-                             origin_.solver_revision() + " with " + origin_.simd_target() + ".");
+                         "The job was begun by solver " + other->solver_revision() + " with " + other->simd_target() +
+                             ", and cannot be gone on with by " + origin_.solver_revision() + " with " +
+                             origin_.simd_target() + ".");
     }
     simulation_ = Simulation(scene_, order_.threads());
-    output_.emplace(folder_, log_, order_.case_(), *scene_);
+    output_.emplace(folder_, log_, order_, scene_);
   }
 
   void say_begun(const std::vector<std::string>& refused) {
@@ -141,14 +116,13 @@ class Run {
       piece_ = std::min(piece_, facts_.step_count);
       output_->put_progress(simulation_.step(), simulation_.strain(), now);
       wish_ = stop_asked_();
-      if (wish_ != StopWish::none) {
-        if (wish_ == StopWish::cancel) acknowledge_cancel();
-        break;
-      }
+      if (wish_ == StopWish::cancel) acknowledge_cancel();
+      time_is_up_ = order_.time_limit_s() > 0.0 && clock_seconds() >= order_.time_limit_s();
+      if (wish_ != StopWish::none || time_is_up_) break;
       // At an output's step it waits for the output.
       if (simulation_.step() < next) checkpoint_regularly(now);
     }
-    const bool last = wish_ == StopWish::cancel || simulation_.step() == facts_.step_count;
+    const bool last = ends_early() || simulation_.step() == facts_.step_count;
     if (last || simulation_.step() % facts_.sample_interval == 0) put_out_sample();
     if (failed()) return;
     if (last || simulation_.step() % facts_.frame_interval == 0)
@@ -160,6 +134,9 @@ class Run {
   [[nodiscard]] bool failed() const {
     return translate::cause_of(simulation_.status().kind) != v1::JOB_CAUSE_UNSPECIFIED;
   }
+
+  // Whether the run ends with what there is.
+  [[nodiscard]] bool ends_early() const { return wish_ == StopWish::cancel || time_is_up_; }
 
   [[nodiscard]] std::int64_t next_multiple(std::int64_t interval) const {
     return (simulation_.step() / interval + 1) * interval;
@@ -193,14 +170,20 @@ class Run {
     *out.mutable_origin() = origin_;
     out.set_step(simulation_.step());
     out.set_simulation(simulation_.checkpoint());
-    out.set_samples(bytes_of(output_->samples()));
+    out.set_sample_count(output_->sample_count());
     out.set_frame_count(output_->frame_count());
     out.set_processor_seconds(seconds_used());
     for (const double seconds : stage_timer_.seconds()) out.add_stage_seconds(seconds);
+    out.set_clock_seconds(clock_seconds());
     write_checkpoint(folder_, out);
   }
 
   [[nodiscard]] double seconds_used() const { return earlier_seconds_ + processor_seconds(CLOCK_PROCESS_CPUTIME_ID); }
+
+  // Of all workers that the job has had.
+  [[nodiscard]] double clock_seconds() const {
+    return earlier_clock_seconds_ + std::chrono::duration<double>(Clock::now() - begin_).count();
+  }
 
   Final suspend() {
     if (simulation_.step() == facts_.step_count) return complete();
@@ -224,15 +207,24 @@ class Run {
     const bool whole = !failed() && simulation_.step() == facts_.step_count;
     if (failed()) put_out_last_good_frame();
     Final out = failure(translate::cause_of(status.kind), status.message, status.remedy);
-    out.set_cancelled(!whole && !failed());
-    const auto& samples = output_->samples();
-    *out.mutable_summary() =
-        translate::to_proto(summarize(*scene_, samples), samples.empty() ? Sample{} : samples.back(),
-                            {seconds_used(), stage_timer_.seconds()});
-    output_->finish({order_.case_(), kSolverRevision, simd_target(), order_.threads(), facts_.time_step,
-                     facts_.modelled, whole, status.message},
-                    out.summary());
+    if (!whole && !failed()) {
+      if (wish_ == StopWish::cancel) {
+        out.set_cancelled(true);
+      } else {
+        out = out_of_time();
+      }
+    }
+    *out.mutable_summary() = output_->finish(whole, out.message(), {seconds_used(), stage_timer_.seconds()});
     return out;
+  }
+
+  [[nodiscard]] Final out_of_time() const {
+    const double share = static_cast<double>(simulation_.step()) / static_cast<double>(facts_.step_count);
+    return failure(v1::TIME_LIMIT,
+                   fmt::format("The job ran for its time limit of {:.4g} s and got to step {} of {}, {:.3g} % of them.",
+                               order_.time_limit_s(), simulation_.step(), facts_.step_count, 100.0 * share),
+                   fmt::format("Submit it with a time_limit_s of {:.0f} or more, or with a lower fidelity.",
+                               std::ceil(1.3 * order_.time_limit_s() / share)));
   }
 
   const JobFolder& folder_;
@@ -245,10 +237,13 @@ class Run {
   Simulation simulation_;
   StageTimer stage_timer_;
   std::optional<RunOutput> output_;
-  double earlier_seconds_ = 0.0;  ///< processor time before the checkpoint that the run goes on from
+  Clock::time_point begin_ = Clock::now();
+  double earlier_seconds_ = 0.0;        ///< processor time before the checkpoint that the run goes on from
+  double earlier_clock_seconds_ = 0.0;  ///< clock time before it
   Clock::time_point last_checkpoint_;
   std::int64_t piece_ = 16;
   StopWish wish_ = StopWish::none;
+  bool time_is_up_ = false;
 };
 
 Final failure_of(const ServiceError& error) {
@@ -263,17 +258,20 @@ Final failure_of(const ServiceError& error) {
 }
 
 Final end_of(const JobFolder& folder, const Order& order, ReportLog& log, const StopAsked& stop_asked) {
+  if (order.has_given_up()) return give_up(folder, order, log, order.given_up());
+  Final loss;
   try {
     return Run(folder, order, log, stop_asked).to_the_end();
   } catch (const ServiceError& error) {
-    return failure_of(error);
+    loss = failure_of(error);
   } catch (const std::bad_alloc&) {
-    return failure(v1::OUT_OF_MEMORY, "There was not enough memory for the run.",
+    loss = failure(v1::OUT_OF_MEMORY, "There was not enough memory for the run.",
                    "Take fewer cells or elements_per_wall, or a machine with more memory.");
   } catch (const std::exception& error) {
-    return failure(v1::WORKER_CRASHED, std::string("The worker stopped: ") + error.what() + ".",
+    loss = failure(v1::WORKER_CRASHED, std::string("The worker stopped: ") + error.what() + ".",
                    "Submit the case again; if it happens again, report the case.");
   }
+  return give_up(folder, order, log, std::move(loss));
 }
 
 }  // namespace
@@ -283,7 +281,7 @@ bool run_job(const JobFolder& folder, const Order& order, const StopAsked& stop_
     ReportLog log(folder.reports());
     Report report;
     *report.mutable_final() = end_of(folder, order, log, stop_asked);
-    // What is not a result is made again from the checkpoint.
+    // What is not a result is made again from the reports.
     std::error_code ignored;
     std::filesystem::remove(folder.partial_result(), ignored);
     log.append(report);

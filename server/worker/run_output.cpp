@@ -1,9 +1,13 @@
 #include "worker/run_output.h"
 
+#include <limits>
+#include <optional>
 #include <utility>
 
+#include "cellcrush/sample_bytes.h"
+#include "cellcrush/simd.h"
 #include "store/durable_file.h"
-#include "translate/results.h"
+#include "version.h"
 
 namespace cellcrush::worker {
 namespace {
@@ -14,24 +18,38 @@ ProgressMeter meter_of(const SceneFacts& facts, std::int64_t first_step) {
 
 }  // namespace
 
-RunOutput::RunOutput(const JobFolder& folder, ReportLog& log, const v1::Case& submitted, const Scene& scene)
+RunOutput::RunOutput(const JobFolder& folder, ReportLog& log, const Order& order, std::shared_ptr<const Scene> scene)
     : folder_(folder),
       log_(log),
-      case_(submitted),
-      facts_(facts_of(scene)),
-      mesh_(translate::to_proto(mesh_of(scene), facts_.particle_count)),
+      order_(order),
+      scene_(std::move(scene)),
+      facts_(facts_of(*scene_)),
+      mesh_(translate::to_proto(mesh_of(*scene_), facts_.particle_count)),
       meter_(meter_of(facts_, 0)),
       writer_(folder.partial_result(), mesh_) {}
 
-bool RunOutput::restore(std::vector<Sample> samples, int frame_count, std::int64_t step) {
-  meter_ = meter_of(facts_, step);
-  for (auto& sample : samples) record(std::move(sample));
+bool RunOutput::restore(const Checkpoint& checkpoint) {
+  meter_ = meter_of(facts_, checkpoint.step());
+  take_reported(checkpoint.sample_count(), checkpoint.frame_count());
+  return sample_count() == checkpoint.sample_count() && frame_count_ == checkpoint.frame_count();
+}
+
+void RunOutput::restore_all() { take_reported(std::numeric_limits<int>::max(), std::numeric_limits<int>::max()); }
+
+// What was said twice has the same bits: the first time counts.
+void RunOutput::take_reported(int most_samples, int most_frames) {
   ReportLogReader reader(folder_.reports());
   Report report;
-  while (frame_count_ < frame_count && reader.read(report) == ReportLogReader::Read::message) {
-    if (report.has_frame() && report.frame().index() == frame_count_) record(report.frame());
+  while ((sample_count() < most_samples || frame_count_ < most_frames) &&
+         reader.read(report) == ReportLogReader::Read::message) {
+    if (report.has_sample() && sample_count() < most_samples) {
+      const bool is_new = samples_.empty() || report.sample().step() > samples_.back().step;
+      auto bits = is_new ? samples_of(report.sample_bits()) : std::nullopt;
+      if (bits && bits->size() == 1) record(std::move(bits->front()));
+    } else if (report.has_frame() && frame_count_ < most_frames && report.frame().index() == frame_count_) {
+      record(report.frame());
+    }
   }
-  return frame_count_ == frame_count;
 }
 
 void RunOutput::put_mesh() {
@@ -42,12 +60,13 @@ void RunOutput::put_mesh() {
 
 void RunOutput::put_sample(Sample sample) {
   Report report;
+  report.set_sample_bits(bytes_of({&sample, 1}));
   *report.mutable_sample() = record(std::move(sample));
   log_.append(report);
 }
 
 v1::Sample RunOutput::record(Sample sample) {
-  auto out = translate::to_proto(sample, case_.lattice().frame().watched_nodes());
+  auto out = translate::to_proto(sample, order_.case_().lattice().frame().watched_nodes());
   samples_.push_back(std::move(sample));
   meter_.add(out);
   writer_.add_sample(out);
@@ -75,9 +94,14 @@ void RunOutput::put_progress(std::int64_t step, double strain, ProgressMeter::Cl
   }
 }
 
-void RunOutput::finish(const store::ResultHeader& header, const v1::Summary& summary) {
-  writer_.finish(header, summary);
+v1::Summary RunOutput::finish(bool whole, const std::string& failure, const translate::RunTime& time) {
+  const auto summary =
+      translate::to_proto(summarize(*scene_, samples_), samples_.empty() ? Sample{} : samples_.back(), time);
+  writer_.finish({order_.case_(), kSolverRevision, simd_target(), order_.threads(), facts_.time_step, facts_.modelled,
+                  whole, failure},
+                 summary);
   store::publish_file(folder_.partial_result(), folder_.result());
+  return summary;
 }
 
 }  // namespace cellcrush::worker

@@ -1,10 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "cellcrush/simulation.h"
 #include "store/result_writer.h"
+#include "translate/results.h"
 #include "worker/job_folder.h"
 #include "worker/progress_meter.h"
 #include "worker/report_log.h"
@@ -14,11 +17,15 @@ namespace cellcrush::worker {
 /// Where a run's samples and frames go: to the reports and to the result. Not thread-safe. Failures throw ServiceError.
 class RunOutput {
  public:
-  RunOutput(const JobFolder& folder, ReportLog& log, const v1::Case& submitted, const Scene& scene);
+  /// `order` outlives this object.
+  RunOutput(const JobFolder& folder, ReportLog& log, const Order& order, std::shared_ptr<const Scene> scene);
 
-  /// Begins with what a run had given when it was left at a checkpoint: its samples, and its first `frame_count` frames, which
-  /// are taken from the reports. False when these do not hold them all; this object is of no use then.
-  bool restore(std::vector<Sample> samples, int frame_count, std::int64_t step);
+  /// Begins with what a run had reported when it was left at a checkpoint. False when the reports do not hold it all; this
+  /// object is of no use then.
+  bool restore(const Checkpoint& checkpoint);
+
+  /// Begins with all that was reported, of a run that nobody goes on with.
+  void restore_all();
 
   void put_mesh();
   void put_sample(Sample sample);
@@ -26,20 +33,22 @@ class RunOutput {
   /// Where enough time has gone by since the last one.
   void put_progress(std::int64_t step, double strain, ProgressMeter::Clock::time_point now);
 
-  /// Makes the result durable and gives it its name.
-  void finish(const store::ResultHeader& header, const v1::Summary& summary);
+  /// Makes the result durable and gives it its name. `failure`: why the run did not reach its end, if it failed.
+  v1::Summary finish(bool whole, const std::string& failure, const translate::RunTime& time);
 
-  [[nodiscard]] const std::vector<Sample>& samples() const { return samples_; }
+  [[nodiscard]] int sample_count() const { return static_cast<int>(samples_.size()); }
   [[nodiscard]] int frame_count() const { return frame_count_; }
   [[nodiscard]] double last_frame_time() const { return last_frame_time_; }  ///< s
 
  private:
+  void take_reported(int most_samples, int most_frames);
   v1::Sample record(Sample sample);
   void record(const v1::FieldFrame& frame);
 
   JobFolder folder_;
   ReportLog& log_;
-  const v1::Case& case_;
+  const Order& order_;
+  std::shared_ptr<const Scene> scene_;
   SceneFacts facts_;
   v1::Mesh mesh_;
   ProgressMeter meter_;

@@ -14,6 +14,9 @@ namespace cellcrush::scenes {
 class Probe {
  public:
   static constexpr double kThickness = 1.0;
+  /// How deep most tests press the tip in, and how far from the chain's axis it then stands.
+  static constexpr double kDepth = 0.1;
+  static constexpr double kDistance = kThickness - kDepth;
 
   /// Segment i runs from chain[i] to chain[i + 1], or backwards where `reversed` says so.
   explicit Probe(const std::vector<Vector2>& chain, double friction = 0.0, const std::vector<bool>& reversed = {});

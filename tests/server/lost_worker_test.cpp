@@ -179,5 +179,40 @@ TEST_F(LostWorkerTest, AJobWhoseWorkersAreKilledAgainAndAgainAtTheSamePlaceFails
   EXPECT_EQ(client.get(next).state(), v1::SUCCEEDED) << "The daemon goes on.";
 }
 
+TEST_F(LostWorkerTest, WhatKilledWorkersReportedIsKeptAsAResultUpToTheLastSample) {
+  auto options = often_checkpointed();
+  options.checkpoint_interval = std::chrono::minutes(1);
+  start(options);
+  auto client = this->client();
+  const std::string whole = client.create(case_of_seconds());
+  ASSERT_TRUE(client.watch(whole).status.ok());
+
+  // Each worker is killed as soon as it gets to where the first one was: none gets further.
+  const std::string job = client.create(case_of_seconds());
+  wait_for_samples(client, job, 60);
+  pid_t last = 0;
+  for (int i = 0; i < 3000 && client.get(job).state() != v1::FAILED; ++i) {
+    const auto now = client.get(job);
+    if (now.state() == v1::RUNNING && now.worker_pid() != last) {
+      last = static_cast<pid_t>(now.worker_pid());
+      kill(last, SIGKILL);
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  const auto failed = client.get(job);
+  EXPECT_EQ(failed.state(), v1::FAILED);
+  EXPECT_EQ(failed.cause(), v1::WORKER_CRASHED);
+  ASSERT_TRUE(failed.has_summary());
+  const auto kept = numbers_of(client, job);
+  const auto full = numbers_of(client, whole);
+  ASSERT_GE(kept.history.size(), 60U);
+  ASSERT_LT(kept.history.size(), full.history.size());
+  EXPECT_EQ(kept.history.size(), client.history(job).size());
+  EXPECT_TRUE(std::equal(kept.history.begin(), kept.history.end(), full.history.begin())) << "The bits are the same.";
+  ASSERT_GE(kept.frames.size(), 2U);
+  EXPECT_TRUE(std::equal(kept.frames.begin(), kept.frames.end(), full.frames.begin()));
+  EXPECT_EQ(failed.summary().step_count(), client.history(job).back().step());
+}
+
 }  // namespace
 }  // namespace cellcrush::testing

@@ -7,17 +7,14 @@
 #include <vector>
 
 #include "contact/capsule.h"
+#include "scenes/direction.h"
 #include "scenes/probe.h"
 
 namespace cellcrush {
 namespace {
 
+using scenes::direction;
 using scenes::Probe;
-
-constexpr double kDepth = 0.1;
-constexpr double kDistance = Probe::kThickness - kDepth;
-
-Vector2 direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
 enum class Ends { open, round };
 
@@ -46,12 +43,12 @@ TEST(DeadZone, OfSegmentsThatEndAtTheirNodesIsTheWholeFanOfAConvexJoint) {
   int dropped = 0;
   int places = 0;
   for (double fan = 1.5 * std::numbers::pi - bend + 0.01; fan < 1.5 * std::numbers::pi; fan += 0.01) {
-    const Vector2 place = kDistance * direction(fan);
+    const Vector2 place = Probe::kDistance * direction(fan);
     const Vector2 literal = force_of_every_segment(chain, place, probe.stiffness(), Ends::open);
     dropped += literal.norm() == 0.0 ? 1 : 0;
     ++places;
     const Vector2 force = probe.force_at(place, direction(fan));
-    EXPECT_NEAR(force.norm(), probe.stiffness() * kDepth, 1e-9 * force.norm()) << fan;
+    EXPECT_NEAR(force.norm(), probe.stiffness() * Probe::kDepth, 1e-9 * force.norm()) << fan;
   }
   EXPECT_EQ(dropped, places);
 }
@@ -60,10 +57,10 @@ TEST(DeadZone, OfSegmentsThatEndAtTheirNodesIsTheWholeFanOfAConvexJoint) {
 TEST(DoubleForce, OfRoundEndsMakesABumpOfEveryJointOfAStraightChain) {
   const std::vector<Vector2> chain = {{0.0, 0.0}, {5.0, 0.0}, {10.0, 0.0}, {15.0, 0.0}, {20.0, 0.0}};
   Probe probe(chain);
-  const double once = probe.stiffness() * kDepth;
+  const double once = probe.stiffness() * Probe::kDepth;
   double most = 0.0;
   for (double x = 1.0; x < 19.0; x += 0.037) {
-    const Vector2 place(x, kDistance);
+    const Vector2 place(x, Probe::kDistance);
     most = std::max(most, force_of_every_segment(chain, place, probe.stiffness(), Ends::round).y());
     EXPECT_NEAR(probe.force_at(place, {0.0, 1.0}).y(), once, 1e-9 * once) << x;
   }
@@ -76,8 +73,8 @@ TEST(DoubleForce, OfBothLegsOfAShallowGrooveIsTwiceThatOfOne) {
   const std::vector<Vector2> chain = {
       30.0 * direction(0.5 * std::numbers::pi + half), {0.0, 0.0}, 30.0 * direction(0.5 * std::numbers::pi - half)};
   Probe probe(chain);
-  const Vector2 bottom(0.0, kDistance / std::sin(half));
-  const double once = probe.stiffness() * kDepth;
+  const Vector2 bottom(0.0, Probe::kDistance / std::sin(half));
+  const double once = probe.stiffness() * Probe::kDepth;
   EXPECT_GT(force_of_every_segment(chain, bottom, probe.stiffness(), Ends::round).norm(), 1.9 * once);
   EXPECT_NEAR(probe.force_at(bottom, {0.0, 1.0}).norm(), once, 1e-9 * once);
 }

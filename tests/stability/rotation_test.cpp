@@ -5,14 +5,14 @@
 #include <numbers>
 
 #include "beam/deformation.h"
+#include "scenes/direction.h"
 #include "scenes/probe.h"
 
 namespace cellcrush {
 namespace {
 
+using scenes::direction;
 using scenes::Probe;
-
-Vector2 direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
 // A bar that turns 400 steps a turn, for three turns: the angle of its direction jumps by a turn at every half turn,
 // and an element whose nodes have not jumped along would be bent by it. The increment of the axis has no such place.
@@ -59,14 +59,14 @@ TEST(LargeIncrements, BeyondHalfATurnAreSeenAsTheOtherWay) {
 // Two beams in touch, dragged against each other and then turned as one. Friction that is kept as a vector stays where
 // it was while the walls turn away from it; kept along the segment it turns with them, and so does the normal force.
 TEST(Objectivity, ForcesOfAContactTurnWithItsWalls) {
-  constexpr double kDistance = 0.9 * Probe::kThickness;
-  constexpr double kFriction = 100.0;  // sticks
+  constexpr double kApart = 0.9 * Probe::kThickness;
+  constexpr double kSticks = 100.0;  // as friction
   const auto forces_at = [&](double angle) {
     const Vector2 along = direction(angle);
     const Vector2 up = normal_of(along);
-    Probe probe({-20.0 * along, 20.0 * along}, kFriction);
-    probe.force_at(kDistance * up, up);
-    const Vector2 friction = probe.drag_to(kDistance * up + 0.01 * along, up);
+    Probe probe({-20.0 * along, 20.0 * along}, kSticks);
+    probe.force_at(kApart * up, up);
+    const Vector2 friction = probe.drag_to(kApart * up + 0.01 * along, up);
     return std::pair(Vector2(probe.state().contact_force[3]), friction);
   };
   const auto [normal, friction] = forces_at(0.0);

@@ -19,13 +19,13 @@ struct Column {
   double aside = 0.0;                      ///< of its middle in the end, mm
 
   explicit Column(double offset) {
-    constexpr double kDuration = 2e-4;  // s
+    constexpr double kPress = 2e-4;  // s
     FrameLattice frame;
     frame.nodes = {{0.0, 0.0, 0.0, 0.0}, {0.5 * kLength, offset, 0.0, 0.0}, {kLength, 0.0, 0.0, 0.0}};
     frame.beams = {scenes::beam(0, 1, 0.2, 4), scenes::beam(1, 2, 0.2, 4)};
     frame.supports = {{0, true, true, true}, {2, false, true, true}};
-    frame.end_time_s = kDuration;
-    frame.motions = {{2, FrameLattice::Component::x, {{0.0, 0.0}, {kDuration, -0.002 * kLength}}}};
+    frame.end_time_s = kPress;
+    frame.motions = {{2, FrameLattice::Component::x, {{0.0, 0.0}, {kPress, -0.002 * kLength}}}};
     frame.watched_nodes = {1};
     aside = std::abs(offset + scenes::run_frame(scenes::elastic_frame(frame)).back().watched.front().uy);
   }

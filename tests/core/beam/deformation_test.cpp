@@ -4,10 +4,12 @@
 
 #include <numbers>
 
+#include "scenes/direction.h"
+
 namespace cellcrush {
 namespace {
 
-Vector2 direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
+using scenes::direction;
 
 // The arc cosine of the paper's Eq. 9 gives 0 below 2e-8 rad and never a sign.
 TEST(Turn, TinyIncrementsOfBothSignsSurvive) {

@@ -8,25 +8,22 @@
 #include <vector>
 
 #include "contact/normal_force.h"
+#include "scenes/direction.h"
 #include "scenes/probe.h"
 
 namespace cellcrush {
 namespace {
 
+using scenes::direction;
 using scenes::Probe;
-
-Vector2 direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
-
-constexpr double kDepth = 0.1;
-constexpr double kDistance = Probe::kThickness - kDepth;
 
 // Eq. 41a drops a ball past a segment's end: at a convex joint it finds nothing to stand on.
 TEST(Contact, ConvexJointHasNoDeadZoneAndPushesOnce) {
   const double bend = std::numbers::pi / 3.0;
   Probe probe({-20.0 * direction(-bend), {0.0, 0.0}, {20.0, 0.0}});
   for (double fan = 1.5 * std::numbers::pi - bend; fan <= 1.5 * std::numbers::pi; fan += 0.01) {
-    const Vector2 force = probe.force_at(kDistance * direction(fan), direction(fan));
-    const Vector2 expected = probe.stiffness() * kDepth * direction(fan);
+    const Vector2 force = probe.force_at(Probe::kDistance * direction(fan), direction(fan));
+    const Vector2 expected = probe.stiffness() * Probe::kDepth * direction(fan);
     EXPECT_NEAR((force - expected).norm(), 0.0, 1e-9 * force.norm()) << fan;
   }
 }
@@ -38,13 +35,13 @@ TEST(Contact, ForceRoundAJointIsContinuousHoweverSharp) {
     const Vector2 upper = -direction(-half);
     const Vector2 lower = -direction(half);
     Probe probe({80.0 * upper, {0.0, 0.0}, 80.0 * lower});
-    const double ways = 10.0 + kDistance * (std::numbers::pi - 2.0 * half);
+    const double ways = 10.0 + Probe::kDistance * (std::numbers::pi - 2.0 * half);
     for (double way = -10.0; way < ways; way += 0.01) {
-      const double turn = std::clamp(way / kDistance, 0.0, std::numbers::pi - 2.0 * half);
+      const double turn = std::clamp(way / Probe::kDistance, 0.0, std::numbers::pi - 2.0 * half);
       const Vector2 normal = direction(0.5 * std::numbers::pi - half - turn);
-      const Vector2 along = way < 0.0 ? Vector2(-way * upper) : Vector2((way - kDistance * turn) * lower);
-      const Vector2 force = probe.force_at(along + kDistance * normal, normal);
-      ASSERT_NEAR((force - probe.stiffness() * kDepth * normal).norm(), 0.0, 1e-9 * probe.stiffness())
+      const Vector2 along = way < 0.0 ? Vector2(-way * upper) : Vector2((way - Probe::kDistance * turn) * lower);
+      const Vector2 force = probe.force_at(along + Probe::kDistance * normal, normal);
+      ASSERT_NEAR((force - probe.stiffness() * Probe::kDepth * normal).norm(), 0.0, 1e-9 * probe.stiffness())
           << angle << " at " << way;
     }
   }
@@ -53,12 +50,12 @@ TEST(Contact, ForceRoundAJointIsContinuousHoweverSharp) {
 // The side that a ball came from is no longer its side once it has gone round the end.
 TEST(Contact, BallThatGoesRoundAFreeEndIsPushedAwayOnTheOtherSide) {
   Probe probe({{-20.0, 0.0}, {0.0, 0.0}});
-  for (double way = -5.0; way < 5.0 + kDistance * std::numbers::pi; way += 0.01) {
-    const double turn = std::clamp(way / kDistance, 0.0, std::numbers::pi);
+  for (double way = -5.0; way < 5.0 + Probe::kDistance * std::numbers::pi; way += 0.01) {
+    const double turn = std::clamp(way / Probe::kDistance, 0.0, std::numbers::pi);
     const Vector2 normal = direction(0.5 * std::numbers::pi - turn);
-    const Vector2 foot(way < 0.0 ? way : kDistance * turn - way, 0.0);
-    const Vector2 force = probe.force_at(foot + kDistance * normal, normal);
-    ASSERT_NEAR((force - probe.stiffness() * kDepth * normal).norm(), 0.0, 1e-9 * probe.stiffness()) << way;
+    const Vector2 foot(way < 0.0 ? way : Probe::kDistance * turn - way, 0.0);
+    const Vector2 force = probe.force_at(foot + Probe::kDistance * normal, normal);
+    ASSERT_NEAR((force - probe.stiffness() * Probe::kDepth * normal).norm(), 0.0, 1e-9 * probe.stiffness()) << way;
   }
 }
 
@@ -69,8 +66,9 @@ TEST(Contact, BallThatSlidesAlongAStraightChainIsPushedByOneSegment) {
   }
   Probe probe(chain);
   for (double x = 1.0; x < 99.0; x += 0.037) {
-    const Vector2 expected(0.0, probe.stiffness() * kDepth);
-    EXPECT_NEAR((probe.force_at({x, kDistance}, {0.0, 1.0}) - expected).norm(), 0.0, 1e-9 * probe.stiffness()) << x;
+    const Vector2 expected(0.0, probe.stiffness() * Probe::kDepth);
+    EXPECT_NEAR((probe.force_at({x, Probe::kDistance}, {0.0, 1.0}) - expected).norm(), 0.0, 1e-9 * probe.stiffness())
+        << x;
   }
 }
 
@@ -82,7 +80,7 @@ TEST(Contact, ForceInAGrooveIsThatOfTheDeeperLeg) {
     const Vector2 right = direction(0.5 * std::numbers::pi - half);
     const Vector2 left = direction(0.5 * std::numbers::pi + half);
     Probe probe({30.0 * left, {0.0, 0.0}, 30.0 * right});
-    const double bottom = kDistance / std::sin(half);
+    const double bottom = Probe::kDistance / std::sin(half);
     for (double x = -0.05; x < 0.05; x += 0.00049) {
       const Vector2 place(x, bottom);
       const double left_depth = Probe::kThickness + cross(left, place);

@@ -4,28 +4,26 @@
 #include <numbers>
 #include <vector>
 
+#include "scenes/direction.h"
 #include "scenes/probe.h"
 
 namespace cellcrush {
 namespace {
 
+using scenes::direction;
 using scenes::Probe;
 
-constexpr double kDepth = 0.1;
-constexpr double kDistance = Probe::kThickness - kDepth;
 constexpr double kStep = 1e-3;  // mm of drag a step
-
-Vector2 direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
 /// Friction at each step of a drag over the joint at x = 0 of a straight chain, from x = -0.5 to 0.5 mm.
 std::vector<double> drag_over_joint(double friction, bool first_reversed, bool second_reversed, double& stiffness) {
   Probe probe({{-20.0, 0.0}, {0.0, 0.0}, {20.0, 0.0}}, friction, {first_reversed, second_reversed});
   stiffness = probe.stiffness();
   const Vector2 up(0.0, 1.0);
-  probe.force_at({-0.5, kDistance}, up);
+  probe.force_at({-0.5, Probe::kDistance}, up);
   std::vector<double> result;
   for (int i = 1; i <= 1000; ++i) {
-    const Vector2 force = probe.drag_to({-0.5 + i * kStep, kDistance}, up);
+    const Vector2 force = probe.drag_to({-0.5 + i * kStep, Probe::kDistance}, up);
     EXPECT_NEAR(force.y(), 0.0, 1e-9 * stiffness);
     result.push_back(force.x());
   }
@@ -50,7 +48,7 @@ TEST(FrictionHistory, ASlidingBallFeelsTheSameFrictionBeforeAndAfterAJoint) {
     double stiffness = 0.0;
     const std::vector<double> friction = drag_over_joint(0.3, false, second, stiffness);
     for (std::size_t i = 100; i < friction.size(); ++i) {  // slides from 0.03 mm on
-      ASSERT_NEAR(friction[i], -0.3 * stiffness * kDepth, 1e-9 * stiffness) << second << i;
+      ASSERT_NEAR(friction[i], -0.3 * stiffness * Probe::kDepth, 1e-9 * stiffness) << second << i;
     }
   }
 }
@@ -64,11 +62,11 @@ TEST(FrictionHistory, IsCarriedRoundASharpJointAcrossTheNormal) {
       const Vector2 lower = -direction(half);
       Probe probe({80.0 * upper, {0.0, 0.0}, 80.0 * lower}, 100.0, {false, second});
       double slipped = 0.0;
-      for (double way = -0.5; way < 0.5 + kDistance * (std::numbers::pi - 2.0 * half); way += kStep) {
-        const double turn = std::clamp(way / kDistance, 0.0, std::numbers::pi - 2.0 * half);
+      for (double way = -0.5; way < 0.5 + Probe::kDistance * (std::numbers::pi - 2.0 * half); way += kStep) {
+        const double turn = std::clamp(way / Probe::kDistance, 0.0, std::numbers::pi - 2.0 * half);
         const Vector2 normal = direction(0.5 * std::numbers::pi - half - turn);
-        const Vector2 along = way < 0.0 ? Vector2(-way * upper) : Vector2((way - kDistance * turn) * lower);
-        const Vector2 place = along + kDistance * normal;
+        const Vector2 along = way < 0.0 ? Vector2(-way * upper) : Vector2((way - Probe::kDistance * turn) * lower);
+        const Vector2 place = along + Probe::kDistance * normal;
         if (way == -0.5) {
           probe.force_at(place, normal);
           continue;
@@ -87,11 +85,11 @@ TEST(FrictionHistory, IsCarriedRoundASharpJointAcrossTheNormal) {
 TEST(FrictionHistory, BeginsAnewWhereABallHasLeft) {
   Probe probe({{-20.0, 0.0}, {20.0, 0.0}}, 100.0);
   const Vector2 up(0.0, 1.0);
-  probe.force_at({0.0, kDistance}, up);
-  EXPECT_LT(probe.drag_to({0.1, kDistance}, up).x(), 0.0);
+  probe.force_at({0.0, Probe::kDistance}, up);
+  EXPECT_LT(probe.drag_to({0.1, Probe::kDistance}, up).x(), 0.0);
   probe.force_at({0.1, 2.0}, up);
-  probe.force_at({0.1, kDistance}, up);
-  EXPECT_NEAR(probe.drag_to({0.2, kDistance}, up).x(), -0.1 * probe.stiffness(), 1e-9 * probe.stiffness());
+  probe.force_at({0.1, Probe::kDistance}, up);
+  EXPECT_NEAR(probe.drag_to({0.2, Probe::kDistance}, up).x(), -0.1 * probe.stiffness(), 1e-9 * probe.stiffness());
 }
 
 }  // namespace

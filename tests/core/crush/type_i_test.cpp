@@ -14,19 +14,19 @@ namespace cellcrush {
 namespace {
 
 /// Type I at 100 m/s to 80 % strain, with crossings of walls counted on 40 frames.
-struct Crush {
+struct CountedCrush {
   std::vector<Sample> samples;
   Summary summary;
   std::size_t crossings = 0;
   double deepest_birth = 0.0;
 };
 
-Crush crush(SceneSpec spec) {
+CountedCrush crush(SceneSpec spec) {
   spec.output.sample_count = 400;
   const auto scene = scenes::build(spec);
   const SceneFacts facts = facts_of(*scene);
   Simulation simulation(scene);
-  Crush crush;
+  CountedCrush crush;
   while (simulation.status().kind == RunStatus::Kind::running) {
     simulation.advance(facts.sample_interval);
     crush.samples.push_back(simulation.take_sample());
@@ -47,7 +47,7 @@ Crush crush(SceneSpec spec) {
   return crush;
 }
 
-void expect_sound_contact(const Crush& crush) {
+void expect_sound_contact(const CountedCrush& crush) {
   EXPECT_EQ(crush.crossings, 0u);
   EXPECT_LT(crush.summary.deepest_penetration, 0.25);
   EXPECT_LT(crush.deepest_birth, 0.10);
@@ -59,7 +59,7 @@ void expect_sound_contact(const Crush& crush) {
 /// Eq. 52 with the jumps of the cells' motion, which knows nothing of the impact plate's stress, foretells that stress, and
 /// lies closer to it than Eq. 51. One seed of an imperfection gives a plateau with a standard deviation of 1.2 to 1.4 %, so
 /// a single crush is held to three and a half of them.
-void expect_shock_theory(const Crush& crush) {
+void expect_shock_theory(const CountedCrush& crush) {
   ASSERT_TRUE(crush.summary.front && crush.summary.shock_error() && crush.summary.front_shock_error());
   EXPECT_NEAR(*crush.summary.front_shock_error(), 0.0, 0.05);
   EXPECT_LT(std::abs(*crush.summary.front_shock_error()), std::abs(*crush.summary.shock_error()));
@@ -86,7 +86,7 @@ void expect_shock_theory(const Crush& crush) {
 }
 
 /// The impact plate is carried by inertia whatever the elements are; the support plate tells them apart. MPa.
-void expect_plateaus(const Crush& crush, double support_low, double support_high) {
+void expect_plateaus(const CountedCrush& crush, double support_low, double support_high) {
   ASSERT_TRUE(crush.summary.plateau_stress_impact && crush.summary.plateau_stress_support);
   EXPECT_GT(*crush.summary.plateau_stress_impact, 3.1);
   EXPECT_LT(*crush.summary.plateau_stress_impact, 3.7);
@@ -95,7 +95,7 @@ void expect_plateaus(const Crush& crush, double support_low, double support_high
 }
 
 TEST(TypeI, CrushAt100MetresASecondWithThePapersElementsAndStep) {
-  const Crush paper = crush(scenes::papers_type_i());
+  const CountedCrush paper = crush(scenes::papers_type_i());
   EXPECT_NEAR(paper.samples.back().strain, 0.8, 1e-3);
   expect_plateaus(paper, 0.38, 0.52);
   EXPECT_LT(paper.summary.energy_error_relative, 0.025);
@@ -105,7 +105,7 @@ TEST(TypeI, CrushAt100MetresASecondWithThePapersElementsAndStep) {
 
 // The support stress of the paper's elements falls from 0.46 to 0.39 MPa with 8 of them a wall; ours begin below.
 TEST(TypeI, CrushAt100MetresASecondByDefaultClosesItsLedgerWithinOnePercent) {
-  const Crush ours = crush(find_preset("type-i")->spec);
+  const CountedCrush ours = crush(find_preset("type-i")->spec);
   expect_plateaus(ours, 0.30, 0.42);
   EXPECT_LT(ours.summary.energy_error_relative, 0.01);
   expect_sound_contact(ours);

@@ -11,13 +11,13 @@ namespace {
 
 using scenes::Cantilever;
 
-struct Tip {
+struct RolledTip {
   Vector2 place;  // over L
   double turn;    // rad
 };
 
 /// Where the tip comes to rest when an end moment mu EI / L bends the cantilever into an arc of the angle mu.
-Tip rest_under(double mu, int elements) {
+RolledTip roll_under(double mu, int elements) {
   const double moment = mu * Cantilever::kStiffness / Cantilever::kLength;
   const double time_unit = 1.0 / Cantilever::first_frequency();
   const auto scene = scenes::build(
@@ -28,7 +28,7 @@ Tip rest_under(double mu, int elements) {
 }
 
 double error_of(double mu, int elements) {
-  const Tip tip = rest_under(mu, elements);
+  const RolledTip tip = roll_under(mu, elements);
   EXPECT_NEAR(tip.turn, mu, 1e-3 * mu) << mu;  // counts whole turns
   return (tip.place - Vector2(std::sin(mu) / mu, (1.0 - std::cos(mu)) / mu)).norm();
 }

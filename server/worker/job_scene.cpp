@@ -1,0 +1,22 @@
+#include "worker/job_scene.h"
+
+#include <stdexcept>
+
+#include "translate/case_to_spec.h"
+
+namespace cellcrush::worker {
+
+std::shared_ptr<const Scene> scene_of(const Order& order) {
+  const auto reading = translate::to_spec(order.case_());
+  auto built = build_scene(reading.spec);
+  Problems problems = reading.problems;
+  problems.insert(problems.end(), built.problems.begin(), built.problems.end());
+  // The daemon has checked the case, so this is an older job that this version no longer accepts.
+  if (!problems.empty()) {
+    throw std::runtime_error("the case is no longer accepted: " + problems.front().field + ": " +
+                             problems.front().message);
+  }
+  return built.scene;
+}
+
+}  // namespace cellcrush::worker

@@ -1,0 +1,114 @@
+// A job that takes longer than it may.
+#include <gmock/gmock.h>
+
+#include <chrono>
+#include <limits>
+
+#include "server/daemon_fixture.h"
+#include "server/job_numbers.h"
+#include "server/small_case.h"
+#include "server/sweep_requests.h"
+
+namespace cellcrush::testing {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using Clock = std::chrono::steady_clock;
+
+class TimeLimitTest : public DaemonFixture {
+ protected:
+  static v1::CreateJobRequest limited(double seconds) {
+    v1::CreateJobRequest request;
+    *request.mutable_case_() = endless_case();
+    request.set_time_limit_s(seconds);
+    return request;
+  }
+
+  static std::string create_limited(Client& client, double seconds) {
+    v1::Job job;
+    const auto status = client.jobs->CreateJob(bounded_context().get(), limited(seconds), &job);
+    EXPECT_TRUE(status.ok()) << status.error_message();
+    EXPECT_EQ(job.time_limit_s(), seconds);
+    return job.name();
+  }
+
+  // That the job ended at its limit, with a result up to there.
+  void expect_out_of_time(Client& client, const std::string& name) {
+    ASSERT_TRUE(client.wait_for_state(name, v1::FAILED));
+    const auto job = client.get(name);
+    EXPECT_EQ(job.cause(), v1::TIME_LIMIT);
+    EXPECT_THAT(job.cause_message(), HasSubstr("its time limit of"));
+    EXPECT_THAT(job.remedy(), HasSubstr("time_limit_s"));
+    ASSERT_TRUE(job.has_summary());
+    const auto numbers = numbers_of(client, data_folder(), name);
+    EXPECT_EQ(numbers.history.size(), client.history(name).size());
+    EXPECT_EQ(client.history(name).back().step(), job.summary().step_count());
+  }
+};
+
+TEST_F(TimeLimitTest, AtItsLimitAJobEndsWithWhatThereIs) {
+  auto client = this->client();
+  const auto start = Clock::now();
+  expect_out_of_time(client, create_limited(client, 1.0));
+  EXPECT_GE(Clock::now() - start, std::chrono::seconds(1));
+}
+
+TEST_F(TimeLimitTest, APauseDoesNotCountAndWhatWasRunBeforeDoes) {
+  auto client = this->client();
+  const std::string job = create_limited(client, 2.0);
+  wait_for_samples(client, job, 1000);
+  ASSERT_TRUE(client.suspend(job).ok());
+  const auto left_at = client.history(job).size();
+  start();
+  auto next = this->client();
+  ASSERT_TRUE(next.resume(job).ok());
+  expect_out_of_time(next, job);
+  EXPECT_GT(next.history(job).size(), left_at);
+  const auto ended = next.get(job);
+  EXPECT_LT(ended.summary().solver_seconds(), 2.3) << "The time before the pause counts.";
+}
+
+TEST_F(TimeLimitTest, TheDaemonsLimitHoldsForThoseWithoutOneAndMoreIsRefused) {
+  auto options = default_options();
+  options.limits.job_time = std::chrono::duration<double>(1.0);
+  start(options);
+  auto client = this->client();
+  expect_out_of_time(client, create_limited(client, 0.0));
+  v1::Job job;
+  const auto refused = client.jobs->CreateJob(bounded_context().get(), limited(2.0), &job);
+  EXPECT_EQ(refused.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
+  EXPECT_THAT(refused.error_message(), HasSubstr("time_limit_s"));
+  EXPECT_THAT(refused.error_message(), HasSubstr("--max-job-time"));
+}
+
+TEST_F(TimeLimitTest, WhatIsNoTimeIsRefused) {
+  auto client = this->client();
+  for (const double seconds :
+       {-1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+    v1::Job job;
+    EXPECT_EQ(client.jobs->CreateJob(bounded_context().get(), limited(seconds), &job).error_code(),
+              grpc::StatusCode::INVALID_ARGUMENT)
+        << seconds;
+  }
+}
+
+TEST_F(TimeLimitTest, ASweepsJobsAndThoseTriedAgainHaveItsLimit) {
+  auto client = this->client();
+  auto request = sweep_of(endless_case(), kSpeed, {50.0});
+  request.mutable_sweep()->set_time_limit_s(0.5);
+  v1::Sweep sweep;
+  ASSERT_TRUE(client.sweeps->CreateSweep(bounded_context().get(), request, &sweep).ok());
+  ASSERT_EQ(sweep.jobs_size(), 1);
+  expect_out_of_time(client, sweep.jobs(0));
+  v1::RetryFailedJobsRequest retry;
+  retry.set_name(sweep.name());
+  v1::Sweep again;
+  ASSERT_TRUE(client.sweeps->RetryFailedJobs(bounded_context().get(), retry, &again).ok());
+  ASSERT_EQ(again.jobs_size(), 1);
+  EXPECT_NE(again.jobs(0), sweep.jobs(0));
+  expect_out_of_time(client, again.jobs(0));
+}
+
+}  // namespace
+}  // namespace cellcrush::testing
