@@ -17,7 +17,7 @@ using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
 // Every event as one line of JSON.
-class JsonDisplay : public WatchDisplay {
+class JobJsonDisplay : public WatchDisplay {
  public:
   void on_event(const v1::JobEvent& event) override {
     view_.apply(event);
@@ -30,7 +30,7 @@ class JsonDisplay : public WatchDisplay {
 };
 
 // A line when the state changes, and otherwise at most one a second.
-class LineDisplay : public WatchDisplay {
+class JobLineDisplay : public WatchDisplay {
  public:
   void on_event(const v1::JobEvent& event) override {
     const v1::JobState before = view_.job().state();
@@ -59,9 +59,9 @@ class LineDisplay : public WatchDisplay {
 };
 
 // Lines redrawn in place at most ten times a second, each redraw in one write.
-class LiveDisplay : public WatchDisplay {
+class JobLiveDisplay : public WatchDisplay {
  public:
-  explicit LiveDisplay(const Terminal& terminal) : terminal_(terminal) {}
+  explicit JobLiveDisplay(const Terminal& terminal) : terminal_(terminal) {}
 
   void on_event(const v1::JobEvent& event) override {
     const v1::JobState before = view_.job().state();
@@ -96,9 +96,9 @@ class LiveDisplay : public WatchDisplay {
 }  // namespace
 
 std::unique_ptr<WatchDisplay> make_watch_display(bool json, const Terminal& terminal) {
-  if (json) return std::make_unique<JsonDisplay>();
-  if (terminal.interactive) return std::make_unique<LiveDisplay>(terminal);
-  return std::make_unique<LineDisplay>();
+  if (json) return std::make_unique<JobJsonDisplay>();
+  if (terminal.interactive) return std::make_unique<JobLiveDisplay>(terminal);
+  return std::make_unique<JobLineDisplay>();
 }
 
 }  // namespace cellcrush::client
