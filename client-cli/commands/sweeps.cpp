@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cstdio>
 
 #include "case_file/case_source.h"
@@ -8,6 +7,7 @@
 #include "commands/labels.h"
 #include "commands/priority.h"
 #include "commands/resource_name.h"
+#include "commands/sweep_axis.h"
 #include "commands/time_limit.h"
 #include "commands/watch.h"
 #include "terminal/json_text.h"
@@ -28,29 +28,6 @@ struct SweepOptions {
   int max_failures = 0;
   bool watch = false;
 };
-
-// "PATH=V1,V2,..." as an axis.
-v1::SweepAxis parse_axis(const std::string& text) {
-  const auto refuse = [&](const std::string& message) {
-    throw CommandError(ExitCode::refused, "--over " + text + ": " + message);
-  };
-  const std::size_t equals = text.find('=');
-  if (equals == 0 || equals == std::string::npos)
-    refuse("expected PATH=V1,V2,..., such as loading.speed_m_per_s=50,100,200");
-  v1::SweepAxis axis;
-  axis.set_field(text.substr(0, equals));
-  std::string_view rest = std::string_view(text).substr(equals + 1);
-  while (true) {
-    const std::string_view value = rest.substr(0, rest.find(','));
-    double number = 0.0;
-    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
-    if (error != std::errc() || end != value.data() + value.size())
-      refuse(fmt::format("\"{}\" is not a number", value));
-    axis.mutable_list()->add_values(number);
-    if (value.size() == rest.size()) return axis;
-    rest.remove_prefix(value.size() + 1);
-  }
-}
 
 v1::CreateSweepRequest build_request(const SweepOptions& options) {
   v1::CreateSweepRequest request;
@@ -105,7 +82,11 @@ void add_sweep_commands(CLI::App& app, Session& session) {
   CLI::App* sweep = add_command(app, session, "sweep", "Queue a job for every combination of some fields' values",
                                 [&session, options] { return run_sweep(session, *options); });
   add_case_options(*sweep, options->scene);
-  sweep->add_option("--over", options->axes, "PATH=V1,V2,...: the values that a field takes")
+  sweep
+      ->add_option("--over", options->axes,
+                   "The values that a field takes, may be repeated: PATH=V1,V2,...; PATH=FIRST:LAST:COUNT, evenly "
+                   "spaced, or with "
+                   ":log behind it in the logarithm; PATH=seeds:N, 1 to N")
       ->required()
       ->allow_extra_args(false);
   sweep->add_flag("--watch", options->watch, "Follow its jobs to their ends and print the table");

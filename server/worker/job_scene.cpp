@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "cellcrush/simulation.h"
 #include "translate/case_to_spec.h"
 
 namespace cellcrush::worker {

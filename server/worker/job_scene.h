@@ -2,8 +2,11 @@
 
 #include <memory>
 
-#include "cellcrush/simulation.h"
 #include "worker/report.pb.h"
+
+namespace cellcrush {
+struct Scene;
+}
 
 namespace cellcrush::worker {
 

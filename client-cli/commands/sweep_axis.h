@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "cellcrush/v1/sweep.pb.h"
+
+namespace cellcrush::client {
+
+/// What `--over` says of a field: PATH=V1,V2,... (a list), PATH=FIRST:LAST:COUNT (evenly spaced),
+/// PATH=FIRST:LAST:COUNT:log (in the logarithm) or PATH=seeds:N (1 to N). Throws CommandError.
+v1::SweepAxis parse_axis(const std::string& text);
+
+}  // namespace cellcrush::client
