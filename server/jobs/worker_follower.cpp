@@ -10,7 +10,6 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
-#include <thread>
 
 #include "store/durable_file.h"
 #include "worker/claim.h"
@@ -24,7 +23,7 @@ constexpr std::chrono::seconds kToCloseTheResult{25};
 constexpr std::chrono::seconds kToLeaveTheJob{20};
 constexpr std::chrono::seconds kToEndAfterTheLastWord{5};
 constexpr int kLookAgain = 500;  // ms
-constexpr std::chrono::milliseconds kGather{20};
+constexpr int kGather = 50;      // ms
 
 const std::filesystem::path& existing(const std::filesystem::path& path) {
   const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
@@ -99,11 +98,11 @@ WorkerExit WorkerFollower::follow(WorkerProcess& process) {
 }
 
 void WorkerFollower::wait(const WorkerProcess& process) const {
-  std::array<pollfd, 3> waiting = {pollfd{process.descriptor(), POLLIN, 0}, pollfd{changes_, POLLIN, 0},
-                                   pollfd{wishes_, POLLIN, 0}};
+  std::array<pollfd, 3> waiting = {pollfd{process.descriptor(), POLLIN, 0}, pollfd{wishes_, POLLIN, 0},
+                                   pollfd{changes_, POLLIN, 0}};
   poll(waiting.data(), waiting.size(), kLookAgain);
-  // What a worker says in the next moment is read together.
-  if (waiting[1].revents != 0) std::this_thread::sleep_for(kGather);
+  // What a worker says in the next moment is read together, unless it ends.
+  if (waiting[2].revents != 0) poll(waiting.data(), 2, kGather);
   std::array<char, 4096> ignored{};
   while (read(changes_, ignored.data(), ignored.size()) > 0) continue;
   eventfd_t none = 0;

@@ -16,7 +16,7 @@
 namespace cellcrush::store {
 namespace {
 
-constexpr std::chrono::milliseconds kGatherTime{100};
+constexpr std::chrono::milliseconds kGatherTime{200};
 
 void apply(const StateChange& change, v1::Job& job) {
   const auto now = google::protobuf::util::TimeUtil::GetCurrentTime();
@@ -35,17 +35,11 @@ void apply(const StateChange& change, v1::Job& job) {
 
 }  // namespace
 
-Journal::Journal(const std::filesystem::path& path, Durable on_durable, Committed on_commit)
-    : on_durable_(std::move(on_durable)), on_commit_(std::move(on_commit)), database_(path) {
+Journal::Journal(const std::filesystem::path& path, Durable on_durable, GroupCommit::Committed on_commit)
+    : on_durable_(std::move(on_durable)), database_(path), writes_(database_, std::move(on_commit)) {
   prepare_journal(database_);
   mend_jobs(database_);
   committer_ = std::thread([this] { commit_gathered_regularly(); });
-}
-
-void Journal::commit(Transaction& transaction) {
-  const auto start = std::chrono::steady_clock::now();
-  transaction.commit();
-  if (on_commit_) on_commit_(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
 }
 
 Journal::~Journal() {
@@ -59,20 +53,15 @@ Journal::~Journal() {
 
 void Journal::change_state(std::int64_t job, const StateChange& change) {
   std::vector<std::int64_t> stopped;
-  {
-    const std::scoped_lock lock(write_mutex_);
-    Gathered samples = take_gathered(job);
-    try {
-      Transaction transaction(database_);
-      insert_samples(job, samples[job]);
-      write_change(job, change);
-      if (change.state == v1::FAILED) stopped = stop_failing_sweep(job);
-      commit(transaction);
-    } catch (...) {
-      give_back(std::move(samples));
-      throw;
-    }
-  }
+  Gathered samples;
+  writes_.run(
+      [&] {
+        samples = take_gathered(job);
+        insert_samples(job, samples[job]);
+        write_change(job, change);
+        if (change.state == v1::FAILED) stopped = stop_failing_sweep(job);
+      },
+      [&] { give_back(std::move(samples)); });
   on_durable_(job);
   for (const std::int64_t other : stopped) on_durable_(other);
 }
@@ -107,9 +96,10 @@ void Journal::append_sample(std::int64_t job, const v1::Sample& sample) {
 }
 
 void Journal::set_mesh(std::int64_t job, const v1::Mesh& mesh) {
-  const std::scoped_lock lock(write_mutex_);
-  Statement insert(database_, "INSERT OR REPLACE INTO meshes (job, mesh) VALUES (?1, ?2)");
-  insert.bind(1, job).bind_blob(2, mesh.SerializeAsString()).run();
+  writes_.run([&] {
+    Statement insert(database_, "INSERT OR REPLACE INTO meshes (job, mesh) VALUES (?1, ?2)");
+    insert.bind(1, job).bind_blob(2, mesh.SerializeAsString()).run();
+  });
 }
 
 void Journal::commit_gathered_regularly() {
@@ -131,20 +121,17 @@ void Journal::commit_gathered_regularly() {
 }
 
 void Journal::commit_gathered() {
-  Gathered samples;
   {
-    const std::scoped_lock lock(write_mutex_);
-    samples = take_gathered(std::nullopt);
-    if (samples.empty()) return;
-    try {
-      Transaction transaction(database_);
-      for (const auto& [job, of_job] : samples) insert_samples(job, of_job);
-      commit(transaction);
-    } catch (...) {
-      give_back(std::move(samples));
-      throw;
-    }
+    const std::scoped_lock lock(gather_mutex_);
+    if (gathered_.empty()) return;
   }
+  Gathered samples;
+  writes_.run(
+      [&] {
+        samples = take_gathered(std::nullopt);
+        for (const auto& [job, of_job] : samples) insert_samples(job, of_job);
+      },
+      [&] { give_back(std::move(samples)); });
   for (const auto& [job, of_job] : samples) on_durable_(job);
 }
 

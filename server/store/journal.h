@@ -14,6 +14,7 @@
 #include "cellcrush/v1/event.pb.h"
 #include "cellcrush/v1/job.pb.h"
 #include "cellcrush/v1/sweep.pb.h"
+#include "store/group_commit.h"
 #include "store/queued_job.h"
 #include "store/sqlite.h"
 
@@ -43,10 +44,7 @@ class Journal {
   /// journal.
   using Durable = std::function<void(std::int64_t job)>;
 
-  /// Told how many seconds a commit took, from the thread that committed.
-  using Committed = std::function<void(double seconds)>;
-
-  Journal(const std::filesystem::path& path, Durable on_durable, Committed on_commit = {});
+  Journal(const std::filesystem::path& path, Durable on_durable, GroupCommit::Committed on_commit = {});
   /// Commits what is gathered.
   ~Journal();
   Journal(const Journal&) = delete;
@@ -93,7 +91,7 @@ class Journal {
   /// of its jobs that are PENDING are CANCELLED with it.
   void change_state(std::int64_t job, const StateChange& change);
 
-  /// Gathers a sample; durable within about 100 ms. Never waits for the disk.
+  /// Gathers a sample; durable within about 200 ms. Never waits for the disk.
   void append_sample(std::int64_t job, const v1::Sample& sample);
 
   void set_mesh(std::int64_t job, const v1::Mesh& mesh);
@@ -101,7 +99,7 @@ class Journal {
  private:
   void commit_gathered_regularly();
   void commit_gathered();
-  // These need write_mutex_, and a transaction where they write.
+  // These are for bodies of writes_.
   std::optional<std::int64_t> find_request(const std::string& collection, const std::string& request_id,
                                            const std::string& request_hash);
   void write_change(std::int64_t job, const StateChange& change);
@@ -116,15 +114,11 @@ class Journal {
   Gathered take_gathered(std::optional<std::int64_t> job);
   void give_back(Gathered samples);
 
-  /// Commits and tells how long it took.
-  void commit(Transaction& transaction);
-
   Durable on_durable_;
-  Committed on_commit_;
-  std::mutex write_mutex_;   ///< the connection; taken before gather_mutex_
-  std::mutex gather_mutex_;  ///< gathered_ and stopping_
   Database database_;
-  Gathered gathered_;  ///< samples that are not durable yet, as bytes, by job
+  GroupCommit writes_;       ///< all that is done with database_
+  std::mutex gather_mutex_;  ///< gathered_ and stopping_
+  Gathered gathered_;        ///< samples that are not durable yet, as bytes, by job
   std::condition_variable stop_signal_;
   bool stopping_ = false;
   std::thread committer_;

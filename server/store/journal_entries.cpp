@@ -12,21 +12,19 @@ namespace cellcrush::store {
 Journal::Created Journal::create_job(v1::Job job, const std::string& request_id, const std::string& request_hash,
                                      std::int64_t element_steps) {
   Created created;
-  {
-    const std::scoped_lock lock(write_mutex_);
-    Transaction transaction(database_);
-    if (const auto before = find_request("jobs", request_id, request_hash)) return {*before, false};
-    created.job = JobInserter(database_).insert(std::move(job), {request_id, request_hash, {}, element_steps});
-    commit(transaction);
-  }
-  on_durable_(created.job);
+  writes_.run([&] {
+    if (const auto before = find_request("jobs", request_id, request_hash)) {
+      created = {*before, false};
+    } else {
+      created.job = JobInserter(database_).insert(std::move(job), {request_id, request_hash, {}, element_steps});
+    }
+  });
+  if (created.is_new) on_durable_(created.job);
   return created;
 }
 
 void Journal::delete_job(std::int64_t job) {
-  {
-    const std::scoped_lock lock(write_mutex_);
-    Transaction transaction(database_);
+  writes_.run([&] {
     {
       Statement read(database_, "SELECT state FROM jobs WHERE number = ?1");
       if (!read.bind(1, job).step())
@@ -42,25 +40,25 @@ void Journal::delete_job(std::int64_t job) {
                             "DELETE FROM sweep_jobs WHERE job = ?1", "DELETE FROM jobs WHERE number = ?1",
                             "INSERT INTO deleted_jobs (number) VALUES (?1)"})
       Statement(database_, sql).bind(1, job).run();
-    commit(transaction);
-  }
+  });
   on_durable_(job);
 }
 
 void Journal::note_folder_removed(std::int64_t job) {
-  const std::scoped_lock lock(write_mutex_);
-  Statement(database_, "DELETE FROM deleted_jobs WHERE number = ?1").bind(1, job).run();
+  writes_.run([&] { Statement(database_, "DELETE FROM deleted_jobs WHERE number = ?1").bind(1, job).run(); });
 }
 
 std::optional<std::int64_t> Journal::find_job_request(const std::string& request_id, const std::string& request_hash) {
-  const std::scoped_lock lock(write_mutex_);
-  return find_request("jobs", request_id, request_hash);
+  std::optional<std::int64_t> found;
+  writes_.run([&] { found = find_request("jobs", request_id, request_hash); });
+  return found;
 }
 
 std::optional<std::int64_t> Journal::find_sweep_request(const std::string& request_id,
                                                         const std::string& request_hash) {
-  const std::scoped_lock lock(write_mutex_);
-  return find_request("sweeps", request_id, request_hash);
+  std::optional<std::int64_t> found;
+  writes_.run([&] { found = find_request("sweeps", request_id, request_hash); });
+  return found;
 }
 
 std::optional<std::int64_t> Journal::find_request(const std::string& collection, const std::string& request_id,

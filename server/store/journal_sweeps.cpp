@@ -64,10 +64,11 @@ std::vector<Retry> jobs_to_retry(const Database& database, std::int64_t sweep) {
 Journal::CreatedSweep Journal::create_sweep(v1::Sweep sweep, const std::vector<SweepJob>& jobs,
                                             const std::string& request_id, const std::string& request_hash) {
   CreatedSweep created;
-  {
-    const std::scoped_lock lock(write_mutex_);
-    Transaction transaction(database_);
-    if (const auto before = find_request("sweeps", request_id, request_hash)) return {*before, {}, false};
+  writes_.run([&] {
+    if (const auto before = find_request("sweeps", request_id, request_hash)) {
+      created = {*before, {}, false};
+      return;
+    }
     *sweep.mutable_create_time() = google::protobuf::util::TimeUtil::GetCurrentTime();
     Statement insert(database_,
                      "INSERT INTO sweeps (sweep, max_parallel, request_id, request_hash, max_failures) "
@@ -89,17 +90,14 @@ Journal::CreatedSweep Journal::create_sweep(v1::Sweep sweep, const std::vector<S
       join.bind(1, created.sweep).bind(2, position).bind(3, created.jobs.back());
       join.bind_blob(4, point.SerializeAsString()).run();
     }
-    commit(transaction);
-  }
+  });
   for (const std::int64_t job : created.jobs) on_durable_(job);
   return created;
 }
 
 std::vector<QueuedJob> Journal::retry_failed(std::int64_t sweep) {
   std::vector<QueuedJob> retried;
-  {
-    const std::scoped_lock lock(write_mutex_);
-    Transaction transaction(database_);
+  writes_.run([&] {
     JobInserter inserter(database_);
     Statement replace(database_, "UPDATE sweep_jobs SET job = ?2, stopped = 0 WHERE job = ?1");
     for (const auto& failed : jobs_to_retry(database_, sweep)) {
@@ -112,8 +110,7 @@ std::vector<QueuedJob> Journal::retry_failed(std::int64_t sweep) {
       replace.bind(1, failed.queued.job).bind(2, queued.job).run();
       retried.push_back(queued);
     }
-    commit(transaction);
-  }
+  });
   for (const auto& job : retried) on_durable_(job.job);
   return retried;
 }
@@ -150,17 +147,14 @@ void Journal::cancel_waiting(const std::vector<std::int64_t>& jobs) {
   StateChange cancelled;
   cancelled.state = v1::CANCELLED;
   std::vector<std::int64_t> changed;
-  {
-    const std::scoped_lock lock(write_mutex_);
-    Transaction transaction(database_);
+  writes_.run([&] {
     for (const std::int64_t job : jobs) {
       Statement read(database_, "SELECT 1 FROM jobs WHERE number = ?1 AND state = ?2");
       if (!read.bind(1, job).bind(2, v1::PENDING).step()) continue;
       write_change(job, cancelled);
       changed.push_back(job);
     }
-    commit(transaction);
-  }
+  });
   for (const std::int64_t job : changed) on_durable_(job);
 }
 

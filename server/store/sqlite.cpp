@@ -34,6 +34,8 @@ void Database::execute(const char* sql) {
 
 std::int64_t Database::last_number() const { return sqlite3_last_insert_rowid(handle_.get()); }
 
+bool Database::in_transaction() const { return sqlite3_get_autocommit(handle_.get()) == 0; }
+
 void Database::Close::operator()(sqlite3* handle) const { sqlite3_close_v2(handle); }
 
 Statement::Statement(const Database& database, std::string_view sql) : database_(database.raw()) {

@@ -24,6 +24,9 @@ class Database {
   /// Number of the row that was inserted last.
   [[nodiscard]] std::int64_t last_number() const;
 
+  /// Whether a transaction is open: a failure may have ended it.
+  [[nodiscard]] bool in_transaction() const;
+
   [[nodiscard]] sqlite3* raw() const { return handle_.get(); }
 
  private:

@@ -1,0 +1,63 @@
+#include "store/group_commit.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+namespace cellcrush::store {
+
+GroupCommit::GroupCommit(Database& database, Committed on_commit)
+    : database_(database), on_commit_(std::move(on_commit)) {}
+
+void GroupCommit::run(const Step& body, const Step& undo) {
+  Write own{body, undo, nullptr};
+  std::unique_lock lock(mutex_);
+  waiting_.push_back(&own);
+  changed_.wait(lock, [&] { return own.done || !committing_; });
+  if (!own.done) {
+    // Commits for all who came while another one did.
+    committing_ = true;
+    const auto batch = std::exchange(waiting_, {});
+    lock.unlock();
+    commit(batch);
+    lock.lock();
+    committing_ = false;
+    for (Write* write : batch) write->done = true;
+    changed_.notify_all();
+  }
+  if (own.error) std::rethrow_exception(own.error);
+}
+
+void GroupCommit::commit(const std::vector<Write*>& batch) {
+  try {
+    Transaction transaction(database_);
+    for (Write* write : batch) do_write(*write);
+    const auto start = std::chrono::steady_clock::now();
+    transaction.commit();
+    if (on_commit_) on_commit_(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  } catch (...) {
+    for (auto write = batch.rbegin(); write != batch.rend(); ++write) fail(**write, std::current_exception());
+  }
+}
+
+// A body that fails takes back what it wrote, and no more.
+void GroupCommit::do_write(Write& write) {
+  database_.execute("SAVEPOINT own");
+  try {
+    write.body();
+  } catch (...) {
+    // A full disk ends the whole transaction.
+    if (!database_.in_transaction()) throw;
+    database_.execute("ROLLBACK TO own");
+    fail(write, std::current_exception());
+  }
+  database_.execute("RELEASE own");
+}
+
+void GroupCommit::fail(Write& write, std::exception_ptr error) {
+  if (write.error) return;
+  write.error = std::move(error);
+  if (write.undo) write.undo();
+}
+
+}  // namespace cellcrush::store

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <condition_variable>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <vector>
+
+#include "store/sqlite.h"
+
+namespace cellcrush::store {
+
+/// Lets several threads write on one connection and makes what they write meanwhile durable with one commit: waiting for the disk
+/// takes far longer than writing. Thread-safe.
+class GroupCommit {
+ public:
+  /// Told how many seconds a commit took, from the thread that committed.
+  using Committed = std::function<void(double seconds)>;
+  using Step = std::function<void()>;
+
+  /// `database` outlives this object, and nothing else writes on it.
+  explicit GroupCommit(Database& database, Committed on_commit = {});
+  GroupCommit(const GroupCommit&) = delete;
+  GroupCommit& operator=(const GroupCommit&) = delete;
+
+  /// Runs `body`, whose statements are done one writer at a time and in a transaction, by this thread or another one; returns when
+  /// they are durable. What it throws, or what the commit fails with, is thrown here; nothing of this writer's is then in the
+  /// database, and `undo` was called, in the reverse order of the bodies. A body must not call run.
+  void run(const Step& body, const Step& undo = {});
+
+ private:
+  struct Write {
+    const Step& body;
+    const Step& undo;
+    std::exception_ptr error;
+    bool done = false;
+  };
+
+  void commit(const std::vector<Write*>& batch);
+  void do_write(Write& write);
+  static void fail(Write& write, std::exception_ptr error);
+
+  Database& database_;
+  Committed on_commit_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<Write*> waiting_;
+  bool committing_ = false;
+};
+
+}  // namespace cellcrush::store

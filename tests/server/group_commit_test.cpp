@@ -1,0 +1,102 @@
+#include "store/group_commit.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <stdexcept>
+#include <thread>
+
+#include "error.h"
+#include "server/temporary_folder.h"
+
+namespace cellcrush::store {
+namespace {
+
+class GroupCommitTest : public ::testing::Test {
+ protected:
+  GroupCommitTest() { database_.execute("CREATE TABLE numbers (number INTEGER PRIMARY KEY)"); }
+
+  void insert(int number) { Statement(database_, "INSERT INTO numbers VALUES (?1)").bind(1, number).run(); }
+
+  // What another connection sees, which is what is committed.
+  [[nodiscard]] std::int64_t count() const {
+    const Database other(folder_.path() / "database");
+    Statement read(other, "SELECT COUNT(*) FROM numbers");
+    read.step();
+    return read.integer(0);
+  }
+
+  // The first commit takes a while, so that all writers who come meanwhile wait for the second.
+  GroupCommit::Committed slow_at_first() {
+    return [this](double) {
+      if (++commits_ == 1) std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    };
+  }
+
+  testing::TemporaryFolder folder_;
+  Database database_{folder_.path() / "database"};
+  std::atomic<int> commits_ = 0;
+};
+
+TEST_F(GroupCommitTest, WhatIsWrittenDuringACommitIsCommittedTogetherAndSeenOnReturn) {
+  GroupCommit writes(database_, slow_at_first());
+  std::vector<std::jthread> writers;
+  writers.emplace_back([&] { writes.run([&] { insert(0); }); });
+  while (commits_ == 0) std::this_thread::yield();
+  for (int i = 1; i <= 20; ++i) {
+    writers.emplace_back([&, i] {
+      writes.run([&] { insert(i); });
+      EXPECT_EQ(count(), 21);
+    });
+  }
+  writers.clear();
+  EXPECT_EQ(commits_, 2);
+}
+
+TEST_F(GroupCommitTest, OneThatFailsTakesBackItsOwnAndTheOthersStay) {
+  GroupCommit writes(database_, slow_at_first());
+  std::atomic<int> undone = 0;
+  std::vector<std::jthread> writers;
+  writers.emplace_back([&] { writes.run([&] { insert(0); }); });
+  while (commits_ == 0) std::this_thread::yield();
+  for (int i = 1; i <= 6; ++i) {
+    writers.emplace_back([&, i] {
+      const auto write = [&] {
+        writes.run(
+            [&] {
+              insert(i);
+              if (i % 2 == 0) throw std::runtime_error("no");
+              if (i == 3) insert(0);
+            },
+            [&] { ++undone; });
+      };
+      if (i % 2 == 0) {
+        EXPECT_THROW(write(), std::runtime_error);
+      } else if (i == 3) {
+        EXPECT_THROW(write(), ServiceError) << "The number is there already.";
+      } else {
+        write();
+      }
+    });
+  }
+  writers.clear();
+  EXPECT_EQ(commits_, 2);
+  EXPECT_EQ(count(), 3) << "0, 1 and 5.";
+  EXPECT_EQ(undone, 4);
+}
+
+TEST_F(GroupCommitTest, WhenTheCommitFailsItFailsIsUndoneAndTheNextOneGoesOn) {
+  GroupCommit writes(database_);
+  // A deferred constraint is looked at by the commit.
+  database_.execute("CREATE TABLE children (number INTEGER REFERENCES numbers DEFERRABLE INITIALLY DEFERRED)");
+  int undone = 0;
+  EXPECT_THROW(writes.run([&] { database_.execute("INSERT INTO children VALUES (7)"); }, [&] { ++undone; }),
+               ServiceError);
+  EXPECT_EQ(undone, 1);
+  writes.run([&] { insert(1); });
+  EXPECT_EQ(count(), 1);
+}
+
+}  // namespace
+}  // namespace cellcrush::store
