@@ -45,6 +45,7 @@ grpc::Status JobsService::CreateJob(grpc::ServerContext* context, const v1::Crea
   return answer([&] {
     check_request(request->request_id(), request->labels());
     check_priority(request->priority(), "priority");
+    check_size("case", request->case_().ByteSizeLong(), kLargestCase);
     const auto check = translate::check_case(request->case_());
     if (check.response.problems_size() > 0) return status_of(check.response.problems());
     v1::Job job;
@@ -92,11 +93,9 @@ grpc::Status JobsService::ListJobs(grpc::ServerContext*, const v1::ListJobsReque
     const auto page = read_page(request->page_size(), request->page_token(), question);
     auto stored = parts_.reader.list_jobs(filter, newest_first, page.after, page.size + 1);
     std::int64_t last = 0;
-    std::size_t bytes = 0;
+    auto room = page.room();
     for (auto& job : stored) {
-      bytes += job.job.ByteSizeLong();
-      const bool full = response->jobs_size() == page.size || (bytes > kPageBytes && response->jobs_size() > 0);
-      if (full) {
+      if (!room.take(job.job.ByteSizeLong())) {
         response->set_next_page_token(page_token(last, question));
         break;
       }
@@ -161,8 +160,12 @@ grpc::ServerWriteReactor<v1::JobEvent>* JobsService::WatchJob(grpc::CallbackServ
 grpc::Status JobsService::GetHistory(grpc::ServerContext*, const v1::GetHistoryRequest* request,
                                      v1::GetHistoryResponse* response) {
   return answer([&] {
-    for (auto& sample : parts_.reader.samples(find(request->name()).number))
-      *response->add_samples() = std::move(sample);
+    const std::int64_t job = find(request->name()).number;
+    const std::string question = "history of " + jobs::name_of(job);
+    const auto page = read_full_page(request->page_size(), request->page_token(), question);
+    auto stored = parts_.reader.samples(job, page.after, page.room());
+    for (auto& sample : stored.samples) *response->add_samples() = std::move(sample);
+    if (stored.has_more) response->set_next_page_token(page_token(stored.last_sequence, question));
     return grpc::Status::OK;
   });
 }

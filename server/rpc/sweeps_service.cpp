@@ -67,6 +67,7 @@ grpc::Status SweepsService::CreateSweep(grpc::ServerContext* context, const v1::
                                         v1::Sweep* response) {
   return answer([&] {
     auto request = without_output(*given);
+    check_size("sweep", request.sweep().ByteSizeLong(), kLargestCase);
     check_request(request.request_id(), request.sweep().labels(), "sweep.");
     check_numbers(request.sweep());
     const std::string owner = parts_.gate.caller_of(*context).name;
@@ -99,12 +100,11 @@ grpc::Status SweepsService::ListSweeps(grpc::ServerContext*, const v1::ListSweep
   return answer([&] {
     const auto page = read_page(request->page_size(), request->page_token(), "sweeps");
     const std::int64_t before = page.after == 0 ? std::numeric_limits<std::int64_t>::max() : page.after;
-    std::size_t bytes = 0;
+    auto room = page.room();
     std::int64_t last = 0;
     for (const std::int64_t number : parts_.sweeps.list_sweeps(before, page.size + 1)) {
       auto sweep = parts_.sweeps.find_sweep(number);
-      bytes += sweep->ByteSizeLong();
-      if (response->sweeps_size() == page.size || (bytes > kPageBytes && response->sweeps_size() > 0)) {
+      if (!room.take(sweep->ByteSizeLong())) {
         response->set_next_page_token(page_token(last, "sweeps"));
         break;
       }
@@ -154,8 +154,14 @@ grpc::Status SweepsService::GetSweepTable(grpc::ServerContext*, const v1::GetSwe
                                           v1::SweepTable* response) {
   return answer([&] {
     const auto found = find(request->name());
-    for (auto& field : jobs::swept_fields(found.sweep)) response->add_fields(std::move(field));
-    for (auto& row : parts_.sweeps.rows(found.number)) *response->add_rows() = std::move(row);
+    const std::string question = "table of " + found.sweep.name();
+    const auto page = read_full_page(request->page_size(), request->page_token(), question);
+    if (page.after == 0) {
+      for (auto& field : jobs::swept_fields(found.sweep)) response->add_fields(std::move(field));
+    }
+    auto stored = parts_.sweeps.rows(found.number, page.after, page.room());
+    for (auto& row : stored.rows) *response->add_rows() = std::move(row);
+    if (stored.has_more) response->set_next_page_token(page_token(stored.last_point, question));
     return grpc::Status::OK;
   });
 }
