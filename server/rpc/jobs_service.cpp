@@ -59,9 +59,10 @@ grpc::Status JobsService::CreateJob(grpc::ServerContext* context, const v1::Crea
     }
     const std::int64_t element_steps = check.response.element_count() * check.response.step_count();
     const std::string hash = payload_hash(*request, job.owner());
-    if (!parts_.journal.find_job_request(request->request_id(), hash))
+    const auto admit = [&] {
       parts_.admission.admit(parts_.scheduler.waiting_count(), 1, check.response.predicted_memory_bytes());
-    const auto created = parts_.journal.create_job(std::move(job), request->request_id(), hash, element_steps);
+    };
+    const auto created = parts_.journal.create_job(std::move(job), request->request_id(), hash, element_steps, admit);
     if (created.is_new) {
       store::QueuedJob queued{created.job, created.job, request->priority(), element_steps};
       parts_.scheduler.enqueue({queued});

@@ -79,9 +79,10 @@ grpc::Status SweepsService::CreateSweep(grpc::ServerContext* context, const v1::
       *response = request.sweep();
       return grpc::Status::OK;
     }
-    if (!parts_.journal.find_sweep_request(request.request_id(), hash))
+    const auto admit = [&] {
       parts_.admission.admit(parts_.scheduler.waiting_count(), plan.jobs.size(), plan.largest_memory_bytes);
-    const auto created = parts_.journal.create_sweep(request.sweep(), plan.jobs, request.request_id(), hash);
+    };
+    const auto created = parts_.journal.create_sweep(request.sweep(), plan.jobs, request.request_id(), hash, admit);
     if (created.is_new) parts_.scheduler.enqueue(queued_jobs(created, plan, request.sweep()));
     *response = find(jobs::sweep_name_of(created.sweep)).sweep;
     return grpc::Status::OK;

@@ -51,6 +51,9 @@ class JournalReader {
   /// The jobs in a state, oldest first, with what the scheduler asks of them.
   std::vector<QueuedJob> queued_jobs(v1::JobState state);
 
+  /// The same of one job; nothing unless it is in that state.
+  std::optional<QueuedJob> queued_job(std::int64_t job, v1::JobState state);
+
   /// States (without their cases) and samples behind `after`, in order. Ends before one that cannot be read; throws data_loss
   /// when that is the first.
   std::vector<v1::JobEvent> events(std::int64_t job, std::int64_t after, int limit);

@@ -128,6 +128,20 @@ TEST_F(JournalTest, SamplesAreReadInPartsThatMeet) {
   EXPECT_FALSE(reader_->samples(job, 0, {10, 1000}).has_more) << "The end of the list is seen.";
 }
 
+TEST_F(JournalTest, WhatIsNewIsAdmittedOnceAndNotMadeWhenItIsRefused) {
+  int asked = 0;
+  const auto admit = [&asked] { ++asked; };
+  const auto refuse = [] { throw ServiceError(ServiceError::Kind::exhausted, "full"); };
+  EXPECT_THROW(journal_->create_job({}, "id", "hash", 0, refuse), ServiceError);
+  EXPECT_THROW(journal_->create_sweep({}, {SweepJob()}, "id", "hash", refuse), ServiceError);
+  EXPECT_TRUE(reader_->list_jobs({}, true, 0, 10).empty());
+  EXPECT_TRUE(journal_->create_job({}, "id", "hash", 0, admit).is_new);
+  EXPECT_TRUE(journal_->create_sweep({}, {SweepJob()}, "id", "hash", admit).is_new);
+  EXPECT_EQ(asked, 2);
+  EXPECT_FALSE(journal_->create_job({}, "id", "hash", 0, refuse).is_new) << "What is there needs no room.";
+  EXPECT_FALSE(journal_->create_sweep({}, {SweepJob()}, "id", "hash", refuse).is_new);
+}
+
 TEST_F(JournalTest, ARequestIdMakesOneJobAndNoOtherRequestMayUseIt) {
   const auto first = create("id", "hash");
   reopen();
@@ -280,6 +294,11 @@ TEST_F(SweepJournalTest, ASweepSurvivesReopening) {
   EXPECT_EQ(waiting[0].job, made.jobs[1]);
   EXPECT_EQ(waiting[0].sweep, made.sweep);
   EXPECT_EQ(waiting[0].max_parallel, 2);
+  const auto one = reader_->queued_job(made.jobs[1], v1::PENDING);
+  ASSERT_TRUE(one);
+  EXPECT_EQ(one->job, made.jobs[1]);
+  EXPECT_EQ(one->max_parallel, 2);
+  EXPECT_FALSE(reader_->queued_job(made.jobs[0], v1::PENDING)) << "It runs.";
   const auto part = sweeps.rows(made.sweep, 1, {1, 1000});
   ASSERT_EQ(part.rows.size(), 1U);
   EXPECT_EQ(part.rows[0].values(0), 100.0);
