@@ -167,6 +167,6 @@ int main(int argc, char** argv) {
   options.checkpoint_interval = std::chrono::milliseconds(std::llround(1000.0 * checkpoint_seconds));
   const sigset_t signals = block_signals();
   spdlog::set_default_logger(spdlog::stderr_color_mt("cellcrushd"));
-  if (log_format == "json") spdlog::set_formatter(cellcrush::make_json_formatter());
+  spdlog::set_formatter(log_format == "json" ? cellcrush::make_json_formatter() : cellcrush::make_text_formatter());
   return serve(options, signals);
 }

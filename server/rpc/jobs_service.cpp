@@ -5,6 +5,7 @@
 
 #include "jobs/deletion.h"
 #include "jobs/resource_name.h"
+#include "rpc/change_log.h"
 #include "rpc/create_request.h"
 #include "rpc/error_table.h"
 #include "rpc/job_query.h"
@@ -62,8 +63,10 @@ grpc::Status JobsService::CreateJob(grpc::ServerContext* context, const v1::Crea
     const auto admit = [&] {
       parts_.admission.admit(parts_.scheduler.waiting_count(), 1, check.response.predicted_memory_bytes());
     };
+    const std::string owner = job.owner();
     const auto created = parts_.journal.create_job(std::move(job), request->request_id(), hash, element_steps, admit);
     if (created.is_new) {
+      log_change(jobs::name_of(created.job), "made", owner, request->request_id());
       store::QueuedJob queued{created.job, created.job, request->priority(), element_steps};
       parts_.scheduler.enqueue({queued});
     }
@@ -111,7 +114,9 @@ grpc::Status JobsService::ListJobs(grpc::ServerContext*, const v1::ListJobsReque
 grpc::Status JobsService::CancelJob(grpc::ServerContext* context, const v1::CancelJobRequest* request,
                                     v1::Job* response) {
   return answer([&] {
-    parts_.scheduler.cancel(find_own(*context, request->name()));
+    const std::int64_t job = find_own(*context, request->name());
+    parts_.scheduler.cancel(job);
+    log_change(jobs::name_of(job), "cancelled", parts_.gate.caller_of(*context).name);
     auto stored = find(request->name());
     add_progress(stored);
     *response = std::move(stored.job);
@@ -122,7 +127,9 @@ grpc::Status JobsService::CancelJob(grpc::ServerContext* context, const v1::Canc
 grpc::Status JobsService::SuspendJob(grpc::ServerContext* context, const v1::SuspendJobRequest* request,
                                      v1::Job* response) {
   return answer([&] {
-    parts_.scheduler.suspend(find_own(*context, request->name()), [context] { return context->IsCancelled(); });
+    const std::int64_t job = find_own(*context, request->name());
+    parts_.scheduler.suspend(job, [context] { return context->IsCancelled(); });
+    log_change(jobs::name_of(job), "suspended", parts_.gate.caller_of(*context).name);
     *response = find(request->name()).job;
     return grpc::Status::OK;
   });
@@ -131,7 +138,9 @@ grpc::Status JobsService::SuspendJob(grpc::ServerContext* context, const v1::Sus
 grpc::Status JobsService::ResumeJob(grpc::ServerContext* context, const v1::ResumeJobRequest* request,
                                     v1::Job* response) {
   return answer([&] {
-    parts_.scheduler.resume(find_own(*context, request->name()));
+    const std::int64_t job = find_own(*context, request->name());
+    parts_.scheduler.resume(job);
+    log_change(jobs::name_of(job), "resumed", parts_.gate.caller_of(*context).name);
     *response = find(request->name()).job;
     return grpc::Status::OK;
   });
@@ -140,7 +149,9 @@ grpc::Status JobsService::ResumeJob(grpc::ServerContext* context, const v1::Resu
 grpc::Status JobsService::DeleteJob(grpc::ServerContext* context, const v1::DeleteJobRequest* request,
                                     v1::DeleteJobResponse*) {
   return answer([&] {
-    jobs::delete_job(find_own(*context, request->name()), parts_.journal, parts_.folder);
+    const std::int64_t job = find_own(*context, request->name());
+    jobs::delete_job(job, parts_.journal, parts_.folder);
+    log_change(jobs::name_of(job), "deleted", parts_.gate.caller_of(*context).name);
     return grpc::Status::OK;
   });
 }

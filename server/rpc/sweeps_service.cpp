@@ -7,6 +7,7 @@
 #include "jobs/resource_name.h"
 #include "jobs/sweep_plan.h"
 #include "jobs/sweep_points.h"
+#include "rpc/change_log.h"
 #include "rpc/create_request.h"
 #include "rpc/error_table.h"
 #include "rpc/page.h"
@@ -83,8 +84,12 @@ grpc::Status SweepsService::CreateSweep(grpc::ServerContext* context, const v1::
       parts_.admission.admit(parts_.scheduler.waiting_count(), plan.jobs.size(), plan.largest_memory_bytes);
     };
     const auto created = parts_.journal.create_sweep(request.sweep(), plan.jobs, request.request_id(), hash, admit);
-    if (created.is_new) parts_.scheduler.enqueue(queued_jobs(created, plan, request.sweep()));
-    *response = find(jobs::sweep_name_of(created.sweep)).sweep;
+    const std::string name = jobs::sweep_name_of(created.sweep);
+    if (created.is_new) {
+      log_change(name, "made with " + std::to_string(plan.jobs.size()) + " jobs", owner, request.request_id());
+      parts_.scheduler.enqueue(queued_jobs(created, plan, request.sweep()));
+    }
+    *response = find(name).sweep;
     return grpc::Status::OK;
   });
 }
@@ -122,6 +127,7 @@ grpc::Status SweepsService::CancelSweep(grpc::ServerContext* context, const v1::
     const std::int64_t sweep = find_own(*context, request->name());
     const auto jobs = parts_.sweeps.jobs_of(sweep);
     parts_.scheduler.cancel_all(jobs);
+    log_change(jobs::sweep_name_of(sweep), "cancelled", parts_.gate.caller_of(*context).name);
     *response = find(request->name()).sweep;
     return grpc::Status::OK;
   });
@@ -132,7 +138,10 @@ grpc::Status SweepsService::RetryFailedJobs(grpc::ServerContext* context, const 
   return answer([&] {
     const std::int64_t sweep = find_own(*context, request->name());
     parts_.admission.admit(parts_.scheduler.waiting_count(), 1, 0);
-    parts_.scheduler.enqueue(parts_.journal.retry_failed(sweep));
+    const auto retried = parts_.journal.retry_failed(sweep);
+    log_change(jobs::sweep_name_of(sweep), "retried with " + std::to_string(retried.size()) + " jobs",
+               parts_.gate.caller_of(*context).name);
+    parts_.scheduler.enqueue(retried);
     *response = find(request->name()).sweep;
     return grpc::Status::OK;
   });
