@@ -136,7 +136,9 @@ void add_fetch_command(CLI::App& app, Session& session) {
                   [&session, options] { return run_fetch(session, *options); });
   command->add_option("NAME", options->name, "A job's name")->required();
   command->add_option("-o,--output", options->folder, "The folder; it is made if need be")->required();
-  command->add_option("--frame", options->frame_times, "Also write the frame nearest to this time in s, as CSV")
+  command
+      ->add_option("--frame", options->frame_times,
+                   "Also write the frame nearest to this time in s, as CSV (may be repeated; default: none)")
       ->allow_extra_args(false);
 }
 

@@ -103,9 +103,13 @@ void add_plot_command(CLI::App& app, Session& session) {
   command->add_option("NAME", options->names, "Names of jobs, or a sweep's")->required();
   command->add_option("-o,--output", options->file, "The picture: FILE.svg or FILE.png")->required();
   command
-      ->add_option("--frame-strain", options->frame_strains, "Show the frame nearest to this strain (may be repeated)")
+      ->add_option("--frame-strain", options->frame_strains,
+                   "Show the frame nearest to this strain, a share of the length (may be repeated; default: 0.2, 0.4 "
+                   "and the end)")
       ->allow_extra_args(false);
-  command->add_option("--strip", options->strip, "Show so many frames, evenly spaced over the run")
+  command
+      ->add_option("--strip", options->strip,
+                   "Show so many frames, evenly spaced over the run (default: those of --frame-strain)")
       ->check(CLI::Range(1, 100));
   command->add_flag("--frames-only", options->frames_only, "Draw the frames without title and curve, as for a paper");
 }

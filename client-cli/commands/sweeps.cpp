@@ -102,16 +102,24 @@ void add_sweep_commands(CLI::App& app, Session& session) {
   CLI::App* sweep = add_command(app, session, "sweep", "Queue a job for every combination of some fields' values",
                                 [&session, options] { return run_sweep(session, *options); });
   add_case_options(*sweep, options->scene);
-  sweep->add_option("--over", options->axes, "PATH=V1,V2,...: the values that a field takes")
+  sweep
+      ->add_option("--over", options->axes,
+                   "PATH=V1,V2,...: the values that a field takes (may be repeated, for up to 32 fields; at most 10000 "
+                   "jobs in all)")
       ->required()
       ->allow_extra_args(false);
   sweep->add_flag("--watch", options->watch, "Follow its jobs to their ends and print the table");
-  sweep->add_option("--request-id", options->request_id, "Asking again with the same id gives the same sweep");
+  sweep->add_option("--request-id", options->request_id,
+                    "Asking again with the same id, up to 128 characters, gives the same sweep (default: none)");
   add_label_option(*sweep, options->labels);
   add_priority_option(*sweep, options->priority);
-  sweep->add_option("--max-parallel", options->max_parallel, "Jobs of the sweep that run at once (default: all)")
+  sweep
+      ->add_option("--max-parallel", options->max_parallel,
+                   "Jobs of the sweep that run at once (default: as many as there are workers)")
       ->check(CLI::PositiveNumber);
-  sweep->add_option("--max-failures", options->max_failures, "Failed jobs after which the rest is not started")
+  sweep
+      ->add_option("--max-failures", options->max_failures,
+                   "Failed jobs after which the rest is not started (default: no limit)")
       ->check(CLI::PositiveNumber);
   const auto name = std::make_shared<std::string>();
   CLI::App* retry = add_command(app, session, "retry", "Queue a sweep's failed jobs again",
