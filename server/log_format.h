@@ -6,7 +6,11 @@
 
 namespace cellcrush {
 
-/// A JSON object a line: time (UTC, ISO 8601), level, message, and the name of the job that the message begins with, if it does.
+/// spdlog's own lines; control characters in a message are escaped, so that a message is a line.
+std::unique_ptr<spdlog::formatter> make_text_formatter();
+
+/// A JSON object a line: time (UTC, ISO 8601), level, the line's fields (log_fields.h) and message. A line without fields
+/// has the name of the job that its message begins with, if it does.
 std::unique_ptr<spdlog::formatter> make_json_formatter();
 
 }  // namespace cellcrush

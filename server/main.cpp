@@ -96,23 +96,27 @@ int main(int argc, char** argv) {
                  "(default: unix:DIR/cellcrushd.sock and 127.0.0.1:50551)");
   app.add_option("--data", options.data_folder,
                  "folder of jobs and results (default: $XDG_DATA_HOME/cellcrush or ~/.local/share/cellcrush)");
-  app.add_option("--tls-cert", options.access.tls_certificate,
-                 "PEM file of this server's certificate; every HOST:PORT then takes TLS only");
-  app.add_option("--tls-key", options.access.tls_key, "PEM file of the certificate's key");
   app.add_option(
-      "--tls-client-ca", options.access.tls_client_authority,
-      "PEM file of the authority that signs clients' certificates; one is then asked of every client on TCP");
+      "--tls-cert", options.access.tls_certificate,
+      "PEM file of this server's certificate; every HOST:PORT then takes TLS only (default: none, plain text)");
+  app.add_option("--tls-key", options.access.tls_key, "PEM file of the certificate's key (default: none)");
+  app.add_option("--tls-client-ca", options.access.tls_client_authority,
+                 "PEM file of the authority that signs clients' certificates; one is then asked of every client on TCP "
+                 "(default: none)");
   std::string certificate_scope = "submit";
   app.add_option("--tls-client-scope", certificate_scope,
                  "what those may do who show such a certificate: read, submit or admin (default: submit)")
       ->check(CLI::IsMember({"read", "submit", "admin"}));
-  app.add_option("--tokens", options.access.tokens,
-                 "file of the tokens that calls on TCP must carry, a line each (see `cellcrushd token`)");
-  app.add_option("--metrics", options.metrics,
-                 "HOST:PORT at which metrics for Prometheus are served over HTTP, at /metrics (default: nowhere)");
+  app.add_option(
+      "--tokens", options.access.tokens,
+      "file of the tokens that calls on TCP must carry, a line each, see `cellcrushd token` (default: none)");
+  app.add_option(
+      "--metrics", options.metrics,
+      "HOST:PORT of loopback at which metrics for Prometheus are served over HTTP, at /metrics (default: nowhere)");
   app.add_option("--workers", options.workers, "jobs that run at once (default: one for each core)")
       ->check(CLI::Range(1, 1024));
-  app.set_config("--config", "", "file of options in TOML, a line each: their long names without the dashes");
+  app.set_config("--config", "",
+                 "file of options in TOML, a line each: their long names without the dashes (default: none)");
   constexpr std::int64_t kMebibyte = 1024 * 1024;
   std::int64_t memory_mib = 0;
   std::int64_t free_mib = 256;
@@ -130,7 +134,8 @@ int main(int argc, char** argv) {
   app.add_option("--min-free-disk", free_mib,
                  "MiB that are kept free in the data folder: below it no job is taken and none runs (default: 256)")
       ->check(CLI::Range(0, 1 << 30));
-  app.add_option("--keep-ended-jobs", keep_days, "days after which a job that has ended is deleted (default: never)")
+  app.add_option("--keep-ended-jobs", keep_days,
+                 "days after which a job that has ended is deleted (default: 0, which is never)")
       ->check(CLI::Range(0.0, 36500.0));
   std::string log_format = "text";
   app.add_option("--log-format", log_format, "text or json, an object a line (default: text)")
@@ -143,7 +148,10 @@ int main(int argc, char** argv) {
   std::string token_name;
   std::string token_scope;
   CLI::App* token = app.add_subcommand("token", "print a new token and its line for the file of --tokens, and end");
-  token->add_option("NAME", token_name, "whom the token is for")->required();
+  token
+      ->add_option("NAME", token_name,
+                   "whom the token is for: 1 to 64 printable characters without spaces, quotes, backslashes and #")
+      ->required();
   token->add_option("--scope", token_scope, "read; submit: also make jobs and change one's own; admin: all")
       ->required()
       ->check(CLI::IsMember({"read", "submit", "admin"}));
@@ -173,6 +181,6 @@ int main(int argc, char** argv) {
   options.checkpoint_interval = std::chrono::milliseconds(std::llround(1000.0 * checkpoint_seconds));
   const sigset_t signals = block_signals();
   spdlog::set_default_logger(spdlog::stderr_color_mt("cellcrushd"));
-  if (log_format == "json") spdlog::set_formatter(cellcrush::make_json_formatter());
+  spdlog::set_formatter(log_format == "json" ? cellcrush::make_json_formatter() : cellcrush::make_text_formatter());
   return serve(options, signals);
 }

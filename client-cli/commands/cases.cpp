@@ -62,8 +62,9 @@ CLI::App* add_command(CLI::App& app, Session& session, const std::string& name, 
   command->add_option("--tls-ca", session.credentials.authority,
                       "PEM file of the authority that signed the server's certificate; makes a HOST:PORT one of TLS "
                       "(default: $CELLCRUSH_TLS_CA)");
-  command->add_option("--tls-cert", session.credentials.certificate, "PEM file of a certificate to show to the server");
-  command->add_option("--tls-key", session.credentials.key, "PEM file of that certificate's key");
+  command->add_option("--tls-cert", session.credentials.certificate,
+                      "PEM file of a certificate to show to the server (default: none)");
+  command->add_option("--tls-key", session.credentials.key, "PEM file of that certificate's key (default: none)");
   command->add_option("--token-file", session.credentials.token,
                       "File of the token for a HOST:PORT (default: $CELLCRUSH_TOKEN_FILE, or $CELLCRUSH_TOKEN itself)");
   command->callback([&session, action = std::move(action)] { session.action = action; });
@@ -73,8 +74,9 @@ CLI::App* add_command(CLI::App& app, Session& session, const std::string& name, 
 void add_case_options(CLI::App& command, CaseOptions& options) {
   command.add_option("CASE", options.source, "A case file, - for stdin, or preset:NAME")->required();
   command
-      .add_option("--set", options.assignments,
-                  "PATH=VALUE: changes a field of the case, such as loading.speed_m_per_s=100")
+      .add_option(
+          "--set", options.assignments,
+          "PATH=VALUE: changes a field of the case, such as loading.speed_m_per_s=100 (may be repeated; default: none)")
       ->allow_extra_args(false);
 }
 

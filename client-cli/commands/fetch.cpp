@@ -6,6 +6,7 @@
 #include "commands/commands.h"
 #include "commands/history_csv.h"
 #include "commands/resource_name.h"
+#include "connection/pages.h"
 #include "terminal/case_text.h"
 #include "terminal/json_text.h"
 #include "terminal/number_text.h"
@@ -103,11 +104,9 @@ ExitCode run_fetch(Session& session, const FetchOptions& options) {
     written.push_back(path);
   };
   put(folder / "case.txtpb", case_file_text(job.case_(), "Case of " + job.name()));
-  v1::GetHistoryRequest history;
-  history.set_name(name);
-  const auto samples = connection.call(connection.jobs(), &v1::Jobs::Stub::GetHistory, history);
-  put(folder / "history.csv", history_csv(samples.samples()));
-  if (const std::string nodes = nodes_csv(samples.samples()); !nodes.empty()) put(folder / "nodes.csv", nodes);
+  const auto history = fetch_history(connection, name);
+  put(folder / "history.csv", history_csv(history.samples()));
+  if (const std::string nodes = nodes_csv(history.samples()); !nodes.empty()) put(folder / "nodes.csv", nodes);
   for (const double time : options.frame_times) {
     v1::GetFrameRequest request;
     request.set_name(name);
@@ -137,7 +136,9 @@ void add_fetch_command(CLI::App& app, Session& session) {
                   [&session, options] { return run_fetch(session, *options); });
   command->add_option("NAME", options->name, "A job's name")->required();
   command->add_option("-o,--output", options->folder, "The folder; it is made if need be")->required();
-  command->add_option("--frame", options->frame_times, "Also write the frame nearest to this time in s, as CSV")
+  command
+      ->add_option("--frame", options->frame_times,
+                   "Also write the frame nearest to this time in s, as CSV (may be repeated; default: none)")
       ->allow_extra_args(false);
 }
 

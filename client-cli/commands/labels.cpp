@@ -5,7 +5,11 @@
 namespace cellcrush::client {
 
 void add_label_option(CLI::App& command, std::vector<std::string>& labels) {
-  command.add_option("--label", labels, "KEY=VALUE: a label to find it by")->allow_extra_args(false);
+  command
+      .add_option("--label", labels,
+                  "KEY=VALUE: a label to find it by, KEY up to 63 and VALUE up to 255 characters (may be repeated, up "
+                  "to 64; default: none)")
+      ->allow_extra_args(false);
 }
 
 Labels parse_labels(const std::vector<std::string>& texts) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "commands/commands.h"
+#include "connection/pages.h"
 #include "terminal/job_text.h"
 #include "terminal/json_text.h"
 #include "terminal/sweep_text.h"
@@ -20,22 +21,11 @@ struct ListOptions {
   bool sweeps = false;
 };
 
-// Joins the pages of a list into one answer without a token, up to `limit` entries.
-template <typename Response, typename Stub, typename Request>
-Response list_all(Connection& connection, Stub& stub,
-                  grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*), Request request,
-                  int limit, int (*size)(const Response&)) {
-  Response all;
-  while (true) {
-    request.set_page_size(limit > 0 ? std::min(kPage, limit - size(all)) : kPage);
-    Response page = connection.call(stub, method, request);
-    const std::string next = page.next_page_token();
-    page.clear_next_page_token();
-    all.MergeFrom(page);
-    const bool enough = limit > 0 && size(all) >= limit;
-    if (enough || next.empty() || next == request.page_token()) return all;
-    request.set_page_token(next);
-  }
+// Sets how many entries the next page is to have, when `size` are there; false when that is enough.
+template <typename Request>
+bool ask_for_more(const ListOptions& options, int size, Request& request) {
+  request.set_page_size(options.limit > 0 ? std::min(kPage, options.limit - size) : kPage);
+  return options.limit == 0 || size < options.limit;
 }
 
 void list_jobs(Session& session, const ListOptions& options) {
@@ -43,9 +33,10 @@ void list_jobs(Session& session, const ListOptions& options) {
   v1::ListJobsRequest request;
   request.set_filter(options.filter);
   request.set_order_by(options.order);
-  const auto size = [](const v1::ListJobsResponse& all) { return all.jobs_size(); };
-  const auto all = list_all<v1::ListJobsResponse>(connection, connection.jobs(), &v1::Jobs::Stub::ListJobs, request,
-                                                  options.limit, size);
+  const auto all = call_for_pages(connection, connection.jobs(), &v1::Jobs::Stub::ListJobs, request,
+                                  [&](const v1::ListJobsResponse& so_far, v1::ListJobsRequest& next) {
+                                    return ask_for_more(options, so_far.jobs_size(), next);
+                                  });
   session.json ? print_json(all) : fmt::print("{}", job_list_text({all.jobs().begin(), all.jobs().end()}));
 }
 
@@ -54,9 +45,11 @@ void list_sweeps(Session& session, const ListOptions& options) {
     throw CommandError(ExitCode::refused, "list --sweeps: sweeps have no --filter and no --order; leave them out");
   }
   Connection& connection = session.connection();
-  const auto size = [](const v1::ListSweepsResponse& all) { return all.sweeps_size(); };
-  const auto all = list_all<v1::ListSweepsResponse>(connection, connection.sweeps(), &v1::Sweeps::Stub::ListSweeps,
-                                                    v1::ListSweepsRequest(), options.limit, size);
+  const auto all =
+      call_for_pages(connection, connection.sweeps(), &v1::Sweeps::Stub::ListSweeps, v1::ListSweepsRequest(),
+                     [&](const v1::ListSweepsResponse& so_far, v1::ListSweepsRequest& next) {
+                       return ask_for_more(options, so_far.sweeps_size(), next);
+                     });
   session.json ? print_json(all) : fmt::print("{}", sweep_list_text({all.sweeps().begin(), all.sweeps().end()}));
 }
 
@@ -68,8 +61,10 @@ void add_list_command(CLI::App& app, Session& session) {
     options->sweeps ? list_sweeps(session, *options) : list_jobs(session, *options);
     return ExitCode::done;
   });
-  list->add_option("--filter", options->filter, "Only jobs that match, such as 'state = RUNNING'");
-  list->add_option("--order,--order-by", options->order, "Another order, such as 'create_time'");
+  list->add_option("--filter", options->filter,
+                   "Only jobs that match, such as 'state = RUNNING'; up to 4096 characters (default: all jobs)");
+  list->add_option("--order,--order-by", options->order,
+                   "Of the jobs: create_time or name, with desc for the newest first (default: create_time desc)");
   list->add_option("--limit", options->limit, "At most so many (default: all)")->check(CLI::PositiveNumber);
   list->add_flag("--sweeps", options->sweeps, "List sweeps");
 }

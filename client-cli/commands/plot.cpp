@@ -7,6 +7,7 @@
 #include "commands/commands.h"
 #include "commands/resource_name.h"
 #include "commands/stages.h"
+#include "connection/pages.h"
 #include "terminal/json_text.h"
 #include "terminal/output_file.h"
 
@@ -28,10 +29,8 @@ v1::Job fetch_job(Connection& connection, const std::string& name) {
   return connection.call(connection.jobs(), &v1::Jobs::Stub::GetJob, request);
 }
 
-JobHistory fetch_history(Connection& connection, const v1::Job& job) {
-  v1::GetHistoryRequest request;
-  request.set_name(job.name());
-  const auto samples = connection.call(connection.jobs(), &v1::Jobs::Stub::GetHistory, request);
+JobHistory fetch_drawable_history(Connection& connection, const v1::Job& job) {
+  const auto samples = fetch_history(connection, job.name());
   if (samples.samples_size() == 0) {
     throw CommandError(ExitCode::refused, job.name() + " has no samples yet, so that there is nothing to draw");
   }
@@ -53,10 +52,9 @@ void write_picture(const std::string& path, const std::string& picture) {
 void plot_sweep(Session& session, const PlotOptions& options) {
   const PictureFormat format = picture_format(options.file);
   Connection& connection = session.connection();
-  v1::GetSweepTableRequest request;
-  request.set_name(options.names.front());
-  const auto table = connection.call(connection.sweeps(), &v1::Sweeps::Stub::GetSweepTable, request);
-  write_picture(options.file, render_sweep_picture(format, request.name(), table));
+  const std::string& name = options.names.front();
+  const auto table = fetch_table(connection, name);
+  write_picture(options.file, render_sweep_picture(format, name, table));
   session.json ? print_json(table) : fmt::print("{}\n", options.file);
 }
 
@@ -64,7 +62,7 @@ std::string render_jobs(Connection& connection, PictureFormat format, const v1::
                         const PlotOptions& options) {
   if (options.frames_only) return render_stages_picture(format, fetch_stages(connection, jobs.jobs(0).name(), options));
   std::vector<JobHistory> histories;
-  for (const v1::Job& job : jobs.jobs()) histories.push_back(fetch_history(connection, job));
+  for (const v1::Job& job : jobs.jobs()) histories.push_back(fetch_drawable_history(connection, job));
   if (histories.size() > 1) return render_comparison_picture(format, histories);
   return render_job_picture(format, histories.front(), fetch_stages(connection, jobs.jobs(0).name(), options));
 }
@@ -105,9 +103,13 @@ void add_plot_command(CLI::App& app, Session& session) {
   command->add_option("NAME", options->names, "Names of jobs, or a sweep's")->required();
   command->add_option("-o,--output", options->file, "The picture: FILE.svg or FILE.png")->required();
   command
-      ->add_option("--frame-strain", options->frame_strains, "Show the frame nearest to this strain (may be repeated)")
+      ->add_option("--frame-strain", options->frame_strains,
+                   "Show the frame nearest to this strain, a share of the length (may be repeated; default: 0.2, 0.4 "
+                   "and the end)")
       ->allow_extra_args(false);
-  command->add_option("--strip", options->strip, "Show so many frames, evenly spaced over the run")
+  command
+      ->add_option("--strip", options->strip,
+                   "Show so many frames, evenly spaced over the run (default: those of --frame-strain)")
       ->check(CLI::Range(1, 100));
   command->add_flag("--frames-only", options->frames_only, "Draw the frames without title and curve, as for a paper");
 }

@@ -52,7 +52,8 @@ void add_submit_command(CLI::App& app, Session& session) {
                                   [&session, options] { return run_submit(session, *options); });
   add_case_options(*command, options->scene);
   command->add_flag("--watch", options->watch, "Follow the job to its end");
-  command->add_option("--request-id", options->request_id, "Submitting again with the same id gives the same job");
+  command->add_option("--request-id", options->request_id,
+                      "Submitting again with the same id, up to 128 characters, gives the same job (default: none)");
   add_label_option(*command, options->labels);
   add_priority_option(*command, options->priority);
   add_time_limit_option(*command, options->time_limit_s);

@@ -84,19 +84,24 @@ void add_sweep_commands(CLI::App& app, Session& session) {
   add_case_options(*sweep, options->scene);
   sweep
       ->add_option("--over", options->axes,
-                   "The values that a field takes, may be repeated: PATH=V1,V2,...; PATH=FIRST:LAST:COUNT, evenly "
-                   "spaced, or with "
-                   ":log behind it in the logarithm; PATH=seeds:N, 1 to N")
+                   "The values that a field takes: PATH=V1,V2,...; PATH=FIRST:LAST:COUNT, evenly spaced, or with :log "
+                   "behind it in the logarithm; PATH=seeds:N, 1 to N (may be repeated, for up to 32 fields; at most "
+                   "10000 jobs in all)")
       ->required()
       ->allow_extra_args(false);
   sweep->add_flag("--watch", options->watch, "Follow its jobs to their ends and print the table");
-  sweep->add_option("--request-id", options->request_id, "Asking again with the same id gives the same sweep");
+  sweep->add_option("--request-id", options->request_id,
+                    "Asking again with the same id, up to 128 characters, gives the same sweep (default: none)");
   add_label_option(*sweep, options->labels);
   add_priority_option(*sweep, options->priority);
   add_time_limit_option(*sweep, options->time_limit_s);
-  sweep->add_option("--max-parallel", options->max_parallel, "Jobs of the sweep that run at once (default: all)")
+  sweep
+      ->add_option("--max-parallel", options->max_parallel,
+                   "Jobs of the sweep that run at once (default: as many as there are workers)")
       ->check(CLI::PositiveNumber);
-  sweep->add_option("--max-failures", options->max_failures, "Failed jobs after which the rest is not started")
+  sweep
+      ->add_option("--max-failures", options->max_failures,
+                   "Failed jobs after which the rest is not started (default: no limit)")
       ->check(CLI::PositiveNumber);
   const auto name = std::make_shared<std::string>();
   CLI::App* retry = add_command(app, session, "retry", "Queue a sweep's failed jobs again",

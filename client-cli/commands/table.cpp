@@ -2,6 +2,7 @@
 
 #include "commands/commands.h"
 #include "commands/resource_name.h"
+#include "connection/pages.h"
 #include "terminal/json_text.h"
 #include "terminal/sweep_table.h"
 
@@ -16,10 +17,7 @@ struct TableOptions {
 
 ExitCode run_table(Session& session, const TableOptions& options) {
   if (options.csv && session.json) throw CommandError(ExitCode::refused, "table: give one of --csv and --json");
-  Connection& connection = session.connection();
-  v1::GetSweepTableRequest request;
-  request.set_name(sweep_name(options.name));
-  const auto table = connection.call(connection.sweeps(), &v1::Sweeps::Stub::GetSweepTable, request);
+  const auto table = fetch_table(session.connection(), sweep_name(options.name));
   if (session.json) {
     print_json(table);
   } else {

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "commands/resource_name.h"
+#include "connection/pages.h"
 #include "terminal/job_text.h"
 #include "terminal/json_text.h"
 #include "terminal/sweep_display.h"
@@ -40,10 +41,7 @@ ExitCode watch_sweep(Session& session, const std::string& name, const Interrupti
   const int jobs = static_cast<int>(view.jobs().size());
   if (!complete) return say_interrupted(name, jobs > 0 && view.count_ended() == jobs);
   display->finish();
-  Connection& connection = session.connection();
-  v1::GetSweepTableRequest request;
-  request.set_name(name);
-  const auto table = connection.call(connection.sweeps(), &v1::Sweeps::Stub::GetSweepTable, request);
+  const auto table = fetch_table(session.connection(), name);
   session.json ? print_json(table) : fmt::print("\n{}", sweep_table_text(table));
   return view.count(v1::SUCCEEDED) == jobs ? ExitCode::done : ExitCode::job_failed;
 }

@@ -15,7 +15,7 @@ constexpr std::chrono::milliseconds kReasonPatience{200};
 
 grpc::ChannelArguments channel_arguments() {
   grpc::ChannelArguments arguments;
-  // Long histories come in one message.
+  // The mesh of a large lattice comes in one message.
   arguments.SetMaxReceiveMessageSize(-1);
   arguments.SetMaxSendMessageSize(-1);
   // The server is meant directly, whatever proxy the environment names.

@@ -17,7 +17,7 @@ using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
 // Every response as one line of JSON.
-class JsonDisplay : public SweepDisplay {
+class SweepJsonDisplay : public SweepDisplay {
  public:
   void on_response(const v1::WatchSweepResponse& response) override {
     view_.apply(response);
@@ -30,7 +30,7 @@ class JsonDisplay : public SweepDisplay {
 };
 
 // At most a line a second, and one at the end.
-class LineDisplay : public SweepDisplay {
+class SweepLineDisplay : public SweepDisplay {
  public:
   void on_response(const v1::WatchSweepResponse& response) override {
     view_.apply(response);
@@ -58,9 +58,9 @@ class LineDisplay : public SweepDisplay {
 };
 
 // A line a job, redrawn in place at most ten times a second.
-class LiveDisplay : public SweepDisplay {
+class SweepLiveDisplay : public SweepDisplay {
  public:
-  explicit LiveDisplay(const Terminal& terminal) : terminal_(terminal) {}
+  explicit SweepLiveDisplay(const Terminal& terminal) : terminal_(terminal) {}
 
   void on_response(const v1::WatchSweepResponse& response) override {
     view_.apply(response);
@@ -86,9 +86,9 @@ class LiveDisplay : public SweepDisplay {
 }  // namespace
 
 std::unique_ptr<SweepDisplay> make_sweep_display(bool json, const Terminal& terminal) {
-  if (json) return std::make_unique<JsonDisplay>();
-  if (terminal.interactive) return std::make_unique<LiveDisplay>(terminal);
-  return std::make_unique<LineDisplay>();
+  if (json) return std::make_unique<SweepJsonDisplay>();
+  if (terminal.interactive) return std::make_unique<SweepLiveDisplay>(terminal);
+  return std::make_unique<SweepLineDisplay>();
 }
 
 }  // namespace cellcrush::client

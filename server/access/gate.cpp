@@ -11,6 +11,7 @@
 namespace cellcrush::access {
 namespace {
 
+constexpr std::size_t kLongestPath = 128;  // of a method in the log
 constexpr const char* kAskForToken = "Whoever runs the server makes one: cellcrushd token NAME --scope SCOPE.";
 
 [[noreturn]] void refuse_options(const std::string& why) { throw ServiceError(ServiceError::Kind::invalid, why); }
@@ -34,20 +35,32 @@ class Gate::Check final : public grpc::AuthMetadataProcessor {
   // Nothing is kept in the context: it is shared by all calls of a connection, which may have different tokens.
   grpc::Status Process(const InputMetadata& metadata, grpc::AuthContext* context, OutputMetadata*,
                        OutputMetadata*) override {
-    return rpc::answer([&] {
-      const auto found = metadata.find(":path");
-      const std::string_view path = found == metadata.end() ? std::string_view() : view_of(found->second);
-      const auto needed = needed_scope(path);
-      if (!needed) return grpc::Status::OK;
-      const Caller caller = gate_.identify(metadata, *context);
-      if (caller.scope >= *needed) return grpc::Status::OK;
-      throw ServiceError(ServiceError::Kind::permission_denied,
-                         std::string(path.substr(path.rfind('/') + 1)) + " needs the scope " + name_of(*needed) +
-                             ", and " + caller.name + " has " + name_of(caller.scope) + ".");
+    const auto found = metadata.find(":path");
+    const std::string_view path = found == metadata.end() ? std::string_view() : view_of(found->second);
+    const auto status = rpc::answer([&] {
+      check(path, metadata, *context);
+      return grpc::Status::OK;
     });
+    if (!status.ok()) {
+      const bool unknown = status.error_code() == grpc::StatusCode::UNAUTHENTICATED;
+      gate_.refusals_.note(std::string(unknown ? "UNAUTHENTICATED: " : "PERMISSION_DENIED: ") +
+                           std::string(path.substr(0, kLongestPath)) + ": " + status.error_message());
+    }
+    return status;
   }
 
  private:
+  // Throws ServiceError: unauthenticated or permission_denied.
+  void check(std::string_view path, const InputMetadata& metadata, const grpc::AuthContext& context) const {
+    const auto needed = needed_scope(path);
+    if (!needed) return;
+    const Caller caller = gate_.identify(metadata, context);
+    if (caller.scope >= *needed) return;
+    throw ServiceError(ServiceError::Kind::permission_denied, std::string(path.substr(path.rfind('/') + 1)) +
+                                                                  " needs the scope " + name_of(*needed) + ", and " +
+                                                                  caller.name + " has " + name_of(caller.scope) + ".");
+  }
+
   const Gate& gate_;
 };
 
@@ -130,10 +143,10 @@ void Gate::require_own(const grpc::ServerContextBase& context, const std::string
                        const std::string& name) const {
   const Caller caller = caller_of(context);
   if (caller.scope == Scope::admin || caller.name == owner) return;
-  throw ServiceError(ServiceError::Kind::permission_denied,
-                     name + " belongs to " + (owner.empty() ? "nobody" : owner) + ", and " + caller.name +
-                         " has the scope " + name_of(caller.scope) +
-                         ", which changes one's own only. Ask its owner, or one who has the scope admin.");
+  const std::string why = name + " belongs to " + (owner.empty() ? "nobody" : owner) + ", and " + caller.name +
+                          " has the scope " + name_of(caller.scope) + ", which changes one's own only.";
+  refusals_.note("PERMISSION_DENIED: " + why);
+  throw ServiceError(ServiceError::Kind::permission_denied, why + " Ask its owner, or one who has the scope admin.");
 }
 
 }  // namespace cellcrush::access

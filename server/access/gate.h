@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "access/refusal_log.h"
 #include "access/scope.h"
 #include "access/tls_files.h"
 #include "access/token_file.h"
@@ -27,7 +28,7 @@ struct Options {
 };
 
 /// Who may call, and what. Every call on TCP passes it before it reaches a service; the Unix socket is guarded by its
-/// file's permissions. Thread-safe.
+/// file's permissions. Refused calls are warned of in the log. Thread-safe.
 class Gate {
  public:
   /// Reads the files. Throws ServiceError (invalid) for options that do not go together, and for a file that cannot be used.
@@ -56,6 +57,7 @@ class Gate {
   std::optional<TlsFiles> tls_;
   std::optional<TokenFile> tokens_;
   Scope certificate_scope_;
+  mutable RefusalLog refusals_;
 };
 
 }  // namespace cellcrush::access

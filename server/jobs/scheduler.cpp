@@ -125,9 +125,7 @@ void Scheduler::resume(std::int64_t job) {
   store::StateChange change;
   change.state = v1::PENDING;
   parts_.journal.change_state(job, change);
-  auto waiting = parts_.reader.queued_jobs(v1::PENDING);
-  std::erase_if(waiting, [job](const store::QueuedJob& other) { return other.job != job; });
-  enqueue(waiting);
+  if (const auto waiting = parts_.reader.queued_job(job, v1::PENDING)) enqueue({*waiting});
 }
 
 void Scheduler::cancel_all(const std::vector<std::int64_t>& jobs) {

@@ -1,5 +1,6 @@
 #include "rpc/admin_service.h"
 
+#include "rpc/change_log.h"
 #include "rpc/error_table.h"
 #include "version.h"
 
@@ -37,8 +38,9 @@ grpc::Status AdminService::GetQueue(grpc::ServerContext*, const v1::GetQueueRequ
   });
 }
 
-grpc::Status AdminService::Drain(grpc::ServerContext*, const v1::DrainRequest*, v1::DrainResponse*) {
+grpc::Status AdminService::Drain(grpc::ServerContext* context, const v1::DrainRequest*, v1::DrainResponse*) {
   return answer([&] {
+    log_change("", "drained", parts_.gate.caller_of(*context).name);
     parts_.drain();
     return grpc::Status::OK;
   });

@@ -2,6 +2,7 @@
 
 #include <functional>
 
+#include "access/gate.h"
 #include "cellcrush/v1/admin_service.grpc.pb.h"
 #include "jobs/queue_forecast.h"
 #include "store/journal_reader.h"
@@ -17,6 +18,7 @@ class AdminService final : public v1::Admin::Service {
     store::JournalReader& reader;
     watch::Hub& hub;
     jobs::WorkerFacts workers;
+    const access::Gate& gate;
     std::function<void()> drain;
   };
 

@@ -5,6 +5,7 @@
 
 #include "jobs/deletion.h"
 #include "jobs/resource_name.h"
+#include "rpc/change_log.h"
 #include "rpc/create_request.h"
 #include "rpc/error_table.h"
 #include "rpc/job_query.h"
@@ -46,6 +47,7 @@ grpc::Status JobsService::CreateJob(grpc::ServerContext* context, const v1::Crea
     check_request(request->request_id(), request->labels());
     check_priority(request->priority(), "priority");
     parts_.admission.check_time_limit(request->time_limit_s(), "time_limit_s");
+    check_size("case", request->case_().ByteSizeLong(), kLargestCase);
     const auto check = translate::check_case(request->case_());
     if (check.response.problems_size() > 0) return status_of(check.response.problems());
     v1::Job job;
@@ -60,10 +62,13 @@ grpc::Status JobsService::CreateJob(grpc::ServerContext* context, const v1::Crea
     }
     const std::int64_t element_steps = check.response.element_count() * check.response.step_count();
     const std::string hash = payload_hash(*request, job.owner());
-    if (!parts_.journal.find_job_request(request->request_id(), hash))
+    const auto admit = [&] {
       parts_.admission.admit(parts_.scheduler.waiting_count(), 1, check.response.predicted_memory_bytes());
-    const auto created = parts_.journal.create_job(std::move(job), request->request_id(), hash, element_steps);
+    };
+    const std::string owner = job.owner();
+    const auto created = parts_.journal.create_job(std::move(job), request->request_id(), hash, element_steps, admit);
     if (created.is_new) {
+      log_change(jobs::name_of(created.job), "made", owner, request->request_id());
       store::QueuedJob queued{created.job, created.job, request->priority(), element_steps};
       parts_.scheduler.enqueue({queued});
     }
@@ -94,11 +99,9 @@ grpc::Status JobsService::ListJobs(grpc::ServerContext*, const v1::ListJobsReque
     const auto page = read_page(request->page_size(), request->page_token(), question);
     auto stored = parts_.reader.list_jobs(filter, newest_first, page.after, page.size + 1);
     std::int64_t last = 0;
-    std::size_t bytes = 0;
+    auto room = page.room();
     for (auto& job : stored) {
-      bytes += job.job.ByteSizeLong();
-      const bool full = response->jobs_size() == page.size || (bytes > kPageBytes && response->jobs_size() > 0);
-      if (full) {
+      if (!room.take(job.job.ByteSizeLong())) {
         response->set_next_page_token(page_token(last, question));
         break;
       }
@@ -113,7 +116,9 @@ grpc::Status JobsService::ListJobs(grpc::ServerContext*, const v1::ListJobsReque
 grpc::Status JobsService::CancelJob(grpc::ServerContext* context, const v1::CancelJobRequest* request,
                                     v1::Job* response) {
   return answer([&] {
-    parts_.scheduler.cancel(find_own(*context, request->name()));
+    const std::int64_t job = find_own(*context, request->name());
+    parts_.scheduler.cancel(job);
+    log_change(jobs::name_of(job), "cancelled", parts_.gate.caller_of(*context).name);
     auto stored = find(request->name());
     add_progress(stored);
     *response = std::move(stored.job);
@@ -124,7 +129,9 @@ grpc::Status JobsService::CancelJob(grpc::ServerContext* context, const v1::Canc
 grpc::Status JobsService::SuspendJob(grpc::ServerContext* context, const v1::SuspendJobRequest* request,
                                      v1::Job* response) {
   return answer([&] {
-    parts_.scheduler.suspend(find_own(*context, request->name()), [context] { return context->IsCancelled(); });
+    const std::int64_t job = find_own(*context, request->name());
+    parts_.scheduler.suspend(job, [context] { return context->IsCancelled(); });
+    log_change(jobs::name_of(job), "suspended", parts_.gate.caller_of(*context).name);
     *response = find(request->name()).job;
     return grpc::Status::OK;
   });
@@ -133,7 +140,9 @@ grpc::Status JobsService::SuspendJob(grpc::ServerContext* context, const v1::Sus
 grpc::Status JobsService::ResumeJob(grpc::ServerContext* context, const v1::ResumeJobRequest* request,
                                     v1::Job* response) {
   return answer([&] {
-    parts_.scheduler.resume(find_own(*context, request->name()));
+    const std::int64_t job = find_own(*context, request->name());
+    parts_.scheduler.resume(job);
+    log_change(jobs::name_of(job), "resumed", parts_.gate.caller_of(*context).name);
     *response = find(request->name()).job;
     return grpc::Status::OK;
   });
@@ -142,7 +151,9 @@ grpc::Status JobsService::ResumeJob(grpc::ServerContext* context, const v1::Resu
 grpc::Status JobsService::DeleteJob(grpc::ServerContext* context, const v1::DeleteJobRequest* request,
                                     v1::DeleteJobResponse*) {
   return answer([&] {
-    jobs::delete_job(find_own(*context, request->name()), parts_.journal, parts_.folder);
+    const std::int64_t job = find_own(*context, request->name());
+    jobs::delete_job(job, parts_.journal, parts_.folder);
+    log_change(jobs::name_of(job), "deleted", parts_.gate.caller_of(*context).name);
     return grpc::Status::OK;
   });
 }
@@ -163,8 +174,12 @@ grpc::ServerWriteReactor<v1::JobEvent>* JobsService::WatchJob(grpc::CallbackServ
 grpc::Status JobsService::GetHistory(grpc::ServerContext*, const v1::GetHistoryRequest* request,
                                      v1::GetHistoryResponse* response) {
   return answer([&] {
-    for (auto& sample : parts_.reader.samples(find(request->name()).number))
-      *response->add_samples() = std::move(sample);
+    const std::int64_t job = find(request->name()).number;
+    const std::string question = "history of " + jobs::name_of(job);
+    const auto page = read_full_page(request->page_size(), request->page_token(), question);
+    auto stored = parts_.reader.samples(job, page.after, page.room());
+    for (auto& sample : stored.samples) *response->add_samples() = std::move(sample);
+    if (stored.has_more) response->set_next_page_token(page_token(stored.last_sequence, question));
     return grpc::Status::OK;
   });
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cstdio>
+#include <limits>
 
 #include "error.h"
 #include "rpc/request_limits.h"
@@ -23,21 +24,29 @@ std::string mark_of(const std::string& question) {
   return text.data();
 }
 
+// The number that a token names; 0 of none.
+std::int64_t read_token(const std::string& text, const std::string& question) {
+  if (text.empty()) return 0;
+  check_length("page_token", text, kLongestPageToken);
+  std::int64_t after = 0;
+  const auto [stopped, error] = std::from_chars(text.data(), text.data() + text.size(), after);
+  if (error != std::errc() || after < 1 || text != page_token(after, question)) {
+    throw InvalidField("page_token", "is no token of this list.",
+                       "Use the next_page_token of the page before, with the same filter and order_by, or name.");
+  }
+  return after;
+}
+
 }  // namespace
 
 Page read_page(int page_size, const std::string& page_token_text, const std::string& question) {
   if (page_size < 0) throw InvalidField("page_size", "is negative.", "Use 1 to 1000, or 0 for 50.");
-  Page out;
-  out.size = page_size == 0 ? kDefaultSize : std::min(page_size, kLargestSize);
-  if (page_token_text.empty()) return out;
-  check_length("page_token", page_token_text, kLongestPageToken);
-  const char* end = page_token_text.data() + page_token_text.size();
-  const auto [stopped, error] = std::from_chars(page_token_text.data(), end, out.after);
-  if (error != std::errc() || out.after < 1 || page_token_text != page_token(out.after, question)) {
-    throw InvalidField("page_token", "is no token of this list.",
-                       "Use the next_page_token of the page before, with the same filter and order_by.");
-  }
-  return out;
+  return {page_size == 0 ? kDefaultSize : std::min(page_size, kLargestSize), read_token(page_token_text, question)};
+}
+
+Page read_full_page(int page_size, const std::string& page_token_text, const std::string& question) {
+  if (page_size < 0) throw InvalidField("page_size", "is negative.", "Use 0 for as many as fit.");
+  return {page_size == 0 ? std::numeric_limits<int>::max() : page_size, read_token(page_token_text, question)};
 }
 
 std::string page_token(std::int64_t last, const std::string& question) {

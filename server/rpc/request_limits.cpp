@@ -4,10 +4,13 @@
 
 namespace cellcrush::rpc {
 
+void check_size(const std::string& field, std::size_t bytes, std::size_t largest) {
+  if (bytes <= largest) return;
+  throw InvalidField(field, "has " + std::to_string(bytes) + " bytes.", "Use at most " + std::to_string(largest) + ".");
+}
+
 void check_length(const std::string& field, const std::string& text, std::size_t longest) {
-  if (text.size() <= longest) return;
-  throw InvalidField(field, "has " + std::to_string(text.size()) + " bytes.",
-                     "Use at most " + std::to_string(longest) + ".");
+  check_size(field, text.size(), longest);
 }
 
 }  // namespace cellcrush::rpc

@@ -7,6 +7,7 @@
 #include "jobs/resource_name.h"
 #include "jobs/sweep_plan.h"
 #include "jobs/sweep_points.h"
+#include "rpc/change_log.h"
 #include "rpc/create_request.h"
 #include "rpc/error_table.h"
 #include "rpc/page.h"
@@ -67,6 +68,7 @@ grpc::Status SweepsService::CreateSweep(grpc::ServerContext* context, const v1::
                                         v1::Sweep* response) {
   return answer([&] {
     auto request = without_output(*given);
+    check_size("sweep", request.sweep().ByteSizeLong(), kLargestCase);
     check_request(request.request_id(), request.sweep().labels(), "sweep.");
     check_numbers(request.sweep());
     parts_.admission.check_time_limit(request.sweep().time_limit_s(), "sweep.time_limit_s");
@@ -79,11 +81,16 @@ grpc::Status SweepsService::CreateSweep(grpc::ServerContext* context, const v1::
       *response = request.sweep();
       return grpc::Status::OK;
     }
-    if (!parts_.journal.find_sweep_request(request.request_id(), hash))
+    const auto admit = [&] {
       parts_.admission.admit(parts_.scheduler.waiting_count(), plan.jobs.size(), plan.largest_memory_bytes);
-    const auto created = parts_.journal.create_sweep(request.sweep(), plan.jobs, request.request_id(), hash);
-    if (created.is_new) parts_.scheduler.enqueue(queued_jobs(created, plan, request.sweep()));
-    *response = find(jobs::sweep_name_of(created.sweep)).sweep;
+    };
+    const auto created = parts_.journal.create_sweep(request.sweep(), plan.jobs, request.request_id(), hash, admit);
+    const std::string name = jobs::sweep_name_of(created.sweep);
+    if (created.is_new) {
+      log_change(name, "made with " + std::to_string(plan.jobs.size()) + " jobs", owner, request.request_id());
+      parts_.scheduler.enqueue(queued_jobs(created, plan, request.sweep()));
+    }
+    *response = find(name).sweep;
     return grpc::Status::OK;
   });
 }
@@ -100,12 +107,11 @@ grpc::Status SweepsService::ListSweeps(grpc::ServerContext*, const v1::ListSweep
   return answer([&] {
     const auto page = read_page(request->page_size(), request->page_token(), "sweeps");
     const std::int64_t before = page.after == 0 ? std::numeric_limits<std::int64_t>::max() : page.after;
-    std::size_t bytes = 0;
+    auto room = page.room();
     std::int64_t last = 0;
     for (const std::int64_t number : parts_.sweeps.list_sweeps(before, page.size + 1)) {
       auto sweep = parts_.sweeps.find_sweep(number);
-      bytes += sweep->ByteSizeLong();
-      if (response->sweeps_size() == page.size || (bytes > kPageBytes && response->sweeps_size() > 0)) {
+      if (!room.take(sweep->ByteSizeLong())) {
         response->set_next_page_token(page_token(last, "sweeps"));
         break;
       }
@@ -122,6 +128,7 @@ grpc::Status SweepsService::CancelSweep(grpc::ServerContext* context, const v1::
     const std::int64_t sweep = find_own(*context, request->name());
     const auto jobs = parts_.sweeps.jobs_of(sweep);
     parts_.scheduler.cancel_all(jobs);
+    log_change(jobs::sweep_name_of(sweep), "cancelled", parts_.gate.caller_of(*context).name);
     *response = find(request->name()).sweep;
     return grpc::Status::OK;
   });
@@ -132,7 +139,10 @@ grpc::Status SweepsService::RetryFailedJobs(grpc::ServerContext* context, const 
   return answer([&] {
     const std::int64_t sweep = find_own(*context, request->name());
     parts_.admission.admit(parts_.scheduler.waiting_count(), 1, 0);
-    parts_.scheduler.enqueue(parts_.journal.retry_failed(sweep));
+    const auto retried = parts_.journal.retry_failed(sweep);
+    log_change(jobs::sweep_name_of(sweep), "retried with " + std::to_string(retried.size()) + " jobs",
+               parts_.gate.caller_of(*context).name);
+    parts_.scheduler.enqueue(retried);
     *response = find(request->name()).sweep;
     return grpc::Status::OK;
   });
@@ -155,8 +165,14 @@ grpc::Status SweepsService::GetSweepTable(grpc::ServerContext*, const v1::GetSwe
                                           v1::SweepTable* response) {
   return answer([&] {
     const auto found = find(request->name());
-    for (auto& field : jobs::swept_fields(found.sweep)) response->add_fields(std::move(field));
-    for (auto& row : parts_.sweeps.rows(found.number)) *response->add_rows() = std::move(row);
+    const std::string question = "table of " + found.sweep.name();
+    const auto page = read_full_page(request->page_size(), request->page_token(), question);
+    if (page.after == 0) {
+      for (auto& field : jobs::swept_fields(found.sweep)) response->add_fields(std::move(field));
+    }
+    auto stored = parts_.sweeps.rows(found.number, page.after, page.room());
+    for (auto& row : stored.rows) *response->add_rows() = std::move(row);
+    if (stored.has_more) response->set_next_page_token(page_token(stored.last_point, question));
     return grpc::Status::OK;
   });
 }

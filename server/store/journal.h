@@ -44,6 +44,10 @@ class Journal {
   /// journal.
   using Durable = std::function<void(std::int64_t job)>;
 
+  /// Asked once before something new is made, and not for what an earlier request made. What it throws is passed on, and
+  /// nothing is made; must not call back into the journal.
+  using Admit = std::function<void()>;
+
   Journal(const std::filesystem::path& path, Durable on_durable, GroupCommit::Committed on_commit = {});
   /// Commits what is gathered.
   ~Journal();
@@ -57,7 +61,7 @@ class Journal {
   /// Makes a PENDING job from `job` (case, labels, priority). The same request_id with the same hash gives the job made
   /// before; with another one, already_exists is thrown. An empty request_id is none.
   Created create_job(v1::Job job, const std::string& request_id, const std::string& request_hash,
-                     std::int64_t element_steps = 0);
+                     std::int64_t element_steps = 0, const Admit& admit = {});
 
   struct CreatedSweep {
     std::int64_t sweep = 0;
@@ -66,15 +70,11 @@ class Journal {
   };
   /// Makes a sweep and all its jobs, PENDING, or nothing. The request_id is that of create_job, among sweeps.
   CreatedSweep create_sweep(v1::Sweep sweep, const std::vector<SweepJob>& jobs, const std::string& request_id,
-                            const std::string& request_hash);
+                            const std::string& request_hash, const Admit& admit = {});
 
   /// Makes new PENDING jobs of those of the sweep that FAILED or that max_failures cancelled. They take the places of the
   /// old ones, which stay as jobs without a sweep. Returns them in the order of the points.
   std::vector<QueuedJob> retry_failed(std::int64_t sweep);
-
-  /// The job or sweep that an earlier request of that id made; nothing when there was none. Throws as create_job does.
-  std::optional<std::int64_t> find_job_request(const std::string& request_id, const std::string& request_hash);
-  std::optional<std::int64_t> find_sweep_request(const std::string& request_id, const std::string& request_hash);
 
   /// Makes those of the jobs that are PENDING CANCELLED, all at once.
   void cancel_waiting(const std::vector<std::int64_t>& jobs);
@@ -100,6 +100,8 @@ class Journal {
   void commit_gathered_regularly();
   void commit_gathered();
   // These are for bodies of writes_.
+
+  /// The job or sweep that an earlier request of that id made; nothing when there was none. Throws as create_job does.
   std::optional<std::int64_t> find_request(const std::string& collection, const std::string& request_id,
                                            const std::string& request_hash);
   void write_change(std::int64_t job, const StateChange& change);

@@ -10,12 +10,13 @@
 namespace cellcrush::store {
 
 Journal::Created Journal::create_job(v1::Job job, const std::string& request_id, const std::string& request_hash,
-                                     std::int64_t element_steps) {
+                                     std::int64_t element_steps, const Admit& admit) {
   Created created;
   writes_.run([&] {
     if (const auto before = find_request("jobs", request_id, request_hash)) {
       created = {*before, false};
     } else {
+      if (admit) admit();
       created.job = JobInserter(database_).insert(std::move(job), {request_id, request_hash, {}, element_steps});
     }
   });
@@ -46,19 +47,6 @@ void Journal::delete_job(std::int64_t job) {
 
 void Journal::note_folder_removed(std::int64_t job) {
   writes_.run([&] { Statement(database_, "DELETE FROM deleted_jobs WHERE number = ?1").bind(1, job).run(); });
-}
-
-std::optional<std::int64_t> Journal::find_job_request(const std::string& request_id, const std::string& request_hash) {
-  std::optional<std::int64_t> found;
-  writes_.run([&] { found = find_request("jobs", request_id, request_hash); });
-  return found;
-}
-
-std::optional<std::int64_t> Journal::find_sweep_request(const std::string& request_id,
-                                                        const std::string& request_hash) {
-  std::optional<std::int64_t> found;
-  writes_.run([&] { found = find_request("sweeps", request_id, request_hash); });
-  return found;
 }
 
 std::optional<std::int64_t> Journal::find_request(const std::string& collection, const std::string& request_id,

@@ -115,13 +115,22 @@ std::vector<v1::JobEvent> JournalReader::events(std::int64_t job, std::int64_t a
   return out;
 }
 
-std::vector<v1::Sample> JournalReader::samples(std::int64_t job) {
+StoredSamples JournalReader::samples(std::int64_t job, std::int64_t after, PageRoom room) {
   const std::scoped_lock lock(mutex_);
-  Statement read(database_, "SELECT payload, sequence FROM events WHERE job = ?1 AND kind = ?2 ORDER BY sequence");
-  read.bind(1, job).bind(2, kSampleEvent);
-  std::vector<v1::Sample> out;
+  Statement read(
+      database_,
+      "SELECT payload, sequence FROM events WHERE job = ?1 AND sequence > ?2 AND kind = ?3 ORDER BY sequence");
+  read.bind(1, job).bind(2, after).bind(3, kSampleEvent);
+  StoredSamples out;
   while (read.step()) {
-    if (!out.emplace_back().ParseFromString(read.bytes(0))) throw unreadable_event(job, read.integer(1));
+    const std::string payload = read.bytes(0);
+    v1::Sample sample;
+    const bool sound = sample.ParseFromString(payload);
+    if (!sound && out.samples.empty()) throw unreadable_event(job, read.integer(1));
+    out.has_more = !sound || !room.take(payload.size());
+    if (out.has_more) break;
+    out.samples.push_back(std::move(sample));
+    out.last_sequence = read.integer(1);
   }
   return out;
 }

@@ -9,6 +9,7 @@
 #include "cellcrush/v1/event.pb.h"
 #include "cellcrush/v1/job.pb.h"
 #include "store/job_filter.h"
+#include "store/page_room.h"
 #include "store/queued_job.h"
 #include "store/sqlite.h"
 
@@ -19,6 +20,13 @@ struct StoredJob {
   std::int64_t number = 0;
   v1::Job job;
   std::int64_t last_sequence = 0;
+};
+
+/// Samples of a job that follow each other.
+struct StoredSamples {
+  std::vector<v1::Sample> samples;
+  std::int64_t last_sequence = 0;  ///< of the last of them; 0 without any
+  bool has_more = false;           ///< whether others come behind them
 };
 
 /// Reads the journal beside its writer; sees what is committed. Thread-safe. Failures throw ServiceError: data_loss for an event
@@ -43,11 +51,16 @@ class JournalReader {
   /// The jobs in a state, oldest first, with what the scheduler asks of them.
   std::vector<QueuedJob> queued_jobs(v1::JobState state);
 
+  /// The same of one job; nothing unless it is in that state.
+  std::optional<QueuedJob> queued_job(std::int64_t job, v1::JobState state);
+
   /// States (without their cases) and samples behind `after`, in order. Ends before one that cannot be read; throws data_loss
   /// when that is the first.
   std::vector<v1::JobEvent> events(std::int64_t job, std::int64_t after, int limit);
 
-  std::vector<v1::Sample> samples(std::int64_t job);
+  /// The samples behind the event `after`, in order. Ends before one that cannot be read; throws data_loss when that is
+  /// the first.
+  StoredSamples samples(std::int64_t job, std::int64_t after = 0, PageRoom room = {});
 
   /// Step of the newest sample; -1 before the first.
   std::int64_t last_sampled_step(std::int64_t job);

@@ -62,13 +62,15 @@ std::vector<Retry> jobs_to_retry(const Database& database, std::int64_t sweep) {
 }  // namespace
 
 Journal::CreatedSweep Journal::create_sweep(v1::Sweep sweep, const std::vector<SweepJob>& jobs,
-                                            const std::string& request_id, const std::string& request_hash) {
+                                            const std::string& request_id, const std::string& request_hash,
+                                            const Admit& admit) {
   CreatedSweep created;
   writes_.run([&] {
     if (const auto before = find_request("sweeps", request_id, request_hash)) {
       created = {*before, {}, false};
       return;
     }
+    if (admit) admit();
     *sweep.mutable_create_time() = google::protobuf::util::TimeUtil::GetCurrentTime();
     Statement insert(database_,
                      "INSERT INTO sweeps (sweep, max_parallel, request_id, request_hash, max_failures) "

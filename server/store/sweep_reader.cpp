@@ -2,6 +2,8 @@
 
 #include <spdlog/spdlog.h>
 
+#include <utility>
+
 #include "cellcrush/v1/job.pb.h"
 #include "jobs/resource_name.h"
 #include "store/journal_mending.h"
@@ -50,15 +52,16 @@ std::vector<std::int64_t> SweepReader::jobs_of(std::int64_t sweep) {
   return out;
 }
 
-std::vector<v1::SweepTable::Row> SweepReader::rows(std::int64_t sweep) {
+StoredRows SweepReader::rows(std::int64_t sweep, std::int64_t after, PageRoom room) {
   const std::scoped_lock lock(mutex_);
   Statement read(database_,
-                 "SELECT sweep_jobs.point, jobs.number, jobs.job, jobs.state FROM sweep_jobs JOIN jobs "
-                 "ON jobs.number = sweep_jobs.job WHERE sweep_jobs.sweep = ?1 ORDER BY sweep_jobs.position");
-  read.bind(1, sweep);
-  std::vector<v1::SweepTable::Row> out;
+                 "SELECT sweep_jobs.point, jobs.number, jobs.job, jobs.state, sweep_jobs.position + 1 "
+                 "FROM sweep_jobs JOIN jobs ON jobs.number = sweep_jobs.job "
+                 "WHERE sweep_jobs.sweep = ?1 AND sweep_jobs.position >= ?2 ORDER BY sweep_jobs.position");
+  read.bind(1, sweep).bind(2, after);
+  StoredRows out;
   while (read.step()) {
-    v1::SweepTable::Row& row = out.emplace_back();
+    v1::SweepTable::Row row;
     if (!row.ParseFromString(read.bytes(0))) {
       spdlog::error("A point of {} cannot be read: the journal was damaged.", jobs::sweep_name_of(sweep));
       row.Clear();
@@ -67,6 +70,10 @@ std::vector<v1::SweepTable::Row> SweepReader::rows(std::int64_t sweep) {
     if (!read_job_bytes(read.bytes(2), read.integer(3), *row.mutable_result())) set_corrupt(*row.mutable_result());
     row.mutable_result()->set_name(row.job());
     row.mutable_result()->clear_labels();
+    out.has_more = !room.take(row.ByteSizeLong());
+    if (out.has_more) break;
+    out.rows.push_back(std::move(row));
+    out.last_point = read.integer(4);
   }
   return out;
 }

@@ -7,9 +7,17 @@
 #include <vector>
 
 #include "cellcrush/v1/sweep.pb.h"
+#include "store/page_room.h"
 #include "store/sqlite.h"
 
 namespace cellcrush::store {
+
+/// Rows of a sweep's table that follow each other.
+struct StoredRows {
+  std::vector<v1::SweepTable::Row> rows;
+  std::int64_t last_point = 0;  ///< of the last of them, counted from 1; 0 without any
+  bool has_more = false;        ///< whether others come behind them
+};
 
 /// Reads the journal's sweeps beside its writer; sees what is committed. Thread-safe. Failures throw ServiceError.
 class SweepReader {
@@ -26,8 +34,9 @@ class SweepReader {
   /// The sweep's jobs in the order of the points.
   std::vector<std::int64_t> jobs_of(std::int64_t sweep);
 
-  /// A row a job in the order of the points; of each result the case and the labels are left out.
-  std::vector<v1::SweepTable::Row> rows(std::int64_t sweep);
+  /// A row a job in the order of the points, from behind the point `after`; of each result the case and the labels are
+  /// left out.
+  StoredRows rows(std::int64_t sweep, std::int64_t after = 0, PageRoom room = {});
 
  private:
   std::mutex mutex_;

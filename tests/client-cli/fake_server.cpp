@@ -125,7 +125,13 @@ class FakeServer::Jobs : public v1::Jobs::Service {
   grpc::Status GetHistory(grpc::ServerContext*, const v1::GetHistoryRequest* request,
                           v1::GetHistoryResponse* response) override {
     if (!knows(request->name())) return not_found(request->name());
-    for (const v1::Sample& sample : shared_.script.samples) *response->add_samples() = sample;
+    // A token is the number of samples before it.
+    constexpr std::size_t kPage = 150;
+    const auto& samples = shared_.script.samples;
+    std::size_t at = request->page_token().empty() ? 0 : std::stoul(request->page_token());
+    const std::size_t end = std::min(samples.size(), at + kPage);
+    while (at < end) *response->add_samples() = samples[at++];
+    if (end < samples.size()) response->set_next_page_token(std::to_string(end));
     return grpc::Status::OK;
   }
 

@@ -1,5 +1,6 @@
 #include "fake_sweeps.h"
 
+#include <algorithm>
 #include <chrono>
 #include <thread>
 #include <utility>
@@ -84,7 +85,13 @@ grpc::Status FakeSweeps::WatchSweep(grpc::ServerContext* context, const v1::Watc
 
 grpc::Status FakeSweeps::GetSweepTable(grpc::ServerContext*, const v1::GetSweepTableRequest* request,
                                        v1::SweepTable* response) {
-  *response = script_.table;
+  // A page of two rows; a token is the number of rows before it, and the first page has the fields.
+  constexpr int kPage = 2;
+  int at = request->page_token().empty() ? 0 : std::stoi(request->page_token());
+  const int end = std::min(script_.table.rows_size(), at + kPage);
+  if (at == 0) *response->mutable_fields() = script_.table.fields();
+  while (at < end) *response->add_rows() = script_.table.rows(at++);
+  if (end < script_.table.rows_size()) response->set_next_page_token(std::to_string(end));
   return find(request->name());
 }
 

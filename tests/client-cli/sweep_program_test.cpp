@@ -183,6 +183,16 @@ TEST(SweepTable, IsPrintedAsATextCsvOrJson) {
   EXPECT_EQ(run_on(server, {"table", "jobs/test"}).exit_code, 2);
 }
 
+TEST(SweepTable, OfManyPagesIsOneTable) {
+  const FakeServer server(sweep_script({v1::SUCCEEDED, v1::FAILED, v1::SUCCEEDED, v1::SUCCEEDED, v1::SUCCEEDED}));
+  v1::SweepTable table;
+  ASSERT_TRUE(JsonStringToMessage(run_on(server, {"table", "test", "--json"}).output, &table).ok());
+  EXPECT_EQ(table.fields_size(), 1);
+  ASSERT_EQ(table.rows_size(), 5);
+  EXPECT_EQ(table.rows(4).job(), "jobs/test-5");
+  EXPECT_TRUE(table.next_page_token().empty());
+}
+
 TEST(SweepLife, CancelRetryShowAndListNameTheSweep) {
   const FakeServer server(sweep_script({v1::SUCCEEDED, v1::FAILED}));
   const ProgramResult cancel = run_on(server, {"cancel", "sweeps/test"});

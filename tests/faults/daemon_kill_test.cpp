@@ -93,7 +93,7 @@ class DaemonKillTest : public FaultFixture {
       ASSERT_EQ(events[i].sequence(), static_cast<std::int64_t>(i) + 1) << job;
     ASSERT_FALSE(events.empty());
     EXPECT_EQ(events.back().state().state(), v1::SUCCEEDED) << job;
-    const auto samples = reader.samples(number);
+    const auto samples = reader.samples(number).samples;
     for (std::size_t i = 1; i < samples.size(); ++i) ASSERT_GT(samples[i].step(), samples[i - 1].step()) << job;
     EXPECT_EQ(store::ResultReader(data_folder() / job / "result.h5").history().size(), samples.size()) << job;
     for (const auto& entry : std::filesystem::directory_iterator(data_folder() / job))

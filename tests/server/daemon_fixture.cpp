@@ -63,12 +63,23 @@ grpc::Status Client::remove(const std::string& job) {
 }
 
 std::vector<v1::Sample> Client::history(const std::string& job) {
+  grpc::Status status;
+  auto out = history(job, status);
+  EXPECT_TRUE(status.ok()) << status.error_message();
+  return out;
+}
+
+std::vector<v1::Sample> Client::history(const std::string& job, grpc::Status& status) {
   v1::GetHistoryRequest request;
   request.set_name(job);
-  v1::GetHistoryResponse out;
-  const auto status = jobs->GetHistory(bounded_context().get(), request, &out);
-  EXPECT_TRUE(status.ok()) << status.error_message();
-  return {out.samples().begin(), out.samples().end()};
+  std::vector<v1::Sample> out;
+  do {
+    v1::GetHistoryResponse page;
+    status = jobs->GetHistory(bounded_context().get(), request, &page);
+    out.insert(out.end(), page.samples().begin(), page.samples().end());
+    request.set_page_token(page.next_page_token());
+  } while (!request.page_token().empty());
+  return out;
 }
 
 Client::Watched Client::watch(const std::string& job, std::int64_t after_sequence, bool frames,

@@ -36,7 +36,10 @@ class Client {
   grpc::Status suspend(const std::string& job);
   grpc::Status resume(const std::string& job);
   grpc::Status remove(const std::string& job);
+  /// All pages of it; fails the test when one is refused.
   std::vector<v1::Sample> history(const std::string& job);
+  /// All pages up to one that is refused, and how the last call ended.
+  std::vector<v1::Sample> history(const std::string& job, grpc::Status& status);
   /// Watches to the end; `on_event` sees each event as it comes.
   Watched watch(const std::string& job, std::int64_t after_sequence = 0, bool frames = false,
                 const OnEvent& on_event = {});

@@ -64,6 +64,11 @@ TEST(Page, ATokenBelongsToItsList) {
   EXPECT_EQ(read_page(0, token, "all").after, 17);
   EXPECT_EQ(read_page(0, "", "all").size, 50);
   EXPECT_EQ(read_page(5000, "", "all").size, 1000);
+  EXPECT_EQ(read_full_page(5000, token, "all").size, 5000);
+  EXPECT_EQ(read_full_page(5000, token, "all").after, 17);
+  EXPECT_GT(read_full_page(0, "", "all").size, 1'000'000);
+  EXPECT_THROW(read_full_page(-1, "", "all"), InvalidField);
+  EXPECT_THROW(read_full_page(0, token, "others"), InvalidField);
   EXPECT_THROW(read_page(-1, "", "all"), InvalidField);
   EXPECT_THROW(read_page(0, token, "others"), InvalidField);
   for (const char* text : {"17", "x", "-1-", "99999999999999999999-0"})

@@ -87,7 +87,7 @@ TEST_F(JournalTest, EventsCountFromOneWithoutAGapAndStatesComeAfterTheSamplesBef
   for (int i = 1; i <= 250; ++i) EXPECT_EQ(events[static_cast<std::size_t>(i) + 1].sample().step(), i);
   EXPECT_EQ(events.back().state().state(), v1::FAILED);
   EXPECT_EQ(reader_->events(job, 252, 1000).size(), 1U);
-  EXPECT_EQ(reader_->samples(job).size(), 250U);
+  EXPECT_EQ(reader_->samples(job).samples.size(), 250U);
 }
 
 TEST_F(JournalTest, SamplesBecomeDurableByThemselvesAndAreAnnouncedAfterwards) {
@@ -96,15 +96,50 @@ TEST_F(JournalTest, SamplesBecomeDurableByThemselvesAndAreAnnouncedAfterwards) {
   journal_->append_sample(job, sample(1));
   for (int i = 0; i < 200 && told_ == before; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
   EXPECT_GT(told_, before);
-  EXPECT_EQ(reader_->samples(job).size(), 1U);
+  EXPECT_EQ(reader_->samples(job).samples.size(), 1U);
 }
 
 TEST_F(JournalTest, ClosingKeepsWhatIsGathered) {
   const auto job = create();
   journal_->append_sample(job, sample(5));
   reopen();
-  ASSERT_EQ(reader_->samples(job).size(), 1U);
-  EXPECT_EQ(reader_->samples(job)[0].step(), 5);
+  ASSERT_EQ(reader_->samples(job).samples.size(), 1U);
+  EXPECT_EQ(reader_->samples(job).samples[0].step(), 5);
+}
+
+TEST_F(JournalTest, SamplesAreReadInPartsThatMeet) {
+  const auto job = create();
+  change(job, v1::RUNNING);
+  for (int i = 1; i <= 10; ++i) journal_->append_sample(job, sample(i));
+  change(job, v1::FAILED);
+  std::vector<std::int64_t> steps;
+  std::vector<std::size_t> sizes;
+  StoredSamples part;
+  do {
+    part = reader_->samples(job, part.last_sequence, {4, 1000});
+    for (const auto& one : part.samples) steps.push_back(one.step());
+    sizes.push_back(part.samples.size());
+  } while (part.has_more);
+  EXPECT_EQ(steps, (std::vector<std::int64_t>{1, 2, 3, 4, 5, 6, 7, 8, 9, 10}));
+  EXPECT_EQ(sizes, (std::vector<std::size_t>{4, 4, 2}));
+  EXPECT_EQ(reader_->samples(job, 0, {1000, 1}).samples.size(), 1U) << "One always, however large.";
+  EXPECT_EQ(reader_->samples(job, 0, {1000, sample(1).ByteSizeLong() * 3}).samples.size(), 3U);
+  EXPECT_TRUE(reader_->samples(job, 12).samples.empty());
+  EXPECT_FALSE(reader_->samples(job, 0, {10, 1000}).has_more) << "The end of the list is seen.";
+}
+
+TEST_F(JournalTest, WhatIsNewIsAdmittedOnceAndNotMadeWhenItIsRefused) {
+  int asked = 0;
+  const auto admit = [&asked] { ++asked; };
+  const auto refuse = [] { throw ServiceError(ServiceError::Kind::exhausted, "full"); };
+  EXPECT_THROW(journal_->create_job({}, "id", "hash", 0, refuse), ServiceError);
+  EXPECT_THROW(journal_->create_sweep({}, {SweepJob()}, "id", "hash", refuse), ServiceError);
+  EXPECT_TRUE(reader_->list_jobs({}, true, 0, 10).empty());
+  EXPECT_TRUE(journal_->create_job({}, "id", "hash", 0, admit).is_new);
+  EXPECT_TRUE(journal_->create_sweep({}, {SweepJob()}, "id", "hash", admit).is_new);
+  EXPECT_EQ(asked, 2);
+  EXPECT_FALSE(journal_->create_job({}, "id", "hash", 0, refuse).is_new) << "What is there needs no room.";
+  EXPECT_FALSE(journal_->create_sweep({}, {SweepJob()}, "id", "hash", refuse).is_new);
 }
 
 TEST_F(JournalTest, ARequestIdMakesOneJobAndNoOtherRequestMayUseIt) {
@@ -250,7 +285,7 @@ TEST_F(SweepJournalTest, ASweepSurvivesReopening) {
   EXPECT_EQ(found->state_counts().at("RUNNING"), 1);
   EXPECT_EQ(found->state_counts().at("PENDING"), 2);
   EXPECT_GT(found->create_time().seconds(), 0);
-  const auto rows = sweeps.rows(made.sweep);
+  const auto rows = sweeps.rows(made.sweep).rows;
   ASSERT_EQ(rows.size(), 3U);
   EXPECT_EQ(rows[2].values(0), 150.0);
   EXPECT_EQ(rows[0].result().state(), v1::RUNNING);
@@ -259,6 +294,17 @@ TEST_F(SweepJournalTest, ASweepSurvivesReopening) {
   EXPECT_EQ(waiting[0].job, made.jobs[1]);
   EXPECT_EQ(waiting[0].sweep, made.sweep);
   EXPECT_EQ(waiting[0].max_parallel, 2);
+  const auto one = reader_->queued_job(made.jobs[1], v1::PENDING);
+  ASSERT_TRUE(one);
+  EXPECT_EQ(one->job, made.jobs[1]);
+  EXPECT_EQ(one->max_parallel, 2);
+  EXPECT_FALSE(reader_->queued_job(made.jobs[0], v1::PENDING)) << "It runs.";
+  const auto part = sweeps.rows(made.sweep, 1, {1, 1000});
+  ASSERT_EQ(part.rows.size(), 1U);
+  EXPECT_EQ(part.rows[0].values(0), 100.0);
+  EXPECT_EQ(part.last_point, 2);
+  EXPECT_TRUE(part.has_more);
+  EXPECT_FALSE(sweeps.rows(made.sweep, 2).has_more);
 }
 
 TEST_F(SweepJournalTest, WhatDecidesTheOrderOfWaitingJobsSurvivesReopening) {
@@ -306,7 +352,7 @@ TEST_F(SweepJournalTest, AJournalOfTheSecondVersionKeepsItsJobsInTheirOrder) {
     EXPECT_EQ(waiting[i].priority, 0);
   }
   EXPECT_EQ(waiting[3].submission, alone);
-  EXPECT_EQ(SweepReader(path()).rows(made.sweep).size(), 3U);
+  EXPECT_EQ(SweepReader(path()).rows(made.sweep).rows.size(), 3U);
 }
 
 TEST_F(SweepJournalTest, ARequestIdMakesOneSweep) {

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -47,7 +48,7 @@ class MetricsTest : public DaemonFixture {
   /// The first answer in which the series has the value, within 10 s: a job's end is told to watchers first.
   std::string scrape_until(const std::string& series, double value) const {
     std::string answer = scrape();
-    for (int i = 0; i < 200 && answer.find("\n" + series + " ") == std::string::npos; ++i) {
+    for (int i = 0; i < 200 && find_value(answer, series) != value; ++i) {
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
       answer = scrape();
     }
@@ -55,11 +56,18 @@ class MetricsTest : public DaemonFixture {
     return answer;
   }
 
-  /// Value of a line of the answer; fails the test when there is none.
-  [[nodiscard]] static double value_of(const std::string& answer, const std::string& series) {
+  /// Value of a line of the answer; nothing when there is none.
+  [[nodiscard]] static std::optional<double> find_value(const std::string& answer, const std::string& series) {
     const auto at = answer.find("\n" + series + " ");
-    EXPECT_NE(at, std::string::npos) << series << " in\n" << answer;
-    return at == std::string::npos ? -1.0 : std::stod(answer.substr(at + series.size() + 2));
+    if (at == std::string::npos) return std::nullopt;
+    return std::stod(answer.substr(at + series.size() + 2));
+  }
+
+  /// The same; fails the test when there is none.
+  [[nodiscard]] static double value_of(const std::string& answer, const std::string& series) {
+    const auto found = find_value(answer, series);
+    EXPECT_TRUE(found) << series << " in\n" << answer;
+    return found.value_or(-1.0);
   }
 };
 

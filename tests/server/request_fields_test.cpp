@@ -52,8 +52,8 @@ TEST(RequestFields, NoTextOfARequestNamesAFileOfTheDaemon) {
       "WatchSweepRequest.name", "GetSweepTableRequest.name", "GetPresetRequest.name",
       // Of lists, of repeated calls and of resumed watches.
       "ListJobsRequest.page_token", "ListJobsRequest.filter", "ListJobsRequest.order_by",
-      "ListSweepsRequest.page_token", "CreateJobRequest.request_id", "CreateSweepRequest.request_id",
-      "WatchSweepRequest.resume_token",
+      "ListSweepsRequest.page_token", "GetHistoryRequest.page_token", "GetSweepTableRequest.page_token",
+      "CreateJobRequest.request_id", "CreateSweepRequest.request_id", "WatchSweepRequest.resume_token",
       // Labels: key and value.
       "CreateJobRequest.LabelsEntry.key", "CreateJobRequest.LabelsEntry.value", "Sweep.LabelsEntry.key",
       "Sweep.LabelsEntry.value",

@@ -1,0 +1,25 @@
+#include "log_fields.h"
+
+#include <spdlog/spdlog.h>
+
+namespace cellcrush {
+namespace {
+
+// A formatter is given the words alone, so the fields go to it by the side; it works on the thread that logs.
+thread_local const std::vector<LogField>* current_fields = nullptr;
+
+}  // namespace
+
+void log_with_fields(spdlog::level::level_enum level, const std::string& words, const std::vector<LogField>& fields) {
+  current_fields = &fields;
+  // The words are no format. What goes wrong in writing spdlog tells by itself and does not throw.
+  spdlog::log(level, spdlog::string_view_t(words));
+  current_fields = nullptr;
+}
+
+const std::vector<LogField>& fields_of_this_line() {
+  static const std::vector<LogField> none;
+  return current_fields == nullptr ? none : *current_fields;
+}
+
+}  // namespace cellcrush

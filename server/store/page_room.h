@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+
+namespace cellcrush::store {
+
+/// How much of a long list is read at once: so many entries, and no more than take so many bytes. By default all of it.
+class PageRoom {
+ public:
+  PageRoom() = default;
+  PageRoom(int entries, std::size_t bytes) : entries_(entries), bytes_(bytes) {}
+
+  /// Takes an entry of that many bytes; false when there is no room for it. The first one always has some.
+  bool take(std::size_t bytes) {
+    if (!is_empty_ && (entries_ == 0 || bytes > bytes_)) return false;
+    is_empty_ = false;
+    if (entries_ > 0) --entries_;
+    bytes_ -= bytes < bytes_ ? bytes : bytes_;
+    return true;
+  }
+
+ private:
+  int entries_ = std::numeric_limits<int>::max();
+  std::size_t bytes_ = std::numeric_limits<std::size_t>::max();
+  bool is_empty_ = true;
+};
+
+}  // namespace cellcrush::store
