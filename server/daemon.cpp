@@ -111,7 +111,7 @@ struct Daemon::Impl {
         jobs({folder, journal, reader, hub, pump, scheduler, admission, metrics, gate, options.bookmark_interval}),
         sweeps(
             {journal, reader, sweep_reader, hub, pump, scheduler, admission, metrics, gate, options.bookmark_interval}),
-        admin({reader, hub, {worker_limit(options.workers), step_cost}, gate, [this] { drain(); }}) {
+        admin({reader, hub, scheduler, {worker_limit(options.workers), step_cost, false}, gate, [this] { drain(); }}) {
     listen();
     serve_metrics();
     scheduler.start(worker_limit(options.workers));

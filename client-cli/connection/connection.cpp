@@ -10,7 +10,8 @@ namespace cellcrush::client {
 
 namespace {
 
-constexpr std::chrono::milliseconds kConnectPatience{1500};
+constexpr std::chrono::milliseconds kHandshakePatience{600};
+constexpr std::chrono::milliseconds kConnectPatience{900};
 constexpr std::chrono::milliseconds kReasonPatience{200};
 
 grpc::ChannelArguments channel_arguments() {
@@ -81,10 +82,12 @@ std::string Connection::last_failure() {
 
 void Connection::require_server() {
   if (connected_) return;
-  if (!wait(kConnectPatience)) {
-    throw CommandError(ExitCode::no_connection, connection_failure_text(address_, credentials_, last_failure()));
-  }
-  connected_ = true;
+  connected_ = wait(kHandshakePatience);
+  if (connected_) return;
+  // One that refuses this client goes on to do so; one that is not there may be about to start.
+  const std::string reason = last_failure();
+  connected_ = may_still_answer(address_, reason) && wait(kConnectPatience);
+  if (!connected_) throw CommandError(ExitCode::no_connection, connection_failure_text(address_, credentials_, reason));
 }
 
 }  // namespace cellcrush::client

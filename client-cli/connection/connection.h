@@ -17,7 +17,7 @@
 namespace cellcrush::client {
 
 /// A channel to one server, with a stub for each service. It connects on first use, and says within two seconds when no
-/// server answers. Not thread-safe, except that calls on the stubs are.
+/// server answers, within one when one does not let it in. Not thread-safe, except that calls on the stubs are.
 class Connection {
  public:
   /// `address` as find_server_address answers it.

@@ -10,6 +10,8 @@ bool has_part(const std::string& text, const char* part) { return text.find(part
 
 std::string host_of(const std::string& address) { return address.substr(0, address.rfind(':')); }
 
+bool is_socket(const std::string& address) { return address.starts_with("unix:"); }
+
 // Nothing was there to end the connection.
 bool was_not_reached(const std::string& reason) {
   for (const char* part : {"Connection refused", "No route to host", "unreachable", "timed out", "Timeout", "DNS"}) {
@@ -38,17 +40,20 @@ std::string tls_failure_text(const std::string& address, const std::string& reas
 
 }  // namespace
 
+bool may_still_answer(const std::string& address, const std::string& reason) {
+  return is_socket(address) || was_not_reached(reason);
+}
+
 std::string connection_failure_text(const std::string& address, const Credentials& credentials,
                                     const std::string& reason) {
   std::error_code error;
-  const bool is_socket = address.starts_with("unix:");
-  if (!is_socket && !was_not_reached(reason)) {
+  if (!may_still_answer(address, reason)) {
     if (credentials.tls) return tls_failure_text(address, reason);
     return "the server at " + address +
            " does not answer in plain text; if it talks TLS, name the authority of its certificate with --tls-ca";
   }
   std::string message = "no server answers at " + address;
-  if (is_socket && !std::filesystem::exists(address.substr(5), error)) message += " (there is no such socket)";
+  if (is_socket(address) && !std::filesystem::exists(address.substr(5), error)) message += " (there is no such socket)";
   return message + "; start cellcrushd, or name its address with --server";
 }
 

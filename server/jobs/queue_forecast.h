@@ -17,6 +17,7 @@ struct RunningJob {
 struct WorkerFacts {
   int count = 1;
   double step_cost = 0.0;  ///< seconds of one core for a step of an element
+  bool held = false;       ///< whether no job runs, as the disk is nearly full
 };
 
 /// Jobs that a queue names, at most.

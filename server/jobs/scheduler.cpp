@@ -159,6 +159,11 @@ bool Scheduler::hold(bool held) {
   return true;
 }
 
+bool Scheduler::is_held() {
+  const std::scoped_lock lock(mutex_);
+  return held_;
+}
+
 std::size_t Scheduler::waiting_count() {
   const std::scoped_lock lock(mutex_);
   return waiting_.count();

@@ -64,6 +64,8 @@ class Scheduler {
   /// While held, no job runs: workers leave theirs at a checkpoint, and none starts. Whether that is a change.
   bool hold(bool held);
 
+  [[nodiscard]] bool is_held();
+
   [[nodiscard]] std::size_t waiting_count();
 
   /// Lets running workers leave their jobs at a checkpoint, and waits until the slots are done. These jobs and those that wait are

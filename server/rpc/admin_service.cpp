@@ -33,7 +33,9 @@ grpc::Status AdminService::GetQueue(grpc::ServerContext*, const v1::GetQueueRequ
     auto running = running_jobs(v1::RUNNING);
     const auto stopping = running_jobs(v1::CANCELLING);
     running.insert(running.end(), stopping.begin(), stopping.end());
-    *response = jobs::forecast_queue(running, parts_.reader.queued_jobs(v1::PENDING), parts_.workers);
+    jobs::WorkerFacts workers = parts_.workers;
+    workers.held = parts_.scheduler.is_held();
+    *response = jobs::forecast_queue(running, parts_.reader.queued_jobs(v1::PENDING), workers);
     return grpc::Status::OK;
   });
 }

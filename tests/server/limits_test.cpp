@@ -98,6 +98,11 @@ TEST_F(LimitsTest, RunningJobsAreLeftWhileTheDiskIsNearlyFullAndGoOnWhenThereIsR
   const std::string command = "fallocate -l " + std::to_string(kTaken) + " " + file.string();
   ASSERT_EQ(std::system(command.c_str()), 0);
   EXPECT_TRUE(client.wait_for_state(job, v1::PENDING));
+  v1::Queue queue;
+  const auto admin = v1::Admin::NewStub(client.channel);
+  ASSERT_TRUE(admin->GetQueue(bounded_context().get(), {}, &queue).ok());
+  ASSERT_EQ(queue.entries_size(), 1);
+  EXPECT_THAT(queue.entries(0).reason(), HasSubstr("nearly full"));
   EXPECT_EQ(try_to_create(client, small_case()).error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
   std::filesystem::remove(file);
   EXPECT_TRUE(client.wait_for_state(job, v1::RUNNING));
