@@ -13,7 +13,7 @@ void add_time_limit_option(CLI::App& command, double& seconds) {
                   "Time after which a job that runs ends with what there is, in s, min, h or d, such as 90s or 2h "
                   "(default: the daemon's)")
       ->transform(CLI::AsNumberWithUnit(units, CLI::AsNumberWithUnit::CASE_SENSITIVE))
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(0.001, 1e9));
 }
 
 }  // namespace cellcrush::client
