@@ -7,11 +7,11 @@
 #include <cerrno>
 #include <cmath>
 #include <system_error>
-#include <vector>
 
 #include "jobs/resource_name.h"
 #include "rpc/error_table.h"
 #include "rpc/jobs_service.h"
+#include "rpc/result_frame.h"
 #include "store/result_reader.h"
 #include "watch/frame_chunks.h"
 
@@ -62,31 +62,6 @@ class InputFile {
   std::int64_t size_ = 0;
 };
 
-// Position of the value nearest to `wanted`.
-int nearest(const std::vector<double>& values, double wanted) {
-  const auto closer = [wanted](double a, double b) { return std::abs(a - wanted) < std::abs(b - wanted); };
-  return static_cast<int>(std::min_element(values.begin(), values.end(), closer) - values.begin());
-}
-
-v1::FieldFrame frame_of_result(const std::filesystem::path& path, const v1::GetFrameRequest& request) {
-  const store::ResultReader result(path);
-  const auto times = result.frame_times();
-  const int last = static_cast<int>(times.size()) - 1;
-  switch (request.which_case()) {
-    case v1::GetFrameRequest::kStrain: return result.frame(nearest(result.frame_strains(), request.strain()));
-    case v1::GetFrameRequest::kTimeS: return result.frame(nearest(times, request.time_s()));
-    case v1::GetFrameRequest::kIndex:
-      if (request.index() < -1 || request.index() > last) {
-        throw ServiceError(ServiceError::Kind::out_of_range,
-                           "index is " + std::to_string(request.index()) + ", but frames count from 0 to " +
-                               std::to_string(last) + ". Use one of them, or -1 for the last.");
-      }
-      return result.frame(request.index() == -1 ? last : request.index());
-    case v1::GetFrameRequest::WHICH_NOT_SET: break;
-  }
-  return result.frame(last);
-}
-
 }  // namespace
 
 v1::FieldFrame JobsService::find_frame(const store::StoredJob& stored, const v1::GetFrameRequest& request) {
@@ -94,7 +69,8 @@ v1::FieldFrame JobsService::find_frame(const store::StoredJob& stored, const v1:
       (request.has_time_s() && !std::isfinite(request.time_s())))
     throw ServiceError(ServiceError::Kind::invalid,
                        "The strain or time of the frame is not a number. Use a finite one.");
-  if (stored.job.has_summary()) return frame_of_result(parts_.folder.job_folder(stored.number).result(), request);
+  if (stored.job.has_summary())
+    return read_frame(store::ResultReader(parts_.folder.job_folder(stored.number).result()), request);
   const auto channel = parts_.hub.find(stored.number);
   const auto frame = channel ? channel->newest().frame : nullptr;
   if (!frame) {

@@ -108,6 +108,10 @@ void write_attribute(hid_t object, const char* name, std::int64_t value) {
 std::string read_text_attribute(hid_t object, const char* name) {
   const std::string what = std::string("Reading the attribute ") + name;
   const Hdf5Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose, what);
+  // HDF5 writes as many pointers as the attribute has texts.
+  const Hdf5Handle space(H5Aget_space(attribute.id()), H5Sclose, what);
+  if (H5Sget_simple_extent_npoints(space.id()) != 1)
+    throw ServiceError(ServiceError::Kind::data_loss, what + " failed: it is not one text.");
   const Hdf5Handle type = text_type();
   char* text = nullptr;
   check_hdf5(H5Aread(attribute.id(), type.id(), static_cast<void*>(&text)), what);

@@ -9,7 +9,8 @@
 
 namespace cellcrush::store {
 
-/// Reads one complete result.h5 (result_format.md). Not thread-safe. Failures throw ServiceError.
+/// Reads one complete result.h5 (result_format.md). A file whose bytes have changed since it was written is refused
+/// before HDF5 sees it (result_seal.h), and a dataset that is not as ResultWriter makes it before it is read (result_dataset.h). Not thread-safe. Failures throw ServiceError.
 class ResultReader {
  public:
   explicit ResultReader(const std::filesystem::path& path);
@@ -20,12 +21,11 @@ class ResultReader {
   [[nodiscard]] std::vector<v1::Sample> history() const;
   [[nodiscard]] std::vector<double> frame_times() const;
   [[nodiscard]] std::vector<double> frame_strains() const;
-  /// REQUIRES: 0 <= index < the number of frames.
+  /// Throws ServiceError (data_loss) when there is none of that index.
   [[nodiscard]] v1::FieldFrame frame(int index) const;
 
  private:
-  [[nodiscard]] Hdf5Handle dataset(const std::string& path) const;
-  [[nodiscard]] std::vector<double> column(const std::string& path) const;
+  [[nodiscard]] std::vector<double> column(const char* group, const char* name) const;
 
   Hdf5Handle file_;
 };

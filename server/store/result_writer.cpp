@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "store/case_hash.h"
+#include "store/result_seal.h"
 #include "store/summary_attributes.h"
 
 namespace cellcrush::store {
@@ -33,11 +34,14 @@ std::string as_lines(const std::vector<std::string>& sentences) {
 }  // namespace
 
 ResultWriter::ResultWriter(const std::filesystem::path& path, const v1::Mesh& mesh)
-    : particle_count_(static_cast<hsize_t>(mesh.particle_count())),
+    : path_(path),
+      particle_count_(static_cast<hsize_t>(mesh.particle_count())),
       element_count_(static_cast<hsize_t>(mesh.thickness_mm_size())) {
   silence_hdf5();
-  file_ =
-      Hdf5Handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose, "Making " + path.string());
+  const std::string what = "Making " + path.string();
+  const Hdf5Handle properties(H5Pcreate(H5P_FILE_CREATE), H5Pclose, what);
+  check_hdf5(H5Pset_userblock(properties.id(), kSealBytes), what);
+  file_ = Hdf5Handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, properties.id(), H5P_DEFAULT), H5Fclose, what);
   write_mesh(mesh);
   const Hdf5Handle history = make_group(file_.id(), "history");
   for (std::size_t i = 0; i < kHistoryColumns.size(); ++i)
@@ -107,6 +111,7 @@ void ResultWriter::finish(const ResultHeader& header, const v1::Summary& summary
   for (auto* part : {&frame_time_, &frame_strain_, &frame_position_, &frame_plastic_, &mesh_}) part->close(what);
   check_hdf5(H5Fflush(file_.id(), H5F_SCOPE_GLOBAL), what);
   file_.close(what);
+  seal_result(path_);
 }
 
 std::int64_t predicted_result_bytes(std::int64_t particles, std::int64_t elements, std::int64_t samples,

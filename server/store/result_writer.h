@@ -35,13 +35,14 @@ class ResultWriter {
   void add_sample(const v1::Sample& sample);
   /// Frame 0 comes first: its positions are the mesh's.
   void add_frame(const v1::FieldFrame& frame);
-  /// Writes what is gathered and the attributes, and closes the file. Nothing may follow.
+  /// Writes what is gathered and the attributes, closes the file and seals it (result_seal.h). Nothing may follow.
   void finish(const ResultHeader& header, const v1::Summary& summary);
 
  private:
   void write_mesh(const v1::Mesh& mesh);
   void write_gathered();
 
+  std::filesystem::path path_;
   hsize_t particle_count_;
   hsize_t element_count_;
   Hdf5Handle file_;

@@ -65,6 +65,7 @@ std::map<std::int64_t, JobPlace> parse_resume_token(std::int64_t sweep, const st
   bool sound = reader.number() == sweep;
   reader.expect(':');
   std::map<std::int64_t, JobPlace> out;
+  std::int64_t next = 0;
   while (sound && reader.sound() && !reader.at_end()) {
     JobPlace place;
     place.job = reader.number();
@@ -74,8 +75,11 @@ std::map<std::int64_t, JobPlace> parse_resume_token(std::int64_t sweep, const st
     place.ended = reader.skip('e');
     if (!place.ended) place.sequence = reader.number();
     reader.expect(';');
-    sound = place.job < kLargestNumber && count <= kMostJobs - static_cast<std::int64_t>(out.size());
+    // Ascending as they are written: jobs named again and again would take minutes and pass the limit of their number.
+    sound =
+        place.job >= next && place.job < kLargestNumber && count <= kMostJobs - static_cast<std::int64_t>(out.size());
     for (std::int64_t i = 0; sound && reader.sound() && i < count; ++i, ++place.job) out[place.job] = place;
+    next = place.job;
   }
   if (!sound || !reader.sound()) {
     throw ServiceError(ServiceError::Kind::invalid, "The resume_token is none of " + jobs::sweep_name_of(sweep) +

@@ -1,6 +1,7 @@
 #include "worker/report_log.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <zlib.h>
 
@@ -80,6 +81,11 @@ ReportLogReader::ReportLogReader(const std::filesystem::path& path) : file_(open
 
 ReportLogReader::~ReportLogReader() { close(file_); }
 
+bool ReportLogReader::is_so_long(std::size_t size) const {
+  struct stat status {};
+  return fstat(file_, &status) == 0 && static_cast<std::uint64_t>(status.st_size) >= offset_ + size;
+}
+
 // Makes that many bytes of the record available. The buffer is never made smaller: to size it anew would fill it with zeros.
 bool ReportLogReader::fill(std::size_t size) {
   while (end_ - taken_ < size) {
@@ -87,7 +93,11 @@ bool ReportLogReader::fill(std::size_t size) {
               buffer_.begin() + static_cast<std::ptrdiff_t>(end_), buffer_.begin());
     end_ -= taken_;
     taken_ = 0;
-    if (buffer_.size() < std::max(size, kReadAhead)) buffer_.resize(std::max(size, kReadAhead));
+    if (buffer_.size() < std::max(size, kReadAhead)) {
+      // A length that was damaged may be a GiB; no room is made for what the file does not have.
+      if (size > kReadAhead && !is_so_long(size)) return false;
+      buffer_.resize(std::max(size, kReadAhead));
+    }
     const auto count = pread(file_, buffer_.data() + end_, buffer_.size() - end_, static_cast<off_t>(offset_ + end_));
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) return false;

@@ -55,6 +55,8 @@ class ReportLogReader {
 
  private:
   bool fill(std::size_t size);
+  /// Whether the file has that many bytes from offset_ on.
+  [[nodiscard]] bool is_so_long(std::size_t size) const;
   Read nothing_whole();
 
   int file_;

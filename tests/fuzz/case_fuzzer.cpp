@@ -8,27 +8,13 @@
 #include "case_file/json_case.h"
 #include "case_file/text_case.h"
 #include "command_error.h"
+#include "fuzz/size_bound.h"
 #include "translate/check_case.h"
 
 namespace cellcrush {
 namespace {
 
-/// A mesh that takes seconds to build is right, but tells the fuzzer nothing.
 constexpr double kMostElements = 20000.0;
-
-template <class Lattice>
-double cells_of(const Lattice& lattice) {
-  return static_cast<double>(lattice.columns()) * lattice.rows();
-}
-
-bool is_large(const v1::Case& given) {
-  const double per_wall = given.has_elements_per_wall() ? given.elements_per_wall() : 2.0;
-  const v1::Lattice& lattice = given.lattice();
-  double elements =
-      3.0 * per_wall * (cells_of(lattice.hexagon()) + cells_of(lattice.square()) + cells_of(lattice.triangle()));
-  for (const auto& beam : lattice.frame().beams()) elements += beam.has_elements() ? beam.elements() : per_wall;
-  return elements > kMostElements;
-}
 
 void check(const v1::Case& given) {
   const auto response = translate::check_case(given).response;
@@ -53,7 +39,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   } catch (const client::CommandError&) {
     return 0;
   }
-  if (!is_large(given)) {
+  if (!fuzz::is_large(given, kMostElements)) {
     check(given);
   }
   return 0;

@@ -1,6 +1,7 @@
 #include "worker/report_log.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <filesystem>
 #include <fstream>
@@ -54,6 +55,20 @@ TEST_F(ReportLogTest, ReportsComeWholeAndInOrderWhileTheyAreWritten) {
   }
   EXPECT_EQ(reader.read(report), Read::end);
   writer.join();
+}
+
+TEST_F(ReportLogTest, ALengthThatWasDamagedTakesNoMemory) {
+  const auto most_memory = [] {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss;  // KiB
+  };
+  write_bytes(std::string("\0\0\0\x3F", 4) + std::string(100, 'x'));
+  const auto before = most_memory();
+  ReportLogReader reader(path());
+  Report report;
+  EXPECT_EQ(reader.read(report), Read::end);
+  EXPECT_LT(most_memory() - before, 100 * 1024);
 }
 
 TEST_F(ReportLogTest, WhatAKilledWriterLeftHalfWrittenIsCutOffWhereverItWasKilled) {

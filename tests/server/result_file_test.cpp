@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 #include <hdf5.h>
 
+#include <fstream>
+#include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -9,6 +12,7 @@
 #include "server/temporary_folder.h"
 #include "store/case_hash.h"
 #include "store/result_reader.h"
+#include "store/result_seal.h"
 #include "store/result_writer.h"
 
 namespace cellcrush::store {
@@ -174,6 +178,148 @@ TEST_F(ResultFileTest, ThePredictedSizeIsNotPassedAndNotFarOff) {
   const auto real = static_cast<std::int64_t>(std::filesystem::file_size(path_));
   EXPECT_LT(real, predicted);
   EXPECT_GT(16 * real, predicted);
+}
+
+// What another program may have put in the place of a part of a result, behind a checksum that fits.
+class ChangedResultTest : public ResultFileTest {
+ protected:
+  // `change` gets the file, in which the dataset is no more, and may put another in its place.
+  void replace(const char* dataset, const std::function<void(hid_t file)>& change) {
+    file_ = Hdf5Handle();
+    Hdf5Handle file(H5Fopen(path_.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose, "opening");
+    H5Ldelete(file.id(), dataset, H5P_DEFAULT);
+    change(file.id());
+    file.close("closing");
+    seal_result(path_);
+  }
+
+  void expect_damaged(const std::function<void(const ResultReader&)>& read) const {
+    const ResultReader reader(path_);
+    try {
+      read(reader);
+      FAIL() << "was read";
+    } catch (const ServiceError& error) {
+      EXPECT_EQ(error.kind(), ServiceError::Kind::data_loss);
+      EXPECT_NE(std::string(error.what()).find("The result is damaged"), std::string::npos) << error.what();
+    }
+  }
+
+  static void read_strains(const ResultReader& reader) { static_cast<void>(reader.frame_strains()); }
+  static void read_first(const ResultReader& reader) { static_cast<void>(reader.frame(0)); }
+};
+
+TEST_F(ChangedResultTest, OneChangedByteAnywhereIsFoundBeforeHdf5ReadsIt) {
+  file_ = Hdf5Handle();
+  std::fstream file(path_, std::ios::binary | std::ios::in | std::ios::out);
+  const auto size = static_cast<std::streamoff>(std::filesystem::file_size(path_));
+  for (const std::streamoff offset : {std::streamoff{0}, std::streamoff{25}, std::streamoff{511}, std::streamoff{512},
+                                      size / 3, size / 2, size - 1}) {
+    const auto put = [&](int change) {
+      file.seekg(offset);
+      const int byte = file.get();
+      file.seekp(offset);
+      file.put(static_cast<char>(byte ^ change)).flush();
+    };
+    put(1);
+    EXPECT_THROW(ResultReader{path_}, ServiceError) << offset;
+    put(1);
+  }
+  EXPECT_EQ(ResultReader(path_).frame_times().size(), 4U);
+}
+
+TEST_F(ChangedResultTest, AFileThatWasFoundWholeIsReadAgainOnceItChanges) {
+  file_ = Hdf5Handle();
+  static_cast<void>(ResultReader(path_));
+  std::filesystem::resize_file(path_, 1000);
+  EXPECT_THROW(ResultReader{path_}, ServiceError);
+}
+
+TEST_F(ChangedResultTest, NoLinkLeadsToAnotherFileOrDataset) {
+  std::filesystem::copy(path_, folder_.path() / "other.h5");
+  replace("/frames/strain", [](hid_t file) {
+    H5Lcreate_external("other.h5", "/frames/strain", file, "/frames/strain", H5P_DEFAULT, H5P_DEFAULT);
+  });
+  expect_damaged(read_strains);
+  replace("/frames/strain",
+          [](hid_t file) { H5Lcreate_soft("/frames/time_s", file, "/frames/strain", H5P_DEFAULT, H5P_DEFAULT); });
+  expect_damaged(read_strains);
+  replace("/frames",
+          [](hid_t file) { H5Lcreate_external("other.h5", "/frames", file, "/frames", H5P_DEFAULT, H5P_DEFAULT); });
+  expect_damaged(read_strains);
+}
+
+TEST_F(ChangedResultTest, NoDatasetIsMadeOfOtherFiles) {
+  std::filesystem::copy(path_, folder_.path() / "other.h5");
+  const hsize_t four = 4;
+  const Hdf5Handle space(H5Screate_simple(1, &four, nullptr), H5Sclose, "space");
+  for (const bool is_virtual : {true, false}) {
+    const Hdf5Handle storage(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "storage");
+    if (is_virtual)
+      H5Pset_virtual(storage.id(), space.id(), "other.h5", "/frames/strain", space.id());
+    else
+      H5Pset_external(storage.id(), (folder_.path() / "other.h5").c_str(), 0, 32);
+    replace("/frames/strain", [&](hid_t file) {
+      const Hdf5Handle made(
+          H5Dcreate2(file, "/frames/strain", H5T_IEEE_F64LE, space.id(), H5P_DEFAULT, storage.id(), H5P_DEFAULT),
+          H5Dclose, "dataset");
+    });
+    expect_damaged(read_strains);
+  }
+}
+
+TEST_F(ChangedResultTest, ADatasetOfAnotherRankOrTypeIsNotReadOverTheEndOfItsBuffer) {
+  const std::vector<double> many(4096, 1.0);
+  replace("/frames/strain", [&](hid_t file) {
+    const auto wide = make_growing_dataset(file, "/frames/strain", H5T_IEEE_F64LE, {1024}, {1, 1024});
+    append_rows(wide.id(), H5T_NATIVE_DOUBLE, 4, many.data());
+  });
+  expect_damaged(read_strains);
+  replace("/frames/strain", [&](hid_t file) {
+    const auto narrow = make_growing_dataset(file, "/frames/strain", H5T_IEEE_F32LE, {}, {256});
+    append_rows(narrow.id(), H5T_NATIVE_DOUBLE, 4, many.data());
+  });
+  expect_damaged(read_strains);
+  replace("/frames/strain", [&](hid_t file) {
+    const Hdf5Handle scalar(H5Screate(H5S_SCALAR), H5Sclose, "space");
+    const Hdf5Handle made(
+        H5Dcreate2(file, "/frames/strain", H5T_IEEE_F64LE, scalar.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+        H5Dclose, "dataset");
+  });
+  expect_damaged(read_strains);
+}
+
+TEST_F(ChangedResultTest, ADatasetThatSaysItHoldsMoreThanTheFileCanIsNotMadeRoomFor) {
+  replace("/frames/strain", [](hid_t file) {
+    const auto empty = make_growing_dataset(file, "/frames/strain", H5T_IEEE_F64LE, {}, {256});
+    const hsize_t much = hsize_t{1} << 40U;
+    H5Dset_extent(empty.id(), &much);
+  });
+  expect_damaged(read_strains);
+}
+
+TEST_F(ChangedResultTest, AFrameThatIsNotThereIsRefused) {
+  for (const int index : {-1, 4, std::numeric_limits<int>::max()})
+    expect_damaged([index](const ResultReader& reader) { static_cast<void>(reader.frame(index)); });
+  replace("/frames/position_mm", [](hid_t) {});
+  expect_damaged(read_first);
+}
+
+TEST_F(ChangedResultTest, AnAttributeOfManyTextsIsNotReadAsOne) {
+  file_ = Hdf5Handle();
+  {
+    const Hdf5Handle file(H5Fopen(path_.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose, "opening");
+    H5Adelete(file.id(), "case");
+    const hsize_t count = 64;
+    const Hdf5Handle space(H5Screate_simple(1, &count, nullptr), H5Sclose, "space");
+    const Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "type");
+    H5Tset_size(type.id(), H5T_VARIABLE);
+    const Hdf5Handle made(H5Acreate2(file.id(), "case", type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
+                          "attribute");
+    const std::vector<const char*> texts(count, "text");
+    H5Awrite(made.id(), type.id(), texts.data());
+  }
+  seal_result(path_);
+  EXPECT_THROW(static_cast<void>(ResultReader(path_).text_attribute("case")), ServiceError);
 }
 
 TEST(ResultReader, AFileThatIsNoResultIsRefused) {

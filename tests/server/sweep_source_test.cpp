@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <map>
 
 #include "error.h"
@@ -130,6 +131,16 @@ TEST(ResumeToken, ManyJobsInTheSamePlaceAreShort) {
   EXPECT_TRUE(read.at(5000).ended);
   EXPECT_EQ(read.at(5001).sequence, 33);
   EXPECT_EQ(read.at(10'000).sequence, 1);
+}
+
+TEST(ResumeToken, JobsThatAreNamedAgainAreRefusedAtOnce) {
+  // Each of the runs stays under the limit of their number; to go through them all would take minutes.
+  std::string token = "4:";
+  while (token.size() < 1'000'000) token += "1+50000=e;";
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_THROW(parse_resume_token(4, token), ServiceError);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
+  EXPECT_THROW(parse_resume_token(4, "4:5+1=e;4+1=e;"), ServiceError);
 }
 
 }  // namespace

@@ -1,0 +1,82 @@
+#include "store/result_dataset.h"
+
+#include <numeric>
+
+namespace cellcrush::store {
+namespace {
+
+constexpr double kGreatestDeflation = 1032.0;           // bytes that one byte of deflate can stand for
+constexpr double kMostChunkBytes = 16.0 * 1024 * 1024;  // the writer's have half a MiB
+
+double product(const std::vector<hsize_t>& extents) {
+  return std::accumulate(extents.begin(), extents.end(), 1.0,
+                         [](double so_far, hsize_t extent) { return so_far * static_cast<double>(extent); });
+}
+
+// A soft link could lead round in a circle, an external one to any file of this machine.
+bool is_hard_link(hid_t group, const std::string& name) {
+  H5L_info_t info{};
+  return H5Lget_info(group, name.c_str(), &info, H5P_DEFAULT) >= 0 && info.type == H5L_TYPE_HARD;
+}
+
+// Whether the filters are those of the writer; HDF5 would load others from plugins.
+bool has_known_filters(hid_t properties) {
+  const int count = H5Pget_nfilters(properties);
+  for (int i = 0; i < count; ++i) {
+    unsigned flags = 0;
+    std::size_t values = 0;
+    unsigned settings = 0;
+    const auto filter =
+        H5Pget_filter2(properties, static_cast<unsigned>(i), &flags, &values, nullptr, 0, nullptr, &settings);
+    if (filter != H5Z_FILTER_SHUFFLE && filter != H5Z_FILTER_DEFLATE) return false;
+  }
+  return count >= 0 && count <= 2;
+}
+
+// Chunks have a place in this file; virtual datasets and external storage have theirs in others.
+bool has_known_storage(hid_t properties, int rank, double item_bytes) {
+  std::vector<hsize_t> chunk(static_cast<std::size_t>(rank));
+  return H5Pget_layout(properties) == H5D_CHUNKED && H5Pget_external_count(properties) == 0 &&
+         has_known_filters(properties) && H5Pget_chunk(properties, rank, chunk.data()) == rank &&
+         product(chunk) * item_bytes <= kMostChunkBytes;
+}
+
+bool is_of_type(hid_t dataset, hid_t type) {
+  const Hdf5Handle stored(H5Dget_type(dataset), H5Tclose, "Reading a type");
+  return H5Tequal(stored.id(), type) > 0;
+}
+
+bool has_room_for(hid_t file, hid_t dataset, double bytes) {
+  hsize_t file_bytes = 0;
+  check_hdf5(H5Fget_filesize(file, &file_bytes), "Reading a size");
+  const hsize_t stored = H5Dget_storage_size(dataset);
+  return stored <= file_bytes && bytes <= kGreatestDeflation * static_cast<double>(stored);
+}
+
+}  // namespace
+
+ServiceError damaged_result(const std::string& what) {
+  return {
+      ServiceError::Kind::data_loss,
+      "The result is damaged: " + what + ". Submit its case again; the history and the summary are kept elsewhere."};
+}
+
+Hdf5Handle open_result_dataset(hid_t file, const std::string& group, const std::string& name, hid_t type, int rank) {
+  const std::string path = "/" + group + "/" + name;
+  const std::string what = "Opening the dataset " + path;
+  if (!is_hard_link(file, group)) throw damaged_result("the group " + group + " is not in it");
+  const Hdf5Handle folder(H5Gopen2(file, group.c_str(), H5P_DEFAULT), H5Gclose, what);
+  if (!is_hard_link(folder.id(), name)) throw damaged_result(path + " is not in it");
+  Hdf5Handle out(H5Dopen2(folder.id(), name.c_str(), H5P_DEFAULT), H5Dclose, what);
+  const Hdf5Handle properties(H5Dget_create_plist(out.id()), H5Pclose, what);
+  const auto item_bytes = static_cast<double>(H5Tget_size(type));
+  // In this order: to ask a virtual dataset for its shape opens the files it is made of.
+  if (!has_known_storage(properties.id(), rank, item_bytes) || !is_of_type(out.id(), type))
+    throw damaged_result(path + " is stored in another way than it was written");
+  const auto shape = shape_of(out.id());
+  if (shape.size() != static_cast<std::size_t>(rank) || !has_room_for(file, out.id(), product(shape) * item_bytes))
+    throw damaged_result(path + " has another shape than it was written with");
+  return out;
+}
+
+}  // namespace cellcrush::store

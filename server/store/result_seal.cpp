@@ -1,0 +1,127 @@
+#include "store/result_seal.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdint>
+#include <ctime>
+#include <deque>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "store/durable_file.h"
+#include "store/result_dataset.h"
+
+namespace cellcrush::store {
+namespace {
+
+constexpr std::size_t kPart = 65536;
+constexpr std::int64_t kSettled = 2;  // seconds
+
+// An open file that closes itself. Failures throw ServiceError.
+class SealedFile {
+ public:
+  SealedFile(const std::filesystem::path& path, int mode)
+      : path_(path), descriptor_(open(path.c_str(), mode | O_CLOEXEC)) {
+    if (descriptor_ < 0) throw_file_error(path_, "used", errno);
+  }
+  ~SealedFile() { close(descriptor_); }
+  SealedFile(const SealedFile&) = delete;
+  SealedFile& operator=(const SealedFile&) = delete;
+
+  // What the seal of these bytes is.
+  [[nodiscard]] std::string seal() const {
+    std::vector<unsigned char> part(kPart);
+    std::uint64_t crc = 0;
+    std::uint64_t size = 0;
+    while (const std::size_t count = read(part.data(), part.size(), kSealBytes + size)) {
+      crc = crc32_z(crc, part.data(), count);
+      size += count;
+    }
+    std::string out = "CELLCRUSH RESULT 1 " + std::to_string(crc) + " " + std::to_string(size) + "\n";
+    out.resize(kSealBytes, '\0');
+    return out;
+  }
+
+  [[nodiscard]] std::string stored_seal() const {
+    std::string out(kSealBytes, '\0');
+    out.resize(read(out.data(), out.size(), 0));
+    return out;
+  }
+
+  void write_seal(const std::string& seal) const {
+    ssize_t count = 0;
+    do count = pwrite(descriptor_, seal.data(), seal.size(), 0);
+    while (count < 0 && errno == EINTR);
+    if (count != static_cast<ssize_t>(seal.size())) throw_file_error(path_, "written", count < 0 ? errno : EIO);
+  }
+
+  // Changes whenever the file does, but for changes that follow each other faster than the clock of files ticks.
+  using Identity = std::array<std::int64_t, 5>;
+  [[nodiscard]] Identity identity() const {
+    struct stat status {};
+    if (fstat(descriptor_, &status) != 0) throw_file_error(path_, "read", errno);
+    return {static_cast<std::int64_t>(status.st_dev), static_cast<std::int64_t>(status.st_ino), status.st_size,
+            status.st_ctim.tv_sec, status.st_ctim.tv_nsec};
+  }
+
+ private:
+  std::size_t read(void* to, std::size_t most, std::uint64_t offset) const {
+    ssize_t count = 0;
+    do count = pread(descriptor_, to, most, static_cast<off_t>(offset));
+    while (count < 0 && errno == EINTR);
+    if (count < 0) throw_file_error(path_, "read", errno);
+    return static_cast<std::size_t>(count);
+  }
+
+  std::filesystem::path path_;
+  int descriptor_;
+};
+
+// Whether the file was not written to for so long that a change would show in its identity.
+bool is_settled(const SealedFile::Identity& file) { return std::time(nullptr) - file[3] >= kSettled; }
+
+// The files that were found whole, the last of them.
+class WholeFiles {
+ public:
+  bool contains(const SealedFile::Identity& file) {
+    const std::scoped_lock lock(mutex_);
+    return std::find(files_.begin(), files_.end(), file) != files_.end();
+  }
+
+  void add(const SealedFile::Identity& file) {
+    const std::scoped_lock lock(mutex_);
+    files_.push_back(file);
+    if (files_.size() > kMost) files_.pop_front();
+  }
+
+ private:
+  static constexpr std::size_t kMost = 64;
+
+  std::mutex mutex_;
+  std::deque<SealedFile::Identity> files_;
+};
+
+}  // namespace
+
+void seal_result(const std::filesystem::path& path) {
+  const SealedFile file(path, O_RDWR);
+  file.write_seal(file.seal());
+}
+
+void check_seal(const std::filesystem::path& path) {
+  static WholeFiles whole;
+  const SealedFile file(path, O_RDONLY);
+  const auto identity = file.identity();
+  if (whole.contains(identity)) return;
+  if (file.stored_seal() != file.seal()) throw damaged_result("its bytes are not those that its checksum is of");
+  if (is_settled(identity)) whole.add(identity);
+}
+
+}  // namespace cellcrush::store

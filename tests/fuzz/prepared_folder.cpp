@@ -1,0 +1,102 @@
+#include "fuzz/prepared_folder.h"
+
+#include <string>
+
+#include "cellcrush/v1/sample.pb.h"
+#include "server/small_case.h"
+#include "store/data_folder.h"
+#include "store/journal.h"
+#include "store/result_writer.h"
+
+namespace cellcrush::fuzz {
+namespace {
+
+constexpr int kSamples = 5;
+constexpr int kFrames = 3;
+
+v1::Mesh mesh_of_two() {
+  v1::Mesh out;
+  out.set_particle_count(3);
+  for (const int node : {0, 1, 1, 2}) out.add_element_nodes(node);
+  for (const float thickness : {0.5F, 0.25F}) out.add_thickness_mm(thickness);
+  return out;
+}
+
+v1::Sample sample_at(int step) {
+  v1::Sample out;
+  out.set_step(step);
+  out.set_time_s(step);
+  out.set_strain(0.1 * step);
+  if (step > 2) out.mutable_front()->set_strain_behind(0.9);
+  return out;
+}
+
+v1::Job job_of(const v1::Case& submitted) {
+  v1::Job out;
+  *out.mutable_case_() = submitted;
+  (*out.mutable_labels())["key"] = "value";
+  out.set_owner("local");
+  return out;
+}
+
+void change(store::Journal& journal, std::int64_t job, v1::JobState state, bool has_result = false) {
+  store::StateChange change;
+  change.state = state;
+  if (has_result) change.summary.emplace().set_step_count(kSamples);
+  if (state == v1::FAILED) {
+    change.cause = v1::WORKER_CRASHED;
+    change.message = "It failed.";
+    change.remedy = "Try again.";
+  }
+  journal.change_state(job, change);
+}
+
+void add_sweep(store::Journal& journal) {
+  v1::Sweep sweep;
+  *sweep.mutable_case_() = testing::tiny_case();
+  sweep.set_owner("local");
+  auto& axis = *sweep.add_axes();
+  axis.set_field("loading.speed_m_per_s");
+  for (const double speed : {10.0, 20.0, 40.0}) axis.mutable_list()->add_values(speed);
+  std::vector<store::SweepJob> jobs;
+  for (const double speed : axis.list().values()) jobs.push_back({job_of(sweep.case_()), {speed}, 1000});
+  const auto made = journal.create_sweep(sweep, jobs, "of the sweep", "hash");
+  change(journal, made.jobs[0], v1::RUNNING);
+  change(journal, made.jobs[0], v1::FAILED);
+  change(journal, made.jobs[1], v1::CANCELLED);
+  change(journal, made.jobs[2], v1::SUSPENDED);
+}
+
+}  // namespace
+
+void prepare_folder(const std::filesystem::path& root) {
+  const store::DataFolder folder(root);
+  store::Journal journal(folder.journal(), [](std::int64_t) {});
+  for (int i = 0; i < 3; ++i)
+    journal.create_job(job_of(testing::tiny_case()), "of job " + std::to_string(i), "hash", 9);
+  change(journal, 2, v1::RUNNING);
+  journal.set_mesh(2, mesh_of_two());
+  for (int step = 1; step <= kSamples; ++step) journal.append_sample(2, sample_at(step));
+  folder.make_job_folder(2);
+  write_result(folder.job_folder(2).result());
+  change(journal, 2, v1::SUCCEEDED, true);
+  change(journal, 3, v1::RUNNING);
+  change(journal, 3, v1::FAILED);
+  add_sweep(journal);
+}
+
+void write_result(const std::filesystem::path& path) {
+  store::ResultWriter writer(path, mesh_of_two());
+  for (int step = 1; step <= kSamples; ++step) writer.add_sample(sample_at(step));
+  for (int i = 0; i < kFrames; ++i) {
+    v1::FieldFrame frame;
+    frame.set_time_s(i);
+    frame.set_strain(0.1 * i);
+    for (int k = 0; k < 6; ++k) frame.add_position_mm(static_cast<float>(k));
+    for (int k = 0; k < 2; ++k) frame.add_plastic_fraction(0.5F);
+    writer.add_frame(frame);
+  }
+  writer.finish({testing::small_case(), "1.0", "scalar", 1, 1e-6, {"Walls are beams."}}, v1::Summary());
+}
+
+}  // namespace cellcrush::fuzz
