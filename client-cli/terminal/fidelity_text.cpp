@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -30,16 +31,27 @@ const v1::FidelityForecast* find_measured(const v1::CheckCaseResponse& check) {
   return nullptr;
 }
 
+std::string given_text(const v1::FidelityForecast& forecast) {
+  return printable(fmt::format("{}", fmt::join(forecast.given_fields(), ", ")));
+}
+
 std::vector<std::string> row_of(const v1::FidelityForecast& forecast) {
   std::vector<std::string> row = {v1::Numerics::Fidelity_Name(forecast.fidelity()),
                                   fmt::format("{}", forecast.elements_per_wall()),
                                   duration_text(forecast.predicted_seconds())};
   for (const v1::MeasuredError& error : forecast.errors()) row.push_back(error_text(error));
   if (forecast.errors_size() == 0) {
-    row.push_back("not known, as the case gives " +
-                  printable(fmt::format("{}", fmt::join(forecast.given_fields(), ", "))));
+    row.push_back("not known, as the case gives " + given_text(forecast));
   }
   return row;
+}
+
+// Whether the case's own fields leave nothing for a fidelity to fill in.
+bool are_all_the_same(const v1::CheckCaseResponse& check) {
+  const auto& first = check.fidelities(0);
+  return std::all_of(check.fidelities().begin(), check.fidelities().end(), [&](const v1::FidelityForecast& forecast) {
+    return forecast.errors_size() == 0 && forecast.elements_per_wall() == first.elements_per_wall();
+  });
 }
 
 std::string scatter_text(const v1::FidelityForecast& measured) {
@@ -55,6 +67,12 @@ std::string scatter_text(const v1::FidelityForecast& measured) {
 
 std::string fidelity_text(const v1::CheckCaseResponse& check) {
   if (check.fidelities_size() == 0) return {};
+  if (are_all_the_same(check)) {
+    return fmt::format(
+        "\nspeed against accuracy: numerics.fidelity changes nothing, and the error is not known, as the case\n"
+        "gives {}\n",
+        given_text(check.fidelities(0)));
+  }
   const v1::FidelityForecast* measured = find_measured(check);
   std::vector<std::string> heading = {"fidelity", "elements a wall", "predicted time"};
   std::vector<Align> columns = {Align::left, Align::right, Align::right};

@@ -13,8 +13,10 @@
 #include <deque>
 #include <mutex>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "error.h"
 #include "store/durable_file.h"
 #include "store/result_dataset.h"
 
@@ -22,7 +24,8 @@ namespace cellcrush::store {
 namespace {
 
 constexpr std::size_t kPart = 65536;
-constexpr std::int64_t kSettled = 2;  // seconds
+constexpr std::int64_t kSettled = 2;                   // seconds
+constexpr std::string_view kUnsealed = "\x89HDF\r\n";  // an HDF5 file without a user block
 
 // An open file that closes itself. Failures throw ServiceError.
 class SealedFile {
@@ -120,7 +123,13 @@ void check_seal(const std::filesystem::path& path) {
   const SealedFile file(path, O_RDONLY);
   const auto identity = file.identity();
   if (whole.contains(identity)) return;
-  if (file.stored_seal() != file.seal()) throw damaged_result("its bytes are not those that its checksum is of");
+  const std::string stored = file.stored_seal();
+  if (stored.starts_with(kUnsealed)) {
+    throw ServiceError(ServiceError::Kind::failed_precondition,
+                       "The result was written by an earlier version, without a checksum, so that its frames are not "
+                       "read. Download it: it is an HDF5 file as ever.");
+  }
+  if (stored != file.seal()) throw damaged_result("its bytes are not those that its checksum is of");
   if (is_settled(identity)) whole.add(identity);
 }
 

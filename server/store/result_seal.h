@@ -14,7 +14,7 @@ inline constexpr int kSealBytes = 512;
 /// Writes the seal of a file that HDF5 has closed. Throws ServiceError: storage_full or internal.
 void seal_result(const std::filesystem::path& path);
 
-/// Throws ServiceError: data_loss unless the seal is that of the bytes behind it, internal when they cannot be read. A file that
+/// Throws ServiceError: failed_precondition when an earlier version wrote the file without one, data_loss unless the seal is that of the bytes behind it, internal when they cannot be read. A file that
 /// was found whole is not read again as long as it is not written to. Thread-safe.
 void check_seal(const std::filesystem::path& path);
 

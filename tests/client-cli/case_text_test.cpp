@@ -106,13 +106,28 @@ TEST(FidelityText, ATimeAndAnErrorAFidelityAndNoneBelowItsScatter) {
 TEST(FidelityText, WhatTheCaseGivesOtherwiseHasNoKnownError) {
   v1::CheckCaseResponse check;
   EXPECT_EQ(fidelity_text(check), "");
-  auto& forecast = *check.add_fidelities();
-  forecast.set_fidelity(v1::Numerics::REFERENCE);
-  forecast.add_given_fields("elements_per_wall");
-  forecast.add_given_fields("section.depth_rule");
+  for (const auto fidelity : {v1::Numerics::DRAFT, v1::Numerics::REFERENCE}) {
+    auto& forecast = *check.add_fidelities();
+    forecast.set_fidelity(fidelity);
+    forecast.set_elements_per_wall(check.fidelities_size());
+    forecast.add_given_fields("section.depth_rule");
+  }
   const std::string text = fidelity_text(check);
-  expect_parts(text, {"REFERENCE", "not known, as the case gives elements_per_wall, section.depth_rule\n"});
+  expect_parts(text, {"REFERENCE", "not known, as the case gives section.depth_rule\n"});
   EXPECT_EQ(text.find("scatters"), std::string::npos) << text;
+}
+
+TEST(FidelityText, WhereTheCaseLeavesNothingToFillInOneSentenceSaysSo) {
+  v1::CheckCaseResponse check;
+  for (const auto fidelity : {v1::Numerics::DRAFT, v1::Numerics::REFERENCE}) {
+    auto& forecast = *check.add_fidelities();
+    forecast.set_fidelity(fidelity);
+    forecast.set_elements_per_wall(10);
+    forecast.add_given_fields("elements_per_wall");
+  }
+  const std::string text = fidelity_text(check);
+  expect_parts(text, {"changes nothing", "gives elements_per_wall\n"});
+  EXPECT_EQ(text.find("REFERENCE"), std::string::npos) << text;
 }
 
 TEST(JobText, AFramesSummaryHasNoPlateau) {

@@ -327,6 +327,19 @@ TEST(ResultReader, AFileThatIsNoResultIsRefused) {
   EXPECT_THROW(ResultReader(folder.path() / "absent.h5"), ServiceError);
 }
 
+TEST(ResultReader, OneOfAnEarlierVersionIsNotReadAndSaysWhatCanBeDone) {
+  const testing::TemporaryFolder folder;
+  const auto path = folder.path() / "result.h5";
+  Hdf5Handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose, "making").close("closing");
+  try {
+    const ResultReader reader(path);
+    FAIL() << "was read";
+  } catch (const ServiceError& error) {
+    EXPECT_EQ(error.kind(), ServiceError::Kind::failed_precondition);
+    EXPECT_NE(std::string(error.what()).find("Download it"), std::string::npos) << error.what();
+  }
+}
+
 TEST(CaseHash, IsThatOfTheContent) {
   v1::Case one = testing::small_case();
   const auto hash = hash_of(one);
