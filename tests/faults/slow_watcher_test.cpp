@@ -32,9 +32,12 @@ class SlowWatcherTest : public FaultFixture {
 TEST_F(SlowWatcherTest, CostsTheDaemonNoMemoryAndAnotherWatcherNoEvent) {
   start_daemon({"--workers", "1"});
   auto client = this->client();
-  const std::string job = client.create(endless_case());
+  // A quick machine runs the endless one to its end in a minute.
+  auto submitted = endless_case();
+  submitted.mutable_loading()->set_speed_m_per_s(0.2);
+  const std::string job = client.create(submitted);
   WatchContract quick;
-  std::thread other([&] {
+  std::jthread other([&] {
     auto own = this->client();
     const auto watched = own.watch(job, 0, true, [&](const v1::JobEvent& event) { quick.see(event); });
     quick.end(watched.status);
