@@ -85,8 +85,11 @@ void Connection::require_server() {
   connected_ = wait(kHandshakePatience);
   if (connected_) return;
   // One that refuses this client goes on to do so; one that is not there may be about to start.
-  const std::string reason = last_failure();
-  connected_ = may_still_answer(address_, reason) && wait(kConnectPatience);
+  std::string reason = last_failure();
+  if (may_still_answer(address_, reason)) {
+    connected_ = wait(kConnectPatience);
+    if (!connected_) reason = last_failure();
+  }
   if (!connected_) throw CommandError(ExitCode::no_connection, connection_failure_text(address_, credentials_, reason));
 }
 

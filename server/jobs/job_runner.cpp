@@ -31,7 +31,8 @@ void pause(const std::stop_token& stop) {
 
 }  // namespace
 
-bool JobRunner::run(std::int64_t job, int threads, const Interruptions& interruptions) {
+bool JobRunner::run(std::int64_t job, int threads, const Interruptions& interruptions,
+                    const std::stop_token& daemons_end) {
   const auto stored = parts_.reader.find_job(job);
   if (!stored || stored->job.state() == v1::SUSPENDED || is_terminal(stored->job.state())) return false;
   store::StateChange next;
@@ -45,8 +46,9 @@ bool JobRunner::run(std::int64_t job, int threads, const Interruptions& interrup
     end_leftover(job);
   }
   parts_.metrics.set_speed(job, 0.0);
-  if (next.state != v1::JOB_STATE_UNSPECIFIED) write(job, next, interruptions.stop);
-  return next.state == v1::PENDING || next.state == v1::JOB_STATE_UNSPECIFIED;
+  // It is PENDING as it was.
+  if (next.state == v1::JOB_STATE_UNSPECIFIED) return true;
+  return write(job, std::move(next), daemons_end) == v1::PENDING;
 }
 
 JobRunner::Left JobRunner::reconcile(std::int64_t job) {
@@ -82,6 +84,7 @@ worker::Order JobRunner::order_of(const store::StoredJob& stored) const {
   const double own = stored.job.time_limit_s();
   const bool daemons = parts_.longest_job_s > 0.0 && (own == 0.0 || own > parts_.longest_job_s);
   order.set_time_limit_s(daemons ? parts_.longest_job_s : own);
+  order.set_limit_is_daemons(daemons);
   return order;
 }
 
@@ -177,24 +180,34 @@ store::StateChange JobRunner::given_up(const store::StoredJob& stored, store::St
   return loss;
 }
 
-void JobRunner::write(std::int64_t job, const store::StateChange& change, const std::stop_token& stop) {
+v1::JobState JobRunner::write(std::int64_t job, store::StateChange change, const std::stop_token& stop) {
   while (true) {
     try {
       parts_.journal.change_state(job, change);
       spdlog::info("{} {}{}{}", name_of(job), v1::JobState_Name(change.state), change.message.empty() ? "" : ": ",
                    change.message);
       if (is_terminal(change.state)) tidy_up(job, change);
-      return;
+      return change.state;
     } catch (const ServiceError& error) {
+      if (error.kind() == ServiceError::Kind::not_found) return v1::JOB_STATE_UNSPECIFIED;
+      if (error.kind() == ServiceError::Kind::failed_precondition) {
+        // It was cancelled when its worker had just left it.
+        if (is_terminal(change.state) || !is_cancelling(job)) return v1::JOB_STATE_UNSPECIFIED;
+        change = cancelled_without_result();
+        continue;
+      }
       spdlog::error("The end of {} cannot be made durable: {}", name_of(job), error.what());
       if (error.kind() == ServiceError::Kind::storage_full) parts_.folder.give_up_ballast();
-      const bool gone = error.kind() == ServiceError::Kind::not_found;
-      if (gone || error.kind() == ServiceError::Kind::failed_precondition) return;
     }
     // A full disk may get room again. At the daemon's end the job stays as it is, and the next daemon reconciles it.
     pause(stop);
-    if (stop.stop_requested() || !stop.stop_possible()) return;
+    if (stop.stop_requested() || !stop.stop_possible()) return v1::JOB_STATE_UNSPECIFIED;
   }
+}
+
+bool JobRunner::is_cancelling(std::int64_t job) {
+  const auto stored = parts_.reader.find_job(job);
+  return stored && stored->job.state() == v1::CANCELLING;
 }
 
 void JobRunner::tidy_up(std::int64_t job, const store::StateChange& change) {

@@ -36,8 +36,8 @@ class JobRunner {
   explicit JobRunner(const Parts& parts) : parts_(parts) {}
 
   /// Runs a job that is PENDING, or goes along with the worker that has it, until it has ended or was left. Whether it is
-  /// PENDING again, to be tried again.
-  bool run(std::int64_t job, int threads, const Interruptions& interruptions);
+  /// PENDING again, to be tried again. What became of it is written until it can be, or the daemon ends.
+  bool run(std::int64_t job, int threads, const Interruptions& interruptions, const std::stop_token& daemons_end);
 
   /// What became of a job that an earlier daemon left RUNNING or CANCELLING.
   enum class Left {
@@ -58,8 +58,9 @@ class JobRunner {
   store::StateChange after(const store::StoredJob& stored, const WorkerExit& exit);
   bool got_further(std::int64_t job);
   store::StateChange given_up(const store::StoredJob& stored, store::StateChange loss);
-  /// Tries until it can be written or `stop` is requested; once when that cannot be.
-  void write(std::int64_t job, const store::StateChange& change, const std::stop_token& stop);
+  /// Tries until it can be written or `stop` is requested; once when that cannot be. The state that was written, if one was.
+  v1::JobState write(std::int64_t job, store::StateChange change, const std::stop_token& stop);
+  bool is_cancelling(std::int64_t job);
   void tidy_up(std::int64_t job, const store::StateChange& change);
 
   struct Losses {

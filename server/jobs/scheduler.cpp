@@ -102,9 +102,13 @@ void Scheduler::suspend(std::int64_t job, const std::function<bool()>& given_up)
       changed_.wait_for(lock, std::chrono::milliseconds(100), [this, job] { return !running_.contains(job); });
       continue;
     }
+    if (state != v1::PENDING) {
+      // It is about to be noted what became of it.
+      changed_.wait_for(lock, std::chrono::milliseconds(20));
+      continue;
+    }
     waiting_.remove(job);
     lock.unlock();
-    if (state != v1::PENDING) continue;
     store::StateChange change;
     change.state = v1::SUSPENDED;
     try {
@@ -199,7 +203,7 @@ void Scheduler::run(const store::QueuedJob& taken, const std::stop_token& stop) 
   const int extra = stored ? take_cores(stored->job.case_().numerics().threads() - 1) : 0;
   const std::stop_callback leave_at_the_end(stop, [&wishes] { wishes.leave.request_stop(); });
   const bool again = parts_.runner.run(
-      taken.job, 1 + extra, {wishes.leave.get_token(), wishes.suspend.get_token(), wishes.cancel.get_token()});
+      taken.job, 1 + extra, {wishes.leave.get_token(), wishes.suspend.get_token(), wishes.cancel.get_token()}, stop);
   {
     const std::scoped_lock lock(mutex_);
     running_.erase(taken.job);

@@ -77,8 +77,8 @@ v1::FieldFrame JobsService::find_frame(const store::StoredJob& stored, const v1:
     throw ServiceError(
         ServiceError::Kind::failed_precondition,
         stored.job.name() + " is " + v1::JobState_Name(stored.job.state()) +
-            " and has no frame. A running job has its newest one; one that SUCCEEDED, or was cancelled or found "
-            "untrue while it ran, has all.");
+            " and has no frame. A running job has its newest one; one that SUCCEEDED, or was cancelled or failed "
+            "while it ran, has all.");
   }
   return *frame;
 }
@@ -103,10 +103,11 @@ grpc::Status JobsService::DownloadResult(grpc::ServerContext*, const v1::Downloa
   return answer([&] {
     const auto stored = find(request->name());
     if (!stored.job.has_summary()) {
-      throw ServiceError(ServiceError::Kind::failed_precondition,
-                         stored.job.name() + " is " + v1::JobState_Name(stored.job.state()) +
-                             " and has no result. A job has one once it has SUCCEEDED, or was cancelled or found "
-                             "untrue while it ran.");
+      throw ServiceError(
+          ServiceError::Kind::failed_precondition,
+          stored.job.name() + " is " + v1::JobState_Name(stored.job.state()) +
+              " and has no result. A job has one once it has SUCCEEDED, or was cancelled or failed while "
+              "it ran.");
     }
     if (request->offset() < 0) return invalid_argument("offset", "is negative.", "Use 0 for the whole file.");
     const InputFile file(parts_.folder.job_folder(stored.number).result());

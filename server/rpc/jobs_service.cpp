@@ -97,7 +97,7 @@ grpc::Status JobsService::ListJobs(grpc::ServerContext*, const v1::ListJobsReque
     const bool newest_first = parse_newest_first(request->order_by());
     const std::string question = request->filter() + "\n" + (newest_first ? "newest" : "oldest");
     const auto page = read_page(request->page_size(), request->page_token(), question);
-    auto stored = parts_.reader.list_jobs(filter, newest_first, page.after, page.size + 1);
+    auto stored = parts_.reader.list_jobs(filter, newest_first, page.after, page.size + 1, kPageBytes);
     std::int64_t last = 0;
     auto room = page.room();
     for (auto& job : stored) {

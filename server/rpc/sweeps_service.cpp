@@ -138,8 +138,9 @@ grpc::Status SweepsService::RetryFailedJobs(grpc::ServerContext* context, const 
                                             v1::Sweep* response) {
   return answer([&] {
     const std::int64_t sweep = find_own(*context, request->name());
-    parts_.admission.admit(parts_.scheduler.waiting_count(), 1, 0);
-    const auto retried = parts_.journal.retry_failed(sweep);
+    // What their cases need was admitted when the sweep was made.
+    const auto admit = [&](std::size_t jobs) { parts_.admission.admit(parts_.scheduler.waiting_count(), jobs, 0); };
+    const auto retried = parts_.journal.retry_failed(sweep, admit);
     log_change(jobs::sweep_name_of(sweep), "retried with " + std::to_string(retried.size()) + " jobs",
                parts_.gate.caller_of(*context).name);
     parts_.scheduler.enqueue(retried);

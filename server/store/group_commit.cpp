@@ -54,10 +54,11 @@ void GroupCommit::do_write(Write& write) {
   database_.execute("RELEASE own");
 }
 
-void GroupCommit::fail(Write& write, std::exception_ptr error) {
-  if (write.error) return;
+// Why a body failed may be what another one had written, which is not there either when the commit fails: that counts then.
+void GroupCommit::fail(Write& write, std::exception_ptr error) noexcept {
+  const bool is_undone = write.error != nullptr;
   write.error = std::move(error);
-  if (write.undo) write.undo();
+  if (write.undo && !is_undone) write.undo();
 }
 
 }  // namespace cellcrush::store

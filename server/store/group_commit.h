@@ -25,7 +25,7 @@ class GroupCommit {
 
   /// Runs `body`, whose statements are done one writer at a time and in a transaction, by this thread or another one; returns when
   /// they are durable. What it throws, or what the commit fails with, is thrown here; nothing of this writer's is then in the
-  /// database, and `undo` was called, in the reverse order of the bodies. A body must not call run.
+  /// database, and `undo` was called, in the reverse order of the bodies. A body must not call run, and `undo` must not throw.
   void run(const Step& body, const Step& undo = {});
 
  private:
@@ -38,7 +38,7 @@ class GroupCommit {
 
   void commit(const std::vector<Write*>& batch);
   void do_write(Write& write);
-  static void fail(Write& write, std::exception_ptr error);
+  static void fail(Write& write, std::exception_ptr error) noexcept;
 
   Database& database_;
   Committed on_commit_;

@@ -83,7 +83,7 @@ void Journal::write_change(std::int64_t job, const StateChange& change) {
                            v1::JobState_Name(change.state) + ".");
   }
   apply(change, stored);
-  const std::int64_t sequence = last_sequence_of(job) + 1;
+  const std::int64_t sequence = find_last_sequence(job).value() + 1;
   insert_event(job, sequence, kStateEvent, job_bytes(stored));
   Statement update(database_, "UPDATE jobs SET state = ?2, job = ?3, last_sequence = ?4 WHERE number = ?1");
   update.bind(1, job).bind(2, stored.state()).bind_blob(3, job_bytes(stored)).bind(4, sequence).run();
@@ -135,9 +135,9 @@ void Journal::commit_gathered() {
   for (const auto& [job, of_job] : samples) on_durable_(job);
 }
 
-std::int64_t Journal::last_sequence_of(std::int64_t job) {
+std::optional<std::int64_t> Journal::find_last_sequence(std::int64_t job) {
   Statement read(database_, "SELECT last_sequence FROM jobs WHERE number = ?1");
-  return read.bind(1, job).step() ? read.integer(0) : 0;
+  return read.bind(1, job).step() ? std::optional(read.integer(0)) : std::nullopt;
 }
 
 void Journal::insert_event(std::int64_t job, std::int64_t sequence, int kind, const std::string& payload) {
@@ -147,7 +147,10 @@ void Journal::insert_event(std::int64_t job, std::int64_t sequence, int kind, co
 
 void Journal::insert_samples(std::int64_t job, const std::vector<std::string>& samples) {
   if (samples.empty()) return;
-  std::int64_t sequence = last_sequence_of(job);
+  const auto newest = find_last_sequence(job);
+  // The job was deleted meanwhile.
+  if (!newest) return;
+  std::int64_t sequence = *newest;
   {
     Statement insert(database_, "INSERT INTO events (job, sequence, kind, payload) VALUES (?1, ?2, ?3, ?4)");
     insert.bind(1, job).bind(3, kSampleEvent);

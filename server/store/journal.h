@@ -40,13 +40,13 @@ struct SweepJob {
 /// Writes the journal (journal_format.md). Thread-safe. Failures throw ServiceError; a failed write changes nothing.
 class Journal {
  public:
-  /// Told of a job that has new durable events, from the thread that committed them; must not call back into the
-  /// journal.
+  /// Told of a job that has new durable events, from the thread that wrote them.
   using Durable = std::function<void(std::int64_t job)>;
 
   /// Asked once before something new is made, and not for what an earlier request made. What it throws is passed on, and
   /// nothing is made; must not call back into the journal.
   using Admit = std::function<void()>;
+  using AdmitMany = std::function<void(std::size_t jobs)>;
 
   Journal(const std::filesystem::path& path, Durable on_durable, GroupCommit::Committed on_commit = {});
   /// Commits what is gathered.
@@ -74,7 +74,7 @@ class Journal {
 
   /// Makes new PENDING jobs of those of the sweep that FAILED or that max_failures cancelled. They take the places of the
   /// old ones, which stay as jobs without a sweep. Returns them in the order of the points.
-  std::vector<QueuedJob> retry_failed(std::int64_t sweep);
+  std::vector<QueuedJob> retry_failed(std::int64_t sweep, const AdmitMany& admit = {});
 
   /// Makes those of the jobs that are PENDING CANCELLED, all at once.
   void cancel_waiting(const std::vector<std::int64_t>& jobs);
@@ -107,7 +107,7 @@ class Journal {
   void write_change(std::int64_t job, const StateChange& change);
   std::vector<std::int64_t> stop_failing_sweep(std::int64_t failed_job);
   std::vector<std::int64_t> jobs_of_sweep_in(std::int64_t sweep, v1::JobState state);
-  std::int64_t last_sequence_of(std::int64_t job);
+  std::optional<std::int64_t> find_last_sequence(std::int64_t job);
   void insert_event(std::int64_t job, std::int64_t sequence, int kind, const std::string& payload);
   void insert_samples(std::int64_t job, const std::vector<std::string>& samples);
 

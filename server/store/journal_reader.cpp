@@ -14,6 +14,7 @@ namespace cellcrush::store {
 namespace {
 
 constexpr int kBatch = 200;
+constexpr std::size_t kBatchBytes = 4'000'000;
 
 // Columns: number, job, submitted_case, last_sequence, state. What was damaged since the journal was opened is shown as such.
 StoredJob read_job(const Statement& row) {
@@ -56,8 +57,9 @@ bool JournalReader::has_job(std::int64_t job) {
 }
 
 std::vector<StoredJob> JournalReader::list_jobs(const JobFilter& wanted, bool newest_first, std::int64_t after,
-                                                int limit) {
+                                                int limit, std::size_t most_bytes) {
   std::vector<StoredJob> out;
+  std::size_t bytes = 0;
   // In batches, so that a long search does not keep other readers out.
   while (true) {
     auto batch = read_batch(wanted, newest_first, after);
@@ -65,8 +67,9 @@ std::vector<StoredJob> JournalReader::list_jobs(const JobFilter& wanted, bool ne
     after = batch.back().number;
     for (auto& job : batch) {
       if (!matches(wanted, job.job)) continue;
+      bytes += job.job.ByteSizeLong();
       out.push_back(std::move(job));
-      if (static_cast<int>(out.size()) == limit) return out;
+      if (static_cast<int>(out.size()) == limit || bytes > most_bytes) return out;
     }
   }
 }
@@ -82,7 +85,11 @@ std::vector<StoredJob> JournalReader::read_batch(const JobFilter& wanted, bool n
   read.bind(1, after);
   if (!wanted.states.empty()) read.bind(2, wanted.states.front());
   std::vector<StoredJob> out;
-  while (read.step()) out.push_back(read_job(read));
+  std::size_t bytes = 0;
+  while (bytes < kBatchBytes && read.step()) {
+    out.push_back(read_job(read));
+    bytes += out.back().job.ByteSizeLong();
+  }
   return out;
 }
 

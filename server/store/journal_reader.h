@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <mutex>
 #include <optional>
 #include <vector>
@@ -42,8 +43,9 @@ class JournalReader {
   bool has_job(std::int64_t job);
 
   /// Up to `limit` of the wanted jobs behind the one with the number `after` (0: from the beginning), in the order of
-  /// their numbers or, with `newest_first`, against it.
-  std::vector<StoredJob> list_jobs(const JobFilter& wanted, bool newest_first, std::int64_t after, int limit);
+  /// their numbers or, with `newest_first`, against it. Ends behind the one with which they have more than `most_bytes`.
+  std::vector<StoredJob> list_jobs(const JobFilter& wanted, bool newest_first, std::int64_t after, int limit,
+                                   std::size_t most_bytes = std::numeric_limits<std::size_t>::max());
 
   /// Numbers of the jobs whose folders are still to be removed.
   std::vector<std::int64_t> deleted_jobs();

@@ -97,12 +97,14 @@ Journal::CreatedSweep Journal::create_sweep(v1::Sweep sweep, const std::vector<S
   return created;
 }
 
-std::vector<QueuedJob> Journal::retry_failed(std::int64_t sweep) {
+std::vector<QueuedJob> Journal::retry_failed(std::int64_t sweep, const AdmitMany& admit) {
   std::vector<QueuedJob> retried;
   writes_.run([&] {
     JobInserter inserter(database_);
     Statement replace(database_, "UPDATE sweep_jobs SET job = ?2, stopped = 0 WHERE job = ?1");
-    for (const auto& failed : jobs_to_retry(database_, sweep)) {
+    const auto again = jobs_to_retry(database_, sweep);
+    if (admit && !again.empty()) admit(again.size());
+    for (const auto& failed : again) {
       QueuedJob queued = failed.queued;
       JobEntry entry;
       entry.element_steps = queued.element_steps;

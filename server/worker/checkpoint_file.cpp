@@ -16,8 +16,8 @@
 namespace cellcrush::worker {
 namespace {
 
-// "CELLCRUSH CHECKPOINT 1 CRC-32 SIZE\n", then a Checkpoint of that many bytes.
-constexpr const char* kTitle = "CELLCRUSH CHECKPOINT 1";
+// "CELLCRUSH CHECKPOINT 2 CRC-32 SIZE\n", then a Checkpoint of that many bytes.
+constexpr const char* kTitle = "CELLCRUSH CHECKPOINT 2";
 
 std::uint64_t crc_of(const std::string& bytes) {
   return crc32_z(0, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());

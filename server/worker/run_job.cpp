@@ -92,6 +92,7 @@ class Run {
     auto& begun = *report.mutable_begun();
     begun.set_process(getpid());
     begun.set_step(simulation_.step());
+    begun.set_threads(order_.threads());
     *begun.mutable_origin() = origin_;
     for (const auto& reason : refused) begun.add_refused_checkpoints(reason);
     log_.append(report);
@@ -117,17 +118,18 @@ class Run {
       output_->put_progress(simulation_.step(), simulation_.strain(), now);
       wish_ = stop_asked_();
       if (wish_ == StopWish::cancel) acknowledge_cancel();
-      time_is_up_ = order_.time_limit_s() > 0.0 && clock_seconds() >= order_.time_limit_s();
+      time_is_up_ = wish_ == StopWish::none && order_.time_limit_s() > 0.0 && clock_seconds() >= order_.time_limit_s();
       if (wish_ != StopWish::none || time_is_up_) break;
       // At an output's step it waits for the output.
       if (simulation_.step() < next) checkpoint_regularly(now);
     }
-    const bool last = ends_early() || simulation_.step() == facts_.step_count;
+    // Out of time it ends with the samples that it has: one more would be at another step if this worker were lost now.
+    const bool last = wish_ == StopWish::cancel || simulation_.step() == facts_.step_count;
     if (last || simulation_.step() % facts_.sample_interval == 0) put_out_sample();
     if (failed()) return;
     if (last || simulation_.step() % facts_.frame_interval == 0)
       output_->put_frame(simulation_.take_frame(output_->frame_count()));
-    if (!last && wish_ == StopWish::none) checkpoint_regularly(Clock::now());
+    if (!last && !time_is_up_ && wish_ == StopWish::none) checkpoint_regularly(Clock::now());
   }
 
   // Whether the solver found its own result untrue.
@@ -220,13 +222,19 @@ class Run {
 
   [[nodiscard]] Final out_of_time() const {
     const double share = static_cast<double>(simulation_.step()) / static_cast<double>(facts_.step_count);
-    return failure(v1::TIME_LIMIT,
-                   fmt::format("The job ran for its time limit of {:.4g} s and got to step {} of {}, {:.3g} % of them.",
-                               order_.time_limit_s(), simulation_.step(), facts_.step_count, 100.0 * share),
-                   fmt::format("Submit it with a time_limit_s of {:.0f} or more, or with a lower fidelity.",
-                               std::ceil(1.3 * order_.time_limit_s() / share)));
+    const double needed = std::ceil(1.3 * order_.time_limit_s() / share);
+    const std::string smaller = "with a lower fidelity or to a lower end_strain.";
+    return failure(
+        v1::TIME_LIMIT,
+        fmt::format("The job ran for {} of {:.4g} s and got to step {} of {}, {:.3g} % of them.",
+                    order_.limit_is_daemons() ? "the daemon's time limit" : "its time limit", order_.time_limit_s(),
+                    simulation_.step(), facts_.step_count, 100.0 * share),
+        order_.limit_is_daemons()
+            ? fmt::format("Start the daemon with a --max-job-time of {:.0f} or more, or submit it {}", needed, smaller)
+            : fmt::format("Submit it with a time_limit_s of {:.0f} or more, {}", needed, smaller));
   }
 
+  Clock::time_point begin_ = Clock::now();
   const JobFolder& folder_;
   const Order& order_;
   ReportLog& log_;
@@ -237,7 +245,6 @@ class Run {
   Simulation simulation_;
   StageTimer stage_timer_;
   std::optional<RunOutput> output_;
-  Clock::time_point begin_ = Clock::now();
   double earlier_seconds_ = 0.0;        ///< processor time before the checkpoint that the run goes on from
   double earlier_clock_seconds_ = 0.0;  ///< clock time before it
   Clock::time_point last_checkpoint_;

@@ -82,5 +82,31 @@ TEST_F(FullDiskTest, AFullDiskEndsTheJobWithACauseAndTheDaemonGoesOnOnceThereIsR
   EXPECT_EQ(client.get(next).state(), v1::SUCCEEDED) << client.get(next).cause_message();
 }
 
+TEST_F(FullDiskTest, AJobThatCouldNotBeEndedOnAFullDiskIsEndedOnceThereIsRoom) {
+  // With little room all jobs are left; the disk is full before that is seen.
+  start_daemon({"--workers", "1", "--checkpoint-interval", "0.05", "--min-free-disk", "20"});
+  auto client = this->client();
+  for (int i = 0; i < rounds(1, 5); ++i) {
+    const std::string job = client.create(endless_case());
+    wait_for_samples(client, job, 20);
+    for (int filling = 0; filling < 70; ++filling) {
+      fill_the_disk();
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
+    std::filesystem::remove(filler());
+    // It has FAILED or goes on; whichever it is, somebody has it.
+    for (int look = 0; look < 200 && client.get(job).state() == v1::PENDING; ++look)
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    (void)client.cancel(job);
+    for (int look = 0; look < 400 && client.get(job).state() != v1::CANCELLED && client.get(job).state() != v1::FAILED;
+         ++look)
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    const auto ended = client.get(job);
+    std::cout << "on a full disk with jobs held: " << v1::JobState_Name(ended.state()) << " " << ended.cause_message()
+              << "\n";
+    EXPECT_TRUE(ended.state() == v1::CANCELLED || ended.state() == v1::FAILED);
+  }
+}
+
 }  // namespace
 }  // namespace cellcrush::testing

@@ -41,7 +41,7 @@ std::string as_record(const std::string& bytes) {
 }
 
 std::string as_checkpoint(const std::string& bytes) {
-  return "CELLCRUSH CHECKPOINT 1 " + std::to_string(checksum_of(bytes)) + " " + std::to_string(bytes.size()) + "\n" +
+  return "CELLCRUSH CHECKPOINT 2 " + std::to_string(checksum_of(bytes)) + " " + std::to_string(bytes.size()) + "\n" +
          bytes;
 }
 

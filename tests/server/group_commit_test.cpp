@@ -98,5 +98,23 @@ TEST_F(GroupCommitTest, WhenTheCommitFailsItFailsIsUndoneAndTheNextOneGoesOn) {
   EXPECT_EQ(count(), 1);
 }
 
+// The verdict of a body may come from what another one wrote.
+TEST_F(GroupCommitTest, WhenTheCommitFailsOneThatHadFailedBeforeIsToldThat) {
+  GroupCommit writes(database_, slow_at_first());
+  database_.execute("CREATE TABLE children (number INTEGER REFERENCES numbers DEFERRABLE INITIALLY DEFERRED)");
+  std::atomic<int> undone = 0;
+  std::vector<std::jthread> writers;
+  writers.emplace_back([&] { writes.run([&] { insert(0); }); });
+  while (commits_ == 0) std::this_thread::yield();
+  writers.emplace_back(
+      [&] { EXPECT_THROW(writes.run([&] { throw std::runtime_error("its own"); }, [&] { ++undone; }), ServiceError); });
+  writers.emplace_back([&] {
+    EXPECT_THROW(writes.run([&] { database_.execute("INSERT INTO children VALUES (7)"); }, [&] { ++undone; }),
+                 ServiceError);
+  });
+  writers.clear();
+  EXPECT_EQ(undone, 2) << "Each once.";
+}
+
 }  // namespace
 }  // namespace cellcrush::store

@@ -105,6 +105,19 @@ TEST_F(LostWorkerTest, AWaitingJobIsSuspendedAtOnceAndCanBeResumedOrCancelled) {
   EXPECT_EQ(client.get(second).state(), v1::SUCCEEDED);
 }
 
+TEST_F(LostWorkerTest, ACancelThatMeetsAWorkerWhichJustLeavesEndsTheJob) {
+  auto client = this->client();
+  for (int i = 0; i < 16; ++i) {
+    const std::string job = client.create(endless_case());
+    wait_for_samples(client, job, 5);
+    std::jthread suspends([&] { (void)this->client().suspend(job); });
+    std::this_thread::sleep_for(std::chrono::milliseconds(5 * i));
+    ASSERT_TRUE(client.cancel(job).ok());
+    suspends.join();
+    ASSERT_TRUE(client.wait_for_state(job, v1::CANCELLED)) << v1::JobState_Name(client.get(job).state());
+  }
+}
+
 TEST_F(LostWorkerTest, ADaemonsEndLeavesRunningJobsAtACheckpointAndTheNextOneGoesOn) {
   auto client = this->client();
   const std::string whole = client.create(case_of_seconds());

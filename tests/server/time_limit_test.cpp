@@ -74,7 +74,10 @@ TEST_F(TimeLimitTest, TheDaemonsLimitHoldsForThoseWithoutOneAndMoreIsRefused) {
   options.limits.job_time = std::chrono::duration<double>(1.0);
   start(options);
   auto client = this->client();
-  expect_out_of_time(client, create_limited(client, 0.0));
+  const std::string limited_by_daemon = create_limited(client, 0.0);
+  ASSERT_TRUE(client.wait_for_state(limited_by_daemon, v1::FAILED));
+  EXPECT_THAT(client.get(limited_by_daemon).cause_message(), HasSubstr("the daemon's time limit of"));
+  EXPECT_THAT(client.get(limited_by_daemon).remedy(), HasSubstr("--max-job-time"));
   v1::Job job;
   const auto refused = client.jobs->CreateJob(bounded_context().get(), limited(2.0), &job);
   EXPECT_EQ(refused.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
