@@ -9,6 +9,7 @@
 
 #include "terminal/case_text.h"
 #include "terminal/job_text.h"
+#include "terminal/number_text.h"
 #include "terminal/table.h"
 
 namespace cellcrush::client {

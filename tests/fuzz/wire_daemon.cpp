@@ -70,14 +70,14 @@ struct WireDaemon::Parts {
         reader(folder.journal()),
         sweep_reader(folder.journal()),
         executor("/bin/false", std::chrono::seconds(20)),
-        runner({folder, journal, reader, hub, executor, metrics, kMinute}),
+        runner({folder, journal, reader, hub, executor, metrics, kMinute, 0.0}),
         scheduler({folder, journal, reader, metrics, runner}),
         pump(1),
         admission(folder, {}),
         cases(kStepCost),
         jobs({folder, journal, reader, hub, pump, scheduler, admission, metrics, gate, kMinute}),
         sweeps({journal, reader, sweep_reader, hub, pump, scheduler, admission, metrics, gate, kMinute}),
-        admin({reader, hub, {2, kStepCost}, [this] { admission.drain(); }}) {
+        admin({reader, hub, scheduler, {2, kStepCost, false}, gate, [this] { admission.drain(); }}) {
     grpc::ServerBuilder builder;
     builder.SetSyncServerOption(grpc::ServerBuilder::NUM_CQS, 1);
     for (grpc::Service* service : std::initializer_list<grpc::Service*>{&cases, &jobs, &sweeps, &admin})
