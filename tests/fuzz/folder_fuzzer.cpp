@@ -14,6 +14,7 @@
 #include <string>
 
 #include "error.h"
+#include "fuzz/memory_folder.h"
 #include "server/temporary_folder.h"
 #include "worker/checkpoint_file.h"
 #include "worker/claim.h"
@@ -73,7 +74,7 @@ void read_checkpoint(const worker::JobFolder& folder) {
 }  // namespace cellcrush::fuzz
 
 extern "C" int LLVMFuzzerInitialize(int*, char***) {
-  if (std::filesystem::exists("/dev/shm")) setenv("TMPDIR", "/dev/shm", 0);
+  cellcrush::fuzz::use_memory_folder();
   return 0;
 }
 

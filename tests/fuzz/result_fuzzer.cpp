@@ -21,6 +21,7 @@
 
 #include "error.h"
 #include "fuzz/hostile_result.h"
+#include "fuzz/memory_folder.h"
 #include "fuzz/prepared_folder.h"
 #include "rpc/result_frame.h"
 #include "server/temporary_folder.h"
@@ -134,7 +135,7 @@ void read_all(const std::filesystem::path& path, std::uint8_t choice) {
 }  // namespace cellcrush::fuzz
 
 extern "C" int LLVMFuzzerInitialize(int*, char***) {
-  if (std::filesystem::exists("/dev/shm")) setenv("TMPDIR", "/dev/shm", 0);
+  cellcrush::fuzz::use_memory_folder();
   return 0;
 }
 

@@ -20,6 +20,7 @@
 #include "cellcrush/v1/cases_service.pb.h"
 #include "cellcrush/v1/jobs_service.pb.h"
 #include "cellcrush/v1/sweeps_service.pb.h"
+#include "fuzz/memory_folder.h"
 #include "fuzz/message_mutator.h"
 #include "fuzz/prepared_folder.h"
 #include "fuzz/size_bound.h"
@@ -135,8 +136,7 @@ bool run(Bench& bench, const WireCall& call) {
 }  // namespace cellcrush::fuzz
 
 extern "C" int LLVMFuzzerInitialize(int*, char***) {
-  // Where writes are not waited for; what the calls make durable is of no worth.
-  if (std::filesystem::exists("/dev/shm")) setenv("TMPDIR", "/dev/shm", 0);
+  cellcrush::fuzz::use_memory_folder();
   spdlog::set_level(spdlog::level::off);
   google::protobuf::SetLogHandler(nullptr);
   return 0;

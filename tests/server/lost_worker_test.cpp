@@ -36,6 +36,23 @@ class LostWorkerTest : public DaemonFixture {
     return static_cast<pid_t>(client.get(job).worker_pid());
   }
 
+  // Sends the signal to each worker that the job gets, until it is given up.
+  static v1::Job kill_until_it_fails(Client& client, const std::string& job, int signal) {
+    pid_t last = 0;
+    v1::Job now = client.get(job);
+    for (int i = 0; i < 3000 && now.state() != v1::FAILED; ++i) {
+      if (now.state() == v1::RUNNING && now.worker_pid() != last) {
+        last = static_cast<pid_t>(now.worker_pid());
+        kill(last, signal);
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      now = client.get(job);
+    }
+    EXPECT_EQ(now.state(), v1::FAILED);
+    EXPECT_EQ(now.cause(), v1::WORKER_CRASHED);
+    return now;
+  }
+
   [[nodiscard]] std::filesystem::path file_of(const std::string& job, const char* name) const {
     return data_folder() / job / name;
   }
@@ -170,18 +187,7 @@ TEST_F(LostWorkerTest, AJobWhoseWorkersAreKilledAgainAndAgainAtTheSamePlaceFails
   submitted.mutable_output()->set_sample_count(10);
   for (const auto& [number, name] : {std::pair{SIGKILL, "SIGKILL (9)"}, std::pair{SIGSEGV, "SIGSEGV (11)"}}) {
     const std::string job = client.create(submitted);
-    pid_t last = 0;
-    for (int i = 0; i < 600 && client.get(job).state() != v1::FAILED; ++i) {
-      const auto now = client.get(job);
-      if (now.worker_pid() != last && now.worker_pid() > 0) {
-        last = static_cast<pid_t>(now.worker_pid());
-        kill(last, number);
-      }
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    }
-    const auto failed = client.get(job);
-    EXPECT_EQ(failed.state(), v1::FAILED);
-    EXPECT_EQ(failed.cause(), v1::WORKER_CRASHED);
+    const auto failed = kill_until_it_fails(client, job, number);
     EXPECT_EQ(failed.attempt(), 3);
     EXPECT_THAT(failed.cause_message(), HasSubstr(name));
     EXPECT_FALSE(failed.remedy().empty());
@@ -203,18 +209,7 @@ TEST_F(LostWorkerTest, WhatKilledWorkersReportedIsKeptAsAResultUpToTheLastSample
   // Each worker is killed as soon as it gets to where the first one was: none gets further.
   const std::string job = client.create(case_of_seconds());
   wait_for_samples(client, job, 60);
-  pid_t last = 0;
-  for (int i = 0; i < 3000 && client.get(job).state() != v1::FAILED; ++i) {
-    const auto now = client.get(job);
-    if (now.state() == v1::RUNNING && now.worker_pid() != last) {
-      last = static_cast<pid_t>(now.worker_pid());
-      kill(last, SIGKILL);
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  }
-  const auto failed = client.get(job);
-  EXPECT_EQ(failed.state(), v1::FAILED);
-  EXPECT_EQ(failed.cause(), v1::WORKER_CRASHED);
+  const auto failed = kill_until_it_fails(client, job, SIGKILL);
   ASSERT_TRUE(failed.has_summary());
   const auto kept = numbers_of(client, job);
   const auto full = numbers_of(client, whole);
