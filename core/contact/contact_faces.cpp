@@ -1,6 +1,8 @@
 #include "contact/contact_faces.h"
 
 #include <algorithm>
+#include <cmath>
+#include <compare>
 #include <numeric>
 #include <vector>
 
@@ -61,19 +63,38 @@ Premise premise_of(const Scene& scene, const FaceLoops& loops) {
   return borders == 1 && are_simple(loops, scene.particle_count()) ? Premise::holds : Premise::not_closed;
 }
 
-/// The loops along the crush, the outer one last.
+/// Length across the crush of a patch of neighbouring faces, over its length along the crush: at the front, faces side by
+/// side move alike, and faces behind each other do not.
+constexpr double kPatchAspect = 7.0;
+
+/// The loops in patches of faces that are watched together, band by band along the crush, the outer one last.
 std::vector<std::size_t> order_of(const Scene& scene, const FaceLoops& loops) {
-  std::vector<double> place(loops.count());
+  const auto corner_of = [&](std::size_t loop) { return scene.position[loops.particles_of(loop).front()]; };
+  Vector2 low = corner_of(0);
+  Vector2 high = low;
+  for (std::size_t i = 1; i < loops.count(); ++i) {
+    low = low.cwiseMin(corner_of(i));
+    high = high.cwiseMax(corner_of(i));
+  }
+  const double area_of_patch = kFacesPerGroup * (high - low).prod() / static_cast<double>(loops.count());
+  const double band = std::sqrt(area_of_patch / kPatchAspect);
+  const int axis = scene.plates.axis;
+  struct Place {
+    bool is_outer;
+    double band;
+    double across;
+    double along;
+    auto operator<=>(const Place&) const = default;
+  };
+  std::vector<Place> place(loops.count());
   for (std::size_t i = 0; i < loops.count(); ++i) {
-    place[i] = scene.position[loops.particles_of(i).front()][scene.plates.axis];
+    const Vector2 from_low = corner_of(i) - low;
+    const double bands = band > 0.0 ? std::floor(from_low[axis] / band) : 0.0;
+    place[i] = {loops.area[i] < 0.0, bands, from_low[1 - axis], from_low[axis]};
   }
   std::vector<std::size_t> order(loops.count());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    const bool a_is_outer = loops.area[a] < 0.0;
-    const bool b_is_outer = loops.area[b] < 0.0;
-    return a_is_outer != b_is_outer ? b_is_outer : !a_is_outer && place[a] < place[b];
-  });
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return place[a] < place[b]; });
   return order;
 }
 

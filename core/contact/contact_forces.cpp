@@ -14,42 +14,32 @@
 namespace cellcrush {
 namespace {
 
-/// Clears the forces of contacts where the step before left some: at the particles of pairs and of plates.
-void clear_forces(const Scene& scene, State& state) {
-  const auto clear = [&](std::vector<Vector2>& field) {
-    Vector2* forces = field.data();
-    for (std::size_t i = 0; i < state.touching.count(); ++i) {
-      const Element& element = scene.elements[state.touching.segment[i]];
-      forces[state.touching.ball[i]].setZero();
-      forces[element.start].setZero();
-      forces[element.end].setZero();
-    }
-    for (const int particle : state.plate_touching) {
-      forces[particle].setZero();
-    }
-  };
-  clear(state.contact_force);
-  clear(state.contact_damping_force);
-  if (!state.friction_force.empty()) {
-    clear(state.friction_force);
-  }
-}
-
-/// A force on the ball of a touch and its reaction on the segment, shared by the lever rule.
+/// The particles of a touch: a force on the ball, its reaction on the segment shared by the lever rule.
 struct PairForces {
   int ball;
-  const Element& element;
+  int start;
+  int end;
   double share;
 
-  PairForces(const Scene& scene, const State& state, const Touches& touches, int touch)
+  PairForces(const State& state, const Touches& touches, int touch)
       : ball(state.touching.ball[touch]),
-        element(scene.elements[state.touching.segment[touch]]),
+        start(touches.start[touch]),
+        end(touches.end[touch]),
         share(touches.share[touch]) {}
 
-  void add(const Vector2& force, Vector2* forces) const {
+  void add(const Vector2& elastic, const Vector2& viscous, ContactForce* forces) const {
+    forces[ball].elastic += elastic;
+    forces[ball].viscous += viscous;
+    forces[start].elastic -= (1.0 - share) * elastic;
+    forces[start].viscous -= (1.0 - share) * viscous;
+    forces[end].elastic -= share * elastic;
+    forces[end].viscous -= share * viscous;
+  }
+
+  void add_friction(const Vector2& force, Vector2* forces) const {
     forces[ball] += force;
-    forces[element.start] -= (1.0 - share) * force;
-    forces[element.end] -= share * force;
+    forces[start] -= (1.0 - share) * force;
+    forces[end] -= share * force;
   }
 };
 
@@ -59,20 +49,24 @@ void take_back_node(const Scene& scene, State& state, const Touches& touches, in
   const double stiffness = 0.5 * scene.contact.stiffness;
   const double depth = touches.node_depth[node_touch];
   const Vector2 force = stiffness * depth * touches.node_normal[node_touch];
-  state.contact_force[state.touching.ball[node_touch]] -= force;
-  state.contact_force[touches.node[node_touch]] += force;
+  state.contact_force[state.touching.ball[node_touch]].elastic -= force;
+  state.contact_force[touches.node[node_touch]].elastic += force;
   state.contact_stored -= 0.5 * stiffness * depth * depth;
 }
 
-/// Notes how deep a touch is, over the thinner of its walls.
-void note_depth(State& state, const Touches& touches, int touch, double thinner) {
+/// Notes how deep a touch is, over the thinner of its walls, where that is a record.
+void note_depth(const Scene& scene, State& state, const Touches& touches, int touch) {
   const double depth = touches.depth[touch];
-  // Without a division but for a record.
-  if (depth > state.deepest_penetration * thinner) {
-    state.deepest_penetration = depth / thinner;
+  const bool is_new = touches.known[touch] == Touches::kNew;
+  // Most are none, whatever their walls are.
+  if (depth <= scene.contact.thinnest * (is_new ? state.deepest_birth : state.deepest_penetration)) {
+    return;
   }
-  if (touches.known[touch] == Touches::kNew && depth > state.deepest_birth * thinner) {
-    state.deepest_birth = depth / thinner;
+  const double thinner =
+      std::min(2.0 * scene.radius[state.touching.ball[touch]], scene.elements[state.touching.segment[touch]].thickness);
+  state.deepest_penetration = std::max(state.deepest_penetration, depth / thinner);
+  if (is_new) {
+    state.deepest_birth = std::max(state.deepest_birth, depth / thinner);
   }
 }
 
@@ -80,24 +74,22 @@ void note_depth(State& state, const Touches& touches, int touch, double thinner)
 void apply_normal_forces(const Scene& scene, State& state, ContactWorkspace& workspace) {
   const Touches& touches = workspace.touches;
   const double stiffness = scene.contact.stiffness;
-  Vector2* forces = state.contact_force.data();
-  Vector2* damping_forces = state.contact_damping_force.data();
+  ContactForce* forces = state.contact_force.data();
   double squared_depths = 0.0;
   for (Push& push : workspace.pushes) {
     const double depth = touches.depth[push.touch];
-    const Vector2 normal = touches.normal[push.touch];
-    const PairForces pair(scene, state, touches, push.touch);
-    pair.add(stiffness * depth * normal, forces);
-    squared_depths += depth * depth;
+    const Vector2& normal = touches.normal[push.touch];
+    NormalForce net = {0.0, 0.0};
     if (push.has_pair) {
-      const NormalForce net = without_pull(stiffness * push.net_depth, touches.viscous[push.touch]);
-      pair.add(net.viscous * normal, damping_forces);
+      net = without_pull(stiffness * push.net_depth, touches.viscous[push.touch]);
       push.normal_force = net.elastic + net.viscous;
     }
+    PairForces(state, touches, push.touch).add(stiffness * depth * normal, net.viscous * normal, forces);
+    squared_depths += depth * depth;
     if (push.node_touch != Push::kNone) {
       take_back_node(scene, state, touches, push.node_touch);
     }
-    note_depth(state, touches, push.touch, std::min(2.0 * scene.radius[pair.ball], pair.element.thickness));
+    note_depth(scene, state, touches, push.touch);
   }
   state.contact_stored += 0.5 * stiffness * squared_depths;
 }
@@ -170,8 +162,8 @@ void apply_friction(const Scene& scene, State& state, const ContactWorkspace& wo
                                          scene.contact.friction * push.normal_force);
     state.touching.friction[push.touch] = now;
     state.touching.pushed[push.touch] = push.has_pair ? state.touching.side[push.touch] : 0;
-    const PairForces pair(scene, state, touches, push.touch);
-    pair.add(now * tangent_of(state, touches, push.touch), state.friction_force.data());
+    PairForces(state, touches, push.touch)
+        .add_friction(now * tangent_of(state, touches, push.touch), state.friction_force.data());
   }
 }
 
@@ -179,7 +171,6 @@ void apply_friction(const Scene& scene, State& state, const ContactWorkspace& wo
 
 void evaluate_contact_forces(const Scene& scene, State& state, ContactWorkspace& workspace, Workers& workers) {
   workspace.parts.resize(static_cast<std::size_t>(workers.count()));
-  clear_forces(scene, state);
   state.contact_stored = 0.0;
   find_overlaps(scene, state, workspace, workers);
   remember_touches(scene, state, workspace);

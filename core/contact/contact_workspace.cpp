@@ -2,18 +2,9 @@
 
 namespace cellcrush {
 
-void AwakeCandidates::make_room(std::size_t most) {
-  if (place.size() < most) {
-    place.resize(most);
-    ball.resize(most);
-    segment.resize(most);
-    reach.resize(most);
-    travel.resize(most);
-    alarm.resize(most);
-  }
-}
-
 void Touches::resize(std::size_t count) {
+  start.resize(count);
+  end.resize(count);
   known.resize(count);
   share.resize(count);
   depth.resize(count);

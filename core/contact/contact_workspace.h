@@ -7,21 +7,6 @@
 
 namespace cellcrush {
 
-/// The candidates that are tested in a step: the first `count` of each array.
-struct AwakeCandidates {
-  std::vector<int> place;  ///< into State::candidate_ball, ascending
-  std::vector<int> ball;
-  std::vector<int> segment;
-  std::vector<double> reach;   ///< mm
-  std::vector<double> travel;  ///< mm, of the group; by buckets the lowest there is
-  std::vector<double> alarm;   ///< mm, travel at which it is tested next; infinite: it overlaps
-
-  std::size_t count = 0;
-
-  /// Room for so many; the arrays do not shrink.
-  void make_room(std::size_t most);
-};
-
 /// A pair that touches and did not in the step before.
 struct Newcomer {
   int ball = 0;
@@ -31,6 +16,8 @@ struct Newcomer {
 
 /// How the pairs of State::touching stand to each other in this step; T of them, in the same order.
 struct Touches {
+  std::vector<int> start;            ///< T, particle at which the segment starts
+  std::vector<int> end;              ///< T, and ends
   std::vector<int> known;            ///< T, place among the pairs that touched in the step before; kNew: did not
   std::vector<double> share;         ///< T, of the foot along the segment: 0 at its start, 1 at its end
   std::vector<double> depth;         ///< T, D, mm; not over 0: they have parted
@@ -64,12 +51,12 @@ struct Push {
 
 /// What a thread works with; what it makes is put behind what those before it made.
 struct ContactPart {
-  AwakeCandidates awake;
-  std::vector<int> found;   ///< places of the candidates that have begun to overlap, ascending
+  std::vector<int> awake;   ///< places of the candidates that are tested, ascending; it does not shrink
+  std::vector<int> found;   ///< of those, they that have begun to overlap
   std::vector<int> parted;  ///< of State::touching
   std::vector<Push> pushes;
 
-  /// Of State::plate_touching, while it is made.
+  /// Of ContactWorkspace::near_plates, while it is made.
   struct {
     std::size_t first = 0;
     std::size_t count = 0;
@@ -83,7 +70,8 @@ struct ContactWorkspace {
   std::vector<Newcomer> newcomers;
   TouchMemory before;  ///< State::touching of the step before
   Touches touches;
-  std::vector<Push> pushes;  ///< of all parts
+  std::vector<Push> pushes;      ///< of all parts
+  std::vector<int> near_plates;  ///< particles that a plate may act on, ascending
 };
 
 }  // namespace cellcrush

@@ -46,6 +46,8 @@ bool evaluate_touch(const Scene& scene, State& state, Touches& touches, std::siz
   const double overlap = reach - (inside ? side * signed_distance : node_distance);
   const double depth = overlap < 2.0 * reach ? overlap : 0.0;  // pressed through and out, it touches no more
   state.touching.side[i] = depth > 0.0 ? side : 0;
+  touches.start[i] = element.start;
+  touches.end[i] = element.end;
   touches.share[i] = share;
   touches.depth[i] = depth;
   touches.normal[i] = normal;

@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <limits>
+#include <span>
+#include <vector>
 
 #include "contact/candidate_lists.h"
 #include "contact/capsule.h"
@@ -23,45 +25,33 @@ std::size_t find_awake_plain(const State& state, std::size_t first, std::size_t 
   return count;
 }
 
-void test_awake_plain(const Scene& scene, const State& state, AwakeCandidates& awake) {
-  for (std::size_t i = 0; i < awake.count; ++i) {
-    const int segment = awake.segment[i];
-    const double reach = awake.reach[i];
-    const Projection foot = project(state.position[awake.ball[i]], state.position[scene.elements[segment].start],
-                                    state.axis[segment], state.length[segment]);
-    const double squared_distance = foot.offset.squaredNorm();
-    const double gap = std::sqrt(squared_distance) - reach;
-    awake.alarm[i] = squared_distance < reach * reach ? kNever : awake.travel[i] + gap;
-  }
-}
-
-/// What the test reads of the candidates that are awake.
-void collect(const State& state, AwakeCandidates& awake) {
+void test_awake_plain(const Scene& scene, State& state, std::span<const int> places, std::vector<int>& found) {
   const bool sleeps = !state.batch_group.empty();
-  for (std::size_t i = 0; i < awake.count; ++i) {
-    const auto place = static_cast<std::size_t>(awake.place[i]);
-    awake.ball[i] = state.candidate_ball[place];
-    awake.segment[i] = state.candidate_segment[place];
-    awake.reach[i] = state.candidate_reach[place];
-    awake.travel[i] = sleeps ? travel_of_batch(state, place / kCandidateBatch) : -kNever;
+  for (const int place : places) {
+    const int segment = state.candidate_segment[place];
+    const double reach = state.candidate_reach[place];
+    const Projection foot =
+        project(state.position[state.candidate_ball[place]], state.position[scene.elements[segment].start],
+                state.axis[segment], state.length[segment]);
+    const double squared_distance = foot.offset.squaredNorm();
+    const double travel = sleeps ? travel_of_batch(state, static_cast<std::size_t>(place) / kCandidateBatch) : -kNever;
+    const bool overlaps = squared_distance < reach * reach;
+    state.candidate_alarm[place] = overlaps ? kNever : travel + (std::sqrt(squared_distance) - reach);
+    if (overlaps) {
+      found.push_back(place);
+    }
   }
 }
 
 /// The candidates from `first` to `end` that overlap; sets the alarms of the others that are awake.
 void find_overlaps_in(const Scene& scene, State& state, std::size_t first, std::size_t end, ContactPart& part) {
-  AwakeCandidates& awake = part.awake;
-  awake.make_room(end - first);
-  const bool is_wide = use_wide_kernels();
-  awake.count = (is_wide ? find_awake_wide : find_awake_plain)(state, first, end, awake.place.data());
-  collect(state, awake);
-  (is_wide ? test_awake_wide : test_awake_plain)(scene, state, awake);
-  part.found.clear();
-  for (std::size_t i = 0; i < awake.count; ++i) {
-    state.candidate_alarm[awake.place[i]] = awake.alarm[i];
-    if (awake.alarm[i] == kNever) {
-      part.found.push_back(awake.place[i]);
-    }
+  if (part.awake.size() < end - first) {
+    part.awake.resize(end - first);
   }
+  part.found.clear();
+  const bool is_wide = use_wide_kernels();
+  const std::size_t count = (is_wide ? find_awake_wide : find_awake_plain)(state, first, end, part.awake.data());
+  (is_wide ? test_awake_wide : test_awake_plain)(scene, state, std::span(part.awake).first(count), part.found);
 }
 
 }  // namespace

@@ -117,6 +117,10 @@ void find_pushes(const Scene& scene, const State& state, ContactWorkspace& works
     find_pushes_in(scene, state, workspace.touches, static_cast<int>(first), static_cast<int>(end),
                    workspace.parts[part].pushes);
   });
+  if (workspace.parts.size() == 1) {
+    workspace.pushes.swap(workspace.parts.front().pushes);
+    return;
+  }
   workspace.pushes.clear();
   for (const ContactPart& part : workspace.parts) {
     workspace.pushes.insert(workspace.pushes.end(), part.pushes.begin(), part.pushes.end());

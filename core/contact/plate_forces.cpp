@@ -29,8 +29,8 @@ void push(const Scene& scene, State& state, const Plate& plate, std::size_t part
     force = evaluate_normal_force(scene.plates.stiffness, scene.contact.damping_ratio, 1.0 / scene.mass[particle],
                                   depth, rate);
     state.contact_stored += 0.5 * force.elastic * depth;
-    state.contact_force[particle][axis] += plate.outward * force.elastic;
-    state.contact_damping_force[particle][axis] += plate.outward * force.viscous;
+    state.contact_force[particle].elastic[axis] += plate.outward * force.elastic;
+    state.contact_force[particle].viscous[axis] += plate.outward * force.viscous;
     plate.sum.elastic += force.elastic;
     plate.sum.viscous += force.viscous;
   }
@@ -56,11 +56,11 @@ std::size_t find_near_plates_plain(const Scene& scene, const State& state, const
   return count;
 }
 
-/// Fills State::plate_touching: each thread writes behind where its particles begin, then the parts are moved together.
-void find_near_plates(const Scene& scene, State& state, const PlateFaces& faces, ContactWorkspace& workspace,
+/// Fills ContactWorkspace::near_plates: each thread writes behind where its particles begin, then the parts are moved together.
+void find_near_plates(const Scene& scene, const State& state, const PlateFaces& faces, ContactWorkspace& workspace,
                       Workers& workers) {
   const auto find_near = use_wide_kernels() ? find_near_plates_wide : find_near_plates_plain;
-  std::vector<int>& near = state.plate_touching;
+  std::vector<int>& near = workspace.near_plates;
   near.resize(scene.particle_count());
   workspace.parts.resize(static_cast<std::size_t>(workers.count()));
   workers.share_parts(near.size(), kCandidateBatch, [&](std::size_t part, std::size_t first, std::size_t end) {
@@ -90,7 +90,7 @@ void evaluate_plate_forces(const Scene& scene, State& state, ContactWorkspace& w
   const Plate support = {plates.support_face, 0.0, -1.0, state.support_force,
                          rubs ? state.support_friction.data() : nullptr};
   find_near_plates(scene, state, {impact.face, support.face}, workspace, workers);
-  for (const int particle : state.plate_touching) {
+  for (const int particle : workspace.near_plates) {
     push(scene, state, impact, static_cast<std::size_t>(particle));
     push(scene, state, support, static_cast<std::size_t>(particle));
   }

@@ -5,6 +5,9 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include <algorithm>
+#include <bit>
+#include <cstdint>
 #include <limits>
 
 #include "contact/candidate_lists.h"
@@ -27,22 +30,24 @@ struct Standing {
 };
 
 template <class D>
-HWY_INLINE Standing<D> standing_of(D d, const Scene& scene, const State& state, const AwakeCandidates& awake,
-                                   std::size_t i) {
+HWY_INLINE Standing<D> standing_of(D d, const Scene& scene, const State& state, const int* places) {
   const Vector2* positions = state.position.data();
+  int balls[kMostLanes];
   int start_nodes[kMostLanes];
   int end_nodes[kMostLanes];
   for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) {
-    const Element& element = scene.elements[awake.segment[i + lane]];
+    const Element& element = scene.elements[state.candidate_segment[places[lane]]];
+    balls[lane] = state.candidate_ball[places[lane]];
     start_nodes[lane] = element.start;
     end_nodes[lane] = element.end;
   }
   const Points<D> start = gather_points(d, positions, start_nodes);
   const Points<D> end = gather_points(d, positions, end_nodes);
-  const Points<D> ball = gather_points(d, positions, &awake.ball[i]);
+  const Points<D> ball = gather_points(d, positions, balls);
   const Points<D> along = {hn::Sub(end.x, start.x), hn::Sub(end.y, start.y)};
   const Points<D> away = {hn::Sub(ball.x, start.x), hn::Sub(ball.y, start.y)};
-  return {hn::LoadU(d, &awake.reach[i]), dot(away, away), dot(away, along), dot(along, along)};
+  const auto reach = gather_numbers(d, state.candidate_reach.data(), places);
+  return {reach, dot(away, away), dot(away, along), dot(along, along)};
 }
 
 /// Lanes whose ball is nearer to its segment than their reach: to the line along it where the ball stands beside it, else to
@@ -70,36 +75,79 @@ HWY_INLINE hn::Vec<D> gap(D d, const Standing<D>& at) {
   return hn::Sub(hn::Sqrt(hn::Max(squared, zero)), at.reach);
 }
 
+/// Bits of the candidates of a batch that are awake.
+template <class D>
+HWY_INLINE std::uint64_t awake_in_batch(D d, const State& state, std::size_t batch) {
+  const auto travel = hn::Set(d, travel_of_batch(state, batch));
+  const double* alarms = &state.candidate_alarm[batch * kCandidateBatch];
+  std::uint64_t bits = 0;
+  for (std::size_t lane = 0; lane < kCandidateBatch; lane += hn::Lanes(d)) {
+    const auto asleep = hn::Lt(travel, hn::LoadU(d, alarms + lane));
+    bits |= std::uint64_t{bits_of(d, hn::Not(asleep))} << lane;
+  }
+  return bits;
+}
+
+/// Word by word: few candidates are awake, and which cannot be foretold, so that a branch at every batch takes three times
+/// as long.
 std::size_t find_awake(const State& state, std::size_t first, std::size_t end, int* places) {
   const hn::CappedTag<double, kCandidateBatch> d;
+  constexpr std::size_t kBatchesInWord = 64 / kCandidateBatch;
+  const std::size_t end_batch = end / kCandidateBatch;
   std::size_t count = 0;
-  for (std::size_t batch = first; batch < end; batch += kCandidateBatch) {
-    const auto travel = hn::Set(d, travel_of_batch(state, batch / kCandidateBatch));
-    for (std::size_t place = batch; place < batch + kCandidateBatch; place += hn::Lanes(d)) {
-      const auto asleep = hn::Lt(travel, hn::LoadU(d, &state.candidate_alarm[place]));
-      count += write_set_lanes(d, hn::Not(asleep), place, places + count);
+  for (std::size_t batch = first / kCandidateBatch; batch < end_batch; batch += kBatchesInWord) {
+    std::uint64_t bits = 0;
+    for (std::size_t i = 0; i < std::min(kBatchesInWord, end_batch - batch); ++i) {
+      bits |= awake_in_batch(d, state, batch + i) << (i * kCandidateBatch);
+    }
+    for (; bits != 0; bits &= bits - 1) {
+      places[count++] = static_cast<int>(batch * kCandidateBatch) + std::countr_zero(bits);
     }
   }
   return count;
 }
 
+/// What the groups of candidates have travelled; by buckets the lowest there is.
 template <class D>
-HWY_INLINE void test(D d, const Scene& scene, const State& state, AwakeCandidates& awake, std::size_t i) {
-  const Standing<D> at = standing_of(d, scene, state, awake, i);
-  const auto next = hn::Add(hn::LoadU(d, &awake.travel[i]), gap(d, at));
-  const auto never = hn::Set(d, std::numeric_limits<double>::infinity());
-  hn::StoreU(hn::IfThenElse(overlap(d, at), never, next), d, &awake.alarm[i]);
+HWY_INLINE hn::Vec<D> travel_of(D d, const State& state, const int* places) {
+  if (state.batch_group.empty()) {
+    return hn::Set(d, -std::numeric_limits<double>::infinity());
+  }
+  int groups[kMostLanes];
+  for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) {
+    groups[lane] = state.batch_group[places[lane] / kCandidateBatch];
+  }
+  return gather_numbers(d, state.group_travel.data(), groups);
 }
 
-void test_awake(const Scene& scene, const State& state, AwakeCandidates& awake) {
+/// Sets the alarms of the candidates at some places, and returns the bits of those that overlap.
+template <class D>
+HWY_INLINE unsigned test(D d, const Scene& scene, State& state, const int* places) {
+  const Standing<D> at = standing_of(d, scene, state, places);
+  const auto overlaps = overlap(d, at);
+  const auto next = hn::Add(travel_of(d, state, places), gap(d, at));
+  double alarms[kMostLanes];
+  hn::StoreU(hn::IfThenElse(overlaps, hn::Set(d, std::numeric_limits<double>::infinity()), next), d, alarms);
+  for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) {
+    state.candidate_alarm[places[lane]] = alarms[lane];
+  }
+  return bits_of(d, overlaps);
+}
+
+void test_awake(const Scene& scene, State& state, std::span<const int> places, std::vector<int>& found) {
   const hn::CappedTag<double, kMostLanes> wide;
   const hn::CappedTag<double, 1> one;
+  const auto note = [&](std::size_t i, unsigned bits) {
+    for (; bits != 0; bits &= bits - 1) {
+      found.push_back(places[i + std::countr_zero(bits)]);
+    }
+  };
   std::size_t i = 0;
-  for (; i + hn::Lanes(wide) <= awake.count; i += hn::Lanes(wide)) {
-    test(wide, scene, state, awake, i);
+  for (; i + hn::Lanes(wide) <= places.size(); i += hn::Lanes(wide)) {
+    note(i, test(wide, scene, state, &places[i]));
   }
-  for (; i < awake.count; ++i) {
-    test(one, scene, state, awake, i);
+  for (; i < places.size(); ++i) {
+    note(i, test(one, scene, state, &places[i]));
   }
 }
 
@@ -116,8 +164,8 @@ std::size_t find_awake_wide(const State& state, std::size_t first, std::size_t e
   return HWY_DYNAMIC_DISPATCH(find_awake)(state, first, end, places);
 }
 
-void test_awake_wide(const Scene& scene, const State& state, AwakeCandidates& awake) {
-  HWY_DYNAMIC_DISPATCH(test_awake)(scene, state, awake);
+void test_awake_wide(const Scene& scene, State& state, std::span<const int> places, std::vector<int>& found) {
+  HWY_DYNAMIC_DISPATCH(test_awake)(scene, state, places, found);
 }
 
 }  // namespace cellcrush

@@ -1,10 +1,11 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
+#include <vector>
 
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
-#include "contact/contact_workspace.h"
 
 namespace cellcrush {
 
@@ -14,7 +15,7 @@ namespace cellcrush {
 /// REQUIRES: room for all of them.
 std::size_t find_awake_wide(const State& state, std::size_t first, std::size_t end, int* places);
 
-/// Overwrites the alarms of those that are awake: infinite of those that overlap.
-void test_awake_wide(const Scene& scene, const State& state, AwakeCandidates& awake);
+/// Sets the alarms of the candidates at these places, and adds those that overlap to `found`; their alarms are infinite.
+void test_awake_wide(const Scene& scene, State& state, std::span<const int> places, std::vector<int>& found);
 
 }  // namespace cellcrush

@@ -18,19 +18,18 @@ constexpr int kMostLanes = 8;
 struct PairIndices {
   const int* ball;
   const int* segment;
-  int start[kMostLanes];
-  int end[kMostLanes];
+  const int* start;
+  const int* end;
 };
 
 template <class D>
-HWY_INLINE PairIndices pair_indices(D d, const Scene& scene, const TouchMemory& touching, std::size_t i) {
-  PairIndices pair;
-  pair.ball = &touching.ball[i];
-  pair.segment = &touching.segment[i];
+HWY_INLINE PairIndices pair_indices(D d, const Scene& scene, const TouchMemory& touching, Touches& touches,
+                                    std::size_t i) {
+  const PairIndices pair = {&touching.ball[i], &touching.segment[i], &touches.start[i], &touches.end[i]};
   for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) {
     const Element& element = scene.elements[pair.segment[lane]];
-    pair.start[lane] = element.start;
-    pair.end[lane] = element.end;
+    touches.start[i + lane] = element.start;
+    touches.end[i + lane] = element.end;
   }
   return pair;
 }
@@ -61,7 +60,7 @@ HWY_INLINE Stand<D> evaluate_stand(D d, State& state, Touches& touches, const Pa
   const auto one = hn::Set(d, 1.0);
   const Vector2* positions = state.position.data();
   const Points<D> axis = gather_points(d, state.axis.data(), pair.segment);
-  const auto length = hn::GatherIndex(d, state.length.data(), load_indices(d, pair.segment));
+  const auto length = gather_numbers(d, state.length.data(), pair.segment);
   const Points<D> ball = gather_points(d, positions, pair.ball);
   const Points<D> from_start = difference<D>(ball, gather_points(d, positions, pair.start));
   const Points<D> from_end = difference<D>(ball, gather_points(d, positions, pair.end));
@@ -114,9 +113,9 @@ HWY_INLINE void evaluate_motion(D d, const Scene& scene, const State& state, Tou
   const Points<D> closing = {hn::MulAdd(to_start, start.x, hn::MulSub(to_end, end.x, ball.x)),
                              hn::MulAdd(to_start, start.y, hn::MulSub(to_end, end.y, ball.y))};
   const double* inverse_masses = scene.inverse_mass.data();
-  const auto of_start = hn::GatherIndex(d, inverse_masses, load_indices(d, pair.start));
-  const auto of_end = hn::GatherIndex(d, inverse_masses, load_indices(d, pair.end));
-  const auto of_ball = hn::GatherIndex(d, inverse_masses, load_indices(d, pair.ball));
+  const auto of_start = gather_numbers(d, inverse_masses, pair.start);
+  const auto of_end = gather_numbers(d, inverse_masses, pair.end);
+  const auto of_ball = gather_numbers(d, inverse_masses, pair.ball);
   const auto inverse_mass =
       hn::MulAdd(hn::Mul(to_start, to_start), of_start, hn::MulAdd(hn::Mul(to_end, to_end), of_end, of_ball));
   const auto critical = hn::Sqrt(hn::Div(hn::Set(d, scene.contact.stiffness), inverse_mass));
@@ -129,7 +128,7 @@ HWY_INLINE void evaluate_motion(D d, const Scene& scene, const State& state, Tou
 /// Returns the lanes whose pairs have parted.
 template <class D>
 HWY_INLINE hn::Mask<D> evaluate_pairs(D d, const Scene& scene, State& state, Touches& touches, std::size_t i) {
-  const PairIndices pair = pair_indices(d, scene, state.touching, i);
+  const PairIndices pair = pair_indices(d, scene, state.touching, touches, i);
   const Stand<D> stand = evaluate_stand(d, state, touches, pair, i);
   evaluate_motion(d, scene, state, touches, pair, stand, i);
   return hn::Not(hn::Gt(stand.depth, hn::Zero(d)));

@@ -83,8 +83,8 @@ double elastic_energy(const Scene& scene, const State& state, const FibreMemory<
 
 void accumulate_work(const Scene& scene, const State& state, std::size_t particle, const NextVelocity& next,
                      const MeanMotion& mean, Ledger& ledger) {
-  ledger.contact -= state.contact_force[particle].dot(mean.displacement);
-  ledger.contact_damping -= state.contact_damping_force[particle].dot(mean.displacement);
+  ledger.contact -= state.contact_force[particle].elastic.dot(mean.displacement);
+  ledger.contact_damping -= state.contact_force[particle].viscous.dot(mean.displacement);
   if (scene.mass_damping > 0.0) {
     const double half = 0.5 * scene.mass_damping;
     ledger.mass_damping +=

@@ -33,7 +33,8 @@ double contact_frequency(const SceneSpec& spec, const MeshMeasures& mesh) {
 ContactLaw contact_law_of(const SceneSpec& spec, const MeshMeasures& mesh) {
   const double frequency = contact_frequency(spec, mesh);
   return {mesh.contact,          mesh.lightest_mass * frequency * frequency, spec.contact.damping_ratio,
-          spec.contact.friction, kSkinFraction * mesh.shortest_element,      kFaceSkinFraction * mesh.shortest_element};
+          spec.contact.friction, kSkinFraction * mesh.shortest_element,      kFaceSkinFraction * mesh.shortest_element,
+          mesh.thinnest_wall};
 }
 
 double contact_step_of(const ContactLaw& law, double mass) {

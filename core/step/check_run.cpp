@@ -20,7 +20,7 @@ bool is_finite(const State& state, std::size_t particle) {
 
 bool has_finite_forces(const State& state, std::size_t particle) {
   return state.internal_force[particle].allFinite() && std::isfinite(state.internal_moment[particle]) &&
-         state.contact_force[particle].allFinite() && state.contact_damping_force[particle].allFinite();
+         state.contact_force[particle].elastic.allFinite() && state.contact_force[particle].viscous.allFinite();
 }
 
 /// The first particle that is lost, if any.

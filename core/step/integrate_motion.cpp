@@ -9,7 +9,7 @@ namespace cellcrush {
 
 Resultant resultant_on(const Scene& scene, const State& state, std::size_t particle) {
   Resultant sum = {
-      state.internal_force[particle] + state.contact_force[particle] + state.contact_damping_force[particle],
+      state.internal_force[particle] + state.contact_force[particle].elastic + state.contact_force[particle].viscous,
       state.internal_moment[particle]};
   if (!state.friction_force.empty()) {
     sum.force += state.friction_force[particle];
@@ -109,8 +109,7 @@ State place_particles(const Scene& scene) {
   state.wall_moment.assign(2 * scene.walls.start.size(), 0.0);
   state.internal_force.assign(n, Vector2::Zero());
   state.internal_moment.assign(n, 0.0);
-  state.contact_force.assign(n, Vector2::Zero());
-  state.contact_damping_force.assign(n, Vector2::Zero());
+  state.contact_force.assign(n, ContactForce());
   if (scene.contact.friction > 0.0 || scene.plates.friction > 0.0) {
     state.friction_force.assign(n, Vector2::Zero());
   }
@@ -151,6 +150,7 @@ void move_particles(const Scene& scene, State& state) {
     state.spin[i] = next.spin;
     state.position[i] += step * next.velocity;
     state.rotation[i] += step * next.spin;
+    clear_contact_force(state, i);
   }
 }
 

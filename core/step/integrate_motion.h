@@ -35,6 +35,14 @@ struct NextVelocity {
 };
 NextVelocity next_velocity(const Scene& scene, const State& state, const DampedStep& damped, std::size_t particle);
 
+/// Lets go of the contacts' forces on a particle, which the step has used: those of the next step are added to 0.
+inline void clear_contact_force(State& state, std::size_t particle) {
+  state.contact_force[particle] = {};
+  if (!state.friction_force.empty()) {
+    state.friction_force[particle].setZero();
+  }
+}
+
 /// A state with particles in place, at the scene's initial velocities, without forces.
 State place_particles(const Scene& scene);
 
@@ -42,7 +50,7 @@ State place_particles(const Scene& scene);
 void stagger_velocities(const Scene& scene, State& state);
 
 /// Central differences over one step: velocities to half a step on, positions, rotations and the impact plate to the next
-/// time. Books the work of every force over the step in the ledger and the plates' impulses.
+/// time. Books the work of every force over the step in the ledger and the plates' impulses, and clears the contacts' forces.
 void integrate_motion(const Scene& scene, State& state, Workers& workers);
 
 }  // namespace cellcrush

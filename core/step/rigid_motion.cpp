@@ -63,6 +63,7 @@ void move_rigid_bodies(const Scene& scene, State& state) {
       state.spin[i] = next.spin;
       state.position[i] = place;
       state.rotation[i] = state.rigid_rotation[body];
+      clear_contact_force(state, static_cast<std::size_t>(i));
     }
   }
   if (rigid.count() > 0) {

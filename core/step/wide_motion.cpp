@@ -48,16 +48,45 @@ struct Motion {
   double half_damping;
 };
 
+/// Forces of contacts.
+template <class D>
+struct LaneContactForces {
+  Points<D> elastic;
+  Points<D> viscous;
+};
+
+/// Those of consecutive particles, cleared in the array. Most are 0, and are then neither parted nor written.
+template <class D>
+HWY_INLINE LaneContactForces<D> take_contact_forces(D d, ContactForce* HWY_RESTRICT from) {
+  double* values = from->elastic.data();
+  const auto zero = hn::Zero(d);
+  const auto part = [&](std::size_t k) HWY_ATTR { return hn::LoadU(d, values + k * hn::Lanes(d)); };
+  const auto all = hn::Or(hn::Or(part(0), part(1)), hn::Or(part(2), part(3)));
+  LaneContactForces<D> forces = {{zero, zero}, {zero, zero}};
+  if (hn::AllTrue(d, hn::Eq(all, zero))) {
+    return forces;
+  }
+  if constexpr (hn::MaxLanes(D()) == 1) {
+    forces = {load_points(d, &from->elastic), load_points(d, &from->viscous)};
+  } else {
+    hn::LoadInterleaved4(d, values, forces.elastic.x, forces.elastic.y, forces.viscous.x, forces.viscous.y);
+  }
+  for (std::size_t k = 0; k < 4; ++k) {
+    hn::StoreU(zero, d, values + k * hn::Lanes(d));
+  }
+  return forces;
+}
+
 template <bool kFriction, bool kMassDamping, class D>
 HWY_INLINE void move(D d, const Scene& scene, State& state, const Motion& motion, std::size_t i, int lane,
                      LaneWorks& works) {
-  const Points<D> contact = load_points(d, &state.contact_force[i]);
-  const Points<D> viscous = load_points(d, &state.contact_damping_force[i]);
+  const auto [contact, viscous] = take_contact_forces(d, &state.contact_force[i]);
   Points<D> force = load_points(d, &state.internal_force[i]);
   force = {hn::Add(force.x, hn::Add(contact.x, viscous.x)), hn::Add(force.y, hn::Add(contact.y, viscous.y))};
   Points<D> friction;
   if constexpr (kFriction) {
     friction = load_points(d, &state.friction_force[i]);
+    store_points(d, Points<D>{hn::Zero(d), hn::Zero(d)}, &state.friction_force[i]);
     force = {hn::Add(force.x, friction.x), hn::Add(force.y, friction.y)};
   }
   const auto keep = hn::Set(d, motion.keep);

@@ -6,6 +6,7 @@
 
 #include "contact/bucket_search.h"
 #include "scene/face_loops.h"
+#include "step/integrate_motion.h"
 
 namespace cellcrush::scenes {
 namespace {
@@ -18,6 +19,12 @@ double distance_between(const Vector2& point, Vector2 a, Vector2 b) {
 }
 
 }  // namespace
+
+void clear_contact_forces(State& state) {
+  for (std::size_t i = 0; i < state.position.size(); ++i) {
+    clear_contact_force(state, i);
+  }
+}
 
 Pairs listed_pairs(const State& state) {
   Pairs pairs;

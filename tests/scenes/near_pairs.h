@@ -27,6 +27,9 @@ struct Overlap {
 };
 std::vector<Overlap> overlaps_by_buckets(const Scene& scene, const State& state);
 
+/// As integrate_motion leaves them, so that contacts can be evaluated again.
+void clear_contact_forces(State& state);
+
 /// Axes and lengths of a state's positions.
 void follow_positions(const Scene& scene, State& state);
 

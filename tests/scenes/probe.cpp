@@ -3,6 +3,7 @@
 #include "contact/bucket_search.h"
 #include "contact/contact_forces.h"
 #include "scenes/frames.h"
+#include "scenes/near_pairs.h"
 #include "step/integrate_motion.h"
 
 namespace cellcrush::scenes {
@@ -37,18 +38,23 @@ void Probe::place_tip(const Vector2& place, const Vector2& outward) {
   list_by_buckets(*scene_, state_);
 }
 
+void Probe::evaluate_contacts() {
+  clear_contact_forces(state_);
+  evaluate_contact_forces(*scene_, state_, workspace_, workers_);
+}
+
 Vector2 Probe::force_at(const Vector2& place, const Vector2& outward) {
   place_tip(place, outward);
   state_.velocity[tip_] = Vector2::Zero();
-  evaluate_contact_forces(*scene_, state_, workspace_, workers_);
-  return state_.contact_force[tip_];
+  evaluate_contacts();
+  return state_.contact_force[tip_].elastic;
 }
 
 Vector2 Probe::drag_to(const Vector2& place, const Vector2& outward) {
   const Vector2 velocity = (place - state_.position[tip_]) / scene_->schedule.time_step;
   place_tip(place, outward);
   state_.velocity[tip_] = velocity;
-  evaluate_contact_forces(*scene_, state_, workspace_, workers_);
+  evaluate_contacts();
   return state_.friction_force[tip_];
 }
 

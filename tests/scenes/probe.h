@@ -33,6 +33,7 @@ class Probe {
 
  private:
   void place_tip(const Vector2& place, const Vector2& outward);
+  void evaluate_contacts();
 
   std::shared_ptr<Scene> scene_;
   State state_;

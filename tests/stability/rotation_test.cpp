@@ -67,7 +67,7 @@ TEST(Objectivity, ForcesOfAContactTurnWithItsWalls) {
     Probe probe({-20.0 * along, 20.0 * along}, kSticks);
     probe.force_at(kApart * up, up);
     const Vector2 friction = probe.drag_to(kApart * up + 0.01 * along, up);
-    return std::pair(Vector2(probe.state().contact_force[3]), friction);
+    return std::pair(Vector2(probe.state().contact_force[3].elastic), friction);
   };
   const auto [normal, friction] = forces_at(0.0);
   ASSERT_GT(friction.norm(), 0.0);

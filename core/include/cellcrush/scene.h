@@ -143,6 +143,7 @@ struct ContactLaw {
   double friction = 0.0;       ///< Coulomb's coefficient
   double skin = 0.0;           ///< mm by which candidates are collected beyond touch
   double face_skin = 0.0;      ///< the same of a face's candidates
+  double thinnest = 0.0;       ///< mm, least thickness of a wall
 };
 
 /// Pairs of ball and segment that touch nearer than radius and half thickness, because a short way along the walls joins

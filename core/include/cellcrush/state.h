@@ -56,6 +56,12 @@ struct FaceList {
   int group = 0;  ///< of faces, to which it belongs
 };
 
+/// Force of contacts on a particle, N. Side by side, as those who write the one write the other.
+struct ContactForce {
+  Vector2 elastic = Vector2::Zero();
+  Vector2 viscous = Vector2::Zero();
+};
+
 /// Force of a plate, N, compression positive.
 struct PlateForce {
   double elastic = 0.0;
@@ -140,21 +146,17 @@ struct State {
   /// K, travel of the group at which a candidate is tested next; infinite while it is in `touching`, and of empty places.
   std::vector<double> candidate_alarm;
 
-  // Written by evaluate_plate_forces.
-  std::vector<int> plate_touching;  ///< particles that a plate has acted on in the newest step, ascending
-
-  // Written by evaluate_contact_forces and evaluate_plate_forces; 0 but of particles that touch, or have parted just now.
-  std::vector<Vector2> contact_force;          ///< N, of walls and plates, elastic part
-  std::vector<Vector2> contact_damping_force;  ///< N, viscous part
-  std::vector<Vector2> friction_force;         ///< N, of walls and plates; empty without friction
-  std::vector<double> impact_friction;         ///< N, of the impact plate across the crush; empty without friction
-  std::vector<double> support_friction;        ///< N, of the support plate across the crush; empty without friction
-  PlateForce impact_force;                     ///< of the impact plate on the lattice, along the crush
-  PlateForce support_force;                    ///< of the support plate on the lattice, against the crush
-  double contact_stored = 0.0;                 ///< sum of k D^2 / 2 now
-  std::int64_t contact_count = 0;              ///< closed contacts between walls now
-  double deepest_penetration = 0.0;            ///< of a wall contact since the start, over the thinner wall's thickness
-  double deepest_birth = 0.0;                  ///< the same, of contacts in the step in which they first touched
+  // Written by evaluate_contact_forces and evaluate_plate_forces, which add up forces that integrate_motion has cleared.
+  std::vector<ContactForce> contact_force;  ///< N, of walls and plates
+  std::vector<Vector2> friction_force;      ///< N, of walls and plates; empty without friction
+  std::vector<double> impact_friction;      ///< N, of the impact plate across the crush; empty without friction
+  std::vector<double> support_friction;     ///< N, of the support plate across the crush; empty without friction
+  PlateForce impact_force;                  ///< of the impact plate on the lattice, along the crush
+  PlateForce support_force;                 ///< of the support plate on the lattice, against the crush
+  double contact_stored = 0.0;              ///< sum of k D^2 / 2 now
+  std::int64_t contact_count = 0;           ///< closed contacts between walls now
+  double deepest_penetration = 0.0;         ///< of a wall contact since the start, over the thinner wall's thickness
+  double deepest_birth = 0.0;               ///< the same, of contacts in the step in which they first touched
 
   Ledger ledger;
 };
@@ -226,9 +228,7 @@ void visit_fields(S& state, Visitor&& visitor) {
   visitor("touching_friction", state.touching.friction);
   visitor("parted", state.parted);
   visitor("candidate_alarm", state.candidate_alarm);
-  visitor("plate_touching", state.plate_touching);
   visitor("contact_force", state.contact_force);
-  visitor("contact_damping_force", state.contact_damping_force);
   visitor("friction_force", state.friction_force);
   visitor("impact_friction", state.impact_friction);
   visitor("support_friction", state.support_friction);

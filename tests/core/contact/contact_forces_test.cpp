@@ -133,8 +133,8 @@ TEST(Contact, ForcesOnBallAndSegmentBalanceInForceAndMoment) {
   Vector2 sum = Vector2::Zero();
   double moment = 0.0;
   for (std::size_t i = 0; i < probe.scene().particle_count(); ++i) {
-    sum += probe.state().contact_force[i];
-    moment += cross(probe.state().position[i], probe.state().contact_force[i]);
+    sum += probe.state().contact_force[i].elastic;
+    moment += cross(probe.state().position[i], probe.state().contact_force[i].elastic);
   }
   EXPECT_NEAR(sum.norm(), 0.0, 1e-9 * force.norm());
   EXPECT_NEAR(moment, 0.0, 1e-6 * force.norm());
@@ -145,7 +145,7 @@ TEST(Contact, NeighboursAtAJointDoNotTouchUntilTheWallsFold) {
   Probe probe({{-20.0, 0.0}, {0.0, 0.0}, {0.6, 0.6}, {20.0, 0.6}});
   probe.force_at({0.0, 500.0}, {0.0, 1.0});
   for (std::size_t i = 0; i < probe.scene().particle_count(); ++i) {
-    EXPECT_EQ(probe.state().contact_force[i].norm(), 0.0) << i;
+    EXPECT_EQ(probe.state().contact_force[i].elastic.norm(), 0.0) << i;
   }
 }
 

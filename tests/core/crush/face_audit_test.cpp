@@ -55,8 +55,8 @@ State with_candidates_of_buckets(const Scene& scene, const State& state) {
 double difference_of_forces(const State& a, const State& b) {
   double greatest = 0.0;
   for (std::size_t i = 0; i < a.position.size(); ++i) {
-    greatest = std::max({greatest, (a.contact_force[i] - b.contact_force[i]).norm(),
-                         (a.contact_damping_force[i] - b.contact_damping_force[i]).norm()});
+    greatest = std::max({greatest, (a.contact_force[i].elastic - b.contact_force[i].elastic).norm(),
+                         (a.contact_force[i].viscous - b.contact_force[i].viscous).norm()});
   }
   return greatest;
 }
@@ -89,6 +89,7 @@ TEST_P(FaceAudit, FindsEveryTouchThatPushesWithTheForceOfTheBuckets) {
         deepest = std::max(deepest, overlap.depth / scene->elements[overlap.segment].thickness);
       }
     }
+    scenes::clear_contact_forces(state);
     State reference = with_candidates_of_buckets(*scene, state);
     ContactWorkspace workspace;
     Workers workers(1);

@@ -49,7 +49,7 @@ struct Groove {
     double most = 0.0;
     while (state.time < duration) {
       advance_step(*scene, state, nullptr);
-      most = std::max(most, state.contact_force[tip].norm());
+      most = std::max(most, state.contact_force[tip].elastic.norm());
     }
     return most / (scene->contact.stiffness * state.deepest_penetration);
   }

@@ -35,7 +35,7 @@ Bounce bounce(double omega_step, double damping_ratio, double& mass, double& sti
     advance_step(*scene, state, nullptr);
     touching += state.contact_count > 0 ? 1 : 0;
     result.peak_depth = std::max(result.peak_depth, state.deepest_penetration);
-    EXPECT_GE(state.contact_force[2].y() + state.contact_damping_force[2].y(), 0.0);
+    EXPECT_GE(state.contact_force[2].elastic.y() + state.contact_force[2].viscous.y(), 0.0);
   }
   advance_step(*scene, state, nullptr);
   result.duration = touching * step;
