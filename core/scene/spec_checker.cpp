@@ -5,6 +5,7 @@
 
 #include "cellcrush/fidelity.h"
 #include "scene/check_spec.h"
+#include "scene/lattice_measures.h"
 #include "scene/mesh_part.h"
 #include "scene/run_plan.h"
 
@@ -21,7 +22,7 @@ struct SpecChecker::KnownMesh {
   MeshMeasures measures;
 };
 
-SpecChecker::SpecChecker() = default;
+SpecChecker::SpecChecker() : lattices_(std::make_unique<LatticeMeasurer>()) {}
 SpecChecker::~SpecChecker() = default;
 
 SpecChecker::Verdict SpecChecker::check(const SceneSpec& given) {
@@ -47,7 +48,12 @@ const SpecChecker::KnownMesh& SpecChecker::mesh_of(SceneSpec part) {
     return **found;
   }
   auto known = std::make_unique<KnownMesh>();
-  known->measures = measure_mesh(part, *build_mesh(part));
+  if (auto measures = lattices_->measure(part)) {
+    known->measures = *std::move(measures);
+  } else {
+    known->measures = measure_mesh(part, *build_mesh(part));
+    ++built_count_;
+  }
   known->part = std::move(part);
   known_.push_front(std::move(known));
   if (known_.size() > kMostMeshes) {
