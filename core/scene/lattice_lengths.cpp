@@ -118,8 +118,11 @@ class LengthsFinder {
     squared_.reserve(pattern_.walls.size());
     ByWallKind least = lengths_.shortest;
     for (const LatticePattern::Wall& wall : pattern_.walls) {
-      squared_.push_back((joints_[wall.end] - joints_[wall.start]).squaredNorm());
-      least[wall.kind] = std::min(least[wall.kind], squared_.back());
+      const double squared = (joints_[wall.end] - joints_[wall.start]).squaredNorm();
+      squared_.push_back(squared);
+      if (squared < least[wall.kind]) {  // seldom, and then not a chain through memory
+        least[wall.kind] = squared;
+      }
     }
     for (int kind = 0; kind < kWallKinds; ++kind) {
       if (!is_rigid(sizes_, kind)) {
@@ -215,21 +218,21 @@ class LengthsFinder {
 
 bool is_rigid(const LatticeSizes& sizes, int kind) { return sizes.rigid && (kind & kStiffWall) != 0; }
 
-// Where every wall has a particle inside, the lightest of those weighs half of the lightest wall's share, and a joint of three
-// walls half as much again.
+// Of divided walls, a joint of three or more is half as heavy again as the particles inside the lightest of them.
 JointWalls find_light_joints(const LatticePattern& pattern, const LatticeSizes& sizes) {
   std::vector<int> count(pattern.joints.size(), 0);
-  bool all_divided = sizes.elements_per_wall > 1;
+  std::vector<bool> light(pattern.joints.size(), sizes.elements_per_wall == 1);
   for (const LatticePattern::Wall& wall : pattern.walls) {
-    ++count[wall.start];
-    ++count[wall.end];
-    all_divided = all_divided && !is_rigid(sizes, wall.kind);
+    for (const int joint : {wall.start, wall.end}) {
+      ++count[joint];
+      light[joint] = light[joint] || is_rigid(sizes, wall.kind);
+    }
   }
   JointWalls joints;
   joints.offset.push_back(0);
   std::vector<int> place(pattern.joints.size(), -1);
   for (std::size_t joint = 0; joint < pattern.joints.size(); ++joint) {
-    if (count[joint] <= (all_divided ? 2 : ParticleLengths::kMostElements)) {
+    if (light[joint] || count[joint] <= 2) {
       place[joint] = joints.offset.back();
       joints.offset.push_back(joints.offset.back() + count[joint]);
     }

@@ -108,9 +108,11 @@ std::optional<MeshMeasures> LatticeMeasurer::measure(const SceneSpec& part) {
   const LatticeLengths& lengths = lengths_of(*lattice, part.imperfection);
   const MassScaling scaling = {part.numerics.mass_scaling, part.numerics.rotary_scaling};
   MeshMeasures measures;
+  measures.particle_count = count.particles;
   measures.element_count = count.elements;
   measures.length = envelope_of(*lattice)[crush_axis_of(part)];
   measures.material = material_of(part.material);
+  measures.hardening = measures.material.hardening_modulus > 0.0;
   measure_steps(lengths, lattice->sizes, scaling, measures);
   measures.lightest_mass =
       lightest_mass_of(lengths, lattice->sizes.thickness, measures.material, *part.depth_mm, scaling.mass);

@@ -26,15 +26,17 @@ std::shared_ptr<Scene> build_mesh(const SceneSpec& part);
 
 /// What the rest of a scene takes from its mesh. Units mm, tonne, s, MPa.
 struct MeshMeasures {
+  std::size_t particle_count = 0;
   std::size_t element_count = 0;
   double length = 0.0;  ///< envelope along the crush
   double stable_step = 0.0;
   double lightest_mass = 0.0;  ///< of a particle
   double shortest_element = 0.0;
   double thinnest_wall = 0.0;
-  Material material;     ///< of the lattice
-  bool contact = false;  ///< whether walls touch each other
-  Problems overlaps;     ///< walls that lie in each other before loading
+  Material material;       ///< of the lattice
+  bool hardening = false;  ///< of any material
+  bool contact = false;    ///< whether walls touch each other
+  Problems overlaps;       ///< walls that lie in each other before loading
 };
 
 /// REQUIRES: `scene` is the mesh of the part.

@@ -7,6 +7,7 @@
 #include "scene/check_spec.h"
 #include "scene/lattice_measures.h"
 #include "scene/mesh_part.h"
+#include "scene/run_memory.h"
 #include "scene/run_plan.h"
 
 namespace cellcrush {
@@ -14,6 +15,18 @@ namespace {
 
 /// As many as the last axis of a grid over the lattice may have values.
 constexpr std::size_t kMostMeshes = 64;
+
+std::int64_t most_memory_of(const SceneSpec& spec, const MeshMeasures& mesh) {
+  RunSize size;
+  size.particles = mesh.particle_count;
+  size.elements = mesh.element_count;
+  size.face_corners = mesh.contact && spec.contact.search == ContactSpec::Search::faces ? 2 * mesh.element_count : 0;
+  size.sections = spec.section.axial_count();
+  size.fibres = size.sections * spec.section.depth_count();
+  size.force_based = spec.section.formulation == SectionSpec::Formulation::force_based;
+  size.hardening = mesh.hardening;
+  return memory_of_run(size);
+}
 
 }  // namespace
 
@@ -37,6 +50,7 @@ SpecChecker::Verdict SpecChecker::check(const SceneSpec& given) {
   if (verdict.problems.empty()) {
     verdict.element_count = static_cast<std::int64_t>(mesh.element_count);
     verdict.step_count = plan.schedule.step_count;
+    verdict.most_memory_bytes = most_memory_of(spec, mesh);
   }
   return verdict;
 }

@@ -27,6 +27,8 @@ class SpecChecker {
     Problems problems;
     std::int64_t element_count = 0;  ///< 0 when there are problems
     std::int64_t step_count = 0;     ///< 0 when there are problems
+    /// As SceneFacts has it, or more by the faces of a mesh that is searched by buckets after all; 0 when there are problems.
+    std::int64_t most_memory_bytes = 0;
   };
   Verdict check(const SceneSpec& given);
 

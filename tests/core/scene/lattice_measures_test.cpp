@@ -36,12 +36,14 @@ struct Tally {
     ++decided;
     EXPECT_EQ(whole.overlaps.size(), 0u) << what << ": " << whole.overlaps.front().message;
     EXPECT_EQ(quick->overlaps.size(), 0u) << what;
+    EXPECT_EQ(quick->particle_count, whole.particle_count) << what;
     EXPECT_EQ(quick->element_count, whole.element_count) << what;
     EXPECT_EQ(quick->length, whole.length) << what;
     EXPECT_EQ(quick->stable_step, whole.stable_step) << what;
     EXPECT_EQ(quick->lightest_mass, whole.lightest_mass) << what;
     EXPECT_EQ(quick->shortest_element, whole.shortest_element) << what;
     EXPECT_EQ(quick->thinnest_wall, whole.thinnest_wall) << what;
+    EXPECT_EQ(quick->hardening, whole.hardening) << what;
     EXPECT_EQ(quick->contact, whole.contact) << what;
     EXPECT_EQ(quick->material.youngs_modulus, whole.material.youngs_modulus) << what;
     EXPECT_EQ(quick->material.yield_stress, whole.material.yield_stress) << what;
