@@ -130,6 +130,24 @@ TEST(SpecChecker, SaysOfAFrameThatOverlapsWhatBuildingItsSceneSays) {
   EXPECT_EQ(checker.check(spec).problems.empty(), false);
 }
 
+// With problems of its own, a scaling still makes masses and steps that other problems name.
+TEST(SpecChecker, SaysOfScalingsOutOfRangeWhatBuildingTheirScenesSays) {
+  SpecChecker checker;
+  SceneSpec spec = scenes::hexagon_block(4, 3);
+  for (const double time_step : {0.0, 1e-9, 1e-3}) {
+    spec.numerics.time_step_s = time_step;
+    for (const double scaling :
+         {-1.0, 0.0, 0.5, 1e9, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+      spec.numerics.mass_scaling = scaling;
+      spec.numerics.rotary_scaling = 1.0;
+      expect_same_verdict(checker, spec);
+      spec.numerics.mass_scaling = 1.0;
+      spec.numerics.rotary_scaling = scaling;
+      expect_same_verdict(checker, spec);
+    }
+  }
+}
+
 // Thick walls of few and many elements, and joints thrown far: where bounds do not decide, and on either side of what is refused.
 TEST(SpecChecker, SaysOfLatticesAtTheLimitOfOverlapWhatBuildingTheirScenesSays) {
   SceneSpec spec = scenes::hexagon_block(3, 3);
