@@ -14,6 +14,8 @@ namespace cellcrush {
 /// Deviation from Eq. 40: the bucket is the floor of the coordinate; truncation toward zero would merge two at the origin.
 class BucketGrid {
  public:
+  static constexpr double kBucketsPerPoint = 4.0;
+
   /// `size` is the wanted side of a bucket in mm; it is made larger where there would be more than kBucketsPerPoint buckets
   /// a point. REQUIRES: at least one point, finite coordinates, size > 0.
   BucketGrid(std::span<const Vector2> points, double size);
@@ -35,8 +37,6 @@ class BucketGrid {
   [[nodiscard]] double bucket_size() const { return size_; }
 
  private:
-  static constexpr double kBucketsPerPoint = 4.0;
-
   [[nodiscard]] int column(double x) const;
   [[nodiscard]] int row(double y) const;
   [[nodiscard]] std::size_t bucket(int x, int y) const { return static_cast<std::size_t>(y) * columns_ + x; }

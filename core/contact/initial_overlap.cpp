@@ -10,10 +10,6 @@
 namespace cellcrush {
 namespace {
 
-/// Places that may be looked at, for each particle or element.
-constexpr double kMostVisits = 512.0;
-/// Segments that may be near each ball.
-constexpr double kMostNear = 100.0;
 /// Pairs that are held at a time.
 constexpr std::size_t kBatch = 1 << 20;
 
@@ -30,6 +26,13 @@ struct Marks {
 
 double twice_area(const Vector2& a, const Vector2& b, const Vector2& c) { return cross(b - a, c - a); }
 
+/// Whether the boxes round the segments from a to b and from c to d meet. Elements of one straight wall lie on one line, and on which
+/// side of it their ends are is round-off: their boxes tell that they do not cross.
+bool boxes_meet(const Vector2& a, const Vector2& b, const Vector2& c, const Vector2& d) {
+  return (a.cwiseMin(b).array() <= c.cwiseMax(d).array()).all() &&
+         (c.cwiseMin(d).array() <= a.cwiseMax(b).array()).all();
+}
+
 bool share_a_node(const Element& a, const Element& b) {
   return a.start == b.start || a.start == b.end || a.end == b.start || a.end == b.end;
 }
@@ -38,7 +41,7 @@ class OverlapFinder {
  public:
   OverlapFinder(const Scene& scene, std::size_t most) : scene_(scene), most_(most), paths_(scene) {
     const double count = static_cast<double>(scene.element_count());
-    visits_left_ = kMostVisits * (count + static_cast<double>(scene.particle_count()));
+    visits_left_ = kMostOverlapVisits * (count + static_cast<double>(scene.particle_count()));
     for (const Element& element : scene.elements) {
       mean_length_ += span_of(element).norm() / count;
     }
@@ -49,7 +52,7 @@ class OverlapFinder {
   void find_touching() {
     double near_pairs = 0.0;
     visit_near_pairs([&](const Pair&) { near_pairs += 1.0; });
-    if (near_pairs > kMostNear * static_cast<double>(scene_.particle_count())) {
+    if (near_pairs > kMostNearSegments * static_cast<double>(scene_.particle_count())) {
       visits_left_ = -1.0;
     }
     std::vector<Pair> pairs;
@@ -154,7 +157,8 @@ class OverlapFinder {
     const Vector2& d = scene_.position[other.end];
     const double of_start = twice_area(c, d, a);
     const double of_end = twice_area(c, d, b);
-    if (!share_a_node(one, other) && of_start * of_end < 0.0 && twice_area(a, b, c) * twice_area(a, b, d) < 0.0) {
+    if (!share_a_node(one, other) && boxes_meet(a, b, c, d) && of_start * of_end < 0.0 &&
+        twice_area(a, b, c) * twice_area(a, b, d) < 0.0) {
       add(first, second, a + of_start / (of_start - of_end) * (b - a));
     }
   }

@@ -7,6 +7,11 @@
 
 namespace cellcrush {
 
+/// Places that find_initial_overlaps looks at before it gives up, for each particle or element.
+inline constexpr double kMostOverlapVisits = 512.0;
+/// Segments near each ball with which it gives up.
+inline constexpr double kMostNearSegments = 100.0;
+
 /// Two elements whose walls lie in each other before loading.
 struct InitialOverlap {
   int first = 0;

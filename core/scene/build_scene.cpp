@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "cellcrush/fidelity.h"
 #include "cellcrush/simulation.h"
 #include "contact/contact_faces.h"
@@ -8,6 +10,19 @@
 
 namespace cellcrush {
 namespace {
+
+/// Puts the faces of the plates at the surfaces of the walls.
+void put_plates(Scene& scene) {
+  const int axis = scene.plates.axis;
+  double low = scene.position.front()[axis];
+  double high = low;
+  for (std::size_t i = 0; i < scene.particle_count(); ++i) {
+    low = std::min(low, scene.position[i][axis] - scene.radius[i]);
+    high = std::max(high, scene.position[i][axis] + scene.radius[i]);
+  }
+  scene.plates.impact_face = low;
+  scene.plates.support_face = high;
+}
 
 /// REQUIRES: walls that lie in each other have been refused.
 void prepare_search(const SceneSpec& spec, Scene& scene) {
@@ -41,6 +56,9 @@ SceneResult build_scene(const SceneSpec& given) {
   scene->mass_damping = spec.numerics.mass_damping_per_s;
   scene->contact = plan.contact;
   scene->plates = plan.plates;
+  if (scene->plates.present) {
+    put_plates(*scene);
+  }
   scene->schedule = plan.schedule;
   prepare_search(spec, *scene);
   scene->fidelity = describe_fidelity(given);

@@ -24,12 +24,12 @@ class Draw {
 
 }  // namespace
 
-void perturb(const Imperfection& imperfection, Layout& layout) {
+void perturb(const Imperfection& imperfection, std::vector<Vector2>& joints) {
   if (imperfection.amplitude_mm == 0.0) {
     return;
   }
   Draw draw(imperfection.seed);
-  for (Vector2& joint : layout.joints) {
+  for (Vector2& joint : joints) {
     joint.x() += imperfection.amplitude_mm * draw.next();
     joint.y() += imperfection.amplitude_mm * draw.next();
   }

@@ -19,17 +19,6 @@ namespace {
 
 constexpr double kTonnePerMm3PerKgPerM3 = 1e-12;
 
-/// What a fibre along the wall shows. In plane strain it is held across: elastically E / (1 - nu^2); flowing, the stress
-/// along it is 2 / sqrt 3 of the effective stress and its strain sqrt 3 / 2 of the effective one.
-Material material_of(const MaterialSpec& spec) {
-  const bool held = spec.plane == MaterialSpec::Plane::strain;
-  const double elastic = held ? 1.0 / (1.0 - spec.poissons_ratio * spec.poissons_ratio) : 1.0;
-  const double flowing = held ? 2.0 / std::numbers::sqrt3 : 1.0;
-  return {elastic * *spec.youngs_modulus_mpa, flowing * *spec.yield_stress_mpa,
-          flowing * flowing * spec.hardening_modulus_mpa, spec.isotropic_fraction,
-          *spec.density_kg_per_m3 * kTonnePerMm3PerKgPerM3};
-}
-
 std::vector<Material> materials_of(const SceneSpec& spec) {
   std::vector<Material> materials = {material_of(spec.material)};
   if (const auto* frame = std::get_if<FrameLattice>(&spec.lattice)) {
@@ -42,30 +31,31 @@ std::vector<Material> materials_of(const SceneSpec& spec) {
   return materials;
 }
 
-/// Lays out a regular lattice and takes its measures.
-template <class Lattice>
-Layout measure(const SceneSpec& spec, const Lattice& lattice, Layout layout, Scene& scene) {
-  const Vector2 envelope = envelope_of(lattice);
-  const bool along_x = spec.loading.direction == LoadingSpec::Direction::x;
-  scene.length = along_x ? envelope.x() : envelope.y();
-  scene.width = along_x ? envelope.y() : envelope.x();
-  scene.collapse_stress = collapse_stress_of(lattice, *spec.material.yield_stress_mpa, spec.loading.direction);
-  perturb(spec.imperfection, layout);
-  return layout;
-}
-
-Layout lay_out(const SceneSpec& spec, Scene& scene) {
-  const int elements = *spec.elements_per_wall;
+double collapse_stress_of_lattice(const SceneSpec& spec) {
+  const double yield_stress = *spec.material.yield_stress_mpa;
   if (const auto* hexagon = std::get_if<HexagonLattice>(&spec.lattice)) {
-    return measure(spec, *hexagon, lay_out(*hexagon, spec.inclusions, elements), scene);
+    return collapse_stress_of(*hexagon, yield_stress, spec.loading.direction);
   }
   if (const auto* square = std::get_if<SquareLattice>(&spec.lattice)) {
-    return measure(spec, *square, lay_out(*square, elements), scene);
+    return collapse_stress_of(*square, yield_stress, spec.loading.direction);
   }
-  if (const auto* triangle = std::get_if<TriangleLattice>(&spec.lattice)) {
-    return measure(spec, *triangle, lay_out(*triangle, elements), scene);
+  return collapse_stress_of(std::get<TriangleLattice>(spec.lattice), yield_stress, spec.loading.direction);
+}
+
+/// Lays out the lattice, and takes its measures where it is a regular one.
+Layout lay_out(const SceneSpec& spec, Scene& scene) {
+  const auto lattice = regular_lattice_of(spec);
+  if (!lattice) {
+    return lay_out_frame(std::get<FrameLattice>(spec.lattice), *spec.elements_per_wall);
   }
-  return lay_out_frame(std::get<FrameLattice>(spec.lattice), elements);
+  const Vector2 envelope = envelope_of(*lattice);
+  const int axis = crush_axis_of(spec);
+  scene.length = envelope[axis];
+  scene.width = envelope[1 - axis];
+  scene.collapse_stress = collapse_stress_of_lattice(spec);
+  Layout layout = lay_out(*lattice);
+  perturb(spec.imperfection, layout.joints);
+  return layout;
 }
 
 void set_material_and_mesh(const SceneSpec& spec, Scene& scene) {
@@ -81,6 +71,17 @@ void set_material_and_mesh(const SceneSpec& spec, Scene& scene) {
 }
 
 }  // namespace
+
+Material material_of(const MaterialSpec& spec) {
+  const bool held = spec.plane == MaterialSpec::Plane::strain;
+  const double elastic = held ? 1.0 / (1.0 - spec.poissons_ratio * spec.poissons_ratio) : 1.0;
+  const double flowing = held ? 2.0 / std::numbers::sqrt3 : 1.0;
+  return {elastic * *spec.youngs_modulus_mpa, flowing * *spec.yield_stress_mpa,
+          flowing * flowing * spec.hardening_modulus_mpa, spec.isotropic_fraction,
+          *spec.density_kg_per_m3 * kTonnePerMm3PerKgPerM3};
+}
+
+int crush_axis_of(const SceneSpec& spec) { return spec.loading.direction == LoadingSpec::Direction::x ? 0 : 1; }
 
 SceneSpec mesh_part_of(const SceneSpec& spec) {
   SceneSpec part = spec;
@@ -116,15 +117,9 @@ std::shared_ptr<Scene> build_mesh(const SceneSpec& part) {
 
 MeshMeasures measure_mesh(const SceneSpec& part, const Scene& scene) {
   MeshMeasures measures;
+  measures.particle_count = scene.particle_count();
   measures.element_count = scene.element_count();
   measures.length = scene.length;
-  const int axis = part.loading.direction == LoadingSpec::Direction::x ? 0 : 1;
-  measures.low = scene.position.front()[axis];
-  measures.high = measures.low;
-  for (std::size_t i = 0; i < scene.particle_count(); ++i) {
-    measures.low = std::min(measures.low, scene.position[i][axis] - scene.radius[i]);
-    measures.high = std::max(measures.high, scene.position[i][axis] + scene.radius[i]);
-  }
   measures.stable_step = scene.stable_step;
   measures.lightest_mass = *std::min_element(scene.mass.begin(), scene.mass.end());
   measures.shortest_element =
@@ -134,6 +129,7 @@ MeshMeasures measure_mesh(const SceneSpec& part, const Scene& scene) {
     measures.thinnest_wall = std::min(measures.thinnest_wall, element.thickness);
   }
   measures.material = scene.materials.front();
+  measures.hardening = scene.has_hardening();
   const auto* frame = std::get_if<FrameLattice>(&part.lattice);
   measures.contact = frame == nullptr || frame->self_contact;
   if (measures.contact) {

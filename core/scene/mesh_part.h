@@ -9,6 +9,14 @@
 
 namespace cellcrush {
 
+/// The material of a spec in the plane of its lattice: what a fibre along the wall shows. In plane strain it is held across:
+/// elastically E / (1 - nu^2); flowing, the stress along it is 2 / sqrt 3 of the effective stress and its strain sqrt 3 / 2 of
+/// the effective one.
+Material material_of(const MaterialSpec& spec);
+
+/// 0: crushed along x, 1: along y.
+int crush_axis_of(const SceneSpec& spec);
+
 /// The spec with what its mesh does not depend on as by default: speed, strains, contact and plates, steps, output. Specs
 /// that are equal in this part have the same mesh.
 SceneSpec mesh_part_of(const SceneSpec& spec);
@@ -18,17 +26,17 @@ std::shared_ptr<Scene> build_mesh(const SceneSpec& part);
 
 /// What the rest of a scene takes from its mesh. Units mm, tonne, s, MPa.
 struct MeshMeasures {
+  std::size_t particle_count = 0;
   std::size_t element_count = 0;
   double length = 0.0;  ///< envelope along the crush
-  double low = 0.0;     ///< of the walls' surfaces along the crush
-  double high = 0.0;
   double stable_step = 0.0;
   double lightest_mass = 0.0;  ///< of a particle
   double shortest_element = 0.0;
   double thinnest_wall = 0.0;
-  Material material;     ///< of the lattice
-  bool contact = false;  ///< whether walls touch each other
-  Problems overlaps;     ///< walls that lie in each other before loading
+  Material material;       ///< of the lattice
+  bool hardening = false;  ///< of any material
+  bool contact = false;    ///< whether walls touch each other
+  Problems overlaps;       ///< walls that lie in each other before loading
 };
 
 /// REQUIRES: `scene` is the mesh of the part.

@@ -13,10 +13,16 @@ namespace {
 constexpr double kMmPerM = 1e3;
 
 Plates plates_of(const SceneSpec& spec, const MeshMeasures& mesh, double stiffness) {
-  const int axis = spec.loading.direction == LoadingSpec::Direction::x ? 0 : 1;
   const double speed = *spec.loading.speed_m_per_s * kMmPerM;
   const double ramp_time = 2.0 * spec.loading.ramp_strain * mesh.length / speed;
-  return {true, axis, mesh.low, mesh.high, speed, ramp_time, stiffness, spec.plates.friction};
+  Plates plates;
+  plates.present = true;
+  plates.axis = crush_axis_of(spec);
+  plates.speed = speed;
+  plates.ramp_time = ramp_time;
+  plates.stiffness = stiffness;
+  plates.friction = spec.plates.friction;
+  return plates;
 }
 
 double end_time_of(const SceneSpec& spec, const MeshMeasures& mesh, const Plates& plates) {

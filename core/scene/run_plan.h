@@ -10,7 +10,7 @@ namespace cellcrush {
 /// How a mesh is crushed.
 struct RunPlan {
   ContactLaw contact;
-  Plates plates;
+  Plates plates;  ///< all but where their faces are
   Schedule schedule;
 };
 

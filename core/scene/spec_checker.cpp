@@ -5,7 +5,9 @@
 
 #include "cellcrush/fidelity.h"
 #include "scene/check_spec.h"
+#include "scene/lattice_measures.h"
 #include "scene/mesh_part.h"
+#include "scene/run_memory.h"
 #include "scene/run_plan.h"
 
 namespace cellcrush {
@@ -14,6 +16,18 @@ namespace {
 /// As many as the last axis of a grid over the lattice may have values.
 constexpr std::size_t kMostMeshes = 64;
 
+std::int64_t most_memory_of(const SceneSpec& spec, const MeshMeasures& mesh) {
+  RunSize size;
+  size.particles = mesh.particle_count;
+  size.elements = mesh.element_count;
+  size.face_corners = mesh.contact && spec.contact.search == ContactSpec::Search::faces ? 2 * mesh.element_count : 0;
+  size.sections = spec.section.axial_count();
+  size.fibres = size.sections * spec.section.depth_count();
+  size.force_based = spec.section.formulation == SectionSpec::Formulation::force_based;
+  size.hardening = mesh.hardening;
+  return memory_of_run(size);
+}
+
 }  // namespace
 
 struct SpecChecker::KnownMesh {
@@ -21,7 +35,7 @@ struct SpecChecker::KnownMesh {
   MeshMeasures measures;
 };
 
-SpecChecker::SpecChecker() = default;
+SpecChecker::SpecChecker() : lattices_(std::make_unique<LatticeMeasurer>()) {}
 SpecChecker::~SpecChecker() = default;
 
 SpecChecker::Verdict SpecChecker::check(const SceneSpec& given) {
@@ -36,6 +50,7 @@ SpecChecker::Verdict SpecChecker::check(const SceneSpec& given) {
   if (verdict.problems.empty()) {
     verdict.element_count = static_cast<std::int64_t>(mesh.element_count);
     verdict.step_count = plan.schedule.step_count;
+    verdict.most_memory_bytes = most_memory_of(spec, mesh);
   }
   return verdict;
 }
@@ -47,7 +62,12 @@ const SpecChecker::KnownMesh& SpecChecker::mesh_of(SceneSpec part) {
     return **found;
   }
   auto known = std::make_unique<KnownMesh>();
-  known->measures = measure_mesh(part, *build_mesh(part));
+  if (auto measures = lattices_->measure(part)) {
+    known->measures = *std::move(measures);
+  } else {
+    known->measures = measure_mesh(part, *build_mesh(part));
+    ++built_count_;
+  }
   known->part = std::move(part);
   known_.push_front(std::move(known));
   if (known_.size() > kMostMeshes) {

@@ -111,7 +111,7 @@ SweepPlan plan_sweep(const v1::Sweep& sweep, const std::function<bool()>& given_
   ProblemsOfPoints problems(points.values.size());
   translate::CaseChecker checker;
   std::size_t largest = 0;
-  std::int64_t most_elements = 0;
+  std::int64_t most_memory = 0;
   for (std::size_t i = 0; i < points.values.size(); ++i) {
     if (given_up()) throw ServiceError(ServiceError::Kind::cancelled, "Nobody waits for the sweep. None was made.");
     const std::string point = text_of_point(points.fields, points.values[i]);
@@ -123,8 +123,8 @@ SweepPlan plan_sweep(const v1::Sweep& sweep, const std::function<bool()>& given_
     job.set_time_limit_s(sweep.time_limit_s());
     job.set_owner(sweep.owner());
     for (auto& problem : verdict.problems) problems.add(std::move(problem), i, point);
-    if (verdict.element_count > most_elements) {
-      most_elements = verdict.element_count;
+    if (verdict.most_memory_bytes > most_memory) {
+      most_memory = verdict.most_memory_bytes;
       largest = i;
     }
     out.jobs.push_back({std::move(job), points.values[i], verdict.element_steps});

@@ -25,9 +25,9 @@ void check_fields(const std::vector<std::string>& fields, const std::string& sub
 
 std::string axis_field(int axis) { return "sweep.axes[" + std::to_string(axis) + "]"; }
 
-// `at` gives the value at a share of the way, 0 to 1.
+// `at(step, steps)` gives the value after so many of the steps.
 std::vector<double> spaced(const v1::SweepAxis::Range& range, const std::string& name,
-                           const std::function<double(double)>& at) {
+                           const std::function<double(double, double)>& at) {
   if (!std::isfinite(range.first()) || !std::isfinite(range.last()))
     throw InvalidField(name, "has an end that is no number.", "Use two finite ends.");
   if (range.count() < 2)
@@ -36,7 +36,7 @@ std::vector<double> spaced(const v1::SweepAxis::Range& range, const std::string&
     throw InvalidField(name + ".count", "is " + std::to_string(range.count()) + ".", kFewer);
   std::vector<double> out;
   out.reserve(static_cast<std::size_t>(range.count()));
-  for (int i = 0; i < range.count(); ++i) out.push_back(at(static_cast<double>(i) / (range.count() - 1)));
+  for (int i = 0; i < range.count(); ++i) out.push_back(at(static_cast<double>(i), range.count() - 1.0));
   // The ends are exact.
   out.front() = range.first();
   out.back() = range.last();
@@ -50,15 +50,18 @@ std::vector<double> values_of(const v1::SweepAxis& axis, const std::string& name
       return {axis.list().values().begin(), axis.list().values().end()};
     case v1::SweepAxis::kLinear: {
       const auto& range = axis.linear();
-      return spaced(range, name + ".linear",
-                    [&](double share) { return range.first() + share * (range.last() - range.first()); });
+      // Divided last: of whole numbers the result is whole, as counts and seeds must be.
+      return spaced(range, name + ".linear", [&](double step, double steps) {
+        return range.first() + step * (range.last() - range.first()) / steps;
+      });
     }
     case v1::SweepAxis::kLogarithmic: {
       const auto& range = axis.logarithmic();
       if (!(range.first() > 0.0) || !(range.last() > 0.0))
         throw InvalidField(name + ".logarithmic", "has an end that is not above 0.", "Use two ends above 0.");
-      return spaced(range, name + ".logarithmic",
-                    [&](double share) { return range.first() * std::pow(range.last() / range.first(), share); });
+      return spaced(range, name + ".logarithmic", [&](double step, double steps) {
+        return range.first() * std::pow(range.last() / range.first(), step / steps);
+      });
     }
     case v1::SweepAxis::kSeedCount: {
       if (axis.seed_count() < 1 || static_cast<std::size_t>(axis.seed_count()) > kMostPoints)

@@ -21,8 +21,8 @@ CaseChecker::Verdict CaseChecker::check(const v1::Case& submitted) {
     for (const auto& problem : *problems) out.problems.push_back(to_proto(problem));
   }
   if (!out.problems.empty()) return out;
-  out.element_count = verdict.element_count;
   out.element_steps = verdict.element_count * verdict.step_count;
+  out.most_memory_bytes = verdict.most_memory_bytes;
   return out;
 }
 

@@ -13,8 +13,9 @@ class SpecChecker;
 
 namespace cellcrush::translate {
 
-/// Checks many cases with the problems of check_case and without its description. Cases that have the same mesh cost microseconds
-/// but for the first. Not thread-safe. Throws std::bad_alloc when a mesh does not fit.
+/// Checks many cases with the problems of check_case and without its description. Cases of a regular lattice cost microseconds,
+/// and those that have the mesh of an earlier one (cellcrush/spec_checker.h). Not thread-safe. Throws std::bad_alloc when a mesh
+/// that has to be built does not fit.
 class CaseChecker {
  public:
   CaseChecker();
@@ -24,8 +25,9 @@ class CaseChecker {
 
   struct Verdict {
     std::vector<v1::Problem> problems;
-    std::int64_t element_count = 0;  ///< 0 when there are problems
     std::int64_t element_steps = 0;  ///< elements times steps of the run; 0 when there are problems
+    /// What check_case predicts, or a little more (cellcrush/spec_checker.h); 0 when there are problems.
+    std::int64_t most_memory_bytes = 0;
   };
   Verdict check(const v1::Case& submitted);
 

@@ -58,6 +58,17 @@ TEST(SweepPoints, RangesMeetTheirEndsAndAreEvenlySpaced) {
                                                 ElementsAre(DoubleNear(100.0, 1e-12)), ElementsAre(1000.0)));
 }
 
+TEST(SweepPoints, WholeNumbersEvenlySpacedAreWhole) {
+  v1::Sweep sweep;
+  auto& axis = *sweep.add_axes();
+  axis.set_field("lattice.hexagon.rows");
+  axis.mutable_linear()->set_first(1.0);
+  axis.mutable_linear()->set_last(1000.0);
+  axis.mutable_linear()->set_count(1000);
+  const auto points = expand(sweep);
+  for (int i = 0; i < 1000; ++i) EXPECT_THAT(points.values[i], ElementsAre(i + 1.0));
+}
+
 TEST(SweepPoints, ListedPointsKeepTheirOrder) {
   v1::Sweep sweep;
   for (const double value : {3.0, 1.0}) {
