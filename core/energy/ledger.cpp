@@ -6,6 +6,7 @@
 #include "beam/beam_section.h"
 #include "beam/element_place.h"
 #include "step/rigid_motion.h"
+#include "step/wide_motion.h"
 
 namespace cellcrush {
 namespace {
@@ -29,10 +30,16 @@ Instant look_at_motion(const Scene& scene, const State& state) {
     twice += scene.rigid.mass[body] * state.rigid_velocity[body].dot(next.velocity) +
              scene.rigid.inertia[body] * state.rigid_spin[body] * next.spin;
   }
-  for (std::size_t i = first_free_particle(scene); i < scene.particle_count(); ++i) {
-    const NextVelocity next = next_velocity(scene, state, damped, i);
-    accumulate_work(scene, state, i, next, {half * state.velocity[i], half * state.spin[i]}, instant.half);
-    twice += scene.mass[i] * state.velocity[i].dot(next.velocity) + scene.inertia[i] * state.spin[i] * next.spin;
+  if (have_wide_motion(scene)) {
+    const WorksOfMotion works = look_at_particles_wide(scene, state);
+    works.book(instant.half);
+    twice += works.twice_kinetic;
+  } else {
+    for (std::size_t i = first_free_particle(scene); i < scene.particle_count(); ++i) {
+      const NextVelocity next = next_velocity(scene, state, damped, i);
+      accumulate_work(scene, state, i, next, {half * state.velocity[i], half * state.spin[i]}, instant.half);
+      twice += scene.mass[i] * state.velocity[i].dot(next.velocity) + scene.inertia[i] * state.spin[i] * next.spin;
+    }
   }
   accumulate_plate_work(state, half * scene.plates.speed_at(state.time - half), instant.half);
   instant.kinetic = 0.5 * twice;

@@ -1,7 +1,6 @@
 #include "step/integrate_motion.h"
 
 #include "energy/ledger.h"
-#include "simd/target.h"
 #include "step/rigid_motion.h"
 #include "step/wide_motion.h"
 
@@ -161,7 +160,9 @@ void integrate_motion(const Scene& scene, State& state, Workers& workers) {
   const double plate_speed_before = scene.plates.speed_at(state.time - 0.5 * step);
   const double plate_speed_after = scene.plates.speed_at(state.time + 0.5 * step);
   move_rigid_bodies(scene, state);
-  if (!(use_wide_kernels() && move_particles_wide(scene, state, workers))) {
+  if (have_wide_motion(scene)) {
+    move_particles_wide(scene, state, workers);
+  } else {
     move_particles(scene, state);
   }
   accumulate_plate_work(state, 0.5 * step * (plate_speed_before + plate_speed_after), state.ledger);

@@ -6,8 +6,41 @@
 
 namespace cellcrush {
 
-/// The particles' part of integrate_motion with the processor's vector instructions: the same equations as next_velocity and
-/// accumulate_work. Returns false, and does nothing, for scenes with supports or loads.
-bool move_particles_wide(const Scene& scene, State& state, Workers& workers);
+// The free particles' part of integrate_motion and of evaluate_energies with the processor's vector instructions: the same
+// equations as next_velocity and accumulate_work.
+
+/// Sums over particles: the works of the forces on them, as the Ledger has them, and twice their kinetic energy, m v v'
+/// with the velocities half a step before and after. N mm.
+struct WorksOfMotion {
+  double contact = 0.0;
+  double contact_damping = 0.0;
+  double friction = 0.0;
+  double mass_damping = 0.0;
+  double twice_kinetic = 0.0;
+
+  void add(const WorksOfMotion& other) {
+    contact += other.contact;
+    contact_damping += other.contact_damping;
+    friction += other.friction;
+    mass_damping += other.mass_damping;
+    twice_kinetic += other.twice_kinetic;
+  }
+
+  void book(Ledger& ledger) const {
+    ledger.contact += contact;
+    ledger.contact_damping += contact_damping;
+    ledger.friction += friction;
+    ledger.mass_damping += mass_damping;
+  }
+};
+
+/// Whether the scene is one of those without supports and loads that the two below know, and their text the one to use.
+bool have_wide_motion(const Scene& scene);
+
+/// Moves the free particles by a step and books the works. REQUIRES: have_wide_motion.
+void move_particles_wide(const Scene& scene, State& state, Workers& workers);
+
+/// The works of the newest forces over the half step up to the state's time, and the energy then. REQUIRES: have_wide_motion.
+WorksOfMotion look_at_particles_wide(const Scene& scene, const State& state);
 
 }  // namespace cellcrush
