@@ -4,6 +4,7 @@
 
 #include <condition_variable>
 #include <memory>
+#include <utility>
 
 #include "error.h"
 #include "jobs/job_state.h"
@@ -115,23 +116,25 @@ WorkerEvents JobRunner::events_of(const store::StoredJob& stored) {
     }
     spdlog::info("{} runs in process {}", name_of(job), pid);
   };
-  events.reported = [this, job, channel = parts_.hub.open(job), last_step = parts_.reader.last_sampled_step(job)](
-                        const worker::Report& report) mutable { pass_on(job, last_step, *channel, report); };
+  const auto channel = parts_.hub.open(job);
+  events.watched = [channel] { return channel->is_watched(); };
+  events.reported = [this, job, channel, last_step = parts_.reader.last_sampled_step(job)](
+                        worker::Report& report) mutable { pass_on(job, last_step, *channel, report); };
   return events;
 }
 
 // Samples that were said before come again with the same bits.
-void JobRunner::pass_on(std::int64_t job, std::int64_t& last_step, watch::Channel& channel,
-                        const worker::Report& report) {
+void JobRunner::pass_on(std::int64_t job, std::int64_t& last_step, watch::Channel& channel, worker::Report& report) {
   switch (report.report_case()) {
     case worker::Report::kBegun: log_begin(name_of(job), report.begun()); break;
     case worker::Report::kMesh: parts_.journal.set_mesh(job, report.mesh()); break;
     case worker::Report::kSample:
       if (report.sample().step() <= last_step) break;
       last_step = report.sample().step();
-      parts_.journal.append_sample(job, report.sample());
+      parts_.journal.append_sample(job, report.sample(),
+                                   channel.is_watched() ? store::Journal::kSoon : store::Journal::kAtLeisure);
       break;
-    case worker::Report::kFrame: channel.publish(report.frame()); break;
+    case worker::Report::kFrame: channel.publish(std::move(*report.mutable_frame())); break;
     case worker::Report::kProgress:
       parts_.metrics.set_speed(job, report.progress().stalled() ? 0.0 : report.progress().steps_per_second());
       channel.publish(report.progress());
@@ -154,6 +157,7 @@ store::StateChange JobRunner::after(const store::StoredJob& stored, const Worker
 
 // Whether the job may be tried again after a loss.
 bool JobRunner::got_further(std::int64_t job) {
+  parts_.journal.commit_samples();
   const std::int64_t step = parts_.reader.last_sampled_step(job);
   const std::scoped_lock lock(mutex_);
   Losses& losses = losses_[job];

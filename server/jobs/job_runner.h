@@ -54,7 +54,7 @@ class JobRunner {
   worker::Order order_of(const store::StoredJob& stored) const;
   WorkerExit run_worker(const store::StoredJob& stored, int threads, const Interruptions& interruptions);
   WorkerEvents events_of(const store::StoredJob& stored);
-  void pass_on(std::int64_t job, std::int64_t& last_step, watch::Channel& channel, const worker::Report& report);
+  void pass_on(std::int64_t job, std::int64_t& last_step, watch::Channel& channel, worker::Report& report);
   store::StateChange after(const store::StoredJob& stored, const WorkerExit& exit);
   bool got_further(std::int64_t job);
   store::StateChange given_up(const store::StoredJob& stored, store::StateChange loss);

@@ -52,6 +52,38 @@ TEST_F(WatchCursorTest, ASnapshotThenEverythingInOrderThenTheEnd) {
   EXPECT_TRUE(cursor.ended());
 }
 
+TEST_F(WatchCursorTest, WhatIsAtHandIsGivenWithoutAnotherLookIntoTheJournal) {
+  change(v1::RUNNING);
+  add_samples(3);
+  change(v1::SUCCEEDED);
+  auto cursor = this->cursor();
+  EXPECT_FALSE(cursor.has_more());
+  for (int given = 0; given < 7; ++given) {
+    ASSERT_TRUE(cursor.next());
+    EXPECT_EQ(cursor.has_more(), given > 0 && given < 6) << "The first is the snapshot, the second reads the rest.";
+  }
+}
+
+TEST_F(WatchCursorTest, AFrameWakesOnlyThoseWhoWantFrames) {
+  const auto channel = hub_.open(job_);
+  EXPECT_FALSE(channel->is_watched());
+  int plain = 0;
+  int framed = 0;
+  const auto first = channel->subscribe([&plain] { ++plain; }, false);
+  const auto second = channel->subscribe([&framed] { ++framed; }, true);
+  EXPECT_TRUE(channel->is_watched());
+  channel->publish(frame(0));
+  EXPECT_EQ(plain, 0);
+  EXPECT_EQ(framed, 1);
+  channel->publish(v1::Progress());
+  channel->announce();
+  EXPECT_EQ(plain, 2);
+  EXPECT_EQ(framed, 3);
+  channel->unsubscribe(first);
+  channel->unsubscribe(second);
+  EXPECT_FALSE(channel->is_watched());
+}
+
 TEST_F(WatchCursorTest, GoesOnBehindTheNumberItIsGiven) {
   change(v1::RUNNING);
   add_samples(10);
