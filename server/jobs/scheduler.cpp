@@ -34,8 +34,8 @@ void Scheduler::clean_up() {
 void Scheduler::reconcile() {
   for (const v1::JobState state : {v1::RUNNING, v1::CANCELLING}) {
     for (const auto& job : parts_.reader.queued_jobs(state)) {
-      if (parts_.runner.reconcile(job.job) != JobRunner::Left::runs) continue;
-      spdlog::info("{} still runs in the worker that an earlier daemon started", name_of(job.job));
+      if (parts_.runner.reconcile(job.job) != JobRunner::Left::is_to_run) continue;
+      spdlog::info("{} is gone on with as an earlier daemon left it", name_of(job.job));
       const std::scoped_lock lock(mutex_);
       --free_cores_;
       waiting_.count_running(job);
