@@ -158,6 +158,8 @@ const std::vector<std::string>& Daemon::addresses() const { return impl_->addres
 
 const std::string& Daemon::metrics_url() const { return impl_->metrics_url; }
 
+void Daemon::read_tokens_again() { impl_->gate.read_tokens_again(); }
+
 void Daemon::stop() { impl_->stop(); }
 
 }  // namespace cellcrush
