@@ -64,6 +64,18 @@ TEST_F(WatchCursorTest, WhatIsAtHandIsGivenWithoutAnotherLookIntoTheJournal) {
   }
 }
 
+TEST(FrameChunks, APartAndTheMeshBesideItPassAStockClient) {
+  constexpr std::size_t kStockClient = 4 * 1024 * 1024;
+  for (const std::size_t mesh : {0U, 120'000U, 1'900'000U, 3'000'000U, 4'000'000U})
+    EXPECT_LT(mesh + chunk_bytes_beside(mesh), kStockClient) << mesh;
+  EXPECT_EQ(chunk_bytes_beside(0), kChunkBytes);
+  v1::FieldFrame large;
+  for (int i = 0; i < 900'000; ++i) large.add_position_mm(1.0F);
+  const auto parts = chunks_of(large, chunk_bytes_beside(2'500'000));
+  ASSERT_GT(parts.size(), 2U);
+  EXPECT_LT(parts.front().ByteSizeLong() + 2'500'000, kStockClient);
+}
+
 TEST_F(WatchCursorTest, AFrameWakesOnlyThoseWhoWantFrames) {
   const auto channel = hub_.open(job_);
   EXPECT_FALSE(channel->is_watched());
