@@ -7,42 +7,21 @@
 #include <spdlog/spdlog.h>
 #include <sys/stat.h>
 
-#include <algorithm>
 #include <mutex>
-#include <optional>
-#include <thread>
 #include <utility>
 
 #include "access/gate.h"
 #include "error.h"
-#include "jobs/admission.h"
-#include "jobs/housekeeping.h"
-#include "jobs/local_process.h"
-#include "jobs/scheduler.h"
 #include "listen_address.h"
-#include "rpc/admin_service.h"
-#include "rpc/cases_service.h"
-#include "rpc/jobs_service.h"
-#include "rpc/sweeps_service.h"
-#include "store/data_folder.h"
-#include "store/journal.h"
-#include "store/journal_reader.h"
-#include "store/sweep_reader.h"
-#include "watch/hub.h"
-#include "watch/pump.h"
+#include "service.h"
 #include "worker/step_cost.h"
 
 namespace cellcrush {
 namespace {
 
 constexpr int kLargestMessage = 4 * 1024 * 1024;
-constexpr int kPumpThreads = 2;
 constexpr std::chrono::seconds kCallsMayLast{2};
 constexpr int kHandshakeMilliseconds = 5000;
-
-int worker_limit(int asked) {
-  return asked > 0 ? asked : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-}
 
 ListenAddress metrics_address(const std::string& text) {
   const ListenAddress out = parse_listen_address(text);
@@ -94,31 +73,12 @@ struct Daemon::Impl {
         wanted(listen_addresses(options)),
         gate(options.access),
         credentials(credentials_for(gate, wanted)),
-        folder(options.data_folder),
-        journal(
-            folder.journal(), [this](std::int64_t job) { hub.announce(job); },
-            [this](double seconds) { metrics.observe_commit(seconds); }),
-        reader(folder.journal()),
-        sweep_reader(folder.journal()),
-        executor(options.worker_program, options.stall_limit),
-        runner({folder, journal, reader, hub, executor, metrics, options.checkpoint_interval,
-                std::chrono::duration<double>(options.limits.job_time).count()}),
-        scheduler({folder, journal, reader, metrics, runner}),
-        pump(kPumpThreads),
-        step_cost(worker::measure_step_cost()),
-        admission(folder, options.limits),
-        cases(step_cost),
-        jobs({folder, journal, reader, hub, pump, scheduler, admission, metrics, gate, options.bookmark_interval}),
-        sweeps(
-            {journal, reader, sweep_reader, hub, pump, scheduler, admission, metrics, gate, options.bookmark_interval}),
-        admin({reader, hub, scheduler, {worker_limit(options.workers), step_cost, false}, gate, [this] { drain(); }}) {
+        service(options, gate, worker::measure_step_cost(), [this] { drain(); }) {
     listen();
     serve_metrics();
-    scheduler.start(worker_limit(options.workers));
-    housekeeping.emplace(jobs::Housekeeping::Parts{folder, journal, reader, admission, scheduler,
-                                                   options.housekeeping_interval, options.keep_ended_jobs});
-    for (const char* service : {"cellcrush.v1.Cases", "cellcrush.v1.Jobs", "cellcrush.v1.Sweeps", "cellcrush.v1.Admin"})
-      server->GetHealthCheckService()->SetServingStatus(service, true);
+    service.start();
+    for (const char* name : {"cellcrush.v1.Cases", "cellcrush.v1.Jobs", "cellcrush.v1.Sweeps", "cellcrush.v1.Admin"})
+      server->GetHealthCheckService()->SetServingStatus(name, true);
   }
 
   ~Impl() { stop(); }
@@ -136,8 +96,7 @@ struct Daemon::Impl {
       if (wanted[i].kind == ListenAddress::Kind::unix_socket) remove_stale_socket(wanted[i].place);
       builder.AddListeningPort(wanted[i].text(), credentials[i], &ports[i]);
     }
-    for (grpc::Service* service : std::initializer_list<grpc::Service*>{&cases, &jobs, &sweeps, &admin})
-      builder.RegisterService(service);
+    service.register_with(builder);
     server = builder.BuildAndStart();
     for (std::size_t i = 0; i < wanted.size(); ++i) settle(wanted[i], ports[i]);
     if (!server) throw ServiceError(ServiceError::Kind::failed_precondition, "The service could not be started.");
@@ -162,23 +121,20 @@ struct Daemon::Impl {
 
   void serve_metrics() {
     if (options.metrics.empty()) return;
-    metrics_url = "http://" + metrics.serve(metrics_address(options.metrics)).text() + "/metrics";
+    metrics_url = "http://" + service.serve_metrics(metrics_address(options.metrics)).text() + "/metrics";
     spdlog::info("metrics are served on {}", metrics_url);
   }
 
   void drain() {
-    admission.drain();
     server->GetHealthCheckService()->SetServingStatus(false);
     if (options.on_drain) options.on_drain();
   }
 
   void stop() {
     if (std::exchange(stopped, true)) return;
-    admission.drain();
+    service.refuse_jobs();
     server->GetHealthCheckService()->SetServingStatus(false);
-    housekeeping.reset();
-    scheduler.stop();
-    pump.drain();
+    service.stop();
     server->Shutdown(std::chrono::system_clock::now() + kCallsMayLast);
     server->Wait();
   }
@@ -187,26 +143,10 @@ struct Daemon::Impl {
   std::vector<ListenAddress> wanted;
   access::Gate gate;
   std::vector<std::shared_ptr<grpc::ServerCredentials>> credentials;  ///< of the wanted addresses
-  store::DataFolder folder;
-  watch::Hub hub;
-  metrics::Metrics metrics;
-  store::Journal journal;
-  store::JournalReader reader;
-  store::SweepReader sweep_reader;
-  jobs::LocalProcess executor;
-  jobs::JobRunner runner;
-  jobs::Scheduler scheduler;
-  watch::Pump pump;
-  double step_cost;
-  jobs::Admission admission;
-  rpc::CasesService cases;
-  rpc::JobsService jobs;
-  rpc::SweepsService sweeps;
-  rpc::AdminService admin;
+  Service service;
   std::vector<std::string> addresses;
   std::string metrics_url;
   std::unique_ptr<grpc::Server> server;
-  std::optional<jobs::Housekeeping> housekeeping;
   bool stopped = false;
 };
 
@@ -217,6 +157,8 @@ Daemon::~Daemon() = default;
 const std::vector<std::string>& Daemon::addresses() const { return impl_->addresses; }
 
 const std::string& Daemon::metrics_url() const { return impl_->metrics_url; }
+
+void Daemon::read_tokens_again() { impl_->gate.read_tokens_again(); }
 
 void Daemon::stop() { impl_->stop(); }
 

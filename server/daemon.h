@@ -1,44 +1,12 @@
 #pragma once
 
-#include <chrono>
-#include <filesystem>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "access/gate.h"
-#include "jobs/admission.h"
+#include "daemon_options.h"
 
 namespace cellcrush {
-
-struct DaemonOptions {
-  /// Each "unix:PATH" or "HOST:PORT" (listen_address.h). Empty: a socket in the data folder and 127.0.0.1:50551.
-  std::vector<std::string> listen;
-  std::filesystem::path data_folder;
-  /// Who may call on TCP, and by what he is known.
-  access::Options access;
-  /// "HOST:PORT" of loopback at which metrics are served over HTTP. Empty: nowhere.
-  std::string metrics;
-  /// Jobs that run at once. 0: as many as this machine has cores.
-  int workers = 0;
-  /// Program that is started as `PROGRAM worker ...`.
-  std::filesystem::path worker_program = "/proc/self/exe";
-  /// Clock time between two checkpoints of a running job.
-  std::chrono::milliseconds checkpoint_interval{60'000};
-  /// A worker that says nothing and uses no processor time for so long is replaced.
-  std::chrono::milliseconds stall_limit{20'000};
-  /// What new jobs are held to.
-  jobs::Admission::Limits limits;
-  /// Time for which jobs that have ended are kept; 0: for good.
-  std::chrono::seconds keep_ended_jobs{0};
-  /// Between two looks at the disk and at jobs that ended long ago.
-  std::chrono::milliseconds housekeeping_interval{5'000};
-  /// Called when a client has asked the daemon to end, which is then to be stopped.
-  std::function<void()> on_drain;
-  /// Time without an event after which a watcher is sent a bookmark.
-  std::chrono::milliseconds bookmark_interval{15'000};
-};
 
 /// The whole service in one object: serves from its construction to stop. Several may live in one process, each with a
 /// data folder of its own.
@@ -56,6 +24,9 @@ class Daemon {
 
   /// Where metrics are served, with the real port: "http://HOST:PORT/metrics"; empty: nowhere.
   [[nodiscard]] const std::string& metrics_url() const;
+
+  /// Reads the file of --tokens again (Gate::read_tokens_again). Thread-safe.
+  void read_tokens_again();
 
   /// Lets running workers leave their jobs at a checkpoint, closes watches and calls, within a few seconds. These jobs and those
   /// that wait are run by the next daemon on the same data folder. Safe to call twice.

@@ -30,12 +30,14 @@ std::filesystem::path default_data_folder() {
   return {};
 }
 
-// SIGTERM and SIGINT are waited for by main alone; blocked before any other thread exists.
-sigset_t block_signals() {
+// SIGTERM, SIGINT and, where there are tokens to read again, SIGHUP are waited for by main alone; blocked before any other thread
+// exists.
+sigset_t block_signals(bool has_tokens) {
   sigset_t signals;
   sigemptyset(&signals);
   sigaddset(&signals, SIGTERM);
   sigaddset(&signals, SIGINT);
+  if (has_tokens) sigaddset(&signals, SIGHUP);
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   signal(SIGPIPE, SIG_IGN);
   return signals;
@@ -75,7 +77,7 @@ int serve(const cellcrush::DaemonOptions& options, const sigset_t& signals) {
     for (const auto& address : daemon.addresses()) std::printf("cellcrushd is listening on %s\n", address.c_str());
     std::fflush(stdout);
     int received = 0;
-    sigwait(&signals, &received);
+    while (sigwait(&signals, &received) == 0 && received == SIGHUP) daemon.read_tokens_again();
     spdlog::info("ends on {}", received == SIGTERM ? "SIGTERM" : "SIGINT");
     daemon.stop();
     return 0;
@@ -107,9 +109,9 @@ int main(int argc, char** argv) {
   app.add_option("--tls-client-scope", certificate_scope,
                  "what those may do who show such a certificate: read, submit or admin (default: submit)")
       ->check(CLI::IsMember({"read", "submit", "admin"}));
-  app.add_option(
-      "--tokens", options.access.tokens,
-      "file of the tokens that calls on TCP must carry, a line each, see `cellcrushd token` (default: none)");
+  app.add_option("--tokens", options.access.tokens,
+                 "file of the tokens that calls on TCP must carry, a line each, see `cellcrushd token`; read again on "
+                 "SIGHUP (default: none)");
   app.add_option(
       "--metrics", options.metrics,
       "HOST:PORT of loopback at which metrics for Prometheus are served over HTTP, at /metrics (default: nowhere)");
@@ -179,7 +181,7 @@ int main(int argc, char** argv) {
   options.keep_ended_jobs = std::chrono::seconds(std::llround(86400.0 * keep_days));
   options.on_drain = [] { kill(getpid(), SIGTERM); };
   options.checkpoint_interval = std::chrono::milliseconds(std::llround(1000.0 * checkpoint_seconds));
-  const sigset_t signals = block_signals();
+  const sigset_t signals = block_signals(!options.access.tokens.empty());
   spdlog::set_default_logger(spdlog::stderr_color_mt("cellcrushd"));
   spdlog::set_formatter(log_format == "json" ? cellcrush::make_json_formatter() : cellcrush::make_text_formatter());
   return serve(options, signals);

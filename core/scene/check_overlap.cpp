@@ -45,8 +45,7 @@ Problems name_beams(const FrameLattice& frame, int elements_per_wall, const std:
       problems.push_back({beam_field(other), "",
                           "lies in " + beam_field(one) + " before loading, at " + place_text(overlap.place) + ".",
                           "Move their nodes apart, join them by a node, make them thinner, or set "
-                          "lattice.frame.self_contact to false.",
-                          Problem::Kind::invalid});
+                          "lattice.frame.self_contact to false."});
     }
   }
   return problems;
@@ -60,7 +59,7 @@ Problems check_overlap(const SceneSpec& spec, const Scene& scene) {
   if (overlaps.too_dense && overlaps.found.empty()) {
     return {{frame != nullptr ? "lattice.frame.beams" : thickness_field(spec), "",
              "are too thick or too tangled for contact: each particle has hundreds of elements within reach.",
-             "Make walls thinner, or give longer elements.", Problem::Kind::invalid}};
+             "Make walls thinner, or give longer elements."}};
   }
   if (frame != nullptr) {
     return name_beams(*frame, *spec.elements_per_wall, overlaps.found);
@@ -70,7 +69,7 @@ Problems check_overlap(const SceneSpec& spec, const Scene& scene) {
   }
   return {{thickness_field(spec), "",
            "makes walls lie in each other before loading, first at " + place_text(overlaps.found.front().place) + ".",
-           "Give thinner walls, or a smaller lattice.imperfection.amplitude_mm.", Problem::Kind::invalid}};
+           "Give thinner walls, or a smaller lattice.imperfection.amplitude_mm."}};
 }
 
 }  // namespace cellcrush

@@ -55,7 +55,7 @@ bool FieldChecker::positive(const std::string& field, const std::optional<double
 
 void FieldChecker::add(const std::string& field, const std::string& value, const std::string& message,
                        const std::string& remedy) {
-  problems_.push_back({field, value, message, remedy, Problem::Kind::invalid});
+  problems_.push_back({field, value, message, remedy});
 }
 
 }  // namespace cellcrush

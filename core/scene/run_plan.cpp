@@ -48,8 +48,7 @@ void check_stability(const SceneSpec& spec, const MeshMeasures& mesh, Problems& 
     problems.push_back(
         {"numerics.time_step_s", to_text(spec.numerics.time_step_s),
          "is above the largest stable step of this mesh, " + to_text(mesh.stable_step) + " s.",
-         "Give a step of at most " + to_text(kStepFraction * mesh.stable_step) + " s, or 0 to have it chosen.",
-         Problem::Kind::invalid});
+         "Give a step of at most " + to_text(kStepFraction * mesh.stable_step) + " s, or 0 to have it chosen."});
   }
 }
 
@@ -62,14 +61,13 @@ void check_step_count(const SceneSpec& spec, double count, Problems& problems) {
   const double fixed = spec.numerics.time_step_s;
   const std::string message = "makes " + to_text(std::round(count)) + " steps, more than 1e10.";
   if (fixed > 0.0) {
-    problems.push_back({"numerics.time_step_s", to_text(fixed), message, "Give a longer step, or 0 to have it chosen.",
-                        Problem::Kind::invalid});
+    problems.push_back(
+        {"numerics.time_step_s", to_text(fixed), message, "Give a longer step, or 0 to have it chosen."});
   } else if (const auto* frame = std::get_if<FrameLattice>(&spec.lattice)) {
-    problems.push_back({"lattice.frame.end_time_s", to_text(*frame->end_time_s), message, "Give an earlier end.",
-                        Problem::Kind::invalid});
+    problems.push_back({"lattice.frame.end_time_s", to_text(*frame->end_time_s), message, "Give an earlier end."});
   } else {
-    problems.push_back({"loading.speed_m_per_s", to_text(*spec.loading.speed_m_per_s), message, "Give a higher speed.",
-                        Problem::Kind::invalid});
+    problems.push_back(
+        {"loading.speed_m_per_s", to_text(*spec.loading.speed_m_per_s), message, "Give a higher speed."});
   }
 }
 

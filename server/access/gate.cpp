@@ -1,8 +1,10 @@
 #include "access/gate.h"
 
+#include <spdlog/spdlog.h>
 #include <strings.h>
 
 #include <iterator>
+#include <utility>
 
 #include "access/method_scopes.h"
 #include "error.h"
@@ -64,14 +66,31 @@ class Gate::Check final : public grpc::AuthMetadataProcessor {
   const Gate& gate_;
 };
 
-Gate::Gate(const Options& options) : certificate_scope_(options.certificate_scope) {
+Gate::Gate(const Options& options) : token_path_(options.tokens), certificate_scope_(options.certificate_scope) {
   if (options.tls_certificate.empty() != options.tls_key.empty())
     refuse_options("--tls-cert and --tls-key go together. Give both, or none.");
   if (!options.tls_client_authority.empty() && options.tls_certificate.empty())
     refuse_options("--tls-client-ca needs TLS. Give --tls-cert and --tls-key with it.");
   if (!options.tls_certificate.empty())
     tls_ = read_tls_files(options.tls_certificate, options.tls_key, options.tls_client_authority);
-  if (!options.tokens.empty()) tokens_.emplace(options.tokens);
+  if (has_tokens()) tokens_ = std::make_shared<const TokenFile>(token_path_);
+}
+
+void Gate::read_tokens_again() {
+  if (!has_tokens()) return;
+  try {
+    auto next = std::make_shared<const TokenFile>(token_path_);
+    spdlog::info("takes {} tokens, those of {}", next->size(), token_path_.string());
+    const std::scoped_lock lock(mutex_);
+    tokens_ = std::move(next);
+  } catch (const ServiceError& error) {
+    spdlog::error("{} The tokens from before stay in force. Mend the file and send SIGHUP again.", error.what());
+  }
+}
+
+std::shared_ptr<const TokenFile> Gate::tokens() const {
+  const std::scoped_lock lock(mutex_);
+  return tokens_;
 }
 
 std::shared_ptr<grpc::ServerCredentials> Gate::credentials_for(const ListenAddress& address) const {
@@ -90,7 +109,7 @@ std::shared_ptr<grpc::ServerCredentials> Gate::credentials_for(const ListenAddre
     options.pem_key_cert_pairs.push_back({tls_->key, tls_->certificate});
     options.pem_root_certs = tls_->client_authority;
     out = grpc::SslServerCredentials(options);
-  } else if (tokens_) {
+  } else if (has_tokens()) {
     // Plain text that stays on this machine; unlike insecure credentials, these let calls be checked.
     out = grpc::experimental::LocalServerCredentials(LOCAL_TCP);
   } else {
@@ -101,7 +120,7 @@ std::shared_ptr<grpc::ServerCredentials> Gate::credentials_for(const ListenAddre
 }
 
 Caller Gate::identify(const Metadata& metadata, const grpc::AuthContext& context) const {
-  return tokens_ ? caller_of_token(metadata) : caller_of_certificate(context);
+  return has_tokens() ? caller_of_token(metadata) : caller_of_certificate(context);
 }
 
 Caller Gate::caller_of_token(const Metadata& metadata) const {
@@ -118,7 +137,7 @@ Caller Gate::caller_of_token(const Metadata& metadata) const {
       value.size() > kBearer.size() && strncasecmp(value.data(), kBearer.data(), kBearer.size()) == 0;
   if (std::next(first) != last || !is_bearer)
     refuse_caller("The authorization of this call is not one \"Bearer TOKEN\". Send that.");
-  const auto caller = tokens_->find(value.substr(kBearer.size()));
+  const auto caller = tokens()->find(value.substr(kBearer.size()));
   if (!caller) refuse_caller(std::string("The token of this call is none that this server knows. ") + kAskForToken);
   return *caller;
 }

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 
@@ -38,6 +39,10 @@ class Gate {
   /// ServiceError (invalid) where others could reach it and there is no TLS, or neither tokens nor clients' certificates.
   [[nodiscard]] std::shared_ptr<grpc::ServerCredentials> credentials_for(const ListenAddress& address) const;
 
+  /// Reads the file of tokens again, if there is one, for the calls from now on. One that cannot be used is told of in the log, and
+  /// those of before stay.
+  void read_tokens_again();
+
   /// Who makes a call that has passed.
   [[nodiscard]] Caller caller_of(const grpc::ServerContextBase& context) const;
 
@@ -52,10 +57,14 @@ class Gate {
   [[nodiscard]] Caller identify(const Metadata& metadata, const grpc::AuthContext& context) const;
   [[nodiscard]] Caller caller_of_token(const Metadata& metadata) const;
   [[nodiscard]] Caller caller_of_certificate(const grpc::AuthContext& context) const;
-  [[nodiscard]] bool asks_who_calls() const { return tokens_ || (tls_ && !tls_->client_authority.empty()); }
+  [[nodiscard]] bool asks_who_calls() const { return has_tokens() || (tls_ && !tls_->client_authority.empty()); }
+  [[nodiscard]] bool has_tokens() const { return !token_path_.empty(); }
+  [[nodiscard]] std::shared_ptr<const TokenFile> tokens() const;
 
   std::optional<TlsFiles> tls_;
-  std::optional<TokenFile> tokens_;
+  std::filesystem::path token_path_;
+  mutable std::mutex mutex_;
+  std::shared_ptr<const TokenFile> tokens_;  ///< guarded by mutex_; null where there are none
   Scope certificate_scope_;
   mutable RefusalLog refusals_;
 };

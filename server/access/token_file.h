@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -19,6 +20,8 @@ class TokenFile {
   /// Throws ServiceError (invalid) with the option, the file and the line: a file that cannot be read, that others can read
   /// or write, a line that is none, a hash that comes twice, a name with two scopes, no token at all.
   explicit TokenFile(const std::filesystem::path& path);
+
+  [[nodiscard]] std::size_t size() const { return entries_.size(); }
 
   /// Whose token it is; nothing for one that is not in the file. The time it takes says nothing about how much of a hash
   /// was right.

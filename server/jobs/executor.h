@@ -31,8 +31,10 @@ struct WorkerExit {
 
 /// What the executor tells while a worker runs, from the thread that called run.
 struct WorkerEvents {
-  std::function<void(int pid)> started;                 ///< a worker runs, of this daemon or of one before it
-  std::function<void(const worker::Report&)> reported;  ///< all reports but the final one and `stopping`; some again
+  std::function<void(int pid)> started;  ///< a worker runs, of this daemon or of one before it
+  std::function<void(worker::Report&)>
+      reported;                   ///< all reports but the final one and `stopping`, to be taken; some again
+  std::function<bool()> watched;  ///< whether somebody waits for them: they are then told 20 times a second
 };
 
 /// Wishes of others while a worker runs. A worker that does not heed one in time is ended.

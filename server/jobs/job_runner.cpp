@@ -4,6 +4,7 @@
 
 #include <condition_variable>
 #include <memory>
+#include <utility>
 
 #include "error.h"
 #include "jobs/job_state.h"
@@ -33,27 +34,42 @@ void pause(const std::stop_token& stop) {
 
 bool JobRunner::run(std::int64_t job, int threads, const Interruptions& interruptions,
                     const std::stop_token& daemons_end) {
+  v1::JobState state = v1::JOB_STATE_UNSPECIFIED;
+  // It is CANCELLING when it was cancelled just as its worker had left it: then it is ended with what there is.
+  do state = run_once(job, threads, interruptions, daemons_end);
+  while (state == v1::CANCELLING);
+  return state == v1::PENDING;
+}
+
+v1::JobState JobRunner::run_once(std::int64_t job, int threads, const Interruptions& interruptions,
+                                 const std::stop_token& daemons_end) {
   const auto stored = parts_.reader.find_job(job);
-  if (!stored || stored->job.state() == v1::SUSPENDED || is_terminal(stored->job.state())) return false;
+  if (!stored || stored->job.state() == v1::SUSPENDED || is_terminal(stored->job.state()))
+    return v1::JOB_STATE_UNSPECIFIED;
   store::StateChange next;
   try {
-    next = after(*stored, run_worker(*stored, threads, interruptions));
+    next = is_left_cancelled(*stored) ? given_up(*stored, cancelled_without_result(), interruptions)
+                                      : after(*stored, run_worker(*stored, threads, interruptions), interruptions);
   } catch (const Withdrawn&) {
     spdlog::info("{} was withdrawn before it ran", name_of(job));
-    return false;
+    return v1::JOB_STATE_UNSPECIFIED;
   } catch (const std::exception& error) {
     next = outcome_of(error);
     end_leftover(job);
   }
   parts_.metrics.set_speed(job, 0.0);
-  // It is PENDING as it was.
-  if (next.state == v1::JOB_STATE_UNSPECIFIED) return true;
-  return write(job, std::move(next), daemons_end) == v1::PENDING;
+  // It stays as it was, and is to be run again.
+  if (next.state == v1::JOB_STATE_UNSPECIFIED) return v1::PENDING;
+  return write(job, std::move(next), daemons_end);
+}
+
+bool JobRunner::is_left_cancelled(const store::StoredJob& stored) {
+  return stored.job.state() == v1::CANCELLING && !parts_.executor.has_worker(parts_.folder.job_folder(stored.number));
 }
 
 JobRunner::Left JobRunner::reconcile(std::int64_t job) {
   const auto folder = parts_.folder.job_folder(job);
-  if (parts_.executor.has_worker(folder)) return Left::runs;
+  if (parts_.executor.has_worker(folder)) return Left::is_to_run;
   const auto stored = parts_.reader.find_job(job);
   if (!stored) return Left::ended;
   parts_.folder.make_job_folder(job);
@@ -62,13 +78,14 @@ JobRunner::Left JobRunner::reconcile(std::int64_t job) {
     if (const auto last_word = parts_.executor.take_last_word(folder, events_of(*stored))) {
       next = outcome_of(*last_word);
     } else if (stored->job.state() == v1::CANCELLING) {
-      next = cancelled_without_result();
+      return Left::is_to_run;
     }
   } catch (const ServiceError& error) {
     if (error.kind() != ServiceError::Kind::data_loss) throw;
     next = outcome_of(error);
   }
-  write(job, next, {});
+  const v1::JobState written = write(job, next, {});
+  if (written == v1::CANCELLING) return Left::is_to_run;
   return next.state == v1::PENDING ? Left::waits : Left::ended;
 }
 
@@ -115,23 +132,25 @@ WorkerEvents JobRunner::events_of(const store::StoredJob& stored) {
     }
     spdlog::info("{} runs in process {}", name_of(job), pid);
   };
-  events.reported = [this, job, channel = parts_.hub.open(job), last_step = parts_.reader.last_sampled_step(job)](
-                        const worker::Report& report) mutable { pass_on(job, last_step, *channel, report); };
+  const auto channel = parts_.hub.open(job);
+  events.watched = [channel] { return channel->is_watched(); };
+  events.reported = [this, job, channel, last_step = parts_.reader.last_sampled_step(job)](
+                        worker::Report& report) mutable { pass_on(job, last_step, *channel, report); };
   return events;
 }
 
 // Samples that were said before come again with the same bits.
-void JobRunner::pass_on(std::int64_t job, std::int64_t& last_step, watch::Channel& channel,
-                        const worker::Report& report) {
+void JobRunner::pass_on(std::int64_t job, std::int64_t& last_step, watch::Channel& channel, worker::Report& report) {
   switch (report.report_case()) {
     case worker::Report::kBegun: log_begin(name_of(job), report.begun()); break;
     case worker::Report::kMesh: parts_.journal.set_mesh(job, report.mesh()); break;
     case worker::Report::kSample:
       if (report.sample().step() <= last_step) break;
       last_step = report.sample().step();
-      parts_.journal.append_sample(job, report.sample());
+      parts_.journal.append_sample(job, report.sample(),
+                                   channel.is_watched() ? store::Journal::kSoon : store::Journal::kAtLeisure);
       break;
-    case worker::Report::kFrame: channel.publish(report.frame()); break;
+    case worker::Report::kFrame: channel.publish(std::move(*report.mutable_frame())); break;
     case worker::Report::kProgress:
       parts_.metrics.set_speed(job, report.progress().stalled() ? 0.0 : report.progress().steps_per_second());
       channel.publish(report.progress());
@@ -142,10 +161,13 @@ void JobRunner::pass_on(std::int64_t job, std::int64_t& last_step, watch::Channe
   }
 }
 
-store::StateChange JobRunner::after(const store::StoredJob& stored, const WorkerExit& exit) {
+store::StateChange JobRunner::after(const store::StoredJob& stored, const WorkerExit& exit,
+                                    const Interruptions& interruptions) {
   auto next = outcome_of(exit);
+  if (exit.kind == WorkerExit::Kind::cancelled && !is_last_word(exit))
+    return given_up(stored, std::move(next), interruptions);
   if (!is_lost(exit)) return next;
-  if (!got_further(stored.number)) return given_up(stored, std::move(next));
+  if (!got_further(stored.number)) return given_up(stored, std::move(next), interruptions);
   spdlog::warn("{}: {}", name_of(stored.number), next.message);
   if (exit.kind != WorkerExit::Kind::not_started) return tried_again(std::move(next));
   // The job is PENDING as it was.
@@ -154,6 +176,7 @@ store::StateChange JobRunner::after(const store::StoredJob& stored, const Worker
 
 // Whether the job may be tried again after a loss.
 bool JobRunner::got_further(std::int64_t job) {
+  parts_.journal.commit_samples();
   const std::int64_t step = parts_.reader.last_sampled_step(job);
   const std::scoped_lock lock(mutex_);
   Losses& losses = losses_[job];
@@ -163,17 +186,27 @@ bool JobRunner::got_further(std::int64_t job) {
   return false;
 }
 
-// What the job's workers reported until they were lost is kept as a result where that can be.
-store::StateChange JobRunner::given_up(const store::StoredJob& stored, store::StateChange loss) {
+// What the job's workers reported until they were gone is kept as a result where that can be.
+store::StateChange JobRunner::given_up(const store::StoredJob& stored, store::StateChange loss,
+                                       const Interruptions& interruptions) {
+  const bool is_cancelled = loss.state == v1::CANCELLED;
+  // The next daemon ends it.
+  if (is_cancelled && interruptions.stop.stop_requested()) return {};
   worker::Order order = order_of(stored);
   auto& end = *order.mutable_given_up();
-  end.set_cause(loss.cause);
-  end.set_message(loss.message);
-  end.set_remedy(loss.remedy);
+  end.set_cancelled(is_cancelled);
+  if (!is_cancelled) {
+    end.set_cause(loss.cause);
+    end.set_message(loss.message);
+    end.set_remedy(loss.remedy);
+  }
   try {
     const auto exit =
-        parts_.executor.run(parts_.folder.job_folder(stored.number), order, events_of(stored), Interruptions{});
-    if (!is_lost(exit)) return outcome_of(exit);
+        parts_.executor.run(parts_.folder.job_folder(stored.number), order, events_of(stored), interruptions);
+    const bool has_result = is_last_word(exit) && exit.final->has_summary();
+    const bool was_left = exit.kind == WorkerExit::Kind::stopped || exit.kind == WorkerExit::Kind::suspended;
+    if (was_left && !is_last_word(exit) && is_cancelled) return {};
+    if (has_result || (was_left && !is_last_word(exit))) return outcome_of(exit);
   } catch (const std::exception& error) {
     spdlog::warn("{} has no result: {}", name_of(stored.number), error.what());
   }
@@ -192,9 +225,7 @@ v1::JobState JobRunner::write(std::int64_t job, store::StateChange change, const
       if (error.kind() == ServiceError::Kind::not_found) return v1::JOB_STATE_UNSPECIFIED;
       if (error.kind() == ServiceError::Kind::failed_precondition) {
         // It was cancelled when its worker had just left it.
-        if (is_terminal(change.state) || !is_cancelling(job)) return v1::JOB_STATE_UNSPECIFIED;
-        change = cancelled_without_result();
-        continue;
+        return !is_terminal(change.state) && is_cancelling(job) ? v1::CANCELLING : v1::JOB_STATE_UNSPECIFIED;
       }
       spdlog::error("The end of {} cannot be made durable: {}", name_of(job), error.what());
       if (error.kind() == ServiceError::Kind::storage_full) parts_.folder.give_up_ballast();

@@ -15,8 +15,8 @@
 namespace cellcrush::jobs {
 
 /// Runs a job in a worker and writes in the journal what comes of it. A job whose worker is lost waits for another one, until
-/// kMostLosses in a row have got no further than the one before; a last worker then makes a result of what they reported.
-/// Thread-safe.
+/// kMostLosses in a row have got no further than the one before; a last worker then makes a result of what they reported, as
+/// it does when the worker of a cancelled job is gone. Thread-safe.
 class JobRunner {
  public:
   static constexpr int kMostLosses = 3;
@@ -41,8 +41,8 @@ class JobRunner {
 
   /// What became of a job that an earlier daemon left RUNNING or CANCELLING.
   enum class Left {
-    runs,   ///< its worker lives; `run` goes along with it
-    waits,  ///< it is PENDING, for its worker is gone
+    is_to_run,  ///< its worker lives, and `run` goes along with it; or it was cancelled, and `run` ends it
+    waits,      ///< it is PENDING, for its worker is gone
     ended,
   };
   Left reconcile(std::int64_t job);
@@ -52,13 +52,21 @@ class JobRunner {
 
  private:
   worker::Order order_of(const store::StoredJob& stored) const;
+  /// The state that was written; PENDING also when the job is to be run again as it is, CANCELLING when another came first.
+  v1::JobState run_once(std::int64_t job, int threads, const Interruptions& interruptions,
+                        const std::stop_token& daemons_end);
+  /// Whether it was cancelled and its worker is gone.
+  bool is_left_cancelled(const store::StoredJob& stored);
   WorkerExit run_worker(const store::StoredJob& stored, int threads, const Interruptions& interruptions);
   WorkerEvents events_of(const store::StoredJob& stored);
-  void pass_on(std::int64_t job, std::int64_t& last_step, watch::Channel& channel, const worker::Report& report);
-  store::StateChange after(const store::StoredJob& stored, const WorkerExit& exit);
+  void pass_on(std::int64_t job, std::int64_t& last_step, watch::Channel& channel, worker::Report& report);
+  store::StateChange after(const store::StoredJob& stored, const WorkerExit& exit, const Interruptions& interruptions);
   bool got_further(std::int64_t job);
-  store::StateChange given_up(const store::StoredJob& stored, store::StateChange loss);
-  /// Tries until it can be written or `stop` is requested; once when that cannot be. The state that was written, if one was.
+  /// No state when the job is to be given up later.
+  store::StateChange given_up(const store::StoredJob& stored, store::StateChange loss,
+                              const Interruptions& interruptions);
+  /// Tries until it can be written or `stop` is requested; once when that cannot be. The state that was written, if one was;
+  /// CANCELLING when the job is that and may not become what was to be written.
   v1::JobState write(std::int64_t job, store::StateChange change, const std::stop_token& stop);
   bool is_cancelling(std::int64_t job);
   void tidy_up(std::int64_t job, const store::StateChange& change);

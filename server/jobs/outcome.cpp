@@ -37,8 +37,6 @@ store::StateChange of_final(const worker::Final& final) {
   return out;
 }
 
-bool is_last_word(const WorkerExit& exit) { return exit.final && !exit.final->has_suspended_step(); }
-
 // What became of a worker, and what to do if it happens again and again.
 struct Loss {
   std::string what;
@@ -66,6 +64,8 @@ Loss loss_of(const WorkerExit& exit) {
 }
 
 }  // namespace
+
+bool is_last_word(const WorkerExit& exit) { return exit.final && !exit.final->has_suspended_step(); }
 
 bool is_lost(const WorkerExit& exit) {
   if (is_last_word(exit)) return false;

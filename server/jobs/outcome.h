@@ -11,7 +11,10 @@ namespace cellcrush::jobs {
 /// tried again.
 bool is_lost(const WorkerExit& exit);
 
-/// The job's next state, from how its worker ended. A final report counts for more than the way the process ended.
+/// Whether the worker ended the job: its final report counts for more than the way the process ended.
+bool is_last_word(const WorkerExit& exit);
+
+/// The job's next state, from how its worker ended.
 store::StateChange outcome_of(const WorkerExit& exit);
 
 /// The job's last state when the daemon's own part of the run failed.

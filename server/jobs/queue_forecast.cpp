@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <queue>
 #include <string>
-#include <utility>
 
 #include "jobs/resource_name.h"
 #include "jobs/waiting_jobs.h"
 
 namespace cellcrush::jobs {
 namespace {
+
+// What one more core is worth: two take .72 to .9 of the time of one, by the size of the lattice (README.md).
+constexpr double kWorthOfAnotherCore = 0.25;
 
 std::string before_it(int count, const char* joint) {
   if (count == 0) return ".";
@@ -28,12 +30,13 @@ std::string at_its_limit(const store::QueuedJob& job) {
 // The workers as time goes on.
 class Play {
  public:
-  Play(const std::vector<RunningJob>& running, const std::vector<store::QueuedJob>& waiting, const WorkerFacts& workers)
-      : workers_(workers), free_(workers.count) {
-    for (const auto& [job, seconds_left] : running) {
+  Play(const std::vector<RunningJob>& running, const std::vector<store::QueuedJob>& waiting, const WorkerFacts& workers,
+       const FactsOf& facts_of)
+      : workers_(workers), facts_of_(facts_of), free_(workers.count) {
+    for (const auto& [job, seconds_left, cores] : running) {
       waiting_.count_running(job);
       now_.count_running(job);
-      begin(job, seconds_left);
+      begin(job, seconds_left, cores);
     }
     for (const auto& job : waiting) waiting_.add(job);
     all_busy_ = free_ <= 0;
@@ -46,15 +49,18 @@ class Play {
         if (const auto taken = waiting_.take()) {
           job = *taken;
           seconds = time_;
-          begin(job, workers_.step_cost * static_cast<double>(job.element_steps));
+          const JobFacts facts = facts_of_(job.job);
+          const int cores = 1 + extra_cores(facts.threads, free_ - 1, waiting_.count());
+          begin(job, predicted_seconds(job, facts, cores, workers_.step_cost), cores);
           return true;
         }
       }
       if (ends_.empty()) return false;
-      time_ = std::max(time_, ends_.top().first);
-      waiting_.give_back(ends_.top().second);
+      const End& end = ends_.top();
+      time_ = std::max(time_, end.time);
+      waiting_.give_back(end.job);
+      free_ += end.cores;
       ends_.pop();
-      ++free_;
     }
   }
 
@@ -67,18 +73,23 @@ class Play {
   }
 
  private:
-  struct Later {
-    bool operator()(const auto& one, const auto& other) const { return one.first > other.first; }
+  struct End {
+    double time;
+    store::QueuedJob job;
+    int cores;
   };
-  using End = std::pair<double, store::QueuedJob>;
+  struct Later {
+    bool operator()(const End& one, const End& other) const { return one.time > other.time; }
+  };
 
-  void begin(const store::QueuedJob& job, double seconds) {
-    ends_.emplace(time_ + seconds, job);
-    --free_;
+  void begin(const store::QueuedJob& job, double seconds, int cores) {
+    ends_.push({time_ + seconds, job, cores});
+    free_ -= cores;
   }
 
   WorkerFacts workers_;
-  int free_;
+  const FactsOf& facts_of_;
+  int free_;  ///< cores
   WaitingJobs waiting_;
   WaitingJobs now_;  ///< what runs before anything more starts
   bool all_busy_ = false;
@@ -88,9 +99,18 @@ class Play {
 
 }  // namespace
 
+double predicted_seconds(const store::QueuedJob& job, const JobFacts& facts, int cores, double step_cost) {
+  const std::int64_t left = std::max<std::int64_t>(job.element_steps - facts.element_steps_done, 0);
+  return step_cost * static_cast<double>(left) / (1.0 + kWorthOfAnotherCore * (cores - 1));
+}
+
+int extra_cores(int threads, int free, std::size_t waiting) {
+  return std::clamp(threads - 1, 0, std::max(free - static_cast<int>(waiting), 0));
+}
+
 v1::Queue forecast_queue(const std::vector<RunningJob>& running, const std::vector<store::QueuedJob>& waiting,
-                         const WorkerFacts& workers) {
-  Play play(running, waiting, workers);
+                         const WorkerFacts& workers, const FactsOf& facts_of) {
+  Play play(running, waiting, workers, facts_of);
   v1::Queue out;
   store::QueuedJob job;
   double seconds = 0.0;

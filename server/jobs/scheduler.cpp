@@ -2,13 +2,13 @@
 
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
 #include <chrono>
 #include <optional>
 
 #include "error.h"
 #include "jobs/deletion.h"
 #include "jobs/job_state.h"
+#include "jobs/queue_forecast.h"
 #include "jobs/resource_name.h"
 
 namespace cellcrush::jobs {
@@ -34,8 +34,8 @@ void Scheduler::clean_up() {
 void Scheduler::reconcile() {
   for (const v1::JobState state : {v1::RUNNING, v1::CANCELLING}) {
     for (const auto& job : parts_.reader.queued_jobs(state)) {
-      if (parts_.runner.reconcile(job.job) != JobRunner::Left::runs) continue;
-      spdlog::info("{} still runs in the worker that an earlier daemon started", name_of(job.job));
+      if (parts_.runner.reconcile(job.job) != JobRunner::Left::is_to_run) continue;
+      spdlog::info("{} is gone on with as an earlier daemon left it", name_of(job.job));
       const std::scoped_lock lock(mutex_);
       --free_cores_;
       waiting_.count_running(job);
@@ -193,14 +193,14 @@ void Scheduler::run_slot(const std::stop_token& stop) {
 }
 
 void Scheduler::run(const store::QueuedJob& taken, const std::stop_token& stop) {
-  Wishes wishes;
+  Running wishes;
   {
     const std::scoped_lock lock(mutex_);
     wishes = running_[taken.job];
     tell_metrics();
   }
   const auto stored = parts_.reader.find_job(taken.job);
-  const int extra = stored ? take_cores(stored->job.case_().numerics().threads() - 1) : 0;
+  const int extra = stored ? take_cores(taken.job, stored->job.case_().numerics().threads()) : 0;
   const std::stop_callback leave_at_the_end(stop, [&wishes] { wishes.leave.request_stop(); });
   const bool again = parts_.runner.run(
       taken.job, 1 + extra, {wishes.leave.get_token(), wishes.suspend.get_token(), wishes.cancel.get_token()}, stop);
@@ -215,12 +215,18 @@ void Scheduler::run(const store::QueuedJob& taken, const std::stop_token& stop) 
   changed_.notify_all();
 }
 
-int Scheduler::take_cores(int asked) {
+int Scheduler::take_cores(std::int64_t job, int threads) {
   const std::scoped_lock lock(mutex_);
-  const int most = std::max(free_cores_ - static_cast<int>(waiting_.count()), 0);
-  const int taken = std::clamp(asked, 0, most);
+  const int taken = extra_cores(threads, free_cores_, waiting_.count());
   free_cores_ -= taken;
+  running_[job].cores += taken;
   return taken;
+}
+
+int Scheduler::cores_of(std::int64_t job) {
+  const std::scoped_lock lock(mutex_);
+  const auto found = running_.find(job);
+  return found == running_.end() ? 1 : found->second.cores;
 }
 
 store::StoredJob Scheduler::find(std::int64_t job) {

@@ -68,16 +68,20 @@ class Scheduler {
 
   [[nodiscard]] std::size_t waiting_count();
 
+  /// Cores that a job which runs holds; 1 for one that is about to.
+  [[nodiscard]] int cores_of(std::int64_t job);
+
   /// Lets running workers leave their jobs at a checkpoint, and waits until the slots are done. These jobs and those that wait are
   /// PENDING for the next daemon.
   void stop();
 
  private:
-  /// Of others, for a job that runs.
-  struct Wishes {
+  /// A job that runs: what others wish of it, and what it holds.
+  struct Running {
     std::stop_source leave;
     std::stop_source suspend;
     std::stop_source cancel;
+    int cores = 1;
   };
 
   void reconcile();
@@ -85,7 +89,7 @@ class Scheduler {
   void run_slot(const std::stop_token& stop);
   /// Has the job run by this thread; it holds a core, and more if it asks for them and there are.
   void run(const store::QueuedJob& taken, const std::stop_token& stop);
-  int take_cores(int asked);
+  int take_cores(std::int64_t job, int threads);
   store::StoredJob find(std::int64_t job);
   /// REQUIRES: mutex_ is held.
   void tell_metrics() { parts_.metrics.set_jobs(waiting_.count(), running_.size()); }
@@ -94,7 +98,7 @@ class Scheduler {
   std::mutex mutex_;
   std::condition_variable_any changed_;
   WaitingJobs waiting_;
-  std::map<std::int64_t, Wishes> running_;
+  std::map<std::int64_t, Running> running_;
   int free_cores_ =
       0;  ///< one for each slot, and those that jobs use are taken off; below 0 after a restart with fewer
   bool held_ = false;

@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/eventfd.h>
-#include <sys/inotify.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -22,8 +21,10 @@ constexpr std::chrono::seconds kToAcknowledge{2};
 constexpr std::chrono::seconds kToCloseTheResult{25};
 constexpr std::chrono::seconds kToLeaveTheJob{20};
 constexpr std::chrono::seconds kToEndAfterTheLastWord{5};
-constexpr int kLookAgain = 500;  // ms
-constexpr int kGather = 50;      // ms
+// Between two looks at the reports, of a job that is watched and of one that is not. A worker says something some hundred times a
+// second: what it has said meanwhile is read together, and that of all workers at the same moments.
+constexpr std::chrono::milliseconds kLookForWatchers{50};
+constexpr std::chrono::milliseconds kLookAgain{200};
 
 const std::filesystem::path& existing(const std::filesystem::path& path) {
   const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
@@ -37,14 +38,11 @@ const std::filesystem::path& existing(const std::filesystem::path& path) {
 WorkerFollower::WorkerFollower(const worker::JobFolder& folder, const WorkerEvents& events,
                                const Interruptions& interruptions, std::chrono::milliseconds stall_limit)
     : events_(events), interruptions_(interruptions), stall_limit_(stall_limit), reader_(existing(folder.reports())) {
-  changes_ = inotify_init1(IN_NONBLOCK | IN_CLOEXEC);
+  // Without it a wish is seen at the next look.
   wishes_ = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
-  // Without them reports and wishes are seen at the next look.
-  if (changes_ >= 0) inotify_add_watch(changes_, folder.reports().c_str(), IN_MODIFY);
 }
 
 WorkerFollower::~WorkerFollower() {
-  if (changes_ >= 0) close(changes_);
   if (wishes_ >= 0) close(wishes_);
 }
 
@@ -54,21 +52,20 @@ bool WorkerFollower::catch_up() { return read_reports(false) != Reading::broken;
 WorkerFollower::Reading WorkerFollower::read_reports(bool live) {
   Reading out = Reading::nothing_new;
   while (true) {
-    worker::Report report;
-    switch (reader_.read(report)) {
+    switch (reader_.read(report_)) {
       case worker::ReportLogReader::Read::end: return out;
       case worker::ReportLogReader::Read::broken: return Reading::broken;
       case worker::ReportLogReader::Read::message: break;
     }
     out = Reading::something_new;
-    if (report.has_begun()) final_.reset();
-    if (report.has_final()) {
-      final_ = report.final();
-    } else if (report.has_stopping()) {
+    if (report_.has_begun()) final_.reset();
+    if (report_.has_final()) {
+      final_ = report_.final();
+    } else if (report_.has_stopping()) {
       acknowledged_ = live;
-    } else if (live || !report.has_progress()) {
-      if (report.has_progress()) progress_ = report.progress();
-      events_.reported(report);
+    } else if (live || !report_.has_progress()) {
+      if (report_.has_progress()) progress_ = report_.progress();
+      events_.reported(report_);
     }
   }
 }
@@ -98,15 +95,13 @@ WorkerExit WorkerFollower::follow(WorkerProcess& process) {
 }
 
 void WorkerFollower::wait(const WorkerProcess& process) const {
-  std::array<pollfd, 3> waiting = {pollfd{process.descriptor(), POLLIN, 0}, pollfd{wishes_, POLLIN, 0},
-                                   pollfd{changes_, POLLIN, 0}};
-  poll(waiting.data(), waiting.size(), kLookAgain);
-  // What a worker says in the next moment is read together, unless it ends.
-  if (waiting[2].revents != 0) poll(waiting.data(), 2, kGather);
-  std::array<char, 4096> ignored{};
-  while (read(changes_, ignored.data(), ignored.size()) > 0) continue;
+  std::array<pollfd, 2> waiting = {pollfd{process.descriptor(), POLLIN, 0}, pollfd{wishes_, POLLIN, 0}};
+  const auto interval = events_.watched() ? kLookForWatchers : kLookAgain;
+  const auto since_last_moment = Clock::now().time_since_epoch() % interval;
+  const auto to_next_moment = std::chrono::ceil<std::chrono::milliseconds>(interval - since_last_moment);
+  poll(waiting.data(), waiting.size(), static_cast<int>(to_next_moment.count()));
   eventfd_t none = 0;
-  eventfd_read(wishes_, &none);
+  if (waiting[1].revents != 0) eventfd_read(wishes_, &none);
 }
 
 void WorkerFollower::hand_on_wishes(const WorkerProcess& process) {

@@ -42,9 +42,9 @@ class WorkerFollower {
   const WorkerEvents& events_;
   const Interruptions& interruptions_;
   std::chrono::milliseconds stall_limit_;
-  int changes_ = -1;  ///< inotify of the reports
-  int wishes_ = -1;   ///< eventfd, readable once there is a wish
+  int wishes_ = -1;  ///< eventfd, readable once there is a wish
   worker::ReportLogReader reader_;
+  worker::Report report_;  ///< the one that is being read; its memory is used again
   std::optional<worker::Final> final_;
   v1::Progress progress_;  ///< the newest
   bool acknowledged_ = false;

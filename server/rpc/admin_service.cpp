@@ -1,5 +1,7 @@
 #include "rpc/admin_service.h"
 
+#include <algorithm>
+
 #include "rpc/change_log.h"
 #include "rpc/error_table.h"
 #include "version.h"
@@ -18,13 +20,31 @@ grpc::Status AdminService::GetCapabilities(grpc::ServerContext*, const v1::GetCa
 std::vector<jobs::RunningJob> AdminService::running_jobs(v1::JobState state) {
   std::vector<jobs::RunningJob> out;
   for (const auto& job : parts_.reader.queued_jobs(state)) {
-    double seconds_left = parts_.workers.step_cost * static_cast<double>(job.element_steps);
-    const auto channel = parts_.hub.find(job.job);
-    const auto progress = channel ? channel->newest().progress : nullptr;
-    if (progress && progress->steps_per_second() > 0.0) seconds_left = progress->seconds_left();
+    const int cores = parts_.scheduler.cores_of(job.job);
     // One that is told to stop ends at once.
-    out.push_back({job, state == v1::RUNNING ? seconds_left : 0.0});
+    double seconds_left = 0.0;
+    if (state == v1::RUNNING) {
+      const auto channel = parts_.hub.find(job.job);
+      const auto progress = channel ? channel->newest().progress : nullptr;
+      seconds_left = progress && progress->steps_per_second() > 0.0
+                         ? progress->seconds_left()
+                         : jobs::predicted_seconds(job, facts_of(job.job), cores, parts_.workers.step_cost);
+    }
+    out.push_back({job, seconds_left, cores});
   }
+  return out;
+}
+
+jobs::JobFacts AdminService::facts_of(std::int64_t job) {
+  jobs::JobFacts out;
+  const auto stored = parts_.reader.find_job(job);
+  if (!stored) return out;
+  out.threads = std::max(stored->job.case_().numerics().threads(), 1);
+  // A worker that ran it has sent the mesh.
+  const auto mesh = stored->job.attempt() > 0 ? parts_.reader.mesh(job) : std::nullopt;
+  if (mesh)
+    out.element_steps_done =
+        mesh->thickness_mm_size() * std::max<std::int64_t>(parts_.reader.last_sampled_step(job), 0);
   return out;
 }
 
@@ -35,7 +55,8 @@ grpc::Status AdminService::GetQueue(grpc::ServerContext*, const v1::GetQueueRequ
     running.insert(running.end(), stopping.begin(), stopping.end());
     jobs::WorkerFacts workers = parts_.workers;
     workers.held = parts_.scheduler.is_held();
-    *response = jobs::forecast_queue(running, parts_.reader.queued_jobs(v1::PENDING), workers);
+    *response = jobs::forecast_queue(running, parts_.reader.queued_jobs(v1::PENDING), workers,
+                                     [this](std::int64_t job) { return facts_of(job); });
     return grpc::Status::OK;
   });
 }

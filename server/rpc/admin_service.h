@@ -34,6 +34,7 @@ class AdminService final : public v1::Admin::Service {
 
  private:
   std::vector<jobs::RunningJob> running_jobs(v1::JobState state);
+  jobs::JobFacts facts_of(std::int64_t job);
 
   Parts parts_;
 };

@@ -88,7 +88,8 @@ grpc::Status JobsService::GetFrame(grpc::ServerContext*, const v1::GetFrameReque
   return answer([&] {
     const auto stored = find(request->name());
     auto mesh = parts_.reader.mesh(stored.number);
-    for (auto& chunk : watch::chunks_of(find_frame(stored, *request))) {
+    const std::size_t chunk_bytes = watch::chunk_bytes_beside(mesh ? mesh->ByteSizeLong() : 0);
+    for (auto& chunk : watch::chunks_of(find_frame(stored, *request), chunk_bytes)) {
       v1::GetFrameResponse response;
       if (chunk.part() == 0 && mesh) *response.mutable_mesh() = *std::move(mesh);
       *response.mutable_chunk() = std::move(chunk);

@@ -41,6 +41,15 @@ void JobsService::add_progress(store::StoredJob& stored) {
   if (const auto progress = channel->newest().progress) *stored.job.mutable_progress() = *progress;
 }
 
+// Of a job that nobody watches some may be gathered still. Where they cannot be made durable those before them are given.
+void JobsService::commit_samples() {
+  try {
+    parts_.journal.commit_samples();
+  } catch (const ServiceError&) {
+    // The journal tries again by itself, and tells of it.
+  }
+}
+
 grpc::Status JobsService::CreateJob(grpc::ServerContext* context, const v1::CreateJobRequest* request,
                                     v1::Job* response) {
   return answer([&] {
@@ -177,6 +186,7 @@ grpc::Status JobsService::GetHistory(grpc::ServerContext*, const v1::GetHistoryR
     const std::int64_t job = find(request->name()).number;
     const std::string question = "history of " + jobs::name_of(job);
     const auto page = read_full_page(request->page_size(), request->page_token(), question);
+    commit_samples();
     auto stored = parts_.reader.samples(job, page.after, page.room());
     for (auto& sample : stored.samples) *response->add_samples() = std::move(sample);
     if (stored.has_more) response->set_next_page_token(page_token(stored.last_sequence, question));

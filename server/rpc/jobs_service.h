@@ -58,6 +58,7 @@ class JobsService final : public v1::Jobs::WithCallbackMethod_WatchJob<v1::Jobs:
   /// Number of a job that the caller may change. Throws also ServiceError (permission_denied).
   std::int64_t find_own(const grpc::ServerContext& context, const std::string& name);
   void add_progress(store::StoredJob& stored);
+  void commit_samples();
   v1::FieldFrame find_frame(const store::StoredJob& stored, const v1::GetFrameRequest& request);
 
   Parts parts_;

@@ -55,24 +55,30 @@ class WatchReactor final : public grpc::ServerWriteReactor<typename Source::Mess
 
   void run() override {
     Action action = Action::none;
+    // What is followed at once goes out together with what follows.
+    grpc::WriteOptions options;
     {
       const std::scoped_lock lock(mutex_);
       action = decide();
+      if (action == Action::write && source_->has_more()) options.set_buffer_hint();
     }
     if (action == Action::write) {
       tell_metrics();
-      this->StartWrite(&message_);
+      this->StartWrite(&message_, options);
     }
     if (action == Action::finish) this->Finish(status_);
   }
 
   void OnWriteDone(bool ok) override {
+    bool at_once = false;
     {
       const std::scoped_lock lock(mutex_);
       writing_ = false;
       if (!ok) cancelled_ = true;
+      at_once = source_->has_more();
     }
-    parts_.pump.schedule(self_);
+    // The journal is read by the pump's threads and not by those of gRPC.
+    at_once ? run() : parts_.pump.schedule(self_);
   }
 
   void OnCancel() override {

@@ -42,16 +42,16 @@ void GroupCommit::commit(const std::vector<Write*>& batch) {
 
 // A body that fails takes back what it wrote, and no more.
 void GroupCommit::do_write(Write& write) {
-  database_.execute("SAVEPOINT own");
+  Statement(database_, "SAVEPOINT own").run();
   try {
     write.body();
   } catch (...) {
     // A full disk ends the whole transaction.
     if (!database_.in_transaction()) throw;
-    database_.execute("ROLLBACK TO own");
+    Statement(database_, "ROLLBACK TO own").run();
     fail(write, std::current_exception());
   }
-  database_.execute("RELEASE own");
+  Statement(database_, "RELEASE own").run();
 }
 
 // Why a body failed may be what another one had written, which is not there either when the commit fails: that counts then.

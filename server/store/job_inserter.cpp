@@ -10,7 +10,7 @@
 
 namespace cellcrush::store {
 
-JobInserter::JobInserter(const Database& database)
+JobInserter::JobInserter(Database& database)
     : database_(database),
       job_(database,
            "INSERT INTO jobs (state, job, submitted_case, request_id, request_hash, last_sequence, priority, "

@@ -20,13 +20,13 @@ struct JobEntry {
 /// Adds jobs to the journal, PENDING and with their first event. Prepared once for many. Lives within a transaction.
 class JobInserter {
  public:
-  explicit JobInserter(const Database& database);
+  explicit JobInserter(Database& database);
 
   /// Returns the new job's number.
   std::int64_t insert(v1::Job job, const JobEntry& entry);
 
  private:
-  const Database& database_;
+  Database& database_;
   Statement job_;
   Statement event_;
 };

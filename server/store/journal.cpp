@@ -3,7 +3,7 @@
 #include <google/protobuf/util/time_util.h>
 #include <spdlog/spdlog.h>
 
-#include <chrono>
+#include <algorithm>
 #include <utility>
 
 #include "error.h"
@@ -16,7 +16,7 @@
 namespace cellcrush::store {
 namespace {
 
-constexpr std::chrono::milliseconds kGatherTime{200};
+constexpr std::chrono::milliseconds kBeforeNextTry{200};
 
 void apply(const StateChange& change, v1::Job& job) {
   const auto now = google::protobuf::util::TimeUtil::GetCurrentTime();
@@ -39,7 +39,7 @@ Journal::Journal(const std::filesystem::path& path, Durable on_durable, GroupCom
     : on_durable_(std::move(on_durable)), database_(path), writes_(database_, std::move(on_commit)) {
   prepare_journal(database_);
   mend_jobs(database_);
-  committer_ = std::thread([this] { commit_gathered_regularly(); });
+  committer_ = std::thread([this] { commit_gathered_when_due(); });
 }
 
 Journal::~Journal() {
@@ -47,7 +47,7 @@ Journal::~Journal() {
     const std::scoped_lock lock(gather_mutex_);
     stopping_ = true;
   }
-  stop_signal_.notify_all();
+  sooner_.notify_all();
   committer_.join();
 }
 
@@ -89,10 +89,16 @@ void Journal::write_change(std::int64_t job, const StateChange& change) {
   update.bind(1, job).bind(2, stored.state()).bind_blob(3, job_bytes(stored)).bind(4, sequence).run();
 }
 
-void Journal::append_sample(std::int64_t job, const v1::Sample& sample) {
+void Journal::append_sample(std::int64_t job, const v1::Sample& sample, std::chrono::milliseconds within) {
   std::string bytes = sample.SerializeAsString();
-  const std::scoped_lock lock(gather_mutex_);
-  gathered_[job].push_back(std::move(bytes));
+  const auto limit = std::chrono::steady_clock::now() + within;
+  {
+    const std::scoped_lock lock(gather_mutex_);
+    gathered_[job].push_back(std::move(bytes));
+    if (limit >= commit_at_) return;
+    commit_at_ = limit;
+  }
+  sooner_.notify_all();
 }
 
 void Journal::set_mesh(std::int64_t job, const v1::Mesh& mesh) {
@@ -102,15 +108,19 @@ void Journal::set_mesh(std::int64_t job, const v1::Mesh& mesh) {
   });
 }
 
-void Journal::commit_gathered_regularly() {
+void Journal::commit_gathered_when_due() {
   bool failing = false;
   for (bool stop = false; !stop;) {
     {
       std::unique_lock lock(gather_mutex_);
-      stop = stop_signal_.wait_for(lock, kGatherTime, [this] { return stopping_; });
+      while (!stopping_ && std::chrono::steady_clock::now() < commit_at_) {
+        commit_at_ == kNothingIsDue ? sooner_.wait(lock) : static_cast<void>(sooner_.wait_until(lock, commit_at_));
+      }
+      stop = stopping_;
+      commit_at_ = kNothingIsDue;
     }
     try {
-      commit_gathered();
+      commit_samples();
       failing = false;
     } catch (const std::exception& error) {
       // The samples were given back and are tried again; the same failure is told once.
@@ -120,7 +130,7 @@ void Journal::commit_gathered_regularly() {
   }
 }
 
-void Journal::commit_gathered() {
+void Journal::commit_samples() {
   {
     const std::scoped_lock lock(gather_mutex_);
     if (gathered_.empty()) return;
@@ -174,6 +184,8 @@ void Journal::give_back(Gathered samples) {
     auto& newer = gathered_[job];
     newer.insert(newer.begin(), std::make_move_iterator(older.begin()), std::make_move_iterator(older.end()));
   }
+  commit_at_ = std::min(commit_at_, std::chrono::steady_clock::now() + kBeforeNextTry);
+  sooner_.notify_all();
 }
 
 }  // namespace cellcrush::store

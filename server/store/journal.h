@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <filesystem>
@@ -91,14 +92,20 @@ class Journal {
   /// of its jobs that are PENDING are CANCELLED with it.
   void change_state(std::int64_t job, const StateChange& change);
 
-  /// Gathers a sample; durable within about 200 ms. Never waits for the disk.
-  void append_sample(std::int64_t job, const v1::Sample& sample);
+  /// Gathers a sample, to be durable within that time, with all others that were gathered by then. Never waits for the disk.
+  void append_sample(std::int64_t job, const v1::Sample& sample, std::chrono::milliseconds within = kSoon);
+
+  /// For samples that somebody waits for, and for those that nobody does: what comes meanwhile shares a commit.
+  static constexpr std::chrono::milliseconds kSoon{200};
+  static constexpr std::chrono::milliseconds kAtLeisure{1000};
+
+  /// Makes durable what is gathered.
+  void commit_samples();
 
   void set_mesh(std::int64_t job, const v1::Mesh& mesh);
 
  private:
-  void commit_gathered_regularly();
-  void commit_gathered();
+  void commit_gathered_when_due();
   // These are for bodies of writes_.
 
   /// The job or sweep that an earlier request of that id made; nothing when there was none. Throws as create_job does.
@@ -111,6 +118,7 @@ class Journal {
   void insert_event(std::int64_t job, std::int64_t sequence, int kind, const std::string& payload);
   void insert_samples(std::int64_t job, const std::vector<std::string>& samples);
 
+  static constexpr auto kNothingIsDue = std::chrono::steady_clock::time_point::max();
   using Gathered = std::map<std::int64_t, std::vector<std::string>>;
   /// All that is gathered, or what is gathered for one job.
   Gathered take_gathered(std::optional<std::int64_t> job);
@@ -119,9 +127,10 @@ class Journal {
   Durable on_durable_;
   Database database_;
   GroupCommit writes_;       ///< all that is done with database_
-  std::mutex gather_mutex_;  ///< gathered_ and stopping_
+  std::mutex gather_mutex_;  ///< guards what follows
   Gathered gathered_;        ///< samples that are not durable yet, as bytes, by job
-  std::condition_variable stop_signal_;
+  std::chrono::steady_clock::time_point commit_at_ = kNothingIsDue;
+  std::condition_variable sooner_;  ///< commit_at_ is earlier than it was, or the end has come
   bool stopping_ = false;
   std::thread committer_;
 };

@@ -22,7 +22,7 @@ struct DamagedJob {
   bool has_case = false;
 };
 
-std::vector<DamagedJob> find_damaged(const Database& database) {
+std::vector<DamagedJob> find_damaged(Database& database) {
   Statement read(database, "SELECT number, state, last_sequence, job, submitted_case FROM jobs ORDER BY number");
   std::vector<DamagedJob> out;
   while (read.step()) {
@@ -36,19 +36,19 @@ std::vector<DamagedJob> find_damaged(const Database& database) {
 }
 
 // The newest state event has the same bytes as the job.
-bool restore_job(const Database& database, DamagedJob& row) {
+bool restore_job(Database& database, DamagedJob& row) {
   Statement read(database, "SELECT payload FROM events WHERE job = ?1 AND kind = ?2 ORDER BY sequence DESC LIMIT 1");
   read.bind(1, row.number).bind(2, kStateEvent);
   return read.step() && read_job_bytes(read.bytes(0), row.state, row.job);
 }
 
-void write_row(const Database& database, const DamagedJob& row) {
+void write_row(Database& database, const DamagedJob& row) {
   Statement update(database, "UPDATE jobs SET state = ?2, job = ?3, last_sequence = ?4 WHERE number = ?1");
   update.bind(1, row.number).bind(2, row.job.state()).bind_blob(3, job_bytes(row.job));
   update.bind(4, row.last_sequence).run();
 }
 
-void end_job(const Database& database, DamagedJob& row) {
+void end_job(Database& database, DamagedJob& row) {
   const bool had_ended = jobs::is_terminal(static_cast<v1::JobState>(row.state));
   set_corrupt(row.job);
   const auto now = google::protobuf::util::TimeUtil::GetCurrentTime();
@@ -63,7 +63,7 @@ void end_job(const Database& database, DamagedJob& row) {
   write_row(database, row);
 }
 
-void mend(const Database& database, DamagedJob& row) {
+void mend(Database& database, DamagedJob& row) {
   const std::string name = jobs::name_of(row.number);
   const bool had_ended = jobs::is_terminal(static_cast<v1::JobState>(row.state));
   const bool restored = !row.has_job && restore_job(database, row);

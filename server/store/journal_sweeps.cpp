@@ -35,7 +35,7 @@ struct Retry {
   QueuedJob queued;  // of the ended one
 };
 
-std::vector<Retry> jobs_to_retry(const Database& database, std::int64_t sweep) {
+std::vector<Retry> jobs_to_retry(Database& database, std::int64_t sweep) {
   Statement read(
       database,
       "SELECT jobs.number, jobs.job, jobs.submitted_case, jobs.element_steps, sweeps.max_parallel "

@@ -2,6 +2,8 @@
 
 #include <sqlite3.h>
 
+#include <utility>
+
 #include "error.h"
 
 namespace cellcrush::store {
@@ -38,33 +40,50 @@ bool Database::in_transaction() const { return sqlite3_get_autocommit(handle_.ge
 
 void Database::Close::operator()(sqlite3* handle) const { sqlite3_close_v2(handle); }
 
-Statement::Statement(const Database& database, std::string_view sql) : database_(database.raw()) {
+void Database::Finalize::operator()(sqlite3_stmt* handle) const { sqlite3_finalize(handle); }
+
+Statement::Statement(Database& database, std::string_view sql) : database_(database), place_(database.idle_.find(sql)) {
+  if (place_ == database.idle_.end()) place_ = database.idle_.emplace(sql, 0).first;
+  if (auto& idle = place_->second; !idle.empty()) {
+    handle_ = std::move(idle.back());
+    idle.pop_back();
+    return;
+  }
   sqlite3_stmt* handle = nullptr;
-  const int code = sqlite3_prepare_v2(database_, sql.data(), static_cast<int>(sql.size()), &handle, nullptr);
-  if (code != SQLITE_OK) fail(database_, code);
+  const int code = sqlite3_prepare_v3(database.raw(), sql.data(), static_cast<int>(sql.size()),
+                                      SQLITE_PREPARE_PERSISTENT, &handle, nullptr);
+  if (code != SQLITE_OK) fail(database.raw(), code);
   handle_.reset(handle);
 }
 
+// Without the reset it would hold its transaction open.
+Statement::~Statement() {
+  sqlite3_reset(handle_.get());
+  sqlite3_clear_bindings(handle_.get());
+  place_->second.push_back(std::move(handle_));
+}
+
 Statement& Statement::bind(int parameter, std::int64_t value) {
-  if (const int code = sqlite3_bind_int64(handle_.get(), parameter, value); code != SQLITE_OK) fail(database_, code);
+  if (const int code = sqlite3_bind_int64(handle_.get(), parameter, value); code != SQLITE_OK)
+    fail(database_.raw(), code);
   return *this;
 }
 
 Statement& Statement::bind_text(int parameter, const std::string& value) {
   const int code =
       sqlite3_bind_text64(handle_.get(), parameter, value.data(), value.size(), SQLITE_TRANSIENT, SQLITE_UTF8);
-  if (code != SQLITE_OK) fail(database_, code);
+  if (code != SQLITE_OK) fail(database_.raw(), code);
   return *this;
 }
 
 Statement& Statement::bind_blob(int parameter, const std::string& value) {
   const int code = sqlite3_bind_blob64(handle_.get(), parameter, value.data(), value.size(), SQLITE_TRANSIENT);
-  if (code != SQLITE_OK) fail(database_, code);
+  if (code != SQLITE_OK) fail(database_.raw(), code);
   return *this;
 }
 
 Statement& Statement::bind_null(int parameter) {
-  if (const int code = sqlite3_bind_null(handle_.get(), parameter); code != SQLITE_OK) fail(database_, code);
+  if (const int code = sqlite3_bind_null(handle_.get(), parameter); code != SQLITE_OK) fail(database_.raw(), code);
   return *this;
 }
 
@@ -73,7 +92,7 @@ bool Statement::step() {
   if (code == SQLITE_ROW) return true;
   if (code != SQLITE_DONE) {
     sqlite3_reset(handle_.get());
-    fail(database_, code);
+    fail(database_.raw(), code);
   }
   return false;
 }
@@ -91,9 +110,7 @@ std::string Statement::bytes(int column) const {
   return data == nullptr ? std::string() : std::string(static_cast<const char*>(data), static_cast<std::size_t>(size));
 }
 
-void Statement::Finalize::operator()(sqlite3_stmt* handle) const { sqlite3_finalize(handle); }
-
-Transaction::Transaction(Database& database) : database_(database) { database_.execute("BEGIN IMMEDIATE"); }
+Transaction::Transaction(Database& database) : database_(database) { Statement(database_, "BEGIN IMMEDIATE").run(); }
 
 Transaction::~Transaction() {
   // A failed commit may have rolled back already; there is nothing to do about a failing rollback.
@@ -101,7 +118,7 @@ Transaction::~Transaction() {
 }
 
 void Transaction::commit() {
-  database_.execute("COMMIT");
+  Statement(database_, "COMMIT").run();
   open_ = false;
 }
 

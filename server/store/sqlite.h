@@ -2,9 +2,11 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 struct sqlite3;
 struct sqlite3_stmt;
@@ -30,16 +32,28 @@ class Database {
   [[nodiscard]] sqlite3* raw() const { return handle_.get(); }
 
  private:
+  friend class Statement;
   struct Close {
     void operator()(sqlite3* handle) const;
   };
+  struct Finalize {
+    void operator()(sqlite3_stmt* handle) const;
+  };
+  using Prepared = std::unique_ptr<sqlite3_stmt, Finalize>;
+
   std::unique_ptr<sqlite3, Close> handle_;
+  /// What was prepared before and nobody uses now, by its text: to parse that takes longer than most statements themselves.
+  std::map<std::string, std::vector<Prepared>, std::less<>> idle_;
 };
 
-/// A prepared statement; parameters and columns count from 1 and 0, as in SQLite.
+/// A prepared statement, which goes back to its database for the next one of the same text; parameters and columns count from 1
+/// and 0, as in SQLite. The database outlives it.
 class Statement {
  public:
-  Statement(const Database& database, std::string_view sql);
+  Statement(Database& database, std::string_view sql);
+  ~Statement();
+  Statement(const Statement&) = delete;
+  Statement& operator=(const Statement&) = delete;
 
   Statement& bind(int parameter, std::int64_t value);
   Statement& bind_text(int parameter, const std::string& value);
@@ -55,11 +69,9 @@ class Statement {
   [[nodiscard]] std::string bytes(int column) const;
 
  private:
-  struct Finalize {
-    void operator()(sqlite3_stmt* handle) const;
-  };
-  sqlite3* database_;
-  std::unique_ptr<sqlite3_stmt, Finalize> handle_;
+  Database& database_;
+  std::map<std::string, std::vector<Database::Prepared>, std::less<>>::iterator place_;  ///< where it goes back to
+  Database::Prepared handle_;
 };
 
 /// A write transaction: rolled back unless it was committed.

@@ -10,12 +10,12 @@ v1::Problem to_proto(const Problem& problem) {
   out.set_value(problem.value);
   out.set_message(problem.message);
   out.set_remedy(problem.remedy);
-  out.set_kind(problem.kind == Problem::Kind::invalid ? v1::Problem::INVALID : v1::Problem::UNIMPLEMENTED);
+  out.set_kind(v1::Problem::INVALID);
   return out;
 }
 
 Problem invalid_field(std::string field, std::string value, std::string message, std::string remedy) {
-  return {std::move(field), std::move(value), std::move(message), std::move(remedy), Problem::Kind::invalid};
+  return {std::move(field), std::move(value), std::move(message), std::move(remedy)};
 }
 
 }  // namespace cellcrush::translate

@@ -15,6 +15,11 @@ int copy_some(const google::protobuf::RepeatedField<float>& from, int done, int 
 
 }  // namespace
 
+std::size_t chunk_bytes_beside(std::size_t mesh_bytes) {
+  constexpr std::size_t kLeast = 100'000;
+  return kChunkBytes - std::min(mesh_bytes, kChunkBytes - kLeast);
+}
+
 std::vector<v1::FrameChunk> chunks_of(const v1::FieldFrame& frame, std::size_t chunk_bytes) {
   const int per_chunk = std::max(1, static_cast<int>(chunk_bytes / sizeof(float)));
   std::vector<v1::FrameChunk> out;

@@ -8,7 +8,7 @@ void Channel::publish(v1::Progress progress) {
   const std::scoped_lock lock(mutex_);
   newest_.progress = std::make_shared<const v1::Progress>(std::move(progress));
   ++newest_.progress_count;
-  for (const auto& [id, wake] : wakes_) wake();
+  for (const auto& [id, watcher] : watchers_) watcher.wake();
 }
 
 void Channel::publish(v1::FieldFrame frame) {
@@ -16,12 +16,14 @@ void Channel::publish(v1::FieldFrame frame) {
   if (newest_.frame && frame.index() <= newest_.frame->index()) return;
   newest_.frame = std::make_shared<const v1::FieldFrame>(std::move(frame));
   ++newest_.frame_count;
-  for (const auto& [id, wake] : wakes_) wake();
+  for (const auto& [id, watcher] : watchers_) {
+    if (watcher.frames) watcher.wake();
+  }
 }
 
 void Channel::announce() {
   const std::scoped_lock lock(mutex_);
-  for (const auto& [id, wake] : wakes_) wake();
+  for (const auto& [id, watcher] : watchers_) watcher.wake();
 }
 
 Channel::Newest Channel::newest() const {
@@ -29,15 +31,20 @@ Channel::Newest Channel::newest() const {
   return newest_;
 }
 
-std::uint64_t Channel::subscribe(Wake wake) {
+bool Channel::is_watched() const {
   const std::scoped_lock lock(mutex_);
-  wakes_.emplace(next_id_, std::move(wake));
+  return !watchers_.empty();
+}
+
+std::uint64_t Channel::subscribe(Wake wake, bool frames) {
+  const std::scoped_lock lock(mutex_);
+  watchers_.emplace(next_id_, Watcher{std::move(wake), frames});
   return next_id_++;
 }
 
 void Channel::unsubscribe(std::uint64_t id) {
   const std::scoped_lock lock(mutex_);
-  wakes_.erase(id);
+  watchers_.erase(id);
 }
 
 std::shared_ptr<Channel> Hub::open(std::int64_t job) {

@@ -34,14 +34,23 @@ class Channel {
 
   [[nodiscard]] Newest newest() const;
 
-  /// Returns the id to unsubscribe with. After unsubscribe returns, `wake` is not called again.
-  std::uint64_t subscribe(Wake wake);
+  /// Whether somebody waits for news.
+  [[nodiscard]] bool is_watched() const;
+
+  /// Returns the id to unsubscribe with. After unsubscribe returns, `wake` is not called again. A new frame wakes only those
+  /// who want frames.
+  std::uint64_t subscribe(Wake wake, bool frames);
   void unsubscribe(std::uint64_t id);
 
  private:
+  struct Watcher {
+    Wake wake;
+    bool frames;
+  };
+
   mutable std::mutex mutex_;
   Newest newest_;
-  std::map<std::uint64_t, Wake> wakes_;
+  std::map<std::uint64_t, Watcher> watchers_;
   std::uint64_t next_id_ = 1;
 };
 

@@ -5,9 +5,9 @@
 namespace cellcrush::watch {
 
 JobSource::JobSource(store::JournalReader& journal, Hub& hub, std::int64_t job, std::int64_t after, bool frames)
-    : channel_(hub.open(job)), cursor_(journal, job, channel_, after, {frames, true}) {}
+    : channel_(hub.open(job)), frames_(frames), cursor_(journal, job, channel_, after, {frames, true}) {}
 
-void JobSource::open(std::function<void()> wake) { subscription_ = channel_->subscribe(std::move(wake)); }
+void JobSource::open(std::function<void()> wake) { subscription_ = channel_->subscribe(std::move(wake), frames_); }
 
 void JobSource::close() { channel_->unsubscribe(subscription_); }
 

@@ -25,6 +25,8 @@ class JobSource {
   void close();
 
   std::optional<v1::JobEvent> next() { return cursor_.next(); }
+  /// Whether a message is at hand.
+  [[nodiscard]] bool has_more() const { return cursor_.has_more(); }
   [[nodiscard]] bool ended() const { return cursor_.ended(); }
   [[nodiscard]] v1::JobEvent bookmark() const { return cursor_.bookmark(); }
   /// How a watch that is broken off is continued, as the end of a sentence.
@@ -32,6 +34,7 @@ class JobSource {
 
  private:
   std::shared_ptr<Channel> channel_;
+  bool frames_;
   WatchCursor cursor_;
   std::uint64_t subscription_ = 0;
 };

@@ -59,10 +59,12 @@ SweepSource::SweepSource(store::JournalReader& journal, store::SweepReader& swee
 void SweepSource::open(const std::function<void()>& wake) {
   for (std::size_t i = 0; i < members_.size(); ++i) {
     if (places_[i].ended) continue;
-    members_[i].subscription = members_[i].channel->subscribe([news = news_, wake, i] {
-      news->add(i);
-      wake();
-    });
+    members_[i].subscription = members_[i].channel->subscribe(
+        [news = news_, wake, i] {
+          news->add(i);
+          wake();
+        },
+        false);
   }
 }
 
@@ -100,6 +102,7 @@ std::optional<v1::WatchSweepResponse> SweepSource::next_of(std::size_t position)
                      WatchCursor::Wanted{false, false});
     }
     auto event = cursor->next();
+    has_more_ = cursor->has_more();
     place.sequence = cursor->sequence();
     if (cursor->ended()) end(position);
     if (!event) return std::nullopt;
@@ -119,6 +122,7 @@ std::optional<v1::WatchSweepResponse> SweepSource::next_of(std::size_t position)
 
 void SweepSource::end(std::size_t position) {
   places_[position].ended = true;
+  has_more_ = false;
   members_[position].cursor.reset();
   --left_;
 }

@@ -37,6 +37,8 @@ class SweepSource {
   /// Throws ServiceError when the journal cannot be read, or out_of_range when the token named an event that is not
   /// there.
   std::optional<v1::WatchSweepResponse> next();
+  /// Whether the job whose turn it is has a message at hand.
+  [[nodiscard]] bool has_more() const { return has_more_; }
   [[nodiscard]] bool ended() const { return snapshot_sent_ && left_ == 0; }
   [[nodiscard]] v1::WatchSweepResponse bookmark() const;
   [[nodiscard]] static std::string resume_advice() { return "with the resume_token that came last"; }
@@ -73,7 +75,8 @@ class SweepSource {
   std::vector<Member> members_;   ///< beside places_
   std::shared_ptr<News> news_;
   std::size_t left_ = 0;  ///< jobs whose last event was not given yet
-  int in_turn_ = 0;       ///< messages that the job whose turn it is has given
+  bool has_more_ = false;
+  int in_turn_ = 0;  ///< messages that the job whose turn it is has given
   bool snapshot_sent_ = false;
 };
 

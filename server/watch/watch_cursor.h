@@ -31,6 +31,9 @@ class WatchCursor {
   /// journal cannot be read.
   std::optional<v1::JobEvent> next();
 
+  /// Whether next has something without a look into the journal.
+  [[nodiscard]] bool has_more() const { return !events_.empty() || !parts_.empty(); }
+
   /// Whether the job's last event has been given.
   [[nodiscard]] bool ended() const { return ended_ && snapshot_sent_; }
 

@@ -1,6 +1,7 @@
 #include "worker/give_up.h"
 
 #include <exception>
+#include <utility>
 
 #include "worker/checkpoint_file.h"
 #include "worker/job_scene.h"
@@ -16,28 +17,42 @@ translate::RunTime known_time(const JobFolder& folder, const Checkpoint::Origin&
   return found.checkpoint ? run_time_of(*found.checkpoint) : translate::RunTime{};
 }
 
-// On how many threads the newest worker ran it.
-int threads_of_last_run(const JobFolder& folder) {
-  ReportLogReader reader(folder.reports());
-  Report report;
-  int threads = 1;
-  while (reader.read(report) == ReportLogReader::Read::message) {
-    if (report.has_begun()) threads = report.begun().threads();
+// Whether it was asked to leave the job; a cancel is acknowledged once.
+bool must_leave(const StopAsked& stop_asked, ReportLog& log, bool& acknowledged) {
+  const StopWish wish = stop_asked();
+  if (wish == StopWish::cancel && !std::exchange(acknowledged, true)) {
+    Report report;
+    report.mutable_stopping();
+    log.append(report);
   }
-  return threads;
+  return wish == StopWish::suspend;
 }
 
 }  // namespace
 
-Final give_up(const JobFolder& folder, const Order& order, ReportLog& log, Final loss) {
+Final give_up(const JobFolder& folder, const Order& order, ReportLog& log, const StopAsked& stop_asked, Final loss) {
   try {
     const auto origin = origin_of(order);
-    // What another solver left is in a form of its own.
-    if (find_other_origin(folder, origin)) return loss;
     Order as_run = order;
-    as_run.set_threads(threads_of_last_run(folder));
+    bool acknowledged = false;
+    // Before the scene is built, which may take longer than the daemon waits for a word.
+    static_cast<void>(must_leave(stop_asked, log, acknowledged));
     RunOutput output(folder, log, as_run, scene_of(order));
-    output.restore_all();
+    ReportLogReader reader(folder.reports());
+    Report report;
+    while (reader.read(report) == ReportLogReader::Read::message) {
+      if (must_leave(stop_asked, log, acknowledged)) {
+        Final left;
+        left.set_suspended_step(output.last_sampled_step());
+        return left;
+      }
+      if (report.has_begun()) {
+        // What another solver left is in a form of its own.
+        if (report.begun().origin().SerializeAsString() != origin.SerializeAsString()) return loss;
+        as_run.set_threads(report.begun().threads());
+      }
+      output.take(report);
+    }
     if (output.frame_count() > 0)
       *loss.mutable_summary() = output.finish(false, loss.message(), known_time(folder, origin));
   } catch (const std::exception&) {

@@ -265,7 +265,7 @@ Final failure_of(const ServiceError& error) {
 }
 
 Final end_of(const JobFolder& folder, const Order& order, ReportLog& log, const StopAsked& stop_asked) {
-  if (order.has_given_up()) return give_up(folder, order, log, order.given_up());
+  if (order.has_given_up()) return give_up(folder, order, log, stop_asked, order.given_up());
   Final loss;
   try {
     return Run(folder, order, log, stop_asked).to_the_end();
@@ -278,7 +278,7 @@ Final end_of(const JobFolder& folder, const Order& order, ReportLog& log, const 
     loss = failure(v1::WORKER_CRASHED, std::string("The worker stopped: ") + error.what() + ".",
                    "Submit the case again; if it happens again, report the case.");
   }
-  return give_up(folder, order, log, std::move(loss));
+  return give_up(folder, order, log, stop_asked, std::move(loss));
 }
 
 }  // namespace

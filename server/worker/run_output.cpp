@@ -1,6 +1,5 @@
 #include "worker/run_output.h"
 
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -30,25 +29,24 @@ RunOutput::RunOutput(const JobFolder& folder, ReportLog& log, const Order& order
 
 bool RunOutput::restore(const Checkpoint& checkpoint) {
   meter_ = meter_of(facts_, checkpoint.step());
-  take_reported(checkpoint.sample_count(), checkpoint.frame_count());
+  ReportLogReader reader(folder_.reports());
+  Report report;
+  while ((sample_count() < checkpoint.sample_count() || frame_count_ < checkpoint.frame_count()) &&
+         reader.read(report) == ReportLogReader::Read::message) {
+    const bool is_wanted =
+        report.has_sample() ? sample_count() < checkpoint.sample_count() : frame_count_ < checkpoint.frame_count();
+    if (is_wanted) take(report);
+  }
   return sample_count() == checkpoint.sample_count() && frame_count_ == checkpoint.frame_count();
 }
 
-void RunOutput::restore_all() { take_reported(std::numeric_limits<int>::max(), std::numeric_limits<int>::max()); }
-
-// What was said twice has the same bits: the first time counts.
-void RunOutput::take_reported(int most_samples, int most_frames) {
-  ReportLogReader reader(folder_.reports());
-  Report report;
-  while ((sample_count() < most_samples || frame_count_ < most_frames) &&
-         reader.read(report) == ReportLogReader::Read::message) {
-    if (report.has_sample() && sample_count() < most_samples) {
-      const bool is_new = samples_.empty() || report.sample().step() > samples_.back().step;
-      auto bits = is_new ? samples_of(report.sample_bits()) : std::nullopt;
-      if (bits && bits->size() == 1) record(std::move(bits->front()));
-    } else if (report.has_frame() && frame_count_ < most_frames && report.frame().index() == frame_count_) {
-      record(report.frame());
-    }
+void RunOutput::take(const Report& reported) {
+  if (reported.has_sample()) {
+    const bool is_new = samples_.empty() || reported.sample().step() > samples_.back().step;
+    auto bits = is_new ? samples_of(reported.sample_bits()) : std::nullopt;
+    if (bits && bits->size() == 1) record(std::move(bits->front()));
+  } else if (reported.has_frame() && reported.frame().index() == frame_count_) {
+    record(reported.frame());
   }
 }
 

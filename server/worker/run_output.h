@@ -24,8 +24,8 @@ class RunOutput {
   /// object is of no use then.
   bool restore(const Checkpoint& checkpoint);
 
-  /// Begins with all that was reported, of a run that nobody goes on with.
-  void restore_all();
+  /// Takes a sample or a frame that was reported before. What was said twice has the same bits: the first time counts.
+  void take(const Report& reported);
 
   void put_mesh();
   void put_sample(Sample sample);
@@ -37,11 +37,11 @@ class RunOutput {
   v1::Summary finish(bool whole, const std::string& failure, const translate::RunTime& time);
 
   [[nodiscard]] int sample_count() const { return static_cast<int>(samples_.size()); }
+  [[nodiscard]] std::int64_t last_sampled_step() const { return samples_.empty() ? 0 : samples_.back().step; }
   [[nodiscard]] int frame_count() const { return frame_count_; }
   [[nodiscard]] double last_frame_time() const { return last_frame_time_; }  ///< s
 
  private:
-  void take_reported(int most_samples, int most_frames);
   v1::Sample record(Sample sample);
   void record(const v1::FieldFrame& frame);
 

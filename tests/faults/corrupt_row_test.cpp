@@ -22,7 +22,7 @@ class CorruptRowTest : public FaultFixture {
  protected:
   // Replaces a blob by bytes that are no message.
   void damage(const std::string& table, const std::string& column, const std::string& where) const {
-    const store::Database database(journal());
+    store::Database database(journal());
     store::Statement(database, "UPDATE " + table + " SET " + column + " = ?1 WHERE " + where)
         .bind_blob(1, std::string(40, '\xff'))
         .run();

@@ -7,19 +7,7 @@
 #include <vector>
 
 #include "access/gate.h"
-#include "jobs/admission.h"
-#include "jobs/local_process.h"
-#include "jobs/scheduler.h"
-#include "rpc/admin_service.h"
-#include "rpc/cases_service.h"
-#include "rpc/jobs_service.h"
-#include "rpc/sweeps_service.h"
-#include "store/data_folder.h"
-#include "store/journal.h"
-#include "store/journal_reader.h"
-#include "store/sweep_reader.h"
-#include "watch/hub.h"
-#include "watch/pump.h"
+#include "service.h"
 
 namespace cellcrush::fuzz {
 namespace {
@@ -59,55 +47,37 @@ bool wait_for_news(grpc::CompletionQueue& queue, grpc::ClientContext& context) {
   return ok;
 }
 
+// A worker that is started by mistake ends at once.
+DaemonOptions options_on(const std::filesystem::path& data_folder) {
+  DaemonOptions out;
+  out.data_folder = data_folder;
+  out.workers = 2;
+  out.worker_program = "/bin/false";
+  out.bookmark_interval = kMinute;
+  return out;
+}
+
 }  // namespace
 
-// Members are in the order of their dependence, as in server/daemon.cpp.
 struct WireDaemon::Parts {
   explicit Parts(const std::filesystem::path& data_folder)
-      : gate(access::Options{}),
-        folder(data_folder),
-        journal(folder.journal(), [this](std::int64_t job) { hub.announce(job); }),
-        reader(folder.journal()),
-        sweep_reader(folder.journal()),
-        executor("/bin/false", std::chrono::seconds(20)),
-        runner({folder, journal, reader, hub, executor, metrics, kMinute, 0.0}),
-        scheduler({folder, journal, reader, metrics, runner}),
-        pump(1),
-        admission(folder, {}),
-        cases(kStepCost),
-        jobs({folder, journal, reader, hub, pump, scheduler, admission, metrics, gate, kMinute}),
-        sweeps({journal, reader, sweep_reader, hub, pump, scheduler, admission, metrics, gate, kMinute}),
-        admin({reader, hub, scheduler, {2, kStepCost, false}, gate, [this] { admission.drain(); }}) {
+      : gate(access::Options{}), service(options_on(data_folder), gate, kStepCost, [] {}) {
     grpc::ServerBuilder builder;
     builder.SetSyncServerOption(grpc::ServerBuilder::NUM_CQS, 1);
-    for (grpc::Service* service : std::initializer_list<grpc::Service*>{&cases, &jobs, &sweeps, &admin})
-      builder.RegisterService(service);
+    service.register_with(builder);
     server = builder.BuildAndStart();
     stub = std::make_unique<grpc::GenericStub>(server->InProcessChannel({}));
   }
 
+  // The service was not started: there are only watches to end.
   ~Parts() {
-    pump.drain();
+    service.stop();
     server->Shutdown(std::chrono::system_clock::now() + kMinute);
     server->Wait();
   }
 
   access::Gate gate;
-  store::DataFolder folder;
-  watch::Hub hub;
-  metrics::Metrics metrics;
-  store::Journal journal;
-  store::JournalReader reader;
-  store::SweepReader sweep_reader;
-  jobs::LocalProcess executor;
-  jobs::JobRunner runner;
-  jobs::Scheduler scheduler;
-  watch::Pump pump;
-  jobs::Admission admission;
-  rpc::CasesService cases;
-  rpc::JobsService jobs;
-  rpc::SweepsService sweeps;
-  rpc::AdminService admin;
+  Service service;
   std::unique_ptr<grpc::Server> server;
   std::unique_ptr<grpc::GenericStub> stub;
 };

@@ -8,7 +8,7 @@
 
 namespace cellcrush::fuzz {
 
-/// The services of a daemon on a data folder, as server/daemon.cpp puts them together, but without workers and reached over a
+/// A daemon's Service on a data folder, without workers and reached over a
 /// channel within this process: calls pass gRPC's own reading of bytes as they do from outside.
 class WireDaemon {
  public:

@@ -101,7 +101,12 @@ struct Run {
   std::size_t frames = 0;
 };
 
-Run run(const std::string& address, int daemon, int watchers) {
+// Waits without costing the daemon what a watch does.
+void wait_for_end(Client& client, const std::string& job) {
+  while (client.get(job).state() != v1::SUCCEEDED) std::this_thread::sleep_for(std::chrono::milliseconds(500));
+}
+
+Run run(const std::string& address, int daemon, int watchers, bool frames) {
   Client client(address);
   Run out;
   const auto start = Clock::now();
@@ -111,45 +116,53 @@ Run run(const std::string& address, int daemon, int watchers) {
   request.set_priority(100);
   v1::Job job;
   client.jobs->CreateJob(testing::bounded_context().get(), request, &job);
-  std::atomic<std::size_t> frames = 0;
+  std::atomic<std::size_t> seen = 0;
   {
     std::vector<std::jthread> threads;
     for (int i = 0; i < watchers; ++i) {
       threads.emplace_back([&] {
-        Client(address).watch(job.name(), 0, true,
-                              [&frames](const v1::JobEvent& event) { frames += event.has_frame(); });
+        Client(address).watch(job.name(), 0, frames, [&seen](const v1::JobEvent& event) { seen += event.has_frame(); });
       });
     }
-    client.watch(job.name());
+    wait_for_end(client, job.name());
   }
   out.clock_seconds = seconds_since(start);
   out.daemon_seconds = processor_time_of(daemon) - before;
   out.solver_seconds = client.get(job.name()).summary().solver_seconds();
-  out.frames = frames;
+  out.frames = seen;
   return out;
 }
 
+void add(Run& sum, const Run& one) {
+  sum.solver_seconds += one.solver_seconds;
+  sum.daemon_seconds += one.daemon_seconds;
+  sum.clock_seconds += one.clock_seconds;
+  sum.frames += one.frames;
+}
+
+void print_share(const char* of_what, const Run& sum, int count) {
+  fmt::print("  {}: {:.0f} ms, {:.2f} % of the solver's\n", of_what, 1e3 * sum.daemon_seconds / count,
+             100.0 * sum.daemon_seconds / sum.solver_seconds);
+}
+
 void measure_runs(const std::string& address, int daemon) {
-  constexpr int kPairs = 3;
+  constexpr int kRounds = 3;
   Run alone;
   Run watched;
-  for (int i = 0; i < kPairs; ++i) {
-    const Run a = run(address, daemon, 0);
-    const Run b = run(address, daemon, 200);
-    alone.solver_seconds += a.solver_seconds;
-    alone.daemon_seconds += a.daemon_seconds;
-    watched.solver_seconds += b.solver_seconds;
-    watched.daemon_seconds += b.daemon_seconds;
-    watched.clock_seconds += b.clock_seconds;
-    watched.frames += b.frames;
+  Run crowded;
+  for (int i = 0; i < kRounds; ++i) {
+    add(alone, run(address, daemon, 0, false));
+    add(watched, run(address, daemon, 1, false));
+    add(crowded, run(address, daemon, 200, true));
   }
-  fmt::print("Type I to 30 %, {} pairs: the daemon takes {:.2f} % of the solver's processor time\n", kPairs,
-             100.0 * alone.daemon_seconds / alone.solver_seconds);
-  fmt::print("  with 200 watchers of its frames: solver {:.2f} s against {:.2f} s, {:.2f} times; daemon {:.2f} s\n",
-             watched.solver_seconds / kPairs, alone.solver_seconds / kPairs,
-             watched.solver_seconds / alone.solver_seconds, watched.daemon_seconds / kPairs);
-  fmt::print("  they were sent {:.1f} frames a second each\n",
-             static_cast<double>(watched.frames) / 200.0 / watched.clock_seconds);
+  fmt::print("Type I to 30 %, {:.2f} s of the solver, mean of {}; the daemon's processor time\n",
+             alone.solver_seconds / kRounds, kRounds);
+  print_share("with nobody watching", alone, kRounds);
+  print_share("with one watch", watched, kRounds);
+  print_share("with 200 watches of its frames", crowded, kRounds);
+  fmt::print("  the solver then takes {:.2f} times as long, and each is sent {:.1f} frames a second\n",
+             crowded.solver_seconds / alone.solver_seconds,
+             static_cast<double>(crowded.frames) / 200.0 / crowded.clock_seconds);
 }
 
 int measure(const std::filesystem::path& folder) {

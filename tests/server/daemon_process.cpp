@@ -3,7 +3,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
-#include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -30,6 +30,16 @@ bool read_some(int file, std::string& text, int wait_ms) {
   return true;
 }
 
+// Only calls that are allowed between fork and exec.
+[[noreturn]] void become(char* const* arguments, pid_t parent, int output, int errors) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(127);
+  dup2(output, STDOUT_FILENO);
+  dup2(errors, STDERR_FILENO);
+  execv(arguments[0], arguments);
+  _exit(127);
+}
+
 }  // namespace
 
 DaemonProcess::DaemonProcess(const std::vector<std::string>& arguments) {
@@ -38,22 +48,19 @@ DaemonProcess::DaemonProcess(const std::vector<std::string>& arguments) {
   if (pipe2(out.data(), O_CLOEXEC) != 0 || pipe2(error.data(), O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
   // Nobody reads the log before wait; a daemon that fills the pipe would stand still.
   fcntl(error[1], F_SETPIPE_SZ, 1 << 20);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, out[1], STDOUT_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, error[1], STDERR_FILENO);
   std::vector<std::string> words = {CELLCRUSHD_PROGRAM};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> pointers;
   for (auto& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
-  const int failed = posix_spawn(&pid_, CELLCRUSHD_PROGRAM, &actions, nullptr, pointers.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
+  const pid_t parent = getpid();
+  pid_ = fork();
+  if (pid_ == 0) become(pointers.data(), parent, out[1], error[1]);
   close(out[1]);
   close(error[1]);
   output_ = out[0];
   error_output_ = error[0];
-  if (failed != 0) throw std::runtime_error("cellcrushd cannot be started");
+  if (pid_ < 0) throw std::runtime_error("cellcrushd cannot be started");
 }
 
 DaemonProcess::~DaemonProcess() {

@@ -9,7 +9,8 @@
 
 namespace cellcrush::testing {
 
-/// cellcrushd as a process of its own; killed at the latest when this goes away.
+/// cellcrushd as a process of its own; killed at the latest when this goes away, or the thread that made it, as in a test that
+/// is aborted. Workers outlive it all the same.
 class DaemonProcess {
  public:
   explicit DaemonProcess(const std::vector<std::string>& arguments);

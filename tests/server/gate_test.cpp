@@ -1,9 +1,12 @@
 #include <gmock/gmock.h>
 #include <grpcpp/generic/generic_stub.h>
 
+#include "access/token_file.h"
 #include "cellcrush/v1/admin_service.grpc.pb.h"
 #include "error.h"
+#include "log_format.h"
 #include "server/gate_fixture.h"
+#include "server/log_capture.h"
 #include "server/small_case.h"
 
 namespace cellcrush::testing {
@@ -48,6 +51,24 @@ TEST_F(GateTest, TcpTakesGoodTokensOnlyAndTheSocketNeedsNone) {
   }
   v1::ListJobsResponse response;
   EXPECT_TRUE(client().jobs->ListJobs(bounded_context().get(), {}, &response).ok());
+}
+
+TEST_F(GateTest, AChangedFileOfTokensIsTakenWithoutARestartAndABrokenOneChangesNothing) {
+  start(with_tokens(with_tls(tcp_options())));
+  ASSERT_TRUE(list(with("reader")).ok());
+  const LogCapture log(make_text_formatter());
+  const auto made = access::make_token("carla", access::Scope::read);
+  const std::filesystem::path file = folder_.path() / "tokens";
+  write_secret(file, made.line + "\nnonsense\n");
+  daemon_->read_tokens_again();
+  EXPECT_TRUE(list(with("reader")).ok());
+  EXPECT_EQ(log.count_lines("--tokens " + file.string() + ": line 2 is not of the form"), 1) << log.text();
+  EXPECT_EQ(log.count_lines("Mend the file and send SIGHUP again."), 1);
+
+  write_secret(file, made.line + "\n");
+  daemon_->read_tokens_again();
+  EXPECT_EQ(list(with("reader")).error_code(), grpc::StatusCode::UNAUTHENTICATED) << "It was taken back.";
+  EXPECT_TRUE(list({authority_.certificate(), {}, made.token}).ok());
 }
 
 TEST_F(GateTest, TokensGuardAPlainPortOfLoopbackToo) {

@@ -21,7 +21,7 @@ class GroupCommitTest : public ::testing::Test {
 
   // What another connection sees, which is what is committed.
   [[nodiscard]] std::int64_t count() const {
-    const Database other(folder_.path() / "database");
+    Database other(folder_.path() / "database");
     Statement read(other, "SELECT COUNT(*) FROM numbers");
     read.step();
     return read.integer(0);

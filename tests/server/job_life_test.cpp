@@ -1,5 +1,4 @@
 #include <gmock/gmock.h>
-#include <signal.h>
 
 #include <chrono>
 #include <filesystem>
@@ -192,33 +191,6 @@ TEST_F(JobLifeTest, ManyCancelledAtAnyMomentAllEndInOrder) {
     EXPECT_TRUE(state == v1::CANCELLED || state == v1::SUCCEEDED) << job << v1::JobState_Name(state);
     EXPECT_EQ(client.get(job).has_summary(), std::filesystem::exists(folder_of(job) / "result.h5")) << job;
   }
-}
-
-TEST_F(JobLifeTest, AWorkerThatDoesNotReactIsEnded) {
-  auto client = this->client();
-  const std::string job = running_job();
-  const auto worker = static_cast<pid_t>(client.get(job).worker_pid());
-  ASSERT_EQ(kill(worker, SIGSTOP), 0);
-  ASSERT_TRUE(client.cancel(job).ok());
-  EXPECT_EQ(client.get(job).state(), v1::CANCELLING);
-  ASSERT_TRUE(client.wait_for_state(job, v1::CANCELLED));
-  EXPECT_FALSE(is_alive(worker));
-  EXPECT_FALSE(client.get(job).has_summary());
-  EXPECT_THAT(client.get(job).cause_message(), HasSubstr("history is kept"));
-  EXPECT_FALSE(client.history(job).empty());
-  EXPECT_FALSE(std::filesystem::exists(folder_of(job) / "result.h5.partial"));
-}
-
-TEST_F(JobLifeTest, ACancelledJobWhoseDaemonEndsStaysCancelled) {
-  auto client = this->client();
-  const std::string job = running_job();
-  const auto worker = static_cast<pid_t>(client.get(job).worker_pid());
-  ASSERT_EQ(kill(worker, SIGSTOP), 0);
-  ASSERT_TRUE(client.cancel(job).ok());
-  daemon_->stop();
-  EXPECT_FALSE(is_alive(worker));
-  start();
-  EXPECT_EQ(this->client().get(job).state(), v1::CANCELLED);
 }
 
 TEST_F(JobLifeTest, ADeletedJobIsGoneWithAllItLeft) {

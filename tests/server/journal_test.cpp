@@ -99,6 +99,27 @@ TEST_F(JournalTest, SamplesBecomeDurableByThemselvesAndAreAnnouncedAfterwards) {
   EXPECT_EQ(reader_->samples(job).samples.size(), 1U);
 }
 
+TEST_F(JournalTest, SamplesThatNobodyWaitsForShareACommitWithThoseThatSomebodyDoes) {
+  const auto job = create();
+  const int before = told_;
+  for (int i = 1; i <= 10; ++i) {
+    journal_->append_sample(job, sample(i), std::chrono::minutes(1));
+    std::this_thread::sleep_for(std::chrono::milliseconds(30));
+  }
+  EXPECT_EQ(told_, before) << "Nothing was due.";
+  journal_->append_sample(job, sample(11), Journal::kSoon);
+  for (int i = 0; i < 200 && told_ == before; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_EQ(told_, before + 1);
+  EXPECT_EQ(reader_->samples(job).samples.size(), 11U);
+}
+
+TEST_F(JournalTest, SamplesAreDurableOnceTheyAreAskedToBe) {
+  const auto job = create();
+  journal_->append_sample(job, sample(1), std::chrono::minutes(1));
+  journal_->commit_samples();
+  EXPECT_EQ(reader_->last_sampled_step(job), 1);
+}
+
 TEST_F(JournalTest, ClosingKeepsWhatIsGathered) {
   const auto job = create();
   journal_->append_sample(job, sample(5));

@@ -135,6 +135,41 @@ TEST_F(LostWorkerTest, ACancelThatMeetsAWorkerWhichJustLeavesEndsTheJob) {
   }
 }
 
+TEST_F(LostWorkerTest, ACancelThatItsWorkerNeverHeedsKeepsWhatWasComputed) {
+  auto client = this->client();
+  const std::string job = client.create(endless_case());
+  wait_for_samples(client, job, 5);
+  const pid_t worker = worker_of(client, job);
+  ASSERT_EQ(kill(worker, SIGSTOP), 0);
+  ASSERT_TRUE(client.cancel(job).ok());
+  EXPECT_EQ(client.get(job).state(), v1::CANCELLING);
+  ASSERT_TRUE(client.wait_for_state(job, v1::CANCELLED));
+  EXPECT_FALSE(is_alive(worker));
+  EXPECT_FALSE(std::filesystem::exists(file_of(job, "result.h5.partial")));
+  ASSERT_TRUE(client.get(job).has_summary()) << client.get(job).cause_message();
+  const auto samples = client.history(job);
+  ASSERT_GE(samples.size(), 5U);
+  EXPECT_EQ(client.get(job).summary().step_count(), samples.back().step());
+  EXPECT_EQ(numbers_of(client, job).history.size(), samples.size());
+  expect_sound_events(client, job);
+}
+
+TEST_F(LostWorkerTest, ACancelThatTheDaemonsEndCutsOffIsEndedByTheNextOneWithItsResult) {
+  auto client = this->client();
+  const std::string job = client.create(endless_case());
+  wait_for_samples(client, job, 5);
+  const pid_t worker = worker_of(client, job);
+  ASSERT_EQ(kill(worker, SIGSTOP), 0);
+  ASSERT_TRUE(client.cancel(job).ok());
+  daemon_->stop();
+  EXPECT_FALSE(is_alive(worker));
+  start(often_checkpointed());
+  auto next = this->client();
+  ASSERT_TRUE(next.wait_for_state(job, v1::CANCELLED)) << v1::JobState_Name(next.get(job).state());
+  EXPECT_TRUE(next.get(job).has_summary()) << next.get(job).cause_message();
+  expect_sound_events(next, job);
+}
+
 TEST_F(LostWorkerTest, ADaemonsEndLeavesRunningJobsAtACheckpointAndTheNextOneGoesOn) {
   auto client = this->client();
   const std::string whole = client.create(case_of_seconds());

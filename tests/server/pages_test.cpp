@@ -83,7 +83,7 @@ class PagesTest : public DaemonFixture {
       }
       journal.create_sweep(sweep, jobs, "", "");
     }
-    const store::Database database(journal());
+    store::Database database(journal());
     store::Statement(database, "UPDATE jobs SET state = ?1, job = ?2")
         .bind(1, v1::SUCCEEDED)
         .bind_blob(2, full_job().SerializeAsString())

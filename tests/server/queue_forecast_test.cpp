@@ -16,6 +16,8 @@ store::QueuedJob of_sweep(std::int64_t job, std::int64_t seconds, int max_parall
   return {job, 100, 0, 1000 * seconds, 9, max_parallel};
 }
 
+JobFacts plain(std::int64_t) { return {}; }
+
 void expect_entry(const v1::Queue& queue, int at, const std::string& job, double seconds, const std::string& reason) {
   ASSERT_LT(at, queue.entries_size());
   EXPECT_EQ(queue.entries(at).job(), job);
@@ -25,7 +27,7 @@ void expect_entry(const v1::Queue& queue, int at, const std::string& job, double
 
 TEST(QueueForecast, JobsStartWhenThoseThatRunAndThoseBeforeThemHaveEnded) {
   const auto queue = forecast_queue({{lasting(1, 100), 5.0}, {lasting(2, 100), 20.0}},
-                                    {lasting(3, 10), lasting(4, 1), lasting(5, 1)}, {2, kStepCost});
+                                    {lasting(3, 10), lasting(4, 1), lasting(5, 1)}, {2, kStepCost}, plain);
   ASSERT_EQ(queue.entries_size(), 3);
   expect_entry(queue, 0, "jobs/3", 5.0, "All 2 workers are busy.");
   expect_entry(queue, 1, "jobs/4", 15.0, "All 2 workers are busy, and 1 job starts before it.");
@@ -34,8 +36,9 @@ TEST(QueueForecast, JobsStartWhenThoseThatRunAndThoseBeforeThemHaveEnded) {
 }
 
 TEST(QueueForecast, ASweepAtItsLimitSaysSoAndOthersPassIt) {
-  const auto queue = forecast_queue({{of_sweep(101, 50, 1), 50.0}},
-                                    {of_sweep(102, 10, 1), of_sweep(103, 20, 1), lasting(200, 5)}, {2, kStepCost});
+  const auto queue =
+      forecast_queue({{of_sweep(101, 50, 1), 50.0}}, {of_sweep(102, 10, 1), of_sweep(103, 20, 1), lasting(200, 5)},
+                     {2, kStepCost}, plain);
   ASSERT_EQ(queue.entries_size(), 3);
   expect_entry(queue, 0, "jobs/200", 0.0, "A worker takes it now.");
   const std::string limit = "Its sweep, sweeps/9, already runs the 1 job that max_parallel allows, and ";
@@ -44,32 +47,69 @@ TEST(QueueForecast, ASweepAtItsLimitSaysSoAndOthersPassIt) {
 }
 
 TEST(QueueForecast, WithWorkersFreeAJobWaitsForThoseBeforeItAlone) {
-  const auto queue = forecast_queue({}, {lasting(1, 7), lasting(2, 1)}, {1, kStepCost});
+  const auto queue = forecast_queue({}, {lasting(1, 7), lasting(2, 1)}, {1, kStepCost}, plain);
   expect_entry(queue, 0, "jobs/1", 0.0, "A worker takes it now.");
   expect_entry(queue, 1, "jobs/2", 7.0, "1 job starts before it.");
-  EXPECT_EQ(forecast_queue({{lasting(1, 1), 1.0}}, {lasting(2, 1)}, {1, kStepCost}).entries(0).reason(),
+  EXPECT_EQ(forecast_queue({{lasting(1, 1), 1.0}}, {lasting(2, 1)}, {1, kStepCost}, plain).entries(0).reason(),
             "The only worker is busy.");
 }
 
 TEST(QueueForecast, APriorityIsToldAndComesFirst) {
   auto urgent = lasting(3, 1);
   urgent.priority = 5;
-  const auto queue = forecast_queue({{lasting(1, 1), 2.0}}, {lasting(2, 1), urgent}, {1, kStepCost});
+  const auto queue = forecast_queue({{lasting(1, 1), 2.0}}, {lasting(2, 1), urgent}, {1, kStepCost}, plain);
   expect_entry(queue, 0, "jobs/3", 2.0, "The only worker is busy.");
   EXPECT_EQ(queue.entries(0).priority(), 5);
   expect_entry(queue, 1, "jobs/2", 3.0, "The only worker is busy, and 1 job starts before it.");
 }
 
+TEST(QueueForecast, AJobWithThreadsHoldsSoManyCoresAndTakesLess) {
+  const auto queue = forecast_queue({{lasting(1, 100), 8.0, 2}}, {lasting(2, 10), lasting(3, 1)}, {4, kStepCost},
+                                    [](std::int64_t job) {
+                                      return JobFacts{job == 2 ? 8 : 1, 0};
+                                    });
+  ASSERT_EQ(queue.entries_size(), 2);
+  expect_entry(queue, 0, "jobs/2", 0.0, "A worker takes it now.");
+  expect_entry(queue, 1, "jobs/3", 0.0, "A worker takes it now.");
+
+  // Of three free cores one is left to the job that waits behind it; the next comes when two end.
+  const auto more = forecast_queue({{lasting(1, 100), 9.0, 1}}, {lasting(2, 10), lasting(3, 60), lasting(4, 1)},
+                                   {4, kStepCost}, [](std::int64_t job) {
+                                     return JobFacts{job == 2 ? 8 : 1, 0};
+                                   });
+  ASSERT_EQ(more.entries_size(), 3);
+  EXPECT_EQ(more.entries(2).seconds_until_start(), 0.0);
+
+  const auto alone = forecast_queue({}, {lasting(1, 10)}, {2, kStepCost}, [](std::int64_t) { return JobFacts{2, 0}; });
+  EXPECT_EQ(alone.entries(0).seconds_until_start(), 0.0);
+  const auto behind =
+      forecast_queue({{lasting(1, 100), 5.0, 2}}, {lasting(2, 10), lasting(3, 10)}, {2, kStepCost}, plain);
+  expect_entry(behind, 0, "jobs/2", 5.0, "All 2 workers are busy.");
+  expect_entry(behind, 1, "jobs/3", 5.0, "All 2 workers are busy, and 1 job starts before it.");
+  EXPECT_NEAR(predicted_seconds(lasting(1, 10), {2, 0}, 2, kStepCost), 8.0, 1e-9);
+  EXPECT_EQ(extra_cores(8, 3, 1), 2);
+  EXPECT_EQ(extra_cores(8, 3, 5), 0);
+  EXPECT_EQ(extra_cores(2, 3, 0), 1);
+}
+
+TEST(QueueForecast, WhatWasDoneBeforeAJobWasLeftIsTakenOff) {
+  const auto queue = forecast_queue({}, {lasting(1, 10), lasting(2, 1)}, {1, kStepCost}, [](std::int64_t job) {
+    return JobFacts{1, job == 1 ? 7'000 : 0};
+  });
+  expect_entry(queue, 1, "jobs/2", 3.0, "1 job starts before it.");
+  EXPECT_EQ(predicted_seconds(lasting(1, 10), {1, 20'000}, 1, kStepCost), 0.0);
+}
+
 TEST(QueueForecast, AnEmptyQueueHasNoEntries) {
-  EXPECT_EQ(forecast_queue({{lasting(1, 1), 1.0}}, {}, {1, kStepCost}).entries_size(), 0);
-  EXPECT_EQ(forecast_queue({}, {}, {1, kStepCost}).entries_size(), 0);
+  EXPECT_EQ(forecast_queue({{lasting(1, 1), 1.0}}, {}, {1, kStepCost}, plain).entries_size(), 0);
+  EXPECT_EQ(forecast_queue({}, {}, {1, kStepCost}, plain).entries_size(), 0);
 }
 
 TEST(QueueForecast, AFullQueueIsCutAtAThousandEntriesAndCountsTheRest) {
   std::vector<store::QueuedJob> waiting;
   for (int i = 1; i <= 20'000; ++i) waiting.push_back(lasting(i, 1 + i % 7));
   const auto start = std::chrono::steady_clock::now();
-  const auto queue = forecast_queue({}, waiting, {4, kStepCost});
+  const auto queue = forecast_queue({}, waiting, {4, kStepCost}, plain);
   EXPECT_EQ(queue.entries_size(), kMostEntries);
   EXPECT_EQ(queue.more_count(), 19'000);
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(2));

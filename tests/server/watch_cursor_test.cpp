@@ -52,6 +52,50 @@ TEST_F(WatchCursorTest, ASnapshotThenEverythingInOrderThenTheEnd) {
   EXPECT_TRUE(cursor.ended());
 }
 
+TEST_F(WatchCursorTest, WhatIsAtHandIsGivenWithoutAnotherLookIntoTheJournal) {
+  change(v1::RUNNING);
+  add_samples(3);
+  change(v1::SUCCEEDED);
+  auto cursor = this->cursor();
+  EXPECT_FALSE(cursor.has_more());
+  for (int given = 0; given < 7; ++given) {
+    ASSERT_TRUE(cursor.next());
+    EXPECT_EQ(cursor.has_more(), given > 0 && given < 6) << "The first is the snapshot, the second reads the rest.";
+  }
+}
+
+TEST(FrameChunks, APartAndTheMeshBesideItPassAStockClient) {
+  constexpr std::size_t kStockClient = 4 * 1024 * 1024;
+  for (const std::size_t mesh : {0U, 120'000U, 1'900'000U, 3'000'000U, 4'000'000U})
+    EXPECT_LT(mesh + chunk_bytes_beside(mesh), kStockClient) << mesh;
+  EXPECT_EQ(chunk_bytes_beside(0), kChunkBytes);
+  v1::FieldFrame large;
+  for (int i = 0; i < 900'000; ++i) large.add_position_mm(1.0F);
+  const auto parts = chunks_of(large, chunk_bytes_beside(2'500'000));
+  ASSERT_GT(parts.size(), 2U);
+  EXPECT_LT(parts.front().ByteSizeLong() + 2'500'000, kStockClient);
+}
+
+TEST_F(WatchCursorTest, AFrameWakesOnlyThoseWhoWantFrames) {
+  const auto channel = hub_.open(job_);
+  EXPECT_FALSE(channel->is_watched());
+  int plain = 0;
+  int framed = 0;
+  const auto first = channel->subscribe([&plain] { ++plain; }, false);
+  const auto second = channel->subscribe([&framed] { ++framed; }, true);
+  EXPECT_TRUE(channel->is_watched());
+  channel->publish(frame(0));
+  EXPECT_EQ(plain, 0);
+  EXPECT_EQ(framed, 1);
+  channel->publish(v1::Progress());
+  channel->announce();
+  EXPECT_EQ(plain, 2);
+  EXPECT_EQ(framed, 3);
+  channel->unsubscribe(first);
+  channel->unsubscribe(second);
+  EXPECT_FALSE(channel->is_watched());
+}
+
 TEST_F(WatchCursorTest, GoesOnBehindTheNumberItIsGiven) {
   change(v1::RUNNING);
   add_samples(10);

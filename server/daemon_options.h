@@ -1,0 +1,42 @@
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "access/gate.h"
+#include "jobs/admission.h"
+
+namespace cellcrush {
+
+struct DaemonOptions {
+  /// Each "unix:PATH" or "HOST:PORT" (listen_address.h). Empty: a socket in the data folder and 127.0.0.1:50551.
+  std::vector<std::string> listen;
+  std::filesystem::path data_folder;
+  /// Who may call on TCP, and by what he is known.
+  access::Options access;
+  /// "HOST:PORT" of loopback at which metrics are served over HTTP. Empty: nowhere.
+  std::string metrics;
+  /// Jobs that run at once. 0: as many as this machine has cores.
+  int workers = 0;
+  /// Program that is started as `PROGRAM worker ...`.
+  std::filesystem::path worker_program = "/proc/self/exe";
+  /// Clock time between two checkpoints of a running job.
+  std::chrono::milliseconds checkpoint_interval{60'000};
+  /// A worker that says nothing and uses no processor time for so long is replaced.
+  std::chrono::milliseconds stall_limit{20'000};
+  /// What new jobs are held to.
+  jobs::Admission::Limits limits;
+  /// Time for which jobs that have ended are kept; 0: for good.
+  std::chrono::seconds keep_ended_jobs{0};
+  /// Between two looks at the disk and at jobs that ended long ago.
+  std::chrono::milliseconds housekeeping_interval{5'000};
+  /// Called when a client has asked the daemon to end, which is then to be stopped.
+  std::function<void()> on_drain;
+  /// Time without an event after which a watcher is sent a bookmark.
+  std::chrono::milliseconds bookmark_interval{15'000};
+};
+
+}  // namespace cellcrush

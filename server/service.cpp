@@ -1,0 +1,116 @@
+#include "service.h"
+
+#include <algorithm>
+#include <chrono>
+#include <initializer_list>
+#include <optional>
+#include <thread>
+#include <utility>
+
+#include "jobs/admission.h"
+#include "jobs/housekeeping.h"
+#include "jobs/local_process.h"
+#include "jobs/scheduler.h"
+#include "metrics/metrics.h"
+#include "rpc/admin_service.h"
+#include "rpc/cases_service.h"
+#include "rpc/jobs_service.h"
+#include "rpc/sweeps_service.h"
+#include "store/data_folder.h"
+#include "store/journal.h"
+#include "store/journal_reader.h"
+#include "store/sweep_reader.h"
+#include "watch/hub.h"
+#include "watch/pump.h"
+
+namespace cellcrush {
+namespace {
+
+constexpr int kPumpThreads = 2;
+
+int worker_limit(int asked) {
+  return asked > 0 ? asked : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+}  // namespace
+
+// Members are in the order of their dependence: each uses only those above it.
+struct Service::Parts {
+  Parts(const DaemonOptions& given, const access::Gate& gate, double step_cost, std::function<void()> on_drain)
+      : options(given),
+        folder(options.data_folder),
+        journal(
+            folder.journal(), [this](std::int64_t job) { hub.announce(job); },
+            [this](double seconds) { metrics.observe_commit(seconds); }),
+        reader(folder.journal()),
+        sweep_reader(folder.journal()),
+        executor(options.worker_program, options.stall_limit),
+        runner({folder, journal, reader, hub, executor, metrics, options.checkpoint_interval,
+                std::chrono::duration<double>(options.limits.job_time).count()}),
+        scheduler({folder, journal, reader, metrics, runner}),
+        pump(kPumpThreads),
+        admission(folder, options.limits),
+        cases(step_cost),
+        jobs({folder, journal, reader, hub, pump, scheduler, admission, metrics, gate, options.bookmark_interval}),
+        sweeps(
+            {journal, reader, sweep_reader, hub, pump, scheduler, admission, metrics, gate, options.bookmark_interval}),
+        admin({reader,
+               hub,
+               scheduler,
+               {worker_limit(options.workers), step_cost, false},
+               gate,
+               [this, drained = std::move(on_drain)] {
+                 admission.drain();
+                 drained();
+               }}) {}
+
+  DaemonOptions options;
+  store::DataFolder folder;
+  watch::Hub hub;
+  metrics::Metrics metrics;
+  store::Journal journal;
+  store::JournalReader reader;
+  store::SweepReader sweep_reader;
+  jobs::LocalProcess executor;
+  jobs::JobRunner runner;
+  jobs::Scheduler scheduler;
+  watch::Pump pump;
+  jobs::Admission admission;
+  rpc::CasesService cases;
+  rpc::JobsService jobs;
+  rpc::SweepsService sweeps;
+  rpc::AdminService admin;
+  std::optional<jobs::Housekeeping> housekeeping;
+};
+
+Service::Service(const DaemonOptions& options, const access::Gate& gate, double step_cost,
+                 std::function<void()> on_drain)
+    : parts_(std::make_unique<Parts>(options, gate, step_cost, std::move(on_drain))) {}
+
+Service::~Service() = default;
+
+void Service::register_with(grpc::ServerBuilder& builder) {
+  for (grpc::Service* service :
+       std::initializer_list<grpc::Service*>{&parts_->cases, &parts_->jobs, &parts_->sweeps, &parts_->admin})
+    builder.RegisterService(service);
+}
+
+ListenAddress Service::serve_metrics(const ListenAddress& address) { return parts_->metrics.serve(address); }
+
+void Service::start() {
+  Parts& parts = *parts_;
+  parts.scheduler.start(worker_limit(parts.options.workers));
+  parts.housekeeping.emplace(jobs::Housekeeping::Parts{parts.folder, parts.journal, parts.reader, parts.admission,
+                                                       parts.scheduler, parts.options.housekeeping_interval,
+                                                       parts.options.keep_ended_jobs});
+}
+
+void Service::refuse_jobs() { parts_->admission.drain(); }
+
+void Service::stop() {
+  parts_->housekeeping.reset();
+  parts_->scheduler.stop();
+  parts_->pump.drain();
+}
+
+}  // namespace cellcrush

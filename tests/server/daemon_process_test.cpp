@@ -1,0 +1,56 @@
+#include "server/daemon_process.h"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <thread>
+
+#include "access/token_file.h"
+#include "server/certificates.h"
+#include "server/temporary_folder.h"
+
+namespace cellcrush::testing {
+namespace {
+
+TEST(DaemonProcess, ATestThatIsAbortedLeavesNoDaemonBehind) {
+  const TemporaryFolder folder;
+  std::array<int, 2> ends{};
+  ASSERT_EQ(pipe(ends.data()), 0);
+  const pid_t test = fork();
+  ASSERT_GE(test, 0);
+  if (test == 0) {
+    DaemonProcess daemon(
+        {"--data", (folder.path() / "data").string(), "--listen", "unix:" + (folder.path() / "socket").string()});
+    const pid_t number = daemon.wait_for_addresses(1).empty() ? 0 : daemon.number();
+    _exit(write(ends[1], &number, sizeof number) == sizeof number ? 0 : 1);
+  }
+  close(ends[1]);
+  pid_t daemon = 0;
+  ASSERT_EQ(read(ends[0], &daemon, sizeof daemon), static_cast<ssize_t>(sizeof daemon));
+  close(ends[0]);
+  ASSERT_EQ(waitpid(test, nullptr, 0), test);
+  ASSERT_GT(daemon, 0);
+  EXPECT_TRUE(wait_until_gone(daemon, std::chrono::seconds(5)));
+  kill(daemon, SIGKILL);
+}
+
+TEST(DaemonProcess, AHangupLetsADaemonWithTokensGoOn) {
+  const TemporaryFolder folder;
+  const auto made = access::make_token("anna", access::Scope::read);
+  write_secret(folder.path() / "tokens", made.line + "\n");
+  DaemonProcess daemon({"--data", (folder.path() / "data").string(), "--listen",
+                        "unix:" + (folder.path() / "socket").string(), "--tokens",
+                        (folder.path() / "tokens").string()});
+  ASSERT_EQ(daemon.wait_for_addresses(1).size(), 1U);
+  daemon.send_signal(SIGHUP);
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  daemon.send_signal(SIGTERM);
+  EXPECT_EQ(daemon.wait(), 0);
+  EXPECT_NE(daemon.errors().find("takes 1 tokens, those of"), std::string::npos) << daemon.errors();
+}
+
+}  // namespace
+}  // namespace cellcrush::testing
