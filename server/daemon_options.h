@@ -8,6 +8,7 @@
 
 #include "access/gate.h"
 #include "jobs/admission.h"
+#include "watch/watch_times.h"
 
 namespace cellcrush {
 
@@ -35,8 +36,7 @@ struct DaemonOptions {
   std::chrono::milliseconds housekeeping_interval{5'000};
   /// Called when a client has asked the daemon to end, which is then to be stopped.
   std::function<void()> on_drain;
-  /// Time without an event after which a watcher is sent a bookmark.
-  std::chrono::milliseconds bookmark_interval{15'000};
+  watch::WatchTimes watch_times;
 };
 
 }  // namespace cellcrush

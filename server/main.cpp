@@ -146,6 +146,11 @@ int main(int argc, char** argv) {
   app.add_option("--checkpoint-interval", checkpoint_seconds,
                  "seconds of clock between two checkpoints of a running job (default: 60)")
       ->check(CLI::Range(0.01, 86400.0));
+  double patience_seconds = 600.0;
+  app.add_option("--watch-patience", patience_seconds,
+                 "seconds in which a watcher has read nothing, though there is news, after which its watch is closed "
+                 "with RESOURCE_EXHAUSTED (default: 600)")
+      ->check(CLI::Range(1.0, 86400.0));
   app.set_version_flag("--version", std::string("cellcrushd ") + cellcrush::kSolverRevision);
   std::string token_name;
   std::string token_scope;
@@ -181,6 +186,7 @@ int main(int argc, char** argv) {
   options.keep_ended_jobs = std::chrono::seconds(std::llround(86400.0 * keep_days));
   options.on_drain = [] { kill(getpid(), SIGTERM); };
   options.checkpoint_interval = std::chrono::milliseconds(std::llround(1000.0 * checkpoint_seconds));
+  options.watch_times.patience = std::chrono::milliseconds(std::llround(1000.0 * patience_seconds));
   const sigset_t signals = block_signals(!options.access.tokens.empty());
   spdlog::set_default_logger(spdlog::stderr_color_mt("cellcrushd"));
   spdlog::set_formatter(log_format == "json" ? cellcrush::make_json_formatter() : cellcrush::make_text_formatter());

@@ -51,9 +51,8 @@ struct Service::Parts {
         pump(kPumpThreads),
         admission(folder, options.limits),
         cases(step_cost),
-        jobs({folder, journal, reader, hub, pump, scheduler, admission, metrics, gate, options.bookmark_interval}),
-        sweeps(
-            {journal, reader, sweep_reader, hub, pump, scheduler, admission, metrics, gate, options.bookmark_interval}),
+        jobs({folder, journal, reader, hub, pump, scheduler, admission, metrics, gate, options.watch_times}),
+        sweeps({journal, reader, sweep_reader, hub, pump, scheduler, admission, metrics, gate, options.watch_times}),
         admin({reader,
                hub,
                scheduler,

@@ -173,7 +173,7 @@ grpc::ServerWriteReactor<v1::JobEvent>* JobsService::WatchJob(grpc::CallbackServ
     const std::int64_t job = find(request->name()).number;
     auto source = std::make_unique<watch::JobSource>(parts_.reader, parts_.hub, job, request->after_sequence(),
                                                      request->frames());
-    return WatchReactor<watch::JobSource>::start({parts_.pump, parts_.metrics, parts_.bookmark_interval},
+    return WatchReactor<watch::JobSource>::start({parts_.pump, parts_.metrics, parts_.watch_times},
                                                  std::move(source));
   } catch (const std::exception& error) {
     return new RefusedWatch<v1::JobEvent>(status_of(error));

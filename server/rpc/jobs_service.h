@@ -10,6 +10,7 @@
 #include "store/journal_reader.h"
 #include "watch/hub.h"
 #include "watch/pump.h"
+#include "watch/watch_times.h"
 
 namespace cellcrush::rpc {
 
@@ -28,7 +29,7 @@ class JobsService final : public v1::Jobs::WithCallbackMethod_WatchJob<v1::Jobs:
     const jobs::Admission& admission;
     metrics::Metrics& metrics;
     const access::Gate& gate;
-    std::chrono::milliseconds bookmark_interval;
+    watch::WatchTimes watch_times;
   };
 
   explicit JobsService(const Parts& parts) : parts_(parts) {}

@@ -155,7 +155,7 @@ grpc::ServerWriteReactor<v1::WatchSweepResponse>* SweepsService::WatchSweep(grpc
     check_length("resume_token", request->resume_token(), kLongestResumeToken);
     auto source = std::make_unique<watch::SweepSource>(parts_.reader, parts_.sweeps, parts_.hub,
                                                        find(request->name()).number, request->resume_token());
-    return WatchReactor<watch::SweepSource>::start({parts_.pump, parts_.metrics, parts_.bookmark_interval},
+    return WatchReactor<watch::SweepSource>::start({parts_.pump, parts_.metrics, parts_.watch_times},
                                                    std::move(source));
   } catch (const std::exception& error) {
     return new RefusedWatch<v1::WatchSweepResponse>(status_of(error));

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <chrono>
 #include <string>
 
 #include "access/gate.h"
@@ -13,6 +12,7 @@
 #include "store/sweep_reader.h"
 #include "watch/hub.h"
 #include "watch/pump.h"
+#include "watch/watch_times.h"
 
 namespace cellcrush::rpc {
 
@@ -30,7 +30,7 @@ class SweepsService final : public v1::Sweeps::WithCallbackMethod_WatchSweep<v1:
     const jobs::Admission& admission;
     metrics::Metrics& metrics;
     const access::Gate& gate;
-    std::chrono::milliseconds bookmark_interval;
+    watch::WatchTimes watch_times;
   };
 
   explicit SweepsService(const Parts& parts) : parts_(parts) {}

@@ -11,9 +11,11 @@
 
 #include "cellcrush/v1/event.pb.h"
 #include "cellcrush/v1/sweeps_service.pb.h"
+#include "jobs/case_field.h"
 #include "metrics/metrics.h"
 #include "rpc/error_table.h"
 #include "watch/pump.h"
+#include "watch/watch_times.h"
 
 namespace cellcrush::rpc {
 
@@ -21,7 +23,7 @@ namespace cellcrush::rpc {
 struct WatchParts {
   watch::Pump& pump;
   metrics::Metrics& metrics;
-  std::chrono::milliseconds bookmark_interval;
+  watch::WatchTimes times;
 };
 
 /// Frames that were left out before this message.
@@ -103,7 +105,8 @@ class WatchReactor final : public grpc::ServerWriteReactor<typename Source::Mess
   enum class Action { none, write, finish };
 
   Action decide() {
-    if (writing_ || finished_) return Action::none;
+    if (finished_) return Action::none;
+    if (writing_) return is_stuck() ? close(status_of_stuck()) : Action::none;
     if (cancelled_) return close({grpc::StatusCode::CANCELLED, "The watcher is gone."});
     try {
       auto next = source_->next();
@@ -112,7 +115,7 @@ class WatchReactor final : public grpc::ServerWriteReactor<typename Source::Mess
         return close({grpc::StatusCode::UNAVAILABLE,
                       "The daemon ends. Watch again " + source_->resume_advice() + " once it is back."});
       }
-      if (!next && Clock::now() - last_write_ >= parts_.bookmark_interval) next = source_->bookmark();
+      if (!next && Clock::now() - last_write_ >= parts_.times.bookmark_interval) next = source_->bookmark();
       if (!next) return Action::none;
       message_ = *std::move(next);
     } catch (const std::exception& error) {
@@ -121,6 +124,16 @@ class WatchReactor final : public grpc::ServerWriteReactor<typename Source::Mess
     writing_ = true;
     last_write_ = Clock::now();
     return Action::write;
+  }
+
+  /// Whether the client has let a message lie for too long. The status waits behind it, for a client that reads on.
+  [[nodiscard]] bool is_stuck() const { return Clock::now() - last_write_ > parts_.times.patience; }
+
+  [[nodiscard]] grpc::Status status_of_stuck() const {
+    const auto seconds = std::chrono::duration<double>(parts_.times.patience).count();
+    return {grpc::StatusCode::RESOURCE_EXHAUSTED, "Nothing of this watch was read for " + jobs::text_of(seconds) +
+                                                      " s, so it was closed. Watch again " + source_->resume_advice() +
+                                                      ", and read events as they come."};
   }
 
   /// There is news.

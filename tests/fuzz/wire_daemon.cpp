@@ -53,7 +53,7 @@ DaemonOptions options_on(const std::filesystem::path& data_folder) {
   out.data_folder = data_folder;
   out.workers = 2;
   out.worker_program = "/bin/false";
-  out.bookmark_interval = kMinute;
+  out.watch_times.bookmark_interval = kMinute;
   return out;
 }
 

@@ -97,7 +97,7 @@ TEST_F(WatchSweepTest, ATokenOutlivesTheDaemon) {
 
 TEST_F(WatchSweepTest, AnIdleWatchGetsBookmarksAndAWrongTokenIsRefused) {
   auto options = default_options();
-  options.bookmark_interval = std::chrono::milliseconds(200);
+  options.watch_times.bookmark_interval = std::chrono::milliseconds(200);
   options.workers = 1;
   start(options);
   auto client = this->client();

@@ -152,9 +152,38 @@ TEST_F(WatchTest, ManyWatchersLeaveRoomForOtherCalls) {
   for (const auto& context : contexts) context->TryCancel();
 }
 
+TEST_F(WatchTest, AWatchOfWhichNothingIsReadIsClosedAndGoesOnWhereItWas) {
+  auto options = default_options();
+  options.watch_times.patience = milliseconds(500);
+  start(options);
+  auto client = this->client();
+  const std::string job = client.create(endless_case());
+  v1::WatchJobRequest request;
+  request.set_name(job);
+  request.set_frames(true);
+  const auto context = bounded_context();
+  const auto reader = client.jobs->WatchJob(context.get(), request);
+  std::this_thread::sleep_for(milliseconds(4000));  // its frames are more than a connection holds
+  WatchContract seen;
+  v1::JobEvent event;
+  while (reader->Read(&event)) seen.see(event);
+  const grpc::Status status = reader->Finish();
+  EXPECT_EQ(status.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED) << status.error_message();
+  EXPECT_THAT(status.error_message(), HasSubstr("after_sequence"));
+  EXPECT_THAT(seen.broken(), ::testing::IsEmpty());
+  EXPECT_GT(seen.sequence(), 0);
+  ASSERT_TRUE(client.cancel(job).ok());
+  const auto rest = client.watch(job, seen.sequence());
+  EXPECT_TRUE(rest.status.ok()) << rest.status.error_message();
+  WatchContract contract(seen.sequence());
+  for (const auto& later : rest.events) contract.see(later);
+  contract.end(rest.status);
+  EXPECT_THAT(contract.broken(), ::testing::IsEmpty());
+}
+
 TEST_F(WatchTest, AnIdleWatchGetsBookmarks) {
   auto options = default_options();
-  options.bookmark_interval = milliseconds(200);
+  options.watch_times.bookmark_interval = milliseconds(200);
   options.workers = 1;
   start(options);
   auto client = this->client();
