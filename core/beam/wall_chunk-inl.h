@@ -177,7 +177,7 @@ class WallChunk {
     for (int j = 0; j < block.elements; ++j) {
       const int e = block.first_element + j * block.walls + lane;
       if (fetches_fibres_) {
-        fetch_fibres(e, lane);
+        fetch_fibres(e);
       }
       const LaneNode<D> end = j + 1 == block.elements ? gather_joint(&scene_.walls.end[wall])
                                                       : load_inner(block.first_inner + j * block.walls + lane);
@@ -198,11 +198,11 @@ class WallChunk {
     }
   }
 
-  /// Has the stresses of the lanes' elements brought near, before the loop that returns them.
-  HWY_INLINE void fetch_fibres(int e, int lane) const {
+  /// Has the lanes' share of a row's stresses brought near, before the loop that returns them.
+  HWY_INLINE void fetch_fibres(int e) const {
     constexpr std::size_t kLine = 64 / sizeof(T);
     const std::size_t count = scene_.fibre_count() * hn::MaxLanes(d_);
-    const T* first = &memory_.stress[(e - lane) * scene_.fibre_count()] + lane * scene_.fibre_count();
+    const T* first = &memory_.stress[e * scene_.fibre_count()];
     for (std::size_t i = 0; i < count; i += kLine) {
       __builtin_prefetch(first + i, 1);
     }

@@ -9,7 +9,10 @@
 #include "contact/find_pushes.h"
 #include "contact/friction.h"
 #include "contact/normal_force.h"
+#include "contact/push_effects.h"
 #include "contact/remember_touches.h"
+#include "contact/wide_pushes.h"
+#include "simd/target.h"
 
 namespace cellcrush {
 namespace {
@@ -43,35 +46,7 @@ struct PairForces {
   }
 };
 
-/// Takes back half of what the touch of two balls would store: the node's ball counts the pair as well, and pushes on its
-/// own where the node lies under the ball's segments.
-void take_back_node(const Scene& scene, State& state, const Touches& touches, int node_touch) {
-  const double stiffness = 0.5 * scene.contact.stiffness;
-  const double depth = touches.node_depth[node_touch];
-  const Vector2 force = stiffness * depth * touches.node_normal[node_touch];
-  state.contact_force[state.touching.ball[node_touch]].elastic -= force;
-  state.contact_force[touches.node[node_touch]].elastic += force;
-  state.contact_stored -= 0.5 * stiffness * depth * depth;
-}
-
-/// Notes how deep a touch is, over the thinner of its walls, where that is a record.
-void note_depth(const Scene& scene, State& state, const Touches& touches, int touch) {
-  const double depth = touches.depth[touch];
-  const bool is_new = touches.known[touch] == Touches::kNew;
-  // Most are none, whatever their walls are.
-  if (depth <= scene.contact.thinnest * (is_new ? state.deepest_birth : state.deepest_penetration)) {
-    return;
-  }
-  const double thinner =
-      std::min(2.0 * scene.radius[state.touching.ball[touch]], scene.elements[state.touching.segment[touch]].thickness);
-  state.deepest_penetration = std::max(state.deepest_penetration, depth / thinner);
-  if (is_new) {
-    state.deepest_birth = std::max(state.deepest_birth, depth / thinner);
-  }
-}
-
-/// Adds the normal forces, and notes what of each friction goes by.
-void apply_normal_forces(const Scene& scene, State& state, ContactWorkspace& workspace) {
+void apply_normal_forces_plain(const Scene& scene, State& state, ContactWorkspace& workspace) {
   const Touches& touches = workspace.touches;
   const double stiffness = scene.contact.stiffness;
   ContactForce* forces = state.contact_force.data();
@@ -176,7 +151,7 @@ void evaluate_contact_forces(const Scene& scene, State& state, ContactWorkspace&
   remember_touches(scene, state, workspace);
   evaluate_touches(scene, state, workspace, workers);
   find_pushes(scene, state, workspace, workers);
-  apply_normal_forces(scene, state, workspace);
+  (use_wide_kernels() ? apply_normal_forces_wide : apply_normal_forces_plain)(scene, state, workspace);
   state.contact_count = static_cast<std::int64_t>(workspace.pushes.size());
   if (scene.contact.friction > 0.0) {
     apply_friction(scene, state, workspace);

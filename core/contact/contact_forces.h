@@ -7,7 +7,8 @@
 
 namespace cellcrush {
 
-/// Overwrites the contact forces between walls (section 4.2, Eq. 41-43) from the candidates.
+/// Evaluates the contact forces between walls (section 4.2, Eq. 41-43) from the candidates, and adds them to contact_force
+/// and friction_force. REQUIRES: these are 0, as integrate_motion leaves them.
 ///
 /// Normal force k D + c dD/dt on the ball, shared by the segment's nodes as the foot lies between them. Mends to the paper:
 ///  - distance to a capsule, ends included (contact/capsule.h);
@@ -24,7 +25,7 @@ namespace cellcrush {
 /// c is damping_ratio of critical damping of k with the effective mass 1/m = 1/m_ball + (1-s)^2/m_start + s^2/m_end.
 ///
 /// Five short loops over arrays (contact/contact_workspace.h): candidates that overlap, what is remembered of them, how they
-/// stand and move, which of them push, the forces. The first and the third, of all pairs alike, are also written for vector
+/// stand and move, which of them push, the forces. All but the second and the fourth are also written for vector
 /// instructions; forces are summed in the order of balls and segments, so that the sums have the same bits however pairs were
 /// found.
 void evaluate_contact_forces(const Scene& scene, State& state, ContactWorkspace& workspace, Workers& workers);

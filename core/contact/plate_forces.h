@@ -7,9 +7,9 @@
 
 namespace cellcrush {
 
-/// Overwrites the forces of the rigid, unilateral plates on every particle whose ball reaches into them, by the
-/// penalty law of the walls. Forces are positive in compression: the impact plate pushes along the crush, the support plate
-/// against it. Friction acts across the crush; it is added to friction_force, which evaluate_contact_forces has cleared.
+/// Overwrites impact_force and support_force, of the rigid, unilateral plates on every particle whose ball reaches into
+/// them, by the penalty law of the walls, and adds them to contact_force, as evaluate_contact_forces does. Forces are positive in compression: the impact plate pushes along the crush, the support plate
+/// against it. Friction acts across the crush; it is added to friction_force.
 ///
 /// All particles are held against the plates, eight at a time; of those few that reach a plate, or that leave it in this step
 /// with some friction, are the forces evaluated.

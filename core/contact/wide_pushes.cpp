@@ -1,0 +1,69 @@
+#include "contact/wide_pushes.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "contact/wide_pushes.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "contact/normal_force.h"
+#include "contact/push_effects.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace cellcrush::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Adds a share of a pair's forces, elastic x and y, viscous x and y, to those of a particle.
+template <class D>
+HWY_INLINE void add(D d, const double* HWY_RESTRICT pair, double share, ContactForce& to) {
+  double* values = to.elastic.data();
+  for (std::size_t k = 0; k < 4; k += hn::Lanes(d)) {
+    const auto force = hn::Mul(hn::Set(d, share), hn::LoadU(d, pair + k));
+    hn::StoreU(hn::Add(hn::LoadU(d, values + k), force), d, values + k);
+  }
+}
+
+void apply(const Scene& scene, State& state, ContactWorkspace& workspace) {
+  const hn::CappedTag<double, 4> d;
+  const Touches& touches = workspace.touches;
+  const double stiffness = scene.contact.stiffness;
+  ContactForce* forces = state.contact_force.data();
+  double squared_depths = 0.0;
+  for (Push& push : workspace.pushes) {
+    const double depth = touches.depth[push.touch];
+    const Vector2& normal = touches.normal[push.touch];
+    NormalForce net = {0.0, 0.0};
+    if (push.has_pair) {
+      net = without_pull(stiffness * push.net_depth, touches.viscous[push.touch]);
+      push.normal_force = net.elastic + net.viscous;
+    }
+    const double elastic = stiffness * depth;
+    const double pair[] = {elastic * normal.x(), elastic * normal.y(), net.viscous * normal.x(),
+                           net.viscous * normal.y()};
+    const double share = touches.share[push.touch];
+    add(d, pair, 1.0, forces[state.touching.ball[push.touch]]);
+    add(d, pair, share - 1.0, forces[touches.start[push.touch]]);
+    add(d, pair, -share, forces[touches.end[push.touch]]);
+    squared_depths += depth * depth;
+    if (push.node_touch != Push::kNone) {
+      take_back_node(scene, state, touches, push.node_touch);
+    }
+    note_depth(scene, state, touches, push.touch);
+  }
+  state.contact_stored += 0.5 * stiffness * squared_depths;
+}
+
+}  // namespace cellcrush::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace cellcrush {
+
+HWY_EXPORT(apply);
+
+void apply_normal_forces_wide(const Scene& scene, State& state, ContactWorkspace& workspace) {
+  HWY_DYNAMIC_DISPATCH(apply)(scene, state, workspace);
+}
+
+}  // namespace cellcrush
+#endif
