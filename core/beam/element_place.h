@@ -24,7 +24,8 @@ template <class Visit>
 void visit_rows(const Scene& scene, Visit&& visit) {
   for (const WallBlock& block : scene.walls.blocks) {
     for (int j = 0; j < block.elements; ++j) {
-      visit(block, static_cast<std::size_t>(block.first_element + j * block.walls));
+      const std::size_t row = block.first_element + j * block.walls;
+      visit(block, row);
     }
   }
 }

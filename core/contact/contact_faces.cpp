@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <compare>
 #include <numeric>
+#include <tuple>
 #include <vector>
 
 #include "scene/face_loops.h"
@@ -84,7 +84,9 @@ std::vector<std::size_t> order_of(const Scene& scene, const FaceLoops& loops) {
     double band;
     double across;
     double along;
-    auto operator<=>(const Place&) const = default;
+    bool operator<(const Place& other) const {
+      return std::tie(is_outer, band, across, along) < std::tie(other.is_outer, other.band, other.across, other.along);
+    }
   };
   std::vector<Place> place(loops.count());
   for (std::size_t i = 0; i < loops.count(); ++i) {

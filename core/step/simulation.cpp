@@ -75,7 +75,7 @@ void Simulation::advance(std::int64_t steps, StageObserver* observer) {
 }
 
 Sample Simulation::take_sample() {
-  const Sample sample = impl_->sampler.take(*impl_->scene, impl_->state);
+  Sample sample = impl_->sampler.take(*impl_->scene, impl_->state);
   const RunStatus found = check_run(*impl_->scene, impl_->state, sample);
   if (found.kind != RunStatus::Kind::running) {
     impl_->status = found;
