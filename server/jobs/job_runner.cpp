@@ -176,7 +176,11 @@ store::StateChange JobRunner::after(const store::StoredJob& stored, const Worker
 
 // Whether the job may be tried again after a loss.
 bool JobRunner::got_further(std::int64_t job) {
-  parts_.journal.commit_samples();
+  try {
+    parts_.journal.commit_samples();
+  } catch (const ServiceError&) {
+    // On a full disk what was stored before counts. The journal tries again by itself, and tells of it.
+  }
   const std::int64_t step = parts_.reader.last_sampled_step(job);
   const std::scoped_lock lock(mutex_);
   Losses& losses = losses_[job];
