@@ -48,8 +48,9 @@ v1::JobState JobRunner::run_once(std::int64_t job, int threads, const Interrupti
     return v1::JOB_STATE_UNSPECIFIED;
   store::StateChange next;
   try {
-    next = is_left_cancelled(*stored) ? given_up(*stored, cancelled_without_result(), interruptions)
-                                      : after(*stored, run_worker(*stored, threads, interruptions), interruptions);
+    next = is_left_cancelled(*stored)
+               ? given_up(*stored, cancelled_without_result(), interruptions, daemons_end)
+               : after(*stored, run_worker(*stored, threads, interruptions), interruptions, daemons_end);
   } catch (const Withdrawn&) {
     spdlog::info("{} was withdrawn before it ran", name_of(job));
     return v1::JOB_STATE_UNSPECIFIED;
@@ -162,12 +163,12 @@ void JobRunner::pass_on(std::int64_t job, std::int64_t& last_step, watch::Channe
 }
 
 store::StateChange JobRunner::after(const store::StoredJob& stored, const WorkerExit& exit,
-                                    const Interruptions& interruptions) {
+                                    const Interruptions& interruptions, const std::stop_token& daemons_end) {
   auto next = outcome_of(exit);
   if (exit.kind == WorkerExit::Kind::cancelled && !is_last_word(exit))
-    return given_up(stored, std::move(next), interruptions);
+    return given_up(stored, std::move(next), interruptions, daemons_end);
   if (!is_lost(exit)) return next;
-  if (!got_further(stored.number)) return given_up(stored, std::move(next), interruptions);
+  if (!got_further(stored.number)) return given_up(stored, std::move(next), interruptions, daemons_end);
   spdlog::warn("{}: {}", name_of(stored.number), next.message);
   if (exit.kind != WorkerExit::Kind::not_started) return tried_again(std::move(next));
   // The job is PENDING as it was.
@@ -176,7 +177,11 @@ store::StateChange JobRunner::after(const store::StoredJob& stored, const Worker
 
 // Whether the job may be tried again after a loss.
 bool JobRunner::got_further(std::int64_t job) {
-  parts_.journal.commit_samples();
+  try {
+    parts_.journal.commit_samples();
+  } catch (const ServiceError&) {
+    // On a full disk what was stored before counts. The journal tries again by itself, and tells of it.
+  }
   const std::int64_t step = parts_.reader.last_sampled_step(job);
   const std::scoped_lock lock(mutex_);
   Losses& losses = losses_[job];
@@ -188,10 +193,12 @@ bool JobRunner::got_further(std::int64_t job) {
 
 // What the job's workers reported until they were gone is kept as a result where that can be.
 store::StateChange JobRunner::given_up(const store::StoredJob& stored, store::StateChange loss,
-                                       const Interruptions& interruptions) {
+                                       const Interruptions& interruptions, const std::stop_token& daemons_end) {
   const bool is_cancelled = loss.state == v1::CANCELLED;
   // The next daemon ends it.
-  if (is_cancelled && interruptions.stop.stop_requested()) return {};
+  if (is_cancelled && daemons_end.stop_requested()) return {};
+  // A cancelled job ends, even if it was to be suspended or the disk is nearly full.
+  const Interruptions wishes = is_cancelled ? Interruptions{daemons_end, {}, interruptions.cancel} : interruptions;
   worker::Order order = order_of(stored);
   auto& end = *order.mutable_given_up();
   end.set_cancelled(is_cancelled);
@@ -201,8 +208,7 @@ store::StateChange JobRunner::given_up(const store::StoredJob& stored, store::St
     end.set_remedy(loss.remedy);
   }
   try {
-    const auto exit =
-        parts_.executor.run(parts_.folder.job_folder(stored.number), order, events_of(stored), interruptions);
+    const auto exit = parts_.executor.run(parts_.folder.job_folder(stored.number), order, events_of(stored), wishes);
     const bool has_result = is_last_word(exit) && exit.final->has_summary();
     const bool was_left = exit.kind == WorkerExit::Kind::stopped || exit.kind == WorkerExit::Kind::suspended;
     if (was_left && !is_last_word(exit) && is_cancelled) return {};

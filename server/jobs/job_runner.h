@@ -60,11 +60,12 @@ class JobRunner {
   WorkerExit run_worker(const store::StoredJob& stored, int threads, const Interruptions& interruptions);
   WorkerEvents events_of(const store::StoredJob& stored);
   void pass_on(std::int64_t job, std::int64_t& last_step, watch::Channel& channel, worker::Report& report);
-  store::StateChange after(const store::StoredJob& stored, const WorkerExit& exit, const Interruptions& interruptions);
+  store::StateChange after(const store::StoredJob& stored, const WorkerExit& exit, const Interruptions& interruptions,
+                           const std::stop_token& daemons_end);
   bool got_further(std::int64_t job);
-  /// No state when the job is to be given up later.
+  /// No state when the job was cancelled and the daemon ends: the next one gives it up.
   store::StateChange given_up(const store::StoredJob& stored, store::StateChange loss,
-                              const Interruptions& interruptions);
+                              const Interruptions& interruptions, const std::stop_token& daemons_end);
   /// Tries until it can be written or `stop` is requested; once when that cannot be. The state that was written, if one was;
   /// CANCELLING when the job is that and may not become what was to be written.
   v1::JobState write(std::int64_t job, store::StateChange change, const std::stop_token& stop);

@@ -78,7 +78,8 @@ void Scheduler::cancel(std::int64_t job) {
     std::stop_source worker(std::nostopstate);
     {
       const std::scoped_lock lock(mutex_);
-      waiting_.remove(job);
+      // One that is CANCELLING may wait again meanwhile, to be given up.
+      if (change.state == v1::CANCELLED) waiting_.remove(job);
       if (const auto found = running_.find(job); found != running_.end()) worker = found->second.cancel;
     }
     worker.request_stop();

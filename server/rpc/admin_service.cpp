@@ -1,7 +1,11 @@
 #include "rpc/admin_service.h"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 
+#include "error.h"
+#include "jobs/resource_name.h"
 #include "rpc/change_log.h"
 #include "rpc/error_table.h"
 #include "version.h"
@@ -42,9 +46,14 @@ jobs::JobFacts AdminService::facts_of(std::int64_t job) {
   out.threads = std::max(stored->job.case_().numerics().threads(), 1);
   // A worker that ran it has sent the mesh.
   const auto mesh = stored->job.attempt() > 0 ? parts_.reader.mesh(job) : std::nullopt;
-  if (mesh)
+  if (!mesh) return out;
+  try {
     out.element_steps_done =
         mesh->thickness_mm_size() * std::max<std::int64_t>(parts_.reader.last_sampled_step(job), 0);
+  } catch (const ServiceError& error) {
+    // One job's damage does not keep the others from being told of.
+    spdlog::error("How far {} is cannot be told: {}", jobs::name_of(job), error.what());
+  }
   return out;
 }
 

@@ -2,7 +2,6 @@
 
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
 #include <new>
 
 #include "google/rpc/error_details.pb.h"
@@ -54,9 +53,9 @@ std::string sentence_of(const Problems& problems, const std::string& subject) {
   return shorten(out, kMostMessage);
 }
 
-std::string details_of(grpc::StatusCode code, const std::string& message, const Problems& problems) {
+std::string details_of(const std::string& message, const Problems& problems) {
   google::rpc::Status status;
-  status.set_code(code);
+  status.set_code(grpc::StatusCode::INVALID_ARGUMENT);
   status.set_message(message);
   google::rpc::BadRequest bad_request;
   v1::ProblemList list;
@@ -73,24 +72,23 @@ std::string details_of(grpc::StatusCode code, const std::string& message, const 
   return status.SerializeAsString();
 }
 
-v1::Problem note_on_rest(grpc::StatusCode code, const std::string& subject, int left_out) {
+v1::Problem note_on_rest(const std::string& subject, int left_out) {
   v1::Problem out;
   out.set_field(subject);
   out.set_message("has " + std::to_string(left_out) + " more problems.");
   out.set_remedy(subject == "case" ? "CheckCase lists them all."
                                    : "Mend these first; the same call then names the rest.");
-  out.set_kind(code == grpc::StatusCode::INVALID_ARGUMENT ? v1::Problem::INVALID : v1::Problem::UNIMPLEMENTED);
+  out.set_kind(v1::Problem::INVALID);
   return out;
 }
 
 // The details of as many problems as fit, and of the rest its number.
-std::string bounded_details(grpc::StatusCode code, const std::string& message, const Problems& problems,
-                            const std::string& subject) {
-  std::string out = details_of(code, message, problems);
+std::string bounded_details(const std::string& message, const Problems& problems, const std::string& subject) {
+  std::string out = details_of(message, problems);
   for (int kept = problems.size() - 1; out.size() > kMostDetails && kept >= 0; --kept) {
     Problems some(problems.begin(), problems.begin() + kept);
-    *some.Add() = note_on_rest(code, subject, problems.size() - kept);
-    out = details_of(code, message, some);
+    *some.Add() = note_on_rest(subject, problems.size() - kept);
+    out = details_of(message, some);
   }
   return out;
 }
@@ -98,12 +96,8 @@ std::string bounded_details(grpc::StatusCode code, const std::string& message, c
 }  // namespace
 
 grpc::Status status_of(const Problems& problems, const std::string& subject) {
-  const bool invalid = std::any_of(problems.begin(), problems.end(), [](const v1::Problem& problem) {
-    return problem.kind() != v1::Problem::UNIMPLEMENTED;
-  });
-  const auto code = invalid ? grpc::StatusCode::INVALID_ARGUMENT : grpc::StatusCode::UNIMPLEMENTED;
   const std::string message = sentence_of(problems, subject);
-  return {code, message, bounded_details(code, message, problems, subject)};
+  return {grpc::StatusCode::INVALID_ARGUMENT, message, bounded_details(message, problems, subject)};
 }
 
 grpc::Status invalid_argument(const std::string& field, const std::string& message, const std::string& remedy) {
@@ -113,9 +107,8 @@ grpc::Status invalid_argument(const std::string& field, const std::string& messa
   problem.set_message(message);
   problem.set_remedy(remedy);
   problem.set_kind(v1::Problem::INVALID);
-  const auto code = grpc::StatusCode::INVALID_ARGUMENT;
   const std::string sentence = shorten(field + " " + message + " " + remedy, kMostMessage);
-  return {code, sentence, bounded_details(code, sentence, problems, "request")};
+  return {grpc::StatusCode::INVALID_ARGUMENT, sentence, bounded_details(sentence, problems, "request")};
 }
 
 grpc::Status status_of(const std::exception& error) {

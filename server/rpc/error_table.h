@@ -13,7 +13,7 @@ namespace cellcrush::rpc {
 
 // The one place that turns errors into gRPC statuses.
 
-/// A refused case, or another subject that has fields of one. INVALID_ARGUMENT when any problem is INVALID, otherwise UNIMPLEMENTED. The details hold a
+/// INVALID_ARGUMENT for a refused case, or another subject that has fields of one. The details hold a
 /// google.rpc.Status with BadRequest and cellcrush.v1.ProblemList. A trailer may have 8 KiB: problems that do not fit
 /// are counted in a last entry, which refers to CheckCase when the subject is a case.
 /// REQUIRES: there is at least one problem.

@@ -35,6 +35,24 @@ void apply(const StateChange& change, v1::Job& job) {
 
 }  // namespace
 
+/// Beside a write that takes gathered samples, until they are durable or given back.
+class Journal::Taking {
+ public:
+  explicit Taking(Journal& journal) : journal_(journal) {
+    const std::scoped_lock lock(journal_.gather_mutex_);
+    ++journal_.takings_;
+  }
+  ~Taking() {
+    const std::scoped_lock lock(journal_.gather_mutex_);
+    --journal_.takings_;
+  }
+  Taking(const Taking&) = delete;
+  Taking& operator=(const Taking&) = delete;
+
+ private:
+  Journal& journal_;
+};
+
 Journal::Journal(const std::filesystem::path& path, Durable on_durable, GroupCommit::Committed on_commit)
     : on_durable_(std::move(on_durable)), database_(path), writes_(database_, std::move(on_commit)) {
   prepare_journal(database_);
@@ -54,6 +72,7 @@ Journal::~Journal() {
 void Journal::change_state(std::int64_t job, const StateChange& change) {
   std::vector<std::int64_t> stopped;
   Gathered samples;
+  const Taking taking(*this);
   writes_.run(
       [&] {
         samples = take_gathered(job);
@@ -94,7 +113,7 @@ void Journal::append_sample(std::int64_t job, const v1::Sample& sample, std::chr
   const auto limit = std::chrono::steady_clock::now() + within;
   {
     const std::scoped_lock lock(gather_mutex_);
-    gathered_[job].push_back(std::move(bytes));
+    gathered_[job].push_back({sample.step(), std::move(bytes)});
     if (limit >= commit_at_) return;
     commit_at_ = limit;
   }
@@ -133,9 +152,11 @@ void Journal::commit_gathered_when_due() {
 void Journal::commit_samples() {
   {
     const std::scoped_lock lock(gather_mutex_);
-    if (gathered_.empty()) return;
+    if (gathered_.empty() && takings_ == 0) return;
   }
+  // What another writer has taken is durable once this one had its turn.
   Gathered samples;
+  const Taking taking(*this);
   writes_.run(
       [&] {
         samples = take_gathered(std::nullopt);
@@ -155,17 +176,32 @@ void Journal::insert_event(std::int64_t job, std::int64_t sequence, int kind, co
   insert.bind(1, job).bind(2, sequence).bind(3, kind).bind_blob(4, payload).run();
 }
 
-void Journal::insert_samples(std::int64_t job, const std::vector<std::string>& samples) {
+std::int64_t Journal::find_newest_step(std::int64_t job) {
+  Statement read(database_, "SELECT payload FROM events WHERE job = ?1 AND kind = ?2 ORDER BY sequence DESC");
+  read.bind(1, job).bind(2, kSampleEvent);
+  for (v1::Sample sample; read.step();) {
+    if (sample.ParseFromString(read.bytes(0))) return sample.step();
+  }
+  return -1;
+}
+
+void Journal::insert_samples(std::int64_t job, const std::vector<GatheredSample>& samples) {
   if (samples.empty()) return;
   const auto newest = find_last_sequence(job);
   // The job was deleted meanwhile.
   if (!newest) return;
   std::int64_t sequence = *newest;
+  std::int64_t last_step = find_newest_step(job);
   {
     Statement insert(database_, "INSERT INTO events (job, sequence, kind, payload) VALUES (?1, ?2, ?3, ?4)");
     insert.bind(1, job).bind(3, kSampleEvent);
-    for (const auto& sample : samples) insert.bind(2, ++sequence).bind_blob(4, sample).run();
+    for (const auto& sample : samples) {
+      if (sample.step <= last_step) continue;
+      last_step = sample.step;
+      insert.bind(2, ++sequence).bind_blob(4, sample.bytes).run();
+    }
   }
+  if (sequence == *newest) return;
   Statement update(database_, "UPDATE jobs SET last_sequence = ?2 WHERE number = ?1");
   update.bind(1, job).bind(2, sequence).run();
 }

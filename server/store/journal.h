@@ -93,13 +93,14 @@ class Journal {
   void change_state(std::int64_t job, const StateChange& change);
 
   /// Gathers a sample, to be durable within that time, with all others that were gathered by then. Never waits for the disk.
+  /// One whose step is not beyond that of the job's newest one is dropped: what is told again is there once.
   void append_sample(std::int64_t job, const v1::Sample& sample, std::chrono::milliseconds within = kSoon);
 
   /// For samples that somebody waits for, and for those that nobody does: what comes meanwhile shares a commit.
   static constexpr std::chrono::milliseconds kSoon{200};
   static constexpr std::chrono::milliseconds kAtLeisure{1000};
 
-  /// Makes durable what is gathered.
+  /// When it returns, all samples that were gathered before are durable, whoever wrote them.
   void commit_samples();
 
   void set_mesh(std::int64_t job, const v1::Mesh& mesh);
@@ -116,10 +117,18 @@ class Journal {
   std::vector<std::int64_t> jobs_of_sweep_in(std::int64_t sweep, v1::JobState state);
   std::optional<std::int64_t> find_last_sequence(std::int64_t job);
   void insert_event(std::int64_t job, std::int64_t sequence, int kind, const std::string& payload);
-  void insert_samples(std::int64_t job, const std::vector<std::string>& samples);
+  /// Step of the job's newest sample that can be read; -1 without any.
+  std::int64_t find_newest_step(std::int64_t job);
+
+  struct GatheredSample {
+    std::int64_t step = 0;
+    std::string bytes;
+  };
+  void insert_samples(std::int64_t job, const std::vector<GatheredSample>& samples);
 
   static constexpr auto kNothingIsDue = std::chrono::steady_clock::time_point::max();
-  using Gathered = std::map<std::int64_t, std::vector<std::string>>;
+  using Gathered = std::map<std::int64_t, std::vector<GatheredSample>>;
+  class Taking;
   /// All that is gathered, or what is gathered for one job.
   Gathered take_gathered(std::optional<std::int64_t> job);
   void give_back(Gathered samples);
@@ -128,7 +137,8 @@ class Journal {
   Database database_;
   GroupCommit writes_;       ///< all that is done with database_
   std::mutex gather_mutex_;  ///< guards what follows
-  Gathered gathered_;        ///< samples that are not durable yet, as bytes, by job
+  Gathered gathered_;        ///< samples that nobody makes durable yet, by job
+  int takings_ = 0;          ///< writers that may have taken some of them which are not durable yet
   std::chrono::steady_clock::time_point commit_at_ = kNothingIsDue;
   std::condition_variable sooner_;  ///< commit_at_ is earlier than it was, or the end has come
   bool stopping_ = false;

@@ -20,11 +20,12 @@ void SweepSource::News::add(std::size_t position) {
   queue_.push_back(position);
 }
 
-void SweepSource::News::add_first(std::size_t position) {
+bool SweepSource::News::add_first(std::size_t position) {
   const std::scoped_lock lock(mutex_);
-  if (is_queued_[position]) return;
+  if (is_queued_[position]) return false;
   is_queued_[position] = true;
   queue_.push_front(position);
+  return true;
 }
 
 std::optional<std::size_t> SweepSource::News::take() {
@@ -82,10 +83,10 @@ std::optional<v1::WatchSweepResponse> SweepSource::next() {
       continue;
     }
     // It may have more: its turn goes on, or it queues again.
-    if (++in_turn_ < kLongestTurn) {
-      news_->add_first(*position);
-    } else {
+    if (++in_turn_ >= kLongestTurn || !news_->add_first(*position)) {
+      // Another's turn comes, and what that one has stands in the journal.
       in_turn_ = 0;
+      has_more_ = false;
       news_->add(*position);
     }
     return message;

@@ -37,7 +37,7 @@ class SweepSource {
   /// Throws ServiceError when the journal cannot be read, or out_of_range when the token named an event that is not
   /// there.
   std::optional<v1::WatchSweepResponse> next();
-  /// Whether the job whose turn it is has a message at hand.
+  /// Whether next has something without a look into the journal: the job whose turn it is has a message at hand.
   [[nodiscard]] bool has_more() const { return has_more_; }
   [[nodiscard]] bool ended() const { return snapshot_sent_ && left_ == 0; }
   [[nodiscard]] v1::WatchSweepResponse bookmark() const;
@@ -55,7 +55,8 @@ class SweepSource {
    public:
     explicit News(std::size_t jobs) : is_queued_(jobs, false) {}
     void add(std::size_t position);
-    void add_first(std::size_t position);
+    /// False when it was queued behind others already, and stays there.
+    bool add_first(std::size_t position);
     std::optional<std::size_t> take();
 
    private:

@@ -45,7 +45,8 @@ std::optional<v1::JobEvent> WatchCursor::next() {
   if (!std::exchange(snapshot_sent_, true)) return snapshot();
   if (ended_) return std::nullopt;
   // The journal is read before the channel: the progress and frames before a job's end then come before its last event.
-  if (events_.empty()) {
+  // Not between the parts of a frame, which are at hand.
+  if (events_.empty() && parts_.empty()) {
     auto read = journal_.events(job_, after_, kEventsAtOnce);
     events_.assign(std::make_move_iterator(read.begin()), std::make_move_iterator(read.end()));
   }

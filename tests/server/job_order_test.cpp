@@ -6,8 +6,10 @@
 #include <thread>
 
 #include "cellcrush/v1/admin_service.grpc.pb.h"
+#include "server/job_numbers.h"
 #include "server/small_case.h"
 #include "server/sweep_requests.h"
+#include "store/sqlite.h"
 
 namespace cellcrush::testing {
 namespace {
@@ -175,6 +177,20 @@ TEST_F(JobOrderTest, AThousandSpeedsSeedsOrSizesOfTypeIAreQueuedTogether) {
   EXPECT_LT(seconds_for("lattice.imperfection.seed", 1.0, 1000.0), 2.0) << slow;
   EXPECT_LT(seconds_for("lattice.hexagon.wall_thickness_mm", 0.1, 0.6), 2.0) << slow;
   EXPECT_LT(seconds_for("lattice.hexagon.side_mm", 3.0, 6.0), 2.0) << slow;
+}
+
+TEST_F(JobOrderTest, AQueueIsToldOfAlsoWhenASampleOfAJobInItCannotBeRead) {
+  auto client = this->client();
+  const std::string damaged = client.create(endless_case());
+  wait_for_samples(client, damaged, 5);
+  ASSERT_TRUE(client.suspend(damaged).ok());
+  const std::string running = client.create(endless_case());
+  ASSERT_TRUE(client.wait_for_state(running, v1::RUNNING));
+  store::Database(data_folder() / "journal.sqlite").execute("UPDATE events SET payload = x'ff' WHERE kind = 2");
+  ASSERT_TRUE(client.resume(damaged).ok());
+  const auto queue = queue_of(client);
+  ASSERT_EQ(queue.entries_size(), 1);
+  EXPECT_EQ(queue.entries(0).job(), damaged);
 }
 
 }  // namespace

@@ -120,6 +120,52 @@ TEST_F(JournalTest, SamplesAreDurableOnceTheyAreAskedToBe) {
   EXPECT_EQ(reader_->last_sampled_step(job), 1);
 }
 
+TEST_F(JournalTest, AskingForSamplesWaitsForThoseThatAnotherIsMakingDurable) {
+  std::atomic<bool> held = false;
+  std::atomic<bool> go_on = false;
+  const auto hold = [&](double) {
+    held = true;
+    while (held && !go_on) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  };
+  journal_.reset();
+  reader_.reset();
+  go_on = true;
+  journal_.emplace(
+      path(), [](std::int64_t) {}, hold);
+  const auto job = create();
+  journal_->append_sample(job, sample(1), std::chrono::minutes(1));
+  held = go_on = false;
+  std::jthread first([&] { journal_->commit_samples(); });
+  while (!held) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  std::atomic<bool> returned = false;
+  std::jthread second([&] {
+    journal_->commit_samples();
+    returned = true;
+  });
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  EXPECT_FALSE(returned);
+  go_on = true;
+  second.join();
+  EXPECT_TRUE(returned);
+}
+
+TEST_F(JournalTest, SamplesThatAreToldAgainAreThereOnce) {
+  const auto job = create();
+  change(job, v1::RUNNING);
+  for (int i = 1; i <= 5; ++i) journal_->append_sample(job, sample(i), std::chrono::minutes(1));
+  for (int i = 3; i <= 7; ++i) journal_->append_sample(job, sample(i), std::chrono::minutes(1));
+  journal_->commit_samples();
+  const auto sequence = reader_->find_job(job)->last_sequence;
+  for (int i = 1; i <= 7; ++i) journal_->append_sample(job, sample(i), std::chrono::minutes(1));
+  journal_->commit_samples();
+  EXPECT_EQ(reader_->find_job(job)->last_sequence, sequence) << "None of them is new.";
+  for (int i = 6; i <= 8; ++i) journal_->append_sample(job, sample(i), std::chrono::minutes(1));
+  change(job, v1::FAILED);
+  const auto stored = reader_->samples(job).samples;
+  ASSERT_EQ(stored.size(), 8U);
+  for (std::size_t i = 0; i < stored.size(); ++i) EXPECT_EQ(stored[i].step(), static_cast<std::int64_t>(i) + 1);
+}
+
 TEST_F(JournalTest, ClosingKeepsWhatIsGathered) {
   const auto job = create();
   journal_->append_sample(job, sample(5));

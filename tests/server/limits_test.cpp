@@ -10,6 +10,7 @@
 #include "cellcrush/v1/admin_service.grpc.pb.h"
 #include "server/daemon_fixture.h"
 #include "server/daemon_process.h"
+#include "server/job_numbers.h"
 #include "server/small_case.h"
 #include "server/sweep_requests.h"
 
@@ -108,6 +109,27 @@ TEST_F(LimitsTest, RunningJobsAreLeftWhileTheDiskIsNearlyFullAndGoOnWhenThereIsR
   EXPECT_TRUE(client.wait_for_state(job, v1::RUNNING));
   EXPECT_EQ(client.get(job).attempt(), 2);
   ASSERT_TRUE(client.cancel(job).ok());
+}
+
+TEST_F(LimitsTest, AJobThatIsCancelledWhileTheDiskIsNearlyFullEndsBeforeThereIsRoom) {
+  constexpr std::int64_t kTaken = 512 * 1024 * 1024;
+  const std::int64_t before = free_bytes();
+  if (before < 2 * kTaken) GTEST_SKIP() << "The disk of the temporary folder has too little room for this test.";
+  auto options = default_options();
+  options.limits.free_disk_bytes = before - kTaken / 2;
+  options.housekeeping_interval = std::chrono::milliseconds(50);
+  start(options);
+  auto client = this->client();
+  const std::string job = client.create(endless_case());
+  wait_for_samples(client, job, 5);
+  // It heeds no wish.
+  ASSERT_EQ(kill(static_cast<pid_t>(client.get(job).worker_pid()), SIGSTOP), 0);
+  const std::string command = "fallocate -l " + std::to_string(kTaken) + " " + (folder_.path() / "large").string();
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  ASSERT_TRUE(client.cancel(job).ok());
+  EXPECT_TRUE(client.wait_for_state(job, v1::CANCELLED)) << v1::JobState_Name(client.get(job).state());
+  EXPECT_TRUE(client.get(job).has_summary()) << client.get(job).cause_message();
 }
 
 TEST_F(LimitsTest, AJobThatEndedLongAgoIsDeletedAndOthersAreNot) {

@@ -24,7 +24,11 @@ class SweepSourceTest : public ::testing::Test {
 
   void run(std::int64_t job, int samples) {
     change(job, v1::RUNNING);
-    for (int i = 0; i < samples; ++i) journal_.append_sample(job, v1::Sample());
+    for (int i = 0; i < samples; ++i) {
+      v1::Sample sample;
+      sample.set_step(i);
+      journal_.append_sample(job, sample);
+    }
     change(job, v1::SUCCEEDED);
   }
 
@@ -76,6 +80,21 @@ TEST_F(SweepSourceTest, EveryTokenContinuesWithoutLossAndWithoutRepetition) {
     for (const std::int64_t job : made_.jobs) EXPECT_EQ(rest["jobs/" + std::to_string(job)], 8);
     EXPECT_TRUE(continued.ended());
   }
+}
+
+TEST_F(SweepSourceTest, WhatIsSaidToBeAtHandIsOfTheSameJobAlsoWhenItsTurnEnds) {
+  for (const std::int64_t job : made_.jobs) run(job, 600);
+  auto source = this->source();
+  std::string job;
+  int at_hand = 0;
+  for (bool has_more = false; const auto response = source.next(); has_more = source.has_more()) {
+    if (has_more) {
+      ++at_hand;
+      ASSERT_EQ(response->job(), job);
+    }
+    job = response->job();
+  }
+  EXPECT_GT(at_hand, 1500);
 }
 
 TEST_F(SweepSourceTest, NewsOfAJobWakeTheWatcherAndOnlyThatJobSpeaks) {

@@ -23,7 +23,11 @@ class WatchCursorTest : public ::testing::Test {
   }
 
   void add_samples(int count) {
-    for (int i = 0; i < count; ++i) journal_.append_sample(job_, v1::Sample());
+    for (int i = 0; i < count; ++i) {
+      v1::Sample sample;
+      sample.set_step(step_++);
+      journal_.append_sample(job_, sample);
+    }
   }
 
   static v1::FieldFrame frame(int index) {
@@ -38,6 +42,7 @@ class WatchCursorTest : public ::testing::Test {
   store::Journal journal_{folder_.path() / "journal.sqlite", [this](std::int64_t job) { hub_.announce(job); }};
   store::JournalReader reader_{folder_.path() / "journal.sqlite"};
   std::int64_t job_ = journal_.create_job({}, "", "").job;
+  std::int64_t step_ = 0;  ///< of the next sample
 };
 
 TEST_F(WatchCursorTest, ASnapshotThenEverythingInOrderThenTheEnd) {
@@ -62,6 +67,23 @@ TEST_F(WatchCursorTest, WhatIsAtHandIsGivenWithoutAnotherLookIntoTheJournal) {
     ASSERT_TRUE(cursor.next());
     EXPECT_EQ(cursor.has_more(), given > 0 && given < 6) << "The first is the snapshot, the second reads the rest.";
   }
+}
+
+TEST_F(WatchCursorTest, ThePartsOfAFrameAreGivenWithoutALookIntoTheJournal) {
+  const auto channel = hub_.open(job_);
+  auto cursor = this->cursor();
+  cursor.next();
+  EXPECT_TRUE(cursor.next()->has_state());
+  auto large = frame(0);
+  for (std::size_t i = 0; i < 2 * kChunkBytes / sizeof(float); ++i) large.add_position_mm(1.0F);
+  channel->publish(std::move(large));
+  ASSERT_TRUE(cursor.next()->has_frame());
+  ASSERT_TRUE(cursor.has_more());
+  // Nothing but a look into the journal can tell that the job is no more.
+  change(v1::CANCELLED);
+  journal_.delete_job(job_);
+  while (cursor.has_more()) ASSERT_TRUE(cursor.next()->has_frame());
+  EXPECT_THROW(cursor.next(), ServiceError);
 }
 
 TEST(FrameChunks, APartAndTheMeshBesideItPassAStockClient) {
