@@ -115,7 +115,12 @@ void Scheduler::suspend(std::int64_t job, const std::function<bool()>& given_up)
     try {
       parts_.journal.change_state(job, change);
     } catch (const ServiceError& error) {
-      if (error.kind() != ServiceError::Kind::failed_precondition) throw;
+      if (error.kind() == ServiceError::Kind::failed_precondition) continue;
+      // On a full disk it waits as before.
+      auto queued = parts_.reader.queued_jobs(v1::PENDING);
+      std::erase_if(queued, [job](const store::QueuedJob& other) { return other.job != job; });
+      enqueue(queued);
+      throw;
     }
   }
 }
