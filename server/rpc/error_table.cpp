@@ -82,13 +82,26 @@ v1::Problem note_on_rest(const std::string& subject, int left_out) {
   return out;
 }
 
+// How many of the first problems may fit: the details hold their texts twice.
+int most_that_fit(const Problems& problems) {
+  std::size_t bytes = 0;
+  int count = 0;
+  for (; count < problems.size(); ++count) {
+    const v1::Problem& next = problems[count];
+    bytes += 2 * (next.field().size() + next.message().size() + next.remedy().size());
+    if (bytes > kMostDetails) break;
+  }
+  return count;
+}
+
 // The details of as many problems as fit, and of the rest its number.
 std::string bounded_details(const std::string& message, const Problems& problems, const std::string& subject) {
-  std::string out = details_of(message, problems);
-  for (int kept = problems.size() - 1; out.size() > kMostDetails && kept >= 0; --kept) {
+  std::string out;
+  for (int kept = most_that_fit(problems); kept >= 0; --kept) {
     Problems some(problems.begin(), problems.begin() + kept);
-    *some.Add() = note_on_rest(subject, problems.size() - kept);
+    if (kept < problems.size()) *some.Add() = note_on_rest(subject, problems.size() - kept);
     out = details_of(message, some);
+    if (out.size() <= kMostDetails) break;
   }
   return out;
 }

@@ -61,6 +61,15 @@ TEST(ErrorTable, ManyProblemsFitIntoATrailerAndSayThatThereAreMore) {
   EXPECT_THAT(note.remedy(), HasSubstr("CheckCase"));
 }
 
+// One try a problem that does not fit, each of all that are left, would take hours.
+TEST(ErrorTable, AHundredThousandProblemsAreAnsweredAsManyAre) {
+  Problems problems;
+  for (int i = 0; i < 100'000; ++i) add(problems, "axes[0].linear", v1::Problem::INVALID);
+  const auto list = listed(status_of(problems, "sweep"));
+  EXPECT_GT(list.problems_size(), 10);
+  EXPECT_LT(list.problems_size(), 100);
+}
+
 TEST(ErrorTable, AHugeValueIsCut) {
   Problems problems;
   add(problems, "title", v1::Problem::INVALID);
