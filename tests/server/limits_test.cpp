@@ -1,6 +1,9 @@
 // What the daemon does not take, what it does when the disk is nearly full, and how it ends on request.
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <signal.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -18,6 +21,22 @@ namespace cellcrush::testing {
 namespace {
 
 using ::testing::HasSubstr;
+
+// Tests that fill the disk do so one after another, whatever runs them.
+class DiskTurn {
+ public:
+  DiskTurn()
+      : lock_(open((std::filesystem::temp_directory_path() / "cellcrush-tests-disk.lock").c_str(),
+                   O_CREAT | O_RDWR | O_CLOEXEC, 0600)) {
+    EXPECT_EQ(flock(lock_, LOCK_EX), 0);
+  }
+  ~DiskTurn() { close(lock_); }
+  DiskTurn(const DiskTurn&) = delete;
+  DiskTurn& operator=(const DiskTurn&) = delete;
+
+ private:
+  int lock_;
+};
 
 class LimitsTest : public DaemonFixture {
  protected:
@@ -70,6 +89,7 @@ TEST_F(LimitsTest, AJobThatNeedsMoreMemoryThanThereIsIsRefused) {
 }
 
 TEST_F(LimitsTest, WithTooLittleRoomOnTheDiskNothingIsTaken) {
+  const DiskTurn turn;
   auto options = default_options();
   options.limits.free_disk_bytes = 2 * free_bytes();
   start(options);
@@ -84,6 +104,7 @@ TEST_F(LimitsTest, WithTooLittleRoomOnTheDiskNothingIsTaken) {
 // The disk is that of the temporary folder; a large file takes its room and gives it back.
 TEST_F(LimitsTest, RunningJobsAreLeftWhileTheDiskIsNearlyFullAndGoOnWhenThereIsRoom) {
   constexpr std::int64_t kTaken = 512 * 1024 * 1024;
+  const DiskTurn turn;
   const std::int64_t before = free_bytes();
   if (before < 2 * kTaken) GTEST_SKIP() << "The disk of the temporary folder has too little room for this test.";
   auto options = default_options();
@@ -113,6 +134,7 @@ TEST_F(LimitsTest, RunningJobsAreLeftWhileTheDiskIsNearlyFullAndGoOnWhenThereIsR
 
 TEST_F(LimitsTest, AJobThatIsCancelledWhileTheDiskIsNearlyFullEndsBeforeThereIsRoom) {
   constexpr std::int64_t kTaken = 512 * 1024 * 1024;
+  const DiskTurn turn;
   const std::int64_t before = free_bytes();
   if (before < 2 * kTaken) GTEST_SKIP() << "The disk of the temporary folder has too little room for this test.";
   auto options = default_options();
@@ -122,8 +144,10 @@ TEST_F(LimitsTest, AJobThatIsCancelledWhileTheDiskIsNearlyFullEndsBeforeThereIsR
   auto client = this->client();
   const std::string job = client.create(endless_case());
   wait_for_samples(client, job, 5);
-  // It heeds no wish.
-  ASSERT_EQ(kill(static_cast<pid_t>(client.get(job).worker_pid()), SIGSTOP), 0);
+  // It heeds no wish. A process 0 would be all of this test's own.
+  const auto worker = static_cast<pid_t>(client.get(job).worker_pid());
+  ASSERT_GT(worker, 0);
+  ASSERT_EQ(kill(worker, SIGSTOP), 0);
   const std::string command = "fallocate -l " + std::to_string(kTaken) + " " + (folder_.path() / "large").string();
   ASSERT_EQ(std::system(command.c_str()), 0);
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
