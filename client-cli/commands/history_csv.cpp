@@ -18,15 +18,15 @@ struct Column {
   std::optional<double> (*value)(const v1::Sample& sample);
 };
 
-template <double (v1::Sample::*Get)() const>
+template <double (v1::Sample::*kGet)() const>
 constexpr Column sample_column(const char* name) {
-  return {name, [](const v1::Sample& sample) { return std::optional((sample.*Get)()); }};
+  return {name, [](const v1::Sample& sample) { return std::optional((sample.*kGet)()); }};
 }
 
-template <double (v1::Front::*Get)() const>
+template <double (v1::Front::*kGet)() const>
 constexpr Column front_column(const char* name) {
   return {name, [](const v1::Sample& sample) {
-            return sample.has_front() ? std::optional((sample.front().*Get)()) : std::nullopt;
+            return sample.has_front() ? std::optional((sample.front().*kGet)()) : std::nullopt;
           }};
 }
 

@@ -16,21 +16,21 @@ struct HistoryColumn {
 };
 
 /// The column of a field of the sample itself.
-template <double (v1::Sample::*Get)() const, void (v1::Sample::*Set)(double)>
+template <double (v1::Sample::*kGet)() const, void (v1::Sample::*kSet)(double)>
 constexpr HistoryColumn sample_column(const char* name) {
-  return {name, [](const v1::Sample& sample) { return (sample.*Get)(); },
-          [](v1::Sample& sample, double value) { (sample.*Set)(value); }};
+  return {name, [](const v1::Sample& sample) { return (sample.*kGet)(); },
+          [](v1::Sample& sample, double value) { (sample.*kSet)(value); }};
 }
 
 /// The column of a field of the sample's front, which not every sample has.
-template <double (v1::Front::*Get)() const, void (v1::Front::*Set)(double)>
+template <double (v1::Front::*kGet)() const, void (v1::Front::*kSet)(double)>
 constexpr HistoryColumn front_column(const char* name) {
   return {name,
           [](const v1::Sample& sample) {
-            return sample.has_front() ? (sample.front().*Get)() : std::numeric_limits<double>::quiet_NaN();
+            return sample.has_front() ? (sample.front().*kGet)() : std::numeric_limits<double>::quiet_NaN();
           },
           [](v1::Sample& sample, double value) {
-            if (!std::isnan(value)) (sample.mutable_front()->*Set)(value);
+            if (!std::isnan(value)) (sample.mutable_front()->*kSet)(value);
           }};
 }
 
