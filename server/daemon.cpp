@@ -24,7 +24,7 @@ constexpr std::chrono::seconds kCallsMayLast{2};
 constexpr int kHandshakeMilliseconds = 5000;
 
 ListenAddress metrics_address(const std::string& text) {
-  const ListenAddress out = parse_listen_address(text);
+  ListenAddress out = parse_listen_address(text);
   const auto refuse = [&text](const char* why) {
     throw ServiceError(ServiceError::Kind::invalid, "Cannot serve metrics on " + text + why);
   };
@@ -52,6 +52,7 @@ std::vector<ListenAddress> listen_addresses(const DaemonOptions& options) {
 std::vector<std::shared_ptr<grpc::ServerCredentials>> credentials_for(const access::Gate& gate,
                                                                       const std::vector<ListenAddress>& addresses) {
   std::vector<std::shared_ptr<grpc::ServerCredentials>> out;
+  out.reserve(addresses.size());
   for (const auto& address : addresses) out.push_back(gate.credentials_for(address));
   return out;
 }

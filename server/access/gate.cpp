@@ -39,7 +39,7 @@ class Gate::Check final : public grpc::AuthMetadataProcessor {
                        OutputMetadata*) override {
     const auto found = metadata.find(":path");
     const std::string_view path = found == metadata.end() ? std::string_view() : view_of(found->second);
-    const auto status = rpc::answer([&] {
+    auto status = rpc::answer([&] {
       check(path, metadata, *context);
       return grpc::Status::OK;
     });

@@ -81,7 +81,8 @@ void TokenFile::add(const std::string& line, const std::string& option, const st
   for (const Entry& before : entries_) {
     if (before.hash == entry.hash) refuse_file(option, path, where + "has the hash of a line before it.");
     if (before.caller.name == name && before.caller.scope != *scope)
-      refuse_file(option, path, where + "gives " + name + " another scope than a line before it.");
+      refuse_file(option, path,
+                  std::string(where).append("gives ").append(name).append(" another scope than a line before it."));
   }
   entries_.push_back(std::move(entry));
 }

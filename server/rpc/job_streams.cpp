@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <optional>
 #include <system_error>
+#include <utility>
 
 #include "jobs/resource_name.h"
 #include "rpc/error_table.h"
@@ -91,7 +93,7 @@ grpc::Status JobsService::GetFrame(grpc::ServerContext*, const v1::GetFrameReque
     const std::size_t chunk_bytes = watch::chunk_bytes_beside(mesh ? mesh->ByteSizeLong() : 0);
     for (auto& chunk : watch::chunks_of(find_frame(stored, *request), chunk_bytes)) {
       v1::GetFrameResponse response;
-      if (chunk.part() == 0 && mesh) *response.mutable_mesh() = *std::move(mesh);
+      if (mesh) *response.mutable_mesh() = *std::exchange(mesh, std::nullopt);
       *response.mutable_chunk() = std::move(chunk);
       if (!writer->Write(response)) return grpc::Status::CANCELLED;
     }

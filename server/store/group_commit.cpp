@@ -36,7 +36,8 @@ void GroupCommit::commit(const std::vector<Write*>& batch) {
     transaction.commit();
     if (on_commit_) on_commit_(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   } catch (...) {
-    for (auto write = batch.rbegin(); write != batch.rend(); ++write) fail(**write, std::current_exception());
+    const auto error = std::current_exception();
+    std::for_each(batch.rbegin(), batch.rend(), [&error](Write* write) { fail(*write, error); });
   }
 }
 

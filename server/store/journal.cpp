@@ -214,7 +214,7 @@ Journal::Gathered Journal::take_gathered(std::optional<std::int64_t> job) {
   return taken;
 }
 
-void Journal::give_back(Gathered samples) {
+void Journal::give_back(Gathered&& samples) {
   const std::scoped_lock lock(gather_mutex_);
   for (auto& [job, older] : samples) {
     auto& newer = gathered_[job];

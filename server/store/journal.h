@@ -131,7 +131,7 @@ class Journal {
   class Taking;
   /// All that is gathered, or what is gathered for one job.
   Gathered take_gathered(std::optional<std::int64_t> job);
-  void give_back(Gathered samples);
+  void give_back(Gathered&& samples);
 
   Durable on_durable_;
   Database database_;

@@ -93,8 +93,7 @@ void RunOutput::put_progress(std::int64_t step, double strain, ProgressMeter::Cl
 }
 
 v1::Summary RunOutput::finish(bool whole, const std::string& failure, const translate::RunTime& time) {
-  const auto summary =
-      translate::to_proto(summarize(*scene_, samples_), samples_.empty() ? Sample{} : samples_.back(), time);
+  auto summary = translate::to_proto(summarize(*scene_, samples_), samples_.empty() ? Sample{} : samples_.back(), time);
   writer_.finish({order_.case_(), kSolverRevision, simd_target(), order_.threads(), facts_.time_step, facts_.modelled,
                   whole, failure},
                  summary);
