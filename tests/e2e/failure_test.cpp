@@ -1,8 +1,8 @@
 // What goes wrong outside the case: no server, no such job, a worker or a daemon that dies.
 #include <gmock/gmock.h>
-#include <signal.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -25,7 +25,7 @@ class Failure : public DaemonTest {
       ADD_FAILURE() << "No job in: " << submitted.all();
       return "";
     }
-    const std::string job = object["name"].get<std::string>();
+    std::string job = object["name"].get<std::string>();
     for (int i = 0; i < 300; ++i) {
       worker_ = worker_of(job);
       if (worker_ > 0) return job;

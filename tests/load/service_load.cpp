@@ -43,8 +43,10 @@ void measure_submits(const std::string& address) {
   fmt::print("durable submits of one client, {}\n", describe(submit(address, 1000)));
   fmt::print("  that is {:.0f} a second\n", 1000.0 / seconds_since(start));
   const auto together = Clock::now();
+  constexpr int kClients = 8;
   std::vector<std::jthread> clients;
-  for (int i = 0; i < 8; ++i) clients.emplace_back([&address] { submit(address, 250); });
+  clients.reserve(kClients);
+  for (int i = 0; i < kClients; ++i) clients.emplace_back([&address] { submit(address, 250); });
   clients.clear();
   fmt::print("durable submits of eight clients: {:.0f} a second\n", 2000.0 / seconds_since(together));
 }
@@ -119,6 +121,7 @@ Run run(const std::string& address, int daemon, int watchers, bool frames) {
   std::atomic<std::size_t> seen = 0;
   {
     std::vector<std::jthread> threads;
+    threads.reserve(watchers);
     for (int i = 0; i < watchers; ++i) {
       threads.emplace_back([&] {
         Client(address).watch(job.name(), 0, frames, [&seen](const v1::JobEvent& event) { seen += event.has_frame(); });

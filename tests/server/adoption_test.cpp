@@ -1,8 +1,8 @@
 // Workers outlive a daemon that is killed, and the next one goes along with them.
 #include <gmock/gmock.h>
-#include <signal.h>
 
 #include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <thread>
 

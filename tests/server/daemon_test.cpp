@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 #include <grpcpp/generic/generic_stub.h>
-#include <signal.h>
 #include <sys/stat.h>
 
+#include <csignal>
 #include <filesystem>
 
 #include "server/daemon_fixture.h"

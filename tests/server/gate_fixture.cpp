@@ -77,7 +77,7 @@ grpc::Status GateFixture::list(const Visitor& visitor, const std::string& host) 
   const auto jobs = v1::Jobs::NewStub(channel(visitor, host));
   const auto begin = std::chrono::steady_clock::now();
   v1::ListJobsResponse response;
-  const auto status = jobs->ListJobs(context_of(visitor).get(), {}, &response);
+  auto status = jobs->ListJobs(context_of(visitor).get(), {}, &response);
   EXPECT_LT(std::chrono::steady_clock::now() - begin, kAtOnce) << status.error_message();
   return status;
 }

@@ -36,7 +36,7 @@ class JobLifeTest : public DaemonFixture {
   // A job that runs and has given samples.
   std::string running_job() {
     auto client = this->client();
-    const std::string job = client.create(endless_case());
+    std::string job = client.create(endless_case());
     wait_for_samples(client, job, 5);
     EXPECT_GE(client.history(job).size(), 5U);
     EXPECT_EQ(client.get(job).state(), v1::RUNNING);

@@ -23,7 +23,7 @@ class JobsServiceTest : public DaemonFixture {
   // Runs the small case to its end.
   std::string finished_job() {
     auto client = this->client();
-    const std::string job = client.create(small_case());
+    std::string job = client.create(small_case());
     EXPECT_TRUE(client.watch(job).status.ok());
     EXPECT_EQ(client.get(job).state(), v1::SUCCEEDED) << client.get(job).cause_message();
     return job;

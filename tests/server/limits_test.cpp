@@ -1,10 +1,10 @@
 // What the daemon does not take, what it does when the disk is nearly full, and how it ends on request.
 #include <fcntl.h>
 #include <gmock/gmock.h>
-#include <signal.h>
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>

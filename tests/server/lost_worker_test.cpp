@@ -1,8 +1,8 @@
 // What becomes of a job whose worker is lost, left or stopped, and of its bits.
 #include <gmock/gmock.h>
-#include <signal.h>
 
 #include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <iostream>
 #include <thread>
