@@ -8,7 +8,6 @@
 #include "contact/find_overlaps.h"
 #include "contact/find_pushes.h"
 #include "contact/friction.h"
-#include "contact/normal_force.h"
 #include "contact/push_effects.h"
 #include "contact/remember_touches.h"
 #include "contact/wide_pushes.h"
@@ -54,17 +53,10 @@ void apply_normal_forces_plain(const Scene& scene, State& state, ContactWorkspac
   for (Push& push : workspace.pushes) {
     const double depth = touches.depth[push.touch];
     const Vector2& normal = touches.normal[push.touch];
-    NormalForce net = {0.0, 0.0};
-    if (push.has_pair) {
-      net = without_pull(stiffness * push.net_depth, touches.viscous[push.touch]);
-      push.normal_force = net.elastic + net.viscous;
-    }
+    const NormalForce net = push_pair(scene, touches, push);
     PairForces(state, touches, push.touch).add(stiffness * depth * normal, net.viscous * normal, forces);
     squared_depths += depth * depth;
-    if (push.node_touch != Push::kNone) {
-      take_back_node(scene, state, touches, push.node_touch);
-    }
-    note_depth(scene, state, touches, push.touch);
+    note_push(scene, state, touches, push);
   }
   state.contact_stored += 0.5 * stiffness * squared_depths;
 }

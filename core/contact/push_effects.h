@@ -5,10 +5,21 @@
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
 #include "contact/contact_workspace.h"
+#include "contact/normal_force.h"
 
 namespace cellcrush {
 
-// What a push does beside its forces.
+// What a push does, however its forces are added.
+
+/// Force of a push's pair, of which the normal force is noted for friction; none where it has no pair.
+inline NormalForce push_pair(const Scene& scene, const Touches& touches, Push& push) {
+  if (!push.has_pair) {
+    return {0.0, 0.0};
+  }
+  const NormalForce net = without_pull(scene.contact.stiffness * push.net_depth, touches.viscous[push.touch]);
+  push.normal_force = net.elastic + net.viscous;
+  return net;
+}
 
 /// Takes back half of what the touch of two balls would store: the node's ball counts the pair as well, and pushes on its
 /// own where the node lies under the ball's segments.
@@ -35,6 +46,14 @@ inline void note_depth(const Scene& scene, State& state, const Touches& touches,
   if (is_new) {
     state.deepest_birth = std::max(state.deepest_birth, depth / thinner);
   }
+}
+
+/// What a push does beside its forces.
+inline void note_push(const Scene& scene, State& state, const Touches& touches, const Push& push) {
+  if (push.node_touch != Push::kNone) {
+    take_back_node(scene, state, touches, push.node_touch);
+  }
+  note_depth(scene, state, touches, push.touch);
 }
 
 }  // namespace cellcrush

@@ -5,7 +5,6 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "contact/normal_force.h"
 #include "contact/push_effects.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -32,11 +31,7 @@ void apply(const Scene& scene, State& state, ContactWorkspace& workspace) {
   for (Push& push : workspace.pushes) {
     const double depth = touches.depth[push.touch];
     const Vector2& normal = touches.normal[push.touch];
-    NormalForce net = {0.0, 0.0};
-    if (push.has_pair) {
-      net = without_pull(stiffness * push.net_depth, touches.viscous[push.touch]);
-      push.normal_force = net.elastic + net.viscous;
-    }
+    const NormalForce net = push_pair(scene, touches, push);
     const double elastic = stiffness * depth;
     const double pair[] = {elastic * normal.x(), elastic * normal.y(), net.viscous * normal.x(),
                            net.viscous * normal.y()};
@@ -45,10 +40,7 @@ void apply(const Scene& scene, State& state, ContactWorkspace& workspace) {
     add(d, pair, share - 1.0, forces[touches.start[push.touch]]);
     add(d, pair, -share, forces[touches.end[push.touch]]);
     squared_depths += depth * depth;
-    if (push.node_touch != Push::kNone) {
-      take_back_node(scene, state, touches, push.node_touch);
-    }
-    note_depth(scene, state, touches, push.touch);
+    note_push(scene, state, touches, push);
   }
   state.contact_stored += 0.5 * stiffness * squared_depths;
 }

@@ -36,10 +36,9 @@ class DamagedCheckpointTest : public FaultFixture {
     auto client = this->client();
     std::string job = client.create(case_of_seconds());
     wait_for_samples(client, job, 30 + random_() % 60);
-    const auto worker = static_cast<pid_t>(client.get(job).worker_pid());
-    EXPECT_GT(worker, 0);
+    const pid_t worker = client.worker_of(job);
     kill_daemon();
-    if (worker > 0) kill_between_checkpoints(job, worker);
+    kill_between_checkpoints(job, worker);
     return job;
   }
 

@@ -31,7 +31,7 @@ class AdoptionTest : public ::testing::Test {
     Client client(socket());
     job = client.create(submitted);
     wait_for_samples(client, job, 10);
-    const auto worker = static_cast<pid_t>(client.get(job).worker_pid());
+    const pid_t worker = client.worker_of(job);
     daemon.send_signal(SIGKILL);
     EXPECT_EQ(daemon.wait(), -1 - SIGKILL);
     return worker;

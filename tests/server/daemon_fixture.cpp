@@ -1,5 +1,6 @@
 #include "server/daemon_fixture.h"
 
+#include <stdexcept>
 #include <thread>
 
 namespace cellcrush::testing {
@@ -106,6 +107,13 @@ bool Client::wait_for_state(const std::string& job, v1::JobState state) {
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
   return false;
+}
+
+pid_t Client::worker_of(const std::string& job) {
+  wait_for_state(job, v1::RUNNING);
+  const auto now = get(job);
+  if (now.worker_pid() <= 0) throw std::runtime_error(job + " has no worker: " + v1::JobState_Name(now.state()));
+  return static_cast<pid_t>(now.worker_pid());
 }
 
 std::string Client::download(const std::string& job, std::int64_t offset, grpc::Status& status) {

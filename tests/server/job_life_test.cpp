@@ -77,7 +77,7 @@ TEST_F(JobLifeTest, AJobThatAsksForThreadsTakesTheCoresThatNobodyElseUses) {
 TEST_F(JobLifeTest, ARunningJobStopsAndWhatItHasComputedIsKept) {
   auto client = this->client();
   const std::string job = running_job();
-  const auto worker = static_cast<pid_t>(client.get(job).worker_pid());
+  const pid_t worker = client.worker_of(job);
   const auto start = Clock::now();
   ASSERT_TRUE(client.cancel(job).ok());
   const auto watched = client.watch(job);

@@ -7,7 +7,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
+#include <optional>
 #include <thread>
 
 #include "cellcrush/v1/admin_service.grpc.pb.h"
@@ -102,23 +102,36 @@ TEST_F(LimitsTest, WithTooLittleRoomOnTheDiskNothingIsTaken) {
 }
 
 // The disk is that of the temporary folder; a large file takes its room and gives it back.
-TEST_F(LimitsTest, RunningJobsAreLeftWhileTheDiskIsNearlyFullAndGoOnWhenThereIsRoom) {
-  constexpr std::int64_t kTaken = 512 * 1024 * 1024;
-  const DiskTurn turn;
-  const std::int64_t before = free_bytes();
-  if (before < 2 * kTaken) GTEST_SKIP() << "The disk of the temporary folder has too little room for this test.";
-  auto options = default_options();
-  options.limits.free_disk_bytes = before - kTaken / 2;
-  options.housekeeping_interval = std::chrono::milliseconds(50);
-  start(options);
+class FullDiskTest : public LimitsTest {
+ protected:
+  static constexpr std::int64_t kTaken = 512 * 1024 * 1024;
+
+  void SetUp() override {
+    turn_.emplace();
+    const std::int64_t before = free_bytes();
+    if (before < 2 * kTaken) GTEST_SKIP() << "The disk of the temporary folder has too little room for this test.";
+    auto options = default_options();
+    options.limits.free_disk_bytes = before - kTaken / 2;
+    options.housekeeping_interval = std::chrono::milliseconds(50);
+    start(options);
+  }
+
+  [[nodiscard]] std::filesystem::path large_file() const { return folder_.path() / "large"; }
+
+  void take_room() const {
+    const std::string command = "fallocate -l " + std::to_string(kTaken) + " " + large_file().string();
+    ASSERT_EQ(std::system(command.c_str()), 0);
+  }
+
+ private:
+  std::optional<DiskTurn> turn_;
+};
+
+TEST_F(FullDiskTest, RunningJobsAreLeftUntilThereIsRoom) {
   auto client = this->client();
   const std::string job = client.create(endless_case());
   ASSERT_TRUE(client.wait_for_state(job, v1::RUNNING));
-
-  const auto file = folder_.path() / "large";
-  std::ofstream(file).close();
-  const std::string command = "fallocate -l " + std::to_string(kTaken) + " " + file.string();
-  ASSERT_EQ(std::system(command.c_str()), 0);
+  ASSERT_NO_FATAL_FAILURE(take_room());
   EXPECT_TRUE(client.wait_for_state(job, v1::PENDING));
   v1::Queue queue;
   const auto admin = v1::Admin::NewStub(client.channel);
@@ -126,30 +139,19 @@ TEST_F(LimitsTest, RunningJobsAreLeftWhileTheDiskIsNearlyFullAndGoOnWhenThereIsR
   ASSERT_EQ(queue.entries_size(), 1);
   EXPECT_THAT(queue.entries(0).reason(), HasSubstr("nearly full"));
   EXPECT_EQ(try_to_create(client, small_case()).error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
-  std::filesystem::remove(file);
+  std::filesystem::remove(large_file());
   EXPECT_TRUE(client.wait_for_state(job, v1::RUNNING));
   EXPECT_EQ(client.get(job).attempt(), 2);
   ASSERT_TRUE(client.cancel(job).ok());
 }
 
-TEST_F(LimitsTest, AJobThatIsCancelledWhileTheDiskIsNearlyFullEndsBeforeThereIsRoom) {
-  constexpr std::int64_t kTaken = 512 * 1024 * 1024;
-  const DiskTurn turn;
-  const std::int64_t before = free_bytes();
-  if (before < 2 * kTaken) GTEST_SKIP() << "The disk of the temporary folder has too little room for this test.";
-  auto options = default_options();
-  options.limits.free_disk_bytes = before - kTaken / 2;
-  options.housekeeping_interval = std::chrono::milliseconds(50);
-  start(options);
+TEST_F(FullDiskTest, AJobThatIsCancelledEndsBeforeThereIsRoom) {
   auto client = this->client();
   const std::string job = client.create(endless_case());
   wait_for_samples(client, job, 5);
-  // It heeds no wish. A process 0 would be all of this test's own.
-  const auto worker = static_cast<pid_t>(client.get(job).worker_pid());
-  ASSERT_GT(worker, 0);
-  ASSERT_EQ(kill(worker, SIGSTOP), 0);
-  const std::string command = "fallocate -l " + std::to_string(kTaken) + " " + (folder_.path() / "large").string();
-  ASSERT_EQ(std::system(command.c_str()), 0);
+  const pid_t worker = client.worker_of(job);
+  ASSERT_EQ(kill(worker, SIGSTOP), 0) << "It heeds no wish.";
+  ASSERT_NO_FATAL_FAILURE(take_room());
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
   ASSERT_TRUE(client.cancel(job).ok());
   EXPECT_TRUE(client.wait_for_state(job, v1::CANCELLED)) << v1::JobState_Name(client.get(job).state());
@@ -187,7 +189,7 @@ TEST_F(LimitsTest, DrainedItTakesNoJobEndsAndLeavesWhatRuns) {
   Client client(socket);
   const std::string job = client.create(endless_case());
   ASSERT_TRUE(client.wait_for_state(job, v1::RUNNING));
-  const auto worker = static_cast<pid_t>(client.get(job).worker_pid());
+  const pid_t worker = client.worker_of(job);
   v1::DrainResponse response;
   ASSERT_TRUE(v1::Admin::NewStub(client.channel)->Drain(bounded_context().get(), {}, &response).ok());
   EXPECT_EQ(daemon.wait(), 0);

@@ -30,10 +30,18 @@ class LostWorkerTest : public DaemonFixture {
     return options;
   }
 
-  // The worker of the job; waits for one.
-  static pid_t worker_of(Client& client, const std::string& job) {
-    EXPECT_TRUE(client.wait_for_state(job, v1::RUNNING));
-    return static_cast<pid_t>(client.get(job).worker_pid());
+  // Cancels a job whose worker stands still and heeds no wish.
+  struct Unheeded {
+    std::string job;
+    pid_t worker;
+  };
+  static Unheeded cancel_in_vain(Client& client) {
+    const std::string job = client.create(endless_case());
+    wait_for_samples(client, job, 5);
+    const pid_t worker = client.worker_of(job);
+    EXPECT_EQ(kill(worker, SIGSTOP), 0);
+    EXPECT_TRUE(client.cancel(job).ok());
+    return {job, worker};
   }
 
   // Sends the signal to each worker that the job gets, until it is given up.
@@ -41,7 +49,7 @@ class LostWorkerTest : public DaemonFixture {
     pid_t last = 0;
     v1::Job now = client.get(job);
     for (int i = 0; i < 3000 && now.state() != v1::FAILED; ++i) {
-      if (now.state() == v1::RUNNING && now.worker_pid() != last) {
+      if (now.state() == v1::RUNNING && now.worker_pid() > 0 && now.worker_pid() != last) {
         last = static_cast<pid_t>(now.worker_pid());
         kill(last, signal);
       }
@@ -78,7 +86,7 @@ TEST_F(LostWorkerTest, ASuspendedJobHoldsStillOverARestartAndHasTheSameBitsWhenI
 
   const std::string job = client.create(case_of_seconds());
   wait_for_samples(client, job, 20);
-  const pid_t worker = worker_of(client, job);
+  const pid_t worker = client.worker_of(job);
   ASSERT_TRUE(client.suspend(job).ok());
   EXPECT_EQ(client.get(job).state(), v1::SUSPENDED);
   EXPECT_FALSE(is_alive(worker));
@@ -137,11 +145,7 @@ TEST_F(LostWorkerTest, ACancelThatMeetsAWorkerWhichJustLeavesEndsTheJob) {
 
 TEST_F(LostWorkerTest, ACancelThatItsWorkerNeverHeedsKeepsWhatWasComputed) {
   auto client = this->client();
-  const std::string job = client.create(endless_case());
-  wait_for_samples(client, job, 5);
-  const pid_t worker = worker_of(client, job);
-  ASSERT_EQ(kill(worker, SIGSTOP), 0);
-  ASSERT_TRUE(client.cancel(job).ok());
+  const auto [job, worker] = cancel_in_vain(client);
   EXPECT_EQ(client.get(job).state(), v1::CANCELLING);
   ASSERT_TRUE(client.wait_for_state(job, v1::CANCELLED));
   EXPECT_FALSE(is_alive(worker));
@@ -161,7 +165,7 @@ TEST_F(LostWorkerTest, SamplesThatWereNotDurableYetWhenACancelledWorkerIsKilledC
     const std::string job = client.create(endless_case());
     wait_for_samples(client, job, 5);
     std::this_thread::sleep_for(std::chrono::milliseconds(500 + 250 * i));
-    const pid_t worker = worker_of(client, job);
+    const pid_t worker = client.worker_of(job);
     ASSERT_TRUE(client.cancel(job).ok());
     kill(worker, SIGKILL);
     ASSERT_TRUE(client.wait_for_state(job, v1::CANCELLED));
@@ -197,7 +201,7 @@ TEST(LostDaemonTest, SamplesThatWereNotDurableYetWhenWorkerAndDaemonAreKilledCom
     job = client.create(endless_case());
     wait_for_samples(client, job, 5);
     std::this_thread::sleep_for(std::chrono::milliseconds(700));
-    const auto worker = static_cast<pid_t>(client.get(job).worker_pid());
+    const pid_t worker = client.worker_of(job);
     ASSERT_TRUE(client.cancel(job).ok());
     kill(worker, SIGKILL);
     daemon.send_signal(SIGKILL);
@@ -214,11 +218,7 @@ TEST(LostDaemonTest, SamplesThatWereNotDurableYetWhenWorkerAndDaemonAreKilledCom
 
 TEST_F(LostWorkerTest, ACancelThatTheDaemonsEndCutsOffIsEndedByTheNextOneWithItsResult) {
   auto client = this->client();
-  const std::string job = client.create(endless_case());
-  wait_for_samples(client, job, 5);
-  const pid_t worker = worker_of(client, job);
-  ASSERT_EQ(kill(worker, SIGSTOP), 0);
-  ASSERT_TRUE(client.cancel(job).ok());
+  const auto [job, worker] = cancel_in_vain(client);
   daemon_->stop();
   EXPECT_FALSE(is_alive(worker));
   start(often_checkpointed());
@@ -234,7 +234,7 @@ TEST_F(LostWorkerTest, ADaemonsEndLeavesRunningJobsAtACheckpointAndTheNextOneGoe
   ASSERT_TRUE(client.watch(whole).status.ok());
   const std::string job = client.create(case_of_seconds());
   wait_for_samples(client, job, 20);
-  const pid_t worker = worker_of(client, job);
+  const pid_t worker = client.worker_of(job);
   daemon_->stop();
   EXPECT_FALSE(is_alive(worker));
   EXPECT_TRUE(std::filesystem::exists(file_of(job, "checkpoint")));
@@ -253,7 +253,7 @@ TEST_F(LostWorkerTest, AWorkerThatStandsStillIsShownAndReplaced) {
   auto client = this->client();
   const std::string job = client.create(endless_case());
   wait_for_samples(client, job, 5);
-  const pid_t worker = worker_of(client, job);
+  const pid_t worker = client.worker_of(job);
   const auto start = Clock::now();
   ASSERT_EQ(kill(worker, SIGSTOP), 0);
   bool shown = false;

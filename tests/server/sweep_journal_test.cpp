@@ -1,0 +1,131 @@
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "error.h"
+#include "server/journal_fixture.h"
+#include "store/sweep_reader.h"
+
+namespace cellcrush::store {
+namespace {
+
+class SweepJournalTest : public JournalTest {
+ protected:
+  static std::vector<SweepJob> three_jobs() {
+    std::vector<SweepJob> out(3);
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      *out[i].job.mutable_case_() = testing::small_case();
+      out[i].values = {50.0 * static_cast<double>(i + 1)};
+    }
+    return out;
+  }
+};
+
+TEST_F(SweepJournalTest, ASweepSurvivesReopening) {
+  v1::Sweep sweep;
+  sweep.add_axes()->set_field("loading.speed_m_per_s");
+  sweep.set_max_parallel(2);
+  const auto made = journal_->create_sweep(sweep, three_jobs(), "", "");
+  change(made.jobs[0], v1::RUNNING);
+  reopen();
+  SweepReader sweeps(path());
+  const auto found = sweeps.find_sweep(made.sweep);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->name(), "sweeps/1");
+  EXPECT_EQ(found->axes(0).field(), "loading.speed_m_per_s");
+  EXPECT_EQ(found->jobs_size(), 3);
+  EXPECT_EQ(found->state_counts().at("RUNNING"), 1);
+  EXPECT_EQ(found->state_counts().at("PENDING"), 2);
+  EXPECT_GT(found->create_time().seconds(), 0);
+  const auto rows = sweeps.rows(made.sweep).rows;
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_EQ(rows[2].values(0), 150.0);
+  EXPECT_EQ(rows[0].result().state(), v1::RUNNING);
+  const auto waiting = reader_->queued_jobs(v1::PENDING);
+  ASSERT_EQ(waiting.size(), 2U);
+  EXPECT_EQ(waiting[0].job, made.jobs[1]);
+  EXPECT_EQ(waiting[0].sweep, made.sweep);
+  EXPECT_EQ(waiting[0].max_parallel, 2);
+  const auto one = reader_->queued_job(made.jobs[1], v1::PENDING);
+  ASSERT_TRUE(one);
+  EXPECT_EQ(one->job, made.jobs[1]);
+  EXPECT_EQ(one->max_parallel, 2);
+  EXPECT_FALSE(reader_->queued_job(made.jobs[0], v1::PENDING)) << "It runs.";
+  const auto part = sweeps.rows(made.sweep, 1, {1, 1000});
+  ASSERT_EQ(part.rows.size(), 1U);
+  EXPECT_EQ(part.rows[0].values(0), 100.0);
+  EXPECT_EQ(part.last_point, 2);
+  EXPECT_TRUE(part.has_more);
+  EXPECT_FALSE(sweeps.rows(made.sweep, 2).has_more);
+}
+
+TEST_F(SweepJournalTest, WhatDecidesTheOrderOfWaitingJobsSurvivesReopening) {
+  auto jobs = three_jobs();
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    jobs[i].element_steps = 1'000'000'000'000 * static_cast<std::int64_t>(i + 1);
+    jobs[i].job.set_priority(-7);
+  }
+  const auto made = journal_->create_sweep({}, jobs, "", "");
+  v1::Job urgent;
+  urgent.mutable_case_()->set_title("Urgent");
+  urgent.set_priority(12);
+  const auto alone = journal_->create_job(urgent, "", "", 42).job;
+  reopen();
+  const auto waiting = reader_->queued_jobs(v1::PENDING);
+  ASSERT_EQ(waiting.size(), 4U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(waiting[i].submission, made.jobs.front());
+    EXPECT_EQ(waiting[i].element_steps, jobs[i].element_steps);
+    EXPECT_EQ(waiting[i].priority, -7);
+  }
+  EXPECT_EQ(waiting[3].submission, alone);
+  EXPECT_EQ(waiting[3].element_steps, 42);
+  EXPECT_EQ(waiting[3].priority, 12);
+  EXPECT_EQ(waiting[3].sweep, 0);
+}
+
+TEST_F(SweepJournalTest, AJournalOfTheSecondVersionKeepsItsJobsInTheirOrder) {
+  const auto made = journal_->create_sweep({}, three_jobs(), "", "");
+  const auto alone = create();
+  reader_.reset();
+  journal_.reset();
+  {
+    Database database(path());
+    database.execute(kWithoutQueueColumnsOfJobs);
+    database.execute(kWithoutQueueColumnsOfSweeps);
+    database.execute("PRAGMA user_version = 2;");
+  }
+  reopen();
+  const auto waiting = reader_->queued_jobs(v1::PENDING);
+  ASSERT_EQ(waiting.size(), 4U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(waiting[i].job, made.jobs[i]);
+    EXPECT_EQ(waiting[i].submission, made.jobs.front());
+    EXPECT_EQ(waiting[i].priority, 0);
+  }
+  EXPECT_EQ(waiting[3].submission, alone);
+  EXPECT_EQ(SweepReader(path()).rows(made.sweep).rows.size(), 3U);
+}
+
+TEST_F(SweepJournalTest, ARequestIdMakesOneSweep) {
+  const auto first = journal_->create_sweep({}, three_jobs(), "id", "hash");
+  const auto second = journal_->create_sweep({}, three_jobs(), "id", "hash");
+  EXPECT_TRUE(first.is_new);
+  EXPECT_FALSE(second.is_new);
+  EXPECT_EQ(second.sweep, first.sweep);
+  EXPECT_THROW(journal_->create_sweep({}, three_jobs(), "id", "another"), ServiceError);
+  EXPECT_EQ(reader_->queued_jobs(v1::PENDING).size(), 3U) << "The others made no jobs.";
+}
+
+TEST_F(SweepJournalTest, WaitingJobsAreCancelledTogetherAndDeletedOnesLeaveTheSweep) {
+  const auto made = journal_->create_sweep({}, three_jobs(), "", "");
+  change(made.jobs[1], v1::RUNNING);
+  journal_->cancel_waiting(made.jobs);
+  EXPECT_EQ(reader_->queued_jobs(v1::CANCELLED).size(), 2U);
+  EXPECT_EQ(reader_->queued_jobs(v1::RUNNING).size(), 1U);
+  journal_->delete_job(made.jobs[0]);
+  EXPECT_EQ(SweepReader(path()).jobs_of(made.sweep), (std::vector<std::int64_t>{made.jobs[1], made.jobs[2]}));
+}
+
+}  // namespace
+}  // namespace cellcrush::store
