@@ -33,6 +33,10 @@ void Admission::check_time_limit(double seconds, const std::string& field) const
   }
 }
 
+std::int64_t Admission::memory_of_job(std::int64_t most_bytes, const std::function<std::int64_t()>& predict) const {
+  return most_bytes <= limits_.job_memory_bytes ? most_bytes : predict();
+}
+
 void Admission::admit(std::size_t waiting, std::size_t count, std::int64_t memory_bytes) const {
   if (draining_) {
     throw ServiceError(ServiceError::Kind::unavailable,

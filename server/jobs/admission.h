@@ -3,6 +3,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <string>
 
 #include "store/data_folder.h"
@@ -27,6 +28,9 @@ class Admission {
 
   /// Checks the seconds that a job asks for. Throws InvalidField.
   void check_time_limit(double seconds, const std::string& field) const;
+
+  /// Memory of a job of which it is known that it is at most `most_bytes`: `predict` is asked only where that could be too much.
+  [[nodiscard]] std::int64_t memory_of_job(std::int64_t most_bytes, const std::function<std::int64_t()>& predict) const;
 
   /// Whether so many more jobs, of which the largest needs so much memory, can be taken when `waiting` wait already. Throws ServiceError:
   /// unavailable while draining, exhausted beyond a limit, storage_full.

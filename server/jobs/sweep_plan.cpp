@@ -8,7 +8,6 @@
 #include "jobs/case_field.h"
 #include "jobs/sweep_points.h"
 #include "translate/case_checker.h"
-#include "translate/check_case.h"
 
 namespace cellcrush::jobs {
 namespace {
@@ -110,8 +109,6 @@ SweepPlan plan_sweep(const v1::Sweep& sweep, const std::function<bool()>& given_
   SweepPlan out;
   ProblemsOfPoints problems(points.values.size());
   translate::CaseChecker checker;
-  std::size_t largest = 0;
-  std::int64_t most_memory = 0;
   for (std::size_t i = 0; i < points.values.size(); ++i) {
     if (given_up()) throw ServiceError(ServiceError::Kind::cancelled, "Nobody waits for the sweep. None was made.");
     const std::string point = text_of_point(points.fields, points.values[i]);
@@ -123,15 +120,14 @@ SweepPlan plan_sweep(const v1::Sweep& sweep, const std::function<bool()>& given_
     job.set_time_limit_s(sweep.time_limit_s());
     job.set_owner(sweep.owner());
     for (auto& problem : verdict.problems) problems.add(std::move(problem), i, point);
-    if (verdict.most_memory_bytes > most_memory) {
-      most_memory = verdict.most_memory_bytes;
-      largest = i;
+    if (verdict.most_memory_bytes > out.most_memory_bytes) {
+      out.most_memory_bytes = verdict.most_memory_bytes;
+      out.largest = i;
     }
     out.jobs.push_back({std::move(job), points.values[i], verdict.element_steps});
   }
   out.problems = problems.take();
-  if (out.problems.empty())
-    out.largest_memory_bytes = translate::check_case(out.jobs[largest].job.case_()).response.predicted_memory_bytes();
+  if (!out.problems.empty()) out.most_memory_bytes = 0;
   return out;
 }
 

@@ -11,8 +11,9 @@ namespace cellcrush::jobs {
 
 /// The jobs that a sweep asks for, or what is wrong with its points.
 struct SweepPlan {
-  std::vector<store::SweepJob> jobs;      ///< in the order of the points; complete only without problems
-  std::int64_t largest_memory_bytes = 0;  ///< that one of the jobs is predicted to need; 0 with problems
+  std::vector<store::SweepJob> jobs;   ///< in the order of the points; complete only without problems
+  std::int64_t most_memory_bytes = 0;  ///< that one of the jobs needs, at most; 0 with problems
+  std::size_t largest = 0;             ///< that job's place among them
   google::protobuf::RepeatedPtrField<v1::Problem> problems;  ///< those that several points share are one
 };
 

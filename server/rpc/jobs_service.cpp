@@ -12,6 +12,7 @@
 #include "rpc/page.h"
 #include "rpc/request_limits.h"
 #include "rpc/watch_reactor.h"
+#include "translate/case_checker.h"
 #include "translate/check_case.h"
 #include "watch/job_source.h"
 
@@ -57,8 +58,8 @@ grpc::Status JobsService::CreateJob(grpc::ServerContext* context, const v1::Crea
     check_priority(request->priority(), "priority");
     parts_.admission.check_time_limit(request->time_limit_s(), "time_limit_s");
     check_size("case", request->case_().ByteSizeLong(), kLargestCase);
-    const auto check = translate::check_case(request->case_());
-    if (check.response.problems_size() > 0) return status_of(check.response.problems());
+    const auto verdict = translate::CaseChecker().check(request->case_());
+    if (!verdict.problems.empty()) return status_of({verdict.problems.begin(), verdict.problems.end()});
     v1::Job job;
     *job.mutable_case_() = request->case_();
     *job.mutable_labels() = request->labels();
@@ -69,16 +70,16 @@ grpc::Status JobsService::CreateJob(grpc::ServerContext* context, const v1::Crea
       *response = std::move(job);
       return grpc::Status::OK;
     }
-    const std::int64_t element_steps = check.response.element_count() * check.response.step_count();
     const std::string hash = payload_hash(*request, job.owner());
-    const auto admit = [&] {
-      parts_.admission.admit(parts_.scheduler.waiting_count(), 1, check.response.predicted_memory_bytes());
-    };
+    const std::int64_t memory_bytes = parts_.admission.memory_of_job(
+        verdict.most_memory_bytes, [&] { return translate::predicted_memory(request->case_()); });
+    const auto admit = [&] { parts_.admission.admit(parts_.scheduler.waiting_count(), 1, memory_bytes); };
     const std::string owner = job.owner();
-    const auto created = parts_.journal.create_job(std::move(job), request->request_id(), hash, element_steps, admit);
+    const auto created =
+        parts_.journal.create_job(std::move(job), request->request_id(), hash, verdict.element_steps, admit);
     if (created.is_new) {
       log_change(jobs::name_of(created.job), "made", owner, request->request_id());
-      store::QueuedJob queued{created.job, created.job, request->priority(), element_steps};
+      store::QueuedJob queued{created.job, created.job, request->priority(), verdict.element_steps};
       parts_.scheduler.enqueue({queued});
     }
     auto stored = find(jobs::name_of(created.job));
@@ -173,8 +174,7 @@ grpc::ServerWriteReactor<v1::JobEvent>* JobsService::WatchJob(grpc::CallbackServ
     const std::int64_t job = find(request->name()).number;
     auto source = std::make_unique<watch::JobSource>(parts_.reader, parts_.hub, job, request->after_sequence(),
                                                      request->frames());
-    return WatchReactor<watch::JobSource>::start({parts_.pump, parts_.metrics, parts_.watch_times},
-                                                 std::move(source));
+    return WatchReactor<watch::JobSource>::start({parts_.pump, parts_.metrics, parts_.watch_times}, std::move(source));
   } catch (const std::exception& error) {
     return new RefusedWatch<v1::JobEvent>(status_of(error));
   }

@@ -13,6 +13,7 @@
 #include "rpc/page.h"
 #include "rpc/request_limits.h"
 #include "rpc/watch_reactor.h"
+#include "translate/check_case.h"
 #include "watch/sweep_source.h"
 
 namespace cellcrush::rpc {
@@ -81,8 +82,10 @@ grpc::Status SweepsService::CreateSweep(grpc::ServerContext* context, const v1::
       *response = request.sweep();
       return grpc::Status::OK;
     }
+    const std::int64_t memory_bytes = parts_.admission.memory_of_job(
+        plan.most_memory_bytes, [&] { return translate::predicted_memory(plan.jobs[plan.largest].job.case_()); });
     const auto admit = [&] {
-      parts_.admission.admit(parts_.scheduler.waiting_count(), plan.jobs.size(), plan.largest_memory_bytes);
+      parts_.admission.admit(parts_.scheduler.waiting_count(), plan.jobs.size(), memory_bytes);
     };
     const auto created = parts_.journal.create_sweep(request.sweep(), plan.jobs, request.request_id(), hash, admit);
     const std::string name = jobs::sweep_name_of(created.sweep);

@@ -68,4 +68,8 @@ CaseCheck check_case(const v1::Case& submitted) {
   return out;
 }
 
+std::int64_t predicted_memory(const v1::Case& submitted) {
+  return check_case(submitted).response.predicted_memory_bytes();
+}
+
 }  // namespace cellcrush::translate

@@ -17,4 +17,7 @@ struct CaseCheck {
 /// fit.
 CaseCheck check_case(const v1::Case& submitted);
 
+/// Bytes that the run of a case without problems is predicted to need. Builds its scene.
+std::int64_t predicted_memory(const v1::Case& submitted);
+
 }  // namespace cellcrush::translate

@@ -4,9 +4,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <ctime>
 #include <fstream>
 
-#include "worker/claim.h"
+#include "worker/processor_time.h"
 
 namespace cellcrush::load {
 
@@ -20,8 +21,8 @@ std::string describe(std::vector<double> seconds) {
 }
 
 double processor_time_of(int process) {
-  const auto times = worker::times_of(process);
-  return times ? static_cast<double>(times->used) / static_cast<double>(sysconf(_SC_CLK_TCK)) : 0.0;
+  clockid_t clock = 0;
+  return clock_getcpuclockid(process, &clock) == 0 ? worker::processor_seconds(clock) : 0.0;
 }
 
 double memory_of(int process) {
