@@ -38,14 +38,13 @@ void list_by_buckets(const Scene& scene, State& state) {
   clear_candidates(state);
   state.candidate_count = 0;
   const double longest = *std::max_element(state.length.begin(), state.length.end());
-  const double largest_radius = *std::max_element(scene.radius.begin(), scene.radius.end());
   const double skin = scene.contact.skin;
-  const BucketGrid grid(state.position, 0.5 * longest + largest_radius + skin);
+  const BucketGrid grid(state.position, 0.5 * longest + scene.largest_radius + skin);
   for (std::size_t e = 0; e < scene.element_count(); ++e) {
     const Element& element = scene.elements[e];
     const Vector2& start = state.position[element.start];
     const Vector2& end = state.position[element.end];
-    const Vector2 margin = Vector2::Constant(0.5 * element.thickness + largest_radius + skin);
+    const Vector2 margin = Vector2::Constant(0.5 * element.thickness + scene.largest_radius + skin);
     grid.visit_box(start.cwiseMin(end) - margin, start.cwiseMax(end) + margin, [&](int ball) {
       const double range = scene.radius[ball] + 0.5 * element.thickness + skin;
       const Projection foot = project(state.position[ball], start, state.axis[e], state.length[e]);

@@ -71,7 +71,7 @@ struct ContactWorkspace {
   TouchMemory before;  ///< State::touching of the step before
   Touches touches;
   std::vector<Push> pushes;      ///< of all parts
-  std::vector<int> near_plates;  ///< particles that a plate may act on, ascending
+  std::vector<int> near_plates;  ///< room for all particles
 };
 
 }  // namespace cellcrush

@@ -45,7 +45,6 @@ class OverlapFinder {
     for (const Element& element : scene.elements) {
       mean_length_ += span_of(element).norm() / count;
     }
-    largest_radius_ = *std::max_element(scene.radius.begin(), scene.radius.end());
   }
 
   /// Ways along the walls are walked only once it is known that few pairs ask for it.
@@ -98,11 +97,11 @@ class OverlapFinder {
   /// Calls visit(pair) for balls that are nearer to a segment than radius and half thickness.
   template <class Visit>
   void visit_near_pairs(Visit&& visit) {
-    const BucketGrid grid(scene_.position, mean_length_ + largest_radius_);
+    const BucketGrid grid(scene_.position, mean_length_ + scene_.largest_radius);
     for (std::size_t e = 0; e < scene_.element_count() && may_go_on(); ++e) {
       const Element& element = scene_.elements[e];
       const double margin = 0.5 * element.thickness;
-      visit_round(grid, element, margin + largest_radius_, [&](int ball) {
+      visit_round(grid, element, margin + scene_.largest_radius, [&](int ball) {
         const bool own = ball == element.start || ball == element.end;
         if (!own && distance_to(element, ball) < margin + scene_.radius[ball]) {
           visit(Pair{ball, static_cast<int>(e)});
@@ -174,7 +173,6 @@ class OverlapFinder {
   std::size_t most_;
   WallPaths paths_;
   double mean_length_ = 0.0;
-  double largest_radius_ = 0.0;
   double visits_left_ = 0.0;
   std::vector<InitialOverlap> found_;
 };

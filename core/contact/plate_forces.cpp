@@ -1,6 +1,7 @@
 #include "contact/plate_forces.h"
 
 #include <algorithm>
+#include <span>
 
 #include "contact/friction.h"
 #include "contact/normal_force.h"
@@ -56,12 +57,13 @@ std::size_t find_near_plates_plain(const Scene& scene, const State& state, const
   return count;
 }
 
-/// Fills ContactWorkspace::near_plates: each thread writes behind where its particles begin, then the parts are moved together.
-void find_near_plates(const Scene& scene, const State& state, const PlateFaces& faces, ContactWorkspace& workspace,
-                      Workers& workers) {
+/// The particles that a plate may act on, ascending: each thread writes behind where its particles begin, then the parts are
+/// moved together.
+std::span<const int> find_near_plates(const Scene& scene, const State& state, const PlateFaces& faces,
+                                      ContactWorkspace& workspace, Workers& workers) {
   const auto find_near = use_wide_kernels() ? find_near_plates_wide : find_near_plates_plain;
   std::vector<int>& near = workspace.near_plates;
-  near.resize(scene.particle_count());
+  near.resize(scene.particle_count());  // once: it keeps its size
   workspace.parts.resize(static_cast<std::size_t>(workers.count()));
   workers.share_parts(near.size(), kCandidateBatch, [&](std::size_t part, std::size_t first, std::size_t end) {
     workspace.parts[part].near_plates = {first, find_near(scene, state, faces, first, end, near.data() + first)};
@@ -71,7 +73,7 @@ void find_near_plates(const Scene& scene, const State& state, const PlateFaces& 
     const auto first = near.begin() + static_cast<std::ptrdiff_t>(part.near_plates.first);
     last = std::copy(first, first + static_cast<std::ptrdiff_t>(part.near_plates.count), last);
   }
-  near.erase(last, near.end());
+  return {near.begin(), last};
 }
 
 }  // namespace
@@ -89,8 +91,7 @@ void evaluate_plate_forces(const Scene& scene, State& state, ContactWorkspace& w
                         rubs ? state.impact_friction.data() : nullptr};
   const Plate support = {plates.support_face, 0.0, -1.0, state.support_force,
                          rubs ? state.support_friction.data() : nullptr};
-  find_near_plates(scene, state, {impact.face, support.face}, workspace, workers);
-  for (const int particle : workspace.near_plates) {
+  for (const int particle : find_near_plates(scene, state, {impact.face, support.face}, workspace, workers)) {
     push(scene, state, impact, static_cast<std::size_t>(particle));
     push(scene, state, support, static_cast<std::size_t>(particle));
   }

@@ -5,6 +5,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include <limits>
+
 #include "simd/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -28,14 +30,50 @@ HWY_INLINE hn::Mask<D> reaches_plate(D d, const Scene& scene, const State& state
   return reaches;
 }
 
+/// Where the largest ball would reach into a plate, for places as they lie in memory, x and y in turn; never across the crush.
+template <class D>
+struct FarReach {
+  hn::Vec<D> below;
+  hn::Vec<D> above;
+
+  FarReach(D d, const Scene& scene, const PlateFaces& faces) {
+    constexpr double kNever = std::numeric_limits<double>::infinity();
+    double low[hn::MaxLanes(D())];
+    double high[hn::MaxLanes(D())];
+    for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) {
+      const bool along = static_cast<int>(lane % 2) == scene.plates.axis;
+      low[lane] = along ? faces.impact + scene.largest_radius : -kNever;
+      high[lane] = along ? faces.support - scene.largest_radius : kNever;
+    }
+    below = hn::LoadU(d, low);
+    above = hn::LoadU(d, high);
+  }
+
+  /// Whether one of as many places as there are lanes may reach.
+  [[nodiscard]] HWY_INLINE bool has_some(D d, const Vector2* places) const {
+    if constexpr (hn::MaxLanes(D()) == 1) {
+      return true;
+    }
+    const auto first = hn::LoadU(d, places->data());
+    const auto second = hn::LoadU(d, places->data() + hn::Lanes(d));
+    const auto some = hn::Or(hn::Or(hn::Lt(first, below), hn::Gt(first, above)),
+                             hn::Or(hn::Lt(second, below), hn::Gt(second, above)));
+    return !hn::AllFalse(d, some);
+  }
+};
+
 std::size_t find_near_plates(const Scene& scene, const State& state, const PlateFaces& faces, std::size_t first,
                              std::size_t end, int* near) {
   const hn::CappedTag<double, 8> wide;
   const hn::CappedTag<double, 1> one;
+  const FarReach<decltype(wide)> far(wide, scene, faces);
+  const bool may_rub = !state.impact_friction.empty();
   std::size_t count = 0;
   std::size_t i = first;
   for (; i + hn::Lanes(wide) <= end; i += hn::Lanes(wide)) {
-    count += write_set_lanes(wide, reaches_plate(wide, scene, state, faces, i), i, near + count);
+    if (may_rub || far.has_some(wide, &state.position[i])) {
+      count += write_set_lanes(wide, reaches_plate(wide, scene, state, faces, i), i, near + count);
+    }
   }
   for (; i < end; ++i) {
     count += write_set_lanes(one, reaches_plate(one, scene, state, faces, i), i, near + count);

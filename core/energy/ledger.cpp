@@ -1,10 +1,9 @@
 #include "energy/ledger.h"
 
-#include <array>
-#include <vector>
-
 #include "beam/beam_section.h"
 #include "beam/element_place.h"
+#include "energy/wide_energy.h"
+#include "simd/target.h"
 #include "step/rigid_motion.h"
 #include "step/wide_motion.h"
 
@@ -46,44 +45,32 @@ Instant look_at_motion(const Scene& scene, const State& state) {
   return instant;
 }
 
-/// Weighted squares of the stresses of a row's elements, whose values of a fibre lie side by side. A full row's loops have
-/// fixed bounds, so that the compiler makes vectors of them.
-template <int kWalls, class T>
-std::array<T, kMostWallsInBlock> weighted_squares(const std::vector<T>& weight, const T* stress, int walls) {
-  const int count = kWalls > 0 ? kWalls : walls;
-  std::array<T, kMostWallsInBlock> squares{};
-  for (const T of_fibre : weight) {
-    for (int w = 0; w < count; ++w) {
-      squares[w] += of_fibre * stress[w] * stress[w];
-    }
-    stress += count;
-  }
-  return squares;
-}
-
 template <class T>
-double elastic_energy(const Scene& scene, const State& state, const FibreMemory<T>& memory) {
+double elastic_energy_plain(const Scene& scene, const State& state, const FibreMemory<T>& memory) {
   const SectionRule& rule = scene.section;
-  std::vector<T> weight;
-  for (const double along : rule.along_weight) {
-    for (const double through : rule.depth_weight) {
-      weight.push_back(static_cast<T>(along * through));
-    }
-  }
   double energy = 0.0;
-  visit_rows(scene, [&](const WallBlock& block, std::size_t row) {
-    const T* stress = &memory.stress[row * weight.size()];
-    const auto squares = block.walls == kMostWallsInBlock
-                             ? weighted_squares<kMostWallsInBlock>(weight, stress, block.walls)
-                             : weighted_squares<0>(weight, stress, block.walls);
-    for (int w = 0; w < block.walls; ++w) {
-      const int wall = block.first_wall + w;
-      const BeamSection section = section_of(scene, wall, state.length[row + w]);
-      const double modulus = section.stiffness * scene.materials[scene.walls.material[wall]].youngs_modulus;
-      energy += section.volume * static_cast<double>(squares[w]) / (2.0 * modulus);
+  visit_elements(scene, [&](const ElementPlace& place, int wall) {
+    double squares = 0.0;
+    std::size_t fibre = 0;
+    for (const double along : rule.along_weight) {
+      for (const double through : rule.depth_weight) {
+        const double stress = memory.stress[place.index(rule.fibre_count(), fibre++)];
+        squares += along * through * stress * stress;
+      }
     }
+    const BeamSection section = section_of(scene, wall, state.length[place.element]);
+    const double modulus = section.stiffness * scene.materials[scene.walls.material[wall]].youngs_modulus;
+    energy += section.volume * squares / (2.0 * modulus);
   });
   return energy;
+}
+
+double elastic_energy(const Scene& scene, const State& state) {
+  if (use_wide_kernels()) {
+    return elastic_energy_wide(scene, state);
+  }
+  return scene.single_fibres ? elastic_energy_plain(scene, state, state.single_fibres)
+                             : elastic_energy_plain(scene, state, state.fibres);
 }
 
 }  // namespace
@@ -129,8 +116,7 @@ Energies evaluate_energies(const Scene& scene, const State& state) {
   const Instant now = look_at_motion(scene, state);
   Energies energies;
   energies.kinetic = now.kinetic;
-  energies.elastic = scene.single_fibres ? elastic_energy(scene, state, state.single_fibres)
-                                         : elastic_energy(scene, state, state.fibres);
+  energies.elastic = elastic_energy(scene, state);
   energies.plastic = state.ledger.plastic;
   energies.contact = state.ledger.contact + now.half.contact;
   energies.contact_damping = state.ledger.contact_damping + now.half.contact_damping;

@@ -15,15 +15,18 @@ constexpr double kLookEvery = 0.04;
 
 /// Share of an element's volume whose fibres have flowed.
 template <class T>
-double flowed_fraction(const Scene& scene, const FibreMemory<T>& fibres, const ElementPlace& place) {
-  const SectionRule& rule = scene.section;
+double flowed_fraction(const SectionRule& rule, const FibreMemory<T>& fibres, const ElementPlace& place) {
+  if (!fibres.flowed.empty() && fibres.flowed[place.element] == 0) {
+    return 0.0;
+  }
   double fraction = 0.0;
-  for (std::size_t fibre = 0; fibre < rule.fibre_count(); ++fibre) {
-    const bool flowed = fibres.flowed.empty() ? fibres.plastic_strain[place.index(rule.fibre_count(), fibre)] > T(0.0)
-                                              : (fibres.flowed[place.element] >> fibre & 1U) != 0;
-    if (flowed) {
-      fraction += rule.along_weight[static_cast<Eigen::Index>(fibre / rule.depth_count())] *
-                  rule.depth_weight[static_cast<Eigen::Index>(fibre % rule.depth_count())];
+  std::size_t fibre = 0;
+  for (const double along : rule.along_weight) {
+    for (const double through : rule.depth_weight) {
+      const bool flowed = fibres.flowed.empty() ? fibres.plastic_strain[place.index(rule.fibre_count(), fibre)] > T(0.0)
+                                                : (fibres.flowed[place.element] >> fibre & 1U) != 0;
+      fraction += flowed ? along * through : 0.0;
+      ++fibre;
     }
   }
   return fraction;
@@ -118,8 +121,8 @@ FieldFrame make_frame(const Scene& scene, const State& state, int index) {
   frame.plastic_fraction.reserve(scene.element_count());
   visit_elements(scene, [&](const ElementPlace& place, int) {
     frame.plastic_fraction.push_back(static_cast<float>(scene.single_fibres
-                                                            ? flowed_fraction(scene, state.single_fibres, place)
-                                                            : flowed_fraction(scene, state.fibres, place)));
+                                                            ? flowed_fraction(scene.section, state.single_fibres, place)
+                                                            : flowed_fraction(scene.section, state.fibres, place)));
   });
   frame.plastic_fraction.resize(scene.element_count(), 0.0F);
   return frame;

@@ -17,6 +17,7 @@ void lump_masses(Scene& scene) {
       scene.mass[node] += lumped;
       scene.inertia[node] += scene.mass_scaling.rotary * lumped * gyration_squared;
       scene.radius[node] = std::max(scene.radius[node], 0.5 * element.thickness);
+      scene.largest_radius = std::max(scene.largest_radius, scene.radius[node]);
     }
     scene.total_mass += 2.0 * half_mass;
   }

@@ -1,8 +1,11 @@
 #include "step/check_run.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "measure/text.h"
 #include "measure/warnings.h"
@@ -16,6 +19,16 @@ constexpr const char* kShorterStep = "Give a shorter numerics.time_step_s, or 0 
 bool is_finite(const State& state, std::size_t particle) {
   return state.position[particle].allFinite() && state.velocity[particle].allFinite() &&
          std::isfinite(state.spin[particle]);
+}
+
+/// Whether all numbers are finite: only those that are not keep the sum of products with 0 from being 0.
+bool all_finite(std::span<const double> numbers) {
+  return (0.0 * Eigen::Map<const Eigen::ArrayXd>(numbers.data(), static_cast<Eigen::Index>(numbers.size()))).sum() ==
+         0.0;
+}
+
+bool all_finite(const std::vector<Vector2>& points) {
+  return points.empty() || all_finite({points.front().data(), 2 * points.size()});
 }
 
 bool has_finite_forces(const State& state, std::size_t particle) {
@@ -48,14 +61,14 @@ RunStatus diverged(const State& state, const std::string& what) {
 }
 
 RunStatus check_rotation(const Scene& scene, const State& state) {
-  const auto smaller = [](double a, double b) { return std::abs(a) < std::abs(b); };
-  const auto most = std::max_element(state.spin.begin(), state.spin.end(), smaller);
-  const double rotation = std::abs(*most) * scene.schedule.time_step;
-  if (rotation <= kLargestRotation) {
+  Eigen::Index most = 0;
+  const Eigen::Map<const Eigen::ArrayXd> spins(state.spin.data(), static_cast<Eigen::Index>(state.spin.size()));
+  if (spins.abs().maxCoeff() * scene.schedule.time_step <= kLargestRotation) {
     return {};
   }
+  const double rotation = spins.abs().maxCoeff(&most) * scene.schedule.time_step;
   return {RunStatus::Kind::large_rotation,
-          "The step turns " + place_of(scene, static_cast<std::size_t>(most - state.spin.begin())) + ", by " +
+          "The step turns " + place_of(scene, static_cast<std::size_t>(most)) + ", by " +
               to_text(std::round(100.0 * rotation) / 100.0) + " rad, where increments are to be small (under " +
               to_text(kLargestRotation) + "), at " + moment_of(state.step, state.time) + ".",
           kShorterStep};
@@ -92,8 +105,10 @@ RunStatus check_energy(const Scene& scene, const State& state, const Sample& sam
 }  // namespace
 
 RunStatus check_run(const Scene& scene, const State& state, const Sample& sample) {
-  if (const auto lost = find_lost(scene, [&](std::size_t i) { return is_finite(state, i); })) {
-    return diverged(state, "The motion of " + place_of(scene, *lost) + ",");
+  if (!(all_finite(state.position) && all_finite(state.velocity) && all_finite(state.spin))) {
+    if (const auto lost = find_lost(scene, [&](std::size_t i) { return is_finite(state, i); })) {
+      return diverged(state, "The motion of " + place_of(scene, *lost) + ",");
+    }
   }
   const RunStatus rotation = check_rotation(scene, state);
   return rotation.kind != RunStatus::Kind::running ? rotation : check_energy(scene, state, sample);

@@ -182,6 +182,7 @@ struct Scene {
   std::vector<double> inverse_mass;     ///< N, 1 / tonne
   std::vector<double> inverse_inertia;  ///< N
   std::vector<double> radius;           ///< N, of the contact ball: half of the thickest wall that ends there
+  double largest_radius = 0.0;          ///< mm
   std::vector<Element> elements;        ///< E
   Walls walls;                          ///< W
   RigidBodies rigid;
