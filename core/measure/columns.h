@@ -29,6 +29,7 @@ struct Profile {
   std::vector<double> wall_area;     ///< K, mm^2, length times thickness of the walls now
 };
 
+/// Of a state whose lengths are those of its positions.
 Profile measure_columns(const Columns& columns, const Scene& scene, const State& state);
 
 }  // namespace cellcrush

@@ -46,7 +46,8 @@ curves type-i-slow.svg strain "type-i-2=2 m/s" \
 curves inclusions-0.svg travel "inclusions-0=no inclusions" \
   "inclusions-0-seed-2=imperfections of 0.001 mm, seed 2" "inclusions-0-seed-3=seed 3" \
   "inclusions-0-frictionless=no friction at the plates"
-curves inclusions-2.svg travel "inclusions-0=no inclusions" "inclusions-2=2 lines"
+curves inclusions-2.svg travel "inclusions-0=no inclusions" "inclusions-2=2 lines" \
+  "inclusions-2-seed-2=imperfections of 0.001 mm, seed 2" "inclusions-2-seed-3=seed 3"
 curves inclusions-6.svg travel "inclusions-0=no inclusions" "inclusions-6=6 lines"
 curves inclusions-step.svg travel "inclusions-0=chosen step" \
   "inclusions-0-papers-step=step of 2e-8 s"

@@ -8,6 +8,8 @@
 #include "measure/shock.h"
 #include "measure/theory.h"
 #include "scenes/frames.h"
+#include "scenes/near_pairs.h"
+#include "step/advance_step.h"
 
 namespace cellcrush {
 namespace {
@@ -26,9 +28,7 @@ class MovingFront : public testing::Test {
   double length_ = cells_.field.length;
 
   [[nodiscard]] State moved(double place) const {
-    State state;
-    state.position = scene_->position;
-    state.velocity.resize(scene_->particle_count());
+    State state = make_initial_state(*scene_);
     for (std::size_t i = 0; i < scene_->particle_count(); ++i) {
       const double x = scene_->position[i].x();
       const double behind = std::max(0.0, place - x);
@@ -39,7 +39,8 @@ class MovingFront : public testing::Test {
     return state;
   }
 
-  [[nodiscard]] std::optional<Front> find(const State& state) const {
+  [[nodiscard]] std::optional<Front> find(State state) const {
+    scenes::follow_positions(*scene_, state);
     return find_front(columns_, measure_columns(columns_, *scene_, state), kSpeed, relative_density_of(*scene_));
   }
 };
