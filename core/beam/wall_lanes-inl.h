@@ -148,7 +148,7 @@ HWY_INLINE LaneSums<kSections, D> return_element(D d, const LaneMaterial<D>& mat
   element.moments = {hn::Zero(d), hn::Zero(d)};
   element.plastic_work = hn::Zero(d);
   for (int i = 0; i < kSections; ++i) {
-    const auto first = static_cast<std::size_t>(i * kDepthPoints);
+    const std::size_t first = static_cast<std::size_t>(i) * kDepthPoints;
     const auto section = return_section<kDepthPoints, kHardening>(d, material, rule.offset, rule.depth_weight, membrane,
                                                                   curvature[i], before, first, next);
     const auto weight = hn::Set(d, rule.along_weight[i]);
