@@ -89,7 +89,7 @@ void add_sweep_commands(CLI::App& app, Session& session) {
                    "10000 jobs in all)")
       ->required()
       ->allow_extra_args(false);
-  sweep->add_flag("--watch", options->watch, "Follow its jobs to their ends and print the table");
+  sweep->add_flag("--watch", options->watch, "Follow its jobs to their ends and print the table and a chart");
   sweep->add_option("--request-id", options->request_id,
                     "Asking again with the same id, up to 128 characters, gives the same sweep (default: none)");
   add_label_option(*sweep, options->labels);

@@ -8,6 +8,7 @@
 #include "connection/pages.h"
 #include "terminal/job_text.h"
 #include "terminal/json_text.h"
+#include "terminal/sweep_chart_text.h"
 #include "terminal/sweep_display.h"
 #include "terminal/sweep_table.h"
 #include "terminal/watch_display.h"
@@ -35,14 +36,16 @@ ExitCode watch_job(Session& session, const std::string& name, const Interruption
 }
 
 ExitCode watch_sweep(Session& session, const std::string& name, const Interruption& interruption) {
-  const auto display = make_sweep_display(session.json, find_terminal());
+  const Terminal terminal = find_terminal();
+  const auto display = make_sweep_display(session.json, terminal);
   const bool complete = follow_sweep(session.connection(), name, interruption, *display);
   const SweepView& view = display->view();
   const int jobs = static_cast<int>(view.jobs().size());
   if (!complete) return say_interrupted(name, jobs > 0 && view.count_ended() == jobs);
   display->finish();
   const auto table = fetch_table(session.connection(), name);
-  session.json ? print_json(table) : fmt::print("\n{}", sweep_table_text(table));
+  session.json ? print_json(table)
+               : fmt::print("\n{}{}", sweep_table_text(table), sweep_chart_text(table, terminal.unicode));
   return view.count(v1::SUCCEEDED) == jobs ? ExitCode::done : ExitCode::job_failed;
 }
 

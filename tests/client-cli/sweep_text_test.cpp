@@ -7,6 +7,7 @@
 
 #include "chart/sweep_curves.h"
 #include "command_error.h"
+#include "terminal/sweep_chart_text.h"
 #include "terminal/sweep_progress.h"
 #include "terminal/sweep_table.h"
 #include "terminal/table.h"
@@ -62,6 +63,27 @@ std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;
   for (std::string line; std::getline(stream, line);) lines.push_back(line);
   return lines;
+}
+
+TEST(SweepChartText, DrawsThePlateausAndTheTheoryOverTheSpeed) {
+  const std::string text = sweep_chart_text(make_table(4), false);
+  const auto lines = lines_of(text);
+  ASSERT_EQ(lines.size(), 19U) << text;
+  EXPECT_EQ(lines[1], "plateau at the impact plate in MPa against speed (m/s)");
+  // 12.3 MPa at 200 m/s stand at the top right, 1.0 at 50 m/s a quarter across and near the bottom.
+  const auto place_of = [](const std::string& line) { return line.find('o') - line.find_first_of("|+") - 1; };
+  EXPECT_EQ(place_of(lines[3]), 63U) << text;
+  EXPECT_EQ(place_of(lines[14]), 16U) << text;
+  EXPECT_EQ(std::count(text.begin() + static_cast<std::ptrdiff_t>(text.find(lines[2])), text.end(), 'o'), 5) << text;
+  EXPECT_EQ(lines[5].substr(0, 6), "  10 +") << text;
+  EXPECT_NE(lines[17].find("200"), std::string::npos) << text;
+  EXPECT_EQ(lines[18], "  . Eq. 51 (shock)");
+  for (const auto& line : lines) EXPECT_LE(line.size(), 79U);
+}
+
+TEST(SweepChartText, IsLeftOutWhereThereAreNoTwoPoints) {
+  EXPECT_EQ(sweep_chart_text(make_table(1), true), "");
+  EXPECT_EQ(sweep_chart_text({}, true), "");
 }
 
 TEST(SweepTable, IsAlignedAndFollowedByTheFit) {

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "cellcrush/v1/sweep.pb.h"
+
+namespace cellcrush::client {
+
+/// A sweep's plateau stress at the impact plate against the first varied field, drawn in characters: a mark for every series, and
+/// Eq. 51 as dots where the field is the speed. Empty unless a series has two points.
+std::string sweep_chart_text(const v1::SweepTable& table, bool unicode);
+
+}  // namespace cellcrush::client
