@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "server/daemon_fixture.h"
+#include "server/job_numbers.h"
 #include "server/small_case.h"
 #include "server/watch_contract.h"
 #include "store/result_reader.h"
@@ -161,9 +162,15 @@ TEST_F(WatchTest, AWatchOfWhichNothingIsReadIsClosedAndGoesOnWhereItWas) {
   v1::WatchJobRequest request;
   request.set_name(job);
   request.set_frames(true);
+  // A connection that does not take more and more by and by: what comes soon is more than it holds.
+  grpc::ChannelArguments arguments;
+  arguments.SetInt(GRPC_ARG_HTTP2_BDP_PROBE, 0);
+  arguments.SetInt(GRPC_ARG_HTTP2_STREAM_LOOKAHEAD_BYTES, 65536);
+  Client idle(daemon_->addresses().front(), arguments);
   const auto context = bounded_context();
-  const auto reader = client.jobs->WatchJob(context.get(), request);
-  std::this_thread::sleep_for(milliseconds(4000));  // its frames are more than a connection holds
+  const auto reader = idle.jobs->WatchJob(context.get(), request);
+  wait_for_samples(client, job, 1500);
+  std::this_thread::sleep_for(milliseconds(2000));
   WatchContract seen;
   v1::JobEvent event;
   while (reader->Read(&event)) seen.see(event);
