@@ -5,6 +5,7 @@
 #include "beam/beam_element.h"
 #include "beam/deformation.h"
 #include "beam/element_place.h"
+#include "beam/joint_forces.h"
 #include "beam/wide_walls.h"
 #include "simd/target.h"
 
@@ -91,39 +92,14 @@ void evaluate_walls(const Scene& scene, State& state, FibreMemory<T>& memory) {
   }
 }
 
-/// Sums the walls' forces on the joints, in a fixed order, so that the sums have the same bits whoever computes them.
-void sum_joint_forces(const Scene& scene, State& state, std::size_t first, std::size_t end) {
-  const Vector2* forces = state.wall_force.data();
-  const double* moments = state.wall_moment.data();
-  for (std::size_t joint = first; joint < end; ++joint) {
-    const int* ends = &scene.wall_ends[scene.wall_end_offset[joint]];
-    const int count = scene.wall_end_offset[joint + 1] - scene.wall_end_offset[joint];
-    Vector2 force = Vector2::Zero();
-    double moment = 0.0;
-    // Most joints of a honeycomb have three: without a loop they take half of the time.
-    if (count == 3) {
-      force = forces[ends[0]] + forces[ends[1]] + forces[ends[2]];
-      moment = moments[ends[0]] + moments[ends[1]] + moments[ends[2]];
-    } else {
-      for (int k = 0; k < count; ++k) {
-        force += forces[ends[k]];
-        moment += moments[ends[k]];
-      }
-    }
-    state.internal_force[joint] = force;
-    state.internal_moment[joint] = moment;
-  }
-}
-
 }  // namespace
 
 void evaluate_internal_forces(const Scene& scene, State& state, Workers& workers) {
-  if (!use_wide_kernels() || !evaluate_walls_wide(scene, state, workers)) {
-    scene.single_fibres ? evaluate_walls(scene, state, state.single_fibres)
-                        : evaluate_walls(scene, state, state.fibres);
+  if (use_wide_kernels() && evaluate_walls_wide(scene, state, workers)) {
+    return;
   }
-  workers.share(static_cast<std::size_t>(scene.joint_count),
-                [&](std::size_t first, std::size_t end) { sum_joint_forces(scene, state, first, end); });
+  scene.single_fibres ? evaluate_walls(scene, state, state.single_fibres) : evaluate_walls(scene, state, state.fibres);
+  sum_joint_forces(scene, state, 0, static_cast<std::size_t>(scene.joint_count));
 }
 
 }  // namespace cellcrush

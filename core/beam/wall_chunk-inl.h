@@ -84,31 +84,24 @@ struct LaneForces {
   hn::Vec<D> moment_on_end;
 };
 
-/// What passes between the three loops over a chunk's elements, in the fibres' precision T and the elements' order.
+/// What passes between the three loops over a chunk's elements, in the fibres' precision T. Row by row: the values of a
+/// kind lie side by side, and a row's kinds one after the other.
 template <class T>
 class ChunkValues {
  public:
+  enum Kind { membrane, bend_start, bend_end, stiffness, axial, moment_start, moment_end, plastic_work };
+  static constexpr std::size_t kKinds = plastic_work + 1;
+
   /// Makes room for so many elements, whose values are undefined.
   void hold(std::size_t elements) {
-    elements_ = elements;
-    if (values_.size() < 8 * elements) {
-      values_.resize(8 * elements);
+    if (values_.size() < kKinds * elements) {
+      values_.resize(kKinds * elements);
     }
   }
 
-  T* membrane() { return values_.data(); }  ///< increment of the strain at the axis
-  T* bend_start() { return of(1); }         ///< rotation of the start times h / l
-  T* bend_end() { return of(2); }
-  T* stiffness() { return of(3); }  ///< see bounded_stiffness
-  T* axial() { return of(4); }      ///< see ElementSums
-  T* moment_start() { return of(5); }
-  T* moment_end() { return of(6); }
-  T* plastic_work() { return of(7); }
+  T* data() { return values_.data(); }
 
  private:
-  T* of(std::size_t i) { return values_.data() + i * elements_; }
-
-  std::size_t elements_ = 0;
   LaneVector<T> values_;
 };
 
@@ -124,18 +117,30 @@ class WallChunk {
   using V = hn::Vec<D>;
   using T = hn::TFromD<F>;
   using VF = hn::Vec<F>;
+  using Values = ChunkValues<T>;
+
+  static constexpr std::ptrdiff_t kFibres = kSections * kDepthPoints;
 
  public:
   WallChunk(const Scene& scene, State& state, FibreMemory<T>& memory, double step,
             const RuleFactors<kSections, kDepthPoints, T>& rule, std::span<const WallBlock> blocks,
             ChunkValues<T>& values)
       : scene_(scene),
-        state_(state),
         memory_(memory),
         step_(step),
         rule_(rule),
         blocks_(blocks),
-        values_(values),
+        position_(state.position.data()),
+        spin_(state.spin.data()),
+        axis_(state.axis.data()),
+        length_(state.length.data()),
+        inverse_length_(state.inverse_length.data()),
+        wall_force_(state.wall_force.data()),
+        wall_moment_(state.wall_moment.data()),
+        internal_force_(state.internal_force.data()),
+        internal_moment_(state.internal_moment.data()),
+        stress_(memory.stress.data()),
+        values_(values.data()),
         first_(blocks.front().first_element),
         fetches_fibres_(memory.stress.size() > kCachedFibres),
         uniform_(uniform_material(f_, scene.materials.front())) {}
@@ -152,20 +157,33 @@ class WallChunk {
   template <class Lanes, class Visit>
   HWY_INLINE void visit_lanes(Lanes lanes, Visit&& visit) const {
     for (const WallBlock& block : blocks_) {
-      for (int lane = 0; lane < block.walls; lane += static_cast<int>(hn::MaxLanes(lanes))) {
+      for (int lane = 0; lane < walls_of(block); lane += static_cast<int>(hn::MaxLanes(lanes))) {
         visit(block, lane);
       }
     }
   }
 
-  HWY_INLINE LaneNode<D> gather_joint(const int* joints) const {
-    return {gather_points(d_, state_.position.data(), joints),
-            hn::Mul(hn::Set(d_, step_), gather_numbers(d_, state_.spin.data(), joints))};
+  /// Walls of a block, which are the elements of a row: a constant where they fill vectors, so that what lies side by side
+  /// has addresses that are known.
+  HWY_INLINE static int walls_of(const WallBlock& block) {
+    return hn::MaxLanes(D()) == 1 ? block.walls : kMostWallsInBlock;
   }
 
-  HWY_INLINE LaneNode<D> load_inner(int particle) const {
-    return {load_points(d_, &state_.position[particle]),
-            hn::Mul(hn::Set(d_, step_), hn::LoadU(d_, &state_.spin[particle]))};
+  HWY_INLINE static std::ptrdiff_t row_of(const WallBlock& block, int j) {
+    return block.first_element + static_cast<std::ptrdiff_t>(j) * walls_of(block);
+  }
+
+  /// Values of the lanes' elements of a row.
+  HWY_INLINE T* values_of(typename Values::Kind kind, std::ptrdiff_t row, int lane, int walls) const {
+    return values_ + Values::kKinds * (row - first_) + kind * walls + lane;
+  }
+
+  HWY_INLINE LaneNode<D> gather_joint(const int* joints) const {
+    return {gather_points(d_, position_, joints), hn::Mul(hn::Set(d_, step_), gather_numbers(d_, spin_, joints))};
+  }
+
+  HWY_INLINE LaneNode<D> load_inner(std::ptrdiff_t particle) const {
+    return {load_points(d_, position_ + particle), hn::Mul(hn::Set(d_, step_), hn::LoadU(d_, spin_ + particle))};
   }
 
   /// From the motion of the ends to the strains of the step; see evaluate_element.
@@ -175,95 +193,108 @@ class WallChunk {
     const V undeformed = hn::LoadU(d_, &scene_.walls.undeformed_length[wall]);
     LaneNode<D> start = gather_joint(&scene_.walls.start[wall]);
     for (int j = 0; j < block.elements; ++j) {
-      const int e = block.first_element + j * block.walls + lane;
+      const std::ptrdiff_t row = row_of(block, j);
+      const std::ptrdiff_t e = row + lane;
       if (fetches_fibres_) {
         fetch_fibres(e);
       }
-      const LaneNode<D> end = j + 1 == block.elements ? gather_joint(&scene_.walls.end[wall])
-                                                      : load_inner(block.first_inner + j * block.walls + lane);
-      const LaneDeformation<D> deformation = reverse_motion(
-          d_, start.position, end.position, load_points(d_, &state_.axis[e]), hn::LoadU(d_, &state_.length[e]),
-          hn::LoadU(d_, &state_.inverse_length[e]), start.turn, end.turn);
-      store_points(d_, deformation.axis, &state_.axis[e]);
-      hn::StoreU(deformation.length, d_, &state_.length[e]);
-      hn::StoreU(deformation.inverse_length, d_, &state_.inverse_length[e]);
+      const LaneNode<D> end =
+          j + 1 == block.elements
+              ? gather_joint(&scene_.walls.end[wall])
+              : load_inner(block.first_inner + static_cast<std::ptrdiff_t>(j) * walls_of(block) + lane);
+      const LaneDeformation<D> deformation =
+          reverse_motion(d_, start.position, end.position, load_points(d_, axis_ + e), hn::LoadU(d_, length_ + e),
+                         hn::LoadU(d_, inverse_length_ + e), start.turn, end.turn);
+      store_points(d_, deformation.axis, axis_ + e);
+      hn::StoreU(deformation.length, d_, length_ + e);
+      hn::StoreU(deformation.inverse_length, d_, inverse_length_ + e);
       const V slenderness = hn::Mul(thickness, deformation.inverse_mean);
-      store_as(d_, hn::Mul(deformation.stretch, deformation.inverse_mean), values_.membrane() + (e - first_));
-      store_as(d_, hn::Mul(slenderness, deformation.rotation_start), values_.bend_start() + (e - first_));
-      store_as(d_, hn::Mul(slenderness, deformation.rotation_end), values_.bend_end() + (e - first_));
+      store_as(d_, hn::Mul(deformation.stretch, deformation.inverse_mean),
+               values_of(Values::membrane, row, lane, walls_of(block)));
+      store_as(d_, hn::Mul(slenderness, deformation.rotation_start),
+               values_of(Values::bend_start, row, lane, walls_of(block)));
+      store_as(d_, hn::Mul(slenderness, deformation.rotation_end),
+               values_of(Values::bend_end, row, lane, walls_of(block)));
       if (HWY_UNLIKELY(!hn::AllFalse(d_, is_short(d_, deformation.length, undeformed)))) {
-        note_stiffness(e, bounded_stiffness(d_, deformation.length, undeformed, thickness, scene_.constant_area));
+        note_stiffness(values_of(Values::stiffness, row, lane, walls_of(block)),
+                       bounded_stiffness(d_, deformation.length, undeformed, thickness, scene_.constant_area));
       }
       start = end;
     }
   }
 
   /// Has the lanes' share of a row's stresses brought near, before the loop that returns them.
-  HWY_INLINE void fetch_fibres(int e) const {
+  HWY_INLINE void fetch_fibres(std::ptrdiff_t e) const {
     constexpr std::size_t kLine = 64 / sizeof(T);
-    const std::size_t count = scene_.fibre_count() * hn::MaxLanes(d_);
-    const T* first = &memory_.stress[e * scene_.fibre_count()];
-    for (std::size_t i = 0; i < count; i += kLine) {
-      __builtin_prefetch(first + i, 1);
+    constexpr std::size_t kCount = kFibres * hn::MaxLanes(D());
+    for (std::size_t i = 0; i < kCount; i += kLine) {
+      __builtin_prefetch(stress_ + e * kFibres + i, 1);
     }
   }
 
-  /// Few chunks have squashed elements: the others' array is never filled.
-  HWY_INLINE void note_stiffness(int element, V stiffness) {
+  /// Few chunks have squashed elements: the others' values are never filled.
+  HWY_INLINE void note_stiffness(T* place, V stiffness) {
     if (!is_squashed_) {
-      std::fill(values_.stiffness(), values_.axial(), T(1.0));
+      for (const WallBlock& block : blocks_) {
+        for (int j = 0; j < block.elements; ++j) {
+          std::fill_n(values_of(Values::stiffness, row_of(block, j), 0, walls_of(block)), walls_of(block), T(1.0));
+        }
+      }
       is_squashed_ = true;
     }
-    store_as(d_, stiffness, values_.stiffness() + (element - first_));
+    store_as(d_, stiffness, place);
   }
 
-  HWY_INLINE Fibres<T> fibres_of(int row, int lane, int stride) const {
-    const std::size_t first = row * scene_.fibre_count() + lane;
-    return {&memory_.stress[first], kHardening ? &memory_.back_stress[first] : nullptr,
+  HWY_INLINE Fibres<T> fibres_of(std::ptrdiff_t row, int lane, int stride) const {
+    const std::ptrdiff_t first = row * kFibres + lane;
+    return {stress_ + first, kHardening ? &memory_.back_stress[first] : nullptr,
             kHardening ? &memory_.plastic_strain[first] : nullptr, kHardening ? nullptr : &memory_.flowed[row + lane],
             static_cast<std::size_t>(stride)};
   }
 
-  HWY_INLINE SectionMemory<T> sections_of(int row, int lane, int stride) const {
-    const std::size_t first = row * scene_.section.section_count() + lane;
+  HWY_INLINE SectionMemory<T> sections_of(std::ptrdiff_t row, int lane, int stride) const {
+    const std::ptrdiff_t first = row * kSections + lane;
     return {&memory_.section_unbalance[first], &memory_.section_flexibility[first], static_cast<std::size_t>(stride)};
   }
 
-  /// Moments on the nodes of element `e` and the following, over b h^2.
-  HWY_INLINE T* moment_start(int e) const {
-    return kForceBased ? &memory_.start_moment[e] : values_.moment_start() + (e - first_);
+  /// Moments on the nodes of the lanes' elements of a row, over b h^2.
+  HWY_INLINE T* moment_start(std::ptrdiff_t row, int lane, int walls) const {
+    return kForceBased ? &memory_.start_moment[row + lane] : values_of(Values::moment_start, row, lane, walls);
   }
-  HWY_INLINE T* moment_end(int e) const {
-    return kForceBased ? &memory_.end_moment[e] : values_.moment_end() + (e - first_);
+  HWY_INLINE T* moment_end(std::ptrdiff_t row, int lane, int walls) const {
+    return kForceBased ? &memory_.end_moment[row + lane] : values_of(Values::moment_end, row, lane, walls);
   }
 
   /// From the strains to the sums of the stresses.
   HWY_INLINE void return_fibres(const WallBlock& block, int lane) const {
     const LaneMaterial<F> of_wall =
         scene_.materials.size() == 1 ? uniform_ : material_of(f_, scene_, block.first_wall + lane);
+    const int walls = walls_of(block);
     for (int j = 0; j < block.elements; ++j) {
-      const int row = block.first_element + j * block.walls;
-      const int e = row + lane;
+      const std::ptrdiff_t row = row_of(block, j);
+      const auto value = [&](typename Values::Kind kind) HWY_ATTR { return values_of(kind, row, lane, walls); };
       const LaneMaterial<F> material =
-          is_squashed_ ? with_stiffness(f_, of_wall, hn::LoadU(f_, values_.stiffness() + (e - first_))) : of_wall;
-      const VF membrane = hn::LoadU(f_, values_.membrane() + (e - first_));
-      const VF bend_start = hn::LoadU(f_, values_.bend_start() + (e - first_));
-      const VF bend_end = hn::LoadU(f_, values_.bend_end() + (e - first_));
-      const Fibres<T> fibres = fibres_of(row, lane, block.walls);
+          is_squashed_ ? with_stiffness(f_, of_wall, hn::LoadU(f_, value(Values::stiffness))) : of_wall;
+      const VF membrane = hn::LoadU(f_, value(Values::membrane));
+      const VF bend_start = hn::LoadU(f_, value(Values::bend_start));
+      const VF bend_end = hn::LoadU(f_, value(Values::bend_end));
+      const Fibres<T> fibres = fibres_of(row, lane, walls);
+      T* const at_start = moment_start(row, lane, walls);
+      T* const at_end = moment_end(row, lane, walls);
       LaneSums<kSections, F> sums;
       if constexpr (kForceBased) {
-        const LaneMoments<F> before = {hn::LoadU(f_, moment_start(e)), hn::LoadU(f_, moment_end(e))};
+        const LaneMoments<F> before = {hn::LoadU(f_, at_start), hn::LoadU(f_, at_end)};
         sums = return_balanced<kHardening>(f_, material, rule_, membrane, bend_start, bend_end, before, fibres,
-                                           sections_of(row, lane, block.walls));
+                                           sections_of(row, lane, walls));
       } else {
         VF curvature[kSections];
         straight_curvatures(f_, rule_, bend_start, bend_end, curvature);
         sums = return_element<kHardening>(f_, material, rule_, membrane, curvature, fibres, fibres);
       }
-      hn::StoreU(sums.axial, f_, values_.axial() + (e - first_));
-      hn::StoreU(sums.moments.start, f_, moment_start(e));
-      hn::StoreU(sums.moments.end, f_, moment_end(e));
-      hn::StoreU(sums.plastic_work, f_, values_.plastic_work() + (e - first_));
+      hn::StoreU(sums.axial, f_, value(Values::axial));
+      hn::StoreU(sums.moments.start, f_, at_start);
+      hn::StoreU(sums.moments.end, f_, at_end);
+      hn::StoreU(sums.plastic_work, f_, value(Values::plastic_work));
     }
   }
 
@@ -276,57 +307,69 @@ class WallChunk {
     const V zero = hn::Zero(d_);
     LaneForces<D> before = {{zero, zero}, zero, zero};
     V work = hn::LoadU(d_, plastic_work);
+    const int walls = walls_of(block);
     for (int j = 0; j < block.elements; ++j) {
-      const int e = block.first_element + j * block.walls + lane;
-      const LaneForces<D> forces = forces_of(e, undeformed, thickness);
-      work = hn::MulAdd(volume_of(d_, scene_, undeformed, thickness, hn::LoadU(d_, &state_.length[e])),
-                        load_as(d_, values_.plastic_work() + (e - first_)), work);
+      const std::ptrdiff_t row = row_of(block, j);
+      const LaneForces<D> forces = forces_of(row, lane, walls, undeformed, thickness);
+      work = hn::MulAdd(volume_of(d_, scene_, undeformed, thickness, hn::LoadU(d_, length_ + row + lane)),
+                        load_as(d_, values_of(Values::plastic_work, row, lane, walls)), work);
       if (j == 0) {
         put_on_joints(ends, forces.force_on_end, hn::Neg(forces.moment_on_start));
       } else {
         const Points<D> net = {hn::Sub(forces.force_on_end.x, before.force_on_end.x),
                                hn::Sub(forces.force_on_end.y, before.force_on_end.y)};
-        const std::size_t particle = block.first_inner + (j - 1) * block.walls + lane;
-        store_points(d_, net, &state_.internal_force[particle]);
-        hn::StoreU(hn::Neg(hn::Add(before.moment_on_end, forces.moment_on_start)), d_,
-                   &state_.internal_moment[particle]);
+        const std::ptrdiff_t particle = block.first_inner + static_cast<std::ptrdiff_t>(j - 1) * walls + lane;
+        store_points(d_, net, internal_force_ + particle);
+        hn::StoreU(hn::Neg(hn::Add(before.moment_on_end, forces.moment_on_start)), d_, internal_moment_ + particle);
       }
       before = forces;
     }
-    put_on_joints(ends + block.walls, {hn::Neg(before.force_on_end.x), hn::Neg(before.force_on_end.y)},
+    put_on_joints(ends + walls, {hn::Neg(before.force_on_end.x), hn::Neg(before.force_on_end.y)},
                   hn::Neg(before.moment_on_end));
     hn::StoreU(work, d_, plastic_work);
   }
 
-  HWY_INLINE LaneForces<D> forces_of(int e, V undeformed, V thickness) const {
-    const V inverse_length = hn::LoadU(d_, &state_.inverse_length[e]);
+  HWY_INLINE LaneForces<D> forces_of(std::ptrdiff_t row, int lane, int walls, V undeformed, V thickness) const {
+    const V inverse_length = hn::LoadU(d_, inverse_length_ + row + lane);
     const V area = area_of(d_, scene_, undeformed, thickness, inverse_length);
     const V unit = hn::Mul(area, thickness);
-    const V on_start = hn::Mul(unit, load_as(d_, moment_start(e)));
-    const V on_end = hn::Mul(unit, load_as(d_, moment_end(e)));
+    const V on_start = hn::Mul(unit, load_as(d_, moment_start(row, lane, walls)));
+    const V on_end = hn::Mul(unit, load_as(d_, moment_end(row, lane, walls)));
     const V shear = hn::Mul(hn::Neg(hn::Add(on_start, on_end)), inverse_length);  // Eq. 31
-    const V axial = hn::Mul(area, load_as(d_, values_.axial() + (e - first_)));
-    const Points<D> axis = load_points(d_, &state_.axis[e]);
+    const V axial = hn::Mul(area, load_as(d_, values_of(Values::axial, row, lane, walls)));
+    const Points<D> axis = load_points(d_, axis_ + row + lane);
     return {{hn::MulSub(axial, axis.x, hn::Mul(shear, axis.y)), hn::MulAdd(axial, axis.y, hn::Mul(shear, axis.x))},
             on_start,
             on_end};
   }
 
   HWY_INLINE void put_on_joints(std::size_t end, const Points<D>& force, V moment) const {
-    store_points(d_, force, &state_.wall_force[end]);
-    hn::StoreU(moment, d_, &state_.wall_moment[end]);
+    store_points(d_, force, wall_force_ + end);
+    hn::StoreU(moment, d_, wall_moment_ + end);
   }
 
   static constexpr D d_{};
   static constexpr F f_{};
   const Scene& scene_;
-  State& state_;
   FibreMemory<T>& memory_;
   const double step_;
   const RuleFactors<kSections, kDepthPoints, T>& rule_;
   const std::span<const WallBlock> blocks_;
-  ChunkValues<T>& values_;
-  const int first_;
+
+  // Pointers in place of the vectors, which would be asked anew where their numbers lie after every store of a number.
+  const Vector2* const position_;
+  const double* const spin_;
+  Vector2* const axis_;
+  double* const length_;
+  double* const inverse_length_;
+  Vector2* const wall_force_;
+  double* const wall_moment_;
+  Vector2* const internal_force_;
+  double* const internal_moment_;
+  T* const stress_;
+  T* const values_;
+
+  const std::ptrdiff_t first_;
   const bool fetches_fibres_;
   const LaneMaterial<F> uniform_;
   bool is_squashed_ = false;

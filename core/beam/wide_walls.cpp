@@ -1,5 +1,6 @@
 #include "beam/wide_walls.h"
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "beam/joint_forces.h"
 #include "beam/wall_chunk-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -47,20 +49,35 @@ double advance_chunk(const Scene& scene, State& state, FibreMemory<T>& memory,
   return sum;
 }
 
-/// Every chunk's work is a number of its own, so that the sum does not depend on who computes them.
+/// Sums the forces on the joints at which two threads' chunks meet.
+void sum_between_parts(const Scene& scene, State& state, const Workers& workers, std::size_t chunks) {
+  for (int part = 1; part < workers.count(); ++part) {
+    const std::size_t chunk = workers.start_of_part(chunks, part);
+    if (chunk > 0 && chunk < chunks) {
+      sum_joint_forces(scene, state, scene.walls.end_joint[chunk - 1], scene.walls.first_joint[chunk]);
+    }
+  }
+}
+
+/// Every chunk's work is a number of its own, so that the sum does not depend on who computes them. The forces on joints are
+/// summed as soon as all their walls have been taken, while they are near.
 template <int kSections, int kDepthPoints, bool kForceBased, bool kHardening, class T>
 void evaluate_blocks(const Scene& scene, State& state, FibreMemory<T>& memory, Workers& workers) {
   const RuleFactors<kSections, kDepthPoints, T> rule(scene.section);
   const std::span<const WallBlock> blocks = scene.walls.blocks;
   const std::vector<int>& offset = scene.walls.chunk_offset;
-  std::vector<double> plastic_work(offset.size() - 1);
+  std::vector<double> plastic_work(scene.walls.chunk_count());
   workers.share(plastic_work.size(), [&](std::size_t first, std::size_t end) HWY_ATTR {
     ChunkValues<T> values;
+    int joint = first < end ? scene.walls.first_joint[first] : 0;
     for (std::size_t c = first; c < end; ++c) {
       plastic_work[c] = advance_chunk<kSections, kDepthPoints, kForceBased, kHardening>(
           scene, state, memory, rule, blocks.subspan(offset[c], offset[c + 1] - offset[c]), values);
+      sum_joint_forces(scene, state, joint, scene.walls.end_joint[c]);
+      joint = std::max(joint, scene.walls.end_joint[c]);
     }
   });
+  sum_between_parts(scene, state, workers, plastic_work.size());
   for (const double work : plastic_work) {
     state.ledger.plastic += work;
   }

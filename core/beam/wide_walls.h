@@ -13,8 +13,8 @@ inline bool has_vector_kernel(const SectionRule& rule) {
   return rule.section_count() == sections && rule.depth_count() == 6;
 }
 
-/// The elements' part of evaluate_internal_forces with the processor's vector instructions, the walls of a block at once: the
-/// same equations as evaluate_element. Returns false, and does nothing, for section rules without a vector kernel.
+/// evaluate_internal_forces with the processor's vector instructions, the walls of a block at once: the same equations as
+/// evaluate_element. Returns false, and does nothing, for section rules without a vector kernel.
 bool evaluate_walls_wide(const Scene& scene, State& state, Workers& workers);
 
 }  // namespace cellcrush

@@ -1,6 +1,7 @@
 #include "contact/bucket_search.h"
 
 #include <algorithm>
+#include <span>
 
 #include "contact/bucket_grid.h"
 #include "contact/candidate_lists.h"
@@ -22,7 +23,7 @@ bool list_holds(const Scene& scene, const State& state) {
   return true;
 }
 
-bool all_finite(const std::vector<Vector2>& points) {
+bool all_finite(std::span<const Vector2> points) {
   return std::all_of(points.begin(), points.end(), [](const Vector2& point) { return point.allFinite(); });
 }
 

@@ -52,6 +52,50 @@ std::vector<int> chunk_offsets(const std::vector<WallBlock>& blocks) {
   return offsets;
 }
 
+/// Calls visit(chunk, joint) for every end of a wall, chunks ascending.
+template <class Visit>
+void visit_chunk_joints(const Walls& walls, Visit&& visit) {
+  for (int chunk = 0; chunk < walls.chunk_count(); ++chunk) {
+    for (int b = walls.chunk_offset[chunk]; b < walls.chunk_offset[chunk + 1]; ++b) {
+      const WallBlock& block = walls.blocks[b];
+      for (int wall = block.first_wall; wall < block.first_wall + block.walls; ++wall) {
+        visit(chunk, walls.start[wall]);
+        visit(chunk, walls.end[wall]);
+      }
+    }
+  }
+}
+
+/// Says of every chunk which joints have no walls before it, and none after it. A joint without walls goes with its neighbour.
+void order_joints(Walls& walls, int joint_count) {
+  constexpr int kNone = -1;
+  std::vector<int> first(joint_count, kNone);
+  std::vector<int> last(joint_count, kNone);
+  visit_chunk_joints(walls, [&](int chunk, int joint) {
+    first[joint] = first[joint] == kNone ? chunk : first[joint];
+    last[joint] = chunk;
+  });
+  walls.first_joint.assign(walls.chunk_count(), 0);
+  walls.end_joint.assign(walls.chunk_count(), joint_count);
+  for (int joint = 0; joint < joint_count; ++joint) {
+    if (first[joint] == kNone) {
+      first[joint] = last[joint] = joint == 0 ? 0 : last[joint - 1];
+    }
+    if (first[joint] + 1 < walls.chunk_count()) {
+      walls.first_joint[first[joint] + 1] = joint + 1;
+    }
+    if (last[joint] > 0) {
+      walls.end_joint[last[joint] - 1] = std::min(walls.end_joint[last[joint] - 1], joint);
+    }
+  }
+  for (int chunk = 1; chunk < walls.chunk_count(); ++chunk) {
+    walls.first_joint[chunk] = std::max(walls.first_joint[chunk], walls.first_joint[chunk - 1]);
+  }
+  for (int chunk = walls.chunk_count() - 2; chunk >= 0; --chunk) {
+    walls.end_joint[chunk] = std::min(walls.end_joint[chunk], walls.end_joint[chunk + 1]);
+  }
+}
+
 }  // namespace
 
 void divide_walls(const Layout& layout, Scene& scene) {
@@ -76,6 +120,7 @@ void divide_walls(const Layout& layout, Scene& scene) {
     scene.walls.undeformed_length.push_back(length / wall->elements);
     scene.walls.material.push_back(wall->material);
   }
+  order_joints(scene.walls, scene.joint_count);
   scene.rigid.first_element = static_cast<int>(scene.elements.size());
   for (auto wall = rigid; wall != layout.walls.end(); ++wall) {
     scene.elements.push_back({wall->start, wall->end, wall->thickness, wall->material});

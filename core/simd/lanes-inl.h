@@ -46,6 +46,14 @@ HWY_INLINE void store_points(D d, const Points<D>& points, Vector2* to) {
   if constexpr (hn::MaxLanes(D()) == 1) {
     values[0] = hn::GetLane(points.x);
     values[1] = hn::GetLane(points.y);
+#if HWY_TARGET <= HWY_AVX3
+  } else if constexpr (hn::MaxLanes(D()) == 8) {
+    // Two permutations in place of six shuffles; Highway has no function for them before its version 1.1.
+    const __m512i low = _mm512_setr_epi64(0, 8, 1, 9, 2, 10, 3, 11);
+    const __m512i high = _mm512_setr_epi64(4, 12, 5, 13, 6, 14, 7, 15);
+    _mm512_storeu_pd(values, _mm512_permutex2var_pd(points.x.raw, low, points.y.raw));
+    _mm512_storeu_pd(values + 8, _mm512_permutex2var_pd(points.x.raw, high, points.y.raw));
+#endif
   } else {
     hn::StoreInterleaved2(points.x, points.y, d, values);
   }
@@ -95,29 +103,34 @@ HWY_INLINE Points<D> part_points(D d, Half low, Half high) {
 }
 #endif
 
+/// Half as many points of an array as the lanes, of indices in memory, one after the other.
+template <class D>
+HWY_INLINE hn::Vec<D> load_half(D d, const Vector2* points, const int* indices) {
+#if HWY_TARGET != HWY_SCALAR
+  if constexpr (hn::MaxLanes(D()) > 2) {
+    const hn::Half<D> half;
+    constexpr std::size_t kNext = hn::MaxLanes(D()) / 4;
+    return hn::Combine(d, load_half(half, points, indices + kNext), load_half(half, points, indices));
+  }
+#endif
+  if constexpr (hn::MaxLanes(D()) == 2) {
+    return hn::LoadU(d, points[indices[0]].data());
+  }
+}
+
 /// Points of an array, of indices in memory: they are loaded whole and parted then.
 template <class D>
 HWY_INLINE Points<D> gather_points(D d, const Vector2* points, const int* indices) {
-#if HWY_TARGET != HWY_SCALAR
-  const auto load = [&](int lane)
-                        HWY_ATTR { return hn::LoadU(hn::CappedTag<double, 2>(), points[indices[lane]].data()); };
-  if constexpr (hn::MaxLanes(D()) == 2) {
-    return part_points(d, load(0), load(1));
-  }
-  if constexpr (hn::MaxLanes(D()) >= 4) {
-    const hn::CappedTag<double, 4> two_points;
-    const auto pair = [&](int lane) HWY_ATTR { return hn::Combine(two_points, load(lane + 1), load(lane)); };
-    if constexpr (hn::MaxLanes(D()) == 4) {
-      return part_points(d, pair(0), pair(2));
-    } else {
-      return part_points(d, hn::Combine(d, pair(2), pair(0)), hn::Combine(d, pair(6), pair(4)));
-    }
-  }
-#endif
   if constexpr (hn::MaxLanes(D()) == 1) {
     const double* values = points[indices[0]].data();
     return {hn::Set(d, values[0]), hn::Set(d, values[1])};
   }
+#if HWY_TARGET != HWY_SCALAR
+  if constexpr (hn::MaxLanes(D()) > 1) {
+    constexpr std::size_t kHalf = hn::MaxLanes(D()) / 2;
+    return part_points(d, load_half(d, points, indices), load_half(d, points, indices + kHalf));
+  }
+#endif
 }
 
 /// Bits of the lanes that are set.

@@ -27,7 +27,7 @@ bool all_finite(std::span<const double> numbers) {
          0.0;
 }
 
-bool all_finite(const std::vector<Vector2>& points) {
+bool all_finite(std::span<const Vector2> points) {
   return points.empty() || all_finite({points.front().data(), 2 * points.size()});
 }
 

@@ -93,9 +93,11 @@ void place_fibres(const Scene& scene, FibreMemory<T>& fibres) {
 State place_particles(const Scene& scene) {
   const std::size_t n = scene.particle_count();
   State state;
-  state.position = scene.position;
-  state.velocity = scene.initial_velocity.empty() ? std::vector<Vector2>(n, Vector2::Zero()) : scene.initial_velocity;
-  state.spin = scene.initial_spin.empty() ? std::vector<double>(n, 0.0) : scene.initial_spin;
+  state.position.assign(scene.position.begin(), scene.position.end());
+  state.velocity.assign(scene.initial_velocity.begin(), scene.initial_velocity.end());
+  state.velocity.resize(n, Vector2::Zero());
+  state.spin.assign(scene.initial_spin.begin(), scene.initial_spin.end());
+  state.spin.resize(n, 0.0);
   state.rotation.assign(n, 0.0);
   for (const Element& element : scene.elements) {
     const Vector2 span = scene.position[element.end] - scene.position[element.start];

@@ -23,7 +23,8 @@ std::vector<std::pair<std::string, double>> array_bytes(const Scene& scene, cons
       {"scene.elements", bytes_of(scene.elements)},
       {"scene.walls", bytes_of(scene.walls.blocks) + bytes_of(scene.walls.start) + bytes_of(scene.walls.end) +
                           bytes_of(scene.walls.thickness) + bytes_of(scene.walls.undeformed_length) +
-                          bytes_of(scene.walls.material) + bytes_of(scene.walls.chunk_offset)},
+                          bytes_of(scene.walls.material) + bytes_of(scene.walls.chunk_offset) +
+                          bytes_of(scene.walls.first_joint) + bytes_of(scene.walls.end_joint)},
       {"scene.rigid", bytes_of(scene.rigid.offset) + bytes_of(scene.rigid.centre) + bytes_of(scene.rigid.mass) +
                           bytes_of(scene.rigid.inertia)},
       {"scene.incidence", bytes_of(scene.incidence_offset) + bytes_of(scene.incidence)},

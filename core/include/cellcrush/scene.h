@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cellcrush/contact_faces.h"
+#include "cellcrush/lane_vector.h"
 #include "cellcrush/vector.h"
 
 namespace cellcrush {
@@ -59,15 +60,20 @@ struct WallBlock {
   int first_inner = 0;
 };
 
-/// The walls between joints, W of them, block by block. All elements of a wall are alike.
+/// The walls between joints, W of them, block by block, in C chunks. All elements of a wall are alike.
 struct Walls {
   std::vector<WallBlock> blocks;
-  std::vector<int> chunk_offset;  ///< into blocks: of the first of those that a thread takes at once, and their end
-  std::vector<int> start;         ///< W, particle
-  std::vector<int> end;           ///< W, particle
-  std::vector<double> thickness;  ///< W, mm
+  std::vector<int>
+      chunk_offset;  ///< C + 1, into blocks: of the first of those that a thread takes at once, and their end
+  std::vector<int> first_joint;           ///< C: from it on no joint has walls in an earlier chunk
+  std::vector<int> end_joint;             ///< C: before it no joint has walls in a later chunk
+  std::vector<int> start;                 ///< W, particle
+  std::vector<int> end;                   ///< W, particle
+  std::vector<double> thickness;          ///< W, mm
   std::vector<double> undeformed_length;  ///< W, of one element, mm
   std::vector<int> material;              ///< W, into Scene::materials
+
+  [[nodiscard]] int chunk_count() const { return static_cast<int>(chunk_offset.size()) - 1; }
 };
 
 /// Parts of the lattice that move without deforming, B of them. Their particles come first, body by body, and their walls,
@@ -176,15 +182,15 @@ struct Schedule {
 /// N particles, E elements.
 struct Scene {
   // Mesh.
-  std::vector<Vector2> position;        ///< N, before loading
-  std::vector<double> mass;             ///< N, tonne (Eq. 1, 2)
-  std::vector<double> inertia;          ///< N, tonne mm^2 (Eq. 1, 3)
-  std::vector<double> inverse_mass;     ///< N, 1 / tonne
-  std::vector<double> inverse_inertia;  ///< N
-  std::vector<double> radius;           ///< N, of the contact ball: half of the thickest wall that ends there
-  double largest_radius = 0.0;          ///< mm
-  std::vector<Element> elements;        ///< E
-  Walls walls;                          ///< W
+  std::vector<Vector2> position;       ///< N, before loading
+  std::vector<double> mass;            ///< N, tonne (Eq. 1, 2)
+  std::vector<double> inertia;         ///< N, tonne mm^2 (Eq. 1, 3)
+  LaneVector<double> inverse_mass;     ///< N, 1 / tonne
+  LaneVector<double> inverse_inertia;  ///< N
+  std::vector<double> radius;          ///< N, of the contact ball: half of the thickest wall that ends there
+  double largest_radius = 0.0;         ///< mm
+  std::vector<Element> elements;       ///< E
+  Walls walls;                         ///< W
   RigidBodies rigid;
   std::vector<int> incidence_offset;  ///< N + 1, into incidence
   std::vector<int> incidence;         ///< elements at each particle, ascending

@@ -88,10 +88,10 @@ struct State {
   double time = 0.0;
 
   // Written by integrate_motion.
-  std::vector<Vector2> position;        ///< N
-  std::vector<Vector2> velocity;        ///< N, half a step before `time`
-  std::vector<double> rotation;         ///< N, since the start; for output only
-  std::vector<double> spin;             ///< N, rad/s, half a step before `time`
+  LaneVector<Vector2> position;         ///< N
+  LaneVector<Vector2> velocity;         ///< N, half a step before `time`
+  LaneVector<double> rotation;          ///< N, since the start; for output only
+  LaneVector<double> spin;              ///< N, rad/s, half a step before `time`
   std::vector<Vector2> rigid_centre;    ///< B rigid bodies, of mass
   std::vector<Vector2> rigid_velocity;  ///< B, half a step before `time`
   std::vector<double> rigid_rotation;   ///< B, since the start
@@ -101,15 +101,15 @@ struct State {
   double support_impulse = 0.0;         ///< N s, of the support plate on the lattice
 
   // Written by evaluate_internal_forces.
-  LaneVector<Vector2> axis;             ///< E, unit vector from start to end
-  LaneVector<double> length;            ///< E
-  LaneVector<double> inverse_length;    ///< E, 1/mm
-  FibreMemory<double> fibres;           ///< empty where they are in single precision
-  FibreMemory<float> single_fibres;     ///< empty where they are in double precision
-  LaneVector<Vector2> wall_force;       ///< 2 W, of walls on joints: of a block's walls at their starts, then ends; N
-  LaneVector<double> wall_moment;       ///< 2 W, N mm
-  std::vector<Vector2> internal_force;  ///< N, of all elements on the particle
-  std::vector<double> internal_moment;  ///< N, N mm
+  LaneVector<Vector2> axis;            ///< E, unit vector from start to end
+  LaneVector<double> length;           ///< E
+  LaneVector<double> inverse_length;   ///< E, 1/mm
+  FibreMemory<double> fibres;          ///< empty where they are in single precision
+  FibreMemory<float> single_fibres;    ///< empty where they are in double precision
+  LaneVector<Vector2> wall_force;      ///< 2 W, of walls on joints: of a block's walls at their starts, then ends; N
+  LaneVector<double> wall_moment;      ///< 2 W, N mm
+  LaneVector<Vector2> internal_force;  ///< N, of all elements on the particle
+  LaneVector<double> internal_moment;  ///< N, N mm
 
   // Written by evaluate_loads; empty when the scene has no loads.
   std::vector<Vector2> load_force;  ///< N
@@ -123,7 +123,7 @@ struct State {
   std::int64_t candidate_count = 0;     ///< of the places that are not empty
 
   // The same, of a search by buckets; empty where contacts are searched by faces.
-  std::vector<Vector2> searched_position;  ///< N, where the particles were when the list was made
+  LaneVector<Vector2> searched_position;  ///< N, where the particles were when the list was made
   std::int64_t search_count = 0;
 
   // The same, of a search by faces (contact/face_search.h): F faces, C corners, G groups. Empty when by buckets.
@@ -144,19 +144,19 @@ struct State {
   TouchMemory touching;     ///< of the pairs that touch now, and those that have parted in this step
   std::vector<int> parted;  ///< of `touching`, ascending: those that have parted
   /// K, travel of the group at which a candidate is tested next; infinite while it is in `touching`, and of empty places.
-  std::vector<double> candidate_alarm;
+  LaneVector<double> candidate_alarm;
 
   // Written by evaluate_contact_forces and evaluate_plate_forces, which add up forces that integrate_motion has cleared.
-  std::vector<ContactForce> contact_force;  ///< N, of walls and plates
-  std::vector<Vector2> friction_force;      ///< N, of walls and plates; empty without friction
-  std::vector<double> impact_friction;      ///< N, of the impact plate across the crush; empty without friction
-  std::vector<double> support_friction;     ///< N, of the support plate across the crush; empty without friction
-  PlateForce impact_force;                  ///< of the impact plate on the lattice, along the crush
-  PlateForce support_force;                 ///< of the support plate on the lattice, against the crush
-  double contact_stored = 0.0;              ///< sum of k D^2 / 2 now
-  std::int64_t contact_count = 0;           ///< closed contacts between walls now
-  double deepest_penetration = 0.0;         ///< of a wall contact since the start, over the thinner wall's thickness
-  double deepest_birth = 0.0;               ///< the same, of contacts in the step in which they first touched
+  LaneVector<ContactForce> contact_force;  ///< N, of walls and plates
+  std::vector<Vector2> friction_force;     ///< N, of walls and plates; empty without friction
+  std::vector<double> impact_friction;     ///< N, of the impact plate across the crush; empty without friction
+  std::vector<double> support_friction;    ///< N, of the support plate across the crush; empty without friction
+  PlateForce impact_force;                 ///< of the impact plate on the lattice, along the crush
+  PlateForce support_force;                ///< of the support plate on the lattice, against the crush
+  double contact_stored = 0.0;             ///< sum of k D^2 / 2 now
+  std::int64_t contact_count = 0;          ///< closed contacts between walls now
+  double deepest_penetration = 0.0;        ///< of a wall contact since the start, over the thinner wall's thickness
+  double deepest_birth = 0.0;              ///< the same, of contacts in the step in which they first touched
 
   Ledger ledger;
 };
