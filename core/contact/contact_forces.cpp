@@ -49,6 +49,7 @@ void apply_normal_forces_plain(const Scene& scene, State& state, ContactWorkspac
   const Touches& touches = workspace.touches;
   const double stiffness = scene.contact.stiffness;
   ContactForce* forces = state.contact_force.data();
+  DepthRecords records(scene, state, touches);
   double squared_depths = 0.0;
   for (Push& push : workspace.pushes) {
     const double depth = touches.depth[push.touch];
@@ -56,7 +57,10 @@ void apply_normal_forces_plain(const Scene& scene, State& state, ContactWorkspac
     const NormalForce net = push_pair(scene, touches, push);
     PairForces(state, touches, push.touch).add(stiffness * depth * normal, net.viscous * normal, forces);
     squared_depths += depth * depth;
-    note_push(scene, state, touches, push);
+    if (push.node_touch != Push::kNone) {
+      take_back_node(scene, state, touches, push.node_touch);
+    }
+    records.note(push.touch);
   }
   state.contact_stored += 0.5 * stiffness * squared_depths;
 }

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "cellcrush/lane_vector.h"
 #include "cellcrush/state.h"
 
 namespace cellcrush {
@@ -12,21 +13,22 @@ struct Newcomer {
   int ball = 0;
   int segment = 0;
   int place = 0;  ///< into State::candidate_ball
+  int next = 0;   ///< of the pairs that touched before, the first that it comes before
 };
 
 /// How the pairs of State::touching stand to each other in this step; T of them, in the same order.
 struct Touches {
-  std::vector<int> start;            ///< T, particle at which the segment starts
-  std::vector<int> end;              ///< T, and ends
-  std::vector<int> known;            ///< T, place among the pairs that touched in the step before; kNew: did not
-  std::vector<double> share;         ///< T, of the foot along the segment: 0 at its start, 1 at its end
-  std::vector<double> depth;         ///< T, D, mm; not over 0: they have parted
-  std::vector<Vector2> normal;       ///< T, from the segment to the ball
-  std::vector<double> viscous;       ///< T, c dD/dt, N, before it is held to what does not pull
-  std::vector<double> slip;          ///< T, mm by which the ball slid along the segment in the step
-  std::vector<int> node;             ///< T, the segment's particle nearer to the ball
-  std::vector<double> node_depth;    ///< T, of the balls of both, mm; over 0: they touch. 0 where they coincide
-  std::vector<Vector2> node_normal;  ///< T, from that particle to the ball
+  LaneVector<int> start;            ///< T, particle at which the segment starts
+  LaneVector<int> end;              ///< T, and ends
+  LaneVector<int> known;            ///< T, place among the pairs that touched in the step before; kNew: did not
+  LaneVector<double> share;         ///< T, of the foot along the segment: 0 at its start, 1 at its end
+  LaneVector<double> depth;         ///< T, D, mm; not over 0: they have parted
+  LaneVector<Vector2> normal;       ///< T, from the segment to the ball
+  LaneVector<double> viscous;       ///< T, c dD/dt, N, before it is held to what does not pull
+  LaneVector<double> slip;          ///< T, mm by which the ball slid along the segment in the step
+  LaneVector<int> node;             ///< T, the segment's particle nearer to the ball
+  LaneVector<double> node_depth;    ///< T, of the balls of both, mm; over 0: they touch. 0 where they coincide
+  LaneVector<Vector2> node_normal;  ///< T, from that particle to the ball
 
   static constexpr int kNew = -1;
 

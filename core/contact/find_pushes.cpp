@@ -5,20 +5,23 @@ namespace {
 
 /// The touches of one ball, from `first` to `end`.
 struct BallTouches {
-  const Scene& scene;
-  const State& state;
   const Touches& touches;
   int first;
   int end;
 
-  [[nodiscard]] const Element& element(int touch) const { return scene.elements[state.touching.segment[touch]]; }
+  /// Whether the segments of two touches share a node.
+  [[nodiscard]] bool are_joined(int a, int b) const {
+    const int* starts = touches.start.data();
+    const int* ends = touches.end.data();
+    return starts[a] == starts[b] || starts[a] == ends[b] || ends[a] == starts[b] || ends[a] == ends[b];
+  }
 
   /// Whether another touching segment of the same polyline is nearer to the ball.
   [[nodiscard]] bool yields_to_neighbour(int touch) const {
     for (int other = first; other < end; ++other) {
       const double lead = touches.depth[other] - touches.depth[touch];
       const bool deeper = lead > 0.0 || (lead == 0.0 && other < touch);
-      if (other != touch && deeper && share_a_node(element(touch), element(other))) {
+      if (other != touch && deeper && are_joined(touch, other)) {
         return true;
       }
     }
@@ -30,7 +33,7 @@ struct BallTouches {
     int nearest = Push::kNone;
     double depth = 0.0;
     for (int touch = first; touch < end; ++touch) {
-      if (touches.node_depth[touch] > depth && (touch == pushing || share_a_node(element(touch), element(pushing)))) {
+      if (touches.node_depth[touch] > depth && (touch == pushing || are_joined(touch, pushing))) {
         nearest = touch;
         depth = touches.node_depth[touch];
       }
@@ -40,7 +43,7 @@ struct BallTouches {
 };
 
 /// Those of the ball of a touch.
-BallTouches touches_of_ball(const Scene& scene, const State& state, const Touches& touches, int touch) {
+BallTouches touches_of_ball(const State& state, const Touches& touches, int touch) {
   const std::vector<int>& ball = state.touching.ball;
   int first = touch;
   while (first > 0 && ball[first - 1] == ball[touch]) {
@@ -50,7 +53,7 @@ BallTouches touches_of_ball(const Scene& scene, const State& state, const Touche
   while (end < static_cast<int>(ball.size()) && ball[end] == ball[touch]) {
     ++end;
   }
-  return {scene, state, touches, first, end};
+  return {touches, first, end};
 }
 
 /// Whether the ball lies before the node's own ball, and not above the side of one of its segments.
@@ -99,7 +102,7 @@ void find_pushes_in(const Scene& scene, const State& state, const Touches& touch
     push.net_depth = depth;
     // Most stand alone over the inside of a segment.
     if (state.touching.linked[touch] != 0 || touches.node_depth[touch] > 0.0) {
-      const BallTouches of_ball = touches_of_ball(scene, state, touches, touch);
+      const BallTouches of_ball = touches_of_ball(state, touches, touch);
       if (of_ball.yields_to_neighbour(touch)) {
         continue;
       }

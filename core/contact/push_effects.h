@@ -32,28 +32,45 @@ inline void take_back_node(const Scene& scene, State& state, const Touches& touc
   state.contact_stored -= 0.5 * stiffness * depth * depth;
 }
 
-/// Notes how deep a touch is, over the thinner of its walls, where that is a record.
-inline void note_depth(const Scene& scene, State& state, const Touches& touches, int touch) {
-  const double depth = touches.depth[touch];
-  const bool is_new = touches.known[touch] == Touches::kNew;
-  // Most are none, whatever their walls are.
-  if (depth <= scene.contact.thinnest * (is_new ? state.deepest_birth : state.deepest_penetration)) {
-    return;
+/// Notes how deep touches are, over the thinner of their walls, where that is a record.
+class DepthRecords {
+ public:
+  DepthRecords(const Scene& scene, State& state, const Touches& touches)
+      : scene_(scene), state_(state), depth_(touches.depth.data()), known_(touches.known.data()) {
+    set_bars();
   }
-  const double thinner =
-      std::min(2.0 * scene.radius[state.touching.ball[touch]], scene.elements[state.touching.segment[touch]].thickness);
-  state.deepest_penetration = std::max(state.deepest_penetration, depth / thinner);
-  if (is_new) {
-    state.deepest_birth = std::max(state.deepest_birth, depth / thinner);
-  }
-}
 
-/// What a push does beside its forces.
-inline void note_push(const Scene& scene, State& state, const Touches& touches, const Push& push) {
-  if (push.node_touch != Push::kNone) {
-    take_back_node(scene, state, touches, push.node_touch);
+  /// Most are none, whatever their walls are.
+  void note(int touch) {
+    const bool is_new = known_[touch] == Touches::kNew;
+    if (depth_[touch] > (is_new ? birth_bar_ : penetration_bar_)) {
+      raise(touch, is_new);
+    }
   }
-  note_depth(scene, state, touches, push.touch);
-}
+
+ private:
+  void raise(int touch, bool is_new) {
+    const double thinner = std::min(2.0 * scene_.radius[state_.touching.ball[touch]],
+                                    scene_.elements[state_.touching.segment[touch]].thickness);
+    const double depth = depth_[touch] / thinner;
+    state_.deepest_penetration = std::max(state_.deepest_penetration, depth);
+    if (is_new) {
+      state_.deepest_birth = std::max(state_.deepest_birth, depth);
+    }
+    set_bars();
+  }
+
+  void set_bars() {
+    birth_bar_ = scene_.contact.thinnest * state_.deepest_birth;
+    penetration_bar_ = scene_.contact.thinnest * state_.deepest_penetration;
+  }
+
+  const Scene& scene_;
+  State& state_;
+  const double* const depth_;
+  const int* const known_;
+  double birth_bar_ = 0.0;        ///< mm, that a touch must exceed in its first step
+  double penetration_bar_ = 0.0;  ///< mm, in a later one
+};
 
 }  // namespace cellcrush

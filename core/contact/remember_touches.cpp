@@ -33,8 +33,9 @@ void recognize(State& state, ContactWorkspace& workspace) {
   TouchMemory& touching = state.touching;
   workspace.newcomers.clear();
   for (const int place : workspace.found) {
-    const Newcomer pair = {state.candidate_ball[place], state.candidate_segment[place], place};
+    Newcomer pair = {state.candidate_ball[place], state.candidate_segment[place], place};
     const std::size_t at = place_among(touching, pair);
+    pair.next = static_cast<int>(at);
     const bool touches = at < touching.count() && touching.ball[at] == pair.ball &&
                          touching.segment[at] == pair.segment && touching.side[at] != 0;
     if (touches) {
@@ -106,7 +107,7 @@ class Writer {
 
   State& state_;
   const TouchMemory& before_;
-  std::vector<int>& known_;
+  LaneVector<int>& known_;
   std::size_t count_ = 0;   // written
   std::size_t next_ = 0;    // of those before
   std::size_t parted_ = 0;  // passed of State::parted
@@ -134,7 +135,7 @@ void remember_touches(const Scene& scene, State& state, ContactWorkspace& worksp
   std::swap(state.touching, workspace.before);
   Writer writer(state, workspace);
   for (const Newcomer& pair : workspace.newcomers) {
-    writer.copy_until(place_among(workspace.before, pair));
+    writer.copy_until(static_cast<std::size_t>(pair.next));
     writer.put(pair);
   }
   writer.copy_until(workspace.before.count());

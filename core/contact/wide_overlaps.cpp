@@ -29,25 +29,45 @@ struct Standing {
   hn::Vec<D> squared_length;    // u.u
 };
 
-template <class D>
-HWY_INLINE Standing<D> standing_of(D d, const Scene& scene, const State& state, const int* places) {
-  const Vector2* positions = state.position.data();
-  int balls[kMostLanes];
-  int start_nodes[kMostLanes];
-  int end_nodes[kMostLanes];
-  for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) {
-    const Element& element = scene.elements[state.candidate_segment[places[lane]]];
-    balls[lane] = state.candidate_ball[places[lane]];
-    start_nodes[lane] = element.start;
-    end_nodes[lane] = element.end;
+/// Candidates whose numbers are brought together before they are tested, so that the processor has them side by side.
+constexpr std::size_t kTestedTogether = 64;
+
+/// What some candidates are tested by; of each its own.
+struct Tested {
+  int ball[kTestedTogether];
+  int start[kTestedTogether];  ///< nodes of the segment
+  int end[kTestedTogether];
+  double reach[kTestedTogether];
+  double travel[kTestedTogether];  ///< of the group; by buckets the lowest there is
+};
+
+void collect(const Scene& scene, const State& state, std::span<const int> places, Tested& tested) {
+  const Element* elements = scene.elements.data();
+  const int* balls = state.candidate_ball.data();
+  const int* segments = state.candidate_segment.data();
+  const double* reaches = state.candidate_reach.data();
+  const int* groups = state.batch_group.data();
+  const double* travels = state.group_travel.data();
+  const bool sleeps = !state.batch_group.empty();
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const int place = places[i];
+    const Element& element = elements[segments[place]];
+    tested.ball[i] = balls[place];
+    tested.start[i] = element.start;
+    tested.end[i] = element.end;
+    tested.reach[i] = reaches[place];
+    tested.travel[i] = sleeps ? travels[groups[place / kCandidateBatch]] : -std::numeric_limits<double>::infinity();
   }
-  const Points<D> start = gather_points(d, positions, start_nodes);
-  const Points<D> end = gather_points(d, positions, end_nodes);
-  const Points<D> ball = gather_points(d, positions, balls);
+}
+
+template <class D>
+HWY_INLINE Standing<D> standing_of(D d, const Vector2* positions, const Tested& tested, std::size_t i) {
+  const Points<D> start = gather_points(d, positions, tested.start + i);
+  const Points<D> end = gather_points(d, positions, tested.end + i);
+  const Points<D> ball = gather_points(d, positions, tested.ball + i);
   const Points<D> along = {hn::Sub(end.x, start.x), hn::Sub(end.y, start.y)};
   const Points<D> away = {hn::Sub(ball.x, start.x), hn::Sub(ball.y, start.y)};
-  const auto reach = gather_numbers(d, state.candidate_reach.data(), places);
-  return {reach, dot(away, away), dot(away, along), dot(along, along)};
+  return {hn::LoadU(d, tested.reach + i), dot(away, away), dot(away, along), dot(along, along)};
 }
 
 /// Lanes whose ball is nearer to its segment than their reach: to the line along it where the ball stands beside it, else to
@@ -77,12 +97,11 @@ HWY_INLINE hn::Vec<D> gap(D d, const Standing<D>& at) {
 
 /// Bits of the candidates of a batch that are awake.
 template <class D>
-HWY_INLINE std::uint64_t awake_in_batch(D d, const State& state, std::size_t batch) {
-  const auto travel = hn::Set(d, travel_of_batch(state, batch));
-  const double* alarms = &state.candidate_alarm[batch * kCandidateBatch];
+HWY_INLINE std::uint64_t awake_in_batch(D d, double travel, const double* alarms) {
+  const auto travelled = hn::Set(d, travel);
   std::uint64_t bits = 0;
   for (std::size_t lane = 0; lane < kCandidateBatch; lane += hn::Lanes(d)) {
-    const auto asleep = hn::Lt(travel, hn::LoadU(d, alarms + lane));
+    const auto asleep = hn::Lt(travelled, hn::LoadU(d, alarms + lane));
     bits |= std::uint64_t{bits_of(d, hn::Not(asleep))} << lane;
   }
   return bits;
@@ -93,12 +112,16 @@ HWY_INLINE std::uint64_t awake_in_batch(D d, const State& state, std::size_t bat
 std::size_t find_awake(const State& state, std::size_t first, std::size_t end, int* places) {
   const hn::CappedTag<double, kCandidateBatch> d;
   constexpr std::size_t kBatchesInWord = 64 / kCandidateBatch;
+  const double* alarms = state.candidate_alarm.data();
+  const double* travels = state.group_travel.data();
+  const int* groups = state.batch_group.empty() ? nullptr : state.batch_group.data();
   const std::size_t end_batch = end / kCandidateBatch;
   std::size_t count = 0;
   for (std::size_t batch = first / kCandidateBatch; batch < end_batch; batch += kBatchesInWord) {
     std::uint64_t bits = 0;
     for (std::size_t i = 0; i < std::min(kBatchesInWord, end_batch - batch); ++i) {
-      bits |= awake_in_batch(d, state, batch + i) << (i * kCandidateBatch);
+      const double travel = groups == nullptr ? 0.0 : travels[groups[batch + i]];  // see travel_of_batch
+      bits |= awake_in_batch(d, travel, alarms + (batch + i) * kCandidateBatch) << (i * kCandidateBatch);
     }
     for (; bits != 0; bits &= bits - 1) {
       places[count++] = static_cast<int>(batch * kCandidateBatch) + std::countr_zero(bits);
@@ -107,36 +130,24 @@ std::size_t find_awake(const State& state, std::size_t first, std::size_t end, i
   return count;
 }
 
-/// What the groups of candidates have travelled; by buckets the lowest there is.
+/// Finds the alarms of the candidates, and returns the bits of those that overlap.
 template <class D>
-HWY_INLINE hn::Vec<D> travel_of(D d, const State& state, const int* places) {
-  if (state.batch_group.empty()) {
-    return hn::Set(d, -std::numeric_limits<double>::infinity());
-  }
-  int groups[kMostLanes];
-  for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) {
-    groups[lane] = state.batch_group[places[lane] / kCandidateBatch];
-  }
-  return gather_numbers(d, state.group_travel.data(), groups);
-}
-
-/// Sets the alarms of the candidates at some places, and returns the bits of those that overlap.
-template <class D>
-HWY_INLINE unsigned test(D d, const Scene& scene, State& state, const int* places) {
-  const Standing<D> at = standing_of(d, scene, state, places);
+HWY_INLINE unsigned test(D d, const Vector2* positions, const Tested& tested, std::size_t i, double* alarms) {
+  const Standing<D> at = standing_of(d, positions, tested, i);
   const auto overlaps = overlap(d, at);
-  const auto next = hn::Add(travel_of(d, state, places), gap(d, at));
-  double alarms[kMostLanes];
-  hn::StoreU(hn::IfThenElse(overlaps, hn::Set(d, std::numeric_limits<double>::infinity()), next), d, alarms);
-  for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) {
-    state.candidate_alarm[places[lane]] = alarms[lane];
-  }
+  const auto next = hn::Add(hn::LoadU(d, tested.travel + i), gap(d, at));
+  hn::StoreU(hn::IfThenElse(overlaps, hn::Set(d, std::numeric_limits<double>::infinity()), next), d, alarms + i);
   return bits_of(d, overlaps);
 }
 
-void test_awake(const Scene& scene, State& state, std::span<const int> places, std::vector<int>& found) {
+/// Sets the alarms of candidates that are tested together; adds those that overlap to the places found.
+void test_some(const Scene& scene, State& state, std::span<const int> places, std::vector<int>& found) {
   const hn::CappedTag<double, kMostLanes> wide;
   const hn::CappedTag<double, 1> one;
+  Tested tested;
+  collect(scene, state, places, tested);
+  const Vector2* positions = state.position.data();
+  double alarms[kTestedTogether];
   const auto note = [&](std::size_t i, unsigned bits) {
     for (; bits != 0; bits &= bits - 1) {
       found.push_back(places[i + std::countr_zero(bits)]);
@@ -144,10 +155,20 @@ void test_awake(const Scene& scene, State& state, std::span<const int> places, s
   };
   std::size_t i = 0;
   for (; i + hn::Lanes(wide) <= places.size(); i += hn::Lanes(wide)) {
-    note(i, test(wide, scene, state, &places[i]));
+    note(i, test(wide, positions, tested, i, alarms));
   }
   for (; i < places.size(); ++i) {
-    note(i, test(one, scene, state, &places[i]));
+    note(i, test(one, positions, tested, i, alarms));
+  }
+  double* next_alarms = state.candidate_alarm.data();
+  for (i = 0; i < places.size(); ++i) {
+    next_alarms[places[i]] = alarms[i];
+  }
+}
+
+void test_awake(const Scene& scene, State& state, std::span<const int> places, std::vector<int>& found) {
+  for (std::size_t i = 0; i < places.size(); i += kTestedTogether) {
+    test_some(scene, state, places.subspan(i, std::min(kTestedTogether, places.size() - i)), found);
   }
 }
 

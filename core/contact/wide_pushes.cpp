@@ -22,25 +22,37 @@ HWY_INLINE void add(D d, const double* HWY_RESTRICT pair, double share, ContactF
   }
 }
 
+/// Pointers in place of the vectors, which would be asked anew where their numbers lie after every store of a number.
 void apply(const Scene& scene, State& state, ContactWorkspace& workspace) {
   const hn::CappedTag<double, 4> d;
   const Touches& touches = workspace.touches;
+  const int* balls = state.touching.ball.data();
+  const int* starts = touches.start.data();
+  const int* ends = touches.end.data();
+  const double* depths = touches.depth.data();
+  const double* shares = touches.share.data();
+  const Vector2* normals = touches.normal.data();
   const double stiffness = scene.contact.stiffness;
   ContactForce* forces = state.contact_force.data();
+  DepthRecords records(scene, state, touches);
   double squared_depths = 0.0;
   for (Push& push : workspace.pushes) {
-    const double depth = touches.depth[push.touch];
-    const Vector2& normal = touches.normal[push.touch];
+    const int touch = push.touch;
+    const double depth = depths[touch];
+    const Vector2 normal = normals[touch];
     const NormalForce net = push_pair(scene, touches, push);
     const double elastic = stiffness * depth;
     const double pair[] = {elastic * normal.x(), elastic * normal.y(), net.viscous * normal.x(),
                            net.viscous * normal.y()};
-    const double share = touches.share[push.touch];
-    add(d, pair, 1.0, forces[state.touching.ball[push.touch]]);
-    add(d, pair, share - 1.0, forces[touches.start[push.touch]]);
-    add(d, pair, -share, forces[touches.end[push.touch]]);
+    const double share = shares[touch];
+    add(d, pair, 1.0, forces[balls[touch]]);
+    add(d, pair, share - 1.0, forces[starts[touch]]);
+    add(d, pair, -share, forces[ends[touch]]);
     squared_depths += depth * depth;
-    note_push(scene, state, touches, push);
+    if (push.node_touch != Push::kNone) {
+      take_back_node(scene, state, touches, push.node_touch);
+    }
+    records.note(touch);
   }
   state.contact_stored += 0.5 * stiffness * squared_depths;
 }
