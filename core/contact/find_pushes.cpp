@@ -11,9 +11,7 @@ struct BallTouches {
 
   /// Whether the segments of two touches share a node.
   [[nodiscard]] bool are_joined(int a, int b) const {
-    const int* starts = touches.start.data();
-    const int* ends = touches.end.data();
-    return starts[a] == starts[b] || starts[a] == ends[b] || ends[a] == starts[b] || ends[a] == ends[b];
+    return share_a_node({touches.start[a], touches.end[a]}, {touches.start[b], touches.end[b]});
   }
 
   /// Whether another touching segment of the same polyline is nearer to the ball.

@@ -11,8 +11,4 @@ namespace cellcrush {
 /// a node only the deepest. Reads the touches.
 void find_pushes(const Scene& scene, const State& state, ContactWorkspace& workspace, Workers& workers);
 
-inline bool share_a_node(const Element& a, const Element& b) {
-  return a.start == b.start || a.start == b.end || a.end == b.start || a.end == b.end;
-}
-
 }  // namespace cellcrush

@@ -33,10 +33,6 @@ bool boxes_meet(const Vector2& a, const Vector2& b, const Vector2& c, const Vect
          (c.cwiseMin(d).array() <= a.cwiseMax(b).array()).all();
 }
 
-bool share_a_node(const Element& a, const Element& b) {
-  return a.start == b.start || a.start == b.end || a.end == b.start || a.end == b.end;
-}
-
 class OverlapFinder {
  public:
   OverlapFinder(const Scene& scene, std::size_t most) : scene_(scene), most_(most), paths_(scene) {

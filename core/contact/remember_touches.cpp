@@ -5,8 +5,6 @@
 #include <numeric>
 #include <utility>
 
-#include "contact/find_pushes.h"
-
 namespace cellcrush {
 namespace {
 

@@ -61,22 +61,14 @@ struct PairArrays {
         node_normal(touches.node_normal.data()) {}
 };
 
-/// Balls and their segments with both particles, a pair a lane.
-struct PairIndices {
-  const int* ball;
-  const int* segment;
-  const int* start;
-  const int* end;
-};
-
+/// Notes the particles of the lanes' segments.
 template <class D>
-HWY_INLINE PairIndices pair_indices(D d, const PairArrays& arrays, std::size_t i) {
+HWY_INLINE void note_nodes(D d, const PairArrays& arrays, std::size_t i) {
   for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) {
     const Element& element = arrays.elements[arrays.segment[i + lane]];
     arrays.start[i + lane] = element.start;
     arrays.end[i + lane] = element.end;
   }
-  return {arrays.ball + i, arrays.segment + i, arrays.start + i, arrays.end + i};
 }
 
 template <class D>
@@ -138,13 +130,12 @@ struct Stand {
 };
 
 template <class D>
-HWY_INLINE Stand<D> evaluate_stand(D d, const PairArrays& arrays, const PairIndices& pair, const LanePairs<D>& at,
-                                   std::size_t i) {
+HWY_INLINE Stand<D> evaluate_stand(D d, const PairArrays& arrays, const LanePairs<D>& at, std::size_t i) {
   const hn::Rebind<int, D> narrow;
   const auto zero = hn::Zero(d);
   const auto one = hn::Set(d, 1.0);
-  const Points<D> axis = gather_points(d, arrays.axis, pair.segment);
-  const auto length = gather_numbers(d, arrays.length, pair.segment);
+  const Points<D> axis = gather_points(d, arrays.axis, arrays.segment + i);
+  const auto length = gather_numbers(d, arrays.length, arrays.segment + i);
   const Points<D> from_start = difference<D>(at.ball.position, at.start.position);
   const Points<D> from_end = difference<D>(at.ball.position, at.end.position);
   const auto end_is_nearer = hn::Lt(dot(from_end, from_end), dot(from_start, from_start));
@@ -177,8 +168,8 @@ HWY_INLINE Stand<D> evaluate_stand(D d, const PairArrays& arrays, const PairIndi
   hn::StoreU(depth, d, arrays.depth + i);
   hn::StoreU(share, d, arrays.share + i);
   store_points(d, normal, arrays.normal + i);
-  const auto node = hn::IfThenElse(end_is_nearer, hn::PromoteTo(d, hn::LoadU(narrow, pair.end)),
-                                   hn::PromoteTo(d, hn::LoadU(narrow, pair.start)));
+  const auto node = hn::IfThenElse(end_is_nearer, hn::PromoteTo(d, hn::LoadU(narrow, arrays.end + i)),
+                                   hn::PromoteTo(d, hn::LoadU(narrow, arrays.start + i)));
   hn::StoreU(hn::DemoteTo(narrow, node), narrow, arrays.node + i);
   hn::StoreU(hn::IfThenElseZero(apart, hn::Sub(reach, node_distance)), d, arrays.node_depth + i);
   store_points(d, node_normal, arrays.node_normal + i);
@@ -207,10 +198,10 @@ HWY_INLINE void evaluate_motion(D d, const Scene& scene, const PairArrays& array
 /// Returns the lanes whose pairs have parted.
 template <class D>
 HWY_INLINE hn::Mask<D> evaluate_pairs(D d, const Scene& scene, const PairArrays& arrays, std::size_t i) {
-  const PairIndices pair = pair_indices(d, arrays, i);
-  const LanePairs<D> at = {gather_particles(d, arrays, pair.ball), gather_particles(d, arrays, pair.start),
-                           gather_particles(d, arrays, pair.end)};
-  const Stand<D> stand = evaluate_stand(d, arrays, pair, at, i);
+  note_nodes(d, arrays, i);
+  const LanePairs<D> at = {gather_particles(d, arrays, arrays.ball + i), gather_particles(d, arrays, arrays.start + i),
+                           gather_particles(d, arrays, arrays.end + i)};
+  const Stand<D> stand = evaluate_stand(d, arrays, at, i);
   evaluate_motion(d, scene, arrays, at, stand, i);
   return hn::Not(hn::Gt(stand.depth, hn::Zero(d)));
 }

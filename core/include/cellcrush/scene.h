@@ -43,6 +43,10 @@ struct Element {
   int material = 0;        ///< into Scene::materials
 };
 
+inline bool share_a_node(const Element& a, const Element& b) {
+  return a.start == b.start || a.start == b.end || a.end == b.start || a.end == b.end;
+}
+
 /// Most fibres of an element that are kept in single precision: there is a bit for each in 32.
 inline constexpr std::size_t kMostSingleFibres = 32;
 
