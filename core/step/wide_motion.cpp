@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <type_traits>
 #include <vector>
 
 #undef HWY_TARGET_INCLUDE
@@ -21,13 +22,38 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// Lanes over which works are summed, whatever the target's are: the sums then have the same bits.
 constexpr int kSumLanes = 8;
 
-/// Works of the forces on the particles, each lane's by itself; see Ledger.
+/// Works of the forces on the lanes' particles; see Ledger.
+template <class D>
 struct LaneWorks {
+  hn::Vec<D> contact;
+  hn::Vec<D> contact_damping;
+  hn::Vec<D> friction;
+  hn::Vec<D> mass_damping;
+  hn::Vec<D> twice_kinetic;
+};
+
+/// The same of all lanes of the sums.
+struct LaneSums {
   double contact[kSumLanes] = {};
   double contact_damping[kSumLanes] = {};
   double friction[kSumLanes] = {};
   double mass_damping[kSumLanes] = {};
   double twice_kinetic[kSumLanes] = {};
+
+  template <class D>
+  HWY_INLINE LaneWorks<D> works(D d, int lane) const {
+    return {hn::LoadU(d, contact + lane), hn::LoadU(d, contact_damping + lane), hn::LoadU(d, friction + lane),
+            hn::LoadU(d, mass_damping + lane), hn::LoadU(d, twice_kinetic + lane)};
+  }
+
+  template <class D>
+  HWY_INLINE void put(D d, int lane, const LaneWorks<D>& works) {
+    hn::StoreU(works.contact, d, contact + lane);
+    hn::StoreU(works.contact_damping, d, contact_damping + lane);
+    hn::StoreU(works.friction, d, friction + lane);
+    hn::StoreU(works.mass_damping, d, mass_damping + lane);
+    hn::StoreU(works.twice_kinetic, d, twice_kinetic + lane);
+  }
 };
 
 double sum_of(const double* lanes) {
@@ -38,15 +64,15 @@ double sum_of(const double* lanes) {
   return sum;
 }
 
-WorksOfMotion sums_of(const LaneWorks& works) {
-  return {sum_of(works.contact), sum_of(works.contact_damping), sum_of(works.friction), sum_of(works.mass_damping),
-          sum_of(works.twice_kinetic)};
+WorksOfMotion sums_of(const LaneSums& sums) {
+  return {sum_of(sums.contact), sum_of(sums.contact_damping), sum_of(sums.friction), sum_of(sums.mass_damping),
+          sum_of(sums.twice_kinetic)};
 }
 
 /// Subtracts force . displacement from a work.
 template <class D>
-HWY_INLINE void spend(D d, const Points<D>& force, const Points<D>& displacement, double* HWY_RESTRICT work) {
-  hn::StoreU(hn::Sub(hn::LoadU(d, work), dot(force, displacement)), d, work);
+HWY_INLINE void spend(const Points<D>& force, const Points<D>& displacement, hn::Vec<D>& work) {
+  work = hn::Sub(work, dot(force, displacement));
 }
 
 /// See next_velocity.
@@ -55,6 +81,41 @@ struct Motion {
   double keep;
   double gain;
   double half_damping;
+};
+
+/// Where the particles' numbers lie, in one place, so that no store of a number makes the processor look for them again; S is
+/// State, or const State where nothing moves.
+template <class S>
+struct ParticleArrays {
+  template <class T>
+  using Pointer = std::conditional_t<std::is_const_v<S>, const T*, T*>;
+
+  const double* mass;
+  const double* inertia;
+  const double* inverse_mass;
+  const double* inverse_inertia;
+  const Vector2* internal_force;
+  const double* internal_moment;
+  Pointer<Vector2> position;
+  Pointer<Vector2> velocity;
+  Pointer<double> rotation;
+  Pointer<double> spin;
+  Pointer<ContactForce> contact_force;
+  Pointer<Vector2> friction_force;
+
+  ParticleArrays(const Scene& scene, S& state)
+      : mass(scene.mass.data()),
+        inertia(scene.inertia.data()),
+        inverse_mass(scene.inverse_mass.data()),
+        inverse_inertia(scene.inverse_inertia.data()),
+        internal_force(state.internal_force.data()),
+        internal_moment(state.internal_moment.data()),
+        position(state.position.data()),
+        velocity(state.velocity.data()),
+        rotation(state.rotation.data()),
+        spin(state.spin.data()),
+        contact_force(state.contact_force.data()),
+        friction_force(state.friction_force.data()) {}
 };
 
 /// Forces of contacts.
@@ -77,21 +138,19 @@ HWY_INLINE LaneContactForces<D> load_contact_forces(D d, const ContactForce* fro
   return forces;
 }
 
-/// The same, cleared in the array. Most are 0, and are then neither parted nor written.
+/// Whether any lane's particle has such a force. Most have none.
 template <class D>
-HWY_INLINE LaneContactForces<D> take_contact_forces(D d, ContactForce* HWY_RESTRICT from) {
-  double* values = from->elastic.data();
-  const auto zero = hn::Zero(d);
-  const auto part = [&](std::size_t k) HWY_ATTR { return hn::LoadU(d, values + k * hn::Lanes(d)); };
+HWY_INLINE bool has_contact_forces(D d, const ContactForce* from) {
+  const auto part = [&](std::size_t k) HWY_ATTR { return hn::LoadU(d, from->elastic.data() + k * hn::Lanes(d)); };
   const auto all = hn::Or(hn::Or(part(0), part(1)), hn::Or(part(2), part(3)));
-  if (hn::AllTrue(d, hn::Eq(all, zero))) {
-    return {{zero, zero}, {zero, zero}};
-  }
-  const LaneContactForces<D> forces = load_contact_forces(d, from);
+  return !hn::AllTrue(d, hn::Eq(all, hn::Zero(d)));
+}
+
+template <class D>
+HWY_INLINE void clear_contact_forces(D d, ContactForce* at) {
   for (std::size_t k = 0; k < 4; ++k) {
-    hn::StoreU(zero, d, values + k * hn::Lanes(d));
+    hn::StoreU(hn::Zero(d), d, at->elastic.data() + k * hn::Lanes(d));
   }
-  return forces;
 }
 
 /// Motion of the lanes' particles before and after a step, and the forces that change it; see next_velocity.
@@ -106,118 +165,139 @@ struct LaneMotion {
   hn::Vec<D> next_spin;
 };
 
-template <bool kFriction, class D>
-HWY_INLINE LaneMotion<D> motion_of(D d, const Scene& scene, const State& state, const Motion& motion, std::size_t i,
-                                   const LaneContactForces<D>& contact) {
+template <bool kContact, bool kFriction, class S, class D>
+HWY_INLINE LaneMotion<D> motion_of(D d, const ParticleArrays<S>& arrays, const Motion& motion, std::size_t i) {
   LaneMotion<D> lanes;
-  lanes.contact = contact;
-  Points<D> force = load_points(d, &state.internal_force[i]);
-  force = {hn::Add(force.x, hn::Add(contact.elastic.x, contact.viscous.x)),
-           hn::Add(force.y, hn::Add(contact.elastic.y, contact.viscous.y))};
+  Points<D> force = load_points(d, arrays.internal_force + i);
+  if constexpr (kContact) {
+    const LaneContactForces<D> contact = lanes.contact = load_contact_forces(d, arrays.contact_force + i);
+    force = {hn::Add(force.x, hn::Add(contact.elastic.x, contact.viscous.x)),
+             hn::Add(force.y, hn::Add(contact.elastic.y, contact.viscous.y))};
+  }
   if constexpr (kFriction) {
-    lanes.friction = load_points(d, &state.friction_force[i]);
+    lanes.friction = load_points(d, arrays.friction_force + i);
     force = {hn::Add(force.x, lanes.friction.x), hn::Add(force.y, lanes.friction.y)};
   }
   const auto keep = hn::Set(d, motion.keep);
   const auto gain = hn::Set(d, motion.gain);
-  const auto per_force = hn::Mul(gain, hn::LoadU(d, &scene.inverse_mass[i]));
-  const auto per_moment = hn::Mul(gain, hn::LoadU(d, &scene.inverse_inertia[i]));
-  lanes.velocity = load_points(d, &state.velocity[i]);
+  const auto per_force = hn::Mul(gain, hn::LoadU(d, arrays.inverse_mass + i));
+  const auto per_moment = hn::Mul(gain, hn::LoadU(d, arrays.inverse_inertia + i));
+  lanes.velocity = load_points(d, arrays.velocity + i);
   lanes.next = {hn::MulAdd(per_force, force.x, hn::Mul(keep, lanes.velocity.x)),
                 hn::MulAdd(per_force, force.y, hn::Mul(keep, lanes.velocity.y))};
   lanes.sum = {hn::Add(lanes.velocity.x, lanes.next.x), hn::Add(lanes.velocity.y, lanes.next.y)};
-  lanes.spin = hn::LoadU(d, &state.spin[i]);
-  lanes.next_spin = hn::MulAdd(per_moment, hn::LoadU(d, &state.internal_moment[i]), hn::Mul(keep, lanes.spin));
+  lanes.spin = hn::LoadU(d, arrays.spin + i);
+  lanes.next_spin = hn::MulAdd(per_moment, hn::LoadU(d, arrays.internal_moment + i), hn::Mul(keep, lanes.spin));
   return lanes;
 }
 
 /// Adds the works of the forces over displacements and turns; see accumulate_work.
-template <bool kFriction, bool kMassDamping, class D>
-HWY_INLINE void add_works(D d, const Scene& scene, const Motion& motion, std::size_t i, const LaneMotion<D>& lanes,
-                          const Points<D>& displacement, hn::Vec<D> turn, int lane, LaneWorks& works) {
-  spend(d, lanes.contact.elastic, displacement, works.contact + lane);
-  spend(d, lanes.contact.viscous, displacement, works.contact_damping + lane);
+template <bool kContact, bool kFriction, bool kMassDamping, class S, class D>
+HWY_INLINE void add_works(D d, const ParticleArrays<S>& arrays, const Motion& motion, std::size_t i,
+                          const LaneMotion<D>& lanes, const Points<D>& displacement, hn::Vec<D> turn,
+                          LaneWorks<D>& works) {
+  if constexpr (kContact) {
+    spend<D>(lanes.contact.elastic, displacement, works.contact);
+    spend<D>(lanes.contact.viscous, displacement, works.contact_damping);
+  }
   if constexpr (kFriction) {
-    spend(d, lanes.friction, displacement, works.friction + lane);
+    spend<D>(lanes.friction, displacement, works.friction);
   }
   if constexpr (kMassDamping) {
     const auto of_mass = hn::Set(d, -motion.half_damping);
-    const auto momentum = hn::Mul(of_mass, hn::LoadU(d, &scene.mass[i]));
+    const auto momentum = hn::Mul(of_mass, hn::LoadU(d, arrays.mass + i));
     const auto moment =
-        hn::Mul(hn::Mul(of_mass, hn::LoadU(d, &scene.inertia[i])), hn::Add(lanes.spin, lanes.next_spin));
-    double* work = works.mass_damping + lane;
-    spend(d, Points<D>{hn::Mul(momentum, lanes.sum.x), hn::Mul(momentum, lanes.sum.y)}, displacement, work);
-    hn::StoreU(hn::NegMulAdd(moment, turn, hn::LoadU(d, work)), d, work);
+        hn::Mul(hn::Mul(of_mass, hn::LoadU(d, arrays.inertia + i)), hn::Add(lanes.spin, lanes.next_spin));
+    spend<D>({hn::Mul(momentum, lanes.sum.x), hn::Mul(momentum, lanes.sum.y)}, displacement, works.mass_damping);
+    works.mass_damping = hn::NegMulAdd(moment, turn, works.mass_damping);
   }
 }
 
-template <bool kFriction, bool kMassDamping, class D>
-HWY_INLINE void move(D d, const Scene& scene, State& state, const Motion& motion, std::size_t i, int lane,
-                     LaneWorks& works) {
-  const LaneMotion<D> lanes =
-      motion_of<kFriction>(d, scene, state, motion, i, take_contact_forces(d, &state.contact_force[i]));
+template <bool kContact, bool kFriction, bool kMassDamping, class D>
+HWY_INLINE void move(D d, const ParticleArrays<State>& arrays, const Motion& motion, std::size_t i,
+                     LaneWorks<D>& works) {
+  const LaneMotion<D> lanes = motion_of<kContact, kFriction>(d, arrays, motion, i);
+  if constexpr (kContact) {
+    clear_contact_forces(d, arrays.contact_force + i);
+  }
   if constexpr (kFriction) {
-    store_points(d, Points<D>{hn::Zero(d), hn::Zero(d)}, &state.friction_force[i]);
+    store_points(d, Points<D>{hn::Zero(d), hn::Zero(d)}, arrays.friction_force + i);
   }
   const auto half = hn::Set(d, 0.5 * motion.step);
   const Points<D> mean = {hn::Mul(half, lanes.sum.x), hn::Mul(half, lanes.sum.y)};
   const auto mean_turn = hn::Mul(half, hn::Add(lanes.spin, lanes.next_spin));
-  add_works<kFriction, kMassDamping>(d, scene, motion, i, lanes, mean, mean_turn, lane, works);
+  add_works<kContact, kFriction, kMassDamping>(d, arrays, motion, i, lanes, mean, mean_turn, works);
   const auto step = hn::Set(d, motion.step);
-  const Points<D> position = load_points(d, &state.position[i]);
-  store_points(d, lanes.next, &state.velocity[i]);
-  hn::StoreU(lanes.next_spin, d, &state.spin[i]);
+  const Points<D> position = load_points(d, arrays.position + i);
+  store_points(d, lanes.next, arrays.velocity + i);
+  hn::StoreU(lanes.next_spin, d, arrays.spin + i);
   store_points(d, Points<D>{hn::MulAdd(step, lanes.next.x, position.x), hn::MulAdd(step, lanes.next.y, position.y)},
-               &state.position[i]);
-  hn::StoreU(hn::MulAdd(step, lanes.next_spin, hn::LoadU(d, &state.rotation[i])), d, &state.rotation[i]);
+               arrays.position + i);
+  hn::StoreU(hn::MulAdd(step, lanes.next_spin, hn::LoadU(d, arrays.rotation + i)), d, arrays.rotation + i);
 }
 
 /// Nothing moves: the works of the half step up to now, and twice the kinetic energy now.
 template <bool kFriction, bool kMassDamping, class D>
-HWY_INLINE void look(D d, const Scene& scene, const State& state, const Motion& motion, std::size_t i, int lane,
-                     LaneWorks& works) {
-  const LaneMotion<D> lanes =
-      motion_of<kFriction>(d, scene, state, motion, i, load_contact_forces(d, &state.contact_force[i]));
+HWY_INLINE void look(D d, const ParticleArrays<const State>& arrays, const Motion& motion, std::size_t i,
+                     LaneWorks<D>& works) {
+  const LaneMotion<D> lanes = motion_of<true, kFriction>(d, arrays, motion, i);
   const auto half = hn::Set(d, 0.5 * motion.step);
   const Points<D> displacement = {hn::Mul(half, lanes.velocity.x), hn::Mul(half, lanes.velocity.y)};
-  add_works<kFriction, kMassDamping>(d, scene, motion, i, lanes, displacement, hn::Mul(half, lanes.spin), lane, works);
-  double* kinetic = works.twice_kinetic + lane;
-  const auto of_spin = hn::Mul(hn::LoadU(d, &scene.inertia[i]), hn::Mul(lanes.spin, lanes.next_spin));
-  const auto of_both = hn::MulAdd(hn::LoadU(d, &scene.mass[i]), dot(lanes.velocity, lanes.next), of_spin);
-  hn::StoreU(hn::Add(hn::LoadU(d, kinetic), of_both), d, kinetic);
+  const auto turn = hn::Mul(half, lanes.spin);
+  add_works<true, kFriction, kMassDamping>(d, arrays, motion, i, lanes, displacement, turn, works);
+  const auto of_spin = hn::Mul(hn::LoadU(d, arrays.inertia + i), hn::Mul(lanes.spin, lanes.next_spin));
+  const auto of_both = hn::MulAdd(hn::LoadU(d, arrays.mass + i), dot(lanes.velocity, lanes.next), of_spin);
+  works.twice_kinetic = hn::Add(works.twice_kinetic, of_both);
 }
 
-/// Calls visit(tag of the lanes, first particle, first lane of the sums) for all of a chunk.
+/// Calls visit(tag of the lanes, first particle, their works) for all of a chunk and sums the works. They stay in registers:
+/// in memory each would wait for the one before to have been written.
 template <class Visit>
-HWY_INLINE void visit_chunk(std::size_t first, std::size_t end, Visit&& visit) {
-  const hn::CappedTag<double, kSumLanes> wide;
-  const hn::CappedTag<double, 1> one;
+HWY_INLINE WorksOfMotion sum_over_chunk(std::size_t first, std::size_t end, Visit&& visit) {
+  using Wide = hn::CappedTag<double, kSumLanes>;
+  using One = hn::CappedTag<double, 1>;
+  constexpr int kLanes = static_cast<int>(hn::MaxLanes(Wide()));
+  constexpr int kLots = kSumLanes / kLanes;
+  LaneSums sums;
+  LaneWorks<Wide> works[kLots];
+  for (int lot = 0; lot < kLots; ++lot) {
+    works[lot] = sums.works(Wide(), 0);
+  }
   std::size_t i = first;
-  for (; i + hn::Lanes(wide) <= end; i += hn::Lanes(wide)) {
-    visit(wide, i, static_cast<int>((i - first) % kSumLanes));
+  for (; i + kSumLanes <= end; i += kSumLanes) {
+    for (int lot = 0; lot < kLots; ++lot) {
+      visit(Wide(), i + lot * kLanes, works[lot]);
+    }
   }
-  for (; i < end; ++i) {
-    visit(one, i, static_cast<int>((i - first) % kSumLanes));
+  for (int lot = 0; lot < kLots; ++lot) {
+    sums.put(Wide(), lot * kLanes, works[lot]);
   }
+  for (int lane = 0; i < end; ++i, ++lane) {
+    LaneWorks<One> work = sums.works(One(), lane);
+    visit(One(), i, work);
+    sums.put(One(), lane, work);
+  }
+  return sums_of(sums);
 }
 
 template <bool kFriction, bool kMassDamping>
-WorksOfMotion move_chunk(const Scene& scene, State& state, const Motion& motion, std::size_t first, std::size_t end) {
-  LaneWorks works;
-  visit_chunk(first, end, [&](auto d, std::size_t i, int lane) HWY_ATTR {
-    move<kFriction, kMassDamping>(d, scene, state, motion, i, lane, works);
+WorksOfMotion move_chunk(const ParticleArrays<State>& arrays, const Motion& motion, std::size_t first,
+                         std::size_t end) {
+  return sum_over_chunk(first, end, [&](auto d, std::size_t i, auto& works) HWY_ATTR {
+    if (has_contact_forces(d, arrays.contact_force + i)) {
+      move<true, kFriction, kMassDamping>(d, arrays, motion, i, works);
+    } else {
+      move<false, kFriction, kMassDamping>(d, arrays, motion, i, works);
+    }
   });
-  return sums_of(works);
 }
 
 template <bool kFriction, bool kMassDamping>
-WorksOfMotion look_at_chunk(const Scene& scene, const State& state, const Motion& motion, std::size_t first,
+WorksOfMotion look_at_chunk(const ParticleArrays<const State>& arrays, const Motion& motion, std::size_t first,
                             std::size_t end) {
-  LaneWorks works;
-  visit_chunk(first, end, [&](auto d, std::size_t i, int lane) HWY_ATTR {
-    look<kFriction, kMassDamping>(d, scene, state, motion, i, lane, works);
+  return sum_over_chunk(first, end, [&](auto d, std::size_t i, auto& works) HWY_ATTR {
+    look<kFriction, kMassDamping>(d, arrays, motion, i, works);
   });
-  return sums_of(works);
 }
 
 /// Particles that are dealt out together: their chunks begin at the first.
@@ -246,6 +326,7 @@ Motion motion_over_step(const Scene& scene) {
 template <bool kFriction, bool kMassDamping>
 void move_all(const Scene& scene, State& state, Workers& workers) {
   const Motion motion = motion_over_step(scene);
+  const ParticleArrays<State> arrays(scene, state);
   const std::array<Group, 2> groups = groups_of(scene);
   std::vector<WorksOfMotion> works(groups[0].chunk_count() + groups[1].chunk_count());
   workers.share_parts(
@@ -255,8 +336,8 @@ void move_all(const Scene& scene, State& state, Workers& workers) {
           const std::size_t chunks = group.chunk_count();
           for (std::size_t c = workers.start_of_part(chunks, part); c < workers.start_of_part(chunks, part + 1); ++c) {
             const std::size_t first = group.first + c * Group::kChunk;
-            works[before + c] = move_chunk<kFriction, kMassDamping>(scene, state, motion, first,
-                                                                    std::min(first + Group::kChunk, group.end));
+            works[before + c] =
+                move_chunk<kFriction, kMassDamping>(arrays, motion, first, std::min(first + Group::kChunk, group.end));
           }
           before += chunks;
         }
@@ -269,12 +350,13 @@ void move_all(const Scene& scene, State& state, Workers& workers) {
 template <bool kFriction, bool kMassDamping>
 WorksOfMotion look_at_all(const Scene& scene, const State& state) {
   const Motion motion = motion_over_step(scene);
+  const ParticleArrays<const State> arrays(scene, state);
   WorksOfMotion sum;
   for (const Group& group : groups_of(scene)) {
     for (std::size_t c = 0; c < group.chunk_count(); ++c) {
       const std::size_t first = group.first + c * Group::kChunk;
-      sum.add(look_at_chunk<kFriction, kMassDamping>(scene, state, motion, first,
-                                                     std::min(first + Group::kChunk, group.end)));
+      sum.add(
+          look_at_chunk<kFriction, kMassDamping>(arrays, motion, first, std::min(first + Group::kChunk, group.end)));
     }
   }
   return sum;
