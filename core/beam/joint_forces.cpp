@@ -3,11 +3,16 @@
 namespace cellcrush {
 
 void sum_joint_forces(const Scene& scene, State& state, std::size_t first, std::size_t end) {
-  const Vector2* forces = state.wall_force.data();
-  const double* moments = state.wall_moment.data();
+  // Pointers in place of the vectors, which would be asked anew where their numbers lie after every store of a number.
+  const int* const offsets = scene.wall_end_offset.data();
+  const int* const wall_ends = scene.wall_ends.data();
+  const Vector2* const forces = state.wall_force.data();
+  const double* const moments = state.wall_moment.data();
+  Vector2* const sums = state.internal_force.data();
+  double* const sums_of_moments = state.internal_moment.data();
   for (std::size_t joint = first; joint < end; ++joint) {
-    const int* ends = &scene.wall_ends[scene.wall_end_offset[joint]];
-    const int count = scene.wall_end_offset[joint + 1] - scene.wall_end_offset[joint];
+    const int* ends = wall_ends + offsets[joint];
+    const int count = offsets[joint + 1] - offsets[joint];
     Vector2 force = Vector2::Zero();
     double moment = 0.0;
     // Most joints of a honeycomb have three: without a loop they take half of the time.
@@ -20,8 +25,8 @@ void sum_joint_forces(const Scene& scene, State& state, std::size_t first, std::
         moment += moments[ends[k]];
       }
     }
-    state.internal_force[joint] = force;
-    state.internal_moment[joint] = moment;
+    sums[joint] = force;
+    sums_of_moments[joint] = moment;
   }
 }
 
