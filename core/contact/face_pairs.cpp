@@ -1,14 +1,15 @@
 #include "contact/face_pairs.h"
 
 #include <algorithm>
-#include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <span>
 
 #include "contact/bucket_grid.h"
 #include "contact/capsule.h"
-#include "contact/find_pushes.h"
+#include "contact/near_corners.h"
 #include "scene/face_loops.h"
 
 namespace cellcrush {
@@ -43,24 +44,26 @@ class FaceFinder {
     }
   }
 
-  /// Every pair: the corners' squared distances from a segment in one loop, then what is near.
+  /// Every pair: the corners' squared distances from a segment at once, then what is near.
   void visit_all() {
+    std::vector<Vector2> places = place_;
+    places.resize((places.size() + kPointLot - 1) / kPointLot * kPointLot, places.back());
+    const std::uint64_t all = (std::uint64_t{1} << count_) - 1;
     double least = std::numeric_limits<double>::max();
-    std::array<double, kManyCorners> squared_distance;
+    NearCorners found;
     for (int corner = 0; corner < count_; ++corner) {
       const int e = element_[corner];
-      const Vector2 start = state_.position[scene_.elements[e].start];
-      const Vector2 axis = state_.axis[e];
-      const double length = state_.length[e];
-      for (int i = 0; i < count_; ++i) {
-        squared_distance[i] = project(place_[i], start, axis, length).offset.squaredNorm();
-      }
       const int next = corner + 1 < count_ ? corner + 1 : 0;
-      squared_distance[corner] = squared_distance[next] = std::numeric_limits<double>::max();
-      const double range = largest_radius_ + 0.5 * scene_.elements[e].thickness + skin_;
-      for (int i = 0; i < count_; ++i) {
-        if (squared_distance[i] >= range * range || !keep(i, e, squared_distance[i])) {
-          least = std::min(least, squared_distance[i]);
+      const std::uint64_t ends = std::uint64_t{1} << corner | std::uint64_t{1} << next;
+      const double range = range_of(scene_.elements[e]);
+      find_near_corners(places, all & ~ends,
+                        {state_.position[scene_.elements[e].start], state_.axis[e], state_.length[e]}, range * range,
+                        found);
+      least = std::min(least, found.least_of_others);
+      for (std::uint64_t near = found.near; near != 0; near &= near - 1) {
+        const int i = std::countr_zero(near);
+        if (!keep(i, e, found.squared_distance[i])) {
+          least = std::min(least, found.squared_distance[i]);
         }
       }
     }
@@ -72,12 +75,16 @@ class FaceFinder {
     for (int corner = 0; corner < count_; ++corner) {
       const int e = element_[corner];
       const Element& element = scene_.elements[e];
-      const Vector2& start = state_.position[element.start];
-      const Vector2& end = state_.position[element.end];
-      const Vector2 margin = Vector2::Constant(0.5 * element.thickness + largest_radius_ + skin_);
+      const Vector2 start = state_.position[element.start];
+      const Vector2 end = state_.position[element.end];
+      const Vector2 axis = state_.axis[e];
+      const double length = state_.length[e];
+      const double range = range_of(element);
+      const Vector2 margin = Vector2::Constant(range);
       grid.visit_box(start.cwiseMin(end) - margin, start.cwiseMax(end) + margin, [&](int i) {
-        if (particle_[i] != element.start && particle_[i] != element.end) {
-          keep(i, e, project(place_[i], start, state_.axis[e], state_.length[e]).offset.squaredNorm());
+        const double squared_distance = project(place_[i], start, axis, length).offset.squaredNorm();
+        if (squared_distance < range * range && particle_[i] != element.start && particle_[i] != element.end) {
+          keep(i, e, squared_distance);
         }
       });
     }
@@ -96,6 +103,11 @@ class FaceFinder {
   }
 
  private:
+  /// Beyond it no corner is listed with a segment, mm.
+  [[nodiscard]] double range_of(const Element& segment) const {
+    return largest_radius_ + 0.5 * segment.thickness + skin_;
+  }
+
   /// Lists a pair that is near enough; says whether it was.
   bool keep(int corner, int segment, double squared_distance) {
     const int ball = particle_[corner];

@@ -5,11 +5,9 @@
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
 #include "contact/candidate_lists.h"
+#include "contact/near_corners.h"
 
 namespace cellcrush {
-
-/// Corners from which on a face's particles are sorted into buckets.
-inline constexpr int kManyCorners = 64;
 
 /// What lies near each other in a face.
 struct FacePairs {

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "cellcrush/vector.h"
+
+namespace cellcrush {
+
+/// Corners from which on a face's particles are sorted into buckets.
+inline constexpr int kManyCorners = 64;
+
+/// Points whose distances from a segment are found together. Places of points come in whole lots, the last of them filled up.
+inline constexpr std::size_t kPointLot = 8;
+
+/// A segment of a face, mm.
+struct FaceSegment {
+  Vector2 start;
+  Vector2 axis;
+  double length;
+};
+
+/// How the corners of a face lie to one of its segments.
+struct NearCorners {
+  std::uint64_t near = 0;                             ///< bits of those within range
+  double least_of_others = 0.0;                       ///< mm^2
+  std::array<double, kManyCorners> squared_distance;  ///< mm^2
+};
+
+/// Holds the corners of `corners`, bits, against a segment, all places at once: see project. The vectors' part rounds as the
+/// plain one does and gives the same bits.
+void find_near_corners(std::span<const Vector2> places, std::uint64_t corners, const FaceSegment& segment,
+                       double squared_range, NearCorners& found);
+
+}  // namespace cellcrush
