@@ -16,6 +16,12 @@ struct Newcomer {
   int next = 0;   ///< of the pairs that touched before, the first that it comes before
 };
 
+/// A ball of which a pair came or parted.
+struct ChangedBall {
+  int ball = 0;
+  int place = 0;  ///< of the pair among those that touch, or of the pair that follows where it was
+};
+
 /// How the pairs of State::touching stand to each other in this step; T of them, in the same order.
 struct Touches {
   LaneVector<int> start;            ///< T, particle at which the segment starts
@@ -70,6 +76,7 @@ struct ContactWorkspace {
   std::vector<ContactPart> parts;  ///< one a thread
   std::vector<int> found;          ///< of all parts
   std::vector<Newcomer> newcomers;
+  std::vector<ChangedBall> changes;
   TouchMemory before;  ///< State::touching of the step before
   Touches touches;
   std::vector<Push> pushes;      ///< of all parts

@@ -1,13 +1,14 @@
 #include "contact/find_pushes.h"
 
+#include "contact/remember_touches.h"
+
 namespace cellcrush {
 namespace {
 
-/// The touches of one ball, from `first` to `end`.
+/// The touches of one ball.
 struct BallTouches {
   const Touches& touches;
-  int first;
-  int end;
+  PairRange range;
 
   /// Whether the segments of two touches share a node.
   [[nodiscard]] bool are_joined(int a, int b) const {
@@ -16,7 +17,7 @@ struct BallTouches {
 
   /// Whether another touching segment of the same polyline is nearer to the ball.
   [[nodiscard]] bool yields_to_neighbour(int touch) const {
-    for (int other = first; other < end; ++other) {
+    for (int other = range.first; other < range.end; ++other) {
       const double lead = touches.depth[other] - touches.depth[touch];
       const bool deeper = lead > 0.0 || (lead == 0.0 && other < touch);
       if (other != touch && deeper && are_joined(touch, other)) {
@@ -30,7 +31,7 @@ struct BallTouches {
   [[nodiscard]] int node_touch(int pushing) const {
     int nearest = Push::kNone;
     double depth = 0.0;
-    for (int touch = first; touch < end; ++touch) {
+    for (int touch = range.first; touch < range.end; ++touch) {
       if (touches.node_depth[touch] > depth && (touch == pushing || are_joined(touch, pushing))) {
         nearest = touch;
         depth = touches.node_depth[touch];
@@ -39,20 +40,6 @@ struct BallTouches {
     return nearest;
   }
 };
-
-/// Those of the ball of a touch.
-BallTouches touches_of_ball(const State& state, const Touches& touches, int touch) {
-  const std::vector<int>& ball = state.touching.ball;
-  int first = touch;
-  while (first > 0 && ball[first - 1] == ball[touch]) {
-    --first;
-  }
-  int end = touch + 1;
-  while (end < static_cast<int>(ball.size()) && ball[end] == ball[touch]) {
-    ++end;
-  }
-  return {touches, first, end};
-}
 
 /// Whether the ball lies before the node's own ball, and not above the side of one of its segments.
 bool lies_before(const Scene& scene, const State& state, int ball, int node) {
@@ -100,7 +87,7 @@ void find_pushes_in(const Scene& scene, const State& state, const Touches& touch
     push.net_depth = depth;
     // Most stand alone over the inside of a segment.
     if (state.touching.linked[touch] != 0 || touches.node_depth[touch] > 0.0) {
-      const BallTouches of_ball = touches_of_ball(state, touches, touch);
+      const BallTouches of_ball = {touches, pairs_of_ball(state.touching, state.touching.ball[touch], touch)};
       if (of_ball.yields_to_neighbour(touch)) {
         continue;
       }

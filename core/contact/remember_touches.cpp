@@ -12,16 +12,18 @@ bool comes_before(int ball, int segment, const Newcomer& pair) {
   return ball != pair.ball ? ball < pair.ball : segment < pair.segment;
 }
 
-/// Of the pairs that touched before, the first that does not come before this one.
+/// Of the pairs that touched before, the first that does not come before this one. The ball is searched without a branch:
+/// which half it lies in cannot be foretold.
 std::size_t place_among(const TouchMemory& touching, const Newcomer& pair) {
+  const int* const balls = touching.ball.data();
   std::size_t first = 0;
-  for (std::size_t end = touching.count(); first < end;) {
-    const std::size_t middle = (first + end) / 2;
-    if (comes_before(touching.ball[middle], touching.segment[middle], pair)) {
-      first = middle + 1;
-    } else {
-      end = middle;
-    }
+  for (std::size_t left = touching.count(); left > 0;) {
+    const std::size_t half = (left + 1) / 2;
+    first += balls[first + half - 1] < pair.ball ? half : 0;
+    left -= half;
+  }
+  while (first < touching.count() && comes_before(balls[first], touching.segment[first], pair)) {
+    ++first;
   }
   return first;
 }
@@ -46,33 +48,58 @@ void recognize(State& state, ContactWorkspace& workspace) {
             [](const Newcomer& a, const Newcomer& b) { return comes_before(a.ball, a.segment, b); });
 }
 
-/// Calls visit(field, field of the other) for what a pair keeps while it touches.
-template <class Visit>
-void visit_kept(TouchMemory& touching, const TouchMemory& before, Visit&& visit) {
-  visit(touching.ball, before.ball);
-  visit(touching.segment, before.segment);
-  visit(touching.reach, before.reach);
-  visit(touching.place, before.place);
-  visit(touching.linked, before.linked);
-  visit(touching.side, before.side);
+/// Where the numbers of pairs lie that are kept while they touch.
+struct KeptArrays {
+  int* ball;
+  int* segment;
+  double* reach;
+  int* place;
+  int* linked;
+  int* side;
+
+  explicit KeptArrays(TouchMemory& touching)
+      : ball(touching.ball.data()),
+        segment(touching.segment.data()),
+        reach(touching.reach.data()),
+        place(touching.place.data()),
+        linked(touching.linked.data()),
+        side(touching.side.data()) {}
+};
+
+/// Copies `count` numbers to where nothing else lies.
+template <class T>
+void copy_to(T* __restrict to, const T* from, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
+    to[i] = from[i];
+  }
+}
+
+void resize(TouchMemory& touching, std::size_t count) {
+  touching.ball.resize(count);
+  touching.segment.resize(count);
+  touching.reach.resize(count);
+  touching.place.resize(count);
+  touching.linked.resize(count);
+  touching.side.resize(count);
 }
 
 /// The pairs that touch from now on, written one after the other.
 class Writer {
  public:
   Writer(State& state, ContactWorkspace& workspace)
-      : state_(state), before_(workspace.before), known_(workspace.touches.known) {
-    const std::size_t count = before_.count() - state.parted.size() + workspace.newcomers.size();
-    visit_kept(state.touching, before_, [&](auto& field, const auto&) { field.resize(count); });
-    workspace.touches.resize(count);
-  }
+      : state_(state),
+        changes_(workspace.changes),
+        before_(workspace.before),
+        after_(state.touching),
+        known_(workspace.touches.known.data()) {}
 
   /// Those before up to this one, but the parted.
-  void copy_until(std::size_t end) {
+  void copy_until(int end) {
     while (next_ < end) {
-      const bool parts = parted_ < state_.parted.size() && static_cast<std::size_t>(state_.parted[parted_]) < end;
-      copy_run(parts ? static_cast<std::size_t>(state_.parted[parted_]) : end);
+      const bool parts = parted_ < state_.parted.size() && state_.parted[parted_] < end;
+      copy_run(parts ? state_.parted[parted_] : end);
       if (parts) {
+        note_change(before_.ball[next_]);
         ++parted_;
         ++next_;
       }
@@ -80,45 +107,49 @@ class Writer {
   }
 
   void put(const Newcomer& pair) {
-    TouchMemory& touching = state_.touching;
-    touching.ball[count_] = pair.ball;
-    touching.segment[count_] = pair.segment;
-    touching.reach[count_] = state_.candidate_reach[pair.place];
-    touching.place[count_] = pair.place;
-    touching.linked[count_] = 0;
-    touching.side[count_] = 0;
+    note_change(pair.ball);
+    after_.ball[count_] = pair.ball;
+    after_.segment[count_] = pair.segment;
+    after_.reach[count_] = state_.candidate_reach[pair.place];
+    after_.place[count_] = pair.place;
+    after_.linked[count_] = 0;
+    after_.side[count_] = 0;
     known_[count_] = Touches::kNew;
     ++count_;
   }
 
  private:
-  void copy_run(std::size_t end) {
-    visit_kept(state_.touching, before_, [&](auto& field, const auto& old) {
-      std::copy(old.begin() + static_cast<std::ptrdiff_t>(next_), old.begin() + static_cast<std::ptrdiff_t>(end),
-                field.begin() + static_cast<std::ptrdiff_t>(count_));
-    });
-    const auto first = known_.begin() + static_cast<std::ptrdiff_t>(count_);
-    std::iota(first, first + static_cast<std::ptrdiff_t>(end - next_), static_cast<int>(next_));
-    count_ += end - next_;
+  void note_change(int ball) { changes_.push_back({ball, count_}); }
+
+  void copy_run(int end) {
+    const int count = end - next_;
+    copy_to(after_.ball + count_, before_.ball + next_, count);
+    copy_to(after_.segment + count_, before_.segment + next_, count);
+    copy_to(after_.reach + count_, before_.reach + next_, count);
+    copy_to(after_.place + count_, before_.place + next_, count);
+    copy_to(after_.linked + count_, before_.linked + next_, count);
+    copy_to(after_.side + count_, before_.side + next_, count);
+    std::iota(known_ + count_, known_ + count_ + count, next_);
+    count_ += count;
     next_ = end;
   }
 
-  State& state_;
-  const TouchMemory& before_;
-  LaneVector<int>& known_;
-  std::size_t count_ = 0;   // written
-  std::size_t next_ = 0;    // of those before
+  const State& state_;
+  std::vector<ChangedBall>& changes_;
+  const KeptArrays before_;
+  const KeptArrays after_;
+  int* const known_;
+  int count_ = 0;           // written
+  int next_ = 0;            // of those before
   std::size_t parted_ = 0;  // passed of State::parted
 };
 
 /// Says anew which pairs of a ball are linked.
-void link(const Scene& scene, TouchMemory& touching, int ball) {
-  const auto [first, last] = std::equal_range(touching.ball.begin(), touching.ball.end(), ball);
-  const auto begin = static_cast<std::size_t>(first - touching.ball.begin());
-  const auto end = static_cast<std::size_t>(last - touching.ball.begin());
-  for (std::size_t i = begin; i < end; ++i) {
+void link(const Scene& scene, TouchMemory& touching, const ChangedBall& changed) {
+  const auto [begin, end] = pairs_of_ball(touching, changed.ball, changed.place);
+  for (int i = begin; i < end; ++i) {
     touching.linked[i] = 0;
-    for (std::size_t j = begin; j < end; ++j) {
+    for (int j = begin; j < end; ++j) {
       const bool joined =
           j != i && share_a_node(scene.elements[touching.segment[i]], scene.elements[touching.segment[j]]);
       touching.linked[i] |= joined ? 1 : 0;
@@ -128,20 +159,32 @@ void link(const Scene& scene, TouchMemory& touching, int ball) {
 
 }  // namespace
 
+PairRange pairs_of_ball(const TouchMemory& touching, int ball, int place) {
+  PairRange range = {place, place};
+  while (range.first > 0 && touching.ball[range.first - 1] == ball) {
+    --range.first;
+  }
+  while (range.end < static_cast<int>(touching.count()) && touching.ball[range.end] == ball) {
+    ++range.end;
+  }
+  return range;
+}
+
 void remember_touches(const Scene& scene, State& state, ContactWorkspace& workspace) {
   recognize(state, workspace);
   std::swap(state.touching, workspace.before);
+  const std::size_t count = workspace.before.count() - state.parted.size() + workspace.newcomers.size();
+  resize(state.touching, count);
+  workspace.touches.resize(count);
+  workspace.changes.clear();
   Writer writer(state, workspace);
   for (const Newcomer& pair : workspace.newcomers) {
-    writer.copy_until(static_cast<std::size_t>(pair.next));
+    writer.copy_until(pair.next);
     writer.put(pair);
   }
-  writer.copy_until(workspace.before.count());
-  for (const Newcomer& pair : workspace.newcomers) {
-    link(scene, state.touching, pair.ball);
-  }
-  for (const int gone : state.parted) {
-    link(scene, state.touching, workspace.before.ball[gone]);
+  writer.copy_until(static_cast<int>(workspace.before.count()));
+  for (const ChangedBall& changed : workspace.changes) {
+    link(scene, state.touching, changed);
   }
 }
 

@@ -6,6 +6,15 @@
 
 namespace cellcrush {
 
+/// Pairs from `first` to `end` of those that touch.
+struct PairRange {
+  int first = 0;
+  int end = 0;
+};
+
+/// The pairs of a ball, of which `place` is one, or the one behind the last; none if it is neither.
+PairRange pairs_of_ball(const TouchMemory& touching, int ball, int place);
+
 /// Takes the pairs that have parted out of State::touching and puts those in that have been found to overlap. What touched
 /// before goes to ContactWorkspace::before; Touches::known tells where it was there.
 ///
