@@ -45,8 +45,8 @@ void test_awake_plain(const Scene& scene, State& state, std::span<const int> pla
 
 /// The candidates from `first` to `end` that overlap; sets the alarms of the others that are awake.
 void find_overlaps_in(const Scene& scene, State& state, std::size_t first, std::size_t end, ContactPart& part) {
-  if (part.awake.size() < end - first) {
-    part.awake.resize(end - first);
+  if (part.awake.size() < end - first + kCandidateBatch) {
+    part.awake.resize(end - first + kCandidateBatch);
   }
   part.found.clear();
   const bool is_wide = use_wide_kernels();

@@ -66,14 +66,6 @@ struct KeptArrays {
         side(touching.side.data()) {}
 };
 
-/// Copies `count` numbers to where nothing else lies.
-template <class T>
-void copy_to(T* __restrict to, const T* from, std::size_t count) {
-  for (std::size_t i = 0; i < count; ++i) {
-    to[i] = from[i];
-  }
-}
-
 void resize(TouchMemory& touching, std::size_t count) {
   touching.ball.resize(count);
   touching.segment.resize(count);
@@ -123,12 +115,12 @@ class Writer {
 
   void copy_run(int end) {
     const int count = end - next_;
-    copy_to(after_.ball + count_, before_.ball + next_, count);
-    copy_to(after_.segment + count_, before_.segment + next_, count);
-    copy_to(after_.reach + count_, before_.reach + next_, count);
-    copy_to(after_.place + count_, before_.place + next_, count);
-    copy_to(after_.linked + count_, before_.linked + next_, count);
-    copy_to(after_.side + count_, before_.side + next_, count);
+    std::copy_n(before_.ball + next_, count, after_.ball + count_);
+    std::copy_n(before_.segment + next_, count, after_.segment + count_);
+    std::copy_n(before_.reach + next_, count, after_.reach + count_);
+    std::copy_n(before_.place + next_, count, after_.place + count_);
+    std::copy_n(before_.linked + next_, count, after_.linked + count_);
+    std::copy_n(before_.side + next_, count, after_.side + count_);
     std::iota(known_ + count_, known_ + count_ + count, next_);
     count_ += count;
     next_ = end;

@@ -107,24 +107,24 @@ HWY_INLINE std::uint64_t awake_in_batch(D d, double travel, const double* alarms
   return bits;
 }
 
-/// Word by word: few candidates are awake, and which cannot be foretold, so that a branch at every batch takes three times
-/// as long.
+/// Few candidates are awake, and which cannot be foretold: the places of a batch are written without a branch, those that
+/// are not awake over each other.
 std::size_t find_awake(const State& state, std::size_t first, std::size_t end, int* places) {
   const hn::CappedTag<double, kCandidateBatch> d;
-  constexpr std::size_t kBatchesInWord = 64 / kCandidateBatch;
+  const hn::CappedTag<int, kCandidateBatch> narrow;
   const double* alarms = state.candidate_alarm.data();
   const double* travels = state.group_travel.data();
   const int* groups = state.batch_group.empty() ? nullptr : state.batch_group.data();
-  const std::size_t end_batch = end / kCandidateBatch;
+  const auto from_zero = hn::Iota(narrow, 0);
   std::size_t count = 0;
-  for (std::size_t batch = first / kCandidateBatch; batch < end_batch; batch += kBatchesInWord) {
-    std::uint64_t bits = 0;
-    for (std::size_t i = 0; i < std::min(kBatchesInWord, end_batch - batch); ++i) {
-      const double travel = groups == nullptr ? 0.0 : travels[groups[batch + i]];  // see travel_of_batch
-      bits |= awake_in_batch(d, travel, alarms + (batch + i) * kCandidateBatch) << (i * kCandidateBatch);
-    }
-    for (; bits != 0; bits &= bits - 1) {
-      places[count++] = static_cast<int>(batch * kCandidateBatch) + std::countr_zero(bits);
+  for (std::size_t batch = first / kCandidateBatch; batch < end / kCandidateBatch; ++batch) {
+    const double travel = groups == nullptr ? 0.0 : travels[groups[batch]];  // see travel_of_batch
+    const std::uint64_t bits = awake_in_batch(d, travel, alarms + batch * kCandidateBatch);
+    for (std::size_t lane = 0; lane < kCandidateBatch; lane += hn::Lanes(narrow)) {
+      const auto awake = static_cast<std::uint8_t>(bits >> lane);
+      const auto place = hn::Add(from_zero, hn::Set(narrow, static_cast<int>(batch * kCandidateBatch + lane)));
+      hn::StoreU(hn::Compress(place, hn::LoadMaskBits(narrow, &awake)), narrow, places + count);
+      count += static_cast<std::size_t>(std::popcount(awake));
     }
   }
   return count;
