@@ -124,14 +124,19 @@ void look_at(const Scene& scene, State& state, int group, int face) {
 }
 
 void look_at_group(const Scene& scene, State& state, int group) {
-  double least = std::numeric_limits<double>::max();
-  for (int face = scene.faces.group_offset[group]; face < scene.faces.group_offset[group + 1]; ++face) {
+  const int first = scene.faces.group_offset[group];
+  const int end = scene.faces.group_offset[group + 1];
+  for (int face = first; face < end; ++face) {
     if (state.face_alarm[face] <= state.group_travel[group]) {
       look_at(scene, state, group, face);
       if (state.crossing_step >= 0) {
         return;
       }
     }
+  }
+  // In a loop of its own, whose only number stays in a register.
+  double least = std::numeric_limits<double>::max();
+  for (int face = first; face < end; ++face) {
     least = std::min(least, state.face_alarm[face]);
   }
   state.group_alarm[group] = least;
