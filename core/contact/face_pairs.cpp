@@ -1,6 +1,7 @@
 #include "contact/face_pairs.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -8,7 +9,6 @@
 #include <span>
 
 #include "contact/bucket_grid.h"
-#include "contact/capsule.h"
 #include "contact/near_corners.h"
 #include "scene/face_loops.h"
 
@@ -47,7 +47,7 @@ class FaceFinder {
   /// Every pair: the corners' squared distances from a segment at once, then what is near.
   void visit_all() {
     std::vector<Vector2> places = place_;
-    places.resize((places.size() + kPointLot - 1) / kPointLot * kPointLot, places.back());
+    places.resize(filled_lots(places.size()), places.back());
     const std::uint64_t all = (std::uint64_t{1} << count_) - 1;
     double least = std::numeric_limits<double>::max();
     NearCorners found;
@@ -56,9 +56,7 @@ class FaceFinder {
       const int next = corner + 1 < count_ ? corner + 1 : 0;
       const std::uint64_t ends = std::uint64_t{1} << corner | std::uint64_t{1} << next;
       const double range = range_of(scene_.elements[e]);
-      find_near_corners(places, all & ~ends,
-                        {state_.position[scene_.elements[e].start], state_.axis[e], state_.length[e]}, range * range,
-                        found);
+      find_near_corners(places, all & ~ends, segment_of(e), range * range, found);
       least = std::min(least, found.least_of_others);
       for (std::uint64_t near = found.near; near != 0; near &= near - 1) {
         const int i = std::countr_zero(near);
@@ -70,23 +68,27 @@ class FaceFinder {
     pairs_.least_gap = std::max(skin_, std::sqrt(least) - largest_radius_ - 0.5 * thickest_);
   }
 
+  /// Those in the buckets round a segment, as many at once as there is room for.
   void visit_near() {
     const BucketGrid grid(place_, 0.5 * longest_ + largest_radius_ + skin_);
+    std::array<int, kManyCorners> corners;
+    std::array<Vector2, kManyCorners> places;
     for (int corner = 0; corner < count_; ++corner) {
       const int e = element_[corner];
       const Element& element = scene_.elements[e];
-      const Vector2 start = state_.position[element.start];
-      const Vector2 end = state_.position[element.end];
-      const Vector2 axis = state_.axis[e];
-      const double length = state_.length[e];
-      const double range = range_of(element);
-      const Vector2 margin = Vector2::Constant(range);
+      const Vector2& start = state_.position[element.start];
+      const Vector2& end = state_.position[element.end];
+      const Vector2 margin = Vector2::Constant(range_of(element));
+      std::size_t count = 0;
       grid.visit_box(start.cwiseMin(end) - margin, start.cwiseMax(end) + margin, [&](int i) {
-        const double squared_distance = project(place_[i], start, axis, length).offset.squaredNorm();
-        if (squared_distance < range * range && particle_[i] != element.start && particle_[i] != element.end) {
-          keep(i, e, squared_distance);
+        corners[count] = i;
+        places[count] = place_[i];
+        if (++count == corners.size()) {
+          keep_near(e, corners, places);
+          count = 0;
         }
       });
+      keep_near(e, std::span(corners).first(count), places);
     }
     pairs_.least_gap = skin_;
   }
@@ -106,6 +108,32 @@ class FaceFinder {
   /// Beyond it no corner is listed with a segment, mm.
   [[nodiscard]] double range_of(const Element& segment) const {
     return largest_radius_ + 0.5 * segment.thickness + skin_;
+  }
+
+  /// Lists those of some corners that are near enough to a segment, but its ends. `places` has room for whole lots.
+  void keep_near(int segment, std::span<const int> corners, std::span<Vector2> places) {
+    const std::size_t count = corners.size();
+    if (count == 0) {
+      return;
+    }
+    const std::size_t filled = filled_lots(count);
+    std::fill(places.begin() + count, places.begin() + filled, places[count - 1]);
+    const Element& element = scene_.elements[segment];
+    const double range = range_of(element);
+    NearCorners found;
+    find_near_corners(places.first(filled), ~std::uint64_t{0} >> (kManyCorners - count), segment_of(segment),
+                      range * range, found);
+    for (std::uint64_t near = found.near; near != 0; near &= near - 1) {
+      const int i = std::countr_zero(near);
+      const int particle = particle_[corners[i]];
+      if (particle != element.start && particle != element.end) {
+        keep(corners[i], segment, found.squared_distance[i]);
+      }
+    }
+  }
+
+  [[nodiscard]] FaceSegment segment_of(int element) const {
+    return {state_.position[scene_.elements[element].start], state_.axis[element], state_.length[element]};
   }
 
   /// Lists a pair that is near enough; says whether it was.

@@ -13,6 +13,7 @@ inline constexpr int kManyCorners = 64;
 
 /// Points whose distances from a segment are found together. Places of points come in whole lots, the last of them filled up.
 inline constexpr std::size_t kPointLot = 8;
+constexpr std::size_t filled_lots(std::size_t points) { return (points + kPointLot - 1) / kPointLot * kPointLot; }
 
 /// A segment of a face, mm.
 struct FaceSegment {
