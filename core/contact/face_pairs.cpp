@@ -35,7 +35,7 @@ class FaceFinder {
         count_(scene.faces.corner_count(face)),
         particle_(&scene.faces.particle[scene.faces.offset[face]]),
         element_(&scene.faces.element[scene.faces.offset[face]]) {
-    place_.reserve(count_);
+    place_.reserve(filled_lots(count_));
     for (int corner = 0; corner < count_; ++corner) {
       place_.push_back(state.position[particle_[corner]]);
       largest_radius_ = std::max(largest_radius_, scene.radius[particle_[corner]]);
@@ -44,10 +44,9 @@ class FaceFinder {
     }
   }
 
-  /// Every pair: the corners' squared distances from a segment at once, then what is near.
+  /// Every pair, the places being filled up to whole lots: the corners' squared distances from a segment at once, then what is near.
   void visit_all() {
-    std::vector<Vector2> places = place_;
-    places.resize(filled_lots(places.size()), places.back());
+    place_.resize(filled_lots(place_.size()), place_.back());
     const std::uint64_t all = (std::uint64_t{1} << count_) - 1;
     double least = std::numeric_limits<double>::max();
     NearCorners found;
@@ -56,7 +55,7 @@ class FaceFinder {
       const int next = corner + 1 < count_ ? corner + 1 : 0;
       const std::uint64_t ends = std::uint64_t{1} << corner | std::uint64_t{1} << next;
       const double range = range_of(scene_.elements[e]);
-      find_near_corners(places, all & ~ends, segment_of(e), range * range, found);
+      find_near_corners(place_, all & ~ends, segment_of(e), range * range, found);
       least = std::min(least, found.least_of_others);
       for (std::uint64_t near = found.near; near != 0; near &= near - 1) {
         const int i = std::countr_zero(near);

@@ -1,5 +1,9 @@
 #include "measure/sampler.h"
 
+#include <bit>
+#include <cstddef>
+#include <vector>
+
 #include "beam/element_place.h"
 #include "energy/ledger.h"
 #include "measure/crush_mode.h"
@@ -13,20 +17,28 @@ namespace {
 /// The crush mode is looked for each time that so many more of the cells have collapsed: it takes as long as many steps.
 constexpr double kLookEvery = 0.04;
 
-/// Share of an element's volume whose fibres have flowed.
-template <class T>
-double flowed_fraction(const SectionRule& rule, const FibreMemory<T>& fibres, const ElementPlace& place) {
-  if (!fibres.flowed.empty() && fibres.flowed[place.element] == 0) {
-    return 0.0;
-  }
-  double fraction = 0.0;
-  std::size_t fibre = 0;
+/// Share of an element's volume for which each fibre stands.
+std::vector<double> shares_of_fibres(const SectionRule& rule) {
+  std::vector<double> shares;
   for (const double along : rule.along_weight) {
     for (const double through : rule.depth_weight) {
-      const bool flowed = fibres.flowed.empty() ? fibres.plastic_strain[place.index(rule.fibre_count(), fibre)] > T(0.0)
-                                                : (fibres.flowed[place.element] >> fibre & 1U) != 0;
-      fraction += flowed ? along * through : 0.0;
-      ++fibre;
+      shares.push_back(along * through);
+    }
+  }
+  return shares;
+}
+
+/// Share of an element's volume whose fibres have flowed.
+template <class T>
+double flowed_fraction(const std::vector<double>& shares, const FibreMemory<T>& fibres, const ElementPlace& place) {
+  double fraction = 0.0;
+  if (fibres.flowed.empty()) {
+    for (std::size_t fibre = 0; fibre < shares.size(); ++fibre) {
+      fraction += fibres.plastic_strain[place.index(shares.size(), fibre)] > T(0.0) ? shares[fibre] : 0.0;
+    }
+  } else {
+    for (auto flowed = fibres.flowed[place.element]; flowed != 0; flowed &= flowed - 1) {
+      fraction += shares[static_cast<std::size_t>(std::countr_zero(flowed))];
     }
   }
   return fraction;
@@ -113,16 +125,17 @@ FieldFrame make_frame(const Scene& scene, const State& state, int index) {
   frame.index = index;
   frame.time = state.time;
   frame.strain = scene.length > 0.0 ? state.impact_travel / scene.length : 0.0;
-  frame.position.reserve(2 * scene.particle_count());
-  for (const Vector2& position : state.position) {
-    frame.position.push_back(static_cast<float>(position.x()));
-    frame.position.push_back(static_cast<float>(position.y()));
+  frame.position.resize(2 * scene.particle_count());
+  for (std::size_t i = 0; i < scene.particle_count(); ++i) {
+    frame.position[2 * i] = static_cast<float>(state.position[i].x());
+    frame.position[2 * i + 1] = static_cast<float>(state.position[i].y());
   }
+  const std::vector<double> shares = shares_of_fibres(scene.section);
   frame.plastic_fraction.reserve(scene.element_count());
   visit_elements(scene, [&](const ElementPlace& place, int) {
     frame.plastic_fraction.push_back(static_cast<float>(scene.single_fibres
-                                                            ? flowed_fraction(scene.section, state.single_fibres, place)
-                                                            : flowed_fraction(scene.section, state.fibres, place)));
+                                                            ? flowed_fraction(shares, state.single_fibres, place)
+                                                            : flowed_fraction(shares, state.fibres, place)));
   });
   frame.plastic_fraction.resize(scene.element_count(), 0.0F);
   return frame;
