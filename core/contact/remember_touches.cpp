@@ -151,17 +151,6 @@ void link(const Scene& scene, TouchMemory& touching, const ChangedBall& changed)
 
 }  // namespace
 
-PairRange pairs_of_ball(const TouchMemory& touching, int ball, int place) {
-  PairRange range = {place, place};
-  while (range.first > 0 && touching.ball[range.first - 1] == ball) {
-    --range.first;
-  }
-  while (range.end < static_cast<int>(touching.count()) && touching.ball[range.end] == ball) {
-    ++range.end;
-  }
-  return range;
-}
-
 void remember_touches(const Scene& scene, State& state, ContactWorkspace& workspace) {
   recognize(state, workspace);
   std::swap(state.touching, workspace.before);

@@ -13,7 +13,16 @@ struct PairRange {
 };
 
 /// The pairs of a ball, of which `place` is one, or the one behind the last; none if it is neither.
-PairRange pairs_of_ball(const TouchMemory& touching, int ball, int place);
+inline PairRange pairs_of_ball(const TouchMemory& touching, int ball, int place) {
+  PairRange range = {place, place};
+  while (range.first > 0 && touching.ball[range.first - 1] == ball) {
+    --range.first;
+  }
+  while (range.end < static_cast<int>(touching.count()) && touching.ball[range.end] == ball) {
+    ++range.end;
+  }
+  return range;
+}
 
 /// Takes the pairs that have parted out of State::touching and puts those in that have been found to overlap. What touched
 /// before goes to ContactWorkspace::before; Touches::known tells where it was there.

@@ -13,20 +13,29 @@ namespace cellcrush::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 VelocityBox box_of_velocities(const State& state, std::span<const int> members) {
-  const hn::CappedTag<double, 8> d;
   const Vector2* velocities = state.velocity.data();
-  const Vector2& first = velocities[members.front()];
-  Points<decltype(d)> low = {hn::Set(d, first.x()), hn::Set(d, first.y())};
-  Points<decltype(d)> high = low;
+  VelocityBox box = {velocities[members.front()], velocities[members.front()]};
   std::size_t i = 0;
-  for (; i + hn::Lanes(d) <= members.size(); i += hn::Lanes(d)) {
-    const auto velocity = gather_points(d, velocities, &members[i]);
-    low = {hn::Min(velocity.x, low.x), hn::Min(velocity.y, low.y)};
-    high = {hn::Max(velocity.x, high.x), hn::Max(velocity.y, high.y)};
+#if HWY_TARGET != HWY_SCALAR
+  // x and y in turn, as they lie: nothing parts them.
+  const hn::CappedTag<double, 8> d;
+  constexpr std::size_t kPoints = hn::MaxLanes(d) / 2;
+  auto low = hn::LoadDup128(d, box.low.data());
+  auto high = low;
+  for (; i + kPoints <= members.size(); i += kPoints) {
+    const auto velocity = load_half(d, velocities, &members[i]);
+    low = hn::Min(velocity, low);
+    high = hn::Max(velocity, high);
   }
-  const auto least = [&](auto lanes) HWY_ATTR { return hn::GetLane(hn::MinOfLanes(d, lanes)); };
-  const auto greatest = [&](auto lanes) HWY_ATTR { return hn::GetLane(hn::MaxOfLanes(d, lanes)); };
-  VelocityBox box = {{least(low.x), least(low.y)}, {greatest(high.x), greatest(high.y)}};
+  Vector2 lows[kPoints];
+  Vector2 highs[kPoints];
+  hn::StoreU(low, d, lows[0].data());
+  hn::StoreU(high, d, highs[0].data());
+  for (std::size_t k = 0; k < kPoints; ++k) {
+    box.low = lows[k].cwiseMin(box.low);
+    box.high = highs[k].cwiseMax(box.high);
+  }
+#endif
   for (; i < members.size(); ++i) {
     box.low = velocities[members[i]].cwiseMin(box.low);
     box.high = velocities[members[i]].cwiseMax(box.high);
