@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "contact/candidate_lists.h"
 #include "contact/evaluate_touches.h"
 #include "contact/find_overlaps.h"
 #include "contact/find_pushes.h"
@@ -15,6 +16,42 @@
 
 namespace cellcrush {
 namespace {
+
+/// Of the touches from `touch` on, the first of a ball.
+std::size_t begin_of_ball(const TouchMemory& touching, std::size_t touch) {
+  while (touch > 0 && touch < touching.count() && touching.ball[touch - 1] == touching.ball[touch]) {
+    ++touch;
+  }
+  return touch;
+}
+
+/// Evaluates the touches and finds those that push, each thread those of its balls. Candidates of pairs that have parted are
+/// tested again from now on.
+void evaluate_pairs(const Scene& scene, State& state, ContactWorkspace& workspace, Workers& workers) {
+  const TouchMemory& touching = state.touching;
+  workers.share_parts(touching.count(), 1, [&](std::size_t p, std::size_t part_first, std::size_t part_end) {
+    const std::size_t first = begin_of_ball(touching, part_first);
+    const std::size_t end = begin_of_ball(touching, part_end);
+    ContactPart& part = workspace.parts[p];
+    evaluate_touches(scene, state, workspace.touches, first, end, part.parted);
+    find_pushes(scene, state, workspace.touches, first, end, part.pushes);
+  });
+  state.parted.clear();
+  for (const ContactPart& part : workspace.parts) {
+    for (const int i : part.parted) {
+      state.parted.push_back(i);
+      wake_candidate(state, touching.place[i], touching.ball[i], touching.segment[i]);
+    }
+  }
+  workspace.pushes.clear();
+  if (workspace.parts.size() == 1) {
+    workspace.pushes.swap(workspace.parts.front().pushes);
+    return;
+  }
+  for (const ContactPart& part : workspace.parts) {
+    workspace.pushes.insert(workspace.pushes.end(), part.pushes.begin(), part.pushes.end());
+  }
+}
 
 /// The particles of a touch: a force on the ball, its reaction on the segment shared by the lever rule.
 struct PairForces {
@@ -145,8 +182,7 @@ void evaluate_contact_forces(const Scene& scene, State& state, ContactWorkspace&
   state.contact_stored = 0.0;
   find_overlaps(scene, state, workspace, workers);
   remember_touches(scene, state, workspace);
-  evaluate_touches(scene, state, workspace, workers);
-  find_pushes(scene, state, workspace, workers);
+  evaluate_pairs(scene, state, workspace, workers);
   (use_wide_kernels() ? apply_normal_forces_wide : apply_normal_forces_plain)(scene, state, workspace);
   state.contact_count = static_cast<std::int64_t>(workspace.pushes.size());
   if (scene.contact.friction > 0.0) {

@@ -1,6 +1,5 @@
 #include "contact/evaluate_touches.h"
 
-#include "contact/candidate_lists.h"
 #include "contact/normal_force.h"
 #include "contact/wide_touches.h"
 #include "simd/target.h"
@@ -73,20 +72,11 @@ std::size_t evaluate_touches_plain(const Scene& scene, State& state, Touches& to
 
 }  // namespace
 
-void evaluate_touches(const Scene& scene, State& state, ContactWorkspace& workspace, Workers& workers) {
+void evaluate_touches(const Scene& scene, State& state, Touches& touches, std::size_t first, std::size_t end,
+                      std::vector<int>& parted) {
   const auto evaluate = use_wide_kernels() ? evaluate_touches_wide : evaluate_touches_plain;
-  workers.share_parts(state.touching.count(), kCandidateBatch, [&](std::size_t p, std::size_t first, std::size_t end) {
-    std::vector<int>& parted = workspace.parts[p].parted;
-    parted.resize(end - first);
-    parted.resize(evaluate(scene, state, workspace.touches, first, end, parted.data()));
-  });
-  state.parted.clear();
-  for (const ContactPart& part : workspace.parts) {
-    for (const int i : part.parted) {
-      state.parted.push_back(i);
-      wake_candidate(state, state.touching.place[i], state.touching.ball[i], state.touching.segment[i]);
-    }
-  }
+  parted.resize(end - first);
+  parted.resize(evaluate(scene, state, touches, first, end, parted.data()));
 }
 
 }  // namespace cellcrush

@@ -73,11 +73,12 @@ void share_with_node(const Scene& scene, const State& state, const Touches& touc
   push.net_depth = push.has_pair ? push.net_depth : 0.0;
 }
 
-/// The touches from `first` to `end` that push.
-void find_pushes_in(const Scene& scene, const State& state, const Touches& touches, int first, int end,
-                    std::vector<Push>& pushes) {
+}  // namespace
+
+void find_pushes(const Scene& scene, const State& state, const Touches& touches, std::size_t first, std::size_t end,
+                 std::vector<Push>& pushes) {
   pushes.clear();
-  for (int touch = first; touch < end; ++touch) {
+  for (int touch = static_cast<int>(first); touch < static_cast<int>(end); ++touch) {
     const double depth = touches.depth[touch];
     if (!(depth > 0.0)) {
       continue;
@@ -95,23 +96,6 @@ void find_pushes_in(const Scene& scene, const State& state, const Touches& touch
       share_with_node(scene, state, touches, push);
     }
     pushes.push_back(push);
-  }
-}
-
-}  // namespace
-
-void find_pushes(const Scene& scene, const State& state, ContactWorkspace& workspace, Workers& workers) {
-  workers.share_parts(state.touching.count(), 1, [&](std::size_t part, std::size_t first, std::size_t end) {
-    find_pushes_in(scene, state, workspace.touches, static_cast<int>(first), static_cast<int>(end),
-                   workspace.parts[part].pushes);
-  });
-  if (workspace.parts.size() == 1) {
-    workspace.pushes.swap(workspace.parts.front().pushes);
-    return;
-  }
-  workspace.pushes.clear();
-  for (const ContactPart& part : workspace.parts) {
-    workspace.pushes.insert(workspace.pushes.end(), part.pushes.begin(), part.pushes.end());
   }
 }
 

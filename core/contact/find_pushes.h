@@ -1,14 +1,16 @@
 #pragma once
 
+#include <vector>
+
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
 #include "contact/contact_workspace.h"
-#include "parallel/workers.h"
 
 namespace cellcrush {
 
-/// Overwrites ContactWorkspace::pushes by the touches that push, by ball, segments ascending: of touching segments that share
-/// a node only the deepest. Reads the touches.
-void find_pushes(const Scene& scene, const State& state, ContactWorkspace& workspace, Workers& workers);
+/// Overwrites `pushes` by those of the touches from `first` to `end` that push, by ball, segments ascending: of touching
+/// segments that share a node only the deepest. REQUIRES: all touches of the balls in between, and no others.
+void find_pushes(const Scene& scene, const State& state, const Touches& touches, std::size_t first, std::size_t end,
+                 std::vector<Push>& pushes);
 
 }  // namespace cellcrush
