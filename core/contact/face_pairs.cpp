@@ -44,7 +44,7 @@ class FaceFinder {
     }
   }
 
-  /// Every pair, the places being filled up to whole lots: the corners' squared distances from a segment at once, then what is near.
+  /// Every pair, a segment after the other: the corners' squared distances from it at once, then what is near.
   void visit_all() {
     place_.resize(filled_lots(place_.size()), place_.back());
     const std::uint64_t all = (std::uint64_t{1} << count_) - 1;

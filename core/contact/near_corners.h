@@ -11,8 +11,10 @@ namespace cellcrush {
 /// Corners from which on a face's particles are sorted into buckets.
 inline constexpr int kManyCorners = 64;
 
-/// Points whose distances from a segment are found together. Places of points come in whole lots, the last of them filled up.
+/// Points whose distances from a segment are found together.
 inline constexpr std::size_t kPointLot = 8;
+
+/// So many points with others that fill the last lot up.
 constexpr std::size_t filled_lots(std::size_t points) { return (points + kPointLot - 1) / kPointLot * kPointLot; }
 
 /// A segment of a face, mm.
@@ -29,8 +31,9 @@ struct NearCorners {
   std::array<double, kManyCorners> squared_distance;  ///< mm^2
 };
 
-/// Holds the corners of `corners`, bits, against a segment, all places at once: see project. The vectors' part rounds as the
-/// plain one does and gives the same bits.
+/// Finds the squared distances of corners from a segment (see project) and those within range; only corners whose bits are
+/// set count as near or as others. Vectors round as the plain text does: the same bits. REQUIRES: whole lots of places, at most
+/// kManyCorners.
 void find_near_corners(std::span<const Vector2> places, std::uint64_t corners, const FaceSegment& segment,
                        double squared_range, NearCorners& found);
 
