@@ -84,8 +84,8 @@ HWY_INLINE WorksOfMotion sum_over_chunk(std::size_t first, std::size_t end, Visi
   constexpr int kLots = kSumLanes / kLanes;
   WorkSums sums;
   LaneWorks<Wide> works[kLots];
-  for (int lot = 0; lot < kLots; ++lot) {
-    works[lot] = sums.works(Wide(), 0);
+  for (LaneWorks<Wide>& work : works) {
+    work = sums.works(Wide(), 0);
   }
   std::size_t i = first;
   for (; i + kSumLanes <= end; i += kSumLanes) {
