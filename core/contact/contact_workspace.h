@@ -57,9 +57,8 @@ struct Push {
   static constexpr int kNone = -1;
 };
 
-/// What a thread works with; what it makes is put behind what those before it made. No two share a cache line: both write
-/// their lists.
-struct alignas(128) ContactPart {
+/// What a thread works with; what it makes is put behind what those before it made.
+struct ContactPart {
   std::vector<int> awake;   ///< places of the candidates that are tested, ascending; it does not shrink
   std::vector<int> found;   ///< of those, they that have begun to overlap
   std::vector<int> parted;  ///< of State::touching

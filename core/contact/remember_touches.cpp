@@ -48,31 +48,15 @@ void recognize(State& state, ContactWorkspace& workspace) {
             [](const Newcomer& a, const Newcomer& b) { return comes_before(a.ball, a.segment, b); });
 }
 
-/// Where the numbers of pairs lie that are kept while they touch.
-struct KeptArrays {
-  int* ball;
-  int* segment;
-  double* reach;
-  int* place;
-  int* linked;
-  int* side;
-
-  explicit KeptArrays(TouchMemory& touching)
-      : ball(touching.ball.data()),
-        segment(touching.segment.data()),
-        reach(touching.reach.data()),
-        place(touching.place.data()),
-        linked(touching.linked.data()),
-        side(touching.side.data()) {}
-};
-
-void resize(TouchMemory& touching, std::size_t count) {
-  touching.ball.resize(count);
-  touching.segment.resize(count);
-  touching.reach.resize(count);
-  touching.place.resize(count);
-  touching.linked.resize(count);
-  touching.side.resize(count);
+/// Calls visit(field, field of the other) for what a pair keeps while it touches.
+template <class Visit>
+void visit_kept(TouchMemory& touching, const TouchMemory& before, Visit&& visit) {
+  visit(touching.ball, before.ball);
+  visit(touching.segment, before.segment);
+  visit(touching.reach, before.reach);
+  visit(touching.place, before.place);
+  visit(touching.linked, before.linked);
+  visit(touching.side, before.side);
 }
 
 /// The pairs that touch from now on, written one after the other.
@@ -83,7 +67,12 @@ class Writer {
         changes_(workspace.changes),
         before_(workspace.before),
         after_(state.touching),
-        known_(workspace.touches.known.data()) {}
+        known_(workspace.touches.known) {
+    const std::size_t count = before_.count() - state.parted.size() + workspace.newcomers.size();
+    visit_kept(after_, before_, [&](auto& field, const auto&) { field.resize(count); });
+    workspace.touches.resize(count);
+    changes_.clear();
+  }
 
   /// Those before up to this one, but the parted.
   void copy_until(int end) {
@@ -115,22 +104,18 @@ class Writer {
 
   void copy_run(int end) {
     const int count = end - next_;
-    std::copy_n(before_.ball + next_, count, after_.ball + count_);
-    std::copy_n(before_.segment + next_, count, after_.segment + count_);
-    std::copy_n(before_.reach + next_, count, after_.reach + count_);
-    std::copy_n(before_.place + next_, count, after_.place + count_);
-    std::copy_n(before_.linked + next_, count, after_.linked + count_);
-    std::copy_n(before_.side + next_, count, after_.side + count_);
-    std::iota(known_ + count_, known_ + count_ + count, next_);
+    visit_kept(after_, before_,
+               [&](auto& field, const auto& old) { std::copy_n(old.begin() + next_, count, field.begin() + count_); });
+    std::iota(known_.begin() + count_, known_.begin() + count_ + count, next_);
     count_ += count;
     next_ = end;
   }
 
   const State& state_;
   std::vector<ChangedBall>& changes_;
-  const KeptArrays before_;
-  const KeptArrays after_;
-  int* const known_;
+  const TouchMemory& before_;
+  TouchMemory& after_;
+  LaneVector<int>& known_;
   int count_ = 0;           // written
   int next_ = 0;            // of those before
   std::size_t parted_ = 0;  // passed of State::parted
@@ -154,10 +139,6 @@ void link(const Scene& scene, TouchMemory& touching, const ChangedBall& changed)
 void remember_touches(const Scene& scene, State& state, ContactWorkspace& workspace) {
   recognize(state, workspace);
   std::swap(state.touching, workspace.before);
-  const std::size_t count = workspace.before.count() - state.parted.size() + workspace.newcomers.size();
-  resize(state.touching, count);
-  workspace.touches.resize(count);
-  workspace.changes.clear();
   Writer writer(state, workspace);
   for (const Newcomer& pair : workspace.newcomers) {
     writer.copy_until(pair.next);
