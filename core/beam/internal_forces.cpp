@@ -94,12 +94,14 @@ void evaluate_walls(const Scene& scene, State& state, FibreMemory<T>& memory) {
 
 }  // namespace
 
-void evaluate_internal_forces(const Scene& scene, State& state, Workers& workers) {
-  if (use_wide_kernels() && evaluate_walls_wide(scene, state, workers)) {
+void evaluate_internal_forces(const Scene& scene, State& state, WallsWorkspace& workspace, Workers& workers,
+                              const std::function<void()>& meanwhile) {
+  if (use_wide_kernels() && evaluate_walls_wide(scene, state, workspace, workers, meanwhile)) {
     return;
   }
   scene.single_fibres ? evaluate_walls(scene, state, state.single_fibres) : evaluate_walls(scene, state, state.fibres);
   sum_joint_forces(scene, state, 0, static_cast<std::size_t>(scene.joint_count));
+  meanwhile();
 }
 
 }  // namespace cellcrush

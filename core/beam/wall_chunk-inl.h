@@ -9,10 +9,11 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <span>
 
 #include "beam/wall_lanes-inl.h"
-#include "cellcrush/lane_vector.h"
+#include "beam/walls_workspace.h"
 #include "cellcrush/state.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -84,26 +85,13 @@ struct LaneForces {
   hn::Vec<D> moment_on_end;
 };
 
-/// What passes between the three loops over a chunk's elements, in the fibres' precision T. Row by row: the values of a
-/// kind lie side by side, and a row's kinds one after the other.
-template <class T>
-class ChunkValues {
- public:
-  enum Kind { membrane, bend_start, bend_end, stiffness, axial, moment_start, moment_end, plastic_work };
-  static constexpr std::size_t kKinds = plastic_work + 1;
-
-  /// Makes room for so many elements, whose values are undefined.
-  void hold(std::size_t elements) {
-    if (values_.size() < kKinds * elements) {
-      values_.resize(kKinds * elements);
-    }
-  }
-
-  T* data() { return values_.data(); }
-
- private:
-  LaneVector<T> values_;
-};
+/// Kinds of what passes between the three loops over a chunk's elements, in the fibres' precision. Row by row: the values of
+/// a kind lie side by side, and a row's kinds one after the other. What the stresses sum up to takes the places of the strains.
+enum class Passed { membrane, bend_start, bend_end, stiffness };
+constexpr Passed kAxial = Passed::membrane;
+constexpr Passed kMomentStart = Passed::bend_start;
+constexpr Passed kMomentEnd = Passed::bend_end;
+constexpr Passed kPlasticWork = Passed::stiffness;
 
 /// More fibres than this do not stay in the third cache from step to step, and are brought from memory ahead: with 16 times
 /// the cells of Type I the walls take a third less. Of fewer it costs 0.15 ns an element-step.
@@ -117,14 +105,15 @@ class WallChunk {
   using V = hn::Vec<D>;
   using T = hn::TFromD<F>;
   using VF = hn::Vec<F>;
-  using Values = ChunkValues<T>;
 
   static constexpr std::ptrdiff_t kFibres = kSections * kDepthPoints;
 
  public:
+  /// `passed` has room for kPassedKinds values of each of the blocks' elements; `is_squashed` says whether some have a
+  /// stiffness of their own.
   WallChunk(const Scene& scene, State& state, FibreMemory<T>& memory, double step,
-            const RuleFactors<kSections, kDepthPoints, T>& rule, std::span<const WallBlock> blocks,
-            ChunkValues<T>& values)
+            const RuleFactors<kSections, kDepthPoints, T>& rule, std::span<const WallBlock> blocks, T* passed,
+            std::uint8_t& is_squashed)
       : scene_(scene),
         memory_(memory),
         step_(step),
@@ -140,14 +129,20 @@ class WallChunk {
         internal_force_(state.internal_force.data()),
         internal_moment_(state.internal_moment.data()),
         stress_(memory.stress.data()),
-        values_(values.data()),
+        passed_(passed),
         first_(blocks.front().first_element),
         fetches_fibres_(memory.stress.size() > kCachedFibres),
-        uniform_(uniform_material(f_, scene.materials.front())) {}
+        uniform_(uniform_material(f_, scene.materials.front())),
+        is_squashed_(is_squashed) {}
 
-  /// Adds the plastic work to that of the lanes.
-  HWY_INLINE void advance(double* HWY_RESTRICT plastic_work) {
+  /// The first loop: axes, lengths and strains.
+  HWY_INLINE void measure() {
+    is_squashed_ = 0;
     visit_lanes(d_, [&](const WallBlock& block, int lane) HWY_ATTR { reverse_motions(block, lane); });
+  }
+
+  /// The others: stresses and forces. Adds the plastic work to that of the lanes.
+  HWY_INLINE void respond(double* HWY_RESTRICT plastic_work) {
     visit_lanes(f_, [&](const WallBlock& block, int lane) HWY_ATTR { return_fibres(block, lane); });
     visit_lanes(d_, [&](const WallBlock& block, int lane) HWY_ATTR { put_forces(block, lane, plastic_work + lane); });
   }
@@ -174,8 +169,8 @@ class WallChunk {
   }
 
   /// Values of the lanes' elements of a row.
-  HWY_INLINE T* values_of(typename Values::Kind kind, std::ptrdiff_t row, int lane, int walls) const {
-    return values_ + Values::kKinds * (row - first_) + kind * walls + lane;
+  HWY_INLINE T* values_of(Passed kind, std::ptrdiff_t row, int lane, int walls) const {
+    return passed_ + static_cast<std::ptrdiff_t>(kPassedKinds) * (row - first_) + static_cast<int>(kind) * walls + lane;
   }
 
   HWY_INLINE LaneNode<D> gather_joint(const int* joints) const {
@@ -210,13 +205,13 @@ class WallChunk {
       hn::StoreU(deformation.inverse_length, d_, inverse_length_ + e);
       const V slenderness = hn::Mul(thickness, deformation.inverse_mean);
       store_as(d_, hn::Mul(deformation.stretch, deformation.inverse_mean),
-               values_of(Values::membrane, row, lane, walls_of(block)));
+               values_of(Passed::membrane, row, lane, walls_of(block)));
       store_as(d_, hn::Mul(slenderness, deformation.rotation_start),
-               values_of(Values::bend_start, row, lane, walls_of(block)));
+               values_of(Passed::bend_start, row, lane, walls_of(block)));
       store_as(d_, hn::Mul(slenderness, deformation.rotation_end),
-               values_of(Values::bend_end, row, lane, walls_of(block)));
+               values_of(Passed::bend_end, row, lane, walls_of(block)));
       if (HWY_UNLIKELY(!hn::AllFalse(d_, is_short(d_, deformation.length, undeformed)))) {
-        note_stiffness(values_of(Values::stiffness, row, lane, walls_of(block)),
+        note_stiffness(values_of(Passed::stiffness, row, lane, walls_of(block)),
                        bounded_stiffness(d_, deformation.length, undeformed, thickness, scene_.constant_area));
       }
       start = end;
@@ -234,13 +229,13 @@ class WallChunk {
 
   /// Few chunks have squashed elements: the others' values are never filled.
   HWY_INLINE void note_stiffness(T* place, V stiffness) {
-    if (!is_squashed_) {
+    if (is_squashed_ == 0) {
       for (const WallBlock& block : blocks_) {
         for (int j = 0; j < block.elements; ++j) {
-          std::fill_n(values_of(Values::stiffness, row_of(block, j), 0, walls_of(block)), walls_of(block), T(1.0));
+          std::fill_n(values_of(Passed::stiffness, row_of(block, j), 0, walls_of(block)), walls_of(block), T(1.0));
         }
       }
-      is_squashed_ = true;
+      is_squashed_ = 1;
     }
     store_as(d_, stiffness, place);
   }
@@ -259,10 +254,10 @@ class WallChunk {
 
   /// Moments on the nodes of the lanes' elements of a row, over b h^2.
   HWY_INLINE T* moment_start(std::ptrdiff_t row, int lane, int walls) const {
-    return kForceBased ? &memory_.start_moment[row + lane] : values_of(Values::moment_start, row, lane, walls);
+    return kForceBased ? &memory_.start_moment[row + lane] : values_of(kMomentStart, row, lane, walls);
   }
   HWY_INLINE T* moment_end(std::ptrdiff_t row, int lane, int walls) const {
-    return kForceBased ? &memory_.end_moment[row + lane] : values_of(Values::moment_end, row, lane, walls);
+    return kForceBased ? &memory_.end_moment[row + lane] : values_of(kMomentEnd, row, lane, walls);
   }
 
   /// From the strains to the sums of the stresses.
@@ -272,12 +267,12 @@ class WallChunk {
     const int walls = walls_of(block);
     for (int j = 0; j < block.elements; ++j) {
       const std::ptrdiff_t row = row_of(block, j);
-      const auto value = [&](typename Values::Kind kind) HWY_ATTR { return values_of(kind, row, lane, walls); };
+      const auto value = [&](Passed kind) HWY_ATTR { return values_of(kind, row, lane, walls); };
       const LaneMaterial<F> material =
-          is_squashed_ ? with_stiffness(f_, of_wall, hn::LoadU(f_, value(Values::stiffness))) : of_wall;
-      const VF membrane = hn::LoadU(f_, value(Values::membrane));
-      const VF bend_start = hn::LoadU(f_, value(Values::bend_start));
-      const VF bend_end = hn::LoadU(f_, value(Values::bend_end));
+          is_squashed_ != 0 ? with_stiffness(f_, of_wall, hn::LoadU(f_, value(Passed::stiffness))) : of_wall;
+      const VF membrane = hn::LoadU(f_, value(Passed::membrane));
+      const VF bend_start = hn::LoadU(f_, value(Passed::bend_start));
+      const VF bend_end = hn::LoadU(f_, value(Passed::bend_end));
       const Fibres<T> fibres = fibres_of(row, lane, walls);
       T* const at_start = moment_start(row, lane, walls);
       T* const at_end = moment_end(row, lane, walls);
@@ -291,10 +286,10 @@ class WallChunk {
         straight_curvatures(f_, rule_, bend_start, bend_end, curvature);
         sums = return_element<kHardening>(f_, material, rule_, membrane, curvature, fibres, fibres);
       }
-      hn::StoreU(sums.axial, f_, value(Values::axial));
+      hn::StoreU(sums.axial, f_, value(kAxial));
       hn::StoreU(sums.moments.start, f_, at_start);
       hn::StoreU(sums.moments.end, f_, at_end);
-      hn::StoreU(sums.plastic_work, f_, value(Values::plastic_work));
+      hn::StoreU(sums.plastic_work, f_, value(kPlasticWork));
     }
   }
 
@@ -312,7 +307,7 @@ class WallChunk {
       const std::ptrdiff_t row = row_of(block, j);
       const LaneForces<D> forces = forces_of(row, lane, walls, undeformed, thickness);
       work = hn::MulAdd(volume_of(d_, scene_, undeformed, thickness, hn::LoadU(d_, length_ + row + lane)),
-                        load_as(d_, values_of(Values::plastic_work, row, lane, walls)), work);
+                        load_as(d_, values_of(kPlasticWork, row, lane, walls)), work);
       if (j == 0) {
         put_on_joints(ends, forces.force_on_end, hn::Neg(forces.moment_on_start));
       } else {
@@ -336,7 +331,7 @@ class WallChunk {
     const V on_start = hn::Mul(unit, load_as(d_, moment_start(row, lane, walls)));
     const V on_end = hn::Mul(unit, load_as(d_, moment_end(row, lane, walls)));
     const V shear = hn::Mul(hn::Neg(hn::Add(on_start, on_end)), inverse_length);  // Eq. 31
-    const V axial = hn::Mul(area, load_as(d_, values_of(Values::axial, row, lane, walls)));
+    const V axial = hn::Mul(area, load_as(d_, values_of(kAxial, row, lane, walls)));
     const Points<D> axis = load_points(d_, axis_ + row + lane);
     return {{hn::MulSub(axial, axis.x, hn::Mul(shear, axis.y)), hn::MulAdd(axial, axis.y, hn::Mul(shear, axis.x))},
             on_start,
@@ -367,12 +362,12 @@ class WallChunk {
   Vector2* const internal_force_;
   double* const internal_moment_;
   T* const stress_;
-  T* const values_;
+  T* const passed_;
 
   const std::ptrdiff_t first_;
   const bool fetches_fibres_;
   const LaneMaterial<F> uniform_;
-  bool is_squashed_ = false;
+  std::uint8_t& is_squashed_;
 };
 
 }  // namespace cellcrush::HWY_NAMESPACE

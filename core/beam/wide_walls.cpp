@@ -1,6 +1,9 @@
 #include "beam/wide_walls.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <iterator>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -21,33 +24,76 @@ std::size_t element_count(std::span<const WallBlock> chunk) {
   return chunk.back().first_element + chunk.back().walls * chunk.back().elements - chunk.front().first_element;
 }
 
-/// Plastic work of a chunk's step. Full blocks go through the target's vectors, others wall by wall.
+/// The walls' loops chunk by chunk. Full blocks go through the target's vectors, others wall by wall.
 template <int kSections, int kDepthPoints, bool kForceBased, bool kHardening, class T>
-double advance_chunk(const Scene& scene, State& state, FibreMemory<T>& memory,
-                     const RuleFactors<kSections, kDepthPoints, T>& rule, std::span<const WallBlock> chunk,
-                     ChunkValues<T>& values) {
-  using Wide = hn::CappedTag<double, kMostWallsInBlock>;
-  using WideFibres = hn::CappedTag<T, kMostWallsInBlock>;
-  using One = hn::CappedTag<double, 1>;
-  using OneFibre = hn::CappedTag<T, 1>;
-  const double step = state.step == 0 ? 0.0 : scene.schedule.time_step;
-  values.hold(element_count(chunk));
-  double plastic_work[kMostWallsInBlock] = {};
-  if (chunk.front().walls == kMostWallsInBlock) {
-    WallChunk<kSections, kDepthPoints, kForceBased, kHardening, Wide, WideFibres>(scene, state, memory, step, rule,
-                                                                                  chunk, values)
-        .advance(plastic_work);
-  } else {
-    WallChunk<kSections, kDepthPoints, kForceBased, kHardening, One, OneFibre>(scene, state, memory, step, rule, chunk,
-                                                                               values)
-        .advance(plastic_work);
+class WallLoops {
+ public:
+  WallLoops(const Scene& scene, State& state, FibreMemory<T>& memory)
+      : scene_(scene),
+        state_(state),
+        memory_(memory),
+        step_(state.step == 0 ? 0.0 : scene.schedule.time_step),
+        rule_(scene.section) {}
+
+  [[nodiscard]] std::size_t count() const { return static_cast<std::size_t>(scene_.walls.chunk_count()); }
+
+  [[nodiscard]] std::span<const WallBlock> blocks_of(std::size_t chunk) const {
+    const std::vector<int>& offset = scene_.walls.chunk_offset;
+    return std::span(scene_.walls.blocks).subspan(offset[chunk], offset[chunk + 1] - offset[chunk]);
   }
-  double sum = 0.0;
-  for (const double work : plastic_work) {
-    sum += work;
+
+  void measure(std::size_t chunk, T* passed, std::uint8_t& is_squashed) const {
+    with_chunk(chunk, passed, is_squashed, [](auto& walls) HWY_ATTR { walls.measure(); });
   }
-  return sum;
-}
+
+  /// Returns the plastic work.
+  double respond(std::size_t chunk, T* passed, std::uint8_t& is_squashed) const {
+    double work[kMostWallsInBlock] = {};
+    with_chunk(chunk, passed, is_squashed, [&work](auto& walls) HWY_ATTR { walls.respond(work); });
+    return sum_of(work);
+  }
+
+  /// Both, and returns the plastic work.
+  double advance(std::size_t chunk, LaneVector<T>& passed) const {
+    const std::size_t room = kPassedKinds * element_count(blocks_of(chunk));
+    if (passed.size() < room) {
+      passed.resize(room);
+    }
+    std::uint8_t is_squashed = 0;
+    double work[kMostWallsInBlock] = {};
+    with_chunk(chunk, passed.data(), is_squashed, [&work](auto& walls) HWY_ATTR {
+      walls.measure();
+      walls.respond(work);
+    });
+    return sum_of(work);
+  }
+
+ private:
+  template <class D, class F>
+  using Chunk = WallChunk<kSections, kDepthPoints, kForceBased, kHardening, D, F>;
+
+  template <class Visit>
+  HWY_INLINE void with_chunk(std::size_t chunk, T* passed, std::uint8_t& is_squashed, const Visit& visit) const {
+    const std::span<const WallBlock> blocks = blocks_of(chunk);
+    if (blocks.front().walls == kMostWallsInBlock) {
+      Chunk<hn::CappedTag<double, kMostWallsInBlock>, hn::CappedTag<T, kMostWallsInBlock>> walls(
+          scene_, state_, memory_, step_, rule_, blocks, passed, is_squashed);
+      visit(walls);
+    } else {
+      Chunk<hn::CappedTag<double, 1>, hn::CappedTag<T, 1>> walls(scene_, state_, memory_, step_, rule_, blocks, passed,
+                                                                 is_squashed);
+      visit(walls);
+    }
+  }
+
+  static double sum_of(const double (&work)[kMostWallsInBlock]) { return std::accumulate(work, std::end(work), 0.0); }
+
+  const Scene& scene_;
+  State& state_;
+  FibreMemory<T>& memory_;
+  const double step_;
+  const RuleFactors<kSections, kDepthPoints, T> rule_;
+};
 
 /// Sums the forces on the joints at which two threads' chunks meet.
 void sum_between_parts(const Scene& scene, State& state, const Workers& workers, std::size_t chunks) {
@@ -59,55 +105,97 @@ void sum_between_parts(const Scene& scene, State& state, const Workers& workers,
   }
 }
 
-/// Every chunk's work is a number of its own, so that the sum does not depend on who computes them. The forces on joints are
-/// summed as soon as all their walls have been taken, while they are near.
-template <int kSections, int kDepthPoints, bool kForceBased, bool kHardening, class T>
-void evaluate_blocks(const Scene& scene, State& state, FibreMemory<T>& memory, Workers& workers) {
-  const RuleFactors<kSections, kDepthPoints, T> rule(scene.section);
-  const std::span<const WallBlock> blocks = scene.walls.blocks;
-  const std::vector<int>& offset = scene.walls.chunk_offset;
-  std::vector<double> plastic_work(scene.walls.chunk_count());
-  workers.share(plastic_work.size(), [&](std::size_t first, std::size_t end) HWY_ATTR {
-    ChunkValues<T> values;
+/// A chunk's loops one after the other. The forces on joints are summed as soon as all their walls have been taken, while they
+/// are near.
+template <class T, class Loops>
+void advance_chunks(const Loops& loops, const Scene& scene, State& state, std::vector<double>& plastic_work,
+                    Workers& workers) {
+  workers.share(loops.count(), [&](std::size_t first, std::size_t end) HWY_ATTR {
+    LaneVector<T> passed;
     int joint = first < end ? scene.walls.first_joint[first] : 0;
     for (std::size_t c = first; c < end; ++c) {
-      plastic_work[c] = advance_chunk<kSections, kDepthPoints, kForceBased, kHardening>(
-          scene, state, memory, rule, blocks.subspan(offset[c], offset[c + 1] - offset[c]), values);
+      plastic_work[c] = loops.advance(c, passed);
       sum_joint_forces(scene, state, joint, scene.walls.end_joint[c]);
       joint = std::max(joint, scene.walls.end_joint[c]);
     }
   });
-  sum_between_parts(scene, state, workers, plastic_work.size());
-  for (const double work : plastic_work) {
+  sum_between_parts(scene, state, workers, loops.count());
+}
+
+/// Chunks that a thread takes at once beside something else.
+constexpr std::size_t kChunksInPiece = 2;
+
+/// All chunks' first loop, then the others beside `meanwhile`.
+template <class T, class Loops>
+void advance_beside(const Loops& loops, const Scene& scene, State& state, WallsWorkspace& workspace, Workers& workers,
+                    const std::function<void()>& meanwhile) {
+  LaneVector<T>& passed = workspace.passed_of<T>();
+  passed.resize(kPassedKinds * scene.element_count());
+  workspace.squashed.resize(loops.count());
+  const auto passed_by = [&](std::size_t c) {
+    return &passed[kPassedKinds * loops.blocks_of(c).front().first_element];
+  };
+  workers.share(loops.count(), [&](std::size_t first, std::size_t end) HWY_ATTR {
+    for (std::size_t c = first; c < end; ++c) {
+      loops.measure(c, passed_by(c), workspace.squashed[c]);
+    }
+  });
+  const auto respond = [&](std::size_t piece) HWY_ATTR {
+    const std::size_t end = std::min(loops.count(), (piece + 1) * kChunksInPiece);
+    for (std::size_t c = piece * kChunksInPiece; c < end; ++c) {
+      workspace.plastic_work[c] = loops.respond(c, passed_by(c), workspace.squashed[c]);
+    }
+  };
+  workers.share_beside((loops.count() + kChunksInPiece - 1) / kChunksInPiece, respond, meanwhile);
+  workers.share(static_cast<std::size_t>(scene.joint_count),
+                [&](std::size_t first, std::size_t end) { sum_joint_forces(scene, state, first, end); });
+}
+
+/// Every chunk's work is a number of its own, so that the sum does not depend on who computes them.
+template <int kSections, int kDepthPoints, bool kForceBased, bool kHardening, class T>
+void evaluate_blocks(const Scene& scene, State& state, FibreMemory<T>& memory, WallsWorkspace& workspace,
+                     Workers& workers, const std::function<void()>& meanwhile) {
+  const WallLoops<kSections, kDepthPoints, kForceBased, kHardening, T> loops(scene, state, memory);
+  workspace.plastic_work.resize(loops.count());
+  if (workers.count() > 1 && scene.element_count() <= kMostElementsBeside) {
+    advance_beside<T>(loops, scene, state, workspace, workers, meanwhile);
+  } else {
+    advance_chunks<T>(loops, scene, state, workspace.plastic_work, workers);
+    meanwhile();
+  }
+  for (const double work : workspace.plastic_work) {
     state.ledger.plastic += work;
   }
 }
 
 template <int kSections, int kDepthPoints, bool kForceBased, class T>
-void evaluate_rule(const Scene& scene, State& state, FibreMemory<T>& memory, Workers& workers) {
+void evaluate_rule(const Scene& scene, State& state, FibreMemory<T>& memory, WallsWorkspace& workspace,
+                   Workers& workers, const std::function<void()>& meanwhile) {
   if (scene.has_hardening()) {
-    evaluate_blocks<kSections, kDepthPoints, kForceBased, true>(scene, state, memory, workers);
+    evaluate_blocks<kSections, kDepthPoints, kForceBased, true>(scene, state, memory, workspace, workers, meanwhile);
   } else {
-    evaluate_blocks<kSections, kDepthPoints, kForceBased, false>(scene, state, memory, workers);
+    evaluate_blocks<kSections, kDepthPoints, kForceBased, false>(scene, state, memory, workspace, workers, meanwhile);
   }
 }
 
 template <class T>
-bool evaluate_memory(const Scene& scene, State& state, FibreMemory<T>& memory, Workers& workers) {
+bool evaluate_memory(const Scene& scene, State& state, FibreMemory<T>& memory, WallsWorkspace& workspace,
+                     Workers& workers, const std::function<void()>& meanwhile) {
   if (!has_vector_kernel(scene.section)) {
     return false;
   }
   if (scene.section.force_based) {
-    evaluate_rule<4, 6, true>(scene, state, memory, workers);
+    evaluate_rule<4, 6, true>(scene, state, memory, workspace, workers, meanwhile);
   } else {
-    evaluate_rule<2, 6, false>(scene, state, memory, workers);
+    evaluate_rule<2, 6, false>(scene, state, memory, workspace, workers, meanwhile);
   }
   return true;
 }
 
-bool evaluate_wide(const Scene& scene, State& state, Workers& workers) {
-  return scene.single_fibres ? evaluate_memory(scene, state, state.single_fibres, workers)
-                             : evaluate_memory(scene, state, state.fibres, workers);
+bool evaluate_wide(const Scene& scene, State& state, WallsWorkspace& workspace, Workers& workers,
+                   const std::function<void()>& meanwhile) {
+  return scene.single_fibres ? evaluate_memory(scene, state, state.single_fibres, workspace, workers, meanwhile)
+                             : evaluate_memory(scene, state, state.fibres, workspace, workers, meanwhile);
 }
 
 }  // namespace cellcrush::HWY_NAMESPACE
@@ -118,8 +206,9 @@ namespace cellcrush {
 
 HWY_EXPORT(evaluate_wide);
 
-bool evaluate_walls_wide(const Scene& scene, State& state, Workers& workers) {
-  return HWY_DYNAMIC_DISPATCH(evaluate_wide)(scene, state, workers);
+bool evaluate_walls_wide(const Scene& scene, State& state, WallsWorkspace& workspace, Workers& workers,
+                         const std::function<void()>& meanwhile) {
+  return HWY_DYNAMIC_DISPATCH(evaluate_wide)(scene, state, workspace, workers, meanwhile);
 }
 
 }  // namespace cellcrush

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <cstddef>
+#include <functional>
+
+#include "beam/walls_workspace.h"
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
 #include "parallel/workers.h"
@@ -13,8 +17,13 @@ inline bool has_vector_kernel(const SectionRule& rule) {
   return rule.section_count() == sections && rule.depth_count() == 6;
 }
 
+/// Of larger lattices, what passes between the loops over geometry and fibres is better left in the nearest cache than kept for
+/// all elements while others go on: with 16 times the cells of Type I two threads lose a third, with 4 times nothing.
+inline constexpr std::size_t kMostElementsBeside = 20'000;
+
 /// evaluate_internal_forces with the processor's vector instructions, the walls of a block at once: the same equations as
 /// evaluate_element. Returns false, and does nothing, for section rules without a vector kernel.
-bool evaluate_walls_wide(const Scene& scene, State& state, Workers& workers);
+bool evaluate_walls_wide(const Scene& scene, State& state, WallsWorkspace& workspace, Workers& workers,
+                         const std::function<void()>& meanwhile);
 
 }  // namespace cellcrush

@@ -22,6 +22,15 @@ bool spin_until(const Condition& holds) {
   return false;
 }
 
+/// Returns when a count has come to 0.
+template <class Count>
+void wait_for_none(const std::atomic<Count>& count) {
+  const auto is_none = [&count] { return count.load(std::memory_order_acquire) == 0; };
+  while (!spin_until(is_none)) {
+    std::this_thread::yield();
+  }
+}
+
 }  // namespace
 
 Workers::Workers(int count) : claimed_(static_cast<std::size_t>(count)) {
@@ -32,8 +41,7 @@ Workers::Workers(int count) : claimed_(static_cast<std::size_t>(count)) {
 
 Workers::~Workers() {
   stopped_.store(true);
-  round_.fetch_add(1, std::memory_order_release);
-  round_.notify_all();
+  begin_round();
   for (std::thread& thread : threads_) {
     thread.join();
   }
@@ -42,17 +50,52 @@ Workers::~Workers() {
 void Workers::run(const Job& job) {
   job_ = job;
   pending_.store(static_cast<int>(claimed_.size()), std::memory_order_relaxed);
-  const std::uint64_t round = round_.fetch_add(1, std::memory_order_release) + 1;
-  round_.notify_all();
+  const std::uint64_t round = begin_round();
   for (std::size_t part = 0; part < claimed_.size(); ++part) {
     if (claim(part, round)) {
       do_part(part);
     }
   }
-  const auto all_are_done = [this] { return pending_.load(std::memory_order_acquire) == 0; };
-  while (!spin_until(all_are_done)) {
-    std::this_thread::yield();
+  wait_for_none(pending_);
+}
+
+/// The number of the round that begins; wakes those who sleep.
+std::uint64_t Workers::begin_round() {
+  const std::uint64_t round = round_.fetch_add(1, std::memory_order_release) + 1;
+  round_.notify_all();
+  return round;
+}
+
+void Workers::begin_pieces(const PieceJob& job, std::size_t pieces) {
+  piece_job_ = job;
+  pieces_pending_.store(static_cast<std::int64_t>(pieces), std::memory_order_relaxed);
+  pieces_left_.store(static_cast<std::int64_t>(pieces), std::memory_order_release);
+  // A round whose parts are all taken, for those who sleep.
+  for (std::atomic<std::uint64_t>& claimed : claimed_) {
+    claimed.store(round_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
   }
+  begin_round();
+}
+
+void Workers::finish_pieces() {
+  while (do_piece()) {
+  }
+  wait_for_none(pieces_pending_);
+}
+
+/// Does one that nobody has begun, if there is one. A thread that comes late finds no more than 0 left, or begins one of the
+/// next pieces, whose job it then sees.
+bool Workers::do_piece() {
+  if (pieces_left_.load(std::memory_order_relaxed) <= 0) {
+    return false;
+  }
+  const std::int64_t left = pieces_left_.fetch_sub(1, std::memory_order_acq_rel);
+  if (left <= 0) {
+    return false;
+  }
+  piece_job_.call(piece_job_.task, static_cast<std::size_t>(left - 1));
+  pieces_pending_.fetch_sub(1, std::memory_order_acq_rel);
+  return true;
 }
 
 void Workers::do_part(std::size_t part) {
@@ -69,9 +112,14 @@ bool Workers::claim(std::size_t part, std::uint64_t round) {
 
 void Workers::work(std::size_t part) {
   for (std::uint64_t done = 0;;) {
-    const auto has_job = [&] { return round_.load(std::memory_order_acquire) != done; };
-    if (!spin_until(has_job)) {
+    const auto has_round = [&] { return round_.load(std::memory_order_acquire) != done; };
+    const auto has_work = [&] { return has_round() || pieces_left_.load(std::memory_order_relaxed) > 0; };
+    if (!spin_until(has_work)) {
       round_.wait(done, std::memory_order_acquire);
+    }
+    if (!has_round()) {
+      do_piece();
+      continue;
     }
     done = round_.load(std::memory_order_acquire);
     // After the round: that of the destructor has no job.

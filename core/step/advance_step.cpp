@@ -30,14 +30,17 @@ class StageTeller {
 };
 
 void evaluate_forces(const Scene& scene, State& state, Workspace& workspace, const StageTeller& teller) {
+  const auto evaluate_contacts = [&] {
+    teller.begin(Stage::find_contacts);
+    find_contacts(scene, state, workspace.workers);
+    teller.begin(Stage::evaluate_contact_forces);
+    evaluate_contact_forces(scene, state, workspace.contact, workspace.workers);
+    teller.begin(Stage::evaluate_plate_forces);
+    evaluate_plate_forces(scene, state, workspace.contact, workspace.workers);
+    teller.begin(Stage::evaluate_internal_forces);  // what is left of them
+  };
   teller.begin(Stage::evaluate_internal_forces);
-  evaluate_internal_forces(scene, state, workspace.workers);
-  teller.begin(Stage::find_contacts);
-  find_contacts(scene, state, workspace.workers);
-  teller.begin(Stage::evaluate_contact_forces);
-  evaluate_contact_forces(scene, state, workspace.contact, workspace.workers);
-  teller.begin(Stage::evaluate_plate_forces);
-  evaluate_plate_forces(scene, state, workspace.contact, workspace.workers);
+  evaluate_internal_forces(scene, state, workspace.walls, workspace.workers, evaluate_contacts);
   teller.begin(Stage::evaluate_loads);
   evaluate_loads(scene, state);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "beam/walls_workspace.h"
 #include "contact/contact_workspace.h"
 #include "parallel/workers.h"
 
@@ -11,6 +12,7 @@ struct Workspace {
   explicit Workspace(int threads = 1) : workers(threads) {}
 
   Workers workers;
+  WallsWorkspace walls;
   ContactWorkspace contact;
 };
 

@@ -20,6 +20,7 @@ TEST(RigidSpin, ThousandTurnsLeaveStressAtRoundOff) {
   ASSERT_TRUE(scene);
   State state = place_particles(*scene);
   Workers workers(1);
+  WallsWorkspace walls;
   constexpr int kStepsPerTurn = 400;
   constexpr int kTurns = 1000;
   const double turn = 2.0 * std::numbers::pi / kStepsPerTurn;
@@ -34,7 +35,7 @@ TEST(RigidSpin, ThousandTurnsLeaveStressAtRoundOff) {
       state.position[i] = centre + Vector2(c * arm.x() - s * arm.y(), s * arm.x() + c * arm.y());
     }
     state.step = step;
-    evaluate_internal_forces(*scene, state, workers);
+    evaluate_internal_forces(*scene, state, walls, workers, [] {});
   }
   ASSERT_FALSE(state.fibres.stress.empty());
   double greatest = 0.0;

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
+#include <new>
 #include <numeric>
 #include <thread>
 #include <vector>
@@ -58,6 +60,55 @@ TEST(Workers, WakeAfterARest) {
     });
     EXPECT_EQ(std::accumulate(visits.begin(), visits.end(), 0), 2);
   }
+}
+
+TEST(Workers, DoEveryPieceOnceBesideWhatTheCallerShares) {
+  for (const int count : {1, 2, 3, 7}) {
+    Workers workers(count);
+    for (int round = 0; round < 300; ++round) {
+      const auto pieces = static_cast<std::size_t>(round % 37);
+      std::vector<int> visits(pieces, 0);
+      std::vector<int> items(50, 0);
+      workers.share_beside(
+          pieces, [&](std::size_t piece) { ++visits[piece]; },
+          [&] {
+            for (int loop = 1; loop < 4; ++loop) {
+              workers.share(items.size(), [&](std::size_t first, std::size_t end) {
+                for (std::size_t i = first; i < end; ++i) {
+                  items[i] += items[i] == loop - 1 ? 1 : 100;
+                }
+              });
+            }
+          });
+      ASSERT_EQ(visits, std::vector<int>(pieces, 1)) << count << " threads, round " << round;
+      ASSERT_EQ(items, std::vector<int>(items.size(), 3)) << count << " threads, round " << round;
+    }
+  }
+}
+
+TEST(Workers, OtherThreadsBeginPiecesWhileTheCallerIsBusy) {
+  Workers workers(2);
+  std::atomic<int> done{0};
+  int seen = 0;
+  workers.share_beside(
+      5, [&](std::size_t) { ++done; },
+      [&] {
+        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+        while (done < 5 && std::chrono::steady_clock::now() < end) {
+          std::this_thread::yield();
+        }
+        seen = done;
+      });
+  EXPECT_EQ(seen, 5);
+}
+
+TEST(Workers, FinishThePiecesWhereTheCallerThrows) {
+  Workers workers(3);
+  std::vector<int> visits(20, 0);
+  EXPECT_THROW(workers.share_beside(
+                   visits.size(), [&](std::size_t piece) { ++visits[piece]; }, [] { throw std::bad_alloc(); }),
+               std::bad_alloc);
+  EXPECT_EQ(visits, std::vector<int>(visits.size(), 1));
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "beam/wide_walls.h"
 #include "cellcrush/simd.h"
 #include "cellcrush/simulation.h"
 #include "scenes/crushes.h"
@@ -39,6 +40,20 @@ TEST(Threads, AnyNumberOfThemGivesTheSameBits) {
       EXPECT_EQ(crush(spec, threads), one) << threads;
     }
   }
+}
+
+// Where contacts are not found beside the walls' work.
+TEST(Threads, AnyNumberOfThemGivesTheSameBitsOfALargeLattice) {
+  const auto scene = scenes::build(scenes::with_the_papers_elements(scenes::hexagon_block(100, 40)));
+  ASSERT_GT(scene->element_count(), kMostElementsBeside);
+  const auto crush_some = [&scene](int threads) {
+    Simulation simulation(scene, threads);
+    simulation.advance(100);
+    return scenes::hash_of(simulation.state());
+  };
+  const std::uint64_t one = crush_some(1);
+  EXPECT_EQ(crush_some(2), one);
+  EXPECT_EQ(crush_some(3), one);
 }
 
 TEST(Threads, AnyNumberOfThemGivesTheSameBitsByThePlainText) {
