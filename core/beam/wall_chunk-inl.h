@@ -9,7 +9,6 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <span>
 
 #include "beam/wall_lanes-inl.h"
@@ -109,11 +108,9 @@ class WallChunk {
   static constexpr std::ptrdiff_t kFibres = kSections * kDepthPoints;
 
  public:
-  /// `passed` has room for kPassedKinds values of each of the blocks' elements; `is_squashed` says whether some have a
-  /// stiffness of their own.
+  /// `passed` has room for kPassedKinds values of each of the blocks' elements.
   WallChunk(const Scene& scene, State& state, FibreMemory<T>& memory, double step,
-            const RuleFactors<kSections, kDepthPoints, T>& rule, std::span<const WallBlock> blocks, T* passed,
-            std::uint8_t& is_squashed)
+            const RuleFactors<kSections, kDepthPoints, T>& rule, std::span<const WallBlock> blocks, T* passed)
       : scene_(scene),
         memory_(memory),
         step_(step),
@@ -132,17 +129,17 @@ class WallChunk {
         passed_(passed),
         first_(blocks.front().first_element),
         fetches_fibres_(memory.stress.size() > kCachedFibres),
-        uniform_(uniform_material(f_, scene.materials.front())),
-        is_squashed_(is_squashed) {}
+        uniform_(uniform_material(f_, scene.materials.front())) {}
 
-  /// The first loop: axes, lengths and strains.
-  HWY_INLINE void measure() {
-    is_squashed_ = 0;
+  /// The first loop: axes, lengths and strains. Returns whether some elements have a stiffness of their own.
+  HWY_INLINE bool measure() {
     visit_lanes(d_, [&](const WallBlock& block, int lane) HWY_ATTR { reverse_motions(block, lane); });
+    return is_squashed_;
   }
 
-  /// The others: stresses and forces. Adds the plastic work to that of the lanes.
-  HWY_INLINE void respond(double* HWY_RESTRICT plastic_work) {
+  /// The others: stresses and forces, by what the first has returned. Adds the plastic work to that of the lanes.
+  HWY_INLINE void respond(bool is_squashed, double* HWY_RESTRICT plastic_work) {
+    is_squashed_ = is_squashed;
     visit_lanes(f_, [&](const WallBlock& block, int lane) HWY_ATTR { return_fibres(block, lane); });
     visit_lanes(d_, [&](const WallBlock& block, int lane) HWY_ATTR { put_forces(block, lane, plastic_work + lane); });
   }
@@ -229,13 +226,13 @@ class WallChunk {
 
   /// Few chunks have squashed elements: the others' values are never filled.
   HWY_INLINE void note_stiffness(T* place, V stiffness) {
-    if (is_squashed_ == 0) {
+    if (!is_squashed_) {
       for (const WallBlock& block : blocks_) {
         for (int j = 0; j < block.elements; ++j) {
           std::fill_n(values_of(Passed::stiffness, row_of(block, j), 0, walls_of(block)), walls_of(block), T(1.0));
         }
       }
-      is_squashed_ = 1;
+      is_squashed_ = true;
     }
     store_as(d_, stiffness, place);
   }
@@ -269,7 +266,7 @@ class WallChunk {
       const std::ptrdiff_t row = row_of(block, j);
       const auto value = [&](Passed kind) HWY_ATTR { return values_of(kind, row, lane, walls); };
       const LaneMaterial<F> material =
-          is_squashed_ != 0 ? with_stiffness(f_, of_wall, hn::LoadU(f_, value(Passed::stiffness))) : of_wall;
+          is_squashed_ ? with_stiffness(f_, of_wall, hn::LoadU(f_, value(Passed::stiffness))) : of_wall;
       const VF membrane = hn::LoadU(f_, value(Passed::membrane));
       const VF bend_start = hn::LoadU(f_, value(Passed::bend_start));
       const VF bend_end = hn::LoadU(f_, value(Passed::bend_end));
@@ -367,7 +364,7 @@ class WallChunk {
   const std::ptrdiff_t first_;
   const bool fetches_fibres_;
   const LaneMaterial<F> uniform_;
-  std::uint8_t& is_squashed_;
+  bool is_squashed_ = false;
 };
 
 }  // namespace cellcrush::HWY_NAMESPACE

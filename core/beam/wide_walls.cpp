@@ -1,7 +1,6 @@
 #include "beam/wide_walls.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <iterator>
 #include <numeric>
 #include <span>
@@ -42,14 +41,17 @@ class WallLoops {
     return std::span(scene_.walls.blocks).subspan(offset[chunk], offset[chunk + 1] - offset[chunk]);
   }
 
-  void measure(std::size_t chunk, T* passed, std::uint8_t& is_squashed) const {
-    with_chunk(chunk, passed, is_squashed, [](auto& walls) HWY_ATTR { walls.measure(); });
+  /// Returns whether some elements have a stiffness of their own.
+  bool measure(std::size_t chunk, T* passed) const {
+    bool is_squashed = false;
+    with_chunk(chunk, passed, [&](auto& walls) HWY_ATTR { is_squashed = walls.measure(); });
+    return is_squashed;
   }
 
   /// Returns the plastic work.
-  double respond(std::size_t chunk, T* passed, std::uint8_t& is_squashed) const {
+  double respond(std::size_t chunk, T* passed, bool is_squashed) const {
     double work[kMostWallsInBlock] = {};
-    with_chunk(chunk, passed, is_squashed, [&work](auto& walls) HWY_ATTR { walls.respond(work); });
+    with_chunk(chunk, passed, [&](auto& walls) HWY_ATTR { walls.respond(is_squashed, work); });
     return sum_of(work);
   }
 
@@ -59,12 +61,8 @@ class WallLoops {
     if (passed.size() < room) {
       passed.resize(room);
     }
-    std::uint8_t is_squashed = 0;
     double work[kMostWallsInBlock] = {};
-    with_chunk(chunk, passed.data(), is_squashed, [&work](auto& walls) HWY_ATTR {
-      walls.measure();
-      walls.respond(work);
-    });
+    with_chunk(chunk, passed.data(), [&](auto& walls) HWY_ATTR { walls.respond(walls.measure(), work); });
     return sum_of(work);
   }
 
@@ -73,15 +71,14 @@ class WallLoops {
   using Chunk = WallChunk<kSections, kDepthPoints, kForceBased, kHardening, D, F>;
 
   template <class Visit>
-  HWY_INLINE void with_chunk(std::size_t chunk, T* passed, std::uint8_t& is_squashed, const Visit& visit) const {
+  HWY_INLINE void with_chunk(std::size_t chunk, T* passed, const Visit& visit) const {
     const std::span<const WallBlock> blocks = blocks_of(chunk);
     if (blocks.front().walls == kMostWallsInBlock) {
       Chunk<hn::CappedTag<double, kMostWallsInBlock>, hn::CappedTag<T, kMostWallsInBlock>> walls(
-          scene_, state_, memory_, step_, rule_, blocks, passed, is_squashed);
+          scene_, state_, memory_, step_, rule_, blocks, passed);
       visit(walls);
     } else {
-      Chunk<hn::CappedTag<double, 1>, hn::CappedTag<T, 1>> walls(scene_, state_, memory_, step_, rule_, blocks, passed,
-                                                                 is_squashed);
+      Chunk<hn::CappedTag<double, 1>, hn::CappedTag<T, 1>> walls(scene_, state_, memory_, step_, rule_, blocks, passed);
       visit(walls);
     }
   }
@@ -137,13 +134,13 @@ void advance_beside(const Loops& loops, const Scene& scene, State& state, WallsW
   };
   workers.share(loops.count(), [&](std::size_t first, std::size_t end) HWY_ATTR {
     for (std::size_t c = first; c < end; ++c) {
-      loops.measure(c, passed_by(c), workspace.squashed[c]);
+      workspace.squashed[c] = loops.measure(c, passed_by(c)) ? 1 : 0;
     }
   });
   const auto respond = [&](std::size_t piece) HWY_ATTR {
     const std::size_t end = std::min(loops.count(), (piece + 1) * kChunksInPiece);
     for (std::size_t c = piece * kChunksInPiece; c < end; ++c) {
-      workspace.plastic_work[c] = loops.respond(c, passed_by(c), workspace.squashed[c]);
+      workspace.plastic_work[c] = loops.respond(c, passed_by(c), workspace.squashed[c] != 0);
     }
   };
   workers.share_beside((loops.count() + kChunksInPiece - 1) / kChunksInPiece, respond, meanwhile);
