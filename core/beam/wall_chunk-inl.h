@@ -187,9 +187,6 @@ class WallChunk {
     for (int j = 0; j < block.elements; ++j) {
       const std::ptrdiff_t row = row_of(block, j);
       const std::ptrdiff_t e = row + lane;
-      if (fetches_fibres_) {
-        fetch_fibres(e);
-      }
       const LaneNode<D> end =
           j + 1 == block.elements
               ? gather_joint(&scene_.walls.end[wall])
@@ -212,15 +209,6 @@ class WallChunk {
                        bounded_stiffness(d_, deformation.length, undeformed, thickness, scene_.constant_area));
       }
       start = end;
-    }
-  }
-
-  /// Has the lanes' share of a row's stresses brought near, before the loop that returns them.
-  HWY_INLINE void fetch_fibres(std::ptrdiff_t e) const {
-    constexpr std::size_t kLine = 64 / sizeof(T);
-    constexpr std::size_t kCount = kFibres * hn::MaxLanes(D());
-    for (std::size_t i = 0; i < kCount; i += kLine) {
-      __builtin_prefetch(stress_ + e * kFibres + i, 1);
     }
   }
 
@@ -257,6 +245,17 @@ class WallChunk {
     return kForceBased ? &memory_.end_moment[row + lane] : values_of(kMomentEnd, row, lane, walls);
   }
 
+  /// Has the lanes' share of the stresses some rows ahead brought near.
+  HWY_INLINE void fetch_fibres(std::ptrdiff_t row, int lane, int walls) const {
+    constexpr std::ptrdiff_t kRowsAhead = 8;
+    constexpr std::size_t kLine = 64 / sizeof(T);
+    constexpr std::size_t kCount = kFibres * hn::MaxLanes(F());
+    const T* const from = stress_ + (row + kRowsAhead * walls + lane) * kFibres;
+    for (std::size_t i = 0; i < kCount; i += kLine) {
+      __builtin_prefetch(from + i, 1);
+    }
+  }
+
   /// From the strains to the sums of the stresses.
   HWY_INLINE void return_fibres(const WallBlock& block, int lane) const {
     const LaneMaterial<F> of_wall =
@@ -264,6 +263,9 @@ class WallChunk {
     const int walls = walls_of(block);
     for (int j = 0; j < block.elements; ++j) {
       const std::ptrdiff_t row = row_of(block, j);
+      if (fetches_fibres_) {
+        fetch_fibres(row, lane, walls);
+      }
       const auto value = [&](Passed kind) HWY_ATTR { return values_of(kind, row, lane, walls); };
       const LaneMaterial<F> material =
           is_squashed_ ? with_stiffness(f_, of_wall, hn::LoadU(f_, value(Passed::stiffness))) : of_wall;
