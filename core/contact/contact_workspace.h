@@ -63,12 +63,6 @@ struct ContactPart {
   std::vector<int> found;   ///< of those, they that have begun to overlap
   std::vector<int> parted;  ///< of State::touching
   std::vector<Push> pushes;
-
-  /// Of ContactWorkspace::near_plates, while it is made.
-  struct {
-    std::size_t first = 0;
-    std::size_t count = 0;
-  } near_plates;
 };
 
 /// Room for evaluate_contact_forces, kept from step to step so that none allocates. No result depends on what it holds.
@@ -79,8 +73,7 @@ struct ContactWorkspace {
   std::vector<ChangedBall> changes;
   TouchMemory before;  ///< State::touching of the step before
   Touches touches;
-  std::vector<Push> pushes;      ///< of all parts
-  std::vector<int> near_plates;  ///< room for all particles
+  std::vector<Push> pushes;  ///< of all parts
 };
 
 }  // namespace cellcrush

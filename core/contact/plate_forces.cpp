@@ -1,12 +1,9 @@
 #include "contact/plate_forces.h"
 
-#include <algorithm>
-#include <span>
+#include <limits>
 
 #include "contact/friction.h"
 #include "contact/normal_force.h"
-#include "contact/wide_plates.h"
-#include "simd/target.h"
 
 namespace cellcrush {
 namespace {
@@ -44,41 +41,19 @@ void push(const Scene& scene, State& state, const Plate& plate, std::size_t part
   }
 }
 
-std::size_t find_near_plates_plain(const Scene& scene, const State& state, const PlateFaces& faces, std::size_t first,
-                                   std::size_t end, int* near) {
-  std::size_t count = 0;
-  const bool rubs = !state.impact_friction.empty();
-  for (std::size_t i = first; i < end; ++i) {
-    const double place = state.position[i][scene.plates.axis];
-    const bool reaches = place - scene.radius[i] < faces.impact || place + scene.radius[i] > faces.support;
-    near[count] = static_cast<int>(i);
-    count += reaches || (rubs && (state.impact_friction[i] != 0.0 || state.support_friction[i] != 0.0)) ? 1 : 0;
-  }
-  return count;
-}
-
-/// The particles that a plate may act on, ascending: each thread writes behind where its particles begin, then the parts are
-/// moved together.
-std::span<const int> find_near_plates(const Scene& scene, const State& state, const PlateFaces& faces,
-                                      ContactWorkspace& workspace, Workers& workers) {
-  const auto find_near = use_wide_kernels() ? find_near_plates_wide : find_near_plates_plain;
-  std::vector<int>& near = workspace.near_plates;
-  near.resize(scene.particle_count());  // once: it keeps its size
-  workspace.parts.resize(static_cast<std::size_t>(workers.count()));
-  workers.share_parts(near.size(), kCandidateBatch, [&](std::size_t part, std::size_t first, std::size_t end) {
-    workspace.parts[part].near_plates = {first, find_near(scene, state, faces, first, end, near.data() + first)};
-  });
-  auto last = near.begin();
-  for (const ContactPart& part : workspace.parts) {
-    const auto first = near.begin() + static_cast<std::ptrdiff_t>(part.near_plates.first);
-    last = std::copy(first, first + static_cast<std::ptrdiff_t>(part.near_plates.count), last);
-  }
-  return {near.begin(), last};
-}
-
 }  // namespace
 
-void evaluate_plate_forces(const Scene& scene, State& state, ContactWorkspace& workspace, Workers& workers) {
+PlateReach reach_of_plates(const Scene& scene, double impact_travel) {
+  if (!scene.plates.present) {
+    constexpr double kFar = std::numeric_limits<double>::infinity();
+    return {-kFar, kFar};
+  }
+  constexpr double kRounding = 1e-9;  // mm
+  const double reach = scene.largest_radius + kRounding;
+  return {scene.plates.impact_face + impact_travel + reach, scene.plates.support_face - reach};
+}
+
+void evaluate_plate_forces(const Scene& scene, State& state, const NearPlates& near) {
   const Plates& plates = scene.plates;
   if (!plates.present) {
     return;
@@ -91,9 +66,23 @@ void evaluate_plate_forces(const Scene& scene, State& state, ContactWorkspace& w
                         rubs ? state.impact_friction.data() : nullptr};
   const Plate support = {plates.support_face, 0.0, -1.0, state.support_force,
                          rubs ? state.support_friction.data() : nullptr};
-  for (const int particle : find_near_plates(scene, state, {impact.face, support.face}, workspace, workers)) {
-    push(scene, state, impact, static_cast<std::size_t>(particle));
-    push(scene, state, support, static_cast<std::size_t>(particle));
+  const auto push_by_both = [&](std::size_t particle) {
+    const double place = state.position[particle][scene.plates.axis];
+    const double radius = scene.radius[particle];
+    const bool rubbed = rubs && (impact.friction[particle] != 0.0 || support.friction[particle] != 0.0);
+    if (place - radius < impact.face || place + radius > support.face || rubbed) {
+      push(scene, state, impact, particle);
+      push(scene, state, support, particle);
+    }
+  };
+  if (!near.has_value()) {
+    for (std::size_t i = 0; i < scene.particle_count(); ++i) {
+      push_by_both(i);
+    }
+    return;
+  }
+  for (const int particle : *near) {
+    push_by_both(static_cast<std::size_t>(particle));
   }
 }
 

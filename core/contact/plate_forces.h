@@ -1,18 +1,30 @@
 #pragma once
 
+#include <optional>
+#include <span>
+
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
-#include "contact/contact_workspace.h"
-#include "parallel/workers.h"
 
 namespace cellcrush {
+
+/// Places along the crush from which no ball reaches a plate, mm.
+struct PlateReach {
+  double below = 0.0;  ///< nearer to the impact plate, one may
+  double above = 0.0;  ///< nearer to the support plate, one may
+};
+
+/// Of the plates when the impact plate has travelled so far; beyond all places where there are none.
+PlateReach reach_of_plates(const Scene& scene, double impact_travel);
+
+/// Particles that may reach a plate, or that rub against one, and perhaps others; ascending. Without a value: not known.
+using NearPlates = std::optional<std::span<const int>>;
 
 /// Overwrites impact_force and support_force, of the rigid, unilateral plates on every particle whose ball reaches into
 /// them, by the penalty law of the walls, and adds them to contact_force, as evaluate_contact_forces does. Forces are positive in compression: the impact plate pushes along the crush, the support plate
 /// against it. Friction acts across the crush; it is added to friction_force.
 ///
-/// All particles are held against the plates, eight at a time; of those few that reach a plate, or that leave it in this step
-/// with some friction, are the forces evaluated.
-void evaluate_plate_forces(const Scene& scene, State& state, ContactWorkspace& workspace, Workers& workers);
+/// Only those that are near have forces.
+void evaluate_plate_forces(const Scene& scene, State& state, const NearPlates& near);
 
 }  // namespace cellcrush

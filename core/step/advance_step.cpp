@@ -29,14 +29,15 @@ class StageTeller {
   StageObserver* observer_;
 };
 
-void evaluate_forces(const Scene& scene, State& state, Workspace& workspace, const StageTeller& teller) {
+void evaluate_forces(const Scene& scene, State& state, const NearPlates& near_plates, Workspace& workspace,
+                     const StageTeller& teller) {
   const auto evaluate_contacts = [&] {
     teller.begin(Stage::find_contacts);
     find_contacts(scene, state, workspace.workers);
     teller.begin(Stage::evaluate_contact_forces);
     evaluate_contact_forces(scene, state, workspace.contact, workspace.workers);
     teller.begin(Stage::evaluate_plate_forces);
-    evaluate_plate_forces(scene, state, workspace.contact, workspace.workers);
+    evaluate_plate_forces(scene, state, near_plates);
     teller.begin(Stage::evaluate_internal_forces);  // what is left of them
   };
   teller.begin(Stage::evaluate_internal_forces);
@@ -50,7 +51,7 @@ void evaluate_forces(const Scene& scene, State& state, Workspace& workspace, con
 State make_initial_state(const Scene& scene) {
   State state = place_particles(scene);
   Workspace workspace;
-  evaluate_forces(scene, state, workspace, StageTeller(nullptr));
+  evaluate_forces(scene, state, std::nullopt, workspace, StageTeller(nullptr));
   stagger_velocities(scene, state);
   open_ledger(scene, state);
   return state;
@@ -59,8 +60,8 @@ State make_initial_state(const Scene& scene) {
 void advance_step(const Scene& scene, State& state, Workspace& workspace, StageObserver* observer) {
   const StageTeller teller(observer);
   teller.begin(Stage::integrate_motion);
-  integrate_motion(scene, state, workspace.workers);
-  evaluate_forces(scene, state, workspace, teller);
+  const NearPlates near_plates = integrate_motion(scene, state, workspace.motion, workspace.workers);
+  evaluate_forces(scene, state, near_plates, workspace, teller);
   teller.end_step();
 }
 

@@ -1,8 +1,10 @@
 #include "step/integrate_motion.h"
 
+#include <algorithm>
+#include <span>
+
 #include "energy/ledger.h"
 #include "step/rigid_motion.h"
-#include "step/wide_motion.h"
 
 namespace cellcrush {
 
@@ -155,15 +157,38 @@ void move_particles(const Scene& scene, State& state) {
   }
 }
 
+/// What the chunks have noted, moved together behind the rigid bodies' particles.
+NearPlates gather_near_plates(const Scene& scene, const State& state, MotionWorkspace& workspace) {
+  std::vector<int>& near = workspace.near_plates;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < first_free_particle(scene); ++i) {
+    const double place = state.position[i][scene.plates.axis];
+    const bool rubs =
+        !state.impact_friction.empty() && (state.impact_friction[i] != 0.0 || state.support_friction[i] != 0.0);
+    if (rubs || place < workspace.reach.below || place > workspace.reach.above) {
+      near[count++] = static_cast<int>(i);
+    }
+  }
+  for (const MovedChunk& chunk : workspace.chunks) {
+    std::copy_n(near.begin() + static_cast<std::ptrdiff_t>(chunk.first), chunk.near_count,
+                near.begin() + static_cast<std::ptrdiff_t>(count));
+    count += chunk.near_count;
+  }
+  return std::span<const int>(near.data(), count);
+}
+
 }  // namespace
 
-void integrate_motion(const Scene& scene, State& state, Workers& workers) {
+NearPlates integrate_motion(const Scene& scene, State& state, MotionWorkspace& workspace, Workers& workers) {
   const double step = scene.schedule.time_step;
   const double plate_speed_before = scene.plates.speed_at(state.time - 0.5 * step);
   const double plate_speed_after = scene.plates.speed_at(state.time + 0.5 * step);
   move_rigid_bodies(scene, state);
+  NearPlates near;
   if (have_wide_motion(scene)) {
-    move_particles_wide(scene, state, workers);
+    workspace.reach = reach_of_plates(scene, state.impact_travel + step * plate_speed_after);
+    move_particles_wide(scene, state, workspace, workers);
+    near = gather_near_plates(scene, state, workspace);
   } else {
     move_particles(scene, state);
   }
@@ -173,6 +198,7 @@ void integrate_motion(const Scene& scene, State& state, Workers& workers) {
   state.impact_travel += step * plate_speed_after;
   ++state.step;
   state.time = static_cast<double>(state.step) * step;
+  return near;
 }
 
 }  // namespace cellcrush

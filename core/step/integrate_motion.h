@@ -3,6 +3,7 @@
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
 #include "parallel/workers.h"
+#include "step/wide_motion.h"
 
 namespace cellcrush {
 
@@ -51,6 +52,7 @@ void stagger_velocities(const Scene& scene, State& state);
 
 /// Central differences over one step: velocities to half a step on, positions, rotations and the impact plate to the next
 /// time. Books the work of every force over the step in the ledger and the plates' impulses, and clears the contacts' forces.
-void integrate_motion(const Scene& scene, State& state, Workers& workers);
+/// Returns the particles that may be near a plate then.
+NearPlates integrate_motion(const Scene& scene, State& state, MotionWorkspace& workspace, Workers& workers);
 
 }  // namespace cellcrush

@@ -158,9 +158,47 @@ HWY_INLINE void add_works(D d, const ParticleArrays<S>& arrays, const Motion& mo
   }
 }
 
+/// Notes the particles that may reach a plate where they have moved to, and those that rub against one.
+class NearPlatesNotes {
+ public:
+  /// REQUIRES: room for all that are noted.
+  NearPlatesNotes(const Scene& scene, const State& state, const PlateReach& reach, int* near)
+      : below_(reach.below),
+        above_(reach.above),
+        along_x_(scene.plates.axis == 0),
+        impact_friction_(state.impact_friction.empty() ? nullptr : state.impact_friction.data()),
+        support_friction_(state.support_friction.data()),
+        near_(near) {}
+
+  template <class D>
+  HWY_INLINE void note(D d, const Points<D>& position, std::size_t i) {
+    const auto place = along_x_ ? position.x : position.y;
+    auto some = hn::Or(hn::Lt(place, hn::Set(d, below_)), hn::Gt(place, hn::Set(d, above_)));
+    if (impact_friction_ != nullptr) {
+      const auto zero = hn::Zero(d);
+      some = hn::Or(some, hn::Or(hn::Ne(hn::LoadU(d, impact_friction_ + i), zero),
+                                 hn::Ne(hn::LoadU(d, support_friction_ + i), zero)));
+    }
+    if (HWY_UNLIKELY(!hn::AllFalse(d, some))) {
+      count_ += write_set_lanes(d, some, i, near_ + count_);
+    }
+  }
+
+  [[nodiscard]] std::size_t count() const { return count_; }
+
+ private:
+  const double below_;
+  const double above_;
+  const bool along_x_;
+  const double* const impact_friction_;
+  const double* const support_friction_;
+  int* const near_;
+  std::size_t count_ = 0;
+};
+
 template <bool kContact, bool kFriction, bool kMassDamping, class D>
-HWY_INLINE void move(D d, const ParticleArrays<State>& arrays, const Motion& motion, std::size_t i,
-                     LaneWorks<D>& works) {
+HWY_INLINE void move(D d, const ParticleArrays<State>& arrays, const Motion& motion, std::size_t i, LaneWorks<D>& works,
+                     NearPlatesNotes& near_plates) {
   const LaneMotion<D> lanes = motion_of<kContact, kFriction>(d, arrays, motion, i);
   if constexpr (kContact) {
     clear_contact_forces(d, arrays.contact_force + i);
@@ -173,11 +211,12 @@ HWY_INLINE void move(D d, const ParticleArrays<State>& arrays, const Motion& mot
   const auto mean_turn = hn::Mul(half, hn::Add(lanes.spin, lanes.next_spin));
   add_works<kContact, kFriction, kMassDamping>(d, arrays, motion, i, lanes, mean, mean_turn, works);
   const auto step = hn::Set(d, motion.step);
-  const Points<D> position = load_points(d, arrays.position + i);
+  const Points<D> before = load_points(d, arrays.position + i);
+  const Points<D> position = {hn::MulAdd(step, lanes.next.x, before.x), hn::MulAdd(step, lanes.next.y, before.y)};
+  near_plates.note(d, position, i);
   store_points(d, lanes.next, arrays.velocity + i);
   hn::StoreU(lanes.next_spin, d, arrays.spin + i);
-  store_points(d, Points<D>{hn::MulAdd(step, lanes.next.x, position.x), hn::MulAdd(step, lanes.next.y, position.y)},
-               arrays.position + i);
+  store_points(d, position, arrays.position + i);
   hn::StoreU(hn::MulAdd(step, lanes.next_spin, hn::LoadU(d, arrays.rotation + i)), d, arrays.rotation + i);
 }
 
@@ -196,13 +235,13 @@ HWY_INLINE void look(D d, const ParticleArrays<const State>& arrays, const Motio
 }
 
 template <bool kFriction, bool kMassDamping>
-WorksOfMotion move_chunk(const ParticleArrays<State>& arrays, const Motion& motion, std::size_t first,
-                         std::size_t end) {
+WorksOfMotion move_chunk(const ParticleArrays<State>& arrays, const Motion& motion, std::size_t first, std::size_t end,
+                         NearPlatesNotes& near_plates) {
   return sum_over_chunk(first, end, [&](auto d, std::size_t i, auto& works) HWY_ATTR {
     if (has_contact_forces(d, arrays.contact_force + i)) {
-      move<true, kFriction, kMassDamping>(d, arrays, motion, i, works);
+      move<true, kFriction, kMassDamping>(d, arrays, motion, i, works, near_plates);
     } else {
-      move<false, kFriction, kMassDamping>(d, arrays, motion, i, works);
+      move<false, kFriction, kMassDamping>(d, arrays, motion, i, works, near_plates);
     }
   });
 }
@@ -239,11 +278,12 @@ Motion motion_over_step(const Scene& scene) {
 /// inside walls are dealt out each by themselves, as the joints' sums and the walls are, so that a thread finds in its cache
 /// what it has written.
 template <bool kFriction, bool kMassDamping>
-void move_all(const Scene& scene, State& state, Workers& workers) {
+void move_all(const Scene& scene, State& state, MotionWorkspace& workspace, Workers& workers) {
   const Motion motion = motion_over_step(scene);
   const ParticleArrays<State> arrays(scene, state);
   const std::array<Group, 2> groups = groups_of(scene);
-  std::vector<WorksOfMotion> works(groups[0].chunk_count() + groups[1].chunk_count());
+  workspace.chunks.resize(groups[0].chunk_count() + groups[1].chunk_count());
+  workspace.near_plates.resize(scene.particle_count());
   workers.share_parts(
       static_cast<std::size_t>(workers.count()), 1, [&](std::size_t part, std::size_t, std::size_t) HWY_ATTR {
         std::size_t before = 0;
@@ -251,14 +291,16 @@ void move_all(const Scene& scene, State& state, Workers& workers) {
           const std::size_t chunks = group.chunk_count();
           for (std::size_t c = workers.start_of_part(chunks, part); c < workers.start_of_part(chunks, part + 1); ++c) {
             const std::size_t first = group.first + c * Group::kChunk;
-            works[before + c] =
-                move_chunk<kFriction, kMassDamping>(arrays, motion, first, std::min(first + Group::kChunk, group.end));
+            const std::size_t end = std::min(first + Group::kChunk, group.end);
+            NearPlatesNotes near(scene, state, workspace.reach, &workspace.near_plates[first]);
+            const WorksOfMotion works = move_chunk<kFriction, kMassDamping>(arrays, motion, first, end, near);
+            workspace.chunks[before + c] = {works, first, near.count()};
           }
           before += chunks;
         }
       });
-  for (const WorksOfMotion& work : works) {
-    work.book(state.ledger);
+  for (const MovedChunk& chunk : workspace.chunks) {
+    chunk.works.book(state.ledger);
   }
 }
 
@@ -277,13 +319,11 @@ WorksOfMotion look_at_all(const Scene& scene, const State& state) {
   return sum;
 }
 
-void move_wide(const Scene& scene, State& state, Workers& workers) {
+void move_wide(const Scene& scene, State& state, MotionWorkspace& workspace, Workers& workers) {
   const bool damped = scene.mass_damping > 0.0;
-  if (state.friction_force.empty()) {
-    damped ? move_all<false, true>(scene, state, workers) : move_all<false, false>(scene, state, workers);
-  } else {
-    damped ? move_all<true, true>(scene, state, workers) : move_all<true, false>(scene, state, workers);
-  }
+  const auto move_them = state.friction_force.empty() ? (damped ? move_all<false, true> : move_all<false, false>)
+                                                      : (damped ? move_all<true, true> : move_all<true, false>);
+  move_them(scene, state, workspace, workers);
 }
 
 WorksOfMotion look_wide(const Scene& scene, const State& state) {
@@ -307,8 +347,8 @@ bool have_wide_motion(const Scene& scene) {
   return use_wide_kernels() && scene.supports.empty() && scene.motions.empty() && !scene.is_loaded();
 }
 
-void move_particles_wide(const Scene& scene, State& state, Workers& workers) {
-  HWY_DYNAMIC_DISPATCH(move_wide)(scene, state, workers);
+void move_particles_wide(const Scene& scene, State& state, MotionWorkspace& workspace, Workers& workers) {
+  HWY_DYNAMIC_DISPATCH(move_wide)(scene, state, workspace, workers);
 }
 
 WorksOfMotion look_at_particles_wide(const Scene& scene, const State& state) {

@@ -1,7 +1,11 @@
 #pragma once
 
+#include <cstddef>
+#include <vector>
+
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
+#include "contact/plate_forces.h"
 #include "parallel/workers.h"
 
 namespace cellcrush {
@@ -34,11 +38,26 @@ struct WorksOfMotion {
   }
 };
 
+/// Particles that are moved together.
+struct MovedChunk {
+  WorksOfMotion works;
+  std::size_t first = 0;       ///< particle
+  std::size_t near_count = 0;  ///< of those that may be near a plate, in near_plates from `first` on
+};
+
+/// Room for integrate_motion, kept from step to step so that none allocates.
+struct MotionWorkspace {
+  PlateReach reach;
+  std::vector<MovedChunk> chunks;  ///< particles ascending
+  std::vector<int> near_plates;    ///< room for all particles
+};
+
 /// Whether the scene is one of those without supports and loads that the two below know, and their text the one to use.
 bool have_wide_motion(const Scene& scene);
 
-/// Moves the free particles by a step and books the works. REQUIRES: have_wide_motion.
-void move_particles_wide(const Scene& scene, State& state, Workers& workers);
+/// Moves the free particles by a step, notes those that may be near a plate then, and books the works.
+/// REQUIRES: have_wide_motion.
+void move_particles_wide(const Scene& scene, State& state, MotionWorkspace& workspace, Workers& workers);
 
 /// The works of the newest forces over the half step up to the state's time, and the energy then. REQUIRES: have_wide_motion.
 WorksOfMotion look_at_particles_wide(const Scene& scene, const State& state);

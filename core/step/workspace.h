@@ -3,6 +3,7 @@
 #include "beam/walls_workspace.h"
 #include "contact/contact_workspace.h"
 #include "parallel/workers.h"
+#include "step/wide_motion.h"
 
 namespace cellcrush {
 
@@ -12,6 +13,7 @@ struct Workspace {
   explicit Workspace(int threads = 1) : workers(threads) {}
 
   Workers workers;
+  MotionWorkspace motion;
   WallsWorkspace walls;
   ContactWorkspace contact;
 };
