@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "contact/candidate_lists.h"
+#include "contact/contact_lots.h"
 #include "contact/evaluate_touches.h"
 #include "contact/find_overlaps.h"
 #include "contact/find_pushes.h"
@@ -182,6 +183,7 @@ void evaluate_contact_forces(const Scene& scene, State& state, ContactWorkspace&
   state.contact_stored = 0.0;
   find_overlaps(scene, state, workspace, workers);
   remember_touches(scene, state, workspace);
+  note_contact_lots(scene, state, workspace.newcomers);
   evaluate_pairs(scene, state, workspace, workers);
   (use_wide_kernels() ? apply_normal_forces_wide : apply_normal_forces_plain)(scene, state, workspace);
   state.contact_count = static_cast<std::int64_t>(workspace.pushes.size());

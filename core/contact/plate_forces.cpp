@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "contact/contact_lots.h"
 #include "contact/friction.h"
 #include "contact/normal_force.h"
 
@@ -29,6 +30,7 @@ void push(const Scene& scene, State& state, const Plate& plate, std::size_t part
     state.contact_stored += 0.5 * force.elastic * depth;
     state.contact_force[particle].elastic[axis] += plate.outward * force.elastic;
     state.contact_force[particle].viscous[axis] += plate.outward * force.viscous;
+    mark_contact_lot(state, static_cast<int>(particle));
     plate.sum.elastic += force.elastic;
     plate.sum.viscous += force.viscous;
   }

@@ -21,10 +21,9 @@ PlateReach reach_of_plates(const Scene& scene, double impact_travel);
 using NearPlates = std::optional<std::span<const int>>;
 
 /// Overwrites impact_force and support_force, of the rigid, unilateral plates on every particle whose ball reaches into
-/// them, by the penalty law of the walls, and adds them to contact_force, as evaluate_contact_forces does. Forces are positive in compression: the impact plate pushes along the crush, the support plate
-/// against it. Friction acts across the crush; it is added to friction_force.
-///
-/// Only those that are near have forces.
+/// them, by the penalty law of the walls, and adds them to contact_force, as evaluate_contact_forces does. Forces are positive in
+/// compression: the impact plate pushes along the crush, the support plate against it. Friction acts across the crush; it is
+/// added to friction_force. Particles that are not `near` are not looked at.
 void evaluate_plate_forces(const Scene& scene, State& state, const NearPlates& near);
 
 }  // namespace cellcrush

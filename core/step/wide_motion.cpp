@@ -10,6 +10,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "contact/contact_lots.h"
 #include "simd/lanes-inl.h"
 #include "simd/target.h"
 #include "step/integrate_motion.h"
@@ -41,6 +42,7 @@ struct ParticleArrays {
   const double* inverse_inertia;
   const Vector2* internal_force;
   const double* internal_moment;
+  const std::uint8_t* contact_lots;
   Pointer<Vector2> position;
   Pointer<Vector2> velocity;
   Pointer<double> rotation;
@@ -55,6 +57,7 @@ struct ParticleArrays {
         inverse_inertia(scene.inverse_inertia.data()),
         internal_force(state.internal_force.data()),
         internal_moment(state.internal_moment.data()),
+        contact_lots(state.contact_lots.empty() ? nullptr : state.contact_lots.data()),
         position(state.position.data()),
         velocity(state.velocity.data()),
         rotation(state.rotation.data()),
@@ -238,7 +241,7 @@ template <bool kFriction, bool kMassDamping>
 WorksOfMotion move_chunk(const ParticleArrays<State>& arrays, const Motion& motion, std::size_t first, std::size_t end,
                          NearPlatesNotes& near_plates) {
   return sum_over_chunk(first, end, [&](auto d, std::size_t i, auto& works) HWY_ATTR {
-    if (has_contact_forces(d, arrays.contact_force + i)) {
+    if (may_bear_contact(arrays.contact_lots, i, hn::Lanes(d)) && has_contact_forces(d, arrays.contact_force + i)) {
       move<true, kFriction, kMassDamping>(d, arrays, motion, i, works, near_plates);
     } else {
       move<false, kFriction, kMassDamping>(d, arrays, motion, i, works, near_plates);

@@ -82,7 +82,7 @@ struct Ledger {
 };
 
 /// Everything that a step changes. N particles, E elements, F fibres an element. Units mm, tonne, s, N, MPa, rad.
-/// visit_fields lists every field once; checkpoint, hash and comparison go through it.
+/// visit_fields lists every field once, but what is derived; checkpoint, hash and comparison go through it.
 struct State {
   std::int64_t step = 0;
   double time = 0.0;
@@ -159,6 +159,11 @@ struct State {
   double deepest_birth = 0.0;              ///< the same, of contacts in the step in which they first touched
 
   Ledger ledger;
+
+  /// Derived, so no field for visit_fields: of each kContactLot particles, whether one may have a contact_force, since most have
+  /// none. It is made anew from what touches every so many steps; in between lots are only added. Empty: all may.
+  std::vector<std::uint8_t> contact_lots;
+  static constexpr std::size_t kContactLot = 8;
 };
 
 template <class M, class Visitor>
