@@ -26,8 +26,7 @@ const std::string kContactAssumption =
     "most a sixth of its thickness; damping is a fifth of critical.";
 const std::string kStepAssumption =
     "The step and the points of the elements are the defaults; the paper's are numerics.time_step_s 2e-7, "
-    "section.formulation DISPLACEMENT_BASED, section.axial_points 2, section.depth_rule LOBATTO and "
-    "section.area_rule CONSTANT_AREA.";
+    "section.formulation DISPLACEMENT_BASED, section.depth_rule LOBATTO and section.area_rule CONSTANT_AREA.";
 
 // Example 2 of the paper, Type I, at 100 m/s.
 Preset type_i() {

@@ -132,7 +132,8 @@ void write_loading(const LoadingSpec& in, v1::Loading& out) {
 }
 
 void write_section(const SectionSpec& in, v1::Section& out) {
-  out.set_axial_points(in.axial_count());
+  // Left open where the formulation is to choose: who changes a preset's formulation gets the points that go with it.
+  if (in.axial_points) out.set_axial_points(*in.axial_points);
   out.set_depth_points(in.depth_count());
   out.set_formulation(in.formulation == SectionSpec::Formulation::force_based ? v1::Section::FORCE_BASED
                                                                               : v1::Section::DISPLACEMENT_BASED);

@@ -70,6 +70,15 @@ TEST(Translate, EveryPresetSurvivesTheWayToTheWireAndBack) {
   }
 }
 
+TEST(Translate, APresetWithAnotherFormulationTakesThePointsThatGoWithIt) {
+  const Preset* const type_i = find_preset("type-i");
+  ASSERT_NE(type_i, nullptr);
+  v1::Case of_preset = translate::to_case(type_i->spec);
+  EXPECT_EQ(translate::to_spec(of_preset).spec.section.axial_count(), 4);
+  of_preset.mutable_section()->set_formulation(v1::Section::DISPLACEMENT_BASED);
+  EXPECT_EQ(translate::to_spec(of_preset).spec.section.axial_count(), 2);
+}
+
 TEST(Translate, AnEmptyCaseTakesTheSpecsDefaultsAndInventsNothing) {
   const auto reading = translate::to_spec(v1::Case());
   EXPECT_THAT(reading.problems, IsEmpty());
