@@ -92,8 +92,8 @@ constexpr Passed kMomentStart = Passed::bend_start;
 constexpr Passed kMomentEnd = Passed::bend_end;
 constexpr Passed kPlasticWork = Passed::stiffness;
 
-/// More fibres than this do not stay in the third cache from step to step, and are brought from memory ahead: with 16 times
-/// the cells of Type I the walls take a third less. Of fewer it costs 0.15 ns an element-step.
+/// More fibres than this do not stay in the third cache from step to step, and are brought from memory some rows ahead: with
+/// 16 times the cells of Type I the walls take a third less. Of fewer it costs 0.15 ns an element-step.
 constexpr std::size_t kCachedFibres = 1'000'000;
 
 /// A step of some neighbouring blocks' walls. Three short loops, over geometry, fibres and forces: the processor works at
