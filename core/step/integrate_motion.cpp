@@ -1,6 +1,7 @@
 #include "step/integrate_motion.h"
 
 #include <algorithm>
+#include <numeric>
 #include <span>
 
 #include "energy/ledger.h"
@@ -157,18 +158,11 @@ void move_particles(const Scene& scene, State& state) {
   }
 }
 
-/// What the chunks have noted, moved together behind the rigid bodies' particles.
-NearPlates gather_near_plates(const Scene& scene, const State& state, MotionWorkspace& workspace) {
+/// What the chunks have noted, moved together behind the rigid bodies' particles, which are few.
+NearPlates gather_near_plates(const Scene& scene, MotionWorkspace& workspace) {
   std::vector<int>& near = workspace.near_plates;
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < first_free_particle(scene); ++i) {
-    const double place = state.position[i][scene.plates.axis];
-    const bool rubs =
-        !state.impact_friction.empty() && (state.impact_friction[i] != 0.0 || state.support_friction[i] != 0.0);
-    if (rubs || place < workspace.reach.below || place > workspace.reach.above) {
-      near[count++] = static_cast<int>(i);
-    }
-  }
+  std::size_t count = first_free_particle(scene);
+  std::iota(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(count), 0);
   for (const MovedChunk& chunk : workspace.chunks) {
     std::copy_n(near.begin() + static_cast<std::ptrdiff_t>(chunk.first), chunk.near_count,
                 near.begin() + static_cast<std::ptrdiff_t>(count));
@@ -186,9 +180,9 @@ NearPlates integrate_motion(const Scene& scene, State& state, MotionWorkspace& w
   move_rigid_bodies(scene, state);
   NearPlates near;
   if (have_wide_motion(scene)) {
-    workspace.reach = reach_of_plates(scene, state.impact_travel + step * plate_speed_after);
-    move_particles_wide(scene, state, workspace, workers);
-    near = gather_near_plates(scene, state, workspace);
+    const PlateReach reach = reach_of_plates(scene, state.impact_travel + step * plate_speed_after);
+    move_particles_wide(scene, state, reach, workspace, workers);
+    near = gather_near_plates(scene, workspace);
   } else {
     move_particles(scene, state);
   }

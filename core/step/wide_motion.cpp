@@ -281,7 +281,7 @@ Motion motion_over_step(const Scene& scene) {
 /// inside walls are dealt out each by themselves, as the joints' sums and the walls are, so that a thread finds in its cache
 /// what it has written.
 template <bool kFriction, bool kMassDamping>
-void move_all(const Scene& scene, State& state, MotionWorkspace& workspace, Workers& workers) {
+void move_all(const Scene& scene, State& state, const PlateReach& reach, MotionWorkspace& workspace, Workers& workers) {
   const Motion motion = motion_over_step(scene);
   const ParticleArrays<State> arrays(scene, state);
   const std::array<Group, 2> groups = groups_of(scene);
@@ -295,7 +295,7 @@ void move_all(const Scene& scene, State& state, MotionWorkspace& workspace, Work
           for (std::size_t c = workers.start_of_part(chunks, part); c < workers.start_of_part(chunks, part + 1); ++c) {
             const std::size_t first = group.first + c * Group::kChunk;
             const std::size_t end = std::min(first + Group::kChunk, group.end);
-            NearPlatesNotes near(scene, state, workspace.reach, &workspace.near_plates[first]);
+            NearPlatesNotes near(scene, state, reach, &workspace.near_plates[first]);
             const WorksOfMotion works = move_chunk<kFriction, kMassDamping>(arrays, motion, first, end, near);
             workspace.chunks[before + c] = {works, first, near.count()};
           }
@@ -322,11 +322,12 @@ WorksOfMotion look_at_all(const Scene& scene, const State& state) {
   return sum;
 }
 
-void move_wide(const Scene& scene, State& state, MotionWorkspace& workspace, Workers& workers) {
+void move_wide(const Scene& scene, State& state, const PlateReach& reach, MotionWorkspace& workspace,
+               Workers& workers) {
   const bool damped = scene.mass_damping > 0.0;
   const auto move_them = state.friction_force.empty() ? (damped ? move_all<false, true> : move_all<false, false>)
                                                       : (damped ? move_all<true, true> : move_all<true, false>);
-  move_them(scene, state, workspace, workers);
+  move_them(scene, state, reach, workspace, workers);
 }
 
 WorksOfMotion look_wide(const Scene& scene, const State& state) {
@@ -350,8 +351,9 @@ bool have_wide_motion(const Scene& scene) {
   return use_wide_kernels() && scene.supports.empty() && scene.motions.empty() && !scene.is_loaded();
 }
 
-void move_particles_wide(const Scene& scene, State& state, MotionWorkspace& workspace, Workers& workers) {
-  HWY_DYNAMIC_DISPATCH(move_wide)(scene, state, workspace, workers);
+void move_particles_wide(const Scene& scene, State& state, const PlateReach& reach, MotionWorkspace& workspace,
+                         Workers& workers) {
+  HWY_DYNAMIC_DISPATCH(move_wide)(scene, state, reach, workspace, workers);
 }
 
 WorksOfMotion look_at_particles_wide(const Scene& scene, const State& state) {

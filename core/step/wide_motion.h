@@ -47,7 +47,6 @@ struct MovedChunk {
 
 /// Room for integrate_motion, kept from step to step so that none allocates.
 struct MotionWorkspace {
-  PlateReach reach;
   std::vector<MovedChunk> chunks;  ///< particles ascending
   std::vector<int> near_plates;    ///< room for all particles
 };
@@ -55,9 +54,10 @@ struct MotionWorkspace {
 /// Whether the scene is one of those without supports and loads that the two below know, and their text the one to use.
 bool have_wide_motion(const Scene& scene);
 
-/// Moves the free particles by a step, notes those that may be near a plate then, and books the works.
-/// REQUIRES: have_wide_motion.
-void move_particles_wide(const Scene& scene, State& state, MotionWorkspace& workspace, Workers& workers);
+/// Moves the free particles by a step, notes those that may be near a plate then, whose `reach` is that at the step's end, and
+/// books the works. REQUIRES: have_wide_motion.
+void move_particles_wide(const Scene& scene, State& state, const PlateReach& reach, MotionWorkspace& workspace,
+                         Workers& workers);
 
 /// The works of the newest forces over the half step up to the state's time, and the energy then. REQUIRES: have_wide_motion.
 WorksOfMotion look_at_particles_wide(const Scene& scene, const State& state);
