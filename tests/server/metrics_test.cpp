@@ -141,7 +141,8 @@ TEST_F(MetricsTest, TellWatchersSpeedCommitsAndEvents) {
   EXPECT_TRUE(reader->Finish().ok());
   const std::string after = scrape_until("cellcrush_watchers", 0.0);
   EXPECT_GE(value_of(after, "cellcrush_commit_seconds_count"), 4.0) << "Made, RUNNING, CANCELLING, CANCELLED.";
-  EXPECT_GE(value_of(after, "cellcrush_event_seconds_count"), 4.0);
+  // The progress that was read, and what came after it: news that come while a message is written count once.
+  EXPECT_GE(value_of(after, "cellcrush_event_seconds_count"), 2.0);
   scrape_until("cellcrush_steps_per_second", 0.0);
 }
 
