@@ -10,13 +10,13 @@
 namespace cellcrush {
 namespace {
 
-bool list_holds(const Scene& scene, const State& state) {
-  if (state.searched_position.size() != state.position.size()) {
+bool list_holds(const Scene& scene, const State& state, const ContactLists& lists) {
+  if (lists.searched_position.size() != state.position.size()) {
     return false;
   }
   const double limit = 0.25 * scene.contact.skin * scene.contact.skin;
   for (std::size_t i = 0; i < state.position.size(); ++i) {
-    if ((state.position[i] - state.searched_position[i]).squaredNorm() > limit) {
+    if ((state.position[i] - lists.searched_position[i]).squaredNorm() > limit) {
       return false;
     }
   }
@@ -29,15 +29,15 @@ bool all_finite(std::span<const Vector2> points) {
 
 }  // namespace
 
-void search_buckets(const Scene& scene, State& state) {
-  if (!list_holds(scene, state) && all_finite(state.position)) {
-    list_by_buckets(scene, state);
+void search_buckets(const Scene& scene, const State& state, ContactLists& lists) {
+  if (!list_holds(scene, state, lists) && all_finite(state.position)) {
+    list_by_buckets(scene, state, lists);
   }
 }
 
-void list_by_buckets(const Scene& scene, State& state) {
-  clear_candidates(state);
-  state.candidate_count = 0;
+void list_by_buckets(const Scene& scene, const State& state, ContactLists& lists) {
+  clear_candidates(lists);
+  lists.candidate_count = 0;
   const double longest = *std::max_element(state.length.begin(), state.length.end());
   const double skin = scene.contact.skin;
   const BucketGrid grid(state.position, 0.5 * longest + scene.largest_radius + skin);
@@ -51,13 +51,13 @@ void list_by_buckets(const Scene& scene, State& state) {
       const Projection foot = project(state.position[ball], start, state.axis[e], state.length[e]);
       if (ball != element.start && ball != element.end && foot.offset.squaredNorm() < range * range) {
         const int segment = static_cast<int>(e);
-        add_candidate(state, {ball, segment, scene.reach_of(ball, segment)});
+        add_candidate(lists, {ball, segment, scene.reach_of(ball, segment)});
       }
     });
   }
-  fill_batch(state);
-  state.searched_position = state.position;
-  ++state.search_count;
+  fill_batch(lists);
+  lists.searched_position = state.position;
+  ++lists.search_count;
 }
 
 }  // namespace cellcrush

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "cellcrush/state.h"
+#include "cellcrush/contact_lists.h"
 
 namespace cellcrush {
 
@@ -17,23 +17,23 @@ struct Candidate {
 /// Puts a face's candidates in place of those it had. All faces' stand in the same arrays, so that they are tested in one
 /// loop: a list that has outgrown its room goes to the end, and empty places are pairs that never touch. When a fifth of
 /// the batches and more are empty, the lists are moved together in the order of the faces.
-void replace_list(State& state, int face, const std::vector<Candidate>& candidates);
+void replace_list(ContactLists& lists, int face, const std::vector<Candidate>& candidates);
 
 /// A pair that was found at `place` has parted: it is tested again from the next step on.
-void wake_candidate(State& state, int place, int ball, int segment);
+void wake_candidate(ContactLists& lists, int place, int ball, int segment);
 
 /// What the group of a batch has travelled; 0 by buckets.
-inline double travel_of_batch(const State& state, std::size_t batch) {
-  return state.batch_group.empty() ? 0.0 : state.group_travel[state.batch_group[batch]];
+inline double travel_of_batch(const ContactLists& lists, std::size_t batch) {
+  return lists.batch_group.empty() ? 0.0 : lists.group_travel[lists.batch_group[batch]];
 }
 
 /// Lists one more, of no face.
-void add_candidate(State& state, const Candidate& candidate);
+void add_candidate(ContactLists& lists, const Candidate& candidate);
 
 /// Fills the last batch up with empty places.
-void fill_batch(State& state);
+void fill_batch(ContactLists& lists);
 
 /// Lets go of all candidates.
-void clear_candidates(State& state);
+void clear_candidates(ContactLists& lists);
 
 }  // namespace cellcrush

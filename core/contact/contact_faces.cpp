@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <numeric>
+#include <span>
 #include <tuple>
 #include <vector>
 
+#include "scene/bands.h"
 #include "scene/face_loops.h"
 
 namespace cellcrush {
@@ -63,12 +66,21 @@ Premise premise_of(const Scene& scene, const FaceLoops& loops) {
   return borders == 1 && are_simple(loops, scene.particle_count()) ? Premise::holds : Premise::not_closed;
 }
 
+/// The first of the bands whose particles are at a loop.
+int band_of_loop(const FaceLoops& loops, const std::vector<int>& band_of, std::size_t loop) {
+  int first = band_of[loops.particles_of(loop).front()];
+  for (const int particle : loops.particles_of(loop)) {
+    first = std::min(first, band_of[particle]);
+  }
+  return first;
+}
+
 /// Length across the crush of a patch of neighbouring faces, over its length along the crush: at the front, faces side by
 /// side move alike, and faces behind each other do not.
 constexpr double kPatchAspect = 7.0;
 
-/// The loops in patches of faces that are watched together, band by band along the crush, the outer one last.
-std::vector<std::size_t> order_of(const Scene& scene, const FaceLoops& loops) {
+/// The loops in patches of faces that are watched together, strip by strip along the crush in each band, the outer one last.
+std::vector<std::size_t> order_of(const Scene& scene, const FaceLoops& loops, const std::vector<int>& band_of) {
   const auto corner_of = [&](std::size_t loop) { return scene.position[loops.particles_of(loop).front()]; };
   Vector2 low = corner_of(0);
   Vector2 high = low;
@@ -77,22 +89,24 @@ std::vector<std::size_t> order_of(const Scene& scene, const FaceLoops& loops) {
     high = high.cwiseMax(corner_of(i));
   }
   const double area_of_patch = kFacesPerGroup * (high - low).prod() / static_cast<double>(loops.count());
-  const double band = std::sqrt(area_of_patch / kPatchAspect);
+  const double strip = std::sqrt(area_of_patch / kPatchAspect);
   const int axis = scene.plates.axis;
   struct Place {
     bool is_outer;
-    double band;
+    int band;
+    double strip;
     double across;
     double along;
     bool operator<(const Place& other) const {
-      return std::tie(is_outer, band, across, along) < std::tie(other.is_outer, other.band, other.across, other.along);
+      return std::tie(is_outer, band, strip, across, along) <
+             std::tie(other.is_outer, other.band, other.strip, other.across, other.along);
     }
   };
   std::vector<Place> place(loops.count());
   for (std::size_t i = 0; i < loops.count(); ++i) {
     const Vector2 from_low = corner_of(i) - low;
-    const double bands = band > 0.0 ? std::floor(from_low[axis] / band) : 0.0;
-    place[i] = {loops.area[i] < 0.0, bands, from_low[1 - axis], from_low[axis]};
+    const double strips = strip > 0.0 ? std::floor(from_low[axis] / strip) : 0.0;
+    place[i] = {loops.area[i] < 0.0, band_of_loop(loops, band_of, i), strips, from_low[1 - axis], from_low[axis]};
   }
   std::vector<std::size_t> order(loops.count());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -100,30 +114,66 @@ std::vector<std::size_t> order_of(const Scene& scene, const FaceLoops& loops) {
   return order;
 }
 
-void take_faces(const Scene& scene, const FaceLoops& loops, ContactFaces& faces) {
-  faces.offset.push_back(0);
-  faces.side.assign(2 * scene.element_count(), -1);
-  for (const std::size_t loop : order_of(scene, loops)) {
-    const int face = faces.count();
-    for (int k = loops.offset[loop]; k < loops.offset[loop + 1]; ++k) {
+/// Puts a loop's corners that `is_in` last among a band's faces. Faces that are watched together have the same home.
+template <class IsIn>
+void add_face(const FaceLoops& loops, std::size_t loop, int number, bool begins_group, const IsIn& is_in,
+              FacesOfBand& faces) {
+  if (faces.offset.empty()) {
+    faces.offset.push_back(0);
+  }
+  if (begins_group || faces.count() - faces.group_offset.back() == kFacesPerGroup) {
+    faces.group_offset.push_back(faces.count());
+  }
+  for (int k = loops.offset[loop]; k < loops.offset[loop + 1]; ++k) {
+    if (is_in(loops.particle[k])) {
       faces.particle.push_back(loops.particle[k]);
       faces.element.push_back(loops.element[k]);
-      const bool at_left = scene.elements[loops.element[k]].start == loops.particle[k];
-      faces.side[2 * loops.element[k] + (at_left ? 0 : 1)] = face;
     }
-    faces.offset.push_back(static_cast<int>(faces.particle.size()));
+  }
+  faces.number.push_back(number);
+  faces.offset.push_back(static_cast<int>(faces.particle.size()));
+}
+
+void note_sides(const Scene& scene, const FaceLoops& loops, std::size_t loop, int number, std::vector<int>& side) {
+  for (int k = loops.offset[loop]; k < loops.offset[loop + 1]; ++k) {
+    const bool at_left = scene.elements[loops.element[k]].start == loops.particle[k];
+    side[2 * loops.element[k] + (at_left ? 0 : 1)] = number;
   }
 }
 
-void group_faces(const Scene& scene, ContactFaces& faces) {
-  const int outer = faces.count() - 1;
-  for (int face = 0; face < outer; face += kFacesPerGroup) {
-    faces.group_offset.push_back(face);
+/// Every loop goes to the bands whose particles are at it; the outer one, in parts, to all.
+void take_faces(const Scene& scene, const FaceLoops& loops, const std::vector<int>& band_of, ContactFaces& faces) {
+  const auto bands = static_cast<int>(scene.bands.size());
+  std::vector<int> home(bands, -1);  // of the face that a band has taken last
+  faces.bands.resize(bands);
+  faces.side.assign(2 * scene.element_count(), -1);
+  int number = 0;
+  for (const std::size_t loop : order_of(scene, loops, band_of)) {
+    note_sides(scene, loops, loop, number, faces.side);
+    const bool is_outer = loops.area[loop] < 0.0;
+    const int first = band_of_loop(loops, band_of, loop);
+    const auto has = [&](int band) {
+      const std::span<const int> particles = loops.particles_of(loop);
+      return std::any_of(particles.begin(), particles.end(), [&](int particle) { return band_of[particle] == band; });
+    };
+    for (int band = first; band < (is_outer ? bands : std::min(bands, first + kBandsAtFace)); ++band) {
+      if (is_outer || band == first || has(band)) {
+        const auto is_in = [&](int particle) { return !is_outer || std::abs(band_of[particle] - band) <= 1; };
+        add_face(loops, loop, number, is_outer || home[band] != first, is_in, faces.bands[band]);
+        home[band] = first;
+      }
+    }
+    ++number;
   }
-  faces.group_offset.push_back(outer);
-  faces.group_offset.push_back(outer + 1);
+  for (FacesOfBand& of_band : faces.bands) {
+    of_band.group_offset.push_back(of_band.count());
+    of_band.is_outer_whole = bands == 1;
+  }
+}
+
+void note_members(std::size_t particle_count, FacesOfBand& faces) {
   faces.member_offset.push_back(0);
-  std::vector<int> seen(scene.particle_count(), -1);
+  std::vector<int> seen(particle_count, -1);
   for (int group = 0; group < faces.group_count(); ++group) {
     for (int k = faces.offset[faces.group_offset[group]]; k < faces.offset[faces.group_offset[group + 1]]; ++k) {
       if (seen[faces.particle[k]] != group) {
@@ -138,15 +188,18 @@ void group_faces(const Scene& scene, ContactFaces& faces) {
 
 }  // namespace
 
-ContactFaces build_contact_faces(const Scene& scene) {
+void build_contact_faces(Scene& scene) {
   const FaceLoops loops = trace_loops(scene.position, scene.elements);
-  ContactFaces faces;
+  ContactFaces& faces = scene.faces;
   faces.premise = premise_of(scene, loops);
-  if (faces.are_enough()) {
-    take_faces(scene, loops, faces);
-    group_faces(scene, faces);
+  if (!faces.are_enough()) {
+    return;
   }
-  return faces;
+  scene.bands = cut_into_bands(scene, loops);
+  take_faces(scene, loops, bands_of_particles(scene, scene.bands), faces);
+  for (FacesOfBand& of_band : faces.bands) {
+    note_members(scene.particle_count(), of_band);
+  }
 }
 
 }  // namespace cellcrush

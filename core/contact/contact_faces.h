@@ -6,7 +6,7 @@
 namespace cellcrush {
 
 /// Traces the faces of a scene for the search of contacts, and decides whether it may go by them; if it may not, all but
-/// the premise is empty. REQUIRES: particles, elements and incidence.
+/// the premise is empty. If it may, cuts a large lattice into bands. REQUIRES: particles, walls, elements and incidence.
 ///
 /// Why a face is enough. The mid-lines of the walls divide the plane into faces, and while no wall crosses another this
 /// division never changes, however crushed it is. Whatever goes from a ball to a segment that borders no face of the ball's
@@ -28,6 +28,6 @@ namespace cellcrush {
 ///    searched by buckets from the start.
 /// Elements that cross before loading are refused as input where there is contact (contact/initial_overlap.h); here they
 /// show in Euler's formula.
-ContactFaces build_contact_faces(const Scene& scene);
+void build_contact_faces(Scene& scene);
 
 }  // namespace cellcrush

@@ -28,20 +28,21 @@ std::size_t begin_of_ball(const TouchMemory& touching, std::size_t touch) {
 
 /// Evaluates the touches and finds those that push, each thread those of its balls. Candidates of pairs that have parted are
 /// tested again from now on.
-void evaluate_pairs(const Scene& scene, State& state, ContactWorkspace& workspace, Workers& workers) {
-  const TouchMemory& touching = state.touching;
+void evaluate_pairs(const Scene& scene, const State& state, ContactLists& lists, ContactWorkspace& workspace,
+                    Workers& workers) {
+  const TouchMemory& touching = lists.touching;
   workers.share_parts(touching.count(), 1, [&](std::size_t p, std::size_t part_first, std::size_t part_end) {
     const std::size_t first = begin_of_ball(touching, part_first);
     const std::size_t end = begin_of_ball(touching, part_end);
     ContactPart& part = workspace.parts[p];
-    evaluate_touches(scene, state, workspace.touches, first, end, part.parted);
-    find_pushes(scene, state, workspace.touches, first, end, part.pushes);
+    evaluate_touches(scene, state, lists, workspace.touches, first, end, part.parted);
+    find_pushes(scene, state, lists, workspace.touches, first, end, part.pushes);
   });
-  state.parted.clear();
+  lists.parted.clear();
   for (const ContactPart& part : workspace.parts) {
     for (const int i : part.parted) {
-      state.parted.push_back(i);
-      wake_candidate(state, touching.place[i], touching.ball[i], touching.segment[i]);
+      lists.parted.push_back(i);
+      wake_candidate(lists, touching.place[i], touching.ball[i], touching.segment[i]);
     }
   }
   workspace.pushes.clear();
@@ -61,11 +62,8 @@ struct PairForces {
   int end;
   double share;
 
-  PairForces(const State& state, const Touches& touches, int touch)
-      : ball(state.touching.ball[touch]),
-        start(touches.start[touch]),
-        end(touches.end[touch]),
-        share(touches.share[touch]) {}
+  PairForces(const TouchMemory& touching, const Touches& touches, int touch)
+      : ball(touching.ball[touch]), start(touches.start[touch]), end(touches.end[touch]), share(touches.share[touch]) {}
 
   void add(const Vector2& elastic, const Vector2& viscous, ContactForce* forces) const {
     forces[ball].elastic += elastic;
@@ -83,36 +81,37 @@ struct PairForces {
   }
 };
 
-void apply_normal_forces_plain(const Scene& scene, State& state, ContactWorkspace& workspace) {
+void apply_normal_forces_plain(const Scene& scene, State& state, const TouchMemory& touching,
+                               ContactWorkspace& workspace, ContactTotals& totals) {
   const Touches& touches = workspace.touches;
   const double stiffness = scene.contact.stiffness;
   ContactForce* forces = state.contact_force.data();
-  DepthRecords records(scene, state, touches);
+  DepthRecords records(scene, touching, touches, totals);
   double squared_depths = 0.0;
   for (Push& push : workspace.pushes) {
     const double depth = touches.depth[push.touch];
     const Vector2& normal = touches.normal[push.touch];
     const NormalForce net = push_pair(scene, touches, push);
-    PairForces(state, touches, push.touch).add(stiffness * depth * normal, net.viscous * normal, forces);
+    PairForces(touching, touches, push.touch).add(stiffness * depth * normal, net.viscous * normal, forces);
     squared_depths += depth * depth;
     if (push.node_touch != Push::kNone) {
-      take_back_node(scene, state, touches, push.node_touch);
+      take_back_node(scene, state, touching, touches, push.node_touch, totals.stored);
     }
     records.note(push.touch);
   }
-  state.contact_stored += 0.5 * stiffness * squared_depths;
+  totals.stored += 0.5 * stiffness * squared_depths;
 }
 
 /// Along the segment where the ball touches its side, turned with the normal round its ends.
-Vector2 tangent_of(const State& state, const Touches& touches, int touch) {
+Vector2 tangent_of(const TouchMemory& touching, const Touches& touches, int touch) {
   const Vector2& normal = touches.normal[touch];
-  return state.touching.side[touch] * Vector2(normal.y(), -normal.x());
+  return touching.side[touch] * Vector2(normal.y(), -normal.x());
 }
 
 /// What friction is handed over by.
 struct Friction {
   const Scene& scene;
-  const State& state;
+  const TouchMemory& touching;
   const Touches& touches;
   const TouchMemory& before;  ///< what touched in the step before
   std::span<const Push> pushes;
@@ -120,9 +119,9 @@ struct Friction {
   /// Whether a pair that touched before pushes with friction in this step.
   [[nodiscard]] bool still_rubs(int other) const {
     const auto precedes = [&](const Push& push, int memory) {
-      const int ball = state.touching.ball[push.touch];
+      const int ball = touching.ball[push.touch];
       return ball != before.ball[memory] ? ball < before.ball[memory]
-                                         : state.touching.segment[push.touch] < before.segment[memory];
+                                         : touching.segment[push.touch] < before.segment[memory];
     };
     const auto found = std::lower_bound(pushes.begin(), pushes.end(), other, precedes);
     return found != pushes.end() && touches.known[found->touch] == other && found->has_pair;
@@ -144,13 +143,13 @@ struct Friction {
   /// Friction that a touch takes over: its own, or that of a touch which it follows. A ball slides on from a neighbour; of
   /// two balls the one hands over to the other. All run along the polyline, one way on its left and the other on its right.
   [[nodiscard]] double before_of(const Push& push) const {
-    const int ball = state.touching.ball[push.touch];
-    const int side = state.touching.side[push.touch];
+    const int ball = touching.ball[push.touch];
+    const int side = touching.side[push.touch];
     const int known = touches.known[push.touch];
     if (known != Touches::kNew && before.pushed[known] != 0) {
       return before.friction[known] * before.pushed[known] * side;
     }
-    const Element& own = scene.elements[state.touching.segment[push.touch]];
+    const Element& own = scene.elements[touching.segment[push.touch]];
     const double of_neighbour = handed_over(ball, [&](const Element& other) { return share_a_node(other, own); });
     if (of_neighbour != 0.0 || push.node_touch == Push::kNone) {
       return of_neighbour * side;
@@ -161,34 +160,37 @@ struct Friction {
 };
 
 /// Overwrites the friction of all that touch by that of the touches that push now, and adds the forces.
-void apply_friction(const Scene& scene, State& state, const ContactWorkspace& workspace) {
+void apply_friction(const Scene& scene, State& state, TouchMemory& touching, const ContactWorkspace& workspace) {
   const Touches& touches = workspace.touches;
-  state.touching.pushed.assign(state.touching.count(), 0);
-  state.touching.friction.assign(state.touching.count(), 0.0);
-  const Friction friction = {scene, state, touches, workspace.before, workspace.pushes};
+  touching.pushed.assign(touching.count(), 0);
+  touching.friction.assign(touching.count(), 0.0);
+  const Friction friction = {scene, touching, touches, workspace.before, workspace.pushes};
   for (const Push& push : workspace.pushes) {
     const double now = evaluate_friction(friction.before_of(push), scene.contact.stiffness, touches.slip[push.touch],
                                          scene.contact.friction * push.normal_force);
-    state.touching.friction[push.touch] = now;
-    state.touching.pushed[push.touch] = push.has_pair ? state.touching.side[push.touch] : 0;
-    PairForces(state, touches, push.touch)
-        .add_friction(now * tangent_of(state, touches, push.touch), state.friction_force.data());
+    touching.friction[push.touch] = now;
+    touching.pushed[push.touch] = push.has_pair ? touching.side[push.touch] : 0;
+    PairForces(touching, touches, push.touch)
+        .add_friction(now * tangent_of(touching, touches, push.touch), state.friction_force.data());
   }
 }
 
 }  // namespace
 
-void evaluate_contact_forces(const Scene& scene, State& state, ContactWorkspace& workspace, Workers& workers) {
+void evaluate_contact_forces(const Scene& scene, State& state, ContactLists& lists, ContactWorkspace& workspace,
+                             Workers& workers, ContactTotals& totals) {
   workspace.parts.resize(static_cast<std::size_t>(workers.count()));
-  state.contact_stored = 0.0;
-  find_overlaps(scene, state, workspace, workers);
-  remember_touches(scene, state, workspace);
-  note_contact_lots(scene, state, workspace.newcomers);
-  evaluate_pairs(scene, state, workspace, workers);
-  (use_wide_kernels() ? apply_normal_forces_wide : apply_normal_forces_plain)(scene, state, workspace);
-  state.contact_count = static_cast<std::int64_t>(workspace.pushes.size());
+  find_overlaps(scene, state, lists, workspace, workers);
+  remember_touches(scene, lists, workspace);
+  for (const Newcomer& pair : workspace.newcomers) {
+    mark_contact_lots(scene, state, pair.ball, pair.segment);
+  }
+  evaluate_pairs(scene, state, lists, workspace, workers);
+  (use_wide_kernels() ? apply_normal_forces_wide : apply_normal_forces_plain)(scene, state, lists.touching, workspace,
+                                                                              totals);
+  totals.count += static_cast<std::int64_t>(workspace.pushes.size());
   if (scene.contact.friction > 0.0) {
-    apply_friction(scene, state, workspace);
+    apply_friction(scene, state, lists.touching, workspace);
   }
 }
 

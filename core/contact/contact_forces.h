@@ -7,8 +7,9 @@
 
 namespace cellcrush {
 
-/// Evaluates the contact forces between walls (section 4.2, Eq. 41-43) from the candidates, and adds them to contact_force
-/// and friction_force. REQUIRES: these are 0, as integrate_motion leaves them.
+/// Evaluates the contact forces between the walls of a list (section 4.2, Eq. 41-43) from its candidates, and adds them to
+/// contact_force and friction_force, and what they come to to the totals. REQUIRES: forces begin at 0, as integrate_motion
+/// leaves them.
 ///
 /// Normal force k D + c dD/dt on the ball, shared by the segment's nodes as the foot lies between them. Mends to the paper:
 ///  - distance to a capsule, ends included (contact/capsule.h);
@@ -28,6 +29,7 @@ namespace cellcrush {
 /// stand and move, which of them push, the forces. All but the second and the fourth are also written for vector
 /// instructions; forces are summed in the order of balls and segments, so that the sums have the same bits however pairs were
 /// found.
-void evaluate_contact_forces(const Scene& scene, State& state, ContactWorkspace& workspace, Workers& workers);
+void evaluate_contact_forces(const Scene& scene, State& state, ContactLists& lists, ContactWorkspace& workspace,
+                             Workers& workers, ContactTotals& totals);
 
 }  // namespace cellcrush

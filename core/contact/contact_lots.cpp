@@ -1,28 +1,29 @@
 #include "contact/contact_lots.h"
 
 namespace cellcrush {
-namespace {
 
-constexpr std::int64_t kStepsBetweenRenewals = 64;
-
-void mark_pair(const Scene& scene, State& state, int ball, int segment) {
+void mark_contact_lots(const Scene& scene, State& state, int ball, int segment) {
   mark_contact_lot(state, ball);
   mark_contact_lot(state, scene.elements[segment].start);
   mark_contact_lot(state, scene.elements[segment].end);
 }
 
-}  // namespace
-
-void note_contact_lots(const Scene& scene, State& state, std::span<const Newcomer> newcomers) {
-  if (state.contact_lots.empty() || state.step % kStepsBetweenRenewals == 0) {
-    state.contact_lots.assign(scene.particle_count() / State::kContactLot + 1, 0);
-    for (std::size_t i = 0; i < state.touching.count(); ++i) {
-      mark_pair(scene, state, state.touching.ball[i], state.touching.segment[i]);
-    }
+void renew_contact_lots(const Scene& scene, State& state, std::int64_t steps) {
+  constexpr std::int64_t kStepsBetweenRenewals = 64;
+  if (!state.contact_lots.empty() && state.step % kStepsBetweenRenewals >= steps) {
     return;
   }
-  for (const Newcomer& pair : newcomers) {
-    mark_pair(scene, state, pair.ball, pair.segment);
+  state.contact_lots.assign(scene.particle_count() / State::kContactLot + 1, 0);
+  for (const ContactLists& lists : state.contacts) {
+    for (std::size_t i = 0; i < lists.touching.count(); ++i) {
+      mark_contact_lots(scene, state, lists.touching.ball[i], lists.touching.segment[i]);
+    }
+  }
+  for (std::size_t i = 0; i < scene.particle_count(); ++i) {
+    const ContactForce& force = state.contact_force[i];
+    if (!force.elastic.isZero(0.0) || !force.viscous.isZero(0.0)) {
+      mark_contact_lot(state, static_cast<int>(i));
+    }
   }
 }
 

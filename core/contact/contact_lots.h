@@ -2,11 +2,9 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
-#include "contact/contact_workspace.h"
 
 namespace cellcrush {
 
@@ -17,9 +15,11 @@ inline void mark_contact_lot(State& state, int particle) {
   }
 }
 
-/// Marks the lots of the pairs that have come to touch in this step, or every so many steps, when those of pairs that have
-/// parted are let go, the lots of all that touch. REQUIRES: no particle has a contact force yet.
-void note_contact_lots(const Scene& scene, State& state, std::span<const Newcomer> newcomers);
+/// The same of the particles of a pair that has come to touch.
+void mark_contact_lots(const Scene& scene, State& state, int ball, int segment);
+
+/// Lets go of the lots of pairs that have parted, if that is due every so many steps and one of the newest `steps` is it.
+void renew_contact_lots(const Scene& scene, State& state, std::int64_t steps);
 
 /// Whether one of some particles may have a contact force, by State::contact_lots; null: any may.
 /// REQUIRES: no more than kContactLot of them.

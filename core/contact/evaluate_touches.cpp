@@ -8,9 +8,9 @@ namespace cellcrush {
 namespace {
 
 /// Returns whether the pair has parted.
-bool evaluate_touch(const Scene& scene, State& state, Touches& touches, std::size_t i) {
-  const int ball = state.touching.ball[i];
-  const int segment = state.touching.segment[i];
+bool evaluate_touch(const Scene& scene, const State& state, ContactLists& lists, Touches& touches, std::size_t i) {
+  const int ball = lists.touching.ball[i];
+  const int segment = lists.touching.segment[i];
   const Element& element = scene.elements[segment];
   const Vector2& axis = state.axis[segment];
   const double length = state.length[segment];
@@ -25,7 +25,7 @@ bool evaluate_touch(const Scene& scene, State& state, Touches& touches, std::siz
   const bool inside = ahead > 0.0 && ahead < length;
   const double share = inside ? ahead / length : (ahead > 0.0 ? 1.0 : 0.0);
   const double signed_distance = cross(axis, from_start);
-  int side = state.touching.side[i];
+  int side = lists.touching.side[i];
   if (side == 0 || !inside) {
     // A ball that goes round an end comes to the other side by right.
     side = signed_distance >= 0.0 ? 1 : -1;
@@ -41,10 +41,10 @@ bool evaluate_touch(const Scene& scene, State& state, Touches& touches, std::siz
                               (1.0 - share) * (1.0 - share) * scene.inverse_mass[element.start] +
                               share * share * scene.inverse_mass[element.end];
 
-  const double reach = state.touching.reach[i];
+  const double reach = lists.touching.reach[i];
   const double overlap = reach - (inside ? side * signed_distance : node_distance);
   const double depth = overlap < 2.0 * reach ? overlap : 0.0;  // pressed through and out, it touches no more
-  state.touching.side[i] = depth > 0.0 ? side : 0;
+  lists.touching.side[i] = depth > 0.0 ? side : 0;
   touches.start[i] = element.start;
   touches.end[i] = element.end;
   touches.share[i] = share;
@@ -59,11 +59,11 @@ bool evaluate_touch(const Scene& scene, State& state, Touches& touches, std::siz
   return !(depth > 0.0);
 }
 
-std::size_t evaluate_touches_plain(const Scene& scene, State& state, Touches& touches, std::size_t first,
-                                   std::size_t end, int* parted) {
+std::size_t evaluate_touches_plain(const Scene& scene, const State& state, ContactLists& lists, Touches& touches,
+                                   std::size_t first, std::size_t end, int* parted) {
   std::size_t count = 0;
   for (std::size_t i = first; i < end; ++i) {
-    if (evaluate_touch(scene, state, touches, i)) {
+    if (evaluate_touch(scene, state, lists, touches, i)) {
       parted[count++] = static_cast<int>(i);
     }
   }
@@ -72,11 +72,11 @@ std::size_t evaluate_touches_plain(const Scene& scene, State& state, Touches& to
 
 }  // namespace
 
-void evaluate_touches(const Scene& scene, State& state, Touches& touches, std::size_t first, std::size_t end,
-                      std::vector<int>& parted) {
+void evaluate_touches(const Scene& scene, const State& state, ContactLists& lists, Touches& touches, std::size_t first,
+                      std::size_t end, std::vector<int>& parted) {
   const auto evaluate = use_wide_kernels() ? evaluate_touches_wide : evaluate_touches_plain;
   parted.resize(end - first);
-  parted.resize(evaluate(scene, state, touches, first, end, parted.data()));
+  parted.resize(evaluate(scene, state, lists, touches, first, end, parted.data()));
 }
 
 }  // namespace cellcrush

@@ -27,14 +27,18 @@ bool cross_each_other(const State& state, const Element& one, const Element& oth
 /// The balls and segments of one face.
 class FaceFinder {
  public:
-  FaceFinder(const Scene& scene, const State& state, int face, double skin)
+  FaceFinder(const Scene& scene, const State& state, const LatticeBand& band, const FacesOfBand& faces, int face,
+             double skin)
       : scene_(scene),
         state_(state),
-        face_(face),
+        band_(band),
+        number_(faces.number[face]),
+        is_outer_(face == faces.count() - 1),
+        is_whole_(!is_outer_ || faces.is_outer_whole),
         skin_(skin),
-        count_(scene.faces.corner_count(face)),
-        particle_(&scene.faces.particle[scene.faces.offset[face]]),
-        element_(&scene.faces.element[scene.faces.offset[face]]) {
+        count_(faces.corner_count(face)),
+        particle_(&faces.particle[faces.offset[face]]),
+        element_(&faces.element[faces.offset[face]]) {
     place_.reserve(filled_lots(count_));
     for (int corner = 0; corner < count_; ++corner) {
       place_.push_back(state.position[particle_[corner]]);
@@ -93,13 +97,12 @@ class FaceFinder {
   }
 
   [[nodiscard]] bool is_turned() const {
-    const bool is_outer = face_ == scene_.faces.count() - 1;
     const double area = area_within({particle_, static_cast<std::size_t>(count_)}, state_.position);
-    return is_outer ? area > 0.0 : area < 0.0;
+    return is_outer_ ? area > 0.0 : area < 0.0;
   }
 
   FacePairs take() {
-    pairs_.crossed = pairs_.crossed || is_turned();
+    pairs_.crossed = pairs_.crossed || (is_whole_ && is_turned());
     return std::move(pairs_);
   }
 
@@ -146,7 +149,7 @@ class FaceFinder {
     const Element& element = scene_.elements[segment];
     pairs_.crossed = pairs_.crossed || cross_each_other(state_, scene_.elements[element_[before]], element) ||
                      cross_each_other(state_, scene_.elements[element_[corner]], element);
-    if (!is_listed_elsewhere(ball, segment)) {
+    if (band_.owns(ball) && !is_listed_elsewhere(ball, segment)) {
       pairs_.candidates.push_back({ball, segment, reach});
     }
     return true;
@@ -154,11 +157,11 @@ class FaceFinder {
 
   [[nodiscard]] bool is_listed_elsewhere(int ball, int segment) const {
     const auto other_side = [&](int element) {
-      return scene_.faces.side[2 * element] == face_ ? scene_.faces.side[2 * element + 1]
-                                                     : scene_.faces.side[2 * element];
+      return scene_.faces.side[2 * element] == number_ ? scene_.faces.side[2 * element + 1]
+                                                       : scene_.faces.side[2 * element];
     };
     const int other = other_side(segment);
-    if (other > face_) {
+    if (other > number_) {
       return false;
     }
     const std::span<const int> around(&scene_.incidence[scene_.incidence_offset[ball]],
@@ -170,7 +173,10 @@ class FaceFinder {
 
   const Scene& scene_;
   const State& state_;
-  int face_;
+  const LatticeBand& band_;
+  int number_;
+  bool is_outer_;
+  bool is_whole_;
   double skin_;
   int count_;
   const int* particle_;
@@ -184,12 +190,13 @@ class FaceFinder {
 
 }  // namespace
 
-FacePairs find_face_pairs(const Scene& scene, const State& state, int face, double skin) {
-  FaceFinder finder(scene, state, face, skin);
-  if (scene.faces.corner_count(face) < kManyCorners) {
-    finder.visit_all();
-  } else {
+FacePairs find_face_pairs(const Scene& scene, const State& state, const LatticeBand& band, const FacesOfBand& faces,
+                          int face, double skin) {
+  FaceFinder finder(scene, state, band, faces, face, skin);
+  if (has_many_corners(faces, face)) {
     finder.visit_near();
+  } else {
+    finder.visit_all();
   }
   return finder.take();
 }

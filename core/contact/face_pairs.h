@@ -18,7 +18,13 @@ struct FacePairs {
 
 /// Holds the balls of a face against its segments, all of them or, in faces of many corners, those in the same buckets.
 /// Of a pair that borders two faces alike (along a wall between them) the face with the lower number has it.
-/// REQUIRES: finite positions, axes and lengths of these positions.
-FacePairs find_face_pairs(const Scene& scene, const State& state, int face, double skin);
+/// Pairs of balls of other bands are left out. REQUIRES: finite positions, axes and lengths of these positions.
+FacePairs find_face_pairs(const Scene& scene, const State& state, const LatticeBand& band, const FacesOfBand& faces,
+                          int face, double skin);
+
+/// Whether a face's pairs are found over a grid. A face without all its corners has no order to go by.
+inline bool has_many_corners(const FacesOfBand& faces, int face) {
+  return faces.corner_count(face) >= kManyCorners || (!faces.is_outer_whole && face == faces.count() - 1);
+}
 
 }  // namespace cellcrush

@@ -18,31 +18,18 @@ constexpr double kWorthAnotherLook = 0.1;
 /// Skin of a face of many corners, in skins of the others.
 constexpr double kWideSkin = 3.5;
 
-void begin(const Scene& scene, State& state) {
-  const ContactFaces& faces = scene.faces;
-  state.face_list.resize(faces.count());
+void begin(const FacesOfBand& faces, ContactLists& lists) {
+  lists.face_list.resize(faces.count());
   for (int group = 0; group < faces.group_count(); ++group) {
     for (int face = faces.group_offset[group]; face < faces.group_offset[group + 1]; ++face) {
-      state.face_list[face].group = group;
+      lists.face_list[face].group = group;
     }
   }
-  state.face_budget.assign(faces.count(), 0.0);
-  state.face_alarm.assign(faces.count(), 0.0);
-  state.face_searched_position.assign(faces.particle.size(), Vector2::Zero());
-  state.group_travel.assign(faces.group_count(), 0.0);
-  state.group_alarm.assign(faces.group_count(), 0.0);
-}
-
-void give_up(State& state) {
-  state.crossing_step = state.step;
-  state.face_list.clear();
-  state.face_budget.clear();
-  state.face_alarm.clear();
-  state.face_searched_position.clear();
-  state.group_travel.clear();
-  state.group_alarm.clear();
-  state.batch_count = 0;
-  clear_candidates(state);
+  lists.face_budget.assign(faces.count(), 0.0);
+  lists.face_alarm.assign(faces.count(), 0.0);
+  lists.face_searched_position.assign(faces.particle.size(), Vector2::Zero());
+  lists.group_travel.assign(faces.group_count(), 0.0);
+  lists.group_alarm.assign(faces.group_count(), 0.0);
 }
 
 VelocityBox box_of_velocities_plain(const State& state, std::span<const int> members) {
@@ -56,7 +43,7 @@ VelocityBox box_of_velocities_plain(const State& state, std::span<const int> mem
 }
 
 /// Diagonal of the box round the velocities of a group, mm/s.
-double spread_of_velocities(const ContactFaces& faces, const State& state, int group) {
+double spread_of_velocities(const FacesOfBand& faces, const State& state, int group) {
   const int first = faces.member_offset[group];
   const std::span<const int> members(&faces.member[first], faces.member_offset[group + 1] - first);
   const VelocityBox box =
@@ -65,100 +52,108 @@ double spread_of_velocities(const ContactFaces& faces, const State& state, int g
 }
 
 /// Diagonal of the box round the displacements of a face's particles since its list was made, mm.
-double spread_of_displacements(const ContactFaces& faces, const State& state, int face) {
+double spread_of_displacements(const FacesOfBand& faces, const State& state, const ContactLists& lists, int face) {
   const int first = faces.offset[face];
-  Vector2 low = state.position[faces.particle[first]] - state.face_searched_position[first];
+  Vector2 low = state.position[faces.particle[first]] - lists.face_searched_position[first];
   Vector2 high = low;
   for (int k = first + 1; k < faces.offset[face + 1]; ++k) {
-    const Vector2 displacement = state.position[faces.particle[k]] - state.face_searched_position[k];
+    const Vector2 displacement = state.position[faces.particle[k]] - lists.face_searched_position[k];
     low = low.cwiseMin(displacement);
     high = high.cwiseMax(displacement);
   }
   return (high - low).norm();
 }
 
-bool is_finite(const ContactFaces& faces, const State& state, int face) {
+bool is_finite(const FacesOfBand& faces, const State& state, int face) {
   return std::all_of(faces.particle.begin() + faces.offset[face], faces.particle.begin() + faces.offset[face + 1],
                      [&](int particle) { return state.position[particle].allFinite(); });
 }
 
 /// Faces of many corners are as large as the lattice, move as fast and are searched by a grid: rarely, with a wide skin.
-double skin_of(const Scene& scene, int face) {
-  return scene.faces.corner_count(face) < kManyCorners ? scene.contact.face_skin : kWideSkin * scene.contact.face_skin;
+double skin_of(const Scene& scene, const FacesOfBand& faces, int face) {
+  return has_many_corners(faces, face) ? kWideSkin * scene.contact.face_skin : scene.contact.face_skin;
 }
 
-void make_list(const Scene& scene, State& state, int face) {
-  const double skin = skin_of(scene, face);
-  const FacePairs pairs = find_face_pairs(scene, state, face, skin);
+/// Returns false where walls are found to have crossed; the list stays as it is then.
+bool make_list(const Scene& scene, const State& state, const LatticeBand& band, const FacesOfBand& faces, int face,
+               ContactLists& lists) {
+  const double skin = skin_of(scene, faces, face);
+  const FacePairs pairs = find_face_pairs(scene, state, band, faces, face, skin);
   if (pairs.crossed) {
-    give_up(state);
-    return;
+    return false;
   }
-  replace_list(state, face, pairs.candidates);
+  replace_list(lists, face, pairs.candidates);
   // Of a face with candidates no more than the skin: an end that has gone through a segment is found while it is near.
-  state.face_budget[face] = pairs.candidates.empty() ? pairs.least_gap : skin;
-  for (int k = scene.faces.offset[face]; k < scene.faces.offset[face + 1]; ++k) {
-    state.face_searched_position[k] = state.position[scene.faces.particle[k]];
+  lists.face_budget[face] = pairs.candidates.empty() ? pairs.least_gap : skin;
+  for (int k = faces.offset[face]; k < faces.offset[face + 1]; ++k) {
+    lists.face_searched_position[k] = state.position[faces.particle[k]];
   }
-  ++state.face_search_count;
+  ++lists.face_search_count;
+  return true;
 }
 
 /// Sets the alarm of a face anew, with a list made anew if need be. A face with a particle that is lost stays as it is.
-void look_at(const Scene& scene, State& state, int group, int face) {
-  ++state.face_look_count;
-  const double budget = state.face_budget[face];
+/// Returns false where walls are found to have crossed.
+bool look_at(const Scene& scene, const State& state, const LatticeBand& band, const FacesOfBand& faces, int group,
+             int face, ContactLists& lists) {
+  ++lists.face_look_count;
+  const double budget = lists.face_budget[face];
   double left = budget;
   if (budget > 0.0) {
-    left -= spread_of_displacements(scene.faces, state, face);
+    left -= spread_of_displacements(faces, state, lists, face);
   }
-  if (!is_finite(scene.faces, state, face)) {
+  if (!is_finite(faces, state, face)) {
     left = std::numeric_limits<double>::max();
   } else if (left <= kWorthAnotherLook * budget) {
-    make_list(scene, state, face);
-    if (state.crossing_step >= 0) {
-      return;
+    if (!make_list(scene, state, band, faces, face, lists)) {
+      lists.face_alarm[face] = std::numeric_limits<double>::max();
+      return false;
     }
-    left = state.face_budget[face];
+    left = lists.face_budget[face];
   }
-  state.face_alarm[face] = state.group_travel[group] + left;
+  lists.face_alarm[face] = lists.group_travel[group] + left;
+  return true;
 }
 
-void look_at_group(const Scene& scene, State& state, int group) {
-  const int first = scene.faces.group_offset[group];
-  const int end = scene.faces.group_offset[group + 1];
+bool look_at_group(const Scene& scene, const State& state, const LatticeBand& band, const FacesOfBand& faces, int group,
+                   ContactLists& lists) {
+  const int first = faces.group_offset[group];
+  const int end = faces.group_offset[group + 1];
   for (int face = first; face < end; ++face) {
-    if (state.face_alarm[face] <= state.group_travel[group]) {
-      look_at(scene, state, group, face);
-      if (state.crossing_step >= 0) {
-        return;
-      }
+    if (lists.face_alarm[face] <= lists.group_travel[group] &&
+        !look_at(scene, state, band, faces, group, face, lists)) {
+      return false;
     }
   }
   // In a loop of its own, whose only number stays in a register.
   double least = std::numeric_limits<double>::max();
   for (int face = first; face < end; ++face) {
-    least = std::min(least, state.face_alarm[face]);
+    least = std::min(least, lists.face_alarm[face]);
   }
-  state.group_alarm[group] = least;
+  lists.group_alarm[group] = least;
+  return true;
 }
 
 }  // namespace
 
-void search_faces(const Scene& scene, State& state, Workers& workers) {
-  if (state.face_list.empty()) {
-    begin(scene, state);
+bool search_faces(const Scene& scene, const State& state, const LatticeBand& band, const FacesOfBand& faces,
+                  ContactLists& lists, Workers& workers) {
+  if (lists.face_list.empty()) {
+    begin(faces, lists);
   }
-  workers.share(state.group_travel.size(), [&](std::size_t first, std::size_t end) {
+  workers.share(lists.group_travel.size(), [&](std::size_t first, std::size_t end) {
     for (std::size_t group = first; group < end; ++group) {
-      const double spread = spread_of_velocities(scene.faces, state, static_cast<int>(group));
-      state.group_travel[group] += std::isfinite(spread) ? scene.schedule.time_step * spread : 0.0;
+      const double spread = spread_of_velocities(faces, state, static_cast<int>(group));
+      lists.group_travel[group] += std::isfinite(spread) ? scene.schedule.time_step * spread : 0.0;
     }
   });
-  for (int group = 0; group < scene.faces.group_count() && state.crossing_step < 0; ++group) {
-    if (state.group_alarm[group] <= state.group_travel[group]) {
-      look_at_group(scene, state, group);
+  for (int group = 0; group < faces.group_count(); ++group) {
+    if (lists.group_alarm[group] <= lists.group_travel[group] &&
+        !look_at_group(scene, state, band, faces, group, lists)) {
+      return false;
     }
   }
+  return true;
 }
 
 }  // namespace cellcrush

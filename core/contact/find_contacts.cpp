@@ -2,18 +2,34 @@
 
 #include "contact/bucket_search.h"
 #include "contact/face_search.h"
+#include "contact/one_list.h"
 
 namespace cellcrush {
+namespace {
+
+/// Returns false where walls are found to have crossed.
+bool search_bands(const Scene& scene, State& state, Workers& workers) {
+  bool is_planar = true;
+  for (std::size_t band = 0; band < scene.bands.size() && is_planar; ++band) {
+    is_planar = search_faces(scene, state, scene.bands[band], scene.faces.bands[band], state.contacts[band], workers);
+  }
+  return is_planar;
+}
+
+}  // namespace
 
 void find_contacts(const Scene& scene, State& state, Workers& workers) {
   if (!scene.contact.present) {
     return;
   }
   if (scene.faces.are_enough() && state.crossing_step < 0) {
-    search_faces(scene, state, workers);
+    if (!search_bands(scene, state, workers)) {
+      put_into_one_list(state);
+      state.crossing_step = state.step;
+    }
   }
   if (!scene.faces.are_enough() || state.crossing_step >= 0) {
-    search_buckets(scene, state);
+    search_buckets(scene, state, state.contacts.front());
   }
 }
 

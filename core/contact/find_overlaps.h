@@ -12,6 +12,7 @@ namespace cellcrush {
 /// A candidate that touches is not tested: its pair is evaluated in every step. Where contacts are searched by faces, one
 /// that does not touch sleeps until its gap can have closed, until its group has travelled that far (contact/face_search.h).
 /// By buckets all the others are tested.
-void find_overlaps(const Scene& scene, State& state, ContactWorkspace& workspace, Workers& workers);
+void find_overlaps(const Scene& scene, const State& state, ContactLists& lists, ContactWorkspace& workspace,
+                   Workers& workers);
 
 }  // namespace cellcrush

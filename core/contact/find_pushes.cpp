@@ -56,9 +56,10 @@ bool lies_before(const Scene& scene, const State& state, int ball, int node) {
 }
 
 /// Divides the normal force between the touch and that of the node's ball on the ball's own segments.
-void share_with_node(const Scene& scene, const State& state, const Touches& touches, Push& push) {
+void share_with_node(const Scene& scene, const State& state, const ContactLists& lists, const Touches& touches,
+                     Push& push) {
   const int touch = push.touch;
-  const int ball = state.touching.ball[touch];
+  const int ball = lists.touching.ball[touch];
   const double share = touches.share[touch];
   if (share > 0.0 && share < 1.0) {
     if (push.node_touch != Push::kNone && !lies_before(scene, state, touches.node[push.node_touch], ball)) {
@@ -75,8 +76,8 @@ void share_with_node(const Scene& scene, const State& state, const Touches& touc
 
 }  // namespace
 
-void find_pushes(const Scene& scene, const State& state, const Touches& touches, std::size_t first, std::size_t end,
-                 std::vector<Push>& pushes) {
+void find_pushes(const Scene& scene, const State& state, const ContactLists& lists, const Touches& touches,
+                 std::size_t first, std::size_t end, std::vector<Push>& pushes) {
   pushes.clear();
   for (int touch = static_cast<int>(first); touch < static_cast<int>(end); ++touch) {
     const double depth = touches.depth[touch];
@@ -87,13 +88,13 @@ void find_pushes(const Scene& scene, const State& state, const Touches& touches,
     push.touch = touch;
     push.net_depth = depth;
     // Most stand alone over the inside of a segment.
-    if (state.touching.linked[touch] != 0 || touches.node_depth[touch] > 0.0) {
-      const BallTouches of_ball = {touches, pairs_of_ball(state.touching, state.touching.ball[touch], touch)};
+    if (lists.touching.linked[touch] != 0 || touches.node_depth[touch] > 0.0) {
+      const BallTouches of_ball = {touches, pairs_of_ball(lists.touching, lists.touching.ball[touch], touch)};
       if (of_ball.yields_to_neighbour(touch)) {
         continue;
       }
       push.node_touch = of_ball.node_touch(touch);
-      share_with_node(scene, state, touches, push);
+      share_with_node(scene, state, lists, touches, push);
     }
     pushes.push_back(push);
   }

@@ -10,7 +10,7 @@ namespace cellcrush {
 
 /// Overwrites `pushes` by those of the touches from `first` to `end` that push, by ball, segments ascending: of touching
 /// segments that share a node only the deepest. REQUIRES: all touches of the balls in between, and no others.
-void find_pushes(const Scene& scene, const State& state, const Touches& touches, std::size_t first, std::size_t end,
-                 std::vector<Push>& pushes);
+void find_pushes(const Scene& scene, const State& state, const ContactLists& lists, const Touches& touches,
+                 std::size_t first, std::size_t end, std::vector<Push>& pushes);
 
 }  // namespace cellcrush

@@ -1,6 +1,7 @@
 #include "contact/plate_forces.h"
 
 #include <limits>
+#include <utility>
 
 #include "contact/contact_lots.h"
 #include "contact/friction.h"
@@ -15,6 +16,7 @@ struct Plate {
   double velocity;   ///< mm/s
   double outward;    ///< +1 or -1: from its face into the lattice, along the crush
   PlateForce& sum;   ///< of its forces on all particles
+  double& stored;    ///< of all contacts, N mm
   double* friction;  ///< of each particle; null without friction
 };
 
@@ -27,7 +29,7 @@ void push(const Scene& scene, State& state, const Plate& plate, std::size_t part
     const double rate = plate.outward * (plate.velocity - state.velocity[particle][axis]);
     force = evaluate_normal_force(scene.plates.stiffness, scene.contact.damping_ratio, 1.0 / scene.mass[particle],
                                   depth, rate);
-    state.contact_stored += 0.5 * force.elastic * depth;
+    plate.stored += 0.5 * force.elastic * depth;
     state.contact_force[particle].elastic[axis] += plate.outward * force.elastic;
     state.contact_force[particle].viscous[axis] += plate.outward * force.viscous;
     mark_contact_lot(state, static_cast<int>(particle));
@@ -55,19 +57,22 @@ PlateReach reach_of_plates(const Scene& scene, double impact_travel) {
   return {scene.plates.impact_face + impact_travel + reach, scene.plates.support_face - reach};
 }
 
-void evaluate_plate_forces(const Scene& scene, State& state, const NearPlates& near) {
+PlateMotion plate_motion_of(const Scene& scene, const State& state) {
+  return {state.impact_travel, scene.plates.speed_at(state.time - 0.5 * scene.schedule.time_step)};
+}
+
+void evaluate_plate_forces(const Scene& scene, State& state, const PlateMotion& motion, const LatticeBand& band,
+                           const NearPlates& near, ContactSums& sums) {
   const Plates& plates = scene.plates;
   if (!plates.present) {
     return;
   }
-  state.impact_force = {};
-  state.support_force = {};
   const bool rubs = plates.friction > 0.0;
-  const Plate impact = {plates.impact_face + state.impact_travel,
-                        plates.speed_at(state.time - 0.5 * scene.schedule.time_step), 1.0, state.impact_force,
+  double& stored = sums.walls.stored;
+  const Plate impact = {plates.impact_face + motion.impact_travel,    motion.impact_speed, 1.0, sums.impact, stored,
                         rubs ? state.impact_friction.data() : nullptr};
-  const Plate support = {plates.support_face, 0.0, -1.0, state.support_force,
-                         rubs ? state.support_friction.data() : nullptr};
+  const Plate support = {plates.support_face, 0.0,    -1.0,
+                         sums.support,        stored, rubs ? state.support_friction.data() : nullptr};
   const auto push_by_both = [&](std::size_t particle) {
     const double place = state.position[particle][scene.plates.axis];
     const double radius = scene.radius[particle];
@@ -77,14 +82,16 @@ void evaluate_plate_forces(const Scene& scene, State& state, const NearPlates& n
       push(scene, state, support, particle);
     }
   };
-  if (!near.has_value()) {
-    for (std::size_t i = 0; i < scene.particle_count(); ++i) {
-      push_by_both(i);
+  if (near.has_value()) {
+    for (const int particle : *near) {
+      push_by_both(static_cast<std::size_t>(particle));
     }
     return;
   }
-  for (const int particle : *near) {
-    push_by_both(static_cast<std::size_t>(particle));
+  for (const auto& [first, end] : {std::pair(band.first_joint, band.end_joint), {band.first_inner, band.end_inner}}) {
+    for (int particle = first; particle < end; ++particle) {
+      push_by_both(static_cast<std::size_t>(particle));
+    }
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
+#include "contact/contact_sums.h"
 
 namespace cellcrush {
 
@@ -20,10 +21,20 @@ PlateReach reach_of_plates(const Scene& scene, double impact_travel);
 /// Particles that may reach a plate, or that rub against one, and perhaps others; ascending. Without a value: not known.
 using NearPlates = std::optional<std::span<const int>>;
 
-/// Overwrites impact_force and support_force, of the rigid, unilateral plates on every particle whose ball reaches into
-/// them, by the penalty law of the walls, and adds them to contact_force, as evaluate_contact_forces does. Forces are positive in
-/// compression: the impact plate pushes along the crush, the support plate against it. Friction acts across the crush; it is
-/// added to friction_force. Particles that are not `near` are not looked at.
-void evaluate_plate_forces(const Scene& scene, State& state, const NearPlates& near);
+/// How the impact plate is and moves.
+struct PlateMotion {
+  double impact_travel = 0.0;  ///< mm
+  double impact_speed = 0.0;   ///< mm/s, half a step before
+};
+
+/// At the state's time.
+PlateMotion plate_motion_of(const Scene& scene, const State& state);
+
+/// Adds the forces of the rigid, unilateral plates on every particle of a band whose ball reaches into them, by the penalty
+/// law of the walls, to contact_force, as evaluate_contact_forces does, and to the sums. Forces are positive in compression: the
+/// impact plate pushes along the crush, the support plate against it. Friction acts across the crush; it is added to
+/// friction_force. Particles that are not `near` are not looked at.
+void evaluate_plate_forces(const Scene& scene, State& state, const PlateMotion& motion, const LatticeBand& band,
+                           const NearPlates& near, ContactSums& sums);
 
 }  // namespace cellcrush

@@ -23,20 +23,25 @@ inline NormalForce push_pair(const Scene& scene, const Touches& touches, Push& p
 
 /// Takes back half of what the touch of two balls would store: the node's ball counts the pair as well, and pushes on its
 /// own where the node lies under the ball's segments.
-inline void take_back_node(const Scene& scene, State& state, const Touches& touches, int node_touch) {
+inline void take_back_node(const Scene& scene, State& state, const TouchMemory& touching, const Touches& touches,
+                           int node_touch, double& stored) {
   const double stiffness = 0.5 * scene.contact.stiffness;
   const double depth = touches.node_depth[node_touch];
   const Vector2 force = stiffness * depth * touches.node_normal[node_touch];
-  state.contact_force[state.touching.ball[node_touch]].elastic -= force;
+  state.contact_force[touching.ball[node_touch]].elastic -= force;
   state.contact_force[touches.node[node_touch]].elastic += force;
-  state.contact_stored -= 0.5 * stiffness * depth * depth;
+  stored -= 0.5 * stiffness * depth * depth;
 }
 
 /// Notes how deep touches are, over the thinner of their walls, where that is a record.
 class DepthRecords {
  public:
-  DepthRecords(const Scene& scene, State& state, const Touches& touches)
-      : scene_(scene), state_(state), depth_(touches.depth.data()), known_(touches.known.data()) {
+  DepthRecords(const Scene& scene, const TouchMemory& touching, const Touches& touches, ContactTotals& totals)
+      : scene_(scene),
+        touching_(touching),
+        totals_(totals),
+        depth_(touches.depth.data()),
+        known_(touches.known.data()) {
     set_bars();
   }
 
@@ -50,23 +55,24 @@ class DepthRecords {
 
  private:
   void raise(int touch, bool is_new) {
-    const double thinner = std::min(2.0 * scene_.radius[state_.touching.ball[touch]],
-                                    scene_.elements[state_.touching.segment[touch]].thickness);
+    const double thinner =
+        std::min(2.0 * scene_.radius[touching_.ball[touch]], scene_.elements[touching_.segment[touch]].thickness);
     const double depth = depth_[touch] / thinner;
-    state_.deepest_penetration = std::max(state_.deepest_penetration, depth);
+    totals_.deepest_penetration = std::max(totals_.deepest_penetration, depth);
     if (is_new) {
-      state_.deepest_birth = std::max(state_.deepest_birth, depth);
+      totals_.deepest_birth = std::max(totals_.deepest_birth, depth);
     }
     set_bars();
   }
 
   void set_bars() {
-    birth_bar_ = scene_.contact.thinnest * state_.deepest_birth;
-    penetration_bar_ = scene_.contact.thinnest * state_.deepest_penetration;
+    birth_bar_ = scene_.contact.thinnest * totals_.deepest_birth;
+    penetration_bar_ = scene_.contact.thinnest * totals_.deepest_penetration;
   }
 
   const Scene& scene_;
-  State& state_;
+  const TouchMemory& touching_;
+  ContactTotals& totals_;
   const double* const depth_;
   const int* const known_;
   double birth_bar_ = 0.0;        ///< mm, that a touch must exceed in its first step

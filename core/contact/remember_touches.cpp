@@ -29,11 +29,11 @@ std::size_t place_among(const TouchMemory& touching, const Newcomer& pair) {
 }
 
 /// Sorts out what was found: pairs that touch all along, in a list that was made anew, and newcomers.
-void recognize(State& state, ContactWorkspace& workspace) {
-  TouchMemory& touching = state.touching;
+void recognize(ContactLists& lists, ContactWorkspace& workspace) {
+  TouchMemory& touching = lists.touching;
   workspace.newcomers.clear();
   for (const int place : workspace.found) {
-    Newcomer pair = {state.candidate_ball[place], state.candidate_segment[place], place};
+    Newcomer pair = {lists.candidate_ball[place], lists.candidate_segment[place], place};
     const std::size_t at = place_among(touching, pair);
     pair.next = static_cast<int>(at);
     const bool touches = at < touching.count() && touching.ball[at] == pair.ball &&
@@ -62,13 +62,13 @@ void visit_kept(TouchMemory& touching, const TouchMemory& before, Visit&& visit)
 /// The pairs that touch from now on, written one after the other.
 class Writer {
  public:
-  Writer(State& state, ContactWorkspace& workspace)
-      : state_(state),
+  Writer(ContactLists& lists, ContactWorkspace& workspace)
+      : lists_(lists),
         changes_(workspace.changes),
         before_(workspace.before),
-        after_(state.touching),
+        after_(lists.touching),
         known_(workspace.touches.known) {
-    const std::size_t count = before_.count() - state.parted.size() + workspace.newcomers.size();
+    const std::size_t count = before_.count() - lists.parted.size() + workspace.newcomers.size();
     visit_kept(after_, before_, [&](auto& field, const auto&) { field.resize(count); });
     workspace.touches.resize(count);
     changes_.clear();
@@ -77,8 +77,8 @@ class Writer {
   /// Those before up to this one, but the parted.
   void copy_until(int end) {
     while (next_ < end) {
-      const bool parts = parted_ < state_.parted.size() && state_.parted[parted_] < end;
-      copy_run(parts ? state_.parted[parted_] : end);
+      const bool parts = parted_ < lists_.parted.size() && lists_.parted[parted_] < end;
+      copy_run(parts ? lists_.parted[parted_] : end);
       if (parts) {
         note_change(before_.ball[next_]);
         ++parted_;
@@ -91,7 +91,7 @@ class Writer {
     note_change(pair.ball);
     after_.ball[count_] = pair.ball;
     after_.segment[count_] = pair.segment;
-    after_.reach[count_] = state_.candidate_reach[pair.place];
+    after_.reach[count_] = lists_.candidate_reach[pair.place];
     after_.place[count_] = pair.place;
     after_.linked[count_] = 0;
     after_.side[count_] = 0;
@@ -111,14 +111,14 @@ class Writer {
     next_ = end;
   }
 
-  const State& state_;
+  const ContactLists& lists_;
   std::vector<ChangedBall>& changes_;
   const TouchMemory& before_;
   TouchMemory& after_;
   LaneVector<int>& known_;
   int count_ = 0;           // written
   int next_ = 0;            // of those before
-  std::size_t parted_ = 0;  // passed of State::parted
+  std::size_t parted_ = 0;  // passed of ContactLists::parted
 };
 
 /// Says anew which pairs of a ball are linked.
@@ -136,17 +136,17 @@ void link(const Scene& scene, TouchMemory& touching, const ChangedBall& changed)
 
 }  // namespace
 
-void remember_touches(const Scene& scene, State& state, ContactWorkspace& workspace) {
-  recognize(state, workspace);
-  std::swap(state.touching, workspace.before);
-  Writer writer(state, workspace);
+void remember_touches(const Scene& scene, ContactLists& lists, ContactWorkspace& workspace) {
+  recognize(lists, workspace);
+  std::swap(lists.touching, workspace.before);
+  Writer writer(lists, workspace);
   for (const Newcomer& pair : workspace.newcomers) {
     writer.copy_until(pair.next);
     writer.put(pair);
   }
   writer.copy_until(static_cast<int>(workspace.before.count()));
   for (const ChangedBall& changed : workspace.changes) {
-    link(scene, state.touching, changed);
+    link(scene, lists.touching, changed);
   }
 }
 

@@ -24,10 +24,10 @@ inline PairRange pairs_of_ball(const TouchMemory& touching, int ball, int place)
   return range;
 }
 
-/// Takes the pairs that have parted out of State::touching and puts those in that have been found to overlap. What touched
+/// Takes the pairs that have parted out of ContactLists::touching and puts those in that have been found to overlap. What touched
 /// before goes to ContactWorkspace::before; Touches::known tells where it was there.
 ///
 /// Nearly all pairs touch for many steps: they are copied in long runs between the few that come and go.
-void remember_touches(const Scene& scene, State& state, ContactWorkspace& workspace);
+void remember_touches(const Scene& scene, ContactLists& lists, ContactWorkspace& workspace);
 
 }  // namespace cellcrush

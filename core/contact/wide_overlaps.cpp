@@ -41,14 +41,14 @@ struct Tested {
   double travel[kTestedTogether];  ///< of the group; by buckets the lowest there is
 };
 
-void collect(const Scene& scene, const State& state, std::span<const int> places, Tested& tested) {
+void collect(const Scene& scene, const ContactLists& lists, std::span<const int> places, Tested& tested) {
   const Element* elements = scene.elements.data();
-  const int* balls = state.candidate_ball.data();
-  const int* segments = state.candidate_segment.data();
-  const double* reaches = state.candidate_reach.data();
-  const int* groups = state.batch_group.data();
-  const double* travels = state.group_travel.data();
-  const bool sleeps = !state.batch_group.empty();
+  const int* balls = lists.candidate_ball.data();
+  const int* segments = lists.candidate_segment.data();
+  const double* reaches = lists.candidate_reach.data();
+  const int* groups = lists.batch_group.data();
+  const double* travels = lists.group_travel.data();
+  const bool sleeps = !lists.batch_group.empty();
   for (std::size_t i = 0; i < places.size(); ++i) {
     const int place = places[i];
     const Element& element = elements[segments[place]];
@@ -98,10 +98,10 @@ HWY_INLINE hn::Vec<D> gap(D d, const Standing<D>& at) {
 /// Bits of the candidates of batches that are awake.
 class AwakeBits {
  public:
-  explicit AwakeBits(const State& state)
-      : alarms_(state.candidate_alarm.data()),
-        travels_(state.group_travel.data()),
-        groups_(state.batch_group.empty() ? nullptr : state.batch_group.data()) {}
+  explicit AwakeBits(const ContactLists& lists)
+      : alarms_(lists.candidate_alarm.data()),
+        travels_(lists.group_travel.data()),
+        groups_(lists.batch_group.empty() ? nullptr : lists.batch_group.data()) {}
 
   HWY_INLINE std::uint64_t of_batch(std::size_t batch) const {
     const hn::CappedTag<double, kCandidateBatch> d;
@@ -121,8 +121,8 @@ class AwakeBits {
 };
 
 // Few candidates are awake, and which cannot be foretold: a branch at every batch takes three times as long.
-std::size_t find_awake(const State& state, std::size_t first, std::size_t end, int* places) {
-  const AwakeBits awake(state);
+std::size_t find_awake(const ContactLists& lists, std::size_t first, std::size_t end, int* places) {
+  const AwakeBits awake(lists);
   const std::size_t end_batch = end / kCandidateBatch;
   std::size_t count = 0;
 #if HWY_TARGET <= HWY_AVX3
@@ -160,11 +160,12 @@ HWY_INLINE unsigned test(D d, const Vector2* positions, const Tested& tested, st
 }
 
 /// Sets the alarms of candidates that are tested together; adds those that overlap to the places found.
-void test_some(const Scene& scene, State& state, std::span<const int> places, std::vector<int>& found) {
+void test_some(const Scene& scene, const State& state, ContactLists& lists, std::span<const int> places,
+               std::vector<int>& found) {
   const hn::CappedTag<double, kMostLanes> wide;
   const hn::CappedTag<double, 1> one;
   Tested tested;
-  collect(scene, state, places, tested);
+  collect(scene, lists, places, tested);
   const Vector2* positions = state.position.data();
   double alarms[kTestedTogether];
   const auto note = [&](std::size_t i, unsigned bits) {
@@ -179,15 +180,16 @@ void test_some(const Scene& scene, State& state, std::span<const int> places, st
   for (; i < places.size(); ++i) {
     note(i, test(one, positions, tested, i, alarms));
   }
-  double* next_alarms = state.candidate_alarm.data();
+  double* next_alarms = lists.candidate_alarm.data();
   for (i = 0; i < places.size(); ++i) {
     next_alarms[places[i]] = alarms[i];
   }
 }
 
-void test_awake(const Scene& scene, State& state, std::span<const int> places, std::vector<int>& found) {
+void test_awake(const Scene& scene, const State& state, ContactLists& lists, std::span<const int> places,
+                std::vector<int>& found) {
   for (std::size_t i = 0; i < places.size(); i += kTestedTogether) {
-    test_some(scene, state, places.subspan(i, std::min(kTestedTogether, places.size() - i)), found);
+    test_some(scene, state, lists, places.subspan(i, std::min(kTestedTogether, places.size() - i)), found);
   }
 }
 
@@ -200,12 +202,13 @@ namespace cellcrush {
 HWY_EXPORT(find_awake);
 HWY_EXPORT(test_awake);
 
-std::size_t find_awake_wide(const State& state, std::size_t first, std::size_t end, int* places) {
-  return HWY_DYNAMIC_DISPATCH(find_awake)(state, first, end, places);
+std::size_t find_awake_wide(const ContactLists& lists, std::size_t first, std::size_t end, int* places) {
+  return HWY_DYNAMIC_DISPATCH(find_awake)(lists, first, end, places);
 }
 
-void test_awake_wide(const Scene& scene, State& state, std::span<const int> places, std::vector<int>& found) {
-  HWY_DYNAMIC_DISPATCH(test_awake)(scene, state, places, found);
+void test_awake_wide(const Scene& scene, const State& state, ContactLists& lists, std::span<const int> places,
+                     std::vector<int>& found) {
+  HWY_DYNAMIC_DISPATCH(test_awake)(scene, state, lists, places, found);
 }
 
 }  // namespace cellcrush

@@ -23,10 +23,11 @@ HWY_INLINE void add(D d, const double* HWY_RESTRICT pair, double share, ContactF
 }
 
 /// Pointers in place of the vectors, which would be asked anew where their numbers lie after every store of a number.
-void apply(const Scene& scene, State& state, ContactWorkspace& workspace) {
+void apply(const Scene& scene, State& state, const TouchMemory& touching, ContactWorkspace& workspace,
+           ContactTotals& totals) {
   const hn::CappedTag<double, 4> d;
   const Touches& touches = workspace.touches;
-  const int* balls = state.touching.ball.data();
+  const int* balls = touching.ball.data();
   const int* starts = touches.start.data();
   const int* ends = touches.end.data();
   const double* depths = touches.depth.data();
@@ -34,7 +35,7 @@ void apply(const Scene& scene, State& state, ContactWorkspace& workspace) {
   const Vector2* normals = touches.normal.data();
   const double stiffness = scene.contact.stiffness;
   ContactForce* forces = state.contact_force.data();
-  DepthRecords records(scene, state, touches);
+  DepthRecords records(scene, touching, touches, totals);
   double squared_depths = 0.0;
   for (Push& push : workspace.pushes) {
     const int touch = push.touch;
@@ -50,11 +51,11 @@ void apply(const Scene& scene, State& state, ContactWorkspace& workspace) {
     add(d, pair, -share, forces[ends[touch]]);
     squared_depths += depth * depth;
     if (push.node_touch != Push::kNone) {
-      take_back_node(scene, state, touches, push.node_touch);
+      take_back_node(scene, state, touching, touches, push.node_touch, totals.stored);
     }
     records.note(touch);
   }
-  state.contact_stored += 0.5 * stiffness * squared_depths;
+  totals.stored += 0.5 * stiffness * squared_depths;
 }
 
 }  // namespace cellcrush::HWY_NAMESPACE
@@ -65,8 +66,9 @@ namespace cellcrush {
 
 HWY_EXPORT(apply);
 
-void apply_normal_forces_wide(const Scene& scene, State& state, ContactWorkspace& workspace) {
-  HWY_DYNAMIC_DISPATCH(apply)(scene, state, workspace);
+void apply_normal_forces_wide(const Scene& scene, State& state, const TouchMemory& touching,
+                              ContactWorkspace& workspace, ContactTotals& totals) {
+  HWY_DYNAMIC_DISPATCH(apply)(scene, state, touching, workspace, totals);
 }
 
 }  // namespace cellcrush

@@ -38,17 +38,17 @@ struct PairArrays {
   double* node_depth;
   Vector2* node_normal;
 
-  PairArrays(const Scene& scene, State& state, Touches& touches)
+  PairArrays(const Scene& scene, const State& state, ContactLists& lists, Touches& touches)
       : elements(scene.elements.data()),
         inverse_mass(scene.inverse_mass.data()),
         position(state.position.data()),
         velocity(state.velocity.data()),
         axis(state.axis.data()),
         length(state.length.data()),
-        ball(state.touching.ball.data()),
-        segment(state.touching.segment.data()),
-        reach(state.touching.reach.data()),
-        side(state.touching.side.data()),
+        ball(lists.touching.ball.data()),
+        segment(lists.touching.segment.data()),
+        reach(lists.touching.reach.data()),
+        side(lists.touching.side.data()),
         start(touches.start.data()),
         end(touches.end.data()),
         share(touches.share.data()),
@@ -206,9 +206,9 @@ HWY_INLINE hn::Mask<D> evaluate_pairs(D d, const Scene& scene, const PairArrays&
   return hn::Not(hn::Gt(stand.depth, hn::Zero(d)));
 }
 
-std::size_t evaluate_all(const Scene& scene, State& state, Touches& touches, std::size_t first, std::size_t end,
-                         int* parted) {
-  const PairArrays arrays(scene, state, touches);
+std::size_t evaluate_all(const Scene& scene, const State& state, ContactLists& lists, Touches& touches,
+                         std::size_t first, std::size_t end, int* parted) {
+  const PairArrays arrays(scene, state, lists, touches);
   const hn::CappedTag<double, kMostLanes> wide;
   const hn::CappedTag<double, 1> one;
   std::size_t parted_count = 0;
@@ -232,9 +232,9 @@ namespace cellcrush {
 
 HWY_EXPORT(evaluate_all);
 
-std::size_t evaluate_touches_wide(const Scene& scene, State& state, Touches& touches, std::size_t first,
-                                  std::size_t end, int* parted) {
-  return HWY_DYNAMIC_DISPATCH(evaluate_all)(scene, state, touches, first, end, parted);
+std::size_t evaluate_touches_wide(const Scene& scene, const State& state, ContactLists& lists, Touches& touches,
+                                  std::size_t first, std::size_t end, int* parted) {
+  return HWY_DYNAMIC_DISPATCH(evaluate_all)(scene, state, lists, touches, first, end, parted);
 }
 
 }  // namespace cellcrush

@@ -78,7 +78,7 @@ void Sampler::measure_collapse(const Scene& scene, const State& state, Sample& s
 }
 
 void Sampler::find_warnings(const Scene& scene, const State& state, Sample& sample) {
-  if (!told_of_depth_ && state.deepest_penetration > kDeepPenetration) {
+  if (!told_of_depth_ && state.contact_totals.deepest_penetration > kDeepPenetration) {
     sample.warnings.push_back(warn_of_depth(scene, state, sample.strain));
     told_of_depth_ = true;
   }
@@ -107,10 +107,10 @@ Sample Sampler::take(const Scene& scene, const State& state) {
   sample.energy_damping = energies.contact_damping + energies.mass_damping;
   sample.work_external = energies.external;
   sample.energy_residual = energies.residual;
-  sample.energy_contact_stored = state.contact_stored;
+  sample.energy_contact_stored = state.contact_totals.stored;
   sample.energy_contact_damping = energies.contact_damping;
-  sample.deepest_penetration = state.deepest_penetration;
-  sample.contact_count = state.contact_count;
+  sample.deepest_penetration = state.contact_totals.deepest_penetration;
+  sample.contact_count = state.contact_totals.count;
   sample.walls_crossed = state.crossing_step >= 0;
   find_warnings(scene, state, sample);
   for (const int node : scene.watched) {

@@ -14,33 +14,34 @@ constexpr const char* kShorterStep =
     "Give a shorter numerics.time_step_s, or 0 to have it chosen, and see whether the stresses stay.";
 
 /// Overlap of pair `t` of those that touch, over the thinner wall's thickness.
-double depth_of(const Scene& scene, const State& state, std::size_t t) {
-  const int ball = state.touching.ball[t];
-  const int segment = state.touching.segment[t];
+double depth_of(const Scene& scene, const State& state, const TouchMemory& touching, std::size_t t) {
+  const int ball = touching.ball[t];
+  const int segment = touching.segment[t];
   const Element& element = scene.elements[segment];
   const double length = state.length[segment];
   const Vector2& axis = state.axis[segment];
   const Projection foot = project(state.position[ball], state.position[element.start], axis, length);
   const bool inside = foot.along > 0.0 && foot.along < length;
-  const double distance = inside ? state.touching.side[t] * cross(axis, foot.offset) : foot.offset.norm();
+  const double distance = inside ? touching.side[t] * cross(axis, foot.offset) : foot.offset.norm();
   return (scene.reach_of(ball, segment) - distance) / std::min(2.0 * scene.radius[ball], element.thickness);
 }
 
 /// "; deepest now at particle 7, at (1, 2) mm before loading, in the wall of element 9"; empty while nothing touches.
 std::string deepest_place(const Scene& scene, const State& state) {
-  if (state.touching.count() == 0) {
-    return "";
-  }
-  std::size_t deepest = 0;
-  double most = depth_of(scene, state, 0);
-  for (std::size_t t = 1; t < state.touching.count(); ++t) {
-    if (const double depth = depth_of(scene, state, t); depth > most) {
-      deepest = t;
-      most = depth;
+  int ball = -1;
+  int segment = -1;
+  double most = 0.0;
+  for (const ContactLists& lists : state.contacts) {
+    for (std::size_t t = 0; t < lists.touching.count(); ++t) {
+      if (const double depth = depth_of(scene, state, lists.touching, t); ball < 0 || depth > most) {
+        ball = lists.touching.ball[t];
+        segment = lists.touching.segment[t];
+        most = depth;
+      }
     }
   }
-  return "; deepest now at " + place_of(scene, state.touching.ball[deepest]) + ", in the wall of element " +
-         std::to_string(state.touching.segment[deepest]);
+  return ball < 0 ? ""
+                  : "; deepest now at " + place_of(scene, ball) + ", in the wall of element " + std::to_string(segment);
 }
 
 /// The warning of a quantity over the turnover, told where it is first beyond kEnergyDrift, with its greatest value.
@@ -76,8 +77,9 @@ void add_drift(std::span<const Sample> samples, Warning::Kind kind, const std::s
 
 Warning warn_of_depth(const Scene& scene, const State& state, double strain) {
   return {Warning::Kind::deep_penetration, state.step, strain,
-          "Walls have overlapped by " + percent_of(state.deepest_penetration) + " of the thinner one's thickness by " +
-              moment_of(state.step, state.time) + deepest_place(scene, state) + ".",
+          "Walls have overlapped by " + percent_of(state.contact_totals.deepest_penetration) +
+              " of the thinner one's thickness by " + moment_of(state.step, state.time) + deepest_place(scene, state) +
+              ".",
           std::string(kShorterStep) + " A greater contact.stiffness_factor keeps slow walls apart."};
 }
 

@@ -4,6 +4,7 @@
 #include "cellcrush/simulation.h"
 #include "contact/contact_faces.h"
 #include "contact/wall_paths.h"
+#include "scene/bands.h"
 #include "scene/check_spec.h"
 #include "scene/mesh_part.h"
 #include "scene/run_plan.h"
@@ -26,12 +27,13 @@ void put_plates(Scene& scene) {
 
 /// REQUIRES: walls that lie in each other have been refused.
 void prepare_search(const SceneSpec& spec, Scene& scene) {
+  scene.bands = {whole_band(scene)};
   if (!scene.contact.present) {
     return;
   }
   scene.limited_reaches = find_limited_reaches(scene);
   if (spec.contact.search == ContactSpec::Search::faces) {
-    scene.faces = build_contact_faces(scene);
+    build_contact_faces(scene);
   } else {
     scene.faces.premise = ContactFaces::Premise::not_asked;
   }

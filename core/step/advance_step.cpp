@@ -2,9 +2,12 @@
 
 #include "beam/internal_forces.h"
 #include "contact/contact_forces.h"
+#include "contact/contact_lots.h"
+#include "contact/contact_sums.h"
 #include "contact/find_contacts.h"
 #include "contact/plate_forces.h"
 #include "energy/ledger.h"
+#include "scene/bands.h"
 #include "step/integrate_motion.h"
 #include "step/loads.h"
 
@@ -29,19 +32,41 @@ class StageTeller {
   StageObserver* observer_;
 };
 
+/// The contacts' and the plates' forces on a band's particles, or on all.
+void evaluate_contacts(const Scene& scene, State& state, ContactLists& lists, const LatticeBand& band,
+                       const NearPlates& near_plates, Workspace& workspace, const StageTeller& teller,
+                       ContactSums& sums) {
+  teller.begin(Stage::evaluate_contact_forces);
+  evaluate_contact_forces(scene, state, lists, workspace.contact, workspace.workers, sums.walls);
+  teller.begin(Stage::evaluate_plate_forces);
+  evaluate_plate_forces(scene, state, plate_motion_of(scene, state), band, near_plates, sums);
+}
+
+void evaluate_all_contacts(const Scene& scene, State& state, const NearPlates& near_plates, Workspace& workspace,
+                           const StageTeller& teller) {
+  teller.begin(Stage::find_contacts);
+  find_contacts(scene, state, workspace.workers);
+  teller.begin(Stage::evaluate_contact_forces);
+  renew_contact_lots(scene, state, 1);
+  ContactSums sums = begin_contact_sums(state);
+  if (state.contacts.size() == 1) {
+    evaluate_contacts(scene, state, state.contacts.front(), whole_band(scene), near_plates, workspace, teller, sums);
+  } else {
+    for (std::size_t b = 0; b < state.contacts.size(); ++b) {
+      evaluate_contacts(scene, state, state.contacts[b], scene.bands[b], std::nullopt, workspace, teller, sums);
+    }
+  }
+  put_contact_sums(sums, state);
+}
+
 void evaluate_forces(const Scene& scene, State& state, const NearPlates& near_plates, Workspace& workspace,
                      const StageTeller& teller) {
-  const auto evaluate_contacts = [&] {
-    teller.begin(Stage::find_contacts);
-    find_contacts(scene, state, workspace.workers);
-    teller.begin(Stage::evaluate_contact_forces);
-    evaluate_contact_forces(scene, state, workspace.contact, workspace.workers);
-    teller.begin(Stage::evaluate_plate_forces);
-    evaluate_plate_forces(scene, state, near_plates);
+  const auto evaluate_meanwhile = [&] {
+    evaluate_all_contacts(scene, state, near_plates, workspace, teller);
     teller.begin(Stage::evaluate_internal_forces);  // what is left of them
   };
   teller.begin(Stage::evaluate_internal_forces);
-  evaluate_internal_forces(scene, state, workspace.walls, workspace.workers, evaluate_contacts);
+  evaluate_internal_forces(scene, state, workspace.walls, workspace.workers, evaluate_meanwhile);
   teller.begin(Stage::evaluate_loads);
   evaluate_loads(scene, state);
 }

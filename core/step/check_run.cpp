@@ -94,8 +94,8 @@ RunStatus check_energy(const Scene& scene, const State& state, const Sample& sam
     return {RunStatus::Kind::contact_energy,
             "Contacts have made " + percent_of(-sample.energy_contact / turnover) + " of the work done by " +
                 moment_of(state.step, state.time) + ": walls met first when they were " +
-                percent_of(state.deepest_birth) + " of their thickness in each other" + fastest_place(scene, state) +
-                ".",
+                percent_of(state.contact_totals.deepest_birth) + " of their thickness in each other" +
+                fastest_place(scene, state) + ".",
             "Give a shorter numerics.time_step_s, or 0 to have it chosen: the plate is to move by a twentieth of the "
             "thinnest wall in a step at most."};
   }

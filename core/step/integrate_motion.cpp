@@ -125,6 +125,7 @@ State place_particles(const Scene& scene) {
     state.load_force.assign(n, Vector2::Zero());
     state.load_moment.assign(n, 0.0);
   }
+  state.contacts.resize(scene.bands.size());
   place_rigid_bodies(scene, state);
   return state;
 }

@@ -9,9 +9,12 @@ namespace cellcrush {
 namespace {
 
 std::int64_t memory_of(const Scene& scene) {
-  return memory_of_run({scene.particle_count(), scene.element_count(), scene.faces.particle.size(),
-                        scene.section.section_count(), scene.fibre_count(), scene.section.force_based,
-                        scene.has_hardening()});
+  std::size_t corners = 0;
+  for (const FacesOfBand& faces : scene.faces.bands) {
+    corners += faces.particle.size();
+  }
+  return memory_of_run({scene.particle_count(), scene.element_count(), corners, scene.section.section_count(),
+                        scene.fibre_count(), scene.section.force_based, scene.has_hardening()});
 }
 
 }  // namespace

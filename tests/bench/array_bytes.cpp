@@ -33,10 +33,13 @@ std::vector<std::pair<std::string, double>> array_bytes(const Scene& scene, cons
       {"scene.initial_velocity", bytes_of(scene.initial_velocity) + bytes_of(scene.initial_spin)},
       {"scene.limited_reaches", bytes_of(scene.limited_reaches.offset) + bytes_of(scene.limited_reaches.segment) +
                                     bytes_of(scene.limited_reaches.reach)},
-      {"scene.faces", bytes_of(scene.faces.offset) + bytes_of(scene.faces.particle) + bytes_of(scene.faces.element) +
-                          bytes_of(scene.faces.side) + bytes_of(scene.faces.group_offset) +
-                          bytes_of(scene.faces.member_offset) + bytes_of(scene.faces.member)},
+      {"scene.faces", bytes_of(scene.faces.side)},
   };
+  for (const FacesOfBand& faces : scene.faces.bands) {
+    arrays.emplace_back("scene.faces", bytes_of(faces.number) + bytes_of(faces.offset) + bytes_of(faces.particle) +
+                                           bytes_of(faces.element) + bytes_of(faces.group_offset) +
+                                           bytes_of(faces.member_offset) + bytes_of(faces.member));
+  }
   visit_fields(state, [&](const char* name, const auto& field) {
     if constexpr (requires { field.data(); }) {
       arrays.emplace_back(std::string("state.") + name, bytes_of(field));

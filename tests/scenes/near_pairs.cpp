@@ -5,6 +5,8 @@
 #include <algorithm>
 
 #include "contact/bucket_search.h"
+#include "contact/contact_forces.h"
+#include "contact/contact_sums.h"
 #include "scene/face_loops.h"
 #include "step/integrate_motion.h"
 
@@ -26,14 +28,22 @@ void clear_contact_forces(State& state) {
   }
 }
 
+void evaluate_wall_contacts(const Scene& scene, State& state, ContactWorkspace& workspace, Workers& workers) {
+  ContactSums sums = begin_contact_sums(state);
+  evaluate_contact_forces(scene, state, state.contacts.front(), workspace, workers, sums.walls);
+  state.contact_totals = sums.walls;
+}
+
 Pairs listed_pairs(const State& state) {
   Pairs pairs;
-  for (std::size_t k = 0; k < state.candidate_ball.size(); ++k) {
-    if (state.candidate_reach[k] > 0.0) {
-      EXPECT_TRUE(pairs.emplace(state.candidate_ball[k], state.candidate_segment[k]).second) << "listed twice";
+  for (std::size_t k = 0; k < state.contacts.front().candidate_ball.size(); ++k) {
+    if (state.contacts.front().candidate_reach[k] > 0.0) {
+      EXPECT_TRUE(
+          pairs.emplace(state.contacts.front().candidate_ball[k], state.contacts.front().candidate_segment[k]).second)
+          << "listed twice";
     }
   }
-  EXPECT_EQ(static_cast<std::int64_t>(pairs.size()), state.candidate_count);
+  EXPECT_EQ(static_cast<std::int64_t>(pairs.size()), state.contacts.front().candidate_count);
   return pairs;
 }
 
@@ -57,15 +67,15 @@ std::vector<Overlap> overlaps_by_buckets(const Scene& scene, const State& state)
   copy.position = state.position;
   copy.axis = state.axis;
   copy.length = state.length;
-  list_by_buckets(scene, copy);
+  list_by_buckets(scene, copy, copy.contacts.front());
   std::vector<Overlap> overlaps;
-  for (std::size_t k = 0; k < copy.candidate_ball.size(); ++k) {
-    const Element& element = scene.elements[copy.candidate_segment[k]];
-    const double depth =
-        copy.candidate_reach[k] - distance_between(copy.position[copy.candidate_ball[k]], copy.position[element.start],
-                                                   copy.position[element.end]);
+  for (std::size_t k = 0; k < copy.contacts.front().candidate_ball.size(); ++k) {
+    const Element& element = scene.elements[copy.contacts.front().candidate_segment[k]];
+    const double depth = copy.contacts.front().candidate_reach[k] -
+                         distance_between(copy.position[copy.contacts.front().candidate_ball[k]],
+                                          copy.position[element.start], copy.position[element.end]);
     if (depth > 0.0) {
-      overlaps.push_back({copy.candidate_ball[k], copy.candidate_segment[k], depth});
+      overlaps.push_back({copy.contacts.front().candidate_ball[k], copy.contacts.front().candidate_segment[k], depth});
     }
   }
   return overlaps;

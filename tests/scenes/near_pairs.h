@@ -6,6 +6,8 @@
 
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
+#include "contact/contact_workspace.h"
+#include "parallel/workers.h"
 
 namespace cellcrush::scenes {
 
@@ -29,6 +31,9 @@ std::vector<Overlap> overlaps_by_buckets(const Scene& scene, const State& state)
 
 /// As integrate_motion leaves them, so that contacts can be evaluated again.
 void clear_contact_forces(State& state);
+
+/// The contact forces between walls of a state with one list, and their totals.
+void evaluate_wall_contacts(const Scene& scene, State& state, ContactWorkspace& workspace, Workers& workers);
 
 /// Axes and lengths of a state's positions.
 void follow_positions(const Scene& scene, State& state);

@@ -35,12 +35,12 @@ void Probe::place_tip(const Vector2& place, const Vector2& outward) {
   state_.position[tip_ - 1] = place + 10.0 * outward;
   state_.axis.back() = -outward;
   state_.length.back() = 10.0;
-  list_by_buckets(*scene_, state_);
+  list_by_buckets(*scene_, state_, state_.contacts.front());
 }
 
 void Probe::evaluate_contacts() {
   clear_contact_forces(state_);
-  evaluate_contact_forces(*scene_, state_, workspace_, workers_);
+  evaluate_wall_contacts(*scene_, state_, workspace_, workers_);
 }
 
 Vector2 Probe::force_at(const Vector2& place, const Vector2& outward) {

@@ -34,7 +34,7 @@ struct Flight {
     const double speed = std::abs(scene->initial_velocity[2].y());
     while (state.time < 20.0 / speed) {
       if (!remembers_sides) {
-        std::fill(state.touching.side.begin(), state.touching.side.end(), 0);
+        std::fill(state.contacts.front().touching.side.begin(), state.contacts.front().touching.side.end(), 0);
       }
       advance_step(*scene, state, nullptr);
     }
@@ -52,7 +52,7 @@ TEST(Tunnelling, AContactTooSoftForTheSpeedLetsAWallThrough) {
 TEST(Tunnelling, AStepTooLongForTheSpeedHopsOverAWall) {
   Flight hop(100.0, 0.16 * kReach, 2.1 * kReach);
   EXPECT_LT(hop.height(true), -5.0);
-  EXPECT_EQ(hop.state.deepest_penetration, 0.0) << "no contact was seen, so nothing can tell";
+  EXPECT_EQ(hop.state.contact_totals.deepest_penetration, 0.0) << "no contact was seen, so nothing can tell";
   EXPECT_GT(Flight(100.0, 0.16 * kReach, 0.05 * kReach).height(true), 5.0);  // the chosen step of lattices
 }
 
@@ -130,12 +130,12 @@ TEST(ThickNeighbours, TouchAtEveryJointBeforeLoadingWithTheLiteralGap) {
   spec.elements_per_wall = 8;
   const auto scene = scenes::build(spec);
   const State sound = make_initial_state(*scene);
-  EXPECT_EQ(sound.contact_count, 0);
-  EXPECT_EQ(sound.contact_stored, 0.0);
+  EXPECT_EQ(sound.contact_totals.count, 0);
+  EXPECT_EQ(sound.contact_totals.stored, 0.0);
   scene->limited_reaches = {};
   const State literal = make_initial_state(*scene);
-  EXPECT_GT(literal.contact_count, 300);
-  EXPECT_GT(literal.deepest_penetration, 0.3);
+  EXPECT_GT(literal.contact_totals.count, 300);
+  EXPECT_GT(literal.contact_totals.deepest_penetration, 0.3);
 }
 
 }  // namespace

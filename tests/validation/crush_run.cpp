@@ -132,7 +132,7 @@ CrushRun run_crush(const SceneSpec& spec, double until, const CrushWatch& watch)
   run.status = simulation.status();
   run.summary = summarize(*scene, run.samples);
   run.limit = find_limit(run.samples);
-  run.deepest_birth = simulation.state().deepest_birth;
+  run.deepest_birth = simulation.state().contact_totals.deepest_birth;
   run.contact_work_share = least_contact_work_share(run.samples);
   run.plate_force_difference = plate_force_difference(run.samples);
   run.kinetic_over_work = greatest_kinetic_share(run.samples, &Sample::work_external, kSettled);

@@ -4,9 +4,28 @@
 
 namespace cellcrush {
 
+/// The faces that the balls of a band border (all faces, where there is but one band). F faces, C corners, G groups.
+struct FacesOfBand {
+  std::vector<int> number;  ///< F, among all faces
+  std::vector<int> offset;  ///< F + 1, into corners
+  std::vector<int>
+      particle;  ///< C, round each face with the face at the left: cells counter-clockwise, the outer clockwise
+  std::vector<int> element;  ///< C, from the corner to the next one of its face
+  /// Whether the last, the outer one, has all its corners; else those of the band and of its neighbours.
+  bool is_outer_whole = true;
+
+  // Faces beside each other, which are watched together; the outer face is the last and alone.
+  std::vector<int> group_offset;   ///< G + 1, into faces
+  std::vector<int> member_offset;  ///< G + 1, into members
+  std::vector<int> member;         ///< particles at the faces of a group, each once
+
+  [[nodiscard]] int count() const { return static_cast<int>(offset.size()) - 1; }
+  [[nodiscard]] int group_count() const { return static_cast<int>(group_offset.size()) - 1; }
+  [[nodiscard]] int corner_count(int face) const { return offset[face + 1] - offset[face]; }
+};
+
 /// The faces that elements make of the plane, for the search of contacts (contact/face_search.h): the cells and the outer
-/// border. F faces, C corners of all faces, E elements, G groups. Built by build_contact_faces; empty where contacts are
-/// searched by buckets.
+/// border. E elements. Built by build_contact_faces; empty where contacts are searched by buckets.
 struct ContactFaces {
   /// Why faces are enough to search, or why they are not.
   enum class Premise {
@@ -19,21 +38,10 @@ struct ContactFaces {
   };
   Premise premise = Premise::no_contact;
 
-  std::vector<int> offset;  ///< F + 1, into corners
-  std::vector<int>
-      particle;  ///< C, round each face with the face at the left: cells counter-clockwise, the outer clockwise
-  std::vector<int> element;  ///< C, from the corner to the next one of its face
-  std::vector<int> side;     ///< 2 E, the faces at the left and at the right of each element
-
-  // Faces beside each other, which are watched together; the outer face is the last and alone.
-  std::vector<int> group_offset;   ///< G + 1, into faces
-  std::vector<int> member_offset;  ///< G + 1, into members
-  std::vector<int> member;         ///< particles at the faces of a group, each once
+  std::vector<int> side;           ///< 2 E, the faces at the left and at the right of each element
+  std::vector<FacesOfBand> bands;  ///< as Scene::bands; a face is in the bands of all its balls
 
   [[nodiscard]] bool are_enough() const { return premise == Premise::holds; }
-  [[nodiscard]] int count() const { return static_cast<int>(offset.size()) - 1; }
-  [[nodiscard]] int group_count() const { return static_cast<int>(group_offset.size()) - 1; }
-  [[nodiscard]] int corner_count(int face) const { return offset[face + 1] - offset[face]; }
 };
 
 }  // namespace cellcrush

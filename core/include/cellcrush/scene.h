@@ -80,6 +80,20 @@ struct Walls {
   [[nodiscard]] int chunk_count() const { return static_cast<int>(chunk_offset.size()) - 1; }
 };
 
+/// A part of the lattice whose walls and particles follow each other. Its balls are its particles.
+struct LatticeBand {
+  int first_chunk = 0;  ///< of Walls
+  int end_chunk = 0;
+  int first_joint = 0;  ///< particles
+  int end_joint = 0;
+  int first_inner = 0;  ///< particles inside walls
+  int end_inner = 0;
+
+  [[nodiscard]] bool owns(int particle) const {
+    return (particle >= first_joint && particle < end_joint) || (particle >= first_inner && particle < end_inner);
+  }
+};
+
 /// Parts of the lattice that move without deforming, B of them. Their particles come first, body by body, and their walls,
 /// an element each, last among the elements: they bear no stress, but others touch them.
 struct RigidBodies {
@@ -195,6 +209,7 @@ struct Scene {
   double largest_radius = 0.0;         ///< mm
   std::vector<Element> elements;       ///< E
   Walls walls;                         ///< W
+  std::vector<LatticeBand> bands;      ///< of a large lattice, each beside the one before (scene/bands.h); else one
   RigidBodies rigid;
   std::vector<int> incidence_offset;  ///< N + 1, into incidence
   std::vector<int> incidence;         ///< elements at each particle, ascending

@@ -53,7 +53,7 @@ TEST(BucketGrid, AParticleThrownFarAwayCostsNoMemory) {
 
 void search(const Scene& scene, State& state) {
   scenes::follow_positions(scene, state);
-  list_by_buckets(scene, state);
+  list_by_buckets(scene, state, state.contacts.front());
 }
 
 Pairs near_pairs(const Scene& scene, const State& state) {
@@ -113,7 +113,8 @@ TEST(ContactSearch, CandidatesAParticleDoNotGrowWithTheLattice) {
     const auto scene = scenes::build(spec);
     Simulation simulation(scene);
     simulation.advance(scene->schedule.step_count);
-    return static_cast<double>(simulation.state().candidate_count) / static_cast<double>(scene->particle_count());
+    return static_cast<double>(simulation.state().contacts.front().candidate_count) /
+           static_cast<double>(scene->particle_count());
   };
   const double small = candidates_a_particle(10, 4);
   const double large = candidates_a_particle(20, 8);

@@ -34,8 +34,8 @@ const std::vector<std::pair<int, int>> kRing = {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
 
 TEST(ContactFaces, OfABlockAreItsCellsAndTheOuterBorder) {
   const auto scene = scenes::build(scenes::hexagon_block(7, 4));
-  const ContactFaces& faces = scene->faces;
-  ASSERT_TRUE(faces.are_enough());
+  ASSERT_TRUE(scene->faces.are_enough());
+  const FacesOfBand& faces = scene->faces.bands.front();
   EXPECT_EQ(faces.count(), 7 + 6 + 7 + 6 + 1);
   EXPECT_EQ(faces.particle.size(), 2 * scene->element_count());  // each element has two sides
   for (int face = 0; face + 1 < faces.count(); ++face) {
@@ -45,10 +45,10 @@ TEST(ContactFaces, OfABlockAreItsCellsAndTheOuterBorder) {
 
 TEST(ContactFaces, EveryElementHasAFaceAtEitherSideThatItBorders) {
   const auto scene = scenes::build(scenes::hexagon_block(5, 4));
-  const ContactFaces& faces = scene->faces;
+  const FacesOfBand& faces = scene->faces.bands.front();
   for (std::size_t e = 0; e < scene->element_count(); ++e) {
-    EXPECT_NE(faces.side[2 * e], faces.side[2 * e + 1]);
-    for (const int face : {faces.side[2 * e], faces.side[2 * e + 1]}) {
+    EXPECT_NE(scene->faces.side[2 * e], scene->faces.side[2 * e + 1]);
+    for (const int face : {scene->faces.side[2 * e], scene->faces.side[2 * e + 1]}) {
       const auto first = faces.element.begin() + faces.offset[face];
       EXPECT_EQ(std::count(first, first + faces.corner_count(face), static_cast<int>(e)), 1);
     }
@@ -57,7 +57,7 @@ TEST(ContactFaces, EveryElementHasAFaceAtEitherSideThatItBorders) {
 
 TEST(ContactFaces, AGroupHasEveryParticleOfItsFacesOnce) {
   const auto scene = scenes::build(scenes::hexagon_block(20, 10));
-  const ContactFaces& faces = scene->faces;
+  const FacesOfBand& faces = scene->faces.bands.front();
   ASSERT_GT(faces.group_count(), 3);
   EXPECT_EQ(faces.group_offset.back(), faces.count());
   for (int group = 0; group < faces.group_count(); ++group) {
@@ -92,7 +92,7 @@ TEST(ContactFaces, AreNotEnoughForTwoParts) {
   beams.insert(beams.end(), {{4, 5}, {5, 6}, {6, 4}});
   const auto scene = frame_of(nodes, beams);
   EXPECT_EQ(scene->faces.premise, Premise::several_parts);
-  EXPECT_TRUE(scene->faces.particle.empty());
+  EXPECT_TRUE(scene->faces.bands.empty());
 }
 
 // Input whose walls cross is refused where there is contact; should such a scene ever be built, Euler's formula tells.
@@ -104,7 +104,8 @@ TEST(ContactFaces, AreNotEnoughWhereElementsCrossWithoutAParticle) {
   }
   scene.incidence_offset = {0, 3, 6, 9, 12};
   scene.incidence = {0, 3, 4, 0, 1, 5, 1, 2, 4, 2, 3, 5};
-  EXPECT_EQ(build_contact_faces(scene).premise, Premise::not_planar);
+  build_contact_faces(scene);
+  EXPECT_EQ(scene.faces.premise, Premise::not_planar);
 }
 
 TEST(ContactFaces, AreLeftOutWhereNotAskedFor) {

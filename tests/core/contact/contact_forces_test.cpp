@@ -103,7 +103,7 @@ TEST(Contact, ForceIsTheGradientOfTheStoredEnergyRoundAKinkedChain) {
     const Vector2 place(x, ground + 0.93);
     const auto stored_at = [&](const Vector2& where) {
       probe.force_at(where, outward);
-      return probe.state().contact_stored;
+      return probe.state().contact_totals.stored;
     };
     const double reach = 1e-6;
     const Vector2 gradient(

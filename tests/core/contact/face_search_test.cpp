@@ -111,13 +111,13 @@ TEST(FaceSearch, AgreesWithBruteForceOnRandomPlanarStates) {
 /// The pairs that push or could.
 Pairs touching_pairs(const State& state) {
   Pairs pairs;
-  const TouchMemory& touching = state.touching;
+  const TouchMemory& touching = state.contacts.front().touching;
   for (std::size_t i = 0; i < touching.count(); ++i) {
     if (touching.side[i] != 0) {
       EXPECT_TRUE(pairs.emplace(touching.ball[i], touching.segment[i]).second) << "touches twice";
     }
   }
-  EXPECT_EQ(pairs.size() + state.parted.size(), touching.count());
+  EXPECT_EQ(pairs.size() + state.contacts.front().parted.size(), touching.count());
   return pairs;
 }
 
@@ -152,7 +152,7 @@ TEST(FaceSearch, MissesNoTouchUnderRandomKicks) {
       scenes::follow_positions(*scene, state);
       find_contacts(*scene, state, workers);
       ASSERT_LT(state.crossing_step, 0) << lattice << " at " << squeeze;
-      evaluate_contact_forces(*scene, state, workspace, workers);
+      scenes::evaluate_wall_contacts(*scene, state, workspace, workers);
       const Pairs listed = listed_pairs(state);
       const Pairs touching = touching_pairs(state);
       for (const scenes::Overlap& overlap : scenes::overlaps_by_buckets(*scene, state)) {
@@ -165,7 +165,7 @@ TEST(FaceSearch, MissesNoTouchUnderRandomKicks) {
     }
     EXPECT_GT(touches, 10000u) << lattice;
     // Many faces sleep: the test would be empty if all were searched in every step.
-    EXPECT_LT(state.face_search_count, 1200 * scene->faces.count() * 2 / 3) << lattice;
+    EXPECT_LT(state.contacts.front().face_search_count, 1200 * scene->faces.bands.front().count() * 2 / 3) << lattice;
   }
 }
 
@@ -173,8 +173,8 @@ TEST(FaceSearch, AnOpenLatticeHasNoCandidatesAndIsSeldomLookedAt) {
   SceneSpec spec = scenes::hexagon_block(8, 5);
   const auto scene = scenes::build(spec);
   State state = make_initial_state(*scene);
-  EXPECT_EQ(state.candidate_count, 0);
-  EXPECT_EQ(state.face_search_count, scene->faces.count());
+  EXPECT_EQ(state.contacts.front().candidate_count, 0);
+  EXPECT_EQ(state.contacts.front().face_search_count, scene->faces.bands.front().count());
   for (Vector2& velocity : state.velocity) {
     velocity = {1e5, -3e4};  // all alike: no gap closes
   }
@@ -182,7 +182,7 @@ TEST(FaceSearch, AnOpenLatticeHasNoCandidatesAndIsSeldomLookedAt) {
   for (int i = 0; i < 100; ++i) {
     find_contacts(*scene, state, workers);
   }
-  EXPECT_EQ(state.face_look_count, scene->faces.count());
+  EXPECT_EQ(state.contacts.front().face_look_count, scene->faces.bands.front().count());
 }
 
 State crush(const SceneSpec& spec, int steps) {
@@ -198,10 +198,10 @@ TEST(FaceSearch, GivesTheSameBitsAsBucketsWhileAllThatTouchesSharesAFace) {
   const State by_faces = crush(spec, 1200);
   spec.contact.search = ContactSpec::Search::buckets;
   const State by_buckets = crush(spec, 1200);
-  ASSERT_GT(by_faces.contact_count, 10);
-  EXPECT_TRUE(by_buckets.face_list.empty());
-  EXPECT_GT(by_buckets.search_count, 5);
-  EXPECT_EQ(by_faces.search_count, 0);
+  ASSERT_GT(by_faces.contact_totals.count, 10);
+  EXPECT_TRUE(by_buckets.contacts.front().face_list.empty());
+  EXPECT_GT(by_buckets.contacts.front().search_count, 5);
+  EXPECT_EQ(by_faces.contacts.front().search_count, 0);
   EXPECT_TRUE(by_faces.position == by_buckets.position);
   EXPECT_TRUE(by_faces.velocity == by_buckets.velocity);
   EXPECT_TRUE(by_faces.friction_force == by_buckets.friction_force);
@@ -227,7 +227,7 @@ TEST(FaceSearch, ACopyOfAStateGoesOnWithTheSameBits) {
     advance_step(*scene, state, nullptr);
     advance_step(*scene, copy, nullptr);
   }
-  EXPECT_GT(state.candidate_count, 100);
+  EXPECT_GT(state.contacts.front().candidate_count, 100);
   EXPECT_EQ(scenes::hash_of(copy), scenes::hash_of(state));
 }
 
@@ -249,7 +249,8 @@ TEST(FaceSearch, GoesOverToBucketsWhenAWallHasCrossedAnother) {
   const auto scene = scenes::build(scenes::hexagon_block(5, 4));
   State state = make_initial_state(*scene);
   Sampler sampler(*scene);
-  const int inner = scene->faces.particle[scene->faces.offset[scene->faces.count() / 2]];
+  const int inner =
+      scene->faces.bands.front().particle[scene->faces.bands.front().offset[scene->faces.bands.front().count() / 2]];
   const Vector2 place = state.position[inner];
   move_one(*scene, state, inner, place + Vector2(1.0, 0.7), 100);
   EXPECT_TRUE(scenes::find_crossings(*scene, state).empty());
@@ -261,8 +262,8 @@ TEST(FaceSearch, GoesOverToBucketsWhenAWallHasCrossedAnother) {
   EXPECT_GT(state.crossing_step, 100);
   EXPECT_TRUE(sampler.take(*scene, state).walls_crossed);
   State reference = state;
-  list_by_buckets(*scene, reference);
-  EXPECT_GT(state.search_count, 0);
+  list_by_buckets(*scene, reference, reference.contacts.front());
+  EXPECT_GT(state.contacts.front().search_count, 0);
   const Pairs listed = listed_pairs(state);
   for (const scenes::Overlap& overlap : scenes::overlaps_by_buckets(*scene, state)) {
     EXPECT_EQ(listed.count({overlap.ball, overlap.segment}), 1u);
@@ -297,9 +298,9 @@ TEST(FaceSearch, LeavesTheListsAsTheyAreAfterAPositionThatIsNotFinite) {
     scenes::follow_positions(*scene, spoiled);
     find_contacts(*scene, spoiled, workers);
     find_contacts(*scene, spoiled, workers);
-    EXPECT_EQ(spoiled.candidate_count, 0);
+    EXPECT_EQ(spoiled.contacts.front().candidate_count, 0);
     EXPECT_LT(spoiled.crossing_step, 0);
-    EXPECT_EQ(spoiled.face_search_count, state.face_search_count);
+    EXPECT_EQ(spoiled.contacts.front().face_search_count, state.contacts.front().face_search_count);
   }
 }
 

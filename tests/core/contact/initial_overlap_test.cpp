@@ -99,8 +99,8 @@ TEST(InitialOverlap, AnUndeformedLatticeOfThickWallsIsFreeOfForce) {
         const auto scene = scenes::build(spec);
         ASSERT_TRUE(scene);
         const State state = make_initial_state(*scene);
-        EXPECT_EQ(state.contact_count, 0) << spec.lattice.index() << " " << elements << " " << share;
-        EXPECT_EQ(state.contact_stored, 0.0);
+        EXPECT_EQ(state.contact_totals.count, 0) << spec.lattice.index() << " " << elements << " " << share;
+        EXPECT_EQ(state.contact_totals.stored, 0.0);
       };
       spec.lattice = hexagon;
       expect_no_force();

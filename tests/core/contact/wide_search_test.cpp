@@ -59,31 +59,31 @@ TEST(WideSearch, FindsTheCornersNearASegmentToTheSameBits) {
 }
 
 /// Candidates of three groups, every fifth of them or so awake.
-State some_candidates(std::size_t batches, bool by_faces, std::mt19937& generator) {
-  State state;
-  state.group_travel = {1.0, 2.0, 3.0};
+ContactLists some_candidates(std::size_t batches, bool by_faces, std::mt19937& generator) {
+  ContactLists lists;
+  lists.group_travel = {1.0, 2.0, 3.0};
   for (std::size_t place = 0; place < batches * kCandidateBatch; ++place) {
-    const double travel = by_faces ? state.group_travel[place / kCandidateBatch % 3] : 0.0;
+    const double travel = by_faces ? lists.group_travel[place / kCandidateBatch % 3] : 0.0;
     const bool awake = generator() % 5 == 0;
-    state.candidate_alarm.push_back(awake                  ? travel
+    lists.candidate_alarm.push_back(awake                  ? travel
                                     : generator() % 2 == 0 ? travel + 0.1
                                                            : std::numeric_limits<double>::infinity());
   }
   for (std::size_t batch = 0; by_faces && batch < batches; ++batch) {
-    state.batch_group.push_back(static_cast<int>(batch % 3));
+    lists.batch_group.push_back(static_cast<int>(batch % 3));
   }
-  return state;
+  return lists;
 }
 
 TEST(WideSearch, FindsTheCandidatesThatAreAwake) {
   std::mt19937 generator(5);
   for (const bool by_faces : {true, false}) {
     for (const std::size_t batches : {0, 1, 3, 8, 9, 100}) {
-      const State state = some_candidates(batches, by_faces, generator);
+      const ContactLists lists = some_candidates(batches, by_faces, generator);
       const std::size_t first = batches > 2 ? kCandidateBatch : 0;
       std::vector<int> awake;
-      for (std::size_t place = first; place < state.candidate_alarm.size(); ++place) {
-        if (state.candidate_alarm[place] <= travel_of_batch(state, place / kCandidateBatch)) {
+      for (std::size_t place = first; place < lists.candidate_alarm.size(); ++place) {
+        if (lists.candidate_alarm[place] <= travel_of_batch(lists, place / kCandidateBatch)) {
           awake.push_back(static_cast<int>(place));
         }
       }
@@ -93,7 +93,7 @@ TEST(WideSearch, FindsTheCandidatesThatAreAwake) {
         }
         constexpr int kUntouched = -7;
         std::vector<int> places(awake.size() + kCandidateBatch + 1, kUntouched);
-        const std::size_t count = find_awake_wide(state, first, state.candidate_alarm.size(), places.data());
+        const std::size_t count = find_awake_wide(lists, first, lists.candidate_alarm.size(), places.data());
         EXPECT_EQ(places.back(), kUntouched);
         places.resize(count);
         EXPECT_EQ(places, awake);

@@ -42,10 +42,10 @@ TEST_P(ContactSoundness, NoWallsCrossAndContactMakesNoEnergy) {
   EXPECT_EQ(simulation.status().kind, RunStatus::Kind::finished) << simulation.status().message;
   EXPECT_NEAR(sample.strain, 0.8, 1e-3);
   EXPECT_LT(sample.deepest_penetration, 0.25);
-  EXPECT_LT(simulation.state().deepest_birth, 0.10);
+  EXPECT_LT(simulation.state().contact_totals.deepest_birth, 0.10);
   EXPECT_LT(std::abs(sample.energy_residual), 0.01 * sample.work_external);
   RecordProperty("deepest_penetration", std::to_string(sample.deepest_penetration));
-  RecordProperty("deepest_birth", std::to_string(simulation.state().deepest_birth));
+  RecordProperty("deepest_birth", std::to_string(simulation.state().contact_totals.deepest_birth));
   RecordProperty("least_contact_energy_relative", std::to_string(least_contact_energy));
   RecordProperty("contact_damping_relative", std::to_string(sample.energy_contact_damping / sample.work_external));
 }

@@ -47,7 +47,7 @@ bool has_ball_of(const Scene& scene, const scenes::FaceNeighbours& neighbours, i
 /// The state with all candidates that the buckets find.
 State with_candidates_of_buckets(const Scene& scene, const State& state) {
   State copy = state;
-  list_by_buckets(scene, copy);
+  list_by_buckets(scene, copy, copy.contacts.front());
   return copy;
 }
 
@@ -93,8 +93,8 @@ TEST_P(FaceAudit, FindsEveryTouchThatPushesWithTheForceOfTheBuckets) {
     State reference = with_candidates_of_buckets(*scene, state);
     ContactWorkspace workspace;
     Workers workers(1);
-    evaluate_contact_forces(*scene, state, workspace, workers);
-    evaluate_contact_forces(*scene, reference, workspace, workers);
+    scenes::evaluate_wall_contacts(*scene, state, workspace, workers);
+    scenes::evaluate_wall_contacts(*scene, reference, workspace, workers);
     const double scale = scene->contact.stiffness * scene->elements.front().thickness;
     difference = std::max(difference, difference_of_forces(state, reference) / scale);
   }

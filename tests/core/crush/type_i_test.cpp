@@ -36,7 +36,7 @@ CountedCrush crush(SceneSpec spec) {
   }
   EXPECT_EQ(simulation.status().kind, RunStatus::Kind::finished) << simulation.status().message;
   crush.summary = summarize(*scene, crush.samples);
-  crush.deepest_birth = simulation.state().deepest_birth;
+  crush.deepest_birth = simulation.state().contact_totals.deepest_birth;
   testing::Test::RecordProperty("plateau_impact_mpa",
                                 std::to_string(crush.summary.plateau_stress_impact.value_or(0.0)));
   testing::Test::RecordProperty("plateau_support_mpa",

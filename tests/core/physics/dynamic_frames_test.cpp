@@ -128,7 +128,7 @@ Collision collide(int elements) {
   std::int64_t touching = 0;
   while (simulation.status().kind == RunStatus::Kind::running) {
     simulation.advance(1);
-    touching += simulation.state().contact_count > 0 ? 1 : 0;
+    touching += simulation.state().contact_totals.count > 0 ? 1 : 0;
     collision.first_speed = speed_of(simulation.state(), 0);
     collision.second_speed = speed_of(simulation.state(), elements + 1);
     collision.momentum_drift =

@@ -157,7 +157,7 @@ TEST(Friction, ABallSlidesAlongAStraightChainWithoutChatter) {
     const double heat = kFriction * drag.load * drag.way();
     EXPECT_NEAR(energies.friction, heat, 2e-4 * heat);  // it sticks for the first steps
     EXPECT_LT(energies.contact_damping, 1e-4 * energies.friction);
-    EXPECT_NEAR(energies.contact, drag.state.contact_stored, 1e-4 * energies.friction);
+    EXPECT_NEAR(energies.contact, drag.state.contact_totals.stored, 1e-4 * energies.friction);
     EXPECT_LT(std::abs(energies.residual), 1e-6 * energies.friction);
   }
 }

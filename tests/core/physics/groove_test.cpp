@@ -51,7 +51,7 @@ struct Groove {
       advance_step(*scene, state, nullptr);
       most = std::max(most, state.contact_force[tip].elastic.norm());
     }
-    return most / (scene->contact.stiffness * state.deepest_penetration);
+    return most / (scene->contact.stiffness * state.contact_totals.deepest_penetration);
   }
 };
 
@@ -61,7 +61,7 @@ TEST(Groove, LosslessContactTakesAndMakesNoEnergyAndNeverPushesTwice) {
     Groove groove(opening, 0.0, 0.1);
     EXPECT_LT(groove.advance(20e-3), 1.0 + 1e-9) << opening;
     const Energies energies = evaluate_energies(*groove.scene, groove.state);
-    EXPECT_NEAR(energies.contact, groove.state.contact_stored, 5e-3 * groove.state.ledger.initial) << opening;
+    EXPECT_NEAR(energies.contact, groove.state.contact_totals.stored, 5e-3 * groove.state.ledger.initial) << opening;
     EXPECT_LT(std::abs(energies.residual), 1e-3 * groove.state.ledger.initial) << opening;
   }
 }

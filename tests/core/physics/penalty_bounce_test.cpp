@@ -31,10 +31,10 @@ Bounce bounce(double omega_step, double damping_ratio, double& mass, double& sti
   State state = make_initial_state(*scene);
   Bounce result;
   int touching = 0;
-  for (int i = 0; i < 100000 && (touching == 0 || state.contact_count > 0); ++i) {
+  for (int i = 0; i < 100000 && (touching == 0 || state.contact_totals.count > 0); ++i) {
     advance_step(*scene, state, nullptr);
-    touching += state.contact_count > 0 ? 1 : 0;
-    result.peak_depth = std::max(result.peak_depth, state.deepest_penetration);
+    touching += state.contact_totals.count > 0 ? 1 : 0;
+    result.peak_depth = std::max(result.peak_depth, state.contact_totals.deepest_penetration);
     EXPECT_GE(state.contact_force[2].elastic.y() + state.contact_force[2].viscous.y(), 0.0);
   }
   advance_step(*scene, state, nullptr);

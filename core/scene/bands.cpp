@@ -1,0 +1,135 @@
+#include "scene/bands.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+
+namespace cellcrush {
+namespace {
+
+/// A smaller lattice stays in the caches as it is.
+constexpr std::size_t kLeastElements = 50'000;
+constexpr int kLeastBands = 8;
+constexpr int kLeastChunks = 8;
+/// Particles are moved in lots of so many, counted from the first joint and from the first particle inside a wall.
+constexpr int kMovedTogether = 256;
+
+bool may_be_cut(const Scene& scene) {
+  return scene.element_count() >= kLeastElements && scene.rigid.count() == 0 && scene.supports.empty() &&
+         !scene.is_loaded() && scene.contact.friction == 0.0;
+}
+
+int whole_lots(int count) { return (count + kMovedTogether - 1) / kMovedTogether * kMovedTogether; }
+
+/// Where the particles inside the walls of a chunk end.
+int end_of_inner(const Walls& walls, int chunk) {
+  const WallBlock& last = walls.blocks[walls.chunk_offset[chunk + 1] - 1];
+  return last.first_inner + last.walls * (last.elements - 1);
+}
+
+std::vector<LatticeBand> cut(const Scene& scene, int chunks) {
+  const int all_chunks = scene.walls.chunk_count();
+  const int joints = scene.joint_count;
+  const auto particles = static_cast<int>(scene.particle_count());
+  std::vector<LatticeBand> bands;
+  LatticeBand band = {0, 0, 0, 0, joints, joints};
+  while (band.end_chunk < all_chunks) {
+    band.first_chunk = band.end_chunk;
+    band.first_joint = band.end_joint;
+    band.first_inner = band.end_inner;
+    band.end_chunk = std::min(all_chunks, band.first_chunk + chunks);
+    const bool is_last = band.end_chunk == all_chunks;
+    // Whoever has a wall in the band moves with it or before it.
+    band.end_joint = is_last ? joints : std::min(joints, whole_lots(scene.walls.first_joint[band.end_chunk]));
+    band.end_inner =
+        is_last ? particles
+                : std::min(particles, joints + whole_lots(end_of_inner(scene.walls, band.end_chunk - 1) - joints));
+    bands.push_back(band);
+  }
+  return bands;
+}
+
+/// Of every element, the band that has its wall.
+std::vector<int> bands_of_elements(const Scene& scene, const std::vector<LatticeBand>& bands) {
+  std::vector<int> band_of(scene.element_count());
+  for (std::size_t b = 0; b < bands.size(); ++b) {
+    const std::vector<int>& chunks = scene.walls.chunk_offset;
+    const std::size_t end = chunks[bands[b].end_chunk];
+    const int first_element = scene.walls.blocks[chunks[bands[b].first_chunk]].first_element;
+    const int end_element =
+        end < scene.walls.blocks.size() ? scene.walls.blocks[end].first_element : static_cast<int>(band_of.size());
+    std::fill(band_of.begin() + first_element, band_of.begin() + end_element, static_cast<int>(b));
+  }
+  return band_of;
+}
+
+/// Whether every band has to do with its neighbours only.
+bool are_apart(const Scene& scene, const FaceLoops& loops, const std::vector<LatticeBand>& bands) {
+  const std::vector<int> of_particle = bands_of_particles(scene, bands);
+  const std::vector<int> of_element = bands_of_elements(scene, bands);
+  for (std::size_t e = 0; e < scene.element_count(); ++e) {
+    for (const int particle : {scene.elements[e].start, scene.elements[e].end}) {
+      if (of_particle[particle] > of_element[e] || of_particle[particle] < of_element[e] - 1) {
+        return false;
+      }
+    }
+  }
+  std::vector<bool> has_border(bands.size(), false);
+  for (std::size_t loop = 0; loop < loops.count(); ++loop) {
+    const std::span<const int> particles = loops.particles_of(loop);
+    if (loops.area[loop] < 0.0) {
+      for (const int particle : particles) {
+        has_border[of_particle[particle]] = true;
+      }
+      continue;
+    }
+    int first = of_particle[particles.front()];
+    int last = first;
+    for (const int particle : particles) {
+      first = std::min(first, of_particle[particle]);
+      last = std::max(last, of_particle[particle]);
+    }
+    if (last >= first + kBandsAtFace) {
+      return false;
+    }
+    for (const int particle : particles) {
+      for (int k = scene.incidence_offset[particle]; k < scene.incidence_offset[particle + 1]; ++k) {
+        const int band = of_element[scene.incidence[k]];
+        if (band < last - 1 || band > first + 1) {
+          return false;
+        }
+      }
+    }
+  }
+  return std::all_of(has_border.begin(), has_border.end(), [](bool has) { return has; });
+}
+
+}  // namespace
+
+LatticeBand whole_band(const Scene& scene) {
+  return {
+      0, scene.walls.chunk_count(), 0, scene.joint_count, scene.joint_count, static_cast<int>(scene.particle_count())};
+}
+
+std::vector<LatticeBand> cut_into_bands(const Scene& scene, const FaceLoops& loops) {
+  if (may_be_cut(scene)) {
+    for (int chunks = kLeastChunks; chunks * kLeastBands <= scene.walls.chunk_count(); chunks += kLeastChunks) {
+      std::vector<LatticeBand> bands = cut(scene, chunks);
+      if (are_apart(scene, loops, bands)) {
+        return bands;
+      }
+    }
+  }
+  return {whole_band(scene)};
+}
+
+std::vector<int> bands_of_particles(const Scene& scene, const std::vector<LatticeBand>& bands) {
+  std::vector<int> band_of(scene.particle_count());
+  for (std::size_t b = 0; b < bands.size(); ++b) {
+    std::fill(band_of.begin() + bands[b].first_joint, band_of.begin() + bands[b].end_joint, static_cast<int>(b));
+    std::fill(band_of.begin() + bands[b].first_inner, band_of.begin() + bands[b].end_inner, static_cast<int>(b));
+  }
+  return band_of;
+}
+
+}  // namespace cellcrush
