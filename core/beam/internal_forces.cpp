@@ -96,7 +96,8 @@ void evaluate_walls(const Scene& scene, State& state, FibreMemory<T>& memory) {
 
 void evaluate_internal_forces(const Scene& scene, State& state, WallsWorkspace& workspace, Workers& workers,
                               const std::function<void()>& meanwhile) {
-  if (use_wide_kernels() && evaluate_walls_wide(scene, state, workspace, workers, meanwhile)) {
+  if (use_wide_kernels() && has_vector_kernel(scene.section)) {
+    evaluate_walls_wide(scene, state, workspace, workers, meanwhile);
     return;
   }
   scene.single_fibres ? evaluate_walls(scene, state, state.single_fibres) : evaluate_walls(scene, state, state.fibres);

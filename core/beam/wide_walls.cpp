@@ -149,10 +149,9 @@ void advance_beside(const Loops& loops, const Scene& scene, State& state, WallsW
 }
 
 /// Every chunk's work is a number of its own, so that the sum does not depend on who computes them.
-template <int kSections, int kDepthPoints, bool kForceBased, bool kHardening, class T>
-void evaluate_blocks(const Scene& scene, State& state, FibreMemory<T>& memory, WallsWorkspace& workspace,
-                     Workers& workers, const std::function<void()>& meanwhile) {
-  const WallLoops<kSections, kDepthPoints, kForceBased, kHardening, T> loops(scene, state, memory);
+template <class T, class Loops>
+void evaluate_loops(const Loops& loops, const Scene& scene, State& state, WallsWorkspace& workspace, Workers& workers,
+                    const std::function<void()>& meanwhile) {
   workspace.plastic_work.resize(loops.count());
   if (workers.count() > 1 && scene.element_count() <= kMostElementsBeside) {
     advance_beside<T>(loops, scene, state, workspace, workers, meanwhile);
@@ -165,34 +164,42 @@ void evaluate_blocks(const Scene& scene, State& state, FibreMemory<T>& memory, W
   }
 }
 
-template <int kSections, int kDepthPoints, bool kForceBased, class T>
-void evaluate_rule(const Scene& scene, State& state, FibreMemory<T>& memory, WallsWorkspace& workspace,
-                   Workers& workers, const std::function<void()>& meanwhile) {
-  if (scene.has_hardening()) {
-    evaluate_blocks<kSections, kDepthPoints, kForceBased, true>(scene, state, memory, workspace, workers, meanwhile);
-  } else {
-    evaluate_blocks<kSections, kDepthPoints, kForceBased, false>(scene, state, memory, workspace, workers, meanwhile);
-  }
-}
-
-template <class T>
-bool evaluate_memory(const Scene& scene, State& state, FibreMemory<T>& memory, WallsWorkspace& workspace,
-                     Workers& workers, const std::function<void()>& meanwhile) {
-  if (!has_vector_kernel(scene.section)) {
-    return false;
-  }
+/// Calls use(a number of the fibres' type, the loops of the scene's rule).
+template <class T, class Use>
+void with_loops(const Scene& scene, State& state, FibreMemory<T>& memory, const Use& use) {
   if (scene.section.force_based) {
-    evaluate_rule<4, 6, true>(scene, state, memory, workspace, workers, meanwhile);
+    scene.has_hardening() ? use(T(), WallLoops<4, 6, true, true, T>(scene, state, memory))
+                          : use(T(), WallLoops<4, 6, true, false, T>(scene, state, memory));
   } else {
-    evaluate_rule<2, 6, false>(scene, state, memory, workspace, workers, meanwhile);
+    scene.has_hardening() ? use(T(), WallLoops<2, 6, false, true, T>(scene, state, memory))
+                          : use(T(), WallLoops<2, 6, false, false, T>(scene, state, memory));
   }
-  return true;
 }
 
-bool evaluate_wide(const Scene& scene, State& state, WallsWorkspace& workspace, Workers& workers,
+template <class Use>
+void with_loops(const Scene& scene, State& state, const Use& use) {
+  scene.single_fibres ? with_loops(scene, state, state.single_fibres, use)
+                      : with_loops(scene, state, state.fibres, use);
+}
+
+void evaluate_wide(const Scene& scene, State& state, WallsWorkspace& workspace, Workers& workers,
                    const std::function<void()>& meanwhile) {
-  return scene.single_fibres ? evaluate_memory(scene, state, state.single_fibres, workspace, workers, meanwhile)
-                             : evaluate_memory(scene, state, state.fibres, workspace, workers, meanwhile);
+  with_loops(scene, state, [&](auto number, const auto& loops) HWY_ATTR {
+    evaluate_loops<decltype(number)>(loops, scene, state, workspace, workers, meanwhile);
+  });
+}
+
+void evaluate_band(const Scene& scene, State& state, const LatticeBand& band, WallsWorkspace& workspace,
+                   double* plastic_work) {
+  const std::vector<int>& end_joint = scene.walls.end_joint;
+  with_loops(scene, state, [&](auto number, const auto& loops) HWY_ATTR {
+    int joint = band.first_chunk > 0 ? end_joint[band.first_chunk - 1] : 0;
+    for (int c = band.first_chunk; c < band.end_chunk; ++c) {
+      plastic_work[c] = loops.advance(static_cast<std::size_t>(c), workspace.passed_of<decltype(number)>());
+      sum_joint_forces(scene, state, joint, end_joint[c]);
+      joint = std::max(joint, end_joint[c]);
+    }
+  });
 }
 
 }  // namespace cellcrush::HWY_NAMESPACE
@@ -202,10 +209,16 @@ HWY_AFTER_NAMESPACE();
 namespace cellcrush {
 
 HWY_EXPORT(evaluate_wide);
+HWY_EXPORT(evaluate_band);
 
-bool evaluate_walls_wide(const Scene& scene, State& state, WallsWorkspace& workspace, Workers& workers,
+void evaluate_walls_wide(const Scene& scene, State& state, WallsWorkspace& workspace, Workers& workers,
                          const std::function<void()>& meanwhile) {
-  return HWY_DYNAMIC_DISPATCH(evaluate_wide)(scene, state, workspace, workers, meanwhile);
+  HWY_DYNAMIC_DISPATCH(evaluate_wide)(scene, state, workspace, workers, meanwhile);
+}
+
+void evaluate_band_walls_wide(const Scene& scene, State& state, const LatticeBand& band, WallsWorkspace& workspace,
+                              double* plastic_work) {
+  HWY_DYNAMIC_DISPATCH(evaluate_band)(scene, state, band, workspace, plastic_work);
 }
 
 }  // namespace cellcrush

@@ -22,8 +22,13 @@ inline bool has_vector_kernel(const SectionRule& rule) {
 inline constexpr std::size_t kMostElementsBeside = 20'000;
 
 /// evaluate_internal_forces with the processor's vector instructions, the walls of a block at once: the same equations as
-/// evaluate_element. Returns false, and does nothing, for section rules without a vector kernel.
-bool evaluate_walls_wide(const Scene& scene, State& state, WallsWorkspace& workspace, Workers& workers,
+/// evaluate_element. REQUIRES: has_vector_kernel.
+void evaluate_walls_wide(const Scene& scene, State& state, WallsWorkspace& workspace, Workers& workers,
                          const std::function<void()>& meanwhile);
+
+/// The same of a band's walls, and the sums of joints that have no walls behind them. Overwrites each chunk's plastic work,
+/// N mm, which is not booked. REQUIRES: the bands before have been evaluated.
+void evaluate_band_walls_wide(const Scene& scene, State& state, const LatticeBand& band, WallsWorkspace& workspace,
+                              double* plastic_work);
 
 }  // namespace cellcrush

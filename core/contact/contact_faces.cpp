@@ -16,8 +16,10 @@ namespace {
 
 using Premise = ContactFaces::Premise;
 
-/// Faces that are watched together.
+/// Faces that are watched together. Bands are narrow across the crush, so that as many would be long along it.
 constexpr int kFacesPerGroup = 64;
+constexpr int kFacesPerGroupOfBands = 32;
+int faces_per_group(const Scene& scene) { return scene.bands.size() > 1 ? kFacesPerGroupOfBands : kFacesPerGroup; }
 
 bool is_one_part(const Scene& scene) {
   std::vector<bool> reached(scene.particle_count(), false);
@@ -88,7 +90,7 @@ std::vector<std::size_t> order_of(const Scene& scene, const FaceLoops& loops, co
     low = low.cwiseMin(corner_of(i));
     high = high.cwiseMax(corner_of(i));
   }
-  const double area_of_patch = kFacesPerGroup * (high - low).prod() / static_cast<double>(loops.count());
+  const double area_of_patch = faces_per_group(scene) * (high - low).prod() / static_cast<double>(loops.count());
   const double strip = std::sqrt(area_of_patch / kPatchAspect);
   const int axis = scene.plates.axis;
   struct Place {
@@ -116,12 +118,12 @@ std::vector<std::size_t> order_of(const Scene& scene, const FaceLoops& loops, co
 
 /// Puts a loop's corners that `is_in` last among a band's faces. Faces that are watched together have the same home.
 template <class IsIn>
-void add_face(const FaceLoops& loops, std::size_t loop, int number, bool begins_group, const IsIn& is_in,
-              FacesOfBand& faces) {
+void add_face(const FaceLoops& loops, std::size_t loop, int number, bool begins_group, int most_in_group,
+              const IsIn& is_in, FacesOfBand& faces) {
   if (faces.offset.empty()) {
     faces.offset.push_back(0);
   }
-  if (begins_group || faces.count() - faces.group_offset.back() == kFacesPerGroup) {
+  if (begins_group || faces.count() - faces.group_offset.back() == most_in_group) {
     faces.group_offset.push_back(faces.count());
   }
   for (int k = loops.offset[loop]; k < loops.offset[loop + 1]; ++k) {
@@ -159,7 +161,8 @@ void take_faces(const Scene& scene, const FaceLoops& loops, const std::vector<in
     for (int band = first; band < (is_outer ? bands : std::min(bands, first + kBandsAtFace)); ++band) {
       if (is_outer || band == first || has(band)) {
         const auto is_in = [&](int particle) { return !is_outer || std::abs(band_of[particle] - band) <= 1; };
-        add_face(loops, loop, number, is_outer || home[band] != first, is_in, faces.bands[band]);
+        add_face(loops, loop, number, is_outer || home[band] != first, faces_per_group(scene), is_in,
+                 faces.bands[band]);
         home[band] = first;
       }
     }

@@ -18,17 +18,21 @@ bool search_bands(const Scene& scene, State& state, Workers& workers) {
 
 }  // namespace
 
+bool searches_faces(const Scene& scene, const State& state) {
+  return scene.faces.are_enough() && state.contacts.front().searched_position.empty() && state.crossing_step < 0;
+}
+
 void find_contacts(const Scene& scene, State& state, Workers& workers) {
   if (!scene.contact.present) {
     return;
   }
-  if (scene.faces.are_enough() && state.crossing_step < 0) {
+  if (searches_faces(scene, state)) {
     if (!search_bands(scene, state, workers)) {
-      put_into_one_list(state);
       state.crossing_step = state.step;
+      put_into_one_list(state);
     }
   }
-  if (!scene.faces.are_enough() || state.crossing_step >= 0) {
+  if (!searches_faces(scene, state)) {
     search_buckets(scene, state, state.contacts.front());
   }
 }

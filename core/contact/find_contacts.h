@@ -15,4 +15,7 @@ namespace cellcrush {
 /// After a non-finite position the list is left as it is; the run is stopped by its check of the state.
 void find_contacts(const Scene& scene, State& state, Workers& workers);
 
+/// Whether it goes by faces still.
+bool searches_faces(const Scene& scene, const State& state);
+
 }  // namespace cellcrush

@@ -49,9 +49,9 @@ TouchMemory merge(const std::vector<ContactLists>& contacts) {
 
 void put_into_one_list(State& state) {
   if (state.contacts.size() > 1) {
-    std::vector<ContactLists> one(1);
-    one.front().touching = merge(state.contacts);
-    state.contacts = std::move(one);
+    TouchMemory merged = merge(state.contacts);
+    state.contacts.assign(state.contacts.size(), ContactLists());
+    state.contacts.front().touching = std::move(merged);
     return;
   }
   ContactLists& lists = state.contacts.front();

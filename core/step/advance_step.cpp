@@ -7,30 +7,13 @@
 #include "contact/find_contacts.h"
 #include "contact/plate_forces.h"
 #include "energy/ledger.h"
-#include "scene/bands.h"
+#include "step/advance_block.h"
 #include "step/integrate_motion.h"
 #include "step/loads.h"
+#include "step/stage_teller.h"
 
 namespace cellcrush {
 namespace {
-
-class StageTeller {
- public:
-  explicit StageTeller(StageObserver* observer) : observer_(observer) {}
-  void begin(Stage stage) const {
-    if (observer_ != nullptr) {
-      observer_->begin(stage);
-    }
-  }
-  void end_step() const {
-    if (observer_ != nullptr) {
-      observer_->end_step();
-    }
-  }
-
- private:
-  StageObserver* observer_;
-};
 
 /// The contacts' and the plates' forces on a band's particles, or on all.
 void evaluate_contacts(const Scene& scene, State& state, ContactLists& lists, const LatticeBand& band,
@@ -49,12 +32,10 @@ void evaluate_all_contacts(const Scene& scene, State& state, const NearPlates& n
   teller.begin(Stage::evaluate_contact_forces);
   renew_contact_lots(scene, state, 1);
   ContactSums sums = begin_contact_sums(state);
-  if (state.contacts.size() == 1) {
-    evaluate_contacts(scene, state, state.contacts.front(), whole_band(scene), near_plates, workspace, teller, sums);
-  } else {
-    for (std::size_t b = 0; b < state.contacts.size(); ++b) {
-      evaluate_contacts(scene, state, state.contacts[b], scene.bands[b], std::nullopt, workspace, teller, sums);
-    }
+  const bool is_whole = scene.bands.size() == 1;
+  for (std::size_t b = 0; b < scene.bands.size(); ++b) {
+    evaluate_contacts(scene, state, state.contacts[b], scene.bands[b], is_whole ? near_plates : std::nullopt, workspace,
+                      teller, sums);
   }
   put_contact_sums(sums, state);
 }
@@ -88,6 +69,18 @@ void advance_step(const Scene& scene, State& state, Workspace& workspace, StageO
   const NearPlates near_plates = integrate_motion(scene, state, workspace.motion, workspace.workers);
   evaluate_forces(scene, state, near_plates, workspace, teller);
   teller.end_step();
+}
+
+void advance_steps(const Scene& scene, State& state, Workspace& workspace, std::int64_t steps,
+                   StageObserver* observer) {
+  const std::int64_t end = state.step + steps;
+  while (state.step < end) {
+    if (can_advance_blocks(scene, state)) {
+      advance_block(scene, state, workspace, steps_in_block(scene, workspace, end - state.step), observer);
+    } else {
+      advance_step(scene, state, workspace, observer);
+    }
+  }
 }
 
 void advance_step(const Scene& scene, State& state, StageObserver* observer) {

@@ -66,8 +66,8 @@ Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
 void Simulation::advance(std::int64_t steps, StageObserver* observer) {
   const std::int64_t last = std::min(impl_->state.step + steps, impl_->scene->schedule.step_count);
-  while (impl_->status.kind == RunStatus::Kind::running && impl_->state.step < last) {
-    advance_step(*impl_->scene, impl_->state, impl_->workspace, observer);
+  if (impl_->status.kind == RunStatus::Kind::running && impl_->state.step < last) {
+    advance_steps(*impl_->scene, impl_->state, impl_->workspace, last - impl_->state.step, observer);
   }
   if (impl_->status.kind == RunStatus::Kind::running && impl_->state.step >= impl_->scene->schedule.step_count) {
     impl_->status.kind = RunStatus::Kind::finished;
@@ -107,6 +107,7 @@ bool Simulation::restore(std::string_view checkpoint) {
   ByteReader reader(checkpoint);
   std::uint64_t format = 0;
   State state;
+  state.contacts.resize(impl_->scene->bands.size());
   Sampler sampler(*impl_->scene);
   FieldFrame last_good;
   std::int64_t last_good_step = 0;

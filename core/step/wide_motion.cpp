@@ -262,7 +262,7 @@ struct Group {
   std::size_t first;
   std::size_t end;
 
-  static constexpr std::size_t kChunk = 256;
+  static constexpr std::size_t kChunk = kParticlesMovedTogether;
 
   [[nodiscard]] std::size_t chunk_count() const { return (end - first + kChunk - 1) / kChunk; }
 };
@@ -277,34 +277,55 @@ Motion motion_over_step(const Scene& scene) {
   return {scene.schedule.time_step, keep, gain, 0.5 * scene.mass_damping};
 }
 
+/// Moves chunks of a group, of which the first is `before` among all.
+template <bool kFriction, bool kMassDamping>
+void move_chunks(const Scene& scene, State& state, const PlateReach& reach, const Group& group, std::size_t before,
+                 std::size_t first_chunk, std::size_t end_chunk, MovedChunk* moved, int* near_plates) {
+  const Motion motion = motion_over_step(scene);
+  const ParticleArrays<State> arrays(scene, state);
+  for (std::size_t c = first_chunk; c < end_chunk; ++c) {
+    const std::size_t first = group.first + c * Group::kChunk;
+    const std::size_t end = std::min(first + Group::kChunk, group.end);
+    NearPlatesNotes near(scene, state, reach, &near_plates[first]);
+    const WorksOfMotion works = move_chunk<kFriction, kMassDamping>(arrays, motion, first, end, near);
+    moved[before + c] = {works, first, near.count()};
+  }
+}
+
 /// Every chunk's works are numbers of their own, so that the sums do not depend on who computes them. Joints and particles
 /// inside walls are dealt out each by themselves, as the joints' sums and the walls are, so that a thread finds in its cache
 /// what it has written.
 template <bool kFriction, bool kMassDamping>
 void move_all(const Scene& scene, State& state, const PlateReach& reach, MotionWorkspace& workspace, Workers& workers) {
-  const Motion motion = motion_over_step(scene);
-  const ParticleArrays<State> arrays(scene, state);
   const std::array<Group, 2> groups = groups_of(scene);
-  workspace.chunks.resize(groups[0].chunk_count() + groups[1].chunk_count());
+  workspace.chunks.resize(moved_chunk_count(scene));
   workspace.near_plates.resize(scene.particle_count());
   workers.share_parts(
       static_cast<std::size_t>(workers.count()), 1, [&](std::size_t part, std::size_t, std::size_t) HWY_ATTR {
         std::size_t before = 0;
         for (const Group& group : groups) {
           const std::size_t chunks = group.chunk_count();
-          for (std::size_t c = workers.start_of_part(chunks, part); c < workers.start_of_part(chunks, part + 1); ++c) {
-            const std::size_t first = group.first + c * Group::kChunk;
-            const std::size_t end = std::min(first + Group::kChunk, group.end);
-            NearPlatesNotes near(scene, state, reach, &workspace.near_plates[first]);
-            const WorksOfMotion works = move_chunk<kFriction, kMassDamping>(arrays, motion, first, end, near);
-            workspace.chunks[before + c] = {works, first, near.count()};
-          }
+          move_chunks<kFriction, kMassDamping>(scene, state, reach, group, before, workers.start_of_part(chunks, part),
+                                               workers.start_of_part(chunks, part + 1), workspace.chunks.data(),
+                                               workspace.near_plates.data());
           before += chunks;
         }
       });
   for (const MovedChunk& chunk : workspace.chunks) {
     chunk.works.book(state.ledger);
   }
+}
+
+template <bool kFriction, bool kMassDamping>
+void move_band(const Scene& scene, State& state, const PlateReach& reach, const LatticeBand& band, MovedChunk* moved,
+               int* near_plates) {
+  const std::array<Group, 2> groups = groups_of(scene);
+  const MovedRanges ranges = moved_ranges_of(scene, band);
+  const std::size_t joints = groups[0].chunk_count();
+  move_chunks<kFriction, kMassDamping>(scene, state, reach, groups[0], 0, ranges.first_of_joints, ranges.end_of_joints,
+                                       moved, near_plates);
+  move_chunks<kFriction, kMassDamping>(scene, state, reach, groups[1], joints, ranges.first_of_inner - joints,
+                                       ranges.end_of_inner - joints, moved, near_plates);
 }
 
 template <bool kFriction, bool kMassDamping>
@@ -330,6 +351,14 @@ void move_wide(const Scene& scene, State& state, const PlateReach& reach, Motion
   move_them(scene, state, reach, workspace, workers);
 }
 
+void move_band_wide(const Scene& scene, State& state, const PlateReach& reach, const LatticeBand& band,
+                    MovedChunk* moved, int* near_plates) {
+  const bool damped = scene.mass_damping > 0.0;
+  const auto move_it = state.friction_force.empty() ? (damped ? move_band<false, true> : move_band<false, false>)
+                                                    : (damped ? move_band<true, true> : move_band<true, false>);
+  move_it(scene, state, reach, band, moved, near_plates);
+}
+
 WorksOfMotion look_wide(const Scene& scene, const State& state) {
   const bool damped = scene.mass_damping > 0.0;
   if (state.friction_force.empty()) {
@@ -344,7 +373,17 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace cellcrush {
 
+MovedRanges moved_ranges_of(const Scene& scene, const LatticeBand& band) {
+  const auto chunk_of = [](int particles) {
+    return static_cast<std::size_t>((particles + kParticlesMovedTogether - 1) / kParticlesMovedTogether);
+  };
+  const std::size_t joints = chunk_of(scene.joint_count);
+  return {chunk_of(band.first_joint), chunk_of(band.end_joint), joints + chunk_of(band.first_inner - scene.joint_count),
+          joints + chunk_of(band.end_inner - scene.joint_count)};
+}
+
 HWY_EXPORT(move_wide);
+HWY_EXPORT(move_band_wide);
 HWY_EXPORT(look_wide);
 
 bool have_wide_motion(const Scene& scene) {
@@ -354,6 +393,11 @@ bool have_wide_motion(const Scene& scene) {
 void move_particles_wide(const Scene& scene, State& state, const PlateReach& reach, MotionWorkspace& workspace,
                          Workers& workers) {
   HWY_DYNAMIC_DISPATCH(move_wide)(scene, state, reach, workspace, workers);
+}
+
+void move_band_of_particles_wide(const Scene& scene, State& state, const PlateReach& reach, const LatticeBand& band,
+                                 MovedChunk* moved, int* near_plates) {
+  HWY_DYNAMIC_DISPATCH(move_band_wide)(scene, state, reach, band, moved, near_plates);
 }
 
 WorksOfMotion look_at_particles_wide(const Scene& scene, const State& state) {

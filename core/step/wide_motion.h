@@ -45,6 +45,28 @@ struct MovedChunk {
   std::size_t near_count = 0;  ///< of those that may be near a plate, in near_plates from `first` on
 };
 
+/// Particles that are moved together at most: so many joints, or so many particles inside walls, from the first on.
+inline constexpr int kParticlesMovedTogether = 256;
+
+/// Chunks of all particles, those of joints first.
+inline std::size_t moved_chunk_count(const Scene& scene) {
+  const auto chunks_of = [](std::size_t particles) {
+    return (particles + kParticlesMovedTogether - 1) / kParticlesMovedTogether;
+  };
+  const auto joints = static_cast<std::size_t>(scene.joint_count);
+  return chunks_of(joints - static_cast<std::size_t>(scene.rigid.particle_count())) +
+         chunks_of(scene.particle_count() - joints);
+}
+
+/// Which of them are a band's.
+struct MovedRanges {
+  std::size_t first_of_joints;
+  std::size_t end_of_joints;
+  std::size_t first_of_inner;
+  std::size_t end_of_inner;
+};
+MovedRanges moved_ranges_of(const Scene& scene, const LatticeBand& band);
+
 /// Room for integrate_motion, kept from step to step so that none allocates.
 struct MotionWorkspace {
   std::vector<MovedChunk> chunks;  ///< particles ascending
@@ -58,6 +80,11 @@ bool have_wide_motion(const Scene& scene);
 /// books the works. REQUIRES: have_wide_motion.
 void move_particles_wide(const Scene& scene, State& state, const PlateReach& reach, MotionWorkspace& workspace,
                          Workers& workers);
+
+/// The same of a band's particles. Overwrites the band's chunks among all, and behind each one's first place the particles that
+/// may be near a plate; books nothing.
+void move_band_of_particles_wide(const Scene& scene, State& state, const PlateReach& reach, const LatticeBand& band,
+                                 MovedChunk* moved, int* near_plates);
 
 /// The works of the newest forces over the half step up to the state's time, and the energy then. REQUIRES: have_wide_motion.
 WorksOfMotion look_at_particles_wide(const Scene& scene, const State& state);

@@ -36,14 +36,16 @@ void evaluate_wall_contacts(const Scene& scene, State& state, ContactWorkspace& 
 
 Pairs listed_pairs(const State& state) {
   Pairs pairs;
-  for (std::size_t k = 0; k < state.contacts.front().candidate_ball.size(); ++k) {
-    if (state.contacts.front().candidate_reach[k] > 0.0) {
-      EXPECT_TRUE(
-          pairs.emplace(state.contacts.front().candidate_ball[k], state.contacts.front().candidate_segment[k]).second)
-          << "listed twice";
+  std::int64_t count = 0;
+  for (const ContactLists& lists : state.contacts) {
+    for (std::size_t k = 0; k < lists.candidate_ball.size(); ++k) {
+      if (lists.candidate_reach[k] > 0.0) {
+        EXPECT_TRUE(pairs.emplace(lists.candidate_ball[k], lists.candidate_segment[k]).second) << "listed twice";
+      }
     }
+    count += lists.candidate_count;
   }
-  EXPECT_EQ(static_cast<std::int64_t>(pairs.size()), state.contacts.front().candidate_count);
+  EXPECT_EQ(static_cast<std::int64_t>(pairs.size()), count);
   return pairs;
 }
 

@@ -1,0 +1,201 @@
+#include "step/advance_block.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "beam/wide_walls.h"
+#include "contact/border_check.h"
+#include "contact/bucket_search.h"
+#include "contact/contact_forces.h"
+#include "contact/contact_lots.h"
+#include "contact/face_search.h"
+#include "contact/find_contacts.h"
+#include "contact/one_list.h"
+#include "contact/plate_forces.h"
+#include "energy/ledger.h"
+#include "simd/target.h"
+#include "step/stage_teller.h"
+#include "step/wide_motion.h"
+
+namespace cellcrush {
+namespace {
+
+constexpr std::int64_t kMostSteps = 10;
+constexpr std::int64_t kStepsBetweenChecks = 64;  ///< of the border
+
+/// Bytes of an element with what goes with it, and what of the last cache a block's bands may fill. On an AMD EPYC with 32 MB,
+/// 16 times the cells of Type I, one thread, before contacts: 4, 7, 10, 20 steps 9.3, 8.5, 8.3, 9.3 ns an element-step.
+constexpr std::size_t kBytesOfElement = 430;
+constexpr std::size_t kCacheBytes = 28'000'000;
+
+/// Bands by which a step is behind the one before it. A band's step writes to its own band and to the one before, and the
+/// contacts that come with it, of the band before, to one more: the band after these has been done with when they are. Side by
+/// side with them it must be one more.
+std::size_t lag_of(const Workspace& workspace) { return workspace.workers.count() > 1 ? 3 : 2; }
+
+/// The steps of a block: the plates, which go their way whatever the lattice does, and what is summed over it.
+void begin_steps(const Scene& scene, const State& state, std::span<BlockStep> steps) {
+  const double dt = scene.schedule.time_step;
+  double travel = state.impact_travel;
+  std::int64_t before = state.step;
+  double time = state.time;
+  for (BlockStep& step : steps) {
+    const double speed_before = scene.plates.speed_at(time - 0.5 * dt);
+    const double speed_after = scene.plates.speed_at(time + 0.5 * dt);
+    travel += dt * speed_after;
+    time = static_cast<double>(++before) * dt;
+    step.plate_displacement = 0.5 * dt * (speed_before + speed_after);
+    step.plate = {travel, scene.plates.speed_at(time - 0.5 * dt)};
+    step.reach = reach_of_plates(scene, travel);
+    step.sums = begin_contact_sums(state);
+    step.has_crossed = false;
+    step.moved.resize(moved_chunk_count(scene));
+    step.plastic_work.resize(static_cast<std::size_t>(scene.walls.chunk_count()));
+    step.near.resize(scene.bands.size());
+  }
+}
+
+class Block {
+ public:
+  Block(const Scene& scene, State& state, Workspace& workspace, std::span<BlockStep> steps)
+      : scene_(scene),
+        state_(state),
+        workspace_(workspace),
+        near_(workspace.motion.near_plates),
+        steps_(steps),
+        lag_(lag_of(workspace)) {}
+
+  /// A step of a column's bands, `part` of so many threads' parts.
+  void advance_column(std::size_t column, std::size_t part, const StageTeller& teller) {
+    const auto parts = static_cast<std::size_t>(workspace_.workers.count());
+    for (std::size_t k = part; k < steps_.size() && lag_ * k <= column; k += parts) {
+      const std::size_t band = column - lag_ * k;
+      if (band <= scene_.bands.size()) {
+        advance_band(steps_[k], band, workspace_.parts[part], teller);
+      }
+    }
+  }
+
+  [[nodiscard]] std::size_t column_count() const { return scene_.bands.size() + 1 + lag_ * (steps_.size() - 1); }
+
+ private:
+  void advance_band(BlockStep& step, std::size_t band, WorkspacePart& part, const StageTeller& teller) {
+    if (band < scene_.bands.size()) {
+      teller.begin(Stage::integrate_motion);
+      move_band_of_particles_wide(scene_, state_, step.reach, scene_.bands[band], step.moved.data(), near_.data());
+      const MovedRanges moved = moved_ranges_of(scene_, scene_.bands[band]);
+      step.near[band] = {close_up(step, moved.first_of_joints, moved.end_of_joints),
+                         close_up(step, moved.first_of_inner, moved.end_of_inner)};
+      teller.begin(Stage::evaluate_internal_forces);
+      evaluate_band_walls_wide(scene_, state_, scene_.bands[band], part.walls, step.plastic_work.data());
+    }
+    if (band > 0) {
+      evaluate_contacts(step, band - 1, part, teller);
+    }
+  }
+
+  /// Moves what chunks have noted of particles near a plate together, and returns how many there are.
+  std::size_t close_up(const BlockStep& step, std::size_t first_chunk, std::size_t end_chunk) {
+    std::size_t count = 0;
+    for (std::size_t c = first_chunk; c < end_chunk; ++c) {
+      const MovedChunk& chunk = step.moved[c];
+      std::copy_n(&near_[chunk.first], chunk.near_count, &near_[step.moved[first_chunk].first + count]);
+      count += chunk.near_count;
+    }
+    return count;
+  }
+
+  void evaluate_contacts(BlockStep& step, std::size_t b, WorkspacePart& part, const StageTeller& teller) {
+    const LatticeBand& band = scene_.bands[b];
+    ContactLists& lists = state_.contacts[b];
+    teller.begin(Stage::find_contacts);
+    const bool is_planar = search_faces(scene_, state_, band, scene_.faces.bands[b], lists, part.alone);
+    step.has_crossed = step.has_crossed || !is_planar;
+    teller.begin(Stage::evaluate_contact_forces);
+    evaluate_contact_forces(scene_, state_, lists, part.contact, part.alone, step.sums.walls);
+    teller.begin(Stage::evaluate_plate_forces);
+    const std::span<const int> near(near_);
+    evaluate_plate_forces(scene_, state_, step.plate, band, near.subspan(band.first_joint, step.near[b].joints),
+                          step.sums);
+    evaluate_plate_forces(scene_, state_, step.plate, band, near.subspan(band.first_inner, step.near[b].inner),
+                          step.sums);
+  }
+
+  const Scene& scene_;
+  State& state_;
+  Workspace& workspace_;
+  std::vector<int>& near_;
+  std::span<BlockStep> steps_;
+  std::size_t lag_;
+};
+
+/// Books what a step's forces have done, as integrate_motion and evaluate_internal_forces do.
+void book(const Scene& scene, const BlockStep& step, State& state) {
+  for (const MovedChunk& chunk : step.moved) {
+    chunk.works.book(state.ledger);
+  }
+  accumulate_plate_work(state, step.plate_displacement, state.ledger);
+  state.impact_impulse += scene.schedule.time_step * state.impact_force.total();
+  state.support_impulse += scene.schedule.time_step * state.support_force.total();
+  state.impact_travel = step.plate.impact_travel;
+  for (const double work : step.plastic_work) {
+    state.ledger.plastic += work;
+  }
+  const ContactTotals before = state.contact_totals;
+  put_contact_sums(step.sums, state);
+  state.contact_totals.deepest_penetration =
+      std::max(before.deepest_penetration, state.contact_totals.deepest_penetration);
+  state.contact_totals.deepest_birth = std::max(before.deepest_birth, state.contact_totals.deepest_birth);
+}
+
+}  // namespace
+
+bool can_advance_blocks(const Scene& scene, const State& state) {
+  return scene.bands.size() > 1 && use_wide_kernels() && have_wide_motion(scene) && has_vector_kernel(scene.section) &&
+         searches_faces(scene, state);
+}
+
+std::int64_t steps_in_block(const Scene& scene, const Workspace& workspace, std::int64_t steps) {
+  const std::size_t of_band = kBytesOfElement * scene.element_count() / scene.bands.size();
+  const auto fitting = static_cast<std::int64_t>(kCacheBytes / (lag_of(workspace) * of_band));
+  const std::int64_t most = std::clamp<std::int64_t>(fitting, 1, kMostSteps);
+  const std::int64_t blocks = (steps + most - 1) / most;
+  return (steps + blocks - 1) / blocks;
+}
+
+void advance_block(const Scene& scene, State& state, Workspace& workspace, std::int64_t steps,
+                   StageObserver* observer) {
+  const StageTeller teller(observer);
+  const std::int64_t first = state.step;
+  workspace.prepare_block(scene.particle_count(), static_cast<std::size_t>(steps));
+  const std::span<BlockStep> block_steps = workspace.block;
+  begin_steps(scene, state, block_steps);
+  renew_contact_lots(scene, state, steps);
+  state.step += steps;
+  Block block(scene, state, workspace, block_steps);
+  for (std::size_t column = 0; column < block.column_count(); ++column) {
+    workspace.workers.share_parts(static_cast<std::size_t>(workspace.workers.count()), 1,
+                                  [&](std::size_t part, std::size_t, std::size_t) {
+                                    block.advance_column(column, part, part == 0 ? teller : StageTeller(nullptr));
+                                  });
+  }
+  for (const BlockStep& step : block_steps) {
+    book(scene, step, state);
+  }
+  state.time = static_cast<double>(state.step) * scene.schedule.time_step;
+  const auto crossed =
+      std::find_if(block_steps.begin(), block_steps.end(), [](const BlockStep& step) { return step.has_crossed; });
+  if (crossed != block_steps.end()) {
+    state.crossing_step = first + 1 + (crossed - block_steps.begin());
+    put_into_one_list(state);
+  } else if (first / kStepsBetweenChecks != state.step / kStepsBetweenChecks &&
+             !borders_are_apart(scene, state, kStepsBetweenChecks + kMostSteps)) {
+    put_into_one_list(state);
+    search_buckets(scene, state, state.contacts.front());
+  }
+  teller.end_step();
+}
+
+}  // namespace cellcrush
