@@ -41,6 +41,8 @@ FaceLoops trace_loops(std::span<const Vector2> position, std::span<const Element
   const std::vector<int> follower = find_followers(position, elements);
   std::vector<bool> walked(follower.size(), false);
   FaceLoops loops;
+  loops.particle.reserve(follower.size());
+  loops.element.reserve(follower.size());
   loops.offset.push_back(0);
   for (int first = 0; first < static_cast<int>(follower.size()); ++first) {
     if (walked[first]) {

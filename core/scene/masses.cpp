@@ -21,6 +21,8 @@ void lump_masses(Scene& scene) {
     }
     scene.total_mass += 2.0 * half_mass;
   }
+  scene.inverse_mass.reserve(scene.particle_count());
+  scene.inverse_inertia.reserve(scene.particle_count());
   for (std::size_t i = 0; i < scene.particle_count(); ++i) {
     scene.inverse_mass.push_back(1.0 / scene.mass[i]);
     scene.inverse_inertia.push_back(1.0 / scene.inertia[i]);

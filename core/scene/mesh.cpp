@@ -1,6 +1,7 @@
 #include "scene/mesh.h"
 
 #include <algorithm>
+#include <cstddef>
 
 namespace cellcrush {
 namespace {
@@ -99,7 +100,13 @@ void order_joints(Walls& walls, int joint_count) {
 }  // namespace
 
 void divide_walls(const Layout& layout, Scene& scene) {
-  scene.position = layout.joints;
+  std::size_t elements = 0;
+  for (const LayoutWall& wall : layout.walls) {
+    elements += static_cast<std::size_t>(wall.elements);
+  }
+  scene.elements.reserve(elements);
+  scene.position.reserve(layout.joints.size() + elements - layout.walls.size());
+  scene.position.assign(layout.joints.begin(), layout.joints.end());
   scene.joint_count = static_cast<int>(layout.joints.size());
   const auto rigid =
       std::find_if(layout.walls.begin(), layout.walls.end(), [](const LayoutWall& wall) { return wall.rigid; });

@@ -102,6 +102,9 @@ State place_particles(const Scene& scene) {
   state.spin.assign(scene.initial_spin.begin(), scene.initial_spin.end());
   state.spin.resize(n, 0.0);
   state.rotation.assign(n, 0.0);
+  state.length.reserve(scene.element_count());
+  state.inverse_length.reserve(scene.element_count());
+  state.axis.reserve(scene.element_count());
   for (const Element& element : scene.elements) {
     const Vector2 span = scene.position[element.end] - scene.position[element.start];
     state.length.push_back(span.norm());

@@ -5,6 +5,7 @@
 
 #include <cstdio>
 #include <stdexcept>
+#include <variant>
 #include <vector>
 
 #include "bench/array_bytes.h"
@@ -24,18 +25,23 @@ void write_arrays(const Scene& scene, const State& state) {
   }
 }
 
-/// What the program itself takes is in memory when something small has been crushed.
-void warm_up() {
-  Simulation simulation(scenes::build(scenes::hexagon_block(4, 3)));
-  simulation.advance(50);
-  simulation.take_sample();
+/// What the program itself takes, text above all, is in memory when a few cells have been crushed in the same way.
+void warm_up(SceneSpec spec) {
+  auto& hexagon = std::get<HexagonLattice>(spec.lattice);
+  hexagon.columns = 6;
+  hexagon.rows = 4;
+  Simulation simulation(scenes::build(spec));
+  while (simulation.status().kind == RunStatus::Kind::running) {
+    simulation.advance(100);
+    simulation.take_sample();
+  }
   simulation.take_frame(0);
 }
 
 /// Samples and frames are taken as the case asks; a frame is dropped, as a worker does that has sent it.
 CrushCost crush(const SceneSpec& spec, const std::string& target, bool list_arrays) {
   use_simd_target(target);
-  warm_up();
+  warm_up(spec);
   CrushCost cost;
   cost.base_bytes = resident_bytes();
   const double begin = processor_seconds();
