@@ -1,34 +1,16 @@
 #include "parallel/workers.h"
 
-#include <hwy/cache_control.h>
-
 #include <algorithm>
+
+#include "parallel/spin.h"
 
 namespace cellcrush {
 namespace {
 
-/// Looks at a flag before its thread gives way to others: some hundred microseconds, longer than the gaps between a step's loops.
-constexpr int kLooks = 4000;
-
-/// Returns when the condition holds, after at most kLooks looks.
-template <class Condition>
-bool spin_until(const Condition& holds) {
-  for (int look = 0; look < kLooks; ++look) {
-    if (holds()) {
-      return true;
-    }
-    hwy::Pause();
-  }
-  return false;
-}
-
 /// Returns when a count has come to 0.
 template <class Count>
 void wait_for_none(const std::atomic<Count>& count) {
-  const auto is_none = [&count] { return count.load(std::memory_order_acquire) == 0; };
-  while (!spin_until(is_none)) {
-    std::this_thread::yield();
-  }
+  wait_until([&count] { return count.load(std::memory_order_acquire) == 0; });
 }
 
 }  // namespace

@@ -16,6 +16,18 @@ constexpr int kLeastBands = 8;
 /// 16 times the cells of Type I, 1500 steps, an AMD EPYC, 16 and 24: one thread 9.5 and 10.1 ns, two 5.4 and 5.9.
 constexpr int kLeastChunks = 16;
 constexpr int kMoreChunks = 8;
+constexpr std::size_t kBytesOfElement = 430;
+
+std::size_t bytes_of_chunks(const Scene& scene, int chunks) {
+  return kBytesOfElement * scene.element_count() * static_cast<std::size_t>(chunks) /
+         static_cast<std::size_t>(scene.walls.chunk_count());
+}
+
+/// Whether the caches hold the bands of two steps.
+bool are_small(const Scene& scene, int chunks) {
+  return 2 * kBandsBehind * bytes_of_chunks(scene, chunks) <= kCacheBytes;
+}
+
 bool may_be_cut(const Scene& scene) {
   return scene.element_count() >= kLeastElements && scene.rigid.count() == 0 && scene.supports.empty() &&
          !scene.is_loaded() && scene.contact.friction == 0.0;
@@ -111,6 +123,8 @@ bool are_apart(const Scene& scene, const FaceLoops& loops, const std::vector<Lat
 
 }  // namespace
 
+std::size_t bytes_of_band(const Scene& scene) { return kBytesOfElement * scene.element_count() / scene.bands.size(); }
+
 LatticeBand whole_band(const Scene& scene) {
   return {
       0, scene.walls.chunk_count(), 0, scene.joint_count, scene.joint_count, static_cast<int>(scene.particle_count())};
@@ -118,7 +132,8 @@ LatticeBand whole_band(const Scene& scene) {
 
 std::vector<LatticeBand> cut_into_bands(const Scene& scene, const FaceLoops& loops) {
   if (may_be_cut(scene)) {
-    for (int chunks = kLeastChunks; chunks * kLeastBands <= scene.walls.chunk_count(); chunks += kMoreChunks) {
+    for (int chunks = kLeastChunks; are_small(scene, chunks) && chunks * kLeastBands <= scene.walls.chunk_count();
+         chunks += kMoreChunks) {
       std::vector<LatticeBand> bands = cut(scene, chunks);
       if (are_apart(scene, loops, bands)) {
         return bands;

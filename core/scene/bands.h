@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "cellcrush/scene.h"
@@ -10,6 +11,15 @@ namespace cellcrush {
 /// Bands that may have particles at the same face of a lattice that is cut into bands.
 inline constexpr int kBandsAtFace = 2;
 
+/// Bytes of the last cache that the bands at work may fill.
+inline constexpr std::size_t kCacheBytes = 28'000'000;
+
+/// Bands by which a step is behind the one before it where threads advance bands side by side (step/advance_block.h).
+inline constexpr std::size_t kBandsBehind = 3;
+
+/// What a step reads and writes of a band, bytes: of its elements, and what goes with them.
+std::size_t bytes_of_band(const Scene& scene);
+
 /// All of a lattice.
 LatticeBand whole_band(const Scene& scene);
 
@@ -17,8 +27,8 @@ LatticeBand whole_band(const Scene& scene);
 ///  - walls join particles of their band and of the one before;
 ///  - faces have particles of two neighbouring bands at most, and the elements at these particles are theirs or their
 ///    neighbours'.
-/// Bands are as small as that allows. One where it does not, where the lattice is small, or where a step needs more than
-/// walls, plates and contacts without friction.
+/// Bands are as small as that allows. One where the caches do not hold two steps' bands, as where rows are many thousand elements
+/// long, where the lattice is small, or where a step needs more than walls, plates and contacts without friction.
 std::vector<LatticeBand> cut_into_bands(const Scene& scene, const FaceLoops& loops);
 
 /// Of every particle, the band that owns it.

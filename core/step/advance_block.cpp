@@ -15,6 +15,8 @@
 #include "contact/one_list.h"
 #include "contact/plate_forces.h"
 #include "energy/ledger.h"
+#include "parallel/wavefront.h"
+#include "scene/bands.h"
 #include "simd/target.h"
 #include "step/stage_teller.h"
 #include "step/wide_motion.h"
@@ -22,18 +24,23 @@
 namespace cellcrush {
 namespace {
 
-constexpr std::int64_t kMostSteps = 10;
+/// On an AMD EPYC with 32 MB of last cache, 16 times the cells of Type I, one thread, before contacts: 4, 7, 10, 20 steps at once
+/// 9.3, 8.5, 8.3, 9.3 ns an element-step.
+constexpr std::size_t kMostStepsAtOnce = 10;
+/// More in a block, so that the next begin where the first end.
+constexpr std::int64_t kMostSteps = 20;
 constexpr std::int64_t kStepsBetweenChecks = 64;  ///< of the border
-
-/// Bytes of an element with what goes with it, and what of the last cache a block's bands may fill. On an AMD EPYC with 32 MB,
-/// 16 times the cells of Type I, one thread, before contacts: 4, 7, 10, 20 steps 9.3, 8.5, 8.3, 9.3 ns an element-step.
-constexpr std::size_t kBytesOfElement = 430;
-constexpr std::size_t kCacheBytes = 28'000'000;
 
 /// Bands by which a step is behind the one before it. A band's step writes to its own band and to the one before, and the
 /// contacts that come with it, of the band before, to one more: the band after these has been done with when they are. Side by
 /// side with them it must be one more.
-std::size_t lag_of(const Workspace& workspace) { return workspace.workers.count() > 1 ? 3 : 2; }
+std::size_t lag_of(const Workspace& workspace) { return workspace.workers.count() > 1 ? kBandsBehind : 2; }
+
+std::size_t steps_at_once(const Scene& scene, const Workspace& workspace) {
+  const auto threads = static_cast<std::size_t>(workspace.workers.count());
+  const std::size_t fitting = kCacheBytes / (lag_of(workspace) * bytes_of_band(scene));
+  return std::max(std::min(fitting, kMostStepsAtOnce) / threads * threads, threads);
+}
 
 /// The steps of a block: the plates, which go their way whatever the lattice does, and what is summed over it.
 void begin_steps(const Scene& scene, const State& state, std::span<BlockStep> steps) {
@@ -59,41 +66,28 @@ void begin_steps(const Scene& scene, const State& state, std::span<BlockStep> st
 
 class Block {
  public:
-  Block(const Scene& scene, State& state, Workspace& workspace, std::span<BlockStep> steps)
-      : scene_(scene),
-        state_(state),
-        workspace_(workspace),
-        near_(workspace.motion.near_plates),
-        steps_(steps),
-        lag_(lag_of(workspace)) {}
+  Block(const Scene& scene, State& state, std::vector<int>& near_plates, std::span<BlockStep> steps)
+      : scene_(scene), state_(state), near_(near_plates), steps_(steps) {}
 
-  /// A step of a column's bands, `part` of so many threads' parts.
-  void advance_column(std::size_t column, std::size_t part, const StageTeller& teller) {
-    const auto parts = static_cast<std::size_t>(workspace_.workers.count());
-    for (std::size_t k = part; k < steps_.size() && lag_ * k <= column; k += parts) {
-      const std::size_t band = column - lag_ * k;
-      if (band <= scene_.bands.size()) {
-        advance_band(steps_[k], band, workspace_.parts[part], teller);
-      }
+  /// A step's motion and walls of a band, if there is one, and the contacts of the band before.
+  void advance(std::size_t step, std::size_t band, WorkspacePart& part, const StageTeller& teller) {
+    if (band < scene_.bands.size()) {
+      move(steps_[step], band, part, teller);
+    }
+    if (band > 0) {
+      evaluate_contacts(steps_[step], band - 1, part, teller);
     }
   }
 
-  [[nodiscard]] std::size_t column_count() const { return scene_.bands.size() + 1 + lag_ * (steps_.size() - 1); }
-
  private:
-  void advance_band(BlockStep& step, std::size_t band, WorkspacePart& part, const StageTeller& teller) {
-    if (band < scene_.bands.size()) {
-      teller.begin(Stage::integrate_motion);
-      move_band_of_particles_wide(scene_, state_, step.reach, scene_.bands[band], step.moved.data(), near_.data());
-      const MovedRanges moved = moved_ranges_of(scene_, scene_.bands[band]);
-      step.near[band] = {close_up(step, moved.first_of_joints, moved.end_of_joints),
-                         close_up(step, moved.first_of_inner, moved.end_of_inner)};
-      teller.begin(Stage::evaluate_internal_forces);
-      evaluate_band_walls_wide(scene_, state_, scene_.bands[band], part.walls, step.plastic_work.data());
-    }
-    if (band > 0) {
-      evaluate_contacts(step, band - 1, part, teller);
-    }
+  void move(BlockStep& step, std::size_t band, WorkspacePart& part, const StageTeller& teller) {
+    teller.begin(Stage::integrate_motion);
+    move_band_of_particles_wide(scene_, state_, step.reach, scene_.bands[band], step.moved.data(), near_.data());
+    const MovedRanges moved = moved_ranges_of(scene_, scene_.bands[band]);
+    step.near[band] = {close_up(step, moved.first_of_joints, moved.end_of_joints),
+                       close_up(step, moved.first_of_inner, moved.end_of_inner)};
+    teller.begin(Stage::evaluate_internal_forces);
+    evaluate_band_walls_wide(scene_, state_, scene_.bands[band], part.walls, step.plastic_work.data());
   }
 
   /// Moves what chunks have noted of particles near a plate together, and returns how many there are.
@@ -125,10 +119,8 @@ class Block {
 
   const Scene& scene_;
   State& state_;
-  Workspace& workspace_;
   std::vector<int>& near_;
   std::span<BlockStep> steps_;
-  std::size_t lag_;
 };
 
 /// Books what a step's forces have done, as integrate_motion and evaluate_internal_forces do.
@@ -157,11 +149,8 @@ bool can_advance_blocks(const Scene& scene, const State& state) {
          searches_faces(scene, state);
 }
 
-std::int64_t steps_in_block(const Scene& scene, const Workspace& workspace, std::int64_t steps) {
-  const std::size_t of_band = kBytesOfElement * scene.element_count() / scene.bands.size();
-  const auto fitting = static_cast<std::int64_t>(kCacheBytes / (lag_of(workspace) * of_band));
-  const std::int64_t most = std::clamp<std::int64_t>(fitting, 1, kMostSteps);
-  const std::int64_t blocks = (steps + most - 1) / most;
+std::int64_t steps_in_block(std::int64_t steps) {
+  const std::int64_t blocks = (steps + kMostSteps - 1) / kMostSteps;
   return (steps + blocks - 1) / blocks;
 }
 
@@ -174,13 +163,14 @@ void advance_block(const Scene& scene, State& state, Workspace& workspace, std::
   begin_steps(scene, state, block_steps);
   renew_contact_lots(scene, state, steps);
   state.step += steps;
-  Block block(scene, state, workspace, block_steps);
-  for (std::size_t column = 0; column < block.column_count(); ++column) {
-    workspace.workers.share_parts(static_cast<std::size_t>(workspace.workers.count()), 1,
-                                  [&](std::size_t part, std::size_t, std::size_t) {
-                                    block.advance_column(column, part, part == 0 ? teller : StageTeller(nullptr));
-                                  });
-  }
+  Block block(scene, state, workspace.motion.near_plates, block_steps);
+  Wavefront wavefront(block_steps.size(), scene.bands.size() + 1, lag_of(workspace), steps_at_once(scene, workspace));
+  workspace.workers.share_parts(
+      static_cast<std::size_t>(workspace.workers.count()), 1, [&](std::size_t part, std::size_t, std::size_t) {
+        const StageTeller of_part = part == 0 ? teller : StageTeller(nullptr);
+        wavefront.advance(
+            [&](std::size_t step, std::size_t band) { block.advance(step, band, workspace.parts[part], of_part); });
+      });
   for (const BlockStep& step : block_steps) {
     book(scene, step, state);
   }

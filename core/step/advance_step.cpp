@@ -76,7 +76,7 @@ void advance_steps(const Scene& scene, State& state, Workspace& workspace, std::
   const std::int64_t end = state.step + steps;
   while (state.step < end) {
     if (can_advance_blocks(scene, state)) {
-      advance_block(scene, state, workspace, steps_in_block(scene, workspace, end - state.step), observer);
+      advance_block(scene, state, workspace, steps_in_block(end - state.step), observer);
     } else {
       advance_step(scene, state, workspace, observer);
     }

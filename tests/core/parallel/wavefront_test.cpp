@@ -1,0 +1,75 @@
+#include "parallel/wavefront.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace cellcrush {
+namespace {
+
+constexpr std::size_t kSteps = 23;
+constexpr std::size_t kPlaces = 17;
+constexpr std::size_t kLag = 3;
+constexpr std::size_t kAtOnce = 5;
+
+/// Which places of which steps have been done; not guarded but by the order in which they are.
+struct Done {
+  bool done[kSteps][kPlaces] = {};
+
+  [[nodiscard]] bool has(std::size_t step, std::size_t places) const {
+    return std::all_of(done[step], done[step] + std::min(places, kPlaces), [](bool place) { return place; });
+  }
+};
+
+TEST(Wavefront, TakesEveryPlaceOfEveryStepOnceAndAfterWhatItNeeds) {
+  for (const int threads : {1, 2, 4}) {
+    Wavefront wavefront(kSteps, kPlaces, kLag, kAtOnce);
+    Done done;
+    std::atomic<int> visits{0};
+    std::atomic<int> too_early{0};
+    const auto visit = [&](std::size_t step, std::size_t place) {
+      const bool after_its_own = done.has(step, place) && !done.done[step][place];
+      const bool after_the_step_before = step == 0 || done.has(step - 1, place + kLag);
+      const bool has_room = step < kAtOnce || done.has(step - kAtOnce, kPlaces);
+      too_early += after_its_own && after_the_step_before && has_room ? 0 : 1;
+      done.done[step][place] = true;
+      ++visits;
+    };
+    std::vector<std::thread> others;
+    for (int i = 1; i < threads; ++i) {
+      others.emplace_back([&] { wavefront.advance(visit); });
+    }
+    wavefront.advance(visit);
+    for (std::thread& other : others) {
+      other.join();
+    }
+    EXPECT_EQ(visits, static_cast<int>(kSteps * kPlaces)) << threads;
+    EXPECT_EQ(too_early, 0) << threads;
+  }
+}
+
+TEST(Wavefront, BeginsTheNextStepsWhereTheFirstHaveEnded) {
+  Wavefront wavefront(3, 4, 2, 1);
+  std::vector<std::pair<std::size_t, std::size_t>> order;
+  wavefront.advance([&](std::size_t step, std::size_t place) { order.emplace_back(step, place); });
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    EXPECT_EQ(order[i], std::pair(i / 4, i % 4));
+  }
+  EXPECT_EQ(order.size(), 12u);
+}
+
+TEST(Wavefront, GoesByColumnsWhereOneThreadIsAlone) {
+  Wavefront wavefront(2, 4, 2, 2);
+  std::vector<std::pair<std::size_t, std::size_t>> order;
+  wavefront.advance([&](std::size_t step, std::size_t place) { order.emplace_back(step, place); });
+  const std::vector<std::pair<std::size_t, std::size_t>> expected = {{0, 0}, {0, 1}, {0, 2}, {1, 0},
+                                                                     {0, 3}, {1, 1}, {1, 2}, {1, 3}};
+  EXPECT_EQ(order, expected);
+}
+
+}  // namespace
+}  // namespace cellcrush
