@@ -116,7 +116,8 @@ std::vector<std::size_t> order_of(const Scene& scene, const FaceLoops& loops, co
   return order;
 }
 
-/// Puts a loop's corners that `is_in` last among a band's faces. Faces that are watched together have the same home.
+/// Puts a loop last among a band's faces: its corners that `is_in`, where the next one is as well, so that no segment leads out.
+/// Faces that are watched together have the same home.
 template <class IsIn>
 void add_face(const FaceLoops& loops, std::size_t loop, int number, bool begins_group, int most_in_group,
               const IsIn& is_in, FacesOfBand& faces) {
@@ -127,7 +128,8 @@ void add_face(const FaceLoops& loops, std::size_t loop, int number, bool begins_
     faces.group_offset.push_back(faces.count());
   }
   for (int k = loops.offset[loop]; k < loops.offset[loop + 1]; ++k) {
-    if (is_in(loops.particle[k])) {
+    const int next = k + 1 < loops.offset[loop + 1] ? k + 1 : loops.offset[loop];
+    if (is_in(loops.particle[k]) && is_in(loops.particle[next])) {
       faces.particle.push_back(loops.particle[k]);
       faces.element.push_back(loops.element[k]);
     }
