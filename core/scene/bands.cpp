@@ -9,8 +9,6 @@
 namespace cellcrush {
 namespace {
 
-/// A smaller lattice stays in the caches as it is.
-constexpr std::size_t kLeastElements = 50'000;
 constexpr int kLeastBands = 8;
 /// Of a band: the fewer, the more faces are in two bands (with 16 half, with 24 a third), but the more steps go into a block.
 /// 16 times the cells of Type I, 1500 steps, an AMD EPYC, 16 and 24: one thread 9.5 and 10.1 ns, two 5.4 and 5.9.
@@ -29,7 +27,7 @@ bool are_small(const Scene& scene, int chunks) {
 }
 
 bool may_be_cut(const Scene& scene) {
-  return scene.element_count() >= kLeastElements && scene.rigid.count() == 0 && scene.supports.empty() &&
+  return scene.element_count() >= kLeastElementsOfBands && scene.rigid.count() == 0 && scene.supports.empty() &&
          !scene.is_loaded() && scene.contact.friction == 0.0;
 }
 

@@ -11,6 +11,9 @@ namespace cellcrush {
 /// Bands that may have particles at the same face of a lattice that is cut into bands.
 inline constexpr int kBandsAtFace = 2;
 
+/// A smaller lattice stays in the caches as it is.
+inline constexpr std::size_t kLeastElementsOfBands = 50'000;
+
 /// Bytes of the last cache that the bands at work may fill.
 inline constexpr std::size_t kCacheBytes = 28'000'000;
 

@@ -10,6 +10,7 @@
 #include "scene/lattices.h"
 #include "scene/masses.h"
 #include "scene/mesh.h"
+#include "scene/number_columns.h"
 #include "scene/rigid_bodies.h"
 #include "scene/stable_step.h"
 #include "section/section_rule.h"
@@ -54,7 +55,9 @@ Layout lay_out(const SceneSpec& spec, Scene& scene) {
   scene.width = envelope[1 - axis];
   scene.collapse_stress = collapse_stress_of_lattice(spec);
   Layout layout = lay_out(*lattice);
+  const std::vector<Vector2> places = layout.joints;
   perturb(spec.imperfection, layout.joints);
+  number_columns(places, layout);
   return layout;
 }
 

@@ -68,7 +68,8 @@ TEST(Blocks, GiveThemOfEveryKindOfWalls) {
   force_based.section = {};
   SceneSpec precise = wide_block();
   precise.numerics.fibre_precision = NumericsSpec::FibrePrecision::double_precision;
-  for (const SceneSpec& spec : {damped, hardening, force_based, precise}) {
+  const SceneSpec of_columns = scenes::with_the_papers_elements(scenes::hexagon_block(600, 17));
+  for (const SceneSpec& spec : {damped, hardening, force_based, precise, of_columns}) {
     const auto scene = scenes::build(spec);
     ASSERT_GT(scene->bands.size(), 1u);
     const std::uint64_t expected = scenes::hash_of(crush_step_by_step(*scene, 150));

@@ -6,8 +6,11 @@
 #include <algorithm>
 #include <cstdlib>
 #include <set>
+#include <tuple>
 #include <vector>
 
+#include "scene/lattices.h"
+#include "scene/number_columns.h"
 #include "scenes/crushes.h"
 #include "scenes/frames.h"
 
@@ -73,6 +76,19 @@ TEST(Bands, HaveAllFacesOfTheirBallsOnce) {
   }
 }
 
+TEST(Bands, AreOfLongLatticesAndOfSquaresAndTrianglesToo) {
+  const SceneSpec hexagons = wide_block();
+  SceneSpec squares = hexagons;
+  squares.lattice = SquareLattice{12, 1500, 4.0, 0.3};
+  SceneSpec triangles = hexagons;
+  triangles.lattice = TriangleLattice{10, 1000, 4.0, 0.2};
+  for (const SceneSpec& spec : {scenes::hexagon_block(1000, 10), scenes::hexagon_block(130, 100), squares, triangles}) {
+    const auto scene = scenes::build(spec);
+    EXPECT_GT(scene->element_count(), kLeastElementsOfBands);
+    EXPECT_GT(scene->bands.size(), 10u);
+  }
+}
+
 TEST(Bands, AreLeftOutWhereTheyDoNotPayOrAreNotEnough) {
   const auto bands_of = [](SceneSpec spec) { return scenes::build(spec)->bands.size(); };
   EXPECT_EQ(bands_of(scenes::hexagon_block(12, 5)), 1u);
@@ -82,6 +98,47 @@ TEST(Bands, AreLeftOutWhereTheyDoNotPayOrAreNotEnough) {
   spec = wide_block();
   spec.contact.search = ContactSpec::Search::buckets;
   EXPECT_EQ(bands_of(spec), 1u);
+}
+
+/// A wall, by where it begins and ends and its thickness.
+using PlacedWall = std::tuple<double, double, double, double, double>;
+
+std::vector<PlacedWall> walls_of(const Layout& layout) {
+  std::vector<PlacedWall> walls;
+  for (const LayoutWall& wall : layout.walls) {
+    const Vector2& start = layout.joints[wall.start];
+    const Vector2& end = layout.joints[wall.end];
+    walls.emplace_back(start.x(), start.y(), end.x(), end.y(), wall.thickness);
+  }
+  std::sort(walls.begin(), walls.end());
+  return walls;
+}
+
+TEST(NumberColumns, GoesAlongALongLatticeAndChangesNothingElse) {
+  SceneSpec spec = scenes::hexagon_block(1000, 10);
+  spec.elements_per_wall = 4;
+  const Layout rows = lay_out(*regular_lattice_of(spec));
+  Layout columns = rows;
+  number_columns(rows.joints, columns);
+  EXPECT_TRUE(std::is_sorted(columns.joints.begin(), columns.joints.end(),
+                             [](const Vector2& a, const Vector2& b) { return a.x() < b.x(); }));
+  EXPECT_FALSE(std::is_sorted(rows.joints.begin(), rows.joints.end(),
+                              [](const Vector2& a, const Vector2& b) { return a.x() < b.x(); }));
+  EXPECT_EQ(walls_of(columns), walls_of(rows));
+  for (std::size_t w = 1; w < columns.walls.size(); ++w) {
+    ASSERT_LE(std::min(columns.walls[w - 1].start, columns.walls[w - 1].end),
+              std::min(columns.walls[w].start, columns.walls[w].end));
+  }
+}
+
+TEST(NumberColumns, LeavesWideAndSmallOnesAsTheyAre) {
+  for (SceneSpec spec : {wide_block(), scenes::hexagon_block(100, 10)}) {
+    spec.elements_per_wall = 4;
+    const Layout rows = lay_out(*regular_lattice_of(spec));
+    Layout columns = rows;
+    number_columns(rows.joints, columns);
+    EXPECT_EQ(columns.joints, rows.joints);
+  }
 }
 
 }  // namespace
