@@ -12,7 +12,7 @@ namespace cellcrush {
 struct Newcomer {
   int ball = 0;
   int segment = 0;
-  int place = 0;  ///< into State::candidate_ball
+  int place = 0;  ///< into ContactLists::candidate_ball
   int next = 0;   ///< of the pairs that touched before, the first that it comes before
 };
 
@@ -22,7 +22,7 @@ struct ChangedBall {
   int place = 0;  ///< of the pair among those that touch, or of the pair that follows where it was
 };
 
-/// How the pairs of State::touching stand to each other in this step; T of them, in the same order.
+/// How the pairs of ContactLists::touching stand to each other in this step; T of them, in the same order.
 struct Touches {
   LaneVector<int> start;            ///< T, particle at which the segment starts
   LaneVector<int> end;              ///< T, and ends
@@ -43,7 +43,7 @@ struct Touches {
 
 /// A touch that pushes.
 struct Push {
-  int touch = 0;  ///< into State::touching
+  int touch = 0;  ///< into ContactLists::touching
 
   // Two balls that touch are found by each of them, and a ball over a node of a straight chain by the node's ball, too: what
   // such a pair would store is taken back, half of it with either touch.
@@ -61,7 +61,7 @@ struct Push {
 struct ContactPart {
   std::vector<int> awake;   ///< places of the candidates that are tested, ascending; it does not shrink
   std::vector<int> found;   ///< of those, they that have begun to overlap
-  std::vector<int> parted;  ///< of State::touching
+  std::vector<int> parted;  ///< of ContactLists::touching
   std::vector<Push> pushes;
 };
 
@@ -71,7 +71,7 @@ struct ContactWorkspace {
   std::vector<int> found;          ///< of all parts
   std::vector<Newcomer> newcomers;
   std::vector<ChangedBall> changes;
-  TouchMemory before;  ///< State::touching of the step before
+  TouchMemory before;  ///< ContactLists::touching of the step before
   Touches touches;
   std::vector<Push> pushes;  ///< of all parts
 };

@@ -4,8 +4,6 @@
 #include <cstddef>
 #include <span>
 
-#include "step/wide_motion.h"
-
 namespace cellcrush {
 namespace {
 
@@ -31,7 +29,6 @@ bool may_be_cut(const Scene& scene) {
          !scene.is_loaded() && scene.contact.friction == 0.0;
 }
 
-/// Bands have whole lots of particles that are moved together.
 int whole_lots(int count) {
   return (count + kParticlesMovedTogether - 1) / kParticlesMovedTogether * kParticlesMovedTogether;
 }

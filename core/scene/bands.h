@@ -14,6 +14,10 @@ inline constexpr int kBandsAtFace = 2;
 /// A smaller lattice stays in the caches as it is.
 inline constexpr std::size_t kLeastElementsOfBands = 50'000;
 
+/// Particles that are moved together at most: so many joints, or so many particles inside walls, from the first on. Bands have
+/// whole lots of them.
+inline constexpr int kParticlesMovedTogether = 256;
+
 /// Bytes of the last cache that the bands at work may fill.
 inline constexpr std::size_t kCacheBytes = 28'000'000;
 

@@ -7,6 +7,7 @@
 #include "cellcrush/state.h"
 #include "contact/plate_forces.h"
 #include "parallel/workers.h"
+#include "scene/bands.h"
 
 namespace cellcrush {
 
@@ -44,9 +45,6 @@ struct MovedChunk {
   std::size_t first = 0;       ///< particle
   std::size_t near_count = 0;  ///< of those that may be near a plate, in near_plates from `first` on
 };
-
-/// Particles that are moved together at most: so many joints, or so many particles inside walls, from the first on.
-inline constexpr int kParticlesMovedTogether = 256;
 
 /// Chunks of all particles, those of joints first.
 inline std::size_t moved_chunk_count(const Scene& scene) {

@@ -1,0 +1,64 @@
+// Included once for each target.
+#if defined(CELLCRUSH_STEP_NEAR_PLATES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef CELLCRUSH_STEP_NEAR_PLATES_INL_H_
+#undef CELLCRUSH_STEP_NEAR_PLATES_INL_H_
+#else
+#define CELLCRUSH_STEP_NEAR_PLATES_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <cstddef>
+
+#include "cellcrush/scene.h"
+#include "cellcrush/state.h"
+#include "contact/plate_forces.h"
+#include "simd/lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace cellcrush::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Notes the particles that may reach a plate where they have moved to, and those that rub against one.
+class NearPlatesNotes {
+ public:
+  /// REQUIRES: room for all that are noted.
+  NearPlatesNotes(const Scene& scene, const State& state, const PlateReach& reach, int* near)
+      : below_(reach.below),
+        above_(reach.above),
+        along_x_(scene.plates.axis == 0),
+        impact_friction_(state.impact_friction.empty() ? nullptr : state.impact_friction.data()),
+        support_friction_(state.support_friction.data()),
+        near_(near) {}
+
+  template <class D>
+  HWY_INLINE void note(D d, const Points<D>& position, std::size_t i) {
+    const auto place = along_x_ ? position.x : position.y;
+    auto some = hn::Or(hn::Lt(place, hn::Set(d, below_)), hn::Gt(place, hn::Set(d, above_)));
+    if (impact_friction_ != nullptr) {
+      const auto zero = hn::Zero(d);
+      some = hn::Or(some, hn::Or(hn::Ne(hn::LoadU(d, impact_friction_ + i), zero),
+                                 hn::Ne(hn::LoadU(d, support_friction_ + i), zero)));
+    }
+    if (HWY_UNLIKELY(!hn::AllFalse(d, some))) {
+      count_ += write_set_lanes(d, some, i, near_ + count_);
+    }
+  }
+
+  [[nodiscard]] std::size_t count() const { return count_; }
+
+ private:
+  const double below_;
+  const double above_;
+  const bool along_x_;
+  const double* const impact_friction_;
+  const double* const support_friction_;
+  int* const near_;
+  std::size_t count_ = 0;
+};
+
+}  // namespace cellcrush::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // CELLCRUSH_STEP_NEAR_PLATES_INL_H_
