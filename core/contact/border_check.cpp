@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
+#include <limits>
 #include <vector>
 
 #include "contact/bucket_grid.h"
@@ -59,13 +61,31 @@ Border border_of(const Scene& scene, const State& state) {
   return border;
 }
 
-}  // namespace
+/// Whether along a direction bands follow each other, so that those which are no neighbours are more than a margin apart: nearly
+/// always.
+bool follow_each_other(const Border& border, std::size_t bands, const Vector2& direction, double margin) {
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  std::vector<double> highest(bands, -kFar);  // of the particles up to a band
+  std::vector<double> lowest(bands, kFar);    // of the particles from a band on
+  for (std::size_t i = 0; i < border.place.size(); ++i) {
+    const double place = direction.dot(border.place[i]);
+    highest[border.band[i]] = std::max(highest[border.band[i]], place);
+    lowest[border.last_band[i]] = std::min(lowest[border.last_band[i]], place);
+  }
+  for (std::size_t b = 1; b < bands; ++b) {
+    highest[b] = std::max(highest[b], highest[b - 1]);
+    lowest[bands - 1 - b] = std::min(lowest[bands - 1 - b], lowest[bands - b]);
+  }
+  for (std::size_t b = 2; b < bands; ++b) {
+    if (!(highest[b - 2] + margin < lowest[b])) {
+      return false;
+    }
+  }
+  return true;
+}
 
-bool borders_are_apart(const Scene& scene, const State& state, std::int64_t steps) {
-  const Border border = border_of(scene, state);
-  const double time = scene.schedule.time_step * static_cast<double>(steps);
-  const double longest = *std::max_element(scene.walls.undeformed_length.begin(), scene.walls.undeformed_length.end());
-  const double margin = longest + 2.0 * scene.largest_radius + 2.0 * (2.0 * border.highest_speed) * time;
+/// The same of any two particles.
+bool are_apart(const Border& border, double margin) {
   if (border.place.empty()) {
     return true;
   }
@@ -79,6 +99,21 @@ bool borders_are_apart(const Scene& scene, const State& state, std::int64_t step
     });
   }
   return apart;
+}
+
+}  // namespace
+
+bool borders_are_apart(const Scene& scene, const State& state, std::int64_t steps) {
+  const Border border = border_of(scene, state);
+  const double time = scene.schedule.time_step * static_cast<double>(steps);
+  const double longest = *std::max_element(scene.walls.undeformed_length.begin(), scene.walls.undeformed_length.end());
+  const double margin = longest + 2.0 * scene.largest_radius + 2.0 * (2.0 * border.highest_speed) * time;
+  const Vector2 directions[] = {Vector2::UnitX(), Vector2::UnitY(), -Vector2::UnitX(), -Vector2::UnitY()};
+  return std::any_of(std::begin(directions), std::end(directions),
+                     [&](const Vector2& direction) {
+                       return follow_each_other(border, scene.bands.size(), direction, margin);
+                     }) ||
+         are_apart(border, margin);
 }
 
 }  // namespace cellcrush

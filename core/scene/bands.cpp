@@ -49,8 +49,9 @@ std::vector<LatticeBand> cut(const Scene& scene, int chunks) {
     band.first_chunk = band.end_chunk;
     band.first_joint = band.end_joint;
     band.first_inner = band.end_inner;
-    band.end_chunk = std::min(all_chunks, band.first_chunk + chunks);
-    const bool is_last = band.end_chunk == all_chunks;
+    // What would be left over and too small goes with the last.
+    const bool is_last = band.first_chunk + 2 * chunks > all_chunks;
+    band.end_chunk = is_last ? all_chunks : band.first_chunk + chunks;
     // Whoever has a wall in the band moves with it or before it.
     band.end_joint = is_last ? joints : std::min(joints, whole_lots(scene.walls.first_joint[band.end_chunk]));
     band.end_inner =

@@ -29,7 +29,6 @@ namespace {
 constexpr std::size_t kMostStepsAtOnce = 10;
 /// More in a block, so that the next begin where the first end.
 constexpr std::int64_t kMostSteps = 20;
-constexpr std::int64_t kStepsBetweenChecks = 64;  ///< of the border
 
 /// Bands by which a step is behind the one before it. A band's step writes to its own band and to the one before, and the
 /// contacts that come with it, of the band before, to one more: the band after these has been done with when they are. Side by
@@ -180,8 +179,7 @@ void advance_block(const Scene& scene, State& state, Workspace& workspace, std::
   if (crossed != block_steps.end()) {
     state.crossing_step = first + 1 + (crossed - block_steps.begin());
     put_into_one_list(state);
-  } else if (first / kStepsBetweenChecks != state.step / kStepsBetweenChecks &&
-             !borders_are_apart(scene, state, kStepsBetweenChecks + kMostSteps)) {
+  } else if (!borders_are_apart(scene, state, kMostSteps)) {
     put_into_one_list(state);
     search_buckets(scene, state, state.contacts.front());
   }

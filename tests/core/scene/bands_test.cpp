@@ -31,6 +31,8 @@ TEST(Bands, FollowEachOtherAndHaveAll) {
     EXPECT_LT(bands[b].first_chunk, bands[b].end_chunk);
   }
   EXPECT_EQ(bands.back().end_chunk, scene->walls.chunk_count());
+  const int chunks = bands.front().end_chunk;
+  EXPECT_GE(bands.back().end_chunk - bands.back().first_chunk, chunks) << "no band is smaller than the first";
   EXPECT_EQ(bands.back().end_joint, scene->joint_count);
   EXPECT_EQ(bands.back().end_inner, static_cast<int>(scene->particle_count()));
 }
