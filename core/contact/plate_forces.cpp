@@ -21,13 +21,13 @@ struct Plate {
 };
 
 /// Pushes one particle; the plates do not move across the crush, so its slip is its own motion there.
-void push(const Scene& scene, State& state, const Plate& plate, std::size_t particle) {
+void push(const Scene& scene, State& state, const Plate& plate, std::size_t particle, double radius) {
   const int axis = scene.plates.axis;
-  const double depth = scene.radius[particle] - plate.outward * (state.position[particle][axis] - plate.face);
+  const double depth = radius - plate.outward * (state.position[particle][axis] - plate.face);
   NormalForce force = {0.0, 0.0};
   if (depth > 0.0) {
     const double rate = plate.outward * (plate.velocity - state.velocity[particle][axis]);
-    force = evaluate_normal_force(scene.plates.stiffness, scene.contact.damping_ratio, 1.0 / scene.mass[particle],
+    force = evaluate_normal_force(scene.plates.stiffness, scene.contact.damping_ratio, scene.inverse_mass[particle],
                                   depth, rate);
     plate.stored += 0.5 * force.elastic * depth;
     state.contact_force[particle].elastic[axis] += plate.outward * force.elastic;
@@ -73,13 +73,15 @@ void evaluate_plate_forces(const Scene& scene, State& state, const PlateMotion& 
                         rubs ? state.impact_friction.data() : nullptr};
   const Plate support = {plates.support_face, 0.0,    -1.0,
                          sums.support,        stored, rubs ? state.support_friction.data() : nullptr};
+  const bool is_uniform =
+      scene.smallest_radius == scene.largest_radius;  // then no radius is fetched, from memory, for most
   const auto push_by_both = [&](std::size_t particle) {
     const double place = state.position[particle][scene.plates.axis];
-    const double radius = scene.radius[particle];
+    const double radius = is_uniform ? scene.largest_radius : scene.radius[particle];
     const bool rubbed = rubs && (impact.friction[particle] != 0.0 || support.friction[particle] != 0.0);
     if (place - radius < impact.face || place + radius > support.face || rubbed) {
-      push(scene, state, impact, particle);
-      push(scene, state, support, particle);
+      push(scene, state, impact, particle, radius);
+      push(scene, state, support, particle, radius);
     }
   };
   if (near.has_value()) {

@@ -27,8 +27,8 @@ namespace {
 /// On an AMD EPYC with 32 MB of last cache, 16 times the cells of Type I, one thread, before contacts: 4, 7, 10, 20 steps at once
 /// 9.3, 8.5, 8.3, 9.3 ns an element-step.
 constexpr std::size_t kMostStepsAtOnce = 10;
-/// More in a block, so that the next begin where the first end.
-constexpr std::int64_t kMostSteps = 20;
+/// More in a block, so that the next begin where the first end: as many as there are between two samples, mostly.
+constexpr std::int64_t kMostSteps = 32;
 
 /// Bands by which a step is behind the one before it. A band's step writes to its own band and to the one before, and the
 /// contacts that come with it, of the band before, to one more: the band after these has been done with when they are. Side by

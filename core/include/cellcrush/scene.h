@@ -207,6 +207,7 @@ struct Scene {
   LaneVector<double> inverse_inertia;  ///< N
   std::vector<double> radius;          ///< N, of the contact ball: half of the thickest wall that ends there
   double largest_radius = 0.0;         ///< mm
+  double smallest_radius = 0.0;        ///< mm
   std::vector<Element> elements;       ///< E
   Walls walls;                         ///< W
   std::vector<LatticeBand> bands;      ///< of a large lattice, each beside the one before (scene/bands.h); else one
