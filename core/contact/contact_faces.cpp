@@ -176,18 +176,19 @@ void take_faces(const Scene& scene, const FaceLoops& loops, const std::vector<in
   }
 }
 
-void note_members(std::size_t particle_count, FacesOfBand& faces) {
+/// `seen`, of every particle, is the number of the group that has had it last, among those of all bands; `number` that of the next.
+void note_members(std::vector<int>& seen, int& number, FacesOfBand& faces) {
   faces.member_offset.push_back(0);
-  std::vector<int> seen(particle_count, -1);
   for (int group = 0; group < faces.group_count(); ++group) {
     for (int k = faces.offset[faces.group_offset[group]]; k < faces.offset[faces.group_offset[group + 1]]; ++k) {
-      if (seen[faces.particle[k]] != group) {
-        seen[faces.particle[k]] = group;
+      if (seen[faces.particle[k]] != number) {
+        seen[faces.particle[k]] = number;
         faces.member.push_back(faces.particle[k]);
       }
     }
     std::sort(faces.member.begin() + faces.member_offset.back(), faces.member.end());
     faces.member_offset.push_back(static_cast<int>(faces.member.size()));
+    ++number;
   }
 }
 
@@ -202,8 +203,10 @@ void build_contact_faces(Scene& scene) {
   }
   scene.bands = cut_into_bands(scene, loops);
   take_faces(scene, loops, bands_of_particles(scene, scene.bands), faces);
+  std::vector<int> seen(scene.particle_count(), -1);
+  int number = 0;
   for (FacesOfBand& of_band : faces.bands) {
-    note_members(scene.particle_count(), of_band);
+    note_members(seen, number, of_band);
   }
 }
 
