@@ -92,7 +92,7 @@ TEST(Bands, AreOfLongLatticesAndOfSquaresAndTrianglesToo) {
 }
 
 TEST(Bands, AreLeftOutWhereTheyDoNotPayOrAreNotEnough) {
-  const auto bands_of = [](SceneSpec spec) { return scenes::build(spec)->bands.size(); };
+  const auto bands_of = [](const SceneSpec& spec) { return scenes::build(spec)->bands.size(); };
   EXPECT_EQ(bands_of(scenes::hexagon_block(12, 5)), 1u);
   SceneSpec spec = wide_block();
   spec.contact.friction = 0.2;
