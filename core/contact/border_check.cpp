@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "contact/bucket_grid.h"
+#include "scene/bands.h"
 
 namespace cellcrush {
 namespace {
@@ -29,7 +30,7 @@ struct Border {
 std::vector<int> first_elements(const Scene& scene) {
   std::vector<int> first;
   for (const LatticeBand& band : scene.bands) {
-    first.push_back(scene.walls.blocks[scene.walls.chunk_offset[band.first_chunk]].first_element);
+    first.push_back(first_element_of(scene, band));
   }
   return first;
 }

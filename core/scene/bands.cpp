@@ -66,12 +66,8 @@ std::vector<LatticeBand> cut(const Scene& scene, int chunks) {
 std::vector<int> bands_of_elements(const Scene& scene, const std::vector<LatticeBand>& bands) {
   std::vector<int> band_of(scene.element_count());
   for (std::size_t b = 0; b < bands.size(); ++b) {
-    const std::vector<int>& chunks = scene.walls.chunk_offset;
-    const std::size_t end = chunks[bands[b].end_chunk];
-    const int first_element = scene.walls.blocks[chunks[bands[b].first_chunk]].first_element;
-    const int end_element =
-        end < scene.walls.blocks.size() ? scene.walls.blocks[end].first_element : static_cast<int>(band_of.size());
-    std::fill(band_of.begin() + first_element, band_of.begin() + end_element, static_cast<int>(b));
+    const auto end = b + 1 < bands.size() ? band_of.begin() + first_element_of(scene, bands[b + 1]) : band_of.end();
+    std::fill(band_of.begin() + first_element_of(scene, bands[b]), end, static_cast<int>(b));
   }
   return band_of;
 }

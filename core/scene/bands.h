@@ -27,6 +27,11 @@ inline constexpr std::size_t kBandsBehind = 3;
 /// What a step reads and writes of a band, bytes: of its elements, and what goes with them.
 std::size_t bytes_of_band(const Scene& scene);
 
+/// The first of the elements that a band's walls are divided into.
+inline int first_element_of(const Scene& scene, const LatticeBand& band) {
+  return scene.walls.blocks[scene.walls.chunk_offset[band.first_chunk]].first_element;
+}
+
 /// All of a lattice.
 LatticeBand whole_band(const Scene& scene);
 

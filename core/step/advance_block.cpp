@@ -14,10 +14,10 @@
 #include "contact/find_contacts.h"
 #include "contact/one_list.h"
 #include "contact/plate_forces.h"
-#include "energy/ledger.h"
 #include "parallel/wavefront.h"
 #include "scene/bands.h"
 #include "simd/target.h"
+#include "step/integrate_motion.h"
 #include "step/stage_teller.h"
 #include "step/wide_motion.h"
 
@@ -48,11 +48,9 @@ void begin_steps(const Scene& scene, const State& state, std::span<BlockStep> st
   std::int64_t before = state.step;
   double time = state.time;
   for (BlockStep& step : steps) {
-    const double speed_before = scene.plates.speed_at(time - 0.5 * dt);
-    const double speed_after = scene.plates.speed_at(time + 0.5 * dt);
-    travel += dt * speed_after;
+    step.plates = plate_step_of(scene, time, travel);
+    travel = step.plates.travel;
     time = static_cast<double>(++before) * dt;
-    step.plate_displacement = 0.5 * dt * (speed_before + speed_after);
     step.plate = {travel, scene.plates.speed_at(time - 0.5 * dt)};
     step.reach = reach_of_plates(scene, travel);
     step.sums = begin_contact_sums(state);
@@ -127,10 +125,7 @@ void book(const Scene& scene, const BlockStep& step, State& state) {
   for (const MovedChunk& chunk : step.moved) {
     chunk.works.book(state.ledger);
   }
-  accumulate_plate_work(state, step.plate_displacement, state.ledger);
-  state.impact_impulse += scene.schedule.time_step * state.impact_force.total();
-  state.support_impulse += scene.schedule.time_step * state.support_force.total();
-  state.impact_travel = step.plate.impact_travel;
+  book_plates(scene, step.plates, state);
   for (const double work : step.plastic_work) {
     state.ledger.plastic += work;
   }

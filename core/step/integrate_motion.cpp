@@ -177,23 +177,34 @@ NearPlates gather_near_plates(const Scene& scene, MotionWorkspace& workspace) {
 
 }  // namespace
 
+PlateStep plate_step_of(const Scene& scene, double time, double travel) {
+  const double step = scene.schedule.time_step;
+  const double speed_before = scene.plates.speed_at(time - 0.5 * step);
+  const double speed_after = scene.plates.speed_at(time + 0.5 * step);
+  return {0.5 * step * (speed_before + speed_after), travel + step * speed_after};
+}
+
+void book_plates(const Scene& scene, const PlateStep& plates, State& state) {
+  const double step = scene.schedule.time_step;
+  accumulate_plate_work(state, plates.displacement, state.ledger);
+  state.impact_impulse += step * state.impact_force.total();
+  state.support_impulse += step * state.support_force.total();
+  state.impact_travel = plates.travel;
+}
+
 NearPlates integrate_motion(const Scene& scene, State& state, MotionWorkspace& workspace, Workers& workers) {
   const double step = scene.schedule.time_step;
-  const double plate_speed_before = scene.plates.speed_at(state.time - 0.5 * step);
-  const double plate_speed_after = scene.plates.speed_at(state.time + 0.5 * step);
+  const PlateStep plates = plate_step_of(scene, state.time, state.impact_travel);
   move_rigid_bodies(scene, state);
   NearPlates near;
   if (have_wide_motion(scene)) {
-    const PlateReach reach = reach_of_plates(scene, state.impact_travel + step * plate_speed_after);
+    const PlateReach reach = reach_of_plates(scene, plates.travel);
     move_particles_wide(scene, state, reach, workspace, workers);
     near = gather_near_plates(scene, workspace);
   } else {
     move_particles(scene, state);
   }
-  accumulate_plate_work(state, 0.5 * step * (plate_speed_before + plate_speed_after), state.ledger);
-  state.impact_impulse += step * state.impact_force.total();
-  state.support_impulse += step * state.support_force.total();
-  state.impact_travel += step * plate_speed_after;
+  book_plates(scene, plates, state);
   ++state.step;
   state.time = static_cast<double>(state.step) * step;
   return near;

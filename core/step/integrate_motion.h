@@ -44,6 +44,16 @@ inline void clear_contact_force(State& state, std::size_t particle) {
   }
 }
 
+/// What the impact plate does over a step, whatever the lattice does.
+struct PlateStep {
+  double displacement = 0.0;  ///< mm, over the time of the forces' work: half a step before and half a step after them
+  double travel = 0.0;        ///< mm, at the step's end
+};
+PlateStep plate_step_of(const Scene& scene, double time, double travel);
+
+/// Books the work and the impulses of the plates' forces over a step, and moves the impact plate.
+void book_plates(const Scene& scene, const PlateStep& plates, State& state);
+
 /// A state with particles in place, at the scene's initial velocities, without forces.
 State place_particles(const Scene& scene);
 

@@ -227,7 +227,7 @@ struct Group {
 
   static constexpr std::size_t kChunk = kParticlesMovedTogether;
 
-  [[nodiscard]] std::size_t chunk_count() const { return (end - first + kChunk - 1) / kChunk; }
+  [[nodiscard]] std::size_t chunk_count() const { return moved_chunks(end - first); }
 };
 
 std::array<Group, 2> groups_of(const Scene& scene) {
@@ -337,9 +337,7 @@ HWY_AFTER_NAMESPACE();
 namespace cellcrush {
 
 MovedRanges moved_ranges_of(const Scene& scene, const LatticeBand& band) {
-  const auto chunk_of = [](int particles) {
-    return static_cast<std::size_t>((particles + kParticlesMovedTogether - 1) / kParticlesMovedTogether);
-  };
+  const auto chunk_of = [](int particles) { return moved_chunks(static_cast<std::size_t>(particles)); };
   const std::size_t joints = chunk_of(scene.joint_count);
   return {chunk_of(band.first_joint), chunk_of(band.end_joint), joints + chunk_of(band.first_inner - scene.joint_count),
           joints + chunk_of(band.end_inner - scene.joint_count)};

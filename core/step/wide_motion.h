@@ -46,14 +46,16 @@ struct MovedChunk {
   std::size_t near_count = 0;  ///< of those that may be near a plate, in near_plates from `first` on
 };
 
+/// Chunks of so many joints, or of so many particles inside walls.
+inline std::size_t moved_chunks(std::size_t particles) {
+  return (particles + kParticlesMovedTogether - 1) / kParticlesMovedTogether;
+}
+
 /// Chunks of all particles, those of joints first.
 inline std::size_t moved_chunk_count(const Scene& scene) {
-  const auto chunks_of = [](std::size_t particles) {
-    return (particles + kParticlesMovedTogether - 1) / kParticlesMovedTogether;
-  };
   const auto joints = static_cast<std::size_t>(scene.joint_count);
-  return chunks_of(joints - static_cast<std::size_t>(scene.rigid.particle_count())) +
-         chunks_of(scene.particle_count() - joints);
+  return moved_chunks(joints - static_cast<std::size_t>(scene.rigid.particle_count())) +
+         moved_chunks(scene.particle_count() - joints);
 }
 
 /// Which of them are a band's.

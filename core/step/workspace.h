@@ -9,6 +9,7 @@
 #include "contact/contact_workspace.h"
 #include "contact/plate_forces.h"
 #include "parallel/workers.h"
+#include "step/integrate_motion.h"
 #include "step/wide_motion.h"
 
 namespace cellcrush {
@@ -22,7 +23,7 @@ struct NearCounts {
 
 /// Of a step of a block, what is known before it and what is summed over the lattice.
 struct BlockStep {
-  double plate_displacement = 0.0;  ///< mm, over the time of the forces' work
+  PlateStep plates;
   PlateMotion plate;
   PlateReach reach;
   std::vector<MovedChunk> moved;     ///< as in MotionWorkspace
