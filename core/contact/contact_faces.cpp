@@ -117,14 +117,13 @@ std::vector<std::size_t> order_of(const Scene& scene, const FaceLoops& loops, co
 }
 
 /// Puts a loop last among a band's faces: its corners that `is_in`, where the next one is as well, so that no segment leads out.
-/// Faces that are watched together have the same home.
 template <class IsIn>
-void add_face(const FaceLoops& loops, std::size_t loop, int number, bool begins_group, int most_in_group,
-              const IsIn& is_in, FacesOfBand& faces) {
+void add_face(const FaceLoops& loops, std::size_t loop, int number, bool is_alone, int most_in_group, const IsIn& is_in,
+              FacesOfBand& faces) {
   if (faces.offset.empty()) {
     faces.offset.push_back(0);
   }
-  if (begins_group || faces.count() - faces.group_offset.back() == most_in_group) {
+  if (is_alone || faces.group_offset.empty() || faces.count() - faces.group_offset.back() == most_in_group) {
     faces.group_offset.push_back(faces.count());
   }
   for (int k = loops.offset[loop]; k < loops.offset[loop + 1]; ++k) {
@@ -145,28 +144,19 @@ void note_sides(const Scene& scene, const FaceLoops& loops, std::size_t loop, in
   }
 }
 
-/// Every loop goes to the bands whose particles are at it; the outer one, in parts, to all.
+/// Every loop goes to the first of the bands whose particles are at it; the outer one, in parts, to all.
 void take_faces(const Scene& scene, const FaceLoops& loops, const std::vector<int>& band_of, ContactFaces& faces) {
   const auto bands = static_cast<int>(scene.bands.size());
-  std::vector<int> home(bands, -1);  // of the face that a band has taken last
   faces.bands.resize(bands);
   faces.side.assign(2 * scene.element_count(), -1);
   int number = 0;
   for (const std::size_t loop : order_of(scene, loops, band_of)) {
     note_sides(scene, loops, loop, number, faces.side);
     const bool is_outer = loops.area[loop] < 0.0;
-    const int first = band_of_loop(loops, band_of, loop);
-    const auto has = [&](int band) {
-      const std::span<const int> particles = loops.particles_of(loop);
-      return std::any_of(particles.begin(), particles.end(), [&](int particle) { return band_of[particle] == band; });
-    };
-    for (int band = first; band < (is_outer ? bands : std::min(bands, first + kBandsAtFace)); ++band) {
-      if (is_outer || band == first || has(band)) {
-        const auto is_in = [&](int particle) { return !is_outer || std::abs(band_of[particle] - band) <= 1; };
-        add_face(loops, loop, number, is_outer || home[band] != first, faces_per_group(scene), is_in,
-                 faces.bands[band]);
-        home[band] = first;
-      }
+    const int home = band_of_loop(loops, band_of, loop);
+    for (int band = is_outer ? 0 : home; band < (is_outer ? bands : home + 1); ++band) {
+      const auto is_in = [&](int particle) { return !is_outer || std::abs(band_of[particle] - band) <= 1; };
+      add_face(loops, loop, number, is_outer, faces_per_group(scene), is_in, faces.bands[band]);
     }
     ++number;
   }

@@ -26,10 +26,17 @@ std::size_t begin_of_ball(const TouchMemory& touching, std::size_t touch) {
   return touch;
 }
 
-/// Evaluates the touches and finds those that push, each thread those of its balls. Candidates of pairs that have parted are
-/// tested again from now on.
-void evaluate_pairs(const Scene& scene, const State& state, ContactLists& lists, ContactWorkspace& workspace,
-                    Workers& workers) {
+/// A pair that has parted is tested again from the next step on, in the list that has it.
+void wake(std::vector<ContactLists>& contacts, std::size_t band, int touch) {
+  const TouchMemory& touching = contacts[band].touching;
+  for (std::size_t home = band > 0 ? band - 1 : 0; home <= band; ++home) {
+    wake_candidate(contacts[home], touching.place[touch], touching.ball[touch], touching.segment[touch]);
+  }
+}
+
+/// Evaluates the touches and finds those that push, each thread those of its balls.
+void evaluate_pairs(const Scene& scene, State& state, std::size_t band, ContactWorkspace& workspace, Workers& workers) {
+  ContactLists& lists = state.contacts[band];
   const TouchMemory& touching = lists.touching;
   workers.share_parts(touching.count(), 1, [&](std::size_t p, std::size_t part_first, std::size_t part_end) {
     const std::size_t first = begin_of_ball(touching, part_first);
@@ -42,7 +49,7 @@ void evaluate_pairs(const Scene& scene, const State& state, ContactLists& lists,
   for (const ContactPart& part : workspace.parts) {
     for (const int i : part.parted) {
       lists.parted.push_back(i);
-      wake_candidate(lists, touching.place[i], touching.ball[i], touching.segment[i]);
+      wake(state.contacts, band, i);
     }
   }
   workspace.pushes.clear();
@@ -177,18 +184,19 @@ void apply_friction(const Scene& scene, State& state, TouchMemory& touching, con
 
 }  // namespace
 
-void evaluate_contact_forces(const Scene& scene, State& state, ContactLists& lists, ContactWorkspace& workspace,
-                             Workers& workers, ContactTotals& totals) {
+void evaluate_contact_forces(const Scene& scene, State& state, std::size_t band, ContactWorkspace& workspace,
+                             Workers& workers, ContactSums& sums) {
+  ContactLists& lists = state.contacts[band];
   workspace.parts.resize(static_cast<std::size_t>(workers.count()));
   find_overlaps(scene, state, lists, workspace, workers);
-  remember_touches(scene, lists, workspace);
+  remember_touches(scene, scene.bands[band], lists, workspace, sums.of_next_band);
   for (const Newcomer& pair : workspace.newcomers) {
     mark_contact_lots(scene, state, pair.ball, pair.segment);
   }
-  evaluate_pairs(scene, state, lists, workspace, workers);
+  evaluate_pairs(scene, state, band, workspace, workers);
   (use_wide_kernels() ? apply_normal_forces_wide : apply_normal_forces_plain)(scene, state, lists.touching, workspace,
-                                                                              totals);
-  totals.count += static_cast<std::int64_t>(workspace.pushes.size());
+                                                                              sums.walls);
+  sums.walls.count += static_cast<std::int64_t>(workspace.pushes.size());
   if (scene.contact.friction > 0.0) {
     apply_friction(scene, state, lists.touching, workspace);
   }

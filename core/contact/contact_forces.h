@@ -1,15 +1,21 @@
 #pragma once
 
+#include <cstddef>
+
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
+#include "contact/contact_sums.h"
 #include "contact/contact_workspace.h"
 #include "parallel/workers.h"
 
 namespace cellcrush {
 
-/// Evaluates the contact forces between the walls of a list (section 4.2, Eq. 41-43) from its candidates, and adds them to
-/// contact_force and friction_force, and what they come to to the totals. REQUIRES: forces begin at 0, as integrate_motion
-/// leaves them.
+/// Evaluates the contact forces on the balls of a band (section 4.2, Eq. 41-43) from its candidates, and adds them to
+/// contact_force and friction_force, and what they come to to the sums. REQUIRES: forces begin at 0, as integrate_motion
+/// leaves them; bands one after the other.
+///
+/// A face between two bands is searched by the first of them. What it finds of the other's balls it leaves in the sums, and the
+/// other takes it from there: so that all pairs of a ball stand together, in one list.
 ///
 /// Normal force k D + c dD/dt on the ball, shared by the segment's nodes as the foot lies between them. Mends to the paper:
 ///  - distance to a capsule, ends included (contact/capsule.h);
@@ -29,7 +35,7 @@ namespace cellcrush {
 /// stand and move, which of them push, the forces. All but the second and the fourth are also written for vector
 /// instructions; forces are summed in the order of balls and segments, so that the sums have the same bits however pairs were
 /// found.
-void evaluate_contact_forces(const Scene& scene, State& state, ContactLists& lists, ContactWorkspace& workspace,
-                             Workers& workers, ContactTotals& totals);
+void evaluate_contact_forces(const Scene& scene, State& state, std::size_t band, ContactWorkspace& workspace,
+                             Workers& workers, ContactSums& sums);
 
 }  // namespace cellcrush

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <vector>
+
 #include "cellcrush/state.h"
+#include "contact/contact_workspace.h"
 
 namespace cellcrush {
 
@@ -9,6 +12,7 @@ struct ContactSums {
   ContactTotals walls;
   PlateForce impact;
   PlateForce support;
+  std::vector<Newcomer> of_next_band;  ///< pairs of its balls, found in a face that the band before searches
 };
 
 /// Those of a new step.

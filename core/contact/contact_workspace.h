@@ -12,7 +12,7 @@ namespace cellcrush {
 struct Newcomer {
   int ball = 0;
   int segment = 0;
-  int place = 0;  ///< into ContactLists::candidate_ball
+  int place = 0;  ///< into ContactLists::candidate_ball, of the ball's band or of the band before
   int next = 0;   ///< of the pairs that touched before, the first that it comes before
 };
 

@@ -149,7 +149,7 @@ class FaceFinder {
     const Element& element = scene_.elements[segment];
     pairs_.crossed = pairs_.crossed || cross_each_other(state_, scene_.elements[element_[before]], element) ||
                      cross_each_other(state_, scene_.elements[element_[corner]], element);
-    if (band_.owns(ball) && !is_listed_elsewhere(ball, segment)) {
+    if ((!is_outer_ || band_.owns(ball)) && !is_listed_elsewhere(ball, segment)) {
       pairs_.candidates.push_back({ball, segment, reach});
     }
     return true;

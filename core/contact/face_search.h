@@ -17,7 +17,7 @@ namespace cellcrush {
 /// gaps have closed by at most. What is left of the budget is granted; if too little is left, the list is made anew. A face
 /// whose gaps are all wider than the skin has no candidates.
 ///
-/// Searches a band's faces for pairs of the band's balls. Returns false when a look finds that walls have crossed: then the
+/// Searches a band's faces. Returns false when a look finds that walls have crossed: then the
 /// faces are no longer those of the drawing, and what has not been looked at stays as it is.
 bool search_faces(const Scene& scene, const State& state, const LatticeBand& band, const FacesOfBand& faces,
                   ContactLists& lists, Workers& workers);

@@ -28,20 +28,34 @@ std::size_t place_among(const TouchMemory& touching, const Newcomer& pair) {
   return first;
 }
 
-/// Sorts out what was found: pairs that touch all along, in a list that was made anew, and newcomers.
-void recognize(ContactLists& lists, ContactWorkspace& workspace) {
-  TouchMemory& touching = lists.touching;
+/// A pair that was found touches all along, in a list that was made anew, or is a newcomer.
+void recognize(Newcomer pair, TouchMemory& touching, std::vector<Newcomer>& newcomers) {
+  const std::size_t at = place_among(touching, pair);
+  pair.next = static_cast<int>(at);
+  const bool touches = at < touching.count() && touching.ball[at] == pair.ball &&
+                       touching.segment[at] == pair.segment && touching.side[at] != 0;
+  if (touches) {
+    touching.place[at] = pair.place;
+  } else {
+    newcomers.push_back(pair);
+  }
+}
+
+/// Sorts out what was found in the band's faces and in those of the band before.
+void sort_out(const LatticeBand& band, ContactLists& lists, ContactWorkspace& workspace,
+              std::vector<Newcomer>& of_next_band) {
   workspace.newcomers.clear();
+  for (const Newcomer& pair : of_next_band) {
+    recognize(pair, lists.touching, workspace.newcomers);
+  }
+  of_next_band.clear();
+  const bool has_all = lists.face_list.empty();  // by buckets
   for (const int place : workspace.found) {
-    Newcomer pair = {lists.candidate_ball[place], lists.candidate_segment[place], place};
-    const std::size_t at = place_among(touching, pair);
-    pair.next = static_cast<int>(at);
-    const bool touches = at < touching.count() && touching.ball[at] == pair.ball &&
-                         touching.segment[at] == pair.segment && touching.side[at] != 0;
-    if (touches) {
-      touching.place[at] = place;
+    const Newcomer pair = {lists.candidate_ball[place], lists.candidate_segment[place], place};
+    if (has_all || band.owns(pair.ball)) {
+      recognize(pair, lists.touching, workspace.newcomers);
     } else {
-      workspace.newcomers.push_back(pair);
+      of_next_band.push_back(pair);
     }
   }
   std::sort(workspace.newcomers.begin(), workspace.newcomers.end(),
@@ -62,8 +76,9 @@ void visit_kept(TouchMemory& touching, const TouchMemory& before, Visit&& visit)
 /// The pairs that touch from now on, written one after the other.
 class Writer {
  public:
-  Writer(ContactLists& lists, ContactWorkspace& workspace)
-      : lists_(lists),
+  Writer(const Scene& scene, ContactLists& lists, ContactWorkspace& workspace)
+      : scene_(scene),
+        lists_(lists),
         changes_(workspace.changes),
         before_(workspace.before),
         after_(lists.touching),
@@ -91,7 +106,7 @@ class Writer {
     note_change(pair.ball);
     after_.ball[count_] = pair.ball;
     after_.segment[count_] = pair.segment;
-    after_.reach[count_] = lists_.candidate_reach[pair.place];
+    after_.reach[count_] = scene_.reach_of(pair.ball, pair.segment);
     after_.place[count_] = pair.place;
     after_.linked[count_] = 0;
     after_.side[count_] = 0;
@@ -111,6 +126,7 @@ class Writer {
     next_ = end;
   }
 
+  const Scene& scene_;
   const ContactLists& lists_;
   std::vector<ChangedBall>& changes_;
   const TouchMemory& before_;
@@ -136,10 +152,11 @@ void link(const Scene& scene, TouchMemory& touching, const ChangedBall& changed)
 
 }  // namespace
 
-void remember_touches(const Scene& scene, ContactLists& lists, ContactWorkspace& workspace) {
-  recognize(lists, workspace);
+void remember_touches(const Scene& scene, const LatticeBand& band, ContactLists& lists, ContactWorkspace& workspace,
+                      std::vector<Newcomer>& of_next_band) {
+  sort_out(band, lists, workspace, of_next_band);
   std::swap(lists.touching, workspace.before);
-  Writer writer(lists, workspace);
+  Writer writer(scene, lists, workspace);
   for (const Newcomer& pair : workspace.newcomers) {
     writer.copy_until(pair.next);
     writer.put(pair);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
 #include "contact/contact_workspace.h"
@@ -24,10 +26,12 @@ inline PairRange pairs_of_ball(const TouchMemory& touching, int ball, int place)
   return range;
 }
 
-/// Takes the pairs that have parted out of ContactLists::touching and puts those in that have been found to overlap. What touched
-/// before goes to ContactWorkspace::before; Touches::known tells where it was there.
+/// Takes the pairs that have parted out of ContactLists::touching of a band and puts those in that have been found to overlap, in
+/// the band's faces or in those of the band before; then `of_next_band` has those of the next. What touched before goes to
+/// ContactWorkspace::before; Touches::known tells where it was there.
 ///
 /// Nearly all pairs touch for many steps: they are copied in long runs between the few that come and go.
-void remember_touches(const Scene& scene, ContactLists& lists, ContactWorkspace& workspace);
+void remember_touches(const Scene& scene, const LatticeBand& band, ContactLists& lists, ContactWorkspace& workspace,
+                      std::vector<Newcomer>& of_next_band);
 
 }  // namespace cellcrush

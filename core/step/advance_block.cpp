@@ -100,12 +100,11 @@ class Block {
 
   void evaluate_contacts(BlockStep& step, std::size_t b, WorkspacePart& part, const StageTeller& teller) {
     const LatticeBand& band = scene_.bands[b];
-    ContactLists& lists = state_.contacts[b];
     teller.begin(Stage::find_contacts);
-    const bool is_planar = search_faces(scene_, state_, band, scene_.faces.bands[b], lists, part.alone);
+    const bool is_planar = search_faces(scene_, state_, band, scene_.faces.bands[b], state_.contacts[b], part.alone);
     step.has_crossed = step.has_crossed || !is_planar;
     teller.begin(Stage::evaluate_contact_forces);
-    evaluate_contact_forces(scene_, state_, lists, part.contact, part.alone, step.sums.walls);
+    evaluate_contact_forces(scene_, state_, b, part.contact, part.alone, step.sums);
     teller.begin(Stage::evaluate_plate_forces);
     const std::span<const int> near(near_);
     evaluate_plate_forces(scene_, state_, step.plate, band, near.subspan(band.first_joint, step.near[b].joints),

@@ -16,13 +16,12 @@ namespace cellcrush {
 namespace {
 
 /// The contacts' and the plates' forces on a band's particles, or on all.
-void evaluate_contacts(const Scene& scene, State& state, ContactLists& lists, const LatticeBand& band,
-                       const NearPlates& near_plates, Workspace& workspace, const StageTeller& teller,
-                       ContactSums& sums) {
+void evaluate_contacts(const Scene& scene, State& state, std::size_t band, const NearPlates& near_plates,
+                       Workspace& workspace, const StageTeller& teller, ContactSums& sums) {
   teller.begin(Stage::evaluate_contact_forces);
-  evaluate_contact_forces(scene, state, lists, workspace.contact, workspace.workers, sums.walls);
+  evaluate_contact_forces(scene, state, band, workspace.contact, workspace.workers, sums);
   teller.begin(Stage::evaluate_plate_forces);
-  evaluate_plate_forces(scene, state, plate_motion_of(scene, state), band, near_plates, sums);
+  evaluate_plate_forces(scene, state, plate_motion_of(scene, state), scene.bands[band], near_plates, sums);
 }
 
 void evaluate_all_contacts(const Scene& scene, State& state, const NearPlates& near_plates, Workspace& workspace,
@@ -34,8 +33,7 @@ void evaluate_all_contacts(const Scene& scene, State& state, const NearPlates& n
   ContactSums sums = begin_contact_sums(state);
   const bool is_whole = scene.bands.size() == 1;
   for (std::size_t b = 0; b < scene.bands.size(); ++b) {
-    evaluate_contacts(scene, state, state.contacts[b], scene.bands[b], is_whole ? near_plates : std::nullopt, workspace,
-                      teller, sums);
+    evaluate_contacts(scene, state, b, is_whole ? near_plates : std::nullopt, workspace, teller, sums);
   }
   put_contact_sums(sums, state);
 }

@@ -44,7 +44,7 @@ struct Simulation::Impl {
 namespace {
 
 // Changes with what follows it in a checkpoint.
-constexpr std::uint64_t kCheckpointFormat = 0x63656C6C63720003;
+constexpr std::uint64_t kCheckpointFormat = 0x63656C6C63720004;
 
 /// Whether the states are of equal scenes, so far as their lists tell.
 bool fit(const State& one, const State& other) {

@@ -30,7 +30,7 @@ void clear_contact_forces(State& state) {
 
 void evaluate_wall_contacts(const Scene& scene, State& state, ContactWorkspace& workspace, Workers& workers) {
   ContactSums sums = begin_contact_sums(state);
-  evaluate_contact_forces(scene, state, state.contacts.front(), workspace, workers, sums.walls);
+  evaluate_contact_forces(scene, state, 0, workspace, workers, sums);
   state.contact_totals = sums.walls;
 }
 

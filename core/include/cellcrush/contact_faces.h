@@ -4,7 +4,8 @@
 
 namespace cellcrush {
 
-/// The faces that the balls of a band border (all faces, where there is but one band). F faces, C corners, G groups.
+/// The faces with particles of a band and of none before, and what the band and its neighbours have of the outer one (all faces,
+/// where there is but one band). F faces, C corners, G groups.
 struct FacesOfBand {
   std::vector<int> number;  ///< F, among all faces
   std::vector<int> offset;  ///< F + 1, into corners
@@ -39,7 +40,7 @@ struct ContactFaces {
   Premise premise = Premise::no_contact;
 
   std::vector<int> side;           ///< 2 E, the faces at the left and at the right of each element
-  std::vector<FacesOfBand> bands;  ///< as Scene::bands; a face is in the bands of all its balls
+  std::vector<FacesOfBand> bands;  ///< as Scene::bands
 
   [[nodiscard]] bool are_enough() const { return premise == Premise::holds; }
 };

@@ -14,11 +14,13 @@ struct TouchMemory {
   std::vector<int> ball;      ///< T, particle
   std::vector<int> segment;   ///< T, element
   std::vector<double> reach;  ///< T, mm, distance at which they touch
-  std::vector<int> place;     ///< T, of the candidate by which the pair was found; its list may be another since then
-  std::vector<int> linked;    ///< T, 1: shares a particle with the segment of another of the ball's pairs; 0: with none
-  std::vector<int> side;      ///< T, +1 left, -1 right of the segment: where the ball is, or came from; 0: has parted
-  std::vector<int> pushed;    ///< T, the side from which it pushed on the ball with friction in the newest step; 0: it
-                              ///< did not. Empty without friction
+  std::vector<int>
+      place;  ///< T, of the candidate by which the pair was found, in this list or that of the band before;
+              ///< the face's list may be another since then
+  std::vector<int> linked;  ///< T, 1: shares a particle with the segment of another of the ball's pairs; 0: with none
+  std::vector<int> side;    ///< T, +1 left, -1 right of the segment: where the ball is, or came from; 0: has parted
+  std::vector<int> pushed;  ///< T, the side from which it pushed on the ball with friction in the newest step; 0: it
+                            ///< did not. Empty without friction
   std::vector<double>
       friction;  ///< T, N, on the ball, along the segment, round its ends with it; kept while it pushes.
                  ///< Empty without friction
