@@ -8,6 +8,7 @@
 #include <tuple>
 #include <vector>
 
+#include "contact/border_check.h"
 #include "scene/bands.h"
 #include "scene/face_loops.h"
 
@@ -197,6 +198,9 @@ void build_contact_faces(Scene& scene) {
   int number = 0;
   for (FacesOfBand& of_band : faces.bands) {
     note_members(seen, number, of_band);
+  }
+  if (scene.bands.size() > 1) {
+    faces.border = find_border(scene);
   }
 }
 

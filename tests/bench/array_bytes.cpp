@@ -33,7 +33,7 @@ std::vector<std::pair<std::string, double>> array_bytes(const Scene& scene, cons
       {"scene.initial_velocity", bytes_of(scene.initial_velocity) + bytes_of(scene.initial_spin)},
       {"scene.limited_reaches", bytes_of(scene.limited_reaches.offset) + bytes_of(scene.limited_reaches.segment) +
                                     bytes_of(scene.limited_reaches.reach)},
-      {"scene.faces", bytes_of(scene.faces.side)},
+      {"scene.faces", bytes_of(scene.faces.side) + bytes_of(scene.faces.border)},
   };
   for (const FacesOfBand& faces : scene.faces.bands) {
     arrays.emplace_back("scene.faces", bytes_of(faces.number) + bytes_of(faces.offset) + bytes_of(faces.particle) +

@@ -25,6 +25,13 @@ struct FacesOfBand {
   [[nodiscard]] int corner_count(int face) const { return offset[face + 1] - offset[face]; }
 };
 
+/// A particle of the outer border of a lattice that is cut into bands.
+struct BorderParticle {
+  int particle = 0;
+  int band = 0;       ///< that owns it
+  int last_band = 0;  ///< of the elements there
+};
+
 /// The faces that elements make of the plane, for the search of contacts (contact/face_search.h): the cells and the outer
 /// border. E elements. Built by build_contact_faces; empty where contacts are searched by buckets.
 struct ContactFaces {
@@ -39,8 +46,9 @@ struct ContactFaces {
   };
   Premise premise = Premise::no_contact;
 
-  std::vector<int> side;           ///< 2 E, the faces at the left and at the right of each element
-  std::vector<FacesOfBand> bands;  ///< as Scene::bands
+  std::vector<int> side;               ///< 2 E, the faces at the left and at the right of each element
+  std::vector<FacesOfBand> bands;      ///< as Scene::bands
+  std::vector<BorderParticle> border;  ///< band by band; empty where there is but one
 
   [[nodiscard]] bool are_enough() const { return premise == Premise::holds; }
 };
