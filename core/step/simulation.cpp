@@ -139,6 +139,33 @@ double Simulation::time() const { return impl_->state.time; }
 double Simulation::strain() const {
   return impl_->scene->length > 0.0 ? impl_->state.impact_travel / impl_->scene->length : 0.0;
 }
+
+void Simulation::visit_arrays(const std::function<void(const void*, std::size_t)>& visit) const {
+  const auto visit_array = [&](const auto& array) {
+    if (!array.empty()) {
+      visit(array.data(), array.size() * sizeof(*array.data()));
+    }
+  };
+  visit_fields(impl_->state, [&](const char*, const auto& field) {
+    if constexpr (requires { field.data(); }) {
+      visit_array(field);
+    }
+  });
+  const Scene& scene = *impl_->scene;
+  visit_array(scene.elements);
+  visit_array(scene.inverse_mass);
+  visit_array(scene.inverse_inertia);
+  visit_array(scene.radius);
+  visit_array(scene.wall_end_offset);
+  visit_array(scene.wall_ends);
+  visit_array(scene.incidence_offset);
+  visit_array(scene.incidence);
+  visit_array(scene.faces.side);
+  for (const FacesOfBand& faces : scene.faces.bands) {
+    visit_array(faces.particle);
+  }
+}
+
 const Scene& Simulation::scene() const { return *impl_->scene; }
 const State& Simulation::state() const { return impl_->state; }
 

@@ -16,6 +16,7 @@
 #include "worker/checkpoint_file.h"
 #include "worker/give_up.h"
 #include "worker/job_scene.h"
+#include "worker/large_pages.h"
 #include "worker/origin.h"
 #include "worker/processor_time.h"
 #include "worker/run_output.h"
@@ -51,6 +52,7 @@ class Run {
     const auto found = find_checkpoint(folder_, origin_);
     const bool resumes = found.checkpoint && restore(*found.checkpoint);
     if (!resumes) begin_anew();
+    use_large_pages(simulation_);
     say_begun(found.refused);
     output_->put_mesh();
     if (!resumes) output_->put_frame(simulation_.take_frame(0));

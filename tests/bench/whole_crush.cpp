@@ -12,6 +12,7 @@
 #include "bench/machine.h"
 #include "cellcrush/simd.h"
 #include "scenes/frames.h"
+#include "worker/large_pages.h"
 #include "worker/stage_timer.h"
 
 namespace cellcrush::bench {
@@ -51,6 +52,7 @@ CrushCost crush(const SceneSpec& spec, const std::string& target, bool list_arra
   cost.build_seconds = start - begin;
   cost.build_bytes = greatest_resident_bytes() - cost.base_bytes;
   Simulation simulation(scene);
+  worker::use_large_pages(simulation);
   worker::StageTimer timer;
   std::vector<Sample> samples;
   int frames = 0;

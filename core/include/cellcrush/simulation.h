@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -111,6 +113,10 @@ class Simulation {
   /// Goes on from a checkpoint of a run of an equal scene that had not stopped. False, and nothing has happened, when the
   /// bytes are none.
   bool restore(std::string_view checkpoint);
+
+  /// Calls visit(first byte, bytes) for the arrays that most steps go over. They stay where they are until steps make lists of
+  /// contacts longer, or until restore().
+  void visit_arrays(const std::function<void(const void*, std::size_t)>& visit) const;
 
   [[nodiscard]] RunStatus status() const;
   [[nodiscard]] std::int64_t step() const;

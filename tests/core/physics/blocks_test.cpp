@@ -107,6 +107,7 @@ TEST(Blocks, GoOnFromACheckpoint) {
   whole.advance(200);
   resumed.advance(200);
   EXPECT_EQ(scenes::hash_of(resumed.state()), scenes::hash_of(whole.state()));
+  EXPECT_EQ(crush_in_blocks(*scene, 1, 400, 400), scenes::hash_of(whole.state()));
 }
 
 TEST(Blocks, AreLeftToSingleStepsByThePlainText) {
