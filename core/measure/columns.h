@@ -17,6 +17,7 @@ struct Columns {
   std::vector<int> lower;         ///< N, the nearest column at or below the particle; never the last
   std::vector<double> share;      ///< N, of the particle that belongs to the column above `lower`
   int axis = 0;                   ///< of the crush
+  double begin = 0.0;             ///< mm along it, of the impact end, undeformed
 };
 
 /// Columns a cell apart. `pitch`: mean extent of a cell along the crush, mm. REQUIRES: a scene with plates.
@@ -26,10 +27,10 @@ Columns divide_into_columns(const Scene& scene, double pitch);
 struct Profile {
   std::vector<double> displacement;  ///< K, mm along the crush, mean over the mass
   std::vector<double> velocity;      ///< K, mm/s along the crush, mean over the mass
-  std::vector<double> wall_area;     ///< K, mm^2, length times thickness of the walls now
 };
-
-/// Of a state whose lengths are those of its positions.
 Profile measure_columns(const Columns& columns, const Scene& scene, const State& state);
+
+/// Length times thickness of the walls now, mm^2 (K). Of a state whose lengths are those of its positions.
+std::vector<double> measure_walls(const Columns& columns, const Scene& scene, const State& state);
 
 }  // namespace cellcrush

@@ -73,8 +73,10 @@ double mean_velocity(const Columns& columns, const Profile& profile, int from, i
 
 }  // namespace
 
-std::optional<Front> find_front(const Columns& columns, const Profile& profile, double plate_speed,
+std::optional<Front> find_front(const Columns& columns, const Scene& scene, const State& state,
                                 double relative_density) {
+  const Profile profile = measure_columns(columns, scene, state);
+  const double plate_speed = scene.plates.speed_at(state.time);
   const auto last = static_cast<int>(columns.place.size()) - 1;
   const std::vector<double> strains = strains_of(columns, profile);
   const int step = find_step(strains);
@@ -102,8 +104,8 @@ std::optional<Front> find_front(const Columns& columns, const Profile& profile, 
   const auto walls_behind = [&](const std::vector<double>& area) {
     return std::accumulate(area.begin(), area.begin() + behind + 1, 0.0);
   };
-  front.wall_fraction_behind =
-      front.solid_fraction_behind * walls_behind(profile.wall_area) / walls_behind(columns.wall_area);
+  front.wall_fraction_behind = front.solid_fraction_behind * walls_behind(measure_walls(columns, scene, state)) /
+                               walls_behind(columns.wall_area);
   return front;
 }
 

@@ -25,9 +25,9 @@ inline constexpr double kLeastJump = 0.3;
 inline constexpr double kMostScatter = 0.05;
 inline constexpr double kLeastVelocityJump = 0.8;
 
-/// The jump across the front, or nothing where there is none. `plate_speed`: of the impact plate now, mm/s.
-/// `relative_density`: of the undeformed lattice.
-std::optional<Front> find_front(const Columns& columns, const Profile& profile, double plate_speed,
+/// The jump across the front, or nothing where there is none. `relative_density`: of the undeformed lattice. REQUIRES: lengths
+/// that are those of the state's positions.
+std::optional<Front> find_front(const Columns& columns, const Scene& scene, const State& state,
                                 double relative_density);
 
 }  // namespace cellcrush

@@ -1,6 +1,6 @@
 #include "measure/sampler.h"
 
-#include <bit>
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -17,32 +17,45 @@ namespace {
 /// The crush mode is looked for each time that so many more of the cells have collapsed: it takes as long as many steps.
 constexpr double kLookEvery = 0.04;
 
-/// Share of an element's volume for which each fibre stands.
-std::vector<double> shares_of_fibres(const SectionRule& rule) {
-  std::vector<double> shares;
-  for (const double along : rule.along_weight) {
-    for (const double through : rule.depth_weight) {
-      shares.push_back(along * through);
-    }
-  }
-  return shares;
-}
-
 /// Share of an element's volume whose fibres have flowed.
-template <class T>
-double flowed_fraction(const std::vector<double>& shares, const FibreMemory<T>& fibres, const ElementPlace& place) {
-  double fraction = 0.0;
-  if (fibres.flowed.empty()) {
-    for (std::size_t fibre = 0; fibre < shares.size(); ++fibre) {
-      fraction += fibres.plastic_strain[place.index(shares.size(), fibre)] > T(0.0) ? shares[fibre] : 0.0;
+class FlowedShare {
+ public:
+  explicit FlowedShare(const SectionRule& rule) {
+    for (const double along : rule.along_weight) {
+      for (const double through : rule.depth_weight) {
+        share_.push_back(along * through);
+      }
     }
-  } else {
-    for (auto flowed = fibres.flowed[place.element]; flowed != 0; flowed &= flowed - 1) {
-      fraction += shares[static_cast<std::size_t>(std::countr_zero(flowed))];
+    of_byte_.resize((share_.size() + 7) / 8);
+    for (std::size_t fibre = 0; fibre < share_.size(); ++fibre) {
+      std::array<double, 256>& of_byte = of_byte_[fibre / 8];
+      for (std::size_t byte = 0; byte < of_byte.size(); ++byte) {
+        of_byte[byte] += (byte >> fibre % 8 & 1) != 0 ? share_[fibre] : 0.0;
+      }
     }
   }
-  return fraction;
-}
+
+  template <class T>
+  [[nodiscard]] double of(const FibreMemory<T>& fibres, const ElementPlace& place) const {
+    double fraction = 0.0;
+    if (fibres.flowed.empty()) {
+      for (std::size_t fibre = 0; fibre < share_.size(); ++fibre) {
+        fraction += fibres.plastic_strain[place.index(share_.size(), fibre)] > T(0.0) ? share_[fibre] : 0.0;
+      }
+    } else {
+      auto flowed = fibres.flowed[place.element];
+      for (const std::array<double, 256>& of_byte : of_byte_) {
+        fraction += of_byte[flowed & 255];
+        flowed >>= 8;
+      }
+    }
+    return fraction;
+  }
+
+ private:
+  std::vector<double> share_;                     ///< of each fibre
+  std::vector<std::array<double, 256>> of_byte_;  ///< of the fibres whose bits are set in a byte
+};
 
 }  // namespace
 
@@ -73,8 +86,7 @@ void Sampler::measure_collapse(const Scene& scene, const State& state, Sample& s
     sample.crush_mode = find_crush_mode(field);
     next_look_ = sample.collapsed_fraction + kLookEvery;
   }
-  sample.front = find_front(columns_, measure_columns(columns_, scene, state), scene.plates.speed_at(state.time),
-                            relative_density_);
+  sample.front = find_front(columns_, scene, state, relative_density_);
 }
 
 void Sampler::find_warnings(const Scene& scene, const State& state, Sample& sample) {
@@ -120,8 +132,7 @@ Sample Sampler::take(const Scene& scene, const State& state) {
   return sample;
 }
 
-FieldFrame make_frame(const Scene& scene, const State& state, int index) {
-  FieldFrame frame;
+void make_frame(const Scene& scene, const State& state, int index, FieldFrame& frame) {
   frame.index = index;
   frame.time = state.time;
   frame.strain = scene.length > 0.0 ? state.impact_travel / scene.length : 0.0;
@@ -130,15 +141,12 @@ FieldFrame make_frame(const Scene& scene, const State& state, int index) {
     frame.position[2 * i] = static_cast<float>(state.position[i].x());
     frame.position[2 * i + 1] = static_cast<float>(state.position[i].y());
   }
-  const std::vector<double> shares = shares_of_fibres(scene.section);
-  frame.plastic_fraction.reserve(scene.element_count());
+  const FlowedShare flowed(scene.section);
+  frame.plastic_fraction.resize(scene.element_count());
   visit_elements(scene, [&](const ElementPlace& place, int) {
-    frame.plastic_fraction.push_back(static_cast<float>(scene.single_fibres
-                                                            ? flowed_fraction(shares, state.single_fibres, place)
-                                                            : flowed_fraction(shares, state.fibres, place)));
+    frame.plastic_fraction[place.element] = static_cast<float>(
+        scene.single_fibres ? flowed.of(state.single_fibres, place) : flowed.of(state.fibres, place));
   });
-  frame.plastic_fraction.resize(scene.element_count(), 0.0F);
-  return frame;
 }
 
 }  // namespace cellcrush

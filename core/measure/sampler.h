@@ -45,7 +45,7 @@ class Sampler {
   double next_look_;  ///< share of collapsed cells from which the crush mode is looked for next
 };
 
-/// Positions, and the share of each element's section area that has yielded.
-FieldFrame make_frame(const Scene& scene, const State& state, int index);
+/// Overwrites a frame, of the same scene if of any: positions, and the share of each element's section area that has yielded.
+void make_frame(const Scene& scene, const State& state, int index, FieldFrame& frame);
 
 }  // namespace cellcrush

@@ -15,15 +15,13 @@ namespace cellcrush {
 
 struct Simulation::Impl {
   Impl(std::shared_ptr<const Scene> built, int threads)
-      : scene(std::move(built)),
-        state(make_initial_state(*scene)),
-        workspace(threads),
-        sampler(*scene),
-        last_good(make_frame(*scene, state, 0)) {}
+      : scene(std::move(built)), state(make_initial_state(*scene)), workspace(threads), sampler(*scene) {
+    make_frame(*scene, state, 0, last_good);
+  }
 
   void keep_frame() {
     if (kFramesKept * (state.step - last_good_step) >= scene->schedule.step_count) {
-      last_good = make_frame(*scene, state, 0);
+      make_frame(*scene, state, 0, last_good);
       last_good_step = state.step;
     }
   }
@@ -85,7 +83,11 @@ Sample Simulation::take_sample() {
   return sample;
 }
 
-FieldFrame Simulation::take_frame(int index) const { return make_frame(*impl_->scene, impl_->state, index); }
+FieldFrame Simulation::take_frame(int index) const {
+  FieldFrame frame;
+  make_frame(*impl_->scene, impl_->state, index, frame);
+  return frame;
+}
 
 const FieldFrame& Simulation::last_good_frame() const { return impl_->last_good; }
 
