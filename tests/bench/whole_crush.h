@@ -12,10 +12,10 @@ namespace cellcrush::bench {
 struct CrushCost {
   double elements = 0.0;
   double steps = 0.0;
-  double strain = 0.0;                            ///< at which it ended
-  double seconds = 0.0;                           ///< processor time of the run
-  double build_seconds = 0.0;                     ///< processor time before it
-  std::array<double, kStageCount> stage_seconds;  ///< processor time in the stages
+  double strain = 0.0;                              ///< at which it ended
+  double seconds = 0.0;                             ///< processor time of the run
+  double build_seconds = 0.0;                       ///< processor time before it
+  std::array<double, kStageCount> stage_seconds{};  ///< processor time in the stages
   double base_bytes = 0.0;   ///< resident before the scene was built, when a small crush has been done
   double build_bytes = 0.0;  ///< the most that was resident until the run began, beyond base_bytes
   double peak_bytes = 0.0;   ///< the same until the run's end
