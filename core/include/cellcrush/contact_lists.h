@@ -39,7 +39,7 @@ struct FaceList {
   int group = 0;  ///< of faces, to which it belongs
 };
 
-/// Which pairs may touch and which do, of the balls of a band (Scene::bands) or of all.
+/// Which pairs may touch, of a band's faces (Scene::bands), and which do, of its balls; or of all.
 struct ContactLists {
   // Written by find_contacts. K places for candidates, in whole batches: balls and segments that may touch before they are
   // looked for again.
