@@ -22,6 +22,10 @@ bool searches_faces(const Scene& scene, const State& state) {
   return scene.faces.are_enough() && state.contacts.front().searched_position.empty() && state.crossing_step < 0;
 }
 
+bool has_left_faces(const Scene& scene, const State& state) {
+  return scene.contact.present && scene.faces.are_enough() && !searches_faces(scene, state);
+}
+
 void find_contacts(const Scene& scene, State& state, Workers& workers) {
   if (!scene.contact.present) {
     return;

@@ -18,4 +18,7 @@ void find_contacts(const Scene& scene, State& state, Workers& workers);
 /// Whether it goes by faces still.
 bool searches_faces(const Scene& scene, const State& state);
 
+/// Whether it did and no longer does.
+bool has_left_faces(const Scene& scene, const State& state);
+
 }  // namespace cellcrush

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "beam/element_place.h"
+#include "contact/find_contacts.h"
 #include "energy/ledger.h"
 #include "measure/crush_mode.h"
 #include "measure/front.h"
@@ -94,9 +95,10 @@ void Sampler::find_warnings(const Scene& scene, const State& state, Sample& samp
     sample.warnings.push_back(warn_of_depth(scene, state, sample.strain));
     told_of_depth_ = true;
   }
-  if (!told_of_crossing_ && sample.walls_crossed) {
-    sample.warnings.push_back(warn_of_crossing(scene, state, sample.strain));
-    told_of_crossing_ = true;
+  if (!told_of_search_ && has_left_faces(scene, state)) {
+    sample.warnings.push_back(sample.walls_crossed ? warn_of_crossing(scene, state, sample.strain)
+                                                   : warn_of_borders(scene, state, sample.strain));
+    told_of_search_ = true;
   }
 }
 

@@ -25,7 +25,7 @@ class Sampler {
     visitor(last_impact_impulse_);
     visitor(last_support_impulse_);
     visitor(told_of_depth_);
-    visitor(told_of_crossing_);
+    visitor(told_of_search_);
     visitor(next_look_);
   }
 
@@ -41,7 +41,7 @@ class Sampler {
   double last_impact_impulse_ = 0.0;
   double last_support_impulse_ = 0.0;
   bool told_of_depth_ = false;
-  bool told_of_crossing_ = false;
+  bool told_of_search_ = false;
   double next_look_;  ///< share of collapsed cells from which the crush mode is looked for next
 };
 

@@ -91,6 +91,14 @@ Warning warn_of_crossing(const Scene& scene, const State& state, double strain) 
           kShorterStep};
 }
 
+Warning warn_of_borders(const Scene& scene, const State& state, double strain) {
+  return {Warning::Kind::borders_near, state.step, strain,
+          "Parts of the lattice's border that lie far apart along it came near each other by " +
+              moment_of(state.step, scene.schedule.time_step * static_cast<double>(state.step)) +
+              "; contacts are searched in space since, which finds the same and takes longer.",
+          "The result stands. If the time matters, give a shorter numerics.time_step_s."};
+}
+
 double turnover_of(const Sample& sample) {
   const double initial = sample.energy_residual + sample.energy_kinetic + sample.energy_elastic +
                          sample.energy_plastic + sample.energy_contact + sample.energy_friction +

@@ -42,7 +42,8 @@ struct Warning {
     deep_penetration,  ///< walls overlapped by more than half of the thinner one's thickness
     walls_crossed,     ///< a wall passed through another
     energy_drift,      ///< the ledger was open by more than a hundredth of the work done
-    contact_energy     ///< contacts had made more than a hundredth of the work done
+    contact_energy,    ///< contacts had made more than a hundredth of the work done
+    borders_near  ///< distant parts of a large lattice's border came near: contacts' search takes longer from then on
   };
   Kind kind = Kind::deep_penetration;
   std::int64_t step = 0;

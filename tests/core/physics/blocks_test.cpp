@@ -9,6 +9,7 @@
 #include "cellcrush/simd.h"
 #include "cellcrush/simulation.h"
 #include "contact/border_check.h"
+#include "measure/sampler.h"
 #include "scenes/crushes.h"
 #include "scenes/frames.h"
 #include "scenes/near_pairs.h"
@@ -150,20 +151,42 @@ TEST(Blocks, GoOverToBucketsWhenAWallHasCrossedAnother) {
   }
 }
 
+/// Puts a particle of the border of one band beside that of another, far away, and returns its place.
+Vector2& put_beside_a_far_border(const Scene& scene, State& state) {
+  const int far = scene.faces.bands[15].particle.back();
+  Vector2& place = state.position[scene.faces.bands[5].particle.back()];
+  place = state.position[far] + Vector2(0.1, 0.1);
+  return place;
+}
+
 TEST(Blocks, OfBordersThatComeNearEachOtherAreGivenUp) {
   const auto scene = scenes::build(wide_block());
   State state = make_initial_state(*scene);
   Workspace workspace;
   advance_steps(*scene, state, workspace, 60, nullptr);
   EXPECT_TRUE(borders_are_apart(*scene, state, 100));
-  // A particle of the border of one band beside that of another, far away.
-  const FacesOfBand& faces = scene->faces.bands[5];
-  const int far = scene->faces.bands[15].particle.back();
-  Vector2& place = state.position[faces.particle.back()];
-  place = state.position[far] + Vector2(0.1, 0.1);
+  Vector2& place = put_beside_a_far_border(*scene, state);
   EXPECT_FALSE(borders_are_apart(*scene, state, 100));
   place = Vector2::Constant(std::nan(""));
   EXPECT_TRUE(borders_are_apart(*scene, state, 100)) << "what is lost is left to the check of the run";
+}
+
+TEST(Blocks, GoOverToBucketsWhenBordersComeNearEachOtherAndTellSoOnce) {
+  const auto scene = scenes::build(wide_block());
+  State state = make_initial_state(*scene);
+  Workspace workspace;
+  Sampler sampler(*scene);
+  advance_steps(*scene, state, workspace, 20, nullptr);
+  EXPECT_TRUE(sampler.take(*scene, state).warnings.empty());
+  put_beside_a_far_border(*scene, state);
+  advance_steps(*scene, state, workspace, 1, nullptr);
+  EXPECT_LT(state.crossing_step, 0);
+  EXPECT_FALSE(can_advance_blocks(*scene, state));
+  const Sample sample = sampler.take(*scene, state);
+  ASSERT_EQ(sample.warnings.size(), 1u);
+  EXPECT_EQ(sample.warnings.front().kind, Warning::Kind::borders_near);
+  EXPECT_FALSE(sample.walls_crossed);
+  EXPECT_TRUE(sampler.take(*scene, state).warnings.empty());
 }
 
 }  // namespace
