@@ -9,7 +9,7 @@
 namespace cellcrush::worker {
 namespace {
 
-constexpr std::uintptr_t kLargePage = std::uintptr_t{1} << 21;
+constexpr std::size_t kLargePage = std::size_t{1} << 21;
 
 /// What some thousand small pages hold.
 constexpr std::size_t kLeastBytes = 16'000'000;
@@ -24,11 +24,12 @@ constexpr int kCollapse = 25;  // Linux 6.1; older headers lack its name, older 
 
 void use_large_pages(const Simulation& simulation) {
   // An array's first and last page hold what lies beside it, too: small arrays follow each other.
-  std::set<std::uintptr_t> pages;
+  std::set<const char*> pages;
   std::size_t bytes_of_all = 0;
   simulation.visit_arrays([&](const void* first, std::size_t bytes) {
-    const auto begin = reinterpret_cast<std::uintptr_t>(first);
-    for (std::uintptr_t page = begin / kLargePage; page * kLargePage < begin + bytes; ++page) {
+    const char* begin = static_cast<const char*>(first);
+    for (const char* page = begin - reinterpret_cast<std::uintptr_t>(begin) % kLargePage; page < begin + bytes;
+         page += kLargePage) {
       pages.insert(page);
     }
     bytes_of_all += bytes;
@@ -36,9 +37,9 @@ void use_large_pages(const Simulation& simulation) {
   if (bytes_of_all < kLeastBytes) {
     return;
   }
-  for (const std::uintptr_t page : pages) {
+  for (const char* page : pages) {
     // Refused where some of the page is not the program's: it stays on small pages then.
-    static_cast<void>(madvise(reinterpret_cast<void*>(page * kLargePage), kLargePage, kCollapse));
+    static_cast<void>(madvise(const_cast<char*>(page), kLargePage, kCollapse));
   }
 }
 
