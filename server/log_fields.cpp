@@ -18,8 +18,8 @@ void log_with_fields(spdlog::level::level_enum level, const std::string& words, 
 }
 
 const std::vector<LogField>& fields_of_this_line() {
-  static const std::vector<LogField> none;
-  return current_fields == nullptr ? none : *current_fields;
+  static const std::vector<LogField> kNone;
+  return current_fields == nullptr ? kNone : *current_fields;
 }
 
 }  // namespace cellcrush

@@ -159,12 +159,12 @@ Preset inclusions(std::vector<int> rows) {
   spec.plates.friction = 0.2;
   return {"inclusions-" + count,
           "Wu, Tsai and Lee, Example 3: " + count + " lines of stiff inclusions, 10 elements a wall",
-          {"The crush direction and the places of the lines stood only in lost figures: whole rows across the crush, "
-           "evenly spaced.",
-           "A stiff cell has walls 4 times as thick and does not deform; MESHED, its walls are 64 times as stiff in "
-           "bending.",
-           "Friction 0.2 acts at both plates, as in Example 1: the paper names none here, but between plates that hold "
-           "nothing sideways the block slides in halves before it densifies.",
+          {("The crush direction and the places of the lines stood only in lost figures: whole rows across the crush, "
+            "evenly spaced."),
+           ("A stiff cell has walls 4 times as thick and does not deform; MESHED, its walls are 64 times as stiff in "
+            "bending."),
+           ("Friction 0.2 acts at both plates, as in Example 1: the paper names none here, but between plates that "
+            "hold nothing sideways the block slides in halves before it densifies."),
            "With six lines the rigid cells lock at 66 % strain; the run ends at 65 %.",
            "The step is chosen; the paper's 2e-8 s can be set.", kContactAssumption},
           spec};

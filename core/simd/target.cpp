@@ -33,7 +33,7 @@ std::string name_of(std::int64_t target) {
 
 /// Vector targets that are both built and supported, the best first: better targets have lower bits.
 const std::vector<Target>& wide_targets() {
-  static const std::vector<Target> targets = [] {
+  static const std::vector<Target> kTargets = [] {
     std::vector<Target> found;
     for (const std::int64_t bit : hwy::SupportedAndGeneratedTargets()) {
       if (bit != HWY_SCALAR && bit != HWY_EMU128) {
@@ -43,7 +43,7 @@ const std::vector<Target>& wide_targets() {
     std::sort(found.begin(), found.end(), [](const Target& a, const Target& b) { return a.bit < b.bit; });
     return found;
   }();
-  return targets;
+  return kTargets;
 }
 
 }  // namespace

@@ -50,6 +50,7 @@ double student_factor(int freedom) {
 
 void mark_front(std::vector<Precision>& all) {
   std::vector<Precision*> by_time;
+  by_time.reserve(all.size());
   for (Precision& precision : all) by_time.push_back(&precision);
   std::sort(by_time.begin(), by_time.end(),
             [](const auto* one, const auto* other) { return one->seconds < other->seconds; });

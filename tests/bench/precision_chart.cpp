@@ -110,8 +110,10 @@ void draw_precisions(const std::string& file, const VariedScene& scene, const st
   const double height = kMargin + static_cast<double>(lines) * (kPanelHeight + kMargin);
   write_picture(file, width, height, [&](cairo_t* context) {
     for (std::size_t i = 0; i < panels.size(); ++i) {
-      const double x = kMargin + static_cast<double>(i % 2) * (kPanelWidth + kMargin);
-      const double y = kMargin + static_cast<double>(i / 2) * (kPanelHeight + kMargin);
+      const std::size_t column = i % 2;
+      const std::size_t line = i / 2;
+      const double x = kMargin + static_cast<double>(column) * (kPanelWidth + kMargin);
+      const double y = kMargin + static_cast<double>(line) * (kPanelHeight + kMargin);
       client::draw_text(context, x + client::Axes::kLeft, y + 14.0, scene.name + ": " + panels[i].title,
                         {.size = 14.0, .bold = true});
       client::draw_chart(context, {x, y + kTitleHeight, kPanelWidth, kPanelHeight - kTitleHeight}, panels[i].chart);

@@ -60,7 +60,7 @@ grpc::Status FakeSweeps::RetryFailedJobs(grpc::ServerContext*, const v1::RetryFa
 
 grpc::Status FakeSweeps::WatchSweep(grpc::ServerContext* context, const v1::WatchSweepRequest* request,
                                     grpc::ServerWriter<v1::WatchSweepResponse>* writer) {
-  if (const grpc::Status known = find(request->name()); !known.ok()) return known;
+  if (grpc::Status known = find(request->name()); !known.ok()) return known;
   bool cut = false;
   {
     const std::lock_guard lock(mutex_);

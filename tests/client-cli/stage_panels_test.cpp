@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
+
 #include "synthetic_crush.h"
 
 namespace cellcrush::client {
@@ -11,6 +13,7 @@ using testing::synthetic_stage;
 
 std::vector<MeshFrame> stages_of(int columns, int rows, bool along_y, int count) {
   std::vector<MeshFrame> stages;
+  stages.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) stages.push_back(synthetic_stage(columns, rows, 0.8 * i / count, along_y));
   return stages;
 }

@@ -45,6 +45,7 @@ TEST_F(RequestIdTest, EqualIdsOfManyClientsMakeOneJobEach) {
   const auto start = std::chrono::steady_clock::now();
   {
     std::vector<std::jthread> threads;
+    threads.reserve(answers.size());
     for (auto& answer : answers) {
       threads.emplace_back([&] {
         together.arrive_and_wait();

@@ -12,8 +12,6 @@
 namespace cellcrush::testing {
 namespace {
 
-using ::testing::HasSubstr;
-
 class JobsServiceTest : public DaemonFixture {
  protected:
   [[nodiscard]] std::string result_path(const std::string& job) const {

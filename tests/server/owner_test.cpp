@@ -78,7 +78,7 @@ class Owner {
 
 TEST_F(OwnerTest, AnOwnerIsKeptAndAloneChangesWhatIsHis) {
   using Codes = std::vector<grpc::StatusCode>;
-  const auto kDenied = grpc::StatusCode::PERMISSION_DENIED;
+  const auto denied = grpc::StatusCode::PERMISSION_DENIED;
   start(with_tokens(tcp_options()));
   std::string job;
   std::string sweep;
@@ -95,8 +95,8 @@ TEST_F(OwnerTest, AnOwnerIsKeptAndAloneChangesWhatIsHis) {
   start(with_tokens(tcp_options()));
   EXPECT_EQ(client().get(job).owner(), "anna");
   Owner bob(channel({}), tokens_.at("bob"));
-  EXPECT_EQ(bob.change(job), (Codes{kDenied, kDenied, kDenied, kDenied}));
-  EXPECT_EQ(bob.change_sweep(sweep), (Codes{kDenied, kDenied}));
+  EXPECT_EQ(bob.change(job), (Codes{denied, denied, denied, denied}));
+  EXPECT_EQ(bob.change_sweep(sweep), (Codes{denied, denied}));
   static_cast<void>(bob.create(small_case(), "once"));
   EXPECT_EQ(bob.last.error_code(), grpc::StatusCode::ALREADY_EXISTS) << "Nobody is given another's job as his own.";
   EXPECT_EQ(bob.count("owner = anna"), 2);
@@ -108,7 +108,7 @@ TEST_F(OwnerTest, AnOwnerIsKeptAndAloneChangesWhatIsHis) {
   const std::string of_local = local.create(small_case()).name();
   EXPECT_EQ(client().get(of_local).owner(), "local");
   ASSERT_TRUE(client().watch(of_local).status.ok());
-  EXPECT_EQ(anna.change(of_local).back(), kDenied);
+  EXPECT_EQ(anna.change(of_local).back(), denied);
   Owner chief(channel({}), tokens_.at("chief"));
   EXPECT_EQ(chief.change(of_local).back(), grpc::StatusCode::OK);
 }

@@ -17,7 +17,7 @@ namespace cellcrush::testing {
 class WatchContract {
  public:
   /// Of a watch with this after_sequence.
-  explicit WatchContract(std::int64_t after = 0) : after_(after), sequence_(after) {}
+  explicit WatchContract(std::int64_t after = 0) : sequence_(after) {}
 
   /// The next message.
   void see(const v1::JobEvent& event);
@@ -38,7 +38,6 @@ class WatchContract {
   void see_numbered(const v1::JobEvent& event);
   void see_frame(const v1::FrameChunk& chunk);
 
-  std::int64_t after_;
   std::int64_t sequence_;
   std::int64_t step_ = -1;  ///< of the last sample
   bool any_ = false;

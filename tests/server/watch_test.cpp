@@ -14,6 +14,7 @@ namespace cellcrush::testing {
 namespace {
 
 using std::chrono::milliseconds;
+using ::testing::HasSubstr;
 
 class WatchTest : public DaemonFixture {
  protected:

@@ -135,18 +135,19 @@ std::string draw_map(client::PictureFormat format, const Grid& grid, const std::
   const double panel_width = kLeft + columns * kCellWidth + 16.0;
   const double panel_height = kAbove + rows * kCellHeight + kBelow;
   const int panels_up = (static_cast<int>(grid.speeds.size()) + kPanelsAcross - 1) / kPanelsAcross;
-  return client::render_picture(
-      format, kPanelsAcross * panel_width, kHead + panels_up * panel_height, [&](cairo_t* context) {
-        draw_head(context, title);
-        for (std::size_t i = 0; i < grid.speeds.size(); ++i) {
-          const auto across = static_cast<double>(i % kPanelsAcross);
-          const auto up = static_cast<double>(i / kPanelsAcross);
-          const Panel panel(context, grid, across * panel_width + kLeft, kHead + up * panel_height + kAbove);
-          panel.draw_cells(&results[i * grid.penalties.size() * grid.steps.size()]);
-          panel.draw_labels(grid.speeds[i]);
-          panel.draw_default(defaults[i]);
-        }
-      });
+  return client::render_picture(format, kPanelsAcross * panel_width, kHead + panels_up * panel_height,
+                                [&](cairo_t* context) {
+                                  draw_head(context, title);
+                                  for (std::size_t i = 0; i < grid.speeds.size(); ++i) {
+                                    const std::size_t across = i % kPanelsAcross;
+                                    const std::size_t up = i / kPanelsAcross;
+                                    const Panel panel(context, grid, static_cast<double>(across) * panel_width + kLeft,
+                                                      kHead + static_cast<double>(up) * panel_height + kAbove);
+                                    panel.draw_cells(&results[i * grid.penalties.size() * grid.steps.size()]);
+                                    panel.draw_labels(grid.speeds[i]);
+                                    panel.draw_default(defaults[i]);
+                                  }
+                                });
 }
 
 }  // namespace cellcrush::stability

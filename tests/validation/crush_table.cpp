@@ -117,7 +117,7 @@ void append_row(const std::string& file, const Options& options, const CrushRun&
 std::string describe(const Options& options, const CrushRun& run) {
   std::string text;
   for (const auto& [name, value] : cells_of(options, run)) {
-    text += name + std::string(34 - name.size(), ' ') + value + "\n";
+    text.append(name).append(34 - name.size(), ' ').append(value).append("\n");
   }
   return text + run.status.message;
 }

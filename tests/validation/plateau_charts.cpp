@@ -80,6 +80,7 @@ std::vector<Plateau> read_plateaus(const std::vector<std::string>& tables, const
                                 ": stands in none of the tables with a plateau; give the tables that validate wrote.");
   }
   std::vector<Plateau> plateaus;
+  plateaus.reserve(by_speed.size());
   for (const auto& [speed, plateau] : by_speed) {
     plateaus.push_back(plateau);
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <iterator>
+#include <ostream>
 #include <sstream>
 
 #include "bench/csv_table.h"
@@ -40,7 +41,7 @@ std::string name_of(const testing::TestParamInfo<Kept>& info) {
   return name;
 }
 
-void PrintTo(const Kept& kept, std::ostream* stream) { *stream << kept.curve; }
+std::ostream& operator<<(std::ostream& stream, const Kept& kept) { return stream << kept.curve; }
 
 class SlowHalf : public testing::TestWithParam<Kept> {};
 

@@ -64,8 +64,10 @@ void draw_strip(const std::string& file, const std::vector<StripRow>& rows, cons
   const double bottom = kMargin + static_cast<double>(rows.size()) * (kTitle + height + kGap);
   bench::write_picture(file, kWidth, bottom + client::kColourBarHeight + kMargin, [&](cairo_t* context) {
     for (std::size_t i = 0; i < stages.size(); ++i) {
-      const double x = kMargin + static_cast<double>(i % strains.size()) * (width + kGap);
-      const double y = kMargin + static_cast<double>(i / strains.size()) * (kTitle + height + kGap) + kTitle;
+      const std::size_t column = i % strains.size();
+      const std::size_t row = i / strains.size();
+      const double x = kMargin + static_cast<double>(column) * (width + kGap);
+      const double y = kMargin + static_cast<double>(row) * (kTitle + height + kGap) + kTitle;
       client::draw_text(context, x, y - 5.0, titles[i], kTitleStyle);
       client::draw_lattice(context, {x, y, width, height}, box, stages[i]);
     }

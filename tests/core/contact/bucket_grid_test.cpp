@@ -24,6 +24,7 @@ TEST(BucketGrid, FindsWhatBruteForceFindsAtNegativeCoordinatesToo) {
   std::mt19937 generator(7);
   std::uniform_real_distribution<double> place(-30.0, 20.0);
   std::vector<Vector2> points;
+  points.reserve(2000);
   for (int i = 0; i < 2000; ++i) {
     points.emplace_back(place(generator), place(generator));
   }

@@ -29,9 +29,9 @@ CollapseField block(int columns, int rows, const std::function<bool(double, doub
 /// Turns a share of the flags over, the same ones each time.
 CollapseField with_noise(CollapseField field, double share) {
   std::mt19937_64 generator(20261121);
-  for (std::size_t cell = 0; cell < field.collapsed.size(); ++cell) {
+  for (auto&& flag : field.collapsed) {
     if (static_cast<double>(generator() >> 11) * 0x1p-53 < share) {
-      field.collapsed[cell] = !field.collapsed[cell];
+      flag.flip();
     }
   }
   return field;
