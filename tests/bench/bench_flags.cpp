@@ -2,6 +2,7 @@
 
 #include <exception>
 #include <iostream>
+#include <stdexcept>
 #include <utility>
 
 namespace cellcrush::bench {
@@ -49,6 +50,10 @@ int run_benchmarks(int count, char** words, const std::vector<std::string>& coun
     std::cerr << error.what() << "\n";
     return 1;
   }
+}
+
+void draw_nothing(const std::string& file, const std::vector<Measured>&) {
+  throw std::invalid_argument("--chart=" + file + ": these benchmarks have no chart; crush_bench draws one.");
 }
 
 }  // namespace cellcrush::bench

@@ -22,4 +22,7 @@ int run_benchmarks(int count, char** words, const std::vector<std::string>& coun
                    const std::function<void(const Flags&)>& add,
                    const std::function<void(const std::string& file, const std::vector<Measured>&)>& draw);
 
+/// `draw` of programs that have no chart: throws std::invalid_argument.
+void draw_nothing(const std::string& file, const std::vector<Measured>&);
+
 }  // namespace cellcrush::bench

@@ -98,10 +98,6 @@ std::vector<std::string> counters() {
   return names;
 }
 
-void draw_nothing(const std::string& file, const std::vector<Measured>&) {
-  throw std::invalid_argument("--chart=" + file + ": these benchmarks have no chart; crush_bench draws one.");
-}
-
 }  // namespace
 }  // namespace cellcrush::bench
 
