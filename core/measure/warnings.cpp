@@ -96,7 +96,8 @@ Warning warn_of_borders(const Scene& scene, const State& state, double strain) {
           "Parts of the lattice's border that lie far apart along it came near each other by " +
               moment_of(state.step, scene.schedule.time_step * static_cast<double>(state.step)) +
               "; contacts are searched in space since, which finds the same and takes longer.",
-          "The result stands. If the time matters, give a shorter numerics.time_step_s."};
+          "Nothing need be done: the result stands. Where numerics.time_step_s was given, 0 has it chosen, which may "
+          "avoid it."};
 }
 
 double turnover_of(const Sample& sample) {
