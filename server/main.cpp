@@ -6,29 +6,21 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <chrono>
-#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <string>
 
 #include "access/token_file.h"
 #include "cellcrush/simd.h"
+#include "command_line/daemon_flags.h"
 #include "daemon.h"
 #include "log_format.h"
 #include "version.h"
 #include "worker/worker_main.h"
 
 namespace {
-
-std::filesystem::path default_data_folder() {
-  if (const char* data = std::getenv("XDG_DATA_HOME"); data != nullptr && *data == '/')
-    return std::filesystem::path(data) / "cellcrush";
-  if (const char* home = std::getenv("HOME"); home != nullptr && *home == '/')
-    return std::filesystem::path(home) / ".local/share/cellcrush";
-  return {};
-}
 
 // SIGTERM, SIGINT and, where there are tokens to read again, SIGHUP are waited for by main alone; blocked before any other thread
 // exists.
@@ -91,66 +83,7 @@ int serve(const cellcrush::DaemonOptions& options, const sigset_t& signals) {
 
 int main(int argc, char** argv) {
   CLI::App app("cellcrushd hosts the solver: it takes cases over gRPC, runs them, and streams what comes of them.");
-  cellcrush::DaemonOptions options;
-  options.data_folder = default_data_folder();
-  app.add_option("--listen", options.listen,
-                 "unix:PATH or HOST:PORT, may be repeated; port 0 takes a free one "
-                 "(default: unix:DIR/cellcrushd.sock and 127.0.0.1:50551)");
-  app.add_option("--data", options.data_folder,
-                 "folder of jobs and results (default: $XDG_DATA_HOME/cellcrush or ~/.local/share/cellcrush)");
-  app.add_option(
-      "--tls-cert", options.access.tls_certificate,
-      "PEM file of this server's certificate; every HOST:PORT then takes TLS only (default: none, plain text)");
-  app.add_option("--tls-key", options.access.tls_key, "PEM file of the certificate's key (default: none)");
-  app.add_option("--tls-client-ca", options.access.tls_client_authority,
-                 "PEM file of the authority that signs clients' certificates; one is then asked of every client on TCP "
-                 "(default: none)");
-  std::string certificate_scope = "submit";
-  app.add_option("--tls-client-scope", certificate_scope,
-                 "what those may do who show such a certificate: read, submit or admin (default: submit)")
-      ->check(CLI::IsMember({"read", "submit", "admin"}));
-  app.add_option("--tokens", options.access.tokens,
-                 "file of the tokens that calls on TCP must carry, a line each, see `cellcrushd token`; read again on "
-                 "SIGHUP (default: none)");
-  app.add_option(
-      "--metrics", options.metrics,
-      "HOST:PORT of loopback at which metrics for Prometheus are served over HTTP, at /metrics (default: nowhere)");
-  app.add_option("--workers", options.workers, "jobs that run at once (default: one for each core)")
-      ->check(CLI::Range(1, 1024));
-  app.set_config("--config", "",
-                 "file of options in TOML, a line each: their long names without the dashes (default: none)");
-  constexpr std::int64_t kMebibyte = 1024 * 1024;
-  std::int64_t memory_mib = 0;
-  std::int64_t free_mib = 256;
-  double keep_days = 0.0;
-  app.add_option("--max-queued-jobs", options.limits.queued_jobs, "jobs that may wait (default: 100000)")
-      ->check(CLI::Range(1, 10'000'000));
-  app.add_option("--max-job-memory", memory_mib,
-                 "MiB that a job may be predicted to need (default: what the machine has)")
-      ->check(CLI::Range(1, 1 << 30));
-  double job_seconds = 0.0;
-  app.add_option(
-         "--max-job-time", job_seconds,
-         "seconds of clock that a job's workers may take in all; it then ends with what there is (default: no limit)")
-      ->check(CLI::Range(0.0, 1e9));
-  app.add_option("--min-free-disk", free_mib,
-                 "MiB that are kept free in the data folder: below it no job is taken and none runs (default: 256)")
-      ->check(CLI::Range(0, 1 << 30));
-  app.add_option("--keep-ended-jobs", keep_days,
-                 "days after which a job that has ended is deleted (default: 0, which is never)")
-      ->check(CLI::Range(0.0, 36500.0));
-  std::string log_format = "text";
-  app.add_option("--log-format", log_format, "text or json, an object a line (default: text)")
-      ->check(CLI::IsMember({"text", "json"}));
-  double checkpoint_seconds = 60.0;
-  app.add_option("--checkpoint-interval", checkpoint_seconds,
-                 "seconds of clock between two checkpoints of a running job (default: 60)")
-      ->check(CLI::Range(0.01, 86400.0));
-  double patience_seconds = 600.0;
-  app.add_option("--watch-patience", patience_seconds,
-                 "seconds in which a watcher has read nothing, though there is news, after which its watch is closed "
-                 "with RESOURCE_EXHAUSTED (default: 600)")
-      ->check(CLI::Range(1.0, 86400.0));
+  cellcrush::DaemonFlags flags(app);
   app.set_version_flag("--version", std::string("cellcrushd ") + cellcrush::kSolverRevision);
   std::string token_name;
   std::string token_scope;
@@ -172,23 +105,18 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : 2;
   }
   if (token->parsed()) return print_token(token_name, token_scope);
-  options.access.certificate_scope = cellcrush::access::parse_scope(certificate_scope).value();
   if (!choose_kernel()) return 2;
   umask(0077);
   if (worker->parsed()) cellcrush::worker::worker_main(job_folder);
+  cellcrush::DaemonOptions options = flags.options();
   if (options.data_folder.empty()) {
     std::fprintf(stderr, "cellcrushd: neither XDG_DATA_HOME nor HOME is set. Give a data folder with --data.\n");
     return 2;
   }
-  options.limits.job_memory_bytes = memory_mib * kMebibyte;
-  options.limits.free_disk_bytes = free_mib * kMebibyte;
-  options.limits.job_time = std::chrono::duration<double>(job_seconds);
-  options.keep_ended_jobs = std::chrono::seconds(std::llround(86400.0 * keep_days));
   options.on_drain = [] { kill(getpid(), SIGTERM); };
-  options.checkpoint_interval = std::chrono::milliseconds(std::llround(1000.0 * checkpoint_seconds));
-  options.watch_times.patience = std::chrono::milliseconds(std::llround(1000.0 * patience_seconds));
   const sigset_t signals = block_signals(!options.access.tokens.empty());
   spdlog::set_default_logger(spdlog::stderr_color_mt("cellcrushd"));
-  spdlog::set_formatter(log_format == "json" ? cellcrush::make_json_formatter() : cellcrush::make_text_formatter());
+  spdlog::set_formatter(flags.log_format() == "json" ? cellcrush::make_json_formatter()
+                                                     : cellcrush::make_text_formatter());
   return serve(options, signals);
 }

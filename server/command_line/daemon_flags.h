@@ -1,0 +1,42 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <string>
+
+#include "daemon_options.h"
+
+namespace cellcrush {
+
+/// The flags of the daemon, on the command line and in the file of --config. Outlives the parsing of the app it is given.
+class DaemonFlags {
+ public:
+  explicit DaemonFlags(CLI::App& app);
+  DaemonFlags(const DaemonFlags&) = delete;
+  DaemonFlags& operator=(const DaemonFlags&) = delete;
+
+  /// What was given, once the app has parsed it.
+  [[nodiscard]] DaemonOptions options() const;
+
+  /// "text" or "json".
+  [[nodiscard]] const std::string& log_format() const { return log_format_; }
+
+ private:
+  void add_addresses(CLI::App& app);
+  void add_access(CLI::App& app);
+  void add_limits(CLI::App& app);
+  void add_storage(CLI::App& app);
+  void add_times(CLI::App& app);
+
+  DaemonOptions options_;
+  std::string certificate_scope_ = "submit";
+  std::string log_format_ = "text";
+  std::int64_t memory_mib_ = 0;
+  std::int64_t free_mib_ = 256;
+  double job_seconds_ = 0.0;
+  double keep_days_ = 0.0;
+  double checkpoint_seconds_ = 60.0;
+  double patience_seconds_ = 600.0;
+};
+
+}  // namespace cellcrush
