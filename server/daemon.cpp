@@ -4,15 +4,24 @@
 #include <grpcpp/ext/proto_server_reflection_plugin.h>
 #include <grpcpp/grpcpp.h>
 #include <grpcpp/health_check_service_interface.h>
+#include <grpcpp/resource_quota.h>
 #include <spdlog/spdlog.h>
-#include <sys/stat.h>
 
+#include <algorithm>
+#include <array>
 #include <mutex>
+#include <optional>
 #include <utility>
 
 #include "access/gate.h"
+#include "access/refusal_log.h"
 #include "error.h"
 #include "listen_address.h"
+#include "net/acceptor.h"
+#include "net/descriptor_limit.h"
+#include "net/heap_trim.h"
+#include "net/listening_port.h"
+#include "net/port_probe.h"
 #include "service.h"
 #include "worker/step_cost.h"
 
@@ -21,7 +30,10 @@ namespace {
 
 constexpr int kLargestMessage = 4 * 1024 * 1024;
 constexpr std::chrono::seconds kCallsMayLast{2};
-constexpr int kHandshakeMilliseconds = 5000;
+constexpr int kBetweenPingsOfAClient = 10'000;  // ms
+/// What grpc.health.v1 has a status of; "" is the daemon as a whole.
+constexpr std::array kServices = {"", "cellcrush.v1.Cases", "cellcrush.v1.Jobs", "cellcrush.v1.Sweeps",
+                                  "cellcrush.v1.Admin"};
 
 ListenAddress metrics_address(const std::string& text) {
   ListenAddress out = parse_listen_address(text);
@@ -60,9 +72,17 @@ std::vector<std::shared_ptr<grpc::ServerCredentials>> credentials_for(const acce
 void prepare_grpc_once() {
   static std::once_flag once;
   std::call_once(once, [] {
-    grpc::EnableDefaultHealthCheckService(true);
+    // The service answers grpc.health.v1 itself.
+    grpc::EnableDefaultHealthCheckService(false);
     grpc::reflection::InitProtoReflectionServerBuilderPlugin();
   });
+}
+
+DaemonOptions with_descriptors(DaemonOptions options) {
+  auto& limits = options.connections;
+  limits.connections = net::raise_descriptor_limit(limits.connections, options.worker_count());
+  limits.connections_per_address = std::min(limits.connections_per_address, limits.connections);
+  return options;
 }
 
 }  // namespace
@@ -70,7 +90,7 @@ void prepare_grpc_once() {
 // Members are in the order of their dependence: each uses only those above it.
 struct Daemon::Impl {
   explicit Impl(DaemonOptions given)
-      : options(std::move(given)),
+      : options(with_descriptors(std::move(given))),
         wanted(listen_addresses(options)),
         gate(options.access),
         credentials(credentials_for(gate, wanted)),
@@ -78,46 +98,65 @@ struct Daemon::Impl {
     listen();
     serve_metrics();
     service.start();
-    for (const char* name : {"cellcrush.v1.Cases", "cellcrush.v1.Jobs", "cellcrush.v1.Sweeps", "cellcrush.v1.Admin"})
-      server->GetHealthCheckService()->SetServingStatus(name, true);
+    for (const char* name : kServices) service.health().set(name, true);
   }
 
   ~Impl() { stop(); }
 
   void listen() {
     prepare_grpc_once();
+    std::vector<net::ListeningPort> ports;
+    for (const auto& address : wanted) ports.emplace_back(address);
     grpc::ServerBuilder builder;
-    builder.SetMaxReceiveMessageSize(kLargestMessage);
-    // A port belongs to one daemon; without this a second one would share it.
-    builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
-    // Whoever connects and says nothing is let go.
-    builder.AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, kHandshakeMilliseconds);
-    std::vector<int> ports(wanted.size(), 0);
+    limit(builder);
+    std::vector<bool> plain;
+    using External = grpc::ServerBuilder::experimental_type::ExternalConnectionType;
     for (std::size_t i = 0; i < wanted.size(); ++i) {
-      if (wanted[i].kind == ListenAddress::Kind::unix_socket) remove_stale_socket(wanted[i].place);
-      builder.AddListeningPort(wanted[i].text(), credentials[i], &ports[i]);
+      handlers.push_back(builder.experimental().AddExternalConnectionAcceptor(External::FROM_FD, credentials[i]));
+      plain.push_back(wanted[i].kind == ListenAddress::Kind::unix_socket || options.access.tls_certificate.empty());
     }
     service.register_with(builder);
     server = builder.BuildAndStart();
-    for (std::size_t i = 0; i < wanted.size(); ++i) settle(wanted[i], ports[i]);
     if (!server) throw ServiceError(ServiceError::Kind::failed_precondition, "The service could not be started.");
+    for (const auto& port : ports) addresses.push_back(port.address().text());
+    net::Acceptor::Parts parts;
+    parts.plain = plain;
+    parts.hand_over = [this](std::size_t port, int listener, int descriptor) {
+      grpc::experimental::ExternalConnectionAcceptor::NewConnectionParameters connection;
+      connection.listener_fd = listener;
+      connection.fd = descriptor;
+      handlers[port]->HandleNewConnection(&connection);
+    };
+    parts.refused = [this](const std::string& why) {
+      refusals.note(why);
+      service.note_refused_connection();
+    };
+    parts.counted = [this](std::size_t open) {
+      service.note_connections(open);
+      heap.note(open + service.stream_count());
+    };
+    acceptor.emplace(std::move(ports), options.connections, std::move(parts));
+    acceptor->start();
+    probe.emplace(*acceptor, plain, options.connections);
   }
 
-  // Notes the address that a port was bound to, or says which could not be.
-  void settle(const ListenAddress& address, int port) {
-    if (port == 0) {
-      throw ServiceError(ServiceError::Kind::failed_precondition,
-                         "Cannot listen on " + address.text() +
-                             ": another program listens there, or it may not be used. Stop the other, or give another "
-                             "address with --listen.");
-    }
-    ListenAddress bound = address;
-    if (address.kind == ListenAddress::Kind::unix_socket) {
-      chmod(address.place.c_str(), 0600);
-    } else {
-      bound.port = port;
-    }
-    addresses.push_back(bound.text());
+  // What gRPC itself holds its callers to; the rest is done by the acceptor and the streams.
+  void limit(grpc::ServerBuilder& builder) const {
+    const auto milliseconds = [](std::chrono::milliseconds time) { return static_cast<int>(time.count()); };
+    const auto& limits = options.connections;
+    builder.SetMaxReceiveMessageSize(kLargestMessage);
+    grpc::ResourceQuota quota("cellcrushd");
+    quota.Resize(static_cast<std::size_t>(limits.memory_bytes)).SetMaxThreads(limits.threads);
+    builder.SetResourceQuota(quota);
+    // Whoever connects and says nothing is let go, and so is whoever is gone without a word.
+    builder.AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, milliseconds(limits.handshake));
+    builder.AddChannelArgument(GRPC_ARG_MAX_CONNECTION_IDLE_MS, milliseconds(limits.idle));
+    builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, milliseconds(limits.keepalive));
+    builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, milliseconds(limits.keepalive_answer));
+    // Clients may ask for signs of life as well, though not all the time.
+    builder.AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS, kBetweenPingsOfAClient);
+    builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_PERMIT_WITHOUT_CALLS, 1);
+    builder.AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, limits.streams_per_caller);
   }
 
   void serve_metrics() {
@@ -127,15 +166,17 @@ struct Daemon::Impl {
   }
 
   void drain() {
-    server->GetHealthCheckService()->SetServingStatus(false);
+    service.health().set_all(false);
     if (options.on_drain) options.on_drain();
   }
 
   void stop() {
     if (std::exchange(stopped, true)) return;
     service.refuse_jobs();
-    server->GetHealthCheckService()->SetServingStatus(false);
+    service.health().set_all(false);
     service.stop();
+    probe.reset();
+    acceptor->stop();
     server->Shutdown(std::chrono::system_clock::now() + kCallsMayLast);
     server->Wait();
   }
@@ -147,7 +188,12 @@ struct Daemon::Impl {
   Service service;
   std::vector<std::string> addresses;
   std::string metrics_url;
+  std::vector<std::unique_ptr<grpc::experimental::ExternalConnectionAcceptor>> handlers;  ///< of the wanted addresses
+  access::RefusalLog refusals;
+  net::HeapTrim heap;
   std::unique_ptr<grpc::Server> server;
+  std::optional<net::Acceptor> acceptor;
+  std::optional<net::PortProbe> probe;
   bool stopped = false;
 };
 

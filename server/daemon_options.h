@@ -1,13 +1,16 @@
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "access/gate.h"
 #include "jobs/admission.h"
+#include "net/connection_limits.h"
 #include "watch/watch_times.h"
 
 namespace cellcrush {
@@ -18,6 +21,7 @@ struct DaemonOptions {
   std::filesystem::path data_folder;
   /// Who may call on TCP, and by what he is known.
   access::Options access;
+  net::ConnectionLimits connections;
   /// "HOST:PORT" of loopback at which metrics are served over HTTP. Empty: nowhere.
   std::string metrics;
   /// Jobs that run at once. 0: as many as this machine has cores.
@@ -37,6 +41,11 @@ struct DaemonOptions {
   /// Called when a client has asked the daemon to end, which is then to be stopped.
   std::function<void()> on_drain;
   watch::WatchTimes watch_times;
+
+  /// `workers`, or the number of cores where that is 0.
+  [[nodiscard]] int worker_count() const {
+    return workers > 0 ? workers : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  }
 };
 
 }  // namespace cellcrush

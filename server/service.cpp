@@ -1,10 +1,8 @@
 #include "service.h"
 
-#include <algorithm>
 #include <chrono>
 #include <initializer_list>
 #include <optional>
-#include <thread>
 #include <utility>
 
 #include "jobs/admission.h"
@@ -14,6 +12,7 @@
 #include "metrics/metrics.h"
 #include "rpc/admin_service.h"
 #include "rpc/cases_service.h"
+#include "rpc/health_service.h"
 #include "rpc/jobs_service.h"
 #include "rpc/sweeps_service.h"
 #include "store/data_folder.h"
@@ -28,8 +27,8 @@ namespace {
 
 constexpr int kPumpThreads = 2;
 
-int worker_limit(int asked) {
-  return asked > 0 ? asked : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+rpc::StreamLimits::Most most_streams(const net::ConnectionLimits& limits) {
+  return {limits.streams, limits.streams_per_caller, limits.memory_bytes};
 }
 
 }  // namespace
@@ -48,20 +47,25 @@ struct Service::Parts {
         runner({folder, journal, reader, hub, executor, metrics, options.checkpoint_interval,
                 std::chrono::duration<double>(options.limits.job_time).count()}),
         scheduler({folder, journal, reader, metrics, runner}),
+        stream_limits(most_streams(options.connections)),
+        health_limits(most_streams(options.connections)),
         pump(kPumpThreads),
         admission(folder, options.limits),
         cases(step_cost),
-        jobs({folder, journal, reader, hub, pump, scheduler, admission, metrics, gate, options.watch_times}),
-        sweeps({journal, reader, sweep_reader, hub, pump, scheduler, admission, metrics, gate, options.watch_times}),
+        health({board, {pump, metrics, health_limits, options.watch_times}}),
+        jobs({folder, journal, reader, hub, scheduler, admission, gate, streams()}),
+        sweeps({journal, reader, sweep_reader, hub, scheduler, admission, gate, streams()}),
         admin({reader,
                hub,
                scheduler,
-               {worker_limit(options.workers), step_cost, false},
+               {options.worker_count(), step_cost, false},
                gate,
                [this, drained = std::move(on_drain)] {
                  admission.drain();
                  drained();
                }}) {}
+
+  [[nodiscard]] rpc::StreamParts streams() { return {pump, metrics, stream_limits, options.watch_times}; }
 
   DaemonOptions options;
   store::DataFolder folder;
@@ -73,9 +77,13 @@ struct Service::Parts {
   jobs::LocalProcess executor;
   jobs::JobRunner runner;
   jobs::Scheduler scheduler;
+  rpc::StreamLimits stream_limits;
+  rpc::StreamLimits health_limits;
+  rpc::HealthBoard board;
   watch::Pump pump;
   jobs::Admission admission;
   rpc::CasesService cases;
+  rpc::HealthService health;
   rpc::JobsService jobs;
   rpc::SweepsService sweeps;
   rpc::AdminService admin;
@@ -89,16 +97,24 @@ Service::Service(const DaemonOptions& options, const access::Gate& gate, double 
 Service::~Service() = default;
 
 void Service::register_with(grpc::ServerBuilder& builder) {
-  for (grpc::Service* service :
-       std::initializer_list<grpc::Service*>{&parts_->cases, &parts_->jobs, &parts_->sweeps, &parts_->admin})
+  for (grpc::Service* service : std::initializer_list<grpc::Service*>{&parts_->health, &parts_->cases, &parts_->jobs,
+                                                                      &parts_->sweeps, &parts_->admin})
     builder.RegisterService(service);
 }
+
+rpc::HealthBoard& Service::health() { return parts_->board; }
+
+std::size_t Service::stream_count() const { return parts_->stream_limits.count() + parts_->health_limits.count(); }
+
+void Service::note_connections(std::size_t open) { parts_->metrics.set_connections(open); }
+
+void Service::note_refused_connection() { parts_->metrics.count_refused_connection(); }
 
 ListenAddress Service::serve_metrics(const ListenAddress& address) { return parts_->metrics.serve(address); }
 
 void Service::start() {
   Parts& parts = *parts_;
-  parts.scheduler.start(worker_limit(parts.options.workers));
+  parts.scheduler.start(parts.options.worker_count());
   parts.housekeeping.emplace(jobs::Housekeeping::Parts{parts.folder, parts.journal, parts.reader, parts.admission,
                                                        parts.scheduler, parts.options.housekeeping_interval,
                                                        parts.options.keep_ended_jobs});

@@ -8,6 +8,7 @@
 #include "access/gate.h"
 #include "daemon_options.h"
 #include "listen_address.h"
+#include "rpc/health_service.h"
 
 namespace cellcrush {
 
@@ -25,6 +26,16 @@ class Service {
 
   /// It outlives the server that is built.
   void register_with(grpc::ServerBuilder& builder);
+
+  /// What grpc.health.v1 answers. Lives as long as the service.
+  rpc::HealthBoard& health();
+
+  /// Streams that are open now.
+  [[nodiscard]] std::size_t stream_count() const;
+
+  /// For the metrics.
+  void note_connections(std::size_t open);
+  void note_refused_connection();
 
   /// metrics::Metrics::serve.
   ListenAddress serve_metrics(const ListenAddress& address);

@@ -30,6 +30,7 @@ DaemonFlags::DaemonFlags(CLI::App& app) {
   options_.data_folder = default_data_folder();
   add_addresses(app);
   add_access(app);
+  add_connections(app);
   add_limits(app);
   add_storage(app);
   add_times(app);
@@ -63,6 +64,25 @@ void DaemonFlags::add_access(CLI::App& app) {
   app.add_option("--tokens", access.tokens,
                  "file of the tokens that calls on TCP must carry, a line each, see `cellcrushd token`; read again on "
                  "SIGHUP (default: none)");
+}
+
+void DaemonFlags::add_connections(CLI::App& app) {
+  auto& limits = options_.connections;
+  app.add_option("--max-connections", limits.connections,
+                 "TCP connections that may be open, and as many on Unix sockets; fewer where the limit on file "
+                 "descriptors is too low (default: 1000)")
+      ->check(CLI::Range(1, 1'000'000));
+  app.add_option("--max-connections-per-address", limits.connections_per_address,
+                 "TCP connections that one address may have open (default: 500)")
+      ->check(CLI::Range(1, 1'000'000));
+  app.add_option("--max-streams", limits.streams, "watches, downloads and frames that may be open (default: 2000)")
+      ->check(CLI::Range(1, 1'000'000));
+  app.add_option("--max-streams-per-caller", limits.streams_per_caller,
+                 "those that one token or certificate may have open (default: 1000)")
+      ->check(CLI::Range(1, 1'000'000));
+  app.add_option("--max-call-memory", call_memory_mib_,
+                 "MiB that connections may take, and as much for messages that wait to be read (default: 256)")
+      ->check(CLI::Range(16, 1 << 20));
 }
 
 void DaemonFlags::add_limits(CLI::App& app) {
@@ -102,6 +122,7 @@ void DaemonFlags::add_times(CLI::App& app) {
 DaemonOptions DaemonFlags::options() const {
   DaemonOptions out = options_;
   out.access.certificate_scope = access::parse_scope(certificate_scope_).value();
+  out.connections.memory_bytes = call_memory_mib_ * kMebibyte;
   out.limits.job_memory_bytes = memory_mib_ * kMebibyte;
   out.limits.free_disk_bytes = free_mib_ * kMebibyte;
   out.limits.job_time = std::chrono::duration<double>(job_seconds_);

@@ -24,6 +24,7 @@ class DaemonFlags {
  private:
   void add_addresses(CLI::App& app);
   void add_access(CLI::App& app);
+  void add_connections(CLI::App& app);
   void add_limits(CLI::App& app);
   void add_storage(CLI::App& app);
   void add_times(CLI::App& app);
@@ -31,6 +32,7 @@ class DaemonFlags {
   DaemonOptions options_;
   std::string certificate_scope_ = "submit";
   std::string log_format_ = "text";
+  std::int64_t call_memory_mib_ = 256;
   std::int64_t memory_mib_ = 0;
   std::int64_t free_mib_ = 256;
   double job_seconds_ = 0.0;

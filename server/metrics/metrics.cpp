@@ -71,6 +71,9 @@ struct Metrics::Impl {
   prometheus::Histogram& events =
       histogram(*registry, "cellcrush_event_seconds", "Time from news of a watched job to its message on the stream.");
   prometheus::Gauge& watchers = gauge(*registry, "cellcrush_watchers", "Open watches.");
+  prometheus::Gauge& connections = gauge(*registry, "cellcrush_connections", "Open connections of gRPC.");
+  prometheus::Counter& refused =
+      counters(*registry, "cellcrush_refused_connections_total", "Connections beyond the limits.").Add({});
   prometheus::Counter& skipped =
       counters(*registry, "cellcrush_skipped_frames_total", "Frames that watchers were too slow for.").Add({});
   std::mutex mutex;
@@ -119,6 +122,10 @@ void Metrics::observe_commit(double seconds) { impl_->commits.Observe(seconds); 
 void Metrics::observe_event(double seconds) { impl_->events.Observe(seconds); }
 
 void Metrics::count_watcher(int change) { impl_->watchers.Increment(change); }
+
+void Metrics::set_connections(std::size_t open) { impl_->connections.Set(static_cast<double>(open)); }
+
+void Metrics::count_refused_connection() { impl_->refused.Increment(); }
 
 void Metrics::count_skipped_frames(int frames) { impl_->skipped.Increment(frames); }
 

@@ -20,6 +20,8 @@ namespace cellcrush::metrics {
 ///   cellcrush_commit_seconds                         histogram: what it takes to make a change or some samples durable
 ///   cellcrush_event_seconds                          histogram: from news of a watched job to its message on the stream
 ///   cellcrush_watchers                               open watches
+///   cellcrush_connections                            open connections of gRPC
+///   cellcrush_refused_connections_total              connections beyond the limits
 ///   cellcrush_skipped_frames_total                   frames that watchers were too slow for
 ///
 /// Thread-safe.
@@ -40,6 +42,8 @@ class Metrics {
   void observe_commit(double seconds);
   void observe_event(double seconds);
   void count_watcher(int change);
+  void set_connections(std::size_t open);
+  void count_refused_connection();
   void count_skipped_frames(int frames);
 
   /// `summary` is null for a job without a result.

@@ -7,11 +7,12 @@
 #include "jobs/resource_name.h"
 #include "rpc/change_log.h"
 #include "rpc/create_request.h"
+#include "rpc/download_source.h"
 #include "rpc/error_table.h"
+#include "rpc/frame_source.h"
 #include "rpc/job_query.h"
 #include "rpc/page.h"
 #include "rpc/request_limits.h"
-#include "rpc/watch_reactor.h"
 #include "translate/case_checker.h"
 #include "translate/check_case.h"
 #include "watch/job_source.h"
@@ -168,16 +169,41 @@ grpc::Status JobsService::DeleteJob(grpc::ServerContext* context, const v1::Dele
   });
 }
 
-grpc::ServerWriteReactor<v1::JobEvent>* JobsService::WatchJob(grpc::CallbackServerContext*,
+grpc::ServerWriteReactor<v1::JobEvent>* JobsService::WatchJob(grpc::CallbackServerContext* context,
                                                               const v1::WatchJobRequest* request) {
-  try {
-    const std::int64_t job = find(request->name()).number;
-    auto source = std::make_unique<watch::JobSource>(parts_.reader, parts_.hub, job, request->after_sequence(),
-                                                     request->frames());
-    return WatchReactor<watch::JobSource>::start({parts_.pump, parts_.metrics, parts_.watch_times}, std::move(source));
-  } catch (const std::exception& error) {
-    return new RefusedWatch<v1::JobEvent>(status_of(error));
-  }
+  return open_stream<watch::JobSource>(
+      parts_.streams, *context, [&] { return parts_.gate.caller_of(*context).name; },
+      [&] {
+        return std::make_unique<watch::JobSource>(parts_.reader, parts_.hub, find(request->name()).number,
+                                                  request->after_sequence(), request->frames());
+      });
+}
+
+grpc::ServerWriteReactor<v1::GetFrameResponse>* JobsService::GetFrame(grpc::CallbackServerContext* context,
+                                                                      const v1::GetFrameRequest* request) {
+  return open_stream<FrameSource>(
+      parts_.streams, *context, [&] { return parts_.gate.caller_of(*context).name; },
+      [&] {
+        return std::make_unique<FrameSource>(FrameSource::Parts{parts_.folder, parts_.reader, parts_.hub},
+                                             find(request->name()), *request);
+      });
+}
+
+grpc::ServerWriteReactor<v1::DownloadResultResponse>* JobsService::DownloadResult(
+    grpc::CallbackServerContext* context, const v1::DownloadResultRequest* request) {
+  return open_stream<DownloadSource>(
+      parts_.streams, *context, [&] { return parts_.gate.caller_of(*context).name; },
+      [&] {
+        const auto stored = find(request->name());
+        if (!stored.job.has_summary()) {
+          throw ServiceError(
+              ServiceError::Kind::failed_precondition,
+              stored.job.name() + " is " + v1::JobState_Name(stored.job.state()) +
+                  " and has no result. A job has one once it has SUCCEEDED, or was cancelled or failed while "
+                  "it ran.");
+        }
+        return std::make_unique<DownloadSource>(parts_.folder.job_folder(stored.number).result(), request->offset());
+      });
 }
 
 grpc::Status JobsService::GetHistory(grpc::ServerContext*, const v1::GetHistoryRequest* request,

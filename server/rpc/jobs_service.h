@@ -4,19 +4,19 @@
 #include "cellcrush/v1/jobs_service.grpc.pb.h"
 #include "jobs/admission.h"
 #include "jobs/scheduler.h"
-#include "metrics/metrics.h"
+#include "rpc/stream_reactor.h"
 #include "store/data_folder.h"
 #include "store/journal.h"
 #include "store/journal_reader.h"
 #include "watch/hub.h"
-#include "watch/pump.h"
-#include "watch/watch_times.h"
 
 namespace cellcrush::rpc {
 
-/// Jobs and their results. Thread-safe. Watches go through gRPC's callbacks and hold no thread; all other calls are
-/// short or bounded by the client's reading.
-class JobsService final : public v1::Jobs::WithCallbackMethod_WatchJob<v1::Jobs::Service> {
+/// Jobs and their results. Thread-safe. Streams go through gRPC's callbacks and hold no thread, however slowly they are read;
+/// all other calls are short.
+class JobsService final
+    : public v1::Jobs::WithCallbackMethod_WatchJob<
+          v1::Jobs::WithCallbackMethod_GetFrame<v1::Jobs::WithCallbackMethod_DownloadResult<v1::Jobs::Service>>> {
  public:
   /// All of it outlives the service.
   struct Parts {
@@ -24,12 +24,10 @@ class JobsService final : public v1::Jobs::WithCallbackMethod_WatchJob<v1::Jobs:
     store::Journal& journal;
     store::JournalReader& reader;
     watch::Hub& hub;
-    watch::Pump& pump;
     jobs::Scheduler& scheduler;
     const jobs::Admission& admission;
-    metrics::Metrics& metrics;
     const access::Gate& gate;
-    watch::WatchTimes watch_times;
+    StreamParts streams;
   };
 
   explicit JobsService(const Parts& parts) : parts_(parts) {}
@@ -48,10 +46,10 @@ class JobsService final : public v1::Jobs::WithCallbackMethod_WatchJob<v1::Jobs:
                                                    const v1::WatchJobRequest* request) override;
   grpc::Status GetHistory(grpc::ServerContext* context, const v1::GetHistoryRequest* request,
                           v1::GetHistoryResponse* response) override;
-  grpc::Status GetFrame(grpc::ServerContext* context, const v1::GetFrameRequest* request,
-                        grpc::ServerWriter<v1::GetFrameResponse>* writer) override;
-  grpc::Status DownloadResult(grpc::ServerContext* context, const v1::DownloadResultRequest* request,
-                              grpc::ServerWriter<v1::DownloadResultResponse>* writer) override;
+  grpc::ServerWriteReactor<v1::GetFrameResponse>* GetFrame(grpc::CallbackServerContext* context,
+                                                           const v1::GetFrameRequest* request) override;
+  grpc::ServerWriteReactor<v1::DownloadResultResponse>* DownloadResult(
+      grpc::CallbackServerContext* context, const v1::DownloadResultRequest* request) override;
 
  private:
   /// Throws ServiceError (not_found) when there is none.
@@ -60,7 +58,6 @@ class JobsService final : public v1::Jobs::WithCallbackMethod_WatchJob<v1::Jobs:
   std::int64_t find_own(const grpc::ServerContext& context, const std::string& name);
   void add_progress(store::StoredJob& stored);
   void commit_samples();
-  v1::FieldFrame find_frame(const store::StoredJob& stored, const v1::GetFrameRequest& request);
 
   Parts parts_;
 };

@@ -12,7 +12,6 @@
 #include "rpc/error_table.h"
 #include "rpc/page.h"
 #include "rpc/request_limits.h"
-#include "rpc/watch_reactor.h"
 #include "translate/check_case.h"
 #include "watch/sweep_source.h"
 
@@ -152,17 +151,15 @@ grpc::Status SweepsService::RetryFailedJobs(grpc::ServerContext* context, const 
   });
 }
 
-grpc::ServerWriteReactor<v1::WatchSweepResponse>* SweepsService::WatchSweep(grpc::CallbackServerContext*,
+grpc::ServerWriteReactor<v1::WatchSweepResponse>* SweepsService::WatchSweep(grpc::CallbackServerContext* context,
                                                                             const v1::WatchSweepRequest* request) {
-  try {
-    check_length("resume_token", request->resume_token(), kLongestResumeToken);
-    auto source = std::make_unique<watch::SweepSource>(parts_.reader, parts_.sweeps, parts_.hub,
-                                                       find(request->name()).number, request->resume_token());
-    return WatchReactor<watch::SweepSource>::start({parts_.pump, parts_.metrics, parts_.watch_times},
-                                                   std::move(source));
-  } catch (const std::exception& error) {
-    return new RefusedWatch<v1::WatchSweepResponse>(status_of(error));
-  }
+  return open_stream<watch::SweepSource>(
+      parts_.streams, *context, [&] { return parts_.gate.caller_of(*context).name; },
+      [&] {
+        check_length("resume_token", request->resume_token(), kLongestResumeToken);
+        return std::make_unique<watch::SweepSource>(parts_.reader, parts_.sweeps, parts_.hub,
+                                                    find(request->name()).number, request->resume_token());
+      });
 }
 
 grpc::Status SweepsService::GetSweepTable(grpc::ServerContext*, const v1::GetSweepTableRequest* request,

@@ -6,13 +6,11 @@
 #include "cellcrush/v1/sweeps_service.grpc.pb.h"
 #include "jobs/admission.h"
 #include "jobs/scheduler.h"
-#include "metrics/metrics.h"
+#include "rpc/stream_reactor.h"
 #include "store/journal.h"
 #include "store/journal_reader.h"
 #include "store/sweep_reader.h"
 #include "watch/hub.h"
-#include "watch/pump.h"
-#include "watch/watch_times.h"
 
 namespace cellcrush::rpc {
 
@@ -25,12 +23,10 @@ class SweepsService final : public v1::Sweeps::WithCallbackMethod_WatchSweep<v1:
     store::JournalReader& reader;
     store::SweepReader& sweeps;
     watch::Hub& hub;
-    watch::Pump& pump;
     jobs::Scheduler& scheduler;
     const jobs::Admission& admission;
-    metrics::Metrics& metrics;
     const access::Gate& gate;
-    watch::WatchTimes watch_times;
+    StreamParts streams;
   };
 
   explicit SweepsService(const Parts& parts) : parts_(parts) {}

@@ -15,6 +15,7 @@ namespace cellcrush::watch {
 class JobSource {
  public:
   using Message = v1::JobEvent;
+  static constexpr bool kIsWatch = true;
 
   /// Throws ServiceError like WatchCursor.
   JobSource(store::JournalReader& journal, Hub& hub, std::int64_t job, std::int64_t after, bool frames);

@@ -24,6 +24,7 @@ namespace cellcrush::watch {
 class SweepSource {
  public:
   using Message = v1::WatchSweepResponse;
+  static constexpr bool kIsWatch = true;
 
   /// An empty token begins with everything. Throws ServiceError: not_found, or invalid for another sweep's token.
   SweepSource(store::JournalReader& journal, store::SweepReader& sweeps, Hub& hub, std::int64_t sweep,

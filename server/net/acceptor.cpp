@@ -1,0 +1,172 @@
+#include "net/acceptor.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <iterator>
+#include <utility>
+
+#include "error.h"
+
+namespace cellcrush::net {
+namespace {
+
+constexpr int kAtOnce = 64;  // connections of a socket, before the others have their turn
+constexpr int kLookMilliseconds = 1000;
+constexpr std::chrono::seconds kBetweenCounts{1};
+// While there are no descriptors: the kernel keeps who connects waiting.
+constexpr std::chrono::milliseconds kPause{100};
+
+int open_reserve() { return open("/dev/null", O_RDONLY | O_CLOEXEC); }
+
+bool lacks_descriptors(int error) { return error == EMFILE || error == ENFILE || error == ENOBUFS || error == ENOMEM; }
+
+}  // namespace
+
+Acceptor::Acceptor(std::vector<ListeningPort> ports, const ConnectionLimits& limits, Parts parts)
+    : limits_(limits),
+      parts_(std::move(parts)),
+      ports_(std::move(ports)),
+      on_tcp_({limits.connections, limits.connections_per_address}),
+      on_unix_sockets_({limits.connections, limits.connections}),
+      reserve_(open_reserve()),
+      wake_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {
+  if (wake_ < 0)
+    throw ServiceError(ServiceError::Kind::internal, std::string("Cannot serve: ") + std::strerror(errno) + ".");
+}
+
+void Acceptor::start() {
+  thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
+}
+
+void Acceptor::stop() {
+  thread_.request_stop();
+  wake();
+  if (thread_.joinable()) thread_.join();
+  const std::scoped_lock lock(mutex_);
+  if (std::exchange(closed_, true)) return;
+  ports_.clear();
+  if (reserve_ >= 0) close(reserve_);
+  close(wake_);
+}
+
+std::vector<ListenAddress> Acceptor::addresses() const {
+  const std::scoped_lock lock(mutex_);
+  std::vector<ListenAddress> out;
+  std::transform(ports_.begin(), ports_.end(), std::back_inserter(out),
+                 [](const ListeningPort& port) { return port.address(); });
+  return out;
+}
+
+void Acceptor::reopen(std::size_t port) {
+  {
+    const std::scoped_lock lock(mutex_);
+    if (closed_) return;
+    ports_[port].reopen();
+  }
+  wake();
+}
+
+void Acceptor::look_after_connections() {
+  refused_.close_old();
+  if (reserve_ < 0) reserve_ = open_reserve();
+  const auto now = std::chrono::steady_clock::now();
+  if (now - last_count_ < kBetweenCounts) return;
+  last_count_ = now;
+  on_tcp_.drop_closed();
+  on_unix_sockets_.drop_closed();
+  parts_.counted(on_tcp_.count() + on_unix_sockets_.count());
+}
+
+void Acceptor::wake() const {
+  const std::scoped_lock lock(mutex_);
+  if (!closed_) eventfd_write(wake_, 1);
+}
+
+void Acceptor::run(const std::stop_token& stop) {
+  while (!stop.stop_requested()) wait_and_accept();
+}
+
+void Acceptor::wait_and_accept() {
+  std::vector<pollfd> waiting = {{wake_, POLLIN, 0}};
+  std::vector<std::size_t> port_of;
+  {
+    const std::scoped_lock lock(mutex_);
+    look_after_connections();
+    for (std::size_t i = 0; i < ports_.size(); ++i) {
+      for (const int socket : ports_[i].descriptors()) {
+        waiting.push_back({socket, POLLIN, 0});
+        port_of.push_back(i);
+      }
+    }
+  }
+  poll(waiting.data(), waiting.size(), kLookMilliseconds);
+  eventfd_t none = 0;
+  if (waiting.front().revents != 0) {
+    // A port was opened again: its sockets are others now.
+    eventfd_read(wake_, &none);
+    return;
+  }
+  bool has_descriptors = true;
+  for (std::size_t i = 1; i < waiting.size(); ++i) {
+    if (waiting[i].revents != 0) has_descriptors = accept_some(port_of[i - 1], waiting[i].fd) && has_descriptors;
+  }
+  if (!has_descriptors) std::this_thread::sleep_for(kPause);
+}
+
+bool Acceptor::accept_some(std::size_t port, int listener) {
+  const std::scoped_lock lock(mutex_);
+  // It may have been closed since, and its number be that of another file.
+  const auto& open = ports_[port].descriptors();
+  if (std::find(open.begin(), open.end(), listener) == open.end()) return true;
+  for (int i = 0; i < kAtOnce; ++i) {
+    sockaddr_storage peer{};
+    socklen_t size = sizeof(peer);
+    const int descriptor = accept4(listener, reinterpret_cast<sockaddr*>(&peer), &size, SOCK_NONBLOCK | SOCK_CLOEXEC);
+    if (descriptor >= 0) {
+      take(port, listener, descriptor, peer);
+    } else if (lacks_descriptors(errno)) {
+      refuse_with_reserve(listener);
+      return false;
+    } else if (errno != EINTR && errno != ECONNABORTED) {
+      break;
+    }
+  }
+  return true;
+}
+
+void Acceptor::refuse_with_reserve(int listener) {
+  if (reserve_ < 0) return;
+  close(reserve_);
+  for (int i = 0; i < kAtOnce; ++i) {
+    const int descriptor = accept4(listener, nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC);
+    if (descriptor < 0) break;
+    close(descriptor);
+    parts_.refused("a connection: the daemon has no file descriptor left for it. Raise its limit (ulimit -n)");
+  }
+  reserve_ = open_reserve();
+}
+
+void Acceptor::take(std::size_t port, int listener, int descriptor, const sockaddr_storage& address) {
+  const std::string peer = peer_of(address);
+  const bool is_unix = ports_[port].address().kind == ListenAddress::Kind::unix_socket;
+  const auto excess = (is_unix ? on_unix_sockets_ : on_tcp_).admit(descriptor, peer);
+  if (!excess) {
+    parts_.hand_over(port, listener, descriptor);
+    return;
+  }
+  parts_.refused("a connection from " + peer + ": " + *excess);
+  if (parts_.plain[port]) {
+    refused_.add(descriptor, "cellcrushd refuses this connection: " + *excess + ".");
+  } else {
+    close(descriptor);
+  }
+}
+
+}  // namespace cellcrush::net

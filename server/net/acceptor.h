@@ -1,0 +1,81 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <functional>
+#include <mutex>
+#include <stop_token>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "net/connection_limits.h"
+#include "net/connection_table.h"
+#include "net/listening_port.h"
+#include "net/refused_connection.h"
+
+namespace cellcrush::net {
+
+/// Accepts connections on all ports of the daemon, in a thread of its own, and hands over those that the limits allow. gRPC
+/// 1.51 stops to accept on a port for good once it has met EMFILE, and has no cap on connections; this has a descriptor in
+/// reserve, with which it refuses what cannot be served, and goes on when there are descriptors again. Thread-safe.
+class Acceptor {
+ public:
+  /// Takes a connected socket of the port with that index, non-blocking and close-on-exec.
+  using HandOver = std::function<void(std::size_t port, int listener, int descriptor)>;
+  /// Notes a connection that was refused; `why` is for the log.
+  using Refused = std::function<void(const std::string& why)>;
+
+  /// Called about once a second with the number of open connections.
+  using Counted = std::function<void(std::size_t open)>;
+
+  struct Parts {
+    HandOver hand_over;
+    Refused refused;
+    Counted counted;
+    std::vector<bool> plain;  ///< ports without TLS: there, a refused client is given the reason
+  };
+
+  /// Accepts from `start` on. The ports listen already: what connects meanwhile waits.
+  Acceptor(std::vector<ListeningPort> ports, const ConnectionLimits& limits, Parts parts);
+  ~Acceptor() { stop(); }
+  Acceptor(const Acceptor&) = delete;
+  Acceptor& operator=(const Acceptor&) = delete;
+
+  void start();
+
+  /// Closes the ports; connections that were handed over live on.
+  void stop();
+
+  [[nodiscard]] std::vector<ListenAddress> addresses() const;
+
+  /// Closes a port and listens on its address again. Throws ServiceError (failed_precondition) when that cannot be; it may be
+  /// tried again.
+  void reopen(std::size_t port);
+
+ private:
+  void run(const std::stop_token& stop);
+  void wait_and_accept();
+  /// Accepts what waits on a socket; false when there was no descriptor for it.
+  bool accept_some(std::size_t port, int listener);
+  /// A connection for which there is no descriptor is refused with the one in reserve.
+  void refuse_with_reserve(int listener);
+  void take(std::size_t port, int listener, int descriptor, const sockaddr_storage& peer);
+  void wake() const;
+  void look_after_connections();  ///< REQUIRES: mutex_ is held
+
+  ConnectionLimits limits_;
+  Parts parts_;
+  mutable std::mutex mutex_;  ///< guards all below but thread_
+  std::vector<ListeningPort> ports_;
+  ConnectionTable on_tcp_;
+  ConnectionTable on_unix_sockets_;  ///< apart, so that strangers cannot shut the owner out
+  RefusedConnections refused_;
+  int reserve_ = -1;
+  int wake_ = -1;  ///< eventfd
+  bool closed_ = false;
+  std::chrono::steady_clock::time_point last_count_;
+  std::jthread thread_;
+};
+
+}  // namespace cellcrush::net

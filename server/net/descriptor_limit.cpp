@@ -1,0 +1,42 @@
+#include "net/descriptor_limit.h"
+
+#include <spdlog/spdlog.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cstdint>
+
+namespace cellcrush::net {
+namespace {
+
+// Journal, log, ports, event queues of gRPC, results that are read; and for each worker its process, reports and folder.
+constexpr std::int64_t kOfTheDaemon = 128;
+constexpr std::int64_t kOfAWorker = 8;
+constexpr int kLeast = 8;
+// A hard limit may be a thousand million, and some programs close them all one by one.
+constexpr rlim_t kMost = 1 << 20;
+
+}  // namespace
+
+int raise_descriptor_limit(int wanted, int workers) {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return wanted;
+  const rlim_t reachable = std::min(limit.rlim_max, kMost);
+  if (limit.rlim_cur < reachable) {
+    limit.rlim_cur = reachable;
+    if (setrlimit(RLIMIT_NOFILE, &limit) != 0) getrlimit(RLIMIT_NOFILE, &limit);
+  }
+  const auto descriptors = static_cast<std::int64_t>(std::min(limit.rlim_cur, kMost));
+  // On TCP and on Unix sockets as many each; a download has a file besides its connection.
+  const std::int64_t left = (descriptors - kOfTheDaemon - kOfAWorker * workers) / 3;
+  const int out = static_cast<int>(std::clamp<std::int64_t>(left, kLeast, wanted));
+  if (out < wanted) {
+    spdlog::warn(
+        "{} connections may be open instead of {}: the limit on file descriptors is {}. Raise the hard limit "
+        "(LimitNOFILE= of the service, ulimit -Hn)",
+        out, wanted, descriptors);
+  }
+  return out;
+}
+
+}  // namespace cellcrush::net

@@ -1,0 +1,157 @@
+#include "net/listening_port.h"
+
+#include <netdb.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "error.h"
+
+namespace cellcrush::net {
+namespace {
+
+constexpr int kBacklog = 1024;
+// A free port of IPv4 may be taken on IPv6.
+constexpr int kTriesForAFreePort = 10;
+
+struct FreeAddresses {
+  void operator()(addrinfo* list) const { freeaddrinfo(list); }
+};
+using Addresses = std::unique_ptr<addrinfo, FreeAddresses>;
+
+Addresses resolve(std::string host) {
+  if (host.front() == '[') host = host.substr(1, host.size() - 2);
+  addrinfo hints{};
+  hints.ai_socktype = SOCK_STREAM;
+  hints.ai_flags = AI_PASSIVE | AI_NUMERICSERV;
+  addrinfo* list = nullptr;
+  return getaddrinfo(host.c_str(), "0", &hints, &list) == 0 ? Addresses(list) : nullptr;
+}
+
+int port_of(int socket) {
+  sockaddr_storage name{};
+  socklen_t size = sizeof(name);
+  if (getsockname(socket, reinterpret_cast<sockaddr*>(&name), &size) != 0) return 0;
+  return ntohs(name.ss_family == AF_INET6 ? reinterpret_cast<const sockaddr_in6&>(name).sin6_port
+                                          : reinterpret_cast<const sockaddr_in&>(name).sin_port);
+}
+
+void set_port(sockaddr* name, int port) {
+  const auto value = htons(static_cast<std::uint16_t>(port));
+  if (name->sa_family == AF_INET6)
+    reinterpret_cast<sockaddr_in6*>(name)->sin6_port = value;
+  else
+    reinterpret_cast<sockaddr_in*>(name)->sin_port = value;
+}
+
+bool is_wildcard(const sockaddr* name) {
+  return name->sa_family == AF_INET6 &&
+         IN6_IS_ADDR_UNSPECIFIED(&reinterpret_cast<const sockaddr_in6*>(name)->sin6_addr);
+}
+
+// A listening socket, or -1 with errno.
+int open_socket(const sockaddr* name, socklen_t size) {
+  const int out = socket(name->sa_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+  if (out < 0) return -1;
+  const int on = 1;
+  const int only_ipv6 = is_wildcard(name) ? 0 : 1;
+  if (name->sa_family != AF_UNIX) setsockopt(out, SOL_SOCKET, SO_REUSEADDR, &on, sizeof(on));
+  if (name->sa_family == AF_INET6) setsockopt(out, IPPROTO_IPV6, IPV6_V6ONLY, &only_ipv6, sizeof(only_ipv6));
+  // The file is made with this mode.
+  if (name->sa_family == AF_UNIX) fchmod(out, 0600);
+  if (bind(out, name, size) == 0 && listen(out, kBacklog) == 0) return out;
+  const int reason = errno;
+  close(out);
+  errno = reason;
+  return -1;
+}
+
+ino_t inode_of(const std::string& path) {
+  struct stat status {};
+  return lstat(path.c_str(), &status) == 0 ? status.st_ino : 0;
+}
+
+[[noreturn]] void refuse(const ListenAddress& address) {
+  const bool in_use = errno == EADDRINUSE;
+  throw ServiceError(
+      ServiceError::Kind::failed_precondition,
+      "Cannot listen on " + address.text() + ": " +
+          (in_use ? "another program listens there. Stop the other," : std::strerror(errno) + std::string(".")) +
+          (in_use ? " or give" : " Give") + " another address with --listen.");
+}
+
+}  // namespace
+
+ListeningPort::ListeningPort(const ListenAddress& wanted) : address_(wanted) { reopen(); }
+
+ListeningPort::~ListeningPort() { close_all(); }
+
+ListeningPort::ListeningPort(ListeningPort&& other) noexcept
+    : address_(std::move(other.address_)),
+      descriptors_(std::exchange(other.descriptors_, {})),
+      file_(std::exchange(other.file_, 0)) {}
+
+void ListeningPort::reopen() {
+  close_all();
+  address_.kind == ListenAddress::Kind::unix_socket ? listen_on_unix_socket() : listen_on_tcp();
+}
+
+void ListeningPort::listen_on_unix_socket() {
+  remove_stale_socket(address_.place);
+  sockaddr_un name{};
+  name.sun_family = AF_UNIX;
+  std::strncpy(name.sun_path, address_.place.c_str(), sizeof(name.sun_path) - 1);
+  const int socket = open_socket(reinterpret_cast<const sockaddr*>(&name), sizeof(name));
+  if (socket < 0) refuse(address_);
+  descriptors_.push_back(socket);
+  file_ = inode_of(address_.place);
+}
+
+void ListeningPort::listen_on_tcp() {
+  // All addresses of this machine, of both families: one socket of IPv6 serves both where the machine has it.
+  if (address_.place == "0.0.0.0") listen_on("::");
+  if (descriptors_.empty()) listen_on(address_.place);
+  if (descriptors_.empty()) refuse(address_);
+}
+
+void ListeningPort::listen_on(const std::string& host) {
+  const Addresses addresses = resolve(host);
+  errno = EADDRNOTAVAIL;
+  for (int i = 0; i < kTriesForAFreePort && descriptors_.empty(); ++i) {
+    int port = address_.port;
+    for (const addrinfo* next = addresses.get(); next != nullptr; next = next->ai_next) {
+      set_port(next->ai_addr, port);
+      const int socket = open_socket(next->ai_addr, next->ai_addrlen);
+      // A machine may lack a family that a name stands for; another program's port is another matter.
+      if (socket < 0 && errno != EADDRINUSE) continue;
+      if (socket < 0) {
+        close_all();
+        break;
+      }
+      descriptors_.push_back(socket);
+      port = port_of(socket);
+    }
+    if (!descriptors_.empty()) address_.port = port;
+    if (address_.port != 0) break;
+  }
+}
+
+void ListeningPort::close_all() {
+  const int reason = errno;
+  for (const int socket : descriptors_) close(socket);
+  descriptors_.clear();
+  // Another daemon may have taken the path meanwhile.
+  if (file_ != 0 && inode_of(address_.place) == file_) unlink(address_.place.c_str());
+  file_ = 0;
+  errno = reason;
+}
+
+}  // namespace cellcrush::net

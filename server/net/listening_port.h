@@ -1,0 +1,42 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <string>
+#include <vector>
+
+#include "listen_address.h"
+
+namespace cellcrush::net {
+
+/// The sockets that listen on one address: one, or two where a name or a wildcard stands for IPv4 and IPv6. Not thread-safe.
+class ListeningPort {
+ public:
+  /// Listens from now on. A Unix socket is open to its owner alone. Throws ServiceError (failed_precondition) when the address
+  /// is in use or may not be used.
+  explicit ListeningPort(const ListenAddress& wanted);
+  /// Closes the sockets and removes the file of a Unix socket.
+  ~ListeningPort();
+  ListeningPort(ListeningPort&& other) noexcept;
+  ListeningPort& operator=(ListeningPort&&) = delete;
+
+  /// The address with its real port.
+  [[nodiscard]] const ListenAddress& address() const { return address_; }
+  [[nodiscard]] const std::vector<int>& descriptors() const { return descriptors_; }
+
+  /// Closes the sockets and listens on the same address again. Throws ServiceError (failed_precondition): the port then has
+  /// no sockets, and reopen may be called again.
+  void reopen();
+
+ private:
+  void listen_on_unix_socket();
+  void listen_on_tcp();
+  void listen_on(const std::string& host);
+  void close_all();
+
+  ListenAddress address_;
+  std::vector<int> descriptors_;
+  ino_t file_ = 0;  ///< inode of the Unix socket's file
+};
+
+}  // namespace cellcrush::net

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "cellcrush/v1/jobs_service.pb.h"
+#include "store/input_file.h"
+
+namespace cellcrush::rpc {
+
+/// What a DownloadResult sends: a file in chunks, each read when the one before has gone. Not thread-safe.
+class DownloadSource {
+ public:
+  using Message = v1::DownloadResultResponse;
+  static constexpr bool kIsWatch = false;
+
+  /// Throws ServiceError: invalid for an offset below 0, out_of_range for one past the end, and what InputFile throws.
+  DownloadSource(const std::filesystem::path& path, std::int64_t offset);
+
+  void open(const std::function<void()>&) {}
+  void close() {}
+  /// At least one message comes, so that the size is told even when nothing is left. Throws ServiceError.
+  std::optional<Message> next();
+  [[nodiscard]] bool has_more() const { return false; }
+  [[nodiscard]] bool ended() const { return sent_ && offset_ == file_.size(); }
+  [[nodiscard]] std::optional<Message> bookmark() const { return std::nullopt; }
+  [[nodiscard]] std::string resume_advice() const { return "with offset " + std::to_string(offset_); }
+
+ private:
+  store::InputFile file_;
+  std::int64_t offset_;
+  bool sent_ = false;
+};
+
+}  // namespace cellcrush::rpc

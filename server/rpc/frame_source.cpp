@@ -1,0 +1,55 @@
+#include "rpc/frame_source.h"
+
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+#include "error.h"
+#include "rpc/result_frame.h"
+#include "store/result_reader.h"
+#include "watch/frame_chunks.h"
+
+namespace cellcrush::rpc {
+
+FrameSource::FrameSource(const Parts& parts, store::StoredJob job, v1::GetFrameRequest request)
+    : parts_(parts), job_(std::move(job)), request_(std::move(request)) {
+  if ((request_.has_strain() && !std::isfinite(request_.strain())) ||
+      (request_.has_time_s() && !std::isfinite(request_.time_s())))
+    throw ServiceError(ServiceError::Kind::invalid,
+                       "The strain or time of the frame is not a number. Use a finite one.");
+}
+
+v1::FieldFrame FrameSource::find_frame() const {
+  if (job_.job.has_summary())
+    return read_frame(store::ResultReader(parts_.folder.job_folder(job_.number).result()), request_);
+  const auto channel = parts_.hub.find(job_.number);
+  const auto frame = channel ? channel->newest().frame : nullptr;
+  if (!frame) {
+    throw ServiceError(
+        ServiceError::Kind::failed_precondition,
+        job_.job.name() + " is " + v1::JobState_Name(job_.job.state()) +
+            " and has no frame. A running job has its newest one; one that SUCCEEDED, or was cancelled or failed "
+            "while it ran, has all.");
+  }
+  return *frame;
+}
+
+void FrameSource::read() {
+  const auto frame = find_frame();
+  mesh_ = parts_.reader.mesh(job_.number);
+  auto chunks = watch::chunks_of(frame, watch::chunk_bytes_beside(mesh_ ? mesh_->ByteSizeLong() : 0));
+  chunks_.assign(std::make_move_iterator(chunks.begin()), std::make_move_iterator(chunks.end()));
+  was_read_ = true;
+}
+
+std::optional<FrameSource::Message> FrameSource::next() {
+  if (!was_read_) read();
+  if (chunks_.empty()) return std::nullopt;
+  Message out;
+  if (mesh_) *out.mutable_mesh() = *std::exchange(mesh_, std::nullopt);
+  *out.mutable_chunk() = std::move(chunks_.front());
+  chunks_.pop_front();
+  return out;
+}
+
+}  // namespace cellcrush::rpc

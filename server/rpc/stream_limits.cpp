@@ -1,0 +1,55 @@
+#include "rpc/stream_limits.h"
+
+#include "error.h"
+
+namespace cellcrush::rpc {
+
+StreamLimits::Permit::~Permit() {
+  if (limits_ == nullptr) return;
+  const std::scoped_lock lock(limits_->mutex_);
+  limits_->bytes_ -= bytes_;
+  --limits_->count_;
+  const auto caller = limits_->callers_.find(caller_);
+  if (--caller->second == 0) limits_->callers_.erase(caller);
+}
+
+void StreamLimits::Permit::hold(std::size_t bytes) {
+  if (limits_ == nullptr) return;
+  const std::scoped_lock lock(limits_->mutex_);
+  limits_->bytes_ -= std::exchange(bytes_, 0);
+  const auto wanted = static_cast<std::int64_t>(bytes);
+  // One stream alone may always have its message.
+  if (limits_->bytes_ > 0 && limits_->bytes_ + wanted > limits_->most_.bytes) {
+    throw ServiceError(ServiceError::Kind::exhausted,
+                       "Open streams hold " + std::to_string(limits_->bytes_) +
+                           " bytes that nobody has read yet, as many as --max-call-memory allows. Try again later, and "
+                           "read streams as they come.");
+  }
+  limits_->bytes_ += bytes_ = wanted;
+}
+
+StreamLimits::Permit StreamLimits::admit(const std::string& caller) {
+  const std::scoped_lock lock(mutex_);
+  if (count_ >= most_.in_all) {
+    throw ServiceError(ServiceError::Kind::exhausted,
+                       std::to_string(count_) +
+                           " streams are open, as many as --max-streams allows. Try again later, and end streams that "
+                           "are not read.");
+  }
+  int& of_caller = callers_[caller];
+  if (of_caller >= most_.per_caller) {
+    throw ServiceError(ServiceError::Kind::exhausted, caller + " has " + std::to_string(of_caller) +
+                                                          " streams open, as many as --max-streams-per-caller allows. "
+                                                          "End some first.");
+  }
+  ++of_caller;
+  ++count_;
+  return {*this, caller};
+}
+
+std::size_t StreamLimits::count() const {
+  const std::scoped_lock lock(mutex_);
+  return static_cast<std::size_t>(count_);
+}
+
+}  // namespace cellcrush::rpc

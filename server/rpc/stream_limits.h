@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <string>
+#include <utility>
+
+namespace cellcrush::rpc {
+
+/// Counts the streams that are open, in all and by caller, and the bytes that wait in them to be read. Outlives its permits.
+/// Thread-safe.
+class StreamLimits {
+ public:
+  struct Most {
+    int in_all = 0;
+    int per_caller = 0;
+    std::int64_t bytes = 0;  ///< of messages that were not read yet
+  };
+
+  /// A stream's place, given back when this goes away. One thread at a time.
+  class Permit {
+   public:
+    Permit() = default;
+    Permit(StreamLimits& limits, std::string caller) : limits_(&limits), caller_(std::move(caller)) {}
+    ~Permit();
+    Permit(Permit&& other) noexcept
+        : limits_(std::exchange(other.limits_, nullptr)),
+          caller_(std::move(other.caller_)),
+          bytes_(std::exchange(other.bytes_, 0)) {}
+    Permit& operator=(Permit&&) = delete;
+
+    /// The stream holds that many bytes from now on. Throws ServiceError (exhausted) when all streams would hold too many;
+    /// it then holds none.
+    void hold(std::size_t bytes);
+
+   private:
+    StreamLimits* limits_ = nullptr;
+    std::string caller_;
+    std::int64_t bytes_ = 0;
+  };
+
+  explicit StreamLimits(Most most) : most_(most) {}
+
+  /// Throws ServiceError (exhausted) when it would be one too many; the message names the limit.
+  Permit admit(const std::string& caller);
+
+  [[nodiscard]] std::size_t count() const;
+
+ private:
+  const Most most_;
+  mutable std::mutex mutex_;
+  std::map<std::string, int> callers_;
+  int count_ = 0;
+  std::int64_t bytes_ = 0;
+};
+
+}  // namespace cellcrush::rpc

@@ -1,0 +1,251 @@
+#pragma once
+
+#include <grpcpp/grpcpp.h>
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "cellcrush/v1/event.pb.h"
+#include "jobs/case_field.h"
+#include "metrics/metrics.h"
+#include "rpc/error_table.h"
+#include "rpc/stream_limits.h"
+#include "watch/pump.h"
+#include "watch/watch_times.h"
+
+namespace cellcrush::rpc {
+
+/// What streams work with; all of it outlives them.
+struct StreamParts {
+  watch::Pump& pump;
+  metrics::Metrics& metrics;
+  StreamLimits& limits;
+  watch::WatchTimes times;
+};
+
+/// Frames that were left out before this message.
+inline int skipped_before(const v1::JobEvent& event) { return event.has_frame() ? event.frame().skipped() : 0; }
+template <class Message>
+int skipped_before(const Message&) {
+  return 0;
+}
+
+/// One open stream: moves messages from its source to the client, one at a time, as fast as the client takes them, and holds
+/// no thread. It keeps itself until gRPC is done with it. A Source is watch::JobSource, watch::SweepSource, DownloadSource,
+/// FrameSource or HealthSource, or has the same members:
+///   Message, kIsWatch   what is sent; whether the metrics count it as a watch
+///   open(wake), close   from when and until when `wake` is called on news
+///   next, has_more      the next message, if there is one now; whether it is at hand without waiting for a disk
+///   ended               whether the last message was given
+///   bookmark            what is sent when there was nothing for long; may be nothing
+///   resume_advice       how a stream that was broken off is continued, as the end of a sentence
+template <class Source>
+class StreamReactor final : public grpc::ServerWriteReactor<typename Source::Message>, public watch::Pump::Task {
+ public:
+  using Message = typename Source::Message;
+
+  /// Throws ServiceError (exhausted) when the caller, or all callers, have too many streams open.
+  static grpc::ServerWriteReactor<Message>* start(const StreamParts& parts, grpc::CallbackServerContext& context,
+                                                  const std::string& caller, std::unique_ptr<Source> source) {
+    auto reactor = std::make_shared<StreamReactor>(parts, context, parts.limits.admit(caller), std::move(source));
+    reactor->self_ = reactor;
+    {
+      // The pump may run the reactor while the source is being opened.
+      const std::scoped_lock lock(reactor->mutex_);
+      reactor->source_->open([weak = std::weak_ptr<StreamReactor>(reactor)] {
+        if (auto alive = weak.lock()) alive->wake(alive);
+      });
+    }
+    parts.pump.add(reactor);
+    return reactor.get();
+  }
+
+  StreamReactor(const StreamParts& parts, grpc::CallbackServerContext& context, StreamLimits::Permit permit,
+                std::unique_ptr<Source> source)
+      : parts_(parts), context_(context), permit_(std::move(permit)), source_(std::move(source)) {
+    if (Source::kIsWatch) parts_.metrics.count_watcher(1);
+  }
+
+  void run() override {
+    Action action = Action::none;
+    // What is followed at once goes out together with what follows.
+    grpc::WriteOptions options;
+    {
+      const std::scoped_lock lock(mutex_);
+      action = decide();
+      if (action == Action::write && source_->has_more()) options.set_buffer_hint();
+    }
+    switch (action) {
+      case Action::none: return;
+      case Action::write:
+        report_to_metrics();
+        this->StartWrite(&message_, options);
+        return;
+      case Action::finish: this->Finish(status_); return;
+      case Action::abandon: abandon(); return;
+    }
+  }
+
+  void OnWriteDone(bool ok) override {
+    bool at_once = false;
+    {
+      const std::scoped_lock lock(mutex_);
+      writing_ = false;
+      if (!ok) cancelled_ = true;
+      at_once = source_->has_more();
+    }
+    // The disk is read by the pump's threads and not by those of gRPC.
+    at_once ? run() : parts_.pump.schedule(self_);
+  }
+
+  void OnCancel() override {
+    {
+      const std::scoped_lock lock(mutex_);
+      cancelled_ = true;
+    }
+    parts_.pump.schedule(self_);
+  }
+
+  void OnDone() override {
+    {
+      // The pump may run the reactor for a moment longer, but nothing of the call is there any more. gRPC may call this from
+      // within TryCancel, on the same thread.
+      std::unique_lock lock(mutex_);
+      done_ = true;
+      abandoned_.wait(lock,
+                      [this] { return abandoning_ == std::thread::id() || abandoning_ == std::this_thread::get_id(); });
+    }
+    source_->close();
+    if (Source::kIsWatch) parts_.metrics.count_watcher(-1);
+    // The last reference goes with `self`, or with the pump if it still holds one.
+    const auto self = std::move(self_);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  /// What to do next; decided under the lock, done without it, because gRPC may answer at once.
+  enum class Action { none, write, finish, abandon };
+
+  Action decide() {
+    if (done_) return Action::none;
+    if (finished_) return is_to_be_abandoned() ? Action::abandon : Action::none;
+    if (writing_) return is_stuck() ? close(status_of_stuck()) : Action::none;
+    if (cancelled_) return close({grpc::StatusCode::CANCELLED, "The reader is gone."});
+    try {
+      auto next = source_->next();
+      if (!next && source_->ended()) return close(grpc::Status::OK);
+      if (!next && parts_.pump.draining()) {
+        return close({grpc::StatusCode::UNAVAILABLE,
+                      "The daemon ends. Ask again " + source_->resume_advice() + " once it is back."});
+      }
+      if (!next && Clock::now() - last_write_ >= parts_.times.bookmark_interval) next = source_->bookmark();
+      if (!next) return Action::none;
+      permit_.hold(next->ByteSizeLong());
+      message_ = *std::move(next);
+    } catch (const std::exception& error) {
+      return close(status_of(error));
+    }
+    writing_ = true;
+    last_write_ = Clock::now();
+    return Action::write;
+  }
+
+  /// Whether the client has let a message lie for too long. The status waits behind it, for a client that reads on soon.
+  [[nodiscard]] bool is_stuck() const { return Clock::now() - last_write_ > parts_.times.patience; }
+
+  /// Whether the client has not taken the status either: then all that is kept for it is dropped, and it finds CANCELLED.
+  [[nodiscard]] bool is_to_be_abandoned() {
+    if (!writing_ || abandoning_ != std::thread::id()) return false;
+    if (Clock::now() - last_write_ <= parts_.times.patience + parts_.times.grace) return false;
+    abandoning_ = std::this_thread::get_id();
+    return true;
+  }
+
+  /// Without the lock: gRPC may call back at once.
+  void abandon() {
+    context_.TryCancel();
+    {
+      const std::scoped_lock lock(mutex_);
+      abandoning_ = std::thread::id();
+    }
+    abandoned_.notify_all();
+  }
+
+  [[nodiscard]] grpc::Status status_of_stuck() const {
+    const auto seconds = std::chrono::duration<double>(parts_.times.patience).count();
+    return {grpc::StatusCode::RESOURCE_EXHAUSTED, "Nothing of this stream was read for " + jobs::text_of(seconds) +
+                                                      " s, so it was closed. Ask again " + source_->resume_advice() +
+                                                      ", and read messages as they come."};
+  }
+
+  /// There is news.
+  void wake(const std::shared_ptr<StreamReactor>& self) {
+    std::int64_t none = 0;
+    pending_since_.compare_exchange_strong(none, Clock::now().time_since_epoch().count());
+    parts_.pump.schedule(self);
+  }
+
+  void report_to_metrics() {
+    if (const int skipped = skipped_before(message_); skipped > 0) parts_.metrics.count_skipped_frames(skipped);
+    if (const std::int64_t since = pending_since_.exchange(0); since != 0) {
+      const Clock::duration taken = Clock::now().time_since_epoch() - Clock::duration(since);
+      parts_.metrics.observe_event(std::chrono::duration<double>(taken).count());
+    }
+  }
+
+  Action close(grpc::Status status) {
+    status_ = std::move(status);
+    finished_ = true;
+    return Action::finish;
+  }
+
+  StreamParts parts_;
+  grpc::CallbackServerContext& context_;  ///< there until OnDone
+  std::shared_ptr<StreamReactor> self_;
+  /// Clock's count when the news came that no message was sent for; 0: there is none.
+  std::atomic<std::int64_t> pending_since_ = 0;
+
+  std::mutex mutex_;  ///< guards all below
+  StreamLimits::Permit permit_;
+  std::unique_ptr<Source> source_;  ///< close is called without it, when nothing else is any more
+  Message message_;                 ///< in the hands of gRPC while writing_
+  grpc::Status status_;
+  bool writing_ = false;
+  bool finished_ = false;
+  bool cancelled_ = false;
+  std::thread::id abandoning_;  ///< the thread that cancels the call, while it does
+  std::condition_variable abandoned_;
+  bool done_ = false;
+  Clock::time_point last_write_ = Clock::now();
+};
+
+/// A stream that is refused before it begins.
+template <class Message>
+class RefusedStream final : public grpc::ServerWriteReactor<Message> {
+ public:
+  explicit RefusedStream(const grpc::Status& status) { this->Finish(status); }
+  void OnDone() override { delete this; }
+};
+
+/// Opens a stream of the source that `make` returns, for the caller that `name_caller` returns, or one that ends with what these
+/// throw.
+template <class Source, class NameCaller, class Make>
+grpc::ServerWriteReactor<typename Source::Message>* open_stream(const StreamParts& parts,
+                                                                grpc::CallbackServerContext& context,
+                                                                const NameCaller& name_caller, const Make& make) {
+  try {
+    return StreamReactor<Source>::start(parts, context, name_caller(), make());
+  } catch (const std::exception& error) {
+    return new RefusedStream<typename Source::Message>(status_of(error));
+  }
+}
+
+}  // namespace cellcrush::rpc
