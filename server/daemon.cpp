@@ -22,6 +22,7 @@
 #include "net/heap_trim.h"
 #include "net/listening_port.h"
 #include "net/port_probe.h"
+#include "net/refusing_server.h"
 #include "service.h"
 #include "worker/step_cost.h"
 
@@ -30,6 +31,7 @@ namespace {
 
 constexpr int kLargestMessage = 4 * 1024 * 1024;
 constexpr std::chrono::seconds kCallsMayLast{2};
+constexpr int kCallsBesideStreams = 100;
 constexpr int kBetweenPingsOfAClient = 10'000;  // ms
 /// What grpc.health.v1 has a status of; "" is the daemon as a whole.
 constexpr std::array kServices = {"", "cellcrush.v1.Cases", "cellcrush.v1.Jobs", "cellcrush.v1.Sweeps",
@@ -119,13 +121,13 @@ struct Daemon::Impl {
     server = builder.BuildAndStart();
     if (!server) throw ServiceError(ServiceError::Kind::failed_precondition, "The service could not be started.");
     for (const auto& port : ports) addresses.push_back(port.address().text());
+    refusing_server.emplace(credentials);
     net::Acceptor::Parts parts;
-    parts.plain = plain;
     parts.hand_over = [this](std::size_t port, int listener, int descriptor) {
-      grpc::experimental::ExternalConnectionAcceptor::NewConnectionParameters connection;
-      connection.listener_fd = listener;
-      connection.fd = descriptor;
-      handlers[port]->HandleNewConnection(&connection);
+      net::hand_over(*handlers[port], listener, descriptor);
+    };
+    parts.turn_away = [this](std::size_t port, int listener, int descriptor) {
+      refusing_server->take(port, listener, descriptor);
     };
     parts.refused = [this](const std::string& why) {
       refusals.note(why);
@@ -156,7 +158,8 @@ struct Daemon::Impl {
     // Clients may ask for signs of life as well, though not all the time.
     builder.AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS, kBetweenPingsOfAClient);
     builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_PERMIT_WITHOUT_CALLS, 1);
-    builder.AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, limits.streams_per_caller);
+    // Who has as many streams open as he may is refused another, and can make other calls.
+    builder.AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, limits.streams_per_caller + kCallsBesideStreams);
   }
 
   void serve_metrics() {
@@ -192,6 +195,7 @@ struct Daemon::Impl {
   access::RefusalLog refusals;
   net::HeapTrim heap;
   std::unique_ptr<grpc::Server> server;
+  std::optional<net::RefusingServer> refusing_server;
   std::optional<net::Acceptor> acceptor;
   std::optional<net::PortProbe> probe;
   bool stopped = false;

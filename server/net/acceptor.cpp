@@ -19,6 +19,7 @@ namespace {
 
 constexpr int kAtOnce = 64;  // connections of a socket, before the others have their turn
 constexpr int kLookMilliseconds = 1000;
+constexpr int kTurnedAway = 32;  // connections at once that are given the reason
 constexpr std::chrono::seconds kBetweenCounts{1};
 // While there are no descriptors: the kernel keeps who connects waiting.
 constexpr std::chrono::milliseconds kPause{100};
@@ -35,6 +36,7 @@ Acceptor::Acceptor(std::vector<ListeningPort> ports, const ConnectionLimits& lim
       ports_(std::move(ports)),
       on_tcp_({limits.connections, limits.connections_per_address}),
       on_unix_sockets_({limits.connections, limits.connections}),
+      turned_away_({kTurnedAway, kTurnedAway}),
       reserve_(open_reserve()),
       wake_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {
   if (wake_ < 0)
@@ -74,13 +76,13 @@ void Acceptor::reopen(std::size_t port) {
 }
 
 void Acceptor::look_after_connections() {
-  refused_.close_old();
   if (reserve_ < 0) reserve_ = open_reserve();
   const auto now = std::chrono::steady_clock::now();
   if (now - last_count_ < kBetweenCounts) return;
   last_count_ = now;
   on_tcp_.drop_closed();
   on_unix_sockets_.drop_closed();
+  turned_away_.drop_closed();
   parts_.counted(on_tcp_.count() + on_unix_sockets_.count());
 }
 
@@ -162,10 +164,10 @@ void Acceptor::take(std::size_t port, int listener, int descriptor, const sockad
     return;
   }
   parts_.refused("a connection from " + peer + ": " + *excess);
-  if (parts_.plain[port]) {
-    refused_.add(descriptor, "cellcrushd refuses this connection: " + *excess + ".");
-  } else {
+  if (turned_away_.admit(descriptor, peer)) {
     close(descriptor);
+  } else {
+    parts_.turn_away(port, listener, descriptor);
   }
 }
 

@@ -12,7 +12,6 @@
 #include "net/connection_limits.h"
 #include "net/connection_table.h"
 #include "net/listening_port.h"
-#include "net/refused_connection.h"
 
 namespace cellcrush::net {
 
@@ -23,7 +22,7 @@ class Acceptor {
  public:
   /// Takes a connected socket of the port with that index, non-blocking and close-on-exec.
   using HandOver = std::function<void(std::size_t port, int listener, int descriptor)>;
-  /// Notes a connection that was refused; `why` is for the log.
+  /// Notes a connection beyond the limits; `why` is for the log.
   using Refused = std::function<void(const std::string& why)>;
 
   /// Called about once a second with the number of open connections.
@@ -31,9 +30,9 @@ class Acceptor {
 
   struct Parts {
     HandOver hand_over;
+    HandOver turn_away;  ///< is given a few of those beyond the limits, to say why; the others are closed
     Refused refused;
     Counted counted;
-    std::vector<bool> plain;  ///< ports without TLS: there, a refused client is given the reason
   };
 
   /// Accepts from `start` on. The ports listen already: what connects meanwhile waits.
@@ -70,7 +69,7 @@ class Acceptor {
   std::vector<ListeningPort> ports_;
   ConnectionTable on_tcp_;
   ConnectionTable on_unix_sockets_;  ///< apart, so that strangers cannot shut the owner out
-  RefusedConnections refused_;
+  ConnectionTable turned_away_;
   int reserve_ = -1;
   int wake_ = -1;  ///< eventfd
   bool closed_ = false;

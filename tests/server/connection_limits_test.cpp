@@ -1,0 +1,156 @@
+// What callers are held to on connections and streams.
+#include <gmock/gmock.h>
+
+#include <thread>
+
+#include "grpc/health/v1/health.grpc.pb.h"
+#include "server/gate_fixture.h"
+#include "server/small_case.h"
+
+namespace cellcrush::testing {
+namespace {
+
+using grpc::health::v1::Health;
+using grpc::health::v1::HealthCheckRequest;
+using grpc::health::v1::HealthCheckResponse;
+using std::chrono::milliseconds;
+using ::testing::HasSubstr;
+
+class ConnectionLimitsTest : public GateFixture {
+ protected:
+  static grpc::Status check(const std::shared_ptr<grpc::Channel>& channel) {
+    HealthCheckResponse response;
+    return Health::NewStub(channel)->Check(bounded_context().get(), HealthCheckRequest(), &response);
+  }
+
+  // A channel with a connection of its own.
+  [[nodiscard]] std::shared_ptr<grpc::Channel> own_channel(const Visitor& visitor) const {
+    if (!visitor.authority.empty()) return channel(visitor);
+    grpc::ChannelArguments arguments;
+    arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
+    return grpc::CreateCustomChannel(daemon_->addresses().back(), grpc::InsecureChannelCredentials(), arguments);
+  }
+
+  void expect_one_caller_beyond_the_limit(const Visitor& visitor) {
+    const auto first = own_channel(visitor);
+    ASSERT_TRUE(check(first).ok());
+    const auto refused = check(own_channel(visitor));
+    EXPECT_EQ(refused.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
+    EXPECT_THAT(refused.error_message(), HasSubstr("--max-connections"));
+    EXPECT_TRUE(check(first).ok()) << "who is connected already is served";
+    EXPECT_TRUE(check(client().channel).ok()) << "the Unix socket has places of its own";
+  }
+};
+
+TEST_F(ConnectionLimitsTest, ACallerBeyondTheLimitIsGivenTheReason) {
+  auto options = tcp_options();
+  options.connections.connections = 1;
+  start(options);
+  expect_one_caller_beyond_the_limit({});
+}
+
+TEST_F(ConnectionLimitsTest, ACallerBeyondTheLimitIsGivenTheReasonOverTls) {
+  auto options = with_tls(tcp_options());
+  options.connections.connections_per_address = 1;
+  start(options);
+  Visitor visitor;
+  visitor.authority = authority_.certificate();
+  expect_one_caller_beyond_the_limit(visitor);
+}
+
+TEST_F(ConnectionLimitsTest, StreamsBeyondACallersLimitAreRefusedUntilOneEnds) {
+  auto options = default_options();
+  options.connections.streams_per_caller = 2;
+  start(options);
+  auto client = this->client();
+  v1::WatchJobRequest request;
+  request.set_name(client.create(endless_case()));
+  const auto one = bounded_context();
+  const auto two = bounded_context();
+  const auto first = client.jobs->WatchJob(one.get(), request);
+  const auto second = client.jobs->WatchJob(two.get(), request);
+  v1::JobEvent event;
+  ASSERT_TRUE(first->Read(&event) && second->Read(&event));
+  const auto three = bounded_context();
+  const auto third = client.jobs->WatchJob(three.get(), request);
+  EXPECT_FALSE(third->Read(&event));
+  const auto refused = third->Finish();
+  EXPECT_EQ(refused.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
+  EXPECT_THAT(refused.error_message(), HasSubstr("local has 2 streams open"));
+  one->TryCancel();
+  while (first->Read(&event)) continue;
+  (void)first->Finish();
+  bool admitted = false;
+  for (int i = 0; i < 200 && !admitted; ++i) {
+    std::this_thread::sleep_for(milliseconds(20));
+    const auto again = bounded_context();
+    const auto fourth = client.jobs->WatchJob(again.get(), request);
+    admitted = fourth->Read(&event);
+    again->TryCancel();
+    while (fourth->Read(&event)) continue;
+    (void)fourth->Finish();
+  }
+  EXPECT_TRUE(admitted);
+  two->TryCancel();
+}
+
+TEST_F(ConnectionLimitsTest, AStreamThatNobodyReadsIsLetGo) {
+  auto options = default_options();
+  options.connections.streams = 1;
+  options.watch_times.patience = milliseconds(300);
+  options.watch_times.grace = milliseconds(300);
+  start(options);
+  grpc::ChannelArguments small_window;
+  small_window.SetInt(GRPC_ARG_HTTP2_BDP_PROBE, 0);
+  small_window.SetInt(GRPC_ARG_HTTP2_STREAM_LOOKAHEAD_BYTES, 4096);
+  Client client(daemon_->addresses().front(), small_window);
+  auto with_frames = small_case();
+  with_frames.mutable_output()->set_frame_count(200);
+  const std::string job = client.create(with_frames);
+  ASSERT_TRUE(client.wait_for_state(job, v1::SUCCEEDED));
+  v1::DownloadResultRequest request;
+  request.set_name(job);
+  const auto context = bounded_context();
+  const auto unread = client.jobs->DownloadResult(context.get(), request);
+  unread->WaitForInitialMetadata();
+  // Its place is free again though its reader has done nothing.
+  grpc::Status status(grpc::StatusCode::UNKNOWN, "");
+  std::string result;
+  for (int i = 0; i < 100 && !status.ok(); ++i) {
+    std::this_thread::sleep_for(milliseconds(50));
+    result = Client(daemon_->addresses().front()).download(job, 0, status);
+    EXPECT_TRUE(status.ok() || status.error_code() == grpc::StatusCode::RESOURCE_EXHAUSTED) << status.error_message();
+  }
+  EXPECT_TRUE(status.ok()) << status.error_message();
+  EXPECT_GT(result.size(), 200'000U) << "or it is read from a buffer at once";
+  v1::DownloadResultResponse part;
+  while (unread->Read(&part)) continue;
+  EXPECT_FALSE(unread->Finish().ok());
+}
+
+TEST_F(ConnectionLimitsTest, HealthIsWatchedUntilTheDaemonEnds) {
+  start(default_options());
+  auto client = this->client();
+  const auto stub = Health::NewStub(client.channel);
+  HealthCheckRequest request;
+  request.set_service("cellcrush.v1.Jobs");
+  const auto context = bounded_context();
+  const auto reader = stub->Watch(context.get(), request);
+  HealthCheckResponse response;
+  ASSERT_TRUE(reader->Read(&response));
+  EXPECT_EQ(response.status(), HealthCheckResponse::SERVING);
+  request.set_service("cellcrush.v1.None");
+  const auto other = bounded_context();
+  const auto unknown = stub->Watch(other.get(), request);
+  ASSERT_TRUE(unknown->Read(&response));
+  EXPECT_EQ(response.status(), HealthCheckResponse::SERVICE_UNKNOWN);
+  EXPECT_EQ(stub->Check(bounded_context().get(), request, &response).error_code(), grpc::StatusCode::NOT_FOUND);
+  std::jthread end([this] { daemon_->stop(); });
+  ASSERT_TRUE(reader->Read(&response));
+  EXPECT_EQ(response.status(), HealthCheckResponse::NOT_SERVING);
+  EXPECT_FALSE(reader->Read(&response));
+  EXPECT_EQ(reader->Finish().error_code(), grpc::StatusCode::UNAVAILABLE);
+}
+
+}  // namespace
+}  // namespace cellcrush::testing
