@@ -10,6 +10,7 @@
 
 #include "access/gate.h"
 #include "jobs/admission.h"
+#include "jobs/queue_hold.h"
 #include "net/connection_limits.h"
 #include "watch/watch_times.h"
 
@@ -38,6 +39,8 @@ struct DaemonOptions {
   std::chrono::seconds keep_ended_jobs{0};
   /// Between two looks at the disk and at jobs that ended long ago.
   std::chrono::milliseconds housekeeping_interval{5'000};
+  /// Pauses before a shortage that holds the queue is tried again.
+  jobs::HoldTimes hold_times;
   /// Called when a client has asked the daemon to end, which is then to be stopped.
   std::function<void()> on_drain;
   watch::WatchTimes watch_times;

@@ -4,6 +4,8 @@
 #include <string>
 #include <utility>
 
+#include "shortage.h"
+
 namespace cellcrush {
 
 /// A call, a start or a write that is refused. The message is for the user; the kind decides the gRPC status.
@@ -26,11 +28,18 @@ class ServiceError : public std::runtime_error {
   };
 
   ServiceError(Kind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
+  /// What a shortage makes fail: storage_full where the disk is full, otherwise unavailable.
+  ServiceError(Shortage shortage, const std::string& message)
+      : std::runtime_error(message),
+        kind_(shortage == Shortage::full_disk ? Kind::storage_full : Kind::unavailable),
+        shortage_(shortage) {}
 
   [[nodiscard]] Kind kind() const { return kind_; }
+  [[nodiscard]] Shortage shortage() const { return shortage_; }
 
  private:
   Kind kind_;
+  Shortage shortage_ = Shortage::none;
 };
 
 /// A field of a call that cannot be right. The message goes on from the field's name: "is negative."

@@ -3,11 +3,14 @@
 #include <chrono>
 #include <initializer_list>
 #include <optional>
+#include <set>
 #include <utility>
+#include <vector>
 
 #include "jobs/admission.h"
 #include "jobs/housekeeping.h"
 #include "jobs/local_process.h"
+#include "jobs/queue_hold.h"
 #include "jobs/scheduler.h"
 #include "metrics/metrics.h"
 #include "rpc/admin_service.h"
@@ -25,6 +28,8 @@
 namespace cellcrush {
 namespace {
 
+// What grpc.health.v1 calls the queue; not serving while it is held.
+constexpr const char* kQueueHealth = "cellcrush.queue";
 constexpr int kPumpThreads = 2;
 
 rpc::StreamLimits::Most most_streams(const net::ConnectionLimits& limits) {
@@ -44,9 +49,17 @@ struct Service::Parts {
         reader(folder.journal()),
         sweep_reader(folder.journal()),
         executor(options.worker_program, options.stall_limit),
-        runner({folder, journal, reader, hub, executor, metrics, options.checkpoint_interval,
+        hold(options.hold_times,
+             [this](const std::vector<jobs::Hold>& holds) {
+               std::set<Shortage> shortages;
+               for (const auto& each : holds) shortages.insert(each.shortage);
+               metrics.set_holds(shortages);
+               board.set(kQueueHealth, holds.empty());
+               scheduler.wake();
+             }),
+        runner({folder, journal, reader, hub, executor, metrics, hold, options.checkpoint_interval,
                 std::chrono::duration<double>(options.limits.job_time).count()}),
-        scheduler({folder, journal, reader, metrics, runner}),
+        scheduler({folder, journal, reader, metrics, runner, hold}),
         stream_limits(most_streams(options.connections)),
         health_limits(most_streams(options.connections)),
         pump(kPumpThreads),
@@ -58,7 +71,8 @@ struct Service::Parts {
         admin({reader,
                hub,
                scheduler,
-               {options.worker_count(), step_cost, false},
+               hold,
+               {options.worker_count(), step_cost, {}},
                gate,
                [this, drained = std::move(on_drain)] {
                  admission.drain();
@@ -75,11 +89,12 @@ struct Service::Parts {
   store::JournalReader reader;
   store::SweepReader sweep_reader;
   jobs::LocalProcess executor;
+  rpc::HealthBoard board;
+  jobs::QueueHold hold;
   jobs::JobRunner runner;
   jobs::Scheduler scheduler;
   rpc::StreamLimits stream_limits;
   rpc::StreamLimits health_limits;
-  rpc::HealthBoard board;
   watch::Pump pump;
   jobs::Admission admission;
   rpc::CasesService cases;
@@ -114,10 +129,13 @@ ListenAddress Service::serve_metrics(const ListenAddress& address) { return part
 
 void Service::start() {
   Parts& parts = *parts_;
-  parts.scheduler.start(parts.options.worker_count());
+  parts.board.set(kQueueHealth, true);
   parts.housekeeping.emplace(jobs::Housekeeping::Parts{parts.folder, parts.journal, parts.reader, parts.admission,
                                                        parts.scheduler, parts.options.housekeeping_interval,
                                                        parts.options.keep_ended_jobs});
+  parts.housekeeping->look_at_disk();
+  parts.scheduler.start(parts.options.worker_count());
+  parts.housekeeping->start();
 }
 
 void Service::refuse_jobs() { parts_->admission.drain(); }

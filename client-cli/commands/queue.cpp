@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <google/protobuf/util/time_util.h>
 
 #include <algorithm>
 
@@ -11,8 +12,23 @@ namespace cellcrush::client {
 
 namespace {
 
+std::string hold_text(const v1::Queue::Hold& hold) {
+  using google::protobuf::util::TimeUtil;
+  const auto now = TimeUtil::GetCurrentTime();
+  const auto seconds = [](const google::protobuf::Duration& duration) {
+    return std::max(static_cast<double>(TimeUtil::DurationToMilliseconds(duration)) / 1e3, 0.0);
+  };
+  std::string text = fmt::format("the queue is held ({}) for {}: {} {}", hold.cause(),
+                                 duration_text(seconds(now - hold.since())), hold.reason(), hold.remedy());
+  if (hold.has_next_try_time())
+    text += fmt::format(" The next try is in {}.", duration_text(seconds(hold.next_try_time() - now)));
+  return text + "\n";
+}
+
 std::string queue_text(const v1::Queue& queue) {
-  if (queue.entries_size() == 0) return "the queue is empty\n";
+  std::string held;
+  for (const auto& hold : queue.holds()) held += hold_text(hold);
+  if (queue.entries_size() == 0) return held + "the queue is empty\n";
   const bool priorities = std::any_of(queue.entries().begin(), queue.entries().end(),
                                       [](const v1::Queue::Entry& entry) { return entry.priority() != 0; });
   Table table({Table::Align::left, Table::Align::right, Table::Align::left, Table::Align::left});
@@ -25,7 +41,7 @@ std::string queue_text(const v1::Queue& queue) {
     add(entry.job(), entry.seconds_until_start() > 0 ? duration_text(entry.seconds_until_start()) : "",
         entry.priority() != 0 ? std::to_string(entry.priority()) : "", entry.reason());
   }
-  std::string text = table.text();
+  std::string text = held + table.text();
   if (queue.more_count() > 0) text += fmt::format("and {} more\n", count_text(queue.more_count()));
   return text;
 }

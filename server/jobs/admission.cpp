@@ -54,14 +54,15 @@ void Admission::admit(std::size_t waiting, std::size_t count, std::int64_t memor
                            mebibytes(limits_.job_memory_bytes) +
                            ". Take fewer cells or elements_per_wall, or a larger machine.");
   }
-  if (!has_room()) {
-    throw ServiceError(ServiceError::Kind::storage_full,
-                       "The disk of the data folder has " + mebibytes(folder_.free_bytes()) + " left, and " +
-                           mebibytes(limits_.free_disk_bytes) +
-                           " are kept free. Make room there or delete jobs, then submit again.");
-  }
+  if (const auto low = low_disk())
+    throw ServiceError(ServiceError::Kind::storage_full, *low + " Make room there or delete jobs, then submit again.");
 }
 
-bool Admission::has_room() const { return folder_.free_bytes() >= limits_.free_disk_bytes; }
+std::optional<std::string> Admission::low_disk() const {
+  const std::int64_t free = folder_.free_bytes();
+  if (free >= limits_.free_disk_bytes) return std::nullopt;
+  return "The disk of the data folder is nearly full: " + mebibytes(free) + " are left, and " +
+         mebibytes(limits_.free_disk_bytes) + " are kept free.";
+}
 
 }  // namespace cellcrush::jobs

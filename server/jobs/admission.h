@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "store/data_folder.h"
@@ -36,8 +37,8 @@ class Admission {
   /// unavailable while draining, exhausted beyond a limit, storage_full.
   void admit(std::size_t waiting, std::size_t count, std::int64_t memory_bytes) const;
 
-  /// Whether the disk has room for running jobs.
-  [[nodiscard]] bool has_room() const;
+  /// Why the disk has too little room for jobs, a sentence; nothing where it has room. Throws ServiceError.
+  [[nodiscard]] std::optional<std::string> low_disk() const;
 
  private:
   const store::DataFolder& folder_;

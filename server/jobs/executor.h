@@ -3,7 +3,6 @@
 #include <functional>
 #include <optional>
 #include <stop_token>
-#include <string>
 
 #include "worker/job_folder.h"
 #include "worker/report.pb.h"
@@ -13,7 +12,7 @@ namespace cellcrush::jobs {
 /// How a worker's run ended, seen from outside.
 struct WorkerExit {
   enum class Kind {
-    not_started,  ///< no worker could be started; `reason` says why
+    not_started,  ///< no worker could be started; `code` is the errno
     exited,       ///< ended by itself with `code`
     signalled,    ///< ended by the signal `code`
     gone,         ///< ended, and was no child of this daemon: how is not known
@@ -25,7 +24,7 @@ struct WorkerExit {
   };
   Kind kind = Kind::exited;
   int code = 0;
-  std::string reason;
+  bool out_of_memory = false;  ///< the kernel ended a process for want of memory while it ran, and it was killed
   std::optional<worker::Final> final;  ///< its last report, if it made one
 };
 

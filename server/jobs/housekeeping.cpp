@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <condition_variable>
 #include <mutex>
+#include <string>
+#include <utility>
 
 #include "error.h"
 #include "jobs/deletion.h"
@@ -21,12 +23,15 @@ constexpr int kAtOnce = 200;  // jobs
 void Housekeeping::work(const std::stop_token& stop) {
   std::mutex never_shared;
   std::condition_variable_any sleep;
+  std::string logged;
   while (!stop.stop_requested()) {
     try {
       look_at_disk();
       delete_old_jobs();
+      logged.clear();
     } catch (const std::exception& error) {
-      spdlog::error("Housekeeping failed, and is tried again: {}", error.what());
+      if (std::exchange(logged, error.what()) != error.what())
+        spdlog::error("Housekeeping failed, and is tried again: {}", error.what());
     }
     std::unique_lock lock(never_shared);
     sleep.wait_for(lock, stop, parts_.interval, [] { return false; });
@@ -34,13 +39,9 @@ void Housekeeping::work(const std::stop_token& stop) {
 }
 
 void Housekeeping::look_at_disk() {
-  const bool has_room = parts_.admission.has_room();
-  if (parts_.scheduler.hold(!has_room)) {
-    has_room ? spdlog::info("The disk has room again: jobs go on")
-             : spdlog::warn("The disk has {} MiB left: running jobs are left at a checkpoint, and none starts",
-                            parts_.folder.free_bytes() / (1024 * 1024));
-  }
-  if (has_room) parts_.folder.keep_ballast();
+  const auto shortage = parts_.admission.low_disk();
+  parts_.scheduler.hold_for_low_disk(shortage);
+  if (!shortage) parts_.folder.keep_ballast();
 }
 
 void Housekeeping::delete_old_jobs() {

@@ -23,12 +23,18 @@ class Housekeeping {
     std::chrono::seconds keep_ended_jobs;  ///< 0: for good
   };
 
-  explicit Housekeeping(const Parts& parts)
-      : parts_(parts), thread_([this](const std::stop_token& stop) { work(stop); }) {}
+  explicit Housekeeping(const Parts& parts) : parts_(parts) {}
+
+  /// Holds the queue where the disk has too little room, before a job starts. Throws ServiceError.
+  void look_at_disk();
+
+  /// Does all of it from now on, in a thread of its own.
+  void start() {
+    thread_ = std::jthread([this](const std::stop_token& stop) { work(stop); });
+  }
 
  private:
   void work(const std::stop_token& stop);
-  void look_at_disk();
   void delete_old_jobs();
 
   Parts parts_;

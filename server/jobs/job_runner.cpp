@@ -22,75 +22,104 @@ void log_begin(const std::string& job, const worker::Begun& begun) {
   if (begun.step() > 0) spdlog::info("{} goes on from step {}", job, begun.step());
 }
 
-// Waits a second, or for the daemon's end.
-void pause(const std::stop_token& stop) {
+// Waits a second. False at the daemon's end.
+bool pause(const std::stop_token& daemons_end) {
   std::mutex never_shared;
   std::condition_variable_any sleep;
   std::unique_lock lock(never_shared);
-  sleep.wait_for(lock, stop, std::chrono::seconds(1), [] { return false; });
+  sleep.wait_for(lock, daemons_end, std::chrono::seconds(1), [] { return false; });
+  return !daemons_end.stop_requested();
 }
 
 }  // namespace
 
 bool JobRunner::run(std::int64_t job, int threads, const Interruptions& interruptions,
                     const std::stop_token& daemons_end) {
-  v1::JobState state = v1::JOB_STATE_UNSPECIFIED;
-  // It is CANCELLING when it was cancelled just as its worker had left it: then it is ended with what there is.
-  do state = run_once(job, threads, interruptions, daemons_end);
-  while (state == v1::CANCELLING);
-  return state == v1::PENDING;
+  while (true) {
+    Run run{threads, interruptions, daemons_end, {}};
+    v1::JobState state = run_once(job, run);
+    if (run.trouble) {
+      parts_.hold.failed(run.trouble);
+      state = put_back(job, run);
+    }
+    // It is CANCELLING when it was cancelled just as its worker had left it: then it is ended with what there is.
+    if (state != v1::CANCELLING) return state == v1::PENDING;
+    if (run.trouble && !pause(daemons_end)) return false;
+  }
 }
 
-v1::JobState JobRunner::run_once(std::int64_t job, int threads, const Interruptions& interruptions,
-                                 const std::stop_token& daemons_end) {
-  const auto stored = parts_.reader.find_job(job);
-  if (!stored || stored->job.state() == v1::SUSPENDED || is_terminal(stored->job.state()))
-    return v1::JOB_STATE_UNSPECIFIED;
+v1::JobState JobRunner::run_once(std::int64_t job, Run& run) {
   store::StateChange next;
   try {
-    next = is_left_cancelled(*stored)
-               ? given_up(*stored, cancelled_without_result(), interruptions, daemons_end)
-               : after(*stored, run_worker(*stored, threads, interruptions), interruptions, daemons_end);
+    const auto stored = parts_.reader.find_job(job);
+    if (!stored || stored->job.state() == v1::SUSPENDED || is_terminal(stored->job.state()))
+      return v1::JOB_STATE_UNSPECIFIED;
+    next = next_of(*stored, run);
   } catch (const Withdrawn&) {
     spdlog::info("{} was withdrawn before it ran", name_of(job));
     return v1::JOB_STATE_UNSPECIFIED;
   } catch (const std::exception& error) {
+    run.trouble = trouble_of(error);
+    end_leftover_if_possible(job);
     next = outcome_of(error);
-    end_leftover(job);
   }
   parts_.metrics.set_speed(job, 0.0);
+  if (run.trouble) return v1::JOB_STATE_UNSPECIFIED;
   // It stays as it was, and is to be run again.
   if (next.state == v1::JOB_STATE_UNSPECIFIED) return v1::PENDING;
-  return write(job, std::move(next), daemons_end);
+  return write(job, next, run.daemons_end);
 }
 
-bool JobRunner::is_left_cancelled(const store::StoredJob& stored) {
-  return stored.job.state() == v1::CANCELLING && !parts_.executor.has_worker(parts_.folder.job_folder(stored.number));
+store::StateChange JobRunner::next_of(const store::StoredJob& stored, Run& run) {
+  const bool has_begun = stored.job.state() == v1::RUNNING || stored.job.state() == v1::CANCELLING;
+  if (!has_begun && !parts_.folder.keep_ballast())
+    throw ServiceError(Shortage::full_disk, "The disk of the data folder is full.");
+  if (!has_begun || parts_.executor.has_worker(parts_.folder.job_folder(stored.number)))
+    return after(stored, run_worker(stored, run), run);
+  if (auto next = left_behind(stored)) return *std::move(next);
+  return given_up(stored, cancelled_without_result(), run);
+}
+
+std::optional<store::StateChange> JobRunner::left_behind(const store::StoredJob& stored) {
+  parts_.folder.make_job_folder(stored.number);
+  const auto last_word = parts_.executor.take_last_word(parts_.folder.job_folder(stored.number), events_of(stored));
+  if (last_word) return outcome_of(*last_word);
+  if (stored.job.state() == v1::CANCELLING) return std::nullopt;
+  return tried_again(worker_missing());
 }
 
 JobRunner::Left JobRunner::reconcile(std::int64_t job) {
-  const auto folder = parts_.folder.job_folder(job);
-  if (parts_.executor.has_worker(folder)) return Left::is_to_run;
-  const auto stored = parts_.reader.find_job(job);
-  if (!stored) return Left::ended;
-  parts_.folder.make_job_folder(job);
-  store::StateChange next = tried_again(worker_missing());
   try {
-    if (const auto last_word = parts_.executor.take_last_word(folder, events_of(*stored))) {
-      next = outcome_of(*last_word);
-    } else if (stored->job.state() == v1::CANCELLING) {
-      return Left::is_to_run;
+    if (parts_.executor.has_worker(parts_.folder.job_folder(job))) return Left::is_to_run;
+    const auto stored = parts_.reader.find_job(job);
+    if (!stored) return Left::ended;
+    std::optional<store::StateChange> next;
+    try {
+      next = left_behind(*stored);
+    } catch (const ServiceError& error) {
+      if (error.kind() != ServiceError::Kind::data_loss) throw;
+      next = outcome_of(error);
     }
-  } catch (const ServiceError& error) {
-    if (error.kind() != ServiceError::Kind::data_loss) throw;
-    next = outcome_of(error);
+    std::string logged;
+    const auto written = next ? try_write(job, *next, logged) : std::nullopt;
+    if (!written || *written == v1::CANCELLING) return Left::is_to_run;
+    return next->state == v1::PENDING ? Left::waits : Left::ended;
+  } catch (const std::exception& error) {
+    spdlog::warn("What an earlier daemon left of {} is looked at again: {}", name_of(job), error.what());
+    return Left::is_to_run;
   }
-  const v1::JobState written = write(job, next, {});
-  if (written == v1::CANCELLING) return Left::is_to_run;
-  return next.state == v1::PENDING ? Left::waits : Left::ended;
 }
 
 void JobRunner::end_leftover(std::int64_t job) { parts_.executor.end_worker(parts_.folder.job_folder(job)); }
+
+void JobRunner::end_leftover_if_possible(std::int64_t job) {
+  try {
+    end_leftover(job);
+  } catch (const std::exception& error) {
+    // The next worker of the job is refused its folder, and this one is adopted.
+    spdlog::warn("A worker of {} may still run: {}", name_of(job), error.what());
+  }
+}
 
 worker::Order JobRunner::order_of(const store::StoredJob& stored) const {
   worker::Order order;
@@ -106,11 +135,11 @@ worker::Order JobRunner::order_of(const store::StoredJob& stored) const {
   return order;
 }
 
-WorkerExit JobRunner::run_worker(const store::StoredJob& stored, int threads, const Interruptions& interruptions) {
+WorkerExit JobRunner::run_worker(const store::StoredJob& stored, const Run& run) {
   parts_.folder.make_job_folder(stored.number);
   worker::Order order = order_of(stored);
-  order.set_threads(threads);
-  return parts_.executor.run(parts_.folder.job_folder(stored.number), order, events_of(stored), interruptions);
+  order.set_threads(run.threads);
+  return parts_.executor.run(parts_.folder.job_folder(stored.number), order, events_of(stored), run.interruptions);
 }
 
 WorkerEvents JobRunner::events_of(const store::StoredJob& stored) {
@@ -120,7 +149,7 @@ WorkerEvents JobRunner::events_of(const store::StoredJob& stored) {
     const auto now = parts_.reader.find_job(job);
     if (!now) throw Withdrawn();
     // It runs already: an earlier daemon started the worker.
-    if (now->job.state() == v1::CANCELLING || now->job.state() == v1::RUNNING) return;
+    if (now->job.state() == v1::CANCELLING || now->job.state() == v1::RUNNING) return parts_.hold.succeeded();
     store::StateChange running;
     running.state = v1::RUNNING;
     running.worker_pid = pid;
@@ -131,6 +160,7 @@ WorkerEvents JobRunner::events_of(const store::StoredJob& stored) {
       if (gone || error.kind() == ServiceError::Kind::failed_precondition) throw Withdrawn();
       throw;
     }
+    parts_.hold.succeeded();
     spdlog::info("{} runs in process {}", name_of(job), pid);
   };
   const auto channel = parts_.hub.open(job);
@@ -162,25 +192,26 @@ void JobRunner::pass_on(std::int64_t job, std::int64_t& last_step, watch::Channe
   }
 }
 
-store::StateChange JobRunner::after(const store::StoredJob& stored, const WorkerExit& exit,
-                                    const Interruptions& interruptions, const std::stop_token& daemons_end) {
+store::StateChange JobRunner::after(const store::StoredJob& stored, const WorkerExit& exit, Run& run) {
   auto next = outcome_of(exit);
-  if (exit.kind == WorkerExit::Kind::cancelled && !is_last_word(exit))
-    return given_up(stored, std::move(next), interruptions, daemons_end);
+  if (exit.kind == WorkerExit::Kind::cancelled && !is_last_word(exit)) return given_up(stored, std::move(next), run);
   if (!is_lost(exit)) return next;
-  if (!got_further(stored.number)) return given_up(stored, std::move(next), interruptions, daemons_end);
+  run.trouble = trouble_of_exit(exit);
+  // A worker that an earlier daemon started cannot say so by its exit code.
+  if (!run.trouble && parts_.folder.is_full())
+    run.trouble = {Shortage::full_disk, "The disk of the data folder is full."};
+  if (run.trouble) return {};
+  if (!got_further(stored.number)) return given_up(stored, std::move(next), run);
   spdlog::warn("{}: {}", name_of(stored.number), next.message);
-  if (exit.kind != WorkerExit::Kind::not_started) return tried_again(std::move(next));
-  // The job is PENDING as it was.
-  return {};
+  return tried_again(std::move(next));
 }
 
 // Whether the job may be tried again after a loss.
 bool JobRunner::got_further(std::int64_t job) {
   try {
     parts_.journal.commit_samples();
-  } catch (const ServiceError&) {
-    // On a full disk what was stored before counts. The journal tries again by itself, and tells of it.
+  } catch (const std::exception&) {
+    // What was stored before counts. The journal tries again by itself, and logs that.
   }
   const std::int64_t step = parts_.reader.last_sampled_step(job);
   const std::scoped_lock lock(mutex_);
@@ -192,13 +223,13 @@ bool JobRunner::got_further(std::int64_t job) {
 }
 
 // What the job's workers reported until they were gone is kept as a result where that can be.
-store::StateChange JobRunner::given_up(const store::StoredJob& stored, store::StateChange loss,
-                                       const Interruptions& interruptions, const std::stop_token& daemons_end) {
+store::StateChange JobRunner::given_up(const store::StoredJob& stored, store::StateChange loss, Run& run) {
   const bool is_cancelled = loss.state == v1::CANCELLED;
   // The next daemon ends it.
-  if (is_cancelled && daemons_end.stop_requested()) return {};
+  if (is_cancelled && run.daemons_end.stop_requested()) return {};
   // A cancelled job ends, even if it was to be suspended or the disk is nearly full.
-  const Interruptions wishes = is_cancelled ? Interruptions{daemons_end, {}, interruptions.cancel} : interruptions;
+  const Interruptions wishes =
+      is_cancelled ? Interruptions{run.daemons_end, {}, run.interruptions.cancel} : run.interruptions;
   worker::Order order = order_of(stored);
   auto& end = *order.mutable_given_up();
   end.set_cancelled(is_cancelled);
@@ -208,43 +239,72 @@ store::StateChange JobRunner::given_up(const store::StoredJob& stored, store::St
     end.set_remedy(loss.remedy);
   }
   try {
+    parts_.folder.make_job_folder(stored.number);
     const auto exit = parts_.executor.run(parts_.folder.job_folder(stored.number), order, events_of(stored), wishes);
     const bool has_result = is_last_word(exit) && exit.final->has_summary();
     const bool was_left = exit.kind == WorkerExit::Kind::stopped || exit.kind == WorkerExit::Kind::suspended;
     if (was_left && !is_last_word(exit) && is_cancelled) return {};
     if (has_result || (was_left && !is_last_word(exit))) return outcome_of(exit);
+    if (!is_cancelled) run.trouble = trouble_of_exit(exit);
   } catch (const std::exception& error) {
+    // One that was cancelled ends without its result where none can be made now.
+    if (!is_cancelled) run.trouble = trouble_of(error);
     spdlog::warn("{} has no result: {}", name_of(stored.number), error.what());
   }
   return loss;
 }
 
-v1::JobState JobRunner::write(std::int64_t job, store::StateChange change, const std::stop_token& stop) {
-  while (true) {
+v1::JobState JobRunner::put_back(std::int64_t job, const Run& run) {
+  do {
     try {
-      parts_.journal.change_state(job, change);
-      spdlog::info("{} {}{}{}", name_of(job), v1::JobState_Name(change.state), change.message.empty() ? "" : ": ",
-                   change.message);
-      if (is_terminal(change.state)) tidy_up(job, change);
-      return change.state;
-    } catch (const ServiceError& error) {
-      if (error.kind() == ServiceError::Kind::not_found) return v1::JOB_STATE_UNSPECIFIED;
-      if (error.kind() == ServiceError::Kind::failed_precondition) {
-        // It was cancelled when its worker had just left it.
-        return !is_terminal(change.state) && is_cancelling(job) ? v1::CANCELLING : v1::JOB_STATE_UNSPECIFIED;
+      const auto stored = parts_.reader.find_job(job);
+      if (!stored) return v1::JOB_STATE_UNSPECIFIED;
+      if (stored->job.state() != v1::RUNNING) return stored->job.state();
+      return write(job, waits_for(run.trouble), run.daemons_end);
+    } catch (const std::exception& error) {
+      const Trouble trouble = trouble_of(error);
+      if (!trouble) {
+        spdlog::error("{} cannot be read and is left out until the daemon starts again: {}", name_of(job),
+                      error.what());
+        return v1::JOB_STATE_UNSPECIFIED;
       }
-      spdlog::error("The end of {} cannot be made durable: {}", name_of(job), error.what());
-      if (error.kind() == ServiceError::Kind::storage_full) parts_.folder.give_up_ballast();
+      parts_.hold.failed(trouble);
     }
-    // A full disk may get room again. At the daemon's end the job stays as it is, and the next daemon reconciles it.
-    pause(stop);
-    if (stop.stop_requested() || !stop.stop_possible()) return v1::JOB_STATE_UNSPECIFIED;
-  }
+  } while (pause(run.daemons_end));
+  return v1::JOB_STATE_UNSPECIFIED;
 }
 
-bool JobRunner::is_cancelling(std::int64_t job) {
-  const auto stored = parts_.reader.find_job(job);
-  return stored && stored->job.state() == v1::CANCELLING;
+v1::JobState JobRunner::write(std::int64_t job, const store::StateChange& change, const std::stop_token& daemons_end) {
+  // At the daemon's end the job stays as it is, and the next daemon reconciles it.
+  std::string logged;
+  do {
+    if (const auto written = try_write(job, change, logged)) return *written;
+  } while (pause(daemons_end));
+  return v1::JOB_STATE_UNSPECIFIED;
+}
+
+std::optional<v1::JobState> JobRunner::try_write(std::int64_t job, const store::StateChange& change,
+                                                 std::string& logged) {
+  try {
+    parts_.journal.change_state(job, change);
+    spdlog::info("{} {}{}{}", name_of(job), v1::JobState_Name(change.state), change.message.empty() ? "" : ": ",
+                 change.message);
+    if (is_terminal(change.state)) tidy_up(job, change);
+    return change.state;
+  } catch (const std::exception& error) {
+    const auto* refused = dynamic_cast<const ServiceError*>(&error);
+    const auto kind = refused != nullptr ? refused->kind() : ServiceError::Kind::internal;
+    if (kind == ServiceError::Kind::not_found) return v1::JOB_STATE_UNSPECIFIED;
+    // It was cancelled when its worker had just left it, or is in the state of another call.
+    if (kind == ServiceError::Kind::failed_precondition)
+      return is_terminal(change.state) ? v1::JOB_STATE_UNSPECIFIED : v1::CANCELLING;
+    if (std::exchange(logged, error.what()) != error.what())
+      spdlog::error("The state of {} cannot be made durable: {}", name_of(job), error.what());
+    if (kind == ServiceError::Kind::data_loss) return v1::JOB_STATE_UNSPECIFIED;
+    if (kind == ServiceError::Kind::storage_full) parts_.folder.give_up_ballast();
+    if (const Trouble trouble = trouble_of(error)) parts_.hold.failed(trouble);
+    return std::nullopt;
+  }
 }
 
 void JobRunner::tidy_up(std::int64_t job, const store::StateChange& change) {
@@ -255,7 +315,7 @@ void JobRunner::tidy_up(std::int64_t job, const store::StateChange& change) {
   }
   try {
     parts_.folder.clean_job_folder(job);
-  } catch (const ServiceError& error) {
+  } catch (const std::exception& error) {
     spdlog::warn("What {} left beside its result is removed at the daemon's next start: {}", name_of(job),
                  error.what());
   }

@@ -9,7 +9,6 @@
 #include <csignal>
 #include <fstream>
 #include <string>
-#include <system_error>
 
 #include "jobs/worker_follower.h"
 #include "jobs/worker_process.h"
@@ -56,21 +55,27 @@ int spawn(const std::filesystem::path& program, const worker::JobFolder& folder,
 WorkerExit not_started(int error) {
   WorkerExit out;
   out.kind = WorkerExit::Kind::not_started;
-  out.reason = std::generic_category().message(error);
+  out.code = error;
   return out;
 }
 
 void write_order(const worker::JobFolder& folder, const worker::Order& order) {
+  errno = 0;
   std::ofstream file(folder.order(), std::ios::binary | std::ios::trunc);
-  order.SerializeToOstream(&file);
+  if (file) order.SerializeToOstream(&file);
   file.flush();
   if (!file) store::throw_file_error(folder.order(), "written", errno);
 }
 
-WorkerExit follow(WorkerProcess& process, WorkerFollower& follower, const WorkerEvents& events) {
+WorkerExit follow(WorkerProcess& process, WorkerFollower& follower, const WorkerEvents& events,
+                  const OomKills& oom_kills) {
   try {
+    const std::uint64_t before = oom_kills();
     events.started(process.number());
-    return follower.follow(process);
+    WorkerExit out = follower.follow(process);
+    const bool was_killed = out.kind == WorkerExit::Kind::signalled && out.code == SIGKILL;
+    out.out_of_memory = (was_killed || out.kind == WorkerExit::Kind::gone) && oom_kills() > before;
+    return out;
   } catch (...) {
     process.end();
     throw;
@@ -107,16 +112,16 @@ WorkerExit LocalProcess::run(const worker::JobFolder& folder, const worker::Orde
     out.kind = WorkerExit::Kind::broken;
     return out;
   }
-  if (process) return follow(*process, follower, events);
+  if (process) return follow(*process, follower, events, oom_kills_);
   write_order(folder, order);
   pid_t child = 0;
   if (const int error = spawn(program_, folder, child); error != 0) return not_started(error);
   process.emplace(WorkerProcess::of_child(child));
-  out = follow(*process, follower, events);
+  out = follow(*process, follower, events, oom_kills_);
   if (out.kind != WorkerExit::Kind::exited || out.code != worker::kFolderIsClaimed) return out;
   // One that an earlier daemon had just started was faster.
   auto faster = WorkerProcess::find(folder);
-  return faster ? follow(*faster, follower, events) : out;
+  return faster ? follow(*faster, follower, events, oom_kills_) : out;
 }
 
 }  // namespace cellcrush::jobs

@@ -5,15 +5,18 @@
 #include <utility>
 
 #include "jobs/executor.h"
+#include "jobs/oom_kills.h"
 
 namespace cellcrush::jobs {
 
 /// Workers as processes on this machine: `program worker --folder DIR`. They outlive the daemon.
 class LocalProcess final : public Executor {
  public:
-  /// A worker that says nothing and uses no processor time for `stall_limit` is stalled.
-  LocalProcess(std::filesystem::path program, std::chrono::milliseconds stall_limit)
-      : program_(std::move(program)), stall_limit_(stall_limit) {}
+  /// A worker that says nothing and uses no processor time for `stall_limit` is stalled. `oom_kills`: count_oom_kills, unless a
+  /// test counts otherwise.
+  LocalProcess(std::filesystem::path program, std::chrono::milliseconds stall_limit,
+               OomKills oom_kills = count_oom_kills)
+      : program_(std::move(program)), stall_limit_(stall_limit), oom_kills_(std::move(oom_kills)) {}
 
   bool has_worker(const worker::JobFolder& folder) override;
   std::optional<WorkerExit> take_last_word(const worker::JobFolder& folder, const WorkerEvents& events) override;
@@ -24,6 +27,7 @@ class LocalProcess final : public Executor {
  private:
   std::filesystem::path program_;
   std::chrono::milliseconds stall_limit_;
+  OomKills oom_kills_;
 };
 
 }  // namespace cellcrush::jobs

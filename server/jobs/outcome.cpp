@@ -3,12 +3,18 @@
 #include <csignal>
 #include <cstring>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include "error.h"
+#include "worker/worker_main.h"
 
 namespace cellcrush::jobs {
 namespace {
+
+// Exit codes of a shell or the loader.
+constexpr int kCannotBeRun = 126;
+constexpr int kCannotBeFound = 127;
 
 store::StateChange failed(v1::JobCause cause, std::string message, std::string remedy) {
   store::StateChange out;
@@ -45,9 +51,6 @@ struct Loss {
 
 Loss loss_of(const WorkerExit& exit) {
   switch (exit.kind) {
-    case WorkerExit::Kind::not_started:
-      return {"No worker process could be started: " + exit.reason + ".",
-              "Look into the limits on processes and memory, then submit the case again."};
     case WorkerExit::Kind::broken: return {"The worker process sent what is no report, and was ended."};
     case WorkerExit::Kind::stalled:
       return {"The worker process stood still, and was ended.", "Look whether the machine or its disk stood still."};
@@ -64,6 +67,31 @@ Loss loss_of(const WorkerExit& exit) {
 }
 
 }  // namespace
+
+Trouble trouble_of_exit(const WorkerExit& exit) {
+  if (exit.kind == WorkerExit::Kind::not_started) {
+    const Shortage shortage = shortage_of_errno(exit.code);
+    const bool of_machine = shortage == Shortage::memory || shortage == Shortage::descriptors;
+    return {of_machine ? shortage : Shortage::worker,
+            "No worker process could be started: " + std::generic_category().message(exit.code) + "."};
+  }
+  if (exit.final && exit.final->shortage() != 0)
+    return {static_cast<Shortage>(exit.final->shortage()), exit.final->message()};
+  if (exit.kind != WorkerExit::Kind::exited) return {};
+  if (exit.code == kCannotBeRun || exit.code == kCannotBeFound)
+    return {Shortage::worker, "The worker program could not be run: exit code " + std::to_string(exit.code) + "."};
+  if (const Shortage shortage = worker::shortage_of_exit_code(exit.code); shortage != Shortage::none)
+    return {shortage, std::string("The worker process met a shortage: ") + name_of(shortage) + "."};
+  return {};
+}
+
+store::StateChange waits_for(const Trouble& trouble) {
+  store::StateChange out;
+  out.state = v1::PENDING;
+  out.message = trouble.reason + " It continues from its last checkpoint once that is over.";
+  out.remedy = remedy_for(trouble.shortage);
+  return out;
+}
 
 bool is_last_word(const WorkerExit& exit) { return exit.final && !exit.final->has_suspended_step(); }
 
@@ -90,6 +118,11 @@ store::StateChange outcome_of(const WorkerExit& exit) {
     case WorkerExit::Kind::cancelled: return cancelled_without_result();
     default: break;
   }
+  if (exit.out_of_memory) {
+    return failed(v1::OUT_OF_MEMORY,
+                  "The kernel ended the worker process: the machine or its control group had no memory.",
+                  "Take fewer cells or elements_per_wall, run fewer jobs at once (--workers), or give it more memory.");
+  }
   const Loss loss = loss_of(exit);
   return failed(v1::WORKER_CRASHED, loss.what, loss.remedy);
 }
@@ -104,8 +137,6 @@ store::StateChange tried_again(store::StateChange lost) {
 
 store::StateChange outcome_of(const std::exception& error) {
   const auto* refused = dynamic_cast<const ServiceError*>(&error);
-  if (refused != nullptr && refused->kind() == ServiceError::Kind::storage_full)
-    return failed(v1::DISK_FULL, error.what(), "Make room in the data folder and submit the case again.");
   if (refused != nullptr && refused->kind() == ServiceError::Kind::data_loss)
     return failed(v1::STORE_CORRUPT, error.what(), "Submit the case again, and look whether the disk is sound.");
   return failed(v1::WORKER_CRASHED, std::string("The run could not be kept up: ") + error.what(),

@@ -3,13 +3,21 @@
 #include <exception>
 
 #include "jobs/executor.h"
+#include "shortage.h"
 #include "store/journal.h"
 
 namespace cellcrush::jobs {
 
-/// Whether the worker was lost by no fault of the case: it ended without a word, or could not be started. The job may then be
-/// tried again.
+/// Whether the worker was lost by no fault of the case: it ended without a word, met a shortage or could not be started. The job
+/// may then be tried again.
 bool is_lost(const WorkerExit& exit);
+
+/// What the worker, or the daemon that was to start it, lacked; none when it was lost for another reason. The worker has left the job at its
+/// last checkpoint.
+Trouble trouble_of_exit(const WorkerExit& exit);
+
+/// The job waits as before, until what was short is there again.
+store::StateChange waits_for(const Trouble& trouble);
 
 /// Whether the worker ended the job: its final report counts for more than the way the process ended.
 bool is_last_word(const WorkerExit& exit);
@@ -17,7 +25,7 @@ bool is_last_word(const WorkerExit& exit);
 /// The job's next state, from how its worker ended.
 store::StateChange outcome_of(const WorkerExit& exit);
 
-/// The job's last state when the daemon's own part of the run failed.
+/// The job's last state when the daemon's own part of the run failed, other than by a shortage.
 store::StateChange outcome_of(const std::exception& error);
 
 /// The state of a job whose worker was ended, or went with the daemon, after the job was cancelled.

@@ -66,7 +66,7 @@ class Play {
 
   // Why a job that `before` others precede does not run now.
   [[nodiscard]] std::string reason(const store::QueuedJob& job, double seconds, int before) const {
-    if (workers_.held) return "The disk of the data folder is nearly full: no job runs until there is room.";
+    if (!workers_.held.empty()) return "The queue is held: " + workers_.held;
     if (now_.is_held_back(job)) return at_its_limit(job) + before_it(before, ", and ");
     if (all_busy_) return all_workers(workers_.count) + before_it(before, ", and ");
     return seconds > 0.0 ? before_it(before, "") : "A worker takes it now.";

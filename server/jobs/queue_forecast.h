@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "cellcrush/v1/admin_service.pb.h"
@@ -26,7 +27,7 @@ using FactsOf = std::function<JobFacts(std::int64_t job)>;
 struct WorkerFacts {
   int count = 1;
   double step_cost = 0.0;  ///< seconds of one core for a step of an element
-  bool held = false;       ///< whether no job runs, as the disk is nearly full
+  std::string held{};      ///< why no job starts; empty where nothing holds the queue
 };
 
 /// Jobs that a queue names, at most.

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <optional>
+#include <utility>
 
 #include "error.h"
 #include "jobs/deletion.h"
@@ -24,10 +25,14 @@ void Scheduler::start(int slots) {
 // What a daemon that was killed did not come to remove.
 void Scheduler::clean_up() {
   for (const std::int64_t job : parts_.folder.jobs_with_reports()) {
-    const auto stored = parts_.reader.find_job(job);
-    if (!stored || !is_terminal(stored->job.state())) continue;
-    parts_.runner.end_leftover(job);
-    parts_.folder.clean_job_folder(job);
+    try {
+      const auto stored = parts_.reader.find_job(job);
+      if (!stored || !is_terminal(stored->job.state())) continue;
+      parts_.runner.end_leftover(job);
+      parts_.folder.clean_job_folder(job);
+    } catch (const std::exception& error) {
+      spdlog::warn("What {} left beside its result is removed at the next start: {}", name_of(job), error.what());
+    }
   }
 }
 
@@ -35,11 +40,12 @@ void Scheduler::reconcile() {
   for (const v1::JobState state : {v1::RUNNING, v1::CANCELLING}) {
     for (const auto& job : parts_.reader.queued_jobs(state)) {
       if (parts_.runner.reconcile(job.job) != JobRunner::Left::is_to_run) continue;
-      spdlog::info("{} is gone on with as an earlier daemon left it", name_of(job.job));
+      spdlog::info("{} is adopted from an earlier daemon", name_of(job.job));
       const std::scoped_lock lock(mutex_);
       --free_cores_;
       waiting_.count_running(job);
-      if (state == v1::CANCELLING) running_[job.job].cancel.request_stop();
+      Running& running = begin(job.job);
+      if (state == v1::CANCELLING) running.cancel.request_stop();
       slots_.emplace_back([this, job](const std::stop_token& stop) { run(job, stop); });
     }
   }
@@ -51,7 +57,7 @@ void Scheduler::enqueue(const std::vector<store::QueuedJob>& jobs) {
     for (const auto& job : jobs) waiting_.add(job);
     tell_metrics();
   }
-  changed_.notify_all();
+  wake();
 }
 
 void Scheduler::cancel(std::int64_t job) {
@@ -108,6 +114,10 @@ void Scheduler::suspend(std::int64_t job, const std::function<bool()>& given_up)
       changed_.wait_for(lock, std::chrono::milliseconds(20));
       continue;
     }
+    lock.unlock();
+    const auto queued = parts_.reader.queued_job(job, v1::PENDING);
+    lock.lock();
+    if (!queued || running_.contains(job)) continue;
     waiting_.remove(job);
     lock.unlock();
     store::StateChange change;
@@ -116,10 +126,8 @@ void Scheduler::suspend(std::int64_t job, const std::function<bool()>& given_up)
       parts_.journal.change_state(job, change);
     } catch (const ServiceError& error) {
       if (error.kind() == ServiceError::Kind::failed_precondition) continue;
-      // On a full disk it waits as before.
-      auto queued = parts_.reader.queued_jobs(v1::PENDING);
-      std::erase_if(queued, [job](const store::QueuedJob& other) { return other.job != job; });
-      enqueue(queued);
+      // Where that cannot be written it waits as before.
+      enqueue({*queued});
       throw;
     }
   }
@@ -132,10 +140,12 @@ void Scheduler::resume(std::int64_t job) {
     throw ServiceError(ServiceError::Kind::failed_precondition,
                        name_of(job) + " is " + v1::JobState_Name(state) + " and cannot be resumed.");
   }
+  // Read before the change: a job that is PENDING is in the queue.
+  const auto queued = parts_.reader.queued_job(job, v1::SUSPENDED);
   store::StateChange change;
   change.state = v1::PENDING;
   parts_.journal.change_state(job, change);
-  if (const auto waiting = parts_.reader.queued_job(job, v1::PENDING)) enqueue({*waiting});
+  if (queued) enqueue({*queued});
 }
 
 void Scheduler::cancel_all(const std::vector<std::int64_t>& jobs) {
@@ -154,24 +164,15 @@ void Scheduler::cancel_all(const std::vector<std::int64_t>& jobs) {
   }
 }
 
-bool Scheduler::hold(bool held) {
+void Scheduler::hold_for_low_disk(const std::optional<std::string>& reason) {
+  parts_.hold.set_low_disk(reason);
   std::vector<std::stop_source> leave;
   {
     const std::scoped_lock lock(mutex_);
-    if (held == held_) return false;
-    held_ = held;
-    if (held) {
-      for (auto& [job, wishes] : running_) leave.push_back(wishes.leave);
-    }
+    if (std::exchange(low_disk_, reason.has_value()) == reason.has_value() || !reason) return;
+    for (auto& [job, wishes] : running_) leave.push_back(wishes.leave);
   }
   for (auto& source : leave) source.request_stop();
-  changed_.notify_all();
-  return true;
-}
-
-bool Scheduler::is_held() {
-  const std::scoped_lock lock(mutex_);
-  return held_;
 }
 
 std::size_t Scheduler::waiting_count() {
@@ -185,17 +186,45 @@ void Scheduler::stop() {
 }
 
 void Scheduler::run_slot(const std::stop_token& stop) {
-  while (true) {
+  while (!stop.stop_requested()) {
     std::optional<store::QueuedJob> taken;
+    bool is_trial = false;
     {
       std::unique_lock lock(mutex_);
-      changed_.wait(lock, stop,
-                    [this, &taken] { return !held_ && free_cores_ > 0 && (taken = waiting_.take()).has_value(); });
-      if (!taken || stop.stop_requested()) return;
+      const bool is_open = parts_.hold.is_open();
+      if (is_open && free_cores_ > 0) taken = waiting_.take();
+      if (!taken) {
+        wait_for_change(lock, stop, is_open ? std::nullopt : parts_.hold.next_try());
+        continue;
+      }
+      is_trial = parts_.hold.begin_start();
       --free_cores_;
+      begin(taken->job);
     }
     run(*taken, stop);
+    if (is_trial) parts_.hold.end_trial();
   }
+}
+
+void Scheduler::wait_for_change(std::unique_lock<std::mutex>& lock, const std::stop_token& stop,
+                                const std::optional<Hold::Clock::time_point>& limit) {
+  const auto has_changed = [this, seen = changes_] { return changes_ != seen; };
+  limit ? changed_.wait_until(lock, stop, *limit, has_changed) : changed_.wait(lock, stop, has_changed);
+}
+
+void Scheduler::wake() {
+  {
+    const std::scoped_lock lock(mutex_);
+    ++changes_;
+  }
+  changed_.notify_all();
+}
+
+Scheduler::Running& Scheduler::begin(std::int64_t job) {
+  Running& running = running_[job];
+  if (low_disk_) running.leave.request_stop();
+  tell_metrics();
+  return running;
 }
 
 void Scheduler::run(const store::QueuedJob& taken, const std::stop_token& stop) {
@@ -203,10 +232,8 @@ void Scheduler::run(const store::QueuedJob& taken, const std::stop_token& stop) 
   {
     const std::scoped_lock lock(mutex_);
     wishes = running_[taken.job];
-    tell_metrics();
   }
-  const auto stored = parts_.reader.find_job(taken.job);
-  const int extra = stored ? take_cores(taken.job, stored->job.case_().numerics().threads()) : 0;
+  const int extra = take_cores(taken.job);
   const std::stop_callback leave_at_the_end(stop, [&wishes] { wishes.leave.request_stop(); });
   const bool again = parts_.runner.run(
       taken.job, 1 + extra, {wishes.leave.get_token(), wishes.suspend.get_token(), wishes.cancel.get_token()}, stop);
@@ -218,10 +245,17 @@ void Scheduler::run(const store::QueuedJob& taken, const std::stop_token& stop) 
     free_cores_ += 1 + extra;
     tell_metrics();
   }
-  changed_.notify_all();
+  wake();
 }
 
-int Scheduler::take_cores(std::int64_t job, int threads) {
+// A job of which that cannot be read runs on one core, if it runs.
+int Scheduler::take_cores(std::int64_t job) {
+  int threads = 1;
+  try {
+    if (const auto stored = parts_.reader.find_job(job)) threads = stored->job.case_().numerics().threads();
+  } catch (const std::exception& error) {
+    spdlog::warn("The threads of {} cannot be read: {}", name_of(job), error.what());
+  }
   const std::scoped_lock lock(mutex_);
   const int taken = extra_cores(threads, free_cores_, waiting_.count());
   free_cores_ -= taken;

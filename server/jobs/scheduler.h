@@ -5,11 +5,14 @@
 #include <functional>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <stop_token>
+#include <string>
 #include <thread>
 #include <vector>
 
 #include "jobs/job_runner.h"
+#include "jobs/queue_hold.h"
 #include "jobs/waiting_jobs.h"
 #include "metrics/metrics.h"
 #include "store/data_folder.h"
@@ -30,6 +33,7 @@ class Scheduler {
     store::JournalReader& reader;
     metrics::Metrics& metrics;
     JobRunner& runner;
+    QueueHold& hold;
   };
 
   explicit Scheduler(const Parts& parts) : parts_(parts) {}
@@ -61,10 +65,11 @@ class Scheduler {
   /// failed_precondition.
   void resume(std::int64_t job);
 
-  /// While held, no job runs: workers leave theirs at a checkpoint, and none starts. Whether that is a change.
-  bool hold(bool held);
+  /// While there is a reason, the disk has too little room and no job runs: workers leave theirs at a checkpoint, and none starts.
+  void hold_for_low_disk(const std::optional<std::string>& reason);
 
-  [[nodiscard]] bool is_held();
+  /// Lets the slots look at the queue again: something has changed.
+  void wake();
 
   [[nodiscard]] std::size_t waiting_count();
 
@@ -87,9 +92,15 @@ class Scheduler {
   void reconcile();
   void clean_up();
   void run_slot(const std::stop_token& stop);
-  /// Has the job run by this thread; it holds a core, and more if it asks for them and there are.
+  /// Waits for a change, at most until `limit`. REQUIRES: `lock` holds mutex_.
+  void wait_for_change(std::unique_lock<std::mutex>& lock, const std::stop_token& stop,
+                       const std::optional<Hold::Clock::time_point>& limit);
+  /// Notes that a job runs. REQUIRES: mutex_ is held.
+  Running& begin(std::int64_t job);
+  /// Has the job run by this thread; it holds a core, and more if it asks for them and there are. REQUIRES: `begin` was called for it.
+  /// Throws nothing.
   void run(const store::QueuedJob& taken, const std::stop_token& stop);
-  int take_cores(std::int64_t job, int threads);
+  int take_cores(std::int64_t job);
   store::StoredJob find(std::int64_t job);
   /// REQUIRES: mutex_ is held.
   void tell_metrics() { parts_.metrics.set_jobs(waiting_.count(), running_.size()); }
@@ -101,7 +112,8 @@ class Scheduler {
   std::map<std::int64_t, Running> running_;
   int free_cores_ =
       0;  ///< one for each slot, and those that jobs use are taken off; below 0 after a restart with fewer
-  bool held_ = false;
+  std::uint64_t changes_ = 0;  ///< of what the slots wait for
+  bool low_disk_ = false;
   std::vector<std::jthread> slots_;
 };
 

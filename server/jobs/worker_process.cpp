@@ -6,6 +6,7 @@
 
 #include <cerrno>
 #include <csignal>
+#include <system_error>
 #include <utility>
 
 #include "worker/claim.h"
@@ -18,7 +19,16 @@ extern "C" {
 namespace cellcrush::jobs {
 
 WorkerProcess::WorkerProcess(pid_t process, bool is_child)
-    : process_(process), is_child_(is_child), descriptor_(pidfd_open(process, 0)) {}
+    : process_(process), is_child_(is_child), descriptor_(pidfd_open(process, 0)) {
+  if (descriptor_ >= 0 || errno == ESRCH) return;
+  const int error = errno;
+  // A child that cannot be followed is not to be left alone.
+  if (is_child_) {
+    kill(process_, SIGKILL);
+    wait_for_child();
+  }
+  throw std::system_error(error, std::generic_category(), "The worker process cannot be followed");
+}
 
 std::optional<WorkerProcess> WorkerProcess::find(const worker::JobFolder& folder) {
   const auto claimed = worker::find_claim(folder);
@@ -54,6 +64,10 @@ std::optional<int> WorkerProcess::end() {
     while (poll(&waiting, 1, -1) < 0 && errno == EINTR) continue;
     return std::nullopt;
   }
+  return wait_for_child();
+}
+
+int WorkerProcess::wait_for_child() {
   int status = 0;
   while (waitpid(process_, &status, 0) < 0 && errno == EINTR) continue;
   is_child_ = false;

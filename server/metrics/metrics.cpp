@@ -49,6 +49,12 @@ struct Metrics::Impl {
   Impl() {
     // All are there from the start, at 0.
     add_stages({});
+    set_holds({});
+  }
+
+  void set_holds(const std::set<Shortage>& holds) {
+    for (const Shortage shortage : kShortages)
+      held.Add({{"cause", name_of(shortage)}}).Set(holds.contains(shortage) ? 1.0 : 0.0);
   }
 
   void add_stages(const v1::StageTimes& times) {
@@ -60,6 +66,10 @@ struct Metrics::Impl {
   std::shared_ptr<prometheus::Registry> registry = std::make_shared<prometheus::Registry>();
   prometheus::Gauge& waiting = gauge(*registry, "cellcrush_jobs_waiting", "Jobs that wait for a slot.");
   prometheus::Gauge& running = gauge(*registry, "cellcrush_jobs_running", "Jobs that run.");
+  prometheus::Family<prometheus::Gauge>& held = prometheus::BuildGauge()
+                                                    .Name("cellcrush_queue_held")
+                                                    .Help("Whether the queue is held, by what the daemon lacks.")
+                                                    .Register(*registry);
   Counters& ended = counters(*registry, "cellcrush_jobs_ended_total", "Jobs that have ended, by state.");
   prometheus::Counter& steps =
       counters(*registry, "cellcrush_steps_total", "Time steps of jobs that have ended with a result.").Add({});
@@ -104,6 +114,8 @@ void Metrics::set_jobs(std::size_t waiting, std::size_t running) {
   impl_->waiting.Set(static_cast<double>(waiting));
   impl_->running.Set(static_cast<double>(running));
 }
+
+void Metrics::set_holds(const std::set<Shortage>& holds) { impl_->set_holds(holds); }
 
 void Metrics::set_speed(std::int64_t job, double steps_per_second) {
   const std::scoped_lock lock(impl_->mutex);

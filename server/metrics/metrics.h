@@ -3,10 +3,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <set>
 
 #include "cellcrush/v1/job.pb.h"
 #include "cellcrush/v1/sample.pb.h"
 #include "listen_address.h"
+#include "shortage.h"
 
 namespace cellcrush::metrics {
 
@@ -22,6 +24,7 @@ namespace cellcrush::metrics {
 ///   cellcrush_watchers                               open watches
 ///   cellcrush_connections                            open connections of gRPC
 ///   cellcrush_refused_connections_total              connections beyond the limits
+///   cellcrush_queue_held{cause="full_disk"}          1 while that holds the queue, otherwise 0; a cause each (shortage.h)
 ///   cellcrush_skipped_frames_total                   frames that watchers were too slow for
 ///
 /// Thread-safe.
@@ -37,6 +40,9 @@ class Metrics {
   ListenAddress serve(const ListenAddress& address);
 
   void set_jobs(std::size_t waiting, std::size_t running);
+
+  /// What holds the queue now.
+  void set_holds(const std::set<Shortage>& holds);
 
   void set_speed(std::int64_t job, double steps_per_second);
   void observe_commit(double seconds);

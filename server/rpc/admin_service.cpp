@@ -1,8 +1,10 @@
 #include "rpc/admin_service.h"
 
+#include <google/protobuf/util/time_util.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <chrono>
 
 #include "error.h"
 #include "jobs/resource_name.h"
@@ -11,6 +13,25 @@
 #include "version.h"
 
 namespace cellcrush::rpc {
+namespace {
+
+google::protobuf::Timestamp clock_time(jobs::Hold::Clock::time_point time) {
+  const std::chrono::nanoseconds from_now = time - jobs::Hold::Clock::now();
+  return google::protobuf::util::TimeUtil::GetCurrentTime() +
+         google::protobuf::util::TimeUtil::NanosecondsToDuration(from_now.count());
+}
+
+v1::Queue::Hold to_proto(const jobs::Hold& hold) {
+  v1::Queue::Hold out;
+  out.set_cause(name_of(hold.shortage));
+  out.set_reason(hold.reason);
+  out.set_remedy(remedy_for(hold.shortage));
+  *out.mutable_since() = clock_time(hold.since);
+  if (hold.next_try) *out.mutable_next_try_time() = clock_time(*hold.next_try);
+  return out;
+}
+
+}  // namespace
 
 grpc::Status AdminService::GetCapabilities(grpc::ServerContext*, const v1::GetCapabilitiesRequest*,
                                            v1::Capabilities* response) {
@@ -63,9 +84,11 @@ grpc::Status AdminService::GetQueue(grpc::ServerContext*, const v1::GetQueueRequ
     const auto stopping = running_jobs(v1::CANCELLING);
     running.insert(running.end(), stopping.begin(), stopping.end());
     jobs::WorkerFacts workers = parts_.workers;
-    workers.held = parts_.scheduler.is_held();
+    const auto holds = parts_.hold.holds();
+    if (!holds.empty()) workers.held = holds.front().reason + " " + remedy_for(holds.front().shortage);
     *response = jobs::forecast_queue(running, parts_.reader.queued_jobs(v1::PENDING), workers,
                                      [this](std::int64_t job) { return facts_of(job); });
+    for (const auto& hold : holds) *response->add_holds() = to_proto(hold);
     return grpc::Status::OK;
   });
 }

@@ -5,6 +5,7 @@
 #include "access/gate.h"
 #include "cellcrush/v1/admin_service.grpc.pb.h"
 #include "jobs/queue_forecast.h"
+#include "jobs/queue_hold.h"
 #include "jobs/scheduler.h"
 #include "store/journal_reader.h"
 #include "watch/hub.h"
@@ -19,6 +20,7 @@ class AdminService final : public v1::Admin::Service {
     store::JournalReader& reader;
     watch::Hub& hub;
     jobs::Scheduler& scheduler;
+    jobs::QueueHold& hold;
     jobs::WorkerFacts workers;
     const access::Gate& gate;
     std::function<void()> drain;

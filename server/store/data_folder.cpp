@@ -1,12 +1,14 @@
 #include "store/data_folder.h"
 
 #include <fcntl.h>
+#include <spdlog/spdlog.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
+#include <cstdio>
 #include <system_error>
 
 #include "error.h"
@@ -16,12 +18,46 @@ namespace cellcrush::store {
 namespace {
 
 constexpr off_t kBallastBytes = 4 * 1024 * 1024;
+// SQLite's files and what a start writes.
+constexpr off_t kStartBallastBytes = 512 * 1024;
+constexpr std::int64_t kFullBelow = 64 * 1024;
 
 void make_private_folder(const std::filesystem::path& path) {
   std::error_code error;
   if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), error);
   if (error) throw_file_error(path, "used", error.value());
   if (mkdir(path.c_str(), 0700) != 0 && errno != EEXIST) throw_file_error(path, "used", errno);
+}
+
+// The errno that keeps files from being made, or those of a job from being used; 0 where there is none.
+int error_of_folder(const worker::JobFolder& folder) {
+  for (const auto& path : {folder.order(), folder.claim(), folder.reports(), folder.checkpoint(),
+                           folder.previous_checkpoint(), folder.partial_checkpoint(), folder.partial_result()}) {
+    struct stat status {};
+    if (lstat(path.c_str(), &status) != 0) {
+      if (errno != ENOENT) return errno;
+    } else if (!S_ISREG(status.st_mode)) {
+      return EISDIR;
+    } else if (::access(path.c_str(), R_OK | W_OK) != 0) {
+      return errno;
+    }
+  }
+  const auto probe = folder.root() / "probe";
+  const int file = open(probe.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
+  if (file < 0) return errno;
+  close(file);
+  return unlink(probe.c_str()) == 0 ? 0 : errno;
+}
+
+// False where there is no room.
+bool keep_file(const std::filesystem::path& path, off_t bytes) {
+  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
+  const int error = file < 0 ? errno : posix_fallocate(file, 0, bytes);
+  if (file >= 0) close(file);
+  if (error == 0) return true;
+  unlink(path.c_str());
+  if (shortage_of_errno(error) != Shortage::full_disk) throw_file_error(path, "written", error);
+  return false;
 }
 
 std::string read_text(int file) {
@@ -48,8 +84,11 @@ DataFolder::DataFolder(const std::filesystem::path& root) {
                        "The data folder " + root_.string() + " belongs to a daemon that runs (process " + owner +
                            "). Stop it, or give this one another folder with --data.");
   }
+  if (free_bytes() < kStartBallastBytes) unlink(start_ballast().c_str());
+  // The file's first page is written again before it is cut: that needs no room.
   const std::string process = std::to_string(getpid());
-  if (ftruncate(lock_, 0) != 0 || pwrite(lock_, process.data(), process.size(), 0) < 0) {
+  const auto written = pwrite(lock_, process.data(), process.size(), 0);
+  if (written < 0 ? errno != ENOSPC : ftruncate(lock_, written) != 0) {
     const int reason = errno;
     close(lock_);
     throw_file_error(lock_path, "used", reason);
@@ -58,7 +97,47 @@ DataFolder::DataFolder(const std::filesystem::path& root) {
 
 DataFolder::~DataFolder() { close(lock_); }
 
-void DataFolder::make_job_folder(std::int64_t job) const { make_private_folder(job_folder(job).root()); }
+void DataFolder::make_job_folder(std::int64_t job) const {
+  const auto folder = job_folder(job);
+  const auto error_of_job = [&folder] {
+    return mkdir(folder.root().c_str(), 0700) != 0 && errno != EEXIST ? errno : error_of_folder(folder);
+  };
+  const int error = error_of_job();
+  if (error == 0) return;
+  const Shortage shortage = shortage_of_errno(error);
+  if (shortage != Shortage::none && shortage != Shortage::data_folder) throw_file_error(folder.root(), "used", error);
+  try_new_folder();
+  set_aside(job, std::generic_category().message(error));
+  if (const int again = error_of_job(); again != 0) throw_file_error(folder.root(), "used", again);
+}
+
+void DataFolder::try_new_folder() const {
+  const auto path = root_ / "jobs" / ("probe-" + std::to_string(gettid()));
+  const int error =
+      mkdir(path.c_str(), 0700) == 0 || errno == EEXIST ? error_of_folder(worker::JobFolder(path)) : errno;
+  rmdir(path.c_str());
+  if (error == 0) return;
+  const Shortage shortage = shortage_of_errno(error);
+  throw ServiceError(shortage == Shortage::none ? Shortage::data_folder : shortage,
+                     (root_ / "jobs").string() + " cannot be written: " + std::generic_category().message(error) + ".");
+}
+
+void DataFolder::set_aside(std::int64_t job, const std::string& reason) const {
+  const auto from = job_folder(job).root();
+  for (int i = 1;; ++i) {
+    const std::filesystem::path to = from.string() + ".set-aside-" + std::to_string(i);
+    if (renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) {
+      spdlog::error("{} cannot be used ({}) and was set aside as {}. Look whether the disk is sound.", from.string(),
+                    reason, to.filename().string());
+      return;
+    }
+    if (errno != EEXIST) {
+      throw ServiceError(ServiceError::Kind::internal,
+                         from.string() + " cannot be used (" + reason +
+                             ") and cannot be set aside: " + std::generic_category().message(errno) + ". Remove it.");
+    }
+  }
+}
 
 void DataFolder::clean_job_folder(std::int64_t job) const {
   const auto folder = job_folder(job);
@@ -78,13 +157,11 @@ std::int64_t DataFolder::free_bytes() const {
   return static_cast<std::int64_t>(space.available);
 }
 
-void DataFolder::keep_ballast() const {
-  const int file = open(ballast().c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
-  if (file < 0) return;
-  const bool made = posix_fallocate(file, 0, kBallastBytes) == 0;
-  close(file);
-  if (!made) give_up_ballast();
+bool DataFolder::keep_ballast() const {
+  return keep_file(start_ballast(), kStartBallastBytes) && keep_file(ballast(), kBallastBytes);
 }
+
+bool DataFolder::is_full() const { return free_bytes() < kFullBelow; }
 
 void DataFolder::give_up_ballast() const {
   std::error_code none;
@@ -94,8 +171,11 @@ void DataFolder::give_up_ballast() const {
 std::vector<std::int64_t> DataFolder::jobs_with_reports() const {
   std::vector<std::int64_t> out;
   for (const auto& entry : std::filesystem::directory_iterator(root_ / "jobs")) {
-    if (!std::filesystem::exists(worker::JobFolder(entry.path()).reports())) continue;
-    out.push_back(std::strtoll(entry.path().filename().c_str(), nullptr, 10));
+    const std::string name = entry.path().filename();
+    std::error_code unreadable;
+    if (name.find_first_not_of("0123456789") != std::string::npos) continue;
+    if (!std::filesystem::exists(worker::JobFolder(entry.path()).reports(), unreadable)) continue;
+    out.push_back(std::strtoll(name.c_str(), nullptr, 10));
   }
   return out;
 }

@@ -12,7 +12,8 @@ namespace cellcrush::store {
 /// The folder that one daemon at a time owns:
 ///   lock            held while a daemon runs; holds its process number
 ///   journal.sqlite  journal_format.md
-///   ballast         room for when the disk is full
+///   ballast         room for what is owed when the disk is full
+///   ballast.start   room for a start on a full disk
 ///   jobs/N/         what job N leaves: result.h5 (result_format.md)
 class DataFolder {
  public:
@@ -28,7 +29,8 @@ class DataFolder {
     return worker::JobFolder(root_ / "jobs" / std::to_string(job));
   }
 
-  /// Makes the job's folder if there is none. Throws ServiceError.
+  /// Makes the job's folder if there is none. One that cannot be used, while others can, is renamed to jobs/N.set-aside-K, and a new one
+  /// is made. Throws ServiceError: with the shortage where no folder can be used.
   void make_job_folder(std::int64_t job) const;
 
   /// Leaves nothing but the result in the folder of a job that has ended. Throws ServiceError.
@@ -37,10 +39,13 @@ class DataFolder {
   /// Bytes that the disk has left for this user.
   [[nodiscard]] std::int64_t free_bytes() const;
 
-  /// A file that holds some room for when the disk is full, so that what is owed can still be written. `keep` makes it where there
-  /// is none and room for it, `give_up` removes it.
-  void keep_ballast() const;
+  /// Files that hold some room for when the disk is full: one for what is owed, one for the next start. `keep` makes them where there are none and
+  /// says whether there is room for them, and throws ServiceError where they cannot be made for another reason; `give_up` removes the first. The second one goes when this is made and room is short.
+  bool keep_ballast() const;
   void give_up_ballast() const;
+
+  /// Whether the disk has no room left for files of a few pages.
+  [[nodiscard]] bool is_full() const;
 
   /// Numbers of the jobs whose folders hold more than a result.
   [[nodiscard]] std::vector<std::int64_t> jobs_with_reports() const;
@@ -50,6 +55,10 @@ class DataFolder {
 
  private:
   [[nodiscard]] std::filesystem::path ballast() const { return root_ / "ballast"; }
+  [[nodiscard]] std::filesystem::path start_ballast() const { return root_ / "ballast.start"; }
+  /// Makes and removes a folder beside those of the jobs. Throws ServiceError.
+  void try_new_folder() const;
+  void set_aside(std::int64_t job, const std::string& reason) const;
 
   std::filesystem::path root_;
   int lock_ = -1;

@@ -11,10 +11,11 @@
 namespace cellcrush::store {
 
 void throw_file_error(const std::filesystem::path& path, std::string_view used, int error) {
-  const bool full = error == ENOSPC || error == EDQUOT || error == EFBIG;
-  throw ServiceError(
-      full ? ServiceError::Kind::storage_full : ServiceError::Kind::internal,
-      path.string() + " cannot be " + std::string(used) + ": " + std::generic_category().message(error) + ".");
+  const std::string message =
+      path.string() + " cannot be " + std::string(used) + ": " + std::generic_category().message(error) + ".";
+  if (const Shortage shortage = shortage_of_errno(error); shortage != Shortage::none)
+    throw ServiceError(shortage, message);
+  throw ServiceError(ServiceError::Kind::internal, message);
 }
 
 namespace {

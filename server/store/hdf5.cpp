@@ -9,19 +9,19 @@
 namespace cellcrush::store {
 namespace {
 
-// The innermost reason of an error stack, unless the disk being full is among the reasons.
+// The innermost reason of an error stack, unless a shortage is among the reasons.
 struct Reason {
   std::string text;
-  bool full = false;
+  Shortage shortage = Shortage::none;
 };
 
 herr_t note_reason(unsigned position, const H5E_error2_t* error, void* data) {
   auto& reason = *static_cast<Reason*>(data);
-  if (error->desc == nullptr || reason.full) return 0;
+  if (error->desc == nullptr || reason.shortage != Shortage::none) return 0;
   if (position == 0) reason.text = error->desc;
-  for (const int code : {ENOSPC, EDQUOT, EFBIG}) {
+  for (const int code : {ENOSPC, EDQUOT, EFBIG, EMFILE, ENFILE, EACCES, EROFS, EIO}) {
     const std::string text = std::generic_category().message(code);
-    if (std::string_view(error->desc).find(text) != std::string_view::npos) reason = {text, true};
+    if (std::string_view(error->desc).find(text) != std::string_view::npos) reason = {text, shortage_of_errno(code)};
   }
   return 0;
 }
@@ -29,8 +29,9 @@ herr_t note_reason(unsigned position, const H5E_error2_t* error, void* data) {
 [[noreturn]] void fail(const std::string& what) {
   Reason reason;
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, note_reason, &reason);
-  throw ServiceError(reason.full ? ServiceError::Kind::storage_full : ServiceError::Kind::internal,
-                     what + " failed: " + (reason.text.empty() ? "no reason was given" : reason.text) + ".");
+  const std::string message = what + " failed: " + (reason.text.empty() ? "no reason was given" : reason.text) + ".";
+  if (reason.shortage != Shortage::none) throw ServiceError(reason.shortage, message);
+  throw ServiceError(ServiceError::Kind::internal, message);
 }
 
 Hdf5Handle dataspace(const std::vector<hsize_t>& shape, const std::vector<hsize_t>& limit) {

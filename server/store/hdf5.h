@@ -30,7 +30,7 @@ class Hdf5Handle {
   CloseFunction close_ = nullptr;
 };
 
-/// Throws ServiceError with HDF5's own reason when `code` is negative: storage_full when the disk is, otherwise
+/// Throws ServiceError with HDF5's own reason when `code` is negative: with the shortage that it names, otherwise
 /// internal.
 void check_hdf5(herr_t code, const std::string& what);
 

@@ -9,11 +9,34 @@
 namespace cellcrush::store {
 namespace {
 
+// An input or output error is what its errno says it is: SQLite gives SQLITE_FULL for some of its files only.
+Shortage shortage_of(sqlite3* handle, int code) {
+  switch (code & 0xFF) {
+    case SQLITE_FULL: return Shortage::full_disk;
+    case SQLITE_NOMEM: return Shortage::memory;
+    case SQLITE_IOERR:
+    case SQLITE_CANTOPEN: {
+      const int error = handle != nullptr ? sqlite3_system_errno(handle) : 0;
+      const bool unknown = error == 0 || shortage_of_errno(error) == Shortage::data_folder;
+      return unknown ? Shortage::journal : shortage_of_errno(error);
+    }
+    case SQLITE_BUSY:
+    case SQLITE_LOCKED:
+    case SQLITE_READONLY:
+    case SQLITE_PERM:
+    case SQLITE_PROTOCOL: return Shortage::journal;
+    default: return Shortage::none;
+  }
+}
+
 [[noreturn]] void fail(sqlite3* handle, int code) {
-  const bool full = (code & 0xFF) == SQLITE_FULL;
-  const std::string message = handle != nullptr ? sqlite3_errmsg(handle) : sqlite3_errstr(code);
-  throw ServiceError(full ? ServiceError::Kind::storage_full : ServiceError::Kind::internal,
-                     "The journal of the jobs cannot be used: " + message + ".");
+  const std::string reason = handle != nullptr ? sqlite3_errmsg(handle) : sqlite3_errstr(code);
+  const std::string message = "The journal of the jobs cannot be used: " + reason + ".";
+  if (const Shortage shortage = shortage_of(handle, code); shortage != Shortage::none)
+    throw ServiceError(shortage, message);
+  const int kind = code & 0xFF;
+  const bool damaged = kind == SQLITE_CORRUPT || kind == SQLITE_NOTADB;
+  throw ServiceError(damaged ? ServiceError::Kind::data_loss : ServiceError::Kind::internal, message);
 }
 
 }  // namespace
@@ -26,6 +49,9 @@ Database::Database(const std::filesystem::path& path) {
   if (code != SQLITE_OK) fail(handle, code);
   sqlite3_extended_result_codes(handle, 1);
   sqlite3_busy_timeout(handle, 10'000);
+  // The log keeps its room when it is closed: the next start then needs none on a full disk.
+  int keep = 1;
+  sqlite3_file_control(handle, "main", SQLITE_FCNTL_PERSIST_WAL, &keep);
   execute("PRAGMA journal_mode=WAL; PRAGMA synchronous=FULL; PRAGMA foreign_keys=ON;");
 }
 

@@ -13,8 +13,8 @@ struct sqlite3_stmt;
 
 namespace cellcrush::store {
 
-/// A connection to an SQLite file. Not thread-safe. Every failure throws ServiceError: storage_full when the disk is,
-/// otherwise internal.
+/// A connection to an SQLite file. Not thread-safe. Every failure throws ServiceError: with the shortage behind it (full
+/// disk, lock, no descriptors or memory), data_loss when the file is damaged, otherwise internal.
 class Database {
  public:
   /// Opens or makes the file: WAL, synchronous=FULL, foreign keys on.

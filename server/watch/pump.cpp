@@ -1,6 +1,9 @@
 #include "watch/pump.h"
 
+#include <spdlog/spdlog.h>
+
 #include <chrono>
+#include <exception>
 
 namespace cellcrush::watch {
 
@@ -55,7 +58,11 @@ void Pump::work(const std::stop_token& stop) {
       queue_.pop_front();
       task->queued_ = false;
     }
-    task->run();
+    try {
+      task->run();
+    } catch (const std::exception& error) {
+      spdlog::error("A watch could not be moved on, and is tried again: {}", error.what());
+    }
   }
 }
 

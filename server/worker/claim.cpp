@@ -4,12 +4,16 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <chrono>
 #include <fstream>
 #include <sstream>
 #include <string>
 #include <thread>
+
+#include "store/durable_file.h"
 
 namespace cellcrush::worker {
 namespace {
@@ -24,18 +28,31 @@ bool is_locked(int file) {
   return false;
 }
 
-std::optional<Claim> read_claim(const JobFolder& folder) {
-  std::ifstream file(folder.claim());
+std::optional<Claim> read_claim(int file) {
+  std::array<char, 64> text{};
+  const auto count = pread(file, text.data(), text.size(), 0);
+  std::istringstream words(std::string(text.data(), static_cast<std::size_t>(std::max<ssize_t>(count, 0))));
   Claim out;
-  if (file >> out.process >> out.start_time) return out;
+  if (words >> out.process >> out.start_time) return out;
   return std::nullopt;
 }
+
+// Closes itself.
+struct OpenFile {
+  int descriptor;
+  explicit OpenFile(int opened) : descriptor(opened) {}
+  ~OpenFile() {
+    if (descriptor >= 0) close(descriptor);
+  }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+};
 
 }  // namespace
 
 bool claim(const JobFolder& folder) {
   const int file = open(folder.claim().c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
-  if (file < 0) return false;
+  if (file < 0) store::throw_file_error(folder.claim(), "written", errno);
   for (int i = 0; flock(file, LOCK_EX | LOCK_NB) != 0; ++i) {
     if (i == kTries) return false;
     std::this_thread::sleep_for(kBetweenTries);
@@ -43,29 +60,31 @@ bool claim(const JobFolder& folder) {
   const auto times = times_of(getpid());
   const std::string text = std::to_string(getpid()) + " " + std::to_string(times ? times->start : 0) + "\n";
   // The file stays open, and locked, for as long as the process lives.
-  return ftruncate(file, 0) == 0 && pwrite(file, text.data(), text.size(), 0) == static_cast<ssize_t>(text.size());
+  if (ftruncate(file, 0) != 0 || pwrite(file, text.data(), text.size(), 0) != static_cast<ssize_t>(text.size()))
+    store::throw_file_error(folder.claim(), "written", errno);
+  return true;
 }
 
 std::optional<Claim> find_claim(const JobFolder& folder) {
-  const int file = open(folder.claim().c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) return std::nullopt;
-  std::optional<Claim> out;
-  for (int i = 0; i < kTries && is_locked(file); ++i) {
-    const auto found = read_claim(folder);
+  // Without blocking: what has the name may be no file.
+  const OpenFile file(open(folder.claim().c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  if (file.descriptor < 0 && (errno == ENOENT || errno == ENOTDIR)) return std::nullopt;
+  if (file.descriptor < 0) store::throw_file_error(folder.claim(), "read", errno);
+  for (int i = 0; i < kTries && is_locked(file.descriptor); ++i) {
+    const auto found = read_claim(file.descriptor);
     const auto times = found ? times_of(found->process) : std::nullopt;
-    if (times && times->start == found->start_time) {
-      out = found;
-      break;
-    }
+    if (times && times->start == found->start_time) return found;
     std::this_thread::sleep_for(kBetweenTries);
   }
-  close(file);
-  return out;
+  return std::nullopt;
 }
 
 std::optional<ProcessTimes> times_of(pid_t process) {
-  std::ifstream file("/proc/" + std::to_string(process) + "/stat");
+  const std::filesystem::path path = "/proc/" + std::to_string(process) + "/stat";
+  errno = 0;
+  std::ifstream file(path);
   std::string line;
+  if (!file && (errno == EMFILE || errno == ENFILE || errno == ENOMEM)) store::throw_file_error(path, "read", errno);
   if (!std::getline(file, line)) return std::nullopt;
   // Behind the name, which stands in parentheses and may hold anything; fields are counted from 1 (proc(5)).
   constexpr int kUserTime = 14;

@@ -3,6 +3,7 @@
 #include <exception>
 #include <utility>
 
+#include "shortage.h"
 #include "worker/checkpoint_file.h"
 #include "worker/job_scene.h"
 #include "worker/origin.h"
@@ -55,7 +56,15 @@ Final give_up(const JobFolder& folder, const Order& order, ReportLog& log, const
     }
     if (output.frame_count() > 0)
       *loss.mutable_summary() = output.finish(false, loss.message(), known_time(folder, origin));
-  } catch (const std::exception&) {
+  } catch (const std::exception& error) {
+    const Trouble trouble = trouble_of(error);
+    if (trouble.shortage != Shortage::none && trouble.shortage != Shortage::memory && !loss.cancelled()) {
+      Final left;
+      left.set_suspended_step(0);
+      left.set_shortage(static_cast<int>(trouble.shortage));
+      left.set_message(trouble.reason);
+      return left;
+    }
     // Why there is no result is what the loss says already.
     loss.clear_summary();
   }

@@ -163,7 +163,7 @@ class Run {
       checkpoint();
     } catch (const ServiceError& error) {
       // The one before is still there, and there may be room again the next time.
-      if (error.kind() != ServiceError::Kind::storage_full) throw;
+      if (error.shortage() == Shortage::none) throw;
     }
     last_checkpoint_ = Clock::now();
   }
@@ -256,14 +256,19 @@ class Run {
 };
 
 Final failure_of(const ServiceError& error) {
-  switch (error.kind()) {
-    case ServiceError::Kind::storage_full:
-      return failure(v1::DISK_FULL, error.what(), "Make room in the data folder and submit the case again.");
-    case ServiceError::Kind::failed_precondition:
-      return failure(v1::WORKER_LOST, error.what(), "Submit the case again.");
-    default:
-      return failure(v1::WORKER_CRASHED, error.what(), "Look into the daemon's log, then submit the case again.");
-  }
+  if (error.kind() == ServiceError::Kind::failed_precondition)
+    return failure(v1::WORKER_LOST, error.what(), "Submit the case again.");
+  return failure(v1::WORKER_CRASHED, error.what(), "Look into the daemon's log, then submit the case again.");
+}
+
+// Another worker continues from the newest checkpoint, or begins again, with the same bits.
+Final left_for(const ServiceError& error, const JobFolder& folder, const Order& order) {
+  const auto found = find_checkpoint(folder, origin_of(order));
+  Final out;
+  out.set_suspended_step(found.checkpoint ? found.checkpoint->step() : 0);
+  out.set_shortage(static_cast<int>(error.shortage()));
+  out.set_message(error.what());
+  return out;
 }
 
 Final end_of(const JobFolder& folder, const Order& order, ReportLog& log, const StopAsked& stop_asked) {
@@ -272,6 +277,7 @@ Final end_of(const JobFolder& folder, const Order& order, ReportLog& log, const 
   try {
     return Run(folder, order, log, stop_asked).to_the_end();
   } catch (const ServiceError& error) {
+    if (error.shortage() != Shortage::none) return left_for(error, folder, order);
     loss = failure_of(error);
   } catch (const std::bad_alloc&) {
     loss = failure(v1::OUT_OF_MEMORY, "There was not enough memory for the run.",
@@ -285,20 +291,15 @@ Final end_of(const JobFolder& folder, const Order& order, ReportLog& log, const 
 
 }  // namespace
 
-bool run_job(const JobFolder& folder, const Order& order, const StopAsked& stop_asked) {
-  try {
-    ReportLog log(folder.reports());
-    Report report;
-    *report.mutable_final() = end_of(folder, order, log, stop_asked);
-    // What is not a result is made again from the reports.
-    std::error_code ignored;
-    std::filesystem::remove(folder.partial_result(), ignored);
-    log.append(report);
-    log.synchronize();
-    return true;
-  } catch (const std::exception&) {
-    return false;
-  }
+void run_job(const JobFolder& folder, const Order& order, const StopAsked& stop_asked) {
+  ReportLog log(folder.reports());
+  Report report;
+  *report.mutable_final() = end_of(folder, order, log, stop_asked);
+  // What is not a result is made again from the reports.
+  std::error_code ignored;
+  std::filesystem::remove(folder.partial_result(), ignored);
+  log.append(report);
+  log.synchronize();
 }
 
 }  // namespace cellcrush::worker

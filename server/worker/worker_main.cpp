@@ -18,16 +18,36 @@ StopWish pending_wish() {
   return sigismember(&pending, kSuspendSignal) == 1 ? StopWish::suspend : StopWish::none;
 }
 
+int run(const JobFolder& job) {
+  try {
+    if (!claim(job)) return kFolderIsClaimed;
+    Order order;
+    std::ifstream file(job.order(), std::ios::binary);
+    if (!file || !order.ParseFromIstream(&file)) return kNoReport;
+    run_job(job, order, pending_wish);
+    return kReported;
+  } catch (const std::exception& error) {
+    return exit_code_of(error);
+  }
+}
+
 }  // namespace
 
+int exit_code_of(const std::exception& error) {
+  const Shortage shortage = trouble_of(error).shortage;
+  return shortage == Shortage::none ? kNoReport : kShortage + static_cast<int>(shortage);
+}
+
+Shortage shortage_of_exit_code(int code) {
+  for (const Shortage shortage : kShortages) {
+    if (code == kShortage + static_cast<int>(shortage)) return shortage;
+  }
+  return Shortage::none;
+}
+
 void worker_main(const std::filesystem::path& folder) {
-  const JobFolder job(folder);
-  if (!claim(job)) _exit(kFolderIsClaimed);
-  Order order;
-  std::ifstream file(job.order(), std::ios::binary);
-  if (!file || !order.ParseFromIstream(&file)) _exit(kNoReport);
   // _exit: the result is closed and durable, and nothing that runs at exit may turn a success into a crash.
-  _exit(run_job(job, order, pending_wish) ? kReported : kNoReport);
+  _exit(run(JobFolder(folder)));
 }
 
 }  // namespace cellcrush::worker

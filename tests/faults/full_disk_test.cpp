@@ -18,9 +18,11 @@ namespace {
 
 class FullDiskTest : public FaultFixture {
  protected:
+  static constexpr const char* kSize = "size=64m,mode=0700";
+
   void SetUp() override {
     std::filesystem::create_directory(data_folder());
-    if (mount("tmpfs", data_folder().c_str(), "tmpfs", MS_NOSUID | MS_NODEV, "size=48m,mode=0700") != 0)
+    if (mount("tmpfs", data_folder().c_str(), "tmpfs", MS_NOSUID | MS_NODEV, kSize) != 0)
       GTEST_SKIP() << "No small file system can be mounted here: " << std::strerror(errno);
     mounted_ = true;
   }
@@ -33,24 +35,90 @@ class FullDiskTest : public FaultFixture {
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
 
-  void fill_the_disk() const {
+  // Leaves so much room, less than a page more.
+  void fill_the_disk(std::uintmax_t left = 0) const {
     std::ofstream file(filler(), std::ios::binary | std::ios::app);
     const std::string block(4096, 'x');
     while (file.write(block.data(), static_cast<std::streamsize>(block.size())).flush()) continue;
+    file.close();
+    if (left > 0) std::filesystem::resize_file(filler(), std::filesystem::file_size(filler()) - left);
   }
 
+  // Takes all room that comes free meanwhile, too.
+  void keep_the_disk_full(std::chrono::milliseconds time) const {
+    const auto end = std::chrono::steady_clock::now() + time;
+    while (std::chrono::steady_clock::now() < end) {
+      fill_the_disk();
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+  }
+
+  void make_room() const { std::filesystem::remove(filler()); }
+
   [[nodiscard]] std::filesystem::path filler() const { return data_folder() / "filler"; }
+
+  // Nothing is kept free, so that the disk gets full.
+  void start() { start_daemon({"--workers", "1", "--checkpoint-interval", "0.05", "--min-free-disk", "0"}); }
+
+  static v1::Case submitted() {
+    v1::Case out = case_of_seconds();
+    out.mutable_loading()->set_speed_m_per_s(12.0);
+    return out;
+  }
+
+  // Of a run that nothing disturbs.
+  JobNumbers undisturbed(Client& client) {
+    const std::string job = client.create(submitted());
+    EXPECT_TRUE(client.watch(job).status.ok());
+    EXPECT_EQ(client.get(job).state(), v1::SUCCEEDED) << client.get(job).cause_message();
+    return numbers_of(client, data_folder(), job);
+  }
+
+  void expect_the_same_end(Client& client, const std::string& job, const JobNumbers& whole) const {
+    ASSERT_TRUE(client.wait_for_state(job, v1::SUCCEEDED))
+        << v1::JobState_Name(client.get(job).state()) << " " << client.get(job).cause_message();
+    EXPECT_TRUE(numbers_of(client, data_folder(), job) == whole);
+    EXPECT_TRUE(client.remove(job).ok());
+  }
+
+  // What can be read is, and no job has failed.
+  static void expect_service(Client& client) {
+    for (const auto& [name, job] : all_jobs(client)) {
+      EXPECT_NE(job.state(), v1::FAILED) << name << ": " << job.cause_message();
+      EXPECT_EQ(client.get(name).name(), name);
+    }
+  }
 
   bool mounted_ = false;
 };
 
-TEST_F(FullDiskTest, AFullDiskEndsTheJobWithACauseAndTheDaemonGoesOnOnceThereIsRoom) {
-  // Nothing is kept free, so that the disk gets full.
-  start_daemon({"--workers", "1", "--checkpoint-interval", "0.05", "--min-free-disk", "0"});
+TEST_F(FullDiskTest, WheneverItFillsNoJobFailsAndEachReachesItsEndWithTheSameBits) {
+  start();
   auto client = this->client();
-  const std::string job = client.create(endless_case());
-  wait_for_samples(client, job, 20);
-  fill_the_disk();
+  const auto begin = std::chrono::steady_clock::now();
+  const auto whole = undisturbed(client);
+  const auto time = std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::steady_clock::now() - begin);
+  const int moments = rounds(4, 40);
+  for (int i = 0; i <= moments; ++i) {
+    const std::string job = client.create(submitted());
+    // The last moments are those at which the result is closed.
+    std::this_thread::sleep_for(i * time / moments);
+    keep_the_disk_full(std::chrono::milliseconds(1200));
+    expect_service(client);
+    make_room();
+    expect_the_same_end(client, job, whole);
+  }
+  const std::string log = stop_daemon();
+  std::cout << moments + 1 << " fillings within " << time.count() << " ms\n" << log;
+}
+
+TEST_F(FullDiskTest, WhileItIsFullNothingIsTakenAndWhatWaitsRunsAfterwards) {
+  start();
+  auto client = this->client();
+  const std::string running = client.create(endless_case());
+  const std::string waiting = client.create(submitted());
+  wait_for_samples(client, running, 20);
+  keep_the_disk_full(std::chrono::milliseconds(1000));
   v1::CreateJobRequest request;
   *request.mutable_case_() = small_case();
   v1::Job refused;
@@ -60,52 +128,80 @@ TEST_F(FullDiskTest, AFullDiskEndsTheJobWithACauseAndTheDaemonGoesOnOnceThereIsR
     status = client.jobs->CreateJob(bounded_context().get(), request, &refused);
   }
   EXPECT_EQ(status.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED) << status.error_message();
-  std::this_thread::sleep_for(std::chrono::seconds(3));
-  fill_the_disk();
-  EXPECT_EQ(client.get(job).name(), job) << "What needs no room is served.";
-
-  std::filesystem::remove(filler());
-  for (int i = 0; i < 200 && client.get(job).state() == v1::RUNNING; ++i)
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  const auto ended = client.get(job);
-  std::cout << "on a full disk: CreateJob " << status.error_message()
-            << "; the job: " << v1::JobState_Name(ended.state()) << " " << v1::JobCause_Name(ended.cause()) << " "
-            << ended.cause_message() << "\n";
-  if (ended.state() == v1::FAILED) {
-    EXPECT_TRUE(ended.cause() == v1::DISK_FULL || ended.cause() == v1::WORKER_CRASHED);
-    EXPECT_FALSE(ended.remedy().empty());
-  } else {
-    EXPECT_TRUE(client.cancel(job).ok());
-  }
-  const std::string next = client.create(small_case());
-  for (const auto& waiting : all_jobs(client))
-    EXPECT_TRUE(waiting.first == job || client.watch(waiting.first).status.ok());
-  EXPECT_EQ(client.get(next).state(), v1::SUCCEEDED) << client.get(next).cause_message();
+  expect_service(client);
+  make_room();
+  EXPECT_TRUE(client.wait_for_state(running, v1::RUNNING));
+  EXPECT_TRUE(client.cancel(running).ok());
+  EXPECT_TRUE(client.wait_for_state(running, v1::CANCELLED));
+  EXPECT_TRUE(client.wait_for_state(waiting, v1::SUCCEEDED));
 }
 
-TEST_F(FullDiskTest, AJobThatCouldNotBeEndedOnAFullDiskIsEndedOnceThereIsRoom) {
-  // With little room all jobs are left; the disk is full before that is seen.
-  start_daemon({"--workers", "1", "--checkpoint-interval", "0.05", "--min-free-disk", "20"});
+TEST_F(FullDiskTest, AJobThatIsCancelledOrSuspendedMeanwhileIsOnceThereIsRoom) {
+  start();
   auto client = this->client();
-  for (int i = 0; i < rounds(1, 5); ++i) {
-    const std::string job = client.create(endless_case());
-    wait_for_samples(client, job, 20);
-    for (int filling = 0; filling < 70; ++filling) {
-      fill_the_disk();
-      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  const auto whole = undisturbed(client);
+  for (int i = 0; i < rounds(1, 10); ++i) {
+    const std::string cancelled = client.create(endless_case());
+    wait_for_samples(client, cancelled, 10);
+    {
+      const std::jthread fills([this] { keep_the_disk_full(std::chrono::milliseconds(1500)); });
+      std::this_thread::sleep_for(std::chrono::milliseconds(37 * i));
+      (void)client.cancel(cancelled);
     }
-    std::filesystem::remove(filler());
-    // It has FAILED or goes on; whichever it is, somebody has it.
-    for (int look = 0; look < 200 && client.get(job).state() == v1::PENDING; ++look)
+    make_room();
+    // A cancel that could not be noted is made again.
+    for (int look = 0; look < 100 && !client.cancel(cancelled).ok(); ++look)
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    (void)client.cancel(job);
-    for (int look = 0; look < 400 && client.get(job).state() != v1::CANCELLED && client.get(job).state() != v1::FAILED;
-         ++look)
+    EXPECT_TRUE(client.wait_for_state(cancelled, v1::CANCELLED)) << v1::JobState_Name(client.get(cancelled).state());
+
+    const std::string suspended = client.create(submitted());
+    wait_for_samples(client, suspended, 10);
+    {
+      const std::jthread fills([this] { keep_the_disk_full(std::chrono::milliseconds(1500)); });
+      std::this_thread::sleep_for(std::chrono::milliseconds(37 * i));
+      (void)client.suspend(suspended);
+    }
+    make_room();
+    expect_service(client);
+    (void)client.resume(suspended);
+    expect_the_same_end(client, suspended, whole);
+  }
+}
+
+TEST_F(FullDiskTest, ADaemonStartsWithNextToNoRoomServesReadingAndRunsNothingUntilThereIsRoom) {
+  start();
+  JobNumbers whole;
+  {
+    auto client = this->client();
+    whole = undisturbed(client);
+  }
+  const int step = rounds(36, 4);
+  for (int kibibytes = 0; kibibytes <= 72; kibibytes += step) {
+    std::string job;
+    {
+      auto client = this->client();
+      job = client.create(submitted());
+      wait_for_samples(client, job, 20);
+    }
+    const bool killed = kibibytes / step % 2 == 1;
+    if (killed) {
+      kill_daemon();
+      kill_workers(data_folder());
+    } else {
+      stop_daemon();
+    }
+    fill_the_disk(static_cast<std::uintmax_t>(kibibytes) * 1024);
+    ASSERT_NO_FATAL_FAILURE(start()) << kibibytes << " KiB";
+    auto client = this->client();
+    expect_service(client);
+    for (int i = 0; i < 20; ++i) {
+      fill_the_disk();
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    const auto ended = client.get(job);
-    std::cout << "on a full disk with jobs held: " << v1::JobState_Name(ended.state()) << " " << ended.cause_message()
-              << "\n";
-    EXPECT_TRUE(ended.state() == v1::CANCELLED || ended.state() == v1::FAILED);
+    }
+    EXPECT_NE(client.get(job).state(), v1::FAILED);
+    expect_service(client);
+    make_room();
+    expect_the_same_end(client, job, whole);
   }
 }
 

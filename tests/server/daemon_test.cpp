@@ -1,5 +1,4 @@
 #include <gmock/gmock.h>
-#include <grpcpp/generic/generic_stub.h>
 #include <sys/stat.h>
 
 #include <csignal>
@@ -7,6 +6,7 @@
 
 #include "server/daemon_fixture.h"
 #include "server/daemon_process.h"
+#include "server/raw_call.h"
 #include "server/small_case.h"
 
 namespace cellcrush::testing {
@@ -120,36 +120,6 @@ TEST_F(DaemonTest, AHostThatOthersCanReachAndWrongFlagsAreRefused) {
   EXPECT_EQ(misspelt.wait(), 2);
   DaemonProcess none({"--workers", "0"});
   EXPECT_EQ(none.wait(), 2);
-}
-
-// Calls a method with hand-made bytes, so that no generated code of a package is needed.
-std::string call_raw(const std::shared_ptr<grpc::Channel>& channel, const std::string& method, const std::string& bytes,
-                     bool stream) {
-  grpc::GenericStub stub(channel);
-  const auto context = bounded_context();
-  grpc::CompletionQueue queue;
-  const grpc::Slice slice(bytes);
-  const grpc::ByteBuffer request(&slice, 1);
-  grpc::ByteBuffer response;
-  void* tag = nullptr;
-  bool ok = false;
-  const auto call = stub.PrepareCall(context.get(), method, &queue);
-  const auto wait = [&] { return queue.Next(&tag, &ok) && ok; };
-  call->StartCall(nullptr);
-  EXPECT_TRUE(wait());
-  call->Write(request, nullptr);
-  EXPECT_TRUE(wait());
-  call->Read(&response, nullptr);
-  EXPECT_TRUE(wait());
-  if (stream) context->TryCancel();
-  std::vector<grpc::Slice> slices;
-  response.Dump(&slices);
-  std::string out;
-  for (const auto& part : slices) out.append(reinterpret_cast<const char*>(part.begin()), part.size());
-  grpc::Status status;
-  call->Finish(&status, nullptr);
-  wait();
-  return out;
 }
 
 TEST_F(DaemonTest, HealthAndReflectionAnswer) {

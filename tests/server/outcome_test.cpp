@@ -3,9 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cerrno>
 #include <csignal>
+#include <utility>
 
 #include "error.h"
+#include "worker/worker_main.h"
 
 namespace cellcrush::jobs {
 namespace {
@@ -79,7 +82,7 @@ TEST(Outcome, AJobThatWasLeftWaitsOrIsSuspended) {
 
 TEST(Outcome, OnlyALossWithoutALastWordIsALoss) {
   using Kind = WorkerExit::Kind;
-  for (const auto kind : {Kind::not_started, Kind::exited, Kind::signalled, Kind::gone, Kind::broken, Kind::stalled}) {
+  for (const auto kind : {Kind::exited, Kind::signalled, Kind::gone, Kind::broken, Kind::stalled}) {
     auto exit = exit_of(kind, 1);
     EXPECT_TRUE(is_lost(exit));
     EXPECT_EQ(outcome_of(exit).cause, v1::WORKER_CRASHED);
@@ -123,8 +126,41 @@ TEST(Outcome, ARunThatWasDoneBeforeItWasCancelledHasSucceeded) {
   EXPECT_EQ(outcome_of(exit).state, v1::SUCCEEDED);
 }
 
-TEST(Outcome, AFullDiskIsCalledSo) {
-  EXPECT_EQ(outcome_of(ServiceError(ServiceError::Kind::storage_full, "full")).cause, v1::DISK_FULL);
+TEST(Outcome, AShortageIsNoEndOfTheJobItIsFoundInWhatTheWorkerSaidOrInItsExitCode) {
+  using Kind = WorkerExit::Kind;
+  for (const auto& [exit, shortage] : {std::pair{exit_of(Kind::not_started, ENOENT), Shortage::worker},
+                                       std::pair{exit_of(Kind::not_started, EACCES), Shortage::worker},
+                                       std::pair{exit_of(Kind::not_started, EAGAIN), Shortage::memory},
+                                       std::pair{exit_of(Kind::not_started, EMFILE), Shortage::descriptors},
+                                       std::pair{exit_of(Kind::exited, 127), Shortage::worker}}) {
+    EXPECT_TRUE(is_lost(exit));
+    EXPECT_EQ(trouble_of_exit(exit).shortage, shortage) << exit.code;
+  }
+  const ServiceError full(Shortage::full_disk, "The disk is full.");
+  EXPECT_EQ(trouble_of_exit(exit_of(Kind::exited, worker::exit_code_of(full))).shortage, Shortage::full_disk);
+  auto exit = exit_of(Kind::gone, 0);
+  EXPECT_FALSE(trouble_of_exit(exit));
+  exit.final.emplace();
+  exit.final->set_suspended_step(7);
+  exit.final->set_shortage(static_cast<int>(Shortage::full_disk));
+  exit.final->set_message("result.h5 cannot be written.");
+  EXPECT_FALSE(is_last_word(exit));
+  const auto waits = waits_for(trouble_of_exit(exit));
+  EXPECT_EQ(waits.state, v1::PENDING);
+  EXPECT_EQ(waits.cause, v1::JOB_CAUSE_UNSPECIFIED);
+  EXPECT_THAT(waits.message, HasSubstr("result.h5 cannot be written."));
+  EXPECT_THAT(waits.remedy, HasSubstr("Make room"));
+}
+
+TEST(Outcome, AWorkerThatTheKernelEndedForWantOfMemoryIsOutOfMemory) {
+  auto exit = exit_of(WorkerExit::Kind::signalled, SIGKILL);
+  exit.out_of_memory = true;
+  EXPECT_TRUE(is_lost(exit));
+  EXPECT_EQ(outcome_of(exit).cause, v1::OUT_OF_MEMORY);
+  EXPECT_THAT(outcome_of(exit).remedy, HasSubstr("--workers"));
+}
+
+TEST(Outcome, OtherFailuresOfTheDaemonEndTheJob) {
   EXPECT_EQ(outcome_of(std::runtime_error("other")).cause, v1::WORKER_CRASHED);
 }
 

@@ -10,17 +10,6 @@ using ::testing::HasSubstr;
 
 using WorkerFailureTest = DaemonFixture;
 
-TEST_F(WorkerFailureTest, AWorkerThatCannotBeStartedFailsItsJob) {
-  auto options = default_options();
-  options.worker_program = folder_.path() / "absent";
-  start(options);
-  auto client = this->client();
-  const std::string job = client.create(small_case());
-  EXPECT_TRUE(client.watch(job).status.ok());
-  EXPECT_EQ(client.get(job).cause(), v1::WORKER_CRASHED);
-  EXPECT_THAT(client.get(job).cause_message(), HasSubstr("No such file"));
-}
-
 TEST_F(WorkerFailureTest, AProgramThatIsNoWorkerFailsItsJobWithItsExitCode) {
   auto options = default_options();
   options.worker_program = "/bin/false";
