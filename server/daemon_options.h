@@ -9,9 +9,11 @@
 #include <vector>
 
 #include "access/gate.h"
+#include "clocks.h"
 #include "jobs/admission.h"
 #include "jobs/queue_hold.h"
 #include "net/connection_limits.h"
+#include "jobs/retention.h"
 #include "watch/watch_times.h"
 
 namespace cellcrush {
@@ -35,9 +37,10 @@ struct DaemonOptions {
   std::chrono::milliseconds stall_limit{20'000};
   /// What new jobs are held to.
   jobs::Admission::Limits limits;
-  /// Time for which jobs that have ended are kept; 0: for good.
-  std::chrono::seconds keep_ended_jobs{0};
-  /// Between two looks at the disk and at jobs that ended long ago.
+  /// What of jobs and sweeps that have ended is kept; by default all, for good.
+  jobs::Retention::Limits keep;
+  Clocks clocks;
+  /// Between two looks at the disk, the clocks and what has ended.
   std::chrono::milliseconds housekeeping_interval{5'000};
   /// Pauses before a shortage that holds the queue is tried again.
   jobs::HoldTimes hold_times;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "jobs/admission.h"
+#include "jobs/deletion.h"
 #include "jobs/housekeeping.h"
 #include "jobs/local_process.h"
 #include "jobs/queue_hold.h"
@@ -45,9 +46,10 @@ struct Service::Parts {
         folder(options.data_folder),
         journal(
             folder.journal(), [this](std::int64_t job) { hub.announce(job); },
-            [this](double seconds) { metrics.observe_commit(seconds); }),
+            [this](double seconds) { metrics.observe_commit(seconds); }, options.clocks.uptime),
         reader(folder.journal()),
         sweep_reader(folder.journal()),
+        deletion({folder, journal, reader, sweep_reader}),
         executor(options.worker_program, options.stall_limit),
         hold(options.hold_times,
              [this](const std::vector<jobs::Hold>& holds) {
@@ -58,21 +60,22 @@ struct Service::Parts {
                scheduler.wake();
              }),
         runner({folder, journal, reader, hub, executor, metrics, hold, options.checkpoint_interval,
-                std::chrono::duration<double>(options.limits.job_time).count()}),
-        scheduler({folder, journal, reader, metrics, runner, hold}),
+                std::chrono::duration<double>(options.limits.job_time).count(),
+                [this](const std::vector<std::int64_t>& stopped) { scheduler.forget(stopped); }}),
+        scheduler({folder, journal, reader, metrics, runner, hold}, options.limits.owner.running_jobs),
         stream_limits(most_streams(options.connections)),
         health_limits(most_streams(options.connections)),
         pump(kPumpThreads),
-        admission(folder, options.limits),
+        admission({folder, reader, scheduler}, options.limits),
         cases(step_cost),
         health({board, {pump, metrics, health_limits, options.watch_times}}),
-        jobs({folder, journal, reader, hub, scheduler, admission, gate, streams()}),
-        sweeps({journal, reader, sweep_reader, hub, scheduler, admission, gate, streams()}),
+        jobs({folder, journal, reader, deletion, hub, scheduler, admission, gate, streams()}),
+        sweeps({journal, reader, sweep_reader, deletion, hub, scheduler, admission, gate, streams()}),
         admin({reader,
                hub,
                scheduler,
                hold,
-               {options.worker_count(), step_cost, {}},
+               {options.worker_count(), step_cost, {}, options.limits.owner.running_jobs},
                gate,
                [this, drained = std::move(on_drain)] {
                  admission.drain();
@@ -88,6 +91,7 @@ struct Service::Parts {
   store::Journal journal;
   store::JournalReader reader;
   store::SweepReader sweep_reader;
+  jobs::Deletion deletion;
   jobs::LocalProcess executor;
   rpc::HealthBoard board;
   jobs::QueueHold hold;
@@ -130,10 +134,11 @@ ListenAddress Service::serve_metrics(const ListenAddress& address) { return part
 void Service::start() {
   Parts& parts = *parts_;
   parts.board.set(kQueueHealth, true);
-  parts.housekeeping.emplace(jobs::Housekeeping::Parts{parts.folder, parts.journal, parts.reader, parts.admission,
-                                                       parts.scheduler, parts.options.housekeeping_interval,
-                                                       parts.options.keep_ended_jobs});
+  parts.housekeeping.emplace(jobs::Housekeeping::Parts{
+      parts.folder, parts.journal, parts.reader, parts.sweep_reader, parts.deletion, parts.admission, parts.scheduler,
+      parts.options.housekeeping_interval, parts.options.keep, parts.options.clocks});
   parts.housekeeping->look_at_disk();
+  parts.deletion.finish_folders();
   parts.scheduler.start(parts.options.worker_count());
   parts.housekeeping->start();
 }

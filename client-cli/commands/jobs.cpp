@@ -31,14 +31,16 @@ void cancel_sweep(Session& session, const std::string& name) {
   session.json ? print_json(sweep) : fmt::print("{}", sweep_line(sweep));
 }
 
+void delete_sweep(Session& session, const std::string& name) {
+  Connection& connection = session.connection();
+  v1::DeleteSweepRequest request;
+  request.set_name(name);
+  const auto response = connection.call(connection.sweeps(), &v1::Sweeps::Stub::DeleteSweep, request);
+  session.json ? print_json(response) : fmt::print("{} deleted\n", request.name());
+}
+
 void delete_job(Session& session, const std::string& name) {
-  if (names_sweep(name)) {
-    throw CommandError(ExitCode::refused,
-                       name +
-                           ": a sweep cannot be deleted as a whole; delete its jobs, which `cellcrush "
-                           "show " +
-                           name + "` lists");
-  }
+  if (names_sweep(name)) return delete_sweep(session, name);
   Connection& connection = session.connection();
   v1::DeleteJobRequest request;
   request.set_name(job_name(name));
@@ -67,7 +69,8 @@ void add_job_commands(CLI::App& app, Session& session) {
                     [](Session& s, const std::string& name) { change_job(s, name, &v1::Jobs::Stub::SuspendJob); });
   add_named_command(app, session, "resume", "Continue a suspended job", "A job's name",
                     [](Session& s, const std::string& name) { change_job(s, name, &v1::Jobs::Stub::ResumeJob); });
-  add_named_command(app, session, "delete", "Delete a job and its results", "A job's name", &delete_job);
+  add_named_command(app, session, "delete", "Delete a job or a sweep with all its jobs, and the results",
+                    "A job's name, or sweeps/NAME", &delete_job);
 }
 
 }  // namespace cellcrush::client

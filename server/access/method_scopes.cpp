@@ -35,6 +35,7 @@ constexpr std::array kScopeEntries = {
     ScopeEntry{"/cellcrush.v1.Jobs/WatchJob", Scope::read},
     ScopeEntry{"/cellcrush.v1.Sweeps/CancelSweep", Scope::submit},
     ScopeEntry{"/cellcrush.v1.Sweeps/CreateSweep", Scope::submit},
+    ScopeEntry{"/cellcrush.v1.Sweeps/DeleteSweep", Scope::submit},
     ScopeEntry{"/cellcrush.v1.Sweeps/GetSweep", Scope::read},
     ScopeEntry{"/cellcrush.v1.Sweeps/GetSweepTable", Scope::read},
     ScopeEntry{"/cellcrush.v1.Sweeps/ListSweeps", Scope::read},

@@ -32,6 +32,7 @@ DaemonFlags::DaemonFlags(CLI::App& app) {
   add_access(app);
   add_connections(app);
   add_limits(app);
+  add_owner_limits(app);
   add_storage(app);
   add_times(app);
   app.add_option("--log-format", log_format_, "text or json, an object a line (default: text)")
@@ -98,6 +99,20 @@ void DaemonFlags::add_limits(CLI::App& app) {
       ->check(CLI::Range(0.0, 1e9));
 }
 
+void DaemonFlags::add_owner_limits(CLI::App& app) {
+  auto& owner = options_.limits.owner;
+  app.add_option("--owner-max-queued", owner.queued_jobs, "jobs of one owner that may wait (default: 0, no limit)")
+      ->check(CLI::Range(0, 10'000'000));
+  app.add_option("--owner-max-running", owner.running_jobs,
+                 "jobs of one owner that run at once; more wait (default: 0, no limit)")
+      ->check(CLI::Range(0, 1024));
+  app.add_option("--owner-max-disk", owner_disk_mib_,
+                 "MiB of results and journal at which no more jobs of their owner are taken (default: 0, no limit)")
+      ->check(CLI::Range(0, 1 << 30));
+  app.add_option("--owner-max-priority", owner.priority, "highest priority that jobs may have (default: 100)")
+      ->check(CLI::Range(-100, 100));
+}
+
 void DaemonFlags::add_storage(CLI::App& app) {
   app.add_option("--data", options_.data_folder,
                  "folder of jobs and results (default: $XDG_DATA_HOME/cellcrush or ~/.local/share/cellcrush)");
@@ -105,8 +120,16 @@ void DaemonFlags::add_storage(CLI::App& app) {
                  "MiB that are kept free in the data folder: below it no job is taken and none runs (default: 256)")
       ->check(CLI::Range(0, 1 << 30));
   app.add_option("--keep-ended-jobs", keep_days_,
-                 "days after which a job that has ended is deleted (default: 0, which is never)")
+                 "days of the daemon's service for which an ended job or sweep is kept; time without a daemon does not "
+                 "count (default: 0, for good)")
       ->check(CLI::Range(0.0, 36500.0));
+  app.add_option("--keep-ended-count", options_.keep.count,
+                 "ended jobs that are kept; those that ended first are deleted, sweeps as a whole (default: 0, all)")
+      ->check(CLI::Range(0, 100'000'000));
+  app.add_option("--keep-ended-size", keep_mib_,
+                 "MiB of results and journal that ended jobs may take; those that ended first are deleted, sweeps as a "
+                 "whole (default: 0, no limit)")
+      ->check(CLI::Range(0, 1 << 30));
 }
 
 void DaemonFlags::add_times(CLI::App& app) {
@@ -126,7 +149,9 @@ DaemonOptions DaemonFlags::options() const {
   out.limits.job_memory_bytes = memory_mib_ * kMebibyte;
   out.limits.free_disk_bytes = free_mib_ * kMebibyte;
   out.limits.job_time = std::chrono::duration<double>(job_seconds_);
-  out.keep_ended_jobs = std::chrono::seconds(std::llround(86400.0 * keep_days_));
+  out.limits.owner.disk_bytes = owner_disk_mib_ * kMebibyte;
+  out.keep.bytes = keep_mib_ * kMebibyte;
+  out.keep.age = std::chrono::seconds(std::llround(86400.0 * keep_days_));
   out.checkpoint_interval = milliseconds_of(checkpoint_seconds_);
   out.watch_times.patience = milliseconds_of(patience_seconds_);
   return out;

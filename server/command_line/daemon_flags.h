@@ -26,6 +26,7 @@ class DaemonFlags {
   void add_access(CLI::App& app);
   void add_connections(CLI::App& app);
   void add_limits(CLI::App& app);
+  void add_owner_limits(CLI::App& app);
   void add_storage(CLI::App& app);
   void add_times(CLI::App& app);
 
@@ -36,6 +37,8 @@ class DaemonFlags {
   std::int64_t memory_mib_ = 0;
   std::int64_t free_mib_ = 256;
   double job_seconds_ = 0.0;
+  std::int64_t owner_disk_mib_ = 0;
+  std::int64_t keep_mib_ = 0;
   double keep_days_ = 0.0;
   double checkpoint_seconds_ = 60.0;
   double patience_seconds_ = 600.0;

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "error.h"
+#include "jobs/scheduler.h"
 
 namespace cellcrush::jobs {
 namespace {
@@ -19,7 +20,7 @@ std::int64_t memory_of_the_machine() { return std::int64_t{sysconf(_SC_PHYS_PAGE
 
 }  // namespace
 
-Admission::Admission(const store::DataFolder& folder, const Limits& limits) : folder_(folder), limits_(limits) {
+Admission::Admission(const Parts& parts, const Limits& limits) : parts_(parts), limits_(limits), quotas_(limits.owner) {
   if (limits_.job_memory_bytes == 0) limits_.job_memory_bytes = memory_of_the_machine();
 }
 
@@ -37,17 +38,20 @@ std::int64_t Admission::memory_of_job(std::int64_t most_bytes, const std::functi
   return most_bytes <= limits_.job_memory_bytes ? most_bytes : predict();
 }
 
-void Admission::admit(std::size_t waiting, std::size_t count, std::int64_t memory_bytes) const {
+void Admission::admit(const std::string& owner, std::size_t count, std::int64_t memory_bytes) const {
   if (draining_) {
     throw ServiceError(ServiceError::Kind::unavailable,
                        "The daemon is about to end and takes no new jobs. Submit again once it is back.");
   }
+  const std::size_t waiting = parts_.scheduler.waiting_count();
   if (static_cast<std::int64_t>(waiting + count) > limits_.queued_jobs) {
     throw ServiceError(ServiceError::Kind::exhausted,
                        "The queue holds " + std::to_string(waiting) + " jobs, and with " + std::to_string(count) +
                            " more it would hold over " + std::to_string(limits_.queued_jobs) +
                            ". Wait until some have run, or start the daemon with a higher --max-queued-jobs.");
   }
+  quotas_.admit(owner, parts_.scheduler.waiting_count(owner), count,
+                [&] { return parts_.reader.bytes_of_owner(owner); });
   if (memory_bytes > limits_.job_memory_bytes) {
     throw ServiceError(ServiceError::Kind::exhausted,
                        "The run would need about " + mebibytes(memory_bytes) + " of memory, and a job may need " +
@@ -59,7 +63,7 @@ void Admission::admit(std::size_t waiting, std::size_t count, std::int64_t memor
 }
 
 std::optional<std::string> Admission::low_disk() const {
-  const std::int64_t free = folder_.free_bytes();
+  const std::int64_t free = parts_.folder.free_bytes();
   if (free >= limits_.free_disk_bytes) return std::nullopt;
   return "The disk of the data folder is nearly full: " + mebibytes(free) + " are left, and " +
          mebibytes(limits_.free_disk_bytes) + " are kept free.";

@@ -2,30 +2,75 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+
 #include "error.h"
 #include "jobs/resource_name.h"
 
 namespace cellcrush::jobs {
 namespace {
 
-void remove_folder(std::int64_t job, store::Journal& journal, const store::DataFolder& folder) {
-  try {
-    folder.remove_job_folder(job);
-    journal.note_folder_removed(job);
-  } catch (const ServiceError& error) {
-    spdlog::warn("What {} left is removed at the daemon's next start: {}", name_of(job), error.what());
-  }
-}
+constexpr std::size_t kJobsAtOnce = 200;
 
 }  // namespace
 
-void delete_job(std::int64_t job, store::Journal& journal, const store::DataFolder& folder) {
-  journal.delete_job(job);
-  remove_folder(job, journal, folder);
+void Deletion::delete_job(std::int64_t job) const {
+  parts_.journal.delete_job(job);
+  remove_folders({job});
 }
 
-void finish_deletions(store::JournalReader& reader, store::Journal& journal, const store::DataFolder& folder) {
-  for (const std::int64_t job : reader.deleted_jobs()) remove_folder(job, journal, folder);
+void Deletion::delete_jobs(const std::vector<std::int64_t>& jobs) const {
+  for (std::size_t first = 0; first < jobs.size(); first += kJobsAtOnce) {
+    const auto begin = jobs.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto end = begin + static_cast<std::ptrdiff_t>(std::min(kJobsAtOnce, jobs.size() - first));
+    remove_folders(parts_.journal.delete_ended({begin, end}));
+  }
+}
+
+void Deletion::delete_sweep(std::int64_t sweep, const std::function<bool()>& given_up) const {
+  parts_.journal.begin_sweep_deletion(sweep);
+  if (remove_sweep(sweep, given_up)) return;
+  throw ServiceError(ServiceError::Kind::cancelled, "Nobody waits for the deletion of " + sweep_name_of(sweep) +
+                                                        " any more. The daemon continues it by itself.");
+}
+
+void Deletion::finish_sweeps(const std::function<bool()>& given_up) const {
+  for (const std::int64_t sweep : parts_.sweeps.sweeps_in_deletion()) {
+    if (!remove_sweep(sweep, given_up)) return;
+  }
+}
+
+bool Deletion::remove_sweep(std::int64_t sweep, const std::function<bool()>& given_up) const {
+  auto jobs = parts_.sweeps.jobs_of(sweep);
+  while (!jobs.empty()) {
+    if (given_up()) return false;
+    const auto rest = static_cast<std::ptrdiff_t>(jobs.size() - std::min(kJobsAtOnce, jobs.size()));
+    delete_jobs({jobs.begin() + rest, jobs.end()});
+    jobs.resize(static_cast<std::size_t>(rest));
+  }
+  parts_.journal.end_sweep_deletion(sweep);
+  return true;
+}
+
+void Deletion::finish_folders() const { remove_folders(parts_.reader.deleted_jobs()); }
+
+void Deletion::remove_folders(const std::vector<std::int64_t>& jobs) const {
+  std::vector<std::int64_t> removed;
+  for (const std::int64_t job : jobs) {
+    try {
+      parts_.folder.remove_job_folder(job);
+      removed.push_back(job);
+    } catch (const ServiceError& error) {
+      spdlog::warn("The folder of {} is removed at the daemon's next start: {}", name_of(job), error.what());
+    }
+  }
+  if (removed.empty()) return;
+  try {
+    parts_.journal.note_folders_removed(removed);
+  } catch (const ServiceError& error) {
+    spdlog::warn("That the folders of {} deleted jobs are removed is noted at the daemon's next start: {}",
+                 removed.size(), error.what());
+  }
 }
 
 }  // namespace cellcrush::jobs

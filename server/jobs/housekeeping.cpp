@@ -1,22 +1,18 @@
 #include "jobs/housekeeping.h"
 
-#include <google/protobuf/util/time_util.h>
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
 #include <condition_variable>
+#include <cstdlib>
 #include <mutex>
 #include <string>
 #include <utility>
 
-#include "error.h"
-#include "jobs/deletion.h"
-#include "jobs/resource_name.h"
-
 namespace cellcrush::jobs {
 namespace {
 
-constexpr int kAtOnce = 200;  // jobs
+// Seconds of the service clock that a daemon which is killed may lose.
+constexpr std::int64_t kNoteAfter = 600;
 
 }  // namespace
 
@@ -27,7 +23,8 @@ void Housekeeping::work(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     try {
       look_at_disk();
-      delete_old_jobs();
+      delete_ended(stop);
+      look_at_clocks();
       logged.clear();
     } catch (const std::exception& error) {
       if (std::exchange(logged, error.what()) != error.what())
@@ -44,23 +41,24 @@ void Housekeeping::look_at_disk() {
   if (!shortage) parts_.folder.keep_ballast();
 }
 
-void Housekeeping::delete_old_jobs() {
-  if (parts_.keep_ended_jobs.count() == 0) return;
-  using google::protobuf::util::TimeUtil;
-  const std::int64_t limit = TimeUtil::TimestampToSeconds(TimeUtil::GetCurrentTime()) - parts_.keep_ended_jobs.count();
-  for (const v1::JobState state : {v1::SUCCEEDED, v1::FAILED, v1::CANCELLED}) {
-    std::int64_t last = 0;
-    while (true) {
-      const auto jobs = parts_.reader.list_jobs({{state}, {}, {}, {}}, false, last, kAtOnce);
-      for (const auto& stored : jobs) {
-        last = stored.number;
-        if (TimeUtil::TimestampToSeconds(stored.job.end_time()) >= limit) continue;
-        delete_job(stored.number, parts_.journal, parts_.folder);
-        spdlog::info("{} ended long ago and is deleted", stored.job.name());
-      }
-      if (jobs.size() < kAtOnce) break;
-    }
+void Housekeeping::look_at_clocks() {
+  if (const auto jump = clock_watch_.find_jump()) {
+    const auto seconds = std::chrono::round<std::chrono::seconds>(*jump).count();
+    spdlog::warn(
+        "The wall clock was set {} by {} s. How long jobs are kept does not follow it; times in new events do.",
+        seconds > 0 ? "forward" : "back", std::abs(seconds));
   }
+  const std::int64_t now = parts_.journal.service_seconds();
+  if (now < noted_ + kNoteAfter) return;
+  parts_.journal.note_service_clock();
+  noted_ = now;
+}
+
+void Housekeeping::delete_ended(const std::stop_token& stop) {
+  const auto given_up = [&stop] { return stop.stop_requested(); };
+  parts_.deletion.finish_sweeps(given_up);
+  retention_.measure();
+  retention_.enforce(given_up);
 }
 
 }  // namespace cellcrush::jobs

@@ -286,7 +286,7 @@ v1::JobState JobRunner::write(std::int64_t job, const store::StateChange& change
 std::optional<v1::JobState> JobRunner::try_write(std::int64_t job, const store::StateChange& change,
                                                  std::string& logged) {
   try {
-    parts_.journal.change_state(job, change);
+    parts_.stopped(parts_.journal.change_state(job, change));
     spdlog::info("{} {}{}{}", name_of(job), v1::JobState_Name(change.state), change.message.empty() ? "" : ": ",
                  change.message);
     if (is_terminal(change.state)) tidy_up(job, change);

@@ -2,10 +2,12 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "jobs/executor.h"
 #include "jobs/queue_hold.h"
@@ -36,6 +38,8 @@ class JobRunner {
     QueueHold& hold;
     std::chrono::milliseconds checkpoint_interval;
     double longest_job_s;  ///< clock time that a job's workers may take; 0: no limit
+    /// Called with the jobs that were CANCELLED, while they waited, because a job of their sweep failed.
+    std::function<void(const std::vector<std::int64_t>&)> stopped = [](const auto&) {};
   };
 
   explicit JobRunner(const Parts& parts) : parts_(parts) {}

@@ -27,15 +27,24 @@ std::string at_its_limit(const store::QueuedJob& job) {
   return "Its sweep, " + sweep_name_of(job.sweep) + ", already runs the " + limit + " that max_parallel allows";
 }
 
+std::string at_its_owners_limit(const store::QueuedJob& job, int most) {
+  return "Its owner, " + job.owner + ", already runs the " + std::to_string(most) + (most == 1 ? " job" : " jobs") +
+         " that --owner-max-running allows";
+}
+
 // The workers as time goes on.
 class Play {
  public:
   Play(const std::vector<RunningJob>& running, const std::vector<store::QueuedJob>& waiting, const WorkerFacts& workers,
        const FactsOf& facts_of)
-      : workers_(workers), facts_of_(facts_of), free_(workers.count) {
+      : workers_(workers),
+        facts_of_(facts_of),
+        free_(workers.count),
+        waiting_(workers.owner_max_running),
+        now_(workers.owner_max_running) {
     for (const auto& [job, seconds_left, cores] : running) {
-      waiting_.count_running(job);
-      now_.count_running(job);
+      waiting_.count_running(job, cores);
+      now_.count_running(job, cores);
       begin(job, seconds_left, cores);
     }
     for (const auto& job : waiting) waiting_.add(job);
@@ -51,6 +60,7 @@ class Play {
           seconds = time_;
           const JobFacts facts = facts_of_(job.job);
           const int cores = 1 + extra_cores(facts.threads, free_ - 1, waiting_.count());
+          waiting_.add_cores(job, cores - 1);
           begin(job, predicted_seconds(job, facts, cores, workers_.step_cost), cores);
           return true;
         }
@@ -58,7 +68,7 @@ class Play {
       if (ends_.empty()) return false;
       const End& end = ends_.top();
       time_ = std::max(time_, end.time);
-      waiting_.give_back(end.job);
+      waiting_.give_back(end.job, end.cores);
       free_ += end.cores;
       ends_.pop();
     }
@@ -67,7 +77,12 @@ class Play {
   // Why a job that `before` others precede does not run now.
   [[nodiscard]] std::string reason(const store::QueuedJob& job, double seconds, int before) const {
     if (!workers_.held.empty()) return "The queue is held: " + workers_.held;
-    if (now_.is_held_back(job)) return at_its_limit(job) + before_it(before, ", and ");
+    switch (now_.limit_of(job)) {
+      case WaitingJobs::Limit::sweep: return at_its_limit(job) + before_it(before, ", and ");
+      case WaitingJobs::Limit::owner:
+        return at_its_owners_limit(job, workers_.owner_max_running) + before_it(before, ", and ");
+      case WaitingJobs::Limit::none: break;
+    }
     if (all_busy_) return all_workers(workers_.count) + before_it(before, ", and ");
     return seconds > 0.0 ? before_it(before, "") : "A worker takes it now.";
   }

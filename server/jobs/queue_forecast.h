@@ -26,8 +26,9 @@ using FactsOf = std::function<JobFacts(std::int64_t job)>;
 /// What is known of the workers.
 struct WorkerFacts {
   int count = 1;
-  double step_cost = 0.0;  ///< seconds of one core for a step of an element
-  std::string held{};      ///< why no job starts; empty where nothing holds the queue
+  double step_cost = 0.0;     ///< seconds of one core for a step of an element
+  std::string held{};         ///< why no job starts; empty where nothing holds the queue
+  int owner_max_running = 0;  ///< jobs of one owner that run at once; 0: any number
 };
 
 /// Jobs that a queue names, at most.

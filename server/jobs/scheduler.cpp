@@ -7,14 +7,12 @@
 #include <utility>
 
 #include "error.h"
-#include "jobs/deletion.h"
 #include "jobs/job_state.h"
 #include "jobs/queue_forecast.h"
 #include "jobs/resource_name.h"
 
 namespace cellcrush::jobs {
 void Scheduler::start(int slots) {
-  finish_deletions(parts_.reader, parts_.journal, parts_.folder);
   free_cores_ = slots;
   clean_up();
   reconcile();
@@ -149,8 +147,8 @@ void Scheduler::resume(std::int64_t job) {
 }
 
 void Scheduler::cancel_all(const std::vector<std::int64_t>& jobs) {
-  // First those that wait, so that no slot goes on to the next of them.
-  parts_.journal.cancel_waiting(jobs);
+  // First those that wait, so that no slot takes the next of them.
+  forget(parts_.journal.cancel_waiting(jobs));
   for (const std::int64_t job : jobs) {
     const auto stored = parts_.reader.find_job(job);
     if (!stored || is_terminal(stored->job.state())) continue;
@@ -162,6 +160,13 @@ void Scheduler::cancel_all(const std::vector<std::int64_t>& jobs) {
       if (!gone && error.kind() != ServiceError::Kind::failed_precondition) throw;
     }
   }
+}
+
+void Scheduler::forget(const std::vector<std::int64_t>& jobs) {
+  if (jobs.empty()) return;
+  const std::scoped_lock lock(mutex_);
+  for (const std::int64_t job : jobs) waiting_.remove(job);
+  tell_metrics();
 }
 
 void Scheduler::hold_for_low_disk(const std::optional<std::string>& reason) {
@@ -178,6 +183,11 @@ void Scheduler::hold_for_low_disk(const std::optional<std::string>& reason) {
 std::size_t Scheduler::waiting_count() {
   const std::scoped_lock lock(mutex_);
   return waiting_.count();
+}
+
+std::size_t Scheduler::waiting_count(const std::string& owner) {
+  const std::scoped_lock lock(mutex_);
+  return waiting_.count_of(owner);
 }
 
 void Scheduler::stop() {
@@ -233,14 +243,14 @@ void Scheduler::run(const store::QueuedJob& taken, const std::stop_token& stop) 
     const std::scoped_lock lock(mutex_);
     wishes = running_[taken.job];
   }
-  const int extra = take_cores(taken.job);
+  const int extra = take_cores(taken);
   const std::stop_callback leave_at_the_end(stop, [&wishes] { wishes.leave.request_stop(); });
   const bool again = parts_.runner.run(
       taken.job, 1 + extra, {wishes.leave.get_token(), wishes.suspend.get_token(), wishes.cancel.get_token()}, stop);
   {
     const std::scoped_lock lock(mutex_);
     running_.erase(taken.job);
-    waiting_.give_back(taken);
+    waiting_.give_back(taken, 1 + extra);
     if (again) waiting_.add(taken);
     free_cores_ += 1 + extra;
     tell_metrics();
@@ -249,17 +259,18 @@ void Scheduler::run(const store::QueuedJob& taken, const std::stop_token& stop) 
 }
 
 // A job of which that cannot be read runs on one core, if it runs.
-int Scheduler::take_cores(std::int64_t job) {
+int Scheduler::take_cores(const store::QueuedJob& job) {
   int threads = 1;
   try {
-    if (const auto stored = parts_.reader.find_job(job)) threads = stored->job.case_().numerics().threads();
+    if (const auto stored = parts_.reader.find_job(job.job)) threads = stored->job.case_().numerics().threads();
   } catch (const std::exception& error) {
-    spdlog::warn("The threads of {} cannot be read: {}", name_of(job), error.what());
+    spdlog::warn("The threads of {} cannot be read: {}", name_of(job.job), error.what());
   }
   const std::scoped_lock lock(mutex_);
   const int taken = extra_cores(threads, free_cores_, waiting_.count());
   free_cores_ -= taken;
-  running_[job].cores += taken;
+  running_[job.job].cores += taken;
+  waiting_.add_cores(job, taken);
   return taken;
 }
 

@@ -36,7 +36,8 @@ class Scheduler {
     QueueHold& hold;
   };
 
-  explicit Scheduler(const Parts& parts) : parts_(parts) {}
+  /// `owner_max_running`: jobs of one owner that run at once; 0: any number.
+  explicit Scheduler(const Parts& parts, int owner_max_running = 0) : parts_(parts), waiting_(owner_max_running) {}
   ~Scheduler() { stop(); }
   Scheduler(const Scheduler&) = delete;
   Scheduler& operator=(const Scheduler&) = delete;
@@ -53,8 +54,11 @@ class Scheduler {
   /// otherwise.
   void cancel(std::int64_t job);
 
-  /// Cancels those of the jobs that have not ended.
+  /// Cancels those of the jobs that have not ended. Those that wait leave the queue at once.
   void cancel_all(const std::vector<std::int64_t>& jobs);
+
+  /// Takes jobs that are PENDING in the journal no more out of the queue.
+  void forget(const std::vector<std::int64_t>& jobs);
 
   /// A job that waits is SUSPENDED when this returns; one that runs is, too, or has ended. Nothing happens to one that is SUSPENDED
   /// already. Throws ServiceError: not_found, failed_precondition when it has ended or is CANCELLING, or cancelled when
@@ -72,6 +76,9 @@ class Scheduler {
   void wake();
 
   [[nodiscard]] std::size_t waiting_count();
+
+  /// Of that owner.
+  [[nodiscard]] std::size_t waiting_count(const std::string& owner);
 
   /// Cores that a job which runs holds; 1 for one that is about to.
   [[nodiscard]] int cores_of(std::int64_t job);
@@ -100,7 +107,7 @@ class Scheduler {
   /// Has the job run by this thread; it holds a core, and more if it asks for them and there are. REQUIRES: `begin` was called for it.
   /// Throws nothing.
   void run(const store::QueuedJob& taken, const std::stop_token& stop);
-  int take_cores(std::int64_t job);
+  int take_cores(const store::QueuedJob& job);
   store::StoredJob find(std::int64_t job);
   /// REQUIRES: mutex_ is held.
   void tell_metrics() { parts_.metrics.set_jobs(waiting_.count(), running_.size()); }

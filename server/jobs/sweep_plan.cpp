@@ -14,11 +14,18 @@ namespace {
 
 constexpr std::size_t kLongestTitle = 200;                 // of a case, in bytes
 constexpr std::size_t kMostCaseBytes = 256 * 1024 * 1024;  // of all cases of a sweep
+constexpr std::size_t kMostLabelBytes = 16 * 1024 * 1024;  // of the labels of all its jobs
 
 void cut(std::string& text, std::size_t most) {
   if (text.size() <= most) return;
   while (most > 0 && (static_cast<unsigned char>(text[most]) & 0xC0U) == 0x80U) --most;
   text.resize(most);
+}
+
+std::size_t bytes_of_labels(const v1::Sweep& sweep) {
+  std::size_t out = 0;
+  for (const auto& [key, value] : sweep.labels()) out += key.size() + value.size();
+  return out;
 }
 
 // "loading.speed_m_per_s = 50, lattice.hexagon.rows = 6".
@@ -105,6 +112,12 @@ SweepPlan plan_sweep(const v1::Sweep& sweep, const std::function<bool()>& given_
   if (sweep.case_().ByteSizeLong() * points.values.size() > kMostCaseBytes) {
     throw InvalidField("sweep", "has " + std::to_string(points.values.size()) + " points of so large a case.",
                        "Use fewer points, so that all their cases have at most 256 MiB.");
+  }
+  if (bytes_of_labels(sweep) * points.values.size() > kMostLabelBytes) {
+    throw InvalidField("sweep.labels",
+                       "have " + std::to_string(bytes_of_labels(sweep)) + " bytes, which each of the " +
+                           std::to_string(points.values.size()) + " jobs is to have.",
+                       "Use fewer or shorter labels or fewer points, so that all jobs together have at most 16 MiB.");
   }
   SweepPlan out;
   ProblemsOfPoints problems(points.values.size());

@@ -3,7 +3,6 @@
 #include <memory>
 #include <utility>
 
-#include "jobs/deletion.h"
 #include "jobs/resource_name.h"
 #include "rpc/change_log.h"
 #include "rpc/create_request.h"
@@ -57,6 +56,7 @@ grpc::Status JobsService::CreateJob(grpc::ServerContext* context, const v1::Crea
   return answer([&] {
     check_request(request->request_id(), request->labels());
     check_priority(request->priority(), "priority");
+    parts_.admission.check_priority(request->priority(), "priority");
     parts_.admission.check_time_limit(request->time_limit_s(), "time_limit_s");
     check_size("case", request->case_().ByteSizeLong(), kLargestCase);
     const auto verdict = translate::CaseChecker().check(request->case_());
@@ -74,14 +74,13 @@ grpc::Status JobsService::CreateJob(grpc::ServerContext* context, const v1::Crea
     const std::string hash = payload_hash(*request, job.owner());
     const std::int64_t memory_bytes = parts_.admission.memory_of_job(
         verdict.most_memory_bytes, [&] { return translate::predicted_memory(request->case_()); });
-    const auto admit = [&] { parts_.admission.admit(parts_.scheduler.waiting_count(), 1, memory_bytes); };
     const std::string owner = job.owner();
+    const auto admit = [&] { parts_.admission.admit(owner, 1, memory_bytes); };
     const auto created =
         parts_.journal.create_job(std::move(job), request->request_id(), hash, verdict.element_steps, admit);
     if (created.is_new) {
       log_change(jobs::name_of(created.job), "made", owner, request->request_id());
-      store::QueuedJob queued{created.job, created.job, request->priority(), verdict.element_steps};
-      parts_.scheduler.enqueue({queued});
+      parts_.scheduler.enqueue({{created.job, created.job, request->priority(), verdict.element_steps, 0, 0, owner}});
     }
     auto stored = find(jobs::name_of(created.job));
     add_progress(stored);
@@ -99,7 +98,7 @@ grpc::Status JobsService::GetJob(grpc::ServerContext*, const v1::GetJobRequest* 
   });
 }
 
-grpc::Status JobsService::ListJobs(grpc::ServerContext*, const v1::ListJobsRequest* request,
+grpc::Status JobsService::ListJobs(grpc::ServerContext* context, const v1::ListJobsRequest* request,
                                    v1::ListJobsResponse* response) {
   return answer([&] {
     check_length("filter", request->filter(), kLongestFilter);
@@ -108,7 +107,8 @@ grpc::Status JobsService::ListJobs(grpc::ServerContext*, const v1::ListJobsReque
     const bool newest_first = parse_newest_first(request->order_by());
     const std::string question = request->filter() + "\n" + (newest_first ? "newest" : "oldest");
     const auto page = read_page(request->page_size(), request->page_token(), question);
-    auto stored = parts_.reader.list_jobs(filter, newest_first, page.after, page.size + 1, kPageBytes);
+    auto stored = parts_.reader.list_jobs(filter, newest_first, page.after, page.size + 1, kPageBytes,
+                                          [context] { return context->IsCancelled(); });
     std::int64_t last = 0;
     auto room = page.room();
     for (auto& job : stored) {
@@ -163,7 +163,7 @@ grpc::Status JobsService::DeleteJob(grpc::ServerContext* context, const v1::Dele
                                     v1::DeleteJobResponse*) {
   return answer([&] {
     const std::int64_t job = find_own(*context, request->name());
-    jobs::delete_job(job, parts_.journal, parts_.folder);
+    parts_.deletion.delete_job(job);
     log_change(jobs::name_of(job), "deleted", parts_.gate.caller_of(*context).name);
     return grpc::Status::OK;
   });

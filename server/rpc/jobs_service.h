@@ -3,6 +3,7 @@
 #include "access/gate.h"
 #include "cellcrush/v1/jobs_service.grpc.pb.h"
 #include "jobs/admission.h"
+#include "jobs/deletion.h"
 #include "jobs/scheduler.h"
 #include "rpc/stream_reactor.h"
 #include "store/data_folder.h"
@@ -23,6 +24,7 @@ class JobsService final
     const store::DataFolder& folder;
     store::Journal& journal;
     store::JournalReader& reader;
+    const jobs::Deletion& deletion;
     watch::Hub& hub;
     jobs::Scheduler& scheduler;
     const jobs::Admission& admission;

@@ -40,7 +40,7 @@ std::vector<store::QueuedJob> queued_jobs(const store::Journal::CreatedSweep& cr
   std::vector<store::QueuedJob> out;
   for (std::size_t i = 0; i < created.jobs.size(); ++i) {
     out.push_back({created.jobs[i], created.jobs.front(), sweep.priority(), plan.jobs[i].element_steps, created.sweep,
-                   sweep.max_parallel()});
+                   sweep.max_parallel(), sweep.owner()});
   }
   return out;
 }
@@ -71,6 +71,7 @@ grpc::Status SweepsService::CreateSweep(grpc::ServerContext* context, const v1::
     check_size("sweep", request.sweep().ByteSizeLong(), kLargestCase);
     check_request(request.request_id(), request.sweep().labels(), "sweep.");
     check_numbers(request.sweep());
+    parts_.admission.check_priority(request.sweep().priority(), "sweep.priority");
     parts_.admission.check_time_limit(request.sweep().time_limit_s(), "sweep.time_limit_s");
     const std::string owner = parts_.gate.caller_of(*context).name;
     const std::string hash = payload_hash(request, owner);
@@ -83,9 +84,7 @@ grpc::Status SweepsService::CreateSweep(grpc::ServerContext* context, const v1::
     }
     const std::int64_t memory_bytes = parts_.admission.memory_of_job(
         plan.most_memory_bytes, [&] { return translate::predicted_memory(plan.jobs[plan.largest].job.case_()); });
-    const auto admit = [&] {
-      parts_.admission.admit(parts_.scheduler.waiting_count(), plan.jobs.size(), memory_bytes);
-    };
+    const auto admit = [&] { parts_.admission.admit(owner, plan.jobs.size(), memory_bytes); };
     const auto created = parts_.journal.create_sweep(request.sweep(), plan.jobs, request.request_id(), hash, admit);
     const std::string name = jobs::sweep_name_of(created.sweep);
     if (created.is_new) {
@@ -104,22 +103,27 @@ grpc::Status SweepsService::GetSweep(grpc::ServerContext*, const v1::GetSweepReq
   });
 }
 
-grpc::Status SweepsService::ListSweeps(grpc::ServerContext*, const v1::ListSweepsRequest* request,
+grpc::Status SweepsService::ListSweeps(grpc::ServerContext* context, const v1::ListSweepsRequest* request,
                                        v1::ListSweepsResponse* response) {
   return answer([&] {
     const auto page = read_page(request->page_size(), request->page_token(), "sweeps");
     const std::int64_t before = page.after == 0 ? std::numeric_limits<std::int64_t>::max() : page.after;
     auto room = page.room();
     std::int64_t last = 0;
-    for (const std::int64_t number : parts_.sweeps.list_sweeps(before, page.size + 1)) {
+    const auto numbers = parts_.sweeps.list_sweeps(before, page.size + 1);
+    bool has_more = static_cast<int>(numbers.size()) > page.size;
+    for (const std::int64_t number : numbers) {
+      if (context->IsCancelled()) return grpc::Status::CANCELLED;
       auto sweep = parts_.sweeps.find_sweep(number);
-      if (!room.take(sweep->ByteSizeLong())) {
-        response->set_next_page_token(page_token(last, "sweeps"));
+      if (sweep && !room.take(sweep->ByteSizeLong())) {
+        has_more = true;
         break;
       }
       last = number;
-      *response->add_sweeps() = *std::move(sweep);
+      // Otherwise it was deleted meanwhile.
+      if (sweep) *response->add_sweeps() = *std::move(sweep);
     }
+    if (has_more) response->set_next_page_token(page_token(last, "sweeps"));
     return grpc::Status::OK;
   });
 }
@@ -136,12 +140,23 @@ grpc::Status SweepsService::CancelSweep(grpc::ServerContext* context, const v1::
   });
 }
 
+grpc::Status SweepsService::DeleteSweep(grpc::ServerContext* context, const v1::DeleteSweepRequest* request,
+                                        v1::DeleteSweepResponse*) {
+  return answer([&] {
+    const std::int64_t sweep = find_own(*context, request->name());
+    parts_.deletion.delete_sweep(sweep, [context] { return context->IsCancelled(); });
+    log_change(jobs::sweep_name_of(sweep), "deleted", parts_.gate.caller_of(*context).name);
+    return grpc::Status::OK;
+  });
+}
+
 grpc::Status SweepsService::RetryFailedJobs(grpc::ServerContext* context, const v1::RetryFailedJobsRequest* request,
                                             v1::Sweep* response) {
   return answer([&] {
     const std::int64_t sweep = find_own(*context, request->name());
-    // What their cases need was admitted when the sweep was made.
-    const auto admit = [&](std::size_t jobs) { parts_.admission.admit(parts_.scheduler.waiting_count(), jobs, 0); };
+    // What their cases need was admitted when the sweep was made. The new jobs are the sweep's owner's.
+    const std::string owner = find(request->name()).sweep.owner();
+    const auto admit = [&](std::size_t jobs) { parts_.admission.admit(owner, jobs, 0); };
     const auto retried = parts_.journal.retry_failed(sweep, admit);
     log_change(jobs::sweep_name_of(sweep), "retried with " + std::to_string(retried.size()) + " jobs",
                parts_.gate.caller_of(*context).name);

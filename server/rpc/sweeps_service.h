@@ -5,6 +5,7 @@
 #include "access/gate.h"
 #include "cellcrush/v1/sweeps_service.grpc.pb.h"
 #include "jobs/admission.h"
+#include "jobs/deletion.h"
 #include "jobs/scheduler.h"
 #include "rpc/stream_reactor.h"
 #include "store/journal.h"
@@ -22,6 +23,7 @@ class SweepsService final : public v1::Sweeps::WithCallbackMethod_WatchSweep<v1:
     store::Journal& journal;
     store::JournalReader& reader;
     store::SweepReader& sweeps;
+    const jobs::Deletion& deletion;
     watch::Hub& hub;
     jobs::Scheduler& scheduler;
     const jobs::Admission& admission;
@@ -38,6 +40,8 @@ class SweepsService final : public v1::Sweeps::WithCallbackMethod_WatchSweep<v1:
                           v1::ListSweepsResponse* response) override;
   grpc::Status CancelSweep(grpc::ServerContext* context, const v1::CancelSweepRequest* request,
                            v1::Sweep* response) override;
+  grpc::Status DeleteSweep(grpc::ServerContext* context, const v1::DeleteSweepRequest* request,
+                           v1::DeleteSweepResponse* response) override;
   grpc::Status RetryFailedJobs(grpc::ServerContext* context, const v1::RetryFailedJobsRequest* request,
                                v1::Sweep* response) override;
   grpc::ServerWriteReactor<v1::WatchSweepResponse>* WatchSweep(grpc::CallbackServerContext* context,

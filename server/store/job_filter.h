@@ -16,7 +16,4 @@ struct JobFilter {
   std::vector<std::string> owners;
 };
 
-/// Whether a job, with its case, meets the conditions.
-bool matches(const JobFilter& filter, const v1::Job& job);
-
 }  // namespace cellcrush::store

@@ -14,28 +14,31 @@ JobInserter::JobInserter(Database& database)
     : database_(database),
       job_(database,
            "INSERT INTO jobs (state, job, submitted_case, request_id, request_hash, last_sequence, priority, "
-           "submission, "
-           "element_steps) VALUES (?1, ?2, ?3, ?4, ?5, 1, ?6, ?7, ?8)"),
-      event_(database, "INSERT INTO events (job, sequence, kind, payload) VALUES (?1, 1, ?2, ?3)") {}
+           "submission, element_steps, owner, title, bytes) VALUES (?1, ?2, ?3, ?4, ?5, 1, ?6, ?7, ?8, ?9, ?10, ?11)"),
+      event_(database, "INSERT INTO events (job, sequence, kind, payload) VALUES (?1, 1, ?2, ?3)"),
+      labels_(database) {}
 
 std::int64_t JobInserter::insert(v1::Job job, const JobEntry& entry) {
   job.set_state(v1::PENDING);
   *job.mutable_create_time() = google::protobuf::util::TimeUtil::GetCurrentTime();
   // Taken out, so that the bytes are made without a copy of it.
   const std::unique_ptr<v1::Case> submitted(job.release_case_());
-  const std::int64_t priority = job.priority();
-  const std::string bytes = job_bytes(std::move(job));
-  job_.bind(1, v1::PENDING).bind_blob(2, bytes).bind_blob(3, submitted ? submitted->SerializeAsString() : "");
+  const std::string bytes = job_bytes(job);
+  const std::string case_bytes = submitted ? submitted->SerializeAsString() : "";
+  job_.bind(1, v1::PENDING).bind_blob(2, bytes).bind_blob(3, case_bytes);
   if (entry.request_id.empty()) {
     job_.bind_null(4).bind_null(5);
   } else {
     job_.bind_text(4, entry.request_id).bind_text(5, entry.request_hash);
   }
-  job_.bind(6, priority).bind(8, entry.element_steps);
+  job_.bind(6, job.priority()).bind(8, entry.element_steps).bind_text(9, job.owner());
+  job_.bind_text(10, submitted ? folded_title(submitted->title()) : "");
+  job_.bind(11, static_cast<std::int64_t>(case_bytes.size() + 2 * bytes.size()));
   entry.submission ? job_.bind(7, *entry.submission) : job_.bind_null(7);
   job_.run();
   const std::int64_t number = database_.last_number();
   event_.bind(1, number).bind(2, kStateEvent).bind_blob(3, bytes).run();
+  labels_.insert(number, job.labels());
   return number;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "cellcrush/v1/job.pb.h"
+#include "store/search_columns.h"
 #include "store/sqlite.h"
 
 namespace cellcrush::store {
@@ -29,6 +30,7 @@ class JobInserter {
   Database& database_;
   Statement job_;
   Statement event_;
+  LabelInserter labels_;
 };
 
 }  // namespace cellcrush::store

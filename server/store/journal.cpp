@@ -53,10 +53,13 @@ class Journal::Taking {
   Journal& journal_;
 };
 
-Journal::Journal(const std::filesystem::path& path, Durable on_durable, GroupCommit::Committed on_commit)
-    : on_durable_(std::move(on_durable)), database_(path), writes_(database_, std::move(on_commit)) {
-  prepare_journal(database_);
-  mend_jobs(database_);
+Journal::Journal(const std::filesystem::path& path, Durable on_durable, GroupCommit::Committed on_commit,
+                 Clocks::Source uptime)
+    : on_durable_(std::move(on_durable)),
+      database_(path),
+      clock_(prepare_journal(database_), std::move(uptime)),
+      writes_(database_, std::move(on_commit)) {
+  mend_jobs(database_, clock_.seconds());
   committer_ = std::thread([this] { commit_gathered_when_due(); });
 }
 
@@ -67,9 +70,15 @@ Journal::~Journal() {
   }
   sooner_.notify_all();
   committer_.join();
+  try {
+    note_service_clock();
+  } catch (const ServiceError& error) {
+    spdlog::warn("The service clock is not written: {} Jobs are kept longer by what this daemon has served.",
+                 error.what());
+  }
 }
 
-void Journal::change_state(std::int64_t job, const StateChange& change) {
+std::vector<std::int64_t> Journal::change_state(std::int64_t job, const StateChange& change) {
   std::vector<std::int64_t> stopped;
   Gathered samples;
   const Taking taking(*this);
@@ -83,6 +92,7 @@ void Journal::change_state(std::int64_t job, const StateChange& change) {
       [&] { give_back(std::move(samples)); });
   on_durable_(job);
   for (const std::int64_t other : stopped) on_durable_(other);
+  return stopped;
 }
 
 void Journal::write_change(std::int64_t job, const StateChange& change) {
@@ -104,8 +114,11 @@ void Journal::write_change(std::int64_t job, const StateChange& change) {
   apply(change, stored);
   const std::int64_t sequence = find_last_sequence(job).value() + 1;
   insert_event(job, sequence, kStateEvent, job_bytes(stored));
-  Statement update(database_, "UPDATE jobs SET state = ?2, job = ?3, last_sequence = ?4 WHERE number = ?1");
-  update.bind(1, job).bind(2, stored.state()).bind_blob(3, job_bytes(stored)).bind(4, sequence).run();
+  Statement update(database_,
+                   "UPDATE jobs SET state = ?2, job = ?3, last_sequence = ?4, ended_at = ?5 WHERE number = ?1");
+  update.bind(1, job).bind(2, stored.state()).bind_blob(3, job_bytes(stored)).bind(4, sequence);
+  if (jobs::is_terminal(stored.state())) update.bind(5, clock_.seconds());
+  update.run();
 }
 
 void Journal::append_sample(std::int64_t job, const v1::Sample& sample, std::chrono::milliseconds within) {

@@ -17,6 +17,7 @@
 #include "cellcrush/v1/sweep.pb.h"
 #include "store/group_commit.h"
 #include "store/queued_job.h"
+#include "store/service_clock.h"
 #include "store/sqlite.h"
 
 namespace cellcrush::store {
@@ -49,7 +50,9 @@ class Journal {
   using Admit = std::function<void()>;
   using AdmitMany = std::function<void(std::size_t jobs)>;
 
-  Journal(const std::filesystem::path& path, Durable on_durable, GroupCommit::Committed on_commit = {});
+  /// `uptime` moves the service clock.
+  Journal(const std::filesystem::path& path, Durable on_durable, GroupCommit::Committed on_commit = {},
+          Clocks::Source uptime = Clocks().uptime);
   /// Commits what is gathered.
   ~Journal();
   Journal(const Journal&) = delete;
@@ -59,8 +62,8 @@ class Journal {
     std::int64_t job = 0;
     bool is_new = true;
   };
-  /// Makes a PENDING job from `job` (case, labels, priority). The same request_id with the same hash gives the job made
-  /// before; with another one, already_exists is thrown. An empty request_id is none.
+  /// Makes a PENDING job from `job` (case, labels, priority, owner). The owner's same request_id with the same hash gives the
+  /// job made before; with another one, already_exists is thrown. An empty request_id is none.
   Created create_job(v1::Job job, const std::string& request_id, const std::string& request_hash,
                      std::int64_t element_steps = 0, const Admit& admit = {});
 
@@ -77,20 +80,30 @@ class Journal {
   /// old ones, which stay as jobs without a sweep. Returns them in the order of the points.
   std::vector<QueuedJob> retry_failed(std::int64_t sweep, const AdmitMany& admit = {});
 
-  /// Makes those of the jobs that are PENDING CANCELLED, all at once.
-  void cancel_waiting(const std::vector<std::int64_t>& jobs);
+  /// Makes those of the jobs that are PENDING CANCELLED, all at once. Returns them.
+  std::vector<std::int64_t> cancel_waiting(const std::vector<std::int64_t>& jobs);
 
   /// Removes a job that has ended, with its events and its place in a sweep, and notes that its folder is to be removed.
   /// Throws not_found, or failed_precondition when it has not ended.
   void delete_job(std::int64_t job);
 
-  /// Takes the note away.
-  void note_folder_removed(std::int64_t job);
+  /// The same of those of the jobs that have ended, in one transaction. Returns them.
+  std::vector<std::int64_t> delete_ended(const std::vector<std::int64_t>& jobs);
+
+  /// Takes the notes away.
+  void note_folders_removed(const std::vector<std::int64_t>& jobs);
+
+  /// Hides a sweep whose jobs have all ended: it is found and retried no more. Nothing happens to one that is hidden already.
+  /// Throws not_found, or failed_precondition, which names jobs that have not ended.
+  void begin_sweep_deletion(std::int64_t sweep);
+
+  /// Removes a hidden sweep that has no jobs any more.
+  void end_sweep_deletion(std::int64_t sweep);
 
   /// Makes a change durable, and before it the samples gathered for the job. Throws failed_precondition when the state
   /// may not follow the present one (jobs/job_state.h). When a job of a sweep FAILED and its max_failures is reached, those
-  /// of its jobs that are PENDING are CANCELLED with it.
-  void change_state(std::int64_t job, const StateChange& change);
+  /// of its jobs that are PENDING are CANCELLED with it, and returned.
+  std::vector<std::int64_t> change_state(std::int64_t job, const StateChange& change);
 
   /// Gathers a sample, to be durable within that time, with all others that were gathered by then. Never waits for the disk.
   /// One whose step is not beyond that of the job's newest one is dropped: what is told again is there once.
@@ -105,16 +118,33 @@ class Journal {
 
   void set_mesh(std::int64_t job, const v1::Mesh& mesh);
 
+  /// Seconds of the service clock (service_clock.h).
+  [[nodiscard]] std::int64_t service_seconds() const { return clock_.seconds(); }
+
+  /// Makes durable how far the service clock is; a daemon that is killed loses what it served since.
+  void note_service_clock();
+
+  /// A job that has ended, and the bytes of what it left in its folder.
+  struct Measured {
+    std::int64_t job = 0;
+    std::int64_t folder_bytes = 0;
+  };
+  /// Notes what ended jobs take, with their rows in the journal.
+  void set_measured(const std::vector<Measured>& jobs);
+
  private:
   void commit_gathered_when_due();
   // These are for bodies of writes_.
 
-  /// The job or sweep that an earlier request of that id made; nothing when there was none. Throws as create_job does.
-  std::optional<std::int64_t> find_request(const std::string& collection, const std::string& request_id,
-                                           const std::string& request_hash);
+  /// The job or sweep that an earlier request of that owner and id made; nothing when there was none. Throws as create_job
+  /// does.
+  std::optional<std::int64_t> find_request(const std::string& collection, const std::string& owner,
+                                           const std::string& request_id, const std::string& request_hash);
   void write_change(std::int64_t job, const StateChange& change);
   std::vector<std::int64_t> stop_failing_sweep(std::int64_t failed_job);
   std::vector<std::int64_t> jobs_of_sweep_in(std::int64_t sweep, v1::JobState state);
+  /// Removes the rows of a job that has ended.
+  void remove_job(std::int64_t job);
   std::optional<std::int64_t> find_last_sequence(std::int64_t job);
   void insert_event(std::int64_t job, std::int64_t sequence, int kind, const std::string& payload);
   /// Step of the job's newest sample that can be read; -1 without any.
@@ -135,6 +165,7 @@ class Journal {
 
   Durable on_durable_;
   Database database_;
+  ServiceClock clock_;
   GroupCommit writes_;       ///< all that is done with database_
   std::mutex gather_mutex_;  ///< guards what follows
   Gathered gathered_;        ///< samples that nobody makes durable yet, by job

@@ -1,6 +1,7 @@
 // How jobs come into the journal and leave it.
 #include <utility>
 
+#include "access/scope.h"
 #include "error.h"
 #include "jobs/job_state.h"
 #include "jobs/resource_name.h"
@@ -8,12 +9,21 @@
 #include "store/journal.h"
 
 namespace cellcrush::store {
+namespace {
+
+std::optional<v1::JobState> find_state(Database& database, std::int64_t job) {
+  Statement read(database, "SELECT state FROM jobs WHERE number = ?1");
+  if (!read.bind(1, job).step()) return std::nullopt;
+  return static_cast<v1::JobState>(read.integer(0));
+}
+
+}  // namespace
 
 Journal::Created Journal::create_job(v1::Job job, const std::string& request_id, const std::string& request_hash,
                                      std::int64_t element_steps, const Admit& admit) {
   Created created;
   writes_.run([&] {
-    if (const auto before = find_request("jobs", request_id, request_hash)) {
+    if (const auto before = find_request("jobs", job.owner(), request_id, request_hash)) {
       created = {*before, false};
     } else {
       if (admit) admit();
@@ -26,34 +36,55 @@ Journal::Created Journal::create_job(v1::Job job, const std::string& request_id,
 
 void Journal::delete_job(std::int64_t job) {
   writes_.run([&] {
-    {
-      Statement read(database_, "SELECT state FROM jobs WHERE number = ?1");
-      if (!read.bind(1, job).step())
-        throw ServiceError(ServiceError::Kind::not_found, "There is no " + jobs::name_of(job) + ".");
-      const auto state = static_cast<v1::JobState>(read.integer(0));
-      if (!jobs::is_terminal(state)) {
-        throw ServiceError(ServiceError::Kind::failed_precondition,
-                           jobs::name_of(job) + " is " + v1::JobState_Name(state) +
-                               " and cannot be deleted. Cancel it first, and delete it once it has ended.");
-      }
+    const auto state = find_state(database_, job);
+    if (!state) throw ServiceError(ServiceError::Kind::not_found, "There is no " + jobs::name_of(job) + ".");
+    if (!jobs::is_terminal(*state)) {
+      throw ServiceError(ServiceError::Kind::failed_precondition,
+                         jobs::name_of(job) + " is " + v1::JobState_Name(*state) +
+                             " and cannot be deleted. Cancel it first, and delete it once it has ended.");
     }
-    for (const char* sql : {"DELETE FROM events WHERE job = ?1", "DELETE FROM meshes WHERE job = ?1",
-                            "DELETE FROM sweep_jobs WHERE job = ?1", "DELETE FROM jobs WHERE number = ?1",
-                            "INSERT INTO deleted_jobs (number) VALUES (?1)"})
-      Statement(database_, sql).bind(1, job).run();
+    remove_job(job);
   });
   on_durable_(job);
 }
 
-void Journal::note_folder_removed(std::int64_t job) {
-  writes_.run([&] { Statement(database_, "DELETE FROM deleted_jobs WHERE number = ?1").bind(1, job).run(); });
+std::vector<std::int64_t> Journal::delete_ended(const std::vector<std::int64_t>& jobs) {
+  std::vector<std::int64_t> deleted;
+  writes_.run([&] {
+    deleted.clear();
+    for (const std::int64_t job : jobs) {
+      const auto state = find_state(database_, job);
+      if (!state || !jobs::is_terminal(*state)) continue;
+      remove_job(job);
+      deleted.push_back(job);
+    }
+  });
+  for (const std::int64_t job : deleted) on_durable_(job);
+  return deleted;
 }
 
-std::optional<std::int64_t> Journal::find_request(const std::string& collection, const std::string& request_id,
-                                                  const std::string& request_hash) {
+void Journal::remove_job(std::int64_t job) {
+  for (const char* sql : {"DELETE FROM events WHERE job = ?1", "DELETE FROM meshes WHERE job = ?1",
+                          "DELETE FROM sweep_jobs WHERE job = ?1", "DELETE FROM job_labels WHERE job = ?1",
+                          "DELETE FROM jobs WHERE number = ?1", "INSERT INTO deleted_jobs (number) VALUES (?1)"})
+    Statement(database_, sql).bind(1, job).run();
+}
+
+void Journal::note_folders_removed(const std::vector<std::int64_t>& jobs) {
+  writes_.run([&] {
+    Statement remove(database_, "DELETE FROM deleted_jobs WHERE number = ?1");
+    for (const std::int64_t job : jobs) remove.bind(1, job).run();
+  });
+}
+
+// What a version without owners made has none, and stays that of whoever calls locally.
+std::optional<std::int64_t> Journal::find_request(const std::string& collection, const std::string& owner,
+                                                  const std::string& request_id, const std::string& request_hash) {
   if (request_id.empty()) return std::nullopt;
-  Statement find(database_, "SELECT number, request_hash FROM " + collection + " WHERE request_id = ?1");
-  if (!find.bind_text(1, request_id).step()) return std::nullopt;
+  Statement find(database_, "SELECT number, request_hash FROM " + collection +
+                                " WHERE request_id = ?1 AND owner IN (?2, ?3) ORDER BY owner DESC");
+  find.bind_text(1, request_id).bind_text(2, owner).bind_text(3, owner == access::kLocal ? "" : owner);
+  if (!find.step()) return std::nullopt;
   if (find.bytes(1) == request_hash) return find.integer(0);
   throw ServiceError(ServiceError::Kind::already_exists,
                      "The request_id \"" + request_id + "\" was used for another request, which made " + collection +

@@ -48,7 +48,7 @@ void write_row(Database& database, const DamagedJob& row) {
   update.bind(4, row.last_sequence).run();
 }
 
-void end_job(Database& database, DamagedJob& row) {
+void end_job(Database& database, DamagedJob& row, std::int64_t service_seconds) {
   const bool had_ended = jobs::is_terminal(static_cast<v1::JobState>(row.state));
   set_corrupt(row.job);
   const auto now = google::protobuf::util::TimeUtil::GetCurrentTime();
@@ -61,9 +61,11 @@ void end_job(Database& database, DamagedJob& row) {
     insert.bind_blob(4, job_bytes(row.job)).run();
   }
   write_row(database, row);
+  Statement update(database, "UPDATE jobs SET ended_at = COALESCE(ended_at, ?2) WHERE number = ?1");
+  update.bind(1, row.number).bind(2, service_seconds).run();
 }
 
-void mend(Database& database, DamagedJob& row) {
+void mend(Database& database, DamagedJob& row, std::int64_t service_seconds) {
   const std::string name = jobs::name_of(row.number);
   const bool had_ended = jobs::is_terminal(static_cast<v1::JobState>(row.state));
   const bool restored = !row.has_job && restore_job(database, row);
@@ -76,7 +78,7 @@ void mend(Database& database, DamagedJob& row) {
     return;
   }
   if (restored && row.has_case) return;
-  end_job(database, row);
+  end_job(database, row, service_seconds);
   spdlog::error("{} is FAILED with STORE_CORRUPT: {}", name, row.job.cause_message());
 }
 
@@ -96,11 +98,11 @@ void set_corrupt(v1::Job& job) {
   job.clear_worker_pid();
 }
 
-void mend_jobs(Database& database) {
+void mend_jobs(Database& database, std::int64_t service_seconds) {
   auto damaged = find_damaged(database);
   if (damaged.empty()) return;
   Transaction transaction(database);
-  for (auto& row : damaged) mend(database, row);
+  for (auto& row : damaged) mend(database, row, service_seconds);
   transaction.commit();
 }
 

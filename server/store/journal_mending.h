@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <string>
+
 #include "cellcrush/v1/job.pb.h"
 #include "store/sqlite.h"
 
@@ -13,7 +16,8 @@ void set_corrupt(v1::Job& job);
 
 /// Looks at every row of `jobs`, for a journal that nobody else has open. A Job that cannot be read is restored from its
 /// newest state event. When that cannot be read either, or the case of a job that has not ended, the job becomes FAILED with
-/// STORE_CORRUPT. Every such row is named in the log. Throws ServiceError.
-void mend_jobs(Database& database);
+/// STORE_CORRUPT; it ends at `service_seconds` of the service clock. Every such row is named in the log. Throws
+/// ServiceError.
+void mend_jobs(Database& database, std::int64_t service_seconds);
 
 }  // namespace cellcrush::store

@@ -13,20 +13,6 @@
 namespace cellcrush::store {
 namespace {
 
-constexpr int kBatch = 200;
-constexpr std::size_t kBatchBytes = 4'000'000;
-
-// Columns: number, job, submitted_case, last_sequence, state. What was damaged since the journal was opened is shown as such.
-StoredJob read_job(const Statement& row) {
-  StoredJob out;
-  out.number = row.integer(0);
-  if (!read_job_bytes(row.bytes(1), row.integer(4), out.job)) set_corrupt(out.job);
-  if (!out.job.mutable_case_()->ParseFromString(row.bytes(2))) out.job.mutable_case_()->Clear();
-  out.job.set_name(jobs::name_of(out.number));
-  out.last_sequence = row.integer(3);
-  return out;
-}
-
 // An event's payload. False when it cannot be read.
 bool read_event(int kind, const std::string& payload, v1::JobEvent& event) {
   if (kind != kStateEvent) return event.mutable_sample()->ParseFromString(payload);
@@ -44,6 +30,16 @@ ServiceError unreadable_event(std::int64_t job, std::int64_t sequence) {
 
 JournalReader::JournalReader(const std::filesystem::path& path) : database_(path) {}
 
+StoredJob JournalReader::read_job(const Statement& row) {
+  StoredJob out;
+  out.number = row.integer(0);
+  if (!read_job_bytes(row.bytes(1), row.integer(4), out.job)) set_corrupt(out.job);
+  if (!out.job.mutable_case_()->ParseFromString(row.bytes(2))) out.job.mutable_case_()->Clear();
+  out.job.set_name(jobs::name_of(out.number));
+  out.last_sequence = row.integer(3);
+  return out;
+}
+
 std::optional<StoredJob> JournalReader::find_job(std::int64_t job) {
   const std::scoped_lock lock(mutex_);
   Statement read(database_, "SELECT number, job, submitted_case, last_sequence, state FROM jobs WHERE number = ?1");
@@ -54,43 +50,6 @@ std::optional<StoredJob> JournalReader::find_job(std::int64_t job) {
 bool JournalReader::has_job(std::int64_t job) {
   const std::scoped_lock lock(mutex_);
   return Statement(database_, "SELECT 1 FROM jobs WHERE number = ?1").bind(1, job).step();
-}
-
-std::vector<StoredJob> JournalReader::list_jobs(const JobFilter& wanted, bool newest_first, std::int64_t after,
-                                                int limit, std::size_t most_bytes) {
-  std::vector<StoredJob> out;
-  std::size_t bytes = 0;
-  // In batches, so that a long search does not keep other readers out.
-  while (true) {
-    auto batch = read_batch(wanted, newest_first, after);
-    if (batch.empty()) return out;
-    after = batch.back().number;
-    for (auto& job : batch) {
-      if (!matches(wanted, job.job)) continue;
-      bytes += job.job.ByteSizeLong();
-      out.push_back(std::move(job));
-      if (static_cast<int>(out.size()) == limit || bytes > most_bytes) return out;
-    }
-  }
-}
-
-std::vector<StoredJob> JournalReader::read_batch(const JobFilter& wanted, bool newest_first, std::int64_t after) {
-  const std::scoped_lock lock(mutex_);
-  std::string sql = "SELECT number, job, submitted_case, last_sequence, state FROM jobs WHERE ";
-  sql += newest_first ? "(?1 = 0 OR number < ?1)" : "number > ?1";
-  if (!wanted.states.empty()) sql += " AND state = ?2";
-  sql += newest_first ? " ORDER BY number DESC" : " ORDER BY number";
-  sql += " LIMIT " + std::to_string(kBatch);
-  Statement read(database_, sql);
-  read.bind(1, after);
-  if (!wanted.states.empty()) read.bind(2, wanted.states.front());
-  std::vector<StoredJob> out;
-  std::size_t bytes = 0;
-  while (bytes < kBatchBytes && read.step()) {
-    out.push_back(read_job(read));
-    bytes += out.back().job.ByteSizeLong();
-  }
-  return out;
 }
 
 std::vector<std::int64_t> JournalReader::deleted_jobs() {

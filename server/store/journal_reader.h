@@ -2,13 +2,16 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "cellcrush/v1/event.pb.h"
 #include "cellcrush/v1/job.pb.h"
+#include "store/ended_job.h"
 #include "store/job_filter.h"
 #include "store/page_room.h"
 #include "store/queued_job.h"
@@ -43,9 +46,24 @@ class JournalReader {
   bool has_job(std::int64_t job);
 
   /// Up to `limit` of the wanted jobs behind the one with the number `after` (0: from the beginning), in the order of
-  /// their numbers or, with `newest_first`, against it. Ends behind the one with which they have more than `most_bytes`.
-  std::vector<StoredJob> list_jobs(const JobFilter& wanted, bool newest_first, std::int64_t after, int limit,
-                                   std::size_t most_bytes = std::numeric_limits<std::size_t>::max());
+  /// their numbers or, with `newest_first`, against it. Ends behind the one with which they have more than `most_bytes`. Throws
+  /// ServiceError (cancelled) once `given_up` says that nobody waits any more.
+  std::vector<StoredJob> list_jobs(
+      const JobFilter& wanted, bool newest_first, std::int64_t after, int limit,
+      std::size_t most_bytes = std::numeric_limits<std::size_t>::max(),
+      const std::function<bool()>& given_up = [] { return false; });
+
+  /// Jobs that have ended, and what they take.
+  EndedTotals ended_totals();
+
+  /// Up to `limit` jobs that ended behind `after`, of which ended_at and job count, in that order.
+  std::vector<EndedJob> ended_jobs(const EndedJob& after, int limit);
+
+  /// Up to `limit` jobs that have ended and of which Journal::set_measured is to be told.
+  std::vector<std::int64_t> jobs_to_measure(int limit);
+
+  /// What the owner's jobs take: rows in the journal, and of those that have ended the results.
+  std::int64_t bytes_of_owner(const std::string& owner);
 
   /// Numbers of the jobs whose folders are still to be removed.
   std::vector<std::int64_t> deleted_jobs();
@@ -71,7 +89,17 @@ class JournalReader {
   std::optional<v1::Mesh> mesh(std::int64_t job);
 
  private:
-  std::vector<StoredJob> read_batch(const JobFilter& wanted, bool newest_first, std::int64_t after);
+  /// Of a row with number, job, submitted_case, last_sequence, state. What was damaged since the journal was opened is shown as
+  /// such.
+  static StoredJob read_job(const Statement& row);
+
+  /// Numbers between these two, both excluded.
+  struct Range {
+    std::int64_t low = 0;
+    std::int64_t high = 0;
+  };
+  std::vector<StoredJob> read_batch(const JobFilter& wanted, bool newest_first, const Range& range, int limit);
+  std::int64_t newest_number();
 
   std::mutex mutex_;
   Database database_;

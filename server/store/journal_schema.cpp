@@ -1,11 +1,12 @@
 #include "store/journal_schema.h"
 
 #include "error.h"
+#include "store/search_columns.h"
 
 namespace cellcrush::store {
 namespace {
 
-constexpr std::int64_t kVersion = 3;
+constexpr std::int64_t kVersion = 4;
 
 constexpr const char* kJobTables = R"sql(
 CREATE TABLE jobs (
@@ -70,9 +71,54 @@ UPDATE jobs SET submission = (
 PRAGMA user_version = 3;
 )sql";
 
+// From version 3 to 4. The columns that stand in the messages are filled in by fill_in_search_columns.
+constexpr const char* kSearchColumns = R"sql(
+ALTER TABLE jobs ADD COLUMN owner TEXT NOT NULL DEFAULT '';
+ALTER TABLE jobs ADD COLUMN title TEXT NOT NULL DEFAULT '';
+ALTER TABLE jobs ADD COLUMN ended_at INTEGER;
+ALTER TABLE jobs ADD COLUMN bytes INTEGER NOT NULL DEFAULT 0;
+ALTER TABLE jobs ADD COLUMN measured INTEGER NOT NULL DEFAULT 0;
+ALTER TABLE sweeps ADD COLUMN owner TEXT NOT NULL DEFAULT '';
+ALTER TABLE sweeps ADD COLUMN deleting INTEGER NOT NULL DEFAULT 0;
+CREATE TABLE job_labels (
+  key TEXT NOT NULL,
+  value TEXT NOT NULL,
+  job INTEGER NOT NULL REFERENCES jobs(number),
+  PRIMARY KEY (key, value, job)
+) STRICT, WITHOUT ROWID;
+CREATE TABLE service_clock (
+  id INTEGER PRIMARY KEY CHECK (id = 1),
+  seconds INTEGER NOT NULL
+) STRICT;
+INSERT INTO service_clock (id, seconds) VALUES (1, 0);
+PRAGMA user_version = 4;
+)sql";
+
+constexpr const char* kSearchIndexes = R"sql(
+DROP INDEX jobs_by_request;
+DROP INDEX sweeps_by_request;
+CREATE UNIQUE INDEX jobs_by_request ON jobs(request_id, owner) WHERE request_id IS NOT NULL;
+CREATE UNIQUE INDEX sweeps_by_request ON sweeps(request_id, owner) WHERE request_id IS NOT NULL;
+CREATE INDEX jobs_by_owner ON jobs(owner);
+CREATE INDEX jobs_by_owner_bytes ON jobs(owner, bytes);
+CREATE INDEX jobs_by_title ON jobs(number, title);
+CREATE INDEX jobs_by_end ON jobs(ended_at, number, bytes) WHERE ended_at IS NOT NULL;
+CREATE INDEX jobs_to_measure ON jobs(number) WHERE measured = 0 AND ended_at IS NOT NULL;
+CREATE INDEX job_labels_by_job ON job_labels(job);
+CREATE INDEX sweeps_in_deletion ON sweeps(number) WHERE deleting = 1;
+)sql";
+
+// A daemon that was killed has noted less than it served: a job that ended since says how far it was.
+std::int64_t read_service_clock(Database& database) {
+  Statement read(database,
+                 "SELECT MAX(seconds, COALESCE((SELECT MAX(ended_at) FROM jobs WHERE ended_at IS NOT NULL), 0)) "
+                 "FROM service_clock");
+  return read.step() ? read.integer(0) : 0;
+}
+
 }  // namespace
 
-void prepare_journal(Database& database) {
+std::int64_t prepare_journal(Database& database) {
   Transaction transaction(database);
   std::int64_t version = 0;
   {
@@ -87,7 +133,13 @@ void prepare_journal(Database& database) {
   if (version < 1) database.execute(kJobTables);
   if (version < 2) database.execute(kSweepTables);
   if (version < 3) database.execute(kQueueColumns);
+  if (version < 4) {
+    database.execute(kSearchColumns);
+    fill_in_search_columns(database);
+    database.execute(kSearchIndexes);
+  }
   transaction.commit();
+  return read_service_clock(database);
 }
 
 }  // namespace cellcrush::store

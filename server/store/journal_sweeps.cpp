@@ -40,7 +40,8 @@ std::vector<Retry> jobs_to_retry(Database& database, std::int64_t sweep) {
       database,
       "SELECT jobs.number, jobs.job, jobs.submitted_case, jobs.element_steps, sweeps.max_parallel "
       "FROM sweep_jobs JOIN jobs ON jobs.number = sweep_jobs.job JOIN sweeps ON sweeps.number = sweep_jobs.sweep "
-      "WHERE sweep_jobs.sweep = ?1 AND (jobs.state = ?2 OR (jobs.state = ?3 AND sweep_jobs.stopped)) "
+      "WHERE sweep_jobs.sweep = ?1 AND NOT sweeps.deleting AND (jobs.state = ?2 OR (jobs.state = ?3 AND "
+      "sweep_jobs.stopped)) "
       "ORDER BY sweep_jobs.position");
   read.bind(1, sweep).bind(2, v1::FAILED).bind(3, v1::CANCELLED);
   std::vector<Retry> out;
@@ -54,7 +55,8 @@ std::vector<Retry> jobs_to_retry(Database& database, std::int64_t sweep) {
     job.set_owner(ended.owner());
     job.set_retry_of(jobs::name_of(read.integer(0)));
     job.mutable_case_()->ParseFromString(read.bytes(2));
-    queued = {read.integer(0), 0, ended.priority(), read.integer(3), sweep, static_cast<int>(read.integer(4))};
+    queued = {read.integer(0), 0, ended.priority(), read.integer(3), sweep, static_cast<int>(read.integer(4)),
+              ended.owner()};
   }
   return out;
 }
@@ -66,15 +68,16 @@ Journal::CreatedSweep Journal::create_sweep(v1::Sweep sweep, const std::vector<S
                                             const Admit& admit) {
   CreatedSweep created;
   writes_.run([&] {
-    if (const auto before = find_request("sweeps", request_id, request_hash)) {
+    if (const auto before = find_request("sweeps", sweep.owner(), request_id, request_hash)) {
       created = {*before, {}, false};
       return;
     }
     if (admit) admit();
     *sweep.mutable_create_time() = google::protobuf::util::TimeUtil::GetCurrentTime();
     Statement insert(database_,
-                     "INSERT INTO sweeps (sweep, max_parallel, request_id, request_hash, max_failures) "
-                     "VALUES (?1, ?2, ?3, ?4, ?5)");
+                     "INSERT INTO sweeps (sweep, max_parallel, request_id, request_hash, max_failures, owner) "
+                     "VALUES (?1, ?2, ?3, ?4, ?5, ?6)");
+    insert.bind_text(6, sweep.owner());
     insert.bind_blob(1, sweep_bytes(sweep)).bind(2, sweep.max_parallel()).bind(5, sweep.max_failures());
     if (!request_id.empty()) insert.bind_text(3, request_id).bind_text(4, request_hash);
     insert.run();
@@ -147,7 +150,7 @@ std::vector<std::int64_t> Journal::jobs_of_sweep_in(std::int64_t sweep, v1::JobS
   return out;
 }
 
-void Journal::cancel_waiting(const std::vector<std::int64_t>& jobs) {
+std::vector<std::int64_t> Journal::cancel_waiting(const std::vector<std::int64_t>& jobs) {
   StateChange cancelled;
   cancelled.state = v1::CANCELLED;
   std::vector<std::int64_t> changed;
@@ -160,6 +163,7 @@ void Journal::cancel_waiting(const std::vector<std::int64_t>& jobs) {
     }
   });
   for (const std::int64_t job : changed) on_durable_(job);
+  return changed;
 }
 
 }  // namespace cellcrush::store

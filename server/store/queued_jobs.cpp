@@ -8,13 +8,14 @@ namespace {
 
 constexpr const char* kSelectQueued =
     "SELECT jobs.number, COALESCE(jobs.submission, jobs.number), jobs.priority, jobs.element_steps, sweeps.number, "
-    "sweeps.max_parallel FROM jobs LEFT JOIN sweep_jobs ON sweep_jobs.job = jobs.number "
+    "sweeps.max_parallel, jobs.owner FROM jobs LEFT JOIN sweep_jobs ON sweep_jobs.job = jobs.number "
     "LEFT JOIN sweeps ON sweeps.number = sweep_jobs.sweep WHERE jobs.state = ?1 ";
 
 // Of a job without a sweep the last two are null and read as 0.
 QueuedJob read_queued(const Statement& row) {
   return {row.integer(0), row.integer(1), static_cast<int>(row.integer(2)),
-          row.integer(3), row.integer(4), static_cast<int>(row.integer(5))};
+          row.integer(3), row.integer(4), static_cast<int>(row.integer(5)),
+          row.bytes(6)};
 }
 
 }  // namespace

@@ -68,11 +68,12 @@ void Database::Close::operator()(sqlite3* handle) const { sqlite3_close_v2(handl
 
 void Database::Finalize::operator()(sqlite3_stmt* handle) const { sqlite3_finalize(handle); }
 
-Statement::Statement(Database& database, std::string_view sql) : database_(database), place_(database.idle_.find(sql)) {
-  if (place_ == database.idle_.end()) place_ = database.idle_.emplace(sql, 0).first;
-  if (auto& idle = place_->second; !idle.empty()) {
-    handle_ = std::move(idle.back());
-    idle.pop_back();
+Statement::Statement(Database& database, std::string_view sql, Reuse reuse)
+    : database_(database), place_(database.idle_.find(sql)) {
+  if (place_ == database.idle_.end() && reuse == Reuse::yes) place_ = database.idle_.emplace(sql, 0).first;
+  if (place_ != database.idle_.end() && !place_->second.empty()) {
+    handle_ = std::move(place_->second.back());
+    place_->second.pop_back();
     return;
   }
   sqlite3_stmt* handle = nullptr;
@@ -84,6 +85,7 @@ Statement::Statement(Database& database, std::string_view sql) : database_(datab
 
 // Without the reset it would hold its transaction open.
 Statement::~Statement() {
+  if (place_ == database_.idle_.end()) return;
   sqlite3_reset(handle_.get());
   sqlite3_clear_bindings(handle_.get());
   place_->second.push_back(std::move(handle_));

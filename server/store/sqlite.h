@@ -50,7 +50,10 @@ class Database {
 /// and 0, as in SQLite. The database outlives it.
 class Statement {
  public:
-  Statement(Database& database, std::string_view sql);
+  Statement(Database& database, std::string_view sql) : Statement(database, sql, Reuse::yes) {}
+  /// A text that a caller's request shapes is not kept: there is no bound on how many there are.
+  enum class Reuse { yes, no };
+  Statement(Database& database, std::string_view sql, Reuse reuse);
   ~Statement();
   Statement(const Statement&) = delete;
   Statement& operator=(const Statement&) = delete;
@@ -70,7 +73,8 @@ class Statement {
 
  private:
   Database& database_;
-  std::map<std::string, std::vector<Database::Prepared>, std::less<>>::iterator place_;  ///< where it goes back to
+  std::map<std::string, std::vector<Database::Prepared>, std::less<>>::iterator
+      place_;  ///< where it goes back to; the end: nowhere
   Database::Prepared handle_;
 };
 

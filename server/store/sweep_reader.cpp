@@ -15,7 +15,7 @@ SweepReader::SweepReader(const std::filesystem::path& path) : database_(path) {}
 std::optional<v1::Sweep> SweepReader::find_sweep(std::int64_t sweep) {
   const std::scoped_lock lock(mutex_);
   v1::Sweep out;
-  Statement read(database_, "SELECT sweep FROM sweeps WHERE number = ?1");
+  Statement read(database_, "SELECT sweep FROM sweeps WHERE number = ?1 AND deleting = 0");
   if (!read.bind(1, sweep).step()) return std::nullopt;
   if (!out.ParseFromString(read.bytes(0))) {
     spdlog::error("What was asked for in {} cannot be read: the journal was damaged.", jobs::sweep_name_of(sweep));
@@ -36,8 +36,26 @@ std::optional<v1::Sweep> SweepReader::find_sweep(std::int64_t sweep) {
 
 std::vector<std::int64_t> SweepReader::list_sweeps(std::int64_t before, int limit) {
   const std::scoped_lock lock(mutex_);
-  Statement read(database_, "SELECT number FROM sweeps WHERE number < ?1 ORDER BY number DESC LIMIT ?2");
+  Statement read(database_,
+                 "SELECT number FROM sweeps WHERE number < ?1 AND deleting = 0 ORDER BY number DESC LIMIT ?2");
   read.bind(1, before).bind(2, limit);
+  std::vector<std::int64_t> out;
+  while (read.step()) out.push_back(read.integer(0));
+  return out;
+}
+
+SweepEnd SweepReader::end_of(std::int64_t sweep) {
+  const std::scoped_lock lock(mutex_);
+  Statement read(database_,
+                 "SELECT COUNT(*), COALESCE(SUM(jobs.bytes), 0), MAX(jobs.ended_at), COUNT(jobs.ended_at) "
+                 "FROM sweep_jobs JOIN jobs ON jobs.number = sweep_jobs.job WHERE sweep_jobs.sweep = ?1");
+  read.bind(1, sweep).step();
+  return {{read.integer(0), read.integer(1)}, read.integer(2), read.integer(0) == read.integer(3)};
+}
+
+std::vector<std::int64_t> SweepReader::sweeps_in_deletion() {
+  const std::scoped_lock lock(mutex_);
+  Statement read(database_, "SELECT number FROM sweeps WHERE deleting = 1 ORDER BY number");
   std::vector<std::int64_t> out;
   while (read.step()) out.push_back(read.integer(0));
   return out;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cellcrush/v1/sweep.pb.h"
+#include "store/ended_job.h"
 #include "store/page_room.h"
 #include "store/sqlite.h"
 
@@ -25,13 +26,19 @@ class SweepReader {
   /// REQUIRES: a Journal has been opened on the same path.
   explicit SweepReader(const std::filesystem::path& path);
 
-  /// With its name, its jobs in the order of the points, and how many are in each state.
+  /// With its name, its jobs in the order of the points, and how many are in each state. Nothing of one that is hidden.
   std::optional<v1::Sweep> find_sweep(std::int64_t sweep);
 
   /// Numbers below `before`, newest first.
   std::vector<std::int64_t> list_sweeps(std::int64_t before, int limit);
 
-  /// The sweep's jobs in the order of the points.
+  /// The sweep's jobs together.
+  SweepEnd end_of(std::int64_t sweep);
+
+  /// Sweeps that Journal::begin_sweep_deletion has hidden.
+  std::vector<std::int64_t> sweeps_in_deletion();
+
+  /// The sweep's jobs in the order of the points, also of a hidden one.
   std::vector<std::int64_t> jobs_of(std::int64_t sweep);
 
   /// A row a job in the order of the points, from behind the point `after`; of each result the case and the labels are

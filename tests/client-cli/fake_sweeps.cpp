@@ -50,6 +50,13 @@ grpc::Status FakeSweeps::CancelSweep(grpc::ServerContext*, const v1::CancelSweep
   return find(request->name());
 }
 
+grpc::Status FakeSweeps::DeleteSweep(grpc::ServerContext*, const v1::DeleteSweepRequest* request,
+                                     v1::DeleteSweepResponse*) {
+  const std::lock_guard lock(mutex_);
+  asked_.deleted.push_back(request->name());
+  return find(request->name());
+}
+
 grpc::Status FakeSweeps::RetryFailedJobs(grpc::ServerContext*, const v1::RetryFailedJobsRequest* request,
                                          v1::Sweep* response) {
   const std::lock_guard lock(mutex_);

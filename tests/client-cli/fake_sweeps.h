@@ -24,6 +24,7 @@ struct AskedOfSweeps {
   std::vector<std::string> tokens;  ///< of the watches
   std::vector<v1::ListSweepsRequest> lists;
   std::vector<std::string> cancelled;
+  std::vector<std::string> deleted;
   std::vector<std::string> retried;
 };
 
@@ -38,6 +39,8 @@ class FakeSweeps : public v1::Sweeps::Service {
   grpc::Status ListSweeps(grpc::ServerContext*, const v1::ListSweepsRequest* request,
                           v1::ListSweepsResponse* response) override;
   grpc::Status CancelSweep(grpc::ServerContext*, const v1::CancelSweepRequest* request, v1::Sweep* response) override;
+  grpc::Status DeleteSweep(grpc::ServerContext*, const v1::DeleteSweepRequest* request,
+                           v1::DeleteSweepResponse* response) override;
   grpc::Status RetryFailedJobs(grpc::ServerContext*, const v1::RetryFailedJobsRequest* request,
                                v1::Sweep* response) override;
   grpc::Status WatchSweep(grpc::ServerContext* context, const v1::WatchSweepRequest* request,

@@ -211,9 +211,6 @@ TEST(CancelAndDelete, NameTheJobAndSayHowItStands) {
   EXPECT_EQ(server.asked().deleted, std::vector<std::string>{"jobs/test"});
   EXPECT_EQ(run_program({"cancel", "none", "--server", server.address()}).exit_code, 5);
   EXPECT_EQ(run_program({"delete", "none", "--server", server.address()}).exit_code, 5);
-  const ProgramResult sweep = run_program({"delete", "sweeps/1", "--server", server.address()});
-  EXPECT_EQ(sweep.exit_code, 2);
-  EXPECT_NE(sweep.errors.find("a sweep cannot be deleted as a whole"), std::string::npos) << sweep.errors;
 }
 
 TEST(Show, DescribesAJob) {

@@ -55,6 +55,30 @@ class JournalTest : public ::testing::Test {
   std::optional<JournalReader> reader_;
 };
 
+/// What the third version had: no columns and labels to search by, and no service clock.
+inline constexpr const char* kWithoutSearchColumns = R"sql(
+DROP INDEX jobs_by_request;
+DROP INDEX sweeps_by_request;
+DROP INDEX jobs_by_owner;
+DROP INDEX jobs_by_owner_bytes;
+DROP INDEX jobs_by_title;
+DROP INDEX jobs_by_end;
+DROP INDEX jobs_to_measure;
+DROP INDEX sweeps_in_deletion;
+DROP TABLE job_labels;
+DROP TABLE service_clock;
+ALTER TABLE jobs DROP COLUMN owner;
+ALTER TABLE jobs DROP COLUMN title;
+ALTER TABLE jobs DROP COLUMN ended_at;
+ALTER TABLE jobs DROP COLUMN bytes;
+ALTER TABLE jobs DROP COLUMN measured;
+ALTER TABLE sweeps DROP COLUMN owner;
+ALTER TABLE sweeps DROP COLUMN deleting;
+CREATE UNIQUE INDEX jobs_by_request ON jobs(request_id) WHERE request_id IS NOT NULL;
+CREATE UNIQUE INDEX sweeps_by_request ON sweeps(request_id) WHERE request_id IS NOT NULL;
+PRAGMA user_version = 3;
+)sql";
+
 /// What the second version had: no priorities, submissions and predictions.
 inline constexpr const char* kWithoutQueueColumnsOfJobs =
     "ALTER TABLE jobs DROP COLUMN priority; ALTER TABLE jobs DROP COLUMN submission; "

@@ -241,7 +241,7 @@ TEST_F(JournalTest, ADeletedJobLeavesNothingButTheNoteOnItsFolder) {
   EXPECT_THROW(journal_->delete_job(job), ServiceError);
   reopen();
   EXPECT_EQ(reader_->deleted_jobs(), std::vector<std::int64_t>{job});
-  journal_->note_folder_removed(job);
+  journal_->note_folders_removed({job});
   EXPECT_TRUE(reader_->deleted_jobs().empty());
   EXPECT_GT(create("id", "hash"), job) << "Numbers are not used again.";
 }
@@ -251,7 +251,7 @@ TEST_F(JournalTest, AJournalOfALaterVersionIsRefused) {
   journal_.reset();
   {
     Database database(path());
-    database.execute("PRAGMA user_version = 4");
+    database.execute("PRAGMA user_version = 5");
   }
   EXPECT_THROW(Journal(path(), [](std::int64_t) {}), ServiceError);
 }
@@ -263,6 +263,7 @@ TEST_F(JournalTest, AJournalOfTheFirstVersionIsBroughtUpToDate) {
   {
     // What the first version had: no sweeps, and no note of deletions.
     Database database(path());
+    database.execute(kWithoutSearchColumns);
     database.execute("DROP TABLE sweep_jobs; DROP TABLE sweeps; DROP TABLE deleted_jobs;");
     database.execute(kWithoutQueueColumnsOfJobs);
     database.execute("PRAGMA user_version = 1;");

@@ -73,6 +73,61 @@ TEST_F(LimitsTest, BeyondTheQueuesDepthNothingIsTakenAndTheRemedyIsNamed) {
             grpc::StatusCode::RESOURCE_EXHAUSTED);
 }
 
+TEST_F(LimitsTest, ACancelledSweepFreesItsPlacesInTheQueueAtOnce) {
+  auto options = default_options();
+  options.workers = 1;
+  options.limits.queued_jobs = 3;
+  start(options);
+  auto client = this->client();
+  const std::string running = client.create(endless_case());
+  ASSERT_TRUE(client.wait_for_state(running, v1::RUNNING));
+  for (int i = 0; i < 3; ++i) {
+    const auto sweep = create(client, sweep_of(small_case(), kSpeed, {50.0, 100.0, 150.0}));
+    v1::CancelSweepRequest cancel;
+    cancel.set_name(sweep.name());
+    v1::Sweep cancelled;
+    ASSERT_TRUE(client.sweeps->CancelSweep(bounded_context().get(), cancel, &cancelled).ok());
+    EXPECT_EQ(count_in(cancelled, v1::CANCELLED), 3);
+  }
+  EXPECT_TRUE(try_to_create(client, small_case()).ok());
+}
+
+TEST_F(LimitsTest, ASweepThatMaxFailuresStopsFreesItsPlacesAtOnce) {
+  auto options = default_options();
+  options.workers = 1;
+  options.limits.queued_jobs = 3;
+  start(options);
+  auto client = this->client();
+  auto request = sweep_of(endless_case(), "plates.friction", {0.0, 0.1, 0.2});
+  request.mutable_sweep()->set_max_failures(1);
+  request.mutable_sweep()->set_time_limit_s(1.0);
+  const auto sweep = create(client, request);
+  ASSERT_TRUE(wait_for_count(client, sweep.name(), v1::RUNNING, 1));
+  // Takes the worker before the others of the sweep could leave the queue through it.
+  v1::CreateJobRequest urgent;
+  *urgent.mutable_case_() = endless_case();
+  urgent.set_priority(100);
+  v1::Job next;
+  ASSERT_TRUE(client.jobs->CreateJob(bounded_context().get(), urgent, &next).ok());
+  ASSERT_TRUE(wait_for_count(client, sweep.name(), v1::FAILED, 1));
+  ASSERT_TRUE(client.wait_for_state(next.name(), v1::RUNNING));
+  EXPECT_EQ(count_in(get_sweep(client, sweep.name()), v1::CANCELLED), 2);
+  for (int i = 0; i < 3; ++i) EXPECT_TRUE(try_to_create(client, small_case()).ok()) << i;
+}
+
+TEST_F(LimitsTest, ASweepWhoseLabelsWouldFillTheJournalIsRefused) {
+  auto client = this->client();
+  auto request = sweep_of(small_case(), "plates.friction", std::vector<double>(10'000, 0.1));
+  for (int i = 0; i < 64; ++i)
+    (*request.mutable_sweep()->mutable_labels())["key-" + std::to_string(i)] = std::string(255, 'x');
+  request.set_validate_only(true);
+  v1::Sweep sweep;
+  const auto refused = client.sweeps->CreateSweep(bounded_context().get(), request, &sweep);
+  EXPECT_EQ(refused.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
+  EXPECT_THAT(refused.error_message(), HasSubstr("sweep.labels"));
+  EXPECT_THAT(refused.error_message(), HasSubstr("at most 16 MiB"));
+}
+
 TEST_F(LimitsTest, AJobThatNeedsMoreMemoryThanThereIsIsRefused) {
   auto options = default_options();
   options.limits.job_memory_bytes = 1024 * 1024;
@@ -160,7 +215,7 @@ TEST_F(FullDiskTest, AJobThatIsCancelledEndsBeforeThereIsRoom) {
 
 TEST_F(LimitsTest, AJobThatEndedLongAgoIsDeletedAndOthersAreNot) {
   auto options = default_options();
-  options.keep_ended_jobs = std::chrono::seconds(2);
+  options.keep.age = std::chrono::seconds(2);
   options.housekeeping_interval = std::chrono::milliseconds(50);
   start(options);
   auto client = this->client();

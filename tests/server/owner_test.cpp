@@ -1,10 +1,15 @@
 #include <gmock/gmock.h>
 
+#include <thread>
+
+#include "cellcrush/v1/admin_service.grpc.pb.h"
 #include "server/gate_fixture.h"
 #include "server/small_case.h"
 
 namespace cellcrush::testing {
 namespace {
+
+using ::testing::HasSubstr;
 
 class OwnerTest : public GateFixture {};
 
@@ -14,8 +19,9 @@ class Owner {
   Owner(const std::shared_ptr<grpc::Channel>& channel, std::string token)
       : jobs_(v1::Jobs::NewStub(channel)), sweeps_(v1::Sweeps::NewStub(channel)), token_(std::move(token)) {}
 
-  v1::Job create(const v1::Case& submitted, const std::string& request_id = "") {
+  v1::Job create(const v1::Case& submitted, const std::string& request_id = "", int priority = 0) {
     v1::CreateJobRequest request;
+    request.set_priority(priority);
     *request.mutable_case_() = submitted;
     request.set_request_id(request_id);
     v1::Job out;
@@ -42,11 +48,13 @@ class Owner {
             jobs_->ResumeJob(context().get(), named<v1::ResumeJobRequest>(name), &job).error_code(),
             jobs_->DeleteJob(context().get(), named<v1::DeleteJobRequest>(name), &deleted).error_code()};
   }
-  /// Codes of cancel and retry of a sweep.
+  /// Codes of cancel, retry and delete of a sweep.
   std::vector<grpc::StatusCode> change_sweep(const std::string& name) {
     v1::Sweep sweep;
+    v1::DeleteSweepResponse deleted;
     return {sweeps_->CancelSweep(context().get(), named<v1::CancelSweepRequest>(name), &sweep).error_code(),
-            sweeps_->RetryFailedJobs(context().get(), named<v1::RetryFailedJobsRequest>(name), &sweep).error_code()};
+            sweeps_->RetryFailedJobs(context().get(), named<v1::RetryFailedJobsRequest>(name), &sweep).error_code(),
+            sweeps_->DeleteSweep(context().get(), named<v1::DeleteSweepRequest>(name), &deleted).error_code()};
   }
   int count(const std::string& filter) {
     v1::ListJobsRequest request;
@@ -96,14 +104,14 @@ TEST_F(OwnerTest, AnOwnerIsKeptAndAloneChangesWhatIsHis) {
   EXPECT_EQ(client().get(job).owner(), "anna");
   Owner bob(channel({}), tokens_.at("bob"));
   EXPECT_EQ(bob.change(job), (Codes{denied, denied, denied, denied}));
-  EXPECT_EQ(bob.change_sweep(sweep), (Codes{denied, denied}));
-  static_cast<void>(bob.create(small_case(), "once"));
-  EXPECT_EQ(bob.last.error_code(), grpc::StatusCode::ALREADY_EXISTS) << "Nobody is given another's job as his own.";
+  EXPECT_EQ(bob.change_sweep(sweep), (Codes{denied, denied, denied}));
+  EXPECT_NE(bob.create(small_case(), "once").name(), job) << "Nobody is given another's job as his own.";
+  EXPECT_TRUE(bob.last.ok()) << "A request_id is its owner's own. " << bob.last.error_message();
   EXPECT_EQ(bob.count("owner = anna"), 2);
-  EXPECT_EQ(bob.count("owner = \"bob\""), 0);
+  EXPECT_EQ(bob.count("owner = \"bob\""), 1);
   Owner anna(channel({}), tokens_.at("anna"));
   EXPECT_EQ(anna.change(job).back(), grpc::StatusCode::OK);
-  EXPECT_EQ(anna.change_sweep(sweep), (Codes{grpc::StatusCode::OK, grpc::StatusCode::OK}));
+  EXPECT_NE(anna.change_sweep(sweep).back(), denied) << "Its job may still be CANCELLING.";
   Owner local(grpc::CreateChannel(daemon_->addresses().front(), grpc::InsecureChannelCredentials()), "");
   const std::string of_local = local.create(small_case()).name();
   EXPECT_EQ(client().get(of_local).owner(), "local");
@@ -111,6 +119,60 @@ TEST_F(OwnerTest, AnOwnerIsKeptAndAloneChangesWhatIsHis) {
   EXPECT_EQ(anna.change(of_local).back(), denied);
   Owner chief(channel({}), tokens_.at("chief"));
   EXPECT_EQ(chief.change(of_local).back(), grpc::StatusCode::OK);
+}
+
+TEST_F(OwnerTest, AnOwnerBeyondAQuotaIsRefusedAndOthersAreNot) {
+  auto options = with_tokens(tcp_options());
+  options.workers = 3;
+  options.limits.owner.running_jobs = 1;
+  options.limits.owner.queued_jobs = 2;
+  options.limits.owner.priority = 10;
+  start(options);
+  Owner anna(channel({}), tokens_.at("anna"));
+  Owner bob(channel({}), tokens_.at("bob"));
+  const std::string running = anna.create(endless_case()).name();
+  ASSERT_TRUE(client().wait_for_state(running, v1::RUNNING));
+  const std::string waiting = anna.create(endless_case()).name();
+  anna.create(endless_case());
+  ASSERT_TRUE(anna.last.ok()) << anna.last.error_message();
+  anna.create(endless_case());
+  EXPECT_EQ(anna.last.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
+  EXPECT_THAT(anna.last.error_message(), HasSubstr("anna has 2 waiting jobs"));
+  EXPECT_THAT(anna.last.error_message(), HasSubstr("--owner-max-queued"));
+  anna.create_sweep();
+  EXPECT_EQ(anna.last.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
+  bob.create(endless_case(), "", 11);
+  EXPECT_EQ(bob.last.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
+  EXPECT_THAT(bob.last.error_message(), HasSubstr("priority is 11"));
+  const std::string of_bob = bob.create(endless_case(), "", 10).name();
+  EXPECT_TRUE(client().wait_for_state(of_bob, v1::RUNNING));
+  EXPECT_EQ(client().get(waiting).state(), v1::PENDING) << "A worker is free, but not for anna.";
+  v1::Queue queue;
+  ASSERT_TRUE(v1::Admin::NewStub(client().channel)->GetQueue(bounded_context().get(), {}, &queue).ok());
+  ASSERT_EQ(queue.entries_size(), 2);
+  EXPECT_THAT(queue.entries(0).reason(), HasSubstr("anna, already runs the 1 job that --owner-max-running allows"));
+  ASSERT_TRUE(client().cancel(running).ok());
+  EXPECT_TRUE(client().wait_for_state(waiting, v1::RUNNING));
+}
+
+TEST_F(OwnerTest, AnOwnerWhoseJobsFillTheirDiskIsRefusedUntilSomeAreDeleted) {
+  auto options = with_tokens(tcp_options());
+  options.housekeeping_interval = std::chrono::milliseconds(50);
+  options.limits.owner.disk_bytes = 10'000;
+  start(options);
+  Owner anna(channel({}), tokens_.at("anna"));
+  Owner bob(channel({}), tokens_.at("bob"));
+  const std::string job = anna.create(small_case()).name();
+  ASSERT_TRUE(client().wait_for_state(job, v1::SUCCEEDED));
+  // What it left is counted soon after its end.
+  for (int i = 0; i < 100 && anna.last.ok(); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    anna.create(tiny_case());
+  }
+  EXPECT_EQ(anna.last.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
+  EXPECT_THAT(anna.last.error_message(), HasSubstr("--owner-max-disk"));
+  bob.create(tiny_case());
+  EXPECT_TRUE(bob.last.ok()) << bob.last.error_message();
 }
 
 }  // namespace

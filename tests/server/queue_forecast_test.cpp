@@ -10,7 +10,9 @@ namespace {
 // A second is 1000 element-steps.
 constexpr double kStepCost = 1e-3;
 
-store::QueuedJob lasting(std::int64_t job, std::int64_t seconds) { return {job, job, 0, 1000 * seconds, 0, 0}; }
+store::QueuedJob lasting(std::int64_t job, std::int64_t seconds, const std::string& owner = "") {
+  return {job, job, 0, 1000 * seconds, 0, 0, owner};
+}
 
 store::QueuedJob of_sweep(std::int64_t job, std::int64_t seconds, int max_parallel) {
   return {job, 100, 0, 1000 * seconds, 9, max_parallel};
@@ -98,6 +100,21 @@ TEST(QueueForecast, WhatWasDoneBeforeAJobWasLeftIsTakenOff) {
   });
   expect_entry(queue, 1, "jobs/2", 3.0, "1 job starts before it.");
   EXPECT_EQ(predicted_seconds(lasting(1, 10), {1, 20'000}, 1, kStepCost), 0.0);
+}
+
+TEST(QueueForecast, OwnersTakeTurnsAndOneAtTheLimitSaysSo) {
+  const std::vector<store::QueuedJob> waiting = {lasting(2, 10, "anna"), lasting(3, 10, "anna"), lasting(4, 10, "bob")};
+  const auto queue = forecast_queue({{lasting(1, 100, "anna"), 5.0, 2}}, waiting, {4, kStepCost}, plain);
+  ASSERT_EQ(queue.entries_size(), 3);
+  expect_entry(queue, 0, "jobs/4", 0.0, "A worker takes it now.");
+  expect_entry(queue, 1, "jobs/2", 0.0, "A worker takes it now.");
+  WorkerFacts limited{4, kStepCost};
+  limited.owner_max_running = 1;
+  const auto held = forecast_queue({{lasting(1, 100, "anna"), 5.0}}, waiting, limited, plain);
+  expect_entry(held, 0, "jobs/4", 0.0, "A worker takes it now.");
+  const std::string limit = "Its owner, anna, already runs the 1 job that --owner-max-running allows, and ";
+  expect_entry(held, 1, "jobs/2", 5.0, limit + "1 job starts before it.");
+  expect_entry(held, 2, "jobs/3", 15.0, limit + "2 jobs start before it.");
 }
 
 TEST(QueueForecast, AnEmptyQueueHasNoEntries) {

@@ -91,6 +91,7 @@ TEST_F(SweepJournalTest, AJournalOfTheSecondVersionKeepsItsJobsInTheirOrder) {
   journal_.reset();
   {
     Database database(path());
+    database.execute(kWithoutSearchColumns);
     database.execute(kWithoutQueueColumnsOfJobs);
     database.execute(kWithoutQueueColumnsOfSweeps);
     database.execute("PRAGMA user_version = 2;");

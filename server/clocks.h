@@ -1,0 +1,25 @@
+#pragma once
+
+#include <time.h>
+
+#include <chrono>
+#include <functional>
+
+namespace cellcrush {
+
+/// The clocks that the daemon reads, so that a test can set them. Both are thread-safe.
+struct Clocks {
+  using Source = std::function<std::chrono::nanoseconds()>;
+
+  /// Reads a clock of the kernel.
+  static std::chrono::nanoseconds read(clockid_t clock) {
+    timespec now{};
+    clock_gettime(clock, &now);
+    return std::chrono::seconds(now.tv_sec) + std::chrono::nanoseconds(now.tv_nsec);
+  }
+
+  Source wall = [] { return read(CLOCK_REALTIME); };    ///< since 1970; may be set forward and back
+  Source uptime = [] { return read(CLOCK_BOOTTIME); };  ///< since the machine started; counts on while it is suspended
+};
+
+}  // namespace cellcrush

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <chrono>
+#include <optional>
+
+#include "clocks.h"
+
+namespace cellcrush::jobs {
+
+/// Notices that the wall clock was set: it then moved otherwise than the machine's uptime. Not thread-safe.
+class ClockWatch {
+ public:
+  explicit ClockWatch(Clocks clocks) : clocks_(std::move(clocks)), offset_(clocks_.wall() - clocks_.uptime()) {}
+
+  /// By how much the wall clock was set since the last call, positive forward; nothing below kLeastJump, which a clock that
+  /// is steered towards the right time stays under.
+  std::optional<std::chrono::nanoseconds> find_jump() {
+    const auto offset = clocks_.wall() - clocks_.uptime();
+    const auto jump = offset - offset_;
+    offset_ = offset;
+    if (std::chrono::abs(jump) < kLeastJump) return std::nullopt;
+    return jump;
+  }
+
+  static constexpr std::chrono::seconds kLeastJump{10};
+
+ private:
+  Clocks clocks_;
+  std::chrono::nanoseconds offset_;
+};
+
+}  // namespace cellcrush::jobs

@@ -1,0 +1,75 @@
+// Lists of jobs, with and without a filter.
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "error.h"
+#include "store/job_conditions.h"
+#include "store/journal_reader.h"
+
+namespace cellcrush::store {
+namespace {
+
+// A batch is read with other readers kept out; between two of them these have their turn.
+constexpr int kBatch = 200;
+constexpr std::size_t kBatchBytes = 4'000'000;
+// Numbers that one statement searches.
+constexpr std::int64_t kWindow = 100'000;
+
+}  // namespace
+
+std::vector<StoredJob> JournalReader::list_jobs(const JobFilter& wanted, bool newest_first, std::int64_t after,
+                                                int limit, std::size_t most_bytes,
+                                                const std::function<bool()>& given_up) {
+  std::vector<StoredJob> out;
+  std::size_t bytes = 0;
+  const std::int64_t end = newest_number() + 1;
+  std::int64_t next = newest_first && after == 0 ? end : after;
+  while (newest_first ? next > 1 : next < end - 1) {
+    if (given_up()) throw ServiceError(ServiceError::Kind::cancelled, "Nobody waits for the list any more.");
+    const Range range = newest_first ? Range{std::max<std::int64_t>(next - kWindow, 0), next}
+                                     : Range{next, std::min(next + kWindow, end)};
+    const int room = limit - static_cast<int>(out.size());
+    auto batch = read_batch(wanted, newest_first, range, std::min(kBatch, room));
+    if (batch.empty()) {
+      next = newest_first ? range.low + 1 : range.high - 1;
+      continue;
+    }
+    next = batch.back().number;
+    for (auto& job : batch) {
+      bytes += job.job.ByteSizeLong();
+      out.push_back(std::move(job));
+      if (static_cast<int>(out.size()) == limit || bytes > most_bytes) return out;
+    }
+  }
+  return out;
+}
+
+std::vector<StoredJob> JournalReader::read_batch(const JobFilter& wanted, bool newest_first, const Range& range,
+                                                 int limit) {
+  const std::scoped_lock lock(mutex_);
+  const JobConditions conditions(wanted, 4);
+  const std::string order = newest_first ? " ORDER BY number DESC" : " ORDER BY number";
+  Statement read(database_,
+                 "SELECT number, job, submitted_case, last_sequence, state FROM jobs WHERE number IN "
+                 "(SELECT number FROM jobs WHERE number > ?1 AND number < ?2" +
+                     conditions.sql() + order + " LIMIT ?3)" + order,
+                 Statement::Reuse::no);
+  read.bind(1, range.low).bind(2, range.high).bind(3, limit);
+  conditions.bind_to(read);
+  std::vector<StoredJob> out;
+  std::size_t bytes = 0;
+  while (bytes < kBatchBytes && read.step()) {
+    out.push_back(read_job(read));
+    bytes += out.back().job.ByteSizeLong();
+  }
+  return out;
+}
+
+std::int64_t JournalReader::newest_number() {
+  const std::scoped_lock lock(mutex_);
+  Statement read(database_, "SELECT COALESCE(MAX(number), 0) FROM jobs");
+  return read.step() ? read.integer(0) : 0;
+}
+
+}  // namespace cellcrush::store

@@ -1,0 +1,87 @@
+// A sweep that is deleted while the daemon is killed is gone in the end, whole and alone.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <thread>
+
+#include "faults/fault_fixture.h"
+#include "faults/rounds.h"
+#include "server/small_case.h"
+#include "server/sweep_requests.h"
+
+namespace cellcrush::testing {
+namespace {
+
+class SweepDeletionTest : public FaultFixture {
+ protected:
+  // A sweep of so many points, all of which are cancelled before they run.
+  static std::string make_ended_sweep(Client& client, int points) {
+    auto request = sweep_of(tiny_case(), "plates.friction", {});
+    auto& values = *request.mutable_sweep()->mutable_axes(0)->mutable_list()->mutable_values();
+    for (int i = 0; i < points; ++i) values.Add(0.0001 * i);
+    const std::string name = create(client, request).name();
+    v1::CancelSweepRequest cancel;
+    cancel.set_name(name);
+    v1::Sweep cancelled;
+    EXPECT_TRUE(client.sweeps->CancelSweep(bounded_context().get(), cancel, &cancelled).ok());
+    EXPECT_EQ(count_in(cancelled, v1::CANCELLED), points);
+    return name;
+  }
+
+  static grpc::StatusCode delete_sweep(Client& client, const std::string& name) {
+    v1::DeleteSweepRequest request;
+    request.set_name(name);
+    v1::DeleteSweepResponse response;
+    const auto context = bounded_context();
+    context->set_wait_for_ready(true);
+    return client.sweeps->DeleteSweep(context.get(), request, &response).error_code();
+  }
+};
+
+TEST_F(SweepDeletionTest, ADaemonThatIsKilledMeanwhileIsContinuedByTheNext) {
+  int torn = 0;
+  const int count = rounds(3, 30);
+  const int points = 1000;
+  for (int i = 0; i < count; ++i) {
+    start_daemon({"--workers", "1"});
+    auto client = this->client();
+    const std::string running = client.create(endless_case());
+    ASSERT_TRUE(client.wait_for_state(running, v1::RUNNING));
+    const std::string kept = client.create(tiny_case());
+    const std::string name = make_ended_sweep(client, points);
+    auto code = grpc::StatusCode::OK;
+    {
+      const std::jthread caller([this, &name, &code] {
+        auto own = this->client();
+        code = delete_sweep(own, name);
+      });
+      // Until the deletion has begun; then at another moment in each round.
+      for (int step = 0; step < 1000 && all_jobs(client).size() == static_cast<std::size_t>(points) + 2; ++step)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      std::this_thread::sleep_for(std::chrono::milliseconds(7 * i % 100));
+      kill_daemon();
+      // The caller asks the next one, or was answered.
+      start_daemon({"--workers", "1"});
+    }
+    torn += code != grpc::StatusCode::OK;
+    auto next = this->client();
+    for (int step = 0; step < 600 && all_jobs(next).size() > 2; ++step)
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    const auto left = all_jobs(next);
+    EXPECT_EQ(left.size(), 2U);
+    EXPECT_TRUE(left.contains(running) && left.contains(kept));
+    EXPECT_EQ(delete_sweep(next, name), grpc::StatusCode::NOT_FOUND);
+    for (const auto& entry : left) {
+      next.cancel(entry.first);
+      EXPECT_TRUE(next.wait_for_state(entry.first, v1::CANCELLED));
+      EXPECT_TRUE(next.remove(entry.first).ok());
+    }
+    stop_daemon();
+  }
+  std::cout << count << " deletions of a sweep of " << points << " jobs, " << torn << " of them torn by a kill\n";
+}
+
+}  // namespace
+}  // namespace cellcrush::testing

@@ -1,0 +1,147 @@
+// How the journal finds jobs: by indexes, with the columns that an earlier version did not have.
+#include <gmock/gmock.h>
+
+#include "error.h"
+#include "server/journal_fixture.h"
+#include "store/job_conditions.h"
+
+namespace cellcrush::store {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+class JobSearchTest : public JournalTest {
+ protected:
+  std::int64_t make(const std::string& owner, const std::string& title, const std::string& batch) {
+    v1::Job job;
+    *job.mutable_case_() = testing::small_case();
+    job.mutable_case_()->set_title(title);
+    job.set_owner(owner);
+    (*job.mutable_labels())["batch"] = batch;
+    return journal_->create_job(job, "", "").job;
+  }
+
+  std::vector<std::int64_t> found(const JobFilter& filter) {
+    std::vector<std::int64_t> out;
+    for (const auto& job : reader_->list_jobs(filter, false, 0, 100)) out.push_back(job.number);
+    return out;
+  }
+
+  static JobFilter filter_of(v1::JobState state, const std::string& owner, const std::string& batch,
+                             const std::string& title) {
+    JobFilter out;
+    if (state != v1::JOB_STATE_UNSPECIFIED) out.states = {state};
+    if (!owner.empty()) out.owners = {owner};
+    if (!batch.empty()) out.labels = {{"batch", batch}};
+    if (!title.empty()) out.titles = {title};
+    return out;
+  }
+};
+
+// Every combination of conditions that a filter can have.
+std::vector<JobFilter> all_filters() {
+  std::vector<JobFilter> out;
+  for (int i = 1; i < 16; ++i) {
+    JobFilter& filter = out.emplace_back();
+    if ((i & 1) != 0) filter.states = {v1::RUNNING};
+    if ((i & 2) != 0) filter.owners = {"anna"};
+    if ((i & 4) != 0) filter.labels = {{"batch", "one"}, {"who", "me"}};
+    if ((i & 8) != 0) filter.titles = {"few"};
+  }
+  return out;
+}
+
+TEST_F(JobSearchTest, NoFilterReadsTheRowsOfJobsThatAreNotWanted) {
+  for (int i = 0; i < 300; ++i) make(i % 2 == 0 ? "anna" : "bob", "A case", "one");
+  Database database(path());
+  for (const auto& filter : all_filters()) {
+    const JobConditions conditions(filter, 4);
+    Statement plan(database, "EXPLAIN QUERY PLAN SELECT number FROM jobs WHERE number > ?1 AND number < ?2" +
+                                 conditions.sql() + " ORDER BY number DESC LIMIT ?3");
+    while (plan.step()) {
+      const std::string step = plan.bytes(3);
+      EXPECT_THAT(step, Not(HasSubstr("SCAN"))) << conditions.sql();
+      // By its number alone a job is looked up where the labels name it.
+      if (step.find("INTEGER PRIMARY KEY") != std::string::npos) {
+        EXPECT_THAT(step, HasSubstr("rowid=?")) << conditions.sql();
+      }
+      EXPECT_THAT(step, Not(HasSubstr("TEMP B-TREE"))) << conditions.sql();
+    }
+  }
+}
+
+TEST_F(JobSearchTest, ConditionsNarrowEachOther) {
+  const auto first = make("anna", "Steel Hexagons", "one");
+  const auto second = make("anna", "steel squares", "two");
+  const auto third = make("bob", "Aluminium hexagons", "one");
+  change(second, v1::RUNNING);
+  EXPECT_THAT(found(filter_of({}, "anna", "", "")), ElementsAre(first, second));
+  EXPECT_THAT(found(filter_of({}, "", "one", "")), ElementsAre(first, third));
+  EXPECT_THAT(found(filter_of({}, "", "", "HEXAGONS")), ElementsAre(first, third));
+  EXPECT_THAT(found(filter_of(v1::PENDING, "anna", "one", "steel")), ElementsAre(first));
+  EXPECT_THAT(found(filter_of(v1::RUNNING, "", "one", "")), IsEmpty());
+  journal_->cancel_waiting({first});
+  journal_->delete_job(first);
+  EXPECT_THAT(found(filter_of({}, "", "one", "")), ElementsAre(third)) << "Its labels went with it.";
+}
+
+TEST_F(JobSearchTest, AJournalOfTheThirdVersionIsSearchedAsANewOne) {
+  const auto first = make("anna", "Steel Hexagons", "one");
+  const auto second = make("bob", "Squares", "two");
+  change(second, v1::CANCELLED);
+  SweepJob member;
+  *member.job.mutable_case_() = testing::small_case();
+  member.job.set_owner("anna");
+  const auto sweep = journal_->create_sweep({}, {member, member}, "id", "hash");
+  reader_.reset();
+  journal_.reset();
+  Database(path()).execute(kWithoutSearchColumns);
+  reopen();
+  EXPECT_THAT(found(filter_of({}, "anna", "one", "hexagons")), ElementsAre(first));
+  EXPECT_THAT(found(filter_of(v1::CANCELLED, "bob", "two", "")), ElementsAre(second));
+  EXPECT_EQ(journal_->create_sweep({}, {member, member}, "id", "hash").sweep, sweep.sweep);
+  EXPECT_GT(reader_->bytes_of_owner("bob"), 0);
+  ASSERT_EQ(reader_->ended_jobs({}, 10).size(), 1U);
+  EXPECT_EQ(reader_->ended_jobs({}, 10)[0].job, second) << "It counts as ended when it was first seen.";
+}
+
+TEST_F(JobSearchTest, ARequestIdIsItsOwnersOwn) {
+  v1::Job of_anna;
+  of_anna.set_owner("anna");
+  v1::Job of_bob;
+  of_bob.set_owner("bob");
+  const auto first = journal_->create_job(of_anna, "id", "hash of anna");
+  const auto second = journal_->create_job(of_bob, "id", "hash of bob");
+  EXPECT_TRUE(second.is_new);
+  EXPECT_EQ(journal_->create_job(of_anna, "id", "hash of anna").job, first.job);
+  EXPECT_EQ(journal_->create_job(of_bob, "id", "hash of bob").job, second.job);
+  EXPECT_THROW(journal_->create_job(of_bob, "id", "another"), ServiceError);
+  v1::Sweep sweep;
+  sweep.set_owner("anna");
+  const auto sweep_of_anna = journal_->create_sweep(sweep, {SweepJob()}, "id", "hash of anna");
+  sweep.set_owner("bob");
+  EXPECT_NE(journal_->create_sweep(sweep, {SweepJob()}, "id", "hash of bob").sweep, sweep_of_anna.sweep);
+}
+
+TEST_F(JobSearchTest, ARequestThatAVersionWithoutOwnersMadeIsThatOfTheLocalCaller) {
+  const auto first = create("id", "hash");
+  v1::Job again;
+  again.set_owner("local");
+  EXPECT_EQ(journal_->create_job(again, "id", "hash").job, first);
+  again.set_owner("anna");
+  EXPECT_NE(journal_->create_job(again, "id", "hash anna").job, first);
+}
+
+TEST_F(JobSearchTest, AListThatNobodyWaitsForEnds) {
+  for (int i = 0; i < 450; ++i) create();
+  int asked = 0;
+  const auto given_up = [&asked] { return ++asked > 2; };
+  EXPECT_THROW(reader_->list_jobs({}, true, 0, 1000, 1'000'000'000, given_up), ServiceError);
+  EXPECT_EQ(asked, 3) << "It is asked between batches.";
+}
+
+}  // namespace
+}  // namespace cellcrush::store

@@ -1,0 +1,134 @@
+// What the journal knows of the end of jobs and sweeps: when, how much, and how sweeps leave.
+#include <gmock/gmock.h>
+
+#include "error.h"
+#include "server/journal_fixture.h"
+#include "store/sweep_reader.h"
+
+namespace cellcrush::store {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+class RetentionJournalTest : public JournalTest {
+ protected:
+  void SetUp() override { reopen_on_clock(); }
+
+  // As a daemon that starts while the machine has been up for so long.
+  void reopen_on_clock() {
+    reader_.reset();
+    journal_.reset();
+    journal_.emplace(
+        path(), [](std::int64_t) {}, GroupCommit::Committed(), [this] { return std::chrono::seconds(uptime_); });
+    reader_.emplace(path());
+  }
+
+  std::int64_t end_of(std::int64_t job) {
+    for (const auto& ended : reader_->ended_jobs({}, 100)) {
+      if (ended.job == job) return ended.ended_at;
+    }
+    return -1;
+  }
+
+  Journal::CreatedSweep make_sweep(int jobs) {
+    return journal_->create_sweep({}, std::vector<SweepJob>(static_cast<std::size_t>(jobs)), "id", "hash");
+  }
+
+  std::int64_t uptime_ = 1000;
+};
+
+TEST_F(RetentionJournalTest, AnEndIsCountedByTheTimeInWhichADaemonServed) {
+  const auto first = create();
+  uptime_ += 100;
+  change(first, v1::CANCELLED);
+  EXPECT_EQ(end_of(first), 100);
+  reader_.reset();
+  journal_.reset();
+  // The machine was started again and ran for long before the daemon did.
+  uptime_ = 1'000'000;
+  reopen_on_clock();
+  EXPECT_EQ(journal_->service_seconds(), 100);
+  uptime_ += 7;
+  EXPECT_EQ(journal_->service_seconds(), 107);
+}
+
+TEST_F(RetentionJournalTest, ADaemonThatWasKilledIsContinuedFromTheNewestEnd) {
+  const auto job = create();
+  uptime_ += 50;
+  change(job, v1::CANCELLED);
+  Database(path()).execute("UPDATE service_clock SET seconds = 0");
+  reader_.reset();
+  // Without the note that a journal makes when it is closed.
+  const Journal other(
+      path(), [](std::int64_t) {}, GroupCommit::Committed(), [] { return std::chrono::seconds(5); });
+  EXPECT_EQ(other.service_seconds(), 50);
+  reader_.emplace(path());
+}
+
+TEST_F(RetentionJournalTest, WhatAJobTakesIsMeasuredOnceItHasEnded) {
+  const auto job = create();
+  const auto before = reader_->bytes_of_owner("");
+  EXPECT_GT(before, 0);
+  EXPECT_THAT(reader_->jobs_to_measure(10), IsEmpty());
+  journal_->append_sample(job, sample(1));
+  change(job, v1::CANCELLED);
+  EXPECT_THAT(reader_->jobs_to_measure(10), ElementsAre(job));
+  journal_->set_measured({{job, 5'000'000}});
+  EXPECT_THAT(reader_->jobs_to_measure(10), IsEmpty());
+  EXPECT_GT(reader_->bytes_of_owner(""), before + 5'000'000);
+  EXPECT_EQ(reader_->ended_totals().count, 1);
+  EXPECT_EQ(reader_->ended_totals().bytes, reader_->bytes_of_owner(""));
+  journal_->delete_job(job);
+  EXPECT_EQ(reader_->bytes_of_owner(""), 0);
+}
+
+TEST_F(RetentionJournalTest, ASweepHasEndedWithTheLastOfItsJobs) {
+  const auto made = make_sweep(3);
+  SweepReader sweeps(path());
+  journal_->cancel_waiting({made.jobs[0], made.jobs[1]});
+  EXPECT_FALSE(sweeps.end_of(made.sweep).has_ended);
+  uptime_ += 60;
+  journal_->cancel_waiting({made.jobs[2]});
+  EXPECT_TRUE(sweeps.end_of(made.sweep).has_ended);
+  EXPECT_EQ(sweeps.end_of(made.sweep).ended_at, 60);
+  EXPECT_EQ(sweeps.end_of(made.sweep).totals.count, 3);
+}
+
+TEST_F(RetentionJournalTest, ASweepIsDeletedOnlyWhenAllItsJobsHaveEndedAndNamesThoseThatHaveNot) {
+  const auto made = make_sweep(8);
+  journal_->cancel_waiting({made.jobs[0]});
+  change(made.jobs[1], v1::RUNNING);
+  try {
+    journal_->begin_sweep_deletion(made.sweep);
+    FAIL() << "It was accepted.";
+  } catch (const ServiceError& error) {
+    EXPECT_EQ(error.kind(), ServiceError::Kind::failed_precondition);
+    EXPECT_THAT(error.what(), HasSubstr("jobs/2 is RUNNING, jobs/3 is PENDING"));
+    EXPECT_THAT(error.what(), HasSubstr("and 2 more. Cancel the sweep first"));
+  }
+  EXPECT_THROW(journal_->begin_sweep_deletion(99), ServiceError);
+}
+
+TEST_F(RetentionJournalTest, ASweepInDeletionIsHiddenAlsoFromTheNextDaemon) {
+  const auto made = make_sweep(3);
+  journal_->cancel_waiting(made.jobs);
+  journal_->begin_sweep_deletion(made.sweep);
+  journal_->delete_ended({made.jobs[0]});
+  reopen_on_clock();
+  SweepReader sweeps(path());
+  EXPECT_FALSE(sweeps.find_sweep(made.sweep));
+  EXPECT_THAT(sweeps.list_sweeps(100, 10), IsEmpty());
+  EXPECT_THAT(sweeps.sweeps_in_deletion(), ElementsAre(made.sweep));
+  EXPECT_THAT(journal_->retry_failed(made.sweep), IsEmpty());
+  EXPECT_NE(make_sweep(1).sweep, made.sweep) << "Its request_id is free.";
+  journal_->end_sweep_deletion(made.sweep);
+  EXPECT_THAT(sweeps.sweeps_in_deletion(), ElementsAre(made.sweep)) << "It has jobs still.";
+  EXPECT_THAT(journal_->delete_ended(made.jobs), ElementsAre(made.jobs[1], made.jobs[2]));
+  journal_->end_sweep_deletion(made.sweep);
+  EXPECT_THAT(sweeps.sweeps_in_deletion(), IsEmpty());
+}
+
+}  // namespace
+}  // namespace cellcrush::store

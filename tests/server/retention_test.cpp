@@ -1,0 +1,202 @@
+// What is deleted by itself and on request, and what no clock can delete.
+#include <gmock/gmock.h>
+
+#include <atomic>
+#include <filesystem>
+#include <thread>
+
+#include "log_format.h"
+#include "server/daemon_fixture.h"
+#include "server/log_capture.h"
+#include "server/small_case.h"
+#include "server/sweep_requests.h"
+
+namespace cellcrush::testing {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr std::chrono::hours kMonth{31 * 24};
+
+class RetentionTest : public DaemonFixture {
+ protected:
+  void SetUp() override {}
+
+  [[nodiscard]] DaemonOptions quick_options() const {
+    auto options = default_options();
+    options.housekeeping_interval = std::chrono::milliseconds(20);
+    return options;
+  }
+
+  std::string run(Client& client) {
+    const std::string job = client.create(tiny_case());
+    EXPECT_TRUE(client.wait_for_state(job, v1::SUCCEEDED));
+    return job;
+  }
+
+  std::vector<std::string> names() {
+    v1::ListJobsRequest request;
+    request.set_order_by("name");
+    v1::ListJobsResponse response;
+    const auto client = this->client();
+    EXPECT_TRUE(client.jobs->ListJobs(bounded_context().get(), request, &response).ok());
+    std::vector<std::string> out;
+    for (const auto& job : response.jobs()) out.push_back(job.name());
+    return out;
+  }
+
+  // Waits until so many jobs are left, at most 10 s.
+  std::vector<std::string> names_once(std::size_t count) {
+    for (int i = 0; i < 200 && names().size() != count; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    return names();
+  }
+
+  v1::Sweep make_sweep(Client& client) { return create(client, sweep_of(tiny_case(), kSpeed, {50.0, 100.0})); }
+
+  static grpc::Status delete_sweep(Client& client, const std::string& name) {
+    v1::DeleteSweepRequest request;
+    request.set_name(name);
+    v1::DeleteSweepResponse response;
+    return client.sweeps->DeleteSweep(bounded_context().get(), request, &response);
+  }
+
+  static grpc::StatusCode look_up(Client& client, const std::string& sweep) {
+    v1::GetSweepRequest request;
+    request.set_name(sweep);
+    v1::Sweep out;
+    return client.sweeps->GetSweep(bounded_context().get(), request, &out).error_code();
+  }
+
+  [[nodiscard]] std::size_t folder_count() const {
+    std::size_t out = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(data_folder() / "jobs")) out += entry.is_directory();
+    return out;
+  }
+
+  std::atomic<std::chrono::nanoseconds> wall_ahead_{};
+  std::atomic<std::chrono::nanoseconds> uptime_ahead_{};
+};
+
+TEST_F(RetentionTest, AWallClockThatJumpsDeletesNothingAndTheServiceClockDoes) {
+  const LogCapture log(make_text_formatter());
+  auto options = quick_options();
+  options.keep.age = std::chrono::hours(30 * 24);
+  options.clocks.wall = [this] { return Clocks::read(CLOCK_REALTIME) + wall_ahead_.load(); };
+  options.clocks.uptime = [this] { return Clocks::read(CLOCK_BOOTTIME) + uptime_ahead_.load(); };
+  start(options);
+  auto client = this->client();
+  const std::string job = run(client);
+  wall_ahead_ = kMonth;
+  for (int i = 0; i < 200 && log.count_lines("The wall clock was set forward by 26784") == 0; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  EXPECT_EQ(log.count_lines("The wall clock was set forward by 26784"), 1) << log.text();
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  EXPECT_THAT(names(), ElementsAre(job));
+  uptime_ahead_ = kMonth;
+  EXPECT_THAT(names_once(0), IsEmpty());
+}
+
+TEST_F(RetentionTest, TimeWithoutADaemonMakesNothingOld) {
+  auto options = quick_options();
+  options.keep.age = std::chrono::hours(30 * 24);
+  options.clocks.uptime = [this] { return Clocks::read(CLOCK_BOOTTIME) + uptime_ahead_.load(); };
+  start(options);
+  std::string job;
+  {
+    auto client = this->client();
+    job = run(client);
+  }
+  daemon_.reset();
+  uptime_ahead_ = kMonth;
+  start(options);
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  EXPECT_THAT(names(), ElementsAre(job));
+}
+
+TEST_F(RetentionTest, OfTooManyThoseThatEndedFirstGoAndASweepGoesWhole) {
+  start(quick_options());
+  std::string alone;
+  {
+    auto client = this->client();
+    const auto sweep = make_sweep(client);
+    ASSERT_TRUE(wait_for_count(client, sweep.name(), v1::SUCCEEDED, 2));
+    // The clock that tells which ended first has seconds.
+    std::this_thread::sleep_for(std::chrono::milliseconds(1100));
+    alone = run(client);
+  }
+  auto options = quick_options();
+  options.keep.count = 2;
+  start(options);
+  EXPECT_THAT(names_once(1), ElementsAre(alone)) << "Without one of its jobs the sweep would be another.";
+  auto client = this->client();
+  EXPECT_EQ(look_up(client, "sweeps/1"), grpc::StatusCode::NOT_FOUND);
+  EXPECT_EQ(folder_count(), 1U);
+}
+
+TEST_F(RetentionTest, ASweepThatHasNotEndedIsKept) {
+  auto options = quick_options();
+  options.workers = 1;
+  options.keep.count = 1;
+  start(options);
+  auto client = this->client();
+  auto request = sweep_of(tiny_case(), kSpeed, {50.0, 100.0});
+  request.mutable_sweep()->set_max_parallel(1);
+  *request.mutable_sweep()->mutable_case_() = endless_case();
+  const auto sweep = create(client, request);
+  ASSERT_TRUE(wait_for_count(client, sweep.name(), v1::RUNNING, 1));
+  for (const auto& job : sweep.jobs()) {
+    if (client.get(job).state() != v1::PENDING) continue;
+    ASSERT_TRUE(client.cancel(job).ok());
+  }
+  for (int i = 0; i < 2; ++i) {
+    const std::string other = client.create(tiny_case());
+    ASSERT_TRUE(client.cancel(other).ok());
+  }
+  EXPECT_EQ(names_once(2).size(), 2U) << "The two that ended alone went.";
+  EXPECT_EQ(get_sweep(client, sweep.name()).jobs_size(), 2);
+}
+
+TEST_F(RetentionTest, ResultsBeyondTheSizeGo) {
+  auto options = quick_options();
+  options.keep.bytes = 1;
+  start(options);
+  auto client = this->client();
+  client.create(tiny_case());
+  client.create(tiny_case());
+  EXPECT_THAT(names_once(0), IsEmpty());
+  options.keep.bytes = 1'000'000'000;
+  start(options);
+  auto next = this->client();
+  const std::string kept = run(next);
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  EXPECT_THAT(names(), ElementsAre(kept));
+}
+
+TEST_F(RetentionTest, ASweepIsDeletedWithItsJobsOnceTheyHaveEnded) {
+  auto options = quick_options();
+  start(options);
+  auto client = this->client();
+  const auto sweep = create(client, sweep_of(endless_case(), kSpeed, {50.0, 100.0, 150.0}));
+  ASSERT_TRUE(wait_for_count(client, sweep.name(), v1::RUNNING, 2));
+  const std::string alone = client.create(tiny_case());
+  const auto refused = delete_sweep(client, sweep.name());
+  EXPECT_EQ(refused.error_code(), grpc::StatusCode::FAILED_PRECONDITION);
+  EXPECT_THAT(refused.error_message(), HasSubstr(sweep.jobs(0) + " is RUNNING"));
+  v1::CancelSweepRequest cancel;
+  cancel.set_name(sweep.name());
+  v1::Sweep cancelled;
+  ASSERT_TRUE(client.sweeps->CancelSweep(bounded_context().get(), cancel, &cancelled).ok());
+  ASSERT_TRUE(wait_for_count(client, sweep.name(), v1::CANCELLED, 3));
+  ASSERT_TRUE(client.wait_for_state(alone, v1::SUCCEEDED));
+  const auto deleted = delete_sweep(client, sweep.name());
+  EXPECT_TRUE(deleted.ok()) << deleted.error_message();
+  EXPECT_EQ(look_up(client, sweep.name()), grpc::StatusCode::NOT_FOUND);
+  EXPECT_THAT(names(), ElementsAre(alone));
+  EXPECT_EQ(folder_count(), 1U);
+  EXPECT_EQ(delete_sweep(client, sweep.name()).error_code(), grpc::StatusCode::NOT_FOUND);
+}
+
+}  // namespace
+}  // namespace cellcrush::testing
