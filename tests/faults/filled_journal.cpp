@@ -18,8 +18,9 @@ void fill_journal(const std::filesystem::path& data_folder, std::int64_t count, 
   store::Transaction transaction(database);
   store::Statement(database,
                    "WITH RECURSIVE numbers(n) AS (SELECT 2 UNION ALL SELECT n + 1 FROM numbers WHERE n < ?1) "
-                   "INSERT INTO jobs (state, job, submitted_case, last_sequence) "
-                   "SELECT state, job, submitted_case, last_sequence FROM jobs, numbers WHERE number = 1 AND n <= ?1")
+                   "INSERT INTO jobs (state, job, submitted_case, last_sequence, owner, title, bytes) "
+                   "SELECT state, job, submitted_case, last_sequence, owner, title, bytes FROM jobs, numbers WHERE "
+                   "number = 1 AND n <= ?1")
       .bind(1, count)
       .run();
   database.execute(

@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "faults/filled_journal.h"
 #include "load/figures.h"
 #include "server/daemon_fixture.h"
 #include "server/daemon_process.h"
@@ -97,6 +98,34 @@ v1::Case framed_case(Client& client) {
   out.mutable_loading()->set_end_strain(0.3);
   out.mutable_output()->set_frame_count(60);
   return out;
+}
+
+// Lists with each kind of filter from a journal of 200000 jobs, of which few or none match, so that all are searched.
+void measure_lists(const std::filesystem::path& folder) {
+  constexpr int kJobs = 200'000;
+  testing::fill_journal(folder / "many", kJobs, testing::small_case());
+  const std::string address = "unix:" + (folder / "many-socket").string();
+  testing::DaemonProcess daemon({"--data", (folder / "many").string(), "--listen", address, "--workers", "1",
+                                 "--max-queued-jobs", "1000000", "--log-format", "json"});
+  if (daemon.wait_for_addresses(1).empty()) {
+    fmt::print("the daemon does not start on {} jobs\n", kJobs);
+    return;
+  }
+  Client client(address);
+  for (const char* filter :
+       {"", "state = RUNNING", "owner = nobody", "label.batch = none", "title : \"no such title\""}) {
+    std::vector<double> taken;
+    for (int i = 0; i < 20; ++i) {
+      v1::ListJobsRequest request;
+      request.set_filter(filter);
+      v1::ListJobsResponse response;
+      const auto start = Clock::now();
+      const auto status = client.jobs->ListJobs(testing::bounded_context().get(), request, &response);
+      taken.push_back(seconds_since(start));
+      if (!status.ok()) fmt::print("a list failed: {}\n", status.error_message());
+    }
+    fmt::print("a list of 200000 jobs with the filter \"{}\", {}\n", filter, describe(std::move(taken)));
+  }
 }
 
 struct Run {
@@ -231,6 +260,7 @@ int measure(const std::filesystem::path& folder) {
   measure_events(address);
   fmt::print("the daemon's memory: {:.0f} MiB\n", memory_of(daemon.number()));
   client.cancel(busy);
+  measure_lists(folder);
   return 0;
 }
 
@@ -240,6 +270,6 @@ int measure(const std::filesystem::path& folder) {
 int main() {
   const cellcrush::testing::TemporaryFolder folder;
   const int result = cellcrush::load::measure(folder.path());
-  cellcrush::testing::kill_workers(folder.path() / "data");
+  for (const char* data : {"data", "many"}) cellcrush::testing::kill_workers(folder.path() / data);
   return result;
 }
