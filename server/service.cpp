@@ -136,7 +136,7 @@ void Service::start() {
   parts.board.set(kQueueHealth, true);
   parts.housekeeping.emplace(jobs::Housekeeping::Parts{
       parts.folder, parts.journal, parts.reader, parts.sweep_reader, parts.deletion, parts.admission, parts.scheduler,
-      parts.options.housekeeping_interval, parts.options.keep, parts.options.clocks});
+      parts.hold, parts.options.housekeeping_interval, parts.options.keep, parts.options.clocks});
   parts.housekeeping->look_at_disk();
   parts.deletion.finish_folders();
   parts.scheduler.start(parts.options.worker_count());

@@ -38,7 +38,7 @@ void Housekeeping::work(const std::stop_token& stop) {
 void Housekeeping::look_at_disk() {
   const auto shortage = parts_.admission.low_disk();
   parts_.scheduler.hold_for_low_disk(shortage);
-  if (!shortage) parts_.folder.keep_ballast();
+  if (!shortage && parts_.folder.keep_ballast()) parts_.hold.try_now(Shortage::full_disk);
 }
 
 void Housekeeping::look_at_clocks() {

@@ -26,6 +26,7 @@ class Housekeeping {
     const Deletion& deletion;
     const Admission& admission;
     Scheduler& scheduler;
+    QueueHold& hold;
     std::chrono::milliseconds interval;  ///< between two rounds
     Retention::Limits keep;
     Clocks clocks;

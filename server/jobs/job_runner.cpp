@@ -289,6 +289,7 @@ std::optional<v1::JobState> JobRunner::try_write(std::int64_t job, const store::
     parts_.stopped(parts_.journal.change_state(job, change));
     spdlog::info("{} {}{}{}", name_of(job), v1::JobState_Name(change.state), change.message.empty() ? "" : ": ",
                  change.message);
+    if (change.state == v1::SUCCEEDED) parts_.hold.proven();
     if (is_terminal(change.state)) tidy_up(job, change);
     return change.state;
   } catch (const std::exception& error) {

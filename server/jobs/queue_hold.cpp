@@ -46,6 +46,20 @@ void QueueHold::succeeded() {
   tell();
 }
 
+void QueueHold::proven() {
+  const std::scoped_lock lock(mutex_);
+  if (!trouble_) pause_ = std::chrono::milliseconds(0);
+}
+
+void QueueHold::try_now(Shortage shortage) {
+  {
+    const std::scoped_lock lock(mutex_);
+    if (!trouble_ || trouble_->shortage != shortage || trial_ || *trouble_->next_try <= now_()) return;
+    trouble_->next_try = now_();
+  }
+  tell();
+}
+
 void QueueHold::failed(const Trouble& trouble) {
   {
     const std::scoped_lock lock(mutex_);

@@ -50,6 +50,12 @@ class QueueHold {
   /// A job runs: there is no trouble any more.
   void succeeded();
 
+  /// A job ran to its end: the pauses begin again with the first.
+  void proven();
+
+  /// There are signs that this shortage is over: where it holds the queue it is tried at once.
+  void try_now(Shortage shortage);
+
   /// A slot met trouble.
   void failed(const Trouble& trouble);
 

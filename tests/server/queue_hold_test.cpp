@@ -82,6 +82,25 @@ TEST_F(QueueHoldTest, WhatComesBackSoonWasNotOver) {
   EXPECT_EQ(*hold_.next_try() - now_, seconds(1)) << "That is another time.";
 }
 
+TEST_F(QueueHoldTest, AfterAJobThatRanToItsEndThePausesBeginAgain) {
+  hold_.failed(trouble(Shortage::full_disk));
+  now_ += seconds(1);
+  ASSERT_TRUE(try_to_start());
+  hold_.succeeded();
+  hold_.proven();
+  hold_.failed(trouble(Shortage::full_disk));
+  EXPECT_EQ(*hold_.next_try() - now_, seconds(1));
+}
+
+TEST_F(QueueHoldTest, ItIsTriedBeforeThePauseIsOverWhereThereAreSigns) {
+  hold_.failed(trouble(Shortage::full_disk));
+  hold_.try_now(Shortage::descriptors);
+  EXPECT_FALSE(hold_.is_open()) << "It is held for another shortage.";
+  hold_.try_now(Shortage::full_disk);
+  EXPECT_TRUE(try_to_start());
+  EXPECT_EQ(changes_, 2);
+}
+
 TEST_F(QueueHoldTest, ALowDiskAndTroubleHoldItTogether) {
   hold_.failed(trouble(Shortage::journal));
   EXPECT_TRUE(hold_.set_low_disk("Too little room."));
