@@ -47,9 +47,9 @@ TEST(RequestFields, NoTextOfARequestNamesAFileOfTheDaemon) {
   const std::set<std::string> known = {
       // Names of resources and presets.
       "GetJobRequest.name", "CancelJobRequest.name", "SuspendJobRequest.name", "ResumeJobRequest.name",
-      "DeleteJobRequest.name", "WatchJobRequest.name", "GetHistoryRequest.name", "GetFrameRequest.name",
-      "DownloadResultRequest.name", "GetSweepRequest.name", "CancelSweepRequest.name", "RetryFailedJobsRequest.name",
-      "WatchSweepRequest.name", "GetSweepTableRequest.name", "GetPresetRequest.name",
+      "DeleteJobRequest.name", "DeleteSweepRequest.name", "WatchJobRequest.name", "GetHistoryRequest.name",
+      "GetFrameRequest.name", "DownloadResultRequest.name", "GetSweepRequest.name", "CancelSweepRequest.name",
+      "RetryFailedJobsRequest.name", "WatchSweepRequest.name", "GetSweepTableRequest.name", "GetPresetRequest.name",
       // Of lists, of repeated calls and of resumed watches.
       "ListJobsRequest.page_token", "ListJobsRequest.filter", "ListJobsRequest.order_by",
       "ListSweepsRequest.page_token", "GetHistoryRequest.page_token", "GetSweepTableRequest.page_token",
