@@ -26,12 +26,13 @@ void put_plates(Scene& scene) {
 }
 
 /// REQUIRES: walls that lie in each other have been refused.
-void prepare_search(const SceneSpec& spec, Scene& scene) {
+void prepare_search(const SceneSpec& spec, const std::function<void()>& between_stages, Scene& scene) {
   scene.bands = {whole_band(scene)};
   if (!scene.contact.present) {
     return;
   }
   scene.limited_reaches = find_limited_reaches(scene);
+  between_stages();
   if (spec.contact.search == ContactSpec::Search::faces) {
     build_contact_faces(scene);
   } else {
@@ -41,7 +42,7 @@ void prepare_search(const SceneSpec& spec, Scene& scene) {
 
 }  // namespace
 
-SceneResult build_scene(const SceneSpec& given) {
+SceneResult build_scene(const SceneSpec& given, const std::function<void()>& between_stages) {
   const SceneSpec spec = fill_in_fidelity(given);
   SceneResult result;
   result.problems = check_spec(spec);
@@ -51,7 +52,9 @@ SceneResult build_scene(const SceneSpec& given) {
   // From its part alone, so that specs with the same part have the same mesh.
   const SceneSpec part = mesh_part_of(spec);
   const std::shared_ptr<Scene> scene = build_mesh(part);
+  between_stages();
   const RunPlan plan = plan_run(spec, measure_mesh(part, *scene), result.problems);
+  between_stages();
   if (!result.problems.empty()) {
     return result;
   }
@@ -62,7 +65,8 @@ SceneResult build_scene(const SceneSpec& given) {
     put_plates(*scene);
   }
   scene->schedule = plan.schedule;
-  prepare_search(spec, *scene);
+  prepare_search(spec, between_stages, *scene);
+  between_stages();
   scene->fidelity = describe_fidelity(given);
   result.scene = scene;
   return result;

@@ -1,6 +1,7 @@
 #include "cellcrush/fidelity.h"
 
 #include "cellcrush/simulation.h"
+#include "cellcrush/spec_checker.h"
 
 namespace cellcrush {
 namespace {
@@ -56,13 +57,13 @@ std::string describe_fidelity(const SceneSpec& spec) {
 std::vector<FidelityForecast> forecast_fidelities(const SceneSpec& spec) {
   std::vector<FidelityForecast> forecasts;
   if (std::holds_alternative<FrameLattice>(spec.lattice)) return forecasts;
+  SpecChecker checker;
   for (const FidelityPoint& point : fidelity_points()) {
     SceneSpec asked = spec;
     asked.numerics.fidelity = point.fidelity;
-    const SceneResult built = build_scene(asked);
-    if (!built.scene) continue;
-    const SceneFacts facts = facts_of(*built.scene);
-    FidelityForecast forecast{point, facts.step_count, facts.element_count, fields_beside(point, spec)};
+    const SpecChecker::Verdict verdict = checker.check(asked);
+    if (!verdict.problems.empty()) continue;
+    FidelityForecast forecast{point, verdict.step_count, verdict.element_count, fields_beside(point, spec)};
     forecast.point.elements_per_wall = *fill_in_fidelity(asked).elements_per_wall;
     if (!forecast.given.empty()) {
       forecast.point.errors.clear();

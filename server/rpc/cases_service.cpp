@@ -1,16 +1,21 @@
 #include "rpc/cases_service.h"
 
+#include <cstdint>
+#include <optional>
 #include <string>
 
 #include "rpc/error_table.h"
 #include "rpc/request_limits.h"
 #include "store/result_writer.h"
+#include "translate/case_checker.h"
 #include "translate/check_case.h"
 #include "translate/fidelities.h"
 #include "translate/preset_cases.h"
 
 namespace cellcrush::rpc {
 namespace {
+
+constexpr std::int64_t kLargeCase = 64 << 20;  // bytes
 
 std::string known_presets() {
   std::string out;
@@ -20,10 +25,17 @@ std::string known_presets() {
 
 }  // namespace
 
-grpc::Status CasesService::CheckCase(grpc::ServerContext*, const v1::CheckCaseRequest* request,
+grpc::Status CasesService::CheckCase(grpc::ServerContext* context, const v1::CheckCaseRequest* request,
                                      v1::CheckCaseResponse* response) {
   return answer([&] {
-    auto check = translate::check_case(request->case_());
+    const auto look_up = [context] {
+      if (context->IsCancelled()) throw ServiceError(ServiceError::Kind::cancelled, "Nobody waits for this check.");
+    };
+    std::optional<LargeChecks::Place> place;
+    // Of one with problems nothing is built.
+    if (translate::CaseChecker().check(request->case_()).most_memory_bytes > kLargeCase)
+      place.emplace(large_checks_, look_up);
+    auto check = translate::check_case(request->case_(), look_up);
     *response = std::move(check.response);
     if (response->problems_size() > 0) return grpc::Status::OK;
     const auto elements = static_cast<double>(response->element_count());

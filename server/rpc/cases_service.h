@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cellcrush/v1/cases_service.grpc.pb.h"
+#include "rpc/large_checks.h"
 
 namespace cellcrush::rpc {
 
@@ -19,6 +20,7 @@ class CasesService final : public v1::Cases::Service {
 
  private:
   double step_cost_;
+  LargeChecks large_checks_;
 };
 
 }  // namespace cellcrush::rpc

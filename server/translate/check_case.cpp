@@ -45,12 +45,13 @@ void restore_node_names(const v1::Frame& submitted, v1::Frame& completed) {
 
 }  // namespace
 
-CaseCheck check_case(const v1::Case& submitted) {
+CaseCheck check_case(const v1::Case& submitted, const std::function<void()>& between_stages) {
   CaseCheck out;
   *out.response.mutable_problems() = find_long_lists(submitted);
   if (out.response.problems_size() > 0) return out;
   const auto reading = to_spec(submitted);
-  const auto built = build_scene(reading.spec);
+  between_stages();
+  const auto built = build_scene(reading.spec, between_stages);
   for (const Problems* problems : {&reading.problems, &built.problems}) {
     for (const auto& problem : *problems) *out.response.add_problems() = to_proto(problem);
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 
 #include "cellcrush/v1/cases_service.pb.h"
 
@@ -13,9 +14,11 @@ struct CaseCheck {
   std::int64_t frame_count = 0;    ///< the same, with the undeformed one
 };
 
-/// Builds the case's scene and describes it, or reports all problems. Throws std::bad_alloc when the scene does not
-/// fit.
-CaseCheck check_case(const v1::Case& submitted);
+/// Builds the case's scene and describes it, or reports all problems. `between_stages` is called between the stages, each of
+/// which takes about a second for the largest mesh; what it throws is passed on. Throws std::bad_alloc when the scene does
+/// not fit.
+CaseCheck check_case(
+    const v1::Case& submitted, const std::function<void()>& between_stages = [] {});
 
 /// Bytes that the run of a case without problems is predicted to need. Builds its scene.
 std::int64_t predicted_memory(const v1::Case& submitted);

@@ -1,9 +1,12 @@
 #include <gmock/gmock.h>
 
+#include <chrono>
 #include <limits>
+#include <stdexcept>
 
 #include "server/daemon_fixture.h"
 #include "server/small_case.h"
+#include "translate/check_case.h"
 
 namespace cellcrush::testing {
 namespace {
@@ -99,6 +102,34 @@ TEST_F(CasesServiceTest, PresetsAreListedAndEachIsSound) {
     ASSERT_TRUE(client.cases->GetPreset(bounded_context().get(), request, &got).ok()) << preset.name();
     EXPECT_TRUE(got.has_case_()) << preset.name();
     EXPECT_EQ(got.title(), preset.title());
+  }
+}
+
+TEST_F(CasesServiceTest, LargeChecksThatWereAbandonedLeaveTheirPlace) {
+  v1::CheckCaseRequest request;
+  *request.mutable_case_() = small_case();
+  auto& lattice = *request.mutable_case_()->mutable_lattice()->mutable_hexagon();
+  lattice.set_columns(300);
+  lattice.set_rows(300);
+  auto client = this->client();
+  v1::CheckCaseResponse out;
+  for (int i = 0; i < 8; ++i) {
+    grpc::ClientContext context;
+    context.set_deadline(std::chrono::system_clock::now() + std::chrono::milliseconds(20));
+    (void)client.cases->CheckCase(&context, request, &out);
+  }
+  const auto status = client.cases->CheckCase(bounded_context().get(), request, &out);
+  EXPECT_TRUE(status.ok()) << status.error_message();
+  EXPECT_GT(out.predicted_memory_bytes(), 64 << 20) << "or it is not large";
+}
+
+TEST(CheckCase, IsLeftBetweenStages) {
+  for (int stages = 1; stages <= 4; ++stages) {
+    int left = stages;
+    const auto give_up = [&left] {
+      if (--left == 0) throw std::runtime_error("nobody waits");
+    };
+    EXPECT_THROW(translate::check_case(small_case(), give_up), std::runtime_error) << stages;
   }
 }
 
