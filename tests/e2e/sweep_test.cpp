@@ -42,6 +42,21 @@ TEST_F(SecondDay, AVelocitySweepEndsInATableWithTheoryBesideIt) {
   const Outcome chart = cellcrush({"plot", name, "-o", folder() / "sweep.png"});
   EXPECT_EQ(chart.exit_code, 0) << chart.all();
   EXPECT_GT(std::filesystem::file_size(folder() / "sweep.png"), 10000U);
+
+  const Outcome deleted = cellcrush({"delete", name});
+  EXPECT_EQ(deleted.exit_code, 0) << deleted.all();
+  EXPECT_EQ(cellcrush({"show", name}).exit_code, 5);
+  EXPECT_TRUE(json::parse(cellcrush({"list", "--json"}).output)["jobs"].empty()) << "its jobs go with it";
+}
+
+TEST_F(SecondDay, ASweepThatRunsIsNotDeleted) {
+  const Outcome sweep = cellcrush({"sweep", "preset:type-i", "--over", "loading.speed_m_per_s=50,100"});
+  ASSERT_EQ(sweep.exit_code, 0) << sweep.all();
+  const std::string name = first_word(sweep);
+  const Outcome refused = cellcrush({"delete", name});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.all(), HasSubstr("Cancel the sweep first"));
+  EXPECT_EQ(cellcrush({"cancel", name}).exit_code, 0);
 }
 
 TEST_F(SecondDay, ABadPointRefusesTheWholeSweep) {
