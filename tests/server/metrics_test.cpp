@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "error.h"
 #include "server/daemon_fixture.h"
@@ -25,8 +26,8 @@ class MetricsTest : public DaemonFixture {
     start(options);
   }
 
-  /// What a GET of the daemon's metrics answers, head and body.
-  [[nodiscard]] std::string scrape() const {
+  /// A connection to the metrics, to be closed.
+  [[nodiscard]] int connect_to_metrics() const {
     const std::string& url = daemon_->metrics_url();
     const std::string port = url.substr(url.rfind(':') + 1, url.rfind('/') - url.rfind(':') - 1);
     sockaddr_in address{};
@@ -35,8 +36,20 @@ class MetricsTest : public DaemonFixture {
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     const int socket = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
     EXPECT_EQ(connect(socket, reinterpret_cast<const sockaddr*>(&address), sizeof(address)), 0) << url;
+    return socket;
+  }
+
+  static void ask_for_metrics(int socket) {
     const std::string request = "GET /metrics HTTP/1.0\r\n\r\n";
     EXPECT_EQ(write(socket, request.data(), request.size()), static_cast<ssize_t>(request.size()));
+  }
+
+  /// What a GET of the daemon's metrics answers within the limit, head and body.
+  [[nodiscard]] std::string scrape(std::chrono::seconds limit = std::chrono::seconds(60)) const {
+    const int socket = connect_to_metrics();
+    const timeval patience{limit.count(), 0};
+    setsockopt(socket, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof(patience));
+    ask_for_metrics(socket);
     std::string answer;
     char piece[4096];
     for (ssize_t count = 0; (count = read(socket, piece, sizeof(piece))) > 0;)
@@ -103,6 +116,20 @@ TEST_F(MetricsTest, TellWhatRunsAndWaits) {
   EXPECT_TRUE(client().cancel(running).ok());
   ASSERT_TRUE(client().wait_for_state(running, v1::CANCELLED));
   scrape_until("cellcrush_jobs_ended_total{state=\"CANCELLED\"}", 1.0);
+}
+
+TEST_F(MetricsTest, AreServedBesideConnectionsThatSendOrReadNothing) {
+  std::vector<int> idle;
+  for (int i = 0; i < 8; ++i) {
+    idle.push_back(connect_to_metrics());
+    idle.push_back(connect_to_metrics());
+    ask_for_metrics(idle.back());
+  }
+  // Half a request.
+  idle.push_back(connect_to_metrics());
+  EXPECT_EQ(write(idle.back(), "GET /met", 8), 8);
+  EXPECT_THAT(scrape(std::chrono::seconds(5)), HasSubstr("cellcrush_jobs_running 0"));
+  for (const int socket : idle) close(socket);
 }
 
 TEST_F(MetricsTest, AreServedToThisMachineOnly) {
