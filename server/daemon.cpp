@@ -14,8 +14,9 @@
 #include <utility>
 
 #include "access/gate.h"
-#include "access/refusal_log.h"
 #include "error.h"
+#include "library_log.h"
+#include "limited_log.h"
 #include "listen_address.h"
 #include "net/acceptor.h"
 #include "net/descriptor_limit.h"
@@ -73,6 +74,7 @@ std::vector<std::shared_ptr<grpc::ServerCredentials>> credentials_for(const acce
 
 void prepare_grpc_once() {
   static std::once_flag once;
+  redirect_library_logs();
   std::call_once(once, [] {
     // The service answers grpc.health.v1 itself.
     grpc::EnableDefaultHealthCheckService(false);
@@ -130,7 +132,7 @@ struct Daemon::Impl {
       refusing_server->take(port, listener, descriptor);
     };
     parts.refused = [this](const std::string& why) {
-      refusals.note(why);
+      refusals.write(spdlog::level::warn, "refused with " + why);
       service.note_refused_connection();
     };
     parts.counted = [this](std::size_t open) {
@@ -192,7 +194,7 @@ struct Daemon::Impl {
   std::vector<std::string> addresses;
   std::string metrics_url;
   std::vector<std::unique_ptr<grpc::experimental::ExternalConnectionAcceptor>> handlers;  ///< of the wanted addresses
-  access::RefusalLog refusals;
+  LimitedLog refusals{"refused connections", 1};
   net::HeapTrim heap;
   std::unique_ptr<grpc::Server> server;
   std::optional<net::RefusingServer> refusing_server;

@@ -5,6 +5,7 @@
 #include <spdlog/details/log_msg.h>
 #include <spdlog/pattern_formatter.h>
 
+#include <algorithm>
 #include <iterator>
 #include <string_view>
 
@@ -13,17 +14,55 @@
 namespace cellcrush {
 namespace {
 
+// Length of the character that the text begins with; 0 where it is not UTF-8.
+std::size_t character_length(std::string_view text) {
+  const auto byte = [text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  if (byte(0) < 0x80U) return 1;
+  const std::size_t length = byte(0) < 0xc2U ? 0 : byte(0) < 0xe0U ? 2 : byte(0) < 0xf0U ? 3 : byte(0) < 0xf5U ? 4 : 0;
+  if (length == 0 || text.size() < length) return 0;
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(i) & 0xc0U) != 0x80U) return 0;
+  }
+  // Longer than it need be, a surrogate, or beyond the last character.
+  const unsigned head = 256U * byte(0) + byte(1);
+  const bool is_none = (head >= 0xe080U && head < 0xe0a0U) || (head >= 0xeda0U && head < 0xee00U) ||
+                       (head >= 0xf080U && head < 0xf090U) || (head >= 0xf490U && head < 0xf500U);
+  return is_none ? 0 : length;
+}
+
+// Whether a terminal could take the character for a command: those of ASCII, and U+0080 to U+009F.
+bool is_control(std::string_view character) {
+  const auto first = static_cast<unsigned char>(character[0]);
+  return first < 0x20U || first == 0x7fU || (first == 0xc2U && static_cast<unsigned char>(character[1]) < 0xa0U);
+}
+
+// Calls show(character) for what can stand in a line, and escape(byte) for each byte that cannot.
+template <class Show, class Escape>
+void visit_characters(std::string_view text, const Show& show, const Escape& escape) {
+  while (!text.empty()) {
+    const std::size_t length = character_length(text);
+    const std::string_view character = text.substr(0, std::max<std::size_t>(1, length));
+    if (length > 0 && !is_control(character)) {
+      show(character);
+    } else {
+      for (const char byte : character) escape(static_cast<unsigned char>(byte));
+    }
+    text.remove_prefix(character.size());
+  }
+}
+
 std::string json_string(std::string_view text) {
   std::string out = "\"";
-  for (const char character : text) {
-    const auto byte = static_cast<unsigned char>(character);
-    if (character == '"' || character == '\\') out.push_back('\\');
-    if (byte < 0x20U) {
-      out += fmt::format("\\u{:04x}", byte);
-    } else {
-      out.push_back(character);
-    }
-  }
+  visit_characters(
+      text,
+      [&out](std::string_view character) {
+        if (character == "\"" || character == "\\") out.push_back('\\');
+        out += character;
+      },
+      // JSON has no bytes: one that is no character stands as its number in words, as in the text form.
+      [&out](unsigned char byte) {
+        out += byte < 0x80U ? fmt::format("\\u{:04x}", byte) : fmt::format("\\\\x{:02x}", byte);
+      });
   return out + "\"";
 }
 
@@ -61,14 +100,9 @@ class TextFormatter final : public spdlog::formatter {
  public:
   void format(const spdlog::details::log_msg& message, spdlog::memory_buf_t& line) override {
     std::string text;
-    for (const char character : std::string_view(message.payload.data(), message.payload.size())) {
-      const auto byte = static_cast<unsigned char>(character);
-      if (byte < 0x20U || byte == 0x7fU) {
-        text += fmt::format("\\x{:02x}", byte);
-      } else {
-        text.push_back(character);
-      }
-    }
+    visit_characters(
+        {message.payload.data(), message.payload.size()}, [&text](std::string_view character) { text += character; },
+        [&text](unsigned char byte) { text += fmt::format("\\x{:02x}", byte); });
     spdlog::details::log_msg shown = message;
     shown.payload = text;
     form_.format(shown, line);

@@ -45,8 +45,8 @@ class Gate::Check final : public grpc::AuthMetadataProcessor {
     });
     if (!status.ok()) {
       const bool unknown = status.error_code() == grpc::StatusCode::UNAUTHENTICATED;
-      gate_.refusals_.note(std::string(unknown ? "UNAUTHENTICATED: " : "PERMISSION_DENIED: ") +
-                           std::string(path.substr(0, kLongestPath)) + ": " + status.error_message());
+      gate_.note_refusal(std::string(unknown ? "UNAUTHENTICATED: " : "PERMISSION_DENIED: ") +
+                         std::string(path.substr(0, kLongestPath)) + ": " + status.error_message());
     }
     return status;
   }
@@ -158,13 +158,17 @@ Caller Gate::caller_of(const grpc::ServerContextBase& context) const {
   return identify(context.client_metadata(), *context.auth_context());
 }
 
+void Gate::note_refusal(const std::string& words) const {
+  refusals_.write(spdlog::level::warn, "refused with " + words);
+}
+
 void Gate::require_own(const grpc::ServerContextBase& context, const std::string& owner,
                        const std::string& name) const {
   const Caller caller = caller_of(context);
   if (caller.scope == Scope::admin || caller.name == owner) return;
   const std::string why = name + " belongs to " + (owner.empty() ? "nobody" : owner) + ", and " + caller.name +
                           " has the scope " + name_of(caller.scope) + ", which changes one's own only.";
-  refusals_.note("PERMISSION_DENIED: " + why);
+  note_refusal("PERMISSION_DENIED: " + why);
   throw ServiceError(ServiceError::Kind::permission_denied, why + " Ask its owner, or one who has the scope admin.");
 }
 

@@ -10,10 +10,10 @@
 #include <optional>
 #include <string>
 
-#include "access/refusal_log.h"
 #include "access/scope.h"
 #include "access/tls_files.h"
 #include "access/token_file.h"
+#include "limited_log.h"
 #include "listen_address.h"
 
 namespace cellcrush::access {
@@ -57,6 +57,8 @@ class Gate {
   [[nodiscard]] Caller identify(const Metadata& metadata, const grpc::AuthContext& context) const;
   [[nodiscard]] Caller caller_of_token(const Metadata& metadata) const;
   [[nodiscard]] Caller caller_of_certificate(const grpc::AuthContext& context) const;
+  /// `words` are the status, what was refused and why, and hold no secret.
+  void note_refusal(const std::string& words) const;
   [[nodiscard]] bool asks_who_calls() const { return has_tokens() || (tls_ && !tls_->client_authority.empty()); }
   [[nodiscard]] bool has_tokens() const { return !token_path_.empty(); }
   [[nodiscard]] std::shared_ptr<const TokenFile> tokens() const;
@@ -66,7 +68,7 @@ class Gate {
   mutable std::mutex mutex_;
   std::shared_ptr<const TokenFile> tokens_;  ///< guarded by mutex_; null where there are none
   Scope certificate_scope_;
-  mutable RefusalLog refusals_;
+  mutable LimitedLog refusals_{"refused calls", 1};
 };
 
 }  // namespace cellcrush::access

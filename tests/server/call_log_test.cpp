@@ -86,7 +86,7 @@ TEST_F(CallLogTest, RefusedCallsAreWarnedOfWithoutTheirTokens) {
   EXPECT_GE(lines, 1) << log_.text();
   EXPECT_LE(lines, 3) << log_.text();
   daemon_.reset();
-  EXPECT_EQ(told("more calls were refused"), 1) << log_.text();
+  EXPECT_EQ(told("more refused calls"), 1) << log_.text();
   EXPECT_THAT(log_.text(), Not(HasSubstr(wrong)));
 }
 

@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <spdlog/spdlog.h>
 
-#include "access/refusal_log.h"
 #include "log_fields.h"
 #include "log_format.h"
 #include "server/log_capture.h"
@@ -45,22 +44,6 @@ TEST(ChangeLog, ARequestIdForgesNoLineAndNoField) {
   EXPECT_EQ(log.count_lines(""), 1);
   EXPECT_THAT(log.text(), HasSubstr("\"request\":\"night \\\"3\\\"\\u000a[2030-01-01] [info] jobs/9 deleted by "
                                     "root\\\\\",\"message\":\"jobs/12 made by anna, "));
-}
-
-TEST(RefusalLog, WarnsOnceASecondAndCountsTheRest) {
-  const LogCapture log(make_text_formatter());
-  access::RefusalLog::Clock::time_point now;
-  {
-    access::RefusalLog refusals([&now] { return now; });
-    for (int i = 0; i < 1000; ++i) {
-      refusals.note("UNAUTHENTICATED: " + std::to_string(i));
-      now += std::chrono::milliseconds(10);
-    }
-    EXPECT_EQ(log.count_lines("[warning] refused with UNAUTHENTICATED"), 10);
-    EXPECT_EQ(log.count_lines("UNAUTHENTICATED: 0"), 1) << "The first is told at once.";
-    EXPECT_EQ(log.count_lines("UNAUTHENTICATED: 900 (99 more before it)"), 1) << log.text();
-  }
-  EXPECT_EQ(log.count_lines("99 more calls were refused"), 1) << "None is left out at the end.";
 }
 
 }  // namespace
