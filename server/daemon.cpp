@@ -24,6 +24,7 @@
 #include "net/listening_port.h"
 #include "net/port_probe.h"
 #include "net/refusing_server.h"
+#include "rpc/parse_error.h"
 #include "service.h"
 #include "worker/step_cost.h"
 
@@ -120,6 +121,9 @@ struct Daemon::Impl {
       plain.push_back(wanted[i].kind == ListenAddress::Kind::unix_socket || options.access.tls_certificate.empty());
     }
     service.register_with(builder);
+    std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>> interceptors;
+    interceptors.push_back(rpc::make_parse_error_interceptors());
+    builder.experimental().SetInterceptorCreators(std::move(interceptors));
     server = builder.BuildAndStart();
     if (!server) throw ServiceError(ServiceError::Kind::failed_precondition, "The service could not be started.");
     for (const auto& port : ports) addresses.push_back(port.address().text());

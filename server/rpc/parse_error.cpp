@@ -1,0 +1,64 @@
+#include "rpc/parse_error.h"
+
+#include <google/protobuf/descriptor.h>
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+
+#include "rpc/error_table.h"
+
+namespace cellcrush::rpc {
+namespace {
+
+namespace grpc_hooks = grpc::experimental;
+
+// `path` is as gRPC has it: "/cellcrush.v1.Jobs/GetJob".
+grpc::Status parse_error(std::string_view path) {
+  std::string method(path.substr(path.starts_with('/') ? 1 : 0));
+  std::replace(method.begin(), method.end(), '/', '.');
+  const auto* descriptor = google::protobuf::DescriptorPool::generated_pool()->FindMethodByName(method);
+  const std::string type = descriptor == nullptr ? "message of its type" : descriptor->input_type()->full_name();
+  return invalid_argument("request",
+                          "of " + method + " is not a " + type + ": its bytes do not parse, or a string is not UTF-8.",
+                          "Encode it by this server's .proto files, and every string as UTF-8.");
+}
+
+class ParseErrorInterceptor final : public grpc_hooks::Interceptor {
+ public:
+  explicit ParseErrorInterceptor(const char* path) : path_(path) {}
+
+  void Intercept(grpc_hooks::InterceptorBatchMethods* methods) override {
+    using Point = grpc_hooks::InterceptionHookPoints;
+    if (methods->QueryInterceptionHookPoint(Point::POST_RECV_MESSAGE))
+      has_message_ = methods->GetRecvMessage() != nullptr;
+    if (!has_message_ && methods->QueryInterceptionHookPoint(Point::PRE_SEND_STATUS)) {
+      const auto code = methods->GetSendStatus().error_code();
+      if (code == grpc::StatusCode::INTERNAL || code == grpc::StatusCode::UNIMPLEMENTED)
+        methods->ModifySendStatus(parse_error(path_));
+    }
+    methods->Proceed();
+  }
+
+ private:
+  const char* path_;
+  bool has_message_ = true;
+};
+
+class ParseErrorInterceptors final : public grpc_hooks::ServerInterceptorFactoryInterface {
+ public:
+  // gRPC owns what is returned. A stream of requests has no one message to look at.
+  grpc_hooks::Interceptor* CreateServerInterceptor(grpc_hooks::ServerRpcInfo* info) override {
+    using Type = grpc_hooks::ServerRpcInfo::Type;
+    const bool has_one_request = info->type() == Type::UNARY || info->type() == Type::SERVER_STREAMING;
+    return has_one_request ? new ParseErrorInterceptor(info->method()) : nullptr;
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface> make_parse_error_interceptors() {
+  return std::make_unique<ParseErrorInterceptors>();
+}
+
+}  // namespace cellcrush::rpc
