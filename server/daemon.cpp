@@ -1,7 +1,6 @@
 #include "daemon.h"
 
 #include <grpc/grpc.h>
-#include <grpcpp/ext/proto_server_reflection_plugin.h>
 #include <grpcpp/grpcpp.h>
 #include <grpcpp/health_check_service_interface.h>
 #include <grpcpp/resource_quota.h>
@@ -79,7 +78,6 @@ void prepare_grpc_once() {
   std::call_once(once, [] {
     // The service answers grpc.health.v1 itself.
     grpc::EnableDefaultHealthCheckService(false);
-    grpc::reflection::InitProtoReflectionServerBuilderPlugin();
   });
 }
 

@@ -18,6 +18,7 @@
 #include "rpc/cases_service.h"
 #include "rpc/health_service.h"
 #include "rpc/jobs_service.h"
+#include "rpc/reflection_services.h"
 #include "rpc/sweeps_service.h"
 #include "store/data_folder.h"
 #include "store/journal.h"
@@ -106,6 +107,9 @@ struct Service::Parts {
   rpc::JobsService jobs;
   rpc::SweepsService sweeps;
   rpc::AdminService admin;
+  std::vector<std::unique_ptr<grpc::Service>> reflection = rpc::make_reflection_services(
+      {v1::Cases::service_full_name(), v1::Jobs::service_full_name(), v1::Sweeps::service_full_name(),
+       v1::Admin::service_full_name(), grpc::health::v1::Health::service_full_name()});
   std::optional<jobs::Housekeeping> housekeeping;
 };
 
@@ -119,6 +123,7 @@ void Service::register_with(grpc::ServerBuilder& builder) {
   for (grpc::Service* service : std::initializer_list<grpc::Service*>{&parts_->health, &parts_->cases, &parts_->jobs,
                                                                       &parts_->sweeps, &parts_->admin})
     builder.RegisterService(service);
+  for (const auto& service : parts_->reflection) builder.RegisterService(service.get());
 }
 
 rpc::HealthBoard& Service::health() { return parts_->board; }

@@ -43,6 +43,7 @@ constexpr std::array kScopeEntries = {
     ScopeEntry{"/cellcrush.v1.Sweeps/WatchSweep", Scope::read},
     ScopeEntry{"/grpc.health.v1.Health/Check", kOpen},
     ScopeEntry{"/grpc.health.v1.Health/Watch", kOpen},
+    ScopeEntry{"/grpc.reflection.v1.ServerReflection/ServerReflectionInfo", Scope::read},
     ScopeEntry{"/grpc.reflection.v1alpha.ServerReflection/ServerReflectionInfo", Scope::read},
 };
 
