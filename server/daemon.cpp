@@ -213,7 +213,7 @@ const std::vector<std::string>& Daemon::addresses() const { return impl_->addres
 
 const std::string& Daemon::metrics_url() const { return impl_->metrics_url; }
 
-void Daemon::read_tokens_again() { impl_->gate.read_tokens_again(); }
+void Daemon::read_files_again() { impl_->gate.read_files_again(); }
 
 void Daemon::stop() { impl_->stop(); }
 

@@ -25,8 +25,8 @@ class Daemon {
   /// Where metrics are served, with the real port: "http://HOST:PORT/metrics"; empty: nowhere.
   [[nodiscard]] const std::string& metrics_url() const;
 
-  /// Reads the file of --tokens again (Gate::read_tokens_again). Thread-safe.
-  void read_tokens_again();
+  /// Reads certificates and tokens again (Gate::read_files_again). Thread-safe.
+  void read_files_again();
 
   /// Lets running workers leave their jobs at a checkpoint, closes watches and calls, within a few seconds. These jobs and those
   /// that wait are run by the next daemon on the same data folder. Safe to call twice.

@@ -22,14 +22,13 @@
 
 namespace {
 
-// SIGTERM, SIGINT and, where there are tokens to read again, SIGHUP are waited for by main alone; blocked before any other thread
-// exists.
-sigset_t block_signals(bool has_tokens) {
+// SIGTERM, SIGINT and SIGHUP are waited for by main alone; blocked before any other thread exists.
+sigset_t block_signals() {
   sigset_t signals;
   sigemptyset(&signals);
   sigaddset(&signals, SIGTERM);
   sigaddset(&signals, SIGINT);
-  if (has_tokens) sigaddset(&signals, SIGHUP);
+  sigaddset(&signals, SIGHUP);
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   signal(SIGPIPE, SIG_IGN);
   return signals;
@@ -69,7 +68,7 @@ int serve(const cellcrush::DaemonOptions& options, const sigset_t& signals) {
     for (const auto& address : daemon.addresses()) std::printf("cellcrushd is listening on %s\n", address.c_str());
     std::fflush(stdout);
     int received = 0;
-    while (sigwait(&signals, &received) == 0 && received == SIGHUP) daemon.read_tokens_again();
+    while (sigwait(&signals, &received) == 0 && received == SIGHUP) daemon.read_files_again();
     spdlog::info("ends on {}", received == SIGTERM ? "SIGTERM" : "SIGINT");
     daemon.stop();
     return 0;
@@ -114,7 +113,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   options.on_drain = [] { kill(getpid(), SIGTERM); };
-  const sigset_t signals = block_signals(!options.access.tokens.empty());
+  const sigset_t signals = block_signals();
   spdlog::set_default_logger(spdlog::stderr_color_mt("cellcrushd"));
   spdlog::set_formatter(flags.log_format() == "json" ? cellcrush::make_json_formatter()
                                                      : cellcrush::make_text_formatter());

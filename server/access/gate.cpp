@@ -1,5 +1,6 @@
 #include "access/gate.h"
 
+#include <grpc/grpc_security_constants.h>
 #include <spdlog/spdlog.h>
 #include <strings.h>
 
@@ -7,6 +8,7 @@
 #include <utility>
 
 #include "access/method_scopes.h"
+#include "access/tls_credentials.h"
 #include "error.h"
 #include "rpc/error_table.h"
 
@@ -56,6 +58,7 @@ class Gate::Check final : public grpc::AuthMetadataProcessor {
   void check(std::string_view path, const InputMetadata& metadata, const grpc::AuthContext& context) const {
     const auto needed = needed_scope(path);
     if (!needed) return;
+    gate_.check_certificate(context);
     const Caller caller = gate_.identify(metadata, context);
     if (caller.scope >= *needed) return;
     throw ServiceError(ServiceError::Kind::permission_denied, std::string(path.substr(path.rfind('/') + 1)) +
@@ -66,26 +69,47 @@ class Gate::Check final : public grpc::AuthMetadataProcessor {
   const Gate& gate_;
 };
 
-Gate::Gate(const Options& options) : token_path_(options.tokens), certificate_scope_(options.certificate_scope) {
+Gate::Gate(const Options& options) : options_(options) {
   if (options.tls_certificate.empty() != options.tls_key.empty())
     refuse_options("--tls-cert and --tls-key go together. Give both, or none.");
   if (!options.tls_client_authority.empty() && options.tls_certificate.empty())
     refuse_options("--tls-client-ca needs TLS. Give --tls-cert and --tls-key with it.");
-  if (!options.tls_certificate.empty())
-    tls_ = read_tls_files(options.tls_certificate, options.tls_key, options.tls_client_authority);
-  if (has_tokens()) tokens_ = std::make_shared<const TokenFile>(token_path_);
+  if (has_tls()) read_tls();
+  if (has_tokens()) read_tokens();
 }
 
-void Gate::read_tokens_again() {
-  if (!has_tokens()) return;
+std::string Gate::read_tls() {
+  auto next = std::make_shared<const TlsFiles>(
+      read_tls_files(options_.tls_certificate, options_.tls_key, options_.tls_client_authority));
+  const std::scoped_lock lock(mutex_);
+  tls_ = std::move(next);
+  return tls_->description;
+}
+
+std::string Gate::read_tokens() {
+  auto next = std::make_shared<const TokenFile>(options_.tokens);
+  const std::scoped_lock lock(mutex_);
+  tokens_ = std::move(next);
+  return std::to_string(tokens_->size()) + " of --tokens " + options_.tokens.string();
+}
+
+void Gate::read_again(const char* what, std::string (Gate::*read)()) {
   try {
-    auto next = std::make_shared<const TokenFile>(token_path_);
-    spdlog::info("takes {} tokens, those of {}", next->size(), token_path_.string());
-    const std::scoped_lock lock(mutex_);
-    tokens_ = std::move(next);
+    spdlog::info("{} read again: {}", what, (this->*read)());
   } catch (const ServiceError& error) {
-    spdlog::error("{} The tokens from before stay in force. Mend the file and send SIGHUP again.", error.what());
+    spdlog::error("{} The {} from before stay in force. Mend the file and send SIGHUP again.", error.what(), what);
   }
+}
+
+void Gate::read_files_again() {
+  if (has_tls()) read_again("certificates", &Gate::read_tls);
+  if (has_tokens()) read_again("tokens", &Gate::read_tokens);
+  if (!has_tls() && !has_tokens()) spdlog::info("nothing to read again: neither --tls-cert nor --tokens was given");
+}
+
+std::shared_ptr<const TlsFiles> Gate::tls() const {
+  const std::scoped_lock lock(mutex_);
+  return tls_;
 }
 
 std::shared_ptr<const TokenFile> Gate::tokens() const {
@@ -95,20 +119,15 @@ std::shared_ptr<const TokenFile> Gate::tokens() const {
 
 std::shared_ptr<grpc::ServerCredentials> Gate::credentials_for(const ListenAddress& address) const {
   if (address.kind == ListenAddress::Kind::unix_socket) return grpc::InsecureServerCredentials();
-  if (!address.is_loopback() && (!tls_ || !asks_who_calls())) {
+  if (!address.is_loopback() && (!has_tls() || !asks_who_calls())) {
     refuse_options("Cannot listen on " + address.text() + ", which others can reach, without " +
-                   (tls_ ? "" : "TLS (--tls-cert FILE --tls-key FILE) and ") +
-                   "a way to tell who calls (--tokens FILE or --tls-client-ca FILE). Give " + (tls_ ? "one" : "these") +
-                   ", or listen on 127.0.0.1, localhost or [::1].");
+                   (has_tls() ? "" : "TLS (--tls-cert FILE --tls-key FILE) and ") +
+                   "a way to tell who calls (--tokens FILE or --tls-client-ca FILE). Give " +
+                   (has_tls() ? "one" : "these") + ", or listen on 127.0.0.1, localhost or [::1].");
   }
   std::shared_ptr<grpc::ServerCredentials> out;
-  if (tls_) {
-    grpc::SslServerCredentialsOptions options(tls_->client_authority.empty()
-                                                  ? GRPC_SSL_DONT_REQUEST_CLIENT_CERTIFICATE
-                                                  : GRPC_SSL_REQUEST_AND_REQUIRE_CLIENT_CERTIFICATE_AND_VERIFY);
-    options.pem_key_cert_pairs.push_back({tls_->key, tls_->certificate});
-    options.pem_root_certs = tls_->client_authority;
-    out = grpc::SslServerCredentials(options);
+  if (has_tls()) {
+    out = std::make_shared<TlsCredentials>([this] { return tls(); });
   } else if (has_tokens()) {
     // Plain text that stays on this machine; unlike insecure credentials, these let calls be checked.
     out = grpc::experimental::LocalServerCredentials(LOCAL_TCP);
@@ -142,6 +161,15 @@ Caller Gate::caller_of_token(const Metadata& metadata) const {
   return *caller;
 }
 
+void Gate::check_certificate(const grpc::AuthContext& context) const {
+  if (!asks_for_certificates()) return;
+  const auto shown = context.FindPropertyValues(GRPC_X509_PEM_CERT_PROPERTY_NAME);
+  if (shown.size() == 1 && client_certificates_.has_client_use(view_of(shown.front()))) return;
+  refuse_caller(
+      "The certificate of this call is not one for clients: its extended key usage lacks clientAuth. Ask its authority "
+      "for one that has it (extendedKeyUsage = clientAuth).");
+}
+
 Caller Gate::caller_of_certificate(const grpc::AuthContext& context) const {
   const auto names = context.FindPropertyValues("x509_common_name");
   const std::string_view name = names.size() == 1 ? view_of(names.front()) : std::string_view();
@@ -150,7 +178,7 @@ Caller Gate::caller_of_certificate(const grpc::AuthContext& context) const {
         "The certificate of this call has no common name that can name its owner. Use one with 1 to 64 printable "
         "characters without spaces, quotes, backslashes and #, other than \"local\".");
   }
-  return {std::string(name), certificate_scope_};
+  return {std::string(name), options_.certificate_scope};
 }
 
 Caller Gate::caller_of(const grpc::ServerContextBase& context) const {

@@ -7,9 +7,9 @@
 #include <map>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <string>
 
+#include "access/client_certificates.h"
 #include "access/scope.h"
 #include "access/tls_files.h"
 #include "access/token_file.h"
@@ -35,13 +35,13 @@ class Gate {
   /// Reads the files. Throws ServiceError (invalid) for options that do not go together, and for a file that cannot be used.
   explicit Gate(const Options& options);
 
-  /// With what a server listens on the address, including the check of each call. The gate outlives the server. Throws
-  /// ServiceError (invalid) where others could reach it and there is no TLS, or neither tokens nor clients' certificates.
+  /// With what a server listens on the address, including the check of each call. The gate and the credentials outlive the server.
+  /// Throws ServiceError (invalid) where others could reach it and there is no TLS, or neither tokens nor clients' certificates.
   [[nodiscard]] std::shared_ptr<grpc::ServerCredentials> credentials_for(const ListenAddress& address) const;
 
-  /// Reads the file of tokens again, if there is one, for the calls from now on. One that cannot be used is told of in the log, and
-  /// those of before stay.
-  void read_tokens_again();
+  /// Reads the certificates, their authority and the tokens again: connections and calls from now on are held to them. What was read
+  /// stands in the log. Files that cannot be used are named there, and those from before stay in force.
+  void read_files_again();
 
   /// Who makes a call that has passed.
   [[nodiscard]] Caller caller_of(const grpc::ServerContextBase& context) const;
@@ -55,19 +55,28 @@ class Gate {
 
   /// Throws ServiceError (unauthenticated) for a call without what it needs.
   [[nodiscard]] Caller identify(const Metadata& metadata, const grpc::AuthContext& context) const;
+  /// Throws ServiceError (unauthenticated) for a certificate that is not for clients.
+  void check_certificate(const grpc::AuthContext& context) const;
   [[nodiscard]] Caller caller_of_token(const Metadata& metadata) const;
   [[nodiscard]] Caller caller_of_certificate(const grpc::AuthContext& context) const;
   /// `words` are the status, what was refused and why, and hold no secret.
   void note_refusal(const std::string& words) const;
-  [[nodiscard]] bool asks_who_calls() const { return has_tokens() || (tls_ && !tls_->client_authority.empty()); }
-  [[nodiscard]] bool has_tokens() const { return !token_path_.empty(); }
+  [[nodiscard]] bool asks_who_calls() const { return has_tokens() || asks_for_certificates(); }
+  [[nodiscard]] bool asks_for_certificates() const { return !options_.tls_client_authority.empty(); }
+  [[nodiscard]] bool has_tls() const { return !options_.tls_certificate.empty(); }
+  [[nodiscard]] bool has_tokens() const { return !options_.tokens.empty(); }
+  [[nodiscard]] std::shared_ptr<const TlsFiles> tls() const;
   [[nodiscard]] std::shared_ptr<const TokenFile> tokens() const;
+  /// Return what was read, in words. Throw ServiceError (invalid) for files that cannot be used.
+  std::string read_tls();
+  std::string read_tokens();
+  void read_again(const char* what, std::string (Gate::*read)());
 
-  std::optional<TlsFiles> tls_;
-  std::filesystem::path token_path_;
+  Options options_;
   mutable std::mutex mutex_;
+  std::shared_ptr<const TlsFiles> tls_;      ///< guarded by mutex_; null where there is no TLS
   std::shared_ptr<const TokenFile> tokens_;  ///< guarded by mutex_; null where there are none
-  Scope certificate_scope_;
+  mutable ClientCertificates client_certificates_;
   mutable LimitedLog refusals_{"refused calls", 1};
 };
 

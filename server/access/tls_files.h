@@ -10,6 +10,7 @@ struct TlsFiles {
   std::string certificate;       ///< the server's, and what leads from it to its authority
   std::string key;               ///< of the certificate
   std::string client_authority;  ///< who signs clients' certificates; empty: clients show none
+  std::string description;       ///< of the certificates, for the log: their files, subjects and ends
 };
 
 /// Reads and checks what --tls-cert, --tls-key and --tls-client-ca name; the last may be empty. Throws ServiceError

@@ -54,11 +54,13 @@ void DaemonFlags::add_access(CLI::App& app) {
   auto& access = options_.access;
   app.add_option(
       "--tls-cert", access.tls_certificate,
-      "PEM file of this server's certificate; every HOST:PORT then takes TLS only (default: none, plain text)");
+      "PEM file of this server's certificate; every HOST:PORT then takes TLS only; read again on SIGHUP, with its key "
+      "and --tls-client-ca (default: none, plain text)");
   app.add_option("--tls-key", access.tls_key, "PEM file of the certificate's key (default: none)");
-  app.add_option("--tls-client-ca", access.tls_client_authority,
-                 "PEM file of the authority that signs clients' certificates; one is then asked of every client on TCP "
-                 "(default: none)");
+  app.add_option(
+      "--tls-client-ca", access.tls_client_authority,
+      "PEM file of the authority that signs clients' certificates; every client on TCP must then show one, with "
+      "clientAuth in its extended key usage (default: none)");
   app.add_option("--tls-client-scope", certificate_scope_,
                  "what those may do who show such a certificate: read, submit or admin (default: submit)")
       ->check(CLI::IsMember({"read", "submit", "admin"}));

@@ -54,6 +54,8 @@ Certificate make_certificate(const CertificateRequest& request, EVP_PKEY* key, X
                 issuer == nullptr ? "critical,CA:TRUE" : "critical,CA:FALSE");
   if (issuer != nullptr && !request.subject_names.empty())
     add_extension(out.get(), issuer, NID_subject_alt_name, request.subject_names);
+  if (!request.extended_key_usage.empty())
+    add_extension(out.get(), issuer, NID_ext_key_usage, request.extended_key_usage);
   require(X509_sign(out.get(), issuer_key, EVP_sha256()) > 0, "sign");
   return out;
 }
@@ -91,6 +93,13 @@ CertificateFiles Authority::sign(const std::string& name, const CertificateReque
   const Key key = make_key();
   const Certificate made = make_certificate(request, key.get(), issuer.get(), issuer_key.get());
   return write_files(folder_, name, made.get(), key.get());
+}
+
+CertificateRequest client_request(const std::string& common_name) {
+  CertificateRequest out;
+  out.common_name = common_name;
+  out.extended_key_usage = "clientAuth";
+  return out;
 }
 
 std::string text_of_file(const std::filesystem::path& path) {

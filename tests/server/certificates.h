@@ -17,7 +17,11 @@ struct CertificateRequest {
   std::string subject_names = "DNS:localhost,IP:127.0.0.1";  ///< empty: none
   long valid_from_seconds = -3600;                           ///< from now
   long valid_to_seconds = 3600;
+  std::string extended_key_usage = {};  ///< "clientAuth", "serverAuth"; empty: none
 };
+
+/// One for a client of that name.
+CertificateRequest client_request(const std::string& common_name);
 
 /// An authority of the tests' own, that signs certificates. Its files are NAME.pem and NAME-key.pem.
 class Authority {

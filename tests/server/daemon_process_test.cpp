@@ -37,19 +37,23 @@ TEST(DaemonProcess, ATestThatIsAbortedLeavesNoDaemonBehind) {
   kill(daemon, SIGKILL);
 }
 
-TEST(DaemonProcess, AHangupLetsADaemonWithTokensGoOn) {
+TEST(DaemonProcess, AHangupReadsTheTokensAgainAndNeverEndsTheDaemon) {
   const TemporaryFolder folder;
   const auto made = access::make_token("anna", access::Scope::read);
   write_secret(folder.path() / "tokens", made.line + "\n");
-  DaemonProcess daemon({"--data", (folder.path() / "data").string(), "--listen",
-                        "unix:" + (folder.path() / "socket").string(), "--tokens",
-                        (folder.path() / "tokens").string()});
-  ASSERT_EQ(daemon.wait_for_addresses(1).size(), 1U);
-  daemon.send_signal(SIGHUP);
-  std::this_thread::sleep_for(std::chrono::milliseconds(300));
-  daemon.send_signal(SIGTERM);
-  EXPECT_EQ(daemon.wait(), 0);
-  EXPECT_NE(daemon.errors().find("takes 1 tokens, those of"), std::string::npos) << daemon.errors();
+  for (const bool has_tokens : {true, false}) {
+    std::vector<std::string> arguments = {"--data", (folder.path() / "data").string(), "--listen",
+                                          "unix:" + (folder.path() / "socket").string()};
+    if (has_tokens) arguments.insert(arguments.end(), {"--tokens", (folder.path() / "tokens").string()});
+    DaemonProcess daemon(arguments);
+    ASSERT_EQ(daemon.wait_for_addresses(1).size(), 1U);
+    daemon.send_signal(SIGHUP);
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    daemon.send_signal(SIGTERM);
+    EXPECT_EQ(daemon.wait(), 0) << daemon.errors();
+    const std::string words = has_tokens ? "tokens read again: 1 of --tokens" : "nothing to read again";
+    EXPECT_NE(daemon.errors().find(words), std::string::npos) << daemon.errors();
+  }
 }
 
 }  // namespace

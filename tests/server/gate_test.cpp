@@ -60,15 +60,58 @@ TEST_F(GateTest, AChangedFileOfTokensIsTakenWithoutARestartAndABrokenOneChangesN
   const auto made = access::make_token("carla", access::Scope::read);
   const std::filesystem::path file = folder_.path() / "tokens";
   write_secret(file, made.line + "\nnonsense\n");
-  daemon_->read_tokens_again();
+  daemon_->read_files_again();
   EXPECT_TRUE(list(with("reader")).ok());
   EXPECT_EQ(log.count_lines("--tokens " + file.string() + ": line 2 is not of the form"), 1) << log.text();
   EXPECT_EQ(log.count_lines("Mend the file and send SIGHUP again."), 1);
 
   write_secret(file, made.line + "\n");
-  daemon_->read_tokens_again();
+  daemon_->read_files_again();
   EXPECT_EQ(list(with("reader")).error_code(), grpc::StatusCode::UNAUTHENTICATED) << "It was taken back.";
   EXPECT_TRUE(list({authority_.certificate(), {}, made.token}).ok());
+}
+
+TEST_F(GateTest, AChangedCertificateIsShownToNewConnectionsAndOldOnesStay) {
+  const DaemonOptions options = with_tokens(with_tls(tcp_options()));
+  start(options);
+  const auto old_jobs = v1::Jobs::NewStub(channel(with("reader")));
+  v1::ListJobsResponse response;
+  ASSERT_TRUE(old_jobs->ListJobs(bounded_context().get(), {}, &response).ok());
+
+  const LogCapture log(make_text_formatter());
+  const Visitor newcomer{other_authority_.certificate(), {}, tokens_.at("reader")};
+  const auto key = text_of_file(options.access.tls_key);
+  static_cast<void>(other_authority_.sign("server", {"new-server"}));
+  const auto new_key = text_of_file(options.access.tls_key);
+  write_secret(options.access.tls_key, key);
+  daemon_->read_files_again();
+  EXPECT_EQ(log.count_lines("--tls-key " + options.access.tls_key.string() + ": is not the key of"), 1) << log.text();
+  EXPECT_EQ(log.count_lines("The certificates from before stay in force."), 1);
+  EXPECT_TRUE(list(with("reader")).ok()) << "A key of another certificate changes nothing.";
+
+  write_secret(options.access.tls_key, new_key);
+  daemon_->read_files_again();
+  EXPECT_EQ(log.count_lines("--tls-cert " + options.access.tls_certificate.string() + ": CN=new-server, valid until "),
+            1)
+      << log.text();
+  EXPECT_TRUE(list(newcomer).ok());
+  EXPECT_EQ(list(with("reader")).error_code(), grpc::StatusCode::UNAVAILABLE) << "Who trusts the old authority only.";
+  EXPECT_TRUE(old_jobs->ListJobs(bounded_context().get(), {}, &response).ok()) << "An open connection stays.";
+}
+
+TEST_F(GateTest, AChangedAuthorityOfClientsHoldsForNewConnections) {
+  DaemonOptions options = with_tls(tcp_options());
+  options.access.tls_client_authority = folder_.path() / "clients.pem";
+  write_secret(options.access.tls_client_authority, text_of_file(authority_.certificate()));
+  start(options);
+  const Visitor anna{authority_.certificate(), authority_.sign("anna", client_request("anna")), ""};
+  const Visitor bob{authority_.certificate(), other_authority_.sign("bob", client_request("bob")), ""};
+  EXPECT_TRUE(list(anna).ok());
+  EXPECT_EQ(list(bob).error_code(), grpc::StatusCode::UNAVAILABLE);
+  write_secret(options.access.tls_client_authority, text_of_file(other_authority_.certificate()));
+  daemon_->read_files_again();
+  EXPECT_EQ(list(anna).error_code(), grpc::StatusCode::UNAVAILABLE);
+  EXPECT_TRUE(list(bob).ok());
 }
 
 TEST_F(GateTest, TokensGuardAPlainPortOfLoopbackToo) {
@@ -158,7 +201,7 @@ TEST_F(GateTest, ACertificateNamesItsOwnerAndOneOfAnotherAuthorityIsNotLetIn) {
   DaemonOptions options = with_tls(tcp_options());
   options.access.tls_client_authority = authority_.certificate();
   start(options);
-  const Visitor anna{authority_.certificate(), authority_.sign("anna", {"anna"}), ""};
+  const Visitor anna{authority_.certificate(), authority_.sign("anna", client_request("anna")), ""};
   const auto jobs = v1::Jobs::NewStub(channel(anna));
   v1::CreateJobRequest request;
   *request.mutable_case_() = small_case();
@@ -175,7 +218,25 @@ TEST_F(GateTest, ACertificateNamesItsOwnerAndOneOfAnotherAuthorityIsNotLetIn) {
   EXPECT_EQ(refused({}), grpc::StatusCode::UNAVAILABLE);
   EXPECT_EQ(refused(other_authority_.sign("eve", {"anna"})), grpc::StatusCode::UNAVAILABLE);
   EXPECT_EQ(refused(authority_.sign("old", {"anna", "", -7200, -3600})), grpc::StatusCode::UNAVAILABLE);
-  EXPECT_EQ(refused(authority_.sign("liar", {"local"})), grpc::StatusCode::UNAUTHENTICATED);
+  EXPECT_EQ(refused(authority_.sign("liar", client_request("local"))), grpc::StatusCode::UNAUTHENTICATED);
+}
+
+TEST_F(GateTest, ACertificateThatIsNotForClientsIsRefused) {
+  DaemonOptions options = with_tls(tcp_options());
+  options.access.tls_client_authority = authority_.certificate();
+  start(options);
+  const auto status_of = [this](const char* use) {
+    CertificateRequest request{"anna"};
+    request.extended_key_usage = use;
+    return list({authority_.certificate(), authority_.sign("anna", request), ""});
+  };
+  EXPECT_TRUE(status_of("clientAuth").ok());
+  EXPECT_TRUE(status_of("serverAuth,clientAuth").ok());
+  EXPECT_EQ(status_of("serverAuth").error_code(), grpc::StatusCode::UNAVAILABLE) << "TLS refuses it.";
+  // The daemon's own certificate, which says nothing about its use.
+  const auto server = status_of("");
+  EXPECT_EQ(server.error_code(), grpc::StatusCode::UNAUTHENTICATED);
+  EXPECT_THAT(server.error_message(), HasSubstr("extendedKeyUsage = clientAuth"));
 }
 
 TEST_F(GateTest, AClientIsNotFooledByAnotherServer) {
