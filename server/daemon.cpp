@@ -134,7 +134,7 @@ struct Daemon::Impl {
       refusing_server->take(port, listener, descriptor);
     };
     parts.refused = [this](const std::string& why) {
-      refusals.write(spdlog::level::warn, "refused with " + why);
+      refusals.write(spdlog::level::warn, "refused " + why);
       service.note_refused_connection();
     };
     parts.counted = [this](std::size_t open) {

@@ -124,7 +124,7 @@ TEST_F(AccessTest, WhoIsNotLetInIsToldWhyWithinSeconds) {
 TEST_F(AccessTest, AServerThatAsksForACertificateIsShownOne) {
   start(tls() + std::vector<std::string>{"--tls-client-ca", ca_, "--tls-client-scope", "admin"});
   expect_refusal(cellcrush({"list", "--tls-ca", ca_}), 3, "--tls-cert");
-  const auto anna = authority_.sign("anna", client_request("anna"));
+  const auto anna = authority_.sign("anna", cellcrush::testing::client_request("anna"));
   const std::vector<std::string> access = {"--tls-ca",       ca_, "--tls-cert", anna.certificate.string(), "--tls-key",
                                            anna.key.string()};
   std::ofstream(path("case.txtpb")) << small_case();

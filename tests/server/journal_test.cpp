@@ -105,6 +105,8 @@ TEST_F(JournalTest, AskingForSamplesWaitsForThoseThatAnotherIsMakingDurable) {
   go_on = true;
   second.join();
   EXPECT_TRUE(returned);
+  first.join();
+  journal_.reset();  // which commits once more, and so calls `hold`
 }
 
 TEST_F(JournalTest, SamplesThatAreToldAgainAreThereOnce) {
