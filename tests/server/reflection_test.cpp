@@ -87,6 +87,7 @@ TYPED_TEST(ReflectionTest, GivesFilesFromWhichAClientBuildsTheService) {
   EXPECT_NE(jobs->FindMethodByName("CreateJob")->input_type()->FindFieldByName("case"), nullptr);
   EXPECT_EQ(this->ask_for_symbol("cellcrush.v1.Jobs.CreateJob").file_descriptor_response().file_descriptor_proto(0),
             response.file_descriptor_response().file_descriptor_proto(0));
+  EXPECT_GT(this->ask_for_symbol("grpc.health.v1.Health").file_descriptor_response().file_descriptor_proto_size(), 0);
   const std::string own = TypeParam::Service::service_full_name();
   EXPECT_THAT(this->ask_for_symbol(own).file_descriptor_response().file_descriptor_proto(), SizeIs(1));
 }
