@@ -15,9 +15,10 @@
 #include "access/token_file.h"
 #include "cellcrush/simd.h"
 #include "command_line/daemon_flags.h"
+#include "command_line/store_commands.h"
 #include "daemon.h"
 #include "log_format.h"
-#include "version.h"
+#include "revision.h"
 #include "worker/worker_main.h"
 
 namespace {
@@ -94,6 +95,7 @@ int main(int argc, char** argv) {
   token->add_option("--scope", token_scope, "read; submit: also make jobs and change one's own; admin: all")
       ->required()
       ->check(CLI::IsMember({"read", "submit", "admin"}));
+  const cellcrush::StoreCommands store_commands(app);
   // What the daemon itself starts; an empty group keeps it out of the help.
   std::filesystem::path job_folder;
   CLI::App* worker = app.add_subcommand("worker")->group("");
@@ -108,14 +110,15 @@ int main(int argc, char** argv) {
   umask(0077);
   if (worker->parsed()) cellcrush::worker::worker_main(job_folder);
   cellcrush::DaemonOptions options = flags.options();
+  spdlog::set_default_logger(spdlog::stderr_color_mt("cellcrushd"));
+  spdlog::set_formatter(flags.log_format() == "json" ? cellcrush::make_json_formatter()
+                                                     : cellcrush::make_text_formatter());
+  if (store_commands.given()) return store_commands.run(options.data_folder);
   if (options.data_folder.empty()) {
     std::fprintf(stderr, "cellcrushd: neither XDG_DATA_HOME nor HOME is set. Give a data folder with --data.\n");
     return 2;
   }
   options.on_drain = [] { kill(getpid(), SIGTERM); };
   const sigset_t signals = block_signals();
-  spdlog::set_default_logger(spdlog::stderr_color_mt("cellcrushd"));
-  spdlog::set_formatter(flags.log_format() == "json" ? cellcrush::make_json_formatter()
-                                                     : cellcrush::make_text_formatter());
   return serve(options, signals);
 }

@@ -63,7 +63,7 @@ struct Service::Parts {
         runner({folder, journal, reader, hub, executor, metrics, hold, options.checkpoint_interval,
                 std::chrono::duration<double>(options.limits.job_time).count(),
                 [this](const std::vector<std::int64_t>& stopped) { scheduler.forget(stopped); }}),
-        scheduler({folder, journal, reader, metrics, runner, hold}, options.limits.owner.running_jobs),
+        scheduler({folder, journal, reader, metrics, runner, hold, executor}, options.limits.owner.running_jobs),
         stream_limits(most_streams(options.connections)),
         health_limits(most_streams(options.connections)),
         pump(kPumpThreads),

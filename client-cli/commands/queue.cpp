@@ -2,8 +2,11 @@
 #include <google/protobuf/util/time_util.h>
 
 #include <algorithm>
+#include <chrono>
+#include <memory>
 
 #include "commands/commands.h"
+#include "connection/interruption.h"
 #include "terminal/json_text.h"
 #include "terminal/number_text.h"
 #include "terminal/table.h"
@@ -11,6 +14,9 @@
 namespace cellcrush::client {
 
 namespace {
+
+constexpr std::chrono::seconds kToAnswer{5};
+constexpr std::chrono::milliseconds kBetweenLooks{200};
 
 std::string hold_text(const v1::Queue::Hold& hold) {
   using google::protobuf::util::TimeUtil;
@@ -53,11 +59,35 @@ ExitCode run_queue(Session& session) {
   return ExitCode::done;
 }
 
-ExitCode run_drain(Session& session) {
+// Whether the server that was drained has ended: nobody answers, or one that was not drained.
+bool has_ended(Connection& connection) {
+  grpc::ClientContext context;
+  context.set_deadline(std::chrono::system_clock::now() + kToAnswer);
+  v1::Capabilities capabilities;
+  const auto status = connection.admin().GetCapabilities(&context, v1::GetCapabilitiesRequest(), &capabilities);
+  if (status.ok()) return !capabilities.draining();
+  const ExitCode code = exit_code_of(status.error_code());
+  if (code != ExitCode::no_connection && code != ExitCode::cut_off) throw error_of(status);
+  return code == ExitCode::no_connection;
+}
+
+ExitCode run_drain(Session& session, bool wait) {
   Connection& connection = session.connection();
   const auto response = connection.call(connection.admin(), &v1::Admin::Stub::Drain, v1::DrainRequest());
-  session.json ? print_json(response)
-               : fmt::print("the server takes no new jobs, leaves the running ones at a checkpoint and ends\n");
+  if (wait) {
+    const Interruption interruption;
+    while (!has_ended(connection)) {
+      if (!interruption.wait_for(kBetweenLooks)) continue;
+      fmt::print(stderr, "cellcrush: not waiting any longer; the server ends by itself\n");
+      return ExitCode::interrupted;
+    }
+  }
+  if (session.json) {
+    print_json(response);
+  } else {
+    fmt::print("{}\n", wait ? "the server has ended; its running jobs are at a checkpoint"
+                            : "the server takes no new jobs, leaves the running ones at a checkpoint and ends");
+  }
   return ExitCode::done;
 }
 
@@ -66,8 +96,11 @@ ExitCode run_drain(Session& session) {
 void add_queue_commands(CLI::App& app, Session& session) {
   add_command(app, session, "queue", "Say what waits, in the order in which it will start, and why",
               [&session] { return run_queue(session); });
-  add_command(app, session, "drain", "Let the server leave its running jobs at a checkpoint and end",
-              [&session] { return run_drain(session); });
+  const auto wait = std::make_shared<bool>(false);
+  CLI::App* drain = add_command(app, session, "drain", "Let the server leave its running jobs at a checkpoint and end",
+                                [&session, wait] { return run_drain(session, *wait); });
+  drain->add_flag("--wait", *wait,
+                  "Return once the server has ended: 0 then, 130 after Ctrl-C, which does not stop it");
 }
 
 }  // namespace cellcrush::client

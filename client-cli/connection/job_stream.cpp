@@ -30,6 +30,7 @@ bool follow_job(Connection& connection, const std::string& name, bool frames, co
       heard();
       reading.advanced = reading.advanced || event.sequence() > request.after_sequence();
       request.set_after_sequence(std::max(request.after_sequence(), event.sequence()));
+      if (event.has_snapshot()) request.set_epoch(event.snapshot().epoch());
       if (const v1::Job* job = job_in(event)) state = job->state();
       watcher.on_event(event);
     }

@@ -17,6 +17,13 @@ namespace {
 // The job was cancelled, suspended or deleted while a worker was started for it.
 struct Withdrawn {};
 
+// What workers left of the job does not count, and it is to be begun again; why.
+struct BeginAgain {
+  std::string why;
+};
+
+constexpr const char* kReportsAreGone = "Begun again from step 0: what its workers had reported is not in its folder.";
+
 void log_begin(const std::string& job, const worker::Begun& begun) {
   for (const auto& refused : begun.refused_checkpoints()) spdlog::warn("{}: {}", job, refused);
   if (begun.step() > 0) spdlog::info("{} goes on from step {}", job, begun.step());
@@ -54,7 +61,11 @@ v1::JobState JobRunner::run_once(std::int64_t job, Run& run) {
     const auto stored = parts_.reader.find_job(job);
     if (!stored || stored->job.state() == v1::SUSPENDED || is_terminal(stored->job.state()))
       return v1::JOB_STATE_UNSPECIFIED;
-    next = next_of(*stored, run);
+    try {
+      next = next_of(*stored, run);
+    } catch (const BeginAgain& reason) {
+      return begin_again(job, reason.why);
+    }
   } catch (const Withdrawn&) {
     spdlog::info("{} was withdrawn before it ran", name_of(job));
     return v1::JOB_STATE_UNSPECIFIED;
@@ -83,6 +94,8 @@ store::StateChange JobRunner::next_of(const store::StoredJob& stored, Run& run) 
 std::optional<store::StateChange> JobRunner::left_behind(const store::StoredJob& stored) {
   parts_.folder.make_job_folder(stored.number);
   const auto last_word = parts_.executor.take_last_word(parts_.folder.job_folder(stored.number), events_of(stored));
+  if (last_word && last_word->final && last_word->final->has_begin_again())
+    throw BeginAgain{last_word->final->begin_again()};
   if (last_word) return outcome_of(*last_word);
   if (stored.job.state() == v1::CANCELLING) return std::nullopt;
   return tried_again(worker_missing());
@@ -96,6 +109,8 @@ JobRunner::Left JobRunner::reconcile(std::int64_t job) {
     std::optional<store::StateChange> next;
     try {
       next = left_behind(*stored);
+    } catch (const BeginAgain& reason) {
+      return begin_again(job, reason.why) == v1::CANCELLING ? Left::is_to_run : Left::waits;
     } catch (const ServiceError& error) {
       if (error.kind() != ServiceError::Kind::data_loss) throw;
       next = outcome_of(error);
@@ -132,11 +147,15 @@ worker::Order JobRunner::order_of(const store::StoredJob& stored) const {
   const bool daemons = parts_.longest_job_s > 0.0 && (own == 0.0 || own > parts_.longest_job_s);
   order.set_time_limit_s(daemons ? parts_.longest_job_s : own);
   order.set_limit_is_daemons(daemons);
+  order.set_epoch(parts_.journal.epoch().id);
   return order;
 }
 
 WorkerExit JobRunner::run_worker(const store::StoredJob& stored, const Run& run) {
   parts_.folder.make_job_folder(stored.number);
+  // Without them nobody knows whose samples the journal has.
+  if (!parts_.folder.has_reports(stored.number) && parts_.reader.last_sampled_step(stored.number) >= 0)
+    throw BeginAgain{kReportsAreGone};
   worker::Order order = order_of(stored);
   order.set_threads(run.threads);
   return parts_.executor.run(parts_.folder.job_folder(stored.number), order, events_of(stored), run.interruptions);
@@ -173,7 +192,11 @@ WorkerEvents JobRunner::events_of(const store::StoredJob& stored) {
 // Samples that were said before come again with the same bits.
 void JobRunner::pass_on(std::int64_t job, std::int64_t& last_step, watch::Channel& channel, worker::Report& report) {
   switch (report.report_case()) {
-    case worker::Report::kBegun: log_begin(name_of(job), report.begun()); break;
+    case worker::Report::kBegun:
+      if (const auto& epoch = parts_.journal.epoch(); !epoch.admits(report.begun().epoch()))
+        throw BeginAgain{"Begun again from step 0: what its workers had reported is" + epoch.of_before() + "."};
+      log_begin(name_of(job), report.begun());
+      break;
     case worker::Report::kMesh: parts_.journal.set_mesh(job, report.mesh()); break;
     case worker::Report::kSample:
       if (report.sample().step() <= last_step) break;
@@ -193,6 +216,7 @@ void JobRunner::pass_on(std::int64_t job, std::int64_t& last_step, watch::Channe
 }
 
 store::StateChange JobRunner::after(const store::StoredJob& stored, const WorkerExit& exit, Run& run) {
+  if (exit.final && exit.final->has_begin_again()) throw BeginAgain{exit.final->begin_again()};
   auto next = outcome_of(exit);
   if (exit.kind == WorkerExit::Kind::cancelled && !is_last_word(exit)) return given_up(stored, std::move(next), run);
   if (!is_lost(exit)) return next;
@@ -252,6 +276,25 @@ store::StateChange JobRunner::given_up(const store::StoredJob& stored, store::St
     spdlog::warn("{} has no result: {}", name_of(stored.number), error.what());
   }
   return loss;
+}
+
+v1::JobState JobRunner::begin_again(std::int64_t job, const std::string& why) {
+  end_leftover(job);
+  try {
+    parts_.journal.begin_again(job, why);
+  } catch (const ServiceError& error) {
+    if (error.kind() == ServiceError::Kind::not_found) return v1::JOB_STATE_UNSPECIFIED;
+    if (error.kind() != ServiceError::Kind::failed_precondition) throw;
+    // One that was cancelled ends without a result.
+    parts_.folder.discard_run(job);
+    return v1::CANCELLING;
+  }
+  spdlog::warn("{}: {}", name_of(job), why);
+  parts_.folder.discard_run(job);
+  if (const auto channel = parts_.hub.find(job)) channel->forget();
+  const std::scoped_lock lock(mutex_);
+  losses_.erase(job);
+  return v1::PENDING;
 }
 
 v1::JobState JobRunner::put_back(std::int64_t job, const Run& run) {

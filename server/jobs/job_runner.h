@@ -90,6 +90,9 @@ class JobRunner {
   /// Nothing when it cannot be written for now. `logged`: why not, the last time, which is logged once.
   std::optional<v1::JobState> try_write(std::int64_t job, const store::StateChange& change, std::string& logged);
   void end_leftover_if_possible(std::int64_t job);
+  /// Drops what workers have made of the job, in the journal and its folder, so that it is run again from step 0. The state
+  /// it then has: PENDING, CANCELLING when a cancel came first, none when it was deleted. Throws ServiceError.
+  v1::JobState begin_again(std::int64_t job, const std::string& why);
   void tidy_up(std::int64_t job, const store::StateChange& change);
 
   struct Losses {

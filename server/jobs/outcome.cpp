@@ -93,7 +93,9 @@ store::StateChange waits_for(const Trouble& trouble) {
   return out;
 }
 
-bool is_last_word(const WorkerExit& exit) { return exit.final && !exit.final->has_suspended_step(); }
+bool is_last_word(const WorkerExit& exit) {
+  return exit.final && !exit.final->has_suspended_step() && !exit.final->has_begin_again();
+}
 
 bool is_lost(const WorkerExit& exit) {
   if (is_last_word(exit)) return false;

@@ -7,12 +7,14 @@
 #include <utility>
 
 #include "error.h"
+#include "jobs/folder_audit.h"
 #include "jobs/job_state.h"
 #include "jobs/queue_forecast.h"
 #include "jobs/resource_name.h"
 
 namespace cellcrush::jobs {
 void Scheduler::start(int slots) {
+  audit_job_folders(parts_.reader, parts_.folder, parts_.executor);
   free_cores_ = slots;
   clean_up();
   reconcile();

@@ -34,6 +34,7 @@ class Scheduler {
     metrics::Metrics& metrics;
     JobRunner& runner;
     QueueHold& hold;
+    Executor& executor;
   };
 
   /// `owner_max_running`: jobs of one owner that run at once; 0: any number.

@@ -27,7 +27,7 @@ constexpr std::chrono::milliseconds kLookForWatchers{50};
 constexpr std::chrono::milliseconds kLookAgain{200};
 
 const std::filesystem::path& existing(const std::filesystem::path& path) {
-  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
+  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_NONBLOCK | O_CLOEXEC, 0600);
   if (file < 0) store::throw_file_error(path, "written", errno);
   close(file);
   return path;

@@ -8,9 +8,9 @@
 
 #include "error.h"
 #include "jobs/resource_name.h"
+#include "revision.h"
 #include "rpc/change_log.h"
 #include "rpc/error_table.h"
-#include "version.h"
 
 namespace cellcrush::rpc {
 namespace {
@@ -38,6 +38,7 @@ grpc::Status AdminService::GetCapabilities(grpc::ServerContext*, const v1::GetCa
   return answer([&] {
     response->set_version(kSolverRevision);
     response->set_worker_limit(parts_.workers.count);
+    response->set_draining(draining_);
     return grpc::Status::OK;
   });
 }
@@ -96,6 +97,7 @@ grpc::Status AdminService::GetQueue(grpc::ServerContext*, const v1::GetQueueRequ
 grpc::Status AdminService::Drain(grpc::ServerContext* context, const v1::DrainRequest*, v1::DrainResponse*) {
   return answer([&] {
     log_change("", "drained", parts_.gate.caller_of(*context).name);
+    draining_ = true;
     parts_.drain();
     return grpc::Status::OK;
   });

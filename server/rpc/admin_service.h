@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <functional>
 
 #include "access/gate.h"
@@ -39,6 +40,7 @@ class AdminService final : public v1::Admin::Service {
   jobs::JobFacts facts_of(std::int64_t job);
 
   Parts parts_;
+  std::atomic<bool> draining_ = false;
 };
 
 }  // namespace cellcrush::rpc

@@ -1,6 +1,7 @@
 #include "rpc/download_source.h"
 
 #include "error.h"
+#include "store/result_seal.h"
 
 namespace cellcrush::rpc {
 namespace {
@@ -10,7 +11,8 @@ constexpr std::size_t kDownloadChunk = 128 * 1024;
 
 }  // namespace
 
-DownloadSource::DownloadSource(const std::filesystem::path& path, std::int64_t offset) : file_(path), offset_(offset) {
+DownloadSource::DownloadSource(const std::filesystem::path& path, std::int64_t offset)
+    : path_(path), file_(path), offset_(offset) {
   if (offset < 0) throw InvalidField("offset", "is negative.", "Use 0 for the whole file.");
   if (offset > file_.size()) {
     throw ServiceError(ServiceError::Kind::out_of_range, "offset is " + std::to_string(offset) + ", but the file has " +
@@ -20,6 +22,7 @@ DownloadSource::DownloadSource(const std::filesystem::path& path, std::int64_t o
 
 std::optional<DownloadSource::Message> DownloadSource::next() {
   if (ended()) return std::nullopt;
+  if (!sent_) store::check_seal_if_any(path_);
   Message out;
   out.set_offset(offset_);
   out.set_total_size(file_.size());

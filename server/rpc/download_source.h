@@ -22,7 +22,8 @@ class DownloadSource {
 
   void open(const std::function<void()>&) {}
   void close() {}
-  /// At least one message comes, so that the size is told even when nothing is left. Throws ServiceError.
+  /// At least one message comes, so that the size is told even when nothing is left. Before the first one every byte is held to
+  /// the file's seal. Throws ServiceError: data_loss for a damaged file.
   std::optional<Message> next();
   [[nodiscard]] bool has_more() const { return false; }
   [[nodiscard]] bool ended() const { return sent_ && offset_ == file_.size(); }
@@ -30,6 +31,7 @@ class DownloadSource {
   [[nodiscard]] std::string resume_advice() const { return "with offset " + std::to_string(offset_); }
 
  private:
+  std::filesystem::path path_;
   store::InputFile file_;
   std::int64_t offset_;
   bool sent_ = false;

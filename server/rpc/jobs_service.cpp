@@ -174,8 +174,10 @@ grpc::ServerWriteReactor<v1::JobEvent>* JobsService::WatchJob(grpc::CallbackServ
   return open_stream<watch::JobSource>(
       parts_.streams, *context, [&] { return parts_.gate.caller_of(*context).name; },
       [&] {
-        return std::make_unique<watch::JobSource>(parts_.reader, parts_.hub, find(request->name()).number,
-                                                  request->after_sequence(), request->frames());
+        const std::int64_t job = find(request->name()).number;
+        check_epoch(parts_.reader.epoch(), request->epoch());
+        return std::make_unique<watch::JobSource>(parts_.reader, parts_.hub, job, request->after_sequence(),
+                                                  request->frames());
       });
 }
 

@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <string>
 
+#include "store/epoch.h"
+
 namespace cellcrush::rpc {
 
 // Lengths of what a request may carry beside a case, in bytes. They are far beyond what is of use, so that a caller does not
@@ -22,5 +24,9 @@ void check_size(const std::string& field, std::size_t bytes, std::size_t largest
 
 /// Throws InvalidField when the text is longer.
 void check_length(const std::string& field, const std::string& text, std::size_t longest);
+
+/// Throws ServiceError (failed_precondition) when a caller continues what belongs to another epoch of the journal; an empty one is
+/// not compared.
+void check_epoch(const store::Epoch& epoch, const std::string& given);
 
 }  // namespace cellcrush::rpc

@@ -8,15 +8,19 @@
 
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <system_error>
+#include <thread>
 
 #include "error.h"
+#include "jobs/resource_name.h"
 #include "store/durable_file.h"
 
 namespace cellcrush::store {
 namespace {
 
+constexpr std::chrono::milliseconds kToEnd{1000};
 constexpr off_t kBallastBytes = 4 * 1024 * 1024;
 // SQLite's files and what a start writes.
 constexpr off_t kStartBallastBytes = 512 * 1024;
@@ -43,7 +47,7 @@ int error_of_folder(const worker::JobFolder& folder) {
     }
   }
   const auto probe = folder.root() / "probe";
-  const int file = open(probe.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
+  const int file = open(probe.c_str(), O_WRONLY | O_CREAT | O_NONBLOCK | O_CLOEXEC, 0600);
   if (file < 0) return errno;
   close(file);
   return unlink(probe.c_str()) == 0 ? 0 : errno;
@@ -51,7 +55,7 @@ int error_of_folder(const worker::JobFolder& folder) {
 
 // False where there is no room.
 bool keep_file(const std::filesystem::path& path, off_t bytes) {
-  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
+  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_NONBLOCK | O_CLOEXEC, 0600);
   const int error = file < 0 ? errno : posix_fallocate(file, 0, bytes);
   if (file >= 0) close(file);
   if (error == 0) return true;
@@ -60,24 +64,60 @@ bool keep_file(const std::filesystem::path& path, off_t bytes) {
   return false;
 }
 
+// A folder that was there may have been made for all to read.
+void warn_of_readers(const std::filesystem::path& root) {
+  struct stat status {};
+  if (stat(root.c_str(), &status) != 0 || (status.st_mode & 077U) == 0) return;
+  spdlog::warn(
+      "The data folder {} has mode {:04o}: others on this machine can reach jobs and results in it. Run `chmod 700 "
+      "{}`.",
+      root.string(), status.st_mode & 07777U, root.string());
+}
+
+// A daemon that ends holds the lock a moment longer than it listens.
+bool lock_within(int file, std::chrono::milliseconds limit) {
+  const auto end = std::chrono::steady_clock::now() + limit;
+  while (flock(file, LOCK_EX | LOCK_NB) != 0) {
+    if (std::chrono::steady_clock::now() > end) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  return true;
+}
+
 std::string read_text(int file) {
   std::array<char, 32> buffer{};
   const auto count = pread(file, buffer.data(), buffer.size(), 0);
   return count > 0 ? std::string(buffer.data(), static_cast<std::size_t>(count)) : "unknown";
 }
 
+void remove_file(const std::filesystem::path& path) {
+  std::error_code error;
+  std::filesystem::remove(path, error);
+  if (error) throw_file_error(path, "removed", error.value());
+}
+
 }  // namespace
+
+std::optional<std::string> daemon_of(const std::filesystem::path& root) {
+  const int lock = open((root / "lock").c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  if (lock < 0) return std::nullopt;
+  std::optional<std::string> out;
+  if (flock(lock, LOCK_SH | LOCK_NB) != 0) out = read_text(lock);
+  close(lock);
+  return out;
+}
 
 DataFolder::DataFolder(const std::filesystem::path& root) {
   make_private_folder(root);
   std::error_code error;
   root_ = std::filesystem::canonical(root, error);
   if (error) throw_file_error(root, "used", error.value());
+  warn_of_readers(root_);
   make_private_folder(root_ / "jobs");
   const auto lock_path = root_ / "lock";
   lock_ = open(lock_path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
   if (lock_ < 0) throw_file_error(lock_path, "used", errno);
-  if (flock(lock_, LOCK_EX | LOCK_NB) != 0) {
+  if (!lock_within(lock_, kToEnd)) {
     const std::string owner = read_text(lock_);
     close(lock_);
     throw ServiceError(ServiceError::Kind::failed_precondition,
@@ -124,30 +164,28 @@ void DataFolder::try_new_folder() const {
 
 void DataFolder::set_aside(std::int64_t job, const std::string& reason) const {
   const auto from = job_folder(job).root();
-  for (int i = 1;; ++i) {
-    const std::filesystem::path to = from.string() + ".set-aside-" + std::to_string(i);
-    if (renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) {
-      spdlog::error("{} cannot be used ({}) and was set aside as {}. Look whether the disk is sound.", from.string(),
-                    reason, to.filename().string());
-      return;
-    }
-    if (errno != EEXIST) {
-      throw ServiceError(ServiceError::Kind::internal,
-                         from.string() + " cannot be used (" + reason +
-                             ") and cannot be set aside: " + std::generic_category().message(errno) + ". Remove it.");
-    }
-  }
+  const auto to = set_aside(from.filename().string());
+  spdlog::error("{} cannot be used ({}) and was set aside as {}. Look whether the disk is sound.", from.string(),
+                reason, to.string());
 }
 
 void DataFolder::clean_job_folder(std::int64_t job) const {
   const auto folder = job_folder(job);
   // The reports last: while they are there, the folder is known to hold more than a result.
   for (const auto& path : {folder.partial_result(), folder.order(), folder.claim(), folder.partial_checkpoint(),
-                           folder.previous_checkpoint(), folder.checkpoint(), folder.reports()}) {
-    std::error_code error;
-    std::filesystem::remove(path, error);
-    if (error) throw_file_error(path, "removed", error.value());
-  }
+                           folder.previous_checkpoint(), folder.checkpoint(), folder.reports()})
+    remove_file(path);
+}
+
+bool DataFolder::has_reports(std::int64_t job) const {
+  std::error_code none;
+  const auto size = std::filesystem::file_size(job_folder(job).reports(), none);
+  return !none && size > 0;
+}
+
+void DataFolder::discard_run(std::int64_t job) const {
+  remove_file(job_folder(job).result());
+  clean_job_folder(job);
 }
 
 std::int64_t DataFolder::free_bytes() const {
@@ -170,14 +208,38 @@ void DataFolder::give_up_ballast() const {
 
 std::vector<std::int64_t> DataFolder::jobs_with_reports() const {
   std::vector<std::int64_t> out;
-  for (const auto& entry : std::filesystem::directory_iterator(root_ / "jobs")) {
-    const std::string name = entry.path().filename();
-    std::error_code unreadable;
-    if (name.find_first_not_of("0123456789") != std::string::npos) continue;
-    if (!std::filesystem::exists(worker::JobFolder(entry.path()).reports(), unreadable)) continue;
-    out.push_back(std::strtoll(name.c_str(), nullptr, 10));
+  for (const auto& name : names_in_jobs()) {
+    const auto job = jobs::number_of("jobs/" + name);
+    std::error_code none;
+    if (job && std::filesystem::exists(job_folder(*job).reports(), none)) out.push_back(*job);
   }
   return out;
+}
+
+std::vector<std::string> DataFolder::names_in_jobs() const {
+  std::vector<std::string> out;
+  std::error_code error;
+  for (std::filesystem::directory_iterator entry(root_ / "jobs", error), end; !error && entry != end;
+       entry.increment(error))
+    out.push_back(entry->path().filename().string());
+  if (error) throw_file_error(root_ / "jobs", "read", error.value());
+  return out;
+}
+
+std::filesystem::path DataFolder::set_aside(const std::string& name) const {
+  const auto from = root_ / "jobs" / name;
+  make_private_folder(root_ / "set-aside");
+  // A folder is moved to another one only by who may write in it.
+  struct stat status {};
+  if (lstat(from.c_str(), &status) == 0 && S_ISDIR(status.st_mode)) chmod(from.c_str(), status.st_mode | 0700U);
+  for (int i = 1;; ++i) {
+    const auto to = root_ / "set-aside" / (name + (i == 1 ? "" : "." + std::to_string(i)));
+    std::error_code error;
+    if (std::filesystem::exists(std::filesystem::symlink_status(to, error))) continue;
+    std::filesystem::rename(from, to, error);
+    if (error) throw_file_error(from, "set aside", error.value());
+    return to;
+  }
 }
 
 void DataFolder::remove_job_folder(std::int64_t job) const {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,12 +10,16 @@
 
 namespace cellcrush::store {
 
+/// Process of the daemon that runs on the folder, in words; nothing when none does.
+std::optional<std::string> daemon_of(const std::filesystem::path& root);
+
 /// The folder that one daemon at a time owns:
 ///   lock            held while a daemon runs; holds its process number
 ///   journal.sqlite  journal_format.md
 ///   ballast         room for what is owed when the disk is full
 ///   ballast.start   room for a start on a full disk
 ///   jobs/N/         what job N leaves: result.h5 (result_format.md)
+///   set-aside/      what was found in jobs/ and belongs to no job, or could not be used
 class DataFolder {
  public:
   /// Makes the folder, readable for its owner alone, where there is none, and takes the lock.
@@ -36,6 +41,12 @@ class DataFolder {
   /// Leaves nothing but the result in the folder of a job that has ended. Throws ServiceError.
   void clean_job_folder(std::int64_t job) const;
 
+  /// Whether workers have reported something in the job's folder.
+  [[nodiscard]] bool has_reports(std::int64_t job) const;
+
+  /// Removes what workers left in the folder of a job that is to be begun again. Throws ServiceError.
+  void discard_run(std::int64_t job) const;
+
   /// Bytes that the disk has left for this user.
   [[nodiscard]] std::int64_t free_bytes() const;
 
@@ -47,8 +58,15 @@ class DataFolder {
   /// Whether the disk has no room left for files of a few pages.
   [[nodiscard]] bool is_full() const;
 
-  /// Numbers of the jobs whose folders hold more than a result.
+  /// Numbers of the jobs whose folders hold more than a result; folders that cannot be read are left out.
   [[nodiscard]] std::vector<std::int64_t> jobs_with_reports() const;
+
+  /// Moves jobs/`name` to set-aside/ under a name that is free there, for the user to look at. Where it lies now. Throws
+  /// ServiceError.
+  std::filesystem::path set_aside(const std::string& name) const;
+
+  /// Names in jobs/.
+  [[nodiscard]] std::vector<std::string> names_in_jobs() const;
 
   /// Removes the job's folder and all in it; nothing happens when there is none. Throws ServiceError.
   void remove_job_folder(std::int64_t job) const;

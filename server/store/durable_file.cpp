@@ -1,6 +1,7 @@
 #include "store/durable_file.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -16,6 +17,16 @@ void throw_file_error(const std::filesystem::path& path, std::string_view used, 
   if (const Shortage shortage = shortage_of_errno(error); shortage != Shortage::none)
     throw ServiceError(shortage, message);
   throw ServiceError(ServiceError::Kind::internal, message);
+}
+
+int open_to_read(const std::filesystem::path& path) {
+  const int file = open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  if (file < 0) throw_file_error(path, "read", errno);
+  struct stat status {};
+  if (fstat(file, &status) == 0 && S_ISREG(status.st_mode)) return file;
+  close(file);
+  throw ServiceError(ServiceError::Kind::internal,
+                     path.string() + " cannot be read: it is no regular file. Move it away.");
 }
 
 namespace {

@@ -9,6 +9,7 @@
 #include "error.h"
 #include "jobs/job_state.h"
 #include "jobs/resource_name.h"
+#include "store/begin_again.h"
 #include "store/job_bytes.h"
 #include "store/journal_mending.h"
 #include "store/journal_schema.h"
@@ -60,6 +61,9 @@ Journal::Journal(const std::filesystem::path& path, Durable on_durable, GroupCom
       clock_(prepare_journal(database_), std::move(uptime)),
       writes_(database_, std::move(on_commit)) {
   mend_jobs(database_, clock_.seconds());
+  prepare_giving_back(database_);
+  epoch_ = read_epoch(database_);
+  upkeep_.emplace(path, kUpkeepInterval);
   committer_ = std::thread([this] { commit_gathered_when_due(); });
 }
 
@@ -95,16 +99,25 @@ std::vector<std::int64_t> Journal::change_state(std::int64_t job, const StateCha
   return stopped;
 }
 
+void Journal::begin_again(std::int64_t job, const std::string& why) {
+  Gathered dropped;
+  const Taking taking(*this);
+  writes_.run(
+      [&] {
+        dropped = take_gathered(job);
+        store::begin_again(database_, job, why);
+      },
+      [&] { give_back(std::move(dropped)); });
+  on_durable_(job);
+}
+
 void Journal::write_change(std::int64_t job, const StateChange& change) {
   v1::Job stored;
   {
     Statement read(database_, "SELECT job, state FROM jobs WHERE number = ?1");
     if (!read.bind(1, job).step())
       throw ServiceError(ServiceError::Kind::not_found, "There is no " + jobs::name_of(job) + ".");
-    if (!read_job_bytes(read.bytes(0), read.integer(1), stored)) {
-      throw ServiceError(ServiceError::Kind::data_loss, "The journal's entry of " + jobs::name_of(job) +
-                                                            " cannot be read. Restart the daemon, which mends it.");
-    }
+    if (!read_job_bytes(read.bytes(0), read.integer(1), stored)) throw unreadable_entry(job);
   }
   if (!jobs::may_follow(stored.state(), change.state)) {
     throw ServiceError(ServiceError::Kind::failed_precondition,

@@ -15,7 +15,9 @@
 #include "cellcrush/v1/event.pb.h"
 #include "cellcrush/v1/job.pb.h"
 #include "cellcrush/v1/sweep.pb.h"
+#include "store/epoch.h"
 #include "store/group_commit.h"
+#include "store/journal_upkeep.h"
 #include "store/queued_job.h"
 #include "store/service_clock.h"
 #include "store/sqlite.h"
@@ -105,9 +107,15 @@ class Journal {
   /// of its jobs that are PENDING are CANCELLED with it, and returned.
   std::vector<std::int64_t> change_state(std::int64_t job, const StateChange& change);
 
+  /// As the function of that name (begin_again.h), in one transaction; samples that are gathered for the job are dropped.
+  void begin_again(std::int64_t job, const std::string& why);
+
   /// Gathers a sample, to be durable within that time, with all others that were gathered by then. Never waits for the disk.
   /// One whose step is not beyond that of the job's newest one is dropped: what is told again is there once.
   void append_sample(std::int64_t job, const v1::Sample& sample, std::chrono::milliseconds within = kSoon);
+
+  /// Between two looks at what can be given back to the disk.
+  static constexpr std::chrono::milliseconds kUpkeepInterval{2000};
 
   /// For samples that somebody waits for, and for those that nobody does: what comes meanwhile shares a commit.
   static constexpr std::chrono::milliseconds kSoon{200};
@@ -117,6 +125,8 @@ class Journal {
   void commit_samples();
 
   void set_mesh(std::int64_t job, const v1::Mesh& mesh);
+
+  [[nodiscard]] const Epoch& epoch() const { return epoch_; }
 
   /// Seconds of the service clock (service_clock.h).
   [[nodiscard]] std::int64_t service_seconds() const { return clock_.seconds(); }
@@ -166,6 +176,7 @@ class Journal {
   Durable on_durable_;
   Database database_;
   ServiceClock clock_;
+  Epoch epoch_;
   GroupCommit writes_;       ///< all that is done with database_
   std::mutex gather_mutex_;  ///< guards what follows
   Gathered gathered_;        ///< samples that nobody makes durable yet, by job
@@ -174,6 +185,7 @@ class Journal {
   std::condition_variable sooner_;  ///< commit_at_ is earlier than it was, or the end has come
   bool stopping_ = false;
   std::thread committer_;
+  std::optional<JournalUpkeep> upkeep_;
 };
 
 }  // namespace cellcrush::store

@@ -6,6 +6,7 @@
 #include "jobs/job_state.h"
 #include "jobs/resource_name.h"
 #include "store/job_inserter.h"
+#include "store/job_removal.h"
 #include "store/journal.h"
 
 namespace cellcrush::store {
@@ -64,10 +65,8 @@ std::vector<std::int64_t> Journal::delete_ended(const std::vector<std::int64_t>&
 }
 
 void Journal::remove_job(std::int64_t job) {
-  for (const char* sql : {"DELETE FROM events WHERE job = ?1", "DELETE FROM meshes WHERE job = ?1",
-                          "DELETE FROM sweep_jobs WHERE job = ?1", "DELETE FROM job_labels WHERE job = ?1",
-                          "DELETE FROM jobs WHERE number = ?1", "INSERT INTO deleted_jobs (number) VALUES (?1)"})
-    Statement(database_, sql).bind(1, job).run();
+  remove_rows(database_, job);
+  Statement(database_, "INSERT INTO deleted_jobs (number) VALUES (?1)").bind(1, job).run();
 }
 
 void Journal::note_folders_removed(const std::vector<std::int64_t>& jobs) {

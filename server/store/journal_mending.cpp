@@ -90,6 +90,11 @@ bool read_job_bytes(const std::string& bytes, std::int64_t state, v1::Job& job) 
   return false;
 }
 
+ServiceError unreadable_entry(std::int64_t job) {
+  return {ServiceError::Kind::data_loss,
+          "The journal's entry of " + jobs::name_of(job) + " cannot be read. Restart the daemon, which mends it."};
+}
+
 void set_corrupt(v1::Job& job) {
   job.set_state(v1::FAILED);
   job.set_cause(v1::STORE_CORRUPT);

@@ -4,12 +4,16 @@
 #include <string>
 
 #include "cellcrush/v1/job.pb.h"
+#include "error.h"
 #include "store/sqlite.h"
 
 namespace cellcrush::store {
 
 /// Reads what the journal keeps of a job beside its case. False when these are not the bytes of a job in that state.
 bool read_job_bytes(const std::string& bytes, std::int64_t state, v1::Job& job);
+
+/// What is thrown for the row of a job that was damaged since the journal was opened: data_loss.
+ServiceError unreadable_entry(std::int64_t job);
 
 /// Shows a job of which the journal's entry cannot be read, with what is still known of it, as FAILED with STORE_CORRUPT.
 void set_corrupt(v1::Job& job);

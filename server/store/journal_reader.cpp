@@ -28,7 +28,7 @@ ServiceError unreadable_event(std::int64_t job, std::int64_t sequence) {
 
 }  // namespace
 
-JournalReader::JournalReader(const std::filesystem::path& path) : database_(path) {}
+JournalReader::JournalReader(const std::filesystem::path& path) : database_(path), epoch_(read_epoch(database_)) {}
 
 StoredJob JournalReader::read_job(const Statement& row) {
   StoredJob out;

@@ -12,6 +12,7 @@
 #include "cellcrush/v1/event.pb.h"
 #include "cellcrush/v1/job.pb.h"
 #include "store/ended_job.h"
+#include "store/epoch.h"
 #include "store/job_filter.h"
 #include "store/page_room.h"
 #include "store/queued_job.h"
@@ -39,6 +40,8 @@ class JournalReader {
  public:
   /// REQUIRES: a Journal has been opened on the same path.
   explicit JournalReader(const std::filesystem::path& path);
+
+  [[nodiscard]] const Epoch& epoch() const { return epoch_; }
 
   std::optional<StoredJob> find_job(std::int64_t job);
 
@@ -103,6 +106,7 @@ class JournalReader {
 
   std::mutex mutex_;
   Database database_;
+  Epoch epoch_;
 };
 
 }  // namespace cellcrush::store

@@ -1,6 +1,7 @@
 #include "store/journal_schema.h"
 
 #include "error.h"
+#include "store/epoch.h"
 #include "store/search_columns.h"
 
 namespace cellcrush::store {
@@ -91,6 +92,10 @@ CREATE TABLE service_clock (
   seconds INTEGER NOT NULL
 ) STRICT;
 INSERT INTO service_clock (id, seconds) VALUES (1, 0);
+CREATE TABLE facts (
+  name TEXT PRIMARY KEY,
+  value TEXT NOT NULL
+) STRICT, WITHOUT ROWID;
 PRAGMA user_version = 4;
 )sql";
 
@@ -108,6 +113,11 @@ CREATE INDEX job_labels_by_job ON job_labels(job);
 CREATE INDEX sweeps_in_deletion ON sweeps(number) WHERE deleting = 1;
 )sql";
 
+std::int64_t version_of(Database& database) {
+  Statement read(database, "PRAGMA user_version");
+  return read.step() ? read.integer(0) : 0;
+}
+
 // A daemon that was killed has noted less than it served: a job that ended since says how far it was.
 std::int64_t read_service_clock(Database& database) {
   Statement read(database,
@@ -118,18 +128,18 @@ std::int64_t read_service_clock(Database& database) {
 
 }  // namespace
 
+void require_known_version(Database& database) {
+  const std::int64_t version = version_of(database);
+  if (version <= kVersion) return;
+  throw ServiceError(ServiceError::Kind::failed_precondition,
+                     "The journal is of version " + std::to_string(version) + ", and this daemon knows version " +
+                         std::to_string(kVersion) + ". Run a newer cellcrushd, or use another data folder.");
+}
+
 std::int64_t prepare_journal(Database& database) {
   Transaction transaction(database);
-  std::int64_t version = 0;
-  {
-    Statement read(database, "PRAGMA user_version");
-    if (read.step()) version = read.integer(0);
-  }
-  if (version > kVersion) {
-    throw ServiceError(ServiceError::Kind::failed_precondition,
-                       "The journal is of version " + std::to_string(version) + ", and this daemon knows version " +
-                           std::to_string(kVersion) + ". Run a newer cellcrushd, or use another data folder.");
-  }
+  require_known_version(database);
+  const std::int64_t version = version_of(database);
   if (version < 1) database.execute(kJobTables);
   if (version < 2) database.execute(kSweepTables);
   if (version < 3) database.execute(kQueueColumns);
@@ -138,6 +148,7 @@ std::int64_t prepare_journal(Database& database) {
     fill_in_search_columns(database);
     database.execute(kSearchIndexes);
   }
+  ensure_epoch(database);
   transaction.commit();
   return read_service_clock(database);
 }

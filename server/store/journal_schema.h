@@ -14,4 +14,7 @@ inline constexpr int kSampleEvent = 2;
 /// counted (service_clock.h). Throws ServiceError (failed_precondition) for a journal of a later version.
 std::int64_t prepare_journal(Database& database);
 
+/// Throws ServiceError (failed_precondition) for a journal of a later version.
+void require_known_version(Database& database);
+
 }  // namespace cellcrush::store

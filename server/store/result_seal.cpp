@@ -30,8 +30,7 @@ constexpr std::string_view kUnsealed = "\x89HDF\r\n";  // an HDF5 file without a
 // An open file that closes itself. Failures throw ServiceError.
 class SealedFile {
  public:
-  SealedFile(const std::filesystem::path& path, int mode)
-      : path_(path), descriptor_(open(path.c_str(), mode | O_CLOEXEC)) {
+  SealedFile(int descriptor, const std::filesystem::path& path) : path_(path), descriptor_(descriptor) {
     if (descriptor_ < 0) throw_file_error(path_, "used", errno);
   }
   ~SealedFile() { close(descriptor_); }
@@ -114,23 +113,40 @@ class WholeFiles {
 }  // namespace
 
 void seal_result(const std::filesystem::path& path) {
-  const SealedFile file(path, O_RDWR);
+  const SealedFile file(open(path.c_str(), O_RDWR | O_CLOEXEC), path);
   file.write_seal(file.seal());
 }
 
-void check_seal(const std::filesystem::path& path) {
+Seal read_seal(const std::filesystem::path& path) {
   static WholeFiles whole;
-  const SealedFile file(path, O_RDONLY);
+  const SealedFile file(open_to_read(path), path);
   const auto identity = file.identity();
-  if (whole.contains(identity)) return;
+  if (whole.contains(identity)) return Seal::whole;
   const std::string stored = file.stored_seal();
-  if (stored.starts_with(kUnsealed)) {
+  if (stored.starts_with(kUnsealed)) return Seal::missing;
+  if (stored != file.seal()) return Seal::broken;
+  if (is_settled(identity)) whole.add(identity);
+  return Seal::whole;
+}
+
+namespace {
+
+void throw_if_broken(Seal seal) {
+  if (seal == Seal::broken) throw damaged_result("its bytes are not those that its checksum is of");
+}
+
+}  // namespace
+
+void check_seal(const std::filesystem::path& path) {
+  const Seal seal = read_seal(path);
+  if (seal == Seal::missing) {
     throw ServiceError(ServiceError::Kind::failed_precondition,
                        "The result was written by an earlier version, without a checksum, so that its frames are not "
                        "read. Download it: it is an HDF5 file as ever.");
   }
-  if (stored != file.seal()) throw damaged_result("its bytes are not those that its checksum is of");
-  if (is_settled(identity)) whole.add(identity);
+  throw_if_broken(seal);
 }
+
+void check_seal_if_any(const std::filesystem::path& path) { throw_if_broken(read_seal(path)); }
 
 }  // namespace cellcrush::store

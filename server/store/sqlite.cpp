@@ -29,30 +29,70 @@ Shortage shortage_of(sqlite3* handle, int code) {
   }
 }
 
+// "PATH", or what stands for it.
+std::string file_of(sqlite3* handle) {
+  const char* path = handle != nullptr ? sqlite3_db_filename(handle, "main") : nullptr;
+  return path != nullptr && *path != '\0' ? path : "The journal of the jobs";
+}
+
 [[noreturn]] void fail(sqlite3* handle, int code) {
   const std::string reason = handle != nullptr ? sqlite3_errmsg(handle) : sqlite3_errstr(code);
   const std::string message = "The journal of the jobs cannot be used: " + reason + ".";
   if (const Shortage shortage = shortage_of(handle, code); shortage != Shortage::none)
     throw ServiceError(shortage, message);
-  const int kind = code & 0xFF;
-  const bool damaged = kind == SQLITE_CORRUPT || kind == SQLITE_NOTADB;
-  throw ServiceError(damaged ? ServiceError::Kind::data_loss : ServiceError::Kind::internal, message);
+  if ((code & 0xFF) == SQLITE_NOTADB) {
+    throw ServiceError(ServiceError::Kind::data_loss,
+                       file_of(handle) + " is no journal of cellcrushd (" + reason +
+                           "). Restore a backup into a new folder with `cellcrushd restore`, or move the file away to "
+                           "begin with an empty journal.");
+  }
+  if ((code & 0xFF) == SQLITE_CORRUPT) {
+    throw ServiceError(ServiceError::Kind::data_loss,
+                       file_of(handle) + " is damaged (" + reason +
+                           "). `cellcrushd verify` names what is; restore a backup into a new folder with `cellcrushd "
+                           "restore`.");
+  }
+  throw ServiceError(ServiceError::Kind::internal, message);
 }
 
 }  // namespace
 
-Database::Database(const std::filesystem::path& path) {
+Database::Database(const std::filesystem::path& path, Access access) {
   sqlite3* handle = nullptr;
-  const int code =
-      sqlite3_open_v2(path.c_str(), &handle, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX, nullptr);
+  const int mode = access == Access::read_only ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
+  const int code = sqlite3_open_v2(path.c_str(), &handle, mode | SQLITE_OPEN_NOMUTEX, nullptr);
   handle_.reset(handle);
   if (code != SQLITE_OK) fail(handle, code);
   sqlite3_extended_result_codes(handle, 1);
-  sqlite3_busy_timeout(handle, 10'000);
-  // The log keeps its room when it is closed: the next start then needs none on a full disk.
-  int keep = 1;
-  sqlite3_file_control(handle, "main", SQLITE_FCNTL_PERSIST_WAL, &keep);
-  execute("PRAGMA journal_mode=WAL; PRAGMA synchronous=FULL; PRAGMA foreign_keys=ON;");
+  set_patience(kPatience);
+  if (access == Access::shared) {
+    // Free pages can be given back (JournalUpkeep) in a file that was made for it.
+    if (is_empty()) execute("PRAGMA auto_vacuum=INCREMENTAL;");
+    idle_.clear();
+    // The log keeps its room when it is closed: the next start then needs none on a full disk. A journal_size_limit would cut it.
+    int keep = 1;
+    sqlite3_file_control(handle, "main", SQLITE_FCNTL_PERSIST_WAL, &keep);
+    execute("PRAGMA journal_mode=WAL;");
+  }
+  if (access == Access::single_file) execute("PRAGMA journal_mode=DELETE;");
+  execute("PRAGMA synchronous=FULL; PRAGMA foreign_keys=ON;");
+}
+
+bool Database::is_empty() {
+  Statement count(*this, "PRAGMA page_count");
+  return count.step() && count.integer(0) == 0;
+}
+
+void Database::set_patience(std::chrono::milliseconds patience) {
+  sqlite3_busy_timeout(raw(), static_cast<int>(patience.count()));
+}
+
+void Database::copy_from(Database& source) {
+  sqlite3_backup* copy = sqlite3_backup_init(raw(), "main", source.raw(), "main");
+  if (copy == nullptr) fail(raw(), sqlite3_errcode(raw()));
+  const int code = sqlite3_backup_step(copy, -1);
+  sqlite3_backup_finish(copy);
+  if (code != SQLITE_DONE) fail(raw(), code);
 }
 
 void Database::execute(const char* sql) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -14,11 +15,23 @@ struct sqlite3_stmt;
 namespace cellcrush::store {
 
 /// A connection to an SQLite file. Not thread-safe. Every failure throws ServiceError: with the shortage behind it (full
-/// disk, lock, no descriptors or memory), data_loss when the file is damaged, otherwise internal.
+/// disk, lock, no descriptors or memory), data_loss for a file that is no database or is damaged, otherwise internal.
 class Database {
  public:
-  /// Opens or makes the file: WAL, synchronous=FULL, foreign keys on.
-  explicit Database(const std::filesystem::path& path);
+  /// How the file is opened; synchronous=FULL and foreign keys on in every case.
+  enum class Access {
+    shared,       ///< beside other connections, in WAL mode; makes the file where there is none
+    single_file,  ///< for a file that nobody else has open: once closed, it is complete without a WAL
+    read_only,    ///< changes nothing
+  };
+  explicit Database(const std::filesystem::path& path, Access access = Access::shared);
+
+  /// How long a statement waits for a lock of another connection before it fails.
+  static constexpr std::chrono::milliseconds kPatience{10'000};
+  void set_patience(std::chrono::milliseconds patience);
+
+  /// Copies what `source` holds now into this database, in one piece, while others write to `source`.
+  void copy_from(Database& source);
 
   /// Runs statements that give no rows.
   void execute(const char* sql);
@@ -33,6 +46,8 @@ class Database {
 
  private:
   friend class Statement;
+  bool is_empty();
+
   struct Close {
     void operator()(sqlite3* handle) const;
   };

@@ -21,6 +21,12 @@ void Channel::publish(v1::FieldFrame frame) {
   }
 }
 
+void Channel::forget() {
+  const std::scoped_lock lock(mutex_);
+  newest_.progress.reset();
+  newest_.frame.reset();
+}
+
 void Channel::announce() {
   const std::scoped_lock lock(mutex_);
   for (const auto& [id, watcher] : watchers_) watcher.wake();

@@ -29,6 +29,8 @@ class Channel {
   void publish(v1::Progress progress);
   /// A frame that is no newer than the newest one is not: a worker that goes on from a checkpoint sends some again.
   void publish(v1::FieldFrame frame);
+  /// The job begins again from step 0: what was published before does not count any more.
+  void forget();
   /// There are new durable events in the journal.
   void announce();
 

@@ -41,7 +41,7 @@ SweepSource::SweepSource(store::JournalReader& journal, store::SweepReader& swee
                          const std::string& resume_token)
     : journal_(journal), sweeps_(sweeps), sweep_(sweep) {
   std::map<std::int64_t, JobPlace> given;
-  if (!resume_token.empty()) given = parse_resume_token(sweep, resume_token);
+  if (!resume_token.empty()) given = places_in(resume_token);
   auto jobs = sweeps.jobs_of(sweep);
   std::sort(jobs.begin(), jobs.end());
   for (const std::int64_t job : jobs) {
@@ -55,6 +55,21 @@ SweepSource::SweepSource(store::JournalReader& journal, store::SweepReader& swee
     ++left_;
     news_->add(i);
   }
+}
+
+// "EPOCH@" and the places; without an epoch it is of an earlier version.
+std::string SweepSource::resume_token() const { return journal_.epoch().id + "@" + resume_token_of(sweep_, places_); }
+
+std::map<std::int64_t, JobPlace> SweepSource::places_in(const std::string& token) const {
+  const auto at = token.find('@');
+  const bool has_epoch = at != std::string::npos;
+  auto places = parse_resume_token(sweep_, has_epoch ? token.substr(at + 1) : token);
+  if (!journal_.epoch().admits(has_epoch ? token.substr(0, at) : "")) {
+    throw ServiceError(ServiceError::Kind::failed_precondition, "The resume_token is" + journal_.epoch().of_before() +
+                                                                    ": its jobs may be others now. Watch " +
+                                                                    jobs::sweep_name_of(sweep_) + " without one.");
+  }
+  return places;
 }
 
 void SweepSource::open(const std::function<void()>& wake) {
@@ -109,8 +124,7 @@ std::optional<v1::WatchSweepResponse> SweepSource::next_of(std::size_t position)
     if (!event) return std::nullopt;
     v1::WatchSweepResponse out;
     out.set_job(jobs::name_of(place.job));
-    if (event->has_state() || event->has_sample() || place.ended)
-      out.set_resume_token(resume_token_of(sweep_, places_));
+    if (event->has_state() || event->has_sample() || place.ended) out.set_resume_token(resume_token());
     *out.mutable_event() = *std::move(event);
     return out;
   } catch (const ServiceError& error) {
@@ -131,7 +145,7 @@ void SweepSource::end(std::size_t position) {
 v1::WatchSweepResponse SweepSource::bookmark() const {
   v1::WatchSweepResponse out;
   out.mutable_event()->mutable_bookmark();
-  out.set_resume_token(resume_token_of(sweep_, places_));
+  out.set_resume_token(resume_token());
   return out;
 }
 
@@ -140,7 +154,7 @@ v1::WatchSweepResponse SweepSource::snapshot() {
   if (!sweep) throw ServiceError(ServiceError::Kind::not_found, "There is no " + jobs::sweep_name_of(sweep_) + ".");
   v1::WatchSweepResponse out;
   *out.mutable_snapshot() = *std::move(sweep);
-  out.set_resume_token(resume_token_of(sweep_, places_));
+  out.set_resume_token(resume_token());
   return out;
 }
 

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -26,7 +27,8 @@ class SweepSource {
   using Message = v1::WatchSweepResponse;
   static constexpr bool kIsWatch = true;
 
-  /// An empty token begins with everything. Throws ServiceError: not_found, or invalid for another sweep's token.
+  /// An empty token begins with everything. Throws ServiceError: not_found, invalid for another sweep's token, or
+  /// failed_precondition for one of another epoch.
   SweepSource(store::JournalReader& journal, store::SweepReader& sweeps, Hub& hub, std::int64_t sweep,
               const std::string& resume_token);
 
@@ -66,6 +68,8 @@ class SweepSource {
     std::vector<bool> is_queued_;
   };
 
+  [[nodiscard]] std::string resume_token() const;
+  [[nodiscard]] std::map<std::int64_t, JobPlace> places_in(const std::string& token) const;
   v1::WatchSweepResponse snapshot();
   std::optional<v1::WatchSweepResponse> next_of(std::size_t position);
   void end(std::size_t position);

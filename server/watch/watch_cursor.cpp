@@ -1,5 +1,6 @@
 #include "watch/watch_cursor.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "error.h"
@@ -73,6 +74,7 @@ v1::JobEvent WatchCursor::snapshot() {
   v1::JobEvent event;
   event.set_sequence(after_);
   auto& snapshot = *event.mutable_snapshot();
+  snapshot.set_epoch(journal_.epoch().id);
   *snapshot.mutable_job() = find_job(journal_, job_).job;
   const auto newest = channel_->newest();
   if (newest.progress && snapshot.job().state() == v1::RUNNING) {
@@ -107,7 +109,9 @@ std::optional<v1::JobEvent> WatchCursor::transient() {
 void WatchCursor::queue_frame(const v1::FieldFrame& frame) {
   auto parts = chunks_of(frame);
   if (last_frame_) {
-    for (auto& part : parts) part.set_skipped(frame.index() - *last_frame_ - 1);
+    // A job that begins again from step 0 begins with its first frame.
+    const int skipped = std::max(0, frame.index() - *last_frame_ - 1);
+    for (auto& part : parts) part.set_skipped(skipped);
   }
   last_frame_ = frame.index();
   parts_.assign(std::make_move_iterator(parts.begin()), std::make_move_iterator(parts.end()));

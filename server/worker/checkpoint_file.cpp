@@ -81,6 +81,10 @@ FoundCheckpoint find_checkpoint(const JobFolder& folder, const Checkpoint::Origi
   FoundCheckpoint out;
   for (const auto& path : {folder.checkpoint(), folder.previous_checkpoint()}) {
     if (!std::filesystem::exists(path)) continue;
+    if (!std::filesystem::is_regular_file(path)) {
+      out.refused.push_back(path.filename().string() + " is no regular file.");
+      continue;
+    }
     auto reading = read(path, origin);
     if (reading.checkpoint) {
       out.checkpoint = std::move(reading.checkpoint);

@@ -1,15 +1,15 @@
 #include "worker/origin.h"
 
 #include "cellcrush/simd.h"
+#include "revision.h"
 #include "store/case_hash.h"
-#include "version.h"
 #include "worker/report_log.h"
 
 namespace cellcrush::worker {
 
 Checkpoint::Origin origin_of(const Order& order) {
   Checkpoint::Origin out;
-  out.set_solver_revision(kSolverRevision);
+  out.set_solver_revision(kSolverIdentity);
   out.set_simd_target(simd_target());
   out.set_case_hash(store::hash_of(order.case_()));
   return out;

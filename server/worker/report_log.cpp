@@ -75,9 +75,7 @@ void ReportLog::synchronize() {
   if (fdatasync(file_) != 0) store::throw_file_error(path_, "written", errno);
 }
 
-ReportLogReader::ReportLogReader(const std::filesystem::path& path) : file_(open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
-  if (file_ < 0) store::throw_file_error(path, "read", errno);
-}
+ReportLogReader::ReportLogReader(const std::filesystem::path& path) : file_(store::open_to_read(path)) {}
 
 ReportLogReader::~ReportLogReader() { close(file_); }
 

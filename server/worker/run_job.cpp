@@ -35,6 +35,11 @@ Final failure(v1::JobCause cause, std::string message, std::string remedy) {
   return out;
 }
 
+// What earlier workers left cannot be continued; why.
+struct CannotContinue {
+  std::string why;
+};
+
 // One run: what is advanced, and where its output goes.
 class Run {
  public:
@@ -80,10 +85,9 @@ class Run {
   // What an earlier worker said is said again with the same bits, or the job is another.
   void begin_anew() {
     if (const auto other = find_other_origin(folder_, origin_)) {
-      throw ServiceError(ServiceError::Kind::failed_precondition,
-                         "The job was begun by solver " + other->solver_revision() + " with " + other->simd_target() +
-                             ", and cannot be gone on with by " + origin_.solver_revision() + " with " +
-                             origin_.simd_target() + ".");
+      throw CannotContinue{"Begun again from step 0: the job was begun by solver " + other->solver_revision() +
+                           " with " + other->simd_target() + ", and this is solver " + origin_.solver_revision() +
+                           " with " + origin_.simd_target() + "."};
     }
     simulation_ = Simulation(scene_, order_.threads());
     output_.emplace(folder_, log_, order_, scene_);
@@ -95,6 +99,7 @@ class Run {
     begun.set_process(getpid());
     begun.set_step(simulation_.step());
     begun.set_threads(order_.threads());
+    begun.set_epoch(order_.epoch());
     *begun.mutable_origin() = origin_;
     for (const auto& reason : refused) begun.add_refused_checkpoints(reason);
     log_.append(report);
@@ -256,8 +261,6 @@ class Run {
 };
 
 Final failure_of(const ServiceError& error) {
-  if (error.kind() == ServiceError::Kind::failed_precondition)
-    return failure(v1::WORKER_LOST, error.what(), "Submit the case again.");
   return failure(v1::WORKER_CRASHED, error.what(), "Look into the daemon's log, then submit the case again.");
 }
 
@@ -276,6 +279,10 @@ Final end_of(const JobFolder& folder, const Order& order, ReportLog& log, const 
   Final loss;
   try {
     return Run(folder, order, log, stop_asked).to_the_end();
+  } catch (const CannotContinue& reason) {
+    Final out;
+    out.set_begin_again(reason.why);
+    return out;
   } catch (const ServiceError& error) {
     if (error.shortage() != Shortage::none) return left_for(error, folder, order);
     loss = failure_of(error);

@@ -5,8 +5,8 @@
 
 #include "cellcrush/sample_bytes.h"
 #include "cellcrush/simd.h"
+#include "revision.h"
 #include "store/durable_file.h"
-#include "version.h"
 
 namespace cellcrush::worker {
 namespace {

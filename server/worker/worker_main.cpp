@@ -46,8 +46,10 @@ Shortage shortage_of_exit_code(int code) {
 }
 
 void worker_main(const std::filesystem::path& folder) {
+  // By its own folder, wherever that is moved: the place may be another job's after a restore.
+  if (chdir(folder.c_str()) != 0) _exit(kNoReport);
   // _exit: the result is closed and durable, and nothing that runs at exit may turn a success into a crash.
-  _exit(run(JobFolder(folder)));
+  _exit(run(JobFolder(".")));
 }
 
 }  // namespace cellcrush::worker

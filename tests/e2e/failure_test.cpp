@@ -57,6 +57,17 @@ class Failure : public DaemonTest {
   pid_t worker_ = 0;
 };
 
+TEST_F(Failure, ADrainThatWaitsReturnsOnceTheDaemonHasGone) {
+  start_long_job();
+  const Outcome drained = cellcrush({"drain", "--wait"});
+  EXPECT_EQ(drained.exit_code, 0) << drained.all();
+  EXPECT_THAT(drained.output, HasSubstr("the server has ended"));
+  EXPECT_TRUE(ends(worker_));
+  EXPECT_EQ(daemon().wait(std::chrono::seconds(5)).exit_code, 0);
+  start_daemon();
+  EXPECT_EQ(cellcrush({"list"}).exit_code, 0) << "The next one has the folder at once.";
+}
+
 TEST_F(Failure, WithoutAServerTheCommandEndsWithinTwoSeconds) {
   for (const std::string& address : {"unix:" + (folder() / "nobody").string(), std::string("127.0.0.1:1")}) {
     const Outcome outcome = run({CELLCRUSH_PROGRAM, "list", "--server", address}, kShortLimit);

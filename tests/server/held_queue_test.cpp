@@ -116,8 +116,8 @@ TEST_F(HeldQueueTest, AJobFolderThatCannotBeUsedIsSetAsideAndHoldsNobody) {
     const std::string job = client.create(tiny_case());
     EXPECT_TRUE(client.wait_for_state(job, v1::SUCCEEDED)) << client.get(job).cause_message();
   }
-  EXPECT_TRUE(std::filesystem::is_regular_file(data_folder() / "jobs" / "2.set-aside-1"));
-  EXPECT_TRUE(std::filesystem::is_directory(data_folder() / "jobs" / "3.set-aside-1"));
+  EXPECT_TRUE(std::filesystem::is_regular_file(data_folder() / "set-aside" / "2"));
+  EXPECT_TRUE(std::filesystem::is_directory(data_folder() / "set-aside" / "3"));
   EXPECT_TRUE(queue_of(client).holds().empty());
 }
 

@@ -55,7 +55,7 @@ class JournalTest : public ::testing::Test {
   std::optional<JournalReader> reader_;
 };
 
-/// What the third version had: no columns and labels to search by, and no service clock.
+/// What the third version had: no columns and labels to search by, no service clock and no facts.
 inline constexpr const char* kWithoutSearchColumns = R"sql(
 DROP INDEX jobs_by_request;
 DROP INDEX sweeps_by_request;
@@ -67,6 +67,7 @@ DROP INDEX jobs_to_measure;
 DROP INDEX sweeps_in_deletion;
 DROP TABLE job_labels;
 DROP TABLE service_clock;
+DROP TABLE facts;
 ALTER TABLE jobs DROP COLUMN owner;
 ALTER TABLE jobs DROP COLUMN title;
 ALTER TABLE jobs DROP COLUMN ended_at;

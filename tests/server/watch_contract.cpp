@@ -24,7 +24,10 @@ void WatchContract::see(const v1::JobEvent& event) {
 
 void WatchContract::see_numbered(const v1::JobEvent& event) {
   require(event.sequence() > sequence_, "No event comes twice or out of order, as " + std::to_string(event.sequence()));
-  require(event.sequence() <= sequence_ + 1, "No event is missing before " + std::to_string(event.sequence()));
+  const bool begins_again = event.has_state() && event.state().begun_again_sequence() == event.sequence();
+  if (begins_again) step_ = -1;
+  require(event.sequence() <= sequence_ + 1 || begins_again,
+          "No event is missing before " + std::to_string(event.sequence()));
   require(parts_left_ == 0, "The parts of a frame come together.");
   sequence_ = event.sequence();
   if (event.has_sample()) {
@@ -33,7 +36,7 @@ void WatchContract::see_numbered(const v1::JobEvent& event) {
   } else {
     const v1::JobState next = event.state().state();
     require(sequence_ != 1 || next == v1::PENDING, "A job begins PENDING.");
-    require(!state_ || jobs::may_follow(*state_, next), "A state follows one that it may follow.");
+    require(!state_ || begins_again || jobs::may_follow(*state_, next), "A state follows one that it may follow.");
     state_ = next;
     job_ended_ = jobs::is_terminal(next);
   }

@@ -1,9 +1,9 @@
 #include "store/case_hash.h"
 
 #include "cellcrush/simulation.h"
+#include "revision.h"
 #include "translate/spec_to_case.h"
 #include "validation/provenance.h"
-#include "version.h"
 
 namespace cellcrush::validation {
 

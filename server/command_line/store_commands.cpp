@@ -1,0 +1,93 @@
+#include "command_line/store_commands.h"
+
+#include <cstdio>
+#include <string>
+
+#include "store/backup.h"
+#include "store/verification.h"
+
+namespace cellcrush {
+namespace {
+
+CLI::App* add_store_command(CLI::App& app, const char* name, const char* description, const char* of_folder,
+                            std::filesystem::path& folder) {
+  CLI::App* command = app.add_subcommand(name, description)->fallthrough();
+  command->add_option("DIR", folder, of_folder)->required();
+  return command;
+}
+
+// Notes and problems, a line each. Whether there is no problem.
+bool print_findings(const store::Verification& found) {
+  for (const auto& note : found.notes) std::printf("note: %s\n", note.c_str());
+  for (const auto& problem : found.problems) std::printf("problem: %s\n", problem.c_str());
+  return found.problems.empty();
+}
+
+std::string counts_of(const store::Verification& found) {
+  return std::to_string(found.jobs) + " jobs, " + std::to_string(found.sweeps) + " sweeps, " +
+         std::to_string(found.results) + " results";
+}
+
+}  // namespace
+
+StoreCommands::StoreCommands(CLI::App& app)
+    : backup_(add_store_command(app, "backup",
+                                "back up the data folder (--data) to a new folder, also while a daemon runs on it, and "
+                                "end",
+                                "folder to be made; where it is there, it must be empty", folder_)),
+      verify_(add_store_command(app, "verify",
+                                "read all of a backup or a data folder, name every problem, and end: 0 without one, "
+                                "else 1",
+                                "folder of a backup or of a daemon's data", folder_)),
+      restore_(add_store_command(app, "restore",
+                                 "make a new data folder (--data) of a backup, after verifying it, and end",
+                                 "folder of the backup", folder_)) {}
+
+bool StoreCommands::given() const { return backup_->parsed() || verify_->parsed() || restore_->parsed(); }
+
+int StoreCommands::run(const std::filesystem::path& data_folder) const {
+  if (data_folder.empty() && !verify_->parsed()) {
+    std::fprintf(stderr, "cellcrushd: neither XDG_DATA_HOME nor HOME is set. Give a data folder with --data.\n");
+    return 2;
+  }
+  try {
+    if (verify_->parsed()) return verify();
+    return backup_->parsed() ? backup(data_folder) : restore(data_folder);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "cellcrushd: %s\n", error.what());
+    return 1;
+  }
+}
+
+int StoreCommands::backup(const std::filesystem::path& data_folder) const {
+  const auto manifest = store::take_backup(data_folder, folder_);
+  for (const auto& sentence : manifest.lost) std::fprintf(stderr, "cellcrushd: %s\n", sentence.c_str());
+  std::printf("%s holds the journal of %s and %zu results\n", folder_.c_str(), manifest.created.c_str(),
+              manifest.files.size() - 1);
+  return 0;
+}
+
+int StoreCommands::verify() const {
+  const auto found = store::verify_folder(folder_);
+  if (!print_findings(found)) return 1;
+  std::printf("%s is whole: %s\n", folder_.c_str(), counts_of(found).c_str());
+  return 0;
+}
+
+int StoreCommands::restore(const std::filesystem::path& data_folder) const {
+  const auto found = store::verify_folder(folder_);
+  if (!found.is_backup) {
+    std::fprintf(stderr, "cellcrushd: %s is no backup. Give a folder that `cellcrushd backup` has made.\n",
+                 folder_.c_str());
+    return 1;
+  }
+  if (!print_findings(found)) {
+    std::fprintf(stderr, "cellcrushd: %s is damaged and was not restored. Use another backup.\n", folder_.c_str());
+    return 1;
+  }
+  store::restore_backup(folder_, data_folder);
+  std::printf("%s holds the backup of %s: %s\n", data_folder.c_str(), found.created.c_str(), counts_of(found).c_str());
+  return 0;
+}
+
+}  // namespace cellcrush

@@ -1,0 +1,81 @@
+#include "jobs/folder_audit.h"
+
+#include <spdlog/spdlog.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstdint>
+#include <set>
+#include <string>
+
+#include "error.h"
+#include "jobs/resource_name.h"
+
+namespace cellcrush::jobs {
+namespace {
+
+// What a file system keeps for itself.
+constexpr const char* kOfTheFileSystem = "lost+found";
+
+// Why no worker could use the folder; empty when one can.
+std::string why_unusable(const worker::JobFolder& folder) {
+  struct stat status {};
+  if (stat(folder.root().c_str(), &status) != 0 || !S_ISDIR(status.st_mode)) return "it is no folder";
+  if (access(folder.root().c_str(), R_OK | W_OK | X_OK) != 0) return "it may not be read and written";
+  for (const auto& path :
+       {folder.order(), folder.claim(), folder.reports(), folder.checkpoint(), folder.previous_checkpoint(),
+        folder.partial_checkpoint(), folder.result(), folder.partial_result()}) {
+    if (lstat(path.c_str(), &status) != 0) continue;
+    const std::string name = path.filename().string();
+    if (!S_ISREG(status.st_mode)) return name + " in it is no regular file";
+    if (access(path.c_str(), R_OK | W_OK) != 0) return name + " in it may not be read and written";
+  }
+  return "";
+}
+
+class FolderAudit {
+ public:
+  FolderAudit(store::JournalReader& reader, const store::DataFolder& folder, Executor& executor)
+      : reader_(reader), folder_(folder), executor_(executor) {
+    for (const auto state : {v1::PENDING, v1::RUNNING, v1::SUSPENDED, v1::CANCELLING}) {
+      for (const auto& job : reader.queued_jobs(state)) open_.insert(job.job);
+    }
+  }
+
+  void look_at(const std::string& name) {
+    if (name == kOfTheFileSystem) return;
+    const auto job = number_of("jobs/" + name);
+    if (!job || !reader_.has_job(*job)) {
+      set_aside(name, "it belongs to no job");
+    } else if (open_.contains(*job)) {
+      const std::string trouble = why_unusable(folder_.job_folder(*job));
+      if (trouble.empty()) return;
+      executor_.end_worker(folder_.job_folder(*job));
+      set_aside(name, trouble);
+    }
+  }
+
+ private:
+  void set_aside(const std::string& name, const std::string& why) {
+    try {
+      spdlog::warn("jobs/{} was set aside, for {}: it lies in {} now. Remove it once nobody needs it.", name, why,
+                   folder_.set_aside(name).string());
+    } catch (const ServiceError& error) {
+      spdlog::error("jobs/{} is not used, for {}, and cannot be set aside: {} Move it away.", name, why, error.what());
+    }
+  }
+
+  store::JournalReader& reader_;
+  const store::DataFolder& folder_;
+  Executor& executor_;
+  std::set<std::int64_t> open_;  ///< jobs that have not ended
+};
+
+}  // namespace
+
+void audit_job_folders(store::JournalReader& reader, const store::DataFolder& folder, Executor& executor) {
+  FolderAudit audit(reader, folder, executor);
+  for (const auto& name : folder.names_in_jobs()) audit.look_at(name);
+}
+
+}  // namespace cellcrush::jobs

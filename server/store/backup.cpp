@@ -1,0 +1,133 @@
+#include "store/backup.h"
+
+#include <cerrno>
+#include <fstream>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "error.h"
+#include "jobs/job_state.h"
+#include "jobs/resource_name.h"
+#include "store/durable_file.h"
+#include "store/job_removal.h"
+#include "store/journal_mending.h"
+#include "store/journal_schema.h"
+#include "store/result_seal.h"
+#include "store/sqlite.h"
+#include "store/staged_folder.h"
+
+namespace cellcrush::store {
+namespace {
+
+constexpr const char* kJournalName = "journal.sqlite";
+
+std::string result_name(std::int64_t job) { return jobs::name_of(job) + "/result.h5"; }
+
+std::vector<std::int64_t> jobs_with_result(Database& journal) {
+  Statement read(journal, "SELECT number, state, job FROM jobs ORDER BY number");
+  std::vector<std::int64_t> out;
+  while (read.step()) {
+    v1::Job job;
+    if (read_job_bytes(read.bytes(2), read.integer(1), job) && jobs::is_terminal(job.state()) && job.has_summary())
+      out.push_back(read.integer(0));
+  }
+  return out;
+}
+
+// The results of a journal's jobs, beside its copy.
+class ResultBackup {
+ public:
+  ResultBackup(const std::filesystem::path& data_folder, const std::filesystem::path& target, Database& live)
+      : data_folder_(data_folder), target_(target), live_(live) {}
+
+  void copy(std::int64_t job, BackupManifest& manifest) {
+    std::string problem = "its result is damaged.";
+    try {
+      auto file = copy_result(job);
+      if (read_seal(target_ / result_name(job)) != Seal::broken) {
+        manifest.files.push_back(std::move(file));
+        return;
+      }
+    } catch (const ServiceError& error) {
+      if (error.kind() == ServiceError::Kind::storage_full) throw;
+      problem = error.what();
+    }
+    std::error_code none;
+    std::filesystem::remove_all(target_ / jobs::name_of(job), none);
+    if (is_there(job))
+      manifest.lost.push_back(jobs::name_of(job) + " has no result in this backup: " + problem);
+    else
+      deleted_.push_back(job);
+  }
+
+  /// Jobs that were deleted while the backup was made.
+  [[nodiscard]] const std::vector<std::int64_t>& deleted() const { return deleted_; }
+
+ private:
+  BackupFile copy_result(std::int64_t job) {
+    std::error_code error;
+    std::filesystem::create_directories(target_ / jobs::name_of(job), error);
+    if (error) throw_file_error(target_ / jobs::name_of(job), "made", error.value());
+    auto file = digest_of(data_folder_ / result_name(job), target_ / result_name(job));
+    file.path = result_name(job);
+    return file;
+  }
+
+  // A job's rows go before its folder does.
+  bool is_there(std::int64_t job) {
+    return Statement(live_, "SELECT 1 FROM jobs WHERE number = ?1").bind(1, job).step();
+  }
+
+  const std::filesystem::path& data_folder_;
+  const std::filesystem::path& target_;
+  Database& live_;
+  std::vector<std::int64_t> deleted_;
+};
+
+void remove_deleted(Database& journal, const std::vector<std::int64_t>& deleted) {
+  if (deleted.empty()) return;
+  Transaction transaction(journal);
+  for (const std::int64_t job : deleted) remove_rows(journal, job);
+  transaction.commit();
+}
+
+void write_manifest(const BackupManifest& manifest, const std::filesystem::path& folder) {
+  std::ofstream file(folder / kManifestName, std::ios::binary);
+  file << text_of(manifest);
+  file.close();
+  if (!file) throw_file_error(folder / kManifestName, "written", errno);
+}
+
+}  // namespace
+
+BackupManifest take_backup(const std::filesystem::path& data_folder, const std::filesystem::path& target) {
+  const auto live_path = data_folder / kJournalName;
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(live_path, none)) {
+    throw ServiceError(ServiceError::Kind::not_found, data_folder.string() +
+                                                          " holds no journal of a daemon. Give the folder that the "
+                                                          "daemon has as its --data.");
+  }
+  StagedFolder staged(target);
+  Database live(live_path);
+  require_known_version(live);
+  BackupManifest manifest;
+  manifest.created = time_text_now();
+  const auto copy_path = staged.path() / kJournalName;
+  { Database(copy_path, Database::Access::single_file).copy_from(live); }
+  {
+    // The copy has the mode of the original until it is opened again.
+    Database copy(copy_path, Database::Access::single_file);
+    ResultBackup results(data_folder, staged.path(), live);
+    for (const std::int64_t job : jobs_with_result(copy)) results.copy(job, manifest);
+    remove_deleted(copy, results.deleted());
+  }
+  manifest.files.push_back(digest_of(copy_path));
+  manifest.files.back().path = kJournalName;
+  write_manifest(manifest, staged.path());
+  staged.publish();
+  return manifest;
+}
+
+}  // namespace cellcrush::store

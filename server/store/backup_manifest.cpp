@@ -1,0 +1,155 @@
+#include "store/backup_manifest.h"
+
+#include <fcntl.h>
+#include <google/protobuf/util/time_util.h>
+#include <openssl/evp.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <memory>
+#include <sstream>
+#include <string_view>
+
+#include "error.h"
+#include "store/durable_file.h"
+
+namespace cellcrush::store {
+namespace {
+
+constexpr std::string_view kManifestTitle = "CELLCRUSH BACKUP 1";
+constexpr std::size_t kCopiedAtOnce = 1 << 20;
+
+// SHA-256 of bytes that come in parts.
+class Digest {
+ public:
+  Digest() : context_(EVP_MD_CTX_new(), EVP_MD_CTX_free) { EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr); }
+  void add(const char* bytes, std::size_t size) { EVP_DigestUpdate(context_.get(), bytes, size); }
+  std::string hexadecimal() {
+    std::string digest(EVP_MAX_MD_SIZE, '\0');
+    unsigned size = 0;
+    EVP_DigestFinal_ex(context_.get(), reinterpret_cast<unsigned char*>(digest.data()), &size);
+    constexpr const char* kDigitsOfBytes = "0123456789abcdef";
+    std::string out;
+    for (const char byte : digest.substr(0, size)) {
+      out.push_back(kDigitsOfBytes[static_cast<unsigned char>(byte) >> 4U]);
+      out.push_back(kDigitsOfBytes[static_cast<unsigned char>(byte) & 0xFU]);
+    }
+    return out;
+  }
+
+ private:
+  std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_;
+};
+
+// A descriptor that closes itself.
+class OpenFile {
+ public:
+  explicit OpenFile(int descriptor) : descriptor_(descriptor) {}
+  ~OpenFile() {
+    if (descriptor_ >= 0) close(descriptor_);
+  }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+  [[nodiscard]] int get() const { return descriptor_; }
+
+ private:
+  int descriptor_;
+};
+
+void write_all(int file, std::string_view bytes, const std::filesystem::path& path) {
+  while (!bytes.empty()) {
+    const auto count = write(file, bytes.data(), bytes.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) throw_file_error(path, "written", errno);
+    bytes.remove_prefix(static_cast<std::size_t>(count));
+  }
+}
+
+std::string digest_of_text(std::string_view text) {
+  Digest digest;
+  digest.add(text.data(), text.size());
+  return digest.hexadecimal();
+}
+
+// A restore makes files of these names: nothing but the journal and results.
+bool is_name_of_backup(const std::string& path) {
+  if (path == "journal.sqlite") return true;
+  constexpr std::string_view kBefore = "jobs/";
+  constexpr std::string_view kBehind = "/result.h5";
+  if (!path.starts_with(kBefore) || !path.ends_with(kBehind) || path.size() <= kBefore.size() + kBehind.size())
+    return false;
+  const auto number = std::string_view(path).substr(kBefore.size(), path.size() - kBefore.size() - kBehind.size());
+  return number.size() < 20 && number.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+ServiceError damaged_manifest() {
+  return {ServiceError::Kind::data_loss,
+          std::string(kManifestName) + " is damaged: it is not what `cellcrushd backup` wrote. Use another backup."};
+}
+
+}  // namespace
+
+std::string text_of(const BackupManifest& manifest) {
+  std::string out = std::string(kManifestTitle) + "\ncreated " + manifest.created + "\n";
+  for (const auto& file : manifest.files)
+    out += "file " + std::to_string(file.size) + " " + file.sha256 + " " + file.path + "\n";
+  for (const auto& sentence : manifest.lost) out += "lost " + sentence + "\n";
+  return out + "end " + digest_of_text(out) + "\n";
+}
+
+BackupManifest parse_manifest(const std::string& text) {
+  const auto end = text.rfind("end ");
+  if (end == std::string::npos || text.substr(end) != "end " + digest_of_text(text.substr(0, end)) + "\n")
+    throw damaged_manifest();
+  std::istringstream lines(text.substr(0, end));
+  std::string line;
+  if (!std::getline(lines, line) || line != kManifestTitle) throw damaged_manifest();
+  BackupManifest out;
+  while (std::getline(lines, line)) {
+    std::istringstream words(line);
+    std::string kind;
+    words >> kind >> std::ws;
+    if (kind == "created") {
+      words >> out.created;
+    } else if (kind == "lost") {
+      std::getline(words, out.lost.emplace_back());
+    } else {
+      BackupFile file;
+      if (kind != "file" || !(words >> file.size >> file.sha256 >> file.path) || !is_name_of_backup(file.path))
+        throw damaged_manifest();
+      out.files.push_back(std::move(file));
+    }
+  }
+  return out;
+}
+
+BackupFile digest_of(const std::filesystem::path& file, const std::filesystem::path& copy) {
+  const OpenFile from(open_to_read(file));
+  const OpenFile to(copy.empty() ? -1 : open(copy.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600));
+  if (!copy.empty() && to.get() < 0) throw_file_error(copy, "written", errno);
+  BackupFile out;
+  Digest digest;
+  std::string part(kCopiedAtOnce, '\0');
+  while (true) {
+    const auto count = read(from.get(), part.data(), part.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) throw_file_error(file, "read", errno);
+    if (count == 0) break;
+    const auto size = static_cast<std::size_t>(count);
+    digest.add(part.data(), size);
+    out.size += size;
+    if (to.get() >= 0) write_all(to.get(), {part.data(), size}, copy);
+  }
+  out.sha256 = digest.hexadecimal();
+  return out;
+}
+
+std::string time_text_now() {
+  auto now = google::protobuf::util::TimeUtil::GetCurrentTime();
+  now.set_nanos(0);
+  return google::protobuf::util::TimeUtil::ToString(now);
+}
+
+}  // namespace cellcrush::store

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace cellcrush::store {
+
+/// A file of a backup.
+struct BackupFile {
+  std::string path;  ///< "journal.sqlite" or "jobs/N/result.h5"
+  std::uint64_t size = 0;
+  std::string sha256;  ///< in hexadecimal
+};
+
+/// What a backup holds (backup_format.md).
+struct BackupManifest {
+  std::string created;  ///< when the journal was copied, "2026-11-23T09:15:02Z"
+  std::vector<BackupFile> files;
+  std::vector<std::string> lost;  ///< results that were missing or damaged when the backup was made, a sentence each
+};
+
+/// Name of the manifest in a backup.
+inline constexpr const char* kManifestName = "MANIFEST";
+
+std::string text_of(const BackupManifest& manifest);
+
+/// Throws ServiceError (data_loss) for what text_of has not made.
+BackupManifest parse_manifest(const std::string& text);
+
+/// SHA-256 of a file, in hexadecimal, and its size; written to `copy` meanwhile unless that is empty. Throws ServiceError.
+BackupFile digest_of(const std::filesystem::path& file, const std::filesystem::path& copy = {});
+
+/// "2026-11-23T09:15:02Z".
+std::string time_text_now();
+
+}  // namespace cellcrush::store

@@ -1,0 +1,89 @@
+#include "store/journal_upkeep.h"
+
+#include <spdlog/spdlog.h>
+
+#include <condition_variable>
+#include <cstdint>
+#include <mutex>
+#include <system_error>
+
+namespace cellcrush::store {
+namespace {
+
+// One transaction moves so many pages of 4 KiB.
+constexpr const char* kSomePages = "PRAGMA incremental_vacuum(512)";
+// How long a checkpoint waits for readers and writers, which wait for it meanwhile.
+constexpr int kCheckpointPatience = 200;
+
+constexpr std::int64_t kLargestRewritten = 256 * 1024 * 1024;
+
+std::int64_t value_of(Database& database, const char* pragma) {
+  Statement read(database, pragma);
+  return read.step() ? read.integer(0) : 0;
+}
+
+}  // namespace
+
+void prepare_giving_back(Database& database) {
+  constexpr std::int64_t kIncremental = 2;
+  if (value_of(database, "PRAGMA auto_vacuum") == kIncremental) return;
+  if (value_of(database, "PRAGMA page_count") * value_of(database, "PRAGMA page_size") > kLargestRewritten) return;
+  try {
+    database.execute("PRAGMA auto_vacuum=INCREMENTAL; VACUUM;");
+  } catch (const std::exception& error) {
+    spdlog::warn("The journal keeps the room of what is deleted: {}", error.what());
+  }
+}
+
+JournalUpkeep::JournalUpkeep(const std::filesystem::path& path, std::chrono::milliseconds interval)
+    : wal_(path.string() + "-wal"),
+      database_(path),
+      thread_([this, interval](const std::stop_token& stop) { run(stop, interval); }) {}
+
+void JournalUpkeep::run(const std::stop_token& stop, std::chrono::milliseconds interval) {
+  std::mutex never_shared;
+  std::condition_variable_any sleep;
+  while (!stop.stop_requested()) {
+    {
+      std::unique_lock lock(never_shared);
+      sleep.wait_for(lock, stop, interval, [] { return false; });
+    }
+    try {
+      give_back_pages(stop);
+      give_back_wal();
+      failing_ = false;
+    } catch (const std::exception& error) {
+      if (!failing_) spdlog::warn("The journal cannot be made smaller yet: {}", error.what());
+      failing_ = true;
+    }
+  }
+}
+
+void JournalUpkeep::give_back_pages(const std::stop_token& stop) {
+  const std::int64_t page = value_of(database_, "PRAGMA page_size");
+  while (!stop.stop_requested() && value_of(database_, "PRAGMA freelist_count") * page > kKeptBytes) {
+    const std::int64_t before = value_of(database_, "PRAGMA page_count");
+    {
+      Statement vacuum(database_, kSomePages);
+      while (vacuum.step()) continue;
+    }
+    // A journal that an earlier version made keeps its pages for itself.
+    if (value_of(database_, "PRAGMA page_count") >= before) return;
+    give_back_wal();
+  }
+}
+
+void JournalUpkeep::give_back_wal() {
+  std::error_code none;
+  const auto size = std::filesystem::file_size(wal_, none);
+  if (none || static_cast<std::int64_t>(size) <= kKeptBytes) return;
+  database_.set_patience(std::chrono::milliseconds(kCheckpointPatience));
+  {
+    // Says whether somebody was in the way; then the next time counts.
+    Statement checkpoint(database_, "PRAGMA wal_checkpoint(TRUNCATE)");
+    while (checkpoint.step()) continue;
+  }
+  database_.set_patience(Database::kPatience);
+}
+
+}  // namespace cellcrush::store

@@ -1,0 +1,103 @@
+#include "store/staged_folder.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+
+#include "error.h"
+#include "store/data_folder.h"
+#include "store/durable_file.h"
+
+namespace cellcrush::store {
+namespace {
+
+ServiceError refusal(const std::string& message) { return {ServiceError::Kind::failed_precondition, message}; }
+
+void require_free(const std::filesystem::path& place) {
+  std::error_code error;
+  const auto status = std::filesystem::symlink_status(place, error);
+  if (status.type() == std::filesystem::file_type::not_found) return;
+  if (error) throw_file_error(place, "used", error.value());
+  if (!std::filesystem::is_directory(status))
+    throw refusal(place.string() + " is there and is no folder. Give a new folder.");
+  if (const auto owner = daemon_of(place)) {
+    throw refusal(place.string() + " belongs to a daemon that runs (process " + *owner +
+                  "). Give a new folder, and start the daemon on that one.");
+  }
+  if (!std::filesystem::is_empty(place, error) && !error)
+    throw refusal(place.string() + " is not empty. Give a new folder, or move this one away.");
+  if (error) throw_file_error(place, "read", error.value());
+}
+
+std::filesystem::path partial_of(const std::filesystem::path& place) {
+  return place.parent_path() / ("." + place.filename().string() + ".partial");
+}
+
+// Without a slash at the end, which would hide the name.
+std::filesystem::path absolute_place(const std::filesystem::path& given) {
+  const auto place = std::filesystem::absolute(given).lexically_normal();
+  return place.has_filename() ? place : place.parent_path();
+}
+
+void remove_content(const std::filesystem::path& folder) {
+  std::error_code error;
+  for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+    std::filesystem::remove_all(entry->path(), error);
+  if (error) throw_file_error(folder, "emptied", error.value());
+}
+
+}  // namespace
+
+StagedFolder::StagedFolder(const std::filesystem::path& place)
+    : place_(absolute_place(place)), partial_(partial_of(place_)) {
+  require_free(place_);
+  std::error_code error;
+  std::filesystem::create_directories(place_.parent_path(), error);
+  if (error) throw_file_error(place_.parent_path(), "made", error.value());
+  if (mkdir(partial_.c_str(), 0700) != 0 && errno != EEXIST) throw_file_error(partial_, "made", errno);
+  lock_ = open(partial_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (lock_ < 0) throw_file_error(partial_, "used", errno);
+  if (flock(lock_, LOCK_EX | LOCK_NB) != 0) {
+    close(lock_);
+    throw refusal("Another process makes " + place_.string() + " now. Wait for its end, or give another folder.");
+  }
+  try {
+    remove_content(partial_);
+  } catch (...) {
+    close(lock_);
+    throw;
+  }
+}
+
+StagedFolder::~StagedFolder() {
+  std::error_code none;
+  if (!published_) std::filesystem::remove_all(partial_, none);
+  close(lock_);
+}
+
+void StagedFolder::publish() {
+  if (syncfs(lock_) != 0) throw_file_error(partial_, "written", errno);
+  // Replaces an empty folder, and nothing else.
+  if (rename(partial_.c_str(), place_.c_str()) != 0) {
+    const int reason = errno;
+    if (reason == EBUSY || reason == EXDEV) {
+      throw refusal(place_.string() +
+                    " is where a file system is mounted and cannot be replaced. Give a folder in it.");
+    }
+    if (reason == ENOTEMPTY || reason == EEXIST)
+      throw refusal(place_.string() + " was filled by another program meanwhile. Give a new folder.");
+    throw_file_error(place_, "made", reason);
+  }
+  published_ = true;
+  const int parent = open(place_.parent_path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  const bool durable = parent >= 0 && fsync(parent) == 0;
+  const int reason = errno;
+  if (parent >= 0) close(parent);
+  if (!durable) throw_file_error(place_, "written", reason);
+}
+
+}  // namespace cellcrush::store

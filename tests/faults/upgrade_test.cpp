@@ -1,0 +1,89 @@
+// A daemon of today on the data of an earlier version (tests/server/data): nothing is lost.
+#include <gmock/gmock.h>
+
+#include <cstdlib>
+#include <iostream>
+
+#include "faults/fault_fixture.h"
+#include "server/job_numbers.h"
+#include "server/small_case.h"
+#include "server/sweep_requests.h"
+#include "server/watch_contract.h"
+#include "store/journal_reader.h"
+#include "store/sqlite.h"
+#include "store/verification.h"
+
+namespace cellcrush::testing {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+class UpgradeTest : public FaultFixture {
+ protected:
+  void SetUp() override {
+    std::filesystem::create_directories(data_folder());
+    const std::string command =
+        std::string("tar -C ") + data_folder().string() + " -xzf " + SERVER_TEST_DATA + "/journal-3.tar.gz";
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    std::filesystem::permissions(data_folder(), std::filesystem::perms::owner_all);
+  }
+};
+
+TEST_F(UpgradeTest, AllJobsOfTheVersionBeforeAreServedOrRunToTheirEnd) {
+  std::int64_t last_before = 0;
+  {
+    store::Database before(journal(), store::Database::Access::read_only);
+    store::Statement version(before, "PRAGMA user_version");
+    ASSERT_TRUE(version.step());
+    ASSERT_EQ(version.integer(0), 3);
+    store::Statement last(before, "SELECT last_sequence FROM jobs WHERE number = 3");
+    ASSERT_TRUE(last.step());
+    last_before = last.integer(0);
+    ASSERT_GT(last_before, 3) << "It had samples.";
+  }
+  start_daemon({"--workers", "2"});
+  auto client = this->client();
+  EXPECT_EQ(all_jobs(client).size(), 7U);
+  EXPECT_EQ(client.get("jobs/1").state(), v1::SUCCEEDED);
+  EXPECT_EQ(client.history("jobs/1").size(), 21U);
+  EXPECT_EQ(client.get("jobs/2").state(), v1::CANCELLED);
+  for (const char* ended : {"jobs/1", "jobs/2"}) {
+    grpc::Status status;
+    EXPECT_GT(client.download(ended, 0, status).size(), 1000U);
+    EXPECT_TRUE(status.ok()) << status.error_message();
+    EXPECT_FALSE(numbers_of(client, data_folder(), ended).history.empty());
+  }
+
+  // The running one begins again, and a watcher who had its samples is told.
+  WatchContract contract(last_before);
+  const auto watched =
+      client.watch("jobs/3", last_before, false, [&](const v1::JobEvent& event) { contract.see(event); });
+  contract.end(watched.status);
+  EXPECT_THAT(contract.broken(), IsEmpty());
+  const auto third = client.get("jobs/3");
+  EXPECT_EQ(third.state(), v1::SUCCEEDED) << third.cause_message();
+  EXPECT_GT(third.begun_again_sequence(), last_before);
+  EXPECT_EQ(client.history("jobs/3").size(), 101U) << "Those of this solver, none twice.";
+  const auto again = std::find_if(watched.events.begin(), watched.events.end(), [](const v1::JobEvent& event) {
+    return event.has_state() && event.state().begun_again_sequence() == event.sequence();
+  });
+  ASSERT_NE(again, watched.events.end());
+  EXPECT_THAT(again->state().cause_message(),
+              AllOf(HasSubstr("Begun again from step 0"), HasSubstr("by solver 0.1.0+"), HasSubstr("this is solver")));
+
+  EXPECT_EQ(client.get("jobs/4").state(), v1::SUSPENDED);
+  ASSERT_TRUE(client.resume("jobs/4").ok());
+  for (const char* job : {"jobs/4", "jobs/5", "jobs/6", "jobs/7"}) {
+    ASSERT_TRUE(client.watch(job).status.ok());
+    EXPECT_EQ(client.get(job).state(), v1::SUCCEEDED) << job << ": " << client.get(job).cause_message();
+  }
+  EXPECT_EQ(get_sweep(client, "sweeps/1").jobs_size(), 2);
+  EXPECT_TRUE(numbers_of(client, data_folder(), "jobs/3") == numbers_of(client, data_folder(), "jobs/4"));
+  stop_daemon();
+  EXPECT_THAT(store::verify_folder(data_folder()).problems, IsEmpty());
+}
+
+}  // namespace
+}  // namespace cellcrush::testing
