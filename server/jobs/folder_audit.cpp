@@ -21,14 +21,14 @@ constexpr const char* kOfTheFileSystem = "lost+found";
 std::string why_unusable(const worker::JobFolder& folder) {
   struct stat status {};
   if (stat(folder.root().c_str(), &status) != 0 || !S_ISDIR(status.st_mode)) return "it is no folder";
-  if (access(folder.root().c_str(), R_OK | W_OK | X_OK) != 0) return "it may not be read and written";
+  if (::access(folder.root().c_str(), R_OK | W_OK | X_OK) != 0) return "it may not be read and written";
   for (const auto& path :
        {folder.order(), folder.claim(), folder.reports(), folder.checkpoint(), folder.previous_checkpoint(),
         folder.partial_checkpoint(), folder.result(), folder.partial_result()}) {
     if (lstat(path.c_str(), &status) != 0) continue;
     const std::string name = path.filename().string();
     if (!S_ISREG(status.st_mode)) return name + " in it is no regular file";
-    if (access(path.c_str(), R_OK | W_OK) != 0) return name + " in it may not be read and written";
+    if (::access(path.c_str(), R_OK | W_OK) != 0) return name + " in it may not be read and written";
   }
   return "";
 }

@@ -84,8 +84,8 @@ TEST_F(SetAsideTest, AFolderThatCannotBeUsedCostsOnlyItsJob) {
   ASSERT_EQ(mkfifo(result.c_str(), 0600), 0);
   start_daemon({"--workers", "3", "--checkpoint-interval", "0.05"});
   auto client = this->client();
+  for (const auto& name : names) ASSERT_TRUE(client.watch(name).status.ok());
   for (const auto& name : names) {
-    ASSERT_TRUE(client.watch(name).status.ok());
     EXPECT_EQ(client.get(name).state(), v1::SUCCEEDED) << client.get(name).cause_message();
     EXPECT_EQ(client.history(name).size(), 201U);
     EXPECT_TRUE(numbers_of(client, data_folder(), name) == numbers_of(client, data_folder(), names[2]));

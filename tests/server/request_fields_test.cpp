@@ -54,6 +54,7 @@ TEST(RequestFields, NoTextOfARequestNamesAFileOfTheDaemon) {
       "ListJobsRequest.page_token", "ListJobsRequest.filter", "ListJobsRequest.order_by",
       "ListSweepsRequest.page_token", "GetHistoryRequest.page_token", "GetSweepTableRequest.page_token",
       "CreateJobRequest.request_id", "CreateSweepRequest.request_id", "WatchSweepRequest.resume_token",
+      "WatchJobRequest.epoch",
       // Labels: key and value.
       "CreateJobRequest.LabelsEntry.key", "CreateJobRequest.LabelsEntry.value", "Sweep.LabelsEntry.key",
       "Sweep.LabelsEntry.value",
