@@ -9,8 +9,8 @@
 
 namespace cellcrush {
 
-/// Lines of one kind in the log, at most so many a second, so that a caller who provokes them cannot fill it. Those left out are
-/// counted in the next line, or at the end. Thread-safe.
+/// Lines of one kind in the log, at most so many a second, so that a caller who provokes them cannot fill it. Those
+/// left out are counted in the next line, or at the end. Thread-safe.
 class LimitedLog {
  public:
   using Clock = std::chrono::steady_clock;

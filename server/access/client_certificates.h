@@ -8,8 +8,9 @@
 
 namespace cellcrush::access {
 
-/// Which certificates their authority has issued for clients. TLS itself refuses those that are for something else only; one without an
-/// extended key usage, as a server's may be, passes it. Remembers the last ones, since each call asks. Thread-safe.
+/// Which certificates their authority has issued for clients. TLS itself refuses those that are for something else
+/// only; one without an extended key usage, as a server's may be, passes it. Remembers the last ones, since each call
+/// asks. Thread-safe.
 class ClientCertificates {
  public:
   /// Whether the first certificate of the text, in PEM, has clientAuth in its extended key usage.

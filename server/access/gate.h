@@ -35,12 +35,13 @@ class Gate {
   /// Reads the files. Throws ServiceError (invalid) for options that do not go together, and for a file that cannot be used.
   explicit Gate(const Options& options);
 
-  /// With what a server listens on the address, including the check of each call. The gate and the credentials outlive the server.
-  /// Throws ServiceError (invalid) where others could reach it and there is no TLS, or neither tokens nor clients' certificates.
+  /// With what a server listens on the address, including the check of each call. The gate and the credentials outlive
+  /// the server. Throws ServiceError (invalid) where others could reach it and there is no TLS, or neither tokens nor
+  /// clients' certificates.
   [[nodiscard]] std::shared_ptr<grpc::ServerCredentials> credentials_for(const ListenAddress& address) const;
 
-  /// Reads the certificates, their authority and the tokens again: connections and calls from now on are held to them. What was read
-  /// stands in the log. Files that cannot be used are named there, and those from before stay in force.
+  /// Reads the certificates, their authority and the tokens again: connections and calls from now on are held to them.
+  /// What was read stands in the log. Files that cannot be used are named there, and those from before stay in force.
   void read_files_again();
 
   /// Who makes a call that has passed.

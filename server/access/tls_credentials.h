@@ -12,12 +12,13 @@
 
 namespace cellcrush::access {
 
-/// TLS whose certificates and authority may change while a server listens: each handshake uses those that the source gives then, and
-/// connections that are open stay. grpc::SslServerCredentials keeps the ones it was made with. Outlives the servers that use it.
+/// TLS whose certificates and authority may change while a server listens: each handshake uses those that the source
+/// gives then, and connections that are open stay. grpc::SslServerCredentials keeps the ones it was made with. Outlives
+/// the servers that use it.
 class TlsCredentials final : public grpc::ServerCredentials {
  public:
-  /// Called for each handshake, by any thread; never null, and the same object as long as nothing has changed. Whether it has a
-  /// client authority does not change.
+  /// Called for each handshake, by any thread; never null, and the same object as long as nothing has changed. Whether
+  /// it has a client authority does not change.
   using Source = std::function<std::shared_ptr<const TlsFiles>()>;
 
   explicit TlsCredentials(Source source);

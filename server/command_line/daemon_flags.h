@@ -8,7 +8,8 @@
 
 namespace cellcrush {
 
-/// The flags of the daemon, on the command line and in the file of --config. Outlives the parsing of the app it is given.
+/// The flags of the daemon, on the command line and in the file of --config. Outlives the parsing of the app it is
+/// given.
 class DaemonFlags {
  public:
   explicit DaemonFlags(CLI::App& app);

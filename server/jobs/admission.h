@@ -47,8 +47,8 @@ class Admission {
   /// Memory of a job of which it is known that it is at most `most_bytes`: `predict` is asked only where that could be too much.
   [[nodiscard]] std::int64_t memory_of_job(std::int64_t most_bytes, const std::function<std::int64_t()>& predict) const;
 
-  /// Whether so many more jobs of the owner, of which the largest needs so much memory, can be taken. Throws ServiceError:
-  /// unavailable while draining, exhausted beyond a limit or a quota, storage_full.
+  /// Whether so many more jobs of the owner, of which the largest needs so much memory, can be taken. Throws
+  /// ServiceError: unavailable while draining, exhausted beyond a limit or a quota, storage_full.
   void admit(const std::string& owner, std::size_t count, std::int64_t memory_bytes) const;
 
   /// Why the disk has too little room for jobs, a sentence; nothing where it has room. Throws ServiceError.

@@ -12,8 +12,8 @@ class ClockWatch {
  public:
   explicit ClockWatch(Clocks clocks) : clocks_(std::move(clocks)), offset_(clocks_.wall() - clocks_.uptime()) {}
 
-  /// By how much the wall clock was set since the last call, positive forward; nothing below kLeastJump, which a clock that
-  /// is steered towards the right time stays under.
+  /// By how much the wall clock was set since the last call, positive forward; nothing below kLeastJump, which a clock
+  /// that is steered towards the right time stays under.
   std::optional<std::chrono::nanoseconds> find_jump() {
     const auto offset = clocks_.wall() - clocks_.uptime();
     const auto jump = offset - offset_;

@@ -30,9 +30,10 @@ class Deletion {
   /// Deletes those of the jobs that have ended, some at a time.
   void delete_jobs(const std::vector<std::int64_t>& jobs) const;
 
-  /// Deletes a sweep with its jobs. Nobody finds the sweep any more as soon as that begins; its jobs go in transactions of
-  /// a bounded size, and finish_sweeps continues what a killed daemon left. Throws ServiceError: not_found,
-  /// failed_precondition, which names jobs that have not ended, or cancelled once `given_up` says that nobody waits any more.
+  /// Deletes a sweep with its jobs. Nobody finds the sweep any more as soon as that begins; its jobs go in transactions
+  /// of a bounded size, and finish_sweeps continues what a killed daemon left. Throws ServiceError: not_found,
+  /// failed_precondition, which names jobs that have not ended, or cancelled once `given_up` says that nobody waits any
+  /// more.
   void delete_sweep(std::int64_t sweep, const std::function<bool()>& given_up) const;
 
   /// Deletes what is left of sweeps whose deletion has begun. Ends early once `given_up` says so.

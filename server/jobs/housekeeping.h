@@ -13,8 +13,8 @@
 
 namespace cellcrush::jobs {
 
-/// What the daemon does by itself: while the disk has too little room, no job runs; what ended too long ago is deleted; a wall
-/// clock that was set is named in the log.
+/// What the daemon does by itself: while the disk has too little room, no job runs; what ended too long ago is deleted;
+/// a wall clock that was set is named in the log.
 class Housekeeping {
  public:
   /// What it works with; all of it outlives it.

@@ -21,8 +21,8 @@ namespace cellcrush::jobs {
 
 /// Runs a job in a worker and writes in the journal what comes of it. A job whose worker is lost waits for another one, until
 /// kMostLosses in a row have got no further than the one before; a last worker then makes a result of what they reported, as
-/// it does when the worker of a cancelled job is gone. A shortage ends no job: the job waits again as it was, and the queue is held.
-/// Thread-safe.
+/// it does when the worker of a cancelled job is gone. A shortage ends no job: the job waits again as it was, and the
+/// queue is held. Thread-safe.
 class JobRunner {
  public:
   static constexpr int kMostLosses = 3;
@@ -45,7 +45,8 @@ class JobRunner {
   explicit JobRunner(const Parts& parts) : parts_(parts) {}
 
   /// Runs a job that is PENDING, or goes along with the worker that has it, until it has ended or was left. Whether it is
-  /// PENDING again, to be tried again. What became of it is written until it can be, or the daemon ends. Throws nothing.
+  /// PENDING again, to be tried again. What became of it is written until it can be, or the daemon ends. Throws
+  /// nothing.
   bool run(std::int64_t job, int threads, const Interruptions& interruptions, const std::stop_token& daemons_end);
 
   /// What became of a job that an earlier daemon left RUNNING or CANCELLING.
@@ -84,14 +85,14 @@ class JobRunner {
   store::StateChange given_up(const store::StoredJob& stored, store::StateChange loss, Run& run);
   /// Lets a job wait again that has met a shortage. The state that it is in then: one that was cancelled is CANCELLING.
   v1::JobState put_back(std::int64_t job, const Run& run);
-  /// Tries until it can be written or the daemon ends. The state that was written, if one was; CANCELLING when the job is that and
-  /// may not become what was to be written.
+  /// Tries until it can be written or the daemon ends. The state that was written, if one was; CANCELLING when the job
+  /// is that and may not become what was to be written.
   v1::JobState write(std::int64_t job, const store::StateChange& change, const std::stop_token& daemons_end);
   /// Nothing when it cannot be written for now. `logged`: why not, the last time, which is logged once.
   std::optional<v1::JobState> try_write(std::int64_t job, const store::StateChange& change, std::string& logged);
   void end_leftover_if_possible(std::int64_t job);
-  /// Drops what workers have made of the job, in the journal and its folder, so that it is run again from step 0. The state
-  /// it then has: PENDING, CANCELLING when a cancel came first, none when it was deleted. Throws ServiceError.
+  /// Drops what workers have made of the job, in the journal and its folder, so that it is run again from step 0. The
+  /// state it then has: PENDING, CANCELLING when a cancel came first, none when it was deleted. Throws ServiceError.
   v1::JobState begin_again(std::int64_t job, const std::string& why);
   void tidy_up(std::int64_t job, const store::StateChange& change);
 

@@ -8,12 +8,12 @@
 
 namespace cellcrush::jobs {
 
-/// Whether the worker was lost by no fault of the case: it ended without a word, met a shortage or could not be started. The job
-/// may then be tried again.
+/// Whether the worker was lost by no fault of the case: it ended without a word, met a shortage or could not be
+/// started. The job may then be tried again.
 bool is_lost(const WorkerExit& exit);
 
-/// What the worker, or the daemon that was to start it, lacked; none when it was lost for another reason. The worker has left the job at its
-/// last checkpoint.
+/// What the worker, or the daemon that was to start it, lacked; none when it was lost for another reason. The worker
+/// has left the job at its last checkpoint.
 Trouble trouble_of_exit(const WorkerExit& exit);
 
 /// The job waits as before, until what was short is there again.

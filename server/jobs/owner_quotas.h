@@ -25,8 +25,8 @@ class OwnerQuotas {
   /// Throws InvalidField.
   void check_priority(int priority, const std::string& field) const;
 
-  /// Whether the owner, of whom `waiting` jobs wait, may queue `count` more; `disk_bytes` is asked only where there is a
-  /// limit. Throws ServiceError: exhausted, storage_full.
+  /// Whether the owner, of whom `waiting` jobs wait, may queue `count` more; `disk_bytes` is asked only where there is
+  /// a limit. Throws ServiceError: exhausted, storage_full.
   void admit(const std::string& owner, std::size_t waiting, std::size_t count,
              const std::function<std::int64_t()>& disk_bytes) const;
 

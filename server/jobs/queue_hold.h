@@ -27,9 +27,9 @@ struct Hold {
   std::optional<Clock::time_point> next_try;  ///< nothing for low_disk, which is measured and not tried
 };
 
-/// Holds the queue while the daemon lacks something. There are two holds, which may stand at once: low_disk, set and released by whoever
-/// measures the disk, and trouble, which a slot met. After a pause one job is started as a trial: once it runs, the trouble is over;
-/// if the trial meets trouble again, the next pause is twice as long. Thread-safe.
+/// Holds the queue while the daemon lacks something. There are two holds, which may stand at once: low_disk, set and
+/// released by whoever measures the disk, and trouble, which a slot met. After a pause one job is started as a trial:
+/// once it runs, the trouble is over; if the trial meets trouble again, the next pause is twice as long. Thread-safe.
 class QueueHold {
  public:
   using Now = std::function<Hold::Clock::time_point()>;
@@ -59,7 +59,8 @@ class QueueHold {
   /// A slot met trouble.
   void failed(const Trouble& trouble);
 
-  /// The trial has ended. Where it neither succeeded nor failed, as its job was withdrawn, another job may be tried at once.
+  /// The trial has ended. Where it neither succeeded nor failed, as its job was withdrawn, another job may be tried at
+  /// once.
   void end_trial();
 
   /// When is_open may become true without a change; nothing while it cannot.

@@ -9,9 +9,9 @@
 
 namespace cellcrush::jobs {
 
-/// Deletes what ended long ago, or what is too much, the oldest end first. A sweep is kept or deleted whole: it ends with the
-/// last of its jobs. Ages are counted by the service clock (store/service_clock.h), so that neither a wall clock that is set
-/// wrong nor the time in which no daemon ran makes anything old. Not thread-safe.
+/// Deletes what ended long ago, or what is too much, the oldest end first. A sweep is kept or deleted whole: it ends
+/// with the last of its jobs. Ages are counted by the service clock (store/service_clock.h), so that neither a wall
+/// clock that is set wrong nor the time in which no daemon ran makes anything old. Not thread-safe.
 class Retention {
  public:
   /// Each 0: no limit.

@@ -70,7 +70,8 @@ class Scheduler {
   /// failed_precondition.
   void resume(std::int64_t job);
 
-  /// While there is a reason, the disk has too little room and no job runs: workers leave theirs at a checkpoint, and none starts.
+  /// While there is a reason, the disk has too little room and no job runs: workers leave theirs at a checkpoint, and
+  /// none starts.
   void hold_for_low_disk(const std::optional<std::string>& reason);
 
   /// Lets the slots look at the queue again: something has changed.
@@ -105,8 +106,8 @@ class Scheduler {
                        const std::optional<Hold::Clock::time_point>& limit);
   /// Notes that a job runs. REQUIRES: mutex_ is held.
   Running& begin(std::int64_t job);
-  /// Has the job run by this thread; it holds a core, and more if it asks for them and there are. REQUIRES: `begin` was called for it.
-  /// Throws nothing.
+  /// Has the job run by this thread; it holds a core, and more if it asks for them and there are. REQUIRES: `begin` was
+  /// called for it. Throws nothing.
   void run(const store::QueuedJob& taken, const std::stop_token& stop);
   int take_cores(const store::QueuedJob& job);
   store::StoredJob find(std::int64_t job);

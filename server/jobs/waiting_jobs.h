@@ -11,10 +11,10 @@
 
 namespace cellcrush::jobs {
 
-/// The jobs that wait for a slot, and what runs of each sweep and owner. Not thread-safe. Jobs of the highest priority come
-/// first. Of these the next one belongs to the owner whose jobs hold the fewest cores, and of equal owners to the oldest
-/// submission; of an owner's jobs the oldest submission comes first. Of jobs that were submitted together those that are
-/// predicted to take longest come first, in the order of their numbers where that is equal.
+/// The jobs that wait for a slot, and what runs of each sweep and owner. Not thread-safe. Jobs of the highest priority
+/// come first. Of these the next one belongs to the owner whose jobs hold the fewest cores, and of equal owners to the
+/// oldest submission; of an owner's jobs the oldest submission comes first. Of jobs that were submitted together those
+/// that are predicted to take longest come first, in the order of their numbers where that is equal.
 class WaitingJobs {
  public:
   /// `owner_max_running`: jobs of one owner that run at once; 0: any number.

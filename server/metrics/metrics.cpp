@@ -34,8 +34,8 @@ prometheus::Histogram& histogram(prometheus::Registry& registry, const char* nam
   return prometheus::BuildHistogram().Name(name).Help(help).Register(registry).Add({}, bounds);
 }
 
-// A scraper that connects and sends nothing, or a byte now and then, holds one thread for a second. At most 8 connections are served, 8
-// wait in the queue and 16 in the kernel; behind these a scrape waits for 4 s.
+// A scraper that connects and sends nothing, or a byte now and then, holds one thread for a second. At most 8
+// connections are served, 8 wait in the queue and 16 in the kernel; behind these a scrape waits for 4 s.
 std::vector<std::string> http_options(const ListenAddress& address) {
   return {"listening_ports",    address.place + ":" + std::to_string(address.port),
           "num_threads",        "8",

@@ -24,7 +24,8 @@ namespace cellcrush::metrics {
 ///   cellcrush_watchers                               open watches
 ///   cellcrush_connections                            open connections of gRPC
 ///   cellcrush_refused_connections_total              connections beyond the limits
-///   cellcrush_queue_held{cause="full_disk"}          1 while that holds the queue, otherwise 0; a cause each (shortage.h)
+///   cellcrush_queue_held{cause="full_disk"}          1 while that holds the queue, otherwise 0; a cause each
+/// (shortage.h)
 ///   cellcrush_skipped_frames_total                   frames that watchers were too slow for
 ///
 /// Thread-safe.

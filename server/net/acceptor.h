@@ -15,9 +15,10 @@
 
 namespace cellcrush::net {
 
-/// Accepts connections on all ports of the daemon, in a thread of its own, and hands over those that the limits allow. gRPC
-/// 1.51 stops to accept on a port for good once it has met EMFILE, and has no cap on connections; this has a descriptor in
-/// reserve, with which it refuses what cannot be served, and goes on when there are descriptors again. Thread-safe.
+/// Accepts connections on all ports of the daemon, in a thread of its own, and hands over those that the limits allow.
+/// gRPC 1.51 stops to accept on a port for good once it has met EMFILE, and has no cap on connections; this has a
+/// descriptor in reserve, with which it refuses what cannot be served, and goes on when there are descriptors again.
+/// Thread-safe.
 class Acceptor {
  public:
   /// Takes a connected socket of the port with that index, non-blocking and close-on-exec.
@@ -48,8 +49,8 @@ class Acceptor {
 
   [[nodiscard]] std::vector<ListenAddress> addresses() const;
 
-  /// Closes a port and listens on its address again. Throws ServiceError (failed_precondition) when that cannot be; it may be
-  /// tried again.
+  /// Closes a port and listens on its address again. Throws ServiceError (failed_precondition) when that cannot be; it
+  /// may be tried again.
   void reopen(std::size_t port);
 
  private:

@@ -12,8 +12,8 @@
 
 namespace cellcrush::net {
 
-/// The open connections of a kind, by the descriptors that gRPC has. gRPC does not say when it closes one; so the table asks
-/// the kernel whether a descriptor is still the socket that was noted. Not thread-safe.
+/// The open connections of a kind, by the descriptors that gRPC has. gRPC does not say when it closes one; so the table
+/// asks the kernel whether a descriptor is still the socket that was noted. Not thread-safe.
 class ConnectionTable {
  public:
   using Clock = std::chrono::steady_clock;
@@ -53,8 +53,8 @@ class ConnectionTable {
   Clock::time_point last_look_;
 };
 
-/// Who is at the other end, as far as an address tells: that of IPv4, the network of IPv6 (its first 64 bits), "unix" for a
-/// Unix socket.
+/// Who is at the other end, as far as an address tells: that of IPv4, the network of IPv6 (its first 64 bits), "unix"
+/// for a Unix socket.
 std::string peer_of(const sockaddr_storage& address);
 
 }  // namespace cellcrush::net

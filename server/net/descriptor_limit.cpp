@@ -9,7 +9,8 @@
 namespace cellcrush::net {
 namespace {
 
-// Journal, log, ports, event queues of gRPC, results that are read; and for each worker its process, reports and folder.
+// Journal, log, ports, event queues of gRPC, results that are read; and for each worker its process, reports and
+// folder.
 constexpr std::int64_t kOfTheDaemon = 128;
 constexpr std::int64_t kOfAWorker = 8;
 constexpr int kLeast = 8;

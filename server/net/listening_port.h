@@ -9,11 +9,12 @@
 
 namespace cellcrush::net {
 
-/// The sockets that listen on one address: one, or two where a name or a wildcard stands for IPv4 and IPv6. Not thread-safe.
+/// The sockets that listen on one address: one, or two where a name or a wildcard stands for IPv4 and IPv6. Not
+/// thread-safe.
 class ListeningPort {
  public:
-  /// Listens from now on. A Unix socket is open to its owner alone. Throws ServiceError (failed_precondition) when the address
-  /// is in use or may not be used.
+  /// Listens from now on. A Unix socket is open to its owner alone. Throws ServiceError (failed_precondition) when the
+  /// address is in use or may not be used.
   explicit ListeningPort(const ListenAddress& wanted);
   /// Closes the sockets and removes the file of a Unix socket.
   ~ListeningPort();
@@ -24,8 +25,8 @@ class ListeningPort {
   [[nodiscard]] const ListenAddress& address() const { return address_; }
   [[nodiscard]] const std::vector<int>& descriptors() const { return descriptors_; }
 
-  /// Closes the sockets and listens on the same address again. Throws ServiceError (failed_precondition): the port then has
-  /// no sockets, and reopen may be called again.
+  /// Closes the sockets and listens on the same address again. Throws ServiceError (failed_precondition): the port then
+  /// has no sockets, and reopen may be called again.
   void reopen();
 
  private:

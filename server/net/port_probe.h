@@ -30,8 +30,8 @@ class PortProbe {
 /// What a client of TLS sends first.
 std::string client_hello();
 
-/// Whether something answers on the address: sends `hello` and waits for a byte, or for the end of the connection, which an
-/// acceptor that refuses it gives. True also when this process has no descriptor to find out.
+/// Whether something answers on the address: sends `hello` and waits for a byte, or for the end of the connection,
+/// which an acceptor that refuses it gives. True also when this process has no descriptor to find out.
 bool answers(const ListenAddress& address, const std::string& hello, std::chrono::milliseconds patience);
 
 }  // namespace cellcrush::net

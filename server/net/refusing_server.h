@@ -9,9 +9,9 @@
 
 namespace cellcrush::net {
 
-/// Answers every call on connections beyond the limits with RESOURCE_EXHAUSTED and the reason, and ends these connections a
-/// second later. A client of gRPC shows nobody why a connection was closed, and connects again and again; a status it shows.
-/// Thread-safe.
+/// Answers every call on connections beyond the limits with RESOURCE_EXHAUSTED and the reason, and ends these
+/// connections a second later. A client of gRPC shows nobody why a connection was closed, and connects again and again;
+/// a status it shows. Thread-safe.
 class RefusingServer {
  public:
   /// One port for each of the credentials. Throws ServiceError (failed_precondition) when it cannot be started.

@@ -22,8 +22,8 @@ class DownloadSource {
 
   void open(const std::function<void()>&) {}
   void close() {}
-  /// At least one message comes, so that the size is told even when nothing is left. Before the first one every byte is held to
-  /// the file's seal. Throws ServiceError: data_loss for a damaged file.
+  /// At least one message comes, so that the size is told even when nothing is left. Before the first one every byte is
+  /// held to the file's seal. Throws ServiceError: data_loss for a damaged file.
   std::optional<Message> next();
   [[nodiscard]] bool has_more() const { return false; }
   [[nodiscard]] bool ended() const { return sent_ && offset_ == file_.size(); }

@@ -30,8 +30,8 @@ class FrameSource {
 
   void open(const std::function<void()>&) {}
   void close() {}
-  /// Reads the frame when it is called first. Throws ServiceError: failed_precondition while the job has no frame, out_of_range
-  /// for an index that there is not, and what store::ResultReader throws.
+  /// Reads the frame when it is called first. Throws ServiceError: failed_precondition while the job has no frame,
+  /// out_of_range for an index that there is not, and what store::ResultReader throws.
   std::optional<Message> next();
   [[nodiscard]] bool has_more() const { return !chunks_.empty(); }
   [[nodiscard]] bool ended() const { return was_read_ && chunks_.empty(); }

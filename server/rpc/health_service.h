@@ -24,8 +24,8 @@ class HealthBoard {
   /// SERVICE_UNKNOWN for one that was never set.
   [[nodiscard]] Status find(const std::string& service) const;
 
-  /// Calls `wake` on every change, from the thread that makes it and under the board's lock. Returns the id to unsubscribe
-  /// with.
+  /// Calls `wake` on every change, from the thread that makes it and under the board's lock. Returns the id to
+  /// unsubscribe with.
   std::uint64_t subscribe(Wake wake);
   void unsubscribe(std::uint64_t id);
 
@@ -60,8 +60,8 @@ class HealthSource {
   std::uint64_t subscription_ = 0;
 };
 
-/// grpc.health.v1, which gRPC's own service answers as well, but with as many watches as anybody asks for. It is open to all, so
-/// its watches are counted apart, by the address that they come from. Thread-safe.
+/// grpc.health.v1, which gRPC's own service answers as well, but with as many watches as anybody asks for. It is open
+/// to all, so its watches are counted apart, by the address that they come from. Thread-safe.
 class HealthService final : public grpc::health::v1::Health::CallbackService {
  public:
   /// All of it outlives the service.

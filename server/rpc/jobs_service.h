@@ -13,8 +13,8 @@
 
 namespace cellcrush::rpc {
 
-/// Jobs and their results. Thread-safe. Streams go through gRPC's callbacks and hold no thread, however slowly they are read;
-/// all other calls are short.
+/// Jobs and their results. Thread-safe. Streams go through gRPC's callbacks and hold no thread, however slowly they are
+/// read; all other calls are short.
 class JobsService final
     : public v1::Jobs::WithCallbackMethod_WatchJob<
           v1::Jobs::WithCallbackMethod_GetFrame<v1::Jobs::WithCallbackMethod_DownloadResult<v1::Jobs::Service>>> {

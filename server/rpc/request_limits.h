@@ -25,8 +25,8 @@ void check_size(const std::string& field, std::size_t bytes, std::size_t largest
 /// Throws InvalidField when the text is longer.
 void check_length(const std::string& field, const std::string& text, std::size_t longest);
 
-/// Throws ServiceError (failed_precondition) when a caller continues what belongs to another epoch of the journal; an empty one is
-/// not compared.
+/// Throws ServiceError (failed_precondition) when a caller continues what belongs to another epoch of the journal; an
+/// empty one is not compared.
 void check_epoch(const store::Epoch& epoch, const std::string& given);
 
 }  // namespace cellcrush::rpc

@@ -9,8 +9,8 @@
 
 namespace cellcrush::rpc {
 
-/// Counts the streams that are open, in all and by caller, and the bytes that wait in them to be read. Outlives its permits.
-/// Thread-safe.
+/// Counts the streams that are open, in all and by caller, and the bytes that wait in them to be read. Outlives its
+/// permits. Thread-safe.
 class StreamLimits {
  public:
   struct Most {
@@ -31,8 +31,8 @@ class StreamLimits {
           bytes_(std::exchange(other.bytes_, 0)) {}
     Permit& operator=(Permit&&) = delete;
 
-    /// The stream holds that many bytes from now on. Throws ServiceError (exhausted) when all streams would hold too many;
-    /// it then holds none.
+    /// The stream holds that many bytes from now on. Throws ServiceError (exhausted) when all streams would hold too
+    /// many; it then holds none.
     void hold(std::size_t bytes);
 
    private:

@@ -37,9 +37,9 @@ int skipped_before(const Message&) {
   return 0;
 }
 
-/// One open stream: moves messages from its source to the client, one at a time, as fast as the client takes them, and holds
-/// no thread. It keeps itself until gRPC is done with it. A Source is watch::JobSource, watch::SweepSource, DownloadSource,
-/// FrameSource or HealthSource, or has the same members:
+/// One open stream: moves messages from its source to the client, one at a time, as fast as the client takes them, and
+/// holds no thread. It keeps itself until gRPC is done with it. A Source is watch::JobSource, watch::SweepSource,
+/// DownloadSource, FrameSource or HealthSource, or has the same members:
 ///   Message, kIsWatch   what is sent; whether the metrics count it as a watch
 ///   open(wake), close   from when and until when `wake` is called on news
 ///   next, has_more      the next message, if there is one now; whether it is at hand without waiting for a disk
@@ -115,8 +115,8 @@ class StreamReactor final : public grpc::ServerWriteReactor<typename Source::Mes
 
   void OnDone() override {
     {
-      // The pump may run the reactor for a moment longer, but nothing of the call is there any more. gRPC may call this from
-      // within TryCancel, on the same thread.
+      // The pump may run the reactor for a moment longer, but nothing of the call is there any more. gRPC may call this
+      // from within TryCancel, on the same thread.
       std::unique_lock lock(mutex_);
       done_ = true;
       abandoned_.wait(lock,
@@ -158,10 +158,12 @@ class StreamReactor final : public grpc::ServerWriteReactor<typename Source::Mes
     return Action::write;
   }
 
-  /// Whether the client has let a message lie for too long. The status waits behind it, for a client that reads on soon.
+  /// Whether the client has let a message lie for too long. The status waits behind it, for a client that reads on
+  /// soon.
   [[nodiscard]] bool is_stuck() const { return Clock::now() - last_write_ > parts_.times.patience; }
 
-  /// Whether the client has not taken the status either: then all that is kept for it is dropped, and it finds CANCELLED.
+  /// Whether the client has not taken the status either: then all that is kept for it is dropped, and it finds
+  /// CANCELLED.
   [[nodiscard]] bool is_to_be_abandoned() {
     if (!writing_ || abandoning_ != std::thread::id()) return false;
     if (Clock::now() - last_write_ <= parts_.times.patience + parts_.times.grace) return false;
@@ -235,8 +237,8 @@ class RefusedStream final : public grpc::ServerWriteReactor<Message> {
   void OnDone() override { delete this; }
 };
 
-/// Opens a stream of the source that `make` returns, for the caller that `name_caller` returns, or one that ends with what these
-/// throw.
+/// Opens a stream of the source that `make` returns, for the caller that `name_caller` returns, or one that ends with
+/// what these throw.
 template <class Source, class NameCaller, class Make>
 grpc::ServerWriteReactor<typename Source::Message>* open_stream(const StreamParts& parts,
                                                                 grpc::CallbackServerContext& context,

@@ -29,7 +29,8 @@ std::string text_of(const BackupManifest& manifest);
 /// Throws ServiceError (data_loss) for what text_of has not made.
 BackupManifest parse_manifest(const std::string& text);
 
-/// SHA-256 of a file, in hexadecimal, and its size; written to `copy` meanwhile unless that is empty. Throws ServiceError.
+/// SHA-256 of a file, in hexadecimal, and its size; written to `copy` meanwhile unless that is empty. Throws
+/// ServiceError.
 BackupFile digest_of(const std::filesystem::path& file, const std::filesystem::path& copy = {});
 
 /// "2026-11-23T09:15:02Z".

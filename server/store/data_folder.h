@@ -34,8 +34,8 @@ class DataFolder {
     return worker::JobFolder(root_ / "jobs" / std::to_string(job));
   }
 
-  /// Makes the job's folder if there is none. One that cannot be used, while others can, is renamed to jobs/N.set-aside-K, and a new one
-  /// is made. Throws ServiceError: with the shortage where no folder can be used.
+  /// Makes the job's folder if there is none. One that cannot be used, while others can, is renamed to
+  /// jobs/N.set-aside-K, and a new one is made. Throws ServiceError: with the shortage where no folder can be used.
   void make_job_folder(std::int64_t job) const;
 
   /// Leaves nothing but the result in the folder of a job that has ended. Throws ServiceError.
@@ -50,8 +50,9 @@ class DataFolder {
   /// Bytes that the disk has left for this user.
   [[nodiscard]] std::int64_t free_bytes() const;
 
-  /// Files that hold some room for when the disk is full: one for what is owed, one for the next start. `keep` makes them where there are none and
-  /// says whether there is room for them, and throws ServiceError where they cannot be made for another reason; `give_up` removes the first. The second one goes when this is made and room is short.
+  /// Files that hold some room for when the disk is full: one for what is owed, one for the next start. `keep` makes
+  /// them where there are none and says whether there is room for them, and throws ServiceError where they cannot be
+  /// made for another reason; `give_up` removes the first. The second one goes when this is made and room is short.
   bool keep_ballast() const;
   void give_up_ballast() const;
 
@@ -61,8 +62,8 @@ class DataFolder {
   /// Numbers of the jobs whose folders hold more than a result; folders that cannot be read are left out.
   [[nodiscard]] std::vector<std::int64_t> jobs_with_reports() const;
 
-  /// Moves jobs/`name` to set-aside/ under a name that is free there, for the user to look at. Where it lies now. Throws
-  /// ServiceError.
+  /// Moves jobs/`name` to set-aside/ under a name that is free there, for the user to look at. Where it lies now.
+  /// Throws ServiceError.
   std::filesystem::path set_aside(const std::string& name) const;
 
   /// Names in jobs/.

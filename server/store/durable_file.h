@@ -9,8 +9,8 @@ namespace cellcrush::store {
 /// shortage that the errno stands for, else internal.
 [[noreturn]] void throw_file_error(const std::filesystem::path& path, std::string_view used, int error);
 
-/// Opens a regular file for reading, and never waits for it as for a FIFO. Returns the descriptor, which is the caller's. Throws
-/// ServiceError: internal when it is another kind of file or cannot be opened.
+/// Opens a regular file for reading, and never waits for it as for a FIFO. Returns the descriptor, which is the
+/// caller's. Throws ServiceError: internal when it is another kind of file or cannot be opened.
 int open_to_read(const std::filesystem::path& path);
 
 /// Gives a complete file its final name so that it survives a loss of power: fsync, rename, fsync of the folder.

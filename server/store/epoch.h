@@ -6,14 +6,14 @@
 
 namespace cellcrush::store {
 
-/// One life of a journal: a restore begins another. Sequence numbers, resume tokens and workers' reports of an earlier one do not
-/// count, for a number may stand for something else since.
+/// One life of a journal: a restore begins another. Sequence numbers, resume tokens and workers' reports of an earlier
+/// one do not count, for a number may stand for something else since.
 struct Epoch {
   std::string id;        ///< random
   std::string restored;  ///< when the restore was that began it, "2026-11-23T09:15:02Z"; empty: none did
 
-  /// Whether something that names `other` belongs to this epoch. An empty one is of a version without epochs: it belongs to a
-  /// journal that was never restored.
+  /// Whether something that names `other` belongs to this epoch. An empty one is of a version without epochs: it
+  /// belongs to a journal that was never restored.
   [[nodiscard]] bool admits(const std::string& other) const {
     return other == id || (other.empty() && restored.empty());
   }

@@ -10,8 +10,8 @@
 
 namespace cellcrush::store {
 
-/// A filter as SQL that follows a condition on `jobs`. Each condition has an index, so that none reads the rows of jobs that
-/// are not wanted.
+/// A filter as SQL that follows a condition on `jobs`. Each condition has an index, so that none reads the rows of jobs
+/// that are not wanted.
 class JobConditions {
  public:
   /// Its parameters are numbered from `first_parameter`.

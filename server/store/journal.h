@@ -64,8 +64,8 @@ class Journal {
     std::int64_t job = 0;
     bool is_new = true;
   };
-  /// Makes a PENDING job from `job` (case, labels, priority, owner). The owner's same request_id with the same hash gives the
-  /// job made before; with another one, already_exists is thrown. An empty request_id is none.
+  /// Makes a PENDING job from `job` (case, labels, priority, owner). The owner's same request_id with the same hash
+  /// gives the job made before; with another one, already_exists is thrown. An empty request_id is none.
   Created create_job(v1::Job job, const std::string& request_id, const std::string& request_hash,
                      std::int64_t element_steps = 0, const Admit& admit = {});
 
@@ -95,8 +95,8 @@ class Journal {
   /// Takes the notes away.
   void note_folders_removed(const std::vector<std::int64_t>& jobs);
 
-  /// Hides a sweep whose jobs have all ended: it is found and retried no more. Nothing happens to one that is hidden already.
-  /// Throws not_found, or failed_precondition, which names jobs that have not ended.
+  /// Hides a sweep whose jobs have all ended: it is found and retried no more. Nothing happens to one that is hidden
+  /// already. Throws not_found, or failed_precondition, which names jobs that have not ended.
   void begin_sweep_deletion(std::int64_t sweep);
 
   /// Removes a hidden sweep that has no jobs any more.
@@ -107,7 +107,8 @@ class Journal {
   /// of its jobs that are PENDING are CANCELLED with it, and returned.
   std::vector<std::int64_t> change_state(std::int64_t job, const StateChange& change);
 
-  /// As the function of that name (begin_again.h), in one transaction; samples that are gathered for the job are dropped.
+  /// As the function of that name (begin_again.h), in one transaction; samples that are gathered for the job are
+  /// dropped.
   void begin_again(std::int64_t job, const std::string& why);
 
   /// Gathers a sample, to be durable within that time, with all others that were gathered by then. Never waits for the disk.
@@ -146,8 +147,8 @@ class Journal {
   void commit_gathered_when_due();
   // These are for bodies of writes_.
 
-  /// The job or sweep that an earlier request of that owner and id made; nothing when there was none. Throws as create_job
-  /// does.
+  /// The job or sweep that an earlier request of that owner and id made; nothing when there was none. Throws as
+  /// create_job does.
   std::optional<std::int64_t> find_request(const std::string& collection, const std::string& owner,
                                            const std::string& request_id, const std::string& request_hash);
   void write_change(std::int64_t job, const StateChange& change);

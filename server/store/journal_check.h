@@ -16,9 +16,9 @@ struct JournalFindings {
   std::int64_t sweeps = 0;
 };
 
-/// Holds a journal to what the daemon relies on: SQLite's own checks of its pages, indexes and references, then every row of every
-/// table. It changes nothing, and may run beside a daemon: it sees one moment. Throws ServiceError: failed_precondition for a
-/// later version, data_loss when the file cannot be read at all.
+/// Holds a journal to what the daemon relies on: SQLite's own checks of its pages, indexes and references, then every
+/// row of every table. It changes nothing, and may run beside a daemon: it sees one moment. Throws ServiceError:
+/// failed_precondition for a later version, data_loss when the file cannot be read at all.
 JournalFindings check_journal(Database& database);
 
 }  // namespace cellcrush::store

@@ -49,8 +49,8 @@ class JournalReader {
   bool has_job(std::int64_t job);
 
   /// Up to `limit` of the wanted jobs behind the one with the number `after` (0: from the beginning), in the order of
-  /// their numbers or, with `newest_first`, against it. Ends behind the one with which they have more than `most_bytes`. Throws
-  /// ServiceError (cancelled) once `given_up` says that nobody waits any more.
+  /// their numbers or, with `newest_first`, against it. Ends behind the one with which they have more than
+  /// `most_bytes`. Throws ServiceError (cancelled) once `given_up` says that nobody waits any more.
   std::vector<StoredJob> list_jobs(
       const JobFilter& wanted, bool newest_first, std::int64_t after, int limit,
       std::size_t most_bytes = std::numeric_limits<std::size_t>::max(),
@@ -92,8 +92,8 @@ class JournalReader {
   std::optional<v1::Mesh> mesh(std::int64_t job);
 
  private:
-  /// Of a row with number, job, submitted_case, last_sequence, state. What was damaged since the journal was opened is shown as
-  /// such.
+  /// Of a row with number, job, submitted_case, last_sequence, state. What was damaged since the journal was opened is
+  /// shown as such.
   static StoredJob read_job(const Statement& row);
 
   /// Numbers between these two, both excluded.

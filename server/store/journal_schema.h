@@ -10,8 +10,8 @@ namespace cellcrush::store {
 inline constexpr int kStateEvent = 1;
 inline constexpr int kSampleEvent = 2;
 
-/// Makes the tables of a new journal, and those that an earlier version lacks. Returns the seconds that the service clock has
-/// counted (service_clock.h). Throws ServiceError (failed_precondition) for a journal of a later version.
+/// Makes the tables of a new journal, and those that an earlier version lacks. Returns the seconds that the service
+/// clock has counted (service_clock.h). Throws ServiceError (failed_precondition) for a journal of a later version.
 std::int64_t prepare_journal(Database& database);
 
 /// Throws ServiceError (failed_precondition) for a journal of a later version.

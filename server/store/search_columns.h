@@ -23,9 +23,9 @@ class LabelInserter {
   Statement insert_;
 };
 
-/// Fills in what version 4 of the journal keeps in columns beside the messages: owner, title and labels of each job, the
-/// bytes it takes, and for those that have ended the second 0 of the service clock; the owner of each sweep. A row whose
-/// message cannot be read keeps the defaults. Lives within a transaction. Throws ServiceError.
+/// Fills in what version 4 of the journal keeps in columns beside the messages: owner, title and labels of each job,
+/// the bytes it takes, and for those that have ended the second 0 of the service clock; the owner of each sweep. A row
+/// whose message cannot be read keeps the defaults. Lives within a transaction. Throws ServiceError.
 void fill_in_search_columns(Database& database);
 
 }  // namespace cellcrush::store

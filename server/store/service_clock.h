@@ -7,8 +7,8 @@
 
 namespace cellcrush::store {
 
-/// Seconds for which daemons have served a journal: runs on while one serves, by the machine's uptime, and stands still while
-/// none does. The wall clock does not move it, so that a clock that is set wrong makes nothing old. Thread-safe.
+/// Seconds for which daemons have served a journal: runs on while one serves, by the machine's uptime, and stands still
+/// while none does. The wall clock does not move it, so that a clock that is set wrong makes nothing old. Thread-safe.
 class ServiceClock {
  public:
   /// `before`: seconds served by earlier daemons.

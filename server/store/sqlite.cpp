@@ -69,7 +69,8 @@ Database::Database(const std::filesystem::path& path, Access access) {
     // Free pages can be given back (JournalUpkeep) in a file that was made for it.
     if (is_empty()) execute("PRAGMA auto_vacuum=INCREMENTAL;");
     idle_.clear();
-    // The log keeps its room when it is closed: the next start then needs none on a full disk. A journal_size_limit would cut it.
+    // The log keeps its room when it is closed: the next start then needs none on a full disk. A journal_size_limit
+    // would cut it.
     int keep = 1;
     sqlite3_file_control(handle, "main", SQLITE_FCNTL_PERSIST_WAL, &keep);
     execute("PRAGMA journal_mode=WAL;");

@@ -14,8 +14,9 @@ struct sqlite3_stmt;
 
 namespace cellcrush::store {
 
-/// A connection to an SQLite file. Not thread-safe. Every failure throws ServiceError: with the shortage behind it (full
-/// disk, lock, no descriptors or memory), data_loss for a file that is no database or is damaged, otherwise internal.
+/// A connection to an SQLite file. Not thread-safe. Every failure throws ServiceError: with the shortage behind it
+/// (full disk, lock, no descriptors or memory), data_loss for a file that is no database or is damaged, otherwise
+/// internal.
 class Database {
  public:
   /// How the file is opened; synchronous=FULL and foreign keys on in every case.

@@ -18,9 +18,10 @@ struct Verification {
   std::int64_t results = 0;
 };
 
-/// Reads all of a backup, or of a data folder, also while a daemon runs on it: the journal (check_journal), and that every job
-/// with a summary has a result whose seal is that of its bytes; of a backup that every file is the one of its manifest. It
-/// changes nothing. Throws ServiceError: not_found when the folder holds no journal, internal when it cannot be read.
+/// Reads all of a backup, or of a data folder, also while a daemon runs on it: the journal (check_journal), and that
+/// every job with a summary has a result whose seal is that of its bytes; of a backup that every file is the one of its
+/// manifest. It changes nothing. Throws ServiceError: not_found when the folder holds no journal, internal when it
+/// cannot be read.
 Verification verify_folder(const std::filesystem::path& folder);
 
 }  // namespace cellcrush::store

@@ -14,9 +14,9 @@ struct CaseCheck {
   std::int64_t frame_count = 0;    ///< the same, with the undeformed one
 };
 
-/// Builds the case's scene and describes it, or reports all problems. `between_stages` is called between the stages, each of
-/// which takes about a second for the largest mesh; what it throws is passed on. Throws std::bad_alloc when the scene does
-/// not fit.
+/// Builds the case's scene and describes it, or reports all problems. `between_stages` is called between the stages,
+/// each of which takes about a second for the largest mesh; what it throws is passed on. Throws std::bad_alloc when the
+/// scene does not fit.
 CaseCheck check_case(
     const v1::Case& submitted, const std::function<void()>& between_stages = [] {});
 

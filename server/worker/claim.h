@@ -19,11 +19,12 @@ struct Claim {
   std::uint64_t start_time = 0;
 };
 
-/// The process that has claimed the folder and lives; nothing when none has. Throws ServiceError when that cannot be read.
+/// The process that has claimed the folder and lives; nothing when none has. Throws ServiceError when that cannot be
+/// read.
 std::optional<Claim> find_claim(const JobFolder& folder);
 
-/// Start time and processor time of a process, in the kernel's ticks; nothing when there is none of that number. `times_of`
-/// throws ServiceError when that cannot be read.
+/// Start time and processor time of a process, in the kernel's ticks; nothing when there is none of that number.
+/// `times_of` throws ServiceError when that cannot be read.
 struct ProcessTimes {
   std::uint64_t start = 0;
   std::uint64_t used = 0;

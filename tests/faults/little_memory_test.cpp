@@ -31,7 +31,8 @@ class LittleMemoryTest : public DaemonFixture {
     file << kibibytes << "\n";
   }
 
-  // FAILED; or PENDING, where not even the program could be loaded, which holds the queue; or RUNNING, where there was enough.
+  // FAILED; or PENDING, where not even the program could be loaded, which holds the queue; or RUNNING, where there was
+  // enough.
   static v1::JobState wait_for_an_end(Client& client, const std::string& job) {
     v1::Job now = client.get(job);
     for (int i = 0; i < 300; ++i) {

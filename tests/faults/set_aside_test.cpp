@@ -1,4 +1,5 @@
-// What is found in a data folder that does not belong there, or cannot be used: the daemon starts, serves the rest and names it.
+// What is found in a data folder that does not belong there, or cannot be used: the daemon starts, serves the rest and
+// names it.
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 #include <unistd.h>

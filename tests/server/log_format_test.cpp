@@ -32,7 +32,8 @@ TEST(LogFormat, WhatJsonCannotHoldIsEscaped) {
 TEST(LogFormat, BytesThatAreNoTextAreEscapedInBothForms) {
   const std::string sound = "12 \xc2\xb5m, \xe2\x82\xac, \xf0\x9f\x98\x80";
   EXPECT_NE(line_of(sound).find("\"message\":\"" + sound + "\""), std::string::npos) << line_of(sound);
-  // A stray byte, one cut off, one longer than it need be, a surrogate, beyond the last character, and a terminal's command.
+  // A stray byte, one cut off, one longer than it need be, a surrogate, beyond the last character, and a terminal's
+  // command.
   const std::string unsound = "a\xff \xe2\x82 \xc0\xaf \xed\xa0\x80 \xf4\x90\x80\x80 \xc2\x9b";
   const std::string json = R"(a\\xff \\xe2\\x82 \\xc0\\xaf \\xed\\xa0\\x80 \\xf4\\x90\\x80\\x80 \\xc2\\x9b)";
   EXPECT_NE(line_of(unsound).find(json), std::string::npos) << line_of(unsound);

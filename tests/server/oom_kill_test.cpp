@@ -22,7 +22,8 @@ class OomKillTest : public ::testing::Test {
 
   [[nodiscard]] std::filesystem::path program() const { return folder_.path() / "worker"; }
 
-  // How a worker that is killed ends when the kernel has killed so many processes before it starts and when it has ended.
+  // How a worker that is killed ends when the kernel has killed so many processes before it starts and when it has
+  // ended.
   WorkerExit run(std::uint64_t before, std::uint64_t after) const {
     LocalProcess executor(program(), std::chrono::seconds(20), [before, after, asked = false]() mutable {
       return std::exchange(asked, true) ? after : before;

@@ -7,7 +7,8 @@
 
 namespace cellcrush::testing {
 
-/// Calls a method with hand-made bytes, so that no generated code of a package is needed. The first message of the answer.
+/// Calls a method with hand-made bytes, so that no generated code of a package is needed. The first message of the
+/// answer.
 std::string call_raw(const std::shared_ptr<grpc::Channel>& channel, const std::string& method, const std::string& bytes,
                      bool stream);
 

@@ -26,8 +26,9 @@ struct SceneResult {
   Problems problems;
 };
 
-/// Checks a spec and builds its scene. Never throws on a user's input; reports every problem at once. `between_stages` is called
-/// between the stages of the building, of which each takes about a second for the largest mesh; what it throws is passed on.
+/// Checks a spec and builds its scene. Never throws on a user's input; reports every problem at once. `between_stages`
+/// is called between the stages of the building, of which each takes about a second for the largest mesh; what it
+/// throws is passed on.
 SceneResult build_scene(
     const SceneSpec& spec, const std::function<void()>& between_stages = [] {});
 
