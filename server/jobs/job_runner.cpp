@@ -49,7 +49,7 @@ bool JobRunner::run(std::int64_t job, int threads, const Interruptions& interrup
       parts_.hold.failed(run.trouble);
       state = put_back(job, run);
     }
-    // It is CANCELLING when it was cancelled just as its worker had left it: then it is ended with what there is.
+    // It is CANCELLING when it was cancelled just as its worker had left it: then it ends with the samples so far.
     if (state != v1::CANCELLING) return state == v1::PENDING;
     if (run.trouble && !pause(daemons_end)) return false;
   }
