@@ -38,20 +38,19 @@ std::int64_t Admission::memory_of_job(std::int64_t most_bytes, const std::functi
   return most_bytes <= limits_.job_memory_bytes ? most_bytes : predict();
 }
 
-void Admission::admit(const std::string& owner, std::size_t count, std::int64_t memory_bytes) const {
+Admission::Place::~Place() {
+  if (admission_ == nullptr) return;
+  const std::scoped_lock lock(admission_->mutex_);
+  const auto of_owner = admission_->admitted_.find(owner_);
+  of_owner->second -= count_;
+  if (of_owner->second == 0) admission_->admitted_.erase(of_owner);
+}
+
+Admission::Place Admission::admit(const std::string& owner, std::size_t count, std::int64_t memory_bytes) {
   if (draining_) {
     throw ServiceError(ServiceError::Kind::unavailable,
                        "The daemon is about to end and takes no new jobs. Submit again once it is back.");
   }
-  const std::size_t waiting = parts_.scheduler.waiting_count();
-  if (static_cast<std::int64_t>(waiting + count) > limits_.queued_jobs) {
-    throw ServiceError(ServiceError::Kind::exhausted,
-                       "The queue holds " + std::to_string(waiting) + " jobs, and with " + std::to_string(count) +
-                           " more it would hold over " + std::to_string(limits_.queued_jobs) +
-                           ". Wait until some have run, or start the daemon with a higher --max-queued-jobs.");
-  }
-  quotas_.admit(owner, parts_.scheduler.waiting_count(owner), count,
-                [&] { return parts_.reader.bytes_of_owner(owner); });
   if (memory_bytes > limits_.job_memory_bytes) {
     throw ServiceError(ServiceError::Kind::exhausted,
                        "The run would need about " + mebibytes(memory_bytes) + " of memory, and a job may need " +
@@ -60,6 +59,21 @@ void Admission::admit(const std::string& owner, std::size_t count, std::int64_t 
   }
   if (const auto low = low_disk())
     throw ServiceError(ServiceError::Kind::storage_full, *low + " Make room there or delete jobs, then submit again.");
+  const std::scoped_lock lock(mutex_);
+  std::size_t waiting = parts_.scheduler.waiting_count();
+  for (const auto& [name, jobs] : admitted_) waiting += jobs;
+  if (static_cast<std::int64_t>(waiting + count) > limits_.queued_jobs) {
+    throw ServiceError(ServiceError::Kind::exhausted,
+                       "The queue holds " + std::to_string(waiting) + " jobs, and with " + std::to_string(count) +
+                           " more it would hold over " + std::to_string(limits_.queued_jobs) +
+                           ". Wait until some have run, or start the daemon with a higher --max-queued-jobs.");
+  }
+  const auto admitted = admitted_.find(owner);
+  const std::size_t of_owner = admitted == admitted_.end() ? 0 : admitted->second;
+  quotas_.admit(owner, parts_.scheduler.waiting_count(owner) + of_owner, count,
+                [&] { return parts_.reader.bytes_of_owner(owner); });
+  admitted_[owner] += count;
+  return {*this, owner, count};
 }
 
 std::optional<std::string> Admission::low_disk() const {

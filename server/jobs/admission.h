@@ -4,8 +4,11 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <map>
+#include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "jobs/owner_quotas.h"
 #include "store/data_folder.h"
@@ -33,6 +36,23 @@ class Admission {
     Scheduler& scheduler;
   };
 
+  /// Jobs that were admitted and do not stand in the queue yet. Until this goes away they count as waiting, so that
+  /// calls at the same time do not share what is left of a limit.
+  class Place {
+   public:
+    Place(Admission& admission, std::string owner, std::size_t count)
+        : admission_(&admission), owner_(std::move(owner)), count_(count) {}
+    ~Place();
+    Place(Place&& other) noexcept
+        : admission_(std::exchange(other.admission_, nullptr)), owner_(std::move(other.owner_)), count_(other.count_) {}
+    Place& operator=(Place&&) = delete;
+
+   private:
+    Admission* admission_;
+    std::string owner_;
+    std::size_t count_;
+  };
+
   Admission(const Parts& parts, const Limits& limits);
 
   /// From now on no job is taken.
@@ -49,7 +69,7 @@ class Admission {
 
   /// Whether so many more jobs of the owner, of which the largest needs so much memory, can be taken. Throws
   /// ServiceError: unavailable while draining, exhausted beyond a limit or a quota, storage_full.
-  void admit(const std::string& owner, std::size_t count, std::int64_t memory_bytes) const;
+  [[nodiscard]] Place admit(const std::string& owner, std::size_t count, std::int64_t memory_bytes);
 
   /// Why the disk has too little room for jobs, a sentence; nothing where it has room. Throws ServiceError.
   [[nodiscard]] std::optional<std::string> low_disk() const;
@@ -59,6 +79,8 @@ class Admission {
   Limits limits_;
   OwnerQuotas quotas_;
   std::atomic<bool> draining_ = false;
+  std::mutex mutex_;
+  std::map<std::string, std::size_t> admitted_;  ///< jobs of places by owner, guarded by mutex_
 };
 
 }  // namespace cellcrush::jobs

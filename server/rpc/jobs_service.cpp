@@ -1,6 +1,7 @@
 #include "rpc/jobs_service.h"
 
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "jobs/resource_name.h"
@@ -75,7 +76,11 @@ grpc::Status JobsService::CreateJob(grpc::ServerContext* context, const v1::Crea
     const std::int64_t memory_bytes = parts_.admission.memory_of_job(
         verdict.most_memory_bytes, [&] { return translate::predicted_memory(request->case_()); });
     const std::string owner = job.owner();
-    const auto admit = [&] { parts_.admission.admit(owner, 1, memory_bytes); };
+    std::optional<jobs::Admission::Place> place;
+    const auto admit = [&] {
+      place.reset();
+      place.emplace(parts_.admission.admit(owner, 1, memory_bytes));
+    };
     const auto created =
         parts_.journal.create_job(std::move(job), request->request_id(), hash, verdict.element_steps, admit);
     if (created.is_new) {

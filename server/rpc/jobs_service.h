@@ -27,7 +27,7 @@ class JobsService final
     const jobs::Deletion& deletion;
     watch::Hub& hub;
     jobs::Scheduler& scheduler;
-    const jobs::Admission& admission;
+    jobs::Admission& admission;
     const access::Gate& gate;
     StreamParts streams;
   };

@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "jobs/resource_name.h"
@@ -84,7 +85,11 @@ grpc::Status SweepsService::CreateSweep(grpc::ServerContext* context, const v1::
     }
     const std::int64_t memory_bytes = parts_.admission.memory_of_job(
         plan.most_memory_bytes, [&] { return translate::predicted_memory(plan.jobs[plan.largest].job.case_()); });
-    const auto admit = [&] { parts_.admission.admit(owner, plan.jobs.size(), memory_bytes); };
+    std::optional<jobs::Admission::Place> place;
+    const auto admit = [&] {
+      place.reset();
+      place.emplace(parts_.admission.admit(owner, plan.jobs.size(), memory_bytes));
+    };
     const auto created = parts_.journal.create_sweep(request.sweep(), plan.jobs, request.request_id(), hash, admit);
     const std::string name = jobs::sweep_name_of(created.sweep);
     if (created.is_new) {
@@ -156,7 +161,11 @@ grpc::Status SweepsService::RetryFailedJobs(grpc::ServerContext* context, const 
     const std::int64_t sweep = find_own(*context, request->name());
     // What their cases need was admitted when the sweep was made. The new jobs are the sweep's owner's.
     const std::string owner = find(request->name()).sweep.owner();
-    const auto admit = [&](std::size_t jobs) { parts_.admission.admit(owner, jobs, 0); };
+    std::optional<jobs::Admission::Place> place;
+    const auto admit = [&](std::size_t count) {
+      place.reset();
+      place.emplace(parts_.admission.admit(owner, count, 0));
+    };
     const auto retried = parts_.journal.retry_failed(sweep, admit);
     log_change(jobs::sweep_name_of(sweep), "retried with " + std::to_string(retried.size()) + " jobs",
                parts_.gate.caller_of(*context).name);

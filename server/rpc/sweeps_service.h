@@ -26,7 +26,7 @@ class SweepsService final : public v1::Sweeps::WithCallbackMethod_WatchSweep<v1:
     const jobs::Deletion& deletion;
     watch::Hub& hub;
     jobs::Scheduler& scheduler;
-    const jobs::Admission& admission;
+    jobs::Admission& admission;
     const access::Gate& gate;
     StreamParts streams;
   };

@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <atomic>
 #include <thread>
 
 #include "cellcrush/v1/admin_service.grpc.pb.h"
@@ -153,6 +154,30 @@ TEST_F(OwnerTest, AnOwnerBeyondAQuotaIsRefusedAndOthersAreNot) {
   EXPECT_THAT(queue.entries(0).reason(), HasSubstr("anna, already runs the 1 job that --owner-max-running allows"));
   ASSERT_TRUE(client().cancel(running).ok());
   EXPECT_TRUE(client().wait_for_state(waiting, v1::RUNNING));
+}
+
+TEST_F(OwnerTest, CallsAtTheSameTimeDoNotOvershootAQuota) {
+  constexpr int kQuota = 5;
+  auto options = with_tokens(tcp_options());
+  options.workers = 1;
+  options.limits.owner.queued_jobs = kQuota;
+  start(options);
+  const std::string running = Owner(channel({}), tokens_.at("anna")).create(endless_case()).name();
+  ASSERT_TRUE(client().wait_for_state(running, v1::RUNNING));
+  std::atomic<int> taken = 0;
+  {
+    std::vector<std::jthread> callers;
+    for (int i = 0; i < 16; ++i) {
+      callers.emplace_back([&] {
+        Owner anna(channel({}), tokens_.at("anna"));
+        for (int call = 0; call < 4; ++call) {
+          anna.create(endless_case());
+          if (anna.last.ok()) ++taken;
+        }
+      });
+    }
+  }
+  EXPECT_EQ(taken, kQuota);
 }
 
 TEST_F(OwnerTest, AnOwnerWhoseJobsFillTheirDiskIsRefusedUntilSomeAreDeleted) {
