@@ -81,7 +81,11 @@ struct Service::Parts {
                [this, drained = std::move(on_drain)] {
                  admission.drain();
                  drained();
-               }}) {}
+               }}),
+        reflection(rpc::make_reflection_services(
+            {v1::Cases::service_full_name(), v1::Jobs::service_full_name(), v1::Sweeps::service_full_name(),
+             v1::Admin::service_full_name(), grpc::health::v1::Health::service_full_name()},
+            gate, stream_limits)) {}
 
   [[nodiscard]] rpc::StreamParts streams() { return {pump, metrics, stream_limits, options.watch_times}; }
 
@@ -107,9 +111,7 @@ struct Service::Parts {
   rpc::JobsService jobs;
   rpc::SweepsService sweeps;
   rpc::AdminService admin;
-  std::vector<std::unique_ptr<grpc::Service>> reflection = rpc::make_reflection_services(
-      {v1::Cases::service_full_name(), v1::Jobs::service_full_name(), v1::Sweeps::service_full_name(),
-       v1::Admin::service_full_name(), grpc::health::v1::Health::service_full_name()});
+  std::vector<std::unique_ptr<grpc::Service>> reflection;
   std::optional<jobs::Housekeeping> housekeeping;
 };
 

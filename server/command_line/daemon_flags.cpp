@@ -78,7 +78,8 @@ void DaemonFlags::add_connections(CLI::App& app) {
   app.add_option("--max-connections-per-address", limits.connections_per_address,
                  "TCP connections that one address may have open (default: 500)")
       ->check(CLI::Range(1, 1'000'000));
-  app.add_option("--max-streams", limits.streams, "watches, downloads and frames that may be open (default: 2000)")
+  app.add_option("--max-streams", limits.streams,
+                 "watches, downloads, frames and reflection streams that may be open (default: 2000)")
       ->check(CLI::Range(1, 1'000'000));
   app.add_option("--max-streams-per-caller", limits.streams_per_caller,
                  "those that one token or certificate may have open (default: 1000)")

@@ -9,7 +9,7 @@ namespace cellcrush::net {
 struct ConnectionLimits {
   int connections = 1000;                       ///< on TCP; the Unix sockets have as many of their own
   int connections_per_address = 500;            ///< of one caller's machine
-  int streams = 2000;                           ///< watches, downloads and frames that are open at once
+  int streams = 2000;                           ///< watches, downloads, frames and reflection, open at once
   int streams_per_caller = 1000;                ///< of one token, certificate or, without either, of all who call
   std::int64_t memory_bytes = 256 << 20;        ///< that connections and the messages on them may take
   int threads = 32;                             ///< that answer calls other than streams

@@ -9,6 +9,8 @@
 
 #include "grpc/reflection/v1/reflection.grpc.pb.h"
 #include "grpc/reflection/v1alpha/reflection.grpc.pb.h"
+#include "rpc/error_table.h"
+#include "rpc/refused_stream.h"
 
 namespace cellcrush::rpc {
 namespace {
@@ -107,11 +109,17 @@ typename Version::Response answer_reflection(const typename Version::Request& re
   return response;
 }
 
+template <class Version>
+using Reactor = grpc::ServerBidiReactor<typename Version::Request, typename Version::Response>;
+
 // One stream: reads a request, writes its response, until the client has no more.
 template <class Version>
-class ReflectionStream final : public grpc::ServerBidiReactor<typename Version::Request, typename Version::Response> {
+class ReflectionStream final : public Reactor<Version> {
  public:
-  explicit ReflectionStream(const std::vector<std::string>& names) : names_(names) { this->StartRead(&request_); }
+  ReflectionStream(const std::vector<std::string>& names, StreamLimits::Permit permit)
+      : names_(names), permit_(std::move(permit)) {
+    this->StartRead(&request_);
+  }
 
   void OnReadDone(bool is_read) override {
     if (!is_read) return this->Finish(grpc::Status::OK);
@@ -128,6 +136,7 @@ class ReflectionStream final : public grpc::ServerBidiReactor<typename Version::
 
  private:
   const std::vector<std::string>& names_;
+  StreamLimits::Permit permit_;
   typename Version::Request request_;
   typename Version::Response response_;
 };
@@ -135,26 +144,33 @@ class ReflectionStream final : public grpc::ServerBidiReactor<typename Version::
 template <class Version>
 class ReflectionService final : public Version::Service::CallbackService {
  public:
-  explicit ReflectionService(std::vector<std::string> names) : names_(std::move(names)) {}
+  ReflectionService(std::vector<std::string> names, const access::Gate& gate, StreamLimits& limits)
+      : names_(std::move(names)), gate_(gate), limits_(limits) {}
 
-  grpc::ServerBidiReactor<typename Version::Request, typename Version::Response>* ServerReflectionInfo(
-      grpc::CallbackServerContext*) override {
-    return new ReflectionStream<Version>(names_);
+  Reactor<Version>* ServerReflectionInfo(grpc::CallbackServerContext* context) override {
+    try {
+      return new ReflectionStream<Version>(names_, limits_.admit(gate_.caller_of(*context).name));
+    } catch (const ServiceError& error) {
+      return new RefusedStream<Reactor<Version>>(status_of(error));
+    }
   }
 
  private:
   std::vector<std::string> names_;
+  const access::Gate& gate_;
+  StreamLimits& limits_;
 };
 
 }  // namespace
 
-std::vector<std::unique_ptr<grpc::Service>> make_reflection_services(std::vector<std::string> names) {
+std::vector<std::unique_ptr<grpc::Service>> make_reflection_services(std::vector<std::string> names,
+                                                                     const access::Gate& gate, StreamLimits& limits) {
   names.emplace_back(ReflectionV1::Service::service_full_name());
   names.emplace_back(ReflectionV1Alpha::Service::service_full_name());
   std::sort(names.begin(), names.end());
   std::vector<std::unique_ptr<grpc::Service>> out;
-  out.push_back(std::make_unique<ReflectionService<ReflectionV1>>(names));
-  out.push_back(std::make_unique<ReflectionService<ReflectionV1Alpha>>(std::move(names)));
+  out.push_back(std::make_unique<ReflectionService<ReflectionV1>>(names, gate, limits));
+  out.push_back(std::make_unique<ReflectionService<ReflectionV1Alpha>>(std::move(names), gate, limits));
   return out;
 }
 

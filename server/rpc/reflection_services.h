@@ -6,10 +6,15 @@
 #include <string>
 #include <vector>
 
+#include "access/gate.h"
+#include "rpc/stream_limits.h"
+
 namespace cellcrush::rpc {
 
 /// grpc.reflection.v1 and v1alpha, which describe the services of those full names, and themselves. They answer from
-/// the descriptors that are linked here. A stream holds no thread while its client is silent. Thread-safe.
-std::vector<std::unique_ptr<grpc::Service>> make_reflection_services(std::vector<std::string> names);
+/// the descriptors that are linked here. A stream holds no thread while its client is silent, and counts against the
+/// limits, which outlive the services as the gate does. Thread-safe.
+std::vector<std::unique_ptr<grpc::Service>> make_reflection_services(std::vector<std::string> names,
+                                                                     const access::Gate& gate, StreamLimits& limits);
 
 }  // namespace cellcrush::rpc

@@ -16,6 +16,7 @@
 #include "jobs/case_field.h"
 #include "metrics/metrics.h"
 #include "rpc/error_table.h"
+#include "rpc/refused_stream.h"
 #include "rpc/stream_limits.h"
 #include "watch/pump.h"
 #include "watch/watch_times.h"
@@ -229,14 +230,6 @@ class StreamReactor final : public grpc::ServerWriteReactor<typename Source::Mes
   Clock::time_point last_write_ = Clock::now();
 };
 
-/// A stream that is refused before it begins.
-template <class Message>
-class RefusedStream final : public grpc::ServerWriteReactor<Message> {
- public:
-  explicit RefusedStream(const grpc::Status& status) { this->Finish(status); }
-  void OnDone() override { delete this; }
-};
-
 /// Opens a stream of the source that `make` returns, for the caller that `name_caller` returns, or one that ends with
 /// what these throw.
 template <class Source, class NameCaller, class Make>
@@ -246,7 +239,7 @@ grpc::ServerWriteReactor<typename Source::Message>* open_stream(const StreamPart
   try {
     return StreamReactor<Source>::start(parts, context, name_caller(), make());
   } catch (const std::exception& error) {
-    return new RefusedStream<typename Source::Message>(status_of(error));
+    return new RefusedStream<grpc::ServerWriteReactor<typename Source::Message>>(status_of(error));
   }
 }
 

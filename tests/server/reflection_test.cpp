@@ -3,6 +3,7 @@
 #include <google/protobuf/descriptor.pb.h>
 #include <google/protobuf/descriptor_database.h>
 
+#include <array>
 #include <filesystem>
 #include <iterator>
 
@@ -130,6 +131,35 @@ TYPED_TEST(ReflectionTest, SilentStreamsHoldNoThreadAndEndWithTheDaemon) {
   EXPECT_LT(threads() - before, kStreams / 2);
   this->daemon_->stop();
   for (const auto& stream : open) EXPECT_FALSE(stream->Finish().ok());
+}
+
+TYPED_TEST(ReflectionTest, StreamsBeyondTheCallersLimitAreRefusedByName) {
+  auto options = this->default_options();
+  options.connections.streams_per_caller = 2;
+  this->start(options);
+  const auto stub = TypeParam::Service::NewStub(this->client().channel);
+  typename TypeParam::Request request;
+  request.set_list_services("*");
+  typename TypeParam::Response response;
+  const auto open = [&](grpc::ClientContext& context) { return stub->ServerReflectionInfo(&context); };
+  const auto contexts = std::array{bounded_context(), bounded_context(), bounded_context()};
+  const auto first = open(*contexts[0]);
+  const auto second = open(*contexts[1]);
+  ASSERT_TRUE(first->Write(request) && first->Read(&response));
+  ASSERT_TRUE(second->Write(request) && second->Read(&response));
+  const auto third = open(*contexts[2])->Finish();
+  EXPECT_EQ(third.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
+  EXPECT_THAT(third.error_message(), HasSubstr("--max-streams-per-caller"));
+  first->WritesDone();
+  ASSERT_TRUE(first->Finish().ok());
+  // Its place is free once the server has let it go, a moment after the client has its status.
+  bool is_answered = false;
+  for (int i = 0; i < 100 && !is_answered; ++i) {
+    const auto context = bounded_context();
+    const auto again = open(*context);
+    is_answered = again->Write(request) && again->Read(&response);
+  }
+  EXPECT_TRUE(is_answered);
 }
 
 }  // namespace
