@@ -100,6 +100,7 @@ class JournalCheck {
   }
 
   void look_at_sweeps() {
+    if (journal_version(database_) < kVersionWithSweeps) return;
     Statement sweeps(database_, "SELECT number, sweep FROM sweeps");
     while (sweeps.step()) {
       ++found_.sweeps;

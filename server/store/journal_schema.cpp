@@ -113,11 +113,6 @@ CREATE INDEX job_labels_by_job ON job_labels(job);
 CREATE INDEX sweeps_in_deletion ON sweeps(number) WHERE deleting = 1;
 )sql";
 
-std::int64_t version_of(Database& database) {
-  Statement read(database, "PRAGMA user_version");
-  return read.step() ? read.integer(0) : 0;
-}
-
 // A daemon that was killed has noted less than it served: a job that ended since says how far it was.
 std::int64_t read_service_clock(Database& database) {
   Statement read(database,
@@ -128,8 +123,13 @@ std::int64_t read_service_clock(Database& database) {
 
 }  // namespace
 
+std::int64_t journal_version(Database& database) {
+  Statement read(database, "PRAGMA user_version");
+  return read.step() ? read.integer(0) : 0;
+}
+
 void require_known_version(Database& database) {
-  const std::int64_t version = version_of(database);
+  const std::int64_t version = journal_version(database);
   if (version <= kVersion) return;
   throw ServiceError(ServiceError::Kind::failed_precondition,
                      "The journal is of version " + std::to_string(version) + ", and this daemon knows version " +
@@ -139,9 +139,9 @@ void require_known_version(Database& database) {
 std::int64_t prepare_journal(Database& database) {
   Transaction transaction(database);
   require_known_version(database);
-  const std::int64_t version = version_of(database);
+  const std::int64_t version = journal_version(database);
   if (version < 1) database.execute(kJobTables);
-  if (version < 2) database.execute(kSweepTables);
+  if (version < kVersionWithSweeps) database.execute(kSweepTables);
   if (version < 3) database.execute(kQueueColumns);
   if (version < 4) {
     database.execute(kSearchColumns);

@@ -10,9 +10,15 @@ namespace cellcrush::store {
 inline constexpr int kStateEvent = 1;
 inline constexpr int kSampleEvent = 2;
 
+/// The first version that has sweeps.
+inline constexpr std::int64_t kVersionWithSweeps = 2;
+
 /// Makes the tables of a new journal, and those that an earlier version lacks. Returns the seconds that the service
 /// clock has counted (service_clock.h). Throws ServiceError (failed_precondition) for a journal of a later version.
 std::int64_t prepare_journal(Database& database);
+
+/// Of its tables; 0 for one without any.
+std::int64_t journal_version(Database& database);
 
 /// Throws ServiceError (failed_precondition) for a journal of a later version.
 void require_known_version(Database& database);

@@ -9,6 +9,7 @@
 
 #include "error.h"
 #include "server/journal_fixture.h"
+#include "store/journal_check.h"
 #include "store/sweep_reader.h"
 
 namespace cellcrush::store {
@@ -269,6 +270,7 @@ TEST_F(JournalTest, AJournalOfTheFirstVersionIsBroughtUpToDate) {
     database.execute("DROP TABLE sweep_jobs; DROP TABLE sweeps; DROP TABLE deleted_jobs;");
     database.execute(kWithoutQueueColumnsOfJobs);
     database.execute("PRAGMA user_version = 1;");
+    EXPECT_TRUE(check_journal(database).problems.empty());
   }
   reopen();
   EXPECT_TRUE(reader_->has_job(job));

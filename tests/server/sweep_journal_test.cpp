@@ -4,6 +4,7 @@
 
 #include "error.h"
 #include "server/journal_fixture.h"
+#include "store/journal_check.h"
 #include "store/sweep_reader.h"
 
 namespace cellcrush::store {
@@ -95,6 +96,7 @@ TEST_F(SweepJournalTest, AJournalOfTheSecondVersionKeepsItsJobsInTheirOrder) {
     database.execute(kWithoutQueueColumnsOfJobs);
     database.execute(kWithoutQueueColumnsOfSweeps);
     database.execute("PRAGMA user_version = 2;");
+    EXPECT_TRUE(check_journal(database).problems.empty());
   }
   reopen();
   const auto waiting = reader_->queued_jobs(v1::PENDING);
