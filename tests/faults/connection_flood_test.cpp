@@ -88,6 +88,10 @@ class ConnectionFloodTest : public FaultFixture, public ::testing::WithParamInte
     getrlimit(RLIMIT_NOFILE, &limit);
     limit.rlim_cur = limit.rlim_max;
     setrlimit(RLIMIT_NOFILE, &limit);
+    start();
+  }
+
+  void start(int most_descriptors = 0) {
     std::vector<std::string> arguments = {"--data",   data_folder().string(), "--listen",  address(),
                                           "--listen", "127.0.0.1:0",          "--workers", "1"};
     if (GetParam() == Port::tls) {
@@ -96,7 +100,7 @@ class ConnectionFloodTest : public FaultFixture, public ::testing::WithParamInte
            {std::string("--tls-cert"), server.certificate.string(), std::string("--tls-key"), server.key.string()})
         arguments.push_back(word);
     }
-    daemon_ = std::make_unique<DaemonProcess>(arguments);
+    daemon_ = std::make_unique<DaemonProcess>(arguments, most_descriptors);
     const auto addresses = daemon_->wait_for_addresses(2);
     ASSERT_EQ(addresses.size(), 2U);
     tcp_address_ = addresses.back();
@@ -165,6 +169,17 @@ TEST_P(ConnectionFloodTest, APortThatRanOutOfDescriptorsAnswersAgain) {
   std::vector<int> open;
   for (int i = 0; i < 1010; ++i) open.push_back(connect_to(port_));
   std::this_thread::sleep_for(seconds(1));
+  for (const int connection : open) close(connection);
+  expect_all_ports_answer();
+}
+
+TEST_P(ConnectionFloodTest, StrangersUnderAHardLimitOf1024DescriptorsShutNobodyOut) {
+  daemon_.reset();
+  start(1024);
+  std::vector<int> open;
+  for (int i = 0; i < 1010; ++i) open.push_back(connect_to(port_));
+  std::this_thread::sleep_for(seconds(1));
+  EXPECT_TRUE(check(client().channel).ok()) << "The Unix socket has connections of its own.";
   for (const int connection : open) close(connection);
   expect_all_ports_answer();
 }

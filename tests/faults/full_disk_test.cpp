@@ -18,11 +18,9 @@ namespace {
 
 class FullDiskTest : public FaultFixture {
  protected:
-  static constexpr const char* kSize = "size=64m,mode=0700";
-
   void SetUp() override {
     std::filesystem::create_directory(data_folder());
-    if (mount("tmpfs", data_folder().c_str(), "tmpfs", MS_NOSUID | MS_NODEV, kSize) != 0)
+    if (mount("tmpfs", data_folder().c_str(), "tmpfs", MS_NOSUID | MS_NODEV, "size=64m,mode=0700") != 0)
       GTEST_SKIP() << "No small file system can be mounted here: " << std::strerror(errno);
     mounted_ = true;
   }
@@ -33,6 +31,13 @@ class FullDiskTest : public FaultFixture {
     // Workers that were killed may hold it for an instant.
     for (int i = 0; i < 100 && umount2(data_folder().c_str(), 0) != 0; ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+
+  // Disks of 64, 128 and 256 MiB take turns. REQUIRES: the disk is not filled.
+  void resize_the_disk(int round) const {
+    const std::string size = "size=" + std::to_string(64 << (round % 3)) + "m";
+    ASSERT_EQ(mount("tmpfs", data_folder().c_str(), "tmpfs", MS_NOSUID | MS_NODEV | MS_REMOUNT, size.c_str()), 0)
+        << std::strerror(errno);
   }
 
   // Leaves so much room, less than a page more.
@@ -100,6 +105,7 @@ TEST_F(FullDiskTest, WheneverItFillsNoJobFailsAndEachReachesItsEndWithTheSameBit
   const auto time = std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::steady_clock::now() - begin);
   const int moments = rounds(4, 40);
   for (int i = 0; i <= moments; ++i) {
+    resize_the_disk(i);
     const std::string job = client.create(submitted());
     // The last moments are those at which the result is closed.
     std::this_thread::sleep_for(i * time / moments);
@@ -141,6 +147,7 @@ TEST_F(FullDiskTest, AJobThatIsCancelledOrSuspendedMeanwhileIsOnceThereIsRoom) {
   auto client = this->client();
   const auto whole = undisturbed(client);
   for (int i = 0; i < rounds(1, 10); ++i) {
+    resize_the_disk(i);
     const std::string cancelled = client.create(endless_case());
     wait_for_samples(client, cancelled, 10);
     {
@@ -181,6 +188,7 @@ TEST_F(FullDiskTest, ADaemonStartsWithNextToNoRoomServesReadingAndRunsNothingUnt
   }
   const int step = rounds(36, 4);
   for (int kibibytes = 0; kibibytes <= 72; kibibytes += step) {
+    resize_the_disk(kibibytes / step);
     std::string job;
     {
       auto client = this->client();

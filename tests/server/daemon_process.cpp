@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -31,8 +32,11 @@ bool read_some(int file, std::string& text, int wait_ms) {
 }
 
 // Only calls that are allowed between fork and exec.
-[[noreturn]] void become(char* const* arguments, pid_t parent, int output, int errors) {
+[[noreturn]] void become(char* const* arguments, pid_t parent, int output, int errors, int most_descriptors) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
+  const auto descriptors = static_cast<rlim_t>(most_descriptors);
+  const rlimit limit{descriptors, descriptors};
+  if (most_descriptors > 0 && setrlimit(RLIMIT_NOFILE, &limit) != 0) _exit(127);
   if (getppid() != parent) _exit(127);
   dup2(output, STDOUT_FILENO);
   dup2(errors, STDERR_FILENO);
@@ -42,7 +46,7 @@ bool read_some(int file, std::string& text, int wait_ms) {
 
 }  // namespace
 
-DaemonProcess::DaemonProcess(const std::vector<std::string>& arguments) {
+DaemonProcess::DaemonProcess(const std::vector<std::string>& arguments, int most_descriptors) {
   std::array<int, 2> out{};
   std::array<int, 2> error{};
   if (pipe2(out.data(), O_CLOEXEC) != 0 || pipe2(error.data(), O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
@@ -56,7 +60,7 @@ DaemonProcess::DaemonProcess(const std::vector<std::string>& arguments) {
   pointers.push_back(nullptr);
   const pid_t parent = getpid();
   pid_ = fork();
-  if (pid_ == 0) become(pointers.data(), parent, out[1], error[1]);
+  if (pid_ == 0) become(pointers.data(), parent, out[1], error[1], most_descriptors);
   close(out[1]);
   close(error[1]);
   output_ = out[0];

@@ -13,7 +13,8 @@ namespace cellcrush::testing {
 /// is aborted. Workers outlive it all the same.
 class DaemonProcess {
  public:
-  explicit DaemonProcess(const std::vector<std::string>& arguments);
+  /// Under a hard limit on file descriptors; 0: that of this process.
+  explicit DaemonProcess(const std::vector<std::string>& arguments, int most_descriptors = 0);
   ~DaemonProcess();
   DaemonProcess(const DaemonProcess&) = delete;
   DaemonProcess& operator=(const DaemonProcess&) = delete;
