@@ -4,11 +4,12 @@
 
 namespace cellcrush {
 
-Curve::Curve(std::span<const Sample> samples, double Sample::*stress) : strain_{0.0}, integral_{0.0} {
+Curve::Curve(std::span<const Sample> samples, const std::function<double(const Sample&)>& stress)
+    : strain_{0.0}, integral_{0.0} {
   for (const Sample& sample : samples) {
     const double width = sample.strain - strain_.back();
     if (width > 0.0) {
-      integral_.push_back(integral_.back() + sample.*stress * width);
+      integral_.push_back(integral_.back() + stress(sample) * width);
       strain_.push_back(sample.strain);
     }
   }
@@ -34,27 +35,12 @@ std::optional<double> Curve::mean(double low, double high) const {
   return (integral(high) - integral(low)) / (high - low);
 }
 
-std::optional<double> Curve::densification(double window) const {
-  const double half = 0.5 * window;
-  constexpr double kFall = 0.95;
-  double greatest = 0.0;
-  double onset = 0.0;
-  double newest = 0.0;
-  for (const double strain : strain_) {
-    if (strain < half || strain > strain_.back() - half) {
-      continue;
-    }
-    const double smooth = (integral(strain + half) - integral(strain - half)) / (2.0 * half);
-    if (smooth <= 0.0) {
-      continue;
-    }
-    newest = integral(strain) / smooth;
-    if (newest > greatest) {
-      greatest = newest;
-      onset = strain;
-    }
-  }
-  return greatest > 0.0 && newest < kFall * greatest ? std::optional(onset) : std::nullopt;
+double Curve::smoothed(double strain, double window) const {
+  return (integral(strain + 0.5 * window) - integral(strain - 0.5 * window)) / window;
+}
+
+Curve curve_of_both_plates(std::span<const Sample> samples) {
+  return {samples, [](const Sample& sample) { return 0.5 * (sample.stress_impact + sample.stress_support); }};
 }
 
 }  // namespace cellcrush

@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "cellcrush/simulation.h"
-#include "measure/collapse.h"
 #include "measure/curve.h"
+#include "measure/densification.h"
 #include "measure/shock.h"
 #include "measure/theory.h"
 #include "measure/warnings.h"
@@ -25,12 +25,6 @@ double energy_error_of(std::span<const Sample> samples) {
     }
   }
   return error;
-}
-
-/// Strain over which the stress is smoothed to find densification. The stress behind a front swings as column after column
-/// of cells is run over, which is no densification: it is smoothed over two columns at least.
-double smoothing_window(const Scene& scene, bool front) {
-  return front ? std::max(Curve::kSmoothing, 2.0 * find_cells(scene).field.pitch / scene.length) : Curve::kSmoothing;
 }
 
 /// The mode that most looks at the collapse gave.
@@ -125,7 +119,7 @@ Summary summarize(const Scene& scene, std::span<const Sample> samples) {
   if (summary.plateau_stress_support) {
     summary.front = summarize_front(scene, samples, *summary.plateau_stress_support);
   }
-  summary.densification_strain = impact.densification(smoothing_window(scene, summary.front.has_value()));
+  summary.densification_strain = find_densification(curve_of_both_plates(samples));
   if (summary.densification_strain) {
     summary.plateau_stress_to_densification = impact.mean(0.0, *summary.densification_strain);
     summary.solid_fraction_at_densification = relative_density_of(scene) / (1.0 - *summary.densification_strain);

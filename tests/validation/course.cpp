@@ -4,20 +4,18 @@
 #include <cstdio>
 
 #include "measure/curve.h"
+#include "measure/densification.h"
 
 namespace cellcrush::validation {
 namespace {
 
 /// The last sample at which the smoothed stress is no more than twice the mean up to it; the last of all where none is.
 const Sample& last_below_twice_the_mean(std::span<const Sample> samples, const Curve& curve) {
-  const double half = 0.5 * Curve::kSmoothing;
+  constexpr double kHalf = 0.5 * Curve::kSmoothing;
   const Sample* found = &samples.back();
   for (const Sample& sample : samples) {
-    const double low = sample.strain - half;
-    const double high = sample.strain + half;
-    if (low >= 0.0 && high <= samples.back().strain &&
-        (curve.integral(high) - curve.integral(low)) / (2.0 * half) <=
-            2.0 * curve.integral(sample.strain) / sample.strain) {
+    if (sample.strain >= kHalf && sample.strain + kHalf <= curve.end() &&
+        curve.smoothed(sample.strain) <= 2.0 * curve.integral(sample.strain) / sample.strain) {
       found = &sample;
     }
   }
@@ -29,7 +27,7 @@ const Sample& last_below_twice_the_mean(std::span<const Sample> samples, const C
 Course find_course(std::span<const Sample> samples) {
   const Curve curve(samples, &Sample::stress_impact);
   const Sample& last = samples.back();
-  const auto onset = curve.densification();
+  const auto onset = find_densification(curve_of_both_plates(samples));
   Course course;
   course.densified = onset.has_value();
   course.densification = onset.value_or(last.strain);

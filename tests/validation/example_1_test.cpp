@@ -38,6 +38,8 @@ void record(const std::string& name, double value) { testing::Test::RecordProper
 CrushRun crush(const Example& example, const SectionSpec& section) {
   SceneSpec spec = find_preset(example.preset)->spec;
   spec.section = section;
+  // The presets end at 80 %, where the densified stress is not yet a third above the plateau of every one.
+  spec.loading.end_strain = 0.85;
   CrushRun run = validation::run_crush(spec);
   EXPECT_EQ(run.status.kind, RunStatus::Kind::finished) << run.status.message;
   record("limit_stress", run.limit.stress);

@@ -36,17 +36,17 @@ TEST(Curve, PlateauIsAbsentBeforeTheWindowIsFull) {
   EXPECT_FALSE(curve.mean(0.2, 0.4).has_value());
 }
 
-TEST(Curve, DensificationIsWhereTheEfficiencyIsGreatest) {
-  // Stress 1 up to 0.6, then rising by 50 a unit of strain: eta grows to 0.6 and falls after it.
-  const auto integral = [](double e) { return e < 0.6 ? e : e + 25.0 * (e - 0.6) * (e - 0.6); };
+TEST(Curve, SmoothedIsTheMeanOfAWindow) {
+  const auto integral = [](double e) { return e * e; };  // stress 2 e
   const Curve curve(samples_of(integral, 0.8, 800), &Sample::stress_impact);
-  ASSERT_TRUE(curve.densification().has_value());
-  EXPECT_NEAR(*curve.densification(), 0.6, 0.006);
+  EXPECT_NEAR(curve.smoothed(0.3, 0.02), 0.6, 1e-9);
+  EXPECT_NEAR(curve.smoothed(0.3), 0.6, 1e-9);
 }
 
-TEST(Curve, DensificationIsAbsentWhileTheEfficiencyGrows) {
-  const Curve curve(samples_of([](double e) { return e; }, 0.8, 800), &Sample::stress_impact);
-  EXPECT_FALSE(curve.densification().has_value());
+TEST(Curve, OfBothPlatesIsTheMeanOfTheirStresses) {
+  auto samples = samples_of([](double e) { return 3.0 * e; }, 0.5, 100);
+  for (Sample& sample : samples) sample.stress_support = 1.0;
+  EXPECT_NEAR(*curve_of_both_plates(samples).mean(0.1, 0.4), 2.0, 1e-9);
 }
 
 TEST(Theory, TypeIHasGibsonAshbyAndEquation51) {

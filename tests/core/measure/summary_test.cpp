@@ -83,7 +83,7 @@ TEST_F(SummaryTest, TheTheorysErrorIsItsExcessOverThePlateau) {
 TEST_F(SummaryTest, SolidFractionAtDensificationFollowsFromTheStrain) {
   std::vector<Sample> samples = steady_samples();
   for (Sample& sample : samples) {
-    if (sample.strain > 0.5) sample.stress_impact = 1.0 + 50.0 * (sample.strain - 0.5);
+    if (sample.strain > 0.5) sample.stress_impact = sample.stress_support = 1.0 + 50.0 * (sample.strain - 0.5);
   }
   const Summary summary = summarize(*scene_, samples);
   ASSERT_TRUE(summary.densification_strain && summary.solid_fraction_at_densification);
