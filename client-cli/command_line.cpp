@@ -43,6 +43,7 @@ ExitCode run_command_line(int argc, char** argv) {
   app.footer(kFooter);
   Session session;
   add_case_commands(app, session);
+  add_run_command(app, session);
   add_submit_command(app, session);
   add_watch_command(app, session);
   add_show_command(app, session);

@@ -37,6 +37,7 @@ void add_case_options(CLI::App& command, CaseOptions& options);
 
 void add_case_commands(CLI::App& app, Session& session);  ///< presets, check
 void add_show_command(CLI::App& app, Session& session);
+void add_run_command(CLI::App& app, Session& session);
 void add_submit_command(CLI::App& app, Session& session);
 void add_watch_command(CLI::App& app, Session& session);
 void add_list_command(CLI::App& app, Session& session);

@@ -1,3 +1,5 @@
+#include "commands/fetch.h"
+
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -88,35 +90,10 @@ fs::path frame_path(const fs::path& folder, const MeshFrame& frame) {
 
 ExitCode run_fetch(Session& session, const FetchOptions& options) {
   Connection& connection = session.connection();
-  const std::string name = job_name(options.name);
   v1::GetJobRequest get;
-  get.set_name(name);
+  get.set_name(job_name(options.name));
   const auto job = connection.call(connection.jobs(), &v1::Jobs::Stub::GetJob, get);
-  const fs::path folder(options.folder);
-  make_folder(folder);
-  check_may_overwrite(folder / "result.h5", kHdf5Signature);
-  check_may_overwrite(folder / "history.csv", history_header());
-  check_may_overwrite(folder / "nodes.csv", nodes_header());
-  check_may_overwrite(folder / "case.txtpb", kCaseSignature);
-  std::vector<fs::path> written;
-  const auto put = [&](const fs::path& path, const std::string& contents) {
-    write_file(path, contents);
-    written.push_back(path);
-  };
-  put(folder / "case.txtpb", case_file_text(job.case_(), "Case of " + job.name()));
-  const auto history = fetch_history(connection, name);
-  put(folder / "history.csv", history_csv(history.samples()));
-  if (const std::string nodes = nodes_csv(history.samples()); !nodes.empty()) put(folder / "nodes.csv", nodes);
-  for (const double time : options.frame_times) {
-    v1::GetFrameRequest request;
-    request.set_name(name);
-    request.set_time_s(time);
-    const MeshFrame frame = fetch_frame(connection, request);
-    check_may_overwrite(frame_path(folder, frame), frame_header());
-    put(frame_path(folder, frame), frame_csv(frame));
-  }
-  download_result(connection, name, folder / "result.h5");
-  written.push_back(folder / "result.h5");
+  const auto written = write_results(connection, job, options.folder, options.frame_times);
   if (session.json) {
     print_json(job);
     return ExitCode::done;
@@ -128,6 +105,39 @@ ExitCode run_fetch(Session& session, const FetchOptions& options) {
 }
 
 }  // namespace
+
+void check_may_write_results(const fs::path& folder) {
+  check_may_overwrite(folder / "result.h5", kHdf5Signature);
+  check_may_overwrite(folder / "history.csv", history_header());
+  check_may_overwrite(folder / "nodes.csv", nodes_header());
+  check_may_overwrite(folder / "case.txtpb", kCaseSignature);
+}
+
+std::vector<fs::path> write_results(Connection& connection, const v1::Job& job, const fs::path& folder,
+                                    const std::vector<double>& frame_times) {
+  make_folder(folder);
+  check_may_write_results(folder);
+  std::vector<fs::path> written;
+  const auto put = [&](const fs::path& path, const std::string& contents) {
+    write_file(path, contents);
+    written.push_back(path);
+  };
+  put(folder / "case.txtpb", case_file_text(job.case_(), "Case of " + job.name()));
+  const auto history = fetch_history(connection, job.name());
+  put(folder / "history.csv", history_csv(history.samples()));
+  if (const std::string nodes = nodes_csv(history.samples()); !nodes.empty()) put(folder / "nodes.csv", nodes);
+  for (const double time : frame_times) {
+    v1::GetFrameRequest request;
+    request.set_name(job.name());
+    request.set_time_s(time);
+    const MeshFrame frame = fetch_frame(connection, request);
+    check_may_overwrite(frame_path(folder, frame), frame_header());
+    put(frame_path(folder, frame), frame_csv(frame));
+  }
+  download_result(connection, job.name(), folder / "result.h5");
+  written.push_back(folder / "result.h5");
+  return written;
+}
 
 void add_fetch_command(CLI::App& app, Session& session) {
   const auto options = std::make_shared<FetchOptions>();

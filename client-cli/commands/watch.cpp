@@ -25,14 +25,20 @@ ExitCode say_interrupted(const std::string& name, bool ended) {
 
 }  // namespace
 
-ExitCode watch_job(Session& session, const std::string& name, const Interruption& interruption) {
+WatchedJob show_job_to_its_end(Session& session, const std::string& name, const Interruption& interruption) {
   const auto display = make_watch_display(session.json, find_terminal());
   const bool complete = follow_job(session.connection(), name, false, interruption, *display);
   const v1::Job& job = display->view().job();
-  if (!complete) return say_interrupted(name, is_final(job.state()));
-  display->finish();
-  if (!session.json) fmt::print("{}", outcome_text(job));
-  return exit_code_of(job.state());
+  if (complete) {
+    display->finish();
+    if (!session.json) fmt::print("{}", outcome_text(job));
+  }
+  return {job, complete};
+}
+
+ExitCode watch_job(Session& session, const std::string& name, const Interruption& interruption) {
+  const auto [job, complete] = show_job_to_its_end(session, name, interruption);
+  return complete ? exit_code_of(job.state()) : say_interrupted(name, is_final(job.state()));
 }
 
 ExitCode watch_sweep(Session& session, const std::string& name, const Interruption& interruption) {

@@ -2,10 +2,20 @@
 
 #include <string>
 
+#include "cellcrush/v1/job.pb.h"
 #include "commands/commands.h"
 #include "connection/interruption.h"
 
 namespace cellcrush::client {
+
+/// A job as a watch has left it.
+struct WatchedJob {
+  v1::Job job;
+  bool complete = false;  ///< it has ended; otherwise the watch was interrupted
+};
+
+/// Shows a job on stdout to its end or to an interruption, and then how it ended.
+WatchedJob show_job_to_its_end(Session& session, const std::string& name, const Interruption& interruption);
 
 /// Watches a job to its end and prints how it ended. On Ctrl-C says that the job goes on.
 ExitCode watch_job(Session& session, const std::string& name, const Interruption& interruption);

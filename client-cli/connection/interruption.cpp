@@ -14,7 +14,8 @@ namespace {
 
 // A signal handler may only do what is async-signal-safe: it writes a byte, and the reading end stays readable.
 int pipe_ends[2] = {-1, -1};
-struct sigaction former_action = {};
+struct sigaction former_interrupt = {};
+struct sigaction former_terminate = {};
 
 extern "C" void on_interrupt(int /*signal*/) {
   const int saved = errno;
@@ -30,11 +31,13 @@ Interruption::Interruption() {
   struct sigaction action = {};
   action.sa_handler = on_interrupt;
   action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;
-  sigaction(SIGINT, &action, &former_action);
+  sigaction(SIGINT, &action, &former_interrupt);
+  sigaction(SIGTERM, &action, &former_terminate);
 }
 
 Interruption::~Interruption() {
-  sigaction(SIGINT, &former_action, nullptr);
+  sigaction(SIGINT, &former_interrupt, nullptr);
+  sigaction(SIGTERM, &former_terminate, nullptr);
   close(pipe_ends[0]);
   close(pipe_ends[1]);
 }

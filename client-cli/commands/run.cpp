@@ -1,0 +1,130 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <optional>
+
+#include "case_file/case_source.h"
+#include "commands/commands.h"
+#include "commands/fetch.h"
+#include "commands/time_limit.h"
+#include "commands/watch.h"
+#include "connection/private_daemon.h"
+#include "terminal/case_text.h"
+#include "terminal/json_text.h"
+
+namespace cellcrush::client {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The data folder of the private daemon; gone once the results are written. Its only job has the first number.
+constexpr const char* kDataFolder = ".cellcrush";
+constexpr const char* kJob = "jobs/1";
+
+struct RunOptions {
+  CaseOptions scene;
+  std::string folder;
+  bool resume = false;
+  double time_limit_s = 0.0;
+};
+
+void make_data_folder(const fs::path& data) {
+  std::error_code error;
+  fs::create_directories(data, error);
+  if (error) throw CommandError(ExitCode::refused, data.string() + ": cannot be made: " + error.message());
+  fs::permissions(data, fs::perms::owner_all, error);
+}
+
+std::optional<v1::Job> find_unfinished(Connection& connection) {
+  const auto listed = connection.call(connection.jobs(), &v1::Jobs::Stub::ListJobs, v1::ListJobsRequest());
+  if (listed.jobs_size() == 0) return std::nullopt;
+  return listed.jobs(0);
+}
+
+std::string text_of(const v1::Case& scene) { return case_file_text(scene, std::string("Case of ") + kJob); }
+
+bool has_text(const fs::path& path, const std::string& text) {
+  std::error_code error;
+  if (fs::file_size(path, error) != text.size() || error) return false;
+  std::ifstream file(path, std::ios::binary);
+  return std::string(std::istreambuf_iterator<char>(file), {}) == text;
+}
+
+// The job that is to run: a new one, or the unfinished one of the same case.
+void start_job(Connection& connection, const v1::Case& scene, const RunOptions& options) {
+  const auto unfinished = find_unfinished(connection);
+  if (!unfinished) {
+    v1::CreateJobRequest request;
+    *request.mutable_case_() = scene;
+    request.set_time_limit_s(options.time_limit_s);
+    connection.call(connection.jobs(), &v1::Jobs::Stub::CreateJob, request);
+    return;
+  }
+  if (text_of(unfinished->case_()) != text_of(scene)) {
+    throw CommandError(ExitCode::refused,
+                       fmt::format("{} holds the unfinished run of another case. Give the case it was started with, or "
+                                   "delete {} to begin with this one.",
+                                   options.folder, (fs::path(options.folder) / kDataFolder).string()));
+  }
+}
+
+ExitCode run_case(Session& session, const RunOptions& options) {
+  const fs::path folder(options.folder);
+  const fs::path data = folder / kDataFolder;
+  const bool was_begun = fs::exists(data);
+  if (was_begun && !options.resume) {
+    throw CommandError(
+        ExitCode::refused,
+        fmt::format("{} holds an unfinished run. Continue it with --resume, or delete {} to begin again.",
+                    folder.string(), data.string()));
+  }
+  check_may_write_results(folder);
+  make_data_folder(data);
+  const Interruption interruption;
+  PrivateDaemon daemon(data);
+  session.server = daemon.address();
+  Connection& connection = session.connection();
+  const auto end = [&] {
+    daemon.stop();
+    fs::remove_all(data);
+  };
+  try {
+    const v1::Case scene = read_case(options.scene.source, options.scene.assignments, connection);
+    if (options.resume && !was_begun && has_text(folder / "case.txtpb", text_of(scene)) &&
+        fs::exists(folder / "result.h5")) {
+      end();
+      if (!session.json) fmt::print("{} holds the result of this case already.\n", folder.string());
+      return ExitCode::done;
+    }
+    start_job(connection, scene, options);
+  } catch (const CommandError&) {
+    if (!was_begun) end();
+    throw;
+  }
+  const auto [job, complete] = show_job_to_its_end(session, kJob, interruption);
+  if (!complete) {
+    daemon.stop();
+    fmt::print(stderr, "\ncellcrush: stopped at a checkpoint. The same command with --resume continues from there.\n");
+    return ExitCode::interrupted;
+  }
+  if (job.has_summary()) write_results(connection, job, folder);
+  end();
+  return exit_code_of(job.state());
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app, Session& session) {
+  const auto options = std::make_shared<RunOptions>();
+  CLI::App* command = add_command(app, session, "run", "Crush a case here and now, without a running daemon",
+                                  [&session, options] { return run_case(session, *options); });
+  add_case_options(*command, options->scene);
+  command->add_option("-o,--output", options->folder, "The folder for the results; it is made if need be")->required();
+  command->add_flag("--resume", options->resume,
+                    "Continue an unfinished run in this folder; without one begin, or do nothing if it is finished");
+  add_time_limit_option(*command, options->time_limit_s);
+}
+
+}  // namespace cellcrush::client

@@ -1,0 +1,143 @@
+#include "connection/private_daemon.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <thread>
+#include <vector>
+
+#include "command_error.h"
+
+namespace cellcrush::client {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::seconds kPatience{60};
+
+// "cellcrushd" alone is looked for in $PATH.
+std::string daemon_program() {
+  std::error_code error;
+  const fs::path beside = fs::read_symlink("/proc/self/exe", error).replace_filename("cellcrushd");
+  return !error && fs::exists(beside, error) ? beside.string() : "cellcrushd";
+}
+
+fs::path make_socket_folder() {
+  const char* runtime = std::getenv("XDG_RUNTIME_DIR");
+  std::error_code error;
+  const bool has_runtime = runtime != nullptr && *runtime != '\0' && fs::is_directory(runtime, error);
+  std::string name = (has_runtime ? fs::path(runtime) : fs::path("/tmp")) / "cellcrush-XXXXXX";
+  if (mkdtemp(name.data()) == nullptr)
+    throw CommandError(ExitCode::refused, name + ": cannot be made: " + std::strerror(errno));
+  return name;
+}
+
+std::string last_line_of(const fs::path& log) {
+  std::ifstream file(log);
+  std::string line;
+  std::string last;
+  while (std::getline(file, line)) {
+    if (!line.empty()) last = line;
+  }
+  return last;
+}
+
+// Only calls that are allowed between fork and exec.
+[[noreturn]] void become(char* const* words, pid_t parent, int output, int log) {
+  // A group of its own: Ctrl-C reaches this program alone, which then ends the daemon.
+  setpgid(0, 0);
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  if (getppid() != parent) _exit(127);
+  dup2(output, STDOUT_FILENO);
+  dup2(log, STDERR_FILENO);
+  execvp(words[0], words);
+  _exit(127);
+}
+
+// Whether the daemon says that it listens, which is its first line, before it ends or the time is up.
+bool wait_until_it_listens(int output) {
+  const auto limit = Clock::now() + kPatience;
+  std::string text;
+  std::array<char, 512> buffer{};
+  while (Clock::now() < limit) {
+    pollfd waiting{output, POLLIN, 0};
+    if (poll(&waiting, 1, 100) <= 0) continue;
+    const ssize_t count = read(output, buffer.data(), buffer.size());
+    if (count <= 0) return false;
+    text.append(buffer.data(), static_cast<std::size_t>(count));
+    if (text.find('\n') != std::string::npos) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+PrivateDaemon::PrivateDaemon(const fs::path& data) : folder_(make_socket_folder()) {
+  const fs::path log = data / "daemon.log";
+  std::vector<std::string> words = {daemon_program(), "--data", data.string(), "--listen", address(), "--workers", "1"};
+  std::vector<char*> pointers;
+  for (auto& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  std::array<int, 2> output{-1, -1};
+  const int log_file = open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
+  const bool is_ready = log_file >= 0 && pipe2(output.data(), O_CLOEXEC) == 0;
+  const pid_t parent = getpid();
+  if (is_ready) pid_ = fork();
+  if (pid_ == 0) become(pointers.data(), parent, output[1], log_file);
+  const int cause = errno;
+  for (const int file : {log_file, output[1]}) {
+    if (file >= 0) close(file);
+  }
+  const bool serves = pid_ > 0 && wait_until_it_listens(output[0]);
+  if (output[0] >= 0) close(output[0]);
+  if (serves) return;
+  std::string why = pid_ > 0 ? last_line_of(log) : std::strerror(cause);
+  if (why.empty()) why = "it cannot be run. Install it beside cellcrush or in a folder of $PATH.";
+  if (pid_ > 0) {
+    kill(pid_, SIGKILL);
+    waitpid(pid_, nullptr, 0);
+  }
+  std::error_code none;
+  fs::remove_all(folder_, none);
+  throw CommandError(ExitCode::refused, words[0] + " does not start: " + why);
+}
+
+PrivateDaemon::~PrivateDaemon() {
+  try {
+    stop();
+  } catch (const CommandError& error) {
+    print_error(error, false);
+  }
+}
+
+void PrivateDaemon::stop() {
+  if (pid_ < 0) return;
+  kill(pid_, SIGTERM);
+  const auto limit = Clock::now() + kPatience;
+  while (waitpid(pid_, nullptr, WNOHANG) == 0) {
+    if (Clock::now() > limit) {
+      throw CommandError(ExitCode::refused,
+                         fmt::format("cellcrushd, process {}, has not ended within {} s. End it with "
+                                     "kill {} before you go on.",
+                                     pid_, kPatience.count(), pid_));
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  pid_ = -1;
+  std::error_code none;
+  fs::remove_all(folder_, none);
+}
+
+}  // namespace cellcrush::client

@@ -1,0 +1,108 @@
+// `cellcrush run`: a crush without a running daemon.
+#include <gmock/gmock.h>
+
+#include <csignal>
+#include <fstream>
+#include <iterator>
+
+#include "e2e/daemon_test.h"
+
+namespace cellcrush::e2e {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+// As the small case, of seconds.
+std::string longer_case() {
+  std::string text = small_case();
+  text.replace(text.find("speed_m_per_s: 100"), 18, "speed_m_per_s: 0.25");
+  return text;
+}
+
+std::string bytes_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+class Run : public DaemonTest {
+ protected:
+  static std::vector<std::string> words(const std::string& submitted, const fs::path& output) {
+    return {CELLCRUSH_PROGRAM, "run", submitted, "-o", output.string()};
+  }
+
+  // Runs a case and sends a signal once it is on its way.
+  Outcome run_until(int signal, const std::vector<std::string>& command) {
+    Process process(command);
+    EXPECT_TRUE(process.wait_for_output("steps/s", kShortLimit)) << process.output() << process.errors();
+    process.send(signal);
+    return process.wait(kShortLimit);
+  }
+
+  // history.csv of the same case by the test's daemon.
+  std::string history_of_the_daemon(const std::string& submitted) {
+    EXPECT_EQ(cellcrush({"submit", submitted, "--watch"}, kCrushLimit).exit_code, 0);
+    EXPECT_EQ(cellcrush({"fetch", "jobs/1", "-o", (folder() / "fetched").string()}).exit_code, 0);
+    return bytes_of(folder() / "fetched" / "history.csv");
+  }
+};
+
+TEST_F(Run, GivesTheBitsOfADaemonAndLeavesTheResultsAlone) {
+  const std::string submitted = write_file("small.txtpb", small_case());
+  const fs::path output = folder() / "out";
+  const Outcome outcome = run(words(submitted, output), kCrushLimit);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.all();
+  EXPECT_THAT(outcome.output, HasSubstr("plateau stress"));
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(output)) names.push_back(entry.path().filename());
+  EXPECT_THAT(names, ::testing::UnorderedElementsAre("case.txtpb", "history.csv", "result.h5"));
+  EXPECT_EQ(bytes_of(output / "history.csv"), history_of_the_daemon(submitted));
+}
+
+TEST_F(Run, StoppedBySignalsItContinuesToTheSameBits) {
+  const std::string submitted = write_file("longer.txtpb", longer_case());
+  auto command = words(submitted, folder() / "out");
+  const Outcome stopped = run_until(SIGINT, command);
+  EXPECT_EQ(stopped.exit_code, 130) << stopped.all();
+  EXPECT_THAT(stopped.errors, HasSubstr("--resume"));
+  const Outcome again = run(command, kShortLimit);
+  EXPECT_EQ(again.exit_code, 2) << "Nothing is begun again unasked. " << again.all();
+  EXPECT_THAT(again.errors, HasSubstr("unfinished run"));
+  const Outcome other =
+      run({CELLCRUSH_PROGRAM, "run", write_file("small.txtpb", small_case()), "-o", command.back(), "--resume"},
+          kShortLimit);
+  EXPECT_EQ(other.exit_code, 2) << other.all();
+  EXPECT_THAT(other.errors, HasSubstr("another case"));
+  command.emplace_back("--resume");
+  EXPECT_EQ(run_until(SIGTERM, command).exit_code, 130);
+  const Outcome ended = run(command, kCrushLimit);
+  ASSERT_EQ(ended.exit_code, 0) << ended.all();
+  EXPECT_EQ(bytes_of(folder() / "out" / "history.csv"), history_of_the_daemon(submitted));
+  const Outcome finished = run(command, kShortLimit);
+  EXPECT_EQ(finished.exit_code, 0) << finished.all();
+  EXPECT_THAT(finished.output, HasSubstr("holds the result of this case already"));
+}
+
+TEST_F(Run, KilledItContinuesToo) {
+  const std::string submitted = write_file("longer.txtpb", longer_case());
+  auto command = words(submitted, folder() / "out");
+  EXPECT_EQ(run_until(SIGKILL, command).exit_code, 128 + SIGKILL);
+  command.emplace_back("--resume");
+  // Its daemon ends in order, which takes a moment in which it still holds the folder.
+  Outcome ended;
+  for (int i = 0; i < 20 && ended.exit_code != 0; ++i) ended = run(command, kCrushLimit);
+  ASSERT_EQ(ended.exit_code, 0) << ended.all();
+  EXPECT_EQ(bytes_of(folder() / "out" / "history.csv"), history_of_the_daemon(submitted));
+}
+
+TEST_F(Run, ABadCaseIsRefusedAndLeavesNoUnfinishedRun) {
+  const std::string bad = write_file("bad.txtpb", small_case() + "depth_mm: -1\n");
+  const fs::path output = folder() / "out";
+  const Outcome outcome = run(words(bad, output), kShortLimit);
+  EXPECT_EQ(outcome.exit_code, 2) << outcome.all();
+  EXPECT_THAT(outcome.errors, HasSubstr("depth_mm"));
+  EXPECT_FALSE(fs::exists(output / ".cellcrush"));
+}
+
+}  // namespace
+}  // namespace cellcrush::e2e
