@@ -152,7 +152,7 @@ struct Daemon::Impl {
     const auto& limits = options.connections;
     builder.SetMaxReceiveMessageSize(kLargestMessage);
     grpc::ResourceQuota quota("cellcrushd");
-    quota.Resize(static_cast<std::size_t>(limits.memory_bytes)).SetMaxThreads(limits.threads);
+    quota.Resize(static_cast<std::size_t>(limits.memory_bytes));
     builder.SetResourceQuota(quota);
     // Whoever connects and says nothing is let go, and so is whoever is gone without a word.
     builder.AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, milliseconds(limits.handshake));

@@ -12,8 +12,8 @@
 #include "clocks.h"
 #include "jobs/admission.h"
 #include "jobs/queue_hold.h"
-#include "net/connection_limits.h"
 #include "jobs/retention.h"
+#include "net/connection_limits.h"
 #include "watch/watch_times.h"
 
 namespace cellcrush {

@@ -33,6 +33,8 @@ namespace {
 // What grpc.health.v1 calls the queue; not serving while it is held.
 constexpr const char* kQueueHealth = "cellcrush.queue";
 constexpr int kPumpThreads = 2;
+constexpr int kCheckThreads = 4;
+constexpr std::size_t kWaitingCalls = 10'000;
 
 rpc::StreamLimits::Most most_streams(const net::ConnectionLimits& limits) {
   return {limits.streams, limits.streams_per_caller, limits.memory_bytes};
@@ -68,16 +70,19 @@ struct Service::Parts {
         health_limits(most_streams(options.connections)),
         pump(kPumpThreads),
         admission({folder, reader, scheduler}, options.limits),
-        cases(step_cost),
+        calls({options.connections.threads, kWaitingCalls, options.connections.memory_bytes}),
+        checks({kCheckThreads, kWaitingCalls, options.connections.memory_bytes}),
+        cases(step_cost, calls, checks),
         health({board, {pump, metrics, health_limits, options.watch_times}}),
-        jobs({folder, journal, reader, deletion, hub, scheduler, admission, gate, streams()}),
-        sweeps({journal, reader, sweep_reader, deletion, hub, scheduler, admission, gate, streams()}),
+        jobs({folder, journal, reader, deletion, hub, scheduler, admission, gate, calls, streams()}),
+        sweeps({journal, reader, sweep_reader, deletion, hub, scheduler, admission, gate, calls, streams()}),
         admin({reader,
                hub,
                scheduler,
                hold,
                {options.worker_count(), step_cost, {}, options.limits.owner.running_jobs},
                gate,
+               calls,
                [this, drained = std::move(on_drain)] {
                  admission.drain();
                  drained();
@@ -106,6 +111,8 @@ struct Service::Parts {
   rpc::StreamLimits health_limits;
   watch::Pump pump;
   jobs::Admission admission;
+  rpc::CallPool calls;
+  rpc::CallPool checks;
   rpc::CasesService cases;
   rpc::HealthService health;
   rpc::JobsService jobs;

@@ -31,7 +31,7 @@ const std::string kStepAssumption =
 // Example 2 of the paper, Type I, at 100 m/s.
 Preset type_i() {
   SceneSpec spec;
-  spec.title = "Type I: 21 rows of 74 and 73 hexagons, crushed along the rows at 100 m/s";
+  spec.title = "Type I hexagons";
   HexagonLattice hexagon;
   hexagon.columns = 74;
   hexagon.rows = 21;
@@ -53,7 +53,7 @@ Preset hexagon_small() {
   Preset preset = type_i();
   preset.name = "hexagon-small";
   preset.title = "A first look: 7 rows of 20 and 19 hexagons of Type I, done in seconds";
-  preset.spec.title = "7 rows of 20 and 19 hexagons, crushed along the rows at 100 m/s";
+  preset.spec.title = "A small block of Type I hexagons";
   auto& hexagon = std::get<HexagonLattice>(preset.spec.lattice);
   hexagon.columns = 20;
   hexagon.rows = 7;
@@ -69,8 +69,7 @@ Preset type_ii(const std::string& reading, int columns, int rows, double side) {
   Preset preset = type_i();
   preset.name = "type-ii-" + reading;
   preset.title = "Wu, Tsai and Lee, Example 2, Type II: squares at relative density 0.1, " + reading;
-  preset.spec.title = "Type II " + reading + ": " + std::to_string(columns) + " x " + std::to_string(rows) +
-                      " squares, crushed at 100 m/s";
+  preset.spec.title = "Type II squares, " + reading;
   preset.assumptions = {kMaterialAssumption, kCountsAssumption, kContactAssumption, kStepAssumption};
   SquareLattice square;
   square.columns = columns;
@@ -85,8 +84,7 @@ Preset type_iii(const std::string& reading, int columns, int rows, double side) 
   Preset preset = type_i();
   preset.name = "type-iii-" + reading;
   preset.title = "Wu, Tsai and Lee, Example 2, Type III: triangles at relative density 0.1, " + reading;
-  preset.spec.title = "Type III " + reading + ": " + std::to_string(columns) + " x " + std::to_string(rows) +
-                      " triangles, crushed at 100 m/s";
+  preset.spec.title = "Type III triangles, " + reading;
   preset.assumptions = {kMaterialAssumption, kCountsAssumption, kContactAssumption, kStepAssumption,
                         "The walls of one family lie along the crush."};
   TriangleLattice triangle;
@@ -101,8 +99,7 @@ Preset type_iii(const std::string& reading, int columns, int rows, double side) 
 // Example 1: the quasi-static test of Papka and Kyriakides, by plain explicit steps slow enough for it.
 Preset papka_kyriakides(const std::string& number, double side, double thickness) {
   SceneSpec spec;
-  spec.title =
-      "Papka and Kyriakides, dimensions " + number + ": 15 rows of 10 and 9 hexagons, crushed along y at 1 m/s";
+  spec.title = "Hexagons of Papka and Kyriakides, dimensions " + number;
   HexagonLattice hexagon;
   hexagon.columns = 10;
   hexagon.rows = 15;
@@ -139,7 +136,7 @@ Preset papka_kyriakides(const std::string& number, double side, double thickness
 Preset inclusions(std::vector<int> rows) {
   SceneSpec spec;
   const std::string count = std::to_string(rows.size());
-  spec.title = count + " lines of stiff inclusions in 21 rows of 20 and 19 hexagons, crushed along y at 1 m/s";
+  spec.title = "Hexagons with " + count + " lines of stiff inclusions";
   HexagonLattice hexagon;
   hexagon.columns = 20;
   hexagon.rows = 21;

@@ -33,9 +33,10 @@ v1::Queue::Hold to_proto(const jobs::Hold& hold) {
 
 }  // namespace
 
-grpc::Status AdminService::GetCapabilities(grpc::ServerContext*, const v1::GetCapabilitiesRequest*,
-                                           v1::Capabilities* response) {
-  return answer([&] {
+grpc::ServerUnaryReactor* AdminService::GetCapabilities(grpc::CallbackServerContext* context,
+                                                        const v1::GetCapabilitiesRequest* request,
+                                                        v1::Capabilities* response) {
+  return parts_.calls.run(*context, *request, [=, this] {
     response->set_version(kSolverRevision);
     response->set_worker_limit(parts_.workers.count);
     response->set_draining(draining_);
@@ -79,8 +80,9 @@ jobs::JobFacts AdminService::facts_of(std::int64_t job) {
   return out;
 }
 
-grpc::Status AdminService::GetQueue(grpc::ServerContext*, const v1::GetQueueRequest*, v1::Queue* response) {
-  return answer([&] {
+grpc::ServerUnaryReactor* AdminService::GetQueue(grpc::CallbackServerContext* context,
+                                                 const v1::GetQueueRequest* request, v1::Queue* response) {
+  return parts_.calls.run(*context, *request, [=, this] {
     auto running = running_jobs(v1::RUNNING);
     const auto stopping = running_jobs(v1::CANCELLING);
     running.insert(running.end(), stopping.begin(), stopping.end());
@@ -94,8 +96,9 @@ grpc::Status AdminService::GetQueue(grpc::ServerContext*, const v1::GetQueueRequ
   });
 }
 
-grpc::Status AdminService::Drain(grpc::ServerContext* context, const v1::DrainRequest*, v1::DrainResponse*) {
-  return answer([&] {
+grpc::ServerUnaryReactor* AdminService::Drain(grpc::CallbackServerContext* context, const v1::DrainRequest* request,
+                                              v1::DrainResponse*) {
+  return parts_.calls.run(*context, *request, [=, this] {
     log_change("", "drained", parts_.gate.caller_of(*context).name);
     draining_ = true;
     parts_.drain();

@@ -8,13 +8,14 @@
 #include "jobs/queue_forecast.h"
 #include "jobs/queue_hold.h"
 #include "jobs/scheduler.h"
+#include "rpc/call_pool.h"
 #include "store/journal_reader.h"
 #include "watch/hub.h"
 
 namespace cellcrush::rpc {
 
 /// What the daemon is and can do. Thread-safe.
-class AdminService final : public v1::Admin::Service {
+class AdminService final : public v1::Admin::CallbackService {
  public:
   /// All of it outlives the service.
   struct Parts {
@@ -24,16 +25,19 @@ class AdminService final : public v1::Admin::Service {
     jobs::QueueHold& hold;
     jobs::WorkerFacts workers;
     const access::Gate& gate;
+    CallPool& calls;
     std::function<void()> drain;
   };
 
   explicit AdminService(const Parts& parts) : parts_(parts) {}
 
-  grpc::Status GetCapabilities(grpc::ServerContext* context, const v1::GetCapabilitiesRequest* request,
-                               v1::Capabilities* response) override;
-  grpc::Status GetQueue(grpc::ServerContext* context, const v1::GetQueueRequest* request, v1::Queue* response) override;
-  grpc::Status Drain(grpc::ServerContext* context, const v1::DrainRequest* request,
-                     v1::DrainResponse* response) override;
+  grpc::ServerUnaryReactor* GetCapabilities(grpc::CallbackServerContext* context,
+                                            const v1::GetCapabilitiesRequest* request,
+                                            v1::Capabilities* response) override;
+  grpc::ServerUnaryReactor* GetQueue(grpc::CallbackServerContext* context, const v1::GetQueueRequest* request,
+                                     v1::Queue* response) override;
+  grpc::ServerUnaryReactor* Drain(grpc::CallbackServerContext* context, const v1::DrainRequest* request,
+                                  v1::DrainResponse* response) override;
 
  private:
   std::vector<jobs::RunningJob> running_jobs(v1::JobState state);

@@ -25,9 +25,10 @@ std::string known_presets() {
 
 }  // namespace
 
-grpc::Status CasesService::CheckCase(grpc::ServerContext* context, const v1::CheckCaseRequest* request,
-                                     v1::CheckCaseResponse* response) {
-  return answer([&] {
+grpc::ServerUnaryReactor* CasesService::CheckCase(grpc::CallbackServerContext* context,
+                                                  const v1::CheckCaseRequest* request,
+                                                  v1::CheckCaseResponse* response) {
+  return checks_.run(*context, *request, [=, this] {
     const auto look_up = [context] {
       if (context->IsCancelled()) throw ServiceError(ServiceError::Kind::cancelled, "Nobody waits for this check.");
     };
@@ -47,16 +48,18 @@ grpc::Status CasesService::CheckCase(grpc::ServerContext* context, const v1::Che
   });
 }
 
-grpc::Status CasesService::ListPresets(grpc::ServerContext*, const v1::ListPresetsRequest*,
-                                       v1::ListPresetsResponse* response) {
-  return answer([&] {
+grpc::ServerUnaryReactor* CasesService::ListPresets(grpc::CallbackServerContext* context,
+                                                    const v1::ListPresetsRequest* request,
+                                                    v1::ListPresetsResponse* response) {
+  return calls_.run(*context, *request, [=, this] {
     for (auto& preset : translate::list_presets()) *response->add_presets() = std::move(preset);
     return grpc::Status::OK;
   });
 }
 
-grpc::Status CasesService::GetPreset(grpc::ServerContext*, const v1::GetPresetRequest* request, v1::Preset* response) {
-  return answer([&] {
+grpc::ServerUnaryReactor* CasesService::GetPreset(grpc::CallbackServerContext* context,
+                                                  const v1::GetPresetRequest* request, v1::Preset* response) {
+  return calls_.run(*context, *request, [=, this] {
     check_length("name", request->name(), kLongestName);
     auto preset = translate::find_preset_case(request->name());
     if (!preset) {

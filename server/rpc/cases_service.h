@@ -1,25 +1,30 @@
 #pragma once
 
 #include "cellcrush/v1/cases_service.grpc.pb.h"
+#include "rpc/call_pool.h"
 #include "rpc/large_checks.h"
 
 namespace cellcrush::rpc {
 
 /// Answers questions about cases. Thread-safe.
-class CasesService final : public v1::Cases::Service {
+class CasesService final : public v1::Cases::CallbackService {
  public:
   /// `step_cost`: seconds of one core for a step of an element.
-  explicit CasesService(double step_cost) : step_cost_(step_cost) {}
+  /// `checks` answers those that may take seconds, so that all others need not wait for them. Both pools outlive it.
+  CasesService(double step_cost, CallPool& calls, CallPool& checks)
+      : step_cost_(step_cost), calls_(calls), checks_(checks) {}
 
-  grpc::Status CheckCase(grpc::ServerContext* context, const v1::CheckCaseRequest* request,
-                         v1::CheckCaseResponse* response) override;
-  grpc::Status ListPresets(grpc::ServerContext* context, const v1::ListPresetsRequest* request,
-                           v1::ListPresetsResponse* response) override;
-  grpc::Status GetPreset(grpc::ServerContext* context, const v1::GetPresetRequest* request,
-                         v1::Preset* response) override;
+  grpc::ServerUnaryReactor* CheckCase(grpc::CallbackServerContext* context, const v1::CheckCaseRequest* request,
+                                      v1::CheckCaseResponse* response) override;
+  grpc::ServerUnaryReactor* ListPresets(grpc::CallbackServerContext* context, const v1::ListPresetsRequest* request,
+                                        v1::ListPresetsResponse* response) override;
+  grpc::ServerUnaryReactor* GetPreset(grpc::CallbackServerContext* context, const v1::GetPresetRequest* request,
+                                      v1::Preset* response) override;
 
  private:
   double step_cost_;
+  CallPool& calls_;
+  CallPool& checks_;
   LargeChecks large_checks_;
 };
 

@@ -30,7 +30,7 @@ store::StoredJob JobsService::find(const std::string& name) {
   return *std::move(stored);
 }
 
-std::int64_t JobsService::find_own(const grpc::ServerContext& context, const std::string& name) {
+std::int64_t JobsService::find_own(const grpc::ServerContextBase& context, const std::string& name) {
   const auto stored = find(name);
   parts_.gate.require_own(context, stored.job.owner(), stored.job.name());
   return stored.number;
@@ -52,9 +52,9 @@ void JobsService::commit_samples() {
   }
 }
 
-grpc::Status JobsService::CreateJob(grpc::ServerContext* context, const v1::CreateJobRequest* request,
-                                    v1::Job* response) {
-  return answer([&] {
+grpc::ServerUnaryReactor* JobsService::CreateJob(grpc::CallbackServerContext* context,
+                                                 const v1::CreateJobRequest* request, v1::Job* response) {
+  return parts_.calls.run(*context, *request, [=, this] {
     check_request(request->request_id(), request->labels());
     check_priority(request->priority(), "priority");
     parts_.admission.check_priority(request->priority(), "priority");
@@ -68,10 +68,12 @@ grpc::Status JobsService::CreateJob(grpc::ServerContext* context, const v1::Crea
     job.set_priority(request->priority());
     job.set_time_limit_s(request->time_limit_s());
     job.set_owner(parts_.gate.caller_of(*context).name);
-    if (request->validate_only()) {
-      *response = std::move(job);
+    const auto answer_with = [&](v1::Job answer) {
+      *answer.mutable_notes() = {verdict.notes.begin(), verdict.notes.end()};
+      *response = std::move(answer);
       return grpc::Status::OK;
-    }
+    };
+    if (request->validate_only()) return answer_with(std::move(job));
     const std::string hash = payload_hash(*request, job.owner());
     const std::int64_t memory_bytes = parts_.admission.memory_of_job(
         verdict.most_memory_bytes, [&] { return translate::predicted_memory(request->case_()); });
@@ -89,13 +91,13 @@ grpc::Status JobsService::CreateJob(grpc::ServerContext* context, const v1::Crea
     }
     auto stored = find(jobs::name_of(created.job));
     add_progress(stored);
-    *response = std::move(stored.job);
-    return grpc::Status::OK;
+    return answer_with(std::move(stored.job));
   });
 }
 
-grpc::Status JobsService::GetJob(grpc::ServerContext*, const v1::GetJobRequest* request, v1::Job* response) {
-  return answer([&] {
+grpc::ServerUnaryReactor* JobsService::GetJob(grpc::CallbackServerContext* context, const v1::GetJobRequest* request,
+                                              v1::Job* response) {
+  return parts_.calls.run(*context, *request, [=, this] {
     auto stored = find(request->name());
     add_progress(stored);
     *response = std::move(stored.job);
@@ -103,9 +105,9 @@ grpc::Status JobsService::GetJob(grpc::ServerContext*, const v1::GetJobRequest* 
   });
 }
 
-grpc::Status JobsService::ListJobs(grpc::ServerContext* context, const v1::ListJobsRequest* request,
-                                   v1::ListJobsResponse* response) {
-  return answer([&] {
+grpc::ServerUnaryReactor* JobsService::ListJobs(grpc::CallbackServerContext* context,
+                                                const v1::ListJobsRequest* request, v1::ListJobsResponse* response) {
+  return parts_.calls.run(*context, *request, [=, this] {
     check_length("filter", request->filter(), kLongestFilter);
     check_length("order_by", request->order_by(), kLongestOrder);
     const auto filter = parse_filter(request->filter());
@@ -129,9 +131,9 @@ grpc::Status JobsService::ListJobs(grpc::ServerContext* context, const v1::ListJ
   });
 }
 
-grpc::Status JobsService::CancelJob(grpc::ServerContext* context, const v1::CancelJobRequest* request,
-                                    v1::Job* response) {
-  return answer([&] {
+grpc::ServerUnaryReactor* JobsService::CancelJob(grpc::CallbackServerContext* context,
+                                                 const v1::CancelJobRequest* request, v1::Job* response) {
+  return parts_.calls.run(*context, *request, [=, this] {
     const std::int64_t job = find_own(*context, request->name());
     parts_.scheduler.cancel(job);
     log_change(jobs::name_of(job), "cancelled", parts_.gate.caller_of(*context).name);
@@ -142,9 +144,9 @@ grpc::Status JobsService::CancelJob(grpc::ServerContext* context, const v1::Canc
   });
 }
 
-grpc::Status JobsService::SuspendJob(grpc::ServerContext* context, const v1::SuspendJobRequest* request,
-                                     v1::Job* response) {
-  return answer([&] {
+grpc::ServerUnaryReactor* JobsService::SuspendJob(grpc::CallbackServerContext* context,
+                                                  const v1::SuspendJobRequest* request, v1::Job* response) {
+  return parts_.calls.run(*context, *request, [=, this] {
     const std::int64_t job = find_own(*context, request->name());
     parts_.scheduler.suspend(job, [context] { return context->IsCancelled(); });
     log_change(jobs::name_of(job), "suspended", parts_.gate.caller_of(*context).name);
@@ -153,9 +155,9 @@ grpc::Status JobsService::SuspendJob(grpc::ServerContext* context, const v1::Sus
   });
 }
 
-grpc::Status JobsService::ResumeJob(grpc::ServerContext* context, const v1::ResumeJobRequest* request,
-                                    v1::Job* response) {
-  return answer([&] {
+grpc::ServerUnaryReactor* JobsService::ResumeJob(grpc::CallbackServerContext* context,
+                                                 const v1::ResumeJobRequest* request, v1::Job* response) {
+  return parts_.calls.run(*context, *request, [=, this] {
     const std::int64_t job = find_own(*context, request->name());
     parts_.scheduler.resume(job);
     log_change(jobs::name_of(job), "resumed", parts_.gate.caller_of(*context).name);
@@ -164,9 +166,9 @@ grpc::Status JobsService::ResumeJob(grpc::ServerContext* context, const v1::Resu
   });
 }
 
-grpc::Status JobsService::DeleteJob(grpc::ServerContext* context, const v1::DeleteJobRequest* request,
-                                    v1::DeleteJobResponse*) {
-  return answer([&] {
+grpc::ServerUnaryReactor* JobsService::DeleteJob(grpc::CallbackServerContext* context,
+                                                 const v1::DeleteJobRequest* request, v1::DeleteJobResponse*) {
+  return parts_.calls.run(*context, *request, [=, this] {
     const std::int64_t job = find_own(*context, request->name());
     parts_.deletion.delete_job(job);
     log_change(jobs::name_of(job), "deleted", parts_.gate.caller_of(*context).name);
@@ -213,9 +215,10 @@ grpc::ServerWriteReactor<v1::DownloadResultResponse>* JobsService::DownloadResul
       });
 }
 
-grpc::Status JobsService::GetHistory(grpc::ServerContext*, const v1::GetHistoryRequest* request,
-                                     v1::GetHistoryResponse* response) {
-  return answer([&] {
+grpc::ServerUnaryReactor* JobsService::GetHistory(grpc::CallbackServerContext* context,
+                                                  const v1::GetHistoryRequest* request,
+                                                  v1::GetHistoryResponse* response) {
+  return parts_.calls.run(*context, *request, [=, this] {
     const std::int64_t job = find(request->name()).number;
     const std::string question = "history of " + jobs::name_of(job);
     const auto page = read_full_page(request->page_size(), request->page_token(), question);

@@ -5,6 +5,7 @@
 #include "jobs/admission.h"
 #include "jobs/deletion.h"
 #include "jobs/scheduler.h"
+#include "rpc/call_pool.h"
 #include "rpc/stream_reactor.h"
 #include "store/data_folder.h"
 #include "store/journal.h"
@@ -13,11 +14,9 @@
 
 namespace cellcrush::rpc {
 
-/// Jobs and their results. Thread-safe. Streams go through gRPC's callbacks and hold no thread, however slowly they are
-/// read; all other calls are short.
-class JobsService final
-    : public v1::Jobs::WithCallbackMethod_WatchJob<
-          v1::Jobs::WithCallbackMethod_GetFrame<v1::Jobs::WithCallbackMethod_DownloadResult<v1::Jobs::Service>>> {
+/// Jobs and their results. Thread-safe. Streams hold no thread, however slowly they are read; all other calls are short
+/// and answered by the pool.
+class JobsService final : public v1::Jobs::CallbackService {
  public:
   /// All of it outlives the service.
   struct Parts {
@@ -29,25 +28,30 @@ class JobsService final
     jobs::Scheduler& scheduler;
     jobs::Admission& admission;
     const access::Gate& gate;
+    CallPool& calls;
     StreamParts streams;
   };
 
   explicit JobsService(const Parts& parts) : parts_(parts) {}
 
-  grpc::Status CreateJob(grpc::ServerContext* context, const v1::CreateJobRequest* request, v1::Job* response) override;
-  grpc::Status GetJob(grpc::ServerContext* context, const v1::GetJobRequest* request, v1::Job* response) override;
-  grpc::Status ListJobs(grpc::ServerContext* context, const v1::ListJobsRequest* request,
-                        v1::ListJobsResponse* response) override;
-  grpc::Status CancelJob(grpc::ServerContext* context, const v1::CancelJobRequest* request, v1::Job* response) override;
-  grpc::Status SuspendJob(grpc::ServerContext* context, const v1::SuspendJobRequest* request,
-                          v1::Job* response) override;
-  grpc::Status ResumeJob(grpc::ServerContext* context, const v1::ResumeJobRequest* request, v1::Job* response) override;
-  grpc::Status DeleteJob(grpc::ServerContext* context, const v1::DeleteJobRequest* request,
-                         v1::DeleteJobResponse* response) override;
+  grpc::ServerUnaryReactor* CreateJob(grpc::CallbackServerContext* context, const v1::CreateJobRequest* request,
+                                      v1::Job* response) override;
+  grpc::ServerUnaryReactor* GetJob(grpc::CallbackServerContext* context, const v1::GetJobRequest* request,
+                                   v1::Job* response) override;
+  grpc::ServerUnaryReactor* ListJobs(grpc::CallbackServerContext* context, const v1::ListJobsRequest* request,
+                                     v1::ListJobsResponse* response) override;
+  grpc::ServerUnaryReactor* CancelJob(grpc::CallbackServerContext* context, const v1::CancelJobRequest* request,
+                                      v1::Job* response) override;
+  grpc::ServerUnaryReactor* SuspendJob(grpc::CallbackServerContext* context, const v1::SuspendJobRequest* request,
+                                       v1::Job* response) override;
+  grpc::ServerUnaryReactor* ResumeJob(grpc::CallbackServerContext* context, const v1::ResumeJobRequest* request,
+                                      v1::Job* response) override;
+  grpc::ServerUnaryReactor* DeleteJob(grpc::CallbackServerContext* context, const v1::DeleteJobRequest* request,
+                                      v1::DeleteJobResponse* response) override;
   grpc::ServerWriteReactor<v1::JobEvent>* WatchJob(grpc::CallbackServerContext* context,
                                                    const v1::WatchJobRequest* request) override;
-  grpc::Status GetHistory(grpc::ServerContext* context, const v1::GetHistoryRequest* request,
-                          v1::GetHistoryResponse* response) override;
+  grpc::ServerUnaryReactor* GetHistory(grpc::CallbackServerContext* context, const v1::GetHistoryRequest* request,
+                                       v1::GetHistoryResponse* response) override;
   grpc::ServerWriteReactor<v1::GetFrameResponse>* GetFrame(grpc::CallbackServerContext* context,
                                                            const v1::GetFrameRequest* request) override;
   grpc::ServerWriteReactor<v1::DownloadResultResponse>* DownloadResult(
@@ -57,7 +61,7 @@ class JobsService final
   /// Throws ServiceError (not_found) when there is none.
   store::StoredJob find(const std::string& name);
   /// Number of a job that the caller may change. Throws also ServiceError (permission_denied).
-  std::int64_t find_own(const grpc::ServerContext& context, const std::string& name);
+  std::int64_t find_own(const grpc::ServerContextBase& context, const std::string& name);
   void add_progress(store::StoredJob& stored);
   void commit_samples();
 

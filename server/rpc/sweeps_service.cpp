@@ -59,15 +59,15 @@ SweepsService::Found SweepsService::find(const std::string& name) {
   return {*number, *std::move(sweep)};
 }
 
-std::int64_t SweepsService::find_own(const grpc::ServerContext& context, const std::string& name) {
+std::int64_t SweepsService::find_own(const grpc::ServerContextBase& context, const std::string& name) {
   const auto found = find(name);
   parts_.gate.require_own(context, found.sweep.owner(), found.sweep.name());
   return found.number;
 }
 
-grpc::Status SweepsService::CreateSweep(grpc::ServerContext* context, const v1::CreateSweepRequest* given,
-                                        v1::Sweep* response) {
-  return answer([&] {
+grpc::ServerUnaryReactor* SweepsService::CreateSweep(grpc::CallbackServerContext* context,
+                                                     const v1::CreateSweepRequest* given, v1::Sweep* response) {
+  return parts_.calls.run(*context, *given, [=, this] {
     auto request = without_output(*given);
     check_size("sweep", request.sweep().ByteSizeLong(), kLargestCase);
     check_request(request.request_id(), request.sweep().labels(), "sweep.");
@@ -101,16 +101,18 @@ grpc::Status SweepsService::CreateSweep(grpc::ServerContext* context, const v1::
   });
 }
 
-grpc::Status SweepsService::GetSweep(grpc::ServerContext*, const v1::GetSweepRequest* request, v1::Sweep* response) {
-  return answer([&] {
+grpc::ServerUnaryReactor* SweepsService::GetSweep(grpc::CallbackServerContext* context,
+                                                  const v1::GetSweepRequest* request, v1::Sweep* response) {
+  return parts_.calls.run(*context, *request, [=, this] {
     *response = find(request->name()).sweep;
     return grpc::Status::OK;
   });
 }
 
-grpc::Status SweepsService::ListSweeps(grpc::ServerContext* context, const v1::ListSweepsRequest* request,
-                                       v1::ListSweepsResponse* response) {
-  return answer([&] {
+grpc::ServerUnaryReactor* SweepsService::ListSweeps(grpc::CallbackServerContext* context,
+                                                    const v1::ListSweepsRequest* request,
+                                                    v1::ListSweepsResponse* response) {
+  return parts_.calls.run(*context, *request, [=, this] {
     const auto page = read_page(request->page_size(), request->page_token(), "sweeps");
     const std::int64_t before = page.after == 0 ? std::numeric_limits<std::int64_t>::max() : page.after;
     auto room = page.room();
@@ -133,9 +135,9 @@ grpc::Status SweepsService::ListSweeps(grpc::ServerContext* context, const v1::L
   });
 }
 
-grpc::Status SweepsService::CancelSweep(grpc::ServerContext* context, const v1::CancelSweepRequest* request,
-                                        v1::Sweep* response) {
-  return answer([&] {
+grpc::ServerUnaryReactor* SweepsService::CancelSweep(grpc::CallbackServerContext* context,
+                                                     const v1::CancelSweepRequest* request, v1::Sweep* response) {
+  return parts_.calls.run(*context, *request, [=, this] {
     const std::int64_t sweep = find_own(*context, request->name());
     const auto jobs = parts_.sweeps.jobs_of(sweep);
     parts_.scheduler.cancel_all(jobs);
@@ -145,9 +147,9 @@ grpc::Status SweepsService::CancelSweep(grpc::ServerContext* context, const v1::
   });
 }
 
-grpc::Status SweepsService::DeleteSweep(grpc::ServerContext* context, const v1::DeleteSweepRequest* request,
-                                        v1::DeleteSweepResponse*) {
-  return answer([&] {
+grpc::ServerUnaryReactor* SweepsService::DeleteSweep(grpc::CallbackServerContext* context,
+                                                     const v1::DeleteSweepRequest* request, v1::DeleteSweepResponse*) {
+  return parts_.calls.run(*context, *request, [=, this] {
     const std::int64_t sweep = find_own(*context, request->name());
     parts_.deletion.delete_sweep(sweep, [context] { return context->IsCancelled(); });
     log_change(jobs::sweep_name_of(sweep), "deleted", parts_.gate.caller_of(*context).name);
@@ -155,9 +157,10 @@ grpc::Status SweepsService::DeleteSweep(grpc::ServerContext* context, const v1::
   });
 }
 
-grpc::Status SweepsService::RetryFailedJobs(grpc::ServerContext* context, const v1::RetryFailedJobsRequest* request,
-                                            v1::Sweep* response) {
-  return answer([&] {
+grpc::ServerUnaryReactor* SweepsService::RetryFailedJobs(grpc::CallbackServerContext* context,
+                                                         const v1::RetryFailedJobsRequest* request,
+                                                         v1::Sweep* response) {
+  return parts_.calls.run(*context, *request, [=, this] {
     const std::int64_t sweep = find_own(*context, request->name());
     // What their cases need was admitted when the sweep was made. The new jobs are the sweep's owner's.
     const std::string owner = find(request->name()).sweep.owner();
@@ -186,9 +189,10 @@ grpc::ServerWriteReactor<v1::WatchSweepResponse>* SweepsService::WatchSweep(grpc
       });
 }
 
-grpc::Status SweepsService::GetSweepTable(grpc::ServerContext*, const v1::GetSweepTableRequest* request,
-                                          v1::SweepTable* response) {
-  return answer([&] {
+grpc::ServerUnaryReactor* SweepsService::GetSweepTable(grpc::CallbackServerContext* context,
+                                                       const v1::GetSweepTableRequest* request,
+                                                       v1::SweepTable* response) {
+  return parts_.calls.run(*context, *request, [=, this] {
     const auto found = find(request->name());
     const std::string question = "table of " + found.sweep.name();
     const auto page = read_full_page(request->page_size(), request->page_token(), question);

@@ -7,6 +7,7 @@
 #include "jobs/admission.h"
 #include "jobs/deletion.h"
 #include "jobs/scheduler.h"
+#include "rpc/call_pool.h"
 #include "rpc/stream_reactor.h"
 #include "store/journal.h"
 #include "store/journal_reader.h"
@@ -15,8 +16,8 @@
 
 namespace cellcrush::rpc {
 
-/// Sweeps: many jobs from one case. Thread-safe. Watches go through gRPC's callbacks and hold no thread.
-class SweepsService final : public v1::Sweeps::WithCallbackMethod_WatchSweep<v1::Sweeps::Service> {
+/// Sweeps: many jobs from one case. Thread-safe. Watches hold no thread; all other calls are answered by the pool.
+class SweepsService final : public v1::Sweeps::CallbackService {
  public:
   /// All of it outlives the service.
   struct Parts {
@@ -28,26 +29,28 @@ class SweepsService final : public v1::Sweeps::WithCallbackMethod_WatchSweep<v1:
     jobs::Scheduler& scheduler;
     jobs::Admission& admission;
     const access::Gate& gate;
+    CallPool& calls;
     StreamParts streams;
   };
 
   explicit SweepsService(const Parts& parts) : parts_(parts) {}
 
-  grpc::Status CreateSweep(grpc::ServerContext* context, const v1::CreateSweepRequest* request,
-                           v1::Sweep* response) override;
-  grpc::Status GetSweep(grpc::ServerContext* context, const v1::GetSweepRequest* request, v1::Sweep* response) override;
-  grpc::Status ListSweeps(grpc::ServerContext* context, const v1::ListSweepsRequest* request,
-                          v1::ListSweepsResponse* response) override;
-  grpc::Status CancelSweep(grpc::ServerContext* context, const v1::CancelSweepRequest* request,
-                           v1::Sweep* response) override;
-  grpc::Status DeleteSweep(grpc::ServerContext* context, const v1::DeleteSweepRequest* request,
-                           v1::DeleteSweepResponse* response) override;
-  grpc::Status RetryFailedJobs(grpc::ServerContext* context, const v1::RetryFailedJobsRequest* request,
-                               v1::Sweep* response) override;
+  grpc::ServerUnaryReactor* CreateSweep(grpc::CallbackServerContext* context, const v1::CreateSweepRequest* request,
+                                        v1::Sweep* response) override;
+  grpc::ServerUnaryReactor* GetSweep(grpc::CallbackServerContext* context, const v1::GetSweepRequest* request,
+                                     v1::Sweep* response) override;
+  grpc::ServerUnaryReactor* ListSweeps(grpc::CallbackServerContext* context, const v1::ListSweepsRequest* request,
+                                       v1::ListSweepsResponse* response) override;
+  grpc::ServerUnaryReactor* CancelSweep(grpc::CallbackServerContext* context, const v1::CancelSweepRequest* request,
+                                        v1::Sweep* response) override;
+  grpc::ServerUnaryReactor* DeleteSweep(grpc::CallbackServerContext* context, const v1::DeleteSweepRequest* request,
+                                        v1::DeleteSweepResponse* response) override;
+  grpc::ServerUnaryReactor* RetryFailedJobs(grpc::CallbackServerContext* context,
+                                            const v1::RetryFailedJobsRequest* request, v1::Sweep* response) override;
   grpc::ServerWriteReactor<v1::WatchSweepResponse>* WatchSweep(grpc::CallbackServerContext* context,
                                                                const v1::WatchSweepRequest* request) override;
-  grpc::Status GetSweepTable(grpc::ServerContext* context, const v1::GetSweepTableRequest* request,
-                             v1::SweepTable* response) override;
+  grpc::ServerUnaryReactor* GetSweepTable(grpc::CallbackServerContext* context, const v1::GetSweepTableRequest* request,
+                                          v1::SweepTable* response) override;
 
  private:
   struct Found {
@@ -57,7 +60,7 @@ class SweepsService final : public v1::Sweeps::WithCallbackMethod_WatchSweep<v1:
   /// Throws ServiceError (not_found) when there is none.
   Found find(const std::string& name);
   /// Number of a sweep that the caller may change. Throws also ServiceError (permission_denied).
-  std::int64_t find_own(const grpc::ServerContext& context, const std::string& name);
+  std::int64_t find_own(const grpc::ServerContextBase& context, const std::string& name);
 
   Parts parts_;
 };

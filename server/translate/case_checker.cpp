@@ -1,5 +1,6 @@
 #include "translate/case_checker.h"
 
+#include "cellcrush/plausibility.h"
 #include "cellcrush/spec_checker.h"
 #include "translate/case_size.h"
 #include "translate/case_to_spec.h"
@@ -21,6 +22,7 @@ CaseChecker::Verdict CaseChecker::check(const v1::Case& submitted) {
     for (const auto& problem : *problems) out.problems.push_back(to_proto(problem));
   }
   if (!out.problems.empty()) return out;
+  for (const auto& note : find_implausible(reading.spec)) out.notes.push_back(to_proto(note, v1::Problem::IMPLAUSIBLE));
   out.element_steps = verdict.element_count * verdict.step_count;
   out.most_memory_bytes = verdict.most_memory_bytes;
   return out;

@@ -25,6 +25,7 @@ class CaseChecker {
 
   struct Verdict {
     std::vector<v1::Problem> problems;
+    std::vector<v1::Problem> notes;  ///< what is hardly meant; empty when there are problems
     std::int64_t element_steps = 0;  ///< elements times steps of the run; 0 when there are problems
     /// What check_case predicts, or a little more (cellcrush/spec_checker.h); 0 when there are problems.
     std::int64_t most_memory_bytes = 0;

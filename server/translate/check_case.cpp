@@ -1,5 +1,6 @@
 #include "translate/check_case.h"
 
+#include "cellcrush/plausibility.h"
 #include "cellcrush/simulation.h"
 #include "translate/case_size.h"
 #include "translate/case_to_spec.h"
@@ -57,6 +58,8 @@ CaseCheck check_case(const v1::Case& submitted, const std::function<void()>& bet
   }
   cut_problems(*out.response.mutable_problems());
   if (out.response.problems_size() > 0) return out;
+  for (const auto& note : find_implausible(reading.spec))
+    *out.response.add_notes() = to_proto(note, v1::Problem::IMPLAUSIBLE);
   const auto facts = facts_of(*built.scene);
   describe(facts, out.response);
   *out.response.mutable_completed_case() = to_case(complete_spec(reading.spec, *built.scene));

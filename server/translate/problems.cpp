@@ -4,13 +4,13 @@
 
 namespace cellcrush::translate {
 
-v1::Problem to_proto(const Problem& problem) {
+v1::Problem to_proto(const Problem& problem, v1::Problem::Kind kind) {
   v1::Problem out;
   out.set_field(problem.field);
   out.set_value(problem.value);
   out.set_message(problem.message);
   out.set_remedy(problem.remedy);
-  out.set_kind(v1::Problem::INVALID);
+  out.set_kind(kind);
   return out;
 }
 

@@ -38,10 +38,10 @@ TEST_F(RequestIdTest, EqualIdsOfManyClientsMakeOneJobEach) {
   // Holds the only worker, so that no other job runs.
   auto client = this->client();
   const std::string running = client.create(endless_case());
-  const int count = rounds(16, 64);
+  constexpr int kClients = 64;
   const int ids = rounds(50, 1000);
-  std::vector<std::vector<std::string>> answers(static_cast<std::size_t>(count));
-  std::barrier together(count);
+  std::vector<std::vector<std::string>> answers(static_cast<std::size_t>(kClients));
+  std::barrier together(kClients);
   const auto start = std::chrono::steady_clock::now();
   {
     std::vector<std::jthread> threads;
@@ -58,7 +58,7 @@ TEST_F(RequestIdTest, EqualIdsOfManyClientsMakeOneJobEach) {
   EXPECT_EQ(distinct.size(), static_cast<std::size_t>(ids));
   for (const auto& answer : answers) EXPECT_EQ(answer, answers[0]);
   EXPECT_EQ(all_jobs(client).size(), static_cast<std::size_t>(ids) + 1);
-  std::cout << count << " clients, " << ids << " equal ids: " << distinct.size() << " jobs, " << count * ids
+  std::cout << kClients << " clients, " << ids << " equal ids: " << distinct.size() << " jobs, " << kClients * ids
             << " calls in " << seconds << " s\n";
   ASSERT_TRUE(client.cancel(running).ok());
 }

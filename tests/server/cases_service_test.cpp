@@ -47,6 +47,23 @@ TEST_F(CasesServiceTest, ACheckNamesAllProblemsAtOnce) {
 
 TEST_F(CasesServiceTest, AnEmptyCaseIsAnAnswerWithProblems) { EXPECT_GE(check({}).problems_size(), 4); }
 
+TEST_F(CasesServiceTest, WhatIsHardlyMeantIsNotedByACheckAndByTheJob) {
+  auto submitted = small_case();
+  EXPECT_EQ(check(submitted).notes_size(), 0);
+  submitted.mutable_material()->set_density_kg_per_m3(2.7);
+  const auto response = check(submitted);
+  EXPECT_EQ(response.problems_size(), 0) << "It can be run.";
+  ASSERT_EQ(response.notes_size(), 1);
+  EXPECT_EQ(response.notes(0).field(), "material.density_kg_per_m3");
+  EXPECT_EQ(response.notes(0).kind(), v1::Problem::IMPLAUSIBLE);
+  v1::CreateJobRequest request;
+  *request.mutable_case_() = submitted;
+  v1::Job job;
+  auto client = this->client();
+  ASSERT_TRUE(client.jobs->CreateJob(bounded_context().get(), request, &job).ok());
+  EXPECT_EQ(job.notes_size(), 1);
+}
+
 TEST_F(CasesServiceTest, ASoundCaseIsDescribed) {
   const auto response = check(small_case());
   EXPECT_EQ(response.problems_size(), 0);

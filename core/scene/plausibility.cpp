@@ -1,0 +1,115 @@
+#include "cellcrush/plausibility.h"
+
+#include <cmath>
+
+#include "scene/check_spec.h"
+
+namespace cellcrush {
+namespace {
+
+// Solids from polymers to osmium, rubbers to diamond, and what yields.
+constexpr double kLightest = 300.0;      // kg/m^3
+constexpr double kHeaviest = 23000.0;    // kg/m^3
+constexpr double kSoftest = 500.0;       // MPa
+constexpr double kStiffest = 1.3e6;      // MPa
+constexpr double kLeastYield = 2e-5;     // strain
+constexpr double kGreatestYield = 0.05;  // strain
+constexpr double kThickest = 0.25;       // of the side
+constexpr double kThinnest = 5e-4;       // of the side
+constexpr double kFastest = 0.1;         // of the speed of a wave in a bar of the walls' material
+
+std::string percent(double share) { return to_text(std::round(1000.0 * share) / 10.0) + " %"; }
+
+class Notes {
+ public:
+  void add(const std::string& field, double value, const std::string& message, const std::string& remedy) {
+    found_.push_back({field, to_text(value), message, remedy});
+  }
+  Problems take() { return std::move(found_); }
+
+ private:
+  Problems found_;
+};
+
+void look_at_density(double density, Notes& notes) {
+  const std::string field = "material.density_kg_per_m3";
+  if (density < 1e-3) {
+    notes.add(field, density, "is far below that of any solid. Is it in tonne/mm^3?",
+              "Give kg/m^3: aluminium has 2700.");
+  } else if (density < 30.0) {
+    notes.add(field, density, "is far below that of any solid. Is it in g/cm^3?",
+              "Give kg/m^3: " + to_text(density) + " g/cm^3 are " + to_text(1000.0 * density) + " kg/m^3.");
+  } else if (density < kLightest || density > kHeaviest) {
+    notes.add(field, density, density < kLightest ? "is below that of any solid." : "is above that of any metal.",
+              "Give the density of the walls' solid, not of the lattice: aluminium has 2700 kg/m^3.");
+  }
+}
+
+void look_at_stiffness(const MaterialSpec& material, Notes& notes) {
+  const double modulus = *material.youngs_modulus_mpa;
+  const std::string field = "material.youngs_modulus_mpa";
+  if (modulus < kSoftest) {
+    notes.add(field, modulus, "is that of a rubber. Is it in GPa?",
+              "Give MPa: " + to_text(modulus) + " GPa are " + to_text(1000.0 * modulus) + " MPa.");
+  } else if (modulus > kStiffest) {
+    notes.add(field, modulus, "is above that of diamond. Is it in Pa or kPa?", "Give MPa: aluminium has 69000.");
+  }
+  const double yield_strain = *material.yield_stress_mpa / modulus;
+  const std::string ratio = "is " + percent(yield_strain) + " of youngs_modulus_mpa";
+  if (yield_strain > kGreatestYield) {
+    notes.add("material.yield_stress_mpa", *material.yield_stress_mpa,
+              ratio + "; metals yield at 0.05 to 1 %, polymers at up to 5 %.", "Check the units of both.");
+  } else if (yield_strain < kLeastYield) {
+    notes.add("material.yield_stress_mpa", *material.yield_stress_mpa,
+              "is " + to_text(yield_strain) + " of youngs_modulus_mpa; annealed metals yield at 0.0002 or more.",
+              "Check the units of both.");
+  }
+}
+
+template <class Lattice>
+void look_at_walls(const std::string& path, const Lattice& lattice, Notes& notes) {
+  const double slenderness = *lattice.wall_thickness_mm / *lattice.side_mm;
+  if (slenderness > kThickest) {
+    notes.add(path + "wall_thickness_mm", *lattice.wall_thickness_mm,
+              "is " + percent(slenderness) + " of side_mm: walls are modelled as slender beams without shear.",
+              "Trust such a lattice for trends only, up to a quarter of the side.");
+  } else if (slenderness < kThinnest) {
+    notes.add(path + "wall_thickness_mm", *lattice.wall_thickness_mm,
+              "is " + to_text(slenderness) + " of side_mm, thinner than any honeycomb.", "Check the units of both.");
+  }
+}
+
+void look_at_speed(const SceneSpec& spec, Notes& notes) {
+  constexpr double kPascal = 1e6;  // in a MPa
+  const double wave = std::sqrt(*spec.material.youngs_modulus_mpa * kPascal / *spec.material.density_kg_per_m3);
+  const double share = *spec.loading.speed_m_per_s / wave;
+  if (share > kFastest) {
+    notes.add("loading.speed_m_per_s", *spec.loading.speed_m_per_s,
+              "is " + percent(share) + " of the speed of an elastic wave in the walls, " + to_text(std::round(wave)) +
+                  " m/s. Strain rate and heat, which are left out, matter there.",
+              "Check the speed, and the units of youngs_modulus_mpa and density_kg_per_m3.");
+  }
+}
+
+}  // namespace
+
+Problems find_implausible(const SceneSpec& spec) {
+  Notes notes;
+  if (const auto* hexagon = std::get_if<HexagonLattice>(&spec.lattice)) {
+    look_at_walls("lattice.hexagon.", *hexagon, notes);
+  } else if (const auto* square = std::get_if<SquareLattice>(&spec.lattice)) {
+    look_at_walls("lattice.square.", *square, notes);
+  } else if (const auto* triangle = std::get_if<TriangleLattice>(&spec.lattice)) {
+    look_at_walls("lattice.triangle.", *triangle, notes);
+  }
+  const MaterialSpec& material = spec.material;
+  if (!material.youngs_modulus_mpa || !material.yield_stress_mpa || !material.density_kg_per_m3) {
+    return notes.take();  // a frame whose beams have materials of their own
+  }
+  look_at_stiffness(material, notes);
+  look_at_density(*material.density_kg_per_m3, notes);
+  if (spec.loading.speed_m_per_s) look_at_speed(spec, notes);
+  return notes.take();
+}
+
+}  // namespace cellcrush

@@ -1,0 +1,64 @@
+#include "rpc/call_pool.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "error.h"
+#include "rpc/error_table.h"
+
+namespace cellcrush::rpc {
+
+CallPool::CallPool(Most most) : most_(most) {
+  for (int i = 0; i < most_.threads; ++i) threads_.emplace_back([this] { serve(); });
+}
+
+CallPool::~CallPool() {
+  {
+    const std::scoped_lock lock(mutex_);
+    ending_ = true;
+  }
+  changed_.notify_all();
+}
+
+grpc::ServerUnaryReactor* CallPool::run(grpc::CallbackServerContext& context, const google::protobuf::Message& request,
+                                        std::function<grpc::Status()> body) {
+  auto* reactor = context.DefaultReactor();
+  const auto bytes = static_cast<std::int64_t>(request.ByteSizeLong());
+  if (const auto refusal = take({&context, reactor, bytes, std::move(body)}); !refusal.ok()) reactor->Finish(refusal);
+  return reactor;
+}
+
+grpc::Status CallPool::take(Call call) {
+  {
+    const std::scoped_lock lock(mutex_);
+    // One alone may always wait.
+    if (waiting_.size() >= most_.waiting || (bytes_ > 0 && bytes_ + call.bytes > most_.bytes)) {
+      return {grpc::StatusCode::RESOURCE_EXHAUSTED,
+              fmt::format("{} calls with {} bytes wait to be answered, as many as this daemon takes. Try again later.",
+                          waiting_.size(), bytes_)};
+    }
+    bytes_ += call.bytes;
+    waiting_.push_back(std::move(call));
+  }
+  changed_.notify_one();
+  return grpc::Status::OK;
+}
+
+void CallPool::serve() {
+  for (;;) {
+    Call call;
+    {
+      std::unique_lock lock(mutex_);
+      changed_.wait(lock, [this] { return ending_ || !waiting_.empty(); });
+      if (waiting_.empty()) return;
+      call = std::move(waiting_.front());
+      waiting_.pop_front();
+      bytes_ -= call.bytes;
+    }
+    call.reactor->Finish(call.context->IsCancelled() ? grpc::Status(grpc::StatusCode::CANCELLED, "Nobody waits for it.")
+                                                     : answer(call.body));
+  }
+}
+
+}  // namespace cellcrush::rpc
