@@ -78,6 +78,15 @@ std::string problems_text(const v1::ProblemList& problems) {
   return text;
 }
 
+std::string notes_text(const google::protobuf::RepeatedPtrField<v1::Problem>& notes) {
+  std::string text;
+  for (const v1::Problem& note : notes) {
+    text += fmt::format("note: {} = {} {}\n    {}\n", printable(note.field()), printable(note.value()),
+                        printable(note.message()), printable(note.remedy()));
+  }
+  return text;
+}
+
 void print_error(const CommandError& error, bool json) {
   if (json) {
     if (error.problems().problems_size() > 0) {
@@ -89,7 +98,7 @@ void print_error(const CommandError& error, bool json) {
       fmt::print("{}\n", json_text(status));
     }
   }
-  fmt::print(stderr, "cellcrush: {}\n", error.message());
+  fmt::print(stderr, "cellcrush: {}\n", printable(error.message()));
   if (!json) fmt::print(stderr, "{}", problems_text(error.problems()));
 }
 

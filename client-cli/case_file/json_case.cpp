@@ -75,7 +75,9 @@ std::string explain_json(const std::string& message) {
 
 v1::Case parse_json_case(const std::string& text, const std::string& file) {
   v1::Case result;
-  const auto status = google::protobuf::util::JsonStringToMessage(text, &result);
+  google::protobuf::util::JsonParseOptions options;
+  options.case_insensitive_enum_parsing = true;
+  const auto status = google::protobuf::util::JsonStringToMessage(text, &result, options);
   if (!status.ok()) {
     throw CommandError(ExitCode::refused, fmt::format("the case cannot be read\n{}: {}", file,
                                                       explain_json(std::string(status.message()))));

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "case_file/enum_value.h"
 #include "case_file/suggestion.h"
 #include "command_error.h"
 
@@ -111,7 +112,7 @@ void set_value(Message& message, const FieldDescriptor& field, int index, std::s
     case FieldDescriptor::CPPTYPE_STRING:
       return put(&Reflection::SetString, &Reflection::SetRepeatedString, std::string(value));
     case FieldDescriptor::CPPTYPE_ENUM: {
-      const auto* parsed = field.enum_type()->FindValueByName(std::string(value));
+      const auto* parsed = find_enum_value(value, *field.enum_type());
       if (parsed == nullptr) refuse(path, unknown_enum_message(value, *field.enum_type()));
       return put(&Reflection::SetEnum, &Reflection::SetRepeatedEnum, parsed);
     }

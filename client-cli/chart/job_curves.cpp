@@ -148,7 +148,9 @@ Chart build_comparison_chart(const std::vector<JobHistory>& histories) {
       name += fmt::format(": plateau {} MPa", number_text(job.summary().plateau_stress_impact_mpa()));
     }
     curves.push_back({smooth.strain, smooth.impact, {colour, 2.0, {}}, name});
-    curves.push_back({smooth.strain, smooth.support, {colour, 1.4, {5.0, 3.0}}, ""});
+    LineStyle dashed{colour, 1.4, {}};
+    dashed.dashes = {5.0, 3.0};
+    curves.push_back({smooth.strain, smooth.support, dashed, ""});
     strain = std::max(strain, last_strain(smooth));
     top = std::max(top, find_top(histories[i], smooth));
     peak = std::max(peak, highest(smooth));

@@ -53,13 +53,15 @@ bool has_text(const fs::path& path, const std::string& text) {
 }
 
 // The job that is to run: a new one, or the unfinished one of the same case.
-void start_job(Connection& connection, const v1::Case& scene, const RunOptions& options) {
+void start_job(Session& session, const v1::Case& scene, const RunOptions& options) {
+  Connection& connection = session.connection();
   const auto unfinished = find_unfinished(connection);
   if (!unfinished) {
     v1::CreateJobRequest request;
     *request.mutable_case_() = scene;
     request.set_time_limit_s(options.time_limit_s);
-    connection.call(connection.jobs(), &v1::Jobs::Stub::CreateJob, request);
+    const auto job = connection.call(connection.jobs(), &v1::Jobs::Stub::CreateJob, request);
+    if (!session.json) fmt::print(stderr, "{}", notes_text(job.notes()));
     return;
   }
   if (text_of(unfinished->case_()) != text_of(scene)) {
@@ -98,7 +100,7 @@ ExitCode run_case(Session& session, const RunOptions& options) {
       if (!session.json) fmt::print("{} holds the result of this case already.\n", folder.string());
       return ExitCode::done;
     }
-    start_job(connection, scene, options);
+    start_job(session, scene, options);
   } catch (const CommandError&) {
     if (!was_begun) end();
     throw;

@@ -41,6 +41,7 @@ ExitCode run_submit(Session& session, const SubmitOptions& options) {
     fmt::print("{}\n", job.name());
     std::fflush(stdout);
   }
+  fmt::print(stderr, "{}", session.json ? "" : notes_text(job.notes()));
   return options.watch ? watch_job(session, job.name(), *interruption) : ExitCode::done;
 }
 

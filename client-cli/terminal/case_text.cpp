@@ -5,6 +5,7 @@
 
 #include <sstream>
 
+#include "command_error.h"
 #include "terminal/fidelity_text.h"
 #include "terminal/lattice_text.h"
 #include "terminal/number_text.h"
@@ -103,7 +104,9 @@ std::string check_text(const v1::CheckCaseResponse& check) {
   if (const std::string scene = scene_text(completed); !scene.empty()) text += scene + '\n';
   if (const std::string description = description_text(completed); !description.empty()) text += '\n' + description;
   if (!text.empty()) text += '\n';
-  text += table.text(2) + fidelity_text(check);
+  text += table.text(2);
+  if (check.notes_size() > 0) text += '\n' + notes_text(check.notes());
+  text += fidelity_text(check);
   if (check.modelled_size() > 0) text += "\nmodelled, and left out\n";
   for (const std::string& sentence : check.modelled()) text += wrapped(printable(sentence), 100, "  - ", "    ");
   return text;

@@ -11,15 +11,6 @@ bool continues_character(char byte) { return (static_cast<unsigned char>(byte) &
 
 }  // namespace
 
-std::string printable(std::string_view text) {
-  std::string clean(text);
-  for (char& byte : clean) {
-    const auto code = static_cast<unsigned char>(byte);
-    if ((code < 0x20 && byte != '\n') || code == 0x7F) byte = '?';
-  }
-  return clean;
-}
-
 int display_width(std::string_view text) {
   return static_cast<int>(
       std::count_if(text.begin(), text.end(), [](char byte) { return !continues_character(byte); }));

@@ -4,10 +4,9 @@
 #include <string_view>
 #include <vector>
 
-namespace cellcrush::client {
+#include "terminal/printable.h"
 
-/// `text` with control characters replaced by "?", so that what comes from elsewhere cannot drive the terminal.
-std::string printable(std::string_view text);
+namespace cellcrush::client {
 
 /// Columns that `text` (UTF-8) takes on a terminal, a character a column.
 int display_width(std::string_view text);

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <memory>
 
 #include "access/scope.h"
+#include "command_line/checked_config.h"
 
 namespace cellcrush {
 namespace {
@@ -37,6 +39,7 @@ DaemonFlags::DaemonFlags(CLI::App& app) {
   add_times(app);
   app.add_option("--log-format", log_format_, "text or json, an object a line (default: text)")
       ->check(CLI::IsMember({"text", "json"}));
+  app.config_formatter(std::make_shared<CheckedConfig>(app));
   app.set_config("--config", "",
                  "file of options in TOML, a line each: their long names without the dashes (default: none)");
 }

@@ -47,6 +47,9 @@ TEST(TextCase, NamesEveryMisspeltFieldWithLineAndColumn) {
 
 TEST(TextCase, NamesTheTypeThatWasExpected) {
   EXPECT_NE(text_errors("depth_mm: \"thick\"\n").find("c.txtpb:1:11: "), std::string::npos);
+  EXPECT_EQ(parse_text_case("loading { direction: y } numerics { fidelity: draft }", "c.txtpb").DebugString(),
+            parse_text_case("loading { direction: Y } numerics { fidelity: DRAFT }", "c.txtpb").DebugString());
+  EXPECT_NE(text_errors("loading { direction: Z }").find("\"Z\" is none of X, Y"), std::string::npos);
   EXPECT_NE(text_errors("loading { direction: Z }").find("c.txtpb:1:22: direction: "), std::string::npos)
       << text_errors("loading { direction: Z }");
 }
@@ -69,6 +72,7 @@ TEST(JsonCase, NamesTheFieldsPath) {
   EXPECT_NE(json_errors(R"({"loading": {"speed_m_per_s": "fast"}})")
                 .find("c.json: loading.speed_m_per_s: expected a number = fast"),
             std::string::npos);
+  EXPECT_EQ(parse_json_case(R"({"loading": {"direction": "y"}})", "c.json").loading().direction(), v1::Loading::Y);
   EXPECT_NE(json_errors(R"({"loading": {"direction": "Z"}})").find("c.json: loading.direction: \"Z\" is none of X, Y"),
             std::string::npos);
   EXPECT_NE(json_errors(R"({"lattice": {"frame": {"nodes": [{"id": "a"}, {"idd": "b"}]}}})")

@@ -37,7 +37,7 @@ TEST(SetField, SetsEveryKindOfValue) {
   v1::Case scene = hexagons();
   for (const char* assignment :
        {"loading.speed_m_per_s=1e2", "lattice.hexagon.rows=21", "lattice.imperfection.seed=18446744073709551615",
-        "loading.direction=Y", "title=a = b", "numerics.time_step_s=-2e-7"}) {
+        "loading.direction=y", "title=a = b", "numerics.time_step_s=-2e-7"}) {
     set_field(scene, assignment);
   }
   EXPECT_EQ(scene.loading().speed_m_per_s(), 100.0);

@@ -47,7 +47,10 @@ TEST(Table, CutsWideTextAndDisarmsControlCharacters) {
   EXPECT_EQ(cut("honeycomb", 20), "honeycomb");
   EXPECT_EQ(cut("a long honeycomb", 10), "a long ...");
   EXPECT_EQ(display_width(cut("ééééééééééééé", 10)), 10);
-  EXPECT_EQ(printable("a\x1b[2Jb"), "a?[2Jb");
+  EXPECT_EQ(printable("a\x1b[2Jb"), "a\\x1b[2Jb");
+  EXPECT_EQ(printable("line\nbell\x07 del\x7f"), "line\nbell\\x07 del\\x7f");
+  EXPECT_EQ(printable("\xff\xc3 caf\xc3\xa9 \xe2\x82\xac \xc2\x9b"), "\\xff\\xc3 caf\xc3\xa9 \xe2\x82\xac \\xc2\\x9b");
+  EXPECT_EQ(printable("\xe2\x82"), "\\xe2\\x82") << "cut short";
 }
 
 TEST(Problems, AreReadFromTheStatusDetailsAndPrintedWithRemedies) {

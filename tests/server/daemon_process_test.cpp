@@ -56,5 +56,22 @@ TEST(DaemonProcess, AHangupReadsTheTokensAgainAndNeverEndsTheDaemon) {
   }
 }
 
+TEST(DaemonProcess, AKeyOfTheConfigFileThatIsNoOptionIsRefusedWithTheNearest) {
+  const TemporaryFolder folder;
+  const auto start_with = [&](const std::string& text) {
+    write_secret(folder.path() / "config.toml", text);
+    DaemonProcess daemon({"--data", (folder.path() / "data").string(), "--listen",
+                          "unix:" + (folder.path() / "socket").string(), "--config",
+                          (folder.path() / "config.toml").string()});
+    const bool serves = daemon.wait_for_addresses(1).size() == 1;
+    if (serves) daemon.send_signal(SIGTERM);
+    EXPECT_EQ(daemon.wait(), serves ? 0 : 2);
+    return serves ? "" : daemon.errors();
+  };
+  EXPECT_EQ(start_with("workers = 1\nmin-free-disk = 0\n"), "");
+  EXPECT_NE(start_with("min-fre-disk = 0\n").find("Did you mean \"min-free-disk\"?"), std::string::npos);
+  EXPECT_NE(start_with("colour = \"red\"\n").find("\"colour\", which is no option"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace cellcrush::testing
