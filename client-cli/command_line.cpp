@@ -9,6 +9,7 @@
 
 #include "command_error.h"
 #include "commands/commands.h"
+#include "usage_error.h"
 
 namespace cellcrush::client {
 
@@ -53,10 +54,16 @@ ExitCode run_command_line(int argc, char** argv) {
   add_queue_commands(app, session);
   add_sweep_commands(app, session);
   add_table_command(app, session);
+  if (argc == 1) {
+    fmt::print("{}", app.help());
+    return ExitCode::done;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? ExitCode::done : ExitCode::refused;
+    if (error.get_exit_code() == 0) return app.exit(error), ExitCode::done;
+    print_error(usage_error(app, error), session.json);
+    return ExitCode::refused;
   }
   const ExitCode code = run_action(session);
   if (std::fflush(stdout) != 0 && code == ExitCode::done) return ExitCode::refused;

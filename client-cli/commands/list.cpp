@@ -12,7 +12,7 @@ namespace cellcrush::client {
 
 namespace {
 
-constexpr int kPage = 1000;
+constexpr int kListPage = 1000;
 
 struct ListOptions {
   std::string filter;
@@ -24,7 +24,7 @@ struct ListOptions {
 // Sets how many entries the next page is to have, when `size` are there; false when that is enough.
 template <typename Request>
 bool ask_for_more(const ListOptions& options, int size, Request& request) {
-  request.set_page_size(options.limit > 0 ? std::min(kPage, options.limit - size) : kPage);
+  request.set_page_size(options.limit > 0 ? std::min(kListPage, options.limit - size) : kListPage);
   return options.limit == 0 || size < options.limit;
 }
 
