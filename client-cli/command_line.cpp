@@ -9,6 +9,7 @@
 
 #include "command_error.h"
 #include "commands/commands.h"
+#include "help/help_formatter.h"
 #include "usage_error.h"
 
 namespace cellcrush::client {
@@ -16,6 +17,7 @@ namespace cellcrush::client {
 namespace {
 
 constexpr const char* kFooter =
+    "Options of the connection and --json are taken before and after the command.\n"
     "CASE is a file (protobuf text, or JSON), - for stdin, or preset:NAME.\n"
     "Exit codes: 0 done, 1 a job failed or was cancelled, 2 usage, invalid case or refused, 3 no connection,\n"
     "4 cut off before the end, 5 no such thing, 130 on Ctrl-C (the job goes on).";
@@ -42,7 +44,9 @@ ExitCode run_command_line(int argc, char** argv) {
   app.set_version_flag("--version", std::string("cellcrush " CELLCRUSH_VERSION));
   app.require_subcommand(1);
   app.footer(kFooter);
+  app.formatter(std::make_shared<HelpFormatter>());
   Session session;
+  add_shared_options(app, session);
   add_case_commands(app, session);
   add_submit_command(app, session);
   add_watch_command(app, session);

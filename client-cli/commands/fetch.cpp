@@ -134,12 +134,17 @@ void add_fetch_command(CLI::App& app, Session& session) {
   CLI::App* command =
       add_command(app, session, "fetch", "Write a job's case.txtpb, history.csv, nodes.csv and result.h5 into a folder",
                   [&session, options] { return run_fetch(session, *options); });
+  command->group(kResultCommands);
   command->add_option("NAME", options->name, "A job's name")->required();
-  command->add_option("-o,--output", options->folder, "The folder; it is made if need be")->required();
+  command->add_option("-o,--output", options->folder, "The folder; it is made if need be")
+      ->required()
+      ->group(kOutputOptions);
   command
       ->add_option("--frame", options->frame_times,
                    "Also write the frame nearest to this time in s, as CSV (may be repeated; default: none)")
+      ->group(kOutputOptions)
       ->allow_extra_args(false);
+  add_examples(*command, {"cellcrush fetch jobs/12 -o results", "cellcrush fetch jobs/12 -o results --frame 0.0005"});
 }
 
 }  // namespace cellcrush::client
