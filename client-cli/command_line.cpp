@@ -53,6 +53,7 @@ ExitCode run_command_line(int argc, char** argv) {
   add_show_command(app, session);
   add_list_command(app, session);
   add_job_commands(app, session);
+  add_delete_command(app, session);
   add_fetch_command(app, session);
   add_plot_command(app, session);
   add_queue_commands(app, session);

@@ -61,7 +61,8 @@ void add_show_command(CLI::App& app, Session& session);
 void add_submit_command(CLI::App& app, Session& session);
 void add_watch_command(CLI::App& app, Session& session);
 void add_list_command(CLI::App& app, Session& session);
-void add_job_commands(CLI::App& app, Session& session);  ///< cancel, suspend, resume, delete
+void add_job_commands(CLI::App& app, Session& session);  ///< cancel, suspend, resume
+void add_delete_command(CLI::App& app, Session& session);
 void add_fetch_command(CLI::App& app, Session& session);
 void add_plot_command(CLI::App& app, Session& session);
 void add_queue_commands(CLI::App& app, Session& session);  ///< queue, drain

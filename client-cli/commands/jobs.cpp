@@ -31,23 +31,6 @@ void cancel_sweep(Session& session, const std::string& name) {
   session.json ? print_json(sweep) : fmt::print("{}", sweep_line(sweep));
 }
 
-void delete_sweep(Session& session, const std::string& name) {
-  Connection& connection = session.connection();
-  v1::DeleteSweepRequest request;
-  request.set_name(name);
-  const auto response = connection.call(connection.sweeps(), &v1::Sweeps::Stub::DeleteSweep, request);
-  session.json ? print_json(response) : fmt::print("{} deleted\n", request.name());
-}
-
-void delete_job(Session& session, const std::string& name) {
-  if (names_sweep(name)) return delete_sweep(session, name);
-  Connection& connection = session.connection();
-  v1::DeleteJobRequest request;
-  request.set_name(job_name(name));
-  const auto response = connection.call(connection.jobs(), &v1::Jobs::Stub::DeleteJob, request);
-  session.json ? print_json(response) : fmt::print("{} deleted\n", request.name());
-}
-
 CLI::App* add_named_command(CLI::App& app, Session& session, const char* command_name, const char* description,
                             const char* name_help, void (*action)(Session&, const std::string&)) {
   const auto name = std::make_shared<std::string>();
@@ -77,10 +60,6 @@ void add_job_commands(CLI::App& app, Session& session) {
       add_named_command(app, session, "resume", "Continue a suspended job", "A job's name",
                         [](Session& s, const std::string& name) { change_job(s, name, &v1::Jobs::Stub::ResumeJob); });
   add_examples(*resume, {"cellcrush resume jobs/12"});
-  CLI::App* remove =
-      add_named_command(app, session, "delete", "Delete a job or a sweep with all its jobs, and the results",
-                        "A job's name, or sweeps/NAME", &delete_job);
-  add_examples(*remove, {"cellcrush delete jobs/12", "cellcrush delete sweeps/3"});
 }
 
 }  // namespace cellcrush::client
