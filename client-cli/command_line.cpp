@@ -48,6 +48,7 @@ ExitCode run_command_line(int argc, char** argv) {
   Session session;
   add_shared_options(app, session);
   add_case_commands(app, session);
+  add_explain_command(app, session);
   add_submit_command(app, session);
   add_watch_command(app, session);
   add_show_command(app, session);

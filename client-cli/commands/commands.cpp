@@ -58,8 +58,8 @@ void add_case_options(CLI::App& command, CaseOptions& options) {
   command.add_option("CASE", options.source, "A case file, - for stdin, or preset:NAME")->required();
   command
       .add_option("--set", options.assignments,
-                  "PATH=VALUE: changes a field of the case, such as loading.speed_m_per_s=100 "
-                  "(may be repeated; default: none)")
+                  "PATH=VALUE: changes a field of the case, such as loading.speed_m_per_s=100; `cellcrush explain` "
+                  "lists the fields (may be repeated; default: none)")
       ->group(kCaseOptions)
       ->allow_extra_args(false);
 }

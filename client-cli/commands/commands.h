@@ -57,6 +57,7 @@ struct CaseOptions {
 void add_case_options(CLI::App& command, CaseOptions& options);
 
 void add_case_commands(CLI::App& app, Session& session);  ///< presets, check
+void add_explain_command(CLI::App& app, Session& session);
 void add_show_command(CLI::App& app, Session& session);
 void add_submit_command(CLI::App& app, Session& session);
 void add_watch_command(CLI::App& app, Session& session);
