@@ -60,6 +60,7 @@ ExitCode run_command_line(int argc, char** argv) {
   add_queue_commands(app, session);
   add_sweep_commands(app, session);
   add_table_command(app, session);
+  add_shell_commands(app, session);
   if (argc == 1) {
     fmt::print("{}", app.help());
     return ExitCode::done;

@@ -6,18 +6,11 @@
 #include <vector>
 
 #include "case_file/suggestion.h"
+#include "help/command_entries.h"
 
 namespace cellcrush::client {
 
 namespace {
-
-std::vector<std::string> command_names(const CLI::App& app) {
-  std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands([](const CLI::App* c) { return !c->get_group().empty(); })) {
-    names.push_back(command->get_name());
-  }
-  return names;
-}
 
 void append_option_names(const CLI::App& app, std::vector<std::string>& names) {
   for (const CLI::Option* option : app.get_options()) {

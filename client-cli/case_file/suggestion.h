@@ -8,8 +8,8 @@
 
 namespace cellcrush::client {
 
-/// The candidate nearest to `word` by insertions, deletions, substitutions and swaps of neighbours (case does not count);
-/// empty when none is near enough to be meant.
+/// The candidate nearest to `word` by insertions, deletions, substitutions and swaps of neighbours (case does not
+/// count); empty when none is near enough to be meant.
 std::string find_nearest(std::string_view word, const std::vector<std::string>& candidates);
 
 /// The file nearest in name to one that is missing, in the same folder; empty when none is near.

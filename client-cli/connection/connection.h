@@ -46,8 +46,8 @@ class Connection {
     return response;
   }
 
-  /// The error for a call about `name`, a job, a sweep or "preset:NAME", that did not end with OK; for one that does not
-  /// exist it asks the server for the name that may be meant.
+  /// The error for a call about `name`, a job, a sweep or "preset:NAME", that did not end with OK. For a name that does
+  /// not exist it asks the server which one may be meant.
   CommandError error_about(const std::string& name, const grpc::Status& status);
 
   static constexpr std::chrono::seconds kPatience{60};
