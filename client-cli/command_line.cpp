@@ -9,12 +9,15 @@
 
 #include "command_error.h"
 #include "commands/commands.h"
+#include "help/help_formatter.h"
+#include "usage_error.h"
 
 namespace cellcrush::client {
 
 namespace {
 
 constexpr const char* kFooter =
+    "Options of the connection and --json are taken before and after the command.\n"
     "CASE is a file (protobuf text, or JSON), - for stdin, or preset:NAME.\n"
     "Exit codes: 0 done, 1 a job failed or was cancelled, 2 usage, invalid case or refused, 3 no connection,\n"
     "4 cut off before the end, 5 no such thing, 130 on Ctrl-C (the job goes on).";
@@ -41,23 +44,34 @@ ExitCode run_command_line(int argc, char** argv) {
   app.set_version_flag("--version", std::string("cellcrush " CELLCRUSH_VERSION));
   app.require_subcommand(1);
   app.footer(kFooter);
+  app.formatter(std::make_shared<HelpFormatter>());
   Session session;
+  add_shared_options(app, session);
   add_case_commands(app, session);
   add_run_command(app, session);
+  add_explain_command(app, session);
   add_submit_command(app, session);
   add_watch_command(app, session);
   add_show_command(app, session);
   add_list_command(app, session);
   add_job_commands(app, session);
+  add_delete_command(app, session);
   add_fetch_command(app, session);
   add_plot_command(app, session);
   add_queue_commands(app, session);
   add_sweep_commands(app, session);
   add_table_command(app, session);
+  add_shell_commands(app, session);
+  if (argc == 1) {
+    fmt::print("{}", app.help());
+    return ExitCode::done;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? ExitCode::done : ExitCode::refused;
+    if (error.get_exit_code() == 0) return app.exit(error), ExitCode::done;
+    print_error(usage_error(app, error), session.json);
+    return ExitCode::refused;
   }
   const ExitCode code = run_action(session);
   if (std::fflush(stdout) != 0 && code == ExitCode::done) return ExitCode::refused;

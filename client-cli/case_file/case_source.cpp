@@ -9,6 +9,7 @@
 
 #include "case_file/json_case.h"
 #include "case_file/set_field.h"
+#include "case_file/suggestion.h"
 #include "case_file/text_case.h"
 #include "command_error.h"
 #include "connection/connection.h"
@@ -43,8 +44,12 @@ std::string read_all(const std::string& file) {
   }
   std::ifstream stream(file, std::ios::binary);
   if (!stream) {
-    throw CommandError(ExitCode::refused, file + ": cannot be read: " + std::strerror(errno) +
-                                              "; give a case file or preset:NAME (`cellcrush presets` lists them)");
+    const std::string message = file + ": cannot be read: " + std::strerror(errno);
+    const std::string nearest = find_nearest_file(file);
+    throw CommandError(ExitCode::refused, nearest.empty() ? message +
+                                                                "; give a case file or preset:NAME (`cellcrush "
+                                                                "presets` lists them)"
+                                                          : with_suggestion(message, nearest));
   }
   return read_stream(stream, file);
 }

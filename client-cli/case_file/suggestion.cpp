@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
 
 namespace cellcrush::client {
 
@@ -47,6 +48,27 @@ std::string find_nearest(std::string_view word, const std::vector<std::string>& 
   return nearest;
 }
 
+std::string find_nearest_file(const std::string& missing) {
+  namespace fs = std::filesystem;
+  const fs::path path(missing);
+  const fs::path folder = path.parent_path();
+  std::vector<std::string> names;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder.empty() ? "." : folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    if (!entry->is_directory(error)) names.push_back(entry->path().filename().string());
+  }
+  std::sort(names.begin(), names.end());
+  const std::string nearest = find_nearest(path.filename().string(), names);
+  return nearest.empty() ? nearest : (folder / nearest).string();
+}
+
+std::string with_suggestion(std::string message, const std::string& nearest) {
+  if (nearest.empty()) return message;
+  message += message.ends_with('.') ? " Did" : "; did";
+  return message + fmt::format(" you mean \"{}\"?", nearest);
+}
+
 std::vector<std::string> field_names(const google::protobuf::Descriptor& type) {
   std::vector<std::string> names;
   names.reserve(static_cast<std::size_t>(type.field_count()));
@@ -57,8 +79,9 @@ std::vector<std::string> field_names(const google::protobuf::Descriptor& type) {
 std::string unknown_field_message(std::string_view field, const google::protobuf::Descriptor& type) {
   const std::vector<std::string> names = field_names(type);
   const std::string nearest = find_nearest(field, names);
-  if (!nearest.empty()) return fmt::format("{} has no field \"{}\"; did you mean \"{}\"?", type.name(), field, nearest);
-  return fmt::format("{} has no field \"{}\"; it has: {}", type.name(), field, fmt::join(names, ", "));
+  const std::string message = fmt::format("{} has no field \"{}\"", type.name(), field);
+  return nearest.empty() ? fmt::format("{}; it has: {}", message, fmt::join(names, ", "))
+                         : with_suggestion(message, nearest);
 }
 
 std::string unknown_enum_message(std::string_view value, const google::protobuf::EnumDescriptor& type) {

@@ -8,9 +8,15 @@
 
 namespace cellcrush::client {
 
-/// The candidate nearest to `word` by insertions, deletions, substitutions and swaps of neighbours (case does not count);
-/// empty when none is near enough to be meant.
+/// The candidate nearest to `word` by insertions, deletions, substitutions and swaps of neighbours (case does not
+/// count); empty when none is near enough to be meant.
 std::string find_nearest(std::string_view word, const std::vector<std::string>& candidates);
+
+/// The file nearest in name to one that is missing, in the same folder; empty when none is near.
+std::string find_nearest_file(const std::string& missing);
+
+/// A message with `did you mean "NEAREST"?` behind it; unchanged when `nearest` is empty.
+std::string with_suggestion(std::string message, const std::string& nearest);
 
 /// Names of the fields of a message, in the order of their declaration.
 std::vector<std::string> field_names(const google::protobuf::Descriptor& type);

@@ -20,8 +20,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// How the files begin that this command writes. A result begins with the daemon's seal, one of earlier daemons as HDF5.
+constexpr std::string_view kResultSeal = "CELLCRUSH RESULT ";
 constexpr std::string_view kHdf5Signature = "\x89HDF\r\n\x1a\n";
+constexpr std::initializer_list<std::string_view> kResultStarts = {kResultSeal, kHdf5Signature};
 constexpr std::string_view kCaseSignature = "# Case of jobs/";
+constexpr std::string_view kHistorySignature = "time_s,travel_mm,strain,";
 
 struct FetchOptions {
   std::string name;
@@ -37,11 +41,27 @@ void make_folder(const fs::path& folder) {
   }
 }
 
-void write_file(const fs::path& path, std::string_view contents) {
-  OutputFile file(path);
-  file.write(contents);
-  file.commit();
-}
+// Files that appear under their names once all of them are complete; until then the folder is as it was.
+class FetchedFiles {
+ public:
+  // A file that may replace one that begins with one of the signatures. Throws CommandError as OutputFile does.
+  OutputFile& add(const fs::path& path, std::initializer_list<std::string_view> signatures) {
+    check_may_overwrite(path, signatures);
+    paths_.push_back(path);
+    files_.push_back(std::make_unique<OutputFile>(path));
+    return *files_.back();
+  }
+
+  void commit() {
+    for (const auto& file : files_) file->commit();
+  }
+
+  [[nodiscard]] const std::vector<fs::path>& paths() const { return paths_; }
+
+ private:
+  std::vector<fs::path> paths_;
+  std::vector<std::unique_ptr<OutputFile>> files_;
+};
 
 // Writes chunks behind what has come already; whether the end was reached.
 grpc::Status download_from(Connection& connection, v1::DownloadResultRequest& request, OutputFile& file,
@@ -62,16 +82,15 @@ grpc::Status download_from(Connection& connection, v1::DownloadResultRequest& re
   return reader->Finish();
 }
 
-void download_result(Connection& connection, const std::string& name, const fs::path& path) {
+void download_result(Connection& connection, const std::string& name, OutputFile& file) {
   constexpr int kAttempts = 5;
   v1::DownloadResultRequest request;
   request.set_name(name);
-  OutputFile file(path);
   std::int64_t total = 0;
   for (int attempt = 1;; ++attempt) {
     const std::int64_t before = request.offset();
     const grpc::Status status = download_from(connection, request, file, total);
-    if (status.ok() && total > 0 && request.offset() == total) return file.commit();
+    if (status.ok() && total > 0 && request.offset() == total) return;
     const ExitCode code = status.ok() ? ExitCode::cut_off : exit_code_of(status.error_code());
     if (code == ExitCode::refused || code == ExitCode::not_found) throw error_of(status);
     if (request.offset() > before) attempt = 1;
@@ -98,7 +117,7 @@ ExitCode run_fetch(Session& session, const FetchOptions& options) {
     print_json(job);
     return ExitCode::done;
   }
-  for (const fs::path& path : written) {
+  for (const fs::path& path : files.paths()) {
     fmt::print("{}  {}\n", path.string(), size_text(static_cast<std::int64_t>(fs::file_size(path))));
   }
   return ExitCode::done;
@@ -107,36 +126,33 @@ ExitCode run_fetch(Session& session, const FetchOptions& options) {
 }  // namespace
 
 void check_may_write_results(const fs::path& folder) {
-  check_may_overwrite(folder / "result.h5", kHdf5Signature);
-  check_may_overwrite(folder / "history.csv", history_header());
-  check_may_overwrite(folder / "nodes.csv", nodes_header());
-  check_may_overwrite(folder / "case.txtpb", kCaseSignature);
+  check_may_overwrite(folder / "result.h5", kResultStarts);
+  check_may_overwrite(folder / "history.csv", {kHistorySignature});
+  check_may_overwrite(folder / "nodes.csv", {nodes_header()});
+  check_may_overwrite(folder / "case.txtpb", {kCaseSignature});
 }
 
 std::vector<fs::path> write_results(Connection& connection, const v1::Job& job, const fs::path& folder,
                                     const std::vector<double>& frame_times) {
   make_folder(folder);
-  check_may_write_results(folder);
-  std::vector<fs::path> written;
-  const auto put = [&](const fs::path& path, const std::string& contents) {
-    write_file(path, contents);
-    written.push_back(path);
-  };
-  put(folder / "case.txtpb", case_file_text(job.case_(), "Case of " + job.name()));
+  FetchedFiles files;
+  OutputFile& result = files.add(folder / "result.h5", kResultStarts);
+  files.add(folder / "case.txtpb", {kCaseSignature}).write(case_file_text(job.case_(), "Case of " + job.name()));
   const auto history = fetch_history(connection, job.name());
-  put(folder / "history.csv", history_csv(history.samples()));
-  if (const std::string nodes = nodes_csv(history.samples()); !nodes.empty()) put(folder / "nodes.csv", nodes);
+  files.add(folder / "history.csv", {kHistorySignature}).write(history_csv(history.samples()));
+  if (const std::string nodes = nodes_csv(history.samples()); !nodes.empty()) {
+    files.add(folder / "nodes.csv", {nodes_header()}).write(nodes);
+  }
   for (const double time : frame_times) {
     v1::GetFrameRequest request;
     request.set_name(job.name());
     request.set_time_s(time);
     const MeshFrame frame = fetch_frame(connection, request);
-    check_may_overwrite(frame_path(folder, frame), frame_header());
-    put(frame_path(folder, frame), frame_csv(frame));
+    files.add(frame_path(folder, frame), {frame_header()}).write(frame_csv(frame));
   }
-  download_result(connection, job.name(), folder / "result.h5");
-  written.push_back(folder / "result.h5");
-  return written;
+  download_result(connection, job.name(), result);
+  files.commit();
+  return files.paths();
 }
 
 void add_fetch_command(CLI::App& app, Session& session) {
@@ -144,12 +160,17 @@ void add_fetch_command(CLI::App& app, Session& session) {
   CLI::App* command =
       add_command(app, session, "fetch", "Write a job's case.txtpb, history.csv, nodes.csv and result.h5 into a folder",
                   [&session, options] { return run_fetch(session, *options); });
+  command->group(kResultCommands);
   command->add_option("NAME", options->name, "A job's name")->required();
-  command->add_option("-o,--output", options->folder, "The folder; it is made if need be")->required();
+  command->add_option("-o,--output", options->folder, "The folder; it is made if need be")
+      ->required()
+      ->group(kOutputOptions);
   command
       ->add_option("--frame", options->frame_times,
                    "Also write the frame nearest to this time in s, as CSV (may be repeated; default: none)")
+      ->group(kOutputOptions)
       ->allow_extra_args(false);
+  add_examples(*command, {"cellcrush fetch jobs/12 -o results", "cellcrush fetch jobs/12 -o results --frame 0.0005"});
 }
 
 }  // namespace cellcrush::client

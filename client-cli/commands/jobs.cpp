@@ -31,46 +31,35 @@ void cancel_sweep(Session& session, const std::string& name) {
   session.json ? print_json(sweep) : fmt::print("{}", sweep_line(sweep));
 }
 
-void delete_sweep(Session& session, const std::string& name) {
-  Connection& connection = session.connection();
-  v1::DeleteSweepRequest request;
-  request.set_name(name);
-  const auto response = connection.call(connection.sweeps(), &v1::Sweeps::Stub::DeleteSweep, request);
-  session.json ? print_json(response) : fmt::print("{} deleted\n", request.name());
-}
-
-void delete_job(Session& session, const std::string& name) {
-  if (names_sweep(name)) return delete_sweep(session, name);
-  Connection& connection = session.connection();
-  v1::DeleteJobRequest request;
-  request.set_name(job_name(name));
-  const auto response = connection.call(connection.jobs(), &v1::Jobs::Stub::DeleteJob, request);
-  session.json ? print_json(response) : fmt::print("{} deleted\n", request.name());
-}
-
-void add_named_command(CLI::App& app, Session& session, const char* command_name, const char* description,
-                       const char* name_help, void (*action)(Session&, const std::string&)) {
+CLI::App* add_named_command(CLI::App& app, Session& session, const char* command_name, const char* description,
+                            const char* name_help, void (*action)(Session&, const std::string&)) {
   const auto name = std::make_shared<std::string>();
   CLI::App* command = add_command(app, session, command_name, description, [&session, name, action] {
     action(session, *name);
     return ExitCode::done;
   });
+  command->group(kJobCommands);
   command->add_option("NAME", *name, name_help)->required();
+  return command;
 }
 
 }  // namespace
 
 void add_job_commands(CLI::App& app, Session& session) {
-  add_named_command(app, session, "cancel", "Stop a job, or all jobs of a sweep; what was computed is kept",
-                    "A job's or a sweep's name", [](Session& s, const std::string& name) {
-                      names_sweep(name) ? cancel_sweep(s, name) : change_job(s, name, &v1::Jobs::Stub::CancelJob);
-                    });
-  add_named_command(app, session, "suspend", "Stop a job at a checkpoint", "A job's name",
-                    [](Session& s, const std::string& name) { change_job(s, name, &v1::Jobs::Stub::SuspendJob); });
-  add_named_command(app, session, "resume", "Continue a suspended job", "A job's name",
-                    [](Session& s, const std::string& name) { change_job(s, name, &v1::Jobs::Stub::ResumeJob); });
-  add_named_command(app, session, "delete", "Delete a job or a sweep with all its jobs, and the results",
-                    "A job's name, or sweeps/NAME", &delete_job);
+  CLI::App* cancel =
+      add_named_command(app, session, "cancel", "Stop a job, or all jobs of a sweep; what was computed is kept",
+                        "A job's or a sweep's name", [](Session& s, const std::string& name) {
+                          names_sweep(name) ? cancel_sweep(s, name) : change_job(s, name, &v1::Jobs::Stub::CancelJob);
+                        });
+  add_examples(*cancel, {"cellcrush cancel jobs/12", "cellcrush cancel sweeps/3"});
+  CLI::App* suspend =
+      add_named_command(app, session, "suspend", "Stop a job at a checkpoint", "A job's name",
+                        [](Session& s, const std::string& name) { change_job(s, name, &v1::Jobs::Stub::SuspendJob); });
+  add_examples(*suspend, {"cellcrush suspend jobs/12"});
+  CLI::App* resume =
+      add_named_command(app, session, "resume", "Continue a suspended job", "A job's name",
+                        [](Session& s, const std::string& name) { change_job(s, name, &v1::Jobs::Stub::ResumeJob); });
+  add_examples(*resume, {"cellcrush resume jobs/12"});
 }
 
 }  // namespace cellcrush::client

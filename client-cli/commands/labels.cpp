@@ -1,6 +1,7 @@
 #include "commands/labels.h"
 
 #include "command_error.h"
+#include "commands/commands.h"
 
 namespace cellcrush::client {
 
@@ -9,6 +10,7 @@ void add_label_option(CLI::App& command, std::vector<std::string>& labels) {
       .add_option("--label", labels,
                   "KEY=VALUE: a label to find it by, KEY up to 63 and VALUE up to 255 characters (may be repeated, up "
                   "to 64; default: none)")
+      ->group(kIdentityOptions)
       ->allow_extra_args(false);
 }
 

@@ -12,7 +12,7 @@ namespace cellcrush::client {
 
 namespace {
 
-constexpr int kLargestPage = 1000;
+constexpr int kListPage = 1000;
 
 struct ListOptions {
   std::string filter;
@@ -24,7 +24,7 @@ struct ListOptions {
 // Sets how many entries the next page is to have, when `size` are there; false when that is enough.
 template <typename Request>
 bool ask_for_more(const ListOptions& options, int size, Request& request) {
-  request.set_page_size(options.limit > 0 ? std::min(kLargestPage, options.limit - size) : kLargestPage);
+  request.set_page_size(options.limit > 0 ? std::min(kListPage, options.limit - size) : kListPage);
   return options.limit == 0 || size < options.limit;
 }
 
@@ -61,12 +61,19 @@ void add_list_command(CLI::App& app, Session& session) {
     options->sweeps ? list_sweeps(session, *options) : list_jobs(session, *options);
     return ExitCode::done;
   });
+  list->group(kJobCommands);
   list->add_option("--filter", options->filter,
-                   "Only jobs that match, such as 'state = RUNNING'; up to 4096 characters (default: all jobs)");
+                   "Only jobs that match, such as 'state = RUNNING'; up to 4096 characters (default: all jobs)")
+      ->group(kSelectionOptions);
   list->add_option("--order,--order-by", options->order,
-                   "Of the jobs: create_time or name, with desc for the newest first (default: create_time desc)");
-  list->add_option("--limit", options->limit, "At most so many (default: all)")->check(CLI::PositiveNumber);
-  list->add_flag("--sweeps", options->sweeps, "List sweeps");
+                   "Of the jobs: create_time or name, with desc for the newest first (default: create_time desc)")
+      ->group(kSelectionOptions);
+  list->add_option("--limit", options->limit, "At most so many (default: all)")
+      ->group(kSelectionOptions)
+      ->check(CLI::PositiveNumber);
+  list->add_flag("--sweeps", options->sweeps, "List sweeps")->group(kSelectionOptions);
+  add_examples(*list, {"cellcrush list --limit 10", "cellcrush list --filter 'state = RUNNING'",
+                       "cellcrush list --sweeps --json"});
 }
 
 }  // namespace cellcrush::client

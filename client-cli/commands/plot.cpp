@@ -15,6 +15,8 @@ namespace cellcrush::client {
 
 namespace {
 
+constexpr const char* kFrameOptions = "Frames";
+
 struct PlotOptions {
   std::vector<std::string> names;
   std::string file;
@@ -100,18 +102,26 @@ void add_plot_command(CLI::App& app, Session& session) {
   CLI::App* command = add_command(app, session, "plot",
                                   "Draw a job's crush and stress-strain curve, compare several jobs, or draw a sweep",
                                   [&session, options] { return run_plot(session, *options); });
+  command->group(kResultCommands);
   command->add_option("NAME", options->names, "Names of jobs, or a sweep's")->required();
-  command->add_option("-o,--output", options->file, "The picture: FILE.svg or FILE.png")->required();
+  command->add_option("-o,--output", options->file, "The picture: FILE.svg or FILE.png")
+      ->required()
+      ->group(kOutputOptions);
   command
       ->add_option("--frame-strain", options->frame_strains,
                    "Show the frame nearest to this strain, a share of the length (may be repeated; default: 0.2, 0.4 "
                    "and the end)")
+      ->group(kFrameOptions)
       ->allow_extra_args(false);
   command
       ->add_option("--strip", options->strip,
                    "Show so many frames, evenly spaced over the run (default: those of --frame-strain)")
+      ->group(kFrameOptions)
       ->check(CLI::Range(1, 100));
-  command->add_flag("--frames-only", options->frames_only, "Draw the frames without title and curve, as for a paper");
+  command->add_flag("--frames-only", options->frames_only, "Draw the frames without title and curve, as for a paper")
+      ->group(kFrameOptions);
+  add_examples(*command, {"cellcrush plot jobs/12 -o crush.png", "cellcrush plot jobs/12 jobs/13 -o compared.svg",
+                          "cellcrush plot sweeps/3 -o sweep.svg"});
 }
 
 }  // namespace cellcrush::client

@@ -2,10 +2,13 @@
 
 #include <CLI/Validators.hpp>
 
+#include "commands/commands.h"
+
 namespace cellcrush::client {
 
 void add_priority_option(CLI::App& command, int& priority) {
-  command.add_option("--priority", priority, "Of the jobs that wait, higher ones start first (default: 0)")
+  command.add_option("--priority", priority, "Of the waiting jobs, higher ones start first (default: 0)")
+      ->group(kScheduleOptions)
       ->check(CLI::Range(-100, 100));
 }
 

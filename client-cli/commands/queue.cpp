@@ -94,13 +94,17 @@ ExitCode run_drain(Session& session, bool wait) {
 }  // namespace
 
 void add_queue_commands(CLI::App& app, Session& session) {
-  add_command(app, session, "queue", "Say what waits, in the order in which it will start, and why",
-              [&session] { return run_queue(session); });
+  CLI::App* queue = add_command(app, session, "queue", "List the waiting jobs in the order of their start, and why",
+                                [&session] { return run_queue(session); });
+  queue->group(kServerCommands);
+  add_examples(*queue, {"cellcrush queue"});
   const auto wait = std::make_shared<bool>(false);
   CLI::App* drain = add_command(app, session, "drain", "Let the server leave its running jobs at a checkpoint and end",
                                 [&session, wait] { return run_drain(session, *wait); });
+  drain->group(kServerCommands);
   drain->add_flag("--wait", *wait,
                   "Return once the server has ended: 0 then, 130 after Ctrl-C, which does not stop it");
+  add_examples(*drain, {"cellcrush drain --wait"});
 }
 
 }  // namespace cellcrush::client

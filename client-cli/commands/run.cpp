@@ -73,6 +73,9 @@ void start_job(Session& session, const v1::Case& scene, const RunOptions& option
 }
 
 ExitCode run_case(Session& session, const RunOptions& options) {
+  if (!session.server.empty()) {
+    throw CommandError(ExitCode::refused, "run starts a daemon of its own. Leave --server out, or use submit --watch.");
+  }
   const fs::path folder(options.folder);
   const fs::path data = folder / kDataFolder;
   const bool was_begun = fs::exists(data);
@@ -122,11 +125,13 @@ void add_run_command(CLI::App& app, Session& session) {
   const auto options = std::make_shared<RunOptions>();
   CLI::App* command = add_command(app, session, "run", "Crush a case here and now, without a running daemon",
                                   [&session, options] { return run_case(session, *options); });
+  command->group(kJobCommands);
   add_case_options(*command, options->scene);
   command->add_option("-o,--output", options->folder, "The folder for the results; it is made if need be")->required();
   command->add_flag("--resume", options->resume,
                     "Continue an unfinished run in this folder; without one begin, or do nothing if it is finished");
   add_time_limit_option(*command, options->time_limit_s);
+  add_examples(*command, {"cellcrush run my.txtpb -o results", "cellcrush run my.txtpb -o results --resume"});
 }
 
 }  // namespace cellcrush::client

@@ -49,7 +49,9 @@ void add_show_command(CLI::App& app, Session& session) {
         }
         return ExitCode::done;
       });
+  command->group(kCaseCommands);
   command->add_option("NAME", *name, "preset:NAME, or the name of a job or a sweep")->required();
+  add_examples(*command, {"cellcrush show preset:type-i > my.txtpb", "cellcrush show jobs/12"});
 }
 
 }  // namespace cellcrush::client

@@ -51,13 +51,18 @@ void add_submit_command(CLI::App& app, Session& session) {
   const auto options = std::make_shared<SubmitOptions>();
   CLI::App* command = add_command(app, session, "submit", "Queue a case and print the job's name",
                                   [&session, options] { return run_submit(session, *options); });
+  command->group(kJobCommands);
   add_case_options(*command, options->scene);
-  command->add_flag("--watch", options->watch, "Follow the job to its end");
-  command->add_option("--request-id", options->request_id,
-                      "Submitting again with the same id, up to 128 characters, gives the same job (default: none)");
+  command->add_flag("--watch", options->watch, "Follow the job to its end")->group(kOutputOptions);
+  command
+      ->add_option("--request-id", options->request_id,
+                   "Submitting again with the same id, up to 128 characters, gives the same job (default: none)")
+      ->group(kIdentityOptions);
   add_label_option(*command, options->labels);
   add_priority_option(*command, options->priority);
   add_time_limit_option(*command, options->time_limit_s);
+  add_examples(*command, {"cellcrush submit my.txtpb --watch",
+                          "cellcrush submit preset:type-i --set loading.speed_m_per_s=50 --time-limit 2h"});
 }
 
 }  // namespace cellcrush::client

@@ -81,6 +81,7 @@ void add_sweep_commands(CLI::App& app, Session& session) {
   const auto options = std::make_shared<SweepOptions>();
   CLI::App* sweep = add_command(app, session, "sweep", "Queue a job for every combination of some fields' values",
                                 [&session, options] { return run_sweep(session, *options); });
+  sweep->group(kJobCommands);
   add_case_options(*sweep, options->scene);
   sweep
       ->add_option("--over", options->axes,
@@ -88,25 +89,35 @@ void add_sweep_commands(CLI::App& app, Session& session) {
                    "behind it in the logarithm; PATH=seeds:N, 1 to N (may be repeated, for up to 32 fields; at most "
                    "10000 jobs in all)")
       ->required()
+      ->group(kCaseOptions)
       ->allow_extra_args(false);
-  sweep->add_flag("--watch", options->watch, "Follow its jobs to their ends and print the table and a chart");
-  sweep->add_option("--request-id", options->request_id,
-                    "Asking again with the same id, up to 128 characters, gives the same sweep (default: none)");
+  sweep->add_flag("--watch", options->watch, "Follow its jobs to their ends and print the table and a chart")
+      ->group(kOutputOptions);
+  sweep
+      ->add_option("--request-id", options->request_id,
+                   "Asking again with the same id, up to 128 characters, gives the same sweep (default: none)")
+      ->group(kIdentityOptions);
   add_label_option(*sweep, options->labels);
   add_priority_option(*sweep, options->priority);
   add_time_limit_option(*sweep, options->time_limit_s);
   sweep
       ->add_option("--max-parallel", options->max_parallel,
                    "Jobs of the sweep that run at once (default: as many as there are workers)")
+      ->group(kScheduleOptions)
       ->check(CLI::PositiveNumber);
   sweep
       ->add_option("--max-failures", options->max_failures,
                    "Failed jobs after which the rest is not started (default: no limit)")
+      ->group(kScheduleOptions)
       ->check(CLI::PositiveNumber);
+  add_examples(*sweep, {"cellcrush sweep preset:type-i --over loading.speed_m_per_s=50,100,200 --watch",
+                        "cellcrush sweep my.txtpb --over lattice.imperfection.seed=seeds:20"});
   const auto name = std::make_shared<std::string>();
   CLI::App* retry = add_command(app, session, "retry", "Queue a sweep's failed jobs again",
                                 [&session, name] { return run_retry(session, *name); });
+  retry->group(kJobCommands);
   retry->add_option("SWEEP", *name, "A sweep's name")->required();
+  add_examples(*retry, {"cellcrush retry sweeps/3"});
 }
 
 }  // namespace cellcrush::client

@@ -32,8 +32,10 @@ void add_table_command(CLI::App& app, Session& session) {
   const auto options = std::make_shared<TableOptions>();
   CLI::App* table = add_command(app, session, "table", "Print a sweep's results, a line a job",
                                 [&session, options] { return run_table(session, *options); });
+  table->group(kResultCommands);
   table->add_option("SWEEP", options->name, "A sweep's name")->required();
-  table->add_flag("--csv", options->csv, "As CSV, with all digits");
+  table->add_flag("--csv", options->csv, "As CSV, with all digits")->group(kOutputOptions);
+  add_examples(*table, {"cellcrush table sweeps/3", "cellcrush table sweeps/3 --csv > table.csv"});
 }
 
 }  // namespace cellcrush::client

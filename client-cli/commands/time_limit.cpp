@@ -4,14 +4,17 @@
 #include <map>
 #include <string>
 
+#include "commands/commands.h"
+
 namespace cellcrush::client {
 
 void add_time_limit_option(CLI::App& command, double& seconds) {
   const std::map<std::string, double> units = {{"s", 1.0}, {"min", 60.0}, {"h", 3600.0}, {"d", 86400.0}};
   command
       .add_option("--time-limit", seconds,
-                  "Time after which a job that runs ends with what there is, in s, min, h or d, such as 90s or 2h "
+                  "Longest run of a job, in s, min, h or d, such as 90s or 2h; results up to then are kept "
                   "(default: the daemon's)")
+      ->group(kScheduleOptions)
       ->transform(CLI::AsNumberWithUnit(units, CLI::AsNumberWithUnit::CASE_SENSITIVE))
       ->check(CLI::Range(0.001, 1e9));
 }

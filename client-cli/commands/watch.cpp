@@ -62,7 +62,9 @@ void add_watch_command(CLI::App& app, Session& session) {
     return names_sweep(*name) ? watch_sweep(session, *name, interruption)
                               : watch_job(session, job_name(*name), interruption);
   });
+  command->group(kJobCommands);
   command->add_option("NAME", *name, "A job's or a sweep's name")->required();
+  add_examples(*command, {"cellcrush watch jobs/12", "cellcrush watch sweeps/3"});
 }
 
 }  // namespace cellcrush::client

@@ -4,7 +4,9 @@
 
 #include <utility>
 
+#include "case_file/suggestion.h"
 #include "connection/connection_failure.h"
+#include "connection/nearest_name.h"
 
 namespace cellcrush::client {
 
@@ -60,6 +62,12 @@ v1::Admin::Stub& Connection::admin() {
 
 bool Connection::wait(std::chrono::milliseconds patience) {
   return channel_->WaitForConnected(std::chrono::system_clock::now() + patience);
+}
+
+CommandError Connection::error_about(const std::string& name, const grpc::Status& status) {
+  CommandError error = error_of(status);
+  if (error.code() != ExitCode::not_found || name.empty()) return error;
+  return {error.code(), with_suggestion(error.message(), find_nearest_name(name, *cases_, *jobs_, *sweeps_))};
 }
 
 void Connection::check_request_size(std::int64_t size) {

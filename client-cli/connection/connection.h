@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <type_traits>
 
 #include "cellcrush/v1/admin_service.grpc.pb.h"
 #include "cellcrush/v1/cases_service.grpc.pb.h"
@@ -41,15 +42,26 @@ class Connection {
     context.set_deadline(std::chrono::system_clock::now() + kPatience);
     Response response;
     const grpc::Status status = (stub.*method)(&context, request, &response);
-    if (!status.ok()) throw error_of(status);
+    if (!status.ok()) throw error_about(name_in(request), status);
     return response;
   }
+
+  /// The error for a call about `name`, a job, a sweep or "preset:NAME", that did not end with OK. For a name that does
+  /// not exist it asks the server which one may be meant.
+  CommandError error_about(const std::string& name, const grpc::Status& status);
 
   static constexpr std::chrono::seconds kPatience{60};
   /// Largest request that a server takes, in bytes: 4 MiB.
   static constexpr std::int64_t kLargestRequest = 4 * 1024 * 1024;
 
  private:
+  template <typename Request>
+  static std::string name_in(const Request& request) {
+    if constexpr (std::is_same_v<Request, v1::GetPresetRequest>) return "preset:" + request.name();
+    if constexpr (requires { request.name(); }) return request.name();
+    return {};
+  }
+
   static void check_request_size(std::int64_t size);
   void require_server();
   /// Why the channel does not connect, in gRPC's words.

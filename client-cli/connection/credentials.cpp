@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "case_file/suggestion.h"
 #include "command_error.h"
 
 namespace cellcrush::client {
@@ -34,7 +35,10 @@ std::string read_credential_file(const NamedText& path) {
   std::ifstream stream(path.text, std::ios::binary);
   std::string text;
   for (std::istreambuf_iterator<char> next(stream), end; next != end && text.size() <= kLargest; ++next) text += *next;
-  if (!stream) throw CommandError(ExitCode::refused, path.source + " " + path.text + ": cannot be read");
+  if (!stream) {
+    throw CommandError(ExitCode::refused, with_suggestion(path.source + " " + path.text + ": cannot be read",
+                                                          find_nearest_file(path.text)));
+  }
   if (text.empty()) throw CommandError(ExitCode::refused, path.source + " " + path.text + ": is empty");
   if (text.size() > kLargest) throw CommandError(ExitCode::refused, path.source + " " + path.text + ": is too large");
   return text;

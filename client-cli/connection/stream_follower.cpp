@@ -6,8 +6,6 @@
 #include <stop_token>
 #include <thread>
 
-#include "command_error.h"
-
 namespace cellcrush::client {
 
 namespace {
@@ -54,7 +52,7 @@ bool follow_stream(const FollowedStream& stream, const Interruption& interruptio
     const StreamReading reading = read_once(stream, interruption);
     if (reading.status.ok() && reading.complete) return true;
     if (interruption.requested()) return false;
-    if (!reading.status.ok() && !may_recover(reading.status.error_code())) throw error_of(reading.status);
+    if (!reading.status.ok() && !may_recover(reading.status.error_code())) throw stream.refusal(reading.status);
     const std::string reason = reading.status.ok() ? "the server ended the stream before the end of " + stream.name
                                                    : error_of(reading.status).message();
     if (reading.advanced) attempt = 0;

@@ -6,6 +6,7 @@
 #include <functional>
 #include <string>
 
+#include "command_error.h"
 #include "connection/interruption.h"
 
 namespace cellcrush::client {
@@ -24,6 +25,8 @@ struct FollowedStream {
   std::function<StreamReading(grpc::ClientContext& context, const std::function<void()>& heard)> read;
   /// The stream broke for the reason given and is being picked up again; called once a break.
   std::function<void(const std::string& reason)> on_break;
+  /// The error for a reading that the server refused.
+  std::function<CommandError(const grpc::Status& status)> refusal;
 };
 
 /// Reads a stream until it is complete. A reading that breaks is repeated a few times over about ten seconds, and from the

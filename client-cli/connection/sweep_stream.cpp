@@ -58,7 +58,9 @@ bool follow_sweep(Connection& connection, const std::string& name, const Interru
     reading.complete = remaining.none();
     return reading;
   };
-  return follow_stream({name, read, [&](const std::string& reason) { watcher.on_break(reason); }}, interruption);
+  const auto on_break = [&](const std::string& reason) { watcher.on_break(reason); };
+  const auto refusal = [&](const grpc::Status& status) { return connection.error_about(name, status); };
+  return follow_stream({name, read, on_break, refusal}, interruption);
 }
 
 }  // namespace cellcrush::client

@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -57,17 +58,17 @@ void OutputFile::fail(const char* what) const {
   throw CommandError(ExitCode::refused, path_.string() + ": " + what + ": " + std::strerror(errno));
 }
 
-void check_may_overwrite(const std::filesystem::path& path, std::string_view signature) {
+void check_may_overwrite(const std::filesystem::path& path, std::initializer_list<std::string_view> signatures) {
   std::error_code error;
   const auto status = std::filesystem::symlink_status(path, error);
   if (status.type() == std::filesystem::file_type::not_found) return;
-  std::string begin(signature.size(), '\0');
-  const bool regular = std::filesystem::is_regular_file(status);
-  if (regular) {
-    std::ifstream file(path, std::ios::binary);
-    file.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  const std::size_t longest = std::ranges::max(signatures, {}, &std::string_view::size).size();
+  std::string begin(std::filesystem::is_regular_file(status) ? longest : 0, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  for (const std::string_view signature : signatures) {
+    if (begin.starts_with(signature)) return;
   }
-  if (regular && begin == signature) return;
   throw CommandError(ExitCode::refused,
                      path.string() + ": exists and was not written by cellcrush; move it away or name another folder");
 }

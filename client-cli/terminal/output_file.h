@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 
@@ -28,8 +29,8 @@ class OutputFile {
   std::FILE* file_ = nullptr;
 };
 
-/// Throws CommandError (refused) if `path` exists and is not a file that begins with `signature`: what somebody else
-/// wrote is not overwritten.
-void check_may_overwrite(const std::filesystem::path& path, std::string_view signature);
+/// Throws CommandError (refused) if `path` exists and is not a file that begins with one of `signatures`: what somebody
+/// else wrote is not overwritten.
+void check_may_overwrite(const std::filesystem::path& path, std::initializer_list<std::string_view> signatures);
 
 }  // namespace cellcrush::client

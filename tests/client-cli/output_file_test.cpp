@@ -60,10 +60,11 @@ TEST_F(OutputFileTest, OnlyOwnFilesAreOverwritten) {
   put("own.csv", "time_s,strain\n1,2\n");
   put("foreign.csv", "my notes");
   fs::create_directory(folder_ / "folder.csv");
-  EXPECT_NO_THROW(check_may_overwrite(folder_ / "absent.csv", "time_s"));
-  EXPECT_NO_THROW(check_may_overwrite(folder_ / "own.csv", "time_s"));
-  EXPECT_THROW(check_may_overwrite(folder_ / "foreign.csv", "time_s"), CommandError);
-  EXPECT_THROW(check_may_overwrite(folder_ / "folder.csv", "time_s"), CommandError);
+  EXPECT_NO_THROW(check_may_overwrite(folder_ / "absent.csv", {"time_s"}));
+  EXPECT_NO_THROW(check_may_overwrite(folder_ / "own.csv", {"time_s"}));
+  EXPECT_NO_THROW(check_may_overwrite(folder_ / "own.csv", {"an earlier form of its first line", "time_s"}));
+  EXPECT_THROW(check_may_overwrite(folder_ / "foreign.csv", {"time_s"}), CommandError);
+  EXPECT_THROW(check_may_overwrite(folder_ / "folder.csv", {"time_s"}), CommandError);
 }
 
 }  // namespace

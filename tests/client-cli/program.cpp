@@ -103,6 +103,10 @@ bool Program::wait_for_output(const std::string& text) {
   return false;
 }
 
+void Program::type(const std::string& text) const {
+  if (write(output_, text.data(), text.size()) < 0) throw std::runtime_error("the terminal takes no text");
+}
+
 void Program::interrupt() const { kill(process_, SIGINT); }
 
 ProgramResult Program::wait() {

@@ -26,6 +26,8 @@ class Program {
 
   /// Reads its output until `text` has come; whether it has, within ten seconds.
   bool wait_for_output(const std::string& text);
+  /// Types `text` on its terminal.
+  void type(const std::string& text) const;
   /// Sends SIGINT, as Ctrl-C does.
   void interrupt() const;
   /// Reads to its end, at most 30 seconds.

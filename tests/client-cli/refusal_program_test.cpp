@@ -79,7 +79,7 @@ TEST(Refusal, BadFilesAndSettingsEndWithTwo) {
 }
 
 TEST(Refusal, UsageErrorsEndWithTwo) {
-  EXPECT_EQ(run_program({}).exit_code, 2);
+  EXPECT_EQ(run_program({"--json"}).exit_code, 2);
   EXPECT_EQ(run_program({"crush"}).exit_code, 2);
   EXPECT_EQ(run_program({"check"}).exit_code, 2);
   EXPECT_EQ(run_program({"list", "--server", "nonsense"}).exit_code, 2);

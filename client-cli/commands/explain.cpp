@@ -1,0 +1,96 @@
+#include <fmt/format.h>
+#include <google/protobuf/struct.pb.h>
+
+#include <algorithm>
+
+#include "commands/commands.h"
+#include "help/case_manual.h"
+#include "help/wrapped_text.h"
+#include "terminal/json_text.h"
+#include "terminal/terminal.h"
+
+namespace cellcrush::client {
+
+namespace {
+
+using NamedTexts = std::vector<std::pair<std::string, std::string>>;
+
+std::string indented(const std::string& text, std::size_t columns) {
+  std::string out;
+  for (const char character : text) {
+    out += character;
+    if (character == '\n') out.append(columns, ' ');
+  }
+  return out;
+}
+
+// A name and its text a line, all texts in one column.
+std::string two_columns(const NamedTexts& entries, std::size_t width) {
+  std::size_t longest = 0;
+  for (const auto& [name, text] : entries) longest = std::max(longest, name.size());
+  const std::size_t column = longest + 4;
+  std::string out;
+  for (const auto& [name, text] : entries) {
+    const std::string wrapped = wrap_text(text, std::max<std::size_t>(width, column + 20) - column);
+    out += fmt::format("  {:<{}}  {}\n", name, longest, indented(wrapped, column));
+  }
+  return out;
+}
+
+std::string manual_text(const FieldManual& manual, std::size_t width) {
+  std::string text = manual.path.empty() ? "" : manual.path + "\n";
+  NamedTexts facts = {{"Type", manual.type}};
+  if (!manual.unit.empty()) facts.emplace_back("Unit", manual.unit);
+  if (manual.unit.empty() && manual.type == "double") facts.emplace_back("Unit", "none (dimensionless)");
+  if (!manual.default_value.empty()) facts.emplace_back("Default", manual.default_value);
+  if (!manual.limits.empty()) facts.emplace_back("Limits", manual.limits);
+  text += two_columns(facts, width) + "\n" + wrap_text(manual.comment, width) + "\n";
+  if (!manual.values.empty()) text += "\nValues:\n" + two_columns(manual.values, width);
+  if (!manual.fields.empty()) text += "\nFields:\n" + two_columns(manual.fields, width);
+  return text;
+}
+
+google::protobuf::Struct manual_json(const FieldManual& manual) {
+  google::protobuf::Struct json;
+  auto& members = *json.mutable_fields();
+  const auto put = [&members](const char* name, const std::string& text) { members[name].set_string_value(text); };
+  const auto put_all = [&members](const char* name, const char* text_name, const NamedTexts& entries) {
+    auto& list = *members[name].mutable_list_value();
+    for (const auto& [entry, text] : entries) {
+      auto& fields = *list.add_values()->mutable_struct_value()->mutable_fields();
+      fields["name"].set_string_value(entry);
+      fields[text_name].set_string_value(text);
+    }
+  };
+  put("path", manual.path);
+  put("type", manual.type);
+  put("unit", manual.unit);
+  put("default", manual.default_value);
+  put("limits", manual.limits);
+  put("comment", manual.comment);
+  put_all("values", "comment", manual.values);
+  put_all("fields", "summary", manual.fields);
+  return json;
+}
+
+ExitCode run_explain(const Session& session, const std::string& path) {
+  constexpr int kWidestText = 100;
+  const FieldManual manual = find_field_manual(path);
+  const auto width = static_cast<std::size_t>(std::min(terminal_width(), kWidestText));
+  session.json ? print_json(manual_json(manual)) : fmt::print("{}", manual_text(manual, width));
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_explain_command(CLI::App& app, Session& session) {
+  const auto path = std::make_shared<std::string>();
+  CLI::App* command =
+      add_command(app, session, "explain", "Describe a field of a case: its type, unit, default and limits",
+                  [&session, path] { return run_explain(session, *path); });
+  command->group(kCaseCommands);
+  command->add_option("PATH", *path, "The field, such as loading.speed_m_per_s (default: the whole case)");
+  add_examples(*command, {"cellcrush explain", "cellcrush explain loading", "cellcrush explain loading.ramp_strain"});
+}
+
+}  // namespace cellcrush::client

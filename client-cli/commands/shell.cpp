@@ -1,0 +1,38 @@
+// What packages install beside the program, from the definition that it parses with. An empty group keeps these
+// commands out of the help.
+#include <fmt/format.h>
+
+#include "commands/commands.h"
+#include "help/completion.h"
+#include "help/man_page.h"
+
+namespace cellcrush::client {
+
+namespace {
+
+std::string completion_script(const CLI::App& app, const std::string& shell) {
+  if (shell == "bash") return bash_completion(app);
+  return shell == "zsh" ? zsh_completion(app) : fish_completion(app);
+}
+
+}  // namespace
+
+void add_shell_commands(CLI::App& app, Session& session) {
+  const auto shell = std::make_shared<std::string>();
+  CLI::App* completion =
+      add_command(app, session, "completion", "Print the completion script of a shell", [&app, shell] {
+        fmt::print("{}", completion_script(app, *shell));
+        return ExitCode::done;
+      });
+  completion->group("");
+  completion->add_option("SHELL", *shell, "bash, zsh or fish")
+      ->required()
+      ->check(CLI::IsMember({"bash", "zsh", "fish"}));
+  CLI::App* man = add_command(app, session, "man", "Print the man page", [&app] {
+    fmt::print("{}", man_page(app, CELLCRUSH_VERSION));
+    return ExitCode::done;
+  });
+  man->group("");
+}
+
+}  // namespace cellcrush::client

@@ -1,0 +1,152 @@
+#include "help/case_manual.h"
+
+#include <google/protobuf/descriptor.pb.h>
+
+#include <sstream>
+#include <stdexcept>
+
+#include "case_file/suggestion.h"
+#include "command_error.h"
+#include "help/case_descriptor.h"
+#include "help/field_comment.h"
+
+namespace cellcrush::client {
+
+namespace {
+
+using google::protobuf::Descriptor;
+using google::protobuf::FieldDescriptor;
+
+// The generated descriptors have no comments; these are built from the embedded file and live as long as the program.
+const Descriptor& case_type() {
+  static const google::protobuf::DescriptorPool* const pool = [] {
+    google::protobuf::FileDescriptorSet files;
+    const std::string_view bytes = case_descriptor();
+    if (!files.ParseFromArray(bytes.data(), static_cast<int>(bytes.size()))) {
+      throw std::runtime_error("the embedded manual of the case cannot be read");
+    }
+    auto* built = new google::protobuf::DescriptorPool();
+    for (const auto& file : files.file()) built->BuildFile(file);
+    return built;
+  }();
+  return *pool->FindMessageTypeByName("cellcrush.v1.Case");
+}
+
+// The comment above a declaration; a line that is empty ends a paragraph.
+template <typename Declaration>
+std::string comment_above(const Declaration& declaration) {
+  google::protobuf::SourceLocation location;
+  if (!declaration.GetSourceLocation(&location)) return {};
+  std::istringstream lines(location.leading_comments);
+  std::string text;
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t begin = line.find_first_not_of(' ');
+    if (begin == std::string::npos) {
+      text += "\n\n";
+      continue;
+    }
+    if (!text.empty() && text.back() != '\n') text += ' ';
+    text += line.substr(begin);
+  }
+  return text;
+}
+
+// The comment on a field, then that on its type when it has one of its own.
+std::string comment_of(const FieldDescriptor& field) {
+  std::string type;
+  if (field.message_type() != nullptr) type = comment_above(*field.message_type());
+  if (field.enum_type() != nullptr) type = comment_above(*field.enum_type());
+  const std::string own = comment_above(field);
+  return own.empty() || type.empty() ? own + type : own + "\n\n" + type;
+}
+
+std::string type_of(const FieldDescriptor& field) {
+  std::string type = field.type_name();
+  if (field.message_type() != nullptr) type += " " + field.message_type()->name();
+  if (field.enum_type() != nullptr) type += " " + field.enum_type()->name();
+  return field.is_repeated() ? "list of " + type : type;
+}
+
+std::vector<std::pair<std::string, std::string>> list_fields(const Descriptor& type) {
+  std::vector<std::pair<std::string, std::string>> fields;
+  for (int i = 0; i < type.field_count(); ++i) {
+    fields.emplace_back(type.field(i)->name(), parse_field_comment(comment_of(*type.field(i))).summary);
+  }
+  return fields;
+}
+
+void append_paths(const Descriptor& type, const std::string& prefix, std::vector<std::string>& paths) {
+  for (int i = 0; i < type.field_count(); ++i) {
+    const FieldDescriptor& field = *type.field(i);
+    paths.push_back(prefix + field.name());
+    if (field.message_type() != nullptr) append_paths(*field.message_type(), paths.back() + ".", paths);
+  }
+}
+
+// A path whose last name is `word`: what is meant by a name without its groups. Empty when there is none.
+std::string find_path_to(const std::string& word) {
+  for (const std::string& path : case_paths()) {
+    if (path.ends_with("." + word)) return path;
+  }
+  return {};
+}
+
+const FieldDescriptor& find_in(const Descriptor& type, const std::string& name, const std::string& path) {
+  const FieldDescriptor* field = type.FindFieldByName(name);
+  if (field != nullptr) return *field;
+  const std::string elsewhere = find_path_to(name);
+  throw CommandError(
+      ExitCode::refused,
+      path + ": " +
+          (elsewhere.empty() ? unknown_field_message(name, type)
+                             : with_suggestion(type.name() + " has no field \"" + name + "\"", elsewhere)));
+}
+
+const FieldDescriptor& find_field_at(const std::string& path) {
+  const Descriptor* type = &case_type();
+  const FieldDescriptor* field = nullptr;
+  std::istringstream names(path);
+  for (std::string name; std::getline(names, name, '.');) {
+    if (type == nullptr) {
+      throw CommandError(ExitCode::refused,
+                         path + ": \"" + field->name() + "\" is a single value and has no field \"" + name + "\"");
+    }
+    field = &find_in(*type, name.substr(0, name.find('[')), path);
+    type = field->message_type();
+  }
+  return *field;
+}
+
+}  // namespace
+
+FieldManual find_field_manual(const std::string& path) {
+  FieldManual manual;
+  manual.path = path;
+  if (path.empty()) {
+    manual.type = "message Case";
+    manual.comment = comment_above(case_type());
+    manual.fields = list_fields(case_type());
+    return manual;
+  }
+  const FieldDescriptor& field = find_field_at(path);
+  manual.type = type_of(field);
+  manual.unit = unit_of(field.name());
+  manual.comment = comment_of(field);
+  const FieldComment comment = parse_field_comment(manual.comment);
+  manual.default_value = comment.default_value;
+  if (field.message_type() == nullptr) manual.limits = comment.limits;
+  if (field.message_type() != nullptr) manual.fields = list_fields(*field.message_type());
+  for (int i = 0; field.enum_type() != nullptr && i < field.enum_type()->value_count(); ++i) {
+    const auto& value = *field.enum_type()->value(i);
+    if (value.number() != 0) manual.values.emplace_back(value.name(), comment_above(value));
+  }
+  return manual;
+}
+
+std::vector<std::string> case_paths() {
+  std::vector<std::string> paths;
+  append_paths(case_type(), "", paths);
+  return paths;
+}
+
+}  // namespace cellcrush::client

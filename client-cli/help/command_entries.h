@@ -1,0 +1,27 @@
+#pragma once
+
+#include <CLI/App.hpp>
+#include <string>
+#include <vector>
+
+namespace cellcrush::client {
+
+/// An option as the parser has it.
+struct OptionEntry {
+  std::vector<std::string> names;  ///< with dashes, such as "-o" and "--output"
+  std::string value;               ///< what its value is called; empty for a flag
+  std::string description;
+  bool repeatable = false;
+};
+
+/// The commands that the help lists; hidden ones are left out.
+std::vector<const CLI::App*> visible_commands(const CLI::App& app);
+std::vector<std::string> command_names(const CLI::App& app);
+
+/// The options of the program or of a command, --help included, arguments left out.
+std::vector<OptionEntry> option_entries(const CLI::App& app);
+
+/// The positional arguments of a command, such as "CASE" or "NAME...", in brackets where they may be left out.
+std::vector<std::string> argument_names(const CLI::App& command);
+
+}  // namespace cellcrush::client

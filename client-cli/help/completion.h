@@ -1,0 +1,13 @@
+#pragma once
+
+#include <CLI/App.hpp>
+#include <string>
+
+namespace cellcrush::client {
+
+/// Completion scripts for the commands and options of `app`; values and arguments complete as files.
+std::string bash_completion(const CLI::App& app);
+std::string zsh_completion(const CLI::App& app);
+std::string fish_completion(const CLI::App& app);
+
+}  // namespace cellcrush::client

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <CLI/App.hpp>
+
+#include "command_error.h"
+
+namespace cellcrush::client {
+
+/// The error for arguments that `app` could not parse: an unknown command or option with the nearest one there is, else
+/// what the parser says, and where help is.
+CommandError usage_error(const CLI::App& app, const CLI::ParseError& error);
+
+}  // namespace cellcrush::client

@@ -1,0 +1,100 @@
+#include "help/case_manual.h"
+
+#include <gtest/gtest.h>
+
+#include "command_error.h"
+#include "help/field_comment.h"
+#include "help/wrapped_text.h"
+
+namespace cellcrush::client {
+namespace {
+
+TEST(CaseManual, AFieldHasTypeUnitDefaultAndLimits) {
+  const FieldManual ramp = find_field_manual("loading.ramp_strain");
+  EXPECT_EQ(ramp.type, "double");
+  EXPECT_EQ(ramp.unit, "");
+  EXPECT_EQ(ramp.default_value, "0 (at once)");
+  EXPECT_EQ(ramp.limits, "at least 0, below end_strain");
+  EXPECT_TRUE(ramp.comment.starts_with("Nominal strain over which the speed rises linearly from 0 to V. Default 0"));
+  const FieldManual speed = find_field_manual("loading.speed_m_per_s");
+  EXPECT_EQ(speed.unit, "m/s");
+  EXPECT_EQ(speed.default_value, "required");
+  EXPECT_EQ(speed.limits, "above 0, at most 1000");
+}
+
+TEST(CaseManual, AnEnumHasItsValuesAndAGroupItsFields) {
+  const FieldManual plane = find_field_manual("material.plane");
+  ASSERT_EQ(plane.values.size(), 2U);
+  EXPECT_EQ(plane.values[0].first, "PLANE_STRESS");
+  EXPECT_EQ(plane.values[0].second, "Free to contract along the depth of the lattice.");
+  EXPECT_EQ(plane.default_value, "PLANE_STRESS");
+  const FieldManual loading = find_field_manual("loading");
+  ASSERT_EQ(loading.fields.size(), 4U);
+  EXPECT_EQ(loading.fields[1].first, "speed_m_per_s");
+  EXPECT_EQ(loading.fields[1].second, "Speed V of the impact plate.");
+  EXPECT_EQ(find_field_manual("").fields.size(), 11U);
+}
+
+TEST(CaseManual, AnElementOfAListNeedsNoIndex) {
+  EXPECT_EQ(find_field_manual("lattice.frame.nodes[0].x_mm").comment,
+            find_field_manual("lattice.frame.nodes.x_mm").comment);
+}
+
+TEST(CaseManual, AnUnknownPathIsRefusedWithTheNearest) {
+  const std::pair<const char*, const char*> paths[] = {
+      {"loading.ramp_strian", "did you mean \"ramp_strain\"?"},
+      {"ramp_strain", "did you mean \"loading.ramp_strain\"?"},
+      {"depth_mm.x", "is a single value"},
+  };
+  for (const auto& [path, answer] : paths) {
+    try {
+      find_field_manual(path);
+      ADD_FAILURE() << path;
+    } catch (const CommandError& error) {
+      EXPECT_EQ(error.code(), ExitCode::refused);
+      EXPECT_NE(error.message().find(answer), std::string::npos) << error.message();
+    }
+  }
+}
+
+TEST(CaseManual, EveryFieldSaysWhatItIsAndEachValueItsDefaultAndLimits) {
+  const std::vector<std::string> paths = case_paths();
+  EXPECT_GT(paths.size(), 100U);
+  for (const std::string& path : paths) {
+    const FieldManual manual = find_field_manual(path);
+    EXPECT_NE(parse_field_comment(manual.comment).summary, "") << path;
+    if (!manual.fields.empty()) continue;
+    EXPECT_NE(manual.default_value, "") << path;
+    const bool number = manual.type.find("double") != std::string::npos || manual.type.find("int") != std::string::npos;
+    EXPECT_TRUE(!number || !manual.limits.empty()) << path << ": " << manual.comment;
+    for (const auto& [value, comment] : manual.values) EXPECT_NE(comment, "") << path << " " << value;
+  }
+}
+
+TEST(FieldComment, LimitsStandBehindTheDefaultAndParenthesesAreWhole) {
+  const FieldComment comment = parse_field_comment("Step of 0.9. Default 0 (chosen; 0.9 of it); 0 to 1. More of it.");
+  EXPECT_EQ(comment.summary, "Step of 0.9.");
+  EXPECT_EQ(comment.default_value, "0 (chosen; 0.9 of it)");
+  EXPECT_EQ(comment.limits, "0 to 1");
+}
+
+TEST(FieldComment, TheUnitIsTheEndOfTheName) {
+  for (const auto& [name, unit] : std::vector<std::pair<std::string, std::string>>{{"speed_m_per_s", "m/s"},
+                                                                                   {"mass_damping_per_s", "1/s"},
+                                                                                   {"density_kg_per_m3", "kg/m3"},
+                                                                                   {"force_n_or_n_mm", "N or N mm"},
+                                                                                   {"side_mm", "mm"},
+                                                                                   {"end_strain", ""},
+                                                                                   {"columns", ""}}) {
+    EXPECT_EQ(unit_of(name), unit) << name;
+  }
+}
+
+TEST(WrappedText, BreaksAtSpacesAndKeepsParagraphs) {
+  EXPECT_EQ(wrap_text("one two three", 7), "one two\nthree");
+  EXPECT_EQ(wrap_text("one\n\ntwo three", 20), "one\n\ntwo three");
+  EXPECT_EQ(wrap_text("incomprehensibilities are long", 5), "incomprehensibilities\nare\nlong");
+}
+
+}  // namespace
+}  // namespace cellcrush::client

@@ -1,0 +1,99 @@
+// What the program says to a name that it does not know: the nearest one, and the exit code of before.
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "fake_server.h"
+#include "program.h"
+
+namespace cellcrush::client::testing {
+namespace {
+
+struct Misspelling {
+  std::vector<std::string> words;
+  int exit_code;
+  std::string answer;
+};
+
+void expect_answers(const std::vector<Misspelling>& misspellings, const std::vector<std::string>& more = {}) {
+  for (const Misspelling& misspelling : misspellings) {
+    std::vector<std::string> arguments = misspelling.words;
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramResult result = run_program(arguments);
+    EXPECT_EQ(result.exit_code, misspelling.exit_code) << misspelling.answer;
+    EXPECT_EQ(result.output, "");
+    EXPECT_NE(result.errors.find(misspelling.answer), std::string::npos) << result.errors;
+  }
+}
+
+// Knows jobs/3 and preset:type-i.
+Script script_of_one_job() {
+  Script script;
+  script.job = make_job(v1::SUCCEEDED);
+  script.job.set_name("jobs/3");
+  script.preset.set_name("type-i");
+  return script;
+}
+
+TEST(Suggestion, OfACommandOrAnOption) {
+  expect_answers({
+      {{"sumbit"}, 2, "unknown command \"sumbit\"; did you mean \"submit\"?"},
+      {{"sumbit", "a.txtpb", "--watch"}, 2, "unknown command \"sumbit\"; did you mean \"submit\"?"},
+      {{"list", "--sever", "x"}, 2, "unknown option \"--sever\"; did you mean \"--server\"?"},
+      {{"list", "--limt=3"}, 2, "unknown option \"--limt\"; did you mean \"--limit\"?"},
+      {{"fetch", "jobs/3", "--ouput", "x"}, 2, "unknown option \"--ouput\"; did you mean \"--output\"?"},
+      {{"show", "jobs/3", "jobs/4"}, 2, "unexpected argument \"jobs/4\""},
+      {{"crushes"}, 2, "unknown command \"crushes\"\nSee `cellcrush --help`."},
+  });
+}
+
+TEST(Suggestion, OfAPreset) {
+  const FakeServer server(script_of_one_job());
+  expect_answers({{{"show", "preset:typei"}, 5, "id you mean \"preset:type-i\"?"},
+                  {{"check", "preset:typei"}, 2, "id you mean \"preset:type-i\"?"},
+                  {{"show", "type-i"}, 5, "id you mean \"preset:type-i\"?"}},
+                 {"--server", server.address()});
+}
+
+TEST(Suggestion, OfAJob) {
+  const FakeServer server(script_of_one_job());
+  expect_answers({{{"show", "job/3"}, 5, "id you mean \"jobs/3\"?"},
+                  {{"show", "jobs3"}, 5, "id you mean \"jobs/3\"?"},
+                  {{"watch", "job/3"}, 5, "id you mean \"jobs/3\"?"},
+                  {{"fetch", "Jobs/3", "-o", server.folder() / "x"}, 5, "id you mean \"jobs/3\"?"}},
+                 {"--server", server.address()});
+  const ProgramResult other = run_program({"show", "jobs/4", "--server", server.address()});
+  EXPECT_EQ(other.errors.find("you mean"), std::string::npos) << "another number is another job: " << other.errors;
+}
+
+TEST(Suggestion, OfASweep) {
+  Script script = script_of_one_job();
+  script.sweeps.sweep.set_name("sweeps/5");
+  const FakeServer server(script);
+  expect_answers(
+      {{{"show", "5"}, 5, "id you mean \"sweeps/5\"?"}, {{"table", "sweep/5"}, 5, "id you mean \"sweeps/5\"?"}},
+      {"--server", server.address()});
+}
+
+TEST(Suggestion, OfAFileInTheSameFolder) {
+  const FakeServer server(script_of_one_job());
+  const std::string file = server.folder() / "my-case.txtpb";
+  std::ofstream(file) << "depth_mm: 4\n";
+  const std::string token = server.folder() / "anna.token";
+  std::ofstream(token) << "secret\n";
+  expect_answers({{{"check", server.folder() / "mycase.txtpb"}, 2, "did you mean \"" + file + "\"?"}},
+                 {"--server", server.address()});
+  expect_answers({{{"list", "--token-file", server.folder() / "ana.token"}, 2, "did you mean \"" + token + "\"?"}},
+                 {"--server", "127.0.0.1:1"});
+}
+
+TEST(Suggestion, NoArgumentsAtAllPrintTheHelp) {
+  const ProgramResult result = run_program({});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.output, run_program({"--help"}).output);
+  EXPECT_NE(result.output.find("submit"), std::string::npos);
+  EXPECT_EQ(result.errors, "");
+}
+
+}  // namespace
+}  // namespace cellcrush::client::testing
