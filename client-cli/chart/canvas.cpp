@@ -9,7 +9,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "terminal/table.h"
+#include "terminal/display_text.h"
 
 namespace cellcrush::client {
 

@@ -30,6 +30,9 @@ Response call_for_pages(Connection& connection, Stub& stub,
 /// All samples of a job.
 v1::GetHistoryResponse fetch_history(Connection& connection, const std::string& job);
 
+/// A sweep.
+v1::Sweep fetch_sweep(Connection& connection, const std::string& name);
+
 /// The whole table of a sweep.
 v1::SweepTable fetch_table(Connection& connection, const std::string& sweep);
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,9 +12,8 @@ namespace cellcrush::client {
 
 /// A figure of a job's result, as a column of a sweep's table.
 struct ResultColumn {
-  const char* group;                                           ///< first line of the heading, such as "plateau"
-  const char* heading;                                         ///< second line, such as "impact"
-  const char* unit;                                            ///< third line
+  std::array<const char*, 3> heading;                          ///< its lines, such as "plateau", "impact", "plate"
+  const char* unit;                                            ///< the line below them
   const char* field;                                           ///< name with its unit, for CSV
   double scale;                                                ///< from the summary's unit to the heading's
   std::optional<double> (*value)(const v1::Summary& summary);  ///< in the summary's unit
