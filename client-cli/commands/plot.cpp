@@ -21,6 +21,7 @@ struct PlotOptions {
   std::vector<double> frame_strains;
   int strip = 0;  ///< frames evenly spaced over the run; 0: the default choice
   bool frames_only = false;
+  std::string logarithmic;  ///< the letters of the axes
 };
 
 v1::Job fetch_job(Connection& connection, const std::string& name) {
@@ -49,13 +50,20 @@ void write_picture(const std::string& path, const std::string& picture) {
   file.commit();
 }
 
-void plot_sweep(Session& session, const PlotOptions& options) {
+void plot_sweeps(Session& session, const PlotOptions& options) {
   const PictureFormat format = picture_format(options.file);
   Connection& connection = session.connection();
-  const std::string& name = options.names.front();
-  const auto table = fetch_table(connection, name);
-  write_picture(options.file, render_sweep_picture(format, name, table));
-  session.json ? print_json(table) : fmt::print("{}\n", options.file);
+  std::vector<SweepResults> sweeps;
+  for (const std::string& name : options.names) {
+    sweeps.push_back({fetch_sweep(connection, name), fetch_table(connection, name)});
+  }
+  const auto has = [&](char axis) { return options.logarithmic.find(axis) != std::string::npos; };
+  write_picture(options.file, render_sweep_picture(format, sweeps, {has('x'), has('y')}));
+  if (session.json) {
+    for (const SweepResults& results : sweeps) print_json(results.table);
+  } else {
+    fmt::print("{}\n", options.file);
+  }
 }
 
 std::string render_jobs(Connection& connection, PictureFormat format, const v1::ListJobsResponse& jobs,
@@ -80,7 +88,10 @@ void check_options(const PlotOptions& options) {
   const auto refuse = [](const char* message) { throw CommandError(ExitCode::refused, message); };
   const bool sweep = std::any_of(options.names.begin(), options.names.end(), names_sweep);
   const bool frames = options.strip > 0 || options.frames_only || !options.frame_strains.empty();
-  if (sweep && options.names.size() > 1) refuse("plot: a sweep is drawn by itself; name one sweep, or jobs only");
+  if (sweep && !std::all_of(options.names.begin(), options.names.end(), names_sweep)) {
+    refuse("plot: jobs and sweeps share no chart; name jobs or sweeps only");
+  }
+  if (!options.logarithmic.empty() && !sweep) refuse("plot: --log is for sweeps; leave it out");
   if (frames && (sweep || options.names.size() > 1)) {
     refuse("plot: --strip, --frame-strain and --frames-only are for one job; name one");
   }
@@ -89,7 +100,7 @@ void check_options(const PlotOptions& options) {
 
 ExitCode run_plot(Session& session, const PlotOptions& options) {
   check_options(options);
-  names_sweep(options.names.front()) ? plot_sweep(session, options) : plot_jobs(session, options);
+  names_sweep(options.names.front()) ? plot_sweeps(session, options) : plot_jobs(session, options);
   return ExitCode::done;
 }
 
@@ -98,10 +109,10 @@ ExitCode run_plot(Session& session, const PlotOptions& options) {
 void add_plot_command(CLI::App& app, Session& session) {
   const auto options = std::make_shared<PlotOptions>();
   CLI::App* command = add_command(app, session, "plot",
-                                  "Draw a job's crush and stress-strain curve, compare several jobs, or draw a sweep",
+                                  "Draw a job's crush and stress-strain curve, compare several jobs, or draw sweeps",
                                   [&session, options] { return run_plot(session, *options); });
-  command->add_option("NAME", options->names, "Names of jobs, or a sweep's")->required();
-  command->add_option("-o,--output", options->file, "The picture: FILE.svg or FILE.png")->required();
+  command->add_option("NAME", options->names, "Names of jobs, or of sweeps over one field")->required();
+  command->add_option("-o,--output", options->file, "The picture: FILE.svg, FILE.pdf or FILE.png")->required();
   command
       ->add_option("--frame-strain", options->frame_strains,
                    "Show the frame nearest to this strain, a share of the length (may be repeated; default: 0.2, 0.4 "
@@ -111,6 +122,8 @@ void add_plot_command(CLI::App& app, Session& session) {
       ->add_option("--strip", options->strip,
                    "Show so many frames, evenly spaced over the run (default: those of --frame-strain)")
       ->check(CLI::Range(1, 100));
+  command->add_option("--log", options->logarithmic, "Logarithmic axes of a sweep's chart: x, y or xy (default: none)")
+      ->check(CLI::IsMember({"x", "y", "xy"}));
   command->add_flag("--frames-only", options->frames_only, "Draw the frames without title and curve, as for a paper");
 }
 

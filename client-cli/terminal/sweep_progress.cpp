@@ -18,7 +18,7 @@ namespace {
 using Align = Table::Align;
 using Entry = SweepView::Entry;
 
-constexpr int kHeadings = 2;
+constexpr int kProgressHeadings = 2;
 
 std::string plateau_text(const v1::Job& job) {
   const bool ended = job.summary().has_plateau_stress_impact_mpa();
@@ -110,7 +110,7 @@ std::vector<std::string> job_rows(const SweepView& view, const std::vector<const
 std::vector<std::string> sweep_progress_lines(const SweepView& view, int width, int height, const Terminal& terminal) {
   std::vector<std::string> lines = {cut(printable(view.sweep().name()) + "  " + counts_text(view), width),
                                     bar_line(view, width, terminal)};
-  const int room = std::max(height - static_cast<int>(lines.size()) - kHeadings, 1);
+  const int room = std::max(height - static_cast<int>(lines.size()) - kProgressHeadings, 1);
   const bool all = static_cast<int>(view.jobs().size()) <= room;
   const auto shown = find_shown(view, all ? room : std::max(room - 1, 1));
   const auto rows = job_rows(view, shown, width);

@@ -81,25 +81,25 @@ std::string failures_text(const v1::SweepTable& table, int width) {
   return text;
 }
 
-constexpr std::size_t kHeadings = 4;
+constexpr std::size_t kTableHeadings = 4;
 
 // The heading's lines: of the varied fields name and unit, of the results their words and unit.
 void add_headings(Table& table, const v1::SweepTable& results) {
   const std::vector<std::string> fields(results.fields().begin(), results.fields().end());
-  std::array<std::vector<std::string>, kHeadings> lines;
-  const auto add = [&](const std::array<std::string, kHeadings>& column) {
-    for (std::size_t i = 0; i < kHeadings; ++i) lines[i].push_back(column[i]);
+  std::array<std::vector<std::string>, kTableHeadings> lines;
+  const auto add = [&](const std::array<std::string, kTableHeadings>& column) {
+    for (std::size_t i = 0; i < kTableHeadings; ++i) lines[i].push_back(column[i]);
   };
   for (const std::string& field : fields) {
     const FieldWords words = words_among(field, fields);
     // Its words one below the other, the last ones together.
-    std::array<std::string, kHeadings> column;
+    std::array<std::string, kTableHeadings> column;
     std::size_t line = 0;
     for (const std::string& word : wrap_words(words.name, 12)) {
-      std::string& place = column[std::min(line++, kHeadings - 2)];
+      std::string& place = column[std::min(line++, kTableHeadings - 2)];
       place += (place.empty() ? "" : " ") + word;
     }
-    column[kHeadings - 1] = words.unit;
+    column[kTableHeadings - 1] = words.unit;
     add(column);
   }
   add({"job", "", "", ""});
@@ -135,7 +135,8 @@ std::string sweep_table_text(const v1::SweepTable& results, const v1::Lattice& l
     table.add(std::move(cells));
   }
   std::string constants;
-  if (results.rows_size() > 0) constants = constants_text(table.remove_constant_columns(fields + 1, kHeadings), width);
+  if (results.rows_size() > 0)
+    constants = constants_text(table.remove_constant_columns(fields + 1, kTableHeadings), width);
   std::string text = table.text(0, width) + constants + legend_text(results, width);
   if (const std::string note = theory_note(lattice); !note.empty()) text += '\n' + wrapped("Note: " + note, width);
   return text + fit_text(results, width) + failures_text(results, width);

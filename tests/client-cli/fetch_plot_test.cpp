@@ -203,7 +203,7 @@ TEST(Plot, AJobWithoutSamplesAndAnUnknownFormatAreRefused) {
   script.samples.clear();
   const FakeServer server(script);
   EXPECT_EQ(run_program({"plot", "test", "-o", server.folder() / "a.png", "--server", server.address()}).exit_code, 2);
-  EXPECT_EQ(run_program({"plot", "test", "-o", server.folder() / "a.pdf", "--server", server.address()}).exit_code, 2);
+  EXPECT_EQ(run_program({"plot", "test", "-o", server.folder() / "a.gif", "--server", server.address()}).exit_code, 2);
 }
 
 }  // namespace

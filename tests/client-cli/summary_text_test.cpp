@@ -120,9 +120,10 @@ TEST(JobText, TellsWhereTheTimeWentWhereItIsKnown) {
 
 TEST(JobChart, HasALevelOfEquation52) {
   const Chart chart = build_job_chart(history_with_damping());
-  EXPECT_EQ(std::count_if(chart.curves.begin(), chart.curves.end(),
-                          [](const Curve& curve) { return curve.name == "Eq. 52, jumps measured: 3.43 MPa"; }),
-            1);
+  EXPECT_EQ(
+      std::count_if(chart.curves.begin(), chart.curves.end(),
+                    [](const Curve& curve) { return curve.name == "shock theory, measured jumps (Eq. 52): 3.43 MPa"; }),
+      1);
 }
 
 TEST(HistoryCsv, LeavesTheFrontsCellsEmptyWhereThereIsNone) {

@@ -282,7 +282,7 @@ TEST(SweepText, DescribesTheAxesAndTheJobs) {
 }
 
 TEST(SweepChart, HasPointsFitAndTheoryOverSpeed) {
-  const Chart chart = build_sweep_chart(make_table(4));
+  const Chart chart = build_sweep_chart({{v1::Sweep(), make_table(4)}});
   EXPECT_EQ(chart.x.label, "speed (m/s)");
   EXPECT_EQ(chart.x.low, 0.0);
   EXPECT_GT(chart.x.high, 200.0);
@@ -291,24 +291,41 @@ TEST(SweepChart, HasPointsFitAndTheoryOverSpeed) {
   EXPECT_EQ(chart.curves[0].x, (std::vector<double>{50, 100, 150, 200}));
   EXPECT_EQ(chart.curves[1].marker, Marker::square);
   EXPECT_EQ(chart.curves[2].name, "quadratic fit: 0.25 + 1.00·10⁻⁴ V + 3.00·10⁻⁴ V²");
-  EXPECT_EQ(chart.curves[3].name, "Eq. 51 (shock)");
-  EXPECT_EQ(chart.curves[4].name, "Gibson-Ashby (quasi-static)");
-  EXPECT_EQ(chart.curves[5].name, "Eq. 52 (shock, jumps measured)");
+  EXPECT_EQ(chart.curves[3].name, "shock theory (Eq. 51)");
+  EXPECT_EQ(chart.curves[4].name, "quasi-static theory (Gibson-Ashby)");
+  EXPECT_EQ(chart.curves[5].name, "shock theory, measured jumps (Eq. 52)");
   EXPECT_EQ(chart.curves[5].x, (std::vector<double>{100, 150, 200})) << "the slowest job has no front";
-  EXPECT_EQ(build_sweep_chart(make_table(3)).curves[2].name.find("quadratic through the points: "), 0U);
+  EXPECT_EQ(build_sweep_chart({{v1::Sweep(), make_table(3)}}).curves[2].name.find("quadratic through the points: "),
+            0U);
 }
 
 TEST(SweepChart, SaysWhatIsMissingAndRefusesToDrawNothing) {
-  EXPECT_EQ(build_sweep_chart(make_table(2)).note, "2 of 4 jobs have no plateau");
-  EXPECT_THROW(build_sweep_chart(make_table(0)), CommandError);
-  EXPECT_THROW(build_sweep_chart(v1::SweepTable()), CommandError);
+  EXPECT_EQ(build_sweep_chart({{v1::Sweep(), make_table(2)}}).note, "2 of 4 jobs have no plateau");
+  EXPECT_THROW(build_sweep_chart({{v1::Sweep(), make_table(0)}}), CommandError);
+  EXPECT_THROW(build_sweep_chart({{v1::Sweep(), v1::SweepTable()}}), CommandError);
+}
+
+TEST(SweepChart, SeveralSweepsHaveAColourAndAMarkEachAndLogarithmicAxesOnRequest) {
+  std::vector<SweepResults> sweeps(2, {v1::Sweep(), make_table(4)});
+  sweeps[0].sweep.mutable_case_()->set_title("Type I");
+  sweeps[1].sweep.mutable_case_()->set_title("Type II");
+  const Chart chart = build_sweep_chart(sweeps, {true, true});
+  ASSERT_EQ(chart.curves.size(), 4U);
+  EXPECT_EQ(chart.curves[0].name, "Type I");
+  EXPECT_EQ(chart.curves[2].name, "Type II");
+  EXPECT_NE(chart.curves[0].marker, chart.curves[2].marker);
+  EXPECT_NE(chart.curves[0].style.colour.red, chart.curves[2].style.colour.red);
+  EXPECT_TRUE(chart.x.logarithmic && chart.y.logarithmic);
+  EXPECT_GT(chart.y.low, 0.0);
+  sweeps[1].table.set_fields(0, "depth_mm");
+  EXPECT_THROW(build_sweep_chart(sweeps), CommandError);
 }
 
 TEST(SweepChart, TwoFieldsGiveASeriesAValueOfTheSecond) {
   v1::SweepTable table = make_table(4);
   table.add_fields("lattice.hexagon.wall_thickness_mm");
   for (int i = 0; i < 4; ++i) table.mutable_rows(i)->add_values(i % 2 == 0 ? 0.3 : 0.4);
-  const Chart chart = build_sweep_chart(table);
+  const Chart chart = build_sweep_chart({{v1::Sweep(), table}});
   std::vector<std::string> names;
   for (const Curve& curve : chart.curves) {
     if (!curve.name.empty()) names.push_back(curve.name);
