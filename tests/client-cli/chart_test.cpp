@@ -8,6 +8,7 @@
 #include "chart/colour_map.h"
 #include "chart/job_picture.h"
 #include "chart/lattice_drawing.h"
+#include "chart/movie_frame.h"
 #include "chart/node_curves.h"
 #include "chart/smoothing.h"
 #include "chart/ticks.h"
@@ -204,6 +205,17 @@ TEST(JobChart, TheStressAxisFollowsThePlateauAndAnArrowSaysHowHighTheFirstWaveGo
   ASSERT_EQ(chart.overshoots.size(), 1U);
   EXPECT_EQ(chart.overshoots[0].text, "50 MPa");
   EXPECT_LT(chart.overshoots[0].x, 0.04);
+}
+
+TEST(Picture, FramesOfAMovieHaveOneEvenSize) {
+  const MeshFrame start = synthetic_stage(20, 6, 0.0);
+  const MeshFrame end = synthetic_stage(20, 6, 0.7);
+  const Box box = find_box({start, end});
+  const Pixels first = read_png(render_movie_frame(start, box));
+  const Pixels last = read_png(render_movie_frame(end, box));
+  EXPECT_EQ(first.width, last.width);
+  EXPECT_EQ(first.height, last.height);
+  EXPECT_EQ(first.width % 2 + first.height % 2, 0);
 }
 
 TEST(Picture, AnSvgIsMarkupWithPaths) {
