@@ -17,8 +17,8 @@ struct LineStyle {
 /// What stands at a point of a curve, in the colour of its line.
 enum class Marker { none, disc, square, triangle, diamond, cross };
 
-/// A line through points, and marks at them; x and y have equal length. Without a name it is not in the legend. `low`, `high`
-/// and `labels` are empty or as long: the ends of an upright bar through each point, and a small text beside it.
+/// A line through points, and marks at them; x and y have equal length. Without a name it is not in the legend. `low`,
+/// `high` and `labels` are empty or as long: the ends of an upright bar through each point, and a small text beside it.
 struct Curve {
   std::vector<double> x;
   std::vector<double> y;
@@ -47,7 +47,8 @@ struct Overshoot {
   Colour colour;
 };
 
-/// Curves over common axes, with a legend above them; later lines lie on top of earlier ones, and marks on top of lines.
+/// Curves over common axes, with a legend above them; later lines lie on top of earlier ones, and marks on top of
+/// lines.
 struct Chart {
   Axis x;
   Axis y;

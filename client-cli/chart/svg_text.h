@@ -6,8 +6,8 @@
 
 namespace cellcrush::client {
 
-/// Cairo writes text into SVG as outlines, which nobody can select, search or edit. Here the texts are collected instead
-/// and put as <text> elements on top of the finished picture.
+/// Cairo writes text into SVG as outlines, which nobody can select, search or edit. Here the texts are collected
+/// instead and put as <text> elements on top of the finished picture.
 class SvgTexts {
  public:
   /// Makes `surface`, an SVG, collect its texts here. It must not outlive this.

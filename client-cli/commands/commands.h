@@ -24,7 +24,8 @@ struct Session {
   std::unique_ptr<Connection> connection_;
 };
 
-/// Adds a command with --json, --server and the options of CredentialFiles, which runs `action` on the options the caller adds to it.
+/// Adds a command with --json, --server and the options of CredentialFiles, which runs `action` on the options the
+/// caller adds to it.
 CLI::App* add_command(CLI::App& app, Session& session, const std::string& name, const std::string& description,
                       std::function<ExitCode()> action);
 

@@ -58,8 +58,8 @@ void save_file(const fs::path& path, std::string_view bytes) {
   file.commit();
 }
 
-// Draws all frames of a job as frame_00000.png and so on, and returns how many. Fetched twice, for the box that holds them
-// all and to be drawn, as those of a large lattice do not fit into memory together.
+// Draws all frames of a job as frame_00000.png and so on, and returns how many. Fetched twice, for the box that holds
+// them all and to be drawn, as those of a large lattice do not fit into memory together.
 int draw_frames(Connection& connection, const std::string& name, const fs::path& folder) {
   const MeshFrame last = fetch_frame_number(connection, name, -1);
   const int count = last.frame.index() + 1;

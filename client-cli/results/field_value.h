@@ -8,8 +8,8 @@
 
 namespace cellcrush::client {
 
-/// The number or choice at a dotted path of a case, such as "loading.speed_m_per_s" or "lattice.frame.nodes[3].x_mm", as text;
-/// empty when the case has none there.
+/// The number or choice at a dotted path of a case, such as "loading.speed_m_per_s" or "lattice.frame.nodes[3].x_mm",
+/// as text; empty when the case has none there.
 std::string field_value_text(const v1::Case& scene, std::string_view path);
 
 /// A field in words: "lattice.hexagon.wall_thickness_mm" is a "wall thickness" in "mm". The unit may be empty.

@@ -44,8 +44,8 @@ std::vector<double> values_of(const ResultSeries& series, double (*value)(const 
 /// The fit of the impact plate's plateau stress in MPa; nothing without three different x.
 std::optional<QuadraticFit> find_plateau_fit(const ResultSeries& series);
 
-/// Eq. 51 as a function of speed, from the theory of the series: constant + quadratic V^2. Nothing when no job carries it.
-/// REQUIRES: x are speeds in m/s.
+/// Eq. 51 as a function of speed, from the theory of the series: constant + quadratic V^2. Nothing when no job carries
+/// it. REQUIRES: x are speeds in m/s.
 std::optional<QuadraticFit> find_shock_curve(const ResultSeries& series);
 
 }  // namespace cellcrush::client

@@ -22,9 +22,9 @@ class Table {
   /// A line over the whole width, above the rows that it names.
   void add_title(std::string title);
 
-  /// Takes out the columns from number `first` on that say nothing: those with empty cells only and, of two or more rows,
-  /// those in which all are the same. Returns what the latter say, as "heading value unit". The first `headings` rows are
-  /// headings, the last of several one of units. REQUIRES: there is a row below them.
+  /// Takes out the columns from number `first` on that say nothing: those with empty cells only and, of two or more
+  /// rows, those in which all are the same. Returns what the latter say, as "heading value unit". The first `headings`
+  /// rows are headings, the last of several one of units. REQUIRES: there is a row below them.
   std::vector<std::string> remove_constant_columns(std::size_t first, std::size_t headings);
 
   /// The lines, each beginning with `indent` blanks, none wider than `width` and without blanks at their
