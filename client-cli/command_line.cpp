@@ -58,6 +58,7 @@ ExitCode run_command_line(int argc, char** argv) {
   add_delete_command(app, session);
   add_fetch_command(app, session);
   add_plot_command(app, session);
+  add_movie_command(app, session);
   add_queue_commands(app, session);
   add_sweep_commands(app, session);
   add_table_command(app, session);

@@ -1,5 +1,6 @@
 #include "chart/canvas.h"
 
+#include <cairo-pdf.h>
 #include <cairo-svg.h>
 
 #include <algorithm>
@@ -9,7 +10,8 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "terminal/table.h"
+#include "chart/svg_text.h"
+#include "terminal/display_text.h"
 
 namespace cellcrush::client {
 
@@ -28,6 +30,30 @@ void check(cairo_status_t status) {
   throw std::runtime_error(std::string("the picture cannot be drawn: ") + cairo_status_to_string(status));
 }
 
+// Units of the surface that a unit of the picture takes: pixels of a PNG, points (1/72 inch) of a PDF.
+double device_units(PictureFormat format) {
+  switch (format) {
+    case PictureFormat::png: return kPixelsPerUnit;
+    case PictureFormat::pdf: return 0.75;
+    default: return 1.0;
+  }
+}
+
+Surface make_surface(PictureFormat format, double width, double height, std::string& bytes) {
+  const double scale = device_units(format);
+  const auto make = [&] {
+    switch (format) {
+      case PictureFormat::svg: return cairo_svg_surface_create_for_stream(append_bytes, &bytes, width, height);
+      case PictureFormat::pdf:
+        return cairo_pdf_surface_create_for_stream(append_bytes, &bytes, scale * width, scale * height);
+      default:
+        return cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(std::ceil(scale * width)),
+                                          static_cast<int>(std::ceil(scale * height)));
+    }
+  };
+  return {make(), cairo_surface_destroy};
+}
+
 void set_font(cairo_t* context, const TextStyle& style) {
   cairo_select_font_face(context, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL,
                          style.bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
@@ -42,31 +68,30 @@ PictureFormat picture_format(const std::filesystem::path& file) {
                  [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
   if (extension == ".png") return PictureFormat::png;
   if (extension == ".svg") return PictureFormat::svg;
-  throw std::invalid_argument(file.string() + ": a picture's name ends in .png or .svg");
+  if (extension == ".pdf") return PictureFormat::pdf;
+  throw std::invalid_argument(file.string() + ": a picture's name ends in .png, .svg or .pdf");
 }
 
 std::string render_picture(PictureFormat format, double width, double height,
                            const std::function<void(cairo_t*)>& draw) {
-  const bool svg = format == PictureFormat::svg;
   std::string bytes;
-  const Surface surface(
-      svg ? cairo_svg_surface_create_for_stream(append_bytes, &bytes, width, height)
-          : cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(std::ceil(width * kPixelsPerUnit)),
-                                       static_cast<int>(std::ceil(height * kPixelsPerUnit))),
-      cairo_surface_destroy);
-  check(cairo_surface_status(surface.get()));
+  SvgTexts texts;
   {
+    const Surface surface = make_surface(format, width, height, bytes);
+    check(cairo_surface_status(surface.get()));
+    if (format == PictureFormat::svg) texts.attach(surface.get());
     const Context context(cairo_create(surface.get()), cairo_destroy);
-    if (!svg) cairo_scale(context.get(), kPixelsPerUnit, kPixelsPerUnit);
+    const double scale = device_units(format);
+    cairo_scale(context.get(), scale, scale);
     cairo_set_source_rgb(context.get(), 1.0, 1.0, 1.0);
     cairo_paint(context.get());
     draw(context.get());
     check(cairo_status(context.get()));
+    if (format == PictureFormat::png) check(cairo_surface_write_to_png_stream(surface.get(), append_bytes, &bytes));
+    cairo_surface_finish(surface.get());
+    check(cairo_surface_status(surface.get()));
   }
-  if (!svg) check(cairo_surface_write_to_png_stream(surface.get(), append_bytes, &bytes));
-  cairo_surface_finish(surface.get());
-  check(cairo_surface_status(surface.get()));
-  return bytes;
+  return format == PictureFormat::svg ? texts.put_into(bytes) : bytes;
 }
 
 void set_colour(cairo_t* context, const Colour& colour) {
@@ -74,6 +99,7 @@ void set_colour(cairo_t* context, const Colour& colour) {
 }
 
 void draw_text(cairo_t* context, double x, double y, const std::string& text, const TextStyle& style) {
+  if (SvgTexts* texts = SvgTexts::find(context)) return texts->add(context, x, y, text, style);
   const double width = text_width(context, text, style);
   const double shift = style.anchor == Anchor::left ? 0.0 : style.anchor == Anchor::middle ? -0.5 * width : -width;
   cairo_save(context);

@@ -27,9 +27,9 @@ struct Rectangle {
   double height = 0.0;
 };
 
-enum class PictureFormat { png, svg };
+enum class PictureFormat { png, svg, pdf };
 
-/// The format that a file's name asks for. Throws std::invalid_argument when it ends in neither .png nor .svg.
+/// The format that a file's name asks for. Throws std::invalid_argument when it ends in none of .png, .svg, .pdf.
 PictureFormat picture_format(const std::filesystem::path& file);
 
 /// PNG pictures have this many pixels a unit.

@@ -1,5 +1,6 @@
 #include "chart/chart.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -105,6 +106,18 @@ void draw_chart(cairo_t* context, const Rectangle& place, const Chart& chart) {
   for (const Band& band : chart.bands) {
     draw_text(context, 0.5 * (axes.x(band.from) + axes.x(band.to)), area.y + 16.0, band.text,
               {.size = 11.0, .colour = kMutedInk, .anchor = Anchor::middle});
+  }
+  constexpr double kBandText = 20.0;
+  for (const Overshoot& overshoot : chart.overshoots) {
+    // Its text is at most as wide as an eighth of the chart.
+    const double reach = 0.125 * (chart.x.high - chart.x.low);
+    const bool beside_band = std::any_of(chart.bands.begin(), chart.bands.end(), [&](const Band& band) {
+      return overshoot.x + reach > band.from && overshoot.x - reach < band.to;
+    });
+    // Those of other curves close by stand above.
+    const auto above = std::count_if(chart.overshoots.data(), &overshoot,
+                                     [&](const Overshoot& other) { return std::abs(other.x - overshoot.x) < reach; });
+    draw_overshoot(context, axes, overshoot, (beside_band ? kBandText : 0.0) + 16.0 * static_cast<double>(above));
   }
   cairo_restore(context);
   axes.draw_frame(context);

@@ -15,10 +15,10 @@ struct LineStyle {
 };
 
 /// What stands at a point of a curve, in the colour of its line.
-enum class Marker { none, disc, square, cross };
+enum class Marker { none, disc, square, triangle, diamond, cross };
 
-/// A line through points, and marks at them; x and y have equal length. Without a name it is not in the legend. `low`, `high`
-/// and `labels` are empty or as long: the ends of an upright bar through each point, and a small text beside it.
+/// A line through points, and marks at them; x and y have equal length. Without a name it is not in the legend. `low`,
+/// `high` and `labels` are empty or as long: the ends of an upright bar through each point, and a small text beside it.
 struct Curve {
   std::vector<double> x;
   std::vector<double> y;
@@ -40,12 +40,21 @@ struct Band {
   std::string text;
 };
 
-/// Curves over common axes, with a legend above them; later lines lie on top of earlier ones, and marks on top of lines.
+/// A small arrow at the chart's upper side, where a curve leaves it, with a text that says how high it goes.
+struct Overshoot {
+  double x = 0.0;
+  std::string text;
+  Colour colour;
+};
+
+/// Curves over common axes, with a legend above them; later lines lie on top of earlier ones, and marks on top of
+/// lines.
 struct Chart {
   Axis x;
   Axis y;
   std::vector<Band> bands;
   std::vector<Curve> curves;
+  std::vector<Overshoot> overshoots;
   std::string note;  ///< small, below the axis on the right; may be empty
 };
 

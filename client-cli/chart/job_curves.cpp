@@ -8,6 +8,7 @@
 
 #include "chart/palette.h"
 #include "chart/smoothing.h"
+#include "results/theory_note.h"
 #include "terminal/number_text.h"
 
 namespace cellcrush::client {
@@ -37,18 +38,31 @@ PlateCurves smoothed(const PlateCurves& raw) {
           running_mean(raw.strain, raw.support, kSmoothingWindow)};
 }
 
-// The highest stress worth showing: what lies before the lattice is crushed solid, with room above it.
+double last_strain(const PlateCurves& curves) { return curves.strain.empty() ? 0.0 : curves.strain.back(); }
+
+// The upper end of the stress axis: it follows the plateau, not the first wave, which is many times as high in a fast
+// crush, nor what follows when the lattice is crushed solid.
 double find_top(const JobHistory& history, const PlateCurves& smooth) {
+  constexpr double kFirstWave = 0.1;
   const v1::Summary& summary = history.job.summary();
   const double solid = summary.has_densification_strain() ? summary.densification_strain() : 0.65;
-  std::vector<double> before;
+  std::vector<double> crushing;
   for (std::size_t i = 0; i < smooth.strain.size(); ++i) {
-    if (smooth.strain[i] <= solid) before.push_back(std::max(smooth.impact[i], smooth.support[i]));
+    const bool first_wave = smooth.strain[i] < kFirstWave && last_strain(smooth) > 2.0 * kFirstWave;
+    if (smooth.strain[i] <= solid && !first_wave) crushing.push_back(std::max(smooth.impact[i], smooth.support[i]));
   }
-  double top = before.empty() ? 0.0 : 1.5 * quantile(before, 0.95);
-  top = std::max(top, 1.6 * summary.theory().shock_mpa());
-  top = std::max({top, 1.8 * summary.plateau_stress_impact_mpa(), 1.8 * summary.plateau_stress_support_mpa()});
+  double top = crushing.empty() ? 0.0 : 1.3 * quantile(crushing, 0.95);
+  if (theory_note(history.job.case_().lattice()).empty()) top = std::max(top, 1.2 * summary.theory().shock_mpa());
+  top = std::max({top, 1.6 * summary.plateau_stress_impact_mpa(), 1.6 * summary.plateau_stress_support_mpa()});
   return top > 0.0 ? top : 1.0;
+}
+
+// An arrow where the mean of a plate's stress goes highest beyond the chart.
+void add_overshoot(Chart& chart, const std::vector<double>& strain, const std::vector<double>& stress, Colour colour) {
+  const auto peak = std::max_element(stress.begin(), stress.end());
+  if (peak == stress.end() || *peak <= 1.001 * chart.y.high) return;
+  chart.overshoots.push_back(
+      {strain[static_cast<std::size_t>(peak - stress.begin())], number_text(*peak, 2) + " MPa", colour});
 }
 
 double highest(const PlateCurves& curves) {
@@ -58,19 +72,22 @@ double highest(const PlateCurves& curves) {
   return value;
 }
 
-double last_strain(const PlateCurves& curves) { return curves.strain.empty() ? 0.0 : curves.strain.back(); }
-
 Chart empty_chart(double strain, double top, double peak) {
   Chart chart;
   chart.x = {0.0, std::max(strain, 0.01), "nominal strain"};
   chart.y = {0.0, top, "nominal stress (MPa)"};
   chart.note = fmt::format("mean over {:.0f} % strain", 100 * kSmoothingWindow);
-  if (peak > 1.001 * top) chart.note += fmt::format("; peaks up to {} MPa leave the chart", number_text(peak, 2));
+  if (peak > 1.001 * top)
+    chart.note += fmt::format("; single samples up to {} MPa leave the chart", number_text(peak, 2));
   return chart;
 }
 
 std::string with_plateau(const char* plate, bool known, double stress) {
   return known ? fmt::format("{}: plateau {} MPa", plate, number_text(stress)) : plate;
+}
+
+std::string theory_name(const char* theory, double stress, const Chart& chart) {
+  return fmt::format("{}: {} MPa{}", theory, number_text(stress), stress > chart.y.high ? ", beyond the chart" : "");
 }
 
 }  // namespace
@@ -105,6 +122,8 @@ Chart build_job_chart(const JobHistory& history) {
        smooth.support,
        {kSupportColour, 2.0, {}},
        with_plateau("support plate", summary.has_plateau_stress_support_mpa(), summary.plateau_stress_support_mpa())});
+  add_overshoot(chart, smooth.strain, smooth.impact, kImpactColour);
+  add_overshoot(chart, smooth.strain, smooth.support, kSupportColour);
   if (summary.plateau_window_high() > summary.plateau_window_low()) {
     const double low = summary.plateau_window_low();
     const double high = summary.plateau_window_high();
@@ -119,14 +138,15 @@ Chart build_job_chart(const JobHistory& history) {
   if (summary.theory().shock_mpa() > 0.0) {
     const v1::Theory& theory = summary.theory();
     chart.curves.push_back(level_curve(theory.shock_mpa(), 0.0, chart.x.high, {kMutedInk, 1.4, {8.0, 4.0}},
-                                       "Eq. 51: " + number_text(theory.shock_mpa()) + " MPa"));
+                                       theory_name("shock theory (Eq. 51)", theory.shock_mpa(), chart)));
     if (summary.has_front()) {
       const double shock = summary.front().shock_mpa();
       chart.curves.push_back(level_curve(shock, 0.0, chart.x.high, {kMutedInk, 1.4, {10.0, 3.0, 2.0, 3.0}},
-                                         "Eq. 52, jumps measured: " + number_text(shock) + " MPa"));
+                                         theory_name("shock theory, measured jumps (Eq. 52)", shock, chart)));
     }
-    chart.curves.push_back(level_curve(theory.gibson_ashby_mpa(), 0.0, chart.x.high, {kMutedInk, 1.4, {2.0, 3.0}},
-                                       "Gibson-Ashby: " + number_text(theory.gibson_ashby_mpa()) + " MPa"));
+    chart.curves.push_back(
+        level_curve(theory.gibson_ashby_mpa(), 0.0, chart.x.high, {kMutedInk, 1.4, {2.0, 3.0}},
+                    theory_name("quasi-static theory (Gibson-Ashby)", theory.gibson_ashby_mpa(), chart)));
   }
   return chart;
 }
@@ -156,6 +176,7 @@ Chart build_comparison_chart(const std::vector<JobHistory>& histories) {
     peak = std::max(peak, highest(smooth));
   }
   Chart chart = empty_chart(strain, top, peak);
+  for (const Curve& curve : curves) add_overshoot(chart, curve.x, curve.y, curve.style.colour);
   chart.note += "; solid: impact plate, dashed: support plate";
   chart.curves = std::move(curves);
   return chart;

@@ -2,15 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "chart/colour_map.h"
 #include "chart/energy_curves.h"
 #include "chart/node_curves.h"
 #include "chart/stage_panels.h"
-#include "chart/sweep_curves.h"
 #include "terminal/case_text.h"
-#include "terminal/lattice_text.h"
 #include "terminal/summary_text.h"
 
 namespace cellcrush::client {
@@ -22,7 +18,7 @@ constexpr double kSweepWidth = 720.0;
 constexpr double kMargin = 26.0;
 constexpr double kInner = kWidth - 2.0 * kMargin;
 constexpr double kTitleHeight = 50.0;
-constexpr double kColourBarRoom = 380.0;  // of the subtitle's line
+constexpr double kColourBarRoom = 350.0;  // of the subtitle's line
 constexpr double kChartHeight = 400.0;
 constexpr double kEnergyHeight = 300.0;
 constexpr double kChartGap = 14.0;
@@ -43,34 +39,18 @@ void draw_plastic_bar(cairo_t* context, double top) {
 
 std::string subtitle_of(const v1::Job& job) {
   const std::string scene = scene_text(job.case_());
-  std::string text = scene.empty() ? job.name() : scene + "   (" + job.name() + ")";
+  std::string text = scene.empty() ? job.name() : scene;
   const v1::CrushMode mode = job.summary().crush_mode();
-  if (mode != v1::CRUSH_MODE_UNSPECIFIED && mode != v1::CRUSH_MODE_NONE) {
-    text += ", crush mode " + crush_mode_text(mode);
-  }
+  if (mode != v1::CRUSH_MODE_UNSPECIFIED && mode != v1::CRUSH_MODE_NONE) text += ", " + crush_mode_text(mode);
   if (job.state() != v1::SUCCEEDED) text += ", " + v1::JobState_Name(job.state());
   return text;
 }
 
-std::string sweep_title(const v1::SweepTable& table) {
-  for (const auto& row : table.rows()) {
-    if (!row.result().case_().title().empty()) return row.result().case_().title();
-  }
-  return "Plateau stress";
-}
-
-std::string sweep_subtitle(const std::string& name, const v1::SweepTable& table) {
+std::string sweep_subtitle(const SweepResults& results) {
+  const v1::SweepTable& table = results.table;
   std::string fields;
   for (const std::string& field : table.fields()) fields += (fields.empty() ? "" : ", ") + axis_label(field);
-  std::string text = fmt::format("{} jobs over {}   ({})", table.rows_size(), fields, name);
-  const bool cells_vary = std::any_of(table.fields().begin(), table.fields().end(), [](const std::string& field) {
-    return field.ends_with(".columns") || field.ends_with(".rows");
-  });
-  if (table.rows_size() > 0 && !cells_vary) {
-    const std::string lattice = lattice_summary(table.rows(0).result().case_().lattice());
-    if (!lattice.empty()) text = lattice + ": " + text;
-  }
-  return text;
+  return fmt::format("{} jobs over {}   ({})", table.rows_size(), fields, results.sweep.name());
 }
 
 }  // namespace
@@ -82,7 +62,8 @@ std::string render_job_picture(PictureFormat format, const JobHistory& history, 
   const double curves_bottom = panels.bottom + kChartHeight + kChartGap;
   const double height = curves_bottom + (frame ? 0.0 : kEnergyHeight) + kMargin;
   return render_picture(format, kWidth, height, [&](cairo_t* context) {
-    draw_title(context, picture_name(history.job), subtitle_of(history.job), kInner, kInner - kColourBarRoom);
+    draw_title(context, fmt::format("{} ({})", picture_name(history.job), history.job.name()), subtitle_of(history.job),
+               kInner, kInner - kColourBarRoom);
     if (!stages.empty()) {
       draw_plastic_bar(context, kMargin + 26.0);
       draw_stages(context, panels, stages);
@@ -114,14 +95,22 @@ std::string render_comparison_picture(PictureFormat format, const std::vector<Jo
   });
 }
 
-std::string render_sweep_picture(PictureFormat format, const std::string& name, const v1::SweepTable& table) {
+std::string render_sweep_picture(PictureFormat format, const std::vector<SweepResults>& sweeps,
+                                 const LogarithmicAxes& logarithmic) {
   constexpr double kTop = kMargin + kTitleHeight;
   constexpr double kInnerWidth = kSweepWidth - 2.0 * kMargin;
-  const Chart chart = build_sweep_chart(table);
+  const Chart chart = build_sweep_chart(sweeps, logarithmic);
   // A legend of many series takes more lines.
   const double chart_height = kChartHeight + 60.0 + 8.0 * static_cast<double>(chart.curves.size());
+  const std::string& title = sweeps.front().sweep.case_().title();
   return render_picture(format, kSweepWidth, kTop + chart_height + kMargin, [&](cairo_t* context) {
-    draw_title(context, sweep_title(table), sweep_subtitle(name, table), kInnerWidth, kInnerWidth);
+    if (sweeps.size() > 1) {
+      draw_title(context, "Plateau stress", fmt::format("{} sweeps over {}", sweeps.size(), chart.x.label), kInnerWidth,
+                 kInnerWidth);
+    } else {
+      draw_title(context, title.empty() ? "Plateau stress" : title, sweep_subtitle(sweeps.front()), kInnerWidth,
+                 kInnerWidth);
+    }
     draw_chart(context, {kMargin, kTop, kInnerWidth, chart_height}, chart);
   });
 }

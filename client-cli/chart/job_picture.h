@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "cellcrush/v1/sweep.pb.h"
 #include "chart/job_curves.h"
+#include "chart/sweep_curves.h"
 #include "connection/frames.h"
 
 namespace cellcrush::client {
@@ -19,7 +19,8 @@ std::string render_stages_picture(PictureFormat format, const std::vector<MeshFr
 /// The picture of several jobs: their curves over common axes.
 std::string render_comparison_picture(PictureFormat format, const std::vector<JobHistory>& histories);
 
-/// The picture of a sweep: plateau stress against what is varied. `name` is the sweep's.
-std::string render_sweep_picture(PictureFormat format, const std::string& name, const v1::SweepTable& table);
+/// The picture of one or several sweeps: plateau stress against what is varied. REQUIRES: there is one.
+std::string render_sweep_picture(PictureFormat format, const std::vector<SweepResults>& sweeps,
+                                 const LogarithmicAxes& logarithmic);
 
 }  // namespace cellcrush::client

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <numbers>
+#include <utility>
 
 namespace cellcrush::client {
 
@@ -17,6 +19,13 @@ void stroke(cairo_t* context, double x0, double y0, double x1, double y1) {
   cairo_move_to(context, x0, y0);
   cairo_line_to(context, x1, y1);
   cairo_stroke(context);
+}
+
+// A closed path through corners, in radii of a mark round (x, y).
+void draw_polygon(cairo_t* context, double x, double y, std::initializer_list<std::pair<double, double>> corners) {
+  for (const auto& [across, down] : corners)
+    cairo_line_to(context, x + across * kMarkerRadius, y + down * kMarkerRadius);
+  cairo_close_path(context);
 }
 
 // What is out of a logarithmic axis' reach ends at the area's lower side.
@@ -47,12 +56,35 @@ void draw_marker(cairo_t* context, double x, double y, Marker marker, const Colo
     cairo_fill_preserve(context);
     set_colour(context, colour);
     cairo_stroke(context);
+  } else if (marker == Marker::triangle) {
+    draw_polygon(context, x, y, {{0.0, -1.15}, {1.1, 0.85}, {-1.1, 0.85}});
+    set_colour(context, colour);
+    cairo_fill(context);
+  } else if (marker == Marker::diamond) {
+    draw_polygon(context, x, y, {{0.0, -1.25}, {1.25, 0.0}, {0.0, 1.25}, {-1.25, 0.0}});
+    set_colour(context, {1.0, 1.0, 1.0});
+    cairo_fill_preserve(context);
+    set_colour(context, colour);
+    cairo_stroke(context);
   } else if (marker == Marker::cross) {
     set_colour(context, colour);
     for (const double slope : {1.0, -1.0}) {
       stroke(context, x - kMarkerRadius, y - slope * kMarkerRadius, x + kMarkerRadius, y + slope * kMarkerRadius);
     }
   }
+}
+
+void draw_overshoot(cairo_t* context, const Axes& axes, const Overshoot& overshoot, double room) {
+  const double x = axes.x(overshoot.x);
+  const double y = axes.area().y + room + 8.0;
+  draw_marker(context, x, y, Marker::triangle, overshoot.colour);
+  const bool left = x > axes.area().x + 0.75 * axes.area().width;
+  const double width = text_width(context, overshoot.text, {.size = 11.0}) + 4.0;
+  set_colour(context, {1.0, 1.0, 1.0, 0.85});
+  cairo_rectangle(context, left ? x - width - 6.0 : x + 6.0, y - 7.0, width, 14.0);
+  cairo_fill(context);
+  draw_text(context, x + (left ? -8.0 : 8.0), y + 4.0, overshoot.text,
+            {.size = 11.0, .colour = overshoot.colour, .anchor = left ? Anchor::right : Anchor::left});
 }
 
 void draw_marks(cairo_t* context, const Axes& axes, const Curve& curve) {

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "chart/canvas.h"
+#include "chart/chart.h"
 
 namespace cellcrush::client {
 
@@ -16,5 +16,9 @@ inline constexpr std::array<Colour, 6> kSeriesColours = {{{0.00, 0.45, 0.70},
                                                           {0.80, 0.47, 0.65},
                                                           {0.90, 0.62, 0.00},
                                                           {0.34, 0.71, 0.91}}};
+
+/// The marks that go with them, in turn.
+inline constexpr std::array<Marker, 4> kSeriesMarkers = {Marker::disc, Marker::square, Marker::triangle,
+                                                         Marker::diamond};
 
 }  // namespace cellcrush::client

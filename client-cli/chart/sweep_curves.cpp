@@ -5,11 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "chart/palette.h"
 #include "command_error.h"
+#include "results/case_differences.h"
 #include "results/field_value.h"
 #include "results/sweep_results.h"
 
@@ -30,22 +33,30 @@ bool has_theory(const ResultSeries& series) {
 }
 
 // The axis of the varied field: from 0 where that wastes little room.
-Axis build_axis(const std::string& field, const std::vector<ResultSeries>& all) {
+Axis build_axis(const std::string& field, const std::vector<ResultSeries>& all, bool logarithmic) {
   double low = all.front().x.front();
   double high = all.front().x.back();
   for (const ResultSeries& series : all) {
     low = std::min(low, series.x.front());
     high = std::max(high, series.x.back());
   }
+  if (logarithmic) {
+    if (low <= 0.0) {
+      throw CommandError(ExitCode::refused,
+                         field + " is not above 0 everywhere, as --log x needs it; leave --log x out");
+    }
+    return {low / 1.2, 1.2 * high, axis_label(field), true};
+  }
   const double room = high > low ? 0.06 * (high - low) : 0.1 * std::max(std::abs(low), 1.0);
   const bool from_zero = low >= 0.0 && low < 0.5 * high;
   return {from_zero ? 0.0 : low - room, high + room, axis_label(field)};
 }
 
-Curve sampled(const QuadraticFit& curve, double from, double to, LineStyle style, std::string name) {
+Curve sampled(const QuadraticFit& curve, double from, double to, bool logarithmic, LineStyle style, std::string name) {
   Curve result{{}, {}, std::move(style), std::move(name)};
   for (int i = 0; i <= kCurvePoints; ++i) {
-    const double x = from + (to - from) * i / kCurvePoints;
+    const double share = static_cast<double>(i) / kCurvePoints;
+    const double x = logarithmic ? from * std::pow(to / from, share) : from + (to - from) * share;
     result.x.push_back(x);
     result.y.push_back(curve.at(x));
   }
@@ -77,18 +88,18 @@ void add_theory(Chart& chart, const ResultSeries& series, bool speed, const Colo
   if (!has_theory(series)) return;
   const LineStyle dashed{colour, 1.4, {8.0, 4.0}};
   const LineStyle dotted{colour, 1.4, {2.0, 3.0}};
-  const std::string name = named ? "Eq. 51 (shock)" : "";
+  const std::string name = named ? "shock theory (Eq. 51)" : "";
   if (const auto curve = speed ? find_shock_curve(series) : std::nullopt) {
-    chart.curves.push_back(sampled(*curve, chart.x.low, chart.x.high, dashed, name));
+    chart.curves.push_back(sampled(*curve, chart.x.low, chart.x.high, chart.x.logarithmic, dashed, name));
     chart.curves.push_back({{chart.x.low, chart.x.high},
                             {curve->constant, curve->constant},
                             dotted,
-                            named ? "Gibson-Ashby (quasi-static)" : ""});
+                            named ? "quasi-static theory (Gibson-Ashby)" : ""});
     return;
   }
   chart.curves.push_back({series.x, values_of(series, shock), dashed, name});
   chart.curves.push_back(
-      {series.x, values_of(series, quasi_static), dotted, named ? "Gibson-Ashby (quasi-static)" : ""});
+      {series.x, values_of(series, quasi_static), dotted, named ? "quasi-static theory (Gibson-Ashby)" : ""});
 }
 
 // Eq. 52 at those jobs that have a front.
@@ -114,9 +125,11 @@ void add_only_series(Chart& chart, const ResultSeries& series, bool speed) {
   chart.curves.push_back(
       {series.x, values_of(series, support), {kSupportColour, 1.2, {}}, "support plate", Marker::square});
   const LineStyle solid{kImpactColour, 1.6, {}};
-  if (fit) chart.curves.push_back(sampled(*fit, series.x.front(), series.x.back(), solid, fit_name(*fit)));
+  if (fit)
+    chart.curves.push_back(
+        sampled(*fit, series.x.front(), series.x.back(), chart.x.logarithmic, solid, fit_name(*fit)));
   add_theory(chart, series, speed, kMutedInk, true);
-  add_measured_shock(chart, series, kInk, "Eq. 52 (shock, jumps measured)");
+  add_measured_shock(chart, series, kInk, "shock theory, measured jumps (Eq. 52)");
 }
 
 void add_series(Chart& chart, const ResultSeries& series, bool speed, const Colour& colour) {
@@ -124,19 +137,86 @@ void add_series(Chart& chart, const ResultSeries& series, bool speed, const Colo
   add_impact(chart, series, fit, colour, series.name);
   chart.curves.push_back({series.x, values_of(series, support), {colour, 0.9, {}}, "", Marker::square});
   const LineStyle solid{colour, 1.6, {}};
-  if (fit) chart.curves.push_back(sampled(*fit, series.x.front(), series.x.back(), solid, ""));
+  if (fit) chart.curves.push_back(sampled(*fit, series.x.front(), series.x.back(), chart.x.logarithmic, solid, ""));
   Colour faint = colour;
   faint.opacity = 0.55;
   add_theory(chart, series, speed, faint, false);
   add_measured_shock(chart, series, colour, "");
 }
 
-double highest(const Chart& chart) {
-  double top = 0.0;
-  for (const Curve& curve : chart.curves) {
-    for (const double value : curve.y) top = std::isfinite(value) ? std::max(top, value) : top;
+// The plateau of one of several sweeps, a mark and a colour of its own, with the shock theory dashed.
+void add_sweep(Chart& chart, const ResultSeries& series, bool speed, std::size_t index) {
+  const Colour colour = kSeriesColours[index % kSeriesColours.size()];
+  const Marker marker = kSeriesMarkers[index % kSeriesMarkers.size()];
+  chart.curves.push_back({series.x, values_of(series, impact), {colour, 1.6, {}}, series.name, marker});
+  if (!has_theory(series)) return;
+  Colour faint = colour;
+  faint.opacity = 0.55;
+  const LineStyle dashed{faint, 1.4, {8.0, 4.0}};
+  const auto curve = speed ? find_shock_curve(series) : std::nullopt;
+  chart.curves.push_back(curve ? sampled(*curve, chart.x.low, chart.x.high, chart.x.logarithmic, dashed, "")
+                               : Curve{series.x, values_of(series, shock), dashed, ""});
+}
+
+// What tells a sweep from the others: its title, where that is the same what its case differs in, or its name.
+std::vector<std::string> names_of(const std::vector<SweepResults>& sweeps) {
+  std::vector<const v1::Case*> cases;
+  std::set<std::string> titles;
+  for (const SweepResults& results : sweeps) {
+    cases.push_back(&results.sweep.case_());
+    titles.insert(results.sweep.case_().title());
   }
-  return top;
+  const auto differences = find_differences(cases);
+  std::vector<std::string> names;
+  for (const SweepResults& results : sweeps) {
+    std::string name = results.sweep.case_().title();
+    if (titles.size() < sweeps.size()) name = field_values_text(results.sweep.case_(), differences);
+    names.push_back(name.empty() ? results.sweep.name() : name);
+  }
+  return names;
+}
+
+// All series of the sweeps; those of several sweeps with the sweep's name.
+std::vector<ResultSeries> collect_series(const std::vector<SweepResults>& sweeps) {
+  const auto names = names_of(sweeps);
+  std::vector<ResultSeries> all;
+  for (std::size_t i = 0; i < sweeps.size(); ++i) {
+    for (ResultSeries& series : split_series(sweeps[i].table)) {
+      if (sweeps.size() > 1) series.name = names[i] + (series.name.empty() ? "" : ", " + series.name);
+      all.push_back(std::move(series));
+    }
+  }
+  return all;
+}
+
+// The y axis: from 0, or logarithmic from below the lowest value above 0.
+void fit_stress_axis(Chart& chart, bool logarithmic) {
+  double low = std::numeric_limits<double>::max();
+  double high = 0.0;
+  for (const Curve& curve : chart.curves) {
+    for (const double value : curve.y) {
+      if (!std::isfinite(value)) continue;
+      high = std::max(high, value);
+      if (value > 0.0) low = std::min(low, value);
+    }
+  }
+  chart.y.logarithmic = logarithmic && high > 0.0;
+  chart.y.low = chart.y.logarithmic ? low / 1.3 : 0.0;
+  chart.y.high = high > 0.0 ? (chart.y.logarithmic ? 1.3 : 1.08) * high : 1.0;
+}
+
+void add_note(Chart& chart, const std::string& sentence) { chart.note += (chart.note.empty() ? "" : "; ") + sentence; }
+
+// A common first field; REQUIRES: there is a sweep.
+const std::string& find_field(const std::vector<SweepResults>& sweeps) {
+  for (const SweepResults& results : sweeps) {
+    if (results.table.fields_size() == 0 || results.table.fields(0) != sweeps.front().table.fields(0)) {
+      throw CommandError(
+          ExitCode::refused,
+          results.sweep.name() + " varies another field first than the others; name sweeps over one field");
+    }
+  }
+  return sweeps.front().table.fields(0);
 }
 
 }  // namespace
@@ -146,18 +226,22 @@ std::string axis_label(const std::string& field) {
   return words.unit.empty() ? words.name : fmt::format("{} ({})", words.name, words.unit);
 }
 
-Chart build_sweep_chart(const v1::SweepTable& table) {
-  const auto all = split_series(table);
-  if (table.fields_size() == 0 || all.empty()) {
+Chart build_sweep_chart(const std::vector<SweepResults>& sweeps, const LogarithmicAxes& logarithmic) {
+  const auto all = collect_series(sweeps);
+  if (all.empty()) {
     throw CommandError(ExitCode::refused,
                        "no job of the sweep has succeeded with a plateau yet, so that there is nothing to "
                        "draw; `cellcrush table` says how its jobs stand");
   }
-  const bool speed = varies_speed_first(table);
+  const std::string& field = find_field(sweeps);
+  const bool speed = varies_speed_first(sweeps.front().table);
   Chart chart;
-  chart.x = build_axis(table.fields(0), all);
+  chart.x = build_axis(field, all, logarithmic.x);
   chart.y.label = "plateau stress (MPa)";
-  if (all.size() == 1) {
+  if (sweeps.size() > 1) {
+    for (std::size_t i = 0; i < all.size(); ++i) add_sweep(chart, all[i], speed, i);
+    add_note(chart, "impact plate; dashed: shock theory (Eq. 51)");
+  } else if (all.size() == 1) {
     add_only_series(chart, all.front(), speed);
   } else {
     for (std::size_t i = 0; i < all.size(); ++i)
@@ -166,13 +250,12 @@ Chart build_sweep_chart(const v1::SweepTable& table) {
     if (speed) chart.note += "solid: quadratic fit; ";
     chart.note += "dashed: Eq. 51; crosses: Eq. 52; dotted: Gibson-Ashby";
   }
-  const double top = highest(chart);
-  chart.y.high = top > 0.0 ? 1.08 * top : 1.0;
+  fit_stress_axis(chart, logarithmic.y);
   std::size_t drawn = 0;
   for (const ResultSeries& series : all) drawn += series.x.size();
-  if (const auto rows = static_cast<std::size_t>(table.rows_size()); drawn < rows) {
-    chart.note += fmt::format("{}{} of {} jobs have no plateau", chart.note.empty() ? "" : "; ", rows - drawn, rows);
-  }
+  std::size_t rows = 0;
+  for (const SweepResults& results : sweeps) rows += static_cast<std::size_t>(results.table.rows_size());
+  if (drawn < rows) add_note(chart, fmt::format("{} of {} jobs have no plateau", rows - drawn, rows));
   return chart;
 }
 

@@ -25,19 +25,19 @@ std::string indented(const std::string& text, std::size_t columns) {
 }
 
 // A name and its text a line, all texts in one column.
-std::string two_columns(const NamedTexts& entries, std::size_t width) {
+std::string two_columns(const NamedTexts& entries, int width) {
   std::size_t longest = 0;
   for (const auto& [name, text] : entries) longest = std::max(longest, name.size());
   const std::size_t column = longest + 4;
   std::string out;
   for (const auto& [name, text] : entries) {
-    const std::string wrapped = wrap_text(text, std::max<std::size_t>(width, column + 20) - column);
+    const std::string wrapped = wrap_text(text, std::max(width, static_cast<int>(column) + 20) - static_cast<int>(column));
     out += fmt::format("  {:<{}}  {}\n", name, longest, indented(wrapped, column));
   }
   return out;
 }
 
-std::string manual_text(const FieldManual& manual, std::size_t width) {
+std::string manual_text(const FieldManual& manual, int width) {
   std::string text = manual.path.empty() ? "" : manual.path + "\n";
   NamedTexts facts = {{"Type", manual.type}};
   if (!manual.unit.empty()) facts.emplace_back("Unit", manual.unit);
@@ -76,7 +76,7 @@ google::protobuf::Struct manual_json(const FieldManual& manual) {
 ExitCode run_explain(const Session& session, const std::string& path) {
   constexpr int kWidestText = 100;
   const FieldManual manual = find_field_manual(path);
-  const auto width = static_cast<std::size_t>(std::min(terminal_width(), kWidestText));
+  const int width = std::min(terminal_width(), kWidestText);
   session.json ? print_json(manual_json(manual)) : fmt::print("{}", manual_text(manual, width));
   return ExitCode::done;
 }

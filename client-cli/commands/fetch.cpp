@@ -117,7 +117,7 @@ ExitCode run_fetch(Session& session, const FetchOptions& options) {
     print_json(job);
     return ExitCode::done;
   }
-  for (const fs::path& path : files.paths()) {
+  for (const fs::path& path : written) {
     fmt::print("{}  {}\n", path.string(), size_text(static_cast<std::int64_t>(fs::file_size(path))));
   }
   return ExitCode::done;

@@ -4,7 +4,7 @@
 
 #include "commands/commands.h"
 #include "connection/pages.h"
-#include "terminal/job_text.h"
+#include "terminal/job_list_text.h"
 #include "terminal/json_text.h"
 #include "terminal/sweep_text.h"
 

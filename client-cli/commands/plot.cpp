@@ -23,6 +23,7 @@ struct PlotOptions {
   std::vector<double> frame_strains;
   int strip = 0;  ///< frames evenly spaced over the run; 0: the default choice
   bool frames_only = false;
+  std::string logarithmic;  ///< the letters of the axes
 };
 
 v1::Job fetch_job(Connection& connection, const std::string& name) {
@@ -51,13 +52,20 @@ void write_picture(const std::string& path, const std::string& picture) {
   file.commit();
 }
 
-void plot_sweep(Session& session, const PlotOptions& options) {
+void plot_sweeps(Session& session, const PlotOptions& options) {
   const PictureFormat format = picture_format(options.file);
   Connection& connection = session.connection();
-  const std::string& name = options.names.front();
-  const auto table = fetch_table(connection, name);
-  write_picture(options.file, render_sweep_picture(format, name, table));
-  session.json ? print_json(table) : fmt::print("{}\n", options.file);
+  std::vector<SweepResults> sweeps;
+  for (const std::string& name : options.names) {
+    sweeps.push_back({fetch_sweep(connection, name), fetch_table(connection, name)});
+  }
+  const auto has = [&](char axis) { return options.logarithmic.find(axis) != std::string::npos; };
+  write_picture(options.file, render_sweep_picture(format, sweeps, {has('x'), has('y')}));
+  if (session.json) {
+    for (const SweepResults& results : sweeps) print_json(results.table);
+  } else {
+    fmt::print("{}\n", options.file);
+  }
 }
 
 std::string render_jobs(Connection& connection, PictureFormat format, const v1::ListJobsResponse& jobs,
@@ -82,7 +90,10 @@ void check_options(const PlotOptions& options) {
   const auto refuse = [](const char* message) { throw CommandError(ExitCode::refused, message); };
   const bool sweep = std::any_of(options.names.begin(), options.names.end(), names_sweep);
   const bool frames = options.strip > 0 || options.frames_only || !options.frame_strains.empty();
-  if (sweep && options.names.size() > 1) refuse("plot: a sweep is drawn by itself; name one sweep, or jobs only");
+  if (sweep && !std::all_of(options.names.begin(), options.names.end(), names_sweep)) {
+    refuse("plot: jobs and sweeps share no chart; name jobs or sweeps only");
+  }
+  if (!options.logarithmic.empty() && !sweep) refuse("plot: --log is for sweeps; leave it out");
   if (frames && (sweep || options.names.size() > 1)) {
     refuse("plot: --strip, --frame-strain and --frames-only are for one job; name one");
   }
@@ -91,7 +102,7 @@ void check_options(const PlotOptions& options) {
 
 ExitCode run_plot(Session& session, const PlotOptions& options) {
   check_options(options);
-  names_sweep(options.names.front()) ? plot_sweep(session, options) : plot_jobs(session, options);
+  names_sweep(options.names.front()) ? plot_sweeps(session, options) : plot_jobs(session, options);
   return ExitCode::done;
 }
 
@@ -100,11 +111,11 @@ ExitCode run_plot(Session& session, const PlotOptions& options) {
 void add_plot_command(CLI::App& app, Session& session) {
   const auto options = std::make_shared<PlotOptions>();
   CLI::App* command = add_command(app, session, "plot",
-                                  "Draw a job's crush and stress-strain curve, compare several jobs, or draw a sweep",
+                                  "Draw a job's crush and stress-strain curve, compare several jobs, or draw sweeps",
                                   [&session, options] { return run_plot(session, *options); });
   command->group(kResultCommands);
-  command->add_option("NAME", options->names, "Names of jobs, or a sweep's")->required();
-  command->add_option("-o,--output", options->file, "The picture: FILE.svg or FILE.png")
+  command->add_option("NAME", options->names, "Names of jobs, or of sweeps over one field")->required();
+  command->add_option("-o,--output", options->file, "The picture: FILE.svg, FILE.pdf or FILE.png")
       ->required()
       ->group(kOutputOptions);
   command
@@ -118,10 +129,13 @@ void add_plot_command(CLI::App& app, Session& session) {
                    "Show so many frames, evenly spaced over the run (default: those of --frame-strain)")
       ->group(kFrameOptions)
       ->check(CLI::Range(1, 100));
+  command->add_option("--log", options->logarithmic, "Logarithmic axes of a sweep's chart: x, y or xy (default: none)")
+      ->group(kOutputOptions)
+      ->check(CLI::IsMember({"x", "y", "xy"}));
   command->add_flag("--frames-only", options->frames_only, "Draw the frames without title and curve, as for a paper")
       ->group(kFrameOptions);
   add_examples(*command, {"cellcrush plot jobs/12 -o crush.png", "cellcrush plot jobs/12 jobs/13 -o compared.svg",
-                          "cellcrush plot sweeps/3 -o sweep.svg"});
+                          "cellcrush plot sweeps/3 sweeps/4 --log xy -o sweeps.pdf"});
 }
 
 }  // namespace cellcrush::client

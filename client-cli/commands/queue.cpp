@@ -10,6 +10,7 @@
 #include "terminal/json_text.h"
 #include "terminal/number_text.h"
 #include "terminal/table.h"
+#include "terminal/terminal.h"
 
 namespace cellcrush::client {
 
@@ -28,12 +29,12 @@ std::string hold_text(const v1::Queue::Hold& hold) {
                                  duration_text(seconds(now - hold.since())), hold.reason(), hold.remedy());
   if (hold.has_next_try_time())
     text += fmt::format(" The next try is in {}.", duration_text(seconds(hold.next_try_time() - now)));
-  return text + "\n";
+  return text;
 }
 
-std::string queue_text(const v1::Queue& queue) {
+std::string queue_text(const v1::Queue& queue, int width) {
   std::string held;
-  for (const auto& hold : queue.holds()) held += hold_text(hold);
+  for (const auto& hold : queue.holds()) held += wrapped(hold_text(hold), width);
   if (queue.entries_size() == 0) return held + "the queue is empty\n";
   const bool priorities = std::any_of(queue.entries().begin(), queue.entries().end(),
                                       [](const v1::Queue::Entry& entry) { return entry.priority() != 0; });
@@ -47,7 +48,7 @@ std::string queue_text(const v1::Queue& queue) {
     add(entry.job(), entry.seconds_until_start() > 0 ? duration_text(entry.seconds_until_start()) : "",
         entry.priority() != 0 ? std::to_string(entry.priority()) : "", entry.reason());
   }
-  std::string text = held + table.text();
+  std::string text = held + table.text(0, width);
   if (queue.more_count() > 0) text += fmt::format("and {} more\n", count_text(queue.more_count()));
   return text;
 }
@@ -55,7 +56,7 @@ std::string queue_text(const v1::Queue& queue) {
 ExitCode run_queue(Session& session) {
   Connection& connection = session.connection();
   const auto queue = connection.call(connection.admin(), &v1::Admin::Stub::GetQueue, v1::GetQueueRequest());
-  session.json ? print_json(queue) : fmt::print("{}", queue_text(queue));
+  session.json ? print_json(queue) : fmt::print("{}", queue_text(queue, terminal_width()));
   return ExitCode::done;
 }
 

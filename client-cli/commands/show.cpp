@@ -3,6 +3,7 @@
 #include "case_file/case_source.h"
 #include "commands/commands.h"
 #include "commands/resource_name.h"
+#include "connection/pages.h"
 #include "terminal/case_text.h"
 #include "terminal/job_text.h"
 #include "terminal/json_text.h"
@@ -29,10 +30,7 @@ void show_job(Session& session, const std::string& name) {
 }
 
 void show_sweep(Session& session, const std::string& name) {
-  Connection& connection = session.connection();
-  v1::GetSweepRequest request;
-  request.set_name(name);
-  const auto sweep = connection.call(connection.sweeps(), &v1::Sweeps::Stub::GetSweep, request);
+  const auto sweep = fetch_sweep(session.connection(), name);
   session.json ? print_json(sweep) : fmt::print("{}", description_text(sweep));
 }
 

@@ -13,15 +13,21 @@ namespace {
 struct TableOptions {
   std::string name;
   bool csv = false;
+  int digits = kTableDigits;
 };
 
 ExitCode run_table(Session& session, const TableOptions& options) {
   if (options.csv && session.json) throw CommandError(ExitCode::refused, "table: give one of --csv and --json");
-  const auto table = fetch_table(session.connection(), sweep_name(options.name));
+  Connection& connection = session.connection();
+  const std::string name = sweep_name(options.name);
+  const auto table = fetch_table(connection, name);
   if (session.json) {
     print_json(table);
+  } else if (options.csv) {
+    fmt::print("{}", sweep_table_csv(table));
   } else {
-    fmt::print("{}", options.csv ? sweep_table_csv(table) : sweep_table_text(table));
+    const auto sweep = fetch_sweep(connection, name);
+    fmt::print("{}", sweep_table_text(table, sweep.case_().lattice(), options.digits));
   }
   return ExitCode::done;
 }
@@ -30,10 +36,15 @@ ExitCode run_table(Session& session, const TableOptions& options) {
 
 void add_table_command(CLI::App& app, Session& session) {
   const auto options = std::make_shared<TableOptions>();
-  CLI::App* table = add_command(app, session, "table", "Print a sweep's results, a line a job",
+  CLI::App* table = add_command(app, session, "table", "Print a sweep's results, a row a job",
                                 [&session, options] { return run_table(session, *options); });
   table->group(kResultCommands);
   table->add_option("SWEEP", options->name, "A sweep's name")->required();
+  table
+      ->add_option("--digits", options->digits,
+                   "Significant digits of the results; what was varied always has all of its digits (default: 3)")
+      ->group(kOutputOptions)
+      ->check(CLI::Range(1, 17));
   table->add_flag("--csv", options->csv, "As CSV, with all digits")->group(kOutputOptions);
   add_examples(*table, {"cellcrush table sweeps/3", "cellcrush table sweeps/3 --csv > table.csv"});
 }

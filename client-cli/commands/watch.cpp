@@ -51,7 +51,8 @@ ExitCode watch_sweep(Session& session, const std::string& name, const Interrupti
   display->finish();
   const auto table = fetch_table(session.connection(), name);
   session.json ? print_json(table)
-               : fmt::print("\n{}{}", sweep_table_text(table), sweep_chart_text(table, terminal.unicode));
+               : fmt::print("\n{}{}", sweep_table_text(table, view.sweep().case_().lattice()),
+                            sweep_chart_text(table, terminal.unicode, terminal_width()));
   return view.count(v1::SUCCEEDED) == jobs ? ExitCode::done : ExitCode::job_failed;
 }
 

@@ -8,8 +8,8 @@
 
 namespace cellcrush::client {
 
-/// Calls a method that answers in pages, and joins them into one answer without a token. `wants_more` is asked before each
-/// page, and may change the request, such as its page_size. Throws CommandError.
+/// Calls a method that answers in pages, and joins them into one answer without a token. `wants_more` is asked before
+/// each page, and may change the request, such as its page_size. Throws CommandError.
 template <typename Stub, typename Request, typename Response>
 Response call_for_pages(Connection& connection, Stub& stub,
                         grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*), Request request,
@@ -29,6 +29,9 @@ Response call_for_pages(Connection& connection, Stub& stub,
 
 /// All samples of a job.
 v1::GetHistoryResponse fetch_history(Connection& connection, const std::string& job);
+
+/// A sweep.
+v1::Sweep fetch_sweep(Connection& connection, const std::string& name);
 
 /// The whole table of a sweep.
 v1::SweepTable fetch_table(Connection& connection, const std::string& sweep);

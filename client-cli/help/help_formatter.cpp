@@ -7,7 +7,7 @@ namespace cellcrush::client {
 namespace {
 
 constexpr std::size_t kNameColumns = 28;
-constexpr std::size_t kDescriptionColumns = 72;
+constexpr int kDescriptionColumns = 72;
 
 }  // namespace
 

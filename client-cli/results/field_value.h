@@ -2,13 +2,14 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "cellcrush/v1/case.pb.h"
 
 namespace cellcrush::client {
 
-/// The value of the number at a dotted path of a case, such as "loading.speed_m_per_s", as text; empty when the case has
-/// no number there.
+/// The number or choice at a dotted path of a case, such as "loading.speed_m_per_s" or "lattice.frame.nodes[3].x_mm",
+/// as text; empty when the case has none there.
 std::string field_value_text(const v1::Case& scene, std::string_view path);
 
 /// A field in words: "lattice.hexagon.wall_thickness_mm" is a "wall thickness" in "mm". The unit may be empty.
@@ -18,7 +19,7 @@ struct FieldWords {
 };
 FieldWords words_of(std::string_view path);
 
-/// The last part of a path: "speed_m_per_s".
-std::string_view last_part(std::string_view path);
+/// The same beside other fields: behind its group where another one has the same name, "plates friction".
+FieldWords words_among(std::string_view path, const std::vector<std::string>& others);
 
 }  // namespace cellcrush::client

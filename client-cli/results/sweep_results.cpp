@@ -20,7 +20,7 @@ std::optional<double> theory(const v1::Summary& summary, double value) {
 std::string other_values_text(const v1::SweepTable& table, const v1::SweepTable::Row& row) {
   std::string text;
   for (int i = 1; i < table.fields_size(); ++i) {
-    const FieldWords words = words_of(table.fields(i));
+    const FieldWords words = words_among(table.fields(i), {table.fields().begin(), table.fields().end()});
     text += fmt::format("{}{} = {}{}{}", text.empty() ? "" : ", ", words.name, value_text(row.values(i)),
                         words.unit.empty() ? "" : " ", words.unit);
   }
@@ -31,27 +31,57 @@ std::string other_values_text(const v1::SweepTable& table, const v1::SweepTable:
 
 const std::vector<ResultColumn>& result_columns() {
   static const std::vector<ResultColumn> kColumns = {
-      {"plateau", "impact", "MPa", "plateau_stress_impact_mpa", 1.0,
+      {{"plateau", "impact", "plate"},
+       "MPa",
+       "plateau_stress_impact_mpa",
+       1.0,
        [](const v1::Summary& s) { return known(s.has_plateau_stress_impact_mpa(), s.plateau_stress_impact_mpa()); }},
-      {"plateau", "support", "MPa", "plateau_stress_support_mpa", 1.0,
+      {{"plateau", "support", "plate"},
+       "MPa",
+       "plateau_stress_support_mpa",
+       1.0,
        [](const v1::Summary& s) { return known(s.has_plateau_stress_support_mpa(), s.plateau_stress_support_mpa()); }},
-      {"plateau", "to dens.", "MPa", "plateau_stress_to_densification_mpa", 1.0,
+      {{"plateau", "up to", "densif."},
+       "MPa",
+       "plateau_stress_to_densification_mpa",
+       1.0,
        [](const v1::Summary& s) {
          return known(s.has_plateau_stress_to_densification_mpa(), s.plateau_stress_to_densification_mpa());
        }},
-      {"dens.", "strain", "", "densification_strain", 1.0,
+      {{"densif.", "strain", ""},
+       "",
+       "densification_strain",
+       1.0,
        [](const v1::Summary& s) { return known(s.has_densification_strain(), s.densification_strain()); }},
-      {"absorbed", "energy", "J", "absorbed_energy_mj", 1e-3,
+      {{"absorbed", "energy", ""},
+       "J",
+       "absorbed_energy_mj",
+       1e-3,
        [](const v1::Summary& s) { return known(s.step_count() > 0, s.absorbed_energy_mj()); }},
-      {"theory", "G.-A.", "MPa", "gibson_ashby_mpa", 1.0,
+      {{"quasi-", "static", "theory"},
+       "MPa",
+       "gibson_ashby_mpa",
+       1.0,
        [](const v1::Summary& s) { return theory(s, s.theory().gibson_ashby_mpa()); }},
-      {"theory", "Eq. 51", "MPa", "shock_mpa", 1.0,
+      {{"shock", "theory", "Eq. 51"},
+       "MPa",
+       "shock_mpa",
+       1.0,
        [](const v1::Summary& s) { return theory(s, s.theory().shock_mpa()); }},
-      {"theory", "Eq. 52", "MPa", "front_shock_mpa", 1.0,
+      {{"shock", "theory", "Eq. 52"},
+       "MPa",
+       "front_shock_mpa",
+       1.0,
        [](const v1::Summary& s) { return known(s.has_front(), s.front().shock_mpa()); }},
-      {"front", "strain", "", "front_strain_behind", 1.0,
+      {{"strain", "behind", "front"},
+       "",
+       "front_strain_behind",
+       1.0,
        [](const v1::Summary& s) { return known(s.has_front(), s.front().strain_behind()); }},
-      {"ledger", "error", "%", "energy_error_relative", 100.0,
+      {{"energy", "ledger", "error"},
+       "%",
+       "energy_error_relative",
+       100.0,
        [](const v1::Summary& s) { return known(s.step_count() > 0, s.energy_error_relative()); }},
   };
   return kColumns;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,9 +12,8 @@ namespace cellcrush::client {
 
 /// A figure of a job's result, as a column of a sweep's table.
 struct ResultColumn {
-  const char* group;                                           ///< first line of the heading, such as "plateau"
-  const char* heading;                                         ///< second line, such as "impact"
-  const char* unit;                                            ///< third line
+  std::array<const char*, 3> heading;                          ///< its lines, such as "plateau", "impact", "plate"
+  const char* unit;                                            ///< the line below them
   const char* field;                                           ///< name with its unit, for CSV
   double scale;                                                ///< from the summary's unit to the heading's
   std::optional<double> (*value)(const v1::Summary& summary);  ///< in the summary's unit
@@ -44,8 +44,8 @@ std::vector<double> values_of(const ResultSeries& series, double (*value)(const 
 /// The fit of the impact plate's plateau stress in MPa; nothing without three different x.
 std::optional<QuadraticFit> find_plateau_fit(const ResultSeries& series);
 
-/// Eq. 51 as a function of speed, from the theory of the series: constant + quadratic V^2. Nothing when no job carries it.
-/// REQUIRES: x are speeds in m/s.
+/// Eq. 51 as a function of speed, from the theory of the series: constant + quadratic V^2. Nothing when no job carries
+/// it. REQUIRES: x are speeds in m/s.
 std::optional<QuadraticFit> find_shock_curve(const ResultSeries& series);
 
 }  // namespace cellcrush::client

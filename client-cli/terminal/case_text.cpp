@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "command_error.h"
+#include "results/theory_note.h"
 #include "terminal/fidelity_text.h"
 #include "terminal/lattice_text.h"
 #include "terminal/number_text.h"
@@ -17,23 +18,7 @@ namespace {
 
 using Align = Table::Align;
 
-std::string wrapped(const std::string& text, std::size_t width, const std::string& first, const std::string& next) {
-  std::istringstream words(text);
-  std::string result = first;
-  std::size_t column = first.size();
-  bool begin = true;
-  for (std::string word; words >> word; begin = false) {
-    if (!begin && column + 1 + word.size() > width) {
-      result += '\n' + next;
-      column = next.size();
-      begin = true;
-    }
-    if (!begin) result += ' ';
-    result += word;
-    column += word.size() + (begin ? 0 : 1);
-  }
-  return result + '\n';
-}
+constexpr int kHeadingWidth = 78;  // behind the "# " of a comment
 
 std::string material_text(const v1::Material& material) {
   std::string text = fmt::format("E {:.6g} MPa, yield {:.6g} MPa, hardening {:.6g} MPa", material.youngs_modulus_mpa(),
@@ -65,7 +50,7 @@ std::string scene_text(const v1::Case& scene) {
   return text;
 }
 
-std::string description_text(const v1::Case& scene) {
+std::string description_text(const v1::Case& scene, int width) {
   Table table({Align::left, Align::left});
   for (const auto& [heading, line] : lattice_description(scene.lattice())) table.add({heading, line});
   if (scene.has_depth_mm()) table.add({"depth", fmt::format("{} mm", scene.depth_mm())});
@@ -77,10 +62,10 @@ std::string description_text(const v1::Case& scene) {
   if (scene.numerics().mass_damping_per_s() > 0.0) {
     table.add({"mass damping", fmt::format("{} 1/s", scene.numerics().mass_damping_per_s())});
   }
-  return table.text(2);
+  return table.text(2, width);
 }
 
-std::string check_text(const v1::CheckCaseResponse& check) {
+std::string check_text(const v1::CheckCaseResponse& check, int width) {
   const bool frame = check.completed_case().lattice().has_frame();
   Table table({Align::left, Align::right, Align::left});
   table.add({"particles", count_text(check.particle_count())});
@@ -100,15 +85,18 @@ std::string check_text(const v1::CheckCaseResponse& check) {
   }
   const v1::Case& completed = check.completed_case();
   std::string text;
-  if (!completed.title().empty()) text += printable(completed.title()) + '\n';
-  if (const std::string scene = scene_text(completed); !scene.empty()) text += scene + '\n';
-  if (const std::string description = description_text(completed); !description.empty()) text += '\n' + description;
+  if (!completed.title().empty()) text += wrapped(printable(completed.title()), width);
+  if (const std::string scene = scene_text(completed); !scene.empty()) text += wrapped(scene, width);
+  if (const std::string description = description_text(completed, width); !description.empty())
+    text += '\n' + description;
   if (!text.empty()) text += '\n';
-  text += table.text(2);
+  text += table.text(2, width);
   if (check.notes_size() > 0) text += '\n' + notes_text(check.notes());
-  text += fidelity_text(check);
+  const std::string note = theory_note(completed.lattice());
+  if (!note.empty() && check.theory().shock_mpa() > 0) text += '\n' + wrapped("Note: " + note, width, "  ", "  ");
+  text += fidelity_text(check, width);
   if (check.modelled_size() > 0) text += "\nmodelled, and left out\n";
-  for (const std::string& sentence : check.modelled()) text += wrapped(printable(sentence), 100, "  - ", "    ");
+  for (const std::string& sentence : check.modelled()) text += wrapped(printable(sentence), width, "  - ", "    ");
   return text;
 }
 
@@ -125,16 +113,17 @@ std::string case_file_text(const v1::Case& contents, const std::string& heading)
 }
 
 std::string preset_heading(const v1::Preset& preset) {
-  std::string heading = "preset:" + preset.name() + '\n' + wrapped(preset.title(), 110, "", "");
+  std::string heading = "preset:" + preset.name() + '\n' + wrapped(preset.title(), kHeadingWidth);
   if (preset.assumptions_size() > 0) heading += "\nAssumptions:\n";
-  for (const std::string& assumption : preset.assumptions()) heading += wrapped(assumption, 110, "  - ", "    ");
+  for (const std::string& assumption : preset.assumptions())
+    heading += wrapped(assumption, kHeadingWidth, "  - ", "    ");
   return heading;
 }
 
-std::string preset_list_text(const v1::ListPresetsResponse& presets) {
+std::string preset_list_text(const v1::ListPresetsResponse& presets, int width) {
   Table table({Align::left, Align::left});
   for (const v1::Preset& preset : presets.presets()) table.add({"preset:" + preset.name(), preset.title()});
-  return table.text();
+  return table.text(0, width);
 }
 
 }  // namespace cellcrush::client

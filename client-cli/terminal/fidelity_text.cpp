@@ -20,7 +20,7 @@ using Align = Table::Align;
 std::string error_text(const v1::MeasuredError& error) {
   if (error.error_relative() <= error.uncertainty_relative())
     return fmt::format("under {}", percent_text(error.uncertainty_relative()));
-  return fmt::format("{} +- {}", percent_text(error.error_relative()), percent_text(error.uncertainty_relative()));
+  return fmt::format("{} ± {}", percent_text(error.error_relative()), percent_text(error.uncertainty_relative()));
 }
 
 // The forecast that names the scenes in which errors were measured; null when the case's own fields leave none.
@@ -65,13 +65,14 @@ std::string scatter_text(const v1::FidelityForecast& measured) {
 
 }  // namespace
 
-std::string fidelity_text(const v1::CheckCaseResponse& check) {
+std::string fidelity_text(const v1::CheckCaseResponse& check, int width) {
   if (check.fidelities_size() == 0) return {};
   if (are_all_the_same(check)) {
-    return fmt::format(
-        "\nspeed against accuracy: numerics.fidelity changes nothing, and the error is not known, as the case\n"
-        "gives {}\n",
-        given_text(check.fidelities(0)));
+    return '\n' + wrapped(
+                      "speed against accuracy: numerics.fidelity changes nothing, and the error is not known, as the "
+                      "case gives " +
+                          given_text(check.fidelities(0)),
+                      width);
   }
   const v1::FidelityForecast* measured = find_measured(check);
   std::vector<std::string> heading = {"fidelity", "elements a wall", "predicted time"};
@@ -85,12 +86,13 @@ std::string fidelity_text(const v1::CheckCaseResponse& check) {
   Table table(columns);
   table.add(heading);
   for (const v1::FidelityForecast& forecast : check.fidelities()) table.add(row_of(forecast));
-  std::string text = "\nspeed against accuracy, by numerics.fidelity\n" + table.text(2);
+  std::string text = "\nspeed against accuracy, by numerics.fidelity\n" + table.text(2, width);
   if (measured != nullptr) {
-    text += fmt::format(
-        "  Errors are those of means over seeds, from the converged solutions of the scenes named. One crush of {}\n"
-        "  scatters by {}.\n",
-        v1::Numerics::Fidelity_Name(measured->fidelity()), scatter_text(*measured));
+    text += wrapped(
+        fmt::format("Errors are those of means over seeds, from the converged solutions of the scenes named. One "
+                    "crush of {} scatters by {}.",
+                    v1::Numerics::Fidelity_Name(measured->fidelity()), scatter_text(*measured)),
+        width, "  ", "  ");
   }
   return text;
 }

@@ -6,8 +6,8 @@
 
 namespace cellcrush::client {
 
-/// What a case would take and be worth at each fidelity, as a table with a line on what the errors are; empty when there
-/// are none.
-std::string fidelity_text(const v1::CheckCaseResponse& check);
+/// What a case would take and be worth at each fidelity, as a table with a line on what the errors are; empty when
+/// there are none.
+std::string fidelity_text(const v1::CheckCaseResponse& check, int width);
 
 }  // namespace cellcrush::client

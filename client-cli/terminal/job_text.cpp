@@ -39,7 +39,7 @@ void add_progress_rows(Table& table, const v1::Job& job) {
   if (progress.has_plateau_so_far_mpa()) table.add({"plateau so far", stress_text(progress.plateau_so_far_mpa())});
 }
 
-std::string stage_times_text(const v1::StageTimes& times) {
+std::string stage_times_text(const v1::StageTimes& times, int width) {
   const std::pair<const char*, double> stages[] = {
       {"integrate motion", times.integrate_motion_s()},  {"internal forces", times.evaluate_internal_forces_s()},
       {"find contacts", times.find_contacts_s()},        {"contact forces", times.evaluate_contact_forces_s()},
@@ -52,12 +52,12 @@ std::string stage_times_text(const v1::StageTimes& times) {
   for (const auto& [name, seconds] : stages) {
     table.add({name, number_text(seconds) + " s", percent_text(seconds / all)});
   }
-  return table.text(2);
+  return table.text(2, width);
 }
 
 }  // namespace
 
-std::string outcome_text(const v1::Job& job) {
+std::string outcome_text(const v1::Job& job, int width) {
   std::string text = printable(job.name()) + " " + v1::JobState_Name(job.state());
   if (job.state() == v1::FAILED && job.cause() != v1::JOB_CAUSE_UNSPECIFIED)
     text += " (" + v1::JobCause_Name(job.cause()) + ")";
@@ -67,14 +67,14 @@ std::string outcome_text(const v1::Job& job) {
     text += fmt::format(": {} steps, {} of solver time", count_text(job.summary().step_count()),
                         duration_text(job.summary().solver_seconds()));
   }
-  text += '\n';
-  if (!job.cause_message().empty()) text += "  " + printable(job.cause_message()) + '\n';
-  if (!job.remedy().empty()) text += "  Remedy: " + printable(job.remedy()) + '\n';
-  if (job.has_summary()) text += '\n' + summary_text(job.summary(), job.case_().lattice().has_frame());
+  text = wrapped(text, width, "", "  ");
+  if (!job.cause_message().empty()) text += wrapped(printable(job.cause_message()), width, "  ", "  ");
+  if (!job.remedy().empty()) text += wrapped("Remedy: " + printable(job.remedy()), width, "  ", "    ");
+  if (job.has_summary()) text += '\n' + summary_text(job.summary(), job.case_().lattice(), width);
   return text;
 }
 
-std::string description_text(const v1::Job& job) {
+std::string description_text(const v1::Job& job, int width) {
   Table table({Align::left, Align::left});
   if (!job.case_().title().empty()) table.add({"title", job.case_().title()});
   const std::string scene = scene_text(job.case_());
@@ -94,9 +94,9 @@ std::string description_text(const v1::Job& job) {
                                 job.attempt(), job.attempt() - 1, job.attempt() == 2 ? "was" : "were")});
   }
   if (job.has_progress() && !is_final(job.state())) add_progress_rows(table, job);
-  const std::string scene_lines = description_text(job.case_());
-  const std::string stage_lines = stage_times_text(job.summary().stage_times());
-  return outcome_text(job) + (stage_lines.empty() ? "" : '\n' + stage_lines) + '\n' + table.text(2) +
+  const std::string scene_lines = description_text(job.case_(), width);
+  const std::string stage_lines = stage_times_text(job.summary().stage_times(), width);
+  return outcome_text(job, width) + (stage_lines.empty() ? "" : '\n' + stage_lines) + '\n' + table.text(2, width) +
          (scene_lines.empty() ? "" : '\n' + scene_lines);
 }
 
@@ -109,33 +109,6 @@ std::string labels_text(const google::protobuf::Map<std::string, std::string>& l
 
 std::string time_text(const google::protobuf::Timestamp& time) {
   return TimeUtil::ToString(TimeUtil::SecondsToTimestamp(time.seconds()));
-}
-
-std::string job_list_text(const std::vector<v1::Job>& jobs) {
-  if (jobs.empty()) return "no jobs\n";
-  const bool labels = std::any_of(jobs.begin(), jobs.end(), [](const v1::Job& job) { return !job.labels().empty(); });
-  const bool priorities = std::any_of(jobs.begin(), jobs.end(), [](const v1::Job& job) { return job.priority() != 0; });
-  Table table(
-      {Align::left, Align::left, Align::right, Align::right, Align::left, Align::left, Align::left, Align::left});
-  const auto add = [&](std::vector<std::string> cells, const std::string& priority, const std::string& labels_cell,
-                       const std::string& title) {
-    if (priorities) cells.push_back(priority);
-    if (labels) cells.push_back(labels_cell);
-    cells.push_back(title);
-    table.add(std::move(cells));
-  };
-  add({"NAME", "STATE", "DONE", "PLATEAU", "CREATED"}, "PRIORITY", "LABELS", "TITLE");
-  for (const v1::Job& job : jobs) {
-    const bool plateau = job.summary().has_plateau_stress_impact_mpa();
-    const bool started = job.state() != v1::PENDING && job.has_progress();
-    const double done = job.state() == v1::SUCCEEDED ? 1.0 : job.progress().fraction();
-    add({job.name(), v1::JobState_Name(job.state()), started || done > 0.0 ? percent_text(done, 0) : "",
-         plateau ? stress_text(job.summary().plateau_stress_impact_mpa()) : "",
-         job.has_create_time() ? time_text(job.create_time()) : ""},
-        job.priority() != 0 ? std::to_string(job.priority()) : "", cut(labels_text(job.labels()), 40),
-        cut(job.case_().title(), 60));
-  }
-  return table.text();
 }
 
 }  // namespace cellcrush::client

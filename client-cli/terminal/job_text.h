@@ -1,21 +1,18 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "cellcrush/v1/job.pb.h"
+#include "terminal/terminal.h"
 
 namespace cellcrush::client {
 
 /// How a job ended or stands: a heading, then for a SUCCEEDED job its plateau stresses with theory beside them, energy
 /// and contact; for a FAILED one the cause, what happened and the remedy.
-std::string outcome_text(const v1::Job& job);
+std::string outcome_text(const v1::Job& job, int width = terminal_width());
 
 /// All that is known of a job, for a reader.
-std::string description_text(const v1::Job& job);
-
-/// A line a job, with a heading; a column of labels when any job has one.
-std::string job_list_text(const std::vector<v1::Job>& jobs);
+std::string description_text(const v1::Job& job, int width = terminal_width());
 
 /// Labels in the order of their keys: "batch=7, who=me".
 std::string labels_text(const google::protobuf::Map<std::string, std::string>& labels);

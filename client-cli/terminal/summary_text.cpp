@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "results/theory_note.h"
 #include "terminal/number_text.h"
 #include "terminal/table.h"
 
@@ -15,51 +16,57 @@ namespace {
 
 using Align = Table::Align;
 
-std::string error_text(const char* source, bool known, double error) {
-  return known ? fmt::format("{}, {:+.1f} %", source, 100.0 * error) : source;
+// "shock theory (Eq. 51), 4.7 % above".
+std::string theory_text(const char* theory, bool known, double error) {
+  if (!known) return theory;
+  return fmt::format("{}, {} {}", theory, percent_text(std::abs(error)), error < 0.0 ? "below" : "above");
 }
 
 void add_plateau_rows(Table& table, const v1::Summary& summary) {
-  const std::string window =
-      fmt::format("{:.0f}-{:.0f} %", 100 * summary.plateau_window_low(), 100 * summary.plateau_window_high());
   const bool theory = summary.has_theory() && summary.theory().shock_mpa() > 0;
   const auto stress_row = [&](const char* plate, bool known, double stress, double expected,
                               const std::string& source) {
-    table.add({fmt::format("plateau stress, {}, {}", plate, window), known ? stress_text(stress) : "not reached",
+    table.add({fmt::format("  at the {} plate", plate), known ? stress_text(stress) : "not reached",
                theory ? stress_text(expected) : "", theory ? source : ""});
   };
-  table.add({"", "computed", theory ? "theory" : ""});
-  stress_row("impact plate", summary.has_plateau_stress_impact_mpa(), summary.plateau_stress_impact_mpa(),
+  table.add({fmt::format("plateau stress, {:.0f}-{:.0f} % strain", 100 * summary.plateau_window_low(),
+                         100 * summary.plateau_window_high()),
+             "computed", theory ? "theory" : ""});
+  stress_row("impact", summary.has_plateau_stress_impact_mpa(), summary.plateau_stress_impact_mpa(),
              summary.theory().shock_mpa(),
-             error_text("shock (Eq. 51)", summary.has_shock_error_relative(), summary.shock_error_relative()));
+             theory_text("shock theory (Eq. 51)", summary.has_shock_error_relative(), summary.shock_error_relative()));
   if (summary.has_front()) {
     const v1::FrontSummary& front = summary.front();
-    table.add(
-        {"", "", stress_text(front.shock_mpa()),
-         error_text("shock, jumps measured (Eq. 52)", front.has_shock_error_relative(), front.shock_error_relative())});
+    table.add({"", "", stress_text(front.shock_mpa()),
+               theory_text("shock theory with measured jumps (Eq. 52)", front.has_shock_error_relative(),
+                           front.shock_error_relative())});
   }
-  stress_row("support plate", summary.has_plateau_stress_support_mpa(), summary.plateau_stress_support_mpa(),
+  stress_row("support", summary.has_plateau_stress_support_mpa(), summary.plateau_stress_support_mpa(),
              summary.theory().gibson_ashby_mpa(), "quasi-static (Gibson-Ashby)");
   table.add({"densification strain",
              summary.has_densification_strain() ? number_text(summary.densification_strain()) : "not reached",
              theory ? number_text(summary.theory().densification_strain()) : "",
              theory ? "1 - 1.4 relative density" : ""});
   if (summary.has_plateau_stress_to_densification_mpa()) {
-    table.add({"plateau stress up to densification", stress_text(summary.plateau_stress_to_densification_mpa())});
+    table.add({"plateau stress to densification", stress_text(summary.plateau_stress_to_densification_mpa())});
   }
   if (summary.has_solid_fraction_at_densification()) {
     table.add({"solid fraction at densification", number_text(summary.solid_fraction_at_densification())});
   }
-  table.add({"energy absorbed up to 50 % strain", number_text(1e-3 * summary.absorbed_energy_mj()) + " J"});
-  const std::string mode = crush_mode_text(summary.crush_mode());
-  if (!mode.empty()) {
-    table.add({"crush mode", mode, "",
-               summary.has_crush_mode_strain() ? fmt::format("told at strain {:.2f}", summary.crush_mode_strain())
-                                               : "too few cells have collapsed to tell"});
-  }
+  table.add({"energy absorbed to 50 % strain", number_text(1e-3 * summary.absorbed_energy_mj()) + " J"});
 }
 
-std::string front_text(const v1::FrontSummary& front) {
+// A line of its own: words in a column of numbers would widen it.
+std::string mode_text(const v1::Summary& summary) {
+  const std::string mode = crush_mode_text(summary.crush_mode());
+  if (mode.empty()) return {};
+  return fmt::format("  crush mode: {}{}\n", mode,
+                     summary.has_crush_mode_strain()
+                         ? fmt::format(", first seen at strain {:.2f}", summary.crush_mode_strain())
+                         : std::string());
+}
+
+std::string front_text(const v1::FrontSummary& front, int width) {
   Table table({Align::left, Align::right, Align::right, Align::left});
   const auto row = [&](const char* what, double behind, double ahead, const char* unit) {
     table.add({what, number_text(behind), number_text(ahead), unit});
@@ -67,10 +74,10 @@ std::string front_text(const v1::FrontSummary& front) {
   table.add({"front over the plateau window", "behind", "ahead"});
   row("strain", front.strain_behind(), front.strain_ahead(), "");
   row("velocity", front.velocity_behind_m_per_s(), front.velocity_ahead_m_per_s(), "m/s");
-  table.add({"stress", "", number_text(front.stress_ahead_mpa()), "MPa, sigma_A of Eq. 52"});
+  table.add({"stress", "", number_text(front.stress_ahead_mpa()), "MPa, ahead of the front (sigma_A of Eq. 52)"});
   table.add({"solid fraction", number_text(front.solid_fraction_behind()), "", "by the walls' undeformed volume"});
   table.add({"", number_text(front.wall_fraction_behind()), "", "by the walls' lengths of now"});
-  return table.text(2);
+  return table.text(2, width);
 }
 
 // How steady a slow run was; nothing of a fast one.
@@ -78,17 +85,19 @@ void add_quasi_static_rows(Table& table, const v1::Summary& summary) {
   constexpr double kSlow = 0.1;
   const v1::QuasiStatic& found = summary.quasi_static();
   if (!summary.has_quasi_static() || found.kinetic_share() >= kSlow) return;
-  table.add({"plates' stresses differ beyond 5 % strain by", percent_text(found.plate_difference_relative(), 2), "",
-             "of their mean; in any 5 % of strain by at most " + percent_text(found.plate_difference_greatest(), 2)});
+  table.add({"plates differ beyond 5 % strain by", percent_text(found.plate_difference_relative(), 2), "",
+             "of their mean stress; at most " + percent_text(found.plate_difference_greatest(), 2) +
+                 " in any 5 % of strain"});
   table.add({"kinetic energy at most", percent_text(found.kinetic_share(), 2), "", "of the plastic work"});
 }
 
-std::string warning_text(const v1::Warning& warning) {
-  return fmt::format("  Warning ({}): {}\n    Remedy: {}\n", v1::WarningKind_Name(warning.kind()),
-                     printable(warning.message()), printable(warning.remedy()));
+std::string warning_text(const v1::Warning& warning, int width) {
+  return wrapped(fmt::format("Warning ({}): {}", v1::WarningKind_Name(warning.kind()), printable(warning.message())),
+                 width, "  ", "    ") +
+         wrapped("Remedy: " + printable(warning.remedy()), width, "    ", "    ");
 }
 
-std::string ledger_text(const v1::Ledger& ledger) {
+std::string ledger_text(const v1::Ledger& ledger, int width) {
   Table table({Align::left, Align::right, Align::right});
   const double spent = ledger.kinetic_mj() + ledger.elastic_mj() + ledger.plastic_mj() + ledger.contact_mj() +
                        ledger.friction_mj() + ledger.contact_damping_mj() + ledger.mass_damping_mj() +
@@ -109,21 +118,34 @@ std::string ledger_text(const v1::Ledger& ledger) {
   row("contact damping", ledger.contact_damping_mj());
   row("mass damping", ledger.mass_damping_mj());
   row("residual", ledger.residual_mj());
-  return table.text(2);
+  return table.text(2, width);
 }
 
 }  // namespace
 
 std::string stress_text(double stress) { return number_text(stress) + " MPa"; }
 
-std::string crush_mode_text(v1::CrushMode mode) {
+std::string crush_mode_code(v1::CrushMode mode) {
   constexpr std::string_view kPrefix = "CRUSH_MODE_";
   const std::string& name = v1::CrushMode_Name(mode);
   if (mode == v1::CRUSH_MODE_UNSPECIFIED || name.size() < kPrefix.size()) return {};
   return name.substr(kPrefix.size());
 }
 
-std::string summary_text(const v1::Summary& summary, bool frame) {
+std::string crush_mode_text(v1::CrushMode mode) {
+  switch (mode) {
+    case v1::CRUSH_MODE_NONE: return "none, as too few cells have collapsed";
+    case v1::CRUSH_MODE_X: return "crossed bands (X)";
+    case v1::CRUSH_MODE_V: return "V-shaped band (V)";
+    case v1::CRUSH_MODE_I: return "layer by layer (I)";
+    case v1::CRUSH_MODE_C: return "curved band (C)";
+    case v1::CRUSH_MODE_MIXED: return "mixed";
+    default: return crush_mode_code(mode);
+  }
+}
+
+std::string summary_text(const v1::Summary& summary, const v1::Lattice& lattice, int width) {
+  const bool frame = lattice.has_frame();
   Table table({Align::left, Align::right, Align::right, Align::left});
   if (!frame) {
     add_plateau_rows(table, summary);
@@ -131,10 +153,13 @@ std::string summary_text(const v1::Summary& summary, bool frame) {
   }
   table.add({"energy ledger error", percent_text(summary.energy_error_relative(), 2)});
   table.add({"deepest penetration", percent_text(summary.deepest_penetration()), "", "of the thinner wall"});
-  std::string text = table.text(2);
-  for (const v1::Warning& warning : summary.warnings()) text += '\n' + warning_text(warning);
-  if (!frame && summary.has_front()) text += '\n' + front_text(summary.front());
-  if (summary.has_ledger()) text += '\n' + ledger_text(summary.ledger());
+  std::string text = table.text(2, width);
+  if (!frame) text += mode_text(summary);
+  const std::string note = theory_note(lattice);
+  if (!note.empty() && summary.theory().shock_mpa() > 0) text += '\n' + wrapped("Note: " + note, width, "  ", "  ");
+  for (const v1::Warning& warning : summary.warnings()) text += '\n' + warning_text(warning, width);
+  if (!frame && summary.has_front()) text += '\n' + front_text(summary.front(), width);
+  if (summary.has_ledger()) text += '\n' + ledger_text(summary.ledger(), width);
   return text;
 }
 

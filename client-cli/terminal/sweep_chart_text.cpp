@@ -17,7 +17,8 @@ namespace cellcrush::client {
 
 namespace {
 
-constexpr int kColumns = 64;
+constexpr int kMostColumns = 64;
+constexpr int kLabels = 15;  // left of the canvas
 constexpr int kRows = 14;
 constexpr int kMostTicks = 5;
 
@@ -49,14 +50,20 @@ struct Range {
 // A field of cells, each a glyph of one column.
 class Canvas {
  public:
-  Canvas(const Range& x, const Range& y) : x_(x), y_(y), cells_(kRows, std::vector<std::string>(kColumns, " ")) {}
+  Canvas(const Range& x, const Range& y, int columns)
+      : x_(x),
+        y_(y),
+        columns_(columns),
+        cells_(kRows, std::vector<std::string>(static_cast<std::size_t>(columns), " ")) {}
 
   void put(double x, double y, const char* glyph) {
-    const int column = x_.place(x, kColumns);
+    const int column = x_.place(x, columns_);
     const int row = y_.place(y, kRows);
-    if (column < 0 || column >= kColumns || row < 0 || row >= kRows) return;
+    if (column < 0 || column >= columns_ || row < 0 || row >= kRows) return;
     cells_[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)] = glyph;
   }
+
+  [[nodiscard]] int columns() const { return columns_; }
 
   // Rows from the bottom; without the blanks behind the last mark.
   [[nodiscard]] std::string row(int number) const {
@@ -69,6 +76,7 @@ class Canvas {
  private:
   Range x_;
   Range y_;
+  int columns_;
   std::vector<std::vector<std::string>> cells_;
 };
 
@@ -105,12 +113,12 @@ std::string framed(const Canvas& canvas, const Range& x, const Range& y, const G
     text += fmt::format("  {:>{}} {}{}\n", label, width, label.empty() ? glyphs.side : glyphs.tick, canvas.row(row));
   }
   text += fmt::format("  {:>{}} {}", "", width, glyphs.corner);
-  for (int column = 0; column < kColumns; ++column) text += glyphs.floor;
+  for (int column = 0; column < canvas.columns(); ++column) text += glyphs.floor;
   const Ticks places = find_ticks(x.low, x.high, kMostTicks);
   std::string line(width + 4, ' ');
   for (const double place : places.values) {
     const std::string label = tick_label(place, places.step);
-    const std::size_t middle = width + 4 + static_cast<std::size_t>(x.place(place, kColumns));
+    const std::size_t middle = width + 4 + static_cast<std::size_t>(x.place(place, canvas.columns()));
     line.resize(std::max(line.size() + 1, middle - label.size() / 2), ' ');
     line += label;
   }
@@ -123,13 +131,13 @@ std::string legend(const std::vector<ResultSeries>& all, bool with_theory, const
     if (all[i].name.empty()) continue;
     text += fmt::format("  {} {}\n", glyphs.marks[i % glyphs.marks.size()], printable(all[i].name));
   }
-  if (with_theory) text += fmt::format("  {} Eq. 51 (shock)\n", glyphs.theory);
+  if (with_theory) text += fmt::format("  {} shock theory (Eq. 51)\n", glyphs.theory);
   return text;
 }
 
 }  // namespace
 
-std::string sweep_chart_text(const v1::SweepTable& table, bool unicode) {
+std::string sweep_chart_text(const v1::SweepTable& table, bool unicode, int width) {
   const auto all = split_series(table);
   const bool drawable = std::any_of(all.begin(), all.end(), [](const ResultSeries& s) { return s.x.size() > 1; });
   if (!drawable) return {};
@@ -141,9 +149,10 @@ std::string sweep_chart_text(const v1::SweepTable& table, bool unicode) {
   const Range y = {0.0, 1.05 * top};
   if (!(x.high > x.low && y.high > y.low)) return {};
   const Glyphs& glyphs = unicode ? kUnicode : kPlain;
-  Canvas canvas(x, y);
-  for (int column = 0; shock && column < kColumns; ++column) {
-    const double place = x.low + (x.high - x.low) * column / (kColumns - 1);
+  const int columns = std::clamp(width - kLabels, 10, kMostColumns);
+  Canvas canvas(x, y, columns);
+  for (int column = 0; shock && column < columns; ++column) {
+    const double place = x.low + (x.high - x.low) * column / (columns - 1);
     canvas.put(place, shock->at(place), glyphs.theory);
   }
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -152,8 +161,8 @@ std::string sweep_chart_text(const v1::SweepTable& table, bool unicode) {
       canvas.put(all[i].x[k], stresses[k], glyphs.marks[i % glyphs.marks.size()]);
     }
   }
-  return fmt::format("\nplateau at the impact plate in MPa against {}\n{}{}", axis_label(table.fields(0)),
-                     framed(canvas, x, y, glyphs), legend(all, shock.has_value(), glyphs));
+  return "\n" + wrapped("plateau at the impact plate in MPa against " + axis_label(table.fields(0)), width) +
+         framed(canvas, x, y, glyphs) + legend(all, shock.has_value(), glyphs);
 }
 
 }  // namespace cellcrush::client

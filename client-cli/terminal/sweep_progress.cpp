@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <set>
+#include <sstream>
 
-#include "exit_code.h"
+#include "results/case_differences.h"
 #include "results/field_value.h"
 #include "terminal/number_text.h"
 #include "terminal/table.h"
@@ -14,71 +15,34 @@ namespace cellcrush::client {
 
 namespace {
 
-constexpr int kLongestBar = 40;
-constexpr int kShortestBar = 6;
-constexpr int kStateWidth = 10;
-
+using Align = Table::Align;
 using Entry = SweepView::Entry;
 
-v1::JobState state_of(const Entry& entry) {
-  // A job of which nothing has come yet waits.
-  const v1::JobState state = entry.view.job().state();
-  return state == v1::JOB_STATE_UNSPECIFIED ? v1::PENDING : state;
-}
+constexpr int kProgressHeadings = 2;
 
 std::string plateau_text(const v1::Job& job) {
   const bool ended = job.summary().has_plateau_stress_impact_mpa();
   if (!ended && !job.progress().has_plateau_so_far_mpa()) return {};
-  return fmt::format("plateau {} MPa", number_text(ended ? job.summary().plateau_stress_impact_mpa()
-                                                         : job.progress().plateau_so_far_mpa()));
+  return number_text(ended ? job.summary().plateau_stress_impact_mpa() : job.progress().plateau_so_far_mpa());
 }
 
-std::set<std::string> varied_fields(const v1::Sweep& sweep) {
-  std::set<std::string> fields;
-  for (const v1::SweepAxis& axis : sweep.axes()) fields.insert(axis.field());
+std::vector<std::string> varied_fields(const v1::Sweep& sweep) {
+  std::vector<std::string> fields;
+  for (const v1::SweepAxis& axis : sweep.axes()) fields.push_back(axis.field());
+  std::set<std::string> of_points;
   for (const v1::SweepPoint& point : sweep.points()) {
-    for (const auto& [field, value] : point.fields()) fields.insert(field);
+    for (const auto& [field, value] : point.fields()) of_points.insert(field);
   }
+  fields.insert(fields.end(), of_points.begin(), of_points.end());
   return fields;
 }
 
-std::string padded(const std::string& text, int width) {
-  const std::string fitted = cut(text, width);
-  return fitted + std::string(static_cast<std::size_t>(width - display_width(fitted)), ' ');
-}
-
-// The columns of the lines: what a job is called, and how much room its bar has.
-struct Columns {
-  int name = 0;
-  int bar = 0;
-};
-
-std::string name_text(const SweepView& view, const Entry& entry, bool with_name) {
-  const std::string values = varied_values_text(view.sweep(), entry.view.job());
-  if (values.empty()) return printable(entry.name);
-  return with_name ? values + "  " + printable(entry.name) : values;
-}
-
-std::string job_line(const SweepView& view, const Entry& entry, const Columns& columns, bool with_name,
-                     const Terminal& terminal) {
-  const v1::Progress& progress = entry.view.progress();
-  const v1::JobState state = state_of(entry);
-  std::string line =
-      padded(name_text(view, entry, with_name), columns.name) + "  " + padded(v1::JobState_Name(state), kStateWidth);
-  if (state == v1::PENDING) return line;
-  if (columns.bar >= kShortestBar) line += "  " + bar_text(progress.fraction(), columns.bar, terminal);
-  line += fmt::format(" {:>7}", percent_text(progress.fraction()));
-  if (!entry.view.job().case_().lattice().has_frame()) line += fmt::format("  strain {:.2f}", progress.strain());
-  if (const std::string plateau = plateau_text(entry.view.job()); !plateau.empty()) line += "  " + plateau;
-  return line;
-}
-
-// Jobs to show in `room` lines: all, or the running ones before the others, in the order of the sweep.
+// Jobs to show in `room` rows: all, or the running ones before the others, in the order of the sweep.
 std::vector<const Entry*> find_shown(const SweepView& view, int room) {
   std::vector<const Entry*> shown;
   for (const bool running : {true, false}) {
     for (const Entry& entry : view.jobs()) {
-      if ((state_of(entry) == v1::RUNNING) == running && static_cast<int>(shown.size()) < room) shown.push_back(&entry);
+      if ((entry.state() == v1::RUNNING) == running && static_cast<int>(shown.size()) < room) shown.push_back(&entry);
     }
   }
   std::sort(shown.begin(), shown.end());
@@ -93,74 +57,85 @@ std::string counts_text(const SweepView& view) {
   return text;
 }
 
+std::string left_text(const SweepView& view) {
+  const auto seconds = view.seconds_left();
+  return seconds ? duration_text(*seconds) + " left" : std::string();
+}
+
+std::string bar_line(const SweepView& view, int width, const Terminal& terminal) {
+  constexpr int kLongestBar = 100;
+  constexpr int kShortestBar = 8;
+  constexpr int kFigures = 26;  // room for the longest, so that the bar keeps its width
+  const std::string figures = fmt::format("{:>8}  {}", percent_text(view.fraction()), left_text(view));
+  const int bar = std::min(width - kFigures, kLongestBar);
+  return bar < kShortestBar ? cut(figures, width) : bar_text(view.fraction(), bar, terminal) + figures;
+}
+
+std::vector<std::string> job_rows(const SweepView& view, const std::vector<const Entry*>& shown, int width) {
+  const auto fields = varied_fields(view.sweep());
+  std::vector<Align> columns(fields.size(), Align::right);
+  columns.insert(columns.end(), {Align::left, Align::right, Align::right, Align::right, Align::left});
+  Table table(columns);
+  std::vector<std::string> names;
+  std::vector<std::string> units;
+  for (const std::string& field : fields) {
+    const FieldWords words = words_among(field, fields);
+    names.push_back(words.name);
+    units.push_back(words.unit);
+  }
+  names.insert(names.end(), {"state", "done", "plateau", "strain", "job"});
+  units.insert(units.end(), {"", "", "MPa", "", ""});
+  table.add(std::move(names));
+  table.add(std::move(units));
+  for (const Entry* entry : shown) {
+    const v1::Job& job = entry->view.job();
+    std::vector<std::string> cells;
+    for (const std::string& field : fields) cells.push_back(field_value_text(job.case_(), field));
+    const bool waits = entry->state() == v1::PENDING;
+    const bool strained = !waits && !job.case_().lattice().has_frame();
+    cells.insert(cells.end(),
+                 {v1::JobState_Name(entry->state()), waits ? "" : percent_text(job.progress().fraction()),
+                  plateau_text(job), strained ? fmt::format("{:.2f}", job.progress().strain()) : "", entry->name});
+    table.add(std::move(cells));
+  }
+  constexpr int kWhole = 10000;  // a row a job; what has no room is cut off
+  std::istringstream text(table.text(0, kWhole));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(text, line);) lines.push_back(cut(line, width));
+  return lines;
+}
+
 }  // namespace
 
-void SweepView::apply(const v1::WatchSweepResponse& response) {
-  if (response.has_snapshot()) {
-    sweep_ = response.snapshot();
-    for (const std::string& name : sweep_.jobs()) find_entry(name);
-  }
-  if (!response.job().empty()) find_entry(response.job()).view.apply(response.event());
-}
-
-int SweepView::count(v1::JobState state) const {
-  return static_cast<int>(
-      std::count_if(jobs_.begin(), jobs_.end(), [&](const Entry& entry) { return state_of(entry) == state; }));
-}
-
-int SweepView::count_ended() const { return count(v1::SUCCEEDED) + count(v1::FAILED) + count(v1::CANCELLED); }
-
-SweepView::Entry& SweepView::find_entry(const std::string& name) {
-  const auto found = std::find_if(jobs_.begin(), jobs_.end(), [&](const Entry& entry) { return entry.name == name; });
-  return found == jobs_.end() ? jobs_.emplace_back(Entry{name, {}}) : *found;
-}
-
-std::string varied_values_text(const v1::Sweep& sweep, const v1::Job& job) {
-  std::string text;
-  for (const std::string& field : varied_fields(sweep)) {
-    const std::string value = field_value_text(job.case_(), field);
-    if (!value.empty()) text += fmt::format("{}{}={}", text.empty() ? "" : " ", last_part(field), value);
-  }
-  return printable(text);
-}
-
 std::vector<std::string> sweep_progress_lines(const SweepView& view, int width, int height, const Terminal& terminal) {
-  const auto widest = [&](bool with_name) {
-    int widest_name = 0;
-    for (const Entry& entry : view.jobs()) {
-      widest_name = std::max(widest_name, display_width(name_text(view, entry, with_name)));
-    }
-    return widest_name;
-  };
-  // Behind the bar stand a percentage, a strain and a plateau stress.
-  constexpr int kFigures = 8 + 13 + 18;
-  const auto bar_room = [&](int name) { return width - name - 2 - kStateWidth - 2 - kFigures; };
-  const bool with_name = bar_room(widest(true)) >= kLongestBar / 2;
-  const int name = std::min(widest(with_name), std::max(width / 3, 8));
-  const Columns columns{name, std::min(bar_room(name), kLongestBar)};
-  std::vector<std::string> lines = {cut(printable(view.sweep().name()) + "  " + counts_text(view), width)};
-  const int room = std::max(height - 2, 1);
-  const auto shown = find_shown(view, room);
-  for (const Entry* entry : shown) {
-    const std::string line = job_line(view, *entry, columns, with_name, terminal);
-    // A colour's escape sequences take no columns; a line with a bar fits by its making.
-    lines.push_back(columns.bar >= kShortestBar ? line : cut(line, width));
-  }
-  if (shown.size() < view.jobs().size()) {
-    lines.push_back(cut(fmt::format("... and {} more jobs", view.jobs().size() - shown.size()), width));
-  }
+  std::vector<std::string> lines = {cut(printable(view.sweep().name()) + "  " + counts_text(view), width),
+                                    bar_line(view, width, terminal)};
+  const int room = std::max(height - static_cast<int>(lines.size()) - kProgressHeadings, 1);
+  const bool all = static_cast<int>(view.jobs().size()) <= room;
+  const auto shown = find_shown(view, all ? room : std::max(room - 1, 1));
+  const auto rows = job_rows(view, shown, width);
+  lines.insert(lines.end(), rows.begin(), rows.end());
+  const auto hidden = view.jobs().size() - shown.size();
+  if (hidden > 0) lines.push_back(cut(fmt::format("... and {} more jobs", hidden), width));
   return lines;
 }
 
 std::string sweep_progress_line(const SweepView& view) {
-  std::string line = printable(view.sweep().name()) + "  " + counts_text(view);
+  std::string line =
+      fmt::format("{}  {}  {}", printable(view.sweep().name()), percent_text(view.fraction()), counts_text(view));
+  if (const std::string left = left_text(view); !left.empty()) line += ", " + left;
   constexpr int kShown = 4;
   int shown = 0;
+  const auto fields = varied_fields(view.sweep());
   for (const Entry& entry : view.jobs()) {
-    if (state_of(entry) != v1::RUNNING || shown == kShown) continue;
+    if (entry.state() != v1::RUNNING || shown == kShown) continue;
     ++shown;
-    line += fmt::format("  {} {}", name_text(view, entry, false), percent_text(entry.view.progress().fraction()));
-    if (const std::string plateau = plateau_text(entry.view.job()); !plateau.empty()) line += " " + plateau;
+    const std::string values = field_values_text(entry.view.job().case_(), fields);
+    line += fmt::format("; {}: {}", printable(values.empty() ? entry.name : values),
+                        percent_text(entry.view.progress().fraction()));
+    if (const std::string plateau = plateau_text(entry.view.job()); !plateau.empty()) {
+      line += ", plateau " + plateau + " MPa";
+    }
   }
   return line;
 }

@@ -2,10 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
+#include "results/field_value.h"
 #include "results/sweep_results.h"
+#include "results/theory_note.h"
 #include "terminal/csv_cell.h"
 #include "terminal/number_text.h"
 #include "terminal/summary_text.h"
@@ -18,16 +22,22 @@ namespace {
 using Align = Table::Align;
 using Row = v1::SweepTable::Row;
 
-std::string window_text(const v1::SweepTable& table) {
+std::string legend_text(const v1::SweepTable& table, int width) {
   for (const Row& row : table.rows()) {
     const v1::Summary& summary = row.result().summary();
     if (summary.plateau_window_high() <= summary.plateau_window_low()) continue;
-    return fmt::format(
-        "plateau: mean stress at the plate from {:.0f} to {:.0f} % strain; to dens.: at the impact plate up to "
-        "the densification strain\nabsorbed energy: work of the impact plate up to 50 % strain; front strain: of the "
-        "material behind the front\ntheory: Gibson-Ashby (quasi-static), Eq. 51 (shock), Eq. 52 (shock with the jumps "
-        "measured at the front); crush mode: where cells collapse\n",
-        100 * summary.plateau_window_low(), 100 * summary.plateau_window_high());
+    return '\n' +
+           wrapped(
+               fmt::format("Plateau: mean stress at the plate from {:.0f} to {:.0f} % strain; up to densif.: at the "
+                           "impact plate up to the densification strain. Absorbed energy: work of the impact "
+                           "plate up to 50 % strain.",
+                           100 * summary.plateau_window_low(), 100 * summary.plateau_window_high()),
+               width, "", "  ") +
+           wrapped(
+               "Theory: quasi-static (Gibson-Ashby), shock theory (Eq. 51), shock theory with the jumps measured at "
+               "the "
+               "front (Eq. 52). Crush mode: where cells collapse.",
+               width, "", "  ");
   }
   return {};
 }
@@ -37,55 +47,80 @@ std::string signed_term(double value, const char* factor) {
   return fmt::format(" {} {:.4g} {}", std::signbit(value) ? '-' : '+', std::abs(value), factor);
 }
 
-std::string fit_text(const v1::SweepTable& table) {
+std::string fit_text(const v1::SweepTable& table, int width) {
   const auto all = split_series(table);
   if (!varies_speed_first(table) || table.fields_size() != 1 || all.empty()) return {};
   const auto fit = find_plateau_fit(all.front());
   if (!fit) return {};
-  std::string text = fmt::format("\nplateau at the impact plate in MPa, V in m/s\n  {}{:.4g}{}{}, {}\n",
-                                 fit->passes_through() ? "quadratic:         " : "least-squares fit: ", fit->constant,
-                                 signed_term(fit->linear, "V"), signed_term(fit->quadratic, "V^2"),
-                                 fit->passes_through() ? "through the three points, so that it shows no error"
-                                                       : "off by at most " + number_text(fit->largest_residual, 2));
+  const std::string formula =
+      fmt::format("{:.4g}{}{}", fit->constant, signed_term(fit->linear, "V"), signed_term(fit->quadratic, "V^2"));
+  std::string text =
+      "\n" + wrapped("plateau at the impact plate in MPa, V in m/s", width) +
+      wrapped(fit->passes_through()
+                  ? "quadratic: " + formula + ", through the three points, so it shows no error"
+                  : "least-squares fit: " + formula + ", off by at most " + number_text(fit->largest_residual, 2),
+              width, "  ", "    ");
   if (const auto shock = find_shock_curve(all.front())) {
-    text += fmt::format("  Eq. 51:            {:.4g}{}\n", shock->constant, signed_term(shock->quadratic, "V^2"));
+    text +=
+        wrapped(fmt::format("shock theory (Eq. 51): {:.4g}{}", shock->constant, signed_term(shock->quadratic, "V^2")),
+                width, "  ", "    ");
   }
   return text;
 }
 
-std::string failures_text(const v1::SweepTable& table) {
+std::string failures_text(const v1::SweepTable& table, int width) {
   std::string text;
   for (const Row& row : table.rows()) {
     const v1::Job& job = row.result();
     if (job.state() != v1::FAILED) continue;
-    text += fmt::format("\n{} FAILED ({})", printable(row.job()), v1::JobCause_Name(job.cause()));
-    if (!job.cause_message().empty()) text += ": " + printable(job.cause_message());
-    if (!job.remedy().empty()) text += "\n    Remedy: " + printable(job.remedy());
+    std::string line = fmt::format("{} FAILED ({})", printable(row.job()), v1::JobCause_Name(job.cause()));
+    if (!job.cause_message().empty()) line += ": " + printable(job.cause_message());
+    text += '\n' + wrapped(line, width, "", "  ");
+    if (!job.remedy().empty()) text += wrapped("Remedy: " + printable(job.remedy()), width, "    ", "    ");
   }
-  return text.empty() ? text : text + '\n';
+  return text;
+}
+
+constexpr std::size_t kTableHeadings = 4;
+
+// The heading's lines: of the varied fields name and unit, of the results their words and unit.
+void add_headings(Table& table, const v1::SweepTable& results) {
+  const std::vector<std::string> fields(results.fields().begin(), results.fields().end());
+  std::array<std::vector<std::string>, kTableHeadings> lines;
+  const auto add = [&](const std::array<std::string, kTableHeadings>& column) {
+    for (std::size_t i = 0; i < kTableHeadings; ++i) lines[i].push_back(column[i]);
+  };
+  for (const std::string& field : fields) {
+    const FieldWords words = words_among(field, fields);
+    // Its words one below the other, the last ones together.
+    std::array<std::string, kTableHeadings> column;
+    std::size_t line = 0;
+    for (const std::string& word : wrap_words(words.name, 12)) {
+      std::string& place = column[std::min(line++, kTableHeadings - 2)];
+      place += (place.empty() ? "" : " ") + word;
+    }
+    column[kTableHeadings - 1] = words.unit;
+    add(column);
+  }
+  add({"job", "", "", ""});
+  add({"state", "", "", ""});
+  for (const ResultColumn& column : result_columns()) {
+    add({column.heading[0], column.heading[1], column.heading[2], column.unit});
+  }
+  add({"crush", "mode", "", ""});
+  for (auto& line : lines) table.add(std::move(line));
 }
 
 }  // namespace
 
-std::string sweep_table_text(const v1::SweepTable& results) {
+std::string sweep_table_text(const v1::SweepTable& results, const v1::Lattice& lattice, int digits, int width) {
   const auto fields = static_cast<std::size_t>(results.fields_size());
   std::vector<Align> alignment(fields, Align::right);
   alignment.insert(alignment.end(), {Align::left, Align::left});
   alignment.insert(alignment.end(), result_columns().size(), Align::right);
   alignment.push_back(Align::left);
-  Table table(alignment);
-  std::vector<std::string> groups(fields + 2);
-  std::vector<std::string> headings(results.fields().begin(), results.fields().end());
-  std::vector<std::string> units(fields + 2);
-  headings.insert(headings.end(), {"job", "state"});
-  for (const ResultColumn& column : result_columns()) {
-    groups.emplace_back(column.group);
-    headings.emplace_back(column.heading);
-    units.emplace_back(column.unit);
-  }
-  groups.emplace_back("crush");
-  headings.emplace_back("mode");
-  for (auto* heading : {&groups, &headings, &units}) table.add(std::move(*heading));
+  Table table(alignment, fields + 1);
+  add_headings(table, results);
   for (const Row& row : results.rows()) {
     std::vector<std::string> cells;
     for (const double value : row.values()) cells.push_back(value_text(value));
@@ -93,15 +128,18 @@ std::string sweep_table_text(const v1::SweepTable& results) {
     cells.insert(cells.end(), {row.job(), v1::JobState_Name(row.result().state())});
     for (const ResultColumn& column : result_columns()) {
       const auto value = column.value(row.result().summary());
-      cells.push_back(value ? number_text(column.scale * *value) : "-");
+      cells.push_back(value ? number_text(column.scale * *value, digits) : "-");
     }
     const std::string mode = crush_mode_text(row.result().summary().crush_mode());
     cells.push_back(mode.empty() ? "-" : mode);
     table.add(std::move(cells));
   }
-  std::string text = table.text();
-  if (const std::string window = window_text(results); !window.empty()) text += '\n' + window;
-  return text + fit_text(results) + failures_text(results);
+  std::string constants;
+  if (results.rows_size() > 0)
+    constants = constants_text(table.remove_constant_columns(fields + 1, kTableHeadings), width);
+  std::string text = table.text(0, width) + constants + legend_text(results, width);
+  if (const std::string note = theory_note(lattice); !note.empty()) text += '\n' + wrapped("Note: " + note, width);
+  return text + fit_text(results, width) + failures_text(results, width);
 }
 
 std::string sweep_table_csv(const v1::SweepTable& results) {
@@ -119,7 +157,7 @@ std::string sweep_table_csv(const v1::SweepTable& results) {
       const auto value = column.value(row.result().summary());
       text += ',' + (value ? fmt::format("{}", *value) : std::string());
     }
-    text += ',' + crush_mode_text(row.result().summary().crush_mode()) + '\n';
+    text += ',' + crush_mode_code(row.result().summary().crush_mode()) + '\n';
   }
   return text;
 }

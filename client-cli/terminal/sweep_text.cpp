@@ -7,6 +7,7 @@
 #include <map>
 #include <utility>
 
+#include "results/field_value.h"
 #include "terminal/case_text.h"
 #include "terminal/job_text.h"
 #include "terminal/number_text.h"
@@ -40,10 +41,34 @@ std::string values_text(const v1::SweepAxis& axis) {
   }
 }
 
+// "50", "50 to 200": where the values of an axis lie.
+std::string span_text(const v1::SweepAxis& axis) {
+  const auto span = [](double low, double high) {
+    return low == high ? fmt::format("{}", low) : fmt::format("{} to {}", low, high);
+  };
+  switch (axis.values_case()) {
+    case v1::SweepAxis::kList: {
+      const auto [low, high] = std::minmax_element(axis.list().values().begin(), axis.list().values().end());
+      return axis.list().values_size() > 0 ? span(*low, *high) : std::string();
+    }
+    case v1::SweepAxis::kLinear: return span(axis.linear().first(), axis.linear().last());
+    case v1::SweepAxis::kLogarithmic: return span(axis.logarithmic().first(), axis.logarithmic().last());
+    case v1::SweepAxis::kSeedCount: return span(1, axis.seed_count());
+    default: return {};
+  }
+}
+
+// "speed 25 to 100 m/s, wall thickness 0.3 to 0.4 mm".
 std::string varied_text(const v1::Sweep& sweep) {
   std::vector<std::string> fields;
   for (const v1::SweepAxis& axis : sweep.axes()) fields.push_back(axis.field());
-  return fields.empty() && sweep.points_size() > 0 ? "a list of points" : fmt::format("{}", fmt::join(fields, ", "));
+  if (fields.empty()) return sweep.points_size() > 0 ? "a list of points" : "";
+  std::vector<std::string> texts;
+  for (const v1::SweepAxis& axis : sweep.axes()) {
+    const FieldWords words = words_among(axis.field(), fields);
+    texts.push_back(words.name + ' ' + span_text(axis) + (words.unit.empty() ? "" : ' ' + words.unit));
+  }
+  return fmt::format("{}", fmt::join(texts, ", "));
 }
 
 }  // namespace
@@ -54,7 +79,7 @@ std::string sweep_line(const v1::Sweep& sweep) {
   return printable(text) + '\n';
 }
 
-std::string description_text(const v1::Sweep& sweep) {
+std::string description_text(const v1::Sweep& sweep, int width) {
   Table table({Align::left, Align::left});
   if (!sweep.case_().title().empty()) table.add({"title", sweep.case_().title()});
   const std::string scene = scene_text(sweep.case_());
@@ -69,32 +94,21 @@ std::string description_text(const v1::Sweep& sweep) {
   if (!sweep.owner().empty()) table.add({"owner", sweep.owner()});
   if (sweep.has_create_time()) table.add({"created", time_text(sweep.create_time())});
   if (sweep.jobs_size() > 0) table.add({"jobs", fmt::format("{}", fmt::join(sweep.jobs(), ", "))});
-  return sweep_line(sweep) + '\n' + table.text(2);
+  return sweep_line(sweep) + '\n' + table.text(2, width);
 }
 
-std::string sweep_list_text(const std::vector<v1::Sweep>& sweeps) {
+std::string sweep_list_text(const std::vector<v1::Sweep>& sweeps, int width) {
   if (sweeps.empty()) return "no sweeps\n";
-  const bool labels =
-      std::any_of(sweeps.begin(), sweeps.end(), [](const v1::Sweep& sweep) { return !sweep.labels().empty(); });
-  const bool priorities =
-      std::any_of(sweeps.begin(), sweeps.end(), [](const v1::Sweep& sweep) { return sweep.priority() != 0; });
   Table table(
       {Align::left, Align::right, Align::left, Align::left, Align::left, Align::left, Align::left, Align::left});
-  const auto add = [&](std::vector<std::string> cells, const std::string& priority, const std::string& labels_cell,
-                       const std::string& title) {
-    if (priorities) cells.push_back(priority);
-    if (labels) cells.push_back(labels_cell);
-    cells.push_back(title);
-    table.add(std::move(cells));
-  };
-  add({"NAME", "JOBS", "STATES", "OVER", "CREATED"}, "PRIORITY", "LABELS", "TITLE");
+  table.add({"NAME", "JOBS", "STATES", "OVER", "PRIORITY", "LABELS", "CREATED", "TITLE"});
   for (const v1::Sweep& sweep : sweeps) {
-    add({sweep.name(), std::to_string(sweep.jobs_size()), counts_text(sweep), cut(varied_text(sweep), 60),
-         sweep.has_create_time() ? time_text(sweep.create_time()) : ""},
-        sweep.priority() != 0 ? std::to_string(sweep.priority()) : "", cut(labels_text(sweep.labels()), 40),
-        cut(sweep.case_().title(), 60));
+    table.add({sweep.name(), std::to_string(sweep.jobs_size()), counts_text(sweep), varied_text(sweep),
+               sweep.priority() != 0 ? std::to_string(sweep.priority()) : "", labels_text(sweep.labels()),
+               sweep.has_create_time() ? time_text(sweep.create_time()) : "", sweep.case_().title()});
   }
-  return table.text();
+  const std::string constants = constants_text(table.remove_constant_columns(3, 1), width);
+  return table.text(0, width) + constants;
 }
 
 }  // namespace cellcrush::client

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "cellcrush/v1/sweep.pb.h"
+#include "terminal/terminal.h"
 
 namespace cellcrush::client {
 
@@ -11,9 +12,9 @@ namespace cellcrush::client {
 std::string sweep_line(const v1::Sweep& sweep);
 
 /// All that is known of a sweep, for a reader: what is varied, how its jobs stand, and their names.
-std::string description_text(const v1::Sweep& sweep);
+std::string description_text(const v1::Sweep& sweep, int width = terminal_width());
 
-/// A line a sweep, with a heading; a column of labels when any sweep has one.
-std::string sweep_list_text(const std::vector<v1::Sweep>& sweeps);
+/// A row a sweep, with a heading; below the table what is the same for all.
+std::string sweep_list_text(const std::vector<v1::Sweep>& sweeps, int width = terminal_width());
 
 }  // namespace cellcrush::client

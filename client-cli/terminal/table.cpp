@@ -1,32 +1,32 @@
 #include "terminal/table.h"
 
 #include <algorithm>
-#include <utility>
+#include <numeric>
+#include <string_view>
 
 namespace cellcrush::client {
 
 namespace {
 
-bool continues_character(char byte) { return (static_cast<unsigned char>(byte) & 0xC0) == 0x80; }
+constexpr int kGap = 2;
+
+int longest_word(std::string_view text) {
+  int longest = 0;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find(' '), text.size());
+    longest = std::max(longest, display_width(text.substr(0, end)));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return longest;
+}
+
+int total_width(const std::vector<int>& widths) {
+  return std::accumulate(widths.begin(), widths.end(), kGap * (static_cast<int>(widths.size()) - 1));
+}
 
 }  // namespace
 
-int display_width(std::string_view text) {
-  return static_cast<int>(
-      std::count_if(text.begin(), text.end(), [](char byte) { return !continues_character(byte); }));
-}
-
-std::string cut(std::string_view text, int width) {
-  if (display_width(text) <= width) return std::string(text);
-  const int kept = width > 8 ? width - 3 : std::max(width, 0);
-  std::size_t end = 0;
-  for (int count = 0; end < text.size(); ++end) {
-    if (!continues_character(text[end]) && count++ == kept) break;
-  }
-  return std::string(text.substr(0, end)) + (width > 8 ? "..." : "");
-}
-
-Table::Table(std::vector<Align> columns) : columns_(std::move(columns)) {}
+Table::Table(std::vector<Align> columns, std::size_t keys) : columns_(std::move(columns)), keys_(keys) {}
 
 void Table::add(std::vector<std::string> cells) {
   for (std::string& cell : cells) {
@@ -34,25 +34,124 @@ void Table::add(std::vector<std::string> cells) {
     std::replace(cell.begin(), cell.end(), '\n', ' ');
   }
   cells.resize(columns_.size());
-  rows_.push_back(std::move(cells));
+  rows_.push_back({std::move(cells)});
 }
 
-std::string Table::text(int indent) const {
-  std::vector<int> widths(columns_.size(), 0);
-  for (const auto& row : rows_) {
-    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], display_width(row[i]));
-  }
-  std::string text;
-  for (const auto& row : rows_) {
-    std::string line(static_cast<std::size_t>(indent), ' ');
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      const std::string padding(static_cast<std::size_t>(widths[i] - display_width(row[i])), ' ');
-      line += (i == 0 ? "" : "  ") + (columns_[i] == Align::right ? padding + row[i] : row[i] + padding);
+void Table::add_title(std::string title) { rows_.push_back({{printable(title)}, true}); }
+
+std::vector<std::string> Table::remove_constant_columns(std::size_t first, std::size_t headings) {
+  std::vector<std::string> constants;
+  const auto first_row = std::find_if(rows_.begin() + static_cast<std::ptrdiff_t>(headings), rows_.end(),
+                                      [](const Row& row) { return !row.is_title; });
+  for (std::size_t column = columns_.size(); column-- > first;) {
+    const std::string value = first_row->cells[column];
+    const bool same =
+        std::all_of(first_row, rows_.end(), [&](const Row& row) { return row.is_title || row.cells[column] == value; });
+    if (!same || (!value.empty() && rows_.end() - first_row < 2)) continue;
+    if (!value.empty()) constants.insert(constants.begin(), constant_text(column, headings, value));
+    columns_.erase(columns_.begin() + static_cast<std::ptrdiff_t>(column));
+    for (Row& row : rows_) {
+      if (!row.is_title) row.cells.erase(row.cells.begin() + static_cast<std::ptrdiff_t>(column));
     }
-    line.erase(line.find_last_not_of(' ') + 1);
-    text += line + '\n';
+  }
+  return constants;
+}
+
+// "crush mode layer by layer", "shock theory 3.41 MPa": of several headings the last one is a unit.
+std::string Table::constant_text(std::size_t column, std::size_t headings, const std::string& value) const {
+  std::string text;
+  for (std::size_t row = 0; row < std::max<std::size_t>(headings, 2) - 1; ++row) {
+    const std::string& heading = rows_[row].cells[column];
+    text += heading + (heading.empty() || heading.ends_with('-') ? "" : " ");
+  }
+  text += value;
+  const std::string unit = headings > 1 ? rows_[headings - 1].cells[column] : std::string();
+  return text + (unit.empty() ? "" : " ") + unit;
+}
+
+std::vector<int> Table::natural_widths() const {
+  std::vector<int> widths(columns_.size(), 0);
+  for (const Row& row : rows_) {
+    if (row.is_title) continue;
+    for (std::size_t i = 0; i < widths.size(); ++i) widths[i] = std::max(widths[i], display_width(row.cells[i]));
+  }
+  return widths;
+}
+
+// Narrows the left-aligned columns from the last to the first, as far as texts stay easy to read, and then further.
+void Table::narrow(std::vector<int>& widths, int room) const {
+  for (const int comfortable : {20, 8}) {
+    for (std::size_t i = columns_.size(); i-- > 0;) {
+      if (columns_[i] == Align::right) continue;
+      int least = std::min(widths[i], comfortable);
+      for (const Row& row : rows_) {
+        if (!row.is_title) least = std::max(least, std::min(longest_word(row.cells[i]), comfortable * 2));
+      }
+      widths[i] = std::clamp(widths[i] - (total_width(widths) - room), least, widths[i]);
+    }
+  }
+}
+
+std::string Table::block(int indent, int width, const std::vector<int>& widths,
+                         const std::vector<std::size_t>& columns) const {
+  std::string text;
+  const std::string blanks(static_cast<std::size_t>(indent), ' ');
+  for (const Row& row : rows_) {
+    if (row.is_title) {
+      text += wrapped(row.cells[0], width, blanks, blanks);
+      continue;
+    }
+    std::vector<std::vector<std::string>> cells;
+    std::size_t height = 1;
+    for (const std::size_t column : columns) {
+      // A cell that fits keeps its blanks.
+      const bool fits = display_width(row.cells[column]) <= widths[column];
+      cells.push_back(fits ? std::vector{row.cells[column]} : wrap_words(row.cells[column], widths[column]));
+      height = std::max(height, cells.back().size());
+    }
+    for (std::size_t number = 0; number < height; ++number) {
+      std::string line = blanks;
+      for (std::size_t i = 0; i < columns.size(); ++i) {
+        const std::string& cell = number < cells[i].size() ? cells[i][number] : std::string();
+        const std::string padding(static_cast<std::size_t>(widths[columns[i]] - display_width(cell)), ' ');
+        line += (i == 0 ? "" : std::string(kGap, ' ')) +
+                (columns_[columns[i]] == Align::right ? padding + cell : cell + padding);
+      }
+      line.erase(line.find_last_not_of(' ') + 1);
+      if (!line.empty()) text += line + '\n';
+    }
   }
   return text;
+}
+
+std::string Table::text(int indent, int width) const {
+  std::vector<int> widths = natural_widths();
+  std::vector<std::size_t> all(columns_.size());
+  std::iota(all.begin(), all.end(), 0U);
+  if (keys_ == 0 || total_width(widths) <= width - indent) {
+    narrow(widths, width - indent);
+    return block(indent, width, widths, all);
+  }
+  const std::vector<std::size_t> keys(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(keys_));
+  std::string text;
+  for (std::size_t next = keys_; next < all.size();) {
+    std::vector<std::size_t> columns = keys;
+    int used = indent - kGap;
+    for (const std::size_t key : keys) used += widths[key] + kGap;
+    do {
+      used += widths[next] + kGap;
+      columns.push_back(next++);
+    } while (next < all.size() && used + kGap + widths[next] <= width);
+    text += (text.empty() ? "" : "\n") + block(indent, width, widths, columns);
+  }
+  return text;
+}
+
+std::string constants_text(const std::vector<std::string>& constants, int width) {
+  if (constants.empty()) return {};
+  std::string text = "The same in all rows: ";
+  for (const std::string& constant : constants) text += (&constant == &constants.front() ? "" : "; ") + constant;
+  return '\n' + wrapped(text, width, "", "  ");
 }
 
 }  // namespace cellcrush::client

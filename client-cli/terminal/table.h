@@ -1,35 +1,56 @@
 #pragma once
 
 #include <string>
-#include <string_view>
+#include <utility>
 #include <vector>
 
-#include "terminal/printable.h"
+#include "terminal/display_text.h"
 
 namespace cellcrush::client {
-
-/// Columns that `text` (UTF-8) takes on a terminal, a character a column.
-int display_width(std::string_view text);
-
-/// `text` cut to `width` columns, with "..." at the cut where there is room for it.
-std::string cut(std::string_view text, int width);
 
 /// Lines of aligned columns, two blanks apart.
 class Table {
  public:
   enum class Align { left, right };
 
-  explicit Table(std::vector<Align> columns);
+  /// The first `keys` columns name what a row is about.
+  explicit Table(std::vector<Align> columns, std::size_t keys = 0);
 
   /// A row with as many cells as there are columns; later cells may be left out.
   void add(std::vector<std::string> cells);
 
-  /// The lines, each beginning with `indent` blanks, without blanks at their ends.
-  [[nodiscard]] std::string text(int indent = 0) const;
+  /// A line over the whole width, above the rows that it names.
+  void add_title(std::string title);
+
+  /// Takes out the columns from number `first` on that say nothing: those with empty cells only and, of two or more
+  /// rows, those in which all are the same. Returns what the latter say, as "heading value unit". The first `headings`
+  /// rows are headings, the last of several one of units. REQUIRES: there is a row below them.
+  std::vector<std::string> remove_constant_columns(std::size_t first, std::size_t headings);
+
+  /// The lines, each beginning with `indent` blanks, none wider than `width` and without blanks at their
+  /// ends; rows of empty cells have none. With keys
+  /// the columns that have no room follow in a second block below, behind the keys again. Without, the left-aligned
+  /// columns are narrowed and their texts broken between words, as far as words of 16 letters allow.
+  [[nodiscard]] std::string text(int indent, int width) const;
 
  private:
+  struct Row {
+    std::vector<std::string> cells;
+    bool is_title = false;  ///< then one cell
+  };
+
+  [[nodiscard]] std::string constant_text(std::size_t column, std::size_t headings, const std::string& value) const;
+  [[nodiscard]] std::vector<int> natural_widths() const;
+  void narrow(std::vector<int>& widths, int room) const;
+  [[nodiscard]] std::string block(int indent, int width, const std::vector<int>& widths,
+                                  const std::vector<std::size_t>& columns) const;
+
   std::vector<Align> columns_;
-  std::vector<std::vector<std::string>> rows_;
+  std::size_t keys_;
+  std::vector<Row> rows_;
 };
+
+/// What Table::remove_constant_columns() took out, below the table: "\nThe same in all rows: ..."; empty for nothing.
+std::string constants_text(const std::vector<std::string>& constants, int width);
 
 }  // namespace cellcrush::client

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <string>
 #include <string_view>
 
 namespace cellcrush::client {
@@ -42,8 +43,10 @@ Terminal find_terminal() {
 }
 
 int terminal_width() {
-  const int columns = window_size().ws_col;
-  return columns == 0 ? 80 : columns;
+  constexpr int kDefault = 80;
+  if (const int columns = window_size().ws_col; columns > 0) return columns;
+  const int columns = std::atoi(std::string(environment("COLUMNS")).c_str());
+  return columns > 0 ? columns : kDefault;
 }
 
 int terminal_height() {

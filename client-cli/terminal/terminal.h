@@ -11,7 +11,7 @@ struct Terminal {
 
 Terminal find_terminal();
 
-/// Columns of the terminal now; 80 when it does not say.
+/// Columns of the terminal now; where the standard output is none, $COLUMNS or else 80.
 int terminal_width();
 
 /// Lines of the terminal now; 24 when it does not say.

@@ -8,6 +8,7 @@
 #include "chart/colour_map.h"
 #include "chart/job_picture.h"
 #include "chart/lattice_drawing.h"
+#include "chart/movie_frame.h"
 #include "chart/node_curves.h"
 #include "chart/smoothing.h"
 #include "chart/ticks.h"
@@ -95,7 +96,7 @@ TEST(LatticeDrawing, TheBoxHoldsAllStagesAndBothPlatesAtTheStart) {
 TEST(Picture, TheFileNameChoosesTheFormat) {
   EXPECT_EQ(picture_format("a.PNG"), PictureFormat::png);
   EXPECT_EQ(picture_format("b/a.svg"), PictureFormat::svg);
-  EXPECT_THROW(picture_format("a.pdf"), std::invalid_argument);
+  EXPECT_THROW(picture_format("a.gif"), std::invalid_argument);
 }
 
 struct Pixels {
@@ -178,6 +179,43 @@ TEST(NodeChart, ShowsHowTheWatchedNodesOfAFrameMoved) {
   EXPECT_FALSE(render_job_picture(PictureFormat::png, history, {}).empty());
   for (v1::Sample& sample : history.samples) sample.clear_watched();
   EXPECT_EQ(build_node_chart(history).y.label, "energy (mJ)");
+}
+
+TEST(Picture, AnSvgHasTextThatCanBeSelectedAndAPdfIsOne) {
+  JobHistory history = make_history();
+  history.job.mutable_case_()->set_title("Cells < 4 mm & more");
+  const std::string svg = render_job_picture(PictureFormat::svg, history, {});
+  EXPECT_NE(svg.find(">Cells &lt; 4 mm &amp; more (jobs/a)</text>"), std::string::npos);
+  EXPECT_NE(svg.find(">nominal stress (MPa)</text>"), std::string::npos);
+  EXPECT_EQ(svg.find("<symbol"), std::string::npos) << "no glyphs are drawn";
+  EXPECT_EQ(render_job_picture(PictureFormat::pdf, history, {}).substr(0, 5), "%PDF-");
+}
+
+TEST(JobChart, TheStressAxisFollowsThePlateauAndAnArrowSaysHowHighTheFirstWaveGoes) {
+  JobHistory history = make_history();
+  history.samples.clear();
+  for (int i = 0; i <= 800; ++i) {
+    v1::Sample& sample = history.samples.emplace_back();
+    sample.set_strain(1e-3 * i);
+    sample.set_stress_impact_mpa(i < 40 ? 50.0 : 3.4);
+  }
+  const Chart chart = build_job_chart(history);
+  EXPECT_GT(chart.y.high, 3.4);
+  EXPECT_LT(chart.y.high, 8.0);
+  ASSERT_EQ(chart.overshoots.size(), 1U);
+  EXPECT_EQ(chart.overshoots[0].text, "50 MPa");
+  EXPECT_LT(chart.overshoots[0].x, 0.04);
+}
+
+TEST(Picture, FramesOfAMovieHaveOneEvenSize) {
+  const MeshFrame start = synthetic_stage(20, 6, 0.0);
+  const MeshFrame end = synthetic_stage(20, 6, 0.7);
+  const Box box = find_box({start, end});
+  const Pixels first = read_png(render_movie_frame(start, box));
+  const Pixels last = read_png(render_movie_frame(end, box));
+  EXPECT_EQ(first.width, last.width);
+  EXPECT_EQ(first.height, last.height);
+  EXPECT_EQ(first.width % 2 + first.height % 2, 0);
 }
 
 TEST(Picture, AnSvgIsMarkupWithPaths) {

@@ -186,7 +186,9 @@ class FakeServer::Jobs : public v1::Jobs::Service {
 
   [[nodiscard]] const MeshFrame& find_stage(const v1::GetFrameRequest& request) const {
     const std::vector<MeshFrame>& stages = shared_.script.stages;
-    if (request.which_case() == v1::GetFrameRequest::kIndex) return stages.back();
+    if (request.which_case() == v1::GetFrameRequest::kIndex) {
+      return request.index() < 0 ? stages.back() : stages.at(static_cast<std::size_t>(request.index()));
+    }
     const auto distance = [&](const MeshFrame& stage) {
       return request.has_strain() ? std::abs(stage.frame.strain() - request.strain())
                                   : std::abs(stage.frame.time_s() - request.time_s());

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <set>
@@ -183,6 +184,29 @@ TEST(Plot, AStripShowsFramesEvenlySpacedOverTheRunWithOrWithoutTheCurve) {
   EXPECT_LT(read_file(file).size(), 3 * two.size()) << "a frame is shown once, however many are asked for";
 }
 
+TEST(Movie, KeepsEveryFrameAsAPngOfOneSizeAndSaysWhatToDoWithoutFfmpeg) {
+  Script script = finished_script();
+  for (std::size_t i = 0; i < script.stages.size(); ++i) script.stages[i].frame.set_index(static_cast<int>(i));
+  const FakeServer server(script);
+  const fs::path folder = server.folder() / "frames";
+  const ProgramResult result = run_program({"movie", "test", "--frames", folder, "--server", server.address()});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_EQ(result.output, folder.string() + "  4 frames\n");
+  // Width and height stand behind the signature and the name of the first chunk.
+  const std::string size = read_file(folder / "frame_00000.png").substr(16, 8);
+  for (const char* name : {"frame_00001.png", "frame_00002.png", "frame_00003.png"}) {
+    EXPECT_EQ(read_file(folder / name).substr(16, 8), size) << name;
+  }
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", folder.c_str(), 1);
+  const ProgramResult refused =
+      run_program({"movie", "test", "-o", server.folder() / "a.mp4", "--server", server.address()});
+  setenv("PATH", path.c_str(), 1);
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.errors.find("apt-get install ffmpeg"), std::string::npos) << refused.errors;
+  EXPECT_EQ(run_program({"movie", "test", "--server", server.address()}).exit_code, 2);
+}
+
 TEST(Plot, OptionsThatDoNotGoTogetherAreRefused) {
   const FakeServer server(finished_script());
   const std::string file = (server.folder() / "a.png").string();
@@ -212,7 +236,7 @@ TEST(Plot, AJobWithoutSamplesAndAnUnknownFormatAreRefused) {
   script.samples.clear();
   const FakeServer server(script);
   EXPECT_EQ(run_program({"plot", "test", "-o", server.folder() / "a.png", "--server", server.address()}).exit_code, 2);
-  EXPECT_EQ(run_program({"plot", "test", "-o", server.folder() / "a.pdf", "--server", server.address()}).exit_code, 2);
+  EXPECT_EQ(run_program({"plot", "test", "-o", server.folder() / "a.gif", "--server", server.address()}).exit_code, 2);
 }
 
 }  // namespace

@@ -107,7 +107,7 @@ TEST(List, WalksOverAllPages) {
   const FakeServer server(preset_script());
   const ProgramResult text = run_program({"list", "--server", server.address()});
   EXPECT_EQ(text.exit_code, 0) << text.errors;
-  EXPECT_EQ(std::count(text.output.begin(), text.output.end(), '\n'), 3) << text.output;
+  EXPECT_NE(text.output.find("jobs/test  SUCCEEDED\njobs/test  SUCCEEDED\n"), std::string::npos) << text.output;
   EXPECT_NE(text.output.find("3.41 MPa"), std::string::npos);
   v1::ListJobsResponse jobs;
   ASSERT_TRUE(JsonStringToMessage(run_program({"list", "--json", "--server", server.address()}).output, &jobs).ok());
@@ -119,7 +119,7 @@ TEST(List, PassesFilterAndOrderAndStopsAtTheLimit) {
   const ProgramResult result = run_program(
       {"list", "--filter", "state = RUNNING", "--order", "create_time", "--limit", "1", "--server", server.address()});
   EXPECT_EQ(result.exit_code, 0) << result.errors;
-  EXPECT_EQ(std::count(result.output.begin(), result.output.end(), '\n'), 2) << result.output;
+  EXPECT_EQ(result.output.find("jobs/test"), result.output.rfind("jobs/test")) << result.output;
   const auto lists = server.asked().lists;
   ASSERT_EQ(lists.size(), 1U);
   EXPECT_EQ(lists[0].filter(), "state = RUNNING");
@@ -164,7 +164,7 @@ TEST(ListAndShow, TellAPriorityOnlyWhereThereIsOne) {
   const FakeServer server(script);
   const ProgramResult list = run_program({"list", "--server", server.address()});
   EXPECT_NE(list.output.find("PRIORITY"), std::string::npos);
-  EXPECT_NE(list.output.find("  -12  "), std::string::npos) << list.output;
+  EXPECT_NE(list.output.find("PRIORITY -12"), std::string::npos) << list.output;
   const ProgramResult show = run_program({"show", "jobs/test", "--server", server.address()});
   EXPECT_NE(show.output.find("priority  -12"), std::string::npos) << show.output;
   EXPECT_NE(show.output.find("retry of  jobs/before"), std::string::npos) << show.output;

@@ -13,9 +13,10 @@ TEST(SweepPlot, IsDrawnAsPngAndSvg) {
   script.job = make_job(v1::SUCCEEDED);
   script.sweeps = make_sweep_script({v1::SUCCEEDED, v1::SUCCEEDED, v1::SUCCEEDED, v1::FAILED});
   const FakeServer server(script);
-  for (const char* name : {"a.png", "a.svg"}) {
+  for (const char* name : {"a.png", "a.svg", "a.pdf"}) {
     const std::string file = (server.folder() / name).string();
-    const ProgramResult result = run_program({"plot", "sweeps/test", "-o", file, "--server", server.address()});
+    const ProgramResult result =
+        run_program({"plot", "sweeps/test", "sweeps/test", "--log", "xy", "-o", file, "--server", server.address()});
     ASSERT_EQ(result.exit_code, 0) << result.errors;
     EXPECT_EQ(result.output, file + "\n");
     EXPECT_GT(read_file(file).size(), 5000U);
@@ -30,7 +31,8 @@ TEST(SweepPlot, WithoutAPlateauIsRefusedAndAnUnknownSweepNotFound) {
   script.sweeps = make_sweep_script({v1::CANCELLED, v1::FAILED});
   const FakeServer server(script);
   const std::string file = (server.folder() / "a.png").string();
-  const ProgramResult refused = run_program({"plot", "sweeps/test", "-o", file, "--server", server.address()});
+  const ProgramResult refused =
+      run_program({"plot", "sweeps/test", "sweeps/test", "--log", "xy", "-o", file, "--server", server.address()});
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_NE(refused.errors.find("nothing to draw"), std::string::npos) << refused.errors;
   EXPECT_EQ(run_program({"plot", "sweeps/none", "-o", file, "--server", server.address()}).exit_code, 5);

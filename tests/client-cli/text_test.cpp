@@ -40,7 +40,36 @@ TEST(Table, AlignsColumnsByCharactersAndNotBytes) {
   Table table({Table::Align::left, Table::Align::right, Table::Align::left});
   table.add({"a", "1", "mm"});
   table.add({"bé", "22.5", ""});
-  EXPECT_EQ(table.text(1), " a      1  mm\n bé  22.5\n");
+  EXPECT_EQ(table.text(1, 80), " a      1  mm\n bé  22.5\n");
+}
+
+TEST(Table, BreaksTextsBetweenWordsFromTheLastColumnOn) {
+  Table table({Table::Align::left, Table::Align::right, Table::Align::left});
+  table.add({"a case", "22.5", "the plate moves along the rows of the lattice"});
+  EXPECT_EQ(table.text(0, 40),
+            "a case  22.5  the plate moves along the\n"
+            "              rows of the lattice\n");
+}
+
+TEST(Table, WithKeysContinuesBelowAndTakesOutWhatDoesNotVary) {
+  using enum Table::Align;
+  Table table({left, right, right, right}, 1);
+  table.add({"job", "impact", "support", "error"});
+  table.add({"", "MPa", "MPa", "%"});
+  table.add({"jobs/1", "3.41", "0.44", "1"});
+  table.add({"jobs/2", "3.42", "0.44", "2"});
+  EXPECT_EQ(table.remove_constant_columns(1, 2), std::vector<std::string>{"support 0.44 MPa"});
+  EXPECT_EQ(table.text(0, 80),
+            "job     impact  error\n           MPa      %\njobs/1    3.41      1\njobs/2    3.42      2\n");
+  EXPECT_EQ(table.text(0, 16),
+            "job     impact\n           MPa\njobs/1    3.41\njobs/2    3.42\n\n"
+            "job     error\n            %\njobs/1      1\njobs/2      2\n");
+}
+
+TEST(Text, IsWrappedBetweenWordsAndLongWordsAtTheEnd) {
+  EXPECT_EQ(wrapped("one two three", 9, "- ", "  "), "- one two\n  three\n");
+  EXPECT_EQ(wrap_words("ab cdefghij", 4), (std::vector<std::string>{"ab", "cdef", "ghij"}));
+  EXPECT_EQ(wrap_words("", 4), std::vector<std::string>{""});
 }
 
 TEST(Table, CutsWideTextAndDisarmsControlCharacters) {

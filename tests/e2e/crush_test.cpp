@@ -159,7 +159,7 @@ TEST_F(Crush, AJobIsListedAndShownAlsoAfterARestart) {
   EXPECT_EQ(summary["crush_mode"], "CRUSH_MODE_I");
   EXPECT_GT(summary["ledger"]["contact_damping_mj"].get<double>(), 0.0);
   const Outcome text = cellcrush({"show", job});
-  EXPECT_THAT(text.output, testing::ContainsRegex("crush mode +I"));
+  EXPECT_THAT(text.output, testing::ContainsRegex("crush mode: layer by layer \\(I\\)"));
   EXPECT_THAT(text.output, HasSubstr("contact damping"));
 }
 

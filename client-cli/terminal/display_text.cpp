@@ -1,0 +1,61 @@
+#include "terminal/display_text.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace cellcrush::client {
+
+namespace {
+
+bool continues_character(char byte) { return (static_cast<unsigned char>(byte) & 0xC0) == 0x80; }
+
+// Bytes of the first `columns` characters.
+std::size_t size_of_columns(std::string_view text, int columns) {
+  std::size_t end = 0;
+  for (int count = 0; end < text.size(); ++end) {
+    if (!continues_character(text[end]) && count++ == columns) break;
+  }
+  return end;
+}
+
+}  // namespace
+
+int display_width(std::string_view text) {
+  return static_cast<int>(
+      std::count_if(text.begin(), text.end(), [](char byte) { return !continues_character(byte); }));
+}
+
+std::string cut(std::string_view text, int width) {
+  if (display_width(text) <= width) return std::string(text);
+  const int kept = width > 8 ? width - 3 : std::max(width, 0);
+  return std::string(text.substr(0, size_of_columns(text, kept))) + (width > 8 ? "..." : "");
+}
+
+std::vector<std::string> wrap_words(std::string_view text, int width) {
+  std::vector<std::string> lines(1);
+  std::istringstream words{std::string(text)};
+  for (std::string word; words >> word;) {
+    const int used = display_width(lines.back());
+    if (used > 0 && used + 1 + display_width(word) > width) lines.emplace_back();
+    if (!lines.back().empty()) lines.back() += ' ';
+    while (lines.back().empty() && display_width(word) > width) {
+      const std::size_t kept = size_of_columns(word, width);
+      lines.back() = word.substr(0, kept);
+      lines.emplace_back();
+      word.erase(0, kept);
+    }
+    lines.back() += word;
+  }
+  return lines;
+}
+
+std::string wrapped(std::string_view text, int width, std::string_view first, std::string_view next) {
+  const int prefix = std::max(display_width(first), display_width(next));
+  std::string result;
+  for (const std::string& line : wrap_words(text, std::max(width - prefix, 1))) {
+    result += std::string(result.empty() ? first : next) + line + '\n';
+  }
+  return result;
+}
+
+}  // namespace cellcrush::client

@@ -1,0 +1,83 @@
+#include "terminal/job_list_text.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "results/case_differences.h"
+#include "results/field_value.h"
+#include "terminal/job_text.h"
+#include "terminal/number_text.h"
+#include "terminal/table.h"
+
+namespace cellcrush::client {
+
+namespace {
+
+using Align = Table::Align;
+
+// Fields in which jobs of one title differ, those of the most jobs first.
+std::vector<std::string> find_varied_fields(const std::vector<v1::Job>& jobs) {
+  std::map<std::string, std::vector<const v1::Case*>> groups;
+  for (const v1::Job& job : jobs) groups[base_title(job.case_().title())].push_back(&job.case_());
+  std::map<std::string, std::size_t> uses;
+  for (const auto& [title, cases] : groups) {
+    for (const std::string& field : find_differences(cases)) uses[field] += cases.size();
+  }
+  std::vector<std::string> fields;
+  for (const auto& [field, count] : uses) fields.push_back(field);
+  std::stable_sort(fields.begin(), fields.end(),
+                   [&](const std::string& a, const std::string& b) { return uses[a] > uses[b]; });
+  return fields;
+}
+
+std::string also_varied_text(const std::vector<std::string>& fields, std::size_t shown, int width) {
+  if (fields.size() <= shown) return {};
+  std::string text = "Also varied: ";
+  for (std::size_t i = shown; i < fields.size(); ++i) text += (i == shown ? "" : ", ") + fields[i];
+  return wrapped(text, width, "", "  ");
+}
+
+}  // namespace
+
+std::string job_list_text(const std::vector<v1::Job>& jobs, int width) {
+  constexpr std::size_t kMostFields = 4;
+  constexpr std::size_t kHeadings = 2;
+  if (jobs.empty()) return "no jobs\n";
+  const auto varied = find_varied_fields(jobs);
+  const std::vector<std::string> fields(varied.begin(), varied.begin() + std::min(varied.size(), kMostFields));
+  std::vector<Align> columns = {Align::left, Align::left, Align::right, Align::right};
+  columns.insert(columns.end(), fields.size(), Align::right);
+  columns.insert(columns.end(), {Align::right, Align::left, Align::left});
+  Table table(columns);
+  std::vector<std::string> headings = {"NAME", "STATE", "DONE", "PLATEAU"};
+  std::vector<std::string> units = {"", "", "", "MPa"};
+  for (const std::string& field : fields) {
+    const FieldWords words = words_among(field, fields);
+    headings.push_back(words.name);
+    units.push_back(words.unit);
+  }
+  headings.insert(headings.end(), {"PRIORITY", "LABELS", "CREATED"});
+  table.add(std::move(headings));
+  table.add(std::move(units));
+  std::string title_above;
+  for (const v1::Job& job : jobs) {
+    const std::string title = base_title(job.case_().title());
+    if (title != title_above) table.add_title(title.empty() ? "without a title" : title);
+    title_above = title;
+    const bool plateau = job.summary().has_plateau_stress_impact_mpa();
+    const bool started = job.state() != v1::PENDING && job.has_progress();
+    const double done = job.state() == v1::SUCCEEDED ? 1.0 : job.progress().fraction();
+    std::vector<std::string> cells = {job.name(), v1::JobState_Name(job.state()),
+                                      started || done > 0.0 ? percent_text(done, 0) : "",
+                                      plateau ? number_text(job.summary().plateau_stress_impact_mpa()) : ""};
+    for (const std::string& field : fields) cells.push_back(field_value_text(job.case_(), field));
+    cells.insert(cells.end(), {job.priority() != 0 ? std::to_string(job.priority()) : "", labels_text(job.labels()),
+                               job.has_create_time() ? time_text(job.create_time()) : ""});
+    table.add(std::move(cells));
+  }
+  const std::string constants = constants_text(table.remove_constant_columns(2, kHeadings), width);
+  return table.text(0, width) + constants + also_varied_text(varied, fields.size(), width);
+}
+
+}  // namespace cellcrush::client
