@@ -31,7 +31,8 @@ std::string two_columns(const NamedTexts& entries, int width) {
   const std::size_t column = longest + 4;
   std::string out;
   for (const auto& [name, text] : entries) {
-    const std::string wrapped = wrap_text(text, std::max(width, static_cast<int>(column) + 20) - static_cast<int>(column));
+    const std::string wrapped =
+        wrap_text(text, std::max(width, static_cast<int>(column) + 20) - static_cast<int>(column));
     out += fmt::format("  {:<{}}  {}\n", name, longest, indented(wrapped, column));
   }
   return out;

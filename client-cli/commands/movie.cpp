@@ -112,10 +112,13 @@ void add_movie_command(CLI::App& app, Session& session) {
                                   [&session, options] { return run_movie(session, *options); });
   command->group(kResultCommands);
   command->add_option("NAME", options->name, "A job's name")->required();
-  command->add_option("-o,--output", options->file, "The movie, such as FILE.mp4")->group(kOutputOptions);
+  command->add_option("-o,--output", options->file, "The movie, such as FILE.mp4 (default: none, with --frames)")
+      ->group(kOutputOptions);
   command
-      ->add_option("--frames", options->folder,
-                   "Instead: keep the frames in this folder, as numbered PNG files of one size; needs no ffmpeg")
+      ->add_option(
+          "--frames", options->folder,
+          "Instead: keep the frames in this folder, as numbered PNG files of one size; needs no ffmpeg (default: "
+          "none)")
       ->group(kOutputOptions);
   command->add_option("--fps", options->frames_per_second, "Frames a second (default: 10)")
       ->group(kOutputOptions)

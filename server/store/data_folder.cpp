@@ -233,7 +233,7 @@ std::filesystem::path DataFolder::set_aside(const std::string& name) const {
   struct stat status {};
   if (lstat(from.c_str(), &status) == 0 && S_ISDIR(status.st_mode)) chmod(from.c_str(), status.st_mode | 0700U);
   for (int i = 1;; ++i) {
-    const auto to = root_ / "set-aside" / (name + (i == 1 ? "" : "." + std::to_string(i)));
+    auto to = root_ / "set-aside" / (name + (i == 1 ? "" : "." + std::to_string(i)));
     std::error_code error;
     if (std::filesystem::exists(std::filesystem::symlink_status(to, error))) continue;
     std::filesystem::rename(from, to, error);

@@ -172,6 +172,7 @@ INSTANTIATE_TEST_SUITE_P(Over, ConnectionFloodTest, ::testing::Values(Port::plai
 TEST_P(ConnectionFloodTest, APortThatRanOutOfDescriptorsAnswersAgain) {
   leave_descriptors(100);
   std::vector<int> open;
+  open.reserve(1010);
   for (int i = 0; i < 1010; ++i) open.push_back(connect_to(port_));
   std::this_thread::sleep_for(seconds(1));
   for (const int connection : open) close(connection);
@@ -182,6 +183,7 @@ TEST_P(ConnectionFloodTest, StrangersUnderAHardLimitOf1024DescriptorsShutNobodyO
   daemon_.reset();
   start(1024);
   std::vector<int> open;
+  open.reserve(1010);
   for (int i = 0; i < 1010; ++i) open.push_back(connect_to(port_));
   std::this_thread::sleep_for(seconds(1));
   EXPECT_TRUE(check(client().channel).ok()) << "The Unix socket has connections of its own.";
@@ -220,8 +222,10 @@ TEST_P(ConnectionFloodTest, FloodsLeaveEveryPortThreadsAndMemoryAsTheyWere) {
     std::atomic<int> answered = 0;
     std::atomic<int> open = 0;
     std::vector<std::unique_ptr<Health::Stub>> stubs;
+    stubs.reserve(20);
     for (int i = 0; i < 20; ++i) stubs.push_back(Health::NewStub(channel()));
     std::vector<std::unique_ptr<Watch>> watches;
+    watches.reserve(5000);
     for (int i = 0; i < 5000; ++i)
       watches.push_back(std::make_unique<Watch>(*stubs[static_cast<std::size_t>(i) % stubs.size()], answered, open));
     for (int i = 0; i < 600 && answered < 5000; ++i) {
@@ -240,6 +244,7 @@ TEST_P(ConnectionFloodTest, FloodsLeaveEveryPortThreadsAndMemoryAsTheyWere) {
 
   {
     std::vector<std::unique_ptr<v1::Jobs::Stub>> stubs;
+    stubs.reserve(4);
     for (int i = 0; i < 4; ++i) stubs.push_back(v1::Jobs::NewStub(channel()));
     std::deque<grpc::ClientContext> contexts;
     std::vector<std::unique_ptr<grpc::ClientReader<v1::DownloadResultResponse>>> readers;

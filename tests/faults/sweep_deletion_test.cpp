@@ -21,7 +21,7 @@ class SweepDeletionTest : public FaultFixture {
     auto request = sweep_of(tiny_case(), "plates.friction", {});
     auto& values = *request.mutable_sweep()->mutable_axes(0)->mutable_list()->mutable_values();
     for (int i = 0; i < points; ++i) values.Add(0.0001 * i);
-    const std::string name = create(client, request).name();
+    std::string name = create(client, request).name();
     v1::CancelSweepRequest cancel;
     cancel.set_name(name);
     v1::Sweep cancelled;
