@@ -6,8 +6,9 @@
 #include <utility>
 
 #include "google/rpc/status.pb.h"
+#include "terminal/display_text.h"
 #include "terminal/json_text.h"
-#include "terminal/table.h"
+#include "terminal/terminal.h"
 
 namespace cellcrush::client {
 
@@ -81,8 +82,8 @@ std::string problems_text(const v1::ProblemList& problems) {
 std::string notes_text(const google::protobuf::RepeatedPtrField<v1::Problem>& notes) {
   std::string text;
   for (const v1::Problem& note : notes) {
-    text += fmt::format("note: {} = {} {}\n    {}\n", printable(note.field()), printable(note.value()),
-                        printable(note.message()), printable(note.remedy()));
+    const std::string what = fmt::format("{} = {} {} {}", note.field(), note.value(), note.message(), note.remedy());
+    text += wrapped(printable(what), terminal_width(), "Note: ", "    ");
   }
   return text;
 }

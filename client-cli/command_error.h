@@ -35,7 +35,7 @@ CommandError problems_error(v1::ProblemList problems);
 /// The problems as text, a group each: "field = value: message", then the remedy on a line of its own.
 std::string problems_text(const v1::ProblemList& problems);
 
-/// What is hardly meant about a case, as text: "note: field = value message", then what to do on a line of its own.
+/// What is hardly meant about a case, as text: "Note: field = value message remedy", in lines as wide as the terminal.
 std::string notes_text(const google::protobuf::RepeatedPtrField<v1::Problem>& notes);
 
 /// Prints the error: as text on stderr, or with `json` as one object on stdout: a cellcrush.v1.ProblemList if there are

@@ -57,13 +57,14 @@ std::vector<std::string> Table::remove_constant_columns(std::size_t first, std::
   return constants;
 }
 
-// "crush mode layer by layer", "shock theory 3.41 MPa": of several headings the last one is a unit.
+// "crush mode layer by layer", "shock theory 3.41 MPa", "front strain none": of several headings the last one is a unit.
 std::string Table::constant_text(std::size_t column, std::size_t headings, const std::string& value) const {
   std::string text;
   for (std::size_t row = 0; row < std::max<std::size_t>(headings, 2) - 1; ++row) {
     const std::string& heading = rows_[row].cells[column];
     text += heading + (heading.empty() || heading.ends_with('-') ? "" : " ");
   }
+  if (value == "-") return text + "none";
   text += value;
   const std::string unit = headings > 1 ? rows_[headings - 1].cells[column] : std::string();
   return text + (unit.empty() ? "" : " ") + unit;

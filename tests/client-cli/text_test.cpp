@@ -66,6 +66,28 @@ TEST(Table, WithKeysContinuesBelowAndTakesOutWhatDoesNotVary) {
             "job     error\n            %\njobs/1      1\njobs/2      2\n");
 }
 
+TEST(Table, SaysNoneWhereNoRowHasAValue) {
+  using enum Table::Align;
+  Table table({left, right}, 1);
+  table.add({"job", "strain"});
+  table.add({"", "%"});
+  table.add({"jobs/1", "-"});
+  table.add({"jobs/2", "-"});
+  EXPECT_EQ(table.remove_constant_columns(1, 2), std::vector<std::string>{"strain none"});
+}
+
+TEST(Problems, NotesStandInTheTerminalsWidth) {
+  v1::ProblemList list;
+  v1::Problem& note = *list.add_problems();
+  note.set_field("material.density_kg_per_m3");
+  note.set_value("2.7");
+  note.set_message("is far below that of any solid. Is it in g/cm^3?");
+  note.set_remedy("Give kg/m^3: 2.7 g/cm^3 are 2700 kg/m^3.");
+  const std::string text = notes_text(list.problems());
+  EXPECT_EQ(text.find("Note: material.density_kg_per_m3 = 2.7 is far below"), 0U) << text;
+  EXPECT_NE(text.find("2700 kg/m^3."), std::string::npos) << text;
+}
+
 TEST(Text, IsWrappedBetweenWordsAndLongWordsAtTheEnd) {
   EXPECT_EQ(wrapped("one two three", 9, "- ", "  "), "- one two\n  three\n");
   EXPECT_EQ(wrap_words("ab cdefghij", 4), (std::vector<std::string>{"ab", "cdef", "ghij"}));
