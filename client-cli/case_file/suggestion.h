@@ -21,7 +21,8 @@ std::string with_suggestion(std::string message, const std::string& nearest);
 /// Names of the fields of a message, in the order of their declaration.
 std::vector<std::string> field_names(const google::protobuf::Descriptor& type);
 
-/// What to say about a field that `type` does not have: a sentence with the nearest name, or all names when none is near.
+/// What to say about a field that `type` does not have: a sentence with the nearest name, or all names when none is
+/// near.
 std::string unknown_field_message(std::string_view field, const google::protobuf::Descriptor& type);
 
 /// What to say about a value that `type` does not have: a sentence with all its names.

@@ -20,8 +20,8 @@ WatchedJob show_job_to_its_end(Session& session, const std::string& name, const 
 /// Watches a job to its end and prints how it ended. On Ctrl-C says that the job goes on.
 ExitCode watch_job(Session& session, const std::string& name, const Interruption& interruption);
 
-/// Watches a sweep until all its jobs have ended and prints its table and chart. On Ctrl-C says that the sweep goes on. The code is
-/// `done` when all jobs succeeded, else `job_failed`.
+/// Watches a sweep until all its jobs have ended and prints its table and chart. On Ctrl-C says that the sweep goes on.
+/// The code is `done` when all jobs succeeded, else `job_failed`.
 ExitCode watch_sweep(Session& session, const std::string& name, const Interruption& interruption);
 
 }  // namespace cellcrush::client

@@ -32,8 +32,8 @@ class Connection {
   /// Whether the server answers within `patience`.
   bool wait(std::chrono::milliseconds patience);
 
-  /// One call with one answer. Throws CommandError when it does not end with OK, takes longer than a minute, or would be
-  /// larger than a server takes.
+  /// One call with one answer. Throws CommandError when it does not end with OK, takes longer than a minute, or would
+  /// be larger than a server takes.
   template <typename Stub, typename Request, typename Response>
   Response call(Stub& stub, grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*),
                 const Request& request) {

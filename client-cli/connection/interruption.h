@@ -4,8 +4,8 @@
 
 namespace cellcrush::client {
 
-/// Catches the first Ctrl-C (SIGINT) and the first SIGTERM while it lives, so that a watch can end in order; a second one
-/// ends the program as usual. At most one may live at a time. wait_for may be called from any thread.
+/// Catches the first Ctrl-C (SIGINT) and the first SIGTERM while it lives, so that a watch can end in order; a second
+/// one ends the program as usual. At most one may live at a time. wait_for may be called from any thread.
 class Interruption {
  public:
   Interruption();

@@ -7,8 +7,8 @@
 
 namespace cellcrush::client {
 
-/// A cellcrushd that serves this process alone, with one worker, on a Unix socket of its own. It ends with this process at
-/// the latest; a job that runs is then left at a checkpoint in the data folder.
+/// A cellcrushd that serves this process alone, with one worker, on a Unix socket of its own. It ends with this process
+/// at the latest; a job that runs is then left at a checkpoint in the data folder.
 class PrivateDaemon {
  public:
   /// Starts the cellcrushd that lies beside this program, else that of $PATH, and waits until it serves. Its log is

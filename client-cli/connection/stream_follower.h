@@ -29,9 +29,9 @@ struct FollowedStream {
   std::function<CommandError(const grpc::Status& status)> refusal;
 };
 
-/// Reads a stream until it is complete. A reading that breaks is repeated a few times over about ten seconds, and from the
-/// start of that count whenever it advanced; a stream that is silent for a minute counts as broken, since a live server
-/// sends something every 15 s. Returns true once complete and false when `interruption` was requested. Throws
+/// Reads a stream until it is complete. A reading that breaks is repeated a few times over about ten seconds, and from
+/// the start of that count whenever it advanced; a stream that is silent for a minute counts as broken, since a live
+/// server sends something every 15 s. Returns true once complete and false when `interruption` was requested. Throws
 /// CommandError: cut_off when the stream stays broken, else what the server says.
 bool follow_stream(const FollowedStream& stream, const Interruption& interruption);
 

@@ -5,7 +5,8 @@
 
 namespace cellcrush::client {
 
-/// Each line of the text in lines of at most `width` columns, as wrap_words breaks them. No newline is added at its end.
+/// Each line of the text in lines of at most `width` columns, as wrap_words breaks them. No newline is added at its
+/// end.
 std::string wrap_text(std::string_view text, int width);
 
 }  // namespace cellcrush::client

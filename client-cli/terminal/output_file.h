@@ -8,9 +8,9 @@
 
 namespace cellcrush::client {
 
-/// A file that appears under its name only when it is complete: it is written beside it under a name of its own, flushed
-/// to disk and renamed by commit(); without commit() it vanishes. Throws CommandError (refused) when it cannot be
-/// written.
+/// A file that appears under its name only when it is complete: it is written beside it under a name of its own,
+/// flushed to disk and renamed by commit(); without commit() it vanishes. Throws CommandError (refused) when it cannot
+/// be written.
 class OutputFile {
  public:
   explicit OutputFile(std::filesystem::path path);

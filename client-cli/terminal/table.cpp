@@ -57,7 +57,8 @@ std::vector<std::string> Table::remove_constant_columns(std::size_t first, std::
   return constants;
 }
 
-// "crush mode layer by layer", "shock theory 3.41 MPa", "front strain none": of several headings the last one is a unit.
+// "crush mode layer by layer", "shock theory 3.41 MPa", "front strain none": of several headings the last one is a
+// unit.
 std::string Table::constant_text(std::size_t column, std::size_t headings, const std::string& value) const {
   std::string text;
   for (std::size_t row = 0; row < std::max<std::size_t>(headings, 2) - 1; ++row) {

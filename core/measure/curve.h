@@ -24,7 +24,8 @@ class Curve {
   /// Mean stress between two strains, or nothing when the curve ends before `high`.
   [[nodiscard]] std::optional<double> mean(double low, double high) const;
 
-  /// Mean stress over a window of strain about a strain. The curve shows single collapses of cells at less than kSmoothing.
+  /// Mean stress over a window of strain about a strain. The curve shows single collapses of cells at less than
+  /// kSmoothing.
   static constexpr double kSmoothing = 0.01;
   [[nodiscard]] double smoothed(double strain, double window = kSmoothing) const;
 
@@ -33,8 +34,8 @@ class Curve {
   std::vector<double> integral_;  // up to strain_
 };
 
-/// The mean of both plates' stresses. It rises once the front of a fast crush arrives at the support plate, of which the
-/// stress at the impact plate alone shows little, and is the stress of either plate in a slow crush.
+/// The mean of both plates' stresses. It rises once the front of a fast crush arrives at the support plate, of which
+/// the stress at the impact plate alone shows little, and is the stress of either plate in a slow crush.
 Curve curve_of_both_plates(std::span<const Sample> samples);
 
 }  // namespace cellcrush

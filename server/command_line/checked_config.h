@@ -6,8 +6,8 @@
 
 namespace cellcrush {
 
-/// Reads a file of options in TOML, and refuses it for a key that is no option: a slip would otherwise leave a default in
-/// force unseen. Throws CLI::ConfigError with the nearest option's name, or with where all of them stand.
+/// Reads a file of options in TOML, and refuses it for a key that is no option: a slip would otherwise leave a default
+/// in force unseen. Throws CLI::ConfigError with the nearest option's name, or with where all of them stand.
 class CheckedConfig final : public CLI::ConfigTOML {
  public:
   /// `app`, whose options may be given, outlives this object.

@@ -64,7 +64,8 @@ class Admission {
   /// Checks the priority that jobs ask for against that of an owner. Throws InvalidField.
   void check_priority(int priority, const std::string& field) const { quotas_.check_priority(priority, field); }
 
-  /// Memory of a job of which it is known that it is at most `most_bytes`: `predict` is asked only where that could be too much.
+  /// Memory of a job of which it is known that it is at most `most_bytes`: `predict` is asked only where that could be
+  /// too much.
   [[nodiscard]] std::int64_t memory_of_job(std::int64_t most_bytes, const std::function<std::int64_t()>& predict) const;
 
   /// Whether so many more jobs of the owner, of which the largest needs so much memory, can be taken. Throws

@@ -13,8 +13,8 @@
 
 namespace cellcrush::rpc {
 
-/// Answers unary calls on a few threads of its own, in the order in which they come, so that any number of clients may call
-/// at the same time. Thread-safe.
+/// Answers unary calls on a few threads of its own, in the order in which they come, so that any number of clients may
+/// call at the same time. Thread-safe.
 class CallPool {
  public:
   struct Most {
@@ -29,9 +29,9 @@ class CallPool {
   CallPool(const CallPool&) = delete;
   CallPool& operator=(const CallPool&) = delete;
 
-  /// Calls `body` on a thread of the pool and ends the call with the status that it gives, or with that of what it throws.
-  /// What `body` uses of the call is there until then. A call that is cancelled while it waits is left out; one beyond
-  /// the limits ends with RESOURCE_EXHAUSTED.
+  /// Calls `body` on a thread of the pool and ends the call with the status that it gives, or with that of what it
+  /// throws. What `body` uses of the call is there until then. A call that is cancelled while it waits is left out; one
+  /// beyond the limits ends with RESOURCE_EXHAUSTED.
   grpc::ServerUnaryReactor* run(grpc::CallbackServerContext& context, const google::protobuf::Message& request,
                                 std::function<grpc::Status()> body);
 

@@ -43,7 +43,8 @@ void JobsService::add_progress(store::StoredJob& stored) {
   if (const auto progress = channel->newest().progress) *stored.job.mutable_progress() = *progress;
 }
 
-// Of a job that nobody watches some may be gathered still. Where they cannot be made durable those before them are given.
+// Of a job that nobody watches some may be gathered still. Where they cannot be made durable those before them are
+// given.
 void JobsService::commit_samples() {
   try {
     parts_.journal.commit_samples();

@@ -59,7 +59,8 @@ CREATE TABLE deleted_jobs (
 PRAGMA user_version = 2;
 )sql";
 
-// From version 2 to 3. Each column has a value that is right for what is there: jobs of a sweep were submitted with its first.
+// From version 2 to 3. Each column has a value that is right for what is there: jobs of a sweep were submitted with its
+// first.
 constexpr const char* kQueueColumns = R"sql(
 ALTER TABLE jobs ADD COLUMN priority INTEGER NOT NULL DEFAULT 0;
 ALTER TABLE jobs ADD COLUMN submission INTEGER;

@@ -13,9 +13,9 @@ class SpecChecker;
 
 namespace cellcrush::translate {
 
-/// Checks many cases with the problems of check_case and without its description. Cases of a regular lattice cost microseconds,
-/// and those that have the mesh of an earlier one (cellcrush/spec_checker.h). Not thread-safe. Throws std::bad_alloc when a mesh
-/// that has to be built does not fit.
+/// Checks many cases with the problems of check_case and without its description. Cases of a regular lattice cost
+/// microseconds, and those that have the mesh of an earlier one (cellcrush/spec_checker.h). Not thread-safe. Throws
+/// std::bad_alloc when a mesh that has to be built does not fit.
 class CaseChecker {
  public:
   CaseChecker();

@@ -9,8 +9,8 @@
 
 namespace cellcrush::testing {
 
-/// cellcrushd as a process of its own; killed at the latest when this goes away, or the thread that made it, as in a test that
-/// is aborted. Workers outlive it all the same.
+/// cellcrushd as a process of its own; killed at the latest when this goes away, or the thread that made it, as in a
+/// test that is aborted. Workers outlive it all the same.
 class DaemonProcess {
  public:
   /// Under a hard limit on file descriptors; 0: that of this process.

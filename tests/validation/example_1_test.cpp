@@ -64,16 +64,16 @@ void expect_quasi_static(const CrushRun& run) {
   EXPECT_LT(run.summary.energy_error_relative, 0.01);
 }
 
-/// Plateau and densification are those of the other programs. Of the default elements the onset scatters more than theirs:
-/// seeds of 0.01 mm put that of dimensions 2 at 0.68 to 0.77.
+/// Plateau and densification are those of the other programs. Of the default elements the onset scatters more than
+/// theirs: seeds of 0.01 mm put that of dimensions 2 at 0.68 to 0.77.
 void expect_course(const CrushRun& run, const Example& example, double onset_tolerance) {
   EXPECT_NEAR(run.summary.plateau_stress_impact.value_or(0.0) / example.plateau_stress, 1.0, 0.06);
   EXPECT_NEAR(run.summary.plateau_stress_support.value_or(0.0) / example.plateau_stress, 1.0, 0.06);
   EXPECT_NEAR(run.summary.densification_strain.value_or(0.0), 0.73, onset_tolerance);
 }
 
-/// Up to the limit all rows are crushed alike, so that its stress is that of one wall, exact, at the same strain; the free
-/// sides take off little.
+/// Up to the limit all rows are crushed alike, so that its stress is that of one wall, exact, at the same strain; the
+/// free sides take off little.
 void expect_limit_of_the_exact_wall(const CrushRun& run, const Example& example) {
   const reference::BilinearSection section = {example.thickness, 69000.0, 690.0, 292.0};
   const double angle = std::numbers::pi / 6.0;
