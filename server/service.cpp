@@ -33,7 +33,7 @@ namespace {
 // What grpc.health.v1 calls the queue; not serving while it is held.
 constexpr const char* kQueueHealth = "cellcrush.queue";
 constexpr int kPumpThreads = 2;
-constexpr int kCheckThreads = 4;
+constexpr int kCheckThreads = 12;  // those of large cases wait on them for each other
 constexpr std::size_t kWaitingCalls = 10'000;
 
 rpc::StreamLimits::Most most_streams(const net::ConnectionLimits& limits) {

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <iterator>
 #include <optional>
+#include <utility>
 
 #include "case_file/case_source.h"
 #include "commands/commands.h"
@@ -30,12 +31,31 @@ struct RunOptions {
   double time_limit_s = 0.0;
 };
 
-void make_data_folder(const fs::path& data) {
-  std::error_code error;
-  fs::create_directories(data, error);
-  if (error) throw CommandError(ExitCode::refused, data.string() + ": cannot be made: " + error.message());
-  fs::permissions(data, fs::perms::owner_all, error);
-}
+// Gone again when this goes away, unless it is kept or was there before.
+class PrivateData {
+ public:
+  explicit PrivateData(fs::path path) : path_(std::move(path)), was_there_(fs::exists(path_)), is_kept_(was_there_) {
+    std::error_code error;
+    fs::create_directories(path_, error);
+    if (error) throw CommandError(ExitCode::refused, path_.string() + ": cannot be made: " + error.message());
+    fs::permissions(path_, fs::perms::owner_all, error);
+  }
+  ~PrivateData() {
+    std::error_code none;
+    if (!is_kept_) fs::remove_all(path_, none);
+  }
+  PrivateData(const PrivateData&) = delete;
+  PrivateData& operator=(const PrivateData&) = delete;
+
+  [[nodiscard]] const fs::path& path() const { return path_; }
+  [[nodiscard]] bool was_there() const { return was_there_; }
+  void keep(bool is_kept) { is_kept_ = is_kept; }
+
+ private:
+  fs::path path_;
+  bool was_there_;
+  bool is_kept_;
+};
 
 std::optional<v1::Job> find_unfinished(Connection& connection) {
   const auto listed = connection.call(connection.jobs(), &v1::Jobs::Stub::ListJobs, v1::ListJobsRequest());
@@ -72,42 +92,35 @@ void start_job(Session& session, const v1::Case& scene, const RunOptions& option
   }
 }
 
+// Whether the folder has the result of a run of the case to its end. One that failed leaves no case.txtpb.
+bool holds_result(const fs::path& folder, const v1::Case& scene) {
+  return has_text(folder / "case.txtpb", text_of(scene)) && fs::exists(folder / "result.h5");
+}
+
 ExitCode run_case(Session& session, const RunOptions& options) {
   if (!session.server.empty()) {
     throw CommandError(ExitCode::refused, "run starts a daemon of its own. Leave --server out, or use submit --watch.");
   }
   const fs::path folder(options.folder);
-  const fs::path data = folder / kDataFolder;
-  const bool was_begun = fs::exists(data);
-  if (was_begun && !options.resume) {
+  PrivateData data(folder / kDataFolder);
+  if (data.was_there() && !options.resume) {
     throw CommandError(
         ExitCode::refused,
         fmt::format("{} holds an unfinished run. Continue it with --resume, or delete {} to begin again.",
-                    folder.string(), data.string()));
+                    folder.string(), data.path().string()));
   }
   check_may_write_results(folder);
-  make_data_folder(data);
-  const Interruption interruption;
-  PrivateDaemon daemon(data);
+  PrivateDaemon daemon(data.path());
   session.server = daemon.address();
   Connection& connection = session.connection();
-  const auto end = [&] {
-    daemon.stop();
-    fs::remove_all(data);
-  };
-  try {
-    const v1::Case scene = read_case(options.scene.source, options.scene.assignments, connection);
-    if (options.resume && !was_begun && has_text(folder / "case.txtpb", text_of(scene)) &&
-        fs::exists(folder / "result.h5")) {
-      end();
-      if (!session.json) fmt::print("{} holds the result of this case already.\n", folder.string());
-      return ExitCode::done;
-    }
-    start_job(session, scene, options);
-  } catch (const CommandError&) {
-    if (!was_begun) end();
-    throw;
+  const v1::Case scene = read_case(options.scene.source, options.scene.assignments, connection);
+  if (options.resume && !data.was_there() && holds_result(folder, scene)) {
+    if (!session.json) fmt::print("{} holds the result of this case already.\n", folder.string());
+    return ExitCode::done;
   }
+  const Interruption interruption;
+  start_job(session, scene, options);
+  data.keep(true);
   const auto [job, complete] = show_job_to_its_end(session, kJob, interruption);
   if (!complete) {
     daemon.stop();
@@ -115,7 +128,9 @@ ExitCode run_case(Session& session, const RunOptions& options) {
     return ExitCode::interrupted;
   }
   if (job.has_summary()) write_results(connection, job, folder);
-  end();
+  if (job.state() != v1::SUCCEEDED) fs::remove(folder / "case.txtpb");
+  daemon.stop();
+  data.keep(false);
   return exit_code_of(job.state());
 }
 

@@ -15,6 +15,7 @@
 #include <cstring>
 #include <fstream>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "command_error.h"
@@ -34,11 +35,14 @@ std::string daemon_program() {
   return !error && fs::exists(beside, error) ? beside.string() : "cellcrushd";
 }
 
+// In the user's runtime folder, else in /tmp, as where that folder is another user's or its path is too long for a socket.
 fs::path make_socket_folder() {
+  constexpr std::size_t kLongestFolder = 80;
   const char* runtime = std::getenv("XDG_RUNTIME_DIR");
-  std::error_code error;
-  const bool has_runtime = runtime != nullptr && *runtime != '\0' && fs::is_directory(runtime, error);
-  std::string name = (has_runtime ? fs::path(runtime) : fs::path("/tmp")) / "cellcrush-XXXXXX";
+  std::string name =
+      (runtime == nullptr || *runtime != '/' ? fs::path("/tmp") : fs::path(runtime)) / "cellcrush-XXXXXX";
+  if (name.size() <= kLongestFolder && mkdtemp(name.data()) != nullptr) return name;
+  name = "/tmp/cellcrush-XXXXXX";
   if (mkdtemp(name.data()) == nullptr)
     throw CommandError(ExitCode::refused, name + ": cannot be made: " + std::strerror(errno));
   return name;
@@ -86,7 +90,8 @@ bool wait_until_it_listens(int output) {
 
 PrivateDaemon::PrivateDaemon(const fs::path& data) : folder_(make_socket_folder()) {
   const fs::path log = data / "daemon.log";
-  std::vector<std::string> words = {daemon_program(), "--data", data.string(), "--listen", address(), "--workers", "1"};
+  // As many workers as cores, since a job may use the cores that no other waits for.
+  std::vector<std::string> words = {daemon_program(), "--data", data.string(), "--listen", address()};
   std::vector<char*> pointers;
   for (auto& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);

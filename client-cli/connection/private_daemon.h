@@ -7,7 +7,7 @@
 
 namespace cellcrush::client {
 
-/// A cellcrushd that serves this process alone, with one worker, on a Unix socket of its own. It ends with this process
+/// A cellcrushd that serves this process alone on a Unix socket of its own. It ends with this process
 /// at the latest; a job that runs is then left at a checkpoint in the data folder.
 class PrivateDaemon {
  public:

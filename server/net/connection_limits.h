@@ -12,7 +12,7 @@ struct ConnectionLimits {
   int streams = 2000;                           ///< watches, downloads, frames and reflection, open at once
   int streams_per_caller = 1000;                ///< of one token, certificate or, without either, of all who call
   std::int64_t memory_bytes = 256 << 20;        ///< that connections and the messages on them may take
-  int threads = 24;                             ///< that answer calls other than streams and checks
+  int threads = 16;                             ///< that answer calls other than streams and checks
   std::chrono::milliseconds handshake{5'000};   ///< within which a connection has said what it wants
   std::chrono::milliseconds idle{600'000};      ///< after which a connection without a call is closed
   std::chrono::milliseconds keepalive{60'000};  ///< after which a silent connection is asked for a sign of life

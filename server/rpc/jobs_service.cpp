@@ -89,6 +89,7 @@ grpc::ServerUnaryReactor* JobsService::CreateJob(grpc::CallbackServerContext* co
     if (created.is_new) {
       log_change(jobs::name_of(created.job), "made", owner, request->request_id());
       parts_.scheduler.enqueue({{created.job, created.job, request->priority(), verdict.element_steps, 0, 0, owner}});
+      place.reset();
     }
     auto stored = find(jobs::name_of(created.job));
     add_progress(stored);

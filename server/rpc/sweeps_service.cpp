@@ -95,6 +95,7 @@ grpc::ServerUnaryReactor* SweepsService::CreateSweep(grpc::CallbackServerContext
     if (created.is_new) {
       log_change(name, "made with " + std::to_string(plan.jobs.size()) + " jobs", owner, request.request_id());
       parts_.scheduler.enqueue(queued_jobs(created, plan, request.sweep()));
+      place.reset();
     }
     *response = find(name).sweep;
     return grpc::Status::OK;
@@ -173,6 +174,7 @@ grpc::ServerUnaryReactor* SweepsService::RetryFailedJobs(grpc::CallbackServerCon
     log_change(jobs::sweep_name_of(sweep), "retried with " + std::to_string(retried.size()) + " jobs",
                parts_.gate.caller_of(*context).name);
     parts_.scheduler.enqueue(retried);
+    place.reset();
     *response = find(request->name()).sweep;
     return grpc::Status::OK;
   });

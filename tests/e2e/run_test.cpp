@@ -13,10 +13,10 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
-// As the small case, of seconds.
+// As the small case, of several seconds, so that two signals find it under way.
 std::string longer_case() {
   std::string text = small_case();
-  text.replace(text.find("speed_m_per_s: 100"), 18, "speed_m_per_s: 0.25");
+  text.replace(text.find("speed_m_per_s: 100"), 18, "speed_m_per_s: 0.08");
   return text;
 }
 
@@ -93,6 +93,15 @@ TEST_F(Run, KilledItContinuesToo) {
   for (int i = 0; i < 20 && ended.exit_code != 0; ++i) ended = run(command, kCrushLimit);
   ASSERT_EQ(ended.exit_code, 0) << ended.all();
   EXPECT_EQ(bytes_of(folder() / "out" / "history.csv"), history_of_the_daemon(submitted));
+}
+
+TEST_F(Run, OneThatFailedIsNoFinishedRun) {
+  auto command = words(write_file("longer.txtpb", longer_case()), folder() / "out");
+  command.insert(command.end(), {"--time-limit", "1s", "--resume"});
+  const Outcome failed = run(command, kCrushLimit);
+  EXPECT_EQ(failed.exit_code, 1) << failed.all();
+  EXPECT_FALSE(fs::exists(folder() / "out" / ".cellcrush"));
+  EXPECT_EQ(run(command, kCrushLimit).exit_code, 1) << "It is begun again.";
 }
 
 TEST_F(Run, ABadCaseIsRefusedAndLeavesNoUnfinishedRun) {
