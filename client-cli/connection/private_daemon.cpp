@@ -93,6 +93,7 @@ PrivateDaemon::PrivateDaemon(const fs::path& data) : folder_(make_socket_folder(
   // As many workers as cores, since a job may use the cores that no other waits for.
   std::vector<std::string> words = {daemon_program(), "--data", data.string(), "--listen", address()};
   std::vector<char*> pointers;
+  pointers.reserve(words.size() + 1);
   for (auto& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
   std::array<int, 2> output{-1, -1};

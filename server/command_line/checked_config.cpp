@@ -1,5 +1,7 @@
 #include "command_line/checked_config.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numeric>
 #include <string>
@@ -49,8 +51,8 @@ std::vector<CLI::ConfigItem> CheckedConfig::from_config(std::istream& input) con
     if (is_mark(item) || (item.parents.empty() && app_.get_option_no_throw("--" + key) != nullptr)) continue;
     const std::string nearest = nearest_option(app_, key);
     const std::string remedy =
-        nearest.empty() ? "cellcrushd --help lists all options." : "Did you mean \"" + nearest + "\"?";
-    throw CLI::ConfigError("the file of --config has \"" + key + "\", which is no option. " + remedy,
+        nearest.empty() ? "cellcrushd --help lists all options." : fmt::format("Did you mean \"{}\"?", nearest);
+    throw CLI::ConfigError(fmt::format("the file of --config has \"{}\", which is no option. {}", key, remedy),
                            CLI::ExitCodes::ConfigError);
   }
   return found;

@@ -51,7 +51,7 @@ grpc::ServerUnaryReactor* CasesService::CheckCase(grpc::CallbackServerContext* c
 grpc::ServerUnaryReactor* CasesService::ListPresets(grpc::CallbackServerContext* context,
                                                     const v1::ListPresetsRequest* request,
                                                     v1::ListPresetsResponse* response) {
-  return calls_.run(*context, *request, [=, this] {
+  return calls_.run(*context, *request, [=] {
     for (auto& preset : translate::list_presets()) *response->add_presets() = std::move(preset);
     return grpc::Status::OK;
   });
@@ -59,7 +59,7 @@ grpc::ServerUnaryReactor* CasesService::ListPresets(grpc::CallbackServerContext*
 
 grpc::ServerUnaryReactor* CasesService::GetPreset(grpc::CallbackServerContext* context,
                                                   const v1::GetPresetRequest* request, v1::Preset* response) {
-  return calls_.run(*context, *request, [=, this] {
+  return calls_.run(*context, *request, [=] {
     check_length("name", request->name(), kLongestName);
     auto preset = translate::find_preset_case(request->name());
     if (!preset) {
