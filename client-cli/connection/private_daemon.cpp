@@ -35,7 +35,8 @@ std::string daemon_program() {
   return !error && fs::exists(beside, error) ? beside.string() : "cellcrushd";
 }
 
-// In the user's runtime folder, else in /tmp, as where that folder is another user's or its path is too long for a socket.
+// In the user's runtime folder, else in /tmp, as where that folder is another user's or its path is too long for a
+// socket.
 fs::path make_socket_folder() {
   constexpr std::size_t kLongestFolder = 80;
   const char* runtime = std::getenv("XDG_RUNTIME_DIR");

@@ -109,16 +109,16 @@ class Simulation {
   /// hundredth of the run's steps before the newest that did. The undeformed state before there is one. Its index is 0.
   [[nodiscard]] const FieldFrame& last_good_frame() const;
 
-  /// All that the run needs to go on from here, for the same build on the same kind of processor: whatever is done after
-  /// restore() has the same bits as if the run had not been left.
+  /// All that the run needs to go on from here, for the same build on the same kind of processor: whatever is done
+  /// after restore() has the same bits as if the run had not been left.
   [[nodiscard]] std::string checkpoint() const;
 
-  /// Goes on from a checkpoint of a run of an equal scene that had not stopped. False, and nothing has happened, when the
-  /// bytes are none.
+  /// Goes on from a checkpoint of a run of an equal scene that had not stopped. False, and nothing has happened, when
+  /// the bytes are none.
   bool restore(std::string_view checkpoint);
 
-  /// Calls visit(first byte, bytes) for the arrays that most steps go over. They stay where they are until steps make lists of
-  /// contacts longer, or until restore().
+  /// Calls visit(first byte, bytes) for the arrays that most steps go over. They stay where they are until steps make
+  /// lists of contacts longer, or until restore().
   void visit_arrays(const std::function<void(const void*, std::size_t)>& visit) const;
 
   [[nodiscard]] RunStatus status() const;
