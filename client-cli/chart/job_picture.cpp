@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "chart/colour_map.h"
 #include "chart/energy_curves.h"
 #include "chart/node_curves.h"
@@ -57,7 +59,7 @@ std::string sweep_subtitle(const SweepResults& results) {
 
 std::string render_job_picture(PictureFormat format, const JobHistory& history, const std::vector<MeshFrame>& stages) {
   constexpr double kTop = kMargin + kTitleHeight;
-  const StagePanels panels = stages.empty() ? StagePanels{{}, {}, kTop} : lay_stages(stages, kMargin, kTop, kInner);
+  const StagePanels panels = stages.empty() ? StagePanels{.bottom = kTop} : lay_stages(stages, kMargin, kTop, kInner);
   const bool frame = history.job.case_().lattice().has_frame();
   const double curves_bottom = panels.bottom + kChartHeight + kChartGap;
   const double height = curves_bottom + (frame ? 0.0 : kEnergyHeight) + kMargin;
@@ -71,6 +73,22 @@ std::string render_job_picture(PictureFormat format, const JobHistory& history, 
     draw_chart(context, {kMargin, panels.bottom, kInner, kChartHeight},
                frame ? build_node_chart(history) : build_job_chart(history));
     if (!frame) draw_chart(context, {kMargin, curves_bottom, kInner, kEnergyHeight}, build_energy_chart(history));
+  });
+}
+
+std::string render_wide_picture(PictureFormat format, const JobHistory& history, const std::vector<MeshFrame>& stages) {
+  constexpr double kTop = kMargin + kTitleHeight;
+  constexpr double kLeft = 0.42 * kInner;
+  constexpr double kChartLeft = kMargin + kLeft + kChartGap;
+  const StagePanels panels = lay_stages(stages, kMargin, kTop, kLeft);
+  const double height = std::max(panels.bottom - kTop, kChartHeight);
+  return render_picture(format, kWidth, kTop + height + kMargin, [&](cairo_t* context) {
+    draw_title(context, fmt::format("{} ({})", picture_name(history.job), history.job.name()), subtitle_of(history.job),
+               kInner, kInner - kColourBarRoom);
+    draw_plastic_bar(context, kMargin + 26.0);
+    draw_stages(context, panels, stages);
+    draw_chart(context, {kChartLeft, kTop, kWidth - kMargin - kChartLeft, height},
+               history.job.case_().lattice().has_frame() ? build_node_chart(history) : build_job_chart(history));
   });
 }
 

@@ -13,7 +13,8 @@ namespace {
 
 constexpr int kShades = 32;
 constexpr double kThinnestWall = 0.5;  // units; thinner lines vanish
-constexpr double kPlateShare = 0.009;  // a plate's thickness as a share of the box's longer side
+constexpr double kPlateShare = 0.009;  // a plate's thickness as a share of the specimen's longer side
+constexpr double kMarginShare = 1.5;   // round what is drawn, in thicknesses of a plate
 constexpr Colour kPlateColour{0.35, 0.36, 0.40};
 
 double impact_plate_now(const MeshFrame& stage) {
@@ -29,7 +30,11 @@ void include(Box& box, double x, double y) {
   box.high_y = std::max(box.high_y, y);
 }
 
-double plate_thickness(const Box& box) { return kPlateShare * std::max(box.width(), box.height()); }
+// The same in every drawing of a crush, also where the box follows the impact plate.
+double plate_thickness(const v1::Mesh& mesh, const Box& box) {
+  const double length = mesh.support_plate_mm() - mesh.impact_plate_mm();
+  return kPlateShare * std::max(length, mesh.along_y() ? box.width() : box.height());
+}
 
 // Maps the plane to a place of the picture, the box in its middle.
 class Projection {
@@ -50,12 +55,12 @@ class Projection {
 };
 
 // A plate whose face is at `face`, lying on the side of `outwards` (-1 or 1) over the whole width of the box.
-void draw_plate(cairo_t* context, const Projection& projection, const Box& box, bool along_y, double face,
+void draw_plate(cairo_t* context, const Projection& projection, const Box& box, const v1::Mesh& mesh, double face,
                 double outwards) {
-  const double thickness = plate_thickness(box);
+  const double thickness = plate_thickness(mesh, box);
   const double low = std::min(face, face + outwards * thickness);
   const double size = projection.scale() * thickness;
-  if (along_y) {
+  if (mesh.along_y()) {
     cairo_rectangle(context, projection.x(box.low_x), projection.y(low + thickness), projection.scale() * box.width(),
                     size);
   } else {
@@ -131,16 +136,37 @@ Box find_box(const std::vector<MeshFrame>& stages) {
       stage.mesh.along_y() ? include(box, box.low_x, face) : include(box, face, box.low_y);
     }
   }
-  const double margin = std::max(plate_thickness(box), 1e-6) * 1.5;
+  const double thickness = has_plates(stages.front().mesh) ? plate_thickness(stages.front().mesh, box)
+                                                           : kPlateShare * std::max(box.width(), box.height());
+  const double margin = std::max(thickness, 1e-6) * kMarginShare;
   return {box.low_x - margin, box.high_x + margin, box.low_y - margin, box.high_y + margin};
+}
+
+std::vector<Box> find_boxes(const std::vector<MeshFrame>& stages) {
+  const Box all = find_box(stages);
+  std::vector<Box> boxes(stages.size(), all);
+  for (std::size_t i = 0; i < stages.size(); ++i) {
+    const v1::Mesh& mesh = stages[i].mesh;
+    if (!has_plates(mesh)) continue;
+    // Up to the impact plate, or to what stands out beyond it.
+    double low = impact_plate_now(stages[i]);
+    const auto& position = stages[i].frame.position_mm();
+    for (int k = mesh.along_y() ? 1 : 0; k < position.size(); k += 2) {
+      if (std::isfinite(position[k])) low = std::min(low, static_cast<double>(position[k]));
+    }
+    low -= kMarginShare * plate_thickness(mesh, all);
+    mesh.along_y() ? boxes[i].low_y = std::max(low, all.low_y) : boxes[i].low_x = std::max(low, all.low_x);
+  }
+  return boxes;
 }
 
 void draw_lattice(cairo_t* context, const Rectangle& place, const Box& box, const MeshFrame& stage) {
   const Projection projection(place, box);
   if (has_plates(stage.mesh)) {
-    if (stage.frame.strain() > 0.0) draw_start(context, projection, box, stage.mesh);
-    draw_plate(context, projection, box, stage.mesh.along_y(), impact_plate_now(stage), -1.0);
-    draw_plate(context, projection, box, stage.mesh.along_y(), stage.mesh.support_plate_mm(), 1.0);
+    const bool start_is_inside = stage.mesh.impact_plate_mm() > (stage.mesh.along_y() ? box.low_y : box.low_x);
+    if (stage.frame.strain() > 0.0 && start_is_inside) draw_start(context, projection, box, stage.mesh);
+    draw_plate(context, projection, box, stage.mesh, impact_plate_now(stage), -1.0);
+    draw_plate(context, projection, box, stage.mesh, stage.mesh.support_plate_mm(), 1.0);
   }
   draw_walls(context, projection, stage);
 }

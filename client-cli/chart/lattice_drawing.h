@@ -22,6 +22,10 @@ struct Box {
 /// The box that holds every stage with its plates, at the start and now. REQUIRES: stages is not empty.
 Box find_box(const std::vector<MeshFrame>& stages);
 
+/// For each stage the part of that box from its impact plate on: without the way that the plate has travelled. An explicit
+/// frame has the whole box. REQUIRES: stages is not empty.
+std::vector<Box> find_boxes(const std::vector<MeshFrame>& stages);
+
 /// Whether the lattice stands between two plates; an explicit frame does not.
 bool has_plates(const v1::Mesh& mesh);
 

@@ -16,7 +16,11 @@ std::string render_movie_frame(const MeshFrame& stage, const Box& box) {
   constexpr double kInner = kWidth - 2.0 * kMargin;
   static_assert(kPixelsPerUnit % 2 == 0, "whole units make an even number of pixels");
   const double drawn = std::ceil(std::min(kInner * box.height() / box.width(), kHighest));
-  const StagePanels panels{box, {{kMargin, kMargin + kTitle, kInner, drawn}}, 2.0 * kMargin + kTitle + drawn};
+  const StagePanels panels{.boxes = {box},
+                           .places = {{kMargin, kMargin + kTitle, kInner, drawn}},
+                           .bar_right = kMargin + kInner,
+                           .bar_y = kMargin + kTitle - 9.0,
+                           .bottom = 2.0 * kMargin + kTitle + drawn};
   const double height = panels.bottom + kColourBarHeight + kMargin;
   return render_picture(PictureFormat::png, kWidth, height, [&](cairo_t* context) {
     draw_stages(context, panels, {stage});

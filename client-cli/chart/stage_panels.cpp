@@ -14,33 +14,70 @@ namespace {
 
 constexpr double kTitle = 20.0;
 constexpr double kGap = 14.0;
-constexpr double kPage = 880.0;      // height of all stages
-constexpr double kWideAspect = 1.7;  // from here on a lattice is clearly wider than high
-constexpr double kRowPreference = 1.35;
+constexpr double kPage = 660.0;          // height of all stages
+constexpr double kRowRoom = 60.0;        // a row's share of it at least, titles included
+constexpr double kRowPreference = 0.45;  // rows^this times as large is worth that many rows
+constexpr double kTitleWidth = 170.0;
+constexpr double kLongestBar = 120.0;
+constexpr double kBarRoom = 18.0;
 const TextStyle kPanelTitleStyle{.size = 12.5};
 
-struct Grid {
-  int columns = 1;
-  int rows = 1;
-  double width = 0.0;   ///< of a drawing
-  double height = 0.0;  ///< of a drawing
+// How many stages stand in each row, and the scale at which they do.
+struct Rows {
+  double scale = 0.0;
+  std::vector<int> counts;
 };
 
-Grid find_grid(int count, double aspect, double width) {
-  Grid best;
+double cell_width(const Box& box, double scale) { return std::max(scale * box.width(), kTitleWidth); }
+
+// Filled from the left, at least one stage a row.
+std::vector<int> fill_rows(const std::vector<Box>& boxes, double scale, double width) {
+  std::vector<int> counts;
+  double used = 0.0;
+  for (const Box& box : boxes) {
+    const double cell = cell_width(box, scale);
+    if (counts.empty() || used + kGap + cell > width) {
+      counts.push_back(1);
+      used = cell;
+    } else {
+      ++counts.back();
+      used += kGap + cell;
+    }
+  }
+  return counts;
+}
+
+// The heights of the rows, without titles and gaps.
+std::vector<double> row_heights(const std::vector<Box>& boxes, const Rows& rows) {
+  std::vector<double> heights;
+  std::size_t i = 0;
+  for (const int count : rows.counts) {
+    heights.push_back(0.0);
+    for (int k = 0; k < count; ++k, ++i) heights.back() = std::max(heights.back(), rows.scale * boxes[i].height());
+  }
+  return heights;
+}
+
+double height_of(const std::vector<Box>& boxes, const Rows& rows) {
+  double height = static_cast<double>(rows.counts.size()) * (kTitle + kGap);
+  for (const double row : row_heights(boxes, rows)) height += row;
+  return height;
+}
+
+// Looks from the largest scale that the width allows down to ever smaller ones: fewer rows come with a smaller scale.
+Rows find_rows(const std::vector<Box>& boxes, double width) {
+  double widest = 0.0;
+  for (const Box& box : boxes) widest = std::max(widest, box.width());
+  Rows best;
   double best_score = -1.0;
-  for (int columns = 1; columns <= count; ++columns) {
-    Grid grid{columns, (count + columns - 1) / columns};
-    grid.width = (width - (columns - 1) * kGap) / columns;
-    const double room = kPage / grid.rows - kTitle - kGap;
-    if (room <= 0.0) continue;
-    grid.height = std::min(grid.width / aspect, room);
-    // Places that stay empty count against the grid.
-    double score = grid.height * count / (grid.columns * grid.rows);
-    if (grid.rows == 1 && aspect < kWideAspect) score *= kRowPreference;
+  for (double scale = width / widest; best_score < 0.0 || scale > best.scale / 50.0; scale *= 0.99) {
+    const Rows rows{scale, fill_rows(boxes, scale, width)};
+    const auto count = static_cast<double>(rows.counts.size());
+    if (height_of(boxes, rows) > std::max(kPage, count * kRowRoom)) continue;
+    const double score = scale / std::pow(count, kRowPreference);
     if (score <= best_score) continue;
     best_score = score;
-    best = grid;
+    best = rows;
   }
   return best;
 }
@@ -53,13 +90,9 @@ std::string stage_text(const MeshFrame& stage, std::size_t index, std::size_t co
   return count > 1 && count <= 26 ? fmt::format("({}) {}", static_cast<char>('a' + index), text) : text;
 }
 
-// A bar of a round length at the right end of a panel's title.
-void draw_scale_bar(cairo_t* context, const Rectangle& place, const Box& box) {
-  const double scale = drawing_scale(place, box);
-  const double longest = 0.2 * place.width / scale;
-  const double length = find_ticks(0.0, longest, 3).step;
-  const double right = place.x + place.width;
-  const double y = place.y - 9.0;
+// A bar of a round length that ends at (right, y).
+void draw_scale_bar(cairo_t* context, double right, double y, double scale) {
+  const double length = find_ticks(0.0, kLongestBar / scale, 3).step;
   const double left = right - scale * length;
   cairo_set_line_width(context, 1.6);
   set_colour(context, kInk);
@@ -76,15 +109,23 @@ void draw_scale_bar(cairo_t* context, const Rectangle& place, const Box& box) {
 }  // namespace
 
 StagePanels lay_stages(const std::vector<MeshFrame>& stages, double left, double top, double width) {
-  StagePanels panels{find_box(stages), {}, top};
-  const Grid grid = find_grid(static_cast<int>(stages.size()), panels.box.width() / panels.box.height(), width);
-  for (std::size_t i = 0; i < stages.size(); ++i) {
-    const int row = static_cast<int>(i) / grid.columns;
-    const int column = static_cast<int>(i) % grid.columns;
-    const double y = top + row * (kTitle + grid.height + kGap) + kTitle;
-    panels.places.push_back({left + column * (grid.width + kGap), y, grid.width, grid.height});
+  StagePanels panels{.boxes = find_boxes(stages), .places = {}, .bar_right = left + width, .bottom = top};
+  const std::vector<Box>& boxes = panels.boxes;
+  const Rows rows = find_rows(boxes, width);
+  const std::vector<double> heights = row_heights(boxes, rows);
+  std::size_t i = 0;
+  for (std::size_t row = 0; row < heights.size(); ++row) {
+    double x = left;
+    for (int k = 0; k < rows.counts[row]; ++k, ++i) {
+      const double height = rows.scale * boxes[i].height();
+      // A row is aligned at its top, where the support plate of a crush along y is.
+      panels.places.push_back({x, panels.bottom + kTitle, rows.scale * boxes[i].width(), height});
+      x += cell_width(boxes[i], rows.scale) + kGap;
+    }
+    panels.bottom += kTitle + heights[row] + kGap;
   }
-  panels.bottom = top + grid.rows * (kTitle + grid.height + kGap);
+  panels.bar_y = panels.bottom;
+  panels.bottom += kBarRoom;
   return panels;
 }
 
@@ -92,9 +133,9 @@ void draw_stages(cairo_t* context, const StagePanels& panels, const std::vector<
   for (std::size_t i = 0; i < stages.size(); ++i) {
     const Rectangle& place = panels.places[i];
     draw_text(context, place.x, place.y - 5.0, stage_text(stages[i], i, stages.size()), kPanelTitleStyle);
-    draw_lattice(context, place, panels.box, stages[i]);
+    draw_lattice(context, place, panels.boxes[i], stages[i]);
   }
-  draw_scale_bar(context, panels.places.back(), panels.box);
+  draw_scale_bar(context, panels.bar_right, panels.bar_y, drawing_scale(panels.places[0], panels.boxes[0]));
 }
 
 }  // namespace cellcrush::client

@@ -23,6 +23,7 @@ struct PlotOptions {
   std::vector<double> frame_strains;
   int strip = 0;  ///< frames evenly spaced over the run; 0: the default choice
   bool frames_only = false;
+  bool wide = false;
   std::string logarithmic;  ///< the letters of the axes
 };
 
@@ -74,7 +75,12 @@ std::string render_jobs(Connection& connection, PictureFormat format, const v1::
   std::vector<JobHistory> histories;
   for (const v1::Job& job : jobs.jobs()) histories.push_back(fetch_drawable_history(connection, job));
   if (histories.size() > 1) return render_comparison_picture(format, histories);
-  return render_job_picture(format, histories.front(), fetch_stages(connection, jobs.jobs(0).name(), options));
+  const std::vector<MeshFrame> stages = fetch_stages(connection, jobs.jobs(0).name(), options);
+  if (options.wide && stages.empty()) {
+    throw CommandError(ExitCode::refused, jobs.jobs(0).name() + " has no frames; plot it without --wide");
+  }
+  return options.wide ? render_wide_picture(format, histories.front(), stages)
+                      : render_job_picture(format, histories.front(), stages);
 }
 
 void plot_jobs(Session& session, const PlotOptions& options) {
@@ -89,14 +95,15 @@ void plot_jobs(Session& session, const PlotOptions& options) {
 void check_options(const PlotOptions& options) {
   const auto refuse = [](const char* message) { throw CommandError(ExitCode::refused, message); };
   const bool sweep = std::any_of(options.names.begin(), options.names.end(), names_sweep);
-  const bool frames = options.strip > 0 || options.frames_only || !options.frame_strains.empty();
+  const bool frames = options.strip > 0 || options.frames_only || options.wide || !options.frame_strains.empty();
   if (sweep && !std::all_of(options.names.begin(), options.names.end(), names_sweep)) {
     refuse("plot: jobs and sweeps share no chart; name jobs or sweeps only");
   }
   if (!options.logarithmic.empty() && !sweep) refuse("plot: --log is for sweeps; leave it out");
   if (frames && (sweep || options.names.size() > 1)) {
-    refuse("plot: --strip, --frame-strain and --frames-only are for one job; name one");
+    refuse("plot: --strip, --frame-strain, --frames-only and --wide are for one job; name one");
   }
+  if (options.frames_only && options.wide) refuse("plot: give one of --frames-only and --wide");
   if (options.strip > 0 && !options.frame_strains.empty()) refuse("plot: give one of --strip and --frame-strain");
 }
 
@@ -133,6 +140,8 @@ void add_plot_command(CLI::App& app, Session& session) {
       ->group(kOutputOptions)
       ->check(CLI::IsMember({"x", "y", "xy"}));
   command->add_flag("--frames-only", options->frames_only, "Draw the frames without title and curve, as for a paper")
+      ->group(kFrameOptions);
+  command->add_flag("--wide", options->wide, "Draw the frames beside the stress curves, as for a slide")
       ->group(kFrameOptions);
   add_examples(*command, {"cellcrush plot jobs/12 -o crush.png", "cellcrush plot jobs/12 jobs/13 -o compared.svg",
                           "cellcrush plot sweeps/3 sweeps/4 --log xy -o sweeps.pdf"});

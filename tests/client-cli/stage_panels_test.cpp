@@ -24,10 +24,27 @@ int columns_of(const StagePanels& panels) {
   return columns;
 }
 
-TEST(StagePanels, AWideLatticeIsStackedAndASquareOneStandsSideBySide) {
-  EXPECT_EQ(columns_of(lay_stages(stages_of(74, 21, false, 3), 0, 0, 948)), 1);
+// Undeformed ones fill rows of one, two or three; crushed ones stand beside each other where whole ones would not.
+TEST(StagePanels, RowsAreFilled) {
   EXPECT_EQ(columns_of(lay_stages(stages_of(14, 21, true, 3), 0, 0, 948)), 3);
   EXPECT_EQ(columns_of(lay_stages(stages_of(18, 21, true, 3), 0, 0, 948)), 3);
+  const std::vector<MeshFrame> late{synthetic_stage(74, 21, 0.2), synthetic_stage(74, 21, 0.4),
+                                    synthetic_stage(74, 21, 0.8)};
+  EXPECT_EQ(columns_of(lay_stages(late, 0, 0, 948)), 1);
+  const StagePanels panels = lay_stages(late, 0, 0, 948);
+  EXPECT_EQ(panels.places[1].y, panels.places[2].y) << "the second and the third fit into one row";
+}
+
+// The way that the plate has travelled is not drawn; the scale is the same for all.
+TEST(StagePanels, ACrushedLatticeTakesLessRoom) {
+  for (const bool along_y : {false, true}) {
+    const std::vector<MeshFrame> stages{synthetic_stage(20, 7, 0.0, along_y), synthetic_stage(20, 7, 0.6, along_y)};
+    const StagePanels panels = lay_stages(stages, 0, 0, 948);
+    const auto length = [&](std::size_t i) { return along_y ? panels.places[i].height : panels.places[i].width; };
+    EXPECT_NEAR(length(1) / length(0), 0.4, 0.04);
+    EXPECT_NEAR(drawing_scale(panels.places[0], panels.boxes[0]), drawing_scale(panels.places[1], panels.boxes[1]),
+                1e-9);
+  }
 }
 
 TEST(StagePanels, StayInsideTheWidthAndDoNotOverlap) {
