@@ -1,0 +1,90 @@
+// A reader who types what the README shows, after an installation, sees what it shows.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "docs/session.h"
+#include "e2e/process.h"
+#include "server/temporary_folder.h"
+
+namespace cellcrush::docs {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::TemporaryFolder;
+
+constexpr std::chrono::seconds kLimit{240};
+
+// `cmake --install` of the build that the test belongs to.
+void install(const fs::path& prefix) {
+  const e2e::Outcome outcome = e2e::run(
+      {CELLCRUSH_CMAKE, "--install", CELLCRUSH_BINARY_ROOT, "--prefix", prefix.string()}, std::chrono::seconds(60));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.all();
+}
+
+Page find_page(const std::string& path) {
+  for (Page& page : read_pages(CELLCRUSH_SOURCE_ROOT)) {
+    if (page.path == path) return page;
+  }
+  ADD_FAILURE() << "no page " << path;
+  return {};
+}
+
+void expect_shown(const std::string& path) {
+  const TemporaryFolder folder;
+  install(folder.path() / "prefix");
+  const std::vector<Step> steps = steps_of(find_page(path));
+  ASSERT_FALSE(steps.empty());
+  const fs::path home = folder.path() / "home";
+  fs::create_directories(home);
+  const std::vector<StepOutcome> outcomes = run_session(steps, home, folder.path() / "prefix/bin", kLimit);
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    const std::string place = path + ":" + std::to_string(steps[i].line) + ": $ " + steps[i].command;
+    EXPECT_EQ(outcomes[i].exit_code, 0) << place << "\n" << outcomes[i].output;
+    EXPECT_EQ(missing_line(steps[i].shown, outcomes[i].output), "") << place << "\n" << outcomes[i].output;
+  }
+  ASSERT_EQ(outcomes.size(), steps.size())
+      << path << ":" << steps[std::min(outcomes.size(), steps.size() - 1)].line << ": the session ended here";
+}
+
+TEST(Install, PutsProgramsManualsAndCompletionsInTheirPlaces) {
+  const TemporaryFolder folder;
+  install(folder.path());
+  for (const char* file :
+       {"bin/cellcrush", "bin/cellcrushd", "share/man/man1/cellcrush.1", "share/bash-completion/completions/cellcrush",
+        "share/zsh/site-functions/_cellcrush", "share/fish/vendor_completions.d/cellcrush.fish"}) {
+    EXPECT_TRUE(fs::is_regular_file(folder.path() / file)) << file;
+  }
+  const e2e::Outcome outcome =
+      e2e::run({(folder.path() / "bin/cellcrush").string(), "--version"}, std::chrono::seconds(30));
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.all();
+}
+
+TEST(Readme, EveryCommandDoesWhatThePageShows) { expect_shown("README.md"); }
+
+TEST(Readme, IsAPage) {
+  const fs::path file = fs::path(CELLCRUSH_SOURCE_ROOT) / "README.md";
+  const e2e::Outcome words = e2e::run({"/usr/bin/wc", "-w", file.string()}, std::chrono::seconds(30));
+  EXPECT_LE(std::stoi(words.output), 1100);
+}
+
+TEST(Session, StopsAtTheCommandThatFails) {
+  const TemporaryFolder folder;
+  const Page page = parse_page("page.md", "```console\n$ echo 12 MPa\n34 MPa\n$ false\n$ echo never\n```\n");
+  const std::vector<StepOutcome> outcomes = run_session(steps_of(page), folder.path(), "/nowhere", kLimit);
+  ASSERT_EQ(outcomes.size(), 2U);
+  EXPECT_EQ(outcomes[0].exit_code, 0);
+  EXPECT_EQ(outcomes[1].exit_code, 1);
+}
+
+TEST(Session, ComparesLinesButForTheirNumbers) {
+  EXPECT_EQ(missing_line({"plateau  3.31 MPa", "...", "took 7 s"}, "plateau 3.29 MPa\nmore\n\ntook 12.5 s\n"), "");
+  EXPECT_EQ(missing_line({"plateau 3.31 MPa", "took 7 s"}, "plateau 3.29 MPa\nmore\ntook 12.5 s\n"), "took 7 s");
+  EXPECT_EQ(missing_line({"plateau 3.31 mm"}, "plateau 3.31 MPa\n"), "plateau 3.31 mm");
+  EXPECT_EQ(masked("jobs/ab-12   -1.5e-7 ----"), masked("jobs/c 3 --"));
+}
+
+}  // namespace
+}  // namespace cellcrush::docs

@@ -1,0 +1,137 @@
+#include "docs/session.h"
+
+#include <algorithm>
+#include <fstream>
+#include <regex>
+#include <sstream>
+
+#include "e2e/process.h"
+
+namespace cellcrush::docs {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kBegin = "@@ begin ";
+const std::string kEnd = "@@ end ";
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+// The daemon's port stays closed, since another one may listen on it: only the Unix socket of this session is open.
+void write_daemon_wrapper(const fs::path& folder, const fs::path& programs) {
+  fs::create_directories(folder / ".local/share/cellcrush");
+  fs::create_directories(folder / ".session");
+  const fs::path wrapper = folder / ".session/cellcrushd";
+  std::ofstream(wrapper) << "#!/bin/bash\ncase \"$1\" in [a-z]*) exec '" << (programs / "cellcrushd").string()
+                         << "' \"$@\" ;; esac\nexec '" << (programs / "cellcrushd").string()
+                         << "' --listen \"unix:$HOME/.local/share/cellcrush/cellcrushd.sock\" \"$@\"\n";
+  fs::permissions(wrapper, fs::perms::owner_all);
+}
+
+std::string script_of(const std::vector<Step>& steps, const fs::path& folder, const fs::path& programs) {
+  std::ostringstream script;
+  script << "trap 'kill $(jobs -p) 2>/dev/null; wait' EXIT\nunset ${!CELLCRUSH_@} XDG_DATA_HOME\nexport HOME='"
+         << folder.string() << "' COLUMNS=100\n"
+         << "PATH='" << (folder / ".session").string() << "':'" << programs.string() << "':$PATH\ncd \"$HOME\"\n";
+  for (const Step& step : steps) {
+    script << "echo '" << kBegin << step.line << "'\n" << step.command << "\n";
+    if (step.command.ends_with('&')) {
+      script << "for i in {1..300}; do cellcrush presets >.session/answer 2>&1 && break; sleep 0.1; done\n";
+    }
+    // A file's last line may lack its line feed.
+    script << "code=$?; echo; echo '" << kEnd << step.line << "' $code\n[[ $code == 0 ]] || exit 0\n";
+  }
+  script << "exit 0\n";
+  return script.str();
+}
+
+}  // namespace
+
+std::vector<Step> steps_of(const Page& page) {
+  std::vector<Step> steps;
+  for (const Code& block : page.blocks) {
+    if (block.language != "console") continue;
+    int number = block.line;
+    bool continued = false;
+    for (const std::string& line : lines_of(block.text)) {
+      if (continued) {
+        steps.back().command += "\n" + line;
+      } else if (line.starts_with("$ ")) {
+        steps.push_back({number, line.substr(2), {}});
+      } else if (!line.empty() && !steps.empty()) {
+        steps.back().shown.push_back(line);
+      }
+      continued = (continued || line.starts_with("$ ")) && line.ends_with('\\');
+      ++number;
+    }
+  }
+  return steps;
+}
+
+std::string masked(const std::string& line) {
+  static const std::regex kNumber(R"([-+]?[0-9][0-9.,:]*(e[-+]?[0-9]+)?)");
+  static const std::regex kName(R"((jobs|sweeps)/[A-Za-z0-9_-]+)");
+  static const std::regex kBlank(R"([ \t]+)");
+  static const std::regex kRule(R"(([-=#])\1+)");
+  std::string text = std::regex_replace(line, kName, "$1/NAME");
+  text = std::regex_replace(text, kNumber, "#");
+  text = std::regex_replace(text, kRule, "=");
+  text = std::regex_replace(text, kBlank, " ");
+  while (text.ends_with(' ')) text.pop_back();
+  while (text.starts_with(' ')) text.erase(0, 1);
+  return text;
+}
+
+std::string missing_line(const std::vector<std::string>& shown, const std::string& output) {
+  std::vector<std::string> lines;
+  for (const std::string& line : lines_of(output)) {
+    if (const std::string text = masked(line); !text.empty()) lines.push_back(text);
+  }
+  auto next = lines.begin();
+  bool gap = false;
+  for (const std::string& line : shown) {
+    if (line == "...") {
+      gap = true;
+      continue;
+    }
+    const auto found = gap ? std::find(next, lines.end(), masked(line)) : next;
+    if (found == lines.end() || *found != masked(line)) return line;
+    next = found + 1;
+    gap = false;
+  }
+  return "";
+}
+
+std::vector<StepOutcome> run_session(const std::vector<Step>& steps, const fs::path& folder, const fs::path& programs,
+                                     std::chrono::seconds limit) {
+  write_daemon_wrapper(folder, programs);
+  const fs::path script = folder / ".session/script.sh";
+  const fs::path transcript = folder / ".session/transcript";
+  std::ofstream(script) << script_of(steps, folder, programs);
+  // Into a file and not a pipe, which a daemon in the background would keep open.
+  e2e::Process bash(
+      {"/bin/bash", "-c", "exec /bin/bash '" + script.string() + "' >'" + transcript.string() + "' 2>&1"});
+  (void)bash.wait(limit);
+  std::ifstream file(transcript);
+  std::ostringstream text;
+  text << file.rdbuf();
+  std::vector<StepOutcome> outcomes;
+  std::string output;
+  for (const std::string& line : lines_of(text.str())) {
+    if (line.starts_with(kBegin)) {
+      output.clear();
+    } else if (line.starts_with(kEnd)) {
+      outcomes.push_back({std::stoi(line.substr(line.rfind(' '))), output});
+    } else {
+      output += line + "\n";
+    }
+  }
+  return outcomes;
+}
+
+}  // namespace cellcrush::docs

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "docs/page.h"
+
+namespace cellcrush::docs {
+
+/// A command of a console block, and the output that the page shows of it.
+struct Step {
+  int line = 0;  ///< of the command in the page
+  std::string command;
+  std::vector<std::string> shown;  ///< without empty lines; "..." for what the page leaves out
+};
+
+/// The commands of a page's console blocks, in their order; a command may be continued with a backslash.
+std::vector<Step> steps_of(const Page& page);
+
+/// A line with every number as `#`, every bar of a progress as `=`, and blanks as one: what stays the same between two
+/// machines.
+std::string masked(const std::string& line);
+
+/// Whether the output has the shown lines, masked, in their order. Between two shown lines no other may stand unless
+/// the page shows "...". Returns the first shown line that is missing; empty when all are there.
+std::string missing_line(const std::vector<std::string>& shown, const std::string& output);
+
+/// How one command of a session ended.
+struct StepOutcome {
+  int exit_code = -1;
+  std::string output;  ///< both standard output and standard error
+};
+
+/// Types the commands into one bash, as a reader would, with `folder` as home and working directory and the programs
+/// first on its PATH. A daemon that is started in the background listens on its default Unix socket only; the session
+/// waits until it answers, and kills it at the end. Returns an outcome for each command that was reached.
+std::vector<StepOutcome> run_session(const std::vector<Step>& steps, const std::filesystem::path& folder,
+                                     const std::filesystem::path& programs, std::chrono::seconds limit);
+
+}  // namespace cellcrush::docs
