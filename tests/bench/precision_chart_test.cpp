@@ -19,7 +19,7 @@ namespace {
 
 using client::Rectangle;
 
-const std::string kFolder = CELLCRUSH_BENCH_FOLDER;
+const std::string kBenchFolder = CELLCRUSH_BENCH_FOLDER;
 
 class PrecisionCharts : public ::testing::Test {
  protected:
@@ -39,8 +39,8 @@ class PrecisionCharts : public ::testing::Test {
     return text.str();
   }
 
-  std::vector<VariedScene> scenes_ = read_variants(kFolder + "/work_precision.txt");
-  std::vector<CsvRow> rows_ = read_csv(kFolder + "/results/work_precision.csv");
+  std::vector<VariedScene> scenes_ = read_variants(kBenchFolder + "/work_precision.txt");
+  std::vector<CsvRow> rows_ = read_csv(kBenchFolder + "/results/work_precision.csv");
 
  private:
   std::filesystem::path folder_;
