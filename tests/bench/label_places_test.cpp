@@ -13,13 +13,16 @@ const Rectangle kArea{0.0, 0.0, 400.0, 300.0};
 
 Drawn marks_of(const std::vector<MarkLabel>& labels) {
   Drawn drawn;
+  drawn.marks.reserve(labels.size());
   for (const MarkLabel& label : labels) drawn.marks.push_back({label.x - 5.0, label.y - 5.0, 10.0, 10.0});
   return drawn;
 }
 
 TEST(LabelPlaces, OfACrowdCoverNeitherEachOtherNorAMark) {
   std::vector<MarkLabel> labels;
-  for (int i = 0; i < 12; ++i) labels.push_back({200.0 + 4.0 * (i % 4), 150.0 + 5.0 * (i / 4), 60.0, 13.0});
+  for (const double y : {150.0, 155.0, 160.0}) {
+    for (const double x : {200.0, 204.0, 208.0, 212.0}) labels.push_back({x, y, 60.0, 13.0});
+  }
   const Drawn drawn = marks_of(labels);
   const auto places = place_labels(labels, drawn, kArea);
   std::vector<Rectangle> taken = drawn.marks;

@@ -57,8 +57,9 @@ void draw_precisions(const std::string& file, const VariedScene& scene, const st
   write_picture(file, width, height, [&](cairo_t* context) {
     draw_legend(context, kMargin + client::Axes::kLeft, kLegendTop, 330.0, 3, true);
     for (std::size_t i = 0; i < panels.size(); ++i) {
+      const std::size_t line = i / 2;
       const double x = kMargin + static_cast<double>(i % 2) * (kPanelWidth + kMargin);
-      const double y = kLegendHeight + static_cast<double>(i / 2) * (kPanelHeight + kMargin);
+      const double y = kLegendHeight + static_cast<double>(line) * (kPanelHeight + kMargin);
       draw_panel(context, {x, y, kPanelWidth, kPanelHeight}, panels[i]);
     }
     draw_note(context, height - kNoteHeight + 12.0);

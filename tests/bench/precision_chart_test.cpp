@@ -22,14 +22,16 @@ using client::Rectangle;
 const std::string kBenchFolder = CELLCRUSH_BENCH_FOLDER;
 
 class PrecisionCharts : public ::testing::Test {
+ public:
+  PrecisionCharts(const PrecisionCharts&) = delete;
+  PrecisionCharts& operator=(const PrecisionCharts&) = delete;
+
  protected:
   PrecisionCharts() {
     std::string pattern = (std::filesystem::temp_directory_path() / "cellcrush-chart-XXXXXX").string();
     folder_ = mkdtemp(pattern.data());
   }
   ~PrecisionCharts() override { std::filesystem::remove_all(folder_); }
-  PrecisionCharts(const PrecisionCharts&) = delete;
-  PrecisionCharts& operator=(const PrecisionCharts&) = delete;
 
   [[nodiscard]] std::string file() const { return folder_ / "chart.svg"; }
 

@@ -194,9 +194,8 @@ void draw_panel(cairo_t* context, const Rectangle& place, const PrecisionPanel& 
     client::set_colour(context, kFrontColour);
     draw_polyline(context, axes, front_of(panel.series), 6.0);
   }
-  for (auto series = panel.series.rbegin(); series != panel.series.rend(); ++series) {
-    draw_series(context, axes, *series, drawn);
-  }
+  std::for_each(panel.series.rbegin(), panel.series.rend(),
+                [&](const PrecisionSeries& series) { draw_series(context, axes, series, drawn); });
   if (panel.known_to > 0.0) name_unknown(context, area, panel.known_to, drawn);
   draw_labels(context, axes, panel, drawn);
   cairo_restore(context);
@@ -208,8 +207,9 @@ void draw_panel(cairo_t* context, const Rectangle& place, const PrecisionPanel& 
 double draw_legend(cairo_t* context, double x, double y, double width, int columns, bool shows_front) {
   const int entries = kFamilyCount + (shows_front ? 1 : 0);
   for (int i = 0; i < entries; ++i) {
+    const int row = i / columns;
     const double left = x + width * (i % columns);
-    const double middle = y + kLegendRow * (i / columns) + 8.0;
+    const double middle = y + kLegendRow * row + 8.0;
     std::string name = "no other is both faster and nearer";
     if (i < kFamilyCount) {
       const auto family = static_cast<Family>(i);
@@ -225,7 +225,8 @@ double draw_legend(cairo_t* context, double x, double y, double width, int colum
     }
     client::draw_text(context, left + 34.0, middle + 4.3, name, {.size = 12.5});
   }
-  return kLegendRow * ((entries + columns - 1) / columns);
+  const int rows = (entries + columns - 1) / columns;
+  return kLegendRow * rows;
 }
 
 }  // namespace cellcrush::bench
