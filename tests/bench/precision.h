@@ -14,10 +14,10 @@ struct Measure {
   std::string title;
   bool absolute = false;
 };
-inline const std::vector<Measure> kMeasures = {{"plateau_stress_support", "plateau at the support plate", false},
-                                               {"plateau_stress_impact", "plateau at the impact plate", false},
+inline const std::vector<Measure> kMeasures = {{"plateau_stress_support", "support plateau", false},
+                                               {"plateau_stress_impact", "impact plateau", false},
                                                {"limit_stress", "limit stress", false},
-                                               {"energy_error_relative", "ledger", true}};
+                                               {"energy_error_relative", "energy ledger", true}};
 
 /// The variant from which errors are, unless another is named.
 inline const std::string kConverged = "converged:8";

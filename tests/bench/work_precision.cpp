@@ -1,7 +1,9 @@
 // Time against accuracy of the choices that a crush has. `run` appends a row a crush to a table and leaves out what stands there
-// already, so that it can be stopped and gone on with, and two can share the work; `chart` draws a scene of the table.
+// already, so that it can be stopped and gone on with, and two can share the work; `chart` draws a scene of the table,
+// `overview` its support plateau alone.
 //   work_precision run tests/bench/work_precision.txt table.csv [seeds=5] [part=1/2] [scene=NAME]
 //   work_precision chart tests/bench/work_precision.txt table.csv picture.svg scene=NAME converged=GROUP:LABEL
+//   work_precision overview tests/bench/work_precision.txt table.csv picture.svg scene=NAME title=WORDS
 
 #include <algorithm>
 #include <cmath>
@@ -104,34 +106,44 @@ void run(const std::vector<VariedScene>& scenes, const std::string& table, const
   }
 }
 
-void chart(const std::vector<VariedScene>& scenes, const std::string& table, const std::string& picture,
-           const Settings& settings) {
+const VariedScene& scene_in(const std::vector<VariedScene>& scenes, const Settings& settings) {
   const auto scene = std::find_if(scenes.begin(), scenes.end(),
                                   [&](const VariedScene& found) { return found.name == settings["scene"]; });
   if (scene == scenes.end()) throw std::invalid_argument("scene=" + settings["scene"] + ": is not in the list.");
+  return *scene;
+}
+
+void chart(const std::vector<VariedScene>& scenes, const std::string& table, const std::string& picture,
+           const Settings& settings) {
+  const VariedScene& scene = scene_in(scenes, settings);
   const std::vector<CsvRow> rows = read_csv(table);
   for (const Measure& measure : kMeasures) {
     double scatter = 0.0;
     std::printf("%s\n", measure.title.c_str());
-    for (const Precision& found : precisions(*scene, rows, measure, settings["converged"], scatter)) {
+    for (const Precision& found : precisions(scene, rows, measure, settings["converged"], scatter)) {
       std::printf("  %-28s %9.3f s  error %8.4f +- %.4f, %d seeds%s\n", found.variant.c_str(), found.seconds,
                   found.error, found.uncertainty, found.seeds, found.on_front ? ", front" : "");
     }
     std::printf("  one converged crush scatters by %.4f\n", scatter);
   }
-  draw_precisions(picture, *scene, rows, settings["converged"]);
+  draw_precisions(picture, scene, rows, settings["converged"]);
 }
 
 void obey(const std::vector<std::string>& words) {
   const bool runs = words.size() >= 3 && words[0] == "run";
-  const bool draws = words.size() >= 4 && words[0] == "chart";
+  const bool draws = words.size() >= 4 && (words[0] == "chart" || words[0] == "overview");
   if (!runs && !draws) throw std::invalid_argument("work_precision: say what to do.");
   const std::vector<VariedScene> scenes = read_variants(words[1]);
   if (runs) {
     run(scenes, words[2], Settings({words.begin() + 3, words.end()}, {{"seeds", "5"}, {"part", "1/1"}, {"scene", ""}}));
   } else {
-    chart(scenes, words[2], words[3],
-          Settings({words.begin() + 4, words.end()}, {{"scene", ""}, {"converged", kConverged}}));
+    const Settings settings({words.begin() + 4, words.end()},
+                            {{"scene", ""}, {"converged", kConverged}, {"title", ""}});
+    if (words[0] == "chart") {
+      chart(scenes, words[2], words[3], settings);
+    } else {
+      draw_overview(words[3], scene_in(scenes, settings), read_csv(words[2]), settings["converged"], settings["title"]);
+    }
   }
 }
 
@@ -143,9 +155,11 @@ int main(int count, char** words) {
     cellcrush::bench::obey({words + 1, words + count});
     return 0;
   } catch (const std::exception& error) {
-    std::cerr << error.what()
-              << "\nwork_precision run LIST TABLE.csv [seeds=5] [part=1/1] [scene=NAME]"
-                 "\nwork_precision chart LIST TABLE.csv PICTURE.svg scene=NAME [converged=GROUP:LABEL]\n";
+    std::cerr
+        << error.what()
+        << "\nwork_precision run LIST TABLE.csv [seeds=5] [part=1/1] [scene=NAME]"
+           "\nwork_precision chart LIST TABLE.csv PICTURE.svg scene=NAME [converged=GROUP:LABEL]"
+           "\nwork_precision overview LIST TABLE.csv PICTURE.svg scene=NAME [converged=GROUP:LABEL] [title=WORDS]\n";
     return 2;
   }
 }
