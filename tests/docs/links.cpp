@@ -24,7 +24,7 @@ std::string fault_of(const fs::path& root, const std::vector<Page>& pages, const
   const fs::path path =
       file.empty() ? fs::path(page.path) : (fs::path(page.path).parent_path() / file).lexically_normal();
   if (path.is_absolute() || path.generic_string().starts_with("..")) return "leaves the tree";
-  if (!fs::exists(root / path)) return "no such file";
+  if (!file.empty() && !fs::exists(root / path)) return "no such file";
   if (anchor.empty()) return "";
   const Page* target = find_page(pages, path.generic_string());
   if (target == nullptr) return "an anchor in a file that is not a page";

@@ -31,6 +31,7 @@ std::map<std::string, ProgramHelp> read_programs() {
   std::map<std::string, ProgramHelp> programs{{"cellcrush", read_program(CELLCRUSH_PROGRAM)},
                                               {"cellcrushd", read_program(CELLCRUSHD_PROGRAM)}};
   const std::filesystem::path root = CELLCRUSH_SOURCE_ROOT;
+  programs.at("cellcrushd").commands["worker"] = {};  // hidden from the help: the daemon starts its workers with it
   for (const char* name :
        {"quickstart", "test", "lint", "bench", "work-precision", "compare-commits", "install-packages"}) {
     const std::string script = std::string("deploy/") + name;
@@ -82,7 +83,7 @@ TEST(PagesName, WhatDoesNotExistIsFound) {
       "page.md",
       "`cellcrush sumbit` `cellcrush submit CASE --wach` `cellcrush COMMAND --server A` `--gone`\n"
       "```console\n$ A=b cellcrush list --watch | jq . # cellcrush gone\ncellcrush gone\n"
-      "$ x=$(cellcrush submit my.txtpb \\\n    --sett loading.sped=1)\n```\n"
+      "$ x=$(cellcrush submit my.txtpb \\\n    --sett a --set loading.sped=1)\n```\n"
       "```textproto\ncellcrush gone\n```\n"
       "`core/gone.h` `core/include/cellcrush/scene.{h,gone}` `core/inc*` `loading.sped` `loading.end_strain`\n"
       "`preset:type-i` `preset:type-z` `CELLCRUSH_SIMD` `CELLCRUSH_"
@@ -94,7 +95,7 @@ TEST(PagesName, WhatDoesNotExistIsFound) {
                   "page.md:1: no program has the option --gone"));
   EXPECT_THAT(check_paths(CELLCRUSH_SOURCE_ROOT, {page}), ElementsAre("page.md:11: core/gone.h does not exist"));
   EXPECT_THAT(check_presets({page}), ElementsAre("page.md:12: no preset is called type-z"));
-  EXPECT_THAT(check_fields({page}), ElementsAre("page.md:5: a case has no field loading.sped",
+  EXPECT_THAT(check_fields({page}), ElementsAre("page.md:6: a case has no field loading.sped",
                                                 "page.md:11: a case has no field loading.sped"));
   EXPECT_THAT(check_variables(CELLCRUSH_SOURCE_ROOT, {page}),
               ElementsAre("page.md:12: nothing reads the variable CELLCRUSH_"
