@@ -127,7 +127,7 @@ struct Summary {
 
   std::optional<double> plateau_stress_impact;  ///< MPa; absent when the run did not reach the window's end
   std::optional<double> plateau_stress_support;
-  std::optional<double> densification_strain;  ///< absent while the efficiency has not fallen by 5 % after its maximum
+  std::optional<double> densification_strain;  ///< onset; absent without a rise that lasts (measure/densification.h)
   std::optional<double> plateau_stress_to_densification;  ///< MPa, impact plate
   std::optional<double> solid_fraction_at_densification;  ///< relative density / (1 - densification_strain)
   double absorbed_energy = 0.0;                           ///< N mm, work of the impact plate up to 50 % strain
