@@ -20,8 +20,8 @@ OptionGroup data_and_disk() {
        {"keep-ended-jobs",
         {"DAYS",
          "days",
-         {"Only time in which a daemon serves the folder counts, so neither a wrong clock nor a long pause deletes "
-          "anything. A sweep ends with its last job and is deleted as a whole."}}},
+         {"Neither a wrong clock nor a long pause deletes anything. A sweep ends with its last job and is deleted as a "
+          "whole."}}},
        {"keep-ended-count", {"N", "jobs", {}}},
        {"keep-ended-size",
         {"MIB", "MiB", {"The size of a job is that of its `result.h5` and its rows in the journal."}}}}};
@@ -35,8 +35,7 @@ OptionGroup addresses() {
         {"ADDR",
          "",
          {"The host is an IPv4 address, an IPv6 address in brackets, or `localhost`. An address that other machines "
-          "can reach requires TLS and a way to identify callers ([let-others-in.md](let-others-in.md)). DIR is the "
-          "data folder."}}},
+          "can reach requires TLS and a way to identify callers ([let-others-in.md](let-others-in.md))."}}},
        {"metrics",
         {"ADDR",
          "",
