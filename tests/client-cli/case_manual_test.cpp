@@ -13,20 +13,20 @@ TEST(CaseManual, AFieldHasTypeUnitDefaultAndLimits) {
   const FieldManual ramp = find_field_manual("loading.ramp_strain");
   EXPECT_EQ(ramp.type, "double");
   EXPECT_EQ(ramp.unit, "");
-  EXPECT_EQ(ramp.default_value, "0 (at once)");
-  EXPECT_EQ(ramp.limits, "at least 0, below end_strain");
+  EXPECT_EQ(ramp.default_value, "0 (full speed at once)");
+  EXPECT_EQ(ramp.limits, "0 to below end_strain");
   EXPECT_TRUE(ramp.comment.starts_with("Nominal strain over which the speed rises linearly from 0 to V. Default 0"));
   const FieldManual speed = find_field_manual("loading.speed_m_per_s");
   EXPECT_EQ(speed.unit, "m/s");
   EXPECT_EQ(speed.default_value, "required");
-  EXPECT_EQ(speed.limits, "above 0, at most 1000");
+  EXPECT_EQ(speed.limits, "1e-6 to 1000");
 }
 
 TEST(CaseManual, AnEnumHasItsValuesAndAGroupItsFields) {
   const FieldManual plane = find_field_manual("material.plane");
   ASSERT_EQ(plane.values.size(), 2U);
   EXPECT_EQ(plane.values[0].first, "PLANE_STRESS");
-  EXPECT_EQ(plane.values[0].second, "Free to contract along the depth of the lattice.");
+  EXPECT_EQ(plane.values[0].second, "Walls are free to contract along the depth.");
   EXPECT_EQ(plane.default_value, "PLANE_STRESS");
   const FieldManual loading = find_field_manual("loading");
   ASSERT_EQ(loading.fields.size(), 4U);

@@ -14,11 +14,11 @@ TEST(Explain, PrintsAFieldWithoutADaemon) {
             "loading.ramp_strain\n"
             "  Type     double\n"
             "  Unit     none (dimensionless)\n"
-            "  Default  0 (at once)\n"
-            "  Limits   at least 0, below end_strain\n"
+            "  Default  0 (full speed at once)\n"
+            "  Limits   0 to below end_strain\n"
             "\n"
-            "Nominal strain over which the speed rises linearly from 0 to V. Default 0 (at\n"
-            "once); at least 0, below end_strain.\n");
+            "Nominal strain over which the speed rises linearly from 0 to V. Default 0 (full\n"
+            "speed at once); 0 to below end_strain.\n");
 }
 
 TEST(Explain, ListsTheFieldsOfAGroupAndOfTheCase) {
