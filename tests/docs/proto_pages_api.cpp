@@ -16,7 +16,8 @@ constexpr const char* kApiHead = R"(<!-- Made from the files of proto/cellcrush/
 This page lists every rpc and message of the package `cellcrush.v1`, for authors of clients. The comments of the files
 in [cellcrush/v1](cellcrush/v1) are its source. The fields of a case are in [fields.md](fields.md), the status codes of
 all calls in [errors.md](errors.md), and working clients in [other-languages.md](other-languages.md). The overview of
-this folder is [README.md](README.md). Field names end in their units.
+this folder is [README.md](README.md). Field names end in their units. Equations (Eq.) are those of the paper named in
+[what-is-computed.md](../core/what-is-computed.md).
 )";
 
 const std::string kOutputOnly = "Output only. ";

@@ -20,8 +20,9 @@ This page lists every field of a case, for authors of case files and of clients.
 
 Each section is a group of fields. Its heading is the path of the group, as messages, `--set` and sweeps write it.
 Ranges include their ends, unless the limit says "below". A missing required field or a value out of limits is a problem
-with the path of the field; see [errors.md](errors.md). The messages around a case are in [api.md](api.md); the overview
-of this folder is [README.md](README.md).
+with the path of the field; see [errors.md](errors.md). "The paper" and its equations (Eq.) are named in
+[what-is-computed.md](../core/what-is-computed.md). The messages around a case are in [api.md](api.md); the overview of
+this folder is [README.md](README.md).
 )";
 
 // A group of fields, and the shortest path to it.
