@@ -11,7 +11,7 @@ OptionGroup data_and_disk() {
         {"DIR",
          "",
          {"The daemon keeps everything here and nothing elsewhere. One daemon at a time owns the folder. The commands "
-          "`backup` and `restore` read the same option."}}},
+          "`backup` and `restore` accept the same option."}}},
        {"min-free-disk",
         {"MIB",
          "MiB",
@@ -44,24 +44,26 @@ OptionGroup addresses() {
 }
 
 OptionGroup access() {
-  return {
-      "Access",
-      "These options apply to TCP addresses. A Unix socket is protected by its file mode instead. "
-      "[let-others-in.md](let-others-in.md) shows how to use them.",
-      {{"tls-cert", {"FILE", "", {"The file holds the certificate chain of the daemon. It requires `--tls-key`."}}},
-       {"tls-key",
-        {"FILE", "", {"Other users must not be able to read the file (mode 0600). A key with a password is refused."}}},
-       {"tls-client-ca",
-        {"FILE",
-         "",
-         {"The common name of the client's certificate is the owner of the jobs and sweeps it creates, unless a "
-          "token names the caller."}}},
-       {"tls-client-scope", {"SCOPE", "", {}}},
-       {"tokens",
-        {"FILE",
-         "",
-         {"Each line is `NAME SCOPE SHA256-HEX`; `#` begins a comment. Other users must not be able to read the "
-          "file (mode 0600)."}}}}};
+  return {"Access",
+          "These options apply to TCP addresses. A Unix socket is protected by its file mode instead. "
+          "[let-others-in.md](let-others-in.md) shows how to use them.",
+          {{"tls-cert",
+            {"FILE", "", {"The file holds the certificate chain of the daemon. The option requires `--tls-key`."}}},
+           {"tls-key",
+            {"FILE",
+             "",
+             {"Other users must not be able to read the file (mode 0600 or 0640). A key with a password is refused."}}},
+           {"tls-client-ca",
+            {"FILE",
+             "",
+             {"The common name of the client's certificate is the owner of the jobs and sweeps it creates, unless a "
+              "token names the caller."}}},
+           {"tls-client-scope", {"SCOPE", "", {}}},
+           {"tokens",
+            {"FILE",
+             "",
+             {"Each line is `NAME SCOPE SHA256-HEX`; `#` begins a comment. Other users must not be able to read the "
+              "file (mode 0600 or 0640)."}}}}};
 }
 
 OptionGroup connections() {
@@ -76,7 +78,7 @@ OptionGroup connections() {
        {"watch-patience",
         {"SECONDS",
          "s",
-         {"The daemon resets the stream ten seconds after it closed it. A client that watches again continues where "
+         {"The daemon resets a stream ten seconds after closing it. A client that watches again continues where "
           "it stopped."}}}}};
 }
 
@@ -86,24 +88,25 @@ OptionGroup jobs() {
           {{"workers",
             {"N",
              "jobs",
-             {"Each job runs in a process of its own. A job that asks for threads gets cores that no other job uses or "
-              "waits for."}}},
+             {"Each job runs in a process of its own. A job that asks for threads gets extra cores only if no other "
+              "job uses them or waits for them."}}},
            {"checkpoint-interval",
             {"SECONDS", "s", {"A job whose worker is lost repeats at most the work since its last checkpoint."}}},
-           {"max-queued-jobs", {"N", "jobs", {"Beyond it a submission ends with RESOURCE_EXHAUSTED."}}},
-           {"max-job-memory", {"MIB", "MiB", {"Beyond it a submission ends with RESOURCE_EXHAUSTED."}}},
+           {"max-queued-jobs", {"N", "jobs", {"Beyond this limit a submission fails with RESOURCE_EXHAUSTED."}}},
+           {"max-job-memory", {"MIB", "MiB", {"Beyond this limit a submission fails with RESOURCE_EXHAUSTED."}}},
            {"max-job-time",
             {"SECONDS",
              "s",
-             {"The limit covers all workers that the job has had; time in which the job waits or is suspended does not "
-              "count. The job then ends as FAILED with the cause TIME_LIMIT. With 0 there is no limit."}}}}};
+             {"The limit covers all workers that the job has had. Time in which the job waits or is suspended does not "
+              "count. A job that reaches the limit becomes FAILED with the cause TIME_LIMIT. With 0 there is no "
+              "limit."}}}}};
 }
 
 OptionGroup quotas() {
   return {
       "Quotas",
       "Quotas apply to every owner, `local` and owners with the scope `admin` included. A submission beyond a quota "
-      "ends with RESOURCE_EXHAUSTED; a priority beyond the highest ends with INVALID_ARGUMENT.",
+      "fails with RESOURCE_EXHAUSTED, a submission with a higher priority than allowed with INVALID_ARGUMENT.",
       {{"owner-max-queued", {"N", "jobs", {}}},
        {"owner-max-running", {"N", "jobs", {}}},
        {"owner-max-disk", {"MIB", "MiB", {"A job counts in full once it has ended."}}},
@@ -174,7 +177,7 @@ const char* const kTail = R"(## Environment
 
 | Code | Meaning |
 |---|---|
-| 0 | the daemon, or the command, ended in order |
+| 0 | the daemon, or the command, ended normally |
 | 1 | the daemon could not start, or the command failed; `verify` found a problem |
 | 2 | wrong usage: an unknown flag or key, or a value beyond its limits |
 )";
