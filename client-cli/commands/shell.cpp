@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "commands/commands.h"
+#include "help/command_page.h"
 #include "help/completion.h"
 #include "help/man_page.h"
 
@@ -28,11 +29,13 @@ void add_shell_commands(CLI::App& app, Session& session) {
   completion->add_option("SHELL", *shell, "bash, zsh or fish")
       ->required()
       ->check(CLI::IsMember({"bash", "zsh", "fish"}));
-  CLI::App* man = add_command(app, session, "man", "Print the man page", [&app] {
-    fmt::print("{}", man_page(app, CELLCRUSH_VERSION));
+  const auto markdown = std::make_shared<bool>(false);
+  CLI::App* man = add_command(app, session, "man", "Print the man page", [&app, markdown] {
+    fmt::print("{}", *markdown ? command_page(app) : man_page(app, CELLCRUSH_VERSION));
     return ExitCode::done;
   });
   man->group("");
+  man->add_flag("--markdown", *markdown, "Print client-cli/commands.md instead");
 }
 
 }  // namespace cellcrush::client

@@ -1,6 +1,20 @@
 #include "help/command_entries.h"
 
+#include <regex>
+
 namespace cellcrush::client {
+
+namespace {
+
+// Limits as the parser has them behind a type: "POSITIVE", "INT in [-100 - 100]".
+std::string limits_of(const std::string& type) {
+  static const std::regex kRange(R"(in \[(.*) - (.*)\])");
+  std::smatch range;
+  if (std::regex_search(type, range, kRange)) return range[1].str() + " to " + range[2].str();
+  return type.find("POSITIVE") == std::string::npos ? "" : "above 0";
+}
+
+}  // namespace
 
 std::vector<const CLI::App*> visible_commands(const CLI::App& app) {
   return app.get_subcommands([](const CLI::App* command) { return !command->get_group().empty(); });
@@ -20,19 +34,28 @@ std::vector<OptionEntry> option_entries(const CLI::App& app) {
     for (const std::string& name : option->get_lnames()) entry.names.push_back("--" + name);
     if (option->get_type_size() != 0) entry.value = option->get_type_name();
     // Limits stand behind the type, as in "INT:POSITIVE".
+    entry.limits = limits_of(entry.value);
     entry.value = entry.value.substr(0, entry.value.find(':'));
     entry.description = option->get_description();
+    entry.group = option->get_group();
     entry.repeatable = option->get_expected_max() > 1;
+    entry.required = option->get_required();
+  }
+  return entries;
+}
+
+std::vector<ArgumentEntry> argument_entries(const CLI::App& command) {
+  std::vector<ArgumentEntry> entries;
+  for (const CLI::Option* option : command.get_options([](const CLI::Option* o) { return o->get_positional(); })) {
+    const std::string name = option->get_name(true) + (option->get_expected_max() > 1 ? "..." : "");
+    entries.push_back({option->get_required() ? name : "[" + name + "]", option->get_description()});
   }
   return entries;
 }
 
 std::vector<std::string> argument_names(const CLI::App& command) {
   std::vector<std::string> names;
-  for (const CLI::Option* option : command.get_options([](const CLI::Option* o) { return o->get_positional(); })) {
-    const std::string name = option->get_name(true) + (option->get_expected_max() > 1 ? "..." : "");
-    names.push_back(option->get_required() ? name : "[" + name + "]");
-  }
+  for (const ArgumentEntry& argument : argument_entries(command)) names.push_back(argument.name);
   return names;
 }
 

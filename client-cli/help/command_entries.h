@@ -11,7 +11,16 @@ struct OptionEntry {
   std::vector<std::string> names;  ///< with dashes, such as "-o" and "--output"
   std::string value;               ///< what its value is called; empty for a flag
   std::string description;
+  std::string group;   ///< heading under which the help lists it
+  std::string limits;  ///< of its value, such as "-100 to 100"; empty: none but those of the description
   bool repeatable = false;
+  bool required = false;
+};
+
+/// A positional argument of a command.
+struct ArgumentEntry {
+  std::string name;  ///< such as "CASE" or "NAME...", in brackets where it may be left out
+  std::string description;
 };
 
 /// The commands that the help lists; hidden ones are left out.
@@ -21,7 +30,8 @@ std::vector<std::string> command_names(const CLI::App& app);
 /// The options of the program or of a command, --help included, arguments left out.
 std::vector<OptionEntry> option_entries(const CLI::App& app);
 
-/// The positional arguments of a command, such as "CASE" or "NAME...", in brackets where they may be left out.
+/// The positional arguments of a command, and their names alone.
+std::vector<ArgumentEntry> argument_entries(const CLI::App& command);
 std::vector<std::string> argument_names(const CLI::App& command);
 
 }  // namespace cellcrush::client

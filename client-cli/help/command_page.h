@@ -1,0 +1,11 @@
+#pragma once
+
+#include <CLI/App.hpp>
+#include <string>
+
+namespace cellcrush::client {
+
+/// The reference of all commands, client-cli/commands.md, in Markdown. Lines end within 120 columns.
+std::string command_page(const CLI::App& app);
+
+}  // namespace cellcrush::client
