@@ -2,10 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <filesystem>
 
 #include "docs/session.h"
+#include "docs/shown_page.h"
 #include "e2e/process.h"
 #include "server/temporary_folder.h"
 
@@ -16,38 +16,6 @@ namespace fs = std::filesystem;
 using testing::TemporaryFolder;
 
 constexpr std::chrono::seconds kLimit{240};
-
-// `cmake --install` of the build that the test belongs to.
-void install(const fs::path& prefix) {
-  const e2e::Outcome outcome = e2e::run(
-      {CELLCRUSH_CMAKE, "--install", CELLCRUSH_BINARY_ROOT, "--prefix", prefix.string()}, std::chrono::seconds(60));
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.all();
-}
-
-Page find_page(const std::string& path) {
-  for (Page& page : read_pages(CELLCRUSH_SOURCE_ROOT)) {
-    if (page.path == path) return page;
-  }
-  ADD_FAILURE() << "no page " << path;
-  return {};
-}
-
-void expect_shown(const std::string& path) {
-  const TemporaryFolder folder;
-  install(folder.path() / "prefix");
-  const std::vector<Step> steps = steps_of(find_page(path));
-  ASSERT_FALSE(steps.empty());
-  const fs::path home = folder.path() / "home";
-  fs::create_directories(home);
-  const std::vector<StepOutcome> outcomes = run_session(steps, home, folder.path() / "prefix/bin", kLimit);
-  for (std::size_t i = 0; i < outcomes.size(); ++i) {
-    const std::string place = path + ":" + std::to_string(steps[i].line) + ": $ " + steps[i].command;
-    EXPECT_EQ(outcomes[i].exit_code, 0) << place << "\n" << outcomes[i].output;
-    EXPECT_EQ(missing_line(steps[i].shown, outcomes[i].output), "") << place << "\n" << outcomes[i].output;
-  }
-  ASSERT_EQ(outcomes.size(), steps.size())
-      << path << ":" << steps[std::min(outcomes.size(), steps.size() - 1)].line << ": the session ended here";
-}
 
 TEST(Install, PutsProgramsManualsAndCompletionsInTheirPlaces) {
   const TemporaryFolder folder;
