@@ -15,7 +15,8 @@ TEST(CaseManual, AFieldHasTypeUnitDefaultAndLimits) {
   EXPECT_EQ(ramp.unit, "");
   EXPECT_EQ(ramp.default_value, "0 (full speed at once)");
   EXPECT_EQ(ramp.limits, "0 to below end_strain");
-  EXPECT_TRUE(ramp.comment.starts_with("Nominal strain over which the speed rises linearly from 0 to V. Default 0"));
+  EXPECT_TRUE(
+      ramp.comment.starts_with("Nominal strain over which the speed rises linearly in time from 0 to V. Default 0"));
   const FieldManual speed = find_field_manual("loading.speed_m_per_s");
   EXPECT_EQ(speed.unit, "m/s");
   EXPECT_EQ(speed.default_value, "required");
