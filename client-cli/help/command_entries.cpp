@@ -1,6 +1,36 @@
 #include "help/command_entries.h"
 
+#include <sstream>
+
+#include "help/case_manual.h"
+#include "help/preset_names.h"
+
 namespace cellcrush::client {
+
+namespace {
+
+// "x", "y" and "xy" of the type "TEXT:{x,y,xy}".
+std::vector<std::string> choices_in(const std::string& type) {
+  std::vector<std::string> choices;
+  const std::size_t begin = type.find('{');
+  if (begin == std::string::npos) return choices;
+  std::istringstream parts(type.substr(begin + 1, type.find('}') - begin - 1));
+  for (std::string choice; std::getline(parts, choice, ',');) choices.push_back(choice);
+  return choices;
+}
+
+std::vector<std::string> assignment_beginnings() {
+  std::vector<std::string> words;
+  const std::vector<std::string> paths = case_paths();
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    // A group stands ahead of its parts.
+    const bool is_group = i + 1 < paths.size() && paths[i + 1].starts_with(paths[i] + '.');
+    if (!is_group) words.push_back(paths[i] + '=');
+  }
+  return words;
+}
+
+}  // namespace
 
 std::vector<const CLI::App*> visible_commands(const CLI::App& app) {
   return app.get_subcommands([](const CLI::App* command) { return !command->get_group().empty(); });
@@ -19,6 +49,8 @@ std::vector<OptionEntry> option_entries(const CLI::App& app) {
     for (const std::string& name : option->get_snames()) entry.names.push_back("-" + name);
     for (const std::string& name : option->get_lnames()) entry.names.push_back("--" + name);
     if (option->get_type_size() != 0) entry.value = option->get_type_name();
+    entry.words = choices_in(option->get_type_name());
+    if (entry.names.back() == "--set" || entry.names.back() == "--over") entry.words = assignment_beginnings();
     // Limits stand behind the type, as in "INT:POSITIVE".
     entry.value = entry.value.substr(0, entry.value.find(':'));
     entry.description = option->get_description();
@@ -34,6 +66,28 @@ std::vector<std::string> argument_names(const CLI::App& command) {
     names.push_back(option->get_required() ? name : "[" + name + "]");
   }
   return names;
+}
+
+ArgumentWords argument_words(const CLI::App& command) {
+  ArgumentWords out;
+  for (const CLI::Option* option : command.get_options([](const CLI::Option* o) { return o->get_positional(); })) {
+    const std::string& text = option->get_description();
+    const auto names = [&text](const char* part) { return text.find(part) != std::string::npos; };
+    if (names("preset:NAME")) {
+      for (const char* name : kPresetNames) out.words.push_back(std::string("preset:") + name);
+    }
+    if (option->get_name(true) == "PATH") {
+      const auto paths = case_paths();
+      out.words.insert(out.words.end(), paths.begin(), paths.end());
+    }
+    if (option->get_name(true) == "CASE") {
+      out.files = true;
+      continue;
+    }
+    if (names("job") || names("Job")) out.words.emplace_back("jobs/");
+    if (names("sweep")) out.words.emplace_back("sweeps/");
+  }
+  return out;
 }
 
 }  // namespace cellcrush::client

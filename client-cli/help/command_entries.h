@@ -12,6 +12,13 @@ struct OptionEntry {
   std::string value;               ///< what its value is called; empty for a flag
   std::string description;
   bool repeatable = false;
+  std::vector<std::string> words;  ///< that its value may be, or begins with where they end in "="; empty: a file
+};
+
+/// What the arguments of a command may be.
+struct ArgumentWords {
+  std::vector<std::string> words;  ///< whole, or beginnings where they end in "/"
+  bool files = false;              ///< or a file
 };
 
 /// The commands that the help lists; hidden ones are left out.
@@ -23,5 +30,8 @@ std::vector<OptionEntry> option_entries(const CLI::App& app);
 
 /// The positional arguments of a command, such as "CASE" or "NAME...", in brackets where they may be left out.
 std::vector<std::string> argument_names(const CLI::App& command);
+
+/// What stands for them, as far as it is known without a server: presets, beginnings of names, fields of the case.
+ArgumentWords argument_words(const CLI::App& command);
 
 }  // namespace cellcrush::client
