@@ -91,7 +91,7 @@ std::string fidelity_text(const v1::CheckCaseResponse& check, int width) {
   std::string text = "\ncost and accuracy by numerics.fidelity\n" + table.text(2, width);
   if (measured != nullptr) {
     text += wrapped(
-        fmt::format("Errors compare means over seeds with converged solutions of the named scenes. A single {} run "
+        fmt::format("Errors compare means over seeds with converged solutions of the named cases. A single {} run "
                     "scatters by {}.",
                     v1::Numerics::Fidelity_Name(measured->fidelity()), scatter_text(*measured)),
         width, "  ", "  ");

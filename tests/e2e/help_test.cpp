@@ -39,7 +39,8 @@ void expect_defaults(const std::vector<std::string>& words, int& options) {
   for (const std::string& entry : entries_of(help_of(words))) {
     if (!is_option(entry)) continue;
     const bool takes_a_value = entry.find(" TEXT") != std::string::npos || entry.find(" INT") != std::string::npos ||
-                               entry.find(" FLOAT") != std::string::npos || entry.find(" UINT") != std::string::npos;
+                               entry.find(" FLOAT") != std::string::npos || entry.find(" UINT") != std::string::npos ||
+                               entry.find(" TIME") != std::string::npos;
     if (!takes_a_value || entry.find("REQUIRED") != std::string::npos) continue;
     ++options;
     EXPECT_NE(entry.find("default: "), std::string::npos) << words.back() << ": " << entry;
