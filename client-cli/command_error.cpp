@@ -28,7 +28,7 @@ v1::ProblemList problems_in(const grpc::Status& status) {
 std::string message_of(const grpc::Status& status) {
   if (!status.error_message().empty()) return printable(status.error_message());
   switch (status.error_code()) {
-    case grpc::StatusCode::UNIMPLEMENTED: return "the server cannot do this";
+    case grpc::StatusCode::UNIMPLEMENTED: return "the server does not support this call";
     case grpc::StatusCode::DEADLINE_EXCEEDED: return "the server did not answer in time";
     default: return fmt::format("the call ended with gRPC status {}", static_cast<int>(status.error_code()));
   }

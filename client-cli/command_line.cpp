@@ -17,10 +17,10 @@ namespace cellcrush::client {
 namespace {
 
 constexpr const char* kFooter =
-    "Options of the connection and --json are taken before and after the command.\n"
-    "CASE is a file (protobuf text, or JSON), - for stdin, or preset:NAME.\n"
-    "Exit codes: 0 done, 1 a job failed or was cancelled, 2 usage, invalid case or refused, 3 no connection,\n"
-    "4 cut off before the end, 5 no such thing, 130 on Ctrl-C (the job goes on).";
+    "--json and the connection options may stand before or after the command.\n"
+    "CASE is a file (protobuf text or JSON), - for stdin, or preset:NAME.\n"
+    "Exit codes: 0 success; 1 a job failed or was cancelled; 2 wrong usage, invalid case or request refused; "
+    "3 no connection; 4 connection lost before the end; 5 not found; 130 interrupted by Ctrl-C (the job continues).";
 
 ExitCode run_action(const Session& session) {
   try {
@@ -39,8 +39,10 @@ ExitCode run_action(const Session& session) {
 ExitCode run_command_line(int argc, char** argv) {
   // gRPC's own log would mix with what is printed here; errors are reported in this program's words.
   setenv("GRPC_VERBOSITY", "NONE", 0);
-  CLI::App app("Crushes cellular materials: submits cases to cellcrushd, watches them and draws what comes out.",
-               "cellcrush");
+  CLI::App app(
+      "Simulates the in-plane crushing of honeycombs: submits cases to cellcrushd, follows the jobs and plots the "
+      "results.",
+      "cellcrush");
   app.set_version_flag("--version", std::string("cellcrush " CELLCRUSH_VERSION));
   app.require_subcommand(1);
   app.footer(kFooter);

@@ -1,10 +1,8 @@
 #include "case_file/case_source.h"
 
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <utility>
 #include <vector>
 
 #include "case_file/json_case.h"
@@ -29,8 +27,8 @@ std::string read_stream(std::istream& stream, const std::string& name) {
     text.append(buffer.data(), static_cast<std::size_t>(stream.gcount()));
     if (text.size() > kLargestText) {
       throw CommandError(ExitCode::refused, name +
-                                                ": is longer than 64 MiB of text, and the limit of a case is 4 MiB as "
-                                                "a message; make the case smaller");
+                                                ": longer than 64 MiB of text; the limit of a case is 4 MiB as a "
+                                                "message. Make the case smaller");
     }
   }
   return text;
@@ -38,19 +36,10 @@ std::string read_stream(std::istream& stream, const std::string& name) {
 
 std::string read_all(const std::string& file) {
   if (file == "-") return read_stream(std::cin, "stdin");
-  std::error_code error;
-  if (std::filesystem::is_directory(file, error)) {
-    throw CommandError(ExitCode::refused, file + ": this is a folder; give a case file");
-  }
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) {
-    const std::string message = file + ": cannot be read: " + std::strerror(errno);
-    const std::string nearest = find_nearest_file(file);
-    throw CommandError(ExitCode::refused, nearest.empty() ? message +
-                                                                "; give a case file or preset:NAME (`cellcrush "
-                                                                "presets` lists them)"
-                                                          : with_suggestion(message, nearest));
-  }
+  std::ifstream stream;
+  if (const std::string failure = open_failure(file, stream); !failure.empty())
+    throw CommandError(ExitCode::refused,
+                       failure + "; give a case file or preset:NAME (`cellcrush presets` lists them)");
   return read_stream(stream, file);
 }
 
@@ -68,20 +57,24 @@ std::string preset_name(const std::string& source) {
   return source.starts_with(kPresetPrefix) ? source.substr(kPresetPrefix.size()) : std::string();
 }
 
+std::optional<v1::Case> read_own_case(const std::string& source, const std::vector<std::string>& assignments) {
+  if (source.starts_with(kPresetPrefix)) return std::nullopt;
+  v1::Case result = read_file(source);
+  for (const std::string& assignment : assignments) set_field(result, assignment);
+  return result;
+}
+
 v1::Case read_case(const std::string& source, const std::vector<std::string>& assignments, Connection& connection) {
+  if (auto own = read_own_case(source, assignments)) return *std::move(own);
   v1::Case result;
-  if (source.starts_with(kPresetPrefix)) {
-    v1::GetPresetRequest request;
-    request.set_name(preset_name(source));
-    try {
-      result = connection.call(connection.cases(), &v1::Cases::Stub::GetPreset, request).case_();
-    } catch (const CommandError& error) {
-      // As a CASE, a preset that does not exist is a wrong case and not a thing that was asked for.
-      if (error.code() != ExitCode::not_found) throw;
-      throw CommandError(ExitCode::refused, error.message());
-    }
-  } else {
-    result = read_file(source);
+  v1::GetPresetRequest request;
+  request.set_name(preset_name(source));
+  try {
+    result = connection.call(connection.cases(), &v1::Cases::Stub::GetPreset, request).case_();
+  } catch (const CommandError& error) {
+    // As a CASE, a preset that does not exist is a wrong case and not a thing that was asked for.
+    if (error.code() != ExitCode::not_found) throw;
+    throw CommandError(ExitCode::refused, error.message());
   }
   for (const std::string& assignment : assignments) set_field(result, assignment);
   return result;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,9 @@ class Connection;
 /// with "{"), "-" for the same on stdin, or "preset:NAME", which the server gives; then applies the `--set` assignments
 /// in order. Throws CommandError.
 v1::Case read_case(const std::string& source, const std::vector<std::string>& assignments, Connection& connection);
+
+/// The same without a server; nothing for a preset.
+std::optional<v1::Case> read_own_case(const std::string& source, const std::vector<std::string>& assignments);
 
 /// NAME of "preset:NAME", or empty.
 std::string preset_name(const std::string& source);

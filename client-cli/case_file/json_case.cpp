@@ -36,9 +36,9 @@ const char* expected_value(const FieldDescriptor& field) {
   switch (field.cpp_type()) {
     case FieldDescriptor::CPPTYPE_DOUBLE: return "expected a number";
     case FieldDescriptor::CPPTYPE_INT32:
-    case FieldDescriptor::CPPTYPE_UINT64: return "expected a whole number";
+    case FieldDescriptor::CPPTYPE_UINT64: return "expected an integer";
     case FieldDescriptor::CPPTYPE_BOOL: return "expected true or false";
-    case FieldDescriptor::CPPTYPE_STRING: return "expected a text in quotes";
+    case FieldDescriptor::CPPTYPE_STRING: return "expected a string in quotes";
     default: return "expected an object in braces";
   }
 }
@@ -47,7 +47,7 @@ std::string explain_value(const std::string& path, const std::string& value, con
   const FieldDescriptor* field = find_path(path);
   if (field == nullptr || message.find("oneof field") != std::string::npos) return message;
   if (field->enum_type() != nullptr) return unknown_enum_message(value, *field->enum_type());
-  return fmt::format("{} = {}", expected_value(*field), value);
+  return fmt::format("{}, not {}", expected_value(*field), value);
 }
 
 // The library's message with the path in front, and with what is expected or may have been meant.
@@ -62,7 +62,7 @@ std::string explain_json(const std::string& message) {
                              : parent == nullptr ? nullptr
                                                  : parent->message_type();
     const std::string path = group + (group.empty() ? "" : ".") + match[2].str();
-    return path + ": " + (type == nullptr ? "there is no such field" : unknown_field_message(match[2].str(), *type));
+    return path + ": " + (type == nullptr ? "no such field" : unknown_field_message(match[2].str(), *type));
   }
   if (std::regex_match(message, match, kBadValue)) {
     return match[1].str() + ": " + explain_value(match[1].str(), match[3].str(), match[2].str());

@@ -40,7 +40,7 @@ PathPart parse_part(std::string_view path, std::string_view text) {
   PathPart part{std::string(text.substr(0, bracket)), -1};
   const std::string_view index = text.substr(bracket + 1);
   if (!index.ends_with(']') || !parse_number(index.substr(0, index.size() - 1), part.index) || part.index < 0) {
-    refuse(path, fmt::format("\"{}\" is not an element; write it as {}[0], counted from 0", text, part.name));
+    refuse(path, fmt::format("\"{}\" is not a list index; write {}[0], counting from 0", text, part.name));
   }
   return part;
 }
@@ -60,7 +60,7 @@ const FieldDescriptor& find_field(const Message& message, const PathPart& part, 
   const FieldDescriptor* field = message.GetDescriptor()->FindFieldByName(part.name);
   if (field == nullptr) refuse(path, unknown_field_message(part.name, *message.GetDescriptor()));
   if (field->is_repeated() && part.index < 0) {
-    refuse(path, fmt::format("\"{0}\" is a list; name an element as {0}[0], counted from 0", part.name));
+    refuse(path, fmt::format("\"{0}\" is a list; name an element such as {0}[0], counting from 0", part.name));
   }
   if (!field->is_repeated() && part.index >= 0) refuse(path, fmt::format("\"{}\" is not a list", part.name));
   if (field->is_repeated()) {
@@ -75,10 +75,9 @@ void refuse_other_member(const Message& message, const FieldDescriptor& field, s
   if (choice == nullptr) return;
   const FieldDescriptor* present = message.GetReflection()->GetOneofFieldDescriptor(message, choice);
   if (present == nullptr || present == &field) return;
-  refuse(path,
-         fmt::format("this case has {0} \"{1}\", so that nothing in \"{2}\" can be set; take a case with {0} \"{2}\"",
-                     message.GetDescriptor()->name() == "Lattice" ? "the lattice" : "the field", present->name(),
-                     field.name()));
+  refuse(path, fmt::format("this case has {0} \"{1}\", so \"{2}\" cannot be set; start from a case with {0} \"{2}\"",
+                           message.GetDescriptor()->name() == "Lattice" ? "the lattice" : "the field", present->name(),
+                           field.name()));
 }
 
 template <typename Number>
@@ -102,10 +101,10 @@ void set_value(Message& message, const FieldDescriptor& field, int index, std::s
                  number_or_refuse<double>(path, value, "a number, such as 0.35 or 2e-7"));
     case FieldDescriptor::CPPTYPE_INT32:
       return put(&Reflection::SetInt32, &Reflection::SetRepeatedInt32,
-                 number_or_refuse<std::int32_t>(path, value, "a whole number of 32 bits, such as 12"));
+                 number_or_refuse<std::int32_t>(path, value, "a 32-bit integer, such as 12"));
     case FieldDescriptor::CPPTYPE_UINT64:
       return put(&Reflection::SetUInt64, &Reflection::SetRepeatedUInt64,
-                 number_or_refuse<std::uint64_t>(path, value, "a whole number that is not negative, such as 12"));
+                 number_or_refuse<std::uint64_t>(path, value, "a non-negative integer, such as 12"));
     case FieldDescriptor::CPPTYPE_BOOL:
       if (value != "true" && value != "false") refuse(path, fmt::format("\"{}\" is neither true nor false", value));
       return put(&Reflection::SetBool, &Reflection::SetRepeatedBool, value == "true");

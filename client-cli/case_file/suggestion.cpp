@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 
 namespace cellcrush::client {
@@ -56,11 +58,22 @@ std::string find_nearest_file(const std::string& missing) {
   std::error_code error;
   for (fs::directory_iterator entry(folder.empty() ? "." : folder, error), end; !error && entry != end;
        entry.increment(error)) {
-    if (!entry->is_directory(error)) names.push_back(entry->path().filename().string());
+    const fs::path name = entry->path().filename();
+    if (!entry->is_directory(error) && name != path.filename()) names.push_back(name.string());
   }
   std::sort(names.begin(), names.end());
   const std::string nearest = find_nearest(path.filename().string(), names);
   return nearest.empty() ? nearest : (folder / nearest).string();
+}
+
+std::string open_failure(const std::string& file, std::ifstream& stream) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored)) return file + ": is a folder";
+  stream.open(file, std::ios::binary);
+  if (stream) return {};
+  const int error = errno;
+  const std::string message = fmt::format("{}: cannot be read: {}", file, std::strerror(error));
+  return error == ENOENT ? with_suggestion(message, find_nearest_file(file)) : message;
 }
 
 std::string with_suggestion(std::string message, const std::string& nearest) {
@@ -89,7 +102,7 @@ std::string unknown_enum_message(std::string_view value, const google::protobuf:
   for (int i = 0; i < type.value_count(); ++i) {
     if (type.value(i)->number() != 0) names.push_back(type.value(i)->name());
   }
-  return fmt::format("\"{}\" is none of {}", value, fmt::join(names, ", "));
+  return fmt::format("\"{}\" is not one of {}", value, fmt::join(names, ", "));
 }
 
 }  // namespace cellcrush::client

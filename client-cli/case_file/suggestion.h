@@ -2,6 +2,7 @@
 
 #include <google/protobuf/descriptor.h>
 
+#include <fstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,6 +15,10 @@ std::string find_nearest(std::string_view word, const std::vector<std::string>& 
 
 /// The file nearest in name to one that is missing, in the same folder; empty when none is near.
 std::string find_nearest_file(const std::string& missing);
+
+/// Opens a file for reading. Returns an empty text, or why it cannot be read, with the nearest name of one that is
+/// missing.
+std::string open_failure(const std::string& file, std::ifstream& stream);
 
 /// A message with `did you mean "NEAREST"?` behind it; unchanged when `nearest` is empty.
 std::string with_suggestion(std::string message, const std::string& nearest);

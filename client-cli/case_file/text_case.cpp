@@ -5,7 +5,10 @@
 #include <google/protobuf/text_format.h>
 
 #include <algorithm>
+#include <cctype>
+#include <map>
 #include <regex>
+#include <utility>
 
 #include "case_file/enum_value.h"
 #include "case_file/suggestion.h"
@@ -19,8 +22,8 @@ using google::protobuf::DescriptorPool;
 
 struct Explanation {
   std::string message;
-  std::string word;         ///< that is wrong; the parser reports the place behind it
-  std::string replacement;  ///< what is meant without doubt in its place, as long as it; may be empty
+  std::string word;  ///< that is wrong; the parser reports the place behind it
+  bool is_right_in_capitals = false;
 };
 
 // The parser's message, with what may have been meant added.
@@ -30,19 +33,18 @@ Explanation explain(const std::string& message) {
   std::smatch match;
   if (std::regex_search(message, match, kUnknownField)) {
     const auto* type = DescriptorPool::generated_pool()->FindMessageTypeByName(match[1].str());
-    if (type != nullptr) return {unknown_field_message(match[2].str(), *type), match[2].str(), ""};
+    if (type != nullptr) return {unknown_field_message(match[2].str(), *type), match[2].str()};
   }
   if (std::regex_search(message, match, kUnknownEnum)) {
     const std::string value = match[1].str();
     const auto* type = find_enum_of_field(match[2].str());
-    if (type == nullptr) return {fmt::format("{}: {}", match[2].str(), message), value, ""};
-    const auto* meant = find_enum_value(value, *type);
+    if (type == nullptr) return {fmt::format("{}: {}", match[2].str(), message), value};
     return {fmt::format("{}: {}", match[2].str(), unknown_enum_message(value, *type)), value,
-            meant == nullptr ? "" : meant->name()};
+            find_enum_value(value, *type) != nullptr};
   }
   if (message == "Expected identifier, got: ")
-    return {"the file ends too early: a field's name or \"}\" is missing", "", ""};
-  return {message, "", ""};
+    return {"the file ends too early: a field's name or \"}\" is missing", ""};
+  return {message, ""};
 }
 
 struct Place {
@@ -63,38 +65,114 @@ Place place_of(const std::string& text, std::size_t found) {
   return {static_cast<int>(lines), static_cast<int>(found - line_begin)};
 }
 
+// Puts values such as the `y` of `direction: y` into capitals, where only they are in the field's enum. One pass, as a
+// frame may have a hundred thousand of them.
+class EnumCorrection {
+ public:
+  explicit EnumCorrection(std::string text) : text_(std::move(text)) {}
+
+  std::string corrected() {
+    while (at_ < text_.size()) {
+      const char character = text_[at_];
+      if (character == '#') {
+        at_ = std::min(text_.find('\n', at_), text_.size());
+      } else if (character == '"' || character == '\'') {
+        skip_string(character);
+      } else if (is_word(character)) {
+        read_word();
+      } else {
+        read_sign(character);
+      }
+    }
+    return std::move(text_);
+  }
+
+ private:
+  static bool is_word(char character) {
+    return std::isalnum(static_cast<unsigned char>(character)) != 0 || character == '_';
+  }
+
+  void skip_string(char quote) {
+    for (++at_; at_ < text_.size() && text_[at_] != quote && text_[at_] != '\n'; ++at_) {
+      if (text_[at_] == '\\') ++at_;
+    }
+    ++at_;
+  }
+
+  void read_sign(char sign) {
+    if (sign == ':' && !after_colon_) {
+      type_ = type_of(word_);
+      after_colon_ = true;
+    } else if (sign == '[' && after_colon_) {
+      in_list_ = true;
+    } else if (std::isspace(static_cast<unsigned char>(sign)) == 0 && !(sign == ',' && in_list_)) {
+      after_colon_ = in_list_ = false;
+    }
+    ++at_;
+  }
+
+  void read_word() {
+    const std::size_t begin = at_;
+    while (at_ < text_.size() && is_word(text_[at_])) ++at_;
+    word_ = text_.substr(begin, at_ - begin);
+    if (after_colon_ && type_ != nullptr) {
+      if (const auto* value = find_enum_value(word_, *type_)) text_.replace(begin, word_.size(), value->name());
+    }
+    after_colon_ = in_list_;
+  }
+
+  const google::protobuf::EnumDescriptor* type_of(const std::string& field) {
+    const auto [found, is_new] = types_.try_emplace(field, nullptr);
+    if (is_new) found->second = find_enum_of_field(field);
+    return found->second;
+  }
+
+  std::string text_;
+  std::size_t at_ = 0;
+  std::string word_;
+  const google::protobuf::EnumDescriptor* type_ = nullptr;  ///< of the field in front of the colon
+  bool after_colon_ = false;
+  bool in_list_ = false;
+  std::map<std::string, const google::protobuf::EnumDescriptor*> types_;
+};
+
 class ErrorLines : public google::protobuf::io::ErrorCollector {
  public:
   ErrorLines(const std::string& text, const std::string& file) : text_(text), file_(file) {}
 
   void AddError(int line, int column, const std::string& message) override {
+    if (++count_ > kShown) return;
     const Explanation explanation = explain(message);
     const std::size_t found = find_word(text_, explanation.word, {line, column});
-    if (!explanation.replacement.empty() && found != std::string::npos) {
-      corrected_ = text_;
-      corrected_.replace(found, explanation.word.size(), explanation.replacement);
-    }
+    wrong_capitals_ = wrong_capitals_ || explanation.is_right_in_capitals;
     const Place place = found == std::string::npos ? Place{line, column} : place_of(text_, found);
     if (!lines_.empty()) lines_ += '\n';
     lines_ += fmt::format("{}:{}:{}: {}", file_, place.line + 1, place.column + 1, explanation.message);
   }
   void AddWarning(int line, int column, const std::string& message) override { AddError(line, column, message); }
 
-  [[nodiscard]] const std::string& lines() const { return lines_; }
-  /// The text with one value more in capitals, where that is what an error asks for; else empty.
-  [[nodiscard]] const std::string& corrected() const { return corrected_; }
+  /// The first errors, and how many more there are.
+  [[nodiscard]] std::string lines() const {
+    return count_ > kShown ? lines_ + fmt::format("\nand {} more", count_ - kShown) : lines_;
+  }
+  /// Whether one of them is a value that is right in capitals.
+  [[nodiscard]] bool wrong_capitals() const { return wrong_capitals_; }
 
  private:
+  static constexpr int kShown = 50;
+
   const std::string& text_;
   const std::string& file_;
   std::string lines_;
-  std::string corrected_;
+  int count_ = 0;
+  bool wrong_capitals_ = false;
 };
 
 }  // namespace
 
 v1::Case parse_text_case(const std::string& given, const std::string& file) {
-  for (std::string text = given;;) {
+  std::string text = given;
+  for (bool is_corrected = false;; is_corrected = true) {
     ErrorLines errors(text, file);
     google::protobuf::TextFormat::Parser parser;
     parser.RecordErrorsTo(&errors);
@@ -102,13 +180,13 @@ v1::Case parse_text_case(const std::string& given, const std::string& file) {
     parser.AllowUnknownField(true);
     v1::Case result;
     const bool parsed = parser.ParseFromString(text, &result);
-    // `direction: y` is meant as Y. The parser stops there, so each turn corrects one value.
-    if (!errors.corrected().empty() && errors.corrected() != text) {
-      text = errors.corrected();
+    // `direction: y` is meant as Y. The parser stops at the first of them.
+    if (errors.wrong_capitals() && !is_corrected) {
+      text = EnumCorrection(text).corrected();
       continue;
     }
     if (!errors.lines().empty()) throw CommandError(ExitCode::refused, "the case cannot be read\n" + errors.lines());
-    if (!parsed) throw CommandError(ExitCode::refused, file + ": this is not a case in protobuf text");
+    if (!parsed) throw CommandError(ExitCode::refused, file + ": not a case in protobuf text");
     return result;
   }
 }

@@ -62,7 +62,7 @@ Chart build_energy_chart(const JobHistory& history) {
   chart.x = {0.0, std::max(strain, 0.01), "nominal strain"};
   const double room = high > low ? 0.06 * (high - low) : 1.0;
   chart.y = {low < 0.0 ? low - room : 0.0, high + room, "energy (J)"};
-  chart.note = "totals since the start; the work is the sum of all other lines";
+  chart.note = "totals since the start; the work equals the sum of the other curves";
   return chart;
 }
 

@@ -76,9 +76,9 @@ Chart empty_chart(double strain, double top, double peak) {
   Chart chart;
   chart.x = {0.0, std::max(strain, 0.01), "nominal strain"};
   chart.y = {0.0, top, "nominal stress (MPa)"};
-  chart.note = fmt::format("mean over {:.0f} % strain", 100 * kSmoothingWindow);
+  chart.note = fmt::format("moving mean over {:.0f} % strain", 100 * kSmoothingWindow);
   if (peak > 1.001 * top)
-    chart.note += fmt::format("; single samples up to {} MPa leave the chart", number_text(peak, 2));
+    chart.note += fmt::format("; single samples reach {} MPa, off the chart", number_text(peak, 2));
   return chart;
 }
 

@@ -106,7 +106,7 @@ std::string render_comparison_picture(PictureFormat format, const std::vector<Jo
   const double height =
       kMargin + kTitleHeight + 1.2 * kChartHeight + 20.0 * static_cast<double>(histories.size()) + kMargin;
   return render_picture(format, kWidth, height, [&](cairo_t* context) {
-    draw_title(context, fmt::format("{} runs compared", histories.size()), "plate stress against nominal strain",
+    draw_title(context, fmt::format("{} jobs compared", histories.size()), "plate stress against nominal strain",
                kInner, kInner);
     const double top = kMargin + kTitleHeight;
     draw_chart(context, {kMargin, top, kInner, height - top - kMargin}, build_comparison_chart(histories));

@@ -43,7 +43,7 @@ Axis build_axis(const std::string& field, const std::vector<ResultSeries>& all, 
   if (logarithmic) {
     if (low <= 0.0) {
       throw CommandError(ExitCode::refused,
-                         field + " is not above 0 everywhere, as --log x needs it; leave --log x out");
+                         field + " has values that are not above 0, which --log x requires; leave --log x out");
     }
     return {low / 1.2, 1.2 * high, axis_label(field), true};
   }
@@ -213,7 +213,7 @@ const std::string& find_field(const std::vector<SweepResults>& sweeps) {
     if (results.table.fields_size() == 0 || results.table.fields(0) != sweeps.front().table.fields(0)) {
       throw CommandError(
           ExitCode::refused,
-          results.sweep.name() + " varies another field first than the others; name sweeps over one field");
+          results.sweep.name() + " varies another first field than the others; name sweeps over the same field");
     }
   }
   return sweeps.front().table.fields(0);
@@ -230,8 +230,8 @@ Chart build_sweep_chart(const std::vector<SweepResults>& sweeps, const Logarithm
   const auto all = collect_series(sweeps);
   if (all.empty()) {
     throw CommandError(ExitCode::refused,
-                       "no job of the sweep has succeeded with a plateau yet, so that there is nothing to "
-                       "draw; `cellcrush table` says how its jobs stand");
+                       "no job of the sweep has succeeded with a plateau yet; `cellcrush table` shows the state of "
+                       "its jobs");
   }
   const std::string& field = find_field(sweeps);
   const bool speed = varies_speed_first(sweeps.front().table);

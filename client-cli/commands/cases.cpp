@@ -44,12 +44,12 @@ ExitCode run_check(Session& session, const CaseOptions& options) {
 }  // namespace
 
 void add_case_commands(CLI::App& app, Session& session) {
-  CLI::App* presets = add_command(app, session, "presets", "List the cases that come with the server",
+  CLI::App* presets = add_command(app, session, "presets", "List the preset cases of the server",
                                   [&session] { return run_presets(session); });
   presets->group(kCaseCommands);
   add_examples(*presets, {"cellcrush presets"});
   const auto options = std::make_shared<CaseOptions>();
-  CLI::App* check = add_command(app, session, "check", "Say what a case takes to run, or all that is wrong with it",
+  CLI::App* check = add_command(app, session, "check", "Predict the cost of a case, or report all its problems",
                                 [&session, options] { return run_check(session, *options); });
   check->group(kCaseCommands);
   add_case_options(*check, *options);

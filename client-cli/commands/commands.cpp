@@ -8,8 +8,7 @@ namespace cellcrush::client {
 
 namespace {
 
-constexpr const char* kSharedOptions =
-    "For --json and the connection options (--server, --tls-..., --token-file) see `cellcrush --help`.";
+constexpr const char* kSharedOptions = "`cellcrush --help` describes --json and the connection options.";
 
 }  // namespace
 
@@ -23,21 +22,23 @@ Connection& Session::connection() {
 
 void add_shared_options(CLI::App& app, Session& session) {
   app.fallthrough();
-  app.add_flag("--json", session.json, "Answer with protobuf JSON, an object a line");
+  app.add_flag("--json", session.json, "Print protobuf JSON, one object per line");
   const auto add = [&app](const char* name, std::string& value, const char* description) {
     app.add_option(name, value, description)->group("Connection")->take_last();
   };
   add("--server", session.server,
-      "unix:PATH or HOST:PORT (default: $CELLCRUSH_SERVER, else the daemon's socket in the user's data folder, else "
+      "Server address, unix:PATH or HOST:PORT (default: $CELLCRUSH_SERVER, else the daemon's socket in the user's data "
+      "folder, else "
       "127.0.0.1:50551)");
   add("--tls-ca", session.credentials.authority,
-      "PEM file of the authority that signed the server's certificate; connects to HOST:PORT with TLS (default: "
+      "PEM file of the certificate authority that signed the server's certificate; turns on TLS for HOST:PORT "
+      "(default: "
       "$CELLCRUSH_TLS_CA)");
   add("--tls-cert", session.credentials.certificate,
-      "PEM file of the client's certificate, for a server that asks for one (default: none)");
-  add("--tls-key", session.credentials.key, "PEM file of that certificate's private key (default: none)");
+      "PEM file of the client certificate, if the server requires one (default: none)");
+  add("--tls-key", session.credentials.key, "PEM file of the private key of --tls-cert (default: none)");
   add("--token-file", session.credentials.token,
-      "File with the token for a HOST:PORT (default: $CELLCRUSH_TOKEN_FILE, or $CELLCRUSH_TOKEN itself)");
+      "File with the token for a HOST:PORT (default: $CELLCRUSH_TOKEN_FILE, or the token in $CELLCRUSH_TOKEN)");
 }
 
 CLI::App* add_command(CLI::App& app, Session& session, const std::string& name, const std::string& description,
@@ -58,7 +59,7 @@ void add_case_options(CLI::App& command, CaseOptions& options) {
   command.add_option("CASE", options.source, "A case file, - for stdin, or preset:NAME")->required();
   command
       .add_option("--set", options.assignments,
-                  "PATH=VALUE: changes a field of the case, such as loading.speed_m_per_s=100; `cellcrush explain` "
+                  "Set a field of the case, PATH=VALUE, such as loading.speed_m_per_s=100; `cellcrush explain` "
                   "lists the fields (may be repeated; default: none)")
       ->group(kCaseOptions)
       ->allow_extra_args(false);

@@ -60,12 +60,11 @@ ExitCode run_delete(Session& session, const DeleteOptions& options) {
 
 void add_delete_command(CLI::App& app, Session& session) {
   const auto options = std::make_shared<DeleteOptions>();
-  CLI::App* command =
-      add_command(app, session, "delete", "Delete a job or a sweep with all its jobs, and the results; asks first",
-                  [&session, options] { return run_delete(session, *options); });
+  CLI::App* command = add_command(app, session, "delete", "Delete a job, or a sweep with all its jobs; asks first",
+                                  [&session, options] { return run_delete(session, *options); });
   command->group(kJobCommands);
-  command->add_option("NAME", options->name, "A job's name, or sweeps/NAME")->required();
-  command->add_flag("-y,--yes", options->yes, "Delete without asking, as without a terminal");
+  command->add_option("NAME", options->name, "Job name, or sweeps/NAME")->required();
+  command->add_flag("-y,--yes", options->yes, "Delete without asking; without a terminal it never asks");
   add_examples(*command, {"cellcrush delete jobs/12", "cellcrush delete sweeps/3 --yes"});
 }
 

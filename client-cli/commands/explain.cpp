@@ -29,11 +29,15 @@ std::string two_columns(const NamedTexts& entries, int width) {
   std::size_t longest = 0;
   for (const auto& [name, text] : entries) longest = std::max(longest, name.size());
   const std::size_t column = longest + 4;
+  constexpr int kLeast = 20;
+  constexpr int kBelow = 6;
+  const int room = width - static_cast<int>(column);
   std::string out;
   for (const auto& [name, text] : entries) {
-    const std::string wrapped =
-        wrap_text(text, std::max(width, static_cast<int>(column) + 20) - static_cast<int>(column));
-    out += fmt::format("  {:<{}}  {}\n", name, longest, indented(wrapped, column));
+    // Without room beside the names the texts stand below them.
+    out += room < kLeast ? fmt::format("  {}\n{}{}\n", name, std::string(kBelow, ' '),
+                                       indented(wrap_text(text, std::max(width - kBelow, 1)), kBelow))
+                         : fmt::format("  {:<{}}  {}\n", name, longest, indented(wrap_text(text, room), column));
   }
   return out;
 }
@@ -90,7 +94,7 @@ void add_explain_command(CLI::App& app, Session& session) {
       add_command(app, session, "explain", "Describe a field of a case: its type, unit, default and limits",
                   [&session, path] { return run_explain(session, *path); });
   command->group(kCaseCommands);
-  command->add_option("PATH", *path, "The field, such as loading.speed_m_per_s (default: the whole case)");
+  command->add_option("PATH", *path, "Field path, such as loading.speed_m_per_s (default: the whole case)");
   add_examples(*command, {"cellcrush explain", "cellcrush explain loading", "cellcrush explain loading.ramp_strain"});
 }
 

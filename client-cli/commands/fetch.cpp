@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <thread>
 
@@ -37,7 +38,7 @@ void make_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error || !fs::is_directory(folder, error)) {
-    throw CommandError(ExitCode::refused, folder.string() + ": cannot be made a folder: " + error.message());
+    throw CommandError(ExitCode::refused, folder.string() + ": cannot create this folder: " + error.message());
   }
 }
 
@@ -52,8 +53,14 @@ class FetchedFiles {
     return *files_.back();
   }
 
+  // After it commit() needs no more room on the disk.
+  void finish() {
+    for (const auto& file : files_) file->finish();
+  }
+
+  // The first file comes last: whoever waits for it finds the others in place.
   void commit() {
-    for (const auto& file : files_) file->commit();
+    for (auto file = files_.rbegin(); file != files_.rend(); ++file) (*file)->commit();
   }
 
   [[nodiscard]] const std::vector<fs::path>& paths() const { return paths_; }
@@ -73,7 +80,7 @@ grpc::Status download_from(Connection& connection, v1::DownloadResultRequest& re
   while (reader->Read(&chunk)) {
     if (chunk.offset() != request.offset()) {
       context.TryCancel();
-      return {grpc::StatusCode::DATA_LOSS, fmt::format("a part of the file is missing at byte {}", request.offset())};
+      return {grpc::StatusCode::DATA_LOSS, fmt::format("bytes are missing from offset {}", request.offset())};
     }
     file.write(chunk.data());
     request.set_offset(chunk.offset() + static_cast<std::int64_t>(chunk.data().size()));
@@ -96,11 +103,33 @@ void download_result(Connection& connection, const std::string& name, OutputFile
     if (request.offset() > before) attempt = 1;
     if (attempt == kAttempts) {
       throw CommandError(ExitCode::cut_off,
-                         fmt::format("result.h5 was cut off at byte {} of {}: {}", request.offset(), total,
-                                     status.ok() ? "the stream ended early" : status.error_message()));
+                         fmt::format("the download of result.h5 broke off at byte {} of {}: {}", request.offset(),
+                                     total, status.ok() ? "the stream ended early" : status.error_message()));
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(250 * attempt));
   }
+}
+
+// What this command wrote for another job and does not write again: it would pass for the new job's. The case tells
+// whether the folder holds the same job.
+std::vector<fs::path> find_stale_files(const fs::path& folder, const std::string& case_text,
+                                       const std::vector<fs::path>& written) {
+  const fs::path case_file = folder / "case.txtpb";
+  std::error_code error;
+  const bool is_other_job = begins_with_one_of(case_file, {kCaseSignature}) &&
+                            !(fs::file_size(case_file, error) == case_text.size() &&
+                              begins_with_one_of(case_file, {std::string_view(case_text)}));
+  std::vector<fs::path> stale;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    const bool is_nodes = name == "nodes.csv" && begins_with_one_of(entry->path(), {nodes_header()});
+    const bool is_frame = is_other_job && name.starts_with("frame_") && name.ends_with(".csv") &&
+                          begins_with_one_of(entry->path(), {frame_header()});
+    const bool is_kept = std::ranges::find(written, entry->path()) != written.end();
+    if ((is_nodes || is_frame) && !is_kept) stale.push_back(entry->path());
+  }
+  std::ranges::sort(stale);
+  return stale;
 }
 
 fs::path frame_path(const fs::path& folder, const MeshFrame& frame) {
@@ -112,14 +141,15 @@ ExitCode run_fetch(Session& session, const FetchOptions& options) {
   v1::GetJobRequest get;
   get.set_name(job_name(options.name));
   const auto job = connection.call(connection.jobs(), &v1::Jobs::Stub::GetJob, get);
-  const auto written = write_results(connection, job, options.folder, options.frame_times);
+  const auto files = write_results(connection, job, options.folder, options.frame_times);
   if (session.json) {
     print_json(job);
     return ExitCode::done;
   }
-  for (const fs::path& path : written) {
+  for (const fs::path& path : files.written) {
     fmt::print("{}  {}\n", path.string(), size_text(static_cast<std::int64_t>(fs::file_size(path))));
   }
+  for (const fs::path& path : files.removed) fmt::print("{}  removed (from another job)\n", path.string());
   return ExitCode::done;
 }
 
@@ -132,12 +162,13 @@ void check_may_write_results(const fs::path& folder) {
   check_may_overwrite(folder / "case.txtpb", {kCaseSignature});
 }
 
-std::vector<fs::path> write_results(Connection& connection, const v1::Job& job, const fs::path& folder,
-                                    const std::vector<double>& frame_times) {
+ResultFiles write_results(Connection& connection, const v1::Job& job, const fs::path& folder,
+                          const std::vector<double>& frame_times) {
   make_folder(folder);
   FetchedFiles files;
   OutputFile& result = files.add(folder / "result.h5", kResultStarts);
-  files.add(folder / "case.txtpb", {kCaseSignature}).write(case_file_text(job.case_(), "Case of " + job.name()));
+  const std::string case_text = case_file_text(job.case_(), "Case of " + job.name());
+  files.add(folder / "case.txtpb", {kCaseSignature}).write(case_text);
   const auto history = fetch_history(connection, job.name());
   files.add(folder / "history.csv", {kHistorySignature}).write(history_csv(history.samples()));
   if (const std::string nodes = nodes_csv(history.samples()); !nodes.empty()) {
@@ -151,23 +182,31 @@ std::vector<fs::path> write_results(Connection& connection, const v1::Job& job, 
     files.add(frame_path(folder, frame), {frame_header()}).write(frame_csv(frame));
   }
   download_result(connection, job.name(), result);
+  files.finish();
+  // Removed while the old case still says whose they are: cut off in between, fetch finds them again.
+  const auto stale = find_stale_files(folder, case_text, files.paths());
+  for (const fs::path& path : stale) {
+    std::error_code error;
+    fs::remove(path, error);
+    if (error) throw CommandError(ExitCode::refused, path.string() + ": cannot be removed: " + error.message());
+  }
   files.commit();
-  return files.paths();
+  return {files.paths(), stale};
 }
 
 void add_fetch_command(CLI::App& app, Session& session) {
   const auto options = std::make_shared<FetchOptions>();
   CLI::App* command =
-      add_command(app, session, "fetch", "Write a job's case.txtpb, history.csv, nodes.csv and result.h5 into a folder",
+      add_command(app, session, "fetch", "Download a job's result.h5, history.csv, nodes.csv and case.txtpb",
                   [&session, options] { return run_fetch(session, *options); });
   command->group(kResultCommands);
-  command->add_option("NAME", options->name, "A job's name")->required();
-  command->add_option("-o,--output", options->folder, "The folder; it is made if need be")
+  command->add_option("NAME", options->name, "Job name")->required();
+  command->add_option("-o,--output", options->folder, "Output folder, created if missing")
       ->required()
       ->group(kOutputOptions);
   command
       ->add_option("--frame", options->frame_times,
-                   "Also write the frame nearest to this time in s, as CSV (may be repeated; default: none)")
+                   "Also write the frame nearest to this time, in s, as CSV (may be repeated; default: none)")
       ->group(kOutputOptions)
       ->allow_extra_args(false);
   add_examples(*command, {"cellcrush fetch jobs/12 -o results", "cellcrush fetch jobs/12 -o results --frame 0.0005"});

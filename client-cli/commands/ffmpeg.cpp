@@ -21,7 +21,7 @@ void check_ffmpeg() {
   }
   throw CommandError(
       ExitCode::refused,
-      "movie: ffmpeg is not installed; install it (apt-get install ffmpeg), or keep the frames as numbered "
+      "movie: ffmpeg is not installed; install it (apt-get install ffmpeg), or write the frames as numbered "
       "PNG files with --frames DIR instead of -o");
 }
 
@@ -48,7 +48,7 @@ void encode_movie(const std::filesystem::path& frames, int frames_per_second, co
   if (failure == 0 && WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
   throw CommandError(ExitCode::refused,
                      "movie: ffmpeg could not write the movie; give -o a name that ends in .mp4, or "
-                     "keep the frames with --frames DIR");
+                     "write the frames with --frames DIR");
 }
 
 }  // namespace cellcrush::client

@@ -47,17 +47,17 @@ CLI::App* add_named_command(CLI::App& app, Session& session, const char* command
 
 void add_job_commands(CLI::App& app, Session& session) {
   CLI::App* cancel =
-      add_named_command(app, session, "cancel", "Stop a job, or all jobs of a sweep; what was computed is kept",
-                        "A job's or a sweep's name", [](Session& s, const std::string& name) {
+      add_named_command(app, session, "cancel", "Cancel a job, or all jobs of a sweep; results so far are kept",
+                        "Name of a job or a sweep", [](Session& s, const std::string& name) {
                           names_sweep(name) ? cancel_sweep(s, name) : change_job(s, name, &v1::Jobs::Stub::CancelJob);
                         });
   add_examples(*cancel, {"cellcrush cancel jobs/12", "cellcrush cancel sweeps/3"});
   CLI::App* suspend =
-      add_named_command(app, session, "suspend", "Stop a job at a checkpoint", "A job's name",
+      add_named_command(app, session, "suspend", "Stop a job at a checkpoint; resume continues it", "Job name",
                         [](Session& s, const std::string& name) { change_job(s, name, &v1::Jobs::Stub::SuspendJob); });
   add_examples(*suspend, {"cellcrush suspend jobs/12"});
   CLI::App* resume =
-      add_named_command(app, session, "resume", "Continue a suspended job", "A job's name",
+      add_named_command(app, session, "resume", "Continue a suspended job", "Job name",
                         [](Session& s, const std::string& name) { change_job(s, name, &v1::Jobs::Stub::ResumeJob); });
   add_examples(*resume, {"cellcrush resume jobs/12"});
 }

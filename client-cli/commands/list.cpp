@@ -42,7 +42,8 @@ void list_jobs(Session& session, const ListOptions& options) {
 
 void list_sweeps(Session& session, const ListOptions& options) {
   if (!options.filter.empty() || !options.order.empty()) {
-    throw CommandError(ExitCode::refused, "list --sweeps: sweeps have no --filter and no --order; leave them out");
+    throw CommandError(ExitCode::refused,
+                       "list: --filter and --order apply to jobs only; leave them out with --sweeps");
   }
   Connection& connection = session.connection();
   const auto all =
@@ -57,7 +58,7 @@ void list_sweeps(Session& session, const ListOptions& options) {
 
 void add_list_command(CLI::App& app, Session& session) {
   const auto options = std::make_shared<ListOptions>();
-  CLI::App* list = add_command(app, session, "list", "List the jobs or the sweeps, newest first", [&session, options] {
+  CLI::App* list = add_command(app, session, "list", "List jobs or sweeps, newest first", [&session, options] {
     options->sweeps ? list_sweeps(session, *options) : list_jobs(session, *options);
     return ExitCode::done;
   });
@@ -66,12 +67,12 @@ void add_list_command(CLI::App& app, Session& session) {
                    "Only jobs that match, such as 'state = RUNNING'; up to 4096 characters (default: all jobs)")
       ->group(kSelectionOptions);
   list->add_option("--order,--order-by", options->order,
-                   "Of the jobs: create_time or name, with desc for the newest first (default: create_time desc)")
+                   "Sort jobs by create_time or name; append desc for newest first (default: create_time desc)")
       ->group(kSelectionOptions);
-  list->add_option("--limit", options->limit, "At most so many (default: all)")
+  list->add_option("--limit", options->limit, "Largest number of entries (default: all)")
       ->group(kSelectionOptions)
       ->check(CLI::PositiveNumber);
-  list->add_flag("--sweeps", options->sweeps, "List sweeps")->group(kSelectionOptions);
+  list->add_flag("--sweeps", options->sweeps, "List sweeps instead of jobs")->group(kSelectionOptions);
   add_examples(*list, {"cellcrush list --limit 10", "cellcrush list --filter 'state = RUNNING'",
                        "cellcrush list --sweeps --json"});
 }

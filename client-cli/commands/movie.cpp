@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <google/protobuf/struct.pb.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -11,6 +12,7 @@
 #include "commands/ffmpeg.h"
 #include "commands/resource_name.h"
 #include "connection/frames.h"
+#include "terminal/json_text.h"
 #include "terminal/output_file.h"
 
 namespace cellcrush::client {
@@ -30,7 +32,7 @@ struct MovieOptions {
 class TemporaryFolder {
  public:
   TemporaryFolder() : path_((fs::temp_directory_path() / "cellcrush-movie-XXXXXX").string()) {
-    if (mkdtemp(path_.data()) == nullptr) throw CommandError(ExitCode::refused, path_ + ": cannot be made a folder");
+    if (mkdtemp(path_.data()) == nullptr) throw CommandError(ExitCode::refused, path_ + ": cannot create this folder");
   }
   ~TemporaryFolder() {
     std::error_code ignored;
@@ -76,29 +78,36 @@ int draw_frames(Connection& connection, const std::string& name, const fs::path&
   return count;
 }
 
+void print_movie_json(const std::string& path, int frames) {
+  google::protobuf::Struct json;
+  (*json.mutable_fields())["path"].set_string_value(path);
+  (*json.mutable_fields())["frame_count"].set_number_value(frames);
+  print_json(json);
+}
+
 void keep_frames(Session& session, const MovieOptions& options) {
   std::error_code error;
   fs::create_directories(options.folder, error);
-  if (error) throw CommandError(ExitCode::refused, options.folder + ": cannot be made a folder: " + error.message());
+  if (error) throw CommandError(ExitCode::refused, options.folder + ": cannot create this folder: " + error.message());
   const int count = draw_frames(session.connection(), job_name(options.name), options.folder);
-  fmt::print("{}  {} frames\n", options.folder, count);
+  session.json ? print_movie_json(options.folder, count) : fmt::print("{}  {} frames\n", options.folder, count);
 }
 
 void make_movie(Session& session, const MovieOptions& options) {
   check_ffmpeg();
   const TemporaryFolder folder;
-  draw_frames(session.connection(), job_name(options.name), folder.path());
+  const int count = draw_frames(session.connection(), job_name(options.name), folder.path());
   const fs::path movie = folder.path() / ("movie" + fs::path(options.file).extension().string());
   encode_movie(folder.path(), options.frames_per_second, movie);
   std::ostringstream bytes;
   bytes << std::ifstream(movie, std::ios::binary).rdbuf();
   save_file(options.file, bytes.str());
-  fmt::print("{}\n", options.file);
+  session.json ? print_movie_json(options.file, count) : fmt::print("{}\n", options.file);
 }
 
 ExitCode run_movie(Session& session, const MovieOptions& options) {
   if (options.file.empty() == options.folder.empty()) {
-    throw CommandError(ExitCode::refused, "movie: give one of -o FILE.mp4 and --frames DIR");
+    throw CommandError(ExitCode::refused, "movie: give either -o FILE.mp4 or --frames DIR");
   }
   options.folder.empty() ? make_movie(session, options) : keep_frames(session, options);
   return ExitCode::done;
@@ -108,19 +117,21 @@ ExitCode run_movie(Session& session, const MovieOptions& options) {
 
 void add_movie_command(CLI::App& app, Session& session) {
   const auto options = std::make_shared<MovieOptions>();
-  CLI::App* command = add_command(app, session, "movie", "Draw every frame of a job as a movie, with ffmpeg",
+  CLI::App* command = add_command(app, session, "movie", "Render the frames of a job as a movie; requires ffmpeg",
                                   [&session, options] { return run_movie(session, *options); });
   command->group(kResultCommands);
-  command->add_option("NAME", options->name, "A job's name")->required();
-  command->add_option("-o,--output", options->file, "The movie, such as FILE.mp4 (default: none, with --frames)")
+  command->add_option("NAME", options->name, "Job name")->required();
+  command
+      ->add_option("-o,--output", options->file,
+                   "Movie file, such as FILE.mp4 (default: none; required without --frames)")
       ->group(kOutputOptions);
   command
       ->add_option(
           "--frames", options->folder,
-          "Instead: keep the frames in this folder, as numbered PNG files of one size; needs no ffmpeg (default: "
-          "none)")
+          "Write the frames to this folder instead, as numbered PNG files of one size; does not require ffmpeg "
+          "(default: none)")
       ->group(kOutputOptions);
-  command->add_option("--fps", options->frames_per_second, "Frames a second (default: 10)")
+  command->add_option("--fps", options->frames_per_second, "Frames per second (default: 10)")
       ->group(kOutputOptions)
       ->check(CLI::Range(1, 120));
   add_examples(*command, {"cellcrush movie jobs/12 -o crush.mp4", "cellcrush movie jobs/12 --frames frames"});

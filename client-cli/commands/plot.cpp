@@ -36,7 +36,7 @@ v1::Job fetch_job(Connection& connection, const std::string& name) {
 JobHistory fetch_drawable_history(Connection& connection, const v1::Job& job) {
   const auto samples = fetch_history(connection, job.name());
   if (samples.samples_size() == 0) {
-    throw CommandError(ExitCode::refused, job.name() + " has no samples yet, so that there is nothing to draw");
+    throw CommandError(ExitCode::refused, job.name() + " has no samples to plot yet");
   }
   return {job, {samples.samples().begin(), samples.samples().end()}};
 }
@@ -97,14 +97,14 @@ void check_options(const PlotOptions& options) {
   const bool sweep = std::any_of(options.names.begin(), options.names.end(), names_sweep);
   const bool frames = options.strip > 0 || options.frames_only || options.wide || !options.frame_strains.empty();
   if (sweep && !std::all_of(options.names.begin(), options.names.end(), names_sweep)) {
-    refuse("plot: jobs and sweeps share no chart; name jobs or sweeps only");
+    refuse("plot: jobs and sweeps cannot share a chart; name only jobs or only sweeps");
   }
-  if (!options.logarithmic.empty() && !sweep) refuse("plot: --log is for sweeps; leave it out");
+  if (!options.logarithmic.empty() && !sweep) refuse("plot: --log applies to sweeps only; leave it out");
   if (frames && (sweep || options.names.size() > 1)) {
-    refuse("plot: --strip, --frame-strain, --frames-only and --wide are for one job; name one");
+    refuse("plot: --strip, --frame-strain, --frames-only and --wide apply to a single job; name one");
   }
-  if (options.frames_only && options.wide) refuse("plot: give one of --frames-only and --wide");
-  if (options.strip > 0 && !options.frame_strains.empty()) refuse("plot: give one of --strip and --frame-strain");
+  if (options.frames_only && options.wide) refuse("plot: give either --frames-only or --wide");
+  if (options.strip > 0 && !options.frame_strains.empty()) refuse("plot: give either --strip or --frame-strain");
 }
 
 ExitCode run_plot(Session& session, const PlotOptions& options) {
@@ -118,28 +118,27 @@ ExitCode run_plot(Session& session, const PlotOptions& options) {
 void add_plot_command(CLI::App& app, Session& session) {
   const auto options = std::make_shared<PlotOptions>();
   CLI::App* command = add_command(app, session, "plot",
-                                  "Draw a job's crush and stress-strain curve, compare several jobs, or draw sweeps",
+                                  "Plot a job's frames and stress-strain curve, compare several jobs, or plot sweeps",
                                   [&session, options] { return run_plot(session, *options); });
   command->group(kResultCommands);
-  command->add_option("NAME", options->names, "Names of jobs, or of sweeps over one field")->required();
-  command->add_option("-o,--output", options->file, "The picture: FILE.svg, FILE.pdf or FILE.png")
+  command->add_option("NAME", options->names, "Names of jobs, or of sweeps over the same field")->required();
+  command->add_option("-o,--output", options->file, "Picture file: FILE.svg, FILE.pdf or FILE.png")
       ->required()
       ->group(kOutputOptions);
   command
       ->add_option("--frame-strain", options->frame_strains,
-                   "Show the frame nearest to this strain, a share of the length (may be repeated; default: 0.2, 0.4 "
-                   "and the end)")
+                   "Show the frame nearest to this nominal strain (may be repeated; default: 0.2, 0.4 and the end)")
       ->group(kFrameOptions)
       ->allow_extra_args(false);
   command
       ->add_option("--strip", options->strip,
-                   "Show so many frames, evenly spaced over the run (default: those of --frame-strain)")
+                   "Show this many frames, evenly spaced over the run (default: the frames of --frame-strain)")
       ->group(kFrameOptions)
       ->check(CLI::Range(1, 100));
-  command->add_option("--log", options->logarithmic, "Logarithmic axes of a sweep's chart: x, y or xy (default: none)")
+  command->add_option("--log", options->logarithmic, "Logarithmic axes of a sweep plot: x, y or xy (default: none)")
       ->group(kOutputOptions)
       ->check(CLI::IsMember({"x", "y", "xy"}));
-  command->add_flag("--frames-only", options->frames_only, "Draw the frames without title and curve, as for a paper")
+  command->add_flag("--frames-only", options->frames_only, "Draw the frames alone, without title and curve")
       ->group(kFrameOptions);
   command->add_flag("--wide", options->wide, "Draw the frames beside the stress curves, as for a slide")
       ->group(kFrameOptions);

@@ -37,7 +37,7 @@ class PrivateData {
   explicit PrivateData(fs::path path) : path_(std::move(path)), was_there_(fs::exists(path_)), is_kept_(was_there_) {
     std::error_code error;
     fs::create_directories(path_, error);
-    if (error) throw CommandError(ExitCode::refused, path_.string() + ": cannot be made: " + error.message());
+    if (error) throw CommandError(ExitCode::refused, path_.string() + ": cannot be created: " + error.message());
     fs::permissions(path_, fs::perms::owner_all, error);
   }
   ~PrivateData() {
@@ -79,7 +79,6 @@ void start_job(Session& session, const v1::Case& scene, const RunOptions& option
   if (!unfinished) {
     v1::CreateJobRequest request;
     *request.mutable_case_() = scene;
-    request.set_time_limit_s(options.time_limit_s);
     const auto job = connection.call(connection.jobs(), &v1::Jobs::Stub::CreateJob, request);
     if (!session.json) fmt::print(stderr, "{}", notes_text(job.notes()));
     return;
@@ -87,7 +86,7 @@ void start_job(Session& session, const v1::Case& scene, const RunOptions& option
   if (text_of(unfinished->case_()) != text_of(scene)) {
     throw CommandError(ExitCode::refused,
                        fmt::format("{} holds the unfinished run of another case. Give the case it was started with, or "
-                                   "delete {} to begin with this one.",
+                                   "delete {} to start this one.",
                                    options.folder, (fs::path(options.folder) / kDataFolder).string()));
   }
 }
@@ -97,34 +96,60 @@ bool holds_result(const fs::path& folder, const v1::Case& scene) {
   return has_text(folder / "case.txtpb", text_of(scene)) && fs::exists(folder / "result.h5");
 }
 
+// A broken watch in the words of this command: nobody else can reach the daemon.
+CommandError error_of_break(const CommandError& error, PrivateDaemon& daemon) {
+  if (error.code() != ExitCode::cut_off && error.code() != ExitCode::no_connection) return error;
+  if (!daemon.has_ended()) return error;
+  return {error.code(), fmt::format("the private cellcrushd ended before the job did; its log is {}. The same command "
+                                    "with --resume continues from the last checkpoint.",
+                                    daemon.log().string())};
+}
+
+WatchedJob run_to_its_end(Session& session, const v1::Case& scene, const RunOptions& options, PrivateData& data,
+                          PrivateDaemon& daemon, const Interruption& interruption) {
+  try {
+    start_job(session, scene, options);
+    data.keep(true);
+    return show_job_to_its_end(session, kJob, interruption,
+                               "Run it again with a longer --time-limit, with a lower fidelity or to a lower "
+                               "end_strain.");
+  } catch (const CommandError& error) {
+    throw error_of_break(error, daemon);
+  }
+}
+
 ExitCode run_case(Session& session, const RunOptions& options) {
   if (!session.server.empty()) {
-    throw CommandError(ExitCode::refused, "run starts a daemon of its own. Leave --server out, or use submit --watch.");
+    throw CommandError(ExitCode::refused, "run starts its own daemon. Leave --server out, or use submit --watch.");
   }
+  // Read before anything is made: Ctrl-C at a stdin that gives none leaves nothing behind.
+  const auto own_case = read_own_case(options.scene.source, options.scene.assignments);
   const fs::path folder(options.folder);
   PrivateData data(folder / kDataFolder);
   if (data.was_there() && !options.resume) {
-    throw CommandError(
-        ExitCode::refused,
-        fmt::format("{} holds an unfinished run. Continue it with --resume, or delete {} to begin again.",
-                    folder.string(), data.path().string()));
+    throw CommandError(ExitCode::refused,
+                       fmt::format("{} holds an unfinished run. Continue it with --resume, or delete {} to start over.",
+                                   folder.string(), data.path().string()));
   }
   check_may_write_results(folder);
-  PrivateDaemon daemon(data.path());
+  const Interruption interruption;
+  PrivateDaemon daemon(data.path(), options.time_limit_s);
   session.server = daemon.address();
   Connection& connection = session.connection();
-  const v1::Case scene = read_case(options.scene.source, options.scene.assignments, connection);
+  const v1::Case scene = own_case ? *own_case : read_case(options.scene.source, options.scene.assignments, connection);
   if (options.resume && !data.was_there() && holds_result(folder, scene)) {
-    if (!session.json) fmt::print("{} holds the result of this case already.\n", folder.string());
+    if (!session.json) fmt::print("{} already holds the result of this case.\n", folder.string());
     return ExitCode::done;
   }
-  const Interruption interruption;
-  start_job(session, scene, options);
-  data.keep(true);
-  const auto [job, complete] = show_job_to_its_end(session, kJob, interruption);
+  if (interruption.requested()) {
+    fmt::print(stderr, "\ncellcrush: stopped before the job started\n");
+    return ExitCode::interrupted;
+  }
+  const auto [job, complete] = run_to_its_end(session, scene, options, data, daemon, interruption);
   if (!complete) {
     daemon.stop();
-    fmt::print(stderr, "\ncellcrush: stopped at a checkpoint. The same command with --resume continues from there.\n");
+    fmt::print(stderr, "\ncellcrush: stopped at a checkpoint. The same command{} with --resume continues from there.\n",
+               options.scene.source == "-" ? ", with the same case on stdin," : "");
     return ExitCode::interrupted;
   }
   if (job.has_summary()) write_results(connection, job, folder);
@@ -138,14 +163,15 @@ ExitCode run_case(Session& session, const RunOptions& options) {
 
 void add_run_command(CLI::App& app, Session& session) {
   const auto options = std::make_shared<RunOptions>();
-  CLI::App* command = add_command(app, session, "run", "Crush a case here and now, without a running daemon",
+  CLI::App* command = add_command(app, session, "run", "Run a case in the foreground, without a daemon",
                                   [&session, options] { return run_case(session, *options); });
   command->group(kJobCommands);
   add_case_options(*command, options->scene);
-  command->add_option("-o,--output", options->folder, "The folder for the results; it is made if need be")->required();
-  command->add_flag("--resume", options->resume,
-                    "Continue an unfinished run in this folder; without one begin, or do nothing if it is finished");
-  add_time_limit_option(*command, options->time_limit_s);
+  command->add_option("-o,--output", options->folder, "Output folder, created if missing")->required();
+  command->add_flag(
+      "--resume", options->resume,
+      "Continue an unfinished run in this folder; start one if there is none, do nothing if it is finished");
+  add_time_limit_option(*command, options->time_limit_s, "none; with --resume the limit of this command counts");
   add_examples(*command, {"cellcrush run my.txtpb -o results", "cellcrush run my.txtpb -o results --resume"});
 }
 

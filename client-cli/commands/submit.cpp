@@ -49,14 +49,14 @@ ExitCode run_submit(Session& session, const SubmitOptions& options) {
 
 void add_submit_command(CLI::App& app, Session& session) {
   const auto options = std::make_shared<SubmitOptions>();
-  CLI::App* command = add_command(app, session, "submit", "Queue a case and print the job's name",
+  CLI::App* command = add_command(app, session, "submit", "Queue a case and print the job name",
                                   [&session, options] { return run_submit(session, *options); });
   command->group(kJobCommands);
   add_case_options(*command, options->scene);
   command->add_flag("--watch", options->watch, "Follow the job to its end")->group(kOutputOptions);
   command
       ->add_option("--request-id", options->request_id,
-                   "Submitting again with the same id, up to 128 characters, gives the same job (default: none)")
+                   "Id of the request, up to 128 characters; submitting it again returns the same job (default: none)")
       ->group(kIdentityOptions);
   add_label_option(*command, options->labels);
   add_priority_option(*command, options->priority);

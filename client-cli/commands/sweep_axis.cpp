@@ -63,7 +63,7 @@ class AxisText {
     Number out{};
     const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), out);
     if (error != std::errc() || end != value.data() + value.size())
-      refuse(fmt::format("\"{}\" is not a {}number", value, std::is_integral_v<Number> ? "whole " : ""));
+      refuse(fmt::format("\"{}\" is not {}", value, std::is_integral_v<Number> ? "an integer" : "a number"));
     return out;
   }
 

@@ -42,7 +42,8 @@ v1::CreateSweepRequest build_request(const SweepOptions& options) {
     v1::SweepAxis axis = parse_axis(text);
     for (const v1::SweepAxis& other : sweep.axes()) {
       if (other.field() != axis.field()) continue;
-      throw CommandError(ExitCode::refused, "--over " + text + ": this field is given twice; list all its values once");
+      throw CommandError(ExitCode::refused,
+                         "--over " + text + ": this field is given twice; give all its values in one --over");
     }
     sweep.add_axes()->Swap(&axis);
   }
@@ -79,44 +80,46 @@ ExitCode run_retry(Session& session, const std::string& name) {
 
 void add_sweep_commands(CLI::App& app, Session& session) {
   const auto options = std::make_shared<SweepOptions>();
-  CLI::App* sweep = add_command(app, session, "sweep", "Queue a job for every combination of some fields' values",
+  CLI::App* sweep = add_command(app, session, "sweep", "Queue one job for each combination of field values",
                                 [&session, options] { return run_sweep(session, *options); });
   sweep->group(kJobCommands);
   add_case_options(*sweep, options->scene);
   sweep
-      ->add_option("--over", options->axes,
-                   "The values that a field takes: PATH=V1,V2,...; PATH=FIRST:LAST:COUNT, evenly spaced, or with :log "
-                   "behind it in the logarithm; PATH=seeds:N, 1 to N (may be repeated, for up to 32 fields; at most "
-                   "10000 jobs in all)")
+      ->add_option(
+          "--over", options->axes,
+          "Values of a field: PATH=V1,V2,...; PATH=FIRST:LAST:COUNT, evenly spaced; PATH=FIRST:LAST:COUNT:log, "
+          "logarithmically spaced; PATH=seeds:N, 1 to N (may be repeated, for up to 32 fields; at most 10000 "
+          "jobs in all)")
       ->required()
       ->group(kCaseOptions)
       ->allow_extra_args(false);
-  sweep->add_flag("--watch", options->watch, "Follow its jobs to their ends and print the table and a chart")
+  sweep->add_flag("--watch", options->watch, "Follow the sweep to its end, then print its table and a chart")
       ->group(kOutputOptions);
   sweep
-      ->add_option("--request-id", options->request_id,
-                   "Asking again with the same id, up to 128 characters, gives the same sweep (default: none)")
+      ->add_option(
+          "--request-id", options->request_id,
+          "Id of the request, up to 128 characters; submitting it again returns the same sweep (default: none)")
       ->group(kIdentityOptions);
   add_label_option(*sweep, options->labels);
   add_priority_option(*sweep, options->priority);
   add_time_limit_option(*sweep, options->time_limit_s);
   sweep
       ->add_option("--max-parallel", options->max_parallel,
-                   "Jobs of the sweep that run at once (default: as many as there are workers)")
+                   "Largest number of its jobs that run at once (default: the number of workers)")
       ->group(kScheduleOptions)
       ->check(CLI::PositiveNumber);
   sweep
       ->add_option("--max-failures", options->max_failures,
-                   "Failed jobs after which the rest is not started (default: no limit)")
+                   "Start no more of its jobs after this many failures (default: no limit)")
       ->group(kScheduleOptions)
       ->check(CLI::PositiveNumber);
   add_examples(*sweep, {"cellcrush sweep preset:type-i --over loading.speed_m_per_s=50,100,200 --watch",
                         "cellcrush sweep my.txtpb --over lattice.imperfection.seed=seeds:20"});
   const auto name = std::make_shared<std::string>();
-  CLI::App* retry = add_command(app, session, "retry", "Queue a sweep's failed jobs again",
+  CLI::App* retry = add_command(app, session, "retry", "Queue the failed jobs of a sweep again",
                                 [&session, name] { return run_retry(session, *name); });
   retry->group(kJobCommands);
-  retry->add_option("SWEEP", *name, "A sweep's name")->required();
+  retry->add_option("SWEEP", *name, "Name of a sweep")->required();
   add_examples(*retry, {"cellcrush retry sweeps/3"});
 }
 

@@ -17,7 +17,7 @@ struct TableOptions {
 };
 
 ExitCode run_table(Session& session, const TableOptions& options) {
-  if (options.csv && session.json) throw CommandError(ExitCode::refused, "table: give one of --csv and --json");
+  if (options.csv && session.json) throw CommandError(ExitCode::refused, "table: give either --csv or --json");
   Connection& connection = session.connection();
   const std::string name = sweep_name(options.name);
   const auto table = fetch_table(connection, name);
@@ -36,16 +36,16 @@ ExitCode run_table(Session& session, const TableOptions& options) {
 
 void add_table_command(CLI::App& app, Session& session) {
   const auto options = std::make_shared<TableOptions>();
-  CLI::App* table = add_command(app, session, "table", "Print a sweep's results, a row a job",
+  CLI::App* table = add_command(app, session, "table", "Print the results of a sweep, one row per job",
                                 [&session, options] { return run_table(session, *options); });
   table->group(kResultCommands);
-  table->add_option("SWEEP", options->name, "A sweep's name")->required();
+  table->add_option("SWEEP", options->name, "Name of a sweep")->required();
   table
       ->add_option("--digits", options->digits,
-                   "Significant digits of the results; what was varied always has all of its digits (default: 3)")
+                   "Significant digits of the results; varied values are printed in full (default: 3)")
       ->group(kOutputOptions)
       ->check(CLI::Range(1, 17));
-  table->add_flag("--csv", options->csv, "As CSV, with all digits")->group(kOutputOptions);
+  table->add_flag("--csv", options->csv, "Print CSV with all digits")->group(kOutputOptions);
   add_examples(*table, {"cellcrush table sweeps/3", "cellcrush table sweeps/3 --csv > table.csv"});
 }
 

@@ -8,15 +8,17 @@
 
 namespace cellcrush::client {
 
-void add_time_limit_option(CLI::App& command, double& seconds) {
+void add_time_limit_option(CLI::App& command, double& seconds, const std::string& default_text) {
   const std::map<std::string, double> units = {{"s", 1.0}, {"min", 60.0}, {"h", 3600.0}, {"d", 86400.0}};
   command
       .add_option("--time-limit", seconds,
-                  "Longest run of a job, in s, min, h or d, such as 90s or 2h; results up to then are kept "
-                  "(default: the daemon's)")
+                  "Wall-clock limit per job in s, min, h or d, such as 90s or 2h, at least 0.001 s; results up to the "
+                  "limit are kept (default: " +
+                      default_text + ")")
       ->group(kScheduleOptions)
-      ->transform(CLI::AsNumberWithUnit(units, CLI::AsNumberWithUnit::CASE_SENSITIVE))
-      ->check(CLI::Range(0.001, 1e9));
+      ->type_name("TIME")
+      ->transform(CLI::AsNumberWithUnit(units, CLI::AsNumberWithUnit::CASE_SENSITIVE).description(""))
+      ->check(CLI::Range(0.001, 1e9).description(""));
 }
 
 }  // namespace cellcrush::client

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <utility>
 
 #include "commands/resource_name.h"
 #include "connection/pages.h"
@@ -18,22 +19,24 @@ namespace cellcrush::client {
 namespace {
 
 ExitCode say_interrupted(const std::string& name, bool ended) {
-  fmt::print(stderr, "\ncellcrush: the watch ends here; {} {}: `cellcrush watch {}` picks it up again\n", name,
-             ended ? "has ended" : "goes on", name);
+  fmt::print(stderr, "\ncellcrush: stopped watching; {} {}: `cellcrush watch {}` shows it again\n", name,
+             ended ? "has ended" : "continues", name);
   return ExitCode::interrupted;
 }
 
 }  // namespace
 
-WatchedJob show_job_to_its_end(Session& session, const std::string& name, const Interruption& interruption) {
+WatchedJob show_job_to_its_end(Session& session, const std::string& name, const Interruption& interruption,
+                               const std::string& time_limit_remedy) {
   const auto display = make_watch_display(session.json, find_terminal());
   const bool complete = follow_job(session.connection(), name, false, interruption, *display);
-  const v1::Job& job = display->view().job();
+  v1::Job job = display->view().job();
+  if (job.cause() == v1::TIME_LIMIT && !time_limit_remedy.empty()) job.set_remedy(time_limit_remedy);
   if (complete) {
     display->finish();
     if (!session.json) fmt::print("{}", outcome_text(job));
   }
-  return {job, complete};
+  return {std::move(job), complete};
 }
 
 ExitCode watch_job(Session& session, const std::string& name, const Interruption& interruption) {
@@ -64,7 +67,7 @@ void add_watch_command(CLI::App& app, Session& session) {
                               : watch_job(session, job_name(*name), interruption);
   });
   command->group(kJobCommands);
-  command->add_option("NAME", *name, "A job's or a sweep's name")->required();
+  command->add_option("NAME", *name, "Name of a job or a sweep")->required();
   add_examples(*command, {"cellcrush watch jobs/12", "cellcrush watch sweeps/3"});
 }
 

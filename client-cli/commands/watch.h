@@ -14,8 +14,10 @@ struct WatchedJob {
   bool complete = false;  ///< it has ended; otherwise the watch was interrupted
 };
 
-/// Shows a job on stdout to its end or to an interruption, and then how it ended.
-WatchedJob show_job_to_its_end(Session& session, const std::string& name, const Interruption& interruption);
+/// Shows a job on stdout to its end or to an interruption, and then how it ended. `time_limit_remedy` replaces the
+/// server's for a job that took too long.
+WatchedJob show_job_to_its_end(Session& session, const std::string& name, const Interruption& interruption,
+                               const std::string& time_limit_remedy = {});
 
 /// Watches a job to its end and prints how it ended. On Ctrl-C says that the job goes on.
 ExitCode watch_job(Session& session, const std::string& name, const Interruption& interruption);

@@ -75,8 +75,8 @@ void Connection::check_request_size(std::int64_t size) {
   constexpr double kMebibyte = 1024.0 * 1024.0;
   throw CommandError(
       ExitCode::refused,
-      fmt::format("the request takes {:.2f} MiB ({} bytes) and the limit of a message is {:.0f} MiB ({} "
-                  "bytes); make the case smaller, such as a frame of fewer nodes and beams",
+      fmt::format("the request has {:.2f} MiB ({} bytes), above the message limit of {:.0f} MiB ({} bytes); make the "
+                  "case smaller, such as a frame with fewer nodes and beams",
                   static_cast<double>(size) / kMebibyte, size, kLargestRequest / kMebibyte, kLargestRequest));
 }
 

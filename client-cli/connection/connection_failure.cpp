@@ -22,19 +22,19 @@ bool was_not_reached(const std::string& reason) {
 
 std::string tls_failure_text(const std::string& address, const std::string& reason) {
   if (has_part(reason, "certificate verify failed") || has_part(reason, "CERTIFICATE_VERIFY_FAILED")) {
-    return "the server at " + address +
-           " shows a certificate that the authority of --tls-ca has not signed or that is not valid now; name the "
-           "authority that signed it, or have it renewed";
+    return "the certificate of the server at " + address +
+           " has expired or is not signed by the authority of --tls-ca; name the authority that signed it, or renew "
+           "the certificate";
   }
   if (has_part(reason, "Peer name") || has_part(reason, "Hostname")) {
-    return "the server at " + address + " shows a certificate that is not one of " + host_of(address) +
-           "; name the host in --server as its certificate does";
+    return "the certificate of the server at " + address + " is not valid for " + host_of(address) +
+           "; give --server a host name that the certificate lists";
   }
   if (has_part(reason, "wrong version number") || has_part(reason, "WRONG_VERSION_NUMBER")) {
-    return "the server at " + address + " does not talk TLS; leave out --tls-ca and CELLCRUSH_TLS_CA";
+    return "the server at " + address + " does not use TLS; leave out --tls-ca and CELLCRUSH_TLS_CA";
   }
   return "the server at " + address +
-         " has ended the connection; if it asks for a certificate, show one that its authority has signed, with "
+         " closed the connection; if it requires a client certificate, give one signed by its authority with "
          "--tls-cert and --tls-key";
 }
 
@@ -50,10 +50,10 @@ std::string connection_failure_text(const std::string& address, const Credential
   if (!may_still_answer(address, reason)) {
     if (credentials.tls) return tls_failure_text(address, reason);
     return "the server at " + address +
-           " does not answer in plain text; if it talks TLS, name the authority of its certificate with --tls-ca";
+           " does not answer in plain text; if it uses TLS, name the authority of its certificate with --tls-ca";
   }
   std::string message = "no server answers at " + address;
-  if (is_socket(address) && !std::filesystem::exists(address.substr(5), error)) message += " (there is no such socket)";
+  if (is_socket(address) && !std::filesystem::exists(address.substr(5), error)) message += " (no such socket)";
   return message + "; start cellcrushd, or name its address with --server";
 }
 

@@ -32,13 +32,11 @@ NamedText option_or_variable(const std::string& option_name, const std::string& 
 
 std::string read_credential_file(const NamedText& path) {
   constexpr std::size_t kLargest = 1024 * 1024;
-  std::ifstream stream(path.text, std::ios::binary);
+  std::ifstream stream;
+  if (const std::string failure = open_failure(path.text, stream); !failure.empty())
+    throw CommandError(ExitCode::refused, path.source + " " + failure);
   std::string text;
   for (std::istreambuf_iterator<char> next(stream), end; next != end && text.size() <= kLargest; ++next) text += *next;
-  if (!stream) {
-    throw CommandError(ExitCode::refused, with_suggestion(path.source + " " + path.text + ": cannot be read",
-                                                          find_nearest_file(path.text)));
-  }
   if (text.empty()) throw CommandError(ExitCode::refused, path.source + " " + path.text + ": is empty");
   if (text.size() > kLargest) throw CommandError(ExitCode::refused, path.source + " " + path.text + ": is too large");
   return text;
@@ -59,7 +57,7 @@ std::string checked_token(std::string text, const std::string& source) {
   const bool printable =
       std::all_of(text.begin(), text.end(), [](char character) { return character > ' ' && character <= '~'; });
   if (text.empty() || text.size() > 1024 || !printable)
-    throw CommandError(ExitCode::refused, source + ": holds no token, which is a single word");
+    throw CommandError(ExitCode::refused, source + ": holds no token; a token is a single word");
   return text;
 }
 
@@ -110,10 +108,10 @@ Credentials read_credentials(const CredentialFiles& files, const std::string& ad
   Credentials out;
   if (address.starts_with("unix:")) return out;
   if (files.certificate.empty() != files.key.empty())
-    throw CommandError(ExitCode::refused, "--tls-cert and --tls-key go together; give both, or none");
+    throw CommandError(ExitCode::refused, "--tls-cert and --tls-key go together; give both or neither");
   const NamedText authority = option_or_variable("--tls-ca", files.authority, "CELLCRUSH_TLS_CA");
   if (authority.text.empty() && !files.certificate.empty())
-    throw CommandError(ExitCode::refused, "--tls-cert needs the authority of the server's certificate; give --tls-ca");
+    throw CommandError(ExitCode::refused, "--tls-cert requires --tls-ca, the authority of the server's certificate");
   out.token = find_token(files.token);
   if (!authority.text.empty()) {
     out.tls = true;
@@ -126,8 +124,8 @@ Credentials read_credentials(const CredentialFiles& files, const std::string& ad
   if (!out.token.empty() && !out.tls && !is_this_machine(address)) {
     throw CommandError(ExitCode::refused,
                        "the token is not sent to " + address +
-                           " in plain text, where others could read it; name the authority of the server's certificate "
-                           "with --tls-ca or CELLCRUSH_TLS_CA");
+                           " in plain text, where others could read it; turn on TLS with --tls-ca or "
+                           "CELLCRUSH_TLS_CA");
   }
   return out;
 }

@@ -32,9 +32,8 @@ MeshFrame fetch_frame(Connection& connection, const v1::GetFrameRequest& request
   const grpc::Status status = reader->Finish();
   if (!status.ok()) throw error_of(status);
   if (!fits_together(whole)) {
-    throw CommandError(ExitCode::cut_off, "the frame of " + request.name() +
-                                              " came incomplete: its mesh, positions and "
-                                              "plastic fractions do not fit together");
+    throw CommandError(ExitCode::cut_off, "received an incomplete frame of " + request.name() +
+                                              ": its mesh, positions and plastic fractions do not match");
   }
   return whole;
 }

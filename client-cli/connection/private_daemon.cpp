@@ -45,7 +45,7 @@ fs::path make_socket_folder() {
   if (name.size() <= kLongestFolder && mkdtemp(name.data()) != nullptr) return name;
   name = "/tmp/cellcrush-XXXXXX";
   if (mkdtemp(name.data()) == nullptr)
-    throw CommandError(ExitCode::refused, name + ": cannot be made: " + std::strerror(errno));
+    throw CommandError(ExitCode::refused, name + ": cannot be created: " + std::strerror(errno));
   return name;
 }
 
@@ -89,16 +89,17 @@ bool wait_until_it_listens(int output) {
 
 }  // namespace
 
-PrivateDaemon::PrivateDaemon(const fs::path& data) : folder_(make_socket_folder()) {
-  const fs::path log = data / "daemon.log";
+PrivateDaemon::PrivateDaemon(const fs::path& data, double time_limit_s)
+    : log_(data / "daemon.log"), folder_(make_socket_folder()) {
   // As many workers as cores, since a job may use the cores that no other waits for.
   std::vector<std::string> words = {daemon_program(), "--data", data.string(), "--listen", address()};
+  if (time_limit_s > 0.0) words.insert(words.end(), {"--max-job-time", fmt::format("{}", time_limit_s)});
   std::vector<char*> pointers;
   pointers.reserve(words.size() + 1);
   for (auto& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
   std::array<int, 2> output{-1, -1};
-  const int log_file = open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
+  const int log_file = open(log_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
   const bool is_ready = log_file >= 0 && pipe2(output.data(), O_CLOEXEC) == 0;
   const pid_t parent = getpid();
   if (is_ready) pid_ = fork();
@@ -110,7 +111,7 @@ PrivateDaemon::PrivateDaemon(const fs::path& data) : folder_(make_socket_folder(
   const bool serves = pid_ > 0 && wait_until_it_listens(output[0]);
   if (output[0] >= 0) close(output[0]);
   if (serves) return;
-  std::string why = pid_ > 0 ? last_line_of(log) : std::strerror(cause);
+  std::string why = pid_ > 0 ? last_line_of(log_) : std::strerror(cause);
   if (why.empty()) why = "it cannot be run. Install it beside cellcrush or in a folder of $PATH.";
   if (pid_ > 0) {
     kill(pid_, SIGKILL);
@@ -129,16 +130,23 @@ PrivateDaemon::~PrivateDaemon() {
   }
 }
 
+bool PrivateDaemon::has_ended() {
+  if (pid_ >= 0 && waitpid(pid_, nullptr, WNOHANG) == 0) return false;
+  pid_ = -1;
+  std::error_code none;
+  fs::remove_all(folder_, none);
+  return true;
+}
+
 void PrivateDaemon::stop() {
   if (pid_ < 0) return;
   kill(pid_, SIGTERM);
   const auto limit = Clock::now() + kPatience;
   while (waitpid(pid_, nullptr, WNOHANG) == 0) {
     if (Clock::now() > limit) {
-      throw CommandError(ExitCode::refused,
-                         fmt::format("cellcrushd, process {}, has not ended within {} s. End it with "
-                                     "kill {} before you go on.",
-                                     pid_, kPatience.count(), pid_));
+      throw CommandError(ExitCode::refused, fmt::format("cellcrushd (process {}) did not exit within {} s. End it with "
+                                                        "`kill {}` before you continue.",
+                                                        pid_, kPatience.count(), pid_));
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }

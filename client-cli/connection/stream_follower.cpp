@@ -53,13 +53,13 @@ bool follow_stream(const FollowedStream& stream, const Interruption& interruptio
     if (reading.status.ok() && reading.complete) return true;
     if (interruption.requested()) return false;
     if (!reading.status.ok() && !may_recover(reading.status.error_code())) throw stream.refusal(reading.status);
-    const std::string reason = reading.status.ok() ? "the server ended the stream before the end of " + stream.name
+    const std::string reason = reading.status.ok() ? "the server closed the stream before " + stream.name + " ended"
                                                    : error_of(reading.status).message();
     if (reading.advanced) attempt = 0;
     if (attempt == kPauses.size()) {
-      throw CommandError(ExitCode::cut_off, "the watch of " + stream.name + " was cut off: " + reason +
-                                                "; it may still run: `cellcrush watch " + stream.name +
-                                                "` picks it up");
+      throw CommandError(ExitCode::cut_off, "lost the watch of " + stream.name + ": " + reason +
+                                                "; it may still be running: `cellcrush watch " + stream.name +
+                                                "` shows it again");
     }
     if (attempt == 0) stream.on_break(reason);
     if (interruption.wait_for(kPauses[attempt++])) return false;

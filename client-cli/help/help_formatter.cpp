@@ -1,18 +1,35 @@
 #include "help/help_formatter.h"
 
+#include <algorithm>
+#include <sstream>
+
 #include "help/wrapped_text.h"
+#include "terminal/terminal.h"
 
 namespace cellcrush::client {
 
 namespace {
 
-constexpr std::size_t kNameColumns = 28;
-constexpr int kDescriptionColumns = 72;
+constexpr int kMostColumns = 100;
+// Descriptions stand beside the names, or below them where the terminal is narrow.
+constexpr int kNameColumns = 28;
+constexpr int kNarrowNameColumns = 6;
+constexpr int kNarrow = 70;
+
+// Lines that are too long are broken; examples, which are indented, are not.
+std::string wrap_lines(const std::string& text, int width) {
+  std::istringstream lines(text);
+  std::string out;
+  for (std::string line; std::getline(lines, line);) {
+    out += (line.starts_with(' ') || line.empty() ? line : wrap_text(line, width)) + '\n';
+  }
+  return out;
+}
 
 }  // namespace
 
-HelpFormatter::HelpFormatter() {
-  column_width(kNameColumns);
+HelpFormatter::HelpFormatter() : width_(std::min(terminal_width(), kMostColumns)) {
+  column_width(static_cast<std::size_t>(width_ < kNarrow ? kNarrowNameColumns : kNameColumns));
   label("SUBCOMMAND", "COMMAND");
   label("Positionals", "Arguments");
 }
@@ -33,7 +50,22 @@ std::string HelpFormatter::option_groups(const CLI::App* app) const {
 }
 
 std::string HelpFormatter::make_option_desc(const CLI::Option* option) const {
-  return wrap_text(option->get_description(), kDescriptionColumns);
+  return wrap_text(option->get_description(), description_columns());
 }
+
+std::string HelpFormatter::make_subcommand(const CLI::App* command) const {
+  std::ostringstream out;
+  CLI::detail::format_help(out, command->get_name(), wrap_text(command->get_description(), description_columns()),
+                           get_column_width());
+  return out.str();
+}
+
+std::string HelpFormatter::make_description(const CLI::App* app) const {
+  return wrap_lines(app->get_description(), width_);
+}
+
+std::string HelpFormatter::make_footer(const CLI::App* app) const { return wrap_lines(app->get_footer(), width_); }
+
+int HelpFormatter::description_columns() const { return std::max(width_ - static_cast<int>(get_column_width()), 20); }
 
 }  // namespace cellcrush::client

@@ -59,7 +59,7 @@ std::string man_page(const CLI::App& app, const std::string& version) {
   for (const CLI::App* command : visible_commands(app)) commands += command_section(*command);
   return fmt::format(
       ".TH CELLCRUSH 1 \"\" \"cellcrush {}\" \"User Commands\"\n"
-      ".SH NAME\ncellcrush \\- command line of cellcrushd, which crushes cellular materials\n"
+      ".SH NAME\ncellcrush \\- simulate the in-plane crushing of honeycombs\n"
       ".SH SYNOPSIS\n.B cellcrush\n[OPTIONS] COMMAND ...\n"
       ".SH DESCRIPTION\n{}\n.PP\n{}"
       ".SH OPTIONS\n{}"

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "results/field_value.h"
 
@@ -61,6 +62,20 @@ std::vector<std::string> find_differences(const std::vector<const v1::Case*>& ca
     if (path != "title" && std::any_of(cases.begin(), cases.end(), differs)) differences.push_back(path);
   }
   return differences;
+}
+
+std::vector<std::string> find_varied_fields(const std::vector<const v1::Case*>& cases) {
+  std::map<std::string, std::vector<const v1::Case*>> groups;
+  for (const v1::Case* scene : cases) groups[base_title(scene->title())].push_back(scene);
+  std::map<std::string, std::size_t> uses;
+  for (const auto& [title, group] : groups) {
+    for (const std::string& field : find_differences(group)) uses[field] += group.size();
+  }
+  std::vector<std::string> fields;
+  for (const auto& [field, count] : uses) fields.push_back(field);
+  std::stable_sort(fields.begin(), fields.end(),
+                   [&](const std::string& a, const std::string& b) { return uses[a] > uses[b]; });
+  return fields;
 }
 
 std::string field_values_text(const v1::Case& scene, const std::vector<std::string>& fields) {

@@ -14,6 +14,9 @@ std::string base_title(const std::string& title);
 /// them. Those in lists are left out.
 std::vector<std::string> find_differences(const std::vector<const v1::Case*>& cases);
 
+/// Those in which cases of one title differ, those of the most cases first.
+std::vector<std::string> find_varied_fields(const std::vector<const v1::Case*>& cases);
+
 /// Values of a case's fields in words: "speed = 50 m/s, wall thickness = 0.3 mm"; fields that it does not have are left
 /// out.
 std::string field_values_text(const v1::Case& scene, const std::vector<std::string>& fields);

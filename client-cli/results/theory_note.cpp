@@ -7,13 +7,13 @@ std::string theory_note(const v1::Lattice& lattice) {
   if (lattice.has_square() || lattice.has_triangle()) {
     note = lattice.has_square() ? "Squares" : "Triangles";
     note +=
-        " are stretch-dominated: the quasi-static stress is that at which straight walls yield along their axes, an "
-        "upper bound. Walls that buckle crush at far less, so neither it nor the shock theory built on it (Eq. 51) "
+        " are stretch-dominated: the quasi-static stress is the axial yield stress of straight walls, an upper bound. "
+        "Walls that buckle crush at a far lower stress, so neither it nor the shock theory built on it (Eq. 51) "
         "predicts the plateau.";
   }
   if (lattice.inclusions().rows_size() > 0) {
     note += note.empty() ? "" : " ";
-    note += "Theory leaves out the stiff cells.";
+    note += "The theory ignores the stiff cells.";
   }
   return note;
 }

@@ -31,8 +31,8 @@ std::string material_text(const v1::Material& material) {
 
 // What a crush has and a frame under loads of its own has not.
 void add_crush_rows(Table& table, const v1::CheckCaseResponse& check) {
-  table.add({"length along the crush", number_text(check.length_mm(), 4), "mm"});
-  table.add({"width across it", number_text(check.width_mm(), 4), "mm"});
+  table.add({"length (crush direction)", number_text(check.length_mm(), 4), "mm"});
+  table.add({"width (transverse)", number_text(check.width_mm(), 4), "mm"});
   table.add({"relative density", number_text(100 * check.relative_density()), "%"});
 }
 
@@ -95,7 +95,7 @@ std::string check_text(const v1::CheckCaseResponse& check, int width) {
   const std::string note = theory_note(completed.lattice());
   if (!note.empty() && check.theory().shock_mpa() > 0) text += '\n' + wrapped("Note: " + note, width, "  ", "  ");
   text += fidelity_text(check, width);
-  if (check.modelled_size() > 0) text += "\nmodelled, and left out\n";
+  if (check.modelled_size() > 0) text += "\nmodel and simplifications\n";
   for (const std::string& sentence : check.modelled()) text += wrapped(printable(sentence), width, "  - ", "    ");
   return text;
 }

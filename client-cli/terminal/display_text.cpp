@@ -18,7 +18,31 @@ std::size_t size_of_columns(std::string_view text, int columns) {
   return end;
 }
 
+constexpr std::string_view kNoBreakBlank = "\u00A0";
+
+std::string replaced(std::string_view text, std::string_view from, std::string_view to) {
+  std::string out;
+  while (true) {
+    const std::size_t found = text.find(from);
+    out += text.substr(0, found);
+    if (found == std::string_view::npos) return out;
+    out += to;
+    text.remove_prefix(found + from.size());
+  }
+}
+
+// Bytes of a word's beginning that stand on a line: up to a dot, underscore, slash or hyphen in its second half.
+std::size_t size_of_part(std::string_view word, int width) {
+  const std::size_t most = size_of_columns(word, width);
+  const std::size_t joint = word.substr(0, most).find_last_of("._/-");
+  return joint != std::string_view::npos && joint + 1 > most / 2 ? joint + 1 : most;
+}
+
 }  // namespace
+
+std::string unbreakable(std::string_view text) { return replaced(text, " ", kNoBreakBlank); }
+
+std::string breakable(std::string_view text) { return replaced(text, kNoBreakBlank, " "); }
 
 int display_width(std::string_view text) {
   return static_cast<int>(
@@ -39,13 +63,14 @@ std::vector<std::string> wrap_words(std::string_view text, int width) {
     if (used > 0 && used + 1 + display_width(word) > width) lines.emplace_back();
     if (!lines.back().empty()) lines.back() += ' ';
     while (lines.back().empty() && display_width(word) > width) {
-      const std::size_t kept = size_of_columns(word, width);
+      const std::size_t kept = size_of_part(word, width);
       lines.back() = word.substr(0, kept);
       lines.emplace_back();
       word.erase(0, kept);
     }
     lines.back() += word;
   }
+  for (std::string& line : lines) line = breakable(line);
   return lines;
 }
 

@@ -19,8 +19,9 @@ using Align = Table::Align;
 // No error is claimed that the scatter of seeds would hide.
 std::string error_text(const v1::MeasuredError& error) {
   if (error.error_relative() <= error.uncertainty_relative())
-    return fmt::format("under {}", percent_text(error.uncertainty_relative()));
-  return fmt::format("{} ± {}", percent_text(error.error_relative()), percent_text(error.uncertainty_relative()));
+    return "under " + unbreakable(percent_text(error.uncertainty_relative()));
+  return unbreakable(percent_text(error.error_relative())) + ' ' +
+         unbreakable("± " + percent_text(error.uncertainty_relative()));
 }
 
 // The forecast that names the scenes in which errors were measured; null when the case's own fields leave none.
@@ -41,7 +42,7 @@ std::vector<std::string> row_of(const v1::FidelityForecast& forecast) {
                                   duration_text(forecast.predicted_seconds())};
   for (const v1::MeasuredError& error : forecast.errors()) row.push_back(error_text(error));
   if (forecast.errors_size() == 0) {
-    row.push_back("not known, as the case gives " + given_text(forecast));
+    row.push_back("unknown: the case sets " + given_text(forecast));
   }
   return row;
 }
@@ -68,14 +69,15 @@ std::string scatter_text(const v1::FidelityForecast& measured) {
 std::string fidelity_text(const v1::CheckCaseResponse& check, int width) {
   if (check.fidelities_size() == 0) return {};
   if (are_all_the_same(check)) {
-    return '\n' + wrapped(
-                      "speed against accuracy: numerics.fidelity changes nothing, and the error is not known, as the "
-                      "case gives " +
-                          given_text(check.fidelities(0)),
-                      width);
+    return '\n' +
+           wrapped(
+               "cost and accuracy: numerics.fidelity changes nothing, and the error is unknown, because the case "
+               "sets " +
+                   given_text(check.fidelities(0)),
+               width);
   }
   const v1::FidelityForecast* measured = find_measured(check);
-  std::vector<std::string> heading = {"fidelity", "elements a wall", "predicted time"};
+  std::vector<std::string> heading = {"fidelity", "elements per wall", "predicted time"};
   std::vector<Align> columns = {Align::left, Align::right, Align::right};
   if (measured != nullptr) {
     for (const v1::MeasuredError& error : measured->errors()) heading.push_back(printable(error.measure()));
@@ -86,11 +88,11 @@ std::string fidelity_text(const v1::CheckCaseResponse& check, int width) {
   Table table(columns);
   table.add(heading);
   for (const v1::FidelityForecast& forecast : check.fidelities()) table.add(row_of(forecast));
-  std::string text = "\nspeed against accuracy, by numerics.fidelity\n" + table.text(2, width);
+  std::string text = "\ncost and accuracy by numerics.fidelity\n" + table.text(2, width);
   if (measured != nullptr) {
     text += wrapped(
-        fmt::format("Errors are those of means over seeds, from the converged solutions of the scenes named. One "
-                    "crush of {} scatters by {}.",
+        fmt::format("Errors compare means over seeds with converged solutions of the named cases. A single {} run "
+                    "scatters by {}.",
                     v1::Numerics::Fidelity_Name(measured->fidelity()), scatter_text(*measured)),
         width, "  ", "  ");
   }

@@ -1,7 +1,6 @@
 #include "terminal/job_list_text.h"
 
 #include <algorithm>
-#include <map>
 #include <utility>
 
 #include "results/case_differences.h"
@@ -16,21 +15,6 @@ namespace {
 
 using Align = Table::Align;
 
-// Fields in which jobs of one title differ, those of the most jobs first.
-std::vector<std::string> find_varied_fields(const std::vector<v1::Job>& jobs) {
-  std::map<std::string, std::vector<const v1::Case*>> groups;
-  for (const v1::Job& job : jobs) groups[base_title(job.case_().title())].push_back(&job.case_());
-  std::map<std::string, std::size_t> uses;
-  for (const auto& [title, cases] : groups) {
-    for (const std::string& field : find_differences(cases)) uses[field] += cases.size();
-  }
-  std::vector<std::string> fields;
-  for (const auto& [field, count] : uses) fields.push_back(field);
-  std::stable_sort(fields.begin(), fields.end(),
-                   [&](const std::string& a, const std::string& b) { return uses[a] > uses[b]; });
-  return fields;
-}
-
 std::string also_varied_text(const std::vector<std::string>& fields, std::size_t shown, int width) {
   if (fields.size() <= shown) return {};
   std::string text = "Also varied: ";
@@ -44,7 +28,9 @@ std::string job_list_text(const std::vector<v1::Job>& jobs, int width) {
   constexpr std::size_t kMostFields = 4;
   constexpr std::size_t kHeadings = 2;
   if (jobs.empty()) return "no jobs\n";
-  const auto varied = find_varied_fields(jobs);
+  std::vector<const v1::Case*> cases;
+  for (const v1::Job& job : jobs) cases.push_back(&job.case_());
+  const auto varied = find_varied_fields(cases);
   const std::vector<std::string> fields(varied.begin(), varied.begin() + std::min(varied.size(), kMostFields));
   std::vector<Align> columns = {Align::left, Align::left, Align::right, Align::right};
   columns.insert(columns.end(), fields.size(), Align::right);
@@ -63,7 +49,7 @@ std::string job_list_text(const std::vector<v1::Job>& jobs, int width) {
   std::string title_above;
   for (const v1::Job& job : jobs) {
     const std::string title = base_title(job.case_().title());
-    if (title != title_above) table.add_title(title.empty() ? "without a title" : title);
+    if (title != title_above) table.add_title(title.empty() ? "untitled" : title);
     title_above = title;
     const bool plateau = job.summary().has_plateau_stress_impact_mpa();
     const bool started = job.state() != v1::PENDING && job.has_progress();

@@ -31,7 +31,7 @@ void add_progress_rows(Table& table, const v1::Job& job) {
   if (!job.case_().lattice().has_frame()) text += fmt::format(", strain {:.3f}", progress.strain());
   table.add({"progress",
              text + fmt::format(", step {} of {}", count_text(progress.step()), count_text(progress.step_count()))});
-  if (progress.stalled()) table.add({"", "the worker stands still, and is replaced if that goes on"});
+  if (progress.stalled()) table.add({"", "the worker has stalled; it is replaced if it stays so"});
   if (job.state() == v1::RUNNING && progress.steps_per_second() > 0) {
     table.add({"time left", duration_text(progress.seconds_left()) + " at " + number_text(progress.steps_per_second()) +
                                 " steps/s"});
@@ -48,7 +48,7 @@ std::string stage_times_text(const v1::StageTimes& times, int width) {
   for (const auto& [name, seconds] : stages) all += seconds;
   if (all <= 0.0) return {};
   Table table({Align::left, Align::right, Align::right});
-  table.add({"time of the steps by stage", number_text(all) + " s"});
+  table.add({"step time by stage", number_text(all) + " s"});
   for (const auto& [name, seconds] : stages) {
     table.add({name, number_text(seconds) + " s", percent_text(seconds / all)});
   }
@@ -90,7 +90,7 @@ std::string description_text(const v1::Job& job, int width) {
   if (job.worker_pid() != 0) table.add({"worker process", std::to_string(job.worker_pid())});
   if (job.attempt() > 1) {
     table.add(
-        {"workers", fmt::format("{}, as {} {} lost or left the job; what they did since a checkpoint was done again",
+        {"workers", fmt::format("{}; {} {} lost or left the job, and the work since the last checkpoint was repeated",
                                 job.attempt(), job.attempt() - 1, job.attempt() == 2 ? "was" : "were")});
   }
   if (job.has_progress() && !is_final(job.state())) add_progress_rows(table, job);

@@ -96,7 +96,7 @@ void describe_frame(const v1::Frame& frame, Lines& lines) {
                                                             : names_text(texts_of(frame.supports(), support_text)));
   describe_masses(frame, lines);
   describe_loads(frame, lines);
-  lines.emplace_back("contact between beams", frame.self_contact() ? "looked for" : "left out");
+  lines.emplace_back("contact between beams", frame.self_contact() ? "modelled" : "ignored");
   if (frame.watched_nodes_size() > 0) lines.emplace_back("watched nodes", names_text(frame.watched_nodes()));
   if (frame.has_end_time_s()) lines.emplace_back("end time", fmt::format("{} s", frame.end_time_s()));
 }
@@ -110,15 +110,15 @@ void describe_walls(const char* kind, const Regular& regular, Lines& lines) {
 void describe_hexagon(const v1::Lattice::Hexagon& hexagon, Lines& lines) {
   describe_walls("hexagons", hexagon, lines);
   if (hexagon.has_vertical_wall_thickness_mm() && hexagon.vertical_wall_thickness_mm() != hexagon.wall_thickness_mm()) {
-    lines.back().second += fmt::format("; those along y {:.6g} mm", hexagon.vertical_wall_thickness_mm());
+    lines.back().second += fmt::format("; along y {:.6g} mm", hexagon.vertical_wall_thickness_mm());
   }
 }
 
 void describe_changes(const v1::Lattice& lattice, Lines& lines) {
   if (lattice.imperfection().amplitude_mm() > 0.0) {
     lines.emplace_back("imperfection",
-                       fmt::format("joints off by up to {:.6g} mm, seed {}", lattice.imperfection().amplitude_mm(),
-                                   lattice.imperfection().seed()));
+                       fmt::format("joints displaced by up to {:.6g} mm, seed {}",
+                                   lattice.imperfection().amplitude_mm(), lattice.imperfection().seed()));
   }
   if (lattice.inclusions().rows_size() > 0) {
     std::string text = fmt::format("stiff cells in row{} {}", lattice.inclusions().rows_size() == 1 ? "" : "s",

@@ -46,11 +46,16 @@ void OutputFile::write(std::string_view bytes) {
   if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) fail("cannot be written");
 }
 
-void OutputFile::commit() {
+void OutputFile::finish() {
+  if (file_ == nullptr) return;
   if (std::fflush(file_) != 0 || fsync(fileno(file_)) != 0) fail("cannot be written");
   const int closed = std::fclose(std::exchange(file_, nullptr));
   if (closed != 0) fail("cannot be written");
-  if (std::rename(temporary_.c_str(), path_.c_str()) != 0) fail("cannot be put in place");
+}
+
+void OutputFile::commit() {
+  finish();
+  if (std::rename(temporary_.c_str(), path_.c_str()) != 0) fail("cannot be renamed into place");
   temporary_.clear();
 }
 
@@ -58,17 +63,20 @@ void OutputFile::fail(const char* what) const {
   throw CommandError(ExitCode::refused, path_.string() + ": " + what + ": " + std::strerror(errno));
 }
 
-void check_may_overwrite(const std::filesystem::path& path, std::initializer_list<std::string_view> signatures) {
+bool begins_with_one_of(const std::filesystem::path& path, std::initializer_list<std::string_view> signatures) {
   std::error_code error;
   const auto status = std::filesystem::symlink_status(path, error);
-  if (status.type() == std::filesystem::file_type::not_found) return;
   const std::size_t longest = std::ranges::max(signatures, {}, &std::string_view::size).size();
   std::string begin(std::filesystem::is_regular_file(status) ? longest : 0, '\0');
   std::ifstream file(path, std::ios::binary);
   file.read(begin.data(), static_cast<std::streamsize>(begin.size()));
-  for (const std::string_view signature : signatures) {
-    if (begin.starts_with(signature)) return;
-  }
+  return std::ranges::any_of(signatures, [&](std::string_view signature) { return begin.starts_with(signature); });
+}
+
+void check_may_overwrite(const std::filesystem::path& path, std::initializer_list<std::string_view> signatures) {
+  std::error_code error;
+  const auto status = std::filesystem::symlink_status(path, error);
+  if (status.type() == std::filesystem::file_type::not_found || begins_with_one_of(path, signatures)) return;
   throw CommandError(ExitCode::refused,
                      path.string() + ": exists and was not written by cellcrush; move it away or name another folder");
 }

@@ -107,7 +107,7 @@ std::string bar_text(double fraction, int width, const Terminal& terminal) {
 std::vector<std::string> progress_lines(const JobView& view, int width, const Terminal& terminal) {
   constexpr int kLongestBar = 100;
   constexpr int kShortestBar = 8;
-  if (view.job().state() == v1::PENDING) return {cut("waits for a worker", width)};
+  if (view.job().state() == v1::PENDING) return {cut("waiting for a worker", width)};
   const std::string percent = fmt::format("{:>8}", percent_text(view.progress().fraction()));
   const std::string remaining = remaining_text(view);
   // Room for the longest duration, so that the bar does not change its width with every second.
@@ -131,7 +131,7 @@ std::vector<std::string> progress_lines(const JobView& view, int width, const Te
 
 std::string progress_line(const JobView& view) {
   std::string line = printable(view.job().name()) + "  ";
-  if (view.job().state() == v1::PENDING) return line + "PENDING: waits for a worker";
+  if (view.job().state() == v1::PENDING) return line + "PENDING: waiting for a worker";
   if (is_final(view.job().state())) return line + v1::JobState_Name(view.job().state());
   line += fmt::format("{:>7}", percent_text(view.progress().fraction()));
   for (const std::string& field : progress_fields(view)) line.append("  ").append(field);

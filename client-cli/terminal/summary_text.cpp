@@ -57,13 +57,14 @@ void add_plateau_rows(Table& table, const v1::Summary& summary) {
 }
 
 // A line of its own: words in a column of numbers would widen it.
-std::string mode_text(const v1::Summary& summary) {
+std::string mode_text(const v1::Summary& summary, int width) {
   const std::string mode = crush_mode_text(summary.crush_mode());
   if (mode.empty()) return {};
-  return fmt::format("  crush mode: {}{}\n", mode,
-                     summary.has_crush_mode_strain()
-                         ? fmt::format(", first seen at strain {:.2f}", summary.crush_mode_strain())
-                         : std::string());
+  return wrapped(fmt::format("crush mode: {}{}", mode,
+                             summary.has_crush_mode_strain()
+                                 ? fmt::format(", first seen at strain {:.2f}", summary.crush_mode_strain())
+                                 : std::string()),
+                 width, "  ", "    ");
 }
 
 std::string front_text(const v1::FrontSummary& front, int width) {
@@ -75,8 +76,8 @@ std::string front_text(const v1::FrontSummary& front, int width) {
   row("strain", front.strain_behind(), front.strain_ahead(), "");
   row("velocity", front.velocity_behind_m_per_s(), front.velocity_ahead_m_per_s(), "m/s");
   table.add({"stress", "", number_text(front.stress_ahead_mpa()), "MPa, ahead of the front (sigma_A of Eq. 52)"});
-  table.add({"solid fraction", number_text(front.solid_fraction_behind()), "", "by the walls' undeformed volume"});
-  table.add({"", number_text(front.wall_fraction_behind()), "", "by the walls' lengths of now"});
+  table.add({"solid fraction", number_text(front.solid_fraction_behind()), "", "from the undeformed wall volume"});
+  table.add({"", number_text(front.wall_fraction_behind()), "", "from the current wall lengths"});
   return table.text(2, width);
 }
 
@@ -85,10 +86,10 @@ void add_quasi_static_rows(Table& table, const v1::Summary& summary) {
   constexpr double kSlow = 0.1;
   const v1::QuasiStatic& found = summary.quasi_static();
   if (!summary.has_quasi_static() || found.kinetic_share() >= kSlow) return;
-  table.add({"plates differ beyond 5 % strain by", percent_text(found.plate_difference_relative(), 2), "",
-             "of their mean stress; at most " + percent_text(found.plate_difference_greatest(), 2) +
-                 " in any 5 % of strain"});
-  table.add({"kinetic energy at most", percent_text(found.kinetic_share(), 2), "", "of the plastic work"});
+  table.add({"plate stress difference beyond 5 % strain", percent_text(found.plate_difference_relative(), 2), "",
+             "of the mean stress; at most " + percent_text(found.plate_difference_greatest(), 2) +
+                 " in any 5 % strain interval"});
+  table.add({"largest kinetic energy", percent_text(found.kinetic_share(), 2), "", "of the plastic work"});
 }
 
 std::string warning_text(const v1::Warning& warning, int width) {
@@ -106,10 +107,10 @@ std::string ledger_text(const v1::Ledger& ledger, int width) {
   const auto row = [&](const char* what, double energy) {
     table.add({what, number_text(1e-3 * energy) + " J", whole > 0.0 ? percent_text(energy / whole, 2) : ""});
   };
-  row("ledger: work of plates and loads", ledger.work_external_mj());
+  row("energy ledger: work of plates and loads", ledger.work_external_mj());
   // Round-off of the sum is no energy.
   const double start = spent - ledger.work_external_mj();
-  if (std::abs(start) > 1e-9 * whole) row("energy at the start", start);
+  if (std::abs(start) > 1e-9 * whole) row("initial energy", start);
   row("kinetic energy", ledger.kinetic_mj());
   row("elastic energy of the walls", ledger.elastic_mj());
   row("plastic work", ledger.plastic_mj());
@@ -134,7 +135,7 @@ std::string crush_mode_code(v1::CrushMode mode) {
 
 std::string crush_mode_text(v1::CrushMode mode) {
   switch (mode) {
-    case v1::CRUSH_MODE_NONE: return "none, as too few cells have collapsed";
+    case v1::CRUSH_MODE_NONE: return "none: too few cells have collapsed";
     case v1::CRUSH_MODE_X: return "crossed bands (X)";
     case v1::CRUSH_MODE_V: return "V-shaped band (V)";
     case v1::CRUSH_MODE_I: return "layer by layer (I)";
@@ -154,7 +155,7 @@ std::string summary_text(const v1::Summary& summary, const v1::Lattice& lattice,
   table.add({"energy ledger error", percent_text(summary.energy_error_relative(), 2)});
   table.add({"deepest penetration", percent_text(summary.deepest_penetration()), "", "of the thinner wall"});
   std::string text = table.text(2, width);
-  if (!frame) text += mode_text(summary);
+  if (!frame) text += mode_text(summary, width);
   const std::string note = theory_note(lattice);
   if (!note.empty() && summary.theory().shock_mpa() > 0) text += '\n' + wrapped("Note: " + note, width, "  ", "  ");
   for (const v1::Warning& warning : summary.warnings()) text += '\n' + warning_text(warning, width);

@@ -161,7 +161,7 @@ std::string sweep_chart_text(const v1::SweepTable& table, bool unicode, int widt
       canvas.put(all[i].x[k], stresses[k], glyphs.marks[i % glyphs.marks.size()]);
     }
   }
-  return "\n" + wrapped("plateau at the impact plate in MPa against " + axis_label(table.fields(0)), width) +
+  return "\n" + wrapped("plateau stress at the impact plate (MPa) against " + axis_label(table.fields(0)), width) +
          framed(canvas, x, y, glyphs) + legend(all, shock.has_value(), glyphs);
 }
 

@@ -24,7 +24,7 @@ class SweepJsonDisplay : public SweepDisplay {
     print_json(response);
   }
   void on_break(const std::string& reason) override {
-    fmt::print(stderr, "cellcrush: the stream broke ({}); picking it up again\n", reason);
+    fmt::print(stderr, "cellcrush: stream interrupted ({}); reconnecting\n", reason);
   }
   void finish() override {}
 };
@@ -38,7 +38,7 @@ class SweepLineDisplay : public SweepDisplay {
     if (pending_ && Clock::now() - printed_ >= 1s) print();
   }
   void on_break(const std::string& reason) override {
-    fmt::print("{}  the stream broke ({}); picking it up again\n", printable(view_.sweep().name()), reason);
+    fmt::print("{}  stream interrupted ({}); reconnecting\n", printable(view_.sweep().name()), reason);
     std::fflush(stdout);
   }
   void finish() override {
@@ -68,7 +68,7 @@ class SweepLiveDisplay : public SweepDisplay {
   }
   // The last column stays free: some terminals wrap when it is filled.
   void on_break(const std::string& reason) override {
-    redraw_.show({cut("the stream broke (" + reason + "); picking it up again", terminal_width() - 1)});
+    redraw_.show({cut("stream interrupted (" + reason + "); reconnecting", terminal_width() - 1)});
   }
   void finish() override { draw(); }
 

@@ -28,15 +28,14 @@ std::string legend_text(const v1::SweepTable& table, int width) {
     if (summary.plateau_window_high() <= summary.plateau_window_low()) continue;
     return '\n' +
            wrapped(
-               fmt::format("Plateau: mean stress at the plate from {:.0f} to {:.0f} % strain; up to densif.: at the "
-                           "impact plate up to the densification strain. Absorbed energy: work of the impact "
-                           "plate up to 50 % strain.",
+               fmt::format("Plateau: mean plate stress from {:.0f} to {:.0f} % strain; up to densif.: at the impact "
+                           "plate up to the densification strain. Absorbed energy: work of the impact plate up to "
+                           "50 % strain.",
                            100 * summary.plateau_window_low(), 100 * summary.plateau_window_high()),
                width, "", "  ") +
            wrapped(
                "Theory: quasi-static (Gibson-Ashby), shock theory (Eq. 51), shock theory with the jumps measured at "
-               "the "
-               "front (Eq. 52). Crush mode: where cells collapse.",
+               "the front (Eq. 52). Crush mode: pattern of the collapsed cells.",
                width, "", "  ");
   }
   return {};
@@ -54,12 +53,11 @@ std::string fit_text(const v1::SweepTable& table, int width) {
   if (!fit) return {};
   const std::string formula =
       fmt::format("{:.4g}{}{}", fit->constant, signed_term(fit->linear, "V"), signed_term(fit->quadratic, "V^2"));
-  std::string text =
-      "\n" + wrapped("plateau at the impact plate in MPa, V in m/s", width) +
-      wrapped(fit->passes_through()
-                  ? "quadratic: " + formula + ", through the three points, so it shows no error"
-                  : "least-squares fit: " + formula + ", off by at most " + number_text(fit->largest_residual, 2),
-              width, "  ", "    ");
+  std::string text = "\n" + wrapped("plateau stress at the impact plate in MPa, V in m/s", width) +
+                     wrapped(fit->passes_through() ? "quadratic through the three points: " + formula
+                                                   : "least-squares fit: " + formula + ", largest residual " +
+                                                         number_text(fit->largest_residual, 2),
+                             width, "  ", "    ");
   if (const auto shock = find_shock_curve(all.front())) {
     text +=
         wrapped(fmt::format("shock theory (Eq. 51): {:.4g}{}", shock->constant, signed_term(shock->quadratic, "V^2")),

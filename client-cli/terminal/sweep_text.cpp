@@ -35,7 +35,7 @@ std::string values_text(const v1::SweepAxis& axis) {
   switch (axis.values_case()) {
     case v1::SweepAxis::kList: return fmt::format("{}", fmt::join(axis.list().values(), ", "));
     case v1::SweepAxis::kLinear: return range(axis.linear(), "evenly spaced");
-    case v1::SweepAxis::kLogarithmic: return range(axis.logarithmic(), "evenly spaced in the logarithm");
+    case v1::SweepAxis::kLogarithmic: return range(axis.logarithmic(), "logarithmically spaced");
     case v1::SweepAxis::kSeedCount: return fmt::format("1 to {}", axis.seed_count());
     default: return {};
   }
@@ -88,8 +88,8 @@ std::string description_text(const v1::Sweep& sweep, int width) {
   if (sweep.points_size() > 0) table.add({"points", std::to_string(sweep.points_size())});
   if (sweep.priority() != 0) table.add({"priority", std::to_string(sweep.priority())});
   if (sweep.time_limit_s() > 0.0) table.add({"time limit", duration_text(sweep.time_limit_s())});
-  if (sweep.max_parallel() > 0) table.add({"jobs at once", std::to_string(sweep.max_parallel())});
-  if (sweep.max_failures() > 0) table.add({"stops after failures", std::to_string(sweep.max_failures())});
+  if (sweep.max_parallel() > 0) table.add({"most jobs at once", std::to_string(sweep.max_parallel())});
+  if (sweep.max_failures() > 0) table.add({"most failures", std::to_string(sweep.max_failures())});
   if (!sweep.labels().empty()) table.add({"labels", labels_text(sweep.labels())});
   if (!sweep.owner().empty()) table.add({"owner", sweep.owner()});
   if (sweep.has_create_time()) table.add({"created", time_text(sweep.create_time())});

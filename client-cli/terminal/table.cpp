@@ -1,6 +1,7 @@
 #include "terminal/table.h"
 
 #include <algorithm>
+#include <cctype>
 #include <numeric>
 #include <string_view>
 
@@ -9,6 +10,8 @@ namespace cellcrush::client {
 namespace {
 
 constexpr int kGap = 2;
+
+bool is_letter(char character) { return std::isalpha(static_cast<unsigned char>(character)) != 0; }
 
 int longest_word(std::string_view text) {
   int longest = 0;
@@ -80,18 +83,45 @@ std::vector<int> Table::natural_widths() const {
   return widths;
 }
 
-// Narrows the left-aligned columns from the last to the first, as far as texts stay easy to read, and then further.
-void Table::narrow(std::vector<int>& widths, int room) const {
-  for (const int comfortable : {20, 8}) {
-    for (std::size_t i = columns_.size(); i-- > 0;) {
-      if (columns_[i] == Align::right) continue;
-      int least = std::min(widths[i], comfortable);
-      for (const Row& row : rows_) {
-        if (!row.is_title) least = std::max(least, std::min(longest_word(row.cells[i]), comfortable * 2));
-      }
-      widths[i] = std::clamp(widths[i] - (total_width(widths) - room), least, widths[i]);
+// Narrows the columns of one alignment from the last to the first, as far as `least` allows.
+void Table::narrow(std::vector<int>& widths, int room, Align align,
+                   const std::function<int(std::string_view cell)>& least) const {
+  for (std::size_t i = columns_.size(); i-- > 0;) {
+    if (columns_[i] != align) continue;
+    int lowest = 0;
+    for (const Row& row : rows_) {
+      if (!row.is_title) lowest = std::max(lowest, least(row.cells[i]));
     }
+    widths[i] = std::clamp(widths[i] - (total_width(widths) - room), std::min(lowest, widths[i]), widths[i]);
   }
+}
+
+// Texts first as far as they stay easy to read, then the headings of figures, then texts further.
+void Table::narrow(std::vector<int>& widths, int room) const {
+  const auto text = [](int comfortable, int longest) {
+    return [comfortable, longest](std::string_view cell) {
+      return std::max(std::min(display_width(cell), comfortable), std::min(longest_word(cell), longest));
+    };
+  };
+  narrow(widths, room, Align::left, text(20, 40));
+  narrow(widths, room, Align::right, [](std::string_view cell) {
+    return !cell.empty() && is_letter(cell.front()) ? longest_word(cell) : display_width(cell);
+  });
+  narrow(widths, room, Align::left, text(8, 20));
+}
+
+// Widens the left-aligned ones of some columns again, where `room` is left for their texts.
+std::vector<int> Table::widened(std::vector<int> widths, const std::vector<std::size_t>& columns, int room) const {
+  const std::vector<int> natural = natural_widths();
+  for (const std::size_t column : columns) room -= widths[column];
+  room -= kGap * (static_cast<int>(columns.size()) - 1);
+  for (const std::size_t column : columns) {
+    if (columns_[column] == Align::right) continue;
+    const int more = std::clamp(natural[column] - widths[column], 0, std::max(room, 0));
+    widths[column] += more;
+    room -= more;
+  }
+  return widths;
 }
 
 std::string Table::block(int indent, int width, const std::vector<int>& widths,
@@ -108,7 +138,7 @@ std::string Table::block(int indent, int width, const std::vector<int>& widths,
     for (const std::size_t column : columns) {
       // A cell that fits keeps its blanks.
       const bool fits = display_width(row.cells[column]) <= widths[column];
-      cells.push_back(fits ? std::vector{row.cells[column]} : wrap_words(row.cells[column], widths[column]));
+      cells.push_back(fits ? std::vector{breakable(row.cells[column])} : wrap_words(row.cells[column], widths[column]));
       height = std::max(height, cells.back().size());
     }
     for (std::size_t number = 0; number < height; ++number) {
@@ -130,13 +160,12 @@ std::string Table::text(int indent, int width) const {
   std::vector<int> widths = natural_widths();
   std::vector<std::size_t> all(columns_.size());
   std::iota(all.begin(), all.end(), 0U);
-  if (keys_ == 0 || total_width(widths) <= width - indent) {
-    narrow(widths, width - indent);
-    return block(indent, width, widths, all);
-  }
-  const std::vector<std::size_t> keys(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(keys_));
+  if (keys_ == 0) narrow(widths, width - indent);
+  if (total_width(widths) <= width - indent || columns_.size() < 3) return block(indent, width, widths, all);
+  const std::size_t key_count = std::max<std::size_t>(keys_, 1);
+  const std::vector<std::size_t> keys(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(key_count));
   std::string text;
-  for (std::size_t next = keys_; next < all.size();) {
+  for (std::size_t next = key_count; next < all.size();) {
     std::vector<std::size_t> columns = keys;
     int used = indent - kGap;
     for (const std::size_t key : keys) used += widths[key] + kGap;
@@ -144,7 +173,7 @@ std::string Table::text(int indent, int width) const {
       used += widths[next] + kGap;
       columns.push_back(next++);
     } while (next < all.size() && used + kGap + widths[next] <= width);
-    text += (text.empty() ? "" : "\n") + block(indent, width, widths, columns);
+    text += (text.empty() ? "" : "\n") + block(indent, width, widened(widths, columns, width - indent), columns);
   }
   return text;
 }

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <functional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -29,8 +31,9 @@ class Table {
 
   /// The lines, each beginning with `indent` blanks, none wider than `width` and without blanks at their
   /// ends; rows of empty cells have none. With keys
-  /// the columns that have no room follow in a second block below, behind the keys again. Without, the left-aligned
-  /// columns are narrowed and their texts broken between words, as far as words of 16 letters allow.
+  /// the columns that have no room follow in a second block below, behind the keys again. Without, the
+  /// columns are narrowed and their texts broken between words, figures never, as far as words of 20 letters allow;
+  /// where that is not enough the first column is the key.
   [[nodiscard]] std::string text(int indent, int width) const;
 
  private:
@@ -41,7 +44,11 @@ class Table {
 
   [[nodiscard]] std::string constant_text(std::size_t column, std::size_t headings, const std::string& value) const;
   [[nodiscard]] std::vector<int> natural_widths() const;
+  void narrow(std::vector<int>& widths, int room, Align align,
+              const std::function<int(std::string_view cell)>& least) const;
   void narrow(std::vector<int>& widths, int room) const;
+  [[nodiscard]] std::vector<int> widened(std::vector<int> widths, const std::vector<std::size_t>& columns,
+                                         int room) const;
   [[nodiscard]] std::string block(int indent, int width, const std::vector<int>& widths,
                                   const std::vector<std::size_t>& columns) const;
 

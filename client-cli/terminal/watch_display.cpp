@@ -24,7 +24,7 @@ class JobJsonDisplay : public WatchDisplay {
     print_json(event);
   }
   void on_break(const std::string& reason) override {
-    fmt::print(stderr, "cellcrush: the stream broke ({}); picking it up again\n", reason);
+    fmt::print(stderr, "cellcrush: stream interrupted ({}); reconnecting\n", reason);
   }
   void finish() override {}
 };
@@ -39,7 +39,7 @@ class JobLineDisplay : public WatchDisplay {
     if (view_.job().state() != before || (pending_ && Clock::now() - printed_ >= 1s)) print();
   }
   void on_break(const std::string& reason) override {
-    fmt::print("{}  the stream broke ({}); picking it up again\n", view_.job().name(), reason);
+    fmt::print("{}  stream interrupted ({}); reconnecting\n", view_.job().name(), reason);
     std::fflush(stdout);
   }
   void finish() override {
@@ -71,7 +71,7 @@ class JobLiveDisplay : public WatchDisplay {
     if (view_.job().state() != before || Clock::now() - drawn_ >= 100ms) draw();
   }
   void on_break(const std::string& reason) override {
-    redraw_.show({cut("the stream broke (" + reason + "); picking it up again", terminal_width() - 1)});
+    redraw_.show({cut("stream interrupted (" + reason + "); reconnecting", terminal_width() - 1)});
   }
   void finish() override { draw(); }
 

@@ -3,6 +3,9 @@
 #include <google/protobuf/text_format.h>
 #include <gtest/gtest.h>
 
+#include <sstream>
+
+#include "terminal/display_text.h"
 #include "terminal/fidelity_text.h"
 #include "terminal/job_text.h"
 
@@ -41,7 +44,7 @@ TEST(CaseText, AFrameIsDescribedALineAPart) {
                {"beams                  2, 0.5 to 1 mm thick\n", "supports               wall (x y rotation)\n",
                 "attached masses        on 1 node\n", "forces and moments     tip (y)\n",
                 "prescribed motion      elbow (rotation)\n", "initial velocities     tip\n", "-9.81 m/s2 along y",
-                "contact between beams  left out\n", "watched nodes          tip, elbow\n",
+                "contact between beams  ignored\n", "watched nodes          tip, elbow\n",
                 "end time               0.02 s\n", "depth                  5 mm\n"});
 }
 
@@ -57,14 +60,14 @@ TEST(CaseText, RegularLatticesAreDescribed) {
                {"squares  20 x 12 cells\n", "walls    5 mm long, 0.2 mm thick\n"});
   expect_parts(description_text(parse("lattice { triangle { columns: 8 rows: 9 side_mm: 5 wall_thickness_mm: 0.2 } "
                                       "imperfection { amplitude_mm: 0.01 seed: 4 } }")),
-               {"triangles     8 x 9 cells\n", "imperfection  joints off by up to 0.01 mm, seed 4\n"});
+               {"triangles     8 x 9 cells\n", "imperfection  joints displaced by up to 0.01 mm, seed 4\n"});
   expect_parts(
       description_text(parse("lattice { hexagon { columns: 8 rows: 9 side_mm: 5 wall_thickness_mm: 0.2 "
                              "vertical_wall_thickness_mm: 0.4 } inclusions { rows: 3 rows: 6 thickness_factor: 4 } } "
                              "contact { friction: 0.3 } material { youngs_modulus_mpa: 68000 yield_stress_mpa: 130 "
                              "hardening_modulus_mpa: 680 isotropic_fraction: 1 density_kg_per_m3: 2700 }"),
                        120),
-      {"5 mm long, 0.2 mm thick; those along y 0.4 mm\n", "stiff cells in rows 3, 6, walls 4 times as thick, rigid\n",
+      {"5 mm long, 0.2 mm thick; along y 0.4 mm\n", "stiff cells in rows 3, 6, walls 4 times as thick, rigid\n",
        "friction between walls  0.3\n",
        "E 68000 MPa, yield 130 MPa, hardening 680 MPa (100 % isotropic), 2700 kg/m3\n"});
   EXPECT_EQ(description_text(v1::Case()), "");
@@ -84,9 +87,9 @@ TEST(CaseText, TheCheckOfAFrameLeavesOutWhatOnlyACrushHas) {
   const std::string frame = check_text(check, 120);
   expect_parts(frame, {"frame of 3 nodes and 2 beams", "supports", "particles", "mass of the beams"});
   EXPECT_EQ(frame.find("relative density"), std::string::npos) << frame;
-  EXPECT_EQ(frame.find("across it"), std::string::npos) << frame;
+  EXPECT_EQ(frame.find("(transverse)"), std::string::npos) << frame;
   *check.mutable_completed_case() = parse("lattice { square { columns: 20 rows: 12 } }");
-  expect_parts(check_text(check, 120), {"squares, 20 x 12 cells", "relative density", "width across it"});
+  expect_parts(check_text(check, 120), {"squares, 20 x 12 cells", "relative density", "width (transverse)"});
 }
 
 TEST(FidelityText, ATimeAndAnErrorAFidelityAndNoneBelowItsScatter) {
@@ -99,9 +102,27 @@ TEST(FidelityText, ATimeAndAnErrorAFidelityAndNoneBelowItsScatter) {
                                                             &check));
   const std::string text = fidelity_text(check, 120);
   expect_parts(text, {"DRAFT", "12 s", "21.0 % ± 2.0 %", "STANDARD", "2 min 10 s", "under 2.5 %", "plateau of Type I",
-                      "One crush of DRAFT scatters by"});
+                      "A single DRAFT run scatters by"});
   EXPECT_EQ(text.find("1.3 %"), std::string::npos) << text;
   expect_parts(check_text(check, 120), {text.c_str()});
+}
+
+TEST(FidelityText, KeepsFiguresAndTheirPercentSignsTogether) {
+  v1::CheckCaseResponse check;
+  ASSERT_TRUE(google::protobuf::TextFormat::ParseFromString(R"(
+    fidelities { fidelity: DRAFT elements_per_wall: 1 predicted_seconds: 1200
+      errors { measure: "support plateau, Type I, 100 m/s" error_relative: 0.114 uncertainty_relative: 0.028 }
+      errors { measure: "limit stress, Example 1, 1 m/s" error_relative: 0.02 uncertainty_relative: 0.002 } }
+    fidelities { fidelity: REFERENCE elements_per_wall: 8 predicted_seconds: 99999
+      errors { measure: "support plateau, Type I, 100 m/s" uncertainty_relative: 0.009 }
+      errors { measure: "limit stress, Example 1, 1 m/s" uncertainty_relative: 0.002 } })",
+                                                            &check));
+  for (const int width : {120, 80, 60, 40}) {
+    const std::string text = fidelity_text(check, width);
+    expect_parts(text, {"20 min 00 s", "27 h 46 min", "11.4 %", "± 2.8 %", "± 0.2 %", "0.9 %"});
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) EXPECT_LE(display_width(line), width) << line;
+  }
 }
 
 TEST(FidelityText, WhatTheCaseGivesOtherwiseHasNoKnownError) {
@@ -114,7 +135,7 @@ TEST(FidelityText, WhatTheCaseGivesOtherwiseHasNoKnownError) {
     forecast.add_given_fields("section.depth_rule");
   }
   const std::string text = fidelity_text(check, 120);
-  expect_parts(text, {"REFERENCE", "not known, as the case gives section.depth_rule\n"});
+  expect_parts(text, {"REFERENCE", "unknown: the case sets section.depth_rule\n"});
   EXPECT_EQ(text.find("scatters"), std::string::npos) << text;
 }
 

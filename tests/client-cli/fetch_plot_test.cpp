@@ -1,6 +1,8 @@
 #include <cairo.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include <csignal>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -92,6 +94,55 @@ TEST(Fetch, ADownloadThatStaysCutEndsWithFourAndLeavesTheFolderAsItWas) {
   const fs::path folder = server.folder() / "run";
   EXPECT_EQ(run_program({"fetch", "test", "-o", folder, "--server", server.address()}).exit_code, 4);
   EXPECT_TRUE(fs::is_empty(folder));
+}
+
+TEST(Fetch, AFullDiskLeavesTheFolderAsItWas) {
+  Script script = finished_script();
+  script.samples.resize(9);
+  script.result = "CELLCRUSH RESULT 1 and little more";
+  const FakeServer server(script);
+  const fs::path folder = server.folder() / "run";
+  fs::create_directory(folder);
+  std::ofstream(folder / "result.h5") << "CELLCRUSH RESULT 1 of before";
+  // The history is longer than files may be, and short enough to be written as a whole at its end.
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  const rlimit small{1000, before.rlim_max};
+  const auto former = std::signal(SIGXFSZ, SIG_IGN);
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+  Program program({"fetch", "test", "-o", folder, "--server", server.address()});
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, former);
+  const ProgramResult result = program.wait();
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.errors.find("history.csv: cannot be written"), std::string::npos) << result.errors;
+  EXPECT_EQ(read_file(folder / "result.h5"), "CELLCRUSH RESULT 1 of before");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 1);
+}
+
+TEST(Fetch, RemovesTheFramesAndNodesThatItWroteForAnotherJob) {
+  Script script = finished_script();
+  script.samples.resize(1);
+  script.samples[0].add_watched()->set_node("tip");
+  fs::path folder;
+  {
+    const FakeServer other(script);
+    folder = fs::temp_directory_path() / ("cellcrush-fetch-" + other.folder().filename().string());
+    ASSERT_EQ(run_program({"fetch", "test", "-o", folder, "--frame", "0", "--server", other.address()}).exit_code, 0);
+    ASSERT_EQ(run_program({"fetch", "test", "-o", folder, "--server", other.address()}).exit_code, 0);
+    EXPECT_TRUE(fs::exists(folder / "frame_0000.csv")) << "the same job's";
+  }
+  std::ofstream(folder / "frame_mine.csv") << "my own notes\n";
+  script.samples[0].clear_watched();
+  script.job.mutable_case_()->set_depth_mm(7.0);
+  const FakeServer server(script);
+  const ProgramResult result = run_program({"fetch", "test", "-o", folder, "--server", server.address()});
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_NE(result.output.find("frame_0000.csv  removed (from another job)\n"), std::string::npos) << result.output;
+  EXPECT_FALSE(fs::exists(folder / "frame_0000.csv"));
+  EXPECT_FALSE(fs::exists(folder / "nodes.csv"));
+  EXPECT_TRUE(fs::exists(folder / "frame_mine.csv"));
+  fs::remove_all(folder);
 }
 
 TEST(Fetch, AJobWithoutAResultIsRefused) {
@@ -193,6 +244,11 @@ TEST(Movie, KeepsEveryFrameAsAPngOfOneSizeAndSaysWhatToDoWithoutFfmpeg) {
   ASSERT_EQ(result.exit_code, 0) << result.errors;
   EXPECT_EQ(result.output, folder.string() + "  4 frames\n");
   // Width and height stand behind the signature and the name of the first chunk.
+  const std::string json =
+      run_program({"movie", "test", "--frames", folder, "--json", "--server", server.address()}).output;
+  EXPECT_TRUE(json.starts_with('{') && json.ends_with("}\n")) << json;
+  EXPECT_NE(json.find("\"path\":\"" + folder.string() + '"'), std::string::npos) << json;
+  EXPECT_NE(json.find("\"frame_count\":4"), std::string::npos) << json;
   const std::string size = read_file(folder / "frame_00000.png").substr(16, 8);
   for (const char* name : {"frame_00001.png", "frame_00002.png", "frame_00003.png"}) {
     EXPECT_EQ(read_file(folder / name).substr(16, 8), size) << name;
@@ -215,6 +271,7 @@ TEST(Plot, OptionsThatDoNotGoTogetherAreRefused) {
                                              {"test", "--strip", "3", "--frame-strain", "0.2"},
                                              {"test", "--strip", "0"},
                                              {"sweeps/1", "test"},
+                                             {"test", "--log", "x"},
                                              {"sweeps/1", "--frames-only"}}) {
     std::vector<std::string> arguments = {"plot"};
     arguments.insert(arguments.end(), words.begin(), words.end());

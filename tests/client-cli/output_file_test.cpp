@@ -52,6 +52,15 @@ TEST_F(OutputFileTest, VanishesWithoutCommit) {
   EXPECT_EQ(file_count(), 1);
 }
 
+TEST_F(OutputFileTest, FinishedItWaitsForCommit) {
+  OutputFile file(folder_ / "a.csv");
+  file.write("new");
+  file.finish();
+  EXPECT_FALSE(fs::exists(folder_ / "a.csv"));
+  file.commit();
+  EXPECT_EQ(get("a.csv"), "new");
+}
+
 TEST_F(OutputFileTest, AFolderThatIsNotThereIsRefused) {
   EXPECT_THROW(OutputFile(folder_ / "none" / "a.csv"), CommandError);
 }

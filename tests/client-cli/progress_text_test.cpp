@@ -70,8 +70,8 @@ TEST(Progress, APendingJobSaysThatItWaits) {
   event.mutable_snapshot()->mutable_job()->set_state(v1::PENDING);
   JobView view;
   view.apply(event);
-  EXPECT_EQ(progress_line(view), "jobs/a  PENDING: waits for a worker");
-  EXPECT_EQ(progress_lines(view, 80, {}).front(), "waits for a worker");
+  EXPECT_EQ(progress_line(view), "jobs/a  PENDING: waiting for a worker");
+  EXPECT_EQ(progress_lines(view, 80, {}).front(), "waiting for a worker");
 }
 
 TEST(Progress, SamplesAndStatesKeepWhatIsKnown) {

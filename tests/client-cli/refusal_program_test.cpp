@@ -123,9 +123,8 @@ TEST(Refusal, ARequestOverTheLimitOfAMessageIsNotSent) {
   for (const char* command : {"submit", "check"}) {
     const ProgramResult result = run_program({command, file, "--server", server.address()});
     EXPECT_EQ(result.exit_code, 2);
-    EXPECT_NE(result.errors.find("the limit of a message is 4 MiB (4194304 bytes)"), std::string::npos)
-        << result.errors;
-    EXPECT_NE(result.errors.find("the request takes "), std::string::npos);
+    EXPECT_NE(result.errors.find("the message limit of 4 MiB (4194304 bytes)"), std::string::npos) << result.errors;
+    EXPECT_NE(result.errors.find("the request has "), std::string::npos);
   }
   EXPECT_TRUE(server.asked().creates.empty());
 }
@@ -181,6 +180,18 @@ TEST(NoServer, EndsWithThreeWithinTwoSeconds) {
     ASSERT_TRUE(JsonStringToMessage(result.output, &status).ok()) << result.output;
     EXPECT_EQ(status.code(), grpc::StatusCode::UNAVAILABLE);
   }
+}
+
+TEST(Run, CtrlCBeforeTheCaseHasComeLeavesNothingBehind) {
+  const FakeServer folder_of_its_own({});
+  const std::filesystem::path folder = folder_of_its_own.folder() / "out";
+  Program program({"run", "-", "-o", folder}, 80);
+  program.type("depth_mm: 4\n");
+  EXPECT_TRUE(program.wait_for_output("depth_mm"));
+  usleep(300'000);
+  program.interrupt();
+  program.wait();
+  EXPECT_FALSE(std::filesystem::exists(folder));
 }
 
 }  // namespace

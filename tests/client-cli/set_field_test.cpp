@@ -72,12 +72,12 @@ TEST(SetField, AnUnknownPathNamesTheNearestField) {
 }
 
 TEST(SetField, AWrongTypeSaysWhatIsExpected) {
-  EXPECT_NE(refusal(hexagons(), "lattice.hexagon.rows=2.5").find("\"2.5\" is not a whole number"), std::string::npos);
+  EXPECT_NE(refusal(hexagons(), "lattice.hexagon.rows=2.5").find("\"2.5\" is not a 32-bit integer"), std::string::npos);
   EXPECT_NE(refusal(hexagons(), "depth_mm=thick").find("\"thick\" is not a number"), std::string::npos);
   EXPECT_NE(refusal(hexagons(), "depth_mm=").find("\"\" is not a number"), std::string::npos);
   EXPECT_NE(refusal(hexagons(), "depth_mm=4 mm").find("\"4 mm\" is not a number"), std::string::npos);
-  EXPECT_NE(refusal(hexagons(), "loading.direction=Z").find("\"Z\" is none of X, Y"), std::string::npos);
-  EXPECT_NE(refusal(hexagons(), "lattice.imperfection.seed=-1").find("not negative"), std::string::npos);
+  EXPECT_NE(refusal(hexagons(), "loading.direction=Z").find("\"Z\" is not one of X, Y"), std::string::npos);
+  EXPECT_NE(refusal(hexagons(), "lattice.imperfection.seed=-1").find("non-negative"), std::string::npos);
   EXPECT_NE(refusal(frame(), "lattice.frame.self_contact=yes").find("neither true nor false"), std::string::npos);
 }
 

@@ -49,7 +49,7 @@ std::string run_bash(const std::string& script) {
 }
 
 std::string complete_with_bash(const std::string& words) {
-  return run_bash(output_of({"completion", "bash"}) + "COMP_WORDS=(" + words +
+  return run_bash(output_of({"completion", "bash"}) + "COMP_WORDS=(" + (words.ends_with(' ') ? words + "''" : words) +
                   ")\nCOMP_CWORD=$((${#COMP_WORDS[@]} - 1))\n_cellcrush\necho \"${COMPREPLY[@]}\"\n");
 }
 
@@ -73,6 +73,20 @@ TEST(Completion, BashCompletesCommandsAndOptions) {
   EXPECT_EQ(complete_with_bash("cellcrush --json list --li"), "--limit\n");
   EXPECT_EQ(complete_with_bash("cellcrush list --tls-c"), "--tls-ca --tls-cert\n");
   EXPECT_EQ(complete_with_bash("cellcrush check my"), "\n") << "files are bash's own";
+}
+
+TEST(Completion, BashCompletesPresetsChoicesFieldsAndNames) {
+  EXPECT_EQ(complete_with_bash("cellcrush check preset:papka-kyriakides-"), "papka-kyriakides-1 papka-kyriakides-2\n")
+      << "what stands before the colon is a word of its own";
+  EXPECT_EQ(complete_with_bash("cellcrush run preset : type-iii-as-s"), "type-iii-as-stated\n");
+  EXPECT_EQ(complete_with_bash("cellcrush sweep preset :").substr(0, 14), "hexagon-small ");
+  EXPECT_EQ(complete_with_bash("cellcrush show pres").substr(0, 20), "preset:hexagon-small");
+  EXPECT_EQ(complete_with_bash("cellcrush submit a --set loading.sp"), "loading.speed_m_per_s=\n");
+  EXPECT_EQ(complete_with_bash("cellcrush explain loading.sp"), "loading.speed_m_per_s\n");
+  EXPECT_EQ(complete_with_bash("cellcrush plot sweeps/1 --log x"), "x xy\n");
+  EXPECT_EQ(complete_with_bash("cellcrush watch "), "jobs/ sweeps/\n");
+  EXPECT_EQ(complete_with_bash("cellcrush table s"), "sweeps/\n");
+  EXPECT_EQ(complete_with_bash("cellcrush fetch jobs/1 -o pre"), "\n") << "files are bash's own";
 }
 
 TEST(Completion, OtherShellsAreRefused) { EXPECT_EQ(run_program({"completion", "tcsh"}).exit_code, 2); }

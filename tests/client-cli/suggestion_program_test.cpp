@@ -87,6 +87,18 @@ TEST(Suggestion, OfAFileInTheSameFolder) {
                  {"--server", "127.0.0.1:1"});
 }
 
+TEST(Suggestion, IsNotTheFileItselfThatCannotBeRead) {
+  const FakeServer server(script_of_one_job());
+  const std::filesystem::path loop = server.folder() / "loop.txtpb";
+  std::filesystem::create_symlink("loop.txtpb", loop);
+  expect_answers({{{"check", loop}, 2, "loop.txtpb: cannot be read: Too many levels of symbolic links"},
+                  {{"check", server.folder()}, 2, server.folder().string() + ": is a folder; give a case file"}},
+                 {"--server", server.address()});
+  expect_answers({{{"list", "--token-file", server.folder()}, 2, server.folder().string() + ": is a folder"}},
+                 {"--server", "127.0.0.1:1"});
+  EXPECT_EQ(run_program({"check", loop, "--server", server.address()}).errors.find("did you mean"), std::string::npos);
+}
+
 TEST(Suggestion, NoArgumentsAtAllPrintTheHelp) {
   const ProgramResult result = run_program({});
   EXPECT_EQ(result.exit_code, 0);

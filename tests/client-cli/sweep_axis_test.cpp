@@ -43,9 +43,9 @@ TEST(SweepAxis, WhatIsNoneIsRefusedWithTheForms) {
     EXPECT_NE(refused_axis(text).find("FIRST:LAST:COUNT"), std::string::npos) << text;
   EXPECT_NE(refused_axis("a=").find("\"\" is not a number"), std::string::npos);
   EXPECT_NE(refused_axis("a=1,,2").find("\"\" is not a number"), std::string::npos);
-  EXPECT_NE(refused_axis("a=1:2:2.5").find("\"2.5\" is not a whole number"), std::string::npos);
-  EXPECT_NE(refused_axis("a=seeds:x").find("\"x\" is not a whole number"), std::string::npos);
-  EXPECT_NE(refused_axis("a=seeds:99999999999").find("is not a whole number"), std::string::npos);
+  EXPECT_NE(refused_axis("a=1:2:2.5").find("\"2.5\" is not an integer"), std::string::npos);
+  EXPECT_NE(refused_axis("a=seeds:x").find("\"x\" is not an integer"), std::string::npos);
+  EXPECT_NE(refused_axis("a=seeds:99999999999").find("is not an integer"), std::string::npos);
 }
 
 }  // namespace

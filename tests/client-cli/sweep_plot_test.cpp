@@ -34,7 +34,7 @@ TEST(SweepPlot, WithoutAPlateauIsRefusedAndAnUnknownSweepNotFound) {
   const ProgramResult refused =
       run_program({"plot", "sweeps/test", "sweeps/test", "--log", "xy", "-o", file, "--server", server.address()});
   EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_NE(refused.errors.find("nothing to draw"), std::string::npos) << refused.errors;
+  EXPECT_NE(refused.errors.find("with a plateau yet"), std::string::npos) << refused.errors;
   EXPECT_EQ(run_program({"plot", "sweeps/none", "-o", file, "--server", server.address()}).exit_code, 5);
   EXPECT_FALSE(fs::exists(file));
 }

@@ -79,7 +79,8 @@ TEST(SweepWatch, EndsWithTheTableAndZeroWhenAllSucceeded) {
       run_on(server, {"sweep", "preset:type-i", "--over", "loading.speed_m_per_s=50,100,150", "--watch"});
   EXPECT_EQ(result.exit_code, 0) << result.errors;
   EXPECT_EQ(result.output.find("sweeps/test\n"), 0U);
-  for (const char* part : {"3 of 3 jobs ended", "speed  job", "jobs/test-3", "quadratic: 0.3"}) {
+  for (const char* part :
+       {"3 of 3 jobs ended", "speed  job", "jobs/test-3", "quadratic through the three points: 0.3"}) {
     EXPECT_NE(result.output.find(part), std::string::npos) << part << "\n" << result.output;
   }
   EXPECT_LE(count_of(result.output, "jobs ended"), 4) << "at most a line a second\n" << result.output;
@@ -120,7 +121,7 @@ TEST(SweepWatch, AStreamThatStaysCutEndsWithFour) {
   EXPECT_EQ(result.exit_code, 4);
   EXPECT_GE(server.asked().sweeps.tokens.size(), 3U);
   EXPECT_LT(result.seconds, 15.0);
-  EXPECT_NE(result.errors.find("`cellcrush watch sweeps/test` picks it up"), std::string::npos) << result.errors;
+  EXPECT_NE(result.errors.find("`cellcrush watch sweeps/test` shows it again"), std::string::npos) << result.errors;
 }
 
 TEST(SweepWatch, AStreamThatEndsBeforeItsJobsIsNotTakenForTheEnd) {
@@ -140,7 +141,7 @@ TEST(SweepWatch, CtrlCLeavesTheSweepRunningAndSaysSo) {
   program.interrupt();
   const ProgramResult result = program.wait();
   EXPECT_EQ(result.exit_code, 130);
-  EXPECT_NE(result.errors.find("sweeps/test goes on"), std::string::npos) << result.errors;
+  EXPECT_NE(result.errors.find("sweeps/test continues"), std::string::npos) << result.errors;
 }
 
 TEST(SweepWatch, OnATerminalThereIsALineAJobRedrawnInPlaceWithinItsWidth) {

@@ -76,6 +76,23 @@ TEST(Table, SaysNoneWhereNoRowHasAValue) {
   EXPECT_EQ(table.remove_constant_columns(1, 2), std::vector<std::string>{"strain none"});
 }
 
+TEST(Table, InANarrowTerminalBreaksHeadingsAndNoFigures) {
+  using enum Table::Align;
+  Table table({left, right, right, left});
+  table.add({"fidelity", "elements per wall", "predicted time", "error"});
+  table.add({"REFERENCE", "20 504", "12 min 03 s", unbreakable("11.4 % ± 2.8 %")});
+  EXPECT_EQ(table.text(0, 50),
+            "fidelity     elements    predicted  error\n"
+            "             per wall         time\n"
+            "REFERENCE      20 504  12 min 03 s  11.4 % ± 2.8 %\n");
+  EXPECT_EQ(table.text(0, 34),
+            "fidelity   elements    predicted\n"
+            "           per wall         time\n"
+            "REFERENCE    20 504  12 min 03 s\n\n"
+            "fidelity   error\n"
+            "REFERENCE  11.4 % ± 2.8 %\n");
+}
+
 TEST(Problems, NotesStandInTheTerminalsWidth) {
   v1::ProblemList list;
   v1::Problem& note = *list.add_problems();
@@ -91,6 +108,8 @@ TEST(Problems, NotesStandInTheTerminalsWidth) {
 TEST(Text, IsWrappedBetweenWordsAndLongWordsAtTheEnd) {
   EXPECT_EQ(wrapped("one two three", 9, "- ", "  "), "- one two\n  three\n");
   EXPECT_EQ(wrap_words("ab cdefghij", 4), (std::vector<std::string>{"ab", "cdef", "ghij"}));
+  EXPECT_EQ(wrap_words("hexagon.wall_thickness_mm", 20), (std::vector<std::string>{"hexagon.wall_", "thickness_mm"}));
+  EXPECT_EQ(wrap_words("error " + unbreakable("2.8 %"), 8), (std::vector<std::string>{"error", "2.8 %"}));
   EXPECT_EQ(wrap_words("", 4), std::vector<std::string>{""});
 }
 

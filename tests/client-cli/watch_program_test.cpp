@@ -81,7 +81,7 @@ TEST(Watch, AStreamThatStaysCutEndsWithFour) {
   EXPECT_EQ(result.exit_code, 4);
   EXPECT_GE(server.asked().after_sequences.size(), 3U);
   EXPECT_LT(result.seconds, 15.0);
-  EXPECT_NE(result.errors.find("was cut off"), std::string::npos) << result.errors;
+  EXPECT_NE(result.errors.find("lost the watch of jobs/test"), std::string::npos) << result.errors;
 }
 
 TEST(Watch, AnUnknownJobEndsWithFive) {
@@ -101,7 +101,7 @@ TEST(Watch, CtrlCLeavesTheJobRunningAndSaysSo) {
   program.interrupt();
   const ProgramResult result = program.wait();
   EXPECT_EQ(result.exit_code, 130);
-  EXPECT_NE(result.errors.find("jobs/test goes on"), std::string::npos) << result.errors;
+  EXPECT_NE(result.errors.find("jobs/test continues"), std::string::npos) << result.errors;
   EXPECT_LT(result.seconds, 10.0);
 }
 
@@ -111,7 +111,7 @@ TEST(Watch, APendingJobSaysThatItWaits) {
   script.hold = true;
   const FakeServer server(script);
   Program program({"watch", "jobs/test", "--server", server.address()});
-  EXPECT_TRUE(program.wait_for_output("PENDING: waits for a worker"));
+  EXPECT_TRUE(program.wait_for_output("PENDING: waiting for a worker"));
   program.interrupt();
   EXPECT_EQ(program.wait().exit_code, 130);
 }

@@ -114,8 +114,9 @@ TEST_F(AccessTest, WhoIsNotLetInIsToldWhyWithinSeconds) {
   expect_refusal(cellcrush({"list", "--tls-ca", path("none"), "--token-file", token}), 2, "--tls-ca " + path("none"));
   expect_refusal(cellcrush({"list", "--tls-ca", path("wrong"), "--token-file", token}), 2, "no CERTIFICATE in PEM");
   expect_refusal(cellcrush({"list", "--tls-ca", other.certificate().string(), "--token-file", token}), 3,
-                 "has not signed");
-  expect_refusal(cellcrush({"list", "--tls-ca", ca_, "--token-file", token}, "localhost"), 3, "not one of localhost");
+                 "not signed by the authority");
+  expect_refusal(cellcrush({"list", "--tls-ca", ca_, "--token-file", token}, "localhost"), 3,
+                 "not valid for localhost");
   expect_refusal(cellcrush({"list"}), 3, "name the authority of its certificate with --tls-ca");
   port_ = "50551";
   expect_refusal(cellcrush({"list", "--token-file", token}, "192.0.2.1"), 2, "plain text");
@@ -136,7 +137,7 @@ TEST_F(AccessTest, AServerThatAsksForACertificateIsShownOne) {
 
 TEST_F(AccessTest, TlsToAServerInPlainTextEndsWithWords) {
   start({});
-  expect_refusal(cellcrush({"list", "--tls-ca", ca_}), 3, "does not talk TLS");
+  expect_refusal(cellcrush({"list", "--tls-ca", ca_}), 3, "does not use TLS");
   EXPECT_EQ(cellcrush({"list"}).exit_code, 0);
 }
 

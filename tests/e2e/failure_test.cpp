@@ -61,7 +61,7 @@ TEST_F(Failure, ADrainThatWaitsReturnsOnceTheDaemonHasGone) {
   start_long_job();
   const Outcome drained = cellcrush({"drain", "--wait"});
   EXPECT_EQ(drained.exit_code, 0) << drained.all();
-  EXPECT_THAT(drained.output, HasSubstr("the server has ended"));
+  EXPECT_THAT(drained.output, HasSubstr("the server has exited"));
   EXPECT_TRUE(ends(worker_));
   EXPECT_EQ(daemon().wait(std::chrono::seconds(5)).exit_code, 0);
   start_daemon();
@@ -98,7 +98,7 @@ TEST_F(Failure, AKilledWorkerIsReplacedAndItsJobGoesOn) {
   EXPECT_NE(next, worker_);
   const Outcome shown = cellcrush({"show", job});
   EXPECT_THAT(shown.output, HasSubstr("RUNNING"));
-  EXPECT_THAT(shown.output, HasSubstr("2, as 1 was lost or left the job")) << shown.all();
+  EXPECT_THAT(shown.output, HasSubstr("2; 1 was lost or left the job")) << shown.all();
   EXPECT_EQ(cellcrush({"submit", write_file("small.txtpb", small_case()), "--watch"}, kCrushLimit).exit_code, 0)
       << "The daemon takes the next job.";
 }

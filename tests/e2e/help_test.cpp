@@ -39,7 +39,8 @@ void expect_defaults(const std::vector<std::string>& words, int& options) {
   for (const std::string& entry : entries_of(help_of(words))) {
     if (!is_option(entry)) continue;
     const bool takes_a_value = entry.find(" TEXT") != std::string::npos || entry.find(" INT") != std::string::npos ||
-                               entry.find(" FLOAT") != std::string::npos || entry.find(" UINT") != std::string::npos;
+                               entry.find(" FLOAT") != std::string::npos || entry.find(" UINT") != std::string::npos ||
+                               entry.find(" TIME") != std::string::npos;
     if (!takes_a_value || entry.find("REQUIRED") != std::string::npos) continue;
     ++options;
     EXPECT_NE(entry.find("default: "), std::string::npos) << words.back() << ": " << entry;
@@ -66,6 +67,24 @@ TEST(Help, EveryOptionOfEveryCommandTellsItsDefault) {
 TEST(Help, LimitsStandThere) {
   EXPECT_NE(help_of({CELLCRUSHD_PROGRAM}).find("--workers INT:INT in [1 - 1024]"), std::string::npos);
   EXPECT_NE(help_of({CELLCRUSH_PROGRAM, "submit"}).find("--priority INT:INT in [-100 - 100]"), std::string::npos);
+}
+
+using Completion = DaemonTest;
+
+TEST_F(Completion, KnowsThePresetsOfTheServer) {
+  const Outcome script = run({CELLCRUSH_PROGRAM, "completion", "fish"}, kShortLimit);
+  std::istringstream lines(cellcrush({"presets"}).output);
+  int presets = 0;
+  for (std::string word; lines >> word;) {
+    if (!word.starts_with("preset:")) continue;
+    ++presets;
+    EXPECT_NE(script.output.find(word), std::string::npos) << word;
+  }
+  const std::string of_check = script.output.substr(script.output.find("__fish_seen_subcommand_from check' -a '"));
+  const std::string line = of_check.substr(0, of_check.find('\n'));
+  int known = 0;
+  for (std::size_t at = line.find("preset:"); at != std::string::npos; at = line.find("preset:", at + 1)) ++known;
+  EXPECT_EQ(known, presets);
 }
 
 }  // namespace

@@ -25,6 +25,18 @@ std::string bytes_of(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
+// The process of the cellcrushd whose data folder this is; 0 for none.
+int find_daemon_of(const fs::path& data) {
+  for (const auto& entry : fs::directory_iterator("/proc")) {
+    const std::string words = bytes_of(entry.path() / "cmdline");
+    const std::string program = words.substr(0, words.find('\0'));
+    const std::string option = std::string("--data") + '\0' + data.string() + '\0';
+    if (program.ends_with("cellcrushd") && words.find(option) != std::string::npos)
+      return std::stoi(entry.path().filename());
+  }
+  return 0;
+}
+
 class Run : public DaemonTest {
  protected:
   static std::vector<std::string> words(const std::string& submitted, const fs::path& output) {
@@ -80,7 +92,7 @@ TEST_F(Run, StoppedBySignalsItContinuesToTheSameBits) {
   EXPECT_EQ(bytes_of(folder() / "out" / "history.csv"), history_of_the_daemon(submitted));
   const Outcome finished = run(command, kShortLimit);
   EXPECT_EQ(finished.exit_code, 0) << finished.all();
-  EXPECT_THAT(finished.output, HasSubstr("holds the result of this case already"));
+  EXPECT_THAT(finished.output, HasSubstr("already holds the result of this case"));
 }
 
 TEST_F(Run, KilledItContinuesToo) {
@@ -93,6 +105,33 @@ TEST_F(Run, KilledItContinuesToo) {
   for (int i = 0; i < 20 && ended.exit_code != 0; ++i) ended = run(command, kCrushLimit);
   ASSERT_EQ(ended.exit_code, 0) << ended.all();
   EXPECT_EQ(bytes_of(folder() / "out" / "history.csv"), history_of_the_daemon(submitted));
+}
+
+TEST_F(Run, ResumedItHasTheTimeLimitOfThatCommand) {
+  auto command = words(write_file("longer.txtpb", longer_case()), folder() / "out");
+  command.insert(command.end(), {"--time-limit", "1h"});
+  EXPECT_EQ(run_until(SIGINT, command).exit_code, 130);
+  command.back() = "0.01s";
+  command.emplace_back("--resume");
+  const Outcome ended = run(command, kCrushLimit);
+  EXPECT_EQ(ended.exit_code, 1) << ended.all();
+  EXPECT_THAT(ended.output, HasSubstr("TIME_LIMIT"));
+  EXPECT_THAT(ended.output, HasSubstr("--time-limit"));
+}
+
+TEST_F(Run, WhoseDaemonDiesSaysHowToContinue) {
+  auto command = words(write_file("longer.txtpb", longer_case()), folder() / "out");
+  Process process(command);
+  ASSERT_TRUE(process.wait_for_output("steps/s", kShortLimit)) << process.output() << process.errors();
+  const int daemon = find_daemon_of(folder() / "out" / ".cellcrush");
+  ASSERT_GT(daemon, 0);
+  kill(daemon, SIGKILL);
+  const Outcome ended = process.wait(kCrushLimit);
+  EXPECT_EQ(ended.exit_code, 4) << ended.all();
+  EXPECT_THAT(ended.errors, HasSubstr("--resume continues"));
+  EXPECT_THAT(ended.errors, ::testing::Not(HasSubstr("cellcrush watch")));
+  command.emplace_back("--resume");
+  EXPECT_EQ(run(command, kCrushLimit).exit_code, 0);
 }
 
 TEST_F(Run, OneThatFailedIsNoFinishedRun) {

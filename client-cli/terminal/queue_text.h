@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cellcrush/v1/admin_service.pb.h"
+#include "cellcrush/v1/job.pb.h"
+#include "terminal/terminal.h"
+
+namespace cellcrush::client {
+
+/// What holds the queue, and a row a waiting job, the next to start first, below its title. Of the jobs that are among
+/// `jobs` the row shows up to four fields in which jobs of one title differ.
+std::string queue_text(const v1::Queue& queue, const std::vector<v1::Job>& jobs, int width = terminal_width());
+
+}  // namespace cellcrush::client

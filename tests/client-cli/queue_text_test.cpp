@@ -1,0 +1,46 @@
+#include "terminal/queue_text.h"
+
+#include <gtest/gtest.h>
+
+namespace cellcrush::client {
+namespace {
+
+TEST(QueueText, ShowsTheFieldsInWhichTheJobsOfASweepDiffer) {
+  v1::Queue queue;
+  std::vector<v1::Job> jobs;
+  for (int i = 1; i <= 2; ++i) {
+    v1::Job& job = jobs.emplace_back();
+    job.set_name("jobs/" + std::to_string(i));
+    job.mutable_case_()->mutable_loading()->set_speed_m_per_s(50.0 * i);
+    job.mutable_case_()->set_title("Type I, loading.speed_m_per_s = " + std::to_string(50 * i));
+    auto& entry = *queue.add_entries();
+    entry.set_job(job.name());
+    entry.set_reason("All workers are busy.");
+    entry.set_seconds_until_start(10.0 * i);
+  }
+  EXPECT_EQ(queue_text(queue, jobs, 80),
+            "JOB     speed  STARTS IN  REASON\n"
+            "          m/s\n"
+            "Type I\n"
+            "jobs/1     50       10 s  All workers are busy.\n"
+            "jobs/2    100       20 s  All workers are busy.\n");
+}
+
+TEST(QueueText, StandsInANarrowTerminal) {
+  v1::Queue queue;
+  auto& entry = *queue.add_entries();
+  entry.set_job("jobs/12345");
+  entry.set_reason("The job waits for its turn: its owner has 4 jobs running.");
+  entry.set_seconds_until_start(3700.0);
+  entry.set_priority(100);
+  const std::string text = queue_text(queue, {}, 40);
+  EXPECT_NE(text.find("\njobs/12345  The job waits for its turn:\n"), std::string::npos) << text;
+  std::size_t begin = 0;
+  for (std::size_t end = text.find('\n'); end != std::string::npos; end = text.find('\n', begin)) {
+    EXPECT_LE(end - begin, 40U) << text;
+    begin = end + 1;
+  }
+}
+
+}  // namespace
+}  // namespace cellcrush::client
