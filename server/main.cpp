@@ -41,9 +41,10 @@ bool choose_kernel() {
   if (name == nullptr || cellcrush::use_simd_target(name)) return true;
   std::string known;
   for (const auto& target : cellcrush::simd_targets()) known += (known.empty() ? "" : ", ") + target;
-  std::fprintf(stderr,
-               "cellcrushd: CELLCRUSH_SIMD is '%s', which this processor cannot run. Give one of %s, or unset it.\n",
-               name, known.c_str());
+  std::fprintf(
+      stderr,
+      "cellcrushd: CELLCRUSH_SIMD is '%s', which this processor cannot run. Set it to one of %s, or unset it.\n", name,
+      known.c_str());
   return false;
 }
 
@@ -52,10 +53,9 @@ int print_token(const std::string& name, const std::string& scope) {
   try {
     const auto made = cellcrush::access::make_token(name, cellcrush::access::parse_scope(scope).value());
     std::printf("%s\n%s\n", made.token.c_str(), made.line.c_str());
-    std::fprintf(
-        stderr,
-        "The first line is the token: give it to its owner, it is not kept. The second one, which has its hash "
-        "only, goes into the file of --tokens.\n");
+    std::fprintf(stderr,
+                 "The first line is the token. Give it to its owner; it is not stored. The second line contains only "
+                 "its hash. Append it to the --tokens file.\n");
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "cellcrushd: %s\n", error.what());
@@ -70,7 +70,7 @@ int serve(const cellcrush::DaemonOptions& options, const sigset_t& signals) {
     std::fflush(stdout);
     int received = 0;
     while (sigwait(&signals, &received) == 0 && received == SIGHUP) daemon.read_files_again();
-    spdlog::info("ends on {}", received == SIGTERM ? "SIGTERM" : "SIGINT");
+    spdlog::info("stopping on {}", received == SIGTERM ? "SIGTERM" : "SIGINT");
     daemon.stop();
     return 0;
   } catch (const std::exception& error) {
@@ -82,17 +82,21 @@ int serve(const cellcrush::DaemonOptions& options, const sigset_t& signals) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("cellcrushd hosts the solver: it takes cases over gRPC, runs them, and streams what comes of them.");
+  CLI::App app(
+      "cellcrushd runs crushing analyses: it accepts cases over gRPC, runs them as jobs, and streams their progress "
+      "and results.");
   cellcrush::DaemonFlags flags(app);
   app.set_version_flag("--version", std::string("cellcrushd ") + cellcrush::kSolverRevision);
   std::string token_name;
   std::string token_scope;
-  CLI::App* token = app.add_subcommand("token", "print a new token and its line for the file of --tokens, and end");
+  CLI::App* token = app.add_subcommand("token", "print a new token and its line for the --tokens file");
   token
       ->add_option("NAME", token_name,
-                   "whom the token is for: 1 to 64 printable characters without spaces, quotes, backslashes and #")
+                   "owner of the token: 1 to 64 printable characters without spaces, quotes, backslashes or #")
       ->required();
-  token->add_option("--scope", token_scope, "read; submit: also make jobs and change one's own; admin: all")
+  token
+      ->add_option("--scope", token_scope,
+                   "read: read only; submit: also create jobs and change one's own; admin: everything")
       ->required()
       ->check(CLI::IsMember({"read", "submit", "admin"}));
   const cellcrush::StoreCommands store_commands(app);

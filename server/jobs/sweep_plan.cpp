@@ -58,9 +58,9 @@ class ProblemsOfPoints {
   google::protobuf::RepeatedPtrField<v1::Problem> take() {
     google::protobuf::RepeatedPtrField<v1::Problem> out;
     for (auto& entry : entries_) {
-      std::string where = " This is so at point " + std::to_string(entry.first + 1) + " of " + std::to_string(points_) +
-                          " (" + entry.point + ")";
-      if (entry.count > 1) where += " and at " + std::to_string(entry.count - 1) + " more";
+      std::string where = " This applies to point " + std::to_string(entry.first + 1) + " of " +
+                          std::to_string(points_) + " (" + entry.point + ")";
+      if (entry.count > 1) where += " and to " + std::to_string(entry.count - 1) + " more";
       entry.problem.set_message(entry.problem.message() + where + ".");
       *out.Add() = std::move(entry.problem);
     }
@@ -110,20 +110,23 @@ v1::Case build_case(const v1::Sweep& sweep, const std::vector<std::string>& fiel
 SweepPlan plan_sweep(const v1::Sweep& sweep, const std::function<bool()>& given_up) {
   const SweepPoints points = expand(sweep);
   if (sweep.case_().ByteSizeLong() * points.values.size() > kMostCaseBytes) {
-    throw InvalidField("sweep", "has " + std::to_string(points.values.size()) + " points of so large a case.",
-                       "Use fewer points, so that all their cases have at most 256 MiB.");
+    throw InvalidField("sweep",
+                       "has " + std::to_string(points.values.size()) + " points, too many for a case of this size.",
+                       "Use fewer points: all cases together may have at most 256 MiB.");
   }
   if (bytes_of_labels(sweep) * points.values.size() > kMostLabelBytes) {
-    throw InvalidField("sweep.labels",
-                       "have " + std::to_string(bytes_of_labels(sweep)) + " bytes, which each of the " +
-                           std::to_string(points.values.size()) + " jobs is to have.",
-                       "Use fewer or shorter labels or fewer points, so that all jobs together have at most 16 MiB.");
+    throw InvalidField(
+        "sweep.labels",
+        "have " + std::to_string(bytes_of_labels(sweep)) + " bytes, too many for " +
+            std::to_string(points.values.size()) + " jobs.",
+        "Use fewer or shorter labels, or fewer points: the labels of all jobs together may have at most 16 MiB.");
   }
   SweepPlan out;
   ProblemsOfPoints problems(points.values.size());
   translate::CaseChecker checker;
   for (std::size_t i = 0; i < points.values.size(); ++i) {
-    if (given_up()) throw ServiceError(ServiceError::Kind::cancelled, "Nobody waits for the sweep. None was made.");
+    if (given_up())
+      throw ServiceError(ServiceError::Kind::cancelled, "The client cancelled the call. No sweep was created.");
     const std::string point = text_of_point(points.fields, points.values[i]);
     translate::CaseChecker::Verdict verdict;
     v1::Job job;

@@ -54,7 +54,7 @@ SweepsService::Found SweepsService::find(const std::string& name) {
   auto sweep = number ? parts_.sweeps.find_sweep(*number) : std::nullopt;
   if (!sweep) {
     throw ServiceError(ServiceError::Kind::not_found,
-                       "There is no sweep \"" + name + "\". Names are like sweeps/12; ListSweeps gives them.");
+                       "There is no sweep \"" + name + "\". Sweep names look like sweeps/12; ListSweeps lists them.");
   }
   return {*number, *std::move(sweep)};
 }

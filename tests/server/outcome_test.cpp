@@ -149,7 +149,7 @@ TEST(Outcome, AShortageIsNoEndOfTheJobItIsFoundInWhatTheWorkerSaidOrInItsExitCod
   EXPECT_EQ(waits.state, v1::PENDING);
   EXPECT_EQ(waits.cause, v1::JOB_CAUSE_UNSPECIFIED);
   EXPECT_THAT(waits.message, HasSubstr("result.h5 cannot be written."));
-  EXPECT_THAT(waits.remedy, HasSubstr("Make room"));
+  EXPECT_THAT(waits.remedy, HasSubstr("Free space"));
 }
 
 TEST(Outcome, AWorkerThatTheKernelEndedForWantOfMemoryIsOutOfMemory) {

@@ -78,7 +78,7 @@ TEST_F(SweepsServiceTest, ABadPointLeavesNoJobAndIsNamed) {
   const auto list = problems_of(status);
   ASSERT_EQ(list.problems_size(), 3);
   EXPECT_EQ(list.problems(0).field(), "lattice.hexagon.rows");
-  EXPECT_THAT(list.problems(0).message(), HasSubstr("is 2.5, which is no whole number"));
+  EXPECT_THAT(list.problems(0).message(), HasSubstr("is 2.5, which is not a whole number"));
   EXPECT_THAT(list.problems(0).message(),
               HasSubstr("at point 2 of 9 (loading.speed_m_per_s = 50, lattice.hexagon.rows = 2.5) and at 2 more"));
   EXPECT_EQ(list.problems(1).field(), "lattice.hexagon.rows");
@@ -98,7 +98,7 @@ TEST_F(SweepsServiceTest, WhatIsNoSweepIsRefusedByField) {
   };
   v1::CreateSweepRequest request;
   expect(request, "sweep.axes are missing");
-  expect(sweep_of(small_case(), "loading.velocity", {1.0}), "loading.velocity is no field of a case");
+  expect(sweep_of(small_case(), "loading.velocity", {1.0}), "loading.velocity is not a field of a case");
   expect(sweep_of(small_case(), "title", {1.0}), "title is not a single number");
   expect(sweep_of(small_case(), "lattice.square.rows", {1.0}), "lattice.square.rows is not in the case");
   request = sweep_of(small_case(), kSpeed, {1.0});
