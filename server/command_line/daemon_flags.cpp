@@ -37,7 +37,7 @@ DaemonFlags::DaemonFlags(CLI::App& app) {
   add_owner_limits(app);
   add_storage(app);
   add_times(app);
-  app.add_option("--log-format", log_format_, "log format: text, or json with one object per line (default: text)")
+  app.add_option("--log-format", log_format_, "Log format: text, or json with one object per line (default: text)")
       ->check(CLI::IsMember({"text", "json"}));
   app.config_formatter(std::make_shared<CheckedConfig>(app));
   app.set_config("--config", "",
@@ -46,10 +46,10 @@ DaemonFlags::DaemonFlags(CLI::App& app) {
 
 void DaemonFlags::add_addresses(CLI::App& app) {
   app.add_option("--listen", options_.listen,
-                 "address to listen on, unix:PATH or HOST:PORT; may be repeated; port 0 picks a free port (default: "
+                 "Address to listen on, unix:PATH or HOST:PORT; may be repeated; port 0 picks a free port (default: "
                  "unix:DIR/cellcrushd.sock, where DIR is --data, and 127.0.0.1:50551)");
   app.add_option("--metrics", options_.metrics,
-                 "loopback HOST:PORT for Prometheus metrics, served over HTTP at /metrics (default: not served)");
+                 "Loopback HOST:PORT for Prometheus metrics, served over HTTP at /metrics (default: not served)");
 }
 
 void DaemonFlags::add_access(CLI::App& app) {
@@ -62,86 +62,88 @@ void DaemonFlags::add_access(CLI::App& app) {
                  "PEM file of the authority that issues client certificates; every TCP client must then present one "
                  "with clientAuth in its extended key usage (default: none)");
   app.add_option("--tls-client-scope", certificate_scope_,
-                 "scope of clients that present such a certificate: read, submit or admin (default: submit)")
+                 "Scope of clients that present such a certificate: read, submit or admin (default: submit)")
       ->check(CLI::IsMember({"read", "submit", "admin"}));
   app.add_option("--tokens", access.tokens,
-                 "token file, one per line (see `cellcrushd token`); TCP calls must present one; SIGHUP reloads it "
+                 "File of tokens, one per line (see `cellcrushd token`); TCP calls must present one; SIGHUP reloads it "
                  "(default: none)");
 }
 
 void DaemonFlags::add_connections(CLI::App& app) {
   auto& limits = options_.connections;
-  app.add_option("--max-connections", limits.connections,
-                 "most open TCP connections, and as many again on Unix sockets; a low limit on file descriptors "
-                 "reduces both (default: 1000)")
+  app.add_option(
+         "--max-connections", limits.connections,
+         "Maximum number of open TCP connections, and as many again on Unix sockets; a low limit on file descriptors "
+         "reduces both (default: 1000)")
       ->check(CLI::Range(1, 1'000'000));
   app.add_option("--max-connections-per-address", limits.connections_per_address,
-                 "most open TCP connections from one address (default: 500)")
+                 "Maximum number of open TCP connections from one address (default: 500)")
       ->check(CLI::Range(1, 1'000'000));
   app.add_option("--max-streams", limits.streams,
-                 "most open streams: watches, downloads, frames and reflection (default: 2000)")
+                 "Maximum number of open streams: watches, downloads, frames and reflection (default: 2000)")
       ->check(CLI::Range(1, 1'000'000));
   app.add_option("--max-streams-per-caller", limits.streams_per_caller,
-                 "most open streams of one token or certificate (default: 1000)")
+                 "Maximum number of open streams of one token or certificate (default: 1000)")
       ->check(CLI::Range(1, 1'000'000));
   app.add_option("--max-call-memory", call_memory_mib_,
-                 "memory limit for connections in MiB, and as much again for messages not yet read (default: 256)")
+                 "Memory limit for connections in MiB, and as much again for messages not yet read (default: 256)")
       ->check(CLI::Range(16, 1 << 20));
 }
 
 void DaemonFlags::add_limits(CLI::App& app) {
-  app.add_option("--workers", options_.workers, "most jobs that run at once (default: one per core)")
+  app.add_option("--workers", options_.workers, "Maximum number of jobs running at once (default: one per core)")
       ->check(CLI::Range(1, 1024));
   app.add_option("--max-queued-jobs", options_.limits.queued_jobs,
-                 "most jobs that may wait in the queue (default: 100000)")
+                 "Maximum number of jobs waiting in the queue (default: 100000)")
       ->check(CLI::Range(1, 10'000'000));
   app.add_option("--max-job-memory", memory_mib_,
-                 "most memory, in MiB, that a job may be predicted to need (default: the machine's memory)")
+                 "Maximum predicted memory of a job, in MiB (default: the machine's memory)")
       ->check(CLI::Range(1, 1 << 30));
   app.add_option("--max-job-time", job_seconds_,
-                 "wall-clock limit per job, in seconds; results up to the limit are kept (default: no limit)")
+                 "Wall-clock limit per job, in seconds; results up to the limit are kept (default: no limit)")
       ->check(CLI::Range(0.0, 1e9));
 }
 
 void DaemonFlags::add_owner_limits(CLI::App& app) {
   auto& owner = options_.limits.owner;
-  app.add_option("--owner-max-queued", owner.queued_jobs, "most waiting jobs per owner (default: 0, no limit)")
+  app.add_option("--owner-max-queued", owner.queued_jobs,
+                 "Maximum number of waiting jobs per owner (default: 0, no limit)")
       ->check(CLI::Range(0, 10'000'000));
   app.add_option("--owner-max-running", owner.running_jobs,
-                 "most running jobs per owner; further ones wait (default: 0, no limit)")
+                 "Maximum number of running jobs per owner; further ones wait (default: 0, no limit)")
       ->check(CLI::Range(0, 1024));
   app.add_option("--owner-max-disk", owner_disk_mib_,
-                 "disk quota per owner in MiB of results and journal; new jobs are refused once it is reached "
+                 "Disk quota per owner in MiB of results and journal; new jobs are refused once it is reached "
                  "(default: 0, no limit)")
       ->check(CLI::Range(0, 1 << 30));
-  app.add_option("--owner-max-priority", owner.priority, "highest priority of a job (default: 100)")
+  app.add_option("--owner-max-priority", owner.priority, "Highest priority that a job may have (default: 100)")
       ->check(CLI::Range(-100, 100));
 }
 
 void DaemonFlags::add_storage(CLI::App& app) {
   app.add_option("--data", options_.data_folder,
-                 "data folder for jobs and results (default: $XDG_DATA_HOME/cellcrush or ~/.local/share/cellcrush)");
+                 "Data folder for jobs and results (default: $XDG_DATA_HOME/cellcrush or ~/.local/share/cellcrush)");
   app.add_option("--min-free-disk", free_mib_,
-                 "free disk space, in MiB, below which the daemon accepts and starts no jobs (default: 256)")
+                 "Free disk space to keep, in MiB; with less, no job is accepted or run (default: 256)")
       ->check(CLI::Range(0, 1 << 30));
   app.add_option("--keep-ended-jobs", keep_days_,
-                 "days to keep an ended job or sweep; time while no daemon runs does not count (default: 0, forever)")
+                 "Days to keep an ended job or sweep; time while no daemon runs does not count (default: 0, forever)")
       ->check(CLI::Range(0.0, 36500.0));
   app.add_option("--keep-ended-count", options_.keep.count,
-                 "number of ended jobs to keep; the oldest are deleted first, a sweep as a whole (default: 0, all)")
+                 "Number of ended jobs to keep; the oldest are deleted first, a sweep as a whole (default: 0, all)")
       ->check(CLI::Range(0, 100'000'000));
   app.add_option("--keep-ended-size", keep_mib_,
-                 "disk space for ended jobs in MiB of results and journal; the oldest are deleted first, a sweep as a "
+                 "Disk space for ended jobs in MiB of results and journal; the oldest are deleted first, a sweep as a "
                  "whole (default: 0, no limit)")
       ->check(CLI::Range(0, 1 << 30));
 }
 
 void DaemonFlags::add_times(CLI::App& app) {
   app.add_option("--checkpoint-interval", checkpoint_seconds_,
-                 "seconds between checkpoints of a running job (default: 60)")
+                 "Seconds between checkpoints of a running job (default: 60)")
       ->check(CLI::Range(0.01, 86400.0));
   app.add_option("--watch-patience", patience_seconds_,
-                 "how long, in seconds, a watcher may stop reading before its stream is closed with RESOURCE_EXHAUSTED "
+                 "How long, in seconds, a watcher may stop reading before its stream is closed with RESOURCE_EXHAUSTED "
                  "(default: 600)")
       ->check(CLI::Range(1.0, 86400.0));
 }

@@ -32,14 +32,13 @@ std::string counts_of(const store::Verification& found) {
 
 StoreCommands::StoreCommands(CLI::App& app)
     : backup_(add_store_command(app, "backup",
-                                "back up the data folder (--data) to a new folder; safe while a daemon uses it",
-                                "folder to create; if it exists, it must be empty", folder_)),
+                                "Back up the data folder (--data) to a new folder; safe while a daemon uses it",
+                                "Folder to create; if it exists, it must be empty", folder_)),
       verify_(add_store_command(
-          app, "verify",
-          "check every file of a backup or data folder and list all problems; exit code 0 without problems, else 1",
-          "backup or data folder", folder_)),
-      restore_(add_store_command(app, "restore", "verify a backup and restore it to a new data folder (--data)",
-                                 "backup folder", folder_)) {}
+          app, "verify", "Check a backup or data folder and list all problems; exit code 1 if there are any, else 0",
+          "Backup or data folder", folder_)),
+      restore_(add_store_command(app, "restore", "Verify a backup and restore it to a new data folder (--data)",
+                                 "Backup folder", folder_)) {}
 
 bool StoreCommands::given() const { return backup_->parsed() || verify_->parsed() || restore_->parsed(); }
 

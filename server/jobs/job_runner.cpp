@@ -68,7 +68,7 @@ v1::JobState JobRunner::run_once(std::int64_t job, Run& run) {
       return begin_again(job, reason.why);
     }
   } catch (const Withdrawn&) {
-    spdlog::info("{} was withdrawn before it ran", name_of(job));
+    spdlog::info("{} was cancelled before it started", name_of(job));
     return v1::JOB_STATE_UNSPECIFIED;
   } catch (const std::exception& error) {
     run.trouble = trouble_of(error);

@@ -17,7 +17,7 @@ bool QueueHold::set_low_disk(const std::optional<std::string>& reason) {
     low_disk_ = reason ? std::optional(Hold{Shortage::low_disk, *reason, now_(), {}}) : std::nullopt;
   }
   reason ? spdlog::warn("The queue is held: {} {}", *reason, remedy_for(Shortage::low_disk))
-         : spdlog::info("Disk space is available again; it no longer holds the queue");
+         : spdlog::info("Disk space is available again; the queue is no longer held for it");
   tell();
   return true;
 }

@@ -85,7 +85,8 @@ struct Metrics::Impl {
   Counters& ended = counters(*registry, "cellcrush_jobs_ended_total", "Jobs that have ended, by final state.");
   prometheus::Counter& steps =
       counters(*registry, "cellcrush_steps_total", "Time steps of jobs that have ended with a result.").Add({});
-  Counters& stages = counters(*registry, "cellcrush_stage_seconds_total", "Processor time of those steps, by stage.");
+  Counters& stages = counters(*registry, "cellcrush_stage_seconds_total",
+                              "Processor time of jobs that have ended with a result, by stage of the time step.");
   prometheus::Gauge& speed =
       gauge(*registry, "cellcrush_steps_per_second", "Time steps per second of the running jobs, added up.");
   prometheus::Histogram& commits =

@@ -60,7 +60,7 @@ class Reader {
     const std::string name = value();
     v1::JobState out = v1::JOB_STATE_UNSPECIFIED;
     if (!v1::JobState_Parse(name, &out) || out == v1::JOB_STATE_UNSPECIFIED)
-      refuse(start, "expected one of " + state_names() + " is expected");
+      refuse(start, "expected one of " + state_names());
     return out;
   }
 
@@ -103,7 +103,7 @@ class Reader {
 
   void expect(char wanted) {
     skip_space();
-    if (at_end() || text_[position_] != wanted) refuse(position_, std::string(1, wanted) + " is expected");
+    if (at_end() || text_[position_] != wanted) refuse(position_, std::string("expected ") + wanted);
     ++position_;
   }
 

@@ -87,7 +87,7 @@ grpc::ServerUnaryReactor* JobsService::CreateJob(grpc::CallbackServerContext* co
     const auto created =
         parts_.journal.create_job(std::move(job), request->request_id(), hash, verdict.element_steps, admit);
     if (created.is_new) {
-      log_change(jobs::name_of(created.job), "made", owner, request->request_id());
+      log_change(jobs::name_of(created.job), "created", owner, request->request_id());
       parts_.scheduler.enqueue({{created.job, created.job, request->priority(), verdict.element_steps, 0, 0, owner}});
       place.reset();
     }

@@ -101,7 +101,7 @@ TEST_F(TokenFileTest, AWrongLineIsNamedByItsNumberAndNotRepeated) {
   EXPECT_THAT(refusal("anna submit"), AllOf(StartsWith("--tokens " + path().string()), HasSubstr("line 1")));
   EXPECT_THAT(refusal("\nanna submit secret"), AllOf(HasSubstr("line 2"), ::testing::Not(HasSubstr("secret"))));
   EXPECT_THAT(refusal(line + " more"), HasSubstr("NAME SCOPE SHA256-HEX"));
-  EXPECT_THAT(refusal("anna all " + hash), HasSubstr("read, submit and admin"));
+  EXPECT_THAT(refusal("anna all " + hash), HasSubstr("read, submit or admin"));
   EXPECT_THAT(refusal("local admin " + hash), HasSubstr("name"));
   EXPECT_THAT(refusal("an\"na admin " + hash), HasSubstr("name"));
   EXPECT_THAT(refusal("anna admin " + hash.substr(1) + "g"), HasSubstr("hexadecimal"));

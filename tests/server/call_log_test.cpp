@@ -35,12 +35,12 @@ TEST_F(CallLogTest, EachCallThatChangesSomethingIsOneLine) {
   create.set_validate_only(true);
   v1::Job job;
   ASSERT_TRUE(jobs->CreateJob(as("anna").get(), create, &job).ok());
-  EXPECT_EQ(told("made"), 0) << "Nothing was.";
+  EXPECT_EQ(told("created"), 0) << "Nothing was.";
   create.set_validate_only(false);
   create.set_request_id("night\n3");
   for (int i = 0; i < 2; ++i) ASSERT_TRUE(jobs->CreateJob(as("anna").get(), create, &job).ok());
-  EXPECT_EQ(told("[info] jobs/1 made by anna, request \"night\\x0a3\""), 1) << log_.text();
-  EXPECT_EQ(told("made by"), 1) << "The second call made nothing.";
+  EXPECT_EQ(told("[info] jobs/1 created by anna, request \"night\\x0a3\""), 1) << log_.text();
+  EXPECT_EQ(told("created by"), 1) << "The second call made nothing.";
 
   const auto sweeps = v1::Sweeps::NewStub(channel({}));
   auto many = sweep_of(small_case(), kSpeed, {});
@@ -48,8 +48,8 @@ TEST_F(CallLogTest, EachCallThatChangesSomethingIsOneLine) {
   many.set_request_id("all");
   v1::Sweep sweep;
   ASSERT_TRUE(sweeps->CreateSweep(as("bob").get(), many, &sweep).ok());
-  EXPECT_EQ(told("[info] sweeps/1 made with 1000 jobs by bob, request \"all\""), 1) << log_.text();
-  EXPECT_EQ(told("made"), 2);
+  EXPECT_EQ(told("[info] sweeps/1 created with 1000 jobs by bob, request \"all\""), 1) << log_.text();
+  EXPECT_EQ(told("created"), 2);
 
   const auto change = [&](auto method, auto request, auto response) {
     request.set_name("jobs/1");

@@ -39,9 +39,9 @@ TEST(JobFilter, NothingIsNoCondition) {
 
 TEST(JobFilter, AFaultIsNamedWithItsPlaceAndWhatIsUnderstood) {
   EXPECT_THAT(refusal_of("speed = 3"), HasSubstr("position 1: expected state, owner, label.KEY or title"));
-  EXPECT_THAT(refusal_of("state = DONE"), HasSubstr("position 9: one of PENDING, RUNNING"));
+  EXPECT_THAT(refusal_of("state = DONE"), HasSubstr("position 9: expected one of PENDING, RUNNING"));
   EXPECT_THAT(refusal_of("state = JOB_STATE_UNSPECIFIED"), HasSubstr("position 9"));
-  EXPECT_THAT(refusal_of("state : RUNNING"), HasSubstr("position 7: = is expected"));
+  EXPECT_THAT(refusal_of("state : RUNNING"), HasSubstr("position 7: expected ="));
   EXPECT_THAT(refusal_of("state = RUNNING OR title : a"), HasSubstr("position 17: expected AND or the end"));
   EXPECT_THAT(refusal_of("state = RUNNING AND"), HasSubstr("position 20"));
   EXPECT_THAT(refusal_of("title : \"open"),

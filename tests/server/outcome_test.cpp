@@ -33,7 +33,7 @@ TEST(Outcome, ASignalIsNamed) {
 TEST(Outcome, AnEndWithoutAFinalReportIsACrashWithItsExitCode) {
   const auto out = outcome_of(exit_of(WorkerExit::Kind::exited, 3));
   EXPECT_EQ(out.cause, v1::WORKER_CRASHED);
-  EXPECT_THAT(out.message, HasSubstr("exit code 3"));
+  EXPECT_THAT(out.message, HasSubstr("exited with code 3"));
 }
 
 TEST(Outcome, AFinalReportCountsForMoreThanTheEndOfTheProcess) {
@@ -102,7 +102,7 @@ TEST(Outcome, AWorkerThatAnotherProgramMadeLeaveIsALoss) {
   exit.final.emplace();
   exit.final->set_suspended_step(7);
   EXPECT_TRUE(is_lost(exit));
-  EXPECT_THAT(outcome_of(exit).message, HasSubstr("another program"));
+  EXPECT_THAT(outcome_of(exit).message, HasSubstr("Another program"));
 }
 
 TEST(Outcome, ACancelledRunKeepsItsSummaryIfItHasOne) {
