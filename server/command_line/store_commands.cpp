@@ -83,7 +83,7 @@ int StoreCommands::restore(const std::filesystem::path& data_folder) const {
     return 1;
   }
   store::restore_backup(folder_, data_folder);
-  std::printf("%s restored from the backup of %s: %s\n", data_folder.c_str(), found.created.c_str(),
+  std::printf("%s contains the backup of %s: %s\n", data_folder.c_str(), found.created.c_str(),
               counts_of(found).c_str());
   return 0;
 }

@@ -92,9 +92,9 @@ TEST(DaemonManPage, NamesEveryCommandAndEveryOption) {
 }
 
 TEST(DaemonManPage, RoffHasNoWarnings) {
-  if (run({"sh", "-c", "command -v man"}, kShortLimit).exit_code != 0) GTEST_SKIP() << "man is not installed";
+  if (run({"/bin/sh", "-c", "command -v man"}, kShortLimit).exit_code != 0) GTEST_SKIP() << "man is not installed";
   const std::string render = std::string(CELLCRUSHD_PROGRAM) + " man | man -l --warnings -E UTF-8 - 2>&1 > /dev/null";
-  EXPECT_EQ(run({"sh", "-c", render}, kShortLimit).all(), "");
+  EXPECT_EQ(run({"/bin/sh", "-c", render}, kShortLimit).all(), "");
 }
 
 }  // namespace
