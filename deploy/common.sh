@@ -20,7 +20,7 @@ logged() {
   local log=$log_folder/$name.log
   if ! "$@" >"$log" 2>&1 </dev/null; then
     tail -n 40 "$log" >&2
-    fail "" "Failed: $*" "The whole log is in $log"
+    fail "" "Failed: $*" "Full log: $log"
   fi
 }
 
@@ -44,7 +44,7 @@ build_preset() {
   local folder=$root/build/$preset
   local cache=$folder/CMakeCache.txt
   if [[ -f $cache ]] && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$cache"; then
-    say "  build/$preset was configured for another place of the source tree: starting it afresh."
+    say "  build/$preset was configured for another source folder; it is deleted and configured again."
     rm -rf "$folder"
   fi
   if [[ ! -f $folder/build.ninja ]]; then
@@ -54,6 +54,6 @@ build_preset() {
   mkdir -p "$log_folder"
   if ! (cd "$root" && cmake --build --preset "$preset" --parallel "$(nproc)") 2>&1 </dev/null | tee "$log" | show_ninja_progress; then
     grep -nE 'FAILED:|error:|undefined reference' "$log" | head -n 20 >&2 || tail -n 40 "$log" >&2
-    fail "" "Failed: the build of preset $preset." "The whole log is in $log"
+    fail "" "Failed: the build of preset $preset." "Full log: $log"
   fi
 }

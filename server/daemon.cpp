@@ -43,11 +43,11 @@ ListenAddress metrics_address(const std::string& text) {
   const auto refuse = [&text](const char* why) {
     throw ServiceError(ServiceError::Kind::invalid, "Cannot serve metrics on " + text + why);
   };
-  if (out.kind != ListenAddress::Kind::tcp) refuse(": they are served over HTTP. Use --metrics HOST:PORT.");
+  if (out.kind != ListenAddress::Kind::tcp) refuse(": metrics need a TCP address. Use --metrics HOST:PORT.");
   if (!out.is_loopback()) {
     refuse(
-        ", which others can reach: they are served without TLS and to whoever asks. Use a loopback address, such as "
-        "--metrics 127.0.0.1:9464, and a proxy or an SSH tunnel from elsewhere.");
+        ", which other machines can reach: metrics have neither TLS nor authentication. Use a loopback address, such "
+        "as --metrics 127.0.0.1:9464, with a proxy or SSH tunnel for remote access.");
   }
   return out;
 }
@@ -123,7 +123,7 @@ struct Daemon::Impl {
     interceptors.push_back(rpc::make_parse_error_interceptors());
     builder.experimental().SetInterceptorCreators(std::move(interceptors));
     server = builder.BuildAndStart();
-    if (!server) throw ServiceError(ServiceError::Kind::failed_precondition, "The service could not be started.");
+    if (!server) throw ServiceError(ServiceError::Kind::failed_precondition, "The gRPC server could not be started.");
     for (const auto& port : ports) addresses.push_back(port.address().text());
     refusing_server.emplace(credentials);
     net::Acceptor::Parts parts;
@@ -169,7 +169,7 @@ struct Daemon::Impl {
   void serve_metrics() {
     if (options.metrics.empty()) return;
     metrics_url = "http://" + service.serve_metrics(metrics_address(options.metrics)).text() + "/metrics";
-    spdlog::info("metrics are served on {}", metrics_url);
+    spdlog::info("serving metrics on {}", metrics_url);
   }
 
   void drain() {

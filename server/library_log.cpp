@@ -68,7 +68,7 @@ class LibraryLog {
   }
 
   google::protobuf::LogHandler* before_ = nullptr;
-  LimitedLog lines_{"lines of gRPC and protobuf", kLinesPerSecond};
+  LimitedLog lines_{"log lines of gRPC and protobuf", kLinesPerSecond};
 };
 
 }  // namespace

@@ -15,7 +15,7 @@ LimitedLog::LimitedLog(std::string kind, int lines_per_second, std::function<Clo
     : kind_(std::move(kind)), lines_per_second_(lines_per_second), now_(std::move(now)), second_(now_() - kWindow) {}
 
 LimitedLog::~LimitedLog() {
-  if (left_out_ > 0) spdlog::warn("{} more {}", left_out_, kind_);
+  if (left_out_ > 0) spdlog::warn("{} more {} not logged", left_out_, kind_);
 }
 
 void LimitedLog::write(spdlog::level::level_enum level, const std::string& words) {
@@ -34,7 +34,7 @@ void LimitedLog::write(spdlog::level::level_enum level, const std::string& words
     ++lines_;
     left_out = std::exchange(left_out_, 0);
   }
-  spdlog::log(level, "{}{}", words, left_out == 0 ? "" : fmt::format(" ({} more before it)", left_out));
+  spdlog::log(level, "{}{}", words, left_out == 0 ? "" : fmt::format(" ({} more not logged)", left_out));
 }
 
 }  // namespace cellcrush

@@ -36,8 +36,8 @@ ListenAddress parse_unix(std::string_view text, std::string_view path) {
   ListenAddress out{ListenAddress::Kind::unix_socket, std::filesystem::absolute(path).string(), 0};
   const std::size_t limit = sizeof(sockaddr_un::sun_path) - 1;
   if (out.place.size() > limit) {
-    refuse(text, "the path of a socket has at most " + std::to_string(limit) + " characters, and this one has " +
-                     std::to_string(out.place.size()) + ". Use a shorter one.");
+    refuse(text, "a socket path has at most " + std::to_string(limit) + " characters, and this one has " +
+                     std::to_string(out.place.size()) + ". Use a shorter path.");
   }
   return out;
 }
@@ -64,10 +64,10 @@ ListenAddress parse_listen_address(std::string_view text) {
   const std::string_view digits = text.substr(colon + 1);
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), out.port);
   if (error != std::errc() || end != digits.data() + digits.size() || out.port < 0 || out.port > 65535)
-    refuse(text, "the port is a number from 0 to 65535; 0 takes one that is free.");
+    refuse(text, "the port must be a number from 0 to 65535; 0 picks a free port.");
   if (!is_address(out.place)) {
     refuse(text,
-           "the host is none of this machine's addresses. Use 127.0.0.1, localhost or [::1], another of its addresses, "
+           "the host is not an address of this machine. Use 127.0.0.1, localhost or [::1], another of its addresses, "
            "or 0.0.0.0 for all.");
   }
   return out;
@@ -79,7 +79,7 @@ void remove_stale_socket(const std::string& path) {
   const std::string name = "unix:" + path;
   if (!S_ISSOCK(status.st_mode)) {
     throw ServiceError(ServiceError::Kind::failed_precondition,
-                       "Cannot listen on " + name + ": there is something else than a socket. Use another path.");
+                       "Cannot listen on " + name + ": the path exists and is not a socket. Use another path.");
   }
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
@@ -88,8 +88,9 @@ void remove_stale_socket(const std::string& path) {
   const bool answers = connect(probe, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0;
   close(probe);
   if (answers) {
-    throw ServiceError(ServiceError::Kind::failed_precondition,
-                       "Cannot listen on " + name + ": another program listens there. Stop it, or use another path.");
+    throw ServiceError(
+        ServiceError::Kind::failed_precondition,
+        "Cannot listen on " + name + ": another program is listening there. Stop it, or use another path.");
   }
   unlink(path.c_str());
 }

@@ -15,6 +15,7 @@
 #include "access/token_file.h"
 #include "cellcrush/simd.h"
 #include "command_line/daemon_flags.h"
+#include "command_line/man_page.h"
 #include "command_line/store_commands.h"
 #include "daemon.h"
 #include "log_format.h"
@@ -22,6 +23,12 @@
 #include "worker/worker_main.h"
 
 namespace {
+
+constexpr const char* kFooter =
+    "SIGTERM and SIGINT stop the daemon: running jobs are checkpointed, and the next daemon resumes them.\n"
+    "SIGHUP reloads certificates and tokens.\n"
+    "Exit codes: 0 stopped by a signal, or the command is done; 1 failed; 2 usage error.\n"
+    "Environment: CELLCRUSH_SIMD names the SIMD kernel to use instead of the fastest one.";
 
 // SIGTERM, SIGINT and SIGHUP are waited for by main alone; blocked before any other thread exists.
 sigset_t block_signals() {
@@ -41,9 +48,10 @@ bool choose_kernel() {
   if (name == nullptr || cellcrush::use_simd_target(name)) return true;
   std::string known;
   for (const auto& target : cellcrush::simd_targets()) known += (known.empty() ? "" : ", ") + target;
-  std::fprintf(stderr,
-               "cellcrushd: CELLCRUSH_SIMD is '%s', which this processor cannot run. Give one of %s, or unset it.\n",
-               name, known.c_str());
+  std::fprintf(
+      stderr,
+      "cellcrushd: CELLCRUSH_SIMD is '%s', which this processor cannot run. Set it to one of %s, or unset it.\n", name,
+      known.c_str());
   return false;
 }
 
@@ -52,10 +60,9 @@ int print_token(const std::string& name, const std::string& scope) {
   try {
     const auto made = cellcrush::access::make_token(name, cellcrush::access::parse_scope(scope).value());
     std::printf("%s\n%s\n", made.token.c_str(), made.line.c_str());
-    std::fprintf(
-        stderr,
-        "The first line is the token: give it to its owner, it is not kept. The second one, which has its hash "
-        "only, goes into the file of --tokens.\n");
+    std::fprintf(stderr,
+                 "The first line is the token. Give it to its owner; it is not stored. The second line contains only "
+                 "its hash. Append it to the --tokens file.\n");
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "cellcrushd: %s\n", error.what());
@@ -70,7 +77,7 @@ int serve(const cellcrush::DaemonOptions& options, const sigset_t& signals) {
     std::fflush(stdout);
     int received = 0;
     while (sigwait(&signals, &received) == 0 && received == SIGHUP) daemon.read_files_again();
-    spdlog::info("ends on {}", received == SIGTERM ? "SIGTERM" : "SIGINT");
+    spdlog::info("stopping on {}", received == SIGTERM ? "SIGTERM" : "SIGINT");
     daemon.stop();
     return 0;
   } catch (const std::exception& error) {
@@ -82,21 +89,30 @@ int serve(const cellcrush::DaemonOptions& options, const sigset_t& signals) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("cellcrushd hosts the solver: it takes cases over gRPC, runs them, and streams what comes of them.");
+  CLI::App app(
+      "cellcrushd runs crushing analyses: it accepts cases over gRPC, runs them as jobs, and streams their progress "
+      "and results.");
+  app.name("cellcrushd");
+  app.footer(kFooter);
+  app.get_formatter()->label("SUBCOMMAND", "COMMAND");
   cellcrush::DaemonFlags flags(app);
   app.set_version_flag("--version", std::string("cellcrushd ") + cellcrush::kSolverRevision);
   std::string token_name;
   std::string token_scope;
-  CLI::App* token = app.add_subcommand("token", "print a new token and its line for the file of --tokens, and end");
+  CLI::App* token = app.add_subcommand("token", "Print a new token and its line for the --tokens file");
   token
       ->add_option("NAME", token_name,
-                   "whom the token is for: 1 to 64 printable characters without spaces, quotes, backslashes and #")
+                   "Owner of the token: 1 to 64 printable characters without spaces, quotes, backslashes or #")
       ->required();
-  token->add_option("--scope", token_scope, "read; submit: also make jobs and change one's own; admin: all")
+  token
+      ->add_option(
+          "--scope", token_scope,
+          "Scope of the token. read: read only; submit: also create jobs and change one's own; admin: everything")
       ->required()
       ->check(CLI::IsMember({"read", "submit", "admin"}));
   const cellcrush::StoreCommands store_commands(app);
-  // What the daemon itself starts; an empty group keeps it out of the help.
+  // What packages install and what the daemon itself starts; an empty group keeps them out of the help.
+  const CLI::App* man = app.add_subcommand("man", "Print the man page")->group("");
   std::filesystem::path job_folder;
   CLI::App* worker = app.add_subcommand("worker")->group("");
   worker->add_option("--folder", job_folder)->required();
@@ -104,6 +120,10 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
+  }
+  if (man->parsed()) {
+    std::printf("%s", cellcrush::man_page(app, CELLCRUSH_VERSION).c_str());
+    return 0;
   }
   if (token->parsed()) return print_token(token_name, token_scope);
   if (!choose_kernel()) return 2;

@@ -26,12 +26,12 @@ const char* remedy_for(Shortage shortage) {
   switch (shortage) {
     case Shortage::none: return "";
     case Shortage::low_disk:
-    case Shortage::full_disk: return "Make room on the disk of the data folder, or delete jobs.";
+    case Shortage::full_disk: return "Free space on the data folder's disk, or delete jobs.";
     case Shortage::descriptors: return "Raise the daemon's limit on open files (ulimit -n, LimitNOFILE).";
     case Shortage::memory: return "Free memory, or raise the limits on memory and processes (ulimit -v, ulimit -u).";
     case Shortage::data_folder: return "Make the data folder readable and writable for the daemon's user.";
-    case Shortage::journal: return "End the program that locks journal.sqlite, and look whether the disk is sound.";
-    case Shortage::worker: return "Install cellcrushd again where it was started from, readable and executable.";
+    case Shortage::journal: return "Stop the program that locks journal.sqlite, and check the disk for faults.";
+    case Shortage::worker: return "Reinstall cellcrushd at the path it was started from, readable and executable.";
   }
   return "";
 }
@@ -63,8 +63,7 @@ Trouble trouble_of(const std::exception& error) {
   if (const auto* refused = dynamic_cast<const ServiceError*>(&error)) return {refused->shortage(), error.what()};
   if (const auto* failed = dynamic_cast<const std::system_error*>(&error))
     return {shortage_of_errno(failed->code().value()), error.what()};
-  if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr)
-    return {Shortage::memory, "The daemon has too little memory."};
+  if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr) return {Shortage::memory, "The daemon is out of memory."};
   return {};
 }
 

@@ -64,6 +64,7 @@ ExitCode run_sweep(Session& session, const SweepOptions& options) {
     fmt::print("{}\n", sweep.name());
     std::fflush(stdout);
   }
+  fmt::print(stderr, "{}", session.json ? "" : notes_text(sweep.notes()));
   return options.watch ? watch_sweep(session, sweep.name(), *interruption) : ExitCode::done;
 }
 

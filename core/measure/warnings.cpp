@@ -11,7 +11,7 @@ namespace cellcrush {
 namespace {
 
 constexpr const char* kShorterStep =
-    "Give a shorter numerics.time_step_s, or 0 to have it chosen, and see whether the stresses stay.";
+    "Use a shorter numerics.time_step_s, or 0 for an automatic step, and check whether the stresses change.";
 
 /// Overlap of pair `t` of those that touch, over the thinner wall's thickness.
 double depth_of(const Scene& scene, const State& state, const TouchMemory& touching, std::size_t t) {
@@ -67,8 +67,8 @@ void add_drift(std::span<const Sample> samples, Warning::Kind kind, const std::s
   }
   if (first != nullptr) {
     warnings.push_back({kind, first->step, first->strain,
-                        what + " more than 1 % of the work done from " + moment_of(first->step, first->time) +
-                            " on, at most " + percent_of(greatest) + ".",
+                        what + " more than 1 % of the work done, from " + moment_of(first->step, first->time) +
+                            " on; the maximum is " + percent_of(greatest) + ".",
                         kShorterStep});
   }
 }
@@ -77,27 +77,27 @@ void add_drift(std::span<const Sample> samples, Warning::Kind kind, const std::s
 
 Warning warn_of_depth(const Scene& scene, const State& state, double strain) {
   return {Warning::Kind::deep_penetration, state.step, strain,
-          "Walls have overlapped by " + percent_of(state.contact_totals.deepest_penetration) +
-              " of the thinner one's thickness by " + moment_of(state.step, state.time) + deepest_place(scene, state) +
+          "Walls had overlapped by " + percent_of(state.contact_totals.deepest_penetration) +
+              " of the thinner wall's thickness by " + moment_of(state.step, state.time) + deepest_place(scene, state) +
               ".",
-          std::string(kShorterStep) + " A greater contact.stiffness_factor keeps slow walls apart."};
+          std::string(kShorterStep) + " A larger contact.stiffness_factor reduces the overlap of slow walls."};
 }
 
 Warning warn_of_crossing(const Scene& scene, const State& state, double strain) {
   const double time = static_cast<double>(state.crossing_step) * scene.schedule.time_step;
   return {Warning::Kind::walls_crossed, state.crossing_step, strain,
-          "Walls were found to have crossed at " + moment_of(state.crossing_step, time) +
-              "; contacts are searched in space since" + deepest_place(scene, state) + ".",
+          "Walls were found crossing each other at " + moment_of(state.crossing_step, time) +
+              "; from then on, contacts are searched in space" + deepest_place(scene, state) + ".",
           kShorterStep};
 }
 
 Warning warn_of_borders(const Scene& scene, const State& state, double strain) {
   return {Warning::Kind::borders_near, state.step, strain,
-          "Parts of the lattice's border that lie far apart along it came near each other by " +
+          "Distant parts of the lattice's border had come close to each other by " +
               moment_of(state.step, scene.schedule.time_step * static_cast<double>(state.step)) +
-              "; contacts are searched in space since, which finds the same and takes longer.",
-          "Nothing need be done: the result stands. Where numerics.time_step_s was given, 0 has it chosen, which may "
-          "avoid it."};
+              "; from then on, contacts are searched in space, which finds the same contacts but is slower.",
+          "No action is needed: the result is valid. If numerics.time_step_s was given, 0 (an automatic step) may "
+          "avoid the slower search."};
 }
 
 double turnover_of(const Sample& sample) {
@@ -113,10 +113,10 @@ std::vector<Warning> collect_warnings(std::span<const Sample> samples) {
     warnings.insert(warnings.end(), sample.warnings.begin(), sample.warnings.end());
   }
   add_drift(
-      samples, Warning::Kind::energy_drift, "The energy ledger is open by",
+      samples, Warning::Kind::energy_drift, "The energy balance has an error of",
       [](const Sample& sample) { return std::abs(sample.energy_residual); }, warnings);
   add_drift(
-      samples, Warning::Kind::contact_energy, "Contacts have made",
+      samples, Warning::Kind::contact_energy, "Contacts have created energy of",
       [](const Sample& sample) { return -sample.energy_contact; }, warnings);
   std::stable_sort(warnings.begin(), warnings.end(),
                    [](const Warning& a, const Warning& b) { return a.step < b.step; });

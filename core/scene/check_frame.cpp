@@ -44,8 +44,8 @@ class FrameChecker {
       }
       elements += std::max(1, beam.elements.value_or(elements_per_wall_));
       if (ends && length_of(beam) == 0.0) {
-        check_.add(path + "end", std::to_string(beam.end), "makes a beam without length.",
-                   "Join nodes at different places.");
+        check_.add(path + "end", std::to_string(beam.end), "gives the beam zero length.",
+                   "Connect two nodes at different positions.");
       }
       if (ends) {
         joined[beam.start] = joined[beam.end] = true;
@@ -55,16 +55,17 @@ class FrameChecker {
     for (std::size_t i = 0; i < frame_.nodes.size(); ++i) {
       if (!joined[i]) {
         check_.add("lattice.frame.nodes[" + std::to_string(i) + "]", "", "belongs to no beam.",
-                   "Join it to a beam, or leave it out.");
+                   "Connect it to a beam, or remove it.");
       }
     }
   }
 
   void check_size(double elements) {
     if (elements > kMostElements) {
-      check_.add("lattice.frame.beams", std::to_string(frame_.beams.size()),
-                 "make " + std::to_string(static_cast<std::int64_t>(elements)) + " elements.",
-                 "Keep the sum of their elements at or below " + std::to_string(static_cast<int>(kMostElements)) + ".");
+      check_.add(
+          "lattice.frame.beams", std::to_string(frame_.beams.size()),
+          "make " + std::to_string(static_cast<std::int64_t>(elements)) + " elements.",
+          "Keep the total number of elements at or below " + std::to_string(static_cast<int>(kMostElements)) + ".");
     }
   }
 
@@ -95,8 +96,8 @@ class FrameChecker {
       const std::string path = item("distributed_loads", i);
       const FrameLattice::DistributedLoad& load = frame_.distributed_loads[i];
       if (load.beam < 0 || load.beam >= static_cast<int>(frame_.beams.size())) {
-        check_.add(path + "beam", std::to_string(load.beam), "is no beam of the frame.",
-                   "Give a position in lattice.frame.beams, from 0.");
+        check_.add(path + "beam", std::to_string(load.beam), "is not a beam of the frame.",
+                   "Give an index into lattice.frame.beams, counting from 0.");
       }
       if (!load.x_points.empty() || load.y_points.empty()) {
         function_of_time(path + "x_n_per_mm", load.x_points);
@@ -131,7 +132,8 @@ class FrameChecker {
     const FrameLattice::NodalMotion& motion = frame_.motions[index];
     for (std::size_t other = 0; other < index; ++other) {
       if (frame_.motions[other].node == motion.node && frame_.motions[other].component == motion.component) {
-        check_.add(path + "component", "", "of this node is moved by another motion too.", "Give each motion once.");
+        check_.add(path + "component", "", "of this node has another motion already.",
+                   "Give one motion per node and component.");
         break;
       }
     }
@@ -140,7 +142,8 @@ class FrameChecker {
                         : motion.component == FrameLattice::Component::y ? support.fix_y
                                                                          : support.fix_rotation;
       if (support.node == motion.node && held) {
-        check_.add(path + "component", "", "of this node is held by a support.", "Free it in the support.");
+        check_.add(path + "component", "", "of this node is held by a support.",
+                   "Release it in the support, or remove the motion.");
         break;
       }
     }
@@ -153,8 +156,8 @@ class FrameChecker {
                 (k == 0 || points[k - 1].first < points[k].first);
     }
     if (!ordered) {
-      check_.add(field + ".points", "", "are not a function of time.",
-                 "Give at least one point, finite values, and times that ascend.");
+      check_.add(field + ".points", "", "do not define a function of time.",
+                 "Give at least one point, with finite values and ascending times.");
     }
   }
 
@@ -162,7 +165,7 @@ class FrameChecker {
     if (node >= 0 && node < static_cast<int>(frame_.nodes.size())) {
       return true;
     }
-    check_.add(field, std::to_string(node), "is no node of the frame.", "Name one of lattice.frame.nodes.");
+    check_.add(field, std::to_string(node), "is not a node of the frame.", "Name one of lattice.frame.nodes.");
     return false;
   }
 

@@ -43,8 +43,8 @@ Problems name_beams(const FrameLattice& frame, int elements_per_wall, const std:
     const auto [one, other] = std::minmax(beam[overlap.first], beam[overlap.second]);
     if (named.emplace(one, other).second) {
       problems.push_back({beam_field(other), "",
-                          "lies in " + beam_field(one) + " before loading, at " + place_text(overlap.place) + ".",
-                          "Move their nodes apart, join them by a node, make them thinner, or set "
+                          "overlaps " + beam_field(one) + " before loading, at " + place_text(overlap.place) + ".",
+                          "Move their nodes apart, connect the beams at a node, make them thinner, or set "
                           "lattice.frame.self_contact to false."});
     }
   }
@@ -59,7 +59,7 @@ Problems check_overlap(const SceneSpec& spec, const Scene& scene) {
   if (overlaps.too_dense && overlaps.found.empty()) {
     return {{frame != nullptr ? "lattice.frame.beams" : thickness_field(spec), "",
              "are too thick or too tangled for contact: each particle has hundreds of elements within reach.",
-             "Make walls thinner, or give longer elements."}};
+             "Use thinner walls or longer elements."}};
   }
   if (frame != nullptr) {
     return name_beams(*frame, *spec.elements_per_wall, overlaps.found);
@@ -68,8 +68,8 @@ Problems check_overlap(const SceneSpec& spec, const Scene& scene) {
     return {};
   }
   return {{thickness_field(spec), "",
-           "makes walls lie in each other before loading, first at " + place_text(overlaps.found.front().place) + ".",
-           "Give thinner walls, or a smaller lattice.imperfection.amplitude_mm."}};
+           "makes walls overlap before loading, first at " + place_text(overlaps.found.front().place) + ".",
+           "Use thinner walls or a smaller lattice.imperfection.amplitude_mm."}};
 }
 
 }  // namespace cellcrush

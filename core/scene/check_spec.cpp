@@ -51,15 +51,16 @@ void check_hexagons(const HexagonLattice& hexagon, const Inclusions& inclusions,
   }
   const std::set<int> stiff(inclusions.rows.begin(), inclusions.rows.end());
   if (inclusions.model == Inclusions::Model::rigid && hexagon.rows && static_cast<int>(stiff.size()) >= *hexagon.rows) {
-    check.add("lattice.inclusions.rows", std::to_string(stiff.size()) + " rows", "leaves no cell that deforms.",
-              "Leave a row out, or set lattice.inclusions.model to MESHED.");
+    check.add("lattice.inclusions.rows", std::to_string(stiff.size()) + " rows", "leaves no deformable cell.",
+              "Remove a row, or set lattice.inclusions.model to MESHED.");
   }
   const double thickness =
       std::max(hexagon.wall_thickness_mm.value_or(0.0), hexagon.vertical_wall_thickness_mm.value_or(0.0));
   if (check.in_range("lattice.inclusions.thickness_factor", inclusions.thickness_factor, {1.0, 1e12}, "") &&
       inclusions.thickness_factor * thickness > thickest) {
     check.add("lattice.inclusions.thickness_factor", to_text(inclusions.thickness_factor),
-              "makes stiff walls thicker than half of side_mm.", "Give at most " + to_text(thickest / thickness) + ".");
+              "makes the stiff walls thicker than half of side_mm.",
+              "Give at most " + to_text(thickest / thickness) + ".");
   }
 }
 
@@ -87,7 +88,7 @@ void check_lattice(const SceneSpec& spec, FieldChecker& check) {
     check_frame(*frame, *spec.elements_per_wall, check);
     if (spec.imperfection.amplitude_mm != 0.0) {
       check.add("lattice.imperfection.amplitude_mm", to_text(spec.imperfection.amplitude_mm),
-                "is for regular lattices, not for a frame.", "Leave it out, and move the frame's nodes instead.");
+                "applies to regular lattices only, not to a frame.", "Remove it, and move the frame's nodes instead.");
     }
   } else {
     check.add("lattice", "", "is missing.",
@@ -95,7 +96,7 @@ void check_lattice(const SceneSpec& spec, FieldChecker& check) {
   }
   if (!spec.inclusions.rows.empty()) {
     check.add("lattice.inclusions.rows", std::to_string(spec.inclusions.rows.size()) + " rows",
-              "are for hexagons only.", "Leave them out, or use lattice.hexagon.");
+              "apply to hexagons only.", "Remove them, or use lattice.hexagon.");
   }
 }
 
@@ -108,8 +109,7 @@ void check_section(const SectionSpec& section, FieldChecker& check) {
     check.in_range("section.depth_points", std::optional(section.depth_count()), {2, 10}, "");
   } else if (section.depth_count() != 4 && section.depth_count() != 6) {
     check.add("section.depth_points", std::to_string(section.depth_count()),
-              "is not a number that the full-moment rule has.",
-              "Give 4 or 6, or section.depth_rule LOBATTO with 2 to 10.");
+              "is not available in the full-moment rule.", "Give 4 or 6, or section.depth_rule LOBATTO with 2 to 10.");
   }
 }
 
@@ -123,10 +123,10 @@ void check_loading(const LoadingSpec& loading, FieldChecker& check) {
 }
 
 void check_numerics(const NumericsSpec& numerics, FieldChecker& check) {
-  check.in_range("numerics.time_step_s", numerics.time_step_s, {0.0, 1.0}, " s (0: chosen)");
+  check.in_range("numerics.time_step_s", numerics.time_step_s, {0.0, 1.0}, " s (0: automatic)");
   check.in_range("numerics.mass_damping_per_s", numerics.mass_damping_per_s, {0.0, 1e12}, " 1/s");
-  check.in_range("numerics.mass_scaling", numerics.mass_scaling, {1.0, 1e6}, " (1: the real masses)");
-  check.in_range("numerics.rotary_scaling", numerics.rotary_scaling, {1.0, 1e3}, " (1: the real inertias)");
+  check.in_range("numerics.mass_scaling", numerics.mass_scaling, {1.0, 1e6}, " (1: real masses)");
+  check.in_range("numerics.rotary_scaling", numerics.rotary_scaling, {1.0, 1e3}, " (1: real inertias)");
   check.in_range("numerics.threads", std::optional<int>(numerics.threads), {1, 1024}, " threads");
 }
 
@@ -152,8 +152,8 @@ Problems check_spec(const SceneSpec& spec) {
   if (!std::holds_alternative<FrameLattice>(spec.lattice)) {
     check_loading(spec.loading, check);
   } else if (spec.loading.speed_m_per_s) {
-    check.add("loading.speed_m_per_s", to_text(*spec.loading.speed_m_per_s), "is for lattices between plates.",
-              "Leave loading out; a frame is loaded by lattice.frame.loads and motions.");
+    check.add("loading.speed_m_per_s", to_text(*spec.loading.speed_m_per_s), "applies to lattices between plates only.",
+              "Remove loading; use lattice.frame.loads and motions to load a frame.");
   }
   check_numerics(spec.numerics, check);
   check.in_range("output.sample_count", std::optional<int>(spec.output.sample_count), {10, 100000}, " samples");

@@ -50,7 +50,7 @@ std::string describe_fidelity(const SceneSpec& spec) {
   const FidelityPoint* point = find_point(spec.numerics.fidelity);
   if (point == nullptr) return {};
   return "Fidelity " + point->name +
-         (spec.elements_per_wall ? ": elements_per_wall is given, which is all that it would fill in."
+         (spec.elements_per_wall ? ": no effect, as elements_per_wall is given explicitly."
                                  : ": elements_per_wall is " + std::to_string(point->elements_per_wall) + ".");
 }
 

@@ -35,13 +35,13 @@ void look_at_density(double density, Notes& notes) {
   const std::string field = "material.density_kg_per_m3";
   if (density < 1e-3) {
     notes.add(field, density, "is far below that of any solid. Is it in tonne/mm^3?",
-              "Give kg/m^3: aluminium has 2700.");
+              "Give it in kg/m^3: aluminium has 2700.");
   } else if (density < 30.0) {
     notes.add(field, density, "is far below that of any solid. Is it in g/cm^3?",
-              "Give kg/m^3: " + to_text(density) + " g/cm^3 are " + to_text(1000.0 * density) + " kg/m^3.");
+              "Give it in kg/m^3: " + to_text(density) + " g/cm^3 are " + to_text(1000.0 * density) + " kg/m^3.");
   } else if (density < kLightest || density > kHeaviest) {
     notes.add(field, density, density < kLightest ? "is below that of any solid." : "is above that of any metal.",
-              "Give the density of the walls' solid, not of the lattice: aluminium has 2700 kg/m^3.");
+              "Give the density of the wall material, not of the lattice; aluminium has 2700 kg/m^3.");
   }
 }
 
@@ -49,10 +49,10 @@ void look_at_stiffness(const MaterialSpec& material, Notes& notes) {
   const double modulus = *material.youngs_modulus_mpa;
   const std::string field = "material.youngs_modulus_mpa";
   if (modulus < kSoftest) {
-    notes.add(field, modulus, "is that of a rubber. Is it in GPa?",
-              "Give MPa: " + to_text(modulus) + " GPa are " + to_text(1000.0 * modulus) + " MPa.");
+    notes.add(field, modulus, "is typical of rubber. Is it in GPa?",
+              "Give it in MPa: " + to_text(modulus) + " GPa are " + to_text(1000.0 * modulus) + " MPa.");
   } else if (modulus > kStiffest) {
-    notes.add(field, modulus, "is above that of diamond. Is it in Pa or kPa?", "Give MPa: aluminium has 69000.");
+    notes.add(field, modulus, "is above that of diamond. Is it in Pa or kPa?", "Give it in MPa: aluminium has 69000.");
   }
   const double yield_strain = *material.yield_stress_mpa / modulus;
   const std::string ratio = "is " + percent(yield_strain) + " of youngs_modulus_mpa";
@@ -72,7 +72,7 @@ void look_at_walls(const std::string& path, const Lattice& lattice, Notes& notes
   if (slenderness > kThickest) {
     notes.add(path + "wall_thickness_mm", *lattice.wall_thickness_mm,
               "is " + percent(slenderness) + " of side_mm: walls are modelled as slender beams without shear.",
-              "Trust such a lattice for trends only, up to a quarter of the side.");
+              "Up to a quarter of the side, use the result for trends only.");
   } else if (slenderness < kThinnest) {
     notes.add(path + "wall_thickness_mm", *lattice.wall_thickness_mm,
               "is " + to_text(slenderness) + " of side_mm, thinner than any honeycomb.", "Check the units of both.");
@@ -86,7 +86,7 @@ void look_at_speed(const SceneSpec& spec, Notes& notes) {
   if (share > kFastest) {
     notes.add("loading.speed_m_per_s", *spec.loading.speed_m_per_s,
               "is " + percent(share) + " of the speed of an elastic wave in the walls, " + to_text(std::round(wave)) +
-                  " m/s. Strain rate and heat, which are left out, matter there.",
+                  " m/s. At such speeds strain-rate and thermal effects matter, which are not modelled.",
               "Check the speed, and the units of youngs_modulus_mpa and density_kg_per_m3.");
   }
 }

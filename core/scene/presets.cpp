@@ -15,18 +15,17 @@ MaterialSpec perfectly_plastic_aluminium() {
 }
 
 const std::string kMaterialAssumption =
-    "The material of Example 2 stands only in a figure that is lost: E = 69 GPa, yield stress 76 MPa, perfectly "
-    "plastic, is "
-    "the usual choice for this scene.";
+    "The material of Example 2 is given only in a figure that is not available. E = 69 GPa, yield stress 76 MPa and "
+    "perfect plasticity are the usual choice for this problem.";
 const std::string kThicknessAssumption =
-    "Eq. 50 of the paper is inverted: the wall thickness 0.3464 mm is that of relative density 0.1, (2/sqrt(3)) h/L.";
+    "Eq. 50 of the paper is inverted. The wall thickness of 0.3464 mm corresponds to relative density 0.1 = "
+    "(2/sqrt(3)) h/L.";
 const std::string kContactAssumption =
-    "The paper gives neither penalty stiffness nor contact damping: a particle at the plate's speed sinks into a wall "
-    "by at "
-    "most a sixth of its thickness; damping is a fifth of critical.";
+    "The paper gives neither penalty stiffness nor contact damping. Here a particle at plate speed penetrates a wall "
+    "by at most one sixth of its thickness, and damping is one fifth of critical.";
 const std::string kStepAssumption =
-    "The step and the points of the elements are the defaults; the paper's are numerics.time_step_s 2e-7, "
-    "section.formulation DISPLACEMENT_BASED, section.depth_rule LOBATTO and section.area_rule CONSTANT_AREA.";
+    "Time step and integration points are the defaults. The paper uses numerics.time_step_s 2e-7, section.formulation "
+    "DISPLACEMENT_BASED, section.depth_rule LOBATTO and section.area_rule CONSTANT_AREA.";
 
 // Example 2 of the paper, Type I, at 100 m/s.
 Preset type_i() {
@@ -61,8 +60,7 @@ Preset hexagon_small() {
 }
 
 const std::string kCountsAssumption =
-    "The paper's text and its particle counts contradict each other for Types II and III; there is a preset of each "
-    "reading.";
+    "For Types II and III the paper's text contradicts its particle counts; each reading has its own preset.";
 
 // Example 2, Types II and III. The wall thickness gives relative density 0.1 by Eq. 48 and 49.
 Preset type_ii(const std::string& reading, int columns, int rows, double side) {
@@ -86,7 +84,7 @@ Preset type_iii(const std::string& reading, int columns, int rows, double side) 
   preset.title = "Wu, Tsai and Lee, Example 2, Type III: triangles at relative density 0.1, " + reading;
   preset.spec.title = "Type III triangles, " + reading;
   preset.assumptions = {kMaterialAssumption, kCountsAssumption, kContactAssumption, kStepAssumption,
-                        "The walls of one family lie along the crush."};
+                        "One family of walls is parallel to the crush direction."};
   TriangleLattice triangle;
   triangle.columns = columns;
   triangle.rows = rows;
@@ -122,12 +120,11 @@ Preset papka_kyriakides(const std::string& number, double side, double thickness
       "papka-kyriakides-" + number,
       "Wu, Tsai and Lee, Example 1, dimensions " + number +
           ": quasi-static crush of Al 5052-H39 hexagons, 814 particles",
-      {"The paper takes dynamic relaxation with a step of 2e-6 s, 6.4 times the stability limit of the real "
-       "masses; here the "
-       "masses are real, and 1 m/s with mass damping of 100 1/s is slow enough to be quasi-static.",
-       "The points of the elements are the paper's, which make the joints up to a quarter too strong: the limit stress "
-       "is about a tenth above that of section.formulation FORCE_BASED with section.depth_rule FULL_MOMENT.",
-       "The paper's fixed plate A is the support plate; friction 0.2 acts at both plates and not between walls.",
+      {"The paper uses dynamic relaxation with a step of 2e-6 s, 6.4 times the stability limit of the real masses. "
+       "Here the masses are real, and 1 m/s with mass damping of 100 1/s is slow enough to be quasi-static.",
+       "The integration points are the paper's, which make the joints up to one quarter too strong. The limit stress "
+       "is about one tenth above that of section.formulation FORCE_BASED with section.depth_rule FULL_MOMENT.",
+       "The paper's fixed plate A is the support plate. Friction of 0.2 acts at both plates, not between walls.",
        kContactAssumption},
       spec};
 }
@@ -156,14 +153,14 @@ Preset inclusions(std::vector<int> rows) {
   spec.plates.friction = 0.2;
   return {"inclusions-" + count,
           "Wu, Tsai and Lee, Example 3: " + count + " lines of stiff inclusions, 10 elements a wall",
-          {("The crush direction and the places of the lines stood only in lost figures: whole rows across the crush, "
-            "evenly spaced."),
-           ("A stiff cell has walls 4 times as thick and does not deform; MESHED, its walls are 64 times as stiff in "
-            "bending."),
-           ("Friction 0.2 acts at both plates, as in Example 1: the paper names none here, but between plates that "
-            "hold nothing sideways the block slides in halves before it densifies."),
-           "With six lines the rigid cells lock at 66 % strain; the run ends at 65 %.",
-           "The step is chosen; the paper's 2e-8 s can be set.", kContactAssumption},
+          {("The paper gives the crush direction and the positions of the lines only in figures that are not "
+            "available. Here whole rows lie across the crush direction, evenly spaced."),
+           ("A stiff cell has walls 4 times as thick and does not deform. With MESHED, its walls are 64 times as stiff "
+            "in bending."),
+           ("Friction of 0.2 acts at both plates, as in Example 1. The paper gives none here, but without it the "
+            "specimen splits into two sliding halves before it densifies."),
+           "With six lines the rigid cells lock up at 66 % strain, so the run ends at 65 %.",
+           "The time step is automatic; the paper's is 2e-8 s (numerics.time_step_s).", kContactAssumption},
           spec};
 }
 

@@ -48,7 +48,7 @@ void check_stability(const SceneSpec& spec, const MeshMeasures& mesh, Problems& 
     problems.push_back(
         {"numerics.time_step_s", to_text(spec.numerics.time_step_s),
          "is above the largest stable step of this mesh, " + to_text(mesh.stable_step) + " s.",
-         "Give a step of at most " + to_text(kStepFraction * mesh.stable_step) + " s, or 0 to have it chosen."});
+         "Use a step of at most " + to_text(kStepFraction * mesh.stable_step) + " s, or 0 for an automatic step."});
   }
 }
 
@@ -62,12 +62,11 @@ void check_step_count(const SceneSpec& spec, double count, Problems& problems) {
   const std::string message = "makes " + to_text(std::round(count)) + " steps, more than 1e10.";
   if (fixed > 0.0) {
     problems.push_back(
-        {"numerics.time_step_s", to_text(fixed), message, "Give a longer step, or 0 to have it chosen."});
+        {"numerics.time_step_s", to_text(fixed), message, "Use a longer step, or 0 for an automatic step."});
   } else if (const auto* frame = std::get_if<FrameLattice>(&spec.lattice)) {
-    problems.push_back({"lattice.frame.end_time_s", to_text(*frame->end_time_s), message, "Give an earlier end."});
+    problems.push_back({"lattice.frame.end_time_s", to_text(*frame->end_time_s), message, "Use an earlier end time."});
   } else {
-    problems.push_back(
-        {"loading.speed_m_per_s", to_text(*spec.loading.speed_m_per_s), message, "Give a higher speed."});
+    problems.push_back({"loading.speed_m_per_s", to_text(*spec.loading.speed_m_per_s), message, "Use a higher speed."});
   }
 }
 

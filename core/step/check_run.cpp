@@ -14,7 +14,7 @@
 namespace cellcrush {
 namespace {
 
-constexpr const char* kShorterStep = "Give a shorter numerics.time_step_s, or 0 to have it chosen.";
+constexpr const char* kShorterStep = "Use a shorter numerics.time_step_s, or 0 for an automatic step.";
 
 bool is_finite(const State& state, std::size_t particle) {
   return state.position[particle].allFinite() && state.velocity[particle].allFinite() &&
@@ -51,8 +51,8 @@ std::optional<std::size_t> find_lost(const Scene& scene, Predicate&& is_kept) {
 std::string fastest_place(const Scene& scene, const State& state) {
   const auto slower = [](const Vector2& a, const Vector2& b) { return a.squaredNorm() < b.squaredNorm(); };
   const auto fastest = std::max_element(state.velocity.begin(), state.velocity.end(), slower);
-  return "; the fastest is " + place_of(scene, static_cast<std::size_t>(fastest - state.velocity.begin())) + ", at " +
-         to_text(std::round(fastest->norm() / 100.0) / 10.0) + " m/s";
+  return "; the fastest particle is " + place_of(scene, static_cast<std::size_t>(fastest - state.velocity.begin())) +
+         ", at " + to_text(std::round(fastest->norm() / 100.0) / 10.0) + " m/s";
 }
 
 RunStatus diverged(const State& state, const std::string& what) {
@@ -68,9 +68,9 @@ RunStatus check_rotation(const Scene& scene, const State& state) {
   }
   const double rotation = spins.abs().maxCoeff(&most) * scene.schedule.time_step;
   return {RunStatus::Kind::large_rotation,
-          "The step turns " + place_of(scene, static_cast<std::size_t>(most)) + ", by " +
-              to_text(std::round(100.0 * rotation) / 100.0) + " rad, where increments are to be small (under " +
-              to_text(kLargestRotation) + "), at " + moment_of(state.step, state.time) + ".",
+          "One step rotates " + place_of(scene, static_cast<std::size_t>(most)) + " by " +
+              to_text(std::round(100.0 * rotation) / 100.0) + " rad, more than the largest allowed increment of " +
+              to_text(kLargestRotation) + " rad, at " + moment_of(state.step, state.time) + ".",
           kShorterStep};
 }
 
@@ -85,19 +85,20 @@ RunStatus check_energy(const Scene& scene, const State& state, const Sample& sam
   }
   if (std::abs(sample.energy_residual) > kLargestEnergyError * turnover) {
     return {RunStatus::Kind::energy_balance,
-            "The energy ledger is open by " + percent_of(sample.energy_residual / turnover) + " of the work done at " +
-                moment_of(state.step, state.time) + ": the time integration is not stable" +
+            "The energy balance has an error of " + percent_of(sample.energy_residual / turnover) +
+                " of the work done at " + moment_of(state.step, state.time) + ": the time integration is unstable" +
                 fastest_place(scene, state) + ".",
-            "Give a shorter numerics.time_step_s; crushed walls are shorter than those the stable step is taken from."};
+            "Use a shorter numerics.time_step_s: crushed walls are shorter than the undeformed walls that determine "
+            "the stable step."};
   }
   if (-sample.energy_contact > kLargestEnergyError * turnover) {
     return {RunStatus::Kind::contact_energy,
-            "Contacts have made " + percent_of(-sample.energy_contact / turnover) + " of the work done by " +
-                moment_of(state.step, state.time) + ": walls met first when they were " +
-                percent_of(state.contact_totals.deepest_birth) + " of their thickness in each other" +
+            "Contacts have created energy of " + percent_of(-sample.energy_contact / turnover) +
+                " of the work done by " + moment_of(state.step, state.time) + ": walls already overlapped by " +
+                percent_of(state.contact_totals.deepest_birth) + " of their thickness when their contact was found" +
                 fastest_place(scene, state) + ".",
-            "Give a shorter numerics.time_step_s, or 0 to have it chosen: the plate is to move by a twentieth of the "
-            "thinnest wall in a step at most."};
+            "Use a shorter numerics.time_step_s, or 0 for an automatic step: the plate should move by at most one "
+            "twentieth of the thinnest wall's thickness per step."};
   }
   return {};
 }

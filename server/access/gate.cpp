@@ -16,7 +16,8 @@ namespace cellcrush::access {
 namespace {
 
 constexpr std::size_t kLongestPath = 128;  // of a method in the log
-constexpr const char* kAskForToken = "Whoever runs the server makes one: cellcrushd token NAME --scope SCOPE.";
+constexpr const char* kAskForToken =
+    "The server's administrator creates tokens with `cellcrushd token NAME --scope SCOPE`.";
 
 [[noreturn]] void refuse_options(const std::string& why) { throw ServiceError(ServiceError::Kind::invalid, why); }
 
@@ -61,9 +62,9 @@ class Gate::Check final : public grpc::AuthMetadataProcessor {
     gate_.check_certificate(context);
     const Caller caller = gate_.identify(metadata, context);
     if (caller.scope >= *needed) return;
-    throw ServiceError(ServiceError::Kind::permission_denied, std::string(path.substr(path.rfind('/') + 1)) +
-                                                                  " needs the scope " + name_of(*needed) + ", and " +
-                                                                  caller.name + " has " + name_of(caller.scope) + ".");
+    throw ServiceError(ServiceError::Kind::permission_denied,
+                       std::string(path.substr(path.rfind('/') + 1)) + " requires scope " + name_of(*needed) + "; " +
+                           caller.name + " has scope " + name_of(caller.scope) + ".");
   }
 
   const Gate& gate_;
@@ -71,7 +72,7 @@ class Gate::Check final : public grpc::AuthMetadataProcessor {
 
 Gate::Gate(const Options& options) : options_(options) {
   if (options.tls_certificate.empty() != options.tls_key.empty())
-    refuse_options("--tls-cert and --tls-key go together. Give both, or none.");
+    refuse_options("--tls-cert and --tls-key belong together. Give both or neither.");
   if (!options.tls_client_authority.empty() && options.tls_certificate.empty())
     refuse_options("--tls-client-ca needs TLS. Give --tls-cert and --tls-key with it.");
   if (has_tls()) read_tls();
@@ -95,16 +96,16 @@ std::string Gate::read_tokens() {
 
 void Gate::read_again(const char* what, std::string (Gate::*read)()) {
   try {
-    spdlog::info("{} read again: {}", what, (this->*read)());
+    spdlog::info("{} reloaded: {}", what, (this->*read)());
   } catch (const ServiceError& error) {
-    spdlog::error("{} The {} from before stay in force. Mend the file and send SIGHUP again.", error.what(), what);
+    spdlog::error("{} The previous {} stay in force. Fix the file and send SIGHUP again.", error.what(), what);
   }
 }
 
 void Gate::read_files_again() {
   if (has_tls()) read_again("certificates", &Gate::read_tls);
   if (has_tokens()) read_again("tokens", &Gate::read_tokens);
-  if (!has_tls() && !has_tokens()) spdlog::info("nothing to read again: neither --tls-cert nor --tokens was given");
+  if (!has_tls() && !has_tokens()) spdlog::info("nothing to reload: neither --tls-cert nor --tokens was given");
 }
 
 std::shared_ptr<const TlsFiles> Gate::tls() const {
@@ -120,9 +121,9 @@ std::shared_ptr<const TokenFile> Gate::tokens() const {
 std::shared_ptr<grpc::ServerCredentials> Gate::credentials_for(const ListenAddress& address) const {
   if (address.kind == ListenAddress::Kind::unix_socket) return grpc::InsecureServerCredentials();
   if (!address.is_loopback() && (!has_tls() || !asks_who_calls())) {
-    refuse_options("Cannot listen on " + address.text() + ", which others can reach, without " +
+    refuse_options("Cannot listen on " + address.text() + ", which other machines can reach, without " +
                    (has_tls() ? "" : "TLS (--tls-cert FILE --tls-key FILE) and ") +
-                   "a way to tell who calls (--tokens FILE or --tls-client-ca FILE). Give " +
+                   "client authentication (--tokens FILE or --tls-client-ca FILE). Give " +
                    (has_tls() ? "one" : "these") + ", or listen on 127.0.0.1, localhost or [::1].");
   }
   std::shared_ptr<grpc::ServerCredentials> out;
@@ -146,18 +147,17 @@ Caller Gate::caller_of_token(const Metadata& metadata) const {
   constexpr std::string_view kBearer = "Bearer ";
   const auto [first, last] = metadata.equal_range("authorization");
   if (first == last) {
-    refuse_caller(
-        std::string("This server takes calls with a token, and this one has none. Give it in a file: --token-file "
-                    "FILE or CELLCRUSH_TOKEN_FILE. ") +
-        kAskForToken);
+    refuse_caller(std::string("This server requires a token, and this call has none. Name a file that holds it, with "
+                              "--token-file FILE or CELLCRUSH_TOKEN_FILE. ") +
+                  kAskForToken);
   }
   const std::string_view value = view_of(first->second);
   const bool is_bearer =
       value.size() > kBearer.size() && strncasecmp(value.data(), kBearer.data(), kBearer.size()) == 0;
   if (std::next(first) != last || !is_bearer)
-    refuse_caller("The authorization of this call is not one \"Bearer TOKEN\". Send that.");
+    refuse_caller("The authorization metadata of this call is not a single \"Bearer TOKEN\". Send exactly one.");
   const auto caller = tokens()->find(value.substr(kBearer.size()));
-  if (!caller) refuse_caller(std::string("The token of this call is none that this server knows. ") + kAskForToken);
+  if (!caller) refuse_caller(std::string("The server does not recognise the token of this call. ") + kAskForToken);
   return *caller;
 }
 
@@ -166,8 +166,8 @@ void Gate::check_certificate(const grpc::AuthContext& context) const {
   const auto shown = context.FindPropertyValues(GRPC_X509_PEM_CERT_PROPERTY_NAME);
   if (shown.size() == 1 && client_certificates_.has_client_use(view_of(shown.front()))) return;
   refuse_caller(
-      "The certificate of this call is not one for clients: its extended key usage lacks clientAuth. Ask its authority "
-      "for one that has it (extendedKeyUsage = clientAuth).");
+      "The certificate of this call is not a client certificate: its extended key usage lacks clientAuth. Ask the "
+      "issuing authority for one with extendedKeyUsage = clientAuth.");
 }
 
 Caller Gate::caller_of_certificate(const grpc::AuthContext& context) const {
@@ -175,8 +175,8 @@ Caller Gate::caller_of_certificate(const grpc::AuthContext& context) const {
   const std::string_view name = names.size() == 1 ? view_of(names.front()) : std::string_view();
   if (!is_caller_name(name)) {
     refuse_caller(
-        "The certificate of this call has no common name that can name its owner. Use one with 1 to 64 printable "
-        "characters without spaces, quotes, backslashes and #, other than \"local\".");
+        "The common name of this call's certificate cannot be used as an owner name. Use 1 to 64 printable characters "
+        "without spaces, quotes, backslashes or #, and not \"local\".");
   }
   return {std::string(name), options_.certificate_scope};
 }
@@ -187,17 +187,18 @@ Caller Gate::caller_of(const grpc::ServerContextBase& context) const {
 }
 
 void Gate::note_refusal(const std::string& words) const {
-  refusals_.write(spdlog::level::warn, "refused with " + words);
+  refusals_.write(spdlog::level::warn, "refused a call with " + words);
 }
 
 void Gate::require_own(const grpc::ServerContextBase& context, const std::string& owner,
                        const std::string& name) const {
   const Caller caller = caller_of(context);
   if (caller.scope == Scope::admin || caller.name == owner) return;
-  const std::string why = name + " belongs to " + (owner.empty() ? "nobody" : owner) + ", and " + caller.name +
-                          " has the scope " + name_of(caller.scope) + ", which changes one's own only.";
+  const std::string why = name + " belongs to " + (owner.empty() ? "nobody" : owner) + "; " + caller.name +
+                          " has scope " + name_of(caller.scope) +
+                          ", which permits changes to its own jobs and sweeps only.";
   note_refusal("PERMISSION_DENIED: " + why);
-  throw ServiceError(ServiceError::Kind::permission_denied, why + " Ask its owner, or one who has the scope admin.");
+  throw ServiceError(ServiceError::Kind::permission_denied, why + " Ask its owner, or someone with scope admin.");
 }
 
 }  // namespace cellcrush::access

@@ -41,17 +41,17 @@ std::string read_named_file(const std::string& option, const std::filesystem::pa
   struct stat status {};
   // Asked of what was opened, so that nobody can change it in between.
   if (file.descriptor < 0 || fstat(file.descriptor, &status) != 0) refuse_file(option, path, reason());
-  if (!S_ISREG(status.st_mode)) refuse_file(option, path, "is no file.");
+  if (!S_ISREG(status.st_mode)) refuse_file(option, path, "is not a regular file.");
   if (secrecy == Secrecy::secret && (status.st_mode & S_IROTH) != 0)
-    refuse_file(option, path, "can be read by others. Shut them out: chmod 600 " + path.string());
+    refuse_file(option, path, "is readable by other users. Run chmod 600 " + path.string());
   if (secrecy == Secrecy::secret && (status.st_mode & (S_IWGRP | S_IWOTH)) != 0)
-    refuse_file(option, path, "can be written by others than its owner. Shut them out: chmod 600 " + path.string());
+    refuse_file(option, path, "is writable by users other than its owner. Run chmod 600 " + path.string());
   std::string text;
   std::array<char, 65536> buffer{};
   ssize_t count = 0;
   while ((count = read(file.descriptor, buffer.data(), buffer.size())) > 0) {
     text.append(buffer.data(), static_cast<std::size_t>(count));
-    if (text.size() > kLargestNamedFile) refuse_file(option, path, "is larger than 1 MiB. Is it another file?");
+    if (text.size() > kLargestNamedFile) refuse_file(option, path, "is larger than 1 MiB. Is it the right file?");
   }
   if (count < 0) refuse_file(option, path, reason());
   return text;

@@ -26,14 +26,13 @@ int give_no_password(char*, int, int, void*) { return 0; }
 // The first certificate of a text, which is valid now.
 Certificate check_certificate(const std::string& text, const std::string& option, const std::filesystem::path& path) {
   auto all = read_certificates(text);
-  if (all.empty())
-    refuse_file(option, path, "holds no certificate in PEM (-----BEGIN CERTIFICATE-----), or one that is damaged.");
+  if (all.empty()) refuse_file(option, path, "contains no valid PEM certificate (-----BEGIN CERTIFICATE-----).");
   const ASN1_TIME* begin = X509_get0_notBefore(all.front().get());
   const ASN1_TIME* end = X509_get0_notAfter(all.front().get());
   if (X509_cmp_current_time(end) < 0)
-    refuse_file(option, path, "holds a certificate that expired on " + time_text(end) + ". Use a new one.");
+    refuse_file(option, path, "contains a certificate that expired on " + time_text(end) + ". Renew it.");
   if (X509_cmp_current_time(begin) > 0)
-    refuse_file(option, path, "holds a certificate that is not valid before " + time_text(begin) + ".");
+    refuse_file(option, path, "contains a certificate that is not valid before " + time_text(begin) + ".");
   return std::move(all.front());
 }
 
@@ -50,8 +49,8 @@ TlsFiles read_tls_files(const std::filesystem::path& certificate, const std::fil
   const Owned<EVP_PKEY> of_key(PEM_read_bio_PrivateKey(reader.get(), nullptr, give_no_password, nullptr));
   const bool belongs = of_key && X509_check_private_key(of_server.get(), of_key.get()) == 1;
   ERR_clear_error();
-  if (!of_key) refuse_file("--tls-key", key, "holds no private key in PEM, or one that needs a password.");
-  if (!belongs) refuse_file("--tls-key", key, "is not the key of the certificate in " + certificate.string() + ".");
+  if (!of_key) refuse_file("--tls-key", key, "contains no PEM private key, or one that is protected by a password.");
+  if (!belongs) refuse_file("--tls-key", key, "does not match the certificate in " + certificate.string() + ".");
   if (!client_authority.empty()) {
     out.client_authority = read_named_file("--tls-client-ca", client_authority, Secrecy::open);
     const auto of_clients = check_certificate(out.client_authority, "--tls-client-ca", client_authority);

@@ -17,7 +17,7 @@ constexpr const char* kTokensOption = "--tokens";
 constexpr std::size_t kLongestToken = 1024;
 constexpr std::string_view kDigits = "0123456789abcdef";
 constexpr const char* kNameRule =
-    "A name has 1 to 64 printable characters without spaces, quotes, backslashes and #, and is not \"local\".";
+    "A name has 1 to 64 printable characters without spaces, quotes, backslashes or #, and is not \"local\".";
 
 template <class Bytes>
 std::string hex_of(const Bytes& bytes) {
@@ -58,7 +58,7 @@ TokenFile::TokenFile(const std::filesystem::path& path) {
   int line_number = 0;
   for (std::string line; std::getline(lines, line);) add(line, kTokensOption, path, ++line_number);
   if (entries_.empty())
-    refuse_file(kTokensOption, path, "holds no token. Make one with `cellcrushd token NAME --scope SCOPE`.");
+    refuse_file(kTokensOption, path, "contains no token. Create one with `cellcrushd token NAME --scope SCOPE`.");
 }
 
 void TokenFile::add(const std::string& line, const std::string& option, const std::filesystem::path& path,
@@ -73,16 +73,16 @@ void TokenFile::add(const std::string& line, const std::string& option, const st
   const std::string where = "line " + std::to_string(line_number) + " ";
   if (!(words >> scope_name >> digits) || words >> rest)
     refuse_file(option, path, where + "is not of the form NAME SCOPE SHA256-HEX.");
-  if (!is_caller_name(name)) refuse_file(option, path, where + "has a name that cannot be one. " + kNameRule);
+  if (!is_caller_name(name)) refuse_file(option, path, where + "has an invalid name. " + kNameRule);
   const auto scope = parse_scope(scope_name);
-  if (!scope) refuse_file(option, path, where + "has none of the scopes read, submit and admin.");
+  if (!scope) refuse_file(option, path, where + "has an unknown scope. Use read, submit or admin.");
   Entry entry{{name, *scope}, {}};
   if (!read_hex(digits, entry.hash)) refuse_file(option, path, where + "has a hash that is not 64 hexadecimal digits.");
   for (const Entry& before : entries_) {
-    if (before.hash == entry.hash) refuse_file(option, path, where + "has the hash of a line before it.");
+    if (before.hash == entry.hash) refuse_file(option, path, where + "repeats the hash of an earlier line.");
     if (before.caller.name == name && before.caller.scope != *scope)
       refuse_file(option, path,
-                  std::string(where).append("gives ").append(name).append(" another scope than a line before it."));
+                  std::string(where).append("gives ").append(name).append(" a different scope from an earlier line."));
   }
   entries_.push_back(std::move(entry));
 }
@@ -100,10 +100,10 @@ std::optional<Caller> TokenFile::find(std::string_view token) const {
 
 NewToken make_token(const std::string& name, Scope scope) {
   if (!is_caller_name(name))
-    throw ServiceError(ServiceError::Kind::invalid, "\"" + name + "\" cannot be the name of a token. " + kNameRule);
+    throw ServiceError(ServiceError::Kind::invalid, "\"" + name + "\" is not a valid token name. " + kNameRule);
   std::array<unsigned char, 32> random{};
   if (RAND_bytes(random.data(), static_cast<int>(random.size())) != 1)
-    throw ServiceError(ServiceError::Kind::internal, "This machine has no random numbers to give.");
+    throw ServiceError(ServiceError::Kind::internal, "The system's random number generator failed.");
   NewToken out;
   out.token = hex_of(random);
   out.line = name + " " + name_of(scope) + " " + hex_of(sha256_of(out.token));

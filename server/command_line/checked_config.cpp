@@ -52,7 +52,7 @@ std::vector<CLI::ConfigItem> CheckedConfig::from_config(std::istream& input) con
     const std::string nearest = nearest_option(app_, key);
     const std::string remedy =
         nearest.empty() ? "cellcrushd --help lists all options." : fmt::format("Did you mean \"{}\"?", nearest);
-    throw CLI::ConfigError(fmt::format("the file of --config has \"{}\", which is no option. {}", key, remedy),
+    throw CLI::ConfigError(fmt::format("the --config file sets \"{}\", which is not an option. {}", key, remedy),
                            CLI::ExitCodes::ConfigError);
   }
   return found;

@@ -32,16 +32,13 @@ std::string counts_of(const store::Verification& found) {
 
 StoreCommands::StoreCommands(CLI::App& app)
     : backup_(add_store_command(app, "backup",
-                                "back up the data folder (--data) to a new folder, also while a daemon runs on it, and "
-                                "end",
-                                "folder to be made; where it is there, it must be empty", folder_)),
-      verify_(add_store_command(app, "verify",
-                                "read all of a backup or a data folder, name every problem, and end: 0 without one, "
-                                "else 1",
-                                "folder of a backup or of a daemon's data", folder_)),
-      restore_(add_store_command(app, "restore",
-                                 "make a new data folder (--data) of a backup, after verifying it, and end",
-                                 "folder of the backup", folder_)) {}
+                                "Back up the data folder (--data) to a new folder; safe while a daemon uses it",
+                                "Folder to create; if it exists, it must be empty", folder_)),
+      verify_(add_store_command(
+          app, "verify", "Check a backup or data folder and list all problems; exit code 1 if there are any, else 0",
+          "Backup or data folder", folder_)),
+      restore_(add_store_command(app, "restore", "Verify a backup and restore it to a new data folder (--data)",
+                                 "Backup folder", folder_)) {}
 
 bool StoreCommands::given() const { return backup_->parsed() || verify_->parsed() || restore_->parsed(); }
 
@@ -62,7 +59,7 @@ int StoreCommands::run(const std::filesystem::path& data_folder) const {
 int StoreCommands::backup(const std::filesystem::path& data_folder) const {
   const auto manifest = store::take_backup(data_folder, folder_);
   for (const auto& sentence : manifest.lost) std::fprintf(stderr, "cellcrushd: %s\n", sentence.c_str());
-  std::printf("%s holds the journal of %s and %zu results\n", folder_.c_str(), manifest.created.c_str(),
+  std::printf("%s contains the journal as of %s and %zu results\n", folder_.c_str(), manifest.created.c_str(),
               manifest.files.size() - 1);
   return 0;
 }
@@ -70,14 +67,14 @@ int StoreCommands::backup(const std::filesystem::path& data_folder) const {
 int StoreCommands::verify() const {
   const auto found = store::verify_folder(folder_);
   if (!print_findings(found)) return 1;
-  std::printf("%s is whole: %s\n", folder_.c_str(), counts_of(found).c_str());
+  std::printf("%s is intact: %s\n", folder_.c_str(), counts_of(found).c_str());
   return 0;
 }
 
 int StoreCommands::restore(const std::filesystem::path& data_folder) const {
   const auto found = store::verify_folder(folder_);
   if (!found.is_backup) {
-    std::fprintf(stderr, "cellcrushd: %s is no backup. Give a folder that `cellcrushd backup` has made.\n",
+    std::fprintf(stderr, "cellcrushd: %s is not a backup. Give a folder made by `cellcrushd backup`.\n",
                  folder_.c_str());
     return 1;
   }
@@ -86,7 +83,8 @@ int StoreCommands::restore(const std::filesystem::path& data_folder) const {
     return 1;
   }
   store::restore_backup(folder_, data_folder);
-  std::printf("%s holds the backup of %s: %s\n", data_folder.c_str(), found.created.c_str(), counts_of(found).c_str());
+  std::printf("%s contains the backup of %s: %s\n", data_folder.c_str(), found.created.c_str(),
+              counts_of(found).c_str());
   return 0;
 }
 

@@ -26,10 +26,11 @@ Admission::Admission(const Parts& parts, const Limits& limits) : parts_(parts), 
 
 void Admission::check_time_limit(double seconds, const std::string& field) const {
   if (!std::isfinite(seconds) || seconds < 0.0)
-    throw InvalidField(field, fmt::format("is {}.", seconds), "Use seconds above 0, or 0 for no limit of its own.");
+    throw InvalidField(field, fmt::format("is {}.", seconds),
+                       "Use a positive number of seconds, or 0 for the daemon's limit only.");
   const double most = limits_.job_time.count();
   if (most > 0.0 && seconds > most) {
-    throw InvalidField(field, fmt::format("is {} s, and this daemon lets a job take {} s.", seconds, most),
+    throw InvalidField(field, fmt::format("is {} s; this daemon allows a job at most {} s.", seconds, most),
                        fmt::format("Use at most {}, or start the daemon with a higher --max-job-time.", most));
   }
 }
@@ -49,24 +50,24 @@ Admission::Place::~Place() {
 Admission::Place Admission::admit(const std::string& owner, std::size_t count, std::int64_t memory_bytes) {
   if (draining_) {
     throw ServiceError(ServiceError::Kind::unavailable,
-                       "The daemon is about to end and takes no new jobs. Submit again once it is back.");
+                       "The daemon is shutting down and accepts no new jobs. Submit again after it restarts.");
   }
   if (memory_bytes > limits_.job_memory_bytes) {
     throw ServiceError(ServiceError::Kind::exhausted,
-                       "The run would need about " + mebibytes(memory_bytes) + " of memory, and a job may need " +
+                       "The run would need about " + mebibytes(memory_bytes) + " of memory; the limit per job is " +
                            mebibytes(limits_.job_memory_bytes) +
-                           ". Take fewer cells or elements_per_wall, or a larger machine.");
+                           ". Use fewer cells or elements_per_wall, or a machine with more memory.");
   }
   if (const auto low = low_disk())
-    throw ServiceError(ServiceError::Kind::storage_full, *low + " Make room there or delete jobs, then submit again.");
+    throw ServiceError(ServiceError::Kind::storage_full, *low + " Free disk space or delete jobs, then submit again.");
   const std::scoped_lock lock(mutex_);
   std::size_t waiting = parts_.scheduler.waiting_count();
   for (const auto& [name, jobs] : admitted_) waiting += jobs;
   if (static_cast<std::int64_t>(waiting + count) > limits_.queued_jobs) {
     throw ServiceError(ServiceError::Kind::exhausted,
-                       "The queue holds " + std::to_string(waiting) + " jobs, and with " + std::to_string(count) +
-                           " more it would hold over " + std::to_string(limits_.queued_jobs) +
-                           ". Wait until some have run, or start the daemon with a higher --max-queued-jobs.");
+                       "The queue holds " + std::to_string(waiting) + " waiting jobs; " + std::to_string(count) +
+                           " more would exceed the limit of " + std::to_string(limits_.queued_jobs) +
+                           ". Wait until some have started, or start the daemon with a higher --max-queued-jobs.");
   }
   const auto admitted = admitted_.find(owner);
   const std::size_t of_owner = admitted == admitted_.end() ? 0 : admitted->second;
@@ -79,8 +80,8 @@ Admission::Place Admission::admit(const std::string& owner, std::size_t count, s
 std::optional<std::string> Admission::low_disk() const {
   const std::int64_t free = parts_.folder.free_bytes();
   if (free >= limits_.free_disk_bytes) return std::nullopt;
-  return "The disk of the data folder is nearly full: " + mebibytes(free) + " are left, and " +
-         mebibytes(limits_.free_disk_bytes) + " are kept free.";
+  return "The data folder's disk is nearly full: " + mebibytes(free) + " are free, below the reserve of " +
+         mebibytes(limits_.free_disk_bytes) + " (--min-free-disk).";
 }
 
 }  // namespace cellcrush::jobs

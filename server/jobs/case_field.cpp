@@ -32,12 +32,12 @@ std::string names_in(const Descriptor& message) {
 }
 
 [[noreturn]] void refuse_part(const std::string& path, const std::string& name, const Descriptor& message) {
-  throw InvalidField(path, "is no field of a case: there is no \"" + name + "\".",
-                     "There are here: " + names_in(message) + ".");
+  throw InvalidField(path, "is not a field of a case: it has no \"" + name + "\".",
+                     "Available fields: " + names_in(message) + ".");
 }
 
 [[noreturn]] void refuse_kind(const std::string& path) {
-  throw InvalidField(path, "is not a single number.", "Vary fields that are one number each.");
+  throw InvalidField(path, "is not a single number.", "Vary only fields that hold a single number.");
 }
 
 // "nodes[3]" or "rows".
@@ -49,7 +49,7 @@ Segment parse_segment(const std::string& path, std::string_view text) {
   const char* end = text.data() + text.size();
   const auto [stopped, error] = std::from_chars(begin, end, position);
   if (error != std::errc() || position < 0 || stopped + 1 != end || *stopped != ']')
-    throw InvalidField(path, "cannot be read.", "Write a part of a list like nodes[3], counted from 0.");
+    throw InvalidField(path, "cannot be read.", "Write list items as nodes[3], counting from 0.");
   return {std::string(text.substr(0, bracket)), position};
 }
 
@@ -61,15 +61,17 @@ Message& descend(Message& at, const FieldDescriptor& field, const Segment& segme
   if (segment.position) {
     const int size = reflection.FieldSize(at, &field);
     if (*segment.position >= size) {
-      throw InvalidField(path, "is not in the case, which has " + std::to_string(size) + " " + segment.name + ".",
+      throw InvalidField(path,
+                         "is not in the case, which has " + std::to_string(size) + " items in " + segment.name + ".",
                          "Count from 0.");
     }
     return *reflection.MutableRepeatedMessage(&at, &field, *segment.position);
   }
   if (const auto* choice = field.real_containing_oneof(); choice != nullptr && !reflection.HasField(at, &field)) {
     const auto* present = reflection.GetOneofFieldDescriptor(at, choice);
-    throw InvalidField(path, "is not in the case, which has " + (present != nullptr ? present->name() : "none") + ".",
-                       "Vary a field of what the case has.");
+    throw InvalidField(
+        path, "is not in the case, which has " + (present != nullptr ? present->name() + " instead" : "none") + ".",
+        "Vary a field that the case sets.");
   }
   return *reflection.MutableMessage(&at, &field);
 }
@@ -80,8 +82,8 @@ Whole whole_of(double value, const std::string& path) {
   const double low = static_cast<double>(std::numeric_limits<Whole>::min());
   const double high = std::ldexp(1.0, std::numeric_limits<Whole>::digits);
   if (!(value >= low && value < high) || std::trunc(value) != value)
-    throw InvalidField(path, "is " + text_of(value) + ", which is no whole number that fits.",
-                       low < 0.0 ? "Use whole numbers." : "Use whole numbers that are not negative.");
+    throw InvalidField(path, "is " + text_of(value) + ", which is not a whole number in range.",
+                       low < 0.0 ? "Use whole numbers." : "Use whole numbers from 0.");
   return static_cast<Whole>(value);
 }
 

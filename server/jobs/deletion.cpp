@@ -30,8 +30,8 @@ void Deletion::delete_jobs(const std::vector<std::int64_t>& jobs) const {
 void Deletion::delete_sweep(std::int64_t sweep, const std::function<bool()>& given_up) const {
   parts_.journal.begin_sweep_deletion(sweep);
   if (remove_sweep(sweep, given_up)) return;
-  throw ServiceError(ServiceError::Kind::cancelled, "Nobody waits for the deletion of " + sweep_name_of(sweep) +
-                                                        " any more. The daemon continues it by itself.");
+  throw ServiceError(ServiceError::Kind::cancelled, "The call ended before the deletion of " + sweep_name_of(sweep) +
+                                                        " was complete. The daemon finishes it in the background.");
 }
 
 void Deletion::finish_sweeps(const std::function<bool()>& given_up) const {
@@ -61,15 +61,17 @@ void Deletion::remove_folders(const std::vector<std::int64_t>& jobs) const {
       parts_.folder.remove_job_folder(job);
       removed.push_back(job);
     } catch (const ServiceError& error) {
-      spdlog::warn("The folder of {} is removed at the daemon's next start: {}", name_of(job), error.what());
+      spdlog::warn("The folder of {} could not be removed; the daemon tries again at its next start: {}", name_of(job),
+                   error.what());
     }
   }
   if (removed.empty()) return;
   try {
     parts_.journal.note_folders_removed(removed);
   } catch (const ServiceError& error) {
-    spdlog::warn("That the folders of {} deleted jobs are removed is noted at the daemon's next start: {}",
-                 removed.size(), error.what());
+    spdlog::warn(
+        "The removal of {} deleted jobs' folders could not be recorded; the daemon records it at its next start: {}",
+        removed.size(), error.what());
   }
 }
 

@@ -20,15 +20,16 @@ constexpr const char* kOfTheFileSystem = "lost+found";
 // Why no worker could use the folder; empty when one can.
 std::string why_unusable(const worker::JobFolder& folder) {
   struct stat status {};
-  if (stat(folder.root().c_str(), &status) != 0 || !S_ISDIR(status.st_mode)) return "it is no folder";
-  if (::access(folder.root().c_str(), R_OK | W_OK | X_OK) != 0) return "it may not be read and written";
+  if (stat(folder.root().c_str(), &status) != 0 || !S_ISDIR(status.st_mode)) return "it is not a folder";
+  if (::access(folder.root().c_str(), R_OK | W_OK | X_OK) != 0)
+    return "the daemon lacks permission to read and write it";
   for (const auto& path :
        {folder.order(), folder.claim(), folder.reports(), folder.checkpoint(), folder.previous_checkpoint(),
         folder.partial_checkpoint(), folder.result(), folder.partial_result()}) {
     if (lstat(path.c_str(), &status) != 0) continue;
     const std::string name = path.filename().string();
-    if (!S_ISREG(status.st_mode)) return name + " in it is no regular file";
-    if (::access(path.c_str(), R_OK | W_OK) != 0) return name + " in it may not be read and written";
+    if (!S_ISREG(status.st_mode)) return name + " in it is not a regular file";
+    if (::access(path.c_str(), R_OK | W_OK) != 0) return name + " in it is not readable and writable";
   }
   return "";
 }
@@ -58,10 +59,11 @@ class FolderAudit {
  private:
   void set_aside(const std::string& name, const std::string& why) {
     try {
-      spdlog::warn("jobs/{} was set aside, for {}: it lies in {} now. Remove it once nobody needs it.", name, why,
-                   folder_.set_aside(name).string());
+      spdlog::warn("jobs/{} was moved aside to {} because {}. Delete it when it is no longer needed.", name,
+                   folder_.set_aside(name).string(), why);
     } catch (const ServiceError& error) {
-      spdlog::error("jobs/{} is not used, for {}, and cannot be set aside: {} Move it away.", name, why, error.what());
+      spdlog::error("jobs/{} is ignored because {}, and could not be moved aside: {} Move it away by hand.", name, why,
+                    error.what());
     }
   }
 

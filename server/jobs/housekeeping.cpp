@@ -28,7 +28,7 @@ void Housekeeping::work(const std::stop_token& stop) {
       logged.clear();
     } catch (const std::exception& error) {
       if (std::exchange(logged, error.what()) != error.what())
-        spdlog::error("Housekeeping failed, and is tried again: {}", error.what());
+        spdlog::error("Housekeeping failed and will be retried: {}", error.what());
     }
     std::unique_lock lock(never_shared);
     sleep.wait_for(lock, stop, parts_.interval, [] { return false; });
@@ -44,9 +44,8 @@ void Housekeeping::look_at_disk() {
 void Housekeeping::look_at_clocks() {
   if (const auto jump = clock_watch_.find_jump()) {
     const auto seconds = std::chrono::round<std::chrono::seconds>(*jump).count();
-    spdlog::warn(
-        "The wall clock was set {} by {} s. How long jobs are kept does not follow it; times in new events do.",
-        seconds > 0 ? "forward" : "back", std::abs(seconds));
+    spdlog::warn("The wall clock was set {} by {} s. Timestamps of new events follow it; retention of jobs does not.",
+                 seconds > 0 ? "forward" : "back", std::abs(seconds));
   }
   const std::int64_t now = parts_.journal.service_seconds();
   if (now < noted_ + kNoteAfter) return;

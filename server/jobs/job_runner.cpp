@@ -22,11 +22,12 @@ struct BeginAgain {
   std::string why;
 };
 
-constexpr const char* kReportsAreGone = "Begun again from step 0: what its workers had reported is not in its folder.";
+constexpr const char* kReportsAreGone =
+    "Restarted from step 0: the reports of its earlier workers are missing from its folder.";
 
 void log_begin(const std::string& job, const worker::Begun& begun) {
   for (const auto& refused : begun.refused_checkpoints()) spdlog::warn("{}: {}", job, refused);
-  if (begun.step() > 0) spdlog::info("{} goes on from step {}", job, begun.step());
+  if (begun.step() > 0) spdlog::info("{} resumes at step {}", job, begun.step());
 }
 
 // Waits a second. False at the daemon's end.
@@ -67,7 +68,7 @@ v1::JobState JobRunner::run_once(std::int64_t job, Run& run) {
       return begin_again(job, reason.why);
     }
   } catch (const Withdrawn&) {
-    spdlog::info("{} was withdrawn before it ran", name_of(job));
+    spdlog::info("{} was cancelled before it started", name_of(job));
     return v1::JOB_STATE_UNSPECIFIED;
   } catch (const std::exception& error) {
     run.trouble = trouble_of(error);
@@ -84,7 +85,7 @@ v1::JobState JobRunner::run_once(std::int64_t job, Run& run) {
 store::StateChange JobRunner::next_of(const store::StoredJob& stored, Run& run) {
   const bool has_begun = stored.job.state() == v1::RUNNING || stored.job.state() == v1::CANCELLING;
   if (!has_begun && !parts_.folder.keep_ballast())
-    throw ServiceError(Shortage::full_disk, "The disk of the data folder is full.");
+    throw ServiceError(Shortage::full_disk, "The data folder's disk is full.");
   if (!has_begun || parts_.executor.has_worker(parts_.folder.job_folder(stored.number)))
     return after(stored, run_worker(stored, run), run);
   if (auto next = left_behind(stored)) return *std::move(next);
@@ -120,7 +121,7 @@ JobRunner::Left JobRunner::reconcile(std::int64_t job) {
     if (!written || *written == v1::CANCELLING) return Left::is_to_run;
     return next->state == v1::PENDING ? Left::waits : Left::ended;
   } catch (const std::exception& error) {
-    spdlog::warn("What an earlier daemon left of {} is looked at again: {}", name_of(job), error.what());
+    spdlog::warn("Could not take over {} from an earlier daemon; trying again: {}", name_of(job), error.what());
     return Left::is_to_run;
   }
 }
@@ -194,7 +195,7 @@ void JobRunner::pass_on(std::int64_t job, std::int64_t& last_step, watch::Channe
   switch (report.report_case()) {
     case worker::Report::kBegun:
       if (const auto& epoch = parts_.journal.epoch(); !epoch.admits(report.begun().epoch()))
-        throw BeginAgain{"Begun again from step 0: what its workers had reported is" + epoch.of_before() + "."};
+        throw BeginAgain{"Restarted from step 0: the reports of its earlier workers are" + epoch.of_before() + "."};
       log_begin(name_of(job), report.begun());
       break;
     case worker::Report::kMesh: parts_.journal.set_mesh(job, report.mesh()); break;
@@ -222,8 +223,7 @@ store::StateChange JobRunner::after(const store::StoredJob& stored, const Worker
   if (!is_lost(exit)) return next;
   run.trouble = trouble_of_exit(exit);
   // A worker that an earlier daemon started cannot say so by its exit code.
-  if (!run.trouble && parts_.folder.is_full())
-    run.trouble = {Shortage::full_disk, "The disk of the data folder is full."};
+  if (!run.trouble && parts_.folder.is_full()) run.trouble = {Shortage::full_disk, "The data folder's disk is full."};
   if (run.trouble) return {};
   if (!got_further(stored.number)) return given_up(stored, std::move(next), run);
   spdlog::warn("{}: {}", name_of(stored.number), next.message);
@@ -273,7 +273,7 @@ store::StateChange JobRunner::given_up(const store::StoredJob& stored, store::St
   } catch (const std::exception& error) {
     // One that was cancelled ends without its result where none can be made now.
     if (!is_cancelled) run.trouble = trouble_of(error);
-    spdlog::warn("{} has no result: {}", name_of(stored.number), error.what());
+    spdlog::warn("{} could not write a result: {}", name_of(stored.number), error.what());
   }
   return loss;
 }
@@ -307,8 +307,7 @@ v1::JobState JobRunner::put_back(std::int64_t job, const Run& run) {
     } catch (const std::exception& error) {
       const Trouble trouble = trouble_of(error);
       if (!trouble) {
-        spdlog::error("{} cannot be read and is left out until the daemon starts again: {}", name_of(job),
-                      error.what());
+        spdlog::error("{} cannot be read and is skipped until the daemon restarts: {}", name_of(job), error.what());
         return v1::JOB_STATE_UNSPECIFIED;
       }
       parts_.hold.failed(trouble);
@@ -343,7 +342,7 @@ std::optional<v1::JobState> JobRunner::try_write(std::int64_t job, const store::
     if (kind == ServiceError::Kind::failed_precondition)
       return is_terminal(change.state) ? v1::JOB_STATE_UNSPECIFIED : v1::CANCELLING;
     if (std::exchange(logged, error.what()) != error.what())
-      spdlog::error("The state of {} cannot be made durable: {}", name_of(job), error.what());
+      spdlog::error("The state of {} cannot be saved: {}", name_of(job), error.what());
     if (kind == ServiceError::Kind::data_loss) return v1::JOB_STATE_UNSPECIFIED;
     if (kind == ServiceError::Kind::storage_full) parts_.folder.give_up_ballast();
     if (const Trouble trouble = trouble_of(error)) parts_.hold.failed(trouble);
@@ -360,8 +359,8 @@ void JobRunner::tidy_up(std::int64_t job, const store::StateChange& change) {
   try {
     parts_.folder.clean_job_folder(job);
   } catch (const std::exception& error) {
-    spdlog::warn("What {} left beside its result is removed at the daemon's next start: {}", name_of(job),
-                 error.what());
+    spdlog::warn("Leftover files of {} could not be removed; the daemon tries again at its next start: {}",
+                 name_of(job), error.what());
   }
 }
 

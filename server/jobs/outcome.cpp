@@ -46,24 +46,25 @@ store::StateChange of_final(const worker::Final& final) {
 // What became of a worker, and what to do if it happens again and again.
 struct Loss {
   std::string what;
-  std::string remedy = "Submit the case again; if it happens again, report the case.";
+  std::string remedy = "Submit the case again. If the failure repeats, report it together with the case.";
 };
 
 Loss loss_of(const WorkerExit& exit) {
   switch (exit.kind) {
-    case WorkerExit::Kind::broken: return {"The worker process sent what is no report, and was ended."};
+    case WorkerExit::Kind::broken: return {"The worker process sent an invalid report and was stopped."};
     case WorkerExit::Kind::stalled:
-      return {"The worker process stood still, and was ended.", "Look whether the machine or its disk stood still."};
+      return {"The worker process stopped responding and was stopped.",
+              "Check whether the machine or its disk was stalled."};
     case WorkerExit::Kind::signalled:
       if (exit.code == SIGKILL)
-        return {"The worker process was ended by " + signal_name(exit.code) + ".",
-                "Look whether the machine ran out of memory, then submit the case again."};
-      return {"The worker process was ended by " + signal_name(exit.code) + "."};
+        return {"The worker process was killed by " + signal_name(exit.code) + ".",
+                "Check whether the machine ran out of memory, then submit the case again."};
+      return {"The worker process was killed by " + signal_name(exit.code) + "."};
     case WorkerExit::Kind::gone: return {"The worker process ended without a final report."};
     default: break;
   }
-  if (exit.final) return {"The worker process was asked to leave the job by another program."};
-  return {"The worker process ended with exit code " + std::to_string(exit.code) + " and without a final report."};
+  if (exit.final) return {"Another program told the worker process to suspend the job."};
+  return {"The worker process exited with code " + std::to_string(exit.code) + " without a final report."};
 }
 
 }  // namespace
@@ -79,16 +80,16 @@ Trouble trouble_of_exit(const WorkerExit& exit) {
     return {static_cast<Shortage>(exit.final->shortage()), exit.final->message()};
   if (exit.kind != WorkerExit::Kind::exited) return {};
   if (exit.code == kCannotBeRun || exit.code == kCannotBeFound)
-    return {Shortage::worker, "The worker program could not be run: exit code " + std::to_string(exit.code) + "."};
+    return {Shortage::worker, "The worker program could not be executed: exit code " + std::to_string(exit.code) + "."};
   if (const Shortage shortage = worker::shortage_of_exit_code(exit.code); shortage != Shortage::none)
-    return {shortage, std::string("The worker process met a shortage: ") + name_of(shortage) + "."};
+    return {shortage, std::string("The worker process ran short of a resource: ") + name_of(shortage) + "."};
   return {};
 }
 
 store::StateChange waits_for(const Trouble& trouble) {
   store::StateChange out;
   out.state = v1::PENDING;
-  out.message = trouble.reason + " It continues from its last checkpoint once that is over.";
+  out.message = trouble.reason + " The job resumes from its last checkpoint once that is resolved.";
   out.remedy = remedy_for(trouble.shortage);
   return out;
 }
@@ -109,11 +110,11 @@ store::StateChange outcome_of(const WorkerExit& exit) {
   switch (exit.kind) {
     case WorkerExit::Kind::stopped:
       out.state = v1::PENDING;
-      out.message = "The worker left it at a checkpoint; another goes on from there.";
+      out.message = "The worker suspended the job at a checkpoint; another worker resumes it from there.";
       return out;
     case WorkerExit::Kind::suspended:
       out.state = v1::SUSPENDED;
-      out.message = "It was left at a checkpoint";
+      out.message = "The job was suspended at a checkpoint";
       if (exit.final) out.message += ", at step " + std::to_string(exit.final->suspended_step());
       out.message += ".";
       return out;
@@ -122,8 +123,8 @@ store::StateChange outcome_of(const WorkerExit& exit) {
   }
   if (exit.out_of_memory) {
     return failed(v1::OUT_OF_MEMORY,
-                  "The kernel ended the worker process: the machine or its control group had no memory.",
-                  "Take fewer cells or elements_per_wall, run fewer jobs at once (--workers), or give it more memory.");
+                  "The kernel killed the worker process: the machine or its control group ran out of memory.",
+                  "Use fewer cells or elements_per_wall, run fewer jobs at once (--workers), or provide more memory.");
   }
   const Loss loss = loss_of(exit);
   return failed(v1::WORKER_CRASHED, loss.what, loss.remedy);
@@ -132,7 +133,7 @@ store::StateChange outcome_of(const WorkerExit& exit) {
 store::StateChange tried_again(store::StateChange lost) {
   lost.state = v1::PENDING;
   lost.cause = v1::JOB_CAUSE_UNSPECIFIED;
-  lost.message += " Another goes on from the last checkpoint.";
+  lost.message += " Another worker resumes the job from its last checkpoint.";
   lost.remedy.clear();
   return lost;
 }
@@ -140,20 +141,20 @@ store::StateChange tried_again(store::StateChange lost) {
 store::StateChange outcome_of(const std::exception& error) {
   const auto* refused = dynamic_cast<const ServiceError*>(&error);
   if (refused != nullptr && refused->kind() == ServiceError::Kind::data_loss)
-    return failed(v1::STORE_CORRUPT, error.what(), "Submit the case again, and look whether the disk is sound.");
-  return failed(v1::WORKER_CRASHED, std::string("The run could not be kept up: ") + error.what(),
-                "Look into the daemon's log, then submit the case again.");
+    return failed(v1::STORE_CORRUPT, error.what(), "Check the disk for faults, then submit the case again.");
+  return failed(v1::WORKER_CRASHED, std::string("The run could not continue: ") + error.what(),
+                "Check the daemon's log, then submit the case again.");
 }
 
 store::StateChange cancelled_without_result() {
   store::StateChange out;
   out.state = v1::CANCELLED;
-  out.message = "The worker ended before it could close a result. The history is kept.";
+  out.message = "The worker ended before it could write a complete result. The history is kept.";
   return out;
 }
 
 store::StateChange worker_missing() {
-  return failed(v1::WORKER_LOST, "The worker process went while there was no daemon.", "Submit the case again.");
+  return failed(v1::WORKER_LOST, "The worker process ended while no daemon was running.", "Submit the case again.");
 }
 
 }  // namespace cellcrush::jobs

@@ -24,12 +24,12 @@ std::string all_workers(int count) {
 
 std::string at_its_limit(const store::QueuedJob& job) {
   const std::string limit = std::to_string(job.max_parallel) + (job.max_parallel == 1 ? " job" : " jobs");
-  return "Its sweep, " + sweep_name_of(job.sweep) + ", already runs the " + limit + " that max_parallel allows";
+  return "Its sweep, " + sweep_name_of(job.sweep) + ", is already running the " + limit + " that max_parallel allows";
 }
 
 std::string at_its_owners_limit(const store::QueuedJob& job, int most) {
-  return "Its owner, " + job.owner + ", already runs the " + std::to_string(most) + (most == 1 ? " job" : " jobs") +
-         " that --owner-max-running allows";
+  return "Its owner, " + job.owner + ", is already running the " + std::to_string(most) +
+         (most == 1 ? " job" : " jobs") + " that --owner-max-running allows";
 }
 
 // The workers as time goes on.
@@ -84,7 +84,7 @@ class Play {
       case WaitingJobs::Limit::none: break;
     }
     if (all_busy_) return all_workers(workers_.count) + before_it(before, ", and ");
-    return seconds > 0.0 ? before_it(before, "") : "A worker takes it now.";
+    return seconds > 0.0 ? before_it(before, "") : "A worker is starting it now.";
   }
 
  private:

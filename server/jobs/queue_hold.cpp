@@ -17,7 +17,7 @@ bool QueueHold::set_low_disk(const std::optional<std::string>& reason) {
     low_disk_ = reason ? std::optional(Hold{Shortage::low_disk, *reason, now_(), {}}) : std::nullopt;
   }
   reason ? spdlog::warn("The queue is held: {} {}", *reason, remedy_for(Shortage::low_disk))
-         : spdlog::info("The disk has room again: the queue is held for it no longer");
+         : spdlog::info("Disk space is available again; the queue is no longer held for it");
   tell();
   return true;
 }
@@ -39,7 +39,7 @@ void QueueHold::succeeded() {
     const std::scoped_lock lock(mutex_);
     trial_ = false;
     if (!trouble_) return;
-    spdlog::info("The queue is released: what was short is there again ({})", name_of(trouble_->shortage));
+    spdlog::info("The queue is released: the shortage is over ({})", name_of(trouble_->shortage));
     trouble_.reset();
     over_ = now_();
   }

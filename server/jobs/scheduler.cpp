@@ -31,7 +31,8 @@ void Scheduler::clean_up() {
       parts_.runner.end_leftover(job);
       parts_.folder.clean_job_folder(job);
     } catch (const std::exception& error) {
-      spdlog::warn("What {} left beside its result is removed at the next start: {}", name_of(job), error.what());
+      spdlog::warn("Leftover files of {} could not be removed; the daemon tries again at its next start: {}",
+                   name_of(job), error.what());
     }
   }
 }
@@ -69,12 +70,13 @@ void Scheduler::cancel(std::int64_t job) {
     if (is_terminal(state)) {
       throw ServiceError(
           ServiceError::Kind::failed_precondition,
-          name_of(job) + " has ended already: it is " + v1::JobState_Name(state) + " and cannot be cancelled.");
+          name_of(job) + " has already ended: it is " + v1::JobState_Name(state) + " and cannot be cancelled.");
     }
     store::StateChange change;
     change.state = state == v1::RUNNING ? v1::CANCELLING : v1::CANCELLED;
     change.worker_pid = stored.job.worker_pid();
-    if (state == v1::SUSPENDED) change.message = "It was suspended and has no result. The history is kept.";
+    if (state == v1::SUSPENDED)
+      change.message = "The job was cancelled while suspended and has no result. The history is kept.";
     try {
       parts_.journal.change_state(job, change);
     } catch (const ServiceError& error) {
@@ -101,7 +103,8 @@ void Scheduler::suspend(std::int64_t job, const std::function<bool()>& given_up)
       throw ServiceError(ServiceError::Kind::failed_precondition,
                          name_of(job) + " is " + v1::JobState_Name(state) + " and cannot be suspended.");
     }
-    if (given_up()) throw ServiceError(ServiceError::Kind::cancelled, name_of(job) + " was not suspended in time.");
+    if (given_up())
+      throw ServiceError(ServiceError::Kind::cancelled, name_of(job) + " was not yet suspended when the call ended.");
     std::unique_lock lock(mutex_);
     const auto found = running_.find(job);
     if (found != running_.end()) {
@@ -266,7 +269,7 @@ int Scheduler::take_cores(const store::QueuedJob& job) {
   try {
     if (const auto stored = parts_.reader.find_job(job.job)) threads = stored->job.case_().numerics().threads();
   } catch (const std::exception& error) {
-    spdlog::warn("The threads of {} cannot be read: {}", name_of(job.job), error.what());
+    spdlog::warn("Cannot read the number of threads of {}: {}", name_of(job.job), error.what());
   }
   const std::scoped_lock lock(mutex_);
   const int taken = extra_cores(threads, free_cores_, waiting_.count());

@@ -1,11 +1,11 @@
 #include "jobs/sweep_plan.h"
 
-#include <map>
 #include <string>
 #include <utility>
 
 #include "error.h"
 #include "jobs/case_field.h"
+#include "jobs/point_problems.h"
 #include "jobs/sweep_points.h"
 #include "translate/case_checker.h"
 
@@ -43,43 +43,6 @@ std::string title_of(std::string title, std::string point) {
   return title.empty() ? point : title + ", " + point;
 }
 
-// Gathers problems; those that differ only in their point are one.
-class ProblemsOfPoints {
- public:
-  explicit ProblemsOfPoints(std::size_t points) : points_(points) {}
-
-  void add(v1::Problem problem, std::size_t position, const std::string& point) {
-    const std::string key = problem.SerializeAsString();
-    const auto [found, is_new] = seen_.try_emplace(key, entries_.size());
-    if (is_new) entries_.push_back({std::move(problem), position, point, 0});
-    ++entries_[found->second].count;
-  }
-
-  google::protobuf::RepeatedPtrField<v1::Problem> take() {
-    google::protobuf::RepeatedPtrField<v1::Problem> out;
-    for (auto& entry : entries_) {
-      std::string where = " This is so at point " + std::to_string(entry.first + 1) + " of " + std::to_string(points_) +
-                          " (" + entry.point + ")";
-      if (entry.count > 1) where += " and at " + std::to_string(entry.count - 1) + " more";
-      entry.problem.set_message(entry.problem.message() + where + ".");
-      *out.Add() = std::move(entry.problem);
-    }
-    return out;
-  }
-
- private:
-  struct Entry {
-    v1::Problem problem;
-    std::size_t first = 0;
-    std::string point;
-    std::size_t count = 0;
-  };
-
-  std::size_t points_;
-  std::map<std::string, std::size_t> seen_;
-  std::vector<Entry> entries_;
-};
-
 v1::Problem problem_of(const InvalidField& refused) {
   v1::Problem out;
   out.set_field(refused.field());
@@ -110,20 +73,24 @@ v1::Case build_case(const v1::Sweep& sweep, const std::vector<std::string>& fiel
 SweepPlan plan_sweep(const v1::Sweep& sweep, const std::function<bool()>& given_up) {
   const SweepPoints points = expand(sweep);
   if (sweep.case_().ByteSizeLong() * points.values.size() > kMostCaseBytes) {
-    throw InvalidField("sweep", "has " + std::to_string(points.values.size()) + " points of so large a case.",
-                       "Use fewer points, so that all their cases have at most 256 MiB.");
+    throw InvalidField("sweep",
+                       "has " + std::to_string(points.values.size()) + " points, too many for a case of this size.",
+                       "Use fewer points: all cases together may have at most 256 MiB.");
   }
   if (bytes_of_labels(sweep) * points.values.size() > kMostLabelBytes) {
-    throw InvalidField("sweep.labels",
-                       "have " + std::to_string(bytes_of_labels(sweep)) + " bytes, which each of the " +
-                           std::to_string(points.values.size()) + " jobs is to have.",
-                       "Use fewer or shorter labels or fewer points, so that all jobs together have at most 16 MiB.");
+    throw InvalidField(
+        "sweep.labels",
+        "have " + std::to_string(bytes_of_labels(sweep)) + " bytes, too many for " +
+            std::to_string(points.values.size()) + " jobs.",
+        "Use fewer or shorter labels, or fewer points: the labels of all jobs together may have at most 16 MiB.");
   }
   SweepPlan out;
-  ProblemsOfPoints problems(points.values.size());
+  PointProblems problems(points.values.size(), PointProblems::Merge::equal);
+  PointProblems notes(points.values.size(), PointProblems::Merge::but_for_numbers);
   translate::CaseChecker checker;
   for (std::size_t i = 0; i < points.values.size(); ++i) {
-    if (given_up()) throw ServiceError(ServiceError::Kind::cancelled, "Nobody waits for the sweep. None was made.");
+    if (given_up())
+      throw ServiceError(ServiceError::Kind::cancelled, "The client cancelled the call. No sweep was created.");
     const std::string point = text_of_point(points.fields, points.values[i]);
     translate::CaseChecker::Verdict verdict;
     v1::Job job;
@@ -132,14 +99,16 @@ SweepPlan plan_sweep(const v1::Sweep& sweep, const std::function<bool()>& given_
     job.set_priority(sweep.priority());
     job.set_time_limit_s(sweep.time_limit_s());
     job.set_owner(sweep.owner());
-    for (auto& problem : verdict.problems) problems.add(std::move(problem), i, point);
+    for (const auto& problem : verdict.problems) problems.add(problem, i, point);
+    for (const auto& note : verdict.notes) notes.add(note, i, point);
     if (verdict.most_memory_bytes > out.most_memory_bytes) {
       out.most_memory_bytes = verdict.most_memory_bytes;
       out.largest = i;
     }
     out.jobs.push_back({std::move(job), points.values[i], verdict.element_steps});
   }
-  out.problems = problems.take();
+  out.problems = problems.merged();
+  if (out.problems.empty()) out.notes = notes.merged();
   if (!out.problems.empty()) out.most_memory_bytes = 0;
   return out;
 }

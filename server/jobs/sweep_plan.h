@@ -15,6 +15,7 @@ struct SweepPlan {
   std::int64_t most_memory_bytes = 0;  ///< that one of the jobs needs, at most; 0 with problems
   std::size_t largest = 0;             ///< that job's place among them
   google::protobuf::RepeatedPtrField<v1::Problem> problems;  ///< those that several points share are one
+  google::protobuf::RepeatedPtrField<v1::Problem> notes;     ///< likewise; none with problems
 };
 
 /// Makes the case of every point, with the values in its title, and checks it as CheckCase does. Throws InvalidField when

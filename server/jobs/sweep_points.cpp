@@ -29,7 +29,7 @@ std::string axis_field(int axis) { return "sweep.axes[" + std::to_string(axis) +
 std::vector<double> spaced(const v1::SweepAxis::Range& range, const std::string& name,
                            const std::function<double(double, double)>& at) {
   if (!std::isfinite(range.first()) || !std::isfinite(range.last()))
-    throw InvalidField(name, "has an end that is no number.", "Use two finite ends.");
+    throw InvalidField(name, "has a non-finite end.", "Use two finite ends.");
   if (range.count() < 2)
     throw InvalidField(name + ".count", "is " + std::to_string(range.count()) + ".", "Use at least 2.");
   if (static_cast<std::size_t>(range.count()) > kMostPoints)
@@ -46,7 +46,7 @@ std::vector<double> spaced(const v1::SweepAxis::Range& range, const std::string&
 std::vector<double> values_of(const v1::SweepAxis& axis, const std::string& name) {
   switch (axis.values_case()) {
     case v1::SweepAxis::kList:
-      if (axis.list().values().empty()) throw InvalidField(name + ".list", "has no values.", "Name at least one.");
+      if (axis.list().values().empty()) throw InvalidField(name + ".list", "has no values.", "Give at least one.");
       return {axis.list().values().begin(), axis.list().values().end()};
     case v1::SweepAxis::kLinear: {
       const auto& range = axis.linear();
@@ -58,7 +58,7 @@ std::vector<double> values_of(const v1::SweepAxis& axis, const std::string& name
     case v1::SweepAxis::kLogarithmic: {
       const auto& range = axis.logarithmic();
       if (!(range.first() > 0.0) || !(range.last() > 0.0))
-        throw InvalidField(name + ".logarithmic", "has an end that is not above 0.", "Use two ends above 0.");
+        throw InvalidField(name + ".logarithmic", "has an end that is not positive.", "Use two positive ends.");
       return spaced(range, name + ".logarithmic", [&](double step, double steps) {
         return range.first() * std::pow(range.last() / range.first(), step / steps);
       });
@@ -72,7 +72,7 @@ std::vector<double> values_of(const v1::SweepAxis& axis, const std::string& name
     }
     case v1::SweepAxis::VALUES_NOT_SET: break;
   }
-  throw InvalidField(name, "has no values.", "Give list, linear, logarithmic or seed_count.");
+  throw InvalidField(name, "has no values.", "Set list, linear, logarithmic or seed_count.");
 }
 
 std::vector<std::vector<double>> grid(const v1::Sweep& sweep) {
@@ -82,8 +82,8 @@ std::vector<std::vector<double>> grid(const v1::Sweep& sweep) {
     const auto& axis = sweep.axes(i);
     if (axis.field().empty()) throw InvalidField(axis_field(i) + ".field", "is missing.", "Name a field of the case.");
     if (!seen.insert(axis.field()).second)
-      throw InvalidField(axis_field(i) + ".field", "is " + axis.field() + " again.",
-                         "Give all its values on one axis.");
+      throw InvalidField(axis_field(i) + ".field", "is " + axis.field() + ", which an earlier axis already varies.",
+                         "Put all its values on one axis.");
     const auto values = values_of(axis, axis_field(i));
     if (values.size() * points.size() > kMostPoints)
       throw InvalidField("sweep.axes", "have more than 10000 combinations.", kFewer);
@@ -110,8 +110,8 @@ std::vector<std::vector<double>> listed(const v1::Sweep& sweep, const std::vecto
       if (const auto found = given.find(field); found != given.end()) values.push_back(found->second);
     }
     if (values.empty() || values.size() != fields.size() || given.size() != fields.size()) {
-      throw InvalidField("sweep.points[" + std::to_string(i) + "].fields", "are not those of the first point.",
-                         "Give every point a value for each of the same fields, at least one.");
+      throw InvalidField("sweep.points[" + std::to_string(i) + "].fields", "differ from those of the first point.",
+                         "Give every point values for the same fields, at least one.");
     }
   }
   return out;
@@ -131,9 +131,9 @@ std::vector<std::string> swept_fields(const v1::Sweep& sweep) {
 
 SweepPoints expand(const v1::Sweep& sweep) {
   if (sweep.axes().empty() && sweep.points().empty())
-    throw InvalidField("sweep.axes", "are missing.", "Name the fields to vary and their values, or give points.");
+    throw InvalidField("sweep.axes", "are missing.", "Give axes with the fields to vary, or points.");
   if (!sweep.axes().empty() && !sweep.points().empty())
-    throw InvalidField("sweep.points", "are given beside axes.", "Give either axes or points.");
+    throw InvalidField("sweep.points", "are given together with axes.", "Give axes or points, not both.");
   SweepPoints out;
   out.fields = swept_fields(sweep);
   check_fields(out.fields, sweep.points().empty() ? "sweep.axes" : "sweep.points");

@@ -27,7 +27,7 @@ WorkerProcess::WorkerProcess(pid_t process, bool is_child)
     kill(process_, SIGKILL);
     wait_for_child();
   }
-  throw std::system_error(error, std::generic_category(), "The worker process cannot be followed");
+  throw std::system_error(error, std::generic_category(), "The worker process cannot be monitored");
 }
 
 std::optional<WorkerProcess> WorkerProcess::find(const worker::JobFolder& folder) {

@@ -76,28 +76,30 @@ struct Metrics::Impl {
   }
 
   std::shared_ptr<prometheus::Registry> registry = std::make_shared<prometheus::Registry>();
-  prometheus::Gauge& waiting = gauge(*registry, "cellcrush_jobs_waiting", "Jobs that wait for a slot.");
-  prometheus::Gauge& running = gauge(*registry, "cellcrush_jobs_running", "Jobs that run.");
+  prometheus::Gauge& waiting = gauge(*registry, "cellcrush_jobs_waiting", "Jobs waiting in the queue.");
+  prometheus::Gauge& running = gauge(*registry, "cellcrush_jobs_running", "Jobs running.");
   prometheus::Family<prometheus::Gauge>& held = prometheus::BuildGauge()
                                                     .Name("cellcrush_queue_held")
-                                                    .Help("Whether the queue is held, by what the daemon lacks.")
+                                                    .Help("1 while the queue is held for this cause, else 0.")
                                                     .Register(*registry);
-  Counters& ended = counters(*registry, "cellcrush_jobs_ended_total", "Jobs that have ended, by state.");
+  Counters& ended = counters(*registry, "cellcrush_jobs_ended_total", "Jobs that have ended, by final state.");
   prometheus::Counter& steps =
       counters(*registry, "cellcrush_steps_total", "Time steps of jobs that have ended with a result.").Add({});
-  Counters& stages =
-      counters(*registry, "cellcrush_stage_seconds_total", "Processor time of those steps, by stage of a step.");
-  prometheus::Gauge& speed = gauge(*registry, "cellcrush_steps_per_second", "Time steps a second of running jobs.");
+  Counters& stages = counters(*registry, "cellcrush_stage_seconds_total",
+                              "Processor time of jobs that have ended with a result, by stage of the time step.");
+  prometheus::Gauge& speed =
+      gauge(*registry, "cellcrush_steps_per_second", "Time steps per second of the running jobs, added up.");
   prometheus::Histogram& commits =
-      histogram(*registry, "cellcrush_commit_seconds", "Time that it takes to make something durable.");
-  prometheus::Histogram& events =
-      histogram(*registry, "cellcrush_event_seconds", "Time from news of a watched job to its message on the stream.");
+      histogram(*registry, "cellcrush_commit_seconds", "Time to commit a change to the journal.");
+  prometheus::Histogram& events = histogram(*registry, "cellcrush_event_seconds",
+                                            "Time from an event of a watched job to its message on the stream.");
   prometheus::Gauge& watchers = gauge(*registry, "cellcrush_watchers", "Open watches.");
-  prometheus::Gauge& connections = gauge(*registry, "cellcrush_connections", "Open connections of gRPC.");
-  prometheus::Counter& refused =
-      counters(*registry, "cellcrush_refused_connections_total", "Connections beyond the limits.").Add({});
+  prometheus::Gauge& connections = gauge(*registry, "cellcrush_connections", "Open gRPC connections.");
+  prometheus::Counter& refused = counters(*registry, "cellcrush_refused_connections_total",
+                                          "Connections refused because of the connection limits.")
+                                     .Add({});
   prometheus::Counter& skipped =
-      counters(*registry, "cellcrush_skipped_frames_total", "Frames that watchers were too slow for.").Add({});
+      counters(*registry, "cellcrush_skipped_frames_total", "Frames skipped because a watcher was too slow.").Add({});
   std::mutex mutex;
   std::map<std::int64_t, double> speeds;  ///< by job
   std::optional<prometheus::Exposer> exposer;
@@ -115,8 +117,7 @@ ListenAddress Metrics::serve(const ListenAddress& address) {
   } catch (const std::exception&) {
     throw ServiceError(ServiceError::Kind::failed_precondition,
                        "Cannot serve metrics on " + address.text() +
-                           ": another program listens there, or it may not be used. Give another address with "
-                           "--metrics.");
+                           ": the address is in use or not permitted. Give another address with --metrics.");
   }
   impl_->exposer->RegisterCollectable(impl_->registry);
   return bound;

@@ -40,7 +40,8 @@ Acceptor::Acceptor(std::vector<ListeningPort> ports, const ConnectionLimits& lim
       reserve_(open_reserve()),
       wake_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {
   if (wake_ < 0)
-    throw ServiceError(ServiceError::Kind::internal, std::string("Cannot serve: ") + std::strerror(errno) + ".");
+    throw ServiceError(ServiceError::Kind::internal,
+                       std::string("Cannot accept connections: ") + std::strerror(errno) + ".");
 }
 
 void Acceptor::start() {
@@ -150,7 +151,7 @@ void Acceptor::refuse_with_reserve(int listener) {
     const int descriptor = accept4(listener, nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC);
     if (descriptor < 0) break;
     close(descriptor);
-    parts_.refused("a connection: the daemon has no file descriptor left for it. Raise its limit (ulimit -n)");
+    parts_.refused("a connection: the daemon is out of file descriptors. Raise the limit (ulimit -n)");
   }
   reserve_ = open_reserve();
 }

@@ -24,7 +24,7 @@ std::optional<std::string> ConnectionTable::admit(int descriptor, const std::str
   if (excess(peer) && now_() - last_look_ >= kBetweenLooks) drop_closed();
   if (auto words = excess(peer)) return words;
   struct stat status {};
-  if (fstat(descriptor, &status) != 0) return "it is closed already";
+  if (fstat(descriptor, &status) != 0) return "it is already closed";
   // A number that is used again is that of a connection which was closed.
   if (const auto before = entries_.find(descriptor); before != entries_.end()) erase(before);
   entries_[descriptor] = {status.st_dev, status.st_ino, peer};
@@ -46,11 +46,11 @@ std::optional<std::string> ConnectionTable::excess(const std::string& peer) cons
   const auto of_peer = peers_.find(peer);
   if (of_peer != peers_.end() && of_peer->second >= limits_.per_peer) {
     return peer + " has " + std::to_string(of_peer->second) +
-           " connections open, as many as --max-connections-per-address allows. Close some";
+           " connections open, the limit of --max-connections-per-address. Close some";
   }
   if (static_cast<int>(entries_.size()) < limits_.in_all) return std::nullopt;
   return std::to_string(entries_.size()) +
-         " connections are open, as many as --max-connections and the limit on descriptors allow. Try again later";
+         " connections are open, the limit of --max-connections or of file descriptors. Try again later";
 }
 
 ConnectionTable::Entries::iterator ConnectionTable::erase(Entries::iterator entry) {

@@ -33,7 +33,7 @@ int raise_descriptor_limit(int wanted, int workers) {
   const int out = static_cast<int>(std::clamp<std::int64_t>(left, kLeast, wanted));
   if (out < wanted) {
     spdlog::warn(
-        "{} connections may be open instead of {}: the limit on file descriptors is {}. Raise the hard limit "
+        "At most {} connections can be open instead of {}: the limit on file descriptors is {}. Raise the hard limit "
         "(LimitNOFILE= of the service, ulimit -Hn)",
         out, wanted, descriptors);
   }

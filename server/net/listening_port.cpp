@@ -84,7 +84,7 @@ ino_t inode_of(const std::string& path) {
   throw ServiceError(
       ServiceError::Kind::failed_precondition,
       "Cannot listen on " + address.text() + ": " +
-          (in_use ? "another program listens there. Stop the other," : std::strerror(errno) + std::string(".")) +
+          (in_use ? "another program is listening there. Stop it," : std::strerror(errno) + std::string(".")) +
           (in_use ? " or give" : " Give") + " another address with --listen.");
 }
 

@@ -132,9 +132,9 @@ void PortProbe::look_at(std::size_t port, const ListenAddress& address) {
   if (answers(address, plain_[port] ? "" : hello_, limits_.probe_patience)) return;
   try {
     acceptor_.reopen(port);
-    spdlog::warn("{} did not answer a probe of its own, and was opened again", address.text());
+    spdlog::warn("{} did not answer the daemon's own probe and was reopened", address.text());
   } catch (const ServiceError& error) {
-    spdlog::error("{} does not answer and cannot be opened again yet: {}", address.text(), error.what());
+    spdlog::error("{} does not answer and cannot be reopened yet: {}", address.text(), error.what());
   }
 }
 

@@ -10,8 +10,8 @@ namespace {
 constexpr int kHandshake = 2000;      // ms
 constexpr int kConnectionAge = 1000;  // ms
 constexpr const char* kWhy =
-    "As many connections are open as this daemon allows, in all or from this address (--max-connections, "
-    "--max-connections-per-address). Close some, or try again later.";
+    "The daemon's connection limit is reached, in total or for this address (--max-connections, "
+    "--max-connections-per-address). Close some connections, or try again later.";
 
 class RefusedCall final : public grpc::ServerGenericBidiReactor {
  public:
@@ -35,7 +35,7 @@ RefusingServer::RefusingServer(const std::vector<std::shared_ptr<grpc::ServerCre
   builder.AddChannelArgument(GRPC_ARG_MAX_CONNECTION_AGE_MS, kConnectionAge);
   builder.AddChannelArgument(GRPC_ARG_MAX_CONNECTION_AGE_GRACE_MS, kConnectionAge);
   server_ = builder.BuildAndStart();
-  if (!server_) throw ServiceError(ServiceError::Kind::failed_precondition, "The service could not be started.");
+  if (!server_) throw ServiceError(ServiceError::Kind::failed_precondition, "The gRPC server could not be started.");
 }
 
 RefusingServer::~RefusingServer() { server_->Shutdown(std::chrono::system_clock::now()); }

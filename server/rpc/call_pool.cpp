@@ -35,8 +35,9 @@ grpc::Status CallPool::take(Call call) {
     // One alone may always wait.
     if (waiting_.size() >= most_.waiting || (bytes_ > 0 && bytes_ + call.bytes > most_.bytes)) {
       return {grpc::StatusCode::RESOURCE_EXHAUSTED,
-              fmt::format("{} calls with {} bytes wait to be answered, as many as this daemon takes. Try again later.",
-                          waiting_.size(), bytes_)};
+              fmt::format(
+                  "{} calls with {} bytes are waiting to be answered, which is the daemon's limit. Try again later.",
+                  waiting_.size(), bytes_)};
     }
     bytes_ += call.bytes;
     waiting_.push_back(std::move(call));
@@ -56,8 +57,9 @@ void CallPool::serve() {
       waiting_.pop_front();
       bytes_ -= call.bytes;
     }
-    call.reactor->Finish(call.context->IsCancelled() ? grpc::Status(grpc::StatusCode::CANCELLED, "Nobody waits for it.")
-                                                     : answer(call.body));
+    call.reactor->Finish(call.context->IsCancelled()
+                             ? grpc::Status(grpc::StatusCode::CANCELLED, "The client cancelled the call.")
+                             : answer(call.body));
   }
 }
 

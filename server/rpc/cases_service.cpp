@@ -30,7 +30,7 @@ grpc::ServerUnaryReactor* CasesService::CheckCase(grpc::CallbackServerContext* c
                                                   v1::CheckCaseResponse* response) {
   return checks_.run(*context, *request, [=, this] {
     const auto look_up = [context] {
-      if (context->IsCancelled()) throw ServiceError(ServiceError::Kind::cancelled, "Nobody waits for this check.");
+      if (context->IsCancelled()) throw ServiceError(ServiceError::Kind::cancelled, "The client cancelled the call.");
     };
     std::optional<LargeChecks::Place> place;
     // Of one with problems nothing is built.
@@ -64,7 +64,7 @@ grpc::ServerUnaryReactor* CasesService::GetPreset(grpc::CallbackServerContext* c
     auto preset = translate::find_preset_case(request->name());
     if (!preset) {
       throw ServiceError(ServiceError::Kind::not_found,
-                         "There is no preset \"" + request->name() + "\". Known are: " + known_presets() + ".");
+                         "There is no preset \"" + request->name() + "\". Available presets: " + known_presets() + ".");
     }
     *response = *std::move(preset);
     return grpc::Status::OK;

@@ -32,15 +32,16 @@ void check_request(const std::string& request_id, const google::protobuf::Map<st
     throw InvalidField(field, "are " + std::to_string(labels.size()) + ".", "Use at most 64.");
   for (const auto& [key, value] : labels) {
     if (key.empty() || key.size() > kLongestKey)
-      throw InvalidField(field, "have the key \"" + key + "\", which is empty or too long.", "Use 1 to 63 characters.");
+      throw InvalidField(field, "have the key \"" + key + "\", of invalid length.", "Use 1 to 63 characters.");
     if (value.size() > kLongestValue)
-      throw InvalidField(field, "have too long a value for \"" + key + "\".", "Use at most 255 characters.");
+      throw InvalidField(field, "have a value that is too long for \"" + key + "\".", "Use at most 255 characters.");
   }
 }
 
 void check_priority(int priority, const std::string& field) {
   if (priority < -kHighestPriority || priority > kHighestPriority)
-    throw InvalidField(field, "is " + std::to_string(priority) + ".", "Use -100 to 100; higher ones start first.");
+    throw InvalidField(field, "is " + std::to_string(priority) + ".",
+                       "Use -100 to 100; higher priorities start first.");
 }
 
 std::string payload_hash(v1::CreateJobRequest request, const std::string& owner) {

@@ -77,7 +77,7 @@ v1::Problem note_on_rest(const std::string& subject, int left_out) {
   out.set_field(subject);
   out.set_message("has " + std::to_string(left_out) + " more problems.");
   out.set_remedy(subject == "case" ? "CheckCase lists them all."
-                                   : "Mend these first; the same call then names the rest.");
+                                   : "Fix these first; the same call then lists the rest.");
   out.set_kind(v1::Problem::INVALID);
   return out;
 }
@@ -134,9 +134,10 @@ grpc::Status status_of(const std::exception& error) {
   if (const auto* refused = dynamic_cast<const InvalidField*>(&error))
     return invalid_argument(refused->field(), refused->message(), refused->remedy());
   if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr)
-    return {grpc::StatusCode::RESOURCE_EXHAUSTED, "There is not enough memory for this. Take a smaller case."};
+    return {grpc::StatusCode::RESOURCE_EXHAUSTED,
+            "The daemon is out of memory. Use a smaller case, or try again later."};
   spdlog::error("A call failed: {}", error.what());
-  return {grpc::StatusCode::INTERNAL, std::string("The daemon failed: ") + error.what()};
+  return {grpc::StatusCode::INTERNAL, std::string("Internal error of the daemon: ") + error.what()};
 }
 
 }  // namespace cellcrush::rpc

@@ -16,7 +16,7 @@ FrameSource::FrameSource(const Parts& parts, store::StoredJob job, v1::GetFrameR
   if ((request_.has_strain() && !std::isfinite(request_.strain())) ||
       (request_.has_time_s() && !std::isfinite(request_.time_s())))
     throw ServiceError(ServiceError::Kind::invalid,
-                       "The strain or time of the frame is not a number. Use a finite one.");
+                       "The strain or time of the requested frame is not finite. Use a finite number.");
 }
 
 v1::FieldFrame FrameSource::find_frame() const {
@@ -25,11 +25,10 @@ v1::FieldFrame FrameSource::find_frame() const {
   const auto channel = parts_.hub.find(job_.number);
   const auto frame = channel ? channel->newest().frame : nullptr;
   if (!frame) {
-    throw ServiceError(
-        ServiceError::Kind::failed_precondition,
-        job_.job.name() + " is " + v1::JobState_Name(job_.job.state()) +
-            " and has no frame. A running job has its newest one; one that SUCCEEDED, or was cancelled or failed "
-            "while it ran, has all.");
+    throw ServiceError(ServiceError::Kind::failed_precondition,
+                       job_.job.name() + " is " + v1::JobState_Name(job_.job.state()) +
+                           " and has no frames. A running job offers its newest frame. A job that SUCCEEDED, or was "
+                           "cancelled or failed while running, offers all.");
   }
   return *frame;
 }

@@ -11,7 +11,7 @@ namespace cellcrush::rpc {
 namespace {
 
 constexpr const char* kUnderstood =
-    "Understood are state = STATE, owner = \"NAME\", label.KEY = \"value\" and title : \"text\", joined by AND.";
+    "Valid terms are state = STATE, owner = \"NAME\", label.KEY = \"value\" and title : \"text\", joined by AND.";
 
 // Goes through the text once, a condition at a time.
 class Reader {
@@ -27,7 +27,7 @@ class Reader {
       skip_space();
       if (at_end()) return out;
       const std::size_t start = position_;
-      if (word() != "AND") refuse(start, "AND or the end is expected");
+      if (word() != "AND") refuse(start, "expected AND or the end");
     }
   }
 
@@ -50,7 +50,7 @@ class Reader {
       expect('=');
       out.labels.emplace_back(key, value());
     } else {
-      refuse(start, "state, owner, label.KEY or title is expected");
+      refuse(start, "expected state, owner, label.KEY or title");
     }
   }
 
@@ -60,7 +60,7 @@ class Reader {
     const std::string name = value();
     v1::JobState out = v1::JOB_STATE_UNSPECIFIED;
     if (!v1::JobState_Parse(name, &out) || out == v1::JOB_STATE_UNSPECIFIED)
-      refuse(start, "one of " + state_names() + " is expected");
+      refuse(start, "expected one of " + state_names());
     return out;
   }
 
@@ -77,7 +77,7 @@ class Reader {
     const std::size_t start = position_;
     if (at_end() || text_[position_] != '"') {
       std::string out = word();
-      if (out.empty()) refuse(start, "a value is expected");
+      if (out.empty()) refuse(start, "expected a value");
       return out;
     }
     ++position_;
@@ -86,7 +86,7 @@ class Reader {
       if (text_[position_] == '\\' && position_ + 1 < text_.size()) ++position_;
       out.push_back(text_[position_++]);
     }
-    if (at_end()) refuse(start, "the quotation that begins here does not end");
+    if (at_end()) refuse(start, "the quoted text that starts here has no closing quote");
     ++position_;
     return out;
   }
@@ -103,7 +103,7 @@ class Reader {
 
   void expect(char wanted) {
     skip_space();
-    if (at_end() || text_[position_] != wanted) refuse(position_, std::string(1, wanted) + " is expected");
+    if (at_end() || text_[position_] != wanted) refuse(position_, std::string("expected ") + wanted);
     ++position_;
   }
 
@@ -134,7 +134,7 @@ bool parse_newest_first(const std::string& text) {
   const bool known_field = words[0] == "create_time" || words[0] == "name";
   const bool known_direction = words.size() == 1 || (words.size() == 2 && (words[1] == "desc" || words[1] == "asc"));
   if (!known_field || !known_direction) {
-    throw InvalidField("order_by", "is \"" + text + "\", which is not understood.",
+    throw InvalidField("order_by", "is \"" + text + "\", which is not a valid order.",
                        "Use create_time, create_time desc, name or name desc.");
   }
   return words.size() == 2 && words[1] == "desc";

@@ -25,7 +25,7 @@ store::StoredJob JobsService::find(const std::string& name) {
   auto stored = number ? parts_.reader.find_job(*number) : std::nullopt;
   if (!stored) {
     throw ServiceError(ServiceError::Kind::not_found,
-                       "There is no job \"" + name + "\". Names are like jobs/12; ListJobs gives them.");
+                       "There is no job \"" + name + "\". Job names look like jobs/12; ListJobs lists them.");
   }
   return *std::move(stored);
 }
@@ -87,7 +87,7 @@ grpc::ServerUnaryReactor* JobsService::CreateJob(grpc::CallbackServerContext* co
     const auto created =
         parts_.journal.create_job(std::move(job), request->request_id(), hash, verdict.element_steps, admit);
     if (created.is_new) {
-      log_change(jobs::name_of(created.job), "made", owner, request->request_id());
+      log_change(jobs::name_of(created.job), "created", owner, request->request_id());
       parts_.scheduler.enqueue({{created.job, created.job, request->priority(), verdict.element_steps, 0, 0, owner}});
       place.reset();
     }
@@ -207,11 +207,10 @@ grpc::ServerWriteReactor<v1::DownloadResultResponse>* JobsService::DownloadResul
       [&] {
         const auto stored = find(request->name());
         if (!stored.job.has_summary()) {
-          throw ServiceError(
-              ServiceError::Kind::failed_precondition,
-              stored.job.name() + " is " + v1::JobState_Name(stored.job.state()) +
-                  " and has no result. A job has one once it has SUCCEEDED, or was cancelled or failed while "
-                  "it ran.");
+          throw ServiceError(ServiceError::Kind::failed_precondition,
+                             stored.job.name() + " is " + v1::JobState_Name(stored.job.state()) +
+                                 " and has no result. A job has a result once it has SUCCEEDED, or was cancelled or "
+                                 "failed while running.");
         }
         return std::make_unique<DownloadSource>(parts_.folder.job_folder(stored.number).result(), request->offset());
       });

@@ -31,8 +31,8 @@ std::int64_t read_token(const std::string& text, const std::string& question) {
   std::int64_t after = 0;
   const auto [stopped, error] = std::from_chars(text.data(), text.data() + text.size(), after);
   if (error != std::errc() || after < 1 || text != page_token(after, question)) {
-    throw InvalidField("page_token", "is no token of this list.",
-                       "Use the next_page_token of the page before, with the same filter and order_by, or name.");
+    throw InvalidField("page_token", "is not a token of this list.",
+                       "Use the next_page_token of the previous page, with the same filter and order_by, or name.");
   }
   return after;
 }

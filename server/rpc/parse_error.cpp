@@ -18,10 +18,11 @@ grpc::Status parse_error(std::string_view path) {
   std::string method(path.substr(path.starts_with('/') ? 1 : 0));
   std::replace(method.begin(), method.end(), '/', '.');
   const auto* descriptor = google::protobuf::DescriptorPool::generated_pool()->FindMethodByName(method);
-  const std::string type = descriptor == nullptr ? "message of its type" : descriptor->input_type()->full_name();
-  return invalid_argument("request",
-                          "of " + method + " is not a " + type + ": its bytes do not parse, or a string is not UTF-8.",
-                          "Encode it by this server's .proto files, and every string as UTF-8.");
+  const std::string type =
+      descriptor == nullptr ? "message of the expected type" : descriptor->input_type()->full_name();
+  return invalid_argument(
+      "request", "of " + method + " is not a " + type + ": its bytes cannot be parsed, or a string is not UTF-8.",
+      "Encode it with this server's .proto files, and every string as UTF-8.");
 }
 
 class ParseErrorInterceptor final : public grpc_hooks::Interceptor {

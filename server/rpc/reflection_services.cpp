@@ -103,7 +103,7 @@ typename Version::Response answer_reflection(const typename Version::Request& re
       for (const auto& name : names) response.mutable_list_services_response()->add_service()->set_name(name);
       break;
     case Version::Request::MESSAGE_REQUEST_NOT_SET:
-      refuse(response, grpc::StatusCode::INVALID_ARGUMENT, "The request has no question. Set one of message_request.");
+      refuse(response, grpc::StatusCode::INVALID_ARGUMENT, "The request is empty. Set one field of message_request.");
       break;
   }
   return response;

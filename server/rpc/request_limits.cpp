@@ -15,9 +15,10 @@ void check_length(const std::string& field, const std::string& text, std::size_t
 
 void check_epoch(const store::Epoch& epoch, const std::string& given) {
   if (given.empty() || given == epoch.id) return;
-  throw ServiceError(ServiceError::Kind::failed_precondition,
-                     "The after_sequence is" + epoch.of_before() +
-                         ": its number may stand for another event now. Watch again without after_sequence and epoch.");
+  throw ServiceError(
+      ServiceError::Kind::failed_precondition,
+      "The after_sequence comes" + epoch.of_before() +
+          ": its number may now belong to a different event. Watch again without after_sequence and epoch.");
 }
 
 }  // namespace cellcrush::rpc

@@ -27,8 +27,8 @@ v1::FieldFrame read_frame(const store::ResultReader& result, const v1::GetFrameR
     case v1::GetFrameRequest::kIndex:
       if (request.index() < -1 || request.index() > last) {
         throw ServiceError(ServiceError::Kind::out_of_range,
-                           "index is " + std::to_string(request.index()) + ", but frames count from 0 to " +
-                               std::to_string(last) + ". Use one of them, or -1 for the last.");
+                           "index is " + std::to_string(request.index()) + ", but frames are numbered from 0 to " +
+                               std::to_string(last) + ". Use one of these, or -1 for the last frame.");
       }
       return result.frame(request.index() == -1 ? last : request.index());
     case v1::GetFrameRequest::WHICH_NOT_SET: break;

@@ -22,8 +22,8 @@ void StreamLimits::Permit::hold(std::size_t bytes) {
   if (limits_->bytes_ > 0 && limits_->bytes_ + wanted > limits_->most_.bytes) {
     throw ServiceError(ServiceError::Kind::exhausted,
                        "Open streams hold " + std::to_string(limits_->bytes_) +
-                           " bytes that nobody has read yet, as many as --max-call-memory allows. Try again later, and "
-                           "read streams as they come.");
+                           " bytes not yet read by their clients, the limit of --max-call-memory. Try again later, and "
+                           "read streams without delay.");
   }
   limits_->bytes_ += bytes_ = wanted;
 }
@@ -31,16 +31,16 @@ void StreamLimits::Permit::hold(std::size_t bytes) {
 StreamLimits::Permit StreamLimits::admit(const std::string& caller) {
   const std::scoped_lock lock(mutex_);
   if (count_ >= most_.in_all) {
-    throw ServiceError(ServiceError::Kind::exhausted,
-                       std::to_string(count_) +
-                           " streams are open, as many as --max-streams allows. Try again later, and end streams that "
-                           "are not read.");
+    throw ServiceError(
+        ServiceError::Kind::exhausted,
+        std::to_string(count_) +
+            " streams are open, the limit of --max-streams. Try again later, and close streams that are not read.");
   }
   int& of_caller = callers_[caller];
   if (of_caller >= most_.per_caller) {
-    throw ServiceError(ServiceError::Kind::exhausted, caller + " has " + std::to_string(of_caller) +
-                                                          " streams open, as many as --max-streams-per-caller allows. "
-                                                          "End some first.");
+    throw ServiceError(ServiceError::Kind::exhausted,
+                       caller + " has " + std::to_string(of_caller) +
+                           " streams open, the limit of --max-streams-per-caller. Close some first.");
   }
   ++of_caller;
   ++count_;

@@ -139,13 +139,13 @@ class StreamReactor final : public grpc::ServerWriteReactor<typename Source::Mes
     if (done_) return Action::none;
     if (finished_) return is_to_be_abandoned() ? Action::abandon : Action::none;
     if (writing_) return is_stuck() ? close(status_of_stuck()) : Action::none;
-    if (cancelled_) return close({grpc::StatusCode::CANCELLED, "The reader is gone."});
+    if (cancelled_) return close({grpc::StatusCode::CANCELLED, "The client cancelled the stream."});
     try {
       auto next = source_->next();
       if (!next && source_->ended()) return close(grpc::Status::OK);
       if (!next && parts_.pump.draining()) {
         return close({grpc::StatusCode::UNAVAILABLE,
-                      "The daemon ends. Ask again " + source_->resume_advice() + " once it is back."});
+                      "The daemon is shutting down. Ask again " + source_->resume_advice() + " after it restarts."});
       }
       if (!next && Clock::now() - last_write_ >= parts_.times.bookmark_interval) next = source_->bookmark();
       if (!next) return Action::none;
@@ -184,9 +184,10 @@ class StreamReactor final : public grpc::ServerWriteReactor<typename Source::Mes
 
   [[nodiscard]] grpc::Status status_of_stuck() const {
     const auto seconds = std::chrono::duration<double>(parts_.times.patience).count();
-    return {grpc::StatusCode::RESOURCE_EXHAUSTED, "Nothing of this stream was read for " + jobs::text_of(seconds) +
-                                                      " s, so it was closed. Ask again " + source_->resume_advice() +
-                                                      ", and read messages as they come."};
+    return {grpc::StatusCode::RESOURCE_EXHAUSTED, "The client read nothing from this stream for " +
+                                                      jobs::text_of(seconds) +
+                                                      " s, so the stream was closed. Ask again " +
+                                                      source_->resume_advice() + ", and read messages without delay."};
   }
 
   /// There is news.

@@ -27,6 +27,7 @@ v1::CreateSweepRequest without_output(v1::CreateSweepRequest request) {
   sweep.clear_jobs();
   sweep.clear_state_counts();
   sweep.clear_owner();
+  sweep.clear_notes();
   return request;
 }
 
@@ -54,7 +55,7 @@ SweepsService::Found SweepsService::find(const std::string& name) {
   auto sweep = number ? parts_.sweeps.find_sweep(*number) : std::nullopt;
   if (!sweep) {
     throw ServiceError(ServiceError::Kind::not_found,
-                       "There is no sweep \"" + name + "\". Names are like sweeps/12; ListSweeps gives them.");
+                       "There is no sweep \"" + name + "\". Sweep names look like sweeps/12; ListSweeps lists them.");
   }
   return {*number, *std::move(sweep)};
 }
@@ -79,10 +80,12 @@ grpc::ServerUnaryReactor* SweepsService::CreateSweep(grpc::CallbackServerContext
     request.mutable_sweep()->set_owner(owner);
     auto plan = jobs::plan_sweep(request.sweep(), [context] { return context->IsCancelled(); });
     if (!plan.problems.empty()) return status_of(plan.problems, "sweep");
-    if (request.validate_only()) {
-      *response = request.sweep();
+    const auto answer_with = [&](v1::Sweep answer) {
+      *answer.mutable_notes() = plan.notes;
+      *response = std::move(answer);
       return grpc::Status::OK;
-    }
+    };
+    if (request.validate_only()) return answer_with(request.sweep());
     const std::int64_t memory_bytes = parts_.admission.memory_of_job(
         plan.most_memory_bytes, [&] { return translate::predicted_memory(plan.jobs[plan.largest].job.case_()); });
     std::optional<jobs::Admission::Place> place;
@@ -93,12 +96,11 @@ grpc::ServerUnaryReactor* SweepsService::CreateSweep(grpc::CallbackServerContext
     const auto created = parts_.journal.create_sweep(request.sweep(), plan.jobs, request.request_id(), hash, admit);
     const std::string name = jobs::sweep_name_of(created.sweep);
     if (created.is_new) {
-      log_change(name, "made with " + std::to_string(plan.jobs.size()) + " jobs", owner, request.request_id());
+      log_change(name, "created with " + std::to_string(plan.jobs.size()) + " jobs", owner, request.request_id());
       parts_.scheduler.enqueue(queued_jobs(created, plan, request.sweep()));
       place.reset();
     }
-    *response = find(name).sweep;
-    return grpc::Status::OK;
+    return answer_with(find(name).sweep);
   });
 }
 

@@ -42,7 +42,7 @@ class ResultBackup {
       : data_folder_(data_folder), target_(target), live_(live) {}
 
   void copy(std::int64_t job, BackupManifest& manifest) {
-    std::string problem = "its result is damaged.";
+    std::string problem = "the result is damaged.";
     try {
       auto file = copy_result(job);
       if (read_seal(target_ / result_name(job)) != Seal::broken) {
@@ -68,7 +68,7 @@ class ResultBackup {
   BackupFile copy_result(std::int64_t job) {
     std::error_code error;
     std::filesystem::create_directories(target_ / jobs::name_of(job), error);
-    if (error) throw_file_error(target_ / jobs::name_of(job), "made", error.value());
+    if (error) throw_file_error(target_ / jobs::name_of(job), "created", error.value());
     auto file = digest_of(data_folder_ / result_name(job), target_ / result_name(job));
     file.path = result_name(job);
     return file;
@@ -105,9 +105,8 @@ BackupManifest take_backup(const std::filesystem::path& data_folder, const std::
   const auto live_path = data_folder / kJournalName;
   std::error_code none;
   if (!std::filesystem::is_regular_file(live_path, none)) {
-    throw ServiceError(ServiceError::Kind::not_found, data_folder.string() +
-                                                          " holds no journal of a daemon. Give the folder that the "
-                                                          "daemon has as its --data.");
+    throw ServiceError(ServiceError::Kind::not_found,
+                       data_folder.string() + " contains no daemon's journal. Give the --data folder of the daemon.");
   }
   StagedFolder staged(target);
   Database live(live_path);

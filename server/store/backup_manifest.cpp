@@ -85,8 +85,9 @@ bool is_name_of_backup(const std::string& path) {
 }
 
 ServiceError damaged_manifest() {
-  return {ServiceError::Kind::data_loss,
-          std::string(kManifestName) + " is damaged: it is not what `cellcrushd backup` wrote. Use another backup."};
+  return {
+      ServiceError::Kind::data_loss,
+      std::string(kManifestName) + " is damaged: it differs from what `cellcrushd backup` wrote. Use another backup."};
 }
 
 }  // namespace

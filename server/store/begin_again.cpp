@@ -20,7 +20,7 @@ void begin_again(Database& database, std::int64_t job, const std::string& why) {
   }
   if (stored.state() != v1::PENDING && stored.state() != v1::RUNNING && stored.state() != v1::SUSPENDED) {
     throw ServiceError(ServiceError::Kind::failed_precondition,
-                       jobs::name_of(job) + " is " + v1::JobState_Name(stored.state()) + " and cannot be begun again.");
+                       jobs::name_of(job) + " is " + v1::JobState_Name(stored.state()) + " and cannot be restarted.");
   }
   if (stored.state() == v1::RUNNING) stored.set_state(v1::PENDING);
   stored.set_cause_message(why);

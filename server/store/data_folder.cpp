@@ -69,7 +69,7 @@ void warn_of_readers(const std::filesystem::path& root) {
   struct stat status {};
   if (stat(root.c_str(), &status) != 0 || (status.st_mode & 077U) == 0) return;
   spdlog::warn(
-      "The data folder {} has mode {:04o}: others on this machine can reach jobs and results in it. Run `chmod 700 "
+      "The data folder {} has mode {:04o}: other users of this machine can access its jobs and results. Run `chmod 700 "
       "{}`.",
       root.string(), status.st_mode & 07777U, root.string());
 }
@@ -121,8 +121,8 @@ DataFolder::DataFolder(const std::filesystem::path& root) {
     const std::string owner = read_text(lock_);
     close(lock_);
     throw ServiceError(ServiceError::Kind::failed_precondition,
-                       "The data folder " + root_.string() + " belongs to a daemon that runs (process " + owner +
-                           "). Stop it, or give this one another folder with --data.");
+                       "The data folder " + root_.string() + " is in use by a running daemon (process " + owner +
+                           "). Stop that daemon, or use another folder with --data.");
   }
   if (free_bytes() < kStartBallastBytes) unlink(start_ballast().c_str());
   // The file's first page is written again before it is cut: that needs no room.
@@ -165,8 +165,8 @@ void DataFolder::try_new_folder() const {
 void DataFolder::set_aside(std::int64_t job, const std::string& reason) const {
   const auto from = job_folder(job).root();
   const auto to = set_aside(from.filename().string());
-  spdlog::error("{} cannot be used ({}) and was set aside as {}. Look whether the disk is sound.", from.string(),
-                reason, to.string());
+  spdlog::error("{} cannot be used ({}) and was moved aside to {}. Check the disk for faults.", from.string(), reason,
+                to.string());
 }
 
 void DataFolder::clean_job_folder(std::int64_t job) const {
@@ -237,7 +237,7 @@ std::filesystem::path DataFolder::set_aside(const std::string& name) const {
     std::error_code error;
     if (std::filesystem::exists(std::filesystem::symlink_status(to, error))) continue;
     std::filesystem::rename(from, to, error);
-    if (error) throw_file_error(from, "set aside", error.value());
+    if (error) throw_file_error(from, "moved aside", error.value());
     return to;
   }
 }

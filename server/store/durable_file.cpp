@@ -26,7 +26,7 @@ int open_to_read(const std::filesystem::path& path) {
   if (fstat(file, &status) == 0 && S_ISREG(status.st_mode)) return file;
   close(file);
   throw ServiceError(ServiceError::Kind::internal,
-                     path.string() + " cannot be read: it is no regular file. Move it away.");
+                     path.string() + " cannot be read: it is not a regular file. Move it away.");
 }
 
 namespace {

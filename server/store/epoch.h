@@ -20,7 +20,8 @@ struct Epoch {
 
   /// " of before a restore of the data (2026-11-23T09:15:02Z)", for what does not belong to it.
   [[nodiscard]] std::string of_before() const {
-    return restored.empty() ? " of another life of this journal" : " of before the restore of " + restored;
+    return restored.empty() ? " from an earlier journal, which was replaced"
+                            : " from before the restore of " + restored;
   }
 };
 

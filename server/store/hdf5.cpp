@@ -29,20 +29,20 @@ herr_t note_reason(unsigned position, const H5E_error2_t* error, void* data) {
 [[noreturn]] void fail(const std::string& what) {
   Reason reason;
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, note_reason, &reason);
-  const std::string message = what + " failed: " + (reason.text.empty() ? "no reason was given" : reason.text) + ".";
+  const std::string message = what + " failed: " + (reason.text.empty() ? "HDF5 gave no reason" : reason.text) + ".";
   if (reason.shortage != Shortage::none) throw ServiceError(reason.shortage, message);
   throw ServiceError(ServiceError::Kind::internal, message);
 }
 
 Hdf5Handle dataspace(const std::vector<hsize_t>& shape, const std::vector<hsize_t>& limit) {
   return {H5Screate_simple(static_cast<int>(shape.size()), shape.data(), limit.data()), H5Sclose,
-          "Making a data space"};
+          "Creating a data space"};
 }
 
 Hdf5Handle text_type() {
-  Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "Making a text type");
-  check_hdf5(H5Tset_size(type.id(), H5T_VARIABLE), "Making a text type");
-  check_hdf5(H5Tset_cset(type.id(), H5T_CSET_UTF8), "Making a text type");
+  Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "Creating a text type");
+  check_hdf5(H5Tset_size(type.id(), H5T_VARIABLE), "Creating a text type");
+  check_hdf5(H5Tset_cset(type.id(), H5T_CSET_UTF8), "Creating a text type");
   return type;
 }
 
@@ -112,7 +112,7 @@ std::string read_text_attribute(hid_t object, const char* name) {
   // HDF5 writes as many pointers as the attribute has texts.
   const Hdf5Handle space(H5Aget_space(attribute.id()), H5Sclose, what);
   if (H5Sget_simple_extent_npoints(space.id()) != 1)
-    throw ServiceError(ServiceError::Kind::data_loss, what + " failed: it is not one text.");
+    throw ServiceError(ServiceError::Kind::data_loss, what + " failed: it is not a single string.");
   const Hdf5Handle type = text_type();
   char* text = nullptr;
   check_hdf5(H5Aread(attribute.id(), type.id(), static_cast<void*>(&text)), what);
@@ -123,7 +123,7 @@ std::string read_text_attribute(hid_t object, const char* name) {
 
 Hdf5Handle make_growing_dataset(hid_t folder, const char* name, hid_t type, const std::vector<hsize_t>& row_shape,
                                 const std::vector<hsize_t>& chunk) {
-  const std::string what = std::string("Making the dataset ") + name;
+  const std::string what = std::string("Creating the dataset ") + name;
   std::vector<hsize_t> shape{0};
   std::vector<hsize_t> limit{H5S_UNLIMITED};
   shape.insert(shape.end(), row_shape.begin(), row_shape.end());

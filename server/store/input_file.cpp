@@ -23,7 +23,7 @@ InputFile::InputFile(const std::filesystem::path& path)
   }
   close(descriptor_);
   if (error != 0) throw_file_error(path_, "read", error);
-  throw ServiceError(ServiceError::Kind::data_loss, path_.string() + " cannot be read: it is no file.");
+  throw ServiceError(ServiceError::Kind::data_loss, path_.string() + " cannot be read: it is not a regular file.");
 }
 
 InputFile::~InputFile() { close(descriptor_); }
@@ -37,7 +37,7 @@ std::string InputFile::read(std::int64_t offset, std::size_t most) const {
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) throw_file_error(path_, "read", errno);
     if (count == 0)
-      throw ServiceError(ServiceError::Kind::data_loss, path_.string() + " became shorter while it was read.");
+      throw ServiceError(ServiceError::Kind::data_loss, path_.string() + " was truncated while being read.");
     done += static_cast<std::size_t>(count);
   }
   return out;

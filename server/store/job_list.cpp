@@ -26,7 +26,7 @@ std::vector<StoredJob> JournalReader::list_jobs(const JobFilter& wanted, bool ne
   const std::int64_t end = newest_number() + 1;
   std::int64_t next = newest_first && after == 0 ? end : after;
   while (newest_first ? next > 1 : next < end - 1) {
-    if (given_up()) throw ServiceError(ServiceError::Kind::cancelled, "Nobody waits for the list any more.");
+    if (given_up()) throw ServiceError(ServiceError::Kind::cancelled, "The client cancelled the call.");
     const Range range = newest_first ? Range{std::max<std::int64_t>(next - kWindow, 0), next}
                                      : Range{next, std::min(next + kWindow, end)};
     const int room = limit - static_cast<int>(out.size());

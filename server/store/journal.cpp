@@ -77,7 +77,7 @@ Journal::~Journal() {
   try {
     note_service_clock();
   } catch (const ServiceError& error) {
-    spdlog::warn("The service clock is not written: {} Jobs are kept longer by what this daemon has served.",
+    spdlog::warn("The service clock cannot be saved: {} Jobs are kept longer by this daemon's running time.",
                  error.what());
   }
 }
@@ -169,7 +169,7 @@ void Journal::commit_gathered_when_due() {
       failing = false;
     } catch (const std::exception& error) {
       // The samples were given back and are tried again; the same failure is told once.
-      if (!failing) spdlog::error("Samples cannot be made durable: {}", error.what());
+      if (!failing) spdlog::error("Samples cannot be saved: {}", error.what());
       failing = true;
     }
   }

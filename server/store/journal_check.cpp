@@ -46,8 +46,8 @@ class JournalCheck {
 
   void add_row(const std::string& what, std::int64_t job) {
     add(what + " of " + jobs::name_of(job) +
-        " cannot be read. Restore a backup, or delete the job with `cellcrush delete " + jobs::name_of(job) +
-        "` once it has ended.");
+        " cannot be read. Restore a backup, or, once the job has ended, delete it with `cellcrush delete " +
+        jobs::name_of(job) + "`.");
   }
 
   void look_at_pages() {
@@ -60,8 +60,7 @@ class JournalCheck {
   void look_at_references() {
     Statement read(database_, "PRAGMA foreign_key_check");
     while (read.step()) {
-      add("A row of " + read.bytes(0) + " belongs to a row of " + read.bytes(2) +
-          " that is not there. Restore a backup.");
+      add("A row of " + read.bytes(0) + " refers to a missing row of " + read.bytes(2) + ". Restore a backup.");
     }
   }
 

@@ -42,7 +42,7 @@ void Journal::delete_job(std::int64_t job) {
     if (!jobs::is_terminal(*state)) {
       throw ServiceError(ServiceError::Kind::failed_precondition,
                          jobs::name_of(job) + " is " + v1::JobState_Name(*state) +
-                             " and cannot be deleted. Cancel it first, and delete it once it has ended.");
+                             " and cannot be deleted. Cancel it, then delete it once it has ended.");
     }
     remove_job(job);
   });
@@ -86,8 +86,8 @@ std::optional<std::int64_t> Journal::find_request(const std::string& collection,
   if (!find.step()) return std::nullopt;
   if (find.bytes(1) == request_hash) return find.integer(0);
   throw ServiceError(ServiceError::Kind::already_exists,
-                     "The request_id \"" + request_id + "\" was used for another request, which made " + collection +
-                         "/" + std::to_string(find.integer(0)) + ". Use a new request_id.");
+                     "The request_id \"" + request_id + "\" was used for a different request, which created " +
+                         collection + "/" + std::to_string(find.integer(0)) + ". Use a new request_id.");
 }
 
 }  // namespace cellcrush::store

@@ -70,11 +70,11 @@ void mend(Database& database, DamagedJob& row, std::int64_t service_seconds) {
   const bool had_ended = jobs::is_terminal(static_cast<v1::JobState>(row.state));
   const bool restored = !row.has_job && restore_job(database, row);
   if (restored) {
-    spdlog::warn("The journal's entry of {} could not be read and was restored from its newest event.", name);
+    spdlog::warn("The journal entry of {} was damaged and has been rebuilt from its newest event.", name);
     write_row(database, row);
   }
   if (!row.has_case && (row.has_job || restored) && had_ended) {
-    spdlog::error("The case of {} cannot be read any more; the rest of the job can.", name);
+    spdlog::error("The case of {} is damaged and cannot be read; the rest of the job is readable.", name);
     return;
   }
   if (restored && row.has_case) return;
@@ -92,14 +92,14 @@ bool read_job_bytes(const std::string& bytes, std::int64_t state, v1::Job& job) 
 
 ServiceError unreadable_entry(std::int64_t job) {
   return {ServiceError::Kind::data_loss,
-          "The journal's entry of " + jobs::name_of(job) + " cannot be read. Restart the daemon, which mends it."};
+          "The journal entry of " + jobs::name_of(job) + " cannot be read. Restart the daemon to repair it."};
 }
 
 void set_corrupt(v1::Job& job) {
   job.set_state(v1::FAILED);
   job.set_cause(v1::STORE_CORRUPT);
-  job.set_cause_message("What the journal had of the job cannot be read: the file was damaged.");
-  job.set_remedy("Submit the case again, and look whether the disk is sound.");
+  job.set_cause_message("The job's records in the journal cannot be read: the file was damaged.");
+  job.set_remedy("Check the disk for faults, then submit the case again.");
   job.clear_worker_pid();
 }
 

@@ -21,9 +21,10 @@ bool read_event(int kind, const std::string& payload, v1::JobEvent& event) {
 
 ServiceError unreadable_event(std::int64_t job, std::int64_t sequence) {
   const std::string number = std::to_string(sequence);
-  return {ServiceError::Kind::data_loss, "Event " + number + " of " + jobs::name_of(job) +
-                                             " cannot be read: the journal was damaged. A watch with after_sequence " +
-                                             number + " goes on behind it."};
+  return {ServiceError::Kind::data_loss,
+          "Event " + number + " of " + jobs::name_of(job) +
+              " cannot be read: the journal was damaged. To continue past it, watch with after_sequence " + number +
+              "."};
 }
 
 }  // namespace

@@ -56,8 +56,8 @@ void Journal::begin_sweep_deletion(std::int64_t sweep) {
     }
     if (const std::string unended = unended_jobs(database_, sweep); !unended.empty()) {
       throw ServiceError(ServiceError::Kind::failed_precondition,
-                         name + " cannot be deleted while it has jobs that have not ended: " + unended +
-                             ". Cancel the sweep first, and delete it once they have ended.");
+                         name + " cannot be deleted while some of its jobs have not ended: " + unended +
+                             ". Cancel the sweep, then delete it once they have ended.");
     }
     Statement(database_, "UPDATE sweeps SET deleting = 1, request_id = NULL, request_hash = NULL WHERE number = ?1")
         .bind(1, sweep)

@@ -133,7 +133,7 @@ void require_known_version(Database& database) {
   const std::int64_t version = journal_version(database);
   if (version <= kVersion) return;
   throw ServiceError(ServiceError::Kind::failed_precondition,
-                     "The journal is of version " + std::to_string(version) + ", and this daemon knows version " +
+                     "The journal has version " + std::to_string(version) + "; this daemon supports versions up to " +
                          std::to_string(kVersion) + ". Run a newer cellcrushd, or use another data folder.");
 }
 

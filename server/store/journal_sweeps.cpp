@@ -24,8 +24,8 @@ StateChange stopped_by_failures(std::int64_t sweep, std::size_t failed, std::int
   StateChange out;
   out.state = v1::CANCELLED;
   out.message = (failed == 1 ? "1 job of " : std::to_string(failed) + " jobs of ") + name +
-                " failed, and its max_failures is " + std::to_string(limit) + ", so this one was not started.";
-  out.remedy = "Look into the failed jobs, then queue them and this one again: cellcrush retry " + name + ".";
+                " failed, reaching its max_failures of " + std::to_string(limit) + ", so this job was not started.";
+  out.remedy = "Check the failed jobs, then queue them and this one again: cellcrush retry " + name + ".";
   return out;
 }
 

@@ -31,7 +31,7 @@ void prepare_giving_back(Database& database) {
   try {
     database.execute("PRAGMA auto_vacuum=INCREMENTAL; VACUUM;");
   } catch (const std::exception& error) {
-    spdlog::warn("The journal keeps the room of what is deleted: {}", error.what());
+    spdlog::warn("The journal file does not shrink after deletions: {}", error.what());
   }
 }
 
@@ -53,7 +53,7 @@ void JournalUpkeep::run(const std::stop_token& stop, std::chrono::milliseconds i
       give_back_wal();
       failing_ = false;
     } catch (const std::exception& error) {
-      if (!failing_) spdlog::warn("The journal cannot be made smaller yet: {}", error.what());
+      if (!failing_) spdlog::warn("The journal file could not be compacted and will be retried: {}", error.what());
       failing_ = true;
     }
   }

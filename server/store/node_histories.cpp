@@ -20,7 +20,7 @@ constexpr std::array<NodeColumn, 3> kNodeColumns = {{
 
 Hdf5Handle make_group(hid_t parent, const std::string& name) {
   return {H5Gcreate2(parent, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose,
-          "Making the group " + name};
+          "Creating the group " + name};
 }
 
 }  // namespace

@@ -18,19 +18,18 @@ void copy_whole(const std::filesystem::path& backup, const BackupFile& wanted, c
   const auto place = target / wanted.path;
   std::error_code error;
   std::filesystem::create_directories(place.parent_path(), error);
-  if (error) throw_file_error(place.parent_path(), "made", error.value());
+  if (error) throw_file_error(place.parent_path(), "created", error.value());
   const auto copied = digest_of(backup / wanted.path, place);
   if (copied.size != wanted.size || copied.sha256 != wanted.sha256) {
-    throw ServiceError(
-        ServiceError::Kind::data_loss,
-        (backup / wanted.path).string() + " has other bytes than when it was backed up. Use another backup.");
+    throw ServiceError(ServiceError::Kind::data_loss,
+                       (backup / wanted.path).string() + " has changed since it was backed up. Use another backup.");
   }
 }
 
 // What a backup has no checkpoints of begins again.
 void settle_jobs(const std::filesystem::path& path, const std::string& created) {
-  const std::string why =
-      "Begun again from step 0: the data was restored from the backup of " + created + ", which has no checkpoints.";
+  const std::string why = "Restarted from step 0: the data was restored from the backup of " + created +
+                          ", and backups contain no checkpoints.";
   Journal journal(path, [](std::int64_t) {});
   JournalReader reader(path);
   for (const auto state : {v1::PENDING, v1::RUNNING, v1::SUSPENDED}) {
@@ -44,7 +43,7 @@ void settle_jobs(const std::filesystem::path& path, const std::string& created) 
     StateChange cancelled;
     cancelled.state = v1::CANCELLED;
     cancelled.message = "The data was restored from the backup of " + created +
-                        ", which was made before the job could close a result. The history is kept.";
+                        ", taken before the job had a result. The history is kept.";
     journal.change_state(job.job, cancelled);
   }
 }

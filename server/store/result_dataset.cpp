@@ -58,24 +58,24 @@ bool has_room_for(hid_t file, hid_t dataset, double bytes) {
 ServiceError damaged_result(const std::string& what) {
   return {
       ServiceError::Kind::data_loss,
-      "The result is damaged: " + what + ". Submit its case again; the history and the summary are kept elsewhere."};
+      "The result is damaged: " + what + ". Submit its case again; the history and the summary are still available."};
 }
 
 Hdf5Handle open_result_dataset(hid_t file, const std::string& group, const std::string& name, hid_t type, int rank) {
   const std::string path = "/" + group + "/" + name;
   const std::string what = "Opening the dataset " + path;
-  if (!is_hard_link(file, group)) throw damaged_result("the group " + group + " is not in it");
+  if (!is_hard_link(file, group)) throw damaged_result("the group " + group + " is missing");
   const Hdf5Handle folder(H5Gopen2(file, group.c_str(), H5P_DEFAULT), H5Gclose, what);
-  if (!is_hard_link(folder.id(), name)) throw damaged_result(path + " is not in it");
+  if (!is_hard_link(folder.id(), name)) throw damaged_result(path + " is missing");
   Hdf5Handle out(H5Dopen2(folder.id(), name.c_str(), H5P_DEFAULT), H5Dclose, what);
   const Hdf5Handle properties(H5Dget_create_plist(out.id()), H5Pclose, what);
   const auto item_bytes = static_cast<double>(H5Tget_size(type));
   // In this order: to ask a virtual dataset for its shape opens the files it is made of.
   if (!has_known_storage(properties.id(), rank, item_bytes) || !is_of_type(out.id(), type))
-    throw damaged_result(path + " is stored in another way than it was written");
+    throw damaged_result(path + " has a different storage layout from the one written");
   const auto shape = shape_of(out.id());
   if (shape.size() != static_cast<std::size_t>(rank) || !has_room_for(file, out.id(), product(shape) * item_bytes))
-    throw damaged_result(path + " has another shape than it was written with");
+    throw damaged_result(path + " has a different shape from the one written");
   return out;
 }
 

@@ -15,7 +15,7 @@ void read_row(const Hdf5Handle& dataset, hsize_t row, google::protobuf::Repeated
   const auto shape = shape_of(dataset.id());
   hsize_t count = 1;
   for (std::size_t i = 1; i < shape.size(); ++i) count *= shape[i];
-  if (row >= shape[0] || count > std::numeric_limits<int>::max()) throw damaged_result("it has no such frame");
+  if (row >= shape[0] || count > std::numeric_limits<int>::max()) throw damaged_result("the frame is missing");
   out.Resize(static_cast<int>(count), 0.0F);
   if (count > 0) read_rows(dataset.id(), H5T_NATIVE_FLOAT, row, 1, out.mutable_data());
 }
@@ -56,7 +56,7 @@ v1::FieldFrame ResultReader::frame(int index) const {
   const auto times = frame_times();
   const auto strains = frame_strains();
   const auto row = static_cast<std::size_t>(index);
-  if (index < 0 || row >= times.size() || row >= strains.size()) throw damaged_result("it has no such frame");
+  if (index < 0 || row >= times.size() || row >= strains.size()) throw damaged_result("the frame is missing");
   v1::FieldFrame out;
   out.set_index(index);
   out.set_time_s(times[row]);

@@ -132,7 +132,7 @@ Seal read_seal(const std::filesystem::path& path) {
 namespace {
 
 void throw_if_broken(Seal seal) {
-  if (seal == Seal::broken) throw damaged_result("its bytes are not those that its checksum is of");
+  if (seal == Seal::broken) throw damaged_result("its contents do not match its checksum");
 }
 
 }  // namespace
@@ -141,8 +141,8 @@ void check_seal(const std::filesystem::path& path) {
   const Seal seal = read_seal(path);
   if (seal == Seal::missing) {
     throw ServiceError(ServiceError::Kind::failed_precondition,
-                       "The result was written by an earlier version, without a checksum, so that its frames are not "
-                       "read. Download it: it is an HDF5 file as ever.");
+                       "An earlier version wrote this result without a checksum, so the daemon does not read frames "
+                       "from it. Download the file; it is regular HDF5.");
   }
   throw_if_broken(seal);
 }

@@ -14,7 +14,7 @@ namespace {
 
 Hdf5Handle make_group(hid_t file, const char* name) {
   return {H5Gcreate2(file, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose,
-          std::string("Making the group ") + name};
+          std::string("Creating the group ") + name};
 }
 
 std::string case_as_json(const v1::Case& submitted) {
@@ -38,7 +38,7 @@ ResultWriter::ResultWriter(const std::filesystem::path& path, const v1::Mesh& me
       particle_count_(static_cast<hsize_t>(mesh.particle_count())),
       element_count_(static_cast<hsize_t>(mesh.thickness_mm_size())) {
   silence_hdf5();
-  const std::string what = "Making " + path.string();
+  const std::string what = "Creating " + path.string();
   const Hdf5Handle properties(H5Pcreate(H5P_FILE_CREATE), H5Pclose, what);
   check_hdf5(H5Pset_userblock(properties.id(), kSealBytes), what);
   file_ = Hdf5Handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, properties.id(), H5P_DEFAULT), H5Fclose, what);

@@ -32,25 +32,24 @@ Shortage shortage_of(sqlite3* handle, int code) {
 // "PATH", or what stands for it.
 std::string file_of(sqlite3* handle) {
   const char* path = handle != nullptr ? sqlite3_db_filename(handle, "main") : nullptr;
-  return path != nullptr && *path != '\0' ? path : "The journal of the jobs";
+  return path != nullptr && *path != '\0' ? path : "The job journal";
 }
 
 [[noreturn]] void fail(sqlite3* handle, int code) {
   const std::string reason = handle != nullptr ? sqlite3_errmsg(handle) : sqlite3_errstr(code);
-  const std::string message = "The journal of the jobs cannot be used: " + reason + ".";
+  const std::string message = "The job journal cannot be used: " + reason + ".";
   if (const Shortage shortage = shortage_of(handle, code); shortage != Shortage::none)
     throw ServiceError(shortage, message);
   if ((code & 0xFF) == SQLITE_NOTADB) {
     throw ServiceError(ServiceError::Kind::data_loss,
-                       file_of(handle) + " is no journal of cellcrushd (" + reason +
-                           "). Restore a backup into a new folder with `cellcrushd restore`, or move the file away to "
-                           "begin with an empty journal.");
+                       file_of(handle) + " is not a cellcrushd journal (" + reason +
+                           "). Restore a backup to a new folder with `cellcrushd restore`, or move the file away to "
+                           "start with an empty journal.");
   }
   if ((code & 0xFF) == SQLITE_CORRUPT) {
-    throw ServiceError(ServiceError::Kind::data_loss,
-                       file_of(handle) + " is damaged (" + reason +
-                           "). `cellcrushd verify` names what is; restore a backup into a new folder with `cellcrushd "
-                           "restore`.");
+    throw ServiceError(ServiceError::Kind::data_loss, file_of(handle) + " is damaged (" + reason +
+                                                          "). Run `cellcrushd verify` to list the damage, and restore "
+                                                          "a backup to a new folder with `cellcrushd restore`.");
   }
   throw ServiceError(ServiceError::Kind::internal, message);
 }

@@ -23,10 +23,10 @@ void require_free(const std::filesystem::path& place) {
   if (status.type() == std::filesystem::file_type::not_found) return;
   if (error) throw_file_error(place, "used", error.value());
   if (!std::filesystem::is_directory(status))
-    throw refusal(place.string() + " is there and is no folder. Give a new folder.");
+    throw refusal(place.string() + " exists and is not a folder. Give a new folder.");
   if (const auto owner = daemon_of(place)) {
-    throw refusal(place.string() + " belongs to a daemon that runs (process " + *owner +
-                  "). Give a new folder, and start the daemon on that one.");
+    throw refusal(place.string() + " is in use by a running daemon (process " + *owner +
+                  "). Give a new folder, and start the daemon on it.");
   }
   if (!std::filesystem::is_empty(place, error) && !error)
     throw refusal(place.string() + " is not empty. Give a new folder, or move this one away.");
@@ -57,13 +57,14 @@ StagedFolder::StagedFolder(const std::filesystem::path& place)
   require_free(place_);
   std::error_code error;
   std::filesystem::create_directories(place_.parent_path(), error);
-  if (error) throw_file_error(place_.parent_path(), "made", error.value());
-  if (mkdir(partial_.c_str(), 0700) != 0 && errno != EEXIST) throw_file_error(partial_, "made", errno);
+  if (error) throw_file_error(place_.parent_path(), "created", error.value());
+  if (mkdir(partial_.c_str(), 0700) != 0 && errno != EEXIST) throw_file_error(partial_, "created", errno);
   lock_ = open(partial_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (lock_ < 0) throw_file_error(partial_, "used", errno);
   if (flock(lock_, LOCK_EX | LOCK_NB) != 0) {
     close(lock_);
-    throw refusal("Another process makes " + place_.string() + " now. Wait for its end, or give another folder.");
+    throw refusal("Another process is creating " + place_.string() +
+                  ". Wait until it is done, or give another folder.");
   }
   try {
     remove_content(partial_);
@@ -85,12 +86,11 @@ void StagedFolder::publish() {
   if (rename(partial_.c_str(), place_.c_str()) != 0) {
     const int reason = errno;
     if (reason == EBUSY || reason == EXDEV) {
-      throw refusal(place_.string() +
-                    " is where a file system is mounted and cannot be replaced. Give a folder in it.");
+      throw refusal(place_.string() + " is a mount point and cannot be replaced. Give a folder inside it.");
     }
     if (reason == ENOTEMPTY || reason == EEXIST)
-      throw refusal(place_.string() + " was filled by another program meanwhile. Give a new folder.");
-    throw_file_error(place_, "made", reason);
+      throw refusal(place_.string() + " was filled by another program in the meantime. Give a new folder.");
+    throw_file_error(place_, "created", reason);
   }
   published_ = true;
   const int parent = open(place_.parent_path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);

@@ -18,7 +18,7 @@ std::optional<v1::Sweep> SweepReader::find_sweep(std::int64_t sweep) {
   Statement read(database_, "SELECT sweep FROM sweeps WHERE number = ?1 AND deleting = 0");
   if (!read.bind(1, sweep).step()) return std::nullopt;
   if (!out.ParseFromString(read.bytes(0))) {
-    spdlog::error("What was asked for in {} cannot be read: the journal was damaged.", jobs::sweep_name_of(sweep));
+    spdlog::error("The request of {} cannot be read: the journal was damaged.", jobs::sweep_name_of(sweep));
     out.Clear();
   }
   out.set_name(jobs::sweep_name_of(sweep));

@@ -29,7 +29,7 @@ void check_files(const std::filesystem::path& folder, const BackupManifest& mani
     try {
       const auto found = digest_of(folder / wanted.path);
       if (found.size != wanted.size || found.sha256 != wanted.sha256)
-        problem = wanted.path + " has other bytes than when it was backed up.";
+        problem = wanted.path + " has changed since it was backed up.";
     } catch (const ServiceError& error) {
       problem = error.what();
     }
@@ -41,7 +41,7 @@ void check_files(const std::filesystem::path& folder, const BackupManifest& mani
 std::string problem_of_result(const std::filesystem::path& folder, std::int64_t job) {
   try {
     if (read_seal(folder / result_path(job)) != Seal::broken) return "";
-    return result_path(job) + " is damaged: its bytes are not those that its checksum is of.";
+    return result_path(job) + " is damaged: its contents do not match its checksum.";
   } catch (const ServiceError& error) {
     return error.what();
   }
@@ -73,7 +73,7 @@ void note_strangers(const std::filesystem::path& folder, Database& journal, Veri
     const std::string name = "jobs/" + entry->path().filename().string();
     const auto job = jobs::number_of(name);
     if (!job || !has_job(journal, *job))
-      out.notes.push_back(name + " belongs to no job of the journal; the daemon sets it aside at its next start.");
+      out.notes.push_back(name + " belongs to no job of the journal; the daemon moves it aside at its next start.");
   }
 }
 
@@ -86,10 +86,9 @@ Verification verify_folder(const std::filesystem::path& folder) {
   out.is_backup = std::filesystem::exists(folder / kManifestName, none);
   if (!out.is_backup && !std::filesystem::exists(path, none)) {
     throw ServiceError(ServiceError::Kind::not_found,
-                       folder.string() + " holds neither a backup nor the data of a daemon: there is no " +
+                       folder.string() + " is neither a backup nor a data folder: it has no " +
                            std::string(kManifestName) +
-                           " and no journal.sqlite. A backup that was broken off has none "
-                           "either: make another.");
+                           " and no journal.sqlite. If it is an interrupted backup, make a new one.");
   }
   std::set<std::string> lost;
   if (out.is_backup) {

@@ -30,7 +30,7 @@ class ListChecker {
       points += load.x_n_per_mm().points_size() + load.y_n_per_mm().points_size();
     if (points <= kLongestList) return;
     *problems_.Add() = to_proto(invalid_field("lattice.frame", std::to_string(points),
-                                              "has too many points of time functions.", "Give at most 200000."));
+                                              "has too many points in its time functions.", "Give at most 200000."));
   }
 
   google::protobuf::RepeatedPtrField<v1::Problem> take() { return std::move(problems_); }
@@ -62,7 +62,7 @@ void cut_problems(google::protobuf::RepeatedPtrField<v1::Problem>& problems) {
   if (left_out <= 0) return;
   problems.DeleteSubrange(kMostProblems, left_out);
   *problems.Add() = to_proto(invalid_field("case", "", "has " + std::to_string(left_out) + " more problems.",
-                                           "Mend these first; the same call then names the rest."));
+                                           "Fix these first; the same call then lists the rest."));
 }
 
 }  // namespace cellcrush::translate

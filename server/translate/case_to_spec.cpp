@@ -57,8 +57,7 @@ void read_choice(Wire in, std::initializer_list<std::pair<Wire, Out>> meanings, 
   if (found != meanings.end()) {
     out = found->second;
   } else if (static_cast<int>(in) != 0) {
-    problems.push_back(
-        invalid_field(field, std::to_string(in), "is none of the values that are known here.", "Use " + names + "."));
+    problems.push_back(invalid_field(field, std::to_string(in), "is not a valid value.", "Use " + names + "."));
   }
 }
 

@@ -50,11 +50,12 @@ class FrameReader {
       const auto& node = in_.nodes(i);
       const std::string path = item("nodes", i);
       if (!is_name(node.id())) {
-        problems_.push_back(invalid_field(path + ".id", node.id(), "is no name of 1 to 64 letters, digits, '_' or '-'.",
-                                          "Give each node such a name of its own."));
+        problems_.push_back(invalid_field(path + ".id", node.id(),
+                                          "is not a valid name: names have 1 to 64 letters, digits, '_' or '-'.",
+                                          "Give each node a unique, valid name."));
       } else if (!positions_.emplace(node.id(), i).second) {
-        problems_.push_back(invalid_field(path + ".id", node.id(), "is the name of another node too.",
-                                          "Give each node a name of its own."));
+        problems_.push_back(invalid_field(path + ".id", node.id(), "is the name of another node as well.",
+                                          "Give each node a unique name."));
       }
       if (!node.has_x_mm()) problems_.push_back(missing(path + ".x_mm"));
       if (!node.has_y_mm()) problems_.push_back(missing(path + ".y_mm"));
@@ -127,7 +128,7 @@ class FrameReader {
       const std::string field = item("watched_nodes", i);
       const int node = find_node(field, in_.watched_nodes(i));
       if (std::find(out_.watched_nodes.begin(), out_.watched_nodes.end(), node) != out_.watched_nodes.end())
-        problems_.push_back(invalid_field(field, in_.watched_nodes(i), "is watched already.", "Name each node once."));
+        problems_.push_back(invalid_field(field, in_.watched_nodes(i), "is already watched.", "Name each node once."));
       out_.watched_nodes.push_back(node);
     }
   }
@@ -149,7 +150,7 @@ class FrameReader {
     if (id.empty()) {
       problems_.push_back(missing(field));
     } else {
-      problems_.push_back(invalid_field(field, id, "is the name of no node.", "Name one of lattice.frame.nodes."));
+      problems_.push_back(invalid_field(field, id, "is not the name of a node.", "Name one of lattice.frame.nodes."));
     }
     return 0;
   }
@@ -161,7 +162,7 @@ class FrameReader {
       case v1::Frame::COMPONENT_ROTATION: return FrameLattice::Component::rotation;
       case v1::Frame::COMPONENT_UNSPECIFIED: problems_.push_back(missing(field)); break;
       default:
-        problems_.push_back(invalid_field(field, std::to_string(value), "is no component that is known here.",
+        problems_.push_back(invalid_field(field, std::to_string(value), "is not a valid component.",
                                           "Use COMPONENT_X, COMPONENT_Y or COMPONENT_ROTATION."));
     }
     return FrameLattice::Component::x;

@@ -61,7 +61,7 @@ void Pump::work(const std::stop_token& stop) {
     try {
       task->run();
     } catch (const std::exception& error) {
-      spdlog::error("A watch could not be moved on, and is tried again: {}", error.what());
+      spdlog::error("A watch could not be advanced and will be retried: {}", error.what());
     }
   }
 }

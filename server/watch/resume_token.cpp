@@ -82,8 +82,9 @@ std::map<std::int64_t, JobPlace> parse_resume_token(std::int64_t sweep, const st
     next = place.job;
   }
   if (!sound || !reader.sound()) {
-    throw ServiceError(ServiceError::Kind::invalid, "The resume_token is none of " + jobs::sweep_name_of(sweep) +
-                                                        ". Use the one that came last, or none to begin anew.");
+    throw ServiceError(ServiceError::Kind::invalid,
+                       "The resume_token does not belong to " + jobs::sweep_name_of(sweep) +
+                           ". Use the most recent one, or none to start from the beginning.");
   }
   return out;
 }

@@ -65,9 +65,10 @@ std::map<std::int64_t, JobPlace> SweepSource::places_in(const std::string& token
   const bool has_epoch = at != std::string::npos;
   auto places = parse_resume_token(sweep_, has_epoch ? token.substr(at + 1) : token);
   if (!journal_.epoch().admits(has_epoch ? token.substr(0, at) : "")) {
-    throw ServiceError(ServiceError::Kind::failed_precondition, "The resume_token is" + journal_.epoch().of_before() +
-                                                                    ": its jobs may be others now. Watch " +
-                                                                    jobs::sweep_name_of(sweep_) + " without one.");
+    throw ServiceError(ServiceError::Kind::failed_precondition,
+                       "The resume_token comes" + journal_.epoch().of_before() +
+                           ": it may now refer to different jobs. Watch " + jobs::sweep_name_of(sweep_) +
+                           " without a resume_token.");
   }
   return places;
 }

@@ -44,7 +44,7 @@ class SweepSource {
   [[nodiscard]] bool has_more() const { return has_more_; }
   [[nodiscard]] bool ended() const { return snapshot_sent_ && left_ == 0; }
   [[nodiscard]] v1::WatchSweepResponse bookmark() const;
-  [[nodiscard]] static std::string resume_advice() { return "with the resume_token that came last"; }
+  [[nodiscard]] static std::string resume_advice() { return "with the most recent resume_token"; }
 
  private:
   struct Member {

@@ -57,9 +57,9 @@ Reading read(const std::filesystem::path& path, const Checkpoint::Origin& wanted
     out.checkpoint.reset();
     out.refused = name + " is damaged.";
   } else if (out.checkpoint->origin().SerializeAsString() != wanted.SerializeAsString()) {
-    out.refused = name + " is of solver " + out.checkpoint->origin().solver_revision() + " with " +
-                  out.checkpoint->origin().simd_target() + ", and this is " + wanted.solver_revision() + " with " +
-                  wanted.simd_target() + ".";
+    out.refused = name + " was written by solver " + out.checkpoint->origin().solver_revision() + " with " +
+                  out.checkpoint->origin().simd_target() + ", but this is solver " + wanted.solver_revision() +
+                  " with " + wanted.simd_target() + ".";
     out.checkpoint.reset();
   }
   return out;
@@ -82,7 +82,7 @@ FoundCheckpoint find_checkpoint(const JobFolder& folder, const Checkpoint::Origi
   for (const auto& path : {folder.checkpoint(), folder.previous_checkpoint()}) {
     if (!std::filesystem::exists(path)) continue;
     if (!std::filesystem::is_regular_file(path)) {
-      out.refused.push_back(path.filename().string() + " is no regular file.");
+      out.refused.push_back(path.filename().string() + " is not a regular file.");
       continue;
     }
     auto reading = read(path, origin);

@@ -14,7 +14,7 @@ std::shared_ptr<const Scene> scene_of(const Order& order) {
   problems.insert(problems.end(), built.problems.begin(), built.problems.end());
   // The daemon has checked the case, so this is an older job that this version no longer accepts.
   if (!problems.empty()) {
-    throw std::runtime_error("the case is no longer accepted: " + problems.front().field + ": " +
+    throw std::runtime_error("this version no longer accepts the case: " + problems.front().field + ": " +
                              problems.front().message);
   }
   return built.scene;

@@ -85,8 +85,8 @@ class Run {
   // What an earlier worker said is said again with the same bits, or the job is another.
   void begin_anew() {
     if (const auto other = find_other_origin(folder_, origin_)) {
-      throw CannotContinue{"Begun again from step 0: the job was begun by solver " + other->solver_revision() +
-                           " with " + other->simd_target() + ", and this is solver " + origin_.solver_revision() +
+      throw CannotContinue{"Restarted from step 0: the job was started by solver " + other->solver_revision() +
+                           " with " + other->simd_target() + ", but this is solver " + origin_.solver_revision() +
                            " with " + origin_.simd_target() + "."};
     }
     simulation_ = Simulation(scene_, order_.threads());
@@ -230,15 +230,15 @@ class Run {
   [[nodiscard]] Final out_of_time() const {
     const double share = static_cast<double>(simulation_.step()) / static_cast<double>(facts_.step_count);
     const double needed = std::ceil(1.3 * order_.time_limit_s() / share);
-    const std::string smaller = "with a lower fidelity or to a lower end_strain.";
+    const std::string smaller = "with a lower fidelity or a lower end_strain.";
     return failure(
         v1::TIME_LIMIT,
-        fmt::format("The job ran for {} of {:.4g} s and got to step {} of {}, {:.3g} % of them.",
+        fmt::format("The job reached {} of {:.4g} s at step {} of {} ({:.3g} %).",
                     order_.limit_is_daemons() ? "the daemon's time limit" : "its time limit", order_.time_limit_s(),
                     simulation_.step(), facts_.step_count, 100.0 * share),
         order_.limit_is_daemons()
-            ? fmt::format("Start the daemon with a --max-job-time of {:.0f} or more, or submit it {}", needed, smaller)
-            : fmt::format("Submit it with a time_limit_s of {:.0f} or more, {}", needed, smaller));
+            ? fmt::format("Start the daemon with --max-job-time {:.0f} or more, or submit the case {}", needed, smaller)
+            : fmt::format("Submit the case with time_limit_s {:.0f} or more, {}", needed, smaller));
   }
 
   Clock::time_point begin_ = Clock::now();
@@ -261,7 +261,7 @@ class Run {
 };
 
 Final failure_of(const ServiceError& error) {
-  return failure(v1::WORKER_CRASHED, error.what(), "Look into the daemon's log, then submit the case again.");
+  return failure(v1::WORKER_CRASHED, error.what(), "Check the daemon's log, then submit the case again.");
 }
 
 // Another worker continues from the newest checkpoint, or begins again, with the same bits.
@@ -287,11 +287,11 @@ Final end_of(const JobFolder& folder, const Order& order, ReportLog& log, const 
     if (error.shortage() != Shortage::none) return left_for(error, folder, order);
     loss = failure_of(error);
   } catch (const std::bad_alloc&) {
-    loss = failure(v1::OUT_OF_MEMORY, "There was not enough memory for the run.",
-                   "Take fewer cells or elements_per_wall, or a machine with more memory.");
+    loss = failure(v1::OUT_OF_MEMORY, "The run ran out of memory.",
+                   "Use fewer cells or elements_per_wall, or a machine with more memory.");
   } catch (const std::exception& error) {
     loss = failure(v1::WORKER_CRASHED, std::string("The worker stopped: ") + error.what() + ".",
-                   "Submit the case again; if it happens again, report the case.");
+                   "Submit the case again. If the failure repeats, report it together with the case.");
   }
   return give_up(folder, order, log, stop_asked, std::move(loss));
 }

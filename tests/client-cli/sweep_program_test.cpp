@@ -60,6 +60,27 @@ TEST(Sweep, SendsTheCaseWithAGridOfAxesAndLabelsAndPrintsItsName) {
   EXPECT_EQ(sweep.axes(1).list().values(1), 40.0);
 }
 
+TEST(Sweep, PrintsNotesOnStderrExceptInJson) {
+  Script script = sweep_script(kThreeSucceed);
+  v1::Problem& note = *script.sweeps.sweep.add_notes();
+  note.set_field("material.density_kg_per_m3");
+  note.set_value("2.7");
+  note.set_message("is far below that of any solid. This applies to point 2 of 4.");
+  note.set_remedy("Give it in kg/m^3.");
+  const FakeServer server(std::move(script));
+  const std::vector<std::string> sweep = {"sweep", "preset:type-i", "--over", "loading.speed_m_per_s=50,100"};
+  const ProgramResult result = run_on(server, sweep);
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_EQ(result.output, "sweeps/test\n");
+  EXPECT_EQ(count_of(result.errors, "Note: material.density_kg_per_m3 = 2.7 is far below"), 1) << result.errors;
+  EXPECT_EQ(count_of(result.errors, "point 2 of 4"), 1) << result.errors;
+  std::vector<std::string> with_json = sweep;
+  with_json.emplace_back("--json");
+  const ProgramResult json = run_on(server, with_json);
+  EXPECT_EQ(json.errors, "");
+  EXPECT_EQ(count_of(json.output, "2 of 4"), 1) << json.output;
+}
+
 TEST(Sweep, BadAxesAreRefused) {
   const FakeServer server(sweep_script(kThreeSucceed));
   for (const char* axis : {"loading.speed_m_per_s", "=1,2", "a=1,,2", "a=1,x", "a="}) {

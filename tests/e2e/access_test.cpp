@@ -99,7 +99,7 @@ TEST_F(AccessTest, AnOwnerOfATokenCrushesOverTlsAndIsNamed) {
   EXPECT_THAT(shown.output, ::testing::ContainsRegex("owner +anna"));
   const Outcome mine = cellcrush(std::vector<std::string>{"list", "--filter", "owner = \"anna\""} + access);
   EXPECT_THAT(mine.output, HasSubstr("jobs/1"));
-  expect_refusal(cellcrush(std::vector<std::string>{"drain"} + access), 2, "needs the scope admin");
+  expect_refusal(cellcrush(std::vector<std::string>{"drain"} + access), 2, "requires scope admin");
 }
 
 TEST_F(AccessTest, WhoIsNotLetInIsToldWhyWithinSeconds) {
@@ -109,7 +109,8 @@ TEST_F(AccessTest, WhoIsNotLetInIsToldWhyWithinSeconds) {
   cellcrush::testing::write_secret(path("wrong"), std::string(64, 'a'));
   cellcrush::testing::write_secret(path("empty"), "");
   expect_refusal(cellcrush({"list", "--tls-ca", ca_}), 2, "--token-file");
-  expect_refusal(cellcrush({"list", "--tls-ca", ca_, "--token-file", path("wrong")}), 2, "none that this server knows");
+  expect_refusal(cellcrush({"list", "--tls-ca", ca_, "--token-file", path("wrong")}), 2,
+                 "does not recognise the token");
   expect_refusal(cellcrush({"list", "--tls-ca", ca_, "--token-file", path("empty")}), 2, "is empty");
   expect_refusal(cellcrush({"list", "--tls-ca", path("none"), "--token-file", token}), 2, "--tls-ca " + path("none"));
   expect_refusal(cellcrush({"list", "--tls-ca", path("wrong"), "--token-file", token}), 2, "no CERTIFICATE in PEM");
@@ -151,7 +152,7 @@ TEST_F(AccessTest, UnsoundFilesKeepTheDaemonFromStarting) {
   EXPECT_THAT(refusal({"--tokens", path("none")}), HasSubstr("--tokens " + path("none")));
   static_cast<void>(make_token("anna", "read"));
   chmod(path("tokens").c_str(), 0644);
-  EXPECT_THAT(refusal({"--tokens", path("tokens")}), HasSubstr("can be read by others"));
+  EXPECT_THAT(refusal({"--tokens", path("tokens")}), HasSubstr("is readable by other users"));
   EXPECT_THAT(refusal({"--tls-cert", path("anna"), "--tls-key", server_.key.string()}),
               HasSubstr("--tls-cert " + path("anna")));
   EXPECT_EQ(run({CELLCRUSHD_PROGRAM, "token", "local", "--scope", "admin"}, kShortLimit).exit_code, 2);

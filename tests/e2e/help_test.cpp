@@ -1,6 +1,8 @@
 // Every option says in --help what it is when it is not given; its unit and limits stand there too.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <regex>
 #include <sstream>
 
 #include "e2e/daemon_test.h"
@@ -85,6 +87,33 @@ TEST_F(Completion, KnowsThePresetsOfTheServer) {
   int known = 0;
   for (std::size_t at = line.find("preset:"); at != std::string::npos; at = line.find("preset:", at + 1)) ++known;
   EXPECT_EQ(known, presets);
+}
+
+TEST(DaemonManPage, NamesEveryCommandAndEveryOption) {
+  std::vector<std::string> words = {"backup", "verify", "restore", "token"};
+  std::string help = help_of({CELLCRUSHD_PROGRAM});
+  for (const std::string& command : words) {
+    EXPECT_NE(help.find("\n  " + command + " "), std::string::npos) << help;
+    help += help_of({CELLCRUSHD_PROGRAM, command});
+  }
+  const std::regex option("--[a-z][a-z-]*");
+  for (std::sregex_iterator found(help.begin(), help.end(), option), end; found != end; ++found)
+    words.push_back(found->str());
+  EXPECT_GT(words.size(), 30U);
+  const Outcome outcome = run({CELLCRUSHD_PROGRAM, "man"}, kShortLimit);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.all();
+  EXPECT_TRUE(outcome.output.starts_with(".TH CELLCRUSHD 8 "));
+  std::string page = outcome.output;
+  for (const char* section : {".SH NAME\n", ".SH SYNOPSIS\n", ".SH OPTIONS\n", ".SH COMMANDS\n", ".SH SEE ALSO\n"})
+    EXPECT_NE(page.find(section), std::string::npos) << section;
+  page.erase(std::remove(page.begin(), page.end(), '\\'), page.end());
+  for (const std::string& word : words) EXPECT_NE(page.find(word), std::string::npos) << word;
+}
+
+TEST(DaemonManPage, RoffHasNoWarnings) {
+  if (run({"/bin/sh", "-c", "command -v man"}, kShortLimit).exit_code != 0) GTEST_SKIP() << "man is not installed";
+  const std::string render = std::string(CELLCRUSHD_PROGRAM) + " man | man -l --warnings -E UTF-8 - 2>&1 > /dev/null";
+  EXPECT_EQ(run({"/bin/sh", "-c", render}, kShortLimit).all(), "");
 }
 
 }  // namespace

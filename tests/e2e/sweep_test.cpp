@@ -55,7 +55,7 @@ TEST_F(SecondDay, ASweepThatRunsIsNotDeleted) {
   const std::string name = first_word(sweep);
   const Outcome refused = cellcrush({"delete", name});
   EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_THAT(refused.all(), HasSubstr("Cancel the sweep first"));
+  EXPECT_THAT(refused.all(), HasSubstr("Cancel the sweep, then delete it"));
   EXPECT_EQ(cellcrush({"cancel", name}).exit_code, 0);
 }
 

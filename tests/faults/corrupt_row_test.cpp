@@ -86,7 +86,7 @@ TEST_F(CorruptRowTest, AJobThatCannotBeReadIsRestoredFromItsNewestEvent) {
   start_daemon(arguments_);
   auto client = this->client();
   expect_the_others_intact(client, "none");
-  EXPECT_THAT(stop_daemon(), HasSubstr("entry of jobs/77 could not be read and was restored"));
+  EXPECT_THAT(stop_daemon(), HasSubstr("entry of jobs/77 was damaged and has been rebuilt"));
 }
 
 TEST_F(CorruptRowTest, AWaitingJobWhoseCaseCannotBeReadFailsAndTheOthersGoOn) {

@@ -104,7 +104,7 @@ TEST_F(DamagedCheckpointTest, OneDamagedIsReplacedByThePreviousOne) {
     const std::string log = end_job(job);
     EXPECT_THAT(log,
                 ::testing::AnyOf(HasSubstr(job + ": checkpoint is damaged"), HasSubstr(job + ": checkpoint is empty")));
-    EXPECT_THAT(log, HasSubstr(job + " goes on from step"));
+    EXPECT_THAT(log, HasSubstr(job + " resumes at step"));
   }
   std::cout << count << " damaged checkpoints, each time gone on from the previous one with the same bits\n";
 }
@@ -117,7 +117,7 @@ TEST_F(DamagedCheckpointTest, BothDamagedTheJobBeginsAnew) {
     flip_a_bit(checkpoint(job, "checkpoint.previous"));
     const std::string log = end_job(job);
     EXPECT_THAT(log, HasSubstr(job + ": checkpoint.previous is damaged"));
-    EXPECT_THAT(log, Not(HasSubstr(job + " goes on from step")));
+    EXPECT_THAT(log, Not(HasSubstr(job + " resumes at step")));
   }
   std::cout << count << " times both checkpoints damaged, each time begun anew with the same bits\n";
 }

@@ -60,8 +60,9 @@ TEST_F(SetAsideTest, WhatBelongsToNoJobIsSetAsideAndNeverAdopted) {
   wait_for_samples(client, third, 5);
   EXPECT_TRUE(client.cancel(third).ok());
   expect_that_it_serves(client);
-  EXPECT_THAT(stop_daemon(), AllOf(HasSubstr("jobs/3 was set aside, for it belongs to no job: it lies in "),
-                                   HasSubstr("jobs/007 was"), HasSubstr("jobs/9 was"), Not(HasSubstr("lost+found"))));
+  EXPECT_THAT(stop_daemon(),
+              AllOf(HasSubstr("jobs/3 was moved aside to "), HasSubstr("/3 because it belongs to no job."),
+                    HasSubstr("jobs/007 was"), HasSubstr("jobs/9 was"), Not(HasSubstr("lost+found"))));
 }
 
 TEST_F(SetAsideTest, AFolderThatCannotBeUsedCostsOnlyItsJob) {
@@ -96,16 +97,18 @@ TEST_F(SetAsideTest, AFolderThatCannotBeUsedCostsOnlyItsJob) {
   EXPECT_EQ(client.get(names[2]).begun_again_sequence(), 0);
   grpc::Status status;
   EXPECT_THAT(client.download("jobs/1", 0, status), IsEmpty());
-  EXPECT_THAT(status.error_message(), HasSubstr("it is no file"));
+  EXPECT_THAT(status.error_message(), HasSubstr("it is not a regular file"));
   v1::GetFrameRequest request;
   request.set_name("jobs/1");
   const auto context = bounded_context();
   const auto reader = client.jobs->GetFrame(context.get(), request);
   v1::GetFrameResponse response;
   EXPECT_FALSE(reader->Read(&response));
-  EXPECT_THAT(reader->Finish().error_message(), HasSubstr("no regular file"));
-  EXPECT_THAT(stop_daemon(), AllOf(HasSubstr(names[0] + " was set aside, for reports in it is no regular file"),
-                                   HasSubstr(names[1] + " was set aside, for it is no folder")));
+  EXPECT_THAT(reader->Finish().error_message(), HasSubstr("not a regular file"));
+  EXPECT_THAT(
+      stop_daemon(),
+      AllOf(HasSubstr(names[0] + " was moved aside to "), HasSubstr("because reports in it is not a regular file"),
+            HasSubstr(names[1] + " was moved aside to "), HasSubstr("because it is not a folder")));
 }
 
 TEST_F(SetAsideTest, AFolderOfNobodysRightsCostsOnlyItsJob) {
@@ -142,7 +145,7 @@ TEST_F(SetAsideTest, AFileThatIsNoJournalIsNamedWithTheRemedy) {
   begin_daemon();
   EXPECT_EQ(daemon_->wait(), 1);
   EXPECT_THAT(daemon_->errors(),
-              AllOf(HasSubstr(journal().string() + " is no journal"), HasSubstr("file is not a database"),
+              AllOf(HasSubstr(journal().string() + " is not a cellcrushd journal"), HasSubstr("file is not a database"),
                     HasSubstr("cellcrushd restore"), HasSubstr("move the file away")));
 }
 

@@ -71,7 +71,7 @@ TEST_F(UpgradeTest, AllJobsOfTheVersionBeforeAreServedOrRunToTheirEnd) {
   });
   ASSERT_NE(again, watched.events.end());
   EXPECT_THAT(again->state().cause_message(),
-              AllOf(HasSubstr("Begun again from step 0"), HasSubstr("by solver 0.1.0+"), HasSubstr("this is solver")));
+              AllOf(HasSubstr("Restarted from step 0"), HasSubstr("by solver 0.1.0+"), HasSubstr("this is solver")));
 
   EXPECT_EQ(client.get("jobs/4").state(), v1::SUSPENDED);
   ASSERT_TRUE(client.resume("jobs/4").ok());

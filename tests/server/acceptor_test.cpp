@@ -162,7 +162,7 @@ TEST_F(AcceptorTest, RefusesWithWordsWhatIsBeyondTheLimitAndServesAgainLater) {
   {
     const std::scoped_lock lock(mutex_);
     ASSERT_EQ(refused_.size(), 1U);
-    EXPECT_THAT(refused_.front(), HasSubstr("from 127.0.0.1: 2 connections are open, as many as --max-connections"));
+    EXPECT_THAT(refused_.front(), HasSubstr("from 127.0.0.1: 2 connections are open, the limit of --max-connections"));
     close(taken_.back().second);
     taken_.pop_back();
   }

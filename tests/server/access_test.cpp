@@ -101,12 +101,12 @@ TEST_F(TokenFileTest, AWrongLineIsNamedByItsNumberAndNotRepeated) {
   EXPECT_THAT(refusal("anna submit"), AllOf(StartsWith("--tokens " + path().string()), HasSubstr("line 1")));
   EXPECT_THAT(refusal("\nanna submit secret"), AllOf(HasSubstr("line 2"), ::testing::Not(HasSubstr("secret"))));
   EXPECT_THAT(refusal(line + " more"), HasSubstr("NAME SCOPE SHA256-HEX"));
-  EXPECT_THAT(refusal("anna all " + hash), HasSubstr("read, submit and admin"));
+  EXPECT_THAT(refusal("anna all " + hash), HasSubstr("read, submit or admin"));
   EXPECT_THAT(refusal("local admin " + hash), HasSubstr("name"));
   EXPECT_THAT(refusal("an\"na admin " + hash), HasSubstr("name"));
   EXPECT_THAT(refusal("anna admin " + hash.substr(1) + "g"), HasSubstr("hexadecimal"));
   EXPECT_THAT(refusal(line + "\nbob read " + hash), HasSubstr("line 2"));
-  EXPECT_THAT(refusal(line + "\nanna admin " + std::string(64, '0')), HasSubstr("another scope"));
+  EXPECT_THAT(refusal(line + "\nanna admin " + std::string(64, '0')), HasSubstr("a different scope"));
   EXPECT_THAT(refusal("# none yet\n"), HasSubstr("cellcrushd token"));
 }
 
@@ -119,7 +119,8 @@ TEST_F(TokenFileTest, AFileThatOthersCanReadOrWriteIsRefused) {
   }
   chmod(path().c_str(), 0440);
   EXPECT_EQ(access_refusal_of([this] { const TokenFile tokens(path()); }), "");
-  EXPECT_THAT(access_refusal_of([this] { const TokenFile tokens(folder_.path()); }), HasSubstr("is no file"));
+  EXPECT_THAT(access_refusal_of([this] { const TokenFile tokens(folder_.path()); }),
+              HasSubstr("is not a regular file"));
   EXPECT_THAT(access_refusal_of([this] { const TokenFile tokens(folder_.path() / "none"); }),
               HasSubstr("No such file"));
 }
@@ -139,14 +140,14 @@ TEST(TlsFilesTest, UnsoundFilesAreRefusedByTheirOptionAndName) {
   EXPECT_EQ(refusal(good.certificate, good.key), "");
   EXPECT_EQ(refusal(good.certificate, good.key, authority.certificate()), "");
   EXPECT_THAT(refusal(folder.path() / "none", good.key), StartsWith("--tls-cert " + (folder.path() / "none").string()));
-  EXPECT_THAT(refusal(text, good.key), AllOf(StartsWith("--tls-cert"), HasSubstr("no certificate")));
+  EXPECT_THAT(refusal(text, good.key), AllOf(StartsWith("--tls-cert"), HasSubstr("no valid PEM certificate")));
   EXPECT_THAT(refusal(expired.certificate, expired.key), HasSubstr("expired on"));
   EXPECT_THAT(refusal(early.certificate, early.key), HasSubstr("not valid before"));
-  EXPECT_THAT(refusal(good.certificate, text), AllOf(StartsWith("--tls-key"), HasSubstr("no private key")));
-  EXPECT_THAT(refusal(good.certificate, other.key), HasSubstr("not the key of the certificate"));
+  EXPECT_THAT(refusal(good.certificate, text), AllOf(StartsWith("--tls-key"), HasSubstr("no PEM private key")));
+  EXPECT_THAT(refusal(good.certificate, other.key), HasSubstr("does not match the certificate"));
   EXPECT_THAT(refusal(good.certificate, good.key, text), StartsWith("--tls-client-ca"));
   chmod(good.key.c_str(), 0644);
-  EXPECT_THAT(refusal(good.certificate, good.key), HasSubstr("can be read by others"));
+  EXPECT_THAT(refusal(good.certificate, good.key), HasSubstr("is readable by other users"));
 }
 
 }  // namespace

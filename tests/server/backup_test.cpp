@@ -161,13 +161,14 @@ TEST_F(BackupTest, ATargetThatIsTakenIsRefusedWithWords) {
   store::take_backup(data_folder(), backup());
   EXPECT_THAT(refusal([&] { store::take_backup(data_folder(), backup()); }), HasSubstr("is not empty"));
   EXPECT_THAT(refusal([&] { store::restore_backup(backup(), data_folder()); }),
-              HasSubstr("belongs to a daemon that runs (process " + std::to_string(getpid()) + ")"));
+              HasSubstr("is in use by a running daemon (process " + std::to_string(getpid()) + ")"));
   std::filesystem::create_directory(restored());
   std::ofstream(restored() / "mine") << "text";
   EXPECT_THAT(refusal([&] { store::restore_backup(backup(), restored()); }), HasSubstr("is not empty"));
   std::ofstream(folder_.path() / "file") << "text";
-  EXPECT_THAT(refusal([&] { store::restore_backup(backup(), folder_.path() / "file"); }), HasSubstr("is no folder"));
-  EXPECT_THAT(refusal([&] { store::take_backup(restored(), folder_.path() / "new"); }), HasSubstr("holds no journal"));
+  EXPECT_THAT(refusal([&] { store::restore_backup(backup(), folder_.path() / "file"); }), HasSubstr("is not a folder"));
+  EXPECT_THAT(refusal([&] { store::take_backup(restored(), folder_.path() / "new"); }),
+              HasSubstr("contains no daemon's journal"));
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "new"));
   std::filesystem::remove(restored() / "mine");
   store::restore_backup(backup(), restored());

@@ -35,12 +35,12 @@ TEST_F(CallLogTest, EachCallThatChangesSomethingIsOneLine) {
   create.set_validate_only(true);
   v1::Job job;
   ASSERT_TRUE(jobs->CreateJob(as("anna").get(), create, &job).ok());
-  EXPECT_EQ(told("made"), 0) << "Nothing was.";
+  EXPECT_EQ(told("created"), 0) << "Nothing was.";
   create.set_validate_only(false);
   create.set_request_id("night\n3");
   for (int i = 0; i < 2; ++i) ASSERT_TRUE(jobs->CreateJob(as("anna").get(), create, &job).ok());
-  EXPECT_EQ(told("[info] jobs/1 made by anna, request \"night\\x0a3\""), 1) << log_.text();
-  EXPECT_EQ(told("made by"), 1) << "The second call made nothing.";
+  EXPECT_EQ(told("[info] jobs/1 created by anna, request \"night\\x0a3\""), 1) << log_.text();
+  EXPECT_EQ(told("created by"), 1) << "The second call made nothing.";
 
   const auto sweeps = v1::Sweeps::NewStub(channel({}));
   auto many = sweep_of(small_case(), kSpeed, {});
@@ -48,8 +48,8 @@ TEST_F(CallLogTest, EachCallThatChangesSomethingIsOneLine) {
   many.set_request_id("all");
   v1::Sweep sweep;
   ASSERT_TRUE(sweeps->CreateSweep(as("bob").get(), many, &sweep).ok());
-  EXPECT_EQ(told("[info] sweeps/1 made with 1000 jobs by bob, request \"all\""), 1) << log_.text();
-  EXPECT_EQ(told("made"), 2);
+  EXPECT_EQ(told("[info] sweeps/1 created with 1000 jobs by bob, request \"all\""), 1) << log_.text();
+  EXPECT_EQ(told("created"), 2);
 
   const auto change = [&](auto method, auto request, auto response) {
     request.set_name("jobs/1");
@@ -82,7 +82,9 @@ TEST_F(CallLogTest, RefusedCallsAreWarnedOfWithoutTheirTokens) {
   start(with_tokens(tcp_options()));
   const std::string wrong = tokens_.at("anna").substr(1);
   for (int i = 0; i < 20; ++i) EXPECT_EQ(list({{}, {}, wrong}).error_code(), grpc::StatusCode::UNAUTHENTICATED);
-  const int lines = told("[warning] refused with UNAUTHENTICATED: /cellcrush.v1.Jobs/ListJobs: The token of this call");
+  const int lines = told(
+      "[warning] refused a call with UNAUTHENTICATED: /cellcrush.v1.Jobs/ListJobs: The server does not recognise the "
+      "token of this call");
   EXPECT_GE(lines, 1) << log_.text();
   EXPECT_LE(lines, 3) << log_.text();
   daemon_.reset();
@@ -94,8 +96,8 @@ TEST_F(CallLogTest, WhoMayNotIsNamed) {
   start(with_tokens(tcp_options()));
   v1::DrainResponse drained;
   EXPECT_FALSE(v1::Admin::NewStub(channel({}))->Drain(as("bob").get(), {}, &drained).ok());
-  EXPECT_EQ(told("refused with PERMISSION_DENIED: /cellcrush.v1.Admin/Drain: Drain needs the scope admin, and bob has"),
-            1)
+  EXPECT_EQ(
+      told("refused a call with PERMISSION_DENIED: /cellcrush.v1.Admin/Drain: Drain requires scope admin; bob has"), 1)
       << log_.text();
   EXPECT_EQ(told("drained by"), 0);
   daemon_.reset();
@@ -105,7 +107,7 @@ TEST_F(CallLogTest, WhoMayNotIsNamed) {
   cancel.set_name(job);
   v1::Job found;
   EXPECT_FALSE(v1::Jobs::NewStub(channel({}))->CancelJob(as("bob").get(), cancel, &found).ok());
-  EXPECT_EQ(told("refused with PERMISSION_DENIED: " + job + " belongs to local, and bob has the scope submit"), 1)
+  EXPECT_EQ(told("refused a call with PERMISSION_DENIED: " + job + " belongs to local; bob has scope submit"), 1)
       << log_.text();
   EXPECT_EQ(told("cancelled by"), 0);
 }

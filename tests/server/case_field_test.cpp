@@ -49,11 +49,11 @@ TEST(CaseField, APartOfAListIsNamedByItsPosition) {
 }
 
 TEST(CaseField, WholeNumbersStayWhole) {
-  EXPECT_THAT(refusal_of("lattice.hexagon.rows", 2.5), HasSubstr("is 2.5, which is no whole number"));
-  EXPECT_THAT(refusal_of("lattice.hexagon.rows", 1e10), HasSubstr("fits"));
-  EXPECT_THAT(refusal_of("lattice.hexagon.rows", std::numeric_limits<double>::quiet_NaN()), HasSubstr("no whole"));
-  EXPECT_THAT(refusal_of("lattice.imperfection.seed", -1.0), HasSubstr("not negative"));
-  EXPECT_THAT(refusal_of("lattice.imperfection.seed", 18446744073709551616.0), HasSubstr("fits"));
+  EXPECT_THAT(refusal_of("lattice.hexagon.rows", 2.5), HasSubstr("is 2.5, which is not a whole number"));
+  EXPECT_THAT(refusal_of("lattice.hexagon.rows", 1e10), HasSubstr("in range"));
+  EXPECT_THAT(refusal_of("lattice.hexagon.rows", std::numeric_limits<double>::quiet_NaN()), HasSubstr("not a whole"));
+  EXPECT_THAT(refusal_of("lattice.imperfection.seed", -1.0), HasSubstr("Use whole numbers from 0."));
+  EXPECT_THAT(refusal_of("lattice.imperfection.seed", 18446744073709551616.0), HasSubstr("in range"));
 }
 
 TEST(CaseField, WhatIsNoNumberOfTheCaseIsRefusedByName) {

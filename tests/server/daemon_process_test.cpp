@@ -51,7 +51,7 @@ TEST(DaemonProcess, AHangupReadsTheTokensAgainAndNeverEndsTheDaemon) {
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
     daemon.send_signal(SIGTERM);
     EXPECT_EQ(daemon.wait(), 0) << daemon.errors();
-    const std::string words = has_tokens ? "tokens read again: 1 of --tokens" : "nothing to read again";
+    const std::string words = has_tokens ? "tokens reloaded: 1 of --tokens" : "nothing to reload";
     EXPECT_NE(daemon.errors().find(words), std::string::npos) << daemon.errors();
   }
 }
@@ -70,7 +70,7 @@ TEST(DaemonProcess, AKeyOfTheConfigFileThatIsNoOptionIsRefusedWithTheNearest) {
   };
   EXPECT_EQ(start_with("workers = 1\nmin-free-disk = 0\n"), "");
   EXPECT_NE(start_with("min-fre-disk = 0\n").find("Did you mean \"min-free-disk\"?"), std::string::npos);
-  EXPECT_NE(start_with("colour = \"red\"\n").find("\"colour\", which is no option"), std::string::npos);
+  EXPECT_NE(start_with("colour = \"red\"\n").find("\"colour\", which is not an option"), std::string::npos);
 }
 
 }  // namespace

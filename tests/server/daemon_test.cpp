@@ -96,7 +96,7 @@ TEST_F(DaemonTest, ASecondDaemonOnTheSameFolderIsRefused) {
   DaemonProcess second({"--data", data(), "--listen", "127.0.0.1:0"});
   EXPECT_TRUE(second.wait_for_addresses(1).empty());
   EXPECT_EQ(second.wait(), 1);
-  EXPECT_THAT(second.errors(), HasSubstr("belongs to a daemon that runs"));
+  EXPECT_THAT(second.errors(), HasSubstr("is in use by a running daemon"));
 }
 
 TEST_F(DaemonTest, APortOrASocketInUseIsRefused) {

@@ -24,7 +24,7 @@ TEST_F(GateTest, AnAddressThatOthersReachIsRefusedWithoutTlsOrAWayToTellWhoCalls
   }
   DaemonOptions half = with_tls(tcp_options());
   half.access.tls_key.clear();
-  EXPECT_THAT(refusal_of_start(half), HasSubstr("go together"));
+  EXPECT_THAT(refusal_of_start(half), HasSubstr("belong together"));
   DaemonOptions clients = tcp_options();
   clients.access.tls_client_authority = authority_.certificate();
   EXPECT_THAT(refusal_of_start(clients), HasSubstr("--tls-client-ca needs TLS"));
@@ -63,7 +63,7 @@ TEST_F(GateTest, AChangedFileOfTokensIsTakenWithoutARestartAndABrokenOneChangesN
   daemon_->read_files_again();
   EXPECT_TRUE(list(with("reader")).ok());
   EXPECT_EQ(log.count_lines("--tokens " + file.string() + ": line 2 is not of the form"), 1) << log.text();
-  EXPECT_EQ(log.count_lines("Mend the file and send SIGHUP again."), 1);
+  EXPECT_EQ(log.count_lines("Fix the file and send SIGHUP again."), 1);
 
   write_secret(file, made.line + "\n");
   daemon_->read_files_again();
@@ -85,8 +85,8 @@ TEST_F(GateTest, AChangedCertificateIsShownToNewConnectionsAndOldOnesStay) {
   const auto new_key = text_of_file(options.access.tls_key);
   write_secret(options.access.tls_key, key);
   daemon_->read_files_again();
-  EXPECT_EQ(log.count_lines("--tls-key " + options.access.tls_key.string() + ": is not the key of"), 1) << log.text();
-  EXPECT_EQ(log.count_lines("The certificates from before stay in force."), 1);
+  EXPECT_EQ(log.count_lines("--tls-key " + options.access.tls_key.string() + ": does not match"), 1) << log.text();
+  EXPECT_EQ(log.count_lines("The previous certificates stay in force."), 1);
   EXPECT_TRUE(list(with("reader")).ok()) << "A key of another certificate changes nothing.";
 
   write_secret(options.access.tls_key, new_key);
@@ -174,7 +174,7 @@ TEST_F(GateTest, AScopeThatIsTooSmallIsToldTheOneThatIsNeeded) {
   start(with_tokens(with_tls(tcp_options())));
   const auto denied = [](const grpc::Status& status, const std::string& scope) {
     EXPECT_EQ(status.error_code(), grpc::StatusCode::PERMISSION_DENIED) << status.error_message();
-    EXPECT_THAT(status.error_message(), HasSubstr("needs the scope " + scope));
+    EXPECT_THAT(status.error_message(), HasSubstr("requires scope " + scope));
   };
   const auto reader = v1::Jobs::NewStub(channel(with("reader")));
   v1::CreateJobRequest create;

@@ -67,7 +67,7 @@ TEST_F(HeldQueueTest, AWorkerProgramThatIsMissingHoldsItUntilItIsThere) {
   ASSERT_EQ(queue.holds_size(), 1);
   EXPECT_EQ(queue.holds(0).cause(), "worker");
   EXPECT_THAT(queue.holds(0).reason(), HasSubstr("No such file"));
-  EXPECT_THAT(queue.holds(0).remedy(), HasSubstr("Install cellcrushd"));
+  EXPECT_THAT(queue.holds(0).remedy(), HasSubstr("Reinstall cellcrushd"));
   EXPECT_TRUE(queue.holds(0).has_next_try_time());
   EXPECT_GT(queue.holds(0).since().seconds(), 1'600'000'000);
   EXPECT_THAT(queue.entries(0).reason(), HasSubstr("The queue is held: No worker process could be started"));

@@ -213,7 +213,7 @@ TEST_F(JobLifeTest, AJobThatHasNotEndedIsNotDeleted) {
   const std::string job = running_job();
   const auto refused = client.remove(job);
   EXPECT_EQ(refused.error_code(), grpc::StatusCode::FAILED_PRECONDITION);
-  EXPECT_THAT(refused.error_message(), HasSubstr("Cancel it first"));
+  EXPECT_THAT(refused.error_message(), HasSubstr("Cancel it, then delete it"));
   ASSERT_TRUE(client.cancel(job).ok());
   ASSERT_TRUE(client.wait_for_state(job, v1::CANCELLED));
   EXPECT_TRUE(client.remove(job).ok());

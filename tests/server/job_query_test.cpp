@@ -38,14 +38,15 @@ TEST(JobFilter, NothingIsNoCondition) {
 }
 
 TEST(JobFilter, AFaultIsNamedWithItsPlaceAndWhatIsUnderstood) {
-  EXPECT_THAT(refusal_of("speed = 3"), HasSubstr("position 1: state, owner, label.KEY or title is expected"));
-  EXPECT_THAT(refusal_of("state = DONE"), HasSubstr("position 9: one of PENDING, RUNNING"));
+  EXPECT_THAT(refusal_of("speed = 3"), HasSubstr("position 1: expected state, owner, label.KEY or title"));
+  EXPECT_THAT(refusal_of("state = DONE"), HasSubstr("position 9: expected one of PENDING, RUNNING"));
   EXPECT_THAT(refusal_of("state = JOB_STATE_UNSPECIFIED"), HasSubstr("position 9"));
-  EXPECT_THAT(refusal_of("state : RUNNING"), HasSubstr("position 7: = is expected"));
-  EXPECT_THAT(refusal_of("state = RUNNING OR title : a"), HasSubstr("position 17: AND or the end is expected"));
+  EXPECT_THAT(refusal_of("state : RUNNING"), HasSubstr("position 7: expected ="));
+  EXPECT_THAT(refusal_of("state = RUNNING OR title : a"), HasSubstr("position 17: expected AND or the end"));
   EXPECT_THAT(refusal_of("state = RUNNING AND"), HasSubstr("position 20"));
-  EXPECT_THAT(refusal_of("title : \"open"), HasSubstr("position 9: the quotation that begins here does not end"));
-  EXPECT_THAT(refusal_of("label.a ="), HasSubstr("position 10: a value is expected"));
+  EXPECT_THAT(refusal_of("title : \"open"),
+              HasSubstr("position 9: the quoted text that starts here has no closing quote"));
+  EXPECT_THAT(refusal_of("label.a ="), HasSubstr("position 10: expected a value"));
   EXPECT_THAT(refusal_of("title = a"), HasSubstr("joined by AND"));
 }
 

@@ -20,7 +20,7 @@ TEST(LimitedLog, WritesSoManyLinesASecondAndCountsTheRest) {
       }
       EXPECT_EQ(log.count_lines("[warning] UNAUTHENTICATED"), 10 * lines);
       EXPECT_EQ(log.count_lines("UNAUTHENTICATED: 0"), 1) << "The first is written at once.";
-      EXPECT_EQ(log.count_lines("UNAUTHENTICATED: 900 (" + std::to_string(100 - lines) + " more before it)"), 1)
+      EXPECT_EQ(log.count_lines("UNAUTHENTICATED: 900 (" + std::to_string(100 - lines) + " more not logged)"), 1)
           << log.text();
     }
     EXPECT_EQ(log.count_lines(std::to_string(100 - lines) + " more refused calls"), 1) << "None is lost at the end.";

@@ -151,7 +151,7 @@ TEST_F(LimitsTest, WithTooLittleRoomOnTheDiskNothingIsTaken) {
   auto client = this->client();
   const auto refused = try_to_create(client, small_case());
   EXPECT_EQ(refused.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
-  EXPECT_THAT(refused.error_message(), HasSubstr("Make room"));
+  EXPECT_THAT(refused.error_message(), HasSubstr("Free disk space"));
   v1::ListJobsResponse listed;
   EXPECT_TRUE(client.jobs->ListJobs(bounded_context().get(), {}, &listed).ok()) << "It can still be read.";
 }
@@ -264,7 +264,7 @@ TEST_F(LimitsTest, WhileItDrainsNewJobsAreRefusedAndOldOnesServed) {
   ASSERT_TRUE(v1::Admin::NewStub(client.channel)->Drain(bounded_context().get(), {}, &response).ok());
   const auto refused = try_to_create(client, small_case());
   EXPECT_EQ(refused.error_code(), grpc::StatusCode::UNAVAILABLE);
-  EXPECT_THAT(refused.error_message(), HasSubstr("about to end"));
+  EXPECT_THAT(refused.error_message(), HasSubstr("shutting down"));
   EXPECT_TRUE(client.watch(job).status.ok());
 }
 

@@ -33,7 +33,7 @@ TEST(Outcome, ASignalIsNamed) {
 TEST(Outcome, AnEndWithoutAFinalReportIsACrashWithItsExitCode) {
   const auto out = outcome_of(exit_of(WorkerExit::Kind::exited, 3));
   EXPECT_EQ(out.cause, v1::WORKER_CRASHED);
-  EXPECT_THAT(out.message, HasSubstr("exit code 3"));
+  EXPECT_THAT(out.message, HasSubstr("exited with code 3"));
 }
 
 TEST(Outcome, AFinalReportCountsForMoreThanTheEndOfTheProcess) {
@@ -102,7 +102,7 @@ TEST(Outcome, AWorkerThatAnotherProgramMadeLeaveIsALoss) {
   exit.final.emplace();
   exit.final->set_suspended_step(7);
   EXPECT_TRUE(is_lost(exit));
-  EXPECT_THAT(outcome_of(exit).message, HasSubstr("another program"));
+  EXPECT_THAT(outcome_of(exit).message, HasSubstr("Another program"));
 }
 
 TEST(Outcome, ACancelledRunKeepsItsSummaryIfItHasOne) {
@@ -149,7 +149,7 @@ TEST(Outcome, AShortageIsNoEndOfTheJobItIsFoundInWhatTheWorkerSaidOrInItsExitCod
   EXPECT_EQ(waits.state, v1::PENDING);
   EXPECT_EQ(waits.cause, v1::JOB_CAUSE_UNSPECIFIED);
   EXPECT_THAT(waits.message, HasSubstr("result.h5 cannot be written."));
-  EXPECT_THAT(waits.remedy, HasSubstr("Make room"));
+  EXPECT_THAT(waits.remedy, HasSubstr("Free space"));
 }
 
 TEST(Outcome, AWorkerThatTheKernelEndedForWantOfMemoryIsOutOfMemory) {

@@ -151,7 +151,8 @@ TEST_F(OwnerTest, AnOwnerBeyondAQuotaIsRefusedAndOthersAreNot) {
   v1::Queue queue;
   ASSERT_TRUE(v1::Admin::NewStub(client().channel)->GetQueue(bounded_context().get(), {}, &queue).ok());
   ASSERT_EQ(queue.entries_size(), 2);
-  EXPECT_THAT(queue.entries(0).reason(), HasSubstr("anna, already runs the 1 job that --owner-max-running allows"));
+  EXPECT_THAT(queue.entries(0).reason(),
+              HasSubstr("anna, is already running the 1 job that --owner-max-running allows"));
   ASSERT_TRUE(client().cancel(running).ok());
   EXPECT_TRUE(client().wait_for_state(waiting, v1::RUNNING));
 }

@@ -149,7 +149,7 @@ TEST_F(PagesTest, AHistorysPageIsAsLongAsAskedForAndItsTokenIsOfOneJob) {
   request.set_page_size(2);
   request.set_name("jobs/2");
   request.set_page_token(token);
-  refused("page_token is no token of this list.");
+  refused("page_token is not a token of this list.");
 }
 
 TEST_F(PagesTest, TheTableOfTheLargestSweepComesInPagesThatMergeIntoOne) {

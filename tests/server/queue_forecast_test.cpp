@@ -42,15 +42,15 @@ TEST(QueueForecast, ASweepAtItsLimitSaysSoAndOthersPassIt) {
       forecast_queue({{of_sweep(101, 50, 1), 50.0}}, {of_sweep(102, 10, 1), of_sweep(103, 20, 1), lasting(200, 5)},
                      {2, kStepCost}, plain);
   ASSERT_EQ(queue.entries_size(), 3);
-  expect_entry(queue, 0, "jobs/200", 0.0, "A worker takes it now.");
-  const std::string limit = "Its sweep, sweeps/9, already runs the 1 job that max_parallel allows, and ";
+  expect_entry(queue, 0, "jobs/200", 0.0, "A worker is starting it now.");
+  const std::string limit = "Its sweep, sweeps/9, is already running the 1 job that max_parallel allows, and ";
   expect_entry(queue, 1, "jobs/103", 50.0, limit + "1 job starts before it.");
   expect_entry(queue, 2, "jobs/102", 70.0, limit + "2 jobs start before it.");
 }
 
 TEST(QueueForecast, WithWorkersFreeAJobWaitsForThoseBeforeItAlone) {
   const auto queue = forecast_queue({}, {lasting(1, 7), lasting(2, 1)}, {1, kStepCost}, plain);
-  expect_entry(queue, 0, "jobs/1", 0.0, "A worker takes it now.");
+  expect_entry(queue, 0, "jobs/1", 0.0, "A worker is starting it now.");
   expect_entry(queue, 1, "jobs/2", 7.0, "1 job starts before it.");
   EXPECT_EQ(forecast_queue({{lasting(1, 1), 1.0}}, {lasting(2, 1)}, {1, kStepCost}, plain).entries(0).reason(),
             "The only worker is busy.");
@@ -71,8 +71,8 @@ TEST(QueueForecast, AJobWithThreadsHoldsSoManyCoresAndTakesLess) {
                                       return JobFacts{job == 2 ? 8 : 1, 0};
                                     });
   ASSERT_EQ(queue.entries_size(), 2);
-  expect_entry(queue, 0, "jobs/2", 0.0, "A worker takes it now.");
-  expect_entry(queue, 1, "jobs/3", 0.0, "A worker takes it now.");
+  expect_entry(queue, 0, "jobs/2", 0.0, "A worker is starting it now.");
+  expect_entry(queue, 1, "jobs/3", 0.0, "A worker is starting it now.");
 
   // Of three free cores one is left to the job that waits behind it; the next comes when two end.
   const auto more = forecast_queue({{lasting(1, 100), 9.0, 1}}, {lasting(2, 10), lasting(3, 60), lasting(4, 1)},
@@ -106,13 +106,13 @@ TEST(QueueForecast, OwnersTakeTurnsAndOneAtTheLimitSaysSo) {
   const std::vector<store::QueuedJob> waiting = {lasting(2, 10, "anna"), lasting(3, 10, "anna"), lasting(4, 10, "bob")};
   const auto queue = forecast_queue({{lasting(1, 100, "anna"), 5.0, 2}}, waiting, {4, kStepCost}, plain);
   ASSERT_EQ(queue.entries_size(), 3);
-  expect_entry(queue, 0, "jobs/4", 0.0, "A worker takes it now.");
-  expect_entry(queue, 1, "jobs/2", 0.0, "A worker takes it now.");
+  expect_entry(queue, 0, "jobs/4", 0.0, "A worker is starting it now.");
+  expect_entry(queue, 1, "jobs/2", 0.0, "A worker is starting it now.");
   WorkerFacts limited{4, kStepCost};
   limited.owner_max_running = 1;
   const auto held = forecast_queue({{lasting(1, 100, "anna"), 5.0}}, waiting, limited, plain);
-  expect_entry(held, 0, "jobs/4", 0.0, "A worker takes it now.");
-  const std::string limit = "Its owner, anna, already runs the 1 job that --owner-max-running allows, and ";
+  expect_entry(held, 0, "jobs/4", 0.0, "A worker is starting it now.");
+  const std::string limit = "Its owner, anna, is already running the 1 job that --owner-max-running allows, and ";
   expect_entry(held, 1, "jobs/2", 5.0, limit + "1 job starts before it.");
   expect_entry(held, 2, "jobs/3", 15.0, limit + "2 jobs start before it.");
 }

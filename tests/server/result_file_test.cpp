@@ -336,7 +336,7 @@ TEST(ResultReader, OneOfAnEarlierVersionIsNotReadAndSaysWhatCanBeDone) {
     FAIL() << "was read";
   } catch (const ServiceError& error) {
     EXPECT_EQ(error.kind(), ServiceError::Kind::failed_precondition);
-    EXPECT_NE(std::string(error.what()).find("Download it"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("Download the file"), std::string::npos) << error.what();
   }
 }
 

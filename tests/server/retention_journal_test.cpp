@@ -106,7 +106,7 @@ TEST_F(RetentionJournalTest, ASweepIsDeletedOnlyWhenAllItsJobsHaveEndedAndNamesT
   } catch (const ServiceError& error) {
     EXPECT_EQ(error.kind(), ServiceError::Kind::failed_precondition);
     EXPECT_THAT(error.what(), HasSubstr("jobs/2 is RUNNING, jobs/3 is PENDING"));
-    EXPECT_THAT(error.what(), HasSubstr("and 2 more. Cancel the sweep first"));
+    EXPECT_THAT(error.what(), HasSubstr("and 2 more. Cancel the sweep, then"));
   }
   EXPECT_THROW(journal_->begin_sweep_deletion(99), ServiceError);
 }

@@ -27,7 +27,7 @@ TEST(StreamLimits, RefuseByNameBeyondEachLimitAndAdmitAgainWhenOneEnds) {
   const auto second = limits.admit("anna");
   EXPECT_THAT(refusal([&] { limits.admit("anna"); }), HasSubstr("anna has 2 streams open"));
   const auto third = limits.admit("bob");
-  EXPECT_THAT(refusal([&] { limits.admit("chief"); }), HasSubstr("3 streams are open, as many as --max-streams"));
+  EXPECT_THAT(refusal([&] { limits.admit("chief"); }), HasSubstr("3 streams are open, the limit of --max-streams"));
   first.reset();
   EXPECT_EQ(refusal([&] { limits.admit("anna"); }), "");
 }

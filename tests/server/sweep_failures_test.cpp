@@ -78,7 +78,7 @@ TEST_F(SweepFailuresTest, AfterMaxFailuresTheJobsThatWaitAreCancelledAndSayWhy) 
   EXPECT_EQ(count_in(after, v1::CANCELLED), 4);
   const auto stopped = client.get(sweep.jobs(5));
   EXPECT_EQ(stopped.state(), v1::CANCELLED);
-  EXPECT_THAT(stopped.cause_message(), HasSubstr("2 jobs of sweeps/1 failed, and its max_failures is 2"));
+  EXPECT_THAT(stopped.cause_message(), HasSubstr("2 jobs of sweeps/1 failed, reaching its max_failures of 2"));
   EXPECT_THAT(stopped.remedy(), HasSubstr("cellcrush retry sweeps/1"));
   EXPECT_EQ(stopped.cause(), v1::JOB_CAUSE_UNSPECIFIED);
 }

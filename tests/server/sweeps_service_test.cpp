@@ -78,16 +78,41 @@ TEST_F(SweepsServiceTest, ABadPointLeavesNoJobAndIsNamed) {
   const auto list = problems_of(status);
   ASSERT_EQ(list.problems_size(), 3);
   EXPECT_EQ(list.problems(0).field(), "lattice.hexagon.rows");
-  EXPECT_THAT(list.problems(0).message(), HasSubstr("is 2.5, which is no whole number"));
+  EXPECT_THAT(list.problems(0).message(), HasSubstr("is 2.5, which is not a whole number"));
   EXPECT_THAT(list.problems(0).message(),
-              HasSubstr("at point 2 of 9 (loading.speed_m_per_s = 50, lattice.hexagon.rows = 2.5) and at 2 more"));
+              HasSubstr("to point 2 of 9 (loading.speed_m_per_s = 50, lattice.hexagon.rows = 2.5) and to 2 more"));
   EXPECT_EQ(list.problems(1).field(), "lattice.hexagon.rows");
   EXPECT_EQ(list.problems(2).field(), "loading.speed_m_per_s");
-  EXPECT_THAT(list.problems(2).message(), HasSubstr("at point 4 of 9"));
+  EXPECT_THAT(list.problems(2).message(), HasSubstr("to point 4 of 9"));
   EXPECT_EQ(job_count(), 0);
   v1::ListSweepsResponse sweeps;
   ASSERT_TRUE(client().sweeps->ListSweeps(bounded_context().get(), {}, &sweeps).ok());
   EXPECT_EQ(sweeps.sweeps_size(), 0);
+}
+
+TEST_F(SweepsServiceTest, ImplausibleValuesOfTheCaseAreNotedOnce) {
+  auto submitted = small_case();
+  submitted.mutable_material()->set_density_kg_per_m3(2.7);
+  auto client = this->client();
+  const auto sweep = create(client, sweep_of(submitted, kSpeed, {50.0, 100.0, 200.0}));
+  ASSERT_EQ(sweep.notes_size(), 1);
+  EXPECT_EQ(sweep.notes(0).field(), "material.density_kg_per_m3");
+  EXPECT_EQ(sweep.notes(0).kind(), v1::Problem::IMPLAUSIBLE);
+  EXPECT_THAT(sweep.notes(0).message(), Not(HasSubstr("applies to point"))) << "It is the same for all.";
+  EXPECT_EQ(get_sweep(client, sweep.name()).notes_size(), 0) << "They belong to the answer alone.";
+}
+
+TEST_F(SweepsServiceTest, ImplausibleValuesOfSomePointsAreNotedWithTheFirst) {
+  auto request = sweep_of(small_case(), "material.density_kg_per_m3", {2700.0, 2.7, 7.8, 0.9});
+  request.set_validate_only(true);
+  auto client = this->client();
+  const auto sweep = create(client, request);
+  ASSERT_EQ(sweep.notes_size(), 1) << sweep.DebugString();
+  EXPECT_EQ(sweep.notes(0).value(), "2.7");
+  EXPECT_THAT(sweep.notes(0).message(),
+              HasSubstr("This applies to point 2 of 4 (material.density_kg_per_m3 = 2.7) and to 2 more."));
+  EXPECT_THAT(sweep.notes(0).remedy(), HasSubstr("2700 kg/m^3"));
+  EXPECT_EQ(job_count(), 0);
 }
 
 TEST_F(SweepsServiceTest, WhatIsNoSweepIsRefusedByField) {
@@ -98,7 +123,7 @@ TEST_F(SweepsServiceTest, WhatIsNoSweepIsRefusedByField) {
   };
   v1::CreateSweepRequest request;
   expect(request, "sweep.axes are missing");
-  expect(sweep_of(small_case(), "loading.velocity", {1.0}), "loading.velocity is no field of a case");
+  expect(sweep_of(small_case(), "loading.velocity", {1.0}), "loading.velocity is not a field of a case");
   expect(sweep_of(small_case(), "title", {1.0}), "title is not a single number");
   expect(sweep_of(small_case(), "lattice.square.rows", {1.0}), "lattice.square.rows is not in the case");
   request = sweep_of(small_case(), kSpeed, {1.0});

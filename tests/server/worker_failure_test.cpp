@@ -18,7 +18,7 @@ TEST_F(WorkerFailureTest, AProgramThatIsNoWorkerFailsItsJobWithItsExitCode) {
   const std::string job = client.create(small_case());
   EXPECT_TRUE(client.watch(job).status.ok());
   EXPECT_EQ(client.get(job).cause(), v1::WORKER_CRASHED);
-  EXPECT_THAT(client.get(job).cause_message(), HasSubstr("exit code 1"));
+  EXPECT_THAT(client.get(job).cause_message(), HasSubstr("exited with code 1"));
 }
 
 }  // namespace

@@ -17,12 +17,12 @@ using ::testing::Not;
 TEST(WhatIsModelled, SaysWhyEachShortcutIsTaken) {
   const SceneSpec spec = scenes::hexagon_block(4, 3);
   const auto said = what_is_modelled(*scenes::build(spec));
-  EXPECT_THAT(said, Contains(HasSubstr("by the faces of the lattice: it is one part, plane and closed")));
-  EXPECT_THAT(said, Contains(HasSubstr("perfectly plastic, so each remembers its stress alone")));
-  EXPECT_THAT(said, Contains(HasSubstr("in single precision: half as much to remember")));
+  EXPECT_THAT(said, Contains(HasSubstr("by the faces of the lattice: it is connected, planar and closed")));
+  EXPECT_THAT(said, Contains(HasSubstr("perfectly plastic; each stores only its stress")));
+  EXPECT_THAT(said, Contains(HasSubstr("in single precision, which halves the memory")));
   EXPECT_THAT(said, Contains(HasSubstr("Plates: rigid, unilateral, not meshed")));
   EXPECT_THAT(said, Contains(HasSubstr("Symmetry: not used")));
-  EXPECT_THAT(said, Not(Contains(HasSubstr("as asked for"))));
+  EXPECT_THAT(said, Not(Contains(HasSubstr("as requested"))));
 }
 
 TEST(WhatIsModelled, SaysWhatWasAskedFor) {
@@ -32,15 +32,16 @@ TEST(WhatIsModelled, SaysWhatWasAskedFor) {
   spec.numerics.time_step_s = 1e-8;
   spec.material.hardening_modulus_mpa = 1000.0;
   const auto said = what_is_modelled(*scenes::build(spec));
-  EXPECT_THAT(said, Contains("Contacts are searched by buckets in space, as asked for (contact.search)."));
-  EXPECT_THAT(said, Contains("Step: as asked for (numerics.time_step_s)."));
-  EXPECT_THAT(said, Contains(HasSubstr("each remembers its back stress and flow, in double precision")));
+  EXPECT_THAT(said, Contains("Contacts are searched by buckets in space, as requested (contact.search)."));
+  EXPECT_THAT(said, Contains("Step: as requested (numerics.time_step_s)."));
+  EXPECT_THAT(said,
+              Contains(HasSubstr("each stores its back stress and accumulated plastic strain, in double precision")));
 }
 
 // A formulation that is changed alone keeps the points of the other.
 TEST(WhatIsModelled, WarnsOfPointsThatHaveNoVectorKernel) {
   SceneSpec spec = scenes::hexagon_block(4, 3);
-  const auto has_none = Contains(HasSubstr("these have no vector kernel"));
+  const auto has_none = Contains(HasSubstr("no vector kernel exists for these"));
   EXPECT_THAT(what_is_modelled(*scenes::build(spec)), Not(has_none));
   spec.section.formulation = SectionSpec::Formulation::displacement_based;
   spec.section.axial_points = 4;
@@ -61,7 +62,7 @@ TEST(WhatIsModelled, NamesTheBoundOfTheStep) {
     return std::string();
   };
   EXPECT_THAT(step_of("type-i", 10.0), HasSubstr("lightest, stiffest element"));
-  EXPECT_THAT(step_of("type-i", 400.0), HasSubstr("plate moves by a twentieth"));
+  EXPECT_THAT(step_of("type-i", 400.0), HasSubstr("plate moves by one twentieth"));
   EXPECT_THAT(step_of("type-iii-as-counted", 10.0), HasSubstr("stacked along the crush"));
 }
 
