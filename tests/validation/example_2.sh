@@ -1,5 +1,5 @@
 #!/bin/sh
-# Example 2 of the paper at 25 to 200 m/s to 45 % strain: 22 crushes, one after another, about half an hour of one core.
+# Example 2 of the paper at 25 to 200 m/s to 45 % strain: 26 crushes, one after another, about half an hour of one core.
 #   tests/validation/example_2.sh build/ci/bin/validate example_2.csv
 set -eu
 validate=$1
