@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "help/command_entries.h"
+#include "help/wrapped_text.h"
 #include "terminal/display_text.h"
 
 namespace cellcrush::client {
@@ -100,7 +101,8 @@ std::vector<std::string> command_groups(const CLI::App& app) {
 }  // namespace
 
 std::string command_page(const CLI::App& app) {
-  std::string text = std::string(kHead) + "```text\ncellcrush [OPTIONS] COMMAND ...\n\n" + app.get_footer() +
+  std::string text = std::string(kHead) + "```text\ncellcrush [OPTIONS] COMMAND ...\n\n" +
+                     wrap_text(app.get_footer(), kColumns) +
                      "\n```\n\n## Options of every command\n\n"
                      "* `-h, --help`: Print the help of the program, or of the command before it.\n";
   for (const std::string& group : app.get_groups()) text += option_items(app, group);

@@ -57,7 +57,8 @@ std::string cut(std::string_view text, int width) {
 
 std::vector<std::string> wrap_words(std::string_view text, int width) {
   std::vector<std::string> lines(1);
-  std::istringstream words{std::string(text)};
+  // A number stays with its per cent sign, an equation with its number.
+  std::istringstream words(replaced(replaced(text, " %", "\u00A0%"), "Eq. ", "Eq.\u00A0"));
   for (std::string word; words >> word;) {
     const int used = display_width(lines.back());
     if (used > 0 && used + 1 + display_width(word) > width) lines.emplace_back();

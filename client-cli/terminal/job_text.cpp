@@ -20,9 +20,11 @@ namespace {
 using Align = Table::Align;
 using google::protobuf::util::TimeUtil;
 
+// The daemon gives times in whole seconds, rounded down, so that the run took less than one more.
 std::string run_time_text(const v1::Job& job) {
   if (!job.has_start_time() || !job.has_end_time()) return {};
-  return duration_text(1e-3 * static_cast<double>(TimeUtil::DurationToMilliseconds(job.end_time() - job.start_time())));
+  const auto whole = static_cast<double>(TimeUtil::DurationToSeconds(job.end_time() - job.start_time()) + 1);
+  return whole < 10.0 ? fmt::format("{} s", whole) : duration_text(whole);
 }
 
 void add_progress_rows(Table& table, const v1::Job& job) {
@@ -62,7 +64,7 @@ std::string outcome_text(const v1::Job& job, int width) {
   if (job.state() == v1::FAILED && job.cause() != v1::JOB_CAUSE_UNSPECIFIED)
     text += " (" + v1::JobCause_Name(job.cause()) + ")";
   const std::string run_time = run_time_text(job);
-  if (!run_time.empty()) text += " after " + run_time;
+  if (!run_time.empty()) text += " within " + run_time;
   if (job.has_summary()) {
     text += fmt::format(": {} steps, {} of solver time", count_text(job.summary().step_count()),
                         duration_text(job.summary().solver_seconds()));

@@ -109,7 +109,9 @@ TEST(Text, IsWrappedBetweenWordsAndLongWordsAtTheEnd) {
   EXPECT_EQ(wrapped("one two three", 9, "- ", "  "), "- one two\n  three\n");
   EXPECT_EQ(wrap_words("ab cdefghij", 4), (std::vector<std::string>{"ab", "cdef", "ghij"}));
   EXPECT_EQ(wrap_words("hexagon.wall_thickness_mm", 20), (std::vector<std::string>{"hexagon.wall_", "thickness_mm"}));
-  EXPECT_EQ(wrap_words("error " + unbreakable("2.8 %"), 8), (std::vector<std::string>{"error", "2.8 %"}));
+  EXPECT_EQ(wrap_words("error " + unbreakable("± 2.8"), 8), (std::vector<std::string>{"error", "± 2.8"}));
+  EXPECT_EQ(wrap_words("theory (Eq. 51), 2.8 % above", 12),
+            (std::vector<std::string>{"theory", "(Eq. 51),", "2.8 % above"}));
   EXPECT_EQ(wrap_words("", 4), std::vector<std::string>{""});
 }
 

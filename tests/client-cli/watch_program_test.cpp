@@ -25,7 +25,7 @@ TEST(Watch, ASucceededJobEndsWithItsPlateauBesideTheory) {
   const ProgramResult result = run_program({"watch", "jobs/test", "--server", server.address()});
   EXPECT_EQ(result.exit_code, 0) << result.errors;
   for (const char* part :
-       {"jobs/test SUCCEEDED after 47 s: 20 504 steps", "3.41 MPa", "0.447 MPa", "3.37 MPa  shock theory (Eq. 51)",
+       {"jobs/test SUCCEEDED within 48 s: 20 504 steps", "3.41 MPa", "0.447 MPa", "3.37 MPa  shock theory (Eq. 51)",
         "0.301 MPa  quasi-static", "20-40 %", "0.760", "1.23 %", "12.1 %"}) {
     EXPECT_NE(result.output.find(part), std::string::npos) << part << "\n" << result.output;
   }
@@ -34,7 +34,7 @@ TEST(Watch, ASucceededJobEndsWithItsPlateauBesideTheory) {
 TEST(Watch, WithoutATerminalThereIsAtMostOneLineASecond) {
   const FakeServer server(run_script(v1::SUCCEEDED));
   const ProgramResult result = run_program({"watch", "test", "--server", server.address()});
-  const std::string progress = result.output.substr(0, result.output.find("jobs/test SUCCEEDED after"));
+  const std::string progress = result.output.substr(0, result.output.find("jobs/test SUCCEEDED within"));
   EXPECT_GE(count_lines(progress), 2) << progress;
   EXPECT_LE(count_lines(progress), 4) << progress;
   EXPECT_EQ(result.output.find('\x1b'), std::string::npos);
@@ -123,7 +123,7 @@ TEST(Watch, OnATerminalTheDisplayIsRedrawnInPlaceWithinItsWidth) {
     EXPECT_EQ(result.exit_code, 0) << result.output;
     EXPECT_NE(result.output.find("\x1b[J"), std::string::npos);
     EXPECT_NE(result.output.find("█"), std::string::npos);
-    const std::string display = result.output.substr(0, result.output.find("jobs/test SUCCEEDED after"));
+    const std::string display = result.output.substr(0, result.output.find("jobs/test SUCCEEDED within"));
     std::istringstream lines(display);
     for (std::string line; std::getline(lines, line);) {
       // Escape sequences take no room: ESC [ ... letter.
