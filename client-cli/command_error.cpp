@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <utility>
 
+#include "cellcrush/v1/case.pb.h"
 #include "google/rpc/status.pb.h"
 #include "terminal/display_text.h"
 #include "terminal/json_text.h"
@@ -43,6 +45,14 @@ int status_code_of(ExitCode code) {
   }
 }
 
+// Whether all problems are of the case, and none of another part of the request, such as a filter.
+bool are_of_case(const v1::ProblemList& problems) {
+  return std::all_of(problems.problems().begin(), problems.problems().end(), [](const v1::Problem& problem) {
+    const std::string field = problem.field().substr(0, problem.field().find_first_of(".["));
+    return v1::Case::descriptor()->FindFieldByName(field) != nullptr;
+  });
+}
+
 }  // namespace
 
 CommandError::CommandError(ExitCode code, std::string message, v1::ProblemList problems)
@@ -62,8 +72,10 @@ CommandError error_of(const grpc::Status& status) {
 
 CommandError problems_error(v1::ProblemList problems) {
   const int count = problems.problems_size();
-  return {ExitCode::refused, fmt::format("the case has {} problem{}", count, count == 1 ? "" : "s"),
-          std::move(problems)};
+  return {
+      ExitCode::refused,
+      fmt::format("the {} has {} problem{}", are_of_case(problems) ? "case" : "request", count, count == 1 ? "" : "s"),
+      std::move(problems)};
 }
 
 std::string problems_text(const v1::ProblemList& problems) {

@@ -20,7 +20,8 @@ constexpr const char* kFooter =
     "--json and the connection options may stand before or after the command.\n"
     "CASE is a file (protobuf text or JSON), - for stdin, or preset:NAME.\n"
     "Exit codes: 0 success; 1 a job failed or was cancelled; 2 wrong usage, invalid case or request refused; "
-    "3 no connection; 4 connection lost before the end; 5 not found; 130 interrupted by Ctrl-C (the job continues).";
+    "3 no connection; 4 connection lost before the end; 5 not found; 130 interrupted by Ctrl-C (a job of the daemon "
+    "continues; a run stops at a checkpoint).";
 
 ExitCode run_action(const Session& session) {
   try {

@@ -15,8 +15,10 @@
 #include "access/token_file.h"
 #include "cellcrush/simd.h"
 #include "command_line/daemon_flags.h"
+#include "command_line/help_formatter.h"
 #include "command_line/man_page.h"
 #include "command_line/store_commands.h"
+#include "command_line/usage_message.h"
 #include "daemon.h"
 #include "log_format.h"
 #include "revision.h"
@@ -93,8 +95,11 @@ int main(int argc, char** argv) {
       "cellcrushd runs crushing analyses: it accepts cases over gRPC, runs them as jobs, and streams their progress "
       "and results.");
   app.name("cellcrushd");
-  app.footer(kFooter);
+  app.formatter(std::make_shared<cellcrush::HelpFormatter>());
+  app.failure_message(cellcrush::usage_message);
   app.get_formatter()->label("SUBCOMMAND", "COMMAND");
+  app.get_formatter()->label("Positionals", "Arguments");
+  app.get_formatter()->label("Subcommands", "Commands");
   cellcrush::DaemonFlags flags(app);
   app.set_version_flag("--version", std::string("cellcrushd ") + cellcrush::kSolverRevision);
   std::string token_name;
@@ -116,6 +121,7 @@ int main(int argc, char** argv) {
   std::filesystem::path job_folder;
   CLI::App* worker = app.add_subcommand("worker")->group("");
   worker->add_option("--folder", job_folder)->required();
+  app.footer(kFooter);  // last, since commands take over what the program has
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

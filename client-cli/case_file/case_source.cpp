@@ -38,8 +38,8 @@ std::string read_all(const std::string& file) {
   if (file == "-") return read_stream(std::cin, "stdin");
   std::ifstream stream;
   if (const std::string failure = open_failure(file, stream); !failure.empty())
-    throw CommandError(ExitCode::refused,
-                       failure + "; give a case file or preset:NAME (`cellcrush presets` lists them)");
+    throw CommandError(ExitCode::refused, failure + (failure.ends_with('?') ? " Give" : "; give") +
+                                              " a case file or preset:NAME (`cellcrush presets` lists them)");
   return read_stream(stream, file);
 }
 
@@ -48,6 +48,11 @@ v1::Case read_file(const std::string& file) {
   const std::size_t begin = text.find_first_not_of(" \t\r\n");
   const bool json = file.ends_with(".json") || (begin != std::string::npos && text[begin] == '{');
   const std::string name = file == "-" ? "stdin" : file;
+  if (text.find('\0') != std::string::npos) {
+    throw CommandError(ExitCode::refused, name +
+                                              ": not a text file; a case is protobuf text or JSON, such as the output "
+                                              "of `cellcrush show preset:type-i`");
+  }
   return json ? parse_json_case(text, name) : parse_text_case(text, name);
 }
 

@@ -64,7 +64,8 @@ void add_delete_command(CLI::App& app, Session& session) {
                                   [&session, options] { return run_delete(session, *options); });
   command->group(kJobCommands);
   command->add_option("NAME", options->name, "Job name, or sweeps/NAME")->required();
-  command->add_flag("-y,--yes", options->yes, "Delete without asking; without a terminal it never asks");
+  command->add_flag("-y,--yes", options->yes,
+                    "Delete without asking, as also happens when standard input is not a terminal");
   add_examples(*command, {"cellcrush delete jobs/12", "cellcrush delete sweeps/3 --yes"});
 }
 

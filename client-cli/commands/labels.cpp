@@ -8,7 +8,8 @@ namespace cellcrush::client {
 void add_label_option(CLI::App& command, std::vector<std::string>& labels) {
   command
       .add_option("--label", labels,
-                  "Label KEY=VALUE for list --filter, up to 63 and 255 characters (may be repeated, up to 64 times; "
+                  "Label KEY=VALUE for list --filter; KEY up to 63 and VALUE up to 255 characters (may be repeated up "
+                  "to 64 times; "
                   "default: none)")
       ->group(kIdentityOptions)
       ->allow_extra_args(false);

@@ -64,12 +64,13 @@ void add_list_command(CLI::App& app, Session& session) {
   });
   list->group(kJobCommands);
   list->add_option("--filter", options->filter,
-                   "Only jobs that match, such as 'state = RUNNING'; up to 4096 characters (default: all jobs)")
+                   "Only jobs that match: state = STATE, owner = \"NAME\", label.KEY = \"value\" or title : \"text\", "
+                   "joined by AND; up to 4096 characters (default: all jobs)")
       ->group(kSelectionOptions);
   list->add_option("--order,--order-by", options->order,
-                   "Sort jobs by create_time or name; append desc for newest first (default: create_time desc)")
+                   "Sort jobs by create_time or name; append desc to reverse the order (default: create_time desc)")
       ->group(kSelectionOptions);
-  list->add_option("--limit", options->limit, "Largest number of entries (default: all)")
+  list->add_option("--limit", options->limit, "Maximum number of entries (default: all)")
       ->group(kSelectionOptions)
       ->check(CLI::PositiveNumber);
   list->add_flag("--sweeps", options->sweeps, "List sweeps instead of jobs")->group(kSelectionOptions);

@@ -167,11 +167,15 @@ void add_run_command(CLI::App& app, Session& session) {
                                   [&session, options] { return run_case(session, *options); });
   command->group(kJobCommands);
   add_case_options(*command, options->scene);
-  command->add_option("-o,--output", options->folder, "Output folder, created if missing")->required();
+  command
+      ->add_option("-o,--output", options->folder,
+                   "Output folder, created if missing; without --resume an earlier result in it is replaced")
+      ->required();
   command->add_flag(
       "--resume", options->resume,
       "Continue an unfinished run in this folder; start one if there is none, do nothing if it is finished");
-  add_time_limit_option(*command, options->time_limit_s, "none; with --resume the limit of this command counts");
+  add_time_limit_option(*command, options->time_limit_s,
+                        "none; with --resume, the limit given now replaces the earlier one");
   add_examples(*command, {"cellcrush run my.txtpb -o results", "cellcrush run my.txtpb -o results --resume"});
 }
 

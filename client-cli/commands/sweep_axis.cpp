@@ -62,8 +62,10 @@ class AxisText {
   Number number(std::string_view value) const {
     Number out{};
     const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), out);
-    if (error != std::errc() || end != value.data() + value.size())
-      refuse(fmt::format("\"{}\" is not {}", value, std::is_integral_v<Number> ? "an integer" : "a number"));
+    if (error != std::errc() || end != value.data() + value.size()) {
+      if (std::is_integral_v<Number>) refuse(fmt::format("\"{}\" is not an integer", value));
+      refuse(fmt::format("\"{}\" is not a number; for other values queue a sweep each, with --set", value));
+    }
     return out;
   }
 

@@ -106,12 +106,12 @@ void add_sweep_commands(CLI::App& app, Session& session) {
   add_time_limit_option(*sweep, options->time_limit_s);
   sweep
       ->add_option("--max-parallel", options->max_parallel,
-                   "Largest number of its jobs that run at once (default: the number of workers)")
+                   "Maximum number of jobs of the sweep that run at once (default: the number of workers)")
       ->group(kScheduleOptions)
       ->check(CLI::PositiveNumber);
   sweep
       ->add_option("--max-failures", options->max_failures,
-                   "Start no more of its jobs after this many failures (default: no limit)")
+                   "Stop starting jobs of the sweep after this many failures (default: no limit)")
       ->group(kScheduleOptions)
       ->check(CLI::PositiveNumber);
   add_examples(*sweep, {"cellcrush sweep preset:type-i --over loading.speed_m_per_s=50,100,200 --watch",

@@ -8,8 +8,8 @@ std::string theory_note(const v1::Lattice& lattice) {
     note = lattice.has_square() ? "Squares" : "Triangles";
     note +=
         " are stretch-dominated: the quasi-static stress is the axial yield stress of straight walls, an upper bound. "
-        "Walls that buckle crush at a far lower stress, so neither it nor the shock theory built on it (Eq. 51) "
-        "predicts the plateau.";
+        "If the walls buckle, the lattice crushes at a far lower stress. Then neither the quasi-static stress nor "
+        "Eq. 51, which builds on it, predicts the plateau.";
   }
   if (lattice.inclusions().rows_size() > 0) {
     note += note.empty() ? "" : " ";

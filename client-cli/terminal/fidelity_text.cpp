@@ -91,9 +91,10 @@ std::string fidelity_text(const v1::CheckCaseResponse& check, int width) {
   std::string text = "\ncost and accuracy by numerics.fidelity\n" + table.text(2, width);
   if (measured != nullptr) {
     text += wrapped(
-        fmt::format("Errors compare means over seeds with converged solutions of the named cases. A single {} run "
-                    "scatters by {}.",
-                    v1::Numerics::Fidelity_Name(measured->fidelity()), scatter_text(*measured)),
+        fmt::format(
+            "An error is the difference between the mean over seeds and the converged solution of the named case. "
+            "Single {} runs scatter by {} between seeds.",
+            v1::Numerics::Fidelity_Name(measured->fidelity()), scatter_text(*measured)),
         width, "  ", "  ");
   }
   return text;

@@ -52,6 +52,10 @@ std::string size_text(std::int64_t bytes) {
   return number_text(size) + " " + kUnits[unit];
 }
 
-std::string percent_text(double share, int decimals) { return fmt::format("{:.{}f} %", 100.0 * share, decimals); }
+std::string percent_text(double share, int decimals) {
+  const std::string text = fmt::format("{:.{}f} %", 100.0 * share, decimals);
+  const bool is_zero = text.find_first_of("123456789") == std::string::npos;
+  return is_zero && text.starts_with('-') ? text.substr(1) : text;
+}
 
 }  // namespace cellcrush::client

@@ -16,10 +16,10 @@ namespace {
 
 using Align = Table::Align;
 
-// "shock theory (Eq. 51), 4.7 % above".
+// "shock theory (Eq. 51), 4.7 % higher".
 std::string theory_text(const char* theory, bool known, double error) {
   if (!known) return theory;
-  return fmt::format("{}, {} {}", theory, percent_text(std::abs(error)), error < 0.0 ? "below" : "above");
+  return fmt::format("{}, {} {}", theory, percent_text(std::abs(error)), error < 0.0 ? "lower" : "higher");
 }
 
 void add_plateau_rows(Table& table, const v1::Summary& summary) {
@@ -53,7 +53,10 @@ void add_plateau_rows(Table& table, const v1::Summary& summary) {
   if (summary.has_solid_fraction_at_densification()) {
     table.add({"solid fraction at densification", number_text(summary.solid_fraction_at_densification())});
   }
-  table.add({"energy absorbed to 50 % strain", number_text(1e-3 * summary.absorbed_energy_mj()) + " J"});
+  // Of a run that ended before, it is all the work of its plate.
+  const bool whole = summary.absorbed_energy_mj() > (1.0 - 1e-9) * summary.ledger().work_external_mj();
+  table.add({whole && summary.has_ledger() ? "energy absorbed to the end" : "energy absorbed to 50 % strain",
+             number_text(1e-3 * summary.absorbed_energy_mj()) + " J"});
 }
 
 // A line of its own: words in a column of numbers would widen it.
@@ -135,7 +138,7 @@ std::string crush_mode_code(v1::CrushMode mode) {
 
 std::string crush_mode_text(v1::CrushMode mode) {
   switch (mode) {
-    case v1::CRUSH_MODE_NONE: return "none: too few cells have collapsed";
+    case v1::CRUSH_MODE_NONE: return "none (too few cells have collapsed)";
     case v1::CRUSH_MODE_X: return "crossed bands (X)";
     case v1::CRUSH_MODE_V: return "V-shaped band (V)";
     case v1::CRUSH_MODE_I: return "layer by layer (I)";

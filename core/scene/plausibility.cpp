@@ -38,7 +38,7 @@ void look_at_density(double density, Notes& notes) {
               "Give it in kg/m^3: aluminium has 2700.");
   } else if (density < 30.0) {
     notes.add(field, density, "is far below that of any solid. Is it in g/cm^3?",
-              "Give it in kg/m^3: " + to_text(density) + " g/cm^3 are " + to_text(1000.0 * density) + " kg/m^3.");
+              "Give it in kg/m^3: " + to_text(density) + " g/cm^3 is " + to_text(1000.0 * density) + " kg/m^3.");
   } else if (density < kLightest || density > kHeaviest) {
     notes.add(field, density, density < kLightest ? "is below that of any solid." : "is above that of any metal.",
               "Give the density of the wall material, not of the lattice; aluminium has 2700 kg/m^3.");
@@ -50,7 +50,7 @@ void look_at_stiffness(const MaterialSpec& material, Notes& notes) {
   const std::string field = "material.youngs_modulus_mpa";
   if (modulus < kSoftest) {
     notes.add(field, modulus, "is typical of rubber. Is it in GPa?",
-              "Give it in MPa: " + to_text(modulus) + " GPa are " + to_text(1000.0 * modulus) + " MPa.");
+              "Give it in MPa: " + to_text(modulus) + " GPa is " + to_text(1000.0 * modulus) + " MPa.");
   } else if (modulus > kStiffest) {
     notes.add(field, modulus, "is above that of diamond. Is it in Pa or kPa?", "Give it in MPa: aluminium has 69000.");
   }

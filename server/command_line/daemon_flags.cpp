@@ -30,18 +30,28 @@ std::chrono::milliseconds milliseconds_of(double seconds) {
 
 DaemonFlags::DaemonFlags(CLI::App& app) {
   options_.data_folder = default_data_folder();
+  const auto begin_group = [&](const char* name) { app.option_defaults()->group(name); };
+  begin_group("Addresses");
   add_addresses(app);
+  begin_group("Access");
   add_access(app);
+  begin_group("Connections");
   add_connections(app);
+  begin_group("Jobs");
   add_limits(app);
+  begin_group("Quotas per owner");
   add_owner_limits(app);
+  begin_group("Storage");
   add_storage(app);
+  begin_group("Times");
   add_times(app);
+  begin_group("Options");
   app.add_option("--log-format", log_format_, "Log format: text, or json with one object per line (default: text)")
       ->check(CLI::IsMember({"text", "json"}));
   app.config_formatter(std::make_shared<CheckedConfig>(app));
   app.set_config("--config", "",
-                 "TOML file of options, one per line, by their long names without dashes (default: none)");
+                 "TOML file of options, one per line, by their long names without the leading dashes, such as "
+                 "max-queued-jobs = 10 (default: none)");
 }
 
 void DaemonFlags::add_addresses(CLI::App& app) {
@@ -62,7 +72,7 @@ void DaemonFlags::add_access(CLI::App& app) {
                  "PEM file of the authority that issues client certificates; every TCP client must then present one "
                  "with clientAuth in its extended key usage (default: none)");
   app.add_option("--tls-client-scope", certificate_scope_,
-                 "Scope of clients that present such a certificate: read, submit or admin (default: submit)")
+                 "Scope of clients that present a client certificate: read, submit or admin (default: submit)")
       ->check(CLI::IsMember({"read", "submit", "admin"}));
   app.add_option("--tokens", access.tokens,
                  "File of tokens, one per line (see `cellcrushd token`); TCP calls must present one; SIGHUP reloads it "
@@ -71,10 +81,10 @@ void DaemonFlags::add_access(CLI::App& app) {
 
 void DaemonFlags::add_connections(CLI::App& app) {
   auto& limits = options_.connections;
-  app.add_option(
-         "--max-connections", limits.connections,
-         "Maximum number of open TCP connections, and as many again on Unix sockets; a low limit on file descriptors "
-         "reduces both (default: 1000)")
+  app.add_option("--max-connections", limits.connections,
+                 "Maximum number of open connections, separately for TCP and for Unix sockets; fewer where the process "
+                 "may open "
+                 "too few files (default: 1000)")
       ->check(CLI::Range(1, 1'000'000));
   app.add_option("--max-connections-per-address", limits.connections_per_address,
                  "Maximum number of open TCP connections from one address (default: 500)")
@@ -85,8 +95,10 @@ void DaemonFlags::add_connections(CLI::App& app) {
   app.add_option("--max-streams-per-caller", limits.streams_per_caller,
                  "Maximum number of open streams of one token or certificate (default: 1000)")
       ->check(CLI::Range(1, 1'000'000));
-  app.add_option("--max-call-memory", call_memory_mib_,
-                 "Memory limit for connections in MiB, and as much again for messages not yet read (default: 256)")
+  app.add_option(
+         "--max-call-memory", call_memory_mib_,
+         "Memory limit for connections, in MiB; messages not yet read have a second limit of the same size (default: "
+         "256)")
       ->check(CLI::Range(16, 1 << 20));
 }
 
@@ -116,7 +128,8 @@ void DaemonFlags::add_owner_limits(CLI::App& app) {
                  "Disk quota per owner in MiB of results and journal; new jobs are refused once it is reached "
                  "(default: 0, no limit)")
       ->check(CLI::Range(0, 1 << 30));
-  app.add_option("--owner-max-priority", owner.priority, "Highest priority that a job may have (default: 100)")
+  app.add_option("--owner-max-priority", owner.priority,
+                 "Highest priority that an owner may give to a job (default: 100)")
       ->check(CLI::Range(-100, 100));
 }
 
@@ -124,7 +137,7 @@ void DaemonFlags::add_storage(CLI::App& app) {
   app.add_option("--data", options_.data_folder,
                  "Data folder for jobs and results (default: $XDG_DATA_HOME/cellcrush or ~/.local/share/cellcrush)");
   app.add_option("--min-free-disk", free_mib_,
-                 "Free disk space to keep, in MiB; with less, no job is accepted or run (default: 256)")
+                 "Free disk space to keep, in MiB; with less, no job is accepted or started (default: 256)")
       ->check(CLI::Range(0, 1 << 30));
   app.add_option("--keep-ended-jobs", keep_days_,
                  "Days to keep an ended job or sweep; time while no daemon runs does not count (default: 0, forever)")

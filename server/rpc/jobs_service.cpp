@@ -24,8 +24,9 @@ store::StoredJob JobsService::find(const std::string& name) {
   const auto number = jobs::number_of(name);
   auto stored = number ? parts_.reader.find_job(*number) : std::nullopt;
   if (!stored) {
-    throw ServiceError(ServiceError::Kind::not_found,
-                       "There is no job \"" + name + "\". Job names look like jobs/12; ListJobs lists them.");
+    throw ServiceError(
+        ServiceError::Kind::not_found,
+        "There is no job \"" + name + "\". Job names look like jobs/12; ListJobs (`cellcrush list`) lists them.");
   }
   return *std::move(stored);
 }

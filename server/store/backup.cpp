@@ -106,7 +106,9 @@ BackupManifest take_backup(const std::filesystem::path& data_folder, const std::
   std::error_code none;
   if (!std::filesystem::is_regular_file(live_path, none)) {
     throw ServiceError(ServiceError::Kind::not_found,
-                       data_folder.string() + " contains no daemon's journal. Give the --data folder of the daemon.");
+                       data_folder.string() +
+                           " is not a data folder: it contains no journal.sqlite. Give the --data folder of "
+                           "the daemon.");
   }
   StagedFolder staged(target);
   Database live(live_path);

@@ -22,8 +22,8 @@ using ::testing::Not;
 
 TEST(SummaryText, HasBothShockTheoriesWithTheirErrorsFrontModeAndLedger) {
   const std::string text = summary_text(testing::make_job(v1::SUCCEEDED).summary(), v1::Lattice(), 120);
-  EXPECT_THAT(text, ContainsRegex("3.41 MPa +3.37 MPa  shock theory \\(Eq. 51\\), 1.2 % below"));
-  EXPECT_THAT(text, ContainsRegex("3.43 MPa  shock theory with measured jumps \\(Eq. 52\\), 0.6 % above"));
+  EXPECT_THAT(text, ContainsRegex("3.41 MPa +3.37 MPa  shock theory \\(Eq. 51\\), 1.2 % lower"));
+  EXPECT_THAT(text, ContainsRegex("3.43 MPa  shock theory with measured jumps \\(Eq. 52\\), 0.6 % higher"));
   EXPECT_THAT(text, HasSubstr("crush mode: layer by layer (I), first seen at strain 0.11\n"));
   EXPECT_THAT(text, ContainsRegex("strain +0.905"));
   EXPECT_THAT(text, ContainsRegex("0.391 +MPa, ahead of the front"));

@@ -10,6 +10,8 @@ namespace {
 
 TEST(NumberText, KeepsSignificantDigits) {
   EXPECT_EQ(number_text(3.41234), "3.41");
+  EXPECT_EQ(percent_text(-2e-7, 2), "0.00 %");
+  EXPECT_EQ(percent_text(-0.002, 2), "-0.20 %");
   EXPECT_EQ(number_text(0.08664), "0.0866");
   EXPECT_EQ(number_text(0.99961), "1.00");
   EXPECT_EQ(number_text(512.69, 4), "512.7");
@@ -141,6 +143,8 @@ TEST(Problems, AreReadFromTheStatusDetailsAndPrintedWithRemedies) {
   const CommandError error = error_of(status);
   EXPECT_EQ(error.code(), ExitCode::refused);
   EXPECT_EQ(error.message(), "the case has 2 problems");
+  list.mutable_problems(1)->set_field("filter");
+  EXPECT_EQ(problems_error(list).message(), "the request has 2 problems");
   EXPECT_EQ(problems_text(error.problems()),
             "loading.speed_m_per_s = -5: must be above 0\n    Remedy: give the plate's speed, such as 100\nlattice: is "
             "missing\n");

@@ -168,7 +168,7 @@ TEST_F(BackupTest, ATargetThatIsTakenIsRefusedWithWords) {
   std::ofstream(folder_.path() / "file") << "text";
   EXPECT_THAT(refusal([&] { store::restore_backup(backup(), folder_.path() / "file"); }), HasSubstr("is not a folder"));
   EXPECT_THAT(refusal([&] { store::take_backup(restored(), folder_.path() / "new"); }),
-              HasSubstr("contains no daemon's journal"));
+              HasSubstr("is not a data folder"));
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "new"));
   std::filesystem::remove(restored() / "mine");
   store::restore_backup(backup(), restored());

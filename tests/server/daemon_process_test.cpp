@@ -73,5 +73,19 @@ TEST(DaemonProcess, AKeyOfTheConfigFileThatIsNoOptionIsRefusedWithTheNearest) {
   EXPECT_NE(start_with("colour = \"red\"\n").find("\"colour\", which is not an option"), std::string::npos);
 }
 
+TEST(DaemonProcess, AnUnknownOptionIsRefusedWithTheNearest) {
+  const auto errors_of = [](const std::vector<std::string>& arguments) {
+    DaemonProcess daemon(arguments);
+    EXPECT_EQ(daemon.wait(), 2);
+    return daemon.errors();
+  };
+  EXPECT_NE(errors_of({"--wokers", "3"}).find("cellcrushd: --wokers is not an option. Did you mean \"--workers\"?"),
+            std::string::npos);
+  EXPECT_NE(errors_of({"token", "anna", "--scope", "read", "--scopes=admin"}).find("Did you mean \"--scope\"?"),
+            std::string::npos);
+  const std::string far = errors_of({"--colour=red"});
+  EXPECT_NE(far.find("--colour is not an option.\n`cellcrushd --help`"), std::string::npos) << far;
+}
+
 }  // namespace
 }  // namespace cellcrush::testing
