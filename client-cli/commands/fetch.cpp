@@ -60,7 +60,7 @@ class FetchedFiles {
 
   // The first file comes last: whoever waits for it finds the others in place.
   void commit() {
-    for (auto file = files_.rbegin(); file != files_.rend(); ++file) (*file)->commit();
+    for (std::size_t i = files_.size(); i-- > 0;) files_[i]->commit();
   }
 
   [[nodiscard]] const std::vector<fs::path>& paths() const { return paths_; }

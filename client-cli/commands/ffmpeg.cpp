@@ -39,6 +39,7 @@ void encode_movie(const std::filesystem::path& frames, int frames_per_second, co
                                     "yuv420p",
                                     movie.string()};
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   pid_t process = 0;

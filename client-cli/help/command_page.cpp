@@ -74,7 +74,7 @@ std::string examples(const std::string& footer) {
 }
 
 std::string command_section(const CLI::App& command) {
-  const std::string name = command.get_name();
+  const std::string& name = command.get_name();
   const std::vector<ArgumentEntry> arguments = argument_entries(command);
   std::string text = fmt::format("\n### {}\n\n{}\n```text\ncellcrush {} [OPTIONS]", name,
                                  block("", markdown(command.get_description() + ".")), name);

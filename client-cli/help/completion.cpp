@@ -68,8 +68,9 @@ std::string zsh_options(const CLI::App& app, std::string_view indent) {
     const std::string description = with_backslashes(option.description, "[]:\\");
     for (const std::string& name : option.names) {
       const std::string value = option.value.empty() ? "" : ":" + option.value + ":" + zsh_values(option.words);
-      text += fmt::format("{}{}\n", indent,
-                          in_single_quotes((option.repeatable ? "*" : "") + name + "[" + description + "]" + value));
+      const std::string specification =
+          fmt::format("{}{}[{}]{}", option.repeatable ? "*" : "", name, description, value);
+      text += fmt::format("{}{}\n", indent, in_single_quotes(specification));
     }
   }
   return text;

@@ -39,9 +39,10 @@ std::string options_section(const CLI::App& app) {
   std::string text;
   for (const OptionEntry& option : option_entries(app)) {
     std::string names;
-    for (const std::string& name : option.names) names += (names.empty() ? "\\fB" : ", \\fB") + roff(name) + "\\fR";
+    for (const std::string& name : option.names)
+      names += fmt::format("{}\\fB{}\\fR", names.empty() ? "" : ", ", roff(name));
     const std::string value = option.value.empty() ? "" : " \\fI" + roff(option.value) + "\\fR";
-    text += ".TP\n" + names + value + "\n" + roff(option.description) + "\n";
+    text += fmt::format(".TP\n{}{}\n{}\n", names, value, roff(option.description));
   }
   return text;
 }

@@ -72,6 +72,7 @@ std::vector<std::string> find_varied_fields(const std::vector<const v1::Case*>& 
     for (const std::string& field : find_differences(group)) uses[field] += group.size();
   }
   std::vector<std::string> fields;
+  fields.reserve(uses.size());
   for (const auto& [field, count] : uses) fields.push_back(field);
   std::stable_sort(fields.begin(), fields.end(),
                    [&](const std::string& a, const std::string& b) { return uses[a] > uses[b]; });

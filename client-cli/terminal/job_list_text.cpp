@@ -29,6 +29,7 @@ std::string job_list_text(const std::vector<v1::Job>& jobs, int width) {
   constexpr std::size_t kHeadings = 2;
   if (jobs.empty()) return "no jobs\n";
   std::vector<const v1::Case*> cases;
+  cases.reserve(jobs.size());
   for (const v1::Job& job : jobs) cases.push_back(&job.case_());
   const auto varied = find_varied_fields(cases);
   const std::vector<std::string> fields(varied.begin(), varied.begin() + std::min(varied.size(), kMostFields));

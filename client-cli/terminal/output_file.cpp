@@ -66,7 +66,8 @@ void OutputFile::fail(const char* what) const {
 bool begins_with_one_of(const std::filesystem::path& path, std::initializer_list<std::string_view> signatures) {
   std::error_code error;
   const auto status = std::filesystem::symlink_status(path, error);
-  const std::size_t longest = std::ranges::max(signatures, {}, &std::string_view::size).size();
+  std::size_t longest = 0;
+  for (const std::string_view signature : signatures) longest = std::max(longest, signature.size());
   std::string begin(std::filesystem::is_regular_file(status) ? longest : 0, '\0');
   std::ifstream file(path, std::ios::binary);
   file.read(begin.data(), static_cast<std::streamsize>(begin.size()));

@@ -35,6 +35,7 @@ std::string hold_text(const v1::Queue::Hold& hold) {
 std::vector<std::string> find_shown_fields(const std::vector<v1::Job>& jobs) {
   constexpr std::size_t kMost = 4;
   std::vector<const v1::Case*> cases;
+  cases.reserve(jobs.size());
   for (const v1::Job& job : jobs) cases.push_back(&job.case_());
   std::vector<std::string> fields = find_varied_fields(cases);
   fields.resize(std::min(fields.size(), kMost));

@@ -40,7 +40,7 @@ void Table::add(std::vector<std::string> cells) {
   rows_.push_back({std::move(cells)});
 }
 
-void Table::add_title(std::string title) { rows_.push_back({{printable(title)}, true}); }
+void Table::add_title(const std::string& title) { rows_.push_back({{printable(title)}, true}); }
 
 std::vector<std::string> Table::remove_constant_columns(std::size_t first, std::size_t headings) {
   std::vector<std::string> constants;

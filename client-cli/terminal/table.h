@@ -22,7 +22,7 @@ class Table {
   void add(std::vector<std::string> cells);
 
   /// A line over the whole width, above the rows that it names.
-  void add_title(std::string title);
+  void add_title(const std::string& title);
 
   /// Takes out the columns from number `first` on that say nothing: those with empty cells only and, of two or more
   /// rows, those in which all are the same. Returns what the latter say, as "heading value unit". The first `headings`

@@ -41,8 +41,7 @@ std::vector<std::string> words_of(const std::string& line) {
     if (!word.empty()) words.push_back(word);
     word.clear();
   };
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    const char letter = line[i];
+  for (const char letter : line) {
     if (quote != 0) {
       if (letter == quote) {
         quote = 0;
@@ -120,8 +119,9 @@ void check_mention(const ProgramHelp& help, const Page& page, const Mention& men
     const std::string option = option_of(word);
     if (option.empty() || help.options.contains(option)) continue;
     if (command != mention.words.end() && help.commands.at(*command).contains(option)) continue;
-    const std::string name = mention.program + (command != mention.words.end() ? " " + *command : "");
-    findings.push_back(place_of(page, mention.line) + name + " has no option " + option);
+    std::string name = mention.program;
+    if (command != mention.words.end()) name.append(" ").append(*command);
+    findings.push_back(place_of(page, mention.line).append(name).append(" has no option ").append(option));
   }
 }
 

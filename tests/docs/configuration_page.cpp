@@ -42,7 +42,7 @@ std::string limits_of(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   const auto colon = type.find(':');
   if (colon == std::string::npos) return "";
-  const std::string check = type.substr(colon + 1);
+  std::string check = type.substr(colon + 1);
   if (const auto open = check.find('['); open != std::string::npos) {
     const auto dash = check.find(" - ", open);
     const auto close = check.find(']', open);
@@ -80,8 +80,8 @@ std::string option_table(const std::vector<const CLI::Option*>& options,
   std::string out = "| Key | Default | Unit | Limits |\n|---|---|---|---|\n";
   for (const CLI::Option* option : options) {
     const std::string& name = option->get_lnames().front();
-    out += "| [`" + name + "`](#" + name + ") | " + default_in_help(*option) + " | " + prose.at(name).unit + " | " +
-           limits_of(*option) + " |\n";
+    out.append("| [`").append(name).append("`](#").append(name).append(") | ").append(default_in_help(*option));
+    out.append(" | ").append(prose.at(name).unit).append(" | ").append(limits_of(*option)).append(" |\n");
   }
   return out;
 }

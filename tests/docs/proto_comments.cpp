@@ -24,7 +24,7 @@ std::string base_type(const pb::FieldDescriptor& field) {
 }  // namespace
 
 const pb::DescriptorPool& commented_protos() {
-  static const pb::DescriptorPool* const pool = [] {
+  static const pb::DescriptorPool* const kPool = [] {
     pb::FileDescriptorSet files;
     std::ifstream stream(CELLCRUSH_DESCRIPTORS, std::ios::binary);
     if (!files.ParseFromIstream(&stream)) throw std::runtime_error(CELLCRUSH_DESCRIPTORS " cannot be read");
@@ -32,7 +32,7 @@ const pb::DescriptorPool& commented_protos() {
     for (const auto& file : files.file()) built->BuildFile(file);
     return built;
   }();
-  return *pool;
+  return *kPool;
 }
 
 const pb::FileDescriptor& find_proto(const std::string& name) {

@@ -1,3 +1,5 @@
+#include <google/protobuf/descriptor.pb.h>
+
 #include <vector>
 
 #include "docs/proto_comments.h"
@@ -36,7 +38,7 @@ bool is_of_case(const std::string& name) {
 
 // A type's name, linked to where it is described.
 std::string linked(const std::string& text, const std::string& name) {
-  const std::string code = "`" + text + "`";
+  std::string code = "`" + text + "`";
   if (name.empty() || name.starts_with("google.")) return code;
   return link(code, is_of_case(name) ? "fields.md" : "#" + anchor(name));
 }

@@ -62,7 +62,7 @@ std::string description_of(const std::string& comment) {
 }
 
 std::string type_of(const pb::FieldDescriptor& field, const std::vector<Group>& groups) {
-  const std::string text = "`" + type_text(field) + "`";
+  std::string text = "`" + type_text(field) + "`";
   if (field.message_type() == nullptr) return text;
   const auto group = std::find_if(groups.begin(), groups.end(),
                                   [&field](const Group& known) { return known.type == field.message_type(); });

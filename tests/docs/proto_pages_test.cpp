@@ -1,5 +1,6 @@
 #include "docs/proto_pages.h"
 
+#include <google/protobuf/descriptor.pb.h>
 #include <gtest/gtest.h>
 
 #include <cstdlib>
