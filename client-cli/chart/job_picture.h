@@ -13,8 +13,8 @@ namespace cellcrush::client {
 /// crush these are the stresses and the ledger.
 std::string render_job_picture(PictureFormat format, const JobHistory& history, const std::vector<MeshFrame>& stages);
 
-/// The same with the lattice left of the stress curves and without the ledger, as a slide needs it. REQUIRES: stages is not
-/// empty.
+/// The same with the lattice left of the stress curves and without the ledger, as a slide needs it. REQUIRES: stages is
+/// not empty.
 std::string render_wide_picture(PictureFormat format, const JobHistory& history, const std::vector<MeshFrame>& stages);
 
 /// The stages alone, without a title, as a figure with a caption needs them. REQUIRES: stages is not empty.

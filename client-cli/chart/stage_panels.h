@@ -16,9 +16,9 @@ struct StagePanels {
   double bottom = 0.0;              ///< where the next part of the picture may begin
 };
 
-/// Arranges the stages in `width` from (left, top) down: rows filled from the left, drawn from the impact plate on, so that a
-/// crushed lattice takes less room than a whole one. Of all numbers of rows it takes the one that draws them largest within
-/// a page's height, fewer rows where that costs little. REQUIRES: stages is not empty.
+/// Arranges the stages in `width` from (left, top) down: rows filled from the left, drawn from the impact plate on, so
+/// that a crushed lattice takes less room than a whole one. Of all numbers of rows it chooses the one that draws them
+/// largest within a page's height, fewer rows where that costs little. REQUIRES: stages is not empty.
 StagePanels lay_stages(const std::vector<MeshFrame>& stages, double left, double top, double width);
 
 /// Draws the stages with their letters, strains (a frame's: times) and a scale bar.

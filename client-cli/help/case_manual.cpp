@@ -37,18 +37,7 @@ template <typename Declaration>
 std::string comment_above(const Declaration& declaration) {
   google::protobuf::SourceLocation location;
   if (!declaration.GetSourceLocation(&location)) return {};
-  std::istringstream lines(location.leading_comments);
-  std::string text;
-  for (std::string line; std::getline(lines, line);) {
-    const std::size_t begin = line.find_first_not_of(' ');
-    if (begin == std::string::npos) {
-      text += "\n\n";
-      continue;
-    }
-    if (!text.empty() && text.back() != '\n') text += ' ';
-    text += line.substr(begin);
-  }
-  return text;
+  return join_comment(location.leading_comments);
 }
 
 // The comment on a field, then that on its type when it has one of its own.

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cctype>
+#include <sstream>
 #include <utility>
 
 namespace cellcrush::client {
@@ -57,6 +58,21 @@ std::vector<std::string> split_sentences(std::string_view text) {
     if (begin == std::string_view::npos) break;
   }
   return sentences;
+}
+
+std::string join_comment(const std::string& lines) {
+  std::istringstream stream(lines);
+  std::string text;
+  for (std::string line; std::getline(stream, line);) {
+    const std::size_t begin = line.find_first_not_of(' ');
+    if (begin == std::string::npos) {
+      text += "\n\n";
+      continue;
+    }
+    if (!text.empty() && text.back() != '\n') text += ' ';
+    text += line.substr(begin);
+  }
+  return text;
 }
 
 FieldComment parse_field_comment(std::string_view comment) {

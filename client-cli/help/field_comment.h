@@ -14,6 +14,9 @@ struct FieldComment {
   std::string limits;
 };
 
+/// Lines of a comment as text: line ends become spaces, empty lines end a paragraph ("\n\n").
+std::string join_comment(const std::string& lines);
+
 FieldComment parse_field_comment(std::string_view comment);
 
 /// The sentences of a text, with their full stops.

@@ -1,5 +1,5 @@
 // Time against accuracy of the choices that a crush has. `run` appends a row a crush to a table and leaves out what stands there
-// already, so that it can be stopped and gone on with, and two can share the work; `chart` draws a scene of the table,
+// already, so that it can be stopped and resumed, and two can share the work; `chart` draws a scene of the table,
 // `overview` its support plateau alone.
 //   work_precision run tests/bench/work_precision.txt table.csv [seeds=5] [part=1/2] [scene=NAME]
 //   work_precision chart tests/bench/work_precision.txt table.csv picture.svg scene=NAME converged=GROUP:LABEL

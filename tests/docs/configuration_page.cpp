@@ -10,11 +10,12 @@
 
 #include "command_line/daemon_flags.h"
 #include "docs/configuration_prose.h"
+#include "terminal/display_text.h"
 
 namespace cellcrush::docs {
 namespace {
 
-constexpr std::size_t kColumns = 120;
+constexpr int kColumns = 120;
 constexpr std::string_view kDefault = "(default: ";
 
 // The text of help before its default.
@@ -57,24 +58,6 @@ std::string limits_of(const CLI::Option& option) {
   return "`" + out + "`";
 }
 
-// Wrapped at kColumns; `first` before the first line, `others` before the others.
-std::string wrapped(const std::string& text, const std::string& first, const std::string& others) {
-  std::istringstream words(text);
-  std::string out;
-  std::string line = first;
-  bool is_empty = true;
-  for (std::string word; words >> word;) {
-    if (!is_empty && line.size() + 1 + word.size() > kColumns) {
-      out += line + "\n";
-      line = others;
-      is_empty = true;
-    }
-    line += (is_empty ? "" : " ") + word;
-    is_empty = false;
-  }
-  return out + line + "\n";
-}
-
 std::string option_table(const std::vector<const CLI::Option*>& options,
                          const std::map<std::string, OptionProse>& prose) {
   std::string out = "| Key | Default | Unit | Limits |\n|---|---|---|---|\n";
@@ -89,8 +72,8 @@ std::string option_table(const std::vector<const CLI::Option*>& options,
 std::string option_text(const CLI::Option& option, const OptionProse& prose) {
   const std::string& name = option.get_lnames().front();
   std::string out = "#### " + name + "\n\n";
-  out += wrapped("`--" + name + " " + prose.value + "`: " + meaning_of(option), "", "");
-  for (const auto& paragraph : prose.paragraphs) out += "\n" + wrapped(paragraph, "", "");
+  out += client::wrapped("`--" + name + " " + prose.value + "`: " + meaning_of(option), kColumns);
+  for (const auto& paragraph : prose.paragraphs) out += "\n" + client::wrapped(paragraph, kColumns);
   return out + "\n";
 }
 
@@ -114,7 +97,7 @@ std::string group_text(const OptionGroup& group, std::map<std::string, const CLI
     left.erase(found);
   }
   std::string out = "### " + group.title + "\n\n";
-  if (!group.introduction.empty()) out += wrapped(group.introduction, "", "") + "\n";
+  if (!group.introduction.empty()) out += client::wrapped(group.introduction, kColumns) + "\n";
   out += option_table(options, prose) + "\n";
   for (const CLI::Option* option : options) out += option_text(*option, prose.at(option->get_lnames().front()));
   return out;

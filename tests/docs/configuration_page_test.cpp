@@ -49,13 +49,18 @@ TEST(ConfigurationPageTest, DefaultsInTheHelpAreThoseInForce) {
   EXPECT_GE(compared, 12);
 }
 
-TEST(ConfigurationPageTest, ItsExampleIsAFileThatTheDaemonTakes) {
+// Parses flags together with the page's example of a file.
+void parse_with_example(CLI::App& app, const std::string& flags) {
   const auto path = std::filesystem::temp_directory_path() / ("configuration-example-" + std::to_string(getpid()));
   std::ofstream(path) << configuration_example();
+  EXPECT_NO_THROW(app.parse(flags + "--config " + path.string()));
+  std::filesystem::remove(path);
+}
+
+TEST(ConfigurationPageTest, ItsExampleIsAFileThatTheDaemonTakes) {
   CLI::App app("cellcrushd");
   const DaemonFlags flags(app);
-  EXPECT_NO_THROW(app.parse("--config " + path.string()));
-  std::filesystem::remove(path);
+  parse_with_example(app, "");
   const auto options = flags.options();
   EXPECT_EQ(options.data_folder, "/var/lib/cellcrush");
   EXPECT_EQ(options.listen.size(), 2U);
@@ -64,12 +69,9 @@ TEST(ConfigurationPageTest, ItsExampleIsAFileThatTheDaemonTakes) {
 }
 
 TEST(ConfigurationPageTest, FlagsOverrideTheFile) {
-  const auto path = std::filesystem::temp_directory_path() / ("configuration-override-" + std::to_string(getpid()));
-  std::ofstream(path) << configuration_example();
   CLI::App app("cellcrushd");
   const DaemonFlags flags(app);
-  EXPECT_NO_THROW(app.parse("--workers 2 --listen 127.0.0.1:0 --config " + path.string()));
-  std::filesystem::remove(path);
+  parse_with_example(app, "--workers 2 --listen 127.0.0.1:0 ");
   EXPECT_EQ(flags.options().workers, 2);
   EXPECT_EQ(flags.options().listen, std::vector<std::string>{"127.0.0.1:0"});
 }

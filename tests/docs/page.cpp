@@ -15,17 +15,9 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kColumns = 120;
 
-// As GitHub does: small letters, hyphens for spaces, no punctuation; a number behind the second of a name.
-std::string anchor_of(const std::string& heading, std::map<std::string, int>& seen) {
-  std::string anchor;
-  for (const char letter : heading) {
-    const auto byte = static_cast<unsigned char>(letter);
-    if (letter == ' ') {
-      anchor += '-';
-    } else if (byte >= 0x80 || std::isalnum(byte) != 0 || letter == '-' || letter == '_') {
-      anchor += static_cast<char>(byte < 0x80 ? std::tolower(byte) : byte);
-    }
-  }
+// GitHub puts a number behind the second heading of a name.
+std::string next_anchor(const std::string& heading, std::map<std::string, int>& seen) {
+  const std::string anchor = anchor_of(heading);
   const int before = seen[anchor]++;
   return before == 0 ? anchor : anchor + "-" + std::to_string(before);
 }
@@ -73,6 +65,19 @@ std::string without_comments(std::string line, bool& in_comment) {
 
 }  // namespace
 
+std::string anchor_of(const std::string& heading) {
+  std::string anchor;
+  for (const char letter : heading) {
+    const auto byte = static_cast<unsigned char>(letter);
+    if (letter == ' ') {
+      anchor += '-';
+    } else if (byte >= 0x80 || std::isalnum(byte) != 0 || letter == '-' || letter == '_') {
+      anchor += static_cast<char>(byte < 0x80 ? std::tolower(byte) : byte);
+    }
+  }
+  return anchor;
+}
+
 Page parse_page(std::string path, const std::string& text) {
   static const std::regex kFence(R"(^\s*(```+|~~~+)\s*([A-Za-z0-9_+-]*).*$)");
   static const std::regex kHeading(R"(^#{1,6}\s+(.*?)\s*#*$)");
@@ -101,7 +106,7 @@ Page parse_page(std::string path, const std::string& text) {
     }
     if (columns_of(line) > kColumns && !may_be_wide(line)) page.wide_lines.push_back(number);
     read_links(without_code(line, number, page.inline_codes), number, page.links);
-    if (std::regex_match(line, match, kHeading)) page.anchors.push_back(anchor_of(match[1].str(), seen));
+    if (std::regex_match(line, match, kHeading)) page.anchors.push_back(next_anchor(match[1].str(), seen));
   }
   return page;
 }

@@ -29,6 +29,9 @@ struct Page {
   std::vector<int> wide_lines;  ///< prose of more than 120 columns: neither code, table, link nor comment
 };
 
+/// The anchor of a heading as GitHub names it: small letters, hyphens for spaces, no punctuation.
+std::string anchor_of(const std::string& heading);
+
 /// Reads Markdown text. Nothing in a fenced block or an HTML comment counts as a link, a heading or code.
 Page parse_page(std::string path, const std::string& text);
 

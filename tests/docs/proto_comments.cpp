@@ -2,7 +2,6 @@
 
 #include <google/protobuf/descriptor.pb.h>
 
-#include <cctype>
 #include <fstream>
 #include <stdexcept>
 
@@ -41,21 +40,6 @@ const pb::FileDescriptor& find_proto(const std::string& name) {
   return *file;
 }
 
-std::string join_comment(const std::string& lines) {
-  std::istringstream stream(lines);
-  std::string text;
-  for (std::string line; std::getline(stream, line);) {
-    const std::size_t begin = line.find_first_not_of(' ');
-    if (begin == std::string::npos) {
-      text += "\n\n";
-      continue;
-    }
-    if (!text.empty() && text.back() != '\n') text += ' ';
-    text += line.substr(begin);
-  }
-  return text;
-}
-
 std::string short_name(const std::string& full_name) {
   return full_name.starts_with(kPackage) ? full_name.substr(kPackage.size()) : full_name;
 }
@@ -88,16 +72,6 @@ std::string cell(const std::string& text) {
 std::string paragraph(const std::string& text) {
   constexpr int kColumns = 118;
   return client::wrap_text(text, kColumns) + "\n";
-}
-
-std::string anchor(const std::string& heading) {
-  std::string out;
-  for (const char character : heading) {
-    const auto byte = static_cast<unsigned char>(character);
-    if (character == ' ') out += '-';
-    if (std::isalnum(byte) != 0 || character == '_' || character == '-') out += static_cast<char>(std::tolower(byte));
-  }
-  return out;
 }
 
 std::string link(const std::string& text, const std::string& target) { return "[" + text + "](" + target + ")"; }

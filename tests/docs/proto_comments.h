@@ -2,9 +2,10 @@
 
 #include <google/protobuf/descriptor.h>
 
-#include <sstream>
 #include <string>
 #include <vector>
+
+#include "help/field_comment.h"
 
 namespace cellcrush::docs {
 
@@ -14,14 +15,11 @@ const google::protobuf::DescriptorPool& commented_protos();
 /// A file of the project, such as "case" for cellcrush/v1/case.proto. Throws std::runtime_error when there is none.
 const google::protobuf::FileDescriptor& find_proto(const std::string& name);
 
-/// Lines of a comment as text: line ends become spaces, empty lines end a paragraph ("\n\n").
-std::string join_comment(const std::string& lines);
-
 /// The comment above a declaration; empty when there is none.
 template <typename Declaration>
 std::string comment_above(const Declaration& declaration) {
   google::protobuf::SourceLocation location;
-  return declaration.GetSourceLocation(&location) ? join_comment(location.leading_comments) : std::string();
+  return declaration.GetSourceLocation(&location) ? client::join_comment(location.leading_comments) : std::string();
 }
 
 /// Name of a message or enum without the package: "Lattice.Hexagon".
@@ -38,9 +36,6 @@ std::string cell(const std::string& text);
 
 /// The text in lines of at most 118 columns.
 std::string paragraph(const std::string& text);
-
-/// The anchor of a heading, as GitHub makes it.
-std::string anchor(const std::string& heading);
 
 /// "[text](target)".
 std::string link(const std::string& text, const std::string& target);

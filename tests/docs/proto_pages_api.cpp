@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "docs/page.h"
 #include "docs/proto_comments.h"
 #include "docs/proto_pages.h"
 
@@ -40,7 +41,7 @@ bool is_of_case(const std::string& name) {
 std::string linked(const std::string& text, const std::string& name) {
   std::string code = "`" + text + "`";
   if (name.empty() || name.starts_with("google.")) return code;
-  return link(code, is_of_case(name) ? "fields.md" : "#" + anchor(name));
+  return link(code, is_of_case(name) ? "fields.md" : "#" + anchor_of(name));
 }
 
 bool all_output_only(const pb::Descriptor& type) {

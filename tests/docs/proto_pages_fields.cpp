@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "docs/page.h"
 #include "docs/proto_comments.h"
 #include "docs/proto_pages.h"
 #include "help/field_comment.h"
@@ -66,7 +67,7 @@ std::string type_of(const pb::FieldDescriptor& field, const std::vector<Group>& 
   if (field.message_type() == nullptr) return text;
   const auto group = std::find_if(groups.begin(), groups.end(),
                                   [&field](const Group& known) { return known.type == field.message_type(); });
-  return link(text, "#" + anchor(group->path));
+  return link(text, "#" + anchor_of(group->path));
 }
 
 std::string row_of(const pb::FieldDescriptor& field, const std::vector<Group>& groups) {

@@ -1,7 +1,7 @@
 #!/bin/sh
 # Example 2 of the paper at 2 and 10 m/s, with 50 and 100 m/s beside them, and Example 3: crushes of minutes to hours,
 # one after another. Each leaves a row of FOLDER/slow_half.csv, its curve and its frames; what has its row is left out,
-# so that the script can be stopped and gone on with. Names choose some of them; `list` tells all.
+# so that the script can be stopped and resumed. Names choose some of them; `list` tells all.
 #   tests/validation/slow_half.sh build/ci/bin/validate FOLDER [NAME ...]
 #   tests/validation/slow_half.sh list
 set -eu
