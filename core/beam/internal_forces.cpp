@@ -1,108 +1,215 @@
 #include "beam/internal_forces.h"
 
 #include <algorithm>
+#include <numeric>
+#include <span>
 
-#include "beam/beam_element.h"
-#include "beam/deformation.h"
-#include "beam/element_place.h"
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "beam/internal_forces.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
 #include "beam/joint_forces.h"
-#include "beam/wide_walls.h"
-#include "simd/target.h"
+#include "beam/wall_chunk-inl.h"
 
-namespace cellcrush {
-namespace {
+HWY_BEFORE_NAMESPACE();
+namespace cellcrush::HWY_NAMESPACE {
 
-/// Adds an element's forces to the particles inside its wall, or notes them for the joints.
-void put_forces(const Scene& scene, State& state, const ElementPlace& place, int wall, const ElementForces& forces) {
-  const Element& element = scene.elements[place.element];
-  const auto lane = static_cast<int>(place.element - place.row);
-  const std::size_t at_start = 2 * static_cast<std::size_t>(wall) - static_cast<std::size_t>(lane);
-  if (element.start < scene.joint_count) {
-    state.wall_force[at_start] = forces.force_on_end;
-    state.wall_moment[at_start] = -forces.moment_on_start;
-  } else {
-    state.internal_force[element.start] += forces.force_on_end;
-    state.internal_moment[element.start] -= forces.moment_on_start;
+/// Chunks that a thread takes at once in respond_walls.
+constexpr std::size_t kChunksInPiece = 2;
+
+/// The walls' loops over a chunk, for one section rule. Full blocks fill vectors; other blocks, and rules whose counts are
+/// not known at compile time, are computed wall by wall.
+template <bool kForceBased, bool kHardening, class Rule>
+class WallLoops {
+ public:
+  using T = typename Rule::Number;
+
+  WallLoops(const Scene& scene, State& state, FibreMemory<T>& memory)
+      : scene_(scene),
+        state_(state),
+        memory_(memory),
+        step_(state.step == 0 ? 0.0 : scene.schedule.time_step),
+        rule_(scene.section) {}
+
+  [[nodiscard]] std::size_t element_count(std::size_t chunk) const {
+    const std::span<const WallBlock> blocks = blocks_of(chunk);
+    return blocks.back().first_element + blocks.back().walls * blocks.back().elements - blocks.front().first_element;
   }
-  if (element.end < scene.joint_count) {
-    state.wall_force[at_start + place.stride] = -forces.force_on_end;
-    state.wall_moment[at_start + place.stride] = -forces.moment_on_end;
+
+  /// Where a chunk's scratch begins in that of all chunks.
+  [[nodiscard]] T* scratch_of(LaneVector<T>& all, std::size_t chunk) const {
+    return &all[kScratchKinds * blocks_of(chunk).front().first_element];
+  }
+
+  /// Returns whether some elements are compressed, with a modulus of their own.
+  bool deform(std::size_t chunk, T* scratch) const {
+    bool is_compressed = false;
+    with_chunk(chunk, scratch, [&](auto& walls) HWY_ATTR { is_compressed = walls.deform(); });
+    return is_compressed;
+  }
+
+  /// Returns the plastic work.
+  double respond(std::size_t chunk, T* scratch, bool is_compressed) const {
+    double work[kMostWallsInBlock] = {};
+    with_chunk(chunk, scratch, [&](auto& walls) HWY_ATTR { walls.respond(is_compressed, work); });
+    return sum_of(work);
+  }
+
+  /// Both, while the chunk is in the nearest cache. Returns the plastic work.
+  double advance(std::size_t chunk, LaneVector<T>& scratch) const {
+    scratch.resize(std::max(scratch.size(), kScratchKinds * element_count(chunk)));
+    double work[kMostWallsInBlock] = {};
+    with_chunk(chunk, scratch.data(), [&](auto& walls) HWY_ATTR { walls.respond(walls.deform(), work); });
+    return sum_of(work);
+  }
+
+ private:
+  template <std::size_t kWidth>
+  using Chunk = WallChunk<kForceBased, kHardening, Rule, hn::CappedTag<double, kWidth>, hn::CappedTag<T, kWidth>>;
+
+  [[nodiscard]] std::span<const WallBlock> blocks_of(std::size_t chunk) const {
+    const std::vector<int>& offset = scene_.walls.chunk_offset;
+    return std::span(scene_.walls.blocks).subspan(offset[chunk], offset[chunk + 1] - offset[chunk]);
+  }
+
+  template <class Visit>
+  HWY_INLINE void with_chunk(std::size_t chunk, T* scratch, const Visit& visit) const {
+    const std::span<const WallBlock> blocks = blocks_of(chunk);
+    if constexpr (Rule::kIsFixed) {
+      if (blocks.front().walls == kMostWallsInBlock) {
+        Chunk<kMostWallsInBlock> walls(scene_, state_, memory_, step_, rule_, blocks, scratch);
+        visit(walls);
+        return;
+      }
+    }
+    Chunk<1> walls(scene_, state_, memory_, step_, rule_, blocks, scratch);
+    visit(walls);
+  }
+
+  static double sum_of(const double (&work)[kMostWallsInBlock]) {
+    return std::accumulate(work, work + kMostWallsInBlock, 0.0);
+  }
+
+  const Scene& scene_;
+  State& state_;
+  FibreMemory<T>& memory_;
+  const double step_;
+  const Rule rule_;
+};
+
+/// Calls use(the loops of the scene's rule).
+template <bool kHardening, class T, class Use>
+void with_loops(const Scene& scene, State& state, FibreMemory<T>& memory, const Use& use) {
+  const bool is_known = has_known_counts(scene.section);
+  if (scene.section.force_based) {
+    is_known ? use(WallLoops<true, kHardening, RuleFactors<4, 6, T>>(scene, state, memory))
+             : use(WallLoops<true, kHardening, RuleFactors<0, 0, T>>(scene, state, memory));
   } else {
-    state.internal_force[element.end] = -forces.force_on_end;
-    state.internal_moment[element.end] = -forces.moment_on_end;
+    is_known ? use(WallLoops<false, kHardening, RuleFactors<2, 6, T>>(scene, state, memory))
+             : use(WallLoops<false, kHardening, RuleFactors<0, 0, T>>(scene, state, memory));
   }
 }
 
-/// Fixed numbers of points compile to straight code; 0 takes the rule's.
-template <int kDepthPoints, bool kHardening, class T>
-void evaluate_elements(const Scene& scene, State& state, FibreMemory<T>& memory) {
-  const double step = state.step == 0 ? 0.0 : scene.schedule.time_step;
-  const bool force_based = scene.section.force_based;
-  double plastic_work = 0.0;
-  visit_elements(scene, [&](const ElementPlace& place, int wall) {
-    const std::size_t e = place.element;
-    const Element& element = scene.elements[e];
-    const double previous_length = state.length[e];
-    const Deformation deformation =
-        reverse_motion(state.position[element.end] - state.position[element.start], state.axis[e], previous_length,
-                       step * state.spin[element.start], step * state.spin[element.end]);
-    const BeamSection section = section_of(scene, wall, deformation.length);
-    Material material = scene.materials[element.material];
-    material.youngs_modulus *= section.stiffness;
-    const std::size_t fibre = place.index(scene.fibre_count(), 0);
-    const Fibres<T> fibres = {&memory.stress[fibre], kHardening ? &memory.back_stress[fibre] : nullptr,
-                              kHardening ? &memory.plastic_strain[fibre] : nullptr,
-                              kHardening ? nullptr : &memory.flowed[e], place.stride};
-    const std::size_t remembered = force_based ? place.index(scene.section.section_count(), 0) : 0;
-    const SectionMemory<T> sections = {memory.section_unbalance.data() + remembered,
-                                       memory.section_flexibility.data() + remembered, place.stride};
-    EndMoments moments;
-    if (force_based) {
-      moments = {memory.start_moment[e], memory.end_moment[e]};
+template <class Use>
+void with_loops(const Scene& scene, State& state, const Use& use) {
+  const auto with_memory = [&](auto& memory) {
+    scene.has_hardening() ? with_loops<true>(scene, state, memory, use) : with_loops<false>(scene, state, memory, use);
+  };
+  scene.single_fibres ? with_memory(state.single_fibres) : with_memory(state.fibres);
+}
+
+/// Sums the forces on the joints at which two threads' chunks meet.
+void sum_between_threads(const Scene& scene, State& state, const LatticeBand& band, const Workers& workers) {
+  const auto chunks = static_cast<std::size_t>(band.end_chunk - band.first_chunk);
+  for (int part = 1; part < workers.count(); ++part) {
+    const std::size_t chunk = workers.start_of_part(chunks, part);
+    if (chunk > 0 && chunk < chunks) {
+      const std::size_t c = band.first_chunk + chunk;
+      sum_joint_forces(scene, state, scene.walls.end_joint[c - 1], scene.walls.first_joint[c]);
     }
-    const ElementForces forces = evaluate_element<kDepthPoints, kHardening>(
-        deformation, previous_length, material, section, scene.section, fibres, sections, moments, plastic_work);
-    state.axis[e] = deformation.axis;
-    state.length[e] = deformation.length;
-    state.inverse_length[e] = 1.0 / deformation.length;
-    if (force_based) {
-      memory.start_moment[e] = static_cast<T>(moments.start);
-      memory.end_moment[e] = static_cast<T>(moments.end);
-    }
-    put_forces(scene, state, place, wall, forces);
+  }
+}
+
+/// The forces on joints are summed as soon as all their walls have been evaluated, while they are in the cache.
+void evaluate_band(const Scene& scene, State& state, const LatticeBand& band, WallsWorkspace& workspace,
+                   Workers& workers, double* plastic_work) {
+  const std::vector<int>& end_joint = scene.walls.end_joint;
+  with_loops(scene, state, [&](const auto& loops) HWY_ATTR {
+    using T = typename std::decay_t<decltype(loops)>::T;
+    const auto advance = [&](std::size_t thread, std::size_t first, std::size_t end) HWY_ATTR {
+      LaneVector<T>& scratch = workspace.of_thread[thread].template of<T>();
+      int joint = 0;
+      for (std::size_t c = band.first_chunk + first; c < band.first_chunk + end; ++c) {
+        if (c == band.first_chunk + first) {
+          joint = first > 0 ? scene.walls.first_joint[c] : (c > 0 ? end_joint[c - 1] : 0);
+        }
+        plastic_work[c] = loops.advance(c, scratch);
+        sum_joint_forces(scene, state, joint, end_joint[c]);
+        joint = std::max(joint, end_joint[c]);
+      }
+    };
+    workers.share_parts(static_cast<std::size_t>(band.end_chunk - band.first_chunk), 1, advance);
   });
-  state.ledger.plastic += plastic_work;
+  sum_between_threads(scene, state, band, workers);
 }
 
-template <bool kHardening, class T>
-void evaluate_rule(const Scene& scene, State& state, FibreMemory<T>& memory) {
-  switch (scene.section.depth_count()) {
-    case 4: evaluate_elements<4, kHardening>(scene, state, memory); break;
-    case 6: evaluate_elements<6, kHardening>(scene, state, memory); break;
-    default: evaluate_elements<0, kHardening>(scene, state, memory); break;
-  }
+void deform_all(const Scene& scene, State& state, WallsWorkspace& workspace, Workers& workers) {
+  with_loops(scene, state, [&](const auto& loops) HWY_ATTR {
+    using T = typename std::decay_t<decltype(loops)>::T;
+    LaneVector<T>& scratch = workspace.all.template of<T>();
+    scratch.resize(kScratchKinds * scene.element_count());
+    workers.share(workspace.compressed.size(), [&](std::size_t first, std::size_t end) HWY_ATTR {
+      for (std::size_t c = first; c < end; ++c) {
+        workspace.compressed[c] = loops.deform(c, loops.scratch_of(scratch, c)) ? 1 : 0;
+      }
+    });
+  });
 }
 
-template <class T>
-void evaluate_walls(const Scene& scene, State& state, FibreMemory<T>& memory) {
-  if (scene.has_hardening()) {
-    evaluate_rule<true>(scene, state, memory);
-  } else {
-    evaluate_rule<false>(scene, state, memory);
-  }
+void respond_piece(const Scene& scene, State& state, WallsWorkspace& workspace, std::size_t piece,
+                   double* plastic_work) {
+  with_loops(scene, state, [&](const auto& loops) HWY_ATTR {
+    using T = typename std::decay_t<decltype(loops)>::T;
+    LaneVector<T>& scratch = workspace.all.template of<T>();
+    const std::size_t end = std::min(workspace.compressed.size(), (piece + 1) * kChunksInPiece);
+    for (std::size_t c = piece * kChunksInPiece; c < end; ++c) {
+      plastic_work[c] = loops.respond(c, loops.scratch_of(scratch, c), workspace.compressed[c] != 0);
+    }
+  });
 }
 
-}  // namespace
+std::size_t piece_count(std::size_t chunks) { return (chunks + kChunksInPiece - 1) / kChunksInPiece; }
 
-void evaluate_internal_forces(const Scene& scene, State& state, WallsWorkspace& workspace, Workers& workers,
-                              const std::function<void()>& meanwhile) {
-  if (use_wide_kernels() && has_vector_kernel(scene.section)) {
-    evaluate_walls_wide(scene, state, workspace, workers, meanwhile);
-    return;
-  }
-  scene.single_fibres ? evaluate_walls(scene, state, state.single_fibres) : evaluate_walls(scene, state, state.fibres);
-  sum_joint_forces(scene, state, 0, static_cast<std::size_t>(scene.joint_count));
-  meanwhile();
+}  // namespace cellcrush::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace cellcrush {
+
+HWY_EXPORT(evaluate_band);
+HWY_EXPORT(deform_all);
+HWY_EXPORT(respond_piece);
+
+void evaluate_internal_forces(const Scene& scene, State& state, const LatticeBand& band, WallsWorkspace& workspace,
+                              Workers& workers, double* plastic_work) {
+  workspace.of_thread.resize(static_cast<std::size_t>(workers.count()));
+  HWY_DYNAMIC_DISPATCH(evaluate_band)(scene, state, band, workspace, workers, plastic_work);
+}
+
+void deform_walls(const Scene& scene, State& state, WallsWorkspace& workspace, Workers& workers) {
+  workspace.compressed.resize(static_cast<std::size_t>(scene.walls.chunk_count()));
+  HWY_DYNAMIC_DISPATCH(deform_all)(scene, state, workspace, workers);
+}
+
+std::size_t wall_piece_count(const Scene& scene) {
+  return HWY_STATIC_DISPATCH(piece_count)(static_cast<std::size_t>(scene.walls.chunk_count()));
+}
+
+void respond_walls(const Scene& scene, State& state, WallsWorkspace& workspace, std::size_t piece,
+                   double* plastic_work) {
+  HWY_DYNAMIC_DISPATCH(respond_piece)(scene, state, workspace, piece, plastic_work);
 }
 
 }  // namespace cellcrush
+#endif

@@ -3,7 +3,7 @@
 namespace cellcrush {
 
 void sum_joint_forces(const Scene& scene, State& state, std::size_t first, std::size_t end) {
-  // Pointers in place of the vectors, which would be asked anew where their numbers lie after every store of a number.
+  // Raw pointers: a store may alias a vector's own pointer.
   const int* const offsets = scene.wall_end_offset.data();
   const int* const wall_ends = scene.wall_ends.data();
   const Vector2* const forces = state.wall_force.data();
@@ -28,6 +28,11 @@ void sum_joint_forces(const Scene& scene, State& state, std::size_t first, std::
     sums[joint] = force;
     sums_of_moments[joint] = moment;
   }
+}
+
+void sum_joint_forces(const Scene& scene, State& state, Workers& workers) {
+  workers.share(static_cast<std::size_t>(scene.joint_count),
+                [&](std::size_t first, std::size_t end) { sum_joint_forces(scene, state, first, end); });
 }
 
 }  // namespace cellcrush

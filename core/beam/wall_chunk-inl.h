@@ -6,116 +6,105 @@
 #define CELLCRUSH_BEAM_WALL_CHUNK_INL_H_
 #endif
 
-#include <hwy/highway.h>
-
 #include <algorithm>
+#include <cstddef>
 #include <span>
 
-#include "beam/wall_lanes-inl.h"
+#include "beam/cross_section-inl.h"
+#include "beam/deformation-inl.h"
+#include "beam/element_response-inl.h"
 #include "beam/walls_workspace.h"
 #include "cellcrush/state.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {
 
-namespace hn = hwy::HWY_NAMESPACE;
-
-/// Materials of the lanes; `modulus` and `hardening` are E and H.
-template <class D>
-HWY_INLINE LaneMaterial<D> complete(D d, hn::Vec<D> modulus, hn::Vec<D> yield, hn::Vec<D> hardening,
-                                    hn::Vec<D> isotropic) {
-  using T = hn::TFromD<D>;
-  return {modulus,
-          yield,
-          hn::Div(hn::Set(d, T(1.0)), hn::Add(modulus, hardening)),
-          hn::Mul(isotropic, hardening),
-          hn::Mul(hn::Sub(hn::Set(d, T(1.0)), isotropic), hardening),
-          hardening,
-          hn::Div(hn::Set(d, T(12.0)), modulus)};
-}
-
-/// One material in all lanes.
-template <class D>
-HWY_INLINE LaneMaterial<D> uniform_material(D d, const Material& material) {
-  const auto set = [&](double value) HWY_ATTR { return hn::Set(d, static_cast<hn::TFromD<D>>(value)); };
-  return complete(d, set(material.youngs_modulus), set(material.yield_stress), set(material.hardening_modulus),
-                  set(material.isotropic_fraction));
-}
-
-/// Materials of the walls from `wall` on.
-template <class D>
-HWY_INLINE LaneMaterial<D> material_of(D d, const Scene& scene, int wall) {
-  using T = hn::TFromD<D>;
-  T values[4][kMostWallsInBlock];
-  for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) {
-    const Material& material = scene.materials[scene.walls.material[wall + lane]];
-    values[0][lane] = static_cast<T>(material.youngs_modulus);
-    values[1][lane] = static_cast<T>(material.yield_stress);
-    values[2][lane] = static_cast<T>(material.hardening_modulus);
-    values[3][lane] = static_cast<T>(material.isotropic_fraction);
-  }
-  return complete(d, hn::LoadU(d, values[0]), hn::LoadU(d, values[1]), hn::LoadU(d, values[2]),
-                  hn::LoadU(d, values[3]));
-}
-
-/// The material with a share of its modulus.
-template <class D>
-HWY_INLINE LaneMaterial<D> with_stiffness(D d, const LaneMaterial<D>& material, hn::Vec<D> share) {
-  using T = hn::TFromD<D>;
-  LaneMaterial<D> softer = material;
-  softer.modulus = hn::Mul(material.modulus, share);
-  softer.inverse = hn::Div(hn::Set(d, T(1.0)), hn::Add(softer.modulus, material.hardening));
-  softer.bending_flexibility = hn::Div(hn::Set(d, T(12.0)), softer.modulus);
-  return softer;
-}
-
 /// Position and turn of the particles at one end of the lanes' elements.
 template <class D>
-struct LaneNode {
+struct EndMotion {
   Points<D> position;
-  hn::Vec<D> turn;
+  Lane<D> turn;
 };
 
-/// What an element does to its ends; the force on the start is the reverse of that on the end.
+/// Forces by which elements resist (Eq. 31, 32), in the fixed frame: N and N mm. The force on the start node is the
+/// reverse of that on the end node.
 template <class D>
-struct LaneForces {
+struct NodalForces {
   Points<D> force_on_end;
-  hn::Vec<D> moment_on_start;
-  hn::Vec<D> moment_on_end;
+  Lane<D> moment_on_start;
+  Lane<D> moment_on_end;
 };
 
-/// Kinds of what passes between the three loops over a chunk's elements, in the fibres' precision. Row by row: the values of
-/// a kind lie side by side, and a row's kinds one after the other. What the stresses sum up to takes the places of the strains.
-enum class Passed { membrane, bend_start, bend_end, stiffness };
-constexpr Passed kAxial = Passed::membrane;
-constexpr Passed kMomentStart = Passed::bend_start;
-constexpr Passed kMomentEnd = Passed::bend_end;
-constexpr Passed kPlasticWork = Passed::stiffness;
+/// Increments of strain of a row's elements, which the first loop over a chunk leaves for the second.
+template <class T>
+struct RowStrains {
+  T* membrane;
+  T* bend_start;  ///< rotation times h / l
+  T* bend_end;
+  T* modulus_share;
+};
 
-/// More fibres than this do not stay in the third cache from step to step, and are brought from memory some rows ahead: with
-/// 16 times the cells of Type I the walls take a third less. Of fewer it costs 0.15 ns an element-step.
+/// What the stresses of a row's elements sum to, which the second loop leaves for the third.
+template <class T>
+struct RowSums {
+  T* axial;
+  T* moment_start;
+  T* moment_end;
+  T* plastic_work;
+};
+
+/// Values that pass between the three loops over a chunk's elements, in the fibres' precision, kScratchKinds an element. Row
+/// by row: the values of a kind lie side by side, and a row's kinds one after the other. The sums overwrite the strains.
+template <class T>
+class ChunkScratch {
+ public:
+  ChunkScratch(T* values, std::ptrdiff_t first_element) : values_(values), first_(first_element) {}
+
+  HWY_INLINE RowStrains<T> strains(std::ptrdiff_t row, int lane, int walls) const {
+    T* const at = begin(row, lane);
+    return {at, at + walls, at + 2 * walls, at + 3 * walls};
+  }
+  HWY_INLINE RowSums<T> sums(std::ptrdiff_t row, int lane, int walls) const {
+    T* const at = begin(row, lane);
+    return {at, at + walls, at + 2 * walls, at + 3 * walls};
+  }
+
+ private:
+  HWY_INLINE T* begin(std::ptrdiff_t row, int lane) const {
+    return values_ + static_cast<std::ptrdiff_t>(kScratchKinds) * (row - first_) + lane;
+  }
+
+  T* const values_;
+  const std::ptrdiff_t first_;
+};
+
+/// More fibres than this do not stay in the third cache from step to step, and are prefetched from memory some rows ahead: with
+/// 16 times the cells of Type I the walls take a third less. With fewer, prefetching costs 0.15 ns an element-step.
 constexpr std::size_t kCachedFibres = 1'000'000;
 
-/// A step of some neighbouring blocks' walls. Three short loops, over geometry, fibres and forces: the processor works at
-/// several elements at a time, where each by itself is a long chain of operations, and the fibres may be in single precision
-/// (lanes F) where motion and forces are in double (lanes D).
-template <int kSections, int kDepthPoints, bool kForceBased, bool kHardening, class D, class F>
+/// A step of the walls of some neighbouring blocks (Eq. 7-32). Three short loops, over geometry, fibres and forces: the
+/// processor works at several elements at a time, where each by itself is a long chain of operations. Motion and forces are in
+/// double precision (lanes D), fibres in single or double (lanes F).
+///
+/// Deviations: strains are taken over the mean length of the step (Eq. 24-26 take l_a), so that a way there and back leaves no
+/// strain and the work of the forces is that of the stresses; the shear force of Eq. 31 takes the current length, with which
+/// alone angular momentum is kept; the forward rotation of Eq. 32 is the current axis itself, so no rotation matrix is needed.
+template <bool kForceBased, bool kHardening, class Rule, class D, class F>
 class WallChunk {
-  using V = hn::Vec<D>;
   using T = hn::TFromD<F>;
-  using VF = hn::Vec<F>;
-
-  static constexpr std::ptrdiff_t kFibres = kSections * kDepthPoints;
+  using Real = Lane<D>;
+  using Stress = Lane<F>;
 
  public:
-  /// `passed` has room for kPassedKinds values of each of the blocks' elements.
-  WallChunk(const Scene& scene, State& state, FibreMemory<T>& memory, double step,
-            const RuleFactors<kSections, kDepthPoints, T>& rule, std::span<const WallBlock> blocks, T* passed)
+  /// `scratch` has room for kScratchKinds values of each of the blocks' elements.
+  WallChunk(const Scene& scene, State& state, FibreMemory<T>& memory, double step, const Rule& rule,
+            std::span<const WallBlock> blocks, T* scratch)
       : scene_(scene),
         memory_(memory),
         step_(step),
         rule_(rule),
         blocks_(blocks),
+        scratch_(scratch, blocks.front().first_element),
         position_(state.position.data()),
         spin_(state.spin.data()),
         axis_(state.axis.data()),
@@ -126,30 +115,28 @@ class WallChunk {
         internal_force_(state.internal_force.data()),
         internal_moment_(state.internal_moment.data()),
         stress_(memory.stress.data()),
-        passed_(passed),
-        first_(blocks.front().first_element),
-        fetches_fibres_(memory.stress.size() > kCachedFibres),
-        uniform_(uniform_material(f_, scene.materials.front())) {}
+        prefetches_(memory.stress.size() > kCachedFibres),
+        uniform_(scene.materials.front()) {}
 
-  /// The first loop: axes, lengths and strains. Returns whether some elements have a stiffness of their own.
-  HWY_INLINE bool measure() {
-    visit_lanes(d_, [&](const WallBlock& block, int lane) HWY_ATTR { reverse_motions(block, lane); });
-    return is_squashed_;
+  /// The first loop: axes, lengths and strains. Returns whether some elements are compressed, with a modulus of their own.
+  HWY_INLINE bool deform() {
+    visit_lanes<D>([&](const WallBlock& block, int lane) HWY_ATTR { reverse_motions(block, lane); });
+    return is_compressed_;
   }
 
-  /// The others: stresses and forces, by what the first has returned. Adds the plastic work to that of the lanes.
-  HWY_INLINE void respond(bool is_squashed, double* HWY_RESTRICT plastic_work) {
-    is_squashed_ = is_squashed;
-    visit_lanes(f_, [&](const WallBlock& block, int lane) HWY_ATTR { return_fibres(block, lane); });
-    visit_lanes(d_, [&](const WallBlock& block, int lane) HWY_ATTR { put_forces(block, lane, plastic_work + lane); });
+  /// The others: stresses and forces. `is_compressed` is what the first returned. Adds the plastic work to that of the lanes.
+  HWY_INLINE void respond(bool is_compressed, double* HWY_RESTRICT plastic_work) {
+    is_compressed_ = is_compressed;
+    visit_lanes<F>([&](const WallBlock& block, int lane) HWY_ATTR { return_map_fibres(block, lane); });
+    visit_lanes<D>([&](const WallBlock& block, int lane) HWY_ATTR { put_forces(block, lane, plastic_work + lane); });
   }
 
  private:
-  /// Calls visit(block, lane) for every lot of walls that fills the lanes.
-  template <class Lanes, class Visit>
-  HWY_INLINE void visit_lanes(Lanes lanes, Visit&& visit) const {
+  /// Calls visit(block, lane) for every group of walls that fills the lanes of tag L.
+  template <class L, class Visit>
+  HWY_INLINE void visit_lanes(Visit&& visit) const {
     for (const WallBlock& block : blocks_) {
-      for (int lane = 0; lane < walls_of(block); lane += static_cast<int>(hn::MaxLanes(lanes))) {
+      for (int lane = 0; lane < walls_of(block); lane += static_cast<int>(Lane<L>::kWidth)) {
         visit(block, lane);
       }
     }
@@ -157,200 +144,181 @@ class WallChunk {
 
   /// Walls of a block, which are the elements of a row: a constant where they fill vectors, so that what lies side by side
   /// has addresses that are known.
-  HWY_INLINE static int walls_of(const WallBlock& block) {
-    return hn::MaxLanes(D()) == 1 ? block.walls : kMostWallsInBlock;
-  }
+  HWY_INLINE static int walls_of(const WallBlock& block) { return Real::kWidth == 1 ? block.walls : kMostWallsInBlock; }
 
   HWY_INLINE static std::ptrdiff_t row_of(const WallBlock& block, int j) {
     return block.first_element + static_cast<std::ptrdiff_t>(j) * walls_of(block);
   }
 
-  /// Values of the lanes' elements of a row.
-  HWY_INLINE T* values_of(Passed kind, std::ptrdiff_t row, int lane, int walls) const {
-    return passed_ + static_cast<std::ptrdiff_t>(kPassedKinds) * (row - first_) + static_cast<int>(kind) * walls + lane;
+  HWY_INLINE EndMotion<D> gather_joint(const int* joints) const {
+    return {gather<D>(position_, joints), Real(step_) * gather<D>(spin_, joints)};
   }
 
-  HWY_INLINE LaneNode<D> gather_joint(const int* joints) const {
-    return {gather_points(d_, position_, joints), hn::Mul(hn::Set(d_, step_), gather_numbers(d_, spin_, joints))};
+  HWY_INLINE EndMotion<D> load_inner(std::ptrdiff_t particle) const {
+    return {Points<D>::load(position_ + particle), Real(step_) * Real::load(spin_ + particle)};
   }
 
-  HWY_INLINE LaneNode<D> load_inner(std::ptrdiff_t particle) const {
-    return {load_points(d_, position_ + particle), hn::Mul(hn::Set(d_, step_), hn::LoadU(d_, spin_ + particle))};
-  }
-
-  /// From the motion of the ends to the strains of the step; see evaluate_element.
+  /// From the motion of the ends to the strains of the step.
   HWY_INLINE void reverse_motions(const WallBlock& block, int lane) {
     const int wall = block.first_wall + lane;
-    const V thickness = hn::LoadU(d_, &scene_.walls.thickness[wall]);
-    const V undeformed = hn::LoadU(d_, &scene_.walls.undeformed_length[wall]);
-    LaneNode<D> start = gather_joint(&scene_.walls.start[wall]);
+    const CrossSection<D> section(scene_, wall);
+    EndMotion<D> start = gather_joint(&scene_.walls.start[wall]);
     for (int j = 0; j < block.elements; ++j) {
       const std::ptrdiff_t row = row_of(block, j);
       const std::ptrdiff_t e = row + lane;
-      const LaneNode<D> end =
+      const EndMotion<D> end =
           j + 1 == block.elements
               ? gather_joint(&scene_.walls.end[wall])
               : load_inner(block.first_inner + static_cast<std::ptrdiff_t>(j) * walls_of(block) + lane);
-      const LaneDeformation<D> deformation =
-          reverse_motion(d_, start.position, end.position, load_points(d_, axis_ + e), hn::LoadU(d_, length_ + e),
-                         hn::LoadU(d_, inverse_length_ + e), start.turn, end.turn);
-      store_points(d_, deformation.axis, axis_ + e);
-      hn::StoreU(deformation.length, d_, length_ + e);
-      hn::StoreU(deformation.inverse_length, d_, inverse_length_ + e);
-      const V slenderness = hn::Mul(thickness, deformation.inverse_mean);
-      store_as(d_, hn::Mul(deformation.stretch, deformation.inverse_mean),
-               values_of(Passed::membrane, row, lane, walls_of(block)));
-      store_as(d_, hn::Mul(slenderness, deformation.rotation_start),
-               values_of(Passed::bend_start, row, lane, walls_of(block)));
-      store_as(d_, hn::Mul(slenderness, deformation.rotation_end),
-               values_of(Passed::bend_end, row, lane, walls_of(block)));
-      if (HWY_UNLIKELY(!hn::AllFalse(d_, is_short(d_, deformation.length, undeformed)))) {
-        note_stiffness(values_of(Passed::stiffness, row, lane, walls_of(block)),
-                       bounded_stiffness(d_, deformation.length, undeformed, thickness, scene_.constant_area));
+      const Deformation<D> deformation =
+          reverse_motion(end.position - start.position, Points<D>::load(axis_ + e), Real::load(length_ + e),
+                         Real::load(inverse_length_ + e), start.turn, end.turn);
+      deformation.axis.store(axis_ + e);
+      deformation.length.store(length_ + e);
+      deformation.inverse_length.store(inverse_length_ + e);
+      const RowStrains<T> strains = scratch_.strains(row, lane, walls_of(block));
+      const Real slenderness = section.thickness * deformation.inverse_mean;
+      (deformation.stretch * deformation.inverse_mean).store(strains.membrane);
+      (slenderness * deformation.rotation_start).store(strains.bend_start);
+      (slenderness * deformation.rotation_end).store(strains.bend_end);
+      if (HWY_UNLIKELY(any(section.is_compressed(deformation.length)))) {
+        note_modulus(section.modulus_share(deformation.length), strains.modulus_share);
       }
       start = end;
     }
   }
 
-  /// Few chunks have squashed elements: the others' values are never filled.
-  HWY_INLINE void note_stiffness(T* place, V stiffness) {
-    if (!is_squashed_) {
+  /// Few chunks have compressed elements: the others' values are never filled.
+  HWY_INLINE void note_modulus(Real share, T* to) {
+    if (!is_compressed_) {
       for (const WallBlock& block : blocks_) {
         for (int j = 0; j < block.elements; ++j) {
-          std::fill_n(values_of(Passed::stiffness, row_of(block, j), 0, walls_of(block)), walls_of(block), T(1.0));
+          const int walls = walls_of(block);
+          std::fill_n(scratch_.strains(row_of(block, j), 0, walls).modulus_share, walls, T(1.0));
         }
       }
-      is_squashed_ = true;
+      is_compressed_ = true;
     }
-    store_as(d_, stiffness, place);
+    share.store(to);
   }
 
   HWY_INLINE Fibres<T> fibres_of(std::ptrdiff_t row, int lane, int stride) const {
-    const std::ptrdiff_t first = row * kFibres + lane;
+    const std::ptrdiff_t first = row * rule_.fibres() + lane;
     return {stress_ + first, kHardening ? &memory_.back_stress[first] : nullptr,
             kHardening ? &memory_.plastic_strain[first] : nullptr, kHardening ? nullptr : &memory_.flowed[row + lane],
             static_cast<std::size_t>(stride)};
   }
 
   HWY_INLINE SectionMemory<T> sections_of(std::ptrdiff_t row, int lane, int stride) const {
-    const std::ptrdiff_t first = row * kSections + lane;
+    const std::ptrdiff_t first = row * rule_.sections() + lane;
     return {&memory_.section_unbalance[first], &memory_.section_flexibility[first], static_cast<std::size_t>(stride)};
   }
 
-  /// Moments on the nodes of the lanes' elements of a row, over b h^2.
-  HWY_INLINE T* moment_start(std::ptrdiff_t row, int lane, int walls) const {
-    return kForceBased ? &memory_.start_moment[row + lane] : values_of(kMomentStart, row, lane, walls);
-  }
-  HWY_INLINE T* moment_end(std::ptrdiff_t row, int lane, int walls) const {
-    return kForceBased ? &memory_.end_moment[row + lane] : values_of(kMomentEnd, row, lane, walls);
+  /// What a row's stresses sum to. A force-based element keeps its end moments from step to step.
+  HWY_INLINE RowSums<T> sums_of(std::ptrdiff_t row, int lane, int walls) const {
+    RowSums<T> sums = scratch_.sums(row, lane, walls);
+    if constexpr (kForceBased) {
+      sums.moment_start = &memory_.start_moment[row + lane];
+      sums.moment_end = &memory_.end_moment[row + lane];
+    }
+    return sums;
   }
 
   /// Has the lanes' share of the stresses some rows ahead brought near.
-  HWY_INLINE void fetch_fibres(std::ptrdiff_t row, int lane, int walls) const {
+  HWY_INLINE void prefetch_fibres(std::ptrdiff_t row, int lane, int walls) const {
     constexpr std::ptrdiff_t kRowsAhead = 8;
     constexpr std::size_t kLine = 64 / sizeof(T);
-    constexpr std::size_t kCount = kFibres * hn::MaxLanes(F());
-    const T* const from = stress_ + (row + kRowsAhead * walls + lane) * kFibres;
-    for (std::size_t i = 0; i < kCount; i += kLine) {
+    const T* const from = stress_ + (row + kRowsAhead * walls + lane) * rule_.fibres();
+    for (std::size_t i = 0; i < rule_.fibres() * Stress::kWidth; i += kLine) {
       __builtin_prefetch(from + i, 1);
     }
   }
 
   /// From the strains to the sums of the stresses.
-  HWY_INLINE void return_fibres(const WallBlock& block, int lane) const {
+  HWY_INLINE void return_map_fibres(const WallBlock& block, int lane) const {
     const LaneMaterial<F> of_wall =
-        scene_.materials.size() == 1 ? uniform_ : material_of(f_, scene_, block.first_wall + lane);
+        scene_.materials.size() == 1 ? uniform_ : material_of_walls<F>(scene_, block.first_wall + lane);
     const int walls = walls_of(block);
     for (int j = 0; j < block.elements; ++j) {
       const std::ptrdiff_t row = row_of(block, j);
-      if (fetches_fibres_) {
-        fetch_fibres(row, lane, walls);
+      if (prefetches_) {
+        prefetch_fibres(row, lane, walls);
       }
-      const auto value = [&](Passed kind) HWY_ATTR { return values_of(kind, row, lane, walls); };
-      const LaneMaterial<F> material =
-          is_squashed_ ? with_stiffness(f_, of_wall, hn::LoadU(f_, value(Passed::stiffness))) : of_wall;
-      const VF membrane = hn::LoadU(f_, value(Passed::membrane));
-      const VF bend_start = hn::LoadU(f_, value(Passed::bend_start));
-      const VF bend_end = hn::LoadU(f_, value(Passed::bend_end));
+      const RowStrains<T> strains = scratch_.strains(row, lane, walls);
+      const LaneMaterial<F> material = is_compressed_ ? of_wall.softened(Stress::load(strains.modulus_share)) : of_wall;
+      const Stress membrane = Stress::load(strains.membrane);
+      const Bend<F> bend = {Stress::load(strains.bend_start), Stress::load(strains.bend_end)};
       const Fibres<T> fibres = fibres_of(row, lane, walls);
-      T* const at_start = moment_start(row, lane, walls);
-      T* const at_end = moment_end(row, lane, walls);
-      LaneSums<kSections, F> sums;
+      const RowSums<T> sums = sums_of(row, lane, walls);
+      const auto store = [&](const auto& element) HWY_ATTR {
+        element.axial.store(sums.axial);
+        element.moments.start.store(sums.moment_start);
+        element.moments.end.store(sums.moment_end);
+        element.plastic_work.store(sums.plastic_work);
+      };
       if constexpr (kForceBased) {
-        const LaneMoments<F> before = {hn::LoadU(f_, at_start), hn::LoadU(f_, at_end)};
-        sums = return_balanced<kHardening>(f_, material, rule_, membrane, bend_start, bend_end, before, fibres,
-                                           sections_of(row, lane, walls));
+        const EndMoments<F> before = {Stress::load(sums.moment_start), Stress::load(sums.moment_end)};
+        store(return_map_balanced<kHardening>(material, rule_, membrane, bend, before, fibres,
+                                              sections_of(row, lane, walls)));
       } else {
-        VF curvature[kSections];
-        straight_curvatures(f_, rule_, bend_start, bend_end, curvature);
-        sums = return_element<kHardening>(f_, material, rule_, membrane, curvature, fibres, fibres);
+        Stress curvature[Rule::kSectionRoom];
+        straight_curvatures(rule_, bend, curvature);
+        store(return_map_element<kHardening>(material, rule_, membrane, curvature, fibres, fibres));
       }
-      hn::StoreU(sums.axial, f_, value(kAxial));
-      hn::StoreU(sums.moments.start, f_, at_start);
-      hn::StoreU(sums.moments.end, f_, at_end);
-      hn::StoreU(sums.plastic_work, f_, value(kPlasticWork));
     }
   }
 
   /// From the sums of the stresses to the forces on the particles.
   HWY_INLINE void put_forces(const WallBlock& block, int lane, double* HWY_RESTRICT plastic_work) const {
-    const int wall = block.first_wall + lane;
-    const V thickness = hn::LoadU(d_, &scene_.walls.thickness[wall]);
-    const V undeformed = hn::LoadU(d_, &scene_.walls.undeformed_length[wall]);
+    const CrossSection<D> section(scene_, block.first_wall + lane);
     const std::size_t ends = 2 * static_cast<std::size_t>(block.first_wall) + lane;
-    const V zero = hn::Zero(d_);
-    LaneForces<D> before = {{zero, zero}, zero, zero};
-    V work = hn::LoadU(d_, plastic_work);
+    NodalForces<D> before = {{0, 0}, 0, 0};
+    Real work = Real::load(plastic_work);
     const int walls = walls_of(block);
     for (int j = 0; j < block.elements; ++j) {
       const std::ptrdiff_t row = row_of(block, j);
-      const LaneForces<D> forces = forces_of(row, lane, walls, undeformed, thickness);
-      work = hn::MulAdd(volume_of(d_, scene_, undeformed, thickness, hn::LoadU(d_, length_ + row + lane)),
-                        load_as(d_, values_of(kPlasticWork, row, lane, walls)), work);
+      const RowSums<T> sums = sums_of(row, lane, walls);
+      const NodalForces<D> forces = nodal_forces(section, sums, row + lane);
+      work = fma(section.volume(Real::load(length_ + row + lane)), Real::load(sums.plastic_work), work);
       if (j == 0) {
-        put_on_joints(ends, forces.force_on_end, hn::Neg(forces.moment_on_start));
+        put_on_joints(ends, forces.force_on_end, -forces.moment_on_start);
       } else {
-        const Points<D> net = {hn::Sub(forces.force_on_end.x, before.force_on_end.x),
-                               hn::Sub(forces.force_on_end.y, before.force_on_end.y)};
         const std::ptrdiff_t particle = block.first_inner + static_cast<std::ptrdiff_t>(j - 1) * walls + lane;
-        store_points(d_, net, internal_force_ + particle);
-        hn::StoreU(hn::Neg(hn::Add(before.moment_on_end, forces.moment_on_start)), d_, internal_moment_ + particle);
+        (forces.force_on_end - before.force_on_end).store(internal_force_ + particle);
+        (-(before.moment_on_end + forces.moment_on_start)).store(internal_moment_ + particle);
       }
       before = forces;
     }
-    put_on_joints(ends + walls, {hn::Neg(before.force_on_end.x), hn::Neg(before.force_on_end.y)},
-                  hn::Neg(before.moment_on_end));
-    hn::StoreU(work, d_, plastic_work);
+    put_on_joints(ends + walls, -before.force_on_end, -before.moment_on_end);
+    work.store(plastic_work);
   }
 
-  HWY_INLINE LaneForces<D> forces_of(std::ptrdiff_t row, int lane, int walls, V undeformed, V thickness) const {
-    const V inverse_length = hn::LoadU(d_, inverse_length_ + row + lane);
-    const V area = area_of(d_, scene_, undeformed, thickness, inverse_length);
-    const V unit = hn::Mul(area, thickness);
-    const V on_start = hn::Mul(unit, load_as(d_, moment_start(row, lane, walls)));
-    const V on_end = hn::Mul(unit, load_as(d_, moment_end(row, lane, walls)));
-    const V shear = hn::Mul(hn::Neg(hn::Add(on_start, on_end)), inverse_length);  // Eq. 31
-    const V axial = hn::Mul(area, load_as(d_, values_of(kAxial, row, lane, walls)));
-    const Points<D> axis = load_points(d_, axis_ + row + lane);
-    return {{hn::MulSub(axial, axis.x, hn::Mul(shear, axis.y)), hn::MulAdd(axial, axis.y, hn::Mul(shear, axis.x))},
-            on_start,
-            on_end};
+  HWY_INLINE NodalForces<D> nodal_forces(const CrossSection<D>& section, const RowSums<T>& sums,
+                                         std::ptrdiff_t element) const {
+    const Real inverse_length = Real::load(inverse_length_ + element);
+    const Real area = section.area(inverse_length);
+    const Real unit = area * section.thickness;
+    const Real on_start = unit * Real::load(sums.moment_start);
+    const Real on_end = unit * Real::load(sums.moment_end);
+    const Real axial = area * Real::load(sums.axial);
+    const Real shear = -(on_start + on_end) * inverse_length;  // Eq. 31
+    const Points<D> axis = Points<D>::load(axis_ + element);
+    return {{fms(axial, axis.x, shear * axis.y), fma(axial, axis.y, shear * axis.x)}, on_start, on_end};
   }
 
-  HWY_INLINE void put_on_joints(std::size_t end, const Points<D>& force, V moment) const {
-    store_points(d_, force, wall_force_ + end);
-    hn::StoreU(moment, d_, wall_moment_ + end);
+  HWY_INLINE void put_on_joints(std::size_t end, const Points<D>& force, Real moment) const {
+    force.store(wall_force_ + end);
+    moment.store(wall_moment_ + end);
   }
 
-  static constexpr D d_{};
-  static constexpr F f_{};
   const Scene& scene_;
   FibreMemory<T>& memory_;
   const double step_;
-  const RuleFactors<kSections, kDepthPoints, T>& rule_;
+  const Rule& rule_;
   const std::span<const WallBlock> blocks_;
+  const ChunkScratch<T> scratch_;
 
-  // Pointers in place of the vectors, which would be asked anew where their numbers lie after every store of a number.
+  // Raw pointers: a store may alias a vector's own pointer.
   const Vector2* const position_;
   const double* const spin_;
   Vector2* const axis_;
@@ -361,12 +329,10 @@ class WallChunk {
   Vector2* const internal_force_;
   double* const internal_moment_;
   T* const stress_;
-  T* const passed_;
 
-  const std::ptrdiff_t first_;
-  const bool fetches_fibres_;
+  const bool prefetches_;
   const LaneMaterial<F> uniform_;
-  bool is_squashed_ = false;
+  bool is_compressed_ = false;
 };
 
 }  // namespace cellcrush::HWY_NAMESPACE

@@ -10,25 +10,30 @@
 namespace cellcrush {
 
 /// Values of an element that pass between the loops over its geometry, its fibres and its forces.
-inline constexpr std::size_t kPassedKinds = 4;
+inline constexpr std::size_t kScratchKinds = 4;
 
-/// Room for evaluate_internal_forces, kept from step to step so that none allocates. No result depends on what it holds.
-struct WallsWorkspace {
-  std::vector<double> plastic_work;  ///< C, of each chunk in this step
-
-  // Where the first loop runs over all chunks before the others do.
-  LaneVector<float> single_passed;     ///< kPassedKinds E, of fibres in single precision
-  LaneVector<double> passed;           ///< the same, in double
-  std::vector<std::uint8_t> squashed;  ///< C, whether some elements have a stiffness of their own
+/// Scratch of either precision of the fibres.
+struct WallScratch {
+  LaneVector<float> in_single;
+  LaneVector<double> in_double;
 
   template <class T>
-  LaneVector<T>& passed_of() {
+  LaneVector<T>& of() {
     if constexpr (std::is_same_v<T, float>) {
-      return single_passed;
+      return in_single;
     } else {
-      return passed;
+      return in_double;
     }
   }
+};
+
+/// Room for the walls' part of a step, kept from step to step so that none allocates. No result depends on what it holds.
+struct WallsWorkspace {
+  std::vector<WallScratch> of_thread;  ///< of a chunk at a time
+
+  // Where all chunks are deformed before any responds.
+  WallScratch all;                       ///< kScratchKinds E
+  std::vector<std::uint8_t> compressed;  ///< C chunks, whether some elements have a modulus of their own
 };
 
 }  // namespace cellcrush

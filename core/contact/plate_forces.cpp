@@ -1,7 +1,6 @@
 #include "contact/plate_forces.h"
 
 #include <limits>
-#include <utility>
 
 #include "contact/contact_lots.h"
 #include "contact/friction.h"
@@ -57,12 +56,8 @@ PlateReach reach_of_plates(const Scene& scene, double impact_travel) {
   return {scene.plates.impact_face + impact_travel + reach, scene.plates.support_face - reach};
 }
 
-PlateMotion plate_motion_of(const Scene& scene, const State& state) {
-  return {state.impact_travel, scene.plates.speed_at(state.time - 0.5 * scene.schedule.time_step)};
-}
-
-void evaluate_plate_forces(const Scene& scene, State& state, const PlateMotion& motion, const LatticeBand& band,
-                           const NearPlates& near, ContactSums& sums) {
+void evaluate_plate_forces(const Scene& scene, State& state, const PlateMotion& motion, std::span<const int> near,
+                           ContactSums& sums) {
   const Plates& plates = scene.plates;
   if (!plates.present) {
     return;
@@ -84,16 +79,8 @@ void evaluate_plate_forces(const Scene& scene, State& state, const PlateMotion& 
       push(scene, state, support, particle, radius);
     }
   };
-  if (near.has_value()) {
-    for (const int particle : *near) {
-      push_by_both(static_cast<std::size_t>(particle));
-    }
-    return;
-  }
-  for (const auto& [first, end] : {std::pair(band.first_joint, band.end_joint), {band.first_inner, band.end_inner}}) {
-    for (int particle = first; particle < end; ++particle) {
-      push_by_both(static_cast<std::size_t>(particle));
-    }
+  for (const int particle : near) {
+    push_by_both(static_cast<std::size_t>(particle));
   }
 }
 

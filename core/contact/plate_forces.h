@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <span>
 
 #include "cellcrush/scene.h"
@@ -18,23 +17,17 @@ struct PlateReach {
 /// Of the plates when the impact plate has travelled so far; beyond all places where there are none.
 PlateReach reach_of_plates(const Scene& scene, double impact_travel);
 
-/// Particles that may reach a plate, or that rub against one, and perhaps others; ascending. Without a value: not known.
-using NearPlates = std::optional<std::span<const int>>;
-
 /// How the impact plate is and moves.
 struct PlateMotion {
   double impact_travel = 0.0;  ///< mm
   double impact_speed = 0.0;   ///< mm/s, half a step before
 };
 
-/// At the state's time.
-PlateMotion plate_motion_of(const Scene& scene, const State& state);
-
-/// Adds the forces of the rigid, unilateral plates on every particle of a band whose ball reaches into them, by the penalty
-/// law of the walls, to contact_force, as evaluate_contact_forces does, and to the sums. Forces are positive in compression: the
-/// impact plate pushes along the crush, the support plate against it. Friction acts across the crush; it is added to
-/// friction_force. Particles that are not `near` are not looked at.
-void evaluate_plate_forces(const Scene& scene, State& state, const PlateMotion& motion, const LatticeBand& band,
-                           const NearPlates& near, ContactSums& sums);
+/// Adds the forces of the rigid, unilateral plates on particles whose balls reach into them, by the penalty law of the walls,
+/// to contact_force and to the sums. Forces are positive in compression: the impact plate pushes along the crush, the support
+/// plate against it. Friction acts across the crush; it is added to friction_force. Only the particles `near`, ascending, are
+/// tested: all that may reach a plate, or that rub against one, are among them.
+void evaluate_plate_forces(const Scene& scene, State& state, const PlateMotion& motion, std::span<const int> near,
+                           ContactSums& sums);
 
 }  // namespace cellcrush

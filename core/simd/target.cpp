@@ -3,16 +3,13 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
-#include <atomic>
+#include <cctype>
+#include <cstdint>
 
 #include "cellcrush/simd.h"
 
 namespace cellcrush {
 namespace {
-
-constexpr const char* kScalar = "scalar";
-
-std::atomic<bool> scalar_is_chosen = false;
 
 struct Target {
   std::int64_t bit;
@@ -31,14 +28,12 @@ std::string name_of(std::int64_t target) {
   return name;
 }
 
-/// Vector targets that are both built and supported, the best first: better targets have lower bits.
-const std::vector<Target>& wide_targets() {
+/// Targets that are both built and supported, the best first: better targets have lower bits.
+const std::vector<Target>& targets() {
   static const std::vector<Target> kTargets = [] {
     std::vector<Target> found;
     for (const std::int64_t bit : hwy::SupportedAndGeneratedTargets()) {
-      if (bit != HWY_SCALAR && bit != HWY_EMU128) {
-        found.push_back({bit, name_of(bit)});
-      }
+      found.push_back({bit, name_of(bit)});
     }
     std::sort(found.begin(), found.end(), [](const Target& a, const Target& b) { return a.bit < b.bit; });
     return found;
@@ -48,47 +43,32 @@ const std::vector<Target>& wide_targets() {
 
 }  // namespace
 
-bool use_wide_kernels() { return !scalar_is_chosen.load(std::memory_order_relaxed) && !wide_targets().empty(); }
+bool use_wide_kernels() { return simd_target() != "scalar"; }
 
 std::vector<std::string> simd_targets() {
   std::vector<std::string> names;
-  for (const Target& target : wide_targets()) {
+  for (const Target& target : targets()) {
     names.push_back(target.name);
   }
-  names.emplace_back(kScalar);
   return names;
 }
 
 std::string simd_target() {
-  if (scalar_is_chosen) {
-    return kScalar;
-  }
-  const std::int64_t mask = hwy::SupportedTargets();
-  for (const Target& target : wide_targets()) {
-    if ((mask & target.bit) != 0) {
-      return target.name;
-    }
-  }
-  return kScalar;
+  const std::int64_t enabled = hwy::SupportedTargets();
+  const auto best = std::find_if(targets().begin(), targets().end(),
+                                 [&](const Target& target) { return (enabled & target.bit) != 0; });
+  return best->name;
 }
 
 bool use_simd_target(std::string_view name) {
-  if (name == kScalar) {
-    scalar_is_chosen = true;
-    return true;
-  }
-  const std::vector<Target>& targets = wide_targets();
-  if (name.empty() && targets.empty()) {
-    return use_simd_target(kScalar);
-  }
-  const auto found = name.empty() ? targets.begin()
-                                  : std::find_if(targets.begin(), targets.end(),
-                                                 [&](const Target& target) { return target.name == name; });
-  if (found == targets.end()) {
+  const std::vector<Target>& known = targets();  // before any is disabled
+  const auto found = name.empty() ? known.begin() : std::find_if(known.begin(), known.end(), [&](const Target& target) {
+    return target.name == name;
+  });
+  if (found == known.end()) {
     return false;
   }
-  scalar_is_chosen = false;
-  hwy::SetSupportedTargetsForTest(found->bit);
+  hwy::DisableTargets(found->bit - 1);  // all better ones
   hwy::GetChosenTarget().Update(hwy::SupportedTargets());
   return true;
 }

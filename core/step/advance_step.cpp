@@ -1,53 +1,72 @@
 #include "step/advance_step.h"
 
+#include <numeric>
+
 #include "beam/internal_forces.h"
-#include "contact/contact_forces.h"
+#include "beam/joint_forces.h"
 #include "contact/contact_lots.h"
-#include "contact/contact_sums.h"
 #include "contact/find_contacts.h"
-#include "contact/plate_forces.h"
 #include "energy/ledger.h"
+#include "motion/initial_state.h"
+#include "motion/loads.h"
+#include "motion/rigid_motion.h"
 #include "step/advance_block.h"
-#include "step/integrate_motion.h"
-#include "step/loads.h"
-#include "step/stage_teller.h"
+#include "step/stage_scope.h"
+#include "step/stages.h"
 
 namespace cellcrush {
 namespace {
 
-/// The contacts' and the plates' forces on a band's particles, or on all.
-void evaluate_contacts(const Scene& scene, State& state, std::size_t band, const NearPlates& near_plates,
-                       Workspace& workspace, const StageTeller& teller, ContactSums& sums) {
-  teller.begin(Stage::evaluate_contact_forces);
-  evaluate_contact_forces(scene, state, band, workspace.contact, workspace.workers, sums);
-  teller.begin(Stage::evaluate_plate_forces);
-  evaluate_plate_forces(scene, state, plate_motion_of(scene, state), scene.bands[band], near_plates, sums);
+/// With more elements, the strains that pass between the walls' stages do not stay in the nearest cache: with 16 times the
+/// cells of Type I two threads lose a third by the overlap, with 4 times nothing.
+constexpr std::size_t kMostElementsOverlapped = 20'000;
+
+bool overlaps_contacts(const Scene& scene, const Workspace& workspace) {
+  return workspace.shared.workers.count() > 1 && scene.element_count() <= kMostElementsOverlapped;
 }
 
-void evaluate_all_contacts(const Scene& scene, State& state, const NearPlates& near_plates, Workspace& workspace,
-                           const StageTeller& teller) {
-  teller.begin(Stage::find_contacts);
-  find_contacts(scene, state, workspace.workers);
-  teller.begin(Stage::evaluate_contact_forces);
+/// Finds what touches and evaluates the contacts' and the plates' forces. They need axes and lengths, but no stresses.
+void evaluate_contacts(const Scene& scene, State& state, Workspace& workspace, const StageScope& stage) {
+  StepRecord& record = workspace.records.front();
+  stage.begin(Stage::find_contacts);
+  find_contacts(scene, state, workspace.shared.workers);
   renew_contact_lots(scene, state, 1);
-  ContactSums sums = begin_contact_sums(state);
-  const bool is_whole = scene.bands.size() == 1;
-  for (std::size_t b = 0; b < scene.bands.size(); ++b) {
-    evaluate_contacts(scene, state, b, is_whole ? near_plates : std::nullopt, workspace, teller, sums);
+  for (std::size_t band = 0; band < scene.bands.size(); ++band) {
+    stage.begin(Stage::evaluate_contact_forces);
+    evaluate_band_contacts(scene, state, band, record, workspace.shared);
+    stage.begin(Stage::evaluate_plate_forces);
+    evaluate_band_plates(scene, state, band, record, workspace.near_plates);
   }
-  put_contact_sums(sums, state);
 }
 
-void evaluate_forces(const Scene& scene, State& state, const NearPlates& near_plates, Workspace& workspace,
-                     const StageTeller& teller) {
-  const auto evaluate_meanwhile = [&] {
-    evaluate_all_contacts(scene, state, near_plates, workspace, teller);
-    teller.begin(Stage::evaluate_internal_forces);  // what is left of them
-  };
-  teller.begin(Stage::evaluate_internal_forces);
-  evaluate_internal_forces(scene, state, workspace.walls, workspace.workers, evaluate_meanwhile);
-  teller.begin(Stage::evaluate_loads);
+/// Forces at the state's time, from the positions and velocities then.
+void evaluate_forces(const Scene& scene, State& state, Workspace& workspace, const StageScope& stage) {
+  StepRecord& record = workspace.records.front();
+  StageWorkspace& shared = workspace.shared;
+  stage.begin(Stage::evaluate_internal_forces);
+  if (overlaps_contacts(scene, workspace)) {
+    deform_walls(scene, state, shared.walls, shared.workers);
+    const auto respond = [&](std::size_t piece) {
+      respond_walls(scene, state, shared.walls, piece, record.plastic_work.data());
+    };
+    shared.workers.share_beside(wall_piece_count(scene), respond,
+                                [&] { evaluate_contacts(scene, state, workspace, stage); });
+    stage.begin(Stage::evaluate_internal_forces);
+    sum_joint_forces(scene, state, shared.workers);
+  } else {
+    for (std::size_t band = 0; band < scene.bands.size(); ++band) {
+      evaluate_band_walls(scene, state, band, record, shared);
+    }
+    evaluate_contacts(scene, state, workspace, stage);
+  }
+  stage.begin(Stage::evaluate_loads);
   evaluate_loads(scene, state);
+}
+
+void begin_step(const Scene& scene, const State& state, Workspace& workspace) {
+  workspace.records.resize(1);
+  workspace.near_plates.resize(scene.particle_count());
+  begin_record(scene, state, state.time, state.impact_travel, workspace.records.front());
 }
 
 }  // namespace
@@ -55,18 +74,39 @@ void evaluate_forces(const Scene& scene, State& state, const NearPlates& near_pl
 State make_initial_state(const Scene& scene) {
   State state = place_particles(scene);
   Workspace workspace;
-  evaluate_forces(scene, state, std::nullopt, workspace, StageTeller(nullptr));
+  begin_step(scene, state, workspace);
+  StepRecord& record = workspace.records.front();
+  record.plate = {0.0, scene.plates.speed_at(-0.5 * scene.schedule.time_step)};
+  std::iota(workspace.near_plates.begin(), workspace.near_plates.end(), 0);
+  for (std::size_t band = 0; band < scene.bands.size(); ++band) {
+    const LatticeBand& of = scene.bands[band];
+    record.near[band] = {static_cast<std::size_t>(of.end_joint - of.first_joint),
+                         static_cast<std::size_t>(of.end_inner - of.first_inner)};
+  }
+  evaluate_forces(scene, state, workspace, StageScope(nullptr));
+  put_contact_sums(record.contacts, state);
   stagger_velocities(scene, state);
   open_ledger(scene, state);
   return state;
 }
 
 void advance_step(const Scene& scene, State& state, Workspace& workspace, StageObserver* observer) {
-  const StageTeller teller(observer);
-  teller.begin(Stage::integrate_motion);
-  const NearPlates near_plates = integrate_motion(scene, state, workspace.motion, workspace.workers);
-  evaluate_forces(scene, state, near_plates, workspace, teller);
-  teller.end_step();
+  const StageScope stage(observer);
+  begin_step(scene, state, workspace);
+  StepRecord& record = workspace.records.front();
+
+  stage.begin(Stage::integrate_motion);
+  record.of_rigid_bodies = move_rigid_bodies(scene, state);
+  for (std::size_t band = 0; band < scene.bands.size(); ++band) {
+    move_band(scene, state, band, record, workspace.shared, workspace.near_plates);
+  }
+  ++state.step;
+  state.time = static_cast<double>(state.step) * scene.schedule.time_step;
+
+  evaluate_forces(scene, state, workspace, stage);
+
+  accumulate(scene, record, state);
+  stage.end_step();
 }
 
 void advance_steps(const Scene& scene, State& state, Workspace& workspace, std::int64_t steps,

@@ -13,7 +13,7 @@ namespace cellcrush {
 State make_initial_state(const Scene& scene);
 
 /// Advances the state by one step of the explicit method: motion from the forces at the old time, then the forces at the
-/// new one. The observer, if any, is told when a stage begins. `workspace` is kept for the next step.
+/// new one. The observer, if any, is called when a stage begins. `workspace` is kept for the next step.
 void advance_step(const Scene& scene, State& state, Workspace& workspace, StageObserver* observer);
 
 /// Advances the state by some steps; those of a large lattice block by block (step/advance_block.h), to the same bits.

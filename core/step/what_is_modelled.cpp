@@ -1,8 +1,8 @@
 #include "step/what_is_modelled.h"
 
-#include "beam/wide_walls.h"
 #include "cellcrush/contact_faces.h"
 #include "scene/check_spec.h"
+#include "section/rule_factors.h"
 
 namespace cellcrush {
 namespace {
@@ -12,10 +12,12 @@ std::string walls_text(const Scene& scene) {
          std::string(scene.section.force_based ? "force-based, " : "displacement-based, ") +
          std::to_string(scene.section.section_count()) + " x " + std::to_string(scene.section.depth_count()) +
          " integration points per element" +
-         (has_vector_kernel(scene.section)
+         (has_known_counts(scene.section)
               ? "."
-              : "; no vector kernel exists for these, so the run takes up to ten times as long. Force-based 4 x 6 and "
-                "displacement-based 2 x 6 points have one (section.axial_points, section.depth_points).");
+              : "; these are computed one element at a time, so the run takes up to ten times as long. Force-based 4 x "
+                "6 "
+                "and displacement-based 2 x 6 points are computed side by side (section.axial_points, "
+                "section.depth_points).");
 }
 
 std::string fibres_text(const Scene& scene) {

@@ -5,10 +5,11 @@
 #include <algorithm>
 
 #include "contact/bucket_search.h"
+#include "contact/clear_forces.h"
 #include "contact/contact_forces.h"
 #include "contact/contact_sums.h"
+#include "scene/bands.h"
 #include "scene/face_loops.h"
-#include "step/integrate_motion.h"
 
 namespace cellcrush::scenes {
 namespace {
@@ -21,12 +22,6 @@ double distance_between(const Vector2& point, Vector2 a, Vector2 b) {
 }
 
 }  // namespace
-
-void clear_contact_forces(State& state) {
-  for (std::size_t i = 0; i < state.position.size(); ++i) {
-    clear_contact_force(state, i);
-  }
-}
 
 void evaluate_wall_contacts(const Scene& scene, State& state, ContactWorkspace& workspace, Workers& workers) {
   ContactSums sums = begin_contact_sums(state);

@@ -29,9 +29,6 @@ struct Overlap {
 };
 std::vector<Overlap> overlaps_by_buckets(const Scene& scene, const State& state);
 
-/// As integrate_motion leaves them, so that contacts can be evaluated again.
-void clear_contact_forces(State& state);
-
 /// The contact forces between walls of a state with one list, and their totals.
 void evaluate_wall_contacts(const Scene& scene, State& state, ContactWorkspace& workspace, Workers& workers);
 

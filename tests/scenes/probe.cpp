@@ -1,10 +1,12 @@
 #include "scenes/probe.h"
 
 #include "contact/bucket_search.h"
+#include "contact/clear_forces.h"
 #include "contact/contact_forces.h"
+#include "motion/initial_state.h"
+#include "scene/bands.h"
 #include "scenes/frames.h"
 #include "scenes/near_pairs.h"
-#include "step/integrate_motion.h"
 
 namespace cellcrush::scenes {
 
@@ -39,7 +41,7 @@ void Probe::place_tip(const Vector2& place, const Vector2& outward) {
 }
 
 void Probe::evaluate_contacts() {
-  clear_contact_forces(state_);
+  clear_contact_forces(state_, whole_band(*scene_));
   evaluate_wall_contacts(*scene_, state_, workspace_, workers_);
 }
 

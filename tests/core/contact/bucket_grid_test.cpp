@@ -11,8 +11,8 @@
 #include "contact/bucket_search.h"
 #include "scenes/frames.h"
 #include "scenes/near_pairs.h"
+#include "motion/initial_state.h"
 #include "step/advance_step.h"
-#include "step/integrate_motion.h"
 
 namespace cellcrush {
 namespace {

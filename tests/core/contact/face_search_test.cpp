@@ -15,8 +15,8 @@
 #include "scenes/frames.h"
 #include "scenes/near_pairs.h"
 #include "scenes/state_hash.h"
+#include "motion/initial_state.h"
 #include "step/advance_step.h"
-#include "step/integrate_motion.h"
 
 namespace cellcrush {
 namespace {

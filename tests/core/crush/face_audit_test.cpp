@@ -7,7 +7,9 @@
 #include "cellcrush/simulation.h"
 #include "cellcrush/state.h"
 #include "contact/bucket_search.h"
+#include "contact/clear_forces.h"
 #include "contact/contact_forces.h"
+#include "scene/bands.h"
 #include "scenes/frames.h"
 #include "scenes/near_pairs.h"
 #include "scenes/small_block.h"
@@ -89,7 +91,7 @@ TEST_P(FaceAudit, FindsEveryTouchThatPushesWithTheForceOfTheBuckets) {
         deepest = std::max(deepest, overlap.depth / scene->elements[overlap.segment].thickness);
       }
     }
-    scenes::clear_contact_forces(state);
+    clear_contact_forces(state, whole_band(*scene));
     State reference = with_candidates_of_buckets(*scene, state);
     ContactWorkspace workspace;
     Workers workers(1);

@@ -4,10 +4,10 @@
 
 namespace cellcrush {
 
-/// Tells an observer, if there is one.
-class StageTeller {
+/// Reports the stages of a step to an observer, if there is one.
+class StageScope {
  public:
-  explicit StageTeller(StageObserver* observer) : observer_(observer) {}
+  explicit StageScope(StageObserver* observer) : observer_(observer) {}
   void begin(Stage stage) const {
     if (observer_ != nullptr) {
       observer_->begin(stage);

@@ -1,24 +1,22 @@
-#include "energy/wide_energy.h"
+#include "energy/elastic_energy.h"
 
 #include <vector>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "energy/wide_energy.cpp"
+#define HWY_TARGET_INCLUDE "energy/elastic_energy.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "beam/cross_section-inl.h"
 #include "beam/element_place.h"
-#include "beam/wall_lanes-inl.h"
+#include "simd/lane-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {
 
-namespace hn = hwy::HWY_NAMESPACE;
-
 /// Elastic energy, each lane's by itself: elements in lanes D, their fibres in lanes F.
 template <class D, class F>
 class LaneEnergy {
-  using V = hn::Vec<D>;
   using T = hn::TFromD<F>;
 
  public:
@@ -34,51 +32,48 @@ class LaneEnergy {
   /// Adds that of the elements at the same place of a block's walls to the walls' lanes.
   HWY_INLINE void add_row(const WallBlock& block, std::size_t row, double* HWY_RESTRICT energy) const {
     T squares[kMostWallsInBlock];
-    for (int lane = 0; lane < block.walls; lane += static_cast<int>(hn::MaxLanes(f_))) {
-      hn::StoreU(weighted_squares(&memory_.stress[row * weight_.size()] + lane, block.walls), f_, squares + lane);
+    for (int lane = 0; lane < block.walls; lane += static_cast<int>(Lane<F>::kWidth)) {
+      weighted_squares(&memory_.stress[row * weight_.size()] + lane, block.walls).store(squares + lane);
     }
-    for (int lane = 0; lane < block.walls; lane += static_cast<int>(hn::MaxLanes(d_))) {
-      const V of_lanes = energy_of(block.first_wall + lane, row + lane, load_as(d_, squares + lane));
-      hn::StoreU(hn::Add(hn::LoadU(d_, energy + lane), of_lanes), d_, energy + lane);
+    for (int lane = 0; lane < block.walls; lane += static_cast<int>(Lane<D>::kWidth)) {
+      const Lane<D> of_lanes = energy_of(block.first_wall + lane, row + lane, Lane<D>::load(squares + lane));
+      (Lane<D>::load(energy + lane) + of_lanes).store(energy + lane);
     }
   }
 
  private:
   /// Squares of the stresses of the lanes' elements, of which `stride` lie side by side for each fibre.
-  HWY_INLINE hn::Vec<F> weighted_squares(const T* HWY_RESTRICT stress, int stride) const {
-    auto squares = hn::Zero(f_);
+  HWY_INLINE Lane<F> weighted_squares(const T* HWY_RESTRICT stress, int stride) const {
+    Lane<F> squares = 0;
     for (const T weight : weight_) {
-      const auto of_fibre = hn::LoadU(f_, stress);
-      squares = hn::MulAdd(hn::Mul(hn::Set(f_, weight), of_fibre), of_fibre, squares);
+      const Lane<F> of_fibre = Lane<F>::load(stress);
+      squares = fma(Lane<F>(weight) * of_fibre, of_fibre, squares);
       stress += stride;
     }
     return squares;
   }
 
-  HWY_INLINE V energy_of(int wall, std::size_t element, V squares) const {
-    const V thickness = hn::LoadU(d_, &scene_.walls.thickness[wall]);
-    const V undeformed = hn::LoadU(d_, &scene_.walls.undeformed_length[wall]);
-    const V length = hn::LoadU(d_, &state_.length[element]);
-    V modulus = modulus_of(wall);
-    if (HWY_UNLIKELY(!hn::AllFalse(d_, is_short(d_, length, undeformed)))) {
-      modulus = hn::Mul(modulus, bounded_stiffness(d_, length, undeformed, thickness, scene_.constant_area));
+  HWY_INLINE Lane<D> energy_of(int wall, std::size_t element, Lane<D> squares) const {
+    const CrossSection<D> section(scene_, wall);
+    const Lane<D> length = Lane<D>::load(&state_.length[element]);
+    Lane<D> modulus = modulus_of(wall);
+    if (HWY_UNLIKELY(any(section.is_compressed(length)))) {
+      modulus = modulus * section.modulus_share(length);
     }
-    return hn::Div(hn::Mul(volume_of(d_, scene_, undeformed, thickness, length), squares), hn::Add(modulus, modulus));
+    return section.volume(length) * squares / (modulus + modulus);
   }
 
-  HWY_INLINE V modulus_of(int wall) const {
+  HWY_INLINE Lane<D> modulus_of(int wall) const {
     if (scene_.materials.size() == 1) {
-      return hn::Set(d_, scene_.materials.front().youngs_modulus);
+      return scene_.materials.front().youngs_modulus;
     }
     double values[kMostWallsInBlock];
-    for (std::size_t lane = 0; lane < hn::MaxLanes(d_); ++lane) {
+    for (std::size_t lane = 0; lane < Lane<D>::kWidth; ++lane) {
       values[lane] = scene_.materials[scene_.walls.material[wall + lane]].youngs_modulus;
     }
-    return hn::LoadU(d_, values);
+    return Lane<D>::load(values);
   }
 
-  static constexpr D d_{};
-  static constexpr F f_{};
   const Scene& scene_;
   const State& state_;
   const FibreMemory<T>& memory_;
@@ -106,7 +101,7 @@ double energy_of_memory(const Scene& scene, const State& state, const FibreMemor
   return sum;
 }
 
-double elastic_energy(const Scene& scene, const State& state) {
+double energy_of_walls(const Scene& scene, const State& state) {
   return scene.single_fibres ? energy_of_memory(scene, state, state.single_fibres)
                              : energy_of_memory(scene, state, state.fibres);
 }
@@ -117,10 +112,10 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace cellcrush {
 
-HWY_EXPORT(elastic_energy);
+HWY_EXPORT(energy_of_walls);
 
-double elastic_energy_wide(const Scene& scene, const State& state) {
-  return HWY_DYNAMIC_DISPATCH(elastic_energy)(scene, state);
+double elastic_energy(const Scene& scene, const State& state) {
+  return HWY_DYNAMIC_DISPATCH(energy_of_walls)(scene, state);
 }
 
 }  // namespace cellcrush

@@ -1,4 +1,4 @@
-#include "step/loads.h"
+#include "motion/loads.h"
 
 #include <algorithm>
 

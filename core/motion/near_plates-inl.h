@@ -1,24 +1,20 @@
-// Included once for each target.
-#if defined(CELLCRUSH_STEP_NEAR_PLATES_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef CELLCRUSH_STEP_NEAR_PLATES_INL_H_
-#undef CELLCRUSH_STEP_NEAR_PLATES_INL_H_
+// Included once for each target; see Highway's documentation of foreach_target.h.
+#if defined(CELLCRUSH_MOTION_NEAR_PLATES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef CELLCRUSH_MOTION_NEAR_PLATES_INL_H_
+#undef CELLCRUSH_MOTION_NEAR_PLATES_INL_H_
 #else
-#define CELLCRUSH_STEP_NEAR_PLATES_INL_H_
+#define CELLCRUSH_MOTION_NEAR_PLATES_INL_H_
 #endif
-
-#include <hwy/highway.h>
 
 #include <cstddef>
 
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
 #include "contact/plate_forces.h"
-#include "simd/lanes-inl.h"
+#include "simd/points-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {
-
-namespace hn = hwy::HWY_NAMESPACE;
 
 /// Notes the particles that may reach a plate where they have moved to, and those that rub against one.
 class NearPlatesNotes {
@@ -33,16 +29,14 @@ class NearPlatesNotes {
         near_(near) {}
 
   template <class D>
-  HWY_INLINE void note(D d, const Points<D>& position, std::size_t i) {
-    const auto place = along_x_ ? position.x : position.y;
-    auto some = hn::Or(hn::Lt(place, hn::Set(d, below_)), hn::Gt(place, hn::Set(d, above_)));
+  HWY_INLINE void note(const Points<D>& position, std::size_t i) {
+    const Lane<D> along = along_x_ ? position.x : position.y;
+    LaneMask<D> is_near = (along < below_) | (along > above_);
     if (impact_friction_ != nullptr) {
-      const auto zero = hn::Zero(d);
-      some = hn::Or(some, hn::Or(hn::Ne(hn::LoadU(d, impact_friction_ + i), zero),
-                                 hn::Ne(hn::LoadU(d, support_friction_ + i), zero)));
+      is_near = is_near | (Lane<D>::load(impact_friction_ + i) != 0) | (Lane<D>::load(support_friction_ + i) != 0);
     }
-    if (HWY_UNLIKELY(!hn::AllFalse(d, some))) {
-      count_ += write_set_lanes(d, some, i, near_ + count_);
+    if (HWY_UNLIKELY(any(is_near))) {
+      count_ += write_set_lanes(is_near, i, near_ + count_);
     }
   }
 
@@ -61,4 +55,4 @@ class NearPlatesNotes {
 }  // namespace cellcrush::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
-#endif  // CELLCRUSH_STEP_NEAR_PLATES_INL_H_
+#endif  // CELLCRUSH_MOTION_NEAR_PLATES_INL_H_

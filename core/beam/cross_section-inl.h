@@ -1,0 +1,67 @@
+// Included once for each target; see Highway's documentation of foreach_target.h.
+#if defined(CELLCRUSH_BEAM_CROSS_SECTION_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef CELLCRUSH_BEAM_CROSS_SECTION_INL_H_
+#undef CELLCRUSH_BEAM_CROSS_SECTION_INL_H_
+#else
+#define CELLCRUSH_BEAM_CROSS_SECTION_INL_H_
+#endif
+
+#include "cellcrush/scene.h"
+#include "simd/lane-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace cellcrush::HWY_NAMESPACE {
+
+/// Length over undeformed length below which the modulus is bounded.
+inline constexpr double kModulusCapStretch = 0.95;
+
+/// What does not change of the cross-section of the elements of walls from `wall` on.
+template <class D>
+struct CrossSection {
+  Lane<D> thickness;   ///< h, mm
+  Lane<D> undeformed;  ///< length of an element, mm
+  Lane<D> depth;       ///< b, mm
+  bool constant_area;
+
+  HWY_INLINE CrossSection(const Scene& scene, int wall)
+      : thickness(Lane<D>::load(&scene.walls.thickness[wall])),
+        undeformed(Lane<D>::load(&scene.walls.undeformed_length[wall])),
+        depth(scene.depth),
+        constant_area(scene.constant_area) {}
+
+  /// Area, mm^2. Plastic flow keeps a wall's volume: the area is V_0 / l, the thickness in the plane being kept. With
+  /// constant area, as in the paper, a wall under its yield force would shorten without end, one element before the
+  /// others.
+  HWY_INLINE Lane<D> area(Lane<D> inverse_length) const {
+    const Lane<D> area = depth * thickness;
+    return constant_area ? area : area * undeformed * inverse_length;
+  }
+
+  /// Volume that stress works on, mm^3.
+  HWY_INLINE Lane<D> volume(Lane<D> length) const { return depth * thickness * (constant_area ? length : undeformed); }
+
+  /// Lanes that are compressed so far that their modulus is bounded.
+  HWY_INLINE LaneMask<D> is_compressed(Lane<D> length) const {
+    return length < Lane<D>(kModulusCapStretch) * undeformed;
+  }
+
+  /// Share of Young's modulus with which an element compressed to `length` vibrates no faster than at kModulusCapStretch:
+  /// A / l and I / l grow with the shortening, at constant volume with its square, and the shear they cause by
+  /// 1 + 4 gamma^2 / l^2 (E11). Such an element flows: its force is that of the yield stress, and what its modulus stores
+  /// is a small part of its plastic work.
+  HWY_INLINE Lane<D> modulus_share(Lane<D> length) const {
+    const Lane<D> one = 1;
+    const Lane<D> bound = Lane<D>(kModulusCapStretch) * undeformed;
+    const Lane<D> four_gyration_squared = thickness * thickness * Lane<D>(1.0 / 3.0);
+    const Lane<D> ratio = length / bound;
+    const Lane<D> at_bound = one + four_gyration_squared / (bound * bound);
+    const Lane<D> now = one + four_gyration_squared / (length * length);
+    const Lane<D> share = (constant_area ? ratio : ratio * ratio) * at_bound / now;
+    return select(is_compressed(length), share, one);
+  }
+};
+
+}  // namespace cellcrush::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // CELLCRUSH_BEAM_CROSS_SECTION_INL_H_

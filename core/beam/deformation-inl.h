@@ -1,0 +1,107 @@
+// Included once for each target; see Highway's documentation of foreach_target.h.
+#if defined(CELLCRUSH_BEAM_DEFORMATION_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef CELLCRUSH_BEAM_DEFORMATION_INL_H_
+#undef CELLCRUSH_BEAM_DEFORMATION_INL_H_
+#else
+#define CELLCRUSH_BEAM_DEFORMATION_INL_H_
+#endif
+
+#include <cmath>
+#include <cstddef>
+
+#include "simd/lane-inl.h"
+#include "simd/points-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace cellcrush::HWY_NAMESPACE {
+
+/// Sine up to which the rotation of an axis over a step is a series; the first term left out is below 1e-17 of the angle.
+inline constexpr double kSmallTurn = 0.02;
+
+/// Angle by which the unit vector `from` must turn to point along the unit vector `to`, counter-clockwise positive, in
+/// (-pi, pi]. Exact to round-off for increments of any size, both signs.
+///
+/// Deviation from Eq. 9: the arc cosine of the dot product loses the sign, and is 0 below 2e-8 rad. The sine is the cross
+/// product; its inverse is a series where it is small, as it is in every step of a sound run.
+template <class D>
+HWY_INLINE Lane<D> turn_between(const Points<D>& from, const Points<D>& to) {
+  const Lane<D> sine = cross(from, to);
+  const Lane<D> cosine = dot(from, to);
+  const Lane<D> square = sine * sine;
+  Lane<D> series = fma(square, 105.0 / 3456.0, 15.0 / 336.0);
+  series = fma(square, series, 3.0 / 40.0);
+  series = fma(square, series, 1.0 / 6.0);
+  const Lane<D> turn = fma(sine * square, series, sine);
+  const LaneMask<D> is_small = (abs(sine) < kSmallTurn) & (cosine > 0);
+  if (HWY_LIKELY(all(is_small))) {
+    return turn;
+  }
+  double sines[Lane<D>::kWidth];
+  double cosines[Lane<D>::kWidth];
+  sine.store(sines);
+  cosine.store(cosines);
+  for (std::size_t lane = 0; lane < Lane<D>::kWidth; ++lane) {
+    sines[lane] = std::atan2(sines[lane], cosines[lane]);
+  }
+  return select(is_small, turn, Lane<D>::load(sines));
+}
+
+/// What is left of an element's motion over a step once its rigid part is taken out (section 2.3.1).
+template <class D>
+struct Deformation {
+  Lane<D> stretch;         ///< Delta = l - l_a, mm (Eq. 15)
+  Lane<D> rotation_start;  ///< theta_1, rad (Eq. 14)
+  Lane<D> rotation_end;    ///< theta_2, rad
+  Lane<D> length;          ///< l, mm
+  Lane<D> inverse_length;  ///< 1/mm
+  Lane<D> inverse_mean;    ///< 2 / (l + l_a), 1/mm
+  Points<D> axis;          ///< e_t, unit vector from the start node to the end node
+};
+
+/// l, 1 / l and 2 / (l + l_a) from l squared. Where the lengths differ little, series from the inverse of the previous
+/// length give all digits: dividers are the slowest part of a processor. Else divided.
+template <class D>
+HWY_INLINE void invert_lengths(Lane<D> square, Lane<D> previous_length, Lane<D> previous_inverse,
+                               Deformation<D>& deformation) {
+  constexpr double kSmallMiss = 2e-3;  // the first terms left out are below 1e-17
+  const Lane<D> one = 1;
+  const Lane<D> half = 0.5;
+  const Lane<D> miss = fnma(square, previous_inverse * previous_inverse, one);
+  const Lane<D> series = fma(miss, fma(miss, 0.375, half), one);
+  const Lane<D> near = previous_inverse * series;
+  const Lane<D> left = fnma(square, near * near, one);
+  deformation.inverse_length = fma(near * half, left, near);
+  deformation.length = square * deformation.inverse_length;
+  const Lane<D> mean = half * (deformation.length + previous_length);
+  const Lane<D> guess = half * (deformation.inverse_length + previous_inverse);
+  const Lane<D> rest = fnma(mean, guess, one);
+  deformation.inverse_mean = fma(guess * rest, one + rest, guess);
+  const LaneMask<D> is_small = abs(miss) < kSmallMiss;
+  if (HWY_UNLIKELY(!all(is_small))) {
+    const Lane<D> length = sqrt(square);
+    deformation.length = select(is_small, deformation.length, length);
+    deformation.inverse_length = select(is_small, deformation.inverse_length, one / length);
+    deformation.inverse_mean = select(is_small, deformation.inverse_mean, Lane<D>(2) / (length + previous_length));
+  }
+}
+
+/// Reverse rigid motion of an element: translation and rotation by the turn of its axis are taken out of the motion of its
+/// nodes (Eq. 8-15). `span` points from the start node to the end node now; the previous axis and length are those of the
+/// step before; the turns are the nodes' rotation increments over the step.
+template <class D>
+HWY_INLINE Deformation<D> reverse_motion(const Points<D>& span, const Points<D>& previous_axis, Lane<D> previous_length,
+                                         Lane<D> previous_inverse, Lane<D> turn_start, Lane<D> turn_end) {
+  Deformation<D> deformation;
+  invert_lengths(dot(span, span), previous_length, previous_inverse, deformation);
+  deformation.axis = deformation.inverse_length * span;
+  const Lane<D> rigid_turn = turn_between(previous_axis, deformation.axis);
+  deformation.stretch = deformation.length - previous_length;
+  deformation.rotation_start = turn_start - rigid_turn;
+  deformation.rotation_end = turn_end - rigid_turn;
+  return deformation;
+}
+
+}  // namespace cellcrush::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // CELLCRUSH_BEAM_DEFORMATION_INL_H_

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "cellcrush/scene.h"
+#include "cellcrush/state.h"
+#include "motion/motion_works.h"
+
+namespace cellcrush {
+
+/// The works of the newest forces on all particles over the half step up to the state's time, and twice the kinetic energy then.
+MotionWorks half_step_works(const Scene& scene, const State& state);
+
+}  // namespace cellcrush

@@ -1,0 +1,89 @@
+#include "motion/initial_state.h"
+
+#include "motion/particle_motion-inl.h"
+#include "motion/rigid_motion.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace cellcrush {
+namespace {
+
+/// Fibres without stress that have never yielded.
+template <class T>
+void place_fibres(const Scene& scene, FibreMemory<T>& fibres) {
+  const std::size_t elements = scene.element_count();
+  fibres.stress.assign(elements * scene.fibre_count(), T(0.0));
+  if (scene.has_hardening()) {
+    fibres.back_stress.assign(elements * scene.fibre_count(), T(0.0));
+    fibres.plastic_strain.assign(elements * scene.fibre_count(), T(0.0));
+  } else {
+    fibres.flowed.assign(elements, 0);
+  }
+  if (scene.section.force_based) {
+    fibres.section_unbalance.assign(elements * scene.section.section_count(), T(0.0));
+    fibres.section_flexibility.assign(elements * scene.section.section_count(), T(1.0));
+    fibres.start_moment.assign(elements, T(0.0));
+    fibres.end_moment.assign(elements, T(0.0));
+  }
+}
+
+}  // namespace
+
+State place_particles(const Scene& scene) {
+  const std::size_t n = scene.particle_count();
+  State state;
+  state.position.assign(scene.position.begin(), scene.position.end());
+  state.velocity.assign(scene.initial_velocity.begin(), scene.initial_velocity.end());
+  state.velocity.resize(n, Vector2::Zero());
+  state.spin.assign(scene.initial_spin.begin(), scene.initial_spin.end());
+  state.spin.resize(n, 0.0);
+  state.rotation.assign(n, 0.0);
+  state.length.reserve(scene.element_count());
+  state.inverse_length.reserve(scene.element_count());
+  state.axis.reserve(scene.element_count());
+  for (const Element& element : scene.elements) {
+    const Vector2 span = scene.position[element.end] - scene.position[element.start];
+    state.length.push_back(span.norm());
+    state.inverse_length.push_back(1.0 / span.norm());
+    state.axis.push_back(span / state.length.back());
+  }
+  scene.single_fibres ? place_fibres(scene, state.single_fibres) : place_fibres(scene, state.fibres);
+  state.wall_force.assign(2 * scene.walls.start.size(), Vector2::Zero());
+  state.wall_moment.assign(2 * scene.walls.start.size(), 0.0);
+  state.internal_force.assign(n, Vector2::Zero());
+  state.internal_moment.assign(n, 0.0);
+  state.contact_force.assign(n, ContactForce());
+  if (scene.contact.friction > 0.0 || scene.plates.friction > 0.0) {
+    state.friction_force.assign(n, Vector2::Zero());
+  }
+  if (scene.plates.friction > 0.0) {
+    state.impact_friction.assign(n, 0.0);
+    state.support_friction.assign(n, 0.0);
+  }
+  if (scene.is_loaded()) {
+    state.load_force.assign(n, Vector2::Zero());
+    state.load_moment.assign(n, 0.0);
+  }
+  state.contacts.resize(scene.bands.size());
+  place_rigid_bodies(scene, state);
+  return state;
+}
+
+void stagger_velocities(const Scene& scene, State& state) {
+  using namespace HWY_NAMESPACE;
+  using One = hn::CappedTag<double, 1>;
+  stagger_rigid_bodies(scene, state);
+  const StepFactors step = step_factors_of(scene);
+  const ParticleArrays<const State> arrays(scene, state);
+  with_force_kinds(scene, state, [&](auto kinds) {
+    using Kinds = decltype(kinds);
+    for (std::size_t i = first_free_particle(scene); i < scene.particle_count(); ++i) {
+      const auto motion = motion_of<Kinds>(arrays, step, forces_on<true, Kinds, One>(arrays, i), i);
+      const Lane<One> half = 0.5;
+      (motion.velocity - half * (motion.next - motion.velocity)).store(&state.velocity[i]);
+      (motion.spin - half * (motion.next_spin - motion.spin)).store(&state.spin[i]);
+    }
+  });
+}
+
+}  // namespace cellcrush
+HWY_AFTER_NAMESPACE();

@@ -1,0 +1,154 @@
+#include "motion/integrate_motion.h"
+
+#include <algorithm>
+#include <numeric>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "motion/integrate_motion.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "contact/contact_lots.h"
+#include "motion/motion_works-inl.h"
+#include "motion/near_plates-inl.h"
+#include "motion/particle_motion-inl.h"
+#include "scene/bands.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace cellcrush::HWY_NAMESPACE {
+
+/// Whether any lane's particle bears contact forces. Most have none.
+template <class D>
+HWY_INLINE bool bear_contact(const ParticleArrays<State>& arrays, std::size_t i) {
+  if (!may_bear_contact(arrays.contact_lots, i, Lane<D>::kWidth)) {
+    return false;
+  }
+  const double* const forces = arrays.contact_force[i].elastic.data();
+  const auto part = [&](std::size_t k) HWY_ATTR { return hn::LoadU(D(), forces + k * Lane<D>::kWidth); };
+  const Lane<D> bits = hn::Or(hn::Or(part(0), part(1)), hn::Or(part(2), part(3)));
+  return !all(bits == 0);  // not any(bits != 0): the bits of several numbers may be those of a NaN
+}
+
+template <bool kContact, class Kinds, class D>
+HWY_INLINE void move(const ParticleArrays<State>& arrays, const StepFactors& step, std::size_t i, LaneWorks<D>& works,
+                     NearPlatesNotes& near_plates) {
+  const ParticleForces<D> forces = forces_on<kContact, Kinds, D>(arrays, i);
+  const ParticleMotion<D> motion = motion_of<Kinds>(arrays, step, forces, i);
+  add_works_of_step<kContact, Kinds>(arrays, step, i, forces, motion, works);
+  const Lane<D> dt = step.step;
+  const Points<D> position = fma(dt, motion.next, Points<D>::load(arrays.position + i));
+  near_plates.note(position, i);
+  motion.next.store(arrays.velocity + i);
+  motion.next_spin.store(arrays.spin + i);
+  position.store(arrays.position + i);
+  fma(dt, motion.next_spin, Lane<D>::load(arrays.rotation + i)).store(arrays.rotation + i);
+}
+
+template <class Kinds>
+MotionWorks move_chunk(const ParticleArrays<State>& arrays, const StepFactors& step, std::size_t first, std::size_t end,
+                       NearPlatesNotes& near_plates) {
+  constexpr std::size_t kWidth = Kinds::kFrame ? 1 : kSumLanes;
+  return sum_works<kWidth>(first, end, [&](auto d, std::size_t i, auto& works) HWY_ATTR {
+    using D = decltype(d);
+    if (bear_contact<D>(arrays, i)) {
+      move<true, Kinds>(arrays, step, i, works, near_plates);
+    } else {
+      move<false, Kinds>(arrays, step, i, works, near_plates);
+    }
+  });
+}
+
+/// Moves the chunks first_chunk ... end_chunk of particles from `first` to `end`.
+void move_chunks(const Scene& scene, State& state, const PlateReach& reach, std::size_t first, std::size_t end,
+                 std::size_t first_chunk, std::size_t end_chunk, MovedChunk* moved, int* near_plates) {
+  const StepFactors step = step_factors_of(scene);
+  const ParticleArrays<State> arrays(scene, state);
+  with_force_kinds(scene, state, [&](auto kinds) HWY_ATTR {
+    for (std::size_t c = first_chunk; c < end_chunk; ++c) {
+      const std::size_t begin = first + c * kParticlesMovedTogether;
+      NearPlatesNotes near(scene, state, reach, near_plates + begin);
+      const std::size_t chunk_end = std::min(begin + kParticlesMovedTogether, end);
+      const MotionWorks works = move_chunk<decltype(kinds)>(arrays, step, begin, chunk_end, near);
+      moved[c] = {works, begin, near.count()};
+    }
+  });
+}
+
+}  // namespace cellcrush::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace cellcrush {
+
+HWY_EXPORT(move_chunks);
+
+namespace {
+
+std::size_t chunks_of(std::size_t particles) {
+  return (particles + kParticlesMovedTogether - 1) / kParticlesMovedTogether;
+}
+
+/// Particles that are dealt out together, a band's joints or its particles inside walls, and the first of their chunks.
+struct Group {
+  std::size_t first;
+  std::size_t end;
+  std::size_t first_chunk;
+
+  [[nodiscard]] std::size_t chunk_count() const { return chunks_of(end - first); }
+};
+
+Group joints_of(const Scene& scene, const LatticeBand& band) {
+  const std::size_t rigid = first_free_particle(scene);
+  const std::size_t first = std::max(static_cast<std::size_t>(band.first_joint), rigid);
+  return {first, static_cast<std::size_t>(band.end_joint), chunks_of(first - rigid)};
+}
+
+Group inner_of(const Scene& scene, const LatticeBand& band) {
+  const auto joints = static_cast<std::size_t>(scene.joint_count);
+  const auto first = static_cast<std::size_t>(band.first_inner);
+  return {first, static_cast<std::size_t>(band.end_inner),
+          chunks_of(joints - first_free_particle(scene)) + chunks_of(first - joints)};
+}
+
+/// What a group's chunks have noted, moved together from index `to` on; returns its end.
+std::size_t close_up(const Group& group, const std::vector<MovedChunk>& moved, std::size_t to,
+                     std::vector<int>& near_plates) {
+  for (std::size_t c = group.first_chunk; c < group.first_chunk + group.chunk_count(); ++c) {
+    std::copy_n(&near_plates[moved[c].first], moved[c].near_count, &near_plates[to]);
+    to += moved[c].near_count;
+  }
+  return to;
+}
+
+}  // namespace
+
+std::size_t moved_chunk_count(const Scene& scene) {
+  const Group inner = inner_of(scene, whole_band(scene));
+  return inner.first_chunk + inner.chunk_count();
+}
+
+/// Every chunk's works are numbers of their own, so that the sums do not depend on who computes them. Joints and particles
+/// inside walls are dealt out each by themselves, as the joints' sums and the walls are, so that a thread finds in its cache
+/// what it has written.
+NearCounts integrate_motion(const Scene& scene, State& state, const LatticeBand& band, const PlateReach& reach,
+                            Workers& workers, std::vector<MovedChunk>& moved, std::vector<int>& near_plates) {
+  const Group joints = joints_of(scene, band);
+  const Group inner = inner_of(scene, band);
+  const auto move_part = [&](std::size_t part, std::size_t, std::size_t) {
+    for (const Group& group : {joints, inner}) {
+      HWY_DYNAMIC_DISPATCH(move_chunks)
+      (scene, state, reach, group.first, group.end, workers.start_of_part(group.chunk_count(), part),
+       workers.start_of_part(group.chunk_count(), part + 1), &moved[group.first_chunk], near_plates.data());
+    }
+  };
+  workers.share_parts(static_cast<std::size_t>(workers.count()), 1, move_part);
+  // Particles of rigid bodies are few: all may be near.
+  std::iota(near_plates.begin() + band.first_joint, near_plates.begin() + static_cast<std::ptrdiff_t>(joints.first),
+            band.first_joint);
+  const std::size_t end_of_joints = close_up(joints, moved, joints.first, near_plates);
+  const std::size_t end_of_inner = close_up(inner, moved, inner.first, near_plates);
+  return {end_of_joints - static_cast<std::size_t>(band.first_joint), end_of_inner - inner.first};
+}
+
+}  // namespace cellcrush
+#endif

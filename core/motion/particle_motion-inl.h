@@ -1,0 +1,203 @@
+// Included once for each target; see Highway's documentation of foreach_target.h.
+#if defined(CELLCRUSH_MOTION_PARTICLE_MOTION_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef CELLCRUSH_MOTION_PARTICLE_MOTION_INL_H_
+#undef CELLCRUSH_MOTION_PARTICLE_MOTION_INL_H_
+#else
+#define CELLCRUSH_MOTION_PARTICLE_MOTION_INL_H_
+#endif
+
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+#include "cellcrush/scene.h"
+#include "cellcrush/state.h"
+#include "motion/step_factors.h"
+#include "motion/supports.h"
+#include "simd/lane-inl.h"
+#include "simd/points-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace cellcrush::HWY_NAMESPACE {
+
+/// What acts on a scene's particles besides walls, plates and contacts. What does not act costs nothing.
+template <bool friction, bool mass_damping, bool frame>
+struct ForceKinds {
+  static constexpr bool kFriction = friction;
+  static constexpr bool kMassDamping = mass_damping;
+  static constexpr bool kFrame = frame;  ///< loads or supports; one particle at a time
+};
+
+/// Calls use(the ForceKinds of a scene).
+template <class Use>
+HWY_INLINE auto with_force_kinds(const Scene& scene, const State& state, const Use& use) {
+  const bool rubs = !state.friction_force.empty();
+  if (scene.is_loaded() || !scene.supports.empty()) {
+    return rubs ? use(ForceKinds<true, true, true>()) : use(ForceKinds<false, true, true>());
+  }
+  if (scene.mass_damping > 0.0) {
+    return rubs ? use(ForceKinds<true, true, false>()) : use(ForceKinds<false, true, false>());
+  }
+  return rubs ? use(ForceKinds<true, false, false>()) : use(ForceKinds<false, false, false>());
+}
+
+/// The arrays of particles, S being State, or const State where nothing moves. Raw pointers: a store may alias a vector's own
+/// pointer.
+template <class S>
+struct ParticleArrays {
+  template <class T>
+  using Pointer = std::conditional_t<std::is_const_v<S>, const T*, T*>;
+
+  const Scene& scene;
+  const State& state;
+  const double* mass;
+  const double* inertia;
+  const double* inverse_mass;
+  const double* inverse_inertia;
+  const Vector2* internal_force;
+  const double* internal_moment;
+  const Vector2* load_force;
+  const double* load_moment;
+  const ContactForce* contact_force;
+  const Vector2* friction_force;
+  const std::uint8_t* contact_lots;
+  Pointer<Vector2> position;
+  Pointer<Vector2> velocity;
+  Pointer<double> rotation;
+  Pointer<double> spin;
+
+  ParticleArrays(const Scene& of_scene, S& of_state)
+      : scene(of_scene),
+        state(of_state),
+        mass(scene.mass.data()),
+        inertia(scene.inertia.data()),
+        inverse_mass(scene.inverse_mass.data()),
+        inverse_inertia(scene.inverse_inertia.data()),
+        internal_force(state.internal_force.data()),
+        internal_moment(state.internal_moment.data()),
+        load_force(scene.is_loaded() ? state.load_force.data() : nullptr),
+        load_moment(state.load_moment.data()),
+        contact_force(state.contact_force.data()),
+        friction_force(state.friction_force.data()),
+        contact_lots(state.contact_lots.empty() ? nullptr : state.contact_lots.data()),
+        position(of_state.position.data()),
+        velocity(of_state.velocity.data()),
+        rotation(of_state.rotation.data()),
+        spin(of_state.spin.data()) {}
+};
+
+/// Forces on the lanes' particles, N and N mm; mass damping aside. Those that do not act are left out.
+template <class D>
+struct ParticleForces {
+  Points<D> total;
+  Lane<D> moment;
+  Points<D> elastic;  ///< of contacts
+  Points<D> viscous;  ///< of contacts
+  Points<D> friction;
+  Points<D> load;
+  Lane<D> load_moment;
+
+  HWY_INLINE ParticleForces() : load{0, 0}, load_moment(0) {}
+};
+
+template <class D>
+HWY_INLINE void load_contact_forces(const ContactForce* from, ParticleForces<D>& forces) {
+  if constexpr (Lane<D>::kWidth == 1) {
+    forces.elastic = Points<D>::load(&from->elastic);
+    forces.viscous = Points<D>::load(&from->viscous);
+  } else {
+    hn::LoadInterleaved4(D(), from->elastic.data(), forces.elastic.x.raw, forces.elastic.y.raw, forces.viscous.x.raw,
+                         forces.viscous.y.raw);
+  }
+}
+
+/// Sum of the forces on particles from `i` on (Eq. 4). kContact: some of them may bear contact forces.
+template <bool kContact, class Kinds, class D, class S>
+HWY_INLINE ParticleForces<D> forces_on(const ParticleArrays<S>& arrays, std::size_t i) {
+  ParticleForces<D> forces;
+  forces.total = Points<D>::load(arrays.internal_force + i);
+  forces.moment = Lane<D>::load(arrays.internal_moment + i);
+  if constexpr (kContact) {
+    load_contact_forces(arrays.contact_force + i, forces);
+    forces.total = forces.total + (forces.elastic + forces.viscous);
+  }
+  if constexpr (Kinds::kFriction) {
+    forces.friction = Points<D>::load(arrays.friction_force + i);
+    forces.total = forces.total + forces.friction;
+  }
+  if constexpr (Kinds::kFrame) {
+    if (arrays.load_force != nullptr) {
+      forces.load = Points<D>::load(arrays.load_force + i);
+      forces.load_moment = Lane<D>::load(arrays.load_moment + i);
+      forces.total = forces.total + forces.load;
+      forces.moment += forces.load_moment;
+    }
+  }
+  return forces;
+}
+
+/// Velocities half a step before and half a step after the forces (Eq. 4, central differences).
+template <class D>
+struct ParticleMotion {
+  Points<D> velocity;  ///< mm/s
+  Points<D> next;
+  Lane<D> spin;  ///< rad/s
+  Lane<D> next_spin;
+  Points<D> reaction;       ///< N, of supports
+  Lane<D> reaction_moment;  ///< N mm
+
+  HWY_INLINE ParticleMotion() : reaction{0, 0}, reaction_moment(0) {}
+};
+
+/// v(n+1/2) of v(n-1/2) under forces F(n), dt_g being `gain` over the mass.
+template <class D>
+HWY_INLINE Points<D> next_velocity(const StepFactors& step, const Points<D>& velocity, Lane<D> gain_per_mass,
+                                   const Points<D>& force) {
+  return fma(gain_per_mass, force, Lane<D>(step.keep) * velocity);
+}
+template <class D>
+HWY_INLINE Lane<D> next_spin(const StepFactors& step, Lane<D> spin, Lane<D> gain_per_inertia, Lane<D> moment) {
+  return fma(gain_per_inertia, moment, Lane<D>(step.keep) * spin);
+}
+
+/// Supports put held velocities in place of the free ones, with the reactions that it takes.
+template <class D, class S>
+HWY_INLINE void apply_supports(const ParticleArrays<S>& arrays, const StepFactors& step, std::size_t i,
+                               ParticleMotion<D>& motion) {
+  static_assert(Lane<D>::kWidth == 1);
+  const double mass_per_gain = arrays.mass[i] / step.gain;
+  const auto hold = [&](const Hold& support, double per_velocity, Lane<D>& velocity, Lane<D>& reaction) HWY_ATTR {
+    if (support.held) {
+      const Lane<D> held = held_velocity(arrays.scene, arrays.state, support);
+      reaction = Lane<D>(per_velocity) * (held - velocity);
+      velocity = held;
+    }
+  };
+  const Support& support = arrays.scene.supports[i];
+  hold(support.x, mass_per_gain, motion.next.x, motion.reaction.x);
+  hold(support.y, mass_per_gain, motion.next.y, motion.reaction.y);
+  hold(support.rotation, arrays.inertia[i] / step.gain, motion.next_spin, motion.reaction_moment);
+}
+
+/// Motion of particles from `i` on that belong to no rigid body.
+template <class Kinds, class D, class S>
+HWY_INLINE ParticleMotion<D> motion_of(const ParticleArrays<S>& arrays, const StepFactors& step,
+                                       const ParticleForces<D>& forces, std::size_t i) {
+  const Lane<D> gain = step.gain;
+  ParticleMotion<D> motion;
+  motion.velocity = Points<D>::load(arrays.velocity + i);
+  motion.spin = Lane<D>::load(arrays.spin + i);
+  motion.next = next_velocity(step, motion.velocity, gain * Lane<D>::load(arrays.inverse_mass + i), forces.total);
+  motion.next_spin = next_spin(step, motion.spin, gain * Lane<D>::load(arrays.inverse_inertia + i), forces.moment);
+  if constexpr (Kinds::kFrame) {
+    if (!arrays.scene.supports.empty()) {
+      apply_supports(arrays, step, i, motion);
+    }
+  }
+  return motion;
+}
+
+}  // namespace cellcrush::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // CELLCRUSH_MOTION_PARTICLE_MOTION_INL_H_

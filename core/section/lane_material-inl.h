@@ -1,0 +1,73 @@
+// Included once for each target; see Highway's documentation of foreach_target.h.
+#if defined(CELLCRUSH_SECTION_LANE_MATERIAL_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef CELLCRUSH_SECTION_LANE_MATERIAL_INL_H_
+#undef CELLCRUSH_SECTION_LANE_MATERIAL_INL_H_
+#else
+#define CELLCRUSH_SECTION_LANE_MATERIAL_INL_H_
+#endif
+
+#include <cstddef>
+
+#include "cellcrush/scene.h"
+#include "simd/lane-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace cellcrush::HWY_NAMESPACE {
+
+/// Materials of the lanes, MPa.
+template <class D>
+struct LaneMaterial {
+  using Number = hn::TFromD<D>;
+
+  Lane<D> modulus;  ///< E
+  Lane<D> yield_stress;
+  Lane<D> hardening;            ///< H
+  Lane<D> isotropic;            ///< beta H
+  Lane<D> kinematic;            ///< (1 - beta) H
+  Lane<D> inverse;              ///< 1 / (E + H)
+  Lane<D> bending_flexibility;  ///< 12 / E: h times the curvature that a moment over b h^2 causes
+
+  HWY_INLINE LaneMaterial(Lane<D> youngs_modulus, Lane<D> yield, Lane<D> hardening_modulus, Lane<D> isotropic_fraction)
+      : modulus(youngs_modulus),
+        yield_stress(yield),
+        hardening(hardening_modulus),
+        isotropic(isotropic_fraction * hardening_modulus),
+        kinematic((Lane<D>(1) - isotropic_fraction) * hardening_modulus),
+        inverse(Lane<D>(1) / (modulus + hardening)),
+        bending_flexibility(Lane<D>(12) / modulus) {}
+
+  /// One material in all lanes.
+  HWY_INLINE explicit LaneMaterial(const Material& material)
+      : LaneMaterial(static_cast<Number>(material.youngs_modulus), static_cast<Number>(material.yield_stress),
+                     static_cast<Number>(material.hardening_modulus),
+                     static_cast<Number>(material.isotropic_fraction)) {}
+
+  /// The same with a share of the modulus.
+  HWY_INLINE LaneMaterial softened(Lane<D> share) const {
+    LaneMaterial softer = *this;
+    softer.modulus = modulus * share;
+    softer.inverse = Lane<D>(1) / (softer.modulus + hardening);
+    softer.bending_flexibility = Lane<D>(12) / softer.modulus;
+    return softer;
+  }
+};
+
+/// Materials of the walls from `wall` on.
+template <class D>
+HWY_INLINE LaneMaterial<D> material_of_walls(const Scene& scene, int wall) {
+  using Number = hn::TFromD<D>;
+  const auto load = [&](double Material::*property) HWY_ATTR {
+    Number values[Lane<D>::kWidth];
+    for (std::size_t lane = 0; lane < Lane<D>::kWidth; ++lane) {
+      values[lane] = static_cast<Number>(scene.materials[scene.walls.material[wall + lane]].*property);
+    }
+    return Lane<D>::load(values);
+  };
+  return {load(&Material::youngs_modulus), load(&Material::yield_stress), load(&Material::hardening_modulus),
+          load(&Material::isotropic_fraction)};
+}
+
+}  // namespace cellcrush::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // CELLCRUSH_SECTION_LANE_MATERIAL_INL_H_

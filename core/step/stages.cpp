@@ -1,0 +1,43 @@
+#include "step/stages.h"
+
+#include <span>
+
+#include "beam/internal_forces.h"
+#include "contact/clear_forces.h"
+#include "contact/contact_forces.h"
+#include "contact/plate_forces.h"
+#include "motion/integrate_motion.h"
+
+namespace cellcrush {
+
+void move_band(const Scene& scene, State& state, std::size_t band, StepRecord& record, StageWorkspace& workspace,
+               std::vector<int>& near_plates) {
+  record.near[band] =
+      integrate_motion(scene, state, scene.bands[band], record.reach, workspace.workers, record.moved, near_plates);
+  clear_contact_forces(state, scene.bands[band]);
+}
+
+void evaluate_band_walls(const Scene& scene, State& state, std::size_t band, StepRecord& record,
+                         StageWorkspace& workspace) {
+  evaluate_internal_forces(scene, state, scene.bands[band], workspace.walls, workspace.workers,
+                           record.plastic_work.data());
+}
+
+void evaluate_band_contacts(const Scene& scene, State& state, std::size_t band, StepRecord& record,
+                            StageWorkspace& workspace) {
+  evaluate_contact_forces(scene, state, band, workspace.contact, workspace.workers, record.contacts);
+}
+
+void evaluate_band_plates(const Scene& scene, State& state, std::size_t band, StepRecord& record,
+                          const std::vector<int>& near_plates) {
+  const std::span<const int> near(near_plates);
+  const NearCounts& counts = record.near[band];
+  const auto evaluate = [&](int first, std::size_t count) {
+    evaluate_plate_forces(scene, state, record.plate, near.subspan(static_cast<std::size_t>(first), count),
+                          record.contacts);
+  };
+  evaluate(scene.bands[band].first_joint, counts.joints);
+  evaluate(scene.bands[band].first_inner, counts.inner);
+}
+
+}  // namespace cellcrush
