@@ -43,7 +43,8 @@ const std::vector<Target>& targets() {
 
 }  // namespace
 
-bool use_wide_kernels() { return simd_target() != "scalar"; }
+static bool is_wide = true;
+bool use_wide_kernels() { return is_wide; }
 
 std::vector<std::string> simd_targets() {
   std::vector<std::string> names;
@@ -68,6 +69,7 @@ bool use_simd_target(std::string_view name) {
   if (found == known.end()) {
     return false;
   }
+  is_wide = found->name != "scalar";
   hwy::DisableTargets(found->bit - 1);  // all better ones
   hwy::GetChosenTarget().Update(hwy::SupportedTargets());
   return true;

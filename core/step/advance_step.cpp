@@ -13,13 +13,10 @@
 #include "step/advance_block.h"
 #include "step/stage_scope.h"
 #include "step/stages.h"
+#include "tuning/tuning.h"
 
 namespace cellcrush {
 namespace {
-
-/// With more elements, the strains that pass between the walls' stages do not stay in the nearest cache: with 16 times the
-/// cells of Type I two threads lose a third by the overlap, with 4 times nothing.
-constexpr std::size_t kMostElementsOverlapped = 20'000;
 
 bool overlaps_contacts(const Scene& scene, const Workspace& workspace) {
   return workspace.shared.workers.count() > 1 && scene.element_count() <= kMostElementsOverlapped;

@@ -4,14 +4,15 @@
 #include <cmath>
 #include <numbers>
 
-#include "beam/deformation.h"
 #include "scenes/direction.h"
+#include "scenes/kernels.h"
 #include "scenes/probe.h"
 
 namespace cellcrush {
 namespace {
 
 using scenes::direction;
+using scenes::ElementDeformation;
 using scenes::Probe;
 
 // A bar that turns 400 steps a turn, for three turns: the angle of its direction jumps by a turn at every half turn,
@@ -24,7 +25,7 @@ TEST(ManyTurns, TheAngleOfADirectionJumpsWhereTheIncrementOfTheAxisDoesNot) {
     const Vector2 now = direction(turn * step);
     const double of_angles = std::atan2(now.y(), now.x()) - std::atan2(before.y(), before.x());
     worst_of_angles = std::max(worst_of_angles, std::abs(of_angles - turn));
-    const Deformation deformation = reverse_motion(2.0 * now, before, 2.0, turn, turn);
+    const ElementDeformation deformation = scenes::reverse_motion(2.0 * now, before, 2.0, turn, turn);
     EXPECT_NEAR(deformation.rotation_start, 0.0, 1e-14) << step;
     EXPECT_NEAR(deformation.rotation_end, 0.0, 1e-14) << step;
   }
@@ -42,7 +43,7 @@ TEST(SmallIncrements, AreLostToTheArcCosineAndBendAnElementThatOnlySpins) {
     const Vector2 before = direction(0.3 + kTurn * step);
     const Vector2 now = direction(0.3 + kTurn * (step + 1));
     bend_by_arc_cosine += kTurn - std::acos(std::min(1.0, before.dot(now)));
-    bend += kTurn - turn_between(before, now);
+    bend += kTurn - scenes::turn_between(before, now);
   }
   constexpr double kRest = kSteps / 1000.0;
   EXPECT_GT(std::abs(bend_by_arc_cosine) * kRest, 0.005);  // rad: half of the yield rotation of a wall
@@ -51,8 +52,8 @@ TEST(SmallIncrements, AreLostToTheArcCosineAndBendAnElementThatOnlySpins) {
 
 TEST(LargeIncrements, BeyondHalfATurnAreSeenAsTheOtherWay) {
   constexpr double kTurn = 3.3;
-  EXPECT_NEAR(turn_between(direction(0.0), direction(kTurn)), kTurn - 2.0 * std::numbers::pi, 1e-12);
-  const Deformation deformation = reverse_motion(2.0 * direction(kTurn), direction(0.0), 2.0, kTurn, kTurn);
+  EXPECT_NEAR(scenes::turn_between(direction(0.0), direction(kTurn)), kTurn - 2.0 * std::numbers::pi, 1e-12);
+  const ElementDeformation deformation = scenes::reverse_motion(2.0 * direction(kTurn), direction(0.0), 2.0, kTurn, kTurn);
   EXPECT_NEAR(deformation.rotation_start, 2.0 * std::numbers::pi, 1e-12);  // a rigid turn, felt as a full turn of bend
 }
 

@@ -1,15 +1,16 @@
-#include "beam/deformation.h"
-
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 #include "scenes/direction.h"
+#include "scenes/kernels.h"
 
 namespace cellcrush {
 namespace {
 
 using scenes::direction;
+using scenes::turn_between;
 
 // The arc cosine of the paper's Eq. 9 gives 0 below 2e-8 rad and never a sign.
 TEST(Turn, TinyIncrementsOfBothSignsSurvive) {
@@ -30,8 +31,8 @@ TEST(Turn, IsExactFromTheSeriesToHalfATurn) {
 TEST(ReverseMotion, TakesOutRigidMotionAndLeavesStretchAndTurns) {
   const Vector2 axis = direction(0.7);
   const double rigid_turn = 0.01;
-  const Deformation deformation =
-      reverse_motion(2.02 * direction(0.7 + rigid_turn), axis, 2.0, rigid_turn + 0.003, rigid_turn - 0.001);
+  const scenes::ElementDeformation deformation =
+      scenes::reverse_motion(2.02 * direction(0.7 + rigid_turn), axis, 2.0, rigid_turn + 0.003, rigid_turn - 0.001);
   EXPECT_NEAR(deformation.stretch, 0.02, 1e-15);
   EXPECT_NEAR(deformation.rotation_start, 0.003, 1e-15);
   EXPECT_NEAR(deformation.rotation_end, -0.001, 1e-15);

@@ -1,9 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <vector>
 
-#include "beam/beam_element.h"
+#include "scenes/kernels.h"
 #include "section/section_rule.h"
 
 namespace cellcrush {
@@ -16,53 +15,30 @@ constexpr double kThickness = 0.3;
 class Element {
  public:
   Element(const Material& material, const SectionSpec& spec)
-      : material_(material),
-        rule_(make_section_rule(spec)),
-        stress_(rule_.fibre_count()),
-        back_stress_(rule_.fibre_count()),
-        plastic_strain_(rule_.fibre_count()),
-        unbalance_(rule_.section_count()),
-        flexibility_(rule_.section_count(), 1.0) {}
+      : yield_stress_(material.yield_stress), element_(material, make_section_rule(spec)) {}
 
   /// Turns the ends by increments in rad; the moments are those after it, over the full plastic moment.
   void turn(double start, double end) {
-    const Deformation deformation = {0.0, start, end, kLength, Vector2(1.0, 0.0)};
-    const double area = kThickness;
-    const BeamSection section = {kThickness, area, area * kLength, 1.0};
-    const ElementForces before = forces_;
-    const Fibres<double> fibres = {stress_.data(), back_stress_.data(), plastic_strain_.data(), nullptr};
-    const SectionMemory<double> sections = {unbalance_.data(), flexibility_.data()};
-    forces_ = evaluate_element<0, true>(deformation, kLength, material_, section, rule_, fibres, sections, moments_,
-                                        plastic_work_);
-    work_ += 0.5 * (before.moment_on_start + forces_.moment_on_start) * start +
-             0.5 * (before.moment_on_end + forces_.moment_on_end) * end;
+    const scenes::OneElement::Sums before = element_.sums();
+    const double slenderness = kThickness / kLength;
+    const scenes::OneElement::Sums& now = element_.strain(0.0, slenderness * start, slenderness * end);
+    plastic_work_ += kThickness * kLength * now.plastic_work;
+    work_ += 0.5 * kThickness * kThickness *
+             ((before.moment_start + now.moment_start) * start + (before.moment_end + now.moment_end) * end);
   }
 
-  [[nodiscard]] double start_moment() const { return forces_.moment_on_start / full_moment(); }
-  [[nodiscard]] double end_moment() const { return forces_.moment_on_end / full_moment(); }
-  [[nodiscard]] double full_moment() const { return 0.25 * material_.yield_stress * kThickness * kThickness; }
+  [[nodiscard]] double start_moment() const { return element_.sums().moment_start / (0.25 * yield_stress_); }
+  [[nodiscard]] double end_moment() const { return element_.sums().moment_end / (0.25 * yield_stress_); }
+  [[nodiscard]] double full_moment() const { return 0.25 * yield_stress_ * kThickness * kThickness; }
   [[nodiscard]] double plastic_work() const { return plastic_work_; }
   [[nodiscard]] double work() const { return work_; }  ///< of the end moments
 
   /// Greatest moment that a section lacks to the line, over the full plastic moment.
-  [[nodiscard]] double unbalance() const {
-    double worst = 0.0;
-    for (const double moment : unbalance_) {
-      worst = std::max(worst, std::abs(moment));
-    }
-    return worst / (0.25 * material_.yield_stress);
-  }
+  [[nodiscard]] double unbalance() const { return element_.residual() / (0.25 * yield_stress_); }
 
  private:
-  Material material_;
-  SectionRule rule_;
-  std::vector<double> stress_;
-  std::vector<double> back_stress_;
-  std::vector<double> plastic_strain_;
-  std::vector<double> unbalance_;
-  std::vector<double> flexibility_;
-  EndMoments moments_;
-  ElementForces forces_;
+  double yield_stress_;
+  scenes::OneElement element_;
   double plastic_work_ = 0.0;
   double work_ = 0.0;
 };

@@ -1,11 +1,11 @@
 #include <gtest/gtest.h>
 
-#include "beam/wide_walls.h"
 #include "cellcrush/simd.h"
 #include "cellcrush/simulation.h"
 #include "scenes/crushes.h"
 #include "scenes/frames.h"
 #include "scenes/state_hash.h"
+#include "tuning/tuning.h"
 
 namespace cellcrush {
 namespace {
@@ -42,10 +42,10 @@ TEST(Threads, AnyNumberOfThemGivesTheSameBits) {
   }
 }
 
-// Where contacts are not found beside the walls' work.
+// Where the contacts do not overlap with the walls.
 TEST(Threads, AnyNumberOfThemGivesTheSameBitsOfALargeLattice) {
   const auto scene = scenes::build(scenes::with_the_papers_elements(scenes::hexagon_block(100, 40)));
-  ASSERT_GT(scene->element_count(), kMostElementsBeside);
+  ASSERT_GT(scene->element_count(), kMostElementsOverlapped);
   const auto crush_some = [&scene](int threads) {
     Simulation simulation(scene, threads);
     simulation.advance(100);
@@ -56,7 +56,7 @@ TEST(Threads, AnyNumberOfThemGivesTheSameBitsOfALargeLattice) {
   EXPECT_EQ(crush_some(3), one);
 }
 
-TEST(Threads, AnyNumberOfThemGivesTheSameBitsByThePlainText) {
+TEST(Threads, AnyNumberOfThemGivesTheSameBitsOnTheScalarTarget) {
   ASSERT_TRUE(use_simd_target("scalar"));
   EXPECT_EQ(crush(with_friction_and_damping(block()), 3), crush(with_friction_and_damping(block()), 1));
   EXPECT_TRUE(use_simd_target(""));
