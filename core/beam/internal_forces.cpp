@@ -15,9 +15,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {
 
-/// Chunks that a thread takes at once in respond_walls.
-constexpr std::size_t kChunksInPiece = 2;
-
 /// The walls' loops over a chunk, for one section rule. Full blocks fill vectors; other blocks, and rules whose counts are
 /// not known at compile time, are computed wall by wall.
 template <bool kForceBased, bool kHardening, class Rule>

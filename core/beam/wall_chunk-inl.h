@@ -15,6 +15,7 @@
 #include "beam/element_response-inl.h"
 #include "beam/walls_workspace.h"
 #include "cellcrush/state.h"
+#include "parallel/cache_size.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {
@@ -78,10 +79,6 @@ class ChunkScratch {
   const std::ptrdiff_t first_;
 };
 
-/// More fibres than this do not stay in the third cache from step to step, and are prefetched from memory some rows ahead: with
-/// 16 times the cells of Type I the walls take a third less. With fewer, prefetching costs 0.15 ns an element-step.
-constexpr std::size_t kCachedFibres = 1'000'000;
-
 /// A step of the walls of some neighbouring blocks (Eq. 7-32). Three short loops, over geometry, fibres and forces: the
 /// processor works at several elements at a time, where each by itself is a long chain of operations. Motion and forces are in
 /// double precision (lanes D), fibres in single or double (lanes F).
@@ -115,7 +112,7 @@ class WallChunk {
         internal_force_(state.internal_force.data()),
         internal_moment_(state.internal_moment.data()),
         stress_(memory.stress.data()),
-        prefetches_(memory.stress.size() > kCachedFibres),
+        prefetches_(memory.stress.size() * sizeof(T) > last_cache_bytes() / kCacheShareOfFibres),
         uniform_(scene.materials.front()) {}
 
   /// The first loop: axes, lengths and strains. Returns whether some elements are compressed, with a modulus of their own.
@@ -226,7 +223,6 @@ class WallChunk {
 
   /// Has the lanes' share of the stresses some rows ahead brought near.
   HWY_INLINE void prefetch_fibres(std::ptrdiff_t row, int lane, int walls) const {
-    constexpr std::ptrdiff_t kRowsAhead = 8;
     constexpr std::size_t kLine = 64 / sizeof(T);
     const T* const from = stress_ + (row + kRowsAhead * walls + lane) * rule_.fibres();
     for (std::size_t i = 0; i < rule_.fibres() * Stress::kWidth; i += kLine) {

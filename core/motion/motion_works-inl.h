@@ -14,9 +14,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {
 
-/// Lanes over which works are summed, whatever the target's are: the sums then have the same bits.
-inline constexpr int kSumLanes = 8;
-
 /// Works of the forces on the lanes' particles; see MotionWorks.
 template <class D>
 struct LaneWorks {

@@ -4,15 +4,14 @@
 
 #include <thread>
 
+#include "cellcrush/tuning.h"
+
 namespace cellcrush {
 
-/// Looks at a flag before a thread gives way to others: some hundred microseconds, longer than the gaps between a step's loops.
-inline constexpr int kLooks = 4000;
-
-/// Returns when the condition holds, after at most kLooks looks; whether it does.
+/// Returns when the condition holds, after at most kSpinCount checks; whether it does.
 template <class Condition>
 bool spin_until(const Condition& holds) {
-  for (int look = 0; look < kLooks; ++look) {
+  for (int check = 0; check < kSpinCount; ++check) {
     if (holds()) {
       return true;
     }
@@ -21,7 +20,7 @@ bool spin_until(const Condition& holds) {
   return false;
 }
 
-/// Returns when the condition holds; others go before in between.
+/// Returns when the condition holds; the thread yields in between.
 template <class Condition>
 void wait_until(const Condition& holds) {
   while (!spin_until(holds)) {

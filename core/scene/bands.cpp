@@ -7,13 +7,6 @@
 namespace cellcrush {
 namespace {
 
-constexpr int kLeastBands = 8;
-/// Of a band: the fewer, the more steps the caches hold at once. 16 times the cells of Type I, 2000 steps, an AMD EPYC, 16, 20 and
-/// 24: one thread 8.3, 8.5 and 8.6 ns an element-step, two 4.7, 4.8 and 5.2.
-constexpr int kLeastChunks = 16;
-constexpr int kMoreChunks = 8;
-constexpr std::size_t kBytesOfElement = 430;
-
 std::size_t bytes_of_chunks(const Scene& scene, int chunks) {
   return kBytesOfElement * scene.element_count() * static_cast<std::size_t>(chunks) /
          static_cast<std::size_t>(scene.walls.chunk_count());
@@ -21,7 +14,7 @@ std::size_t bytes_of_chunks(const Scene& scene, int chunks) {
 
 /// Whether the caches hold the bands of two steps.
 bool are_small(const Scene& scene, int chunks) {
-  return 2 * kBandsBehind * bytes_of_chunks(scene, chunks) <= kCacheBytes;
+  return 2 * kBandsBehind * bytes_of_chunks(scene, chunks) <= kCacheOfBands;
 }
 
 bool may_be_cut(const Scene& scene) {
@@ -29,7 +22,7 @@ bool may_be_cut(const Scene& scene) {
          !scene.is_loaded() && scene.contact.friction == 0.0;
 }
 
-int whole_lots(int count) {
+int whole_chunks(int count) {
   return (count + kParticlesMovedTogether - 1) / kParticlesMovedTogether * kParticlesMovedTogether;
 }
 
@@ -53,10 +46,10 @@ std::vector<LatticeBand> cut(const Scene& scene, int chunks) {
     const bool is_last = band.first_chunk + 2 * chunks > all_chunks;
     band.end_chunk = is_last ? all_chunks : band.first_chunk + chunks;
     // Whoever has a wall in the band moves with it or before it.
-    band.end_joint = is_last ? joints : std::min(joints, whole_lots(scene.walls.first_joint[band.end_chunk]));
+    band.end_joint = is_last ? joints : std::min(joints, whole_chunks(scene.walls.first_joint[band.end_chunk]));
     band.end_inner =
         is_last ? particles
-                : std::min(particles, joints + whole_lots(end_of_inner(scene.walls, band.end_chunk - 1) - joints));
+                : std::min(particles, joints + whole_chunks(end_of_inner(scene.walls, band.end_chunk - 1) - joints));
     bands.push_back(band);
   }
   return bands;
@@ -124,8 +117,8 @@ LatticeBand whole_band(const Scene& scene) {
 
 std::vector<LatticeBand> cut_into_bands(const Scene& scene, const FaceLoops& loops) {
   if (may_be_cut(scene)) {
-    for (int chunks = kLeastChunks; are_small(scene, chunks) && chunks * kLeastBands <= scene.walls.chunk_count();
-         chunks += kMoreChunks) {
+    for (int chunks = kLeastChunksOfBand; are_small(scene, chunks) && chunks * kLeastBands <= scene.walls.chunk_count();
+         chunks += kMoreChunksOfBand) {
       std::vector<LatticeBand> bands = cut(scene, chunks);
       if (are_apart(scene, loops, bands)) {
         return bands;

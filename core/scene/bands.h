@@ -11,16 +11,6 @@ namespace cellcrush {
 /// Bands that may have particles at the same face of a lattice that is cut into bands.
 inline constexpr int kBandsAtFace = 2;
 
-/// A smaller lattice stays in the caches as it is.
-inline constexpr std::size_t kLeastElementsOfBands = 50'000;
-
-/// Particles that are moved together at most: so many joints, or so many particles inside walls, from the first on. Bands have
-/// whole lots of them.
-inline constexpr int kParticlesMovedTogether = 256;
-
-/// Bytes of the last cache that the bands at work may fill.
-inline constexpr std::size_t kCacheBytes = 28'000'000;
-
 /// Bands by which a step is behind the one before it where threads advance bands side by side (step/advance_block.h).
 inline constexpr std::size_t kBandsBehind = 3;
 

@@ -32,9 +32,6 @@ void divide_block(const Layout& layout, const WallBlock& block, Scene& scene) {
   }
 }
 
-/// Elements of a chunk: few enough that what passes between the loops over it stays in the nearest cache.
-constexpr int kElementsInChunk = 128;
-
 /// Puts neighbouring blocks that are all full, or all not, into chunks.
 std::vector<int> chunk_offsets(const std::vector<WallBlock>& blocks) {
   std::vector<int> offsets = {0};

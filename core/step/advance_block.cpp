@@ -11,6 +11,7 @@
 #include "contact/face_search.h"
 #include "contact/find_contacts.h"
 #include "contact/one_list.h"
+#include "parallel/cache_size.h"
 #include "parallel/wavefront.h"
 #include "scene/bands.h"
 #include "step/stage_scope.h"
@@ -19,12 +20,6 @@
 namespace cellcrush {
 namespace {
 
-/// On an AMD EPYC with 32 MB of last cache, 16 times the cells of Type I, one thread, before contacts: 4, 7, 10, 20 steps at once
-/// 9.3, 8.5, 8.3, 9.3 ns an element-step.
-constexpr std::size_t kMostStepsAtOnce = 10;
-/// More in a block, so that the next begin where the first end: as many as there are between two samples, mostly.
-constexpr std::int64_t kMostSteps = 32;
-
 /// Bands by which a step is behind the one before it. A band's step writes to its own band and to the one before, and the
 /// contacts that come with it, of the band before, to one more: the band after these has been done with when they are. Side by
 /// side with them it must be one more.
@@ -32,7 +27,8 @@ std::size_t lag_of(const Workspace& workspace) { return workspace.shared.workers
 
 std::size_t steps_at_once(const Scene& scene, const Workspace& workspace) {
   const auto threads = static_cast<std::size_t>(workspace.shared.workers.count());
-  const std::size_t fitting = kCacheBytes / (lag_of(workspace) * bytes_of_band(scene));
+  const std::size_t for_bands = last_cache_bytes() / 8 * 7;
+  const std::size_t fitting = for_bands / (lag_of(workspace) * bytes_of_band(scene));
   return std::max(std::min(fitting, kMostStepsAtOnce) / threads * threads, threads);
 }
 
@@ -77,7 +73,7 @@ void check_search(const Scene& scene, State& state, std::int64_t first, std::spa
   if (crossed != records.end()) {
     state.crossing_step = first + 1 + (crossed - records.begin());
     put_into_one_list(state);
-  } else if (!borders_are_apart(scene, state, kMostSteps)) {
+  } else if (!borders_are_apart(scene, state, kMostStepsInBlock)) {
     put_into_one_list(state);
     search_buckets(scene, state, state.contacts.front());
   }
@@ -90,7 +86,7 @@ bool can_advance_blocks(const Scene& scene, const State& state) {
 }
 
 std::int64_t steps_in_block(std::int64_t steps) {
-  const std::int64_t blocks = (steps + kMostSteps - 1) / kMostSteps;
+  const std::int64_t blocks = (steps + kMostStepsInBlock - 1) / kMostStepsInBlock;
   return (steps + blocks - 1) / blocks;
 }
 

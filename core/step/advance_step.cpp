@@ -4,6 +4,7 @@
 
 #include "beam/internal_forces.h"
 #include "beam/joint_forces.h"
+#include "cellcrush/tuning.h"
 #include "contact/contact_lots.h"
 #include "contact/find_contacts.h"
 #include "energy/ledger.h"
@@ -13,7 +14,6 @@
 #include "step/advance_block.h"
 #include "step/stage_scope.h"
 #include "step/stages.h"
-#include "tuning/tuning.h"
 
 namespace cellcrush {
 namespace {

@@ -7,6 +7,7 @@
 
 #include "cellcrush/contact_faces.h"
 #include "cellcrush/lane_vector.h"
+#include "cellcrush/tuning.h"
 #include "cellcrush/vector.h"
 
 namespace cellcrush {
@@ -49,9 +50,6 @@ inline bool share_a_node(const Element& a, const Element& b) {
 
 /// Most fibres of an element that are kept in single precision: there is a bit for each in 32.
 inline constexpr std::size_t kMostSingleFibres = 32;
-
-/// Most walls that lie side by side in a block.
-inline constexpr int kMostWallsInBlock = 16;
 
 /// Walls of equally many elements, side by side: element j of the block's wall w is first_element + j * walls + w, the
 /// particle behind it inside the wall first_inner + j * walls + w. What elements remember lies in the same order, so that a

@@ -2,10 +2,10 @@
 
 #include "cellcrush/simd.h"
 #include "cellcrush/simulation.h"
+#include "cellcrush/tuning.h"
 #include "scenes/crushes.h"
 #include "scenes/frames.h"
 #include "scenes/state_hash.h"
-#include "tuning/tuning.h"
 
 namespace cellcrush {
 namespace {
