@@ -1,0 +1,41 @@
+#include "core/reference/reference_plates.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/reference/reference_penalty.h"
+
+namespace cellcrush::reference {
+
+void push_plates(const Lattice& lattice, const Particles& particles, const Motion& motion, double travel, double speed,
+                 PlateHistory& history, ContactForces& forces) {
+  const PlateData& plates = lattice.plates;
+  const int along = plates.axis;
+  const int across = 1 - along;
+  // Returns the elastic and the viscous force on a particle, towards the inside of the lattice.
+  const auto push = [&](std::size_t i, double face, double velocity, double inward, double& friction) {
+    const double surface = motion.position[i][along] - inward * particles.radius[i];
+    const double depth = std::max(inward * (face - surface), 0.0);  // D
+    const double elastic = plates.stiffness * depth;
+    const double approach = inward * (velocity - motion.velocity[i][along]);  // dD/dt
+    const double viscous = depth > 0.0 ? viscous_force(plates.stiffness, lattice.contact.damping_ratio,
+                                                       1.0 / particles.mass[i], approach, elastic)
+                                       : 0.0;
+    forces.elastic[i][along] += inward * elastic;  // Eq. 43
+    forces.viscous[i][along] += inward * viscous;
+    forces.stored += elastic * depth / 2.0;
+    const double slip = lattice.time_step * motion.velocity[i][across];  // Eq. 44
+    friction = friction_after(friction, plates.stiffness, slip, plates.friction * (elastic + viscous));
+    forces.friction[i][across] += friction;
+    return std::pair(elastic, viscous);
+  };
+  for (std::size_t i = 0; i < motion.position.size(); ++i) {
+    const auto impact = push(i, plates.impact_face + travel, speed, 1.0, history.impact_friction[i]);
+    forces.impact_elastic += impact.first;
+    forces.impact_viscous += impact.second;
+    const auto support = push(i, plates.support_face, 0.0, -1.0, history.support_friction[i]);
+    forces.support += support.first + support.second;
+  }
+}
+
+}  // namespace cellcrush::reference
