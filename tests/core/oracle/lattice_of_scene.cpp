@@ -1,0 +1,133 @@
+#include "core/oracle/lattice_of_scene.h"
+
+#include <algorithm>
+
+namespace cellcrush {
+namespace {
+
+reference::Material material_of(const Scene& scene, const Element& element) {
+  const Material& material = scene.materials[element.material];
+  return {material.youngs_modulus, material.yield_stress, material.hardening_modulus, material.isotropic_fraction,
+          material.density};
+}
+
+/// By which the values of an element are found in the arrays of a state.
+struct RowIndex {
+  std::size_t first = 0;  // first element of its row
+  std::size_t walls = 0;  // elements of the row
+  std::size_t lane = 0;   // of the element in the row
+
+  [[nodiscard]] std::size_t of(std::size_t per_element, std::size_t i) const {
+    return first * per_element + i * walls + lane;
+  }
+};
+
+RowIndex row_index_of(const Scene& scene, std::size_t element) {
+  const auto has = [&](const WallBlock& block) {
+    return element < static_cast<std::size_t>(block.first_element + block.walls * block.elements);
+  };
+  const WallBlock& block = *std::find_if(scene.walls.blocks.begin(), scene.walls.blocks.end(), has);
+  const auto walls = static_cast<std::size_t>(block.walls);
+  const std::size_t lane = (element - static_cast<std::size_t>(block.first_element)) % walls;
+  return {element - lane, walls, lane};
+}
+
+template <class T>
+void read_history(const Scene& scene, const FibreMemory<T>& memory, std::size_t element,
+                  reference::ElementHistory& history) {
+  const RowIndex row = row_index_of(scene, element);
+  for (std::size_t f = 0; f < history.fibres.size(); ++f) {
+    const std::size_t i = row.of(scene.fibre_count(), f);
+    history.fibres[f].stress = memory.stress[i];
+    if (!memory.back_stress.empty()) {
+      history.fibres[f].back_stress = memory.back_stress[i];
+      history.fibres[f].plastic_strain = memory.plastic_strain[i];
+    }
+  }
+  if (memory.section_flexibility.empty()) {
+    return;
+  }
+  for (std::size_t s = 0; s < history.flexibility.size(); ++s) {
+    const std::size_t i = row.of(scene.section.section_count(), s);
+    history.flexibility[s] = memory.section_flexibility[i];
+    history.shortfall[s] = memory.section_unbalance[i];
+  }
+  history.moment_start = memory.start_moment[element];
+  history.moment_end = memory.end_moment[element];
+}
+
+}  // namespace
+
+reference::ElementRule element_rule_of(const Scene& scene) {
+  reference::ElementRule rule;
+  rule.force_based = scene.section.force_based;
+  rule.constant_area = scene.constant_area;
+  for (Eigen::Index i = 0; i < scene.section.along.size(); ++i) {
+    rule.sections.push_back({scene.section.along[i], scene.section.along_weight[i]});
+  }
+  for (Eigen::Index j = 0; j < scene.section.offset.size(); ++j) {
+    rule.points.push_back({scene.section.offset[j], scene.section.depth_weight[j]});
+  }
+  if (scene.single_fibres) {
+    rule.no_moment = 2e-6;
+    rule.no_softening = 1e-2;
+  }
+  return rule;
+}
+
+reference::ElementData element_data_of(const Scene& scene, std::size_t element) {
+  const Element& given = scene.elements[element];
+  const double length = (scene.position[given.end] - scene.position[given.start]).norm();
+  return {material_of(scene, given), given.thickness, scene.depth, length};
+}
+
+reference::ElementHistory element_history_of(const Scene& scene, const State& state, std::size_t element) {
+  const Element& given = scene.elements[element];
+  reference::ElementHistory history =
+      reference::undeformed(element_rule_of(scene), scene.position[given.start], scene.position[given.end]);
+  history.axis = state.axis[element];
+  history.length = state.length[element];
+  scene.single_fibres ? read_history(scene, state.single_fibres, element, history)
+                      : read_history(scene, state.fibres, element, history);
+  return history;
+}
+
+reference::Instant instant_of(const Scene& scene, const State& state) {
+  reference::Instant instant;
+  instant.motion = {{state.position.begin(), state.position.end()}, {state.velocity.begin(), state.velocity.end()}};
+  instant.spin.assign(state.spin.begin(), state.spin.end());
+  for (int e = 0; e < scene.rigid.first_element; ++e) {
+    instant.elements.push_back(element_history_of(scene, state, static_cast<std::size_t>(e)));
+  }
+  for (std::size_t i = 0; i < scene.particle_count(); ++i) {
+    instant.force.push_back(state.internal_force[i] + state.contact_force[i].elastic + state.contact_force[i].viscous);
+    if (!state.friction_force.empty()) {
+      instant.force.back() += state.friction_force[i];
+    }
+  }
+  instant.moment.assign(state.internal_moment.begin(), state.internal_moment.end());
+  return instant;
+}
+
+reference::Lattice lattice_of(const Scene& scene) {
+  reference::Lattice lattice;
+  lattice.position = scene.position;
+  for (const Element& element : scene.elements) {
+    lattice.segments.push_back({element.start, element.end, element.thickness, material_of(scene, element)});
+  }
+  lattice.element_count = scene.rigid.first_element;
+  for (std::size_t body = 0; body < scene.rigid.count(); ++body) {
+    lattice.bodies.push_back({scene.rigid.offset[body], scene.rigid.offset[body + 1]});
+  }
+  lattice.rule = element_rule_of(scene);
+  lattice.depth = scene.depth;
+  lattice.contact = {scene.contact.stiffness, scene.contact.damping_ratio, scene.contact.friction};
+  const Plates& plates = scene.plates;
+  lattice.plates = {plates.axis,      plates.impact_face, plates.support_face, plates.speed,
+                    plates.ramp_time, plates.stiffness,   plates.friction};
+  lattice.mass_damping = scene.mass_damping;
+  lattice.time_step = scene.schedule.time_step;
+  return lattice;
+}
+
+}  // namespace cellcrush
