@@ -120,6 +120,10 @@ TEST_F(PlantedTree, NobodyIncludesTests) {
   expect_found("server/worker/bad.cpp", "\"tests/core/helper.h\"", "nobody but tests includes tests");
 }
 
+TEST_F(PlantedTree, TheOracleMayNotIncludeCore) {
+  expect_found("tests/core/reference/bad.cpp", "\"cellcrush/scene.h\"", "the oracle shares nothing with core");
+}
+
 TEST_F(PlantedTree, TheRootTakesNoOtherEntry) {
   write("tools/helper.py", "");
   const std::vector<Violation> violations = check_house(root_);
