@@ -23,6 +23,17 @@ template <class D>
 struct LaneMask {
   hn::Mask<D> raw;
 
+  /// The lowest bit is the first lane's.
+  static HWY_INLINE LaneMask of_bits(unsigned bits) {
+    const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(bits)};
+    return {hn::LoadMaskBits(D(), bytes)};
+  }
+  friend HWY_INLINE unsigned bits_of(LaneMask a) {
+    std::uint8_t bytes[8] = {};
+    hn::StoreMaskBits(D(), a.raw, bytes);
+    return bytes[0];
+  }
+
   friend HWY_INLINE LaneMask operator&(LaneMask a, LaneMask b) { return {hn::And(a.raw, b.raw)}; }
   friend HWY_INLINE LaneMask operator|(LaneMask a, LaneMask b) { return {hn::Or(a.raw, b.raw)}; }
   friend HWY_INLINE LaneMask operator!(LaneMask a) { return {hn::Not(a.raw)}; }
@@ -92,6 +103,7 @@ struct Lane {
   friend HWY_INLINE Lane abs(Lane a) { return hn::Abs(a.raw); }
   friend HWY_INLINE Lane sqrt(Lane a) { return hn::Sqrt(a.raw); }
   friend HWY_INLINE Lane select(Mask mask, Lane yes, Lane no) { return hn::IfThenElse(mask.raw, yes.raw, no.raw); }
+  friend HWY_INLINE Number least_of_lanes(Lane a) { return hn::GetLane(hn::MinOfLanes(D(), a.raw)); }
   /// `value` where the mask is set, else 0.
   friend HWY_INLINE Lane masked(Mask mask, Lane value) { return hn::IfThenElseZero(mask.raw, value.raw); }
 };
@@ -116,10 +128,8 @@ HWY_INLINE Lane<D> gather(const double* numbers, const int* indices) {
 /// one takes less time than a vector compressed.
 template <class D>
 HWY_INLINE std::size_t write_set_lanes(LaneMask<D> mask, std::size_t first, int* to) {
-  std::uint8_t bytes[8] = {};
-  hn::StoreMaskBits(D(), mask.raw, bytes);
   std::size_t count = 0;
-  for (unsigned bits = bytes[0]; bits != 0; bits &= bits - 1) {
+  for (unsigned bits = bits_of(mask); bits != 0; bits &= bits - 1) {
     to[count++] = static_cast<int>(first) + std::countr_zero(bits);
   }
   return count;

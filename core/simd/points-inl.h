@@ -60,6 +60,9 @@ struct Points {
   friend HWY_INLINE Points fma(Lane<D> factor, const Points& a, const Points& b) {
     return {fma(factor, a.x, b.x), fma(factor, a.y, b.y)};
   }
+  /// Of x and y each.
+  friend HWY_INLINE Points min(const Points& a, const Points& b) { return {min(a.x, b.x), min(a.y, b.y)}; }
+  friend HWY_INLINE Points max(const Points& a, const Points& b) { return {max(a.x, b.x), max(a.y, b.y)}; }
   friend HWY_INLINE Points select(LaneMask<D> mask, const Points& yes, const Points& no) {
     return {select(mask, yes.x, no.x), select(mask, yes.y, no.y)};
   }
