@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
 #include "cellcrush/contact_lists.h"
@@ -21,11 +20,6 @@ void replace_list(ContactLists& lists, int face, const std::vector<Candidate>& c
 
 /// A pair that was found at `place` has parted: it is tested again from the next step on.
 void wake_candidate(ContactLists& lists, int place, int ball, int segment);
-
-/// What the group of a batch has travelled; 0 by buckets.
-inline double travel_of_batch(const ContactLists& lists, std::size_t batch) {
-  return lists.batch_group.empty() ? 0.0 : lists.group_travel[lists.batch_group[batch]];
-}
 
 /// Lists one more, of no face.
 void add_candidate(ContactLists& lists, const Candidate& candidate);

@@ -1,48 +1,150 @@
 #include "contact/find_overlaps.h"
 
-#include <cmath>
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "contact/find_overlaps.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <bit>
 #include <limits>
 #include <span>
 #include <vector>
 
-#include "contact/candidate_lists.h"
-#include "contact/capsule.h"
-#include "contact/wide_overlaps.h"
-#include "simd/target.h"
+#include "contact/awake_candidates.h"
+#include "simd/points-inl.h"
 
-namespace cellcrush {
-namespace {
+HWY_BEFORE_NAMESPACE();
+namespace cellcrush::HWY_NAMESPACE {
+
+using Wide = hn::CappedTag<double, 8>;
+using One = hn::CappedTag<double, 1>;
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-std::size_t find_awake_plain(const ContactLists& lists, std::size_t first, std::size_t end, int* places) {
-  std::size_t count = 0;
-  for (std::size_t place = first; place < end; ++place) {
-    const bool asleep = travel_of_batch(lists, place / kCandidateBatch) < lists.candidate_alarm[place];
-    places[count] = static_cast<int>(place);
-    count += asleep ? 0 : 1;
+/// Candidates whose numbers are brought together before they are tested, so that the processor has them side by side.
+constexpr std::size_t kTestedTogether = 64;
+
+/// What some candidates are tested by; of each its own.
+struct Tested {
+  int ball[kTestedTogether];
+  int start[kTestedTogether];  ///< nodes of the segment
+  int end[kTestedTogether];
+  double reach[kTestedTogether];
+  double travel[kTestedTogether];  ///< of the group; by buckets the lowest there is
+};
+
+// By raw pointers: a store may alias the vectors' own pointers.
+void collect(const Scene& scene, const ContactLists& lists, std::span<const int> places, Tested& tested) {
+  const Element* elements = scene.elements.data();
+  const int* balls = lists.candidate_ball.data();
+  const int* segments = lists.candidate_segment.data();
+  const double* reaches = lists.candidate_reach.data();
+  const int* groups = lists.batch_group.data();
+  const double* travels = lists.group_travel.data();
+  const bool sleeps = !lists.batch_group.empty();
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const int place = places[i];
+    const Element& element = elements[segments[place]];
+    tested.ball[i] = balls[place];
+    tested.start[i] = element.start;
+    tested.end[i] = element.end;
+    tested.reach[i] = reaches[place];
+    tested.travel[i] = sleeps ? travels[groups[place / kCandidateBatch]] : -kNever;
   }
-  return count;
 }
 
-void test_awake_plain(const Scene& scene, const State& state, ContactLists& lists, std::span<const int> places,
-                      std::vector<int>& found) {
-  const bool sleeps = !lists.batch_group.empty();
-  for (const int place : places) {
-    const int segment = lists.candidate_segment[place];
-    const double reach = lists.candidate_reach[place];
-    const Projection foot =
-        project(state.position[lists.candidate_ball[place]], state.position[scene.elements[segment].start],
-                state.axis[segment], state.length[segment]);
-    const double squared_distance = foot.offset.squaredNorm();
-    const double travel = sleeps ? travel_of_batch(lists, static_cast<std::size_t>(place) / kCandidateBatch) : -kNever;
-    const bool overlaps = squared_distance < reach * reach;
-    lists.candidate_alarm[place] = overlaps ? kNever : travel + (std::sqrt(squared_distance) - reach);
-    if (overlaps) {
-      found.push_back(place);
+/// How balls stand to segments, w being the way from the segment's start to the ball and u the segment.
+template <class D>
+struct Standing {
+  Lane<D> reach;
+  Lane<D> squared_distance;  // w.w, from the start
+  Lane<D> foot;              // w.u
+  Lane<D> squared_length;    // u.u
+};
+
+template <class D>
+HWY_INLINE Standing<D> standing_of(const Vector2* positions, const Tested& tested, std::size_t i) {
+  const Points<D> start = gather<D>(positions, tested.start + i);
+  const Points<D> end = gather<D>(positions, tested.end + i);
+  const Points<D> ball = gather<D>(positions, tested.ball + i);
+  const Points<D> u = end - start;
+  const Points<D> w = ball - start;
+  return {Lane<D>::load(tested.reach + i), dot(w, w), dot(w, u), dot(u, u)};
+}
+
+/// Lanes whose ball is nearer to its segment than their reach: to the line along it where the ball stands beside it, else to
+/// the nearer end. Without a division: the square of the distance to the line is w.w - (w.u)^2 / u.u.
+template <class D>
+HWY_INLINE LaneMask<D> overlap(const Standing<D>& at) {
+  const Lane<D> zero = 0.0;
+  const auto beyond_start = fnma(at.reach, at.reach, at.squared_distance);  // w.w - reach^2
+  const auto beyond_end = beyond_start - (at.foot + at.foot) + at.squared_length;
+  const auto near_line = beyond_start * at.squared_length < at.foot * at.foot;
+  const auto beside = (at.foot > zero) & (at.foot < at.squared_length);
+  return (beyond_start < zero) | (beyond_end < zero) | (beside & near_line);
+}
+
+/// Distances beyond touch.
+template <class D>
+HWY_INLINE Lane<D> gap(const Standing<D>& at) {
+  const Lane<D> zero = 0.0;
+  const auto share = min(max(at.foot, zero), at.squared_length) / at.squared_length;
+  // w.w - 2 s w.u + s^2 u.u
+  const auto squared = fnma(share, fnma(share, at.squared_length, at.foot + at.foot), at.squared_distance);
+  return sqrt(max(squared, zero)) - at.reach;
+}
+
+/// Finds the alarms of the candidates, and returns the lanes of those that overlap.
+template <class D>
+HWY_INLINE LaneMask<D> test(const Vector2* positions, const Tested& tested, std::size_t i, double* alarms) {
+  const Standing<D> at = standing_of<D>(positions, tested, i);
+  const auto overlaps = overlap(at);
+  const auto next = Lane<D>::load(tested.travel + i) + gap(at);
+  select(overlaps, Lane<D>(kNever), next).store(alarms + i);
+  return overlaps;
+}
+
+/// Sets the alarms of candidates that are tested together; adds those that overlap to the places found.
+void test_some(const Scene& scene, const State& state, ContactLists& lists, std::span<const int> places,
+               std::vector<int>& found) {
+  Tested tested;
+  collect(scene, lists, places, tested);
+  const Vector2* positions = state.position.data();
+  double alarms[kTestedTogether];
+  const auto note = [&](std::size_t i, unsigned bits) {
+    for (; bits != 0; bits &= bits - 1) {
+      found.push_back(places[i + std::countr_zero(bits)]);
     }
+  };
+  std::size_t i = 0;
+  for (; i + Lane<Wide>::kWidth <= places.size(); i += Lane<Wide>::kWidth) {
+    note(i, bits_of(test<Wide>(positions, tested, i, alarms)));
+  }
+  for (; i < places.size(); ++i) {
+    note(i, bits_of(test<One>(positions, tested, i, alarms)));
+  }
+  double* next_alarms = lists.candidate_alarm.data();
+  for (i = 0; i < places.size(); ++i) {
+    next_alarms[places[i]] = alarms[i];
   }
 }
+
+void test_awake(const Scene& scene, const State& state, ContactLists& lists, std::span<const int> places,
+                std::vector<int>& found) {
+  for (std::size_t i = 0; i < places.size(); i += kTestedTogether) {
+    test_some(scene, state, lists, places.subspan(i, std::min(kTestedTogether, places.size() - i)), found);
+  }
+}
+
+}  // namespace cellcrush::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace cellcrush {
+namespace {
+
+HWY_EXPORT(test_awake);
 
 /// The candidates from `first` to `end` that overlap; sets the alarms of the others that are awake.
 void find_overlaps_in(const Scene& scene, const State& state, ContactLists& lists, std::size_t first, std::size_t end,
@@ -50,10 +152,9 @@ void find_overlaps_in(const Scene& scene, const State& state, ContactLists& list
   if (part.awake.size() < end - first + kCandidateBatch) {
     part.awake.resize(end - first + kCandidateBatch);
   }
+  const std::size_t count = find_awake_candidates(lists, first, end, part.awake.data());
   part.found.clear();
-  const bool is_wide = use_wide_kernels();
-  const std::size_t count = (is_wide ? find_awake_wide : find_awake_plain)(lists, first, end, part.awake.data());
-  (is_wide ? test_awake_wide : test_awake_plain)(scene, state, lists, std::span(part.awake).first(count), part.found);
+  HWY_DYNAMIC_DISPATCH(test_awake)(scene, state, lists, std::span(part.awake).first(count), part.found);
 }
 
 }  // namespace
@@ -71,3 +172,4 @@ void find_overlaps(const Scene& scene, const State& state, ContactLists& lists, 
 }
 
 }  // namespace cellcrush
+#endif

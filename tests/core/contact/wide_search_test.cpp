@@ -8,10 +8,8 @@
 #include <vector>
 
 #include "cellcrush/simd.h"
-#include "contact/candidate_lists.h"
+#include "contact/awake_candidates.h"
 #include "contact/near_corners.h"
-#include "contact/wide_overlaps.h"
-#include "simd/target.h"
 
 namespace cellcrush {
 namespace {
@@ -83,17 +81,15 @@ TEST(WideSearch, FindsTheCandidatesThatAreAwake) {
       const std::size_t first = batches > 2 ? kCandidateBatch : 0;
       std::vector<int> awake;
       for (std::size_t place = first; place < lists.candidate_alarm.size(); ++place) {
-        if (lists.candidate_alarm[place] <= travel_of_batch(lists, place / kCandidateBatch)) {
+        const double travel = by_faces ? lists.group_travel[lists.batch_group[place / kCandidateBatch]] : 0.0;
+        if (lists.candidate_alarm[place] <= travel) {
           awake.push_back(static_cast<int>(place));
         }
       }
       for_every_target([&] {
-        if (!use_wide_kernels()) {
-          return;
-        }
         constexpr int kUntouched = -7;
         std::vector<int> places(awake.size() + kCandidateBatch + 1, kUntouched);
-        const std::size_t count = find_awake_wide(lists, first, lists.candidate_alarm.size(), places.data());
+        const std::size_t count = find_awake_candidates(lists, first, lists.candidate_alarm.size(), places.data());
         EXPECT_EQ(places.back(), kUntouched);
         places.resize(count);
         EXPECT_EQ(places, awake);
