@@ -60,6 +60,9 @@ struct Points {
   friend HWY_INLINE Points fma(Lane<D> factor, const Points& a, const Points& b) {
     return {fma(factor, a.x, b.x), fma(factor, a.y, b.y)};
   }
+  friend HWY_INLINE Points fms(Lane<D> factor, const Points& a, const Points& b) {
+    return {fms(factor, a.x, b.x), fms(factor, a.y, b.y)};
+  }
   /// Of x and y each.
   friend HWY_INLINE Points min(const Points& a, const Points& b) { return {min(a.x, b.x), min(a.y, b.y)}; }
   friend HWY_INLINE Points max(const Points& a, const Points& b) { return {max(a.x, b.x), max(a.y, b.y)}; }
@@ -104,6 +107,32 @@ HWY_INLINE Points<D> gather(const Vector2* points, const int* indices) {
     return separate<D>(gather_half<D>(points, indices), gather_half<D>(points, indices + kHalf));
   }
 #endif
+}
+
+/// Two arrays of points and one of numbers at the same indices, half of the lanes at a time: few addresses are in use at
+/// once, so that they stay in registers.
+template <class D>
+HWY_INLINE void gather_together(const Vector2* a, const Vector2* b, const double* c, const int* indices,
+                                Points<D>& of_a, Points<D>& of_b, Lane<D>& of_c) {
+#if HWY_TARGET != HWY_SCALAR
+  if constexpr (Lane<D>::kWidth > 1) {
+    using Half = hn::Half<D>;
+    const int* const next = indices + Lane<Half>::kWidth;
+    const auto low_a = gather_half<D>(a, indices);
+    const auto low_b = gather_half<D>(b, indices);
+    const auto low_c = gather<Half>(c, indices);
+    const auto high_a = gather_half<D>(a, next);
+    const auto high_b = gather_half<D>(b, next);
+    const auto high_c = gather<Half>(c, next);
+    of_a = separate<D>(low_a, high_a);
+    of_b = separate<D>(low_b, high_b);
+    of_c = hn::Combine(D(), high_c.raw, low_c.raw);
+    return;
+  }
+#endif
+  of_a = gather<D>(a, indices);
+  of_b = gather<D>(b, indices);
+  of_c = gather<D>(c, indices);
 }
 
 }  // namespace cellcrush::HWY_NAMESPACE
