@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 
 namespace cellcrush {
 
@@ -11,19 +10,12 @@ struct NormalForce {
   double viscous;  ///< c dD/dt, at least -k D
 };
 
-/// Viscous force c dD/dt of a contact that deepens at `rate` (mm/s): c = 2 damping_ratio sqrt(k m), with the effective mass
-/// m = 1 / inverse_mass.
-inline double viscous_force(double stiffness, double damping_ratio, double inverse_mass, double rate) {
-  return 2.0 * damping_ratio * std::sqrt(stiffness / inverse_mass) * rate;
-}
-
 /// Deviation from Eq. 43: the sum is clamped at 0, as a contact does not pull.
 inline NormalForce without_pull(double elastic, double viscous) { return {elastic, std::max(viscous, -elastic)}; }
 
-/// Penalty force of a contact of depth D > 0 (mm) that deepens at `rate` (Eq. 43, the contact area taken into k and c).
-inline NormalForce evaluate_normal_force(double stiffness, double damping_ratio, double inverse_mass, double depth,
-                                         double rate) {
-  return without_pull(stiffness * depth, viscous_force(stiffness, damping_ratio, inverse_mass, rate));
-}
+/// Penalty force of a contact of depth D > 0 (mm) that deepens at `rate` (mm/s) (Eq. 43, the contact area taken into k and
+/// c; contact/viscous_force-inl.h).
+NormalForce evaluate_normal_force(double stiffness, double damping_ratio, double inverse_mass, double depth,
+                                  double rate);
 
 }  // namespace cellcrush
