@@ -10,10 +10,8 @@
 #include "contact/find_overlaps.h"
 #include "contact/find_pushes.h"
 #include "contact/friction.h"
-#include "contact/push_effects.h"
+#include "contact/normal_forces.h"
 #include "contact/remember_touches.h"
-#include "contact/wide_pushes.h"
-#include "simd/target.h"
 
 namespace cellcrush {
 namespace {
@@ -62,51 +60,12 @@ void evaluate_pairs(const Scene& scene, State& state, std::size_t band, ContactW
   }
 }
 
-/// The particles of a touch: a force on the ball, its reaction on the segment shared by the lever rule.
-struct PairForces {
-  int ball;
-  int start;
-  int end;
-  double share;
-
-  PairForces(const TouchMemory& touching, const Touches& touches, int touch)
-      : ball(touching.ball[touch]), start(touches.start[touch]), end(touches.end[touch]), share(touches.share[touch]) {}
-
-  void add(const Vector2& elastic, const Vector2& viscous, ContactForce* forces) const {
-    forces[ball].elastic += elastic;
-    forces[ball].viscous += viscous;
-    forces[start].elastic -= (1.0 - share) * elastic;
-    forces[start].viscous -= (1.0 - share) * viscous;
-    forces[end].elastic -= share * elastic;
-    forces[end].viscous -= share * viscous;
-  }
-
-  void add_friction(const Vector2& force, Vector2* forces) const {
-    forces[ball] += force;
-    forces[start] -= (1.0 - share) * force;
-    forces[end] -= share * force;
-  }
-};
-
-void apply_normal_forces_plain(const Scene& scene, State& state, const TouchMemory& touching,
-                               ContactWorkspace& workspace, ContactTotals& totals) {
-  const Touches& touches = workspace.touches;
-  const double stiffness = scene.contact.stiffness;
-  ContactForce* forces = state.contact_force.data();
-  DepthRecords records(scene, touching, touches, totals);
-  double squared_depths = 0.0;
-  for (Push& push : workspace.pushes) {
-    const double depth = touches.depth[push.touch];
-    const Vector2& normal = touches.normal[push.touch];
-    const NormalForce net = push_pair(scene, touches, push);
-    PairForces(touching, touches, push.touch).add(stiffness * depth * normal, net.viscous * normal, forces);
-    squared_depths += depth * depth;
-    if (push.node_touch != Push::kNone) {
-      take_back_node(scene, state, touching, touches, push.node_touch, totals.stored);
-    }
-    records.note(push.touch);
-  }
-  totals.stored += 0.5 * stiffness * squared_depths;
+/// Adds a force on a touch's ball, and its reaction on the segment, shared by the lever rule.
+void add_force(const TouchMemory& touching, const Touches& touches, int touch, const Vector2& force, Vector2* forces) {
+  const double share = touches.share[touch];
+  forces[touching.ball[touch]] += force;
+  forces[touches.start[touch]] -= (1.0 - share) * force;
+  forces[touches.end[touch]] -= share * force;
 }
 
 /// Along the segment where the ball touches its side, turned with the normal round its ends.
@@ -177,8 +136,8 @@ void apply_friction(const Scene& scene, State& state, TouchMemory& touching, con
                                          scene.contact.friction * push.normal_force);
     touching.friction[push.touch] = now;
     touching.pushed[push.touch] = push.has_pair ? touching.side[push.touch] : 0;
-    PairForces(touching, touches, push.touch)
-        .add_friction(now * tangent_of(touching, touches, push.touch), state.friction_force.data());
+    add_force(touching, touches, push.touch, now * tangent_of(touching, touches, push.touch),
+              state.friction_force.data());
   }
 }
 
@@ -194,8 +153,7 @@ void evaluate_contact_forces(const Scene& scene, State& state, std::size_t band,
     mark_contact_lots(scene, state, pair.ball, pair.segment);
   }
   evaluate_pairs(scene, state, band, workspace, workers);
-  (use_wide_kernels() ? apply_normal_forces_wide : apply_normal_forces_plain)(scene, state, lists.touching, workspace,
-                                                                              sums.walls);
+  apply_normal_forces(scene, state, lists.touching, workspace, sums.walls);
   sums.walls.count += static_cast<std::int64_t>(workspace.pushes.size());
   if (scene.contact.friction > 0.0) {
     apply_friction(scene, state, lists.touching, workspace);

@@ -5,33 +5,8 @@
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
 #include "contact/contact_workspace.h"
-#include "contact/normal_force.h"
 
 namespace cellcrush {
-
-// What a push does, however its forces are added.
-
-/// Force of a push's pair, of which the normal force is noted for friction; none where it has no pair.
-inline NormalForce push_pair(const Scene& scene, const Touches& touches, Push& push) {
-  if (!push.has_pair) {
-    return {0.0, 0.0};
-  }
-  const NormalForce net = without_pull(scene.contact.stiffness * push.net_depth, touches.viscous[push.touch]);
-  push.normal_force = net.elastic + net.viscous;
-  return net;
-}
-
-/// Takes back half of what the touch of two balls would store: the node's ball counts the pair as well, and pushes on its
-/// own where the node lies under the ball's segments.
-inline void take_back_node(const Scene& scene, State& state, const TouchMemory& touching, const Touches& touches,
-                           int node_touch, double& stored) {
-  const double stiffness = 0.5 * scene.contact.stiffness;
-  const double depth = touches.node_depth[node_touch];
-  const Vector2 force = stiffness * depth * touches.node_normal[node_touch];
-  state.contact_force[touching.ball[node_touch]].elastic -= force;
-  state.contact_force[touches.node[node_touch]].elastic += force;
-  stored -= 0.5 * stiffness * depth * depth;
-}
 
 /// Notes how deep touches are, over the thinner of their walls, where that is a record.
 class DepthRecords {
