@@ -104,6 +104,7 @@ struct Lane {
   friend HWY_INLINE Lane sqrt(Lane a) { return hn::Sqrt(a.raw); }
   friend HWY_INLINE Lane select(Mask mask, Lane yes, Lane no) { return hn::IfThenElse(mask.raw, yes.raw, no.raw); }
   friend HWY_INLINE Number least_of_lanes(Lane a) { return hn::GetLane(hn::MinOfLanes(D(), a.raw)); }
+  friend HWY_INLINE Number greatest_of_lanes(Lane a) { return hn::GetLane(hn::MaxOfLanes(D(), a.raw)); }
   /// `value` where the mask is set, else 0.
   friend HWY_INLINE Lane masked(Mask mask, Lane value) { return hn::IfThenElseZero(mask.raw, value.raw); }
 };
