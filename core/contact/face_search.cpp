@@ -7,8 +7,7 @@
 
 #include "contact/candidate_lists.h"
 #include "contact/face_pairs.h"
-#include "contact/wide_velocities.h"
-#include "simd/target.h"
+#include "contact/velocity_box.h"
 
 namespace cellcrush {
 namespace {
@@ -32,22 +31,11 @@ void begin(const FacesOfBand& faces, ContactLists& lists) {
   lists.group_alarm.assign(faces.group_count(), 0.0);
 }
 
-VelocityBox box_of_velocities_plain(const State& state, std::span<const int> members) {
-  VelocityBox box = {state.velocity[members.front()], state.velocity[members.front()]};
-  for (const int particle : members) {
-    // A velocity first: a minimum overwrites its first operand.
-    box.low = state.velocity[particle].cwiseMin(box.low);
-    box.high = state.velocity[particle].cwiseMax(box.high);
-  }
-  return box;
-}
-
 /// Diagonal of the box round the velocities of a group, mm/s.
 double spread_of_velocities(const FacesOfBand& faces, const State& state, int group) {
   const int first = faces.member_offset[group];
   const std::span<const int> members(&faces.member[first], faces.member_offset[group + 1] - first);
-  const VelocityBox box =
-      use_wide_kernels() ? box_of_velocities_wide(state, members) : box_of_velocities_plain(state, members);
+  const VelocityBox box = box_of_velocities(state, members);
   return (box.high - box.low).norm();
 }
 
