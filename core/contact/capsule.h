@@ -1,8 +1,5 @@
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-
 #include "cellcrush/vector.h"
 
 namespace cellcrush {
@@ -16,12 +13,7 @@ struct Projection {
   Vector2 offset;  ///< from the foot to the point
 };
 
-inline Projection project(const Vector2& point, const Vector2& start, const Vector2& axis, double length) {
-  const Vector2 from_start = point - start;
-  const double ahead = from_start.dot(axis);
-  // max(ahead, 0) in a form that compiles without a branch: feet lie on either side of the ends too often to be guessed.
-  const double along = std::min(0.5 * (ahead + std::abs(ahead)), length);
-  return {along, from_start - along * axis};
-}
+/// `axis`: unit vector along the segment; `length` in mm (contact/capsule-inl.h).
+Projection project(const Vector2& point, const Vector2& start, const Vector2& axis, double length);
 
 }  // namespace cellcrush

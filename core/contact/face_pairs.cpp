@@ -39,7 +39,7 @@ class FaceFinder {
         count_(faces.corner_count(face)),
         particle_(&faces.particle[faces.offset[face]]),
         element_(&faces.element[faces.offset[face]]) {
-    place_.reserve(filled_lots(count_));
+    place_.reserve(filled_tiles(count_));
     for (int corner = 0; corner < count_; ++corner) {
       place_.push_back(state.position[particle_[corner]]);
       largest_radius_ = std::max(largest_radius_, scene.radius[particle_[corner]]);
@@ -50,7 +50,7 @@ class FaceFinder {
 
   /// Every pair, a segment after the other: the corners' squared distances from it at once, then what is near.
   void visit_all() {
-    place_.resize(filled_lots(place_.size()), place_.back());
+    place_.resize(filled_tiles(place_.size()), place_.back());
     const std::uint64_t all = (std::uint64_t{1} << count_) - 1;
     double least = std::numeric_limits<double>::max();
     NearCorners found;
@@ -112,13 +112,13 @@ class FaceFinder {
     return largest_radius_ + 0.5 * segment.thickness + skin_;
   }
 
-  /// Lists those of some corners that are near enough to a segment, but its ends. `places` has room for whole lots.
+  /// Lists those of some corners that are near enough to a segment, but its ends. `places` has room for whole tiles.
   void keep_near(int segment, std::span<const int> corners, std::span<Vector2> places) {
     const std::size_t count = corners.size();
     if (count == 0) {
       return;
     }
-    const std::size_t filled = filled_lots(count);
+    const std::size_t filled = filled_tiles(count);
     std::fill(places.begin() + count, places.begin() + filled, places[count - 1]);
     const Element& element = scene_.elements[segment];
     const double range = range_of(element);

@@ -12,10 +12,10 @@ namespace cellcrush {
 inline constexpr int kManyCorners = 64;
 
 /// Points whose distances from a segment are found together.
-inline constexpr std::size_t kPointLot = 8;
+inline constexpr std::size_t kPointTile = 8;
 
-/// So many points with others that fill the last lot up.
-constexpr std::size_t filled_lots(std::size_t points) { return (points + kPointLot - 1) / kPointLot * kPointLot; }
+/// So many points with others that fill the last tile up.
+constexpr std::size_t filled_tiles(std::size_t points) { return (points + kPointTile - 1) / kPointTile * kPointTile; }
 
 /// A segment of a face, mm.
 struct FaceSegment {
@@ -32,8 +32,8 @@ struct NearCorners {
 };
 
 /// Finds the squared distances of corners from a segment (see project) and those within range; only corners whose bits are
-/// set count as near or as others. Vectors round as the plain text does: the same bits. REQUIRES: whole lots of places, at most
-/// kManyCorners.
+/// set count as near or as others. Whole tiles round as single points do: the same bits. REQUIRES: whole tiles of places, at
+/// most kManyCorners.
 void find_near_corners(std::span<const Vector2> places, std::uint64_t corners, const FaceSegment& segment,
                        double squared_range, NearCorners& found);
 

@@ -39,7 +39,7 @@ TEST(WideSearch, FindsTheCornersNearASegmentToTheSameBits) {
     for (std::size_t i = 0; i < count; ++i) {
       places.emplace_back(place(generator), place(generator));
     }
-    places.resize(filled_lots(count), places.back());
+    places.resize(filled_tiles(count), places.back());
     const std::uint64_t corners = generator() & ~std::uint64_t{0} >> (kManyCorners - count);
     const FaceSegment segment = {{0.1, 0.2}, Vector2(2.0, 1.0).normalized(), 1.7};
     ASSERT_TRUE(use_simd_target("scalar"));
