@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <utility>
 
-#include "contact/contact_lots.h"
+#include "contact/contact_tiles.h"
 
 namespace cellcrush {
 namespace {
 
 /// Most particles bear no contact force: only tiles that may are written.
 void clear_range(State& state, int first, int end) {
-  const std::uint8_t* const lots = state.contact_lots.empty() ? nullptr : state.contact_lots.data();
-  constexpr int kTile = static_cast<int>(State::kContactLot);
+  const std::uint8_t* const lots = state.contact_tiles.empty() ? nullptr : state.contact_tiles.data();
+  constexpr int kTile = static_cast<int>(State::kContactTile);
   for (int tile = first; tile < end;) {
     const int next = std::min((tile / kTile + 1) * kTile, end);
     if (may_bear_contact(lots, static_cast<std::size_t>(tile), 1)) {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "contact/candidate_lists.h"
-#include "contact/contact_lots.h"
+#include "contact/contact_tiles.h"
 #include "contact/evaluate_touches.h"
 #include "contact/find_overlaps.h"
 #include "contact/find_pushes.h"
@@ -150,7 +150,7 @@ void evaluate_contact_forces(const Scene& scene, State& state, std::size_t band,
   find_overlaps(scene, state, lists, workspace, workers);
   remember_touches(scene, scene.bands[band], lists, workspace, sums.of_next_band);
   for (const Newcomer& pair : workspace.newcomers) {
-    mark_contact_lots(scene, state, pair.ball, pair.segment);
+    mark_contact_tiles(scene, state, pair.ball, pair.segment);
   }
   evaluate_pairs(scene, state, band, workspace, workers);
   apply_normal_forces(scene, state, lists.touching, workspace, sums.walls);

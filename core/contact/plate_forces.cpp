@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "contact/contact_lots.h"
+#include "contact/contact_tiles.h"
 #include "contact/friction.h"
 #include "contact/normal_force.h"
 
@@ -31,7 +31,7 @@ void push(const Scene& scene, State& state, const Plate& plate, std::size_t part
     plate.stored += 0.5 * force.elastic * depth;
     state.contact_force[particle].elastic[axis] += plate.outward * force.elastic;
     state.contact_force[particle].viscous[axis] += plate.outward * force.viscous;
-    mark_contact_lot(state, static_cast<int>(particle));
+    mark_contact_tile(state, static_cast<int>(particle));
     plate.sum.elastic += force.elastic;
     plate.sum.viscous += force.viscous;
   }

@@ -8,7 +8,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "contact/contact_lots.h"
+#include "contact/contact_tiles.h"
 #include "motion/motion_works-inl.h"
 #include "motion/near_plates-inl.h"
 #include "motion/particle_motion-inl.h"
@@ -20,7 +20,7 @@ namespace cellcrush::HWY_NAMESPACE {
 /// Whether any lane's particle bears contact forces. Most have none.
 template <class D>
 HWY_INLINE bool bear_contact(const ParticleArrays<State>& arrays, std::size_t i) {
-  if (!may_bear_contact(arrays.contact_lots, i, Lane<D>::kWidth)) {
+  if (!may_bear_contact(arrays.contact_tiles, i, Lane<D>::kWidth)) {
     return false;
   }
   const double* const forces = arrays.contact_force[i].elastic.data();

@@ -60,7 +60,7 @@ struct ParticleArrays {
   const double* load_moment;
   const ContactForce* contact_force;
   const Vector2* friction_force;
-  const std::uint8_t* contact_lots;
+  const std::uint8_t* contact_tiles;
   Pointer<Vector2> position;
   Pointer<Vector2> velocity;
   Pointer<double> rotation;
@@ -79,7 +79,7 @@ struct ParticleArrays {
         load_moment(state.load_moment.data()),
         contact_force(state.contact_force.data()),
         friction_force(state.friction_force.data()),
-        contact_lots(state.contact_lots.empty() ? nullptr : state.contact_lots.data()),
+        contact_tiles(state.contact_tiles.empty() ? nullptr : state.contact_tiles.data()),
         position(of_state.position.data()),
         velocity(of_state.velocity.data()),
         rotation(of_state.rotation.data()),

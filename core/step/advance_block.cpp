@@ -7,7 +7,7 @@
 
 #include "contact/border_check.h"
 #include "contact/bucket_search.h"
-#include "contact/contact_lots.h"
+#include "contact/contact_tiles.h"
 #include "contact/face_search.h"
 #include "contact/find_contacts.h"
 #include "contact/one_list.h"
@@ -102,7 +102,7 @@ void advance_block(const Scene& scene, State& state, Workspace& workspace, std::
   }
   const std::span<StepRecord> records = workspace.records;
   begin_steps(scene, state, records);
-  renew_contact_lots(scene, state, steps);
+  rebuild_contact_tiles(scene, state, steps);
   state.step += steps;
   Wavefront wavefront(records.size(), scene.bands.size() + 1, lag_of(workspace), steps_at_once(scene, workspace));
   workers.share_parts(static_cast<std::size_t>(workers.count()), 1, [&](std::size_t part, std::size_t, std::size_t) {

@@ -5,7 +5,7 @@
 #include "beam/internal_forces.h"
 #include "beam/joint_forces.h"
 #include "cellcrush/tuning.h"
-#include "contact/contact_lots.h"
+#include "contact/contact_tiles.h"
 #include "contact/find_contacts.h"
 #include "energy/ledger.h"
 #include "motion/initial_state.h"
@@ -27,7 +27,7 @@ void evaluate_contacts(const Scene& scene, State& state, Workspace& workspace, c
   StepRecord& record = workspace.records.front();
   stage.begin(Stage::find_contacts);
   find_contacts(scene, state, workspace.shared.workers);
-  renew_contact_lots(scene, state, 1);
+  rebuild_contact_tiles(scene, state, 1);
   for (std::size_t band = 0; band < scene.bands.size(); ++band) {
     stage.begin(Stage::evaluate_contact_forces);
     evaluate_band_contacts(scene, state, band, record, workspace.shared);

@@ -104,10 +104,10 @@ struct State {
 
   Ledger ledger;
 
-  /// Derived, so no field for visit_fields: of each kContactLot particles, whether one may have a contact_force, since most have
-  /// none. It is made anew from what touches every so many steps; in between lots are only added. Empty: all may.
-  std::vector<std::uint8_t> contact_lots;
-  static constexpr std::size_t kContactLot = 8;
+  /// Derived, so no field for visit_fields: for each tile of kContactTile particles, whether one may have a contact_force;
+  /// most have none. Rebuilt from the touching pairs every 64 steps; in between tiles are only marked. Empty: any may.
+  std::vector<std::uint8_t> contact_tiles;
+  static constexpr std::size_t kContactTile = 8;
 };
 
 template <class M, class Visitor>

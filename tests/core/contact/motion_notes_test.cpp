@@ -28,7 +28,7 @@ bool has_contact_force(const State& state, std::size_t i) {
   return state.contact_force[i].elastic != Vector2::Zero() || state.contact_force[i].viscous != Vector2::Zero();
 }
 
-TEST(ContactLots, HoldEveryParticleWithAForceAndNotAll) {
+TEST(ContactTiles, HoldEveryParticleWithAForceAndNotAll) {
   const auto scene = scenes::build(block());
   State state = make_initial_state(*scene);
   Workspace workspace;
@@ -38,16 +38,16 @@ TEST(ContactLots, HoldEveryParticleWithAForceAndNotAll) {
     for (std::size_t i = 0; i < scene->particle_count(); ++i) {
       if (has_contact_force(state, i)) {
         ++forces;
-        ASSERT_EQ(state.contact_lots[i / State::kContactLot], 1) << "particle " << i << ", step " << step;
+        ASSERT_EQ(state.contact_tiles[i / State::kContactTile], 1) << "particle " << i << ", step " << step;
       }
     }
   }
   EXPECT_GT(state.contact_totals.count, 0);
   EXPECT_GT(forces, 1000);
-  EXPECT_TRUE(std::any_of(state.contact_lots.begin(), state.contact_lots.end(), [](auto lot) { return lot == 0; }));
+  EXPECT_TRUE(std::any_of(state.contact_tiles.begin(), state.contact_tiles.end(), [](auto tile) { return tile == 0; }));
 }
 
-TEST(ContactLots, WithoutThemTheBitsAreTheSame) {
+TEST(ContactTiles, WithoutThemTheBitsAreTheSame) {
   const auto scene = scenes::build(block());
   State state = make_initial_state(*scene);
   Workspace workspace;
@@ -57,7 +57,7 @@ TEST(ContactLots, WithoutThemTheBitsAreTheSame) {
   State forgetful = state;
   for (int step = 0; step < 50; ++step) {
     advance_step(*scene, state, workspace, nullptr);
-    forgetful.contact_lots.clear();
+    forgetful.contact_tiles.clear();
     advance_step(*scene, forgetful, workspace, nullptr);
   }
   EXPECT_GT(state.contact_totals.count, 0);
