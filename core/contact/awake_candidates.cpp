@@ -14,11 +14,11 @@
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {
 
-/// Bits of the candidates of batches that are awake.
+/// Bits of a batch's candidates that are awake.
 class AwakeBits {
  public:
   explicit AwakeBits(const ContactLists& lists)
-      : alarms_(lists.candidate_alarm.data()),
+      : next_checks_(lists.candidate_next_check_travel.data()),
         travels_(lists.group_travel.data()),
         groups_(lists.batch_group.empty() ? nullptr : lists.batch_group.data()) {}
 
@@ -27,14 +27,14 @@ class AwakeBits {
     const Numbers travelled = groups_ == nullptr ? 0.0 : travels_[groups_[batch]];  // by buckets none sleeps
     std::uint64_t bits = 0;
     for (std::size_t i = 0; i < kCandidateBatch; i += Numbers::kWidth) {
-      const auto asleep = travelled < Numbers::load(alarms_ + batch * kCandidateBatch + i);
+      const auto asleep = travelled < Numbers::load(next_checks_ + batch * kCandidateBatch + i);
       bits |= std::uint64_t{bits_of(!asleep)} << i;
     }
     return bits;
   }
 
  private:
-  const double* const alarms_;
+  const double* const next_checks_;
   const double* const travels_;
   const int* const groups_;
 };

@@ -34,8 +34,8 @@ double highest_speed(const std::vector<BorderParticle>& border, const State& sta
   return std::sqrt(squared);
 }
 
-/// Whether along a direction bands follow each other, so that those which are no neighbours are more than a margin apart: nearly
-/// always.
+/// Whether along a direction bands follow each other, so that those which are no neighbours are more than a margin
+/// apart: nearly always.
 bool follow_each_other(const Scene& scene, const State& state, const Vector2& direction, double margin) {
   constexpr double kFar = std::numeric_limits<double>::infinity();
   const std::size_t bands = scene.bands.size();

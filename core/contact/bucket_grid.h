@@ -8,16 +8,17 @@
 
 namespace cellcrush {
 
-/// Points sorted into square buckets, after the NBS search of Munjiza and Andrews (1998): time and memory grow as the number
-/// of points, whatever area they spread over.
+/// Points sorted into square buckets, after the NBS search of Munjiza and Andrews (1998): time and memory grow as the
+/// number of points, whatever area they spread over.
 ///
-/// Deviation from Eq. 40: the bucket is the floor of the coordinate; truncation toward zero would merge two at the origin.
+/// Deviation from Eq. 40: the bucket is the floor of the coordinate; truncation toward zero would merge two at the
+/// origin.
 class BucketGrid {
  public:
   static constexpr double kBucketsPerPoint = 4.0;
 
-  /// `size` is the wanted side of a bucket in mm; it is made larger where there would be more than kBucketsPerPoint buckets
-  /// a point. REQUIRES: at least one point, finite coordinates, size > 0.
+  /// `size` is the wanted side of a bucket in mm; it is made larger where there would be more than kBucketsPerPoint
+  /// buckets a point. REQUIRES: at least one point, finite coordinates, size > 0.
   BucketGrid(std::span<const Vector2> points, double size);
 
   /// Calls visit(point index) for every point in the buckets that the box from `low` to `high` touches.

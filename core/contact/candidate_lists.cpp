@@ -6,10 +6,10 @@
 namespace cellcrush {
 namespace {
 
-/// Empty batches that are always let be.
+/// Empty batches that are always tolerated.
 constexpr std::int64_t kEmptyBatches = 128;
 
-/// Alarm of what is not tested.
+/// Travel of the next check of what is not tested.
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 int batches_for(int count) { return (count + kCandidateBatch - 1) / kCandidateBatch; }
@@ -18,7 +18,7 @@ void put(ContactLists& lists, int place, const Candidate& candidate) {
   lists.candidate_ball[place] = candidate.ball;
   lists.candidate_segment[place] = candidate.segment;
   lists.candidate_reach[place] = candidate.reach;
-  lists.candidate_alarm[place] = candidate.reach > 0.0 ? 0.0 : kNever;
+  lists.candidate_next_check_travel[place] = candidate.reach > 0.0 ? 0.0 : kNever;
 }
 
 /// Lists are the most that grows in a crush: room for an eighth more, not for twice as many.
@@ -28,12 +28,12 @@ void resize(ContactLists& lists, std::size_t size) {
     lists.candidate_ball.reserve(room);
     lists.candidate_segment.reserve(room);
     lists.candidate_reach.reserve(room);
-    lists.candidate_alarm.reserve(room);
+    lists.candidate_next_check_travel.reserve(room);
   }
   lists.candidate_ball.resize(size, 0);
   lists.candidate_segment.resize(size, 0);
   lists.candidate_reach.resize(size, 0.0);
-  lists.candidate_alarm.resize(size, kNever);
+  lists.candidate_next_check_travel.resize(size, kNever);
 }
 
 /// Gives a list another place, at the end. What it held is lost.
@@ -86,9 +86,9 @@ void replace_list(ContactLists& lists, int face, const std::vector<Candidate>& c
 
 void wake_candidate(ContactLists& lists, int place, int ball, int segment) {
   const auto k = static_cast<std::size_t>(place);
-  // Of a list that was made anew, and in which it was not found to overlap, it is tested anyhow.
+  // In a rebuilt list in which it was not found to overlap, it is tested anyway.
   if (k < lists.candidate_ball.size() && lists.candidate_ball[k] == ball && lists.candidate_segment[k] == segment) {
-    lists.candidate_alarm[k] = 0.0;
+    lists.candidate_next_check_travel[k] = 0.0;
   }
 }
 

@@ -13,12 +13,12 @@ struct Candidate {
   double reach = 0.0;  ///< mm
 };
 
-/// Puts a face's candidates in place of those it had. All faces' stand in the same arrays, so that they are tested in one
-/// loop: a list that has outgrown its room goes to the end, and empty places are pairs that never touch. When a fifth of
-/// the batches and more are empty, the lists are moved together in the order of the faces.
+/// Replaces a face's candidates. Those of all faces stand in the same arrays, so that one loop tests them. A list that
+/// has outgrown its room goes to the end; empty places are pairs that never touch. When more than a fifth of the
+/// batches are empty, the lists are moved together in the order of the faces.
 void replace_list(ContactLists& lists, int face, const std::vector<Candidate>& candidates);
 
-/// A pair that was found at `place` has parted: it is tested again from the next step on.
+/// The pair that was found at `place` is released: it is tested again from the next step on.
 void wake_candidate(ContactLists& lists, int place, int ball, int segment);
 
 /// Lists one more, of no face.
@@ -27,7 +27,7 @@ void add_candidate(ContactLists& lists, const Candidate& candidate);
 /// Fills the last batch up with empty places.
 void fill_batch(ContactLists& lists);
 
-/// Lets go of all candidates.
+/// Removes all candidates.
 void clear_candidates(ContactLists& lists);
 
 }  // namespace cellcrush

@@ -78,11 +78,12 @@ int band_of_loop(const FaceLoops& loops, const std::vector<int>& band_of, std::s
   return first;
 }
 
-/// Length across the crush of a patch of neighbouring faces, over its length along the crush: at the front, faces side by
-/// side move alike, and faces behind each other do not.
+/// Length across the crush of a patch of neighbouring faces, over its length along the crush: at the front, faces side
+/// by side move alike, and faces behind each other do not.
 constexpr double kPatchAspect = 7.0;
 
-/// The loops in patches of faces that are watched together, strip by strip along the crush in each band, the outer one last.
+/// The loops in patches of faces that are watched together, strip by strip along the crush in each band, the outer one
+/// last.
 std::vector<std::size_t> order_of(const Scene& scene, const FaceLoops& loops, const std::vector<int>& band_of) {
   const auto corner_of = [&](std::size_t loop) { return scene.position[loops.particles_of(loop).front()]; };
   Vector2 low = corner_of(0);
@@ -117,7 +118,8 @@ std::vector<std::size_t> order_of(const Scene& scene, const FaceLoops& loops, co
   return order;
 }
 
-/// Puts a loop last among a band's faces: its corners that `is_in`, where the next one is as well, so that no segment leads out.
+/// Puts a loop last among a band's faces: its corners that `is_in`, where the next one is as well, so that no segment
+/// leads out.
 template <class IsIn>
 void add_face(const FaceLoops& loops, std::size_t loop, int number, bool is_alone, int most_in_group, const IsIn& is_in,
               FacesOfBand& faces) {
@@ -167,7 +169,8 @@ void take_faces(const Scene& scene, const FaceLoops& loops, const std::vector<in
   }
 }
 
-/// `seen`, of every particle, is the number of the group that has had it last, among those of all bands; `number` that of the next.
+/// `seen`, of every particle, is the number of the group that has had it last, among those of all bands; `number` that
+/// of the next.
 void note_members(std::vector<int>& seen, int& number, FacesOfBand& faces) {
   faces.member_offset.push_back(0);
   for (int group = 0; group < faces.group_count(); ++group) {

@@ -12,7 +12,7 @@ struct ContactSums {
   ContactTotals walls;
   PlateForce impact;
   PlateForce support;
-  std::vector<Newcomer> of_next_band;  ///< pairs of its balls, found in a face that the band before searches
+  std::vector<NewContact> of_next_band;  ///< pairs of its balls, found in a face that the band before searches
 };
 
 /// Those of a new step.

@@ -9,9 +9,9 @@
 
 namespace cellcrush {
 
-/// Marks the tile of a particle that may have a contact force; does nothing where any may. The last joints share a tile with
-/// the first particles inside walls, which another thread may move at the same time. Whether it finds the tile marked or
-/// not, the particles it moves have no such force.
+/// Marks the tile of a particle that may have a contact force; does nothing where any may. The last joints share a tile
+/// with the first particles inside walls, which another thread may move at the same time. Whether it finds the tile
+/// marked or not, the particles it moves have no such force.
 inline void mark_contact_tile(State& state, int particle) {
   if (!state.contact_tiles.empty()) {
     std::atomic_ref(state.contact_tiles[static_cast<std::size_t>(particle) / State::kContactTile])

@@ -9,14 +9,14 @@
 namespace cellcrush {
 
 /// A pair that touches and did not in the step before.
-struct Newcomer {
+struct NewContact {
   int ball = 0;
   int segment = 0;
   int place = 0;  ///< into ContactLists::candidate_ball, of the ball's band or of the band before
   int next = 0;   ///< of the pairs that touched before, the first that it comes before
 };
 
-/// A ball of which a pair came or parted.
+/// A ball that gained or lost a pair.
 struct ChangedBall {
   int ball = 0;
   int place = 0;  ///< of the pair among those that touch, or of the pair that follows where it was
@@ -28,7 +28,7 @@ struct Touches {
   LaneVector<int> end;              ///< T, and ends
   LaneVector<int> known;            ///< T, place among the pairs that touched in the step before; kNew: did not
   LaneVector<double> share;         ///< T, of the foot along the segment: 0 at its start, 1 at its end
-  LaneVector<double> depth;         ///< T, D, mm; not over 0: they have parted
+  LaneVector<double> depth;         ///< T, D, mm; not over 0: they are released
   LaneVector<Vector2> normal;       ///< T, from the segment to the ball
   LaneVector<double> viscous;       ///< T, c dD/dt, N, before it is held to what does not pull
   LaneVector<double> slip;          ///< T, mm by which the ball slid along the segment in the step
@@ -41,12 +41,12 @@ struct Touches {
   void resize(std::size_t count);
 };
 
-/// A touch that pushes.
-struct Push {
+/// A touch that exerts forces.
+struct ActiveContact {
   int touch = 0;  ///< into ContactLists::touching
 
-  // Two balls that touch are found by each of them, and a ball over a node of a straight chain by the node's ball, too: what
-  // such a pair would store is taken back, half of it with either touch.
+  // Two balls that touch are found by each of them, and a ball over a node of a straight chain by the node's ball, too.
+  // The double count is subtracted, half of it with either touch.
   int node_touch = kNone;  ///< the touch whose node of the polyline is nearest to the ball, whose ball it touches
 
   /// Of the pair's viscous force and friction, this touch has all or none.
@@ -59,21 +59,21 @@ struct Push {
 
 /// What a thread works with; what it makes is put behind what those before it made.
 struct ContactPart {
-  std::vector<int> awake;   ///< places of the candidates that are tested, ascending; it does not shrink
-  std::vector<int> found;   ///< of those, they that have begun to overlap
-  std::vector<int> parted;  ///< of ContactLists::touching
-  std::vector<Push> pushes;
+  std::vector<int> awake;     ///< places of the candidates that are tested, ascending; it does not shrink
+  std::vector<int> found;     ///< of those, they that have begun to overlap
+  std::vector<int> released;  ///< of ContactLists::touching
+  std::vector<ActiveContact> active;
 };
 
 /// Room for evaluate_contact_forces, kept from step to step so that none allocates. No result depends on what it holds.
 struct ContactWorkspace {
   std::vector<ContactPart> parts;  ///< one a thread
   std::vector<int> found;          ///< of all parts
-  std::vector<Newcomer> newcomers;
+  std::vector<NewContact> new_contacts;
   std::vector<ChangedBall> changes;
   TouchMemory before;  ///< ContactLists::touching of the step before
   Touches touches;
-  std::vector<Push> pushes;  ///< of all parts
+  std::vector<ActiveContact> active;  ///< of all parts
 };
 
 }  // namespace cellcrush

@@ -11,7 +11,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {
 
-/// What pairs are evaluated from, and what is found of them. By raw pointers: a store may alias the vectors' own pointers.
+/// What pairs are evaluated from, and what is found of them. By raw pointers: a store may alias the vectors' own
+/// pointers.
 struct PairArrays {
   const Element* elements;
   const double* inverse_mass;
@@ -57,7 +58,7 @@ struct PairArrays {
         node_normal(touches.node_normal.data()) {}
 };
 
-/// Notes the particles of the lanes' segments.
+/// Writes the particles of the lanes' segments.
 template <class D>
 HWY_INLINE void note_nodes(const PairArrays& arrays, std::size_t i) {
   for (std::size_t lane = 0; lane < Lane<D>::kWidth; ++lane) {
@@ -155,7 +156,7 @@ HWY_INLINE void evaluate_motion(const Scene& scene, const PairArrays& arrays, co
   (scene.schedule.time_step * slide).store(arrays.slip + i);
 }
 
-/// Returns the lanes whose pairs have parted.
+/// Returns the lanes whose pairs are released.
 template <class D>
 HWY_INLINE LaneMask<D> evaluate_pairs(const Scene& scene, const PairArrays& arrays, std::size_t i) {
   note_nodes<D>(arrays, i);
@@ -167,19 +168,19 @@ HWY_INLINE LaneMask<D> evaluate_pairs(const Scene& scene, const PairArrays& arra
 }
 
 std::size_t evaluate_all(const Scene& scene, const State& state, ContactLists& lists, Touches& touches,
-                         std::size_t first, std::size_t end, int* parted) {
+                         std::size_t first, std::size_t end, int* released) {
   using Wide = hn::CappedTag<double, 8>;
   using One = hn::CappedTag<double, 1>;
   const PairArrays arrays(scene, state, lists, touches);
-  std::size_t parted_count = 0;
+  std::size_t released_count = 0;
   std::size_t i = first;
   for (; i + Lane<Wide>::kWidth <= end; i += Lane<Wide>::kWidth) {
-    parted_count += write_set_lanes(evaluate_pairs<Wide>(scene, arrays, i), i, parted + parted_count);
+    released_count += write_set_lanes(evaluate_pairs<Wide>(scene, arrays, i), i, released + released_count);
   }
   for (; i < end; ++i) {
-    parted_count += write_set_lanes(evaluate_pairs<One>(scene, arrays, i), i, parted + parted_count);
+    released_count += write_set_lanes(evaluate_pairs<One>(scene, arrays, i), i, released + released_count);
   }
-  return parted_count;
+  return released_count;
 }
 
 }  // namespace cellcrush::HWY_NAMESPACE
@@ -191,9 +192,9 @@ namespace cellcrush {
 HWY_EXPORT(evaluate_all);
 
 void evaluate_touches(const Scene& scene, const State& state, ContactLists& lists, Touches& touches, std::size_t first,
-                      std::size_t end, std::vector<int>& parted) {
-  parted.resize(end - first);
-  parted.resize(HWY_DYNAMIC_DISPATCH(evaluate_all)(scene, state, lists, touches, first, end, parted.data()));
+                      std::size_t end, std::vector<int>& released) {
+  released.resize(end - first);
+  released.resize(HWY_DYNAMIC_DISPATCH(evaluate_all)(scene, state, lists, touches, first, end, released.data()));
 }
 
 }  // namespace cellcrush

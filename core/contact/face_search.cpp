@@ -12,8 +12,8 @@
 namespace cellcrush {
 namespace {
 
-/// Share of a face's budget below which it is not worth to look again.
-constexpr double kWorthAnotherLook = 0.1;
+/// Share of a face's clearance below which the list is rebuilt.
+constexpr double kWorthKeeping = 0.1;
 /// Skin of a face of many corners, in skins of the others.
 constexpr double kWideSkin = 3.5;
 
@@ -24,11 +24,11 @@ void begin(const FacesOfBand& faces, ContactLists& lists) {
       lists.face_list[face].group = group;
     }
   }
-  lists.face_budget.assign(faces.count(), 0.0);
-  lists.face_alarm.assign(faces.count(), 0.0);
+  lists.face_clearance.assign(faces.count(), 0.0);
+  lists.face_next_check_travel.assign(faces.count(), 0.0);
   lists.face_searched_position.assign(faces.particle.size(), Vector2::Zero());
   lists.group_travel.assign(faces.group_count(), 0.0);
-  lists.group_alarm.assign(faces.group_count(), 0.0);
+  lists.group_next_check_travel.assign(faces.group_count(), 0.0);
 }
 
 /// Diagonal of the box round the velocities of a group, mm/s.
@@ -57,7 +57,8 @@ bool is_finite(const FacesOfBand& faces, const State& state, int face) {
                      [&](int particle) { return state.position[particle].allFinite(); });
 }
 
-/// Faces of many corners are as large as the lattice, move as fast and are searched by a grid: rarely, with a wide skin.
+/// Faces of many corners are as large as the lattice, move as fast and are searched by a grid: rarely, with a wide
+/// skin.
 double skin_of(const Scene& scene, const FacesOfBand& faces, int face) {
   return has_many_corners(faces, face) ? kWideSkin * scene.contact.face_skin : scene.contact.face_skin;
 }
@@ -72,7 +73,7 @@ bool make_list(const Scene& scene, const State& state, const LatticeBand& band, 
   }
   replace_list(lists, face, pairs.candidates);
   // Of a face with candidates no more than the skin: an end that has gone through a segment is found while it is near.
-  lists.face_budget[face] = pairs.candidates.empty() ? pairs.least_gap : skin;
+  lists.face_clearance[face] = pairs.candidates.empty() ? pairs.least_gap : skin;
   for (int k = faces.offset[face]; k < faces.offset[face + 1]; ++k) {
     lists.face_searched_position[k] = state.position[faces.particle[k]];
   }
@@ -80,45 +81,45 @@ bool make_list(const Scene& scene, const State& state, const LatticeBand& band, 
   return true;
 }
 
-/// Sets the alarm of a face anew, with a list made anew if need be. A face with a particle that is lost stays as it is.
+/// Sets the next check of a face, with a rebuilt list where needed. A face with a lost particle stays as it is.
 /// Returns false where walls are found to have crossed.
-bool look_at(const Scene& scene, const State& state, const LatticeBand& band, const FacesOfBand& faces, int group,
-             int face, ContactLists& lists) {
-  ++lists.face_look_count;
-  const double budget = lists.face_budget[face];
-  double left = budget;
-  if (budget > 0.0) {
+bool recheck_face(const Scene& scene, const State& state, const LatticeBand& band, const FacesOfBand& faces, int group,
+                  int face, ContactLists& lists) {
+  ++lists.face_recheck_count;
+  const double clearance = lists.face_clearance[face];
+  double left = clearance;
+  if (clearance > 0.0) {
     left -= spread_of_displacements(faces, state, lists, face);
   }
   if (!is_finite(faces, state, face)) {
     left = std::numeric_limits<double>::max();
-  } else if (left <= kWorthAnotherLook * budget) {
+  } else if (left <= kWorthKeeping * clearance) {
     if (!make_list(scene, state, band, faces, face, lists)) {
-      lists.face_alarm[face] = std::numeric_limits<double>::max();
+      lists.face_next_check_travel[face] = std::numeric_limits<double>::max();
       return false;
     }
-    left = lists.face_budget[face];
+    left = lists.face_clearance[face];
   }
-  lists.face_alarm[face] = lists.group_travel[group] + left;
+  lists.face_next_check_travel[face] = lists.group_travel[group] + left;
   return true;
 }
 
-bool look_at_group(const Scene& scene, const State& state, const LatticeBand& band, const FacesOfBand& faces, int group,
+bool recheck_group(const Scene& scene, const State& state, const LatticeBand& band, const FacesOfBand& faces, int group,
                    ContactLists& lists) {
   const int first = faces.group_offset[group];
   const int end = faces.group_offset[group + 1];
   for (int face = first; face < end; ++face) {
-    if (lists.face_alarm[face] <= lists.group_travel[group] &&
-        !look_at(scene, state, band, faces, group, face, lists)) {
+    if (lists.face_next_check_travel[face] <= lists.group_travel[group] &&
+        !recheck_face(scene, state, band, faces, group, face, lists)) {
       return false;
     }
   }
   // In a loop of its own, whose only number stays in a register.
   double least = std::numeric_limits<double>::max();
   for (int face = first; face < end; ++face) {
-    least = std::min(least, lists.face_alarm[face]);
+    least = std::min(least, lists.face_next_check_travel[face]);
   }
-  lists.group_alarm[group] = least;
+  lists.group_next_check_travel[group] = least;
   return true;
 }
 
@@ -136,8 +137,8 @@ bool search_faces(const Scene& scene, const State& state, const LatticeBand& ban
     }
   });
   for (int group = 0; group < faces.group_count(); ++group) {
-    if (lists.group_alarm[group] <= lists.group_travel[group] &&
-        !look_at_group(scene, state, band, faces, group, lists)) {
+    if (lists.group_next_check_travel[group] <= lists.group_travel[group] &&
+        !recheck_group(scene, state, band, faces, group, lists)) {
       return false;
     }
   }

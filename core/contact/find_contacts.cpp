@@ -2,7 +2,7 @@
 
 #include "contact/bucket_search.h"
 #include "contact/face_search.h"
-#include "contact/one_list.h"
+#include "contact/merge_band_contacts.h"
 
 namespace cellcrush {
 namespace {
@@ -33,7 +33,7 @@ void find_contacts(const Scene& scene, State& state, Workers& workers) {
   if (searches_faces(scene, state)) {
     if (!search_bands(scene, state, workers)) {
       state.crossing_step = state.step;
-      put_into_one_list(state);
+      merge_band_contacts(state);
     }
   }
   if (!searches_faces(scene, state)) {

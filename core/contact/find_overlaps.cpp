@@ -73,8 +73,8 @@ HWY_INLINE Standing<D> standing_of(const Vector2* positions, const Tested& teste
   return {Lane<D>::load(tested.reach + i), dot(w, w), dot(w, u), dot(u, u)};
 }
 
-/// Lanes whose ball is nearer to its segment than their reach: to the line along it where the ball stands beside it, else to
-/// the nearer end. Without a division: the square of the distance to the line is w.w - (w.u)^2 / u.u.
+/// Lanes whose ball is nearer to its segment than their reach: to the line along it where the ball stands beside it,
+/// else to the nearer end. Without a division: the square of the distance to the line is w.w - (w.u)^2 / u.u.
 template <class D>
 HWY_INLINE LaneMask<D> overlap(const Standing<D>& at) {
   const Lane<D> zero = 0.0;
@@ -95,23 +95,23 @@ HWY_INLINE Lane<D> gap(const Standing<D>& at) {
   return sqrt(max(squared, zero)) - at.reach;
 }
 
-/// Finds the alarms of the candidates, and returns the lanes of those that overlap.
+/// Finds the travel of each candidate's next check, and returns the lanes of those that overlap.
 template <class D>
-HWY_INLINE LaneMask<D> test(const Vector2* positions, const Tested& tested, std::size_t i, double* alarms) {
+HWY_INLINE LaneMask<D> test(const Vector2* positions, const Tested& tested, std::size_t i, double* next_checks) {
   const Standing<D> at = standing_of<D>(positions, tested, i);
   const auto overlaps = overlap(at);
   const auto next = Lane<D>::load(tested.travel + i) + gap(at);
-  select(overlaps, Lane<D>(kNever), next).store(alarms + i);
+  select(overlaps, Lane<D>(kNever), next).store(next_checks + i);
   return overlaps;
 }
 
-/// Sets the alarms of candidates that are tested together; adds those that overlap to the places found.
+/// Sets the next checks of candidates that are tested together; adds those that overlap to the places found.
 void test_some(const Scene& scene, const State& state, ContactLists& lists, std::span<const int> places,
                std::vector<int>& found) {
   Tested tested;
   collect(scene, lists, places, tested);
   const Vector2* positions = state.position.data();
-  double alarms[kTestedTogether];
+  double next_checks[kTestedTogether];
   const auto note = [&](std::size_t i, unsigned bits) {
     for (; bits != 0; bits &= bits - 1) {
       found.push_back(places[i + std::countr_zero(bits)]);
@@ -119,14 +119,14 @@ void test_some(const Scene& scene, const State& state, ContactLists& lists, std:
   };
   std::size_t i = 0;
   for (; i + Lane<Wide>::kWidth <= places.size(); i += Lane<Wide>::kWidth) {
-    note(i, bits_of(test<Wide>(positions, tested, i, alarms)));
+    note(i, bits_of(test<Wide>(positions, tested, i, next_checks)));
   }
   for (; i < places.size(); ++i) {
-    note(i, bits_of(test<One>(positions, tested, i, alarms)));
+    note(i, bits_of(test<One>(positions, tested, i, next_checks)));
   }
-  double* next_alarms = lists.candidate_alarm.data();
+  double* of_all = lists.candidate_next_check_travel.data();
   for (i = 0; i < places.size(); ++i) {
-    next_alarms[places[i]] = alarms[i];
+    of_all[places[i]] = next_checks[i];
   }
 }
 
@@ -146,7 +146,7 @@ namespace {
 
 HWY_EXPORT(test_awake);
 
-/// The candidates from `first` to `end` that overlap; sets the alarms of the others that are awake.
+/// The candidates from `first` to `end` that overlap; sets the next checks of the others that are awake.
 void find_overlaps_in(const Scene& scene, const State& state, ContactLists& lists, std::size_t first, std::size_t end,
                       ContactPart& part) {
   if (part.awake.size() < end - first + kCandidateBatch) {

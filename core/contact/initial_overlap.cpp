@@ -26,8 +26,8 @@ struct Marks {
 
 double twice_area(const Vector2& a, const Vector2& b, const Vector2& c) { return cross(b - a, c - a); }
 
-/// Whether the boxes round the segments from a to b and from c to d meet. Elements of one straight wall lie on one line, and on which
-/// side of it their ends are is round-off: their boxes tell that they do not cross.
+/// Whether the boxes round the segments from a to b and from c to d meet. Elements of one straight wall lie on one
+/// line, and on which side of it their ends are is round-off: their boxes tell that they do not cross.
 bool boxes_meet(const Vector2& a, const Vector2& b, const Vector2& c, const Vector2& d) {
   return (a.cwiseMin(b).array() <= c.cwiseMax(d).array()).all() &&
          (c.cwiseMin(d).array() <= a.cwiseMax(b).array()).all();

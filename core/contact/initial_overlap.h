@@ -25,9 +25,9 @@ struct InitialOverlaps {
       false;  ///< given up: walls so thick or tangled that the run's list of candidates would not end either
 };
 
-/// Where contacts would push before anything has moved: balls that touch a segment by the rule of the run, and elements that
-/// cross without a common node, far from any ball. Time and memory grow as the number of elements.
-/// REQUIRES: a mesh with radii and incidence.
+/// Where contacts would push before anything has moved: balls that touch a segment by the rule of the run, and elements
+/// that cross without a common node, far from any ball. Time and memory grow as the number of elements. REQUIRES: a
+/// mesh with radii and incidence.
 InitialOverlaps find_initial_overlaps(const Scene& scene, std::size_t most);
 
 }  // namespace cellcrush

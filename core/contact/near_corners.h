@@ -31,9 +31,9 @@ struct NearCorners {
   std::array<double, kManyCorners> squared_distance;  ///< mm^2
 };
 
-/// Finds the squared distances of corners from a segment (see project) and those within range; only corners whose bits are
-/// set count as near or as others. Whole tiles round as single points do: the same bits. REQUIRES: whole tiles of places, at
-/// most kManyCorners.
+/// Finds the squared distances of corners from a segment (see project) and those within range; only corners whose bits
+/// are set count as near or as others. Whole tiles round as single points do: the same bits. REQUIRES: whole tiles of
+/// places, at most kManyCorners.
 void find_near_corners(std::span<const Vector2> places, std::uint64_t corners, const FaceSegment& segment,
                        double squared_range, NearCorners& found);
 

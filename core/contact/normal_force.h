@@ -13,8 +13,8 @@ struct NormalForce {
 /// Deviation from Eq. 43: the sum is clamped at 0, as a contact does not pull.
 inline NormalForce without_pull(double elastic, double viscous) { return {elastic, std::max(viscous, -elastic)}; }
 
-/// Penalty force of a contact of depth D > 0 (mm) that deepens at `rate` (mm/s) (Eq. 43, the contact area taken into k and
-/// c; contact/viscous_force-inl.h).
+/// Penalty force of a contact of depth D > 0 (mm) that deepens at `rate` (mm/s) (Eq. 43, the contact area taken into k
+/// and c; contact/viscous_force-inl.h).
 NormalForce evaluate_normal_force(double stiffness, double damping_ratio, double inverse_mass, double depth,
                                   double rate);
 

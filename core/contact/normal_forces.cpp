@@ -12,20 +12,20 @@
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {
 
-/// Force of a push's pair, of which the normal force is noted for friction; none where it has no pair.
-HWY_INLINE NormalForce push_pair(const Scene& scene, const Touches& touches, Push& push) {
-  if (!push.has_pair) {
+/// Force of a contact's pair, whose sum is kept for friction; none where it has no pair.
+HWY_INLINE NormalForce force_of_pair(const Scene& scene, const Touches& touches, ActiveContact& contact) {
+  if (!contact.has_pair) {
     return {0.0, 0.0};
   }
-  const NormalForce net = without_pull(scene.contact.stiffness * push.net_depth, touches.viscous[push.touch]);
-  push.normal_force = net.elastic + net.viscous;
+  const NormalForce net = without_pull(scene.contact.stiffness * contact.net_depth, touches.viscous[contact.touch]);
+  contact.normal_force = net.elastic + net.viscous;
   return net;
 }
 
-/// Takes back half of what the touch of two balls would store: the node's ball counts the pair as well, and pushes on its
-/// own where the node lies under the ball's segments.
-HWY_INLINE void take_back_node(const Scene& scene, State& state, const TouchMemory& touching, const Touches& touches,
-                               int node_touch, double& stored) {
+/// Subtracts half of what the touch of two balls would store. The node's ball counts the pair as well, and pushes by
+/// itself where the node lies under the ball's segments.
+HWY_INLINE void subtract_double_count(const Scene& scene, State& state, const TouchMemory& touching,
+                                      const Touches& touches, int node_touch, double& stored) {
   const double stiffness = 0.5 * scene.contact.stiffness;
   const double depth = touches.node_depth[node_touch];
   const Vector2 force = stiffness * depth * touches.node_normal[node_touch];
@@ -57,11 +57,11 @@ void add_normal_forces(const Scene& scene, State& state, const TouchMemory& touc
   ContactForce* forces = state.contact_force.data();
   DepthRecords records(scene, touching, touches, totals);
   double squared_depths = 0.0;
-  for (Push& push : workspace.pushes) {
-    const int touch = push.touch;
+  for (ActiveContact& contact : workspace.active) {
+    const int touch = contact.touch;
     const double depth = depths[touch];
     const Vector2 normal = normals[touch];
-    const NormalForce net = push_pair(scene, touches, push);
+    const NormalForce net = force_of_pair(scene, touches, contact);
     const double elastic = stiffness * depth;
     const double pair[] = {elastic * normal.x(), elastic * normal.y(), net.viscous * normal.x(),
                            net.viscous * normal.y()};
@@ -70,8 +70,8 @@ void add_normal_forces(const Scene& scene, State& state, const TouchMemory& touc
     add_share(share - 1.0, pair, forces[starts[touch]]);
     add_share(-share, pair, forces[ends[touch]]);
     squared_depths += depth * depth;
-    if (push.node_touch != Push::kNone) {
-      take_back_node(scene, state, touching, touches, push.node_touch, totals.stored);
+    if (contact.node_touch != ActiveContact::kNone) {
+      subtract_double_count(scene, state, touching, touches, contact.node_touch, totals.stored);
     }
     records.note(touch);
   }

@@ -6,8 +6,8 @@
 
 namespace cellcrush {
 
-/// Adds the normal forces of the pushes to contact_force and what they store to the totals, and notes what of each force
-/// friction goes by.
+/// Adds the normal forces of the active contacts to contact_force and their stored energy to the totals, and keeps each
+/// normal force for friction.
 void apply_normal_forces(const Scene& scene, State& state, const TouchMemory& touching, ContactWorkspace& workspace,
                          ContactTotals& totals);
 

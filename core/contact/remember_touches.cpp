@@ -8,13 +8,13 @@
 namespace cellcrush {
 namespace {
 
-bool comes_before(int ball, int segment, const Newcomer& pair) {
+bool comes_before(int ball, int segment, const NewContact& pair) {
   return ball != pair.ball ? ball < pair.ball : segment < pair.segment;
 }
 
-/// Of the pairs that touched before, the first that does not come before this one. The ball is searched without a branch:
-/// which half it lies in cannot be foretold.
-std::size_t place_among(const TouchMemory& touching, const Newcomer& pair) {
+/// Of the pairs that touched before, the first that does not come before this one. The ball is searched without a
+/// branch: which half it lies in no predictor can guess.
+std::size_t place_among(const TouchMemory& touching, const NewContact& pair) {
   const int* const balls = touching.ball.data();
   std::size_t first = 0;
   for (std::size_t left = touching.count(); left > 0;) {
@@ -28,8 +28,8 @@ std::size_t place_among(const TouchMemory& touching, const Newcomer& pair) {
   return first;
 }
 
-/// A pair that was found touches all along, in a list that was made anew, or is a newcomer.
-void recognize(Newcomer pair, TouchMemory& touching, std::vector<Newcomer>& newcomers) {
+/// A found pair either touched before and was found again in a rebuilt list, or is a new contact.
+void match_or_add(NewContact pair, TouchMemory& touching, std::vector<NewContact>& new_contacts) {
   const std::size_t at = place_among(touching, pair);
   pair.next = static_cast<int>(at);
   const bool touches = at < touching.count() && touching.ball[at] == pair.ball &&
@@ -37,29 +37,29 @@ void recognize(Newcomer pair, TouchMemory& touching, std::vector<Newcomer>& newc
   if (touches) {
     touching.place[at] = pair.place;
   } else {
-    newcomers.push_back(pair);
+    new_contacts.push_back(pair);
   }
 }
 
-/// Sorts out what was found in the band's faces and in those of the band before.
-void sort_out(const LatticeBand& band, ContactLists& lists, ContactWorkspace& workspace,
-              std::vector<Newcomer>& of_next_band) {
-  workspace.newcomers.clear();
-  for (const Newcomer& pair : of_next_band) {
-    recognize(pair, lists.touching, workspace.newcomers);
+/// Classifies what was found in the band's faces and in those of the band before.
+void classify_found(const LatticeBand& band, ContactLists& lists, ContactWorkspace& workspace,
+                    std::vector<NewContact>& of_next_band) {
+  workspace.new_contacts.clear();
+  for (const NewContact& pair : of_next_band) {
+    match_or_add(pair, lists.touching, workspace.new_contacts);
   }
   of_next_band.clear();
   const bool has_all = lists.face_list.empty();  // by buckets
   for (const int place : workspace.found) {
-    const Newcomer pair = {lists.candidate_ball[place], lists.candidate_segment[place], place};
+    const NewContact pair = {lists.candidate_ball[place], lists.candidate_segment[place], place};
     if (has_all || band.owns(pair.ball)) {
-      recognize(pair, lists.touching, workspace.newcomers);
+      match_or_add(pair, lists.touching, workspace.new_contacts);
     } else {
       of_next_band.push_back(pair);
     }
   }
-  std::sort(workspace.newcomers.begin(), workspace.newcomers.end(),
-            [](const Newcomer& a, const Newcomer& b) { return comes_before(a.ball, a.segment, b); });
+  std::sort(workspace.new_contacts.begin(), workspace.new_contacts.end(),
+            [](const NewContact& a, const NewContact& b) { return comes_before(a.ball, a.segment, b); });
 }
 
 /// Calls visit(field, field of the other) for what a pair keeps while it touches.
@@ -83,26 +83,26 @@ class Writer {
         before_(workspace.before),
         after_(lists.touching),
         known_(workspace.touches.known) {
-    const std::size_t count = before_.count() - lists.parted.size() + workspace.newcomers.size();
+    const std::size_t count = before_.count() - lists.released.size() + workspace.new_contacts.size();
     visit_kept(after_, before_, [&](auto& field, const auto&) { field.resize(count); });
     workspace.touches.resize(count);
     changes_.clear();
   }
 
-  /// Those before up to this one, but the parted.
+  /// Those before, up to this one, without the released.
   void copy_until(int end) {
     while (next_ < end) {
-      const bool parts = parted_ < lists_.parted.size() && lists_.parted[parted_] < end;
-      copy_run(parts ? lists_.parted[parted_] : end);
-      if (parts) {
+      const bool is_released = released_ < lists_.released.size() && lists_.released[released_] < end;
+      copy_run(is_released ? lists_.released[released_] : end);
+      if (is_released) {
         note_change(before_.ball[next_]);
-        ++parted_;
+        ++released_;
         ++next_;
       }
     }
   }
 
-  void put(const Newcomer& pair) {
+  void put(const NewContact& pair) {
     note_change(pair.ball);
     after_.ball[count_] = pair.ball;
     after_.segment[count_] = pair.segment;
@@ -132,12 +132,12 @@ class Writer {
   const TouchMemory& before_;
   TouchMemory& after_;
   LaneVector<int>& known_;
-  int count_ = 0;           // written
-  int next_ = 0;            // of those before
-  std::size_t parted_ = 0;  // passed of ContactLists::parted
+  int count_ = 0;             // written
+  int next_ = 0;              // of those before
+  std::size_t released_ = 0;  // passed of ContactLists::released
 };
 
-/// Says anew which pairs of a ball are linked.
+/// Finds which pairs of a ball are linked.
 void link(const Scene& scene, TouchMemory& touching, const ChangedBall& changed) {
   const auto [begin, end] = pairs_of_ball(touching, changed.ball, changed.place);
   for (int i = begin; i < end; ++i) {
@@ -153,11 +153,11 @@ void link(const Scene& scene, TouchMemory& touching, const ChangedBall& changed)
 }  // namespace
 
 void remember_touches(const Scene& scene, const LatticeBand& band, ContactLists& lists, ContactWorkspace& workspace,
-                      std::vector<Newcomer>& of_next_band) {
-  sort_out(band, lists, workspace, of_next_band);
+                      std::vector<NewContact>& of_next_band) {
+  classify_found(band, lists, workspace, of_next_band);
   std::swap(lists.touching, workspace.before);
   Writer writer(scene, lists, workspace);
-  for (const Newcomer& pair : workspace.newcomers) {
+  for (const NewContact& pair : workspace.new_contacts) {
     writer.copy_until(pair.next);
     writer.put(pair);
   }

@@ -26,12 +26,12 @@ inline PairRange pairs_of_ball(const TouchMemory& touching, int ball, int place)
   return range;
 }
 
-/// Takes the pairs that have parted out of ContactLists::touching of a band and puts those in that have been found to overlap, in
-/// the band's faces or in those of the band before; then `of_next_band` has those of the next. What touched before goes to
-/// ContactWorkspace::before; Touches::known tells where it was there.
+/// Removes the released pairs from ContactLists::touching of a band, and adds those found to overlap in the band's
+/// faces or in those of the band before; `of_next_band` then holds those of the next. What touched before goes to
+/// ContactWorkspace::before; Touches::known holds the index there.
 ///
 /// Nearly all pairs touch for many steps: they are copied in long runs between the few that come and go.
 void remember_touches(const Scene& scene, const LatticeBand& band, ContactLists& lists, ContactWorkspace& workspace,
-                      std::vector<Newcomer>& of_next_band);
+                      std::vector<NewContact>& of_next_band);
 
 }  // namespace cellcrush

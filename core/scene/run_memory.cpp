@@ -10,7 +10,7 @@ std::int64_t memory_of_run(const RunSize& size) {
   constexpr std::size_t kCandidatesPerParticle = 6;
   // What is remembered of it in two steps, how it stands, and what pushes.
   constexpr std::size_t kBytesPerTouch = 2 * (5 * sizeof(int) + sizeof(double)) + 4 * sizeof(int) + 5 * sizeof(double) +
-                                         2 * sizeof(Vector2) + sizeof(Push);
+                                         2 * sizeof(Vector2) + sizeof(ActiveContact);
   const std::size_t per_particle = 9 * sizeof(Vector2) + 9 * sizeof(double) + 2 * sizeof(int) +
                                    kCandidatesPerParticle * (sizeof(Candidate) + sizeof(double)) + kBytesPerTouch;
   const std::size_t remembered =

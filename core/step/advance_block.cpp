@@ -10,7 +10,7 @@
 #include "contact/contact_tiles.h"
 #include "contact/face_search.h"
 #include "contact/find_contacts.h"
-#include "contact/one_list.h"
+#include "contact/merge_band_contacts.h"
 #include "parallel/cache_size.h"
 #include "parallel/wavefront.h"
 #include "scene/bands.h"
@@ -72,9 +72,9 @@ void check_search(const Scene& scene, State& state, std::int64_t first, std::spa
       std::find_if(records.begin(), records.end(), [](const StepRecord& record) { return record.has_crossed; });
   if (crossed != records.end()) {
     state.crossing_step = first + 1 + (crossed - records.begin());
-    put_into_one_list(state);
+    merge_band_contacts(state);
   } else if (!borders_are_apart(scene, state, kMostStepsInBlock)) {
-    put_into_one_list(state);
+    merge_band_contacts(state);
     search_buckets(scene, state, state.contacts.front());
   }
 }

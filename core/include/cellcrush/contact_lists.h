@@ -18,7 +18,7 @@ struct TouchMemory {
       place;  ///< T, of the candidate by which the pair was found, in this list or that of the band before;
               ///< the face's list may be another since then
   std::vector<int> linked;  ///< T, 1: shares a particle with the segment of another of the ball's pairs; 0: with none
-  std::vector<int> side;    ///< T, +1 left, -1 right of the segment: where the ball is, or came from; 0: has parted
+  std::vector<int> side;    ///< T, +1 left, -1 right of the segment: where the ball is, or came from; 0: released
   std::vector<int> pushed;  ///< T, the side from which it pushed on the ball with friction in the newest step; 0: it
                             ///< did not. Empty without friction
   std::vector<double>
@@ -31,7 +31,8 @@ struct TouchMemory {
 /// Candidates that stand together, of one face.
 inline constexpr int kCandidateBatch = 8;
 
-/// Where the candidates of a face stand: `count` of them from `first` on, then empty places up to `room`; whole batches.
+/// Where the candidates of a face stand: `count` of them from `first` on, then empty places up to `room`; whole
+/// batches.
 struct FaceList {
   int first = 0;
   int count = 0;
@@ -41,8 +42,8 @@ struct FaceList {
 
 /// Which pairs may touch, of a band's faces (Scene::bands), and which do, of its balls; or of all.
 struct ContactLists {
-  // Written by find_contacts. K places for candidates, in whole batches: balls and segments that may touch before they are
-  // looked for again.
+  // Written by find_contacts. K places for candidates, in whole batches: balls and segments that may touch before they
+  // are looked for again.
   std::vector<int> candidate_ball;      ///< K, particle
   std::vector<int> candidate_segment;   ///< K, element
   std::vector<double> candidate_reach;  ///< K, mm, distance at which they touch; 0: an empty place
@@ -53,22 +54,23 @@ struct ContactLists {
   std::int64_t search_count = 0;
 
   // The same, of a search by faces (contact/face_search.h): F faces, C corners, G groups. Empty when by buckets.
-  std::vector<FaceList> face_list;  ///< F
-  std::vector<double> face_budget;  ///< F, mm by which gaps may close before a pair that is not listed touches
-  std::vector<double> face_alarm;   ///< F, travel of its group at which a face is looked at next
+  std::vector<FaceList> face_list;     ///< F
+  std::vector<double> face_clearance;  ///< F, mm by which gaps may close before a pair that is not listed touches
+  std::vector<double> face_next_check_travel;   ///< F, travel of its group at which the face is checked next
   std::vector<Vector2> face_searched_position;  ///< C, where the corners were when the face's list was made
   std::vector<double> group_travel;             ///< G, mm by which gaps of the group can have closed since the start
-  std::vector<double> group_alarm;              ///< G, the least of its faces
+  std::vector<double> group_next_check_travel;  ///< G, the least of its faces
   std::vector<int> batch_group;                 ///< K / kCandidateBatch, group of the batch's face
   std::int64_t batch_count = 0;                 ///< batches that the faces' candidates need
-  std::int64_t face_look_count = 0;             ///< faces looked at since the start
-  std::int64_t face_search_count = 0;           ///< faces whose list was made anew since the start
+  std::int64_t face_recheck_count = 0;          ///< faces rechecked since the start
+  std::int64_t face_search_count = 0;           ///< face lists rebuilt since the start
 
   // Written by evaluate_contact_forces.
-  TouchMemory touching;     ///< of the pairs that touch now, and those that have parted in this step
-  std::vector<int> parted;  ///< of `touching`, ascending: those that have parted
-  /// K, travel of the group at which a candidate is tested next; infinite while it is in `touching`, and of empty places.
-  LaneVector<double> candidate_alarm;
+  TouchMemory touching;       ///< of the pairs that touch now, and those released in this step
+  std::vector<int> released;  ///< of `touching`, ascending: those released
+  /// K, travel of the group at which a candidate is tested next; infinite while it is in `touching`, and of empty
+  /// places.
+  LaneVector<double> candidate_next_check_travel;
 };
 
 /// Of all contacts between walls, and of the plates so far as it says so.
@@ -89,14 +91,14 @@ void visit_search_fields(L& lists, Visitor&& visitor) {
   visitor("searched_position", lists.searched_position);
   visitor("search_count", lists.search_count);
   visitor("face_list", lists.face_list);
-  visitor("face_budget", lists.face_budget);
-  visitor("face_alarm", lists.face_alarm);
+  visitor("face_budget", lists.face_clearance);
+  visitor("face_alarm", lists.face_next_check_travel);
   visitor("face_searched_position", lists.face_searched_position);
   visitor("group_travel", lists.group_travel);
-  visitor("group_alarm", lists.group_alarm);
+  visitor("group_alarm", lists.group_next_check_travel);
   visitor("batch_group", lists.batch_group);
   visitor("batch_count", lists.batch_count);
-  visitor("face_look_count", lists.face_look_count);
+  visitor("face_look_count", lists.face_recheck_count);
   visitor("face_search_count", lists.face_search_count);
 }
 
@@ -110,8 +112,8 @@ void visit_touch_fields(L& lists, Visitor&& visitor) {
   visitor("touching_side", lists.touching.side);
   visitor("touching_pushed", lists.touching.pushed);
   visitor("touching_friction", lists.touching.friction);
-  visitor("parted", lists.parted);
-  visitor("candidate_alarm", lists.candidate_alarm);
+  visitor("parted", lists.released);
+  visitor("candidate_alarm", lists.candidate_next_check_travel);
 }
 
 }  // namespace cellcrush

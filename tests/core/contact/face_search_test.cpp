@@ -117,7 +117,7 @@ Pairs touching_pairs(const State& state) {
       EXPECT_TRUE(pairs.emplace(touching.ball[i], touching.segment[i]).second) << "touches twice";
     }
   }
-  EXPECT_EQ(pairs.size() + state.contacts.front().parted.size(), touching.count());
+  EXPECT_EQ(pairs.size() + state.contacts.front().released.size(), touching.count());
   return pairs;
 }
 
@@ -182,7 +182,7 @@ TEST(FaceSearch, AnOpenLatticeHasNoCandidatesAndIsSeldomLookedAt) {
   for (int i = 0; i < 100; ++i) {
     find_contacts(*scene, state, workers);
   }
-  EXPECT_EQ(state.contacts.front().face_look_count, scene->faces.bands.front().count());
+  EXPECT_EQ(state.contacts.front().face_recheck_count, scene->faces.bands.front().count());
 }
 
 State crush(const SceneSpec& spec, int steps) {

@@ -63,9 +63,9 @@ ContactLists some_candidates(std::size_t batches, bool by_faces, std::mt19937& g
   for (std::size_t place = 0; place < batches * kCandidateBatch; ++place) {
     const double travel = by_faces ? lists.group_travel[place / kCandidateBatch % 3] : 0.0;
     const bool awake = generator() % 5 == 0;
-    lists.candidate_alarm.push_back(awake                  ? travel
-                                    : generator() % 2 == 0 ? travel + 0.1
-                                                           : std::numeric_limits<double>::infinity());
+    lists.candidate_next_check_travel.push_back(awake                  ? travel
+                                                : generator() % 2 == 0 ? travel + 0.1
+                                                                       : std::numeric_limits<double>::infinity());
   }
   for (std::size_t batch = 0; by_faces && batch < batches; ++batch) {
     lists.batch_group.push_back(static_cast<int>(batch % 3));
@@ -80,16 +80,17 @@ TEST(WideSearch, FindsTheCandidatesThatAreAwake) {
       const ContactLists lists = some_candidates(batches, by_faces, generator);
       const std::size_t first = batches > 2 ? kCandidateBatch : 0;
       std::vector<int> awake;
-      for (std::size_t place = first; place < lists.candidate_alarm.size(); ++place) {
+      for (std::size_t place = first; place < lists.candidate_next_check_travel.size(); ++place) {
         const double travel = by_faces ? lists.group_travel[lists.batch_group[place / kCandidateBatch]] : 0.0;
-        if (lists.candidate_alarm[place] <= travel) {
+        if (lists.candidate_next_check_travel[place] <= travel) {
           awake.push_back(static_cast<int>(place));
         }
       }
       for_every_target([&] {
         constexpr int kUntouched = -7;
         std::vector<int> places(awake.size() + kCandidateBatch + 1, kUntouched);
-        const std::size_t count = find_awake_candidates(lists, first, lists.candidate_alarm.size(), places.data());
+        const std::size_t count =
+            find_awake_candidates(lists, first, lists.candidate_next_check_travel.size(), places.data());
         EXPECT_EQ(places.back(), kUntouched);
         places.resize(count);
         EXPECT_EQ(places, awake);

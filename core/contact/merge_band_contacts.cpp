@@ -1,4 +1,4 @@
-#include "contact/one_list.h"
+#include "contact/merge_band_contacts.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -22,7 +22,7 @@ struct Pair {
   }
 };
 
-/// Pairs that have parted are left out. REQUIRES: no friction, which bands have not.
+/// Released pairs are left out. REQUIRES: no friction, which bands have not.
 TouchMemory merge(const std::vector<ContactLists>& contacts) {
   std::vector<Pair> pairs;
   for (const ContactLists& lists : contacts) {
@@ -47,7 +47,7 @@ TouchMemory merge(const std::vector<ContactLists>& contacts) {
 
 }  // namespace
 
-void put_into_one_list(State& state) {
+void merge_band_contacts(State& state) {
   if (state.contacts.size() > 1) {
     TouchMemory merged = merge(state.contacts);
     state.contacts.assign(state.contacts.size(), ContactLists());
@@ -56,11 +56,11 @@ void put_into_one_list(State& state) {
   }
   ContactLists& lists = state.contacts.front();
   lists.face_list.clear();
-  lists.face_budget.clear();
-  lists.face_alarm.clear();
+  lists.face_clearance.clear();
+  lists.face_next_check_travel.clear();
   lists.face_searched_position.clear();
   lists.group_travel.clear();
-  lists.group_alarm.clear();
+  lists.group_next_check_travel.clear();
   lists.batch_count = 0;
   clear_candidates(lists);
 }

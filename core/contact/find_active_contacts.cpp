@@ -1,4 +1,4 @@
-#include "contact/find_pushes.h"
+#include "contact/find_active_contacts.h"
 
 #include "contact/remember_touches.h"
 
@@ -29,7 +29,7 @@ struct BallTouches {
 
   /// The touch with the nearest node of the polyline to which the pushing segment belongs, if the two balls touch.
   [[nodiscard]] int node_touch(int pushing) const {
-    int nearest = Push::kNone;
+    int nearest = ActiveContact::kNone;
     double depth = 0.0;
     for (int touch = range.first; touch < range.end; ++touch) {
       if (touches.node_depth[touch] > depth && (touch == pushing || are_joined(touch, pushing))) {
@@ -57,46 +57,47 @@ bool lies_before(const Scene& scene, const State& state, int ball, int node) {
 
 /// Divides the normal force between the touch and that of the node's ball on the ball's own segments.
 void share_with_node(const Scene& scene, const State& state, const ContactLists& lists, const Touches& touches,
-                     Push& push) {
-  const int touch = push.touch;
+                     ActiveContact& contact) {
+  const int touch = contact.touch;
   const int ball = lists.touching.ball[touch];
   const double share = touches.share[touch];
   if (share > 0.0 && share < 1.0) {
-    if (push.node_touch != Push::kNone && !lies_before(scene, state, touches.node[push.node_touch], ball)) {
-      push.net_depth -=
-          0.5 * touches.node_depth[push.node_touch] * touches.normal[touch].dot(touches.node_normal[push.node_touch]);
+    if (contact.node_touch != ActiveContact::kNone &&
+        !lies_before(scene, state, touches.node[contact.node_touch], ball)) {
+      contact.net_depth -= 0.5 * touches.node_depth[contact.node_touch] *
+                           touches.normal[touch].dot(touches.node_normal[contact.node_touch]);
     }
     return;
   }
   // Two balls touch: the first of them has the pair, or the one that lies over the other's segments.
   const int end = touches.node[touch];
-  push.has_pair = ball < end && lies_before(scene, state, end, ball);
-  push.net_depth = push.has_pair ? push.net_depth : 0.0;
+  contact.has_pair = ball < end && lies_before(scene, state, end, ball);
+  contact.net_depth = contact.has_pair ? contact.net_depth : 0.0;
 }
 
 }  // namespace
 
-void find_pushes(const Scene& scene, const State& state, const ContactLists& lists, const Touches& touches,
-                 std::size_t first, std::size_t end, std::vector<Push>& pushes) {
-  pushes.clear();
+void find_active_contacts(const Scene& scene, const State& state, const ContactLists& lists, const Touches& touches,
+                          std::size_t first, std::size_t end, std::vector<ActiveContact>& active) {
+  active.clear();
   for (int touch = static_cast<int>(first); touch < static_cast<int>(end); ++touch) {
     const double depth = touches.depth[touch];
     if (!(depth > 0.0)) {
       continue;
     }
-    Push push;
-    push.touch = touch;
-    push.net_depth = depth;
+    ActiveContact contact;
+    contact.touch = touch;
+    contact.net_depth = depth;
     // Most stand alone over the inside of a segment.
     if (lists.touching.linked[touch] != 0 || touches.node_depth[touch] > 0.0) {
       const BallTouches of_ball = {touches, pairs_of_ball(lists.touching, lists.touching.ball[touch], touch)};
       if (of_ball.yields_to_neighbour(touch)) {
         continue;
       }
-      push.node_touch = of_ball.node_touch(touch);
-      share_with_node(scene, state, lists, touches, push);
+      contact.node_touch = of_ball.node_touch(touch);
+      share_with_node(scene, state, lists, touches, contact);
     }
-    pushes.push_back(push);
+    active.push_back(contact);
   }
 }
 
