@@ -1,4 +1,3 @@
-#include "simd/target.h"
 
 #include <hwy/highway.h>
 
@@ -43,9 +42,6 @@ const std::vector<Target>& targets() {
 
 }  // namespace
 
-static bool is_wide = true;
-bool use_wide_kernels() { return is_wide; }
-
 std::vector<std::string> simd_targets() {
   std::vector<std::string> names;
   for (const Target& target : targets()) {
@@ -69,7 +65,6 @@ bool use_simd_target(std::string_view name) {
   if (found == known.end()) {
     return false;
   }
-  is_wide = found->name != "scalar";
   hwy::DisableTargets(found->bit - 1);  // all better ones
   hwy::GetChosenTarget().Update(hwy::SupportedTargets());
   return true;

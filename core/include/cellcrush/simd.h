@@ -6,8 +6,9 @@
 
 namespace cellcrush {
 
-// The kernels exist as plain text, "scalar", which is the reference, and for the vector instructions of processors: on
-// x86-64 "sse4", "avx2" and "avx512". The choice is the process's; without one it is the best that the processor has.
+// The kernels are one text, compiled for the vector instructions of several processors: on x86-64 "sse4", "avx2" and "avx512",
+// and for none, "scalar", which computes one number at a time. The choice is the process's; without one it is the best that the
+// processor has. Where multiplication and addition are fused, as on avx2 and avx512, the bits are the same.
 
 /// Names of the kernels that this processor can run, the best first; the last is "scalar".
 std::vector<std::string> simd_targets();
