@@ -1,9 +1,11 @@
 #include "service.h"
 
+#include <algorithm>
 #include <chrono>
 #include <initializer_list>
 #include <optional>
 #include <set>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -11,6 +13,7 @@
 #include "jobs/deletion.h"
 #include "jobs/housekeeping.h"
 #include "jobs/local_process.h"
+#include "jobs/mesh_places.h"
 #include "jobs/queue_hold.h"
 #include "jobs/scheduler.h"
 #include "metrics/metrics.h"
@@ -35,6 +38,11 @@ constexpr const char* kQueueHealth = "cellcrush.queue";
 constexpr int kPumpThreads = 2;
 constexpr int kCheckThreads = 12;  // those of large cases wait on them for each other
 constexpr std::size_t kWaitingCalls = 10'000;
+
+// More would wait for each other's meshes.
+int threads_of_sweep_check() {
+  return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, jobs::MeshPlaces::kSmallMeshes);
+}
 
 rpc::StreamLimits::Most most_streams(const net::ConnectionLimits& limits) {
   return {limits.streams, limits.streams_per_caller, limits.memory_bytes};
@@ -72,10 +80,12 @@ struct Service::Parts {
         admission({folder, reader, scheduler}, options.limits),
         calls({options.connections.threads, kWaitingCalls, options.connections.memory_bytes}),
         checks({kCheckThreads, kWaitingCalls, options.connections.memory_bytes}),
-        cases(step_cost, calls, checks),
+        cases(step_cost, calls, checks, mesh_places),
         health({board, {pump, metrics, health_limits, options.watch_times}}),
-        jobs({folder, journal, reader, deletion, hub, scheduler, admission, gate, calls, streams()}),
-        sweeps({journal, reader, sweep_reader, deletion, hub, scheduler, admission, gate, calls, streams()}),
+        jobs({folder, journal, reader, deletion, hub, scheduler, admission, gate, calls, checks, mesh_places,
+              streams()}),
+        sweeps({journal, reader, sweep_reader, deletion, hub, scheduler, admission, gate, calls, checks, mesh_places,
+                threads_of_sweep_check(), streams()}),
         admin({reader,
                hub,
                scheduler,
@@ -113,6 +123,7 @@ struct Service::Parts {
   jobs::Admission admission;
   rpc::CallPool calls;
   rpc::CallPool checks;
+  jobs::MeshPlaces mesh_places;
   rpc::CasesService cases;
   rpc::HealthService health;
   rpc::JobsService jobs;

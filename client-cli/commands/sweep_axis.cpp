@@ -72,8 +72,25 @@ class AxisText {
   const std::string& text_;
 };
 
+int count_values(const v1::SweepAxis& axis) {
+  switch (axis.values_case()) {
+    case v1::SweepAxis::kList: return axis.list().values_size();
+    case v1::SweepAxis::kLinear: return axis.linear().count();
+    case v1::SweepAxis::kLogarithmic: return axis.logarithmic().count();
+    case v1::SweepAxis::kSeedCount: return axis.seed_count();
+    case v1::SweepAxis::VALUES_NOT_SET: break;
+  }
+  return 0;
+}
+
 }  // namespace
 
 v1::SweepAxis parse_axis(const std::string& text) { return AxisText(text).parse(); }
+
+double count_points(const v1::Sweep& sweep) {
+  double points = 1.0;
+  for (const v1::SweepAxis& axis : sweep.axes()) points *= count_values(axis);
+  return points;
+}
 
 }  // namespace cellcrush::client

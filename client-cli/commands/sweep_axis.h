@@ -10,4 +10,7 @@ namespace cellcrush::client {
 /// PATH=FIRST:LAST:COUNT:log (in the logarithm) or PATH=seeds:N (1 to N). Throws CommandError.
 v1::SweepAxis parse_axis(const std::string& text);
 
+/// Points of the grid that the axes of a sweep span; a double, since axes may ask for more than any server takes.
+double count_points(const v1::Sweep& sweep);
+
 }  // namespace cellcrush::client

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <chrono>
 #include <cstdio>
 
 #include "case_file/case_source.h"
@@ -16,6 +18,9 @@
 namespace cellcrush::client {
 
 namespace {
+
+/// For the check of ten thousand points.
+constexpr std::chrono::minutes kCheckPatience{10};
 
 struct SweepOptions {
   CaseOptions scene;
@@ -57,7 +62,10 @@ ExitCode run_sweep(Session& session, const SweepOptions& options) {
   // From here on Ctrl-C ends the watch in order, also when it comes just after the sweep was queued.
   std::unique_ptr<Interruption> interruption;
   if (options.watch) interruption = std::make_unique<Interruption>();
-  const auto sweep = connection.call(connection.sweeps(), &v1::Sweeps::Stub::CreateSweep, request);
+  // The server answers only when it has checked all of them.
+  if (!session.json && isatty(STDERR_FILENO) != 0)
+    fmt::print(stderr, "Checking {:.0f} points...\n", count_points(request.sweep()));
+  const auto sweep = connection.call(connection.sweeps(), &v1::Sweeps::Stub::CreateSweep, request, kCheckPatience);
   if (session.json) {
     print_json(sweep);
   } else {

@@ -32,14 +32,14 @@ class Connection {
   /// Whether the server answers within `patience`.
   bool wait(std::chrono::milliseconds patience);
 
-  /// One call with one answer. Throws CommandError when it does not end with OK, takes longer than a minute, or would
+  /// One call with one answer. Throws CommandError when it does not end with OK, takes longer than `patience`, or would
   /// be larger than a server takes.
   template <typename Stub, typename Request, typename Response>
   Response call(Stub& stub, grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*),
-                const Request& request) {
+                const Request& request, std::chrono::seconds patience = kPatience) {
     check_request_size(static_cast<std::int64_t>(request.ByteSizeLong()));
     grpc::ClientContext context;
-    context.set_deadline(std::chrono::system_clock::now() + kPatience);
+    context.set_deadline(std::chrono::system_clock::now() + patience);
     Response response;
     const grpc::Status status = (stub.*method)(&context, request, &response);
     if (!status.ok()) throw error_about(name_in(request), status);

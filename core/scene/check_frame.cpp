@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "scene/mesh_size.h"
+
 namespace cellcrush {
 namespace {
 
@@ -26,7 +28,6 @@ class FrameChecker {
   }
 
   void check_beams() {
-    double elements = 0.0;
     std::vector<bool> joined(frame_.nodes.size(), false);
     if (frame_.beams.empty()) {
       check_.add("lattice.frame.beams", "", "are missing.", "Give at least one beam.");
@@ -42,7 +43,6 @@ class FrameChecker {
       if (beam.material) {
         check_material(path + "material.", *beam.material, check_);
       }
-      elements += std::max(1, beam.elements.value_or(elements_per_wall_));
       if (ends && length_of(beam) == 0.0) {
         check_.add(path + "end", std::to_string(beam.end), "gives the beam zero length.",
                    "Connect two nodes at different positions.");
@@ -51,7 +51,7 @@ class FrameChecker {
         joined[beam.start] = joined[beam.end] = true;
       }
     }
-    check_size(elements);
+    check_size(count_elements(frame_, elements_per_wall_));
     for (std::size_t i = 0; i < frame_.nodes.size(); ++i) {
       if (!joined[i]) {
         check_.add("lattice.frame.nodes[" + std::to_string(i) + "]", "", "belongs to no beam.",

@@ -8,6 +8,7 @@
 
 #include "scene/check_frame.h"
 #include "scene/field_checker.h"
+#include "scene/mesh_size.h"
 
 namespace cellcrush {
 namespace {
@@ -23,7 +24,7 @@ void check_regular(const std::string& path, const Lattice& lattice, int fewest_c
   const double thickest = side ? 0.5 * *lattice.side_mm : 1e12;
   check.in_range(path + "wall_thickness_mm", lattice.wall_thickness_mm, {1e-6, thickest}, " mm (half of side_mm)");
   if (columns && rows) {
-    const double elements = walls_per_cell * *lattice.columns * *lattice.rows * elements_per_wall;
+    const double elements = count_elements(walls_per_cell, *lattice.columns, *lattice.rows, elements_per_wall);
     if (elements > kMostElements) {
       check.add(path + "columns", std::to_string(*lattice.columns),
                 "makes about " + to_text(std::round(elements)) + " elements with the rows and elements_per_wall given.",
@@ -36,7 +37,7 @@ void check_regular(const std::string& path, const Lattice& lattice, int fewest_c
 void check_hexagons(const HexagonLattice& hexagon, const Inclusions& inclusions, int elements_per_wall,
                     FieldChecker& check) {
   const std::string path = "lattice.hexagon.";
-  check_regular(path, hexagon, 2, 3.0, elements_per_wall, check);
+  check_regular(path, hexagon, 2, kWallsOfHexagon, elements_per_wall, check);
   const double thickest = hexagon.side_mm && *hexagon.side_mm > 0.0 ? 0.5 * *hexagon.side_mm : 1e12;
   if (hexagon.vertical_wall_thickness_mm) {
     check.in_range(path + "vertical_wall_thickness_mm", hexagon.vertical_wall_thickness_mm, {1e-6, thickest},
@@ -79,10 +80,10 @@ void check_lattice(const SceneSpec& spec, FieldChecker& check) {
     return;
   }
   if (const auto* square = std::get_if<SquareLattice>(&spec.lattice)) {
-    check_regular("lattice.square.", *square, 1, 2.0, *spec.elements_per_wall, check);
+    check_regular("lattice.square.", *square, 1, kWallsOfSquare, *spec.elements_per_wall, check);
     check_imperfection(spec, side_of(*square), check);
   } else if (const auto* triangle = std::get_if<TriangleLattice>(&spec.lattice)) {
-    check_regular("lattice.triangle.", *triangle, 1, 3.0, *spec.elements_per_wall, check);
+    check_regular("lattice.triangle.", *triangle, 1, kWallsOfTriangle, *spec.elements_per_wall, check);
     check_imperfection(spec, side_of(*triangle), check);
   } else if (const auto* frame = std::get_if<FrameLattice>(&spec.lattice)) {
     check_frame(*frame, *spec.elements_per_wall, check);

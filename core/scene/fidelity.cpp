@@ -1,7 +1,6 @@
 #include "cellcrush/fidelity.h"
 
 #include "cellcrush/simulation.h"
-#include "cellcrush/spec_checker.h"
 
 namespace cellcrush {
 namespace {
@@ -54,10 +53,9 @@ std::string describe_fidelity(const SceneSpec& spec) {
                                  : ": elements_per_wall is " + std::to_string(point->elements_per_wall) + ".");
 }
 
-std::vector<FidelityForecast> forecast_fidelities(const SceneSpec& spec) {
+std::vector<FidelityForecast> forecast_fidelities(const SceneSpec& spec, SpecChecker& checker) {
   std::vector<FidelityForecast> forecasts;
   if (std::holds_alternative<FrameLattice>(spec.lattice)) return forecasts;
-  SpecChecker checker;
   for (const FidelityPoint& point : fidelity_points()) {
     SceneSpec asked = spec;
     asked.numerics.fidelity = point.fidelity;

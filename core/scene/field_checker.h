@@ -7,9 +7,6 @@
 
 namespace cellcrush {
 
-/// Most elements of a mesh that is built: what a machine of 2 GB holds with room to spare.
-inline constexpr double kMostElements = 2e6;
-
 /// Collects problems field by field. Each call checks one field and returns whether it can be used.
 class FieldChecker {
  public:

@@ -79,6 +79,26 @@ Vector2 unit_of(Cell cell, double side) {
   return {0.5 * side, kHalfRoot3 * side};
 }
 
+LatticePattern pattern_of(const LatticeShape& shape) {
+  switch (shape.cell) {
+    case Cell::hexagon: return pattern_of_hexagons(shape);
+    case Cell::square: return pattern_of_squares(shape);
+    case Cell::triangle: break;
+  }
+  return pattern_of_triangles(shape);
+}
+
+/// Where the joints of a pattern are, mm.
+std::vector<Vector2> place_joints(const LatticePattern& pattern, LatticeShape::Cell cell, double side) {
+  const Vector2 unit = unit_of(cell, side);
+  std::vector<Vector2> joints;
+  joints.reserve(pattern.joints.size());
+  for (const auto& [x, y] : pattern.joints) {
+    joints.emplace_back(unit.x() * x, unit.y() * y);
+  }
+  return joints;
+}
+
 }  // namespace
 
 RegularLattice regular_lattice(const HexagonLattice& lattice, const Inclusions& inclusions, int elements_per_wall) {
@@ -114,25 +134,6 @@ std::optional<RegularLattice> regular_lattice_of(const SceneSpec& spec) {
     return regular_lattice(*triangle, elements);
   }
   return std::nullopt;
-}
-
-LatticePattern pattern_of(const LatticeShape& shape) {
-  switch (shape.cell) {
-    case Cell::hexagon: return pattern_of_hexagons(shape);
-    case Cell::square: return pattern_of_squares(shape);
-    case Cell::triangle: break;
-  }
-  return pattern_of_triangles(shape);
-}
-
-std::vector<Vector2> place_joints(const LatticePattern& pattern, LatticeShape::Cell cell, double side) {
-  const Vector2 unit = unit_of(cell, side);
-  std::vector<Vector2> joints;
-  joints.reserve(pattern.joints.size());
-  for (const auto& [x, y] : pattern.joints) {
-    joints.emplace_back(unit.x() * x, unit.y() * y);
-  }
-  return joints;
 }
 
 Layout lay_out(const RegularLattice& lattice) {

@@ -24,8 +24,6 @@ struct LatticeShape {
   int columns = 0;
   int rows = 0;
   std::vector<int> stiff_rows;  ///< of hexagons, from 1 at the bottom
-
-  bool operator==(const LatticeShape&) const = default;
 };
 
 /// What makes a layout of a pattern.
@@ -46,11 +44,6 @@ RegularLattice regular_lattice(const SquareLattice& lattice, int elements_per_wa
 RegularLattice regular_lattice(const TriangleLattice& lattice, int elements_per_wall);
 /// The regular lattice of a spec; none of a frame.
 std::optional<RegularLattice> regular_lattice_of(const SceneSpec& spec);
-
-LatticePattern pattern_of(const LatticeShape& shape);
-
-/// Where the joints of a pattern are, mm.
-std::vector<Vector2> place_joints(const LatticePattern& pattern, LatticeShape::Cell cell, double side);
 
 Layout lay_out(const RegularLattice& lattice);
 

@@ -10,7 +10,7 @@ void lump_masses(Scene& scene) {
   scene.radius.assign(scene.particle_count(), 0.0);
   for (const Element& element : scene.elements) {
     const double length = (scene.position[element.end] - scene.position[element.start]).norm();
-    const double half_mass = half_mass_of(scene.materials[element.material], scene.depth, element.thickness, length);
+    const double half_mass = 0.5 * scene.materials[element.material].density * scene.depth * element.thickness * length;
     const double gyration_squared = element.thickness * element.thickness / 12.0;
     const double lumped = scene.mass_scaling.mass * half_mass;
     for (const int node : {element.start, element.end}) {

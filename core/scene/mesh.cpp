@@ -25,8 +25,9 @@ void divide_block(const Layout& layout, const WallBlock& block, Scene& scene) {
       scene.elements.push_back(
           {j == 0 ? wall.start : inner(j - 1, w), is_last ? wall.end : inner(j, w), wall.thickness, wall.material});
       if (!is_last) {
+        const Vector2& from = layout.joints[wall.start];
         const double share = static_cast<double>(j + 1) / wall.elements;
-        scene.position.push_back(place_in_wall(layout.joints[wall.start], layout.joints[wall.end], share));
+        scene.position.emplace_back(from + (layout.joints[wall.end] - from) * share);
       }
     }
   }

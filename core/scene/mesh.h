@@ -23,11 +23,6 @@ struct Layout {
   std::vector<LayoutWall> walls;
 };
 
-/// Where a wall is divided: at a share of the way from one joint to the other, which is that of whole elements.
-inline Vector2 place_in_wall(const Vector2& from, const Vector2& to, double share) {
-  return from + (to - from) * share;
-}
-
 /// Divides the walls into elements: fills the scene's positions, elements and walls. The joints come first, then the
 /// particles inside the walls, block by block. Walls that follow each other and have equally many elements share a block.
 /// Rigid walls are an element each, behind all others. REQUIRES: they are the last.

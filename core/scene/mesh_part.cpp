@@ -118,7 +118,7 @@ std::shared_ptr<Scene> build_mesh(const SceneSpec& part) {
   return scene;
 }
 
-MeshMeasures measure_mesh(const SceneSpec& part, const Scene& scene) {
+MeshMeasures measure_sound_mesh(const SceneSpec& part, const Scene& scene) {
   MeshMeasures measures;
   measures.particle_count = scene.particle_count();
   measures.element_count = scene.element_count();
@@ -135,6 +135,11 @@ MeshMeasures measure_mesh(const SceneSpec& part, const Scene& scene) {
   measures.hardening = scene.has_hardening();
   const auto* frame = std::get_if<FrameLattice>(&part.lattice);
   measures.contact = frame == nullptr || frame->self_contact;
+  return measures;
+}
+
+MeshMeasures measure_mesh(const SceneSpec& part, const Scene& scene) {
+  MeshMeasures measures = measure_sound_mesh(part, scene);
   if (measures.contact) {
     measures.overlaps = check_overlap(part, scene);
   }

@@ -39,7 +39,10 @@ struct MeshMeasures {
   Problems overlaps;       ///< walls that lie in each other before loading
 };
 
-/// REQUIRES: `scene` is the mesh of the part.
+/// Looks for walls that lie in each other too. REQUIRES: `scene` is the mesh of the part.
 MeshMeasures measure_mesh(const SceneSpec& part, const Scene& scene);
+
+/// The same of a mesh in which none do.
+MeshMeasures measure_sound_mesh(const SceneSpec& part, const Scene& scene);
 
 }  // namespace cellcrush

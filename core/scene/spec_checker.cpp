@@ -5,8 +5,8 @@
 
 #include "cellcrush/fidelity.h"
 #include "scene/check_spec.h"
-#include "scene/lattice_measures.h"
 #include "scene/mesh_part.h"
+#include "scene/mesh_size.h"
 #include "scene/run_memory.h"
 #include "scene/run_plan.h"
 
@@ -35,7 +35,7 @@ struct SpecChecker::KnownMesh {
   MeshMeasures measures;
 };
 
-SpecChecker::SpecChecker() : lattices_(std::make_unique<LatticeMeasurer>()) {}
+SpecChecker::SpecChecker() = default;
 SpecChecker::~SpecChecker() = default;
 
 SpecChecker::Verdict SpecChecker::check(const SceneSpec& given) {
@@ -55,25 +55,39 @@ SpecChecker::Verdict SpecChecker::check(const SceneSpec& given) {
   return verdict;
 }
 
-const SpecChecker::KnownMesh& SpecChecker::mesh_of(SceneSpec part) {
+void SpecChecker::know(const SceneSpec& given, const Scene& scene) {
+  const SceneSpec part = mesh_part_of(fill_in_fidelity(given));
+  keep(std::make_unique<KnownMesh>(KnownMesh{part, measure_sound_mesh(part, scene)}));
+}
+
+std::int64_t SpecChecker::elements_to_build(const SceneSpec& given) const {
+  const SceneSpec spec = fill_in_fidelity(given);
+  if (spoil_mesh(check_spec(spec)) || find_known(mesh_part_of(spec)) != nullptr) {
+    return 0;
+  }
+  return static_cast<std::int64_t>(count_elements(spec));
+}
+
+const SpecChecker::KnownMesh* SpecChecker::find_known(const SceneSpec& part) const {
   const auto found =
       std::find_if(known_.begin(), known_.end(), [&part](const auto& known) { return known->part == part; });
-  if (found != known_.end()) {
-    return **found;
+  return found == known_.end() ? nullptr : found->get();
+}
+
+const SpecChecker::KnownMesh& SpecChecker::mesh_of(SceneSpec part) {
+  if (const KnownMesh* found = find_known(part)) {
+    return *found;
   }
-  auto known = std::make_unique<KnownMesh>();
-  if (auto measures = lattices_->measure(part)) {
-    known->measures = *std::move(measures);
-  } else {
-    known->measures = measure_mesh(part, *build_mesh(part));
-    ++built_count_;
-  }
-  known->part = std::move(part);
-  known_.push_front(std::move(known));
+  const MeshMeasures measures = measure_mesh(part, *build_mesh(part));
+  keep(std::make_unique<KnownMesh>(KnownMesh{std::move(part), measures}));
+  return *known_.front();
+}
+
+void SpecChecker::keep(std::unique_ptr<KnownMesh> mesh) {
+  known_.push_front(std::move(mesh));
   if (known_.size() > kMostMeshes) {
     known_.pop_back();
   }
-  return *known_.front();
 }
 
 }  // namespace cellcrush

@@ -1,5 +1,11 @@
 #include "jobs/sweep_plan.h"
 
+#include <malloc.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <future>
 #include <string>
 #include <utility>
 
@@ -14,6 +20,8 @@ namespace {
 
 constexpr std::size_t kLongestTitle = 200;                 // of a case, in bytes
 constexpr std::size_t kMostCaseBytes = 256 * 1024 * 1024;  // of all cases of a sweep
+// Checked before their problems, which may be many, are merged.
+constexpr std::size_t kPointsAtOnce = 64;
 constexpr std::size_t kMostLabelBytes = 16 * 1024 * 1024;  // of the labels of all its jobs
 
 void cut(std::string& text, std::size_t most) {
@@ -52,25 +60,73 @@ v1::Problem problem_of(const InvalidField& refused) {
   return out;
 }
 
-// The case of a point, and what the solver says of it.
-v1::Case build_case(const v1::Sweep& sweep, const std::vector<std::string>& fields, const std::vector<double>& values,
-                    const std::string& point, translate::CaseChecker& checker,
-                    translate::CaseChecker::Verdict& verdict) {
-  v1::Case out = sweep.case_();
-  try {
-    for (std::size_t i = 0; i < fields.size(); ++i) set_case_field(out, fields[i], values[i]);
-  } catch (const InvalidField& refused) {
-    verdict.problems.push_back(problem_of(refused));
-    return out;
-  }
-  verdict = checker.check(out);
-  out.set_title(title_of(out.title(), point));
+v1::Job job_of(const v1::Sweep& sweep, v1::Case made) {
+  v1::Job out;
+  *out.mutable_case_() = std::move(made);
+  *out.mutable_labels() = sweep.labels();
+  out.set_priority(sweep.priority());
+  out.set_time_limit_s(sweep.time_limit_s());
+  out.set_owner(sweep.owner());
   return out;
 }
 
+struct CheckedPoint {
+  std::string text;
+  v1::Case made;
+  translate::CaseChecker::Verdict verdict;
+};
+
+// Checks points with several threads, each with a checker of its own: of points that share a mesh each thread builds one.
+class PointChecker {
+ public:
+  PointChecker(const v1::Sweep& sweep, const SweepPoints& points, const PointChecking& checking)
+      : sweep_(sweep), points_(points), checking_(checking), checkers_(static_cast<std::size_t>(checking.threads)) {}
+
+  // The points `first` ... `end` - 1, in their order.
+  std::vector<CheckedPoint> check(std::size_t first, std::size_t end) {
+    std::vector<CheckedPoint> checked(end - first);
+    std::atomic<std::size_t> next = first;
+    const auto work = [&](translate::CaseChecker& checker) {
+      for (std::size_t i = next++; i < end; i = next++) checked[i - first] = check_one(points_.values[i], checker);
+    };
+    // Where no thread can be had the work is done by this one.
+    constexpr auto kIfPossible = std::launch::async | std::launch::deferred;
+    std::vector<std::future<void>> others;
+    for (std::size_t i = 1; i < std::min(checkers_.size(), checked.size()); ++i)
+      others.push_back(std::async(kIfPossible, work, std::ref(checkers_[i])));
+    work(checkers_.front());
+    for (auto& other : others) other.get();
+    return checked;
+  }
+
+ private:
+  CheckedPoint check_one(const std::vector<double>& values, translate::CaseChecker& checker) const {
+    if (checking_.given_up())
+      throw ServiceError(ServiceError::Kind::cancelled, "The client cancelled the call. No sweep was created.");
+    CheckedPoint out{text_of_point(points_.fields, values), sweep_.case_(), {}};
+    try {
+      for (std::size_t i = 0; i < values.size(); ++i) set_case_field(out.made, points_.fields[i], values[i]);
+    } catch (const InvalidField& refused) {
+      out.verdict.problems.push_back(problem_of(refused));
+      return out;
+    }
+    // A sweep of large lattices has them built one after the other, and waits for others as long as its caller does.
+    const MeshPlaces::Place mesh(checking_.places, checker.elements_to_build(out.made), checking_.given_up,
+                                 std::chrono::hours(24));
+    out.verdict = checker.check(out.made);
+    out.made.set_title(title_of(out.made.title(), out.text));
+    return out;
+  }
+
+  const v1::Sweep& sweep_;
+  const SweepPoints& points_;
+  const PointChecking& checking_;
+  std::vector<translate::CaseChecker> checkers_;
+};
+
 }  // namespace
 
-SweepPlan plan_sweep(const v1::Sweep& sweep, const std::function<bool()>& given_up) {
+SweepPlan plan_sweep(const v1::Sweep& sweep, const PointChecking& checking) {
   const SweepPoints points = expand(sweep);
   if (sweep.case_().ByteSizeLong() * points.values.size() > kMostCaseBytes) {
     throw InvalidField("sweep",
@@ -87,26 +143,20 @@ SweepPlan plan_sweep(const v1::Sweep& sweep, const std::function<bool()>& given_
   SweepPlan out;
   PointProblems problems(points.values.size(), PointProblems::Merge::equal);
   PointProblems notes(points.values.size(), PointProblems::Merge::but_for_numbers);
-  translate::CaseChecker checker;
-  for (std::size_t i = 0; i < points.values.size(); ++i) {
-    if (given_up())
-      throw ServiceError(ServiceError::Kind::cancelled, "The client cancelled the call. No sweep was created.");
-    const std::string point = text_of_point(points.fields, points.values[i]);
-    translate::CaseChecker::Verdict verdict;
-    v1::Job job;
-    *job.mutable_case_() = build_case(sweep, points.fields, points.values[i], point, checker, verdict);
-    *job.mutable_labels() = sweep.labels();
-    job.set_priority(sweep.priority());
-    job.set_time_limit_s(sweep.time_limit_s());
-    job.set_owner(sweep.owner());
-    for (const auto& problem : verdict.problems) problems.add(problem, i, point);
-    for (const auto& note : verdict.notes) notes.add(note, i, point);
-    if (verdict.most_memory_bytes > out.most_memory_bytes) {
-      out.most_memory_bytes = verdict.most_memory_bytes;
-      out.largest = i;
+  PointChecker checker(sweep, points, checking);
+  for (std::size_t first = 0; first < points.values.size(); first += kPointsAtOnce) {
+    for (auto& point : checker.check(first, std::min(first + kPointsAtOnce, points.values.size()))) {
+      const std::size_t i = out.jobs.size();
+      for (const auto& problem : point.verdict.problems) problems.add(problem, i, point.text);
+      for (const auto& note : point.verdict.notes) notes.add(note, i, point.text);
+      if (point.verdict.most_memory_bytes > out.most_memory_bytes) {
+        out.most_memory_bytes = point.verdict.most_memory_bytes;
+        out.largest = i;
+      }
+      out.jobs.push_back({job_of(sweep, std::move(point.made)), points.values[i], point.verdict.element_steps});
     }
-    out.jobs.push_back({std::move(job), points.values[i], verdict.element_steps});
   }
+  malloc_trim(0);  // every thread's heap would keep the room of its largest mesh
   out.problems = problems.merged();
   if (out.problems.empty()) out.notes = notes.merged();
   if (!out.problems.empty()) out.most_memory_bytes = 0;

@@ -5,6 +5,7 @@
 
 #include "cellcrush/v1/problem.pb.h"
 #include "cellcrush/v1/sweep.pb.h"
+#include "jobs/mesh_places.h"
 #include "store/journal.h"
 
 namespace cellcrush::jobs {
@@ -18,8 +19,15 @@ struct SweepPlan {
   google::protobuf::RepeatedPtrField<v1::Problem> notes;     ///< likewise; none with problems
 };
 
+/// How the points of a sweep are checked.
+struct PointChecking {
+  MeshPlaces& places;
+  int threads = 1;                 ///< at least one; the plan does not depend on it
+  std::function<bool()> given_up;  ///< whether nobody waits for the plan any more; called from every thread
+};
+
 /// Makes the case of every point, with the values in its title, and checks it as CheckCase does. Throws InvalidField when
-/// the sweep itself cannot be right, and ServiceError (cancelled) once `given_up` says that nobody waits any more.
-SweepPlan plan_sweep(const v1::Sweep& sweep, const std::function<bool()>& given_up);
+/// the sweep itself cannot be right, and ServiceError (cancelled) once it is given up.
+SweepPlan plan_sweep(const v1::Sweep& sweep, const PointChecking& checking);
 
 }  // namespace cellcrush::jobs

@@ -1,7 +1,5 @@
 #include "rpc/cases_service.h"
 
-#include <cstdint>
-#include <optional>
 #include <string>
 
 #include "rpc/error_table.h"
@@ -15,8 +13,6 @@
 namespace cellcrush::rpc {
 namespace {
 
-constexpr std::int64_t kLargeCase = 64 << 20;  // bytes
-
 std::string known_presets() {
   std::string out;
   for (const auto& preset : translate::list_presets()) out += (out.empty() ? "" : ", ") + preset.name();
@@ -29,21 +25,21 @@ grpc::ServerUnaryReactor* CasesService::CheckCase(grpc::CallbackServerContext* c
                                                   const v1::CheckCaseRequest* request,
                                                   v1::CheckCaseResponse* response) {
   return checks_.run(*context, *request, [=, this] {
+    const auto elements = translate::CaseChecker().elements_to_build(request->case_());
+    const jobs::MeshPlaces::Place place(places_, elements, [context] { return context->IsCancelled(); });
     const auto look_up = [context] {
       if (context->IsCancelled()) throw ServiceError(ServiceError::Kind::cancelled, "The client cancelled the call.");
     };
-    std::optional<LargeChecks::Place> place;
-    // Of one with problems nothing is built.
-    if (translate::CaseChecker().check(request->case_()).most_memory_bytes > kLargeCase)
-      place.emplace(large_checks_, look_up);
     auto check = translate::check_case(request->case_(), look_up);
-    *response = std::move(check.response);
-    if (response->problems_size() > 0) return grpc::Status::OK;
-    const auto elements = static_cast<double>(response->element_count());
-    response->set_predicted_seconds(step_cost_ * elements * static_cast<double>(response->step_count()));
-    translate::add_fidelities(request->case_(), step_cost_, *response);
-    response->set_predicted_bytes(store::predicted_result_bytes(response->particle_count(), response->element_count(),
-                                                                check.sample_count, check.frame_count));
+    v1::CheckCaseResponse& out = check.response;
+    if (out.problems_size() == 0) {
+      out.set_predicted_seconds(step_cost_ * static_cast<double>(out.element_count()) *
+                                static_cast<double>(out.step_count()));
+      translate::add_fidelities(request->case_(), step_cost_, check);
+      out.set_predicted_bytes(store::predicted_result_bytes(out.particle_count(), out.element_count(),
+                                                            check.sample_count, check.frame_count));
+    }
+    *response = std::move(out);
     return grpc::Status::OK;
   });
 }

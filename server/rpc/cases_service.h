@@ -1,8 +1,8 @@
 #pragma once
 
 #include "cellcrush/v1/cases_service.grpc.pb.h"
+#include "jobs/mesh_places.h"
 #include "rpc/call_pool.h"
-#include "rpc/large_checks.h"
 
 namespace cellcrush::rpc {
 
@@ -10,9 +10,10 @@ namespace cellcrush::rpc {
 class CasesService final : public v1::Cases::CallbackService {
  public:
   /// `step_cost`: seconds of one core for a step of an element.
-  /// `checks` answers those that may take seconds, so that all others need not wait for them. Both pools outlive it.
-  CasesService(double step_cost, CallPool& calls, CallPool& checks)
-      : step_cost_(step_cost), calls_(calls), checks_(checks) {}
+  /// `checks` answers those that may take seconds, so that all others need not wait for them. Both pools and the places
+  /// outlive it.
+  CasesService(double step_cost, CallPool& calls, CallPool& checks, jobs::MeshPlaces& places)
+      : step_cost_(step_cost), calls_(calls), checks_(checks), places_(places) {}
 
   grpc::ServerUnaryReactor* CheckCase(grpc::CallbackServerContext* context, const v1::CheckCaseRequest* request,
                                       v1::CheckCaseResponse* response) override;
@@ -25,7 +26,7 @@ class CasesService final : public v1::Cases::CallbackService {
   double step_cost_;
   CallPool& calls_;
   CallPool& checks_;
-  LargeChecks large_checks_;
+  jobs::MeshPlaces& places_;
 };
 
 }  // namespace cellcrush::rpc

@@ -56,13 +56,17 @@ void JobsService::commit_samples() {
 
 grpc::ServerUnaryReactor* JobsService::CreateJob(grpc::CallbackServerContext* context,
                                                  const v1::CreateJobRequest* request, v1::Job* response) {
-  return parts_.calls.run(*context, *request, [=, this] {
+  return parts_.checks.run(*context, *request, [=, this] {
     check_request(request->request_id(), request->labels());
     check_priority(request->priority(), "priority");
     parts_.admission.check_priority(request->priority(), "priority");
     parts_.admission.check_time_limit(request->time_limit_s(), "time_limit_s");
     check_size("case", request->case_().ByteSizeLong(), kLargestCase);
-    const auto verdict = translate::CaseChecker().check(request->case_());
+    translate::CaseChecker checker;
+    std::optional<jobs::MeshPlaces::Place> mesh;
+    mesh.emplace(parts_.places, checker.elements_to_build(request->case_()),
+                 [context] { return context->IsCancelled(); });
+    const auto verdict = checker.check(request->case_());
     if (!verdict.problems.empty()) return status_of({verdict.problems.begin(), verdict.problems.end()});
     v1::Job job;
     *job.mutable_case_() = request->case_();
@@ -79,6 +83,7 @@ grpc::ServerUnaryReactor* JobsService::CreateJob(grpc::CallbackServerContext* co
     const std::string hash = payload_hash(*request, job.owner());
     const std::int64_t memory_bytes = parts_.admission.memory_of_job(
         verdict.most_memory_bytes, [&] { return translate::predicted_memory(request->case_()); });
+    mesh.reset();
     const std::string owner = job.owner();
     std::optional<jobs::Admission::Place> place;
     const auto admit = [&] {

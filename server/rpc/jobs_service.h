@@ -4,6 +4,7 @@
 #include "cellcrush/v1/jobs_service.grpc.pb.h"
 #include "jobs/admission.h"
 #include "jobs/deletion.h"
+#include "jobs/mesh_places.h"
 #include "jobs/scheduler.h"
 #include "rpc/call_pool.h"
 #include "rpc/stream_reactor.h"
@@ -14,8 +15,8 @@
 
 namespace cellcrush::rpc {
 
-/// Jobs and their results. Thread-safe. Streams hold no thread, however slowly they are read; all other calls are short
-/// and answered by the pool.
+/// Jobs and their results. Thread-safe. Streams hold no thread, however slowly they are read; all other calls are answered
+/// by the pools.
 class JobsService final : public v1::Jobs::CallbackService {
  public:
   /// All of it outlives the service.
@@ -29,6 +30,8 @@ class JobsService final : public v1::Jobs::CallbackService {
     jobs::Admission& admission;
     const access::Gate& gate;
     CallPool& calls;
+    CallPool& checks;  ///< those that build meshes, and so may take seconds
+    jobs::MeshPlaces& places;
     StreamParts streams;
   };
 

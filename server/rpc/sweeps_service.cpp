@@ -13,6 +13,7 @@
 #include "rpc/error_table.h"
 #include "rpc/page.h"
 #include "rpc/request_limits.h"
+#include "translate/case_checker.h"
 #include "translate/check_case.h"
 #include "watch/sweep_source.h"
 
@@ -68,7 +69,7 @@ std::int64_t SweepsService::find_own(const grpc::ServerContextBase& context, con
 
 grpc::ServerUnaryReactor* SweepsService::CreateSweep(grpc::CallbackServerContext* context,
                                                      const v1::CreateSweepRequest* given, v1::Sweep* response) {
-  return parts_.calls.run(*context, *given, [=, this] {
+  return parts_.checks.run(*context, *given, [=, this] {
     auto request = without_output(*given);
     check_size("sweep", request.sweep().ByteSizeLong(), kLargestCase);
     check_request(request.request_id(), request.sweep().labels(), "sweep.");
@@ -78,7 +79,8 @@ grpc::ServerUnaryReactor* SweepsService::CreateSweep(grpc::CallbackServerContext
     const std::string owner = parts_.gate.caller_of(*context).name;
     const std::string hash = payload_hash(request, owner);
     request.mutable_sweep()->set_owner(owner);
-    auto plan = jobs::plan_sweep(request.sweep(), [context] { return context->IsCancelled(); });
+    const auto given_up = [context] { return context->IsCancelled(); };
+    auto plan = jobs::plan_sweep(request.sweep(), {parts_.places, parts_.check_threads, given_up});
     if (!plan.problems.empty()) return status_of(plan.problems, "sweep");
     const auto answer_with = [&](v1::Sweep answer) {
       *answer.mutable_notes() = plan.notes;
@@ -86,8 +88,11 @@ grpc::ServerUnaryReactor* SweepsService::CreateSweep(grpc::CallbackServerContext
       return grpc::Status::OK;
     };
     if (request.validate_only()) return answer_with(request.sweep());
-    const std::int64_t memory_bytes = parts_.admission.memory_of_job(
-        plan.most_memory_bytes, [&] { return translate::predicted_memory(plan.jobs[plan.largest].job.case_()); });
+    const std::int64_t memory_bytes = parts_.admission.memory_of_job(plan.most_memory_bytes, [&] {
+      const v1::Case& largest = plan.jobs[plan.largest].job.case_();
+      const jobs::MeshPlaces::Place mesh(parts_.places, translate::CaseChecker().elements_to_build(largest), given_up);
+      return translate::predicted_memory(largest);
+    });
     std::optional<jobs::Admission::Place> place;
     const auto admit = [&] {
       place.reset();

@@ -6,6 +6,7 @@
 #include "cellcrush/v1/sweeps_service.grpc.pb.h"
 #include "jobs/admission.h"
 #include "jobs/deletion.h"
+#include "jobs/mesh_places.h"
 #include "jobs/scheduler.h"
 #include "rpc/call_pool.h"
 #include "rpc/stream_reactor.h"
@@ -16,7 +17,7 @@
 
 namespace cellcrush::rpc {
 
-/// Sweeps: many jobs from one case. Thread-safe. Watches hold no thread; all other calls are answered by the pool.
+/// Sweeps: many jobs from one case. Thread-safe. Watches hold no thread; all other calls are answered by the pools.
 class SweepsService final : public v1::Sweeps::CallbackService {
  public:
   /// All of it outlives the service.
@@ -30,6 +31,9 @@ class SweepsService final : public v1::Sweeps::CallbackService {
     jobs::Admission& admission;
     const access::Gate& gate;
     CallPool& calls;
+    CallPool& checks;  ///< those that build meshes, and so may take seconds
+    jobs::MeshPlaces& places;
+    int check_threads = 1;  ///< that check the points of one sweep
     StreamParts streams;
   };
 

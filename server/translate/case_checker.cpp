@@ -28,4 +28,8 @@ CaseChecker::Verdict CaseChecker::check(const v1::Case& submitted) {
   return out;
 }
 
+std::int64_t CaseChecker::elements_to_build(const v1::Case& submitted) const {
+  return find_long_lists(submitted).empty() ? specs_->elements_to_build(to_spec(submitted).spec) : 0;
+}
+
 }  // namespace cellcrush::translate

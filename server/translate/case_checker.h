@@ -13,9 +13,8 @@ class SpecChecker;
 
 namespace cellcrush::translate {
 
-/// Checks many cases with the problems of check_case and without its description. Cases of a regular lattice cost
-/// microseconds, and those that have the mesh of an earlier one (cellcrush/spec_checker.h). Not thread-safe. Throws
-/// std::bad_alloc when a mesh that has to be built does not fit.
+/// Checks many cases with the problems of check_case and without its description. Those that have the mesh of an earlier
+/// one cost microseconds (cellcrush/spec_checker.h). Not thread-safe. Throws std::bad_alloc when a mesh does not fit.
 class CaseChecker {
  public:
   CaseChecker();
@@ -31,6 +30,9 @@ class CaseChecker {
     std::int64_t most_memory_bytes = 0;
   };
   Verdict check(const v1::Case& submitted);
+
+  /// Elements of the mesh that check(submitted) would build, about; 0 where it would build none.
+  [[nodiscard]] std::int64_t elements_to_build(const v1::Case& submitted) const;
 
  private:
   std::unique_ptr<SpecChecker> specs_;

@@ -60,6 +60,7 @@ CaseCheck check_case(const v1::Case& submitted, const std::function<void()>& bet
   if (out.response.problems_size() > 0) return out;
   for (const auto& note : find_implausible(reading.spec))
     *out.response.add_notes() = to_proto(note, v1::Problem::IMPLAUSIBLE);
+  out.meshes->know(reading.spec, *built.scene);
   const auto facts = facts_of(*built.scene);
   describe(facts, out.response);
   *out.response.mutable_completed_case() = to_case(complete_spec(reading.spec, *built.scene));

@@ -2,7 +2,9 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 
+#include "cellcrush/spec_checker.h"
 #include "cellcrush/v1/cases_service.pb.h"
 
 namespace cellcrush::translate {
@@ -12,6 +14,7 @@ struct CaseCheck {
   v1::CheckCaseResponse response;  ///< all but predicted_seconds and predicted_bytes, or only problems
   std::int64_t sample_count = 0;   ///< that the run will give
   std::int64_t frame_count = 0;    ///< the same, with the undeformed one
+  std::unique_ptr<SpecChecker> meshes = std::make_unique<SpecChecker>();  ///< knows the mesh of a case without problems
 };
 
 /// Builds the case's scene and describes it, or reports all problems. `between_stages` is called between the stages,

@@ -26,8 +26,9 @@ void write_forecast(const FidelityForecast& in, double step_cost, v1::FidelityFo
 
 }  // namespace
 
-void add_fidelities(const v1::Case& submitted, double step_cost, v1::CheckCaseResponse& response) {
-  for (const auto& forecast : forecast_fidelities(to_spec(submitted).spec)) {
+void add_fidelities(const v1::Case& submitted, double step_cost, CaseCheck& check) {
+  v1::CheckCaseResponse& response = check.response;
+  for (const auto& forecast : forecast_fidelities(to_spec(submitted).spec, *check.meshes)) {
     auto& added = *response.add_fidelities();
     write_forecast(forecast, step_cost, added);
     if (submitted.numerics().fidelity() == added.fidelity()) response.set_predicted_seconds(added.predicted_seconds());

@@ -36,6 +36,13 @@ TEST(SweepAxis, ARangeHasItsEndsAndItsCount) {
   EXPECT_EQ(logarithmic.logarithmic().count(), 3);
 }
 
+TEST(SweepAxis, PointsAreThoseOfTheWholeGrid) {
+  v1::Sweep sweep;
+  for (const char* const axis : {"a=1,2,3", "b=0:1:4", "c=1:10:5:log", "d=seeds:7"})
+    *sweep.add_axes() = parse_axis(axis);
+  EXPECT_EQ(count_points(sweep), 3.0 * 4.0 * 5.0 * 7.0);
+}
+
 TEST(SweepAxis, SeedsAreCounted) { EXPECT_EQ(parse_axis("lattice.imperfection.seed=seeds:20").seed_count(), 20); }
 
 TEST(SweepAxis, WhatIsNoneIsRefusedWithTheForms) {

@@ -36,6 +36,14 @@ int count_of(const std::string& text, const std::string& part) {
   return count;
 }
 
+TEST(Sweep, OnATerminalItSaysHowManyPointsAreChecked) {
+  const FakeServer server(sweep_script(kThreeSucceed));
+  Program program({"sweep", "preset:type-i", "--over", "loading.speed_m_per_s=50,100,2e2", "--over",
+                   "lattice.imperfection.seed=seeds:20", "--server", server.address()},
+                  80);
+  EXPECT_EQ(program.wait().output, "Checking 60 points...\r\nsweeps/test\r\n");
+}
+
 TEST(Sweep, SendsTheCaseWithAGridOfAxesAndLabelsAndPrintsItsName) {
   const FakeServer server(sweep_script(kThreeSucceed));
   const ProgramResult result =

@@ -130,8 +130,9 @@ TEST(Translate, ForecastsAreTimesOfOneCoreAndTheOneAskedForIsThePrediction) {
   constexpr double kStepCost = 1e-7;
   v1::Case given = testing::small_case();
   given.mutable_numerics()->set_fidelity(v1::Numerics::STANDARD);
-  auto response = translate::check_case(given).response;
-  translate::add_fidelities(given, kStepCost, response);
+  auto check = translate::check_case(given);
+  translate::add_fidelities(given, kStepCost, check);
+  const v1::CheckCaseResponse& response = check.response;
   ASSERT_EQ(response.fidelities_size(), 3);
   const auto& standard = response.fidelities(1);
   EXPECT_EQ(standard.fidelity(), v1::Numerics::STANDARD);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cellcrush/scene_spec.h"
+#include "cellcrush/spec_checker.h"
 
 namespace cellcrush {
 
@@ -20,8 +21,8 @@ struct MeasuredError {
   [[nodiscard]] double claimed() const { return error > uncertainty ? error : uncertainty; }
 };
 
-/// A point of the measured front of speed against accuracy: what it fills in where a spec leaves it out, and what it was
-/// measured to be worth with all else as by default.
+/// A point of the measured front of speed against accuracy: what it fills in where a spec leaves it out, and what it
+/// was measured to be worth with all else as by default.
 struct FidelityPoint {
   NumericsSpec::Fidelity fidelity = NumericsSpec::Fidelity::unspecified;
   std::string name;  ///< as cases write it
@@ -49,7 +50,7 @@ struct FidelityForecast {
 };
 
 /// Of every fidelity at which the spec, a lattice between plates, can be built; none for frames, of which nothing was
-/// measured.
-std::vector<FidelityForecast> forecast_fidelities(const SceneSpec& spec);
+/// measured. Meshes that the checker knows are not built again.
+std::vector<FidelityForecast> forecast_fidelities(const SceneSpec& spec, SpecChecker& checker);
 
 }  // namespace cellcrush

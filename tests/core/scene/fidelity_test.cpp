@@ -62,7 +62,8 @@ TEST(Fidelity, IsCompletedAndTold) {
 }
 
 TEST(Fidelity, EachIsForecastForTheCaseAtHand) {
-  const auto forecasts = forecast_fidelities(block(Fidelity::unspecified));
+  SpecChecker checker;
+  const auto forecasts = forecast_fidelities(block(Fidelity::unspecified), checker);
   ASSERT_EQ(forecasts.size(), 3u);
   for (const FidelityForecast& forecast : forecasts) {
     const SceneFacts facts = facts_of(*scenes::build(block(forecast.point.fidelity)));
@@ -74,25 +75,28 @@ TEST(Fidelity, EachIsForecastForTheCaseAtHand) {
 }
 
 TEST(Fidelity, NoErrorIsToldOfWhatWasNotMeasured) {
+  SpecChecker checker;
   SceneSpec spec = block(Fidelity::unspecified);
   spec.elements_per_wall = 3;
   spec.section.depth_rule = SectionSpec::DepthRule::lobatto;
   spec.numerics.rotary_scaling = 3.0;
-  for (const FidelityForecast& forecast : forecast_fidelities(spec)) {
+  for (const FidelityForecast& forecast : forecast_fidelities(spec, checker)) {
     EXPECT_TRUE(forecast.point.errors.empty());
     EXPECT_EQ(forecast.point.elements_per_wall, 3);
     EXPECT_EQ(forecast.point.step_cost, 1.0);
     EXPECT_EQ(forecast.given,
               (std::vector<std::string>{"elements_per_wall", "section.depth_rule", "numerics.rotary_scaling"}));
   }
-  EXPECT_TRUE(forecast_fidelities(scenes::Cantilever::spec(4, FrameLattice::Component::y, 1.0, 0.1, 0.2)).empty());
+  EXPECT_TRUE(
+      forecast_fidelities(scenes::Cantilever::spec(4, FrameLattice::Component::y, 1.0, 0.1, 0.2), checker).empty());
 }
 
 // A step that two elements a wall can bear and eight cannot.
 TEST(Fidelity, OneAtWhichTheCaseCannotRunIsNotForecast) {
+  SpecChecker checker;
   SceneSpec spec = block(Fidelity::unspecified);
   spec.numerics.time_step_s = 2e-7;
-  const auto forecasts = forecast_fidelities(spec);
+  const auto forecasts = forecast_fidelities(spec, checker);
   ASSERT_EQ(forecasts.size(), 2u);
   EXPECT_EQ(forecasts.back().point.fidelity, Fidelity::standard);
 }

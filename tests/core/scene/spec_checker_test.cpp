@@ -2,9 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <functional>
-#include <iostream>
 #include <limits>
 #include <string>
 
@@ -188,43 +186,51 @@ TEST(SpecChecker, SaysOfLatticesAtTheLimitOfOverlapWhatBuildingTheirScenesSays) 
   EXPECT_GT(refused, 3) << "walls far thicker than their elements are long";
 }
 
-/// Seconds that a checker takes for type-i, changed in a thousand ways; the mesh of none is built.
-double seconds_of(const std::string& what, const std::function<void(SceneSpec&, int)>& change) {
+TEST(SpecChecker, BuildsOneMeshForAllSpecsThatShareIt) {
   SpecChecker checker;
-  SceneSpec spec = find_preset("type-i")->spec;
-  spec.imperfection = {0.01, 1};
-  const auto start = std::chrono::steady_clock::now();
-  for (int i = 0; i < 1000; ++i) {
-    change(spec, i);
-    EXPECT_TRUE(checker.check(spec).problems.empty()) << what << " " << i;
-  }
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  EXPECT_EQ(checker.built_count(), 0) << what;
-  std::cout << "1000 " << what << " of type-i: " << seconds << " s\n";
-  return seconds;
+  SceneSpec spec = scenes::hexagon_block(8, 6);
+  spec.imperfection = {0.1, 1};
+  EXPECT_GT(checker.elements_to_build(spec), 0);
+  checker.check(spec);
+  spec.loading.speed_m_per_s = 77.0;
+  EXPECT_EQ(checker.elements_to_build(spec), 0);
+  spec.imperfection.seed = 2;
+  EXPECT_GT(checker.elements_to_build(spec), 0);
+  checker.check(spec);
+  spec.imperfection.seed = 1;
+  EXPECT_EQ(checker.elements_to_build(spec), 0) << "the last meshes are known, not only the last";
 }
 
-TEST(SpecChecker, AThousandLatticesAreCheckedInTheTimeOfAHundredMeshes) {
-  const auto hexagon = [](SceneSpec& spec) -> HexagonLattice& { return std::get<HexagonLattice>(spec.lattice); };
-  const auto start = std::chrono::steady_clock::now();
-  for (int i = 0; i < 20; ++i) {
-    EXPECT_TRUE(build_scene(find_preset("type-i")->spec).scene);
+TEST(SpecChecker, BuildsNoMeshOfASceneThatItWasGiven) {
+  for (const Preset& preset : presets()) {
+    SCOPED_TRACE(preset.name);
+    SpecChecker checker;
+    const SceneResult built = build_scene(preset.spec);
+    ASSERT_TRUE(built.scene);
+    checker.know(preset.spec, *built.scene);
+    EXPECT_EQ(checker.elements_to_build(preset.spec), 0);
+    expect_same_verdict(checker, preset.spec);
   }
-  const double hundred = 5.0 * std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  std::cout << "100 scenes of type-i: " << hundred << " s\n";
-  EXPECT_LT(seconds_of("speeds", [](SceneSpec& spec, int i) { spec.loading.speed_m_per_s = 50.0 + 0.1 * i; }), hundred);
-  EXPECT_LT(seconds_of("seeds", [](SceneSpec& spec, int i) { spec.imperfection.seed = static_cast<std::uint64_t>(i); }),
-            hundred);
-  EXPECT_LT(seconds_of("thicknesses",
-                       [=](SceneSpec& spec, int i) {
-                         hexagon(spec).wall_thickness_mm = 0.1 + 0.001 * i;
-                         hexagon(spec).vertical_wall_thickness_mm.reset();
-                       }),
-            hundred);
-  EXPECT_LT(seconds_of("sizes of cells", [=](SceneSpec& spec, int i) { hexagon(spec).side_mm = 3.0 + 0.002 * i; }),
-            hundred);
-  EXPECT_LT(seconds_of("moduli", [](SceneSpec& spec, int i) { spec.material.youngs_modulus_mpa = 6e4 + 20.0 * i; }),
-            hundred);
+}
+
+TEST(SpecChecker, KnowsHowManyElementsAMeshHasBeforeItIsBuilt) {
+  for (const Preset& preset : presets()) {
+    SCOPED_TRACE(preset.name);
+    SpecChecker checker;
+    const auto before = static_cast<double>(checker.elements_to_build(preset.spec));
+    const auto built = static_cast<double>(checker.check(preset.spec).element_count);
+    EXPECT_GT(before, 0.8 * built);
+    EXPECT_LT(before, 2.0 * built) << "rigid walls are an element each";
+  }
+}
+
+TEST(SpecChecker, BuildsNoMeshThatIsTooLarge) {
+  SpecChecker checker;
+  SceneSpec spec = scenes::hexagon_block(10000, 10000);
+  EXPECT_EQ(checker.elements_to_build(spec), 0);
+  const Problems problems = checker.check(spec).problems;
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_EQ(problems[0].field, "lattice.hexagon.columns");
 }
 
 }  // namespace
