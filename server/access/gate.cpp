@@ -10,7 +10,7 @@
 #include "access/method_scopes.h"
 #include "access/tls_credentials.h"
 #include "error.h"
-#include "rpc/error_table.h"
+#include "error_table.h"
 
 namespace cellcrush::access {
 namespace {
@@ -42,7 +42,7 @@ class Gate::Check final : public grpc::AuthMetadataProcessor {
                        OutputMetadata*) override {
     const auto found = metadata.find(":path");
     const std::string_view path = found == metadata.end() ? std::string_view() : view_of(found->second);
-    auto status = rpc::answer([&] {
+    auto status = answer([&] {
       check(path, metadata, *context);
       return grpc::Status::OK;
     });

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "error.h"
-#include "jobs/resource_name.h"
+#include "store/resource_name.h"
 
 namespace cellcrush::jobs {
 namespace {
@@ -30,7 +30,8 @@ void Deletion::delete_jobs(const std::vector<std::int64_t>& jobs) const {
 void Deletion::delete_sweep(std::int64_t sweep, const std::function<bool()>& given_up) const {
   parts_.journal.begin_sweep_deletion(sweep);
   if (remove_sweep(sweep, given_up)) return;
-  throw ServiceError(ServiceError::Kind::cancelled, "The call ended before the deletion of " + sweep_name_of(sweep) +
+  throw ServiceError(ServiceError::Kind::cancelled, "The call ended before the deletion of " +
+                                                        store::sweep_name_of(sweep) +
                                                         " was complete. The daemon finishes it in the background.");
 }
 
@@ -61,8 +62,8 @@ void Deletion::remove_folders(const std::vector<std::int64_t>& jobs) const {
       parts_.folder.remove_job_folder(job);
       removed.push_back(job);
     } catch (const ServiceError& error) {
-      spdlog::warn("The folder of {} could not be removed; the daemon tries again at its next start: {}", name_of(job),
-                   error.what());
+      spdlog::warn("The folder of {} could not be removed; the daemon tries again at its next start: {}",
+                   store::name_of(job), error.what());
     }
   }
   if (removed.empty()) return;

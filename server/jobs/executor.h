@@ -4,7 +4,7 @@
 #include <optional>
 #include <stop_token>
 
-#include "worker/job_folder.h"
+#include "store/job_folder.h"
 #include "worker/report.pb.h"
 
 namespace cellcrush::jobs {
@@ -50,18 +50,18 @@ class Executor {
   virtual ~Executor() = default;
 
   /// Whether a worker runs in the folder.
-  virtual bool has_worker(const worker::JobFolder& folder) = 0;
+  virtual bool has_worker(const store::JobFolder& folder) = 0;
 
   /// Tells all that workers have reported in the folder. How the job ended, if the last of them has ended it. REQUIRES: none runs
   /// in it.
-  virtual std::optional<WorkerExit> take_last_word(const worker::JobFolder& folder, const WorkerEvents& events) = 0;
+  virtual std::optional<WorkerExit> take_last_word(const store::JobFolder& folder, const WorkerEvents& events) = 0;
 
   /// Ends the worker that runs in the folder, if one does.
-  virtual void end_worker(const worker::JobFolder& folder) = 0;
+  virtual void end_worker(const store::JobFolder& folder) = 0;
 
   /// Goes along with the worker that runs in the folder, or starts one; waits until it has ended or left the job. All that
   /// the folder's workers have reported is told. An exception thrown by `events` ends the worker and is passed on.
-  virtual WorkerExit run(const worker::JobFolder& folder, const worker::Order& order, const WorkerEvents& events,
+  virtual WorkerExit run(const store::JobFolder& folder, const worker::Order& order, const WorkerEvents& events,
                          const Interruptions& interruptions) = 0;
 };
 

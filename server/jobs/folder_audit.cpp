@@ -9,7 +9,7 @@
 #include <string>
 
 #include "error.h"
-#include "jobs/resource_name.h"
+#include "store/resource_name.h"
 
 namespace cellcrush::jobs {
 namespace {
@@ -18,7 +18,7 @@ namespace {
 constexpr const char* kOfTheFileSystem = "lost+found";
 
 // Why no worker could use the folder; empty when one can.
-std::string why_unusable(const worker::JobFolder& folder) {
+std::string why_unusable(const store::JobFolder& folder) {
   struct stat status {};
   if (stat(folder.root().c_str(), &status) != 0 || !S_ISDIR(status.st_mode)) return "it is not a folder";
   if (::access(folder.root().c_str(), R_OK | W_OK | X_OK) != 0)
@@ -45,7 +45,7 @@ class FolderAudit {
 
   void look_at(const std::string& name) {
     if (name == kOfTheFileSystem) return;
-    const auto job = number_of("jobs/" + name);
+    const auto job = store::number_of("jobs/" + name);
     if (!job || !reader_.has_job(*job)) {
       set_aside(name, "it belongs to no job");
     } else if (open_.contains(*job)) {

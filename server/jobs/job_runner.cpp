@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "error.h"
-#include "jobs/job_state.h"
 #include "jobs/outcome.h"
-#include "jobs/resource_name.h"
+#include "store/job_state.h"
+#include "store/resource_name.h"
 
 namespace cellcrush::jobs {
 namespace {
@@ -60,7 +60,7 @@ v1::JobState JobRunner::run_once(std::int64_t job, Run& run) {
   store::StateChange next;
   try {
     const auto stored = parts_.reader.find_job(job);
-    if (!stored || stored->job.state() == v1::SUSPENDED || is_terminal(stored->job.state()))
+    if (!stored || stored->job.state() == v1::SUSPENDED || store::is_terminal(stored->job.state()))
       return v1::JOB_STATE_UNSPECIFIED;
     try {
       next = next_of(*stored, run);
@@ -68,7 +68,7 @@ v1::JobState JobRunner::run_once(std::int64_t job, Run& run) {
       return begin_again(job, reason.why);
     }
   } catch (const Withdrawn&) {
-    spdlog::info("{} was cancelled before it started", name_of(job));
+    spdlog::info("{} was cancelled before it started", store::name_of(job));
     return v1::JOB_STATE_UNSPECIFIED;
   } catch (const std::exception& error) {
     run.trouble = trouble_of(error);
@@ -121,7 +121,7 @@ JobRunner::Left JobRunner::reconcile(std::int64_t job) {
     if (!written || *written == v1::CANCELLING) return Left::is_to_run;
     return next->state == v1::PENDING ? Left::waits : Left::ended;
   } catch (const std::exception& error) {
-    spdlog::warn("Could not take over {} from an earlier daemon; trying again: {}", name_of(job), error.what());
+    spdlog::warn("Could not take over {} from an earlier daemon; trying again: {}", store::name_of(job), error.what());
     return Left::is_to_run;
   }
 }
@@ -133,13 +133,13 @@ void JobRunner::end_leftover_if_possible(std::int64_t job) {
     end_leftover(job);
   } catch (const std::exception& error) {
     // The next worker of the job is refused its folder, and this one is adopted.
-    spdlog::warn("A worker of {} may still run: {}", name_of(job), error.what());
+    spdlog::warn("A worker of {} may still run: {}", store::name_of(job), error.what());
   }
 }
 
 worker::Order JobRunner::order_of(const store::StoredJob& stored) const {
   worker::Order order;
-  order.set_job(name_of(stored.number));
+  order.set_job(store::name_of(stored.number));
   *order.mutable_case_() = stored.job.case_();
   order.set_threads(1);
   order.set_checkpoint_interval_s(std::chrono::duration<double>(parts_.checkpoint_interval).count());
@@ -181,7 +181,7 @@ WorkerEvents JobRunner::events_of(const store::StoredJob& stored) {
       throw;
     }
     parts_.hold.succeeded();
-    spdlog::info("{} runs in process {}", name_of(job), pid);
+    spdlog::info("{} runs in process {}", store::name_of(job), pid);
   };
   const auto channel = parts_.hub.open(job);
   events.watched = [channel] { return channel->is_watched(); };
@@ -196,7 +196,7 @@ void JobRunner::pass_on(std::int64_t job, std::int64_t& last_step, watch::Channe
     case worker::Report::kBegun:
       if (const auto& epoch = parts_.journal.epoch(); !epoch.admits(report.begun().epoch()))
         throw BeginAgain{"Restarted from step 0: the reports of its earlier workers are" + epoch.of_before() + "."};
-      log_begin(name_of(job), report.begun());
+      log_begin(store::name_of(job), report.begun());
       break;
     case worker::Report::kMesh: parts_.journal.set_mesh(job, report.mesh()); break;
     case worker::Report::kSample:
@@ -226,7 +226,7 @@ store::StateChange JobRunner::after(const store::StoredJob& stored, const Worker
   if (!run.trouble && parts_.folder.is_full()) run.trouble = {Shortage::full_disk, "The data folder's disk is full."};
   if (run.trouble) return {};
   if (!got_further(stored.number)) return given_up(stored, std::move(next), run);
-  spdlog::warn("{}: {}", name_of(stored.number), next.message);
+  spdlog::warn("{}: {}", store::name_of(stored.number), next.message);
   return tried_again(std::move(next));
 }
 
@@ -273,7 +273,7 @@ store::StateChange JobRunner::given_up(const store::StoredJob& stored, store::St
   } catch (const std::exception& error) {
     // One that was cancelled ends without its result where none can be made now.
     if (!is_cancelled) run.trouble = trouble_of(error);
-    spdlog::warn("{} could not write a result: {}", name_of(stored.number), error.what());
+    spdlog::warn("{} could not write a result: {}", store::name_of(stored.number), error.what());
   }
   return loss;
 }
@@ -289,7 +289,7 @@ v1::JobState JobRunner::begin_again(std::int64_t job, const std::string& why) {
     parts_.folder.discard_run(job);
     return v1::CANCELLING;
   }
-  spdlog::warn("{}: {}", name_of(job), why);
+  spdlog::warn("{}: {}", store::name_of(job), why);
   parts_.folder.discard_run(job);
   if (const auto channel = parts_.hub.find(job)) channel->forget();
   const std::scoped_lock lock(mutex_);
@@ -307,7 +307,8 @@ v1::JobState JobRunner::put_back(std::int64_t job, const Run& run) {
     } catch (const std::exception& error) {
       const Trouble trouble = trouble_of(error);
       if (!trouble) {
-        spdlog::error("{} cannot be read and is skipped until the daemon restarts: {}", name_of(job), error.what());
+        spdlog::error("{} cannot be read and is skipped until the daemon restarts: {}", store::name_of(job),
+                      error.what());
         return v1::JOB_STATE_UNSPECIFIED;
       }
       parts_.hold.failed(trouble);
@@ -329,10 +330,10 @@ std::optional<v1::JobState> JobRunner::try_write(std::int64_t job, const store::
                                                  std::string& logged) {
   try {
     parts_.stopped(parts_.journal.change_state(job, change));
-    spdlog::info("{} {}{}{}", name_of(job), v1::JobState_Name(change.state), change.message.empty() ? "" : ": ",
+    spdlog::info("{} {}{}{}", store::name_of(job), v1::JobState_Name(change.state), change.message.empty() ? "" : ": ",
                  change.message);
     if (change.state == v1::SUCCEEDED) parts_.hold.proven();
-    if (is_terminal(change.state)) tidy_up(job, change);
+    if (store::is_terminal(change.state)) tidy_up(job, change);
     return change.state;
   } catch (const std::exception& error) {
     const auto* refused = dynamic_cast<const ServiceError*>(&error);
@@ -340,9 +341,9 @@ std::optional<v1::JobState> JobRunner::try_write(std::int64_t job, const store::
     if (kind == ServiceError::Kind::not_found) return v1::JOB_STATE_UNSPECIFIED;
     // It was cancelled when its worker had just left it, or is in the state of another call.
     if (kind == ServiceError::Kind::failed_precondition)
-      return is_terminal(change.state) ? v1::JOB_STATE_UNSPECIFIED : v1::CANCELLING;
+      return store::is_terminal(change.state) ? v1::JOB_STATE_UNSPECIFIED : v1::CANCELLING;
     if (std::exchange(logged, error.what()) != error.what())
-      spdlog::error("The state of {} cannot be saved: {}", name_of(job), error.what());
+      spdlog::error("The state of {} cannot be saved: {}", store::name_of(job), error.what());
     if (kind == ServiceError::Kind::data_loss) return v1::JOB_STATE_UNSPECIFIED;
     if (kind == ServiceError::Kind::storage_full) parts_.folder.give_up_ballast();
     if (const Trouble trouble = trouble_of(error)) parts_.hold.failed(trouble);
@@ -360,7 +361,7 @@ void JobRunner::tidy_up(std::int64_t job, const store::StateChange& change) {
     parts_.folder.clean_job_folder(job);
   } catch (const std::exception& error) {
     spdlog::warn("Leftover files of {} could not be removed; the daemon tries again at its next start: {}",
-                 name_of(job), error.what());
+                 store::name_of(job), error.what());
   }
 }
 

@@ -20,7 +20,7 @@ namespace {
 
 // Starts a worker in the folder, with no other descriptors but the standard three, which are those of nobody: it outlives the
 // daemon. Returns 0 or an errno.
-int spawn(const std::filesystem::path& program, const worker::JobFolder& folder, pid_t& pid) {
+int spawn(const std::filesystem::path& program, const store::JobFolder& folder, pid_t& pid) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
@@ -59,7 +59,7 @@ WorkerExit not_started(int error) {
   return out;
 }
 
-void write_order(const worker::JobFolder& folder, const worker::Order& order) {
+void write_order(const store::JobFolder& folder, const worker::Order& order) {
   errno = 0;
   std::ofstream file(folder.order(), std::ios::binary | std::ios::trunc);
   if (file) order.SerializeToOstream(&file);
@@ -84,9 +84,9 @@ WorkerExit follow(WorkerProcess& process, WorkerFollower& follower, const Worker
 
 }  // namespace
 
-bool LocalProcess::has_worker(const worker::JobFolder& folder) { return WorkerProcess::find(folder).has_value(); }
+bool LocalProcess::has_worker(const store::JobFolder& folder) { return WorkerProcess::find(folder).has_value(); }
 
-std::optional<WorkerExit> LocalProcess::take_last_word(const worker::JobFolder& folder, const WorkerEvents& events) {
+std::optional<WorkerExit> LocalProcess::take_last_word(const store::JobFolder& folder, const WorkerEvents& events) {
   const Interruptions none;
   WorkerFollower follower(folder, events, none, stall_limit_);
   WorkerExit out;
@@ -98,11 +98,11 @@ std::optional<WorkerExit> LocalProcess::take_last_word(const worker::JobFolder& 
   return out;
 }
 
-void LocalProcess::end_worker(const worker::JobFolder& folder) {
+void LocalProcess::end_worker(const store::JobFolder& folder) {
   if (auto process = WorkerProcess::find(folder)) process->end();
 }
 
-WorkerExit LocalProcess::run(const worker::JobFolder& folder, const worker::Order& order, const WorkerEvents& events,
+WorkerExit LocalProcess::run(const store::JobFolder& folder, const worker::Order& order, const WorkerEvents& events,
                              const Interruptions& interruptions) {
   auto process = WorkerProcess::find(folder);
   WorkerFollower follower(folder, events, interruptions, stall_limit_);

@@ -18,10 +18,10 @@ class LocalProcess final : public Executor {
                OomKills oom_kills = count_oom_kills)
       : program_(std::move(program)), stall_limit_(stall_limit), oom_kills_(std::move(oom_kills)) {}
 
-  bool has_worker(const worker::JobFolder& folder) override;
-  std::optional<WorkerExit> take_last_word(const worker::JobFolder& folder, const WorkerEvents& events) override;
-  void end_worker(const worker::JobFolder& folder) override;
-  WorkerExit run(const worker::JobFolder& folder, const worker::Order& order, const WorkerEvents& events,
+  bool has_worker(const store::JobFolder& folder) override;
+  std::optional<WorkerExit> take_last_word(const store::JobFolder& folder, const WorkerEvents& events) override;
+  void end_worker(const store::JobFolder& folder) override;
+  WorkerExit run(const store::JobFolder& folder, const worker::Order& order, const WorkerEvents& events,
                  const Interruptions& interruptions) override;
 
  private:

@@ -4,8 +4,8 @@
 #include <queue>
 #include <string>
 
-#include "jobs/resource_name.h"
 #include "jobs/waiting_jobs.h"
+#include "store/resource_name.h"
 
 namespace cellcrush::jobs {
 namespace {
@@ -24,7 +24,8 @@ std::string all_workers(int count) {
 
 std::string at_its_limit(const store::QueuedJob& job) {
   const std::string limit = std::to_string(job.max_parallel) + (job.max_parallel == 1 ? " job" : " jobs");
-  return "Its sweep, " + sweep_name_of(job.sweep) + ", is already running the " + limit + " that max_parallel allows";
+  return "Its sweep, " + store::sweep_name_of(job.sweep) + ", is already running the " + limit +
+         " that max_parallel allows";
 }
 
 std::string at_its_owners_limit(const store::QueuedJob& job, int most) {
@@ -132,7 +133,7 @@ v1::Queue forecast_queue(const std::vector<RunningJob>& running, const std::vect
   while (out.entries_size() < kMostEntries && play.next(job, seconds)) {
     const int before = out.entries_size();
     auto& entry = *out.add_entries();
-    entry.set_job(name_of(job.job));
+    entry.set_job(store::name_of(job.job));
     entry.set_reason(play.reason(job, seconds, before));
     entry.set_seconds_until_start(seconds);
     entry.set_priority(job.priority);

@@ -6,7 +6,7 @@
 #include <system_error>
 
 #include "error.h"
-#include "jobs/resource_name.h"
+#include "store/resource_name.h"
 
 namespace cellcrush::jobs {
 namespace {
@@ -58,7 +58,8 @@ void Retention::enforce(const std::function<bool()>& given_up) {
       deleted += part.count;
     }
     deletion_.delete_jobs(jobs);
-    for (const std::int64_t job : jobs) spdlog::info("{} is deleted under the --keep-ended limits", name_of(job));
+    for (const std::int64_t job : jobs)
+      spdlog::info("{} is deleted under the --keep-ended limits", store::name_of(job));
     jobs.clear();
   }
 }
@@ -80,7 +81,7 @@ const store::SweepEnd& Retention::end_of(std::int64_t sweep) {
 void Retention::delete_sweep(std::int64_t sweep, const std::function<bool()>& given_up) const {
   try {
     deletion_.delete_sweep(sweep, given_up);
-    spdlog::info("{} is deleted with its jobs under the --keep-ended limits", sweep_name_of(sweep));
+    spdlog::info("{} is deleted with its jobs under the --keep-ended limits", store::sweep_name_of(sweep));
   } catch (const ServiceError& error) {
     // It was retried or deleted meanwhile, or the daemon ends.
     const auto kind = error.kind();

@@ -8,9 +8,9 @@
 
 #include "error.h"
 #include "jobs/folder_audit.h"
-#include "jobs/job_state.h"
 #include "jobs/queue_forecast.h"
-#include "jobs/resource_name.h"
+#include "store/job_state.h"
+#include "store/resource_name.h"
 
 namespace cellcrush::jobs {
 void Scheduler::start(int slots) {
@@ -27,12 +27,12 @@ void Scheduler::clean_up() {
   for (const std::int64_t job : parts_.folder.jobs_with_reports()) {
     try {
       const auto stored = parts_.reader.find_job(job);
-      if (!stored || !is_terminal(stored->job.state())) continue;
+      if (!stored || !store::is_terminal(stored->job.state())) continue;
       parts_.runner.end_leftover(job);
       parts_.folder.clean_job_folder(job);
     } catch (const std::exception& error) {
       spdlog::warn("Leftover files of {} could not be removed; the daemon tries again at its next start: {}",
-                   name_of(job), error.what());
+                   store::name_of(job), error.what());
     }
   }
 }
@@ -41,7 +41,7 @@ void Scheduler::reconcile() {
   for (const v1::JobState state : {v1::RUNNING, v1::CANCELLING}) {
     for (const auto& job : parts_.reader.queued_jobs(state)) {
       if (parts_.runner.reconcile(job.job) != JobRunner::Left::is_to_run) continue;
-      spdlog::info("{} is adopted from an earlier daemon", name_of(job.job));
+      spdlog::info("{} is adopted from an earlier daemon", store::name_of(job.job));
       const std::scoped_lock lock(mutex_);
       --free_cores_;
       waiting_.count_running(job);
@@ -67,10 +67,10 @@ void Scheduler::cancel(std::int64_t job) {
     const auto stored = find(job);
     const v1::JobState state = stored.job.state();
     if (state == v1::CANCELLED || state == v1::CANCELLING) return;
-    if (is_terminal(state)) {
+    if (store::is_terminal(state)) {
       throw ServiceError(
           ServiceError::Kind::failed_precondition,
-          name_of(job) + " has already ended: it is " + v1::JobState_Name(state) + " and cannot be cancelled.");
+          store::name_of(job) + " has already ended: it is " + v1::JobState_Name(state) + " and cannot be cancelled.");
     }
     store::StateChange change;
     change.state = state == v1::RUNNING ? v1::CANCELLING : v1::CANCELLED;
@@ -101,10 +101,11 @@ void Scheduler::suspend(std::int64_t job, const std::function<bool()>& given_up)
     if (state == v1::SUSPENDED) return;
     if (state != v1::PENDING && state != v1::RUNNING) {
       throw ServiceError(ServiceError::Kind::failed_precondition,
-                         name_of(job) + " is " + v1::JobState_Name(state) + " and cannot be suspended.");
+                         store::name_of(job) + " is " + v1::JobState_Name(state) + " and cannot be suspended.");
     }
     if (given_up())
-      throw ServiceError(ServiceError::Kind::cancelled, name_of(job) + " was not yet suspended when the call ended.");
+      throw ServiceError(ServiceError::Kind::cancelled,
+                         store::name_of(job) + " was not yet suspended when the call ended.");
     std::unique_lock lock(mutex_);
     const auto found = running_.find(job);
     if (found != running_.end()) {
@@ -141,7 +142,7 @@ void Scheduler::resume(std::int64_t job) {
   if (state == v1::PENDING || state == v1::RUNNING) return;
   if (state != v1::SUSPENDED) {
     throw ServiceError(ServiceError::Kind::failed_precondition,
-                       name_of(job) + " is " + v1::JobState_Name(state) + " and cannot be resumed.");
+                       store::name_of(job) + " is " + v1::JobState_Name(state) + " and cannot be resumed.");
   }
   // Read before the change: a job that is PENDING is in the queue.
   const auto queued = parts_.reader.queued_job(job, v1::SUSPENDED);
@@ -156,7 +157,7 @@ void Scheduler::cancel_all(const std::vector<std::int64_t>& jobs) {
   forget(parts_.journal.cancel_waiting(jobs));
   for (const std::int64_t job : jobs) {
     const auto stored = parts_.reader.find_job(job);
-    if (!stored || is_terminal(stored->job.state())) continue;
+    if (!stored || store::is_terminal(stored->job.state())) continue;
     try {
       cancel(job);
     } catch (const ServiceError& error) {
@@ -269,7 +270,7 @@ int Scheduler::take_cores(const store::QueuedJob& job) {
   try {
     if (const auto stored = parts_.reader.find_job(job.job)) threads = stored->job.case_().numerics().threads();
   } catch (const std::exception& error) {
-    spdlog::warn("Cannot read the number of threads of {}: {}", name_of(job.job), error.what());
+    spdlog::warn("Cannot read the number of threads of {}: {}", store::name_of(job.job), error.what());
   }
   const std::scoped_lock lock(mutex_);
   const int taken = extra_cores(threads, free_cores_, waiting_.count());
@@ -287,7 +288,7 @@ int Scheduler::cores_of(std::int64_t job) {
 
 store::StoredJob Scheduler::find(std::int64_t job) {
   auto stored = parts_.reader.find_job(job);
-  if (!stored) throw ServiceError(ServiceError::Kind::not_found, "There is no " + name_of(job) + ".");
+  if (!stored) throw ServiceError(ServiceError::Kind::not_found, "There is no " + store::name_of(job) + ".");
   return *std::move(stored);
 }
 

@@ -35,7 +35,7 @@ const std::filesystem::path& existing(const std::filesystem::path& path) {
 
 }  // namespace
 
-WorkerFollower::WorkerFollower(const worker::JobFolder& folder, const WorkerEvents& events,
+WorkerFollower::WorkerFollower(const store::JobFolder& folder, const WorkerEvents& events,
                                const Interruptions& interruptions, std::chrono::milliseconds stall_limit)
     : events_(events), interruptions_(interruptions), stall_limit_(stall_limit), reader_(existing(folder.reports())) {
   // Without it a wish is seen at the next look.

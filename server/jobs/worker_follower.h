@@ -14,7 +14,7 @@ namespace cellcrush::jobs {
 /// thread-safe. Failures throw ServiceError.
 class WorkerFollower {
  public:
-  WorkerFollower(const worker::JobFolder& folder, const WorkerEvents& events, const Interruptions& interruptions,
+  WorkerFollower(const store::JobFolder& folder, const WorkerEvents& events, const Interruptions& interruptions,
                  std::chrono::milliseconds stall_limit);
   ~WorkerFollower();
   WorkerFollower(const WorkerFollower&) = delete;

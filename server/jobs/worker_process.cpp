@@ -30,7 +30,7 @@ WorkerProcess::WorkerProcess(pid_t process, bool is_child)
   throw std::system_error(error, std::generic_category(), "The worker process cannot be monitored");
 }
 
-std::optional<WorkerProcess> WorkerProcess::find(const worker::JobFolder& folder) {
+std::optional<WorkerProcess> WorkerProcess::find(const store::JobFolder& folder) {
   const auto claimed = worker::find_claim(folder);
   if (!claimed) return std::nullopt;
   WorkerProcess out(claimed->process, false);

@@ -5,7 +5,7 @@
 #include <chrono>
 #include <optional>
 
-#include "worker/job_folder.h"
+#include "store/job_folder.h"
 
 namespace cellcrush::jobs {
 
@@ -18,7 +18,7 @@ class WorkerProcess {
   static WorkerProcess of_child(pid_t child) { return {child, true}; }
 
   /// The one that runs in the folder.
-  static std::optional<WorkerProcess> find(const worker::JobFolder& folder);
+  static std::optional<WorkerProcess> find(const store::JobFolder& folder);
 
   ~WorkerProcess();
   WorkerProcess(WorkerProcess&& other) noexcept;

@@ -7,10 +7,10 @@
 #include <chrono>
 
 #include "error.h"
-#include "jobs/resource_name.h"
+#include "error_table.h"
 #include "revision.h"
 #include "rpc/change_log.h"
-#include "rpc/error_table.h"
+#include "store/resource_name.h"
 
 namespace cellcrush::rpc {
 namespace {
@@ -75,7 +75,7 @@ jobs::JobFacts AdminService::facts_of(std::int64_t job) {
         mesh->thickness_mm_size() * std::max<std::int64_t>(parts_.reader.last_sampled_step(job), 0);
   } catch (const ServiceError& error) {
     // One job's damage does not keep the others from being told of.
-    spdlog::error("Cannot read the progress of {}: {}", jobs::name_of(job), error.what());
+    spdlog::error("Cannot read the progress of {}: {}", store::name_of(job), error.what());
   }
   return out;
 }

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "error.h"
-#include "rpc/error_table.h"
+#include "error_table.h"
 
 namespace cellcrush::rpc {
 

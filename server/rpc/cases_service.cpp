@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "rpc/error_table.h"
+#include "error_table.h"
 #include "rpc/request_limits.h"
 #include "store/result_writer.h"
 #include "translate/case_checker.h"

@@ -4,15 +4,15 @@
 #include <optional>
 #include <utility>
 
-#include "jobs/resource_name.h"
+#include "error_table.h"
 #include "rpc/change_log.h"
 #include "rpc/create_request.h"
 #include "rpc/download_source.h"
-#include "rpc/error_table.h"
 #include "rpc/frame_source.h"
 #include "rpc/job_query.h"
 #include "rpc/page.h"
 #include "rpc/request_limits.h"
+#include "store/resource_name.h"
 #include "translate/case_checker.h"
 #include "translate/check_case.h"
 #include "watch/job_source.h"
@@ -21,7 +21,7 @@ namespace cellcrush::rpc {
 
 store::StoredJob JobsService::find(const std::string& name) {
   check_length("name", name, kLongestName);
-  const auto number = jobs::number_of(name);
+  const auto number = store::number_of(name);
   auto stored = number ? parts_.reader.find_job(*number) : std::nullopt;
   if (!stored) {
     throw ServiceError(
@@ -93,11 +93,11 @@ grpc::ServerUnaryReactor* JobsService::CreateJob(grpc::CallbackServerContext* co
     const auto created =
         parts_.journal.create_job(std::move(job), request->request_id(), hash, verdict.element_steps, admit);
     if (created.is_new) {
-      log_change(jobs::name_of(created.job), "created", owner, request->request_id());
+      log_change(store::name_of(created.job), "created", owner, request->request_id());
       parts_.scheduler.enqueue({{created.job, created.job, request->priority(), verdict.element_steps, 0, 0, owner}});
       place.reset();
     }
-    auto stored = find(jobs::name_of(created.job));
+    auto stored = find(store::name_of(created.job));
     add_progress(stored);
     return answer_with(std::move(stored.job));
   });
@@ -144,7 +144,7 @@ grpc::ServerUnaryReactor* JobsService::CancelJob(grpc::CallbackServerContext* co
   return parts_.calls.run(*context, *request, [=, this] {
     const std::int64_t job = find_own(*context, request->name());
     parts_.scheduler.cancel(job);
-    log_change(jobs::name_of(job), "cancelled", parts_.gate.caller_of(*context).name);
+    log_change(store::name_of(job), "cancelled", parts_.gate.caller_of(*context).name);
     auto stored = find(request->name());
     add_progress(stored);
     *response = std::move(stored.job);
@@ -157,7 +157,7 @@ grpc::ServerUnaryReactor* JobsService::SuspendJob(grpc::CallbackServerContext* c
   return parts_.calls.run(*context, *request, [=, this] {
     const std::int64_t job = find_own(*context, request->name());
     parts_.scheduler.suspend(job, [context] { return context->IsCancelled(); });
-    log_change(jobs::name_of(job), "suspended", parts_.gate.caller_of(*context).name);
+    log_change(store::name_of(job), "suspended", parts_.gate.caller_of(*context).name);
     *response = find(request->name()).job;
     return grpc::Status::OK;
   });
@@ -168,7 +168,7 @@ grpc::ServerUnaryReactor* JobsService::ResumeJob(grpc::CallbackServerContext* co
   return parts_.calls.run(*context, *request, [=, this] {
     const std::int64_t job = find_own(*context, request->name());
     parts_.scheduler.resume(job);
-    log_change(jobs::name_of(job), "resumed", parts_.gate.caller_of(*context).name);
+    log_change(store::name_of(job), "resumed", parts_.gate.caller_of(*context).name);
     *response = find(request->name()).job;
     return grpc::Status::OK;
   });
@@ -179,7 +179,7 @@ grpc::ServerUnaryReactor* JobsService::DeleteJob(grpc::CallbackServerContext* co
   return parts_.calls.run(*context, *request, [=, this] {
     const std::int64_t job = find_own(*context, request->name());
     parts_.deletion.delete_job(job);
-    log_change(jobs::name_of(job), "deleted", parts_.gate.caller_of(*context).name);
+    log_change(store::name_of(job), "deleted", parts_.gate.caller_of(*context).name);
     return grpc::Status::OK;
   });
 }
@@ -227,7 +227,7 @@ grpc::ServerUnaryReactor* JobsService::GetHistory(grpc::CallbackServerContext* c
                                                   v1::GetHistoryResponse* response) {
   return parts_.calls.run(*context, *request, [=, this] {
     const std::int64_t job = find(request->name()).number;
-    const std::string question = "history of " + jobs::name_of(job);
+    const std::string question = "history of " + store::name_of(job);
     const auto page = read_full_page(request->page_size(), request->page_token(), question);
     commit_samples();
     auto stored = parts_.reader.samples(job, page.after, page.room());

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "rpc/error_table.h"
+#include "error_table.h"
 
 namespace cellcrush::rpc {
 namespace {

@@ -7,9 +7,9 @@
 #include <set>
 #include <utility>
 
+#include "error_table.h"
 #include "grpc/reflection/v1/reflection.grpc.pb.h"
 #include "grpc/reflection/v1alpha/reflection.grpc.pb.h"
-#include "rpc/error_table.h"
 #include "rpc/refused_stream.h"
 
 namespace cellcrush::rpc {

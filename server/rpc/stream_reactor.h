@@ -13,9 +13,9 @@
 #include <utility>
 
 #include "cellcrush/v1/event.pb.h"
+#include "error_table.h"
 #include "jobs/case_field.h"
 #include "metrics/metrics.h"
-#include "rpc/error_table.h"
 #include "rpc/refused_stream.h"
 #include "rpc/stream_limits.h"
 #include "watch/pump.h"

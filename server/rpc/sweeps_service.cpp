@@ -5,14 +5,14 @@
 #include <optional>
 #include <utility>
 
-#include "jobs/resource_name.h"
+#include "error_table.h"
 #include "jobs/sweep_plan.h"
 #include "jobs/sweep_points.h"
 #include "rpc/change_log.h"
 #include "rpc/create_request.h"
-#include "rpc/error_table.h"
 #include "rpc/page.h"
 #include "rpc/request_limits.h"
+#include "store/resource_name.h"
 #include "translate/case_checker.h"
 #include "translate/check_case.h"
 #include "watch/sweep_source.h"
@@ -52,7 +52,7 @@ std::vector<store::QueuedJob> queued_jobs(const store::Journal::CreatedSweep& cr
 
 SweepsService::Found SweepsService::find(const std::string& name) {
   check_length("name", name, kLongestName);
-  const auto number = jobs::sweep_number_of(name);
+  const auto number = store::sweep_number_of(name);
   auto sweep = number ? parts_.sweeps.find_sweep(*number) : std::nullopt;
   if (!sweep) {
     throw ServiceError(ServiceError::Kind::not_found,
@@ -99,7 +99,7 @@ grpc::ServerUnaryReactor* SweepsService::CreateSweep(grpc::CallbackServerContext
       place.emplace(parts_.admission.admit(owner, plan.jobs.size(), memory_bytes));
     };
     const auto created = parts_.journal.create_sweep(request.sweep(), plan.jobs, request.request_id(), hash, admit);
-    const std::string name = jobs::sweep_name_of(created.sweep);
+    const std::string name = store::sweep_name_of(created.sweep);
     if (created.is_new) {
       log_change(name, "created with " + std::to_string(plan.jobs.size()) + " jobs", owner, request.request_id());
       parts_.scheduler.enqueue(queued_jobs(created, plan, request.sweep()));
@@ -149,7 +149,7 @@ grpc::ServerUnaryReactor* SweepsService::CancelSweep(grpc::CallbackServerContext
     const std::int64_t sweep = find_own(*context, request->name());
     const auto jobs = parts_.sweeps.jobs_of(sweep);
     parts_.scheduler.cancel_all(jobs);
-    log_change(jobs::sweep_name_of(sweep), "cancelled", parts_.gate.caller_of(*context).name);
+    log_change(store::sweep_name_of(sweep), "cancelled", parts_.gate.caller_of(*context).name);
     *response = find(request->name()).sweep;
     return grpc::Status::OK;
   });
@@ -160,7 +160,7 @@ grpc::ServerUnaryReactor* SweepsService::DeleteSweep(grpc::CallbackServerContext
   return parts_.calls.run(*context, *request, [=, this] {
     const std::int64_t sweep = find_own(*context, request->name());
     parts_.deletion.delete_sweep(sweep, [context] { return context->IsCancelled(); });
-    log_change(jobs::sweep_name_of(sweep), "deleted", parts_.gate.caller_of(*context).name);
+    log_change(store::sweep_name_of(sweep), "deleted", parts_.gate.caller_of(*context).name);
     return grpc::Status::OK;
   });
 }
@@ -178,7 +178,7 @@ grpc::ServerUnaryReactor* SweepsService::RetryFailedJobs(grpc::CallbackServerCon
       place.emplace(parts_.admission.admit(owner, count, 0));
     };
     const auto retried = parts_.journal.retry_failed(sweep, admit);
-    log_change(jobs::sweep_name_of(sweep), "retried with " + std::to_string(retried.size()) + " jobs",
+    log_change(store::sweep_name_of(sweep), "retried with " + std::to_string(retried.size()) + " jobs",
                parts_.gate.caller_of(*context).name);
     parts_.scheduler.enqueue(retried);
     place.reset();

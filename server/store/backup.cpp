@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "error.h"
-#include "jobs/job_state.h"
-#include "jobs/resource_name.h"
 #include "store/durable_file.h"
 #include "store/job_removal.h"
+#include "store/job_state.h"
 #include "store/journal_mending.h"
 #include "store/journal_schema.h"
+#include "store/resource_name.h"
 #include "store/result_seal.h"
 #include "store/sqlite.h"
 #include "store/staged_folder.h"
@@ -22,14 +22,14 @@ namespace {
 
 constexpr const char* kJournalName = "journal.sqlite";
 
-std::string result_name(std::int64_t job) { return jobs::name_of(job) + "/result.h5"; }
+std::string result_name(std::int64_t job) { return name_of(job) + "/result.h5"; }
 
 std::vector<std::int64_t> jobs_with_result(Database& journal) {
   Statement read(journal, "SELECT number, state, job FROM jobs ORDER BY number");
   std::vector<std::int64_t> out;
   while (read.step()) {
     v1::Job job;
-    if (read_job_bytes(read.bytes(2), read.integer(1), job) && jobs::is_terminal(job.state()) && job.has_summary())
+    if (read_job_bytes(read.bytes(2), read.integer(1), job) && is_terminal(job.state()) && job.has_summary())
       out.push_back(read.integer(0));
   }
   return out;
@@ -54,9 +54,9 @@ class ResultBackup {
       problem = error.what();
     }
     std::error_code none;
-    std::filesystem::remove_all(target_ / jobs::name_of(job), none);
+    std::filesystem::remove_all(target_ / name_of(job), none);
     if (is_there(job))
-      manifest.lost.push_back(jobs::name_of(job) + " has no result in this backup: " + problem);
+      manifest.lost.push_back(name_of(job) + " has no result in this backup: " + problem);
     else
       deleted_.push_back(job);
   }
@@ -67,8 +67,8 @@ class ResultBackup {
  private:
   BackupFile copy_result(std::int64_t job) {
     std::error_code error;
-    std::filesystem::create_directories(target_ / jobs::name_of(job), error);
-    if (error) throw_file_error(target_ / jobs::name_of(job), "created", error.value());
+    std::filesystem::create_directories(target_ / name_of(job), error);
+    if (error) throw_file_error(target_ / name_of(job), "created", error.value());
     auto file = digest_of(data_folder_ / result_name(job), target_ / result_name(job));
     file.path = result_name(job);
     return file;

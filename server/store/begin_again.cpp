@@ -1,10 +1,10 @@
 #include "store/begin_again.h"
 
 #include "error.h"
-#include "jobs/resource_name.h"
 #include "store/job_bytes.h"
 #include "store/journal_mending.h"
 #include "store/journal_schema.h"
+#include "store/resource_name.h"
 
 namespace cellcrush::store {
 
@@ -14,13 +14,13 @@ void begin_again(Database& database, std::int64_t job, const std::string& why) {
   {
     Statement read(database, "SELECT job, state, last_sequence FROM jobs WHERE number = ?1");
     if (!read.bind(1, job).step())
-      throw ServiceError(ServiceError::Kind::not_found, "There is no " + jobs::name_of(job) + ".");
+      throw ServiceError(ServiceError::Kind::not_found, "There is no " + name_of(job) + ".");
     if (!read_job_bytes(read.bytes(0), read.integer(1), stored)) throw unreadable_entry(job);
     sequence = read.integer(2) + 1;
   }
   if (stored.state() != v1::PENDING && stored.state() != v1::RUNNING && stored.state() != v1::SUSPENDED) {
     throw ServiceError(ServiceError::Kind::failed_precondition,
-                       jobs::name_of(job) + " is " + v1::JobState_Name(stored.state()) + " and cannot be restarted.");
+                       name_of(job) + " is " + v1::JobState_Name(stored.state()) + " and cannot be restarted.");
   }
   if (stored.state() == v1::RUNNING) stored.set_state(v1::PENDING);
   stored.set_cause_message(why);

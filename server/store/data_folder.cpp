@@ -14,8 +14,8 @@
 #include <thread>
 
 #include "error.h"
-#include "jobs/resource_name.h"
 #include "store/durable_file.h"
+#include "store/resource_name.h"
 
 namespace cellcrush::store {
 namespace {
@@ -34,7 +34,7 @@ void make_private_folder(const std::filesystem::path& path) {
 }
 
 // The errno that keeps files from being made, or those of a job from being used; 0 where there is none.
-int error_of_folder(const worker::JobFolder& folder) {
+int error_of_folder(const JobFolder& folder) {
   for (const auto& path : {folder.order(), folder.claim(), folder.reports(), folder.checkpoint(),
                            folder.previous_checkpoint(), folder.partial_checkpoint(), folder.partial_result()}) {
     struct stat status {};
@@ -153,8 +153,7 @@ void DataFolder::make_job_folder(std::int64_t job) const {
 
 void DataFolder::try_new_folder() const {
   const auto path = root_ / "jobs" / ("probe-" + std::to_string(gettid()));
-  const int error =
-      mkdir(path.c_str(), 0700) == 0 || errno == EEXIST ? error_of_folder(worker::JobFolder(path)) : errno;
+  const int error = mkdir(path.c_str(), 0700) == 0 || errno == EEXIST ? error_of_folder(JobFolder(path)) : errno;
   rmdir(path.c_str());
   if (error == 0) return;
   const Shortage shortage = shortage_of_errno(error);
@@ -209,7 +208,7 @@ void DataFolder::give_up_ballast() const {
 std::vector<std::int64_t> DataFolder::jobs_with_reports() const {
   std::vector<std::int64_t> out;
   for (const auto& name : names_in_jobs()) {
-    const auto job = jobs::number_of("jobs/" + name);
+    const auto job = number_of("jobs/" + name);
     std::error_code none;
     if (job && std::filesystem::exists(job_folder(*job).reports(), none)) out.push_back(*job);
   }

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "worker/job_folder.h"
+#include "store/job_folder.h"
 
 namespace cellcrush::store {
 
@@ -30,9 +30,7 @@ class DataFolder {
   DataFolder& operator=(const DataFolder&) = delete;
 
   [[nodiscard]] std::filesystem::path journal() const { return root_ / "journal.sqlite"; }
-  [[nodiscard]] worker::JobFolder job_folder(std::int64_t job) const {
-    return worker::JobFolder(root_ / "jobs" / std::to_string(job));
-  }
+  [[nodiscard]] JobFolder job_folder(std::int64_t job) const { return JobFolder(root_ / "jobs" / std::to_string(job)); }
 
   /// Makes the job's folder if there is none. One that cannot be used, while others can, is renamed to
   /// jobs/N.set-aside-K, and a new one is made. Throws ServiceError: with the shortage where no folder can be used.

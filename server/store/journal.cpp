@@ -7,12 +7,12 @@
 #include <utility>
 
 #include "error.h"
-#include "jobs/job_state.h"
-#include "jobs/resource_name.h"
 #include "store/begin_again.h"
 #include "store/job_bytes.h"
+#include "store/job_state.h"
 #include "store/journal_mending.h"
 #include "store/journal_schema.h"
+#include "store/resource_name.h"
 
 namespace cellcrush::store {
 namespace {
@@ -30,7 +30,7 @@ void apply(const StateChange& change, v1::Job& job) {
     job.set_attempt(job.attempt() + 1);
     if (!job.has_start_time()) *job.mutable_start_time() = now;
   }
-  if (jobs::is_terminal(change.state)) *job.mutable_end_time() = now;
+  if (is_terminal(change.state)) *job.mutable_end_time() = now;
   if (change.summary) *job.mutable_summary() = *change.summary;
 }
 
@@ -116,12 +116,12 @@ void Journal::write_change(std::int64_t job, const StateChange& change) {
   {
     Statement read(database_, "SELECT job, state FROM jobs WHERE number = ?1");
     if (!read.bind(1, job).step())
-      throw ServiceError(ServiceError::Kind::not_found, "There is no " + jobs::name_of(job) + ".");
+      throw ServiceError(ServiceError::Kind::not_found, "There is no " + name_of(job) + ".");
     if (!read_job_bytes(read.bytes(0), read.integer(1), stored)) throw unreadable_entry(job);
   }
-  if (!jobs::may_follow(stored.state(), change.state)) {
+  if (!may_follow(stored.state(), change.state)) {
     throw ServiceError(ServiceError::Kind::failed_precondition,
-                       jobs::name_of(job) + " is " + v1::JobState_Name(stored.state()) + " and cannot become " +
+                       name_of(job) + " is " + v1::JobState_Name(stored.state()) + " and cannot become " +
                            v1::JobState_Name(change.state) + ".");
   }
   apply(change, stored);
@@ -130,7 +130,7 @@ void Journal::write_change(std::int64_t job, const StateChange& change) {
   Statement update(database_,
                    "UPDATE jobs SET state = ?2, job = ?3, last_sequence = ?4, ended_at = ?5 WHERE number = ?1");
   update.bind(1, job).bind(2, stored.state()).bind_blob(3, job_bytes(stored)).bind(4, sequence);
-  if (jobs::is_terminal(stored.state())) update.bind(5, clock_.seconds());
+  if (is_terminal(stored.state())) update.bind(5, clock_.seconds());
   update.run();
 }
 

@@ -103,7 +103,7 @@ class Journal {
   void end_sweep_deletion(std::int64_t sweep);
 
   /// Makes a change durable, and before it the samples gathered for the job. Throws failed_precondition when the state
-  /// may not follow the present one (jobs/job_state.h). When a job of a sweep FAILED and its max_failures is reached, those
+  /// may not follow the present one (job_state.h). When a job of a sweep FAILED and its max_failures is reached, those
   /// of its jobs that are PENDING are CANCELLED with it, and returned.
   std::vector<std::int64_t> change_state(std::int64_t job, const StateChange& change);
 

@@ -4,10 +4,10 @@
 #include "cellcrush/v1/sweep.pb.h"
 #include "cellcrush/v1/sweeps_service.pb.h"
 #include "error.h"
-#include "jobs/job_state.h"
-#include "jobs/resource_name.h"
+#include "store/job_state.h"
 #include "store/journal_mending.h"
 #include "store/journal_schema.h"
+#include "store/resource_name.h"
 
 namespace cellcrush::store {
 namespace {
@@ -45,9 +45,9 @@ class JournalCheck {
   }
 
   void add_row(const std::string& what, std::int64_t job) {
-    add(what + " of " + jobs::name_of(job) +
+    add(what + " of " + name_of(job) +
         " cannot be read. Restore a backup, or, once the job has ended, delete it with `cellcrush delete " +
-        jobs::name_of(job) + "`.");
+        name_of(job) + "`.");
   }
 
   void look_at_pages() {
@@ -74,7 +74,7 @@ class JournalCheck {
       v1::Job job;
       if (!read_job_bytes(read.bytes(2), read.integer(1), job)) {
         add_row("The entry", number);
-      } else if (jobs::is_terminal(job.state()) && job.has_summary()) {
+      } else if (is_terminal(job.state()) && job.has_summary()) {
         found_.with_result.push_back(number);
       }
       if (!v1::Case().ParseFromString(read.bytes(3))) add_row("The case", number);
@@ -104,7 +104,7 @@ class JournalCheck {
     while (sweeps.step()) {
       ++found_.sweeps;
       if (!v1::Sweep().ParseFromString(sweeps.bytes(1)))
-        add(jobs::sweep_name_of(sweeps.integer(0)) + " cannot be read. Restore a backup.");
+        add(sweep_name_of(sweeps.integer(0)) + " cannot be read. Restore a backup.");
     }
     Statement points(database_, "SELECT job, point FROM sweep_jobs");
     while (points.step()) {

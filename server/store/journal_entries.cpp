@@ -3,11 +3,11 @@
 
 #include "access/scope.h"
 #include "error.h"
-#include "jobs/job_state.h"
-#include "jobs/resource_name.h"
 #include "store/job_inserter.h"
 #include "store/job_removal.h"
+#include "store/job_state.h"
 #include "store/journal.h"
+#include "store/resource_name.h"
 
 namespace cellcrush::store {
 namespace {
@@ -38,10 +38,10 @@ Journal::Created Journal::create_job(v1::Job job, const std::string& request_id,
 void Journal::delete_job(std::int64_t job) {
   writes_.run([&] {
     const auto state = find_state(database_, job);
-    if (!state) throw ServiceError(ServiceError::Kind::not_found, "There is no " + jobs::name_of(job) + ".");
-    if (!jobs::is_terminal(*state)) {
+    if (!state) throw ServiceError(ServiceError::Kind::not_found, "There is no " + name_of(job) + ".");
+    if (!is_terminal(*state)) {
       throw ServiceError(ServiceError::Kind::failed_precondition,
-                         jobs::name_of(job) + " is " + v1::JobState_Name(*state) +
+                         name_of(job) + " is " + v1::JobState_Name(*state) +
                              " and cannot be deleted. Cancel it, then delete it once it has ended.");
     }
     remove_job(job);
@@ -55,7 +55,7 @@ std::vector<std::int64_t> Journal::delete_ended(const std::vector<std::int64_t>&
     deleted.clear();
     for (const std::int64_t job : jobs) {
       const auto state = find_state(database_, job);
-      if (!state || !jobs::is_terminal(*state)) continue;
+      if (!state || !is_terminal(*state)) continue;
       remove_job(job);
       deleted.push_back(job);
     }

@@ -5,10 +5,10 @@
 
 #include <vector>
 
-#include "jobs/job_state.h"
-#include "jobs/resource_name.h"
 #include "store/job_bytes.h"
+#include "store/job_state.h"
 #include "store/journal_schema.h"
+#include "store/resource_name.h"
 
 namespace cellcrush::store {
 namespace {
@@ -49,7 +49,7 @@ void write_row(Database& database, const DamagedJob& row) {
 }
 
 void end_job(Database& database, DamagedJob& row, std::int64_t service_seconds) {
-  const bool had_ended = jobs::is_terminal(static_cast<v1::JobState>(row.state));
+  const bool had_ended = is_terminal(static_cast<v1::JobState>(row.state));
   set_corrupt(row.job);
   const auto now = google::protobuf::util::TimeUtil::GetCurrentTime();
   if (!row.job.has_create_time()) *row.job.mutable_create_time() = now;
@@ -66,8 +66,8 @@ void end_job(Database& database, DamagedJob& row, std::int64_t service_seconds) 
 }
 
 void mend(Database& database, DamagedJob& row, std::int64_t service_seconds) {
-  const std::string name = jobs::name_of(row.number);
-  const bool had_ended = jobs::is_terminal(static_cast<v1::JobState>(row.state));
+  const std::string name = name_of(row.number);
+  const bool had_ended = is_terminal(static_cast<v1::JobState>(row.state));
   const bool restored = !row.has_job && restore_job(database, row);
   if (restored) {
     spdlog::warn("The journal entry of {} was damaged and has been rebuilt from its newest event.", name);
@@ -92,7 +92,7 @@ bool read_job_bytes(const std::string& bytes, std::int64_t state, v1::Job& job) 
 
 ServiceError unreadable_entry(std::int64_t job) {
   return {ServiceError::Kind::data_loss,
-          "The journal entry of " + jobs::name_of(job) + " cannot be read. Restart the daemon to repair it."};
+          "The journal entry of " + name_of(job) + " cannot be read. Restart the daemon to repair it."};
 }
 
 void set_corrupt(v1::Job& job) {

@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "error.h"
-#include "jobs/resource_name.h"
 #include "store/journal_mending.h"
 #include "store/journal_schema.h"
+#include "store/resource_name.h"
 
 namespace cellcrush::store {
 namespace {
@@ -22,7 +22,7 @@ bool read_event(int kind, const std::string& payload, v1::JobEvent& event) {
 ServiceError unreadable_event(std::int64_t job, std::int64_t sequence) {
   const std::string number = std::to_string(sequence);
   return {ServiceError::Kind::data_loss,
-          "Event " + number + " of " + jobs::name_of(job) +
+          "Event " + number + " of " + name_of(job) +
               " cannot be read: the journal was damaged. To continue past it, watch with after_sequence " + number +
               "."};
 }
@@ -36,7 +36,7 @@ StoredJob JournalReader::read_job(const Statement& row) {
   out.number = row.integer(0);
   if (!read_job_bytes(row.bytes(1), row.integer(4), out.job)) set_corrupt(out.job);
   if (!out.job.mutable_case_()->ParseFromString(row.bytes(2))) out.job.mutable_case_()->Clear();
-  out.job.set_name(jobs::name_of(out.number));
+  out.job.set_name(name_of(out.number));
   out.last_sequence = row.integer(3);
   return out;
 }
@@ -77,7 +77,7 @@ std::vector<v1::JobEvent> JournalReader::events(std::int64_t job, std::int64_t a
       out.pop_back();
       break;
     }
-    if (event.has_state()) event.mutable_state()->set_name(jobs::name_of(job));
+    if (event.has_state()) event.mutable_state()->set_name(name_of(job));
   }
   return out;
 }
@@ -118,7 +118,7 @@ std::optional<v1::Mesh> JournalReader::mesh(std::int64_t job) {
   if (!read.bind(1, job).step()) return std::nullopt;
   v1::Mesh mesh;
   if (mesh.ParseFromString(read.bytes(0))) return mesh;
-  spdlog::error("The mesh of {} cannot be read: the journal was damaged.", jobs::name_of(job));
+  spdlog::error("The mesh of {} cannot be read: the journal was damaged.", name_of(job));
   return std::nullopt;
 }
 

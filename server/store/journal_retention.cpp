@@ -2,9 +2,9 @@
 #include <string>
 
 #include "error.h"
-#include "jobs/job_state.h"
-#include "jobs/resource_name.h"
+#include "store/job_state.h"
 #include "store/journal.h"
+#include "store/resource_name.h"
 
 namespace cellcrush::store {
 namespace {
@@ -21,8 +21,8 @@ std::string unended_jobs(Database& database, std::int64_t sweep) {
   std::size_t count = 0;
   while (read.step()) {
     const auto state = static_cast<v1::JobState>(read.integer(1));
-    if (jobs::is_terminal(state) || ++count > kNamedJobs) continue;
-    out += (count == 1 ? "" : ", ") + jobs::name_of(read.integer(0)) + " is " + v1::JobState_Name(state);
+    if (is_terminal(state) || ++count > kNamedJobs) continue;
+    out += (count == 1 ? "" : ", ") + name_of(read.integer(0)) + " is " + v1::JobState_Name(state);
   }
   return count > kNamedJobs ? out + " and " + std::to_string(count - kNamedJobs) + " more" : out;
 }
@@ -49,7 +49,7 @@ void Journal::set_measured(const std::vector<Measured>& jobs) {
 
 void Journal::begin_sweep_deletion(std::int64_t sweep) {
   writes_.run([&] {
-    const std::string name = jobs::sweep_name_of(sweep);
+    const std::string name = sweep_name_of(sweep);
     {
       Statement read(database_, "SELECT 1 FROM sweeps WHERE number = ?1");
       if (!read.bind(1, sweep).step()) throw ServiceError(ServiceError::Kind::not_found, "There is no " + name + ".");

@@ -3,9 +3,9 @@
 
 #include <utility>
 
-#include "jobs/resource_name.h"
 #include "store/job_inserter.h"
 #include "store/journal.h"
+#include "store/resource_name.h"
 
 namespace cellcrush::store {
 namespace {
@@ -20,7 +20,7 @@ std::string sweep_bytes(v1::Sweep sweep) {
 
 // What becomes of a job that waits when its sweep has failed too often.
 StateChange stopped_by_failures(std::int64_t sweep, std::size_t failed, std::int64_t limit) {
-  const std::string name = jobs::sweep_name_of(sweep);
+  const std::string name = sweep_name_of(sweep);
   StateChange out;
   out.state = v1::CANCELLED;
   out.message = (failed == 1 ? "1 job of " : std::to_string(failed) + " jobs of ") + name +
@@ -53,7 +53,7 @@ std::vector<Retry> jobs_to_retry(Database& database, std::int64_t sweep) {
     job.set_priority(ended.priority());
     job.set_time_limit_s(ended.time_limit_s());
     job.set_owner(ended.owner());
-    job.set_retry_of(jobs::name_of(read.integer(0)));
+    job.set_retry_of(name_of(read.integer(0)));
     job.mutable_case_()->ParseFromString(read.bytes(2));
     queued = {read.integer(0), 0, ended.priority(), read.integer(3), sweep, static_cast<int>(read.integer(4)),
               ended.owner()};

@@ -3,12 +3,12 @@
 #include <system_error>
 
 #include "error.h"
-#include "jobs/resource_name.h"
 #include "store/backup.h"
 #include "store/durable_file.h"
 #include "store/epoch.h"
 #include "store/journal.h"
 #include "store/journal_reader.h"
+#include "store/resource_name.h"
 #include "store/staged_folder.h"
 
 namespace cellcrush::store {

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "cellcrush/v1/job.pb.h"
-#include "jobs/resource_name.h"
 #include "store/journal_mending.h"
+#include "store/resource_name.h"
 
 namespace cellcrush::store {
 
@@ -18,17 +18,17 @@ std::optional<v1::Sweep> SweepReader::find_sweep(std::int64_t sweep) {
   Statement read(database_, "SELECT sweep FROM sweeps WHERE number = ?1 AND deleting = 0");
   if (!read.bind(1, sweep).step()) return std::nullopt;
   if (!out.ParseFromString(read.bytes(0))) {
-    spdlog::error("The request of {} cannot be read: the journal was damaged.", jobs::sweep_name_of(sweep));
+    spdlog::error("The request of {} cannot be read: the journal was damaged.", sweep_name_of(sweep));
     out.Clear();
   }
-  out.set_name(jobs::sweep_name_of(sweep));
+  out.set_name(sweep_name_of(sweep));
   Statement members(database_,
                     "SELECT jobs.number, jobs.state FROM sweep_jobs JOIN jobs ON jobs.number = sweep_jobs.job "
                     "WHERE sweep_jobs.sweep = ?1 ORDER BY sweep_jobs.position");
   members.bind(1, sweep);
   auto& counts = *out.mutable_state_counts();
   while (members.step()) {
-    out.add_jobs(jobs::name_of(members.integer(0)));
+    out.add_jobs(name_of(members.integer(0)));
     ++counts[v1::JobState_Name(static_cast<v1::JobState>(members.integer(1)))];
   }
   return out;
@@ -81,10 +81,10 @@ StoredRows SweepReader::rows(std::int64_t sweep, std::int64_t after, PageRoom ro
   while (read.step()) {
     v1::SweepTable::Row row;
     if (!row.ParseFromString(read.bytes(0))) {
-      spdlog::error("A point of {} cannot be read: the journal was damaged.", jobs::sweep_name_of(sweep));
+      spdlog::error("A point of {} cannot be read: the journal was damaged.", sweep_name_of(sweep));
       row.Clear();
     }
-    row.set_job(jobs::name_of(read.integer(1)));
+    row.set_job(name_of(read.integer(1)));
     if (!read_job_bytes(read.bytes(2), read.integer(3), *row.mutable_result())) set_corrupt(*row.mutable_result());
     row.mutable_result()->set_name(row.job());
     row.mutable_result()->clear_labels();

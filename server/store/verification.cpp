@@ -6,16 +6,16 @@
 #include <set>
 
 #include "error.h"
-#include "jobs/resource_name.h"
 #include "store/backup_manifest.h"
 #include "store/journal_check.h"
+#include "store/resource_name.h"
 #include "store/result_seal.h"
 #include "store/sqlite.h"
 
 namespace cellcrush::store {
 namespace {
 
-std::string result_path(std::int64_t job) { return jobs::name_of(job) + "/result.h5"; }
+std::string result_path(std::int64_t job) { return name_of(job) + "/result.h5"; }
 
 BackupManifest manifest_in(const std::filesystem::path& folder) {
   std::ifstream file(folder / kManifestName, std::ios::binary);
@@ -54,14 +54,13 @@ bool has_job(Database& journal, std::int64_t job) {
 void check_results(const std::filesystem::path& folder, Database& journal, const JournalFindings& found,
                    const std::set<std::string>& lost, Verification& out) {
   for (const std::int64_t job : found.with_result) {
-    if (lost.contains(jobs::name_of(job))) continue;
+    if (lost.contains(name_of(job))) continue;
     const std::string problem = problem_of_result(folder, job);
     if (problem.empty()) {
       ++out.results;
     } else if (has_job(journal, job)) {
       // Otherwise the daemon has deleted it meanwhile.
-      out.problems.push_back(problem + " Restore a backup, or delete " + jobs::name_of(job) +
-                             " and submit its case again.");
+      out.problems.push_back(problem + " Restore a backup, or delete " + name_of(job) + " and submit its case again.");
     }
   }
 }
@@ -71,7 +70,7 @@ void note_strangers(const std::filesystem::path& folder, Database& journal, Veri
   for (std::filesystem::directory_iterator entry(folder / "jobs", error), end; !error && entry != end;
        entry.increment(error)) {
     const std::string name = "jobs/" + entry->path().filename().string();
-    const auto job = jobs::number_of(name);
+    const auto job = number_of(name);
     if (!job || !has_job(journal, *job))
       out.notes.push_back(name + " belongs to no job of the journal; the daemon moves it aside at its next start.");
   }

@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "error.h"
-#include "jobs/resource_name.h"
+#include "store/resource_name.h"
 
 namespace cellcrush::watch {
 namespace {
@@ -83,7 +83,7 @@ std::map<std::int64_t, JobPlace> parse_resume_token(std::int64_t sweep, const st
   }
   if (!sound || !reader.sound()) {
     throw ServiceError(ServiceError::Kind::invalid,
-                       "The resume_token does not belong to " + jobs::sweep_name_of(sweep) +
+                       "The resume_token does not belong to " + store::sweep_name_of(sweep) +
                            ". Use the most recent one, or none to start from the beginning.");
   }
   return out;

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "error.h"
-#include "jobs/resource_name.h"
+#include "store/resource_name.h"
 
 namespace cellcrush::watch {
 namespace {
@@ -67,7 +67,7 @@ std::map<std::int64_t, JobPlace> SweepSource::places_in(const std::string& token
   if (!journal_.epoch().admits(has_epoch ? token.substr(0, at) : "")) {
     throw ServiceError(ServiceError::Kind::failed_precondition,
                        "The resume_token comes" + journal_.epoch().of_before() +
-                           ": it may now refer to different jobs. Watch " + jobs::sweep_name_of(sweep_) +
+                           ": it may now refer to different jobs. Watch " + store::sweep_name_of(sweep_) +
                            " without a resume_token.");
   }
   return places;
@@ -124,7 +124,7 @@ std::optional<v1::WatchSweepResponse> SweepSource::next_of(std::size_t position)
     if (cursor->ended()) end(position);
     if (!event) return std::nullopt;
     v1::WatchSweepResponse out;
-    out.set_job(jobs::name_of(place.job));
+    out.set_job(store::name_of(place.job));
     if (event->has_state() || event->has_sample() || place.ended) out.set_resume_token(resume_token());
     *out.mutable_event() = *std::move(event);
     return out;
@@ -152,7 +152,7 @@ v1::WatchSweepResponse SweepSource::bookmark() const {
 
 v1::WatchSweepResponse SweepSource::snapshot() {
   auto sweep = sweeps_.find_sweep(sweep_);
-  if (!sweep) throw ServiceError(ServiceError::Kind::not_found, "There is no " + jobs::sweep_name_of(sweep_) + ".");
+  if (!sweep) throw ServiceError(ServiceError::Kind::not_found, "There is no " + store::sweep_name_of(sweep_) + ".");
   v1::WatchSweepResponse out;
   *out.mutable_snapshot() = *std::move(sweep);
   out.set_resume_token(resume_token());

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "error.h"
-#include "jobs/job_state.h"
-#include "jobs/resource_name.h"
+#include "store/job_state.h"
+#include "store/resource_name.h"
 #include "watch/frame_chunks.h"
 
 namespace cellcrush::watch {
@@ -14,7 +14,7 @@ namespace {
 constexpr int kEventsAtOnce = 256;
 
 ServiceError no_such(std::int64_t job) {
-  return {ServiceError::Kind::not_found, "There is no " + jobs::name_of(job) + "."};
+  return {ServiceError::Kind::not_found, "There is no " + store::name_of(job) + "."};
 }
 
 store::StoredJob find_job(store::JournalReader& journal, std::int64_t job) {
@@ -36,10 +36,10 @@ WatchCursor::WatchCursor(store::JournalReader& journal, std::int64_t job, std::s
   }
   if (after > stored.last_sequence) {
     throw ServiceError(ServiceError::Kind::out_of_range,
-                       "after_sequence is " + std::to_string(after) + ", but the last event of " + jobs::name_of(job) +
+                       "after_sequence is " + std::to_string(after) + ", but the last event of " + store::name_of(job) +
                            " is " + std::to_string(stored.last_sequence) + ". Use the number of the last event seen.");
   }
-  ended_ = jobs::is_terminal(stored.job.state()) && after == stored.last_sequence;
+  ended_ = store::is_terminal(stored.job.state()) && after == stored.last_sequence;
 }
 
 std::optional<v1::JobEvent> WatchCursor::next() {
@@ -59,7 +59,7 @@ std::optional<v1::JobEvent> WatchCursor::next() {
   v1::JobEvent event = std::move(events_.front());
   events_.pop_front();
   after_ = event.sequence();
-  ended_ = event.has_state() && jobs::is_terminal(event.state().state());
+  ended_ = event.has_state() && store::is_terminal(event.state().state());
   return event;
 }
 

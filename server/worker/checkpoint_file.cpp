@@ -67,7 +67,7 @@ Reading read(const std::filesystem::path& path, const Checkpoint::Origin& wanted
 
 }  // namespace
 
-void write_checkpoint(const JobFolder& folder, const Checkpoint& checkpoint) {
+void write_checkpoint(const store::JobFolder& folder, const Checkpoint& checkpoint) {
   const std::string bytes = checkpoint.SerializeAsString();
   std::string file = std::string(kTitle) + " " + std::to_string(crc_of(bytes)) + " " + std::to_string(bytes.size());
   file += "\n" + bytes;
@@ -77,7 +77,7 @@ void write_checkpoint(const JobFolder& folder, const Checkpoint& checkpoint) {
   store::publish_file(folder.partial_checkpoint(), folder.checkpoint());
 }
 
-FoundCheckpoint find_checkpoint(const JobFolder& folder, const Checkpoint::Origin& origin) {
+FoundCheckpoint find_checkpoint(const store::JobFolder& folder, const Checkpoint::Origin& origin) {
   FoundCheckpoint out;
   for (const auto& path : {folder.checkpoint(), folder.previous_checkpoint()}) {
     if (!std::filesystem::exists(path)) continue;

@@ -50,7 +50,7 @@ struct OpenFile {
 
 }  // namespace
 
-bool claim(const JobFolder& folder) {
+bool claim(const store::JobFolder& folder) {
   const int file = open(folder.claim().c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
   if (file < 0) store::throw_file_error(folder.claim(), "written", errno);
   for (int i = 0; flock(file, LOCK_EX | LOCK_NB) != 0; ++i) {
@@ -65,7 +65,7 @@ bool claim(const JobFolder& folder) {
   return true;
 }
 
-std::optional<Claim> find_claim(const JobFolder& folder) {
+std::optional<Claim> find_claim(const store::JobFolder& folder) {
   // Without blocking: what has the name may be no file.
   const OpenFile file(open(folder.claim().c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (file.descriptor < 0 && (errno == ENOENT || errno == ENOTDIR)) return std::nullopt;

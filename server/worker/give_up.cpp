@@ -13,7 +13,7 @@ namespace cellcrush::worker {
 namespace {
 
 // What the run took until its newest checkpoint: what came after is not known.
-translate::RunTime known_time(const JobFolder& folder, const Checkpoint::Origin& origin) {
+translate::RunTime known_time(const store::JobFolder& folder, const Checkpoint::Origin& origin) {
   const auto found = find_checkpoint(folder, origin);
   return found.checkpoint ? run_time_of(*found.checkpoint) : translate::RunTime{};
 }
@@ -31,7 +31,8 @@ bool must_leave(const StopAsked& stop_asked, ReportLog& log, bool& acknowledged)
 
 }  // namespace
 
-Final give_up(const JobFolder& folder, const Order& order, ReportLog& log, const StopAsked& stop_asked, Final loss) {
+Final give_up(const store::JobFolder& folder, const Order& order, ReportLog& log, const StopAsked& stop_asked,
+              Final loss) {
   try {
     const auto origin = origin_of(order);
     Order as_run = order;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "worker/job_folder.h"
+#include "store/job_folder.h"
 #include "worker/report_log.h"
 #include "worker/run_job.h"
 
@@ -10,6 +10,7 @@ namespace cellcrush::worker {
 /// with its summary; `loss` alone when nothing was reported or no result can be made. A wish to cancel the job is acknowledged, for
 /// that is under way; at one to suspend it this leaves the job as it found it, with the step of its last sample; for a
 /// shortage too, unless the job was cancelled. Never throws.
-Final give_up(const JobFolder& folder, const Order& order, ReportLog& log, const StopAsked& stop_asked, Final loss);
+Final give_up(const store::JobFolder& folder, const Order& order, ReportLog& log, const StopAsked& stop_asked,
+              Final loss);
 
 }  // namespace cellcrush::worker

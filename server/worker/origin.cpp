@@ -15,7 +15,7 @@ Checkpoint::Origin origin_of(const Order& order) {
   return out;
 }
 
-std::optional<Checkpoint::Origin> find_other_origin(const JobFolder& folder, const Checkpoint::Origin& origin) {
+std::optional<Checkpoint::Origin> find_other_origin(const store::JobFolder& folder, const Checkpoint::Origin& origin) {
   ReportLogReader reader(folder.reports());
   const std::string own = origin.SerializeAsString();
   Report report;

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "worker/job_folder.h"
+#include "store/job_folder.h"
 #include "worker/report.pb.h"
 
 namespace cellcrush::worker {
@@ -11,6 +11,6 @@ namespace cellcrush::worker {
 Checkpoint::Origin origin_of(const Order& order);
 
 /// Of an earlier worker in the folder whose bits are others than `origin`'s, the first one.
-std::optional<Checkpoint::Origin> find_other_origin(const JobFolder& folder, const Checkpoint::Origin& origin);
+std::optional<Checkpoint::Origin> find_other_origin(const store::JobFolder& folder, const Checkpoint::Origin& origin);
 
 }  // namespace cellcrush::worker

@@ -43,7 +43,7 @@ struct CannotContinue {
 // One run: what is advanced, and where its output goes.
 class Run {
  public:
-  Run(const JobFolder& folder, const Order& order, ReportLog& log, const StopAsked& stop_asked)
+  Run(const store::JobFolder& folder, const Order& order, ReportLog& log, const StopAsked& stop_asked)
       : folder_(folder),
         order_(order),
         log_(log),
@@ -242,7 +242,7 @@ class Run {
   }
 
   Clock::time_point begin_ = Clock::now();
-  const JobFolder& folder_;
+  const store::JobFolder& folder_;
   const Order& order_;
   ReportLog& log_;
   const StopAsked& stop_asked_;
@@ -265,7 +265,7 @@ Final failure_of(const ServiceError& error) {
 }
 
 // Another worker continues from the newest checkpoint, or begins again, with the same bits.
-Final left_for(const ServiceError& error, const JobFolder& folder, const Order& order) {
+Final left_for(const ServiceError& error, const store::JobFolder& folder, const Order& order) {
   const auto found = find_checkpoint(folder, origin_of(order));
   Final out;
   out.set_suspended_step(found.checkpoint ? found.checkpoint->step() : 0);
@@ -274,7 +274,7 @@ Final left_for(const ServiceError& error, const JobFolder& folder, const Order& 
   return out;
 }
 
-Final end_of(const JobFolder& folder, const Order& order, ReportLog& log, const StopAsked& stop_asked) {
+Final end_of(const store::JobFolder& folder, const Order& order, ReportLog& log, const StopAsked& stop_asked) {
   if (order.has_given_up()) return give_up(folder, order, log, stop_asked, order.given_up());
   Final loss;
   try {
@@ -298,7 +298,7 @@ Final end_of(const JobFolder& folder, const Order& order, ReportLog& log, const 
 
 }  // namespace
 
-void run_job(const JobFolder& folder, const Order& order, const StopAsked& stop_asked) {
+void run_job(const store::JobFolder& folder, const Order& order, const StopAsked& stop_asked) {
   ReportLog log(folder.reports());
   Report report;
   *report.mutable_final() = end_of(folder, order, log, stop_asked);

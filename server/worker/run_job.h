@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "worker/job_folder.h"
+#include "store/job_folder.h"
 #include "worker/report.pb.h"
 
 namespace cellcrush::worker {
@@ -23,6 +23,6 @@ using StopAsked = std::function<StopWish()>;
 /// untrue leaves what was computed before, and the last good frame. One that meets a shortage (shortage.h) leaves the
 /// job at its last checkpoint. A job that another solver or kind of processor began is not run: its last report says
 /// that it is to begin again. Throws ServiceError when how it ended cannot be reported.
-void run_job(const JobFolder& folder, const Order& order, const StopAsked& stop_asked);
+void run_job(const store::JobFolder& folder, const Order& order, const StopAsked& stop_asked);
 
 }  // namespace cellcrush::worker

@@ -17,7 +17,8 @@ ProgressMeter meter_of(const SceneFacts& facts, std::int64_t first_step) {
 
 }  // namespace
 
-RunOutput::RunOutput(const JobFolder& folder, ReportLog& log, const Order& order, std::shared_ptr<const Scene> scene)
+RunOutput::RunOutput(const store::JobFolder& folder, ReportLog& log, const Order& order,
+                     std::shared_ptr<const Scene> scene)
     : folder_(folder),
       log_(log),
       order_(order),

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "cellcrush/simulation.h"
+#include "store/job_folder.h"
 #include "store/result_writer.h"
 #include "translate/results.h"
-#include "worker/job_folder.h"
 #include "worker/progress_meter.h"
 #include "worker/report_log.h"
 
@@ -18,7 +18,7 @@ namespace cellcrush::worker {
 class RunOutput {
  public:
   /// `order` outlives this object.
-  RunOutput(const JobFolder& folder, ReportLog& log, const Order& order, std::shared_ptr<const Scene> scene);
+  RunOutput(const store::JobFolder& folder, ReportLog& log, const Order& order, std::shared_ptr<const Scene> scene);
 
   /// Begins with what a run had reported when it was left at a checkpoint. False when the reports do not hold it all; this
   /// object is of no use then.
@@ -45,7 +45,7 @@ class RunOutput {
   v1::Sample record(Sample sample);
   void record(const v1::FieldFrame& frame);
 
-  JobFolder folder_;
+  store::JobFolder folder_;
   ReportLog& log_;
   const Order& order_;
   std::shared_ptr<const Scene> scene_;

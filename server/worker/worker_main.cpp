@@ -18,7 +18,7 @@ StopWish pending_wish() {
   return sigismember(&pending, kSuspendSignal) == 1 ? StopWish::suspend : StopWish::none;
 }
 
-int run(const JobFolder& job) {
+int run(const store::JobFolder& job) {
   try {
     if (!claim(job)) return kFolderIsClaimed;
     Order order;
@@ -49,7 +49,7 @@ void worker_main(const std::filesystem::path& folder) {
   // By its own folder, wherever that is moved: the place may be another job's after a restore.
   if (chdir(folder.c_str()) != 0) _exit(kNoReport);
   // _exit: the result is closed and durable, and nothing that runs at exit may turn a success into a crash.
-  _exit(run(JobFolder(".")));
+  _exit(run(store::JobFolder(".")));
 }
 
 }  // namespace cellcrush::worker

@@ -11,8 +11,8 @@
 
 #include "faults/fault_fixture.h"
 #include "faults/rounds.h"
-#include "jobs/job_state.h"
 #include "server/small_case.h"
+#include "store/job_state.h"
 #include "store/journal_reader.h"
 #include "store/result_reader.h"
 
@@ -77,7 +77,7 @@ class DaemonKillTest : public FaultFixture {
   }
 
   static void wait_until_all_have_ended(Client& client) {
-    const auto has_ended = [](const auto& job) { return jobs::is_terminal(job.second.state()); };
+    const auto has_ended = [](const auto& job) { return store::is_terminal(job.second.state()); };
     for (int i = 0; i < 1200; ++i) {
       const auto jobs = all_jobs(client);
       if (std::all_of(jobs.begin(), jobs.end(), has_ended)) return;

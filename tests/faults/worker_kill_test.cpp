@@ -11,10 +11,10 @@
 
 #include "faults/fault_fixture.h"
 #include "faults/rounds.h"
-#include "jobs/job_state.h"
 #include "server/job_numbers.h"
 #include "server/small_case.h"
 #include "server/watch_contract.h"
+#include "store/job_state.h"
 
 namespace cellcrush::testing {
 namespace {
@@ -28,7 +28,7 @@ class WorkerKillTest : public FaultFixture {
       wait_for_samples(client, job, client.history(job).size() + 5);
       std::this_thread::sleep_for(std::chrono::milliseconds(random() % 150));
       const auto now = client.get(job);
-      if (jobs::is_terminal(now.state())) return kills;
+      if (store::is_terminal(now.state())) return kills;
       const auto worker = static_cast<pid_t>(now.worker_pid());
       if (worker == 0 || worker == std::exchange(last, worker)) continue;
       if (kill(worker, SIGKILL) == 0) ++kills;

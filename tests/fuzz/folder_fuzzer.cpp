@@ -55,7 +55,7 @@ int count_reports(const std::filesystem::path& path) {
   return out;
 }
 
-void read_reports(const worker::JobFolder& folder) {
+void read_reports(const store::JobFolder& folder) {
   const int before = count_reports(folder.reports());
   worker::Report report;
   report.mutable_stopping();
@@ -66,7 +66,7 @@ void read_reports(const worker::JobFolder& folder) {
   }
 }
 
-void read_checkpoint(const worker::JobFolder& folder) {
+void read_checkpoint(const store::JobFolder& folder) {
   static_cast<void>(worker::find_checkpoint(folder, worker::Checkpoint::Origin()));
 }
 
@@ -81,7 +81,7 @@ extern "C" int LLVMFuzzerInitialize(int*, char***) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace cellcrush;
   static const testing::TemporaryFolder place;
-  static const worker::JobFolder folder(place.path());
+  static const store::JobFolder folder(place.path());
   if (size == 0) return 0;
   const std::string bytes(reinterpret_cast<const char*>(data) + 1, size - 1);
   const bool is_sound = data[0] >= 128;

@@ -42,7 +42,7 @@ class CheckpointFileTest : public ::testing::Test {
   }
 
   testing::TemporaryFolder folder_;
-  JobFolder job_{folder_.path()};
+  store::JobFolder job_{folder_.path()};
 };
 
 TEST_F(CheckpointFileTest, TheNewestCounts) {

@@ -132,7 +132,7 @@ bool is_alive(pid_t process) {
 void kill_workers(const std::filesystem::path& data_folder) {
   std::error_code none;
   for (const auto& entry : std::filesystem::directory_iterator(data_folder / "jobs", none)) {
-    if (const auto claimed = worker::find_claim(worker::JobFolder(entry.path()))) kill(claimed->process, SIGKILL);
+    if (const auto claimed = worker::find_claim(store::JobFolder(entry.path()))) kill(claimed->process, SIGKILL);
   }
 }
 

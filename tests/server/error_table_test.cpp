@@ -1,4 +1,4 @@
-#include "rpc/error_table.h"
+#include "error_table.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

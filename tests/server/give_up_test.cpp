@@ -36,7 +36,7 @@ class GiveUpTest : public ::testing::Test {
   }
 
   testing::TemporaryFolder folder_;
-  JobFolder job_{folder_.path()};
+  store::JobFolder job_{folder_.path()};
   Order order_;
   Report last_;  ///< of those that were read
   int samples_ = 0;

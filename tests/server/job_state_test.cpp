@@ -1,10 +1,10 @@
-#include "jobs/job_state.h"
+#include "store/job_state.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
 
-namespace cellcrush::jobs {
+namespace cellcrush::store {
 namespace {
 
 constexpr std::array kAll = {v1::JOB_STATE_UNSPECIFIED,
@@ -39,4 +39,4 @@ TEST(JobState, OnlyARunSucceeds) {
 }
 
 }  // namespace
-}  // namespace cellcrush::jobs
+}  // namespace cellcrush::store

@@ -36,7 +36,7 @@ class OomKillTest : public ::testing::Test {
   }
 
   testing::TemporaryFolder folder_;
-  worker::JobFolder job_{folder_.path() / "1"};
+  store::JobFolder job_{folder_.path() / "1"};
 };
 
 TEST_F(OomKillTest, AKillThatTheKernelCountedIsOutOfMemory) {

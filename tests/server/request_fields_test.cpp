@@ -10,7 +10,7 @@
 #include "cellcrush/v1/cases_service.pb.h"
 #include "cellcrush/v1/jobs_service.pb.h"
 #include "cellcrush/v1/sweeps_service.pb.h"
-#include "jobs/resource_name.h"
+#include "store/resource_name.h"
 
 namespace cellcrush {
 namespace {
@@ -41,7 +41,7 @@ std::set<std::string> texts_of_requests() {
 }
 
 // A field that comes to a request must be added here, by one who has looked at what the daemon does with it. None of these
-// is a path: names become numbers (jobs/resource_name.h) before a folder is named after one, the others are kept or compared
+// is a path: names become numbers (store/resource_name.h) before a folder is named after one, the others are kept or compared
 // as they are.
 TEST(RequestFields, NoTextOfARequestNamesAFileOfTheDaemon) {
   const std::set<std::string> known = {
@@ -70,9 +70,9 @@ TEST(RequestFields, NoTextOfARequestNamesAFileOfTheDaemon) {
 TEST(RequestFields, NoNameWithAWayThroughFoldersIsANumber) {
   for (const char* name : {"jobs/../1", "jobs/1/..", "jobs/1/../2", "../jobs/1", "/jobs/1", "jobs//1", "jobs/./1",
                            "jobs/01", "jobs/+1", "jobs/-1", "jobs/1 ", "jobs/", "jobs/18446744073709551617", ""})
-    EXPECT_FALSE(jobs::number_of(name)) << name;
-  EXPECT_FALSE(jobs::number_of(std::string("jobs/1\0", 7)));
-  EXPECT_EQ(jobs::number_of("jobs/1"), 1);
+    EXPECT_FALSE(store::number_of(name)) << name;
+  EXPECT_FALSE(store::number_of(std::string("jobs/1\0", 7)));
+  EXPECT_EQ(store::number_of("jobs/1"), 1);
 }
 
 }  // namespace

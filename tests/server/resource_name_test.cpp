@@ -1,8 +1,8 @@
-#include "jobs/resource_name.h"
+#include "store/resource_name.h"
 
 #include <gtest/gtest.h>
 
-namespace cellcrush::jobs {
+namespace cellcrush::store {
 namespace {
 
 TEST(ResourceName, IsReadBackAsItIsWritten) {
@@ -20,4 +20,4 @@ TEST(ResourceName, NothingElseIsAName) {
 }
 
 }  // namespace
-}  // namespace cellcrush::jobs
+}  // namespace cellcrush::store

@@ -1,6 +1,6 @@
 #include "server/watch_contract.h"
 
-#include "jobs/job_state.h"
+#include "store/job_state.h"
 
 namespace cellcrush::testing {
 
@@ -18,7 +18,7 @@ void WatchContract::see(const v1::JobEvent& event) {
   }
   require(event.sequence() == sequence_, "What has no number of its own carries that of the last event.");
   require(event.has_frame() || parts_left_ == 0, "The parts of a frame come together.");
-  if (event.has_snapshot()) had_ended_ = jobs::is_terminal(event.snapshot().job().state());
+  if (event.has_snapshot()) had_ended_ = store::is_terminal(event.snapshot().job().state());
   if (event.has_frame()) see_frame(event.frame());
 }
 
@@ -36,9 +36,9 @@ void WatchContract::see_numbered(const v1::JobEvent& event) {
   } else {
     const v1::JobState next = event.state().state();
     require(sequence_ != 1 || next == v1::PENDING, "A job begins PENDING.");
-    require(!state_ || begins_again || jobs::may_follow(*state_, next), "A state follows one that it may follow.");
+    require(!state_ || begins_again || store::may_follow(*state_, next), "A state follows one that it may follow.");
     state_ = next;
-    job_ended_ = jobs::is_terminal(next);
+    job_ended_ = store::is_terminal(next);
   }
   numbered_.push_back(event);
 }

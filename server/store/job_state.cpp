@@ -1,10 +1,10 @@
-#include "jobs/job_state.h"
+#include "store/job_state.h"
 
 #include <algorithm>
 #include <array>
 #include <utility>
 
-namespace cellcrush::jobs {
+namespace cellcrush::store {
 namespace {
 
 using Step = std::pair<v1::JobState, v1::JobState>;
@@ -36,4 +36,4 @@ bool may_follow(v1::JobState from, v1::JobState to) {
 
 bool is_terminal(v1::JobState state) { return state == v1::SUCCEEDED || state == v1::FAILED || state == v1::CANCELLED; }
 
-}  // namespace cellcrush::jobs
+}  // namespace cellcrush::store

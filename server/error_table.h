@@ -9,7 +9,7 @@
 #include "cellcrush/v1/problem.pb.h"
 #include "error.h"
 
-namespace cellcrush::rpc {
+namespace cellcrush {
 
 // The one place that turns errors into gRPC statuses.
 
@@ -37,4 +37,4 @@ grpc::Status answer(const Body& body) {
   }
 }
 
-}  // namespace cellcrush::rpc
+}  // namespace cellcrush

@@ -1,8 +1,8 @@
-#include "jobs/resource_name.h"
+#include "store/resource_name.h"
 
 #include <charconv>
 
-namespace cellcrush::jobs {
+namespace cellcrush::store {
 namespace {
 
 constexpr std::string_view kJobs = "jobs/";
@@ -32,4 +32,4 @@ std::string sweep_name_of(std::int64_t sweep) { return name_in(kSweeps, sweep); 
 
 std::optional<std::int64_t> sweep_number_of(std::string_view name) { return number_in(kSweeps, name); }
 
-}  // namespace cellcrush::jobs
+}  // namespace cellcrush::store

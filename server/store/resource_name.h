@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace cellcrush::jobs {
+namespace cellcrush::store {
 
 /// "jobs/12" for 12.
 std::string name_of(std::int64_t job);
@@ -19,4 +19,4 @@ std::string sweep_name_of(std::int64_t sweep);
 /// 12 for "sweeps/12"; nothing for what cannot be the name of a sweep.
 std::optional<std::int64_t> sweep_number_of(std::string_view name);
 
-}  // namespace cellcrush::jobs
+}  // namespace cellcrush::store

@@ -1,4 +1,4 @@
-#include "rpc/error_table.h"
+#include "error_table.h"
 
 #include <spdlog/spdlog.h>
 
@@ -7,7 +7,7 @@
 #include "google/rpc/error_details.pb.h"
 #include "google/rpc/status.pb.h"
 
-namespace cellcrush::rpc {
+namespace cellcrush {
 namespace {
 
 using Problems = google::protobuf::RepeatedPtrField<v1::Problem>;
@@ -140,4 +140,4 @@ grpc::Status status_of(const std::exception& error) {
   return {grpc::StatusCode::INTERNAL, std::string("Internal error of the daemon: ") + error.what()};
 }
 
-}  // namespace cellcrush::rpc
+}  // namespace cellcrush

@@ -3,10 +3,10 @@
 #include <filesystem>
 #include <utility>
 
-namespace cellcrush::worker {
+namespace cellcrush::store {
 
 /// What a job's folder holds: the result, and while the job has not ended what its worker and the daemon share
-/// (job_folder.md).
+/// (worker/job_folder.md).
 class JobFolder {
  public:
   explicit JobFolder(std::filesystem::path root) : root_(std::move(root)) {}
@@ -26,4 +26,4 @@ class JobFolder {
   std::filesystem::path root_;
 };
 
-}  // namespace cellcrush::worker
+}  // namespace cellcrush::store
