@@ -1,22 +1,6 @@
 #include "measure/theory.h"
 
-#include <numbers>
-
 namespace cellcrush {
-
-double collapse_stress_of(const HexagonLattice& lattice, double yield_stress, LoadingSpec::Direction /*direction*/) {
-  const double slenderness = *lattice.wall_thickness_mm / *lattice.side_mm;
-  return 2.0 / 3.0 * yield_stress * slenderness * slenderness;
-}
-
-double collapse_stress_of(const SquareLattice& lattice, double yield_stress, LoadingSpec::Direction /*direction*/) {
-  return yield_stress * *lattice.wall_thickness_mm / *lattice.side_mm;
-}
-
-double collapse_stress_of(const TriangleLattice& lattice, double yield_stress, LoadingSpec::Direction direction) {
-  const double factor = direction == LoadingSpec::Direction::x ? 2.0 / std::numbers::sqrt3 : std::numbers::sqrt3;
-  return factor * yield_stress * *lattice.wall_thickness_mm / *lattice.side_mm;
-}
 
 double relative_density_of(const Scene& scene) {
   const double envelope = scene.length * scene.width * scene.depth;

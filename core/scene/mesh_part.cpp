@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <numbers>
 
-#include "measure/theory.h"
 #include "scene/check_overlap.h"
+#include "scene/collapse_stress.h"
 #include "scene/frame.h"
 #include "scene/imperfection.h"
 #include "scene/lattices.h"
@@ -32,17 +32,6 @@ std::vector<Material> materials_of(const SceneSpec& spec) {
   return materials;
 }
 
-double collapse_stress_of_lattice(const SceneSpec& spec) {
-  const double yield_stress = *spec.material.yield_stress_mpa;
-  if (const auto* hexagon = std::get_if<HexagonLattice>(&spec.lattice)) {
-    return collapse_stress_of(*hexagon, yield_stress, spec.loading.direction);
-  }
-  if (const auto* square = std::get_if<SquareLattice>(&spec.lattice)) {
-    return collapse_stress_of(*square, yield_stress, spec.loading.direction);
-  }
-  return collapse_stress_of(std::get<TriangleLattice>(spec.lattice), yield_stress, spec.loading.direction);
-}
-
 /// Lays out the lattice, and takes its measures where it is a regular one.
 Layout lay_out(const SceneSpec& spec, Scene& scene) {
   const auto lattice = regular_lattice_of(spec);
@@ -53,7 +42,7 @@ Layout lay_out(const SceneSpec& spec, Scene& scene) {
   const int axis = crush_axis_of(spec);
   scene.length = envelope[axis];
   scene.width = envelope[1 - axis];
-  scene.collapse_stress = collapse_stress_of_lattice(spec);
+  scene.collapse_stress = collapse_stress_of(spec);
   Layout layout = lay_out(*lattice);
   const std::vector<Vector2> places = layout.joints;
   perturb(spec.imperfection, layout.joints);
