@@ -5,6 +5,7 @@
 #include <string_view>
 #include <tuple>
 
+#include "house/folder_arrows.h"
 #include "house/include_line.h"
 
 namespace cellcrush::house {
@@ -50,12 +51,14 @@ std::string broken_rule(const std::string& file, const std::string& target, cons
   return "";
 }
 
-void check_file(const fs::path& root, const std::string& file, std::vector<Violation>& violations) {
+void check_file(const fs::path& root, const std::string& file, FolderArrows& arrows,
+                std::vector<Violation>& violations) {
   const std::vector<IncludeLine> includes = read_includes(root / file);
   const bool has_message = std::any_of(includes.begin(), includes.end(),
                                        [](const auto& include) { return is_message_header(include.target); });
   for (const IncludeLine& include : includes) {
     const std::string resolved = resolve_include(root, file, include.target);
+    arrows.add(file, include.line, resolved);
     std::string rule = broken_rule(file, include.target, resolved);
     if (rule.empty() && has_message && is_within(file, "server") && !is_within(file, "server/translate") &&
         is_within(resolved, "core"))
@@ -77,13 +80,15 @@ std::vector<Violation> check_house(const fs::path& root) {
     const std::string name = entry.path().filename().string();
     if (!is_agreed(name)) violations.push_back({name, 0, "The root of the tree holds agreed entries only."});
   }
+  FolderArrows arrows;
   for (const char* folder : {"core", "server", "client-cli", "proto", "tests"}) {
     if (!fs::exists(root / folder)) continue;
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / folder)) {
       if (!entry.is_regular_file() || !is_source(entry.path())) continue;
-      check_file(root, entry.path().lexically_relative(root).generic_string(), violations);
+      check_file(root, entry.path().lexically_relative(root).generic_string(), arrows, violations);
     }
   }
+  for (Violation& cycle : arrows.find_cycles()) violations.push_back(std::move(cycle));
   std::sort(violations.begin(), violations.end(),
             [](const Violation& a, const Violation& b) { return std::tie(a.file, a.line) < std::tie(b.file, b.line); });
   return violations;

@@ -21,6 +21,7 @@ struct Violation {
 /// - server includes no header of core but those in core/include;
 /// - client-cli includes no header of core or server;
 /// - of server, only server/translate joins messages (*.pb.h) and core's headers in one file;
+/// - no two folders of core, and none of server, include each other, directly or along other folders;
 /// - nobody but tests includes tests;
 /// - the root holds the agreed entries and no other.
 ///

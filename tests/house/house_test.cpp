@@ -116,6 +116,22 @@ TEST_F(PlantedTree, OnlyTranslateJoinsMessagesAndCore) {
                "only server/translate joins");
 }
 
+TEST_F(PlantedTree, FoldersOfCoreMayNotIncludeEachOther) {
+  write("core/beam/element.h", "#pragma once\n");
+  write("core/step/loads.cpp", "#include \"beam/element.h\"\n");
+  expect_found("core/beam/bad.cpp", "\"step/advance.h\"",
+               "core/beam -> core/step -> core/beam, by\n  core/beam/bad.cpp:3\n  core/step/loads.cpp:1");
+}
+
+TEST_F(PlantedTree, FoldersOfServerMayNotIncludeEachOtherAlongOthers) {
+  write("server/worker/run.h", "#pragma once\n");
+  write("server/translate/spec.h", "#pragma once\n#include \"worker/run.h\"\n");
+  write("server/translate/more.cpp", "#include \"worker/run.h\"\n");
+  expect_found("server/store/bad.cpp", "\"translate/spec.h\"",
+               "server/store -> server/translate -> server/worker -> server/store, by\n  server/store/bad.cpp:3\n"
+               "  server/translate/more.cpp:1\n  server/translate/spec.h:2\n  server/worker/run.cpp:2");
+}
+
 TEST_F(PlantedTree, NobodyIncludesTests) {
   expect_found("server/worker/bad.cpp", "\"tests/core/helper.h\"", "nobody but tests includes tests");
 }
