@@ -12,7 +12,8 @@ fail() {
   exit 1
 }
 
-# logged NAME COMMAND...: runs the command with its output in build/log/NAME.log. When it fails, shows the end of the log.
+# logged NAME COMMAND...: runs the command with its output in build/log/NAME.log. When it fails, shows the end of the
+# log.
 logged() {
   local name=$1
   shift
@@ -52,7 +53,8 @@ build_preset() {
   fi
   local log=$log_folder/build-$preset.log
   mkdir -p "$log_folder"
-  if ! (cd "$root" && cmake --build --preset "$preset" --parallel "$(nproc)") 2>&1 </dev/null | tee "$log" | show_ninja_progress; then
+  if ! (cd "$root" && cmake --build --preset "$preset" --parallel "$(nproc)") 2>&1 </dev/null | tee "$log" |
+    show_ninja_progress; then
     grep -nE 'FAILED:|error:|undefined reference' "$log" | head -n 20 >&2 || tail -n 40 "$log" >&2
     fail "" "Failed: the build of preset $preset." "Full log: $log"
   fi

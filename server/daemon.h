@@ -28,8 +28,8 @@ class Daemon {
   /// Reads certificates and tokens again (Gate::read_files_again). Thread-safe.
   void read_files_again();
 
-  /// Lets running workers leave their jobs at a checkpoint, closes watches and calls, within a few seconds. These jobs and those
-  /// that wait are run by the next daemon on the same data folder. Safe to call twice.
+  /// Lets running workers leave their jobs at a checkpoint, closes watches and calls, within a few seconds. These jobs
+  /// and those that wait are run by the next daemon on the same data folder. Safe to call twice.
   void stop();
 
  private:

@@ -19,8 +19,8 @@ struct ListenAddress {
   [[nodiscard]] bool is_loopback() const;
 };
 
-/// Reads "unix:PATH" or "HOST:PORT", where the host is "localhost", an IPv4 address or an IPv6 address in brackets. Throws
-/// ServiceError (invalid) for anything else, and for a path too long for a socket.
+/// Reads "unix:PATH" or "HOST:PORT", where the host is "localhost", an IPv4 address or an IPv6 address in brackets.
+/// Throws ServiceError (invalid) for anything else, and for a path too long for a socket.
 ListenAddress parse_listen_address(std::string_view text);
 
 /// Removes what an ended daemon left at the path. Throws ServiceError (failed_precondition) when something answers

@@ -10,8 +10,8 @@ namespace cellcrush {
 /// of text.
 std::unique_ptr<spdlog::formatter> make_text_formatter();
 
-/// A JSON object a line: time (UTC, ISO 8601), level, the line's fields (log_fields.h) and message. A line without fields
-/// has the name of the job that its message begins with, if it does.
+/// A JSON object a line: time (UTC, ISO 8601), level, the line's fields (log_fields.h) and message. A line without
+/// fields has the name of the job that its message begins with, if it does.
 std::unique_ptr<spdlog::formatter> make_json_formatter();
 
 }  // namespace cellcrush

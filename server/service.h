@@ -12,13 +12,13 @@
 
 namespace cellcrush {
 
-/// All of a daemon behind its addresses: store, jobs, watches and gRPC services on one data folder. Calls are answered as soon as a
-/// server has it; jobs run between start and stop.
+/// All of a daemon behind its addresses: store, jobs, watches and gRPC services on one data folder. Calls are answered
+/// as soon as a server has it; jobs run between start and stop.
 class Service {
  public:
-  /// `gate` outlives it; `step_cost`: seconds of one core for a step of an element. Of the options those about addresses and access
-  /// are not used. `on_drain` is called when a client has asked the daemon to end, and new jobs are refused. Throws ServiceError when
-  /// the data folder is taken or cannot be used.
+  /// `gate` outlives it; `step_cost`: seconds of one core for a step of an element. Of the options those about
+  /// addresses and access are not used. `on_drain` is called when a client has asked the daemon to end, and new jobs
+  /// are refused. Throws ServiceError when the data folder is taken or cannot be used.
   Service(const DaemonOptions& options, const access::Gate& gate, double step_cost, std::function<void()> on_drain);
   ~Service();
   Service(const Service&) = delete;

@@ -1,4 +1,5 @@
-# Writes OUTPUT, a source file, from revision.cpp.in; leaves it alone when nothing has changed, so that nothing is compiled again.
+# Writes OUTPUT, a source file, from revision.cpp.in; leaves it alone when nothing has changed, so that nothing is
+# compiled again.
 #   cmake -DSOURCE=DIR -DOUTPUT=FILE -DVERSION=X.Y.Z -DBUILD=TEXT [-DGIT=PROGRAM] -P stamp_revision.cmake
 # SOURCE is the top of the tree, BUILD names compiler and flags.
 cmake_minimum_required(VERSION 3.25)
@@ -22,7 +23,8 @@ endif()
 
 # What the solver computes with: its sources, those that make its scene of a case, and what compiled them.
 file(GLOB_RECURSE sources RELATIVE ${SOURCE}
-  ${SOURCE}/core/*.h ${SOURCE}/core/*.cpp ${SOURCE}/core/CMakeLists.txt ${SOURCE}/server/translate/*.h ${SOURCE}/server/translate/*.cpp)
+  ${SOURCE}/core/*.h ${SOURCE}/core/*.cpp ${SOURCE}/core/CMakeLists.txt ${SOURCE}/server/translate/*.h
+  ${SOURCE}/server/translate/*.cpp)
 list(SORT sources)
 set(hashes "${BUILD}\n")
 foreach(source IN LISTS sources)

@@ -14,8 +14,8 @@ struct JobHistory {
   std::vector<v1::Sample> samples;
 };
 
-/// Stress at both plates against strain, smoothed over 2 % strain, with the samples behind it as thin lines, the plateau
-/// levels over their window and theory's levels.
+/// Stress at both plates against strain, smoothed over 2 % strain, with the samples behind it as thin lines, the
+/// plateau levels over their window and theory's levels.
 Chart build_job_chart(const JobHistory& history);
 
 /// The smoothed curves of several jobs: the impact plate's solid, the support plate's dashed, a colour a job.

@@ -13,8 +13,8 @@ namespace cellcrush::client {
 /// those at a third and two thirds of its time.
 std::vector<MeshFrame> fetch_default_stages(Connection& connection, const std::string& name);
 
-/// `count` frames evenly spaced in strain from the undeformed lattice to the last one (an explicit frame's: in time), or
-/// fewer when the run kept fewer; one is the last. REQUIRES: count is above 0.
+/// `count` frames evenly spaced in strain from the undeformed lattice to the last one (an explicit frame's: in time),
+/// or fewer when the run kept fewer; one is the last. REQUIRES: count is above 0.
 std::vector<MeshFrame> fetch_strip(Connection& connection, const std::string& name, int count);
 
 /// The frames nearest to these strains.

@@ -24,9 +24,9 @@ struct Credentials {
   std::string token;        ///< empty: none
 };
 
-/// Reads what the options and the environment name, for a server address of find_server_address. A Unix socket takes none
-/// of it. Throws CommandError (refused): a file cannot be read or is not what it should be, --tls-cert without --tls-key or
-/// without an authority, or a token that would go in plain text to another host.
+/// Reads what the options and the environment name, for a server address of find_server_address. A Unix socket takes
+/// none of it. Throws CommandError (refused): a file cannot be read or is not what it should be, --tls-cert without
+/// --tls-key or without an authority, or a token that would go in plain text to another host.
 Credentials read_credentials(const CredentialFiles& files, const std::string& address);
 
 /// A channel that talks so; the token goes with every call.

@@ -20,8 +20,8 @@ class JobWatcher {
 
 /// Follows a job from its first event to its last. A stream that breaks is picked up behind the last event that came, a
 /// few times over about ten seconds; a stream that is silent for a minute counts as broken, since a live server sends
-/// something every 15 s. Returns true at the job's end and false when `interruption` was requested. Throws CommandError:
-/// cut_off when the stream stays broken, else what the server says.
+/// something every 15 s. Returns true at the job's end and false when `interruption` was requested. Throws
+/// CommandError: cut_off when the stream stays broken, else what the server says.
 bool follow_job(Connection& connection, const std::string& name, bool frames, const Interruption& interruption,
                 JobWatcher& watcher);
 

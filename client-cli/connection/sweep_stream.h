@@ -18,7 +18,8 @@ class SweepWatcher {
 };
 
 /// Follows a sweep until all its jobs have ended. A stream that breaks is picked up by the token that came last, as
-/// follow_stream says. Returns true at the sweep's end and false when `interruption` was requested. Throws CommandError.
+/// follow_stream says. Returns true at the sweep's end and false when `interruption` was requested. Throws
+/// CommandError.
 bool follow_sweep(Connection& connection, const std::string& name, const Interruption& interruption,
                   SweepWatcher& watcher);
 

@@ -23,7 +23,8 @@ class JobView {
 /// A bar `width` columns wide, filled to `fraction`.
 std::string bar_text(double fraction, int width, const Terminal& terminal);
 
-/// The lines of the display that is redrawn in place, none wider than `width` columns. A narrow terminal gets more lines.
+/// The lines of the display that is redrawn in place, none wider than `width` columns. A narrow terminal gets more
+/// lines.
 std::vector<std::string> progress_lines(const JobView& view, int width, const Terminal& terminal);
 
 /// The same in one line of any width, for a log.

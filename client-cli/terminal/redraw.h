@@ -5,7 +5,8 @@
 
 namespace cellcrush::client {
 
-/// Lines on a terminal that are drawn over those before, each redraw in one write. Nothing else may be printed in between.
+/// Lines on a terminal that are drawn over those before, each redraw in one write. Nothing else may be printed in
+/// between.
 class Redraw {
  public:
   void show(const std::vector<std::string>& lines);

@@ -18,8 +18,8 @@ class SweepDisplay : public SweepWatcher {
   SweepView view_;
 };
 
-/// The display for the place: every response as JSON, a line a job redrawn in place on a terminal, else at most a line a
-/// second.
+/// The display for the place: every response as JSON, a line a job redrawn in place on a terminal, else at most a line
+/// a second.
 std::unique_ptr<SweepDisplay> make_sweep_display(bool json, const Terminal& terminal);
 
 }  // namespace cellcrush::client

@@ -32,7 +32,8 @@ struct Options {
 /// file's permissions. Refused calls are warned of in the log. Thread-safe.
 class Gate {
  public:
-  /// Reads the files. Throws ServiceError (invalid) for options that do not go together, and for a file that cannot be used.
+  /// Reads the files. Throws ServiceError (invalid) for options that do not go together, and for a file that cannot be
+  /// used.
   explicit Gate(const Options& options);
 
   /// With what a server listens on the address, including the check of each call. The gate and the credentials outlive

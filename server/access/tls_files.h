@@ -14,8 +14,8 @@ struct TlsFiles {
 };
 
 /// Reads and checks what --tls-cert, --tls-key and --tls-client-ca name; the last may be empty. Throws ServiceError
-/// (invalid), which names the option and the file: it cannot be read or is not PEM, the certificate has expired or is not
-/// valid yet, the key is that of another one, needs a password, or can be read by others.
+/// (invalid), which names the option and the file: it cannot be read or is not PEM, the certificate has expired or is
+/// not valid yet, the key is that of another one, needs a password, or can be read by others.
 TlsFiles read_tls_files(const std::filesystem::path& certificate, const std::filesystem::path& key,
                         const std::filesystem::path& client_authority);
 

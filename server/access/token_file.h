@@ -17,14 +17,14 @@ namespace cellcrush::access {
 /// read.
 class TokenFile {
  public:
-  /// Throws ServiceError (invalid) with the option, the file and the line: a file that cannot be read, that others can read
-  /// or write, a line that is none, a hash that comes twice, a name with two scopes, no token at all.
+  /// Throws ServiceError (invalid) with the option, the file and the line: a file that cannot be read, that others can
+  /// read or write, a line that is none, a hash that comes twice, a name with two scopes, no token at all.
   explicit TokenFile(const std::filesystem::path& path);
 
   [[nodiscard]] std::size_t size() const { return entries_.size(); }
 
-  /// Whose token it is; nothing for one that is not in the file. The time it takes says nothing about how much of a hash
-  /// was right.
+  /// Whose token it is; nothing for one that is not in the file. The time it takes says nothing about how much of a
+  /// hash was right.
   [[nodiscard]] std::optional<Caller> find(std::string_view token) const;
 
  private:

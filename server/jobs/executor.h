@@ -52,15 +52,15 @@ class Executor {
   /// Whether a worker runs in the folder.
   virtual bool has_worker(const store::JobFolder& folder) = 0;
 
-  /// Tells all that workers have reported in the folder. How the job ended, if the last of them has ended it. REQUIRES: none runs
-  /// in it.
+  /// Tells all that workers have reported in the folder. How the job ended, if the last of them has ended it. REQUIRES:
+  /// none runs in it.
   virtual std::optional<WorkerExit> take_last_word(const store::JobFolder& folder, const WorkerEvents& events) = 0;
 
   /// Ends the worker that runs in the folder, if one does.
   virtual void end_worker(const store::JobFolder& folder) = 0;
 
-  /// Goes along with the worker that runs in the folder, or starts one; waits until it has ended or left the job. All that
-  /// the folder's workers have reported is told. An exception thrown by `events` ends the worker and is passed on.
+  /// Goes along with the worker that runs in the folder, or starts one; waits until it has ended or left the job. All
+  /// that the folder's workers have reported is told. An exception thrown by `events` ends the worker and is passed on.
   virtual WorkerExit run(const store::JobFolder& folder, const worker::Order& order, const WorkerEvents& events,
                          const Interruptions& interruptions) = 0;
 };

@@ -19,10 +19,10 @@
 
 namespace cellcrush::jobs {
 
-/// Runs a job in a worker and writes in the journal what comes of it. A job whose worker is lost waits for another one, until
-/// kMostLosses in a row have got no further than the one before; a last worker then makes a result of what they reported, as
-/// it does when the worker of a cancelled job is gone. A shortage ends no job: the job waits again as it was, and the
-/// queue is held. Thread-safe.
+/// Runs a job in a worker and writes in the journal what comes of it. A job whose worker is lost waits for another one,
+/// until kMostLosses in a row have got no further than the one before; a last worker then makes a result of what they
+/// reported, as it does when the worker of a cancelled job is gone. A shortage ends no job: the job waits again as it
+/// was, and the queue is held. Thread-safe.
 class JobRunner {
  public:
   static constexpr int kMostLosses = 3;
@@ -44,8 +44,8 @@ class JobRunner {
 
   explicit JobRunner(const Parts& parts) : parts_(parts) {}
 
-  /// Runs a job that is PENDING, or goes along with the worker that has it, until it has ended or was left. Whether it is
-  /// PENDING again, to be tried again. What became of it is written until it can be, or the daemon ends. Throws
+  /// Runs a job that is PENDING, or goes along with the worker that has it, until it has ended or was left. Whether it
+  /// is PENDING again, to be tried again. What became of it is written until it can be, or the daemon ends. Throws
   /// nothing.
   bool run(std::int64_t job, int threads, const Interruptions& interruptions, const std::stop_token& daemons_end);
 
@@ -71,7 +71,8 @@ class JobRunner {
   };
 
   worker::Order order_of(const store::StoredJob& stored) const;
-  /// The state that was written; PENDING also when the job is to be run again as it is, CANCELLING when another came first.
+  /// The state that was written; PENDING also when the job is to be run again as it is, CANCELLING when another came
+  /// first.
   v1::JobState run_once(std::int64_t job, Run& run);
   store::StateChange next_of(const store::StoredJob& stored, Run& run);
   /// What becomes of a job whose worker is gone; nothing when it was cancelled and is to be given up.

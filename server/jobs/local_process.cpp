@@ -18,8 +18,8 @@
 namespace cellcrush::jobs {
 namespace {
 
-// Starts a worker in the folder, with no other descriptors but the standard three, which are those of nobody: it outlives the
-// daemon. Returns 0 or an errno.
+// Starts a worker in the folder, with no other descriptors but the standard three, which are those of nobody: it
+// outlives the daemon. Returns 0 or an errno.
 int spawn(const std::filesystem::path& program, const store::JobFolder& folder, pid_t& pid) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);

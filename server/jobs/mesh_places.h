@@ -9,8 +9,8 @@
 
 namespace cellcrush::jobs {
 
-/// Bounds the meshes that checks build at once, so that many calls do not take the daemon's memory: a few small ones of some
-/// 25 MB at most, and one larger. The mesh of two million elements takes some 900 MB and two seconds. Thread-safe.
+/// Bounds the meshes that checks build at once, so that many calls do not take the daemon's memory: a few small ones of
+/// some 25 MB at most, and one larger. The mesh of two million elements takes some 900 MB and two seconds. Thread-safe.
 class MeshPlaces {
  public:
   class Place;
@@ -36,8 +36,8 @@ class MeshPlaces {
 class MeshPlaces::Place {
  public:
   /// Waits for a place for a mesh of so many elements; of none there is nothing to wait for. Throws ServiceError:
-  /// cancelled once `given_up`, asked several times a second, says that nobody waits any more, exhausted when no place is
-  /// free within `patience`.
+  /// cancelled once `given_up`, asked several times a second, says that nobody waits any more, exhausted when no place
+  /// is free within `patience`.
   Place(MeshPlaces& places, std::int64_t elements, const std::function<bool()>& given_up,
         std::chrono::seconds patience = kPatience);
   ~Place();

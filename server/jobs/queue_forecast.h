@@ -40,8 +40,8 @@ double predicted_seconds(const store::QueuedJob& job, const JobFacts& facts, int
 /// Cores that a job gets beside its first one when it starts, of those that are then free; `waiting` others come first.
 int extra_cores(int threads, int free, std::size_t waiting);
 
-/// When each waiting job starts and why it does not now, found by playing the scheduler's rule (WaitingJobs, extra_cores) with
-/// predicted times. `facts_of` is asked of each job that the queue names.
+/// When each waiting job starts and why it does not now, found by playing the scheduler's rule (WaitingJobs,
+/// extra_cores) with predicted times. `facts_of` is asked of each job that the queue names.
 v1::Queue forecast_queue(const std::vector<RunningJob>& running, const std::vector<store::QueuedJob>& waiting,
                          const WorkerFacts& workers, const FactsOf& facts_of);
 

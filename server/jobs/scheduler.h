@@ -21,9 +21,9 @@
 
 namespace cellcrush::jobs {
 
-/// Runs waiting jobs in the order of WaitingJobs, at most as many at once as there are slots and as their sweeps allow. Each slot is a thread that lives as
-/// long as the scheduler and runs one job at a time. Jobs that ask for several threads get those cores that no other job
-/// uses or waits for when they start: side by side comes first. Thread-safe.
+/// Runs waiting jobs in the order of WaitingJobs, at most as many at once as there are slots and as their sweeps allow.
+/// Each slot is a thread that lives as long as the scheduler and runs one job at a time. Jobs that ask for several
+/// threads get those cores that no other job uses or waits for when they start: side by side comes first. Thread-safe.
 class Scheduler {
  public:
   /// What the scheduler works with; all of it outlives the scheduler.
@@ -43,8 +43,8 @@ class Scheduler {
   Scheduler(const Scheduler&) = delete;
   Scheduler& operator=(const Scheduler&) = delete;
 
-  /// Goes along with the workers that an earlier daemon left running, queues the jobs that wait and those whose worker is gone, and
-  /// starts the slots.
+  /// Goes along with the workers that an earlier daemon left running, queues the jobs that wait and those whose worker
+  /// is gone, and starts the slots.
   void start(int slots);
 
   /// Queues jobs that are PENDING in the journal.
@@ -61,9 +61,9 @@ class Scheduler {
   /// Takes jobs that are PENDING in the journal no more out of the queue.
   void forget(const std::vector<std::int64_t>& jobs);
 
-  /// A job that waits is SUSPENDED when this returns; one that runs is, too, or has ended. Nothing happens to one that is SUSPENDED
-  /// already. Throws ServiceError: not_found, failed_precondition when it has ended or is CANCELLING, or cancelled when
-  /// `given_up` says so first.
+  /// A job that waits is SUSPENDED when this returns; one that runs is, too, or has ended. Nothing happens to one that
+  /// is SUSPENDED already. Throws ServiceError: not_found, failed_precondition when it has ended or is CANCELLING, or
+  /// cancelled when `given_up` says so first.
   void suspend(std::int64_t job, const std::function<bool()>& given_up);
 
   /// Queues a job that is SUSPENDED; nothing happens to one that waits or runs. Throws ServiceError: not_found, or
@@ -85,8 +85,8 @@ class Scheduler {
   /// Cores that a job which runs holds; 1 for one that is about to.
   [[nodiscard]] int cores_of(std::int64_t job);
 
-  /// Lets running workers leave their jobs at a checkpoint, and waits until the slots are done. These jobs and those that wait are
-  /// PENDING for the next daemon.
+  /// Lets running workers leave their jobs at a checkpoint, and waits until the slots are done. These jobs and those
+  /// that wait are PENDING for the next daemon.
   void stop();
 
  private:

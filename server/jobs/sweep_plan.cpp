@@ -76,7 +76,8 @@ struct CheckedPoint {
   translate::CaseChecker::Verdict verdict;
 };
 
-// Checks points with several threads, each with a checker of its own: of points that share a mesh each thread builds one.
+// Checks points with several threads, each with a checker of its own: of points that share a mesh each thread builds
+// one.
 class PointChecker {
  public:
   PointChecker(const v1::Sweep& sweep, const SweepPoints& points, const PointChecking& checking)

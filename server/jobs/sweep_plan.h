@@ -26,8 +26,8 @@ struct PointChecking {
   std::function<bool()> given_up;  ///< whether nobody waits for the plan any more; called from every thread
 };
 
-/// Makes the case of every point, with the values in its title, and checks it as CheckCase does. Throws InvalidField when
-/// the sweep itself cannot be right, and ServiceError (cancelled) once it is given up.
+/// Makes the case of every point, with the values in its title, and checks it as CheckCase does. Throws InvalidField
+/// when the sweep itself cannot be right, and ServiceError (cancelled) once it is given up.
 SweepPlan plan_sweep(const v1::Sweep& sweep, const PointChecking& checking);
 
 }  // namespace cellcrush::jobs

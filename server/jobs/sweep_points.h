@@ -20,8 +20,8 @@ struct SweepPoints {
 /// The fields that a sweep varies: its axes in their order, or those of its points in the order of their names.
 std::vector<std::string> swept_fields(const v1::Sweep& sweep);
 
-/// All points of a sweep: every combination of its axes' values, the last axis changing fastest, or the points it names.
-/// Throws InvalidField when axes and points are not what they must be, or are more than kMostPoints.
+/// All points of a sweep: every combination of its axes' values, the last axis changing fastest, or the points it
+/// names. Throws InvalidField when axes and points are not what they must be, or are more than kMostPoints.
 SweepPoints expand(const v1::Sweep& sweep);
 
 }  // namespace cellcrush::jobs

@@ -21,8 +21,8 @@ constexpr std::chrono::seconds kToAcknowledge{2};
 constexpr std::chrono::seconds kToCloseTheResult{25};
 constexpr std::chrono::seconds kToLeaveTheJob{20};
 constexpr std::chrono::seconds kToEndAfterTheLastWord{5};
-// Between two looks at the reports, of a job that is watched and of one that is not. A worker says something some hundred times a
-// second: what it has said meanwhile is read together, and that of all workers at the same moments.
+// Between two looks at the reports, of a job that is watched and of one that is not. A worker says something some
+// hundred times a second: what it has said meanwhile is read together, and that of all workers at the same moments.
 constexpr std::chrono::milliseconds kLookForWatchers{50};
 constexpr std::chrono::milliseconds kLookAgain{200};
 

@@ -10,8 +10,8 @@
 
 namespace cellcrush::jobs {
 
-/// Goes along with what the workers of one job report, from the first one on, and hands wishes on to the one that runs. Not
-/// thread-safe. Failures throw ServiceError.
+/// Goes along with what the workers of one job report, from the first one on, and hands wishes on to the one that runs.
+/// Not thread-safe. Failures throw ServiceError.
 class WorkerFollower {
  public:
   WorkerFollower(const store::JobFolder& folder, const WorkerEvents& events, const Interruptions& interruptions,
@@ -20,8 +20,8 @@ class WorkerFollower {
   WorkerFollower(const WorkerFollower&) = delete;
   WorkerFollower& operator=(const WorkerFollower&) = delete;
 
-  /// Passes on what workers before have reported. Their last word, if the last of them had one. False when what they wrote is
-  /// no report.
+  /// Passes on what workers before have reported. Their last word, if the last of them had one. False when what they
+  /// wrote is no report.
   bool catch_up();
   [[nodiscard]] const std::optional<worker::Final>& last_word() const { return final_; }
 

@@ -9,9 +9,9 @@
 
 namespace cellcrush::jobs {
 
-/// A worker process: a child of this one, or one that an earlier daemon started. A child is ended and waited for at the latest
-/// when this goes away; another one goes on. Not thread-safe. To make one throws std::system_error where there is no
-/// descriptor for it; a child is then ended.
+/// A worker process: a child of this one, or one that an earlier daemon started. A child is ended and waited for at the
+/// latest when this goes away; another one goes on. Not thread-safe. To make one throws std::system_error where there
+/// is no descriptor for it; a child is then ended.
 class WorkerProcess {
  public:
   /// REQUIRES: `child` was started by this process and not waited for.

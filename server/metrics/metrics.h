@@ -17,11 +17,11 @@ namespace cellcrush::metrics {
 ///   cellcrush_jobs_waiting, cellcrush_jobs_running   jobs now
 ///   cellcrush_jobs_ended_total{state="SUCCEEDED"}    since the daemon's start, by the state in which they ended
 ///   cellcrush_steps_total                            time steps of ended jobs that left a result
-///   cellcrush_stage_seconds_total{stage="..."}       their processor time by stage of a step (the fields of StageTimes)
-///   cellcrush_steps_per_second                       of all running jobs, as they told it last
+///   cellcrush_stage_seconds_total{stage="..."}       their processor time by stage of a step (the fields of
+///   StageTimes) cellcrush_steps_per_second                       of all running jobs, as they told it last
 ///   cellcrush_commit_seconds                         histogram: what it takes to make a change or some samples durable
-///   cellcrush_event_seconds                          histogram: from news of a watched job to its message on the stream
-///   cellcrush_watchers                               open watches
+///   cellcrush_event_seconds                          histogram: from news of a watched job to its message on the
+///   stream cellcrush_watchers                               open watches
 ///   cellcrush_connections                            open connections of gRPC
 ///   cellcrush_refused_connections_total              connections beyond the limits
 ///   cellcrush_queue_held{cause="full_disk"}          1 while that holds the queue, otherwise 0; a cause each

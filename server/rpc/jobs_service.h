@@ -15,8 +15,8 @@
 
 namespace cellcrush::rpc {
 
-/// Jobs and their results. Thread-safe. Streams hold no thread, however slowly they are read; all other calls are answered
-/// by the pools.
+/// Jobs and their results. Thread-safe. Streams hold no thread, however slowly they are read; all other calls are
+/// answered by the pools.
 class JobsService final : public v1::Jobs::CallbackService {
  public:
   /// All of it outlives the service.

@@ -7,16 +7,16 @@
 
 namespace cellcrush::rpc {
 
-// Lengths of what a request may carry beside a case, in bytes. They are far beyond what is of use, so that a caller does not
-// keep the daemon busy with a text of 4 MiB, which a message may have.
+// Lengths of what a request may carry beside a case, in bytes. They are far beyond what is of use, so that a caller
+// does not keep the daemon busy with a text of 4 MiB, which a message may have.
 inline constexpr std::size_t kLongestName = 128;
 inline constexpr std::size_t kLongestFilter = 4096;
 inline constexpr std::size_t kLongestOrder = 128;
 inline constexpr std::size_t kLongestPageToken = 128;
 inline constexpr std::size_t kLongestResumeToken = 1024 * 1024;
 
-/// Of a case, or of a sweep with its case and points, in bytes: a Job or Sweep that is answered has besides what the daemon
-/// knows of it, and is to stay under the 4 MiB that a client takes by default.
+/// Of a case, or of a sweep with its case and points, in bytes: a Job or Sweep that is answered has besides what the
+/// daemon knows of it, and is to stay under the 4 MiB that a client takes by default.
 inline constexpr std::size_t kLargestCase = 4'000'000;
 
 /// Throws InvalidField when it is larger.

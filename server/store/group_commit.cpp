@@ -55,7 +55,8 @@ void GroupCommit::do_write(Write& write) {
   Statement(database_, "RELEASE own").run();
 }
 
-// Why a body failed may be what another one had written, which is not there either when the commit fails: that counts then.
+// Why a body failed may be what another one had written, which is not there either when the commit fails: that counts
+// then.
 void GroupCommit::fail(Write& write, std::exception_ptr error) noexcept {
   const bool is_undone = write.error != nullptr;
   write.error = std::move(error);

@@ -10,8 +10,8 @@
 
 namespace cellcrush::store {
 
-/// Lets several threads write on one connection and makes what they write meanwhile durable with one commit: waiting for the disk
-/// takes far longer than writing. Thread-safe.
+/// Lets several threads write on one connection and makes what they write meanwhile durable with one commit: waiting
+/// for the disk takes far longer than writing. Thread-safe.
 class GroupCommit {
  public:
   /// Told how many seconds a commit took, from the thread that committed.
@@ -23,9 +23,10 @@ class GroupCommit {
   GroupCommit(const GroupCommit&) = delete;
   GroupCommit& operator=(const GroupCommit&) = delete;
 
-  /// Runs `body`, whose statements are done one writer at a time and in a transaction, by this thread or another one; returns when
-  /// they are durable. What it throws, or what the commit fails with, is thrown here; nothing of this writer's is then in the
-  /// database, and `undo` was called, in the reverse order of the bodies. A body must not call run, and `undo` must not throw.
+  /// Runs `body`, whose statements are done one writer at a time and in a transaction, by this thread or another one;
+  /// returns when they are durable. What it throws, or what the commit fails with, is thrown here; nothing of this
+  /// writer's is then in the database, and `undo` was called, in the reverse order of the bodies. A body must not call
+  /// run, and `undo` must not throw.
   void run(const Step& body, const Step& undo = {});
 
  private:

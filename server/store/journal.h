@@ -47,8 +47,8 @@ class Journal {
   /// Told of a job that has new durable events, from the thread that wrote them.
   using Durable = std::function<void(std::int64_t job)>;
 
-  /// Asked once before something new is made, and not for what an earlier request made. What it throws is passed on, and
-  /// nothing is made; must not call back into the journal.
+  /// Asked once before something new is made, and not for what an earlier request made. What it throws is passed on,
+  /// and nothing is made; must not call back into the journal.
   using Admit = std::function<void()>;
   using AdmitMany = std::function<void(std::size_t jobs)>;
 
@@ -78,15 +78,15 @@ class Journal {
   CreatedSweep create_sweep(v1::Sweep sweep, const std::vector<SweepJob>& jobs, const std::string& request_id,
                             const std::string& request_hash, const Admit& admit = {});
 
-  /// Makes new PENDING jobs of those of the sweep that FAILED or that max_failures cancelled. They take the places of the
-  /// old ones, which stay as jobs without a sweep. Returns them in the order of the points.
+  /// Makes new PENDING jobs of those of the sweep that FAILED or that max_failures cancelled. They take the places of
+  /// the old ones, which stay as jobs without a sweep. Returns them in the order of the points.
   std::vector<QueuedJob> retry_failed(std::int64_t sweep, const AdmitMany& admit = {});
 
   /// Makes those of the jobs that are PENDING CANCELLED, all at once. Returns them.
   std::vector<std::int64_t> cancel_waiting(const std::vector<std::int64_t>& jobs);
 
-  /// Removes a job that has ended, with its events and its place in a sweep, and notes that its folder is to be removed.
-  /// Throws not_found, or failed_precondition when it has not ended.
+  /// Removes a job that has ended, with its events and its place in a sweep, and notes that its folder is to be
+  /// removed. Throws not_found, or failed_precondition when it has not ended.
   void delete_job(std::int64_t job);
 
   /// The same of those of the jobs that have ended, in one transaction. Returns them.
@@ -111,8 +111,8 @@ class Journal {
   /// dropped.
   void begin_again(std::int64_t job, const std::string& why);
 
-  /// Gathers a sample, to be durable within that time, with all others that were gathered by then. Never waits for the disk.
-  /// One whose step is not beyond that of the job's newest one is dropped: what is told again is there once.
+  /// Gathers a sample, to be durable within that time, with all others that were gathered by then. Never waits for the
+  /// disk. One whose step is not beyond that of the job's newest one is dropped: what is told again is there once.
   void append_sample(std::int64_t job, const v1::Sample& sample, std::chrono::milliseconds within = kSoon);
 
   /// Between two looks at what can be given back to the disk.

@@ -34,8 +34,8 @@ struct StoredSamples {
   bool has_more = false;           ///< whether others come behind them
 };
 
-/// Reads the journal beside its writer; sees what is committed. Thread-safe. Failures throw ServiceError: data_loss for an event
-/// that cannot be read.
+/// Reads the journal beside its writer; sees what is committed. Thread-safe. Failures throw ServiceError: data_loss for
+/// an event that cannot be read.
 class JournalReader {
  public:
   /// REQUIRES: a Journal has been opened on the same path.
@@ -77,8 +77,8 @@ class JournalReader {
   /// The same of one job; nothing unless it is in that state.
   std::optional<QueuedJob> queued_job(std::int64_t job, v1::JobState state);
 
-  /// States (without their cases) and samples behind `after`, in order. Ends before one that cannot be read; throws data_loss
-  /// when that is the first.
+  /// States (without their cases) and samples behind `after`, in order. Ends before one that cannot be read; throws
+  /// data_loss when that is the first.
   std::vector<v1::JobEvent> events(std::int64_t job, std::int64_t after, int limit);
 
   /// The samples behind the event `after`, in order. Ends before one that cannot be read; throws data_loss when that is

@@ -9,8 +9,8 @@
 
 namespace cellcrush::store {
 
-/// Writes /nodes/{id}/{ux_mm, uy_mm, rotation_rad} of a result: the motion of a frame's watched nodes, a row a sample, beside
-/// /history. Nothing is made for samples without watched nodes. Failures throw ServiceError.
+/// Writes /nodes/{id}/{ux_mm, uy_mm, rotation_rad} of a result: the motion of a frame's watched nodes, a row a sample,
+/// beside /history. Nothing is made for samples without watched nodes. Failures throw ServiceError.
 class NodeHistories {
  public:
   /// Appends the rows of some samples, all of which watch the same nodes. `file` is the open result.

@@ -10,7 +10,8 @@
 namespace cellcrush::store {
 
 /// Reads one complete result.h5 (result_format.md). A file whose bytes have changed since it was written is refused
-/// before HDF5 sees it (result_seal.h), and a dataset that is not as ResultWriter makes it before it is read (result_dataset.h). Not thread-safe. Failures throw ServiceError.
+/// before HDF5 sees it (result_seal.h), and a dataset that is not as ResultWriter makes it before it is read
+/// (result_dataset.h). Not thread-safe. Failures throw ServiceError.
 class ResultReader {
  public:
   explicit ResultReader(const std::filesystem::path& path);

@@ -58,12 +58,13 @@ class Database {
   using Prepared = std::unique_ptr<sqlite3_stmt, Finalize>;
 
   std::unique_ptr<sqlite3, Close> handle_;
-  /// What was prepared before and nobody uses now, by its text: to parse that takes longer than most statements themselves.
+  /// What was prepared before and nobody uses now, by its text: to parse that takes longer than most statements
+  /// themselves.
   std::map<std::string, std::vector<Prepared>, std::less<>> idle_;
 };
 
-/// A prepared statement, which goes back to its database for the next one of the same text; parameters and columns count from 1
-/// and 0, as in SQLite. The database outlives it.
+/// A prepared statement, which goes back to its database for the next one of the same text; parameters and columns
+/// count from 1 and 0, as in SQLite. The database outlives it.
 class Statement {
  public:
   Statement(Database& database, std::string_view sql) : Statement(database, sql, Reuse::yes) {}

@@ -13,8 +13,9 @@ class SpecChecker;
 
 namespace cellcrush::translate {
 
-/// Checks many cases with the problems of check_case and without its description. Those that have the mesh of an earlier
-/// one cost microseconds (cellcrush/spec_checker.h). Not thread-safe. Throws std::bad_alloc when a mesh does not fit.
+/// Checks many cases with the problems of check_case and without its description. Those that have the mesh of an
+/// earlier one cost microseconds (cellcrush/spec_checker.h). Not thread-safe. Throws std::bad_alloc when a mesh does
+/// not fit.
 class CaseChecker {
  public:
   CaseChecker();

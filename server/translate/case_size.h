@@ -5,9 +5,9 @@
 
 namespace cellcrush::translate {
 
-/// The lists of the case that are longer than any case needs, before anything else is done with it: a message of 4 MiB can
-/// hold millions of empty entries, each of which would be several problems. Nodes, beams, supports, loads and points of time
-/// functions: 200000; motions and watched nodes: 10000; rows of inclusions: 10000.
+/// The lists of the case that are longer than any case needs, before anything else is done with it: a message of 4 MiB
+/// can hold millions of empty entries, each of which would be several problems. Nodes, beams, supports, loads and
+/// points of time functions: 200000; motions and watched nodes: 10000; rows of inclusions: 10000.
 google::protobuf::RepeatedPtrField<v1::Problem> find_long_lists(const v1::Case& submitted);
 
 /// Problems that are told of one case; of the rest only the number is.

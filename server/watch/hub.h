@@ -39,8 +39,8 @@ class Channel {
   /// Whether somebody waits for news.
   [[nodiscard]] bool is_watched() const;
 
-  /// Returns the id to unsubscribe with. After unsubscribe returns, `wake` is not called again. A new frame wakes only those
-  /// who want frames.
+  /// Returns the id to unsubscribe with. After unsubscribe returns, `wake` is not called again. A new frame wakes only
+  /// those who want frames.
   std::uint64_t subscribe(Wake wake, bool frames);
   void unsubscribe(std::uint64_t id);
 

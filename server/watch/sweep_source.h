@@ -20,8 +20,8 @@
 namespace cellcrush::watch {
 
 /// What a WatchSweep sends: the sweep's snapshot, then of each job what its WatchCursor gives, without mesh and frames.
-/// Jobs with news take turns, and only they are looked at. A job's cursor goes with its last event, so that a watcher of
-/// a large sweep costs little. Not thread-safe but for the wake.
+/// Jobs with news take turns, and only they are looked at. A job's cursor goes with its last event, so that a watcher
+/// of a large sweep costs little. Not thread-safe but for the wake.
 class SweepSource {
  public:
   using Message = v1::WatchSweepResponse;

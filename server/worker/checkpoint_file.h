@@ -10,8 +10,8 @@
 
 namespace cellcrush::worker {
 
-/// Makes a checkpoint durable under a name of its own, then gives it its place; the one that was there is kept as the previous
-/// one. Killed at any moment, this leaves one that is whole. Throws ServiceError: storage_full or internal.
+/// Makes a checkpoint durable under a name of its own, then gives it its place; the one that was there is kept as the
+/// previous one. Killed at any moment, this leaves one that is whole. Throws ServiceError: storage_full or internal.
 void write_checkpoint(const store::JobFolder& folder, const Checkpoint& checkpoint);
 
 /// What find_checkpoint found.

@@ -18,7 +18,8 @@
 namespace cellcrush::worker {
 namespace {
 
-// Whoever looks whether the folder is claimed holds the lock for an instant; a worker that begins writes its number soon.
+// Whoever looks whether the folder is claimed holds the lock for an instant; a worker that begins writes its number
+// soon.
 constexpr int kTries = 100;
 constexpr std::chrono::milliseconds kBetweenTries{10};
 

@@ -9,11 +9,12 @@
 
 namespace cellcrush::worker {
 
-/// Takes the job's folder for this process, until it ends: a lock on the file `worker`, which then holds the process's number
-/// and start time. False when another worker has it. Throws ServiceError where the file cannot be written.
+/// Takes the job's folder for this process, until it ends: a lock on the file `worker`, which then holds the process's
+/// number and start time. False when another worker has it. Throws ServiceError where the file cannot be written.
 bool claim(const store::JobFolder& folder);
 
-/// Which process runs a job; its start time, in the kernel's ticks since boot, tells it from a later one with the same number.
+/// Which process runs a job; its start time, in the kernel's ticks since boot, tells it from a later one with the same
+/// number.
 struct Claim {
   pid_t process = 0;
   std::uint64_t start_time = 0;

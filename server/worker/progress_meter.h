@@ -14,7 +14,8 @@ class ProgressMeter {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// `plateau_low`, `plateau_high`: strains between which the plateau stress is the mean. The run goes on from `first_step`.
+  /// `plateau_low`, `plateau_high`: strains between which the plateau stress is the mean. The run goes on from
+  /// `first_step`.
   ProgressMeter(std::int64_t step_count, double plateau_low, double plateau_high, Clock::time_point start,
                 std::int64_t first_step = 0);
 

@@ -8,9 +8,9 @@
 
 namespace cellcrush::worker {
 
-/// What a worker has to say, as a file that outlives both it and the daemon: each record is the length of a Report and its
-/// CRC-32, four bytes each and the least significant first, and then the Report. Written by one worker at a time, read while it
-/// grows.
+/// What a worker has to say, as a file that outlives both it and the daemon: each record is the length of a Report and
+/// its CRC-32, four bytes each and the least significant first, and then the Report. Written by one worker at a time,
+/// read while it grows.
 class ReportLog {
  public:
   /// Opens the log, or begins one, and cuts off what a worker that was killed left half-written at its end. Throws

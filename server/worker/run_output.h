@@ -20,8 +20,8 @@ class RunOutput {
   /// `order` outlives this object.
   RunOutput(const store::JobFolder& folder, ReportLog& log, const Order& order, std::shared_ptr<const Scene> scene);
 
-  /// Begins with what a run had reported when it was left at a checkpoint. False when the reports do not hold it all; this
-  /// object is of no use then.
+  /// Begins with what a run had reported when it was left at a checkpoint. False when the reports do not hold it all;
+  /// this object is of no use then.
   bool restore(const Checkpoint& checkpoint);
 
   /// Takes a sample or a frame that was reported before. What was said twice has the same bits: the first time counts.

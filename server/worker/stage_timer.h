@@ -7,9 +7,9 @@
 
 namespace cellcrush::worker {
 
-/// Processor time by stage of a run, from every so many-th step: a reading of the clock takes some 200 ns, which the steps of a
-/// small lattice would feel. A run that advances in pieces is handed the same timer each time. Not thread-safe; the thread that
-/// advances is the one that is timed.
+/// Processor time by stage of a run, from every so many-th step: a reading of the clock takes some 200 ns, which the
+/// steps of a small lattice would feel. A run that advances in pieces is handed the same timer each time. Not
+/// thread-safe; the thread that advances is the one that is timed.
 class StageTimer : public StageObserver {
  public:
   /// A prime: what recurs every so many steps is caught as often as it is due.
@@ -24,8 +24,8 @@ class StageTimer : public StageObserver {
   /// What an earlier part of the run took, s, in the order of kStageNames.
   void set_earlier(const std::array<double, kStageCount>& seconds) { earlier_seconds_ = seconds; }
 
-  /// Time in each stage over all steps so far, s, in the order of kStageNames; what was not looked at is taken as the mean of
-  /// what was. All 0 before the first step.
+  /// Time in each stage over all steps so far, s, in the order of kStageNames; what was not looked at is taken as the
+  /// mean of what was. All 0 before the first step.
   [[nodiscard]] std::array<double, kStageCount> seconds() const;
 
  private:

@@ -16,8 +16,8 @@ constexpr double kUnmeasured = 1e-7;
 double measure_step_cost() {
   const Preset* preset = find_preset("hexagon-small");
   if (preset == nullptr) return kUnmeasured;
-  // The first third or so of its crush, contacts with it. Of a smaller one the walls at the rim, which fill no vectors, and the
-  // plates would be most of the time.
+  // The first third or so of its crush, contacts with it. Of a smaller one the walls at the rim, which fill no vectors,
+  // and the plates would be most of the time.
   const auto built = build_scene(preset->spec);
   if (!built.scene) return kUnmeasured;
   const auto facts = facts_of(*built.scene);

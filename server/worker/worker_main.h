@@ -24,8 +24,8 @@ Shortage shortage_of_exit_code(int code);
 inline constexpr int kSuspendSignal = SIGTERM;
 inline constexpr int kCancelSignal = SIGUSR1;
 
-/// The whole of a worker process: claims the job's folder, reads its Order there, runs the job and reports. It outlives the
-/// daemon that started it. Does not return.
+/// The whole of a worker process: claims the job's folder, reads its Order there, runs the job and reports. It outlives
+/// the daemon that started it. Does not return.
 [[noreturn]] void worker_main(const std::filesystem::path& folder);
 
 }  // namespace cellcrush::worker

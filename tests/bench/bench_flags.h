@@ -16,8 +16,9 @@ struct Flags {
   std::string states;              ///< --states=FOLDER, where crushed states are kept
 };
 
-/// Reads the flags, lets `add` register benchmarks, runs those that --benchmark_filter names, appends their rows and hands them to
-/// `draw` when a chart is asked for. Returns the program's exit code; problems are told on standard error.
+/// Reads the flags, lets `add` register benchmarks, runs those that --benchmark_filter names, appends their rows and
+/// hands them to `draw` when a chart is asked for. Returns the program's exit code; problems are told on standard
+/// error.
 int run_benchmarks(int count, char** words, const std::vector<std::string>& counters,
                    const std::function<void(const Flags&)>& add,
                    const std::function<void(const std::string& file, const std::vector<Measured>&)>& draw);

@@ -18,7 +18,8 @@ namespace {
 
 constexpr int kMostTimes = 64;
 constexpr double kGrowthStrain = 0.20;
-/// Small lattices are crushed as often as makes so many times the cells, some seconds, as what others do on the machine comes and goes.
+/// Small lattices are crushed as often as makes so many times the cells, some seconds, as what others do on the machine
+/// comes and goes.
 constexpr int kCellsTimed = 16;
 constexpr double kMegabyte = 1e6;
 

@@ -11,8 +11,8 @@
 
 namespace cellcrush::bench {
 
-/// States of crushes at the strains at which they are timed. Each crush runs once, by the best kernel, when first asked for; with
-/// a folder its states are kept there for the next time that this same build runs.
+/// States of crushes at the strains at which they are timed. Each crush runs once, by the best kernel, when first asked
+/// for; with a folder its states are kept there for the next time that this same build runs.
 class CrushedStates {
  public:
   explicit CrushedStates(std::filesystem::path folder) : folder_(std::move(folder)) {}

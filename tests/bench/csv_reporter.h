@@ -29,9 +29,9 @@ class RememberingReporter : public benchmark::ConsoleReporter {
   bool failed_ = false;
 };
 
-/// Appends a row a benchmark to a CSV file, below a line of names when the file is new: date, commit, processor, benchmark, SIMD
-/// target, then these counters; one that a benchmark does not tell is an empty cell. Throws std::runtime_error when the file
-/// cannot be written, or begins with other names.
+/// Appends a row a benchmark to a CSV file, below a line of names when the file is new: date, commit, processor,
+/// benchmark, SIMD target, then these counters; one that a benchmark does not tell is an empty cell. Throws
+/// std::runtime_error when the file cannot be written, or begins with other names.
 void append_rows(const std::string& file, const std::string& commit, const std::vector<std::string>& counters,
                  const std::vector<Measured>& measured);
 

@@ -24,8 +24,8 @@ struct Drawn {
 /// Whether two rectangles share more than an edge.
 bool overlap(const client::Rectangle& one, const client::Rectangle& other);
 
-/// A place for each label near its mark, inside `area`, that covers no mark and no other label. The first labels choose first;
-/// one that finds no free place has none.
+/// A place for each label near its mark, inside `area`, that covers no mark and no other label. The first labels choose
+/// first; one that finds no free place has none.
 std::vector<std::optional<client::Rectangle>> place_labels(const std::vector<MarkLabel>& labels, const Drawn& drawn,
                                                            const client::Rectangle& area);
 

@@ -13,7 +13,8 @@ std::string today();
 /// Processor time that this process has taken so far, s.
 double processor_seconds();
 
-/// Memory of this process: what it holds now, and the most that it held since its start. Bytes, of pages that are in memory.
+/// Memory of this process: what it holds now, and the most that it held since its start. Bytes, of pages that are in
+/// memory.
 double resident_bytes();
 double greatest_resident_bytes();
 

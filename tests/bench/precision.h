@@ -8,7 +8,8 @@
 
 namespace cellcrush::bench {
 
-/// What errors are taken of: a column of the table. `absolute`: the value is itself an error, the converged one's is not asked.
+/// What errors are taken of: a column of the table. `absolute`: the value is itself an error, the converged one's is
+/// not asked.
 struct Measure {
   std::string column;
   std::string title;
@@ -36,10 +37,10 @@ struct Precision {
 /// No error below its uncertainty is claimed.
 double claimed_error(const Precision& precision);
 
-/// Of every variant of a scene that has rows of at least two seeds, in the list's order. `converged` names the variant from
-/// which the errors are; its own is none, to its uncertainty. `scatter` becomes the relative standard deviation of one of its
-/// crushes. Rows of variants whose words have changed since are left out, and so are crushes that did not finish. Throws
-/// std::invalid_argument when the converged variant has no rows.
+/// Of every variant of a scene that has rows of at least two seeds, in the list's order. `converged` names the variant
+/// from which the errors are; its own is none, to its uncertainty. `scatter` becomes the relative standard deviation of
+/// one of its crushes. Rows of variants whose words have changed since are left out, and so are crushes that did not
+/// finish. Throws std::invalid_argument when the converged variant has no rows.
 std::vector<Precision> precisions(const VariedScene& scene, const std::vector<CsvRow>& rows, const Measure& measure,
                                   const std::string& converged, double& scatter);
 

@@ -26,8 +26,8 @@ void fit_axes(PrecisionPanel& panel);
 /// Draws title, axes, points and labels into `place`.
 void draw_panel(cairo_t* context, const client::Rectangle& place, const PrecisionPanel& panel);
 
-/// Draws the four families with their marks in columns from (x, y), `columns` beside each other and `width` apart, and answers
-/// the height.
+/// Draws the four families with their marks in columns from (x, y), `columns` beside each other and `width` apart, and
+/// answers the height.
 double draw_legend(cairo_t* context, double x, double y, double width, int columns, bool shows_front);
 
 }  // namespace cellcrush::bench

@@ -7,7 +7,8 @@
 
 namespace cellcrush::bench {
 
-/// The four series of a chart. Variants other than the three kinds of element change one setting of two force-based elements.
+/// The four series of a chart. Variants other than the three kinds of element change one setting of two force-based
+/// elements.
 enum class Family { force_based, displacement_based, papers, other_setting };
 
 inline constexpr int kFamilyCount = 4;

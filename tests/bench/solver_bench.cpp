@@ -1,5 +1,5 @@
-// Time of a step of crushed lattices, by stage and by SIMD target, each beside the plain text in the same run. An iteration
-// restores the state and takes some steps; the least of them counts.
+// Time of a step of crushed lattices, by stage and by SIMD target, each beside the plain text in the same run. An
+// iteration restores the state and takes some steps; the least of them counts.
 //   solver_bench                                              all
 //   solver_bench --benchmark_filter=type-i-paper/45/avx512    one
 //   solver_bench --csv=FILE --commit=NAME                     with rows for a table

@@ -1,7 +1,8 @@
-// What a second thread gains: two runs of one crush, on one thread and on several, take turns of some steps, so that what others do on
-// the machine meets both. Clock time without samples; that their bits are the same is looked at as well.
-//   thread_bench                                   two threads, and twice as many up to those that the machine has cores for
-//   thread_bench --benchmark_filter=type-i-paper   one lattice
+// What a second thread gains: two runs of one crush, on one thread and on several, take turns of some steps, so that
+// what others do on the machine meets both. Clock time without samples; that their bits are the same is looked at as
+// well.
+//   thread_bench                                   two threads, and twice as many up to those that the machine has
+//   cores for thread_bench --benchmark_filter=type-i-paper   one lattice
 //   thread_bench --csv=FILE --commit=NAME          with rows for a table
 #include <benchmark/benchmark.h>
 

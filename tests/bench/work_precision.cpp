@@ -1,6 +1,6 @@
-// Time against accuracy of the choices that a crush has. `run` appends a row a crush to a table and leaves out what stands there
-// already, so that it can be stopped and resumed, and two can share the work; `chart` draws a scene of the table,
-// `overview` its support plateau alone.
+// Time against accuracy of the choices that a crush has. `run` appends a row a crush to a table and leaves out what
+// stands there already, so that it can be stopped and resumed, and two can share the work; `chart` draws a scene of the
+// table, `overview` its support plateau alone.
 //   work_precision run tests/bench/work_precision.txt table.csv [seeds=5] [part=1/2] [scene=NAME]
 //   work_precision chart tests/bench/work_precision.txt table.csv picture.svg scene=NAME converged=GROUP:LABEL
 //   work_precision overview tests/bench/work_precision.txt table.csv picture.svg scene=NAME title=WORDS
@@ -56,8 +56,8 @@ int seeds_in(const Settings& settings) {
   return seeds;
 }
 
-/// The crushes of a part: every so many-th one, so that parts are alike. Seeds come last, so that a list that is cut short has
-/// whole variants of few seeds rather than few variants.
+/// The crushes of a part: every so many-th one, so that parts are alike. Seeds come last, so that a list that is cut
+/// short has whole variants of few seeds rather than few variants.
 std::vector<Crush> crushes_of(const std::vector<VariedScene>& scenes, const Settings& settings) {
   int part = 0;
   int parts = 0;

@@ -98,7 +98,8 @@ TEST(FidelityText, ATimeAndAnErrorAFidelityAndNoneBelowItsScatter) {
     fidelities { fidelity: DRAFT elements_per_wall: 1 predicted_seconds: 12
       errors { measure: "plateau of Type I" error_relative: 0.21 uncertainty_relative: 0.02 scatter_relative: 0.03 } }
     fidelities { fidelity: STANDARD elements_per_wall: 2 predicted_seconds: 130
-      errors { measure: "plateau of Type I" error_relative: 0.013 uncertainty_relative: 0.025 scatter_relative: 0.04 } })",
+      errors { measure: "plateau of Type I" error_relative: 0.013 uncertainty_relative: 0.025 scatter_relative: 0.04 }
+    })",
                                                             &check));
   const std::string text = fidelity_text(check, 120);
   expect_parts(text, {"DRAFT", "12 s", "21.0 % ± 2.0 %", "STANDARD", "2 min 10 s", "under 2.5 %", "plateau of Type I",

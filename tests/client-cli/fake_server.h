@@ -51,8 +51,8 @@ struct Asked {
   AskedOfSweeps sweeps;
 };
 
-/// A server of all services on a Unix socket in a temporary folder of its own, which goes with it. What the script has no
-/// answer for is UNIMPLEMENTED.
+/// A server of all services on a Unix socket in a temporary folder of its own, which goes with it. What the script has
+/// no answer for is UNIMPLEMENTED.
 class FakeServer {
  public:
   explicit FakeServer(Script script);

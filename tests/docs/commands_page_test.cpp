@@ -1,4 +1,5 @@
-// client-cli/commands.md is what the program says of itself. CELLCRUSH_WRITE_PAGES=1 in the environment writes the page.
+// client-cli/commands.md is what the program says of itself. CELLCRUSH_WRITE_PAGES=1 in the environment writes the
+// page.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

@@ -14,8 +14,8 @@
 
 namespace cellcrush::testing {
 
-/// A client that tries to connect again within a tenth of a second, and shares its connection with nobody. Its calls are to wait
-/// for the connection (wait_for_ready): between calls gRPC looks after it only every five seconds.
+/// A client that tries to connect again within a tenth of a second, and shares its connection with nobody. Its calls
+/// are to wait for the connection (wait_for_ready): between calls gRPC looks after it only every five seconds.
 Client impatient_client(const std::string& address);
 
 /// All jobs, by name.

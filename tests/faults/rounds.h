@@ -5,7 +5,8 @@
 
 namespace cellcrush::testing {
 
-/// Whether faults are made as often as a claim asks for: when CELLCRUSH_FAULT_ROUNDS is "full", as under the label `long`.
+/// Whether faults are made as often as a claim asks for: when CELLCRUSH_FAULT_ROUNDS is "full", as under the label
+/// `long`.
 inline bool is_full_round() {
   const char* value = std::getenv("CELLCRUSH_FAULT_ROUNDS");
   return value != nullptr && std::string_view(value) == "full";

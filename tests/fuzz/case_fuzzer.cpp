@@ -1,5 +1,5 @@
-// Any bytes as a case file: read as the command line reads them, then checked as the daemon checks them. Nothing may crash or
-// hang, and every refusal names its field, what is wrong and what to do.
+// Any bytes as a case file: read as the command line reads them, then checked as the daemon checks them. Nothing may
+// crash or hang, and every refusal names its field, what is wrong and what to do.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>

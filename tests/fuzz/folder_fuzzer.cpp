@@ -1,9 +1,10 @@
-// Any bytes as what a worker that was killed, or a bad disk, leaves in a job's folder: its reports, its checkpoint and its claim.
-// The first byte chooses which; with its highest bit the bytes get a sound head with their length and checksum, so that what is
-// in them is read. Nothing may crash, hang, or take more memory than the file has bytes; a log that was read to its end can be
-// continued.
+// Any bytes as what a worker that was killed, or a bad disk, leaves in a job's folder: its reports, its checkpoint and
+// its claim. The first byte chooses which; with its highest bit the bytes get a sound head with their length and
+// checksum, so that what is in them is read. Nothing may crash, hang, or take more memory than the file has bytes; a
+// log that was read to its end can be continued.
 //
-// Left out: what core makes of a checkpoint's bytes. It has the form of one build and is read by no other, behind a checksum.
+// Left out: what core makes of a checkpoint's bytes. It has the form of one build and is read by no other, behind a
+// checksum.
 #include <zlib.h>
 
 #include <cstdint>

@@ -1,10 +1,12 @@
-// A result that is not as it was written: a whole one, of which the first bytes of the input replace parts (hostile_result.h),
-// with a seal that fits, and the others overwrite bytes, as a bad disk would. It is read as GetFrame and the tests read it.
-// Nothing may crash, hang, take more memory than such a file is worth, or come from another file.
+// A result that is not as it was written: a whole one, of which the first bytes of the input replace parts
+// (hostile_result.h), with a seal that fits, and the others overwrite bytes, as a bad disk would. It is read as
+// GetFrame and the tests read it. Nothing may crash, hang, take more memory than such a file is worth, or come from
+// another file.
 //
-// Left out: bytes at random behind a seal that fits. HDF5 1.10.8 reads past its buffers over damaged metadata (an attribute's size
-// is enough), which is not ours to mend; the seal keeps such files from it (store/result_seal.h), and only the daemon's own
-// worker writes files with one. HDF5 also loses a few bytes of memory when it refuses a file, so leaks are not looked for.
+// Left out: bytes at random behind a seal that fits. HDF5 1.10.8 reads past its buffers over damaged metadata (an
+// attribute's size is enough), which is not ours to mend; the seal keeps such files from it (store/result_seal.h), and
+// only the daemon's own worker writes files with one. HDF5 also loses a few bytes of memory when it refuses a file, so
+// leaks are not looked for.
 #include <hdf5.h>
 
 #include <algorithm>

@@ -23,7 +23,8 @@ class WireDaemon {
     std::string message;
   };
 
-  /// Makes a call of any kind, with any bytes as its message. A watch is broken off when it has nothing more to say for now.
+  /// Makes a call of any kind, with any bytes as its message. A watch is broken off when it has nothing more to say for
+  /// now.
   Answer call(const std::string& method, const std::string& request, bool is_watch);
 
  private:

@@ -1,10 +1,10 @@
-// Any bytes as calls of a client: a few of them, one after another, go through gRPC to the services of a daemon that runs no job
-// and has something of everything (prepared_folder.h). Nothing may crash, hang, or be answered as a fault of the daemon; a
-// refusal says what it refuses, shortly enough for a trailer. Whatever the calls change is undone before the next input, so
-// that a find can be run again.
+// Any bytes as calls of a client: a few of them, one after another, go through gRPC to the services of a daemon that
+// runs no job and has something of everything (prepared_folder.h). Nothing may crash, hang, or be answered as a fault
+// of the daemon; a refusal says what it refuses, shortly enough for a trailer. Whatever the calls change is undone
+// before the next input, so that a find can be run again.
 //
-// Left out: cases of more than 2000 elements and sweeps of as many in all, for which the time is too short; running jobs, which
-// tests/server and tests/faults have; and TLS and tokens, which are read before a message is.
+// Left out: cases of more than 2000 elements and sweeps of as many in all, for which the time is too short; running
+// jobs, which tests/server and tests/faults have; and TLS and tokens, which are read before a message is.
 #include <google/protobuf/stubs/logging.h>
 #include <spdlog/spdlog.h>
 
@@ -151,7 +151,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   return 0;
 }
 
-// Mostly sound messages with a field changed here and there; bytes at random would seldom get behind the reading of them.
+// Mostly sound messages with a field changed here and there; bytes at random would seldom get behind the reading of
+// them.
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t max_size,
                                                unsigned int seed) {
   using namespace cellcrush::fuzz;

@@ -31,8 +31,8 @@ struct WireCall {
   std::string bytes;
 };
 
-/// An input of the fuzzer: calls one after another, each as a byte for the method, two for the length (the most significant
-/// first) and the message. Any bytes are an input.
+/// An input of the fuzzer: calls one after another, each as a byte for the method, two for the length (the most
+/// significant first) and the message. Any bytes are an input.
 std::vector<WireCall> parse_calls(const std::uint8_t* data, std::size_t size);
 std::string bytes_of(const std::vector<WireCall>& calls);
 

@@ -7,6 +7,7 @@
 
 #include "house/folder_arrows.h"
 #include "house/include_line.h"
+#include "house/wide_lines.h"
 
 namespace cellcrush::house {
 namespace {
@@ -67,6 +68,13 @@ void check_file(const fs::path& root, const std::string& file, FolderArrows& arr
   }
 }
 
+void check_width(const fs::path& root, const std::string& file, std::vector<Violation>& violations) {
+  if (!has_bounded_lines(file)) return;
+  for (const int line : find_wide_lines(root / file)) {
+    violations.push_back({file, line, "Lines end within " + std::to_string(kMostColumns) + " columns."});
+  }
+}
+
 bool is_source(const fs::path& path) {
   static const std::set<std::string> kExtensions{".h", ".hpp", ".inl", ".cpp", ".cc"};
   return kExtensions.contains(path.extension().string());
@@ -81,11 +89,14 @@ std::vector<Violation> check_house(const fs::path& root) {
     if (!is_agreed(name)) violations.push_back({name, 0, "The root of the tree holds agreed entries only."});
   }
   FolderArrows arrows;
-  for (const char* folder : {"core", "server", "client-cli", "proto", "tests"}) {
+  check_width(root, "CMakeLists.txt", violations);
+  for (const char* folder : {"core", "server", "client-cli", "proto", "tests", "deploy"}) {
     if (!fs::exists(root / folder)) continue;
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / folder)) {
-      if (!entry.is_regular_file() || !is_source(entry.path())) continue;
-      check_file(root, entry.path().lexically_relative(root).generic_string(), arrows, violations);
+      if (!entry.is_regular_file()) continue;
+      const std::string file = entry.path().lexically_relative(root).generic_string();
+      check_width(root, file, violations);
+      if (is_source(entry.path())) check_file(root, file, arrows, violations);
     }
   }
   for (Violation& cycle : arrows.find_cycles()) violations.push_back(std::move(cycle));

@@ -13,7 +13,7 @@ struct Violation {
   std::string rule;  ///< the rule and what broke it, a sentence
 };
 
-/// Reads every header and source file below `root` and reports all violations, in the order of the paths:
+/// Reads every header, source file and script below `root` and reports all violations, in the order of the paths:
 ///
 /// - core includes its own headers, the C++ library without clock and files, Eigen, and, but for its public headers,
 ///   Highway;
@@ -23,7 +23,8 @@ struct Violation {
 /// - of server, only server/translate joins messages (*.pb.h) and core's headers in one file;
 /// - no two folders of core, and none of server, include each other, directly or along other folders;
 /// - nobody but tests includes tests;
-/// - the root holds the agreed entries and no other.
+/// - the root holds the agreed entries and no other;
+/// - lines of sources and scripts end within 120 columns.
 ///
 /// Only what a file includes itself counts, not what those headers include. Throws std::filesystem::filesystem_error
 /// when the tree cannot be read.

@@ -140,6 +140,20 @@ TEST_F(PlantedTree, TheOracleMayNotIncludeCore) {
   expect_found("tests/core/reference/bad.cpp", "\"cellcrush/scene.h\"", "the oracle shares nothing with core");
 }
 
+TEST_F(PlantedTree, LinesEndWithin120Columns) {
+  const std::string widest = "# " + std::string(117, 'x') + "\u00e9\n";  // a character of two bytes
+  for (const std::string file : {"CMakeLists.txt", "deploy/run", "deploy/common.sh", "proto/job.proto",
+                                 "server/stamp.cmake", "tests/scenes/frame.cpp"}) {
+    write(file, widest + "\n" + widest);
+    EXPECT_EQ(to_text(check_house(root_)), "");
+    write(file, widest + "\nx" + widest);
+    EXPECT_EQ(to_text(check_house(root_)), file + ":3: Lines end within 120 columns.\n");
+    write(file, "");
+  }
+  write("tests/page.md", "x" + widest);
+  EXPECT_EQ(to_text(check_house(root_)), "") << "pages have a check of their own";
+}
+
 TEST_F(PlantedTree, TheRootTakesNoOtherEntry) {
   write("tools/helper.py", "");
   const std::vector<Violation> violations = check_house(root_);

@@ -5,7 +5,8 @@
 
 namespace cellcrush::load {
 
-/// Of some times in seconds: how many, the median, the 99th percentile and the greatest, in ms, as text. REQUIRES: not empty.
+/// Of some times in seconds: how many, the median, the 99th percentile and the greatest, in ms, as text. REQUIRES: not
+/// empty.
 std::string describe(std::vector<double> seconds);
 
 /// Processor time that a process has used, s.

@@ -55,8 +55,8 @@ void measure_submits(const std::string& address) {
   fmt::print("durable submits of eight clients: {:.0f} a second\n", 2000.0 / seconds_since(together));
 }
 
-// Two watchers on each of a hundred waiting jobs, which are then cancelled: from before the call to the watcher, with the call, the
-// change and its commit.
+// Two watchers on each of a hundred waiting jobs, which are then cancelled: from before the call to the watcher, with
+// the call, the change and its commit.
 void measure_events(const std::string& address) {
   std::vector<std::string> jobs;
   submit(address, 100, &jobs);

@@ -7,10 +7,10 @@
 
 namespace cellcrush::scenes {
 
-/// One slanted wall of the hexagons of Papka and Kyriakides, dimensions 1: at 30 degrees, lower joint clamped, upper joint
-/// pushed straight down, its rotation fixed, free sideways. All of a lattice that collapses evenly is made of such walls, so
-/// its load F and way d are the lattice's nominal stress F / (L cos 30 b) and strain d / (1.5 L). Quasi-static by a slow
-/// motion under mass damping; the upper joint is watched.
+/// One slanted wall of the hexagons of Papka and Kyriakides, dimensions 1: at 30 degrees, lower joint clamped, upper
+/// joint pushed straight down, its rotation fixed, free sideways. All of a lattice that collapses evenly is made of
+/// such walls, so its load F and way d are the lattice's nominal stress F / (L cos 30 b) and strain d / (1.5 L).
+/// Quasi-static by a slow motion under mass damping; the upper joint is watched.
 struct CrushedWall {
   static constexpr double kLength = 5.51;       // mm
   static constexpr double kThickness = 0.1448;  // mm

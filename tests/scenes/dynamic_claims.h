@@ -10,8 +10,8 @@ namespace cellcrush::scenes {
 // What the samples of the dynamic frames must show, whether a test ran them itself or fetched them from a daemon. Each
 // reports through GoogleTest.
 
-/// The struck cantilever comes to rest, but for elastic vibration, within 2 % of Parkes's deflection and 3 % of his time; the
-/// plastic work is the energy it was struck with but for what vibrates on, within 1 %.
+/// The struck cantilever comes to rest, but for elastic vibration, within 2 % of Parkes's deflection and 3 % of his
+/// time; the plastic work is the energy it was struck with but for what vibrates on, within 1 %.
 void expect_parkes(const std::vector<Sample>& samples);
 
 /// The spinning bar's mean stretch is rho omega^2 L^3 / 3 E, that of its lumped masses within 0.1 %, and its energy is

@@ -6,9 +6,10 @@ namespace cellcrush::scenes {
 
 // Undamped motions as explicit frames; dynamic_claims.h has what they must show.
 
-/// Parkes's problem: a perfectly plastic cantilever (b 1 mm, h 4 mm, L 100 mm) with a mass at its tip, ten times its own, that
-/// is struck across. E / sigma_y = 20000 makes the energy 80 times M_p^2 L / 2 EI, so that little of it is elastic; a tip as
-/// light as the cantilever would need far more (what the running hinge bends is then mostly elastic). The tip is watched.
+/// Parkes's problem: a perfectly plastic cantilever (b 1 mm, h 4 mm, L 100 mm) with a mass at its tip, ten times its
+/// own, that is struck across. E / sigma_y = 20000 makes the energy 80 times M_p^2 L / 2 EI, so that little of it is
+/// elastic; a tip as light as the cantilever would need far more (what the running hinge bends is then mostly elastic).
+/// The tip is watched.
 struct StruckCantilever {
   static constexpr double kLength = 100.0;  // mm
   static constexpr double kThickness = 4.0;
@@ -19,8 +20,8 @@ struct StruckCantilever {
   static constexpr double kTipMass = 10.0 * kMassPerLength * kLength;                  // tonne
   static constexpr double kSpeed = 630.0;                                              // mm / s
 
-  /// Deflection at rest, mm, and the time to it, s, of the rigid-plastic cantilever (Parkes 1955): a hinge runs from the tip
-  /// to the clamp, then the whole turns about it.
+  /// Deflection at rest, mm, and the time to it, s, of the rigid-plastic cantilever (Parkes 1955): a hinge runs from
+  /// the tip to the clamp, then the whole turns about it.
   static double final_deflection();
   static double duration();
 
@@ -56,8 +57,8 @@ struct StepLoadedCantilever {
   [[nodiscard]] SceneSpec spec(int elements, double end_time, int steps) const;
 };
 
-/// Two equal elastic bars in line, the left of which runs into the right one at rest. Nodes are numbered from left to right,
-/// elements + 1 a bar.
+/// Two equal elastic bars in line, the left of which runs into the right one at rest. Nodes are numbered from left to
+/// right, elements + 1 a bar.
 struct BarImpact {
   static constexpr double kLength = 100.0;  // mm, of either bar
   static constexpr double kThickness = 0.5;

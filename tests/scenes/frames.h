@@ -13,11 +13,12 @@ std::shared_ptr<Scene> build(const SceneSpec& spec);
 /// A beam of a frame, of the case's material.
 FrameLattice::Beam beam(int start, int end, double thickness_mm, int elements);
 
-/// A case of an explicit frame of elastic aluminium beams, 1 mm deep, that ends after a second unless the frame says when.
+/// A case of an explicit frame of elastic aluminium beams, 1 mm deep, that ends after a second unless the frame says
+/// when.
 SceneSpec elastic_frame(FrameLattice frame);
 
-/// A cantilever along x, clamped at its left end, elastic, without contact: EI = 200000/12 N mm^2, L = 300 mm, h = 1 mm, so
-/// that EA L^2 / EI = 1.08e6. Its free end is node 1. Mass damping is twice the first natural frequency.
+/// A cantilever along x, clamped at its left end, elastic, without contact: EI = 200000/12 N mm^2, L = 300 mm, h = 1
+/// mm, so that EA L^2 / EI = 1.08e6. Its free end is node 1. Mass damping is twice the first natural frequency.
 struct Cantilever {
   static constexpr double kLength = 300.0;
   static constexpr double kStiffness = 200000.0 / 12.0;

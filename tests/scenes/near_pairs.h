@@ -17,8 +17,8 @@ using Pairs = std::set<std::pair<int, int>>;
 /// The candidates that a state has; fails the test when one is listed twice.
 Pairs listed_pairs(const State& state);
 
-/// Every pair that is less than `margin` (mm) apart beyond touch, no ball against its own elements. By brute force; distances
-/// by halving the segment, not by the projection of the search.
+/// Every pair that is less than `margin` (mm) apart beyond touch, no ball against its own elements. By brute force;
+/// distances by halving the segment, not by the projection of the search.
 Pairs near_pairs(const Scene& scene, const State& state, double margin);
 
 /// Pairs that overlap now, by the buckets' list of the same positions, with their depth in mm.

@@ -7,9 +7,10 @@
 
 namespace cellcrush::scenes {
 
-/// A perfectly plastic portal frame, clamped below (all members L 100, h 4, b 1 mm; E / sigma_y = 10000, so that it collapses
-/// before it has changed its shape), with a dead load on one place and another moved until it collapses: H on the left corner
-/// to the right, V on the middle of the beam downward. The moved node is watched first, the loaded one second.
+/// A perfectly plastic portal frame, clamped below (all members L 100, h 4, b 1 mm; E / sigma_y = 10000, so that it
+/// collapses before it has changed its shape), with a dead load on one place and another moved until it collapses: H on
+/// the left corner to the right, V on the middle of the beam downward. The moved node is watched first, the loaded one
+/// second.
 struct PortalFrame {
   static constexpr double kLength = 100.0;  // mm, of every member
   static constexpr double kThickness = 4.0;
@@ -26,8 +27,8 @@ struct PortalFrame {
   static SceneSpec sagged(double horizontal_load, double sag, int elements);
 };
 
-/// Load on the moved node over what plastic theory has for the mechanism at the node's displacement, all dead loads' work
-/// included: virtual work gives, with theta the columns' or the beam's turn,
+/// Load on the moved node over what plastic theory has for the mechanism at the node's displacement, all dead loads'
+/// work included: virtual work gives, with theta the columns' or the beam's turn,
 ///   sway      H L cos theta + V L sin theta = 4 M_p
 ///   combined  H L cos theta + V L (sin theta + cos theta / 2) = 6 M_p
 ///   beam      V L cos theta / 2 = 4 M_p.

@@ -8,8 +8,8 @@
 
 namespace cellcrush::scenes {
 
-/// A small block at relative density 0.1 and how it is crushed; "hexagon", "square", "triangle", or "thick" for hexagons whose
-/// vertical walls are twice as thick.
+/// A small block at relative density 0.1 and how it is crushed; "hexagon", "square", "triangle", or "thick" for
+/// hexagons whose vertical walls are twice as thick.
 struct SmallBlock {
   const char* lattice;
   double speed;     // m/s

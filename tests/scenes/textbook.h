@@ -24,24 +24,26 @@ struct PlasticFrame {
 /// A cantilever bent by an end moment that rises to `peak` times the yield moment and falls back to 0; E_T = E / 100.
 SceneSpec bent_cantilever(double peak);
 
-/// A cantilever whose tip is moved across by `deflection`; a beam clamped at both ends, free to shorten, whose middle is; a
-/// portal frame, clamped below, whose left corner is moved sideways. Perfectly plastic, `elements` a member.
+/// A cantilever whose tip is moved across by `deflection`; a beam clamped at both ends, free to shorten, whose middle
+/// is; a portal frame, clamped below, whose left corner is moved sideways. Perfectly plastic, `elements` a member.
 SceneSpec pushed_cantilever(double deflection, int elements);
 SceneSpec pushed_clamped_beam(double deflection, int elements);
 SceneSpec pushed_portal(double sway, int elements);
 
-/// A bar that is stretched to +strain and -strain in turn, `cycles` times, with H = E / 10 and the given isotropic fraction.
+/// A bar that is stretched to +strain and -strain in turn, `cycles` times, with H = E / 10 and the given isotropic
+/// fraction.
 SceneSpec cycled_bar(double isotropic_fraction, double strain, int cycles);
 
-/// Lee's frame: two legs of 120 mm (A 6 mm^2, I 2 mm^4, E 720 MPa), pinned at both ends, pushed down by `deflection` 24 mm
-/// from the corner.
+/// Lee's frame: two legs of 120 mm (A 6 mm^2, I 2 mm^4, E 720 MPa), pinned at both ends, pushed down by `deflection` 24
+/// mm from the corner.
 SceneSpec lee_frame(double deflection);
 
-/// An elastic cantilever of 300 mm under an axial dead load of `load_ratio` times its buckling load, nudged aside for a moment.
+/// An elastic cantilever of 300 mm under an axial dead load of `load_ratio` times its buckling load, nudged aside for a
+/// moment.
 SceneSpec buckled_column(double load_ratio);
 
-/// Force that moved the watched node along its motion, from the external work between two samples, and where the node was
-/// between them.
+/// Force that moved the watched node along its motion, from the external work between two samples, and where the node
+/// was between them.
 struct ForceAt {
   double displacement;  // mm
   double force;         // N

@@ -19,7 +19,8 @@ double half_wall_frequency(double thickness) {
   return 3.516 * wave_speed * thickness / std::sqrt(12.0) / (0.25 * kSide * kSide);
 }
 
-/// A case whose loads or motions rise over `rise` and rest as long again; times are in radians of half a wall's frequency.
+/// A case whose loads or motions rise over `rise` and rest as long again; times are in radians of half a wall's
+/// frequency.
 SceneSpec slow_frame(FrameLattice frame, double thickness, double rise, double damping) {
   const double frequency = half_wall_frequency(thickness);
   const double rise_time = rise / frequency;

@@ -46,8 +46,8 @@ class Client {
                 const OnEvent& on_event = {});
   /// Waits until the job is in the state, at most 30 s; false when it never is.
   bool wait_for_state(const std::string& job, v1::JobState state);
-  /// The worker of a job, for which it waits until it runs; throws when it has none (a signal to process 0 would be for all
-  /// of the test's own).
+  /// The worker of a job, for which it waits until it runs; throws when it has none (a signal to process 0 would be for
+  /// all of the test's own).
   pid_t worker_of(const std::string& job);
   /// The whole result.h5, from an offset on.
   std::string download(const std::string& job, std::int64_t offset, grpc::Status& status);

@@ -91,8 +91,8 @@ bool names(const v1::CheckCaseResponse& response, const std::string& path) {
   return false;
 }
 
-// Every number of every kind of case is spoiled in every way: nothing crashes, nothing hangs, what is refused says what is
-// wrong and what to do, and what is not a number is refused by the name of its field.
+// Every number of every kind of case is spoiled in every way: nothing crashes, nothing hangs, what is refused says what
+// is wrong and what to do, and what is not a number is refused by the name of its field.
 TEST(HardInput, SpoiledNumbersAreRefusedByTheirFields) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   constexpr double kInfinity = std::numeric_limits<double>::infinity();

@@ -40,9 +40,9 @@ std::set<std::string> texts_of_requests() {
   return texts;
 }
 
-// A field that comes to a request must be added here, by one who has looked at what the daemon does with it. None of these
-// is a path: names become numbers (store/resource_name.h) before a folder is named after one, the others are kept or compared
-// as they are.
+// A field that comes to a request must be added here, by one who has looked at what the daemon does with it. None of
+// these is a path: names become numbers (store/resource_name.h) before a folder is named after one, the others are kept
+// or compared as they are.
 TEST(RequestFields, NoTextOfARequestNamesAFileOfTheDaemon) {
   const std::set<std::string> known = {
       // Names of resources and presets.

@@ -11,9 +11,9 @@
 
 namespace cellcrush::testing {
 
-/// Holds one watch of a job against what event.proto and WatchJob promise: a snapshot first and once; then every state and
-/// sample behind the number that was given, in order, none twice and none missing; progress and frames between them in their
-/// order; nothing behind the job's last state, and OK only then. Not thread-safe.
+/// Holds one watch of a job against what event.proto and WatchJob promise: a snapshot first and once; then every state
+/// and sample behind the number that was given, in order, none twice and none missing; progress and frames between them
+/// in their order; nothing behind the job's last state, and OK only then. Not thread-safe.
 class WatchContract {
  public:
   /// Of a watch with this after_sequence.

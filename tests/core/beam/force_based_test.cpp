@@ -59,8 +59,8 @@ TEST(ForceBasedElement, IsTheCubicBeamWhileElastic) {
   EXPECT_NEAR(element.end_moment() * element.full_moment(), stiffness * (2.0 * 1e-4 - 4.0 * 3e-5), 1e-9);
 }
 
-// A joint that turns against a far end which bears nothing: the half wall of a lattice. The far end is turned so that its
-// moment stays 0, as a free one would.
+// A joint that turns against a far end which bears nothing: the half wall of a lattice. The far end is turned so that
+// its moment stays 0, as a free one would.
 TEST(ForceBasedElement, JointBearsExactlyTheFullPlasticMoment) {
   for (const bool force_based : {true, false}) {
     Element element(kPerfect, rule(force_based ? SectionSpec::Formulation::force_based
@@ -74,7 +74,8 @@ TEST(ForceBasedElement, JointBearsExactlyTheFullPlasticMoment) {
   }
 }
 
-// Steps in which the elastic moment would change by up to a fifth of the full plastic one, as at the front of a fast crush.
+// Steps in which the elastic moment would change by up to a fifth of the full plastic one, as at the front of a fast
+// crush.
 TEST(ForceBasedElement, KeepsItsBalanceAndItsEnergyThroughReversalsInLargeSteps) {
   Element element(kPerfect, rule(SectionSpec::Formulation::force_based));
   const int steps = 4000;

@@ -75,7 +75,8 @@ TEST(ContactSearch, AgreesWithBruteForceOnAShakenLattice) {
   EXPECT_EQ(listed_pairs(state), near);
 }
 
-// Walls of a lattice thrown about at random: sparse and dense, round the origin and far from it, in a line, on one point.
+// Walls of a lattice thrown about at random: sparse and dense, round the origin and far from it, in a line, on one
+// point.
 TEST(ContactSearch, AgreesWithBruteForceOnRandomScenes) {
   const auto scene = scenes::build(scenes::hexagon_block(4, 4));
   std::mt19937 generator(11);

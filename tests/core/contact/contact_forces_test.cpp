@@ -72,8 +72,8 @@ TEST(Contact, BallThatSlidesAlongAStraightChainIsPushedByOneSegment) {
   }
 }
 
-// Both legs of a groove touch a ball at its bottom; the deeper one pushes, so the force is never more than k D of it and
-// changes from one normal to the other where both are as deep.
+// Both legs of a groove touch a ball at its bottom; the deeper one pushes, so the force is never more than k D of it
+// and changes from one normal to the other where both are as deep.
 TEST(Contact, ForceInAGrooveIsThatOfTheDeeperLeg) {
   for (const double angle : {40.0, 90.0, 150.0, 179.0}) {
     const double half = 0.5 * angle * std::numbers::pi / 180.0;

@@ -121,8 +121,9 @@ Pairs touching_pairs(const State& state) {
   return pairs;
 }
 
-// The particles are thrown about at random round a lattice that is squeezed flat and drawn out again, faster and slower,
-// with rests and with steps as long as the skin: no pair of a face may touch that is not listed and found in the very step.
+// The particles are thrown about at random round a lattice that is squeezed flat and drawn out again, faster and
+// slower, with rests and with steps as long as the skin: no pair of a face may touch that is not listed and found in
+// the very step.
 TEST(FaceSearch, MissesNoTouchUnderRandomKicks) {
   for (const char* lattice : {"hexagon", "square", "triangle"}) {
     const auto scene = scenes::build(block_of(lattice));

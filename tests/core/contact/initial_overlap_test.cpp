@@ -84,8 +84,8 @@ TEST(InitialOverlap, NoPresetIsRefused) {
   }
 }
 
-// Walls half as thick as long, the most that is accepted, overlap round their joints but are one piece there; a finer mesh
-// has elements shorter than the walls are thick.
+// Walls half as thick as long, the most that is accepted, overlap round their joints but are one piece there; a finer
+// mesh has elements shorter than the walls are thick.
 TEST(InitialOverlap, AnUndeformedLatticeOfThickWallsIsFreeOfForce) {
   for (const int elements : {1, 2, 4, 8, 16}) {
     for (const double share : {0.05, 0.3, 0.5}) {
@@ -122,7 +122,8 @@ TEST(InitialOverlap, ALatticeWhoseJointsAreThrownOnEachOtherNamesItsThickness) {
   EXPECT_TRUE(scenes::build(spec));
 }
 
-// The ends of their elements lie on one line but for round-off, by which elements 8 and 22 seemed to cross with this seed.
+// The ends of their elements lie on one line but for round-off, by which elements 8 and 22 seemed to cross with this
+// seed.
 TEST(InitialOverlap, ElementsOfOneStraightWallDoNotCross) {
   SceneSpec spec = scenes::hexagon_block(2, 1);
   spec.numerics.time_step_s = 0.0;

@@ -18,8 +18,8 @@ struct Crush {
   Summary summary;
 };
 
-/// 17 rows of 24 and 23 hexagons of Type I, imperfect by a thousandth of a millimetre: a perfectly symmetric block stays
-/// symmetric by round-off only. A frame with every sample.
+/// 17 rows of 24 and 23 hexagons of Type I, imperfect by a thousandth of a millimetre: a perfectly symmetric block
+/// stays symmetric by round-off only. A frame with every sample.
 Crush crush_block(double speed, double end_strain) {
   SceneSpec spec = scenes::hexagon_block(24, 17);
   spec.loading.speed_m_per_s = speed;

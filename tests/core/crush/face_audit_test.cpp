@@ -36,7 +36,8 @@ int end_below(const Scene& scene, const State& state, const scenes::Overlap& ove
   return along <= 0.0 ? element.start : along >= state.length[overlap.segment] ? element.end : -1;
 }
 
-/// Whether another segment at the particle borders a face of the ball's, or is the ball's own: then it has the same ball.
+/// Whether another segment at the particle borders a face of the ball's, or is the ball's own: then it has the same
+/// ball.
 bool has_ball_of(const Scene& scene, const scenes::FaceNeighbours& neighbours, int particle, int ball) {
   const auto first = scene.incidence.begin() + scene.incidence_offset[particle];
   const auto last = scene.incidence.begin() + scene.incidence_offset[particle + 1];
@@ -63,9 +64,9 @@ double difference_of_forces(const State& a, const State& b) {
   return greatest;
 }
 
-// Of the overlaps that share no face, those on a round end are found by a segment beside it that ends at the same particle.
-// What is left reaches through a wall, no deeper than any contact may, lies above another segment of its polyline, and does
-// not push.
+// Of the overlaps that share no face, those on a round end are found by a segment beside it that ends at the same
+// particle. What is left reaches through a wall, no deeper than any contact may, lies above another segment of its
+// polyline, and does not push.
 TEST_P(FaceAudit, FindsEveryTouchThatPushesWithTheForceOfTheBuckets) {
   const auto scene = scenes::build(spec());
   const scenes::FaceNeighbours neighbours(*scene);

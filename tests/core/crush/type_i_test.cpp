@@ -56,9 +56,9 @@ void expect_sound_contact(const CountedCrush& crush) {
   }
 }
 
-/// Eq. 52 with the jumps of the cells' motion, which knows nothing of the impact plate's stress, foretells that stress, and
-/// lies closer to it than Eq. 51. One seed of an imperfection gives a plateau with a standard deviation of 1.2 to 1.4 %, so
-/// a single crush is held to three and a half of them.
+/// Eq. 52 with the jumps of the cells' motion, which knows nothing of the impact plate's stress, foretells that stress,
+/// and lies closer to it than Eq. 51. One seed of an imperfection gives a plateau with a standard deviation of 1.2 to
+/// 1.4 %, so a single crush is held to three and a half of them.
 void expect_shock_theory(const CountedCrush& crush) {
   ASSERT_TRUE(crush.summary.front && crush.summary.shock_error() && crush.summary.front_shock_error());
   EXPECT_NEAR(*crush.summary.front_shock_error(), 0.0, 0.05);

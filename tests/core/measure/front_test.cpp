@@ -18,8 +18,8 @@ constexpr double kBehind = 0.88;
 constexpr double kAhead = 0.02;
 constexpr double kSpeed = 1e5;  // mm/s
 
-/// A block whose particles move as a front at `place` (mm from the impact end) moves them: strain kBehind behind it, kAhead
-/// ahead of it, the support end at rest. What is behind moves with the plate, at kSpeed.
+/// A block whose particles move as a front at `place` (mm from the impact end) moves them: strain kBehind behind it,
+/// kAhead ahead of it, the support end at rest. What is behind moves with the plate, at kSpeed.
 class MovingFront : public testing::Test {
  protected:
   std::shared_ptr<Scene> scene_ = scenes::build(scenes::hexagon_block(40, 9));

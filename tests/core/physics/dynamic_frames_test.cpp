@@ -31,7 +31,8 @@ TEST(SpinningBar, StretchesBySteadyPullAndKeepsItsEnergy) {
   }
 }
 
-/// Momentum about the origin. With positions and velocities half a step apart it is kept to round-off by forces that balance.
+/// Momentum about the origin. With positions and velocities half a step apart it is kept to round-off by forces that
+/// balance.
 double angular_momentum(const Scene& scene, const State& state) {
   double sum = 0.0;
   for (std::size_t i = 0; i < scene.particle_count(); ++i) {
@@ -70,8 +71,8 @@ TEST(StepLoadedCantilever, ErrorFallsAsTheSquareOfTheElements) {
   }
 }
 
-/// Share of the first mode's swing in a deflection over one period: the modes above it, which short steps alone resolve, fall
-/// out.
+/// Share of the first mode's swing in a deflection over one period: the modes above it, which short steps alone
+/// resolve, fall out.
 double first_mode(const std::vector<Sample>& samples) {
   double sum = 0.0;
   for (std::size_t i = 0; i < samples.size(); ++i) {

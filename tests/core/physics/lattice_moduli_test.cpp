@@ -75,7 +75,8 @@ TEST(LatticeModuli, TriangleCellIsAsStiffAsItsWallsAndTheirBending) {
   for (const double ratio : {0.02963, 0.1}) {
     const double modulus =
         modulus_from_energy(UnitCell::strained_triangle, ratio * UnitCell::kSide, UnitCell::kTriangleArea);
-    // Walls that stretch and, clamped at the joint, bend: r = (h/L)^2 is the ratio of the two stiffnesses of a half wall.
+    // Walls that stretch and, clamped at the joint, bend: r = (h/L)^2 is the ratio of the two stiffnesses of a half
+    // wall.
     const double r = ratio * ratio;
     const double exact = 2.0 / kSqrt3 * kModulus * ratio * (1.0 + r) / (1.0 + r / 3.0);
     RecordProperty("modulus_error", std::to_string(modulus / exact - 1.0));
@@ -104,8 +105,8 @@ TEST(LatticeModuli, HexagonBlockWithFreeSidesApproachesTheLatticeAsOneOverItsCol
   }
 }
 
-/// Stress at a strain over that of a rigid-plastic hexagon whose walls have turned: (2/3) sigma_y (h/L)^2 at first, more as
-/// the lever falls to L cos phi.
+/// Stress at a strain over that of a rigid-plastic hexagon whose walls have turned: (2/3) sigma_y (h/L)^2 at first,
+/// more as the lever falls to L cos phi.
 double collapse_ratio(int elements, const SectionSpec& section, double strain) {
   constexpr double kRatio = 0.05;
   constexpr double kYieldStress = 14.0;  // E / 5000: the collapse is complete before the cell has changed its shape

@@ -18,8 +18,8 @@ Vector2 momentum_of(const Scene& scene, const State& state) {
   return momentum;
 }
 
-// Theory-free: whatever the material does, the plates' forces are the change of the block's momentum and what mass damping
-// takes.
+// Theory-free: whatever the material does, the plates' forces are the change of the block's momentum and what mass
+// damping takes.
 TEST(Momentum, DifferenceOfThePlatesForcesIsTheBlocksMomentumRateToRoundOff) {
   SceneSpec spec = scenes::hexagon_block(8, 5);
   spec.numerics.mass_damping_per_s = 2000.0;

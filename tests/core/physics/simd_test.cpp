@@ -76,8 +76,8 @@ struct Compared {
 };
 
 // Vectors return fibres of single precision in single precision, the reference in double: it rounds what is remembered.
-// Force-based elements decide by thresholds whether a section turns back and whether it is in balance enough; a last bit
-// may turn such a decision, as it may where walls touch. Their motions part sooner.
+// Force-based elements decide by thresholds whether a section turns back and whether it is in balance enough; a last
+// bit may turn such a decision, as it may where walls touch. Their motions part sooner.
 std::vector<Compared> scenes_to_compare() {
   return {{"paper", scenes::with_the_papers_elements(block(2)), 1000, 1e-7},
           {"one element a wall", scenes::with_the_papers_elements(block(1)), 1000, 1e-7},

@@ -79,8 +79,8 @@ TEST(SquashedWall, SquashedToATenthTheLedgerShowsTheBoundedModulus) {
   EXPECT_LT(-result.residual, 2.0 * stored);
 }
 
-// The paper's constant area gives no resistance that grows: one of two elements takes all the shortening, until it has no
-// length left.
+// The paper's constant area gives no resistance that grows: one of two elements takes all the shortening, until it has
+// no length left.
 TEST(SquashedWall, AtConstantAreaOneElementIsSquashedToNothing) {
   EXPECT_LT(squash(SectionSpec::AreaRule::constant_area, 0.3).shortest, 0.05);
 }

@@ -14,9 +14,10 @@ struct BilinearSection {
   [[nodiscard]] double curvature(double moment) const;
 };
 
-/// Load in N under which the upper end of an inextensible wall, at `angle` to the horizontal and of fixed rotation at both
-/// ends, has gone straight down by `way`. The wall's equations phi' = k(M), M' = F cos phi are integrated from its middle,
-/// where M = 0, by Runge-Kutta steps of order 4, and shot for phi = angle at the end. Shares nothing with the solver.
+/// Load in N under which the upper end of an inextensible wall, at `angle` to the horizontal and of fixed rotation at
+/// both ends, has gone straight down by `way`. The wall's equations phi' = k(M), M' = F cos phi are integrated from its
+/// middle, where M = 0, by Runge-Kutta steps of order 4, and shot for phi = angle at the end. Shares nothing with the
+/// solver.
 double load_of_pushed_wall(const BilinearSection& section, double length, double angle, double way);
 
 }  // namespace cellcrush::reference

@@ -146,7 +146,8 @@ TEST(SpecChecker, SaysOfScalingsOutOfRangeWhatBuildingTheirScenesSays) {
   }
 }
 
-// Thick walls of few and many elements, and joints thrown far: where bounds do not decide, and on either side of what is refused.
+// Thick walls of few and many elements, and joints thrown far: where bounds do not decide, and on either side of what
+// is refused.
 TEST(SpecChecker, SaysOfLatticesAtTheLimitOfOverlapWhatBuildingTheirScenesSays) {
   SceneSpec spec = scenes::hexagon_block(3, 3);
   spec.numerics.time_step_s = 0.0;

@@ -74,8 +74,8 @@ TEST(Fibres, ReverseYieldStressTellsIsotropicFromKinematicHardening) {
   }
 }
 
-// Symmetric strain cycles: kinematic hardening closes its loop from the second cycle on, isotropic hardening grows toward
-// elastic shakedown.
+// Symmetric strain cycles: kinematic hardening closes its loop from the second cycle on, isotropic hardening grows
+// toward elastic shakedown.
 TEST(Fibres, CyclesCloseWhenKinematicAndGrowWhenIsotropic) {
   const auto tops = [](double beta) {
     Section section(bilinear(beta), 6);
@@ -98,7 +98,8 @@ TEST(Fibres, CyclesCloseWhenKinematicAndGrowWhenIsotropic) {
   }
 }
 
-// Moment over M_e = sigma_y b h^2 / 6 of a rectangular bilinear section (exact): (1 - E_T/E)(1.5 - 0.5 (k_e/k)^2) + E_T k/(E k_e).
+// Moment over M_e = sigma_y b h^2 / 6 of a rectangular bilinear section (exact): (1 - E_T/E)(1.5 - 0.5 (k_e/k)^2) + E_T
+// k/(E k_e).
 TEST(Fibres, BentSectionFollowsTheExactMomentCurvatureLaw) {
   Section section(bilinear(1.0), 10);
   const double yield_curvature = 2.0 * 100.0 / 70000.0;  // times h
