@@ -173,10 +173,10 @@ TEST_F(JobOrderTest, AThousandSpeedsSeedsOrSizesOfTypeIAreQueuedTogether) {
     return seconds;
   };
   EXPECT_LT(seconds_for(kSpeed, 20.0, 220.0), 2.0) << "It takes about 0.1 s on one mesh.";
-  const char* const slow = "It takes about 1 s on two cores.";
-  EXPECT_LT(seconds_for("lattice.imperfection.seed", 1.0, 1000.0), 5.0) << slow;
-  EXPECT_LT(seconds_for("lattice.hexagon.wall_thickness_mm", 0.1, 0.6), 5.0) << slow;
-  EXPECT_LT(seconds_for("lattice.hexagon.side_mm", 3.0, 6.0), 5.0) << slow;
+  const char* const slow = "It takes about 1 s on two idle cores, and 5 s where three others want them.";
+  EXPECT_LT(seconds_for("lattice.imperfection.seed", 1.0, 1000.0), 20.0) << slow;
+  EXPECT_LT(seconds_for("lattice.hexagon.wall_thickness_mm", 0.1, 0.6), 20.0) << slow;
+  EXPECT_LT(seconds_for("lattice.hexagon.side_mm", 3.0, 6.0), 20.0) << slow;
 }
 
 TEST_F(JobOrderTest, AQueueIsToldOfAlsoWhenASampleOfAJobInItCannotBeRead) {
