@@ -5,12 +5,12 @@
 #include <vector>
 
 #include "beam/element_place.h"
-#include "contact/find_contacts.h"
 #include "energy/ledger.h"
 #include "measure/crush_mode.h"
 #include "measure/front.h"
 #include "measure/theory.h"
 #include "measure/warnings.h"
+#include "search/find_contacts.h"
 
 namespace cellcrush {
 namespace {

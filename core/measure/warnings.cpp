@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "contact/capsule.h"
+#include "geometry/capsule.h"
 #include "measure/text.h"
 
 namespace cellcrush {

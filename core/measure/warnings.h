@@ -21,7 +21,7 @@ inline constexpr double kEnergyDrift = 0.01;
 /// Where walls overlap deepest now is told with either.
 Warning warn_of_depth(const Scene& scene, const State& state, double strain);
 Warning warn_of_crossing(const Scene& scene, const State& state, double strain);
-/// Of what bands of the lattice are not held against (contact/border_check.h): costs time, and no accuracy.
+/// Of what bands of the lattice are not held against (search/border_check.h): costs time, and no accuracy.
 Warning warn_of_borders(const Scene& scene, const State& state, double strain);
 
 /// The work done by a sample, or the kinetic energy of all that has been put in, whichever is more, N mm: what an error

@@ -5,9 +5,9 @@
 
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
-#include "contact/plate_forces.h"
 #include "motion/motion_works.h"
 #include "parallel/workers.h"
+#include "touch/plate_forces.h"
 
 namespace cellcrush {
 

@@ -10,8 +10,8 @@
 
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
-#include "contact/plate_forces.h"
 #include "simd/points-inl.h"
+#include "touch/plate_forces.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {

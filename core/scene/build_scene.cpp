@@ -2,12 +2,12 @@
 
 #include "cellcrush/fidelity.h"
 #include "cellcrush/simulation.h"
-#include "contact/contact_faces.h"
-#include "contact/wall_paths.h"
 #include "scene/bands.h"
 #include "scene/check_spec.h"
+#include "scene/contact_faces.h"
 #include "scene/mesh_part.h"
 #include "scene/run_plan.h"
+#include "scene/wall_paths.h"
 
 namespace cellcrush {
 namespace {

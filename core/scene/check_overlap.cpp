@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "contact/initial_overlap.h"
 #include "scene/check_spec.h"
+#include "scene/initial_overlap.h"
 
 namespace cellcrush {
 namespace {

@@ -5,17 +5,17 @@
 #include <span>
 #include <vector>
 
-#include "contact/border_check.h"
-#include "contact/bucket_search.h"
-#include "contact/contact_tiles.h"
-#include "contact/face_search.h"
-#include "contact/find_contacts.h"
-#include "contact/merge_band_contacts.h"
 #include "parallel/cache_size.h"
 #include "parallel/wavefront.h"
 #include "scene/bands.h"
+#include "search/border_check.h"
+#include "search/bucket_search.h"
+#include "search/face_search.h"
+#include "search/find_contacts.h"
+#include "search/merge_band_contacts.h"
 #include "step/stage_scope.h"
 #include "step/stages.h"
+#include "touch/contact_tiles.h"
 
 namespace cellcrush {
 namespace {

@@ -5,15 +5,15 @@
 #include "beam/internal_forces.h"
 #include "beam/joint_forces.h"
 #include "cellcrush/tuning.h"
-#include "contact/contact_tiles.h"
-#include "contact/find_contacts.h"
 #include "energy/ledger.h"
 #include "motion/initial_state.h"
 #include "motion/loads.h"
 #include "motion/rigid_motion.h"
+#include "search/find_contacts.h"
 #include "step/advance_block.h"
 #include "step/stage_scope.h"
 #include "step/stages.h"
+#include "touch/contact_tiles.h"
 
 namespace cellcrush {
 namespace {

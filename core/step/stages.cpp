@@ -3,10 +3,10 @@
 #include <span>
 
 #include "beam/internal_forces.h"
-#include "contact/clear_forces.h"
-#include "contact/contact_forces.h"
-#include "contact/plate_forces.h"
 #include "motion/integrate_motion.h"
+#include "touch/clear_forces.h"
+#include "touch/contact_forces.h"
+#include "touch/plate_forces.h"
 
 namespace cellcrush {
 

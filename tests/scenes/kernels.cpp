@@ -109,8 +109,8 @@ OneElement::OneElement(const Material& material, const SectionRule& rule)
 
 const OneElement::Sums& OneElement::strain(double membrane, double bend_start, double bend_end) {
   const Fibres<double> fibres = {stress_.data(), back_stress_.data(), plastic_strain_.data(), nullptr};
-  ElementStep step = {material_, rule_,      fibres,   unbalance_.data(), flexibility_.data(),
-                      membrane,  bend_start, bend_end, sums_};
+  ElementStep step = {material_,  rule_,    fibres, unbalance_.data(), flexibility_.data(), membrane,
+                      bend_start, bend_end, sums_};
   HWY_DYNAMIC_DISPATCH(strain_element)(step);
   return sums_ = step.sums;
 }

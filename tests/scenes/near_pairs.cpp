@@ -4,12 +4,12 @@
 
 #include <algorithm>
 
-#include "contact/bucket_search.h"
-#include "contact/clear_forces.h"
-#include "contact/contact_forces.h"
-#include "contact/contact_sums.h"
 #include "scene/bands.h"
 #include "scene/face_loops.h"
+#include "search/bucket_search.h"
+#include "touch/clear_forces.h"
+#include "touch/contact_forces.h"
+#include "touch/contact_sums.h"
 
 namespace cellcrush::scenes {
 namespace {

@@ -1,12 +1,12 @@
 #include "scenes/probe.h"
 
-#include "contact/bucket_search.h"
-#include "contact/clear_forces.h"
-#include "contact/contact_forces.h"
 #include "motion/initial_state.h"
 #include "scene/bands.h"
 #include "scenes/frames.h"
 #include "scenes/near_pairs.h"
+#include "search/bucket_search.h"
+#include "touch/clear_forces.h"
+#include "touch/contact_forces.h"
 
 namespace cellcrush::scenes {
 

@@ -1,5 +1,5 @@
 // Friction as a function of the sliding speed, beside friction that remembers how far its spring is stretched.
-#include "contact/friction.h"
+#include "touch/friction.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "contact/capsule.h"
+#include "geometry/capsule.h"
 #include "scenes/direction.h"
 #include "scenes/probe.h"
 

@@ -4,8 +4,8 @@
 
 namespace cellcrush {
 
-/// The faces with particles of a band and of none before, and what the band and its neighbours have of the outer one (all faces,
-/// where there is but one band). F faces, C corners, G groups.
+/// The faces with particles of a band and of none before, and what the band and its neighbours have of the outer one
+/// (all faces, where there is but one band). F faces, C corners, G groups.
 struct FacesOfBand {
   std::vector<int> number;  ///< F, among all faces
   std::vector<int> offset;  ///< F + 1, into corners
@@ -32,8 +32,8 @@ struct BorderParticle {
   int last_band = 0;  ///< of the elements there
 };
 
-/// The faces that elements make of the plane, for the search of contacts (contact/face_search.h): the cells and the outer
-/// border. E elements. Built by build_contact_faces; empty where contacts are searched by buckets.
+/// The faces that elements make of the plane, for the search of contacts (search/face_search.h): the cells and the
+/// outer border. E elements. Built by build_contact_faces; empty where contacts are searched by buckets.
 struct ContactFaces {
   /// Why faces are enough to search, or why they are not.
   enum class Premise {

@@ -53,7 +53,7 @@ struct ContactLists {
   LaneVector<Vector2> searched_position;  ///< N, where the particles were when the list was made
   std::int64_t search_count = 0;
 
-  // The same, of a search by faces (contact/face_search.h): F faces, C corners, G groups. Empty when by buckets.
+  // The same, of a search by faces (search/face_search.h): F faces, C corners, G groups. Empty when by buckets.
   std::vector<FaceList> face_list;     ///< F
   std::vector<double> face_clearance;  ///< F, mm by which gaps may close before a pair that is not listed touches
   std::vector<double> face_next_check_travel;   ///< F, travel of its group at which the face is checked next

@@ -21,8 +21,8 @@ struct Material {
   double density = 0.0;             ///< tonne / mm^3
 };
 
-/// Where an element samples its stress: P sections along it, s = x / l, times D points through its depth (Eq. 30); F = P D
-/// fibres, section by section. Both weights integrate over a length of 1 and sum to 1.
+/// Where an element samples its stress: P sections along it, s = x / l, times D points through its depth (Eq. 30); F =
+/// P D fibres, section by section. Both weights integrate over a length of 1 and sum to 1.
 struct SectionRule {
   /// Whether the curvature may leave its straight line (Eq. 27) for that with which the moment stays one.
   bool force_based = false;
@@ -52,8 +52,8 @@ inline bool share_a_node(const Element& a, const Element& b) {
 inline constexpr std::size_t kMostSingleFibres = 32;
 
 /// Walls of equally many elements, side by side: element j of the block's wall w is first_element + j * walls + w, the
-/// particle behind it inside the wall first_inner + j * walls + w. What elements remember lies in the same order, so that a
-/// step of the chain takes the walls of a block at once.
+/// particle behind it inside the wall first_inner + j * walls + w. What elements remember lies in the same order, so
+/// that a step of the chain takes the walls of a block at once.
 struct WallBlock {
   int first_wall = 0;  ///< into the arrays of Walls
   int walls = 0;       ///< 1 ... kMostWallsInBlock
@@ -92,8 +92,8 @@ struct LatticeBand {
   }
 };
 
-/// Parts of the lattice that move without deforming, B of them. Their particles come first, body by body, and their walls,
-/// an element each, last among the elements: they bear no stress, but others touch them.
+/// Parts of the lattice that move without deforming, B of them. Their particles come first, body by body, and their
+/// walls, an element each, last among the elements: they bear no stress, but others touch them.
 struct RigidBodies {
   std::vector<int> offset;      ///< B + 1, particles; empty: there are none
   std::vector<Vector2> centre;  ///< B, of mass, before loading, mm
@@ -168,8 +168,8 @@ struct ContactLaw {
   double thinnest = 0.0;       ///< mm, least thickness of a wall
 };
 
-/// Pairs of ball and segment that touch nearer than radius and half thickness, because a short way along the walls joins
-/// them (contact/wall_paths.h). N particles.
+/// Pairs of ball and segment that touch nearer than radius and half thickness, because a short way along the walls
+/// joins them (scene/wall_paths.h). N particles.
 struct LimitedReaches {
   std::vector<int> offset;    ///< N + 1, by ball, into the others; empty: none
   std::vector<int> segment;   ///< ascending for each ball

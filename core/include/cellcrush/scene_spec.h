@@ -181,7 +181,7 @@ struct SectionSpec {
 
 struct ContactSpec {
   enum class Search {
-    faces,   ///< by the faces of the lattice, where they are enough (contact/contact_faces.h)
+    faces,   ///< by the faces of the lattice, where they are enough (scene/contact_faces.h)
     buckets  ///< the paper: in space (section 4.1)
   };
   double friction = 0.0;

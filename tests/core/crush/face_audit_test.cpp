@@ -6,13 +6,13 @@
 
 #include "cellcrush/simulation.h"
 #include "cellcrush/state.h"
-#include "contact/bucket_search.h"
-#include "contact/clear_forces.h"
-#include "contact/contact_forces.h"
 #include "scene/bands.h"
 #include "scenes/frames.h"
 #include "scenes/near_pairs.h"
 #include "scenes/small_block.h"
+#include "search/bucket_search.h"
+#include "touch/clear_forces.h"
+#include "touch/contact_forces.h"
 
 namespace cellcrush {
 namespace {

@@ -8,12 +8,12 @@
 
 #include "cellcrush/simd.h"
 #include "cellcrush/simulation.h"
-#include "contact/border_check.h"
 #include "measure/sampler.h"
 #include "scenes/crushes.h"
 #include "scenes/frames.h"
 #include "scenes/near_pairs.h"
 #include "scenes/state_hash.h"
+#include "search/border_check.h"
 #include "step/advance_block.h"
 #include "step/advance_step.h"
 

@@ -1,0 +1,46 @@
+#include "geometry/bucket_grid.h"
+
+#include <cmath>
+
+namespace cellcrush {
+
+BucketGrid::BucketGrid(std::span<const Vector2> points, double size) : origin_(points.front()), size_(size) {
+  Vector2 high = points.front();
+  for (const Vector2& point : points) {
+    origin_ = origin_.cwiseMin(point);
+    high = high.cwiseMax(point);
+  }
+  const Vector2 extent = high - origin_;
+  const double most = kBucketsPerPoint * static_cast<double>(points.size()) + 16.0;
+  while ((extent.x() / size_ + 1.0) * (extent.y() / size_ + 1.0) > most) {
+    size_ *= 2.0;
+  }
+  columns_ = column(high.x()) + 1;
+  rows_ = row(high.y()) + 1;
+
+  offset_.assign(static_cast<std::size_t>(columns_) * rows_ + 1, 0);
+  std::vector<std::size_t> home(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    home[i] = bucket(column(points[i].x()), row(points[i].y()));
+    ++offset_[home[i] + 1];
+  }
+  for (std::size_t b = 1; b < offset_.size(); ++b) {
+    offset_[b] += offset_[b - 1];
+  }
+  sorted_.resize(points.size());
+  std::vector<int> next(offset_.begin(), offset_.end() - 1);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    sorted_[next[home[i]]++] = static_cast<int>(i);
+  }
+}
+
+// Queries may lie far outside of the grid, where the floor would not fit an int: they end at a bucket beyond its edge.
+int BucketGrid::column(double x) const {
+  return static_cast<int>(std::clamp(std::floor((x - origin_.x()) / size_), -1.0, 2e9));
+}
+
+int BucketGrid::row(double y) const {
+  return static_cast<int>(std::clamp(std::floor((y - origin_.y()) / size_), -1.0, 2e9));
+}
+
+}  // namespace cellcrush

@@ -1,0 +1,63 @@
+#include "search/bucket_search.h"
+
+#include <algorithm>
+#include <span>
+
+#include "geometry/bucket_grid.h"
+#include "geometry/capsule.h"
+#include "search/candidate_lists.h"
+
+namespace cellcrush {
+namespace {
+
+bool list_holds(const Scene& scene, const State& state, const ContactLists& lists) {
+  if (lists.searched_position.size() != state.position.size()) {
+    return false;
+  }
+  const double limit = 0.25 * scene.contact.skin * scene.contact.skin;
+  for (std::size_t i = 0; i < state.position.size(); ++i) {
+    if ((state.position[i] - lists.searched_position[i]).squaredNorm() > limit) {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool all_finite(std::span<const Vector2> points) {
+  return std::all_of(points.begin(), points.end(), [](const Vector2& point) { return point.allFinite(); });
+}
+
+}  // namespace
+
+void search_buckets(const Scene& scene, const State& state, ContactLists& lists) {
+  if (!list_holds(scene, state, lists) && all_finite(state.position)) {
+    list_by_buckets(scene, state, lists);
+  }
+}
+
+void list_by_buckets(const Scene& scene, const State& state, ContactLists& lists) {
+  clear_candidates(lists);
+  lists.candidate_count = 0;
+  const double longest = *std::max_element(state.length.begin(), state.length.end());
+  const double skin = scene.contact.skin;
+  const BucketGrid grid(state.position, 0.5 * longest + scene.largest_radius + skin);
+  for (std::size_t e = 0; e < scene.element_count(); ++e) {
+    const Element& element = scene.elements[e];
+    const Vector2& start = state.position[element.start];
+    const Vector2& end = state.position[element.end];
+    const Vector2 margin = Vector2::Constant(0.5 * element.thickness + scene.largest_radius + skin);
+    grid.visit_box(start.cwiseMin(end) - margin, start.cwiseMax(end) + margin, [&](int ball) {
+      const double range = scene.radius[ball] + 0.5 * element.thickness + skin;
+      const Projection foot = project(state.position[ball], start, state.axis[e], state.length[e]);
+      if (ball != element.start && ball != element.end && foot.offset.squaredNorm() < range * range) {
+        const int segment = static_cast<int>(e);
+        add_candidate(lists, {ball, segment, scene.reach_of(ball, segment)});
+      }
+    });
+  }
+  fill_batch(lists);
+  lists.searched_position = state.position;
+  ++lists.search_count;
+}
+
+}  // namespace cellcrush

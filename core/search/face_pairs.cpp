@@ -1,0 +1,204 @@
+#include "search/face_pairs.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include "geometry/bucket_grid.h"
+#include "scene/face_loops.h"
+#include "search/near_corners.h"
+
+namespace cellcrush {
+namespace {
+
+bool cross_each_other(const State& state, const Element& one, const Element& other) {
+  const auto side_of = [&](const Element& line, int particle) {
+    const Vector2& start = state.position[line.start];
+    return cross(state.position[line.end] - start, state.position[particle] - start);
+  };
+  return !share_a_node(one, other) && side_of(one, other.start) * side_of(one, other.end) < 0.0 &&
+         side_of(other, one.start) * side_of(other, one.end) < 0.0;
+}
+
+/// The balls and segments of one face.
+class FaceFinder {
+ public:
+  FaceFinder(const Scene& scene, const State& state, const LatticeBand& band, const FacesOfBand& faces, int face,
+             double skin)
+      : scene_(scene),
+        state_(state),
+        band_(band),
+        number_(faces.number[face]),
+        is_outer_(face == faces.count() - 1),
+        is_whole_(!is_outer_ || faces.is_outer_whole),
+        skin_(skin),
+        count_(faces.corner_count(face)),
+        particle_(&faces.particle[faces.offset[face]]),
+        element_(&faces.element[faces.offset[face]]) {
+    place_.reserve(filled_tiles(count_));
+    for (int corner = 0; corner < count_; ++corner) {
+      place_.push_back(state.position[particle_[corner]]);
+      largest_radius_ = std::max(largest_radius_, scene.radius[particle_[corner]]);
+      thickest_ = std::max(thickest_, scene.elements[element_[corner]].thickness);
+      longest_ = std::max(longest_, state.length[element_[corner]]);
+    }
+  }
+
+  /// Every pair, a segment after the other: the corners' squared distances from it at once, then what is near.
+  void visit_all() {
+    place_.resize(filled_tiles(place_.size()), place_.back());
+    const std::uint64_t all = (std::uint64_t{1} << count_) - 1;
+    double least = std::numeric_limits<double>::max();
+    NearCorners found;
+    for (int corner = 0; corner < count_; ++corner) {
+      const int e = element_[corner];
+      const int next = corner + 1 < count_ ? corner + 1 : 0;
+      const std::uint64_t ends = std::uint64_t{1} << corner | std::uint64_t{1} << next;
+      const double range = range_of(scene_.elements[e]);
+      find_near_corners(place_, all & ~ends, segment_of(e), range * range, found);
+      least = std::min(least, found.least_of_others);
+      for (std::uint64_t near = found.near; near != 0; near &= near - 1) {
+        const int i = std::countr_zero(near);
+        if (!keep(i, e, found.squared_distance[i])) {
+          least = std::min(least, found.squared_distance[i]);
+        }
+      }
+    }
+    pairs_.least_gap = std::max(skin_, std::sqrt(least) - largest_radius_ - 0.5 * thickest_);
+  }
+
+  /// Those in the buckets round a segment, as many at once as there is room for.
+  void visit_near() {
+    const BucketGrid grid(place_, 0.5 * longest_ + largest_radius_ + skin_);
+    std::array<int, kManyCorners> corners;
+    std::array<Vector2, kManyCorners> places;
+    for (int corner = 0; corner < count_; ++corner) {
+      const int e = element_[corner];
+      const Element& element = scene_.elements[e];
+      const Vector2& start = state_.position[element.start];
+      const Vector2& end = state_.position[element.end];
+      const Vector2 margin = Vector2::Constant(range_of(element));
+      std::size_t count = 0;
+      grid.visit_box(start.cwiseMin(end) - margin, start.cwiseMax(end) + margin, [&](int i) {
+        corners[count] = i;
+        places[count] = place_[i];
+        if (++count == corners.size()) {
+          keep_near(e, corners, places);
+          count = 0;
+        }
+      });
+      keep_near(e, std::span(corners).first(count), places);
+    }
+    pairs_.least_gap = skin_;
+  }
+
+  [[nodiscard]] bool is_turned() const {
+    const double area = area_within({particle_, static_cast<std::size_t>(count_)}, state_.position);
+    return is_outer_ ? area > 0.0 : area < 0.0;
+  }
+
+  FacePairs take() {
+    pairs_.crossed = pairs_.crossed || (is_whole_ && is_turned());
+    return std::move(pairs_);
+  }
+
+ private:
+  /// Beyond it no corner is listed with a segment, mm.
+  [[nodiscard]] double range_of(const Element& segment) const {
+    return largest_radius_ + 0.5 * segment.thickness + skin_;
+  }
+
+  /// Lists those of some corners that are near enough to a segment, but its ends. `places` has room for whole tiles.
+  void keep_near(int segment, std::span<const int> corners, std::span<Vector2> places) {
+    const std::size_t count = corners.size();
+    if (count == 0) {
+      return;
+    }
+    const std::size_t filled = filled_tiles(count);
+    std::fill(places.begin() + count, places.begin() + filled, places[count - 1]);
+    const Element& element = scene_.elements[segment];
+    const double range = range_of(element);
+    NearCorners found;
+    find_near_corners(places.first(filled), ~std::uint64_t{0} >> (kManyCorners - count), segment_of(segment),
+                      range * range, found);
+    for (std::uint64_t near = found.near; near != 0; near &= near - 1) {
+      const int i = std::countr_zero(near);
+      const int particle = particle_[corners[i]];
+      if (particle != element.start && particle != element.end) {
+        keep(corners[i], segment, found.squared_distance[i]);
+      }
+    }
+  }
+
+  [[nodiscard]] FaceSegment segment_of(int element) const {
+    return {state_.position[scene_.elements[element].start], state_.axis[element], state_.length[element]};
+  }
+
+  /// Lists a pair that is near enough; says whether it was.
+  bool keep(int corner, int segment, double squared_distance) {
+    const int ball = particle_[corner];
+    const double reach = scene_.reach_of(ball, segment);
+    if (squared_distance >= (reach + skin_) * (reach + skin_)) {
+      return false;
+    }
+    const int before = corner > 0 ? corner - 1 : count_ - 1;
+    const Element& element = scene_.elements[segment];
+    pairs_.crossed = pairs_.crossed || cross_each_other(state_, scene_.elements[element_[before]], element) ||
+                     cross_each_other(state_, scene_.elements[element_[corner]], element);
+    if ((!is_outer_ || band_.owns(ball)) && !is_listed_elsewhere(ball, segment)) {
+      pairs_.candidates.push_back({ball, segment, reach});
+    }
+    return true;
+  }
+
+  [[nodiscard]] bool is_listed_elsewhere(int ball, int segment) const {
+    const auto other_side = [&](int element) {
+      return scene_.faces.side[2 * element] == number_ ? scene_.faces.side[2 * element + 1]
+                                                       : scene_.faces.side[2 * element];
+    };
+    const int other = other_side(segment);
+    if (other > number_) {
+      return false;
+    }
+    const std::span<const int> around(&scene_.incidence[scene_.incidence_offset[ball]],
+                                      scene_.incidence_offset[ball + 1] - scene_.incidence_offset[ball]);
+    return std::any_of(around.begin(), around.end(), [&](int element) {
+      return scene_.faces.side[2 * element] == other || scene_.faces.side[2 * element + 1] == other;
+    });
+  }
+
+  const Scene& scene_;
+  const State& state_;
+  const LatticeBand& band_;
+  int number_;
+  bool is_outer_;
+  bool is_whole_;
+  double skin_;
+  int count_;
+  const int* particle_;
+  const int* element_;
+  std::vector<Vector2> place_;
+  double largest_radius_ = 0.0;
+  double thickest_ = 0.0;
+  double longest_ = 0.0;
+  FacePairs pairs_;
+};
+
+}  // namespace
+
+FacePairs find_face_pairs(const Scene& scene, const State& state, const LatticeBand& band, const FacesOfBand& faces,
+                          int face, double skin) {
+  FaceFinder finder(scene, state, band, faces, face, skin);
+  if (has_many_corners(faces, face)) {
+    finder.visit_near();
+  } else {
+    finder.visit_all();
+  }
+  return finder.take();
+}
+
+}  // namespace cellcrush

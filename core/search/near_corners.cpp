@@ -1,0 +1,53 @@
+#include "search/near_corners.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "search/near_corners.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include <limits>
+
+#include "geometry/capsule-inl.h"
+#include "simd/points-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace cellcrush::HWY_NAMESPACE {
+
+void find_near(std::span<const Vector2> places, std::uint64_t corners, const FaceSegment& segment, double squared_range,
+               NearCorners& found) {
+  using D = hn::CappedTag<double, kPointTile>;
+  const Points<D> start = {segment.start.x(), segment.start.y()};
+  const Points<D> axis = {segment.axis.x(), segment.axis.y()};
+  const Lane<D> length = segment.length;
+  const Lane<D> most = std::numeric_limits<double>::max();
+  Lane<D> least = most;
+  std::uint64_t near = 0;
+  for (std::size_t i = 0; i < places.size(); i += Lane<D>::kWidth) {
+    const Points<D> from_start = Points<D>::load(&places[i]) - start;
+    const auto off = project_clamped(from_start.x, from_start.y, axis.x, axis.y, length);
+    const auto squared = off.x * off.x + off.y * off.y;
+    squared.store(&found.squared_distance[i]);
+    const auto is_near = squared < squared_range;
+    const auto counts = LaneMask<D>::of_bits(static_cast<unsigned>(corners >> i));
+    near |= std::uint64_t{bits_of(is_near & counts)} << i;
+    least = min(least, select(counts & !is_near, squared, most));
+  }
+  found.near = near;
+  found.least_of_others = least_of_lanes(least);
+}
+
+}  // namespace cellcrush::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace cellcrush {
+
+HWY_EXPORT(find_near);
+
+void find_near_corners(std::span<const Vector2> places, std::uint64_t corners, const FaceSegment& segment,
+                       double squared_range, NearCorners& found) {
+  HWY_DYNAMIC_DISPATCH(find_near)(places, corners, segment, squared_range, found);
+}
+
+}  // namespace cellcrush
+#endif

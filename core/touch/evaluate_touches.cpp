@@ -1,0 +1,201 @@
+#include "touch/evaluate_touches.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "touch/evaluate_touches.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "simd/points-inl.h"
+#include "touch/viscous_force-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace cellcrush::HWY_NAMESPACE {
+
+/// What pairs are evaluated from, and what is found of them. By raw pointers: a store may alias the vectors' own
+/// pointers.
+struct PairArrays {
+  const Element* elements;
+  const double* inverse_mass;
+  const Vector2* position;
+  const Vector2* velocity;
+  const Vector2* axis;
+  const double* length;
+  const int* ball;
+  const int* segment;
+  const double* reach;
+  int* side;
+  int* start;
+  int* end;
+  double* share;
+  double* depth;
+  Vector2* normal;
+  double* viscous;
+  double* slip;
+  int* node;
+  double* node_depth;
+  Vector2* node_normal;
+
+  PairArrays(const Scene& scene, const State& state, ContactLists& lists, Touches& touches)
+      : elements(scene.elements.data()),
+        inverse_mass(scene.inverse_mass.data()),
+        position(state.position.data()),
+        velocity(state.velocity.data()),
+        axis(state.axis.data()),
+        length(state.length.data()),
+        ball(lists.touching.ball.data()),
+        segment(lists.touching.segment.data()),
+        reach(lists.touching.reach.data()),
+        side(lists.touching.side.data()),
+        start(touches.start.data()),
+        end(touches.end.data()),
+        share(touches.share.data()),
+        depth(touches.depth.data()),
+        normal(touches.normal.data()),
+        viscous(touches.viscous.data()),
+        slip(touches.slip.data()),
+        node(touches.node.data()),
+        node_depth(touches.node_depth.data()),
+        node_normal(touches.node_normal.data()) {}
+};
+
+/// Writes the particles of the lanes' segments.
+template <class D>
+HWY_INLINE void note_nodes(const PairArrays& arrays, std::size_t i) {
+  for (std::size_t lane = 0; lane < Lane<D>::kWidth; ++lane) {
+    const Element& element = arrays.elements[arrays.segment[i + lane]];
+    arrays.start[i + lane] = element.start;
+    arrays.end[i + lane] = element.end;
+  }
+}
+
+/// How the lanes' particles are and move.
+template <class D>
+struct LaneParticles {
+  Points<D> position;
+  Points<D> velocity;
+  Lane<D> inverse_mass;
+};
+
+template <class D>
+HWY_INLINE LaneParticles<D> gather_particles(const PairArrays& arrays, const int* particles) {
+  LaneParticles<D> at;
+  gather_together(arrays.position, arrays.velocity, arrays.inverse_mass, particles, at.position, at.velocity,
+                  at.inverse_mass);
+  return at;
+}
+
+/// The particles of the lanes' pairs, brought together before anything is written.
+template <class D>
+struct LanePairs {
+  LaneParticles<D> ball;
+  LaneParticles<D> start;
+  LaneParticles<D> end;
+};
+
+/// Where the foot of a ball lies, how deep, its side of the segment, and the normal there.
+template <class D>
+struct Foot {
+  Lane<D> depth;
+  Lane<D> share;
+  Lane<D> side;  // +1 or -1
+  Points<D> normal;
+};
+
+template <class D>
+HWY_INLINE Foot<D> evaluate_foot(const PairArrays& arrays, const LanePairs<D>& at, std::size_t i) {
+  const Lane<D> zero = 0.0;
+  const Lane<D> one = 1.0;
+  const Points<D> axis = gather<D>(arrays.axis, arrays.segment + i);
+  const Lane<D> length = gather<D>(arrays.length, arrays.segment + i);
+  const Points<D> from_start = at.ball.position - at.start.position;
+  const Points<D> from_end = at.ball.position - at.end.position;
+  const auto end_is_nearer = dot(from_end, from_end) < dot(from_start, from_start);
+  const Points<D> from_node = select(end_is_nearer, from_end, from_start);
+  const auto node_distance = sqrt(dot(from_node, from_node));
+  const auto ahead = dot(from_start, axis);
+  const auto inside = (ahead > zero) & (ahead < length);
+  const auto at_end = select(ahead > zero, one, zero);
+  const auto share = select(inside, ahead / length, at_end);
+  const auto signed_distance = cross(axis, from_start);
+
+  // Rolling round a free end changes the side.
+  const auto before = Lane<D>::load(arrays.side + i);
+  const auto now = select(signed_distance >= zero, one, -one);
+  const auto side = select(inside & (before != zero), before, now);
+
+  const Points<D> across = side * Points<D>{-axis.y, axis.x};
+  const auto apart = node_distance > zero;
+  const Points<D> node_normal = select(apart, (one / node_distance) * from_node, across);
+  const Points<D> normal = select(inside, across, node_normal);
+  const auto reach = Lane<D>::load(arrays.reach + i);
+  const auto overlap = reach - select(inside, side * signed_distance, node_distance);
+  const auto depth = masked(overlap < reach + reach, overlap);  // pressed through and out, it touches no more
+
+  masked(depth > zero, side).store(arrays.side + i);
+  depth.store(arrays.depth + i);
+  share.store(arrays.share + i);
+  normal.store(arrays.normal + i);
+  select(end_is_nearer, Lane<D>::load(arrays.end + i), Lane<D>::load(arrays.start + i)).store(arrays.node + i);
+  masked(apart, reach - node_distance).store(arrays.node_depth + i);
+  node_normal.store(arrays.node_normal + i);
+  return {depth, share, side, normal};
+}
+
+template <class D>
+HWY_INLINE void evaluate_motion(const Scene& scene, const PairArrays& arrays, const LanePairs<D>& at,
+                                const Foot<D>& foot, std::size_t i) {
+  const auto to_end = foot.share;
+  const auto to_start = 1.0 - to_end;
+  const auto closing = fma(to_start, at.start.velocity, fms(to_end, at.end.velocity, at.ball.velocity));
+  const auto of_end = fma(to_end * to_end, at.end.inverse_mass, at.ball.inverse_mass);
+  const auto inverse_mass = fma(to_start * to_start, at.start.inverse_mass, of_end);
+  const auto& contact = scene.contact;
+  const auto rate = dot(foot.normal, closing);
+  viscous_force(contact.stiffness, contact.damping_ratio, inverse_mass, rate).store(arrays.viscous + i);
+  const auto slide = foot.side * cross(foot.normal, closing);
+  (scene.schedule.time_step * slide).store(arrays.slip + i);
+}
+
+/// Returns the lanes whose pairs are released.
+template <class D>
+HWY_INLINE LaneMask<D> evaluate_pairs(const Scene& scene, const PairArrays& arrays, std::size_t i) {
+  note_nodes<D>(arrays, i);
+  const LanePairs<D> at = {gather_particles<D>(arrays, arrays.ball + i), gather_particles<D>(arrays, arrays.start + i),
+                           gather_particles<D>(arrays, arrays.end + i)};
+  const Foot<D> foot = evaluate_foot(arrays, at, i);
+  evaluate_motion(scene, arrays, at, foot, i);
+  return !(foot.depth > 0.0);
+}
+
+std::size_t evaluate_all(const Scene& scene, const State& state, ContactLists& lists, Touches& touches,
+                         std::size_t first, std::size_t end, int* released) {
+  using Wide = hn::CappedTag<double, 8>;
+  using One = hn::CappedTag<double, 1>;
+  const PairArrays arrays(scene, state, lists, touches);
+  std::size_t released_count = 0;
+  std::size_t i = first;
+  for (; i + Lane<Wide>::kWidth <= end; i += Lane<Wide>::kWidth) {
+    released_count += write_set_lanes(evaluate_pairs<Wide>(scene, arrays, i), i, released + released_count);
+  }
+  for (; i < end; ++i) {
+    released_count += write_set_lanes(evaluate_pairs<One>(scene, arrays, i), i, released + released_count);
+  }
+  return released_count;
+}
+
+}  // namespace cellcrush::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace cellcrush {
+
+HWY_EXPORT(evaluate_all);
+
+void evaluate_touches(const Scene& scene, const State& state, ContactLists& lists, Touches& touches, std::size_t first,
+                      std::size_t end, std::vector<int>& released) {
+  released.resize(end - first);
+  released.resize(HWY_DYNAMIC_DISPATCH(evaluate_all)(scene, state, lists, touches, first, end, released.data()));
+}
+
+}  // namespace cellcrush
+#endif

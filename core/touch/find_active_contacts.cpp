@@ -1,0 +1,104 @@
+#include "touch/find_active_contacts.h"
+
+#include "touch/remember_touches.h"
+
+namespace cellcrush {
+namespace {
+
+/// The touches of one ball.
+struct BallTouches {
+  const Touches& touches;
+  PairRange range;
+
+  /// Whether the segments of two touches share a node.
+  [[nodiscard]] bool are_joined(int a, int b) const {
+    return share_a_node({touches.start[a], touches.end[a]}, {touches.start[b], touches.end[b]});
+  }
+
+  /// Whether another touching segment of the same polyline is nearer to the ball.
+  [[nodiscard]] bool yields_to_neighbour(int touch) const {
+    for (int other = range.first; other < range.end; ++other) {
+      const double lead = touches.depth[other] - touches.depth[touch];
+      const bool deeper = lead > 0.0 || (lead == 0.0 && other < touch);
+      if (other != touch && deeper && are_joined(touch, other)) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  /// The touch with the nearest node of the polyline to which the pushing segment belongs, if the two balls touch.
+  [[nodiscard]] int node_touch(int pushing) const {
+    int nearest = ActiveContact::kNone;
+    double depth = 0.0;
+    for (int touch = range.first; touch < range.end; ++touch) {
+      if (touches.node_depth[touch] > depth && (touch == pushing || are_joined(touch, pushing))) {
+        nearest = touch;
+        depth = touches.node_depth[touch];
+      }
+    }
+    return nearest;
+  }
+};
+
+/// Whether the ball lies before the node's own ball, and not above the side of one of its segments.
+bool lies_before(const Scene& scene, const State& state, int ball, int node) {
+  const Vector2 away = state.position[ball] - state.position[node];
+  for (int k = scene.incidence_offset[node]; k < scene.incidence_offset[node + 1]; ++k) {
+    const int e = scene.incidence[k];
+    const bool begins = scene.elements[e].start == node;
+    const int other = begins ? scene.elements[e].end : scene.elements[e].start;
+    if (other != ball && (begins ? 1.0 : -1.0) * state.axis[e].dot(away) > 0.0) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Divides the normal force between the touch and that of the node's ball on the ball's own segments.
+void share_with_node(const Scene& scene, const State& state, const ContactLists& lists, const Touches& touches,
+                     ActiveContact& contact) {
+  const int touch = contact.touch;
+  const int ball = lists.touching.ball[touch];
+  const double share = touches.share[touch];
+  if (share > 0.0 && share < 1.0) {
+    if (contact.node_touch != ActiveContact::kNone &&
+        !lies_before(scene, state, touches.node[contact.node_touch], ball)) {
+      contact.net_depth -= 0.5 * touches.node_depth[contact.node_touch] *
+                           touches.normal[touch].dot(touches.node_normal[contact.node_touch]);
+    }
+    return;
+  }
+  // Two balls touch: the first of them has the pair, or the one that lies over the other's segments.
+  const int end = touches.node[touch];
+  contact.has_pair = ball < end && lies_before(scene, state, end, ball);
+  contact.net_depth = contact.has_pair ? contact.net_depth : 0.0;
+}
+
+}  // namespace
+
+void find_active_contacts(const Scene& scene, const State& state, const ContactLists& lists, const Touches& touches,
+                          std::size_t first, std::size_t end, std::vector<ActiveContact>& active) {
+  active.clear();
+  for (int touch = static_cast<int>(first); touch < static_cast<int>(end); ++touch) {
+    const double depth = touches.depth[touch];
+    if (!(depth > 0.0)) {
+      continue;
+    }
+    ActiveContact contact;
+    contact.touch = touch;
+    contact.net_depth = depth;
+    // Most stand alone over the inside of a segment.
+    if (lists.touching.linked[touch] != 0 || touches.node_depth[touch] > 0.0) {
+      const BallTouches of_ball = {touches, pairs_of_ball(lists.touching, lists.touching.ball[touch], touch)};
+      if (of_ball.yields_to_neighbour(touch)) {
+        continue;
+      }
+      contact.node_touch = of_ball.node_touch(touch);
+      share_with_node(scene, state, lists, touches, contact);
+    }
+    active.push_back(contact);
+  }
+}
+
+}  // namespace cellcrush

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <vector>
+
+#include "cellcrush/scene.h"
+#include "cellcrush/state.h"
+#include "touch/contact_workspace.h"
+
+namespace cellcrush {
+
+/// Overwrites `active` by the touches from `first` to `end` that exert forces, by ball, segments ascending: of touching
+/// segments that share a node only the deepest. REQUIRES: all touches of the balls in between, and no others.
+void find_active_contacts(const Scene& scene, const State& state, const ContactLists& lists, const Touches& touches,
+                          std::size_t first, std::size_t end, std::vector<ActiveContact>& active);
+
+}  // namespace cellcrush

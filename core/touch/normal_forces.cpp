@@ -1,0 +1,95 @@
+#include "touch/normal_forces.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "touch/normal_forces.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "simd/lane-inl.h"
+#include "touch/depth_records.h"
+#include "touch/normal_force.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace cellcrush::HWY_NAMESPACE {
+
+/// Force of a contact's pair, whose sum is kept for friction; none where it has no pair.
+HWY_INLINE NormalForce force_of_pair(const Scene& scene, const Touches& touches, ActiveContact& contact) {
+  if (!contact.has_pair) {
+    return {0.0, 0.0};
+  }
+  const NormalForce net = without_pull(scene.contact.stiffness * contact.net_depth, touches.viscous[contact.touch]);
+  contact.normal_force = net.elastic + net.viscous;
+  return net;
+}
+
+/// Subtracts half of what the touch of two balls would store. The node's ball counts the pair as well, and pushes by
+/// itself where the node lies under the ball's segments.
+HWY_INLINE void subtract_double_count(const Scene& scene, State& state, const TouchMemory& touching,
+                                      const Touches& touches, int node_touch, double& stored) {
+  const double stiffness = 0.5 * scene.contact.stiffness;
+  const double depth = touches.node_depth[node_touch];
+  const Vector2 force = stiffness * depth * touches.node_normal[node_touch];
+  state.contact_force[touching.ball[node_touch]].elastic -= force;
+  state.contact_force[touches.node[node_touch]].elastic += force;
+  stored -= 0.5 * stiffness * depth * depth;
+}
+
+/// Adds a share of a pair's forces, elastic x and y, viscous x and y, to those of a particle.
+HWY_INLINE void add_share(double share, const double* HWY_RESTRICT pair, ContactForce& to) {
+  using Numbers = Lane<hn::CappedTag<double, 4>>;
+  double* sums = to.elastic.data();
+  for (std::size_t k = 0; k < 4; k += Numbers::kWidth) {
+    (Numbers::load(sums + k) + share * Numbers::load(pair + k)).store(sums + k);
+  }
+}
+
+// By raw pointers: a store may alias the vectors' own pointers.
+void add_normal_forces(const Scene& scene, State& state, const TouchMemory& touching, ContactWorkspace& workspace,
+                       ContactTotals& totals) {
+  const Touches& touches = workspace.touches;
+  const int* balls = touching.ball.data();
+  const int* starts = touches.start.data();
+  const int* ends = touches.end.data();
+  const double* depths = touches.depth.data();
+  const double* shares = touches.share.data();
+  const Vector2* normals = touches.normal.data();
+  const double stiffness = scene.contact.stiffness;
+  ContactForce* forces = state.contact_force.data();
+  DepthRecords records(scene, touching, touches, totals);
+  double squared_depths = 0.0;
+  for (ActiveContact& contact : workspace.active) {
+    const int touch = contact.touch;
+    const double depth = depths[touch];
+    const Vector2 normal = normals[touch];
+    const NormalForce net = force_of_pair(scene, touches, contact);
+    const double elastic = stiffness * depth;
+    const double pair[] = {elastic * normal.x(), elastic * normal.y(), net.viscous * normal.x(),
+                           net.viscous * normal.y()};
+    const double share = shares[touch];
+    add_share(1.0, pair, forces[balls[touch]]);
+    add_share(share - 1.0, pair, forces[starts[touch]]);
+    add_share(-share, pair, forces[ends[touch]]);
+    squared_depths += depth * depth;
+    if (contact.node_touch != ActiveContact::kNone) {
+      subtract_double_count(scene, state, touching, touches, contact.node_touch, totals.stored);
+    }
+    records.note(touch);
+  }
+  totals.stored += 0.5 * stiffness * squared_depths;
+}
+
+}  // namespace cellcrush::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace cellcrush {
+
+HWY_EXPORT(add_normal_forces);
+
+void apply_normal_forces(const Scene& scene, State& state, const TouchMemory& touching, ContactWorkspace& workspace,
+                         ContactTotals& totals) {
+  HWY_DYNAMIC_DISPATCH(add_normal_forces)(scene, state, touching, workspace, totals);
+}
+
+}  // namespace cellcrush
+#endif

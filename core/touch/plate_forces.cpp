@@ -1,0 +1,87 @@
+#include "touch/plate_forces.h"
+
+#include <limits>
+
+#include "touch/contact_tiles.h"
+#include "touch/friction.h"
+#include "touch/normal_force.h"
+
+namespace cellcrush {
+namespace {
+
+/// One of the two plates as it is now.
+struct Plate {
+  double face;       ///< mm
+  double velocity;   ///< mm/s
+  double outward;    ///< +1 or -1: from its face into the lattice, along the crush
+  PlateForce& sum;   ///< of its forces on all particles
+  double& stored;    ///< of all contacts, N mm
+  double* friction;  ///< of each particle; null without friction
+};
+
+/// Pushes one particle; the plates do not move across the crush, so its slip is its own motion there.
+void push(const Scene& scene, State& state, const Plate& plate, std::size_t particle, double radius) {
+  const int axis = scene.plates.axis;
+  const double depth = radius - plate.outward * (state.position[particle][axis] - plate.face);
+  NormalForce force = {0.0, 0.0};
+  if (depth > 0.0) {
+    const double rate = plate.outward * (plate.velocity - state.velocity[particle][axis]);
+    force = evaluate_normal_force(scene.plates.stiffness, scene.contact.damping_ratio, scene.inverse_mass[particle],
+                                  depth, rate);
+    plate.stored += 0.5 * force.elastic * depth;
+    state.contact_force[particle].elastic[axis] += plate.outward * force.elastic;
+    state.contact_force[particle].viscous[axis] += plate.outward * force.viscous;
+    mark_contact_tile(state, static_cast<int>(particle));
+    plate.sum.elastic += force.elastic;
+    plate.sum.viscous += force.viscous;
+  }
+  if (plate.friction != nullptr && (depth > 0.0 || plate.friction[particle] != 0.0)) {
+    const double slip = scene.schedule.time_step * state.velocity[particle][1 - axis];
+    double& friction = plate.friction[particle];
+    friction = evaluate_friction(friction, scene.plates.stiffness, slip,
+                                 scene.plates.friction * (force.elastic + force.viscous));
+    state.friction_force[particle][1 - axis] += friction;
+  }
+}
+
+}  // namespace
+
+PlateReach reach_of_plates(const Scene& scene, double impact_travel) {
+  if (!scene.plates.present) {
+    constexpr double kFar = std::numeric_limits<double>::infinity();
+    return {-kFar, kFar};
+  }
+  constexpr double kRounding = 1e-9;  // mm
+  const double reach = scene.largest_radius + kRounding;
+  return {scene.plates.impact_face + impact_travel + reach, scene.plates.support_face - reach};
+}
+
+void evaluate_plate_forces(const Scene& scene, State& state, const PlateMotion& motion, std::span<const int> near,
+                           ContactSums& sums) {
+  const Plates& plates = scene.plates;
+  if (!plates.present) {
+    return;
+  }
+  const bool rubs = plates.friction > 0.0;
+  double& stored = sums.walls.stored;
+  const Plate impact = {plates.impact_face + motion.impact_travel,    motion.impact_speed, 1.0, sums.impact, stored,
+                        rubs ? state.impact_friction.data() : nullptr};
+  const Plate support = {plates.support_face, 0.0,    -1.0,
+                         sums.support,        stored, rubs ? state.support_friction.data() : nullptr};
+  const bool is_uniform =
+      scene.smallest_radius == scene.largest_radius;  // then no radius is fetched, from memory, for most
+  const auto push_by_both = [&](std::size_t particle) {
+    const double place = state.position[particle][scene.plates.axis];
+    const double radius = is_uniform ? scene.largest_radius : scene.radius[particle];
+    const bool rubbed = rubs && (impact.friction[particle] != 0.0 || support.friction[particle] != 0.0);
+    if (place - radius < impact.face || place + radius > support.face || rubbed) {
+      push(scene, state, impact, particle, radius);
+      push(scene, state, support, particle, radius);
+    }
+  };
+  for (const int particle : near) {
+    push_by_both(static_cast<std::size_t>(particle));
+  }
+}
+
+}  // namespace cellcrush
