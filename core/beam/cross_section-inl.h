@@ -45,10 +45,10 @@ struct CrossSection {
     return length < Lane<D>(kModulusCapStretch) * undeformed;
   }
 
-  /// Share of Young's modulus with which an element compressed to `length` vibrates no faster than at kModulusCapStretch:
-  /// A / l and I / l grow with the shortening, at constant volume with its square, and the shear they cause by
-  /// 1 + 4 gamma^2 / l^2 (E11). Such an element flows: its force is that of the yield stress, and what its modulus stores
-  /// is a small part of its plastic work.
+  /// Share of Young's modulus with which an element compressed to `length` vibrates no faster than at
+  /// kModulusCapStretch: A / l and I / l grow with the shortening, at constant volume with its square, and the shear
+  /// they cause by 1 + 4 gamma^2 / l^2 (E11). Such an element flows: its force is that of the yield stress, and what
+  /// its modulus stores is a small part of its plastic work.
   HWY_INLINE Lane<D> modulus_share(Lane<D> length) const {
     const Lane<D> one = 1;
     const Lane<D> bound = Lane<D>(kModulusCapStretch) * undeformed;

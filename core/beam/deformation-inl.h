@@ -15,14 +15,15 @@
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {
 
-/// Sine up to which the rotation of an axis over a step is a series; the first term left out is below 1e-17 of the angle.
+/// Sine up to which the rotation of an axis over a step is a series; the first term left out is below 1e-17 of the
+/// angle.
 inline constexpr double kSmallTurn = 0.02;
 
 /// Angle by which the unit vector `from` must turn to point along the unit vector `to`, counter-clockwise positive, in
 /// (-pi, pi]. Exact to round-off for increments of any size, both signs.
 ///
-/// Deviation from Eq. 9: the arc cosine of the dot product loses the sign, and is 0 below 2e-8 rad. The sine is the cross
-/// product; its inverse is a series where it is small, as it is in every step of a sound run.
+/// Deviation from Eq. 9: the arc cosine of the dot product loses the sign, and is 0 below 2e-8 rad. The sine is the
+/// cross product; its inverse is a series where it is small, as it is in every step of a sound run.
 template <class D>
 HWY_INLINE Lane<D> turn_between(const Points<D>& from, const Points<D>& to) {
   const Lane<D> sine = cross(from, to);
@@ -85,9 +86,9 @@ HWY_INLINE void invert_lengths(Lane<D> square, Lane<D> previous_length, Lane<D> 
   }
 }
 
-/// Reverse rigid motion of an element: translation and rotation by the turn of its axis are taken out of the motion of its
-/// nodes (Eq. 8-15). `span` points from the start node to the end node now; the previous axis and length are those of the
-/// step before; the turns are the nodes' rotation increments over the step.
+/// Reverse rigid motion of an element: translation and rotation by the turn of its axis are taken out of the motion of
+/// its nodes (Eq. 8-15). `span` points from the start node to the end node now; the previous axis and length are those
+/// of the step before; the turns are the nodes' rotation increments over the step.
 template <class D>
 HWY_INLINE Deformation<D> reverse_motion(const Points<D>& span, const Points<D>& previous_axis, Lane<D> previous_length,
                                          Lane<D> previous_inverse, Lane<D> turn_start, Lane<D> turn_end) {

@@ -6,8 +6,8 @@
 
 namespace cellcrush {
 
-/// Where an element's values lie in the state's arrays. The elements at the same place of a block's walls make a row, and a
-/// row's values lie one after another, walls innermost.
+/// Where an element's values lie in the state's arrays. The elements at the same place of a block's walls make a row,
+/// and a row's values lie one after another, walls innermost.
 struct ElementPlace {
   std::size_t element = 0;
   std::size_t row = 0;     ///< first element of the row

@@ -15,7 +15,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {
 
-/// Return mapping of the fibres of all sections under given increments of membrane strain and curvature, and their sums.
+/// Return mapping of the fibres of all sections under given increments of membrane strain and curvature, and their
+/// sums.
 template <bool kHardening, class Rule, class D>
 HWY_INLINE auto return_map_element(const LaneMaterial<D>& material, const Rule& rule, Lane<D> membrane,
                                    const Lane<D>* HWY_RESTRICT curvature, const Fibres<hn::TFromD<D>>& before,

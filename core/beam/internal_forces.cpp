@@ -15,8 +15,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {
 
-/// The walls' loops over a chunk, for one section rule. Full blocks fill vectors; other blocks, and rules whose counts are
-/// not known at compile time, are computed wall by wall.
+/// The walls' loops over a chunk, for one section rule. Full blocks fill vectors; other blocks, and rules whose counts
+/// are not known at compile time, are computed wall by wall.
 template <bool kForceBased, bool kHardening, class Rule>
 class WallLoops {
  public:

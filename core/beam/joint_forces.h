@@ -8,8 +8,8 @@
 
 namespace cellcrush {
 
-/// Sums the walls' forces on joints `first` to `end`, each joint's in a fixed order, so that the sums have the same bits
-/// whoever computes them. Does nothing if first >= end.
+/// Sums the walls' forces on joints `first` to `end`, each joint's in a fixed order, so that the sums have the same
+/// bits whoever computes them. Does nothing if first >= end.
 void sum_joint_forces(const Scene& scene, State& state, std::size_t first, std::size_t end);
 
 /// The same of all joints.

@@ -111,13 +111,13 @@ HWY_INLINE Lane<D> shown_flexibility(Lane<D> elastic, Lane<D> gained) {
   return select(is_between, select(flexibility < kElasticBelow<T>, 1, flexibility), most);
 }
 
-/// Increments of curvature times h with which the moment becomes a straight line along the element, as equilibrium has it,
-/// and that add up to the end rotations times h / l (force-based element of Spacone, Filippou and Taucer, 1996). Moments are
-/// taken as the elastic curvatures that they cause.
+/// Increments of curvature times h with which the moment becomes a straight line along the element, as equilibrium has
+/// it, and that add up to the end rotations times h / l (force-based element of Spacone, Filippou and Taucer, 1996).
+/// Moments are taken as the elastic curvatures that they cause.
 ///
-/// The sections' flexibility is what they showed last; what it is wrong by is the residual, for another pass or the next
-/// step. A section that has yielded but now unloads is taken as elastic; one that was compressed and bears no moment cannot
-/// unload. `active` are the lanes that are asked for: the others' history is left alone.
+/// The sections' flexibility is what they showed last; what it is wrong by is the residual, for another pass or the
+/// next step. A section that has yielded but now unloads is taken as elastic; one that was compressed and bears no
+/// moment cannot unload. `active` are the lanes that are asked for: the others' history is left alone.
 template <class Rule, int kRoom, class D>
 HWY_INLINE void balanced_curvatures(const Rule& rule, const LaneMaterial<D>& material, const EndMoments<D>& moments,
                                     LaneMask<D> active, const Bend<D>& bend, SectionHistory<kRoom, D>& history,
@@ -153,8 +153,8 @@ HWY_INLINE void balanced_curvatures(const Rule& rule, const LaneMaterial<D>& mat
   }
 }
 
-/// Updates the history after the sections' moments have gone from `before` to those of `now` under increments of curvature
-/// times h. Returns the lanes whose sections are all in balance to 2 % of the full plastic moment.
+/// Updates the history after the sections' moments have gone from `before` to those of `now` under increments of
+/// curvature times h. Returns the lanes whose sections are all in balance to 2 % of the full plastic moment.
 template <class Rule, int kRoom, class D>
 HWY_INLINE LaneMask<D> update_section_history(const Rule& rule, const LaneMaterial<D>& material,
                                               const Lane<D>* HWY_RESTRICT before, const ElementSums<kRoom, D>& now,

@@ -54,8 +54,9 @@ struct RowSums {
   T* plastic_work;
 };
 
-/// Values that pass between the three loops over a chunk's elements, in the fibres' precision, kScratchKinds an element. Row
-/// by row: the values of a kind lie side by side, and a row's kinds one after the other. The sums overwrite the strains.
+/// Values that pass between the three loops over a chunk's elements, in the fibres' precision, kScratchKinds an
+/// element. Row by row: the values of a kind lie side by side, and a row's kinds one after the other. The sums
+/// overwrite the strains.
 template <class T>
 class ChunkScratch {
  public:
@@ -80,12 +81,13 @@ class ChunkScratch {
 };
 
 /// A step of the walls of some neighbouring blocks (Eq. 7-32). Three short loops, over geometry, fibres and forces: the
-/// processor works at several elements at a time, where each by itself is a long chain of operations. Motion and forces are in
-/// double precision (lanes D), fibres in single or double (lanes F).
+/// processor works at several elements at a time, where each by itself is a long chain of operations. Motion and forces
+/// are in double precision (lanes D), fibres in single or double (lanes F).
 ///
-/// Deviations: strains are taken over the mean length of the step (Eq. 24-26 take l_a), so that a way there and back leaves no
-/// strain and the work of the forces is that of the stresses; the shear force of Eq. 31 takes the current length, with which
-/// alone angular momentum is kept; the forward rotation of Eq. 32 is the current axis itself, so no rotation matrix is needed.
+/// Deviations: strains are taken over the mean length of the step (Eq. 24-26 take l_a), so that a way there and back
+/// leaves no strain and the work of the forces is that of the stresses; the shear force of Eq. 31 takes the current
+/// length, with which alone angular momentum is kept; the forward rotation of Eq. 32 is the current axis itself, so no
+/// rotation matrix is needed.
 template <bool kForceBased, bool kHardening, class Rule, class D, class F>
 class WallChunk {
   using T = hn::TFromD<F>;
@@ -115,13 +117,15 @@ class WallChunk {
         prefetches_(memory.stress.size() * sizeof(T) > last_cache_bytes() / kCacheShareOfFibres),
         uniform_(scene.materials.front()) {}
 
-  /// The first loop: axes, lengths and strains. Returns whether some elements are compressed, with a modulus of their own.
+  /// The first loop: axes, lengths and strains. Returns whether some elements are compressed, with a modulus of their
+  /// own.
   HWY_INLINE bool deform() {
     visit_lanes<D>([&](const WallBlock& block, int lane) HWY_ATTR { reverse_motions(block, lane); });
     return is_compressed_;
   }
 
-  /// The others: stresses and forces. `is_compressed` is what the first returned. Adds the plastic work to that of the lanes.
+  /// The others: stresses and forces. `is_compressed` is what the first returned. Adds the plastic work to that of the
+  /// lanes.
   HWY_INLINE void respond(bool is_compressed, double* HWY_RESTRICT plastic_work) {
     is_compressed_ = is_compressed;
     visit_lanes<F>([&](const WallBlock& block, int lane) HWY_ATTR { return_map_fibres(block, lane); });
@@ -139,8 +143,8 @@ class WallChunk {
     }
   }
 
-  /// Walls of a block, which are the elements of a row: a constant where they fill vectors, so that what lies side by side
-  /// has addresses that are known.
+  /// Walls of a block, which are the elements of a row: a constant where they fill vectors, so that what lies side by
+  /// side has addresses that are known.
   HWY_INLINE static int walls_of(const WallBlock& block) { return Real::kWidth == 1 ? block.walls : kMostWallsInBlock; }
 
   HWY_INLINE static std::ptrdiff_t row_of(const WallBlock& block, int j) {

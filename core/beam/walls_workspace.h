@@ -27,7 +27,8 @@ struct WallScratch {
   }
 };
 
-/// Room for the walls' part of a step, kept from step to step so that none allocates. No result depends on what it holds.
+/// Room for the walls' part of a step, kept from step to step so that none allocates. No result depends on what it
+/// holds.
 struct WallsWorkspace {
   std::vector<WallScratch> of_thread;  ///< of a chunk at a time
 

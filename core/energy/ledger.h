@@ -5,12 +5,12 @@
 
 namespace cellcrush {
 
-// The ledger of a run: work of the plates and loads = kinetic + elastic + plastic + contact + friction + damping + residual.
-// Every term is integrated by itself; the residual is what the integration lost or made.
+// The ledger of a run: work of the plates and loads = kinetic + elastic + plastic + contact + friction + damping +
+// residual. Every term is integrated by itself; the residual is what the integration lost or made.
 //
-// With the works of motion/motion_works.h, kinetic energy is m v(n-1/2) . v(n+1/2) / 2 and a linear system closes to round-off.
-// Plastic work is the returned stress times the plastic strain increment and elastic energy a function of the
-// stresses alone, so that an unstable integration, which plasticity can hide as heat, opens the ledger.
+// With the works of motion/motion_works.h, kinetic energy is m v(n-1/2) . v(n+1/2) / 2 and a linear system closes to
+// round-off. Plastic work is the returned stress times the plastic strain increment and elastic energy a function of
+// the stresses alone, so that an unstable integration, which plasticity can hide as heat, opens the ledger.
 
 /// Starts the ledger at time 0: sets the initial kinetic energy and subtracts the half step before it.
 void open_ledger(const Scene& scene, State& state);

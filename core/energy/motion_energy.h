@@ -6,7 +6,8 @@
 
 namespace cellcrush {
 
-/// The works of the newest forces on all particles over the half step up to the state's time, and twice the kinetic energy then.
+/// The works of the newest forces on all particles over the half step up to the state's time, and twice the kinetic
+/// energy then.
 MotionWorks half_step_works(const Scene& scene, const State& state);
 
 }  // namespace cellcrush

@@ -7,8 +7,8 @@
 namespace cellcrush {
 namespace {
 
-/// Sums some quantities of the particles over the columns. Those that follow each other are mostly of the same column: they add
-/// to different parts of its sum, so that none waits for the one before it.
+/// Sums some quantities of the particles over the columns. Those that follow each other are mostly of the same column:
+/// they add to different parts of its sum, so that none waits for the one before it.
 template <int kQuantities>
 class ColumnSums {
  public:

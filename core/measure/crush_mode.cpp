@@ -17,8 +17,8 @@ struct Band {
 };
 
 /// Looks over mid-lines of one kind for the band that agrees best with the collapsed cells. A band has one, two or four
-/// arms, and each of them has to be there: kLeastOfArm of its cells have collapsed, and they are kLeastOfBand of an even
-/// share of the band's.
+/// arms, and each of them has to be there: kLeastOfArm of its cells have collapsed, and they are kLeastOfBand of an
+/// even share of the band's.
 class BandSearch {
  public:
   BandSearch(const CollapseField& field, CrushMode kind, int arms, double to_beat) : field_(field), arms_(arms) {
@@ -108,8 +108,8 @@ void for_each_place(const CollapseField& field, const Try& attempt) {
   }
 }
 
-/// Slopes that are tried, as what a band runs along the crush over a distance across it; those that a lattice of this width
-/// can tell from none.
+/// Slopes that are tried, as what a band runs along the crush over a distance across it; those that a lattice of this
+/// width can tell from none.
 std::vector<double> slopes_of(const CollapseField& field) {
   constexpr double kLeastRun = 3.0;  // cells along the crush over half of the width
   std::vector<double> slopes;

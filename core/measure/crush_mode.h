@@ -7,19 +7,20 @@
 
 namespace cellcrush {
 
-// The crush mode: where the cells of a lattice collapse, after the words of Ruan, Lu, Wang and Yu, Int. J. Impact Eng. 28
-// (2003) 161-182, read on the undeformed lattice. A cell has collapsed when it has kCollapsedArea of its area or less.
+// The crush mode: where the cells of a lattice collapse, after the words of Ruan, Lu, Wang and Yu, Int. J. Impact Eng.
+// 28 (2003) 161-182, read on the undeformed lattice. A cell has collapsed when it has kCollapsedArea of its area or
+// less.
 //   I  bands straight across the crush
 //   V  two oblique bands that meet in a point at an end, a side or inside, to either hand; also two or more V
 //   X  two oblique bands that cross inside the lattice and go on behind the crossing on both sides
 //   C  a curved band: a V whose point is turned round, as at an obstacle
-// Each is a mid-line and a width along the crush. That of V is at |s - s0| = a |t - t0|, one hand of it; of a V that lies
-// on a side and of X both hands; of C s - s0 = +-a (t - t0)^2 / (W / 2), with s along the crush, t across it, W the
-// lattice's width. The band that agrees best is looked for over its place, slope and width; agreement is twice the
+// Each is a mid-line and a width along the crush. That of V is at |s - s0| = a |t - t0|, one hand of it; of a V that
+// lies on a side and of X both hands; of C s - s0 = +-a (t - t0)^2 / (W / 2), with s along the crush, t across it, W
+// the lattice's width. The band that agrees best is looked for over its place, slope and width; agreement is twice the
 // collapsed cells within the band over the cells within it plus all collapsed ones (Dice's coefficient). Every arm of a
-// band has to be there. What the first band leaves is looked at again while it is much, so that bands at both ends count as bands.
-// The simplest kind wins unless another agrees better by kClearlyBetter. A lattice whose bands agree by less than
-// kLeastAgreement, or whose bands are of several kinds, is MIXED. So is a single oblique band.
+// band has to be there. What the first band leaves is looked at again while it is much, so that bands at both ends
+// count as bands. The simplest kind wins unless another agrees better by kClearlyBetter. A lattice whose bands agree by
+// less than kLeastAgreement, or whose bands are of several kinds, is MIXED. So is a single oblique band.
 
 inline constexpr double kCollapsedArea = 0.5;
 inline constexpr double kLeastAgreement = 0.6;

@@ -15,7 +15,8 @@
 namespace cellcrush {
 namespace {
 
-/// The crush mode is looked for each time that so many more of the cells have collapsed: it takes as long as many steps.
+/// The crush mode is looked for each time that so many more of the cells have collapsed: it takes as long as many
+/// steps.
 constexpr double kLookEvery = 0.04;
 
 /// Share of an element's volume whose fibres have flowed.

@@ -8,9 +8,9 @@
 
 namespace cellcrush {
 
-/// Takes samples of a run. Stresses are means over the interval between two samples, from the plates' impulses: a penalty
-/// contact rings, and the force at one moment says little. Collapse and front are read from the positions and velocities
-/// of now. Only a lattice between plates has cells, columns and a front.
+/// Takes samples of a run. Stresses are means over the interval between two samples, from the plates' impulses: a
+/// penalty contact rings, and the force at one moment says little. Collapse and front are read from the positions and
+/// velocities of now. Only a lattice between plates has cells, columns and a front.
 class Sampler {
  public:
   explicit Sampler(const Scene& scene);
@@ -45,7 +45,8 @@ class Sampler {
   double next_look_;  ///< share of collapsed cells from which the crush mode is looked for next
 };
 
-/// Overwrites a frame, of the same scene if of any: positions, and the share of each element's section area that has yielded.
+/// Overwrites a frame, of the same scene if of any: positions, and the share of each element's section area that has
+/// yielded.
 void make_frame(const Scene& scene, const State& state, int index, FieldFrame& frame);
 
 }  // namespace cellcrush

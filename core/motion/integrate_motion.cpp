@@ -127,9 +127,9 @@ std::size_t moved_chunk_count(const Scene& scene) {
   return inner.first_chunk + inner.chunk_count();
 }
 
-/// Every chunk's works are numbers of their own, so that the sums do not depend on who computes them. Joints and particles
-/// inside walls are dealt out each by themselves, as the joints' sums and the walls are, so that a thread finds in its cache
-/// what it has written.
+/// Every chunk's works are numbers of their own, so that the sums do not depend on who computes them. Joints and
+/// particles inside walls are dealt out each by themselves, as the joints' sums and the walls are, so that a thread
+/// finds in its cache what it has written.
 NearCounts integrate_motion(const Scene& scene, State& state, const LatticeBand& band, const PlateReach& reach,
                             Workers& workers, std::vector<MovedChunk>& moved, std::vector<int>& near_plates) {
   const Group joints = joints_of(scene, band);

@@ -21,16 +21,16 @@ struct MovedChunk {
 /// Chunks of a scene's free particles, those of joints first.
 std::size_t moved_chunk_count(const Scene& scene);
 
-/// How many particles of a band may be near a plate. They stand in a list with room for all particles, from the band's first
-/// joint on, and from its first particle inside a wall, ascending.
+/// How many particles of a band may be near a plate. They stand in a list with room for all particles, from the band's
+/// first joint on, and from its first particle inside a wall, ascending.
 struct NearCounts {
   std::size_t joints = 0;
   std::size_t inner = 0;
 };
 
-/// Central differences over one step of a band's free particles (E2): velocities to half a step after the forces, positions
-/// and rotations to the next time. Overwrites the band's chunks among all of `moved`, and its part of the list `near_plates`
-/// by the particles that may be near a plate then, whose `reach` is that at the step's end.
+/// Central differences over one step of a band's free particles (E2): velocities to half a step after the forces,
+/// positions and rotations to the next time. Overwrites the band's chunks among all of `moved`, and its part of the
+/// list `near_plates` by the particles that may be near a plate then, whose `reach` is that at the step's end.
 NearCounts integrate_motion(const Scene& scene, State& state, const LatticeBand& band, const PlateReach& reach,
                             Workers& workers, std::vector<MovedChunk>& moved, std::vector<int>& near_plates);
 

@@ -114,8 +114,8 @@ HWY_INLINE void add_works_of_half_step(const ParticleArrays<S>& arrays, const St
   works.twice_kinetic += fma(Lane<D>::load(arrays.mass + i), dot(motion.velocity, motion.next), of_spin);
 }
 
-/// Calls visit(tag of the lanes, first particle, their works) for all particles from `first` to `end` and sums the works. They
-/// stay in registers: in memory each would wait for the one before to have been written.
+/// Calls visit(tag of the lanes, first particle, their works) for all particles from `first` to `end` and sums the
+/// works. They stay in registers: in memory each would wait for the one before to have been written.
 template <std::size_t kWidth, class Visit>
 HWY_INLINE MotionWorks sum_works(std::size_t first, std::size_t end, Visit&& visit) {
   using Wide = hn::CappedTag<double, kWidth>;

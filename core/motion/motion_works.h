@@ -5,8 +5,8 @@
 namespace cellcrush {
 
 /// Works of the forces on particles, summed over particles, as the Ledger has them, N mm. Forces act at whole steps,
-/// velocities stand half a step off: a force's work is F(t_n) . dt (v(n-1/2) + v(n+1/2)) / 2, the trapezoidal rule over the
-/// displacements.
+/// velocities stand half a step off: a force's work is F(t_n) . dt (v(n-1/2) + v(n+1/2)) / 2, the trapezoidal rule over
+/// the displacements.
 struct MotionWorks {
   double contact = 0.0;
   double contact_damping = 0.0;

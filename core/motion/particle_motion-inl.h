@@ -41,8 +41,8 @@ HWY_INLINE auto with_force_kinds(const Scene& scene, const State& state, const U
   return rubs ? use(ForceKinds<true, false, false>()) : use(ForceKinds<false, false, false>());
 }
 
-/// The arrays of particles, S being State, or const State where nothing moves. Raw pointers: a store may alias a vector's own
-/// pointer.
+/// The arrays of particles, S being State, or const State where nothing moves. Raw pointers: a store may alias a
+/// vector's own pointer.
 template <class S>
 struct ParticleArrays {
   template <class T>

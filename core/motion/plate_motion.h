@@ -12,8 +12,8 @@ struct PlateStep {
 };
 PlateStep plate_step_of(const Scene& scene, double time, double travel);
 
-/// Adds the work of the impact plate's forces over a mean displacement, mm, to the ledger. On the particles' side its forces
-/// are among the contacts'.
+/// Adds the work of the impact plate's forces over a mean displacement, mm, to the ledger. On the particles' side its
+/// forces are among the contacts'.
 void accumulate_plate_work(const State& state, double displacement, Ledger& ledger);
 
 /// Accumulates the work and the impulses of the plates' forces over a step, and moves the impact plate.

@@ -64,8 +64,8 @@ Motion motion_in_body(const State& state, std::size_t body, std::size_t i, const
   return motion;
 }
 
-/// Velocity of a particle that comes from its position to `place`: the chord of the step, so that works and contacts follow
-/// how far the particle came.
+/// Velocity of a particle that comes from its position to `place`: the chord of the step, so that works and contacts
+/// follow how far the particle came.
 Motion motion_to(const State& state, double step, std::size_t i, const Vector2& place, const Motion& of_body) {
   Motion motion;
   motion.velocity = to_lane(state.velocity[i]);

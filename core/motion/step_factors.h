@@ -12,8 +12,8 @@ struct StepFactors {
   double half_damping;  ///< alpha / 2, 1/s
 };
 
-/// Mass damping -alpha m v acts on the mean of the velocities half a step before and after, so that it is exact to second
-/// order and stable at any alpha.
+/// Mass damping -alpha m v acts on the mean of the velocities half a step before and after, so that it is exact to
+/// second order and stable at any alpha.
 inline StepFactors step_factors_of(const Scene& scene) {
   const double step = scene.schedule.time_step;
   const double damping = 0.5 * scene.mass_damping * step;

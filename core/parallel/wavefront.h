@@ -12,15 +12,16 @@ namespace cellcrush {
 ///     step 1                    0   1   2   3 ...
 ///     step 2                            0   1 ...
 ///
-/// Column by column, but nobody waits for a column's end: a step takes its next place when it has done the one before, and the
-/// step before is so many places ahead. No more than some steps are at work at once; the next begin where the first have ended.
+/// Column by column, but nobody waits for a column's end: a step takes its next place when it has done the one before,
+/// and the step before is so many places ahead. No more than some steps are at work at once; the next begin where the
+/// first have ended.
 class Wavefront {
  public:
   /// REQUIRES: steps, places, lag, at_once >= 1.
   Wavefront(std::size_t steps, std::size_t places, std::size_t lag, std::size_t at_once);
 
-  /// Calls visit(step, place) for what nobody has begun, until there is nothing left. Called by any number of threads, each
-  /// once; what one has done is seen by those who come after it in the order above.
+  /// Calls visit(step, place) for what nobody has begun, until there is nothing left. Called by any number of threads,
+  /// each once; what one has done is seen by those who come after it in the order above.
   template <class Visit>
   void advance(const Visit& visit) {
     for (std::size_t i = next_.fetch_add(1, std::memory_order_relaxed); i < tasks_.size();

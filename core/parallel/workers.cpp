@@ -65,8 +65,8 @@ void Workers::finish_pieces() {
   wait_for_none(pieces_pending_);
 }
 
-/// Does one that nobody has begun, if there is one. A thread that comes late finds no more than 0 left, or begins one of the
-/// next pieces, whose job it then sees.
+/// Does one that nobody has begun, if there is one. A thread that comes late finds no more than 0 left, or begins one
+/// of the next pieces, whose job it then sees.
 bool Workers::do_piece() {
   if (pieces_left_.load(std::memory_order_relaxed) <= 0) {
     return false;

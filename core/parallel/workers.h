@@ -8,11 +8,11 @@
 
 namespace cellcrush {
 
-/// Threads that share the loops of a step; the caller is the first of them. A loop's items are dealt out in even, contiguous
-/// parts, one a thread, always to the same threads, so that their caches keep them; only a part whose thread has not begun
-/// when the caller is done with its own, because the machine is busy, is taken by the caller. Beside what only the caller can
-/// do, the others do pieces of something else. What is computed must not depend on the deal: then the bits are the same for
-/// any number of threads.
+/// Threads that share the loops of a step; the caller is the first of them. A loop's items are dealt out in even,
+/// contiguous parts, one a thread, always to the same threads, so that their caches keep them; only a part whose thread
+/// has not begun when the caller is done with its own, because the machine is busy, is taken by the caller. Beside what
+/// only the caller can do, the others do pieces of something else. What is computed must not depend on the deal: then
+/// the bits are the same for any number of threads.
 class Workers {
  public:
   /// REQUIRES: count >= 1.
@@ -28,14 +28,15 @@ class Workers {
     return items * part / static_cast<std::size_t>(count());
   }
 
-  /// Calls task(first, end) for the parts of the items 0 ... items - 1 and returns when all are done. The task must not throw.
+  /// Calls task(first, end) for the parts of the items 0 ... items - 1 and returns when all are done. The task must not
+  /// throw.
   template <class Task>
   void share(std::size_t items, const Task& task) {
     share_parts(items, 1, [&](std::size_t, std::size_t first, std::size_t end) { task(first, end); });
   }
 
-  /// The same of task(part, first, end), with parts 0 ... count() - 1, all of which are called, and starts of parts that are
-  /// multiples of `grain`.
+  /// The same of task(part, first, end), with parts 0 ... count() - 1, all of which are called, and starts of parts
+  /// that are multiples of `grain`.
   template <class Task>
   void share_parts(std::size_t items, std::size_t grain, const Task& task) {
     if (threads_.empty()) {
@@ -47,8 +48,9 @@ class Workers {
          }});
   }
 
-  /// Calls own(), and task(piece) for pieces 0 ... pieces - 1 by any thread that has nothing else to do, and returns when all
-  /// is done. Loops that own() shares go before the pieces. Neither may need what the other makes, and the task must not throw.
+  /// Calls own(), and task(piece) for pieces 0 ... pieces - 1 by any thread that has nothing else to do, and returns
+  /// when all is done. Loops that own() shares go before the pieces. Neither may need what the other makes, and the
+  /// task must not throw.
   template <class Task, class Own>
   void share_beside(std::size_t pieces, const Task& task, const Own& own) {
     begin_pieces({&task, [](const void* shared, std::size_t piece) { (*static_cast<const Task*>(shared))(piece); }},

@@ -29,8 +29,9 @@ LatticeBand whole_band(const Scene& scene);
 ///  - walls join particles of their band and of the one before;
 ///  - faces have particles of two neighbouring bands at most, and the elements at these particles are theirs or their
 ///    neighbours'.
-/// Bands are as small as that allows. One where the caches do not hold two steps' bands, as where rows are many thousand elements
-/// long, where the lattice is small, or where a step needs more than walls, plates and contacts without friction.
+/// Bands are as small as that allows. One where the caches do not hold two steps' bands, as where rows are many
+/// thousand elements long, where the lattice is small, or where a step needs more than walls, plates and contacts
+/// without friction.
 std::vector<LatticeBand> cut_into_bands(const Scene& scene, const FaceLoops& loops);
 
 /// Of every particle, the band that owns it.

@@ -7,8 +7,8 @@
 
 namespace cellcrush {
 
-/// The loops round all faces of a planar drawing, each with its face at the left: inner faces run counter-clockwise, the
-/// outer border of a part clockwise. Every element is in two loops, once each way. L loops.
+/// The loops round all faces of a planar drawing, each with its face at the left: inner faces run counter-clockwise,
+/// the outer border of a part clockwise. Every element is in two loops, once each way. L loops.
 struct FaceLoops {
   std::vector<int> offset;    ///< L + 1, into corners
   std::vector<int> particle;  ///< corners of the loops, one loop after another
@@ -21,8 +21,8 @@ struct FaceLoops {
   }
 };
 
-/// Walks along half-edges: at a particle the walk turns into the next element clockwise, so that the face stays at its left.
-/// REQUIRES: elements of some length.
+/// Walks along half-edges: at a particle the walk turns into the next element clockwise, so that the face stays at its
+/// left. REQUIRES: elements of some length.
 FaceLoops trace_loops(std::span<const Vector2> position, std::span<const Element> elements);
 
 /// Area within a loop of particles, mm^2; negative where it runs clockwise.

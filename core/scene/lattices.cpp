@@ -69,7 +69,8 @@ LatticePattern pattern_of_triangles(const LatticeShape& shape) {
   return builder.take();
 }
 
-/// Spacing of the pattern's grid, mm: of hexagons half pitches in x, half sides in y; of triangles half sides in x, rows in y.
+/// Spacing of the pattern's grid, mm: of hexagons half pitches in x, half sides in y; of triangles half sides in x,
+/// rows in y.
 Vector2 unit_of(Cell cell, double side) {
   switch (cell) {
     case Cell::hexagon: return {kHalfRoot3 * side, 0.5 * side};

@@ -18,7 +18,8 @@ struct LatticeShape {
   enum class Cell {
     hexagon,  ///< walls along y; rows from the bottom up alternate `columns` and `columns - 1` cells
     square,   ///< walls along x and y
-    triangle  ///< walls along x; `rows` rows between lines that alternate `columns + 1` and `columns` joints, half a side in
+    triangle  ///< walls along x; `rows` rows between lines that alternate `columns + 1` and `columns` joints, half a
+              ///< side in
   };
   Cell cell = Cell::hexagon;
   int columns = 0;

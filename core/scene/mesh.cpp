@@ -65,7 +65,8 @@ void visit_chunk_joints(const Walls& walls, Visit&& visit) {
   }
 }
 
-/// Says of every chunk which joints have no walls before it, and none after it. A joint without walls goes with its neighbour.
+/// Says of every chunk which joints have no walls before it, and none after it. A joint without walls goes with its
+/// neighbour.
 void order_joints(Walls& walls, int joint_count) {
   constexpr int kNone = -1;
   std::vector<int> first(joint_count, kNone);

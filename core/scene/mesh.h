@@ -24,8 +24,8 @@ struct Layout {
 };
 
 /// Divides the walls into elements: fills the scene's positions, elements and walls. The joints come first, then the
-/// particles inside the walls, block by block. Walls that follow each other and have equally many elements share a block.
-/// Rigid walls are an element each, behind all others. REQUIRES: they are the last.
+/// particles inside the walls, block by block. Walls that follow each other and have equally many elements share a
+/// block. Rigid walls are an element each, behind all others. REQUIRES: they are the last.
 void divide_walls(const Layout& layout, Scene& scene);
 
 }  // namespace cellcrush

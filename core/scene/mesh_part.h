@@ -9,16 +9,16 @@
 
 namespace cellcrush {
 
-/// The material of a spec in the plane of its lattice: what a fibre along the wall shows. In plane strain it is held across:
-/// elastically E / (1 - nu^2); flowing, the stress along it is 2 / sqrt 3 of the effective stress and its strain sqrt 3 / 2 of
-/// the effective one.
+/// The material of a spec in the plane of its lattice: what a fibre along the wall shows. In plane strain it is held
+/// across: elastically E / (1 - nu^2); flowing, the stress along it is 2 / sqrt 3 of the effective stress and its
+/// strain sqrt 3 / 2 of the effective one.
 Material material_of(const MaterialSpec& spec);
 
 /// 0: crushed along x, 1: along y.
 int crush_axis_of(const SceneSpec& spec);
 
-/// The spec with what its mesh does not depend on as by default: speed, strains, contact and plates, steps, output. Specs
-/// that are equal in this part have the same mesh.
+/// The spec with what its mesh does not depend on as by default: speed, strains, contact and plates, steps, output.
+/// Specs that are equal in this part have the same mesh.
 SceneSpec mesh_part_of(const SceneSpec& spec);
 
 /// Mesh, masses and stable step. REQUIRES: a mesh part in which nothing spoils the mesh.

@@ -8,8 +8,8 @@
 
 namespace cellcrush {
 
-/// Collects the walls of a regular lattice; a joint or wall that several cells share is made once. Joints are numbered in the
-/// order in which they are first named.
+/// Collects the walls of a regular lattice; a joint or wall that several cells share is made once. Joints are numbered
+/// in the order in which they are first named.
 class PatternBuilder {
  public:
   using GridPoint = LatticePattern::GridPoint;

@@ -16,8 +16,8 @@ struct RunSize {
   bool hardening = false;  ///< of any material
 };
 
-/// Bytes of a run: the state's and the scene's arrays. Contact candidates are counted at six a particle, pairs that touch at one
-/// a particle: what a densified lattice has.
+/// Bytes of a run: the state's and the scene's arrays. Contact candidates are counted at six a particle, pairs that
+/// touch at one a particle: what a densified lattice has.
 std::int64_t memory_of_run(const RunSize& size);
 
 }  // namespace cellcrush

@@ -14,8 +14,8 @@ struct RunPlan {
   Schedule schedule;
 };
 
-/// Plans the run of a spec on its mesh. Adds what only the mesh tells to the problems of the spec: an unstable step, walls
-/// that lie in each other, too many steps. The plan is one only when there are none.
+/// Plans the run of a spec on its mesh. Adds what only the mesh tells to the problems of the spec: an unstable step,
+/// walls that lie in each other, too many steps. The plan is one only when there are none.
 RunPlan plan_run(const SceneSpec& spec, const MeshMeasures& mesh, Problems& problems);
 
 /// Whether any problem of a spec keeps its mesh from being built.

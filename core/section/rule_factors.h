@@ -10,8 +10,8 @@ namespace cellcrush {
 inline constexpr int kMostSections = 5;
 inline constexpr int kMostDepthPoints = 10;
 
-/// Whether the counts of a rule's points are known at compile time: the default's 4 x 6, force-based, and the paper's 2 x 6,
-/// displacement-based. Elements of other rules are computed one by one.
+/// Whether the counts of a rule's points are known at compile time: the default's 4 x 6, force-based, and the paper's 2
+/// x 6, displacement-based. Elements of other rules are computed one by one.
 inline bool has_known_counts(const SectionRule& rule) {
   const std::size_t sections = rule.force_based ? 4 : 2;
   return rule.section_count() == sections && rule.depth_count() == 6;

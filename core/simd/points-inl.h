@@ -109,8 +109,8 @@ HWY_INLINE Points<D> gather(const Vector2* points, const int* indices) {
 #endif
 }
 
-/// Two arrays of points and one of numbers at the same indices, half of the lanes at a time: few addresses are in use at
-/// once, so that they stay in registers.
+/// Two arrays of points and one of numbers at the same indices, half of the lanes at a time: few addresses are in use
+/// at once, so that they stay in registers.
 template <class D>
 HWY_INLINE void gather_together(const Vector2* a, const Vector2* b, const double* c, const int* indices,
                                 Points<D>& of_a, Points<D>& of_b, Lane<D>& of_c) {

@@ -20,9 +20,9 @@
 namespace cellcrush {
 namespace {
 
-/// Bands by which a step is behind the one before it. A band's step writes to its own band and to the one before, and the
-/// contacts that come with it, of the band before, to one more: the band after these has been done with when they are. Side by
-/// side with them it must be one more.
+/// Bands by which a step is behind the one before it. A band's step writes to its own band and to the one before, and
+/// the contacts that come with it, of the band before, to one more: the band after these has been done with when they
+/// are. Side by side with them it must be one more.
 std::size_t lag_of(const Workspace& workspace) { return workspace.shared.workers.count() > 1 ? kBandsBehind : 2; }
 
 std::size_t steps_at_once(const Scene& scene, const Workspace& workspace) {

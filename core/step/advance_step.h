@@ -12,8 +12,8 @@ namespace cellcrush {
 /// The state before the first step: particles in place, forces evaluated, velocities half a step back.
 State make_initial_state(const Scene& scene);
 
-/// Advances the state by one step of the explicit method: motion from the forces at the old time, then the forces at the
-/// new one. The observer, if any, is called when a stage begins. `workspace` is kept for the next step.
+/// Advances the state by one step of the explicit method: motion from the forces at the old time, then the forces at
+/// the new one. The observer, if any, is called when a stage begins. `workspace` is kept for the next step.
 void advance_step(const Scene& scene, State& state, Workspace& workspace, StageObserver* observer);
 
 /// Advances the state by some steps; those of a large lattice block by block (step/advance_block.h), to the same bits.

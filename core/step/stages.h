@@ -10,8 +10,8 @@
 
 namespace cellcrush {
 
-// The stages of a step for one band of the lattice, which is all of a small one. advance_step goes through the bands stage by
-// stage, advance_block band by band.
+// The stages of a step for one band of the lattice, which is all of a small one. advance_step goes through the bands
+// stage by stage, advance_block band by band.
 
 /// Moves a band's free particles and clears the contact forces that moved them.
 void move_band(const Scene& scene, State& state, std::size_t band, StepRecord& record, StageWorkspace& workspace,

@@ -28,8 +28,8 @@ struct StepRecord {
 /// Prepares the record of a step from `time`, s, on, before which the impact plate has travelled so far, mm.
 void begin_record(const Scene& scene, const State& state, double time, double travel, StepRecord& record);
 
-/// Adds what a step's forces did to the ledger and the plates' impulses, and puts the plates' forces and the contacts' totals
-/// into the state.
+/// Adds what a step's forces did to the ledger and the plates' impulses, and puts the plates' forces and the contacts'
+/// totals into the state.
 void accumulate(const Scene& scene, const StepRecord& record, State& state);
 
 }  // namespace cellcrush

@@ -21,8 +21,8 @@ struct StageWorkspace {
   ContactWorkspace contact;
 };
 
-/// Threads and room for steps, kept from step to step so that no step starts or allocates any. It belongs to no state: any
-/// step of any state of the scene may use it, and no result depends on what it holds.
+/// Threads and room for steps, kept from step to step so that no step starts or allocates any. It belongs to no state:
+/// any step of any state of the scene may use it, and no result depends on what it holds.
 struct Workspace {
   explicit Workspace(int threads = 1) : shared(threads) {}
 

@@ -23,10 +23,10 @@ struct PlateMotion {
   double impact_speed = 0.0;   ///< mm/s, half a step before
 };
 
-/// Adds the forces of the rigid, unilateral plates on particles whose balls reach into them, by the penalty law of the walls,
-/// to contact_force and to the sums. Forces are positive in compression: the impact plate pushes along the crush, the support
-/// plate against it. Friction acts across the crush; it is added to friction_force. Only the particles `near`, ascending, are
-/// tested: all that may reach a plate, or that rub against one, are among them.
+/// Adds the forces of the rigid, unilateral plates on particles whose balls reach into them, by the penalty law of the
+/// walls, to contact_force and to the sums. Forces are positive in compression: the impact plate pushes along the
+/// crush, the support plate against it. Friction acts across the crush; it is added to friction_force. Only the
+/// particles `near`, ascending, are tested: all that may reach a plate, or that rub against one, are among them.
 void evaluate_plate_forces(const Scene& scene, State& state, const PlateMotion& motion, std::span<const int> near,
                            ContactSums& sums);
 

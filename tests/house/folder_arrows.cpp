@@ -1,22 +1,10 @@
 #include "house/folder_arrows.h"
 
-#include <algorithm>
-#include <array>
 #include <deque>
 #include <string_view>
 
 namespace cellcrush::house {
 namespace {
-
-// Pending: pairs that still include each other. Their arrows do not count; take a pair out once one of them is gone.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 2> kPendingPairs{
-    {{"core/energy", "core/step"}, {"core/contact", "core/scene"}}};
-
-bool is_pending(const std::string& one, const std::string& other) {
-  return std::any_of(kPendingPairs.begin(), kPendingPairs.end(), [&](const auto& pair) {
-    return (pair.first == one && pair.second == other) || (pair.first == other && pair.second == one);
-  });
-}
 
 // "core/step" of "core/step/loads.h"; empty for what is in no folder of core or server, and for core's public headers,
 // which have a rule of their own.
@@ -35,7 +23,7 @@ std::string room_of(const std::string& folder) { return folder.substr(0, folder.
 void FolderArrows::add(const std::string& file, int line, const std::string& included) {
   const std::string from = folder_of(file);
   const std::string to = folder_of(included);
-  if (from.empty() || to.empty() || from == to || room_of(from) != room_of(to) || is_pending(from, to)) return;
+  if (from.empty() || to.empty() || from == to || room_of(from) != room_of(to)) return;
   arrows_[from][to].emplace(file, line);
 }
 

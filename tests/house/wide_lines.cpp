@@ -8,16 +8,12 @@
 namespace cellcrush::house {
 namespace {
 
-// Pending: core still has wider comments. Take this out once it has none.
-bool is_pending_folder(const std::string& file) { return file.starts_with("core/"); }
-
 bool begins_character(char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U; }
 
 }  // namespace
 
 bool has_bounded_lines(const std::filesystem::path& file) {
   static const std::set<std::string> kExtensions{".h", ".hpp", ".inl", ".cpp", ".cc", ".proto", ".cmake", ".sh", ".py"};
-  if (is_pending_folder(file.generic_string())) return false;
   const bool is_script = *file.begin() == "deploy" && !file.has_extension();
   return is_script || file.filename() == "CMakeLists.txt" || kExtensions.contains(file.extension().string());
 }

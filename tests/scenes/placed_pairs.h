@@ -29,8 +29,8 @@ struct PlacedPair {
 /// Pairs of all kinds, drawn from a fixed seed: balls beside the segment, beyond its ends, near and far.
 std::vector<PlacedPair> draw_pairs(std::size_t count);
 
-/// A scene of the pairs, each with three particles of its own: pair i has the segment i from particle 3 i to 3 i + 1, and
-/// the ball 3 i + 2. Masses and velocities are drawn from a fixed seed.
+/// A scene of the pairs, each with three particles of its own: pair i has the segment i from particle 3 i to 3 i + 1,
+/// and the ball 3 i + 2. Masses and velocities are drawn from a fixed seed.
 struct PairScene {
   Scene scene;
   State state;

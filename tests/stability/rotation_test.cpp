@@ -53,7 +53,8 @@ TEST(SmallIncrements, AreLostToTheArcCosineAndBendAnElementThatOnlySpins) {
 TEST(LargeIncrements, BeyondHalfATurnAreSeenAsTheOtherWay) {
   constexpr double kTurn = 3.3;
   EXPECT_NEAR(scenes::turn_between(direction(0.0), direction(kTurn)), kTurn - 2.0 * std::numbers::pi, 1e-12);
-  const ElementDeformation deformation = scenes::reverse_motion(2.0 * direction(kTurn), direction(0.0), 2.0, kTurn, kTurn);
+  const ElementDeformation deformation =
+      scenes::reverse_motion(2.0 * direction(kTurn), direction(0.0), 2.0, kTurn, kTurn);
   EXPECT_NEAR(deformation.rotation_start, 2.0 * std::numbers::pi, 1e-12);  // a rigid turn, felt as a full turn of bend
 }
 

@@ -10,7 +10,8 @@
 
 namespace cellcrush {
 
-/// Samples as they stand, for the same build: what a run that goes on from a checkpoint has to remember of those before.
+/// Samples as they stand, for the same build: what a run that goes on from a checkpoint has to remember of those
+/// before.
 std::string bytes_of(std::span<const Sample> samples);
 
 /// Nothing when the bytes are no samples.

@@ -48,7 +48,8 @@ struct MaterialSpec {
   std::optional<double> yield_stress_mpa;
   double hardening_modulus_mpa = 0.0;
   double isotropic_fraction = 1.0;  ///< beta of the paper: 1 isotropic, 0 kinematic
-  /// Whether a wall is free to contract along the lattice's depth, or held: wide walls yield at 2 / sqrt 3 of the yield stress.
+  /// Whether a wall is free to contract along the lattice's depth, or held: wide walls yield at 2 / sqrt 3 of the yield
+  /// stress.
   enum class Plane { stress, strain };
   Plane plane = Plane::stress;
   double poissons_ratio = 0.33;  ///< plane strain only: Young's modulus over 1 - nu^2
@@ -211,8 +212,8 @@ struct LoadingSpec {
 struct NumericsSpec {
   double time_step_s = 0.0;  ///< 0: chosen
   double mass_damping_per_s = 0.0;
-  /// Fictitious masses for slow crushes (dynamic relaxation): masses and rotary inertias times the first, rotary inertias times
-  /// the second as well.
+  /// Fictitious masses for slow crushes (dynamic relaxation): masses and rotary inertias times the first, rotary
+  /// inertias times the second as well.
   double mass_scaling = 1.0;
   double rotary_scaling = 1.0;
   /// Of the fibres' stresses; motion, forces and works are in double precision either way. See kMostSingleFibres.

@@ -10,10 +10,10 @@
 
 namespace cellcrush {
 
-/// Checks many specs as build_scene does, with the same problems in the same words and the same numbers to the last bit.
-/// Specs that differ in what their mesh does not depend on (speed, strains, contact, steps, output) share what is known
-/// of it: the first builds it, the others cost microseconds. Keeps what is known of the last meshes, not the meshes.
-/// Not thread-safe.
+/// Checks many specs as build_scene does, with the same problems in the same words and the same numbers to the last
+/// bit. Specs that differ in what their mesh does not depend on (speed, strains, contact, steps, output) share what is
+/// known of it: the first builds it, the others cost microseconds. Keeps what is known of the last meshes, not the
+/// meshes. Not thread-safe.
 class SpecChecker {
  public:
   SpecChecker();

@@ -20,8 +20,8 @@ inline constexpr std::array<const char*, kStageCount> kStageNames = {
     "integrate_motion",        "evaluate_internal_forces", "find_contacts",
     "evaluate_contact_forces", "evaluate_plate_forces",    "evaluate_loads"};
 
-/// Told when a stage begins, and when the step ends; of a large lattice, whose bands do several steps while they are in the caches,
-/// when these end. The solver has no clock: who wants times brings one.
+/// Told when a stage begins, and when the step ends; of a large lattice, whose bands do several steps while they are in
+/// the caches, when these end. The solver has no clock: who wants times brings one.
 class StageObserver {
  public:
   virtual ~StageObserver() = default;

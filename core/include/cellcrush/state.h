@@ -11,8 +11,8 @@
 
 namespace cellcrush {
 
-/// What the fibres and the sections of elements remember, in numbers of type T. E elements of F fibres and P sections; the
-/// order is that of beam/element_place.h. MPa.
+/// What the fibres and the sections of elements remember, in numbers of type T. E elements of F fibres and P sections;
+/// the order is that of beam/element_place.h. MPa.
 template <class T>
 struct FibreMemory {
   using Bits = std::conditional_t<sizeof(T) == sizeof(std::uint64_t), std::uint64_t, std::uint32_t>;
@@ -93,7 +93,8 @@ struct State {
   std::int64_t crossing_step =
       -1;  ///< in which walls were found to have crossed, from when on the search is by buckets
 
-  // Written by evaluate_contact_forces and evaluate_plate_forces, which add up forces that integrate_motion has cleared.
+  // Written by evaluate_contact_forces and evaluate_plate_forces, which add up forces that integrate_motion has
+  // cleared.
   LaneVector<ContactForce> contact_force;  ///< N, of walls and plates
   std::vector<Vector2> friction_force;     ///< N, of walls and plates; empty without friction
   std::vector<double> impact_friction;     ///< N, of the impact plate across the crush; empty without friction
@@ -104,8 +105,9 @@ struct State {
 
   Ledger ledger;
 
-  /// Derived, so no field for visit_fields: for each tile of kContactTile particles, whether one may have a contact_force;
-  /// most have none. Rebuilt from the touching pairs every 64 steps; in between tiles are only marked. Empty: any may.
+  /// Derived, so no field for visit_fields: for each tile of kContactTile particles, whether one may have a
+  /// contact_force; most have none. Rebuilt from the touching pairs every 64 steps; in between tiles are only marked.
+  /// Empty: any may.
   std::vector<std::uint8_t> contact_tiles;
   static constexpr std::size_t kContactTile = 8;
 };
@@ -122,8 +124,8 @@ void visit_fibre_fields(M& memory, Visitor&& visitor) {
   visitor("end_moment", memory.end_moment);
 }
 
-/// Calls visitor(name, field) for every field of the state, in a fixed order. Fields are arithmetic or vectors of trivially
-/// copyable things.
+/// Calls visitor(name, field) for every field of the state, in a fixed order. Fields are arithmetic or vectors of
+/// trivially copyable things.
 template <class S, class Visitor>
 void visit_fields(S& state, Visitor&& visitor) {
   visitor("step", state.step);

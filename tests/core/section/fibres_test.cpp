@@ -10,8 +10,8 @@
 namespace cellcrush {
 namespace {
 
-/// One section of Lobatto points through the depth, under a strain history of pure stretch or pure bending. Its element is
-/// displacement-based and bends evenly.
+/// One section of Lobatto points through the depth, under a strain history of pure stretch or pure bending. Its element
+/// is displacement-based and bends evenly.
 class Section {
  public:
   Section(const Material& material, int depth_points) : element_(material, make_section_rule(lobatto(depth_points))) {}
