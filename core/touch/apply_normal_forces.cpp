@@ -1,7 +1,7 @@
-#include "touch/normal_forces.h"
+#include "touch/apply_normal_forces.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "touch/normal_forces.cpp"
+#define HWY_TARGET_INCLUDE "touch/apply_normal_forces.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
