@@ -22,7 +22,7 @@ void LimitedLog::write(spdlog::level::level_enum level, const std::string& words
   const auto now = now_();
   int left_out = 0;
   {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     if (now - second_ >= kWindow) {
       second_ = now;
       lines_ = 0;

@@ -4,8 +4,9 @@
 
 #include <chrono>
 #include <functional>
-#include <mutex>
 #include <string>
+
+#include "mutex.h"
 
 namespace cellcrush {
 
@@ -27,10 +28,10 @@ class LimitedLog {
   std::string kind_;
   int lines_per_second_;
   std::function<Clock::time_point()> now_;
-  std::mutex mutex_;
-  Clock::time_point second_;  ///< begin of the second that lines_ counts
-  int lines_ = 0;
-  int left_out_ = 0;  ///< since the last line
+  Mutex mutex_;
+  Clock::time_point second_ CELLCRUSH_GUARDED_BY(mutex_);  ///< begin of the second that lines_ counts
+  int lines_ CELLCRUSH_GUARDED_BY(mutex_) = 0;
+  int left_out_ CELLCRUSH_GUARDED_BY(mutex_) = 0;  ///< since the last line
 };
 
 }  // namespace cellcrush

@@ -11,7 +11,7 @@ constexpr std::size_t kMostKnown = 256;
 
 // To read a certificate costs as much as a short call: 0.2 ms.
 bool ClientCertificates::has_client_use(std::string_view pem) {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   if (const auto found = known_.find(pem); found != known_.end()) return found->second;
   const auto certificates = read_certificates(pem);
   const bool out = !certificates.empty() && is_for_clients(*certificates.front());

@@ -2,9 +2,10 @@
 
 #include <functional>
 #include <map>
-#include <mutex>
 #include <string>
 #include <string_view>
+
+#include "mutex.h"
 
 namespace cellcrush::access {
 
@@ -17,8 +18,8 @@ class ClientCertificates {
   [[nodiscard]] bool has_client_use(std::string_view pem);
 
  private:
-  std::mutex mutex_;
-  std::map<std::string, bool, std::less<>> known_;  ///< guarded by mutex_; by PEM
+  Mutex mutex_;
+  std::map<std::string, bool, std::less<>> known_ CELLCRUSH_GUARDED_BY(mutex_);  ///< by PEM
 };
 
 }  // namespace cellcrush::access

@@ -82,14 +82,14 @@ Gate::Gate(const Options& options) : options_(options) {
 std::string Gate::read_tls() {
   auto next = std::make_shared<const TlsFiles>(
       read_tls_files(options_.tls_certificate, options_.tls_key, options_.tls_client_authority));
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   tls_ = std::move(next);
   return tls_->description;
 }
 
 std::string Gate::read_tokens() {
   auto next = std::make_shared<const TokenFile>(options_.tokens);
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   tokens_ = std::move(next);
   return std::to_string(tokens_->size()) + " of --tokens " + options_.tokens.string();
 }
@@ -109,12 +109,12 @@ void Gate::read_files_again() {
 }
 
 std::shared_ptr<const TlsFiles> Gate::tls() const {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   return tls_;
 }
 
 std::shared_ptr<const TokenFile> Gate::tokens() const {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   return tokens_;
 }
 

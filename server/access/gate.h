@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <string>
 
 #include "access/client_certificates.h"
@@ -15,6 +14,7 @@
 #include "access/token_file.h"
 #include "limited_log.h"
 #include "listen_address.h"
+#include "mutex.h"
 
 namespace cellcrush::access {
 
@@ -75,9 +75,9 @@ class Gate {
   void read_again(const char* what, std::string (Gate::*read)());
 
   Options options_;
-  mutable std::mutex mutex_;
-  std::shared_ptr<const TlsFiles> tls_;      ///< guarded by mutex_; null where there is no TLS
-  std::shared_ptr<const TokenFile> tokens_;  ///< guarded by mutex_; null where there are none
+  mutable Mutex mutex_;
+  std::shared_ptr<const TlsFiles> tls_ CELLCRUSH_GUARDED_BY(mutex_);      ///< null where there is no TLS
+  std::shared_ptr<const TokenFile> tokens_ CELLCRUSH_GUARDED_BY(mutex_);  ///< null where there are none
   mutable ClientCertificates client_certificates_;
   mutable LimitedLog refusals_{"refused calls", 1};
 };

@@ -41,7 +41,7 @@ std::int64_t Admission::memory_of_job(std::int64_t most_bytes, const std::functi
 
 Admission::Place::~Place() {
   if (admission_ == nullptr) return;
-  const std::scoped_lock lock(admission_->mutex_);
+  const MutexLock lock(admission_->mutex_);
   const auto of_owner = admission_->admitted_.find(owner_);
   of_owner->second -= count_;
   if (of_owner->second == 0) admission_->admitted_.erase(of_owner);
@@ -60,7 +60,7 @@ Admission::Place Admission::admit(const std::string& owner, std::size_t count, s
   }
   if (const auto low = low_disk())
     throw ServiceError(ServiceError::Kind::storage_full, *low + " Free disk space or delete jobs, then submit again.");
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   std::size_t waiting = parts_.scheduler.waiting_count();
   for (const auto& [name, jobs] : admitted_) waiting += jobs;
   if (static_cast<std::int64_t>(waiting + count) > limits_.queued_jobs) {

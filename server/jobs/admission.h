@@ -5,12 +5,12 @@
 #include <cstdint>
 #include <functional>
 #include <map>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "jobs/owner_quotas.h"
+#include "mutex.h"
 #include "store/data_folder.h"
 #include "store/journal_reader.h"
 
@@ -80,8 +80,8 @@ class Admission {
   Limits limits_;
   OwnerQuotas quotas_;
   std::atomic<bool> draining_ = false;
-  std::mutex mutex_;
-  std::map<std::string, std::size_t> admitted_;  ///< jobs of places by owner, guarded by mutex_
+  Mutex mutex_;
+  std::map<std::string, std::size_t> admitted_ CELLCRUSH_GUARDED_BY(mutex_);  ///< jobs of places by owner
 };
 
 }  // namespace cellcrush::jobs

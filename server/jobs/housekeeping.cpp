@@ -2,11 +2,11 @@
 
 #include <spdlog/spdlog.h>
 
-#include <condition_variable>
 #include <cstdlib>
-#include <mutex>
 #include <string>
 #include <utility>
+
+#include "pause.h"
 
 namespace cellcrush::jobs {
 namespace {
@@ -17,10 +17,8 @@ constexpr std::int64_t kNoteAfter = 600;
 }  // namespace
 
 void Housekeeping::work(const std::stop_token& stop) {
-  std::mutex never_shared;
-  std::condition_variable_any sleep;
   std::string logged;
-  while (!stop.stop_requested()) {
+  do {
     try {
       look_at_disk();
       delete_ended(stop);
@@ -30,9 +28,7 @@ void Housekeeping::work(const std::stop_token& stop) {
       if (std::exchange(logged, error.what()) != error.what())
         spdlog::error("Housekeeping failed and will be retried: {}", error.what());
     }
-    std::unique_lock lock(never_shared);
-    sleep.wait_for(lock, stop, parts_.interval, [] { return false; });
-  }
+  } while (pause_unless_stopped(stop, parts_.interval));
 }
 
 void Housekeeping::look_at_disk() {

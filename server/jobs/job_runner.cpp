@@ -2,12 +2,12 @@
 
 #include <spdlog/spdlog.h>
 
-#include <condition_variable>
 #include <memory>
 #include <utility>
 
 #include "error.h"
 #include "jobs/outcome.h"
+#include "pause.h"
 #include "store/job_state.h"
 #include "store/resource_name.h"
 
@@ -22,21 +22,14 @@ struct BeginAgain {
   std::string why;
 };
 
+constexpr std::chrono::seconds kBetweenTries{1};
+
 constexpr const char* kReportsAreGone =
     "Restarted from step 0: the reports of its earlier workers are missing from its folder.";
 
 void log_begin(const std::string& job, const worker::Begun& begun) {
   for (const auto& refused : begun.refused_checkpoints()) spdlog::warn("{}: {}", job, refused);
   if (begun.step() > 0) spdlog::info("{} resumes at step {}", job, begun.step());
-}
-
-// Waits a second. False at the daemon's end.
-bool pause(const std::stop_token& daemons_end) {
-  std::mutex never_shared;
-  std::condition_variable_any sleep;
-  std::unique_lock lock(never_shared);
-  sleep.wait_for(lock, daemons_end, std::chrono::seconds(1), [] { return false; });
-  return !daemons_end.stop_requested();
 }
 
 }  // namespace
@@ -52,7 +45,7 @@ bool JobRunner::run(std::int64_t job, int threads, const Interruptions& interrup
     }
     // It is CANCELLING when it was cancelled just as its worker had left it: then it ends with the samples so far.
     if (state != v1::CANCELLING) return state == v1::PENDING;
-    if (run.trouble && !pause(daemons_end)) return false;
+    if (run.trouble && !pause_unless_stopped(daemons_end, kBetweenTries)) return false;
   }
 }
 
@@ -238,7 +231,7 @@ bool JobRunner::got_further(std::int64_t job) {
     // What was stored before counts. The journal tries again by itself, and logs that.
   }
   const std::int64_t step = parts_.reader.last_sampled_step(job);
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   Losses& losses = losses_[job];
   if (step > losses.step) losses = {0, step};
   if (++losses.count < kMostLosses) return true;
@@ -292,7 +285,7 @@ v1::JobState JobRunner::begin_again(std::int64_t job, const std::string& why) {
   spdlog::warn("{}: {}", store::name_of(job), why);
   parts_.folder.discard_run(job);
   if (const auto channel = parts_.hub.find(job)) channel->forget();
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   losses_.erase(job);
   return v1::PENDING;
 }
@@ -313,7 +306,7 @@ v1::JobState JobRunner::put_back(std::int64_t job, const Run& run) {
       }
       parts_.hold.failed(trouble);
     }
-  } while (pause(run.daemons_end));
+  } while (pause_unless_stopped(run.daemons_end, kBetweenTries));
   return v1::JOB_STATE_UNSPECIFIED;
 }
 
@@ -322,7 +315,7 @@ v1::JobState JobRunner::write(std::int64_t job, const store::StateChange& change
   std::string logged;
   do {
     if (const auto written = try_write(job, change, logged)) return *written;
-  } while (pause(daemons_end));
+  } while (pause_unless_stopped(daemons_end, kBetweenTries));
   return v1::JOB_STATE_UNSPECIFIED;
 }
 
@@ -354,7 +347,7 @@ std::optional<v1::JobState> JobRunner::try_write(std::int64_t job, const store::
 void JobRunner::tidy_up(std::int64_t job, const store::StateChange& change) {
   parts_.metrics.count_ended(change.state, change.summary ? &*change.summary : nullptr);
   {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     losses_.erase(job);
   }
   try {

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <functional>
 #include <map>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +11,7 @@
 #include "jobs/executor.h"
 #include "jobs/queue_hold.h"
 #include "metrics/metrics.h"
+#include "mutex.h"
 #include "store/data_folder.h"
 #include "store/journal.h"
 #include "store/journal_reader.h"
@@ -103,8 +103,8 @@ class JobRunner {
   };
 
   Parts parts_;
-  std::mutex mutex_;
-  std::map<std::int64_t, Losses> losses_;
+  Mutex mutex_;
+  std::map<std::int64_t, Losses> losses_ CELLCRUSH_GUARDED_BY(mutex_);
 };
 
 }  // namespace cellcrush::jobs

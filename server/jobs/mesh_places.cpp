@@ -17,7 +17,7 @@ MeshPlaces::Place::Place(MeshPlaces& places, std::int64_t elements, const std::f
                          std::chrono::seconds patience)
     : places_(places) {
   if (elements == 0) return;
-  std::unique_lock lock(places_.mutex_);
+  MutexLock lock(places_.mutex_);
   line_ = elements > kMostOfSmall ? &places_.large_ : &places_.small_;
   line_->takers.push_back(this);
   lock.unlock();
@@ -49,7 +49,7 @@ bool MeshPlaces::Place::is_free() const {
 
 void MeshPlaces::Place::leave() {
   {
-    const std::scoped_lock lock(places_.mutex_);
+    const MutexLock lock(places_.mutex_);
     std::erase(line_->takers, this);
   }
   places_.changed_.notify_all();

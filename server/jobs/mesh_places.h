@@ -4,8 +4,9 @@
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
-#include <mutex>
 #include <vector>
+
+#include "mutex.h"
 
 namespace cellcrush::jobs {
 
@@ -26,10 +27,10 @@ class MeshPlaces {
     std::vector<const Place*> takers = {};  ///< in the order in which they came; the first of them have the places
   };
 
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  Line small_{kSmallMeshes};  ///< guarded by mutex_
-  Line large_{1};             ///< guarded by mutex_
+  Mutex mutex_;
+  std::condition_variable_any changed_;
+  Line small_ CELLCRUSH_GUARDED_BY(mutex_){kSmallMeshes};
+  Line large_ CELLCRUSH_GUARDED_BY(mutex_){1};
 };
 
 /// The place of a mesh that is being built, given back when this goes away.

@@ -12,7 +12,7 @@ QueueHold::QueueHold(const HoldTimes& times, Changed changed, Now now)
 
 bool QueueHold::set_low_disk(const std::optional<std::string>& reason) {
   {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     if (low_disk_.has_value() == reason.has_value()) return false;
     low_disk_ = reason ? std::optional(Hold{Shortage::low_disk, *reason, now_(), {}}) : std::nullopt;
   }
@@ -23,20 +23,20 @@ bool QueueHold::set_low_disk(const std::optional<std::string>& reason) {
 }
 
 bool QueueHold::is_open() const {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   if (low_disk_) return false;
   return !trouble_ || (!trial_ && now_() >= *trouble_->next_try);
 }
 
 bool QueueHold::begin_start() {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   trial_ = trouble_.has_value();
   return trial_;
 }
 
 void QueueHold::succeeded() {
   {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     trial_ = false;
     if (!trouble_) return;
     spdlog::info("The queue is released: the shortage is over ({})", name_of(trouble_->shortage));
@@ -47,13 +47,13 @@ void QueueHold::succeeded() {
 }
 
 void QueueHold::proven() {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   if (!trouble_) pause_ = std::chrono::milliseconds(0);
 }
 
 void QueueHold::try_now(Shortage shortage) {
   {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     if (!trouble_ || trouble_->shortage != shortage || trial_ || *trouble_->next_try <= now_()) return;
     trouble_->next_try = now_();
   }
@@ -62,7 +62,7 @@ void QueueHold::try_now(Shortage shortage) {
 
 void QueueHold::failed(const Trouble& trouble) {
   {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     const auto now = now_();
     const bool is_same = trouble_ && trouble_->shortage == trouble.shortage;
     // Slots that meet it at once with the trial, or before it, count as one try.
@@ -79,17 +79,17 @@ void QueueHold::failed(const Trouble& trouble) {
 }
 
 void QueueHold::end_trial() {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   trial_ = false;
 }
 
 std::optional<Hold::Clock::time_point> QueueHold::next_try() const {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   return trouble_ && !low_disk_ && !trial_ ? trouble_->next_try : std::nullopt;
 }
 
 std::vector<Hold> QueueHold::holds() const {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   std::vector<Hold> out;
   for (const auto& hold : {low_disk_, trouble_}) {
     if (hold) out.push_back(*hold);
@@ -98,7 +98,7 @@ std::vector<Hold> QueueHold::holds() const {
 }
 
 void QueueHold::tell() {
-  const std::scoped_lock lock(telling_);
+  const MutexLock lock(telling_);
   if (changed_) changed_(holds());
 }
 

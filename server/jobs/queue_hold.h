@@ -2,11 +2,11 @@
 
 #include <chrono>
 #include <functional>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "mutex.h"
 #include "shortage.h"
 
 namespace cellcrush::jobs {
@@ -75,13 +75,14 @@ class QueueHold {
   HoldTimes times_;
   Changed changed_;
   Now now_;
-  std::mutex telling_;  ///< held before mutex_ is
-  mutable std::mutex mutex_;
-  std::optional<Hold> low_disk_;
-  std::optional<Hold> trouble_;
-  bool trial_ = false;
-  std::chrono::milliseconds pause_{0};  ///< before the next trial, or the last one before the trouble was over
-  Hold::Clock::time_point over_;        ///< when it was
+  Mutex telling_;  ///< held before mutex_ is
+  mutable Mutex mutex_;
+  std::optional<Hold> low_disk_ CELLCRUSH_GUARDED_BY(mutex_);
+  std::optional<Hold> trouble_ CELLCRUSH_GUARDED_BY(mutex_);
+  bool trial_ CELLCRUSH_GUARDED_BY(mutex_) = false;
+  /// Before the next trial, or the last one before the trouble was over.
+  std::chrono::milliseconds pause_ CELLCRUSH_GUARDED_BY(mutex_){0};
+  Hold::Clock::time_point over_ CELLCRUSH_GUARDED_BY(mutex_);  ///< when it was
 };
 
 }  // namespace cellcrush::jobs

@@ -15,10 +15,14 @@
 namespace cellcrush::jobs {
 void Scheduler::start(int slots) {
   audit_job_folders(parts_.reader, parts_.folder, parts_.executor);
-  free_cores_ = slots;
   clean_up();
-  reconcile();
-  for (const auto& job : parts_.reader.queued_jobs(v1::PENDING)) waiting_.add(job);
+  const auto adopted = reconcile();
+  const auto waiting = parts_.reader.queued_jobs(v1::PENDING);
+  // No job runs before all are queued: it may wait again, and would be queued twice.
+  const MutexLock lock(mutex_);
+  free_cores_ += slots;
+  for (const auto& job : waiting) waiting_.add(job);
+  for (const auto& job : adopted) slots_.emplace_back([this, job](const std::stop_token& stop) { run(job, stop); });
   for (int i = 0; i < slots; ++i) slots_.emplace_back([this](const std::stop_token& stop) { run_slot(stop); });
 }
 
@@ -37,24 +41,26 @@ void Scheduler::clean_up() {
   }
 }
 
-void Scheduler::reconcile() {
+std::vector<store::QueuedJob> Scheduler::reconcile() {
+  std::vector<store::QueuedJob> adopted;
   for (const v1::JobState state : {v1::RUNNING, v1::CANCELLING}) {
     for (const auto& job : parts_.reader.queued_jobs(state)) {
       if (parts_.runner.reconcile(job.job) != JobRunner::Left::is_to_run) continue;
       spdlog::info("{} is adopted from an earlier daemon", store::name_of(job.job));
-      const std::scoped_lock lock(mutex_);
+      const MutexLock lock(mutex_);
       --free_cores_;
       waiting_.count_running(job);
       Running& running = begin(job.job);
       if (state == v1::CANCELLING) running.cancel.request_stop();
-      slots_.emplace_back([this, job](const std::stop_token& stop) { run(job, stop); });
+      adopted.push_back(job);
     }
   }
+  return adopted;
 }
 
 void Scheduler::enqueue(const std::vector<store::QueuedJob>& jobs) {
   {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     for (const auto& job : jobs) waiting_.add(job);
     tell_metrics();
   }
@@ -85,7 +91,7 @@ void Scheduler::cancel(std::int64_t job) {
     }
     std::stop_source worker(std::nostopstate);
     {
-      const std::scoped_lock lock(mutex_);
+      const MutexLock lock(mutex_);
       // One that is CANCELLING may wait again meanwhile, to be given up.
       if (change.state == v1::CANCELLED) waiting_.remove(job);
       if (const auto found = running_.find(job); found != running_.end()) worker = found->second.cancel;
@@ -106,11 +112,12 @@ void Scheduler::suspend(std::int64_t job, const std::function<bool()>& given_up)
     if (given_up())
       throw ServiceError(ServiceError::Kind::cancelled,
                          store::name_of(job) + " was not yet suspended when the call ended.");
-    std::unique_lock lock(mutex_);
+    MutexLock lock(mutex_);
     const auto found = running_.find(job);
     if (found != running_.end()) {
       found->second.suspend.request_stop();
-      changed_.wait_for(lock, std::chrono::milliseconds(100), [this, job] { return !running_.contains(job); });
+      changed_.wait_for(lock, std::chrono::milliseconds(100),
+                        [this, job]() CELLCRUSH_REQUIRES(mutex_) { return !running_.contains(job); });
       continue;
     }
     if (state != v1::PENDING) {
@@ -170,7 +177,7 @@ void Scheduler::cancel_all(const std::vector<std::int64_t>& jobs) {
 
 void Scheduler::forget(const std::vector<std::int64_t>& jobs) {
   if (jobs.empty()) return;
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   for (const std::int64_t job : jobs) waiting_.remove(job);
   tell_metrics();
 }
@@ -179,7 +186,7 @@ void Scheduler::hold_for_low_disk(const std::optional<std::string>& reason) {
   parts_.hold.set_low_disk(reason);
   std::vector<std::stop_source> leave;
   {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     if (std::exchange(low_disk_, reason.has_value()) == reason.has_value() || !reason) return;
     for (auto& [job, wishes] : running_) leave.push_back(wishes.leave);
   }
@@ -187,12 +194,12 @@ void Scheduler::hold_for_low_disk(const std::optional<std::string>& reason) {
 }
 
 std::size_t Scheduler::waiting_count() {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   return waiting_.count();
 }
 
 std::size_t Scheduler::waiting_count(const std::string& owner) {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   return waiting_.count_of(owner);
 }
 
@@ -206,7 +213,7 @@ void Scheduler::run_slot(const std::stop_token& stop) {
     std::optional<store::QueuedJob> taken;
     bool is_trial = false;
     {
-      std::unique_lock lock(mutex_);
+      MutexLock lock(mutex_);
       const bool is_open = parts_.hold.is_open();
       if (is_open && free_cores_ > 0) taken = waiting_.take();
       if (!taken) {
@@ -222,15 +229,15 @@ void Scheduler::run_slot(const std::stop_token& stop) {
   }
 }
 
-void Scheduler::wait_for_change(std::unique_lock<std::mutex>& lock, const std::stop_token& stop,
+void Scheduler::wait_for_change(MutexLock& lock, const std::stop_token& stop,
                                 const std::optional<Hold::Clock::time_point>& limit) {
-  const auto has_changed = [this, seen = changes_] { return changes_ != seen; };
+  const auto has_changed = [this, seen = changes_]() CELLCRUSH_REQUIRES(mutex_) { return changes_ != seen; };
   limit ? changed_.wait_until(lock, stop, *limit, has_changed) : changed_.wait(lock, stop, has_changed);
 }
 
 void Scheduler::wake() {
   {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     ++changes_;
   }
   changed_.notify_all();
@@ -246,7 +253,7 @@ Scheduler::Running& Scheduler::begin(std::int64_t job) {
 void Scheduler::run(const store::QueuedJob& taken, const std::stop_token& stop) {
   Running wishes;
   {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     wishes = running_[taken.job];
   }
   const int extra = take_cores(taken);
@@ -254,7 +261,7 @@ void Scheduler::run(const store::QueuedJob& taken, const std::stop_token& stop) 
   const bool again = parts_.runner.run(
       taken.job, 1 + extra, {wishes.leave.get_token(), wishes.suspend.get_token(), wishes.cancel.get_token()}, stop);
   {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     running_.erase(taken.job);
     waiting_.give_back(taken, 1 + extra);
     if (again) waiting_.add(taken);
@@ -272,7 +279,7 @@ int Scheduler::take_cores(const store::QueuedJob& job) {
   } catch (const std::exception& error) {
     spdlog::warn("Cannot read the number of threads of {}: {}", store::name_of(job.job), error.what());
   }
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   const int taken = extra_cores(threads, free_cores_, waiting_.count());
   free_cores_ -= taken;
   running_[job.job].cores += taken;
@@ -281,7 +288,7 @@ int Scheduler::take_cores(const store::QueuedJob& job) {
 }
 
 int Scheduler::cores_of(std::int64_t job) {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   const auto found = running_.find(job);
   return found == running_.end() ? 1 : found->second.cores;
 }

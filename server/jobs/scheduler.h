@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <functional>
 #include <map>
-#include <mutex>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -15,6 +14,7 @@
 #include "jobs/queue_hold.h"
 #include "jobs/waiting_jobs.h"
 #include "metrics/metrics.h"
+#include "mutex.h"
 #include "store/data_folder.h"
 #include "store/journal.h"
 #include "store/journal_reader.h"
@@ -98,31 +98,32 @@ class Scheduler {
     int cores = 1;
   };
 
-  void reconcile();
+  /// Returns the jobs whose workers an earlier daemon left running, and those that are to be ended; `run` is to go along
+  /// with them.
+  std::vector<store::QueuedJob> reconcile();
   void clean_up();
   void run_slot(const std::stop_token& stop);
   /// Waits for a change, at most until `limit`. REQUIRES: `lock` holds mutex_.
-  void wait_for_change(std::unique_lock<std::mutex>& lock, const std::stop_token& stop,
-                       const std::optional<Hold::Clock::time_point>& limit);
-  /// Notes that a job runs. REQUIRES: mutex_ is held.
-  Running& begin(std::int64_t job);
+  void wait_for_change(MutexLock& lock, const std::stop_token& stop,
+                       const std::optional<Hold::Clock::time_point>& limit) CELLCRUSH_REQUIRES(mutex_);
+  /// Notes that a job runs.
+  Running& begin(std::int64_t job) CELLCRUSH_REQUIRES(mutex_);
   /// Has the job run by this thread; it holds a core, and more if it asks for them and there are. REQUIRES: `begin` was
   /// called for it. Throws nothing.
   void run(const store::QueuedJob& taken, const std::stop_token& stop);
   int take_cores(const store::QueuedJob& job);
   store::StoredJob find(std::int64_t job);
-  /// REQUIRES: mutex_ is held.
-  void tell_metrics() { parts_.metrics.set_jobs(waiting_.count(), running_.size()); }
+  void tell_metrics() CELLCRUSH_REQUIRES(mutex_) { parts_.metrics.set_jobs(waiting_.count(), running_.size()); }
 
   Parts parts_;
-  std::mutex mutex_;
+  Mutex mutex_;
   std::condition_variable_any changed_;
-  WaitingJobs waiting_;
-  std::map<std::int64_t, Running> running_;
-  int free_cores_ =
-      0;  ///< one for each slot, and those that jobs use are taken off; below 0 after a restart with fewer
-  std::uint64_t changes_ = 0;  ///< of what the slots wait for
-  bool low_disk_ = false;
+  WaitingJobs waiting_ CELLCRUSH_GUARDED_BY(mutex_);
+  std::map<std::int64_t, Running> running_ CELLCRUSH_GUARDED_BY(mutex_);
+  /// One for each slot, and those that jobs use are taken off; below 0 after a restart with fewer.
+  int free_cores_ CELLCRUSH_GUARDED_BY(mutex_) = 0;
+  std::uint64_t changes_ CELLCRUSH_GUARDED_BY(mutex_) = 0;  ///< of what the slots wait for
+  bool low_disk_ CELLCRUSH_GUARDED_BY(mutex_) = false;
   std::vector<std::jthread> slots_;
 };
 

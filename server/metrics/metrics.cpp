@@ -8,12 +8,12 @@
 
 #include <exception>
 #include <map>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "error.h"
+#include "mutex.h"
 
 namespace cellcrush::metrics {
 namespace {
@@ -100,8 +100,8 @@ struct Metrics::Impl {
                                      .Add({});
   prometheus::Counter& skipped =
       counters(*registry, "cellcrush_skipped_frames_total", "Frames skipped because a watcher was too slow.").Add({});
-  std::mutex mutex;
-  std::map<std::int64_t, double> speeds;  ///< by job
+  Mutex mutex;
+  std::map<std::int64_t, double> speeds CELLCRUSH_GUARDED_BY(mutex);  ///< by job
   std::optional<prometheus::Exposer> exposer;
 };
 
@@ -131,7 +131,7 @@ void Metrics::set_jobs(std::size_t waiting, std::size_t running) {
 void Metrics::set_holds(const std::set<Shortage>& holds) { impl_->set_holds(holds); }
 
 void Metrics::set_speed(std::int64_t job, double steps_per_second) {
-  const std::scoped_lock lock(impl_->mutex);
+  const MutexLock lock(impl_->mutex);
   if (steps_per_second > 0.0) {
     impl_->speeds[job] = steps_per_second;
   } else {

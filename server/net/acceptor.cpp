@@ -52,7 +52,7 @@ void Acceptor::stop() {
   thread_.request_stop();
   wake();
   if (thread_.joinable()) thread_.join();
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   if (std::exchange(closed_, true)) return;
   ports_.clear();
   if (reserve_ >= 0) close(reserve_);
@@ -60,7 +60,7 @@ void Acceptor::stop() {
 }
 
 std::vector<ListenAddress> Acceptor::addresses() const {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   std::vector<ListenAddress> out;
   std::transform(ports_.begin(), ports_.end(), std::back_inserter(out),
                  [](const ListeningPort& port) { return port.address(); });
@@ -69,7 +69,7 @@ std::vector<ListenAddress> Acceptor::addresses() const {
 
 void Acceptor::reopen(std::size_t port) {
   {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     if (closed_) return;
     ports_[port].reopen();
   }
@@ -88,7 +88,7 @@ void Acceptor::look_after_connections() {
 }
 
 void Acceptor::wake() const {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   if (!closed_) eventfd_write(wake_, 1);
 }
 
@@ -100,7 +100,7 @@ void Acceptor::wait_and_accept() {
   std::vector<pollfd> waiting = {{wake_, POLLIN, 0}};
   std::vector<std::size_t> port_of;
   {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     look_after_connections();
     for (std::size_t i = 0; i < ports_.size(); ++i) {
       for (const int socket : ports_[i].descriptors()) {
@@ -124,7 +124,7 @@ void Acceptor::wait_and_accept() {
 }
 
 bool Acceptor::accept_some(std::size_t port, int listener) {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   // It may have been closed since, and its number be that of another file.
   const auto& open = ports_[port].descriptors();
   if (std::find(open.begin(), open.end(), listener) == open.end()) return true;

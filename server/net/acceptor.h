@@ -3,12 +3,12 @@
 #include <chrono>
 #include <cstddef>
 #include <functional>
-#include <mutex>
 #include <stop_token>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "mutex.h"
 #include "net/connection_limits.h"
 #include "net/connection_table.h"
 #include "net/listening_port.h"
@@ -59,22 +59,23 @@ class Acceptor {
   /// Accepts what waits on a socket; false when there was no descriptor for it.
   bool accept_some(std::size_t port, int listener);
   /// A connection for which there is no descriptor is refused with the one in reserve.
-  void refuse_with_reserve(int listener);
-  void take(std::size_t port, int listener, int descriptor, const sockaddr_storage& peer);
+  void refuse_with_reserve(int listener) CELLCRUSH_REQUIRES(mutex_);
+  void take(std::size_t port, int listener, int descriptor, const sockaddr_storage& peer) CELLCRUSH_REQUIRES(mutex_);
   void wake() const;
-  void look_after_connections();  ///< REQUIRES: mutex_ is held
+  void look_after_connections() CELLCRUSH_REQUIRES(mutex_);
 
   ConnectionLimits limits_;
   Parts parts_;
-  mutable std::mutex mutex_;  ///< guards all below but thread_
-  std::vector<ListeningPort> ports_;
-  ConnectionTable on_tcp_;
-  ConnectionTable on_unix_sockets_;  ///< apart, so that strangers cannot shut the owner out
-  ConnectionTable turned_away_;
-  int reserve_ = -1;
-  int wake_ = -1;  ///< eventfd
-  bool closed_ = false;
-  std::chrono::steady_clock::time_point last_count_;
+  mutable Mutex mutex_;
+  std::vector<ListeningPort> ports_ CELLCRUSH_GUARDED_BY(mutex_);
+  ConnectionTable on_tcp_ CELLCRUSH_GUARDED_BY(mutex_);
+  /// Apart, so that strangers cannot shut the owner out.
+  ConnectionTable on_unix_sockets_ CELLCRUSH_GUARDED_BY(mutex_);
+  ConnectionTable turned_away_ CELLCRUSH_GUARDED_BY(mutex_);
+  int reserve_ CELLCRUSH_GUARDED_BY(mutex_) = -1;
+  bool closed_ CELLCRUSH_GUARDED_BY(mutex_) = false;
+  std::chrono::steady_clock::time_point last_count_ CELLCRUSH_GUARDED_BY(mutex_);
+  const int wake_;  ///< eventfd, which is there until closed_
   std::jthread thread_;
 };
 

@@ -9,13 +9,12 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <condition_variable>
 #include <cstring>
 #include <memory>
-#include <mutex>
 #include <utility>
 
 #include "error.h"
+#include "pause.h"
 
 namespace cellcrush::net {
 namespace {
@@ -112,19 +111,12 @@ PortProbe::PortProbe(Acceptor& acceptor, std::vector<bool> plain, const Connecti
       thread_([this](const std::stop_token& stop) { work(stop); }) {}
 
 void PortProbe::work(const std::stop_token& stop) {
-  std::mutex never_shared;
-  std::condition_variable_any sleep;
-  while (true) {
-    {
-      std::unique_lock lock(never_shared);
-      sleep.wait_for(lock, stop, limits_.probe_interval, [] { return false; });
-    }
+  while (pause_unless_stopped(stop, limits_.probe_interval)) {
     const auto addresses = acceptor_.addresses();
     for (std::size_t i = 0; i < addresses.size(); ++i) {
       if (stop.stop_requested()) return;
       look_at(i, addresses[i]);
     }
-    if (stop.stop_requested()) return;
   }
 }
 

@@ -15,7 +15,7 @@ CallPool::CallPool(Most most) : most_(most) {
 
 CallPool::~CallPool() {
   {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     ending_ = true;
   }
   changed_.notify_all();
@@ -31,7 +31,7 @@ grpc::ServerUnaryReactor* CallPool::run(grpc::CallbackServerContext& context, co
 
 grpc::Status CallPool::take(Call call) {
   {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     // One alone may always wait.
     if (waiting_.size() >= most_.waiting || (bytes_ > 0 && bytes_ + call.bytes > most_.bytes)) {
       return {grpc::StatusCode::RESOURCE_EXHAUSTED,
@@ -50,8 +50,8 @@ void CallPool::serve() {
   for (;;) {
     Call call;
     {
-      std::unique_lock lock(mutex_);
-      changed_.wait(lock, [this] { return ending_ || !waiting_.empty(); });
+      MutexLock lock(mutex_);
+      changed_.wait(lock, [this]() CELLCRUSH_REQUIRES(mutex_) { return ending_ || !waiting_.empty(); });
       if (waiting_.empty()) return;
       call = std::move(waiting_.front());
       waiting_.pop_front();

@@ -8,9 +8,10 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
-#include <mutex>
 #include <thread>
 #include <vector>
+
+#include "mutex.h"
 
 namespace cellcrush::rpc {
 
@@ -49,11 +50,11 @@ class CallPool {
   grpc::Status take(Call call);
 
   const Most most_;
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  std::deque<Call> waiting_;  ///< guarded by mutex_
-  std::int64_t bytes_ = 0;    ///< of waiting_
-  bool ending_ = false;
+  Mutex mutex_;
+  std::condition_variable_any changed_;
+  std::deque<Call> waiting_ CELLCRUSH_GUARDED_BY(mutex_);
+  std::int64_t bytes_ CELLCRUSH_GUARDED_BY(mutex_) = 0;  ///< of waiting_
+  bool ending_ CELLCRUSH_GUARDED_BY(mutex_) = false;
   std::vector<std::jthread> threads_;
 };
 

@@ -16,32 +16,32 @@ std::string address_of(const std::string& peer) {
 }  // namespace
 
 void HealthBoard::set(const std::string& service, bool is_serving) {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   services_[service] = is_serving;
   for (const auto& [id, wake] : watchers_) wake();
 }
 
 void HealthBoard::set_all(bool is_serving) {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   for (auto& [service, serves] : services_) serves = is_serving;
   for (const auto& [id, wake] : watchers_) wake();
 }
 
 HealthBoard::Status HealthBoard::find(const std::string& service) const {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   const auto found = services_.find(service);
   if (found == services_.end()) return HealthCheckResponse::SERVICE_UNKNOWN;
   return found->second ? HealthCheckResponse::SERVING : HealthCheckResponse::NOT_SERVING;
 }
 
 std::uint64_t HealthBoard::subscribe(Wake wake) {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   watchers_.emplace(next_id_, std::move(wake));
   return next_id_++;
 }
 
 void HealthBoard::unsubscribe(std::uint64_t id) {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   watchers_.erase(id);
 }
 

@@ -2,11 +2,11 @@
 
 #include <map>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 
 #include "grpc/health/v1/health.grpc.pb.h"
+#include "mutex.h"
 #include "rpc/stream_reactor.h"
 
 namespace cellcrush::rpc {
@@ -30,10 +30,10 @@ class HealthBoard {
   void unsubscribe(std::uint64_t id);
 
  private:
-  mutable std::mutex mutex_;
-  std::map<std::string, bool> services_;
-  std::map<std::uint64_t, Wake> watchers_;
-  std::uint64_t next_id_ = 1;
+  mutable Mutex mutex_;
+  std::map<std::string, bool> services_ CELLCRUSH_GUARDED_BY(mutex_);
+  std::map<std::uint64_t, Wake> watchers_ CELLCRUSH_GUARDED_BY(mutex_);
+  std::uint64_t next_id_ CELLCRUSH_GUARDED_BY(mutex_) = 1;
 };
 
 /// What a Health.Watch sends: the status of a service, and again whenever it changes. Not thread-safe but for the wake.

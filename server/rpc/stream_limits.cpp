@@ -6,7 +6,7 @@ namespace cellcrush::rpc {
 
 StreamLimits::Permit::~Permit() {
   if (limits_ == nullptr) return;
-  const std::scoped_lock lock(limits_->mutex_);
+  const MutexLock lock(limits_->mutex_);
   limits_->bytes_ -= bytes_;
   --limits_->count_;
   const auto caller = limits_->callers_.find(caller_);
@@ -15,7 +15,7 @@ StreamLimits::Permit::~Permit() {
 
 void StreamLimits::Permit::hold(std::size_t bytes) {
   if (limits_ == nullptr) return;
-  const std::scoped_lock lock(limits_->mutex_);
+  const MutexLock lock(limits_->mutex_);
   limits_->bytes_ -= std::exchange(bytes_, 0);
   const auto wanted = static_cast<std::int64_t>(bytes);
   // One stream alone may always have its message.
@@ -29,7 +29,7 @@ void StreamLimits::Permit::hold(std::size_t bytes) {
 }
 
 StreamLimits::Permit StreamLimits::admit(const std::string& caller) {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   if (count_ >= most_.in_all) {
     throw ServiceError(
         ServiceError::Kind::exhausted,
@@ -48,7 +48,7 @@ StreamLimits::Permit StreamLimits::admit(const std::string& caller) {
 }
 
 std::size_t StreamLimits::count() const {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   return static_cast<std::size_t>(count_);
 }
 

@@ -3,9 +3,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
-#include <mutex>
 #include <string>
 #include <utility>
+
+#include "mutex.h"
 
 namespace cellcrush::rpc {
 
@@ -50,10 +51,10 @@ class StreamLimits {
 
  private:
   const Most most_;
-  mutable std::mutex mutex_;
-  std::map<std::string, int> callers_;
-  int count_ = 0;
-  std::int64_t bytes_ = 0;
+  mutable Mutex mutex_;
+  std::map<std::string, int> callers_ CELLCRUSH_GUARDED_BY(mutex_);
+  int count_ CELLCRUSH_GUARDED_BY(mutex_) = 0;
+  std::int64_t bytes_ CELLCRUSH_GUARDED_BY(mutex_) = 0;
 };
 
 }  // namespace cellcrush::rpc

@@ -7,7 +7,6 @@
 #include <condition_variable>
 #include <cstdint>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <thread>
 #include <utility>
@@ -16,6 +15,7 @@
 #include "error_table.h"
 #include "jobs/case_field.h"
 #include "metrics/metrics.h"
+#include "mutex.h"
 #include "rpc/refused_stream.h"
 #include "rpc/stream_limits.h"
 #include "watch/pump.h"
@@ -59,7 +59,7 @@ class StreamReactor final : public grpc::ServerWriteReactor<typename Source::Mes
     reactor->self_ = reactor;
     {
       // The pump may run the reactor while the source is being opened.
-      const std::scoped_lock lock(reactor->mutex_);
+      const MutexLock lock(reactor->mutex_);
       reactor->source_->open([weak = std::weak_ptr<StreamReactor>(reactor)] {
         if (auto alive = weak.lock()) alive->wake(alive);
       });
@@ -79,7 +79,7 @@ class StreamReactor final : public grpc::ServerWriteReactor<typename Source::Mes
     // What is followed at once goes out together with what follows.
     grpc::WriteOptions options;
     {
-      const std::scoped_lock lock(mutex_);
+      const MutexLock lock(mutex_);
       action = decide();
       if (action == Action::write && source_->has_more()) options.set_buffer_hint();
     }
@@ -97,7 +97,7 @@ class StreamReactor final : public grpc::ServerWriteReactor<typename Source::Mes
   void OnWriteDone(bool ok) override {
     bool at_once = false;
     {
-      const std::scoped_lock lock(mutex_);
+      const MutexLock lock(mutex_);
       writing_ = false;
       if (!ok) cancelled_ = true;
       at_once = source_->has_more();
@@ -108,7 +108,7 @@ class StreamReactor final : public grpc::ServerWriteReactor<typename Source::Mes
 
   void OnCancel() override {
     {
-      const std::scoped_lock lock(mutex_);
+      const MutexLock lock(mutex_);
       cancelled_ = true;
     }
     parts_.pump.schedule(self_);
@@ -118,12 +118,13 @@ class StreamReactor final : public grpc::ServerWriteReactor<typename Source::Mes
     {
       // The pump may run the reactor for a moment longer, but nothing of the call is there any more. gRPC may call this
       // from within TryCancel, on the same thread.
-      std::unique_lock lock(mutex_);
+      MutexLock lock(mutex_);
       done_ = true;
-      abandoned_.wait(lock,
-                      [this] { return abandoning_ == std::thread::id() || abandoning_ == std::this_thread::get_id(); });
+      abandoned_.wait(lock, [this]() CELLCRUSH_REQUIRES(mutex_) {
+        return abandoning_ == std::thread::id() || abandoning_ == std::this_thread::get_id();
+      });
+      source_->close();
     }
-    source_->close();
     if (Source::kIsWatch) parts_.metrics.count_watcher(-1);
     // The last reference goes with `self`, or with the pump if it still holds one.
     const auto self = std::move(self_);
@@ -135,7 +136,7 @@ class StreamReactor final : public grpc::ServerWriteReactor<typename Source::Mes
   /// What to do next; decided under the lock, done without it, because gRPC may answer at once.
   enum class Action { none, write, finish, abandon };
 
-  Action decide() {
+  Action decide() CELLCRUSH_REQUIRES(mutex_) {
     if (done_) return Action::none;
     if (finished_) return is_to_be_abandoned() ? Action::abandon : Action::none;
     if (writing_) return is_stuck() ? close(status_of_stuck()) : Action::none;
@@ -161,11 +162,13 @@ class StreamReactor final : public grpc::ServerWriteReactor<typename Source::Mes
 
   /// Whether the client has let a message lie for too long. The status waits behind it, for a client that reads on
   /// soon.
-  [[nodiscard]] bool is_stuck() const { return Clock::now() - last_write_ > parts_.times.patience; }
+  [[nodiscard]] bool is_stuck() const CELLCRUSH_REQUIRES(mutex_) {
+    return Clock::now() - last_write_ > parts_.times.patience;
+  }
 
   /// Whether the client has not taken the status either: then all that is kept for it is dropped, and it finds
   /// CANCELLED.
-  [[nodiscard]] bool is_to_be_abandoned() {
+  [[nodiscard]] bool is_to_be_abandoned() CELLCRUSH_REQUIRES(mutex_) {
     if (!writing_ || abandoning_ != std::thread::id()) return false;
     if (Clock::now() - last_write_ <= parts_.times.patience + parts_.times.grace) return false;
     abandoning_ = std::this_thread::get_id();
@@ -176,13 +179,13 @@ class StreamReactor final : public grpc::ServerWriteReactor<typename Source::Mes
   void abandon() {
     context_.TryCancel();
     {
-      const std::scoped_lock lock(mutex_);
+      const MutexLock lock(mutex_);
       abandoning_ = std::thread::id();
     }
     abandoned_.notify_all();
   }
 
-  [[nodiscard]] grpc::Status status_of_stuck() const {
+  [[nodiscard]] grpc::Status status_of_stuck() const CELLCRUSH_REQUIRES(mutex_) {
     const auto seconds = std::chrono::duration<double>(parts_.times.patience).count();
     return {grpc::StatusCode::RESOURCE_EXHAUSTED, "The client read nothing from this stream for " +
                                                       jobs::text_of(seconds) +
@@ -205,7 +208,7 @@ class StreamReactor final : public grpc::ServerWriteReactor<typename Source::Mes
     }
   }
 
-  Action close(grpc::Status status) {
+  Action close(grpc::Status status) CELLCRUSH_REQUIRES(mutex_) {
     status_ = std::move(status);
     finished_ = true;
     return Action::finish;
@@ -217,18 +220,18 @@ class StreamReactor final : public grpc::ServerWriteReactor<typename Source::Mes
   /// Clock's count when the news came that no message was sent for; 0: there is none.
   std::atomic<std::int64_t> pending_since_ = 0;
 
-  std::mutex mutex_;  ///< guards all below
-  StreamLimits::Permit permit_;
-  std::unique_ptr<Source> source_;  ///< close is called without it, when nothing else is any more
-  Message message_;                 ///< in the hands of gRPC while writing_
-  grpc::Status status_;
-  bool writing_ = false;
-  bool finished_ = false;
-  bool cancelled_ = false;
-  std::thread::id abandoning_;  ///< the thread that cancels the call, while it does
-  std::condition_variable abandoned_;
-  bool done_ = false;
-  Clock::time_point last_write_ = Clock::now();
+  Mutex mutex_;
+  StreamLimits::Permit permit_ CELLCRUSH_GUARDED_BY(mutex_);
+  std::unique_ptr<Source> source_ CELLCRUSH_GUARDED_BY(mutex_);
+  Message message_;      ///< made with the mutex held, and then in the hands of gRPC while writing_
+  grpc::Status status_;  ///< the same while finished_
+  bool writing_ CELLCRUSH_GUARDED_BY(mutex_) = false;
+  bool finished_ CELLCRUSH_GUARDED_BY(mutex_) = false;
+  bool cancelled_ CELLCRUSH_GUARDED_BY(mutex_) = false;
+  std::thread::id abandoning_ CELLCRUSH_GUARDED_BY(mutex_);  ///< the thread that cancels the call, while it does
+  std::condition_variable_any abandoned_;
+  bool done_ CELLCRUSH_GUARDED_BY(mutex_) = false;
+  Clock::time_point last_write_ CELLCRUSH_GUARDED_BY(mutex_) = Clock::now();
 };
 
 /// Opens a stream of the source that `make` returns, for the caller that `name_caller` returns, or one that ends with

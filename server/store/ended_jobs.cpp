@@ -4,14 +4,14 @@
 namespace cellcrush::store {
 
 EndedTotals JournalReader::ended_totals() {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   Statement read(database_, "SELECT COUNT(*), COALESCE(SUM(bytes), 0) FROM jobs WHERE ended_at IS NOT NULL");
   read.step();
   return {read.integer(0), read.integer(1)};
 }
 
 std::vector<EndedJob> JournalReader::ended_jobs(const EndedJob& after, int limit) {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   Statement read(database_,
                  "SELECT jobs.number, jobs.ended_at, jobs.bytes, sweep_jobs.sweep FROM jobs "
                  "LEFT JOIN sweep_jobs ON sweep_jobs.job = jobs.number "
@@ -25,7 +25,7 @@ std::vector<EndedJob> JournalReader::ended_jobs(const EndedJob& after, int limit
 }
 
 std::vector<std::int64_t> JournalReader::jobs_to_measure(int limit) {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   Statement read(database_,
                  "SELECT number FROM jobs WHERE measured = 0 AND ended_at IS NOT NULL ORDER BY number LIMIT ?1");
   read.bind(1, limit);
@@ -35,7 +35,7 @@ std::vector<std::int64_t> JournalReader::jobs_to_measure(int limit) {
 }
 
 std::int64_t JournalReader::bytes_of_owner(const std::string& owner) {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   Statement read(database_, "SELECT COALESCE(SUM(bytes), 0) FROM jobs WHERE owner = ?1");
   return read.bind_text(1, owner).step() ? read.integer(0) : 0;
 }

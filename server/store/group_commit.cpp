@@ -11,9 +11,9 @@ GroupCommit::GroupCommit(Database& database, Committed on_commit)
 
 void GroupCommit::run(const Step& body, const Step& undo) {
   Write own{body, undo, nullptr};
-  std::unique_lock lock(mutex_);
+  MutexLock lock(mutex_);
   waiting_.push_back(&own);
-  changed_.wait(lock, [&] { return own.done || !committing_; });
+  changed_.wait(lock, [&]() CELLCRUSH_REQUIRES(mutex_) { return own.done || !committing_; });
   if (!own.done) {
     // Commits for all who came while another one did.
     committing_ = true;

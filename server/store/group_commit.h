@@ -3,9 +3,9 @@
 #include <condition_variable>
 #include <exception>
 #include <functional>
-#include <mutex>
 #include <vector>
 
+#include "mutex.h"
 #include "store/sqlite.h"
 
 namespace cellcrush::store {
@@ -43,10 +43,10 @@ class GroupCommit {
 
   Database& database_;
   Committed on_commit_;
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  std::vector<Write*> waiting_;
-  bool committing_ = false;
+  Mutex mutex_;
+  std::condition_variable_any changed_;
+  std::vector<Write*> waiting_ CELLCRUSH_GUARDED_BY(mutex_);
+  bool committing_ CELLCRUSH_GUARDED_BY(mutex_) = false;
 };
 
 }  // namespace cellcrush::store

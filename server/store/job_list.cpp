@@ -47,7 +47,7 @@ std::vector<StoredJob> JournalReader::list_jobs(const JobFilter& wanted, bool ne
 
 std::vector<StoredJob> JournalReader::read_batch(const JobFilter& wanted, bool newest_first, const Range& range,
                                                  int limit) {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   const JobConditions conditions(wanted, 4);
   const std::string order = newest_first ? " ORDER BY number DESC" : " ORDER BY number";
   Statement read(database_,
@@ -67,7 +67,7 @@ std::vector<StoredJob> JournalReader::read_batch(const JobFilter& wanted, bool n
 }
 
 std::int64_t JournalReader::newest_number() {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   Statement read(database_, "SELECT COALESCE(MAX(number), 0) FROM jobs");
   return read.step() ? read.integer(0) : 0;
 }

@@ -40,11 +40,11 @@ void apply(const StateChange& change, v1::Job& job) {
 class Journal::Taking {
  public:
   explicit Taking(Journal& journal) : journal_(journal) {
-    const std::scoped_lock lock(journal_.gather_mutex_);
+    const MutexLock lock(journal_.gather_mutex_);
     ++journal_.takings_;
   }
   ~Taking() {
-    const std::scoped_lock lock(journal_.gather_mutex_);
+    const MutexLock lock(journal_.gather_mutex_);
     --journal_.takings_;
   }
   Taking(const Taking&) = delete;
@@ -69,7 +69,7 @@ Journal::Journal(const std::filesystem::path& path, Durable on_durable, GroupCom
 
 Journal::~Journal() {
   {
-    const std::scoped_lock lock(gather_mutex_);
+    const MutexLock lock(gather_mutex_);
     stopping_ = true;
   }
   sooner_.notify_all();
@@ -138,7 +138,7 @@ void Journal::append_sample(std::int64_t job, const v1::Sample& sample, std::chr
   std::string bytes = sample.SerializeAsString();
   const auto limit = std::chrono::steady_clock::now() + within;
   {
-    const std::scoped_lock lock(gather_mutex_);
+    const MutexLock lock(gather_mutex_);
     gathered_[job].push_back({sample.step(), std::move(bytes)});
     if (limit >= commit_at_) return;
     commit_at_ = limit;
@@ -157,7 +157,7 @@ void Journal::commit_gathered_when_due() {
   bool failing = false;
   for (bool stop = false; !stop;) {
     {
-      std::unique_lock lock(gather_mutex_);
+      MutexLock lock(gather_mutex_);
       while (!stopping_ && std::chrono::steady_clock::now() < commit_at_) {
         commit_at_ == kNothingIsDue ? sooner_.wait(lock) : static_cast<void>(sooner_.wait_until(lock, commit_at_));
       }
@@ -177,7 +177,7 @@ void Journal::commit_gathered_when_due() {
 
 void Journal::commit_samples() {
   {
-    const std::scoped_lock lock(gather_mutex_);
+    const MutexLock lock(gather_mutex_);
     if (gathered_.empty() && takings_ == 0) return;
   }
   // What another writer has taken is durable once this one had its turn.
@@ -233,7 +233,7 @@ void Journal::insert_samples(std::int64_t job, const std::vector<GatheredSample>
 }
 
 Journal::Gathered Journal::take_gathered(std::optional<std::int64_t> job) {
-  const std::scoped_lock lock(gather_mutex_);
+  const MutexLock lock(gather_mutex_);
   if (!job) return std::exchange(gathered_, {});
   Gathered taken;
   if (auto node = gathered_.extract(*job)) taken.insert(std::move(node));
@@ -241,7 +241,7 @@ Journal::Gathered Journal::take_gathered(std::optional<std::int64_t> job) {
 }
 
 void Journal::give_back(Gathered&& samples) {
-  const std::scoped_lock lock(gather_mutex_);
+  const MutexLock lock(gather_mutex_);
   for (auto& [job, older] : samples) {
     auto& newer = gathered_[job];
     newer.insert(newer.begin(), std::make_move_iterator(older.begin()), std::make_move_iterator(older.end()));

@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <functional>
 #include <map>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
@@ -15,6 +14,7 @@
 #include "cellcrush/v1/event.pb.h"
 #include "cellcrush/v1/job.pb.h"
 #include "cellcrush/v1/sweep.pb.h"
+#include "mutex.h"
 #include "store/epoch.h"
 #include "store/group_commit.h"
 #include "store/journal_upkeep.h"
@@ -178,13 +178,14 @@ class Journal {
   Database database_;
   ServiceClock clock_;
   Epoch epoch_;
-  GroupCommit writes_;       ///< all that is done with database_
-  std::mutex gather_mutex_;  ///< guards what follows
-  Gathered gathered_;        ///< samples that nobody makes durable yet, by job
-  int takings_ = 0;          ///< writers that may have taken some of them which are not durable yet
-  std::chrono::steady_clock::time_point commit_at_ = kNothingIsDue;
-  std::condition_variable sooner_;  ///< commit_at_ is earlier than it was, or the end has come
-  bool stopping_ = false;
+  GroupCommit writes_;  ///< all that is done with database_
+  Mutex gather_mutex_;
+  Gathered gathered_ CELLCRUSH_GUARDED_BY(gather_mutex_);  ///< samples that nobody makes durable yet, by job
+  /// Writers that may have taken some of them which are not durable yet.
+  int takings_ CELLCRUSH_GUARDED_BY(gather_mutex_) = 0;
+  std::chrono::steady_clock::time_point commit_at_ CELLCRUSH_GUARDED_BY(gather_mutex_) = kNothingIsDue;
+  std::condition_variable_any sooner_;  ///< commit_at_ is earlier than it was, or the end has come
+  bool stopping_ CELLCRUSH_GUARDED_BY(gather_mutex_) = false;
   std::thread committer_;
   std::optional<JournalUpkeep> upkeep_;
 };

@@ -42,19 +42,19 @@ StoredJob JournalReader::read_job(const Statement& row) {
 }
 
 std::optional<StoredJob> JournalReader::find_job(std::int64_t job) {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   Statement read(database_, "SELECT number, job, submitted_case, last_sequence, state FROM jobs WHERE number = ?1");
   if (!read.bind(1, job).step()) return std::nullopt;
   return read_job(read);
 }
 
 bool JournalReader::has_job(std::int64_t job) {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   return Statement(database_, "SELECT 1 FROM jobs WHERE number = ?1").bind(1, job).step();
 }
 
 std::vector<std::int64_t> JournalReader::deleted_jobs() {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   Statement read(database_, "SELECT number FROM deleted_jobs ORDER BY number");
   std::vector<std::int64_t> out;
   while (read.step()) out.push_back(read.integer(0));
@@ -62,7 +62,7 @@ std::vector<std::int64_t> JournalReader::deleted_jobs() {
 }
 
 std::vector<v1::JobEvent> JournalReader::events(std::int64_t job, std::int64_t after, int limit) {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   Statement read(
       database_,
       "SELECT sequence, kind, payload FROM events WHERE job = ?1 AND sequence > ?2 ORDER BY sequence LIMIT ?3");
@@ -83,7 +83,7 @@ std::vector<v1::JobEvent> JournalReader::events(std::int64_t job, std::int64_t a
 }
 
 StoredSamples JournalReader::samples(std::int64_t job, std::int64_t after, PageRoom room) {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   Statement read(
       database_,
       "SELECT payload, sequence FROM events WHERE job = ?1 AND sequence > ?2 AND kind = ?3 ORDER BY sequence");
@@ -103,7 +103,7 @@ StoredSamples JournalReader::samples(std::int64_t job, std::int64_t after, PageR
 }
 
 std::int64_t JournalReader::last_sampled_step(std::int64_t job) {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   Statement read(database_,
                  "SELECT payload, sequence FROM events WHERE job = ?1 AND kind = ?2 ORDER BY sequence DESC LIMIT 1");
   if (!read.bind(1, job).bind(2, kSampleEvent).step()) return -1;
@@ -113,7 +113,7 @@ std::int64_t JournalReader::last_sampled_step(std::int64_t job) {
 }
 
 std::optional<v1::Mesh> JournalReader::mesh(std::int64_t job) {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   Statement read(database_, "SELECT mesh FROM meshes WHERE job = ?1");
   if (!read.bind(1, job).step()) return std::nullopt;
   v1::Mesh mesh;

@@ -4,13 +4,13 @@
 #include <filesystem>
 #include <functional>
 #include <limits>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "cellcrush/v1/event.pb.h"
 #include "cellcrush/v1/job.pb.h"
+#include "mutex.h"
 #include "store/ended_job.h"
 #include "store/epoch.h"
 #include "store/job_filter.h"
@@ -104,8 +104,8 @@ class JournalReader {
   std::vector<StoredJob> read_batch(const JobFilter& wanted, bool newest_first, const Range& range, int limit);
   std::int64_t newest_number();
 
-  std::mutex mutex_;
-  Database database_;
+  Mutex mutex_;
+  Database database_ CELLCRUSH_GUARDED_BY(mutex_);
   Epoch epoch_;
 };
 

@@ -2,10 +2,10 @@
 
 #include <spdlog/spdlog.h>
 
-#include <condition_variable>
 #include <cstdint>
-#include <mutex>
 #include <system_error>
+
+#include "pause.h"
 
 namespace cellcrush::store {
 namespace {
@@ -41,13 +41,7 @@ JournalUpkeep::JournalUpkeep(const std::filesystem::path& path, std::chrono::mil
       thread_([this, interval](const std::stop_token& stop) { run(stop, interval); }) {}
 
 void JournalUpkeep::run(const std::stop_token& stop, std::chrono::milliseconds interval) {
-  std::mutex never_shared;
-  std::condition_variable_any sleep;
-  while (!stop.stop_requested()) {
-    {
-      std::unique_lock lock(never_shared);
-      sleep.wait_for(lock, stop, interval, [] { return false; });
-    }
+  while (pause_unless_stopped(stop, interval)) {
     try {
       give_back_pages(stop);
       give_back_wal();

@@ -11,12 +11,12 @@
 #include <cstdint>
 #include <ctime>
 #include <deque>
-#include <mutex>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "error.h"
+#include "mutex.h"
 #include "store/durable_file.h"
 #include "store/result_dataset.h"
 
@@ -93,12 +93,12 @@ bool is_settled(const SealedFile::Identity& file) { return std::time(nullptr) - 
 class WholeFiles {
  public:
   bool contains(const SealedFile::Identity& file) {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     return std::find(files_.begin(), files_.end(), file) != files_.end();
   }
 
   void add(const SealedFile::Identity& file) {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     files_.push_back(file);
     if (files_.size() > kMost) files_.pop_front();
   }
@@ -106,8 +106,8 @@ class WholeFiles {
  private:
   static constexpr std::size_t kMost = 64;
 
-  std::mutex mutex_;
-  std::deque<SealedFile::Identity> files_;
+  Mutex mutex_;
+  std::deque<SealedFile::Identity> files_ CELLCRUSH_GUARDED_BY(mutex_);
 };
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace cellcrush::store {
 SweepReader::SweepReader(const std::filesystem::path& path) : database_(path) {}
 
 std::optional<v1::Sweep> SweepReader::find_sweep(std::int64_t sweep) {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   v1::Sweep out;
   Statement read(database_, "SELECT sweep FROM sweeps WHERE number = ?1 AND deleting = 0");
   if (!read.bind(1, sweep).step()) return std::nullopt;
@@ -35,7 +35,7 @@ std::optional<v1::Sweep> SweepReader::find_sweep(std::int64_t sweep) {
 }
 
 std::vector<std::int64_t> SweepReader::list_sweeps(std::int64_t before, int limit) {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   Statement read(database_,
                  "SELECT number FROM sweeps WHERE number < ?1 AND deleting = 0 ORDER BY number DESC LIMIT ?2");
   read.bind(1, before).bind(2, limit);
@@ -45,7 +45,7 @@ std::vector<std::int64_t> SweepReader::list_sweeps(std::int64_t before, int limi
 }
 
 SweepEnd SweepReader::end_of(std::int64_t sweep) {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   Statement read(database_,
                  "SELECT COUNT(*), COALESCE(SUM(jobs.bytes), 0), MAX(jobs.ended_at), COUNT(jobs.ended_at) "
                  "FROM sweep_jobs JOIN jobs ON jobs.number = sweep_jobs.job WHERE sweep_jobs.sweep = ?1");
@@ -54,7 +54,7 @@ SweepEnd SweepReader::end_of(std::int64_t sweep) {
 }
 
 std::vector<std::int64_t> SweepReader::sweeps_in_deletion() {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   Statement read(database_, "SELECT number FROM sweeps WHERE deleting = 1 ORDER BY number");
   std::vector<std::int64_t> out;
   while (read.step()) out.push_back(read.integer(0));
@@ -62,7 +62,7 @@ std::vector<std::int64_t> SweepReader::sweeps_in_deletion() {
 }
 
 std::vector<std::int64_t> SweepReader::jobs_of(std::int64_t sweep) {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   Statement read(database_, "SELECT job FROM sweep_jobs WHERE sweep = ?1 ORDER BY position");
   read.bind(1, sweep);
   std::vector<std::int64_t> out;
@@ -71,7 +71,7 @@ std::vector<std::int64_t> SweepReader::jobs_of(std::int64_t sweep) {
 }
 
 StoredRows SweepReader::rows(std::int64_t sweep, std::int64_t after, PageRoom room) {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   Statement read(database_,
                  "SELECT sweep_jobs.point, jobs.number, jobs.job, jobs.state, sweep_jobs.position + 1 "
                  "FROM sweep_jobs JOIN jobs ON jobs.number = sweep_jobs.job "

@@ -2,11 +2,11 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <mutex>
 #include <optional>
 #include <vector>
 
 #include "cellcrush/v1/sweep.pb.h"
+#include "mutex.h"
 #include "store/ended_job.h"
 #include "store/page_room.h"
 #include "store/sqlite.h"
@@ -46,8 +46,8 @@ class SweepReader {
   StoredRows rows(std::int64_t sweep, std::int64_t after = 0, PageRoom room = {});
 
  private:
-  std::mutex mutex_;
-  Database database_;
+  Mutex mutex_;
+  Database database_ CELLCRUSH_GUARDED_BY(mutex_);
 };
 
 }  // namespace cellcrush::store

@@ -5,14 +5,14 @@
 namespace cellcrush::watch {
 
 void Channel::publish(v1::Progress progress) {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   newest_.progress = std::make_shared<const v1::Progress>(std::move(progress));
   ++newest_.progress_count;
   for (const auto& [id, watcher] : watchers_) watcher.wake();
 }
 
 void Channel::publish(v1::FieldFrame frame) {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   if (newest_.frame && frame.index() <= newest_.frame->index()) return;
   newest_.frame = std::make_shared<const v1::FieldFrame>(std::move(frame));
   ++newest_.frame_count;
@@ -22,39 +22,39 @@ void Channel::publish(v1::FieldFrame frame) {
 }
 
 void Channel::forget() {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   newest_.progress.reset();
   newest_.frame.reset();
 }
 
 void Channel::announce() {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   for (const auto& [id, watcher] : watchers_) watcher.wake();
 }
 
 Channel::Newest Channel::newest() const {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   return newest_;
 }
 
 bool Channel::is_watched() const {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   return !watchers_.empty();
 }
 
 std::uint64_t Channel::subscribe(Wake wake, bool frames) {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   watchers_.emplace(next_id_, Watcher{std::move(wake), frames});
   return next_id_++;
 }
 
 void Channel::unsubscribe(std::uint64_t id) {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   watchers_.erase(id);
 }
 
 std::shared_ptr<Channel> Hub::open(std::int64_t job) {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   if (auto channel = channels_[job].lock()) return channel;
   // Whenever the map has doubled, so that opening many channels stays cheap.
   if (channels_.size() > 2 * kept_ + 64) {
@@ -67,7 +67,7 @@ std::shared_ptr<Channel> Hub::open(std::int64_t job) {
 }
 
 std::shared_ptr<Channel> Hub::find(std::int64_t job) {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   const auto found = channels_.find(job);
   return found == channels_.end() ? nullptr : found->second.lock();
 }

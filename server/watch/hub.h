@@ -4,10 +4,10 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <mutex>
 
 #include "cellcrush/v1/job.pb.h"
 #include "cellcrush/v1/sample.pb.h"
+#include "mutex.h"
 
 namespace cellcrush::watch {
 
@@ -50,10 +50,10 @@ class Channel {
     bool frames;
   };
 
-  mutable std::mutex mutex_;
-  Newest newest_;
-  std::map<std::uint64_t, Watcher> watchers_;
-  std::uint64_t next_id_ = 1;
+  mutable Mutex mutex_;
+  Newest newest_ CELLCRUSH_GUARDED_BY(mutex_);
+  std::map<std::uint64_t, Watcher> watchers_ CELLCRUSH_GUARDED_BY(mutex_);
+  std::uint64_t next_id_ CELLCRUSH_GUARDED_BY(mutex_) = 1;
 };
 
 /// The channels of all jobs that someone runs or watches. Thread-safe.
@@ -67,9 +67,9 @@ class Hub {
   void announce(std::int64_t job);
 
  private:
-  std::mutex mutex_;
-  std::map<std::int64_t, std::weak_ptr<Channel>> channels_;
-  std::size_t kept_ = 0;  ///< channels at the last time when the dead ones were removed
+  Mutex mutex_;
+  std::map<std::int64_t, std::weak_ptr<Channel>> channels_ CELLCRUSH_GUARDED_BY(mutex_);
+  std::size_t kept_ CELLCRUSH_GUARDED_BY(mutex_) = 0;  ///< channels at the last time when the dead ones were removed
 };
 
 }  // namespace cellcrush::watch

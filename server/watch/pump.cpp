@@ -5,6 +5,8 @@
 #include <chrono>
 #include <exception>
 
+#include "pause.h"
+
 namespace cellcrush::watch {
 
 Pump::Pump(int threads) {
@@ -18,26 +20,26 @@ Pump::~Pump() {
 }
 
 void Pump::add(const std::shared_ptr<Task>& task) {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   tasks_.push_back(task);
   push(task);
 }
 
 void Pump::schedule(const std::shared_ptr<Task>& task) {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   push(task);
 }
 
 void Pump::drain() {
   {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     draining_ = true;
   }
   schedule_all();
 }
 
 bool Pump::draining() const {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   return draining_;
 }
 
@@ -52,8 +54,8 @@ void Pump::work(const std::stop_token& stop) {
   while (true) {
     std::shared_ptr<Task> task;
     {
-      std::unique_lock lock(mutex_);
-      if (!changed_.wait(lock, stop, [this] { return !queue_.empty(); })) return;
+      MutexLock lock(mutex_);
+      if (!changed_.wait(lock, stop, [this]() CELLCRUSH_REQUIRES(mutex_) { return !queue_.empty(); })) return;
       task = std::move(queue_.front());
       queue_.pop_front();
       task->queued_ = false;
@@ -67,19 +69,13 @@ void Pump::work(const std::stop_token& stop) {
 }
 
 void Pump::tick(const std::stop_token& stop) {
-  std::mutex never_shared;
-  std::condition_variable_any sleep;
-  while (!stop.stop_requested()) {
-    std::unique_lock lock(never_shared);
-    sleep.wait_for(lock, stop, std::chrono::seconds(1), [] { return false; });
-    schedule_all();
-  }
+  while (pause_unless_stopped(stop, std::chrono::seconds(1))) schedule_all();
 }
 
 void Pump::schedule_all() {
   // Dropped after the lock is released: a task's end may schedule others.
   std::vector<std::shared_ptr<Task>> alive;
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   std::erase_if(tasks_, [&alive](const std::weak_ptr<Task>& task) {
     alive.push_back(task.lock());
     return alive.back() == nullptr;

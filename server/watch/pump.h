@@ -3,10 +3,11 @@
 #include <condition_variable>
 #include <deque>
 #include <memory>
-#include <mutex>
 #include <stop_token>
 #include <thread>
 #include <vector>
+
+#include "mutex.h"
 
 namespace cellcrush::watch {
 
@@ -43,13 +44,13 @@ class Pump {
   void work(const std::stop_token& stop);
   void tick(const std::stop_token& stop);
   void schedule_all();
-  void push(const std::shared_ptr<Task>& task);  ///< REQUIRES: mutex_ is held
+  void push(const std::shared_ptr<Task>& task) CELLCRUSH_REQUIRES(mutex_);
 
-  mutable std::mutex mutex_;
+  mutable Mutex mutex_;
   std::condition_variable_any changed_;
-  std::deque<std::shared_ptr<Task>> queue_;
-  std::vector<std::weak_ptr<Task>> tasks_;
-  bool draining_ = false;
+  std::deque<std::shared_ptr<Task>> queue_ CELLCRUSH_GUARDED_BY(mutex_);
+  std::vector<std::weak_ptr<Task>> tasks_ CELLCRUSH_GUARDED_BY(mutex_);
+  bool draining_ CELLCRUSH_GUARDED_BY(mutex_) = false;
   std::vector<std::jthread> threads_;
 };
 

@@ -14,14 +14,14 @@ constexpr int kLongestTurn = 256;
 }  // namespace
 
 void SweepSource::News::add(std::size_t position) {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   if (is_queued_[position]) return;
   is_queued_[position] = true;
   queue_.push_back(position);
 }
 
 bool SweepSource::News::add_first(std::size_t position) {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   if (is_queued_[position]) return false;
   is_queued_[position] = true;
   queue_.push_front(position);
@@ -29,7 +29,7 @@ bool SweepSource::News::add_first(std::size_t position) {
 }
 
 std::optional<std::size_t> SweepSource::News::take() {
-  const std::scoped_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   if (queue_.empty()) return std::nullopt;
   const std::size_t position = queue_.front();
   queue_.pop_front();

@@ -5,12 +5,12 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "cellcrush/v1/sweeps_service.pb.h"
+#include "mutex.h"
 #include "store/journal_reader.h"
 #include "store/sweep_reader.h"
 #include "watch/hub.h"
@@ -63,9 +63,9 @@ class SweepSource {
     std::optional<std::size_t> take();
 
    private:
-    std::mutex mutex_;
-    std::deque<std::size_t> queue_;
-    std::vector<bool> is_queued_;
+    Mutex mutex_;
+    std::deque<std::size_t> queue_ CELLCRUSH_GUARDED_BY(mutex_);
+    std::vector<bool> is_queued_ CELLCRUSH_GUARDED_BY(mutex_);
   };
 
   [[nodiscard]] std::string resume_token() const;

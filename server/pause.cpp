@@ -1,0 +1,16 @@
+#include "pause.h"
+
+#include <condition_variable>
+#include <mutex>
+
+namespace cellcrush {
+
+bool pause_unless_stopped(const std::stop_token& stop, std::chrono::milliseconds time) {
+  std::mutex never_shared;
+  std::condition_variable_any sleep;
+  std::unique_lock lock(never_shared);
+  sleep.wait_for(lock, stop, time, [] { return false; });
+  return !stop.stop_requested();
+}
+
+}  // namespace cellcrush
