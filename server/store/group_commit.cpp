@@ -28,6 +28,11 @@ void GroupCommit::run(const Step& body, const Step& undo) {
   if (own.error) std::rethrow_exception(own.error);
 }
 
+std::size_t GroupCommit::waiting_count() const {
+  const MutexLock lock(mutex_);
+  return waiting_.size();
+}
+
 void GroupCommit::commit(const std::vector<Write*>& batch) {
   try {
     Transaction transaction(database_);

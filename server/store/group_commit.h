@@ -1,6 +1,7 @@
 #pragma once
 
 #include <condition_variable>
+#include <cstddef>
 #include <exception>
 #include <functional>
 #include <vector>
@@ -29,6 +30,9 @@ class GroupCommit {
   /// run, and `undo` must not throw.
   void run(const Step& body, const Step& undo = {});
 
+  /// Writers that wait for the commit after the present one.
+  [[nodiscard]] std::size_t waiting_count() const;
+
  private:
   struct Write {
     const Step& body;
@@ -43,7 +47,7 @@ class GroupCommit {
 
   Database& database_;
   Committed on_commit_;
-  Mutex mutex_;
+  mutable Mutex mutex_;
   std::condition_variable_any changed_;
   std::vector<Write*> waiting_ CELLCRUSH_GUARDED_BY(mutex_);
   bool committing_ CELLCRUSH_GUARDED_BY(mutex_) = false;

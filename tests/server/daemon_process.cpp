@@ -104,6 +104,14 @@ std::size_t DaemonProcess::resident_bytes() const {
 
 void DaemonProcess::send_signal(int number) const { kill(pid_, number); }
 
+bool DaemonProcess::wait_for_error(const std::string& words) {
+  const auto limit = Clock::now() + std::chrono::seconds(20);
+  bool open = true;
+  while (open && errors_.find(words) == std::string::npos && Clock::now() < limit)
+    open = read_some(error_output_, errors_, 100);
+  return errors_.find(words) != std::string::npos;
+}
+
 int DaemonProcess::wait() {
   const auto limit = Clock::now() + std::chrono::seconds(20);
   bool open = true;

@@ -28,6 +28,8 @@ class DaemonProcess {
   int wait();
   /// Memory that is resident; 0 when it has ended.
   [[nodiscard]] std::size_t resident_bytes() const;
+  /// Reads stderr until the words have come, at most 20 s; whether they have.
+  [[nodiscard]] bool wait_for_error(const std::string& words);
   /// What it has written to stderr; REQUIRES: wait was called.
   [[nodiscard]] const std::string& errors() const { return errors_; }
 

@@ -27,10 +27,11 @@ class GroupCommitTest : public ::testing::Test {
     return read.integer(0);
   }
 
-  // The first commit takes a while, so that all writers who come meanwhile wait for the second.
-  GroupCommit::Committed slow_at_first() {
-    return [this](double) {
-      if (++commits_ == 1) std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  // The first commit lasts until so many writers wait for the second.
+  GroupCommit::Committed hold_first(const GroupCommit& writes, std::size_t writers) {
+    return [this, &writes, writers](double) {
+      if (++commits_ > 1) return;
+      while (writes.waiting_count() < writers) std::this_thread::yield();
     };
   }
 
@@ -40,7 +41,7 @@ class GroupCommitTest : public ::testing::Test {
 };
 
 TEST_F(GroupCommitTest, WhatIsWrittenDuringACommitIsCommittedTogetherAndSeenOnReturn) {
-  GroupCommit writes(database_, slow_at_first());
+  GroupCommit writes(database_, hold_first(writes, 20));
   std::vector<std::jthread> writers;
   writers.emplace_back([&] { writes.run([&] { insert(0); }); });
   while (commits_ == 0) std::this_thread::yield();
@@ -55,7 +56,7 @@ TEST_F(GroupCommitTest, WhatIsWrittenDuringACommitIsCommittedTogetherAndSeenOnRe
 }
 
 TEST_F(GroupCommitTest, OneThatFailsTakesBackItsOwnAndTheOthersStay) {
-  GroupCommit writes(database_, slow_at_first());
+  GroupCommit writes(database_, hold_first(writes, 6));
   std::atomic<int> undone = 0;
   std::vector<std::jthread> writers;
   writers.emplace_back([&] { writes.run([&] { insert(0); }); });
@@ -100,7 +101,7 @@ TEST_F(GroupCommitTest, WhenTheCommitFailsItFailsIsUndoneAndTheNextOneGoesOn) {
 
 // The verdict of a body may come from what another one wrote.
 TEST_F(GroupCommitTest, WhenTheCommitFailsOneThatHadFailedBeforeIsToldThat) {
-  GroupCommit writes(database_, slow_at_first());
+  GroupCommit writes(database_, hold_first(writes, 2));
   database_.execute("CREATE TABLE children (number INTEGER REFERENCES numbers DEFERRABLE INITIALLY DEFERRED)");
   std::atomic<int> undone = 0;
   std::vector<std::jthread> writers;

@@ -180,7 +180,9 @@ TEST_F(JobLifeTest, ManyCancelledAtAnyMomentAllEndInOrder) {
   std::vector<std::string> jobs;
   for (int i = 0; i < 20; ++i) {
     jobs.push_back(client.create(i % 2 == 0 ? endless_case() : small_case()));
-    std::this_thread::sleep_for(std::chrono::milliseconds(7 * (i % 5)));
+    if (i % 4 == 1) wait_for_samples(client, jobs.back(), 1);
+    if (i % 4 == 2) client.wait_for_state(jobs.back(), v1::RUNNING);
+    if (i % 8 == 4) wait_for_samples(client, jobs.back(), 5);
     const auto status = client.cancel(jobs.back());
     EXPECT_TRUE(status.ok() || status.error_code() == grpc::StatusCode::FAILED_PRECONDITION) << status.error_message();
   }

@@ -178,6 +178,18 @@ class FullDiskTest : public LimitsTest {
     ASSERT_EQ(std::system(command.c_str()), 0);
   }
 
+  // Until the daemon has seen that there is too little room, at most 10 s.
+  static bool wait_until_held(const Client& client) {
+    const auto admin = v1::Admin::NewStub(client.channel);
+    for (int i = 0; i < 500; ++i) {
+      v1::Queue queue;
+      EXPECT_TRUE(admin->GetQueue(bounded_context().get(), {}, &queue).ok());
+      if (!queue.holds().empty()) return true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    return false;
+  }
+
  private:
   std::optional<DiskTurn> turn_;
 };
@@ -207,7 +219,7 @@ TEST_F(FullDiskTest, AJobThatIsCancelledEndsBeforeThereIsRoom) {
   const pid_t worker = client.worker_of(job);
   ASSERT_EQ(kill(worker, SIGSTOP), 0) << "It heeds no wish.";
   ASSERT_NO_FATAL_FAILURE(take_room());
-  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  ASSERT_TRUE(wait_until_held(client));
   ASSERT_TRUE(client.cancel(job).ok());
   EXPECT_TRUE(client.wait_for_state(job, v1::CANCELLED)) << v1::JobState_Name(client.get(job).state());
   EXPECT_TRUE(client.get(job).has_summary()) << client.get(job).cause_message();

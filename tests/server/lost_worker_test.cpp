@@ -130,19 +130,6 @@ TEST_F(LostWorkerTest, AWaitingJobIsSuspendedAtOnceAndCanBeResumedOrCancelled) {
   EXPECT_EQ(client.get(second).state(), v1::SUCCEEDED);
 }
 
-TEST_F(LostWorkerTest, ACancelThatMeetsAWorkerWhichJustLeavesEndsTheJob) {
-  auto client = this->client();
-  for (int i = 0; i < 16; ++i) {
-    const std::string job = client.create(endless_case());
-    wait_for_samples(client, job, 5);
-    std::jthread suspends([&] { (void)this->client().suspend(job); });
-    std::this_thread::sleep_for(std::chrono::milliseconds(5 * i));
-    ASSERT_TRUE(client.cancel(job).ok());
-    suspends.join();
-    ASSERT_TRUE(client.wait_for_state(job, v1::CANCELLED)) << v1::JobState_Name(client.get(job).state());
-  }
-}
-
 TEST_F(LostWorkerTest, ACancelThatItsWorkerNeverHeedsKeepsWhatWasComputed) {
   auto client = this->client();
   const auto [job, worker] = cancel_in_vain(client);
@@ -156,64 +143,6 @@ TEST_F(LostWorkerTest, ACancelThatItsWorkerNeverHeedsKeepsWhatWasComputed) {
   EXPECT_EQ(client.get(job).summary().step_count(), samples.back().step());
   EXPECT_EQ(numbers_of(client, job).history.size(), samples.size());
   expect_sound_events(client, job);
-}
-
-// Samples that nobody watches are gathered for up to a second before they are durable.
-TEST_F(LostWorkerTest, SamplesThatWereNotDurableYetWhenACancelledWorkerIsKilledComeOnce) {
-  auto client = this->client();
-  for (int i = 0; i < 3; ++i) {
-    const std::string job = client.create(endless_case());
-    wait_for_samples(client, job, 5);
-    std::this_thread::sleep_for(std::chrono::milliseconds(500 + 250 * i));
-    const pid_t worker = client.worker_of(job);
-    ASSERT_TRUE(client.cancel(job).ok());
-    kill(worker, SIGKILL);
-    ASSERT_TRUE(client.wait_for_state(job, v1::CANCELLED));
-    expect_sound_events(client, job);
-    EXPECT_EQ(client.get(job).summary().step_count(), client.history(job).back().step());
-  }
-}
-
-TEST_F(LostWorkerTest, SamplesThatWereNotDurableYetWhenACancelMeetsASuspendComeOnce) {
-  auto client = this->client();
-  for (int i = 0; i < 4; ++i) {
-    const std::string job = client.create(endless_case());
-    wait_for_samples(client, job, 5);
-    std::this_thread::sleep_for(std::chrono::milliseconds(700));
-    std::jthread suspends([&] { (void)this->client().suspend(job); });
-    std::this_thread::sleep_for(std::chrono::milliseconds(10 + 15 * i));
-    ASSERT_TRUE(client.cancel(job).ok());
-    suspends.join();
-    ASSERT_TRUE(client.wait_for_state(job, v1::CANCELLED)) << v1::JobState_Name(client.get(job).state());
-    expect_sound_events(client, job);
-  }
-}
-
-TEST(LostDaemonTest, SamplesThatWereNotDurableYetWhenWorkerAndDaemonAreKilledComeOnce) {
-  const TemporaryFolder folder;
-  const std::string address = "unix:" + (folder.path() / "socket").string();
-  const std::vector<std::string> arguments = {"--data", (folder.path() / "data").string(), "--listen", address};
-  std::string job;
-  {
-    DaemonProcess daemon(arguments);
-    ASSERT_EQ(daemon.wait_for_addresses(1).size(), 1U);
-    Client client(address);
-    job = client.create(endless_case());
-    wait_for_samples(client, job, 5);
-    std::this_thread::sleep_for(std::chrono::milliseconds(700));
-    const pid_t worker = client.worker_of(job);
-    ASSERT_TRUE(client.cancel(job).ok());
-    kill(worker, SIGKILL);
-    daemon.send_signal(SIGKILL);
-    daemon.wait();
-  }
-  DaemonProcess next(arguments);
-  ASSERT_EQ(next.wait_for_addresses(1).size(), 1U);
-  Client client(address);
-  ASSERT_TRUE(client.wait_for_state(job, v1::CANCELLED));
-  const auto samples = client.history(job);
-  ASSERT_FALSE(samples.empty());
-  for (std::size_t i = 1; i < samples.size(); ++i) ASSERT_GT(samples[i].step(), samples[i - 1].step());
 }
 
 TEST_F(LostWorkerTest, ACancelThatTheDaemonsEndCutsOffIsEndedByTheNextOneWithItsResult) {

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <optional>
+#include <semaphore>
+
+#include "jobs/local_process.h"
+
+namespace cellcrush::testing {
+
+/// A point at which one thread stands until the test lets it pass. For one use.
+class HeldPoint {
+ public:
+  /// Stands here; the first time only.
+  void stand() {
+    if (used_.exchange(true)) return;
+    reached_.release();
+    open_.acquire();
+  }
+  /// Waits until a thread stands here, at most 30 s.
+  [[nodiscard]] bool wait() { return reached_.try_acquire_for(std::chrono::seconds(30)); }
+  void open() { open_.release(); }
+
+ private:
+  std::atomic<bool> used_ = false;
+  std::binary_semaphore reached_{0};
+  std::binary_semaphore open_{0};
+};
+
+/// Workers as processes, and calls to a test between what they do and what the daemon makes of it. The calls are set
+/// before a job runs and come from its thread.
+class HeldWorker final : public jobs::Executor {
+ public:
+  std::function<void(int run)> before_run = [](int) {};                 ///< the runs are counted from 0
+  std::function<void(const v1::Sample&)> before_sample = [](auto&) {};  ///< it was read from the reports
+  std::function<void(int run)> after_run = [](int) {};                  ///< the worker has ended
+
+  bool has_worker(const worker::JobFolder& folder) override { return workers_.has_worker(folder); }
+  std::optional<jobs::WorkerExit> take_last_word(const worker::JobFolder& folder,
+                                                 const jobs::WorkerEvents& events) override {
+    return workers_.take_last_word(folder, events);
+  }
+  void end_worker(const worker::JobFolder& folder) override { workers_.end_worker(folder); }
+
+  jobs::WorkerExit run(const worker::JobFolder& folder, const worker::Order& order, const jobs::WorkerEvents& events,
+                       const jobs::Interruptions& interruptions) override {
+    const int number = runs_++;
+    before_run(number);
+    jobs::WorkerEvents held = events;
+    held.reported = [&](worker::Report& report) {
+      if (report.has_sample()) before_sample(report.sample());
+      events.reported(report);
+    };
+    auto exit = workers_.run(folder, order, held, interruptions);
+    after_run(number);
+    return exit;
+  }
+
+ private:
+  jobs::LocalProcess workers_{CELLCRUSHD_PROGRAM, std::chrono::seconds(20)};
+  std::atomic<int> runs_ = 0;
+};
+
+}  // namespace cellcrush::testing
