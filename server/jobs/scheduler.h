@@ -98,8 +98,8 @@ class Scheduler {
     int cores = 1;
   };
 
-  /// Returns the jobs whose workers an earlier daemon left running, and those that are to be ended; `run` is to go along
-  /// with them.
+  /// Returns the jobs whose workers an earlier daemon left running, and those that are to be ended; `run` follows
+  /// them.
   std::vector<store::QueuedJob> reconcile();
   void clean_up();
   void run_slot(const std::stop_token& stop);

@@ -77,7 +77,8 @@ class CancelRaceTest : public DaemonFixture {
     ASSERT_TRUE(jobs_->commit.wait());
   }
 
-  // Cancels a job whose worker the signal ends, while samples of it are read and not durable. Meanwhile `look` is called.
+  // Cancels a job whose worker the signal ends, while samples of it are read and not durable. Meanwhile `look` is
+  // called.
   std::int64_t cancel_before_samples_are_durable(
       int signal, const std::function<void()>& look = [] {}) {
     stand_at_a_sample();

@@ -37,14 +37,14 @@ class HeldWorker final : public jobs::Executor {
   std::function<void(const v1::Sample&)> before_sample = [](auto&) {};  ///< it was read from the reports
   std::function<void(int run)> after_run = [](int) {};                  ///< the worker has ended
 
-  bool has_worker(const worker::JobFolder& folder) override { return workers_.has_worker(folder); }
-  std::optional<jobs::WorkerExit> take_last_word(const worker::JobFolder& folder,
+  bool has_worker(const store::JobFolder& folder) override { return workers_.has_worker(folder); }
+  std::optional<jobs::WorkerExit> take_last_word(const store::JobFolder& folder,
                                                  const jobs::WorkerEvents& events) override {
     return workers_.take_last_word(folder, events);
   }
-  void end_worker(const worker::JobFolder& folder) override { workers_.end_worker(folder); }
+  void end_worker(const store::JobFolder& folder) override { workers_.end_worker(folder); }
 
-  jobs::WorkerExit run(const worker::JobFolder& folder, const worker::Order& order, const jobs::WorkerEvents& events,
+  jobs::WorkerExit run(const store::JobFolder& folder, const worker::Order& order, const jobs::WorkerEvents& events,
                        const jobs::Interruptions& interruptions) override {
     const int number = runs_++;
     before_run(number);
