@@ -10,7 +10,7 @@
 namespace cellcrush {
 namespace {
 
-using Problems = google::protobuf::RepeatedPtrField<v1::Problem>;
+using ProblemList = google::protobuf::RepeatedPtrField<v1::Problem>;
 
 constexpr std::size_t kMostDetails = 4500;  // bytes, so that the trailer stays under 8 KiB when it is base64
 constexpr std::size_t kMostMessage = 600;
@@ -42,7 +42,7 @@ std::string shorten(std::string text, std::size_t most) {
   return text.substr(0, most) + "...";
 }
 
-std::string sentence_of(const Problems& problems, const std::string& subject) {
+std::string sentence_of(const ProblemList& problems, const std::string& subject) {
   std::string out = "The " + subject + " has ";
   out += problems.size() == 1 ? "a problem: " : std::to_string(problems.size()) + " problems: ";
   bool first = true;
@@ -53,7 +53,7 @@ std::string sentence_of(const Problems& problems, const std::string& subject) {
   return shorten(out, kMostMessage);
 }
 
-std::string details_of(const std::string& message, const Problems& problems) {
+std::string details_of(const std::string& message, const ProblemList& problems) {
   google::rpc::Status status;
   status.set_code(grpc::StatusCode::INVALID_ARGUMENT);
   status.set_message(message);
@@ -83,7 +83,7 @@ v1::Problem note_on_rest(const std::string& subject, int left_out) {
 }
 
 // How many of the first problems may fit: the details hold their texts twice.
-int most_that_fit(const Problems& problems) {
+int most_that_fit(const ProblemList& problems) {
   std::size_t bytes = 0;
   int count = 0;
   for (; count < problems.size(); ++count) {
@@ -95,10 +95,10 @@ int most_that_fit(const Problems& problems) {
 }
 
 // The details of as many problems as fit, and of the rest its number.
-std::string bounded_details(const std::string& message, const Problems& problems, const std::string& subject) {
+std::string bounded_details(const std::string& message, const ProblemList& problems, const std::string& subject) {
   std::string out;
   for (int kept = most_that_fit(problems); kept >= 0; --kept) {
-    Problems some(problems.begin(), problems.begin() + kept);
+    ProblemList some(problems.begin(), problems.begin() + kept);
     if (kept < problems.size()) *some.Add() = note_on_rest(subject, problems.size() - kept);
     out = details_of(message, some);
     if (out.size() <= kMostDetails) break;
@@ -108,13 +108,13 @@ std::string bounded_details(const std::string& message, const Problems& problems
 
 }  // namespace
 
-grpc::Status status_of(const Problems& problems, const std::string& subject) {
+grpc::Status status_of(const ProblemList& problems, const std::string& subject) {
   const std::string message = sentence_of(problems, subject);
   return {grpc::StatusCode::INVALID_ARGUMENT, message, bounded_details(message, problems, subject)};
 }
 
 grpc::Status invalid_argument(const std::string& field, const std::string& message, const std::string& remedy) {
-  Problems problems;
+  ProblemList problems;
   v1::Problem& problem = *problems.Add();
   problem.set_field(field);
   problem.set_message(message);

@@ -45,7 +45,8 @@ inline constexpr int kMostPasses = 4;
 template <bool kHardening, class Rule, class D>
 HWY_INLINE auto return_map_balanced(const LaneMaterial<D>& material, const Rule& rule, Lane<D> membrane,
                                     const Bend<D>& bend, const EndMoments<D>& before,
-                                    const Fibres<hn::TFromD<D>>& fibres, const SectionMemory<hn::TFromD<D>>& memory) {
+                                    const Fibres<hn::TFromD<D>>& fibres,
+                                    const SectionHistoryView<hn::TFromD<D>>& memory) {
   constexpr int kRoom = Rule::kSectionRoom;
   FibreCopy<kRoom * Rule::kDepthRoom, kHardening, D> copy(fibres, rule.fibres());
   const Fibres<hn::TFromD<D>> fibres_before = copy.fibres();
@@ -67,7 +68,7 @@ HWY_INLINE auto return_map_balanced(const LaneMaterial<D>& material, const Rule&
   }
   Lane<D> moment_before[kRoom];
   for (int i = 0; i < rule.sections(); ++i) {
-    moment_before[i] = before.at(rule.along[i]) - history.unbalance[i];
+    moment_before[i] = before.at(rule.along[i]) - history.residual[i];
   }
   for (int pass = 1;; ++pass) {
     active = active & !update_section_history(rule, material, moment_before, element, curvature, active, history);

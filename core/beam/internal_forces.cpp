@@ -22,7 +22,7 @@ class WallLoops {
  public:
   using T = typename Rule::Number;
 
-  WallLoops(const Scene& scene, State& state, FibreMemory<T>& memory)
+  WallLoops(const Scene& scene, State& state, FibreHistory<T>& memory)
       : scene_(scene),
         state_(state),
         memory_(memory),
@@ -90,14 +90,14 @@ class WallLoops {
 
   const Scene& scene_;
   State& state_;
-  FibreMemory<T>& memory_;
+  FibreHistory<T>& memory_;
   const double step_;
   const Rule rule_;
 };
 
 /// Calls use(the loops of the scene's rule).
 template <bool kHardening, class T, class Use>
-void with_loops(const Scene& scene, State& state, FibreMemory<T>& memory, const Use& use) {
+void with_loops(const Scene& scene, State& state, FibreHistory<T>& memory, const Use& use) {
   const bool is_known = has_known_counts(scene.section);
   if (scene.section.force_based) {
     is_known ? use(WallLoops<true, kHardening, RuleFactors<4, 6, T>>(scene, state, memory))
@@ -146,7 +146,7 @@ void evaluate_band(const Scene& scene, State& state, const LatticeBand& band, Wa
         joint = std::max(joint, end_joint[c]);
       }
     };
-    workers.share_parts(static_cast<std::size_t>(band.end_chunk - band.first_chunk), 1, advance);
+    workers.parallel_ranges(static_cast<std::size_t>(band.end_chunk - band.first_chunk), 1, advance);
   });
   sum_between_threads(scene, state, band, workers);
 }
@@ -156,7 +156,7 @@ void deform_all(const Scene& scene, State& state, WallsWorkspace& workspace, Wor
     using T = typename std::decay_t<decltype(loops)>::T;
     LaneVector<T>& scratch = workspace.all.template of<T>();
     scratch.resize(kScratchKinds * scene.element_count());
-    workers.share(workspace.compressed.size(), [&](std::size_t first, std::size_t end) HWY_ATTR {
+    workers.parallel_for(workspace.compressed.size(), [&](std::size_t first, std::size_t end) HWY_ATTR {
       for (std::size_t c = first; c < end; ++c) {
         workspace.compressed[c] = loops.deform(c, loops.scratch_of(scratch, c)) ? 1 : 0;
       }

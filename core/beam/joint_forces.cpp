@@ -31,8 +31,8 @@ void sum_joint_forces(const Scene& scene, State& state, std::size_t first, std::
 }
 
 void sum_joint_forces(const Scene& scene, State& state, Workers& workers) {
-  workers.share(static_cast<std::size_t>(scene.joint_count),
-                [&](std::size_t first, std::size_t end) { sum_joint_forces(scene, state, first, end); });
+  workers.parallel_for(static_cast<std::size_t>(scene.joint_count),
+                       [&](std::size_t first, std::size_t end) { sum_joint_forces(scene, state, first, end); });
 }
 
 }  // namespace cellcrush

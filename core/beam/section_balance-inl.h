@@ -29,8 +29,8 @@ inline constexpr double kInBalance = 0.02;
 
 /// History of the sections of force-based elements, in the state's arrays.
 template <class T>
-struct SectionMemory {
-  T* unbalance;            ///< moment that the section lacks to the line through the end moments, over b h^2, MPa
+struct SectionHistoryView {
+  T* residual;             ///< moment that the section lacks to the line through the end moments, over b h^2, MPa
   T* flexibility;          ///< that it showed in the newest step, of the elastic one, 1 ... kMostFlexibility
   std::size_t stride = 1;  ///< from a section to the next
 };
@@ -66,18 +66,18 @@ struct ElementSums {
 /// The sections' history in registers.
 template <int kRoom, class D>
 struct SectionHistory {
-  Lane<D> unbalance[kRoom];
+  Lane<D> residual[kRoom];
   Lane<D> flexibility[kRoom];
 
-  HWY_INLINE SectionHistory(const SectionMemory<hn::TFromD<D>>& memory, int sections) {
+  HWY_INLINE SectionHistory(const SectionHistoryView<hn::TFromD<D>>& memory, int sections) {
     for (int i = 0; i < sections; ++i) {
-      unbalance[i] = Lane<D>::load(memory.unbalance + static_cast<std::size_t>(i) * memory.stride);
+      residual[i] = Lane<D>::load(memory.residual + static_cast<std::size_t>(i) * memory.stride);
       flexibility[i] = Lane<D>::load(memory.flexibility + static_cast<std::size_t>(i) * memory.stride);
     }
   }
-  HWY_INLINE void store(const SectionMemory<hn::TFromD<D>>& memory, int sections) const {
+  HWY_INLINE void store(const SectionHistoryView<hn::TFromD<D>>& memory, int sections) const {
     for (int i = 0; i < sections; ++i) {
-      unbalance[i].store(memory.unbalance + static_cast<std::size_t>(i) * memory.stride);
+      residual[i].store(memory.residual + static_cast<std::size_t>(i) * memory.stride);
       flexibility[i].store(memory.flexibility + static_cast<std::size_t>(i) * memory.stride);
     }
   }
@@ -86,7 +86,7 @@ struct SectionHistory {
   [[nodiscard]] HWY_INLINE LaneMask<D> is_straight(int sections) const {
     auto off = hn::Zero(D());
     for (int i = 0; i < sections; ++i) {
-      off = hn::Or(off, hn::Or(hn::Xor(flexibility[i].raw, hn::Set(D(), 1)), unbalance[i].raw));
+      off = hn::Or(off, hn::Or(hn::Xor(flexibility[i].raw, hn::Set(D(), 1)), residual[i].raw));
     }
     return Lane<D>(off) == 0;
   }
@@ -134,7 +134,7 @@ HWY_INLINE void balanced_curvatures(const Rule& rule, const LaneMaterial<D>& mat
       start = fma(Lane<D>(rule.turn_start_start[i]), history.flexibility[i], start);
       mixed = fma(Lane<D>(rule.turn_start_end[i]), history.flexibility[i], mixed);
       end = fma(Lane<D>(rule.turn_end_end[i]), history.flexibility[i], end);
-      curvature[i] = material.bending_flexibility * history.unbalance[i] * history.flexibility[i];
+      curvature[i] = material.bending_flexibility * history.residual[i] * history.flexibility[i];
       left.start = fnma(Lane<D>(rule.turn_start[i]), curvature[i], left.start);
       left.end = fma(Lane<D>(rule.turn_end[i]), curvature[i], left.end);
     }
@@ -144,7 +144,7 @@ HWY_INLINE void balanced_curvatures(const Rule& rule, const LaneMaterial<D>& mat
     unloads = false;
     for (int i = 0; i < rule.sections(); ++i) {
       curvature[i] = fma(history.flexibility[i], increment.at(rule.along[i]), curvature[i]);
-      const Lane<D> moment = moments.at(rule.along[i]) - history.unbalance[i];
+      const Lane<D> moment = moments.at(rule.along[i]) - history.residual[i];
       const LaneMask<D> turns_back =
           active & (abs(moment) > round_off) & (history.flexibility[i] > 1) & (curvature[i] * moment < 0);
       history.flexibility[i] = select(turns_back, 1, history.flexibility[i]);
@@ -167,9 +167,9 @@ HWY_INLINE LaneMask<D> update_section_history(const Rule& rule, const LaneMateri
     const Lane<D> elastic = material.modulus * Lane<D>(T(1.0 / 12.0)) * curvature[i];
     const Lane<D> shown = shown_flexibility(elastic, now.moment[i] - before[i]);
     history.flexibility[i] = select(active & (abs(elastic) > round_off), shown, history.flexibility[i]);
-    const Lane<D> unbalance = now.moments.at(rule.along[i]) - now.moment[i];
-    const Lane<D> size = abs(unbalance);
-    history.unbalance[i] = select(active, masked(size > round_off, unbalance), history.unbalance[i]);
+    const Lane<D> residual = now.moments.at(rule.along[i]) - now.moment[i];
+    const Lane<D> size = abs(residual);
+    history.residual[i] = select(active, masked(size > round_off, residual), history.residual[i]);
     worst = max(worst, size);
   }
   return worst <= Lane<D>(T(0.25 * kInBalance)) * material.yield_stress;

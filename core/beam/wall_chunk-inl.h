@@ -96,7 +96,7 @@ class WallChunk {
 
  public:
   /// `scratch` has room for kScratchKinds values of each of the blocks' elements.
-  WallChunk(const Scene& scene, State& state, FibreMemory<T>& memory, double step, const Rule& rule,
+  WallChunk(const Scene& scene, State& state, FibreHistory<T>& memory, double step, const Rule& rule,
             std::span<const WallBlock> blocks, T* scratch)
       : scene_(scene),
         memory_(memory),
@@ -206,13 +206,14 @@ class WallChunk {
   HWY_INLINE Fibres<T> fibres_of(std::ptrdiff_t row, int lane, int stride) const {
     const std::ptrdiff_t first = row * rule_.fibres() + lane;
     return {stress_ + first, kHardening ? &memory_.back_stress[first] : nullptr,
-            kHardening ? &memory_.plastic_strain[first] : nullptr, kHardening ? nullptr : &memory_.flowed[row + lane],
+            kHardening ? &memory_.plastic_strain[first] : nullptr, kHardening ? nullptr : &memory_.yielded[row + lane],
             static_cast<std::size_t>(stride)};
   }
 
-  HWY_INLINE SectionMemory<T> sections_of(std::ptrdiff_t row, int lane, int stride) const {
+  HWY_INLINE SectionHistoryView<T> sections_of(std::ptrdiff_t row, int lane, int stride) const {
     const std::ptrdiff_t first = row * rule_.sections() + lane;
-    return {&memory_.section_unbalance[first], &memory_.section_flexibility[first], static_cast<std::size_t>(stride)};
+    return {&memory_.section_moment_residual[first], &memory_.section_flexibility[first],
+            static_cast<std::size_t>(stride)};
   }
 
   /// What a row's stresses sum to. A force-based element keeps its end moments from step to step.
@@ -312,7 +313,7 @@ class WallChunk {
   }
 
   const Scene& scene_;
-  FibreMemory<T>& memory_;
+  FibreHistory<T>& memory_;
   const double step_;
   const Rule& rule_;
   const std::span<const WallBlock> blocks_;

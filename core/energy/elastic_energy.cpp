@@ -20,7 +20,7 @@ class LaneEnergy {
   using T = hn::TFromD<F>;
 
  public:
-  LaneEnergy(const Scene& scene, const State& state, const FibreMemory<T>& memory)
+  LaneEnergy(const Scene& scene, const State& state, const FibreHistory<T>& memory)
       : scene_(scene), state_(state), memory_(memory) {
     for (const double along : scene.section.along_weight) {
       for (const double through : scene.section.depth_weight) {
@@ -76,12 +76,12 @@ class LaneEnergy {
 
   const Scene& scene_;
   const State& state_;
-  const FibreMemory<T>& memory_;
+  const FibreHistory<T>& memory_;
   std::vector<T> weight_;  ///< of each fibre, in the section's integral along the element
 };
 
 template <class T>
-double energy_of_memory(const Scene& scene, const State& state, const FibreMemory<T>& memory) {
+double energy_of_memory(const Scene& scene, const State& state, const FibreHistory<T>& memory) {
   using Wide = LaneEnergy<hn::CappedTag<double, kMostWallsInBlock>, hn::CappedTag<T, kMostWallsInBlock>>;
   using One = LaneEnergy<hn::CappedTag<double, 1>, hn::CappedTag<T, 1>>;
   const Wide wide(scene, state, memory);

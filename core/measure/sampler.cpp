@@ -19,7 +19,7 @@ namespace {
 /// steps.
 constexpr double kLookEvery = 0.04;
 
-/// Share of an element's volume whose fibres have flowed.
+/// Share of an element's volume whose fibres have yielded.
 class FlowedShare {
  public:
   explicit FlowedShare(const SectionRule& rule) {
@@ -38,17 +38,17 @@ class FlowedShare {
   }
 
   template <class T>
-  [[nodiscard]] double of(const FibreMemory<T>& fibres, const ElementPlace& place) const {
+  [[nodiscard]] double of(const FibreHistory<T>& fibres, const ElementPlace& place) const {
     double fraction = 0.0;
-    if (fibres.flowed.empty()) {
+    if (fibres.yielded.empty()) {
       for (std::size_t fibre = 0; fibre < share_.size(); ++fibre) {
         fraction += fibres.plastic_strain[place.index(share_.size(), fibre)] > T(0.0) ? share_[fibre] : 0.0;
       }
     } else {
-      auto flowed = fibres.flowed[place.element];
+      auto yielded = fibres.yielded[place.element];
       for (const std::array<double, 256>& of_byte : of_byte_) {
-        fraction += of_byte[flowed & 255];
-        flowed >>= 8;
+        fraction += of_byte[yielded & 255];
+        yielded >>= 8;
       }
     }
     return fraction;
@@ -144,11 +144,11 @@ void make_frame(const Scene& scene, const State& state, int index, FieldFrame& f
     frame.position[2 * i] = static_cast<float>(state.position[i].x());
     frame.position[2 * i + 1] = static_cast<float>(state.position[i].y());
   }
-  const FlowedShare flowed(scene.section);
+  const FlowedShare yielded(scene.section);
   frame.plastic_fraction.resize(scene.element_count());
   visit_elements(scene, [&](const ElementPlace& place, int) {
     frame.plastic_fraction[place.element] = static_cast<float>(
-        scene.single_fibres ? flowed.of(state.single_fibres, place) : flowed.of(state.fibres, place));
+        scene.single_fibres ? yielded.of(state.single_fibres, place) : yielded.of(state.fibres, place));
   });
 }
 

@@ -9,17 +9,17 @@ namespace {
 
 /// Fibres without stress that have never yielded.
 template <class T>
-void place_fibres(const Scene& scene, FibreMemory<T>& fibres) {
+void place_fibres(const Scene& scene, FibreHistory<T>& fibres) {
   const std::size_t elements = scene.element_count();
   fibres.stress.assign(elements * scene.fibre_count(), T(0.0));
   if (scene.has_hardening()) {
     fibres.back_stress.assign(elements * scene.fibre_count(), T(0.0));
     fibres.plastic_strain.assign(elements * scene.fibre_count(), T(0.0));
   } else {
-    fibres.flowed.assign(elements, 0);
+    fibres.yielded.assign(elements, 0);
   }
   if (scene.section.force_based) {
-    fibres.section_unbalance.assign(elements * scene.section.section_count(), T(0.0));
+    fibres.section_moment_residual.assign(elements * scene.section.section_count(), T(0.0));
     fibres.section_flexibility.assign(elements * scene.section.section_count(), T(1.0));
     fibres.start_moment.assign(elements, T(0.0));
     fibres.end_moment.assign(elements, T(0.0));

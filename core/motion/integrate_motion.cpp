@@ -141,7 +141,7 @@ NearCounts integrate_motion(const Scene& scene, State& state, const LatticeBand&
        workers.start_of_part(group.chunk_count(), part + 1), &moved[group.first_chunk], near_plates.data());
     }
   };
-  workers.share_parts(static_cast<std::size_t>(workers.count()), 1, move_part);
+  workers.parallel_ranges(static_cast<std::size_t>(workers.count()), 1, move_part);
   // Particles of rigid bodies are few: all may be near.
   std::iota(near_plates.begin() + band.first_joint, near_plates.begin() + static_cast<std::ptrdiff_t>(joints.first),
             band.first_joint);

@@ -31,14 +31,14 @@ class Workers {
   /// Calls task(first, end) for the parts of the items 0 ... items - 1 and returns when all are done. The task must not
   /// throw.
   template <class Task>
-  void share(std::size_t items, const Task& task) {
-    share_parts(items, 1, [&](std::size_t, std::size_t first, std::size_t end) { task(first, end); });
+  void parallel_for(std::size_t items, const Task& task) {
+    parallel_ranges(items, 1, [&](std::size_t, std::size_t first, std::size_t end) { task(first, end); });
   }
 
   /// The same of task(part, first, end), with parts 0 ... count() - 1, all of which are called, and starts of parts
   /// that are multiples of `grain`.
   template <class Task>
-  void share_parts(std::size_t items, std::size_t grain, const Task& task) {
+  void parallel_ranges(std::size_t items, std::size_t grain, const Task& task) {
     if (threads_.empty()) {
       task(std::size_t{0}, std::size_t{0}, items);
       return;
@@ -52,7 +52,7 @@ class Workers {
   /// when all is done. Loops that own() shares go before the pieces. Neither may need what the other makes, and the
   /// task must not throw.
   template <class Task, class Own>
-  void share_beside(std::size_t pieces, const Task& task, const Own& own) {
+  void parallel_overlap(std::size_t pieces, const Task& task, const Own& own) {
     begin_pieces({&task, [](const void* shared, std::size_t piece) { (*static_cast<const Task*>(shared))(piece); }},
                  pieces);
     const FinishPieces finish{*this};  // also where own() throws

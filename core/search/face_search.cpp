@@ -130,7 +130,7 @@ bool search_faces(const Scene& scene, const State& state, const LatticeBand& ban
   if (lists.face_list.empty()) {
     begin(faces, lists);
   }
-  workers.share(lists.group_travel.size(), [&](std::size_t first, std::size_t end) {
+  workers.parallel_for(lists.group_travel.size(), [&](std::size_t first, std::size_t end) {
     for (std::size_t group = first; group < end; ++group) {
       const double spread = spread_of_velocities(faces, state, static_cast<int>(group));
       lists.group_travel[group] += std::isfinite(spread) ? scene.schedule.time_step * spread : 0.0;

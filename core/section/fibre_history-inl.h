@@ -35,24 +35,24 @@ class FibreWriter {
       fma(material_.kinematic, increment, back).store(after_.back_stress + to);
     } else {
       const auto yields = hn::RebindMask(bits_, (increment != 0).raw);
-      flowed_ = hn::Or(flowed_, hn::IfThenElseZero(yields, hn::Set(bits_, Bits{1} << fibre)));
+      yielded_ = hn::Or(yielded_, hn::IfThenElseZero(yields, hn::Set(bits_, Bits{1} << fibre)));
     }
   }
 
   HWY_INLINE void finish() {
     if constexpr (!kHardening) {
-      hn::StoreU(hn::Or(flowed_, hn::LoadU(bits_, before_.flowed)), bits_, after_.flowed);
+      hn::StoreU(hn::Or(yielded_, hn::LoadU(bits_, before_.yielded)), bits_, after_.yielded);
     }
   }
 
  private:
-  using Bits = typename FibreMemory<hn::TFromD<D>>::Bits;
+  using Bits = typename FibreHistory<hn::TFromD<D>>::Bits;
 
   static constexpr hn::RebindToUnsigned<D> bits_{};
   const LaneMaterial<D>& material_;
   const Fibres<hn::TFromD<D>>& before_;
   const Fibres<hn::TFromD<D>>& after_;
-  hn::Vec<hn::RebindToUnsigned<D>> flowed_ = hn::Zero(bits_);
+  hn::Vec<hn::RebindToUnsigned<D>> yielded_ = hn::Zero(bits_);
 };
 
 /// A copy of the history of the lanes' fibres, at most kRoom an element, from which a step can be taken more than once.
@@ -69,11 +69,11 @@ class FibreCopy {
       }
     }
     if constexpr (!kHardening) {
-      hn::Store(hn::LoadU(bits_, fibres.flowed), bits_, flowed_);
+      hn::Store(hn::LoadU(bits_, fibres.yielded), bits_, yielded_);
     }
   }
 
-  HWY_INLINE Fibres<hn::TFromD<D>> fibres() { return {stress_, back_stress_, plastic_strain_, flowed_, kWidth}; }
+  HWY_INLINE Fibres<hn::TFromD<D>> fibres() { return {stress_, back_stress_, plastic_strain_, yielded_, kWidth}; }
 
  private:
   using T = hn::TFromD<D>;
@@ -85,7 +85,7 @@ class FibreCopy {
   alignas(64) T stress_[kRoom * kWidth];
   alignas(64) T back_stress_[kHardeningRoom * kWidth];
   alignas(64) T plastic_strain_[kHardeningRoom * kWidth];
-  alignas(64) typename FibreMemory<T>::Bits flowed_[kWidth];
+  alignas(64) typename FibreHistory<T>::Bits yielded_[kWidth];
 };
 
 }  // namespace cellcrush::HWY_NAMESPACE

@@ -14,7 +14,7 @@ struct Fibres {
   T* __restrict stress;
   T* __restrict back_stress;
   T* __restrict plastic_strain;
-  typename FibreMemory<T>::Bits* __restrict flowed;
+  typename FibreHistory<T>::Bits* __restrict yielded;
   std::size_t stride = 1;
 };
 

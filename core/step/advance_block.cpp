@@ -105,12 +105,13 @@ void advance_block(const Scene& scene, State& state, Workspace& workspace, std::
   rebuild_contact_tiles(scene, state, steps);
   state.step += steps;
   Wavefront wavefront(records.size(), scene.bands.size() + 1, lag_of(workspace), steps_at_once(scene, workspace));
-  workers.share_parts(static_cast<std::size_t>(workers.count()), 1, [&](std::size_t part, std::size_t, std::size_t) {
-    const StageScope of_part = part == 0 ? stage : StageScope(nullptr);
-    wavefront.advance([&](std::size_t step, std::size_t band) {
-      advance_band(scene, state, band, records[step], workspace.bands[part], workspace.near_plates, of_part);
-    });
-  });
+  workers.parallel_ranges(
+      static_cast<std::size_t>(workers.count()), 1, [&](std::size_t part, std::size_t, std::size_t) {
+        const StageScope of_part = part == 0 ? stage : StageScope(nullptr);
+        wavefront.advance([&](std::size_t step, std::size_t band) {
+          advance_band(scene, state, band, records[step], workspace.bands[part], workspace.near_plates, of_part);
+        });
+      });
   for (const StepRecord& record : records) {
     accumulate(scene, record, state);
   }

@@ -46,8 +46,8 @@ void evaluate_forces(const Scene& scene, State& state, Workspace& workspace, con
     const auto respond = [&](std::size_t piece) {
       respond_walls(scene, state, shared.walls, piece, record.plastic_work.data());
     };
-    shared.workers.share_beside(wall_piece_count(scene), respond,
-                                [&] { evaluate_contacts(scene, state, workspace, stage); });
+    shared.workers.parallel_overlap(wall_piece_count(scene), respond,
+                                    [&] { evaluate_contacts(scene, state, workspace, stage); });
     stage.begin(Stage::evaluate_internal_forces);
     sum_joint_forces(scene, state, shared.workers);
   } else {

@@ -34,7 +34,7 @@ void wake(std::vector<ContactLists>& contacts, std::size_t band, int touch) {
 void evaluate_pairs(const Scene& scene, State& state, std::size_t band, ContactWorkspace& workspace, Workers& workers) {
   ContactLists& lists = state.contacts[band];
   const TouchMemory& touching = lists.touching;
-  workers.share_parts(touching.count(), 1, [&](std::size_t p, std::size_t part_first, std::size_t part_end) {
+  workers.parallel_ranges(touching.count(), 1, [&](std::size_t p, std::size_t part_first, std::size_t part_end) {
     const std::size_t first = begin_of_ball(touching, part_first);
     const std::size_t end = begin_of_ball(touching, part_end);
     ContactPart& part = workspace.parts[p];

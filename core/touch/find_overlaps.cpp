@@ -161,10 +161,10 @@ void find_overlaps_in(const Scene& scene, const State& state, ContactLists& list
 
 void find_overlaps(const Scene& scene, const State& state, ContactLists& lists, ContactWorkspace& workspace,
                    Workers& workers) {
-  workers.share_parts(lists.candidate_ball.size(), kCandidateBatch,
-                      [&](std::size_t part, std::size_t first, std::size_t end) {
-                        find_overlaps_in(scene, state, lists, first, end, workspace.parts[part]);
-                      });
+  workers.parallel_ranges(lists.candidate_ball.size(), kCandidateBatch,
+                          [&](std::size_t part, std::size_t first, std::size_t end) {
+                            find_overlaps_in(scene, state, lists, first, end, workspace.parts[part]);
+                          });
   workspace.found.clear();
   for (const ContactPart& part : workspace.parts) {
     workspace.found.insert(workspace.found.end(), part.found.begin(), part.found.end());

@@ -14,19 +14,19 @@ namespace cellcrush {
 /// What the fibres and the sections of elements remember, in numbers of type T. E elements of F fibres and P sections;
 /// the order is that of beam/element_place.h. MPa.
 template <class T>
-struct FibreMemory {
+struct FibreHistory {
   using Bits = std::conditional_t<sizeof(T) == sizeof(std::uint64_t), std::uint64_t, std::uint32_t>;
 
   LaneVector<T> stress;          ///< E x F
   LaneVector<T> back_stress;     ///< E x F, middle of the yield surface; empty without hardening
   LaneVector<T> plastic_strain;  ///< E x F, accumulated (effective); empty without hardening
-  LaneVector<Bits> flowed;       ///< E, bit f: fibre f has flowed; empty with hardening
+  LaneVector<Bits> yielded;      ///< E, bit f: fibre f has yielded; empty with hardening
 
   // Of a force-based rule (beam/section_curvatures.h), else empty.
-  LaneVector<T> section_unbalance;    ///< E x P
-  LaneVector<T> section_flexibility;  ///< E x P, 1
-  LaneVector<T> start_moment;         ///< E, on the start node, over b h^2
-  LaneVector<T> end_moment;           ///< E, on the end node, over b h^2
+  LaneVector<T> section_moment_residual;  ///< E x P
+  LaneVector<T> section_flexibility;      ///< E x P, 1
+  LaneVector<T> start_moment;             ///< E, on the start node, over b h^2
+  LaneVector<T> end_moment;               ///< E, on the end node, over b h^2
 };
 
 /// Force of contacts on a particle, N. Side by side, as those who write the one write the other.
@@ -77,8 +77,8 @@ struct State {
   LaneVector<Vector2> axis;            ///< E, unit vector from start to end
   LaneVector<double> length;           ///< E
   LaneVector<double> inverse_length;   ///< E, 1/mm
-  FibreMemory<double> fibres;          ///< empty where they are in single precision
-  FibreMemory<float> single_fibres;    ///< empty where they are in double precision
+  FibreHistory<double> fibres;         ///< empty where they are in single precision
+  FibreHistory<float> single_fibres;   ///< empty where they are in double precision
   LaneVector<Vector2> wall_force;      ///< 2 W, of walls on joints: of a block's walls at their starts, then ends; N
   LaneVector<double> wall_moment;      ///< 2 W, N mm
   LaneVector<Vector2> internal_force;  ///< N, of all elements on the particle
@@ -117,8 +117,8 @@ void visit_fibre_fields(M& memory, Visitor&& visitor) {
   visitor("stress", memory.stress);
   visitor("back_stress", memory.back_stress);
   visitor("plastic_strain", memory.plastic_strain);
-  visitor("flowed", memory.flowed);
-  visitor("section_unbalance", memory.section_unbalance);
+  visitor("yielded", memory.yielded);
+  visitor("section_moment_residual", memory.section_moment_residual);
   visitor("section_flexibility", memory.section_flexibility);
   visitor("start_moment", memory.start_moment);
   visitor("end_moment", memory.end_moment);

@@ -33,7 +33,7 @@ RowIndex row_index_of(const Scene& scene, std::size_t element) {
 }
 
 template <class T>
-void read_history(const Scene& scene, const FibreMemory<T>& memory, std::size_t element,
+void read_history(const Scene& scene, const FibreHistory<T>& memory, std::size_t element,
                   reference::ElementHistory& history) {
   const RowIndex row = row_index_of(scene, element);
   for (std::size_t f = 0; f < history.fibres.size(); ++f) {
@@ -50,7 +50,7 @@ void read_history(const Scene& scene, const FibreMemory<T>& memory, std::size_t 
   for (std::size_t s = 0; s < history.flexibility.size(); ++s) {
     const std::size_t i = row.of(scene.section.section_count(), s);
     history.flexibility[s] = memory.section_flexibility[i];
-    history.shortfall[s] = memory.section_unbalance[i];
+    history.shortfall[s] = memory.section_moment_residual[i];
   }
   history.moment_start = memory.start_moment[element];
   history.moment_end = memory.end_moment[element];

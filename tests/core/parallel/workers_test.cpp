@@ -18,7 +18,7 @@ TEST(Workers, DealOutEveryItemOnceInContiguousParts) {
     EXPECT_EQ(workers.count(), count);
     for (const std::size_t items : {0u, 1u, 2u, 5u, 1000u}) {
       std::vector<int> visits(items, 0);
-      workers.share(items, [&](std::size_t first, std::size_t end) {
+      workers.parallel_for(items, [&](std::size_t first, std::size_t end) {
         for (std::size_t i = first; i < end; ++i) {
           ++visits[i];
         }
@@ -34,7 +34,7 @@ TEST(Workers, ALoopSeesAllThatTheLoopBeforeWrote) {
   std::vector<long> values(64, 1);
   for (int round = 0; round < 2000; ++round) {
     std::vector<long> next(values.size());
-    workers.share(values.size(), [&](std::size_t first, std::size_t end) {
+    workers.parallel_for(values.size(), [&](std::size_t first, std::size_t end) {
       for (std::size_t i = first; i < end; ++i) {
         next[i] = (values[i] + values[(i + 31) % values.size()]) % 1000003;
       }
@@ -53,7 +53,7 @@ TEST(Workers, WakeAfterARest) {
   for (int round = 0; round < 3; ++round) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
     std::vector<int> visits(2, 0);
-    workers.share(2, [&](std::size_t first, std::size_t end) {
+    workers.parallel_for(2, [&](std::size_t first, std::size_t end) {
       for (std::size_t i = first; i < end; ++i) {
         visits[i] = 1;
       }
@@ -69,11 +69,11 @@ TEST(Workers, DoEveryPieceOnceBesideWhatTheCallerShares) {
       const auto pieces = static_cast<std::size_t>(round % 37);
       std::vector<int> visits(pieces, 0);
       std::vector<int> items(50, 0);
-      workers.share_beside(
+      workers.parallel_overlap(
           pieces, [&](std::size_t piece) { ++visits[piece]; },
           [&] {
             for (int loop = 1; loop < 4; ++loop) {
-              workers.share(items.size(), [&](std::size_t first, std::size_t end) {
+              workers.parallel_for(items.size(), [&](std::size_t first, std::size_t end) {
                 for (std::size_t i = first; i < end; ++i) {
                   items[i] += items[i] == loop - 1 ? 1 : 100;
                 }
@@ -90,7 +90,7 @@ TEST(Workers, OtherThreadsBeginPiecesWhileTheCallerIsBusy) {
   Workers workers(2);
   std::atomic<int> done{0};
   int seen = 0;
-  workers.share_beside(
+  workers.parallel_overlap(
       5, [&](std::size_t) { ++done; },
       [&] {
         const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
@@ -105,7 +105,7 @@ TEST(Workers, OtherThreadsBeginPiecesWhileTheCallerIsBusy) {
 TEST(Workers, FinishThePiecesWhereTheCallerThrows) {
   Workers workers(3);
   std::vector<int> visits(20, 0);
-  EXPECT_THROW(workers.share_beside(
+  EXPECT_THROW(workers.parallel_overlap(
                    visits.size(), [&](std::size_t piece) { ++visits[piece]; }, [] { throw std::bad_alloc(); }),
                std::bad_alloc);
   EXPECT_EQ(visits, std::vector<int>(visits.size(), 1));

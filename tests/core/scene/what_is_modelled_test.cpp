@@ -39,15 +39,15 @@ TEST(WhatIsModelled, SaysWhatWasAskedFor) {
 }
 
 // A formulation that is changed alone keeps the points of the other.
-TEST(WhatIsModelled, WarnsOfPointsThatHaveNoVectorKernel) {
+TEST(WhatIsModelled, WarnsOfPointsThatAreComputedOneByOne) {
   SceneSpec spec = scenes::hexagon_block(4, 3);
-  const auto has_none = Contains(HasSubstr("no vector kernel exists for these"));
-  EXPECT_THAT(what_is_modelled(*scenes::build(spec)), Not(has_none));
+  const auto warning = Contains(HasSubstr("these are computed one element at a time"));
+  EXPECT_THAT(what_is_modelled(*scenes::build(spec)), Not(warning));
   spec.section.formulation = SectionSpec::Formulation::displacement_based;
   spec.section.axial_points = 4;
-  EXPECT_THAT(what_is_modelled(*scenes::build(spec)), has_none);
+  EXPECT_THAT(what_is_modelled(*scenes::build(spec)), warning);
   spec.section.axial_points = 2;
-  EXPECT_THAT(what_is_modelled(*scenes::build(spec)), Not(has_none));
+  EXPECT_THAT(what_is_modelled(*scenes::build(spec)), Not(warning));
 }
 
 TEST(WhatIsModelled, NamesTheBoundOfTheStep) {
