@@ -9,8 +9,8 @@
 
 namespace cellcrush {
 
-/// Whether steps of a lattice that is cut into bands can be advanced block by block: with vector kernels, while
-/// contacts are searched by faces.
+/// Whether steps of a lattice that is cut into bands can be advanced block by block: while contacts are searched
+/// by faces.
 bool can_advance_blocks(const Scene& scene, const State& state);
 
 /// Of some steps, those to advance in a block first.

@@ -12,7 +12,7 @@ namespace cellcrush {
 
 /// Evaluates the contact forces on the balls of a band (section 4.2, Eq. 41-43) from its candidates, and adds them to
 /// contact_force and friction_force, and what they come to to the sums. REQUIRES: forces begin at 0, as
-/// integrate_motion leaves them; bands one after the other.
+/// clear_contact_forces leaves them; bands one after the other.
 ///
 /// A face between two bands is searched by the first of them. The pairs it finds of the other's balls go through the
 /// sums to the other, so that all pairs of a ball stand together, in one list.
