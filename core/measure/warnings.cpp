@@ -44,7 +44,7 @@ std::string deepest_place(const Scene& scene, const State& state) {
                   : "; deepest now at " + place_of(scene, ball) + ", in the wall of element " + std::to_string(segment);
 }
 
-/// The warning of a quantity over the turnover, told where it is first beyond kEnergyDrift, with its greatest value.
+/// The warning of a quantity over the turnover, given where it is first beyond kEnergyDrift, with its greatest value.
 template <class Quantity>
 void add_drift(std::span<const Sample> samples, Warning::Kind kind, const std::string& what, Quantity&& quantity,
                std::vector<Warning>& warnings) {

@@ -18,7 +18,7 @@ inline constexpr double kDeepPenetration = 0.5;
 /// Share of the work done beyond which the ledger drifts, or contacts make energy.
 inline constexpr double kEnergyDrift = 0.01;
 
-/// Where walls overlap deepest now is told with either.
+/// Either says where walls overlap deepest now.
 Warning warn_of_depth(const Scene& scene, const State& state, double strain);
 Warning warn_of_crossing(const Scene& scene, const State& state, double strain);
 /// Of what bands of the lattice are not held against (search/border_check.h): costs time, and no accuracy.

@@ -24,7 +24,7 @@ std::int64_t steps_in_block(std::int64_t steps);
 /// apart that threads do them side by side. Forces on a particle are added in the order of bands, whoever does what
 /// when, and what is summed over the lattice is written down by chunk and step and summed afterwards.
 ///
-/// Walls found to have crossed are told when the block is done. REQUIRES: can_advance_blocks.
+/// Walls found to have crossed are reported when the block is done. REQUIRES: can_advance_blocks.
 void advance_block(const Scene& scene, State& state, Workspace& workspace, std::int64_t steps, StageObserver* observer);
 
 }  // namespace cellcrush

@@ -36,7 +36,7 @@ struct Front {
   double wall_fraction_behind = 0.0;  ///< the same with the walls' lengths of now: what the model holds there
 };
 
-/// What a run went on with but a reader of its result must know. Each kind is told once, where it was first seen.
+/// What a run went on with but a reader of its result must know. Each kind is reported once, where it was first seen.
 struct Warning {
   enum class Kind {
     deep_penetration,  ///< walls overlapped by more than half of the thinner one's thickness
@@ -76,7 +76,7 @@ struct Sample {
   bool walls_crossed = false;              ///< found by the search by faces, which then gave over to that by buckets
   double solid_fraction = 0.0;             ///< between the plates: relative density / (1 - strain)
   double collapsed_fraction = 0.0;         ///< share of the cells that have collapsed (measure/crush_mode.h)
-  CrushMode crush_mode = CrushMode::none;  ///< told from the cells that have collapsed now, where it was looked for
+  CrushMode crush_mode = CrushMode::none;  ///< found from the cells that have collapsed now, where it was looked for
   std::optional<Front> front;
   std::vector<WatchedNode> watched;  ///< in the order of the frame's watched nodes
   std::vector<Warning> warnings;     ///< of contacts, first seen at this sample
