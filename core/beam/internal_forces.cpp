@@ -128,6 +128,15 @@ void sum_between_threads(const Scene& scene, State& state, const LatticeBand& ba
   }
 }
 
+/// The first joint that a thread sums whose chunks begin with `first` of a band's.
+int first_joint_of(const Scene& scene, const LatticeBand& band, std::size_t first) {
+  const std::size_t chunk = band.first_chunk + first;
+  if (first > 0) {
+    return scene.walls.first_joint[chunk];
+  }
+  return chunk > 0 ? scene.walls.end_joint[chunk - 1] : 0;
+}
+
 /// The forces on joints are summed as soon as all their walls have been evaluated, while they are in the cache.
 void evaluate_band(const Scene& scene, State& state, const LatticeBand& band, WallsWorkspace& workspace,
                    Workers& workers, double* plastic_work) {
@@ -136,11 +145,8 @@ void evaluate_band(const Scene& scene, State& state, const LatticeBand& band, Wa
     using T = typename std::decay_t<decltype(loops)>::T;
     const auto advance = [&](std::size_t thread, std::size_t first, std::size_t end) HWY_ATTR {
       LaneVector<T>& scratch = workspace.of_thread[thread].template of<T>();
-      int joint = 0;
+      int joint = first < end ? first_joint_of(scene, band, first) : 0;
       for (std::size_t c = band.first_chunk + first; c < band.first_chunk + end; ++c) {
-        if (c == band.first_chunk + first) {
-          joint = first > 0 ? scene.walls.first_joint[c] : (c > 0 ? end_joint[c - 1] : 0);
-        }
         plastic_work[c] = loops.advance(c, scratch);
         sum_joint_forces(scene, state, joint, end_joint[c]);
         joint = std::max(joint, end_joint[c]);
@@ -176,8 +182,6 @@ void respond_piece(const Scene& scene, State& state, WallsWorkspace& workspace, 
   });
 }
 
-std::size_t piece_count(std::size_t chunks) { return (chunks + kChunksInPiece - 1) / kChunksInPiece; }
-
 }  // namespace cellcrush::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -200,7 +204,7 @@ void deform_walls(const Scene& scene, State& state, WallsWorkspace& workspace, W
 }
 
 std::size_t wall_piece_count(const Scene& scene) {
-  return HWY_STATIC_DISPATCH(piece_count)(static_cast<std::size_t>(scene.walls.chunk_count()));
+  return (static_cast<std::size_t>(scene.walls.chunk_count()) + kChunksInPiece - 1) / kChunksInPiece;
 }
 
 void respond_walls(const Scene& scene, State& state, WallsWorkspace& workspace, std::size_t piece,

@@ -226,7 +226,7 @@ class WallChunk {
     return sums;
   }
 
-  /// Has the lanes' share of the stresses some rows ahead brought near.
+  /// Prefetches the lanes' stresses some rows ahead.
   HWY_INLINE void prefetch_fibres(std::ptrdiff_t row, int lane, int walls) const {
     constexpr std::size_t kLine = 64 / sizeof(T);
     const T* const from = stress_ + (row + kRowsAhead * walls + lane) * rule_.fibres();

@@ -46,7 +46,7 @@ SceneResult build_scene(const SceneSpec& given, const std::function<void()>& bet
   const SceneSpec spec = fill_in_fidelity(given);
   SceneResult result;
   result.problems = check_spec(spec);
-  if (spoil_mesh(result.problems)) {
+  if (prevents_meshing(result.problems)) {
     return result;
   }
   // From its part alone, so that specs with the same part have the same mesh.

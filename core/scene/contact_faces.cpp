@@ -8,6 +8,7 @@
 #include <tuple>
 #include <vector>
 
+#include "cellcrush/tuning.h"
 #include "scene/bands.h"
 #include "scene/border.h"
 #include "scene/face_loops.h"
@@ -17,9 +18,6 @@ namespace {
 
 using Premise = ContactFaces::Premise;
 
-/// Faces that are watched together. Bands are narrow across the crush, so that as many would be long along it.
-constexpr int kFacesPerGroup = 64;
-constexpr int kFacesPerGroupOfBands = 32;
 int faces_per_group(const Scene& scene) { return scene.bands.size() > 1 ? kFacesPerGroupOfBands : kFacesPerGroup; }
 
 bool is_one_part(const Scene& scene) {
@@ -77,10 +75,6 @@ int band_of_loop(const FaceLoops& loops, const std::vector<int>& band_of, std::s
   }
   return first;
 }
-
-/// Length across the crush of a patch of neighbouring faces, over its length along the crush: at the front, faces side
-/// by side move alike, and faces behind each other do not.
-constexpr double kPatchAspect = 7.0;
 
 /// The loops in patches of faces that are watched together, strip by strip along the crush in each band, the outer one
 /// last.

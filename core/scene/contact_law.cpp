@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "cellcrush/tuning.h"
+
 namespace cellcrush {
 namespace {
 
@@ -12,10 +14,6 @@ constexpr double kMmPerM = 1e3;
 constexpr double kImpactDepth = 0.16;
 /// Most that a given step turns the lightest particle on its contact, rad.
 constexpr double kMostTurn = 0.6;
-/// Contact candidates are collected this share of the shortest element beyond touch.
-constexpr double kSkinFraction = 0.35;
-/// The same of a face's candidates, whose list is cheap to make.
-constexpr double kFaceSkinFraction = 0.20;
 
 /// Angular frequency of the lightest particle on its contact, 1/s.
 double contact_frequency(const SceneSpec& spec, const MeshMeasures& mesh) {

@@ -92,7 +92,7 @@ RunPlan plan_run(const SceneSpec& spec, const MeshMeasures& mesh, Problems& prob
   return plan;
 }
 
-bool spoil_mesh(const Problems& problems) {
+bool prevents_meshing(const Problems& problems) {
   return std::any_of(problems.begin(), problems.end(), [](const Problem& problem) {
     const auto starts_with = [&](const char* path) { return problem.field.rfind(path, 0) == 0; };
     return starts_with("lattice") || starts_with("material") || starts_with("depth_mm") ||

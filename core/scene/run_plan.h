@@ -19,6 +19,6 @@ struct RunPlan {
 RunPlan plan_run(const SceneSpec& spec, const MeshMeasures& mesh, Problems& problems);
 
 /// Whether any problem of a spec keeps its mesh from being built.
-bool spoil_mesh(const Problems& problems);
+bool prevents_meshing(const Problems& problems);
 
 }  // namespace cellcrush

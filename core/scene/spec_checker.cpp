@@ -42,7 +42,7 @@ SpecChecker::Verdict SpecChecker::check(const SceneSpec& given) {
   const SceneSpec spec = fill_in_fidelity(given);
   Verdict verdict;
   verdict.problems = check_spec(spec);
-  if (spoil_mesh(verdict.problems)) {
+  if (prevents_meshing(verdict.problems)) {
     return verdict;
   }
   const MeshMeasures& mesh = mesh_of(mesh_part_of(spec)).measures;
@@ -62,7 +62,7 @@ void SpecChecker::know(const SceneSpec& given, const Scene& scene) {
 
 std::int64_t SpecChecker::elements_to_build(const SceneSpec& given) const {
   const SceneSpec spec = fill_in_fidelity(given);
-  if (spoil_mesh(check_spec(spec)) || find_known(mesh_part_of(spec)) != nullptr) {
+  if (prevents_meshing(check_spec(spec)) || find_known(mesh_part_of(spec)) != nullptr) {
     return 0;
   }
   return static_cast<std::int64_t>(count_elements(spec));

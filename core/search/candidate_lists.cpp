@@ -6,9 +6,6 @@
 namespace cellcrush {
 namespace {
 
-/// Empty batches that are always tolerated.
-constexpr std::int64_t kEmptyBatches = 128;
-
 /// Travel of the next check of what is not tested.
 constexpr double kNever = std::numeric_limits<double>::infinity();
 

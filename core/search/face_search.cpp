@@ -5,17 +5,13 @@
 #include <limits>
 #include <span>
 
+#include "cellcrush/tuning.h"
 #include "search/candidate_lists.h"
 #include "search/face_pairs.h"
 #include "search/velocity_box.h"
 
 namespace cellcrush {
 namespace {
-
-/// Share of a face's clearance below which the list is rebuilt.
-constexpr double kWorthKeeping = 0.1;
-/// Skin of a face of many corners, in skins of the others.
-constexpr double kWideSkin = 3.5;
 
 void begin(const FacesOfBand& faces, ContactLists& lists) {
   lists.face_list.resize(faces.count());

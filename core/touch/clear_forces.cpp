@@ -7,7 +7,7 @@
 namespace cellcrush {
 namespace {
 
-constexpr int kTile = static_cast<int>(State::kContactTile);
+constexpr int kTile = static_cast<int>(kContactTile);
 
 /// Whether one of the next tiles may bear contact forces. Another thread may mark the tile that joints share with the
 /// particles inside walls.

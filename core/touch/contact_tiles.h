@@ -14,7 +14,7 @@ namespace cellcrush {
 /// marked or not, the particles it moves have no such force.
 inline void mark_contact_tile(State& state, int particle) {
   if (!state.contact_tiles.empty()) {
-    std::atomic_ref(state.contact_tiles[static_cast<std::size_t>(particle) / State::kContactTile])
+    std::atomic_ref(state.contact_tiles[static_cast<std::size_t>(particle) / kContactTile])
         .store(1, std::memory_order_relaxed);
   }
 }
@@ -29,7 +29,7 @@ void rebuild_contact_tiles(const Scene& scene, State& state, std::int64_t steps)
 /// REQUIRES: no more than kContactTile of them.
 inline bool may_bear_contact(const std::uint8_t* tiles, std::size_t first, std::size_t count) {
   const auto is_marked = [&](std::size_t particle) {
-    auto& tile = const_cast<std::uint8_t&>(tiles[particle / State::kContactTile]);
+    auto& tile = const_cast<std::uint8_t&>(tiles[particle / kContactTile]);
     return std::atomic_ref(tile).load(std::memory_order_relaxed) != 0;
   };
   return tiles == nullptr || is_marked(first) || is_marked(first + count - 1);

@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "cellcrush/tuning.h"
 #include "simd/points-inl.h"
 #include "touch/awake_candidates.h"
 
@@ -21,9 +22,6 @@ using Wide = hn::CappedTag<double, 8>;
 using One = hn::CappedTag<double, 1>;
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-
-/// Candidates whose numbers are brought together before they are tested, so that the processor has them side by side.
-constexpr std::size_t kTestedTogether = 64;
 
 /// What some candidates are tested by; of each its own.
 struct Tested {

@@ -54,7 +54,7 @@ class Executor {
 
   /// Tells all that workers have reported in the folder. How the job ended, if the last of them has ended it. REQUIRES:
   /// none runs in it.
-  virtual std::optional<WorkerExit> take_last_word(const store::JobFolder& folder, const WorkerEvents& events) = 0;
+  virtual std::optional<WorkerExit> read_final_report(const store::JobFolder& folder, const WorkerEvents& events) = 0;
 
   /// Ends the worker that runs in the folder, if one does.
   virtual void end_worker(const store::JobFolder& folder) = 0;

@@ -87,7 +87,7 @@ store::StateChange JobRunner::next_of(const store::StoredJob& stored, Run& run) 
 
 std::optional<store::StateChange> JobRunner::left_behind(const store::StoredJob& stored) {
   parts_.folder.make_job_folder(stored.number);
-  const auto last_word = parts_.executor.take_last_word(parts_.folder.job_folder(stored.number), events_of(stored));
+  const auto last_word = parts_.executor.read_final_report(parts_.folder.job_folder(stored.number), events_of(stored));
   if (last_word && last_word->final && last_word->final->has_begin_again())
     throw BeginAgain{last_word->final->begin_again()};
   if (last_word) return outcome_of(*last_word);
@@ -196,7 +196,7 @@ void JobRunner::pass_on(std::int64_t job, std::int64_t& last_step, watch::Channe
       if (report.sample().step() <= last_step) break;
       last_step = report.sample().step();
       parts_.journal.append_sample(job, report.sample(),
-                                   channel.is_watched() ? store::Journal::kSoon : store::Journal::kAtLeisure);
+                                   channel.is_watched() ? store::Journal::kSoon : store::Journal::kLazyCommit);
       break;
     case worker::Report::kFrame: channel.publish(std::move(*report.mutable_frame())); break;
     case worker::Report::kProgress:

@@ -86,7 +86,7 @@ WorkerExit follow(WorkerProcess& process, WorkerFollower& follower, const Worker
 
 bool LocalProcess::has_worker(const store::JobFolder& folder) { return WorkerProcess::find(folder).has_value(); }
 
-std::optional<WorkerExit> LocalProcess::take_last_word(const store::JobFolder& folder, const WorkerEvents& events) {
+std::optional<WorkerExit> LocalProcess::read_final_report(const store::JobFolder& folder, const WorkerEvents& events) {
   const Interruptions none;
   WorkerFollower follower(folder, events, none, stall_limit_);
   WorkerExit out;

@@ -19,7 +19,7 @@ class LocalProcess final : public Executor {
       : program_(std::move(program)), stall_limit_(stall_limit), oom_kills_(std::move(oom_kills)) {}
 
   bool has_worker(const store::JobFolder& folder) override;
-  std::optional<WorkerExit> take_last_word(const store::JobFolder& folder, const WorkerEvents& events) override;
+  std::optional<WorkerExit> read_final_report(const store::JobFolder& folder, const WorkerEvents& events) override;
   void end_worker(const store::JobFolder& folder) override;
   WorkerExit run(const store::JobFolder& folder, const worker::Order& order, const WorkerEvents& events,
                  const Interruptions& interruptions) override;

@@ -87,7 +87,7 @@ WorkerExit WorkerFollower::follow(WorkerProcess& process) {
       (void)process.ends_within(kToEndAfterTheLastWord);
       return exit_of(process, WorkerExit::Kind::exited);
     }
-    hand_on_wishes(process);
+    forward_requests(process);
     if (limit_ && Clock::now() > *limit_) return exit_of(process, WorkerExit::Kind::exited);
     if (is_stalled(process, reading)) return exit_of(process, WorkerExit::Kind::stalled);
     wait(process);
@@ -104,7 +104,7 @@ void WorkerFollower::wait(const WorkerProcess& process) const {
   if (waiting[1].revents != 0) eventfd_read(wishes_, &none);
 }
 
-void WorkerFollower::hand_on_wishes(const WorkerProcess& process) {
+void WorkerFollower::forward_requests(const WorkerProcess& process) {
   const auto now = Clock::now();
   if (interruptions_.cancel.stop_requested()) {
     if (!told_to_end_) {
@@ -134,11 +134,11 @@ bool WorkerFollower::is_stalled(const WorkerProcess& process, Reading reading) {
     last_sign_ = now;
     return false;
   }
-  if (!progress_.stalled()) tell_that_it_stands_still();
+  if (!progress_.stalled()) report_stall();
   return now - last_sign_ > stall_limit_;
 }
 
-void WorkerFollower::tell_that_it_stands_still() {
+void WorkerFollower::report_stall() {
   progress_.set_stalled(true);
   worker::Report report;
   *report.mutable_progress() = progress_;

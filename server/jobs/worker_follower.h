@@ -34,9 +34,9 @@ class WorkerFollower {
 
   Reading read_reports(bool live);
   void wait(const WorkerProcess& process) const;
-  void hand_on_wishes(const WorkerProcess& process);
+  void forward_requests(const WorkerProcess& process);
   bool is_stalled(const WorkerProcess& process, Reading reading);
-  void tell_that_it_stands_still();
+  void report_stall();
   WorkerExit exit_of(WorkerProcess& process, WorkerExit::Kind ended_for) const;
 
   const WorkerEvents& events_;

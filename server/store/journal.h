@@ -120,7 +120,7 @@ class Journal {
 
   /// For samples that somebody waits for, and for those that nobody does: what comes meanwhile shares a commit.
   static constexpr std::chrono::milliseconds kSoon{200};
-  static constexpr std::chrono::milliseconds kAtLeisure{1000};
+  static constexpr std::chrono::milliseconds kLazyCommit{1000};
 
   /// When it returns, all samples that were gathered before are durable, whoever wrote them.
   void commit_samples();

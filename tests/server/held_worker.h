@@ -38,9 +38,9 @@ class HeldWorker final : public jobs::Executor {
   std::function<void(int run)> after_run = [](int) {};                  ///< the worker has ended
 
   bool has_worker(const store::JobFolder& folder) override { return workers_.has_worker(folder); }
-  std::optional<jobs::WorkerExit> take_last_word(const store::JobFolder& folder,
-                                                 const jobs::WorkerEvents& events) override {
-    return workers_.take_last_word(folder, events);
+  std::optional<jobs::WorkerExit> read_final_report(const store::JobFolder& folder,
+                                                    const jobs::WorkerEvents& events) override {
+    return workers_.read_final_report(folder, events);
   }
   void end_worker(const store::JobFolder& folder) override { workers_.end_worker(folder); }
 

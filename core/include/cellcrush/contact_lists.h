@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cellcrush/lane_vector.h"
+#include "cellcrush/tuning.h"
 #include "cellcrush/vector.h"
 
 namespace cellcrush {
@@ -27,9 +28,6 @@ struct TouchMemory {
 
   [[nodiscard]] std::size_t count() const { return ball.size(); }
 };
-
-/// Candidates that stand together, of one face.
-inline constexpr int kCandidateBatch = 8;
 
 /// Where the candidates of a face stand: `count` of them from `first` on, then empty places up to `room`; whole
 /// batches.

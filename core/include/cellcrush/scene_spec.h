@@ -163,7 +163,7 @@ struct SectionSpec {
     lobatto       ///< the paper
   };
   enum class AreaRule {
-    constant_volume,  ///< a wall that is squashed short thickens
+    constant_volume,  ///< a wall that is compressed short thickens
     constant_area     ///< the paper
   };
   Formulation formulation = Formulation::force_based;

@@ -7,6 +7,7 @@
 #include "cellcrush/byte_stream.h"
 #include "cellcrush/contact_lists.h"
 #include "cellcrush/lane_vector.h"
+#include "cellcrush/tuning.h"
 #include "cellcrush/vector.h"
 
 namespace cellcrush {
@@ -109,7 +110,6 @@ struct State {
   /// contact_force; most have none. Rebuilt from the touching pairs every 64 steps; in between tiles are only marked.
   /// Empty: any may.
   std::vector<std::uint8_t> contact_tiles;
-  static constexpr std::size_t kContactTile = 8;
 };
 
 template <class M, class Visitor>

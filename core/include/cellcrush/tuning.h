@@ -73,4 +73,40 @@ inline constexpr std::int64_t kMostStepsInBlock = 32;
 /// Speed only.
 inline constexpr int kSpinCount = 4000;
 
+// Contact search and touches. Forces are summed in the order of balls and segments however pairs were found, so the
+// motion has the same bits with other values; the lists in a checkpoint have not.
+
+/// Particles that share a flag of State::contact_tiles. Speed only.
+inline constexpr std::size_t kContactTile = 8;
+
+/// Steps between two rebuilds of these flags. Speed only.
+inline constexpr std::int64_t kStepsBetweenTiles = 64;
+
+/// Candidates that stand together, of one face. Speed only.
+inline constexpr int kCandidateBatch = 8;
+
+/// Empty batches that a list may have before it is closed up. Speed only.
+inline constexpr std::int64_t kEmptyBatches = 128;
+
+/// Candidates whose numbers are gathered before they are tested. Speed only.
+inline constexpr std::size_t kTestedTogether = 64;
+
+/// Faces that are watched together. Bands are narrow across the crush, so that as many would be long along it. Speed
+/// only.
+inline constexpr int kFacesPerGroup = 64;
+inline constexpr int kFacesPerGroupOfBands = 32;
+
+/// Length across the crush of a patch of faces that are watched together, over its length along the crush: at the
+/// front, faces side by side move alike, and faces behind each other do not. Speed only.
+inline constexpr double kPatchAspect = 7.0;
+
+/// Share of a face's clearance below which its list is rebuilt. Speed only.
+inline constexpr double kWorthKeeping = 0.1;
+
+/// Contact candidates are collected this share of the shortest element beyond touch; those of a face, whose list is
+/// cheap to make, less; those of a face of many corners so many times more. Speed only.
+inline constexpr double kSkinFraction = 0.35;
+inline constexpr double kFaceSkinFraction = 0.20;
+inline constexpr double kWideSkin = 3.5;
+
 }  // namespace cellcrush

@@ -126,14 +126,14 @@ TEST(Simd, VectorTargetsWithFusedMultiplyAddGiveTheSameBits) {
   }
 }
 
-/// A crushed state, of walls of two materials, every fifth element squashed so short that its modulus is bounded.
-struct Squashed {
+/// A crushed state, of walls of two materials, every fifth element compressed so short that its modulus is bounded.
+struct Compressed {
   Scene scene;
   State state;
 };
 
-Squashed squash(const SceneSpec& spec) {
-  Squashed out{*scenes::build(spec), crush(spec, "scalar", 500)};
+Compressed squash(const SceneSpec& spec) {
+  Compressed out{*scenes::build(spec), crush(spec, "scalar", 500)};
   out.scene.materials.push_back(out.scene.materials.front());
   out.scene.materials.back().youngs_modulus *= 0.25;
   for (std::size_t wall = 0; wall < out.scene.walls.material.size(); wall += 3) {
@@ -147,12 +147,12 @@ Squashed squash(const SceneSpec& spec) {
 
 TEST(Simd, EveryTargetFindsTheEnergiesOfTheReference) {
   for (const auto& [name, spec, steps, bound] : scenes_to_compare()) {
-    const Squashed squashed = squash(spec);
+    const Compressed compressed = squash(spec);
     const auto energies_by = [&](const std::string& target) {
       EXPECT_TRUE(use_simd_target(target));
-      return evaluate_energies(squashed.scene, squashed.state);
+      return evaluate_energies(compressed.scene, compressed.state);
     };
-    const double tolerance = squashed.scene.single_fibres ? 1e-6 : 1e-12;  // single precision squares its stresses
+    const double tolerance = compressed.scene.single_fibres ? 1e-6 : 1e-12;  // single precision squares its stresses
     const Energies reference = energies_by("scalar");
     ASSERT_GT(reference.elastic, 0.0) << name;
     for (const std::string& target : simd_targets()) {

@@ -38,7 +38,7 @@ TEST(ContactTiles, HoldEveryParticleWithAForceAndNotAll) {
     for (std::size_t i = 0; i < scene->particle_count(); ++i) {
       if (has_contact_force(state, i)) {
         ++forces;
-        ASSERT_EQ(state.contact_tiles[i / State::kContactTile], 1) << "particle " << i << ", step " << step;
+        ASSERT_EQ(state.contact_tiles[i / kContactTile], 1) << "particle " << i << ", step " << step;
       }
     }
   }
