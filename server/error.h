@@ -16,7 +16,7 @@ class ServiceError : public std::runtime_error {
     not_found,            ///< nothing has that name
     already_exists,       ///< the name or id stands for something else
     failed_precondition,  ///< not in the state that this needs
-    out_of_range,         ///< past the end of what there is
+    out_of_range,         ///< past the end
     storage_full,         ///< the disk or a quota has no room left
     exhausted,            ///< beyond a limit of this daemon
     unavailable,          ///< not now; later again

@@ -10,7 +10,7 @@ namespace cellcrush::client {
 std::string connection_failure_text(const std::string& address, const Credentials& credentials,
                                     const std::string& reason);
 
-/// Whether a server may still come that for now could not be reached: not one that was, and ended the connection.
+/// Whether a server that could not be reached may still start: not one that was reached and ended the connection.
 bool may_still_answer(const std::string& address, const std::string& reason);
 
 }  // namespace cellcrush::client

@@ -41,7 +41,7 @@ struct Interruptions {
   std::stop_token
       stop;  ///< the daemon ends, or the disk is nearly full: the worker is to leave the job at a checkpoint
   std::stop_token suspend;  ///< the worker is to leave the job at a checkpoint
-  std::stop_token cancel;   ///< the worker is to end the job with what there is
+  std::stop_token cancel;   ///< the worker ends the job and keeps the results so far
 };
 
 /// Runs jobs in worker processes. Thread-safe: many runs at once.

@@ -17,7 +17,7 @@ struct HoldTimes {
   std::chrono::milliseconds longest{60'000};
 };
 
-/// Why no job starts for now.
+/// Why no job starts at the moment.
 struct Hold {
   using Clock = std::chrono::steady_clock;
 

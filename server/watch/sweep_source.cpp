@@ -131,7 +131,7 @@ std::optional<v1::WatchSweepResponse> SweepSource::next_of(std::size_t position)
   } catch (const ServiceError& error) {
     if (error.kind() != ServiceError::Kind::not_found) throw;
   }
-  // The job was deleted: the sweep goes on without it.
+  // The job was deleted: the sweep continues without it.
   end(position);
   return std::nullopt;
 }

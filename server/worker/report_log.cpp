@@ -84,7 +84,7 @@ bool ReportLogReader::is_so_long(std::size_t size) const {
   return fstat(file_, &status) == 0 && static_cast<std::uint64_t>(status.st_size) >= offset_ + size;
 }
 
-// Makes that many bytes of the record available. The buffer is never made smaller: to size it anew would fill it with
+// Makes that many bytes of the record available. The buffer is never made smaller: resizing it would fill it with
 // zeros.
 bool ReportLogReader::fill(std::size_t size) {
   while (end_ - taken_ < size) {

@@ -144,7 +144,7 @@ class Run {
     return translate::cause_of(simulation_.status().kind) != v1::JOB_CAUSE_UNSPECIFIED;
   }
 
-  // Whether the run ends with what there is.
+  // Whether the run ends now and keeps its results so far.
   [[nodiscard]] bool ends_early() const { return wish_ == StopWish::cancel || time_is_up_; }
 
   [[nodiscard]] std::int64_t next_multiple(std::int64_t interval) const {

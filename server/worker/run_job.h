@@ -11,7 +11,7 @@ namespace cellcrush::worker {
 enum class StopWish {
   none,
   suspend,  ///< leave it at a checkpoint
-  cancel,   ///< end it with what there is
+  cancel,   ///< end it, keep the results so far
 };
 
 /// Asked about every 50 ms.
@@ -19,7 +19,7 @@ using StopAsked = std::function<StopWish()>;
 
 /// Runs a job, from its newest checkpoint or its beginning to its complete result.h5 or until others wish otherwise,
 /// and says all of it in the folder's reports: the mesh, then samples, frames and progress, and how it ended. A run
-/// that is cancelled takes a last sample and frame and ends like any other, with what there is; one that the solver
+/// that is cancelled takes a last sample and frame and ends like any other, its results kept; one that the solver
 /// ends because its result is untrue leaves what was computed before, and the last good frame. One that meets a
 /// shortage (shortage.h) leaves the job at its last checkpoint. A job that another solver or kind of processor began is
 /// not run: its last report says that it is to begin again. Throws ServiceError when how it ended cannot be reported.

@@ -184,7 +184,7 @@ TEST_F(WatchCursorTest, AJobThatIsDeletedMeanwhileIsNotFound) {
   try {
     while (cursor.next()) {
     }
-    FAIL() << "The watch goes on without its job.";
+    FAIL() << "The watch continues without its job.";
   } catch (const ServiceError& error) {
     EXPECT_EQ(error.kind(), ServiceError::Kind::not_found);
   }
