@@ -12,6 +12,7 @@
 #include "scene/bands.h"
 #include "scene/border.h"
 #include "scene/face_loops.h"
+#include "scene/thick_ends.h"
 
 namespace cellcrush {
 namespace {
@@ -112,32 +113,40 @@ std::vector<std::size_t> order_of(const Scene& scene, const FaceLoops& loops, co
   return order;
 }
 
-/// Puts a loop last among a band's faces: its corners that `is_in`, where the next one is as well, so that no segment
-/// leads out.
+/// Puts a loop last among a band's faces: its corners and thick ends whose elements have both ends in, so that no
+/// segment leads out.
 template <class IsIn>
-void add_face(const FaceLoops& loops, std::size_t loop, int number, bool is_alone, int most_in_group, const IsIn& is_in,
-              FacesOfBand& faces) {
+void add_face(const Scene& scene, const FaceLoops& loops, std::size_t loop, int number, bool is_alone,
+              int most_in_group, const IsIn& is_in, FacesOfBand& faces) {
   if (faces.offset.empty()) {
     faces.offset.push_back(0);
   }
   if (is_alone || faces.group_offset.empty() || faces.count() - faces.group_offset.back() == most_in_group) {
     faces.group_offset.push_back(faces.count());
   }
-  for (int k = loops.offset[loop]; k < loops.offset[loop + 1]; ++k) {
-    const int next = k + 1 < loops.offset[loop + 1] ? k + 1 : loops.offset[loop];
-    if (is_in(loops.particle[k]) && is_in(loops.particle[next])) {
-      faces.particle.push_back(loops.particle[k]);
-      faces.element.push_back(loops.element[k]);
+  const auto add = [&](int first, int end) {
+    for (int k = first; k < end; ++k) {
+      const Element& element = scene.elements[loops.element[k]];
+      if (is_in(element.start) && is_in(element.end)) {
+        faces.particle.push_back(loops.particle[k]);
+        faces.element.push_back(loops.element[k]);
+      }
     }
-  }
+  };
+  add(loops.offset[loop], loops.end_of_corners(loop));
+  faces.corner_end.push_back(static_cast<int>(faces.particle.size()));
+  add(loops.end_of_corners(loop), loops.offset[loop + 1]);
   faces.number.push_back(number);
   faces.offset.push_back(static_cast<int>(faces.particle.size()));
 }
 
-void note_sides(const Scene& scene, const FaceLoops& loops, std::size_t loop, int number, std::vector<int>& side) {
-  for (int k = loops.offset[loop]; k < loops.offset[loop + 1]; ++k) {
+void note_sides(const Scene& scene, const FaceLoops& loops, std::size_t loop, int number, ContactFaces& faces) {
+  for (int k = loops.offset[loop]; k < loops.end_of_corners(loop); ++k) {
     const bool at_left = scene.elements[loops.element[k]].start == loops.particle[k];
-    side[2 * loops.element[k] + (at_left ? 0 : 1)] = number;
+    faces.side[2 * loops.element[k] + (at_left ? 0 : 1)] = number;
+  }
+  for (int k = loops.end_of_corners(loop); k < loops.offset[loop + 1]; ++k) {
+    faces.thick_ends.push_back({loops.element[k], number});
   }
 }
 
@@ -148,15 +157,17 @@ void take_faces(const Scene& scene, const FaceLoops& loops, const std::vector<in
   faces.side.assign(2 * scene.element_count(), -1);
   int number = 0;
   for (const std::size_t loop : order_of(scene, loops, band_of)) {
-    note_sides(scene, loops, loop, number, faces.side);
+    note_sides(scene, loops, loop, number, faces);
     const bool is_outer = loops.area[loop] < 0.0;
     const int home = band_of_loop(loops, band_of, loop);
     for (int band = is_outer ? 0 : home; band < (is_outer ? bands : home + 1); ++band) {
       const auto is_in = [&](int particle) { return !is_outer || std::abs(band_of[particle] - band) <= 1; };
-      add_face(loops, loop, number, is_outer, faces_per_group(scene), is_in, faces.bands[band]);
+      add_face(scene, loops, loop, number, is_outer, faces_per_group(scene), is_in, faces.bands[band]);
     }
     ++number;
   }
+  std::stable_sort(faces.thick_ends.begin(), faces.thick_ends.end(),
+                   [](const ThickEnd& a, const ThickEnd& b) { return a.element < b.element; });
   for (FacesOfBand& of_band : faces.bands) {
     of_band.group_offset.push_back(of_band.count());
     of_band.is_outer_whole = bands == 1;
@@ -183,12 +194,13 @@ void note_members(std::vector<int>& seen, int& number, FacesOfBand& faces) {
 }  // namespace
 
 void build_contact_faces(Scene& scene) {
-  const FaceLoops loops = trace_loops(scene.position, scene.elements);
+  FaceLoops loops = trace_loops(scene.position, scene.elements);
   ContactFaces& faces = scene.faces;
   faces.premise = premise_of(scene, loops);
   if (!faces.are_enough()) {
     return;
   }
+  append_thick_ends(scene, loops);
   scene.bands = cut_into_bands(scene, loops);
   take_faces(scene, loops, bands_of_particles(scene, scene.bands), faces);
   std::vector<int> seen(scene.particle_count(), -1);

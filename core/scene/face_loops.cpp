@@ -53,8 +53,9 @@ FaceLoops trace_loops(std::span<const Vector2> position, std::span<const Element
       loops.particle.push_back(origin_of(elements, half_edge));
       loops.element.push_back(half_edge / 2);
     }
+    loops.corner_count.push_back(static_cast<int>(loops.particle.size()) - loops.offset.back());
     loops.offset.push_back(static_cast<int>(loops.particle.size()));
-    loops.area.push_back(area_within(std::span(loops.particle).subspan(loops.offset[loops.area.size()]), position));
+    loops.area.push_back(area_within(std::span(loops.particle).last(loops.corner_count.back()), position));
   }
   return loops;
 }

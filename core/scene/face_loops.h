@@ -8,17 +8,21 @@
 namespace cellcrush {
 
 /// The loops round all faces of a planar drawing, each with its face at the left: inner faces run counter-clockwise,
-/// the outer border of a part clockwise. Every element is in two loops, once each way. L loops.
+/// the outer border of a part clockwise. Every element is in two loops, once each way. After its corners, a loop may have
+/// thick ends (scene/thick_ends.h). L loops.
 struct FaceLoops {
-  std::vector<int> offset;    ///< L + 1, into corners
-  std::vector<int> particle;  ///< corners of the loops, one loop after another
-  std::vector<int> element;   ///< the element from each corner to the next
-  std::vector<double> area;   ///< L, mm^2; negative for outer borders, 0 round a tree
+  std::vector<int> offset;        ///< L + 1, into particles and elements
+  std::vector<int> particle;      ///< corners of the loops, one loop after another
+  std::vector<int> element;       ///< the element from each corner to the next
+  std::vector<int> corner_count;  ///< L
+  std::vector<double> area;       ///< L, mm^2; negative for outer borders, 0 round a tree
 
   [[nodiscard]] std::size_t count() const { return area.size(); }
+  /// Of the loop and of its thick ends, if they have been appended.
   [[nodiscard]] std::span<const int> particles_of(std::size_t loop) const {
     return std::span(particle).subspan(offset[loop], offset[loop + 1] - offset[loop]);
   }
+  [[nodiscard]] int end_of_corners(std::size_t loop) const { return offset[loop] + corner_count[loop]; }
 };
 
 /// Walks along half-edges: at a particle the walk turns into the next element clockwise, so that the face stays at its

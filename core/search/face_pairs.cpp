@@ -37,14 +37,17 @@ class FaceFinder {
         is_whole_(!is_outer_ || faces.is_outer_whole),
         skin_(skin),
         count_(faces.corner_count(face)),
+        segment_count_(faces.offset[face + 1] - faces.offset[face]),
         particle_(&faces.particle[faces.offset[face]]),
         element_(&faces.element[faces.offset[face]]) {
     place_.reserve(filled_tiles(count_));
     for (int corner = 0; corner < count_; ++corner) {
       place_.push_back(state.position[particle_[corner]]);
       largest_radius_ = std::max(largest_radius_, scene.radius[particle_[corner]]);
-      thickest_ = std::max(thickest_, scene.elements[element_[corner]].thickness);
-      longest_ = std::max(longest_, state.length[element_[corner]]);
+    }
+    for (int k = 0; k < segment_count_; ++k) {
+      thickest_ = std::max(thickest_, scene.elements[element_[k]].thickness);
+      longest_ = std::max(longest_, state.length[element_[k]]);
     }
   }
 
@@ -54,12 +57,10 @@ class FaceFinder {
     const std::uint64_t all = (std::uint64_t{1} << count_) - 1;
     double least = std::numeric_limits<double>::max();
     NearCorners found;
-    for (int corner = 0; corner < count_; ++corner) {
-      const int e = element_[corner];
-      const int next = corner + 1 < count_ ? corner + 1 : 0;
-      const std::uint64_t ends = std::uint64_t{1} << corner | std::uint64_t{1} << next;
+    for (int k = 0; k < segment_count_; ++k) {
+      const int e = element_[k];
       const double range = range_of(scene_.elements[e]);
-      find_near_corners(place_, all & ~ends, segment_of(e), range * range, found);
+      find_near_corners(place_, all & ~ends_of(k), segment_of(e), range * range, found);
       least = std::min(least, found.least_of_others);
       for (std::uint64_t near = found.near; near != 0; near &= near - 1) {
         const int i = std::countr_zero(near);
@@ -76,8 +77,8 @@ class FaceFinder {
     const BucketGrid grid(place_, 0.5 * longest_ + largest_radius_ + skin_);
     std::array<int, kManyCorners> corners;
     std::array<Vector2, kManyCorners> places;
-    for (int corner = 0; corner < count_; ++corner) {
-      const int e = element_[corner];
+    for (int k = 0; k < segment_count_; ++k) {
+      const int e = element_[k];
       const Element& element = scene_.elements[e];
       const Vector2& start = state_.position[element.start];
       const Vector2& end = state_.position[element.end];
@@ -110,6 +111,21 @@ class FaceFinder {
   /// Beyond it no corner is listed with a segment, mm.
   [[nodiscard]] double range_of(const Element& segment) const {
     return largest_radius_ + 0.5 * segment.thickness + skin_;
+  }
+
+  /// Bits of the corners at which a segment ends.
+  [[nodiscard]] std::uint64_t ends_of(int k) const {
+    if (k < count_) {
+      const int next = k + 1 < count_ ? k + 1 : 0;
+      return std::uint64_t{1} << k | std::uint64_t{1} << next;
+    }
+    const Element& thick = scene_.elements[element_[k]];
+    std::uint64_t ends = 0;
+    for (int corner = 0; corner < count_; ++corner) {
+      const bool is_end = particle_[corner] == thick.start || particle_[corner] == thick.end;
+      ends |= std::uint64_t{is_end} << corner;
+    }
+    return ends;
   }
 
   /// Lists those of some corners that are near enough to a segment, but its ends. `places` has room for whole tiles.
@@ -155,20 +171,24 @@ class FaceFinder {
     return true;
   }
 
+  /// Whether a face with a lower number has both the ball and the segment.
   [[nodiscard]] bool is_listed_elsewhere(int ball, int segment) const {
-    const auto other_side = [&](int element) {
-      return scene_.faces.side[2 * element] == number_ ? scene_.faces.side[2 * element + 1]
-                                                       : scene_.faces.side[2 * element];
-    };
-    const int other = other_side(segment);
-    if (other > number_) {
-      return false;
-    }
+    const std::vector<int>& side = scene_.faces.side;
     const std::span<const int> around(&scene_.incidence[scene_.incidence_offset[ball]],
                                       scene_.incidence_offset[ball + 1] - scene_.incidence_offset[ball]);
-    return std::any_of(around.begin(), around.end(), [&](int element) {
-      return scene_.faces.side[2 * element] == other || scene_.faces.side[2 * element + 1] == other;
-    });
+    const auto lists_it = [&](int face) {
+      return face < number_ && std::any_of(around.begin(), around.end(), [&](int element) {
+               return side[2 * element] == face || side[2 * element + 1] == face;
+             });
+    };
+    const auto by_element = [](const ThickEnd& end, int element) { return end.element < element; };
+    const std::vector<ThickEnd>& ends = scene_.faces.thick_ends;
+    auto end = std::lower_bound(ends.begin(), ends.end(), segment, by_element);
+    bool listed = lists_it(side[2 * segment]) || lists_it(side[2 * segment + 1]);
+    for (; !listed && end != ends.end() && end->element == segment; ++end) {
+      listed = lists_it(end->face);
+    }
+    return listed;
   }
 
   const Scene& scene_;
@@ -178,7 +198,8 @@ class FaceFinder {
   bool is_outer_;
   bool is_whole_;
   double skin_;
-  int count_;
+  int count_;          // of corners
+  int segment_count_;  // from a corner to the next one, then thick ends
   const int* particle_;
   const int* element_;
   std::vector<Vector2> place_;

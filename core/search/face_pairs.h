@@ -17,9 +17,9 @@ struct FacePairs {
 };
 
 /// Holds the balls of a face against its segments, all of them or, in faces of many corners, those in the same buckets.
-/// Of a pair that borders two faces alike (along a wall between them) the face with the lower number has it. Of the
-/// outer face, pairs of balls of other bands are left out. REQUIRES: finite positions, axes and lengths of these
-/// positions.
+/// A pair that two faces have (along the wall between them, or at a thick end) is listed with the face of the lower
+/// number. Of the outer face, pairs of balls of other bands are left out. REQUIRES: finite positions, axes and lengths
+/// of these positions.
 FacePairs find_face_pairs(const Scene& scene, const State& state, const LatticeBand& band, const FacesOfBand& faces,
                           int face, double skin);
 

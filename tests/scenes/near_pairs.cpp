@@ -95,6 +95,22 @@ FaceNeighbours::FaceNeighbours(const Scene& scene)
       faces_of_element_[loops.element[k]].insert(static_cast<int>(loop));
     }
   }
+  const std::vector<std::set<int>> bordered = faces_of_element_;
+  for (std::size_t e = 0; e < scene.element_count(); ++e) {
+    for (const int end : {scene.elements[e].start, scene.elements[e].end}) {
+      for (const int face : faces_of_particle_[end]) {
+        double thickest_wall = 0.0;
+        for (int k = scene.incidence_offset[end]; k < scene.incidence_offset[end + 1]; ++k) {
+          if (bordered[scene.incidence[k]].count(face) > 0) {
+            thickest_wall = std::max(thickest_wall, scene.elements[scene.incidence[k]].thickness);
+          }
+        }
+        if (scene.elements[e].thickness > thickest_wall) {
+          faces_of_element_[e].insert(face);
+        }
+      }
+    }
+  }
 }
 
 bool FaceNeighbours::share_a_face(int ball, int segment) const {

@@ -35,7 +35,8 @@ void evaluate_wall_contacts(const Scene& scene, State& state, ContactWorkspace& 
 /// Axes and lengths of a state's positions.
 void follow_positions(const Scene& scene, State& state);
 
-/// Whether a ball and a segment border a common face, by faces traced anew from the undeformed lattice.
+/// Whether a face has both a ball and a segment: a segment that borders it, or that ends at it and is thicker than its
+/// walls there. By faces that are traced again from the undeformed lattice.
 class FaceNeighbours {
  public:
   explicit FaceNeighbours(const Scene& scene);
@@ -43,7 +44,7 @@ class FaceNeighbours {
 
  private:
   std::vector<std::set<int>> faces_of_particle_;
-  std::vector<std::set<int>> faces_of_element_;
+  std::vector<std::set<int>> faces_of_element_;  // with those into which its round ends stand out
 };
 
 }  // namespace cellcrush::scenes

@@ -14,6 +14,9 @@ SceneSpec spec_of(const SmallBlock& block, int columns, int rows) {
     spec.lattice = TriangleLattice{columns, rows, kSide, 0.02963 * kSide};
   } else if (lattice == "thick") {
     spec.lattice = HexagonLattice{columns, rows, kSide, 0.25, 0.5};
+  } else if (lattice == "thick_ends") {
+    spec.lattice = HexagonLattice{columns, rows, kSide, 0.5, 0.9};
+    spec.loading.direction = LoadingSpec::Direction::y;
   }
   spec.loading.speed_m_per_s = block.speed;
   spec.contact.friction = spec.plates.friction = block.friction;

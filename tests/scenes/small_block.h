@@ -8,8 +8,8 @@
 
 namespace cellcrush::scenes {
 
-/// A small block at relative density 0.1 and how it is crushed; "hexagon", "square", "triangle", or "thick" for
-/// hexagons whose vertical walls are twice as thick.
+/// A small block at relative density 0.1 and how it is crushed; "hexagon", "square", "triangle", or hexagons with
+/// thicker vertical walls: "thick" with 0.25 and 0.5 mm, "thick_ends" with 0.5 and 0.9 mm, crushed along them.
 struct SmallBlock {
   const char* lattice;
   double speed;     // m/s

@@ -5,13 +5,16 @@
 namespace cellcrush {
 
 /// The faces with particles of a band and of none before, and what the band and its neighbours have of the outer one
-/// (all faces, where there is but one band). F faces, C corners, G groups.
+/// (all faces, where there is but one band). Round a face stand its corners; then its thick ends, the elements whose
+/// round ends stand out into it (scene/thick_ends.h). F faces, S corners and thick ends, G groups.
 struct FacesOfBand {
-  std::vector<int> number;  ///< F, among all faces
-  std::vector<int> offset;  ///< F + 1, into corners
+  std::vector<int> number;      ///< F, among all faces
+  std::vector<int> offset;      ///< F + 1, into corners and thick ends
+  std::vector<int> corner_end;  ///< F, where the thick ends of a face begin
   std::vector<int>
-      particle;  ///< C, round each face with the face at the left: cells counter-clockwise, the outer clockwise
-  std::vector<int> element;  ///< C, from the corner to the next one of its face
+      particle;              ///< S: corners with the face at the left, cells counter-clockwise, the outer clockwise; of
+                             ///< a thick end, the end that is no corner
+  std::vector<int> element;  ///< S: from a corner to the next one; a thick end
   /// Whether the last, the outer one, has all its corners; else those of the band and of its neighbours.
   bool is_outer_whole = true;
 
@@ -22,7 +25,13 @@ struct FacesOfBand {
 
   [[nodiscard]] int count() const { return static_cast<int>(offset.size()) - 1; }
   [[nodiscard]] int group_count() const { return static_cast<int>(group_offset.size()) - 1; }
-  [[nodiscard]] int corner_count(int face) const { return offset[face + 1] - offset[face]; }
+  [[nodiscard]] int corner_count(int face) const { return corner_end[face] - offset[face]; }
+};
+
+/// An element and the face into which its round end stands out.
+struct ThickEnd {
+  int element = 0;
+  int face = 0;  ///< among all faces
 };
 
 /// A particle of the outer border of a lattice that is cut into bands.
@@ -47,6 +56,7 @@ struct ContactFaces {
   Premise premise = Premise::no_contact;
 
   std::vector<int> side;               ///< 2 E, the faces at the left and at the right of each element
+  std::vector<ThickEnd> thick_ends;    ///< by element; empty where all walls are equally thick
   std::vector<FacesOfBand> bands;      ///< as Scene::bands
   std::vector<BorderParticle> border;  ///< band by band; empty where there is but one
 

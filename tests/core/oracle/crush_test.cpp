@@ -53,14 +53,12 @@ SceneSpec without_friction(SceneSpec spec) {
   return spec;
 }
 
-/// Thick ends of walls face each other across the cells. They lie behind thinner walls of a ball's own face, and the
-/// search by faces leaves them out (core/contact.md); the oracle does not.
+/// Thick ends of walls face each other across the cells, and stand out between the thinner walls of these.
 SceneSpec thick_walls_along_y() {
   SceneSpec spec = block("hexagon", 4, 4);
   std::get<HexagonLattice>(spec.lattice).vertical_wall_thickness_mm = 0.9;
   spec.loading.direction = LoadingSpec::Direction::y;
   spec.loading.ramp_strain = 0.02;
-  spec.contact.search = ContactSpec::Search::buckets;
   return spec;
 }
 

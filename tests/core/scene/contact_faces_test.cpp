@@ -70,6 +70,29 @@ TEST(ContactFaces, AGroupHasEveryParticleOfItsFacesOnce) {
   }
 }
 
+// Each of the 30 vertical walls stands out at both ends, but at the 10 ends where it meets one other wall only.
+TEST(ContactFaces, OfThickWallsHaveTheirEnds) {
+  SceneSpec spec = scenes::hexagon_block(7, 4);
+  std::get<HexagonLattice>(spec.lattice).vertical_wall_thickness_mm = 0.5;
+  const auto scene = scenes::build(spec);
+  const FacesOfBand& faces = scene->faces.bands.front();
+  std::size_t count = 0;
+  for (int face = 0; face < faces.count(); ++face) {
+    for (int k = faces.corner_end[face]; k < faces.offset[face + 1]; ++k) {
+      const Element& thick = scene->elements[faces.element[k]];
+      EXPECT_EQ(thick.thickness, 0.5);
+      EXPECT_TRUE(thick.start == faces.particle[k] || thick.end == faces.particle[k]);
+      const int corner = thick.start == faces.particle[k] ? thick.end : thick.start;
+      const auto corners = faces.particle.begin();
+      EXPECT_EQ(std::count(corners + faces.offset[face], corners + faces.corner_end[face], corner), 1);
+      EXPECT_EQ(std::count(corners + faces.offset[face], corners + faces.corner_end[face], faces.particle[k]), 0);
+      ++count;
+    }
+  }
+  EXPECT_EQ(count, scene->faces.thick_ends.size());
+  EXPECT_EQ(count, 2u * 30u - 10u);
+}
+
 TEST(ContactFaces, AreEnoughForARingOfBeams) { EXPECT_TRUE(frame_of(kSquare, kRing)->faces.are_enough()); }
 
 TEST(ContactFaces, AreNotEnoughForATreeABridgeOrAWallThatEndsInAFace) {

@@ -31,6 +31,8 @@ SceneSpec block_of(const char* lattice) {
     spec.lattice = SquareLattice{6, 5, 4.0, 0.2};
   } else if (std::string(lattice) == "triangle") {
     spec.lattice = TriangleLattice{6, 5, 4.0, 0.12};
+  } else if (std::string(lattice) == "thick ends") {
+    spec.lattice = HexagonLattice{5, 4, 4.0, 0.15, 0.4};
   }
   spec.numerics.time_step_s = 0.0;
   return spec;
@@ -75,7 +77,7 @@ bool includes(const Pairs& all, const Pairs& some) {
 
 // All that is within the skin is listed, but what shares no face; nothing is that is farther than the widest skin.
 TEST(FaceSearch, AgreesWithBruteForceOnRandomPlanarStates) {
-  for (const char* lattice : {"hexagon", "square", "triangle"}) {
+  for (const char* lattice : {"hexagon", "square", "triangle", "thick ends"}) {
     const auto scene = scenes::build(block_of(lattice));
     ASSERT_TRUE(scene->faces.are_enough());
     const FaceNeighbours neighbours(*scene);
@@ -125,7 +127,7 @@ Pairs touching_pairs(const State& state) {
 // slower, with rests and with steps as long as the skin: no pair of a face may touch that is not listed and found in
 // the very step.
 TEST(FaceSearch, MissesNoTouchUnderRandomKicks) {
-  for (const char* lattice : {"hexagon", "square", "triangle"}) {
+  for (const char* lattice : {"hexagon", "square", "triangle", "thick ends"}) {
     const auto scene = scenes::build(block_of(lattice));
     const double step = scene->schedule.time_step;
     const FaceNeighbours neighbours(*scene);
@@ -143,9 +145,11 @@ TEST(FaceSearch, MissesNoTouchUnderRandomKicks) {
       }
       squeeze = std::clamp(squeeze + rate, 0.04, 1.0);
       const double kick = i / 50 % 3 == 2 ? 0.0 : 0.02;
+      const bool along_y = lattice == std::string("thick ends");  // so that they meet
+      const Vector2 squeezed = along_y ? Vector2(1.0, squeeze) : Vector2(squeeze, 1.0);
       for (std::size_t p = 0; p < scene->particle_count(); ++p) {
-        const Vector2 target = Vector2(squeeze, 1.0).cwiseProduct(scene->position[p]) +
-                               kick * squeeze * Vector2(even(generator), even(generator));
+        const Vector2 target =
+            squeezed.cwiseProduct(scene->position[p]) + kick * squeeze * Vector2(even(generator), even(generator));
         state.velocity[p] = (target - state.position[p]) / step;
         state.position[p] = target;
       }
