@@ -63,7 +63,7 @@ class WallLoops {
 
  private:
   template <std::size_t kWidth>
-  using Chunk = WallChunk<kForceBased, kHardening, Rule, hn::CappedTag<double, kWidth>, hn::CappedTag<T, kWidth>>;
+  using Chunk = WallChunk<kForceBased, kHardening, Rule, WideTag<double, kWidth>, WideTag<T, kWidth>>;
 
   [[nodiscard]] std::span<const WallBlock> blocks_of(std::size_t chunk) const {
     const std::vector<int>& offset = scene_.walls.chunk_offset;

@@ -82,7 +82,7 @@ class LaneEnergy {
 
 template <class T>
 double energy_of_memory(const Scene& scene, const State& state, const FibreHistory<T>& memory) {
-  using Wide = LaneEnergy<hn::CappedTag<double, kMostWallsInBlock>, hn::CappedTag<T, kMostWallsInBlock>>;
+  using Wide = LaneEnergy<WideTag<double, kMostWallsInBlock>, WideTag<T, kMostWallsInBlock>>;
   using One = LaneEnergy<hn::CappedTag<double, 1>, hn::CappedTag<T, 1>>;
   const Wide wide(scene, state, memory);
   const One one(scene, state, memory);

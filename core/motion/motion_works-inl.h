@@ -118,7 +118,7 @@ HWY_INLINE void add_works_of_half_step(const ParticleArrays<S>& arrays, const St
 /// works. They stay in registers: in memory each would wait for the one before to have been written.
 template <std::size_t kWidth, class Visit>
 HWY_INLINE MotionWorks sum_works(std::size_t first, std::size_t end, Visit&& visit) {
-  using Wide = hn::CappedTag<double, kWidth>;
+  using Wide = WideTag<double, kWidth>;
   using One = hn::CappedTag<double, 1>;
   constexpr int kLanes = static_cast<int>(Lane<Wide>::kWidth);
   constexpr int kGroups = kSumLanes / kLanes;

@@ -8,8 +8,8 @@
 namespace cellcrush {
 
 /// The loops round all faces of a planar drawing, each with its face at the left: inner faces run counter-clockwise,
-/// the outer border of a part clockwise. Every element is in two loops, once each way. After its corners, a loop may have
-/// thick ends (scene/thick_ends.h). L loops.
+/// the outer border of a part clockwise. Every element is in two loops, once each way. After its corners, a loop may
+/// have thick ends (scene/thick_ends.h). L loops.
 struct FaceLoops {
   std::vector<int> offset;        ///< L + 1, into particles and elements
   std::vector<int> particle;      ///< corners of the loops, one loop after another

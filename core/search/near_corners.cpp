@@ -15,7 +15,7 @@ namespace cellcrush::HWY_NAMESPACE {
 
 void find_near(std::span<const Vector2> places, std::uint64_t corners, const FaceSegment& segment, double squared_range,
                NearCorners& found) {
-  using D = hn::CappedTag<double, kPointTile>;
+  using D = WideTag<double, kPointTile>;
   const Points<D> start = {segment.start.x(), segment.start.y()};
   const Points<D> axis = {segment.axis.x(), segment.axis.y()};
   const Lane<D> length = segment.length;

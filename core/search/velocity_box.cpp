@@ -29,7 +29,7 @@ HWY_INLINE VelocityBox box_of(const Vector2* velocities, std::span<const int> me
 }
 
 VelocityBox find_box(const Vector2* velocities, std::span<const int> members) {
-  using Wide = hn::CappedTag<double, 8>;
+  using Wide = WideTag<double, 8>;
   using One = hn::CappedTag<double, 1>;
   return members.size() < Lane<Wide>::kWidth ? box_of<One>(velocities, members) : box_of<Wide>(velocities, members);
 }

@@ -18,6 +18,16 @@ namespace cellcrush::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
+/// As many lanes as the target's registers hold, at most kMost. The build that shows that width does not change bits
+/// has one lane everywhere (tests/core/CMakeLists.txt, core_one_lane).
+#ifdef CELLCRUSH_ONE_LANE
+template <class T, std::size_t kMost>
+using WideTag = hn::CappedTag<T, 1>;
+#else
+template <class T, std::size_t kMost>
+using WideTag = hn::CappedTag<T, kMost>;
+#endif
+
 /// Which of the lanes of Lane<D> are meant.
 template <class D>
 struct LaneMask {

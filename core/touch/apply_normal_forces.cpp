@@ -36,7 +36,7 @@ HWY_INLINE void subtract_double_count(const Scene& scene, State& state, const To
 
 /// Adds a share of a pair's forces, elastic x and y, viscous x and y, to those of a particle.
 HWY_INLINE void add_share(double share, const double* HWY_RESTRICT pair, ContactForce& to) {
-  using Numbers = Lane<hn::CappedTag<double, 4>>;
+  using Numbers = Lane<WideTag<double, 4>>;
   double* sums = to.elastic.data();
   for (std::size_t k = 0; k < 4; k += Numbers::kWidth) {
     (Numbers::load(sums + k) + share * Numbers::load(pair + k)).store(sums + k);

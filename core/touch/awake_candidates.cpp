@@ -23,7 +23,7 @@ class AwakeBits {
         groups_(lists.batch_group.empty() ? nullptr : lists.batch_group.data()) {}
 
   HWY_INLINE std::uint64_t of_batch(std::size_t batch) const {
-    using Numbers = Lane<hn::CappedTag<double, kCandidateBatch>>;
+    using Numbers = Lane<WideTag<double, kCandidateBatch>>;
     const Numbers travelled = groups_ == nullptr ? 0.0 : travels_[groups_[batch]];  // by buckets none sleeps
     std::uint64_t bits = 0;
     for (std::size_t i = 0; i < kCandidateBatch; i += Numbers::kWidth) {

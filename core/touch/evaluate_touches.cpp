@@ -169,7 +169,7 @@ HWY_INLINE LaneMask<D> evaluate_pairs(const Scene& scene, const PairArrays& arra
 
 std::size_t evaluate_all(const Scene& scene, const State& state, ContactLists& lists, Touches& touches,
                          std::size_t first, std::size_t end, int* released) {
-  using Wide = hn::CappedTag<double, 8>;
+  using Wide = WideTag<double, 8>;
   using One = hn::CappedTag<double, 1>;
   const PairArrays arrays(scene, state, lists, touches);
   std::size_t released_count = 0;

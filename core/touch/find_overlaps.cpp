@@ -18,7 +18,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {
 
-using Wide = hn::CappedTag<double, 8>;
+using Wide = WideTag<double, 8>;
 using One = hn::CappedTag<double, 1>;
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
