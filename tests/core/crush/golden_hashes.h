@@ -18,7 +18,8 @@ struct GoldenCrush {
 /// The first 500 steps of every preset.
 std::vector<GoldenCrush> first_steps_of_presets();
 
-/// Small blocks crushed to 60 %: lattices, rules, precisions, hardening, friction, damping, rigid cells, two thicknesses
+/// Small blocks crushed to 60 %: lattices, rules, precisions, hardening, friction, damping, rigid cells, two
+/// thicknesses.
 std::vector<GoldenCrush> whole_crushes();
 
 using Hashes = std::map<std::string, std::string>;  ///< of "crush,target"
