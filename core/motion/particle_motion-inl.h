@@ -60,7 +60,7 @@ struct ParticleArrays {
   const double* load_moment;
   const ContactForce* contact_force;
   const Vector2* friction_force;
-  const std::uint8_t* contact_tiles;
+  const std::uint64_t* contact_tiles;
   Pointer<Vector2> position;
   Pointer<Vector2> velocity;
   Pointer<double> rotation;

@@ -1,39 +1,25 @@
 #include "touch/clear_forces.h"
 
 #include <algorithm>
-#include <atomic>
+#include <bit>
 #include <cstdint>
+
+#include "touch/contact_tiles.h"
 
 namespace cellcrush {
 namespace {
 
-constexpr int kTile = static_cast<int>(kContactTile);
-
-/// Whether one of the next tiles may bear contact forces. Another thread may mark the tile that joints share with the
-/// particles inside walls.
-bool any_is_marked(const State& state, int first_tile, int count) {
-  unsigned marked = 0;
-  for (int tile = first_tile; tile < first_tile + count; ++tile) {
-    auto& flag = const_cast<std::uint8_t&>(state.contact_tiles[static_cast<std::size_t>(tile)]);
-    marked |= std::atomic_ref(flag).load(std::memory_order_relaxed);
-  }
-  return marked != 0;
-}
-
 /// Most particles bear no contact force: only tiles that may are written.
 void clear_marked_tiles(State& state, int first, int end) {
-  constexpr int kTilesTogether = 8;
-  const int end_tile = (end + kTile - 1) / kTile;
-  for (int tile = first / kTile; tile < end_tile; tile += kTilesTogether) {
-    const int end_together = std::min(tile + kTilesTogether, end_tile);
-    if (!any_is_marked(state, tile, end_together - tile)) {
-      continue;
-    }
-    for (int marked = tile; marked < end_together; ++marked) {
-      if (any_is_marked(state, marked, 1)) {
-        std::fill(state.contact_force.begin() + std::max(marked * kTile, first),
-                  state.contact_force.begin() + std::min((marked + 1) * kTile, end), ContactForce());
-      }
+  constexpr auto kTile = static_cast<int>(kContactTile);
+  constexpr int kParticlesOfWord = kTile * static_cast<int>(kTilesInWord);
+  for (int word = first / kParticlesOfWord; word * kParticlesOfWord < end; ++word) {
+    for (std::uint64_t marked = flags_of_word(state.contact_tiles.data(), word); marked != 0; marked &= marked - 1) {
+      const int start = word * kParticlesOfWord + std::countr_zero(marked) * kTile;
+      const int begin_in_range = std::clamp(start, first, end);
+      const int end_in_range = std::clamp(start + kTile, first, end);
+      std::fill(state.contact_force.begin() + begin_in_range, state.contact_force.begin() + end_in_range,
+                ContactForce());
     }
   }
 }

@@ -12,7 +12,7 @@ void rebuild_contact_tiles(const Scene& scene, State& state, std::int64_t steps)
   if (!state.contact_tiles.empty() && state.step % kStepsBetweenTiles >= steps) {
     return;
   }
-  state.contact_tiles.assign(scene.particle_count() / kContactTile + 1, 0);
+  state.contact_tiles.assign(scene.particle_count() / (kContactTile * kTilesInWord) + 1, 0);
   for (const ContactLists& lists : state.contacts) {
     for (std::size_t i = 0; i < lists.touching.count(); ++i) {
       mark_contact_tiles(scene, state, lists.touching.ball[i], lists.touching.segment[i]);

@@ -9,13 +9,21 @@
 
 namespace cellcrush {
 
-/// Marks the tile of a particle that may have a contact force; does nothing where any may. The last joints share a tile
-/// with the first particles inside walls, which another thread may move at the same time. Whether it finds the tile
-/// marked or not, the particles it moves have no such force.
+/// Tiles whose flags stand in a word of State::contact_tiles.
+inline constexpr std::size_t kTilesInWord = 64;
+
+/// The flags of a word's tiles. Another thread may mark tiles of other particles at the same time; whether its marks are
+/// found or not, the particles of this thread have no such force.
+inline std::uint64_t flags_of_word(const std::uint64_t* tiles, std::size_t word) {
+  return std::atomic_ref(const_cast<std::uint64_t&>(tiles[word])).load(std::memory_order_relaxed);
+}
+
+/// Marks the tile of a particle that may have a contact force; does nothing where any may.
 inline void mark_contact_tile(State& state, int particle) {
   if (!state.contact_tiles.empty()) {
-    std::atomic_ref(state.contact_tiles[static_cast<std::size_t>(particle) / kContactTile])
-        .store(1, std::memory_order_relaxed);
+    const std::size_t tile = static_cast<std::size_t>(particle) / kContactTile;
+    std::atomic_ref(state.contact_tiles[tile / kTilesInWord])
+        .fetch_or(std::uint64_t{1} << (tile % kTilesInWord), std::memory_order_relaxed);
   }
 }
 
@@ -27,10 +35,10 @@ void rebuild_contact_tiles(const Scene& scene, State& state, std::int64_t steps)
 
 /// Whether one of `count` particles may have a contact force, by State::contact_tiles; null: any may.
 /// REQUIRES: no more than kContactTile of them.
-inline bool may_bear_contact(const std::uint8_t* tiles, std::size_t first, std::size_t count) {
+inline bool may_bear_contact(const std::uint64_t* tiles, std::size_t first, std::size_t count) {
   const auto is_marked = [&](std::size_t particle) {
-    auto& tile = const_cast<std::uint8_t&>(tiles[particle / kContactTile]);
-    return std::atomic_ref(tile).load(std::memory_order_relaxed) != 0;
+    const std::size_t tile = particle / kContactTile;
+    return (flags_of_word(tiles, tile / kTilesInWord) >> (tile % kTilesInWord) & 1) != 0;
   };
   return tiles == nullptr || is_marked(first) || is_marked(first + count - 1);
 }

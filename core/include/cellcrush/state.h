@@ -106,10 +106,10 @@ struct State {
 
   Ledger ledger;
 
-  /// Derived, so no field for visit_fields: for each tile of kContactTile particles, whether one may have a
+  /// Derived, so no field for visit_fields: a bit for each tile of kContactTile particles, whether one may have a
   /// contact_force; most have none. Rebuilt from the touching pairs every 64 steps; in between tiles are only marked.
   /// Empty: any may.
-  std::vector<std::uint8_t> contact_tiles;
+  std::vector<std::uint64_t> contact_tiles;
 };
 
 template <class M, class Visitor>
