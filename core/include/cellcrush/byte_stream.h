@@ -8,7 +8,8 @@
 
 namespace cellcrush {
 
-/// Appends values to bytes as they stand in memory, for a reader of the same build. Lists go with their length.
+/// Appends values to a byte string in their memory representation, for a reader of the same build. A list is preceded
+/// by its length.
 class ByteWriter {
  public:
   explicit ByteWriter(std::string& bytes) : bytes_(bytes) {}
@@ -30,12 +31,12 @@ class ByteWriter {
   std::string& bytes_;
 };
 
-/// Takes from the front of bytes what a ByteWriter put there, in the same order.
+/// Reads the values that a ByteWriter has written, in the same order.
 class ByteReader {
  public:
   explicit ByteReader(std::string_view bytes) : bytes_(bytes) {}
 
-  /// Leaves the value alone when the bytes do not hold one, from when on nothing is taken any more.
+  /// Leaves the value unchanged if the bytes do not hold one; every later read then fails too.
   template <class T>
   void take(T& value) {
     if constexpr (requires { value.data(); }) {
@@ -50,7 +51,7 @@ class ByteReader {
     }
   }
 
-  /// Whether all was there so far.
+  /// Whether every read so far has succeeded.
   [[nodiscard]] bool sound() const { return sound_; }
   [[nodiscard]] bool at_end() const { return bytes_.empty(); }
 

@@ -10,73 +10,78 @@
 
 namespace cellcrush {
 
-/// What is remembered of the T pairs of a ball and a segment that touch; by ball, segments ascending.
+/// History of the T touching pairs of a ball and a segment; sorted by ball, then by segment.
 struct TouchMemory {
   std::vector<int> ball;      ///< T, particle
   std::vector<int> segment;   ///< T, element
-  std::vector<double> reach;  ///< T, mm, distance at which they touch
-  std::vector<int>
-      place;  ///< T, of the candidate by which the pair was found, in this list or that of the band before;
-              ///< the face's list may be another since then
-  std::vector<int> linked;  ///< T, 1: shares a particle with the segment of another of the ball's pairs; 0: with none
-  std::vector<int> side;    ///< T, +1 left, -1 right of the segment: where the ball is, or came from; 0: released
-  std::vector<int> pushed;  ///< T, the side from which it pushed on the ball with friction in the newest step; 0: it
-                            ///< did not. Empty without friction
-  std::vector<double>
-      friction;  ///< T, N, on the ball, along the segment, round its ends with it; kept while it pushes.
-                 ///< Empty without friction
+  std::vector<double> reach;  ///< T, mm, distance at which the pair touches (E8, E8a)
+  /// T, index of the candidate by which the pair was found, in this list or in that of the band before. The list of the
+  /// face may have been rebuilt since.
+  std::vector<int> place;
+  /// T, 1: another of the ball's pairs has a segment that shares a particle with this one; 0: none has.
+  std::vector<int> linked;
+  /// T, side of the segment on which the ball is or from which it came: +1 left, -1 right; 0: released.
+  std::vector<int> side;
+  /// T, side from which the segment pushed the ball, with friction, in the newest step; 0: it did not. Empty without
+  /// friction.
+  std::vector<int> pushed;
+  /// T, N, friction force on the ball, along the segment and, at its ends, round them. Kept while the pair pushes.
+  /// Empty without friction.
+  std::vector<double> friction;
 
   [[nodiscard]] std::size_t count() const { return ball.size(); }
 };
 
-/// Where the candidates of a face stand: `count` of them from `first` on, then empty places up to `room`; whole
-/// batches.
+/// Where the candidates of a face are stored: `count` of them from `first` on, then empty entries up to `room`, in
+/// whole batches.
 struct FaceList {
   int first = 0;
   int count = 0;
   int room = 0;
-  int group = 0;  ///< of faces, to which it belongs
+  int group = 0;  ///< group to which the face belongs
 };
 
-/// Which pairs may touch, of a band's faces (Scene::bands), and which do, of its balls; or of all.
+/// Candidate pairs of the faces of a band (Scene::bands) and touching pairs of its balls; or those of the whole
+/// lattice.
 struct ContactLists {
-  // Written by find_contacts. K places for candidates, in whole batches: balls and segments that may touch before they
-  // are looked for again.
+  // Written by find_contacts. K entries for candidates, in whole batches: balls and segments that may touch before the
+  // next search.
   std::vector<int> candidate_ball;      ///< K, particle
   std::vector<int> candidate_segment;   ///< K, element
-  std::vector<double> candidate_reach;  ///< K, mm, distance at which they touch; 0: an empty place
-  std::int64_t candidate_count = 0;     ///< of the places that are not empty
+  std::vector<double> candidate_reach;  ///< K, mm, distance at which the pair touches (E8, E8a); 0: an empty entry
+  std::int64_t candidate_count = 0;     ///< number of entries that are not empty
 
-  // The same, of a search by buckets; empty where contacts are searched by faces.
-  LaneVector<Vector2> searched_position;  ///< N, where the particles were when the list was made
+  // Search by buckets only; empty where contacts are searched by faces.
+  LaneVector<Vector2> searched_position;  ///< N, positions of the particles when the list was made
   std::int64_t search_count = 0;
 
-  // The same, of a search by faces (search/face_search.h): F faces, C corners, G groups. Empty when by buckets.
-  std::vector<FaceList> face_list;     ///< F
-  std::vector<double> face_clearance;  ///< F, mm by which gaps may close before a pair that is not listed touches
-  std::vector<double> face_next_check_travel;   ///< F, travel of its group at which the face is checked next
-  std::vector<Vector2> face_searched_position;  ///< C, where the corners were when the face's list was made
+  // Search by faces only (E8c, search/face_search.h); empty where contacts are searched by buckets. F faces, C corners,
+  // G groups.
+  std::vector<FaceList> face_list;              ///< F
+  std::vector<double> face_clearance;           ///< F, mm by which gaps may close before an unlisted pair touches
+  std::vector<double> face_next_check_travel;   ///< F, travel of its group at which the face is next checked
+  std::vector<Vector2> face_searched_position;  ///< C, positions of the corners when the face's list was made
   std::vector<double> group_travel;             ///< G, mm by which gaps of the group can have closed since the start
-  std::vector<double> group_next_check_travel;  ///< G, the least of its faces
+  std::vector<double> group_next_check_travel;  ///< G, minimum over its faces
   std::vector<int> batch_group;                 ///< K / kCandidateBatch, group of the batch's face
   std::int64_t batch_count = 0;                 ///< batches that the faces' candidates need
   std::int64_t face_recheck_count = 0;          ///< faces rechecked since the start
   std::int64_t face_search_count = 0;           ///< face lists rebuilt since the start
 
   // Written by evaluate_contact_forces.
-  TouchMemory touching;       ///< of the pairs that touch now, and those released in this step
-  std::vector<int> released;  ///< of `touching`, ascending: those released
-  /// K, travel of the group at which a candidate is tested next; infinite while it is in `touching`, and of empty
-  /// places.
+  TouchMemory touching;       ///< pairs that touch now, and those released in this step
+  std::vector<int> released;  ///< indices into `touching` of the pairs released in this step, ascending
+  /// K, travel of the group at which a candidate is next tested; infinite while its pair is in `touching`, and for an
+  /// empty entry.
   LaneVector<double> candidate_next_check_travel;
 };
 
-/// Of all contacts between walls, and of the plates so far as it says so.
+/// Totals over all contacts between walls; those at the plates are included only where stated.
 struct ContactTotals {
-  double stored = 0.0;               ///< sum of k D^2 / 2 now, walls' and plates', N mm
-  std::int64_t count = 0;            ///< closed contacts now
-  double deepest_penetration = 0.0;  ///< since the start, over the thinner wall's thickness
-  double deepest_birth = 0.0;        ///< the same, of contacts in the step in which they first touched
+  double stored = 0.0;               ///< elastic energy stored in contacts now (E8b), plates included, N mm
+  std::int64_t count = 0;            ///< contacts closed now
+  double deepest_penetration = 0.0;  ///< greatest since the start, divided by the thickness of the thinner wall
+  double deepest_birth = 0.0;        ///< the same, in the step in which a contact first touched
 };
 
 /// See visit_fields.

@@ -9,48 +9,49 @@
 
 namespace cellcrush {
 
-/// What the crushes of a scene were found to be off by at a point of the chart, over seeds of a tiny imperfection.
-/// Relative to the mean of the converged crush.
+/// Error of a crush at a fidelity point, measured over seeds of a tiny imperfection. Relative to the mean of the
+/// converged crush.
 struct MeasuredError {
-  std::string measure;       ///< what of which scene, in words
-  double error = 0.0;        ///< of its mean
-  double uncertainty = 0.0;  ///< half of its 95 % interval; an error below it is not known to be there
+  std::string measure;       ///< the quantity and the scene, in words
+  double error = 0.0;        ///< error of the mean
+  double uncertainty = 0.0;  ///< half of the 95 % confidence interval of the error; a smaller error is not significant
   double scatter = 0.0;      ///< standard deviation of one crush
 
-  /// No error below its uncertainty is claimed.
+  /// The error, but at least its uncertainty.
   [[nodiscard]] double claimed() const { return error > uncertainty ? error : uncertainty; }
 };
 
-/// A point of the measured front of speed against accuracy: what it fills in where a spec leaves it out, and what it
-/// was measured to be worth with all else as by default.
+/// A point of the measured speed-accuracy front: the settings that it fills in where a spec omits them, and its
+/// measured errors with all other settings at their defaults.
 struct FidelityPoint {
   NumericsSpec::Fidelity fidelity = NumericsSpec::Fidelity::unspecified;
-  std::string name;  ///< as cases write it
+  std::string name;  ///< as written in a case
   int elements_per_wall = 0;
-  double step_cost = 1.0;  ///< time of an element-step over that of STANDARD
+  double step_cost = 1.0;  ///< time per element-step relative to STANDARD
   std::vector<MeasuredError> errors;
 };
 
 /// DRAFT, STANDARD, REFERENCE.
 const std::vector<FidelityPoint>& fidelity_points();
 
-/// The spec with what its fidelity fills in where it is left out, or the defaults without one. What is given stays.
+/// The spec with the settings of its fidelity, or the defaults if it names none, filled in where it omits them. Given
+/// settings are kept.
 SceneSpec fill_in_fidelity(const SceneSpec& spec);
 
-/// What it fills in, a sentence; empty without a fidelity.
+/// What the fidelity fills in, as a sentence; empty without a fidelity.
 std::string describe_fidelity(const SceneSpec& spec);
 
-/// What a spec would take and be worth at a fidelity.
+/// Predicted cost and accuracy of a spec at a fidelity.
 struct FidelityForecast {
-  FidelityPoint
-      point;  ///< with the elements a wall that the spec then has; nothing measured where `given` is not empty
+  /// With the elements per wall that the spec would have; without measured errors if `given` is not empty.
+  FidelityPoint point;
   std::int64_t step_count = 0;
   std::int64_t element_count = 0;
-  std::vector<std::string> given;  ///< fields that the spec gives otherwise than they were measured
+  std::vector<std::string> given;  ///< fields that the spec sets to other values than the measurement
 };
 
-/// Of every fidelity at which the spec, a lattice between plates, can be built; none for frames, of which nothing was
-/// measured. Meshes that the checker knows are not built again.
+/// Forecasts for every fidelity at which the spec, a lattice between plates, can be built. None for frames, for which
+/// nothing was measured. Meshes that the checker knows are not rebuilt.
 std::vector<FidelityForecast> forecast_fidelities(const SceneSpec& spec, SpecChecker& checker);
 
 }  // namespace cellcrush

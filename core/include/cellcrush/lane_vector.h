@@ -6,7 +6,8 @@
 
 namespace cellcrush {
 
-/// Allocates at multiples of the widest vector register and cache line, so that no load of a full block crosses a line.
+/// Allocates memory aligned to the widest vector register and to a cache line, so that no load of a full block crosses
+/// a line.
 template <class T>
 struct LaneAllocator {
   using value_type = T;
@@ -22,7 +23,7 @@ struct LaneAllocator {
   friend bool operator==(const LaneAllocator&, const LaneAllocator&) { return true; }
 };
 
-/// What elements remember, a row of a block after the other.
+/// An aligned array. Values of elements are stored row by row, block by block (beam/element_place.h).
 template <class T>
 using LaneVector = std::vector<T, LaneAllocator<T>>;
 

@@ -5,8 +5,8 @@
 
 namespace cellcrush {
 
-/// What a sound spec can be run with and hardly be meant: values in another unit, walls too thick for beams, speeds
-/// near that of an elastic wave in the walls. Sentences as those of a Problem; nothing is kept from running. REQUIRES:
+/// Reports values of a valid spec that are probably mistakes: values in another unit, walls too thick for beams, speeds
+/// near that of an elastic wave in the walls. Worded like a Problem, but none of them prevents the run. REQUIRES:
 /// check_spec finds no problem.
 Problems find_implausible(const SceneSpec& spec);
 

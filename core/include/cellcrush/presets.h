@@ -9,18 +9,18 @@
 
 namespace cellcrush {
 
-/// A case that comes with cellcrush.
+/// A case that is shipped with cellcrush.
 struct Preset {
   std::string name;
   std::string title;
-  std::vector<std::string> assumptions;  ///< what the source does not settle and was chosen here
+  std::vector<std::string> assumptions;  ///< choices made here where the source is silent
   SceneSpec spec;
 };
 
-/// All presets, in the order they are listed in.
+/// All presets, in the order in which they are listed.
 std::span<const Preset> presets();
 
-/// The preset of that name, or nullptr.
+/// The preset with that name, or nullptr.
 const Preset* find_preset(std::string_view name);
 
 }  // namespace cellcrush

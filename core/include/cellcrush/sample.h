@@ -7,7 +7,7 @@
 
 namespace cellcrush {
 
-/// Where a watched particle is, from its undeformed place: mm, mm, rad.
+/// Displacements and rotation of a watched particle from its undeformed position: mm, mm, rad.
 struct WatchedNode {
   double ux = 0.0;
   double uy = 0.0;
@@ -16,44 +16,47 @@ struct WatchedNode {
 
 /// Where the cells of a lattice collapse; measure/crush_mode.h has the definitions.
 enum class CrushMode {
-  none,   ///< too few cells have collapsed to tell
+  none,   ///< too few cells have collapsed to identify a mode
   x,      ///< two oblique bands that cross
   v,      ///< two oblique bands that meet in a V
   i,      ///< bands across the crush
-  c,      ///< a curved band: a V turned round
+  c,      ///< a curved band: a V with a rounded point
   mixed,  ///< none of these
 };
 
-/// The jump across the front of a fast crush, from the motion of the cells; measure/front.h says when there is one.
+/// The jump across the front of a fast crush, from the motion of the cells; measure/front.h defines when there is one.
 struct Front {
   double position = 0.0;         ///< mm of the undeformed length, from the impact end
   double strain_behind = 0.0;    ///< nominal, mean from the impact end to the front
-  double strain_ahead = 0.0;     ///< nominal, mean from the front half of the way to the support end
+  double strain_ahead = 0.0;     ///< nominal, mean from the front to halfway to the support end
   double velocity_behind = 0.0;  ///< mm/s along the crush, mean over the mass
   double velocity_ahead = 0.0;
-  double solid_fraction_behind =
-      0.0;  ///< relative density / (1 - strain_behind): over 1 walls share room or have shrunk
-  double wall_fraction_behind = 0.0;  ///< the same with the walls' lengths of now: what the model holds there
+  /// Relative density / (1 - strain_behind); above 1, walls overlap or have shortened.
+  double solid_fraction_behind = 0.0;
+  /// The same with the current lengths of the walls: the solid fraction in the model.
+  double wall_fraction_behind = 0.0;
 };
 
-/// What a run went on with but a reader of its result must know. Each kind is reported once, where it was first seen.
+/// Something that does not stop a run but that a reader of its result must know. Each kind is reported once, when it is
+/// first seen.
 struct Warning {
   enum class Kind {
-    deep_penetration,  ///< walls overlapped by more than half of the thinner one's thickness
+    deep_penetration,  ///< walls overlapped by more than half of the thickness of the thinner one
     walls_crossed,     ///< a wall passed through another
-    energy_drift,      ///< the ledger was open by more than a hundredth of the work done
-    contact_energy,    ///< contacts had made more than a hundredth of the work done
-    borders_near  ///< distant parts of a large lattice's border came near: contacts' search takes longer from then on
+    energy_drift,      ///< the energy balance had an error of more than 1 % of the work done
+    contact_energy,    ///< contacts had created more than 1 % of the work done
+    /// Distant parts of the border of a large lattice came near each other: the contact search is slower from then on.
+    borders_near
   };
   Kind kind = Kind::deep_penetration;
   std::int64_t step = 0;
-  double strain = 0.0;  ///< nominal; 0 of a frame
-  std::string message;  ///< what, when and where
+  double strain = 0.0;  ///< nominal; 0 for a frame
+  std::string message;  ///< what happened, when and where
   std::string remedy;   ///< what to do about it
 };
 
-/// The scalars of a run at one moment. Units: mm, s, MPa, N mm (= mJ). Stresses are means over the interval since the
-/// sample before; energies are totals since the start.
+/// Scalars of a run at one time. Units: mm, s, MPa, N mm (= mJ). Stresses are means over the interval since the
+/// previous sample; works and dissipated energies are totals since the start.
 struct Sample {
   std::int64_t step = 0;
   double time = 0.0;
@@ -68,30 +71,32 @@ struct Sample {
   double energy_friction = 0.0;
   double energy_damping = 0.0;  ///< contact damping and mass damping
   double work_external = 0.0;
-  double energy_residual = 0.0;            ///< work_external minus all energies
-  double energy_contact_stored = 0.0;      ///< sum of k D^2 / 2 now
-  double energy_contact_damping = 0.0;     ///< the contacts' part of energy_damping
-  double deepest_penetration = 0.0;        ///< of a wall contact since the start, over the thinner wall's thickness
-  std::int64_t contact_count = 0;          ///< wall contacts closed now
-  bool walls_crossed = false;              ///< found by the search by faces, which then gave over to that by buckets
-  double solid_fraction = 0.0;             ///< between the plates: relative density / (1 - strain)
-  double collapsed_fraction = 0.0;         ///< share of the cells that have collapsed (measure/crush_mode.h)
-  CrushMode crush_mode = CrushMode::none;  ///< found from the cells that have collapsed now, where it was looked for
+  double energy_residual = 0.0;         ///< work_external minus all energies
+  double energy_contact_stored = 0.0;   ///< elastic energy stored in contacts now (E8b)
+  double energy_contact_damping = 0.0;  ///< part of energy_damping due to contacts
+  /// Greatest of wall contacts since the start, divided by the thickness of the thinner wall.
+  double deepest_penetration = 0.0;
+  std::int64_t contact_count = 0;   ///< wall contacts closed now
+  bool walls_crossed = false;       ///< found by the search by faces, which then switched to buckets
+  double solid_fraction = 0.0;      ///< between the plates: relative density / (1 - strain)
+  double collapsed_fraction = 0.0;  ///< fraction of the cells that have collapsed (measure/crush_mode.h)
+  /// Of the cells that have collapsed by now, in samples in which it was evaluated.
+  CrushMode crush_mode = CrushMode::none;
   std::optional<Front> front;
   std::vector<WatchedNode> watched;  ///< in the order of the frame's watched nodes
   std::vector<Warning> warnings;     ///< of contacts, first seen at this sample
 };
 
-/// The fields of a run at one moment.
+/// Fields of a run at one time.
 struct FieldFrame {
   int index = 0;
   double time = 0.0;
   double strain = 0.0;
   std::vector<float> position;          ///< mm, x0 y0 x1 y1 ... of N particles
-  std::vector<float> plastic_fraction;  ///< share of yielded section area, of E elements
+  std::vector<float> plastic_fraction;  ///< E elements, fraction of the section area that has yielded
 };
 
-/// Closed forms to hold a result against.
+/// Closed-form solutions to compare a result with.
 struct Theory {
   double gibson_ashby = 0.0;          ///< MPa, quasi-static plastic collapse of the lattice
   double shock = 0.0;                 ///< MPa, Eq. 51
@@ -108,40 +113,42 @@ struct FrontSummary {
   double wall_fraction_behind = 0.0;
   double stress_ahead = 0.0;  ///< MPa, sigma_A of Eq. 52
   double shock = 0.0;         ///< MPa, Eq. 52
-  double window_share = 0.0;  ///< of the window's samples that have a front
+  double window_share = 0.0;  ///< fraction of the samples in the window that have a front
 };
 
-/// How far a run is from a quasi-static one, beyond 5 % strain.
+/// Deviation of a run from a quasi-static one, beyond 5 % strain.
 struct QuasiStatic {
-  double plate_difference = 0.0;           ///< |impact - support| over the mean of both, of the stresses' means
-  double plate_difference_greatest = 0.0;  ///< the greatest of windows of 5 % strain
-  double kinetic_share = 0.0;  ///< greatest kinetic energy over plastic work, once that is more than what is elastic
+  double plate_difference = 0.0;           ///< |impact - support| over the mean of both, for the mean stresses
+  double plate_difference_greatest = 0.0;  ///< the same, greatest over windows of 5 % strain
+  /// Greatest ratio of kinetic energy to plastic work, once plastic work exceeds elastic energy.
+  double kinetic_share = 0.0;
 };
 
-/// What a run amounts to.
+/// Results of a whole run.
 struct Summary {
-  static constexpr double kPlateauLow = 0.20;  ///< nominal strains between which the plateau stress is the mean
+  static constexpr double kPlateauLow = 0.20;  ///< range of nominal strain over which the plateau stress is averaged
   static constexpr double kPlateauHigh = 0.40;
   static constexpr double kQuasiStaticFrom = 0.05;    ///< strain from which the plates are compared
-  static constexpr double kQuasiStaticWindow = 0.05;  ///< strain of the windows in which they are
+  static constexpr double kQuasiStaticWindow = 0.05;  ///< range of strain of each window of comparison
 
-  std::optional<double> plateau_stress_impact;  ///< MPa; absent when the run did not reach the window's end
+  std::optional<double> plateau_stress_impact;  ///< MPa; absent if the run ended before the end of the range
   std::optional<double> plateau_stress_support;
-  std::optional<double> densification_strain;  ///< onset; absent without a rise that lasts (measure/densification.h)
+  std::optional<double> densification_strain;  ///< onset; absent without a lasting rise (measure/densification.h)
   std::optional<double> plateau_stress_to_densification;  ///< MPa, impact plate
   std::optional<double> solid_fraction_at_densification;  ///< relative density / (1 - densification_strain)
   double absorbed_energy = 0.0;                           ///< N mm, work of the impact plate up to 50 % strain
   double energy_error_relative = 0.0;                     ///< greatest |residual| over the external work done by then
   double deepest_penetration = 0.0;
   std::int64_t step_count = 0;
-  CrushMode crush_mode = CrushMode::none;   ///< what most looks at the collapse say, the earlier kind of equals
-  std::optional<double> crush_mode_strain;  ///< of the first look that said so
-  std::optional<FrontSummary> front;        ///< absent unless half of the plateau window's samples have a front
-  std::optional<QuasiStatic> quasi_static;  ///< absent when the run ended before its first window
+  /// The mode that most evaluations found; of equally frequent ones, the first.
+  CrushMode crush_mode = CrushMode::none;
+  std::optional<double> crush_mode_strain;  ///< strain of the first evaluation that found it
+  std::optional<FrontSummary> front;        ///< absent unless half of the samples in the plateau range have a front
+  std::optional<QuasiStatic> quasi_static;  ///< absent if the run ended before the end of its first window
   Theory theory;
-  std::vector<Warning> warnings;  ///< of all samples, and of the ledger, by step
+  std::vector<Warning> warnings;  ///< of all samples and of the ledger, in order of steps
 
-  /// Theory over the plateau at the impact plate, minus 1; absent with either.
+  /// Theory over the plateau stress at the impact plate, minus 1; absent if either is.
   [[nodiscard]] std::optional<double> shock_error() const;        ///< of Eq. 51
   [[nodiscard]] std::optional<double> front_shock_error() const;  ///< of Eq. 52
 };

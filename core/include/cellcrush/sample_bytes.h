@@ -10,11 +10,11 @@
 
 namespace cellcrush {
 
-/// Samples as they stand, for the same build: what a run that goes on from a checkpoint has to remember of those
-/// before.
+/// Samples in their memory representation, for the same build. A run that is resumed from a checkpoint needs those
+/// taken before.
 std::string bytes_of(std::span<const Sample> samples);
 
-/// Nothing when the bytes are no samples.
+/// Returns nothing if the bytes are not samples.
 std::optional<std::vector<Sample>> samples_of(std::string_view bytes);
 
 }  // namespace cellcrush

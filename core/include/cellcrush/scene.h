@@ -12,7 +12,7 @@
 
 namespace cellcrush {
 
-/// Bilinear elastic-plastic law with mixed hardening.
+/// Bilinear elastic-plastic law with mixed hardening (E6).
 struct Material {
   double youngs_modulus = 0.0;      ///< E, MPa
   double yield_stress = 0.0;        ///< MPa
@@ -21,14 +21,14 @@ struct Material {
   double density = 0.0;             ///< tonne / mm^3
 };
 
-/// Where an element samples its stress: P sections along it, s = x / l, times D points through its depth (Eq. 30); F =
-/// P D fibres, section by section. Both weights integrate over a length of 1 and sum to 1.
+/// Integration points of an element: P sections along it, at s = x / l, times D points through its depth (Eq. 30, E5b);
+/// F = P D fibres, section by section. Either set of weights integrates over a length of 1 and sums to 1.
 struct SectionRule {
-  /// Whether the curvature may leave its straight line (Eq. 27) for that with which the moment stays one.
+  /// True: linear moment along the element (E5b). False: linear curvature (Eq. 27, E5a).
   bool force_based = false;
   Eigen::ArrayXd along;         ///< P, s of the sections
   Eigen::ArrayXd along_weight;  ///< P
-  Eigen::ArrayXd offset;        ///< D, y / h of the points, y being the distance from the axis to the left
+  Eigen::ArrayXd offset;        ///< D, y / h of the points; y is the distance from the axis, positive to the left
   Eigen::ArrayXd depth_weight;  ///< D
 
   [[nodiscard]] std::size_t section_count() const { return static_cast<std::size_t>(along.size()); }
@@ -48,12 +48,12 @@ inline bool share_a_node(const Element& a, const Element& b) {
   return a.start == b.start || a.start == b.end || a.end == b.start || a.end == b.end;
 }
 
-/// Most fibres of an element that are kept in single precision: there is a bit for each in 32.
+/// Most fibres of an element that can be kept in single precision: each needs one of 32 bits.
 inline constexpr std::size_t kMostSingleFibres = 32;
 
-/// Walls of equally many elements, side by side: element j of the block's wall w is first_element + j * walls + w, the
-/// particle behind it inside the wall first_inner + j * walls + w. What elements remember lies in the same order, so
-/// that a step of the chain takes the walls of a block at once.
+/// Walls with the same number of elements, side by side. Element j of wall w of the block has the index first_element +
+/// j * walls + w. The particle at its end, if inside the wall, has the index first_inner + j * walls + w. The history
+/// of elements is stored in the same order, so that one loop computes the walls of a block side by side.
 struct WallBlock {
   int first_wall = 0;  ///< into the arrays of Walls
   int walls = 0;       ///< 1 ... kMostWallsInBlock
@@ -62,23 +62,23 @@ struct WallBlock {
   int first_inner = 0;
 };
 
-/// The walls between joints, W of them, block by block, in C chunks. All elements of a wall are alike.
+/// The W walls between joints, block by block, in C chunks. All elements of a wall are alike.
 struct Walls {
   std::vector<WallBlock> blocks;
-  std::vector<int>
-      chunk_offset;  ///< C + 1, into blocks: of the first of those that a thread takes at once, and their end
-  std::vector<int> first_joint;           ///< C: from it on no joint has walls in an earlier chunk
-  std::vector<int> end_joint;             ///< C: before it no joint has walls in a later chunk
+  /// C + 1, into blocks: the first block of each chunk, then the end. A loop of a thread computes one chunk at a time.
+  std::vector<int> chunk_offset;
+  std::vector<int> first_joint;           ///< C, no joint from this one on has walls in an earlier chunk
+  std::vector<int> end_joint;             ///< C, no joint before this one has walls in a later chunk
   std::vector<int> start;                 ///< W, particle
   std::vector<int> end;                   ///< W, particle
   std::vector<double> thickness;          ///< W, mm
-  std::vector<double> undeformed_length;  ///< W, of one element, mm
+  std::vector<double> undeformed_length;  ///< W, mm, l_0 of one element
   std::vector<int> material;              ///< W, into Scene::materials
 
   [[nodiscard]] int chunk_count() const { return static_cast<int>(chunk_offset.size()) - 1; }
 };
 
-/// A part of the lattice whose walls and particles follow each other. Its balls are its particles.
+/// A part of the lattice with consecutive walls and particles. Its balls are those of its particles.
 struct LatticeBand {
   int first_chunk = 0;  ///< of Walls
   int end_chunk = 0;
@@ -92,11 +92,11 @@ struct LatticeBand {
   }
 };
 
-/// Parts of the lattice that move without deforming, B of them. Their particles come first, body by body, and their
-/// walls, an element each, last among the elements: they bear no stress, but others touch them.
+/// Parts of the lattice that move without deforming (E13), B of them. Their particles come first, body by body. Their
+/// walls have one element each and come last; they carry no stress, but other walls can touch them.
 struct RigidBodies {
-  std::vector<int> offset;      ///< B + 1, particles; empty: there are none
-  std::vector<Vector2> centre;  ///< B, of mass, before loading, mm
+  std::vector<int> offset;      ///< B + 1, into particles; empty if there are no bodies
+  std::vector<Vector2> centre;  ///< B, centre of mass before loading, mm
   std::vector<double> mass;     ///< B, tonne
   std::vector<double> inertia;  ///< B, about the centre, tonne mm^2
   int first_element = 0;
@@ -105,35 +105,35 @@ struct RigidBodies {
   [[nodiscard]] int particle_count() const { return offset.empty() ? 0 : offset.back(); }
 };
 
-/// A function of time: linear between its points, constant outside.
+/// A function of time: linear between its points, constant outside them.
 struct TimeFunction {
   std::vector<std::pair<double, double>> points;  ///< (s, value), times ascending, at least one
 
   [[nodiscard]] double value_at(double time) const;
 };
 
-/// Which of a particle's three motions is meant.
+/// One of the three degrees of freedom of a particle.
 enum class Component { x, y, rotation };
 
-/// A load on a node.
+/// A load on a node (E14).
 struct NodalLoad {
   int node = 0;
   Component component = Component::x;
   TimeFunction value;  ///< N or N mm
 };
 
-/// A load spread evenly over an element, in the fixed frame, on its undeformed length (Eq. 4).
+/// A load distributed evenly over an element, in the fixed frame, per undeformed length (Eq. 4, E14).
 struct ElementLoad {
   int element = 0;
   Component component = Component::x;  ///< x or y
   TimeFunction value;                  ///< N/mm
-  double length = 0.0;                 ///< undeformed, mm
+  double length = 0.0;                 ///< l_0, mm
 };
 
-/// What a support does with one motion of a particle.
+/// How a support constrains one degree of freedom of a particle (E15).
 struct Hold {
   bool held = false;
-  int motion = -1;  ///< into Scene::motions: the displacement it is made to follow; -1: none, it stands
+  int motion = -1;  ///< index into Scene::motions of the imposed displacement; -1: held still
 };
 
 struct Support {
@@ -142,50 +142,51 @@ struct Support {
   Hold rotation;
 };
 
-/// The two rigid plates. The impact plate starts at the low end and moves along the crush; the support plate stands.
+/// The two rigid plates (E9c). The impact plate starts at the low end and moves along the crush; the support plate
+/// stands still.
 struct Plates {
   bool present = false;
   int axis = 0;               ///< 0: crush along x, 1: along y
   double impact_face = 0.0;   ///< mm, position of the face before loading
   double support_face = 0.0;  ///< mm
   double speed = 0.0;         ///< V, mm/s
-  double ramp_time = 0.0;     ///< s over which the speed rises linearly from 0
-  double stiffness = 0.0;     ///< N/mm, penalty of one particle
+  double ramp_time = 0.0;     ///< s, time in which the speed rises linearly from 0
+  double stiffness = 0.0;     ///< k, N/mm, penalty stiffness of one particle
   double friction = 0.0;      ///< Coulomb's coefficient
 
   /// Speed at a time, mm/s.
   [[nodiscard]] double speed_at(double time) const;
 };
 
-/// Penalty contact between walls (Eq. 41-43).
+/// Penalty contact between walls (Eq. 41-43, E8, E9).
 struct ContactLaw {
   bool present = false;
   double stiffness = 0.0;      ///< k, N/mm
-  double damping_ratio = 0.0;  ///< share of critical damping
+  double damping_ratio = 0.0;  ///< zeta, fraction of critical damping
   double friction = 0.0;       ///< Coulomb's coefficient
-  double skin = 0.0;           ///< mm by which candidates are collected beyond touch
-  double face_skin = 0.0;      ///< the same of a face's candidates
-  double thinnest = 0.0;       ///< mm, least thickness of a wall
+  double skin = 0.0;           ///< mm, distance beyond touch up to which candidates are collected
+  double face_skin = 0.0;      ///< mm, the same in the search by faces
+  double thinnest = 0.0;       ///< h_min, mm, thickness of the thinnest wall
 };
 
-/// Pairs of ball and segment that touch nearer than radius and half thickness, because a short way along the walls
-/// joins them (scene/wall_paths.h). N particles.
+/// Pairs of ball and segment whose reach is less than radius plus half thickness, because a short path along the walls
+/// joins them (E8a, scene/wall_paths.h). N particles.
 struct LimitedReaches {
-  std::vector<int> offset;    ///< N + 1, by ball, into the others; empty: none
+  std::vector<int> offset;    ///< N + 1, by ball, into the other arrays; empty if there are no such pairs
   std::vector<int> segment;   ///< ascending for each ball
   std::vector<double> reach;  ///< mm
 };
 
-/// Fictitious masses: particles' masses are the real ones times `mass`, their rotary inertia times mass and rotary.
+/// Fictitious masses (E11b): real masses times `mass`, real rotary inertias times `mass` and `rotary`.
 struct MassScaling {
   double mass = 1.0;
   double rotary = 1.0;
 };
 
-/// What gave the step its length (scene/time_step.h).
+/// The bound that determined the time step (scene/time_step.h).
 enum class StepBound { asked_for, elements, plate_travel, contacts, stacked_walls };
 
-/// When the run ends and what is taken from it, in steps.
+/// Length of the run and intervals of its output, in steps.
 struct Schedule {
   double time_step = 0.0;  ///< s
   StepBound bound = StepBound::asked_for;
@@ -194,64 +195,67 @@ struct Schedule {
   std::int64_t frame_interval = 0;
 };
 
-/// Everything that does not change over a run. Built and checked by build_scene; units mm, tonne, s, N, MPa.
-/// N particles, E elements.
+/// Everything that stays constant during a run. Built and checked by build_scene; units mm, tonne, s, N, MPa. N
+/// particles, E elements.
 struct Scene {
   // Mesh.
   std::vector<Vector2> position;       ///< N, before loading
-  std::vector<double> mass;            ///< N, tonne (Eq. 1, 2)
-  std::vector<double> inertia;         ///< N, tonne mm^2 (Eq. 1, 3)
+  std::vector<double> mass;            ///< N, tonne (Eq. 1, 2, E1)
+  std::vector<double> inertia;         ///< N, tonne mm^2 (Eq. 1, 3, E1)
   LaneVector<double> inverse_mass;     ///< N, 1 / tonne
   LaneVector<double> inverse_inertia;  ///< N
-  std::vector<double> radius;          ///< N, of the contact ball: half of the thickest wall that ends there
-  double largest_radius = 0.0;         ///< mm
-  double smallest_radius = 0.0;        ///< mm
-  std::vector<Element> elements;       ///< E
-  Walls walls;                         ///< W
-  std::vector<LatticeBand> bands;      ///< of a large lattice, each beside the one before (scene/bands.h); else one
+  /// N, mm, R of the contact ball: half of the thickness of the thickest wall at the particle.
+  std::vector<double> radius;
+  double largest_radius = 0.0;    ///< mm
+  double smallest_radius = 0.0;   ///< mm
+  std::vector<Element> elements;  ///< E
+  Walls walls;                    ///< W
+  /// Of a large lattice, each adjacent to the one before (scene/bands.h); otherwise one.
+  std::vector<LatticeBand> bands;
   RigidBodies rigid;
   std::vector<int> incidence_offset;  ///< N + 1, into incidence
   std::vector<int> incidence;         ///< elements at each particle, ascending
-  int joint_count = 0;  ///< the joints come first, of rigid bodies first of all, then the particles inside walls
-  std::vector<int> wall_end_offset;   ///< joints + 1, into wall_ends
-  std::vector<int> wall_ends;         ///< at each joint, into State::wall_force, ascending: sums run in this order
-  std::vector<Support> supports;      ///< N, or empty when nothing is held
-  std::vector<TimeFunction> motions;  ///< mm or rad, of held particles
+  int joint_count = 0;  ///< joints come first, those of rigid bodies before all others; particles inside walls follow
+  std::vector<int> wall_end_offset;  ///< joints + 1, into wall_ends
+  /// Ends of walls at each joint, as ascending indices into State::wall_force: the order of the sums.
+  std::vector<int> wall_ends;
+  std::vector<Support> supports;      ///< N, or empty if nothing is held
+  std::vector<TimeFunction> motions;  ///< mm or rad, imposed displacements of held particles
   std::vector<NodalLoad> loads;
   std::vector<ElementLoad> element_loads;
   Vector2 gravity = Vector2::Zero();      ///< mm/s^2
-  std::vector<Vector2> initial_velocity;  ///< N, or empty when all start at rest
+  std::vector<Vector2> initial_velocity;  ///< N, or empty if all particles start at rest
   std::vector<double> initial_spin;       ///< N, or empty
 
   // Model.
   double depth = 0.0;               ///< b, mm
   std::vector<Material> materials;  ///< at least one
   SectionRule section;
-  bool single_fibres = false;  ///< fibres are kept, and returned by vectors, in single precision
-  bool constant_area = false;  ///< walls that change their length keep their area (the paper) instead of their volume
+  bool single_fibres = false;  ///< fibre histories are stored and updated in single precision
+  bool constant_area = false;  ///< walls keep their section area, as in the paper, instead of their volume (E5c)
   ContactLaw contact;
   LimitedReaches limited_reaches;  ///< empty without contact
-  ContactFaces faces;              ///< by which contacts are searched, where their premise holds
+  ContactFaces faces;              ///< for the contact search, where their premise holds
   Plates plates;
   MassScaling mass_scaling;
   double mass_damping = 0.0;  ///< alpha, 1/s: force -alpha m v
   Schedule schedule;
 
   // Measures of the whole, for reports.
-  double length = 0.0;           ///< envelope along the crush, mm; strain counts from it
+  double length = 0.0;           ///< envelope along the crush, mm; reference length of the strain
   double width = 0.0;            ///< envelope across the crush, mm
   double total_mass = 0.0;       ///< real, tonne
-  double stable_step = 0.0;      ///< s, of the undeformed mesh (see scene/stable_step.h)
-  double collapse_stress = 0.0;  ///< MPa, quasi-static plastic collapse after Gibson and Ashby; 0 when unknown
-  std::string fidelity;          ///< what it filled in, a sentence; empty without one
+  double stable_step = 0.0;      ///< s, of the undeformed mesh (E11b, scene/stable_step.h)
+  double collapse_stress = 0.0;  ///< MPa, quasi-static plastic collapse after Gibson and Ashby; 0 if unknown
+  std::string fidelity;          ///< what the fidelity filled in, as a sentence; empty without one
 
-  std::vector<int> watched;  ///< particles whose motion samples keep
+  std::vector<int> watched;  ///< particles whose displacements are recorded in samples
 
   [[nodiscard]] bool has_hardening() const {
     return std::any_of(materials.begin(), materials.end(),
                        [](const Material& material) { return material.hardening_modulus > 0.0; });
   }
-  /// Distance at which a ball and a segment touch, mm.
+  /// Distance at which a ball and a segment touch, mm (E8, E8a).
   [[nodiscard]] double reach_of(int ball, int segment) const {
     if (!limited_reaches.offset.empty()) {
       for (int k = limited_reaches.offset[ball]; k < limited_reaches.offset[ball + 1]; ++k) {

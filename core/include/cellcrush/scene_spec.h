@@ -10,11 +10,11 @@
 
 namespace cellcrush {
 
-// What a user asks for, before anything is checked. It stands at the boundary, so names carry units and equal the field
-// paths of the case ("loading.speed_m_per_s"); Scene is the same in the units of the solver (mm, tonne, s, N, MPa).
-// A std::optional has no default and is reported when it is missing.
+// The request of a user, before any check. This is the boundary: names carry units and equal the field paths of a case
+// ("loading.speed_m_per_s"). Scene holds the same in the units of the solver (mm, tonne, s, N, MPa).
+// A std::optional must be given where it applies, unless its comment names a default; if missing, it is reported.
 
-/// Regular hexagons with walls along y; rows along x alternate `columns` and `columns - 1` cells.
+/// Regular hexagons with walls along y. Rows run along x and have `columns` and `columns - 1` cells in turn.
 struct HexagonLattice {
   std::optional<int> columns;
   std::optional<int> rows;
@@ -48,17 +48,17 @@ struct MaterialSpec {
   std::optional<double> yield_stress_mpa;
   double hardening_modulus_mpa = 0.0;
   double isotropic_fraction = 1.0;  ///< beta of the paper: 1 isotropic, 0 kinematic
-  /// Whether a wall is free to contract along the lattice's depth, or held: wide walls yield at 2 / sqrt 3 of the yield
-  /// stress.
+  /// Whether a wall can contract along the depth of the lattice (stress) or is held (strain, E6b). Held walls yield at
+  /// 2 / sqrt 3 of the yield stress.
   enum class Plane { stress, strain };
   Plane plane = Plane::stress;
-  double poissons_ratio = 0.33;  ///< plane strain only: Young's modulus over 1 - nu^2
+  double poissons_ratio = 0.33;  ///< plane strain only: replaces E by E / (1 - nu^2)
   std::optional<double> density_kg_per_m3;
 
   bool operator==(const MaterialSpec&) const = default;
 };
 
-/// An explicit planar frame. Nodes are named by position in `nodes`.
+/// An explicit planar frame. Nodes are named by their index in `nodes`.
 struct FrameLattice {
   enum class Component { x, y, rotation };
 
@@ -94,14 +94,14 @@ struct FrameLattice {
     TimeFunction points;
     bool operator==(const NodalLoad&) const = default;
   };
-  /// Displacement in mm or rotation in rad from the undeformed place that a node is made to follow.
+  /// Imposed displacement in mm, or rotation in rad, of a node from its undeformed position.
   struct NodalMotion {
     int node = 0;
     Component component = Component::x;
     TimeFunction points;
     bool operator==(const NodalMotion&) const = default;
   };
-  /// Load in N per mm of the undeformed beam, in the fixed frame (Eq. 4).
+  /// Load in N per mm of undeformed beam length, in the fixed frame (Eq. 4, E14).
   struct DistributedLoad {
     int beam = 0;
     TimeFunction x_points;  ///< empty: none
@@ -132,11 +132,11 @@ struct FrameLattice {
   bool operator==(const FrameLattice&) const = default;
 };
 
-/// Rows of stiff cells in a lattice of hexagons: their walls are thicker.
+/// Rows of stiff cells, whose walls are thicker, in a lattice of hexagons.
 struct Inclusions {
   enum class Model {
-    rigid,  ///< cells that are joined move as one rigid body
-    meshed  ///< their walls are beams like the others
+    rigid,  ///< joined cells move as one rigid body (E13)
+    meshed  ///< their walls are beams like all others
   };
   std::vector<int> rows;  ///< counted from 1 at the bottom
   double thickness_factor = 4.0;
@@ -152,19 +152,19 @@ struct Imperfection {
   bool operator==(const Imperfection&) const = default;
 };
 
-/// How an element follows what its wall does between its nodes (section/section_rule.h).
+/// Formulation and integration points of an element (section/section_rule.h).
 struct SectionSpec {
   enum class Formulation {
-    force_based,        ///< the moment is straight along an element, as equilibrium has it; the curvature follows
-    displacement_based  ///< the paper: the curvature is straight (Eq. 27)
+    force_based,        ///< linear moment along the element, as equilibrium requires (E5b)
+    displacement_based  ///< linear curvature, as in the paper (Eq. 27, E5a)
   };
   enum class DepthRule {
     full_moment,  ///< exact area, bending stiffness and full plastic moment
-    lobatto       ///< the paper
+    lobatto       ///< as in the paper
   };
   enum class AreaRule {
-    constant_volume,  ///< a wall that is compressed short thickens
-    constant_area     ///< the paper
+    constant_volume,  ///< the section area of a wall grows as the wall shortens (E5c)
+    constant_area     ///< as in the paper
   };
   Formulation formulation = Formulation::force_based;
   DepthRule depth_rule = DepthRule::full_moment;
@@ -182,12 +182,12 @@ struct SectionSpec {
 
 struct ContactSpec {
   enum class Search {
-    faces,   ///< by the faces of the lattice, where they are enough (scene/contact_faces.h)
-    buckets  ///< the paper: in space (section 4.1)
+    faces,   ///< by the faces of the lattice, where these are enough (E8c, scene/contact_faces.h)
+    buckets  ///< in space, as in the paper (section 4.1)
   };
   double friction = 0.0;
-  double stiffness_factor = 0.12;  ///< k = stiffness_factor m_min / dt_crit^2
-  double damping_ratio = 0.2;      ///< share of critical damping
+  double stiffness_factor = 0.12;  ///< k = m_min max(stiffness_factor / dt_crit^2, ...) (E9)
+  double damping_ratio = 0.2;      ///< zeta, fraction of critical damping (E9)
   Search search = Search::faces;
 
   bool operator==(const ContactSpec&) const = default;
@@ -210,16 +210,16 @@ struct LoadingSpec {
 };
 
 struct NumericsSpec {
-  double time_step_s = 0.0;  ///< 0: chosen
+  double time_step_s = 0.0;  ///< 0: automatic
   double mass_damping_per_s = 0.0;
-  /// Fictitious masses for slow crushes (dynamic relaxation): masses and rotary inertias times the first, rotary
-  /// inertias times the second as well.
+  /// Fictitious masses for slow crushes (dynamic relaxation, E11b). Masses and rotary inertias are multiplied by
+  /// mass_scaling, rotary inertias also by rotary_scaling.
   double mass_scaling = 1.0;
   double rotary_scaling = 1.0;
-  /// Of the fibres' stresses; motion, forces and works are in double precision either way. See kMostSingleFibres.
+  /// Precision of the fibre stresses; motion, forces and works are always in double precision. See kMostSingleFibres.
   enum class FibrePrecision { double_precision, single_precision };
   FibrePrecision fibre_precision = FibrePrecision::single_precision;
-  /// A point of the measured front of speed against accuracy, which fills in what is left out (fidelity.h).
+  /// A point of the measured speed-accuracy front; it fills in omitted settings (fidelity.h).
   enum class Fidelity { unspecified, draft, standard, reference };
   Fidelity fidelity = Fidelity::unspecified;
   int threads = 1;

@@ -10,10 +10,10 @@
 
 namespace cellcrush {
 
-/// Checks many specs as build_scene does, with the same problems in the same words and the same numbers to the last
-/// bit. Specs that differ in what their mesh does not depend on (speed, strains, contact, steps, output) share what is
-/// known of it: the first builds it, the others cost microseconds. Keeps what is known of the last meshes, not the
-/// meshes. Not thread-safe.
+/// Checks many specs. Problems, words and numbers are those of build_scene, to the last bit. Specs that differ only in
+/// fields on which the mesh does not depend (speed, strains, contact, steps, output) share the measures of one mesh:
+/// the first spec builds it, each further one costs microseconds. Keeps the measures of the last meshes, not the meshes
+/// themselves. Not thread-safe.
 class SpecChecker {
  public:
   SpecChecker();
@@ -23,18 +23,18 @@ class SpecChecker {
 
   struct Verdict {
     Problems problems;
-    std::int64_t element_count = 0;  ///< 0 when there are problems
-    std::int64_t step_count = 0;     ///< 0 when there are problems
-    /// As SceneFacts has it, or more by the faces of a mesh that is searched by buckets after all; 0 when there are
+    std::int64_t element_count = 0;  ///< 0 if there are problems
+    std::int64_t step_count = 0;     ///< 0 if there are problems
+    /// As in SceneFacts. Larger by the contact faces if the mesh turns out to be searched by buckets. 0 if there are
     /// problems.
     std::int64_t most_memory_bytes = 0;
   };
   Verdict check(const SceneSpec& given);
 
-  /// From now on the mesh of a spec from which `scene` was built is known.
+  /// Adds the mesh from which `scene` was built to the known meshes.
   void know(const SceneSpec& given, const Scene& scene);
 
-  /// Elements of the mesh that check(given) would build, without building it: about as many as it has. 0 where it would
+  /// Approximate number of elements of the mesh that check(given) would build, found without building it. 0 if it would
   /// build none.
   [[nodiscard]] std::int64_t elements_to_build(const SceneSpec& given) const;
 
@@ -44,7 +44,7 @@ class SpecChecker {
   const KnownMesh& mesh_of(SceneSpec part);
   void keep(std::unique_ptr<KnownMesh> mesh);
 
-  std::deque<std::unique_ptr<KnownMesh>> known_;  ///< the newest first
+  std::deque<std::unique_ptr<KnownMesh>> known_;  ///< newest first
 };
 
 }  // namespace cellcrush

@@ -4,7 +4,7 @@
 
 namespace cellcrush {
 
-/// The stages of a step, in their order; the same names stand in advance_step, in timers and in core/README.md.
+/// The stages of a step, in order. advance_step, timers and core/README.md use the same names.
 enum class Stage {
   integrate_motion,
   evaluate_internal_forces,
@@ -15,13 +15,14 @@ enum class Stage {
 };
 inline constexpr int kStageCount = 6;
 
-/// Their names, in the order of the enumerators.
+/// Names of the stages, in the order of the enumerators.
 inline constexpr std::array<const char*, kStageCount> kStageNames = {
     "integrate_motion",        "evaluate_internal_forces", "find_contacts",
     "evaluate_contact_forces", "evaluate_plate_forces",    "evaluate_loads"};
 
-/// Told when a stage begins, and when the step ends; of a large lattice, whose bands do several steps while they are in
-/// the caches, when these end. The solver has no clock: who wants times brings one.
+/// Called when a stage begins and when a step ends. A large lattice advances by blocks of steps (step/advance_block.h):
+/// its bands do several steps while they are in the caches, and end_step() is called once for each block. The solver
+/// has no clock: an observer that measures times brings its own.
 class StageObserver {
  public:
   virtual ~StageObserver() = default;

@@ -12,31 +12,31 @@
 
 namespace cellcrush {
 
-/// What the fibres and the sections of elements remember, in numbers of type T. E elements of F fibres and P sections;
-/// the order is that of beam/element_place.h. MPa.
+/// History of the fibres and sections of elements, in numbers of type T. E elements of F fibres and P sections, in the
+/// order of beam/element_place.h. MPa.
 template <class T>
 struct FibreHistory {
   using Bits = std::conditional_t<sizeof(T) == sizeof(std::uint64_t), std::uint64_t, std::uint32_t>;
 
-  LaneVector<T> stress;          ///< E x F
-  LaneVector<T> back_stress;     ///< E x F, middle of the yield surface; empty without hardening
-  LaneVector<T> plastic_strain;  ///< E x F, accumulated (effective); empty without hardening
+  LaneVector<T> stress;          ///< E x F, sigma of E6
+  LaneVector<T> back_stress;     ///< E x F, centre of the yield surface (alpha of E6); empty without hardening
+  LaneVector<T> plastic_strain;  ///< E x F, accumulated (effective), ep of E6; empty without hardening
   LaneVector<Bits> yielded;      ///< E, bit f: fibre f has yielded; empty with hardening
 
-  // Of a force-based rule (beam/section_curvatures.h), else empty.
-  LaneVector<T> section_moment_residual;  ///< E x P
-  LaneVector<T> section_flexibility;      ///< E x P, 1
+  // Force-based rules only (E5b, beam/section_balance-inl.h), otherwise empty.
+  LaneVector<T> section_moment_residual;  ///< E x P, u_i over b h^2
+  LaneVector<T> section_flexibility;      ///< E x P, 1 / t_i, dimensionless
   LaneVector<T> start_moment;             ///< E, on the start node, over b h^2
   LaneVector<T> end_moment;               ///< E, on the end node, over b h^2
 };
 
-/// Force of contacts on a particle, N. Side by side, as those who write the one write the other.
+/// Contact force on a particle, N. The two parts stand side by side because the same loops write both.
 struct ContactForce {
   Vector2 elastic = Vector2::Zero();
   Vector2 viscous = Vector2::Zero();
 };
 
-/// Force of a plate, N, compression positive.
+/// Force of a plate, N, compression positive (E9c).
 struct PlateForce {
   double elastic = 0.0;
   double viscous = 0.0;
@@ -44,7 +44,7 @@ struct PlateForce {
   [[nodiscard]] double total() const { return elastic + viscous; }
 };
 
-/// Energies and works that are sums over time. N mm. Written by integrate_motion and evaluate_internal_forces.
+/// Energies and works accumulated over time (E10), N mm. Written by integrate_motion and evaluate_internal_forces.
 struct Ledger {
   double plastic = 0.0;          ///< stress times plastic strain increment
   double contact = 0.0;          ///< work against the elastic normal forces of contacts, walls' and plates'
@@ -55,8 +55,8 @@ struct Ledger {
   double initial = 0.0;   ///< kinetic energy at the start
 };
 
-/// Everything that a step changes. N particles, E elements, F fibres an element. Units mm, tonne, s, N, MPa, rad.
-/// visit_fields lists every field once, but what is derived; checkpoint, hash and comparison go through it.
+/// Everything that a step changes. N particles, E elements, F fibres per element. Units mm, tonne, s, N, MPa, rad.
+/// visit_fields lists every field once, except derived ones; checkpoint, hash and comparison use it.
 struct State {
   std::int64_t step = 0;
   double time = 0.0;
@@ -66,7 +66,7 @@ struct State {
   LaneVector<Vector2> velocity;         ///< N, half a step before `time`
   LaneVector<double> rotation;          ///< N, since the start; for output only
   LaneVector<double> spin;              ///< N, rad/s, half a step before `time`
-  std::vector<Vector2> rigid_centre;    ///< B rigid bodies, of mass
+  std::vector<Vector2> rigid_centre;    ///< B rigid bodies, centre of mass
   std::vector<Vector2> rigid_velocity;  ///< B, half a step before `time`
   std::vector<double> rigid_rotation;   ///< B, since the start
   std::vector<double> rigid_spin;       ///< B, half a step before `time`
@@ -75,26 +75,28 @@ struct State {
   double support_impulse = 0.0;         ///< N s, of the support plate on the lattice
 
   // Written by evaluate_internal_forces.
-  LaneVector<Vector2> axis;            ///< E, unit vector from start to end
-  LaneVector<double> length;           ///< E
-  LaneVector<double> inverse_length;   ///< E, 1/mm
-  FibreHistory<double> fibres;         ///< empty where they are in single precision
-  FibreHistory<float> single_fibres;   ///< empty where they are in double precision
-  LaneVector<Vector2> wall_force;      ///< 2 W, of walls on joints: of a block's walls at their starts, then ends; N
+  LaneVector<Vector2> axis;           ///< E, unit vector from start to end
+  LaneVector<double> length;          ///< E
+  LaneVector<double> inverse_length;  ///< E, 1/mm
+  FibreHistory<double> fibres;        ///< empty where they are in single precision
+  FibreHistory<float> single_fibres;  ///< empty where they are in double precision
+  /// 2 W, forces of walls on joints, N: for each block, those at the starts of its walls, then at their ends.
+  LaneVector<Vector2> wall_force;
   LaneVector<double> wall_moment;      ///< 2 W, N mm
-  LaneVector<Vector2> internal_force;  ///< N, of all elements on the particle
+  LaneVector<Vector2> internal_force;  ///< N, sum of the forces of all elements on the particle
   LaneVector<double> internal_moment;  ///< N, N mm
 
   // Written by evaluate_loads; empty when the scene has no loads.
   std::vector<Vector2> load_force;  ///< N
   std::vector<double> load_moment;  ///< N, N mm
 
-  /// Of the bands of the lattice (Scene::bands), one after the other; one of all that touches where there are no bands.
+  /// One entry for each band of the lattice (Scene::bands), in order. A single entry if the lattice is not cut into
+  /// bands.
   std::vector<ContactLists> contacts = std::vector<ContactLists>(1);
-  std::int64_t crossing_step =
-      -1;  ///< in which walls were found to have crossed, from when on the search is by buckets
+  /// Step in which walls were found to have crossed; from then on contacts are searched by buckets. -1: none.
+  std::int64_t crossing_step = -1;
 
-  // Written by evaluate_contact_forces and evaluate_plate_forces, which add up forces that integrate_motion has
+  // Written by evaluate_contact_forces and evaluate_plate_forces, which add to forces that integrate_motion has
   // cleared.
   LaneVector<ContactForce> contact_force;  ///< N, of walls and plates
   std::vector<Vector2> friction_force;     ///< N, of walls and plates; empty without friction
@@ -106,9 +108,9 @@ struct State {
 
   Ledger ledger;
 
-  /// Derived, so no field for visit_fields: a bit for each tile of kContactTile particles, whether one may have a
-  /// contact_force; most have none. Rebuilt from the touching pairs every 64 steps; in between tiles are only marked.
-  /// Empty: any may.
+  /// Derived, so visit_fields leaves it out. For each tile of kContactTile particles: whether one of them may have a
+  /// contact_force; most have none. Rebuilt from the touching pairs every 64 steps; in between, tiles are only marked.
+  /// Empty: any particle may have one.
   std::vector<std::uint64_t> contact_tiles;
 };
 
@@ -124,8 +126,8 @@ void visit_fibre_fields(M& memory, Visitor&& visitor) {
   visitor("end_moment", memory.end_moment);
 }
 
-/// Calls visitor(name, field) for every field of the state, in a fixed order. Fields are arithmetic or vectors of
-/// trivially copyable things.
+/// Calls visitor(name, field) for every field of the state, in a fixed order. A field is an arithmetic value or a
+/// vector of trivially copyable values.
 template <class S, class Visitor>
 void visit_fields(S& state, Visitor&& visitor) {
   visitor("step", state.step);
@@ -172,7 +174,7 @@ void visit_fields(S& state, Visitor&& visitor) {
   visitor("ledger", state.ledger);
 }
 
-/// Every field as it stands, for the same build on the same kind of processor.
+/// Every field in its memory representation, for the same build on the same kind of processor.
 inline void put_state(ByteWriter& writer, const State& state) {
   visit_fields(state, [&writer](const char*, const auto& field) { writer.put(field); });
 }

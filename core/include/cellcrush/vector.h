@@ -7,10 +7,10 @@ namespace cellcrush {
 /// A vector in the plane of the lattice.
 using Vector2 = Eigen::Vector2d;
 
-/// z component of the cross product: positive when `b` lies counter-clockwise of `a`.
+/// z component of the cross product: positive if `b` points counter-clockwise of `a`.
 inline double cross(const Vector2& a, const Vector2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// `a` turned by a quarter counter-clockwise.
+/// `a` rotated by 90 degrees counter-clockwise.
 inline Vector2 normal_of(const Vector2& a) { return {-a.y(), a.x()}; }
 
 }  // namespace cellcrush
