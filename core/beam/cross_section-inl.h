@@ -12,14 +12,14 @@
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {
 
-/// Length over undeformed length below which the modulus is bounded.
+/// l / l_0 below which the modulus is reduced (E5c).
 inline constexpr double kModulusCapStretch = 0.95;
 
-/// What does not change of the cross-section of the elements of walls from `wall` on.
+/// The constant data of the cross-sections of elements, for the walls from `wall` on (E5c).
 template <class D>
 struct CrossSection {
   Lane<D> thickness;   ///< h, mm
-  Lane<D> undeformed;  ///< length of an element, mm
+  Lane<D> undeformed;  ///< l_0, mm
   Lane<D> depth;       ///< b, mm
   bool constant_area;
 
@@ -29,26 +29,26 @@ struct CrossSection {
         depth(scene.depth),
         constant_area(scene.constant_area) {}
 
-  /// Area, mm^2. Plastic flow keeps a wall's volume: the area is V_0 / l, the thickness in the plane being kept. With
-  /// constant area, as in the paper, a wall under its yield force would shorten without end, one element before the
-  /// others.
+  /// Area A, mm^2 (E5c). Plastic flow keeps the volume of a wall: A = V_0 / l, with the thickness in the plane kept.
+  /// With constant area, as in the paper, a wall under its yield force would shorten without end, one element before
+  /// the others.
   HWY_INLINE Lane<D> area(Lane<D> inverse_length) const {
     const Lane<D> area = depth * thickness;
     return constant_area ? area : area * undeformed * inverse_length;
   }
 
-  /// Volume that stress works on, mm^3.
+  /// Volume over which the stress does work, mm^3.
   HWY_INLINE Lane<D> volume(Lane<D> length) const { return depth * thickness * (constant_area ? length : undeformed); }
 
-  /// Lanes that are compressed so far that their modulus is bounded.
+  /// Lanes whose elements are compressed so far that their modulus is reduced.
   HWY_INLINE LaneMask<D> is_compressed(Lane<D> length) const {
     return length < Lane<D>(kModulusCapStretch) * undeformed;
   }
 
-  /// Share of Young's modulus with which an element compressed to `length` vibrates no faster than at
-  /// kModulusCapStretch: A / l and I / l grow with the shortening, at constant volume with its square, and the shear
-  /// they cause by 1 + 4 gamma^2 / l^2 (E11). Such an element flows: its force is that of the yield stress, and what
-  /// its modulus stores is a small part of its plastic work.
+  /// E_l / E (E5c): with this fraction of its modulus, an element of length l vibrates no faster than at
+  /// kModulusCapStretch. A / l and I / l grow as 1 / l at constant area, as 1 / l^2 at constant volume. The shear due
+  /// to bending grows by 1 + 4 gamma^2 / l^2 (E11). Such an element yields: its force is that of the yield stress, and
+  /// its stored energy is a small part of its plastic work.
   HWY_INLINE Lane<D> modulus_share(Lane<D> length) const {
     const Lane<D> one = 1;
     const Lane<D> bound = Lane<D>(kModulusCapStretch) * undeformed;

@@ -15,15 +15,15 @@
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {
 
-/// Sine up to which the rotation of an axis over a step is a series; the first term left out is below 1e-17 of the
+/// Sine below which the rotation of an axis over a step is a series. The first omitted term is below 1e-17 of the
 /// angle.
 inline constexpr double kSmallTurn = 0.02;
 
-/// Angle by which the unit vector `from` must turn to point along the unit vector `to`, counter-clockwise positive, in
-/// (-pi, pi]. Exact to round-off for increments of any size, both signs.
+/// Angle phi from the unit vector `from` to the unit vector `to`, positive counter-clockwise, in (-pi, pi] (Eq. 9, E3).
+/// Exact to round-off for any size and both signs.
 ///
 /// Deviation from Eq. 9: the arc cosine of the dot product loses the sign, and is 0 below 2e-8 rad. The sine is the
-/// cross product; its inverse is a series where it is small, as it is in every step of a sound run.
+/// cross product. Its inverse is a series where it is small, as in every step of a sound run.
 template <class D>
 HWY_INLINE Lane<D> turn_between(const Points<D>& from, const Points<D>& to) {
   const Lane<D> sine = cross(from, to);
@@ -47,24 +47,24 @@ HWY_INLINE Lane<D> turn_between(const Points<D>& from, const Points<D>& to) {
   return select(is_small, turn, Lane<D>::load(sines));
 }
 
-/// What is left of an element's motion over a step once its rigid part is taken out (section 2.3.1).
+/// Deformation of an element over a step: its motion without the rigid part (section 2.3.1, E4).
 template <class D>
 struct Deformation {
-  Lane<D> stretch;         ///< Delta = l - l_a, mm (Eq. 15)
-  Lane<D> rotation_start;  ///< theta_1, rad (Eq. 14)
+  Lane<D> stretch;         ///< Delta = l - l_a, mm (Eq. 15, E4)
+  Lane<D> rotation_start;  ///< theta_1, rad (Eq. 14, E4)
   Lane<D> rotation_end;    ///< theta_2, rad
   Lane<D> length;          ///< l, mm
   Lane<D> inverse_length;  ///< 1/mm
-  Lane<D> inverse_mean;    ///< 2 / (l + l_a), 1/mm
-  Points<D> axis;          ///< e_t, unit vector from the start node to the end node
+  Lane<D> inverse_mean;    ///< 1 / l_m = 2 / (l + l_a), 1/mm (E5)
+  Points<D> axis;          ///< e, unit vector from the start node to the end node (e_t of the paper)
 };
 
-/// l, 1 / l and 2 / (l + l_a) from l squared. Where the lengths differ little, series from the inverse of the previous
-/// length give all digits: dividers are the slowest part of a processor. Else divided.
+/// l, 1 / l and 1 / l_m = 2 / (l + l_a) from l squared. Where the lengths differ little, series from the inverse of the
+/// previous length give all digits and avoid the divisions, which are slow. Otherwise they are divided.
 template <class D>
 HWY_INLINE void invert_lengths(Lane<D> square, Lane<D> previous_length, Lane<D> previous_inverse,
                                Deformation<D>& deformation) {
-  constexpr double kSmallMiss = 2e-3;  // the first terms left out are below 1e-17
+  constexpr double kSmallMiss = 2e-3;  // the first omitted terms are below 1e-17
   const Lane<D> one = 1;
   const Lane<D> half = 0.5;
   const Lane<D> miss = fnma(square, previous_inverse * previous_inverse, one);
@@ -86,9 +86,9 @@ HWY_INLINE void invert_lengths(Lane<D> square, Lane<D> previous_length, Lane<D> 
   }
 }
 
-/// Reverse rigid motion of an element: translation and rotation by the turn of its axis are taken out of the motion of
-/// its nodes (Eq. 8-15). `span` points from the start node to the end node now; the previous axis and length are those
-/// of the step before; the turns are the nodes' rotation increments over the step.
+/// Reverse rigid motion of an element: subtracts the translation and the rotation of its axis from the motion of its
+/// nodes (Eq. 8-15, E3, E4). `span` points from the start node to the end node now. The previous axis and length are
+/// those at the start of the step. The turns are the rotation increments of the nodes over the step.
 template <class D>
 HWY_INLINE Deformation<D> reverse_motion(const Points<D>& span, const Points<D>& previous_axis, Lane<D> previous_length,
                                          Lane<D> previous_inverse, Lane<D> turn_start, Lane<D> turn_end) {

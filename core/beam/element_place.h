@@ -6,14 +6,14 @@
 
 namespace cellcrush {
 
-/// Where an element's values lie in the state's arrays. The elements at the same place of a block's walls make a row,
-/// and a row's values lie one after another, walls innermost.
+/// Index of the values of an element in the arrays of the state. The elements with the same number in the walls of a
+/// block make a row. The values of a row lie one after another, walls innermost.
 struct ElementPlace {
   std::size_t element = 0;
   std::size_t row = 0;     ///< first element of the row
   std::size_t stride = 0;  ///< walls of the block
 
-  /// Index of value i of the element, in an array that has `per_element` of them for each.
+  /// Index of value i of the element, in an array with `per_element` values for each element.
   [[nodiscard]] std::size_t index(std::size_t per_element, std::size_t i) const {
     return row * per_element + i * stride + (element - row);
   }

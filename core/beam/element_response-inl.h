@@ -15,8 +15,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {
 
-/// Return mapping of the fibres of all sections under given increments of membrane strain and curvature, and their
-/// sums.
+/// Return mapping of the fibres of all sections under given increments of membrane strain and of curvature times h (E5,
+/// E6), and the sums over them (E7).
 template <bool kHardening, class Rule, class D>
 HWY_INLINE auto return_map_element(const LaneMaterial<D>& material, const Rule& rule, Lane<D> membrane,
                                    const Lane<D>* HWY_RESTRICT curvature, const Fibres<hn::TFromD<D>>& before,
@@ -38,10 +38,11 @@ HWY_INLINE auto return_map_element(const LaneMaterial<D>& material, const Rule& 
   return element;
 }
 
-/// Passes of a force-based element; one is enough in 97 of 100 steps of an element.
+/// Most passes of a force-based element (E5b); one is enough in 97 of 100 element-steps.
 inline constexpr int kMostPasses = 4;
 
-/// The same for force-based elements: curvature is moved between the sections until their moments lie on a line.
+/// The same for force-based elements: curvature is redistributed between the sections until their moments lie on a
+/// straight line (E5b).
 template <bool kHardening, class Rule, class D>
 HWY_INLINE auto return_map_balanced(const LaneMaterial<D>& material, const Rule& rule, Lane<D> membrane,
                                     const Bend<D>& bend, const EndMoments<D>& before,
@@ -64,7 +65,7 @@ HWY_INLINE auto return_map_balanced(const LaneMaterial<D>& material, const Rule&
   auto element = return_map_element<kHardening>(material, rule, membrane, curvature, fibres_before, fibres);
   LaneMask<D> active = !(straight & (element.plastic_work == 0));
   if (none(active)) {
-    return element;  // elastic: in balance by themselves, with no history to update
+    return element;  // elastic: in balance already, with no history to update
   }
   Lane<D> moment_before[kRoom];
   for (int i = 0; i < rule.sections(); ++i) {

@@ -15,8 +15,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {
 
-/// The walls' loops over a chunk, for one section rule. Full blocks fill vectors; other blocks, and rules whose counts
-/// are not known at compile time, are computed wall by wall.
+/// The loops over the walls of a chunk, for one section rule. Full blocks fill vectors. Other blocks, and rules whose
+/// numbers of points are not known at compile time, are computed wall by wall.
 template <bool kForceBased, bool kHardening, class Rule>
 class WallLoops {
  public:
@@ -34,12 +34,12 @@ class WallLoops {
     return blocks.back().first_element + blocks.back().walls * blocks.back().elements - blocks.front().first_element;
   }
 
-  /// Where a chunk's scratch begins in that of all chunks.
+  /// Start of the scratch of a chunk in that of all chunks.
   [[nodiscard]] T* scratch_of(LaneVector<T>& all, std::size_t chunk) const {
     return &all[kScratchKinds * blocks_of(chunk).front().first_element];
   }
 
-  /// Returns whether some elements are compressed, with a modulus of their own.
+  /// Returns whether any elements are compressed, so that their modulus is reduced.
   bool deform(std::size_t chunk, T* scratch) const {
     bool is_compressed = false;
     with_chunk(chunk, scratch, [&](auto& walls) HWY_ATTR { is_compressed = walls.deform(); });
@@ -53,7 +53,7 @@ class WallLoops {
     return sum_of(work);
   }
 
-  /// Both, while the chunk is in the nearest cache. Returns the plastic work.
+  /// Deforms and responds while the chunk is in the nearest cache. Returns the plastic work.
   double advance(std::size_t chunk, LaneVector<T>& scratch) const {
     scratch.resize(std::max(scratch.size(), kScratchKinds * element_count(chunk)));
     double work[kMostWallsInBlock] = {};
@@ -95,7 +95,7 @@ class WallLoops {
   const Rule rule_;
 };
 
-/// Calls use(the loops of the scene's rule).
+/// Calls use(loops) with the loops of the section rule of the scene.
 template <bool kHardening, class T, class Use>
 void with_loops(const Scene& scene, State& state, FibreHistory<T>& memory, const Use& use) {
   const bool is_known = has_known_counts(scene.section);
@@ -116,7 +116,7 @@ void with_loops(const Scene& scene, State& state, const Use& use) {
   scene.single_fibres ? with_memory(state.single_fibres) : with_memory(state.fibres);
 }
 
-/// Sums the forces on the joints at which two threads' chunks meet.
+/// Sums the forces on the joints between the chunks of two threads.
 void sum_between_threads(const Scene& scene, State& state, const LatticeBand& band, const Workers& workers) {
   const auto chunks = static_cast<std::size_t>(band.end_chunk - band.first_chunk);
   for (int part = 1; part < workers.count(); ++part) {
@@ -128,7 +128,7 @@ void sum_between_threads(const Scene& scene, State& state, const LatticeBand& ba
   }
 }
 
-/// The first joint that a thread sums whose chunks begin with `first` of a band's.
+/// The first joint summed by the thread whose chunks begin with number `first` of a band.
 int first_joint_of(const Scene& scene, const LatticeBand& band, std::size_t first) {
   const std::size_t chunk = band.first_chunk + first;
   if (first > 0) {
@@ -137,7 +137,7 @@ int first_joint_of(const Scene& scene, const LatticeBand& band, std::size_t firs
   return chunk > 0 ? scene.walls.end_joint[chunk - 1] : 0;
 }
 
-/// The forces on joints are summed as soon as all their walls have been evaluated, while they are in the cache.
+/// Forces on joints are summed as soon as all walls of the joint have been evaluated, while they are in the cache.
 void evaluate_band(const Scene& scene, State& state, const LatticeBand& band, WallsWorkspace& workspace,
                    Workers& workers, double* plastic_work) {
   const std::vector<int>& end_joint = scene.walls.end_joint;

@@ -9,22 +9,24 @@
 
 namespace cellcrush {
 
-/// Axes, lengths, fibre histories and internal forces of a band's elements from the particles' motion over the last
-/// step (Eq. 7-32), chunk by chunk, and the sums on the joints that have no walls in later bands. Overwrites the
-/// plastic work of each of the band's chunks, N mm. REQUIRES: the bands before have been evaluated.
+/// Evaluates axes, lengths, fibre histories and internal forces of the elements of a band from the motion of the
+/// particles over the last step (Eq. 7-32, E3 to E7), chunk by chunk. Sums the forces on the joints that have no walls
+/// in later bands. Overwrites the plastic work of each chunk of the band, N mm. REQUIRES: earlier bands have been
+/// evaluated.
 void evaluate_internal_forces(const Scene& scene, State& state, const LatticeBand& band, WallsWorkspace& workspace,
                               Workers& workers, double* plastic_work);
 
-// The same of the whole lattice in three stages, for two threads: contacts need the new axes and lengths, but no
-// stresses, so they overlap with the second stage.
+// The same for the whole lattice in three stages, for two threads. Contacts need the new axes and lengths but no
+// stresses, so their evaluation overlaps with the second stage.
 
-/// Axes, lengths and increments of strain of all elements.
+/// Axes, lengths and strain increments of all elements (E3 to E5).
 void deform_walls(const Scene& scene, State& state, WallsWorkspace& workspace, Workers& workers);
 
-/// Pieces of respond_walls.
+/// Number of pieces of respond_walls.
 std::size_t wall_piece_count(const Scene& scene);
 
-/// Fibre histories and forces of a piece of the walls. Any thread may take any piece. REQUIRES: deform_walls.
+/// Fibre histories and forces of one piece of the walls (E6, E7). Any thread may compute any piece. REQUIRES:
+/// deform_walls has been called.
 void respond_walls(const Scene& scene, State& state, WallsWorkspace& workspace, std::size_t piece,
                    double* plastic_work);
 

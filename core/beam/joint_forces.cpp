@@ -15,7 +15,7 @@ void sum_joint_forces(const Scene& scene, State& state, std::size_t first, std::
     const int count = offsets[joint + 1] - offsets[joint];
     Vector2 force = Vector2::Zero();
     double moment = 0.0;
-    // Most joints of a honeycomb have three: without a loop they take half of the time.
+    // Most joints of a honeycomb have three walls. Without a loop these take half of the time.
     if (count == 3) {
       force = forces[ends[0]] + forces[ends[1]] + forces[ends[2]];
       moment = moments[ends[0]] + moments[ends[1]] + moments[ends[2]];

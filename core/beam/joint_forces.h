@@ -8,11 +8,11 @@
 
 namespace cellcrush {
 
-/// Sums the walls' forces on joints `first` to `end`, each joint's in a fixed order, so that the sums have the same
-/// bits whoever computes them. Does nothing if first >= end.
+/// Sums the forces of walls on joints `first` to `end` (E7), for each joint in a fixed order. The sums therefore have
+/// the same bits for any thread. Does nothing if first >= end.
 void sum_joint_forces(const Scene& scene, State& state, std::size_t first, std::size_t end);
 
-/// The same of all joints.
+/// The same for all joints.
 void sum_joint_forces(const Scene& scene, State& state, Workers& workers);
 
 }  // namespace cellcrush

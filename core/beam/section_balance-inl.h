@@ -16,43 +16,45 @@
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {
 
-/// Most that a section is given, of the elastic flexibility: it keeps the element's finite.
+/// Greatest flexibility of a section over its elastic one, the inverse of the least t_i of E5b; it keeps the
+/// flexibility of the element finite.
 inline constexpr double kMostFlexibility = 100.0;
-/// Sections that are more flexible than elastic ones by less are elastic.
+/// Flexibility, over the elastic one, below which a section counts as elastic.
 template <class T>
 inline constexpr T kElasticBelow = std::is_same_v<T, double> ? T(1.0 + 1e-6) : T(1.01);
-/// Moments over b h^2 that are nothing, of the yield stress.
+/// Moment over b h^2, as a fraction of the yield stress, below which it counts as 0.
 template <class T>
 inline constexpr T kSectionRoundOff = std::is_same_v<T, double> ? T(6e-10) : T(2e-6);
-/// Residual moment that is left to the next step, of the full plastic moment.
+/// Greatest residual moment that is carried into the next step, as a fraction of the full plastic moment.
 inline constexpr double kInBalance = 0.02;
 
-/// History of the sections of force-based elements, in the state's arrays.
+/// History of the sections of force-based elements, in the arrays of the state (E5b).
 template <class T>
 struct SectionHistoryView {
-  T* residual;             ///< moment that the section lacks to the line through the end moments, over b h^2, MPa
-  T* flexibility;          ///< that it showed in the newest step, of the elastic one, 1 ... kMostFlexibility
-  std::size_t stride = 1;  ///< from a section to the next
+  /// The moment u_i over b h^2, MPa: by how much the moment of the section falls short of the line through the end moments.
+  T* residual;
+  T* flexibility;          ///< 1 / t_i, flexibility over the elastic one in the newest step, 1 ... kMostFlexibility
+  std::size_t stride = 1;  ///< from one section to the next
 };
 
-/// End moments over b h^2, MPa: what sections' moments do work with on the nodes' rotations (Eq. 28).
+/// End moments m_1 and m_2 over b h^2, MPa: conjugate to the rotations of the nodes (Eq. 28, E7).
 template <class D>
 struct EndMoments {
   Lane<D> start;
   Lane<D> end;
 
-  /// Moment at s on the line between them.
+  /// M(s), the moment at s on the line between them (E5b).
   [[nodiscard]] HWY_INLINE Lane<D> at(Lane<D> s) const { return fnma(s, start + end, start); }
 };
 
-/// Rotations of the elements' ends over a step, times h / l.
+/// h theta_1 / l_m and h theta_2 / l_m: rotations of the ends of elements over a step, times h / l_m.
 template <class D>
 struct Bend {
   Lane<D> start;
   Lane<D> end;
 };
 
-/// What the sections of an element sum to (Eq. 28, row by row), before its area and thickness are put on. MPa.
+/// Sums over the sections of an element (Eq. 28, E7), before they are multiplied by area and thickness. MPa.
 template <int kRoom, class D>
 struct ElementSums {
   Lane<D> axial;
@@ -63,7 +65,7 @@ struct ElementSums {
   HWY_INLINE ElementSums() : axial(0), moments{0, 0}, plastic_work(0) {}
 };
 
-/// The sections' history in registers.
+/// History of the sections of the lanes, in registers.
 template <int kRoom, class D>
 struct SectionHistory {
   Lane<D> residual[kRoom];
@@ -82,7 +84,7 @@ struct SectionHistory {
     }
   }
 
-  /// Lanes whose sections are all elastic and balanced: their curvature is a straight line.
+  /// Lanes whose sections are all elastic and balanced: their curvature is linear.
   [[nodiscard]] HWY_INLINE LaneMask<D> is_straight(int sections) const {
     auto off = hn::Zero(D());
     for (int i = 0; i < sections; ++i) {
@@ -92,7 +94,7 @@ struct SectionHistory {
   }
 };
 
-/// Increments of curvature times h that are a straight line along the element (Eq. 27).
+/// Increments of curvature times h that vary linearly along the element (Eq. 27, E5a).
 template <class Rule, class D>
 HWY_INLINE void straight_curvatures(const Rule& rule, const Bend<D>& bend, Lane<D>* HWY_RESTRICT curvature) {
   for (int i = 0; i < rule.sections(); ++i) {
@@ -100,8 +102,8 @@ HWY_INLINE void straight_curvatures(const Rule& rule, const Bend<D>& bend, Lane<
   }
 }
 
-/// Flexibility of sections, of the elastic one, whose moment over b h^2 rose by `gained` where it would have risen by
-/// `elastic`, not 0, had they been elastic.
+/// Flexibility 1 / t_i of sections. Their moment over b h^2 rose by `gained`; elastic ones would have gained `elastic`,
+/// not 0.
 template <class D>
 HWY_INLINE Lane<D> shown_flexibility(Lane<D> elastic, Lane<D> gained) {
   using T = hn::TFromD<D>;
@@ -111,13 +113,13 @@ HWY_INLINE Lane<D> shown_flexibility(Lane<D> elastic, Lane<D> gained) {
   return select(is_between, select(flexibility < kElasticBelow<T>, 1, flexibility), most);
 }
 
-/// Increments of curvature times h with which the moment becomes a straight line along the element, as equilibrium has
-/// it, and that add up to the end rotations times h / l (force-based element of Spacone, Filippou and Taucer, 1996).
-/// Moments are taken as the elastic curvatures that they cause.
+/// Increments of curvature times h for which the moment varies linearly along the element, as equilibrium requires, and
+/// which integrate to the end rotations times h / l_m (E5b; force-based element of Spacone, Filippou and Taucer, 1996).
+/// Moments are expressed as the elastic curvatures that they cause.
 ///
-/// The sections' flexibility is what they showed last; what it is wrong by is the residual, for another pass or the
-/// next step. A section that has yielded but now unloads is taken as elastic; one that was compressed and bears no
-/// moment cannot unload. `active` are the lanes that are asked for: the others' history is left alone.
+/// The flexibility of a section is that of its last step. Its error appears as the residual, which another pass
+/// or the next step removes. A section that has yielded but now unloads counts as elastic. One that was compressed and
+/// carries no moment cannot unload. Only the history of the lanes `active` is changed.
 template <class Rule, int kRoom, class D>
 HWY_INLINE void balanced_curvatures(const Rule& rule, const LaneMaterial<D>& material, const EndMoments<D>& moments,
                                     LaneMask<D> active, const Bend<D>& bend, SectionHistory<kRoom, D>& history,
@@ -125,7 +127,7 @@ HWY_INLINE void balanced_curvatures(const Rule& rule, const LaneMaterial<D>& mat
   using T = hn::TFromD<D>;
   const Lane<D> round_off = Lane<D>(kSectionRoundOff<T>) * material.yield_stress;
   for (bool unloads = true; unloads;) {
-    // Rotation over moment of the element, a symmetric 2 x 2 matrix, and the rotations that are left for it.
+    // Flexibility of the element, a symmetric 2 x 2 matrix, and the rotations that remain for it.
     Lane<D> start = 0;
     Lane<D> mixed = 0;
     Lane<D> end = 0;
@@ -153,8 +155,8 @@ HWY_INLINE void balanced_curvatures(const Rule& rule, const LaneMaterial<D>& mat
   }
 }
 
-/// Updates the history after the sections' moments have gone from `before` to those of `now` under increments of
-/// curvature times h. Returns the lanes whose sections are all in balance to 2 % of the full plastic moment.
+/// Updates the history after the moments of the sections have changed from `before` to those of `now` under increments
+/// of curvature times h. Returns the lanes whose sections are all in balance to 2 % of the full plastic moment.
 template <class Rule, int kRoom, class D>
 HWY_INLINE LaneMask<D> update_section_history(const Rule& rule, const LaneMaterial<D>& material,
                                               const Lane<D>* HWY_RESTRICT before, const ElementSums<kRoom, D>& now,

@@ -20,15 +20,15 @@
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {
 
-/// Position and turn of the particles at one end of the lanes' elements.
+/// Positions and rotation increments of the particles at one end of the elements of the lanes.
 template <class D>
 struct EndMotion {
   Points<D> position;
   Lane<D> turn;
 };
 
-/// Forces by which elements resist (Eq. 31, 32), in the fixed frame: N and N mm. The force on the start node is the
-/// reverse of that on the end node.
+/// Forces with which elements resist (Eq. 31, 32, E7), in the fixed frame: N and N mm. The force on the start node is
+/// the opposite of that on the end node.
 template <class D>
 struct NodalForces {
   Points<D> force_on_end;
@@ -36,16 +36,16 @@ struct NodalForces {
   Lane<D> moment_on_end;
 };
 
-/// Increments of strain of a row's elements, which the first loop over a chunk leaves for the second.
+/// Strain increments of the elements of a row (E5), passed from the first loop over a chunk to the second.
 template <class T>
 struct RowStrains {
   T* membrane;
-  T* bend_start;  ///< rotation times h / l
+  T* bend_start;  ///< h theta_1 / l_m
   T* bend_end;
   T* modulus_share;
 };
 
-/// What the stresses of a row's elements sum to, which the second loop leaves for the third.
+/// Sums over the stresses of the elements of a row (E7), passed from the second loop to the third.
 template <class T>
 struct RowSums {
   T* axial;
@@ -54,8 +54,8 @@ struct RowSums {
   T* plastic_work;
 };
 
-/// Values that pass between the three loops over a chunk's elements, in the fibres' precision, kScratchKinds an
-/// element. Row by row: the values of a kind lie side by side, and a row's kinds one after the other. The sums
+/// Values passed between the three loops over the elements of a chunk, in the precision of the fibres, kScratchKinds
+/// per element. Row by row: values of one kind lie side by side, and the kinds of a row one after the other. The sums
 /// overwrite the strains.
 template <class T>
 class ChunkScratch {
@@ -80,14 +80,16 @@ class ChunkScratch {
   const std::ptrdiff_t first_;
 };
 
-/// A step of the walls of some neighbouring blocks (Eq. 7-32). Three short loops, over geometry, fibres and forces: the
-/// processor works at several elements at a time, where each by itself is a long chain of operations. Motion and forces
-/// are in double precision (lanes D), fibres in single or double (lanes F).
+/// A step of the walls of some adjacent blocks (Eq. 7-32, E3 to E7). There are three short loops, over geometry, fibres
+/// and forces: the processor then computes several elements at a time, whereas each one by itself is a long chain of
+/// dependent operations. Motion and forces are in double precision (lanes D), fibres in single or double precision
+/// (lanes F).
 ///
-/// Deviations: strains are taken over the mean length of the step (Eq. 24-26 take l_a), so that a way there and back
-/// leaves no strain and the work of the forces is that of the stresses; the shear force of Eq. 31 takes the current
-/// length, with which alone angular momentum is kept; the forward rotation of Eq. 32 is the current axis itself, so no
-/// rotation matrix is needed.
+/// Deviations from the paper:
+///  - strains are taken over the mean length of the step, where Eq. 24-26 have l_a: stretching and returning leaves no
+///    strain, and the work of the forces equals that of the stresses (E5);
+///  - the shear force of Eq. 31 has the current length, as conservation of angular momentum requires (E7);
+///  - the forward rotation of Eq. 32 is the current axis itself, so no rotation matrix is needed (E7).
 template <bool kForceBased, bool kHardening, class Rule, class D, class F>
 class WallChunk {
   using T = hn::TFromD<F>;
@@ -95,7 +97,7 @@ class WallChunk {
   using Stress = Lane<F>;
 
  public:
-  /// `scratch` has room for kScratchKinds values of each of the blocks' elements.
+  /// `scratch` has room for kScratchKinds values per element of the blocks.
   WallChunk(const Scene& scene, State& state, FibreHistory<T>& memory, double step, const Rule& rule,
             std::span<const WallBlock> blocks, T* scratch)
       : scene_(scene),
@@ -117,15 +119,15 @@ class WallChunk {
         prefetches_(memory.stress.size() * sizeof(T) > last_cache_bytes() / kCacheShareOfFibres),
         uniform_(scene.materials.front()) {}
 
-  /// The first loop: axes, lengths and strains. Returns whether some elements are compressed, with a modulus of their
-  /// own.
+  /// The first loop: axes, lengths and strains. Returns whether any elements are compressed, so that their modulus is
+  /// reduced (E5c).
   HWY_INLINE bool deform() {
     visit_lanes<D>([&](const WallBlock& block, int lane) HWY_ATTR { reverse_motions(block, lane); });
     return is_compressed_;
   }
 
-  /// The others: stresses and forces. `is_compressed` is what the first returned. Adds the plastic work to that of the
-  /// lanes.
+  /// The second and the third loop: stresses and forces. `is_compressed` is the result of the first. Adds the plastic
+  /// work to that of the lanes.
   HWY_INLINE void respond(bool is_compressed, double* HWY_RESTRICT plastic_work) {
     is_compressed_ = is_compressed;
     visit_lanes<F>([&](const WallBlock& block, int lane) HWY_ATTR { return_map_fibres(block, lane); });
@@ -143,8 +145,8 @@ class WallChunk {
     }
   }
 
-  /// Walls of a block, which are the elements of a row: a constant where they fill vectors, so that what lies side by
-  /// side has addresses that are known.
+  /// Walls of a block, that is, elements of a row. A constant where they fill vectors, so that the addresses in a row
+  /// are known at compile time.
   HWY_INLINE static int walls_of(const WallBlock& block) { return Real::kWidth == 1 ? block.walls : kMostWallsInBlock; }
 
   HWY_INLINE static std::ptrdiff_t row_of(const WallBlock& block, int j) {
@@ -159,7 +161,7 @@ class WallChunk {
     return {Points<D>::load(position_ + particle), Real(step_) * Real::load(spin_ + particle)};
   }
 
-  /// From the motion of the ends to the strains of the step.
+  /// From the motion of the ends to the strains of the step (E3 to E5).
   HWY_INLINE void reverse_motions(const WallBlock& block, int lane) {
     const int wall = block.first_wall + lane;
     const CrossSection<D> section(scene_, wall);
@@ -189,7 +191,7 @@ class WallChunk {
     }
   }
 
-  /// Few chunks have compressed elements: the others' values are never filled.
+  /// Few chunks have compressed elements; in the others these values are never filled.
   HWY_INLINE void note_modulus(Real share, T* to) {
     if (!is_compressed_) {
       for (const WallBlock& block : blocks_) {
@@ -216,7 +218,8 @@ class WallChunk {
             static_cast<std::size_t>(stride)};
   }
 
-  /// What a row's stresses sum to. A force-based element keeps its end moments from step to step.
+  /// Where the sums over the stresses of a row are stored. A force-based element keeps its end moments from step to
+  /// step.
   HWY_INLINE RowSums<T> sums_of(std::ptrdiff_t row, int lane, int walls) const {
     RowSums<T> sums = scratch_.sums(row, lane, walls);
     if constexpr (kForceBased) {
@@ -226,7 +229,7 @@ class WallChunk {
     return sums;
   }
 
-  /// Prefetches the lanes' stresses some rows ahead.
+  /// Prefetches the stresses of the lanes kRowsAhead rows ahead.
   HWY_INLINE void prefetch_fibres(std::ptrdiff_t row, int lane, int walls) const {
     constexpr std::size_t kLine = 64 / sizeof(T);
     const T* const from = stress_ + (row + kRowsAhead * walls + lane) * rule_.fibres();
@@ -235,7 +238,7 @@ class WallChunk {
     }
   }
 
-  /// From the strains to the sums of the stresses.
+  /// From the strains to the sums over the stresses (E6).
   HWY_INLINE void return_map_fibres(const WallBlock& block, int lane) const {
     const LaneMaterial<F> of_wall =
         scene_.materials.size() == 1 ? uniform_ : material_of_walls<F>(scene_, block.first_wall + lane);
@@ -269,7 +272,7 @@ class WallChunk {
     }
   }
 
-  /// From the sums of the stresses to the forces on the particles.
+  /// From the sums over the stresses to the forces on the particles (E7).
   HWY_INLINE void put_forces(const WallBlock& block, int lane, double* HWY_RESTRICT plastic_work) const {
     const CrossSection<D> section(scene_, block.first_wall + lane);
     const std::size_t ends = 2 * static_cast<std::size_t>(block.first_wall) + lane;
@@ -302,7 +305,7 @@ class WallChunk {
     const Real on_start = unit * Real::load(sums.moment_start);
     const Real on_end = unit * Real::load(sums.moment_end);
     const Real axial = area * Real::load(sums.axial);
-    const Real shear = -(on_start + on_end) * inverse_length;  // Eq. 31
+    const Real shear = -(on_start + on_end) * inverse_length;  // Eq. 31, E7
     const Points<D> axis = Points<D>::load(axis_ + element);
     return {{fms(axial, axis.x, shear * axis.y), fma(axial, axis.y, shear * axis.x)}, on_start, on_end};
   }

@@ -9,10 +9,10 @@
 
 namespace cellcrush {
 
-/// Values of an element that pass between the loops over its geometry, its fibres and its forces.
+/// Values per element that are passed between the loops over geometry, fibres and forces.
 inline constexpr std::size_t kScratchKinds = 4;
 
-/// Scratch of either precision of the fibres.
+/// Scratch in either precision of the fibres.
 struct WallScratch {
   LaneVector<float> in_single;
   LaneVector<double> in_double;
@@ -27,14 +27,14 @@ struct WallScratch {
   }
 };
 
-/// Room for the walls' part of a step, kept from step to step so that none allocates. No result depends on what it
-/// holds.
+/// Scratch for the walls, kept from step to step so that no step allocates. No result depends on its contents.
 struct WallsWorkspace {
-  std::vector<WallScratch> of_thread;  ///< of a chunk at a time
+  std::vector<WallScratch> of_thread;  ///< one chunk at a time
 
-  // Where all chunks are deformed before any responds.
-  WallScratch all;                       ///< kScratchKinds E
-  std::vector<std::uint8_t> compressed;  ///< C chunks, whether some elements have a modulus of their own
+  // For steps that deform all chunks before any of them responds.
+  WallScratch all;  ///< kScratchKinds E
+  /// C chunks, 1 if any of the elements is compressed, so that its modulus is reduced.
+  std::vector<std::uint8_t> compressed;
 };
 
 }  // namespace cellcrush

@@ -15,8 +15,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {
 
-/// Updates the history of an element's fibres over a step (Eq. 39): it is read from `before` and written to `after`,
-/// which may be the same.
+/// Updates the history of the fibres of an element over a step (Eq. 39, E6). Reads it from `before` and writes it to
+/// `after`, which may be the same.
 template <bool kHardening, class D>
 class FibreWriter {
  public:
@@ -55,7 +55,7 @@ class FibreWriter {
   hn::Vec<hn::RebindToUnsigned<D>> yielded_ = hn::Zero(bits_);
 };
 
-/// A copy of the history of the lanes' fibres, at most kRoom an element, from which a step can be taken more than once.
+/// A copy of the history of the fibres of the lanes, at most kRoom per element. A step can be repeated from it.
 template <int kRoom, bool kHardening, class D>
 class FibreCopy {
  public:

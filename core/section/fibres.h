@@ -6,9 +6,9 @@
 
 namespace cellcrush {
 
-/// History of an element's fibres in the state's arrays, every `stride`-th value of them. MPa; plastic_strain is the
-/// accumulated (effective) one. Without hardening there is neither back stress nor plastic strain, but a bit for each
-/// fibre that has yielded. T: double or float.
+/// History of the fibres of an element: every `stride`-th value of the arrays in the state. MPa; plastic_strain is the
+/// accumulated (effective) one, dimensionless. Without hardening there is neither back stress nor plastic strain, but
+/// one bit for each fibre that has yielded. T: double or float.
 template <class T>
 struct Fibres {
   T* __restrict stress;

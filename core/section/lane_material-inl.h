@@ -14,7 +14,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {
 
-/// Materials of the lanes, MPa.
+/// Constants of E6 for the material of each lane, MPa.
 template <class D>
 struct LaneMaterial {
   using Number = hn::TFromD<D>;
@@ -25,7 +25,7 @@ struct LaneMaterial {
   Lane<D> isotropic;            ///< beta H
   Lane<D> kinematic;            ///< (1 - beta) H
   Lane<D> inverse;              ///< 1 / (E + H)
-  Lane<D> bending_flexibility;  ///< 12 / E: h times the curvature that a moment over b h^2 causes
+  Lane<D> bending_flexibility;  ///< 12 / E: h times the curvature due to a moment over b h^2
 
   HWY_INLINE LaneMaterial(Lane<D> youngs_modulus, Lane<D> yield, Lane<D> hardening_modulus, Lane<D> isotropic_fraction)
       : modulus(youngs_modulus),
@@ -42,7 +42,7 @@ struct LaneMaterial {
                      static_cast<Number>(material.hardening_modulus),
                      static_cast<Number>(material.isotropic_fraction)) {}
 
-  /// The same with a share of the modulus.
+  /// The same with a fraction of the modulus (E5c).
   HWY_INLINE LaneMaterial softened(Lane<D> share) const {
     LaneMaterial softer = *this;
     softer.modulus = modulus * share;

@@ -46,8 +46,8 @@ Quadrature gauss_rule(int n) {
 }
 
 Quadrature lobatto_rule(int n) {
-  // The inner points are the zeros of P'_{n-1}; Newton on (1 - x^2) P'_{n-1} = (n - 1) (P_{n-2} - x P_{n-1}), whose
-  // derivative is -n (n - 1) P_{n-1}.
+  // The inner points are the zeros of P'_{n-1}. Newton's method is applied to (1 - x^2) P'_{n-1} = (n - 1) (P_{n-2} - x
+  // P_{n-1}), whose derivative is -n (n - 1) P_{n-1}.
   Quadrature rule;
   for (int i = 0; i < n; ++i) {
     double x = -std::cos(std::numbers::pi * i / (n - 1));

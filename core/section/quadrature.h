@@ -13,7 +13,7 @@ struct Quadrature {
 /// Gauss-Legendre rule, exact for polynomials of degree 2n - 1. REQUIRES: n >= 1.
 Quadrature gauss_rule(int n);
 
-/// Gauss-Lobatto rule, which has both ends among its points, exact for degree 2n - 3. REQUIRES: n >= 2.
+/// Gauss-Lobatto rule, whose points include both ends; exact for polynomials of degree 2n - 3. REQUIRES: n >= 2.
 Quadrature lobatto_rule(int n);
 
 }  // namespace cellcrush

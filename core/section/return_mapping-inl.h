@@ -16,8 +16,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {
 
-/// Stresses of a section summed over its fibres, before its measures are put on (Eq. 28), and the plastic work of the
-/// step. MPa, of area b h, of b h^2, and of volume.
+/// Weighted sums over the fibres of a section: stress, stress times y / h (Eq. 28, E7), and the plastic work of the
+/// step. In MPa; they are to be multiplied by b h, b h^2 and the volume.
 template <class D>
 struct SectionSums {
   Lane<D> axial;
@@ -27,14 +27,15 @@ struct SectionSums {
   HWY_INLINE SectionSums() : axial(0), moment(0), plastic_work(0) {}
 };
 
-/// Return mapping of the fibres of one section over a step (Eq. 33-39). `first` is the section's first fibre of the
-/// element. The history is read from `before`; `after` gets the new one.
+/// Return mapping of the fibres of one section over a step (Eq. 33-39, E6). `first` is the index in the element of the
+/// first fibre of the section. The history is read from `before` and written to `after`.
 ///
-/// Strain increments are membrane + bending y / h: `bending` is the increment of curvature times h, positive where the
-/// left side stretches.
-/// Deviation from the paper: the yield test and the plastic increment take the absolute value of the reduced stress
-/// (Eq. 35-38 omit it, so a compressed fibre would never yield). Written without a branch: what of the reduced stress
-/// lies beyond the yield surface is what clamping takes off.
+/// Strain increments are membrane + bending y / h (E5). `bending` is the increment of curvature times h, positive where
+/// the left side stretches.
+///
+/// Deviation from the paper: the yield test and the plastic increment use the absolute value of the reduced stress. Eq.
+/// 35-38 omit it, so a fibre in compression would never yield. There is no branch: the plastic increment follows from
+/// the part of the reduced stress that the clamp to the yield surface removes.
 template <bool kHardening, class Rule, class D>
 HWY_INLINE SectionSums<D> return_map_section(const LaneMaterial<D>& material, const Rule& rule, Lane<D> membrane,
                                              Lane<D> bending, const Fibres<hn::TFromD<D>>& before, std::size_t first,
@@ -46,16 +47,16 @@ HWY_INLINE SectionSums<D> return_map_section(const LaneMaterial<D>& material, co
     const std::size_t fibre = first + static_cast<std::size_t>(i);
     const std::size_t at = fibre * before.stride;
     const Lane<D> offset = rule.offset[i];
-    const Lane<D> trial = Lane<D>::load(before.stress + at) + fma(bent, offset, stretched);  // Eq. 34
+    const Lane<D> trial = Lane<D>::load(before.stress + at) + fma(bent, offset, stretched);  // Eq. 34, E6
     Lane<D> stress;
     Lane<D> increment;
     if constexpr (kHardening) {
-      const Lane<D> reduced = trial - Lane<D>::load(before.back_stress + at);  // Eq. 35
+      const Lane<D> reduced = trial - Lane<D>::load(before.back_stress + at);  // Eq. 35, E6
       const Lane<D> yield =
-          fma(material.isotropic, Lane<D>::load(before.plastic_strain + at), material.yield_stress);  // Eq. 33
+          fma(material.isotropic, Lane<D>::load(before.plastic_strain + at), material.yield_stress);  // Eq. 33, E6
       const Lane<D> clamped = max(min(reduced, yield), -yield);
-      increment = material.inverse * (reduced - clamped);  // Eq. 37, 38
-      stress = fnma(material.modulus, increment, trial);   // Eq. 36
+      increment = material.inverse * (reduced - clamped);  // Eq. 37, 38, E6
+      stress = fnma(material.modulus, increment, trial);   // Eq. 36, E6
     } else {
       stress = max(min(trial, material.yield_stress), -material.yield_stress);
       increment = trial - stress;  // times E

@@ -10,15 +10,15 @@ namespace cellcrush {
 inline constexpr int kMostSections = 5;
 inline constexpr int kMostDepthPoints = 10;
 
-/// Whether the counts of a rule's points are known at compile time: the default's 4 x 6, force-based, and the paper's 2
-/// x 6, displacement-based. Elements of other rules are computed one by one.
+/// Whether the numbers of points of a rule are known at compile time: 4 x 6, force-based, the default, and 2 x 6,
+/// displacement-based, the paper. Elements of other rules are computed one at a time.
 inline bool has_known_counts(const SectionRule& rule) {
   const std::size_t sections = rule.force_based ? 4 : 2;
   return rule.section_count() == sections && rule.depth_count() == 6;
 }
 
-/// The factors of a section rule in the precision of the fibres, made once for all elements. Counts that are known at
-/// compile time make straight code; 0 takes the rule's.
+/// The factors of a section rule in the precision of the fibres, computed once for all elements. Numbers of points that
+/// are known at compile time give loops that are unrolled; 0 stands for the number of the rule.
 template <int kSections, int kDepthPoints, class T>
 struct RuleFactors {
   using Number = T;
@@ -58,13 +58,13 @@ struct RuleFactors {
   int depth_count;
   T along[kSectionRoom];  ///< s
   T along_weight[kSectionRoom];
-  T bend_start[kSectionRoom];        ///< of the rotation of the start, in the curvature (Eq. 27)
-  T bend_end[kSectionRoom];          ///< the same of the end
-  T moment_start[kSectionRoom];      ///< of the section's moment, in the moment on the start (Eq. 28)
-  T moment_end[kSectionRoom];        ///< the same on the end
-  T turn_start[kSectionRoom];        ///< of the section's curvature, in the rotation of the start
-  T turn_end[kSectionRoom];          ///< the same of the end
-  T turn_start_start[kSectionRoom];  ///< of the section's flexibility, in the element's (Eq. 27, moment linear)
+  T bend_start[kSectionRoom];        ///< factor of theta_1 in the curvature (Eq. 27, E5a)
+  T bend_end[kSectionRoom];          ///< factor of theta_2
+  T moment_start[kSectionRoom];      ///< factor of the moment of the section in m_1 (Eq. 28, E7)
+  T moment_end[kSectionRoom];        ///< the same in m_2
+  T turn_start[kSectionRoom];        ///< factor of the curvature of the section in theta_1 (E5b)
+  T turn_end[kSectionRoom];          ///< the same in -theta_2
+  T turn_start_start[kSectionRoom];  ///< factor of the flexibility of the section in that of the element (E5b)
   T turn_start_end[kSectionRoom];
   T turn_end_end[kSectionRoom];
   T offset[kDepthRoom];  ///< y / h
