@@ -14,7 +14,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {
 
-/// Elastic energy, each lane's by itself: elements in lanes D, their fibres in lanes F.
+/// Elastic energy, lane by lane: elements in lanes D, their fibres in lanes F.
 template <class D, class F>
 class LaneEnergy {
   using T = hn::TFromD<F>;
@@ -29,7 +29,7 @@ class LaneEnergy {
     }
   }
 
-  /// Adds that of the elements at the same place of a block's walls to the walls' lanes.
+  /// Adds that of a row of elements to the walls of the lanes.
   HWY_INLINE void add_row(const WallBlock& block, std::size_t row, double* HWY_RESTRICT energy) const {
     T squares[kMostWallsInBlock];
     for (int lane = 0; lane < block.walls; lane += static_cast<int>(Lane<F>::kWidth)) {
@@ -42,7 +42,7 @@ class LaneEnergy {
   }
 
  private:
-  /// Squares of the stresses of the lanes' elements, of which `stride` lie side by side for each fibre.
+  /// Weighted squares of the stresses of the elements of the lanes; `stride` elements lie side by side for each fibre.
   HWY_INLINE Lane<F> weighted_squares(const T* HWY_RESTRICT stress, int stride) const {
     Lane<F> squares = 0;
     for (const T weight : weight_) {
@@ -77,7 +77,7 @@ class LaneEnergy {
   const Scene& scene_;
   const State& state_;
   const FibreHistory<T>& memory_;
-  std::vector<T> weight_;  ///< of each fibre, in the section's integral along the element
+  std::vector<T> weight_;  ///< of each fibre, in the integral over the section and along the element
 };
 
 template <class T>

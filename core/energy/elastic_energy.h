@@ -5,7 +5,7 @@
 
 namespace cellcrush {
 
-/// Elastic energy of all elements, N mm, of the stresses as they are (E10). Takes any section rule.
+/// Elastic energy of all elements, N mm, from the current stresses (E10). Accepts any section rule.
 double elastic_energy(const Scene& scene, const State& state);
 
 }  // namespace cellcrush

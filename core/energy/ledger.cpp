@@ -7,7 +7,7 @@
 namespace cellcrush {
 namespace {
 
-/// Kinetic energy at the state's time, and the half of the newest forces' work that belongs to the interval up to it.
+/// Kinetic energy at the time of the state, and the work of the newest forces over the half step up to it.
 struct EnergySnapshot {
   double kinetic = 0.0;
   Ledger half;

@@ -5,17 +5,19 @@
 
 namespace cellcrush {
 
-// The ledger of a run: work of the plates and loads = kinetic + elastic + plastic + contact + friction + damping +
-// residual. Every term is integrated by itself; the residual is what the integration lost or made.
+// The ledger of a run (E10): work of plates and loads = kinetic + elastic + plastic + contact + friction + damping +
+// residual. Every term is computed on its own; the residual is the energy lost or created by the integration.
 //
-// With the works of motion/motion_works.h, kinetic energy is m v(n-1/2) . v(n+1/2) / 2 and a linear system closes to
-// round-off. Plastic work is the returned stress times the plastic strain increment and elastic energy a function of
-// the stresses alone, so that an unstable integration, which plasticity can hide as heat, opens the ledger.
+// With the works of motion/motion_works.h, the kinetic energy is m v(n-1/2) . v(n+1/2) / 2, and a linear system closes
+// to round-off. The plastic work is the returned stress times the plastic strain increment, and the elastic energy is a
+// function of the stresses alone. An unstable integration therefore shows in the residual, even where plasticity would
+// hide it as dissipation.
 
-/// Starts the ledger at time 0: sets the initial kinetic energy and subtracts the half step before it.
+/// Opens the ledger at time 0: sets the initial kinetic energy and subtracts the work of the half step before.
 void open_ledger(const Scene& scene, State& state);
 
-/// The ledger at the state's time, N mm. Positive dissipation; the residual is external + initial - all others.
+/// The ledger at the time of the state, N mm. Dissipation is positive. The residual is external + initial minus all
+/// others.
 struct Energies {
   double kinetic = 0.0;
   double elastic = 0.0;

@@ -15,7 +15,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {
 
-/// Of the free particles, chunk by chunk as they are moved.
+/// Works on the free particles, in the chunks in which they are moved.
 MotionWorks works_of_particles(const Scene& scene, const State& state) {
   const StepFactors step = step_factors_of(scene);
   const ParticleArrays<const State> arrays(scene, state);

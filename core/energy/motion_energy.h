@@ -6,8 +6,8 @@
 
 namespace cellcrush {
 
-/// The works of the newest forces on all particles over the half step up to the state's time, and twice the kinetic
-/// energy then.
+/// The works of the newest forces on all particles over the half step up to the time of the state, and twice the
+/// kinetic energy at that time (E10).
 MotionWorks half_step_works(const Scene& scene, const State& state);
 
 }  // namespace cellcrush

@@ -34,7 +34,8 @@ BucketGrid::BucketGrid(std::span<const Vector2> points, double size) : origin_(p
   }
 }
 
-// Queries may lie far outside of the grid, where the floor would not fit an int: they end at a bucket beyond its edge.
+// Queries may lie far outside the grid, where the floor would overflow an int. They are clamped to one bucket beyond
+// its edge.
 int BucketGrid::column(double x) const {
   return static_cast<int>(std::clamp(std::floor((x - origin_.x()) / size_), -1.0, 2e9));
 }

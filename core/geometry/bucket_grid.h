@@ -8,20 +8,20 @@
 
 namespace cellcrush {
 
-/// Points sorted into square buckets, after the NBS search of Munjiza and Andrews (1998): time and memory grow as the
-/// number of points, whatever area they spread over.
+/// Points sorted into square buckets, after the NBS search of Munjiza and Andrews (1998). Time and memory grow in
+/// proportion to the number of points, whatever area they cover.
 ///
-/// Deviation from Eq. 40: the bucket is the floor of the coordinate; truncation toward zero would merge two at the
-/// origin.
+/// Deviation from Eq. 40: the bucket number is the floor of the coordinate. Truncation toward zero would merge two
+/// buckets at the origin.
 class BucketGrid {
  public:
   static constexpr double kBucketsPerPoint = 4.0;
 
-  /// `size` is the wanted side of a bucket in mm; it is made larger where there would be more than kBucketsPerPoint
-  /// buckets a point. REQUIRES: at least one point, finite coordinates, size > 0.
+  /// `size` is the wanted side of a bucket in mm. It is enlarged where there would be more than kBucketsPerPoint
+  /// buckets per point. REQUIRES: at least one point, finite coordinates, size > 0.
   BucketGrid(std::span<const Vector2> points, double size);
 
-  /// Calls visit(point index) for every point in the buckets that the box from `low` to `high` touches.
+  /// Calls visit(point index) for every point in the buckets that the box from `low` to `high` overlaps.
   template <class Visit>
   void visit_box(const Vector2& low, const Vector2& high, Visit&& visit) const {
     const int x_first = std::max(column(low.x()), 0);
@@ -46,8 +46,8 @@ class BucketGrid {
   double size_;
   int columns_;
   int rows_;
-  std::vector<int> offset_;  // into sorted_, one a bucket and the end
-  std::vector<int> sorted_;  // points by bucket
+  std::vector<int> offset_;  // into sorted_, one per bucket, then the end
+  std::vector<int> sorted_;  // points, bucket by bucket
 };
 
 }  // namespace cellcrush

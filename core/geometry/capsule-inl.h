@@ -21,8 +21,8 @@ struct Offset {
   Number y;
 };
 
-/// Projects points at (x, y) from a segment's start, of one number each or of one a lane. Nothing is fused, so that all
-/// round alike.
+/// Projects points at (x, y) from the start of a segment, one point or one per lane. No operation is fused, so that all
+/// widths round alike.
 template <class Number>
 HWY_INLINE Offset<Number> project_clamped(Number x, Number y, Number axis_x, Number axis_y, Number length) {
   using std::max;

@@ -4,13 +4,13 @@
 
 namespace cellcrush {
 
-/// Where a point projects onto a segment, the ends included: a segment with its thickness is a capsule.
+/// The projection of a point onto a segment, ends included: a segment with its thickness is a capsule (E8).
 ///
-/// Deviation from Eq. 41a, 42: the projection is clamped to the segment, so that a ball that slides off its end at a
-/// convex joint meets the round end instead of a gap, and the distance is the length of the offset.
+/// Deviation from Eq. 41a, 42: the projection is clamped to the segment. A ball that slides off its end at a convex
+/// joint meets the round end instead of a gap. The distance is the length of the offset.
 struct Projection {
   double along;    ///< mm from the start, 0 to length
-  Vector2 offset;  ///< from the foot to the point
+  Vector2 offset;  ///< from the foot of the perpendicular to the point
 };
 
 /// `axis`: unit vector along the segment; `length` in mm (geometry/capsule-inl.h).

@@ -7,7 +7,7 @@ HWY_BEFORE_NAMESPACE();
 namespace cellcrush {
 namespace {
 
-/// Fibres without stress that have never yielded.
+/// Fibres that are free of stress and have never yielded.
 template <class T>
 void place_fibres(const Scene& scene, FibreHistory<T>& fibres) {
   const std::size_t elements = scene.element_count();

@@ -5,10 +5,10 @@
 
 namespace cellcrush {
 
-/// A state with particles in place, at the scene's initial velocities, without forces.
+/// A state with undeformed positions and the initial velocities of the scene, without forces.
 State place_particles(const Scene& scene);
 
-/// Moves the velocities from time 0 to half a step before it, with the forces at time 0.
+/// Moves the velocities from time 0 to half a step before, with the forces at time 0 (E2b).
 void stagger_velocities(const Scene& scene, State& state);
 
 }  // namespace cellcrush

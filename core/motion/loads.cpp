@@ -13,7 +13,8 @@ void add_to(State& state, int node, Component component, double value) {
   }
 }
 
-/// Half of the load to either node, and the end moments of a clamped beam under its part across the element.
+/// Half of the load on either node, and the end moments of a clamped beam due to its component perpendicular to the
+/// element (E14).
 void add_element_load(const Scene& scene, State& state, const ElementLoad& load) {
   const Element& element = scene.elements[load.element];
   const double total = load.value.value_at(state.time) * load.length;

@@ -5,8 +5,8 @@
 
 namespace cellcrush {
 
-/// Overwrites load_force and load_moment with gravity, the nodal loads and the elements' loads at the
-/// state's time (P, Q, p, q of Eq. 4).
+/// Overwrites load_force and load_moment by gravity, nodal loads and element loads at the time of the state (P, Q, p, q
+/// of Eq. 4; E14).
 void evaluate_loads(const Scene& scene, State& state);
 
 }  // namespace cellcrush

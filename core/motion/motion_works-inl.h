@@ -14,7 +14,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {
 
-/// Works of the forces on the lanes' particles; see MotionWorks.
+/// Works of the forces on the particles of the lanes; see MotionWorks.
 template <class D>
 struct LaneWorks {
   Lane<D> contact;
@@ -25,7 +25,7 @@ struct LaneWorks {
   Lane<D> twice_kinetic;
 };
 
-/// The same of all lanes over which they are summed.
+/// The same for all lanes over which works are summed.
 struct WorkSums {
   double contact[kSumLanes] = {};
   double contact_damping[kSumLanes] = {};
@@ -68,7 +68,7 @@ HWY_INLINE void subtract_work(const Points<D>& force, const Points<D>& displacem
   work -= dot(force, displacement);
 }
 
-/// Adds the works of the forces over a mean displacement and turn, mm and rad.
+/// Adds the works of the forces over a mean displacement, mm, and a mean rotation, rad (E10).
 template <bool kContact, class Kinds, class D, class S>
 HWY_INLINE void add_works(const ParticleArrays<S>& arrays, const StepFactors& step, std::size_t i,
                           const ParticleForces<D>& forces, const ParticleMotion<D>& motion,
@@ -93,7 +93,7 @@ HWY_INLINE void add_works(const ParticleArrays<S>& arrays, const StepFactors& st
   }
 }
 
-/// The works over the step between the two velocities, which the particles go.
+/// Adds the works over the step, of which the mean velocity is half of the sum of the two velocities.
 template <bool kContact, class Kinds, class D, class S>
 HWY_INLINE void add_works_of_step(const ParticleArrays<S>& arrays, const StepFactors& step, std::size_t i,
                                   const ParticleForces<D>& forces, const ParticleMotion<D>& motion,
@@ -103,7 +103,7 @@ HWY_INLINE void add_works_of_step(const ParticleArrays<S>& arrays, const StepFac
                              half * (motion.spin + motion.next_spin), works);
 }
 
-/// The works over the half step up to the forces' time, and twice the kinetic energy then.
+/// Adds the works over the half step up to the time of the forces, and twice the kinetic energy at that time.
 template <class Kinds, class D, class S>
 HWY_INLINE void add_works_of_half_step(const ParticleArrays<S>& arrays, const StepFactors& step, std::size_t i,
                                        const ParticleForces<D>& forces, const ParticleMotion<D>& motion,
@@ -115,7 +115,7 @@ HWY_INLINE void add_works_of_half_step(const ParticleArrays<S>& arrays, const St
 }
 
 /// Calls visit(tag of the lanes, first particle, their works) for all particles from `first` to `end` and sums the
-/// works. They stay in registers: in memory each would wait for the one before to have been written.
+/// works. These stay in registers; in memory, each would have to wait until the one before is written.
 template <std::size_t kWidth, class Visit>
 HWY_INLINE MotionWorks sum_works(std::size_t first, std::size_t end, Visit&& visit) {
   using Wide = WideTag<double, kWidth>;

@@ -4,16 +4,16 @@
 
 namespace cellcrush {
 
-/// Works of the forces on particles, summed over particles, as the Ledger has them, N mm. Forces act at whole steps,
-/// velocities stand half a step off: a force's work is F(t_n) . dt (v(n-1/2) + v(n+1/2)) / 2, the trapezoidal rule over
-/// the displacements.
+/// Works of the forces on particles, summed over the particles, in the terms of the Ledger, N mm (E10). Forces act at
+/// whole steps, velocities at half steps. The work of a force is F(n) . dt [v(n-1/2) + v(n+1/2)] / 2, the trapezoidal
+/// rule over the displacements.
 struct MotionWorks {
   double contact = 0.0;
   double contact_damping = 0.0;
   double friction = 0.0;
   double mass_damping = 0.0;
-  double external = 0.0;       ///< of loads and of supports that move
-  double twice_kinetic = 0.0;  ///< m v(n-1/2) . v(n+1/2), where it is asked for
+  double external = 0.0;       ///< of loads and of moving supports
+  double twice_kinetic = 0.0;  ///< m v(n-1/2) . v(n+1/2), where it is requested
 
   void add(const MotionWorks& other) {
     contact += other.contact;

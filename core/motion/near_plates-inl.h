@@ -16,10 +16,10 @@
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {
 
-/// Notes the particles that may reach a plate where they have moved to, and those that rub against one.
+/// Records the particles that may touch a plate at their new positions, and those with friction at a plate.
 class NearPlatesNotes {
  public:
-  /// REQUIRES: room for all that are noted.
+  /// REQUIRES: `near` has room for all recorded particles.
   NearPlatesNotes(const Scene& scene, const State& state, const PlateReach& reach, int* near)
       : below_(reach.below),
         above_(reach.above),

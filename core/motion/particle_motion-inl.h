@@ -20,7 +20,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {
 
-/// What acts on a scene's particles besides walls, plates and contacts. What does not act costs nothing.
+/// Kinds of forces on the particles of a scene besides those of walls, plates and contacts. A kind that is absent costs
+/// nothing.
 template <bool friction, bool mass_damping, bool frame>
 struct ForceKinds {
   static constexpr bool kFriction = friction;
@@ -28,7 +29,7 @@ struct ForceKinds {
   static constexpr bool kFrame = frame;  ///< loads or supports; one particle at a time
 };
 
-/// Calls use(the ForceKinds of a scene).
+/// Calls use(kinds) with the ForceKinds of a scene.
 template <class Use>
 HWY_INLINE auto with_force_kinds(const Scene& scene, const State& state, const Use& use) {
   const bool rubs = !state.friction_force.empty();
@@ -41,8 +42,8 @@ HWY_INLINE auto with_force_kinds(const Scene& scene, const State& state, const U
   return rubs ? use(ForceKinds<true, false, false>()) : use(ForceKinds<false, false, false>());
 }
 
-/// The arrays of particles, S being State, or const State where nothing moves. Raw pointers: a store may alias a
-/// vector's own pointer.
+/// The arrays of particles. S is State, or const State where nothing moves. Raw pointers: a store may alias the pointer
+/// of a vector itself.
 template <class S>
 struct ParticleArrays {
   template <class T>
@@ -86,7 +87,7 @@ struct ParticleArrays {
         spin(of_state.spin.data()) {}
 };
 
-/// Forces on the lanes' particles, N and N mm; mass damping aside. Those that do not act are left out.
+/// Forces on the particles of the lanes, N and N mm, without mass damping. Kinds that are absent are left out.
 template <class D>
 struct ParticleForces {
   Points<D> total;
@@ -111,7 +112,7 @@ HWY_INLINE void load_contact_forces(const ContactForce* from, ParticleForces<D>&
   }
 }
 
-/// Sum of the forces on particles from `i` on (Eq. 4). kContact: some of them may bear contact forces.
+/// Sum of the forces on particles from `i` on (Eq. 4; F of E2). kContact: some of them may have contact forces.
 template <bool kContact, class Kinds, class D, class S>
 HWY_INLINE ParticleForces<D> forces_on(const ParticleArrays<S>& arrays, std::size_t i) {
   ParticleForces<D> forces;
@@ -136,7 +137,7 @@ HWY_INLINE ParticleForces<D> forces_on(const ParticleArrays<S>& arrays, std::siz
   return forces;
 }
 
-/// Velocities half a step before and half a step after the forces (Eq. 4, central differences).
+/// Velocities half a step before and half a step after the forces (Eq. 4, central differences, E2).
 template <class D>
 struct ParticleMotion {
   Points<D> velocity;  ///< mm/s
@@ -149,7 +150,7 @@ struct ParticleMotion {
   HWY_INLINE ParticleMotion() : reaction{0, 0}, reaction_moment(0) {}
 };
 
-/// v(n+1/2) of v(n-1/2) under forces F(n), dt_g being `gain` over the mass.
+/// v(n+1/2) from v(n-1/2) under forces F(n) (E2). dt_g is `gain` over the mass.
 template <class D>
 HWY_INLINE Points<D> next_velocity(const StepFactors& step, const Points<D>& velocity, Lane<D> gain_per_mass,
                                    const Points<D>& force) {
@@ -160,7 +161,7 @@ HWY_INLINE Lane<D> next_spin(const StepFactors& step, Lane<D> spin, Lane<D> gain
   return fma(gain_per_inertia, moment, Lane<D>(step.keep) * spin);
 }
 
-/// Supports put held velocities in place of the free ones, with the reactions that it takes.
+/// Replaces the free velocities of held degrees of freedom by the imposed ones, and computes the reactions (E15).
 template <class D, class S>
 HWY_INLINE void apply_supports(const ParticleArrays<S>& arrays, const StepFactors& step, std::size_t i,
                                ParticleMotion<D>& motion) {
@@ -179,7 +180,7 @@ HWY_INLINE void apply_supports(const ParticleArrays<S>& arrays, const StepFactor
   hold(support.rotation, arrays.inertia[i] / step.gain, motion.next_spin, motion.reaction_moment);
 }
 
-/// Motion of particles from `i` on that belong to no rigid body.
+/// Motion of the particles from `i` on, which belong to no rigid body.
 template <class Kinds, class D, class S>
 HWY_INLINE ParticleMotion<D> motion_of(const ParticleArrays<S>& arrays, const StepFactors& step,
                                        const ParticleForces<D>& forces, std::size_t i) {

@@ -5,18 +5,19 @@
 
 namespace cellcrush {
 
-/// What the impact plate does over a step, whatever the lattice does.
+/// Motion of the impact plate over a step; it does not depend on the lattice.
 struct PlateStep {
-  double displacement = 0.0;  ///< mm, over the time of the forces' work: half a step before and half a step after them
-  double travel = 0.0;        ///< mm, at the step's end
+  /// In mm, over the interval of the work of the forces: half a step before and half a step after them.
+  double displacement = 0.0;
+  double travel = 0.0;  ///< mm, at the end of the step
 };
 PlateStep plate_step_of(const Scene& scene, double time, double travel);
 
-/// Adds the work of the impact plate's forces over a mean displacement, mm, to the ledger. On the particles' side its
-/// forces are among the contacts'.
+/// Adds the work of the forces of the impact plate over a mean displacement, mm, to the ledger (E10). The forces that
+/// it exerts on particles are among the contact forces.
 void accumulate_plate_work(const State& state, double displacement, Ledger& ledger);
 
-/// Accumulates the work and the impulses of the plates' forces over a step, and moves the impact plate.
+/// Accumulates the work and the impulses of the forces of the plates over a step, and moves the impact plate.
 void accumulate_plates(const Scene& scene, const PlateStep& plates, State& state);
 
 }  // namespace cellcrush

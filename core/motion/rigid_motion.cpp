@@ -11,7 +11,7 @@ namespace {
 
 using namespace HWY_NAMESPACE;
 
-// Bodies are few: the particles' laws at width 1.
+// Bodies are few: the equations of particles are used at width 1.
 using One = hn::CappedTag<double, 1>;
 
 Points<One> to_lane(const Vector2& vector) { return {vector.x(), vector.y()}; }
@@ -41,7 +41,7 @@ Motion motion_of_body(const ParticleArrays<const State>& arrays, const StepFacto
   return motion;
 }
 
-/// Calls visit(body, its motion, kinds of forces) for all bodies.
+/// Calls visit(body, its motion, kinds of forces) for every body.
 template <class Visit>
 void visit_bodies(const Scene& scene, const State& state, const Visit& visit) {
   const ParticleArrays<const State> arrays(scene, state);
@@ -53,7 +53,7 @@ void visit_bodies(const Scene& scene, const State& state, const Visit& visit) {
   });
 }
 
-/// Motion of a particle that is part of a body.
+/// Motion of a particle of a body.
 Motion motion_in_body(const State& state, std::size_t body, std::size_t i, const Motion& of_body) {
   const Vector2 arm = state.position[i] - state.rigid_centre[body];
   Motion motion;
@@ -64,8 +64,8 @@ Motion motion_in_body(const State& state, std::size_t body, std::size_t i, const
   return motion;
 }
 
-/// Velocity of a particle that comes from its position to `place`: the chord of the step, so that works and contacts
-/// follow how far the particle came.
+/// Velocity of a particle that moves from its position to `place`: the chord of the step, so that works and contacts
+/// agree with its displacement.
 Motion motion_to(const State& state, double step, std::size_t i, const Vector2& place, const Motion& of_body) {
   Motion motion;
   motion.velocity = to_lane(state.velocity[i]);
@@ -154,7 +154,7 @@ MotionWorks half_step_works_of_rigid_bodies(const Scene& scene, const State& sta
     twice_kinetic += scene.rigid.mass[body] * to_number(dot(motion.velocity, motion.next)) +
                      scene.rigid.inertia[body] * to_number(motion.spin * motion.next_spin);
   });
-  sum.twice_kinetic = twice_kinetic;  // not the particles', whose masses are only what others touch
+  sum.twice_kinetic = twice_kinetic;  // not that of the particles, whose masses matter for contacts only
   return sum;
 }
 

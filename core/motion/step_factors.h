@@ -4,16 +4,16 @@
 
 namespace cellcrush {
 
-/// What central differences take from the step and the mass damping alpha (E2).
+/// Factors of the central differences, from the step and the mass damping alpha (E2).
 struct StepFactors {
   double step;          ///< dt, s
-  double keep;          ///< part of a velocity that stays
-  double gain;          ///< s, time in which a force adds to it
+  double keep;          ///< (1 - a) / (1 + a), the fraction of a velocity that remains
+  double gain;          ///< dt / (1 + a), s, the time during which a force accelerates
   double half_damping;  ///< alpha / 2, 1/s
 };
 
-/// Mass damping -alpha m v acts on the mean of the velocities half a step before and after, so that it is exact to
-/// second order and stable at any alpha.
+/// Mass damping -alpha m v acts on the mean of the velocities half a step before and half a step after. It is then
+/// second-order accurate, and stable for any alpha.
 inline StepFactors step_factors_of(const Scene& scene) {
   const double step = scene.schedule.time_step;
   const double damping = 0.5 * scene.mass_damping * step;

@@ -5,7 +5,8 @@
 
 namespace cellcrush {
 
-/// Velocity, mm/s or rad/s, that makes a held motion follow its function over the coming step; 0 where it stands.
+/// Imposed velocity v_held of a held degree of freedom over the coming step, mm/s or rad/s (E15); 0 if it is held
+/// still.
 double held_velocity(const Scene& scene, const State& state, const Hold& hold);
 
 }  // namespace cellcrush
