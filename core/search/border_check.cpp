@@ -11,7 +11,7 @@
 namespace cellcrush {
 namespace {
 
-/// Whether what two particles of the border do to each other has to do with two neighbouring bands only.
+/// Whether a contact between two particles of the border involves two adjacent bands only.
 bool are_neighbours(const BorderParticle& a, const BorderParticle& b) {
   return std::max(a.last_band, b.last_band) - std::min(a.band, b.band) <= 1;
 }
@@ -25,13 +25,13 @@ double highest_speed(const std::vector<BorderParticle>& border, const State& sta
   return std::sqrt(squared);
 }
 
-/// Whether along a direction bands follow each other, so that those which are no neighbours are more than a margin
-/// apart: nearly always.
+/// Whether bands follow each other along a direction, with more than a margin between bands that are not adjacent. This
+/// holds nearly always.
 bool follow_each_other(const Scene& scene, const State& state, const Vector2& direction, double margin) {
   constexpr double kFar = std::numeric_limits<double>::infinity();
   const std::size_t bands = scene.bands.size();
-  std::vector<double> highest(bands, -kFar);  // of the particles up to a band
-  std::vector<double> lowest(bands, kFar);    // of the particles from a band on
+  std::vector<double> highest(bands, -kFar);  // of the particles of bands up to this one
+  std::vector<double> lowest(bands, kFar);    // of the particles of bands from this one on
   for (const BorderParticle& at : scene.faces.border) {
     const double place = direction.dot(state.position[at.particle]);
     highest[at.band] = std::max(highest[at.band], place);
@@ -49,7 +49,7 @@ bool follow_each_other(const Scene& scene, const State& state, const Vector2& di
   return true;
 }
 
-/// The same of any two particles.
+/// Whether any two particles of bands that are not adjacent are more than a margin apart.
 bool are_apart(const Scene& scene, const State& state, double margin) {
   std::vector<BorderParticle> border;
   std::vector<Vector2> place;

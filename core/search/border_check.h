@@ -7,10 +7,10 @@
 
 namespace cellcrush {
 
-/// Of the outer face, a band's balls are held against the segments of its own part of the border and its neighbours'
-/// (FacesOfBand::is_outer_whole). Whether the parts of bands that are no neighbours are so far apart that none can
-/// touch within some steps, unless speeds at the border more than double. REQUIRES: a lattice that is cut into bands.
-/// What is not finite is left out: the run is stopped by its check of the state.
+/// At the outer face, balls of a band are tested against the segments of its own part of the border and of its
+/// neighbours only (FacesOfBand::is_outer_whole). Returns whether the parts of bands that are not adjacent are far
+/// enough apart: none can touch within `steps` steps unless speeds at the border more than double. REQUIRES: a lattice
+/// that is cut into bands. Non-finite positions are ignored; the check of the state stops such a run.
 bool borders_are_apart(const Scene& scene, const State& state, std::int64_t steps);
 
 }  // namespace cellcrush

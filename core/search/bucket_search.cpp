@@ -50,7 +50,7 @@ void list_by_buckets(const Scene& scene, const State& state, ContactLists& lists
       const double range = scene.radius[ball] + 0.5 * element.thickness + skin;
       const Vector2 from_start = state.position[ball] - start;
       const Vector2& axis = state.axis[e];
-      // In line: the call of project() takes a fifth of the search's time.
+      // Inlined by hand: a call of project() would take a fifth of the time of the search.
       const auto off =
           HWY_NAMESPACE::project_clamped(from_start.x(), from_start.y(), axis.x(), axis.y(), state.length[e]);
       const bool is_near = off.x * off.x + off.y * off.y < range * range;

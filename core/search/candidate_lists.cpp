@@ -6,7 +6,7 @@
 namespace cellcrush {
 namespace {
 
-/// Travel of the next check of what is not tested.
+/// Travel of the next check of a candidate that is not tested.
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 int batches_for(int count) { return (count + kCandidateBatch - 1) / kCandidateBatch; }
@@ -18,7 +18,7 @@ void put(ContactLists& lists, int place, const Candidate& candidate) {
   lists.candidate_next_check_travel[place] = candidate.reach > 0.0 ? 0.0 : kNever;
 }
 
-/// Lists are the most that grows in a crush: room for an eighth more, not for twice as many.
+/// These lists grow most in a crush: the room is one eighth more than needed, not twice as much.
 void resize(ContactLists& lists, std::size_t size) {
   if (size > lists.candidate_ball.capacity()) {
     const std::size_t room = size + size / 8;
@@ -33,7 +33,7 @@ void resize(ContactLists& lists, std::size_t size) {
   lists.candidate_next_check_travel.resize(size, kNever);
 }
 
-/// Gives a list another place, at the end. What it held is lost.
+/// Moves a list to new entries at the end. Its contents are lost.
 void move_to_end(ContactLists& lists, FaceList& list, int count) {
   for (int i = 0; i < list.count; ++i) {
     put(lists, list.first + i, Candidate());
@@ -83,7 +83,7 @@ void replace_list(ContactLists& lists, int face, const std::vector<Candidate>& c
 
 void wake_candidate(ContactLists& lists, int place, int ball, int segment) {
   const auto k = static_cast<std::size_t>(place);
-  // In a rebuilt list in which it was not found to overlap, it is tested anyway.
+  // If the list has been rebuilt, the candidate is tested in any case unless it was found to overlap.
   if (k < lists.candidate_ball.size() && lists.candidate_ball[k] == ball && lists.candidate_segment[k] == segment) {
     lists.candidate_next_check_travel[k] = 0.0;
   }

@@ -27,7 +27,7 @@ void begin(const FacesOfBand& faces, ContactLists& lists) {
   lists.group_next_check_travel.assign(faces.group_count(), 0.0);
 }
 
-/// Diagonal of the box round the velocities of a group, mm/s.
+/// |v_high - v_low| of E8c, mm/s: the diagonal of the bounding box of the velocities of a group.
 double spread_of_velocities(const FacesOfBand& faces, const State& state, int group) {
   const int first = faces.member_offset[group];
   const std::span<const int> members(&faces.member[first], faces.member_offset[group + 1] - first);
@@ -35,7 +35,7 @@ double spread_of_velocities(const FacesOfBand& faces, const State& state, int gr
   return (box.high - box.low).norm();
 }
 
-/// Diagonal of the box round the displacements of a face's particles since its list was made, mm.
+/// Diagonal of the bounding box of the displacements of a face's particles since its list was made, mm.
 double spread_of_displacements(const FacesOfBand& faces, const State& state, const ContactLists& lists, int face) {
   const int first = faces.offset[face];
   Vector2 low = state.position[faces.particle[first]] - lists.face_searched_position[first];
@@ -53,13 +53,13 @@ bool is_finite(const FacesOfBand& faces, const State& state, int face) {
                      [&](int particle) { return state.position[particle].allFinite(); });
 }
 
-/// Faces of many corners are as large as the lattice, move as fast and are searched by a grid: rarely, with a wide
-/// skin.
+/// Faces of many corners are as large as the lattice, move as fast as it and are searched over a grid. A wide skin
+/// makes this rare.
 double skin_of(const Scene& scene, const FacesOfBand& faces, int face) {
   return has_many_corners(faces, face) ? kWideSkin * scene.contact.face_skin : scene.contact.face_skin;
 }
 
-/// Returns false where walls are found to have crossed; the list stays as it is then.
+/// Returns false if walls are found to have crossed; the list then stays as it is.
 bool make_list(const Scene& scene, const State& state, const LatticeBand& band, const FacesOfBand& faces, int face,
                ContactLists& lists) {
   const double skin = skin_of(scene, faces, face);
@@ -68,7 +68,8 @@ bool make_list(const Scene& scene, const State& state, const LatticeBand& band, 
     return false;
   }
   replace_list(lists, face, pairs.candidates);
-  // Of a face with candidates no more than the skin: an end that has gone through a segment is found while it is near.
+  // With candidates, the clearance is at most the skin: an end that has gone through a segment is then found while it
+  // is near.
   lists.face_clearance[face] = pairs.candidates.empty() ? pairs.least_gap : skin;
   for (int k = faces.offset[face]; k < faces.offset[face + 1]; ++k) {
     lists.face_searched_position[k] = state.position[faces.particle[k]];
@@ -77,8 +78,8 @@ bool make_list(const Scene& scene, const State& state, const LatticeBand& band, 
   return true;
 }
 
-/// Sets the next check of a face, with a rebuilt list where needed. A face with a lost particle stays as it is.
-/// Returns false where walls are found to have crossed.
+/// Sets the next check of a face and rebuilds its list if needed. A face with a non-finite position stays as it is.
+/// Returns false if walls are found to have crossed.
 bool recheck_face(const Scene& scene, const State& state, const LatticeBand& band, const FacesOfBand& faces, int group,
                   int face, ContactLists& lists) {
   ++lists.face_recheck_count;
@@ -110,7 +111,7 @@ bool recheck_group(const Scene& scene, const State& state, const LatticeBand& ba
       return false;
     }
   }
-  // In a loop of its own, whose only number stays in a register.
+  // A loop of its own, with the minimum in a register.
   double least = std::numeric_limits<double>::max();
   for (int face = first; face < end; ++face) {
     least = std::min(least, lists.face_next_check_travel[face]);

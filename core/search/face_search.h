@@ -6,19 +6,21 @@
 
 namespace cellcrush {
 
-/// The search by faces: a ball is held against the segments of its faces only (scene/contact_faces.h says why that is
-/// enough), and a face is checked only when a gap in it can have closed.
+/// The search by faces: a ball is tested against the segments of its own faces only (scene/contact_faces.h explains why
+/// this is enough), and a face is rechecked only when one of its gaps can have closed.
 ///
-/// The bound is rigorous. A gap between a ball and a segment closes by no more than two particles of the face approach
-/// each other. In a step of dt no two particles of a group of faces do so by more than `dt |v_high - v_low|`, the
-/// diagonal of the box round the group's velocities. The sum of that is the group's travel. The clearance of a face is
-/// the least gap, beyond touch, of the pairs that are not in its list. While the group has not travelled that far, the
-/// face is left alone. Then it is rechecked: its gaps have closed by at most the diagonal of the box round its
-/// particles' displacements since its list was made. The next check is set by the rest of the clearance; if too little
-/// is left, the list is rebuilt. A face whose gaps are all wider than the skin has no candidates.
+/// The bound is rigorous (E8c). A gap between a ball and a segment closes by no more than two particles of the face
+/// approach each other. In a step of dt no two particles of a group of faces approach by more than `dt |v_high -
+/// v_low|`, with the diagonal of the bounding box of the velocities of the group. The sum of this over the steps is the
+/// travel of the group.
 ///
-/// Searches a band's faces. Returns false when a recheck finds that walls have crossed. Then the faces are no longer
-/// those of the drawing, and faces not yet rechecked stay as they are.
+/// The clearance of a face is the least gap, beyond touch, of its pairs that are not in its list. The face is rechecked
+/// when its group has travelled that far. Its gaps have then closed by at most the diagonal of the bounding box of the
+/// displacements of its particles since its list was made. The remaining clearance sets the next check; if it is too
+/// small, the list is rebuilt. A face whose gaps are all wider than the skin has no candidates.
+///
+/// Searches the faces of a band. Returns false if a recheck finds that walls have crossed. The faces are then no longer
+/// those of the undeformed lattice, and faces that have not been rechecked stay as they are.
 bool search_faces(const Scene& scene, const State& state, const LatticeBand& band, const FacesOfBand& faces,
                   ContactLists& lists, Workers& workers);
 

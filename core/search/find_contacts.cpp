@@ -7,7 +7,7 @@
 namespace cellcrush {
 namespace {
 
-/// Returns false where walls are found to have crossed.
+/// Returns false if walls are found to have crossed.
 bool search_bands(const Scene& scene, State& state, Workers& workers) {
   bool is_planar = true;
   for (std::size_t band = 0; band < scene.bands.size() && is_planar; ++band) {

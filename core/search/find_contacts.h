@@ -6,19 +6,20 @@
 
 namespace cellcrush {
 
-/// Keeps the list of balls and segments that may touch: no pair that is not listed touches now. A ball stands at every
-/// particle; it is never held against the elements that end at it.
+/// Maintains the list of balls and segments that may touch: no unlisted pair touches now. A ball is at every particle;
+/// it is never tested against the elements that end at its particle.
 ///
-/// By faces (search/face_search.h) where the scene's faces allow it (scene/contact_faces.h), else by buckets
-/// (search/bucket_search.h); from the step on in which walls are found to have crossed, by buckets.
-/// REQUIRES: particles have moved by the time step times their velocities since the call before.
-/// After a non-finite position the list is left as it is; the run is stopped by its check of the state.
+/// The search is by faces (E8c, search/face_search.h) where the faces of the scene allow it (scene/contact_faces.h),
+/// otherwise by buckets (search/bucket_search.h). From the step in which walls are found to have crossed, it is by
+/// buckets.
+/// REQUIRES: since the last call, particles have moved by the time step times their velocities.
+/// After a non-finite position the list stays as it is; the check of the state stops such a run.
 void find_contacts(const Scene& scene, State& state, Workers& workers);
 
-/// Whether it goes by faces still.
+/// Whether the search is still by faces.
 bool searches_faces(const Scene& scene, const State& state);
 
-/// Whether it did and no longer does.
+/// Whether the search was by faces and no longer is.
 bool has_left_faces(const Scene& scene, const State& state);
 
 }  // namespace cellcrush

@@ -11,7 +11,7 @@
 namespace cellcrush {
 namespace {
 
-/// A pair of one of the lists.
+/// A pair in one of the lists.
 struct Pair {
   const TouchMemory* touching;
   std::size_t place;
@@ -22,7 +22,7 @@ struct Pair {
   }
 };
 
-/// Released pairs are left out. REQUIRES: no friction, which bands have not.
+/// Leaves out released pairs. REQUIRES: no friction, as always with bands.
 TouchMemory merge(const std::vector<ContactLists>& contacts) {
   std::vector<Pair> pairs;
   for (const ContactLists& lists : contacts) {

@@ -4,7 +4,8 @@
 
 namespace cellcrush {
 
-/// Ends the search by faces: the touching pairs of all bands go into the first list, in order; no candidates are left.
+/// Ends the search by faces: merges the touching pairs of all bands, in order, into the first list, and removes all
+/// candidates.
 void merge_band_contacts(State& state);
 
 }  // namespace cellcrush

@@ -8,13 +8,13 @@
 
 namespace cellcrush {
 
-/// Corners from which on a face's particles are sorted into buckets.
+/// Number of corners from which the particles of a face are sorted into buckets.
 inline constexpr int kManyCorners = 64;
 
-/// Points whose distances from a segment are found together.
+/// Points whose distances from a segment are computed side by side.
 inline constexpr std::size_t kPointTile = 8;
 
-/// So many points with others that fill the last tile up.
+/// The number of points after the last tile is filled up.
 constexpr std::size_t filled_tiles(std::size_t points) { return (points + kPointTile - 1) / kPointTile * kPointTile; }
 
 /// A segment of a face, mm.
@@ -24,16 +24,16 @@ struct FaceSegment {
   double length;
 };
 
-/// How the corners of a face lie to one of its segments.
+/// Distances of the corners of a face from one of its segments.
 struct NearCorners {
-  std::uint64_t near = 0;                             ///< bits of those within range
-  double least_of_others = 0.0;                       ///< mm^2
+  std::uint64_t near = 0;                             ///< bits of the corners within range
+  double least_of_others = 0.0;                       ///< mm^2, least squared distance of the others
   std::array<double, kManyCorners> squared_distance;  ///< mm^2
 };
 
-/// Finds the squared distances of corners from a segment (see project) and those within range; only corners whose bits
-/// are set count as near or as others. Whole tiles round as single points do: the same bits. REQUIRES: whole tiles of
-/// places, at most kManyCorners.
+/// Finds the squared distances of corners from a segment (see project), and the corners within range. Only corners
+/// whose bits are set count as near or as others. Whole tiles round like single points, to the same bits. REQUIRES:
+/// whole tiles of positions, at most kManyCorners.
 void find_near_corners(std::span<const Vector2> places, std::uint64_t corners, const FaceSegment& segment,
                        double squared_range, NearCorners& found);
 

@@ -12,16 +12,16 @@
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {
 
-/// REQUIRES: no fewer members than lanes.
+/// REQUIRES: at least as many members as lanes.
 template <class D>
 HWY_INLINE VelocityBox box_of(const Vector2* velocities, std::span<const int> members) {
   constexpr std::size_t kWidth = Lane<D>::kWidth;
   Points<D> low = gather<D>(velocities, members.data());
   Points<D> high = low;
   for (std::size_t i = kWidth; i < members.size(); i += kWidth) {
-    // The last may come twice.
+    // The last members may be loaded twice.
     const Points<D> velocity = gather<D>(velocities, &members[std::min(i, members.size() - kWidth)]);
-    // A velocity first: a minimum overwrites its first operand.
+    // The velocity comes first: a minimum instruction overwrites its first operand.
     low = min(velocity, low);
     high = max(velocity, high);
   }

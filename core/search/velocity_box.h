@@ -6,13 +6,13 @@
 
 namespace cellcrush {
 
-/// Box round velocities, mm/s.
+/// Bounding box of velocities, mm/s; v_low and v_high of E8c.
 struct VelocityBox {
   Vector2 low;
   Vector2 high;
 };
 
-/// Box round the velocities of some particles. REQUIRES: at least one member.
+/// Bounding box of the velocities of some particles. REQUIRES: at least one member.
 VelocityBox box_of_velocities(const State& state, std::span<const int> members);
 
 }  // namespace cellcrush

@@ -8,7 +8,7 @@
 namespace cellcrush {
 namespace {
 
-/// Adds a force on a touch's ball, and its reaction on the segment, shared by the lever rule.
+/// Adds a force to the ball of a touch, and its reaction to the segment, shared by the lever rule.
 void add_force(const TouchMemory& touching, const Touches& touches, int touch, const Vector2& force, Vector2* forces) {
   const double share = touches.share[touch];
   forces[touching.ball[touch]] += force;
@@ -16,21 +16,21 @@ void add_force(const TouchMemory& touching, const Touches& touches, int touch, c
   forces[touches.end[touch]] -= share * force;
 }
 
-/// Along the segment where the ball touches its side, turned with the normal round its ends.
+/// Unit tangent: along the segment where the ball touches its side, turned with the normal round its ends.
 Vector2 tangent_of(const TouchMemory& touching, const Touches& touches, int touch) {
   const Vector2& normal = touches.normal[touch];
   return touching.side[touch] * Vector2(normal.y(), -normal.x());
 }
 
-/// How friction passes from one contact to the next.
+/// Transfer of friction from one contact to the next.
 struct Friction {
   const Scene& scene;
   const TouchMemory& touching;
   const Touches& touches;
-  const TouchMemory& before;  ///< what touched in the step before
+  const TouchMemory& before;  ///< pairs that touched in the step before
   std::span<const ActiveContact> active;
 
-  /// Whether a pair that touched before is active with friction in this step.
+  /// Whether a pair that touched before still has friction in this step.
   [[nodiscard]] bool still_rubs(int other) const {
     const auto precedes = [&](const ActiveContact& contact, int memory) {
       const int ball = touching.ball[contact.touch];
@@ -41,8 +41,8 @@ struct Friction {
     return found != active.end() && touches.known[found->touch] == other && found->has_pair;
   }
 
-  /// Friction, along the polyline, of a touch of the ball in the step before that rubs no more and that
-  /// `follows(element)`.
+  /// Friction, along the polyline, of a touch of the ball in the step before that has no friction now and whose element
+  /// satisfies `follows`.
   template <class Follows>
   [[nodiscard]] double handed_over(int ball, const Follows& follows) const {
     const auto first = std::lower_bound(before.ball.begin(), before.ball.end(), ball);
@@ -55,9 +55,9 @@ struct Friction {
     return 0.0;
   }
 
-  /// Friction that a touch takes over: its own, or that of a touch which it follows. A ball slides on from a neighbour;
-  /// of two balls the one hands over to the other. All run along the polyline, one way on its left and the other on its
-  /// right.
+  /// Friction with which a touch begins the step: its own, or that of a touch which it follows. A ball that slides to a
+  /// neighbouring segment keeps its friction. Of two balls that touch, one hands it over to the other. Friction is
+  /// measured along the polyline, in one direction on its left and in the other on its right.
   [[nodiscard]] double before_of(const ActiveContact& contact) const {
     const int ball = touching.ball[contact.touch];
     const int side = touching.side[contact.touch];

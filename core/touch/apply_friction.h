@@ -6,8 +6,8 @@
 
 namespace cellcrush {
 
-/// Overwrites the friction of all that touch by that of the active contacts (Eq. 44-47, touch/friction.h), and adds the
-/// forces to friction_force. REQUIRES: normal forces of this step in ContactWorkspace::active.
+/// Overwrites the friction of all touches by that of the active contacts (Eq. 44-47, E9b, touch/friction.h), and adds
+/// the forces to friction_force. REQUIRES: ContactWorkspace::active has the normal forces of this step.
 void apply_friction(const Scene& scene, State& state, TouchMemory& touching, const ContactWorkspace& workspace);
 
 }  // namespace cellcrush

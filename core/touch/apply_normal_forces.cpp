@@ -12,7 +12,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {
 
-/// Force of a contact's pair, whose sum is kept for friction; none where it has no pair.
+/// Normal force of the pair of a contact (E8); its sum is kept for friction. 0 if the contact does not have the pair.
 HWY_INLINE NormalForce force_of_pair(const Scene& scene, const Touches& touches, ActiveContact& contact) {
   if (!contact.has_pair) {
     return {0.0, 0.0};
@@ -22,8 +22,8 @@ HWY_INLINE NormalForce force_of_pair(const Scene& scene, const Touches& touches,
   return net;
 }
 
-/// Subtracts half of what the touch of two balls would store. The node's ball counts the pair as well, and pushes by
-/// itself where the node lies under the ball's segments.
+/// Subtracts half of the energy and force of the touch of two balls (E8b). The ball of the node counts this pair as
+/// well, and pushes on its own where the node lies under the segments of the ball.
 HWY_INLINE void subtract_double_count(const Scene& scene, State& state, const TouchMemory& touching,
                                       const Touches& touches, int node_touch, double& stored) {
   const double stiffness = 0.5 * scene.contact.stiffness;
@@ -34,7 +34,7 @@ HWY_INLINE void subtract_double_count(const Scene& scene, State& state, const To
   stored -= 0.5 * stiffness * depth * depth;
 }
 
-/// Adds a share of a pair's forces, elastic x and y, viscous x and y, to those of a particle.
+/// Adds a share of the forces of a pair, elastic x and y, viscous x and y, to those of a particle.
 HWY_INLINE void add_share(double share, const double* HWY_RESTRICT pair, ContactForce& to) {
   using Numbers = Lane<WideTag<double, 4>>;
   double* sums = to.elastic.data();
@@ -43,7 +43,7 @@ HWY_INLINE void add_share(double share, const double* HWY_RESTRICT pair, Contact
   }
 }
 
-// By raw pointers: a store may alias the vectors' own pointers.
+// Raw pointers: a store may alias the pointers of the vectors.
 void add_normal_forces(const Scene& scene, State& state, const TouchMemory& touching, ContactWorkspace& workspace,
                        ContactTotals& totals) {
   const Touches& touches = workspace.touches;

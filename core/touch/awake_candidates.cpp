@@ -14,7 +14,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {
 
-/// Bits of a batch's candidates that are awake.
+/// Bits of the awake candidates of a batch.
 class AwakeBits {
  public:
   explicit AwakeBits(const ContactLists& lists)
@@ -24,7 +24,8 @@ class AwakeBits {
 
   HWY_INLINE std::uint64_t of_batch(std::size_t batch) const {
     using Numbers = Lane<WideTag<double, kCandidateBatch>>;
-    const Numbers travelled = groups_ == nullptr ? 0.0 : travels_[groups_[batch]];  // by buckets none sleeps
+    // In a search by buckets none sleeps.
+    const Numbers travelled = groups_ == nullptr ? 0.0 : travels_[groups_[batch]];
     std::uint64_t bits = 0;
     for (std::size_t i = 0; i < kCandidateBatch; i += Numbers::kWidth) {
       const auto asleep = travelled < Numbers::load(next_checks_ + batch * kCandidateBatch + i);
@@ -39,14 +40,13 @@ class AwakeBits {
   const int* const groups_;
 };
 
-// Few candidates are awake, and which ones no branch predictor can guess: a branch at every batch takes three times as
-// long.
+// Few candidates are awake, in no predictable pattern: with a branch at every batch this takes three times as long.
 std::size_t find_awake(const ContactLists& lists, std::size_t first, std::size_t end, int* places) {
   const AwakeBits awake(lists);
   const std::size_t end_batch = end / kCandidateBatch;
   std::size_t count = 0;
 #if HWY_TARGET <= HWY_AVX3
-  // A batch's places are stored whole, those that are awake first.
+  // The indices of a batch are stored whole, those of awake candidates first.
   const __m256i lanes = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
   for (std::size_t batch = first / kCandidateBatch; batch < end_batch; ++batch) {
     const auto bits = static_cast<__mmask8>(awake.of_batch(batch));

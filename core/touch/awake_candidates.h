@@ -6,8 +6,8 @@
 
 namespace cellcrush {
 
-/// Writes the places from `first` to `end`, whole batches, of the candidates that are awake; returns how many there
-/// are. REQUIRES: room for all of them and kCandidateBatch more, which are overwritten.
+/// Writes the indices of the awake candidates from `first` to `end`, which bound whole batches. Returns how many there
+/// are. REQUIRES: `places` has room for all of them and kCandidateBatch more, which are overwritten.
 std::size_t find_awake_candidates(const ContactLists& lists, std::size_t first, std::size_t end, int* places);
 
 }  // namespace cellcrush

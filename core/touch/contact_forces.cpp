@@ -14,7 +14,7 @@
 namespace cellcrush {
 namespace {
 
-/// Of the touches from `touch` on, the first of a ball.
+/// The first touch from `touch` on that is the first of its ball.
 std::size_t begin_of_ball(const TouchMemory& touching, std::size_t touch) {
   while (touch > 0 && touch < touching.count() && touching.ball[touch - 1] == touching.ball[touch]) {
     ++touch;
@@ -22,7 +22,7 @@ std::size_t begin_of_ball(const TouchMemory& touching, std::size_t touch) {
   return touch;
 }
 
-/// A released pair is tested again from the next step on, in the list that has it.
+/// Has a released pair tested again from the next step on, in the list that holds it.
 void wake(std::vector<ContactLists>& contacts, std::size_t band, int touch) {
   const TouchMemory& touching = contacts[band].touching;
   for (std::size_t home = band > 0 ? band - 1 : 0; home <= band; ++home) {
@@ -30,7 +30,7 @@ void wake(std::vector<ContactLists>& contacts, std::size_t band, int touch) {
   }
 }
 
-/// Evaluates the touches and finds the active contacts, each thread those of its balls.
+/// Evaluates the touches and finds the active contacts; each thread does those of its balls.
 void evaluate_pairs(const Scene& scene, State& state, std::size_t band, ContactWorkspace& workspace, Workers& workers) {
   ContactLists& lists = state.contacts[band];
   const TouchMemory& touching = lists.touching;

@@ -7,15 +7,16 @@
 
 namespace cellcrush {
 
-/// What the contacts of a step come to. Their forces are summed in the order of balls, band by band.
+/// Sums over the contacts of a step. Their forces are summed in the order of balls, band by band.
 struct ContactSums {
   ContactTotals walls;
   PlateForce impact;
   PlateForce support;
-  std::vector<NewContact> of_next_band;  ///< pairs of its balls, found in a face that the band before searches
+  /// Pairs with balls of the next band, found in a face that this band searches.
+  std::vector<NewContact> of_next_band;
 };
 
-/// Those of a new step.
+/// The sums at the start of a step.
 inline ContactSums begin_contact_sums(const State& state) {
   ContactSums sums;
   sums.walls.deepest_penetration = state.contact_totals.deepest_penetration;
@@ -23,7 +24,7 @@ inline ContactSums begin_contact_sums(const State& state) {
   return sums;
 }
 
-/// Those of the newest step go into the state.
+/// Stores the sums of the newest step in the state.
 inline void put_contact_sums(const ContactSums& sums, State& state) {
   state.contact_totals = sums.walls;
   state.impact_force = sums.impact;

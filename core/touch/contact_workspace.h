@@ -8,33 +8,34 @@
 
 namespace cellcrush {
 
-/// A pair that touches and did not in the step before.
+/// A pair that touches now but did not in the step before.
 struct NewContact {
   int ball = 0;
   int segment = 0;
-  int place = 0;  ///< into ContactLists::candidate_ball, of the ball's band or of the band before
-  int next = 0;   ///< of the pairs that touched before, the first that it comes before
+  int place = 0;  ///< index into ContactLists::candidate_ball, of the band of the ball or of the band before
+  int next = 0;   ///< index of the first of the earlier pairs that follows it
 };
 
 /// A ball that gained or lost a pair.
 struct ChangedBall {
   int ball = 0;
-  int place = 0;  ///< of the pair among those that touch, or of the pair that follows where it was
+  int place = 0;  ///< index of the pair in ContactLists::touching, or of the pair that follows its former position
 };
 
-/// How the pairs of ContactLists::touching stand to each other in this step; T of them, in the same order.
+/// Geometry and motion of the pairs of ContactLists::touching in this step; T of them, in the same order.
 struct Touches {
-  LaneVector<int> start;            ///< T, particle at which the segment starts
-  LaneVector<int> end;              ///< T, and ends
-  LaneVector<int> known;            ///< T, place among the pairs that touched in the step before; kNew: did not
-  LaneVector<double> share;         ///< T, of the foot along the segment: 0 at its start, 1 at its end
-  LaneVector<double> depth;         ///< T, D, mm; not over 0: they are released
-  LaneVector<Vector2> normal;       ///< T, from the segment to the ball
-  LaneVector<double> viscous;       ///< T, c dD/dt, N, before it is held to what does not pull
-  LaneVector<double> slip;          ///< T, mm by which the ball slid along the segment in the step
-  LaneVector<int> node;             ///< T, the segment's particle nearer to the ball
-  LaneVector<double> node_depth;    ///< T, of the balls of both, mm; over 0: they touch. 0 where they coincide
-  LaneVector<Vector2> node_normal;  ///< T, from that particle to the ball
+  LaneVector<int> start;       ///< T, particle at which the segment starts
+  LaneVector<int> end;         ///< T, particle at which the segment ends
+  LaneVector<int> known;       ///< T, index among the pairs that touched in the step before; kNew: it did not
+  LaneVector<double> share;    ///< T, s of the foot along the segment: 0 at its start, 1 at its end
+  LaneVector<double> depth;    ///< T, D, mm (E8); if not above 0, the pair is released
+  LaneVector<Vector2> normal;  ///< T, unit normal from the segment to the ball
+  LaneVector<double> viscous;  ///< T, c dD/dt, N, before it is limited so that the contact does not pull
+  LaneVector<double> slip;     ///< T, mm, slip of the ball along the segment in the step
+  LaneVector<int> node;        ///< T, node of the segment nearer to the ball
+  /// T, mm, D_n, overlap of the ball with the ball at that node (E8b); above 0: they touch; 0 if they coincide.
+  LaneVector<double> node_depth;
+  LaneVector<Vector2> node_normal;  ///< T, unit normal from that node to the ball
 
   static constexpr int kNew = -1;
 
@@ -43,31 +44,32 @@ struct Touches {
 
 /// A touch that exerts forces.
 struct ActiveContact {
-  int touch = 0;  ///< into ContactLists::touching
+  int touch = 0;  ///< index into ContactLists::touching
 
-  // Two balls that touch are found by each of them, and a ball over a node of a straight chain by the node's ball, too.
-  // The double count is subtracted, half of it with either touch.
-  int node_touch = kNone;  ///< the touch whose node of the polyline is nearest to the ball, whose ball it touches
+  // Two balls that touch are found by each of them. A ball over a node of a straight chain is also found by the ball of
+  // that node. The double count is subtracted, half of it with either touch (E8b).
+  int node_touch = kNone;  ///< the touch at the node of the polyline nearest to the ball, if the balls of both touch
 
-  /// Of the pair's viscous force and friction, this touch has all or none.
+  /// Whether this touch has the viscous force and the friction of the pair: it has all of them or none.
   bool has_pair = true;
-  double net_depth = 0.0;     ///< mm: k times it bounds the viscous force
-  double normal_force = 0.0;  ///< N, that friction goes by
+  double net_depth = 0.0;     ///< mm; k times this bounds the viscous force
+  double normal_force = 0.0;  ///< N, f of E9b, which limits friction
 
   static constexpr int kNone = -1;
 };
 
-/// What a thread works with; what it makes is put behind what those before it made.
+/// Working arrays of a thread; the results of all threads are appended in the order of the threads.
 struct ContactPart {
-  std::vector<int> awake;     ///< places of the candidates that are tested, ascending; it does not shrink
-  std::vector<int> found;     ///< of those, they that have begun to overlap
-  std::vector<int> released;  ///< of ContactLists::touching
+  std::vector<int> awake;     ///< indices of the candidates that are tested, ascending; it does not shrink
+  std::vector<int> found;     ///< those of them that have begun to overlap
+  std::vector<int> released;  ///< indices into ContactLists::touching
   std::vector<ActiveContact> active;
 };
 
-/// Room for evaluate_contact_forces, kept from step to step so that none allocates. No result depends on what it holds.
+/// Scratch for evaluate_contact_forces, kept from step to step so that no step allocates. No result depends on its
+/// contents.
 struct ContactWorkspace {
-  std::vector<ContactPart> parts;  ///< one a thread
+  std::vector<ContactPart> parts;  ///< one per thread
   std::vector<int> found;          ///< of all parts
   std::vector<NewContact> new_contacts;
   std::vector<ChangedBall> changes;

@@ -8,7 +8,7 @@
 
 namespace cellcrush {
 
-/// Notes how deep touches are, over the thinner of their walls, where that is a record.
+/// Records the greatest depths of touches, each divided by the thickness of the thinner wall.
 class DepthRecords {
  public:
   DepthRecords(const Scene& scene, const TouchMemory& touching, const Touches& touches, ContactTotals& totals)
@@ -20,7 +20,7 @@ class DepthRecords {
     set_bars();
   }
 
-  /// Most are none, whatever their walls are.
+  /// The bars reject most touches before the thicknesses of their walls are loaded.
   void note(int touch) {
     const bool is_new = known_[touch] == Touches::kNew;
     if (depth_[touch] > (is_new ? birth_bar_ : penetration_bar_)) {
@@ -50,8 +50,8 @@ class DepthRecords {
   ContactTotals& totals_;
   const double* const depth_;
   const int* const known_;
-  double birth_bar_ = 0.0;        ///< mm, that a touch must exceed in its first step
-  double penetration_bar_ = 0.0;  ///< mm, in a later one
+  double birth_bar_ = 0.0;        ///< mm, depth that a touch must exceed in its first step
+  double penetration_bar_ = 0.0;  ///< mm, the same in a later step
 };
 
 }  // namespace cellcrush

@@ -11,8 +11,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {
 
-/// What pairs are evaluated from, and what is found of them. By raw pointers: a store may alias the vectors' own
-/// pointers.
+/// Inputs and results of the evaluation of pairs. Raw pointers: a store may alias the pointers of the vectors.
 struct PairArrays {
   const Element* elements;
   const double* inverse_mass;
@@ -58,7 +57,7 @@ struct PairArrays {
         node_normal(touches.node_normal.data()) {}
 };
 
-/// Writes the particles of the lanes' segments.
+/// Stores the nodes of the segments of the lanes.
 template <class D>
 HWY_INLINE void note_nodes(const PairArrays& arrays, std::size_t i) {
   for (std::size_t lane = 0; lane < Lane<D>::kWidth; ++lane) {
@@ -68,7 +67,7 @@ HWY_INLINE void note_nodes(const PairArrays& arrays, std::size_t i) {
   }
 }
 
-/// How the lanes' particles are and move.
+/// Positions, velocities and inverse masses of the particles of the lanes.
 template <class D>
 struct LaneParticles {
   Points<D> position;
@@ -84,7 +83,7 @@ HWY_INLINE LaneParticles<D> gather_particles(const PairArrays& arrays, const int
   return at;
 }
 
-/// The particles of the lanes' pairs, brought together before anything is written.
+/// The particles of the pairs of the lanes, all gathered before anything is stored.
 template <class D>
 struct LanePairs {
   LaneParticles<D> ball;
@@ -92,7 +91,7 @@ struct LanePairs {
   LaneParticles<D> end;
 };
 
-/// Where the foot of a ball lies, how deep, its side of the segment, and the normal there.
+/// Foot of a ball on its segment, depth of the overlap, side of the segment and normal (Eq. 41-42, E8).
 template <class D>
 struct Foot {
   Lane<D> depth;
@@ -129,7 +128,8 @@ HWY_INLINE Foot<D> evaluate_foot(const PairArrays& arrays, const LanePairs<D>& a
   const Points<D> normal = select(inside, across, node_normal);
   const auto reach = Lane<D>::load(arrays.reach + i);
   const auto overlap = reach - select(inside, side * signed_distance, node_distance);
-  const auto depth = masked(overlap < reach + reach, overlap);  // pressed through and out, it touches no more
+  // Pressed through and out of the other side, it no longer touches.
+  const auto depth = masked(overlap < reach + reach, overlap);
 
   masked(depth > zero, side).store(arrays.side + i);
   depth.store(arrays.depth + i);

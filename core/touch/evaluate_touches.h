@@ -8,9 +8,10 @@
 
 namespace cellcrush {
 
-/// Overwrites how the pairs from `first` to `end` of ContactLists::touching stand to each other (geometry/capsule.h),
-/// their free viscous force and their slip, and keeps the sides up to date: a pair that is new, and a ball beyond an
-/// end of its segment, is on the side where it stands. Overwrites `released` by those that touch no more.
+/// Overwrites the geometry of the pairs from `first` to `end` of ContactLists::touching (Eq. 41-42, E8,
+/// geometry/capsule.h), their unlimited viscous force (Eq. 43, E9) and their slip. Updates the sides: a new pair, or a
+/// ball beyond an end of its segment, gets the side on which it is. Overwrites `released` by the pairs that no longer
+/// touch.
 void evaluate_touches(const Scene& scene, const State& state, ContactLists& lists, Touches& touches, std::size_t first,
                       std::size_t end, std::vector<int>& released);
 

@@ -15,7 +15,7 @@ struct BallTouches {
     return share_a_node({touches.start[a], touches.end[a]}, {touches.start[b], touches.end[b]});
   }
 
-  /// Whether another touching segment of the same polyline is nearer to the ball.
+  /// Whether another touching segment of the same polyline is deeper.
   [[nodiscard]] bool yields_to_neighbour(int touch) const {
     for (int other = range.first; other < range.end; ++other) {
       const double lead = touches.depth[other] - touches.depth[touch];
@@ -27,7 +27,7 @@ struct BallTouches {
     return false;
   }
 
-  /// The touch with the nearest node of the polyline to which the pushing segment belongs, if the two balls touch.
+  /// The touch with the nearest node of the polyline of the pushing segment, if the ball touches the ball of that node.
   [[nodiscard]] int node_touch(int pushing) const {
     int nearest = ActiveContact::kNone;
     double depth = 0.0;
@@ -41,7 +41,7 @@ struct BallTouches {
   }
 };
 
-/// Whether the ball lies before the node's own ball, and not above the side of one of its segments.
+/// Whether the ball faces the ball of the node itself, and does not lie above the side of one of its segments.
 bool lies_before(const Scene& scene, const State& state, int ball, int node) {
   const Vector2 away = state.position[ball] - state.position[node];
   for (int k = scene.incidence_offset[node]; k < scene.incidence_offset[node + 1]; ++k) {
@@ -55,7 +55,7 @@ bool lies_before(const Scene& scene, const State& state, int ball, int node) {
   return true;
 }
 
-/// Divides the normal force between the touch and that of the node's ball on the ball's own segments.
+/// Divides the normal force between this touch and that of the node ball with the segments of the ball (E8b).
 void share_with_node(const Scene& scene, const State& state, const ContactLists& lists, const Touches& touches,
                      ActiveContact& contact) {
   const int touch = contact.touch;
@@ -69,7 +69,7 @@ void share_with_node(const Scene& scene, const State& state, const ContactLists&
     }
     return;
   }
-  // Two balls touch: the first of them has the pair, or the one that lies over the other's segments.
+  // Two balls touch. The pair belongs to the first of them, or to the one that lies over the segments of the other.
   const int end = touches.node[touch];
   contact.has_pair = ball < end && lies_before(scene, state, end, ball);
   contact.net_depth = contact.has_pair ? contact.net_depth : 0.0;
@@ -88,7 +88,7 @@ void find_active_contacts(const Scene& scene, const State& state, const ContactL
     ActiveContact contact;
     contact.touch = touch;
     contact.net_depth = depth;
-    // Most stand alone over the inside of a segment.
+    // Most balls touch a single segment, between its ends.
     if (lists.touching.linked[touch] != 0 || touches.node_depth[touch] > 0.0) {
       const BallTouches of_ball = {touches, pairs_of_ball(lists.touching, lists.touching.ball[touch], touch)};
       if (of_ball.yields_to_neighbour(touch)) {

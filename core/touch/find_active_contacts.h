@@ -8,8 +8,8 @@
 
 namespace cellcrush {
 
-/// Overwrites `active` by the touches from `first` to `end` that exert forces, by ball, segments ascending: of touching
-/// segments that share a node only the deepest. REQUIRES: all touches of the balls in between, and no others.
+/// Overwrites `active` by the touches from `first` to `end` that exert forces, by ball, segments ascending. Of touching
+/// segments that share a node, only the deepest does (E8b). REQUIRES: the range has all touches of its balls.
 void find_active_contacts(const Scene& scene, const State& state, const ContactLists& lists, const Touches& touches,
                           std::size_t first, std::size_t end, std::vector<ActiveContact>& active);
 

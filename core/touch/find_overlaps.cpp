@@ -23,16 +23,17 @@ using One = hn::CappedTag<double, 1>;
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-/// What some candidates are tested by; of each its own.
+/// Gathered data of the candidates that are tested together.
 struct Tested {
   int ball[kTestedTogether];
   int start[kTestedTogether];  ///< nodes of the segment
   int end[kTestedTogether];
   double reach[kTestedTogether];
-  double travel[kTestedTogether];  ///< of the group; by buckets the lowest there is
+  /// Of the group. In a search by buckets -infinity, so that every candidate is tested in every step.
+  double travel[kTestedTogether];
 };
 
-// By raw pointers: a store may alias the vectors' own pointers.
+// Raw pointers: a store may alias the pointers of the vectors.
 void collect(const Scene& scene, const ContactLists& lists, std::span<const int> places, Tested& tested) {
   const Element* elements = scene.elements.data();
   const int* balls = lists.candidate_ball.data();
@@ -52,7 +53,7 @@ void collect(const Scene& scene, const ContactLists& lists, std::span<const int>
   }
 }
 
-/// How balls stand to segments, w being the way from the segment's start to the ball and u the segment.
+/// Balls relative to segments. w points from the start of the segment to the ball, u is the segment.
 template <class D>
 struct Standing {
   Lane<D> reach;
@@ -71,8 +72,8 @@ HWY_INLINE Standing<D> standing_of(const Vector2* positions, const Tested& teste
   return {Lane<D>::load(tested.reach + i), dot(w, w), dot(w, u), dot(u, u)};
 }
 
-/// Lanes whose ball is nearer to its segment than their reach: to the line along it where the ball stands beside it,
-/// else to the nearer end. Without a division: the square of the distance to the line is w.w - (w.u)^2 / u.u.
+/// Lanes whose ball is nearer to its segment than their reach (E8, E8a): to its line if the ball is beside it,
+/// otherwise to the nearer end. No division is needed: the squared distance from the line is w.w - (w.u)^2 / u.u.
 template <class D>
 HWY_INLINE LaneMask<D> overlap(const Standing<D>& at) {
   const Lane<D> zero = 0.0;
@@ -83,7 +84,7 @@ HWY_INLINE LaneMask<D> overlap(const Standing<D>& at) {
   return (beyond_start < zero) | (beyond_end < zero) | (beside & near_line);
 }
 
-/// Distances beyond touch.
+/// Gaps, mm: distances minus reach.
 template <class D>
 HWY_INLINE Lane<D> gap(const Standing<D>& at) {
   const Lane<D> zero = 0.0;
@@ -93,7 +94,7 @@ HWY_INLINE Lane<D> gap(const Standing<D>& at) {
   return sqrt(max(squared, zero)) - at.reach;
 }
 
-/// Finds the travel of each candidate's next check, and returns the lanes of those that overlap.
+/// Finds the travel at which each candidate is next checked, and returns the lanes of those that overlap.
 template <class D>
 HWY_INLINE LaneMask<D> test(const Vector2* positions, const Tested& tested, std::size_t i, double* next_checks) {
   const Standing<D> at = standing_of<D>(positions, tested, i);
@@ -103,7 +104,7 @@ HWY_INLINE LaneMask<D> test(const Vector2* positions, const Tested& tested, std:
   return overlaps;
 }
 
-/// Sets the next checks of candidates that are tested together; adds those that overlap to the places found.
+/// Sets the next checks of candidates that are tested together. Appends the indices of those that overlap to `found`.
 void test_some(const Scene& scene, const State& state, ContactLists& lists, std::span<const int> places,
                std::vector<int>& found) {
   Tested tested;

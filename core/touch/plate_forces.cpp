@@ -9,17 +9,18 @@
 namespace cellcrush {
 namespace {
 
-/// One of the two plates as it is now.
+/// One of the two plates at the current time.
 struct Plate {
   double face;       ///< mm
   double velocity;   ///< mm/s
-  double outward;    ///< +1 or -1: from its face into the lattice, along the crush
-  PlateForce& sum;   ///< of its forces on all particles
-  double& stored;    ///< of all contacts, N mm
-  double* friction;  ///< of each particle; null without friction
+  double outward;    ///< +1 or -1: direction from its face into the lattice, along the crush
+  PlateForce& sum;   ///< sum of its forces on all particles
+  double& stored;    ///< stored energy of all contacts, N mm
+  double* friction;  ///< friction of each particle; null without friction
 };
 
-/// Pushes one particle; the plates do not move across the crush, so its slip is its own motion there.
+/// Pushes one particle (E9c). The plates do not move across the crush, so the slip of a particle is its own motion in
+/// that direction.
 void push(const Scene& scene, State& state, const Plate& plate, std::size_t particle, double radius) {
   const int axis = scene.plates.axis;
   const double depth = radius - plate.outward * (state.position[particle][axis] - plate.face);
@@ -68,8 +69,8 @@ void evaluate_plate_forces(const Scene& scene, State& state, const PlateMotion& 
                         rubs ? state.impact_friction.data() : nullptr};
   const Plate support = {plates.support_face, 0.0,    -1.0,
                          sums.support,        stored, rubs ? state.support_friction.data() : nullptr};
-  const bool is_uniform =
-      scene.smallest_radius == scene.largest_radius;  // then no radius is fetched, from memory, for most
+  // For most lattices; then no radius is loaded from memory.
+  const bool is_uniform = scene.smallest_radius == scene.largest_radius;
   const auto push_by_both = [&](std::size_t particle) {
     const double place = state.position[particle][scene.plates.axis];
     const double radius = is_uniform ? scene.largest_radius : scene.radius[particle];

@@ -8,25 +8,25 @@
 
 namespace cellcrush {
 
-/// Places along the crush from which no ball reaches a plate, mm.
+/// Positions along the crush between which no ball reaches a plate, mm.
 struct PlateReach {
-  double below = 0.0;  ///< nearer to the impact plate, one may
-  double above = 0.0;  ///< nearer to the support plate, one may
+  double below = 0.0;  ///< below it a ball may reach the impact plate
+  double above = 0.0;  ///< above it a ball may reach the support plate
 };
 
-/// Of the plates when the impact plate has travelled so far; beyond all places where there are none.
+/// The range for an impact plate that has travelled so far. Without plates, no position is outside it.
 PlateReach reach_of_plates(const Scene& scene, double impact_travel);
 
-/// How the impact plate is and moves.
+/// Travel and speed of the impact plate.
 struct PlateMotion {
   double impact_travel = 0.0;  ///< mm
   double impact_speed = 0.0;   ///< mm/s, half a step before
 };
 
-/// Adds the forces of the rigid, unilateral plates on particles whose balls reach into them, by the penalty law of the
-/// walls, to contact_force and to the sums. Forces are positive in compression: the impact plate pushes along the
-/// crush, the support plate against it. Friction acts across the crush; it is added to friction_force. Only the
-/// particles `near`, ascending, are tested: all that may reach a plate, or that rub against one, are among them.
+/// Adds the forces of the rigid, unilateral plates on particles whose balls overlap them, by the penalty law of the
+/// walls (E9c), to contact_force and to the sums. Forces are positive in compression: the impact plate pushes along the
+/// crush, the support plate against it. Friction acts across the crush and is added to friction_force. Only the
+/// particles `near`, ascending, are tested: they include all that may reach a plate or that have friction at one.
 void evaluate_plate_forces(const Scene& scene, State& state, const PlateMotion& motion, std::span<const int> near,
                            ContactSums& sums);
 

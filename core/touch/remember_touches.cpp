@@ -12,8 +12,8 @@ bool comes_before(int ball, int segment, const NewContact& pair) {
   return ball != pair.ball ? ball < pair.ball : segment < pair.segment;
 }
 
-/// Of the pairs that touched before, the first that does not come before this one. The ball is searched without a
-/// branch: which half it lies in no predictor can guess.
+/// Index of the first earlier pair that does not come before this one. The ball is found by a binary search without a
+/// branch, which no predictor could guess.
 std::size_t place_among(const TouchMemory& touching, const NewContact& pair) {
   const int* const balls = touching.ball.data();
   std::size_t first = 0;
@@ -41,7 +41,7 @@ void match_or_add(NewContact pair, TouchMemory& touching, std::vector<NewContact
   }
 }
 
-/// Classifies what was found in the band's faces and in those of the band before.
+/// Classifies the pairs found in the faces of the band and of the band before.
 void classify_found(const LatticeBand& band, ContactLists& lists, ContactWorkspace& workspace,
                     std::vector<NewContact>& of_next_band) {
   workspace.new_contacts.clear();
@@ -49,7 +49,7 @@ void classify_found(const LatticeBand& band, ContactLists& lists, ContactWorkspa
     match_or_add(pair, lists.touching, workspace.new_contacts);
   }
   of_next_band.clear();
-  const bool has_all = lists.face_list.empty();  // by buckets
+  const bool has_all = lists.face_list.empty();  // a search by buckets
   for (const int place : workspace.found) {
     const NewContact pair = {lists.candidate_ball[place], lists.candidate_segment[place], place};
     if (has_all || band.owns(pair.ball)) {
@@ -62,7 +62,7 @@ void classify_found(const LatticeBand& band, ContactLists& lists, ContactWorkspa
             [](const NewContact& a, const NewContact& b) { return comes_before(a.ball, a.segment, b); });
 }
 
-/// Calls visit(field, field of the other) for what a pair keeps while it touches.
+/// Calls visit(field, field of the other) for the data that a pair keeps while it touches.
 template <class Visit>
 void visit_kept(TouchMemory& touching, const TouchMemory& before, Visit&& visit) {
   visit(touching.ball, before.ball);
@@ -73,7 +73,7 @@ void visit_kept(TouchMemory& touching, const TouchMemory& before, Visit&& visit)
   visit(touching.side, before.side);
 }
 
-/// The pairs that touch from now on, written one after the other.
+/// Writes the pairs that touch from now on, one after the other.
 class Writer {
  public:
   Writer(const Scene& scene, ContactLists& lists, ContactWorkspace& workspace)
@@ -89,7 +89,7 @@ class Writer {
     changes_.clear();
   }
 
-  /// Those before, up to this one, without the released.
+  /// Copies the earlier pairs up to `end`, without the released ones.
   void copy_until(int end) {
     while (next_ < end) {
       const bool is_released = released_ < lists_.released.size() && lists_.released[released_] < end;
@@ -132,9 +132,9 @@ class Writer {
   const TouchMemory& before_;
   TouchMemory& after_;
   LaneVector<int>& known_;
-  int count_ = 0;             // written
-  int next_ = 0;              // of those before
-  std::size_t released_ = 0;  // passed of ContactLists::released
+  int count_ = 0;             // pairs written
+  int next_ = 0;              // next of the earlier pairs
+  std::size_t released_ = 0;  // number of ContactLists::released that have been passed
 };
 
 /// Finds which pairs of a ball are linked.

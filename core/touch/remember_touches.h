@@ -8,13 +8,14 @@
 
 namespace cellcrush {
 
-/// Pairs from `first` to `end` of those that touch.
+/// Touching pairs from `first` to `end`.
 struct PairRange {
   int first = 0;
   int end = 0;
 };
 
-/// The pairs of a ball, of which `place` is one, or the one behind the last; none if it is neither.
+/// The pairs of a ball. `place` is the index of one of them, or of the one after the last; otherwise the range is
+/// empty.
 inline PairRange pairs_of_ball(const TouchMemory& touching, int ball, int place) {
   PairRange range = {place, place};
   while (range.first > 0 && touching.ball[range.first - 1] == ball) {
@@ -26,11 +27,11 @@ inline PairRange pairs_of_ball(const TouchMemory& touching, int ball, int place)
   return range;
 }
 
-/// Removes the released pairs from ContactLists::touching of a band, and adds those found to overlap in the band's
-/// faces or in those of the band before; `of_next_band` then holds those of the next. What touched before goes to
-/// ContactWorkspace::before; Touches::known holds the index there.
+/// Removes the released pairs from ContactLists::touching of a band, and adds those found to overlap in the faces of
+/// the band or of the band before. `of_next_band` then holds the found pairs of the next band. The earlier touches go
+/// to ContactWorkspace::before; Touches::known has their indices there.
 ///
-/// Nearly all pairs touch for many steps: they are copied in long runs between the few that come and go.
+/// Nearly all pairs touch for many steps. They are copied in long runs between the few that are added or removed.
 void remember_touches(const Scene& scene, const LatticeBand& band, ContactLists& lists, ContactWorkspace& workspace,
                       std::vector<NewContact>& of_next_band);
 

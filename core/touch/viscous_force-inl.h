@@ -14,7 +14,7 @@ HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {
 
 /// Viscous force c dD/dt of a contact that deepens at `rate` (mm/s): c = 2 damping_ratio sqrt(k m), with the effective
-/// mass m = 1 / inverse_mass. Of one contact, or of one a lane.
+/// mass m = 1 / inverse_mass (Eq. 43, E9). For one contact, or for one per lane.
 template <class Number>
 HWY_INLINE Number viscous_force(double stiffness, double damping_ratio, Number inverse_mass, Number rate) {
   using std::sqrt;
