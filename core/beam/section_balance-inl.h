@@ -31,7 +31,7 @@ inline constexpr double kInBalance = 0.02;
 /// History of the sections of force-based elements, in the arrays of the state (E5b).
 template <class T>
 struct SectionHistoryView {
-  /// The moment u_i over b h^2, MPa: by how much the moment of the section falls short of the line through the end moments.
+  /// u_i over b h^2, MPa: moment by which the section falls short of the line through the end moments.
   T* residual;
   T* flexibility;          ///< 1 / t_i, flexibility over the elastic one in the newest step, 1 ... kMostFlexibility
   std::size_t stride = 1;  ///< from one section to the next

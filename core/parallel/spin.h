@@ -8,7 +8,7 @@
 
 namespace cellcrush {
 
-/// Returns when the condition holds, after at most kSpinCount checks; whether it does.
+/// Waits until the condition holds, for at most kSpinCount checks. Returns whether it holds.
 template <class Condition>
 bool spin_until(const Condition& holds) {
   for (int check = 0; check < kSpinCount; ++check) {
@@ -20,7 +20,7 @@ bool spin_until(const Condition& holds) {
   return false;
 }
 
-/// Returns when the condition holds; the thread yields in between.
+/// Waits until the condition holds; the thread yields in between.
 template <class Condition>
 void wait_until(const Condition& holds) {
   while (!spin_until(holds)) {

@@ -7,7 +7,7 @@
 namespace cellcrush {
 namespace {
 
-/// The column in which each step takes its first place.
+/// The column in which each step begins.
 std::vector<std::size_t> first_columns(std::size_t steps, std::size_t places, std::size_t lag, std::size_t at_once) {
   std::vector<std::size_t> columns(steps, 0);
   for (std::size_t step = 1; step < steps; ++step) {

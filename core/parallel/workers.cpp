@@ -7,7 +7,7 @@
 namespace cellcrush {
 namespace {
 
-/// Returns when a count has come to 0.
+/// Waits until a count is 0.
 template <class Count>
 void wait_for_none(const std::atomic<Count>& count) {
   wait_until([&count] { return count.load(std::memory_order_acquire) == 0; });
@@ -41,7 +41,7 @@ void Workers::run(const Job& job) {
   wait_for_none(pending_);
 }
 
-/// The number of the round that begins; wakes those who sleep.
+/// Begins a round and returns its number; wakes sleeping threads.
 std::uint64_t Workers::begin_round() {
   const std::uint64_t round = round_.fetch_add(1, std::memory_order_release) + 1;
   round_.notify_all();
@@ -52,7 +52,7 @@ void Workers::begin_pieces(const PieceJob& job, std::size_t pieces) {
   piece_job_ = job;
   pieces_pending_.store(static_cast<std::int64_t>(pieces), std::memory_order_relaxed);
   pieces_left_.store(static_cast<std::int64_t>(pieces), std::memory_order_release);
-  // A round whose parts are all taken, for those who sleep.
+  // A round whose parts are all claimed; it only wakes sleeping threads.
   for (std::atomic<std::uint64_t>& claimed : claimed_) {
     claimed.store(round_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
   }
@@ -65,8 +65,8 @@ void Workers::finish_pieces() {
   wait_for_none(pieces_pending_);
 }
 
-/// Does one that nobody has begun, if there is one. A thread that comes late finds no more than 0 left, or begins one
-/// of the next pieces, whose job it then sees.
+/// Does one piece that no thread has begun, if there is one. A thread that comes late either finds none left or begins
+/// one of the next pieces, whose job it then sees.
 bool Workers::do_piece() {
   if (pieces_left_.load(std::memory_order_relaxed) <= 0) {
     return false;
@@ -104,11 +104,11 @@ void Workers::work(std::size_t part) {
       continue;
     }
     done = round_.load(std::memory_order_acquire);
-    // After the round: that of the destructor has no job.
+    // Checked after the round, because the round of the destructor has no job.
     if (stopped_.load()) {
       return;
     }
-    // A round that is over has been claimed, so the job of a claimed round is still there.
+    // All parts of a finished round are claimed, so the job of a newly claimed part still exists.
     if (claim(part, done)) {
       do_part(part);
     }

@@ -8,11 +8,11 @@
 
 namespace cellcrush {
 
-/// Threads that share the loops of a step; the caller is the first of them. A loop's items are dealt out in even,
-/// contiguous parts, one a thread, always to the same threads, so that their caches keep them; only a part whose thread
-/// has not begun when the caller is done with its own, because the machine is busy, is taken by the caller. Beside what
-/// only the caller can do, the others do pieces of something else. What is computed must not depend on the deal: then
-/// the bits are the same for any number of threads.
+/// Threads that share the loops of a step; the caller is the first of them. The items of a loop are divided into even,
+/// contiguous parts, one per thread. A part always goes to the same thread, so that its data stays in the cache of that
+/// thread. One exception: if the machine is busy and a thread has not begun its part when the caller has finished its
+/// own, the caller takes over. While the caller does work that only it can do, the others can do pieces of another job.
+/// Results must not depend on this distribution; they then have the same bits for any number of threads.
 class Workers {
  public:
   /// REQUIRES: count >= 1.
@@ -23,20 +23,20 @@ class Workers {
 
   [[nodiscard]] int count() const { return static_cast<int>(threads_.size()) + 1; }
 
-  /// Where a part of so many items starts; the part after the last starts at their end.
+  /// Start of a part of `items` items. The part after the last one starts at their end.
   [[nodiscard]] std::size_t start_of_part(std::size_t items, std::size_t part) const {
     return items * part / static_cast<std::size_t>(count());
   }
 
-  /// Calls task(first, end) for the parts of the items 0 ... items - 1 and returns when all are done. The task must not
+  /// Calls task(first, end) for the parts of the items 0 ... items - 1. Returns when all are done. The task must not
   /// throw.
   template <class Task>
   void parallel_for(std::size_t items, const Task& task) {
     parallel_ranges(items, 1, [&](std::size_t, std::size_t first, std::size_t end) { task(first, end); });
   }
 
-  /// The same of task(part, first, end), with parts 0 ... count() - 1, all of which are called, and starts of parts
-  /// that are multiples of `grain`.
+  /// The same for task(part, first, end), with parts 0 ... count() - 1, all of which are called. Parts start at
+  /// multiples of `grain`.
   template <class Task>
   void parallel_ranges(std::size_t items, std::size_t grain, const Task& task) {
     if (threads_.empty()) {
@@ -48,9 +48,9 @@ class Workers {
          }});
   }
 
-  /// Calls own(), and task(piece) for pieces 0 ... pieces - 1 by any thread that has nothing else to do, and returns
-  /// when all is done. Loops that own() shares go before the pieces. Neither may need what the other makes, and the
-  /// task must not throw.
+  /// Calls own(), while any idle thread calls task(piece) for pieces 0 ... pieces - 1. Returns when all is done. Loops
+  /// that own() shares have priority over the pieces. Neither may depend on results of the other, and the task must not
+  /// throw.
   template <class Task, class Own>
   void parallel_overlap(std::size_t pieces, const Task& task, const Own& own) {
     begin_pieces({&task, [](const void* shared, std::size_t piece) { (*static_cast<const Task*>(shared))(piece); }},
@@ -88,11 +88,11 @@ class Workers {
 
   Job job_;
   PieceJob piece_job_;
-  alignas(64) std::atomic<std::uint64_t> round_{0};          // of the newest job
-  alignas(64) std::atomic<int> pending_{0};                  // parts that are not done
-  alignas(64) std::atomic<std::int64_t> pieces_left_{0};     // above 0: pieces that nobody has begun
-  alignas(64) std::atomic<std::int64_t> pieces_pending_{0};  // that are not done
-  std::vector<std::atomic<std::uint64_t>> claimed_;          // of each part, the newest round in which somebody took it
+  alignas(64) std::atomic<std::uint64_t> round_{0};          // number of the newest round
+  alignas(64) std::atomic<int> pending_{0};                  // parts not yet done
+  alignas(64) std::atomic<std::int64_t> pieces_left_{0};     // if above 0: pieces that no thread has begun
+  alignas(64) std::atomic<std::int64_t> pieces_pending_{0};  // pieces not yet done
+  std::vector<std::atomic<std::uint64_t>> claimed_;          // of each part, the newest round in which it was claimed
   std::atomic<bool> stopped_{false};
   std::vector<std::thread> threads_;
 };

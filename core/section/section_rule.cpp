@@ -23,8 +23,8 @@ Quadrature along_rule(const SectionSpec& spec) {
   return spec.axial_count() == 4 ? short_ended_rule() : lobatto_rule(spec.axial_count());
 }
 
-/// Pairs of points at y and -y on [-1, 1]. Their weights have the sum 2, the first moment of |y| 1 and the second moment of
-/// y 2/3, like the section itself: area, full plastic moment and bending stiffness.
+/// Pairs of points at y and -y on [-1, 1]. Their weights have the sum 2, the first moment of |y| 1 and the second
+/// moment of y 2/3, like the section itself: area, full plastic moment and bending stiffness.
 Quadrature full_moment_rule(int points) {
   Quadrature rule;
   const auto add_pair = [&](double place, double weight) {

@@ -18,8 +18,8 @@ namespace cellcrush::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// As many lanes as the target's registers hold, at most kMost. The build that shows that width does not change bits
-/// has one lane everywhere (tests/core/CMakeLists.txt, core_one_lane).
+/// As many lanes as the registers of the target hold, at most kMost. One build has one lane everywhere, to show that the
+/// width does not change bits (tests/core/CMakeLists.txt, core_one_lane).
 #ifdef CELLCRUSH_ONE_LANE
 template <class T, std::size_t kMost>
 using WideTag = hn::CappedTag<T, 1>;
@@ -28,12 +28,12 @@ template <class T, std::size_t kMost>
 using WideTag = hn::CappedTag<T, kMost>;
 #endif
 
-/// Which of the lanes of Lane<D> are meant.
+/// A mask over the lanes of Lane<D>.
 template <class D>
 struct LaneMask {
   hn::Mask<D> raw;
 
-  /// The lowest bit is the first lane's.
+  /// The lowest bit is that of the first lane.
   static HWY_INLINE LaneMask of_bits(unsigned bits) {
     const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(bits)};
     return {hn::LoadMaskBits(D(), bytes)};
@@ -52,10 +52,11 @@ struct LaneMask {
   friend HWY_INLINE bool none(LaneMask a) { return hn::AllFalse(D(), a.raw); }
 };
 
-/// A number for each of several elements, particles or pairs, which are computed side by side: a vector register of
-/// Highway's tag D with the operators of a number. A law written for Lane<D> holds at every width, 1 included.
+/// One number for each of several elements, particles or pairs that are computed side by side: a vector register of
+/// Highway's tag D with the operators of a number. A law written for Lane<D> holds at every width, including 1.
 ///
-/// Nothing is fused that is not written as fma, fms or fnma; those round once where the target has the instruction.
+/// No operation is fused unless it is written as fma, fms or fnma; these round once where the target has the
+/// instruction.
 template <class D>
 struct Lane {
   using Number = hn::TFromD<D>;
@@ -119,7 +120,7 @@ struct Lane {
   friend HWY_INLINE Lane masked(Mask mask, Lane value) { return hn::IfThenElseZero(mask.raw, value.raw); }
 };
 
-/// Numbers of an array at indices in memory. Each is loaded by itself: a gather instruction takes up to three times as
+/// Numbers of an array at given indices. Each is loaded on its own: a gather instruction takes up to three times as
 /// long.
 template <class D>
 HWY_INLINE Lane<D> gather(const double* numbers, const int* indices) {
@@ -135,8 +136,8 @@ HWY_INLINE Lane<D> gather(const double* numbers, const int* indices) {
   }
 }
 
-/// Writes first + lane for each lane that is set and returns how many there are. For masks of which few are set: one by
-/// one takes less time than a vector compressed.
+/// Writes first + lane for each lane that is set, and returns how many are set. For masks with few lanes set, this
+/// takes less time than compressing a vector.
 template <class D>
 HWY_INLINE std::size_t write_set_lanes(LaneMask<D> mask, std::size_t first, int* to) {
   std::size_t count = 0;

@@ -16,7 +16,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {
 
-/// Points or vectors in the plane, one a lane.
+/// Points or vectors in the plane, one per lane.
 template <class D>
 struct Points {
   Lane<D> x;
@@ -42,7 +42,7 @@ struct Points {
       values[1] = hn::GetLane(y.raw);
 #if HWY_TARGET <= HWY_AVX3
     } else if constexpr (Lane<D>::kWidth == 8) {
-      // Two permutations in place of six shuffles; Highway has no function for them before its version 1.1.
+      // Two permutations instead of six shuffles; before version 1.1 Highway has no function for this.
       const __m512i low = _mm512_setr_epi64(0, 8, 1, 9, 2, 10, 3, 11);
       const __m512i high = _mm512_setr_epi64(4, 12, 5, 13, 6, 14, 7, 15);
       _mm512_storeu_pd(values, _mm512_permutex2var_pd(x.raw.raw, low, y.raw.raw));
@@ -63,25 +63,25 @@ struct Points {
   friend HWY_INLINE Points fms(Lane<D> factor, const Points& a, const Points& b) {
     return {fms(factor, a.x, b.x), fms(factor, a.y, b.y)};
   }
-  /// Of x and y each.
+  /// Separately for x and y.
   friend HWY_INLINE Points min(const Points& a, const Points& b) { return {min(a.x, b.x), min(a.y, b.y)}; }
   friend HWY_INLINE Points max(const Points& a, const Points& b) { return {max(a.x, b.x), max(a.y, b.y)}; }
   friend HWY_INLINE Points select(LaneMask<D> mask, const Points& yes, const Points& no) {
     return {select(mask, yes.x, no.x), select(mask, yes.y, no.y)};
   }
   friend HWY_INLINE Lane<D> dot(const Points& a, const Points& b) { return fma(a.x, b.x, a.y * b.y); }
-  /// Positive where `b` lies counter-clockwise of `a`.
+  /// Positive where `b` points counter-clockwise of `a`.
   friend HWY_INLINE Lane<D> cross(const Points& a, const Points& b) { return fms(a.x, b.y, a.y * b.x); }
 };
 
 #if HWY_TARGET != HWY_SCALAR
-/// Points that lie one after the other, the low half first, as x and y apart.
+/// Separates points that lie one after the other, the low half first, into x and y.
 template <class D>
 HWY_INLINE Points<D> separate(hn::Vec<D> low, hn::Vec<D> high) {
   return {hn::ConcatEven(D(), high, low), hn::ConcatOdd(D(), high, low)};
 }
 
-/// Half as many points of an array as lanes, at indices in memory, one after the other.
+/// Half as many points of an array as lanes, at given indices, one after the other.
 template <class D>
 HWY_INLINE hn::Vec<D> gather_half(const Vector2* points, const int* indices) {
   if constexpr (hn::MaxLanes(D()) > 2) {
@@ -95,7 +95,7 @@ HWY_INLINE hn::Vec<D> gather_half(const Vector2* points, const int* indices) {
 }
 #endif
 
-/// Points of an array at indices in memory: each is loaded whole, then x and y are separated.
+/// Points of an array at given indices: each is loaded whole, then x and y are separated.
 template <class D>
 HWY_INLINE Points<D> gather(const Vector2* points, const int* indices) {
   if constexpr (Lane<D>::kWidth == 1) {
@@ -109,8 +109,8 @@ HWY_INLINE Points<D> gather(const Vector2* points, const int* indices) {
 #endif
 }
 
-/// Two arrays of points and one of numbers at the same indices, half of the lanes at a time: few addresses are in use
-/// at once, so that they stay in registers.
+/// Two arrays of points and one of numbers at the same indices, for half of the lanes at a time. Few addresses are then
+/// in use at once, so they stay in registers.
 template <class D>
 HWY_INLINE void gather_together(const Vector2* a, const Vector2* b, const double* c, const int* indices,
                                 Points<D>& of_a, Points<D>& of_b, Lane<D>& of_c) {

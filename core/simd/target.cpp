@@ -27,7 +27,7 @@ std::string name_of(std::int64_t target) {
   return name;
 }
 
-/// Targets that are both built and supported, the best first: better targets have lower bits.
+/// Targets that are both compiled in and supported, best first: better targets have lower bits.
 const std::vector<Target>& targets() {
   static const std::vector<Target> kTargets = [] {
     std::vector<Target> found;
