@@ -12,7 +12,7 @@ std::size_t bytes_of_chunks(const Scene& scene, int chunks) {
          static_cast<std::size_t>(scene.walls.chunk_count());
 }
 
-/// Whether the caches hold the bands of two steps.
+/// Whether the caches hold the bands of two steps, for bands of so many chunks.
 bool are_small(const Scene& scene, int chunks) {
   return 2 * kBandsBehind * bytes_of_chunks(scene, chunks) <= kCacheOfBands;
 }
@@ -26,7 +26,7 @@ int whole_chunks(int count) {
   return (count + kParticlesMovedTogether - 1) / kParticlesMovedTogether * kParticlesMovedTogether;
 }
 
-/// Where the particles inside the walls of a chunk end.
+/// End of the particles inside the walls of a chunk.
 int end_of_inner(const Walls& walls, int chunk) {
   const WallBlock& last = walls.blocks[walls.chunk_offset[chunk + 1] - 1];
   return last.first_inner + last.walls * (last.elements - 1);
@@ -42,10 +42,10 @@ std::vector<LatticeBand> cut(const Scene& scene, int chunks) {
     band.first_chunk = band.end_chunk;
     band.first_joint = band.end_joint;
     band.first_inner = band.end_inner;
-    // What would be left over and too small goes with the last.
+    // A remainder that is too small for a band is added to the last one.
     const bool is_last = band.first_chunk + 2 * chunks > all_chunks;
     band.end_chunk = is_last ? all_chunks : band.first_chunk + chunks;
-    // Whoever has a wall in the band moves with it or before it.
+    // A joint that has a wall in the band belongs to it or to an earlier band.
     band.end_joint = is_last ? joints : std::min(joints, whole_chunks(scene.walls.first_joint[band.end_chunk]));
     band.end_inner =
         is_last ? particles
@@ -55,7 +55,7 @@ std::vector<LatticeBand> cut(const Scene& scene, int chunks) {
   return bands;
 }
 
-/// Of every element, the band that has its wall.
+/// The band of the wall of each element.
 std::vector<int> bands_of_elements(const Scene& scene, const std::vector<LatticeBand>& bands) {
   std::vector<int> band_of(scene.element_count());
   for (std::size_t b = 0; b < bands.size(); ++b) {
@@ -65,7 +65,7 @@ std::vector<int> bands_of_elements(const Scene& scene, const std::vector<Lattice
   return band_of;
 }
 
-/// Whether every band has to do with its neighbours only.
+/// Whether each band interacts with its neighbours only.
 bool are_apart(const Scene& scene, const FaceLoops& loops, const std::vector<LatticeBand>& bands) {
   const std::vector<int> of_particle = bands_of_particles(scene, bands);
   const std::vector<int> of_element = bands_of_elements(scene, bands);

@@ -8,33 +8,33 @@
 
 namespace cellcrush {
 
-/// Bands that may have particles at the same face of a lattice that is cut into bands.
+/// Most bands that have particles at the same face.
 inline constexpr int kBandsAtFace = 2;
 
-/// Bands by which a step is behind the one before it where threads advance bands side by side (step/advance_block.h).
+/// Bands by which a step follows the step before, where threads advance bands side by side (step/advance_block.h).
 inline constexpr std::size_t kBandsBehind = 3;
 
-/// What a step reads and writes of a band, bytes: of its elements, and what goes with them.
+/// Bytes that a step reads and writes for a band: its elements and all data that belongs to them.
 std::size_t bytes_of_band(const Scene& scene);
 
-/// The first of the elements that a band's walls are divided into.
+/// The first of the elements into which the walls of a band are divided.
 inline int first_element_of(const Scene& scene, const LatticeBand& band) {
   return scene.walls.blocks[scene.walls.chunk_offset[band.first_chunk]].first_element;
 }
 
-/// All of a lattice.
+/// The whole lattice as one band.
 LatticeBand whole_band(const Scene& scene);
 
-/// Cuts a large lattice into bands so that a step of one has to do with its two neighbours only (step/advance_block.h):
-///  - walls join particles of their band and of the one before;
-///  - faces have particles of two neighbouring bands at most, and the elements at these particles are theirs or their
-///    neighbours'.
-/// Bands are as small as that allows. One where the caches do not hold two steps' bands, as where rows are many
-/// thousand elements long, where the lattice is small, or where a step needs more than walls, plates and contacts
+/// Cuts a large lattice into bands so that a step of one interacts with its two neighbours only (step/advance_block.h):
+///  - walls join particles of their own band and of the band before;
+///  - a face has particles of at most two adjacent bands, and the elements at these particles belong to these bands or
+///    their neighbours.
+/// Bands are as small as these conditions allow. The lattice is a single band if it is small, if the caches do not hold
+/// the bands of two steps (rows of many thousand elements), or if a step needs more than walls, plates and contacts
 /// without friction.
 std::vector<LatticeBand> cut_into_bands(const Scene& scene, const FaceLoops& loops);
 
-/// Of every particle, the band that owns it.
+/// The band that owns each particle.
 std::vector<int> bands_of_particles(const Scene& scene, const std::vector<LatticeBand>& bands);
 
 }  // namespace cellcrush

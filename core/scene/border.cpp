@@ -8,7 +8,7 @@ namespace cellcrush {
 namespace {
 
 int last_band_at(const Scene& scene, int particle) {
-  const int last = scene.incidence[scene.incidence_offset[particle + 1] - 1];  // they ascend
+  const int last = scene.incidence[scene.incidence_offset[particle + 1] - 1];  // incidence is ascending
   const auto behind =
       std::upper_bound(scene.bands.begin(), scene.bands.end(), last,
                        [&](int element, const LatticeBand& band) { return element < first_element_of(scene, band); });

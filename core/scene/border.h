@@ -7,7 +7,7 @@
 
 namespace cellcrush {
 
-/// The border of a lattice whose bands have their faces.
+/// The particles on the outer border of a lattice, band by band. REQUIRES: the faces of the bands.
 std::vector<BorderParticle> find_border(const Scene& scene);
 
 }  // namespace cellcrush

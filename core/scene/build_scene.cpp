@@ -12,7 +12,7 @@
 namespace cellcrush {
 namespace {
 
-/// Puts the faces of the plates at the surfaces of the walls.
+/// Places the faces of the plates at the surfaces of the walls.
 void put_plates(Scene& scene) {
   const int axis = scene.plates.axis;
   double low = scene.position.front()[axis];
@@ -25,7 +25,7 @@ void put_plates(Scene& scene) {
   scene.plates.support_face = high;
 }
 
-/// REQUIRES: walls that lie in each other have been refused.
+/// REQUIRES: walls that overlap before loading have been refused.
 void prepare_search(const SceneSpec& spec, const std::function<void()>& between_stages, Scene& scene) {
   scene.bands = {whole_band(scene)};
   if (!scene.contact.present) {
@@ -49,7 +49,7 @@ SceneResult build_scene(const SceneSpec& given, const std::function<void()>& bet
   if (prevents_meshing(result.problems)) {
     return result;
   }
-  // From its part alone, so that specs with the same part have the same mesh.
+  // Built from the mesh part alone, so that specs with the same part have the same mesh.
   const SceneSpec part = mesh_part_of(spec);
   const std::shared_ptr<Scene> scene = build_mesh(part);
   between_stages();

@@ -127,7 +127,7 @@ class FrameChecker {
     return "lattice.frame." + std::string(list) + "[" + std::to_string(position) + "].";
   }
 
-  /// A motion of a node is given once, and not held by a support as well.
+  /// A motion of a node is given only once, and is not held by a support as well.
   void check_single_motion(const std::string& path, std::size_t index) {
     const FrameLattice::NodalMotion& motion = frame_.motions[index];
     for (std::size_t other = 0; other < index; ++other) {

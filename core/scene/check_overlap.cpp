@@ -11,7 +11,7 @@
 namespace cellcrush {
 namespace {
 
-/// Overlaps that are looked for: enough to see what is wrong.
+/// Most overlaps that are searched for: enough to see what is wrong.
 constexpr std::size_t kMostOverlaps = 20;
 
 std::string thickness_field(const SceneSpec& spec) {
@@ -24,7 +24,7 @@ std::string thickness_field(const SceneSpec& spec) {
 
 std::string place_text(const Vector2& place) { return "(" + to_text(place.x()) + ", " + to_text(place.y()) + ") mm"; }
 
-/// Beam of each element.
+/// The beam of each element.
 std::vector<int> beams_of(const FrameLattice& frame, int elements_per_wall) {
   std::vector<int> beam;
   for (std::size_t i = 0; i < frame.beams.size(); ++i) {

@@ -6,9 +6,9 @@
 
 namespace cellcrush {
 
-/// Problems of walls that lie in each other before loading: contact would throw them apart in the first step. Names the
-/// beams of a frame, or the thickness of a lattice, and where.
-/// REQUIRES: the mesh of the spec, masses lumped, elements linked.
+/// Problems of walls that overlap before loading: contact would throw them apart in the first step. Names the beams of
+/// a frame, or the thickness of a lattice, and the position.
+/// REQUIRES: the mesh of the spec, with lumped masses and linked elements.
 Problems check_overlap(const SceneSpec& spec, const Scene& scene);
 
 }  // namespace cellcrush

@@ -13,7 +13,7 @@
 namespace cellcrush {
 namespace {
 
-/// Checks the fields that all regular lattices have. `walls_per_cell` bounds the size of the mesh.
+/// Checks the fields common to all regular lattices. `walls_per_cell` serves to limit the size of the mesh.
 template <class Lattice>
 void check_regular(const std::string& path, const Lattice& lattice, int fewest_columns, double walls_per_cell,
                    int elements_per_wall, FieldChecker& check) {

@@ -10,12 +10,12 @@ namespace cellcrush {
 namespace {
 
 constexpr double kMmPerM = 1e3;
-/// Share of the thinnest wall by which a free particle at plate speed sinks in.
+/// Penetration of a free particle at plate speed, as a fraction of the thickness of the thinnest wall (E9).
 constexpr double kImpactDepth = 0.16;
-/// Most that a given step turns the lightest particle on its contact, rad.
+/// Greatest phase angle omega dt of the lightest particle on its contact at a given step, rad; the 0.6 below E9.
 constexpr double kMostTurn = 0.6;
 
-/// Angular frequency of the lightest particle on its contact, 1/s.
+/// Angular frequency sqrt(k / m_min) of the lightest particle on its contact, 1/s.
 double contact_frequency(const SceneSpec& spec, const MeshMeasures& mesh) {
   const double of_mesh = std::sqrt(spec.contact.stiffness_factor) / mesh.stable_step;
   if (std::holds_alternative<FrameLattice>(spec.lattice)) {

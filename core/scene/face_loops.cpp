@@ -6,7 +6,7 @@
 namespace cellcrush {
 namespace {
 
-/// Half-edge 2 e runs from the start of element e to its end, 2 e + 1 back.
+/// Half-edge 2 e runs from the start of element e to its end; half-edge 2 e + 1 runs back.
 int opposite(int half_edge) { return half_edge ^ 1; }
 
 int origin_of(std::span<const Element> elements, int half_edge) {
@@ -14,7 +14,7 @@ int origin_of(std::span<const Element> elements, int half_edge) {
   return half_edge % 2 == 0 ? element.start : element.end;
 }
 
-/// For each half-edge the one that follows it round the face at its left.
+/// For each half-edge, the one that follows it round the face on its left.
 std::vector<int> find_followers(std::span<const Vector2> position, std::span<const Element> elements) {
   const int count = 2 * static_cast<int>(elements.size());
   std::vector<std::vector<int>> leaving(position.size());
@@ -62,7 +62,7 @@ FaceLoops trace_loops(std::span<const Vector2> position, std::span<const Element
 
 double area_within(std::span<const int> loop, std::span<const Vector2> position) {
   double twice = 0.0;
-  // Relative to a corner of the face, so that the area of a small face far from the origin keeps its digits.
+  // Relative to a corner of the face, so that the area of a small face far from the origin keeps its precision.
   const Vector2& base = position[loop.front()];
   for (std::size_t i = 0; i + 1 < loop.size(); ++i) {
     twice += cross(position[loop[i]] - base, position[loop[i + 1]] - base);

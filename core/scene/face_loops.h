@@ -7,9 +7,9 @@
 
 namespace cellcrush {
 
-/// The loops round all faces of a planar drawing, each with its face at the left: inner faces run counter-clockwise,
-/// the outer border of a part clockwise. Every element is in two loops, once each way. After its corners, a loop may
-/// have thick ends (scene/thick_ends.h). L loops.
+/// The loops round all faces of a planar drawing, each with its face on the left: inner faces run counter-clockwise,
+/// the outer border of a part clockwise. Every element is in two loops, once in each direction. After its corners, a
+/// loop may have thick ends (scene/thick_ends.h). L loops.
 struct FaceLoops {
   std::vector<int> offset;        ///< L + 1, into particles and elements
   std::vector<int> particle;      ///< corners of the loops, one loop after another
@@ -25,8 +25,8 @@ struct FaceLoops {
   [[nodiscard]] int end_of_corners(std::size_t loop) const { return offset[loop] + corner_count[loop]; }
 };
 
-/// Walks along half-edges: at a particle the walk turns into the next element clockwise, so that the face stays at its
-/// left. REQUIRES: elements of some length.
+/// Walks along half-edges. At a particle the walk turns clockwise into the next element, so that the face stays on its
+/// left. REQUIRES: elements of nonzero length.
 FaceLoops trace_loops(std::span<const Vector2> position, std::span<const Element> elements);
 
 /// Area within a loop of particles, mm^2; negative where it runs clockwise.

@@ -7,7 +7,7 @@ namespace {
 
 using Fidelity = NumericsSpec::Fidelity;
 
-constexpr int kElementsPerWall = 2;  // where nothing is said
+constexpr int kElementsPerWall = 2;  // default without a fidelity
 
 const FidelityPoint* find_point(Fidelity fidelity) {
   for (const FidelityPoint& point : fidelity_points()) {
@@ -16,7 +16,7 @@ const FidelityPoint* find_point(Fidelity fidelity) {
   return nullptr;
 }
 
-/// Fields that a spec gives otherwise than they were when a point was measured, and that would change its error.
+/// Fields that a spec sets to other values than the measurement of a point, and that would change its error.
 std::vector<std::string> fields_beside(const FidelityPoint& point, const SceneSpec& spec) {
   SceneSpec plain;
   plain.section.formulation = spec.section.formulation;

@@ -2,9 +2,10 @@
 
 namespace cellcrush {
 
-// Elements a wall are what trades time for accuracy at every speed, so they are all that a fidelity is; a threefold
-// rotary inertia pays in slow crushes alone. REFERENCE is the solution from which errors are taken; its own is known to
-// the scatter of its seeds. Four elements a wall are no point of the front: they were found no nearer to it than two.
+// The number of elements per wall trades time for accuracy at every speed, so it is all that a fidelity sets. A
+// threefold rotary inertia pays in slow crushes only. REFERENCE is the solution from which errors are measured; its own
+// error is known up to the scatter of its seeds. Four elements per wall are no point of the front: they were found no
+// closer to REFERENCE than two.
 const std::vector<FidelityPoint>& fidelity_points() {
   using Fidelity = NumericsSpec::Fidelity;
   const std::string fast = "support plateau, Type I, 100 m/s";

@@ -41,7 +41,7 @@ void attach_holds(const FrameLattice& frame, Scene& scene) {
   }
 }
 
-/// The block in which a beam lies: beams are walls.
+/// The block of a beam; the beams of a frame are its walls.
 const WallBlock& block_of(const Walls& walls, int beam) {
   return *std::find_if(walls.blocks.begin(), walls.blocks.end(),
                        [&](const WallBlock& block) { return beam < block.first_wall + block.walls; });

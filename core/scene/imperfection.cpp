@@ -3,12 +3,13 @@
 namespace cellcrush {
 namespace {
 
-/// SplitMix64 (Steele, Lea and Flood, 2014): the standard library's distributions differ between implementations.
+/// SplitMix64 (Steele, Lea and Flood, 2014), because the distributions of the standard library differ between
+/// implementations.
 class Draw {
  public:
   explicit Draw(std::uint64_t seed) : state_(seed) {}
 
-  /// Even in [-1, 1).
+  /// Uniform in [-1, 1).
   double next() {
     state_ += 0x9e3779b97f4a7c15ULL;
     std::uint64_t mixed = state_;

@@ -7,8 +7,8 @@
 
 namespace cellcrush {
 
-/// Moves every joint by at most the imperfection's amplitude in x and in y, drawn evenly. The same seed gives the same
-/// offsets on every machine.
+/// Moves every joint by a uniformly distributed offset of at most the amplitude of the imperfection in x and in y. The
+/// same seed gives the same offsets on every machine.
 void perturb(const Imperfection& imperfection, std::vector<Vector2>& joints);
 
 }  // namespace cellcrush

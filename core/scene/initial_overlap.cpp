@@ -10,7 +10,7 @@
 namespace cellcrush {
 namespace {
 
-/// Pairs that are held at a time.
+/// Most pairs that are kept at a time.
 constexpr std::size_t kBatch = 1 << 20;
 
 struct Pair {
@@ -18,7 +18,7 @@ struct Pair {
   int segment;
 };
 
-/// Points along an element, by which it is found.
+/// Points along elements, by which elements are found.
 struct Marks {
   std::vector<Vector2> place;
   std::vector<int> element;
@@ -26,8 +26,8 @@ struct Marks {
 
 double twice_area(const Vector2& a, const Vector2& b, const Vector2& c) { return cross(b - a, c - a); }
 
-/// Whether the boxes round the segments from a to b and from c to d meet. Elements of one straight wall lie on one
-/// line, and on which side of it their ends are is round-off: their boxes tell that they do not cross.
+/// Whether the bounding boxes of the segments from a to b and from c to d overlap. Elements of one straight wall lie on
+/// one line, and round-off decides on which side of it their ends are. Their boxes show that they do not cross.
 bool boxes_meet(const Vector2& a, const Vector2& b, const Vector2& c, const Vector2& d) {
   return (a.cwiseMin(b).array() <= c.cwiseMax(d).array()).all() &&
          (c.cwiseMin(d).array() <= a.cwiseMax(b).array()).all();
@@ -43,7 +43,7 @@ class OverlapFinder {
     }
   }
 
-  /// Ways along the walls are walked only once it is known that few pairs ask for it.
+  /// Path lengths along the walls are computed only once it is known that few pairs need them.
   void find_touching() {
     double near_pairs = 0.0;
     visit_near_pairs([&](const Pair&) { near_pairs += 1.0; });
@@ -90,7 +90,7 @@ class OverlapFinder {
     return project(scene_.position[ball], scene_.position[element.start], span / length, length).offset.norm();
   }
 
-  /// Calls visit(pair) for balls that are nearer to a segment than radius and half thickness.
+  /// Calls visit(pair) for balls that are nearer to a segment than radius plus half thickness.
   template <class Visit>
   void visit_near_pairs(Visit&& visit) {
     const BucketGrid grid(scene_.position, mean_length_ + scene_.largest_radius);
@@ -119,7 +119,7 @@ class OverlapFinder {
     });
   }
 
-  /// Of near pairs, those within the reach that they have in the run.
+  /// Keeps the near pairs that are within their reach in the run (E8, E8a).
   void keep_touching(std::vector<Pair>& pairs) {
     std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.ball < b.ball; });
     for (const Pair& pair : pairs) {

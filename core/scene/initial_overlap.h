@@ -7,12 +7,12 @@
 
 namespace cellcrush {
 
-/// Places that find_initial_overlaps looks at before it gives up, for each particle or element.
+/// Most candidate positions, per particle or element, that find_initial_overlaps visits before it gives up.
 inline constexpr double kMostOverlapVisits = 512.0;
-/// Segments near each ball with which it gives up.
+/// Number of segments near each ball at which it gives up.
 inline constexpr double kMostNearSegments = 100.0;
 
-/// Two elements whose walls lie in each other before loading.
+/// Two elements whose walls overlap before loading.
 struct InitialOverlap {
   int first = 0;
   int second = 0;
@@ -20,14 +20,14 @@ struct InitialOverlap {
 };
 
 struct InitialOverlaps {
-  std::vector<InitialOverlap> found;  ///< at most as many as asked for, each pair once
+  std::vector<InitialOverlap> found;  ///< at most as many as requested, each pair once
   bool too_dense =
       false;  ///< given up: walls so thick or tangled that the run's list of candidates would not end either
 };
 
-/// Where contacts would push before anything has moved: balls that touch a segment by the rule of the run, and elements
-/// that cross without a common node, far from any ball. Time and memory grow as the number of elements. REQUIRES: a
-/// mesh with radii and incidence.
+/// Where contacts would push before anything has moved: balls that touch a segment by the rule of the run (E8, E8a),
+/// and elements that cross without a common node, far from any ball. Time and memory grow in proportion to the number
+/// of elements. REQUIRES: a mesh with radii and incidence.
 InitialOverlaps find_initial_overlaps(const Scene& scene, std::size_t most);
 
 }  // namespace cellcrush

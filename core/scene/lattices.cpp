@@ -18,11 +18,11 @@ LatticePattern pattern_of_hexagons(const LatticeShape& shape) {
   PatternBuilder builder({2 * shape.columns, 3 * shape.rows + 1});
   for (int row = 0; row < shape.rows; ++row) {
     const bool stiff = std::find(shape.stiff_rows.begin(), shape.stiff_rows.end(), row + 1) != shape.stiff_rows.end();
-    const int shift = row % 2;  // odd rows are one cell shorter and start half a pitch in
+    const int shift = row % 2;  // odd rows are one cell shorter and are shifted by half a pitch
     for (int column = 0; column < shape.columns - shift; ++column) {
       const int x = 2 * column + shift;
       const int y = 3 * row;
-      // Corners counter-clockwise from the lowest; walls 1-2 and 4-5 stand along y.
+      // Corners counter-clockwise from the lowest; walls 1-2 and 4-5 run along y.
       const std::array<GridPoint, 6> corner = {
           {{x + 1, y}, {x + 2, y + 1}, {x + 2, y + 3}, {x + 1, y + 4}, {x, y + 3}, {x, y + 1}}};
       for (int i = 0; i < 6; ++i) {
@@ -69,8 +69,8 @@ LatticePattern pattern_of_triangles(const LatticeShape& shape) {
   return builder.take();
 }
 
-/// Spacing of the pattern's grid, mm: of hexagons half pitches in x, half sides in y; of triangles half sides in x,
-/// rows in y.
+/// Grid spacing of the pattern, mm. Hexagons: half pitches in x, half sides in y. Triangles: half sides in x, rows in
+/// y.
 Vector2 unit_of(Cell cell, double side) {
   switch (cell) {
     case Cell::hexagon: return {kHalfRoot3 * side, 0.5 * side};
@@ -89,7 +89,7 @@ LatticePattern pattern_of(const LatticeShape& shape) {
   return pattern_of_triangles(shape);
 }
 
-/// Where the joints of a pattern are, mm.
+/// Positions of the joints of a pattern, mm.
 std::vector<Vector2> place_joints(const LatticePattern& pattern, LatticeShape::Cell cell, double side) {
   const Vector2 unit = unit_of(cell, side);
   std::vector<Vector2> joints;

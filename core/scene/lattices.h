@@ -10,16 +10,17 @@
 
 namespace cellcrush {
 
-// The regular lattices, lower left corner of the envelope at the origin. Every joint and wall is made once.
-// REQUIRES everywhere: a checked lattice, all its fields set.
+// The regular lattices, with the lower left corner of the envelope at the origin. Every joint and wall is created once.
+// REQUIRES everywhere: a checked lattice with all its fields set.
 
-/// What the pattern of a regular lattice depends on.
+/// The parameters that determine the pattern of a regular lattice.
 struct LatticeShape {
   enum class Cell {
-    hexagon,  ///< walls along y; rows from the bottom up alternate `columns` and `columns - 1` cells
+    hexagon,  ///< walls along y; rows from the bottom up have `columns` and `columns - 1` cells in turn
     square,   ///< walls along x and y
-    triangle  ///< walls along x; `rows` rows between lines that alternate `columns + 1` and `columns` joints, half a
-              ///< side in
+    /// Walls along x; `rows` rows between lines that have `columns + 1` and, shifted by half a side, `columns` joints
+    /// in turn.
+    triangle
   };
   Cell cell = Cell::hexagon;
   int columns = 0;
@@ -27,10 +28,10 @@ struct LatticeShape {
   std::vector<int> stiff_rows;  ///< of hexagons, from 1 at the bottom
 };
 
-/// What makes a layout of a pattern.
+/// The sizes that turn a pattern into a layout.
 struct LatticeSizes {
   double side = 0.0;          ///< L, mm
-  ByWallKind thickness = {};  ///< mm; stiff walls are at least as thick as those that are not
+  ByWallKind thickness = {};  ///< mm; stiff walls are at least as thick as the others
   bool rigid = false;         ///< whether stiff walls are parts of rigid bodies
   int elements_per_wall = 1;
 };
@@ -43,13 +44,13 @@ struct RegularLattice {
 RegularLattice regular_lattice(const HexagonLattice& lattice, const Inclusions& inclusions, int elements_per_wall);
 RegularLattice regular_lattice(const SquareLattice& lattice, int elements_per_wall);
 RegularLattice regular_lattice(const TriangleLattice& lattice, int elements_per_wall);
-/// The regular lattice of a spec; none of a frame.
+/// The regular lattice of a spec; none for a frame.
 std::optional<RegularLattice> regular_lattice_of(const SceneSpec& spec);
 
 Layout lay_out(const RegularLattice& lattice);
 
-/// Envelopes in x and y, mm: sqrt(3) side columns by (1.5 rows + 0.5) side; side columns by side rows; side columns by
-/// sqrt(3)/2 side rows.
+/// Envelope in x and y, mm. Hexagons: sqrt(3) side columns by (1.5 rows + 0.5) side. Squares: side columns by side
+/// rows. Triangles: side columns by sqrt(3)/2 side rows.
 Vector2 envelope_of(const RegularLattice& lattice);
 
 }  // namespace cellcrush

@@ -32,7 +32,8 @@ void lump_masses(Scene& scene) {
 
 namespace {
 
-/// Calls visit(joint, index into State::wall_force) for every end of a wall: of a block its starts, then its ends.
+/// Calls visit(joint, index into State::wall_force) for every end of a wall: for each block, first the starts of its
+/// walls, then the ends.
 template <class Visit>
 void visit_wall_ends(const Scene& scene, Visit&& visit) {
   for (const WallBlock& block : scene.walls.blocks) {

@@ -5,9 +5,9 @@
 namespace cellcrush {
 
 /// Fills masses, inertias, their inverses, radius, largest_radius, smallest_radius and total_mass of the scene from its
-/// elements (Eq. 1-3): each element gives half of its mass rho b h l to either node, and that mass times
-/// gamma^2 = h^2 / 12 as rotary inertia, both scaled by mass_scaling. Adds to what is there, so that attached masses
-/// are put in before.
+/// elements (Eq. 1-3, E1). Each element gives half of its mass rho b h l to either node, and that mass times gamma^2 =
+/// h^2 / 12 as rotary inertia, both scaled by mass_scaling (E11b). Adds to the present values, so attached masses are
+/// entered before.
 void lump_masses(Scene& scene);
 
 /// Fills incidence_offset, incidence, wall_end_offset and wall_ends.

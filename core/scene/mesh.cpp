@@ -6,7 +6,7 @@
 namespace cellcrush {
 namespace {
 
-/// Walls from `first` on, before `end`, that go into one block.
+/// Number of walls from `first` on, before `end`, that go into one block.
 int walls_in_block(const Layout& layout, std::size_t first, std::size_t end) {
   int count = 0;
   for (std::size_t w = first;
@@ -33,7 +33,7 @@ void divide_block(const Layout& layout, const WallBlock& block, Scene& scene) {
   }
 }
 
-/// Puts neighbouring blocks that are all full, or all not, into chunks.
+/// Groups adjacent blocks that are all full, or all not full, into chunks.
 std::vector<int> chunk_offsets(const std::vector<WallBlock>& blocks) {
   std::vector<int> offsets = {0};
   int elements = 0;
@@ -65,8 +65,7 @@ void visit_chunk_joints(const Walls& walls, Visit&& visit) {
   }
 }
 
-/// Says of every chunk which joints have no walls before it, and none after it. A joint without walls goes with its
-/// neighbour.
+/// Fills first_joint and end_joint of every chunk. A joint without walls belongs to the chunk of its neighbour.
 void order_joints(Walls& walls, int joint_count) {
   constexpr int kNone = -1;
   std::vector<int> first(joint_count, kNone);

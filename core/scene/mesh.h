@@ -12,8 +12,8 @@ struct LayoutWall {
   int start = 0;
   int end = 0;
   double thickness = 0.0;  ///< mm
-  int elements = 1;        ///< elements it is divided into
-  int material = 0;        ///< into Scene::materials
+  int elements = 1;        ///< number of elements into which it is divided
+  int material = 0;        ///< index into Scene::materials
   bool rigid = false;      ///< part of a rigid body: not divided
 };
 
@@ -23,9 +23,9 @@ struct Layout {
   std::vector<LayoutWall> walls;
 };
 
-/// Divides the walls into elements: fills the scene's positions, elements and walls. The joints come first, then the
-/// particles inside the walls, block by block. Walls that follow each other and have equally many elements share a
-/// block. Rigid walls are an element each, behind all others. REQUIRES: they are the last.
+/// Divides the walls into elements: fills the positions, elements and walls of the scene. Joints come first, then the
+/// particles inside the walls, block by block. Consecutive walls with the same number of elements share a block. Each
+/// rigid wall is one element, after all others. REQUIRES: rigid walls are the last ones.
 void divide_walls(const Layout& layout, Scene& scene);
 
 }  // namespace cellcrush

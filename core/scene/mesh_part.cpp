@@ -32,7 +32,7 @@ std::vector<Material> materials_of(const SceneSpec& spec) {
   return materials;
 }
 
-/// Lays out the lattice, and takes its measures where it is a regular one.
+/// Lays out the lattice, and computes its measures if it is a regular one.
 Layout lay_out(const SceneSpec& spec, Scene& scene) {
   const auto lattice = regular_lattice_of(spec);
   if (!lattice) {

@@ -9,22 +9,22 @@
 
 namespace cellcrush {
 
-/// The material of a spec in the plane of its lattice: what a fibre along the wall shows. In plane strain it is held
-/// across: elastically E / (1 - nu^2); flowing, the stress along it is 2 / sqrt 3 of the effective stress and its
-/// strain sqrt 3 / 2 of the effective one.
+/// The material of a spec in the plane of its lattice, as seen by a fibre along the wall. In plane strain the wall is
+/// held across (E6b): the elastic modulus is E / (1 - nu^2). In plastic flow, the stress along the wall is 2 / sqrt 3
+/// of the effective stress, and its strain sqrt 3 / 2 of the effective strain.
 Material material_of(const MaterialSpec& spec);
 
 /// 0: crushed along x, 1: along y.
 int crush_axis_of(const SceneSpec& spec);
 
-/// The spec with what its mesh does not depend on as by default: speed, strains, contact and plates, steps, output.
-/// Specs that are equal in this part have the same mesh.
+/// The spec with defaults in all fields on which its mesh does not depend: speed, strains, contact and plates, steps,
+/// output. Specs that are equal in this part have the same mesh.
 SceneSpec mesh_part_of(const SceneSpec& spec);
 
-/// Mesh, masses and stable step. REQUIRES: a mesh part in which nothing spoils the mesh.
+/// Builds the mesh, masses and stable step. REQUIRES: a mesh part without problems that prevent meshing.
 std::shared_ptr<Scene> build_mesh(const SceneSpec& part);
 
-/// What the rest of a scene takes from its mesh. Units mm, tonne, s, MPa.
+/// Measures of a mesh on which the rest of a scene depends. Units mm, tonne, s, MPa.
 struct MeshMeasures {
   std::size_t particle_count = 0;
   std::size_t element_count = 0;
@@ -36,13 +36,13 @@ struct MeshMeasures {
   Material material;       ///< of the lattice
   bool hardening = false;  ///< of any material
   bool contact = false;    ///< whether walls touch each other
-  Problems overlaps;       ///< walls that lie in each other before loading
+  Problems overlaps;       ///< walls that overlap before loading
 };
 
-/// Looks for walls that lie in each other too. REQUIRES: `scene` is the mesh of the part.
+/// Measures a mesh, and searches for walls that overlap. REQUIRES: `scene` is the mesh of the part.
 MeshMeasures measure_mesh(const SceneSpec& part, const Scene& scene);
 
-/// The same of a mesh in which none do.
+/// The same for a mesh without overlaps.
 MeshMeasures measure_sound_mesh(const SceneSpec& part, const Scene& scene);
 
 }  // namespace cellcrush

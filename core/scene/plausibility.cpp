@@ -7,7 +7,7 @@
 namespace cellcrush {
 namespace {
 
-// Solids from polymers to osmium, rubbers to diamond, and what yields.
+// Range of solids: densities from polymers to osmium, stiffness from rubbers to diamond, and their yield strains.
 constexpr double kLightest = 300.0;      // kg/m^3
 constexpr double kHeaviest = 23000.0;    // kg/m^3
 constexpr double kSoftest = 500.0;       // MPa
@@ -16,7 +16,7 @@ constexpr double kLeastYield = 2e-5;     // strain
 constexpr double kGreatestYield = 0.05;  // strain
 constexpr double kThickest = 0.25;       // of the side
 constexpr double kThinnest = 5e-4;       // of the side
-constexpr double kFastest = 0.1;         // of the speed of a wave in a bar of the walls' material
+constexpr double kFastest = 0.1;         // fraction of the speed of an elastic wave in a bar of the wall material
 
 std::string percent(double share) { return to_text(std::round(1000.0 * share) / 10.0) + " %"; }
 
@@ -104,7 +104,7 @@ Problems find_implausible(const SceneSpec& spec) {
   }
   const MaterialSpec& material = spec.material;
   if (!material.youngs_modulus_mpa || !material.yield_stress_mpa || !material.density_kg_per_m3) {
-    return notes.take();  // a frame whose beams have materials of their own
+    return notes.take();  // a frame whose beams have their own materials
   }
   look_at_stiffness(material, notes);
   look_at_density(*material.density_kg_per_m3, notes);

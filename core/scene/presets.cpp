@@ -5,7 +5,7 @@
 namespace cellcrush {
 namespace {
 
-// Aluminium as the studies of this scene usually take it.
+// Aluminium as usually modelled in studies of this scene.
 MaterialSpec perfectly_plastic_aluminium() {
   MaterialSpec material;
   material.youngs_modulus_mpa = 69000.0;
@@ -47,7 +47,7 @@ Preset type_i() {
           spec};
 }
 
-// The same cells, few enough for a first look.
+// The same cells, few enough for a first run.
 Preset hexagon_small() {
   Preset preset = type_i();
   preset.name = "hexagon-small";
@@ -94,7 +94,7 @@ Preset type_iii(const std::string& reading, int columns, int rows, double side) 
   return preset;
 }
 
-// Example 1: the quasi-static test of Papka and Kyriakides, by plain explicit steps slow enough for it.
+// Example 1: the quasi-static test of Papka and Kyriakides, by explicit steps with real masses, slow enough for it.
 Preset papka_kyriakides(const std::string& number, double side, double thickness) {
   SceneSpec spec;
   spec.title = "Hexagons of Papka and Kyriakides, dimensions " + number;
@@ -129,7 +129,7 @@ Preset papka_kyriakides(const std::string& number, double side, double thickness
       spec};
 }
 
-// Example 3: hexagons with lines of stiff cells.
+// Example 3: hexagons with rows of stiff cells.
 Preset inclusions(std::vector<int> rows) {
   SceneSpec spec;
   const std::string count = std::to_string(rows.size());

@@ -6,7 +6,7 @@
 namespace cellcrush {
 namespace {
 
-/// For each joint the lowest of those that rigid walls join it to; its own number where none does.
+/// For each joint, the lowest of the joints to which rigid walls connect it; its own number if none does.
 std::vector<int> find_parts(const Layout& layout) {
   std::vector<int> part(layout.joints.size());
   std::iota(part.begin(), part.end(), 0);

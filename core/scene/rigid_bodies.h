@@ -7,11 +7,11 @@
 
 namespace cellcrush {
 
-/// Numbers the joints of rigid walls first, those that rigid walls join together side by side, and puts rigid walls
-/// last. Returns RigidBodies::offset.
+/// Numbers the joints of rigid walls first, with those of the same body side by side, and moves rigid walls to the end.
+/// Returns RigidBodies::offset.
 std::vector<int> put_rigid_bodies_first(Layout& layout);
 
-/// Fills in centres, masses and inertias of the bodies. REQUIRES: masses are lumped.
+/// Fills centres, masses and inertias of the bodies (M and I of E13). REQUIRES: masses are lumped.
 void lump_rigid_bodies(Scene& scene);
 
 }  // namespace cellcrush

@@ -52,7 +52,7 @@ void check_stability(const SceneSpec& spec, const MeshMeasures& mesh, Problems& 
   }
 }
 
-/// The field to blame when a run has more steps than any machine does.
+/// Names the field responsible for a run with more steps than any machine can do.
 void check_step_count(const SceneSpec& spec, double count, Problems& problems) {
   constexpr double kMostSteps = 1e10;
   if (count <= kMostSteps) {

@@ -13,7 +13,7 @@
 namespace cellcrush {
 namespace {
 
-/// As many as the last axis of a grid over the lattice may have values.
+/// Most known meshes: as many as the last axis of a grid over the lattice may have values.
 constexpr std::size_t kMostMeshes = 64;
 
 std::int64_t most_memory_of(const SceneSpec& spec, const MeshMeasures& mesh) {

@@ -9,15 +9,15 @@
 namespace cellcrush {
 namespace {
 
-constexpr double kTravelPerStep = 0.05;  // of the thinnest wall, by the plate
+constexpr double kTravelPerStep = 0.05;  // travel of the plate as a fraction of the thinnest wall
 
-/// Whether walls lie along the crush and are stacked in it.
+/// Whether walls lie along the crush and are stacked in that direction.
 bool stacks(const SceneSpec& spec) {
   return std::holds_alternative<SquareLattice>(spec.lattice) || std::holds_alternative<TriangleLattice>(spec.lattice);
 }
 
-/// Greatest turn in a step of the lightest particle on its contact, rad: less where the crush is slow against
-/// sqrt(sigma_y / rho), and its work therefore small.
+/// Greatest phase angle omega dt of the lightest particle on its contact, rad. It is less where the crush is slow
+/// against sqrt(sigma_y / rho), and its work therefore small.
 double turn_of_stacks(const Material& material, double plate_speed) {
   constexpr double kTurn = 0.11;
   constexpr double kFast = 0.45;  // speed over sqrt(sigma_y / rho)

@@ -33,7 +33,7 @@ std::vector<int> WallPaths::segments_near(int ball, double largest) {
   return segments;
 }
 
-// Dijkstra's algorithm. In most lattices it ends at the ball: the next particle is farther than the limit.
+// Dijkstra's algorithm. In most lattices it ends at the ball, because the next particle is beyond the limit.
 void WallPaths::walk_from(int ball, double limit) {
   constexpr double kFar = std::numeric_limits<double>::infinity();
   way_.resize(scene_.particle_count(), kFar);

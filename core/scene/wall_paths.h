@@ -6,36 +6,38 @@
 
 namespace cellcrush {
 
-/// How near balls and segments may come which a short way along the undeformed walls joins: neighbours at a joint, or
-/// elements of one wall that is thicker than they are long. Where they touch is a property of the pair alone.
+/// Reach of balls and segments that a short path along the undeformed walls joins (E8a): neighbours at a joint, or
+/// elements of one wall that is thicker than they are long. The reach is a property of the pair alone.
 class WallPaths {
  public:
-  /// Share of the way between them at which ball and segment touch. Below 1/2, the distance of two points equally far
-  /// from the corner of a triangle: walls that meet at more than 48 degrees do not touch before loading, however thick.
+  /// Reach as a fraction of the path between ball and segment, the 0.4 of E8a. Below 1/2, the distance over the path
+  /// for two points equally far from the corner of an equilateral triangle. Walls that meet at more than 48 degrees
+  /// then do not touch before loading, whatever their thickness.
   static constexpr double kTouchingShare = 0.4;
 
   explicit WallPaths(const Scene& scene) : scene_(scene) {}
 
-  /// Distance at which they touch, mm: radius and half of the thickness (Eq. 41), or kTouchingShare of the way from the
-  /// ball to the segment's nearer end if that is less. Cheap for balls in the order of particles.
+  /// Distance at which they touch, mm: radius plus half thickness (Eq. 41, E8), or kTouchingShare of the path from the
+  /// ball to the nearer end of the segment, if that is less (E8a). Cheap if balls are visited in the order of
+  /// particles.
   double reach_of(int ball, int segment);
 
-  /// Segments but the ball's own that reach_of may limit, ascending. `largest`: the greatest radius and half thickness
-  /// there is, mm.
+  /// Segments, except those of the ball itself, whose reach_of may be limited, ascending. `largest`: the greatest
+  /// radius plus half thickness, mm.
   std::vector<int> segments_near(int ball, double largest);
 
  private:
-  /// Ways from the ball to all particles nearer than the limit.
+  /// Finds the path lengths from the ball to all particles nearer than the limit.
   void walk_from(int ball, double limit);
 
   const Scene& scene_;
   int ball_ = -1;
   double limit_ = 0.0;
-  std::vector<double> way_;   // of all particles, infinite where not reached; empty until the first walk
-  std::vector<int> reached_;  // particles with a finite way
+  std::vector<double> way_;   // path length to each particle, infinite if not reached; empty until the first call
+  std::vector<int> reached_;  // particles with a finite path length
 };
 
-/// The limited reaches of all pairs of a scene.
+/// The limited reaches of all pairs of a scene (E8a).
 LimitedReaches find_limited_reaches(const Scene& scene);
 
 }  // namespace cellcrush

@@ -18,8 +18,8 @@ namespace cellcrush::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// As many lanes as the registers of the target hold, at most kMost. One build has one lane everywhere, to show that the
-/// width does not change bits (tests/core/CMakeLists.txt, core_one_lane).
+/// As many lanes as the registers of the target hold, at most kMost. One build has one lane everywhere; it shows that
+/// the width does not change bits (tests/core/CMakeLists.txt, core_one_lane).
 #ifdef CELLCRUSH_ONE_LANE
 template <class T, std::size_t kMost>
 using WideTag = hn::CappedTag<T, 1>;
