@@ -7,8 +7,8 @@
 namespace cellcrush {
 namespace {
 
-/// Sums some quantities of the particles over the columns. Those that follow each other are mostly of the same column:
-/// they add to different parts of its sum, so that none waits for the one before it.
+/// Sums some quantities of the particles over the columns. Consecutive particles are mostly in the same column. They
+/// are added to different partial sums, so that no addition waits for the one before.
 template <int kQuantities>
 class ColumnSums {
  public:
@@ -41,7 +41,7 @@ class ColumnSums {
   std::size_t next_ = 0;
 };
 
-/// Length times thickness of the walls of every column.
+/// Length times thickness of the walls in every column.
 template <class LengthOf>
 std::vector<double> sum_walls(const Columns& columns, const Scene& scene, const LengthOf& length_of) {
   using Area = ColumnSums<1>;

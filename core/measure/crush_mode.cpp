@@ -9,16 +9,16 @@
 namespace cellcrush {
 namespace {
 
-/// A band: cells whose distance from a mid-line, along the crush, is at most half of a width.
+/// A band: cells whose distance along the crush from a mid-line is at most half of a width.
 struct Band {
   CrushMode kind = CrushMode::none;
   double agreement = 0.0;
   std::vector<bool> inside;  ///< C
 };
 
-/// Looks over mid-lines of one kind for the band that agrees best with the collapsed cells. A band has one, two or four
-/// arms, and each of them has to be there: kLeastOfArm of its cells have collapsed, and they are kLeastOfBand of an
-/// even share of the band's.
+/// Searches the mid-lines of one kind for the band that agrees best with the collapsed cells. A band has one, two or
+/// four arms. In each of them at least a fraction kLeastOfArm of its cells has collapsed. They are at least a fraction
+/// kLeastOfBand of an even share of the collapsed cells of the band.
 class BandSearch {
  public:
   BandSearch(const CollapseField& field, CrushMode kind, int arms, double to_beat) : field_(field), arms_(arms) {
@@ -30,12 +30,12 @@ class BandSearch {
     bin_of_.resize(field.along.size());
   }
 
-  /// Tries every width round a mid-line: `distance` gives a cell's distance from it along the crush, mm, and `arm` the
-  /// number of the arm that it would belong to.
+  /// Tries every width round a mid-line. `distance` gives the distance of a cell from it along the crush, mm, and `arm`
+  /// the number of the arm to which the cell would belong.
   template <class Distance, class Arm>
   void try_line(const Distance& distance, const Arm& arm) {
     counts_.assign((bins_ + 1) * arms_, {});
-    // Cells beyond the widest band share a bin behind the others.
+    // Cells beyond the widest band share one more bin, the last one.
     for (std::size_t cell = 0; cell < bin_of_.size(); ++cell) {
       const double bin = distance(field_.along[cell], field_.across[cell]) * bins_per_mm();
       bin_of_[cell] = static_cast<int>(std::min(bin, static_cast<double>(bins_)));
@@ -55,7 +55,7 @@ class BandSearch {
   [[nodiscard]] const Band& best() const { return best_; }
 
  private:
-  /// Cells of an arm, and those of them that have collapsed.
+  /// Number of cells of an arm, and of those that have collapsed.
   struct Count {
     int all = 0;
     int hit = 0;
@@ -63,7 +63,7 @@ class BandSearch {
 
   [[nodiscard]] double bins_per_mm() const { return 2.0 / field_.pitch; }
 
-  /// The last bin of the width that agrees best, when it beats the best so far.
+  /// The last bin of the width that agrees best, if it is better than the best so far.
   std::optional<int> find_width() {
     constexpr double kLeastOfArm = 0.4;
     constexpr double kLeastOfBand = 0.4;
@@ -93,14 +93,14 @@ class BandSearch {
   const CollapseField& field_;
   int arms_;
   Band best_;
-  std::size_t bins_ = 0;       // of half a cell
-  std::vector<Count> counts_;  // by distance and arm
-  std::vector<int> bin_of_;    // C, of the line that is tried
+  std::size_t bins_ = 0;       // each half a cell wide
+  std::vector<Count> counts_;  // by bin of distance and arm
+  std::vector<int> bin_of_;    // C, for the mid-line that is tried
   std::vector<int> hit_;       // C, 1: has collapsed
   double collapsed_ = 0.0;
 };
 
-/// Places along the crush that are tried, half a cell apart.
+/// Positions along the crush that are tried, half a cell apart.
 template <class Try>
 void for_each_place(const CollapseField& field, const Try& attempt) {
   for (double place = 0.0; place <= field.length; place += 0.5 * field.pitch) {
@@ -108,8 +108,8 @@ void for_each_place(const CollapseField& field, const Try& attempt) {
   }
 }
 
-/// Slopes that are tried, as what a band runs along the crush over a distance across it; those that a lattice of this
-/// width can tell from none.
+/// Slopes that are tried, distance along the crush over distance across it: those that can be told from 0 in a lattice
+/// of this width.
 std::vector<double> slopes_of(const CollapseField& field) {
   constexpr double kLeastRun = 3.0;  // cells along the crush over half of the width
   std::vector<double> slopes;
@@ -142,7 +142,8 @@ void search_v(const CollapseField& field, BandSearch& search) {
   }
 }
 
-/// Both hands of crossing bands, of four arms; with the crossing on a side they are a V that lies there, of two.
+/// Crossing bands of both slopes, with four arms. If the crossing is on a side, they are a V whose point is there, with
+/// two arms.
 void search_crossing(const CollapseField& field, bool inside, std::initializer_list<double> crossings,
                      BandSearch& search) {
   for (const double slope : slopes_of(field)) {
@@ -171,7 +172,7 @@ void search_c(const CollapseField& field, BandSearch& search) {
   }
 }
 
-/// The band of any kind that agrees best; a later kind has to be clearly better than those before it.
+/// The band of any kind that agrees best; a later kind must be clearly better than those before it.
 Band find_band(const CollapseField& field) {
   Band best;
   const auto consider = [&](CrushMode kind, int arms, const auto& look) {
@@ -207,7 +208,7 @@ double collapsed_fraction_of(const CollapseField& field) {
 
 CrushMode find_crush_mode(const CollapseField& field, double* agreement) {
   constexpr int kMostBands = 3;
-  constexpr double kWorthAnother = 0.25;  // of the collapsed cells
+  constexpr double kWorthAnother = 0.25;  // fraction of the collapsed cells
   const double collapsed = count(field.collapsed);
   CollapseField rest = field;
   CrushMode kind = CrushMode::none;

@@ -13,15 +13,15 @@ constexpr double kLeastRise = 0.3;
 constexpr double kRise = 1.3;
 constexpr double kAbovePeaks = 1.15;
 constexpr double kLasts = 0.01;
-constexpr double kStep = 0.001;  // of strain, whatever the sampling
+constexpr double kStep = 0.001;  // strain, for any sampling
 
 /// The smoothed curve from kPlateauBegins on.
 struct Plateau {
   std::vector<double> strain;
   std::vector<double> stress;
-  std::vector<double> mean;        ///< since kPlateauBegins
-  std::vector<double> greatest;    ///< of the stresses up to here
-  std::vector<double> least_left;  ///< of the stresses from here to the end
+  std::vector<double> mean;        ///< mean stress since kPlateauBegins
+  std::vector<double> greatest;    ///< greatest stress up to here
+  std::vector<double> least_left;  ///< least stress from here to the end
 };
 
 Plateau find_plateau(const Curve& curve) {
@@ -44,7 +44,7 @@ Plateau find_plateau(const Curve& curve) {
   return plateau;
 }
 
-/// The last place before `rise` at which the stress is not above the plateau's mean; the first of all where none is.
+/// Index of the last point before `rise` at which the stress is not above the mean of the plateau; 0 if there is none.
 std::size_t find_foot(const Plateau& plateau, std::size_t rise) {
   std::size_t foot = rise;
   while (foot > 0 && plateau.stress[foot] > plateau.mean[rise]) {

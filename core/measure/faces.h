@@ -10,19 +10,19 @@ namespace cellcrush {
 /// The faces (cells) of a planar lattice: loops of particles, counter-clockwise. C faces.
 struct Faces {
   std::vector<int> offset;      ///< C + 1, into particles
-  std::vector<int> particles;   ///< the loops one after another
-  std::vector<double> area;     ///< C, mm^2, undeformed; above 0
+  std::vector<int> particles;   ///< the loops, one after another
+  std::vector<double> area;     ///< C, mm^2, undeformed; positive
   std::vector<Vector2> centre;  ///< C, mm, undeformed: mean of the corners of the loop
 
   [[nodiscard]] std::size_t count() const { return area.size(); }
 };
 
-/// Traces the faces of the graph that elements make of particles (scene/face_loops.h) but the outer one.
-/// REQUIRES: a planar drawing, in which elements meet at particles only.
+/// Traces the faces of the graph of particles and elements (scene/face_loops.h), without the outer one.
+/// REQUIRES: a planar drawing, in which elements meet only at particles.
 Faces trace_faces(std::span<const Vector2> position, std::span<const Element> elements);
 
-/// Areas of the faces at other positions of the same particles over their undeformed areas, C. An area that is turned
-/// inside out is negative.
+/// Areas of the faces at other positions of the same particles, divided by their undeformed areas, C. The area of a
+/// face that is turned inside out is negative.
 std::vector<double> area_ratios(const Faces& faces, std::span<const Vector2> position);
 
 }  // namespace cellcrush

@@ -17,7 +17,7 @@ std::vector<double> strains_of(const Columns& columns, const Profile& profile) {
   return strains;
 }
 
-/// Sums over the first n values, n = 0 ... size.
+/// Sums of the first n values, n = 0 ... size.
 std::vector<double> running_sums(const std::vector<double>& values) {
   std::vector<double> sums = {0.0};
   for (const double value : values) {
@@ -26,7 +26,7 @@ std::vector<double> running_sums(const std::vector<double>& values) {
   return sums;
 }
 
-/// How many values come before the split into two means that leaves the least squares.
+/// Number of values before the split into two means with the least sum of squared residuals.
 int find_step(const std::vector<double>& values) {
   const auto count = static_cast<int>(values.size());
   const std::vector<double> sum = running_sums(values);
@@ -43,7 +43,7 @@ int find_step(const std::vector<double>& values) {
   return best;
 }
 
-/// Root mean square of the values from one up to another about their mean.
+/// Root mean square deviation of the values from `from` to `to` from their mean.
 double scatter_of(const std::vector<double>& values, int from, int to) {
   double sum = 0.0;
   double squares = 0.0;
@@ -60,7 +60,7 @@ double mean_strain(const Columns& columns, const Profile& profile, int from, int
   return (profile.displacement[from] - profile.displacement[to]) / (columns.place[to] - columns.place[from]);
 }
 
-/// Mean of a velocity over the mass of the columns from one up to another.
+/// Mass average of a velocity over the columns from `from` to `to`.
 double mean_velocity(const Columns& columns, const Profile& profile, int from, int to) {
   double momentum = 0.0;
   double mass = 0.0;
@@ -82,7 +82,7 @@ std::optional<Front> find_front(const Columns& columns, const Scene& scene, cons
   const int step = find_step(strains);
   const int behind = step - kColumnsOfFront;  // last column behind the front
   const int ahead = step + kColumnsOfFront;   // first column ahead of it
-  const int middle = (ahead + last) / 2;      // of what lies ahead
+  const int middle = (ahead + last) / 2;      // middle of the columns ahead
   if (behind < kColumnsBeside || middle - ahead < kColumnsBeside) {
     return std::nullopt;
   }

@@ -7,7 +7,7 @@
 namespace cellcrush {
 namespace {
 
-/// Calls visitor(field) for every field that stands by itself; S is a Sample, const or not.
+/// Calls visitor(field) for every field that is stored on its own; S is Sample or const Sample.
 template <class S, class Visitor>
 void visit_plain_fields(S& sample, Visitor&& visitor) {
   visitor(sample.step);

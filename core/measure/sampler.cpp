@@ -15,11 +15,11 @@
 namespace cellcrush {
 namespace {
 
-/// The crush mode is looked for each time that so many more of the cells have collapsed: it takes as long as many
-/// steps.
+/// The crush mode is evaluated each time that this fraction of the cells has newly collapsed, because it takes as long
+/// as many steps.
 constexpr double kLookEvery = 0.04;
 
-/// Share of an element's volume whose fibres have yielded.
+/// Fraction of the volume of an element whose fibres have yielded.
 class FlowedShare {
  public:
   explicit FlowedShare(const SectionRule& rule) {
@@ -55,8 +55,8 @@ class FlowedShare {
   }
 
  private:
-  std::vector<double> share_;                     ///< of each fibre
-  std::vector<std::array<double, 256>> of_byte_;  ///< of the fibres whose bits are set in a byte
+  std::vector<double> share_;                     ///< share of each fibre in the volume
+  std::vector<std::array<double, 256>> of_byte_;  ///< sum over the fibres whose bits are set in a byte
 };
 
 }  // namespace

@@ -8,9 +8,9 @@
 
 namespace cellcrush {
 
-/// Takes samples of a run. Stresses are means over the interval between two samples, from the plates' impulses: a
-/// penalty contact rings, and the force at one moment says little. Collapse and front are read from the positions and
-/// velocities of now. Only a lattice between plates has cells, columns and a front.
+/// Takes samples of a run. Stresses are means over the interval between two samples, from the impulses of the plates: a
+/// penalty contact oscillates, so the force at one time says little. Collapse and front follow from the current
+/// positions and velocities. Only a lattice between plates has cells, columns and a front.
 class Sampler {
  public:
   explicit Sampler(const Scene& scene);
@@ -18,7 +18,7 @@ class Sampler {
   /// REQUIRES: `scene` is that of the constructor.
   Sample take(const Scene& scene, const State& state);
 
-  /// Calls visitor(field) for all that a sample leaves for the next one.
+  /// Calls visitor(field) for all data that a sample passes on to the next one.
   template <class Visitor>
   void visit_memory(Visitor&& visitor) {
     visitor(last_time_);
@@ -42,11 +42,11 @@ class Sampler {
   double last_support_impulse_ = 0.0;
   bool told_of_depth_ = false;
   bool told_of_search_ = false;
-  double next_look_;  ///< share of collapsed cells from which the crush mode is looked for next
+  double next_look_;  ///< fraction of collapsed cells at which the crush mode is next evaluated
 };
 
-/// Overwrites a frame, of the same scene if of any: positions, and the share of each element's section area that has
-/// yielded.
+/// Overwrites a frame with the positions and, for each element, the fraction of the section area that has yielded.
+/// REQUIRES: the frame is empty or of the same scene.
 void make_frame(const Scene& scene, const State& state, int index, FieldFrame& frame);
 
 }  // namespace cellcrush

@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kAbsorbedTo = 0.5;
 
-/// Greatest |residual| over the external work done by then, once a hundredth of the final work is done: before that the
-/// ratio compares two small numbers.
+/// Greatest |residual| over the external work done by then. It counts once a hundredth of the final work is done;
+/// before that the ratio compares two small numbers.
 double energy_error_of(std::span<const Sample> samples) {
   const double threshold = 0.01 * std::abs(samples.back().work_external);
   double error = 0.0;
@@ -27,7 +27,7 @@ double energy_error_of(std::span<const Sample> samples) {
   return error;
 }
 
-/// The mode that most looks at the collapse gave.
+/// Sets the mode that most evaluations found; of equally frequent ones, the first.
 void set_crush_mode(std::span<const Sample> samples, Summary& summary) {
   const auto looks = [&](CrushMode mode) {
     return std::count_if(samples.begin(), samples.end(),
@@ -44,8 +44,8 @@ void set_crush_mode(std::span<const Sample> samples, Summary& summary) {
   }
 }
 
-/// Difference of both plates' mean stresses over a range of strain, over the mean of both; nothing where there is no
-/// stress.
+/// Difference of the mean stresses at both plates over a range of strain, divided by the mean of both; nothing if there
+/// is no stress.
 std::optional<double> plate_difference(const Curve& impact, const Curve& support, double low, double high) {
   const auto impact_mean = impact.mean(low, high);
   const auto support_mean = support.mean(low, high);

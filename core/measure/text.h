@@ -7,7 +7,7 @@
 
 namespace cellcrush {
 
-// Words of which diagnoses and warnings are made.
+// Phrases for diagnoses and warnings.
 
 /// "step 12, t = 3e-6 s".
 std::string moment_of(std::int64_t step, double time);
@@ -15,7 +15,7 @@ std::string moment_of(std::int64_t step, double time);
 /// "particle 7, at (1, 2) mm before loading".
 std::string place_of(const Scene& scene, std::size_t particle);
 
-/// "-15.6 %", of a share.
+/// "-15.6 %", from a fraction.
 std::string percent_of(double share);
 
 }  // namespace cellcrush

@@ -13,7 +13,7 @@ namespace {
 constexpr const char* kShorterStep =
     "Use a shorter numerics.time_step_s, or 0 for an automatic step, and check whether the stresses change.";
 
-/// Overlap of pair `t` of those that touch, over the thinner wall's thickness.
+/// Overlap of the touching pair `t`, over the thickness of the thinner wall.
 double depth_of(const Scene& scene, const State& state, const TouchMemory& touching, std::size_t t) {
   const int ball = touching.ball[t];
   const int segment = touching.segment[t];
@@ -44,7 +44,8 @@ std::string deepest_place(const Scene& scene, const State& state) {
                   : "; deepest now at " + place_of(scene, ball) + ", in the wall of element " + std::to_string(segment);
 }
 
-/// The warning of a quantity over the turnover, given where it is first beyond kEnergyDrift, with its greatest value.
+/// Adds the warning about a quantity over the turnover if it exceeds kEnergyDrift, with the time at which it first does
+/// and its maximum.
 template <class Quantity>
 void add_drift(std::span<const Sample> samples, Warning::Kind kind, const std::string& what, Quantity&& quantity,
                std::vector<Warning>& warnings) {

@@ -20,9 +20,9 @@
 namespace cellcrush {
 namespace {
 
-/// Bands by which a step is behind the one before it. A band's step writes to its own band and to the one before, and
-/// the contacts that come with it, of the band before, to one more: the band after these has been done with when they
-/// are. Side by side with them it must be one more.
+/// Bands by which a step follows the step before. A step of a band writes to that band and to the one before. The
+/// contacts of the band before, which it also evaluates, write to one more. Two bands behind, the next step therefore
+/// finds its band complete. If threads do both steps side by side, it must be three bands behind.
 std::size_t lag_of(const Workspace& workspace) { return workspace.shared.workers.count() > 1 ? kBandsBehind : 2; }
 
 std::size_t steps_at_once(const Scene& scene, const Workspace& workspace) {
@@ -44,7 +44,7 @@ void begin_steps(const Scene& scene, const State& state, std::span<StepRecord> r
   }
 }
 
-/// A step's motion and walls of a band, if there is one, and the contacts of the band before.
+/// Motion and walls of a band in one step, if there is such a band, and the contacts of the band before.
 void advance_band(const Scene& scene, State& state, std::size_t band, StepRecord& record, StageWorkspace& workspace,
                   std::vector<int>& near_plates, const StageScope& stage) {
   if (band < scene.bands.size()) {
@@ -66,7 +66,8 @@ void advance_band(const Scene& scene, State& state, std::size_t band, StepRecord
   }
 }
 
-/// Goes on by buckets where walls have crossed, or parts of the border that are searched apart may touch.
+/// Switches to a search by buckets if walls have crossed, or if parts of the border that are searched separately may
+/// touch.
 void check_search(const Scene& scene, State& state, std::int64_t first, std::span<const StepRecord> records) {
   const auto crossed =
       std::find_if(records.begin(), records.end(), [](const StepRecord& record) { return record.has_crossed; });

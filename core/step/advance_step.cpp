@@ -22,7 +22,7 @@ bool overlaps_contacts(const Scene& scene, const Workspace& workspace) {
   return workspace.shared.workers.count() > 1 && scene.element_count() <= kMostElementsOverlapped;
 }
 
-/// Finds what touches and evaluates the contacts' and the plates' forces. They need axes and lengths, but no stresses.
+/// Finds contacts and evaluates the forces of contacts and plates. They need axes and lengths, but no stresses.
 void evaluate_contacts(const Scene& scene, State& state, Workspace& workspace, const StageScope& stage) {
   StepRecord& record = workspace.records.front();
   stage.begin(Stage::find_contacts);
@@ -36,7 +36,7 @@ void evaluate_contacts(const Scene& scene, State& state, Workspace& workspace, c
   }
 }
 
-/// Forces at the state's time, from the positions and velocities then.
+/// Evaluates the forces at the time of the state, from the positions and velocities at that time.
 void evaluate_forces(const Scene& scene, State& state, Workspace& workspace, const StageScope& stage) {
   StepRecord& record = workspace.records.front();
   StageWorkspace& shared = workspace.shared;

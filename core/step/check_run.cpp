@@ -21,7 +21,7 @@ bool is_finite(const State& state, std::size_t particle) {
          std::isfinite(state.spin[particle]);
 }
 
-/// Whether all numbers are finite: only those that are not keep the sum of products with 0 from being 0.
+/// Whether all numbers are finite. Only a non-finite number keeps the sum of the products with 0 from being 0.
 bool all_finite(std::span<const double> numbers) {
   return (0.0 * Eigen::Map<const Eigen::ArrayXd>(numbers.data(), static_cast<Eigen::Index>(numbers.size()))).sum() ==
          0.0;
@@ -36,7 +36,7 @@ bool has_finite_forces(const State& state, std::size_t particle) {
          state.contact_force[particle].elastic.allFinite() && state.contact_force[particle].viscous.allFinite();
 }
 
-/// The first particle that is lost, if any.
+/// The first particle with a non-finite value, if any.
 template <class Predicate>
 std::optional<std::size_t> find_lost(const Scene& scene, Predicate&& is_kept) {
   for (std::size_t i = 0; i < scene.particle_count(); ++i) {
@@ -47,7 +47,7 @@ std::optional<std::size_t> find_lost(const Scene& scene, Predicate&& is_kept) {
   return std::nullopt;
 }
 
-/// What a step that is too long shakes most.
+/// Names the fastest particle: the place where too long a step shows first.
 std::string fastest_place(const Scene& scene, const State& state) {
   const auto slower = [](const Vector2& a, const Vector2& b) { return a.squaredNorm() < b.squaredNorm(); };
   const auto fastest = std::max_element(state.velocity.begin(), state.velocity.end(), slower);

@@ -10,22 +10,24 @@
 
 namespace cellcrush {
 
-// The stages of a step for one band of the lattice, which is all of a small one. advance_step goes through the bands
-// stage by stage, advance_block band by band.
+// The stages of a step for one band of the lattice; a small lattice is a single band. advance_step does all bands stage
+// by stage, advance_block does all stages band by band.
 
-/// Moves a band's free particles and clears the contact forces that moved them.
+/// Moves the free particles of a band (E2) and clears the contact forces that moved them.
 void move_band(const Scene& scene, State& state, std::size_t band, StepRecord& record, StageWorkspace& workspace,
                std::vector<int>& near_plates);
 
-/// The walls' forces on a band's particles. REQUIRES: the bands before have been evaluated.
+/// Evaluates the forces of the walls on the particles of a band (E3 to E7). REQUIRES: earlier bands have been
+/// evaluated.
 void evaluate_band_walls(const Scene& scene, State& state, std::size_t band, StepRecord& record,
                          StageWorkspace& workspace);
 
-/// The contacts' forces on a band's balls and on what they touch. REQUIRES: find_contacts, and the bands before.
+/// Evaluates the contact forces on the balls of a band and on the segments that they touch (E8 to E9b). REQUIRES:
+/// find_contacts, and earlier bands have been evaluated.
 void evaluate_band_contacts(const Scene& scene, State& state, std::size_t band, StepRecord& record,
                             StageWorkspace& workspace);
 
-/// The plates' forces on a band's particles.
+/// Evaluates the forces of the plates on the particles of a band (E9c).
 void evaluate_band_plates(const Scene& scene, State& state, std::size_t band, StepRecord& record,
                           const std::vector<int>& near_plates);
 

@@ -11,25 +11,25 @@
 
 namespace cellcrush {
 
-/// Of one step: what is known before it, and the sums over the lattice that its stages leave behind.
+/// Record of one step: the data known before it, and the sums over the lattice that its stages compute.
 struct StepRecord {
-  PlateStep plates;   ///< what the impact plate does over the step
-  PlateMotion plate;  ///< how it stands and moves at the step's end
-  PlateReach reach;   ///< then
+  PlateStep plates;   ///< motion of the impact plate over the step
+  PlateMotion plate;  ///< its travel and speed at the end of the step
+  PlateReach reach;   ///< positions from which balls reach a plate at that time
 
   MotionWorks of_rigid_bodies;
   std::vector<MovedChunk> moved;     ///< of all free particles
   std::vector<NearCounts> near;      ///< of each band, particles that may be near a plate
   std::vector<double> plastic_work;  ///< N mm, of each chunk of walls
   ContactSums contacts;
-  bool has_crossed = false;  ///< walls
+  bool has_crossed = false;  ///< whether walls have crossed
 };
 
-/// Prepares the record of a step from `time`, s, on, before which the impact plate has travelled so far, mm.
+/// Prepares the record of a step that begins at `time`, s, when the impact plate has travelled by `travel`, mm.
 void begin_record(const Scene& scene, const State& state, double time, double travel, StepRecord& record);
 
-/// Adds what a step's forces did to the ledger and the plates' impulses, and puts the plates' forces and the contacts'
-/// totals into the state.
+/// Adds the works and impulses of a step to the ledger (E10) and to the impulses of the plates, and stores the plate
+/// forces and contact totals in the state.
 void accumulate(const Scene& scene, const StepRecord& record, State& state);
 
 }  // namespace cellcrush

@@ -7,7 +7,7 @@
 
 namespace cellcrush {
 
-/// What is modelled and what is left out, with the reason of each shortcut; a sentence or two each.
+/// What is modelled and what is left out, with the reason for each simplification; one or two sentences each.
 std::vector<std::string> what_is_modelled(const Scene& scene);
 
 }  // namespace cellcrush

@@ -12,7 +12,7 @@
 
 namespace cellcrush {
 
-/// What a stage computes with: threads that share its loops, and room.
+/// Threads that share the loops of a stage, and its scratch.
 struct StageWorkspace {
   explicit StageWorkspace(int threads = 1) : workers(threads) {}
 
@@ -21,14 +21,14 @@ struct StageWorkspace {
   ContactWorkspace contact;
 };
 
-/// Threads and room for steps, kept from step to step so that no step starts or allocates any. It belongs to no state:
-/// any step of any state of the scene may use it, and no result depends on what it holds.
+/// Threads and scratch for steps, kept from step to step so that no step starts threads or allocates. They belong to no
+/// state: any step of any state of the scene may use them, and no result depends on their contents.
 struct Workspace {
   explicit Workspace(int threads = 1) : shared(threads) {}
 
-  StageWorkspace shared;             ///< whose threads share the loops of a stage
-  std::deque<StageWorkspace> bands;  ///< one a thread, where threads advance bands side by side
-  std::vector<StepRecord> records;   ///< of the steps under way
+  StageWorkspace shared;             ///< its threads share the loops of a stage
+  std::deque<StageWorkspace> bands;  ///< one per thread, where threads advance bands side by side
+  std::vector<StepRecord> records;   ///< of the steps in progress
   std::vector<int> near_plates;      ///< room for all particles; see NearCounts
 };
 
