@@ -9,9 +9,9 @@
 
 namespace cellcrush {
 
-/// Evaluates axes, lengths, fibre histories and internal forces of the elements of a band from the motion of the
-/// particles over the last step (Eq. 7-32, E3 to E7), chunk by chunk. Sums the forces on the joints that have no walls
-/// in later bands. Overwrites the plastic work of each chunk of the band, N mm. REQUIRES: earlier bands have been
+/// Evaluates axes, lengths, fibre histories and internal forces of the elements of a band, chunk by chunk (Eq. 7-32, E3
+/// to E7). They follow from the motion of the particles over the last step. Sums the forces on the joints that have no
+/// walls in later bands. Overwrites the plastic work of each chunk of the band, N mm. REQUIRES: earlier bands have been
 /// evaluated.
 void evaluate_internal_forces(const Scene& scene, State& state, const LatticeBand& band, WallsWorkspace& workspace,
                               Workers& workers, double* plastic_work);

@@ -113,13 +113,13 @@ HWY_INLINE Lane<D> shown_flexibility(Lane<D> elastic, Lane<D> gained) {
   return select(is_between, select(flexibility < kElasticBelow<T>, 1, flexibility), most);
 }
 
-/// Increments of curvature times h for which the moment varies linearly along the element, as equilibrium requires, and
-/// which integrate to the end rotations times h / l_m (E5b; force-based element of Spacone, Filippou and Taucer, 1996).
-/// Moments are expressed as the elastic curvatures that they cause.
+/// Increments of curvature times h of a force-based element (E5b; Spacone, Filippou and Taucer, 1996). With them the
+/// moment varies linearly along the element, as equilibrium requires. They integrate to the end rotations times h /
+/// l_m. Moments are expressed as the elastic curvatures that they cause.
 ///
-/// The flexibility of a section is that of its last step. Its error appears as the residual, which another pass
-/// or the next step removes. A section that has yielded but now unloads counts as elastic. One that was compressed and
-/// carries no moment cannot unload. Only the history of the lanes `active` is changed.
+/// The flexibility of a section is that of its last step. Its error appears as the residual, which another pass or the
+/// next step removes. A section that has yielded but now unloads counts as elastic. One that was compressed and carries
+/// no moment cannot unload. Only the history of the lanes `active` is changed.
 template <class Rule, int kRoom, class D>
 HWY_INLINE void balanced_curvatures(const Rule& rule, const LaneMaterial<D>& material, const EndMoments<D>& moments,
                                     LaneMask<D> active, const Bend<D>& bend, SectionHistory<kRoom, D>& history,

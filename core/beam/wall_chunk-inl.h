@@ -80,14 +80,13 @@ class ChunkScratch {
   const std::ptrdiff_t first_;
 };
 
-/// A step of the walls of some adjacent blocks (Eq. 7-32, E3 to E7). There are three short loops, over geometry, fibres
-/// and forces: the processor then computes several elements at a time, whereas each one by itself is a long chain of
-/// dependent operations. Motion and forces are in double precision (lanes D), fibres in single or double precision
-/// (lanes F).
+/// A step of the walls of some adjacent blocks (Eq. 7-32, E3 to E7), in three short loops over geometry, fibres and
+/// forces. The processor then computes several elements at a time; one element by itself is a long chain of dependent
+/// operations. Motion and forces are in double precision (lanes D), fibres in single or double precision (lanes F).
 ///
 /// Deviations from the paper:
-///  - strains are taken over the mean length of the step, where Eq. 24-26 have l_a: stretching and returning leaves no
-///    strain, and the work of the forces equals that of the stresses (E5);
+///  - strains are taken over the mean length of the step, where Eq. 24-26 have l_a (E5). Stretching and returning then
+///    leaves no strain, and the work of the forces equals that of the stresses;
 ///  - the shear force of Eq. 31 has the current length, as conservation of angular momentum requires (E7);
 ///  - the forward rotation of Eq. 32 is the current axis itself, so no rotation matrix is needed (E7).
 template <bool kForceBased, bool kHardening, class Rule, class D, class F>

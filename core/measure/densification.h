@@ -8,11 +8,11 @@ namespace cellcrush {
 
 /// Onset of densification: the strain at which the energy-absorption efficiency
 ///   eta(eps) = (1 / sigma) integral_0^eps sigma d eps
-/// is greatest at the foot of the lasting rise. sigma is the curve smoothed over Curve::kSmoothing.
+/// is greatest at the foot of the lasting rise. The curve is smoothed over Curve::kSmoothing.
 ///
-/// The greatest eta of the whole curve is no onset where the stress dips, as it does after the first wave of a fast
-/// crush or between the collapses of two layers. The rise is therefore found first, beyond kPlateauBegins. It begins at
-/// the strain r, at least kLeastRise, from which sigma
+/// The greatest eta of the whole curve is no onset if the stress dips. It does so after the first wave of a fast crush
+/// and between the collapses of two layers. The rise is therefore found first, beyond kPlateauBegins. It begins at the
+/// strain r, at least kLeastRise, from which sigma
 ///   - stays above kRise times the mean since kPlateauBegins,
 ///   - stays above kAbovePeaks times the greatest stress of the plateau,
 ///   - for at least kLasts of strain.

@@ -10,14 +10,16 @@ namespace cellcrush {
 
 /// The front over the plateau range, and with it the shock theory with the Rankine-Hugoniot jumps (Eq. 52):
 ///   sigma = sigma_A + rho [V]^2 / [eps].
-/// rho is the mass over the envelope, [] the jump across the front, and sigma_A the stress just ahead of it. The jumps
-/// are those of the fronts of the samples. They come from the motion of the cells, not from the stress with which the
-/// theory is compared. sigma_A is the stress at the support plus the stress that decelerates or accelerates the
-/// material ahead. This material moves nearly as one body, so that
-///   sigma_A = support stress + rho (length ahead) d(velocity ahead)/dt,
-/// with the least-squares slope of the velocity over the range. Jumps, lengths and the support stress are means over
-/// the range. Returns nothing unless at least half of the samples in the range have a front. `stress_support`: mean at
-/// the support plate over the range, MPa.
+/// Here rho is the mass over the envelope, [] the jump across the front, and sigma_A the stress just ahead of it. The
+/// jumps are those of the fronts of the samples. They come from the motion of the cells, not from the stress with which
+/// the theory is compared.
+///
+/// The stress sigma_A is that at the support plus the stress that decelerates or accelerates the material ahead. This
+/// material moves nearly as one body, so that
+///   sigma_A = support stress + rho (length ahead) d(velocity ahead)/dt.
+/// The derivative is the least-squares slope over the range; jumps, lengths and the support stress are means over it.
+/// Returns nothing unless at least half of the samples in the range have a front. `stress_support`: mean at the support
+/// plate over the range, MPa.
 std::optional<FrontSummary> summarize_front(const Scene& scene, std::span<const Sample> samples, double stress_support);
 
 }  // namespace cellcrush

@@ -6,9 +6,9 @@
 
 namespace cellcrush {
 
-// Rigid bodies. Their particles keep their positions in the body. The centre and the rotation of a body follow from the
-// sums of the forces and of the moments about the centre, M dV/dt = sum F, I d(omega)/dt = sum (m + r x F) (E13), in
-// the central differences of the particles (E2).
+// Rigid bodies (E13). Their particles keep their positions in the body. The centre and the rotation of a body follow
+// from the sums of the forces and of the moments about the centre, M dV/dt = sum F, I d(omega)/dt = sum (m + r x F).
+// They are integrated by the central differences of the particles (E2).
 
 /// Places the bodies at their undeformed positions, at rest.
 void place_rigid_bodies(const Scene& scene, State& state);

@@ -29,9 +29,10 @@ LatticeBand whole_band(const Scene& scene);
 ///  - walls join particles of their own band and of the band before;
 ///  - a face has particles of at most two adjacent bands, and the elements at these particles belong to these bands or
 ///    their neighbours.
-/// Bands are as small as these conditions allow. The lattice is a single band if it is small, if the caches do not hold
-/// the bands of two steps (rows of many thousand elements), or if a step needs more than walls, plates and contacts
-/// without friction.
+/// Bands are as small as these conditions allow. The lattice stays a single band if
+///  - it is small,
+///  - the caches do not hold the bands of two steps, as for rows of many thousand elements,
+///  - a step needs more than walls, plates and contacts without friction.
 std::vector<LatticeBand> cut_into_bands(const Scene& scene, const FaceLoops& loops);
 
 /// The band that owns each particle.

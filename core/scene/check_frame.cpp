@@ -132,7 +132,7 @@ class FrameChecker {
     const FrameLattice::NodalMotion& motion = frame_.motions[index];
     for (std::size_t other = 0; other < index; ++other) {
       if (frame_.motions[other].node == motion.node && frame_.motions[other].component == motion.component) {
-        check_.add(path + "component", "", "of this node has another motion already.",
+        check_.add(path + "component", "", "of this node already has another motion.",
                    "Give one motion per node and component.");
         break;
       }

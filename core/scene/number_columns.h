@@ -7,10 +7,10 @@
 
 namespace cellcrush {
 
-/// Numbers the joints of a large lattice column by column, and its walls in the order of their joints, if it is longer
-/// along x than along y and its rows run along x. Bands (scene/bands.h) then run across it and are small. Other
-/// lattices, and those with rigid walls, stay as they are. `places` are the positions of the joints before any
-/// imperfection, mm.
+/// Numbers the joints of a large lattice column by column, and its walls in the order of their joints. Bands
+/// (scene/bands.h) then run across the lattice and are small. This applies if it is longer along x than along y and its
+/// rows run along x. Other lattices, and those with rigid walls, stay as they are. `places` are the positions of the
+/// joints before any imperfection, mm.
 void number_columns(const std::vector<Vector2>& places, Layout& layout);
 
 }  // namespace cellcrush

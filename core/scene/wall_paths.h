@@ -6,8 +6,8 @@
 
 namespace cellcrush {
 
-/// Reach of balls and segments that a short path along the undeformed walls joins (E8a): neighbours at a joint, or
-/// elements of one wall that is thicker than they are long. The reach is a property of the pair alone.
+/// Reach of balls and segments that are joined by a short path along the undeformed walls (E8a). They are neighbours at
+/// a joint, or elements of one wall that is thicker than they are long. The reach is a property of the pair alone.
 class WallPaths {
  public:
   /// Reach as a fraction of the path between ball and segment, the 0.4 of E8a. Below 1/2, the distance over the path
@@ -17,9 +17,8 @@ class WallPaths {
 
   explicit WallPaths(const Scene& scene) : scene_(scene) {}
 
-  /// Distance at which they touch, mm: radius plus half thickness (Eq. 41, E8), or kTouchingShare of the path from the
-  /// ball to the nearer end of the segment, if that is less (E8a). Cheap if balls are visited in the order of
-  /// particles.
+  /// Distance at which they touch, mm: radius plus half thickness (Eq. 41, E8). If it is less, kTouchingShare of the
+  /// path from the ball to the nearer end of the segment (E8a). Cheap if balls are visited in the order of particles.
   double reach_of(int ball, int segment);
 
   /// Segments, except those of the ball itself, whose reach_of may be limited, ascending. `largest`: the greatest

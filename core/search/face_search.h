@@ -6,8 +6,8 @@
 
 namespace cellcrush {
 
-/// The search by faces: a ball is tested against the segments of its own faces only (scene/contact_faces.h explains why
-/// this is enough), and a face is rechecked only when one of its gaps can have closed.
+/// The search by faces: a ball is tested against the segments of its own faces only; scene/contact_faces.h explains why
+/// this is enough. A face is rechecked only when one of its gaps can have closed.
 ///
 /// The bound is rigorous (E8c). A gap between a ball and a segment closes by no more than two particles of the face
 /// approach each other. In a step of dt no two particles of a group of faces approach by more than `dt |v_high -

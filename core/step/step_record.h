@@ -28,8 +28,8 @@ struct StepRecord {
 /// Prepares the record of a step that begins at `time`, s, when the impact plate has travelled by `travel`, mm.
 void begin_record(const Scene& scene, const State& state, double time, double travel, StepRecord& record);
 
-/// Adds the works and impulses of a step to the ledger (E10) and to the impulses of the plates, and stores the plate
-/// forces and contact totals in the state.
+/// Adds the works of a step to the ledger (E10) and its impulses to those of the plates. Stores the plate forces and
+/// contact totals in the state.
 void accumulate(const Scene& scene, const StepRecord& record, State& state);
 
 }  // namespace cellcrush

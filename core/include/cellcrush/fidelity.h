@@ -21,8 +21,8 @@ struct MeasuredError {
   [[nodiscard]] double claimed() const { return error > uncertainty ? error : uncertainty; }
 };
 
-/// A point of the measured speed-accuracy front: the settings that it fills in where a spec omits them, and its
-/// measured errors with all other settings at their defaults.
+/// A point of the measured speed-accuracy front: the settings that it fills in where a spec omits them, and its errors.
+/// These were measured with all other settings at their defaults.
 struct FidelityPoint {
   NumericsSpec::Fidelity fidelity = NumericsSpec::Fidelity::unspecified;
   std::string name;  ///< as written in a case

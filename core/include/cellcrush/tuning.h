@@ -52,15 +52,15 @@ inline constexpr int kSumLanes = 8;
 inline constexpr std::size_t kChunksInPiece = 2;
 
 /// Most elements for which two threads overlap walls with contacts. With more, the strains passed between the stages of
-/// the walls do not stay in the nearest cache: two threads would lose a third with 16 times the cells of Type I, and
-/// nothing with 4 times. Speed only.
+/// the walls do not stay in the nearest cache. With 16 times the cells of Type I two threads would lose a third, with 4
+/// times nothing. Speed only.
 inline constexpr std::size_t kMostElementsOverlapped = 20'000;
 
 /// How many rows ahead fibres are prefetched from memory. Speed only.
 inline constexpr std::ptrdiff_t kRowsAhead = 8;
 
-/// Fibre stresses are prefetched if they fill more than one part in this many of the last-level cache; they then do not
-/// stay there from step to step. With 16 times the cells of Type I the walls take a third less time. With fewer fibres,
+/// Fibre stresses are prefetched if they fill more than one part in this many of the last-level cache: they do not stay
+/// there from step to step. With 16 times the cells of Type I the walls then take a third less time. With fewer fibres,
 /// prefetching costs 0.15 ns. Speed only.
 inline constexpr std::size_t kCacheShareOfFibres = 8;
 
