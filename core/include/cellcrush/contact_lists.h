@@ -55,12 +55,12 @@ struct ContactLists {
   LaneVector<Vector2> searched_position;  ///< N, positions of the particles when the list was made
   std::int64_t search_count = 0;
 
-  // Search by faces only (E8c, search/face_search.h); empty where contacts are searched by buckets. F faces, C corners,
-  // G groups.
+  // Search by faces only (E8c, search/face_search.h); empty where contacts are searched by buckets. F faces, S corners
+  // and thick ends, G groups.
   std::vector<FaceList> face_list;              ///< F
   std::vector<double> face_clearance;           ///< F, mm by which gaps may close before an unlisted pair touches
   std::vector<double> face_next_check_travel;   ///< F, travel of its group at which the face is next checked
-  std::vector<Vector2> face_searched_position;  ///< C, positions of the corners when the face's list was made
+  std::vector<Vector2> face_searched_position;  ///< S, positions of the face's particles when its list was made
   std::vector<double> group_travel;             ///< G, mm by which gaps of the group can have closed since the start
   std::vector<double> group_next_check_travel;  ///< G, minimum over its faces
   std::vector<int> batch_group;                 ///< K / kCandidateBatch, group of the batch's face
