@@ -31,7 +31,7 @@ class Notes {
   Problems found_;
 };
 
-void look_at_density(double density, Notes& notes) {
+void check_density(double density, Notes& notes) {
   const std::string field = "material.density_kg_per_m3";
   if (density < 1e-3) {
     notes.add(field, density, "is far below that of any solid. Is it in tonne/mm^3?",
@@ -45,7 +45,7 @@ void look_at_density(double density, Notes& notes) {
   }
 }
 
-void look_at_stiffness(const MaterialSpec& material, Notes& notes) {
+void check_stiffness(const MaterialSpec& material, Notes& notes) {
   const double modulus = *material.youngs_modulus_mpa;
   const std::string field = "material.youngs_modulus_mpa";
   if (modulus < kSoftest) {
@@ -67,7 +67,7 @@ void look_at_stiffness(const MaterialSpec& material, Notes& notes) {
 }
 
 template <class Lattice>
-void look_at_walls(const std::string& path, const Lattice& lattice, Notes& notes) {
+void check_walls(const std::string& path, const Lattice& lattice, Notes& notes) {
   const double slenderness = *lattice.wall_thickness_mm / *lattice.side_mm;
   if (slenderness > kThickest) {
     notes.add(path + "wall_thickness_mm", *lattice.wall_thickness_mm,
@@ -79,7 +79,7 @@ void look_at_walls(const std::string& path, const Lattice& lattice, Notes& notes
   }
 }
 
-void look_at_speed(const SceneSpec& spec, Notes& notes) {
+void check_speed(const SceneSpec& spec, Notes& notes) {
   constexpr double kPascal = 1e6;  // in a MPa
   const double wave = std::sqrt(*spec.material.youngs_modulus_mpa * kPascal / *spec.material.density_kg_per_m3);
   const double share = *spec.loading.speed_m_per_s / wave;
@@ -96,19 +96,19 @@ void look_at_speed(const SceneSpec& spec, Notes& notes) {
 Problems find_implausible(const SceneSpec& spec) {
   Notes notes;
   if (const auto* hexagon = std::get_if<HexagonLattice>(&spec.lattice)) {
-    look_at_walls("lattice.hexagon.", *hexagon, notes);
+    check_walls("lattice.hexagon.", *hexagon, notes);
   } else if (const auto* square = std::get_if<SquareLattice>(&spec.lattice)) {
-    look_at_walls("lattice.square.", *square, notes);
+    check_walls("lattice.square.", *square, notes);
   } else if (const auto* triangle = std::get_if<TriangleLattice>(&spec.lattice)) {
-    look_at_walls("lattice.triangle.", *triangle, notes);
+    check_walls("lattice.triangle.", *triangle, notes);
   }
   const MaterialSpec& material = spec.material;
   if (!material.youngs_modulus_mpa || !material.yield_stress_mpa || !material.density_kg_per_m3) {
     return notes.take();  // a frame whose beams have their own materials
   }
-  look_at_stiffness(material, notes);
-  look_at_density(*material.density_kg_per_m3, notes);
-  if (spec.loading.speed_m_per_s) look_at_speed(spec, notes);
+  check_stiffness(material, notes);
+  check_density(*material.density_kg_per_m3, notes);
+  if (spec.loading.speed_m_per_s) check_speed(spec, notes);
   return notes.take();
 }
 

@@ -108,9 +108,9 @@ struct State {
 
   Ledger ledger;
 
-  /// Derived, so visit_fields leaves it out. A bit for each tile of kContactTile particles: whether one of them may have
-  /// a contact_force; most have none. Rebuilt from the touching pairs every 64 steps; in between, tiles are only marked.
-  /// Empty: any particle may have one.
+  /// Derived, so visit_fields leaves it out. A bit for each tile of kContactTile particles: whether one of them may
+  /// have a contact_force; most have none. Rebuilt from the touching pairs every 64 steps; in between, tiles are only
+  /// marked. Empty: any particle may have one.
   std::vector<std::uint64_t> contact_tiles;
 };
 
