@@ -6,11 +6,11 @@
 
 namespace cellcrush {
 
-/// The clocks that the daemon reads, so that a test can set them. Both are thread-safe.
+/// The clocks of the daemon, replaceable in tests. Both are thread-safe.
 struct Clocks {
   using Source = std::function<std::chrono::nanoseconds()>;
 
-  /// Reads a clock of the kernel.
+  /// Reads a kernel clock.
   static std::chrono::nanoseconds read(clockid_t clock) {
     timespec now{};
     clock_gettime(clock, &now);
@@ -18,7 +18,7 @@ struct Clocks {
   }
 
   Source wall = [] { return read(CLOCK_REALTIME); };    ///< since 1970; may be set forward and back
-  Source uptime = [] { return read(CLOCK_BOOTTIME); };  ///< since the machine started; counts on while it is suspended
+  Source uptime = [] { return read(CLOCK_BOOTTIME); };  ///< since boot, including suspension
 };
 
 }  // namespace cellcrush

@@ -34,7 +34,7 @@ constexpr int kLargestMessage = 4 * 1024 * 1024;
 constexpr std::chrono::seconds kCallsMayLast{2};
 constexpr int kCallsBesideStreams = 100;
 constexpr int kBetweenPingsOfAClient = 10'000;  // ms
-/// What grpc.health.v1 has a status of; "" is the daemon as a whole.
+/// Services with a status in grpc.health.v1; "" is the whole daemon.
 constexpr std::array kServices = {"", "cellcrush.v1.Cases", "cellcrush.v1.Jobs", "cellcrush.v1.Sweeps",
                                   "cellcrush.v1.Admin"};
 
@@ -56,7 +56,7 @@ std::vector<ListenAddress> listen_addresses(const DaemonOptions& options) {
   std::vector<ListenAddress> out;
   for (const auto& text : options.listen) out.push_back(parse_listen_address(text));
   if (!options.metrics.empty())
-    static_cast<void>(metrics_address(options.metrics));  // refused before anything is opened
+    static_cast<void>(metrics_address(options.metrics));  // rejects a bad address before anything is opened
   if (out.empty()) {
     out.push_back(parse_listen_address("unix:" + (options.data_folder / "cellcrushd.sock").string()));
     out.push_back(parse_listen_address("127.0.0.1:50551"));
@@ -90,7 +90,7 @@ DaemonOptions with_descriptors(DaemonOptions options) {
 
 }  // namespace
 
-// Members are in the order of their dependence: each uses only those above it.
+// Members are in order of dependence: each uses only those above it.
 struct Daemon::Impl {
   explicit Impl(DaemonOptions given)
       : options(with_descriptors(std::move(given))),
@@ -146,7 +146,7 @@ struct Daemon::Impl {
     probe.emplace(*acceptor, plain, options.connections);
   }
 
-  // What gRPC itself holds its callers to; the rest is done by the acceptor and the streams.
+  // Limits that gRPC enforces; the acceptor and the streams enforce the rest.
   void limit(grpc::ServerBuilder& builder) const {
     const auto milliseconds = [](std::chrono::milliseconds time) { return static_cast<int>(time.count()); };
     const auto& limits = options.connections;
@@ -154,15 +154,15 @@ struct Daemon::Impl {
     grpc::ResourceQuota quota("cellcrushd");
     quota.Resize(static_cast<std::size_t>(limits.memory_bytes));
     builder.SetResourceQuota(quota);
-    // Whoever connects and says nothing is let go, and so is whoever is gone without a word.
+    // Drops connections that stay silent, and peers that vanished.
     builder.AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, milliseconds(limits.handshake));
     builder.AddChannelArgument(GRPC_ARG_MAX_CONNECTION_IDLE_MS, milliseconds(limits.idle));
     builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, milliseconds(limits.keepalive));
     builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, milliseconds(limits.keepalive_answer));
-    // Clients may ask for signs of life as well, though not all the time.
+    // Clients may send pings as well, but not too often.
     builder.AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS, kBetweenPingsOfAClient);
     builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_PERMIT_WITHOUT_CALLS, 1);
-    // Who has as many streams open as he may is refused another, and can make other calls.
+    // A caller with too many streams is refused another, but can make other calls.
     builder.AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, limits.streams_per_caller + kCallsBesideStreams);
   }
 
@@ -191,11 +191,12 @@ struct Daemon::Impl {
   DaemonOptions options;
   std::vector<ListenAddress> wanted;
   access::Gate gate;
-  std::vector<std::shared_ptr<grpc::ServerCredentials>> credentials;  ///< of the wanted addresses
+  std::vector<std::shared_ptr<grpc::ServerCredentials>> credentials;  ///< of the requested addresses
   Service service;
   std::vector<std::string> addresses;
   std::string metrics_url;
-  std::vector<std::unique_ptr<grpc::experimental::ExternalConnectionAcceptor>> handlers;  ///< of the wanted addresses
+  std::vector<std::unique_ptr<grpc::experimental::ExternalConnectionAcceptor>>
+      handlers;  ///< of the requested addresses
   LimitedLog refusals{"refused connections", 1};
   net::HeapTrim heap;
   std::unique_ptr<grpc::Server> server;

@@ -8,27 +8,27 @@
 
 namespace cellcrush {
 
-/// A call, a start or a write that is refused. The message is for the user; the kind decides the gRPC status.
+/// A refused call, start or write. The message is for the user; the kind decides the gRPC status.
 class ServiceError : public std::runtime_error {
  public:
   enum class Kind {
-    invalid,              ///< an argument cannot be right
-    not_found,            ///< nothing has that name
-    already_exists,       ///< the name or id stands for something else
-    failed_precondition,  ///< not in the state that this needs
+    invalid,              ///< an argument is invalid
+    not_found,            ///< nothing has this name
+    already_exists,       ///< the name or id is already in use
+    failed_precondition,  ///< the state does not allow it
     out_of_range,         ///< past the end
-    storage_full,         ///< the disk or a quota has no room left
+    storage_full,         ///< no room on the disk or in a quota
     exhausted,            ///< beyond a limit of this daemon
-    unavailable,          ///< not now; later again
-    unauthenticated,      ///< nobody knows who calls
+    unavailable,          ///< not now; retry later
+    unauthenticated,      ///< the caller is unknown
     permission_denied,    ///< the caller may not do this
-    cancelled,            ///< the caller does not wait any more
-    data_loss,            ///< something stored cannot be read any more
-    internal,             ///< a fault of this program or this machine
+    cancelled,            ///< the caller no longer waits
+    data_loss,            ///< stored data can no longer be read
+    internal,             ///< a fault of this program or machine
   };
 
   ServiceError(Kind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
-  /// What a shortage makes fail: storage_full where the disk is full, otherwise unavailable.
+  /// The kind that a shortage causes: storage_full for a full disk, otherwise unavailable.
   ServiceError(Shortage shortage, const std::string& message)
       : std::runtime_error(message),
         kind_(shortage == Shortage::full_disk ? Kind::storage_full : Kind::unavailable),
@@ -42,7 +42,7 @@ class ServiceError : public std::runtime_error {
   Shortage shortage_ = Shortage::none;
 };
 
-/// A field of a call that cannot be right. The message goes on from the field's name: "is negative."
+/// An invalid field of a call. The message continues from the field's name: "is negative."
 class InvalidField : public std::runtime_error {
  public:
   InvalidField(std::string field, std::string message, std::string remedy)

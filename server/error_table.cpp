@@ -12,7 +12,7 @@ namespace {
 
 using ProblemList = google::protobuf::RepeatedPtrField<v1::Problem>;
 
-constexpr std::size_t kMostDetails = 4500;  // bytes, so that the trailer stays under 8 KiB when it is base64
+constexpr std::size_t kMostDetails = 4500;  // bytes; keeps the base64 trailer below 8 KiB
 constexpr std::size_t kMostMessage = 600;
 constexpr std::size_t kMostValue = 100;
 
@@ -35,7 +35,7 @@ grpc::StatusCode code_of(ServiceError::Kind kind) {
   return grpc::StatusCode::INTERNAL;
 }
 
-// Cuts a text at a character's beginning.
+// Truncates a text at the start of a character.
 std::string shorten(std::string text, std::size_t most) {
   if (text.size() <= most) return text;
   while (most > 0 && (static_cast<unsigned char>(text[most]) & 0xC0U) == 0x80U) --most;
@@ -82,7 +82,7 @@ v1::Problem note_on_rest(const std::string& subject, int left_out) {
   return out;
 }
 
-// How many of the first problems may fit: the details hold their texts twice.
+// Number of leading problems that may fit: the details hold their texts twice.
 int most_that_fit(const ProblemList& problems) {
   std::size_t bytes = 0;
   int count = 0;
@@ -94,7 +94,7 @@ int most_that_fit(const ProblemList& problems) {
   return count;
 }
 
-// The details of as many problems as fit, and of the rest its number.
+// Details with as many problems as fit, and the number of the rest.
 std::string bounded_details(const std::string& message, const ProblemList& problems, const std::string& subject) {
   std::string out;
   for (int kept = most_that_fit(problems); kept >= 0; --kept) {

@@ -11,23 +11,23 @@
 
 namespace cellcrush {
 
-// The one place that turns errors into gRPC statuses.
+// The one place that maps errors to gRPC statuses.
 
-/// INVALID_ARGUMENT for a refused case, or another subject that has fields of one. The details hold a
-/// google.rpc.Status with BadRequest and cellcrush.v1.ProblemList. A trailer may have 8 KiB: problems that do not fit
-/// are counted in a last entry, which refers to CheckCase when the subject is a case.
-/// REQUIRES: there is at least one problem.
+/// INVALID_ARGUMENT for a refused case, or for another subject with fields. The details hold a google.rpc.Status with
+/// BadRequest and cellcrush.v1.ProblemList. A trailer holds at most 8 KiB: a last entry counts the problems that do not
+/// fit, and refers to CheckCase if the subject is a case.
+/// REQUIRES: at least one problem.
 grpc::Status status_of(const google::protobuf::RepeatedPtrField<v1::Problem>& problems,
                        const std::string& subject = "case");
 
-/// A refused argument of a call, with its field in the details. The message goes on from the field's name: "is
+/// An invalid argument of a call, with its field in the details. The message continues from the field's name: "is
 /// negative."
 grpc::Status invalid_argument(const std::string& field, const std::string& message, const std::string& remedy);
 
-/// Anything that was thrown.
+/// The status for any exception.
 grpc::Status status_of(const std::exception& error);
 
-/// Runs the body of a call, which gives a status, and turns what it throws into one.
+/// Runs the body of a call, and converts an exception to a status.
 template <class Body>
 grpc::Status answer(const Body& body) {
   try {

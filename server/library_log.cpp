@@ -34,11 +34,11 @@ spdlog::level::level_enum level_of(google::protobuf::LogLevel level) {
   return spdlog::level::critical;
 }
 
-// Both libraries know one handler for the whole process.
+// Both libraries have a single handler for the whole process.
 class LibraryLog {
  public:
   static LibraryLog& instance() {
-    // The logger's registry is made first, and so outlives it.
+    // Creates the logger registry first, so that it outlives this object.
     static_cast<void>(spdlog::default_logger_raw());
     static LibraryLog log;
     return log;

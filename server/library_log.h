@@ -2,9 +2,8 @@
 
 namespace cellcrush {
 
-/// Sends what gRPC and protobuf log to the default logger, from the first call until the process ends: 10 lines a
-/// second, those left out counted in a later one, and at most 500 bytes of each. A caller's bytes may stand in them.
-/// Thread-safe.
+/// Routes the logs of gRPC and protobuf to the default logger until the process ends. At most 10 lines a second of 500
+/// bytes each are logged, and a later line counts the omitted ones. Lines may contain bytes from a caller. Thread-safe.
 void redirect_library_logs();
 
 }  // namespace cellcrush

@@ -19,7 +19,7 @@ namespace {
   throw ServiceError(ServiceError::Kind::invalid, "Cannot listen on \"" + std::string(text) + "\": " + why);
 }
 
-// Whether it is "[ADDRESS]" of IPv6.
+// Whether it is an IPv6 "[ADDRESS]".
 bool read_ipv6(const std::string& host, in6_addr& address) {
   if (host.size() < 2 || host.front() != '[' || host.back() != ']') return false;
   return inet_pton(AF_INET6, host.substr(1, host.size() - 2).c_str(), &address) == 1;

@@ -10,12 +10,12 @@ struct ListenAddress {
   enum class Kind { unix_socket, tcp };
   Kind kind = Kind::tcp;
   std::string place;  ///< absolute path of the socket, or host
-  int port = 0;       ///< 0: one that is free
+  int port = 0;       ///< 0: any free port
 
   /// In the form of --listen: "unix:PATH" or "HOST:PORT".
   [[nodiscard]] std::string text() const;
 
-  /// Whether nothing but this machine reaches it: a socket, or a loopback address.
+  /// Whether only this machine can reach it: a socket or a loopback address.
   [[nodiscard]] bool is_loopback() const;
 };
 
@@ -23,8 +23,8 @@ struct ListenAddress {
 /// Throws ServiceError (invalid) for anything else, and for a path too long for a socket.
 ListenAddress parse_listen_address(std::string_view text);
 
-/// Removes what an ended daemon left at the path. Throws ServiceError (failed_precondition) when something answers
-/// there or when it is no socket.
+/// Removes a stale socket at the path. Throws ServiceError (failed_precondition) if something answers there or if it is
+/// not a socket.
 void remove_stale_socket(const std::string& path);
 
 }  // namespace cellcrush

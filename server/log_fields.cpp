@@ -5,14 +5,14 @@
 namespace cellcrush {
 namespace {
 
-// A formatter is given the words alone, so the fields go to it by the side; it works on the thread that logs.
+// A formatter receives only the message, so a thread-local passes the fields; it runs on the logging thread.
 thread_local const std::vector<LogField>* current_fields = nullptr;
 
 }  // namespace
 
 void log_with_fields(spdlog::level::level_enum level, const std::string& words, const std::vector<LogField>& fields) {
   current_fields = &fields;
-  // The words are no format. What goes wrong in writing spdlog tells by itself and does not throw.
+  // The message is not a format string. spdlog handles write errors itself and does not throw.
   spdlog::log(level, spdlog::string_view_t(words));
   current_fields = nullptr;
 }

@@ -14,7 +14,7 @@
 namespace cellcrush {
 namespace {
 
-// Length of the character that the text begins with; 0 where it is not UTF-8.
+// Length of the character at the start of the text; 0 if it is not valid UTF-8.
 std::size_t character_length(std::string_view text) {
   const auto byte = [text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   if (byte(0) < 0x80U) return 1;
@@ -23,20 +23,20 @@ std::size_t character_length(std::string_view text) {
   for (std::size_t i = 1; i < length; ++i) {
     if ((byte(i) & 0xc0U) != 0x80U) return 0;
   }
-  // Longer than it need be, a surrogate, or beyond the last character.
+  // Overlong, a surrogate, or beyond the last code point.
   const unsigned head = 256U * byte(0) + byte(1);
   const bool is_none = (head >= 0xe080U && head < 0xe0a0U) || (head >= 0xeda0U && head < 0xee00U) ||
                        (head >= 0xf080U && head < 0xf090U) || (head >= 0xf490U && head < 0xf500U);
   return is_none ? 0 : length;
 }
 
-// Whether a terminal could take the character for a command: those of ASCII, and U+0080 to U+009F.
+// Whether a terminal may interpret the character as a command: ASCII controls, and U+0080 to U+009F.
 bool is_control(std::string_view character) {
   const auto first = static_cast<unsigned char>(character[0]);
   return first < 0x20U || first == 0x7fU || (first == 0xc2U && static_cast<unsigned char>(character[1]) < 0xa0U);
 }
 
-// Calls show(character) for what can stand in a line, and escape(byte) for each byte that cannot.
+// Calls show(character) for each printable character, and escape(byte) for each other byte.
 template <class Show, class Escape>
 void visit_characters(std::string_view text, const Show& show, const Escape& escape) {
   while (!text.empty()) {
@@ -59,7 +59,7 @@ std::string json_string(std::string_view text) {
         if (character == "\"" || character == "\\") out.push_back('\\');
         out += character;
       },
-      // JSON has no bytes: one that is no character stands as its number in words, as in the text form.
+      // JSON cannot hold bytes: an invalid byte is written as its number in text, as in the text form.
       [&out](unsigned char byte) {
         out += byte < 0x80U ? fmt::format("\\u{:04x}", byte) : fmt::format("\\\\x{:02x}", byte);
       });
@@ -94,8 +94,7 @@ class JsonFormatter final : public spdlog::formatter {
   [[nodiscard]] std::unique_ptr<spdlog::formatter> clone() const override { return make_json_formatter(); }
 };
 
-// spdlog's own form. What a caller gave may stand in a message, and a line of it is not to be taken for one of the
-// daemon's.
+// spdlog's default form. A message may contain a caller's text, which must not look like a line of the daemon.
 class TextFormatter final : public spdlog::formatter {
  public:
   void format(const spdlog::details::log_msg& message, spdlog::memory_buf_t& line) override {

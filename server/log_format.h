@@ -6,12 +6,12 @@
 
 namespace cellcrush {
 
-/// spdlog's own lines; control characters and what is not UTF-8 are escaped in a message, so that a message is a line
-/// of text.
+/// spdlog's default format. Control characters and invalid UTF-8 in a message are escaped, so that a message stays one
+/// line.
 std::unique_ptr<spdlog::formatter> make_text_formatter();
 
-/// A JSON object a line: time (UTC, ISO 8601), level, the line's fields (log_fields.h) and message. A line without
-/// fields has the name of the job that its message begins with, if it does.
+/// One JSON object per line: time (UTC, ISO 8601), level, the line's fields (log_fields.h) and the message. For a line
+/// without fields, the job is taken from the start of its message, if it names one.
 std::unique_ptr<spdlog::formatter> make_json_formatter();
 
 }  // namespace cellcrush

@@ -32,7 +32,7 @@ constexpr const char* kFooter =
     "Exit codes: 0 stopped by a signal, or the command is done; 1 failed; 2 usage error.\n"
     "Environment: CELLCRUSH_SIMD names the SIMD kernel to use instead of the fastest one.";
 
-// SIGTERM, SIGINT and SIGHUP are waited for by main alone; blocked before any other thread exists.
+// Only main waits for SIGTERM, SIGINT and SIGHUP; they are blocked before another thread exists.
 sigset_t block_signals() {
   sigset_t signals;
   sigemptyset(&signals);
@@ -44,7 +44,7 @@ sigset_t block_signals() {
   return signals;
 }
 
-// CELLCRUSH_SIMD names the kernel to use, for the daemon and the workers, which inherit it.
+// CELLCRUSH_SIMD selects the kernel, for the daemon and for workers, which inherit it.
 bool choose_kernel() {
   const char* name = std::getenv("CELLCRUSH_SIMD");
   if (name == nullptr || cellcrush::use_simd_target(name)) return true;
@@ -57,7 +57,7 @@ bool choose_kernel() {
   return false;
 }
 
-// Two lines on stdout, the token and what the file takes; words about them on stderr.
+// Two lines on stdout, the token and its line for the token file; explanations on stderr.
 int print_token(const std::string& name, const std::string& scope) {
   try {
     const auto made = cellcrush::access::make_token(name, cellcrush::access::parse_scope(scope).value());
@@ -116,12 +116,12 @@ int main(int argc, char** argv) {
       ->required()
       ->check(CLI::IsMember({"read", "submit", "admin"}));
   const cellcrush::StoreCommands store_commands(app);
-  // What packages install and what the daemon itself starts; an empty group keeps them out of the help.
+  // For packages and for the daemon itself; an empty group hides them from the help.
   const CLI::App* man = app.add_subcommand("man", "Print the man page")->group("");
   std::filesystem::path job_folder;
   CLI::App* worker = app.add_subcommand("worker")->group("");
   worker->add_option("--folder", job_folder)->required();
-  app.footer(kFooter);  // last, since commands take over what the program has
+  app.footer(kFooter);  // last, since commands inherit the settings of the program
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -2,21 +2,21 @@
 
 #include <mutex>
 
-/// Which mutex guards what. clang checks it (the test ThreadSafety); g++ skips it.
+/// Declares which mutex guards what. clang checks it (test ThreadSafety); g++ ignores it.
 #if defined(__clang__)
 #define CELLCRUSH_THREAD_SAFETY(attribute) __attribute__((attribute))
 #else
 #define CELLCRUSH_THREAD_SAFETY(attribute)
 #endif
 
-/// Behind a field: it is read and written with the mutex held only.
+/// After a field: access requires the mutex.
 #define CELLCRUSH_GUARDED_BY(mutex) CELLCRUSH_THREAD_SAFETY(guarded_by(mutex))
-/// Behind a function or the parameters of a lambda: the caller holds the mutex.
+/// After a function or the parameters of a lambda: the caller holds the mutex.
 #define CELLCRUSH_REQUIRES(mutex) CELLCRUSH_THREAD_SAFETY(requires_capability(mutex))
 
 namespace cellcrush {
 
-/// A std::mutex that clang knows.
+/// A std::mutex with clang's annotations.
 class CELLCRUSH_THREAD_SAFETY(capability("mutex")) Mutex {
  public:
   void lock() CELLCRUSH_THREAD_SAFETY(acquire_capability()) { mutex_.lock(); }
@@ -26,7 +26,7 @@ class CELLCRUSH_THREAD_SAFETY(capability("mutex")) Mutex {
   std::mutex mutex_;
 };
 
-/// Holds a mutex while it lives, but between `unlock` and `lock`. A std::condition_variable_any waits with it.
+/// Holds a mutex while it lives, except between `unlock` and `lock`. Works with std::condition_variable_any.
 class CELLCRUSH_THREAD_SAFETY(scoped_lockable) MutexLock {
  public:
   explicit MutexLock(Mutex& mutex) CELLCRUSH_THREAD_SAFETY(acquire_capability(mutex)) : lock_(mutex) {}

@@ -5,7 +5,7 @@
 
 namespace cellcrush {
 
-/// Waits so long, or until a stop is requested. False when it is.
+/// Waits for `time`, or until a stop is requested. Returns false if one is.
 bool pause_unless_stopped(const std::stop_token& stop, std::chrono::milliseconds time);
 
 }  // namespace cellcrush

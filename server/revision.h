@@ -5,13 +5,12 @@ namespace cellcrush {
 // Written at every build, by stamp_revision.cmake.
 
 extern const char* const kVersion;
-/// Commit that the sources were built from, with "-dirty" when the work tree was another; "unknown" outside of a
-/// repository.
+/// Commit of the sources, with "-dirty" if the work tree had changes; "unknown" outside a repository.
 extern const char* const kSourceRevision;
-/// What wrote a result: version and revision.
+/// Writer of a result: version and revision.
 extern const char* const kSolverRevision;
-/// What decides the bits of a run beside case and processor: version, and a hash of the solver's sources, the compiler
-/// and its flags. Checkpoints of another one are not continued.
+/// Everything besides case and processor that determines the bits of a run: version, and a hash of the solver's
+/// sources, the compiler and its flags. A run never continues a checkpoint of a different revision.
 extern const char* const kSolverIdentity;
 
 }  // namespace cellcrush

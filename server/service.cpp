@@ -33,10 +33,10 @@
 namespace cellcrush {
 namespace {
 
-// What grpc.health.v1 calls the queue; not serving while it is held.
+// Health service name of the queue; not serving while it is held.
 constexpr const char* kQueueHealth = "cellcrush.queue";
 constexpr int kPumpThreads = 2;
-constexpr int kCheckThreads = 12;  // those of large cases wait on them for each other
+constexpr int kCheckThreads = 12;  // threads for large cases; they wait for each other
 constexpr std::size_t kWaitingCalls = 10'000;
 
 // More would wait for each other's meshes.
@@ -50,7 +50,7 @@ rpc::StreamLimits::Most most_streams(const net::ConnectionLimits& limits) {
 
 }  // namespace
 
-// Members are in the order of their dependence: each uses only those above it.
+// Members are in order of dependence: each uses only those above it.
 struct Service::Parts {
   Parts(const DaemonOptions& given, const access::Gate& gate, double step_cost, std::function<void()> on_drain)
       : options(given),
@@ -162,7 +162,7 @@ void Service::start() {
   parts.housekeeping.emplace(jobs::Housekeeping::Parts{
       parts.folder, parts.journal, parts.reader, parts.sweep_reader, parts.deletion, parts.admission, parts.scheduler,
       parts.hold, parts.options.housekeeping_interval, parts.options.keep, parts.options.clocks});
-  parts.housekeeping->look_at_disk();
+  parts.housekeeping->check_disk();
   parts.deletion.finish_folders();
   parts.scheduler.start(parts.options.worker_count());
   parts.housekeeping->start();

@@ -12,25 +12,25 @@
 
 namespace cellcrush {
 
-/// All of a daemon behind its addresses: store, jobs, watches and gRPC services on one data folder. Calls are answered
-/// as soon as a server has it; jobs run between start and stop.
+/// Everything behind a daemon's addresses: store, jobs, watches and gRPC services on one data folder. Calls are
+/// answered as soon as a server has registered it; jobs run between start and stop.
 class Service {
  public:
-  /// `gate` outlives it; `step_cost`: seconds of one core for a step of an element. Of the options those about
-  /// addresses and access are not used. `on_drain` is called when a client has asked the daemon to end, and new jobs
-  /// are refused. Throws ServiceError when the data folder is taken or cannot be used.
+  /// `gate` outlives it; `step_cost`: seconds of one core per element and step. Ignores the options for addresses and
+  /// access. Calls `on_drain` once a client has asked the daemon to drain and new jobs are refused. Throws ServiceError
+  /// if the data folder is taken or unusable.
   Service(const DaemonOptions& options, const access::Gate& gate, double step_cost, std::function<void()> on_drain);
   ~Service();
   Service(const Service&) = delete;
   Service& operator=(const Service&) = delete;
 
-  /// It outlives the server that is built.
+  /// Outlives the server that is built.
   void register_with(grpc::ServerBuilder& builder);
 
-  /// What grpc.health.v1 answers. Lives as long as the service.
+  /// Statuses for grpc.health.v1. Lives as long as the service.
   rpc::HealthBoard& health();
 
-  /// Streams that are open now.
+  /// Number of open streams.
   [[nodiscard]] std::size_t stream_count() const;
 
   /// For the metrics.
@@ -40,13 +40,13 @@ class Service {
   /// metrics::Metrics::serve.
   ListenAddress serve_metrics(const ListenAddress& address);
 
-  /// Goes on with the jobs that an earlier daemon left, and runs those that wait.
+  /// Resumes the jobs of an earlier daemon, and runs the waiting ones.
   void start();
 
-  /// From now on no job is taken.
+  /// Refuses new jobs from now on.
   void refuse_jobs();
 
-  /// Lets running workers leave their jobs at a checkpoint, and then the watches end; calls are answered still.
+  /// Has running workers checkpoint their jobs, then ends the watches. Other calls are still answered.
   void stop();
 
  private:

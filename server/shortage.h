@@ -6,16 +6,17 @@
 
 namespace cellcrush {
 
-/// What the daemon or its machine lacks for the moment. A shortage holds the queue (jobs/queue_hold.h) and ends no job.
+/// A resource that the daemon or its machine temporarily lacks. A shortage holds the queue (jobs/queue_hold.h) and ends
+/// no job.
 enum class Shortage {
   none,
-  low_disk,     ///< less room in the data folder than is to be kept free
-  full_disk,    ///< no room left, or the quota is used up
-  descriptors,  ///< too many open files, of this process or of the machine
-  memory,       ///< no memory, or no process or thread more
-  data_folder,  ///< the folder cannot be read or written
-  journal,      ///< SQLite's file is locked or cannot be written
-  worker,       ///< the worker program cannot be started
+  low_disk,     ///< free room in the data folder is below the limit
+  full_disk,    ///< the disk is full, or the quota is used up
+  descriptors,  ///< too many open files in this process or on this machine
+  memory,       ///< no memory, or no process or thread available
+  data_folder,  ///< the folder is unreadable or not writable
+  journal,      ///< the SQLite file is locked or not writable
+  worker,       ///< the worker program cannot start
 };
 
 inline constexpr std::array kShortages = {Shortage::low_disk, Shortage::full_disk,   Shortage::descriptors,
@@ -25,13 +26,13 @@ inline constexpr std::array kShortages = {Shortage::low_disk, Shortage::full_dis
 /// "full_disk".
 const char* name_of(Shortage shortage);
 
-/// What to do about it, a sentence.
+/// How to end the shortage, as a sentence.
 const char* remedy_for(Shortage shortage);
 
-/// The shortage that an errno stands for; none for other errors.
+/// The shortage that an errno means; none for other errors.
 Shortage shortage_of_errno(int error);
 
-/// A shortage that was met, and what failed, a sentence.
+/// A shortage, and what failed, as a sentence.
 struct Trouble {
   Shortage shortage = Shortage::none;
   std::string reason;
@@ -39,7 +40,7 @@ struct Trouble {
   explicit operator bool() const { return shortage != Shortage::none; }
 };
 
-/// The shortage behind an exception: of a ServiceError, a std::system_error or a std::bad_alloc. None for others.
+/// The shortage behind a ServiceError, std::system_error or std::bad_alloc; none for other exceptions.
 Trouble trouble_of(const std::exception& error);
 
 }  // namespace cellcrush

@@ -13,10 +13,10 @@ struct FreeBio {
 };
 using Bio = std::unique_ptr<BIO, FreeBio>;
 
-// Nobody is asked for a password.
+// Never asks for a password.
 int refuse_password(char*, int, int, void*) { return 0; }
 
-// What `print` writes.
+// The output of `print`.
 template <class Print>
 std::string printed(const Print& print) {
   const Bio bio(BIO_new(BIO_s_mem()));
@@ -51,7 +51,7 @@ std::string describe(const X509& certificate) {
 }
 
 bool is_for_clients(const X509& certificate) {
-  // OpenSSL keeps what it finds out about a certificate in it.
+  // OpenSSL caches properties of a certificate in it.
   auto* const read = const_cast<X509*>(&certificate);
   return (X509_get_extension_flags(read) & EXFLAG_XKUSAGE) != 0 &&
          (X509_get_extended_key_usage(read) & XKU_SSL_CLIENT) != 0;

@@ -14,7 +14,7 @@ struct FreeCertificate {
 };
 using Certificate = std::unique_ptr<X509, FreeCertificate>;
 
-/// All certificates of a text in PEM, in their order; none when one of them cannot be read.
+/// Every certificate in a PEM text, in order. Empty when one of them cannot be read.
 std::vector<Certificate> read_certificates(std::string_view pem);
 
 /// "CN=server, O=Example, valid until Nov 23 09:00:00 2027 GMT".
@@ -22,7 +22,7 @@ std::string describe(const X509& certificate);
 
 std::string time_text(const ASN1_TIME* time);
 
-/// Whether its extended key usage has clientAuth; false for one without an extended key usage.
+/// Whether the extended key usage includes clientAuth; false for a certificate without an extended key usage.
 bool is_for_clients(const X509& certificate);
 
 }  // namespace cellcrush::access

@@ -9,7 +9,7 @@ constexpr std::size_t kMostKnown = 256;
 
 }  // namespace
 
-// To read a certificate costs as much as a short call: 0.2 ms.
+// Parsing a certificate costs 0.2 ms, as much as a short call.
 bool ClientCertificates::has_client_use(std::string_view pem) {
   const MutexLock lock(mutex_);
   if (const auto found = known_.find(pem); found != known_.end()) return found->second;

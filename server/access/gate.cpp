@@ -29,15 +29,15 @@ std::string_view view_of(const grpc::string_ref& text) { return {text.data(), te
 
 }  // namespace
 
-// Asks every call of a port who makes it, before it reaches a service.
+// Authenticates the caller of each call on a port, before the call reaches a service.
 class Gate::Check final : public grpc::AuthMetadataProcessor {
  public:
   explicit Check(const Gate& gate) : gate_(gate) {}
 
-  // It computes a hash and waits for nothing.
+  // It computes a hash and does not wait.
   [[nodiscard]] bool IsBlocking() const override { return false; }
 
-  // Nothing is kept in the context: it is shared by all calls of a connection, which may have different tokens.
+  // Stores nothing in the context: all calls of a connection share it, but may have different tokens.
   grpc::Status Process(const InputMetadata& metadata, grpc::AuthContext* context, OutputMetadata*,
                        OutputMetadata*) override {
     const auto found = metadata.find(":path");
@@ -130,7 +130,7 @@ std::shared_ptr<grpc::ServerCredentials> Gate::credentials_for(const ListenAddre
   if (has_tls()) {
     out = std::make_shared<TlsCredentials>([this] { return tls(); });
   } else if (has_tokens()) {
-    // Plain text that stays on this machine; unlike insecure credentials, these let calls be checked.
+    // Plain text on this machine only. Unlike insecure credentials, these allow calls to be checked.
     out = grpc::experimental::LocalServerCredentials(LOCAL_TCP);
   } else {
     return grpc::InsecureServerCredentials();

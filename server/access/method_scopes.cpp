@@ -13,8 +13,8 @@ struct ScopeEntry {
   std::optional<Scope> scope;
 };
 
-// The one place that says who may call what. Of what needs submit, that which changes a job or a sweep also asks whose
-// it is (Gate::require_own).
+// The only table of who may call what. A method with scope submit that changes a job or sweep also checks its owner
+// (Gate::require_own).
 constexpr std::array kScopeEntries = {
     ScopeEntry{"/cellcrush.v1.Admin/Drain", Scope::admin},
     ScopeEntry{"/cellcrush.v1.Admin/GetCapabilities", Scope::read},

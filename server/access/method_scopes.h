@@ -7,11 +7,11 @@
 
 namespace cellcrush::access {
 
-/// The scope that a method needs; nothing for one that is open to everybody. A method that is not in the table needs
-/// admin. `path` is as gRPC has it: "/cellcrush.v1.Jobs/GetJob".
+/// The scope that a method requires; nothing if everybody may call it. An unlisted method requires admin. `path` has
+/// gRPC's form: "/cellcrush.v1.Jobs/GetJob".
 std::optional<Scope> needed_scope(std::string_view path);
 
-/// Whether the table has it.
+/// Whether the table lists the method.
 bool has_scope_entry(std::string_view path);
 
 }  // namespace cellcrush::access

@@ -6,30 +6,30 @@
 
 namespace cellcrush::access {
 
-/// What a caller may do; each includes those before it.
+/// What a caller may do. Each scope includes those before it.
 enum class Scope {
-  read,    ///< look at everything
-  submit,  ///< make jobs and sweeps, and change one's own
-  admin,   ///< change everybody's, and end the daemon
+  read,    ///< read everything
+  submit,  ///< create jobs and sweeps, and change one's own
+  admin,   ///< change everyone's jobs and sweeps, and drain the daemon
 };
 
 /// "read", "submit" or "admin".
 std::string name_of(Scope scope);
 
-/// Nothing for what is none of these names.
+/// Nothing if the text names no scope.
 std::optional<Scope> parse_scope(std::string_view name);
 
-/// Whoever calls.
+/// The author of a call.
 struct Caller {
-  std::string name;  ///< that of the token, the common name of the certificate, or kLocal
+  std::string name;  ///< name of the token, common name of the certificate, or kLocal
   Scope scope = Scope::read;
 };
 
-/// Name of whoever calls through the Unix socket, or where no one else can reach the daemon. No token has it.
+/// Name of a caller on the Unix socket, or on a daemon that only this machine can reach. No token has this name.
 inline constexpr const char* kLocal = "local";
 
-/// Whether it can be a caller's name: 1 to 64 printable ASCII characters without spaces, quotes, backslashes and
-/// number signs, not kLocal.
+/// Whether the text can be a caller's name: 1 to 64 printable ASCII characters without spaces, quotes, backslashes and
+/// number signs, and not kLocal.
 bool is_caller_name(std::string_view name);
 
 }  // namespace cellcrush::access

@@ -39,7 +39,7 @@ void refuse_file(const std::string& option, const std::filesystem::path& path, c
 std::string read_named_file(const std::string& option, const std::filesystem::path& path, Secrecy secrecy) {
   const OpenFile file(path);
   struct stat status {};
-  // Asked of what was opened, so that nobody can change it in between.
+  // Checked on the open descriptor, so that the file cannot be replaced in between.
   if (file.descriptor < 0 || fstat(file.descriptor, &status) != 0) refuse_file(option, path, reason());
   if (!S_ISREG(status.st_mode)) refuse_file(option, path, "is not a regular file.");
   if (secrecy == Secrecy::secret && (status.st_mode & S_IROTH) != 0)

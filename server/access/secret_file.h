@@ -5,15 +5,15 @@
 
 namespace cellcrush::access {
 
-/// Whom a file may be open to, beside its owner and, for reading, its group.
+/// Who may access a file beside its owner, and its group for reading.
 enum class Secrecy { open, secret };
 
-/// All of a file that an option names, at most 1 MiB. Throws ServiceError (invalid), which begins with the option and
-/// the file, when it cannot be read or is no file; when it is secret, also when others can read it, or the group or
-/// others can write it.
+/// Contents of a file that an option names, at most 1 MiB. Throws ServiceError (invalid), starting with the option and
+/// the file, if it is unreadable or not a regular file. For a secret file it also throws if others can read it, or if
+/// the group or others can write it.
 std::string read_named_file(const std::string& option, const std::filesystem::path& path, Secrecy secrecy);
 
-/// Throws that error.
+/// Throws this error.
 [[noreturn]] void refuse_file(const std::string& option, const std::filesystem::path& path, const std::string& why);
 
 }  // namespace cellcrush::access

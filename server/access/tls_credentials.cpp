@@ -15,7 +15,7 @@ grpc::string_ref slice_text(const grpc_slice& slice) {
   return {reinterpret_cast<const char*>(GRPC_SLICE_START_PTR(slice)), GRPC_SLICE_LENGTH(slice)};
 }
 
-// What TLS knows of a peer, for a processor, which only reads it.
+// What TLS reports about a peer, read-only, for a processor.
 class PeerContext final : public grpc::AuthContext {
  public:
   explicit PeerContext(const grpc_auth_context* context) : context_(context) {}
@@ -51,7 +51,7 @@ class PeerContext final : public grpc::AuthContext {
   const grpc_auth_context* context_;
 };
 
-// gRPC's own processors take C++ objects only from credentials of its own.
+// gRPC accepts C++ processors only through its own credentials.
 void process_call(void* state, grpc_auth_context* context, const grpc_metadata* metadata, std::size_t count,
                   grpc_process_auth_metadata_done_cb done, void* user_data) {
   grpc::AuthMetadataProcessor::InputMetadata input;
@@ -68,14 +68,14 @@ void forget_processor(void* state) { delete static_cast<Processor*>(state); }
 
 grpc_ssl_server_certificate_config* config_of(const TlsFiles& files) {
   const grpc_ssl_pem_key_cert_pair pair{files.key.c_str(), files.certificate.c_str()};
-  // gRPC asserts that there is an authority, also where it asks no client for a certificate: there it is never used.
+  // gRPC asserts an authority even if it requests no client certificate; it is then unused.
   const std::string& authority = files.client_authority.empty() ? files.certificate : files.client_authority;
   return grpc_ssl_server_certificate_config_create(authority.c_str(), &pair, 1);
 }
 
 }  // namespace
 
-// Each port remembers which files it was given. Its calls come one at a time.
+// Remembers per port which files it was given. Calls for a port are sequential.
 struct TlsCredentials::Port {
   static grpc_ssl_certificate_config_reload_status fetch(void* port, grpc_ssl_server_certificate_config** config) {
     auto& [source, current] = *static_cast<Port*>(port);
@@ -102,7 +102,7 @@ int TlsCredentials::AddPortToServer(const std::string& address, grpc_server* ser
       source_()->client_authority.empty() ? GRPC_SSL_DONT_REQUEST_CLIENT_CERTIFICATE
                                           : GRPC_SSL_REQUEST_AND_REQUIRE_CLIENT_CERTIFICATE_AND_VERIFY,
       &Port::fetch, &port);
-  // It takes the options over. The server keeps a reference to the credentials.
+  // Takes ownership of the options. The server keeps a reference to the credentials.
   grpc_server_credentials* credentials = grpc_ssl_server_credentials_create_with_options(options);
   if (processor_)
     grpc_server_credentials_set_auth_metadata_processor(credentials,

@@ -12,19 +12,19 @@
 
 namespace cellcrush::access {
 
-/// TLS whose certificates and authority may change while a server listens: each handshake uses those that the source
-/// gives then, and connections that are open stay. grpc::SslServerCredentials keeps the ones it was made with. Outlives
-/// the servers that use it.
+/// TLS credentials that can change while a server listens. Each handshake asks `source` for the current certificates
+/// and authority; open connections are unaffected. grpc::SslServerCredentials cannot change. Outlives the servers that
+/// use it.
 class TlsCredentials final : public grpc::ServerCredentials {
  public:
-  /// Called for each handshake, by any thread; never null, and the same object as long as nothing has changed. Whether
-  /// it has a client authority does not change.
+  /// Called for each handshake, by any thread. Never returns null, and returns the same object until something changes.
+  /// Whether it has a client authority never changes.
   using Source = std::function<std::shared_ptr<const TlsFiles>()>;
 
   explicit TlsCredentials(Source source);
   ~TlsCredentials() override;
 
-  /// `processor` sees every call before a service does; it does not block (IsBlocking is false).
+  /// `processor` checks every call before it reaches a service. It must not block (IsBlocking is false).
   void SetAuthMetadataProcessor(const std::shared_ptr<grpc::AuthMetadataProcessor>& processor) override;
 
  private:

@@ -20,10 +20,10 @@ struct FreeOpenssl {
 template <class Type>
 using Owned = std::unique_ptr<Type, FreeOpenssl>;
 
-// Nobody is asked for the password of a key.
+// Never asks for the password of a key.
 int give_no_password(char*, int, int, void*) { return 0; }
 
-// The first certificate of a text, which is valid now.
+// The first certificate of a text; must be valid now.
 Certificate check_certificate(const std::string& text, const std::string& option, const std::filesystem::path& path) {
   auto all = read_certificates(text);
   if (all.empty()) refuse_file(option, path, "contains no valid PEM certificate (-----BEGIN CERTIFICATE-----).");

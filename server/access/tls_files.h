@@ -5,17 +5,17 @@
 
 namespace cellcrush::access {
 
-/// What TLS takes, as PEM.
+/// Files for TLS, as PEM.
 struct TlsFiles {
-  std::string certificate;       ///< the server's, and what leads from it to its authority
-  std::string key;               ///< of the certificate
-  std::string client_authority;  ///< who signs clients' certificates; empty: clients show none
-  std::string description;       ///< of the certificates, for the log: their files, subjects and ends
+  std::string certificate;       ///< certificate chain of the server
+  std::string key;               ///< private key of the certificate
+  std::string client_authority;  ///< signs client certificates; empty: no client certificates
+  std::string description;       ///< for the log: file, subject and expiry of each certificate
 };
 
-/// Reads and checks what --tls-cert, --tls-key and --tls-client-ca name; the last may be empty. Throws ServiceError
-/// (invalid), which names the option and the file: it cannot be read or is not PEM, the certificate has expired or is
-/// not valid yet, the key is that of another one, needs a password, or can be read by others.
+/// Reads and checks the files named by --tls-cert, --tls-key and --tls-client-ca; the last may be empty. Throws
+/// ServiceError (invalid), naming the option and the file. Causes: a file is unreadable or not PEM, the certificate has
+/// expired or is not yet valid, the key does not match, has a password or can be read by others.
 TlsFiles read_tls_files(const std::filesystem::path& certificate, const std::filesystem::path& key,
                         const std::filesystem::path& client_authority);
 

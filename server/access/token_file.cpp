@@ -69,7 +69,7 @@ void TokenFile::add(const std::string& line, const std::string& option, const st
   std::string digits;
   std::string rest;
   if (!(words >> name)) return;
-  // The line is not repeated: a token may have been written where its hash belongs.
+  // Does not repeat the line: it may contain a token instead of its hash.
   const std::string where = "line " + std::to_string(line_number) + " ";
   if (!(words >> scope_name >> digits) || words >> rest)
     refuse_file(option, path, where + "is not of the form NAME SCOPE SHA256-HEX.");
@@ -91,7 +91,7 @@ std::optional<Caller> TokenFile::find(std::string_view token) const {
   if (token.size() > kLongestToken) return std::nullopt;
   const Hash hash = sha256_of(token);
   const Entry* found = nullptr;
-  // All are compared, whichever it is.
+  // Compares all entries, so that the time does not depend on the match.
   for (const Entry& entry : entries_) {
     if (CRYPTO_memcmp(entry.hash.data(), hash.data(), hash.size()) == 0) found = &entry;
   }

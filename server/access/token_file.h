@@ -12,19 +12,18 @@
 
 namespace cellcrush::access {
 
-/// The tokens that a daemon takes, from a file with a line for each: "NAME SCOPE SHA256-HEX". What follows a # is a
-/// comment. A name may have several, so that one can replace another. The file has hashes only. Thread-safe once it is
-/// read.
+/// Tokens that the daemon accepts, from a file with one per line: "NAME SCOPE SHA256-HEX". A # starts a comment. A name
+/// may have several tokens, so that one can replace another. The file holds hashes only. Thread-safe once constructed.
 class TokenFile {
  public:
-  /// Throws ServiceError (invalid) with the option, the file and the line: a file that cannot be read, that others can
-  /// read or write, a line that is none, a hash that comes twice, a name with two scopes, no token at all.
+  /// Throws ServiceError (invalid) with the option, the file and the line: the file is unreadable, others can read or
+  /// write it, a line is malformed, a hash appears twice, a name has two scopes, or there is no token.
   explicit TokenFile(const std::filesystem::path& path);
 
   [[nodiscard]] std::size_t size() const { return entries_.size(); }
 
-  /// Whose token it is; nothing for one that is not in the file. The time it takes says nothing about how much of a
-  /// hash was right.
+  /// The owner of a token; nothing if the file does not list it. The time of the lookup does not depend on how much of
+  /// a hash matches.
   [[nodiscard]] std::optional<Caller> find(std::string_view token) const;
 
  private:
@@ -38,13 +37,13 @@ class TokenFile {
   std::vector<Entry> entries_;
 };
 
-/// A new token and its line for the file.
+/// A new token and its line for the token file.
 struct NewToken {
   std::string token;  ///< 64 hexadecimal digits of 256 random bits
   std::string line;
 };
 
-/// Throws ServiceError: invalid for a name that cannot be one, internal when there is no randomness.
+/// Throws ServiceError: invalid for an unusable name, internal if no random bytes are available.
 NewToken make_token(const std::string& name, Scope scope);
 
 }  // namespace cellcrush::access

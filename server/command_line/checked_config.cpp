@@ -9,7 +9,7 @@
 namespace cellcrush {
 namespace {
 
-// What the reader makes of the begin and the end of a table.
+// How the reader represents the start and end of a table.
 bool is_mark(const CLI::ConfigItem& item) { return item.name == "++" || item.name == "--"; }
 
 }  // namespace

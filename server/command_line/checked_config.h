@@ -6,11 +6,11 @@
 
 namespace cellcrush {
 
-/// Reads a file of options in TOML, and refuses it for a key that is no option: a slip would otherwise leave a default
-/// in force unseen. Throws CLI::ConfigError with the nearest option's name, or with where all of them stand.
+/// Reads a TOML file of options and rejects a key that is not an option. Otherwise a misspelt key would silently leave
+/// a default in force. Throws CLI::ConfigError with the nearest option name, or with where all options are listed.
 class CheckedConfig final : public CLI::ConfigTOML {
  public:
-  /// `app`, whose options may be given, outlives this object.
+  /// `app` defines the options and outlives this object.
   explicit CheckedConfig(const CLI::App& app) : app_(app) {}
 
   std::vector<CLI::ConfigItem> from_config(std::istream& input) const override;

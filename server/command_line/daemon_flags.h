@@ -8,15 +8,14 @@
 
 namespace cellcrush {
 
-/// The flags of the daemon, on the command line and in the file of --config. Outlives the parsing of the app it is
-/// given.
+/// The flags of the daemon, on the command line and in the --config file. Outlives the parsing of `app`.
 class DaemonFlags {
  public:
   explicit DaemonFlags(CLI::App& app);
   DaemonFlags(const DaemonFlags&) = delete;
   DaemonFlags& operator=(const DaemonFlags&) = delete;
 
-  /// What was given, once the app has parsed it.
+  /// The options given; valid once the app has parsed them.
   [[nodiscard]] DaemonOptions options() const;
 
   /// "text" or "json".

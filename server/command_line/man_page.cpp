@@ -8,7 +8,7 @@
 namespace cellcrush {
 namespace {
 
-// Text that roff prints as it is, also at the start of a line.
+// Escapes text for roff, also at the start of a line.
 std::string roff(std::string_view text) {
   std::string out = text.starts_with('.') || text.starts_with('\'') ? "\\&" : "";
   for (const char character : text) {
@@ -23,7 +23,7 @@ std::string roff(std::string_view text) {
   return out;
 }
 
-// A paragraph of each line.
+// One paragraph per line.
 std::string paragraphs(std::string_view text) {
   std::string out;
   while (!text.empty()) {

@@ -5,7 +5,7 @@
 
 namespace cellcrush {
 
-/// The man page cellcrushd(8) in the macros of man(7), from the definition that the program parses with.
+/// The man page cellcrushd(8) in man(7) macros, generated from the parser's own definition.
 std::string man_page(const CLI::App& app, const std::string& version);
 
 }  // namespace cellcrush

@@ -9,7 +9,7 @@
 namespace cellcrush {
 namespace {
 
-// Insertions, deletions and substitutions that make one word of the other.
+// Edit distance: insertions, deletions and substitutions.
 std::size_t distance_of(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});

@@ -5,7 +5,7 @@
 
 namespace cellcrush {
 
-/// The option of `app` whose long name is nearest to `name`, both without dashes; empty when none is near.
+/// The option of `app` whose long name is nearest to `name`, both without dashes; empty if none is near.
 std::string nearest_option(const CLI::App& app, const std::string& name);
 
 }  // namespace cellcrush

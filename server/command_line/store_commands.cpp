@@ -16,7 +16,7 @@ CLI::App* add_store_command(CLI::App& app, const char* name, const char* descrip
   return command;
 }
 
-// Notes and problems, a line each. Whether there is no problem.
+// Prints notes and problems, one per line. Returns whether there are no problems.
 bool print_findings(const store::Verification& found) {
   for (const auto& note : found.notes) std::printf("note: %s\n", note.c_str());
   for (const auto& problem : found.problems) std::printf("problem: %s\n", problem.c_str());

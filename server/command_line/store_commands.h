@@ -5,19 +5,19 @@
 
 namespace cellcrush {
 
-/// cellcrushd backup | verify | restore: what is done to a data folder without serving it. Outlives the parsing of the
-/// app it is given.
+/// cellcrushd backup | verify | restore: operations on a data folder that do not start the service. Outlives the
+/// parsing of `app`.
 class StoreCommands {
  public:
   explicit StoreCommands(CLI::App& app);
   StoreCommands(const StoreCommands&) = delete;
   StoreCommands& operator=(const StoreCommands&) = delete;
 
-  /// Whether one of them was given, once the app has parsed.
+  /// Whether one of the commands was given; valid once the app has parsed.
   [[nodiscard]] bool given() const;
 
-  /// Runs it; `data_folder` is that of --data, empty when there is none. The exit code: 0 done, 1 not done or something
-  /// is wrong with what was looked at, 2 usage. Words about a failure go to stderr.
+  /// Runs the command. `data_folder` is the value of --data; empty without. Returns the exit code: 0 success, 1 failure
+  /// or a problem found, 2 usage. Failures are described on stderr.
   [[nodiscard]] int run(const std::filesystem::path& data_folder) const;
 
  private:

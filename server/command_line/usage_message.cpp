@@ -7,7 +7,7 @@
 namespace cellcrush {
 namespace {
 
-// The command of those on the command line, or the program itself.
+// The command on the command line, or the program itself.
 const CLI::App& parsed_command(const CLI::App& app) {
   const auto commands = app.get_subcommands();
   return commands.empty() ? app : *commands.front();

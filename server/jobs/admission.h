@@ -23,21 +23,21 @@ class Admission {
  public:
   struct Limits {
     std::int64_t queued_jobs = 100'000;
-    std::int64_t job_memory_bytes = 0;            ///< that a job may be predicted to need; 0: what the machine has
-    std::int64_t free_disk_bytes = 0;             ///< that are to be left in the data folder
-    std::chrono::duration<double> job_time{0.0};  ///< of the clock that a job's workers may take; 0: no limit
+    std::int64_t job_memory_bytes = 0;            ///< limit for the predicted memory of a job; 0: memory of the machine
+    std::int64_t free_disk_bytes = 0;             ///< to keep free in the data folder
+    std::chrono::duration<double> job_time{0.0};  ///< wall-clock limit of a job; 0: none
     OwnerLimits owner;
   };
 
-  /// What is asked how much there is already; all of it outlives this object.
+  /// Sources of the current usage; all outlive this object.
   struct Parts {
     const store::DataFolder& folder;
     store::JournalReader& reader;
     Scheduler& scheduler;
   };
 
-  /// Jobs that were admitted and do not stand in the queue yet. Until this goes away they count as waiting, so that
-  /// calls at the same time do not share what is left of a limit.
+  /// Admitted jobs that are not in the queue yet. While this object lives they count as waiting, so that concurrent
+  /// calls cannot share the remainder of a limit.
   class Place {
    public:
     Place(Admission& admission, std::string owner, std::size_t count)
@@ -55,24 +55,24 @@ class Admission {
 
   Admission(const Parts& parts, const Limits& limits);
 
-  /// From now on no job is taken.
+  /// Refuses all jobs from now on.
   void drain() { draining_ = true; }
 
-  /// Checks the seconds that a job asks for. Throws InvalidField.
+  /// Checks the time limit that a job requests. Throws InvalidField.
   void check_time_limit(double seconds, const std::string& field) const;
 
-  /// Checks the priority that jobs ask for against that of an owner. Throws InvalidField.
+  /// Checks the requested priority against the owner's limit. Throws InvalidField.
   void check_priority(int priority, const std::string& field) const { quotas_.check_priority(priority, field); }
 
-  /// Memory of a job of which it is known that it is at most `most_bytes`: `predict` is asked only where that could be
-  /// too much.
+  /// Memory of a job, of which `most_bytes` is an upper bound. `predict` is called only if that bound exceeds the
+  /// limit.
   [[nodiscard]] std::int64_t memory_of_job(std::int64_t most_bytes, const std::function<std::int64_t()>& predict) const;
 
-  /// Whether so many more jobs of the owner, of which the largest needs so much memory, can be taken. Throws
-  /// ServiceError: unavailable while draining, exhausted beyond a limit or a quota, storage_full.
+  /// Reserves places for this many jobs of the owner, the largest of which needs this much memory. Throws ServiceError:
+  /// unavailable while draining, exhausted beyond a limit or a quota, storage_full.
   [[nodiscard]] Place admit(const std::string& owner, std::size_t count, std::int64_t memory_bytes);
 
-  /// Why the disk has too little room for jobs, a sentence; nothing where it has room. Throws ServiceError.
+  /// Why the disk has too little room for jobs, as a sentence; nothing if it has enough. Throws ServiceError.
   [[nodiscard]] std::optional<std::string> low_disk() const;
 
  private:
@@ -81,7 +81,8 @@ class Admission {
   OwnerQuotas quotas_;
   std::atomic<bool> draining_ = false;
   Mutex mutex_;
-  std::map<std::string, std::size_t> admitted_ CELLCRUSH_GUARDED_BY(mutex_);  ///< jobs of places by owner
+  std::map<std::string, std::size_t> admitted_
+      CELLCRUSH_GUARDED_BY(mutex_);  ///< jobs admitted but not yet queued, by owner
 };
 
 }  // namespace cellcrush::jobs

@@ -19,7 +19,7 @@ using google::protobuf::Descriptor;
 using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
 
-// One part of a path: a name, and the position in a list.
+// One part of a path: a name, and an index if it is a list.
 struct Segment {
   std::string name;
   std::optional<int> position;
@@ -53,7 +53,7 @@ Segment parse_segment(const std::string& path, std::string_view text) {
   return {std::string(text.substr(0, bracket)), position};
 }
 
-// Goes one message deeper.
+// Descends into a message.
 Message& descend(Message& at, const FieldDescriptor& field, const Segment& segment, const std::string& path) {
   const auto& reflection = *at.GetReflection();
   if (field.cpp_type() != FieldDescriptor::CPPTYPE_MESSAGE || field.is_repeated() != segment.position.has_value())

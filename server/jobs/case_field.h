@@ -6,13 +6,12 @@
 
 namespace cellcrush::jobs {
 
-/// A number as people write it, with all its digits: "50", "0.3464", "1e-07".
+/// A number in its usual form, with all digits: "50", "0.3464", "1e-07".
 std::string text_of(double value);
 
-/// Sets the number at a path of a case: "loading.speed_m_per_s", "lattice.hexagon.rows", "lattice.frame.nodes[3].x_mm".
-/// Parts that are absent are made, but no kind of lattice is changed into another, and a list does not grow. Throws
-/// InvalidField, with the path as the field: no such number, or a value that is not whole or does not fit where the
-/// field is a whole number.
+/// Sets a number of a case by its path: "loading.speed_m_per_s", "lattice.hexagon.rows", "lattice.frame.nodes[3].x_mm".
+/// Creates absent parts, but never changes the kind of lattice or extends a list. Throws InvalidField, with the path as
+/// the field, if the path names no number. It also throws if the value does not fit an integer field.
 void set_case_field(v1::Case& target, const std::string& path, double value);
 
 }  // namespace cellcrush::jobs

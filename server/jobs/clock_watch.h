@@ -7,13 +7,13 @@
 
 namespace cellcrush::jobs {
 
-/// Notices that the wall clock was set: it then moved otherwise than the machine's uptime. Not thread-safe.
+/// Detects a change of the wall clock: it then advances differently from the machine's uptime. Not thread-safe.
 class ClockWatch {
  public:
   explicit ClockWatch(Clocks clocks) : clocks_(std::move(clocks)), offset_(clocks_.wall() - clocks_.uptime()) {}
 
-  /// By how much the wall clock was set since the last call, positive forward; nothing below kLeastJump, which a clock
-  /// that is steered towards the right time stays under.
+  /// How far the wall clock was set since the last call, positive forward. Nothing below kLeastJump, which the gradual
+  /// corrections of a synchronized clock never reach.
   std::optional<std::chrono::nanoseconds> find_jump() {
     const auto offset = clocks_.wall() - clocks_.uptime();
     const auto jump = offset - offset_;

@@ -11,7 +11,8 @@
 
 namespace cellcrush::jobs {
 
-/// Deletes what has ended, with all it left. Thread-safe. A folder that cannot be removed is left to finish_deletions.
+/// Deletes ended jobs and sweeps with all their data. Thread-safe. A folder that cannot be removed is left for
+/// finish_deletions.
 class Deletion {
  public:
   /// All of it outlives this object.
@@ -24,26 +25,25 @@ class Deletion {
 
   explicit Deletion(const Parts& parts) : parts_(parts) {}
 
-  /// Throws ServiceError: not_found, or failed_precondition when it has not ended.
+  /// Throws ServiceError: not_found, or failed_precondition if the job has not ended.
   void delete_job(std::int64_t job) const;
 
-  /// Deletes those of the jobs that have ended, some at a time.
+  /// Deletes the ended ones among the jobs, in batches.
   void delete_jobs(const std::vector<std::int64_t>& jobs) const;
 
-  /// Deletes a sweep with its jobs. Nobody finds the sweep any more as soon as that begins; its jobs go in transactions
-  /// of a bounded size, and finish_sweeps continues what a killed daemon left. Throws ServiceError: not_found,
-  /// failed_precondition, which names jobs that have not ended, or cancelled once `given_up` says that nobody waits any
-  /// more.
+  /// Deletes a sweep with its jobs. The sweep disappears at once; its jobs follow in transactions of bounded size, and
+  /// finish_sweeps completes what a killed daemon left. Throws ServiceError: not_found, failed_precondition naming jobs
+  /// that have not ended, or cancelled once `given_up` returns true.
   void delete_sweep(std::int64_t sweep, const std::function<bool()>& given_up) const;
 
-  /// Deletes what is left of sweeps whose deletion has begun. Ends early once `given_up` says so.
+  /// Completes the deletion of sweeps. Returns early once `given_up` returns true.
   void finish_sweeps(const std::function<bool()>& given_up) const;
 
-  /// Removes the folders that earlier deletions left behind.
+  /// Removes folders that earlier deletions left behind.
   void finish_folders() const;
 
  private:
-  /// Whether it came to the end.
+  /// Whether it completed.
   bool remove_sweep(std::int64_t sweep, const std::function<bool()>& given_up) const;
   void remove_folders(const std::vector<std::int64_t>& jobs) const;
 

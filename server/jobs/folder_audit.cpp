@@ -14,10 +14,10 @@
 namespace cellcrush::jobs {
 namespace {
 
-// What a file system keeps for itself.
+// Entries that belong to the file system.
 constexpr const char* kOfTheFileSystem = "lost+found";
 
-// Why no worker could use the folder; empty when one can.
+// Why the folder is unusable for workers; empty if it is usable.
 std::string why_unusable(const store::JobFolder& folder) {
   struct stat status {};
   if (stat(folder.root().c_str(), &status) != 0 || !S_ISDIR(status.st_mode)) return "it is not a folder";
@@ -43,7 +43,7 @@ class FolderAudit {
     }
   }
 
-  void look_at(const std::string& name) {
+  void audit_entry(const std::string& name) {
     if (name == kOfTheFileSystem) return;
     const auto job = store::number_of("jobs/" + name);
     if (!job || !reader_.has_job(*job)) {
@@ -77,7 +77,7 @@ class FolderAudit {
 
 void audit_job_folders(store::JournalReader& reader, const store::DataFolder& folder, Executor& executor) {
   FolderAudit audit(reader, folder, executor);
-  for (const auto& name : folder.names_in_jobs()) audit.look_at(name);
+  for (const auto& name : folder.names_in_jobs()) audit.audit_entry(name);
 }
 
 }  // namespace cellcrush::jobs

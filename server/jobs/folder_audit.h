@@ -6,9 +6,9 @@
 
 namespace cellcrush::jobs {
 
-/// Sets aside (DataFolder::set_aside), before any job is run, what lies in jobs/ and belongs to no job of the journal,
-/// so that no job takes it for its own, and the folders that no worker could use of jobs that have not ended; these
-/// begin again from step 0. Each is named in the log, also what cannot be moved, which stays. Throws ServiceError when
+/// Cleans up jobs/ before any job runs. Sets aside (DataFolder::set_aside) entries that belong to no job of the
+/// journal, so that no job mistakes them for its own. Also sets aside unusable folders of unfinished jobs, which
+/// restart from step 0. The log names each one, including those that cannot be moved and stay. Throws ServiceError if
 /// jobs/ or the journal cannot be read.
 void audit_job_folders(store::JournalReader& reader, const store::DataFolder& folder, Executor& executor);
 

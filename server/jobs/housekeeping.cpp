@@ -11,7 +11,7 @@
 namespace cellcrush::jobs {
 namespace {
 
-// Seconds of the service clock that a daemon which is killed may lose.
+// Seconds of the service clock that a killed daemon may lose.
 constexpr std::int64_t kNoteAfter = 600;
 
 }  // namespace
@@ -20,9 +20,9 @@ void Housekeeping::work(const std::stop_token& stop) {
   std::string logged;
   do {
     try {
-      look_at_disk();
+      check_disk();
       delete_ended(stop);
-      look_at_clocks();
+      check_clocks();
       logged.clear();
     } catch (const std::exception& error) {
       if (std::exchange(logged, error.what()) != error.what())
@@ -31,13 +31,13 @@ void Housekeeping::work(const std::stop_token& stop) {
   } while (pause_unless_stopped(stop, parts_.interval));
 }
 
-void Housekeeping::look_at_disk() {
+void Housekeeping::check_disk() {
   const auto shortage = parts_.admission.low_disk();
   parts_.scheduler.hold_for_low_disk(shortage);
   if (!shortage && parts_.folder.keep_ballast()) parts_.hold.try_now(Shortage::full_disk);
 }
 
-void Housekeeping::look_at_clocks() {
+void Housekeeping::check_clocks() {
   if (const auto jump = clock_watch_.find_jump()) {
     const auto seconds = std::chrono::round<std::chrono::seconds>(*jump).count();
     spdlog::warn("The wall clock was set {} by {} s. Timestamps of new events follow it; retention of jobs does not.",

@@ -13,11 +13,11 @@
 
 namespace cellcrush::jobs {
 
-/// What the daemon does by itself: while the disk has too little room, no job runs; what ended too long ago is deleted;
-/// a wall clock that was set is named in the log.
+/// Periodic work of the daemon: holds the queue while the disk is nearly full, deletes expired jobs, and logs a change
+/// of the wall clock.
 class Housekeeping {
  public:
-  /// What it works with; all of it outlives it.
+  /// Dependencies; all outlive this object.
   struct Parts {
     const store::DataFolder& folder;
     store::Journal& journal;
@@ -38,23 +38,23 @@ class Housekeeping {
         clock_watch_(parts.clocks),
         noted_(parts.journal.service_seconds()) {}
 
-  /// Holds the queue where the disk has too little room, before a job starts. Throws ServiceError.
-  void look_at_disk();
+  /// Holds the queue if the disk is nearly full, before a job starts. Throws ServiceError.
+  void check_disk();
 
-  /// Does all of it from now on, in a thread of its own.
+  /// Repeats all checks from now on, in its own thread.
   void start() {
     thread_ = std::jthread([this](const std::stop_token& stop) { work(stop); });
   }
 
  private:
   void work(const std::stop_token& stop);
-  void look_at_clocks();
+  void check_clocks();
   void delete_ended(const std::stop_token& stop);
 
   Parts parts_;
   Retention retention_;
   ClockWatch clock_watch_;
-  std::int64_t noted_;  ///< second of the service clock that was made durable last
+  std::int64_t noted_;  ///< service clock, s, when last made durable
   std::jthread thread_;
 };
 

@@ -14,10 +14,10 @@
 namespace cellcrush::jobs {
 namespace {
 
-// The job was cancelled, suspended or deleted while a worker was started for it.
+// The job was cancelled, suspended or deleted while its worker was starting.
 struct Withdrawn {};
 
-// What workers left of the job does not count, and it is to be begun again; why.
+// The workers' files are invalid, and the job must restart from step 0; holds the reason.
 struct BeginAgain {
   std::string why;
 };
@@ -43,7 +43,7 @@ bool JobRunner::run(std::int64_t job, int threads, const Interruptions& interrup
       parts_.hold.failed(run.trouble);
       state = put_back(job, run);
     }
-    // It is CANCELLING when it was cancelled just as its worker had left it: then it ends with the samples so far.
+    // It is CANCELLING if it was cancelled just after its worker had left it: it then ends with the samples so far.
     if (state != v1::CANCELLING) return state == v1::PENDING;
     if (run.trouble && !pause_unless_stopped(daemons_end, kBetweenTries)) return false;
   }
@@ -70,7 +70,7 @@ v1::JobState JobRunner::run_once(std::int64_t job, Run& run) {
   }
   parts_.metrics.set_speed(job, 0.0);
   if (run.trouble) return v1::JOB_STATE_UNSPECIFIED;
-  // It stays as it was, and is to be run again.
+  // Its state is unchanged, and it is to be rerun.
   if (next.state == v1::JOB_STATE_UNSPECIFIED) return v1::PENDING;
   return write(job, next, run.daemons_end);
 }
@@ -125,7 +125,7 @@ void JobRunner::end_leftover_if_possible(std::int64_t job) {
   try {
     end_leftover(job);
   } catch (const std::exception& error) {
-    // The next worker of the job is refused its folder, and this one is adopted.
+    // The folder's lock refuses the job's next worker, which then adopts this one.
     spdlog::warn("A worker of {} may still run: {}", store::name_of(job), error.what());
   }
 }
@@ -136,7 +136,7 @@ worker::Order JobRunner::order_of(const store::StoredJob& stored) const {
   *order.mutable_case_() = stored.job.case_();
   order.set_threads(1);
   order.set_checkpoint_interval_s(std::chrono::duration<double>(parts_.checkpoint_interval).count());
-  // The daemon's limit may be another than when the job was accepted.
+  // The daemon's limit may have changed since the job was accepted.
   const double own = stored.job.time_limit_s();
   const bool daemons = parts_.longest_job_s > 0.0 && (own == 0.0 || own > parts_.longest_job_s);
   order.set_time_limit_s(daemons ? parts_.longest_job_s : own);
@@ -147,7 +147,7 @@ worker::Order JobRunner::order_of(const store::StoredJob& stored) const {
 
 WorkerExit JobRunner::run_worker(const store::StoredJob& stored, const Run& run) {
   parts_.folder.make_job_folder(stored.number);
-  // Without them nobody knows whose samples the journal has.
+  // Without them, the samples in the journal cannot be attributed.
   if (!parts_.folder.has_reports(stored.number) && parts_.reader.last_sampled_step(stored.number) >= 0)
     throw BeginAgain{kReportsAreGone};
   worker::Order order = order_of(stored);
@@ -161,7 +161,7 @@ WorkerEvents JobRunner::events_of(const store::StoredJob& stored) {
   events.started = [this, job](int pid) {
     const auto now = parts_.reader.find_job(job);
     if (!now) throw Withdrawn();
-    // It runs already: an earlier daemon started the worker.
+    // An earlier daemon started the worker.
     if (now->job.state() == v1::CANCELLING || now->job.state() == v1::RUNNING) return parts_.hold.succeeded();
     store::StateChange running;
     running.state = v1::RUNNING;
@@ -183,7 +183,7 @@ WorkerEvents JobRunner::events_of(const store::StoredJob& stored) {
   return events;
 }
 
-// Samples that were said before come again with the same bits.
+// Samples reported again have the same bits.
 void JobRunner::pass_on(std::int64_t job, std::int64_t& last_step, watch::Channel& channel, worker::Report& report) {
   switch (report.report_case()) {
     case worker::Report::kBegun:
@@ -215,7 +215,7 @@ store::StateChange JobRunner::after(const store::StoredJob& stored, const Worker
   if (exit.kind == WorkerExit::Kind::cancelled && !is_last_word(exit)) return given_up(stored, std::move(next), run);
   if (!is_lost(exit)) return next;
   run.trouble = trouble_of_exit(exit);
-  // A worker that an earlier daemon started cannot say so by its exit code.
+  // A worker of an earlier daemon cannot report this through its exit code.
   if (!run.trouble && parts_.folder.is_full()) run.trouble = {Shortage::full_disk, "The data folder's disk is full."};
   if (run.trouble) return {};
   if (!got_further(stored.number)) return given_up(stored, std::move(next), run);
@@ -223,12 +223,12 @@ store::StateChange JobRunner::after(const store::StoredJob& stored, const Worker
   return tried_again(std::move(next));
 }
 
-// Whether the job may be tried again after a loss.
+// Whether the job may be retried after a loss.
 bool JobRunner::got_further(std::int64_t job) {
   try {
     parts_.journal.commit_samples();
   } catch (const std::exception&) {
-    // What was stored before counts. The journal tries again by itself, and logs that.
+    // The samples stored before count. The journal retries on its own and logs the failure.
   }
   const std::int64_t step = parts_.reader.last_sampled_step(job);
   const MutexLock lock(mutex_);
@@ -239,12 +239,12 @@ bool JobRunner::got_further(std::int64_t job) {
   return false;
 }
 
-// What the job's workers reported until they were gone is kept as a result where that can be.
+// Makes a result from the reports of lost workers, if possible.
 store::StateChange JobRunner::given_up(const store::StoredJob& stored, store::StateChange loss, Run& run) {
   const bool is_cancelled = loss.state == v1::CANCELLED;
   // The next daemon ends it.
   if (is_cancelled && run.daemons_end.stop_requested()) return {};
-  // A cancelled job ends, even if it was to be suspended or the disk is nearly full.
+  // A cancelled job ends even if it was to be suspended or the disk is nearly full.
   const Interruptions wishes =
       is_cancelled ? Interruptions{run.daemons_end, {}, run.interruptions.cancel} : run.interruptions;
   worker::Order order = order_of(stored);
@@ -264,7 +264,7 @@ store::StateChange JobRunner::given_up(const store::StoredJob& stored, store::St
     if (has_result || (was_left && !is_last_word(exit))) return outcome_of(exit);
     if (!is_cancelled) run.trouble = trouble_of_exit(exit);
   } catch (const std::exception& error) {
-    // One that was cancelled ends without its result where none can be made now.
+    // A cancelled job ends without a result if none can be made now.
     if (!is_cancelled) run.trouble = trouble_of(error);
     spdlog::warn("{} could not write a result: {}", store::name_of(stored.number), error.what());
   }
@@ -278,7 +278,7 @@ v1::JobState JobRunner::begin_again(std::int64_t job, const std::string& why) {
   } catch (const ServiceError& error) {
     if (error.kind() == ServiceError::Kind::not_found) return v1::JOB_STATE_UNSPECIFIED;
     if (error.kind() != ServiceError::Kind::failed_precondition) throw;
-    // One that was cancelled ends without a result.
+    // A cancelled job ends without a result.
     parts_.folder.discard_run(job);
     return v1::CANCELLING;
   }
@@ -311,7 +311,7 @@ v1::JobState JobRunner::put_back(std::int64_t job, const Run& run) {
 }
 
 v1::JobState JobRunner::write(std::int64_t job, const store::StateChange& change, const std::stop_token& daemons_end) {
-  // At the daemon's end the job stays as it is, and the next daemon reconciles it.
+  // When the daemon ends, the job keeps its state, and the next daemon reconciles it.
   std::string logged;
   do {
     if (const auto written = try_write(job, change, logged)) return *written;
@@ -332,7 +332,7 @@ std::optional<v1::JobState> JobRunner::try_write(std::int64_t job, const store::
     const auto* refused = dynamic_cast<const ServiceError*>(&error);
     const auto kind = refused != nullptr ? refused->kind() : ServiceError::Kind::internal;
     if (kind == ServiceError::Kind::not_found) return v1::JOB_STATE_UNSPECIFIED;
-    // It was cancelled when its worker had just left it, or is in the state of another call.
+    // It was cancelled just after its worker had left it, or another call has changed its state.
     if (kind == ServiceError::Kind::failed_precondition)
       return store::is_terminal(change.state) ? v1::JOB_STATE_UNSPECIFIED : v1::CANCELLING;
     if (std::exchange(logged, error.what()) != error.what())

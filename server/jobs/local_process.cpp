@@ -18,8 +18,8 @@
 namespace cellcrush::jobs {
 namespace {
 
-// Starts a worker in the folder, with no other descriptors but the standard three, which are those of nobody: it
-// outlives the daemon. Returns 0 or an errno.
+// Starts a worker in the folder. It outlives the daemon, so it inherits no descriptors but the standard three, which
+// are opened on /dev/null. Returns 0 or an errno.
 int spawn(const std::filesystem::path& program, const store::JobFolder& folder, pid_t& pid) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
@@ -37,7 +37,7 @@ int spawn(const std::filesystem::path& program, const store::JobFolder& folder, 
   sigfillset(&all);
   posix_spawnattr_setsigmask(&attributes, &wishes);
   posix_spawnattr_setsigdefault(&attributes, &all);
-  // A group of its own: Ctrl-C at the daemon's terminal is the daemon's to handle.
+  // A separate process group, so that Ctrl-C at the daemon's terminal reaches the daemon only.
   posix_spawnattr_setpgroup(&attributes, 0);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
 
@@ -119,7 +119,7 @@ WorkerExit LocalProcess::run(const store::JobFolder& folder, const worker::Order
   process.emplace(WorkerProcess::of_child(child));
   out = follow(*process, follower, events, oom_kills_);
   if (out.kind != WorkerExit::Kind::exited || out.code != worker::kFolderIsClaimed) return out;
-  // One that an earlier daemon had just started was faster.
+  // A worker that an earlier daemon had just started claimed the folder first.
   auto faster = WorkerProcess::find(folder);
   return faster ? follow(*faster, follower, events, oom_kills_) : out;
 }

@@ -12,8 +12,8 @@ namespace cellcrush::jobs {
 /// Workers as processes on this machine: `program worker --folder DIR`. They outlive the daemon.
 class LocalProcess final : public Executor {
  public:
-  /// A worker that says nothing and uses no processor time for `stall_limit` is stalled. `oom_kills`: count_oom_kills,
-  /// unless a test counts otherwise.
+  /// A worker that reports nothing and uses no processor time for `stall_limit` has stalled. `oom_kills` defaults to
+  /// count_oom_kills; tests replace it.
   LocalProcess(std::filesystem::path program, std::chrono::milliseconds stall_limit,
                OomKills oom_kills = count_oom_kills)
       : program_(std::move(program)), stall_limit_(stall_limit), oom_kills_(std::move(oom_kills)) {}

@@ -38,7 +38,7 @@ MeshPlaces::Place::Place(MeshPlaces& places, std::int64_t elements, const std::f
 
 MeshPlaces::Place::~Place() {
   if (line_ == nullptr) return;
-  if (line_ == &places_.large_) malloc_trim(0);  // the thread's heap would keep the room
+  if (line_ == &places_.large_) malloc_trim(0);  // otherwise the thread's heap keeps the memory
   leave();
 }
 

@@ -10,8 +10,9 @@
 
 namespace cellcrush::jobs {
 
-/// Bounds the meshes that checks build at once, so that many calls do not take the daemon's memory: a few small ones of
-/// some 25 MB at most, and one larger. The mesh of two million elements takes some 900 MB and two seconds. Thread-safe.
+/// Limits the meshes that checks build at once, so that many calls cannot exhaust the daemon's memory. Allows several
+/// small meshes of about 25 MB at most, and one larger. A mesh of two million elements needs about 900 MB and two
+/// seconds. Thread-safe.
 class MeshPlaces {
  public:
   class Place;
@@ -21,10 +22,10 @@ class MeshPlaces {
   static constexpr std::chrono::seconds kPatience{10};
 
  private:
-  /// Places of one kind.
+  /// Places of one size class.
   struct Line {
     int places;
-    std::vector<const Place*> takers = {};  ///< in the order in which they came; the first of them have the places
+    std::vector<const Place*> takers = {};  ///< in order of arrival; the first ones hold the places
   };
 
   Mutex mutex_;
@@ -33,12 +34,11 @@ class MeshPlaces {
   Line large_ CELLCRUSH_GUARDED_BY(mutex_){1};
 };
 
-/// The place of a mesh that is being built, given back when this goes away.
+/// The place of a mesh under construction, released on destruction.
 class MeshPlaces::Place {
  public:
-  /// Waits for a place for a mesh of so many elements; of none there is nothing to wait for. Throws ServiceError:
-  /// cancelled once `given_up`, asked several times a second, says that nobody waits any more, exhausted when no place
-  /// is free within `patience`.
+  /// Waits for a place for a mesh of this many elements; returns at once for none. Throws ServiceError: cancelled once
+  /// `given_up`, polled several times a second, returns true; exhausted if no place is free within `patience`.
   Place(MeshPlaces& places, std::int64_t elements, const std::function<bool()>& given_up,
         std::chrono::seconds patience = kPatience);
   ~Place();
@@ -50,7 +50,7 @@ class MeshPlaces::Place {
   void leave();
 
   MeshPlaces& places_;
-  Line* line_ = nullptr;  ///< null: of a mesh of no elements
+  Line* line_ = nullptr;  ///< null for a mesh without elements
 };
 
 }  // namespace cellcrush::jobs

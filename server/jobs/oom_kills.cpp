@@ -8,7 +8,7 @@
 namespace cellcrush::jobs {
 namespace {
 
-// The number behind "oom_kill", in a file of a name and a number a line.
+// The value of "oom_kill" in a file with one name and number per line.
 std::optional<std::uint64_t> read_count(const std::filesystem::path& path) {
   std::ifstream file(path);
   std::string name;
@@ -18,7 +18,7 @@ std::optional<std::uint64_t> read_count(const std::filesystem::path& path) {
   return std::nullopt;
 }
 
-// Of control groups of version 2 the line is "0::/path".
+// For version 2 control groups the line is "0::/path".
 std::filesystem::path control_group() {
   std::ifstream file("/proc/self/cgroup");
   for (std::string line; std::getline(file, line);) {

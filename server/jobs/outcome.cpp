@@ -43,7 +43,7 @@ store::StateChange of_final(const worker::Final& final) {
   return out;
 }
 
-// What became of a worker, and what to do if it happens again and again.
+// What happened to a worker, and what to do if it keeps happening.
 struct Loss {
   std::string what;
   std::string remedy = "Submit the case again. If the failure repeats, report it together with the case.";

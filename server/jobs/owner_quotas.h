@@ -7,17 +7,17 @@
 
 namespace cellcrush::jobs {
 
-/// What the jobs of one owner may take. Every owner is held to it: tokens and certificates of any scope, and "local".
+/// Quotas of one owner. They apply to every owner: tokens and certificates of any scope, and "local".
 struct OwnerLimits {
   static constexpr int kAnyPriority = 100;
 
-  std::int64_t queued_jobs = 0;  ///< that wait; 0: any number
-  int running_jobs = 0;          ///< that run at once, for the scheduler; 0: any number
-  std::int64_t disk_bytes = 0;   ///< of results and rows in the journal; 0: any number
-  int priority = kAnyPriority;   ///< the highest
+  std::int64_t queued_jobs = 0;  ///< waiting jobs; 0: no limit
+  int running_jobs = 0;          ///< jobs that run at once, for the scheduler; 0: no limit
+  std::int64_t disk_bytes = 0;   ///< results and journal rows; 0: no limit
+  int priority = kAnyPriority;   ///< highest allowed
 };
 
-/// Refuses what an owner asks for beyond his limits. Thread-safe.
+/// Refuses requests beyond an owner's quotas. Thread-safe.
 class OwnerQuotas {
  public:
   explicit OwnerQuotas(const OwnerLimits& limits) : limits_(limits) {}
@@ -25,8 +25,8 @@ class OwnerQuotas {
   /// Throws InvalidField.
   void check_priority(int priority, const std::string& field) const;
 
-  /// Whether the owner, of whom `waiting` jobs wait, may queue `count` more; `disk_bytes` is asked only where there is
-  /// a limit. Throws ServiceError: exhausted, storage_full.
+  /// Checks whether the owner, with `waiting` jobs in the queue, may queue `count` more. Calls `disk_bytes` only if
+  /// there is a disk quota. Throws ServiceError: exhausted, storage_full.
   void admit(const std::string& owner, std::size_t waiting, std::size_t count,
              const std::function<std::int64_t()>& disk_bytes) const;
 

@@ -33,7 +33,7 @@ std::string at_its_owners_limit(const store::QueuedJob& job, int most) {
          (most == 1 ? " job" : " jobs") + " that --owner-max-running allows";
 }
 
-// The workers as time goes on.
+// Simulates the workers over time.
 class Play {
  public:
   Play(const std::vector<RunningJob>& running, const std::vector<store::QueuedJob>& waiting, const WorkerFacts& workers,
@@ -75,7 +75,7 @@ class Play {
     }
   }
 
-  // Why a job that `before` others precede does not run now.
+  // Why a job with `before` others ahead of it does not run now.
   [[nodiscard]] std::string reason(const store::QueuedJob& job, double seconds, int before) const {
     if (!workers_.held.empty()) return "The queue is held: " + workers_.held;
     switch (now_.limit_of(job)) {
@@ -107,7 +107,7 @@ class Play {
   const FactsOf& facts_of_;
   int free_;  ///< cores
   WaitingJobs waiting_;
-  WaitingJobs now_;  ///< what runs before anything more starts
+  WaitingJobs now_;  ///< jobs that run before anything else starts
   bool all_busy_ = false;
   double time_ = 0.0;
   std::priority_queue<End, std::vector<End>, Later> ends_;

@@ -9,39 +9,39 @@
 
 namespace cellcrush::jobs {
 
-/// A job that has a worker, the seconds it has left, and the cores that it holds.
+/// A running job: its remaining seconds and its cores.
 struct RunningJob {
   store::QueuedJob job;
   double seconds_left = 0.0;
   int cores = 1;
 };
 
-/// What is known of a job beside its place in the queue.
+/// Facts about a job beyond its place in the queue.
 struct JobFacts {
-  int threads = 1;                      ///< that it asks for
-  std::int64_t element_steps_done = 0;  ///< by workers that left it
+  int threads = 1;                      ///< that it requests
+  std::int64_t element_steps_done = 0;  ///< by previous workers
 };
 using FactsOf = std::function<JobFacts(std::int64_t job)>;
 
-/// What is known of the workers.
+/// State of the workers.
 struct WorkerFacts {
   int count = 1;
-  double step_cost = 0.0;     ///< seconds of one core for a step of an element
-  std::string held{};         ///< why no job starts; empty where nothing holds the queue
-  int owner_max_running = 0;  ///< jobs of one owner that run at once; 0: any number
+  double step_cost = 0.0;     ///< seconds of one core per element and step
+  std::string held{};         ///< why the queue is held; empty if it is not
+  int owner_max_running = 0;  ///< jobs of one owner that run at once; 0: no limit
 };
 
-/// Jobs that a queue names, at most.
+/// Maximum number of jobs that a queue lists.
 inline constexpr int kMostEntries = 1000;
 
-/// Seconds that a job takes on so many cores, from where it was left.
+/// Remaining seconds of a job on this many cores.
 double predicted_seconds(const store::QueuedJob& job, const JobFacts& facts, int cores, double step_cost);
 
-/// Cores that a job gets beside its first one when it starts, of those that are then free; `waiting` others come first.
+/// Cores that a starting job gets beside its first, of those free then; `waiting` other jobs have precedence.
 int extra_cores(int threads, int free, std::size_t waiting);
 
-/// When each waiting job starts and why it does not now, found by playing the scheduler's rule (WaitingJobs,
-/// extra_cores) with predicted times. `facts_of` is asked of each job that the queue names.
+/// Start time of each waiting job and why it does not start now. Simulates the scheduler's rule (WaitingJobs,
+/// extra_cores) with predicted times. Calls `facts_of` for each job listed.
 v1::Queue forecast_queue(const std::vector<RunningJob>& running, const std::vector<store::QueuedJob>& waiting,
                          const WorkerFacts& workers, const FactsOf& facts_of);
 

@@ -65,9 +65,9 @@ void QueueHold::failed(const Trouble& trouble) {
     const MutexLock lock(mutex_);
     const auto now = now_();
     const bool is_same = trouble_ && trouble_->shortage == trouble.shortage;
-    // Slots that meet it at once with the trial, or before it, count as one try.
+    // Slots that meet it together with the trial, or before it, count as one try.
     if (is_same && !trial_) return;
-    // What comes back soon was not over.
+    // A trouble that soon returns was not over.
     const bool goes_on = trouble_ || now - over_ < pause_;
     pause_ = goes_on ? std::clamp(2 * pause_, times_.first, times_.longest) : times_.first;
     trial_ = false;

@@ -11,7 +11,7 @@
 
 namespace cellcrush::jobs {
 
-/// Pauses before a shortage is tried again: they double from the first to the longest.
+/// Pauses between retries of a shortage; they double from the first to the longest.
 struct HoldTimes {
   std::chrono::milliseconds first{1'000};
   std::chrono::milliseconds longest{60'000};
@@ -22,51 +22,51 @@ struct Hold {
   using Clock = std::chrono::steady_clock;
 
   Shortage shortage = Shortage::none;
-  std::string reason;                         ///< a sentence
-  Clock::time_point since;                    ///< when the queue began to be held
-  std::optional<Clock::time_point> next_try;  ///< nothing for low_disk, which is measured and not tried
+  std::string reason;                         ///< as a sentence
+  Clock::time_point since;                    ///< start of the hold
+  std::optional<Clock::time_point> next_try;  ///< nothing for low_disk, which is measured rather than retried
 };
 
-/// Holds the queue while the daemon lacks something. There are two holds, which may stand at once: low_disk, set and
-/// released by whoever measures the disk, and trouble, which a slot met. After a pause one job is started as a trial:
-/// once it runs, the trouble is over; if the trial meets trouble again, the next pause is twice as long. Thread-safe.
+/// Holds the queue while the daemon lacks a resource. Two holds may exist at once: low_disk, set and released by the
+/// disk check, and a trouble that a slot met. After a pause one job starts as a trial. The trouble is over once it
+/// runs; if the trial meets trouble again, the next pause is twice as long. Thread-safe.
 class QueueHold {
  public:
   using Now = std::function<Hold::Clock::time_point()>;
-  /// Called after each change with the holds that stand, the last call with the newest; must not call back.
+  /// Called after each change with the current holds; the last call has the newest. Must not call back.
   using Changed = std::function<void(const std::vector<Hold>&)>;
 
   explicit QueueHold(const HoldTimes& times, Changed changed = {}, Now now = Hold::Clock::now);
 
-  /// Sets the hold for low_disk, or takes it away where there is no reason. Whether that is a change.
+  /// Sets the hold for low_disk, or releases it if `reason` is absent. Returns whether this is a change.
   bool set_low_disk(const std::optional<std::string>& reason);
 
-  /// Whether a job may start: nothing holds the queue, or the pause is over and there is no trial yet.
+  /// Whether a job may start: nothing holds the queue, or the pause is over and no trial runs.
   [[nodiscard]] bool is_open() const;
 
-  /// A job is about to start. Whether it is the trial. REQUIRES: is_open, and no other thread between the two.
+  /// Announces that a job starts. Returns whether it is the trial. REQUIRES: is_open, with no other thread in between.
   bool begin_start();
 
-  /// A job runs: there is no trouble any more.
+  /// Announces that a job runs: the trouble is over.
   void succeeded();
 
-  /// A job ran to its end: the pauses begin again with the first.
+  /// Announces that a job ran to its end: pauses start from the first again.
   void proven();
 
-  /// There are signs that this shortage is over: where it holds the queue it is tried at once.
+  /// Signals that this shortage may be over: if it holds the queue, the next trial starts at once.
   void try_now(Shortage shortage);
 
-  /// A slot met trouble.
+  /// Announces trouble in a slot.
   void failed(const Trouble& trouble);
 
-  /// The trial has ended. Where it neither succeeded nor failed, as its job was withdrawn, another job may be tried at
+  /// The trial has ended. If it neither succeeded nor failed because its job was withdrawn, another trial may start at
   /// once.
   void end_trial();
 
-  /// When is_open may become true without a change; nothing while it cannot.
+  /// When is_open may become true without an event; nothing if it cannot.
   [[nodiscard]] std::optional<Hold::Clock::time_point> next_try() const;
 
-  /// What holds the queue now, low_disk first.
+  /// The current holds, low_disk first.
   [[nodiscard]] std::vector<Hold> holds() const;
 
  private:
@@ -75,14 +75,14 @@ class QueueHold {
   HoldTimes times_;
   Changed changed_;
   Now now_;
-  Mutex telling_;  ///< held before mutex_ is
+  Mutex telling_;  ///< acquired before mutex_
   mutable Mutex mutex_;
   std::optional<Hold> low_disk_ CELLCRUSH_GUARDED_BY(mutex_);
   std::optional<Hold> trouble_ CELLCRUSH_GUARDED_BY(mutex_);
   bool trial_ CELLCRUSH_GUARDED_BY(mutex_) = false;
-  /// Before the next trial, or the last one before the trouble was over.
+  /// Pause before the next trial, or the last one before the trouble ended.
   std::chrono::milliseconds pause_ CELLCRUSH_GUARDED_BY(mutex_){0};
-  Hold::Clock::time_point over_ CELLCRUSH_GUARDED_BY(mutex_);  ///< when it was
+  Hold::Clock::time_point over_ CELLCRUSH_GUARDED_BY(mutex_);  ///< end of the trouble
 };
 
 }  // namespace cellcrush::jobs

@@ -12,7 +12,7 @@ namespace cellcrush::jobs {
 namespace {
 
 constexpr int kReadAtOnce = 500;          // jobs
-constexpr std::int64_t kDeleted = 1'000;  // jobs of one call
+constexpr std::int64_t kDeleted = 1'000;  // jobs per call
 
 store::EndedTotals without(const store::EndedTotals& all, const store::EndedTotals& part) {
   return {all.count - part.count, all.bytes - part.bytes};
@@ -47,7 +47,7 @@ void Retention::enforce(const std::function<bool()>& given_up) {
       if (ended.sweep == 0) {
         jobs.push_back(ended.job);
       } else {
-        // In the place of the job that ended last.
+        // Counted at the job of the sweep that ended last.
         const auto& sweep = end_of(ended.sweep);
         if (!sweep.has_ended || sweep.ended_at != ended.ended_at) continue;
         part = sweep.totals;

@@ -9,40 +9,40 @@
 
 namespace cellcrush::jobs {
 
-/// Deletes what ended long ago, or what is too much, the oldest end first. A sweep is kept or deleted whole: it ends
-/// with the last of its jobs. Ages are counted by the service clock (store/service_clock.h), so that neither a wall
-/// clock that is set wrong nor the time in which no daemon ran makes anything old. Not thread-safe.
+/// Deletes ended jobs that are too old or too many, oldest first. A sweep is kept or deleted as a whole and ends with
+/// its last job. Ages follow the service clock (store/service_clock.h). Therefore neither a wrong wall clock nor time
+/// without a daemon ages anything. Not thread-safe.
 class Retention {
  public:
-  /// Each 0: no limit.
+  /// 0: no limit, for each.
   struct Limits {
     std::chrono::seconds age{0};  ///< since the end
-    std::int64_t count = 0;       ///< jobs that have ended
-    std::int64_t bytes = 0;       ///< of their results and their rows in the journal
+    std::int64_t count = 0;       ///< ended jobs
+    std::int64_t bytes = 0;       ///< results and journal rows
   };
 
   /// `parts` and `deletion` outlive this object.
   Retention(const Deletion::Parts& parts, const Deletion& deletion, const Limits& limits)
       : parts_(parts), deletion_(deletion), limits_(limits) {}
 
-  /// Notes what jobs take that ended since, some at a time.
+  /// Records the size of newly ended jobs, in batches.
   void measure() const;
 
-  /// Deletes what is beyond a limit, about a thousand jobs at most. Ends early once `given_up` says so.
+  /// Deletes what exceeds a limit, at most about a thousand jobs. Returns early once `given_up` returns true.
   void enforce(const std::function<bool()>& given_up);
 
  private:
   [[nodiscard]] bool has_limit() const { return limits_.age.count() > 0 || limits_.count > 0 || limits_.bytes > 0; }
   [[nodiscard]] bool is_too_much(const store::EndedTotals& totals) const;
   [[nodiscard]] bool is_old(std::int64_t ended_at) const;
-  /// The end of a job's sweep, which is looked up once a walk.
+  /// The end of a job's sweep, looked up once per pass.
   const store::SweepEnd& end_of(std::int64_t sweep);
   void delete_sweep(std::int64_t sweep, const std::function<bool()>& given_up) const;
 
   Deletion::Parts parts_;
   const Deletion& deletion_;
   Limits limits_;
-  std::map<std::int64_t, store::SweepEnd> sweeps_;  ///< seen in this walk
+  std::map<std::int64_t, store::SweepEnd> sweeps_;  ///< seen in this pass
 };
 
 }  // namespace cellcrush::jobs

@@ -18,7 +18,7 @@ void Scheduler::start(int slots) {
   clean_up();
   const auto adopted = reconcile();
   const auto waiting = parts_.reader.queued_jobs(v1::PENDING);
-  // No job runs before all are queued: it may wait again, and would be queued twice.
+  // No job runs before all are queued: a job that returned to the queue would be queued twice.
   const MutexLock lock(mutex_);
   free_cores_ += slots;
   for (const auto& job : waiting) waiting_.add(job);
@@ -26,7 +26,7 @@ void Scheduler::start(int slots) {
   for (int i = 0; i < slots; ++i) slots_.emplace_back([this](const std::stop_token& stop) { run_slot(stop); });
 }
 
-// What a daemon that was killed did not come to remove.
+// Completes the deletions of a killed daemon.
 void Scheduler::clean_up() {
   for (const std::int64_t job : parts_.folder.jobs_with_reports()) {
     try {
@@ -68,7 +68,7 @@ void Scheduler::enqueue(const std::vector<store::QueuedJob>& jobs) {
 }
 
 void Scheduler::cancel(std::int64_t job) {
-  // Between reading a state and changing it the job may move on; it does so only a few times.
+  // The job may change between reading its state and changing it, but only a few times.
   while (true) {
     const auto stored = find(job);
     const v1::JobState state = stored.job.state();
@@ -92,7 +92,7 @@ void Scheduler::cancel(std::int64_t job) {
     std::stop_source worker(std::nostopstate);
     {
       const MutexLock lock(mutex_);
-      // One that is CANCELLING may wait again meanwhile, to be given up.
+      // A CANCELLING job may have returned to the queue meanwhile, to be given up.
       if (change.state == v1::CANCELLED) waiting_.remove(job);
       if (const auto found = running_.find(job); found != running_.end()) worker = found->second.cancel;
     }
@@ -121,7 +121,7 @@ void Scheduler::suspend(std::int64_t job, const std::function<bool()>& given_up)
       continue;
     }
     if (state != v1::PENDING) {
-      // It is about to be noted what became of it.
+      // Its outcome is about to be written.
       changed_.wait_for(lock, std::chrono::milliseconds(20));
       continue;
     }
@@ -137,7 +137,7 @@ void Scheduler::suspend(std::int64_t job, const std::function<bool()>& given_up)
       parts_.journal.change_state(job, change);
     } catch (const ServiceError& error) {
       if (error.kind() == ServiceError::Kind::failed_precondition) continue;
-      // Where that cannot be written it waits as before.
+      // If that cannot be written, it waits as before.
       enqueue({*queued});
       throw;
     }
@@ -151,7 +151,7 @@ void Scheduler::resume(std::int64_t job) {
     throw ServiceError(ServiceError::Kind::failed_precondition,
                        store::name_of(job) + " is " + v1::JobState_Name(state) + " and cannot be resumed.");
   }
-  // Read before the change: a job that is PENDING is in the queue.
+  // Read before the change: a PENDING job is in the queue.
   const auto queued = parts_.reader.queued_job(job, v1::SUSPENDED);
   store::StateChange change;
   change.state = v1::PENDING;
@@ -160,7 +160,7 @@ void Scheduler::resume(std::int64_t job) {
 }
 
 void Scheduler::cancel_all(const std::vector<std::int64_t>& jobs) {
-  // First those that wait, so that no slot takes the next of them.
+  // Waiting jobs first, so that no slot takes the next of them.
   forget(parts_.journal.cancel_waiting(jobs));
   for (const std::int64_t job : jobs) {
     const auto stored = parts_.reader.find_job(job);
@@ -168,7 +168,7 @@ void Scheduler::cancel_all(const std::vector<std::int64_t>& jobs) {
     try {
       cancel(job);
     } catch (const ServiceError& error) {
-      // It has ended, or was deleted, in the meantime.
+      // It has ended or was deleted meanwhile.
       const bool gone = error.kind() == ServiceError::Kind::not_found;
       if (!gone && error.kind() != ServiceError::Kind::failed_precondition) throw;
     }
@@ -271,7 +271,7 @@ void Scheduler::run(const store::QueuedJob& taken, const std::stop_token& stop) 
   wake();
 }
 
-// A job of which that cannot be read runs on one core, if it runs.
+// A job whose threads cannot be read runs on one core, if it runs.
 int Scheduler::take_cores(const store::QueuedJob& job) {
   int threads = 1;
   try {

@@ -21,12 +21,12 @@
 
 namespace cellcrush::jobs {
 
-/// Runs waiting jobs in the order of WaitingJobs, at most as many at once as there are slots and as their sweeps allow.
-/// Each slot is a thread that lives as long as the scheduler and runs one job at a time. Jobs that ask for several
-/// threads get those cores that no other job uses or waits for when they start: side by side comes first. Thread-safe.
+/// Runs waiting jobs in the order of WaitingJobs, within the number of slots and the limits of their sweeps. Each slot
+/// is a thread that lives as long as the scheduler and runs one job at a time. A job that requests several threads gets
+/// cores that no other job uses or waits for at its start: jobs side by side take precedence. Thread-safe.
 class Scheduler {
  public:
-  /// What the scheduler works with; all of it outlives the scheduler.
+  /// Dependencies; all outlive the scheduler.
   struct Parts {
     const store::DataFolder& folder;
     store::Journal& journal;
@@ -37,60 +37,58 @@ class Scheduler {
     Executor& executor;
   };
 
-  /// `owner_max_running`: jobs of one owner that run at once; 0: any number.
+  /// `owner_max_running`: jobs of one owner that run at once; 0: no limit.
   explicit Scheduler(const Parts& parts, int owner_max_running = 0) : parts_(parts), waiting_(owner_max_running) {}
   ~Scheduler() { stop(); }
   Scheduler(const Scheduler&) = delete;
   Scheduler& operator=(const Scheduler&) = delete;
 
-  /// Goes along with the workers that an earlier daemon left running, queues the jobs that wait and those whose worker
-  /// is gone, and starts the slots.
+  /// Adopts the workers that an earlier daemon left running, queues waiting jobs and those whose worker is gone, and
+  /// starts the slots.
   void start(int slots);
 
   /// Queues jobs that are PENDING in the journal.
   void enqueue(const std::vector<store::QueuedJob>& jobs);
 
-  /// A job that waits is CANCELLED when this returns; one that runs is CANCELLING, and its worker is told. Nothing
-  /// happens to one that is either already. Throws ServiceError: not_found, or failed_precondition when it has ended
-  /// otherwise.
+  /// A waiting job is CANCELLED on return; a running one is CANCELLING, with its worker notified. No effect on a job in
+  /// either state. Throws ServiceError: not_found, or failed_precondition if it has ended otherwise.
   void cancel(std::int64_t job);
 
-  /// Cancels those of the jobs that have not ended. Those that wait leave the queue at once.
+  /// Cancels the unfinished ones among the jobs. Waiting jobs leave the queue at once.
   void cancel_all(const std::vector<std::int64_t>& jobs);
 
-  /// Takes jobs that are PENDING in the journal no more out of the queue.
+  /// Removes jobs from the queue that are no longer PENDING in the journal.
   void forget(const std::vector<std::int64_t>& jobs);
 
-  /// A job that waits is SUSPENDED when this returns; one that runs is, too, or has ended. Nothing happens to one that
-  /// is SUSPENDED already. Throws ServiceError: not_found, failed_precondition when it has ended or is CANCELLING, or
-  /// cancelled when `given_up` says so first.
+  /// A waiting job is SUSPENDED on return; a running one is SUSPENDED or has ended. No effect on a SUSPENDED job.
+  /// Throws ServiceError: not_found, failed_precondition if it has ended or is CANCELLING, or cancelled if `given_up`
+  /// returns true first.
   void suspend(std::int64_t job, const std::function<bool()>& given_up);
 
-  /// Queues a job that is SUSPENDED; nothing happens to one that waits or runs. Throws ServiceError: not_found, or
+  /// Queues a SUSPENDED job; no effect on a waiting or running one. Throws ServiceError: not_found, or
   /// failed_precondition.
   void resume(std::int64_t job);
 
-  /// While there is a reason, the disk has too little room and no job runs: workers leave theirs at a checkpoint, and
-  /// none starts.
+  /// While `reason` is set, the disk is nearly full and no job runs: workers checkpoint their jobs, and none starts.
   void hold_for_low_disk(const std::optional<std::string>& reason);
 
-  /// Lets the slots look at the queue again: something has changed.
+  /// Wakes the slots to check the queue again after a change.
   void wake();
 
   [[nodiscard]] std::size_t waiting_count();
 
-  /// Of that owner.
+  /// Of this owner.
   [[nodiscard]] std::size_t waiting_count(const std::string& owner);
 
-  /// Cores that a job which runs holds; 1 for one that is about to.
+  /// Cores that a running job holds; 1 for a job about to run.
   [[nodiscard]] int cores_of(std::int64_t job);
 
-  /// Lets running workers leave their jobs at a checkpoint, and waits until the slots are done. These jobs and those
-  /// that wait are PENDING for the next daemon.
+  /// Has running workers checkpoint their jobs, and waits for the slots to finish. These jobs and the waiting ones are
+  /// PENDING for the next daemon.
   void stop();
 
  private:
-  /// A job that runs: what others wish of it, and what it holds.
+  /// A running job: requests to it, and its cores.
   struct Running {
     std::stop_source leave;
     std::stop_source suspend;
@@ -98,18 +96,17 @@ class Scheduler {
     int cores = 1;
   };
 
-  /// Returns the jobs whose workers an earlier daemon left running, and those that are to be ended; `run` follows
-  /// them.
+  /// Jobs whose workers an earlier daemon left running, and those to be ended; `run` adopts them.
   std::vector<store::QueuedJob> reconcile();
   void clean_up();
   void run_slot(const std::stop_token& stop);
   /// Waits for a change, at most until `limit`. REQUIRES: `lock` holds mutex_.
   void wait_for_change(MutexLock& lock, const std::stop_token& stop,
                        const std::optional<Hold::Clock::time_point>& limit) CELLCRUSH_REQUIRES(mutex_);
-  /// Notes that a job runs.
+  /// Records that a job runs.
   Running& begin(std::int64_t job) CELLCRUSH_REQUIRES(mutex_);
-  /// Has the job run by this thread; it holds a core, and more if it asks for them and there are. REQUIRES: `begin` was
-  /// called for it. Throws nothing.
+  /// Runs the job on this thread. It holds one core, or more if it requests them and they are free. REQUIRES: `begin`
+  /// was called for it. Does not throw.
   void run(const store::QueuedJob& taken, const std::stop_token& stop);
   int take_cores(const store::QueuedJob& job);
   store::StoredJob find(std::int64_t job);
@@ -120,9 +117,9 @@ class Scheduler {
   std::condition_variable_any changed_;
   WaitingJobs waiting_ CELLCRUSH_GUARDED_BY(mutex_);
   std::map<std::int64_t, Running> running_ CELLCRUSH_GUARDED_BY(mutex_);
-  /// One for each slot, and those that jobs use are taken off; below 0 after a restart with fewer.
+  /// slots minus cores in use; negative after a restart with fewer
   int free_cores_ CELLCRUSH_GUARDED_BY(mutex_) = 0;
-  std::uint64_t changes_ CELLCRUSH_GUARDED_BY(mutex_) = 0;  ///< of what the slots wait for
+  std::uint64_t changes_ CELLCRUSH_GUARDED_BY(mutex_) = 0;  ///< number of events that slots wait for
   bool low_disk_ CELLCRUSH_GUARDED_BY(mutex_) = false;
   std::vector<std::jthread> slots_;
 };

@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t kLongestTitle = 200;                 // of a case, in bytes
 constexpr std::size_t kMostCaseBytes = 256 * 1024 * 1024;  // of all cases of a sweep
-// Checked before their problems, which may be many, are merged.
+// Checked before merging the problems, which may be numerous.
 constexpr std::size_t kPointsAtOnce = 64;
 constexpr std::size_t kMostLabelBytes = 16 * 1024 * 1024;  // of the labels of all its jobs
 
@@ -43,7 +43,7 @@ std::string text_of_point(const std::vector<std::string>& fields, const std::vec
   return out;
 }
 
-// The case's own title is cut rather than the values.
+// Truncates the case's own title rather than the values.
 std::string title_of(std::string title, std::string point) {
   cut(point, kLongestTitle);
   if (point.size() + 2 >= kLongestTitle) return point;
@@ -76,8 +76,7 @@ struct CheckedPoint {
   translate::CaseChecker::Verdict verdict;
 };
 
-// Checks points with several threads, each with a checker of its own: of points that share a mesh each thread builds
-// one.
+// Checks points with several threads, each with its own checker: each thread builds one mesh for points that share it.
 class PointChecker {
  public:
   PointChecker(const v1::Sweep& sweep, const SweepPoints& points, const PointChecking& checking)
@@ -90,7 +89,7 @@ class PointChecker {
     const auto work = [&](translate::CaseChecker& checker) {
       for (std::size_t i = next++; i < end; i = next++) checked[i - first] = check_one(points_.values[i], checker);
     };
-    // Where no thread can be had the work is done by this one.
+    // If no thread is available, this thread does the work.
     constexpr auto kIfPossible = std::launch::async | std::launch::deferred;
     std::vector<std::future<void>> others;
     for (std::size_t i = 1; i < std::min(checkers_.size(), checked.size()); ++i)
@@ -111,7 +110,7 @@ class PointChecker {
       out.verdict.problems.push_back(problem_of(refused));
       return out;
     }
-    // A sweep of large lattices has them built one after the other, and waits for others as long as its caller does.
+    // Large lattices of a sweep are built one after another; the sweep waits for places as long as its caller does.
     const MeshPlaces::Place mesh(checking_.places, checker.elements_to_build(out.made), checking_.given_up,
                                  std::chrono::hours(24));
     out.verdict = checker.check(out.made);
@@ -157,7 +156,7 @@ SweepPlan plan_sweep(const v1::Sweep& sweep, const PointChecking& checking) {
       out.jobs.push_back({job_of(sweep, std::move(point.made)), points.values[i], point.verdict.element_steps});
     }
   }
-  malloc_trim(0);  // every thread's heap would keep the room of its largest mesh
+  malloc_trim(0);  // otherwise each thread's heap keeps the memory of its largest mesh
   out.problems = problems.merged();
   if (out.problems.empty()) out.notes = notes.merged();
   if (!out.problems.empty()) out.most_memory_bytes = 0;

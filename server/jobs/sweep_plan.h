@@ -10,24 +10,24 @@
 
 namespace cellcrush::jobs {
 
-/// The jobs that a sweep asks for, or what is wrong with its points.
+/// The jobs of a sweep, or the problems of its points.
 struct SweepPlan {
   std::vector<store::SweepJob> jobs;   ///< in the order of the points; complete only without problems
-  std::int64_t most_memory_bytes = 0;  ///< that one of the jobs needs, at most; 0 with problems
-  std::size_t largest = 0;             ///< that job's place among them
-  google::protobuf::RepeatedPtrField<v1::Problem> problems;  ///< those that several points share are one
-  google::protobuf::RepeatedPtrField<v1::Problem> notes;     ///< likewise; none with problems
+  std::int64_t most_memory_bytes = 0;  ///< upper bound of the largest job's memory; 0 with problems
+  std::size_t largest = 0;             ///< index of that job
+  google::protobuf::RepeatedPtrField<v1::Problem> problems;  ///< shared ones are merged
+  google::protobuf::RepeatedPtrField<v1::Problem> notes;     ///< merged likewise; empty with problems
 };
 
-/// How the points of a sweep are checked.
+/// Options for checking the points of a sweep.
 struct PointChecking {
   MeshPlaces& places;
-  int threads = 1;                 ///< at least one; the plan does not depend on it
-  std::function<bool()> given_up;  ///< whether nobody waits for the plan any more; called from every thread
+  int threads = 1;                 ///< at least one; does not affect the plan
+  std::function<bool()> given_up;  ///< whether the caller no longer waits; called from every thread
 };
 
-/// Makes the case of every point, with the values in its title, and checks it as CheckCase does. Throws InvalidField
-/// when the sweep itself cannot be right, and ServiceError (cancelled) once it is given up.
+/// Creates the case of every point, with its values in the title, and checks it as CheckCase does. Throws InvalidField
+/// for an invalid sweep, and ServiceError (cancelled) once `given_up` returns true.
 SweepPlan plan_sweep(const v1::Sweep& sweep, const PointChecking& checking);
 
 }  // namespace cellcrush::jobs

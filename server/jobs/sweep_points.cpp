@@ -25,7 +25,7 @@ void check_fields(const std::vector<std::string>& fields, const std::string& sub
 
 std::string axis_field(int axis) { return "sweep.axes[" + std::to_string(axis) + "]"; }
 
-// `at(step, steps)` gives the value after so many of the steps.
+// `at(step, steps)` gives the value after `step` of `steps` steps.
 std::vector<double> spaced(const v1::SweepAxis::Range& range, const std::string& name,
                            const std::function<double(double, double)>& at) {
   if (!std::isfinite(range.first()) || !std::isfinite(range.last()))
@@ -37,7 +37,7 @@ std::vector<double> spaced(const v1::SweepAxis::Range& range, const std::string&
   std::vector<double> out;
   out.reserve(static_cast<std::size_t>(range.count()));
   for (int i = 0; i < range.count(); ++i) out.push_back(at(static_cast<double>(i), range.count() - 1.0));
-  // The ends are exact.
+  // Reproduces both ends exactly.
   out.front() = range.first();
   out.back() = range.last();
   return out;
@@ -50,7 +50,7 @@ std::vector<double> values_of(const v1::SweepAxis& axis, const std::string& name
       return {axis.list().values().begin(), axis.list().values().end()};
     case v1::SweepAxis::kLinear: {
       const auto& range = axis.linear();
-      // Divided last: of whole numbers the result is whole, as counts and seeds must be.
+      // Dividing last keeps whole numbers whole, as counts and seeds must be.
       return spaced(range, name + ".linear", [&](double step, double steps) {
         return range.first() + step * (range.last() - range.first()) / steps;
       });

@@ -21,8 +21,8 @@ constexpr std::chrono::seconds kToAcknowledge{2};
 constexpr std::chrono::seconds kToCloseTheResult{25};
 constexpr std::chrono::seconds kToLeaveTheJob{20};
 constexpr std::chrono::seconds kToEndAfterTheLastWord{5};
-// Between two looks at the reports, of a job that is watched and of one that is not. A worker says something some
-// hundred times a second: what it has said meanwhile is read together, and that of all workers at the same moments.
+// Interval between readings of the reports, for a watched job and for others. A worker reports a few hundred times a
+// second. Reports in between are read together, and all jobs are read at the same moments.
 constexpr std::chrono::milliseconds kLookForWatchers{50};
 constexpr std::chrono::milliseconds kLookAgain{200};
 
@@ -38,7 +38,7 @@ const std::filesystem::path& existing(const std::filesystem::path& path) {
 WorkerFollower::WorkerFollower(const store::JobFolder& folder, const WorkerEvents& events,
                                const Interruptions& interruptions, std::chrono::milliseconds stall_limit)
     : events_(events), interruptions_(interruptions), stall_limit_(stall_limit), reader_(existing(folder.reports())) {
-  // Without it a wish is seen at the next look.
+  // Otherwise a request is seen at the next reading.
   wishes_ = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
 }
 
@@ -48,7 +48,7 @@ WorkerFollower::~WorkerFollower() {
 
 bool WorkerFollower::catch_up() { return read_reports(false) != Reading::broken; }
 
-// Progress of a worker that has ended is none.
+// A worker that has ended makes no progress.
 WorkerFollower::Reading WorkerFollower::read_reports(bool live) {
   Reading out = Reading::nothing_new;
   while (true) {
@@ -78,7 +78,7 @@ WorkerExit WorkerFollower::follow(WorkerProcess& process) {
   const std::stop_callback on_suspend(interruptions_.suspend, wake);
   const std::stop_callback on_cancel(interruptions_.cancel, wake);
   while (true) {
-    // Looked at before the reports: what was written before the end is then read.
+    // Checked before reading the reports, so that everything written before the end is read.
     const bool ended = process.has_ended();
     const Reading reading = read_reports(true);
     if (reading == Reading::broken) return exit_of(process, WorkerExit::Kind::broken);
@@ -123,7 +123,7 @@ void WorkerFollower::forward_requests(const WorkerProcess& process) {
   }
 }
 
-// Its processor time is looked at seldom: a worker says something five times a second.
+// Processor time is checked rarely: a worker reports five times a second.
 bool WorkerFollower::is_stalled(const WorkerProcess& process, Reading reading) {
   const auto now = Clock::now();
   if (reading == Reading::something_new) last_sign_ = now;

@@ -10,8 +10,8 @@
 
 namespace cellcrush::jobs {
 
-/// Goes along with what the workers of one job report, from the first one on, and hands wishes on to the one that runs.
-/// Not thread-safe. Failures throw ServiceError.
+/// Follows the reports of one job's workers, from the first report on, and forwards requests to the running worker. Not
+/// thread-safe. Failures throw ServiceError.
 class WorkerFollower {
  public:
   WorkerFollower(const store::JobFolder& folder, const WorkerEvents& events, const Interruptions& interruptions,
@@ -20,12 +20,12 @@ class WorkerFollower {
   WorkerFollower(const WorkerFollower&) = delete;
   WorkerFollower& operator=(const WorkerFollower&) = delete;
 
-  /// Passes on what workers before have reported. Their last word, if the last of them had one. False when what they
-  /// wrote is no report.
+  /// Delivers the reports of earlier workers. Returns the final report, if the last worker made one. False if a report
+  /// is malformed.
   bool catch_up();
   [[nodiscard]] const std::optional<worker::Final>& last_word() const { return final_; }
 
-  /// Goes along with a worker until it has ended.
+  /// Follows a worker until it has ended.
   WorkerExit follow(WorkerProcess& process);
 
  private:
@@ -42,13 +42,13 @@ class WorkerFollower {
   const WorkerEvents& events_;
   const Interruptions& interruptions_;
   std::chrono::milliseconds stall_limit_;
-  int wishes_ = -1;  ///< eventfd, readable once there is a wish
+  int wishes_ = -1;  ///< eventfd, readable once there is a request
   worker::ReportLogReader reader_;
-  worker::Report report_;  ///< the one that is being read; its memory is used again
+  worker::Report report_;  ///< the current report; its memory is reused
   std::optional<worker::Final> final_;
   v1::Progress progress_;  ///< the newest
   bool acknowledged_ = false;
-  std::optional<Clock::time_point> limit_;  ///< when a worker that was told of a wish is ended
+  std::optional<Clock::time_point> limit_;  ///< when to kill a worker that has received a request
   bool told_to_leave_ = false;
   bool told_to_end_ = false;
   Clock::time_point last_sign_;  ///< of life

@@ -11,7 +11,7 @@
 
 #include "worker/claim.h"
 
-// The header of glibc 2.36 does not say that these are C's.
+// glibc 2.36 declares these without C linkage.
 extern "C" {
 #include <sys/pidfd.h>
 }
@@ -22,7 +22,7 @@ WorkerProcess::WorkerProcess(pid_t process, bool is_child)
     : process_(process), is_child_(is_child), descriptor_(pidfd_open(process, 0)) {
   if (descriptor_ >= 0 || errno == ESRCH) return;
   const int error = errno;
-  // A child that cannot be followed is not to be left alone.
+  // Without a way to follow it, the child must not keep running.
   if (is_child_) {
     kill(process_, SIGKILL);
     wait_for_child();
@@ -34,7 +34,7 @@ std::optional<WorkerProcess> WorkerProcess::find(const store::JobFolder& folder)
   const auto claimed = worker::find_claim(folder);
   if (!claimed) return std::nullopt;
   WorkerProcess out(claimed->process, false);
-  // The number may have gone to another process before it was opened, but not after.
+  // Before the descriptor was opened the id may have been reused, but not after.
   const auto times = worker::times_of(claimed->process);
   if (out.descriptor_ < 0 || !times || times->start != claimed->start_time) return std::nullopt;
   return out;

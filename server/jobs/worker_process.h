@@ -9,15 +9,15 @@
 
 namespace cellcrush::jobs {
 
-/// A worker process: a child of this one, or one that an earlier daemon started. A child is ended and waited for at the
-/// latest when this goes away; another one goes on. Not thread-safe. To make one throws std::system_error where there
-/// is no descriptor for it; a child is then ended.
+/// A worker process: a child of this process, or one started by an earlier daemon. The destructor kills and reaps a
+/// child; other processes keep running. Not thread-safe. Construction throws std::system_error if no descriptor is
+/// available; a child is then killed.
 class WorkerProcess {
  public:
-  /// REQUIRES: `child` was started by this process and not waited for.
+  /// REQUIRES: this process started `child` and has not reaped it.
   static WorkerProcess of_child(pid_t child) { return {child, true}; }
 
-  /// The one that runs in the folder.
+  /// The process that runs in the folder.
   static std::optional<WorkerProcess> find(const store::JobFolder& folder);
 
   ~WorkerProcess();
@@ -32,7 +32,7 @@ class WorkerProcess {
   [[nodiscard]] bool has_ended() const { return ends_within(std::chrono::milliseconds(0)); }
   [[nodiscard]] bool ends_within(std::chrono::milliseconds limit) const;
 
-  /// Ends it if it has not, and waits. Its wait status; nothing when it is no child.
+  /// Kills it if it still runs, and reaps it. Returns its wait status; nothing if it is not a child.
   std::optional<int> end();
 
  private:

@@ -12,21 +12,20 @@
 
 namespace cellcrush::metrics {
 
-/// Numbers about the daemon for Prometheus, in its text format at http://HOST:PORT/metrics.
+/// Prometheus metrics of the daemon, in text format at http://HOST:PORT/metrics.
 ///
-///   cellcrush_jobs_waiting, cellcrush_jobs_running   jobs now
-///   cellcrush_jobs_ended_total{state="SUCCEEDED"}    since the daemon's start, by the state in which they ended
+///   cellcrush_jobs_waiting, cellcrush_jobs_running   current number of jobs
+///   cellcrush_jobs_ended_total{state="SUCCEEDED"}    jobs ended since the daemon started, by final state
 ///   cellcrush_steps_total                            time steps of ended jobs that left a result
-///   cellcrush_stage_seconds_total{stage="..."}       their processor time by stage of a step (the fields of
-///   StageTimes) cellcrush_steps_per_second                       of all running jobs, as they told it last
-///   cellcrush_commit_seconds                         histogram: what it takes to make a change or some samples durable
-///   cellcrush_event_seconds                          histogram: from news of a watched job to its message on the
-///   stream cellcrush_watchers                               open watches
-///   cellcrush_connections                            open connections of gRPC
+///   cellcrush_stage_seconds_total{stage="..."}       their processor time by stage (fields of StageTimes)
+///   cellcrush_steps_per_second                       of all running jobs, as last reported
+///   cellcrush_commit_seconds                         histogram: time to make a write durable
+///   cellcrush_event_seconds                          histogram: from an event to its message on the stream
+///   cellcrush_watchers                               open watches
+///   cellcrush_connections                            open gRPC connections
 ///   cellcrush_refused_connections_total              connections beyond the limits
-///   cellcrush_queue_held{cause="full_disk"}          1 while that holds the queue, otherwise 0; a cause each
-/// (shortage.h)
-///   cellcrush_skipped_frames_total                   frames that watchers were too slow for
+///   cellcrush_queue_held{cause="full_disk"}          1 while this shortage (shortage.h) holds the queue
+///   cellcrush_skipped_frames_total                   frames skipped for slow watchers
 ///
 /// Thread-safe.
 class Metrics {
@@ -36,13 +35,13 @@ class Metrics {
   Metrics(const Metrics&) = delete;
   Metrics& operator=(const Metrics&) = delete;
 
-  /// Serves them from now on, on an address of kind tcp. Returns the address with its real port. Throws ServiceError
-  /// (failed_precondition) when it is in use. To be called once.
+  /// Starts serving on an address of kind tcp. Returns the address with its actual port. Throws ServiceError
+  /// (failed_precondition) if it is in use. Call once.
   ListenAddress serve(const ListenAddress& address);
 
   void set_jobs(std::size_t waiting, std::size_t running);
 
-  /// What holds the queue now.
+  /// The shortages that hold the queue now.
   void set_holds(const std::set<Shortage>& holds);
 
   void set_speed(std::int64_t job, double steps_per_second);

@@ -17,11 +17,11 @@
 namespace cellcrush::net {
 namespace {
 
-constexpr int kAtOnce = 64;  // connections of a socket, before the others have their turn
+constexpr int kAtOnce = 64;  // connections per socket and turn
 constexpr int kLookMilliseconds = 1000;
-constexpr int kTurnedAway = 32;  // connections at once that are given the reason
+constexpr int kTurnedAway = 32;  // simultaneous refused connections that receive the reason
 constexpr std::chrono::seconds kBetweenCounts{1};
-// While there are no descriptors: the kernel keeps who connects waiting.
+// Without free descriptors, new connections wait in the kernel.
 constexpr std::chrono::milliseconds kPause{100};
 
 int open_reserve() { return open("/dev/null", O_RDONLY | O_CLOEXEC); }
@@ -112,7 +112,7 @@ void Acceptor::wait_and_accept() {
   poll(waiting.data(), waiting.size(), kLookMilliseconds);
   eventfd_t none = 0;
   if (waiting.front().revents != 0) {
-    // A port was opened again: its sockets are others now.
+    // A port was reopened, so its sockets have changed.
     eventfd_read(wake_, &none);
     return;
   }
@@ -125,7 +125,7 @@ void Acceptor::wait_and_accept() {
 
 bool Acceptor::accept_some(std::size_t port, int listener) {
   const MutexLock lock(mutex_);
-  // It may have been closed since, and its number be that of another file.
+  // It may have been closed since, and its number reused.
   const auto& open = ports_[port].descriptors();
   if (std::find(open.begin(), open.end(), listener) == open.end()) return true;
   for (int i = 0; i < kAtOnce; ++i) {

@@ -5,20 +5,20 @@
 
 namespace cellcrush::net {
 
-/// What the callers of a daemon are held to, so that none of them takes the daemon from the others.
+/// Limits on callers, so that none can exhaust the daemon.
 struct ConnectionLimits {
-  int connections = 1000;                       ///< on TCP; the Unix sockets have as many of their own
-  int connections_per_address = 500;            ///< of one caller's machine
-  int streams = 2000;                           ///< watches, downloads, frames and reflection, open at once
-  int streams_per_caller = 1000;                ///< of one token, certificate or, without either, of all who call
-  std::int64_t memory_bytes = 256 << 20;        ///< that connections and the messages on them may take
-  int threads = 16;                             ///< that answer calls other than streams and checks
-  std::chrono::milliseconds handshake{5'000};   ///< within which a connection has said what it wants
-  std::chrono::milliseconds idle{600'000};      ///< after which a connection without a call is closed
-  std::chrono::milliseconds keepalive{60'000};  ///< after which a silent connection is asked for a sign of life
-  std::chrono::milliseconds keepalive_answer{20'000};  ///< within which that sign must come
-  std::chrono::milliseconds probe_interval{10'000};    ///< between two probes of the daemon's own ports
-  std::chrono::milliseconds probe_patience{5'000};     ///< within which a port answers a probe
+  int connections = 1000;                      ///< on TCP; Unix sockets have a separate limit of the same size
+  int connections_per_address = 500;           ///< from one remote machine
+  int streams = 2000;                          ///< open watches, downloads, frames and reflection
+  int streams_per_caller = 1000;               ///< of one token or certificate; without either, of all callers together
+  std::int64_t memory_bytes = 256 << 20;       ///< for connections and their messages
+  int threads = 16;                            ///< for calls other than streams and checks
+  std::chrono::milliseconds handshake{5'000};  ///< deadline for a new connection to complete its handshake
+  std::chrono::milliseconds idle{600'000};     ///< a connection without a call is closed after this time
+  std::chrono::milliseconds keepalive{60'000};         ///< a silent connection is pinged after this time
+  std::chrono::milliseconds keepalive_answer{20'000};  ///< deadline for the answer to a ping
+  std::chrono::milliseconds probe_interval{10'000};    ///< interval between probes of the daemon's own ports
+  std::chrono::milliseconds probe_patience{5'000};     ///< deadline for a port to answer a probe
 };
 
 }  // namespace cellcrush::net

@@ -10,7 +10,7 @@
 namespace cellcrush::net {
 namespace {
 
-// A flood of connections does not have the table looked through for each.
+// A flood of connections must not trigger a scan of the table for each.
 constexpr std::chrono::milliseconds kBetweenLooks{50};
 
 std::string text_of(int family, const void* address) {
@@ -25,7 +25,7 @@ std::optional<std::string> ConnectionTable::admit(int descriptor, const std::str
   if (auto words = excess(peer)) return words;
   struct stat status {};
   if (fstat(descriptor, &status) != 0) return "it is already closed";
-  // A number that is used again is that of a connection which was closed.
+  // A reused number belonged to a closed connection.
   if (const auto before = entries_.find(descriptor); before != entries_.end()) erase(before);
   entries_[descriptor] = {status.st_dev, status.st_ino, peer};
   ++peers_[peer];

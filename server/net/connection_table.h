@@ -12,8 +12,8 @@
 
 namespace cellcrush::net {
 
-/// The open connections of a kind, by the descriptors that gRPC has. gRPC does not say when it closes one; so the table
-/// asks the kernel whether a descriptor is still the socket that was noted. Not thread-safe.
+/// The open connections of one kind, by descriptor. gRPC does not announce when it closes one, so the table asks the
+/// kernel whether a descriptor is still the recorded socket. Not thread-safe.
 class ConnectionTable {
  public:
   using Clock = std::chrono::steady_clock;
@@ -26,13 +26,13 @@ class ConnectionTable {
   explicit ConnectionTable(Limits limits, std::function<Clock::time_point()> now = Clock::now)
       : limits_(limits), now_(std::move(now)) {}
 
-  /// Notes a connection. Why it is one too many, in words, when it is: it is then not noted.
+  /// Records a connection. If it exceeds a limit, returns the reason and does not record it.
   std::optional<std::string> admit(int descriptor, const std::string& peer);
 
-  /// Drops those that were closed.
+  /// Drops closed connections.
   void drop_closed();
 
-  /// Open when they were last looked at.
+  /// Number open at the last check.
   [[nodiscard]] std::size_t count() const { return entries_.size(); }
 
  private:
@@ -49,12 +49,11 @@ class ConnectionTable {
   Limits limits_;
   std::function<Clock::time_point()> now_;
   Entries entries_;                   ///< by descriptor
-  std::map<std::string, int> peers_;  ///< connections of each
+  std::map<std::string, int> peers_;  ///< connections by peer
   Clock::time_point last_look_;
 };
 
-/// Who is at the other end, as far as an address tells: that of IPv4, the network of IPv6 (its first 64 bits), "unix"
-/// for a Unix socket.
+/// The peer as far as its address identifies it: the IPv4 address, the IPv6 network (first 64 bits), or "unix".
 std::string peer_of(const sockaddr_storage& address);
 
 }  // namespace cellcrush::net

@@ -9,12 +9,11 @@
 namespace cellcrush::net {
 namespace {
 
-// Journal, log, ports, event queues of gRPC, results that are read; and for each worker its process, reports and
-// folder.
+// Journal, log, ports, event queues of gRPC and open results; for each worker its process, reports and folder.
 constexpr std::int64_t kOfTheDaemon = 128;
 constexpr std::int64_t kOfAWorker = 8;
 constexpr int kLeast = 8;
-// A hard limit may be a thousand million, and some programs close them all one by one.
+// A hard limit may be 10^9, and some programs close every descriptor up to it.
 constexpr rlim_t kMost = 1 << 20;
 
 }  // namespace
@@ -28,7 +27,7 @@ int raise_descriptor_limit(int wanted, int workers) {
     if (setrlimit(RLIMIT_NOFILE, &limit) != 0) getrlimit(RLIMIT_NOFILE, &limit);
   }
   const auto descriptors = static_cast<std::int64_t>(std::min(limit.rlim_cur, kMost));
-  // On TCP and on Unix sockets as many each; a download has a file besides its connection.
+  // TCP and Unix sockets count separately; a download also has a file.
   const std::int64_t left = (descriptors - kOfTheDaemon - kOfAWorker * workers) / 3;
   const int out = static_cast<int>(std::clamp<std::int64_t>(left, kLeast, wanted));
   if (out < wanted) {

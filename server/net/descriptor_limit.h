@@ -2,9 +2,9 @@
 
 namespace cellcrush::net {
 
-/// Raises this process's soft limit on file descriptors to the hard one. How many connections may be open then, at most
-/// `wanted`, so that enough descriptors are left for the journal, results and `workers` jobs; the log warns when they
-/// are fewer than wanted. At least 8.
+/// Raises the soft limit on file descriptors to the hard limit. Returns how many connections may be open, between 8 and
+/// `wanted`, so that enough descriptors remain for the journal, results and `workers` jobs. Logs a warning if that is
+/// fewer than wanted.
 int raise_descriptor_limit(int wanted, int workers);
 
 }  // namespace cellcrush::net

@@ -19,7 +19,7 @@ namespace cellcrush::net {
 namespace {
 
 constexpr int kBacklog = 1024;
-// A free port of IPv4 may be taken on IPv6.
+// A port that is free on IPv4 may be taken on IPv6.
 constexpr int kTriesForAFreePort = 10;
 
 struct FreeAddresses {
@@ -57,7 +57,7 @@ bool is_wildcard(const sockaddr* name) {
          IN6_IS_ADDR_UNSPECIFIED(&reinterpret_cast<const sockaddr_in6*>(name)->sin6_addr);
 }
 
-// A listening socket, or -1 with errno.
+// A listening socket, or -1 with errno set.
 int open_socket(const sockaddr* name, socklen_t size) {
   const int out = socket(name->sa_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
   if (out < 0) return -1;
@@ -65,7 +65,7 @@ int open_socket(const sockaddr* name, socklen_t size) {
   const int only_ipv6 = is_wildcard(name) ? 0 : 1;
   if (name->sa_family != AF_UNIX) setsockopt(out, SOL_SOCKET, SO_REUSEADDR, &on, sizeof(on));
   if (name->sa_family == AF_INET6) setsockopt(out, IPPROTO_IPV6, IPV6_V6ONLY, &only_ipv6, sizeof(only_ipv6));
-  // The file is made with this mode.
+  // The mode of the socket file.
   if (name->sa_family == AF_UNIX) fchmod(out, 0600);
   if (bind(out, name, size) == 0 && listen(out, kBacklog) == 0) return out;
   const int reason = errno;
@@ -116,7 +116,7 @@ void ListeningPort::listen_on_unix_socket() {
 }
 
 void ListeningPort::listen_on_tcp() {
-  // All addresses of this machine, of both families: one socket of IPv6 serves both where the machine has it.
+  // All addresses of both families: one IPv6 socket serves both, if the machine has IPv6.
   if (address_.place == "0.0.0.0") listen_on("::");
   if (descriptors_.empty()) listen_on(address_.place);
   if (descriptors_.empty()) refuse(address_);
@@ -130,7 +130,7 @@ void ListeningPort::listen_on(const std::string& host) {
     for (const addrinfo* next = addresses.get(); next != nullptr; next = next->ai_next) {
       set_port(next->ai_addr, port);
       const int socket = open_socket(next->ai_addr, next->ai_addrlen);
-      // A machine may lack a family that a name stands for; another program's port is another matter.
+      // A machine may lack a family of the name; a port in use by another program is an error.
       if (socket < 0 && errno != EADDRINUSE) continue;
       if (socket < 0) {
         close_all();

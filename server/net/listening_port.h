@@ -9,24 +9,23 @@
 
 namespace cellcrush::net {
 
-/// The sockets that listen on one address: one, or two where a name or a wildcard stands for IPv4 and IPv6. Not
-/// thread-safe.
+/// The sockets that listen on one address: one, or two if a name or wildcard covers IPv4 and IPv6. Not thread-safe.
 class ListeningPort {
  public:
-  /// Listens from now on. A Unix socket is open to its owner alone. Throws ServiceError (failed_precondition) when the
-  /// address is in use or may not be used.
+  /// Starts listening. A Unix socket is accessible to its owner only. Throws ServiceError (failed_precondition) if the
+  /// address is in use or not permitted.
   explicit ListeningPort(const ListenAddress& wanted);
   /// Closes the sockets and removes the file of a Unix socket.
   ~ListeningPort();
   ListeningPort(ListeningPort&& other) noexcept;
   ListeningPort& operator=(ListeningPort&&) = delete;
 
-  /// The address with its real port.
+  /// The address with its actual port.
   [[nodiscard]] const ListenAddress& address() const { return address_; }
   [[nodiscard]] const std::vector<int>& descriptors() const { return descriptors_; }
 
   /// Closes the sockets and listens on the same address again. Throws ServiceError (failed_precondition): the port then
-  /// has no sockets, and reopen may be called again.
+  /// has no sockets, and reopen may be retried.
   void reopen();
 
  private:

@@ -35,7 +35,7 @@ Name name_of_socket(const std::string& path) {
   return out;
 }
 
-// The address itself, or loopback where it stands for all of them.
+// The address itself, or loopback for a wildcard.
 Name name_of_port(const ListenAddress& address) {
   std::string host = address.place;
   if (host == "0.0.0.0") host = "127.0.0.1";
@@ -86,7 +86,7 @@ std::string client_hello() {
   constexpr unsigned char kHttp2[] = {2, 'h', '2'};
   SSL_set_alpn_protos(connection.get(), kHttp2, sizeof(kHttp2));
   BIO* sent = BIO_new(BIO_s_mem());
-  SSL_set_bio(connection.get(), BIO_new(BIO_s_mem()), sent);  // which owns both
+  SSL_set_bio(connection.get(), BIO_new(BIO_s_mem()), sent);  // takes ownership of both
   SSL_connect(connection.get());
   char* data = nullptr;
   const auto size = BIO_get_mem_data(sent, &data);
@@ -115,12 +115,12 @@ void PortProbe::work(const std::stop_token& stop) {
     const auto addresses = acceptor_.addresses();
     for (std::size_t i = 0; i < addresses.size(); ++i) {
       if (stop.stop_requested()) return;
-      look_at(i, addresses[i]);
+      check_port(i, addresses[i]);
     }
   }
 }
 
-void PortProbe::look_at(std::size_t port, const ListenAddress& address) {
+void PortProbe::check_port(std::size_t port, const ListenAddress& address) {
   if (answers(address, plain_[port] ? "" : hello_, limits_.probe_patience)) return;
   try {
     acceptor_.reopen(port);

@@ -9,29 +9,29 @@
 
 namespace cellcrush::net {
 
-/// Connects to each of the daemon's own ports now and then. One that does not answer, or of which the socket's file was
-/// removed, is opened again, and the log says so.
+/// Periodically connects to each of the daemon's own ports. Reopens a port that does not answer, or whose socket file
+/// was removed, and logs it.
 class PortProbe {
  public:
-  /// `plain`: of each port whether it has no TLS. The acceptor outlives it.
+  /// `plain`: for each port, whether it lacks TLS. The acceptor outlives it.
   PortProbe(Acceptor& acceptor, std::vector<bool> plain, const ConnectionLimits& limits);
 
  private:
   void work(const std::stop_token& stop);
-  void look_at(std::size_t port, const ListenAddress& address);
+  void check_port(std::size_t port, const ListenAddress& address);
 
   Acceptor& acceptor_;
   std::vector<bool> plain_;
   ConnectionLimits limits_;
-  std::string hello_;  ///< with which a client of TLS begins
+  std::string hello_;  ///< first message of a TLS client
   std::jthread thread_;
 };
 
-/// What a client of TLS sends first.
+/// The first message of a TLS client.
 std::string client_hello();
 
-/// Whether something answers on the address: sends `hello` and waits for a byte, or for the end of the connection,
-/// which an acceptor that refuses it gives. True also when this process has no descriptor to find out.
+/// Whether something answers on the address: sends `hello` and waits for a byte or the end of the connection. An
+/// acceptor that refuses the connection ends it. Also true if this process has no descriptor for the test.
 bool answers(const ListenAddress& address, const std::string& hello, std::chrono::milliseconds patience);
 
 }  // namespace cellcrush::net

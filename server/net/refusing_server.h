@@ -9,18 +9,17 @@
 
 namespace cellcrush::net {
 
-/// Answers every call on connections beyond the limits with RESOURCE_EXHAUSTED and the reason, and ends these
-/// connections a second later. A client of gRPC shows nobody why a connection was closed, and connects again and again;
-/// a status it shows. Thread-safe.
+/// Answers every call on connections beyond the limits with RESOURCE_EXHAUSTED and the reason, and closes them a second
+/// later. A gRPC client hides why a connection was closed and keeps reconnecting, but shows a status. Thread-safe.
 class RefusingServer {
  public:
-  /// One port for each of the credentials. Throws ServiceError (failed_precondition) when it cannot be started.
+  /// One port per credentials object. Throws ServiceError (failed_precondition) if it cannot start.
   explicit RefusingServer(const std::vector<std::shared_ptr<grpc::ServerCredentials>>& credentials);
   ~RefusingServer();
   RefusingServer(const RefusingServer&) = delete;
   RefusingServer& operator=(const RefusingServer&) = delete;
 
-  /// Takes a connected socket, non-blocking and close-on-exec.
+  /// Takes ownership of a connected socket, non-blocking and close-on-exec.
   void take(std::size_t port, int listener, int descriptor);
 
  private:
@@ -33,7 +32,7 @@ class RefusingServer {
   std::unique_ptr<grpc::Server> server_;
 };
 
-/// Hands a connected socket over to gRPC.
+/// Hands a connected socket to gRPC.
 void hand_over(grpc::experimental::ExternalConnectionAcceptor& port, int listener, int descriptor);
 
 }  // namespace cellcrush::net

@@ -48,7 +48,7 @@ std::vector<jobs::RunningJob> AdminService::running_jobs(v1::JobState state) {
   std::vector<jobs::RunningJob> out;
   for (const auto& job : parts_.reader.queued_jobs(state)) {
     const int cores = parts_.scheduler.cores_of(job.job);
-    // One that is told to stop ends at once.
+    // A service that was told to stop ends at once.
     double seconds_left = 0.0;
     if (state == v1::RUNNING) {
       const auto channel = parts_.hub.find(job.job);
@@ -67,14 +67,14 @@ jobs::JobFacts AdminService::facts_of(std::int64_t job) {
   const auto stored = parts_.reader.find_job(job);
   if (!stored) return out;
   out.threads = std::max(stored->job.case_().numerics().threads(), 1);
-  // A worker that ran it has sent the mesh.
+  // The worker that ran the job has reported the mesh.
   const auto mesh = stored->job.attempt() > 0 ? parts_.reader.mesh(job) : std::nullopt;
   if (!mesh) return out;
   try {
     out.element_steps_done =
         mesh->thickness_mm_size() * std::max<std::int64_t>(parts_.reader.last_sampled_step(job), 0);
   } catch (const ServiceError& error) {
-    // One job's damage does not keep the others from being told of.
+    // A damaged job must not hide the others.
     spdlog::error("Cannot read the progress of {}: {}", store::name_of(job), error.what());
   }
   return out;

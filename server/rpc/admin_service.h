@@ -14,7 +14,7 @@
 
 namespace cellcrush::rpc {
 
-/// What the daemon is and can do. Thread-safe.
+/// State and control of the daemon. Thread-safe.
 class AdminService final : public v1::Admin::CallbackService {
  public:
   /// All of it outlives the service.

@@ -32,7 +32,7 @@ grpc::ServerUnaryReactor* CallPool::run(grpc::CallbackServerContext& context, co
 grpc::Status CallPool::take(Call call) {
   {
     const MutexLock lock(mutex_);
-    // One alone may always wait.
+    // A single call may always wait.
     if (waiting_.size() >= most_.waiting || (bytes_ > 0 && bytes_ + call.bytes > most_.bytes)) {
       return {grpc::StatusCode::RESOURCE_EXHAUSTED,
               fmt::format(

@@ -15,25 +15,25 @@
 
 namespace cellcrush::rpc {
 
-/// Answers unary calls on a few threads of its own, in the order in which they come, so that any number of clients may
-/// call at the same time. Thread-safe.
+/// Answers unary calls on a few threads of its own, in order of arrival, so that any number of clients may call at
+/// once. Thread-safe.
 class CallPool {
  public:
   struct Most {
     int threads = 0;
-    std::size_t waiting = 0;  ///< calls beyond those that run
-    std::int64_t bytes = 0;   ///< of the requests that wait
+    std::size_t waiting = 0;  ///< calls beyond the running ones
+    std::int64_t bytes = 0;   ///< requests of waiting calls
   };
 
   explicit CallPool(Most most);
-  /// Answers what still waits. REQUIRES: no call comes any more.
+  /// Answers the waiting calls. REQUIRES: no further calls arrive.
   ~CallPool();
   CallPool(const CallPool&) = delete;
   CallPool& operator=(const CallPool&) = delete;
 
-  /// Calls `body` on a thread of the pool and ends the call with the status that it gives, or with that of what it
-  /// throws. What `body` uses of the call is there until then. A call that is cancelled while it waits is left out; one
-  /// beyond the limits ends with RESOURCE_EXHAUSTED.
+  /// Runs `body` on a thread of the pool, and ends the call with the status it returns or that of its exception. The
+  /// objects of the call live until then. A call cancelled while waiting is skipped; one beyond the limits ends with
+  /// RESOURCE_EXHAUSTED.
   grpc::ServerUnaryReactor* run(grpc::CallbackServerContext& context, const google::protobuf::Message& request,
                                 std::function<grpc::Status()> body);
 
@@ -46,14 +46,14 @@ class CallPool {
   };
 
   void serve();
-  /// Why the call is not taken; OK when it is.
+  /// Why the call is refused; OK if it is not.
   grpc::Status take(Call call);
 
   const Most most_;
   Mutex mutex_;
   std::condition_variable_any changed_;
   std::deque<Call> waiting_ CELLCRUSH_GUARDED_BY(mutex_);
-  std::int64_t bytes_ CELLCRUSH_GUARDED_BY(mutex_) = 0;  ///< of waiting_
+  std::int64_t bytes_ CELLCRUSH_GUARDED_BY(mutex_) = 0;  ///< of the calls in waiting_
   bool ending_ CELLCRUSH_GUARDED_BY(mutex_) = false;
   std::vector<std::jthread> threads_;
 };

@@ -9,9 +9,8 @@ namespace cellcrush::rpc {
 /// Answers questions about cases. Thread-safe.
 class CasesService final : public v1::Cases::CallbackService {
  public:
-  /// `step_cost`: seconds of one core for a step of an element.
-  /// `checks` answers those that may take seconds, so that all others need not wait for them. Both pools and the places
-  /// outlive it.
+  /// `step_cost`: seconds of one core per element and step. `checks` runs calls that may take seconds, so that the
+  /// others need not wait for them. Both pools and the places outlive it.
   CasesService(double step_cost, CallPool& calls, CallPool& checks, jobs::MeshPlaces& places)
       : step_cost_(step_cost), calls_(calls), checks_(checks), places_(places) {}
 

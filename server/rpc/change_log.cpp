@@ -7,7 +7,7 @@
 namespace cellcrush::rpc {
 namespace {
 
-// What a caller wrote, so that its end is seen and nothing in it is taken for more of the line.
+// Quotes a caller's text, so that it cannot be mistaken for the rest of the line.
 std::string quoted(const std::string& text) {
   std::string out = "\"";
   for (const char character : text) {

@@ -17,7 +17,7 @@ template <class Request>
 std::string hash_of_payload(Request& request, const std::string& owner) {
   request.clear_request_id();
   request.clear_validate_only();
-  // As it was before there were owners, for requests that a journal has.
+  // The form without owners, which journals of earlier versions hold.
   return store::hash_of(request) + (owner == access::kLocal ? "" : " " + owner);
 }
 

@@ -6,7 +6,7 @@
 namespace cellcrush::rpc {
 namespace {
 
-// Of an unread download as much lies in memory.
+// Memory held by an unread download.
 constexpr std::size_t kDownloadChunk = 128 * 1024;
 
 }  // namespace

@@ -11,19 +11,20 @@
 
 namespace cellcrush::rpc {
 
-/// What a DownloadResult sends: a file in chunks, each read when the one before has gone. Not thread-safe.
+/// Source of a DownloadResult: a file in chunks, each read after the previous one was sent. Not thread-safe.
 class DownloadSource {
  public:
   using Message = v1::DownloadResultResponse;
   static constexpr bool kIsWatch = false;
 
-  /// Throws ServiceError: invalid for an offset below 0, out_of_range for one past the end, and what InputFile throws.
+  /// Throws ServiceError: invalid for a negative offset, out_of_range for one past the end, and the errors of
+  /// InputFile.
   DownloadSource(const std::filesystem::path& path, std::int64_t offset);
 
   void open(const std::function<void()>&) {}
   void close() {}
-  /// At least one message comes, so that the size is told even when nothing is left. Before the first one every byte is
-  /// held to the file's seal. Throws ServiceError: data_loss for a damaged file.
+  /// Sends at least one message, so that the size is known even if no bytes are left. Before the first message, checks
+  /// the whole file against its seal. Throws ServiceError: data_loss for a damaged file.
   std::optional<Message> next();
   [[nodiscard]] bool has_more() const { return false; }
   [[nodiscard]] bool ended() const { return sent_ && offset_ == file_.size(); }

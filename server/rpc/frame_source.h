@@ -12,7 +12,7 @@
 
 namespace cellcrush::rpc {
 
-/// What a GetFrame sends: one frame in parts, the mesh with the first. Not thread-safe.
+/// Source of a GetFrame: one frame in parts, the mesh with the first. Not thread-safe.
 class FrameSource {
  public:
   using Message = v1::GetFrameResponse;
@@ -25,13 +25,13 @@ class FrameSource {
     watch::Hub& hub;
   };
 
-  /// Throws ServiceError (invalid) for a strain or time that is no number.
+  /// Throws ServiceError (invalid) for a strain or time that is not a finite number.
   FrameSource(const Parts& parts, store::StoredJob job, v1::GetFrameRequest request);
 
   void open(const std::function<void()>&) {}
   void close() {}
-  /// Reads the frame when it is called first. Throws ServiceError: failed_precondition while the job has no frame,
-  /// out_of_range for an index that there is not, and what store::ResultReader throws.
+  /// Reads the frame on the first call. Throws ServiceError: failed_precondition while the job has no frame,
+  /// out_of_range for an index that does not exist, and the errors of store::ResultReader.
   std::optional<Message> next();
   [[nodiscard]] bool has_more() const { return !chunks_.empty(); }
   [[nodiscard]] bool ended() const { return was_read_ && chunks_.empty(); }
@@ -46,8 +46,8 @@ class FrameSource {
   store::StoredJob job_;
   v1::GetFrameRequest request_;
   bool was_read_ = false;
-  std::optional<v1::Mesh> mesh_;       ///< until the first part has gone
-  std::deque<v1::FrameChunk> chunks_;  ///< that are to go
+  std::optional<v1::Mesh> mesh_;       ///< until the first part was sent
+  std::deque<v1::FrameChunk> chunks_;  ///< still to send
 };
 
 }  // namespace cellcrush::rpc

@@ -11,21 +11,20 @@
 
 namespace cellcrush::rpc {
 
-/// Which services serve, and who waits for a change of that. Thread-safe.
+/// The serving status of each service, with subscribers to its changes. Thread-safe.
 class HealthBoard {
  public:
   using Status = grpc::health::v1::HealthCheckResponse::ServingStatus;
   using Wake = std::function<void()>;
 
   void set(const std::string& service, bool is_serving);
-  /// All that were set.
+  /// All services with a status.
   void set_all(bool is_serving);
 
-  /// SERVICE_UNKNOWN for one that was never set.
+  /// SERVICE_UNKNOWN for a service without a status.
   [[nodiscard]] Status find(const std::string& service) const;
 
-  /// Calls `wake` on every change, from the thread that makes it and under the board's lock. Returns the id to
-  /// unsubscribe with.
+  /// Calls `wake` on every change, on the changing thread and under the board's lock. Returns the id for unsubscribing.
   std::uint64_t subscribe(Wake wake);
   void unsubscribe(std::uint64_t id);
 
@@ -36,7 +35,7 @@ class HealthBoard {
   std::uint64_t next_id_ CELLCRUSH_GUARDED_BY(mutex_) = 1;
 };
 
-/// What a Health.Watch sends: the status of a service, and again whenever it changes. Not thread-safe but for the wake.
+/// Source of a Health.Watch: the status of a service, repeated whenever it changes. Not thread-safe, except for `wake`.
 class HealthSource {
  public:
   using Message = grpc::health::v1::HealthCheckResponse;
@@ -60,8 +59,8 @@ class HealthSource {
   std::uint64_t subscription_ = 0;
 };
 
-/// grpc.health.v1, which gRPC's own service answers as well, but with as many watches as anybody asks for. It is open
-/// to all, so its watches are counted apart, by the address that they come from. Thread-safe.
+/// grpc.health.v1. Replaces gRPC's own service, which does not limit watches. It is open to everybody, so its watches
+/// are counted separately, by peer address. Thread-safe.
 class HealthService final : public grpc::health::v1::Health::CallbackService {
  public:
   /// All of it outlives the service.

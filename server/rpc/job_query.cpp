@@ -13,7 +13,7 @@ namespace {
 constexpr const char* kUnderstood =
     "Valid terms are state = STATE, owner = \"NAME\", label.KEY = \"value\" and title : \"text\", joined by AND.";
 
-// Goes through the text once, a condition at a time.
+// Parses the text in one pass, one condition at a time.
 class Reader {
  public:
   explicit Reader(const std::string& text) : text_(text) {}

@@ -6,11 +6,11 @@
 
 namespace cellcrush::rpc {
 
-/// Reads the filter of ListJobs, a part of AIP-160: conditions joined by AND,
-///   state = RUNNING            one of the states' names
-///   owner = "NAME"             who made the job
+/// Parses the filter of ListJobs, a subset of AIP-160: conditions joined by AND,
+///   state = RUNNING            name of a state
+///   owner = "NAME"             creator of the job
 ///   label.KEY = "value"        the job has that label; KEY may be quoted
-///   title : "text"             the case's title contains the text, in any case of letters
+///   title : "text"             the case's title contains the text, ignoring case
 /// A value may stand without quotes when it has only letters, digits and . _ - / in it. Empty: all jobs. Throws
 /// InvalidField, which names the position, counted from 1, and what is understood.
 store::JobFilter parse_filter(const std::string& text);

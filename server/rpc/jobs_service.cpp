@@ -44,13 +44,13 @@ void JobsService::add_progress(store::StoredJob& stored) {
   if (const auto progress = channel->newest().progress) *stored.job.mutable_progress() = *progress;
 }
 
-// Of a job that nobody watches some may be gathered still. Where they cannot be made durable those before them are
-// given.
+// Samples of an unwatched job may still be gathered in memory. If they cannot be made durable, only those before them
+// are returned.
 void JobsService::commit_samples() {
   try {
     parts_.journal.commit_samples();
   } catch (const ServiceError&) {
-    // The journal tries again by itself, and tells of it.
+    // The journal retries on its own and logs the failure.
   }
 }
 

@@ -15,8 +15,7 @@
 
 namespace cellcrush::rpc {
 
-/// Jobs and their results. Thread-safe. Streams hold no thread, however slowly they are read; all other calls are
-/// answered by the pools.
+/// Jobs and their results. Thread-safe. Streams hold no thread, even for slow readers; the pools run all other calls.
 class JobsService final : public v1::Jobs::CallbackService {
  public:
   /// All of it outlives the service.
@@ -30,7 +29,7 @@ class JobsService final : public v1::Jobs::CallbackService {
     jobs::Admission& admission;
     const access::Gate& gate;
     CallPool& calls;
-    CallPool& checks;  ///< those that build meshes, and so may take seconds
+    CallPool& checks;  ///< for checks that build meshes and may take seconds
     jobs::MeshPlaces& places;
     StreamParts streams;
   };
@@ -61,9 +60,9 @@ class JobsService final : public v1::Jobs::CallbackService {
       grpc::CallbackServerContext* context, const v1::DownloadResultRequest* request) override;
 
  private:
-  /// Throws ServiceError (not_found) when there is none.
+  /// Throws ServiceError (not_found) if there is none.
   store::StoredJob find(const std::string& name);
-  /// Number of a job that the caller may change. Throws also ServiceError (permission_denied).
+  /// Number of a job that the caller may change. Also throws ServiceError (permission_denied).
   std::int64_t find_own(const grpc::ServerContextBase& context, const std::string& name);
   void add_progress(store::StoredJob& stored);
   void commit_samples();

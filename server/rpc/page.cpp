@@ -15,7 +15,7 @@ namespace {
 constexpr int kDefaultSize = 50;
 constexpr int kLargestSize = 1000;
 
-// FNV-1a, which tells lists apart; nothing is kept secret by it.
+// FNV-1a: distinguishes lists, but keeps nothing secret.
 std::string mark_of(const std::string& question) {
   std::uint32_t hash = 2166136261U;
   for (const char character : question) hash = (hash ^ static_cast<unsigned char>(character)) * 16777619U;
@@ -24,7 +24,7 @@ std::string mark_of(const std::string& question) {
   return text.data();
 }
 
-// The number that a token names; 0 of none.
+// The number in a token; 0 for no token.
 std::int64_t read_token(const std::string& text, const std::string& question) {
   if (text.empty()) return 0;
   check_length("page_token", text, kLongestPageToken);

@@ -48,7 +48,7 @@ class ParseErrorInterceptor final : public grpc_hooks::Interceptor {
 
 class ParseErrorInterceptors final : public grpc_hooks::ServerInterceptorFactoryInterface {
  public:
-  // gRPC owns what is returned. A stream of requests has no one message to look at.
+  // gRPC owns the returned object. A stream of requests has no single message to check.
   grpc_hooks::Interceptor* CreateServerInterceptor(grpc_hooks::ServerRpcInfo* info) override {
     using Type = grpc_hooks::ServerRpcInfo::Type;
     const bool has_one_request = info->type() == Type::UNARY || info->type() == Type::SERVER_STREAMING;

@@ -6,8 +6,8 @@
 
 namespace cellcrush::rpc {
 
-/// Gives a unary or server-streaming call whose request cannot be parsed INVALID_ARGUMENT, with the method and the type
-/// of message in words. gRPC itself ends it with INTERNAL or UNIMPLEMENTED and no words.
+/// Ends a unary or server-streaming call whose request cannot be parsed with INVALID_ARGUMENT, naming the method and
+/// the message type. gRPC itself would end it with INTERNAL or UNIMPLEMENTED and no message.
 std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface> make_parse_error_interceptors();
 
 }  // namespace cellcrush::rpc

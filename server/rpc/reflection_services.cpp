@@ -18,7 +18,7 @@ namespace {
 using google::protobuf::DescriptorPool;
 using google::protobuf::FileDescriptor;
 
-// The messages of one version; those of both have the same fields.
+// The messages of one version; both versions have the same fields.
 struct ReflectionV1 {
   using Service = grpc::reflection::v1::ServerReflection;
   using Request = grpc::reflection::v1::ServerReflectionRequest;
@@ -45,7 +45,7 @@ void add_file(const FileDescriptor& file, std::set<const FileDescriptor*>& added
   for (int i = 0; i < file.dependency_count(); ++i) add_file(*file.dependency(i), added, files);
 }
 
-// `file` is null where there is no such thing.
+// `file` is null if there is none.
 template <class Response>
 void answer_file(const FileDescriptor* file, const std::string& name, Response& response) {
   if (file == nullptr) return refuse(response, grpc::StatusCode::NOT_FOUND, "This server has no " + name + ".");
@@ -112,7 +112,7 @@ typename Version::Response answer_reflection(const typename Version::Request& re
 template <class Version>
 using Reactor = grpc::ServerBidiReactor<typename Version::Request, typename Version::Response>;
 
-// One stream: reads a request, writes its response, until the client has no more.
+// One stream: answers requests until the client sends no more.
 template <class Version>
 class ReflectionStream final : public Reactor<Version> {
  public:

@@ -4,7 +4,7 @@
 
 namespace cellcrush::rpc {
 
-/// A stream that is refused before it begins. A Reactor is a server's reactor of gRPC.
+/// A stream that is refused before it starts. Reactor is a gRPC server reactor.
 template <class Reactor>
 class RefusedStream final : public Reactor {
  public:

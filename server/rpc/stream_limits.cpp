@@ -18,7 +18,7 @@ void StreamLimits::Permit::hold(std::size_t bytes) {
   const MutexLock lock(limits_->mutex_);
   limits_->bytes_ -= std::exchange(bytes_, 0);
   const auto wanted = static_cast<std::int64_t>(bytes);
-  // One stream alone may always have its message.
+  // A single stream may always hold its message.
   if (limits_->bytes_ > 0 && limits_->bytes_ + wanted > limits_->most_.bytes) {
     throw ServiceError(ServiceError::Kind::exhausted,
                        "Open streams hold " + std::to_string(limits_->bytes_) +

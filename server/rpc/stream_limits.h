@@ -10,17 +10,17 @@
 
 namespace cellcrush::rpc {
 
-/// Counts the streams that are open, in all and by caller, and the bytes that wait in them to be read. Outlives its
-/// permits. Thread-safe.
+/// Counts the open streams, in total and by caller, and the bytes of their unread messages. Outlives its permits.
+/// Thread-safe.
 class StreamLimits {
  public:
   struct Most {
     int in_all = 0;
     int per_caller = 0;
-    std::int64_t bytes = 0;  ///< of messages that were not read yet
+    std::int64_t bytes = 0;  ///< of unread messages
   };
 
-  /// A stream's place, given back when this goes away. One thread at a time.
+  /// The place of a stream, released on destruction. One thread at a time.
   class Permit {
    public:
     Permit() = default;
@@ -32,7 +32,7 @@ class StreamLimits {
           bytes_(std::exchange(other.bytes_, 0)) {}
     Permit& operator=(Permit&&) = delete;
 
-    /// The stream holds that many bytes from now on. Throws ServiceError (exhausted) when all streams would hold too
+    /// Sets the bytes that the stream holds. Throws ServiceError (exhausted) if all streams together would hold too
     /// many; it then holds none.
     void hold(std::size_t bytes);
 
@@ -44,7 +44,7 @@ class StreamLimits {
 
   explicit StreamLimits(Most most) : most_(most) {}
 
-  /// Throws ServiceError (exhausted) when it would be one too many; the message names the limit.
+  /// Throws ServiceError (exhausted) if this would be one too many; the message names the limit.
   Permit admit(const std::string& caller);
 
   [[nodiscard]] std::size_t count() const;

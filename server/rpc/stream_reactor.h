@@ -23,7 +23,7 @@
 
 namespace cellcrush::rpc {
 
-/// What streams work with; all of it outlives them.
+/// Dependencies of streams; all outlive them.
 struct StreamParts {
   watch::Pump& pump;
   metrics::Metrics& metrics;
@@ -31,28 +31,28 @@ struct StreamParts {
   watch::WatchTimes times;
 };
 
-/// Frames that were left out before this message.
+/// Number of frames skipped before this message.
 inline int skipped_before(const v1::JobEvent& event) { return event.has_frame() ? event.frame().skipped() : 0; }
 template <class Message>
 int skipped_before(const Message&) {
   return 0;
 }
 
-/// One open stream: moves messages from its source to the client, one at a time, as fast as the client takes them, and
-/// holds no thread. It keeps itself until gRPC is done with it. A Source is watch::JobSource, watch::SweepSource,
-/// DownloadSource, FrameSource or HealthSource, or has the same members:
-///   Message, kIsWatch   what is sent; whether the metrics count it as a watch
-///   open(wake), close   from when and until when `wake` is called on news
-///   next, has_more      the next message, if there is one now; whether it is at hand without waiting for a disk
-///   ended               whether the last message was given
-///   bookmark            what is sent when there was nothing for long; may be nothing
-///   resume_advice       how a stream that was broken off is continued, as the end of a sentence
+/// One open stream: sends the messages of its source one at a time, as fast as the client reads, and holds no thread.
+/// It owns itself until gRPC is done with it. A Source is watch::JobSource, watch::SweepSource, DownloadSource,
+/// FrameSource or HealthSource, or has the same members:
+///   Message, kIsWatch   type of the messages; whether the metrics count it as a watch
+///   open(wake), close   start and end of the calls to `wake` on changes
+///   next, has_more      the next message, if there is one; whether it is available without waiting for the disk
+///   ended               whether the last message was sent
+///   bookmark            message to send after a long idle time; may be absent
+///   resume_advice       how to continue a closed stream, as the end of a sentence
 template <class Source>
 class StreamReactor final : public grpc::ServerWriteReactor<typename Source::Message>, public watch::Pump::Task {
  public:
   using Message = typename Source::Message;
 
-  /// Throws ServiceError (exhausted) when the caller, or all callers, have too many streams open.
+  /// Throws ServiceError (exhausted) if the caller, or all callers, have too many open streams.
   static grpc::ServerWriteReactor<Message>* start(const StreamParts& parts, grpc::CallbackServerContext& context,
                                                   const std::string& caller, std::unique_ptr<Source> source) {
     auto reactor = std::make_shared<StreamReactor>(parts, context, parts.limits.admit(caller), std::move(source));
@@ -76,7 +76,7 @@ class StreamReactor final : public grpc::ServerWriteReactor<typename Source::Mes
 
   void run() override {
     Action action = Action::none;
-    // What is followed at once goes out together with what follows.
+    // Messages that follow at once are sent together.
     grpc::WriteOptions options;
     {
       const MutexLock lock(mutex_);
@@ -102,7 +102,7 @@ class StreamReactor final : public grpc::ServerWriteReactor<typename Source::Mes
       if (!ok) cancelled_ = true;
       at_once = source_->has_more();
     }
-    // The disk is read by the pump's threads and not by those of gRPC.
+    // The pump's threads read the disk, not gRPC's.
     at_once ? run() : parts_.pump.schedule(self_);
   }
 
@@ -116,8 +116,8 @@ class StreamReactor final : public grpc::ServerWriteReactor<typename Source::Mes
 
   void OnDone() override {
     {
-      // The pump may run the reactor for a moment longer, but nothing of the call is there any more. gRPC may call this
-      // from within TryCancel, on the same thread.
+      // The pump may still run the reactor for a moment, but the objects of the call are gone. gRPC may call this from
+      // within TryCancel, on the same thread.
       MutexLock lock(mutex_);
       done_ = true;
       abandoned_.wait(lock, [this]() CELLCRUSH_REQUIRES(mutex_) {
@@ -126,14 +126,14 @@ class StreamReactor final : public grpc::ServerWriteReactor<typename Source::Mes
       source_->close();
     }
     if (Source::kIsWatch) parts_.metrics.count_watcher(-1);
-    // The last reference goes with `self`, or with the pump if it still holds one.
+    // The last reference is `self`, or the pump's if it still holds one.
     const auto self = std::move(self_);
   }
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  /// What to do next; decided under the lock, done without it, because gRPC may answer at once.
+  /// The next action. Decided under the lock and performed without it, because gRPC may call back at once.
   enum class Action { none, write, finish, abandon };
 
   Action decide() CELLCRUSH_REQUIRES(mutex_) {
@@ -160,14 +160,13 @@ class StreamReactor final : public grpc::ServerWriteReactor<typename Source::Mes
     return Action::write;
   }
 
-  /// Whether the client has let a message lie for too long. The status waits behind it, for a client that reads on
-  /// soon.
+  /// Whether the client has left a message unread for too long. The status waits behind that message, for a client that
+  /// soon resumes reading.
   [[nodiscard]] bool is_stuck() const CELLCRUSH_REQUIRES(mutex_) {
     return Clock::now() - last_write_ > parts_.times.patience;
   }
 
-  /// Whether the client has not taken the status either: then all that is kept for it is dropped, and it finds
-  /// CANCELLED.
+  /// Whether the client has not read the status either. Everything kept for it is then dropped, and it sees CANCELLED.
   [[nodiscard]] bool is_to_be_abandoned() CELLCRUSH_REQUIRES(mutex_) {
     if (!writing_ || abandoning_ != std::thread::id()) return false;
     if (Clock::now() - last_write_ <= parts_.times.patience + parts_.times.grace) return false;
@@ -193,7 +192,7 @@ class StreamReactor final : public grpc::ServerWriteReactor<typename Source::Mes
                                                       source_->resume_advice() + ", and read messages without delay."};
   }
 
-  /// There is news.
+  /// Something may have changed.
   void wake(const std::shared_ptr<StreamReactor>& self) {
     std::int64_t none = 0;
     pending_since_.compare_exchange_strong(none, Clock::now().time_since_epoch().count());
@@ -215,27 +214,27 @@ class StreamReactor final : public grpc::ServerWriteReactor<typename Source::Mes
   }
 
   StreamParts parts_;
-  grpc::CallbackServerContext& context_;  ///< there until OnDone
+  grpc::CallbackServerContext& context_;  ///< valid until OnDone
   std::shared_ptr<StreamReactor> self_;
-  /// Clock's count when the news came that no message was sent for; 0: there is none.
+  /// Clock's count at the first event without a message yet; 0: none.
   std::atomic<std::int64_t> pending_since_ = 0;
 
   Mutex mutex_;
   StreamLimits::Permit permit_ CELLCRUSH_GUARDED_BY(mutex_);
   std::unique_ptr<Source> source_ CELLCRUSH_GUARDED_BY(mutex_);
-  Message message_;      ///< made with the mutex held, and then in the hands of gRPC while writing_
-  grpc::Status status_;  ///< the same while finished_
+  Message message_;      ///< built under the mutex; owned by gRPC while writing_
+  grpc::Status status_;  ///< likewise while finished_
   bool writing_ CELLCRUSH_GUARDED_BY(mutex_) = false;
   bool finished_ CELLCRUSH_GUARDED_BY(mutex_) = false;
   bool cancelled_ CELLCRUSH_GUARDED_BY(mutex_) = false;
-  std::thread::id abandoning_ CELLCRUSH_GUARDED_BY(mutex_);  ///< the thread that cancels the call, while it does
+  std::thread::id abandoning_ CELLCRUSH_GUARDED_BY(mutex_);  ///< the thread in TryCancel, while it is there
   std::condition_variable_any abandoned_;
   bool done_ CELLCRUSH_GUARDED_BY(mutex_) = false;
   Clock::time_point last_write_ CELLCRUSH_GUARDED_BY(mutex_) = Clock::now();
 };
 
-/// Opens a stream of the source that `make` returns, for the caller that `name_caller` returns, or one that ends with
-/// what these throw.
+/// Opens a stream of the source that `make` returns, for the caller that `name_caller` returns. If either throws, the
+/// stream ends with its error.
 template <class Source, class NameCaller, class Make>
 grpc::ServerWriteReactor<typename Source::Message>* open_stream(const StreamParts& parts,
                                                                 grpc::CallbackServerContext& context,

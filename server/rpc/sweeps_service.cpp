@@ -20,7 +20,7 @@
 namespace cellcrush::rpc {
 namespace {
 
-// What the caller decides; the rest is the daemon's.
+// The caller's fields only; the daemon sets the rest.
 v1::CreateSweepRequest without_output(v1::CreateSweepRequest request) {
   auto& sweep = *request.mutable_sweep();
   sweep.clear_name();
@@ -170,7 +170,7 @@ grpc::ServerUnaryReactor* SweepsService::RetryFailedJobs(grpc::CallbackServerCon
                                                          v1::Sweep* response) {
   return parts_.calls.run(*context, *request, [=, this] {
     const std::int64_t sweep = find_own(*context, request->name());
-    // What their cases need was admitted when the sweep was made. The new jobs are the sweep's owner's.
+    // The resources for these cases were admitted with the sweep. The new jobs belong to the sweep's owner.
     const std::string owner = find(request->name()).sweep.owner();
     std::optional<jobs::Admission::Place> place;
     const auto admit = [&](std::size_t count) {

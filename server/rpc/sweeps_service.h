@@ -17,7 +17,7 @@
 
 namespace cellcrush::rpc {
 
-/// Sweeps: many jobs from one case. Thread-safe. Watches hold no thread; all other calls are answered by the pools.
+/// Sweeps: many jobs from one case. Thread-safe. Watches hold no thread; the pools run all other calls.
 class SweepsService final : public v1::Sweeps::CallbackService {
  public:
   /// All of it outlives the service.
@@ -31,9 +31,9 @@ class SweepsService final : public v1::Sweeps::CallbackService {
     jobs::Admission& admission;
     const access::Gate& gate;
     CallPool& calls;
-    CallPool& checks;  ///< those that build meshes, and so may take seconds
+    CallPool& checks;  ///< for checks that build meshes and may take seconds
     jobs::MeshPlaces& places;
-    int check_threads = 1;  ///< that check the points of one sweep
+    int check_threads = 1;  ///< for checking the points of one sweep
     StreamParts streams;
   };
 
@@ -61,9 +61,9 @@ class SweepsService final : public v1::Sweeps::CallbackService {
     std::int64_t number = 0;
     v1::Sweep sweep;
   };
-  /// Throws ServiceError (not_found) when there is none.
+  /// Throws ServiceError (not_found) if there is none.
   Found find(const std::string& name);
-  /// Number of a sweep that the caller may change. Throws also ServiceError (permission_denied).
+  /// Number of a sweep that the caller may change. Also throws ServiceError (permission_denied).
   std::int64_t find_own(const grpc::ServerContextBase& context, const std::string& name);
 
   Parts parts_;

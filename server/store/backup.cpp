@@ -74,7 +74,7 @@ class ResultBackup {
     return file;
   }
 
-  // A job's rows go before its folder does.
+  // A job's rows are deleted before its folder.
   bool is_there(std::int64_t job) {
     return Statement(live_, "SELECT 1 FROM jobs WHERE number = ?1").bind(1, job).step();
   }
@@ -118,7 +118,7 @@ BackupManifest take_backup(const std::filesystem::path& data_folder, const std::
   const auto copy_path = staged.path() / kJournalName;
   { Database(copy_path, Database::Access::single_file).copy_from(live); }
   {
-    // The copy has the mode of the original until it is opened again.
+    // The copy keeps the journal mode of the original until it is reopened.
     Database copy(copy_path, Database::Access::single_file);
     ResultBackup results(data_folder, staged.path(), live);
     for (const std::int64_t job : jobs_with_result(copy)) results.copy(job, manifest);

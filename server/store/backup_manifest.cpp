@@ -21,7 +21,7 @@ namespace {
 constexpr std::string_view kManifestTitle = "CELLCRUSH BACKUP 1";
 constexpr std::size_t kCopiedAtOnce = 1 << 20;
 
-// SHA-256 of bytes that come in parts.
+// SHA-256 of bytes that arrive in parts.
 class Digest {
  public:
   Digest() : context_(EVP_MD_CTX_new(), EVP_MD_CTX_free) { EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr); }
@@ -73,7 +73,7 @@ std::string digest_of_text(std::string_view text) {
   return digest.hexadecimal();
 }
 
-// A restore makes files of these names: nothing but the journal and results.
+// A restore creates files with these names, so only the journal and results are allowed.
 bool is_name_of_backup(const std::string& path) {
   if (path == "journal.sqlite") return true;
   constexpr std::string_view kBefore = "jobs/";

@@ -14,11 +14,11 @@ struct BackupFile {
   std::string sha256;  ///< in hexadecimal
 };
 
-/// What a backup holds (backup_format.md).
+/// Contents of a backup (backup_format.md).
 struct BackupManifest {
-  std::string created;  ///< when the journal was copied, "2026-11-23T09:15:02Z"
+  std::string created;  ///< time of the journal's copy, "2026-11-23T09:15:02Z"
   std::vector<BackupFile> files;
-  std::vector<std::string> lost;  ///< results that were missing or damaged when the backup was made, a sentence each
+  std::vector<std::string> lost;  ///< results missing or damaged at the time of the backup, one sentence each
 };
 
 /// Name of the manifest in a backup.
@@ -26,10 +26,10 @@ inline constexpr const char* kManifestName = "MANIFEST";
 
 std::string text_of(const BackupManifest& manifest);
 
-/// Throws ServiceError (data_loss) for what text_of has not made.
+/// Throws ServiceError (data_loss) for a text that text_of did not write.
 BackupManifest parse_manifest(const std::string& text);
 
-/// SHA-256 of a file, in hexadecimal, and its size; written to `copy` meanwhile unless that is empty. Throws
+/// SHA-256 of a file, in hexadecimal, and its size. Also copies the file to `copy` unless that is empty. Throws
 /// ServiceError.
 BackupFile digest_of(const std::filesystem::path& file, const std::filesystem::path& copy = {});
 

@@ -7,10 +7,10 @@
 
 namespace cellcrush::store {
 
-/// Takes back what workers have made of a job that is PENDING, RUNNING or SUSPENDED: its samples and its mesh go, and
-/// an event says `why` it begins again from step 0. A job that is RUNNING becomes PENDING. Sequence numbers count on;
-/// those of the samples are not used again. REQUIRES: a transaction is open. Throws ServiceError: not_found, data_loss
-/// for a row that cannot be read, or failed_precondition for a job in another state.
+/// Resets a job that is PENDING, RUNNING or SUSPENDED: deletes its samples and mesh, and adds an event that says `why`
+/// it restarts from step 0. A RUNNING job becomes PENDING. Sequence numbers continue; those of the deleted samples are
+/// not reused. REQUIRES: a transaction is open. Throws ServiceError: not_found, data_loss for an unreadable row, or
+/// failed_precondition for a job in another state.
 void begin_again(Database& database, std::int64_t job, const std::string& why);
 
 }  // namespace cellcrush::store

@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kToEnd{1000};
 constexpr off_t kBallastBytes = 4 * 1024 * 1024;
-// SQLite's files and what a start writes.
+// Room for SQLite's files and for the writes of a start.
 constexpr off_t kStartBallastBytes = 512 * 1024;
 constexpr std::int64_t kFullBelow = 64 * 1024;
 
@@ -33,7 +33,7 @@ void make_private_folder(const std::filesystem::path& path) {
   if (mkdir(path.c_str(), 0700) != 0 && errno != EEXIST) throw_file_error(path, "used", errno);
 }
 
-// The errno that keeps files from being made, or those of a job from being used; 0 where there is none.
+// The errno for which files cannot be created, or a job's files cannot be used; 0 if there is none.
 int error_of_folder(const JobFolder& folder) {
   for (const auto& path : {folder.order(), folder.claim(), folder.reports(), folder.checkpoint(),
                            folder.previous_checkpoint(), folder.partial_checkpoint(), folder.partial_result()}) {
@@ -53,7 +53,7 @@ int error_of_folder(const JobFolder& folder) {
   return unlink(probe.c_str()) == 0 ? 0 : errno;
 }
 
-// False where there is no room.
+// False if there is no room.
 bool keep_file(const std::filesystem::path& path, off_t bytes) {
   const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_NONBLOCK | O_CLOEXEC, 0600);
   const int error = file < 0 ? errno : posix_fallocate(file, 0, bytes);
@@ -64,7 +64,7 @@ bool keep_file(const std::filesystem::path& path, off_t bytes) {
   return false;
 }
 
-// A folder that was there may have been made for all to read.
+// An existing folder may be readable for others.
 void warn_of_readers(const std::filesystem::path& root) {
   struct stat status {};
   if (stat(root.c_str(), &status) != 0 || (status.st_mode & 077U) == 0) return;
@@ -74,7 +74,7 @@ void warn_of_readers(const std::filesystem::path& root) {
       root.string(), status.st_mode & 07777U, root.string());
 }
 
-// A daemon that ends holds the lock a moment longer than it listens.
+// An exiting daemon still holds the lock for a moment after it stops listening.
 bool lock_within(int file, std::chrono::milliseconds limit) {
   const auto end = std::chrono::steady_clock::now() + limit;
   while (flock(file, LOCK_EX | LOCK_NB) != 0) {
@@ -125,7 +125,7 @@ DataFolder::DataFolder(const std::filesystem::path& root) {
                            "). Stop that daemon, or use another folder with --data.");
   }
   if (free_bytes() < kStartBallastBytes) unlink(start_ballast().c_str());
-  // The file's first page is written again before it is cut: that needs no room.
+  // Rewrites the first page before truncating the file: that needs no room.
   const std::string process = std::to_string(getpid());
   const auto written = pwrite(lock_, process.data(), process.size(), 0);
   if (written < 0 ? errno != ENOSPC : ftruncate(lock_, written) != 0) {
@@ -170,7 +170,7 @@ void DataFolder::set_aside(std::int64_t job, const std::string& reason) const {
 
 void DataFolder::clean_job_folder(std::int64_t job) const {
   const auto folder = job_folder(job);
-  // The reports last: while they are there, the folder is known to hold more than a result.
+  // Reports are deleted last: they mark a folder that holds more than a result.
   for (const auto& path : {folder.partial_result(), folder.order(), folder.claim(), folder.partial_checkpoint(),
                            folder.previous_checkpoint(), folder.checkpoint(), folder.reports()})
     remove_file(path);
@@ -228,7 +228,7 @@ std::vector<std::string> DataFolder::names_in_jobs() const {
 std::filesystem::path DataFolder::set_aside(const std::string& name) const {
   const auto from = root_ / "jobs" / name;
   make_private_folder(root_ / "set-aside");
-  // A folder is moved to another one only by who may write in it.
+  // Moving a folder to another parent requires write permission in it.
   struct stat status {};
   if (lstat(from.c_str(), &status) == 0 && S_ISDIR(status.st_mode)) chmod(from.c_str(), status.st_mode | 0700U);
   for (int i = 1;; ++i) {

@@ -10,7 +10,7 @@
 
 namespace cellcrush::store {
 
-/// Process of the daemon that runs on the folder, in words; nothing when none does.
+/// Process of the daemon that runs on the folder, as text; nothing if none does.
 std::optional<std::string> daemon_of(const std::filesystem::path& root);
 
 /// The folder that one daemon at a time owns:
@@ -22,8 +22,8 @@ std::optional<std::string> daemon_of(const std::filesystem::path& root);
 ///   set-aside/      what was found in jobs/ and belongs to no job, or could not be used
 class DataFolder {
  public:
-  /// Makes the folder, readable for its owner alone, where there is none, and takes the lock.
-  /// Throws ServiceError: failed_precondition when another daemon has it, internal when it cannot be used.
+  /// Creates the folder if it is absent, readable for its owner only, and takes the lock. Throws ServiceError:
+  /// failed_precondition if another daemon holds the lock, internal if the folder is unusable.
   explicit DataFolder(const std::filesystem::path& root);
   ~DataFolder();
   DataFolder(const DataFolder&) = delete;
@@ -32,48 +32,48 @@ class DataFolder {
   [[nodiscard]] std::filesystem::path journal() const { return root_ / "journal.sqlite"; }
   [[nodiscard]] JobFolder job_folder(std::int64_t job) const { return JobFolder(root_ / "jobs" / std::to_string(job)); }
 
-  /// Makes the job's folder if there is none. One that cannot be used, while others can, is renamed to
-  /// jobs/N.set-aside-K, and a new one is made. Throws ServiceError: with the shortage where no folder can be used.
+  /// Creates the job's folder if it is absent. An unusable folder is renamed to jobs/N.set-aside-K and replaced, if new
+  /// folders are usable. Throws ServiceError, with the shortage, if none is.
   void make_job_folder(std::int64_t job) const;
 
-  /// Leaves nothing but the result in the folder of a job that has ended. Throws ServiceError.
+  /// Deletes everything but the result from the folder of an ended job. Throws ServiceError.
   void clean_job_folder(std::int64_t job) const;
 
-  /// Whether workers have reported something in the job's folder.
+  /// Whether the job's folder contains reports of workers.
   [[nodiscard]] bool has_reports(std::int64_t job) const;
 
-  /// Removes what workers left in the folder of a job that is to be begun again. Throws ServiceError.
+  /// Deletes the workers' files from the folder of a job that restarts from step 0. Throws ServiceError.
   void discard_run(std::int64_t job) const;
 
-  /// Bytes that the disk has left for this user.
+  /// Free bytes on the disk for this user.
   [[nodiscard]] std::int64_t free_bytes() const;
 
-  /// Files that hold some room for when the disk is full: one for what is owed, one for the next start. `keep` makes
-  /// them where there are none and says whether there is room for them, and throws ServiceError where they cannot be
-  /// made for another reason; `give_up` removes the first. The second one goes when this is made and room is short.
+  /// Ballast files reserve room for a full disk: one for pending writes, one for the next start. `keep_ballast` creates
+  /// missing ones and returns whether there is room. It throws ServiceError if they cannot be created for another
+  /// reason. `give_up_ballast` deletes the first. The second is deleted on construction if room is short.
   bool keep_ballast() const;
   void give_up_ballast() const;
 
-  /// Whether the disk has no room left for files of a few pages.
+  /// Whether the disk has no room for files of a few pages.
   [[nodiscard]] bool is_full() const;
 
-  /// Numbers of the jobs whose folders hold more than a result; folders that cannot be read are left out.
+  /// Numbers of the jobs whose folders contain more than a result, except unreadable folders.
   [[nodiscard]] std::vector<std::int64_t> jobs_with_reports() const;
 
-  /// Moves jobs/`name` to set-aside/ under a name that is free there, for the user to look at. Where it lies now.
-  /// Throws ServiceError.
+  /// Moves jobs/`name` to set-aside/ under an unused name, for the user to inspect. Returns its new path. Throws
+  /// ServiceError.
   std::filesystem::path set_aside(const std::string& name) const;
 
-  /// Names in jobs/.
+  /// Names of the entries in jobs/.
   [[nodiscard]] std::vector<std::string> names_in_jobs() const;
 
-  /// Removes the job's folder and all in it; nothing happens when there is none. Throws ServiceError.
+  /// Deletes the job's folder with its contents; no effect if it is absent. Throws ServiceError.
   void remove_job_folder(std::int64_t job) const;
 
  private:
   [[nodiscard]] std::filesystem::path ballast() const { return root_ / "ballast"; }
   [[nodiscard]] std::filesystem::path start_ballast() const { return root_ / "ballast.start"; }
-  /// Makes and removes a folder beside those of the jobs. Throws ServiceError.
+  /// Creates and deletes a folder beside those of the jobs. Throws ServiceError.
   void try_new_folder() const;
   void set_aside(std::int64_t job, const std::string& reason) const;
 

@@ -4,25 +4,25 @@
 
 namespace cellcrush::store {
 
-/// A job that has ended, as retention sees it.
+/// An ended job, as retention sees it.
 struct EndedJob {
   std::int64_t job = 0;
   std::int64_t ended_at = 0;  ///< second of the service clock
-  std::int64_t bytes = 0;     ///< of its result and its rows in the journal
+  std::int64_t bytes = 0;     ///< result and journal rows
   std::int64_t sweep = 0;     ///< 0: none
 };
 
-/// How much has ended.
+/// Totals of ended jobs.
 struct EndedTotals {
   std::int64_t count = 0;  ///< jobs
-  std::int64_t bytes = 0;  ///< of their results and their rows in the journal
+  std::int64_t bytes = 0;  ///< results and journal rows
 };
 
-/// The jobs of a sweep, as retention sees them: together.
+/// The jobs of one sweep together, as retention sees them.
 struct SweepEnd {
   EndedTotals totals;
-  std::int64_t ended_at = 0;  ///< of the job that ended last
-  bool has_ended = false;     ///< whether all of them have
+  std::int64_t ended_at = 0;  ///< of the last job to end
+  bool has_ended = false;     ///< whether all have ended
 };
 
 }  // namespace cellcrush::store

@@ -1,4 +1,4 @@
-// What retention and the quotas of owners ask of the jobs.
+// What retention and quotas need to know of jobs.
 #include "store/journal_reader.h"
 
 namespace cellcrush::store {
@@ -19,7 +19,7 @@ std::vector<EndedJob> JournalReader::ended_jobs(const EndedJob& after, int limit
                  "ORDER BY jobs.ended_at, jobs.number LIMIT ?3");
   read.bind(1, after.ended_at).bind(2, after.job).bind(3, limit);
   std::vector<EndedJob> out;
-  // Of a job without a sweep the last one is null and reads as 0.
+  // Without a sweep the last column is null and reads as 0.
   while (read.step()) out.push_back({read.integer(0), read.integer(1), read.integer(2), read.integer(3)});
   return out;
 }

@@ -6,32 +6,32 @@
 
 namespace cellcrush::store {
 
-/// One life of a journal: a restore begins another. Sequence numbers, resume tokens and workers' reports of an earlier
-/// one do not count, for a number may stand for something else since.
+/// One life of a journal; a restore starts another. Sequence numbers, resume tokens and workers' reports of an earlier
+/// epoch are invalid, since their numbers may have been reused.
 struct Epoch {
   std::string id;        ///< random
-  std::string restored;  ///< when the restore was that began it, "2026-11-23T09:15:02Z"; empty: none did
+  std::string restored;  ///< time of the restore that started it, "2026-11-23T09:15:02Z"; empty without a restore
 
-  /// Whether something that names `other` belongs to this epoch. An empty one is of a version without epochs: it
-  /// belongs to a journal that was never restored.
+  /// Whether something of epoch `other` is valid in this one. An empty epoch is of a version without epochs and belongs
+  /// to a journal that was never restored.
   [[nodiscard]] bool admits(const std::string& other) const {
     return other == id || (other.empty() && restored.empty());
   }
 
-  /// " of before a restore of the data (2026-11-23T09:15:02Z)", for what does not belong to it.
+  /// " of before a restore of the data (2026-11-23T09:15:02Z)", for what does not belong to this epoch.
   [[nodiscard]] std::string of_before() const {
     return restored.empty() ? " from an earlier journal, which was replaced"
                             : " from before the restore of " + restored;
   }
 };
 
-/// The journal's epoch; an empty one when it has none yet. Throws ServiceError.
+/// The journal's epoch; empty if it has none yet. Throws ServiceError.
 Epoch read_epoch(Database& database);
 
-/// Gives a new id to a journal without one. Throws ServiceError.
+/// Assigns an id to a journal without one. Throws ServiceError.
 void ensure_epoch(Database& database);
 
-/// Begins a new epoch: the journal was restored at that time. Throws ServiceError.
+/// Starts a new epoch for a restore at that time. Throws ServiceError.
 void begin_epoch(Database& database, const std::string& restored);
 
 }  // namespace cellcrush::store

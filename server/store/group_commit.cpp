@@ -15,7 +15,7 @@ void GroupCommit::run(const Step& body, const Step& undo) {
   waiting_.push_back(&own);
   changed_.wait(lock, [&]() CELLCRUSH_REQUIRES(mutex_) { return own.done || !committing_; });
   if (!own.done) {
-    // Commits for all who came while another one did.
+    // Commits for all writers that arrived during the previous commit.
     committing_ = true;
     const auto batch = std::exchange(waiting_, {});
     lock.unlock();
@@ -46,7 +46,7 @@ void GroupCommit::commit(const std::vector<Write*>& batch) {
   }
 }
 
-// A body that fails takes back what it wrote, and no more.
+// Rolls back only the writes of a failed body.
 void GroupCommit::do_write(Write& write) {
   Statement(database_, "SAVEPOINT own").run();
   try {
@@ -60,8 +60,7 @@ void GroupCommit::do_write(Write& write) {
   Statement(database_, "RELEASE own").run();
 }
 
-// Why a body failed may be what another one had written, which is not there either when the commit fails: that counts
-// then.
+// A body may fail because of another body's writes, which vanish if the commit fails: the commit's error then counts.
 void GroupCommit::fail(Write& write, std::exception_ptr error) noexcept {
   const bool is_undone = write.error != nullptr;
   write.error = std::move(error);

@@ -11,26 +11,25 @@
 
 namespace cellcrush::store {
 
-/// Lets several threads write on one connection and makes what they write meanwhile durable with one commit: waiting
-/// for the disk takes far longer than writing. Thread-safe.
+/// Lets several threads write on one connection and makes concurrent writes durable with one commit. Waiting for the
+/// disk takes far longer than writing. Thread-safe.
 class GroupCommit {
  public:
-  /// Told how many seconds a commit took, from the thread that committed.
+  /// Receives the duration of a commit in seconds, on the committing thread.
   using Committed = std::function<void(double seconds)>;
   using Step = std::function<void()>;
 
-  /// `database` outlives this object, and nothing else writes on it.
+  /// `database` outlives this object, and nothing else writes to it.
   explicit GroupCommit(Database& database, Committed on_commit = {});
   GroupCommit(const GroupCommit&) = delete;
   GroupCommit& operator=(const GroupCommit&) = delete;
 
-  /// Runs `body`, whose statements are done one writer at a time and in a transaction, by this thread or another one;
-  /// returns when they are durable. What it throws, or what the commit fails with, is thrown here; nothing of this
-  /// writer's is then in the database, and `undo` was called, in the reverse order of the bodies. A body must not call
-  /// run, and `undo` must not throw.
+  /// Runs `body` within a transaction, one writer at a time, on this or another thread; returns once its statements are
+  /// durable. Rethrows the error of `body` or of the commit. Nothing of this writer is then in the database, and `undo`
+  /// was called, in the reverse order of the bodies. A body must not call run, and `undo` must not throw.
   void run(const Step& body, const Step& undo = {});
 
-  /// Writers that wait for the commit after the present one.
+  /// Writers that wait for the next commit.
   [[nodiscard]] std::size_t waiting_count() const;
 
  private:

@@ -9,7 +9,7 @@
 namespace cellcrush::store {
 namespace {
 
-// The innermost reason of an error stack, unless a shortage is among the reasons.
+// The innermost reason of an error stack, or a shortage if one is among the reasons.
 struct Reason {
   std::string text;
   Shortage shortage = Shortage::none;
@@ -109,7 +109,7 @@ void write_attribute(hid_t object, const char* name, std::int64_t value) {
 std::string read_text_attribute(hid_t object, const char* name) {
   const std::string what = std::string("Reading the attribute ") + name;
   const Hdf5Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose, what);
-  // HDF5 writes as many pointers as the attribute has texts.
+  // HDF5 writes one pointer per text of the attribute.
   const Hdf5Handle space(H5Aget_space(attribute.id()), H5Sclose, what);
   if (H5Sget_simple_extent_npoints(space.id()) != 1)
     throw ServiceError(ServiceError::Kind::data_loss, what + " failed: it is not a single string.");

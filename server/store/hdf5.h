@@ -15,14 +15,14 @@ class Hdf5Handle {
   using CloseFunction = herr_t (*)(hid_t);
 
   Hdf5Handle() = default;
-  /// Throws ServiceError with HDF5's own reason when `id` is negative. `what`: what was tried, for the message.
+  /// Throws ServiceError with HDF5's own reason if `id` is negative. `what`: the operation, for the message.
   Hdf5Handle(hid_t id, CloseFunction close_function, const std::string& what);
   ~Hdf5Handle();
   Hdf5Handle(Hdf5Handle&& other) noexcept : id_(std::exchange(other.id_, H5I_INVALID_HID)), close_(other.close_) {}
   Hdf5Handle& operator=(Hdf5Handle&& other) noexcept;
 
   [[nodiscard]] hid_t id() const { return id_; }
-  /// Closes now and throws ServiceError when that fails: what was buffered may not have been written.
+  /// Closes now. Throws ServiceError if that fails, since buffered data may be lost.
   void close(const std::string& what);
 
  private:
@@ -30,11 +30,10 @@ class Hdf5Handle {
   CloseFunction close_ = nullptr;
 };
 
-/// Throws ServiceError with HDF5's own reason when `code` is negative: with the shortage that it names, otherwise
-/// internal.
+/// Throws ServiceError with HDF5's own reason if `code` is negative: with its shortage, otherwise internal.
 void check_hdf5(herr_t code, const std::string& what);
 
-/// Keeps HDF5 from printing its errors in this thread; they are thrown instead.
+/// Keeps HDF5 from printing its errors in this thread; they become exceptions instead.
 void silence_hdf5();
 
 void write_attribute(hid_t object, const char* name, const std::string& value);
@@ -43,21 +42,21 @@ void write_attribute(hid_t object, const char* name, std::int64_t value);
 
 std::string read_text_attribute(hid_t object, const char* name);
 
-/// A dataset that grows along its first dimension; chunked, shuffled, deflated. `row_shape`: extent of the other
-/// dimensions; `chunk`: extent of a chunk, as many numbers as there are dimensions.
+/// A dataset that grows along its first dimension; chunked, shuffled, deflated. `row_shape`: extents of the other
+/// dimensions; `chunk`: extents of a chunk in all dimensions.
 Hdf5Handle make_growing_dataset(hid_t folder, const char* name, hid_t type, const std::vector<hsize_t>& row_shape,
                                 const std::vector<hsize_t>& chunk);
 
 /// Appends `rows` rows of native type `type`.
 void append_rows(hid_t dataset, hid_t type, hsize_t rows, const void* data);
 
-/// Writes a dataset of a fixed shape in one go.
+/// Writes a dataset of fixed shape at once.
 void write_dataset(hid_t folder, const char* name, hid_t type, const std::vector<hsize_t>& shape, const void* data);
 
 /// Extents of a dataset.
 std::vector<hsize_t> shape_of(hid_t dataset);
 
-/// Reads `rows` rows from `first` on as native type `type`.
+/// Reads `rows` rows starting at `first` as native type `type`.
 void read_rows(hid_t dataset, hid_t type, hsize_t first, hsize_t rows, void* data);
 
 }  // namespace cellcrush::store

@@ -7,19 +7,19 @@
 
 namespace cellcrush::store {
 
-/// A regular file that is open for reading and closes itself. Thread-safe. Failures throw ServiceError.
+/// A regular file open for reading, closed on destruction. Thread-safe. Failures throw ServiceError.
 class InputFile {
  public:
-  /// Throws also where something else than a file has the name, such as a FIFO, on which it does not wait.
+  /// Also throws for anything but a regular file, such as a FIFO, without blocking.
   explicit InputFile(const std::filesystem::path& path);
   ~InputFile();
   InputFile(const InputFile&) = delete;
   InputFile& operator=(const InputFile&) = delete;
 
-  /// Bytes when it was opened.
+  /// Size when it was opened.
   [[nodiscard]] std::int64_t size() const { return size_; }
 
-  /// Up to `most` bytes from `offset` on; fewer only at the end.
+  /// Up to `most` bytes starting at `offset`; fewer only at the end of the file.
   [[nodiscard]] std::string read(std::int64_t offset, std::size_t most) const;
 
  private:

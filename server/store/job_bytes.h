@@ -6,7 +6,7 @@
 
 namespace cellcrush::store {
 
-/// What the journal keeps of a job in one blob: all but what has a column of its own or is transient.
+/// The blob that the journal stores for a job: every field without a column of its own, except transient ones.
 inline std::string job_bytes(v1::Job job) {
   job.clear_name();
   job.clear_case_();

@@ -10,14 +10,13 @@
 
 namespace cellcrush::store {
 
-/// A filter as SQL that follows a condition on `jobs`. Each condition has an index, so that none reads the rows of jobs
-/// that are not wanted.
+/// A filter as SQL conditions on `jobs`. Each has an index, so that none reads the rows of other jobs.
 class JobConditions {
  public:
-  /// Its parameters are numbered from `first_parameter`.
+  /// Numbers its parameters from `first_parameter`.
   JobConditions(const JobFilter& filter, int first_parameter);
 
-  /// " AND ..." for each condition; empty without any.
+  /// " AND ..." for each condition; empty without conditions.
   [[nodiscard]] const std::string& sql() const { return sql_; }
 
   void bind_to(Statement& statement) const;

@@ -8,11 +8,11 @@
 
 namespace cellcrush::store {
 
-/// Which jobs are wanted: those that meet all conditions.
+/// Selects the jobs that meet all conditions.
 struct JobFilter {
   std::vector<v1::JobState> states;
   std::vector<std::pair<std::string, std::string>> labels;  ///< key and value
-  std::vector<std::string> titles;                          ///< each a part of the case's title, in any case of letters
+  std::vector<std::string> titles;                          ///< each a part of the case's title, ignoring case
   std::vector<std::string> owners;
 };
 

@@ -5,7 +5,7 @@
 
 namespace cellcrush::store {
 
-/// What a job's folder holds: the result, and while the job has not ended what its worker and the daemon share
+/// Contents of a job's folder: the result, and until the job has ended the files that worker and daemon share
 /// (worker/job_folder.md).
 class JobFolder {
  public:
@@ -19,7 +19,7 @@ class JobFolder {
   [[nodiscard]] std::filesystem::path previous_checkpoint() const { return root_ / "checkpoint.previous"; }
   [[nodiscard]] std::filesystem::path partial_checkpoint() const { return root_ / "checkpoint.partial"; }
   [[nodiscard]] std::filesystem::path result() const { return root_ / "result.h5"; }
-  /// What the worker writes until the result is complete.
+  /// Written by the worker until the result is complete.
   [[nodiscard]] std::filesystem::path partial_result() const { return root_ / "result.h5.partial"; }
 
  private:

@@ -21,7 +21,7 @@ JobInserter::JobInserter(Database& database)
 std::int64_t JobInserter::insert(v1::Job job, const JobEntry& entry) {
   job.set_state(v1::PENDING);
   *job.mutable_create_time() = google::protobuf::util::TimeUtil::GetCurrentTime();
-  // Taken out, so that the bytes are made without a copy of it.
+  // Removed temporarily, so that the bytes are made without copying it.
   const std::unique_ptr<v1::Case> submitted(job.release_case_());
   const std::string bytes = job_bytes(job);
   const std::string case_bytes = submitted ? submitted->SerializeAsString() : "";

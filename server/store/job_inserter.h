@@ -10,15 +10,15 @@
 
 namespace cellcrush::store {
 
-/// What the journal notes of a new job beside the job itself.
+/// What the journal stores about a new job beside the job itself.
 struct JobEntry {
-  std::string request_id;  ///< empty: none
+  std::string request_id;  ///< empty: no id
   std::string request_hash;
-  std::optional<std::int64_t> submission;  ///< the first job that is submitted with it; nothing: it is the first
-  std::int64_t element_steps = 0;          ///< elements times steps of its run
+  std::optional<std::int64_t> submission;  ///< first job submitted with it; nothing: this one
+  std::int64_t element_steps = 0;          ///< elements times steps of the run
 };
 
-/// Adds jobs to the journal, PENDING and with their first event. Prepared once for many. Lives within a transaction.
+/// Adds PENDING jobs with their first event to the journal. Prepares its statements once. Lives within a transaction.
 class JobInserter {
  public:
   explicit JobInserter(Database& database);

@@ -10,10 +10,10 @@
 namespace cellcrush::store {
 namespace {
 
-// A batch is read with other readers kept out; between two of them these have their turn.
+// Reading a batch locks out other readers, which get their turn between two batches.
 constexpr int kBatch = 200;
 constexpr std::size_t kBatchBytes = 4'000'000;
-// Numbers that one statement searches.
+// Numbers searched by one statement.
 constexpr std::int64_t kWindow = 100'000;
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace {
 
 using Step = std::pair<v1::JobState, v1::JobState>;
 
-// Every change that there is.
+// All allowed transitions.
 constexpr std::array<Step, 15> kSteps = {{
     {v1::PENDING, v1::RUNNING},
     {v1::PENDING, v1::CANCELLED},

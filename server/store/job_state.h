@@ -4,10 +4,10 @@
 
 namespace cellcrush::store {
 
-/// Whether a job in state `from` may go to state `to`.
+/// Whether a job may change from state `from` to state `to`.
 bool may_follow(v1::JobState from, v1::JobState to);
 
-/// Whether no state follows.
+/// Whether the state is final.
 bool is_terminal(v1::JobState state);
 
 }  // namespace cellcrush::store

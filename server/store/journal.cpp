@@ -36,7 +36,7 @@ void apply(const StateChange& change, v1::Job& job) {
 
 }  // namespace
 
-/// Beside a write that takes gathered samples, until they are durable or given back.
+/// Marks that a writer holds gathered samples, until they are durable or given back.
 class Journal::Taking {
  public:
   explicit Taking(Journal& journal) : journal_(journal) {
@@ -168,7 +168,7 @@ void Journal::commit_gathered_when_due() {
       commit_samples();
       failing = false;
     } catch (const std::exception& error) {
-      // The samples were given back and are tried again; the same failure is told once.
+      // The samples were given back and are retried; the same failure is logged once.
       if (!failing) spdlog::error("Samples cannot be saved: {}", error.what());
       failing = true;
     }
@@ -180,7 +180,7 @@ void Journal::commit_samples() {
     const MutexLock lock(gather_mutex_);
     if (gathered_.empty() && takings_ == 0) return;
   }
-  // What another writer has taken is durable once this one had its turn.
+  // Samples taken by another writer are durable once this write has had its turn.
   Gathered samples;
   const Taking taking(*this);
   writes_.run(

@@ -21,19 +21,18 @@ class JournalCheck {
   JournalFindings run() {
     require_known_version(database_);
     database_.execute("BEGIN");
-    // A damaged page ends one look and not the others.
-    for (const auto look :
-         {&JournalCheck::look_at_pages, &JournalCheck::look_at_references, &JournalCheck::look_at_jobs,
-          &JournalCheck::look_at_events, &JournalCheck::look_at_meshes, &JournalCheck::look_at_sweeps})
-      attempt(look);
+    // A damaged page stops one check and not the others.
+    for (const auto check : {&JournalCheck::check_pages, &JournalCheck::check_references, &JournalCheck::check_jobs,
+                             &JournalCheck::check_events, &JournalCheck::check_meshes, &JournalCheck::check_sweeps})
+      attempt(check);
     database_.execute("ROLLBACK");
     return std::move(found_);
   }
 
  private:
-  void attempt(void (JournalCheck::*look)()) {
+  void attempt(void (JournalCheck::*check)()) {
     try {
-      (this->*look)();
+      (this->*check)();
     } catch (const ServiceError& error) {
       if (error.kind() != ServiceError::Kind::data_loss) throw;
       add(error.what());
@@ -50,21 +49,21 @@ class JournalCheck {
         name_of(job) + "`.");
   }
 
-  void look_at_pages() {
+  void check_pages() {
     Statement read(database_, "PRAGMA integrity_check");
     while (read.step()) {
       if (read.bytes(0) != "ok") add("journal.sqlite is damaged: " + read.bytes(0) + ". Restore a backup.");
     }
   }
 
-  void look_at_references() {
+  void check_references() {
     Statement read(database_, "PRAGMA foreign_key_check");
     while (read.step()) {
       add("A row of " + read.bytes(0) + " refers to a missing row of " + read.bytes(2) + ". Restore a backup.");
     }
   }
 
-  void look_at_jobs() {
+  void check_jobs() {
     Statement read(database_,
                    "SELECT number, state, job, submitted_case, last_sequence, "
                    "(SELECT MAX(sequence) FROM events WHERE events.job = jobs.number) FROM jobs ORDER BY number");
@@ -82,7 +81,7 @@ class JournalCheck {
     }
   }
 
-  void look_at_events() {
+  void check_events() {
     Statement read(database_, "SELECT job, sequence, kind, payload FROM events");
     while (read.step()) {
       const bool whole = read.integer(2) == kStateEvent ? v1::Job().ParseFromString(read.bytes(3))
@@ -91,14 +90,14 @@ class JournalCheck {
     }
   }
 
-  void look_at_meshes() {
+  void check_meshes() {
     Statement read(database_, "SELECT job, mesh FROM meshes");
     while (read.step()) {
       if (!v1::Mesh().ParseFromString(read.bytes(1))) add_row("The mesh", read.integer(0));
     }
   }
 
-  void look_at_sweeps() {
+  void check_sweeps() {
     if (journal_version(database_) < kVersionWithSweeps) return;
     Statement sweeps(database_, "SELECT number, sweep FROM sweeps");
     while (sweeps.step()) {

@@ -1,4 +1,4 @@
-// How jobs come into the journal and leave it.
+// How jobs are added to the journal and deleted from it.
 #include <utility>
 
 #include "access/scope.h"
@@ -76,7 +76,7 @@ void Journal::note_folders_removed(const std::vector<std::int64_t>& jobs) {
   });
 }
 
-// What a version without owners made has none, and stays that of whoever calls locally.
+// A job of a version without owners has none, and stays with local callers.
 std::optional<std::int64_t> Journal::find_request(const std::string& collection, const std::string& owner,
                                                   const std::string& request_id, const std::string& request_hash) {
   if (request_id.empty()) return std::nullopt;

@@ -54,7 +54,7 @@ void end_job(Database& database, DamagedJob& row, std::int64_t service_seconds) 
   const auto now = google::protobuf::util::TimeUtil::GetCurrentTime();
   if (!row.job.has_create_time()) *row.job.mutable_create_time() = now;
   *row.job.mutable_end_time() = now;
-  // Nothing comes behind the event of a job's end.
+  // No event follows that of a job's end.
   if (!had_ended) {
     Statement insert(database, "INSERT INTO events (job, sequence, kind, payload) VALUES (?1, ?2, ?3, ?4)");
     insert.bind(1, row.number).bind(2, ++row.last_sequence).bind(3, kStateEvent);

@@ -20,83 +20,82 @@
 
 namespace cellcrush::store {
 
-/// A job as the journal has it: name and case filled in, progress not.
+/// A job as stored, with name and case but without progress.
 struct StoredJob {
   std::int64_t number = 0;
   v1::Job job;
   std::int64_t last_sequence = 0;
 };
 
-/// Samples of a job that follow each other.
+/// Consecutive samples of a job.
 struct StoredSamples {
   std::vector<v1::Sample> samples;
-  std::int64_t last_sequence = 0;  ///< of the last of them; 0 without any
-  bool has_more = false;           ///< whether others come behind them
+  std::int64_t last_sequence = 0;  ///< of the last sample; 0 if there is none
+  bool has_more = false;           ///< whether more follow
 };
 
-/// Reads the journal beside its writer; sees what is committed. Thread-safe. Failures throw ServiceError: data_loss for
-/// an event that cannot be read.
+/// Reads the journal beside its writer; sees committed data. Thread-safe. Failures throw ServiceError: data_loss for an
+/// unreadable event.
 class JournalReader {
  public:
-  /// REQUIRES: a Journal has been opened on the same path.
+  /// REQUIRES: a Journal was opened on the same path.
   explicit JournalReader(const std::filesystem::path& path);
 
   [[nodiscard]] const Epoch& epoch() const { return epoch_; }
 
   std::optional<StoredJob> find_job(std::int64_t job);
 
-  /// Whether there is such a job.
+  /// Whether the job exists.
   bool has_job(std::int64_t job);
 
-  /// Up to `limit` of the wanted jobs behind the one with the number `after` (0: from the beginning), in the order of
-  /// their numbers or, with `newest_first`, against it. Ends behind the one with which they have more than
-  /// `most_bytes`. Throws ServiceError (cancelled) once `given_up` says that nobody waits any more.
+  /// Up to `limit` of the selected jobs after number `after` (0: from the start), in ascending order of their numbers,
+  /// or descending with `newest_first`. Ends with the job that makes the total exceed `most_bytes`. Throws ServiceError
+  /// (cancelled) once `given_up` returns true.
   std::vector<StoredJob> list_jobs(
       const JobFilter& wanted, bool newest_first, std::int64_t after, int limit,
       std::size_t most_bytes = std::numeric_limits<std::size_t>::max(),
       const std::function<bool()>& given_up = [] { return false; });
 
-  /// Jobs that have ended, and what they take.
+  /// Totals of the ended jobs.
   EndedTotals ended_totals();
 
-  /// Up to `limit` jobs that ended behind `after`, of which ended_at and job count, in that order.
+  /// Up to `limit` jobs that ended after `after`, ordered by ended_at and job.
   std::vector<EndedJob> ended_jobs(const EndedJob& after, int limit);
 
-  /// Up to `limit` jobs that have ended and of which Journal::set_measured is to be told.
+  /// Up to `limit` ended jobs whose size is not recorded yet (Journal::set_measured).
   std::vector<std::int64_t> jobs_to_measure(int limit);
 
-  /// What the owner's jobs take: rows in the journal, and of those that have ended the results.
+  /// Size of the owner's jobs: journal rows, and the results of those that have ended.
   std::int64_t bytes_of_owner(const std::string& owner);
 
-  /// Numbers of the jobs whose folders are still to be removed.
+  /// Numbers of the jobs whose folders still have to be deleted.
   std::vector<std::int64_t> deleted_jobs();
 
-  /// The jobs in a state, oldest first, with what the scheduler asks of them.
+  /// The jobs in a state, oldest first, with what the scheduler needs.
   std::vector<QueuedJob> queued_jobs(v1::JobState state);
 
-  /// The same of one job; nothing unless it is in that state.
+  /// The same for one job; nothing unless it is in that state.
   std::optional<QueuedJob> queued_job(std::int64_t job, v1::JobState state);
 
-  /// States (without their cases) and samples behind `after`, in order. Ends before one that cannot be read; throws
-  /// data_loss when that is the first.
+  /// States (without their cases) and samples after `after`, in order. Ends before an unreadable one; throws data_loss
+  /// if that is the first.
   std::vector<v1::JobEvent> events(std::int64_t job, std::int64_t after, int limit);
 
-  /// The samples behind the event `after`, in order. Ends before one that cannot be read; throws data_loss when that is
-  /// the first.
+  /// The samples after event `after`, in order. Ends before an unreadable one; throws data_loss if that is the first.
   StoredSamples samples(std::int64_t job, std::int64_t after = 0, PageRoom room = {});
 
   /// Step of the newest sample; -1 before the first.
   std::int64_t last_sampled_step(std::int64_t job);
 
-  /// Nothing while no worker has sent it, or when it cannot be read.
+  /// Nothing until a worker has sent it, or if it cannot be read.
   std::optional<v1::Mesh> mesh(std::int64_t job);
 
  private:
-  /// Of a row with number, job, submitted_case, last_sequence, state. What was damaged since the journal was opened is
-  /// shown as such.
+  /// Of a row with number, job, submitted_case, last_sequence, state. A row damaged since the journal was opened is
+  /// presented as such.
   static StoredJob read_job(const Statement& row);
 
-  /// Numbers between these two, both excluded.
+  /// Numbers between these two, exclusive.
   struct Range {
     std::int64_t low = 0;
     std::int64_t high = 0;

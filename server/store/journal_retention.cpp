@@ -1,4 +1,4 @@
-// How long what has ended is kept: the clock that counts it, what it takes, and sweeps that leave the journal.
+// Retention of ended jobs: the service clock, their sizes, and the deletion of sweeps.
 #include <string>
 
 #include "error.h"

@@ -59,7 +59,7 @@ CREATE TABLE deleted_jobs (
 PRAGMA user_version = 2;
 )sql";
 
-// From version 2 to 3. Each column has a value that is right for what is there: jobs of a sweep were submitted with its
+// From version 2 to 3. Each column has the right value for existing rows: jobs of a sweep were submitted with its
 // first.
 constexpr const char* kQueueColumns = R"sql(
 ALTER TABLE jobs ADD COLUMN priority INTEGER NOT NULL DEFAULT 0;
@@ -73,7 +73,7 @@ UPDATE jobs SET submission = (
 PRAGMA user_version = 3;
 )sql";
 
-// From version 3 to 4. The columns that stand in the messages are filled in by fill_in_search_columns.
+// From version 3 to 4. fill_in_search_columns fills the columns whose values are inside the messages.
 constexpr const char* kSearchColumns = R"sql(
 ALTER TABLE jobs ADD COLUMN owner TEXT NOT NULL DEFAULT '';
 ALTER TABLE jobs ADD COLUMN title TEXT NOT NULL DEFAULT '';
@@ -114,7 +114,7 @@ CREATE INDEX job_labels_by_job ON job_labels(job);
 CREATE INDEX sweeps_in_deletion ON sweeps(number) WHERE deleting = 1;
 )sql";
 
-// A daemon that was killed has noted less than it served: a job that ended since says how far it was.
+// A killed daemon has recorded too little time. The latest end of a job then shows how far the clock was.
 std::int64_t read_service_clock(Database& database) {
   Statement read(database,
                  "SELECT MAX(seconds, COALESCE((SELECT MAX(ended_at) FROM jobs WHERE ended_at IS NOT NULL), 0)) "

@@ -13,11 +13,11 @@ inline constexpr int kSampleEvent = 2;
 /// The first version that has sweeps.
 inline constexpr std::int64_t kVersionWithSweeps = 2;
 
-/// Makes the tables of a new journal, and those that an earlier version lacks. Returns the seconds that the service
-/// clock has counted (service_clock.h). Throws ServiceError (failed_precondition) for a journal of a later version.
+/// Creates the tables of a new journal, and those that an earlier version lacks. Returns the seconds counted by the
+/// service clock (service_clock.h). Throws ServiceError (failed_precondition) for a journal of a later version.
 std::int64_t prepare_journal(Database& database);
 
-/// Of its tables; 0 for one without any.
+/// Version of the tables; 0 without tables.
 std::int64_t journal_version(Database& database);
 
 /// Throws ServiceError (failed_precondition) for a journal of a later version.

@@ -1,4 +1,4 @@
-// How sweeps come into the journal, and what is done to several of their jobs at once.
+// How sweeps are added to the journal, and operations on several of their jobs.
 #include <google/protobuf/util/time_util.h>
 
 #include <utility>
@@ -10,7 +10,7 @@
 namespace cellcrush::store {
 namespace {
 
-// Sweeps keep what was asked for; their jobs and states are looked up.
+// A sweep stores its request; its jobs and states are looked up.
 std::string sweep_bytes(v1::Sweep sweep) {
   sweep.clear_name();
   sweep.clear_jobs();
@@ -18,7 +18,7 @@ std::string sweep_bytes(v1::Sweep sweep) {
   return sweep.SerializeAsString();
 }
 
-// What becomes of a job that waits when its sweep has failed too often.
+// The outcome of a waiting job whose sweep has failed too often.
 StateChange stopped_by_failures(std::int64_t sweep, std::size_t failed, std::int64_t limit) {
   const std::string name = sweep_name_of(sweep);
   StateChange out;
@@ -29,10 +29,10 @@ StateChange stopped_by_failures(std::int64_t sweep, std::size_t failed, std::int
   return out;
 }
 
-// An ended job of a sweep, and the job that is to take its place.
+// An ended job of a sweep, and its replacement.
 struct Retry {
   v1::Job job;
-  QueuedJob queued;  // of the ended one
+  QueuedJob queued;  // of the ended job
 };
 
 std::vector<Retry> jobs_to_retry(Database& database, std::int64_t sweep) {

@@ -10,9 +10,9 @@
 namespace cellcrush::store {
 namespace {
 
-// One transaction moves so many pages of 4 KiB.
+// Number of 4 KiB pages that one transaction moves.
 constexpr const char* kSomePages = "PRAGMA incremental_vacuum(512)";
-// How long a checkpoint waits for readers and writers, which wait for it meanwhile.
+// How long a checkpoint waits for readers and writers, which it blocks meanwhile.
 constexpr int kCheckpointPatience = 200;
 
 constexpr std::int64_t kLargestRewritten = 256 * 1024 * 1024;
@@ -61,7 +61,7 @@ void JournalUpkeep::give_back_pages(const std::stop_token& stop) {
       Statement vacuum(database_, kSomePages);
       while (vacuum.step()) continue;
     }
-    // A journal that an earlier version made keeps its pages for itself.
+    // A journal of an earlier version cannot return its pages.
     if (value_of(database_, "PRAGMA page_count") >= before) return;
     give_back_wal();
   }
@@ -73,7 +73,7 @@ void JournalUpkeep::give_back_wal() {
   if (none || static_cast<std::int64_t>(size) <= kKeptBytes) return;
   database_.set_patience(std::chrono::milliseconds(kCheckpointPatience));
   {
-    // Says whether somebody was in the way; then the next time counts.
+    // Returns whether somebody was in the way; the next interval then retries.
     Statement checkpoint(database_, "PRAGMA wal_checkpoint(TRUNCATE)");
     while (checkpoint.step()) continue;
   }

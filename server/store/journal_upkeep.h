@@ -9,20 +9,19 @@
 
 namespace cellcrush::store {
 
-/// Makes the journal of an earlier version, unless it is larger than 256 MiB, one whose free pages can be given back:
-/// it is written again, which takes a second or two. What fails is named in the log and does no harm. REQUIRES: no
-/// other connection is open.
+/// Enables the return of free pages in a journal of an earlier version, unless it exceeds 256 MiB. This rewrites the
+/// file and takes a second or two. A failure is logged and harmless. REQUIRES: no other connection is open.
 void prepare_giving_back(Database& database);
 
-/// Gives back what a journal needs no more, from a thread of its own with a connection of its own: pages that deletions
-/// left free, in pieces that hold writers up for a moment only, and a WAL that a burst has made long. What a reader or
-/// writer is in the way of is tried again at the next time. It never throws.
+/// Returns unused space of a journal to the disk, on a thread and connection of its own. Pages left free by deletions
+/// go in pieces that hold up writers only for a moment; a WAL that a burst has extended is truncated. An operation
+/// blocked by a reader or writer is retried at the next interval. Never throws.
 class JournalUpkeep {
  public:
-  /// The WAL and the free pages are left alone below this.
+  /// Smaller WALs and free areas are left alone.
   static constexpr std::int64_t kKeptBytes = 16 * 1024 * 1024;
 
-  /// REQUIRES: a Journal has been opened on the path, and stays open as long as this lives.
+  /// REQUIRES: a Journal is open on the path for as long as this lives.
   JournalUpkeep(const std::filesystem::path& path, std::chrono::milliseconds interval);
   JournalUpkeep(const JournalUpkeep&) = delete;
   JournalUpkeep& operator=(const JournalUpkeep&) = delete;

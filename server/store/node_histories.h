@@ -9,11 +9,11 @@
 
 namespace cellcrush::store {
 
-/// Writes /nodes/{id}/{ux_mm, uy_mm, rotation_rad} of a result: the motion of a frame's watched nodes, a row a sample,
-/// beside /history. Nothing is made for samples without watched nodes. Failures throw ServiceError.
+/// Writes /nodes/{id}/{ux_mm, uy_mm, rotation_rad} of a result: the motion of a frame's watched nodes, one row per
+/// sample, parallel to /history. Writes nothing without watched nodes. Failures throw ServiceError.
 class NodeHistories {
  public:
-  /// Appends the rows of some samples, all of which watch the same nodes. `file` is the open result.
+  /// Appends the rows of samples with the same watched nodes. `file` is the open result.
   void append(hid_t file, std::span<const v1::Sample> samples);
   void close();
 

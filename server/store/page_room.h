@@ -5,13 +5,13 @@
 
 namespace cellcrush::store {
 
-/// How much of a long list is read at once: so many entries, and no more than take so many bytes. By default all of it.
+/// How much of a long list to read at once: limits of entries and bytes. Default no limit.
 class PageRoom {
  public:
   PageRoom() = default;
   PageRoom(int entries, std::size_t bytes) : entries_(entries), bytes_(bytes) {}
 
-  /// Takes an entry of that many bytes; false when there is no room for it. The first one always has some.
+  /// Adds an entry of this size; false if there is no room. There is always room for the first.
   bool take(std::size_t bytes) {
     if (!is_empty_ && (entries_ == 0 || bytes > bytes_)) return false;
     is_empty_ = false;

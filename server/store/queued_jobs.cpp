@@ -1,4 +1,4 @@
-// The jobs that wait or run, with what the scheduler asks of them.
+// The waiting and running jobs, with what the scheduler needs.
 #include <string>
 
 #include "store/journal_reader.h"
@@ -11,7 +11,7 @@ constexpr const char* kSelectQueued =
     "sweeps.max_parallel, jobs.owner FROM jobs LEFT JOIN sweep_jobs ON sweep_jobs.job = jobs.number "
     "LEFT JOIN sweeps ON sweeps.number = sweep_jobs.sweep WHERE jobs.state = ?1 ";
 
-// Of a job without a sweep the last two are null and read as 0.
+// Without a sweep the last two columns are null and read as 0.
 QueuedJob read_queued(const Statement& row) {
   return {row.integer(0), row.integer(1), static_cast<int>(row.integer(2)),
           row.integer(3), row.integer(4), static_cast<int>(row.integer(5)),

@@ -17,7 +17,7 @@ std::optional<std::int64_t> number_in(std::string_view collection, std::string_v
   const std::string_view digits = name.substr(collection.size());
   std::int64_t number = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-  // Only the one way of writing a number is a name: no sign, no leading zero.
+  // A number has exactly one valid form: no sign, no leading zero.
   if (error != std::errc() || number < 1 || std::to_string(number) != digits) return std::nullopt;
   return number;
 }

@@ -26,7 +26,7 @@ void copy_whole(const std::filesystem::path& backup, const BackupFile& wanted, c
   }
 }
 
-// What a backup has no checkpoints of begins again.
+// Jobs restart, since a backup contains no checkpoints.
 void settle_jobs(const std::filesystem::path& path, const std::string& created) {
   const std::string why = "Restarted from step 0: the data was restored from the backup of " + created +
                           ", and backups contain no checkpoints.";
@@ -35,7 +35,7 @@ void settle_jobs(const std::filesystem::path& path, const std::string& created) 
   for (const auto state : {v1::PENDING, v1::RUNNING, v1::SUSPENDED}) {
     for (const auto& job : reader.queued_jobs(state)) {
       const auto stored = reader.find_job(job.job);
-      // One that waits for its first worker has nothing to lose.
+      // A job that waits for its first worker loses nothing.
       if (stored && (state == v1::RUNNING || stored->job.attempt() > 0)) journal.begin_again(job.job, why);
     }
   }

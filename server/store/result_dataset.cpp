@@ -5,7 +5,7 @@
 namespace cellcrush::store {
 namespace {
 
-constexpr double kGreatestDeflation = 1032.0;           // bytes that one byte of deflate can stand for
+constexpr double kGreatestDeflation = 1032.0;           // bytes that one deflated byte can represent
 constexpr double kMostChunkBytes = 16.0 * 1024 * 1024;  // the writer's have half a MiB
 
 double product(const std::vector<hsize_t>& extents) {
@@ -13,13 +13,13 @@ double product(const std::vector<hsize_t>& extents) {
                          [](double so_far, hsize_t extent) { return so_far * static_cast<double>(extent); });
 }
 
-// A soft link could lead round in a circle, an external one to any file of this machine.
+// A soft link could form a cycle; an external one could name any file.
 bool is_hard_link(hid_t group, const std::string& name) {
   H5L_info_t info{};
   return H5Lget_info(group, name.c_str(), &info, H5P_DEFAULT) >= 0 && info.type == H5L_TYPE_HARD;
 }
 
-// Whether the filters are those of the writer; HDF5 would load others from plugins.
+// Whether the filters are the writer's; HDF5 would load others from plugins.
 bool has_known_filters(hid_t properties) {
   const int count = H5Pget_nfilters(properties);
   for (int i = 0; i < count; ++i) {
@@ -33,7 +33,7 @@ bool has_known_filters(hid_t properties) {
   return count >= 0 && count <= 2;
 }
 
-// Chunks have a place in this file; virtual datasets and external storage have theirs in others.
+// Chunks lie in this file; virtual datasets and external storage lie in others.
 bool has_known_storage(hid_t properties, int rank, double item_bytes) {
   std::vector<hsize_t> chunk(static_cast<std::size_t>(rank));
   return H5Pget_layout(properties) == H5D_CHUNKED && H5Pget_external_count(properties) == 0 &&
@@ -70,7 +70,7 @@ Hdf5Handle open_result_dataset(hid_t file, const std::string& group, const std::
   Hdf5Handle out(H5Dopen2(folder.id(), name.c_str(), H5P_DEFAULT), H5Dclose, what);
   const Hdf5Handle properties(H5Dget_create_plist(out.id()), H5Pclose, what);
   const auto item_bytes = static_cast<double>(H5Tget_size(type));
-  // In this order: to ask a virtual dataset for its shape opens the files it is made of.
+  // In this order: querying the shape of a virtual dataset opens its source files.
   if (!has_known_storage(properties.id(), rank, item_bytes) || !is_of_type(out.id(), type))
     throw damaged_result(path + " has a different storage layout from the one written");
   const auto shape = shape_of(out.id());

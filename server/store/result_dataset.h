@@ -7,7 +7,7 @@
 
 namespace cellcrush::store {
 
-/// What is said of a result that is not as ResultWriter leaves it: the disk, or somebody, has changed it.
+/// The error message for a result that differs from ResultWriter's output: the disk or somebody has changed it.
 ServiceError damaged_result(const std::string& what);
 
 /// Opens the dataset `name` of the group `group` of a result and holds it to what ResultWriter makes, before a number

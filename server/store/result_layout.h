@@ -8,7 +8,7 @@
 
 namespace cellcrush::store {
 
-/// A column of /history: its dataset's name and the field of the sample it holds. What a sample lacks is not a number.
+/// A column of /history: the name of its dataset and its field of the sample. A missing value is NaN.
 struct HistoryColumn {
   const char* name;
   double (*get)(const v1::Sample& sample);
@@ -22,7 +22,7 @@ constexpr HistoryColumn sample_column(const char* name) {
           [](v1::Sample& sample, double value) { (sample.*kSet)(value); }};
 }
 
-/// The column of a field of the sample's front, which not every sample has.
+/// The column of a field of the sample's front, which may be absent.
 template <double (v1::Front::*kGet)() const, void (v1::Front::*kSet)(double)>
 constexpr HistoryColumn front_column(const char* name) {
   return {name,
@@ -34,7 +34,7 @@ constexpr HistoryColumn front_column(const char* name) {
           }};
 }
 
-/// All columns of /history; result_format.md says what they mean.
+/// All columns of /history, documented in result_format.md.
 inline constexpr std::array<HistoryColumn, 25> kHistoryColumns = {{
     sample_column<&v1::Sample::time_s, &v1::Sample::set_time_s>("time_s"),
     sample_column<&v1::Sample::travel_mm, &v1::Sample::set_travel_mm>("travel_mm"),
@@ -68,10 +68,10 @@ inline constexpr std::array<HistoryColumn, 25> kHistoryColumns = {{
     front_column<&v1::Front::wall_fraction_behind, &v1::Front::set_wall_fraction_behind>("front_wall_fraction_behind"),
 }};
 
-/// Rows of a chunk of /history, and rows that the writer gathers before it writes them.
+/// Rows per chunk of /history; the writer buffers as many.
 inline constexpr int kHistoryChunkRows = 256;
 
-/// Particles or elements in a chunk of a frame, at most.
+/// Maximum number of particles or elements in a chunk of a frame.
 inline constexpr int kFrameChunkItems = 65536;
 
 }  // namespace cellcrush::store

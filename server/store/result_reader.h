@@ -9,20 +9,20 @@
 
 namespace cellcrush::store {
 
-/// Reads one complete result.h5 (result_format.md). A file whose bytes have changed since it was written is refused
-/// before HDF5 sees it (result_seal.h), and a dataset that is not as ResultWriter makes it before it is read
-/// (result_dataset.h). Not thread-safe. Failures throw ServiceError.
+/// Reads one complete result.h5 (result_format.md). Refuses a file whose bytes have changed since it was written before
+/// HDF5 opens it (result_seal.h), and a dataset that ResultWriter did not write before reading it (result_dataset.h).
+/// Not thread-safe. Failures throw ServiceError.
 class ResultReader {
  public:
   explicit ResultReader(const std::filesystem::path& path);
 
-  /// Attribute of the file.
+  /// An attribute of the file.
   [[nodiscard]] std::string text_attribute(const char* name) const;
-  /// All samples; step and contact_count are not in the file and stay 0.
+  /// All samples; step and contact_count are not stored and stay 0.
   [[nodiscard]] std::vector<v1::Sample> history() const;
   [[nodiscard]] std::vector<double> frame_times() const;
   [[nodiscard]] std::vector<double> frame_strains() const;
-  /// Throws ServiceError (data_loss) when there is none of that index.
+  /// Throws ServiceError (data_loss) if no frame has that index.
   [[nodiscard]] v1::FieldFrame frame(int index) const;
 
  private:

@@ -37,7 +37,7 @@ class SealedFile {
   SealedFile(const SealedFile&) = delete;
   SealedFile& operator=(const SealedFile&) = delete;
 
-  // What the seal of these bytes is.
+  // The seal that these bytes should have.
   [[nodiscard]] std::string seal() const {
     std::vector<unsigned char> part(kPart);
     std::uint64_t crc = 0;
@@ -64,7 +64,7 @@ class SealedFile {
     if (count != static_cast<ssize_t>(seal.size())) throw_file_error(path_, "written", count < 0 ? errno : EIO);
   }
 
-  // Changes whenever the file does, but for changes that follow each other faster than the clock of files ticks.
+  // Changes whenever the file does, unless two changes fall within one tick of the file system's clock.
   using Identity = std::array<std::int64_t, 5>;
   [[nodiscard]] Identity identity() const {
     struct stat status {};
@@ -86,10 +86,10 @@ class SealedFile {
   int descriptor_;
 };
 
-// Whether the file was not written to for so long that a change would show in its identity.
+// Whether the last write is old enough that a later change would alter its identity.
 bool is_settled(const SealedFile::Identity& file) { return std::time(nullptr) - file[3] >= kSettled; }
 
-// The files that were found whole, the last of them.
+// The most recent files found whole.
 class WholeFiles {
  public:
   bool contains(const SealedFile::Identity& file) {

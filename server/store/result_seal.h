@@ -4,9 +4,9 @@
 
 namespace cellcrush::store {
 
-// A result begins with a block that HDF5 leaves alone (its user block) and readers skip. It holds
-// "CELLCRUSH RESULT 1 CRC-32 SIZE\n", of all bytes behind it, and zeros. HDF5 1.10 trusts what it reads and may crash
-// over a damaged file; so no file is given to it before its bytes are known to be those that were written.
+// A result starts with a block that HDF5 ignores (its user block). It holds "CELLCRUSH RESULT 1 CRC-32 SIZE
+// " of all following bytes, padded with zeros. HDF5 1.10 trusts its input and may crash on a damaged file. Therefore it
+// receives a file only after its bytes are known to be unchanged.
 
 /// Size of the block.
 inline constexpr int kSealBytes = 512;
@@ -15,21 +15,21 @@ inline constexpr int kSealBytes = 512;
 void seal_result(const std::filesystem::path& path);
 
 enum class Seal {
-  whole,    ///< that of the bytes behind it
-  missing,  ///< an earlier version wrote the file without one
-  broken,   ///< of other bytes
+  whole,    ///< matches the bytes that follow
+  missing,  ///< written without one by an earlier version
+  broken,   ///< does not match
 };
 
-/// Reads the file and holds it to its seal. One that was found whole is not read again as long as it is not written to.
-/// Throws ServiceError: internal when it cannot be read or is no regular file. Thread-safe.
+/// Reads the file and compares it with its seal. A file found whole is not read again until it is written to. Throws
+/// ServiceError: internal if it cannot be read or is not a regular file. Thread-safe.
 Seal read_seal(const std::filesystem::path& path);
 
-/// Throws ServiceError: failed_precondition when an earlier version wrote the file without one, data_loss unless the
-/// seal is that of the bytes behind it, internal when they cannot be read. A file that was found whole is not read
-/// again as long as it is not written to. Thread-safe.
+/// Throws ServiceError: failed_precondition for a file without a seal, written by an earlier version; data_loss unless
+/// the seal matches the bytes that follow; internal if they cannot be read. A file found whole is not read again until
+/// it is written to. Thread-safe.
 void check_seal(const std::filesystem::path& path);
 
-/// The same for whoever needs the bytes alone: a file without a seal passes.
+/// The same for callers that need the bytes only: a file without a seal passes.
 void check_seal_if_any(const std::filesystem::path& path);
 
 }  // namespace cellcrush::store

@@ -14,7 +14,7 @@
 
 namespace cellcrush::store {
 
-/// What a result says of itself, beside its numbers.
+/// Metadata of a result.
 struct ResultHeader {
   v1::Case submitted_case;
   std::string solver_revision;
@@ -23,19 +23,19 @@ struct ResultHeader {
   double time_step_s = 0.0;
   std::vector<std::string> modelled;
   bool complete = true;   ///< whether the run reached its end
-  std::string failure{};  ///< why the run failed; empty when it did not
+  std::string failure{};  ///< why the run failed; empty if it did not
 };
 
 /// Writes one result.h5 (result_format.md). Not thread-safe. Failures throw ServiceError: storage_full or internal.
 class ResultWriter {
  public:
-  /// Begins a new file; one that is there is replaced.
+  /// Creates a new file, replacing an existing one.
   ResultWriter(const std::filesystem::path& path, const v1::Mesh& mesh);
 
   void add_sample(const v1::Sample& sample);
-  /// Frame 0 comes first: its positions are the mesh's.
+  /// Frame 0 comes first; its positions are those of the mesh.
   void add_frame(const v1::FieldFrame& frame);
-  /// Writes what is gathered and the attributes, closes the file and seals it (result_seal.h). Nothing may follow.
+  /// Writes the buffered rows and the attributes, closes the file and seals it (result_seal.h). Must be the last call.
   void finish(const ResultHeader& header, const v1::Summary& summary);
 
  private:
@@ -57,7 +57,7 @@ class ResultWriter {
   bool has_positions_ = false;
 };
 
-/// Bytes of a result's datasets before compression, with room for the file's own structure.
+/// Size of a result's datasets before compression, plus an allowance for the structure of the file.
 std::int64_t predicted_result_bytes(std::int64_t particles, std::int64_t elements, std::int64_t samples,
                                     std::int64_t frames);
 

@@ -8,10 +8,10 @@
 
 namespace cellcrush::store {
 
-/// A title as the journal compares it: ASCII letters in lower case, others as they are.
+/// A title as the journal compares it: ASCII letters in lower case, all else unchanged.
 std::string folded_title(const std::string& title);
 
-/// Writes the labels of a job where ListJobs looks for them. Prepared once for many. Lives within a transaction.
+/// Writes the labels of a job to the index of ListJobs. Prepares its statements once. Lives within a transaction.
 class LabelInserter {
  public:
   explicit LabelInserter(Database& database)
@@ -23,9 +23,9 @@ class LabelInserter {
   Statement insert_;
 };
 
-/// Fills in what version 4 of the journal keeps in columns beside the messages: owner, title and labels of each job,
-/// the bytes it takes, and for those that have ended the second 0 of the service clock; the owner of each sweep. A row
-/// whose message cannot be read keeps the defaults. Lives within a transaction. Throws ServiceError.
+/// Fills the columns that version 4 of the journal adds beside the messages: owner, title, labels and size of each job,
+/// the owner of each sweep, and second 0 of the service clock for ended jobs. A row with an unreadable message keeps
+/// the defaults. Lives within a transaction. Throws ServiceError.
 void fill_in_search_columns(Database& database);
 
 }  // namespace cellcrush::store

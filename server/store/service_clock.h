@@ -7,11 +7,11 @@
 
 namespace cellcrush::store {
 
-/// Seconds for which daemons have served a journal: runs on while one serves, by the machine's uptime, and stands still
-/// while none does. The wall clock does not move it, so that a clock that is set wrong makes nothing old. Thread-safe.
+/// Seconds during which daemons have served a journal. It advances with the machine's uptime while a daemon serves, and
+/// stands still otherwise. The wall clock does not affect it, so that a wrong clock makes nothing old. Thread-safe.
 class ServiceClock {
  public:
-  /// `before`: seconds served by earlier daemons.
+  /// `before`: seconds counted by earlier daemons.
   ServiceClock(std::int64_t before, Clocks::Source uptime)
       : before_(before), uptime_(std::move(uptime)), start_(uptime_()) {}
 

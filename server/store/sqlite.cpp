@@ -9,7 +9,7 @@
 namespace cellcrush::store {
 namespace {
 
-// An input or output error is what its errno says it is: SQLite gives SQLITE_FULL for some of its files only.
+// An I/O error means what its errno says: SQLite returns SQLITE_FULL for only some of its files.
 Shortage shortage_of(sqlite3* handle, int code) {
   switch (code & 0xFF) {
     case SQLITE_FULL: return Shortage::full_disk;
@@ -29,7 +29,7 @@ Shortage shortage_of(sqlite3* handle, int code) {
   }
 }
 
-// "PATH", or what stands for it.
+// "PATH", or its placeholder.
 std::string file_of(sqlite3* handle) {
   const char* path = handle != nullptr ? sqlite3_db_filename(handle, "main") : nullptr;
   return path != nullptr && *path != '\0' ? path : "The job journal";
@@ -65,11 +65,11 @@ Database::Database(const std::filesystem::path& path, Access access) {
   sqlite3_extended_result_codes(handle, 1);
   set_patience(kPatience);
   if (access == Access::shared) {
-    // Free pages can be given back (JournalUpkeep) in a file that was made for it.
+    // Only a file created with this setting can return free pages (JournalUpkeep).
     if (is_empty()) execute("PRAGMA auto_vacuum=INCREMENTAL;");
     idle_.clear();
-    // The log keeps its room when it is closed: the next start then needs none on a full disk. A journal_size_limit
-    // would cut it.
+    // The log keeps its size when closed, so that the next start needs no room on a full disk. A journal_size_limit
+    // would truncate it.
     int keep = 1;
     sqlite3_file_control(handle, "main", SQLITE_FCNTL_PERSIST_WAL, &keep);
     execute("PRAGMA journal_mode=WAL;");
@@ -123,7 +123,7 @@ Statement::Statement(Database& database, std::string_view sql, Reuse reuse)
   handle_.reset(handle);
 }
 
-// Without the reset it would hold its transaction open.
+// Without the reset its transaction would stay open.
 Statement::~Statement() {
   if (place_ == database_.idle_.end()) return;
   sqlite3_reset(handle_.get());
@@ -181,7 +181,7 @@ std::string Statement::bytes(int column) const {
 Transaction::Transaction(Database& database) : database_(database) { Statement(database_, "BEGIN IMMEDIATE").run(); }
 
 Transaction::~Transaction() {
-  // A failed commit may have rolled back already; there is nothing to do about a failing rollback.
+  // A failed commit may already have rolled back; a failing rollback cannot be handled.
   if (open_) sqlite3_exec(database_.raw(), "ROLLBACK", nullptr, nullptr, nullptr);
 }
 

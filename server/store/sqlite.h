@@ -14,30 +14,29 @@ struct sqlite3_stmt;
 
 namespace cellcrush::store {
 
-/// A connection to an SQLite file. Not thread-safe. Every failure throws ServiceError: with the shortage behind it
-/// (full disk, lock, no descriptors or memory), data_loss for a file that is no database or is damaged, otherwise
-/// internal.
+/// A connection to an SQLite file. Not thread-safe. Every failure throws ServiceError: with its shortage (full disk,
+/// lock, no descriptors or memory), data_loss for a damaged file or one that is not a database, otherwise internal.
 class Database {
  public:
-  /// How the file is opened; synchronous=FULL and foreign keys on in every case.
+  /// How to open the file; synchronous=FULL and foreign keys are always on.
   enum class Access {
-    shared,       ///< beside other connections, in WAL mode; makes the file where there is none
-    single_file,  ///< for a file that nobody else has open: once closed, it is complete without a WAL
+    shared,       ///< beside other connections, in WAL mode; creates a missing file
+    single_file,  ///< for a file that nobody else has open: complete without a WAL once closed
     read_only,    ///< changes nothing
   };
   explicit Database(const std::filesystem::path& path, Access access = Access::shared);
 
-  /// How long a statement waits for a lock of another connection before it fails.
+  /// How long a statement waits for another connection's lock before it fails.
   static constexpr std::chrono::milliseconds kPatience{10'000};
   void set_patience(std::chrono::milliseconds patience);
 
-  /// Copies what `source` holds now into this database, in one piece, while others write to `source`.
+  /// Copies the current contents of `source` into this database in one piece, while others write to `source`.
   void copy_from(Database& source);
 
-  /// Runs statements that give no rows.
+  /// Runs statements without result rows.
   void execute(const char* sql);
 
-  /// Number of the row that was inserted last.
+  /// Row number of the last insertion.
   [[nodiscard]] std::int64_t last_number() const;
 
   /// Whether a transaction is open: a failure may have ended it.
@@ -58,17 +57,16 @@ class Database {
   using Prepared = std::unique_ptr<sqlite3_stmt, Finalize>;
 
   std::unique_ptr<sqlite3, Close> handle_;
-  /// What was prepared before and nobody uses now, by its text: to parse that takes longer than most statements
-  /// themselves.
+  /// Unused prepared statements by text: parsing takes longer than running most statements.
   std::map<std::string, std::vector<Prepared>, std::less<>> idle_;
 };
 
-/// A prepared statement, which goes back to its database for the next one of the same text; parameters and columns
-/// count from 1 and 0, as in SQLite. The database outlives it.
+/// A prepared statement, returned to its database for reuse. Parameters count from 1 and columns from 0, as in SQLite.
+/// The database outlives it.
 class Statement {
  public:
   Statement(Database& database, std::string_view sql) : Statement(database, sql, Reuse::yes) {}
-  /// A text that a caller's request shapes is not kept: there is no bound on how many there are.
+  /// A statement whose text depends on a caller's request is not kept, since their number is unbounded.
   enum class Reuse { yes, no };
   Statement(Database& database, std::string_view sql, Reuse reuse);
   ~Statement();
@@ -80,9 +78,9 @@ class Statement {
   Statement& bind_blob(int parameter, const std::string& value);
   Statement& bind_null(int parameter);
 
-  /// Goes to the next row; false when there is none.
+  /// Advances to the next row; false at the end.
   bool step();
-  /// Runs a statement that gives no rows, and makes it ready for the next.
+  /// Runs a statement without result rows, and resets it.
   void run();
 
   [[nodiscard]] std::int64_t integer(int column) const;
@@ -91,11 +89,11 @@ class Statement {
  private:
   Database& database_;
   std::map<std::string, std::vector<Database::Prepared>, std::less<>>::iterator
-      place_;  ///< where it goes back to; the end: nowhere
+      place_;  ///< where it is returned; the end: nowhere
   Database::Prepared handle_;
 };
 
-/// A write transaction: rolled back unless it was committed.
+/// A write transaction, rolled back unless committed.
 class Transaction {
  public:
   explicit Transaction(Database& database);

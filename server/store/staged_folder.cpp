@@ -37,7 +37,7 @@ std::filesystem::path partial_of(const std::filesystem::path& place) {
   return place.parent_path() / ("." + place.filename().string() + ".partial");
 }
 
-// Without a slash at the end, which would hide the name.
+// Without a trailing slash, which would hide the name.
 std::filesystem::path absolute_place(const std::filesystem::path& given) {
   const auto place = std::filesystem::absolute(given).lexically_normal();
   return place.has_filename() ? place : place.parent_path();
@@ -82,7 +82,7 @@ StagedFolder::~StagedFolder() {
 
 void StagedFolder::publish() {
   if (syncfs(lock_) != 0) throw_file_error(partial_, "written", errno);
-  // Replaces an empty folder, and nothing else.
+  // Replaces an empty folder only.
   if (rename(partial_.c_str(), place_.c_str()) != 0) {
     const int reason = errno;
     if (reason == EBUSY || reason == EXDEV) {

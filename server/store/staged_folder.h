@@ -4,23 +4,23 @@
 
 namespace cellcrush::store {
 
-/// A folder that appears complete in its place or not at all. It is made beside it, as .NAME.partial, and renamed. What
-/// a killed process left there is removed by the next one. Not thread-safe.
+/// A folder that appears complete or not at all. It is built beside its place as .NAME.partial and then renamed. The
+/// next process deletes what a killed one left there. Not thread-safe.
 class StagedFolder {
  public:
-  /// Throws ServiceError: failed_precondition when `place` is there and no empty folder, when a daemon that runs owns
-  /// it, or when another process makes it now; storage_full or internal when it cannot be made.
+  /// Throws ServiceError: failed_precondition if `place` exists and is not an empty folder, if a running daemon owns
+  /// it, or if another process is creating it; storage_full or internal if it cannot be created.
   explicit StagedFolder(const std::filesystem::path& place);
-  /// Removes what was not published.
+  /// Deletes the folder unless it was published.
   ~StagedFolder();
   StagedFolder(const StagedFolder&) = delete;
   StagedFolder& operator=(const StagedFolder&) = delete;
 
-  /// Where it is filled.
+  /// Where to build the contents.
   [[nodiscard]] const std::filesystem::path& path() const { return partial_; }
 
-  /// Makes all in it durable and gives it its name. Throws ServiceError: storage_full, internal, or failed_precondition
-  /// when the place was taken meanwhile.
+  /// Makes the contents durable and renames the folder. Throws ServiceError: storage_full, internal, or
+  /// failed_precondition if the place was taken meanwhile.
   void publish();
 
  private:

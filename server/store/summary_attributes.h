@@ -6,8 +6,8 @@
 
 namespace cellcrush::store {
 
-/// Writes what a run amounts to as attributes of its result (result_format.md); what is absent gets none. Failures
-/// throw ServiceError.
+/// Writes the summary of a run as attributes of its result (result_format.md), without attributes for absent fields.
+/// Failures throw ServiceError.
 void write_summary_attributes(hid_t file, const v1::Summary& summary);
 
 }  // namespace cellcrush::store

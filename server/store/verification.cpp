@@ -22,7 +22,7 @@ BackupManifest manifest_in(const std::filesystem::path& folder) {
   return parse_manifest({std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()});
 }
 
-// Every file of the manifest is there with its bytes.
+// Checks that every file of the manifest exists with its bytes.
 void check_files(const std::filesystem::path& folder, const BackupManifest& manifest, Verification& out) {
   for (const auto& wanted : manifest.files) {
     std::string problem;
@@ -37,7 +37,7 @@ void check_files(const std::filesystem::path& folder, const BackupManifest& mani
   }
 }
 
-// Nothing when the result of the job is whole.
+// Nothing if the job's result is whole.
 std::string problem_of_result(const std::filesystem::path& folder, std::int64_t job) {
   try {
     if (read_seal(folder / result_path(job)) != Seal::broken) return "";

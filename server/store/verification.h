@@ -7,10 +7,10 @@
 
 namespace cellcrush::store {
 
-/// What is wrong with a backup or a data folder, and what it holds.
+/// Problems of a backup or data folder, and its contents.
 struct Verification {
-  std::vector<std::string> problems;  ///< a sentence or two each, with the remedy
-  std::vector<std::string> notes;     ///< what is odd and harms nothing
+  std::vector<std::string> problems;  ///< one or two sentences each, with the remedy
+  std::vector<std::string> notes;     ///< unusual but harmless
   bool is_backup = false;
   std::string created;  ///< of a backup
   std::int64_t jobs = 0;
@@ -18,10 +18,9 @@ struct Verification {
   std::int64_t results = 0;
 };
 
-/// Reads all of a backup, or of a data folder, also while a daemon runs on it: the journal (check_journal), and that
-/// every job with a summary has a result whose seal is that of its bytes; of a backup that every file is the one of its
-/// manifest. It changes nothing. Throws ServiceError: not_found when the folder holds no journal, internal when it
-/// cannot be read.
+/// Reads a whole backup or data folder, even while a daemon runs on it. Checks the journal (check_journal), and that
+/// every job with a summary has a result with a matching seal; for a backup also every file against the manifest.
+/// Changes nothing. Throws ServiceError: not_found if the folder has no journal, internal if it cannot be read.
 Verification verify_folder(const std::filesystem::path& folder);
 
 }  // namespace cellcrush::store

@@ -12,7 +12,7 @@ namespace {
 constexpr int kLongestList = 200'000;
 constexpr int kLongestShortList = 10'000;
 
-// Notes the lists that are too long.
+// Collects the lists that are too long.
 class ListChecker {
  public:
   void check(const std::string& field, int size, int longest) {
@@ -21,7 +21,7 @@ class ListChecker {
         invalid_field(field, std::to_string(size), "are too many.", "Give at most " + std::to_string(longest) + "."));
   }
 
-  // Points of all time functions together.
+  // The points of all time functions together.
   void check_points(const v1::Frame& frame) {
     std::int64_t points = 0;
     for (const auto& load : frame.loads()) points += load.force_n_or_n_mm().points_size();

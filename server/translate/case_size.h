@@ -5,15 +5,15 @@
 
 namespace cellcrush::translate {
 
-/// The lists of the case that are longer than any case needs, before anything else is done with it: a message of 4 MiB
-/// can hold millions of empty entries, each of which would be several problems. Nodes, beams, supports, loads and
-/// points of time functions: 200000; motions and watched nodes: 10000; rows of inclusions: 10000.
+/// The lists of the case that are longer than any case needs; checked before anything else. A message of 4 MiB can hold
+/// millions of empty entries, each of which would cause several problems. Limits: 200000 nodes, beams, supports, loads
+/// and points of time functions; 10000 motions and watched nodes; 10000 rows of inclusions.
 google::protobuf::RepeatedPtrField<v1::Problem> find_long_lists(const v1::Case& submitted);
 
-/// Problems that are told of one case; of the rest only the number is.
+/// Maximum number of problems listed for one case; the rest are only counted.
 inline constexpr int kMostProblems = 1000;
 
-/// Cuts the problems to kMostProblems and one that counts the rest.
+/// Truncates the problems to kMostProblems plus one that counts the rest.
 void cut_problems(google::protobuf::RepeatedPtrField<v1::Problem>& problems);
 
 }  // namespace cellcrush::translate

@@ -13,13 +13,13 @@ namespace {
 
 constexpr std::ptrdiff_t kLongestTitle = 200;
 
-// Code points of a UTF-8 text: all bytes but continuation bytes.
+// Number of code points in a UTF-8 text: all bytes except continuation bytes.
 std::ptrdiff_t character_count(std::string_view text) {
   return std::count_if(text.begin(), text.end(),
                        [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; });
 }
 
-// Squares and triangles are described by the same four fields.
+// Squares and triangles have the same four fields.
 template <class Out, class In>
 Out regular_lattice(const In& in) {
   Out out;
@@ -48,7 +48,7 @@ void read_lattice(const v1::Lattice& in, SceneSpec& spec, Problems& problems) {
   if (in.imperfection().has_seed()) spec.imperfection.seed = in.imperfection().seed();
 }
 
-// Sets `out` to what the wire's value means; the value 0, unspecified, leaves it.
+// Sets `out` to the meaning of the wire value; 0 (unspecified) leaves it unchanged.
 template <class Wire, class Out>
 void read_choice(Wire in, std::initializer_list<std::pair<Wire, Out>> meanings, const std::string& field,
                  const std::string& names, Out& out, Problems& problems) {

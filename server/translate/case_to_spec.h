@@ -6,22 +6,22 @@
 
 namespace cellcrush::translate {
 
-/// A case as the solver's spec, and what could not be carried over. The spec is usable for finding further problems
-/// even when there are some: what could not be carried over has its default.
+/// A case as the solver's spec, and problems of the conversion. The spec can be checked for further problems even so:
+/// fields that could not be converted have their defaults.
 struct CaseReading {
   SceneSpec spec;
   Problems problems;
 };
 
-/// Mechanical: a field that is left out takes the spec's default or stays missing, and no physics is judged here.
-/// Problems are those of the wire alone: unknown enum numbers, an over-long title, names of nodes that do not exist,
-/// fields that the spec has no place for.
+/// Purely mechanical: an absent field takes the spec's default or stays missing, and no physics is checked. Problems
+/// are those of the wire format only: unknown enum numbers, an over-long title, unknown node names, and fields without
+/// a counterpart in the spec.
 CaseReading to_spec(const v1::Case& in);
 
-/// The frame's part of it; problems are appended.
+/// Converts the frame; appends problems.
 FrameLattice to_spec(const v1::Frame& in, Problems& problems);
 
-/// A material whose fields' paths begin with `path`.
+/// A material; the paths of its fields start with `path`.
 MaterialSpec to_spec(const v1::Material& in, const std::string& path, Problems& problems);
 
 }  // namespace cellcrush::translate

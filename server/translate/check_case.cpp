@@ -29,7 +29,7 @@ void describe(const SceneFacts& facts, v1::CheckCaseResponse& out) {
   for (const auto& sentence : facts.modelled) out.add_modelled(sentence);
 }
 
-// A frame's nodes keep the names that the case gave them.
+// A frame's nodes keep their names from the case.
 void restore_node_names(const v1::Frame& submitted, v1::Frame& completed) {
   const auto rename = [&submitted](std::string& id) { id = submitted.nodes(std::stoi(id)).id(); };
   for (auto& node : *completed.mutable_nodes()) rename(*node.mutable_id());

@@ -14,7 +14,7 @@ std::string item(const char* list, int position) {
   return "lattice.frame." + std::string(list) + "[" + std::to_string(position) + "]";
 }
 
-// Ids name groups of the result file, so nothing that means something in a path is let in.
+// Ids become groups of the result file, so characters with a meaning in paths are not allowed.
 bool is_name(const std::string& id) {
   return !id.empty() && id.size() <= 64 && std::all_of(id.begin(), id.end(), [](unsigned char c) {
     return std::isalnum(c) != 0 || c == '_' || c == '-';
@@ -23,7 +23,7 @@ bool is_name(const std::string& id) {
 
 Problem missing(const std::string& field) { return invalid_field(field, "", "is missing.", "Set it."); }
 
-// Reads one frame: the wire names nodes by id, the spec by position.
+// Converts one frame: the wire refers to nodes by id, the spec by index.
 class FrameReader {
  public:
   FrameReader(const v1::Frame& in, Problems& problems) : in_(in), problems_(problems) {}

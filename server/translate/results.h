@@ -22,7 +22,7 @@ v1::FieldFrame to_proto(const FieldFrame& frame);
 v1::Mesh to_proto(const MeshView& mesh, std::int64_t particle_count);
 v1::Theory to_proto(const Theory& theory);
 
-/// What a run took, s; the solver has no clock for it.
+/// Processor time of a run, s; the solver has no clock.
 struct RunTime {
   double processor = 0.0;
   std::array<double, kStageCount> stages{};  ///< in the order of kStageNames

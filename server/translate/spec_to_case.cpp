@@ -132,7 +132,7 @@ void write_loading(const LoadingSpec& in, v1::Loading& out) {
 }
 
 void write_section(const SectionSpec& in, v1::Section& out) {
-  // Left open where the formulation is to choose: who changes a preset's formulation gets the points that go with it.
+  // Left unset where the formulation decides: changing a preset's formulation then also changes its points.
   if (in.axial_points) out.set_axial_points(*in.axial_points);
   out.set_depth_points(in.depth_count());
   out.set_formulation(in.formulation == SectionSpec::Formulation::force_based ? v1::Section::FORCE_BASED
@@ -180,7 +180,7 @@ v1::Case to_case(const SceneSpec& spec) {
   out.mutable_contact()->set_search(spec.contact.search == ContactSpec::Search::faces ? v1::Contact::FACES
                                                                                       : v1::Contact::BUCKETS);
   out.mutable_plates()->set_friction(spec.plates.friction);
-  // A frame is loaded by its own fields.
+  // A frame is loaded through its own fields.
   if (!std::holds_alternative<FrameLattice>(spec.lattice)) write_loading(spec.loading, *out.mutable_loading());
   write_numerics(spec.numerics, *out.mutable_numerics());
   out.mutable_output()->set_sample_count(spec.output.sample_count);

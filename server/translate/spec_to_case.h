@@ -5,8 +5,7 @@
 
 namespace cellcrush::translate {
 
-/// A spec as a case with every field set that the spec holds. Nodes of a frame are named by their positions: "0", "1",
-/// ...
+/// The case of a spec, with every field that the spec sets. Nodes of a frame are named by index: "0", "1", ...
 v1::Case to_case(const SceneSpec& spec);
 
 v1::Numerics::Fidelity to_proto(NumericsSpec::Fidelity fidelity);

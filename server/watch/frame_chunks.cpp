@@ -5,7 +5,7 @@
 namespace cellcrush::watch {
 namespace {
 
-// Moves up to `room` numbers of `from`, beginning at `done`, into `to`; returns how many.
+// Moves up to `room` numbers of `from`, starting at `done`, into `to`; returns how many.
 int copy_some(const google::protobuf::RepeatedField<float>& from, int done, int room,
               google::protobuf::RepeatedField<float>& to) {
   const int count = std::min(room, from.size() - done);

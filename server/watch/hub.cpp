@@ -56,7 +56,7 @@ void Channel::unsubscribe(std::uint64_t id) {
 std::shared_ptr<Channel> Hub::open(std::int64_t job) {
   const MutexLock lock(mutex_);
   if (auto channel = channels_[job].lock()) return channel;
-  // Whenever the map has doubled, so that opening many channels stays cheap.
+  // Only when the map has doubled, so that opening many channels stays cheap.
   if (channels_.size() > 2 * kept_ + 64) {
     std::erase_if(channels_, [](const auto& entry) { return entry.second.expired(); });
     kept_ = channels_.size();

@@ -11,11 +11,11 @@
 
 namespace cellcrush::watch {
 
-/// What is new of one job and not in the journal: the newest progress and frame. And who waits for news of it.
-/// Thread-safe. Whoever publishes never waits for a watcher.
+/// The newest progress and frame of a job, which are not in the journal, and the watchers of that job. Thread-safe.
+/// Publishers never wait for watchers.
 class Channel {
  public:
-  /// Called on every change, from the publishing thread, under the channel's lock: must be quick and must not call
+  /// Called on every change, on the publishing thread and under the channel's lock: must be quick and must not call
   /// back.
   using Wake = std::function<void()>;
 
@@ -27,20 +27,20 @@ class Channel {
   };
 
   void publish(v1::Progress progress);
-  /// A frame that is no newer than the newest one is not: a worker that goes on from a checkpoint sends some again.
+  /// Ignores a frame that is not newer than the newest: a worker that resumes from a checkpoint resends some.
   void publish(v1::FieldFrame frame);
-  /// The job begins again from step 0: what was published before does not count any more.
+  /// The job restarts from step 0: drops what was published.
   void forget();
-  /// There are new durable events in the journal.
+  /// Announces new durable events in the journal.
   void announce();
 
   [[nodiscard]] Newest newest() const;
 
-  /// Whether somebody waits for news.
+  /// Whether the job has watchers.
   [[nodiscard]] bool is_watched() const;
 
-  /// Returns the id to unsubscribe with. After unsubscribe returns, `wake` is not called again. A new frame wakes only
-  /// those who want frames.
+  /// Returns the id for unsubscribing. Once unsubscribe returns, `wake` is not called again. A new frame wakes only
+  /// watchers that want frames.
   std::uint64_t subscribe(Wake wake, bool frames);
   void unsubscribe(std::uint64_t id);
 
@@ -56,12 +56,12 @@ class Channel {
   std::uint64_t next_id_ CELLCRUSH_GUARDED_BY(mutex_) = 1;
 };
 
-/// The channels of all jobs that someone runs or watches. Thread-safe.
+/// The channels of all jobs that somebody runs or watches. Thread-safe.
 class Hub {
  public:
-  /// The job's channel; it lives as long as someone holds it.
+  /// The job's channel, which lives as long as somebody holds it.
   std::shared_ptr<Channel> open(std::int64_t job);
-  /// The same, or null when nobody holds it.
+  /// The same, or null if nobody holds it.
   std::shared_ptr<Channel> find(std::int64_t job);
   /// Announces to the job's channel, if there is one.
   void announce(std::int64_t job);
@@ -69,7 +69,7 @@ class Hub {
  private:
   Mutex mutex_;
   std::map<std::int64_t, std::weak_ptr<Channel>> channels_ CELLCRUSH_GUARDED_BY(mutex_);
-  std::size_t kept_ CELLCRUSH_GUARDED_BY(mutex_) = 0;  ///< channels at the last time when the dead ones were removed
+  std::size_t kept_ CELLCRUSH_GUARDED_BY(mutex_) = 0;  ///< channels when expired ones were last removed
 };
 
 }  // namespace cellcrush::watch

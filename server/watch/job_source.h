@@ -11,26 +11,27 @@
 
 namespace cellcrush::watch {
 
-/// What a WatchJob sends: a cursor, and the channel that tells when it has more. Not thread-safe but for the wake.
+/// Source of a WatchJob: a cursor, and the channel that wakes it. Not thread-safe, except for `wake`.
 class JobSource {
  public:
   using Message = v1::JobEvent;
   static constexpr bool kIsWatch = true;
 
-  /// Throws ServiceError like WatchCursor.
+  /// Throws the errors of WatchCursor.
   JobSource(store::JournalReader& journal, Hub& hub, std::int64_t job, std::int64_t after, bool frames);
 
-  /// Calls `wake` from now on whenever there may be more; from other threads, under locks: it must be quick.
+  /// Calls `wake` from now on whenever there may be another message, on other threads and under locks: it must be
+  /// quick.
   void open(std::function<void()> wake);
-  /// After this returns, `wake` is not called again.
+  /// Once this returns, `wake` is not called again.
   void close();
 
   std::optional<v1::JobEvent> next() { return cursor_.next(); }
-  /// Whether a message is at hand.
+  /// Whether the next message is available without waiting.
   [[nodiscard]] bool has_more() const { return cursor_.has_more(); }
   [[nodiscard]] bool ended() const { return cursor_.ended(); }
   [[nodiscard]] v1::JobEvent bookmark() const { return cursor_.bookmark(); }
-  /// How a watch that is broken off is continued, as the end of a sentence.
+  /// How to continue a watch that was closed, as the end of a sentence.
   [[nodiscard]] std::string resume_advice() const;
 
  private:

@@ -73,7 +73,7 @@ void Pump::tick(const std::stop_token& stop) {
 }
 
 void Pump::schedule_all() {
-  // Dropped after the lock is released: a task's end may schedule others.
+  // Released after the lock: destroying a task may schedule others.
   std::vector<std::shared_ptr<Task>> alive;
   const MutexLock lock(mutex_);
   std::erase_if(tasks_, [&alive](const std::weak_ptr<Task>& task) {

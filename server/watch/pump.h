@@ -11,14 +11,14 @@
 
 namespace cellcrush::watch {
 
-/// A few threads that move all watchers on, so that many watchers need no thread each. A task runs soon after it was
-/// scheduled, and once a second as long as it exists. Thread-safe.
+/// A few threads that serve all watchers, so that a watcher needs no thread of its own. A task runs soon after it is
+/// scheduled, and once a second while it exists. Thread-safe.
 class Pump {
  public:
   class Task {
    public:
     virtual ~Task() = default;
-    /// Does what can be done without waiting. May run in two threads at once.
+    /// Does whatever needs no waiting. May run on two threads at once.
     virtual void run() = 0;
 
    private:
@@ -31,12 +31,12 @@ class Pump {
   Pump(const Pump&) = delete;
   Pump& operator=(const Pump&) = delete;
 
-  /// Runs the task from now on once a second, and whenever it is scheduled.
+  /// Runs the task once a second from now on, and whenever it is scheduled.
   void add(const std::shared_ptr<Task>& task);
   /// Quick; may be called under other locks.
   void schedule(const std::shared_ptr<Task>& task);
 
-  /// Tells the tasks that the daemon ends: they see draining() and close.
+  /// Notifies the tasks that the daemon ends: they see draining() and close.
   void drain();
   [[nodiscard]] bool draining() const;
 

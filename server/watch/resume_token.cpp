@@ -9,12 +9,12 @@
 namespace cellcrush::watch {
 namespace {
 
-// "SWEEP:FIRST+COUNT=SEQUENCE;..." with a run for consecutive jobs in the same place; SEQUENCE is "e" for those that
-// have ended.
+// "SWEEP:FIRST+COUNT=SEQUENCE;..." with one run for consecutive jobs at the same position; SEQUENCE is "e" for ended
+// jobs.
 constexpr std::int64_t kMostJobs = 100'000;
 constexpr std::int64_t kLargestNumber = std::int64_t{1} << 62;
 
-// Reads a token from its front.
+// Parses a token from left to right.
 class Reader {
  public:
   explicit Reader(std::string_view rest) : rest_(rest) {}
@@ -75,7 +75,7 @@ std::map<std::int64_t, JobPlace> parse_resume_token(std::int64_t sweep, const st
     place.ended = reader.skip('e');
     if (!place.ended) place.sequence = reader.number();
     reader.expect(';');
-    // Ascending as they are written: jobs named again and again would take minutes and pass the limit of their number.
+    // Ascending, as encoded: repeated jobs would take minutes and exceed the limit on their number.
     sound =
         place.job >= next && place.job < kLargestNumber && count <= kMostJobs - static_cast<std::int64_t>(out.size());
     for (std::int64_t i = 0; sound && reader.sound() && i < count; ++i, ++place.job) out[place.job] = place;

@@ -57,7 +57,7 @@ SweepSource::SweepSource(store::JournalReader& journal, store::SweepReader& swee
   }
 }
 
-// "EPOCH@" and the places; without an epoch it is of an earlier version.
+// "EPOCH@" and the positions; a token without an epoch is of an earlier version.
 std::string SweepSource::resume_token() const { return journal_.epoch().id + "@" + resume_token_of(sweep_, places_); }
 
 std::map<std::int64_t, JobPlace> SweepSource::places_in(const std::string& token) const {
@@ -98,9 +98,9 @@ std::optional<v1::WatchSweepResponse> SweepSource::next() {
       in_turn_ = 0;
       continue;
     }
-    // It may have more: its turn goes on, or it queues again.
+    // It may have more: its turn continues, or it queues again.
     if (++in_turn_ >= kLongestTurn || !news_->add_first(*position)) {
-      // Another's turn comes, and what that one has stands in the journal.
+      // The next job has its turn; its events are in the journal.
       in_turn_ = 0;
       has_more_ = false;
       news_->add(*position);

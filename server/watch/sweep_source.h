@@ -19,28 +19,29 @@
 
 namespace cellcrush::watch {
 
-/// What a WatchSweep sends: the sweep's snapshot, then of each job what its WatchCursor gives, without mesh and frames.
-/// Jobs with news take turns, and only they are looked at. A job's cursor goes with its last event, so that a watcher
-/// of a large sweep costs little. Not thread-safe but for the wake.
+/// Source of a WatchSweep: a snapshot of the sweep, then the messages of each job's WatchCursor without mesh and
+/// frames. Jobs with new events take turns, and only they are read. A cursor is released after its job's last event, so
+/// that watching a large sweep costs little. Not thread-safe, except for `wake`.
 class SweepSource {
  public:
   using Message = v1::WatchSweepResponse;
   static constexpr bool kIsWatch = true;
 
-  /// An empty token begins with everything. Throws ServiceError: not_found, invalid for another sweep's token, or
+  /// An empty token starts with all events. Throws ServiceError: not_found, invalid for another sweep's token, or
   /// failed_precondition for one of another epoch.
   SweepSource(store::JournalReader& journal, store::SweepReader& sweeps, Hub& hub, std::int64_t sweep,
               const std::string& resume_token);
 
-  /// Calls `wake` from now on whenever there may be more; from other threads, under locks: it must be quick.
+  /// Calls `wake` from now on whenever there may be another message, on other threads and under locks: it must be
+  /// quick.
   void open(const std::function<void()>& wake);
-  /// After this returns, `wake` is not called again.
+  /// Once this returns, `wake` is not called again.
   void close();
 
-  /// Throws ServiceError when the journal cannot be read, or out_of_range when the token named an event that is not
-  /// there.
+  /// Throws ServiceError if the journal cannot be read, or out_of_range if the token named an event that does not
+  /// exist.
   std::optional<v1::WatchSweepResponse> next();
-  /// Whether next has something without a look into the journal: the job whose turn it is has a message at hand.
+  /// Whether next has a message without reading the journal: the job whose turn it is holds one.
   [[nodiscard]] bool has_more() const { return has_more_; }
   [[nodiscard]] bool ended() const { return snapshot_sent_ && left_ == 0; }
   [[nodiscard]] v1::WatchSweepResponse bookmark() const;
@@ -53,12 +54,12 @@ class SweepSource {
     std::optional<WatchCursor> cursor;
   };
 
-  // Positions of the jobs with news, each at most once; shared with the wakes.
+  // Positions of the jobs with new events, each at most once; shared with the wakes.
   class News {
    public:
     explicit News(std::size_t jobs) : is_queued_(jobs, false) {}
     void add(std::size_t position);
-    /// False when it was queued behind others already, and stays there.
+    /// False if it was already queued, at its place behind others.
     bool add_first(std::size_t position);
     std::optional<std::size_t> take();
 
@@ -77,12 +78,12 @@ class SweepSource {
   store::JournalReader& journal_;
   store::SweepReader& sweeps_;
   std::int64_t sweep_;
-  std::vector<JobPlace> places_;  ///< of all jobs, by ascending number
-  std::vector<Member> members_;   ///< beside places_
+  std::vector<JobPlace> places_;  ///< of all jobs, in ascending order
+  std::vector<Member> members_;   ///< parallel to places_
   std::shared_ptr<News> news_;
-  std::size_t left_ = 0;  ///< jobs whose last event was not given yet
+  std::size_t left_ = 0;  ///< jobs whose last event was not sent yet
   bool has_more_ = false;
-  int in_turn_ = 0;  ///< messages that the job whose turn it is has given
+  int in_turn_ = 0;  ///< messages sent in the current job's turn
   bool snapshot_sent_ = false;
 };
 

@@ -45,8 +45,8 @@ WatchCursor::WatchCursor(store::JournalReader& journal, std::int64_t job, std::s
 std::optional<v1::JobEvent> WatchCursor::next() {
   if (!std::exchange(snapshot_sent_, true)) return snapshot();
   if (ended_) return std::nullopt;
-  // The journal is read before the channel: the progress and frames before a job's end then come before its last event.
-  // Not between the parts of a frame, which are at hand.
+  // The journal is read before the channel, so that progress and frames from before a job's end precede its last event.
+  // Not between the parts of a frame, which are already in memory.
   if (events_.empty() && parts_.empty()) {
     auto read = journal_.events(job_, after_, kEventsAtOnce);
     events_.assign(std::make_move_iterator(read.begin()), std::make_move_iterator(read.end()));
@@ -109,7 +109,7 @@ std::optional<v1::JobEvent> WatchCursor::transient() {
 void WatchCursor::queue_frame(const v1::FieldFrame& frame) {
   auto parts = chunks_of(frame);
   if (last_frame_) {
-    // A job that begins again from step 0 begins with its first frame.
+    // A job that restarts from step 0 starts with its first frame.
     const int skipped = std::max(0, frame.index() - *last_frame_ - 1);
     for (auto& part : parts) part.set_skipped(skipped);
   }

@@ -5,11 +5,11 @@
 namespace cellcrush::watch {
 
 struct WatchTimes {
-  /// Without an event, after which a watcher is sent a bookmark.
+  /// Idle time after which a watcher receives a bookmark.
   std::chrono::milliseconds bookmark_interval{15'000};
-  /// In which a watcher has taken no message, after which its watch is closed.
+  /// Time without reading a message after which a watch is closed.
   std::chrono::milliseconds patience{600'000};
-  /// In which a watcher that was closed may still take the reason; then the stream is reset.
+  /// Time after closing in which the watcher may still read the reason; then the stream is reset.
   std::chrono::milliseconds grace{10'000};
 };
 

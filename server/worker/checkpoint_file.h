@@ -10,20 +10,20 @@
 
 namespace cellcrush::worker {
 
-/// Makes a checkpoint durable under a name of its own, then gives it its place; the one that was there is kept as the
-/// previous one. Killed at any moment, this leaves one that is whole. Throws ServiceError: storage_full or internal.
+/// Makes a checkpoint durable under a temporary name, then renames it; the previous one is kept. A complete checkpoint
+/// remains whenever the process is killed. Throws ServiceError: storage_full or internal.
 void write_checkpoint(const store::JobFolder& folder, const Checkpoint& checkpoint);
 
-/// What find_checkpoint found.
+/// Result of find_checkpoint.
 struct FoundCheckpoint {
-  std::optional<Checkpoint> checkpoint;  ///< the newest that can be gone on from
-  std::vector<std::string> refused;      ///< why newer ones cannot, a sentence each
+  std::optional<Checkpoint> checkpoint;  ///< the newest usable one
+  std::vector<std::string> refused;      ///< why newer ones are not usable, one sentence each
 };
 
-/// The newest checkpoint that is whole and of the same solver, processor kind and case.
+/// The newest checkpoint that is complete and of the same solver, processor kind and case.
 FoundCheckpoint find_checkpoint(const store::JobFolder& folder, const Checkpoint::Origin& origin);
 
-/// Processor time of the run until the checkpoint.
+/// Processor time of the run up to the checkpoint.
 translate::RunTime run_time_of(const Checkpoint& checkpoint);
 
 }  // namespace cellcrush::worker

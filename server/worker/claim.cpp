@@ -18,8 +18,7 @@
 namespace cellcrush::worker {
 namespace {
 
-// Whoever looks whether the folder is claimed holds the lock for an instant; a worker that begins writes its number
-// soon.
+// A process that checks the claim holds the lock for an instant; a starting worker writes its id soon.
 constexpr int kTries = 100;
 constexpr std::chrono::milliseconds kBetweenTries{10};
 
@@ -38,7 +37,7 @@ std::optional<Claim> read_claim(int file) {
   return std::nullopt;
 }
 
-// Closes itself.
+// Closes the descriptor on destruction.
 struct OpenFile {
   int descriptor;
   explicit OpenFile(int opened) : descriptor(opened) {}
@@ -67,7 +66,7 @@ bool claim(const store::JobFolder& folder) {
 }
 
 std::optional<Claim> find_claim(const store::JobFolder& folder) {
-  // Without blocking: what has the name may be no file.
+  // Without blocking: the path may be something other than a file.
   const OpenFile file(open(folder.claim().c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (file.descriptor < 0 && (errno == ENOENT || errno == ENOTDIR)) return std::nullopt;
   if (file.descriptor < 0) store::throw_file_error(folder.claim(), "read", errno);
@@ -87,7 +86,7 @@ std::optional<ProcessTimes> times_of(pid_t process) {
   std::string line;
   if (!file && (errno == EMFILE || errno == ENFILE || errno == ENOMEM)) store::throw_file_error(path, "read", errno);
   if (!std::getline(file, line)) return std::nullopt;
-  // Behind the name, which stands in parentheses and may hold anything; fields are counted from 1 (proc(5)).
+  // The fields follow the name, which is in parentheses and may contain anything. They count from 1 (proc(5)).
   constexpr int kUserTime = 14;
   constexpr int kSystemTime = 15;
   constexpr int kStartTime = 22;

@@ -9,23 +9,22 @@
 
 namespace cellcrush::worker {
 
-/// Takes the job's folder for this process, until it ends: a lock on the file `worker`, which then holds the process's
-/// number and start time. False when another worker has it. Throws ServiceError where the file cannot be written.
+/// Claims the job's folder for this process until it ends: locks the file `worker` and writes the process's id and
+/// start time. False if another worker holds it. Throws ServiceError if the file cannot be written.
 bool claim(const store::JobFolder& folder);
 
-/// Which process runs a job; its start time, in the kernel's ticks since boot, tells it from a later one with the same
-/// number.
+/// The process that runs a job. The start time, in kernel ticks since boot, distinguishes it from a later process with
+/// the same id.
 struct Claim {
   pid_t process = 0;
   std::uint64_t start_time = 0;
 };
 
-/// The process that has claimed the folder and lives; nothing when none has. Throws ServiceError when that cannot be
-/// read.
+/// The live process that has claimed the folder; nothing if there is none. Throws ServiceError if that cannot be read.
 std::optional<Claim> find_claim(const store::JobFolder& folder);
 
-/// Start time and processor time of a process, in the kernel's ticks; nothing when there is none of that number.
-/// `times_of` throws ServiceError when that cannot be read.
+/// Start time and processor time of a process, in kernel ticks; nothing if there is no such process. Throws
+/// ServiceError if they cannot be read.
 struct ProcessTimes {
   std::uint64_t start = 0;
   std::uint64_t used = 0;

@@ -12,13 +12,13 @@
 namespace cellcrush::worker {
 namespace {
 
-// What the run took until its newest checkpoint: what came after is not known.
+// Time of the run up to its newest checkpoint; the time after it is unknown.
 translate::RunTime known_time(const store::JobFolder& folder, const Checkpoint::Origin& origin) {
   const auto found = find_checkpoint(folder, origin);
   return found.checkpoint ? run_time_of(*found.checkpoint) : translate::RunTime{};
 }
 
-// Whether it was asked to leave the job; a cancel is acknowledged once.
+// Whether it was asked to leave the job; acknowledges a cancel once.
 bool must_leave(const StopAsked& stop_asked, ReportLog& log, bool& acknowledged) {
   const StopWish wish = stop_asked();
   if (wish == StopWish::cancel && !std::exchange(acknowledged, true)) {
@@ -37,7 +37,7 @@ Final give_up(const store::JobFolder& folder, const Order& order, ReportLog& log
     const auto origin = origin_of(order);
     Order as_run = order;
     bool acknowledged = false;
-    // Before the scene is built, which may take longer than the daemon waits for a word.
+    // Before building the scene, which may take longer than the daemon waits for a report.
     static_cast<void>(must_leave(stop_asked, log, acknowledged));
     RunOutput output(folder, log, as_run, scene_of(order));
     ReportLogReader reader(folder.reports());
@@ -49,7 +49,7 @@ Final give_up(const store::JobFolder& folder, const Order& order, ReportLog& log
         return left;
       }
       if (report.has_begun()) {
-        // What another solver left is in a form of its own.
+        // The files of another solver have a different form.
         if (report.begun().origin().SerializeAsString() != origin.SerializeAsString()) return loss;
         as_run.set_threads(report.begun().threads());
       }
@@ -66,7 +66,7 @@ Final give_up(const store::JobFolder& folder, const Order& order, ReportLog& log
       left.set_message(trouble.reason);
       return left;
     }
-    // Why there is no result is what the loss says already.
+    // The loss already says why there is no result.
     loss.clear_summary();
   }
   return loss;

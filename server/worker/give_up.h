@@ -6,10 +6,10 @@
 
 namespace cellcrush::worker {
 
-/// Ends a job that nobody continues: makes the result from the reports, up to the last sample, and returns
-/// `loss` with its summary; `loss` alone when nothing was reported or no result can be made. A wish to cancel the job
-/// is acknowledged, for that is under way; at one to suspend it this leaves the job as it found it, with the step of
-/// its last sample; for a shortage too, unless the job was cancelled. Never throws.
+/// Ends a job that no worker continues: makes the result from the reports, up to the last sample, and returns `loss`
+/// with its summary. Returns `loss` alone if nothing was reported or no result can be made. A request to cancel is
+/// acknowledged, as the job already ends. A request to suspend leaves the job unchanged, with the step of its last
+/// sample; so does a shortage, unless the job was cancelled. Never throws.
 Final give_up(const store::JobFolder& folder, const Order& order, ReportLog& log, const StopAsked& stop_asked,
               Final loss);
 

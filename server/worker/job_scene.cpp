@@ -12,7 +12,7 @@ std::shared_ptr<const Scene> scene_of(const Order& order) {
   auto built = build_scene(reading.spec);
   Problems problems = reading.problems;
   problems.insert(problems.end(), built.problems.begin(), built.problems.end());
-  // The daemon has checked the case, so this is an older job that this version no longer accepts.
+  // The daemon has checked the case, so this is an old job that the present version rejects.
   if (!problems.empty()) {
     throw std::runtime_error("this version no longer accepts the case: " + problems.front().field + ": " +
                              problems.front().message);

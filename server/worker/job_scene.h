@@ -10,7 +10,7 @@ struct Scene;
 
 namespace cellcrush::worker {
 
-/// The scene that the order's case describes. Throws std::runtime_error when the case is no longer accepted.
+/// The scene of the order's case. Throws std::runtime_error if this version rejects the case.
 std::shared_ptr<const Scene> scene_of(const Order& order);
 
 }  // namespace cellcrush::worker

@@ -17,13 +17,13 @@ constexpr std::size_t kLeastBytes = 16'000'000;
 #ifdef MADV_COLLAPSE
 constexpr int kCollapse = MADV_COLLAPSE;
 #else
-constexpr int kCollapse = 25;  // Linux 6.1; older headers lack its name, older kernels refuse it
+constexpr int kCollapse = 25;  // Linux 6.1; older headers lack the name, older kernels refuse it
 #endif
 
 }  // namespace
 
 void use_large_pages(const Simulation& simulation) {
-  // An array's first and last page hold what lies beside it, too: small arrays follow each other.
+  // The first and last page of an array also hold its neighbours, because small arrays are adjacent.
   std::set<const char*> pages;
   std::size_t bytes_of_all = 0;
   simulation.visit_arrays([&](const void* first, std::size_t bytes) {
@@ -38,7 +38,7 @@ void use_large_pages(const Simulation& simulation) {
     return;
   }
   for (const char* page : pages) {
-    // Refused where some of the page is not the program's: it stays on small pages then.
+    // Refused if part of the page does not belong to the program; it then stays on small pages.
     static_cast<void>(madvise(const_cast<char*>(page), kLargePage, kCollapse));
   }
 }

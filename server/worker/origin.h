@@ -7,10 +7,10 @@
 
 namespace cellcrush::worker {
 
-/// Whose bits a run of the order makes, here and now.
+/// The origin of the bits that a run of this order produces here.
 Checkpoint::Origin origin_of(const Order& order);
 
-/// Of an earlier worker in the folder whose bits are others than `origin`'s, the first one.
+/// The first origin that differs from `origin` among earlier workers in the folder.
 std::optional<Checkpoint::Origin> find_other_origin(const store::JobFolder& folder, const Checkpoint::Origin& origin);
 
 }  // namespace cellcrush::worker

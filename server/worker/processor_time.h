@@ -4,8 +4,8 @@
 
 namespace cellcrush::worker {
 
-/// Processor time of a clock, s: CLOCK_THREAD_CPUTIME_ID of this thread, CLOCK_PROCESS_CPUTIME_ID of the process. What
-/// else the machine does at the moment is no part of it.
+/// Processor time, s: CLOCK_THREAD_CPUTIME_ID for this thread, CLOCK_PROCESS_CPUTIME_ID for the process. Other load on
+/// the machine is not included.
 inline double processor_seconds(clockid_t clock) {
   timespec time{};
   clock_gettime(clock, &time);

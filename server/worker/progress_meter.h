@@ -9,19 +9,19 @@
 
 namespace cellcrush::worker {
 
-/// How far a run is and how fast it goes, at most five times a second. Times are handed in. Not thread-safe.
+/// Progress and speed of a run, at most five times a second. The caller supplies the time. Not thread-safe.
 class ProgressMeter {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// `plateau_low`, `plateau_high`: strains between which the plateau stress is the mean. The run goes on from
+  /// `plateau_low`, `plateau_high`: strains between which the plateau stress is averaged. The run starts or resumes at
   /// `first_step`.
   ProgressMeter(std::int64_t step_count, double plateau_low, double plateau_high, Clock::time_point start,
                 std::int64_t first_step = 0);
 
   void add(const v1::Sample& sample);
 
-  /// The progress at `step`, if enough time has gone by since the last one.
+  /// The progress at `step`, if enough time has passed since the last one.
   std::optional<v1::Progress> read(std::int64_t step, double strain, Clock::time_point now);
 
  private:

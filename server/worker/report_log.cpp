@@ -84,8 +84,7 @@ bool ReportLogReader::is_so_long(std::size_t size) const {
   return fstat(file_, &status) == 0 && static_cast<std::uint64_t>(status.st_size) >= offset_ + size;
 }
 
-// Makes that many bytes of the record available. The buffer is never made smaller: resizing it would fill it with
-// zeros.
+// Makes this many bytes of the record available. The buffer never shrinks, since resizing would fill it with zeros.
 bool ReportLogReader::fill(std::size_t size) {
   while (end_ - taken_ < size) {
     std::copy(buffer_.begin() + static_cast<std::ptrdiff_t>(taken_),
@@ -93,7 +92,7 @@ bool ReportLogReader::fill(std::size_t size) {
     end_ -= taken_;
     taken_ = 0;
     if (buffer_.size() < std::max(size, kReadAhead)) {
-      // A length that was damaged may be a GiB; no room is made for what the file does not have.
+      // A damaged length may be a GiB; no memory is allocated beyond the size of the file.
       if (size > kReadAhead && !is_so_long(size)) return false;
       buffer_.resize(std::max(size, kReadAhead));
     }
@@ -105,7 +104,7 @@ bool ReportLogReader::fill(std::size_t size) {
   return true;
 }
 
-// What was read of a record that is not whole may be cut off and written anew.
+// The incomplete record may be truncated and rewritten.
 ReportLogReader::Read ReportLogReader::nothing_whole() {
   taken_ = 0;
   end_ = 0;

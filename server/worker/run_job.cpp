@@ -35,12 +35,12 @@ Final failure(v1::JobCause cause, std::string message, std::string remedy) {
   return out;
 }
 
-// What earlier workers left cannot be continued; why.
+// The files of earlier workers cannot be continued; holds the reason.
 struct CannotContinue {
   std::string why;
 };
 
-// One run: what is advanced, and where its output goes.
+// One run: the simulation, and the destination of its output.
 class Run {
  public:
   Run(const store::JobFolder& folder, const Order& order, ReportLog& log, const StopAsked& stop_asked)
@@ -82,7 +82,7 @@ class Run {
     return true;
   }
 
-  // What an earlier worker said is said again with the same bits, or the job is another.
+  // Repeated reports must have the same bits; otherwise this is a different job.
   void begin_anew() {
     if (const auto other = find_other_origin(folder_, origin_)) {
       throw CannotContinue{"Restarted from step 0: the job was started by solver " + other->solver_revision() +
@@ -105,7 +105,8 @@ class Run {
     log_.append(report);
   }
 
-  // Advances in pieces of about 50 ms, so that progress is told and a wish is heard in time, then takes what is due.
+  // Advances in pieces of about 50 ms, so that progress is reported and requests are noticed in time. Then takes what
+  // is due.
   void advance_to_next_output() {
     const std::int64_t next =
         std::min({next_multiple(facts_.sample_interval), next_multiple(facts_.frame_interval), facts_.step_count});
@@ -127,10 +128,11 @@ class Run {
       if (wish_ == StopWish::cancel) acknowledge_cancel();
       time_is_up_ = wish_ == StopWish::none && order_.time_limit_s() > 0.0 && clock_seconds() >= order_.time_limit_s();
       if (wish_ != StopWish::none || time_is_up_) break;
-      // At an output's step it waits for the output.
+      // At a step with output it waits for that output.
       if (simulation_.step() < next) checkpoint_regularly(now);
     }
-    // Out of time it ends with the samples that it has: one more would be at another step if this worker were lost now.
+    // At the time limit it ends with its existing samples: one more would be at another step if this worker were lost
+    // now.
     const bool last = wish_ == StopWish::cancel || simulation_.step() == facts_.step_count;
     if (last || simulation_.step() % facts_.sample_interval == 0) put_out_sample();
     if (failed()) return;
@@ -139,7 +141,7 @@ class Run {
     if (!last && !time_is_up_ && wish_ == StopWish::none) checkpoint_regularly(Clock::now());
   }
 
-  // Whether the solver found its own result untrue.
+  // Whether the solver declared its own result untrue.
   [[nodiscard]] bool failed() const {
     return translate::cause_of(simulation_.status().kind) != v1::JOB_CAUSE_UNSPECIFIED;
   }
@@ -167,7 +169,7 @@ class Run {
     try {
       checkpoint();
     } catch (const ServiceError& error) {
-      // The one before is still there, and there may be room again the next time.
+      // The previous checkpoint is still there, and the next attempt may find room.
       if (error.shortage() == Shortage::none) throw;
     }
     last_checkpoint_ = Clock::now();
@@ -189,7 +191,7 @@ class Run {
 
   [[nodiscard]] double seconds_used() const { return earlier_seconds_ + processor_seconds(CLOCK_PROCESS_CPUTIME_ID); }
 
-  // Of all workers that the job has had.
+  // Of all workers of the job.
   [[nodiscard]] double clock_seconds() const {
     return earlier_clock_seconds_ + std::chrono::duration<double>(Clock::now() - begin_).count();
   }
@@ -202,7 +204,7 @@ class Run {
     return out;
   }
 
-  // The frame that the solver kept from before its failure.
+  // The last frame from before the solver's failure.
   void put_out_last_good_frame() {
     FieldFrame frame = simulation_.last_good_frame();
     if (frame.time <= output_->last_frame_time()) return;
@@ -210,7 +212,7 @@ class Run {
     output_->put_frame(frame);
   }
 
-  // Closes the result, of a run that failed with what was computed before.
+  // Closes the result; a failed run keeps everything computed before.
   Final complete() {
     const RunStatus status = simulation_.status();
     const bool whole = !failed() && simulation_.step() == facts_.step_count;
@@ -252,8 +254,8 @@ class Run {
   Simulation simulation_;
   StageTimer stage_timer_;
   std::optional<RunOutput> output_;
-  double earlier_seconds_ = 0.0;        ///< processor time before the checkpoint that the run goes on from
-  double earlier_clock_seconds_ = 0.0;  ///< clock time before it
+  double earlier_seconds_ = 0.0;        ///< before the checkpoint from which the run resumes
+  double earlier_clock_seconds_ = 0.0;  ///< wall-clock time before it
   Clock::time_point last_checkpoint_;
   std::int64_t piece_ = 16;
   StopWish wish_ = StopWish::none;
@@ -264,7 +266,7 @@ Final failure_of(const ServiceError& error) {
   return failure(v1::WORKER_CRASHED, error.what(), "Check the daemon's log, then submit the case again.");
 }
 
-// Another worker continues from the newest checkpoint, or begins again, with the same bits.
+// Another worker resumes from the newest checkpoint, or restarts, with the same bits.
 Final left_for(const ServiceError& error, const store::JobFolder& folder, const Order& order) {
   const auto found = find_checkpoint(folder, origin_of(order));
   Final out;
@@ -302,7 +304,7 @@ void run_job(const store::JobFolder& folder, const Order& order, const StopAsked
   ReportLog log(folder.reports());
   Report report;
   *report.mutable_final() = end_of(folder, order, log, stop_asked);
-  // What is not a result is made again from the reports.
+  // An incomplete result is rebuilt from the reports.
   std::error_code ignored;
   std::filesystem::remove(folder.partial_result(), ignored);
   log.append(report);

@@ -14,26 +14,26 @@
 
 namespace cellcrush::worker {
 
-/// Where a run's samples and frames go: to the reports and to the result. Not thread-safe. Failures throw ServiceError.
+/// Sends a run's samples and frames to the reports and the result. Not thread-safe. Failures throw ServiceError.
 class RunOutput {
  public:
   /// `order` outlives this object.
   RunOutput(const store::JobFolder& folder, ReportLog& log, const Order& order, std::shared_ptr<const Scene> scene);
 
-  /// Begins with what a run had reported when it was left at a checkpoint. False when the reports do not hold it all;
-  /// this object is of no use then.
+  /// Starts with what a run had reported before it stopped at a checkpoint. False if the reports are incomplete; the
+  /// object is then unusable.
   bool restore(const Checkpoint& checkpoint);
 
-  /// Takes a sample or a frame that was reported before. What was said twice has the same bits: the first time counts.
+  /// Takes a sample or frame that was reported before. Repeated ones have the same bits; the first one counts.
   void take(const Report& reported);
 
   void put_mesh();
   void put_sample(Sample sample);
   void put_frame(const FieldFrame& frame);
-  /// Where enough time has gone by since the last one.
+  /// Only if enough time has passed since the last one.
   void put_progress(std::int64_t step, double strain, ProgressMeter::Clock::time_point now);
 
-  /// Makes the result durable and gives it its name. `failure`: why the run did not reach its end, if it failed.
+  /// Makes the result durable and renames it. `failure`: why the run did not reach its end, if it failed.
   v1::Summary finish(bool whole, const std::string& failure, const translate::RunTime& time);
 
   [[nodiscard]] int sample_count() const { return static_cast<int>(samples_.size()); }

@@ -7,25 +7,25 @@
 
 namespace cellcrush::worker {
 
-/// Processor time by stage of a run, from every so many-th step: a reading of the clock takes some 200 ns, which the
-/// steps of a small lattice would feel. A run that advances in pieces is handed the same timer each time. Not
-/// thread-safe; the thread that advances is the one that is timed.
+/// Processor time of a run by stage, sampled: reading the clock takes about 200 ns, which would slow the steps of a
+/// small lattice. A run that advances in pieces passes the same timer each time. Not thread-safe; it times the thread
+/// that advances.
 class StageTimer : public StageObserver {
  public:
-  /// A prime: what recurs every so many steps is caught as often as it is due.
+  /// A prime, so that periodic work is sampled in proportion.
   static constexpr int kInterval = 61;
 
-  /// Looks at one step in `interval`, at least 1.
+  /// Times one step in `interval`, at least 1.
   explicit StageTimer(int interval = kInterval) : interval_(interval) {}
 
   void begin(Stage stage) override;
   void end_step() override;
 
-  /// What an earlier part of the run took, s, in the order of kStageNames.
+  /// Adds the times of an earlier part of the run, s, in the order of kStageNames.
   void set_earlier(const std::array<double, kStageCount>& seconds) { earlier_seconds_ = seconds; }
 
-  /// Time in each stage over all steps so far, s, in the order of kStageNames; what was not looked at is taken as the
-  /// mean of what was. All 0 before the first step.
+  /// Time in each stage over all steps so far, s, in the order of kStageNames. Steps not sampled count with the mean of
+  /// the sampled ones. All 0 before the first step.
   [[nodiscard]] std::array<double, kStageCount> seconds() const;
 
  private:
@@ -34,8 +34,8 @@ class StageTimer : public StageObserver {
   int interval_;
   std::int64_t steps_ = 0;
   std::int64_t timed_steps_ = 0;
-  int stage_ = -1;      ///< that is being timed; -1: none
-  double since_ = 0.0;  ///< processor time at which it began
+  int stage_ = -1;      ///< stage being timed; -1: none
+  double since_ = 0.0;  ///< processor time at its start
   std::array<double, kStageCount> timed_seconds_{};
   std::array<double, kStageCount> earlier_seconds_{};
 };

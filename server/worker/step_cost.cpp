@@ -8,7 +8,7 @@ namespace cellcrush::worker {
 namespace {
 
 constexpr double kLongest = 0.05;  // seconds
-// Used when nothing could be measured: what a core of 2022 took.
+// Fallback if the measurement fails: the cost on a core of 2022.
 constexpr double kUnmeasured = 1e-7;
 
 }  // namespace
@@ -16,8 +16,8 @@ constexpr double kUnmeasured = 1e-7;
 double measure_step_cost() {
   const Preset* preset = find_preset("hexagon-small");
   if (preset == nullptr) return kUnmeasured;
-  // The first third or so of its crush, contacts with it. Of a smaller one the walls at the rim, which fill no vectors,
-  // and the plates would be most of the time.
+  // About the first third of its crush, with contacts. In a smaller lattice the outer walls, which fill no vectors, and
+  // the plates would dominate.
   const auto built = build_scene(preset->spec);
   if (!built.scene) return kUnmeasured;
   const auto facts = facts_of(*built.scene);

@@ -10,7 +10,7 @@
 namespace cellcrush::worker {
 namespace {
 
-// The signals are blocked from the start and stay so; that one waits is seen by all threads.
+// The signals stay blocked; a pending one is visible to all threads.
 StopWish pending_wish() {
   sigset_t pending;
   sigpending(&pending);
@@ -46,9 +46,9 @@ Shortage shortage_of_exit_code(int code) {
 }
 
 void worker_main(const std::filesystem::path& folder) {
-  // By its own folder, wherever that is moved: the place may be another job's after a restore.
+  // Runs inside the folder, wherever that is moved: after a restore the path may belong to another job.
   if (chdir(folder.c_str()) != 0) _exit(kNoReport);
-  // _exit: the result is closed and durable, and nothing that runs at exit may turn a success into a crash.
+  // _exit: the result is closed and durable, and exit handlers must not turn success into a crash.
   _exit(run(store::JobFolder(".")));
 }
 
