@@ -31,6 +31,16 @@ bool read_some(int file, std::string& text, int wait_ms) {
   return true;
 }
 
+// State of the process or thread in a folder of /proc: the first letter behind its name, which stands in parentheses.
+// 0 when it is gone.
+char state_of(const std::string& folder) {
+  std::ifstream status(folder + "/stat");
+  std::string line;
+  std::getline(status, line);
+  const auto end = line.rfind(')');
+  return end != std::string::npos && end + 2 < line.size() ? line[end + 2] : '\0';
+}
+
 // Only calls that are allowed between fork and exec.
 [[noreturn]] void become(char* const* arguments, pid_t parent, int output, int errors, int most_descriptors) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -129,13 +139,11 @@ int DaemonProcess::wait() {
 }
 
 bool is_alive(pid_t process) {
-  std::ifstream status("/proc/" + std::to_string(process) + "/stat");
-  std::string line;
-  if (!std::getline(status, line)) return false;
-  // The state is the first letter behind the name, which stands in parentheses.
-  const auto end = line.rfind(')');
-  return end != std::string::npos && end + 2 < line.size() && line[end + 2] != 'Z';
+  const char state = state_of("/proc/" + std::to_string(process));
+  return state != '\0' && state != 'Z';
 }
+
+bool is_asleep(pid_t thread) { return state_of("/proc/self/task/" + std::to_string(thread)) == 'S'; }
 
 void kill_workers(const std::filesystem::path& data_folder) {
   std::error_code none;

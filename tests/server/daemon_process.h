@@ -44,6 +44,9 @@ class DaemonProcess {
 /// Whether the process is there and not a zombie.
 bool is_alive(pid_t process);
 
+/// Whether the thread of this process sleeps: it waits for a lock, a condition or a call of the kernel.
+bool is_asleep(pid_t thread);
+
 /// Kills the workers that a daemon which was killed has left behind.
 void kill_workers(const std::filesystem::path& data_folder);
 

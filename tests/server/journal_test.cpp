@@ -1,6 +1,7 @@
 #include "store/journal.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <chrono>
@@ -8,6 +9,8 @@
 #include <vector>
 
 #include "error.h"
+#include "server/daemon_process.h"
+#include "server/held_point.h"
 #include "server/journal_fixture.h"
 #include "store/journal_check.h"
 #include "store/sweep_reader.h"
@@ -80,34 +83,38 @@ TEST_F(JournalTest, SamplesAreDurableOnceTheyAreAskedToBe) {
 }
 
 TEST_F(JournalTest, AskingForSamplesWaitsForThoseThatAnotherIsMakingDurable) {
-  std::atomic<bool> held = false;
-  std::atomic<bool> go_on = false;
-  const auto hold = [&](double) {
-    held = true;
-    while (held && !go_on) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  };
+  std::atomic<bool> is_armed = false;
+  testing::HeldPoint commit;
   journal_.reset();
   reader_.reset();
-  go_on = true;
   journal_.emplace(
-      path(), [](std::int64_t) {}, hold);
+      path(), [](std::int64_t) {},
+      [&](double) {
+        if (is_armed) commit.stand();
+      });
   const auto job = create();
   journal_->append_sample(job, sample(1), std::chrono::minutes(1));
-  held = go_on = false;
+  is_armed = true;
   std::jthread first([&] { journal_->commit_samples(); });
-  while (!held) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  const bool is_committing = commit.wait();
+  EXPECT_TRUE(is_committing);
+  std::atomic<pid_t> thread = 0;
   std::atomic<bool> returned = false;
   std::jthread second([&] {
+    thread = gettid();
+    thread.notify_one();
     journal_->commit_samples();
     returned = true;
   });
-  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  // It sleeps once it waits for the first one; nothing else makes it sleep.
+  thread.wait(0);
+  while (!returned && !testing::is_asleep(thread)) std::this_thread::yield();
   EXPECT_FALSE(returned);
-  go_on = true;
+  commit.open();
   second.join();
   EXPECT_TRUE(returned);
   first.join();
-  journal_.reset();  // which commits once more, and so calls `hold`
+  journal_.reset();  // its last commit calls the function above
 }
 
 TEST_F(JournalTest, SamplesThatAreToldAgainAreThereOnce) {
