@@ -10,7 +10,7 @@
 
 namespace cellcrush::client {
 
-/// What ends a command early: an exit code, a message for the reader, and the problems of the case if there are any.
+/// Ends a command early: an exit code, a message for the user, and the problems of the case, if any.
 class CommandError : public std::exception {
  public:
   CommandError(ExitCode code, std::string message, v1::ProblemList problems = {});
@@ -26,20 +26,21 @@ class CommandError : public std::exception {
   v1::ProblemList problems_;
 };
 
-/// The error for a call that did not end with OK, with the problems from its status details.
+/// The error for a call that failed, with the problems from its status details.
 CommandError error_of(const grpc::Status& status);
 
 /// The error for a case with problems.
 CommandError problems_error(v1::ProblemList problems);
 
-/// The problems as text, a group each: "field = value: message", then the remedy on a line of its own.
+/// The problems as text, one group each: "field = value: message", with the remedy on its own line.
 std::string problems_text(const v1::ProblemList& problems);
 
-/// What is hardly meant about a case, as text: "Note: field = value message remedy", in lines as wide as the terminal.
+/// Notes on implausible values of a case, as text: "Note: field = value message remedy", wrapped to the terminal's
+/// width.
 std::string notes_text(const google::protobuf::RepeatedPtrField<v1::Problem>& notes);
 
-/// Prints the error: as text on stderr, or with `json` as one object on stdout: a cellcrush.v1.ProblemList if there are
-/// problems, else a google.rpc.Status.
+/// Prints the error: as text on stderr, or with `json` as one object on stdout. That is a cellcrush.v1.ProblemList if
+/// there are problems, else a google.rpc.Status.
 void print_error(const CommandError& error, bool json);
 
 }  // namespace cellcrush::client

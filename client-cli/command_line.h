@@ -4,7 +4,7 @@
 
 namespace cellcrush::client {
 
-/// Runs the command that the arguments name; prints its answer on stdout and what goes wrong on stderr.
+/// Runs the command that the arguments name; prints results on stdout and errors on stderr.
 ExitCode run_command_line(int argc, char** argv);
 
 }  // namespace cellcrush::client

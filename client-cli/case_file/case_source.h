@@ -10,9 +10,9 @@ namespace cellcrush::client {
 
 class Connection;
 
-/// Reads what the command line calls CASE: a file (protobuf text, or JSON when its name ends in .json or its text
-/// begins with "{"), "-" for the same on stdin, or "preset:NAME", which the server gives; then applies the `--set`
-/// assignments in order. Throws CommandError.
+/// Reads the CASE argument: a file (protobuf text, or JSON if its name ends in .json or its text begins with "{"), "-"
+/// for stdin, or "preset:NAME", which the server provides. Then applies the `--set` assignments in order. Throws
+/// CommandError.
 v1::Case read_case(const std::string& source, const std::vector<std::string>& assignments, Connection& connection);
 
 /// The same without a server; nothing for a preset.

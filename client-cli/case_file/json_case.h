@@ -7,7 +7,7 @@
 namespace cellcrush::client {
 
 /// Reads a case from protobuf JSON (field names as in the proto, or in lowerCamelCase). Throws CommandError (refused)
-/// with the path of the field that is wrong, as "FILE: path: message".
+/// with the path of the invalid field, as "FILE: path: message".
 v1::Case parse_json_case(const std::string& text, const std::string& file);
 
 }  // namespace cellcrush::client

@@ -6,8 +6,8 @@
 
 namespace cellcrush::client {
 
-/// Reads a case from protobuf text. Throws CommandError (refused) with every error that was found, one a line, as
-/// "FILE:LINE:COLUMN: message" (counted from 1), misspelt fields with the name that may have been meant.
+/// Reads a case from protobuf text. Throws CommandError (refused) with all errors found, one per line as
+/// "FILE:LINE:COLUMN: message" (counted from 1), with suggestions for misspelt fields.
 v1::Case parse_text_case(const std::string& text, const std::string& file);
 
 }  // namespace cellcrush::client

@@ -8,7 +8,7 @@
 
 namespace cellcrush::client {
 
-/// Shares of red, green, blue and opacity, 0 to 1.
+/// Red, green, blue and opacity, 0 to 1.
 struct Colour {
   double red = 0.0;
   double green = 0.0;
@@ -29,13 +29,13 @@ struct Rectangle {
 
 enum class PictureFormat { png, svg, pdf };
 
-/// The format that a file's name asks for. Throws std::invalid_argument when it ends in none of .png, .svg, .pdf.
+/// The format for a file name. Throws std::invalid_argument unless it ends in .png, .svg or .pdf.
 PictureFormat picture_format(const std::filesystem::path& file);
 
-/// PNG pictures have this many pixels a unit.
+/// Pixels per unit in PNG pictures.
 inline constexpr int kPixelsPerUnit = 2;
 
-/// The bytes of a picture on a white ground; `draw` draws in units. Throws std::runtime_error when it cannot be drawn.
+/// The bytes of a picture on a white background; `draw` draws in units. Throws std::runtime_error if it fails.
 std::string render_picture(PictureFormat format, double width, double height,
                            const std::function<void(cairo_t*)>& draw);
 
@@ -43,22 +43,22 @@ void set_colour(cairo_t* context, const Colour& colour);
 
 enum class Anchor { left, middle, right };
 
-/// How a text is set.
+/// Style and alignment of a text.
 struct TextStyle {
   double size = 12.0;
   Colour colour = kInk;
   Anchor anchor = Anchor::left;
   bool bold = false;
-  bool upwards = false;  ///< turned by a right angle, read from bottom to top
+  bool upwards = false;  ///< rotated by 90 degrees, read from bottom to top
 };
 
-/// Draws a line of text (UTF-8) with the anchor of its base line at (x, y).
+/// Draws a line of text (UTF-8) with the anchor of its baseline at (x, y).
 void draw_text(cairo_t* context, double x, double y, const std::string& text, const TextStyle& style = {});
 
 /// Width of a line of text.
 double text_width(cairo_t* context, const std::string& text, const TextStyle& style = {});
 
-/// The text, cut with "..." so that it is no wider than `width`.
+/// The text, truncated with "..." to at most `width`.
 std::string fit_text(cairo_t* context, const std::string& text, double width, const TextStyle& style = {});
 
 }  // namespace cellcrush::client

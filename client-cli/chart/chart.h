@@ -7,18 +7,18 @@
 
 namespace cellcrush::client {
 
-/// How a line is drawn; `dashes` as lengths on and off, empty for a solid line. A width of 0 draws none.
+/// Style of a line; `dashes` are lengths on and off, empty for a solid line. Width 0 draws none.
 struct LineStyle {
   Colour colour = kInk;
   double width = 1.5;
   std::vector<double> dashes;
 };
 
-/// What stands at a point of a curve, in the colour of its line.
+/// Mark at a point of a curve, in the colour of its line.
 enum class Marker { none, disc, square, triangle, diamond, cross };
 
-/// A line through points, and marks at them; x and y have equal length. Without a name it is not in the legend. `low`,
-/// `high` and `labels` are empty or as long: the ends of an upright bar through each point, and a small text beside it.
+/// A line through points with marks; x and y have equal length. Without a name it is not in the legend. `low`, `high`
+/// and `labels` are empty or as long: ends of an error bar at each point, and a small text beside it.
 struct Curve {
   std::vector<double> x;
   std::vector<double> y;
@@ -30,7 +30,7 @@ struct Curve {
   std::vector<std::string> labels = {};
 };
 
-/// A line at one height.
+/// A horizontal line.
 Curve level_curve(double value, double from, double to, LineStyle style, std::string name);
 
 /// A shaded range of x with a small text at its top.
@@ -40,15 +40,14 @@ struct Band {
   std::string text;
 };
 
-/// A small arrow at the chart's upper side, where a curve leaves it, with a text that says how high it goes.
+/// A small arrow at the upper edge where a curve leaves the chart, with a text giving its maximum.
 struct Overshoot {
   double x = 0.0;
   std::string text;
   Colour colour;
 };
 
-/// Curves over common axes, with a legend above them; later lines lie on top of earlier ones, and marks on top of
-/// lines.
+/// Curves over common axes with a legend above. Later lines cover earlier ones, and marks cover lines.
 struct Chart {
   Axis x;
   Axis y;

@@ -5,8 +5,8 @@
 
 namespace cellcrush::client {
 
-/// The ledger of a crush against strain, in J: the work of the plates and, each as a line of its own, where it has
-/// gone. What stays 0 is left out, but not the residual.
+/// The energy ledger of a crush against strain, in J: the work of the plates, and one line for each way it was used.
+/// Terms that stay 0 are omitted, except the residual.
 Chart build_energy_chart(const JobHistory& history);
 
 }  // namespace cellcrush::client

@@ -14,14 +14,14 @@ struct JobHistory {
   std::vector<v1::Sample> samples;
 };
 
-/// Stress at both plates against strain, smoothed over 2 % strain, with the samples behind it as thin lines, the
-/// plateau levels over their window and theory's levels.
+/// Stress at both plates against strain, smoothed over 2 % strain, with the samples as thin lines behind, the plateau
+/// stresses over their window, and theory.
 Chart build_job_chart(const JobHistory& history);
 
-/// The smoothed curves of several jobs: the impact plate's solid, the support plate's dashed, a colour a job.
+/// The smoothed curves of several jobs, one colour per job: impact plate solid, support plate dashed.
 Chart build_comparison_chart(const std::vector<JobHistory>& histories);
 
-/// What a job is called in a picture: its title, or its name when it has none, and its speed.
+/// A job's label in a picture: its title, or else its name, and its speed.
 std::string picture_name(const v1::Job& job);
 
 }  // namespace cellcrush::client

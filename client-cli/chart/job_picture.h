@@ -9,21 +9,21 @@
 
 namespace cellcrush::client {
 
-/// The picture of one job: the lattice at each of `stages` (may be empty), all at one scale, above its curves; of a
-/// crush these are the stresses and the ledger.
+/// The picture of one job: the lattice at each of `stages` (may be empty), at one scale, above its curves. For a crush
+/// these are the stresses and the energy ledger.
 std::string render_job_picture(PictureFormat format, const JobHistory& history, const std::vector<MeshFrame>& stages);
 
-/// The same with the lattice left of the stress curves and without the ledger, as a slide needs it. REQUIRES: stages is
+/// The same with the lattice to the left of the stress curves and without the ledger, for a slide. REQUIRES: stages is
 /// not empty.
 std::string render_wide_picture(PictureFormat format, const JobHistory& history, const std::vector<MeshFrame>& stages);
 
-/// The stages alone, without a title, as a figure with a caption needs them. REQUIRES: stages is not empty.
+/// The stages alone, without a title, for a figure with a caption. REQUIRES: stages is not empty.
 std::string render_stages_picture(PictureFormat format, const std::vector<MeshFrame>& stages);
 
 /// The picture of several jobs: their curves over common axes.
 std::string render_comparison_picture(PictureFormat format, const std::vector<JobHistory>& histories);
 
-/// The picture of one or several sweeps: plateau stress against what is varied. REQUIRES: there is one.
+/// The picture of one or several sweeps: plateau stress against the varied field. REQUIRES: at least one sweep.
 std::string render_sweep_picture(PictureFormat format, const std::vector<SweepResults>& sweeps,
                                  const LogarithmicAxes& logarithmic);
 

@@ -5,8 +5,8 @@
 
 namespace cellcrush::client {
 
-/// What an explicit frame did over time: the displacements of its watched nodes, or their rotations when none moved;
-/// the energies of the frame when it watches none.
+/// An explicit frame over time: displacements of its watched nodes, or their rotations if none moved; energies if it
+/// watches no nodes.
 Chart build_node_chart(const JobHistory& history);
 
 }  // namespace cellcrush::client

@@ -7,21 +7,21 @@
 
 namespace cellcrush::client {
 
-/// Where the drawings of a lattice's stages stand in a picture, all at one scale, each with a title above it.
+/// Layout of the drawings of a lattice's stages in a picture, at one scale, each with a title above.
 struct StagePanels {
   std::vector<Box> boxes{};         ///< of each drawing
-  std::vector<Rectangle> places{};  ///< of the drawings, titles not included, in rows from the left
-  double bar_right = 0.0;           ///< where the scale bar ends
-  double bar_y = 0.0;               ///< the height of the scale bar in the picture
-  double bottom = 0.0;              ///< where the next part of the picture may begin
+  std::vector<Rectangle> places{};  ///< of the drawings without titles, in rows from the left
+  double bar_right = 0.0;           ///< right end of the scale bar
+  double bar_y = 0.0;               ///< vertical position of the scale bar
+  double bottom = 0.0;              ///< top of the next part of the picture
 };
 
-/// Arranges the stages in `width` from (left, top) down: rows filled from the left, drawn from the impact plate on, so
-/// that a crushed lattice takes less room than a whole one. Of all numbers of rows it chooses the one that draws them
-/// largest within a page's height, fewer rows where that costs little. REQUIRES: stages is not empty.
+/// Arranges the stages in rows of `width` from (left, top) down, filled from the left. Stages are drawn from the impact
+/// plate onwards, so that a crushed lattice needs less room. Chooses the number of rows that gives the largest scale
+/// within a page's height, preferring fewer rows if that costs little. REQUIRES: stages is not empty.
 StagePanels lay_stages(const std::vector<MeshFrame>& stages, double left, double top, double width);
 
-/// Draws the stages with their letters, strains (a frame's: times) and a scale bar.
+/// Draws the stages with their letters, strains (times for a frame) and a scale bar.
 void draw_stages(cairo_t* context, const StagePanels& panels, const std::vector<MeshFrame>& stages);
 
 }  // namespace cellcrush::client

@@ -6,14 +6,14 @@
 
 namespace cellcrush::client {
 
-/// Cairo writes text into SVG as outlines, which nobody can select, search or edit. Here the texts are collected
-/// instead and put as <text> elements on top of the finished picture.
+/// Cairo writes text into SVG as outlines that nobody can select, search or edit. This class collects the texts instead
+/// and adds them as <text> elements on top of the finished picture.
 class SvgTexts {
  public:
-  /// Makes `surface`, an SVG, collect its texts here. It must not outlive this.
+  /// Makes `surface`, an SVG, collect its texts here. It must not outlive this object.
   void attach(cairo_surface_t* surface);
 
-  /// The collector of what is drawn on; null for a surface without one.
+  /// The collector of the current surface; null if it has none.
   static SvgTexts* find(cairo_t* context);
 
   /// A line of text with its anchor at (x, y), both in the context's units.

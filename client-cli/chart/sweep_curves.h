@@ -18,14 +18,13 @@ struct LogarithmicAxes {
   bool y = false;
 };
 
-/// Plateau stress against the first varied field. Of one sweep at both plates, with theory beside it; when speed alone
-/// is varied also with the quadratic fit; several varied fields give a series a combination of the others. Of several
-/// sweeps at the impact plate, a colour and a mark each, named by title or by what their cases differ in. Throws
-/// CommandError (refused) when no job has a plateau yet, nothing or different fields are varied, or an axis cannot be
-/// logarithmic.
+/// Plateau stress against the first varied field. For one sweep: both plates with theory, the quadratic fit if only
+/// speed varies, and one series for each combination of the other varied fields. For several sweeps: the impact plate,
+/// one colour and mark per sweep, named by title or by the differences of their cases. Throws CommandError (refused) if
+/// no job has a plateau yet, if nothing or different fields are varied, or if an axis cannot be logarithmic.
 Chart build_sweep_chart(const std::vector<SweepResults>& sweeps, const LogarithmicAxes& logarithmic = {});
 
-/// A field's name for an axis: "loading.speed_m_per_s" becomes "speed (m/s)".
+/// A field's label for an axis: "loading.speed_m_per_s" becomes "speed (m/s)".
 std::string axis_label(const std::string& field);
 
 }  // namespace cellcrush::client

@@ -11,22 +11,22 @@
 
 namespace cellcrush::client {
 
-/// What one run of the program is about: the options every command has, and the command that was given.
+/// One run of the program: the common options and the chosen command.
 struct Session {
   bool json = false;
   std::string server;
   CredentialFiles credentials;
-  std::function<ExitCode()> action;  ///< set by the command that the arguments name; may throw CommandError
+  std::function<ExitCode()> action;  ///< set by the chosen command; may throw CommandError
 
-  /// The server's connection, made on first use.
+  /// The connection to the server, opened on first use.
   Connection& connection();
 
  private:
   std::unique_ptr<Connection> connection_;
 };
 
-/// Adds --json, --server and the options of CredentialFiles to the program. Commands that are added later take them as
-/// well, so that they may stand before and after the command; of one given twice the last counts.
+/// Adds --json, --server and the options of CredentialFiles to the program. Commands added later inherit them, so that
+/// they may stand before or after the command; if repeated, the last one counts.
 void add_shared_options(CLI::App& app, Session& session);
 
 /// Groups of commands, as the main help shows them.
@@ -42,14 +42,14 @@ constexpr const char* kScheduleOptions = "Scheduling";
 constexpr const char* kOutputOptions = "Output";
 constexpr const char* kSelectionOptions = "Selection";
 
-/// Adds a command, which runs `action` on the options that the caller adds to it.
+/// Adds a command that runs `action`; the caller adds its options.
 CLI::App* add_command(CLI::App& app, Session& session, const std::string& name, const std::string& description,
                       std::function<ExitCode()> action);
 
-/// Puts examples, a command line each, at the end of a command's help.
+/// Appends examples to a command's help, one command line each.
 void add_examples(CLI::App& command, const std::vector<std::string>& examples);
 
-/// CASE and --set, as several commands have them.
+/// The CASE argument and --set, shared by several commands.
 struct CaseOptions {
   std::string source;
   std::vector<std::string> assignments;

@@ -5,8 +5,8 @@
 
 namespace cellcrush::client {
 
-/// Whether the user agrees to what `question` asks: "y" or "yes". It is asked on stderr when stdin and stderr are
-/// terminals; without, as in a script, the answer is yes and the question is not made.
+/// Asks `question`; returns whether the user answers "y" or "yes". Asks on stderr if stdin and stderr are terminals.
+/// Otherwise, as in a script, it returns true without asking.
 bool confirm(const std::function<std::string()>& question);
 
 }  // namespace cellcrush::client

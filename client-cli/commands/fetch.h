@@ -8,18 +8,18 @@
 
 namespace cellcrush::client {
 
-/// Throws CommandError (refused) where the folder holds another's file of a name that write_results writes.
+/// Throws CommandError (refused) if the folder contains somebody else's file with a name that write_results uses.
 void check_may_write_results(const std::filesystem::path& folder);
 
-/// What write_results did in its folder.
+/// Summary of what write_results did.
 struct ResultFiles {
   std::vector<std::filesystem::path> written;
   std::vector<std::filesystem::path> removed;
 };
 
-/// Writes a job's case.txtpb, history.csv, nodes.csv where it has nodes, the frames nearest to the times in s, and
-/// result.h5 into a folder, which it makes. No file appears before all of them are on the disk; result.h5
-/// appears last. Removes the nodes.csv and frames that it wrote for another job.
+/// Writes into a folder, which it creates: case.txtpb, history.csv, nodes.csv if nodes are watched, the frames nearest
+/// to the times in s, and result.h5. No file appears before all of them are on the disk; result.h5 appears last.
+/// Deletes the nodes.csv and frames that it wrote for another job.
 ResultFiles write_results(Connection& connection, const v1::Job& job, const std::filesystem::path& folder,
                           const std::vector<double>& frame_times = {});
 

@@ -9,23 +9,22 @@
 
 namespace cellcrush::client {
 
-/// The first line of a history file: the names of its columns, those of /history in result.h5 first.
+/// The header line of a history file: its columns, those of /history in result.h5 first.
 std::string history_header();
 
-/// Samples as CSV, a line each below the header; numbers are written so that they read back to the same bits, and
-/// what a sample lacks (a front) is empty.
+/// Samples as CSV, one line each. Numbers read back to the same bits; missing values (a front) are empty.
 std::string history_csv(const google::protobuf::RepeatedPtrField<v1::Sample>& samples);
 
-/// The first line of a file of watched nodes.
+/// The header line of a file of watched nodes.
 std::string nodes_header();
 
-/// The watched nodes of samples as CSV, a line for each node of each sample; empty when no sample has any.
+/// The watched nodes of samples as CSV, one line per node and sample; empty if no sample has any.
 std::string nodes_csv(const google::protobuf::RepeatedPtrField<v1::Sample>& samples);
 
-/// The first line of a frame file.
+/// The header line of a frame file.
 std::string frame_header();
 
-/// A frame as CSV, a line an element: its ends, thickness and plastic fraction.
+/// A frame as CSV, one line per element: its ends, thickness and plastic fraction.
 std::string frame_csv(const MeshFrame& frame);
 
 }  // namespace cellcrush::client

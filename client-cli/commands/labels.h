@@ -13,7 +13,7 @@ using Labels = google::protobuf::Map<std::string, std::string>;
 /// Adds --label, which may be repeated, to a command.
 void add_label_option(CLI::App& command, std::vector<std::string>& labels);
 
-/// Texts "KEY=VALUE" as labels. Throws CommandError (refused) for what has another form.
+/// Parses "KEY=VALUE" texts as labels. Throws CommandError (refused) for another form.
 Labels parse_labels(const std::vector<std::string>& texts);
 
 }  // namespace cellcrush::client

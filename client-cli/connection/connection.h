@@ -17,11 +17,12 @@
 
 namespace cellcrush::client {
 
-/// A channel to one server, with a stub for each service. It connects on first use, and says within two seconds when no
-/// server answers, within one when one does not let it in. Not thread-safe, except that calls on the stubs are.
+/// A channel to one server, with a stub for each service. It connects on first use. If no server answers, it reports
+/// that within two seconds, and within one if the server refuses the connection. Not thread-safe, except for calls on
+/// the stubs.
 class Connection {
  public:
-  /// `address` as find_server_address answers it.
+  /// `address` has the form of find_server_address.
   explicit Connection(std::string address, Credentials credentials = {});
 
   v1::Cases::Stub& cases();
@@ -32,8 +33,8 @@ class Connection {
   /// Whether the server answers within `patience`.
   bool wait(std::chrono::milliseconds patience);
 
-  /// One call with one answer. Throws CommandError when it does not end with OK, takes longer than `patience`, or would
-  /// be larger than a server takes.
+  /// One unary call. Throws CommandError if it fails, takes longer than `patience`, or exceeds the size that a server
+  /// accepts.
   template <typename Stub, typename Request, typename Response>
   Response call(Stub& stub, grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*),
                 const Request& request, std::chrono::seconds patience = kPatience) {
@@ -46,12 +47,12 @@ class Connection {
     return response;
   }
 
-  /// The error for a call about `name`, a job, a sweep or "preset:NAME", that did not end with OK. For a name that does
-  /// not exist it asks the server which one may be meant.
+  /// The error for a failed call about `name`: a job, a sweep or "preset:NAME". If the name does not exist, asks the
+  /// server for a similar one.
   CommandError error_about(const std::string& name, const grpc::Status& status);
 
   static constexpr std::chrono::seconds kPatience{60};
-  /// Largest request that a server takes, in bytes: 4 MiB.
+  /// Largest request that a server accepts, in bytes: 4 MiB.
   static constexpr std::int64_t kLargestRequest = 4 * 1024 * 1024;
 
  private:

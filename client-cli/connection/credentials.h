@@ -7,7 +7,8 @@
 
 namespace cellcrush::client {
 
-/// Files that say how to reach a server and who calls, as the options name them; empty ones are not given.
+/// Files that define how to reach a server and who calls, as the options name them. An empty path means that the option
+/// was not given.
 struct CredentialFiles {
   std::string authority;    ///< --tls-ca, else $CELLCRUSH_TLS_CA
   std::string certificate;  ///< --tls-cert
@@ -15,7 +16,7 @@ struct CredentialFiles {
   std::string token;        ///< --token-file, else $CELLCRUSH_TOKEN_FILE; else $CELLCRUSH_TOKEN is the token itself
 };
 
-/// How to talk to a server.
+/// Credentials for a server.
 struct Credentials {
   bool tls = false;
   std::string authority;    ///< PEM
@@ -24,12 +25,12 @@ struct Credentials {
   std::string token;        ///< empty: none
 };
 
-/// Reads what the options and the environment name, for a server address of find_server_address. A Unix socket takes
-/// none of it. Throws CommandError (refused): a file cannot be read or is not what it should be, --tls-cert without
-/// --tls-key or without an authority, or a token that would go in plain text to another host.
+/// Reads the files named by options and environment, for an address of find_server_address. A Unix socket uses none of
+/// them. Throws CommandError (refused): a file is unreadable or invalid, --tls-cert is given without --tls-key or an
+/// authority, or a token would be sent in plain text to another host.
 Credentials read_credentials(const CredentialFiles& files, const std::string& address);
 
-/// A channel that talks so; the token goes with every call.
+/// A channel with these credentials; every call carries the token.
 std::shared_ptr<grpc::Channel> open_channel(const std::string& address, const Credentials& credentials,
                                             const grpc::ChannelArguments& arguments);
 

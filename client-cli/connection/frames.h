@@ -5,14 +5,13 @@
 
 namespace cellcrush::client {
 
-/// A frame in one piece, with the mesh it belongs to.
+/// A complete frame, with its mesh.
 struct MeshFrame {
   v1::FieldFrame frame;
   v1::Mesh mesh;
 };
 
-/// Fetches the frame that `request` names and joins its parts. Throws CommandError, also when what came does not fit
-/// together (cut_off).
+/// Fetches the requested frame and joins its parts. Throws CommandError, also if the parts are inconsistent (cut_off).
 MeshFrame fetch_frame(Connection& connection, const v1::GetFrameRequest& request);
 
 }  // namespace cellcrush::client

@@ -8,8 +8,8 @@
 
 namespace cellcrush::client {
 
-/// Calls a method that answers in pages, and joins them into one answer without a token. `wants_more` is asked before
-/// each page, and may change the request, such as its page_size. Throws CommandError.
+/// Calls a paged method and joins the pages into one response without a token. Calls `wants_more` before each page; it
+/// may change the request, such as its page_size. Throws CommandError.
 template <typename Stub, typename Request, typename Response>
 Response call_for_pages(Connection& connection, Stub& stub,
                         grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*), Request request,

@@ -7,13 +7,13 @@
 
 namespace cellcrush::client {
 
-/// A cellcrushd that serves this process alone on a Unix socket of its own. It ends with this process
-/// at the latest; a job that runs is then left at a checkpoint in the data folder.
+/// A cellcrushd on a Unix socket of its own that serves only this process. It ends with this process at the latest; a
+/// running job is then left at a checkpoint in the data folder.
 class PrivateDaemon {
  public:
-  /// Starts the cellcrushd that lies beside this program, else that of $PATH, and waits until it serves. Its jobs may
-  /// take `time_limit_s`; 0: no limit. Its log is `data`/daemon.log. Throws CommandError (refused) with the last line
-  /// of the log when it does not.
+  /// Starts the cellcrushd beside this program, or else the one in $PATH, and waits until it serves. `time_limit_s`
+  /// limits its jobs; 0: no limit. Its log is `data`/daemon.log. Throws CommandError (refused) with the last log line
+  /// if it does not start.
   PrivateDaemon(const std::filesystem::path& data, double time_limit_s);
   ~PrivateDaemon();
   PrivateDaemon(const PrivateDaemon&) = delete;
@@ -21,19 +21,19 @@ class PrivateDaemon {
 
   [[nodiscard]] std::string address() const { return "unix:" + socket().string(); }
 
-  /// Whether it has ended without being asked to.
+  /// Whether it has ended unexpectedly.
   [[nodiscard]] bool has_ended();
 
   [[nodiscard]] const std::filesystem::path& log() const { return log_; }
 
-  /// Ends it in order and waits for that. Throws CommandError (refused) when it does not end within a minute.
+  /// Stops it and waits for its end. Throws CommandError (refused) if it does not end within a minute.
   void stop();
 
  private:
   [[nodiscard]] std::filesystem::path socket() const { return folder_ / "socket"; }
 
   std::filesystem::path log_;
-  std::filesystem::path folder_;  ///< of the socket, whose path may be 107 bytes long at most
+  std::filesystem::path folder_;  ///< of the socket; a socket path has at most 107 bytes
   pid_t pid_ = -1;
 };
 

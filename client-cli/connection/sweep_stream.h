@@ -8,18 +8,17 @@
 
 namespace cellcrush::client {
 
-/// What a watcher of a sweep is told, on the thread that follows it.
+/// Callbacks for a watcher of a sweep, on the thread that follows it.
 class SweepWatcher {
  public:
   virtual ~SweepWatcher() = default;
   virtual void on_response(const v1::WatchSweepResponse& response) = 0;
-  /// The stream broke for the reason given and is being picked up again.
+  /// The stream broke for this reason and is being resumed.
   virtual void on_break(const std::string& reason) = 0;
 };
 
-/// Follows a sweep until all its jobs have ended. A stream that breaks is picked up by the token that came last, as
-/// follow_stream says. Returns true at the sweep's end and false when `interruption` was requested. Throws
-/// CommandError.
+/// Follows a sweep until all its jobs have ended. Resumes a broken stream with its last token (see follow_stream).
+/// Returns true at the sweep's end and false if `interruption` was requested. Throws CommandError.
 bool follow_sweep(Connection& connection, const std::string& name, const Interruption& interruption,
                   SweepWatcher& watcher);
 

@@ -4,8 +4,7 @@
 
 namespace cellcrush::client {
 
-/// case.proto with its comments, as protoc has read it: a serialized google.protobuf.FileDescriptorSet.
-/// Made at build time.
+/// case.proto with its comments, compiled by protoc at build time: a serialized google.protobuf.FileDescriptorSet.
 std::string_view case_descriptor();
 
 }  // namespace cellcrush::client

@@ -6,42 +6,42 @@
 
 namespace cellcrush::client {
 
-/// An option as the parser has it.
+/// An option as defined in the parser.
 struct OptionEntry {
   std::vector<std::string> names;  ///< with dashes, such as "-o" and "--output"
-  std::string value;               ///< what its value is called; empty for a flag
+  std::string value;               ///< placeholder of its value; empty for a flag
   std::string description;
   std::string group;   ///< heading under which the help lists it
-  std::string limits;  ///< of its value, such as "-100 to 100"; empty: none but those of the description
+  std::string limits;  ///< of its value, such as "-100 to 100"; empty: none beyond the description
   bool repeatable = false;
   bool required = false;
-  std::vector<std::string> words;  ///< that its value may be, or begins with where they end in "="; empty: a file
+  std::vector<std::string> words;  ///< possible values, or prefixes if they end in "="; empty: a file
 };
 
 /// A positional argument of a command.
 struct ArgumentEntry {
-  std::string name;  ///< such as "CASE" or "NAME...", in brackets where it may be left out
+  std::string name;  ///< such as "CASE" or "NAME...", in brackets if optional
   std::string description;
 };
 
-/// What the arguments of a command may be.
+/// Possible arguments of a command.
 struct ArgumentWords {
-  std::vector<std::string> words;  ///< whole, or beginnings where they end in "/"
+  std::vector<std::string> words;  ///< complete, or prefixes if they end in "/"
   bool files = false;              ///< or a file
 };
 
-/// The commands that the help lists; hidden ones are left out.
+/// The commands listed in the help, without hidden ones.
 std::vector<const CLI::App*> visible_commands(const CLI::App& app);
 std::vector<std::string> command_names(const CLI::App& app);
 
-/// The options of the program or of a command, --help included, arguments left out.
+/// The options of the program or of a command, including --help but no positional arguments.
 std::vector<OptionEntry> option_entries(const CLI::App& app);
 
 /// The positional arguments of a command, and their names alone.
 std::vector<ArgumentEntry> argument_entries(const CLI::App& command);
 std::vector<std::string> argument_names(const CLI::App& command);
 
-/// What stands for them, as far as it is known without a server: presets, beginnings of names, fields of the case.
+/// Their possible values, as far as known without a server: presets, prefixes of names, fields of the case.
 ArgumentWords argument_words(const CLI::App& command);
 
 }  // namespace cellcrush::client

@@ -5,7 +5,7 @@
 
 namespace cellcrush::client {
 
-/// The reference of all commands, client-cli/commands.md, in Markdown. Lines end within 120 columns.
+/// The reference of all commands, client-cli/commands.md, in Markdown. Lines have at most 120 columns.
 std::string command_page(const CLI::App& app);
 
 }  // namespace cellcrush::client

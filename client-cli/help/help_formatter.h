@@ -4,8 +4,8 @@
 
 namespace cellcrush::client {
 
-/// How --help looks: commands before options, each group of options a paragraph, lines of the terminal's width, of 100
-/// columns at most.
+/// Layout of --help: commands before options, one paragraph per group of options, lines as wide as the terminal but at
+/// most 100 columns.
 class HelpFormatter : public CLI::Formatter {
  public:
   HelpFormatter();

@@ -4,7 +4,7 @@
 
 namespace cellcrush::client {
 
-/// The presets of the server, for completion, which asks none; a test compares them with `cellcrush presets`.
+/// The server's presets, for completion without a server; a test compares them with `cellcrush presets`.
 constexpr std::array kPresetNames = {
     "hexagon-small",     "papka-kyriakides-1", "papka-kyriakides-2", "type-i",
     "type-ii-as-stated", "type-ii-as-counted", "type-iii-as-stated", "type-iii-as-counted",

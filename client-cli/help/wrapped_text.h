@@ -5,8 +5,7 @@
 
 namespace cellcrush::client {
 
-/// Each line of the text in lines of at most `width` columns, as wrap_words breaks them. No newline is added at its
-/// end.
+/// Wraps each line of the text to at most `width` columns, like wrap_words. Adds no newline at the end.
 std::string wrap_text(std::string_view text, int width);
 
 }  // namespace cellcrush::client

@@ -13,14 +13,14 @@ struct QuadraticFit {
   double largest_residual = 0.0;  ///< greatest |y - fit| over the points
   int point_count = 0;
 
-  /// Whether it passes through all of its points whatever they are, so that its residual is round-off.
+  /// Whether it passes through any points it was given, so that its residual is round-off only.
   [[nodiscard]] bool passes_through() const { return point_count == 3; }
 
   [[nodiscard]] double at(double x) const { return constant + x * (linear + x * quadratic); }
 };
 
-/// The least-squares fit through points; x and y have equal length. Nothing when there are fewer than three different
-/// finite x, so that the fit is not unique.
+/// The least-squares fit through points; x and y have equal length. Nothing with fewer than three distinct finite x,
+/// where the fit is not unique.
 std::optional<QuadraticFit> find_quadratic_fit(const std::vector<double>& x, const std::vector<double>& y);
 
 }  // namespace cellcrush::client

@@ -10,7 +10,7 @@
 
 namespace cellcrush::client {
 
-/// A figure of a job's result, as a column of a sweep's table.
+/// A result of a job, as a column of a sweep's table.
 struct ResultColumn {
   std::array<const char*, 3> heading;                          ///< its lines, such as "plateau", "impact", "plate"
   const char* unit;                                            ///< the line below them
@@ -22,30 +22,30 @@ struct ResultColumn {
 /// The columns of a sweep's table, in their order.
 const std::vector<ResultColumn>& result_columns();
 
-/// A value of a varied field as short as it reads back: "50", "0.35".
+/// A value of a varied field in the shortest form that reads back exactly: "50", "0.35".
 std::string value_text(double value);
 
-/// The rows of a sweep that differ in the first varied field alone, those with a plateau at both plates only.
+/// Rows of a sweep that differ only in the first varied field, limited to those with a plateau at both plates.
 struct ResultSeries {
   std::string name;                           ///< the other fields' values, "wall thickness = 0.3 mm"; may be empty
   std::vector<double> x;                      ///< the first field's values, ascending
-  std::vector<const v1::Summary*> summaries;  ///< of the jobs there; they live as long as the table
+  std::vector<const v1::Summary*> summaries;  ///< of the jobs in the table, which outlives them
 };
 
-/// A sweep's succeeded jobs as series, in the order in which the table first names them.
+/// A sweep's succeeded jobs as series, in the order of first appearance in the table.
 std::vector<ResultSeries> split_series(const v1::SweepTable& table);
 
 /// Whether the first varied field is the speed of the crush.
 bool varies_speed_first(const v1::SweepTable& table);
 
-/// The values of a figure over a series.
+/// The values of a column over a series.
 std::vector<double> values_of(const ResultSeries& series, double (*value)(const v1::Summary& summary));
 
-/// The fit of the impact plate's plateau stress in MPa; nothing without three different x.
+/// The fit of the impact plate's plateau stress in MPa; nothing with fewer than three distinct x.
 std::optional<QuadraticFit> find_plateau_fit(const ResultSeries& series);
 
-/// Eq. 51 as a function of speed, from the theory of the series: constant + quadratic V^2. Nothing when no job carries
-/// it. REQUIRES: x are speeds in m/s.
+/// Eq. 51 as a function of speed, from the theory of the series: constant + quadratic V^2. Nothing if no job has it.
+/// REQUIRES: x are speeds in m/s.
 std::optional<QuadraticFit> find_shock_curve(const ResultSeries& series);
 
 }  // namespace cellcrush::client

@@ -8,22 +8,22 @@
 
 namespace cellcrush::client {
 
-/// Columns that `text` (UTF-8) takes on a terminal, a character a column.
+/// Columns of `text` (UTF-8) on a terminal, one per character.
 int display_width(std::string_view text);
 
-/// `text` with blanks at which lines are not broken; wrap_words() and breakable() make them plain blanks again.
+/// `text` with non-breaking spaces; wrap_words() and breakable() convert them back to spaces.
 std::string unbreakable(std::string_view text);
 std::string breakable(std::string_view text);
 
-/// `text` cut to `width` columns, with "..." at the cut where there is room for it.
+/// `text` truncated to `width` columns, with "..." at the cut if there is room.
 std::string cut(std::string_view text, int width);
 
-/// `text` in lines of at most `width` columns, broken between words; a longer word is broken behind the last sign
-/// that joins its parts, else where the line ends. At least one line. REQUIRES: width is above 0.
+/// `text` wrapped to at most `width` columns, between words. A longer word is broken after the last joining sign that
+/// fits, else at the end of the line. At least one line. REQUIRES: width is above 0.
 std::vector<std::string> wrap_words(std::string_view text, int width);
 
-/// The same lines with `first` before the first and `next` before the others, each at most `width` columns in all and
-/// ended by a line break.
+/// The same lines with `first` before the first and `next` before the others, each at most `width` columns in total and
+/// terminated by a line break.
 std::string wrapped(std::string_view text, int width, std::string_view first = {}, std::string_view next = {});
 
 }  // namespace cellcrush::client

@@ -6,8 +6,8 @@
 
 namespace cellcrush::client {
 
-/// What a case would take and be worth at each fidelity, as a table with a line on what the errors are; empty when
-/// there are none.
+/// Predicted cost and error of a case at each fidelity, as a table with a line about the errors; empty without
+/// fidelities.
 std::string fidelity_text(const v1::CheckCaseResponse& check, int width);
 
 }  // namespace cellcrush::client

@@ -8,9 +8,8 @@
 
 namespace cellcrush::client {
 
-/// A row a job, below a heading, with a column for each of up to four fields in which jobs of one title differ; below
-/// the table what is the same for all. Jobs stand below their title, which is written once for those that follow each
-/// other.
+/// One row per job below a heading, with columns for up to four fields in which jobs of one title differ. The values
+/// common to all jobs follow the table. Consecutive jobs with the same title stand below it.
 std::string job_list_text(const std::vector<v1::Job>& jobs, int width = terminal_width());
 
 }  // namespace cellcrush::client

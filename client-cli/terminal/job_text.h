@@ -7,11 +7,11 @@
 
 namespace cellcrush::client {
 
-/// How a job ended or stands: a heading, then for a SUCCEEDED job its plateau stresses with theory beside them, energy
-/// and contact; for a FAILED one the cause, what happened and the remedy.
+/// Outcome or state of a job: a heading, then for a SUCCEEDED job its plateau stresses with theory, energy and contact;
+/// for a FAILED one the cause, the message and the remedy.
 std::string outcome_text(const v1::Job& job, int width = terminal_width());
 
-/// All that is known of a job, for a reader.
+/// A full description of a job.
 std::string description_text(const v1::Job& job, int width = terminal_width());
 
 /// Labels in the order of their keys: "batch=7, who=me".

@@ -6,10 +6,10 @@
 
 namespace cellcrush::client {
 
-/// A message as protobuf JSON on one line, with the proto's own field names and with zeros written out.
+/// A message as protobuf JSON on one line, with the proto's own field names, including zeros.
 std::string json_text(const google::protobuf::Message& message);
 
-/// Prints the same on stdout at once, as a line of its own.
+/// Prints the same on stdout as one line, and flushes it.
 void print_json(const google::protobuf::Message& message);
 
 }  // namespace cellcrush::client

@@ -8,9 +8,9 @@
 
 namespace cellcrush::client {
 
-/// A file that appears under its name only when it is complete: it is written beside it under a name of its own,
-/// flushed to disk by finish() and renamed by commit(); without commit() it vanishes. Throws CommandError (refused)
-/// when it cannot be written.
+/// A file that appears under its name only when complete. It is written beside it under a temporary name, flushed to
+/// disk by finish() and renamed by commit(); without commit() it is deleted. Throws CommandError (refused) if it cannot
+/// be written.
 class OutputFile {
  public:
   explicit OutputFile(std::filesystem::path path);
@@ -19,7 +19,7 @@ class OutputFile {
   OutputFile& operator=(const OutputFile&) = delete;
 
   void write(std::string_view bytes);
-  /// After it commit() needs no more room on the disk. Nothing is written any more.
+  /// Afterwards commit() needs no more room on the disk. Nothing can be written after it.
   void finish();
   void commit();
 
@@ -34,8 +34,8 @@ class OutputFile {
 /// Whether `path` is a regular file that begins with one of `signatures`.
 bool begins_with_one_of(const std::filesystem::path& path, std::initializer_list<std::string_view> signatures);
 
-/// Throws CommandError (refused) if `path` exists and is not a file that begins with one of `signatures`: what somebody
-/// else wrote is not overwritten.
+/// Throws CommandError (refused) if `path` exists and does not begin with one of `signatures`, so that no foreign file
+/// is overwritten.
 void check_may_overwrite(const std::filesystem::path& path, std::initializer_list<std::string_view> signatures);
 
 }  // namespace cellcrush::client

@@ -5,8 +5,8 @@
 
 namespace cellcrush::client {
 
-/// `text` in which control characters other than line ends, and bytes that are not UTF-8, stand as escapes such as
-/// \x1b, so that what comes from elsewhere cannot drive the terminal.
+/// `text` with control characters other than line ends, and invalid UTF-8, replaced by escapes such as \x1b, so that
+/// untrusted text cannot control the terminal.
 std::string printable(std::string_view text);
 
 }  // namespace cellcrush::client

@@ -8,7 +8,7 @@
 
 namespace cellcrush::client {
 
-/// What is known of a job while it is watched: the newest of everything its events have said.
+/// State of a watched job: the newest of everything in its events.
 class JobView {
  public:
   void apply(const v1::JobEvent& event);
@@ -23,8 +23,7 @@ class JobView {
 /// A bar `width` columns wide, filled to `fraction`.
 std::string bar_text(double fraction, int width, const Terminal& terminal);
 
-/// The lines of the display that is redrawn in place, none wider than `width` columns. A narrow terminal gets more
-/// lines.
+/// The lines of the in-place display, at most `width` columns wide. A narrow terminal gets more lines.
 std::vector<std::string> progress_lines(const JobView& view, int width, const Terminal& terminal);
 
 /// The same in one line of any width, for a log.

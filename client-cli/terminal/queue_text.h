@@ -9,7 +9,7 @@
 
 namespace cellcrush::client {
 
-/// What holds the queue, and a row a waiting job, the next to start first, below its title. Of the jobs that are among
+/// The holds of the queue, then one row per waiting job below its title, the next to start first. For jobs listed in
 /// `jobs` the row shows up to four fields in which jobs of one title differ.
 std::string queue_text(const v1::Queue& queue, const std::vector<v1::Job>& jobs, int width = terminal_width());
 

@@ -7,10 +7,10 @@
 
 namespace cellcrush::client {
 
-/// Shows a sweep that is being watched on stdout.
+/// Shows a watched sweep on stdout.
 class SweepDisplay : public SweepWatcher {
  public:
-  /// Shows the last state that came; nothing follows.
+  /// Shows the last state received; must be the last call.
   virtual void finish() = 0;
   [[nodiscard]] const SweepView& view() const { return view_; }
 
@@ -18,8 +18,8 @@ class SweepDisplay : public SweepWatcher {
   SweepView view_;
 };
 
-/// The display for the place: every response as JSON, a line a job redrawn in place on a terminal, else at most a line
-/// a second.
+/// The display for the output: every response as JSON, one line per job redrawn in place on a terminal, else at most
+/// one line per second.
 std::unique_ptr<SweepDisplay> make_sweep_display(bool json, const Terminal& terminal);
 
 }  // namespace cellcrush::client

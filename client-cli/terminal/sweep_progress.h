@@ -7,9 +7,9 @@
 
 namespace cellcrush::client {
 
-/// The lines of the display that is redrawn in place: how many jobs have ended, a bar with the time left for the whole
-/// sweep, then a row a job with what is varied. None is wider than `width` columns, and there are at most `height`: of
-/// a larger sweep the running jobs are shown first.
+/// The lines of the in-place display: the number of ended jobs, a bar with the remaining time of the sweep, then one
+/// row per job with its varied values. None is wider than `width`, and there are at most `height`; a larger sweep shows
+/// its running jobs first.
 std::vector<std::string> sweep_progress_lines(const SweepView& view, int width, int height, const Terminal& terminal);
 
 /// The same in one line of any width, for a log.

@@ -11,10 +11,10 @@ namespace cellcrush::client {
 /// A sweep in a line: "sweeps/3: 5 jobs, 1 RUNNING, 4 SUCCEEDED".
 std::string sweep_line(const v1::Sweep& sweep);
 
-/// All that is known of a sweep, for a reader: what is varied, how its jobs stand, and their names.
+/// A full description of a sweep: varied fields, states of its jobs, and their names.
 std::string description_text(const v1::Sweep& sweep, int width = terminal_width());
 
-/// A row a sweep, with a heading; below the table what is the same for all.
+/// One row per sweep, with a heading; common values follow the table.
 std::string sweep_list_text(const std::vector<v1::Sweep>& sweeps, int width = terminal_width());
 
 }  // namespace cellcrush::client

@@ -9,14 +9,14 @@
 
 namespace cellcrush::client {
 
-/// What is known of a sweep and its jobs while it is watched.
+/// State of a watched sweep and its jobs.
 class SweepView {
  public:
   struct Entry {
     std::string name;
     JobView view;
 
-    /// PENDING while nothing has come of it.
+    /// PENDING until an event arrives.
     [[nodiscard]] v1::JobState state() const;
   };
 
@@ -26,13 +26,13 @@ class SweepView {
   /// Its jobs, in the order of the sweep.
   [[nodiscard]] const std::vector<Entry>& jobs() const { return jobs_; }
   [[nodiscard]] int count(v1::JobState state) const;
-  /// Jobs that will change no more.
+  /// Number of jobs in a final state.
   [[nodiscard]] int count_ended() const;
 
-  /// Share of the whole sweep that is done: the mean over its jobs, an ended one counted as done.
+  /// Completed share of the sweep: the mean over its jobs, with an ended job counting as complete.
   [[nodiscard]] double fraction() const;
-  /// Seconds until the last job ends, at the pace of those that run and for those that wait at the mean of the others;
-  /// nothing while none runs.
+  /// Seconds until the last job ends. Running jobs continue at their pace; waiting ones are assumed to take the mean of
+  /// the others. Nothing while none runs.
   [[nodiscard]] std::optional<double> seconds_left() const;
 
  private:

@@ -10,36 +10,35 @@
 
 namespace cellcrush::client {
 
-/// Lines of aligned columns, two blanks apart.
+/// Aligned columns, separated by two spaces.
 class Table {
  public:
   enum class Align { left, right };
 
-  /// The first `keys` columns name what a row is about.
+  /// The first `keys` columns identify a row.
   explicit Table(std::vector<Align> columns, std::size_t keys = 0);
 
-  /// A row with as many cells as there are columns; later cells may be left out.
+  /// Adds a row with one cell per column; trailing cells may be omitted.
   void add(std::vector<std::string> cells);
 
-  /// A line over the whole width, above the rows that it names.
+  /// Adds a full-width line above the rows that it titles.
   void add_title(const std::string& title);
 
-  /// Takes out the columns from number `first` on that say nothing: those with empty cells only and, of two or more
-  /// rows, those in which all are the same. Returns what the latter say, as "heading value unit". The first `headings`
-  /// rows are headings, the last of several one of units. REQUIRES: there is a row below them.
+  /// Removes uninformative columns from number `first` on: empty ones and, with two or more rows, constant ones.
+  /// Returns the constant ones as "heading value unit". The first `headings` rows are headings, the last of several
+  /// being units. REQUIRES: at least one row below them.
   std::vector<std::string> remove_constant_columns(std::size_t first, std::size_t headings);
 
-  /// The lines, each beginning with `indent` blanks, none wider than `width` and without blanks at their
-  /// ends; rows of empty cells have none. With keys
-  /// the columns that have no room follow in a second block below, behind the keys again. Without, the
-  /// columns are narrowed and their texts broken between words, figures never, as far as words of 20 letters allow;
-  /// where that is not enough the first column is the key.
+  /// The lines, each indented by `indent` spaces, at most `width` wide and without trailing spaces; a row of empty
+  /// cells is an empty line. With keys, columns that do not fit follow in a second block with the keys repeated.
+  /// Without, columns are narrowed by wrapping texts (never numbers) as long as words of 20 letters fit; beyond that
+  /// the first column becomes the key.
   [[nodiscard]] std::string text(int indent, int width) const;
 
  private:
   struct Row {
     std::vector<std::string> cells;
-    bool is_title = false;  ///< then one cell
+    bool is_title = false;  ///< a single cell
   };
 
   [[nodiscard]] std::string constant_text(std::size_t column, std::size_t headings, const std::string& value) const;
@@ -57,7 +56,8 @@ class Table {
   std::vector<Row> rows_;
 };
 
-/// What Table::remove_constant_columns() took out, below the table: "\nThe same in all rows: ..."; empty for nothing.
+/// The columns removed by Table::remove_constant_columns(), as text below the table: "\nThe same in all rows: ...";
+/// empty if there are none.
 std::string constants_text(const std::vector<std::string>& constants, int width);
 
 }  // namespace cellcrush::client

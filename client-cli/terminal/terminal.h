@@ -2,19 +2,19 @@
 
 namespace cellcrush::client {
 
-/// What the standard output can show.
+/// Capabilities of the standard output.
 struct Terminal {
-  bool interactive = false;  ///< a terminal that can be redrawn in place
+  bool interactive = false;  ///< a terminal that supports redrawing in place
   bool colour = false;       ///< interactive, and NO_COLOR is not set
-  bool unicode = false;      ///< the locale's text is UTF-8
+  bool unicode = false;      ///< the locale uses UTF-8
 };
 
 Terminal find_terminal();
 
-/// Columns of the terminal now; where the standard output is none, $COLUMNS or else 80.
+/// Current width of the terminal in columns; without a terminal $COLUMNS, else 80.
 int terminal_width();
 
-/// Lines of the terminal now; 24 when it does not say.
+/// Current height of the terminal in lines; 24 if unknown.
 int terminal_height();
 
 }  // namespace cellcrush::client

@@ -8,10 +8,10 @@
 
 namespace cellcrush::client {
 
-/// Shows a job that is being watched on stdout.
+/// Shows a watched job on stdout.
 class WatchDisplay : public JobWatcher {
  public:
-  /// Shows the last state that came; no event follows.
+  /// Shows the last state received; must be the last call.
   virtual void finish() = 0;
   [[nodiscard]] const JobView& view() const { return view_; }
 
@@ -19,7 +19,7 @@ class WatchDisplay : public JobWatcher {
   JobView view_;
 };
 
-/// The display for the place: every event as JSON, a display redrawn in place on a terminal, else at most a line a
+/// The display for the output: every event as JSON, an in-place display on a terminal, else at most one line per
 /// second.
 std::unique_ptr<WatchDisplay> make_watch_display(bool json, const Terminal& terminal);
 
