@@ -45,7 +45,7 @@ int status_code_of(ExitCode code) {
   }
 }
 
-// Whether all problems are of the case, and none of another part of the request, such as a filter.
+// Whether all problems concern the case rather than another part of the request, such as a filter.
 bool are_of_case(const v1::ProblemList& problems) {
   return std::all_of(problems.problems().begin(), problems.problems().end(), [](const v1::Problem& problem) {
     const std::string field = problem.field().substr(0, problem.field().find_first_of(".["));
@@ -62,7 +62,7 @@ CommandError error_of(const grpc::Status& status) {
   v1::ProblemList problems = problems_in(status);
   if (problems.problems_size() > 0) return problems_error(std::move(problems));
   std::string message = message_of(status);
-  // gRPC's own words, with both sizes in bytes: "Received message larger than max (5000000 vs. 4194304)".
+  // gRPC's message, with both sizes in bytes: "Received message larger than max (5000000 vs. 4194304)".
   if (message.find("larger than max") != std::string::npos) {
     message = "the message is over the size limit: " + message + "; make the case smaller";
   }

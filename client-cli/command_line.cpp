@@ -38,7 +38,7 @@ ExitCode run_action(const Session& session) {
 }  // namespace
 
 ExitCode run_command_line(int argc, char** argv) {
-  // gRPC's own log would mix with what is printed here; errors are reported in this program's words.
+  // gRPC's log would mix with the output here; this program reports errors itself.
   setenv("GRPC_VERBOSITY", "NONE", 0);
   CLI::App app(
       "Simulates the in-plane crushing of honeycombs: submits cases to cellcrushd, follows the jobs and plots the "

@@ -1,5 +1,5 @@
 # shellcheck shell=bash
-# Functions that the scripts of this folder share. Source it; it does nothing by itself.
+# Functions shared by the scripts of this folder. Source it; it runs nothing by itself.
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 log_folder=$root/build/log
@@ -25,7 +25,7 @@ logged() {
   fi
 }
 
-# Shows how far ninja is: one line that changes on a terminal, every 25th line elsewhere.
+# Shows ninja's progress: one updated line on a terminal, every 25th line elsewhere.
 show_ninja_progress() {
   local line
   while IFS= read -r line; do
@@ -39,7 +39,7 @@ show_ninja_progress() {
   if [[ -t 1 ]]; then printf '\r\033[K'; fi
 }
 
-# build_preset PRESET: configures build/PRESET unless that is done, then builds what is not up to date.
+# build_preset PRESET: configures build/PRESET if necessary, then builds what is out of date.
 build_preset() {
   local preset=$1
   local folder=$root/build/$preset

@@ -17,7 +17,7 @@ namespace cellcrush::client {
 namespace {
 
 constexpr std::string_view kPresetPrefix = "preset:";
-// Text is several times as long as the message it stands for; whatever is longer than this cannot fit into one.
+// Text is several times longer than the message it encodes; a longer one cannot fit into a message.
 constexpr std::size_t kLargestText = 64 * 1024 * 1024;
 
 std::string read_stream(std::istream& stream, const std::string& name) {
@@ -77,7 +77,7 @@ v1::Case read_case(const std::string& source, const std::vector<std::string>& as
   try {
     result = connection.call(connection.cases(), &v1::Cases::Stub::GetPreset, request).case_();
   } catch (const CommandError& error) {
-    // As a CASE, a preset that does not exist is a wrong case and not a thing that was asked for.
+    // A preset that does not exist is an invalid CASE rather than a missing resource.
     if (error.code() != ExitCode::not_found) throw;
     throw CommandError(ExitCode::refused, error.message());
   }

@@ -50,7 +50,7 @@ std::string explain_value(const std::string& path, const std::string& value, con
   return fmt::format("{}, not {}", expected_value(*field), value);
 }
 
-// The library's message with the path in front, and with what is expected or may have been meant.
+// The library's message with the path in front, followed by what is expected or a suggestion.
 std::string explain_json(const std::string& message) {
   static const std::regex kUnknownField(R"re((?:\(([^)]*)\) )?([^ ]*): Cannot find field\.)re");
   static const std::regex kBadValue(R"re(\(([^)]*)\): (invalid value "?([^"]*)"? for type .*))re");

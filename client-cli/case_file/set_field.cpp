@@ -20,7 +20,7 @@ using google::protobuf::Message;
 
 struct PathPart {
   std::string name;
-  int index = -1;  ///< of a repeated field's element; -1 without
+  int index = -1;  ///< of an element of a repeated field; -1 without
 };
 
 [[noreturn]] void refuse(std::string_view path, const std::string& message) {

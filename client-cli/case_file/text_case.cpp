@@ -22,11 +22,11 @@ using google::protobuf::DescriptorPool;
 
 struct Explanation {
   std::string message;
-  std::string word;  ///< that is wrong; the parser reports the place behind it
+  std::string word;  ///< the wrong word; the parser reports the position after it
   bool is_right_in_capitals = false;
 };
 
-// The parser's message, with what may have been meant added.
+// The parser's message, with a suggestion added.
 Explanation explain(const std::string& message) {
   static const std::regex kUnknownField(R"re(Message type "([^"]+)" has no field named "([^"]+)")re");
   static const std::regex kUnknownEnum(R"re(Unknown enumeration value of "([^"]+)" for field "([^"]+)")re");
@@ -52,7 +52,7 @@ struct Place {
   int column = 0;
 };
 
-// Where `word` begins that ends before `place`; npos when it is not found.
+// Where `word`, which ends before `place`, begins; npos if it is not found.
 std::size_t find_word(const std::string& text, const std::string& word, const Place& place) {
   std::size_t begin = 0;
   for (int line = 0; line < place.line; ++line) begin = text.find('\n', begin) + 1;
@@ -65,8 +65,8 @@ Place place_of(const std::string& text, std::size_t found) {
   return {static_cast<int>(lines), static_cast<int>(found - line_begin)};
 }
 
-// Puts values such as the `y` of `direction: y` into capitals, where only they are in the field's enum. One pass, as a
-// frame may have a hundred thousand of them.
+// Capitalizes values such as the `y` of `direction: y` that exist only so in the field's enum. One pass, since a frame
+// may have a hundred thousand.
 class EnumCorrection {
  public:
   explicit EnumCorrection(std::string text) : text_(std::move(text)) {}
@@ -130,7 +130,7 @@ class EnumCorrection {
   std::string text_;
   std::size_t at_ = 0;
   std::string word_;
-  const google::protobuf::EnumDescriptor* type_ = nullptr;  ///< of the field in front of the colon
+  const google::protobuf::EnumDescriptor* type_ = nullptr;  ///< enum type of the field before the colon
   bool after_colon_ = false;
   bool in_list_ = false;
   std::map<std::string, const google::protobuf::EnumDescriptor*> types_;
@@ -155,7 +155,7 @@ class ErrorLines : public google::protobuf::io::ErrorCollector {
   [[nodiscard]] std::string lines() const {
     return count_ > kShown ? lines_ + fmt::format("\nand {} more", count_ - kShown) : lines_;
   }
-  /// Whether one of them is a value that is right in capitals.
+  /// Whether one of them is an enum value that only needs capitals.
   [[nodiscard]] bool wrong_capitals() const { return wrong_capitals_; }
 
  private:
@@ -176,11 +176,11 @@ v1::Case parse_text_case(const std::string& given, const std::string& file) {
     ErrorLines errors(text, file);
     google::protobuf::TextFormat::Parser parser;
     parser.RecordErrorsTo(&errors);
-    // The parser then goes on behind an unknown field, and reports it as a warning: all of them are found at once.
+    // The parser continues after an unknown field and reports a warning, so that all of them are found at once.
     parser.AllowUnknownField(true);
     v1::Case result;
     const bool parsed = parser.ParseFromString(text, &result);
-    // `direction: y` is meant as Y. The parser stops at the first of them.
+    // `direction: y` means Y. The parser stops at the first of these.
     if (errors.wrong_capitals() && !is_corrected) {
       text = EnumCorrection(text).corrected();
       continue;

@@ -32,7 +32,7 @@ std::vector<Tick> ticks_of(const Axis& axis, double length, double units_per_tic
   return ticks;
 }
 
-// Where a value stands along an axis, 0 at its low end and 1 at its high one.
+// Position of a value along an axis: 0 at its low end, 1 at its high end.
 double share_of(const Axis& axis, double value) {
   if (axis.logarithmic) return std::log(value / axis.low) / std::log(axis.high / axis.low);
   return (value - axis.low) / (axis.high - axis.low);

@@ -30,7 +30,7 @@ void check(cairo_status_t status) {
   throw std::runtime_error(std::string("the picture cannot be drawn: ") + cairo_status_to_string(status));
 }
 
-// Units of the surface that a unit of the picture takes: pixels of a PNG, points (1/72 inch) of a PDF.
+// Units of the surface per picture unit: pixels of a PNG, points (1/72 inch) of a PDF.
 double device_units(PictureFormat format) {
   switch (format) {
     case PictureFormat::png: return kPixelsPerUnit;

@@ -54,7 +54,7 @@ void draw_swatch(cairo_t* context, double x, double y, const Curve& curve) {
   draw_marker(context, x + 0.5 * kSwatch, y, curve.marker, curve.style.colour);
 }
 
-// Walks over the legend's entries, row by row, and answers its height; draws them too if `draw`.
+// Visits the legend's entries row by row and returns its height; draws them if `draw` is set.
 double lay_legend(cairo_t* context, const Rectangle& place, const Chart& chart, bool draw) {
   double x = place.x;
   double y = place.y;
@@ -109,12 +109,12 @@ void draw_chart(cairo_t* context, const Rectangle& place, const Chart& chart) {
   }
   constexpr double kBandText = 20.0;
   for (const Overshoot& overshoot : chart.overshoots) {
-    // Its text is at most as wide as an eighth of the chart.
+    // Its text is at most an eighth of the chart wide.
     const double reach = 0.125 * (chart.x.high - chart.x.low);
     const bool beside_band = std::any_of(chart.bands.begin(), chart.bands.end(), [&](const Band& band) {
       return overshoot.x + reach > band.from && overshoot.x - reach < band.to;
     });
-    // Those of other curves close by stand above.
+    // Those of other curves nearby are stacked above.
     const auto above = std::count_if(chart.overshoots.data(), &overshoot,
                                      [&](const Overshoot& other) { return std::abs(other.x - overshoot.x) < reach; });
     draw_overshoot(context, axes, overshoot, (beside_band ? kBandText : 0.0) + 16.0 * static_cast<double>(above));

@@ -8,7 +8,7 @@ namespace cellcrush::client {
 
 namespace {
 
-// Stops of matplotlib's "plasma" (public domain, CC0) up to 0.8; what is brighter would be lost on white.
+// Stops of matplotlib's "plasma" (public domain, CC0) up to 0.8; brighter colours are invisible on white.
 constexpr std::array<Colour, 9> kStops = {{{0.050, 0.030, 0.528},
                                            {0.204, 0.018, 0.594},
                                            {0.325, 0.007, 0.640},

@@ -40,8 +40,8 @@ PlateCurves smoothed(const PlateCurves& raw) {
 
 double last_strain(const PlateCurves& curves) { return curves.strain.empty() ? 0.0 : curves.strain.back(); }
 
-// The upper end of the stress axis: it follows the plateau, not the first wave, which is many times as high in a fast
-// crush, nor what follows when the lattice is crushed solid.
+// The upper end of the stress axis. It follows the plateau: neither the first wave, which is far higher in a fast
+// crush, nor the stress after densification.
 double find_top(const JobHistory& history, const PlateCurves& smooth) {
   constexpr double kFirstWave = 0.1;
   const v1::Summary& summary = history.job.summary();
@@ -57,7 +57,7 @@ double find_top(const JobHistory& history, const PlateCurves& smooth) {
   return top > 0.0 ? top : 1.0;
 }
 
-// An arrow where the mean of a plate's stress goes highest beyond the chart.
+// An arrow where the smoothed stress of a plate most exceeds the chart.
 void add_overshoot(Chart& chart, const std::vector<double>& strain, const std::vector<double>& stress, Colour colour) {
   const auto peak = std::max_element(stress.begin(), stress.end());
   if (peak == stress.end() || *peak <= 1.001 * chart.y.high) return;

@@ -14,7 +14,7 @@ namespace {
 constexpr int kShades = 32;
 constexpr double kThinnestWall = 0.5;  // units; thinner lines vanish
 constexpr double kPlateShare = 0.009;  // a plate's thickness as a share of the specimen's longer side
-constexpr double kMarginShare = 1.5;   // round what is drawn, in thicknesses of a plate
+constexpr double kMarginShare = 1.5;   // around the drawing, in thicknesses of a plate
 constexpr Colour kPlateColour{0.35, 0.36, 0.40};
 
 double impact_plate_now(const MeshFrame& stage) {
@@ -30,13 +30,13 @@ void include(Box& box, double x, double y) {
   box.high_y = std::max(box.high_y, y);
 }
 
-// The same in every drawing of a crush, also where the box follows the impact plate.
+// Identical in every drawing of a crush, even where the box follows the impact plate.
 double plate_thickness(const v1::Mesh& mesh, const Box& box) {
   const double length = mesh.support_plate_mm() - mesh.impact_plate_mm();
   return kPlateShare * std::max(length, mesh.along_y() ? box.width() : box.height());
 }
 
-// Maps the plane to a place of the picture, the box in its middle.
+// Maps the plane to a rectangle of the picture, with the box centred.
 class Projection {
  public:
   Projection(const Rectangle& place, const Box& box)
@@ -54,7 +54,7 @@ class Projection {
   double y0_;
 };
 
-// A plate whose face is at `face`, lying on the side of `outwards` (-1 or 1) over the whole width of the box.
+// A plate with its face at `face`, extending to the side `outwards` (-1 or 1) over the whole width of the box.
 void draw_plate(cairo_t* context, const Projection& projection, const Box& box, const v1::Mesh& mesh, double face,
                 double outwards) {
   const double thickness = plate_thickness(mesh, box);
@@ -70,7 +70,7 @@ void draw_plate(cairo_t* context, const Projection& projection, const Box& box, 
   cairo_fill(context);
 }
 
-// Where the impact plate's face was before loading.
+// Position of the impact plate's face before loading.
 void draw_start(cairo_t* context, const Projection& projection, const Box& box, const v1::Mesh& mesh) {
   const double start = mesh.impact_plate_mm();
   if (mesh.along_y()) {
@@ -88,7 +88,7 @@ void draw_start(cairo_t* context, const Projection& projection, const Box& box, 
   cairo_set_dash(context, nullptr, 0, 0.0);
 }
 
-// Walls of one shade and thickness are one path: that keeps a picture of ten thousand walls small.
+// Walls of one shade and thickness share a path, which keeps a picture of ten thousand walls small.
 void draw_walls(cairo_t* context, const Projection& projection, const MeshFrame& stage) {
   const v1::Mesh& mesh = stage.mesh;
   std::map<std::pair<int, float>, std::vector<int>> groups;
@@ -148,7 +148,7 @@ std::vector<Box> find_boxes(const std::vector<MeshFrame>& stages) {
   for (std::size_t i = 0; i < stages.size(); ++i) {
     const v1::Mesh& mesh = stages[i].mesh;
     if (!has_plates(mesh)) continue;
-    // Up to the impact plate, or to what stands out beyond it.
+    // Up to the impact plate, or to whatever extends beyond it.
     double low = impact_plate_now(stages[i]);
     const auto& position = stages[i].frame.position_mm();
     for (int k = mesh.along_y() ? 1 : 0; k < position.size(); k += 2) {

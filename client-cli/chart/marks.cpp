@@ -21,14 +21,14 @@ void stroke(cairo_t* context, double x0, double y0, double x1, double y1) {
   cairo_stroke(context);
 }
 
-// A closed path through corners, in radii of a mark round (x, y).
+// A closed polygon around (x, y), in units of the mark's radius.
 void draw_polygon(cairo_t* context, double x, double y, std::initializer_list<std::pair<double, double>> corners) {
   for (const auto& [across, down] : corners)
     cairo_line_to(context, x + across * kMarkerRadius, y + down * kMarkerRadius);
   cairo_close_path(context);
 }
 
-// What is out of a logarithmic axis' reach ends at the area's lower side.
+// Values that a logarithmic axis cannot show end at the lower edge of the area.
 void draw_bar(cairo_t* context, const Axes& axes, double x, double low, double high) {
   const double bottom = axes.area().y + axes.area().height;
   const double from = std::isfinite(axes.y(low)) ? std::min(axes.y(low), bottom) : bottom;

@@ -10,7 +10,7 @@ namespace cellcrush::client {
 
 namespace {
 
-// A curve in a colour of its own, dashed once the colours are used up.
+// A curve in its own colour, dashed once all colours are used.
 void add_curve(Chart& chart, std::vector<double> x, std::vector<double> y, std::string name) {
   const std::size_t index = chart.curves.size();
   std::vector<double> dashes;
@@ -50,7 +50,7 @@ void add_energy(Chart& chart, const JobHistory& history, double (v1::Sample::*va
   add_curve(chart, times_of(history), std::move(y), name);
 }
 
-// Fits an axis to what is drawn, 0 included.
+// Fits an axis to the data, including 0.
 void fit_axes(Chart& chart) {
   double low = 0.0;
   double high = 0.0;

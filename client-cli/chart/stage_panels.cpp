@@ -15,14 +15,14 @@ namespace {
 constexpr double kTitle = 20.0;
 constexpr double kGap = 14.0;
 constexpr double kPage = 660.0;          // height of all stages
-constexpr double kRowRoom = 60.0;        // a row's share of it at least, titles included
-constexpr double kRowPreference = 0.45;  // rows^this times as large is worth that many rows
+constexpr double kRowRoom = 60.0;        // minimum height of a row, including titles
+constexpr double kRowPreference = 0.45;  // a scale larger by rows^this justifies that many rows
 constexpr double kTitleWidth = 170.0;
 constexpr double kLongestBar = 120.0;
 constexpr double kBarRoom = 18.0;
 const TextStyle kPanelTitleStyle{.size = 12.5};
 
-// How many stages stand in each row, and the scale at which they do.
+// Number of stages in each row, and their scale.
 struct Rows {
   double scale = 0.0;
   std::vector<int> counts;
@@ -64,7 +64,7 @@ double height_of(const std::vector<Box>& boxes, const Rows& rows) {
   return height;
 }
 
-// Looks from the largest scale that the width allows down to ever smaller ones: fewer rows come with a smaller scale.
+// Searches from the largest scale that fits the width downwards: a smaller scale needs fewer rows.
 Rows find_rows(const std::vector<Box>& boxes, double width) {
   double widest = 0.0;
   for (const Box& box : boxes) widest = std::max(widest, box.width());
@@ -86,7 +86,7 @@ std::string stage_text(const MeshFrame& stage, std::size_t index, std::size_t co
   const std::string time = number_text(1e3 * stage.frame.time_s()) + " ms";
   std::string text = has_plates(stage.mesh) ? fmt::format("strain {:.2f}", stage.frame.strain()) : time;
   if (has_plates(stage.mesh) && stage.frame.time_s() > 0.0) text += ", " + time;
-  // Letters as a caption names them, as long as there are enough.
+  // Letters as used in captions, as long as there are enough.
   return count > 1 && count <= 26 ? fmt::format("({}) {}", static_cast<char>('a' + index), text) : text;
 }
 
@@ -118,7 +118,7 @@ StagePanels lay_stages(const std::vector<MeshFrame>& stages, double left, double
     double x = left;
     for (int k = 0; k < rows.counts[row]; ++k, ++i) {
       const double height = rows.scale * boxes[i].height();
-      // A row is aligned at its top, where the support plate of a crush along y is.
+      // Rows are aligned at the top, where the support plate of a crush along y is.
       panels.places.push_back({x, panels.bottom + kTitle, rows.scale * boxes[i].width(), height});
       x += cell_width(boxes[i], rows.scale) + kGap;
     }

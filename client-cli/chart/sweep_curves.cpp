@@ -32,7 +32,7 @@ bool has_theory(const ResultSeries& series) {
                      [](const v1::Summary* summary) { return summary->theory().shock_mpa() > 0.0; });
 }
 
-// The axis of the varied field: from 0 where that wastes little room.
+// The axis of the varied field; starts at 0 if that wastes little room.
 Axis build_axis(const std::string& field, const std::vector<ResultSeries>& all, bool logarithmic) {
   double low = all.front().x.front();
   double high = all.front().x.back();
@@ -83,7 +83,7 @@ std::string fit_name(const QuadraticFit& fit) {
   return kind + digits_text(fit.constant) + term(fit.linear, "V") + term(fit.quadratic, "V²");
 }
 
-// Theory's two stresses over a series, in muted or in the series' own colour.
+// Theory's two stresses over a series, in muted colours or the series' own.
 void add_theory(Chart& chart, const ResultSeries& series, bool speed, const Colour& colour, bool named) {
   if (!has_theory(series)) return;
   const LineStyle dashed{colour, 1.4, {8.0, 4.0}};
@@ -144,7 +144,7 @@ void add_series(Chart& chart, const ResultSeries& series, bool speed, const Colo
   add_measured_shock(chart, series, colour, "");
 }
 
-// The plateau of one of several sweeps, a mark and a colour of its own, with the shock theory dashed.
+// The plateau of one of several sweeps, with its own mark and colour; shock theory dashed.
 void add_sweep(Chart& chart, const ResultSeries& series, bool speed, std::size_t index) {
   const Colour colour = kSeriesColours[index % kSeriesColours.size()];
   const Marker marker = kSeriesMarkers[index % kSeriesMarkers.size()];
@@ -158,7 +158,7 @@ void add_sweep(Chart& chart, const ResultSeries& series, bool speed, std::size_t
                                : Curve{series.x, values_of(series, shock), dashed, ""});
 }
 
-// What tells a sweep from the others: its title, where that is the same what its case differs in, or its name.
+// The label of a sweep: its title; the differences of its case if titles are equal; or its name.
 std::vector<std::string> names_of(const std::vector<SweepResults>& sweeps) {
   std::vector<const v1::Case*> cases;
   std::set<std::string> titles;

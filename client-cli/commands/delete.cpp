@@ -30,7 +30,7 @@ std::string sweep_question(Connection& connection, const std::string& name) {
   return fmt::format("Delete {} with its {} jobs and their results?", name, sweep.jobs_size());
 }
 
-// Asks and calls the method, whose request has a name and whose answer is empty.
+// Asks for confirmation and calls the method, whose request has a name and whose response is empty.
 template <typename Stub, typename Request, typename Response>
 ExitCode ask_and_delete(Session& session, Stub& stub,
                         grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*),

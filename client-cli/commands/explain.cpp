@@ -24,7 +24,7 @@ std::string indented(const std::string& text, std::size_t columns) {
   return out;
 }
 
-// A name and its text a line, all texts in one column.
+// One line per name and text, with the texts aligned.
 std::string two_columns(const NamedTexts& entries, int width) {
   std::size_t longest = 0;
   for (const auto& [name, text] : entries) longest = std::max(longest, name.size());
@@ -34,7 +34,7 @@ std::string two_columns(const NamedTexts& entries, int width) {
   const int room = width - static_cast<int>(column);
   std::string out;
   for (const auto& [name, text] : entries) {
-    // Without room beside the names the texts stand below them.
+    // If there is no room beside the names, the texts go below them.
     out += room < kLeast ? fmt::format("  {}\n{}{}\n", name, std::string(kBelow, ' '),
                                        indented(wrap_text(text, std::max(width - kBelow, 1)), kBelow))
                          : fmt::format("  {:<{}}  {}\n", name, longest, indented(wrap_text(text, room), column));

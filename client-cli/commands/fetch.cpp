@@ -21,7 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// How the files begin that this command writes. A result begins with the daemon's seal, one of earlier daemons as HDF5.
+// First bytes of the files that this command writes. A result begins with the daemon's seal; results of earlier daemons
+// begin as HDF5 files.
 constexpr std::string_view kResultSeal = "CELLCRUSH RESULT ";
 constexpr std::string_view kHdf5Signature = "\x89HDF\r\n\x1a\n";
 constexpr std::initializer_list<std::string_view> kResultStarts = {kResultSeal, kHdf5Signature};
@@ -42,7 +43,7 @@ void make_folder(const fs::path& folder) {
   }
 }
 
-// Files that appear under their names once all of them are complete; until then the folder is as it was.
+// Files that appear under their names once all are complete; until then the folder is unchanged.
 class FetchedFiles {
  public:
   // A file that may replace one that begins with one of the signatures. Throws CommandError as OutputFile does.
@@ -58,7 +59,7 @@ class FetchedFiles {
     for (const auto& file : files_) file->finish();
   }
 
-  // The first file comes last: whoever waits for it finds the others in place.
+  // The first file is renamed last: whoever waits for it finds the others in place.
   void commit() {
     for (std::size_t i = files_.size(); i-- > 0;) files_[i]->commit();
   }
@@ -70,7 +71,7 @@ class FetchedFiles {
   std::vector<std::unique_ptr<OutputFile>> files_;
 };
 
-// Writes chunks behind what has come already; whether the end was reached.
+// Appends chunks to the file; returns whether the end was reached.
 grpc::Status download_from(Connection& connection, v1::DownloadResultRequest& request, OutputFile& file,
                            std::int64_t& total) {
   grpc::ClientContext context;
@@ -110,8 +111,8 @@ void download_result(Connection& connection, const std::string& name, OutputFile
   }
 }
 
-// What this command wrote for another job and does not write again: it would pass for the new job's. The case tells
-// whether the folder holds the same job.
+// Files that this command wrote for another job and does not overwrite now; they would pass for the new job's. The case
+// tells whether the folder belongs to the same job.
 std::vector<fs::path> find_stale_files(const fs::path& folder, const std::string& case_text,
                                        const std::vector<fs::path>& written) {
   const fs::path case_file = folder / "case.txtpb";
@@ -183,7 +184,7 @@ ResultFiles write_results(Connection& connection, const v1::Job& job, const fs::
   }
   download_result(connection, job.name(), result);
   files.finish();
-  // Removed while the old case still says whose they are: cut off in between, fetch finds them again.
+  // Deleted while the old case still identifies them: if interrupted in between, fetch finds them again.
   const auto stale = find_stale_files(folder, case_text, files.paths());
   for (const fs::path& path : stale) {
     std::error_code error;

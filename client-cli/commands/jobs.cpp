@@ -13,7 +13,7 @@ namespace {
 template <typename Request>
 using JobMethod = grpc::Status (v1::Jobs::Stub::*)(grpc::ClientContext*, const Request&, v1::Job*);
 
-// Calls a method on a job and prints how the job stands then.
+// Calls a method on a job and prints the job's new state.
 template <typename Request>
 void change_job(Session& session, const std::string& name, JobMethod<Request> method) {
   Connection& connection = session.connection();

@@ -21,7 +21,7 @@ struct ListOptions {
   bool sweeps = false;
 };
 
-// Sets how many entries the next page is to have, when `size` are there; false when that is enough.
+// Sets the size of the next page, given the `size` entries received; false if that is enough.
 template <typename Request>
 bool ask_for_more(const ListOptions& options, int size, Request& request) {
   request.set_page_size(options.limit > 0 ? std::min(kListPage, options.limit - size) : kListPage);

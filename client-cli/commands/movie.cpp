@@ -28,7 +28,7 @@ struct MovieOptions {
   int frames_per_second = 10;
 };
 
-// A folder that goes with the object.
+// A folder that is deleted with the object.
 class TemporaryFolder {
  public:
   TemporaryFolder() : path_((fs::temp_directory_path() / "cellcrush-movie-XXXXXX").string()) {
@@ -60,8 +60,8 @@ void save_file(const fs::path& path, std::string_view bytes) {
   file.commit();
 }
 
-// Draws all frames of a job as frame_00000.png and so on, and returns how many. Fetched twice, for the box that holds
-// them all and to be drawn, as those of a large lattice do not fit into memory together.
+// Draws all frames of a job as frame_00000.png and so on; returns their number. Fetches them twice, for the common box
+// and for drawing, because the frames of a large lattice do not fit into memory together.
 int draw_frames(Connection& connection, const std::string& name, const fs::path& folder) {
   const MeshFrame last = fetch_frame_number(connection, name, -1);
   const int count = last.frame.index() + 1;

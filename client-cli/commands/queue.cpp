@@ -17,7 +17,7 @@ namespace {
 constexpr std::chrono::seconds kToAnswer{5};
 constexpr std::chrono::milliseconds kBetweenLooks{200};
 
-// The jobs of the queue's entries: the server lists what waits, the oldest first.
+// The jobs of the queue's entries: the server lists waiting jobs, oldest first.
 std::vector<v1::Job> fetch_waiting(Connection& connection, const v1::Queue& queue) {
   std::set<std::string> missing;
   for (const auto& entry : queue.entries()) missing.insert(entry.job());
@@ -44,7 +44,7 @@ ExitCode run_queue(Session& session) {
   return ExitCode::done;
 }
 
-// Whether the server that was drained has ended: nobody answers, or one that was not drained.
+// Whether the drained server has ended: nobody answers, or a server that was not drained.
 bool has_ended(Connection& connection) {
   grpc::ClientContext context;
   context.set_deadline(std::chrono::system_clock::now() + kToAnswer);

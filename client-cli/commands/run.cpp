@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The data folder of the private daemon; gone once the results are written. Its only job has the first number.
+// The data folder of the private daemon, deleted once the results are written. Its only job has number 1.
 constexpr const char* kDataFolder = ".cellcrush";
 constexpr const char* kJob = "jobs/1";
 
@@ -31,7 +31,7 @@ struct RunOptions {
   double time_limit_s = 0.0;
 };
 
-// Gone again when this goes away, unless it is kept or was there before.
+// Deleted on destruction, unless it is kept or existed before.
 class PrivateData {
  public:
   explicit PrivateData(fs::path path) : path_(std::move(path)), was_there_(fs::exists(path_)), is_kept_(was_there_) {
@@ -72,7 +72,7 @@ bool has_text(const fs::path& path, const std::string& text) {
   return std::string(std::istreambuf_iterator<char>(file), {}) == text;
 }
 
-// The job that is to run: a new one, or the unfinished one of the same case.
+// The job to run: a new one, or the unfinished one of the same case.
 void start_job(Session& session, const v1::Case& scene, const RunOptions& options) {
   Connection& connection = session.connection();
   const auto unfinished = find_unfinished(connection);
@@ -91,12 +91,12 @@ void start_job(Session& session, const v1::Case& scene, const RunOptions& option
   }
 }
 
-// Whether the folder has the result of a run of the case to its end. One that failed leaves no case.txtpb.
+// Whether the folder has the result of a complete run of the case. A failed run leaves no case.txtpb.
 bool holds_result(const fs::path& folder, const v1::Case& scene) {
   return has_text(folder / "case.txtpb", text_of(scene)) && fs::exists(folder / "result.h5");
 }
 
-// A broken watch in the words of this command: nobody else can reach the daemon.
+// Rewords the error of a broken watch: nobody else can reach this daemon.
 CommandError error_of_break(const CommandError& error, PrivateDaemon& daemon) {
   if (error.code() != ExitCode::cut_off && error.code() != ExitCode::no_connection) return error;
   if (!daemon.has_ended()) return error;
@@ -122,7 +122,7 @@ ExitCode run_case(Session& session, const RunOptions& options) {
   if (!session.server.empty()) {
     throw CommandError(ExitCode::refused, "run starts its own daemon. Leave --server out, or use submit --watch.");
   }
-  // Read before anything is made: Ctrl-C at a stdin that gives none leaves nothing behind.
+  // Read before anything is created: Ctrl-C while waiting for stdin leaves nothing behind.
   const auto own_case = read_own_case(options.scene.source, options.scene.assignments);
   const fs::path folder(options.folder);
   PrivateData data(folder / kDataFolder);

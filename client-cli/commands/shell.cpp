@@ -1,5 +1,5 @@
-// What packages install beside the program, from the definition that it parses with. An empty group keeps these
-// commands out of the help.
+// Files that packages install, generated from the parser's definition. An empty group hides these commands from the
+// help.
 #include <fmt/format.h>
 
 #include "commands/commands.h"

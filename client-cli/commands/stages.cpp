@@ -22,7 +22,7 @@ MeshFrame fetch_last_frame(Connection& connection, const std::string& name) {
   return fetch_frame(connection, request);
 }
 
-// The frame nearest to a share of the run: by strain, or by time where nothing is crushed.
+// The frame nearest to a share of the run: by strain, or by time for a frame without plates.
 MeshFrame fetch_frame_of_share(Connection& connection, const std::string& name, const MeshFrame& last, double share) {
   if (has_plates(last.mesh)) return fetch_frame_at(connection, name, share * last.frame.strain());
   v1::GetFrameRequest request;
@@ -53,7 +53,7 @@ std::vector<MeshFrame> fetch_default_stages(Connection& connection, const std::s
   for (const double strain : {0.2, 0.4}) {
     if (strain >= end - kApart) continue;
     MeshFrame stage = fetch_frame_of_share(connection, name, last, strain / end);
-    // While a job runs the server may have fewer frames at hand.
+    // A running job may have fewer frames available.
     if (stage.frame.index() != last.frame.index()) stages.push_back(std::move(stage));
   }
   stages.push_back(last);

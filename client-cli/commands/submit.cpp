@@ -24,7 +24,7 @@ struct SubmitOptions {
 };
 
 ExitCode run_submit(Session& session, const SubmitOptions& options) {
-  // From here on Ctrl-C ends the watch in order, also when it comes just after the job was queued.
+  // From here on Ctrl-C ends the watch properly, even right after the job was queued.
   std::unique_ptr<Interruption> interruption;
   v1::CreateJobRequest request;
   *request.mutable_labels() = parse_labels(options.labels);

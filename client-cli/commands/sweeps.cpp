@@ -59,10 +59,10 @@ ExitCode run_sweep(Session& session, const SweepOptions& options) {
   v1::CreateSweepRequest request = build_request(options);
   Connection& connection = session.connection();
   *request.mutable_sweep()->mutable_case_() = read_case(options.scene.source, options.scene.assignments, connection);
-  // From here on Ctrl-C ends the watch in order, also when it comes just after the sweep was queued.
+  // From here on Ctrl-C ends the watch properly, even right after the sweep was queued.
   std::unique_ptr<Interruption> interruption;
   if (options.watch) interruption = std::make_unique<Interruption>();
-  // The server answers only when it has checked all of them.
+  // The server answers only after checking all points.
   if (!session.json && isatty(STDERR_FILENO) != 0)
     fmt::print(stderr, "Checking {:.0f} points...\n", count_points(request.sweep()));
   const auto sweep = connection.call(connection.sweeps(), &v1::Sweeps::Stub::CreateSweep, request, kCheckPatience);

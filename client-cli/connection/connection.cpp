@@ -18,10 +18,10 @@ constexpr std::chrono::milliseconds kReasonPatience{200};
 
 grpc::ChannelArguments channel_arguments() {
   grpc::ChannelArguments arguments;
-  // The mesh of a large lattice comes in one message.
+  // The mesh of a large lattice arrives in one message.
   arguments.SetMaxReceiveMessageSize(-1);
   arguments.SetMaxSendMessageSize(-1);
-  // The server is meant directly, whatever proxy the environment names.
+  // Connects directly, ignoring proxies in the environment.
   arguments.SetInt(GRPC_ARG_ENABLE_HTTP_PROXY, 0);
   arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 100);
   arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 500);
@@ -81,7 +81,7 @@ void Connection::check_request_size(std::int64_t size) {
 }
 
 std::string Connection::last_failure() {
-  // A call on a channel that does not connect ends at once with the reason.
+  // A call on a channel that cannot connect fails at once with the reason.
   grpc::ClientContext context;
   context.set_deadline(std::chrono::system_clock::now() + kReasonPatience);
   v1::Capabilities response;
@@ -92,7 +92,7 @@ void Connection::require_server() {
   if (connected_) return;
   connected_ = wait(kHandshakePatience);
   if (connected_) return;
-  // One that refuses this client goes on to do so; one that is not there may be about to start.
+  // A server that refuses this client keeps refusing; one that does not answer may be starting.
   std::string reason = last_failure();
   if (may_still_answer(address_, reason)) {
     connected_ = wait(kConnectPatience);

@@ -12,7 +12,7 @@ std::string host_of(const std::string& address) { return address.substr(0, addre
 
 bool is_socket(const std::string& address) { return address.starts_with("unix:"); }
 
-// Nothing was there to end the connection.
+// There was no connection that could have ended.
 bool was_not_reached(const std::string& reason) {
   for (const char* part : {"Connection refused", "No route to host", "unreachable", "timed out", "Timeout", "DNS"}) {
     if (has_part(reason, part)) return true;

@@ -18,7 +18,7 @@ namespace {
 
 using grpc::experimental::InterceptionHookPoints;
 
-// The option, else the variable, with the name under which messages speak of it.
+// The option, else the variable, with its name for messages.
 struct NamedText {
   std::string source;
   std::string text;
@@ -51,7 +51,7 @@ std::string read_pem(const NamedText& path, const std::string& kind) {
   return text;
 }
 
-// A token may stand on a line with an end; it goes into a header, which takes printable characters only.
+// The line with a token may have a line end; the token goes into a header, which allows printable characters only.
 std::string checked_token(std::string text, const std::string& source) {
   while (!text.empty() && (text.back() == '\n' || text.back() == '\r' || text.back() == ' ')) text.pop_back();
   const bool printable =
@@ -75,7 +75,7 @@ bool is_this_machine(const std::string& address) {
          (inet_pton(AF_INET, host.c_str(), &ipv4) == 1 && (ntohl(ipv4.s_addr) >> 24U) == 127U);
 }
 
-// Adds the token to what a call sends first.
+// Adds the token to the metadata of each call.
 class TokenSender final : public grpc::experimental::Interceptor {
  public:
   explicit TokenSender(std::string value) : value_(std::move(value)) {}

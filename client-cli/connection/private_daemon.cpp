@@ -28,15 +28,14 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::seconds kPatience{60};
 
-// "cellcrushd" alone is looked for in $PATH.
+// A plain "cellcrushd" is searched in $PATH.
 std::string daemon_program() {
   std::error_code error;
   const fs::path beside = fs::read_symlink("/proc/self/exe", error).replace_filename("cellcrushd");
   return !error && fs::exists(beside, error) ? beside.string() : "cellcrushd";
 }
 
-// In the user's runtime folder, else in /tmp, as where that folder is another user's or its path is too long for a
-// socket.
+// In the user's runtime folder, else in /tmp: that folder may be another user's, or its path too long for a socket.
 fs::path make_socket_folder() {
   constexpr std::size_t kLongestFolder = 80;
   const char* runtime = std::getenv("XDG_RUNTIME_DIR");
@@ -59,9 +58,9 @@ std::string last_line_of(const fs::path& log) {
   return last;
 }
 
-// Only calls that are allowed between fork and exec.
+// Only functions that are allowed between fork and exec.
 [[noreturn]] void become(char* const* words, pid_t parent, int output, int log) {
-  // A group of its own: Ctrl-C reaches this program alone, which then ends the daemon.
+  // A separate process group: Ctrl-C reaches only this program, which then stops the daemon.
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (getppid() != parent) _exit(127);
@@ -71,7 +70,7 @@ std::string last_line_of(const fs::path& log) {
   _exit(127);
 }
 
-// Whether the daemon says that it listens, which is its first line, before it ends or the time is up.
+// Whether the daemon announces that it listens, in its first line, before it ends or the time is up.
 bool wait_until_it_listens(int output) {
   const auto limit = Clock::now() + kPatience;
   std::string text;
@@ -91,7 +90,7 @@ bool wait_until_it_listens(int output) {
 
 PrivateDaemon::PrivateDaemon(const fs::path& data, double time_limit_s)
     : log_(data / "daemon.log"), folder_(make_socket_folder()) {
-  // As many workers as cores, since a job may use the cores that no other waits for.
+  // As many workers as cores, since a job may use the cores that no other job waits for.
   std::vector<std::string> words = {daemon_program(), "--data", data.string(), "--listen", address()};
   if (time_limit_s > 0.0) words.insert(words.end(), {"--max-job-time", fmt::format("{}", time_limit_s)});
   std::vector<char*> pointers;

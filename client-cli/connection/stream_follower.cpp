@@ -16,7 +16,7 @@ using namespace std::chrono_literals;
 constexpr std::array kPauses = {250ms, 500ms, 1000ms, 2000ms, 4000ms};
 constexpr auto kSilence = 60s;
 
-// Ends a call when the user interrupts or the server falls silent. Lives as long as the call.
+// Cancels a call if the user interrupts or the server falls silent. Lives as long as the call.
 class CallGuard {
  public:
   CallGuard(grpc::ClientContext& context, const Interruption& interruption)

@@ -9,7 +9,7 @@ namespace cellcrush::client {
 
 namespace {
 
-// Which jobs a sweep has, and which of them have ended.
+// The jobs of a sweep, and which of them have ended.
 class Remaining {
  public:
   void apply(const v1::WatchSweepResponse& response) {
@@ -25,7 +25,7 @@ class Remaining {
 
  private:
   void note(const std::string& job, v1::JobState state) {
-    // A job that is queued again after it failed has not ended.
+    // A job that is queued again after a failure has not ended.
     is_final(state) ? (void)ended_.insert(job) : (void)ended_.erase(job);
   }
 

@@ -17,7 +17,7 @@ namespace {
 using google::protobuf::Descriptor;
 using google::protobuf::FieldDescriptor;
 
-// The generated descriptors have no comments; these are built from the embedded file and live as long as the program.
+// Generated descriptors lack comments; these are built from the embedded file and live as long as the program.
 const Descriptor& case_type() {
   static const google::protobuf::DescriptorPool* const pool = [] {
     google::protobuf::FileDescriptorSet files;
@@ -32,7 +32,7 @@ const Descriptor& case_type() {
   return *pool->FindMessageTypeByName("cellcrush.v1.Case");
 }
 
-// The comment above a declaration; a line that is empty ends a paragraph.
+// The comment above a declaration; an empty line ends a paragraph.
 template <typename Declaration>
 std::string comment_above(const Declaration& declaration) {
   google::protobuf::SourceLocation location;
@@ -40,7 +40,7 @@ std::string comment_above(const Declaration& declaration) {
   return join_comment(location.leading_comments);
 }
 
-// The comment on a field, then that on its type when it has one of its own.
+// The comment on a field, then that on its type, if any.
 std::string comment_of(const FieldDescriptor& field) {
   std::string type;
   if (field.message_type() != nullptr) type = comment_above(*field.message_type());
@@ -72,7 +72,7 @@ void append_paths(const Descriptor& type, const std::string& prefix, std::vector
   }
 }
 
-// A path whose last name is `word`: what is meant by a name without its groups. Empty when there is none.
+// A path whose last name is `word`, for names without their groups. Empty if there is none.
 std::string find_path_to(const std::string& word) {
   for (const std::string& path : case_paths()) {
     if (path.ends_with("." + word)) return path;

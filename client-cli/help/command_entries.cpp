@@ -10,7 +10,7 @@ namespace cellcrush::client {
 
 namespace {
 
-// Limits as the parser has them behind a type: "POSITIVE", "INT in [-100 - 100]".
+// Limits that the parser appends to a type: "POSITIVE", "INT in [-100 - 100]".
 std::string limits_of(const std::string& type) {
   static const std::regex kRange(R"(in \[(.*) - (.*)\])");
   std::smatch range;
@@ -32,7 +32,7 @@ std::vector<std::string> assignment_beginnings() {
   std::vector<std::string> words;
   const std::vector<std::string> paths = case_paths();
   for (std::size_t i = 0; i < paths.size(); ++i) {
-    // A group stands ahead of its parts.
+    // A group precedes its fields.
     const bool is_group = i + 1 < paths.size() && paths[i + 1].starts_with(paths[i] + '.');
     if (!is_group) words.push_back(paths[i] + '=');
   }
@@ -60,7 +60,7 @@ std::vector<OptionEntry> option_entries(const CLI::App& app) {
     if (option->get_type_size() != 0) entry.value = option->get_type_name();
     entry.words = choices_in(option->get_type_name());
     if (entry.names.back() == "--set" || entry.names.back() == "--over") entry.words = assignment_beginnings();
-    // Limits stand behind the type, as in "INT:POSITIVE".
+    // Limits follow the type, as in "INT:POSITIVE".
     entry.limits = limits_of(entry.value);
     entry.value = entry.value.substr(0, entry.value.find(':'));
     entry.description = option->get_description();

@@ -25,7 +25,7 @@ constexpr const char* kHead =
     "`cellcrush COMMAND --help` and the man page `cellcrush(1)`. [README.md](README.md) lists the pages that show the\n"
     "commands at work.\n\n";
 
-// Text that Markdown prints as it is. What stands between backticks is code already.
+// Escapes text for Markdown. Text between backticks is already code.
 std::string markdown(std::string_view text) {
   std::string out;
   bool is_code = false;
@@ -37,7 +37,7 @@ std::string markdown(std::string_view text) {
   return out;
 }
 
-// A paragraph or an item of a list: the first line begins with `bullet`, the others stand below its text.
+// A paragraph or list item: the first line begins with `bullet`, the others are indented to its text.
 std::string block(const std::string& bullet, const std::string& text) {
   std::string out;
   const int width = static_cast<int>(bullet.size());

@@ -40,7 +40,7 @@ std::string all_option_names(const CLI::App& app) {
 
 std::string joined(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, " ")); }
 
-// A line an option: names of the same words together.
+// One line per option: names with the same words together.
 std::string bash_values(const CLI::App& app) {
   std::string text;
   std::set<std::string> seen;
@@ -61,7 +61,7 @@ std::string zsh_values(const std::vector<std::string>& words) {
   return words.front().ends_with('=') ? "_cellcrush_fields" : "(" + joined(words) + ")";
 }
 
-// The specifications of _arguments, a line each.
+// The specifications of _arguments, one per line.
 std::string zsh_options(const CLI::App& app, std::string_view indent) {
   std::string text;
   for (const OptionEntry& option : option_entries(app)) {

@@ -12,7 +12,7 @@ namespace cellcrush::client {
 
 namespace {
 
-// Text that roff prints as it is, also at the start of a line.
+// Escapes text for roff, also at the start of a line.
 std::string roff(std::string_view text) {
   std::string out = text.starts_with('.') || text.starts_with('\'') ? "\\&" : "";
   for (const char character : text) {
@@ -27,7 +27,7 @@ std::string roff(std::string_view text) {
   return out;
 }
 
-// Lines as they are, each with its own start.
+// Preformatted lines, each on its own.
 std::string roff_lines(const std::string& text) {
   std::istringstream lines(text);
   std::string out;

@@ -26,7 +26,7 @@ std::string scalar_text(const google::protobuf::Message& message, const FieldDes
   }
 }
 
-// The message in a field, or in its list at `index`, a number's digits; null where there is none.
+// The message in a field, or in its list at `index` (digits); null if there is none.
 const google::protobuf::Message* find_message(const google::protobuf::Message& message, const FieldDescriptor& field,
                                               const std::string& index) {
   const auto* reflection = message.GetReflection();

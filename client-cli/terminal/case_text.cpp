@@ -29,7 +29,7 @@ std::string material_text(const v1::Material& material) {
   return text + fmt::format(", {} kg/m3", material.density_kg_per_m3());
 }
 
-// What a crush has and a frame under loads of its own has not.
+// Fields of a crush that a frame with its own loads lacks.
 void add_crush_rows(Table& table, const v1::CheckCaseResponse& check) {
   table.add({"length (crush direction)", number_text(check.length_mm(), 4), "mm"});
   table.add({"width (transverse)", number_text(check.width_mm(), 4), "mm"});

@@ -9,7 +9,7 @@ namespace {
 
 bool continues_character(char byte) { return (static_cast<unsigned char>(byte) & 0xC0) == 0x80; }
 
-// Bytes of the first `columns` characters.
+// Number of bytes in the first `columns` characters.
 std::size_t size_of_columns(std::string_view text, int columns) {
   std::size_t end = 0;
   for (int count = 0; end < text.size(); ++end) {
@@ -31,7 +31,7 @@ std::string replaced(std::string_view text, std::string_view from, std::string_v
   }
 }
 
-// Bytes of a word's beginning that stand on a line: up to a dot, underscore, slash or hyphen in its second half.
+// Bytes of the start of a word to keep on a line: up to a dot, underscore, slash or hyphen in its second half.
 std::size_t size_of_part(std::string_view word, int width) {
   const std::size_t most = size_of_columns(word, width);
   const std::size_t joint = word.substr(0, most).find_last_of("._/-");
@@ -57,7 +57,7 @@ std::string cut(std::string_view text, int width) {
 
 std::vector<std::string> wrap_words(std::string_view text, int width) {
   std::vector<std::string> lines(1);
-  // A number stays with its per cent sign, an equation with its number.
+  // Keeps a number with its per cent sign, and "Eq." with its number.
   std::istringstream words(replaced(replaced(text, " %", "\u00A0%"), "Eq. ", "Eq.\u00A0"));
   for (std::string word; words >> word;) {
     const int used = display_width(lines.back());

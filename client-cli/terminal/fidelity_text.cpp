@@ -16,7 +16,7 @@ namespace {
 
 using Align = Table::Align;
 
-// No error is claimed that the scatter of seeds would hide.
+// No error is claimed that is smaller than the scatter of the seeds.
 std::string error_text(const v1::MeasuredError& error) {
   if (error.error_relative() <= error.uncertainty_relative())
     return "under " + unbreakable(percent_text(error.uncertainty_relative()));
@@ -24,7 +24,7 @@ std::string error_text(const v1::MeasuredError& error) {
          unbreakable("± " + percent_text(error.uncertainty_relative()));
 }
 
-// The forecast that names the scenes in which errors were measured; null when the case's own fields leave none.
+// The forecast that names the scenes in which errors were measured; null if the case's own fields determine everything.
 const v1::FidelityForecast* find_measured(const v1::CheckCaseResponse& check) {
   for (const v1::FidelityForecast& forecast : check.fidelities()) {
     if (forecast.errors_size() > 0) return &forecast;
@@ -47,7 +47,7 @@ std::vector<std::string> row_of(const v1::FidelityForecast& forecast) {
   return row;
 }
 
-// Whether the case's own fields leave nothing for a fidelity to fill in.
+// Whether the case's own fields leave nothing for a fidelity to set.
 bool are_all_the_same(const v1::CheckCaseResponse& check) {
   const auto& first = check.fidelities(0);
   return std::all_of(check.fidelities().begin(), check.fidelities().end(), [&](const v1::FidelityForecast& forecast) {

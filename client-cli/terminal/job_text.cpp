@@ -20,7 +20,7 @@ namespace {
 using Align = Table::Align;
 using google::protobuf::util::TimeUtil;
 
-// The daemon gives times in whole seconds, rounded down, so that the run took less than one more.
+// The daemon gives times in whole seconds, rounded down, so the run took less than one second more.
 std::string run_time_text(const v1::Job& job) {
   if (!job.has_start_time() || !job.has_end_time()) return {};
   const auto whole = static_cast<double>(TimeUtil::DurationToSeconds(job.end_time() - job.start_time()) + 1);

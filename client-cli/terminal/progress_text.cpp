@@ -47,7 +47,7 @@ std::string remaining_text(const JobView& view) {
   return duration_text(progress.seconds_left()) + " left";
 }
 
-// How far a state is in a job's life: what it has passed it does not show again.
+// Rank of a state in a job's life; the display never goes back to an earlier state.
 int rank_of(v1::JobState state) {
   switch (state) {
     case v1::JOB_STATE_UNSPECIFIED: return 0;
@@ -65,9 +65,9 @@ void JobView::apply(const v1::JobEvent& event) {
   switch (event.event_case()) {
     case v1::JobEvent::kSnapshot: job_ = event.snapshot().job(); break;
     case v1::JobEvent::kState: {
-      // A state may come without the case and the progress that are known already.
+      // A state event may lack the case and the progress that are already known.
       const v1::Job known = job_;
-      // The states before the snapshot's are told again.
+      // The states before the snapshot's are sent again.
       if (rank_of(event.state().state()) < rank_of(known.state())) break;
       job_ = event.state();
       if (!job_.has_progress()) *job_.mutable_progress() = known.progress();
@@ -110,7 +110,7 @@ std::vector<std::string> progress_lines(const JobView& view, int width, const Te
   if (view.job().state() == v1::PENDING) return {cut("waiting for a worker", width)};
   const std::string percent = fmt::format("{:>8}", percent_text(view.progress().fraction()));
   const std::string remaining = remaining_text(view);
-  // Room for the longest duration, so that the bar does not change its width with every second.
+  // Room for the longest duration, so that the bar keeps its width.
   const int bar = std::min(width - display_width(percent) - 2 - std::max(display_width(remaining), 16), kLongestBar);
   std::vector<std::string> lines;
   const std::string figures = fmt::format("{}  {}", percent, remaining);

@@ -53,13 +53,13 @@ void add_plateau_rows(Table& table, const v1::Summary& summary) {
   if (summary.has_solid_fraction_at_densification()) {
     table.add({"solid fraction at densification", number_text(summary.solid_fraction_at_densification())});
   }
-  // Of a run that ended before, it is all the work of its plate.
+  // For a run that ended earlier, this is the total work of its plate.
   const bool whole = summary.absorbed_energy_mj() > (1.0 - 1e-9) * summary.ledger().work_external_mj();
   table.add({whole && summary.has_ledger() ? "energy absorbed to the end" : "energy absorbed to 50 % strain",
              number_text(1e-3 * summary.absorbed_energy_mj()) + " J"});
 }
 
-// A line of its own: words in a column of numbers would widen it.
+// On a line of its own: words in a column of numbers would widen it.
 std::string mode_text(const v1::Summary& summary, int width) {
   const std::string mode = crush_mode_text(summary.crush_mode());
   if (mode.empty()) return {};
@@ -84,7 +84,7 @@ std::string front_text(const v1::FrontSummary& front, int width) {
   return table.text(2, width);
 }
 
-// How steady a slow run was; nothing of a fast one.
+// How quasi-static a slow run was; nothing for a fast one.
 void add_quasi_static_rows(Table& table, const v1::Summary& summary) {
   constexpr double kSlow = 0.1;
   const v1::QuasiStatic& found = summary.quasi_static();
@@ -111,7 +111,7 @@ std::string ledger_text(const v1::Ledger& ledger, int width) {
     table.add({what, number_text(1e-3 * energy) + " J", whole > 0.0 ? percent_text(energy / whole, 2) : ""});
   };
   row("energy ledger: work of plates and loads", ledger.work_external_mj());
-  // Round-off of the sum is no energy.
+  // Round-off of the sum is not shown as energy.
   const double start = spent - ledger.work_external_mj();
   if (std::abs(start) > 1e-9 * whole) row("initial energy", start);
   row("kinetic energy", ledger.kinetic_mj());

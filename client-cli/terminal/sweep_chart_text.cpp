@@ -41,7 +41,7 @@ struct Range {
   double low;
   double high;
 
-  // The nearest of `count` places; outside of them for values outside of the range.
+  // The nearest of `count` positions; values outside the range map outside.
   [[nodiscard]] int place(double value, int count) const {
     return static_cast<int>(std::lround((value - low) / (high - low) * (count - 1)));
   }
@@ -65,7 +65,7 @@ class Canvas {
 
   [[nodiscard]] int columns() const { return columns_; }
 
-  // Rows from the bottom; without the blanks behind the last mark.
+  // Rows from the bottom, without trailing spaces.
   [[nodiscard]] std::string row(int number) const {
     std::string text;
     for (const std::string& cell : cells_[static_cast<std::size_t>(number)]) text += cell;

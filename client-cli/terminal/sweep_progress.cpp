@@ -37,7 +37,7 @@ std::vector<std::string> varied_fields(const v1::Sweep& sweep) {
   return fields;
 }
 
-// Jobs to show in `room` rows: all, or the running ones before the others, in the order of the sweep.
+// Jobs to show in `room` rows: all, or the running ones first, in the order of the sweep.
 std::vector<const Entry*> find_shown(const SweepView& view, int room) {
   std::vector<const Entry*> shown;
   for (const bool running : {true, false}) {
@@ -98,7 +98,7 @@ std::vector<std::string> job_rows(const SweepView& view, const std::vector<const
                   plateau_text(job), strained ? fmt::format("{:.2f}", job.progress().strain()) : "", entry->name});
     table.add(std::move(cells));
   }
-  constexpr int kWhole = 10000;  // a row a job; what has no room is cut off
+  constexpr int kWhole = 10000;  // one row per job; rows without room are cut off
   std::istringstream text(table.text(0, kWhole));
   std::vector<std::string> lines;
   for (std::string line; std::getline(text, line);) lines.push_back(cut(line, width));

@@ -41,7 +41,7 @@ std::string legend_text(const v1::SweepTable& table, int width) {
   return {};
 }
 
-// A term of a sum, its sign set apart: " + 0.000231 V^2", " - 0.000231 V^2".
+// A term of a sum, with its sign separated: " + 0.000231 V^2", " - 0.000231 V^2".
 std::string signed_term(double value, const char* factor) {
   return fmt::format(" {} {:.4g} {}", std::signbit(value) ? '-' : '+', std::abs(value), factor);
 }
@@ -81,7 +81,7 @@ std::string failures_text(const v1::SweepTable& table, int width) {
 
 constexpr std::size_t kTableHeadings = 4;
 
-// The heading's lines: of the varied fields name and unit, of the results their words and unit.
+// The heading's lines: name and unit of varied fields, words and unit of results.
 void add_headings(Table& table, const v1::SweepTable& results) {
   const std::vector<std::string> fields(results.fields().begin(), results.fields().end());
   std::array<std::vector<std::string>, kTableHeadings> lines;
@@ -90,7 +90,7 @@ void add_headings(Table& table, const v1::SweepTable& results) {
   };
   for (const std::string& field : fields) {
     const FieldWords words = words_among(field, fields);
-    // Its words one below the other, the last ones together.
+    // One word per line, the last ones together.
     std::array<std::string, kTableHeadings> column;
     std::size_t line = 0;
     for (const std::string& word : wrap_words(words.name, 12)) {

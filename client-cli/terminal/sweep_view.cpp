@@ -13,7 +13,7 @@ namespace {
 using google::protobuf::util::TimeUtil;
 using Entry = SweepView::Entry;
 
-// Seconds that a job takes in all, as far as it shows by now; nothing of one that waits.
+// Estimated total seconds of a job; nothing for a waiting one.
 std::optional<double> duration_of(const Entry& entry) {
   const v1::Job& job = entry.view.job();
   if (job.has_start_time() && job.has_end_time()) {

@@ -60,8 +60,7 @@ std::vector<std::string> Table::remove_constant_columns(std::size_t first, std::
   return constants;
 }
 
-// "crush mode layer by layer", "shock theory 3.41 MPa", "front strain none": of several headings the last one is a
-// unit.
+// "crush mode layer by layer", "shock theory 3.41 MPa", "front strain none": the last of several headings is a unit.
 std::string Table::constant_text(std::size_t column, std::size_t headings, const std::string& value) const {
   std::string text;
   for (std::size_t row = 0; row < std::max<std::size_t>(headings, 2) - 1; ++row) {
@@ -83,7 +82,7 @@ std::vector<int> Table::natural_widths() const {
   return widths;
 }
 
-// Narrows the columns of one alignment from the last to the first, as far as `least` allows.
+// Narrows the columns of one alignment from last to first, no further than `least`.
 void Table::narrow(std::vector<int>& widths, int room, Align align,
                    const std::function<int(std::string_view cell)>& least) const {
   for (std::size_t i = columns_.size(); i-- > 0;) {
@@ -96,7 +95,7 @@ void Table::narrow(std::vector<int>& widths, int room, Align align,
   }
 }
 
-// Texts first as far as they stay easy to read, then the headings of figures, then texts further.
+// First texts while they stay easy to read, then the headings of numbers, then texts further.
 void Table::narrow(std::vector<int>& widths, int room) const {
   const auto text = [](int comfortable, int longest) {
     return [comfortable, longest](std::string_view cell) {
@@ -110,7 +109,7 @@ void Table::narrow(std::vector<int>& widths, int room) const {
   narrow(widths, room, Align::left, text(8, 20));
 }
 
-// Widens the left-aligned ones of some columns again, where `room` is left for their texts.
+// Widens left-aligned columns again if `room` is left for their texts.
 std::vector<int> Table::widened(std::vector<int> widths, const std::vector<std::size_t>& columns, int room) const {
   const std::vector<int> natural = natural_widths();
   for (const std::size_t column : columns) room -= widths[column];
@@ -136,7 +135,7 @@ std::string Table::block(int indent, int width, const std::vector<int>& widths,
     std::vector<std::vector<std::string>> cells;
     std::size_t height = 1;
     for (const std::size_t column : columns) {
-      // A cell that fits keeps its blanks.
+      // A cell that fits keeps its spaces.
       const bool fits = display_width(row.cells[column]) <= widths[column];
       cells.push_back(fits ? std::vector{breakable(row.cells[column])} : wrap_words(row.cells[column], widths[column]));
       height = std::max(height, cells.back().size());

@@ -25,7 +25,7 @@ bool locale_is_utf8() {
   return false;
 }
 
-// All zeros when the standard output is no terminal.
+// All zeros if the standard output is not a terminal.
 winsize window_size() {
   winsize size = {};
   return ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 ? size : winsize{};
