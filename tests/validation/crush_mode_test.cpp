@@ -18,6 +18,8 @@ struct Expectation {
   int speed;
   CrushMode mode;
   int least;
+
+  friend void PrintTo(const Expectation& at, std::ostream* out) { *out << at.speed << " m/s"; }
 };
 
 class TypeIModes : public testing::TestWithParam<Expectation> {};
