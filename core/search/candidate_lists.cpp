@@ -3,6 +3,8 @@
 #include <limits>
 #include <utility>
 
+#include "search/list_room.h"
+
 namespace cellcrush {
 namespace {
 
@@ -18,19 +20,11 @@ void put(ContactLists& lists, int place, const Candidate& candidate) {
   lists.candidate_next_check_travel[place] = candidate.reach > 0.0 ? 0.0 : kNever;
 }
 
-/// These lists grow most in a crush: the room is one eighth more than needed, not twice as much.
 void resize(ContactLists& lists, std::size_t size) {
-  if (size > lists.candidate_ball.capacity()) {
-    const std::size_t room = size + size / 8;
-    lists.candidate_ball.reserve(room);
-    lists.candidate_segment.reserve(room);
-    lists.candidate_reach.reserve(room);
-    lists.candidate_next_check_travel.reserve(room);
-  }
-  lists.candidate_ball.resize(size, 0);
-  lists.candidate_segment.resize(size, 0);
-  lists.candidate_reach.resize(size, 0.0);
-  lists.candidate_next_check_travel.resize(size, kNever);
+  resize_with_room(lists.candidate_ball, size);
+  resize_with_room(lists.candidate_segment, size);
+  resize_with_room(lists.candidate_reach, size);
+  resize_with_room(lists.candidate_next_check_travel, size, kNever);
 }
 
 /// Moves a list to new entries at the end. Its contents are lost.
@@ -42,7 +36,7 @@ void move_to_end(ContactLists& lists, FaceList& list, int count) {
   list.room = batches_for(count) * kCandidateBatch;
   list.count = 0;
   resize(lists, lists.candidate_ball.size() + list.room);
-  lists.batch_group.resize(lists.candidate_ball.size() / kCandidateBatch, list.group);
+  resize_with_room(lists.batch_group, lists.candidate_ball.size() / kCandidateBatch, list.group);
 }
 
 void close_up(ContactLists& lists) {

@@ -5,6 +5,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "search/list_room.h"
 #include "simd/points-inl.h"
 #include "touch/viscous_force-inl.h"
 
@@ -193,7 +194,7 @@ HWY_EXPORT(evaluate_all);
 
 void evaluate_touches(const Scene& scene, const State& state, ContactLists& lists, Touches& touches, std::size_t first,
                       std::size_t end, std::vector<int>& released) {
-  released.resize(end - first);
+  resize_with_room(released, end - first);
   released.resize(HWY_DYNAMIC_DISPATCH(evaluate_all)(scene, state, lists, touches, first, end, released.data()));
 }
 

@@ -1,5 +1,6 @@
 #include "touch/find_active_contacts.h"
 
+#include "search/list_room.h"
 #include "touch/remember_touches.h"
 
 namespace cellcrush {
@@ -80,6 +81,7 @@ void share_with_node(const Scene& scene, const State& state, const ContactLists&
 void find_active_contacts(const Scene& scene, const State& state, const ContactLists& lists, const Touches& touches,
                           std::size_t first, std::size_t end, std::vector<ActiveContact>& active) {
   active.clear();
+  make_room(active, end - first);
   for (int touch = static_cast<int>(first); touch < static_cast<int>(end); ++touch) {
     const double depth = touches.depth[touch];
     if (!(depth > 0.0)) {

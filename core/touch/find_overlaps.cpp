@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "cellcrush/tuning.h"
+#include "search/list_room.h"
 #include "simd/points-inl.h"
 #include "touch/awake_candidates.h"
 
@@ -149,7 +150,7 @@ HWY_EXPORT(test_awake);
 void find_overlaps_in(const Scene& scene, const State& state, ContactLists& lists, std::size_t first, std::size_t end,
                       ContactPart& part) {
   if (part.awake.size() < end - first + kCandidateBatch) {
-    part.awake.resize(end - first + kCandidateBatch);
+    resize_with_room(part.awake, end - first + kCandidateBatch);
   }
   const std::size_t count = find_awake_candidates(lists, first, end, part.awake.data());
   part.found.clear();

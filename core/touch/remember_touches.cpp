@@ -5,6 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include "search/list_room.h"
+
 namespace cellcrush {
 namespace {
 
@@ -84,7 +86,7 @@ class Writer {
         after_(lists.touching),
         known_(workspace.touches.known) {
     const std::size_t count = before_.count() - lists.released.size() + workspace.new_contacts.size();
-    visit_kept(after_, before_, [&](auto& field, const auto&) { field.resize(count); });
+    visit_kept(after_, before_, [&](auto& field, const auto&) { resize_with_room(field, count); });
     workspace.touches.resize(count);
     changes_.clear();
   }

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstddef>
+
+namespace cellcrush {
+
+/// Makes room for so many entries in a list that grows over a crush: where it must move, for an eighth more. A vector
+/// by itself would make room for twice as many, and what it leaves behind is too small to be used again.
+template <class List>
+void make_room(List& list, std::size_t size) {
+  if (size > list.capacity()) {
+    list.reserve(size + size / 8);
+  }
+}
+
+/// Resizes such a list.
+template <class List>
+void resize_with_room(List& list, std::size_t size) {
+  make_room(list, size);
+  list.resize(size);
+}
+
+/// The same, with copies of `fill` at the end.
+template <class List>
+void resize_with_room(List& list, std::size_t size, const typename List::value_type& fill) {
+  make_room(list, size);
+  list.resize(size, fill);
+}
+
+}  // namespace cellcrush
