@@ -109,8 +109,7 @@ std::shared_ptr<Scene> build_mesh(const SceneSpec& part) {
 
 MeshMeasures measure_sound_mesh(const SceneSpec& part, const Scene& scene) {
   MeshMeasures measures;
-  measures.particle_count = scene.particle_count();
-  measures.element_count = scene.element_count();
+  measures.counts = count_mesh(scene);
   measures.length = scene.length;
   measures.stable_step = scene.stable_step;
   measures.lightest_mass = *std::min_element(scene.mass.begin(), scene.mass.end());
@@ -121,7 +120,6 @@ MeshMeasures measure_sound_mesh(const SceneSpec& part, const Scene& scene) {
     measures.thinnest_wall = std::min(measures.thinnest_wall, element.thickness);
   }
   measures.material = scene.materials.front();
-  measures.hardening = scene.has_hardening();
   const auto* frame = std::get_if<FrameLattice>(&part.lattice);
   measures.contact = frame == nullptr || frame->self_contact;
   return measures;

@@ -6,6 +6,7 @@
 #include "cellcrush/problem.h"
 #include "cellcrush/scene.h"
 #include "cellcrush/scene_spec.h"
+#include "scene/array_counts.h"
 
 namespace cellcrush {
 
@@ -26,17 +27,15 @@ std::shared_ptr<Scene> build_mesh(const SceneSpec& part);
 
 /// Measures of a mesh on which the rest of a scene depends. Units mm, tonne, s, MPa.
 struct MeshMeasures {
-  std::size_t particle_count = 0;
-  std::size_t element_count = 0;
+  ArrayCounts counts;   ///< of the mesh's arrays
   double length = 0.0;  ///< envelope along the crush
   double stable_step = 0.0;
   double lightest_mass = 0.0;  ///< of a particle
   double shortest_element = 0.0;
   double thinnest_wall = 0.0;
-  Material material;       ///< of the lattice
-  bool hardening = false;  ///< of any material
-  bool contact = false;    ///< whether walls touch each other
-  Problems overlaps;       ///< walls that overlap before loading
+  Material material;     ///< of the lattice
+  bool contact = false;  ///< whether walls touch each other
+  Problems overlaps;     ///< walls that overlap before loading
 };
 
 /// Measures a mesh, and searches for walls that overlap. REQUIRES: `scene` is the mesh of the part.

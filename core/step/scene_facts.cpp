@@ -1,23 +1,10 @@
 #include "cellcrush/scene.h"
 #include "cellcrush/simulation.h"
-#include "cellcrush/state.h"
 #include "measure/theory.h"
-#include "scene/run_memory.h"
+#include "step/run_memory.h"
 #include "step/what_is_modelled.h"
 
 namespace cellcrush {
-namespace {
-
-std::int64_t memory_of(const Scene& scene) {
-  std::size_t corners = 0;
-  for (const FacesOfBand& faces : scene.faces.bands) {
-    corners += faces.particle.size();
-  }
-  return memory_of_run({scene.particle_count(), scene.element_count(), corners, scene.section.section_count(),
-                        scene.fibre_count(), scene.section.force_based, scene.has_hardening()});
-}
-
-}  // namespace
 
 SceneFacts facts_of(const Scene& scene) {
   SceneFacts facts;
@@ -32,7 +19,7 @@ SceneFacts facts_of(const Scene& scene) {
   facts.step_count = scene.schedule.step_count;
   facts.sample_interval = scene.schedule.sample_interval;
   facts.frame_interval = scene.schedule.frame_interval;
-  facts.memory_bytes = memory_of(scene);
+  facts.memory_bytes = memory_of_run(scene);
   facts.theory = theory_of(scene);
   facts.modelled = what_is_modelled(scene);
   return facts;

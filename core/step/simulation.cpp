@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "cellcrush/scene.h"
+#include "cellcrush/scene_arrays.h"
 #include "cellcrush/state.h"
 #include "measure/sampler.h"
 #include "step/advance_step.h"
@@ -143,29 +144,13 @@ double Simulation::strain() const {
 }
 
 void Simulation::visit_arrays(const std::function<void(const void*, std::size_t)>& visit) const {
-  const auto visit_array = [&](const auto& array) {
+  const auto visit_array = [&visit](const char*, const auto& array, const Shape&) {
     if (!array.empty()) {
-      visit(array.data(), array.size() * sizeof(*array.data()));
+      visit(array.data(), array.size() * sizeof(array[0]));
     }
   };
-  visit_fields(impl_->state, [&](const char*, const auto& field) {
-    if constexpr (requires { field.data(); }) {
-      visit_array(field);
-    }
-  });
-  const Scene& scene = *impl_->scene;
-  visit_array(scene.elements);
-  visit_array(scene.inverse_mass);
-  visit_array(scene.inverse_inertia);
-  visit_array(scene.radius);
-  visit_array(scene.wall_end_offset);
-  visit_array(scene.wall_ends);
-  visit_array(scene.incidence_offset);
-  visit_array(scene.incidence);
-  visit_array(scene.faces.side);
-  for (const FacesOfBand& faces : scene.faces.bands) {
-    visit_array(faces.particle);
-  }
+  cellcrush::visit_arrays(impl_->state, visit_array);
+  cellcrush::visit_arrays(*impl_->scene, visit_array);
 }
 
 const Scene& Simulation::scene() const { return *impl_->scene; }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "cellcrush/array_shape.h"
 #include "cellcrush/lane_vector.h"
 #include "cellcrush/tuning.h"
 #include "cellcrush/vector.h"
@@ -84,39 +85,50 @@ struct ContactTotals {
   double deepest_birth = 0.0;        ///< the same, in the step in which a contact first touched
 };
 
-/// See visit_fields.
+/// See visit_fields in state.h.
 template <class L, class Visitor>
 void visit_search_fields(L& lists, Visitor&& visitor) {
-  visitor("candidate_ball", lists.candidate_ball);
-  visitor("candidate_segment", lists.candidate_segment);
-  visitor("candidate_reach", lists.candidate_reach);
-  visitor("candidate_count", lists.candidate_count);
-  visitor("searched_position", lists.searched_position);
-  visitor("search_count", lists.search_count);
-  visitor("face_list", lists.face_list);
-  visitor("face_budget", lists.face_clearance);
-  visitor("face_alarm", lists.face_next_check_travel);
-  visitor("face_searched_position", lists.face_searched_position);
-  visitor("group_travel", lists.group_travel);
-  visitor("group_alarm", lists.group_next_check_travel);
-  visitor("batch_group", lists.batch_group);
-  visitor("batch_count", lists.batch_count);
-  visitor("face_look_count", lists.face_recheck_count);
-  visitor("face_search_count", lists.face_search_count);
+  auto& [candidate_ball, candidate_segment, candidate_reach, candidate_count, searched_position, search_count,
+         face_list, face_clearance, face_next_check_travel, face_searched_position, group_travel,
+         group_next_check_travel, batch_group, batch_count, face_recheck_count, face_search_count, touching, released,
+         candidate_next_check_travel] = lists;
+  visitor("candidate_ball", candidate_ball, Per::candidate);
+  visitor("candidate_segment", candidate_segment, Per::candidate);
+  visitor("candidate_reach", candidate_reach, Per::candidate);
+  visitor("candidate_count", candidate_count, Per::few);
+  visitor("searched_position", searched_position, Shape(Per::particle, kBuckets));
+  visitor("search_count", search_count, Per::few);
+  visitor("face_list", face_list, Per::face);
+  visitor("face_clearance", face_clearance, Per::face);
+  visitor("face_next_check_travel", face_next_check_travel, Per::face);
+  visitor("face_searched_position", face_searched_position, Per::corner);
+  visitor("group_travel", group_travel, Per::face_group);
+  visitor("group_next_check_travel", group_next_check_travel, Per::face_group);
+  visitor("batch_group", batch_group, Shape(Per::candidate_batch, kFaces));
+  visitor("batch_count", batch_count, Per::few);
+  visitor("face_recheck_count", face_recheck_count, Per::few);
+  visitor("face_search_count", face_search_count, Per::few);
+}
+
+/// The same for what is remembered of touches, which are counted as `per`.
+template <class M, class Visitor>
+void visit_touch_memory(M& touching, Per per, Visitor&& visitor) {
+  auto& [ball, segment, reach, place, linked, side, pushed, friction] = touching;
+  visitor("touching_ball", ball, per);
+  visitor("touching_segment", segment, per);
+  visitor("touching_reach", reach, per);
+  visitor("touching_place", place, per);
+  visitor("touching_linked", linked, per);
+  visitor("touching_side", side, per);
+  visitor("touching_pushed", pushed, Shape(per, kWallFriction));
+  visitor("touching_friction", friction, Shape(per, kWallFriction));
 }
 
 template <class L, class Visitor>
 void visit_touch_fields(L& lists, Visitor&& visitor) {
-  visitor("touching_ball", lists.touching.ball);
-  visitor("touching_segment", lists.touching.segment);
-  visitor("touching_reach", lists.touching.reach);
-  visitor("touching_place", lists.touching.place);
-  visitor("touching_linked", lists.touching.linked);
-  visitor("touching_side", lists.touching.side);
-  visitor("touching_pushed", lists.touching.pushed);
-  visitor("touching_friction", lists.touching.friction);
-  visitor("parted", lists.released);
-  visitor("candidate_alarm", lists.candidate_next_check_travel);
+  visit_touch_memory(lists.touching, Per::touch, visitor);
+  visitor("released", lists.released, Per::few);
+  visitor("candidate_next_check_travel", lists.candidate_next_check_travel, Per::candidate);
 }
 
 }  // namespace cellcrush

@@ -117,8 +117,8 @@ class Simulation {
   /// the bytes are no such checkpoint.
   bool restore(std::string_view checkpoint);
 
-  /// Calls visit(first byte, bytes) for the arrays that most steps traverse. Their addresses stay valid until a step
-  /// enlarges the contact lists, or until restore().
+  /// Calls visit(first byte, bytes) for the arrays of the scene and of the state. Their addresses stay valid until a
+  /// step enlarges the contact lists, or until restore().
   void visit_arrays(const std::function<void(const void*, std::size_t)>& visit) const;
 
   [[nodiscard]] RunStatus status() const;

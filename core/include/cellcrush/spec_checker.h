@@ -25,8 +25,8 @@ class SpecChecker {
     Problems problems;
     std::int64_t element_count = 0;  ///< 0 if there are problems
     std::int64_t step_count = 0;     ///< 0 if there are problems
-    /// As in SceneFacts. Larger by the contact faces if the mesh turns out to be searched by buckets. 0 if there are
-    /// problems.
+    /// As in SceneFacts, or larger: faces are not traced, and the mesh is not cut into bands. Thick ends and pairs with
+    /// a limited reach are left out. 0 if there are problems.
     std::int64_t most_memory_bytes = 0;
   };
   Verdict check(const SceneSpec& given);

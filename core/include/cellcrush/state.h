@@ -4,6 +4,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "cellcrush/array_shape.h"
 #include "cellcrush/byte_stream.h"
 #include "cellcrush/contact_lists.h"
 #include "cellcrush/lane_vector.h"
@@ -17,6 +18,7 @@ namespace cellcrush {
 template <class T>
 struct FibreHistory {
   using Bits = std::conditional_t<sizeof(T) == sizeof(std::uint64_t), std::uint64_t, std::uint32_t>;
+  static constexpr unsigned kPrecision = sizeof(T) == sizeof(double) ? kDoubleFibres : kSingleFibres;
 
   LaneVector<T> stress;          ///< E x F, sigma of E6
   LaneVector<T> back_stress;     ///< E x F, centre of the yield surface (alpha of E6); empty without hardening
@@ -56,7 +58,7 @@ struct Ledger {
 };
 
 /// Everything that a step changes. N particles, E elements, F fibres per element. Units mm, tonne, s, N, MPa, rad.
-/// visit_fields lists every field once, except derived ones; checkpoint, hash and comparison use it.
+/// visit_fields lists every field once, except derived ones.
 struct State {
   std::int64_t step = 0;
   double time = 0.0;
@@ -114,72 +116,93 @@ struct State {
   std::vector<std::uint64_t> contact_tiles;
 };
 
-template <class M, class Visitor>
-void visit_fibre_fields(M& memory, Visitor&& visitor) {
-  visitor("stress", memory.stress);
-  visitor("back_stress", memory.back_stress);
-  visitor("plastic_strain", memory.plastic_strain);
-  visitor("yielded", memory.yielded);
-  visitor("section_moment_residual", memory.section_moment_residual);
-  visitor("section_flexibility", memory.section_flexibility);
-  visitor("start_moment", memory.start_moment);
-  visitor("end_moment", memory.end_moment);
+template <class F, class Visitor>
+void visit_fibre_fields(F& fibres, Visitor&& visitor) {
+  auto& [stress, back_stress, plastic_strain, yielded, section_moment_residual, section_flexibility, start_moment,
+         end_moment] = fibres;
+  constexpr unsigned kPrecision = F::kPrecision;
+  visitor("stress", stress, Shape(Per::fibre, kPrecision));
+  visitor("back_stress", back_stress, Shape(Per::fibre, kPrecision | kHardening));
+  visitor("plastic_strain", plastic_strain, Shape(Per::fibre, kPrecision | kHardening));
+  visitor("yielded", yielded, Shape(Per::element, kPrecision | kNoHardening));
+  visitor("section_moment_residual", section_moment_residual, Shape(Per::section, kPrecision | kForceBased));
+  visitor("section_flexibility", section_flexibility, Shape(Per::section, kPrecision | kForceBased));
+  visitor("start_moment", start_moment, Shape(Per::element, kPrecision | kForceBased));
+  visitor("end_moment", end_moment, Shape(Per::element, kPrecision | kForceBased));
 }
 
-/// Calls visitor(name, field) for every field of the state, in a fixed order. A field is an arithmetic value or a
+/// Calls visitor(name, field, shape) for every field of the state, in the order of a checkpoint; the shape gives the
+/// number of entries of an array. This is the only list of the state: checkpoint, hash, memory and large pages use it.
+/// It decomposes the state, so a new field does not compile until it is listed. A field is an arithmetic value or a
 /// vector of trivially copyable values.
 template <class S, class Visitor>
 void visit_fields(S& state, Visitor&& visitor) {
-  visitor("step", state.step);
-  visitor("time", state.time);
-  visitor("position", state.position);
-  visitor("velocity", state.velocity);
-  visitor("rotation", state.rotation);
-  visitor("spin", state.spin);
-  visitor("rigid_centre", state.rigid_centre);
-  visitor("rigid_velocity", state.rigid_velocity);
-  visitor("rigid_rotation", state.rigid_rotation);
-  visitor("rigid_spin", state.rigid_spin);
-  visitor("impact_travel", state.impact_travel);
-  visitor("impact_impulse", state.impact_impulse);
-  visitor("support_impulse", state.support_impulse);
-  visitor("axis", state.axis);
-  visitor("length", state.length);
-  visitor("inverse_length", state.inverse_length);
-  visit_fibre_fields(state.fibres, visitor);
-  visit_fibre_fields(state.single_fibres, visitor);
-  visitor("wall_force", state.wall_force);
-  visitor("wall_moment", state.wall_moment);
-  visitor("internal_force", state.internal_force);
-  visitor("internal_moment", state.internal_moment);
-  visitor("load_force", state.load_force);
-  visitor("load_moment", state.load_moment);
-  for (auto& lists : state.contacts) {
+  auto& [step, time, position, velocity, rotation, spin, rigid_centre, rigid_velocity, rigid_rotation, rigid_spin,
+         impact_travel, impact_impulse, support_impulse, axis, length, inverse_length, fibres, single_fibres,
+         wall_force, wall_moment, internal_force, internal_moment, load_force, load_moment, contacts, crossing_step,
+         contact_force, friction_force, impact_friction, support_friction, impact_force, support_force, contact_totals,
+         ledger, derived_tiles] = state;
+  visitor("step", step, Per::few);
+  visitor("time", time, Per::few);
+  visitor("position", position, Per::particle);
+  visitor("velocity", velocity, Per::particle);
+  visitor("rotation", rotation, Per::particle);
+  visitor("spin", spin, Per::particle);
+  visitor("rigid_centre", rigid_centre, Per::rigid_body);
+  visitor("rigid_velocity", rigid_velocity, Per::rigid_body);
+  visitor("rigid_rotation", rigid_rotation, Per::rigid_body);
+  visitor("rigid_spin", rigid_spin, Per::rigid_body);
+  visitor("impact_travel", impact_travel, Per::few);
+  visitor("impact_impulse", impact_impulse, Per::few);
+  visitor("support_impulse", support_impulse, Per::few);
+  visitor("axis", axis, Per::element);
+  visitor("length", length, Per::element);
+  visitor("inverse_length", inverse_length, Per::element);
+  visit_fibre_fields(fibres, visitor);
+  visit_fibre_fields(single_fibres, visitor);
+  visitor("wall_force", wall_force, Shape(Per::wall, kAlways, 2));
+  visitor("wall_moment", wall_moment, Shape(Per::wall, kAlways, 2));
+  visitor("internal_force", internal_force, Per::particle);
+  visitor("internal_moment", internal_moment, Per::particle);
+  visitor("load_force", load_force, Shape(Per::particle, kLoads));
+  visitor("load_moment", load_moment, Shape(Per::particle, kLoads));
+  for (auto& lists : contacts) {
     visit_search_fields(lists, visitor);
   }
-  visitor("crossing_step", state.crossing_step);
-  for (auto& lists : state.contacts) {
+  visitor("crossing_step", crossing_step, Per::few);
+  for (auto& lists : contacts) {
     visit_touch_fields(lists, visitor);
   }
-  visitor("contact_force", state.contact_force);
-  visitor("friction_force", state.friction_force);
-  visitor("impact_friction", state.impact_friction);
-  visitor("support_friction", state.support_friction);
-  visitor("impact_force", state.impact_force);
-  visitor("support_force", state.support_force);
-  visitor("contact_stored", state.contact_totals.stored);
-  visitor("contact_count", state.contact_totals.count);
-  visitor("deepest_penetration", state.contact_totals.deepest_penetration);
-  visitor("deepest_birth", state.contact_totals.deepest_birth);
-  visitor("ledger", state.ledger);
+  visitor("contact_force", contact_force, Per::particle);
+  visitor("friction_force", friction_force, Shape(Per::particle, kFriction));
+  visitor("impact_friction", impact_friction, Shape(Per::particle, kPlateFriction));
+  visitor("support_friction", support_friction, Shape(Per::particle, kPlateFriction));
+  visitor("impact_force", impact_force, Per::few);
+  visitor("support_force", support_force, Per::few);
+  visitor("contact_stored", contact_totals.stored, Per::few);
+  visitor("contact_count", contact_totals.count, Per::few);
+  visitor("deepest_penetration", contact_totals.deepest_penetration, Per::few);
+  visitor("deepest_birth", contact_totals.deepest_birth, Per::few);
+  visitor("ledger", ledger, Per::few);
+}
+
+/// The same for the arrays alone, the derived ones too.
+template <class Visitor>
+void visit_arrays(const State& state, Visitor&& visitor) {
+  visit_fields(state, [&visitor](const char* name, const auto& field, Shape shape) {
+    if constexpr (requires { field.data(); }) {
+      visitor(name, field, shape);
+    }
+  });
+  visitor("contact_tiles", state.contact_tiles, Per::few);
 }
 
 /// Every field in its memory representation, for the same build on the same kind of processor.
 inline void put_state(ByteWriter& writer, const State& state) {
-  visit_fields(state, [&writer](const char*, const auto& field) { writer.put(field); });
+  visit_fields(state, [&writer](const char*, const auto& field, Shape) { writer.put(field); });
 }
 inline void take_state(ByteReader& reader, State& state) {
-  visit_fields(state, [&reader](const char*, auto& field) { reader.take(field); });
+  visit_fields(state, [&reader](const char*, auto& field, Shape) { reader.take(field); });
 }
 
 }  // namespace cellcrush

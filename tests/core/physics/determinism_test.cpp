@@ -29,7 +29,7 @@ TEST(Determinism, HashSeesTheLastBitOfEveryField) {
   State state = crush(1500);
   const std::uint64_t before = scenes::hash_of(state);
   std::set<std::string> unseen;
-  visit_fields(state, [&](const char* name, auto& field) {
+  visit_fields(state, [&](const char* name, auto& field, const Shape&) {
     auto* bytes = [&] {
       if constexpr (requires { field.begin(); }) {
         return reinterpret_cast<unsigned char*>(field.data());

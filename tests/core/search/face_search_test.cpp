@@ -219,8 +219,8 @@ TEST(FaceSearch, ACopyOfAStateGoesOnWithTheSameBits) {
     advance_step(*scene, state, nullptr);
   }
   State copy;
-  visit_fields(copy, [&](const char* name, auto& field) {
-    visit_fields(state, [&](const char* other, auto& value) {
+  visit_fields(copy, [&](const char* name, auto& field, const Shape&) {
+    visit_fields(state, [&](const char* other, auto& value, const Shape&) {
       if constexpr (std::is_same_v<decltype(field), decltype(value)>) {
         if (std::string(name) == other) {
           field = value;

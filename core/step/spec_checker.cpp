@@ -7,8 +7,8 @@
 #include "scene/check_spec.h"
 #include "scene/mesh_part.h"
 #include "scene/mesh_size.h"
-#include "scene/run_memory.h"
 #include "scene/run_plan.h"
+#include "step/run_memory.h"
 
 namespace cellcrush {
 namespace {
@@ -16,16 +16,20 @@ namespace {
 /// Most known meshes: as many as the last axis of a grid over the lattice may have values.
 constexpr std::size_t kMostMeshes = 64;
 
-std::int64_t most_memory_of(const SceneSpec& spec, const MeshMeasures& mesh) {
-  RunSize size;
-  size.particles = mesh.particle_count;
-  size.elements = mesh.element_count;
-  size.face_corners = mesh.contact && spec.contact.search == ContactSpec::Search::faces ? 2 * mesh.element_count : 0;
-  size.sections = spec.section.axial_count();
-  size.fibres = size.sections * spec.section.depth_count();
-  size.force_based = spec.section.formulation == SectionSpec::Formulation::force_based;
-  size.hardening = mesh.hardening;
-  return memory_of_run(size);
+std::int64_t most_memory_of(const SceneSpec& spec, const MeshMeasures& mesh, const RunPlan& plan) {
+  const double end_strain = end_strain_of(plan.plates, plan.schedule, mesh.length);
+  ArrayCounts counts = mesh.counts;
+  add_contact(plan.contact, plan.plates, counts);
+  if (!mesh.contact) {
+    return memory_of_run(counts, end_strain);
+  }
+  ArrayCounts by_faces = counts;
+  add_expected_faces(by_faces);
+  counts.has |= kBuckets;
+  const std::int64_t by_buckets = memory_of_run(counts, end_strain);
+  return spec.contact.search == ContactSpec::Search::faces
+             ? std::max(by_buckets, memory_of_run(by_faces, end_strain))
+             : by_buckets;
 }
 
 }  // namespace
@@ -48,9 +52,9 @@ SpecChecker::Verdict SpecChecker::check(const SceneSpec& given) {
   const MeshMeasures& mesh = mesh_of(mesh_part_of(spec)).measures;
   const RunPlan plan = plan_run(spec, mesh, verdict.problems);
   if (verdict.problems.empty()) {
-    verdict.element_count = static_cast<std::int64_t>(mesh.element_count);
+    verdict.element_count = static_cast<std::int64_t>(mesh.counts[Per::element]);
     verdict.step_count = plan.schedule.step_count;
-    verdict.most_memory_bytes = most_memory_of(spec, mesh);
+    verdict.most_memory_bytes = most_memory_of(spec, mesh, plan);
   }
   return verdict;
 }
