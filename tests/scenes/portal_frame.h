@@ -32,7 +32,7 @@ struct PortalFrame {
 ///   sway      H L cos theta + V L sin theta = 4 M_p
 ///   combined  H L cos theta + V L (sin theta + cos theta / 2) = 6 M_p
 ///   beam      V L cos theta / 2 = 4 M_p.
-/// It is 1 within a hundredth over the last fifth of the way.
-void expect_portal_collapse(const std::vector<Sample>& samples, PortalFrame::Mechanism mechanism, double dead_load);
+/// It is 1 within a hundredth over the last fifth of the way. Returns it.
+double expect_portal_collapse(const std::vector<Sample>& samples, PortalFrame::Mechanism mechanism, double dead_load);
 
 }  // namespace cellcrush::scenes

@@ -27,7 +27,7 @@ std::vector<double> plastic_work_by_cycle(const std::vector<Sample>& samples, in
 
 }  // namespace
 
-void expect_moment_curvature_law(const std::vector<Sample>& samples, double peak) {
+std::pair<double, double> expect_moment_curvature_law(const std::vector<Sample>& samples, double peak) {
   const double yield_moment = PlasticFrame::kYieldMoment;
   const double yield_curvature = yield_moment / PlasticFrame::kStiffness;
   const double end = samples.back().time;
@@ -47,25 +47,31 @@ void expect_moment_curvature_law(const std::vector<Sample>& samples, double peak
                        (top.watched.front().rotation - bottom.watched.front().rotation);
   EXPECT_NEAR(slope / PlasticFrame::kStiffness, 1.0, 0.01);
   EXPECT_GT(samples.back().watched.front().rotation / PlasticFrame::kLength / yield_curvature, 0.5);
+  return {worst, slope / PlasticFrame::kStiffness - 1.0};
 }
 
-void expect_closed_cycles(const std::vector<Sample>& samples, int cycles) {
+double expect_closed_cycles(const std::vector<Sample>& samples, int cycles) {
   const std::vector<double> work = plastic_work_by_cycle(samples, cycles);
+  double worst = 0.0;
   for (int i = 2; i < cycles; ++i) {
+    worst = std::max(worst, std::abs(work[i] / work[1] - 1.0));
     EXPECT_NEAR(work[i] / work[1], 1.0, 0.01) << "cycle " << i + 1;
   }
   EXPECT_GT(work[1], 0.0);
+  return worst;
 }
 
-void expect_shakedown(const std::vector<Sample>& samples, int cycles) {
+double expect_shakedown(const std::vector<Sample>& samples, int cycles) {
   const std::vector<double> work = plastic_work_by_cycle(samples, cycles);
   for (int i = cycles / 2; i < cycles; ++i) {
     EXPECT_LT(work[i], 0.9 * work[i - 1]) << "cycle " << i + 1;
   }
-  EXPECT_LT(work.back(), 0.2 * *std::max_element(work.begin(), work.end()));
+  const double share = work.back() / *std::max_element(work.begin(), work.end());
+  EXPECT_LT(share, 0.2);
+  return share;
 }
 
-void expect_limit_load(const std::vector<Sample>& samples, double WatchedNode::*component, double factor) {
+double expect_limit_load(const std::vector<Sample>& samples, double WatchedNode::*component, double factor) {
   const double limit = factor * PlasticFrame::kFullMoment / PlasticFrame::kLength;
   const std::vector<ForceAt> curve = force_curve(samples, component);
   const auto mean_force = [&](std::size_t from, std::size_t to) {
@@ -79,18 +85,22 @@ void expect_limit_load(const std::vector<Sample>& samples, double WatchedNode::*
   const double last = mean_force(curve.size() * 8 / 10, curve.size());
   EXPECT_NEAR(last / limit, 1.0, 0.01);
   EXPECT_NEAR(last / before, 1.0, 0.02);  // it stays there
+  return last / limit;
 }
 
-void expect_lee_limit(const std::vector<Sample>& samples) {
+std::pair<double, double> expect_lee_limit(const std::vector<Sample>& samples) {
   const std::vector<ForceAt> curve = force_curve(samples, &WatchedNode::uy);
   const auto peak = std::max_element(curve.begin(), curve.end(),
                                      [](const ForceAt& a, const ForceAt& b) { return -a.force < -b.force; });
   EXPECT_NEAR(-peak->force, 1.8557, 0.01 * 1.8557);
   EXPECT_NEAR(-peak->displacement, 48.74, 1.0);
+  return {-peak->force, -peak->displacement};
 }
 
-void expect_end_angle(const std::vector<Sample>& samples, double degrees) {
-  EXPECT_NEAR(samples.back().watched.front().rotation * 180.0 / std::numbers::pi, degrees, 0.015 * degrees);
+double expect_end_angle(const std::vector<Sample>& samples, double degrees) {
+  const double error = samples.back().watched.front().rotation * 180.0 / std::numbers::pi / degrees - 1.0;
+  EXPECT_LT(std::abs(error), 0.015) << degrees;
+  return error;
 }
 
 }  // namespace cellcrush::scenes

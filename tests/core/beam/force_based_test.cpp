@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "scenes/evidence.h"
 #include "scenes/kernels.h"
 #include "section/section_rule.h"
 
@@ -71,6 +72,7 @@ TEST(ForceBasedElement, JointBearsExactlyTheFullPlasticMoment) {
     }
     EXPECT_NEAR(element.start_moment(), force_based ? 1.0 : 1.268, force_based ? 1e-3 : 0.01);
     EXPECT_NEAR(element.end_moment(), 0.0, 1e-3);
+    scenes::record_figure(force_based ? "force-based" : "the paper's", element.start_moment(), 4);
   }
 }
 

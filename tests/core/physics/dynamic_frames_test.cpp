@@ -10,6 +10,7 @@
 
 #include "cellcrush/state.h"
 #include "scenes/dynamic_claims.h"
+#include "scenes/evidence.h"
 #include "scenes/frames.h"
 #include "scenes/run_frame.h"
 
@@ -22,12 +23,18 @@ using scenes::StepLoadedCantilever;
 using scenes::StruckCantilever;
 
 TEST(StruckCantilever, ComesToRestWhereAndWhenParkesHasIt) {
-  scenes::expect_parkes(scenes::run_frame(StruckCantilever::spec(20, 4.0 * StruckCantilever::duration())));
+  const auto [deflection, time] =
+      scenes::expect_parkes(scenes::run_frame(StruckCantilever::spec(20, 4.0 * StruckCantilever::duration())));
+  scenes::record_figure("deflection", deflection, 4);
+  scenes::record_figure("time", time, 4);
 }
 
 TEST(SpinningBar, StretchesBySteadyPullAndKeepsItsEnergy) {
   for (const int elements : {8, 16}) {
-    scenes::expect_steady_stretch(scenes::run_frame(SpinningBar::spec(elements, 60.0)), elements);
+    const auto [stretch, drift] =
+        scenes::expect_steady_stretch(scenes::run_frame(SpinningBar::spec(elements, 60.0)), elements);
+    if (elements == 16) scenes::record_figure("stretch error in %", 100.0 * (stretch - 1.0), 1);
+    scenes::record_bound("energy drift", drift);
   }
 }
 
@@ -47,13 +54,15 @@ TEST(SpinningBar, KeepsItsAngularMomentum) {
   const double before = angular_momentum(*scene, simulation.state());
   simulation.advance(scene->schedule.step_count);
   const double after = angular_momentum(*scene, simulation.state());
-  RecordProperty("relative_change_times_1e12", std::to_string(1e12 * (after / before - 1.0)));
+  scenes::record_bound("relative change", after / before - 1.0);
   EXPECT_NEAR(after / before, 1.0, 1e-10);
 }
 
 TEST(StepLoadedCantilever, SwingsToTwiceItsRestAsItsModesDo) {
   const StepLoadedCantilever cantilever;
-  scenes::expect_dynamic_factor(scenes::run_frame(cantilever.spec(16, cantilever.first_period(), 0)), cantilever);
+  const double factor =
+      scenes::expect_dynamic_factor(scenes::run_frame(cantilever.spec(16, cantilever.first_period(), 0)), cantilever);
+  scenes::record_figure("dynamic load factor", factor, 4);
 }
 
 TEST(StepLoadedCantilever, ErrorFallsAsTheSquareOfTheElements) {
@@ -66,8 +75,8 @@ TEST(StepLoadedCantilever, ErrorFallsAsTheSquareOfTheElements) {
   }
   for (std::size_t i = 1; i < error.size(); ++i) {
     const double order = std::log2(error[i - 1] / error[i]);
-    RecordProperty("order_" + std::to_string(i), std::to_string(order));
     EXPECT_NEAR(order, 2.0, 0.3) << error[i - 1] << " to " << error[i];
+    if (i + 1 == error.size()) scenes::record_figure("order in elements", order, 2);
   }
 }
 
@@ -100,8 +109,8 @@ TEST(StepLoadedCantilever, ErrorOfItsFirstModeFallsAsTheSquareOfTheTimeStep) {
   }
   for (std::size_t i = 1; i < error.size(); ++i) {
     const double order = std::log2(error[i - 1] / error[i]);
-    RecordProperty("order_" + std::to_string(i), std::to_string(order));
     EXPECT_NEAR(order, 2.0, 0.2) << error[i - 1] << " to " << error[i];
+    if (i + 1 == error.size()) scenes::record_figure("order in the step", order, 2);
   }
 }
 
@@ -154,10 +163,14 @@ TEST(BarImpact, OfEqualBarsHandsTheSpeedOnInTheTimeOfTwoWavePassages) {
     EXPECT_GT(restitution, 0.99) << name;
     EXPECT_LE(restitution, 1.0) << name;
     delay.push_back(collision.duration - 1.0);
+    if (elements == counts.back()) {
+      scenes::record_figure("restitution", restitution, 3);
+      scenes::record_figure("duration", collision.duration, 4);
+    }
   }
   // The penalty is about as compliant as two elements, so that what it delays falls with their length.
   const double order = std::log(delay.front() / delay.back()) / std::log(8.0);
-  RecordProperty("order", std::to_string(order));
+  scenes::record_figure("order", order, 2);
   EXPECT_NEAR(order, 1.0, 0.15);
   EXPECT_LT(std::abs(delay.back()), 0.02);
 }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "cellcrush/state.h"
+#include "scenes/evidence.h"
 #include "scenes/frames.h"
 
 namespace cellcrush {
@@ -47,7 +48,7 @@ TEST(Elastica, CantileverUnderDeadLoadIsExactWithinAThousandthAt32Elements) {
     EXPECT_NEAR(tip.deflection, exact.tip.deflection, 1e-3) << "P L^2 / EI = " << exact.load_number;
     EXPECT_NEAR(tip.shortening, exact.tip.shortening, 1e-3) << "P L^2 / EI = " << exact.load_number;
   }
-  RecordProperty("worst_error_over_length", std::to_string(worst));
+  scenes::record_figure("worst error over L", worst, 2);
 }
 
 TEST(Elastica, ErrorFallsAsTheSquareOfTheElements) {
@@ -59,7 +60,7 @@ TEST(Elastica, ErrorFallsAsTheSquareOfTheElements) {
   }
   for (std::size_t i = 1; i < error.size(); ++i) {
     const double order = std::log2(error[i - 1] / error[i]);
-    RecordProperty("order_" + std::to_string(i), std::to_string(order));
+    scenes::record_figure("order " + std::to_string(i), order, 3);
     EXPECT_GT(order, 1.8) << error[i - 1] << " to " << error[i];
     EXPECT_LT(order, 2.3) << error[i - 1] << " to " << error[i];
   }

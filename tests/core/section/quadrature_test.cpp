@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "scenes/evidence.h"
 #include "section/section_rule.h"
 
 namespace cellcrush {
@@ -45,6 +47,7 @@ TEST(Quadrature, LobattoIsExactToDegreeTwiceThePointsLessThreeAndHasTheEnds) {
 TEST(Quadrature, LobattoSectionHasItsKnownFullPlasticMoment) {
   const std::pair<int, double> known[] = {{4, 1.0787}, {5, 0.9128}, {6, 1.0290},
                                           {7, 0.9597}, {8, 1.0151}, {10, 1.0093}};
+  double worst = 0.0;
   for (const auto& [points, ratio] : known) {
     const Quadrature rule = lobatto_rule(points);
     double moment = 0.0;
@@ -52,7 +55,9 @@ TEST(Quadrature, LobattoSectionHasItsKnownFullPlasticMoment) {
       moment += rule.weights[i] * std::abs(rule.points[i]);
     }
     EXPECT_NEAR(moment, ratio, 1e-4) << points << " points";
+    worst = std::max(worst, std::abs(moment - ratio));
   }
+  scenes::record_figure("worst error", worst, 1);
 }
 
 SectionSpec section(SectionSpec::Formulation formulation, int axial_points, SectionSpec::DepthRule depth_rule,

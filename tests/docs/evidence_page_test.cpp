@@ -1,0 +1,69 @@
+// tests/core/README.md is made from evidence_page.txt and what the tests record. CELLCRUSH_WRITE_PAGES=1 writes it.
+#include "docs/evidence_page.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <regex>
+
+namespace cellcrush::docs {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kTests = fs::path(CELLCRUSH_SOURCE_ROOT) / "tests";
+const fs::path kFolder = kTests / "core";
+
+std::string text_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+/// Suite.Name of all tests of the solver.
+std::set<std::string> find_tests() {
+  static const std::regex kTest(R"(\nTEST(?:_[FP])?\((\w+),\s*(\w+)\))");
+  std::set<std::string> tests;
+  for (const fs::path& folder : {kFolder, kTests / "stability"}) {
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
+      if (entry.path().extension() != ".cpp") continue;
+      const std::string text = text_of(entry.path());
+      for (std::sregex_iterator test(text.begin(), text.end(), kTest), end; test != end; ++test)
+        tests.insert((*test)[1].str() + "." + (*test)[2].str());
+    }
+  }
+  return tests;
+}
+
+TEST(EvidencePageTest, IsWhatTheTestsRecorded) {
+  const std::set<std::string> tests = find_tests();
+  EXPECT_GT(tests.size(), 100U);
+  const EvidencePage made = make_evidence_page(text_of(kFolder / "evidence_page.txt"),
+                                               scenes::read_evidence(kFolder / "evidence.csv"), tests);
+  EXPECT_TRUE(made.findings.empty()) << to_text(made.findings);
+  if (std::getenv("CELLCRUSH_WRITE_PAGES") != nullptr) std::ofstream(kFolder / "README.md") << made.text;
+  EXPECT_EQ(text_of(kFolder / "README.md"), made.text)
+      << "evidence_page.txt or evidence.csv has changed. Write the page again: CELLCRUSH_WRITE_PAGES=1 "
+         "build/ci/bin/docs_evidence_page";
+}
+
+TEST(EvidencePageTest, WhatNoTestRecordedIsFound) {
+  const EvidencePage made = make_evidence_page(
+      "| a | b | {error} at E11 | `A.One...` |\n"
+      "| a | b | {gone} | `A...` |\n"
+      "| a | b | within 1 % | `B.Two` |\n"
+      "| a | b | none | `C...` |\n"
+      "## By hand\n\nResults of this section are written by hand.\n"
+      "| a | b | within 1 % | `...Two` |\n",
+      {{{"A.OneMore", "error"}, "1.2"}, {{"B.Two", "error"}, "7"}}, {"A.OneMore", "B.Two"});
+  EXPECT_THAT(made.text, testing::HasSubstr("\n| a | b | 1.2 at E11 | `A.One...` |\n"));
+  EXPECT_THAT(made.findings,
+              testing::ElementsAre("line 2: 0 rows for {gone}", "line 3: a number that no test recorded: within 1 % ",
+                                   "line 4: no such test: `C...` ", "not in the page: B.Two,error"));
+}
+
+}  // namespace
+}  // namespace cellcrush::docs
