@@ -18,7 +18,7 @@ namespace {
 constexpr const char* kEvidenceFile = CELLCRUSH_EVIDENCE;
 constexpr const char* kEvidenceHeader = "test,quantity,value";
 constexpr double kBoundSlack = 3.0;
-constexpr double kLeastBound = 1e-15;
+constexpr double kLeastBound = 1e-14;
 
 using Key = Evidence::key_type;
 

@@ -22,7 +22,7 @@ void record_figure(const std::string& quantity, double value, int digits);
 
 /// An upper bound of a magnitude, rounded up to two digits: for what is near round-off or chaotic, and so differs among
 /// processors. The measured magnitude may be up to 3 times as large. Writing never lowers a bound, so that the largest
-/// of all parameters and kernels stays; to lower it, delete its row first. No bound is below 1e-15.
+/// of all parameters and kernels stays; to lower it, delete its row first. No bound is below 1e-14.
 void record_bound(const std::string& quantity, double value);
 
 }  // namespace cellcrush::scenes

@@ -5,6 +5,7 @@
 
 #include "cellcrush/state.h"
 #include "scenes/crossings.h"
+#include "scenes/evidence.h"
 #include "scenes/frames.h"
 #include "scenes/small_block.h"
 
@@ -44,10 +45,9 @@ TEST_P(ContactSoundness, NoWallsCrossAndContactMakesNoEnergy) {
   EXPECT_LT(sample.deepest_penetration, 0.25);
   EXPECT_LT(simulation.state().contact_totals.deepest_birth, 0.10);
   EXPECT_LT(std::abs(sample.energy_residual), 0.01 * sample.work_external);
-  RecordProperty("deepest_penetration", std::to_string(sample.deepest_penetration));
-  RecordProperty("deepest_birth", std::to_string(simulation.state().contact_totals.deepest_birth));
-  RecordProperty("least_contact_energy_relative", std::to_string(least_contact_energy));
-  RecordProperty("contact_damping_relative", std::to_string(sample.energy_contact_damping / sample.work_external));
+  scenes::record_bound("penetration over h", sample.deepest_penetration);
+  scenes::record_bound("penetration at first touch over h", simulation.state().contact_totals.deepest_birth);
+  scenes::record_bound("negative contact work in %", 100.0 * least_contact_energy);
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -7,6 +7,7 @@
 #include "cellcrush/simulation.h"
 #include "cellcrush/state.h"
 #include "scene/bands.h"
+#include "scenes/evidence.h"
 #include "scenes/frames.h"
 #include "scenes/near_pairs.h"
 #include "scenes/small_block.h"
@@ -110,7 +111,7 @@ TEST_P(FaceAudit, FindsEveryTouchThatPushesWithTheForceOfTheBuckets) {
   RecordProperty("touches", std::to_string(all));
   RecordProperty("through_a_wall", std::to_string(through_a_wall));
   RecordProperty("deepest_through_a_wall", std::to_string(deepest));
-  RecordProperty("difference_of_forces", std::to_string(difference));
+  scenes::record_bound("force difference over k h", difference);
   EXPECT_LE(through_a_wall, all / 100);
   EXPECT_LT(deepest, 0.25);
   EXPECT_LE(difference, 1e-9);

@@ -10,6 +10,7 @@
 #include "cellcrush/simulation.h"
 #include "measure/sampler.h"
 #include "scenes/crushes.h"
+#include "scenes/evidence.h"
 #include "scenes/frames.h"
 #include "scenes/near_pairs.h"
 #include "scenes/state_hash.h"
@@ -107,6 +108,7 @@ void expect_the_touches_of_the_buckets(SceneSpec spec, int steps) {
     difference = std::max(difference, (state.position[i] - reference.position[i]).norm());
   }
   EXPECT_LT(difference, 1e-7);
+  scenes::record_bound("distance in mm", difference);
   EXPECT_NEAR(state.ledger.contact, reference.ledger.contact, 1e-6 * reference.ledger.external);
   EXPECT_NEAR(state.ledger.plastic, reference.ledger.plastic, 1e-6 * reference.ledger.external);
 }

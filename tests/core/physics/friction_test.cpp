@@ -5,6 +5,7 @@
 
 #include "cellcrush/state.h"
 #include "energy/ledger.h"
+#include "scenes/evidence.h"
 #include "scenes/frames.h"
 #include "step/advance_step.h"
 
@@ -66,6 +67,8 @@ TEST(Friction, ASlidingBlockStopsAfterItsCoulombDistanceAndItsEnergyIsHeat) {
   const Energies energies = evaluate_energies(*slope.scene, slope.state);
   EXPECT_NEAR(energies.friction, slope.state.ledger.initial, 0.02 * slope.state.ledger.initial);
   EXPECT_LT(std::abs(energies.residual), 0.01 * slope.state.ledger.initial);
+  scenes::record_bound("distance error", slope.way() / distance - 1.0);
+  scenes::record_bound("heat error", energies.friction / slope.state.ledger.initial - 1.0);
 }
 
 TEST(Friction, ABlockSticksBelowTheAngleOfFrictionAndSlidesAboveIt) {
@@ -75,13 +78,16 @@ TEST(Friction, ABlockSticksBelowTheAngleOfFrictionAndSlidesAboveIt) {
   const double early = below.way();
   below.advance(5e-3);
   EXPECT_LT(std::abs(below.way() - early), 1e-3);  // holds, without creep
+  scenes::record_bound("creep in mm", below.way() - early);
 
   const double incline = 1.3 * critical;
   Slope above(incline, 0.0);
   const double duration = 4e-3;
   above.advance(duration);
   const double acceleration = 1000.0 * kGravity * (std::sin(incline) - kFriction * std::cos(incline));
-  EXPECT_NEAR(above.way(), 0.5 * acceleration * duration * duration, 0.05 * above.way());
+  const double exact = 0.5 * acceleration * duration * duration;
+  EXPECT_NEAR(above.way(), exact, 0.05 * above.way());
+  scenes::record_bound("acceleration error in %", 100.0 * (above.way() / exact - 1.0));
 }
 
 /// The tip of an upright beam that is dragged along a straight chain of 20 held segments under a constant load, which
@@ -156,6 +162,8 @@ TEST(Friction, ABallSlidesAlongAStraightChainWithoutChatter) {
     const Energies energies = evaluate_energies(*drag.scene, drag.state);
     const double heat = kFriction * drag.load * drag.way();
     EXPECT_NEAR(energies.friction, heat, 2e-4 * heat);  // it sticks for the first steps
+    scenes::record_bound("force error", std::max({1.0 - least, most - 1.0, 1.0 - least_friction, most_friction - 1.0}));
+    scenes::record_bound("heat error", energies.friction / heat - 1.0);
     EXPECT_LT(energies.contact_damping, 1e-4 * energies.friction);
     EXPECT_NEAR(energies.contact, drag.state.contact_totals.stored, 1e-4 * energies.friction);
     EXPECT_LT(std::abs(energies.residual), 1e-6 * energies.friction);

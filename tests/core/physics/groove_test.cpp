@@ -5,6 +5,7 @@
 
 #include "cellcrush/state.h"
 #include "energy/ledger.h"
+#include "scenes/evidence.h"
 #include "scenes/frames.h"
 #include "step/advance_step.h"
 
@@ -63,6 +64,8 @@ TEST(Groove, LosslessContactTakesAndMakesNoEnergyAndNeverPushesTwice) {
     const Energies energies = evaluate_energies(*groove.scene, groove.state);
     EXPECT_NEAR(energies.contact, groove.state.contact_totals.stored, 5e-3 * groove.state.ledger.initial) << opening;
     EXPECT_LT(std::abs(energies.residual), 1e-3 * groove.state.ledger.initial) << opening;
+    scenes::record_bound("energy error",
+                         (energies.contact - groove.state.contact_totals.stored) / groove.state.ledger.initial);
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include "cellcrush/state.h"
 #include "scenes/beam_over_beam.h"
+#include "scenes/evidence.h"
 #include "scenes/frames.h"
 #include "step/advance_step.h"
 
@@ -49,7 +50,9 @@ TEST(PenaltyBounce, HasTheDepthDurationAndEnergyOfAMassOnASpring) {
   const Bounce soft = bounce(0.2, 0.0, mass, stiffness);
   EXPECT_NEAR(soft.peak_depth, kSpeed * std::sqrt(mass / stiffness), 0.01 * soft.peak_depth);
   EXPECT_NEAR(soft.duration, std::numbers::pi * std::sqrt(mass / stiffness), 0.2 / std::numbers::pi * soft.duration);
-  RecordProperty("energy_ratio", std::to_string(soft.energy_ratio));
+  scenes::record_figure("energy ratio", soft.energy_ratio, 4);
+  scenes::record_figure("depth", soft.peak_depth / (kSpeed * std::sqrt(mass / stiffness)), 4);
+  scenes::record_figure("duration", soft.duration / (std::numbers::pi * std::sqrt(mass / stiffness)), 2);
   EXPECT_GT(soft.energy_ratio, 0.991);
   EXPECT_LT(soft.energy_ratio, 1.009);
 }
@@ -115,6 +118,7 @@ TEST(PenaltyContact, RestsForAMillionStepsWithoutGainingEnergy) {
       advance_step(*resting.scene, resting.state, nullptr);
     }
     EXPECT_NEAR(resting.swing_energy() / before, 1.0, 1e-6) << omega_step;
+    scenes::record_bound("energy change", resting.swing_energy() / before - 1.0);
   }
 }
 

@@ -3,12 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "cellcrush/presets.h"
 #include "cellcrush/state.h"
 #include "energy/ledger.h"
 #include "scenes/crushes.h"
+#include "scenes/evidence.h"
 #include "scenes/frames.h"
 #include "scenes/state_hash.h"
 
@@ -91,13 +93,21 @@ std::vector<Compared> scenes_to_compare() {
           {"squares", squares(), 60, 1e-7}};
 }
 
+std::string distance_name(const SceneSpec& spec) {
+  if (spec.numerics.fibre_precision == NumericsSpec::FibrePrecision::double_precision) return "double precision";
+  const bool force_based = spec.section.formulation == SectionSpec::Formulation::force_based;
+  return force_based ? "single precision" : "single precision with the paper's elements";
+}
+
 TEST(Simd, EveryTargetMovesTheParticlesAsTheReferenceDoes) {
   for (const auto& [name, spec, steps, bound] : scenes_to_compare()) {
     const State reference = crush(spec, "scalar", steps);
     ASSERT_GT(reference.ledger.plastic, 0.0) << name;
     for (const std::string& target : simd_targets()) {
       const State wide = crush(spec, target, steps);
-      EXPECT_LT(distance_between(reference, wide), bound) << name << ", " << target;
+      const double distance = distance_between(reference, wide);
+      EXPECT_LT(distance, bound) << name << ", " << target;
+      scenes::record_bound(distance_name(spec) + " in mm", distance);
       EXPECT_EQ(wide.fibres.yielded, reference.fibres.yielded) << name << ", " << target;
     }
   }
@@ -111,6 +121,10 @@ TEST(Simd, EveryTargetDoesTheWorkOfTheReferenceOverAThousandSteps) {
       EXPECT_NEAR(wide.external, reference.external, 0.01 * reference.external) << name << ", " << target;
       EXPECT_NEAR(wide.plastic, reference.plastic, 0.01 * reference.external) << name << ", " << target;
       EXPECT_NEAR(wide.contact_damping, reference.contact_damping, 0.01 * reference.external) << name << ", " << target;
+      const double worst =
+          std::max({std::abs(wide.external - reference.external), std::abs(wide.plastic - reference.plastic),
+                    std::abs(wide.contact_damping - reference.contact_damping)});
+      scenes::record_bound("work difference in %", 100.0 * worst / reference.external);
     }
   }
 }

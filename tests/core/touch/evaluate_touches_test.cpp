@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scenes/every_target.h"
+#include "scenes/evidence.h"
 #include "scenes/placed_pairs.h"
 
 namespace cellcrush {
@@ -43,6 +44,7 @@ PairScene scene_of(const std::vector<PlacedPair>& pairs) {
 TEST(EvaluateTouches, FindsDepthFootAndNormalOfNewPairs) {
   const std::vector<PlacedPair> pairs = scenes::draw_pairs(203);
   const PairScene at = scene_of(pairs);
+  double worst = 0.0;
   scenes::for_every_target([&] {
     ContactLists lists = touching_of(pairs, [](const PlacedPair&) { return 0; });
     Touches touches;
@@ -56,6 +58,7 @@ TEST(EvaluateTouches, FindsDepthFootAndNormalOfNewPairs) {
       const Vector2 normal = (pair.ball() - pair.start - foot * pair.length * pair.axis).normalized();
       const double depth = pair.reach - pair.distance();
       EXPECT_NEAR(touches.depth[i], depth, kRounding) << i;
+      worst = std::max(worst, std::abs(touches.depth[i] - depth));
       EXPECT_NEAR(touches.share[i], foot, kRounding) << i;
       EXPECT_NEAR((touches.normal[i] - normal).norm(), 0.0, 1e3 * kRounding) << i;
       const bool end_is_nearer = pair.to_end() < pair.to_start();
@@ -68,6 +71,7 @@ TEST(EvaluateTouches, FindsDepthFootAndNormalOfNewPairs) {
     }
     EXPECT_EQ(released, apart);
   });
+  scenes::record_bound("depth error in mm", worst);
 }
 
 // v_foot - v_ball in the frame of the contact; c = 2 zeta sqrt(k m), 1/m of the ball and of the lever's two ends.
@@ -75,6 +79,7 @@ TEST(EvaluateTouches, FindsViscousForceAndSlip) {
   const std::vector<PlacedPair> pairs = scenes::draw_pairs(203);
   const PairScene at = scene_of(pairs);
   const ContactLaw& law = at.scene.contact;
+  double worst = 0.0;
   scenes::for_every_target([&] {
     ContactLists lists = touching_of(pairs, [](const PlacedPair&) { return 0; });
     Touches touches;
@@ -91,9 +96,11 @@ TEST(EvaluateTouches, FindsViscousForceAndSlip) {
       const Vector2& normal = touches.normal[i];
       const double slide = side_now(pairs[i]) * (normal.x() * closing.y() - normal.y() * closing.x());
       EXPECT_NEAR(touches.viscous[i], damping * normal.dot(closing), 1e2 * kRounding) << i;
+      worst = std::max(worst, std::abs(touches.viscous[i] - damping * normal.dot(closing)));
       EXPECT_NEAR(touches.slip[i], at.scene.schedule.time_step * slide, kRounding) << i;
     }
   });
+  scenes::record_bound("force error in N", worst);
 }
 
 // A ball pressed past the mid-line keeps its side and is deep; beyond an end the side is where it stands.

@@ -2,11 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <vector>
 
 #include "parallel/workers.h"
 #include "scenes/every_target.h"
+#include "scenes/evidence.h"
 #include "scenes/placed_pairs.h"
 
 namespace cellcrush {
@@ -35,6 +38,7 @@ TEST(FindOverlaps, FindsWhatIsNearerThanItsReachAndWhenTheRestIsDue) {
   const std::vector<scenes::PlacedPair> pairs = scenes::draw_pairs(333);
   const scenes::PairScene at(pairs);
   Workers workers(1);
+  double worst = 0.0;
   scenes::for_every_target([&] {
     ContactLists lists = candidates_of(pairs, kTravel);
     ContactWorkspace workspace;
@@ -48,12 +52,14 @@ TEST(FindOverlaps, FindsWhatIsNearerThanItsReachAndWhenTheRestIsDue) {
         EXPECT_EQ(lists.candidate_next_check_travel[i], kNever) << i;
       } else {
         EXPECT_NEAR(lists.candidate_next_check_travel[i], kTravel + gap, 1e-12) << i;
+        worst = std::max(worst, std::abs(lists.candidate_next_check_travel[i] - kTravel - gap));
       }
     }
     EXPECT_GT(overlapping.size(), pairs.size() / 4);
     EXPECT_LT(overlapping.size(), 3 * pairs.size() / 4);
     EXPECT_EQ(workspace.found, overlapping);
   });
+  scenes::record_bound("gap error in mm", worst);
 }
 
 }  // namespace
