@@ -8,6 +8,7 @@
 
 #include "cellcrush/state.h"
 #include "scenes/dynamic_frames.h"
+#include "scenes/evidence.h"
 #include "scenes/frames.h"
 #include "scenes/small_block.h"
 
@@ -112,6 +113,7 @@ TEST(StepBeyondTheLimit, HidesItsEnergyAsPlasticHeatAndOnlyTheLedgerShowsIt) {
   EXPECT_NEAR(*drifting.summary.plateau_stress_impact, *sound.summary.plateau_stress_impact,
               0.15 * *sound.summary.plateau_stress_impact);
   EXPECT_TRUE(drifting.warns_of(Warning::Kind::energy_drift)) << drifting.summary.energy_error_relative;
+  scenes::record_figure("residual in %", 100.0 * drifting.summary.energy_error_relative, 1);
 }
 
 TEST(StepBeyondTheLimit, EndsByNameWithItsStepItsPlaceAndTheLastGoodFrame) {
@@ -172,6 +174,7 @@ TEST(StepTooLongForTheSpeed, MakesAThousandTimesTheWorkUnlessContactsAreWatched)
     const WatchedRun chosen(block(lattice, 400.0, 0.0, 0.4));
     EXPECT_EQ(chosen.status.kind, Kind::finished) << lattice << chosen.status.message;
     EXPECT_LT(chosen.summary.energy_error_relative, 0.01) << lattice;
+    scenes::record_bound("residual at the chosen step in %", 100.0 * chosen.summary.energy_error_relative);
     EXPECT_FALSE(chosen.warns_of(Warning::Kind::contact_energy)) << lattice;
   }
 }

@@ -1,11 +1,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <string>
 #include <vector>
 
 #include "cellcrush/presets.h"
 #include "cellcrush/simulation.h"
+#include "scenes/evidence.h"
 #include "scenes/frames.h"
 #include "scenes/run_frame.h"
 
@@ -31,10 +31,6 @@ Plateau crush_block(double speed_m_per_s) {
   const Summary summary = summarize(*scene, scenes::run_frame(spec));
   const double impact = summary.plateau_stress_impact.value_or(0.0);
   const double support = summary.plateau_stress_support.value_or(0.0);
-  const std::string name = std::to_string(static_cast<int>(speed_m_per_s));
-  testing::Test::RecordProperty("impact_" + name, std::to_string(impact));
-  testing::Test::RecordProperty("support_" + name, std::to_string(support));
-  testing::Test::RecordProperty("ledger_" + name, std::to_string(summary.energy_error_relative));
   EXPECT_LT(summary.energy_error_relative, 0.01) << speed_m_per_s << " m/s";
   return {speed_m_per_s * 1e3, impact - support, facts_of(*scene).mass / (scene->length * scene->width * scene->depth)};
 }
@@ -44,7 +40,6 @@ TEST(Shock, PlateauGrowsAsTheSquareOfTheSpeedOverTheStrainBehindTheFront) {
   for (const double speed : {100.0, 150.0, 200.0}) {
     plateaus.push_back(crush_block(speed));
     const double strain = plateaus.back().strain_behind_front();
-    RecordProperty("strain_" + std::to_string(static_cast<int>(speed)), std::to_string(strain));
     // 1 - rho* = 0.9 is a solid without gaps behind a steady front; a block this short is not wholly that.
     EXPECT_GT(strain, 0.80) << speed << " m/s";
     EXPECT_LT(strain, 1.00) << speed << " m/s";
@@ -54,8 +49,8 @@ TEST(Shock, PlateauGrowsAsTheSquareOfTheSpeedOverTheStrainBehindTheFront) {
   const double slope_strain =
       slow.density * (fast.speed * fast.speed - slow.speed * slow.speed) / (fast.shock - slow.shock);
   const double power = std::log(fast.shock / slow.shock) / std::log(fast.speed / slow.speed);
-  RecordProperty("strain_of_the_slope", std::to_string(slope_strain));
-  RecordProperty("power_of_the_speed", std::to_string(power));
+  scenes::record_figure("densified strain", slope_strain, 2);
+  scenes::record_figure("exponent", power, 2);
   EXPECT_GT(slope_strain, 0.80);
   EXPECT_LT(slope_strain, 1.00);
   EXPECT_NEAR(power, 2.0, 0.15);

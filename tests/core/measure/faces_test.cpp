@@ -2,11 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <string>
 
 #include "cellcrush/presets.h"
+#include "scenes/evidence.h"
 #include "scenes/frames.h"
 
 namespace cellcrush {
@@ -38,10 +41,13 @@ void expect_euler(const Lattice& lattice) {
   EXPECT_EQ(lattice.faces.count(), lattice.scene->element_count() - lattice.scene->particle_count() + 1);
 }
 
-void expect_areas(const Lattice& lattice, double each) {
+void expect_areas(const Lattice& lattice, double each, const std::string& cells) {
+  double worst = 0.0;
   for (const double area : lattice.faces.area) {
     EXPECT_NEAR(area, each, 1e-9 * each);
+    worst = std::max(worst, std::abs(area / each - 1.0));
   }
+  scenes::record_bound(cells, worst);
 }
 
 TEST(Faces, OfHexagonsAreTheCells) {
@@ -49,7 +55,7 @@ TEST(Faces, OfHexagonsAreTheCells) {
     const Lattice lattice = trace(HexagonLattice(), 7, 4, elements);
     EXPECT_EQ(lattice.faces.count(), 7u + 6u + 7u + 6u);
     expect_euler(lattice);
-    expect_areas(lattice, 1.5 * std::numbers::sqrt3 * 16.0);
+    expect_areas(lattice, 1.5 * std::numbers::sqrt3 * 16.0, "hexagons");
   }
 }
 
@@ -57,7 +63,7 @@ TEST(Faces, OfSquaresAreTheCells) {
   const Lattice lattice = trace(SquareLattice(), 6, 5, 2);
   EXPECT_EQ(lattice.faces.count(), 30u);
   expect_euler(lattice);
-  expect_areas(lattice, 16.0);
+  expect_areas(lattice, 16.0, "squares");
   const double whole = std::accumulate(lattice.faces.area.begin(), lattice.faces.area.end(), 0.0);
   EXPECT_NEAR(whole, 6 * 5 * 16.0, 1e-9);
 }
@@ -66,7 +72,7 @@ TEST(Faces, OfTrianglesAreTheCells) {
   const Lattice lattice = trace(TriangleLattice(), 6, 4, 2);
   EXPECT_EQ(lattice.faces.count(), 4u * 11u);
   expect_euler(lattice);
-  expect_areas(lattice, 0.25 * std::numbers::sqrt3 * 16.0);
+  expect_areas(lattice, 0.25 * std::numbers::sqrt3 * 16.0, "triangles");
 }
 
 TEST(Faces, OfAnImperfectLatticeAreTheSameCells) {

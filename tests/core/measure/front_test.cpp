@@ -2,11 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "measure/collapse.h"
 #include "measure/shock.h"
 #include "measure/theory.h"
+#include "scenes/evidence.h"
 #include "scenes/frames.h"
 #include "scenes/near_pairs.h"
 #include "step/advance_step.h"
@@ -51,6 +53,8 @@ TEST_F(MovingFront, IsFoundWithItsStrainsVelocitiesAndPlace) {
     ASSERT_TRUE(front) << share;
     EXPECT_NEAR(front->strain_behind, kBehind, 1e-9) << share;
     EXPECT_NEAR(front->strain_ahead, kAhead, 1e-9) << share;
+    scenes::record_bound("strains",
+                         std::max(std::abs(front->strain_behind - kBehind), std::abs(front->strain_ahead - kAhead)));
     EXPECT_NEAR(front->velocity_behind, kSpeed, 1e-6) << share;
     EXPECT_NEAR(front->velocity_ahead, 0.0, 1e-6) << share;
     EXPECT_NEAR(front->position, share * length_, 1e-6) << share;

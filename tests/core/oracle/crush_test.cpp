@@ -13,6 +13,7 @@
 #include "core/reference/reference_crush.h"
 #include "energy/ledger.h"
 #include "scenes/crushes.h"
+#include "scenes/evidence.h"
 #include "scenes/frames.h"
 #include "scenes/small_block.h"
 #include "step/advance_step.h"
@@ -208,22 +209,25 @@ class OracleOfCrushes : public testing::TestWithParam<Case> {
 
 // The strains of displacement-based elements are given by the motion, so rounding grows by contacts alone: to 9e-11 mm
 // over 1000 steps and 58 contacts at once. All contacts begin and end in the same step.
-void expect_same_motion(const CrushDifferences& most) {
+void expect_same_motion(const CrushDifferences& most, const std::string& elements) {
   EXPECT_LT(most.position, 1e-8);
   EXPECT_LT(most.force, 1e-6);
   EXPECT_LT(most.energy, 1e-9);
   EXPECT_LT(most.plate_force, 1e-7);
   EXPECT_EQ(most.count, 0);
+  scenes::record_bound("positions in mm with " + elements, most.position);
+  scenes::record_bound("energies with " + elements, most.energy);
 }
 
 TEST_P(OracleOfCrushes, MovesAsTheSolverWithThePapersElements) {
   crush_with_all_kernels(in(FibrePrecision::double_precision, scenes::with_the_papers_elements(GetParam().spec)),
-                         From::the_start, expect_same_motion);
+                         From::the_start,
+                         [](const CrushDifferences& most) { expect_same_motion(most, "the paper's elements"); });
 }
 
 TEST_P(OracleOfCrushes, MovesAsTheSolverWithDisplacementBasedElementsOfConstantVolume) {
   const SceneSpec spec = in(FibrePrecision::double_precision, displacement_based(GetParam().spec));
-  expect_same_motion(crush(GetParam(), spec, GetParam().steps, From::the_start));
+  expect_same_motion(crush(GetParam(), spec, GetParam().steps, From::the_start), "those of constant volume");
 }
 
 // Force-based elements decide by thresholds, and flexibilities of their sections are quotients of small differences.
@@ -235,6 +239,7 @@ TEST_P(OracleOfCrushes, TakesEveryStepAsTheSolverWithDefaultElements) {
                            EXPECT_LT(most.force, 1e-8);
                            EXPECT_LT(most.energy, 1e-10);
                            EXPECT_EQ(most.count, 0);
+                           scenes::record_bound("forces", most.force);
                          });
 }
 
@@ -245,6 +250,7 @@ TEST_P(OracleOfCrushes, TakesEveryStepAsTheSolverInSinglePrecision) {
                            EXPECT_LT(most.force, 2e-3);
                            EXPECT_LT(most.energy, 1e-6);
                            EXPECT_EQ(most.count, 0);
+                           scenes::record_bound("forces in single precision", most.force);
                          });
 }
 
@@ -256,10 +262,13 @@ TEST_P(OracleOfCrushes, StaysNearTheSolver) {
     const CrushDifferences most = crush(GetParam(), in(precision, GetParam().spec), steps, From::the_start);
     EXPECT_LT(most.position, 0.5);
     EXPECT_LT(most.energy, 0.03);
+    scenes::record_bound("positions in mm", most.position);
+    scenes::record_bound("energies in %", 100.0 * most.energy);
   }
   const SceneSpec papers = scenes::with_the_papers_elements(GetParam().spec);
   const CrushDifferences most = crush(GetParam(), in(FibrePrecision::single_precision, papers), steps, From::the_start);
   EXPECT_LT(most.position, 1e-5);
+  scenes::record_bound("positions in mm with the paper's elements", most.position);
   EXPECT_LT(most.energy, 1e-6);
   EXPECT_EQ(most.count, 0);
 }

@@ -4,6 +4,7 @@
 
 #include "cellcrush/state.h"
 #include "energy/ledger.h"
+#include "scenes/evidence.h"
 #include "scenes/frames.h"
 #include "step/advance_step.h"
 
@@ -38,7 +39,7 @@ TEST(Momentum, DifferenceOfThePlatesForcesIsTheBlocksMomentumRateToRoundOff) {
     peak = std::max({peak, impact, support});
     worst = std::max(worst, std::abs(impact - support - (after - before) / step - damping));
   }
-  RecordProperty("imbalance_over_peak_force_1e-12", std::to_string(1e12 * worst / peak));
+  scenes::record_bound("imbalance over peak force", worst / peak);
   EXPECT_GT(peak, 100.0);
   EXPECT_LT(worst, 1e-9 * peak);
 }
@@ -61,7 +62,7 @@ TEST(Energy, LedgerClosesWithinOnePercentOverAWholeCrush) {
                      last.energy_friction + last.energy_damping + last.energy_residual;
   EXPECT_NEAR(sum, last.work_external, 1e-9 * last.work_external);
   const double error = summarize(*scene, samples).energy_error_relative;
-  RecordProperty("energy_error_relative", std::to_string(error));
+  scenes::record_bound("residual in %", 100.0 * error);
   EXPECT_LT(error, 0.01);
   EXPECT_GT(last.energy_plastic, 0.2 * last.work_external);
   EXPECT_GT(last.energy_contact, 0.0);
