@@ -23,17 +23,15 @@ std::string text_of(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
-/// Suite.Name of all tests of the solver.
+/// Suite.Name of all tests.
 std::set<std::string> find_tests() {
   static const std::regex kTest(R"(\nTEST(?:_[FP])?\((\w+),\s*(\w+)\))");
   std::set<std::string> tests;
-  for (const fs::path& folder : {kFolder, kTests / "stability"}) {
-    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
-      if (entry.path().extension() != ".cpp") continue;
-      const std::string text = text_of(entry.path());
-      for (std::sregex_iterator test(text.begin(), text.end(), kTest), end; test != end; ++test)
-        tests.insert((*test)[1].str() + "." + (*test)[2].str());
-    }
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(kTests)) {
+    if (entry.path().extension() != ".cpp") continue;
+    const std::string text = text_of(entry.path());
+    for (std::sregex_iterator test(text.begin(), text.end(), kTest), end; test != end; ++test)
+      tests.insert((*test)[1].str() + "." + (*test)[2].str());
   }
   return tests;
 }
@@ -56,13 +54,15 @@ TEST(EvidencePageTest, WhatNoTestRecordedIsFound) {
       "| a | b | {gone} | `A...` |\n"
       "| a | b | within 1 % | `B.Two` |\n"
       "| a | b | none | `C...` |\n"
+      "| a | b | none | without a name |\n"
       "## By hand\n\nResults of this section are written by hand.\n"
-      "| a | b | within 1 % | `...Two` |\n",
+      "| a | b | within 1 % | `Each/B.Tw...` |\n",
       {{{"A.OneMore", "error"}, "1.2"}, {{"B.Two", "error"}, "7"}}, {"A.OneMore", "B.Two"});
   EXPECT_THAT(made.text, testing::HasSubstr("\n| a | b | 1.2 at E11 | `A.One...` |\n"));
-  EXPECT_THAT(made.findings,
-              testing::ElementsAre("line 2: 0 rows for {gone}", "line 3: a number that no test recorded: within 1 % ",
-                                   "line 4: no such test: `C...` ", "not in the page: B.Two,error"));
+  EXPECT_THAT(
+      made.findings,
+      testing::ElementsAre("line 2: 0 rows for {gone}", "line 3: a number that no test recorded: within 1 % ",
+                           "line 4: no such test: `C...` ", "line 5: names no test", "not in the page: B.Two,error"));
 }
 
 }  // namespace
