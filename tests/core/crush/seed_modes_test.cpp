@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "cellcrush/presets.h"
+#include "scenes/evidence.h"
 #include "scenes/frames.h"
 #include "scenes/seeded_crushes.h"
 
@@ -29,15 +30,18 @@ TEST(SeedModes, AFastCrushIsLayerByLayerForAtLeastNineOfTenSeeds) {
   EXPECT_GE(scenes::count_of(crushes, CrushMode::i), kAgreeing) << scenes::describe(crushes);
   EXPECT_GE(std::ranges::count_if(crushes, [](const auto& crush) { return crush.unevenness < 1.0; }), kAgreeing)
       << scenes::describe(crushes);
-  RecordProperty("seeds", scenes::describe(crushes));
+  scenes::record_figure("seeds with mode I", static_cast<double>(scenes::count_of(crushes, CrushMode::i)), 2);
+  const auto most = std::ranges::max(crushes, {}, &scenes::SeededCrush::unevenness);
+  scenes::record_bound("unevenness in cells", most.unevenness);
 }
 
 TEST(SeedModes, ASlowCrushIsAVForAtLeastNineOfTenSeeds) {
   const auto crushes = crush_seeds(10.0);
   EXPECT_GE(scenes::count_of(crushes, CrushMode::v), kAgreeing) << scenes::describe(crushes);
-  EXPECT_GE(std::ranges::count_if(crushes, [](const auto& crush) { return crush.unevenness > 1.5; }), kAgreeing)
-      << scenes::describe(crushes);
-  RecordProperty("seeds", scenes::describe(crushes));
+  const auto uneven = std::ranges::count_if(crushes, [](const auto& crush) { return crush.unevenness > 1.5; });
+  EXPECT_GE(uneven, kAgreeing) << scenes::describe(crushes);
+  scenes::record_figure("seeds with mode V", static_cast<double>(scenes::count_of(crushes, CrushMode::v)), 2);
+  scenes::record_figure("uneven seeds", static_cast<double>(uneven), 2);
 }
 
 }  // namespace
