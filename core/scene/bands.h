@@ -11,7 +11,7 @@ namespace cellcrush {
 /// Most bands that have particles at the same face.
 inline constexpr int kBandsAtFace = 2;
 
-/// Bands by which a step follows the step before, where threads advance bands side by side (step/advance_block.h).
+/// Bands by which a step follows the step before, where threads advance bands side by side (step/advance_wavefront.h).
 inline constexpr std::size_t kBandsBehind = 3;
 
 /// Bytes that a step reads and writes for a band: its elements and all data that belongs to them.
@@ -25,7 +25,8 @@ inline int first_element_of(const Scene& scene, const LatticeBand& band) {
 /// The whole lattice as one band.
 LatticeBand whole_band(const Scene& scene);
 
-/// Cuts a large lattice into bands so that a step of one interacts with its two neighbours only (step/advance_block.h):
+/// Cuts a large lattice into bands so that a step of one interacts with its two neighbours only
+/// (step/advance_wavefront.h):
 ///  - walls join particles of their own band and of the band before;
 ///  - a face has particles of at most two adjacent bands, and the elements at these particles belong to these bands or
 ///    their neighbours.

@@ -52,7 +52,7 @@ Preset hexagon_small() {
   Preset preset = type_i();
   preset.name = "hexagon-small";
   preset.title = "A first look: 7 rows of 20 and 19 hexagons of Type I, done in seconds";
-  preset.spec.title = "A small block of Type I hexagons";
+  preset.spec.title = "A small specimen of Type I hexagons";
   auto& hexagon = std::get<HexagonLattice>(preset.spec.lattice);
   hexagon.columns = 20;
   hexagon.rows = 7;

@@ -10,7 +10,7 @@
 #include "motion/loads.h"
 #include "motion/rigid_motion.h"
 #include "search/find_contacts.h"
-#include "step/advance_block.h"
+#include "step/advance_wavefront.h"
 #include "step/stage_scope.h"
 #include "step/stages.h"
 #include "touch/contact_tiles.h"
@@ -110,8 +110,8 @@ void advance_steps(const Scene& scene, State& state, Workspace& workspace, std::
                    StageObserver* observer) {
   const std::int64_t end = state.step + steps;
   while (state.step < end) {
-    if (can_advance_blocks(scene, state)) {
-      advance_block(scene, state, workspace, steps_in_block(end - state.step), observer);
+    if (can_advance_wavefronts(scene, state)) {
+      advance_wavefront(scene, state, workspace, steps_in_wavefront(end - state.step), observer);
     } else {
       advance_step(scene, state, workspace, observer);
     }

@@ -16,7 +16,7 @@ State make_initial_state(const Scene& scene);
 /// the new time. The observer, if any, is called when a stage begins. `workspace` is reused by the next step.
 void advance_step(const Scene& scene, State& state, Workspace& workspace, StageObserver* observer);
 
-/// Advances the state by some steps, block by block for a large lattice (step/advance_block.h), to the same bits.
+/// Advances the state by some steps, in wavefronts for a large lattice (step/advance_wavefront.h), to the same bits.
 void advance_steps(const Scene& scene, State& state, Workspace& workspace, std::int64_t steps, StageObserver* observer);
 
 /// The same for a single step, with a workspace of its own.

@@ -73,7 +73,7 @@ std::int64_t memory_of_run(ArrayCounts counts, double end_strain) {
   visit_arrays(State(), bytes);
   Workspace workspace;
   workspace.shared.contact.parts.resize(1);
-  workspace.records.resize(counts[Per::band] > 1 ? kMostStepsInBlock : 1);
+  workspace.records.resize(counts[Per::band] > 1 ? kMostStepsInWavefront : 1);
   visit_arrays(workspace, bytes);
   visit_arrays(Faces(), bytes);
   visit_arrays(Columns(), bytes);

@@ -15,7 +15,7 @@ namespace cellcrush {
 //   - Candidates and touches, whose number grows with the strain as Growth says. In a lattice of one band their lists
 //     are long: each time one grows it moves, and the heap keeps what it leaves behind. Lists of bands are short and
 //     reuse what others leave.
-//   - The workspace of the contacts, for one band at a time, and the records of the steps in a block.
+//   - The workspace of the contacts, for one band at a time, and the records of the steps in a wavefront.
 //   - Cells and columns, by which samples are measured; the frame that is kept in case the run fails; a frame and a
 //     field of collapsed cells while they are made.
 //   - kOfRun, which does not depend on the lattice.

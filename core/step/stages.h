@@ -11,7 +11,7 @@
 namespace cellcrush {
 
 // The stages of a step for one band of the lattice; a small lattice is a single band. advance_step does all bands stage
-// by stage, advance_block does all stages band by band.
+// by stage, advance_wavefront does all stages band by band.
 
 /// Moves the free particles of a band (E2) and clears the contact forces that moved them.
 void move_band(const Scene& scene, State& state, std::size_t band, StepRecord& record, StageWorkspace& workspace,

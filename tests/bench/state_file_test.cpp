@@ -27,7 +27,7 @@ class StateFile : public testing::Test {
 };
 
 TEST_F(StateFile, GivesBackAStateThatStepsOnWithTheSameBits) {
-  const auto scene = scenes::build(scenes::hexagon_block(6, 4));
+  const auto scene = scenes::build(scenes::hexagon_specimen(6, 4));
   Simulation simulation(scene);
   simulation.advance(2000);
   State state = simulation.state();

@@ -7,7 +7,7 @@
 namespace cellcrush::e2e {
 
 std::string small_case() {
-  return R"(title: "A small block of hexagons"
+  return R"(title: "A small specimen of hexagons"
 lattice { hexagon { columns: 4 rows: 3 side_mm: 4 wall_thickness_mm: 0.3464 } }
 depth_mm: 4
 material { youngs_modulus_mpa: 69000 yield_stress_mpa: 76 density_kg_per_m3: 2700 }

@@ -55,7 +55,7 @@ SceneSpec Cantilever::spec(int elements, FrameLattice::Component component, doub
   return spec;
 }
 
-SceneSpec hexagon_block(int columns, int rows) {
+SceneSpec hexagon_specimen(int columns, int rows) {
   SceneSpec spec = find_preset("hexagon-small")->spec;
   auto& hexagon = std::get<HexagonLattice>(spec.lattice);
   hexagon.columns = columns;

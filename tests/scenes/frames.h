@@ -29,8 +29,8 @@ struct Cantilever {
                         double end_time);
 };
 
-/// A block of the hexagons of Type I, crushed along x at 100 m/s.
-SceneSpec hexagon_block(int columns, int rows);
+/// A specimen of the hexagons of Type I, crushed along x at 100 m/s.
+SceneSpec hexagon_specimen(int columns, int rows);
 
 /// Small velocities in all directions for every particle, the same ones each time: what no symmetry hides from.
 void stir(Scene& scene, double speed);

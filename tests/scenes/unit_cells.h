@@ -30,7 +30,7 @@ struct UnitCell {
   static SceneSpec strained_triangle(double thickness, double strain_x, double strain_y);
   static SceneSpec strained_square(double thickness, double strain_x, double strain_y);
 
-  /// A block of hexagons with free sides, `columns` cells wide and endless along y: the zigzag between two lines of
+  /// A specimen of hexagons with free sides, `columns` cells wide and endless along y: the zigzag between two lines of
   /// symmetry, of height 1.5 L and width sqrt 3 L columns, strained along y.
   static SceneSpec strained_hexagon_strip(double thickness, int columns, double strain);
 };

@@ -17,14 +17,14 @@ namespace cellcrush::worker {
 namespace {
 
 /// Large enough for large pages, in its undeformed state.
-std::shared_ptr<const Scene> large_block() {
-  SceneSpec spec = scenes::with_the_papers_elements(scenes::hexagon_block(10, 1000));
+std::shared_ptr<const Scene> large_specimen() {
+  SceneSpec spec = scenes::with_the_papers_elements(scenes::hexagon_specimen(10, 1000));
   spec.imperfection = {0.01, 1};
   return scenes::build(spec);
 }
 
 TEST(LargePages, AreUnderMostOfASimulation) {
-  const Simulation simulation(large_block());
+  const Simulation simulation(large_specimen());
   std::vector<std::pair<std::uintptr_t, std::uintptr_t>> arrays;
   std::size_t bytes_of_all = 0;
   simulation.visit_arrays([&](const void* first, std::size_t bytes) {
@@ -42,13 +42,13 @@ TEST(LargePages, AreUnderMostOfASimulation) {
 }
 
 TEST(LargePages, ChangeNoNumber) {
-  Simulation simulation(large_block());
+  Simulation simulation(large_specimen());
   simulation.advance(20);
   const auto bytes = simulation.checkpoint();
   use_large_pages(simulation);
   EXPECT_TRUE(simulation.checkpoint() == bytes);
   simulation.advance(20);
-  Simulation other(large_block());
+  Simulation other(large_specimen());
   other.advance(40);
   EXPECT_TRUE(simulation.checkpoint() == other.checkpoint());
 }

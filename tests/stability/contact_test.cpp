@@ -59,7 +59,7 @@ TEST(Tunnelling, AStepTooLongForTheSpeedHopsOverAWall) {
 // Between plates the chosen step cannot hop: the plate moves by a twentieth of the thinnest wall.
 TEST(Tunnelling, TheChosenStepOfALatticeFollowsTheSpeed) {
   for (const double speed : {100.0, 200.0, 400.0, 1000.0}) {
-    SceneSpec spec = scenes::hexagon_block(4, 3);
+    SceneSpec spec = scenes::hexagon_specimen(4, 3);
     spec.loading.speed_m_per_s = speed;
     const auto scene = scenes::build(spec);
     EXPECT_LE(1e3 * speed * scene->schedule.time_step, 0.05 * 0.3464 * (1.0 + 1e-9)) << speed;
@@ -123,9 +123,9 @@ TEST(Adhesion, AViscousContactPullsOnWallsThatPartUnlessItIsClamped) {
 }
 
 // With the gap R + h/2 for every pair, walls of many short elements touch themselves round every joint before loading
-// and the block bursts. Pairs joined by a short way touch at 0.4 of it.
+// and the specimen bursts. Pairs joined by a short way touch at 0.4 of it.
 TEST(ThickNeighbours, TouchAtEveryJointBeforeLoadingWithTheLiteralGap) {
-  SceneSpec spec = scenes::hexagon_block(4, 3);
+  SceneSpec spec = scenes::hexagon_specimen(4, 3);
   std::get<HexagonLattice>(spec.lattice).wall_thickness_mm = 0.8;
   spec.elements_per_wall = 8;
   const auto scene = scenes::build(spec);

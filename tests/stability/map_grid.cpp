@@ -7,7 +7,7 @@
 #include "cellcrush/scene.h"
 #include "measure/warnings.h"
 #include "scenes/frames.h"
-#include "scenes/small_block.h"
+#include "scenes/small_specimen.h"
 
 namespace cellcrush::stability {
 namespace {
@@ -15,7 +15,7 @@ namespace {
 constexpr double kEndStrain = 0.6;
 constexpr int kSamples = 200;
 
-std::shared_ptr<Scene> block(const std::string& lattice, double speed) {
+std::shared_ptr<Scene> specimen(const std::string& lattice, double speed) {
   SceneSpec spec = scenes::spec_of({lattice.c_str(), speed, 0.0}, 12, 6);
   spec.loading.end_strain = kEndStrain;
   return scenes::build(spec);
@@ -47,13 +47,13 @@ std::string name_of(Outcome outcome) {
 }
 
 Point default_at(const std::string& lattice, double speed) {
-  const auto scene = block(lattice, speed);
+  const auto scene = specimen(lattice, speed);
   return {speed, scene->contact.stiffness * scene->stable_step * scene->stable_step / lightest_of(*scene),
           scene->schedule.time_step / scene->stable_step};
 }
 
 Result crush(const std::string& lattice, const Point& point) {
-  const auto scene = block(lattice, point.speed);
+  const auto scene = specimen(lattice, point.speed);
   Schedule& schedule = scene->schedule;
   const double end = static_cast<double>(schedule.step_count) * schedule.time_step;
   schedule.time_step = point.step * scene->stable_step;

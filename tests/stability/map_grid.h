@@ -16,7 +16,7 @@ enum class Outcome {
 };
 std::string name_of(Outcome outcome);
 
-/// Numerics of one crush of a small block. `penalty` is k dt_crit^2 / m of the lightest particle.
+/// Numerics of one crush of a small specimen. `penalty` is k dt_crit^2 / m of the lightest particle.
 struct Point {
   double speed = 0.0;  ///< m/s
   double penalty = 0.0;
@@ -44,7 +44,7 @@ struct Grid {
 /// What the solver chooses by itself at a speed.
 Point default_at(const std::string& lattice, double speed);
 
-/// Crushes a block of 12 x 6 cells to 60 % strain with the given numerics. `lattice` is "hexagon", "square" or
+/// Crushes a specimen of 12 x 6 cells to 60 % strain with the given numerics. `lattice` is "hexagon", "square" or
 /// "triangle".
 Result crush(const std::string& lattice, const Point& point);
 

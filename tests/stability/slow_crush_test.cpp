@@ -11,9 +11,9 @@
 namespace cellcrush {
 namespace {
 
-/// A small block crushed across its rows, so slowly that both plates feel the same.
-SceneSpec slow_block() {
-  SceneSpec spec = scenes::hexagon_block(5, 4);
+/// A small specimen crushed across its rows, so slowly that both plates feel the same.
+SceneSpec slow_specimen() {
+  SceneSpec spec = scenes::hexagon_specimen(5, 4);
   spec.loading.direction = LoadingSpec::Direction::y;
   spec.loading.speed_m_per_s = 2.0;
   spec.loading.end_strain = 0.2;
@@ -50,7 +50,7 @@ double difference_of(const SceneSpec& spec) {
 
 // The bar is 5 %: beyond it the crush is no longer quasi-static. The summary has the number, `check` the scaling.
 TEST(MassScaling, TurnsASlowCrushIntoADynamicOneAndThePlatesTell) {
-  SceneSpec spec = slow_block();
+  SceneSpec spec = slow_specimen();
   EXPECT_LT(difference_of(spec), 0.05);
   spec.numerics.mass_scaling = 1000.0;
   spec.numerics.rotary_scaling = 3.0;
@@ -64,7 +64,7 @@ TEST(MassScaling, TurnsASlowCrushIntoADynamicOneAndThePlatesTell) {
 // Damping against the ground bears the cells like a thick oil: the impact plate pushes it, the support plate feels
 // less.
 TEST(MassDamping, HoldsTheCrushUpAndThePlatesTell) {
-  SceneSpec spec = slow_block();
+  SceneSpec spec = slow_specimen();
   spec.numerics.mass_damping_per_s = 1e5;
   const Crush held = run(spec);
   ASSERT_TRUE(held.summary.quasi_static);
@@ -74,7 +74,7 @@ TEST(MassDamping, HoldsTheCrushUpAndThePlatesTell) {
 
 /// Greatest stress at the impact plate up to 1 % of strain, MPa.
 double early_peak(double ramp_strain) {
-  SceneSpec spec = slow_block();
+  SceneSpec spec = slow_specimen();
   spec.loading.speed_m_per_s = 10.0;
   spec.loading.end_strain = 0.02;
   spec.loading.ramp_strain = ramp_strain;

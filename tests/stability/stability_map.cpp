@@ -1,4 +1,4 @@
-// Crushes small blocks over steps, penalties and speeds and draws which of them are stable.
+// Crushes small specimens over steps, penalties and speeds and draws which of them are stable.
 //   stability_map FOLDER [hexagon | square | triangle]      writes FOLDER/stability_map_LATTICE.csv, .svg, .png
 
 #include <cstdio>

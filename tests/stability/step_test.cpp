@@ -10,7 +10,7 @@
 #include "scenes/dynamic_frames.h"
 #include "scenes/evidence.h"
 #include "scenes/frames.h"
-#include "scenes/small_block.h"
+#include "scenes/small_specimen.h"
 
 namespace cellcrush {
 namespace {
@@ -48,10 +48,10 @@ struct WatchedRun {
   }
 };
 
-/// A small block whose run is in steps of `share` of the stable one, as if nothing else bounded them; 0: the chosen
+/// A small specimen whose run is in steps of `share` of the stable one, as if nothing else bounded them; 0: the chosen
 /// step.
-std::shared_ptr<Scene> block(const char* lattice, double speed, double share, double end_strain = 0.8,
-                             double stiffness_factor = 0.12) {
+std::shared_ptr<Scene> specimen(const char* lattice, double speed, double share, double end_strain = 0.8,
+                                double stiffness_factor = 0.12) {
   SceneSpec spec = scenes::spec_of({lattice, speed, 0.0}, 12, 6);
   spec.loading.end_strain = end_strain;
   spec.contact.stiffness_factor = stiffness_factor;
@@ -98,12 +98,12 @@ void expect_last_good_is_kept(const WatchedRun& run) {
 // Plasticity takes what the instability makes: no motion is seen that a sound crush does not show as well. Only the
 // ledger tells.
 TEST(StepBeyondTheLimit, HidesItsEnergyAsPlasticHeatAndOnlyTheLedgerShowsIt) {
-  const WatchedRun sound(block("hexagon", 100.0, 0.0));
+  const WatchedRun sound(specimen("hexagon", 100.0, 0.0));
   EXPECT_EQ(sound.status.kind, Kind::finished);
   EXPECT_LT(sound.summary.energy_error_relative, 0.01);
   EXPECT_TRUE(sound.summary.warnings.empty());
 
-  const auto scene = block("hexagon", 100.0, 1.02);
+  const auto scene = specimen("hexagon", 100.0, 1.02);
   const State state = unwatched(scene);
   for (const Vector2& velocity : state.velocity) {
     EXPECT_LT(velocity.norm(), 10.0 * scene->plates.speed);
@@ -118,7 +118,7 @@ TEST(StepBeyondTheLimit, HidesItsEnergyAsPlasticHeatAndOnlyTheLedgerShowsIt) {
 
 TEST(StepBeyondTheLimit, EndsByNameWithItsStepItsPlaceAndTheLastGoodFrame) {
   for (const double share : {1.1, 1.5, 3.0}) {
-    const WatchedRun run(block("hexagon", 100.0, share));
+    const WatchedRun run(specimen("hexagon", 100.0, share));
     EXPECT_EQ(run.status.kind, Kind::energy_balance) << share;
     expect_named(run);
     expect_last_good_is_kept(run);
@@ -128,7 +128,7 @@ TEST(StepBeyondTheLimit, EndsByNameWithItsStepItsPlaceAndTheLastGoodFrame) {
 // Without flow nothing takes the energy, and the motion grows without bound.
 TEST(StepBeyondTheLimit, OfAnElasticStructureGrowsWithoutBound) {
   constexpr double kStir = 1.0;  // mm/s
-  auto scene = block("hexagon", 100.0, 1.3);
+  auto scene = specimen("hexagon", 100.0, 1.3);
   scene->materials.front().yield_stress = 1e30;
   scene->contact.present = scene->plates.present = false;
   scenes::stir(*scene, kStir);
@@ -146,7 +146,7 @@ TEST(StepBeyondTheLimit, OfAnElasticStructureGrowsWithoutBound) {
 }
 
 TEST(NonFiniteMotion, EndsTheRunByNameAndKeepsTheLastFrameOfNumbers) {
-  const auto scene = block("hexagon", 100.0, 0.0);
+  const auto scene = specimen("hexagon", 100.0, 0.0);
   scene->initial_velocity.assign(scene->particle_count(), Vector2::Zero());
   scene->initial_velocity[5].x() = std::numeric_limits<double>::infinity();
   const State state = unwatched(scene);
@@ -162,16 +162,16 @@ TEST(NonFiniteMotion, EndsTheRunByNameAndKeepsTheLastFrameOfNumbers) {
 // 400 m/s in steps of 0.9 of the stable one: the plate moves by a quarter of a wall in a step, walls are born deep in
 // each other and thrown through. The ledger books what contacts make like any other work and closes.
 TEST(StepTooLongForTheSpeed, MakesAThousandTimesTheWorkUnlessContactsAreWatched) {
-  const State sound = unwatched(block("hexagon", 400.0, 0.0));
-  const State state = unwatched(block("hexagon", 400.0, 0.9));
+  const State sound = unwatched(specimen("hexagon", 400.0, 0.0));
+  const State state = unwatched(specimen("hexagon", 400.0, 0.9));
   EXPECT_GT(state.ledger.external, 100.0 * sound.ledger.external);
   EXPECT_GE(state.crossing_step, 0);
   for (const char* lattice : {"hexagon", "square", "triangle"}) {
-    const WatchedRun run(block(lattice, 400.0, 0.9));
+    const WatchedRun run(specimen(lattice, 400.0, 0.9));
     EXPECT_EQ(run.status.kind, Kind::contact_energy) << lattice << run.status.message;
     expect_named(run);
     expect_last_good_is_kept(run);
-    const WatchedRun chosen(block(lattice, 400.0, 0.0, 0.4));
+    const WatchedRun chosen(specimen(lattice, 400.0, 0.0, 0.4));
     EXPECT_EQ(chosen.status.kind, Kind::finished) << lattice << chosen.status.message;
     EXPECT_LT(chosen.summary.energy_error_relative, 0.01) << lattice;
     scenes::record_bound("residual at the chosen step in %", 100.0 * chosen.summary.energy_error_relative);
@@ -201,13 +201,13 @@ TEST(StepTooLongForTheSpeed, IsAWarningWhileOnlyWallsCross) {
 // energy.
 TEST(DensifiedStack, MakesEnergyAtTheStepThatASingleContactBears) {
   const double single = 1.0;  // stiffness over m / dt_crit^2: omega dt = 0.9 for one particle between contacts
-  const WatchedRun ringing(block("triangle", 25.0, 0.9, 0.8, single));
+  const WatchedRun ringing(specimen("triangle", 25.0, 0.9, 0.8, single));
   EXPECT_EQ(ringing.status.kind, Kind::finished) << ringing.status.message;
   EXPECT_TRUE(ringing.warns_of(Warning::Kind::contact_energy));
-  const WatchedRun sound(block("triangle", 25.0, 0.5, 0.8, single));
+  const WatchedRun sound(specimen("triangle", 25.0, 0.5, 0.8, single));
   EXPECT_EQ(sound.status.kind, Kind::finished) << sound.status.message;
   EXPECT_TRUE(sound.summary.warnings.empty());
-  const SceneFacts chosen = facts_of(*block("triangle", 25.0, 0.0, 0.8, single));
+  const SceneFacts chosen = facts_of(*specimen("triangle", 25.0, 0.0, 0.8, single));
   EXPECT_LT(chosen.time_step, 0.5 * chosen.stable_step);
 }
 

@@ -41,7 +41,7 @@ TEST(PerfectSymmetry, NeverBucklesAndASmallImperfectionDoes) {
 }
 
 State crush_with(double amplitude) {
-  SceneSpec spec = scenes::hexagon_block(12, 6);
+  SceneSpec spec = scenes::hexagon_specimen(12, 6);
   spec.imperfection = {amplitude, 1};
   spec.loading.end_strain = 0.6;
   const auto scene = scenes::build(spec);

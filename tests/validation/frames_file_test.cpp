@@ -16,7 +16,7 @@ class FramesFileTest : public testing::Test {
 
   /// Frames of a crush before loading and after 50 steps.
   std::vector<FieldFrame> write() const {
-    const auto scene = scenes::build(scenes::hexagon_block(4, 3));
+    const auto scene = scenes::build(scenes::hexagon_specimen(4, 3));
     FramesFile frames(file_, mesh_of(*scene));
     Simulation simulation(scene);
     std::vector<FieldFrame> written = {simulation.take_frame(0)};

@@ -20,9 +20,9 @@ inline constexpr std::array<const char*, kStageCount> kStageNames = {
     "integrate_motion",        "evaluate_internal_forces", "find_contacts",
     "evaluate_contact_forces", "evaluate_plate_forces",    "evaluate_loads"};
 
-/// Called when a stage begins and when a step ends. A large lattice advances by blocks of steps (step/advance_block.h);
-/// end_step() is then called once for each block. The solver has no clock: an observer that measures times brings its
-/// own.
+/// Called when a stage begins and when a step ends. A large lattice advances by wavefronts of steps
+/// (step/advance_wavefront.h); end_step() is then called once for each wavefront. The solver has no clock: an observer
+/// that measures times brings its own.
 class StageObserver {
  public:
   virtual ~StageObserver() = default;

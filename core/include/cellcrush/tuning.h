@@ -68,9 +68,9 @@ inline constexpr std::size_t kCacheShareOfFibres = 8;
 /// contacts begin. Speed only.
 inline constexpr std::size_t kMostStepsAtOnce = 10;
 
-/// Most steps in a block: mostly all steps between two samples, so that later steps begin while the first ones end.
+/// Most steps in a wavefront: mostly all steps between two samples, so that later steps begin while the first ones end.
 /// Speed only.
-inline constexpr std::int64_t kMostStepsInBlock = 32;
+inline constexpr std::int64_t kMostStepsInWavefront = 32;
 
 /// Checks of a flag before a thread yields: some hundred microseconds, longer than the gaps between the loops of a
 /// step. Speed only.

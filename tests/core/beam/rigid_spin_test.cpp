@@ -17,7 +17,7 @@ namespace {
 
 // The motion is imposed, so nothing but the reverse motion can make stress.
 TEST(RigidSpin, ThousandTurnsLeaveStressAtRoundOff) {
-  SceneSpec spec = scenes::hexagon_block(3, 2);
+  SceneSpec spec = scenes::hexagon_specimen(3, 2);
   spec.numerics.fibre_precision = NumericsSpec::FibrePrecision::double_precision;
   const auto scene = scenes::build(spec);
   ASSERT_TRUE(scene);

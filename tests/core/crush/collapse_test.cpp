@@ -18,10 +18,10 @@ struct Crush {
   Summary summary;
 };
 
-/// 17 rows of 24 and 23 hexagons of Type I, imperfect by a thousandth of a millimetre: a perfectly symmetric block
+/// 17 rows of 24 and 23 hexagons of Type I, imperfect by a thousandth of a millimetre: a perfectly symmetric specimen
 /// stays symmetric by round-off only. A frame with every sample.
-Crush crush_block(double speed, double end_strain) {
-  SceneSpec spec = scenes::hexagon_block(24, 17);
+Crush crush_specimen(double speed, double end_strain) {
+  SceneSpec spec = scenes::hexagon_specimen(24, 17);
   spec.loading.speed_m_per_s = speed;
   spec.loading.end_strain = end_strain;
   spec.output.sample_count = 100;
@@ -51,7 +51,7 @@ double mean_place(const CollapseField& field) {
 }
 
 TEST(Collapse, AFastCrushIsAnIBandAtTheImpactEndWithAFront) {
-  const Crush crush = crush_block(100.0, 0.42);
+  const Crush crush = crush_specimen(100.0, 0.42);
   EXPECT_EQ(crush.summary.crush_mode, CrushMode::i);
   ASSERT_TRUE(crush.summary.crush_mode_strain);
   EXPECT_LT(*crush.summary.crush_mode_strain, 0.2);
@@ -62,7 +62,7 @@ TEST(Collapse, AFastCrushIsAnIBandAtTheImpactEndWithAFront) {
 }
 
 TEST(Collapse, KeptFramesSayTheSameAsTheRun) {
-  const Crush crush = crush_block(100.0, 0.25);
+  const Crush crush = crush_specimen(100.0, 0.25);
   const Cells cells = find_cells(*crush.scene);
   int told = 0;
   for (std::size_t i = 0; i < crush.frames.size(); ++i) {
@@ -78,7 +78,7 @@ TEST(Collapse, KeptFramesSayTheSameAsTheRun) {
 }
 
 TEST(Collapse, ASlowCrushIsAVWithItsPointAtTheImpactPlateAndHasNoFront) {
-  const Crush crush = crush_block(10.0, 0.4);
+  const Crush crush = crush_specimen(10.0, 0.4);
   EXPECT_EQ(crush.summary.crush_mode, CrushMode::v);
   EXPECT_FALSE(crush.summary.front);
   // The V lies at the middle of the plate and opens to both sides: cells of the middle rows collapse nearer to it.

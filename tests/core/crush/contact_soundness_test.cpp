@@ -7,15 +7,15 @@
 #include "scenes/crossings.h"
 #include "scenes/evidence.h"
 #include "scenes/frames.h"
-#include "scenes/small_block.h"
+#include "scenes/small_specimen.h"
 
 namespace cellcrush {
 namespace {
 
-using scenes::SmallBlock;
+using scenes::SmallSpecimen;
 
-/// Small blocks crushed to 80 % at the chosen step.
-class ContactSoundness : public testing::TestWithParam<SmallBlock> {
+/// Small specimens crushed to 80 % at the chosen step.
+class ContactSoundness : public testing::TestWithParam<SmallSpecimen> {
  protected:
   static SceneSpec spec() {
     SceneSpec spec = scenes::spec_of(GetParam(), 12, 6);
@@ -50,15 +50,17 @@ TEST_P(ContactSoundness, NoWallsCrossAndContactMakesNoEnergy) {
   scenes::record_bound("negative contact work in %", 100.0 * least_contact_energy);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Crush, ContactSoundness,
-    testing::Values(SmallBlock{"hexagon", 25, 0.0}, SmallBlock{"hexagon", 100, 0.0}, SmallBlock{"hexagon", 100, 0.3},
-                    SmallBlock{"hexagon", 200, 0.0}, SmallBlock{"hexagon", 200, 0.3}, SmallBlock{"square", 25, 0.3},
-                    SmallBlock{"square", 50, 0.0}, SmallBlock{"square", 100, 0.0}, SmallBlock{"square", 100, 0.3},
-                    SmallBlock{"square", 200, 0.0}, SmallBlock{"square", 200, 0.3}, SmallBlock{"triangle", 25, 0.0},
-                    SmallBlock{"triangle", 50, 0.3}, SmallBlock{"triangle", 100, 0.0}, SmallBlock{"triangle", 100, 0.3},
-                    SmallBlock{"triangle", 200, 0.0}, SmallBlock{"triangle", 200, 0.3}),
-    scenes::name_of);
+INSTANTIATE_TEST_SUITE_P(Crush, ContactSoundness,
+                         testing::Values(SmallSpecimen{"hexagon", 25, 0.0}, SmallSpecimen{"hexagon", 100, 0.0},
+                                         SmallSpecimen{"hexagon", 100, 0.3}, SmallSpecimen{"hexagon", 200, 0.0},
+                                         SmallSpecimen{"hexagon", 200, 0.3}, SmallSpecimen{"square", 25, 0.3},
+                                         SmallSpecimen{"square", 50, 0.0}, SmallSpecimen{"square", 100, 0.0},
+                                         SmallSpecimen{"square", 100, 0.3}, SmallSpecimen{"square", 200, 0.0},
+                                         SmallSpecimen{"square", 200, 0.3}, SmallSpecimen{"triangle", 25, 0.0},
+                                         SmallSpecimen{"triangle", 50, 0.3}, SmallSpecimen{"triangle", 100, 0.0},
+                                         SmallSpecimen{"triangle", 100, 0.3}, SmallSpecimen{"triangle", 200, 0.0},
+                                         SmallSpecimen{"triangle", 200, 0.3}),
+                         scenes::name_of);
 
 }  // namespace
 }  // namespace cellcrush

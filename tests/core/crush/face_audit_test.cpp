@@ -10,7 +10,7 @@
 #include "scenes/evidence.h"
 #include "scenes/frames.h"
 #include "scenes/near_pairs.h"
-#include "scenes/small_block.h"
+#include "scenes/small_specimen.h"
 #include "search/bucket_search.h"
 #include "touch/clear_forces.h"
 #include "touch/contact_forces.h"
@@ -18,10 +18,10 @@
 namespace cellcrush {
 namespace {
 
-using scenes::SmallBlock;
+using scenes::SmallSpecimen;
 
-/// Small blocks crushed to 60 %, every few steps held against the search by buckets.
-class FaceAudit : public testing::TestWithParam<SmallBlock> {
+/// Small specimens crushed to 60 %, every few steps held against the search by buckets.
+class FaceAudit : public testing::TestWithParam<SmallSpecimen> {
  protected:
   static SceneSpec spec() {
     SceneSpec spec = scenes::spec_of(GetParam(), 8, 6);
@@ -118,12 +118,12 @@ TEST_P(FaceAudit, FindsEveryTouchThatPushesWithTheForceOfTheBuckets) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Crush, FaceAudit,
-                         testing::Values(SmallBlock{"hexagon", 25, 0.3}, SmallBlock{"hexagon", 100, 0.0},
-                                         SmallBlock{"hexagon", 100, 0.3}, SmallBlock{"thick", 100, 0.0},
-                                         SmallBlock{"thick_ends", 25, 0.0}, SmallBlock{"thick_ends", 100, 0.3},
-                                         SmallBlock{"square", 25, 0.3}, SmallBlock{"square", 100, 0.3},
-                                         SmallBlock{"triangle", 25, 0.3}, SmallBlock{"triangle", 100, 0.0},
-                                         SmallBlock{"triangle", 100, 0.3}),
+                         testing::Values(SmallSpecimen{"hexagon", 25, 0.3}, SmallSpecimen{"hexagon", 100, 0.0},
+                                         SmallSpecimen{"hexagon", 100, 0.3}, SmallSpecimen{"thick", 100, 0.0},
+                                         SmallSpecimen{"thick_ends", 25, 0.0}, SmallSpecimen{"thick_ends", 100, 0.3},
+                                         SmallSpecimen{"square", 25, 0.3}, SmallSpecimen{"square", 100, 0.3},
+                                         SmallSpecimen{"triangle", 25, 0.3}, SmallSpecimen{"triangle", 100, 0.0},
+                                         SmallSpecimen{"triangle", 100, 0.3}),
                          scenes::name_of);
 
 }  // namespace

@@ -13,14 +13,14 @@
 #include "cellcrush/simulation.h"
 #include "scenes/crushes.h"
 #include "scenes/frames.h"
-#include "scenes/small_block.h"
+#include "scenes/small_specimen.h"
 #include "scenes/state_hash.h"
 
 namespace cellcrush::scenes {
 namespace {
 
 /// Seven columns and five rows leave some walls over after whole vectors.
-SceneSpec block(const char* lattice, double friction = 0.0) {
+SceneSpec specimen(const char* lattice, double friction = 0.0) {
   SceneSpec spec = spec_of({lattice, 100.0, friction}, 7, 5);
   spec.loading.end_strain = 0.6;
   return spec;
@@ -67,18 +67,18 @@ std::vector<GoldenCrush> first_steps_of_presets() {
 }
 
 std::vector<GoldenCrush> whole_crushes() {
-  return {{"hexagons", block("hexagon", 0.2)},
-          {"squares", block("square")},
-          {"triangles", block("triangle", 0.2)},
-          {"thick ends", block("thick_ends")},
-          {"hexagons of the paper's elements", with_the_papers_elements(block("hexagon"))},
-          {"squares of the paper's elements", in_single_precision(with_the_papers_elements(block("square", 0.2)))},
-          {"hexagons in single precision", in_single_precision(block("hexagon"))},
-          {"mixed hardening and damping", with_hardening(block("hexagon", 0.2), 0.5)},
-          {"kinematic hardening", with_hardening(with_the_papers_elements(block("hexagon")), 0.0)},
-          {"one element a wall", with_elements_per_wall(block("triangle"), 1)},
-          {"five elements a wall", with_elements_per_wall(block("hexagon"), 5)},
-          {"a rigid row", with_a_rigid_row(block("hexagon"))}};
+  return {{"hexagons", specimen("hexagon", 0.2)},
+          {"squares", specimen("square")},
+          {"triangles", specimen("triangle", 0.2)},
+          {"thick ends", specimen("thick_ends")},
+          {"hexagons of the paper's elements", with_the_papers_elements(specimen("hexagon"))},
+          {"squares of the paper's elements", in_single_precision(with_the_papers_elements(specimen("square", 0.2)))},
+          {"hexagons in single precision", in_single_precision(specimen("hexagon"))},
+          {"mixed hardening and damping", with_hardening(specimen("hexagon", 0.2), 0.5)},
+          {"kinematic hardening", with_hardening(with_the_papers_elements(specimen("hexagon")), 0.0)},
+          {"one element a wall", with_elements_per_wall(specimen("triangle"), 1)},
+          {"five elements a wall", with_elements_per_wall(specimen("hexagon"), 5)},
+          {"a rigid row", with_a_rigid_row(specimen("hexagon"))}};
 }
 
 Hashes read_hashes() {

@@ -18,7 +18,7 @@ struct GoldenCrush {
 /// The first 500 steps of every preset.
 std::vector<GoldenCrush> first_steps_of_presets();
 
-/// Small blocks crushed to 60 %: lattices, rules, precisions, hardening, friction, damping, rigid cells, two
+/// Small specimens crushed to 60 %: lattices, rules, precisions, hardening, friction, damping, rigid cells, two
 /// thicknesses.
 std::vector<GoldenCrush> whole_crushes();
 

@@ -18,7 +18,7 @@ constexpr double kAmplitude = 0.04;  // mm, 1 % of a wall's length
 
 /// 17 rows of 24 and 23 hexagons of Type I.
 std::vector<scenes::SeededCrush> crush_seeds(double speed) {
-  SceneSpec spec = scenes::hexagon_block(24, 17);
+  SceneSpec spec = scenes::hexagon_specimen(24, 17);
   spec.loading.speed_m_per_s = speed;
   spec.loading.end_strain = 0.6;
   spec.output.sample_count = 200;

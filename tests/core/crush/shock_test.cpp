@@ -12,7 +12,7 @@
 namespace cellcrush {
 namespace {
 
-/// What a block of Type I is crushed with, MPa.
+/// What a specimen of Type I is crushed with, MPa.
 struct Plateau {
   double speed = 0.0;    // mm / s
   double shock = 0.0;    // impact minus support stress, the shock's own part
@@ -22,8 +22,8 @@ struct Plateau {
   [[nodiscard]] double strain_behind_front() const { return density * speed * speed / shock; }
 };
 
-Plateau crush_block(double speed_m_per_s) {
-  SceneSpec spec = scenes::hexagon_block(30, 10);
+Plateau crush_specimen(double speed_m_per_s) {
+  SceneSpec spec = scenes::hexagon_specimen(30, 10);
   spec.loading.speed_m_per_s = speed_m_per_s;
   spec.loading.end_strain = 0.45;
   spec.numerics.time_step_s = 0.0;
@@ -38,9 +38,9 @@ Plateau crush_block(double speed_m_per_s) {
 TEST(Shock, PlateauGrowsAsTheSquareOfTheSpeedOverTheStrainBehindTheFront) {
   std::vector<Plateau> plateaus;
   for (const double speed : {100.0, 150.0, 200.0}) {
-    plateaus.push_back(crush_block(speed));
+    plateaus.push_back(crush_specimen(speed));
     const double strain = plateaus.back().strain_behind_front();
-    // 1 - rho* = 0.9 is a solid without gaps behind a steady front; a block this short is not wholly that.
+    // 1 - rho* = 0.9 is a solid without gaps behind a steady front; a specimen this short is not wholly that.
     EXPECT_GT(strain, 0.80) << speed << " m/s";
     EXPECT_LT(strain, 1.00) << speed << " m/s";
   }

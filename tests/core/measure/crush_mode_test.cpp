@@ -10,8 +10,8 @@
 namespace cellcrush {
 namespace {
 
-/// A block of cells a unit apart, rows shifted by half a cell in turn as hexagons are.
-CollapseField block(int columns, int rows, const std::function<bool(double, double)>& collapsed) {
+/// A specimen of cells a unit apart, rows shifted by half a cell in turn as hexagons are.
+CollapseField specimen(int columns, int rows, const std::function<bool(double, double)>& collapsed) {
   CollapseField field;
   field.length = columns;
   field.width = rows * std::sqrt(0.75);
@@ -50,14 +50,14 @@ struct Size {
   int rows;
 };
 
-/// Fields of one kind at a size, as a function of the place within the block.
+/// Fields of one kind at a size, as a function of the place within the specimen.
 using Kind = std::function<bool(double s, double t, double length, double width)>;
 
 void expect_mode(CrushMode mode, const Kind& kind, const std::string& what) {
   for (const Size& size : {Size{74, 21}, Size{24, 17}, Size{20, 40}, Size{30, 31}}) {
     const double width = size.rows * std::sqrt(0.75);
     const CollapseField field =
-        block(size.columns, size.rows, [&](double s, double t) { return kind(s, t, size.columns, width); });
+        specimen(size.columns, size.rows, [&](double s, double t) { return kind(s, t, size.columns, width); });
     const std::string where = what + " of " + std::to_string(size.columns) + " x " + std::to_string(size.rows);
     for (const CollapseField& seen : {field, turned_round(field), with_noise(field, 0.02)}) {
       double agreement = 0.0;
@@ -126,20 +126,20 @@ TEST(CrushMode, ABowedBandIsC) {
 
 TEST(CrushMode, CellsThatCollapseAnywhereAreMixed) {
   for (const double share : {0.1, 0.2, 0.25}) {
-    const CollapseField field = with_noise(block(74, 21, [](double, double) { return false; }), share);
+    const CollapseField field = with_noise(specimen(74, 21, [](double, double) { return false; }), share);
     EXPECT_EQ(find_crush_mode(field), CrushMode::mixed) << share;
   }
 }
 
 TEST(CrushMode, ASingleObliqueBandIsMixed) {
-  const CollapseField field = block(30, 31, [](double s, double t) { return std::abs(s - 2.0 - t) < 1.5; });
+  const CollapseField field = specimen(30, 31, [](double s, double t) { return std::abs(s - 2.0 - t) < 1.5; });
   EXPECT_EQ(find_crush_mode(field), CrushMode::mixed);
 }
 
 TEST(CrushMode, AWholeLatticeHasNone) {
-  EXPECT_EQ(find_crush_mode(block(20, 10, [](double, double) { return false; })), CrushMode::none);
+  EXPECT_EQ(find_crush_mode(specimen(20, 10, [](double, double) { return false; })), CrushMode::none);
   // Rows of 20 and 19 cells, of which 5 and 4 have collapsed.
-  EXPECT_EQ(collapsed_fraction_of(block(20, 10, [](double s, double) { return s < 5.0; })), 9.0 / 39.0);
+  EXPECT_EQ(collapsed_fraction_of(specimen(20, 10, [](double s, double) { return s < 5.0; })), 9.0 / 39.0);
 }
 
 }  // namespace

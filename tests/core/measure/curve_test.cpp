@@ -50,7 +50,7 @@ TEST(Curve, OfBothPlatesIsTheMeanOfTheirStresses) {
 }
 
 TEST(Theory, TypeIHasGibsonAshbyAndEquation51) {
-  const auto scene = scenes::build(scenes::hexagon_block(74, 21));
+  const auto scene = scenes::build(scenes::hexagon_specimen(74, 21));
   const Theory theory = facts_of(*scene).theory;
   EXPECT_NEAR(theory.gibson_ashby, 2.0 / 3.0 * 76.0 * 0.0866 * 0.0866, 1e-9);
   const double density = 72.1438e-6 / (512.687 * 128.0 * 4.0);

@@ -105,7 +105,7 @@ TEST(Densification, IsNotReachedByAPlateauNorByARunThatEndsInARise) {
   EXPECT_FALSE(onset_of([](double e) { return std::sin(20.0 * e); }, 0.8)) << "stresses of both signs";
 }
 
-/// A crush of a small block.
+/// A crush of a small specimen.
 struct SmallCrush {
   LoadingSpec::Direction direction;
   double speed;  // m/s
@@ -113,7 +113,7 @@ struct SmallCrush {
 class DensificationOfACrush : public testing::TestWithParam<SmallCrush> {};
 
 TEST_P(DensificationOfACrush, IsFoundOnceTheSupportBearsThePlateauToo) {
-  SceneSpec spec = scenes::hexagon_block(20, 7);
+  SceneSpec spec = scenes::hexagon_specimen(20, 7);
   spec.loading.direction = GetParam().direction;
   spec.loading.speed_m_per_s = GetParam().speed;
   spec.loading.end_strain = 0.92;

@@ -76,7 +76,7 @@ TEST(Faces, OfTrianglesAreTheCells) {
 }
 
 TEST(Faces, OfAnImperfectLatticeAreTheSameCells) {
-  SceneSpec spec = scenes::hexagon_block(9, 6);
+  SceneSpec spec = scenes::hexagon_specimen(9, 6);
   spec.imperfection = {0.2, 7};
   spec.numerics.time_step_s = 0.0;
   const auto scene = scenes::build(spec);

@@ -20,11 +20,11 @@ constexpr double kBehind = 0.88;
 constexpr double kAhead = 0.02;
 constexpr double kSpeed = 1e5;  // mm/s
 
-/// A block whose particles move as a front at `place` (mm from the impact end) moves them: strain kBehind behind it,
+/// A specimen whose particles move as a front at `place` (mm from the impact end) moves them: strain kBehind behind it,
 /// kAhead ahead of it, the support end at rest. What is behind moves with the plate, at kSpeed.
 class MovingFront : public testing::Test {
  protected:
-  std::shared_ptr<Scene> scene_ = scenes::build(scenes::hexagon_block(40, 9));
+  std::shared_ptr<Scene> scene_ = scenes::build(scenes::hexagon_specimen(40, 9));
   Cells cells_ = find_cells(*scene_);
   Columns columns_ = divide_into_columns(*scene_, cells_.field.pitch);
   double length_ = cells_.field.length;

@@ -27,7 +27,7 @@ class SummaryTest : public testing::Test {
     return samples;
   }
 
-  std::shared_ptr<Scene> scene_ = scenes::build(scenes::hexagon_block(20, 7));
+  std::shared_ptr<Scene> scene_ = scenes::build(scenes::hexagon_specimen(20, 7));
 };
 
 TEST_F(SummaryTest, PlatesAreComparedByTheirMeansBeyondFivePercentOfStrain) {

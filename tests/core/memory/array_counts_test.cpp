@@ -74,7 +74,7 @@ struct Kind {
 };
 
 SceneSpec changed(const std::function<void(SceneSpec&)>& change) {
-  SceneSpec spec = scenes::hexagon_block(8, 5);
+  SceneSpec spec = scenes::hexagon_specimen(8, 5);
   change(spec);
   return spec;
 }
@@ -98,11 +98,11 @@ TEST_P(ArrayShapes, AreThoseOfSceneAndState) {
 }
 
 const Kind kKinds[] = {
-    {"default", [] { return scenes::hexagon_block(8, 5); }},
+    {"default", [] { return scenes::hexagon_specimen(8, 5); }},
     {"squares", [] { return changed([](SceneSpec& spec) {
                        spec.lattice = SquareLattice{8, 6, 4.0, 0.2};
                      }); }},
-    {"papers", [] { return scenes::with_the_papers_elements(scenes::hexagon_block(8, 5)); }},
+    {"papers", [] { return scenes::with_the_papers_elements(scenes::hexagon_specimen(8, 5)); }},
     {"double",
      [] {
        return changed(
@@ -113,7 +113,7 @@ const Kind kKinds[] = {
     {"rough_plates", [] { return changed([](SceneSpec& spec) { spec.plates.friction = 0.2; }); }},
     {"buckets", [] { return changed([](SceneSpec& spec) { spec.contact.search = ContactSpec::Search::buckets; }); }},
     {"short_elements", [] { return changed([](SceneSpec& spec) { spec.elements_per_wall = 12; }); }},
-    {"bands", [] { return scenes::with_the_papers_elements(scenes::hexagon_block(10, 1000)); }},
+    {"bands", [] { return scenes::with_the_papers_elements(scenes::hexagon_specimen(10, 1000)); }},
     {"rigid_bodies", [] { return find_preset("inclusions-2")->spec; }},
     {"loaded", [] { return framed([](FrameLattice&) {}); }},
     {"moving",
@@ -128,9 +128,9 @@ const Kind kKinds[] = {
 INSTANTIATE_TEST_SUITE_P(Kinds, ArrayShapes, testing::ValuesIn(kKinds),
                          [](const auto& test) { return std::string(test.param.name); });
 
-/// A crushed block of one band, and the room that its steps have made.
+/// A crushed specimen of one band, and the room that its steps have made.
 TEST(ArrayCounts, AreThoseOfTheWorkspaceAndOfWhatIsMeasured) {
-  SceneSpec spec = scenes::hexagon_block(12, 10);
+  SceneSpec spec = scenes::hexagon_specimen(12, 10);
   spec.contact.friction = 0.2;
   spec.loading.speed_m_per_s = 300.0;
   const auto scene = scenes::build(spec);
@@ -154,7 +154,7 @@ TEST(ArrayCounts, AreThoseOfTheWorkspaceAndOfWhatIsMeasured) {
 
 /// What is expected of a mesh before its faces are traced.
 TEST(ArrayCounts, OfFacesAreBoundedByTheMesh) {
-  const auto scene = scenes::build(scenes::hexagon_block(20, 15));
+  const auto scene = scenes::build(scenes::hexagon_specimen(20, 15));
   const ArrayCounts traced = counts_of(*scene);
   ArrayCounts expected = count_mesh(*scene);
   add_contact(scene->contact, scene->plates, expected);

@@ -15,7 +15,7 @@
 #include "scenes/crushes.h"
 #include "scenes/evidence.h"
 #include "scenes/frames.h"
-#include "scenes/small_block.h"
+#include "scenes/small_specimen.h"
 #include "step/advance_step.h"
 
 namespace cellcrush {
@@ -23,8 +23,9 @@ namespace {
 
 using FibrePrecision = NumericsSpec::FibrePrecision;
 
-/// A block of thick walls, which touch each other soon, at 100 m/s. Hexagons have vertical walls of another thickness.
-SceneSpec block(const char* lattice, int columns, int rows) {
+/// A specimen of thick walls, which touch each other soon, at 100 m/s. Hexagons have vertical walls of another
+/// thickness.
+SceneSpec specimen(const char* lattice, int columns, int rows) {
   constexpr double kThickness = 0.5;  // mm, of sides of 4 mm
   SceneSpec spec = scenes::spec_of({lattice, 100.0, 0.2}, columns, rows);
   if (auto* hexagon = std::get_if<HexagonLattice>(&spec.lattice)) {
@@ -56,7 +57,7 @@ SceneSpec without_friction(SceneSpec spec) {
 
 /// Thick ends of walls face each other across the cells, and stand out between the thinner walls of these.
 SceneSpec thick_walls_along_y() {
-  SceneSpec spec = block("hexagon", 4, 4);
+  SceneSpec spec = specimen("hexagon", 4, 4);
   std::get<HexagonLattice>(spec.lattice).vertical_wall_thickness_mm = 0.9;
   spec.loading.direction = LoadingSpec::Direction::y;
   spec.loading.ramp_strain = 0.02;
@@ -64,7 +65,7 @@ SceneSpec thick_walls_along_y() {
 }
 
 SceneSpec rigid_row() {
-  SceneSpec spec = damped(block("hexagon", 4, 4));
+  SceneSpec spec = damped(specimen("hexagon", 4, 4));
   spec.inclusions.rows = {2};
   spec.loading.direction = LoadingSpec::Direction::y;
   return spec;
@@ -72,7 +73,7 @@ SceneSpec rigid_row() {
 
 /// Contacts so soft that balls are pressed past mid-lines, and through walls.
 SceneSpec soft_contacts() {
-  SceneSpec spec = block("hexagon", 4, 3);
+  SceneSpec spec = specimen("hexagon", 4, 3);
   spec.contact.search = ContactSpec::Search::buckets;  // walls cross
   return spec;
 }
@@ -93,17 +94,17 @@ struct Case {
 };
 
 std::vector<Case> cases() {
-  return {{"Hexagons", without_friction(block("hexagon", 5, 4)), 1000},
-          {"Squares", block("square", 5, 4), 1000},
-          {"Triangles", block("triangle", 5, 4), 1000},
-          {"IsotropicHardening", with_hardening(block("hexagon", 4, 3), 1.0), 800},
-          {"KinematicHardening", with_hardening(block("hexagon", 4, 3), 0.0), 800},
-          {"MixedHardeningAndMassDamping", damped(with_hardening(block("hexagon", 5, 4), 0.4)), 1000},
+  return {{"Hexagons", without_friction(specimen("hexagon", 5, 4)), 1000},
+          {"Squares", specimen("square", 5, 4), 1000},
+          {"Triangles", specimen("triangle", 5, 4), 1000},
+          {"IsotropicHardening", with_hardening(specimen("hexagon", 4, 3), 1.0), 800},
+          {"KinematicHardening", with_hardening(specimen("hexagon", 4, 3), 0.0), 800},
+          {"MixedHardeningAndMassDamping", damped(with_hardening(specimen("hexagon", 5, 4), 0.4)), 1000},
           {"ThickWallsAlongY", thick_walls_along_y(), 600},
           {"RigidRow", rigid_row(), 600},
           {"SoftContacts", soft_contacts(), 800, 0.0005},
-          {"OneElementAWall", elements_per_wall(block("hexagon", 5, 4), 1), 900},
-          {"ThreeElementsAWall", elements_per_wall(block("hexagon", 4, 3), 3), 1000}};
+          {"OneElementAWall", elements_per_wall(specimen("hexagon", 5, 4), 1), 900},
+          {"ThreeElementsAWall", elements_per_wall(specimen("hexagon", 4, 3), 3), 1000}};
 }
 
 SceneSpec in(FibrePrecision precision, SceneSpec spec) {
@@ -273,7 +274,7 @@ TEST_P(OracleOfCrushes, StaysNearTheSolver) {
   EXPECT_EQ(most.count, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Blocks, OracleOfCrushes, testing::ValuesIn(cases()),
+INSTANTIATE_TEST_SUITE_P(Specimens, OracleOfCrushes, testing::ValuesIn(cases()),
                          [](const testing::TestParamInfo<Case>& test) { return test.param.name; });
 
 }  // namespace

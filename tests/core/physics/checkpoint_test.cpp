@@ -56,10 +56,10 @@ void expect_same_bits(const SceneSpec& spec) {
   }
 }
 
-TEST(Checkpoint, AResumedCrushHasTheSameBits) { expect_same_bits(scenes::hexagon_block(8, 5)); }
+TEST(Checkpoint, AResumedCrushHasTheSameBits) { expect_same_bits(scenes::hexagon_specimen(8, 5)); }
 
 TEST(Checkpoint, AResumedCrushWithFrictionAndHardeningHasTheSameBits) {
-  SceneSpec spec = scenes::hexagon_block(8, 5);
+  SceneSpec spec = scenes::hexagon_specimen(8, 5);
   spec.contact.friction = 0.3;
   spec.material.hardening_modulus_mpa = 500.0;
   spec.material.isotropic_fraction = 0.5;
@@ -67,11 +67,11 @@ TEST(Checkpoint, AResumedCrushWithFrictionAndHardeningHasTheSameBits) {
 }
 
 TEST(Checkpoint, BytesThatAreNoneOfTheSceneChangeNothing) {
-  Simulation simulation(scenes::build(scenes::hexagon_block(8, 5)));
+  Simulation simulation(scenes::build(scenes::hexagon_specimen(8, 5)));
   simulation.advance(200);
   const std::uint64_t before = scenes::hash_of(simulation.state());
   const std::string checkpoint = simulation.checkpoint();
-  Simulation larger(scenes::build(scenes::hexagon_block(9, 5)));
+  Simulation larger(scenes::build(scenes::hexagon_specimen(9, 5)));
   EXPECT_FALSE(simulation.restore(larger.checkpoint()));
   EXPECT_FALSE(simulation.restore(""));
   EXPECT_FALSE(simulation.restore(checkpoint + "x"));

@@ -11,7 +11,7 @@ namespace cellcrush {
 namespace {
 
 State crush(int chunk) {
-  const auto scene = scenes::build(scenes::hexagon_block(8, 5));
+  const auto scene = scenes::build(scenes::hexagon_specimen(8, 5));
   Simulation simulation(scene);
   for (int done = 0; done < 1500; done += chunk) {
     simulation.advance(chunk);

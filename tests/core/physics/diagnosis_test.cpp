@@ -7,7 +7,7 @@ namespace cellcrush {
 namespace {
 
 RunStatus run_at(double fraction_of_stable_step) {
-  auto scene = scenes::build(scenes::hexagon_block(8, 5));
+  auto scene = scenes::build(scenes::hexagon_specimen(8, 5));
   scene->schedule.time_step = fraction_of_stable_step * scene->stable_step;
   Simulation simulation(scene);
   for (int i = 0; i < 200 && simulation.status().kind == RunStatus::Kind::running; ++i) {
@@ -28,7 +28,7 @@ TEST(Diagnosis, AStepBeyondTheLimitEndsWithItsNameItsPlaceAndARemedy) {
 TEST(Diagnosis, ASoundRunEndsWell) { EXPECT_EQ(run_at(0.9).kind, RunStatus::Kind::finished); }
 
 TEST(Diagnosis, ANonFiniteMotionIsNamedWithItsParticle) {
-  auto scene = scenes::build(scenes::hexagon_block(4, 3));
+  auto scene = scenes::build(scenes::hexagon_specimen(4, 3));
   scene->initial_velocity.assign(scene->particle_count(), Vector2::Zero());
   scene->initial_velocity[5].x() = std::numeric_limits<double>::infinity();
   Simulation simulation(scene);

@@ -172,7 +172,7 @@ TEST(Friction, ABallSlidesAlongAStraightChainWithoutChatter) {
 
 TEST(Friction, PlatesHoldTheEndsOfALatticeThatSpreads) {
   const auto spread_at = [](double friction) {
-    SceneSpec spec = scenes::hexagon_block(6, 5);
+    SceneSpec spec = scenes::hexagon_specimen(6, 5);
     spec.loading.direction = LoadingSpec::Direction::y;
     spec.loading.end_strain = 0.2;
     spec.loading.speed_m_per_s = 10.0;

@@ -99,7 +99,7 @@ TEST(LatticeModuli, TriangleCellIsAsStiffAsItsWallsAndTheirBending) {
   scenes::record_figure("triangles", worst, 1);
 }
 
-TEST(LatticeModuli, HexagonBlockWithFreeSidesApproachesTheLatticeAsOneOverItsColumns) {
+TEST(LatticeModuli, HexagonSpecimenWithFreeSidesApproachesTheLatticeAsOneOverItsColumns) {
   constexpr double kRatio = 0.1;
   std::vector<double> shortfall;
   for (const int columns : {4, 8, 16}) {

@@ -19,10 +19,10 @@ Vector2 momentum_of(const Scene& scene, const State& state) {
   return momentum;
 }
 
-// Theory-free: whatever the material does, the plates' forces are the change of the block's momentum and what mass
+// Theory-free: whatever the material does, the plates' forces are the change of the specimen's momentum and what mass
 // damping takes.
-TEST(Momentum, DifferenceOfThePlatesForcesIsTheBlocksMomentumRateToRoundOff) {
-  SceneSpec spec = scenes::hexagon_block(8, 5);
+TEST(Momentum, DifferenceOfThePlatesForcesIsTheSpecimensMomentumRateToRoundOff) {
+  SceneSpec spec = scenes::hexagon_specimen(8, 5);
   spec.numerics.mass_damping_per_s = 2000.0;
   const auto scene = scenes::build(spec);
   State state = make_initial_state(*scene);
@@ -45,7 +45,7 @@ TEST(Momentum, DifferenceOfThePlatesForcesIsTheBlocksMomentumRateToRoundOff) {
 }
 
 TEST(Energy, LedgerClosesWithinOnePercentOverAWholeCrush) {
-  SceneSpec spec = scenes::hexagon_block(12, 5);
+  SceneSpec spec = scenes::hexagon_specimen(12, 5);
   spec.numerics.mass_damping_per_s = 500.0;
   spec.numerics.time_step_s = 1e-7;
   const auto scene = scenes::build(spec);
@@ -70,7 +70,7 @@ TEST(Energy, LedgerClosesWithinOnePercentOverAWholeCrush) {
 }
 
 TEST(Energy, ElasticStructureKeepsItsEnergyToRoundOffOfTheScheme) {
-  auto scene = scenes::build(scenes::hexagon_block(4, 3));
+  auto scene = scenes::build(scenes::hexagon_specimen(4, 3));
   scene->materials.front().yield_stress = 1e30;
   scene->plates.present = false;
   scene->contact.present = false;

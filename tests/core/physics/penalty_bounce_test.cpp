@@ -75,7 +75,7 @@ TEST(PenaltyBounce, DampingTakesEnergyAndNeverPulls) {
 
 // The default stiffness at 100 m/s, two of the lightest particles: k = m (V / 0.16 h)^2, and V dt = 0.05 h.
 TEST(PenaltyBounce, OfTheLightestPairAtTheChosenStepIsWithinSevenPercent) {
-  const auto scene = scenes::build(scenes::hexagon_block(4, 3));
+  const auto scene = scenes::build(scenes::hexagon_specimen(4, 3));
   const double lightest = *std::min_element(scene->mass.begin(), scene->mass.end());
   const double omega = std::sqrt(scene->contact.stiffness * 2.0 / lightest);
   const double omega_step = omega * scene->schedule.time_step;

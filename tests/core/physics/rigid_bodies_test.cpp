@@ -8,13 +8,13 @@
 #include "cellcrush/simd.h"
 #include "cellcrush/state.h"
 #include "scenes/frames.h"
-#include "scenes/small_block.h"
+#include "scenes/small_specimen.h"
 
 namespace cellcrush {
 namespace {
 
-/// A block with stiff cells in its third row of six.
-SceneSpec block_with_inclusions(Inclusions::Model model) {
+/// A specimen with stiff cells in its third row of six.
+SceneSpec specimen_with_inclusions(Inclusions::Model model) {
   SceneSpec spec = scenes::spec_of({"hexagon", 10.0, 0.1}, 8, 6);
   spec.loading.direction = LoadingSpec::Direction::y;
   spec.inclusions = {{3}, 4.0, model};
@@ -42,8 +42,8 @@ Crush crush(SceneSpec spec, double end_strain) {
 }
 
 TEST(RigidBodies, JoinedStiffCellsMakeOneBodyWhoseWallsAreNotDivided) {
-  const auto scene = scenes::build(block_with_inclusions(Inclusions::Model::rigid));
-  const auto meshed = scenes::build(block_with_inclusions(Inclusions::Model::meshed));
+  const auto scene = scenes::build(specimen_with_inclusions(Inclusions::Model::rigid));
+  const auto meshed = scenes::build(specimen_with_inclusions(Inclusions::Model::meshed));
   ASSERT_EQ(scene->rigid.count(), 1u);
   const int cells = 8;
   const int walls = 5 * cells + 1;
@@ -54,13 +54,13 @@ TEST(RigidBodies, JoinedStiffCellsMakeOneBodyWhoseWallsAreNotDivided) {
 }
 
 TEST(RigidBodies, RowsApartAreBodiesOfTheirOwn) {
-  SceneSpec spec = block_with_inclusions(Inclusions::Model::rigid);
+  SceneSpec spec = specimen_with_inclusions(Inclusions::Model::rigid);
   spec.inclusions.rows = {1, 2, 4, 6};
   EXPECT_EQ(scenes::build(spec)->rigid.count(), 3u);  // the first two rows share joints
 }
 
 TEST(RigidBodies, DoNotBoundTheStep) {
-  SceneSpec spec = block_with_inclusions(Inclusions::Model::rigid);
+  SceneSpec spec = specimen_with_inclusions(Inclusions::Model::rigid);
   spec.elements_per_wall = 10;
   const double with = scenes::build(spec)->stable_step;
   spec.inclusions.model = Inclusions::Model::meshed;
@@ -73,7 +73,7 @@ TEST(RigidBodies, DoNotBoundTheStep) {
 TEST(RigidBodies, KeepTheirShapeTheLedgerAndTheMomentum) {
   for (const char* kernel : {"scalar", ""}) {
     ASSERT_TRUE(use_simd_target(kernel));
-    const Crush run = crush(block_with_inclusions(Inclusions::Model::rigid), 0.5);
+    const Crush run = crush(specimen_with_inclusions(Inclusions::Model::rigid), 0.5);
     const RigidBodies& rigid = run.scene->rigid;
     double worst = 0.0;
     for (int i = 1; i < rigid.particle_count(); ++i) {
@@ -95,8 +95,8 @@ TEST(RigidBodies, KeepTheirShapeTheLedgerAndTheMomentum) {
 }
 
 TEST(RigidBodies, CrushLikeStiffBeams) {
-  const Crush rigid = crush(block_with_inclusions(Inclusions::Model::rigid), 0.15);
-  const Crush meshed = crush(block_with_inclusions(Inclusions::Model::meshed), 0.15);
+  const Crush rigid = crush(specimen_with_inclusions(Inclusions::Model::rigid), 0.15);
+  const Crush meshed = crush(specimen_with_inclusions(Inclusions::Model::meshed), 0.15);
   const double of_rigid = rigid.samples.back().work_external;
   const double of_meshed = meshed.samples.back().work_external;
   RecordProperty("work_rigid_over_meshed", std::to_string(of_rigid / of_meshed));

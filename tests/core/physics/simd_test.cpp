@@ -40,9 +40,9 @@ SceneSpec in_double_precision(SceneSpec spec) {
   return spec;
 }
 
-/// Blocks with an odd number of walls, so that some are advanced side by side and some alone.
-SceneSpec block(int elements) {
-  SceneSpec spec = scenes::hexagon_block(8, 5);
+/// Specimens with an odd number of walls, so that some are advanced side by side and some alone.
+SceneSpec specimen(int elements) {
+  SceneSpec spec = scenes::hexagon_specimen(8, 5);
   spec.elements_per_wall = elements;
   spec.imperfection = {0.01, 1};
   return in_double_precision(spec);
@@ -81,15 +81,15 @@ struct Compared {
 // Force-based elements decide by thresholds whether a section turns back and whether it is in balance enough; a last
 // bit may turn such a decision, as it may where walls touch. Their motions part sooner.
 std::vector<Compared> scenes_to_compare() {
-  return {{"paper", scenes::with_the_papers_elements(block(2)), 1000, 1e-7},
-          {"one element a wall", scenes::with_the_papers_elements(block(1)), 1000, 1e-7},
+  return {{"paper", scenes::with_the_papers_elements(specimen(2)), 1000, 1e-7},
+          {"one element a wall", scenes::with_the_papers_elements(specimen(1)), 1000, 1e-7},
           {"paper, hardening, friction, damping",
-           with_friction_and_hardening(scenes::with_the_papers_elements(block(2))), 1000, 1e-7},
-          {"paper, single precision", in_single_precision(scenes::with_the_papers_elements(block(2))), 1000, 1e-4},
-          {"default, single precision", in_single_precision(block(2)), 60, 1e-3},
-          {"default", block(2), 60, 1e-7},
-          {"four elements a wall", block(4), 60, 1e-7},
-          {"hardening, friction, damping", with_friction_and_hardening(block(2)), 60, 1e-7},
+           with_friction_and_hardening(scenes::with_the_papers_elements(specimen(2))), 1000, 1e-7},
+          {"paper, single precision", in_single_precision(scenes::with_the_papers_elements(specimen(2))), 1000, 1e-4},
+          {"default, single precision", in_single_precision(specimen(2)), 60, 1e-3},
+          {"default", specimen(2), 60, 1e-7},
+          {"four elements a wall", specimen(4), 60, 1e-7},
+          {"hardening, friction, damping", with_friction_and_hardening(specimen(2)), 60, 1e-7},
           {"squares", squares(), 60, 1e-7}};
 }
 

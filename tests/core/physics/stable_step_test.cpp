@@ -80,7 +80,7 @@ TEST(StableStep, FreeElementIsStableAt099AndUnstableAt101OfTheLaw) {
 }
 
 TEST(StableStep, LatticeTurnsUnstableBetween100And102OfTheLaw) {
-  const auto scene = scenes::build(scenes::hexagon_block(6, 5));
+  const auto scene = scenes::build(scenes::hexagon_specimen(6, 5));
   const double limit = first_unstable(*scene, 4000);
   scenes::record_figure("least unstable fraction", limit, 4);
   EXPECT_GT(limit, 0.9999);
@@ -88,7 +88,7 @@ TEST(StableStep, LatticeTurnsUnstableBetween100And102OfTheLaw) {
 }
 
 TEST(StableStep, TypeIHasTheKnownLimit) {
-  const auto scene = scenes::build(scenes::hexagon_block(4, 3));
+  const auto scene = scenes::build(scenes::hexagon_specimen(4, 3));
   EXPECT_NEAR(scene->stable_step, 2.27e-7, 0.005e-7);
   EXPECT_LT(scene->stable_step, 0.58 * 2.0 / std::sqrt(69000.0 / 2.7e-9));  // 0.577 l / c, not l / c
 }

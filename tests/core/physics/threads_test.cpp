@@ -10,9 +10,9 @@
 namespace cellcrush {
 namespace {
 
-/// A block whose walls touch within the steps that are run.
-SceneSpec block() {
-  SceneSpec spec = scenes::hexagon_block(12, 5);
+/// A specimen whose walls touch within the steps that are run.
+SceneSpec specimen() {
+  SceneSpec spec = scenes::hexagon_specimen(12, 5);
   spec.imperfection = {0.01, 1};
   return spec;
 }
@@ -34,7 +34,7 @@ std::uint64_t crush(const SceneSpec& spec, int threads) {
 
 TEST(Threads, AnyNumberOfThemGivesTheSameBits) {
   for (const SceneSpec& spec :
-       {block(), scenes::with_the_papers_elements(block()), with_friction_and_damping(block())}) {
+       {specimen(), scenes::with_the_papers_elements(specimen()), with_friction_and_damping(specimen())}) {
     const std::uint64_t one = crush(spec, 1);
     for (const int threads : {2, 3, 7}) {
       EXPECT_EQ(crush(spec, threads), one) << threads;
@@ -44,7 +44,7 @@ TEST(Threads, AnyNumberOfThemGivesTheSameBits) {
 
 // Where the contacts do not overlap with the walls.
 TEST(Threads, AnyNumberOfThemGivesTheSameBitsOfALargeLattice) {
-  const auto scene = scenes::build(scenes::with_the_papers_elements(scenes::hexagon_block(100, 40)));
+  const auto scene = scenes::build(scenes::with_the_papers_elements(scenes::hexagon_specimen(100, 40)));
   ASSERT_GT(scene->element_count(), kMostElementsOverlapped);
   const auto crush_some = [&scene](int threads) {
     Simulation simulation(scene, threads);
@@ -58,7 +58,7 @@ TEST(Threads, AnyNumberOfThemGivesTheSameBitsOfALargeLattice) {
 
 TEST(Threads, AnyNumberOfThemGivesTheSameBitsOnTheScalarTarget) {
   ASSERT_TRUE(use_simd_target("scalar"));
-  EXPECT_EQ(crush(with_friction_and_damping(block()), 3), crush(with_friction_and_damping(block()), 1));
+  EXPECT_EQ(crush(with_friction_and_damping(specimen()), 3), crush(with_friction_and_damping(specimen()), 1));
   EXPECT_TRUE(use_simd_target(""));
 }
 

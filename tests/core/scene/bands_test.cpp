@@ -17,10 +17,10 @@
 namespace cellcrush {
 namespace {
 
-SceneSpec wide_block() { return scenes::with_the_papers_elements(scenes::hexagon_block(10, 1000)); }
+SceneSpec wide_specimen() { return scenes::with_the_papers_elements(scenes::hexagon_specimen(10, 1000)); }
 
 TEST(Bands, FollowEachOtherAndHaveAll) {
-  const auto scene = scenes::build(wide_block());
+  const auto scene = scenes::build(wide_specimen());
   const std::vector<LatticeBand>& bands = scene->bands;
   ASSERT_GT(bands.size(), 10u);
   EXPECT_EQ(scene->faces.bands.size(), bands.size());
@@ -38,7 +38,7 @@ TEST(Bands, FollowEachOtherAndHaveAll) {
 }
 
 TEST(Bands, HaveWallsAndFacesWithTheirNeighboursOnly) {
-  const auto scene = scenes::build(wide_block());
+  const auto scene = scenes::build(wide_specimen());
   const std::vector<int> band_of = bands_of_particles(*scene, scene->bands);
   for (std::size_t b = 0; b < scene->bands.size(); ++b) {
     const LatticeBand& band = scene->bands[b];
@@ -58,7 +58,7 @@ TEST(Bands, HaveWallsAndFacesWithTheirNeighboursOnly) {
 }
 
 TEST(Bands, HaveEveryFaceOnceAndABallsInItsOwnOrTheOneBefore) {
-  const auto scene = scenes::build(wide_block());
+  const auto scene = scenes::build(wide_specimen());
   const std::vector<int> band_of = bands_of_particles(*scene, scene->bands);
   std::vector<std::set<int>> elements_of(scene->bands.size());
   std::set<int> taken;
@@ -89,12 +89,13 @@ TEST(Bands, HaveEveryFaceOnceAndABallsInItsOwnOrTheOneBefore) {
 }
 
 TEST(Bands, AreOfLongLatticesAndOfSquaresAndTrianglesToo) {
-  const SceneSpec hexagons = wide_block();
+  const SceneSpec hexagons = wide_specimen();
   SceneSpec squares = hexagons;
   squares.lattice = SquareLattice{12, 1500, 4.0, 0.3};
   SceneSpec triangles = hexagons;
   triangles.lattice = TriangleLattice{10, 1000, 4.0, 0.2};
-  for (const SceneSpec& spec : {scenes::hexagon_block(1000, 10), scenes::hexagon_block(130, 100), squares, triangles}) {
+  for (const SceneSpec& spec :
+       {scenes::hexagon_specimen(1000, 10), scenes::hexagon_specimen(130, 100), squares, triangles}) {
     const auto scene = scenes::build(spec);
     EXPECT_GT(scene->element_count(), kLeastElementsOfBands);
     EXPECT_GT(scene->bands.size(), 10u);
@@ -103,11 +104,11 @@ TEST(Bands, AreOfLongLatticesAndOfSquaresAndTrianglesToo) {
 
 TEST(Bands, AreLeftOutWhereTheyDoNotPayOrAreNotEnough) {
   const auto bands_of = [](const SceneSpec& spec) { return scenes::build(spec)->bands.size(); };
-  EXPECT_EQ(bands_of(scenes::hexagon_block(12, 5)), 1u);
-  SceneSpec spec = wide_block();
+  EXPECT_EQ(bands_of(scenes::hexagon_specimen(12, 5)), 1u);
+  SceneSpec spec = wide_specimen();
   spec.contact.friction = 0.2;
   EXPECT_EQ(bands_of(spec), 1u) << "friction is handed over between balls of two bands";
-  spec = wide_block();
+  spec = wide_specimen();
   spec.contact.search = ContactSpec::Search::buckets;
   EXPECT_EQ(bands_of(spec), 1u);
 }
@@ -127,7 +128,7 @@ std::vector<PlacedWall> walls_of(const Layout& layout) {
 }
 
 TEST(NumberColumns, GoesAlongALongLatticeAndChangesNothingElse) {
-  SceneSpec spec = scenes::hexagon_block(1000, 10);
+  SceneSpec spec = scenes::hexagon_specimen(1000, 10);
   spec.elements_per_wall = 4;
   const Layout rows = lay_out(*regular_lattice_of(spec));
   Layout columns = rows;
@@ -144,7 +145,7 @@ TEST(NumberColumns, GoesAlongALongLatticeAndChangesNothingElse) {
 }
 
 TEST(NumberColumns, LeavesWideAndSmallOnesAsTheyAre) {
-  for (SceneSpec spec : {wide_block(), scenes::hexagon_block(100, 10)}) {
+  for (SceneSpec spec : {wide_specimen(), scenes::hexagon_specimen(100, 10)}) {
     spec.elements_per_wall = 4;
     const Layout rows = lay_out(*regular_lattice_of(spec));
     Layout columns = rows;

@@ -33,7 +33,7 @@ TEST(CheckSpec, EmptyCaseNamesEverythingThatIsMissing) {
 }
 
 TEST(CheckSpec, NamesAllProblemsAtOnceWithTheirValues) {
-  SceneSpec spec = scenes::hexagon_block(20, 7);
+  SceneSpec spec = scenes::hexagon_specimen(20, 7);
   auto& hexagon = std::get<HexagonLattice>(spec.lattice);
   hexagon.wall_thickness_mm = -0.1;
   hexagon.vertical_wall_thickness_mm.reset();
@@ -53,7 +53,7 @@ TEST(CheckSpec, NamesAllProblemsAtOnceWithTheirValues) {
 }
 
 TEST(CheckSpec, RefusesAFixedStepAboveTheStableOneAndSaysBoth) {
-  SceneSpec spec = scenes::hexagon_block(20, 7);
+  SceneSpec spec = scenes::hexagon_specimen(20, 7);
   spec.numerics.time_step_s = 2.3e-7;
   const Problems problems = build_scene(spec).problems;
   ASSERT_EQ(problems.size(), 1u);
@@ -63,7 +63,7 @@ TEST(CheckSpec, RefusesAFixedStepAboveTheStableOneAndSaysBoth) {
 }
 
 TEST(CheckSpec, ImperfectionAndInclusionsAreBoundedByTheLattice) {
-  SceneSpec spec = scenes::hexagon_block(20, 7);
+  SceneSpec spec = scenes::hexagon_specimen(20, 7);
   spec.imperfection.amplitude_mm = 0.5;
   spec.inclusions.rows = {0, 3, 8};
   spec.inclusions.thickness_factor = 100.0;
@@ -76,7 +76,7 @@ TEST(CheckSpec, ImperfectionAndInclusionsAreBoundedByTheLattice) {
 }
 
 TEST(CheckSpec, RefusesALatticeOfRigidCellsAlone) {
-  SceneSpec spec = scenes::hexagon_block(8, 3);
+  SceneSpec spec = scenes::hexagon_specimen(8, 3);
   spec.inclusions.rows = {1, 2, 3, 2};
   const Problems problems = build_scene(spec).problems;
   ASSERT_EQ(problems.size(), 1u);
@@ -88,12 +88,12 @@ TEST(CheckSpec, RefusesALatticeOfRigidCellsAlone) {
 }
 
 TEST(CheckSpec, RefusesAMeshThatNoMachineHolds) {
-  SceneSpec spec = scenes::hexagon_block(10000, 10000);
+  SceneSpec spec = scenes::hexagon_specimen(10000, 10000);
   EXPECT_NE(find(build_scene(spec).problems, "lattice.hexagon.columns"), nullptr);
 }
 
 TEST(CheckSpec, ChosenStepFollowsStabilityAndSpeed) {
-  SceneSpec spec = scenes::hexagon_block(20, 7);
+  SceneSpec spec = scenes::hexagon_specimen(20, 7);
   spec.loading.speed_m_per_s = 50.0;
   const auto slow = scenes::build(spec);
   EXPECT_NEAR(slow->schedule.time_step, 0.9 * slow->stable_step, 1e-20);

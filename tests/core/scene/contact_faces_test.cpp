@@ -32,8 +32,8 @@ std::shared_ptr<Scene> frame_of(const std::vector<Vector2>& nodes, const std::ve
 const std::vector<Vector2> kSquare = {{0, 0}, {20, 0}, {20, 20}, {0, 20}};
 const std::vector<std::pair<int, int>> kRing = {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
 
-TEST(ContactFaces, OfABlockAreItsCellsAndTheOuterBorder) {
-  const auto scene = scenes::build(scenes::hexagon_block(7, 4));
+TEST(ContactFaces, OfASpecimenAreItsCellsAndTheOuterBorder) {
+  const auto scene = scenes::build(scenes::hexagon_specimen(7, 4));
   ASSERT_TRUE(scene->faces.are_enough());
   const FacesOfBand& faces = scene->faces.bands.front();
   EXPECT_EQ(faces.count(), 7 + 6 + 7 + 6 + 1);
@@ -44,7 +44,7 @@ TEST(ContactFaces, OfABlockAreItsCellsAndTheOuterBorder) {
 }
 
 TEST(ContactFaces, EveryElementHasAFaceAtEitherSideThatItBorders) {
-  const auto scene = scenes::build(scenes::hexagon_block(5, 4));
+  const auto scene = scenes::build(scenes::hexagon_specimen(5, 4));
   const FacesOfBand& faces = scene->faces.bands.front();
   for (std::size_t e = 0; e < scene->element_count(); ++e) {
     EXPECT_NE(scene->faces.side[2 * e], scene->faces.side[2 * e + 1]);
@@ -56,7 +56,7 @@ TEST(ContactFaces, EveryElementHasAFaceAtEitherSideThatItBorders) {
 }
 
 TEST(ContactFaces, AGroupHasEveryParticleOfItsFacesOnce) {
-  const auto scene = scenes::build(scenes::hexagon_block(20, 10));
+  const auto scene = scenes::build(scenes::hexagon_specimen(20, 10));
   const FacesOfBand& faces = scene->faces.bands.front();
   ASSERT_GT(faces.group_count(), 3);
   EXPECT_EQ(faces.group_offset.back(), faces.count());
@@ -72,7 +72,7 @@ TEST(ContactFaces, AGroupHasEveryParticleOfItsFacesOnce) {
 
 // Each of the 30 vertical walls stands out at both ends, but at the 10 ends where it meets one other wall only.
 TEST(ContactFaces, OfThickWallsHaveTheirEnds) {
-  SceneSpec spec = scenes::hexagon_block(7, 4);
+  SceneSpec spec = scenes::hexagon_specimen(7, 4);
   std::get<HexagonLattice>(spec.lattice).vertical_wall_thickness_mm = 0.5;
   const auto scene = scenes::build(spec);
   const FacesOfBand& faces = scene->faces.bands.front();
@@ -132,14 +132,14 @@ TEST(ContactFaces, AreNotEnoughWhereElementsCrossWithoutAParticle) {
 }
 
 TEST(ContactFaces, AreLeftOutWhereNotAskedFor) {
-  SceneSpec spec = scenes::hexagon_block(4, 3);
+  SceneSpec spec = scenes::hexagon_specimen(4, 3);
   spec.contact.search = ContactSpec::Search::buckets;
   EXPECT_EQ(scenes::build(spec)->faces.premise, Premise::not_asked);
 }
 
 // The table that the searches read against the walk from each ball, on walls as thick as their elements are long.
 TEST(LimitedReaches, AreThoseOfTheWalkAlongTheWalls) {
-  SceneSpec spec = scenes::hexagon_block(3, 2);
+  SceneSpec spec = scenes::hexagon_specimen(3, 2);
   spec.elements_per_wall = 8;
   const auto scene = scenes::build(spec);
   WallPaths paths(*scene);

@@ -52,7 +52,7 @@ TEST(ContactLaw, ARowBetweenContactsIsStableUpToItsStep) {
 
 TEST(ContactLaw, StiffnessFollowsTheMeshUntilTheSpeedAsksForMore) {
   const auto law_at = [](double speed, double time_step) {
-    SceneSpec spec = scenes::hexagon_block(6, 5);
+    SceneSpec spec = scenes::hexagon_specimen(6, 5);
     spec.loading.speed_m_per_s = speed;
     spec.numerics.time_step_s = time_step;
     return scenes::build(spec);
@@ -71,7 +71,7 @@ TEST(ContactLaw, StiffnessFollowsTheMeshUntilTheSpeedAsksForMore) {
 
 // Critical damping shortens the chosen step; at the step of a fifth of critical it makes energy.
 TEST(ContactLaw, OverdampedContactIsSoundAtTheChosenStep) {
-  SceneSpec spec = scenes::hexagon_block(12, 6);
+  SceneSpec spec = scenes::hexagon_specimen(12, 6);
   spec.loading.end_strain = 0.5;
   spec.contact.damping_ratio = 1.0;
   spec.numerics.time_step_s = 0.0;

@@ -13,8 +13,8 @@ namespace {
 
 using Fidelity = NumericsSpec::Fidelity;
 
-SceneSpec block(Fidelity fidelity) {
-  SceneSpec spec = scenes::hexagon_block(4, 3);
+SceneSpec specimen(Fidelity fidelity) {
+  SceneSpec spec = scenes::hexagon_specimen(4, 3);
   spec.numerics.fidelity = fidelity;
   return spec;
 }
@@ -26,22 +26,22 @@ std::uint64_t hash_after_steps(const SceneSpec& spec) {
 }
 
 TEST(Fidelity, WithoutOneTheDefaultsStay) {
-  const SceneSpec spec = block(Fidelity::unspecified);
+  const SceneSpec spec = specimen(Fidelity::unspecified);
   EXPECT_EQ(fill_in_fidelity(spec).elements_per_wall, 2);
   EXPECT_EQ(describe_fidelity(spec), "");
 }
 
 TEST(Fidelity, IsTheSameCrushBitForBitAsWhatItFillsIn) {
   for (const FidelityPoint& point : fidelity_points()) {
-    SceneSpec spelled = block(Fidelity::unspecified);
+    SceneSpec spelled = specimen(Fidelity::unspecified);
     spelled.elements_per_wall = point.elements_per_wall;
-    EXPECT_EQ(hash_after_steps(block(point.fidelity)), hash_after_steps(spelled)) << point.name;
+    EXPECT_EQ(hash_after_steps(specimen(point.fidelity)), hash_after_steps(spelled)) << point.name;
   }
 }
 
 TEST(Fidelity, WhatIsGivenStays) {
   for (const FidelityPoint& point : fidelity_points()) {
-    SceneSpec spec = block(point.fidelity);
+    SceneSpec spec = specimen(point.fidelity);
     EXPECT_EQ(describe_fidelity(spec),
               "Fidelity " + point.name + ": elements_per_wall is " + std::to_string(point.elements_per_wall) + ".");
     spec.elements_per_wall = 3;
@@ -52,7 +52,7 @@ TEST(Fidelity, WhatIsGivenStays) {
 
 TEST(Fidelity, IsCompletedAndTold) {
   for (const FidelityPoint& point : fidelity_points()) {
-    const SceneSpec spec = block(point.fidelity);
+    const SceneSpec spec = specimen(point.fidelity);
     const auto scene = scenes::build(spec);
     const SceneSpec complete = complete_spec(spec, *scene);
     EXPECT_EQ(complete.elements_per_wall, point.elements_per_wall);
@@ -63,10 +63,10 @@ TEST(Fidelity, IsCompletedAndTold) {
 
 TEST(Fidelity, EachIsForecastForTheCaseAtHand) {
   SpecChecker checker;
-  const auto forecasts = forecast_fidelities(block(Fidelity::unspecified), checker);
+  const auto forecasts = forecast_fidelities(specimen(Fidelity::unspecified), checker);
   ASSERT_EQ(forecasts.size(), 3u);
   for (const FidelityForecast& forecast : forecasts) {
-    const SceneFacts facts = facts_of(*scenes::build(block(forecast.point.fidelity)));
+    const SceneFacts facts = facts_of(*scenes::build(specimen(forecast.point.fidelity)));
     EXPECT_EQ(forecast.element_count, facts.element_count);
     EXPECT_EQ(forecast.step_count, facts.step_count);
     EXPECT_FALSE(forecast.point.errors.empty());
@@ -76,7 +76,7 @@ TEST(Fidelity, EachIsForecastForTheCaseAtHand) {
 
 TEST(Fidelity, NoErrorIsToldOfWhatWasNotMeasured) {
   SpecChecker checker;
-  SceneSpec spec = block(Fidelity::unspecified);
+  SceneSpec spec = specimen(Fidelity::unspecified);
   spec.elements_per_wall = 3;
   spec.section.depth_rule = SectionSpec::DepthRule::lobatto;
   spec.numerics.rotary_scaling = 3.0;
@@ -94,7 +94,7 @@ TEST(Fidelity, NoErrorIsToldOfWhatWasNotMeasured) {
 // A step that two elements a wall can bear and eight cannot.
 TEST(Fidelity, OneAtWhichTheCaseCannotRunIsNotForecast) {
   SpecChecker checker;
-  SceneSpec spec = block(Fidelity::unspecified);
+  SceneSpec spec = specimen(Fidelity::unspecified);
   spec.numerics.time_step_s = 2e-7;
   const auto forecasts = forecast_fidelities(spec, checker);
   ASSERT_EQ(forecasts.size(), 2u);

@@ -59,7 +59,7 @@ TEST(Hexagons, AreAPlanarLatticeOfEqualWalls) {
 }
 
 TEST(Hexagons, CrushAlongYTurnsLengthAndWidth) {
-  SceneSpec spec = scenes::hexagon_block(5, 4);
+  SceneSpec spec = scenes::hexagon_specimen(5, 4);
   spec.loading.direction = LoadingSpec::Direction::y;
   const auto scene = scenes::build(spec);
   ASSERT_TRUE(scene);
@@ -69,7 +69,7 @@ TEST(Hexagons, CrushAlongYTurnsLengthAndWidth) {
 }
 
 TEST(Hexagons, ElementsAWallDivideEveryWall) {
-  SceneSpec spec = scenes::hexagon_block(4, 3);
+  SceneSpec spec = scenes::hexagon_specimen(4, 3);
   const auto two = scenes::build(spec);
   spec.elements_per_wall = 5;
   spec.numerics.time_step_s = 0.0;

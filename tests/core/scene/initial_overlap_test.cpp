@@ -89,7 +89,7 @@ TEST(InitialOverlap, NoPresetIsRefused) {
 TEST(InitialOverlap, AnUndeformedLatticeOfThickWallsIsFreeOfForce) {
   for (const int elements : {1, 2, 4, 8, 16}) {
     for (const double share : {0.05, 0.3, 0.5}) {
-      SceneSpec spec = scenes::hexagon_block(4, 3);
+      SceneSpec spec = scenes::hexagon_specimen(4, 3);
       spec.elements_per_wall = elements;
       const HexagonLattice hexagon = {4, 3, 4.0, share * 4.0, share * 4.0};
       const SquareLattice square = {4, 3, 4.0, share * 4.0};
@@ -113,7 +113,7 @@ TEST(InitialOverlap, AnUndeformedLatticeOfThickWallsIsFreeOfForce) {
 }
 
 TEST(InitialOverlap, ALatticeWhoseJointsAreThrownOnEachOtherNamesItsThickness) {
-  SceneSpec spec = scenes::hexagon_block(6, 6);
+  SceneSpec spec = scenes::hexagon_specimen(6, 6);
   spec.numerics.time_step_s = 0.0;
   spec.lattice = TriangleLattice{6, 6, 4.0, 2.0};
   spec.imperfection = {0.4, 5};
@@ -125,7 +125,7 @@ TEST(InitialOverlap, ALatticeWhoseJointsAreThrownOnEachOtherNamesItsThickness) {
 // The ends of their elements lie on one line but for round-off, by which elements 8 and 22 seemed to cross with this
 // seed.
 TEST(InitialOverlap, ElementsOfOneStraightWallDoNotCross) {
-  SceneSpec spec = scenes::hexagon_block(2, 1);
+  SceneSpec spec = scenes::hexagon_specimen(2, 1);
   spec.numerics.time_step_s = 0.0;
   spec.elements_per_wall = 11;
   spec.lattice = TriangleLattice{2, 1, 4.0, 0.01};
@@ -134,7 +134,7 @@ TEST(InitialOverlap, ElementsOfOneStraightWallDoNotCross) {
 }
 
 TEST(InitialOverlap, ThicknessBeyondHalfOfTheSideIsRefused) {
-  SceneSpec spec = scenes::hexagon_block(4, 3);
+  SceneSpec spec = scenes::hexagon_specimen(4, 3);
   spec.lattice = SquareLattice{4, 3, 4.0, 2.01};
   EXPECT_TRUE(is_refused(spec, "lattice.square.wall_thickness_mm", ""));
 }

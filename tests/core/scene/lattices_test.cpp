@@ -83,7 +83,7 @@ TEST(Lattices, StiffRowsThickenAllWallsOfTheirCells) {
 }
 
 TEST(Imperfection, IsBoundedSeededAndRepeatable) {
-  SceneSpec spec = scenes::hexagon_block(6, 5);
+  SceneSpec spec = scenes::hexagon_specimen(6, 5);
   const auto perfect = scenes::build(spec);
   spec.imperfection = {0.05, 1};
   const auto first = scenes::build(spec);

@@ -15,7 +15,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 std::vector<std::string> fields_noted(const std::function<void(SceneSpec&)>& change) {
-  SceneSpec spec = scenes::hexagon_block(20, 7);
+  SceneSpec spec = scenes::hexagon_specimen(20, 7);
   change(spec);
   std::vector<std::string> fields;
   for (const Problem& note : find_implausible(spec)) fields.push_back(note.field);
@@ -73,7 +73,7 @@ TEST(Plausibility, WallsAndSpeedsBeyondTheModelAreNoted) {
 }
 
 TEST(Plausibility, ANoteSaysWhatMayBeMeant) {
-  SceneSpec spec = scenes::hexagon_block(20, 7);
+  SceneSpec spec = scenes::hexagon_specimen(20, 7);
   spec.material.density_kg_per_m3 = 2.68;
   const auto notes = find_implausible(spec);
   ASSERT_EQ(notes.size(), 1U);

@@ -98,7 +98,7 @@ std::vector<Change> changes() {
 
 TEST(SpecChecker, SaysOfEverySpecWhatBuildingItsSceneSaysWhateverWasCheckedBefore) {
   SpecChecker checker;
-  const SceneSpec plain = scenes::hexagon_block(8, 6);
+  const SceneSpec plain = scenes::hexagon_specimen(8, 6);
   for (const Change& change : changes()) {
     SceneSpec changed = plain;
     change(changed);
@@ -145,7 +145,7 @@ TEST(SpecChecker, SaysOfAFrameThatOverlapsWhatBuildingItsSceneSays) {
 // With problems of its own, a scaling still makes masses and steps that other problems name.
 TEST(SpecChecker, SaysOfScalingsOutOfRangeWhatBuildingTheirScenesSays) {
   SpecChecker checker;
-  SceneSpec spec = scenes::hexagon_block(4, 3);
+  SceneSpec spec = scenes::hexagon_specimen(4, 3);
   for (const double time_step : {0.0, 1e-9, 1e-3}) {
     spec.numerics.time_step_s = time_step;
     for (const double scaling :
@@ -163,7 +163,7 @@ TEST(SpecChecker, SaysOfScalingsOutOfRangeWhatBuildingTheirScenesSays) {
 // Thick walls of few and many elements, and joints thrown far: where bounds do not decide, and on either side of what
 // is refused.
 TEST(SpecChecker, SaysOfLatticesAtTheLimitOfOverlapWhatBuildingTheirScenesSays) {
-  SceneSpec spec = scenes::hexagon_block(3, 3);
+  SceneSpec spec = scenes::hexagon_specimen(3, 3);
   spec.numerics.time_step_s = 0.0;
   SpecChecker checker;
   int refused = 0;
@@ -203,7 +203,7 @@ TEST(SpecChecker, SaysOfLatticesAtTheLimitOfOverlapWhatBuildingTheirScenesSays) 
 
 TEST(SpecChecker, BuildsOneMeshForAllSpecsThatShareIt) {
   SpecChecker checker;
-  SceneSpec spec = scenes::hexagon_block(8, 6);
+  SceneSpec spec = scenes::hexagon_specimen(8, 6);
   spec.imperfection = {0.1, 1};
   EXPECT_GT(checker.elements_to_build(spec), 0);
   checker.check(spec);
@@ -241,7 +241,7 @@ TEST(SpecChecker, KnowsHowManyElementsAMeshHasBeforeItIsBuilt) {
 
 TEST(SpecChecker, BuildsNoMeshThatIsTooLarge) {
   SpecChecker checker;
-  SceneSpec spec = scenes::hexagon_block(10000, 10000);
+  SceneSpec spec = scenes::hexagon_specimen(10000, 10000);
   EXPECT_EQ(checker.elements_to_build(spec), 0);
   const Problems problems = checker.check(spec).problems;
   ASSERT_EQ(problems.size(), 1u);

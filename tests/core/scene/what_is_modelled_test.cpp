@@ -15,7 +15,7 @@ using ::testing::Not;
 
 // As `check` and result.h5 tell it: every shortcut with its reason, and what was asked for as such.
 TEST(WhatIsModelled, SaysWhyEachShortcutIsTaken) {
-  const SceneSpec spec = scenes::hexagon_block(4, 3);
+  const SceneSpec spec = scenes::hexagon_specimen(4, 3);
   const auto said = what_is_modelled(*scenes::build(spec));
   EXPECT_THAT(said, Contains(HasSubstr("by the faces of the lattice: it is connected, planar and closed")));
   EXPECT_THAT(said, Contains(HasSubstr("perfectly plastic; each stores only its stress")));
@@ -26,7 +26,7 @@ TEST(WhatIsModelled, SaysWhyEachShortcutIsTaken) {
 }
 
 TEST(WhatIsModelled, SaysWhatWasAskedFor) {
-  SceneSpec spec = scenes::hexagon_block(4, 3);
+  SceneSpec spec = scenes::hexagon_specimen(4, 3);
   spec.contact.search = ContactSpec::Search::buckets;
   spec.numerics.fibre_precision = NumericsSpec::FibrePrecision::double_precision;
   spec.numerics.time_step_s = 1e-8;
@@ -40,7 +40,7 @@ TEST(WhatIsModelled, SaysWhatWasAskedFor) {
 
 // A formulation that is changed alone keeps the points of the other.
 TEST(WhatIsModelled, WarnsOfPointsThatAreComputedOneByOne) {
-  SceneSpec spec = scenes::hexagon_block(4, 3);
+  SceneSpec spec = scenes::hexagon_specimen(4, 3);
   const auto warning = Contains(HasSubstr("these are computed one element at a time"));
   EXPECT_THAT(what_is_modelled(*scenes::build(spec)), Not(warning));
   spec.section.formulation = SectionSpec::Formulation::displacement_based;

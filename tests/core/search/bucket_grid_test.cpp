@@ -62,7 +62,7 @@ Pairs near_pairs(const Scene& scene, const State& state) {
 }
 
 TEST(ContactSearch, AgreesWithBruteForceOnAShakenLattice) {
-  const auto scene = scenes::build(scenes::hexagon_block(6, 5));
+  const auto scene = scenes::build(scenes::hexagon_specimen(6, 5));
   State state = place_particles(*scene);
   std::mt19937 generator(3);
   std::uniform_real_distribution<double> shake(-1.2, 1.2);
@@ -78,7 +78,7 @@ TEST(ContactSearch, AgreesWithBruteForceOnAShakenLattice) {
 // Walls of a lattice thrown about at random: sparse and dense, round the origin and far from it, in a line, on one
 // point.
 TEST(ContactSearch, AgreesWithBruteForceOnRandomScenes) {
-  const auto scene = scenes::build(scenes::hexagon_block(4, 4));
+  const auto scene = scenes::build(scenes::hexagon_specimen(4, 4));
   std::mt19937 generator(11);
   std::uniform_real_distribution<double> even(-1.0, 1.0);
   std::size_t most = 0;
@@ -100,7 +100,7 @@ TEST(ContactSearch, AgreesWithBruteForceOnRandomScenes) {
 
 // One particle flies away: the buckets must not grow with the distance, nor lose the rest.
 TEST(ContactSearch, AgreesWithBruteForceWhenAParticleIsLost) {
-  const auto scene = scenes::build(scenes::hexagon_block(4, 4));
+  const auto scene = scenes::build(scenes::hexagon_specimen(4, 4));
   State state = place_particles(*scene);
   state.position[7] = {4e7, -2e7};
   search(*scene, state);
@@ -109,7 +109,7 @@ TEST(ContactSearch, AgreesWithBruteForceWhenAParticleIsLost) {
 
 TEST(ContactSearch, CandidatesAParticleDoNotGrowWithTheLattice) {
   const auto candidates_a_particle = [](int columns, int rows) {
-    SceneSpec spec = scenes::hexagon_block(columns, rows);
+    SceneSpec spec = scenes::hexagon_specimen(columns, rows);
     spec.loading.end_strain = 0.6;
     spec.loading.speed_m_per_s = 200.0;
     const auto scene = scenes::build(spec);

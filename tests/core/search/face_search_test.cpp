@@ -26,7 +26,7 @@ using scenes::listed_pairs;
 using scenes::Pairs;
 
 SceneSpec block_of(const char* lattice) {
-  SceneSpec spec = scenes::hexagon_block(5, 4);
+  SceneSpec spec = scenes::hexagon_specimen(5, 4);
   if (std::string(lattice) == "square") {
     spec.lattice = SquareLattice{6, 5, 4.0, 0.2};
   } else if (std::string(lattice) == "triangle") {
@@ -175,7 +175,7 @@ TEST(FaceSearch, MissesNoTouchUnderRandomKicks) {
 }
 
 TEST(FaceSearch, AnOpenLatticeHasNoCandidatesAndIsSeldomLookedAt) {
-  SceneSpec spec = scenes::hexagon_block(8, 5);
+  SceneSpec spec = scenes::hexagon_specimen(8, 5);
   const auto scene = scenes::build(spec);
   State state = make_initial_state(*scene);
   EXPECT_EQ(state.contacts.front().candidate_count, 0);
@@ -198,7 +198,7 @@ State crush(const SceneSpec& spec, int steps) {
 }
 
 TEST(FaceSearch, GivesTheSameBitsAsBucketsWhileAllThatTouchesSharesAFace) {
-  SceneSpec spec = scenes::hexagon_block(8, 5);
+  SceneSpec spec = scenes::hexagon_specimen(8, 5);
   spec.contact.friction = 0.2;
   const State by_faces = crush(spec, 1200);
   spec.contact.search = ContactSpec::Search::buckets;
@@ -213,7 +213,7 @@ TEST(FaceSearch, GivesTheSameBitsAsBucketsWhileAllThatTouchesSharesAFace) {
 }
 
 TEST(FaceSearch, ACopyOfAStateGoesOnWithTheSameBits) {
-  const auto scene = scenes::build(scenes::hexagon_block(8, 5));
+  const auto scene = scenes::build(scenes::hexagon_specimen(8, 5));
   State state = make_initial_state(*scene);
   for (int i = 0; i < 900; ++i) {
     advance_step(*scene, state, nullptr);
@@ -251,7 +251,7 @@ void move_one(const Scene& scene, State& state, int particle, const Vector2& goa
 }
 
 TEST(FaceSearch, GoesOverToBucketsWhenAWallHasCrossedAnother) {
-  const auto scene = scenes::build(scenes::hexagon_block(5, 4));
+  const auto scene = scenes::build(scenes::hexagon_specimen(5, 4));
   State state = make_initial_state(*scene);
   Sampler sampler(*scene);
   const int inner =
@@ -293,7 +293,7 @@ TEST(FaceSearch, GoesOverToBucketsWhenAFaceIsTurnedInsideOut) {
 }
 
 TEST(FaceSearch, LeavesTheListsAsTheyAreAfterAPositionThatIsNotFinite) {
-  const auto scene = scenes::build(scenes::hexagon_block(5, 4));
+  const auto scene = scenes::build(scenes::hexagon_specimen(5, 4));
   State state = make_initial_state(*scene);
   Workers workers(1);
   for (const double lost : {std::nan(""), HUGE_VAL}) {

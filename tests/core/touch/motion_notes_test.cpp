@@ -19,8 +19,8 @@
 namespace cellcrush {
 namespace {
 
-SceneSpec block() {
-  SceneSpec spec = scenes::with_the_papers_elements(scenes::hexagon_block(12, 5));
+SceneSpec specimen() {
+  SceneSpec spec = scenes::with_the_papers_elements(scenes::hexagon_specimen(12, 5));
   spec.imperfection = {0.01, 1};
   return spec;
 }
@@ -30,7 +30,7 @@ bool has_contact_force(const State& state, std::size_t i) {
 }
 
 TEST(ContactTiles, HoldEveryParticleWithAForceAndNotAll) {
-  const auto scene = scenes::build(block());
+  const auto scene = scenes::build(specimen());
   State state = make_initial_state(*scene);
   Workspace workspace;
   int forces = 0;
@@ -53,7 +53,7 @@ TEST(ContactTiles, HoldEveryParticleWithAForceAndNotAll) {
 }
 
 TEST(ContactTiles, WithoutThemTheBitsAreTheSame) {
-  const auto scene = scenes::build(block());
+  const auto scene = scenes::build(specimen());
   State state = make_initial_state(*scene);
   Workspace workspace;
   for (int step = 0; step < 1030; ++step) {
@@ -100,11 +100,11 @@ std::vector<int> move_and_note(const Scene& scene, State& state, Workspace& work
 }
 
 TEST(NearPlates, HoldAllThatReachOneOrRubAndAreAscending) {
-  SceneSpec rough = block();
+  SceneSpec rough = specimen();
   rough.plates.friction = 0.3;
-  SceneSpec across = block();
+  SceneSpec across = specimen();
   across.loading.direction = LoadingSpec::Direction::y;
-  for (const SceneSpec& spec : {block(), rough, across}) {
+  for (const SceneSpec& spec : {specimen(), rough, across}) {
     const auto scene = scenes::build(spec);
     ASSERT_TRUE(scene);
     for (const std::string& target : simd_targets()) {

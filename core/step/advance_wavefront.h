@@ -9,12 +9,12 @@
 
 namespace cellcrush {
 
-/// Whether steps of a lattice that is cut into bands can be advanced block by block: only while contacts are searched
+/// Whether steps of a lattice that is cut into bands can be advanced in wavefronts: only while contacts are searched
 /// by faces.
-bool can_advance_blocks(const Scene& scene, const State& state);
+bool can_advance_wavefronts(const Scene& scene, const State& state);
 
-/// How many of some steps to advance in one block.
-std::int64_t steps_in_block(std::int64_t steps);
+/// How many of some steps to advance in one wavefront.
+std::int64_t steps_in_wavefront(std::int64_t steps);
 
 /// Advances the state by some steps at once, to the same bits as one after the other.
 ///
@@ -25,7 +25,8 @@ std::int64_t steps_in_block(std::int64_t steps);
 /// are added in the order of bands, whichever thread computes them. Sums over the lattice are recorded by chunk and
 /// step and added afterwards.
 ///
-/// Walls found to have crossed are reported at the end of the block. REQUIRES: can_advance_blocks.
-void advance_block(const Scene& scene, State& state, Workspace& workspace, std::int64_t steps, StageObserver* observer);
+/// Walls found to have crossed are reported at the end of the wavefront. REQUIRES: can_advance_wavefronts.
+void advance_wavefront(const Scene& scene, State& state, Workspace& workspace, std::int64_t steps,
+                       StageObserver* observer);
 
 }  // namespace cellcrush

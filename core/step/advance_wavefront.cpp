@@ -1,4 +1,4 @@
-#include "step/advance_block.h"
+#include "step/advance_wavefront.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -32,7 +32,7 @@ std::size_t steps_at_once(const Scene& scene, const Workspace& workspace) {
   return std::max(std::min(fitting, kMostStepsAtOnce) / threads * threads, threads);
 }
 
-/// Prepares the records of a block's steps: the plates move independently of the lattice.
+/// Prepares the records of a wavefront's steps: the plates move independently of the lattice.
 void begin_steps(const Scene& scene, const State& state, std::span<StepRecord> records) {
   double travel = state.impact_travel;
   double time = state.time;
@@ -74,7 +74,7 @@ void check_search(const Scene& scene, State& state, std::int64_t first, std::spa
   if (crossed != records.end()) {
     state.crossing_step = first + 1 + (crossed - records.begin());
     merge_band_contacts(state);
-  } else if (!borders_are_apart(scene, state, kMostStepsInBlock)) {
+  } else if (!borders_are_apart(scene, state, kMostStepsInWavefront)) {
     merge_band_contacts(state);
     search_buckets(scene, state, state.contacts.front());
   }
@@ -82,17 +82,17 @@ void check_search(const Scene& scene, State& state, std::int64_t first, std::spa
 
 }  // namespace
 
-bool can_advance_blocks(const Scene& scene, const State& state) {
+bool can_advance_wavefronts(const Scene& scene, const State& state) {
   return scene.bands.size() > 1 && searches_faces(scene, state);
 }
 
-std::int64_t steps_in_block(std::int64_t steps) {
-  const std::int64_t blocks = (steps + kMostStepsInBlock - 1) / kMostStepsInBlock;
-  return (steps + blocks - 1) / blocks;
+std::int64_t steps_in_wavefront(std::int64_t steps) {
+  const std::int64_t wavefronts = (steps + kMostStepsInWavefront - 1) / kMostStepsInWavefront;
+  return (steps + wavefronts - 1) / wavefronts;
 }
 
-void advance_block(const Scene& scene, State& state, Workspace& workspace, std::int64_t steps,
-                   StageObserver* observer) {
+void advance_wavefront(const Scene& scene, State& state, Workspace& workspace, std::int64_t steps,
+                       StageObserver* observer) {
   const StageScope stage(observer);
   const std::int64_t first = state.step;
   Workers& workers = workspace.shared.workers;

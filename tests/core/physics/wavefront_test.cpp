@@ -1,4 +1,4 @@
-// Steps of a large lattice, which is cut into bands, done block by block.
+// Steps of a large lattice, which is cut into bands, advanced in wavefronts.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,8 +16,8 @@
 #include "scenes/near_pairs.h"
 #include "scenes/state_hash.h"
 #include "search/border_check.h"
-#include "step/advance_block.h"
 #include "step/advance_step.h"
+#include "step/advance_wavefront.h"
 
 namespace cellcrush {
 namespace {
@@ -25,18 +25,18 @@ namespace {
 constexpr int kCrushedSteps = 700;
 
 /// Large enough to be cut, and so short that walls touch within the steps that are run.
-SceneSpec wide_block() {
-  SceneSpec spec = scenes::with_the_papers_elements(scenes::hexagon_block(10, 1000));
+SceneSpec wide_specimen() {
+  SceneSpec spec = scenes::with_the_papers_elements(scenes::hexagon_specimen(10, 1000));
   spec.imperfection = {0.01, 1};
   return spec;
 }
 
-std::uint64_t crush_in_blocks(const Scene& scene, int threads, int piece, int steps = kCrushedSteps) {
+std::uint64_t crush_in_wavefronts(const Scene& scene, int threads, int piece, int steps = kCrushedSteps) {
   State state = make_initial_state(scene);
   Workspace workspace(threads);
   for (int done = 0; done < steps; done += piece) {
     advance_steps(scene, state, workspace, std::min(piece, steps - done), nullptr);
-    EXPECT_TRUE(can_advance_blocks(scene, state));
+    EXPECT_TRUE(can_advance_wavefronts(scene, state));
   }
   return scenes::hash_of(state);
 }
@@ -50,40 +50,40 @@ State crush_step_by_step(const Scene& scene, int steps = kCrushedSteps) {
   return state;
 }
 
-TEST(Blocks, GiveTheBitsOfSingleStepsWhateverTheirLengthAndTheThreads) {
-  const auto scene = scenes::build(wide_block());
+TEST(Wavefront, GiveTheBitsOfSingleStepsWhateverTheirLengthAndTheThreads) {
+  const auto scene = scenes::build(wide_specimen());
   ASSERT_GT(scene->bands.size(), 1u);
   const State state = crush_step_by_step(*scene);
   ASSERT_GT(state.contact_totals.count, 300);
   const std::uint64_t expected = scenes::hash_of(state);
   for (const auto& [threads, piece] : std::vector<std::pair<int, int>>{{1, 20}, {1, 7}, {1, 1}, {2, 20}, {3, 13}}) {
-    EXPECT_EQ(crush_in_blocks(*scene, threads, piece), expected) << threads << " threads, pieces of " << piece;
+    EXPECT_EQ(crush_in_wavefronts(*scene, threads, piece), expected) << threads << " threads, pieces of " << piece;
   }
 }
 
-TEST(Blocks, GiveThemOfEveryKindOfWalls) {
-  SceneSpec damped = wide_block();
+TEST(Wavefront, GiveThemOfEveryKindOfWalls) {
+  SceneSpec damped = wide_specimen();
   damped.numerics.mass_damping_per_s = 500.0;
   damped.plates.friction = 0.2;
-  SceneSpec hardening = wide_block();
+  SceneSpec hardening = wide_specimen();
   hardening.material.hardening_modulus_mpa = 100.0;
-  SceneSpec force_based = wide_block();
+  SceneSpec force_based = wide_specimen();
   force_based.section = {};
-  SceneSpec precise = wide_block();
+  SceneSpec precise = wide_specimen();
   precise.numerics.fibre_precision = NumericsSpec::FibrePrecision::double_precision;
-  const SceneSpec of_columns = scenes::with_the_papers_elements(scenes::hexagon_block(600, 17));
+  const SceneSpec of_columns = scenes::with_the_papers_elements(scenes::hexagon_specimen(600, 17));
   for (const SceneSpec& spec : {damped, hardening, force_based, precise, of_columns}) {
     const auto scene = scenes::build(spec);
     ASSERT_GT(scene->bands.size(), 1u);
     const std::uint64_t expected = scenes::hash_of(crush_step_by_step(*scene, 150));
-    EXPECT_EQ(crush_in_blocks(*scene, 1, 150, 150), expected);
-    EXPECT_EQ(crush_in_blocks(*scene, 2, 150, 150), expected);
+    EXPECT_EQ(crush_in_wavefronts(*scene, 1, 150, 150), expected);
+    EXPECT_EQ(crush_in_wavefronts(*scene, 2, 150, 150), expected);
   }
 }
 
 /// The same with thick ends (scene/thick_ends.h), which meet as the cells close along y.
-SceneSpec wide_block_of_thick_ends() {
-  SceneSpec spec = scenes::with_the_papers_elements(scenes::hexagon_block(1000, 10));
+SceneSpec wide_specimen_of_thick_ends() {
+  SceneSpec spec = scenes::with_the_papers_elements(scenes::hexagon_specimen(1000, 10));
   auto& hexagon = std::get<HexagonLattice>(spec.lattice);
   hexagon.wall_thickness_mm = 0.5;
   hexagon.vertical_wall_thickness_mm = 0.9;
@@ -114,16 +114,16 @@ void expect_the_touches_of_the_buckets(SceneSpec spec, int steps, const std::str
   EXPECT_NEAR(state.ledger.plastic, reference.ledger.plastic, 1e-6 * reference.ledger.external);
 }
 
-TEST(Blocks, TouchWhatTheBucketsDo) {
-  expect_the_touches_of_the_buckets(wide_block(), kCrushedSteps, "distance in mm");
+TEST(Wavefront, TouchWhatTheBucketsDo) {
+  expect_the_touches_of_the_buckets(wide_specimen(), kCrushedSteps, "distance in mm");
 }
 
-TEST(Blocks, TouchThickEndsAsTheBucketsDo) {
-  expect_the_touches_of_the_buckets(wide_block_of_thick_ends(), kCrushedSteps, "distance of thick ends in mm");
+TEST(Wavefront, TouchThickEndsAsTheBucketsDo) {
+  expect_the_touches_of_the_buckets(wide_specimen_of_thick_ends(), kCrushedSteps, "distance of thick ends in mm");
 }
 
-TEST(Blocks, GoOnFromACheckpoint) {
-  const auto scene = scenes::build(wide_block());
+TEST(Wavefront, GoOnFromACheckpoint) {
+  const auto scene = scenes::build(wide_specimen());
   Simulation whole(scene);
   whole.advance(200);
   Simulation resumed(scene, 2);
@@ -131,15 +131,15 @@ TEST(Blocks, GoOnFromACheckpoint) {
   whole.advance(200);
   resumed.advance(200);
   EXPECT_EQ(scenes::hash_of(resumed.state()), scenes::hash_of(whole.state()));
-  EXPECT_EQ(crush_in_blocks(*scene, 1, 400, 400), scenes::hash_of(whole.state()));
+  EXPECT_EQ(crush_in_wavefronts(*scene, 1, 400, 400), scenes::hash_of(whole.state()));
 }
 
-TEST(Blocks, GiveTheBitsOfSingleStepsOnTheScalarTarget) {
-  const auto scene = scenes::build(wide_block());
+TEST(Wavefront, GiveTheBitsOfSingleStepsOnTheScalarTarget) {
+  const auto scene = scenes::build(wide_specimen());
   ASSERT_TRUE(use_simd_target("scalar"));
-  EXPECT_TRUE(can_advance_blocks(*scene, make_initial_state(*scene)));
+  EXPECT_TRUE(can_advance_wavefronts(*scene, make_initial_state(*scene)));
   const std::uint64_t expected = scenes::hash_of(crush_step_by_step(*scene, 100));
-  EXPECT_EQ(crush_in_blocks(*scene, 2, 13, 100), expected);
+  EXPECT_EQ(crush_in_wavefronts(*scene, 2, 13, 100), expected);
   ASSERT_TRUE(use_simd_target(""));
 }
 
@@ -156,15 +156,15 @@ int inner_joint(const Scene& scene) {
 }
 
 // A joint is thrown through the wall behind it: no penalty stops 30 km/s.
-TEST(Blocks, GoOverToBucketsWhenAWallHasCrossedAnother) {
-  const auto scene = scenes::build(wide_block());
+TEST(Wavefront, GoOverToBucketsWhenAWallHasCrossedAnother) {
+  const auto scene = scenes::build(wide_specimen());
   State state = make_initial_state(*scene);
   Workspace workspace;
   advance_steps(*scene, state, workspace, 20, nullptr);
   state.velocity[inner_joint(*scene)] = Vector2(3e7, 1e6);
   advance_steps(*scene, state, workspace, 20, nullptr);
   ASSERT_GT(state.crossing_step, 20);
-  EXPECT_FALSE(can_advance_blocks(*scene, state));
+  EXPECT_FALSE(can_advance_wavefronts(*scene, state));
   EXPECT_EQ(state.contacts.size(), scene->bands.size());
   advance_step(*scene, state, workspace, nullptr);
   EXPECT_GT(state.contacts.front().search_count, 0);
@@ -182,8 +182,8 @@ Vector2& put_beside_a_far_border(const Scene& scene, State& state) {
   return place;
 }
 
-TEST(Blocks, OfBordersThatComeNearEachOtherAreGivenUp) {
-  const auto scene = scenes::build(wide_block());
+TEST(Wavefront, OfBordersThatComeNearEachOtherAreGivenUp) {
+  const auto scene = scenes::build(wide_specimen());
   State state = make_initial_state(*scene);
   Workspace workspace;
   advance_steps(*scene, state, workspace, 60, nullptr);
@@ -194,8 +194,8 @@ TEST(Blocks, OfBordersThatComeNearEachOtherAreGivenUp) {
   EXPECT_TRUE(borders_are_apart(*scene, state, 100)) << "what is lost is left to the check of the run";
 }
 
-TEST(Blocks, GoOverToBucketsWhenBordersComeNearEachOtherAndTellSoOnce) {
-  const auto scene = scenes::build(wide_block());
+TEST(Wavefront, GoOverToBucketsWhenBordersComeNearEachOtherAndTellSoOnce) {
+  const auto scene = scenes::build(wide_specimen());
   State state = make_initial_state(*scene);
   Workspace workspace;
   Sampler sampler(*scene);
@@ -204,7 +204,7 @@ TEST(Blocks, GoOverToBucketsWhenBordersComeNearEachOtherAndTellSoOnce) {
   put_beside_a_far_border(*scene, state);
   advance_steps(*scene, state, workspace, 1, nullptr);
   EXPECT_LT(state.crossing_step, 0);
-  EXPECT_FALSE(can_advance_blocks(*scene, state));
+  EXPECT_FALSE(can_advance_wavefronts(*scene, state));
   const Sample sample = sampler.take(*scene, state);
   ASSERT_EQ(sample.warnings.size(), 1u);
   EXPECT_EQ(sample.warnings.front().kind, Warning::Kind::borders_near);
