@@ -12,6 +12,7 @@
 #include "motion/near_plates-inl.h"
 #include "motion/particle_motion-inl.h"
 #include "scene/bands.h"
+#include "touch/clear_forces.h"
 #include "touch/contact_tiles.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -58,7 +59,8 @@ MotionWorks move_chunk(const ParticleArrays<State>& arrays, const StepFactors& s
   });
 }
 
-/// Moves the chunks first_chunk ... end_chunk of particles from `first` to `end`.
+/// Moves the chunks first_chunk ... end_chunk of particles from `first` to `end`, and clears the contact forces that
+/// moved them while these are in the cache.
 void move_chunks(const Scene& scene, State& state, const PlateReach& reach, std::size_t first, std::size_t end,
                  std::size_t first_chunk, std::size_t end_chunk, MovedChunk* moved, int* near_plates) {
   const StepFactors step = step_factors_of(scene);
@@ -69,6 +71,7 @@ void move_chunks(const Scene& scene, State& state, const PlateReach& reach, std:
       NearPlatesNotes near(scene, state, reach, near_plates + begin);
       const std::size_t chunk_end = std::min(begin + kParticlesMovedTogether, end);
       const MotionWorks works = move_chunk<decltype(kinds)>(arrays, step, begin, chunk_end, near);
+      clear_contact_forces(state, static_cast<int>(begin), static_cast<int>(chunk_end));
       moved[c] = {works, begin, near.count()};
     }
   });
@@ -142,7 +145,8 @@ NearCounts integrate_motion(const Scene& scene, State& state, const LatticeBand&
     }
   };
   workers.parallel_ranges(static_cast<std::size_t>(workers.count()), 1, move_part);
-  // Particles of rigid bodies are few: all may be near.
+  // Particles of rigid bodies have moved with them. They are few: all may be near.
+  clear_contact_forces(state, band.first_joint, static_cast<int>(joints.first));
   std::iota(near_plates.begin() + band.first_joint, near_plates.begin() + static_cast<std::ptrdiff_t>(joints.first),
             band.first_joint);
   const std::size_t end_of_joints = close_up(joints, moved, joints.first, near_plates);

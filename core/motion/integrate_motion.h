@@ -29,8 +29,9 @@ struct NearCounts {
 };
 
 /// Central differences over one step of a band's free particles (E2): velocities to half a step after the forces,
-/// positions and rotations to the next time. Overwrites the band's chunks among all of `moved`, and its part of the
-/// list `near_plates` by the particles that may be near a plate then, whose `reach` is that at the step's end.
+/// positions and rotations to the next time. Clears the contact forces that moved the band's particles. Overwrites the
+/// band's chunks among all of `moved`, and its part of the list `near_plates` by the particles that may be near a plate
+/// then, whose `reach` is that at the step's end.
 NearCounts integrate_motion(const Scene& scene, State& state, const LatticeBand& band, const PlateReach& reach,
                             Workers& workers, std::vector<MovedChunk>& moved, std::vector<int>& near_plates);
 

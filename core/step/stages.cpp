@@ -4,7 +4,6 @@
 
 #include "beam/internal_forces.h"
 #include "motion/integrate_motion.h"
-#include "touch/clear_forces.h"
 #include "touch/contact_forces.h"
 #include "touch/plate_forces.h"
 
@@ -14,7 +13,6 @@ void move_band(const Scene& scene, State& state, std::size_t band, StepRecord& r
                std::vector<int>& near_plates) {
   record.near[band] =
       integrate_motion(scene, state, scene.bands[band], record.reach, workspace.workers, record.moved, near_plates);
-  clear_contact_forces(state, scene.bands[band]);
 }
 
 void evaluate_band_walls(const Scene& scene, State& state, std::size_t band, StepRecord& record,

@@ -9,37 +9,39 @@
 namespace cellcrush {
 namespace {
 
+void clear_range(State& state, int first, int end) {
+  std::fill(state.contact_force.begin() + first, state.contact_force.begin() + end, ContactForce());
+}
+
 /// Most particles bear no contact force: only tiles that may are written.
 void clear_marked_tiles(State& state, int first, int end) {
   constexpr auto kTile = static_cast<int>(kContactTile);
-  constexpr int kParticlesOfWord = kTile * static_cast<int>(kTilesInWord);
-  for (int word = first / kParticlesOfWord; word * kParticlesOfWord < end; ++word) {
-    for (std::uint64_t marked = flags_of_word(state.contact_tiles.data(), word); marked != 0; marked &= marked - 1) {
-      const int start = word * kParticlesOfWord + std::countr_zero(marked) * kTile;
-      const int begin_in_range = std::clamp(start, first, end);
-      const int end_in_range = std::clamp(start + kTile, first, end);
-      std::fill(state.contact_force.begin() + begin_in_range, state.contact_force.begin() + end_in_range,
-                ContactForce());
+  constexpr auto kWord = static_cast<int>(kTilesInWord);
+  const int end_tile = (end + kTile - 1) / kTile;
+  for (int tile = first / kTile; tile < end_tile; tile = (tile / kWord + 1) * kWord) {
+    std::uint64_t marked = flags_of_word(state.contact_tiles.data(), tile / kWord) >> (tile % kWord);
+    for (int i = tile; marked != 0 && i < end_tile; ++i, marked >>= 1) {
+      const int skipped = std::countr_zero(marked);
+      i += skipped;
+      marked >>= skipped;
+      if (i < end_tile) {
+        clear_range(state, std::max(i * kTile, first), std::min((i + 1) * kTile, end));
+      }
     }
   }
 }
 
-void clear_range(State& state, int first, int end) {
+}  // namespace
+
+void clear_contact_forces(State& state, int first, int end) {
   if (state.contact_tiles.empty()) {
-    std::fill(state.contact_force.begin() + first, state.contact_force.begin() + end, ContactForce());
+    clear_range(state, first, end);
   } else {
     clear_marked_tiles(state, first, end);
   }
   if (!state.friction_force.empty()) {
     std::fill(state.friction_force.begin() + first, state.friction_force.begin() + end, Vector2::Zero());
   }
-}
-
-}  // namespace
-
-void clear_contact_forces(State& state, const LatticeBand& band) {
-  clear_range(state, band.first_joint, band.end_joint);
-  clear_range(state, band.first_inner, band.end_inner);
 }
 
 }  // namespace cellcrush

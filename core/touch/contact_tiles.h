@@ -23,8 +23,10 @@ inline std::uint64_t flags_of_word(const std::uint64_t* tiles, std::size_t word)
 inline void mark_contact_tile(State& state, int particle) {
   if (!state.contact_tiles.empty()) {
     const std::size_t tile = static_cast<std::size_t>(particle) / kContactTile;
-    std::atomic_ref(state.contact_tiles[tile / kTilesInWord])
-        .fetch_or(std::uint64_t{1} << (tile % kTilesInWord), std::memory_order_relaxed);
+    const std::uint64_t flag = std::uint64_t{1} << (tile % kTilesInWord);
+    if ((flags_of_word(state.contact_tiles.data(), tile / kTilesInWord) & flag) == 0) {
+      std::atomic_ref(state.contact_tiles[tile / kTilesInWord]).fetch_or(flag, std::memory_order_relaxed);
+    }
   }
 }
 

@@ -1,7 +1,6 @@
 #include "scenes/probe.h"
 
 #include "motion/initial_state.h"
-#include "scene/bands.h"
 #include "scenes/frames.h"
 #include "scenes/near_pairs.h"
 #include "search/bucket_search.h"
@@ -41,7 +40,7 @@ void Probe::place_tip(const Vector2& place, const Vector2& outward) {
 }
 
 void Probe::evaluate_contacts() {
-  clear_contact_forces(state_, whole_band(*scene_));
+  clear_contact_forces(state_, 0, static_cast<int>(scene_->particle_count()));
   evaluate_wall_contacts(*scene_, state_, workspace_, workers_);
 }
 

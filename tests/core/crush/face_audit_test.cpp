@@ -6,7 +6,6 @@
 
 #include "cellcrush/simulation.h"
 #include "cellcrush/state.h"
-#include "scene/bands.h"
 #include "scenes/evidence.h"
 #include "scenes/frames.h"
 #include "scenes/near_pairs.h"
@@ -96,7 +95,7 @@ TEST_P(FaceAudit, FindsEveryTouchThatPushesWithTheForceOfTheBuckets) {
         deepest = std::max(deepest, overlap.depth / thickness);
       }
     }
-    clear_contact_forces(state, whole_band(*scene));
+    clear_contact_forces(state, 0, static_cast<int>(scene->particle_count()));
     State reference = with_candidates_of_buckets(*scene, state);
     ContactWorkspace workspace;
     Workers workers(1);
