@@ -2,7 +2,6 @@
 
 #include <vector>
 
-#include "cellcrush/array_shape.h"
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
 
@@ -20,17 +19,6 @@ struct Columns {
   int axis = 0;                   ///< crush direction
   double begin = 0.0;             ///< mm, position of the impact end along the crush, undeformed
 };
-
-/// Their arrays, listed as those of the scene are (cellcrush/scene_arrays.h).
-template <class Visitor>
-void visit_arrays(const Columns& columns, Visitor&& visitor) {
-  const auto& [place, mass, wall_area, lower, share, axis, begin] = columns;
-  visitor("columns.place", place, Per::few);
-  visitor("columns.mass", mass, Per::few);
-  visitor("columns.wall_area", wall_area, Per::few);
-  visitor("columns.lower", lower, Shape(Per::particle, kPlates));
-  visitor("columns.share", share, Shape(Per::particle, kPlates));
-}
 
 /// Columns at a spacing of one cell. `pitch`: mean extent of a cell along the crush, mm. REQUIRES: a scene with plates.
 Columns divide_into_columns(const Scene& scene, double pitch);

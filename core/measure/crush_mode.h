@@ -2,7 +2,6 @@
 
 #include <vector>
 
-#include "cellcrush/array_shape.h"
 #include "cellcrush/sample.h"
 #include "measure/faces.h"
 
@@ -44,14 +43,6 @@ struct CollapseField {
   double width = 0.0;           ///< mm, across it
   double pitch = 0.0;           ///< mm, mean extent of a cell along the crush
 };
-
-/// Its arrays but the bits, listed as those of the scene are (cellcrush/scene_arrays.h).
-template <class Visitor>
-void visit_arrays(const CollapseField& field, Visitor&& visitor) {
-  const auto& [along, across, collapsed, length, width, pitch] = field;
-  visitor("field.along", along, Per::cell);
-  visitor("field.across", across, Per::cell);
-}
 
 /// Fraction of the cells that have collapsed; 0 without cells.
 double collapsed_fraction_of(const CollapseField& field);

@@ -3,7 +3,6 @@
 #include <span>
 #include <vector>
 
-#include "cellcrush/array_shape.h"
 #include "cellcrush/scene.h"
 
 namespace cellcrush {
@@ -17,16 +16,6 @@ struct Faces {
 
   [[nodiscard]] std::size_t count() const { return area.size(); }
 };
-
-/// Their arrays, listed as those of the scene are (cellcrush/scene_arrays.h).
-template <class Visitor>
-void visit_arrays(const Faces& faces, Visitor&& visitor) {
-  const auto& [offset, particles, area, centre] = faces;
-  visitor("cells.offset", offset, Per::cell);
-  visitor("cells.particles", particles, Shape(Per::element, kPlates, 2));
-  visitor("cells.area", area, Per::cell);
-  visitor("cells.centre", centre, Per::cell);
-}
 
 /// Traces the faces of the graph of particles and elements (scene/face_loops.h), without the outer one.
 /// REQUIRES: a planar drawing, in which elements meet only at particles.

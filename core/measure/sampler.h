@@ -1,6 +1,5 @@
 #pragma once
 
-#include "cellcrush/array_shape.h"
 #include "cellcrush/sample.h"
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
@@ -45,14 +44,6 @@ class Sampler {
   bool told_of_search_ = false;
   double next_look_;  ///< fraction of collapsed cells at which the crush mode is next evaluated
 };
-
-/// The arrays of a frame, listed as those of the scene are (cellcrush/scene_arrays.h).
-template <class Visitor>
-void visit_arrays(const FieldFrame& frame, Visitor&& visitor) {
-  const auto& [index, time, strain, position, plastic_fraction] = frame;
-  visitor("frame.position", position, Shape(Per::particle, kAlways, 2));
-  visitor("frame.plastic_fraction", plastic_fraction, Per::element);
-}
 
 /// Overwrites a frame with the positions and, for each element, the fraction of the section area that has yielded.
 /// REQUIRES: the frame is empty or of the same scene.

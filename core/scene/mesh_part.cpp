@@ -109,7 +109,7 @@ std::shared_ptr<Scene> build_mesh(const SceneSpec& part) {
 
 MeshMeasures measure_sound_mesh(const SceneSpec& part, const Scene& scene) {
   MeshMeasures measures;
-  measures.counts = count_mesh(scene);
+  measures.element_count = scene.element_count();
   measures.length = scene.length;
   measures.stable_step = scene.stable_step;
   measures.lightest_mass = *std::min_element(scene.mass.begin(), scene.mass.end());

@@ -6,7 +6,6 @@
 #include "cellcrush/problem.h"
 #include "cellcrush/scene.h"
 #include "cellcrush/scene_spec.h"
-#include "scene/array_counts.h"
 
 namespace cellcrush {
 
@@ -27,7 +26,7 @@ std::shared_ptr<Scene> build_mesh(const SceneSpec& part);
 
 /// Measures of a mesh on which the rest of a scene depends. Units mm, tonne, s, MPa.
 struct MeshMeasures {
-  ArrayCounts counts;   ///< of the mesh's arrays
+  std::size_t element_count = 0;
   double length = 0.0;  ///< envelope along the crush
   double stable_step = 0.0;
   double lightest_mass = 0.0;  ///< of a particle

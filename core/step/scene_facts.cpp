@@ -1,7 +1,6 @@
 #include "cellcrush/scene.h"
 #include "cellcrush/simulation.h"
 #include "measure/theory.h"
-#include "step/run_memory.h"
 #include "step/what_is_modelled.h"
 
 namespace cellcrush {
@@ -19,7 +18,6 @@ SceneFacts facts_of(const Scene& scene) {
   facts.step_count = scene.schedule.step_count;
   facts.sample_interval = scene.schedule.sample_interval;
   facts.frame_interval = scene.schedule.frame_interval;
-  facts.memory_bytes = memory_of_run(scene);
   facts.theory = theory_of(scene);
   facts.modelled = what_is_modelled(scene);
   return facts;

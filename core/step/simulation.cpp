@@ -144,7 +144,7 @@ double Simulation::strain() const {
 }
 
 void Simulation::visit_arrays(const std::function<void(const void*, std::size_t)>& visit) const {
-  const auto visit_array = [&visit](const char*, const auto& array, const Shape&) {
+  const auto visit_array = [&visit](const auto& array) {
     if (!array.empty()) {
       visit(array.data(), array.size() * sizeof(array[0]));
     }

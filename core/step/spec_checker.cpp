@@ -4,33 +4,17 @@
 #include <utility>
 
 #include "cellcrush/fidelity.h"
+#include "cellcrush/run_memory.h"
 #include "scene/check_spec.h"
 #include "scene/mesh_part.h"
 #include "scene/mesh_size.h"
 #include "scene/run_plan.h"
-#include "step/run_memory.h"
 
 namespace cellcrush {
 namespace {
 
 /// Most known meshes: as many as the last axis of a grid over the lattice may have values.
 constexpr std::size_t kMostMeshes = 64;
-
-std::int64_t most_memory_of(const SceneSpec& spec, const MeshMeasures& mesh, const RunPlan& plan) {
-  const double end_strain = end_strain_of(plan.plates, plan.schedule, mesh.length);
-  ArrayCounts counts = mesh.counts;
-  add_contact(plan.contact, plan.plates, counts);
-  if (!mesh.contact) {
-    return memory_of_run(counts, end_strain);
-  }
-  ArrayCounts by_faces = counts;
-  add_expected_faces(by_faces);
-  counts.has |= kBuckets;
-  const std::int64_t by_buckets = memory_of_run(counts, end_strain);
-  return spec.contact.search == ContactSpec::Search::faces
-             ? std::max(by_buckets, memory_of_run(by_faces, end_strain))
-             : by_buckets;
-}
 
 }  // namespace
 
@@ -52,9 +36,9 @@ SpecChecker::Verdict SpecChecker::check(const SceneSpec& given) {
   const MeshMeasures& mesh = mesh_of(mesh_part_of(spec)).measures;
   const RunPlan plan = plan_run(spec, mesh, verdict.problems);
   if (verdict.problems.empty()) {
-    verdict.element_count = static_cast<std::int64_t>(mesh.counts[Per::element]);
+    verdict.element_count = static_cast<std::int64_t>(mesh.element_count);
     verdict.step_count = plan.schedule.step_count;
-    verdict.most_memory_bytes = most_memory_of(spec, mesh, plan);
+    verdict.most_memory_bytes = most_memory_of_run(spec, verdict.element_count);
   }
   return verdict;
 }

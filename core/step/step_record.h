@@ -2,7 +2,6 @@
 
 #include <vector>
 
-#include "cellcrush/array_shape.h"
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
 #include "motion/integrate_motion.h"
@@ -25,16 +24,6 @@ struct StepRecord {
   ContactSums contacts;
   bool has_crossed = false;  ///< whether walls have crossed
 };
-
-/// Its arrays, listed as those of the scene are (cellcrush/scene_arrays.h).
-template <class Visitor>
-void visit_arrays(const StepRecord& record, Visitor&& visitor) {
-  const auto& [plates, plate, reach, of_rigid_bodies, moved, near, plastic_work, contacts, has_crossed] = record;
-  visitor("moved", moved, Per::moved_chunk);
-  visitor("near", near, Per::band);
-  visitor("plastic_work", plastic_work, Per::wall_chunk);
-  visitor("of_next_band", contacts.of_next_band, Per::few);
-}
 
 /// Prepares the record of a step that begins at `time`, s, when the impact plate has travelled by `travel`, mm.
 void begin_record(const Scene& scene, const State& state, double time, double travel, StepRecord& record);

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "beam/walls_workspace.h"
-#include "cellcrush/array_shape.h"
 #include "cellcrush/scene.h"
 #include "parallel/workers.h"
 #include "step/step_record.h"
@@ -32,20 +31,5 @@ struct Workspace {
   std::vector<StepRecord> records;   ///< of the steps in progress
   std::vector<int> near_plates;      ///< room for all particles; see NearCounts
 };
-
-/// Its arrays, listed as those of the scene are (cellcrush/scene_arrays.h). The walls' scratch is left out: one thread
-/// needs it for a chunk only.
-template <class Visitor>
-void visit_arrays(const Workspace& workspace, Visitor&& visitor) {
-  const auto& [shared, bands, records, near_plates] = workspace;
-  visit_arrays(shared.contact, visitor);
-  for (const StageWorkspace& of_thread : bands) {
-    visit_arrays(of_thread.contact, visitor);
-  }
-  for (const StepRecord& record : records) {
-    visit_arrays(record, visitor);
-  }
-  visitor("near_plates", near_plates, Per::particle);
-}
 
 }  // namespace cellcrush

@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <vector>
 
-#include "cellcrush/array_shape.h"
 #include "cellcrush/lane_vector.h"
 #include "cellcrush/state.h"
 
@@ -78,46 +77,5 @@ struct ContactWorkspace {
   Touches touches;
   std::vector<ActiveContact> active;  ///< of all parts
 };
-
-// The arrays of a workspace, listed as those of the scene are (cellcrush/scene_arrays.h).
-
-template <class Visitor>
-void visit_arrays(const Touches& touches, Visitor&& visitor) {
-  const auto& [start, end, known, share, depth, normal, viscous, slip, node, node_depth, node_normal] = touches;
-  visitor("touches.start", start, Per::touch_of_band);
-  visitor("touches.end", end, Per::touch_of_band);
-  visitor("touches.known", known, Per::touch_of_band);
-  visitor("touches.share", share, Per::touch_of_band);
-  visitor("touches.depth", depth, Per::touch_of_band);
-  visitor("touches.normal", normal, Per::touch_of_band);
-  visitor("touches.viscous", viscous, Per::touch_of_band);
-  visitor("touches.slip", slip, Per::touch_of_band);
-  visitor("touches.node", node, Per::touch_of_band);
-  visitor("touches.node_depth", node_depth, Per::touch_of_band);
-  visitor("touches.node_normal", node_normal, Per::touch_of_band);
-}
-
-template <class Visitor>
-void visit_arrays(const ContactPart& part, Visitor&& visitor) {
-  const auto& [awake, found, released, active] = part;
-  visitor("part.awake", awake, Per::candidate_of_band);
-  visitor("part.found", found, Per::few);
-  visitor("part.released", released, Per::touch_of_band);
-  visitor("part.active", active, Per::touch_of_band);
-}
-
-template <class Visitor>
-void visit_arrays(const ContactWorkspace& workspace, Visitor&& visitor) {
-  const auto& [parts, found, new_contacts, changes, before, touches, active] = workspace;
-  for (const ContactPart& part : parts) {
-    visit_arrays(part, visitor);
-  }
-  visitor("found", found, Per::few);
-  visitor("new_contacts", new_contacts, Per::few);
-  visitor("changes", changes, Per::few);
-  visit_touch_memory(before, Per::touch_of_band, visitor);
-  visit_arrays(touches, visitor);
-  visitor("active", active, Per::touch_of_band);
-}
 
 }  // namespace cellcrush

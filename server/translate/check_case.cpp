@@ -1,6 +1,7 @@
 #include "translate/check_case.h"
 
 #include "cellcrush/plausibility.h"
+#include "cellcrush/run_memory.h"
 #include "cellcrush/simulation.h"
 #include "translate/case_size.h"
 #include "translate/case_to_spec.h"
@@ -24,7 +25,6 @@ void describe(const SceneFacts& facts, v1::CheckCaseResponse& out) {
   out.set_stable_step_s(facts.stable_step);
   out.set_time_step_s(facts.time_step);
   out.set_step_count(facts.step_count);
-  out.set_predicted_memory_bytes(facts.memory_bytes);
   *out.mutable_theory() = to_proto(facts.theory);
   for (const auto& sentence : facts.modelled) out.add_modelled(sentence);
 }
@@ -63,6 +63,7 @@ CaseCheck check_case(const v1::Case& submitted, const std::function<void()>& bet
   out.meshes->know(reading.spec, *built.scene);
   const auto facts = facts_of(*built.scene);
   describe(facts, out.response);
+  out.response.set_predicted_memory_bytes(memory_of_run(reading.spec, *built.scene));
   *out.response.mutable_completed_case() = to_case(complete_spec(reading.spec, *built.scene));
   if (submitted.lattice().has_frame()) {
     restore_node_names(submitted.lattice().frame(),

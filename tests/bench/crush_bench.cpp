@@ -42,11 +42,11 @@ void add_cost(const CrushCost& cost, CrushCost& sum) {
 }
 
 /// The mean of as many crushes as there are iterations.
-void time_whole(benchmark::State& bench, const SceneSpec& spec, const std::string& target, bool list_arrays) {
+void time_whole(benchmark::State& bench, const SceneSpec& spec, const std::string& target) {
   CrushCost sum;
   for (auto _ : bench) {
     try {
-      const CrushCost cost = crush_apart(spec, target, list_arrays);
+      const CrushCost cost = crush_apart(spec, target);
       bench.SetIterationTime(cost.seconds);
       add_cost(cost, sum);
     } catch (const std::exception& error) {
@@ -72,10 +72,8 @@ void time_whole(benchmark::State& bench, const SceneSpec& spec, const std::strin
   bench.SetLabel(target);
 }
 
-void add(const std::string& name, const SceneSpec& spec, const std::string& target, int crushes = 1,
-         bool list_arrays = false) {
-  benchmark::RegisterBenchmark(name.c_str(),
-                               [=](benchmark::State& bench) { time_whole(bench, spec, target, list_arrays); })
+void add(const std::string& name, const SceneSpec& spec, const std::string& target, int crushes = 1) {
+  benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& bench) { time_whole(bench, spec, target); })
       ->Unit(benchmark::kMillisecond)
       ->UseManualTime()
       ->Iterations(crushes);
@@ -92,8 +90,7 @@ void add_all(const Flags&) {
     spec.output.sample_count = static_cast<int>(share * spec.output.sample_count);
     spec.output.frame_count = static_cast<int>(share * spec.output.frame_count);
     spec.loading.end_strain = kGrowthStrain;
-    add("cells/" + std::to_string(times), spec, simd_targets().front(), std::max(1, kCellsTimed / times),
-        times == kMostTimes);
+    add("cells/" + std::to_string(times), spec, simd_targets().front(), std::max(1, kCellsTimed / times));
   }
 }
 

@@ -8,9 +8,10 @@
 #include <variant>
 #include <vector>
 
-#include "bench/array_bytes.h"
 #include "bench/machine.h"
+#include "cellcrush/scene_arrays.h"
 #include "cellcrush/simd.h"
+#include "cellcrush/state.h"
 #include "scenes/frames.h"
 #include "worker/large_pages.h"
 #include "worker/stage_timer.h"
@@ -18,12 +19,12 @@
 namespace cellcrush::bench {
 namespace {
 
-void write_arrays(const Scene& scene, const State& state) {
-  const auto elements = static_cast<double>(scene.element_count());
-  std::fprintf(stderr, "%.0f elements, bytes an element:\n", elements);
-  for (const auto& [name, bytes] : array_bytes(scene, state)) {
-    if (bytes > elements) std::fprintf(stderr, "%8.1f %s\n", bytes / elements, name.c_str());
-  }
+template <class Arrays>
+double array_bytes(const Arrays& arrays) {
+  double bytes = 0.0;
+  visit_arrays(arrays,
+               [&bytes](const auto& array) { bytes += static_cast<double>(array.capacity() * sizeof(array[0])); });
+  return bytes;
 }
 
 /// What the program itself takes, text above all, is in memory when a few cells have been crushed in the same way.
@@ -40,7 +41,7 @@ void warm_up(SceneSpec spec) {
 }
 
 /// Samples and frames are taken as the case asks; a frame is dropped, as a worker does that has sent it.
-CrushCost crush(const SceneSpec& spec, const std::string& target, bool list_arrays) {
+CrushCost crush(const SceneSpec& spec, const std::string& target) {
   use_simd_target(target);
   warm_up(spec);
   CrushCost cost;
@@ -67,22 +68,20 @@ CrushCost crush(const SceneSpec& spec, const std::string& target, bool list_arra
   cost.strain = samples.back().strain;
   cost.stage_seconds = timer.seconds();
   cost.peak_bytes = greatest_resident_bytes() - cost.base_bytes;
-  for (const auto& [name, bytes] : array_bytes(*scene, simulation.state())) {
-    (name.starts_with("scene.") ? cost.scene_bytes : cost.state_bytes) += bytes;
-  }
-  if (list_arrays) write_arrays(*scene, simulation.state());
+  cost.scene_bytes = array_bytes(*scene);
+  cost.state_bytes = array_bytes(simulation.state());
   return cost;
 }
 
 }  // namespace
 
-CrushCost crush_apart(const SceneSpec& spec, const std::string& target, bool list_arrays) {
+CrushCost crush_apart(const SceneSpec& spec, const std::string& target) {
   int ends[2];
   if (pipe(ends) != 0) throw std::runtime_error("no pipe for a process of its own.");
   const pid_t child = fork();
   if (child == 0) {
     close(ends[0]);
-    const CrushCost cost = crush(spec, target, list_arrays);
+    const CrushCost cost = crush(spec, target);
     _exit(write(ends[1], &cost, sizeof(cost)) == sizeof(cost) ? 0 : 1);
   }
   close(ends[1]);

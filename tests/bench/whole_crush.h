@@ -23,9 +23,8 @@ struct CrushCost {
   double state_bytes = 0.0;  ///< of the state's arrays at the end
 };
 
-/// Crushes in a process of its own, so that its memory is nothing else's, by a kernel. `list_arrays` writes there what
-/// arrays take more than a byte an element, to standard error. Throws std::runtime_error when the crush did not reach
-/// its end.
-CrushCost crush_apart(const SceneSpec& spec, const std::string& target, bool list_arrays);
+/// Crushes in a process of its own, so that its memory is nothing else's, by a kernel. Throws
+/// std::runtime_error when the crush did not reach its end.
+CrushCost crush_apart(const SceneSpec& spec, const std::string& target);
 
 }  // namespace cellcrush::bench

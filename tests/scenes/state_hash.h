@@ -16,7 +16,7 @@ inline std::uint64_t hash_of(const State& state) {
       hash = (hash ^ bytes[i]) * 1099511628211ULL;
     }
   };
-  visit_fields(state, [&](const char*, const auto& field, const Shape&) {
+  visit_fields(state, [&](const auto& field) {
     if constexpr (requires { field.begin(); }) {
       for (const auto& entry : field) {
         add(entry);

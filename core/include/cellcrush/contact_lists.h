@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "cellcrush/array_shape.h"
 #include "cellcrush/lane_vector.h"
 #include "cellcrush/tuning.h"
 #include "cellcrush/vector.h"
@@ -85,50 +84,26 @@ struct ContactTotals {
   double deepest_birth = 0.0;        ///< the same, in the step in which a contact first touched
 };
 
-/// See visit_fields in state.h.
+// See visit_fields in state.h, which calls these two one after the other.
+
 template <class L, class Visitor>
-void visit_search_fields(L& lists, Visitor&& visitor) {
+void visit_search_fields(L& lists, Visitor&& visit) {
   auto& [candidate_ball, candidate_segment, candidate_reach, candidate_count, searched_position, search_count,
          face_list, face_clearance, face_next_check_travel, face_searched_position, group_travel,
          group_next_check_travel, batch_group, batch_count, face_recheck_count, face_search_count, touching, released,
          candidate_next_check_travel] = lists;
-  visitor("candidate_ball", candidate_ball, Per::candidate);
-  visitor("candidate_segment", candidate_segment, Per::candidate);
-  visitor("candidate_reach", candidate_reach, Per::candidate);
-  visitor("candidate_count", candidate_count, Per::few);
-  visitor("searched_position", searched_position, Shape(Per::particle, kBuckets));
-  visitor("search_count", search_count, Per::few);
-  visitor("face_list", face_list, Per::face);
-  visitor("face_clearance", face_clearance, Per::face);
-  visitor("face_next_check_travel", face_next_check_travel, Per::face);
-  visitor("face_searched_position", face_searched_position, Per::corner);
-  visitor("group_travel", group_travel, Per::face_group);
-  visitor("group_next_check_travel", group_next_check_travel, Per::face_group);
-  visitor("batch_group", batch_group, Shape(Per::candidate_batch, kFaces));
-  visitor("batch_count", batch_count, Per::few);
-  visitor("face_recheck_count", face_recheck_count, Per::few);
-  visitor("face_search_count", face_search_count, Per::few);
-}
-
-/// The same for what is remembered of touches, which are counted as `per`.
-template <class M, class Visitor>
-void visit_touch_memory(M& touching, Per per, Visitor&& visitor) {
-  auto& [ball, segment, reach, place, linked, side, pushed, friction] = touching;
-  visitor("touching_ball", ball, per);
-  visitor("touching_segment", segment, per);
-  visitor("touching_reach", reach, per);
-  visitor("touching_place", place, per);
-  visitor("touching_linked", linked, per);
-  visitor("touching_side", side, per);
-  visitor("touching_pushed", pushed, Shape(per, kWallFriction));
-  visitor("touching_friction", friction, Shape(per, kWallFriction));
+  const auto list = [&visit](auto&... fields) { (visit(fields), ...); };
+  list(candidate_ball, candidate_segment, candidate_reach, candidate_count, searched_position, search_count, face_list,
+       face_clearance, face_next_check_travel, face_searched_position, group_travel, group_next_check_travel,
+       batch_group, batch_count, face_recheck_count, face_search_count);
 }
 
 template <class L, class Visitor>
-void visit_touch_fields(L& lists, Visitor&& visitor) {
-  visit_touch_memory(lists.touching, Per::touch, visitor);
-  visitor("released", lists.released, Per::few);
-  visitor("candidate_next_check_travel", lists.candidate_next_check_travel, Per::candidate);
+void visit_touch_fields(L& lists, Visitor&& visit) {
+  auto& [ball, segment, reach, place, linked, side, pushed, friction] = lists.touching;
+  const auto list = [&visit](auto&... fields) { (visit(fields), ...); };
+  list(ball, segment, reach, place, linked, side, pushed, friction);
+  list(lists.released, lists.candidate_next_check_travel);
 }
 
 }  // namespace cellcrush

@@ -49,7 +49,6 @@ struct SceneFacts {
   std::int64_t step_count = 0;
   std::int64_t sample_interval = 0;  ///< steps
   std::int64_t frame_interval = 0;   ///< steps
-  std::int64_t memory_bytes = 0;     ///< of scene and state
   Theory theory;
   std::vector<std::string> modelled;  ///< what is modelled and what is left out, one sentence each
 };

@@ -23,11 +23,9 @@ class SpecChecker {
 
   struct Verdict {
     Problems problems;
-    std::int64_t element_count = 0;  ///< 0 if there are problems
-    std::int64_t step_count = 0;     ///< 0 if there are problems
-    /// As in SceneFacts, or larger: faces are not traced, and the mesh is not cut into bands. Thick ends and pairs with
-    /// a limited reach are left out. 0 if there are problems.
-    std::int64_t most_memory_bytes = 0;
+    std::int64_t element_count = 0;      ///< 0 if there are problems
+    std::int64_t step_count = 0;         ///< 0 if there are problems
+    std::int64_t most_memory_bytes = 0;  ///< most_memory_of_run; 0 if there are problems
   };
   Verdict check(const SceneSpec& given);
 

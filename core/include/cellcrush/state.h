@@ -4,7 +4,6 @@
 #include <type_traits>
 #include <vector>
 
-#include "cellcrush/array_shape.h"
 #include "cellcrush/byte_stream.h"
 #include "cellcrush/contact_lists.h"
 #include "cellcrush/lane_vector.h"
@@ -18,7 +17,6 @@ namespace cellcrush {
 template <class T>
 struct FibreHistory {
   using Bits = std::conditional_t<sizeof(T) == sizeof(std::uint64_t), std::uint64_t, std::uint32_t>;
-  static constexpr unsigned kPrecision = sizeof(T) == sizeof(double) ? kDoubleFibres : kSingleFibres;
 
   LaneVector<T> stress;          ///< E x F, sigma of E6
   LaneVector<T> back_stress;     ///< E x F, centre of the yield surface (alpha of E6); empty without hardening
@@ -116,93 +114,56 @@ struct State {
   std::vector<std::uint64_t> contact_tiles;
 };
 
-template <class F, class Visitor>
-void visit_fibre_fields(F& fibres, Visitor&& visitor) {
-  auto& [stress, back_stress, plastic_strain, yielded, section_moment_residual, section_flexibility, start_moment,
-         end_moment] = fibres;
-  constexpr unsigned kPrecision = F::kPrecision;
-  visitor("stress", stress, Shape(Per::fibre, kPrecision));
-  visitor("back_stress", back_stress, Shape(Per::fibre, kPrecision | kHardening));
-  visitor("plastic_strain", plastic_strain, Shape(Per::fibre, kPrecision | kHardening));
-  visitor("yielded", yielded, Shape(Per::element, kPrecision | kNoHardening));
-  visitor("section_moment_residual", section_moment_residual, Shape(Per::section, kPrecision | kForceBased));
-  visitor("section_flexibility", section_flexibility, Shape(Per::section, kPrecision | kForceBased));
-  visitor("start_moment", start_moment, Shape(Per::element, kPrecision | kForceBased));
-  visitor("end_moment", end_moment, Shape(Per::element, kPrecision | kForceBased));
-}
-
-/// Calls visitor(name, field, shape) for every field of the state, in the order of a checkpoint; the shape gives the
-/// number of entries of an array. This is the only list of the state: checkpoint, hash, memory and large pages use it.
-/// It decomposes the state, so a new field does not compile until it is listed. A field is an arithmetic value or a
-/// vector of trivially copyable values.
+/// Calls visit(field) for every field of the state, in the order of a checkpoint. This is the only list of the state:
+/// checkpoint, hash, memory and large pages use it. It decomposes the state, so a new field does not compile until it
+/// is listed. A field is an arithmetic value, a structure of them without gaps, or a vector of either.
 template <class S, class Visitor>
-void visit_fields(S& state, Visitor&& visitor) {
+void visit_fields(S& state, Visitor&& visit) {
   auto& [step, time, position, velocity, rotation, spin, rigid_centre, rigid_velocity, rigid_rotation, rigid_spin,
          impact_travel, impact_impulse, support_impulse, axis, length, inverse_length, fibres, single_fibres,
          wall_force, wall_moment, internal_force, internal_moment, load_force, load_moment, contacts, crossing_step,
          contact_force, friction_force, impact_friction, support_friction, impact_force, support_force, contact_totals,
          ledger, derived_tiles] = state;
-  visitor("step", step, Per::few);
-  visitor("time", time, Per::few);
-  visitor("position", position, Per::particle);
-  visitor("velocity", velocity, Per::particle);
-  visitor("rotation", rotation, Per::particle);
-  visitor("spin", spin, Per::particle);
-  visitor("rigid_centre", rigid_centre, Per::rigid_body);
-  visitor("rigid_velocity", rigid_velocity, Per::rigid_body);
-  visitor("rigid_rotation", rigid_rotation, Per::rigid_body);
-  visitor("rigid_spin", rigid_spin, Per::rigid_body);
-  visitor("impact_travel", impact_travel, Per::few);
-  visitor("impact_impulse", impact_impulse, Per::few);
-  visitor("support_impulse", support_impulse, Per::few);
-  visitor("axis", axis, Per::element);
-  visitor("length", length, Per::element);
-  visitor("inverse_length", inverse_length, Per::element);
-  visit_fibre_fields(fibres, visitor);
-  visit_fibre_fields(single_fibres, visitor);
-  visitor("wall_force", wall_force, Shape(Per::wall, kAlways, 2));
-  visitor("wall_moment", wall_moment, Shape(Per::wall, kAlways, 2));
-  visitor("internal_force", internal_force, Per::particle);
-  visitor("internal_moment", internal_moment, Per::particle);
-  visitor("load_force", load_force, Shape(Per::particle, kLoads));
-  visitor("load_moment", load_moment, Shape(Per::particle, kLoads));
+  const auto list = [&visit](auto&... fields) { (visit(fields), ...); };
+  const auto list_fibres = [&list](auto& history) {
+    auto& [stress, back_stress, plastic_strain, yielded, section_moment_residual, section_flexibility, start_moment,
+           end_moment] = history;
+    list(stress, back_stress, plastic_strain, yielded, section_moment_residual, section_flexibility, start_moment,
+         end_moment);
+  };
+  list(step, time, position, velocity, rotation, spin, rigid_centre, rigid_velocity, rigid_rotation, rigid_spin,
+       impact_travel, impact_impulse, support_impulse, axis, length, inverse_length);
+  list_fibres(fibres);
+  list_fibres(single_fibres);
+  list(wall_force, wall_moment, internal_force, internal_moment, load_force, load_moment);
   for (auto& lists : contacts) {
-    visit_search_fields(lists, visitor);
+    visit_search_fields(lists, visit);
   }
-  visitor("crossing_step", crossing_step, Per::few);
+  list(crossing_step);
   for (auto& lists : contacts) {
-    visit_touch_fields(lists, visitor);
+    visit_touch_fields(lists, visit);
   }
-  visitor("contact_force", contact_force, Per::particle);
-  visitor("friction_force", friction_force, Shape(Per::particle, kFriction));
-  visitor("impact_friction", impact_friction, Shape(Per::particle, kPlateFriction));
-  visitor("support_friction", support_friction, Shape(Per::particle, kPlateFriction));
-  visitor("impact_force", impact_force, Per::few);
-  visitor("support_force", support_force, Per::few);
-  visitor("contact_stored", contact_totals.stored, Per::few);
-  visitor("contact_count", contact_totals.count, Per::few);
-  visitor("deepest_penetration", contact_totals.deepest_penetration, Per::few);
-  visitor("deepest_birth", contact_totals.deepest_birth, Per::few);
-  visitor("ledger", ledger, Per::few);
+  list(contact_force, friction_force, impact_friction, support_friction, impact_force, support_force, contact_totals,
+       ledger);
 }
 
 /// The same for the arrays alone, the derived ones too.
 template <class Visitor>
-void visit_arrays(const State& state, Visitor&& visitor) {
-  visit_fields(state, [&visitor](const char* name, const auto& field, Shape shape) {
+void visit_arrays(const State& state, Visitor&& visit) {
+  visit_fields(state, [&visit](const auto& field) {
     if constexpr (requires { field.data(); }) {
-      visitor(name, field, shape);
+      visit(field);
     }
   });
-  visitor("contact_tiles", state.contact_tiles, Per::few);
+  visit(state.contact_tiles);
 }
 
 /// Every field in its memory representation, for the same build on the same kind of processor.
 inline void put_state(ByteWriter& writer, const State& state) {
-  visit_fields(state, [&writer](const char*, const auto& field, Shape) { writer.put(field); });
+  visit_fields(state, [&writer](const auto& field) { writer.put(field); });
 }
 inline void take_state(ByteReader& reader, State& state) {
-  visit_fields(state, [&reader](const char*, auto& field, Shape) { reader.take(field); });
+  visit_fields(state, [&reader](auto& field) { reader.take(field); });
 }
 
 }  // namespace cellcrush

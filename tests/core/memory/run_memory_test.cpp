@@ -1,5 +1,5 @@
 // Predicted memory of runs against what becomes resident, from before the scene is built until the crush ends.
-#include "step/run_memory.h"
+#include "cellcrush/run_memory.h"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -73,7 +73,7 @@ Memory measure(const SceneSpec& spec) {
   Memory memory;
   memory.resident = crush(spec) - before;
   const auto scene = scenes::build(spec);
-  memory.predicted = static_cast<double>(memory_of_run(*scene));
+  memory.predicted = static_cast<double>(memory_of_run(spec, *scene));
   memory.elements = static_cast<double>(scene->element_count());
   return memory;
 }

@@ -8,9 +8,9 @@
 #include <string>
 
 #include "cellcrush/presets.h"
+#include "cellcrush/run_memory.h"
 #include "cellcrush/simulation.h"
 #include "scenes/frames.h"
-#include "step/run_memory.h"
 
 namespace cellcrush {
 namespace {
@@ -23,22 +23,17 @@ std::string text_of(const Problems& problems) {
   return text;
 }
 
-/// The checker traces no faces: their groups may hold fewer particles, the search may be by buckets after all, and the
-/// lattice may fall into bands. It does not know of thick ends and pairs with a limited reach.
-void expect_memory_bound(const SpecChecker::Verdict& verdict, const SceneResult& built) {
+/// The checker does not know whether contacts are searched by buckets after all, nor whether the lattice is cut into
+/// bands.
+void expect_memory_bound(const SpecChecker::Verdict& verdict, const SceneSpec& spec, const SceneResult& built) {
   if (!built.scene) {
     EXPECT_EQ(verdict.most_memory_bytes, 0);
     return;
   }
-  ArrayCounts counts = counts_of(*built.scene);
-  counts[Per::limited_pair] = 0;
-  counts[Per::corner] -= std::min(counts[Per::corner], counts[Per::thick_end]);
-  counts[Per::thick_end] = 0;
-  const double strain = end_strain_of(built.scene->plates, built.scene->schedule, built.scene->length);
-  const auto exact = static_cast<double>(memory_of_run(counts, strain));
+  const auto exact = static_cast<double>(memory_of_run(spec, *built.scene));
   const auto most = static_cast<double>(verdict.most_memory_bytes);
   EXPECT_GE(most, exact);
-  EXPECT_LE(most, built.scene->bands.size() > 1 ? 1.6 * exact : 1.1 * exact);
+  EXPECT_LE(most, built.scene->bands.size() > 1 ? 1.6 * exact : 1.25 * exact);
 }
 
 void expect_same_verdict(SpecChecker& checker, const SceneSpec& spec) {
@@ -48,7 +43,7 @@ void expect_same_verdict(SpecChecker& checker, const SceneSpec& spec) {
   const SceneFacts facts = built.scene ? facts_of(*built.scene) : SceneFacts();
   EXPECT_EQ(verdict.element_count, facts.element_count);
   EXPECT_EQ(verdict.step_count, facts.step_count);
-  expect_memory_bound(verdict, built);
+  expect_memory_bound(verdict, spec, built);
 }
 
 using Change = std::function<void(SceneSpec&)>;

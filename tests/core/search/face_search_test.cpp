@@ -219,15 +219,11 @@ TEST(FaceSearch, ACopyOfAStateGoesOnWithTheSameBits) {
     advance_step(*scene, state, nullptr);
   }
   State copy;
-  visit_fields(copy, [&](const char* name, auto& field, const Shape&) {
-    visit_fields(state, [&](const char* other, auto& value, const Shape&) {
-      if constexpr (std::is_same_v<decltype(field), decltype(value)>) {
-        if (std::string(name) == other) {
-          field = value;
-        }
-      }
-    });
-  });
+  std::string bytes;
+  ByteWriter writer(bytes);
+  put_state(writer, state);
+  ByteReader reader(bytes);
+  take_state(reader, copy);
   for (int i = 0; i < 600; ++i) {
     advance_step(*scene, state, nullptr);
     advance_step(*scene, copy, nullptr);

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+
+#include "cellcrush/scene.h"
+#include "cellcrush/scene_spec.h"
+
+namespace cellcrush {
+
+// The memory of a run, predicted: the bytes that become resident from before the scene is built until the crush ends.
+// They are proportional to the elements, so a specimen of a few cells of the same spec is built, and its bytes are
+// scaled.
+//
+// Counted: the arrays of scene and state, by the lists that checkpoint, hash and large pages go by; candidates and
+// touches, which grow with the strain; cells, columns and frames; the heap's reserve.
+// Not counted: the program, its libraries and threads; samples and frames that a caller keeps; copies of the state
+// while a checkpoint is written; scratch of a second thread; what sorts or builds for a while.
+//
+// tests/core/memory/run_memory_test.cpp holds the prediction against resident bytes.
+
+/// Memory of a run, bytes. REQUIRES: `scene` was built from `spec`.
+std::int64_t memory_of_run(const SceneSpec& spec, const Scene& scene);
+
+/// The same before the scene is built, or more: contacts may be searched by buckets after all, and a lattice that is
+/// cut into bands needs less. REQUIRES: a spec without problems, and the number of its elements.
+std::int64_t most_memory_of_run(const SceneSpec& spec, std::int64_t elements);
+
+}  // namespace cellcrush
