@@ -11,7 +11,6 @@
 #include "motion/rigid_motion.h"
 #include "search/find_contacts.h"
 #include "step/advance_wavefront.h"
-#include "step/stage_scope.h"
 #include "step/stages.h"
 #include "touch/contact_tiles.h"
 

@@ -13,7 +13,6 @@
 #include "search/face_search.h"
 #include "search/find_contacts.h"
 #include "search/merge_band_contacts.h"
-#include "step/stage_scope.h"
 #include "step/stages.h"
 #include "touch/contact_tiles.h"
 

@@ -1,9 +1,103 @@
+#include "cellcrush/contact_faces.h"
 #include "cellcrush/scene.h"
 #include "cellcrush/simulation.h"
 #include "measure/theory.h"
-#include "step/what_is_modelled.h"
+#include "scene/check_spec.h"
+#include "section/rule_factors.h"
 
 namespace cellcrush {
+namespace {
+
+std::string walls_text(const Scene& scene) {
+  return "Walls: Euler beams of constant section, large rotation, " +
+         std::string(scene.section.force_based ? "force-based, " : "displacement-based, ") +
+         std::to_string(scene.section.section_count()) + " x " + std::to_string(scene.section.depth_count()) +
+         " integration points per element" +
+         (has_known_counts(scene.section)
+              ? "."
+              : "; these are computed one element at a time, so the run takes up to ten times as long. "
+                "Force-based 4 x 6 and displacement-based 2 x 6 points are computed side by side "
+                "(section.axial_points, section.depth_points).");
+}
+
+std::string fibres_text(const Scene& scene) {
+  const std::string law =
+      scene.has_hardening()
+          ? "Fibres: bilinear with mixed hardening; each stores its back stress and accumulated plastic strain"
+          : "Fibres: perfectly plastic; each stores only its stress";
+  return law +
+         (scene.single_fibres
+              ? ", in single precision, which halves the memory and adds no error beyond the scatter between seeds."
+              : ", in double precision.");
+}
+
+std::string friction_text(double friction) {
+  return friction > 0.0 ? "Coulomb friction, coefficient " + to_text(friction) + "." : "frictionless.";
+}
+
+std::string search_text(const Scene& scene) {
+  using Premise = ContactFaces::Premise;
+  switch (scene.faces.premise) {
+    case Premise::holds:
+      return "by the faces of the lattice: it is connected, planar and closed, so only walls that border the same face "
+             "can touch. A face or a pair is rechecked once its gap may have closed.";
+    case Premise::several_parts: return "by buckets in space, because the lattice has separate parts.";
+    case Premise::not_closed: return "by buckets in space, because some walls do not close a face.";
+    case Premise::not_planar: return "by buckets in space, because walls cross without a joint.";
+    case Premise::no_contact:
+    case Premise::not_asked: break;
+  }
+  return "by buckets in space, as requested (contact.search).";
+}
+
+std::string step_text(const Scene& scene) {
+  switch (scene.schedule.bound) {
+    case StepBound::asked_for: return "as requested (numerics.time_step_s).";
+    case StepBound::elements: return "0.9 of the stability limit of the lightest, stiffest element.";
+    case StepBound::plate_travel:
+      return "the time in which the plate moves by one twentieth of the thinnest wall's thickness.";
+    case StepBound::contacts: return "0.9 of the stability limit of a row of the lightest particles between contacts.";
+    case StepBound::stacked_walls: break;
+  }
+  return "limited by contacts of walls stacked along the crush direction, which oscillate and would create energy.";
+}
+
+/// What is modelled and what is left out, one sentence each.
+std::vector<std::string> what_is_modelled(const Scene& scene) {
+  std::vector<std::string> lines = {walls_text(scene), fibres_text(scene)};
+  if (scene.contact.present) {
+    lines.push_back("Contact between walls: penalty, ball to capsule, " + friction_text(scene.contact.friction));
+    lines.push_back("Contacts are searched " + search_text(scene));
+  } else {
+    lines.emplace_back("Contact between walls: none, as requested (lattice.frame.self_contact).");
+  }
+  lines.emplace_back(scene.constant_area
+                         ? "Cross-section: walls that shorten keep their cross-sectional area."
+                         : "Cross-section: walls that shorten keep their volume and their in-plane thickness.");
+  if (scene.plates.present) {
+    lines.push_back("Plates: rigid, unilateral, not meshed, " + friction_text(scene.plates.friction));
+  }
+  if (scene.rigid.count() > 0) {
+    lines.push_back(
+        "Stiff cells: rigid, in " + std::to_string(scene.rigid.count()) +
+        (scene.rigid.count() == 1 ? " body" : " bodies") +
+        ", because they hardly bend among weak cells; their interior is not meshed and does not limit the step.");
+  }
+  lines.push_back("Step: " + step_text(scene));
+  if (scene.mass_scaling.mass * scene.mass_scaling.rotary > 1.0) {
+    lines.push_back("Masses: fictitious, " + to_text(scene.mass_scaling.mass) +
+                    " times the real ones (rotary inertia " +
+                    to_text(scene.mass_scaling.mass * scene.mass_scaling.rotary) + " times); for slow crushes only.");
+  }
+  if (!scene.fidelity.empty()) {
+    lines.push_back(scene.fidelity);
+  }
+  lines.emplace_back("Symmetry: not used; round-off makes the halves of a symmetric lattice deform differently.");
+  lines.emplace_back("Not modelled: fracture, strain-rate dependence, out-of-plane motion.");
+  return lines;
+}
+
+}  // namespace
 
 SceneFacts facts_of(const Scene& scene) {
   SceneFacts facts;

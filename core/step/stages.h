@@ -4,11 +4,31 @@
 #include <vector>
 
 #include "cellcrush/scene.h"
+#include "cellcrush/stage.h"
 #include "cellcrush/state.h"
 #include "step/step_record.h"
 #include "step/workspace.h"
 
 namespace cellcrush {
+
+/// Reports the stages of a step to an observer, if there is one.
+class StageScope {
+ public:
+  explicit StageScope(StageObserver* observer) : observer_(observer) {}
+  void begin(Stage stage) const {
+    if (observer_ != nullptr) {
+      observer_->begin(stage);
+    }
+  }
+  void end_step() const {
+    if (observer_ != nullptr) {
+      observer_->end_step();
+    }
+  }
+
+ private:
+  StageObserver* observer_;
+};
 
 // The stages of a step for one band of the lattice; a small lattice is a single band. advance_step does all bands stage
 // by stage, advance_wavefront does all stages band by band.

@@ -245,7 +245,7 @@ store::StateChange JobRunner::given_up(const store::StoredJob& stored, store::St
   // The next daemon ends it.
   if (is_cancelled && run.daemons_end.stop_requested()) return {};
   // A cancelled job ends even if it was to be suspended or the disk is nearly full.
-  const Interruptions wishes =
+  const Interruptions interruptions =
       is_cancelled ? Interruptions{run.daemons_end, {}, run.interruptions.cancel} : run.interruptions;
   worker::Order order = order_of(stored);
   auto& end = *order.mutable_given_up();
@@ -257,7 +257,8 @@ store::StateChange JobRunner::given_up(const store::StoredJob& stored, store::St
   }
   try {
     parts_.folder.make_job_folder(stored.number);
-    const auto exit = parts_.executor.run(parts_.folder.job_folder(stored.number), order, events_of(stored), wishes);
+    const auto exit =
+        parts_.executor.run(parts_.folder.job_folder(stored.number), order, events_of(stored), interruptions);
     const bool has_result = is_last_word(exit) && exit.final->has_summary();
     const bool was_left = exit.kind == WorkerExit::Kind::stopped || exit.kind == WorkerExit::Kind::suspended;
     if (was_left && !is_last_word(exit) && is_cancelled) return {};

@@ -29,13 +29,13 @@ int spawn(const std::filesystem::path& program, const store::JobFolder& folder, 
   posix_spawn_file_actions_addclosefrom_np(&actions, STDERR_FILENO + 1);
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
-  sigset_t wishes;
+  sigset_t signals;
   sigset_t all;
-  sigemptyset(&wishes);
-  sigaddset(&wishes, worker::kSuspendSignal);
-  sigaddset(&wishes, worker::kCancelSignal);
+  sigemptyset(&signals);
+  sigaddset(&signals, worker::kSuspendSignal);
+  sigaddset(&signals, worker::kCancelSignal);
   sigfillset(&all);
-  posix_spawnattr_setsigmask(&attributes, &wishes);
+  posix_spawnattr_setsigmask(&attributes, &signals);
   posix_spawnattr_setsigdefault(&attributes, &all);
   // A separate process group, so that Ctrl-C at the daemon's terminal reaches the daemon only.
   posix_spawnattr_setpgroup(&attributes, 0);

@@ -188,7 +188,7 @@ void Scheduler::hold_for_low_disk(const std::optional<std::string>& reason) {
   {
     const MutexLock lock(mutex_);
     if (std::exchange(low_disk_, reason.has_value()) == reason.has_value() || !reason) return;
-    for (auto& [job, wishes] : running_) leave.push_back(wishes.leave);
+    for (auto& [job, running] : running_) leave.push_back(running.leave);
   }
   for (auto& source : leave) source.request_stop();
 }
@@ -251,15 +251,15 @@ Scheduler::Running& Scheduler::begin(std::int64_t job) {
 }
 
 void Scheduler::run(const store::QueuedJob& taken, const std::stop_token& stop) {
-  Running wishes;
+  Running running;
   {
     const MutexLock lock(mutex_);
-    wishes = running_[taken.job];
+    running = running_[taken.job];
   }
   const int extra = take_cores(taken);
-  const std::stop_callback leave_at_the_end(stop, [&wishes] { wishes.leave.request_stop(); });
+  const std::stop_callback leave_at_the_end(stop, [&running] { running.leave.request_stop(); });
   const bool again = parts_.runner.run(
-      taken.job, 1 + extra, {wishes.leave.get_token(), wishes.suspend.get_token(), wishes.cancel.get_token()}, stop);
+      taken.job, 1 + extra, {running.leave.get_token(), running.suspend.get_token(), running.cancel.get_token()}, stop);
   {
     const MutexLock lock(mutex_);
     running_.erase(taken.job);

@@ -39,11 +39,11 @@ WorkerFollower::WorkerFollower(const store::JobFolder& folder, const WorkerEvent
                                const Interruptions& interruptions, std::chrono::milliseconds stall_limit)
     : events_(events), interruptions_(interruptions), stall_limit_(stall_limit), reader_(existing(folder.reports())) {
   // Otherwise a request is seen at the next reading.
-  wishes_ = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
+  requested_ = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
 }
 
 WorkerFollower::~WorkerFollower() {
-  if (wishes_ >= 0) close(wishes_);
+  if (requested_ >= 0) close(requested_);
 }
 
 bool WorkerFollower::catch_up() { return read_reports(false) != Reading::broken; }
@@ -73,7 +73,7 @@ WorkerFollower::Reading WorkerFollower::read_reports(bool live) {
 WorkerExit WorkerFollower::follow(WorkerProcess& process) {
   final_.reset();
   last_sign_ = Clock::now();
-  const auto wake = [this] { eventfd_write(wishes_, 1); };
+  const auto wake = [this] { eventfd_write(requested_, 1); };
   const std::stop_callback on_stop(interruptions_.stop, wake);
   const std::stop_callback on_suspend(interruptions_.suspend, wake);
   const std::stop_callback on_cancel(interruptions_.cancel, wake);
@@ -95,13 +95,13 @@ WorkerExit WorkerFollower::follow(WorkerProcess& process) {
 }
 
 void WorkerFollower::wait(const WorkerProcess& process) const {
-  std::array<pollfd, 2> waiting = {pollfd{process.descriptor(), POLLIN, 0}, pollfd{wishes_, POLLIN, 0}};
+  std::array<pollfd, 2> waiting = {pollfd{process.descriptor(), POLLIN, 0}, pollfd{requested_, POLLIN, 0}};
   const auto interval = events_.watched() ? kLookForWatchers : kLookAgain;
   const auto since_last_moment = Clock::now().time_since_epoch() % interval;
   const auto to_next_moment = std::chrono::ceil<std::chrono::milliseconds>(interval - since_last_moment);
   poll(waiting.data(), waiting.size(), static_cast<int>(to_next_moment.count()));
   eventfd_t none = 0;
-  if (waiting[1].revents != 0) eventfd_read(wishes_, &none);
+  if (waiting[1].revents != 0) eventfd_read(requested_, &none);
 }
 
 void WorkerFollower::forward_requests(const WorkerProcess& process) {

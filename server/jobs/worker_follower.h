@@ -42,7 +42,7 @@ class WorkerFollower {
   const WorkerEvents& events_;
   const Interruptions& interruptions_;
   std::chrono::milliseconds stall_limit_;
-  int wishes_ = -1;  ///< eventfd, readable once there is a request
+  int requested_ = -1;  ///< eventfd, readable once there is a request
   worker::ReportLogReader reader_;
   worker::Report report_;  ///< the current report; its memory is reused
   std::optional<worker::Final> final_;

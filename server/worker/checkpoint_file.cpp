@@ -19,21 +19,28 @@ namespace {
 // "CELLCRUSH CHECKPOINT 2 CRC-32 SIZE\n", then a Checkpoint of that many bytes.
 constexpr const char* kTitle = "CELLCRUSH CHECKPOINT 2";
 
-std::uint64_t crc_of(const std::string& bytes) {
-  return crc32_z(0, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
+std::string head_of(const std::string& bytes) {
+  const auto crc = crc32_z(0, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
+  return std::string(kTitle) + " " + std::to_string(crc) + " " + std::to_string(bytes.size());
 }
 
-void write_file(const std::filesystem::path& path, const std::string& bytes) {
-  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
-  if (file < 0) store::throw_file_error(path, "written", errno);
-  int error = 0;
-  for (std::size_t done = 0; done < bytes.size() && error == 0;) {
+// Returns 0 or errno.
+int write_all(int file, const std::string& bytes) {
+  for (std::size_t done = 0; done < bytes.size();) {
     const auto written = write(file, bytes.data() + done, bytes.size() - done);
     if (written >= 0)
       done += static_cast<std::size_t>(written);
     else if (errno != EINTR)
-      error = errno;
+      return errno;
   }
+  return 0;
+}
+
+void write_file(const std::filesystem::path& path, const std::string& head, const std::string& bytes) {
+  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
+  if (file < 0) store::throw_file_error(path, "written", errno);
+  int error = write_all(file, head);
+  if (error == 0) error = write_all(file, bytes);
   if (close(file) != 0 && error == 0) error = errno;
   if (error != 0) store::throw_file_error(path, "written", error);
 }
@@ -50,10 +57,8 @@ Reading read(const std::filesystem::path& path, const Checkpoint::Origin& wanted
   std::string head;
   if (!std::getline(file, head)) return {std::nullopt, name + " is empty."};
   const std::string bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  const std::string whole =
-      std::string(kTitle) + " " + std::to_string(crc_of(bytes)) + " " + std::to_string(bytes.size());
   Reading out;
-  if (head != whole || !out.checkpoint.emplace().ParseFromString(bytes)) {
+  if (head != head_of(bytes) || !out.checkpoint.emplace().ParseFromString(bytes)) {
     out.checkpoint.reset();
     out.refused = name + " is damaged.";
   } else if (out.checkpoint->origin().SerializeAsString() != wanted.SerializeAsString()) {
@@ -69,9 +74,7 @@ Reading read(const std::filesystem::path& path, const Checkpoint::Origin& wanted
 
 void write_checkpoint(const store::JobFolder& folder, const Checkpoint& checkpoint) {
   const std::string bytes = checkpoint.SerializeAsString();
-  std::string file = std::string(kTitle) + " " + std::to_string(crc_of(bytes)) + " " + std::to_string(bytes.size());
-  file += "\n" + bytes;
-  write_file(folder.partial_checkpoint(), file);
+  write_file(folder.partial_checkpoint(), head_of(bytes) + "\n", bytes);
   std::error_code none_yet;
   std::filesystem::rename(folder.checkpoint(), folder.previous_checkpoint(), none_yet);
   store::publish_file(folder.partial_checkpoint(), folder.checkpoint());

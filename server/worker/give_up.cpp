@@ -19,31 +19,31 @@ translate::RunTime known_time(const store::JobFolder& folder, const Checkpoint::
 }
 
 // Whether it was asked to leave the job; acknowledges a cancel once.
-bool must_leave(const StopAsked& stop_asked, ReportLog& log, bool& acknowledged) {
-  const StopWish wish = stop_asked();
-  if (wish == StopWish::cancel && !std::exchange(acknowledged, true)) {
+bool must_leave(const RequestedStop& requested_stop, ReportLog& log, bool& acknowledged) {
+  const StopRequest request = requested_stop();
+  if (request == StopRequest::cancel && !std::exchange(acknowledged, true)) {
     Report report;
     report.mutable_stopping();
     log.append(report);
   }
-  return wish == StopWish::suspend;
+  return request == StopRequest::suspend;
 }
 
 }  // namespace
 
-Final give_up(const store::JobFolder& folder, const Order& order, ReportLog& log, const StopAsked& stop_asked,
+Final give_up(const store::JobFolder& folder, const Order& order, ReportLog& log, const RequestedStop& requested_stop,
               Final loss) {
   try {
     const auto origin = origin_of(order);
     Order as_run = order;
     bool acknowledged = false;
     // Before building the scene, which may take longer than the daemon waits for a report.
-    static_cast<void>(must_leave(stop_asked, log, acknowledged));
+    static_cast<void>(must_leave(requested_stop, log, acknowledged));
     RunOutput output(folder, log, as_run, scene_of(order));
     ReportLogReader reader(folder.reports());
     Report report;
     while (reader.read(report) == ReportLogReader::Read::message) {
-      if (must_leave(stop_asked, log, acknowledged)) {
+      if (must_leave(requested_stop, log, acknowledged)) {
         Final left;
         left.set_suspended_step(output.last_sampled_step());
         return left;

@@ -10,7 +10,7 @@ namespace cellcrush::worker {
 /// with its summary. Returns `loss` alone if nothing was reported or no result can be made. A request to cancel is
 /// acknowledged, as the job already ends. A request to suspend leaves the job unchanged, with the step of its last
 /// sample; so does a shortage, unless the job was cancelled. Never throws.
-Final give_up(const store::JobFolder& folder, const Order& order, ReportLog& log, const StopAsked& stop_asked,
+Final give_up(const store::JobFolder& folder, const Order& order, ReportLog& log, const RequestedStop& requested_stop,
               Final loss);
 
 }  // namespace cellcrush::worker

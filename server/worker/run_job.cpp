@@ -43,11 +43,11 @@ struct CannotContinue {
 // One run: the simulation, and the destination of its output.
 class Run {
  public:
-  Run(const store::JobFolder& folder, const Order& order, ReportLog& log, const StopAsked& stop_asked)
+  Run(const store::JobFolder& folder, const Order& order, ReportLog& log, const RequestedStop& requested_stop)
       : folder_(folder),
         order_(order),
         log_(log),
-        stop_asked_(stop_asked),
+        requested_stop_(requested_stop),
         origin_(origin_of(order)),
         scene_(scene_of(order)),
         facts_(facts_of(*scene_)),
@@ -56,7 +56,7 @@ class Run {
   Final to_the_end() {
     const auto found = find_checkpoint(folder_, origin_);
     const bool resumes = found.checkpoint && restore(*found.checkpoint);
-    if (!resumes) begin_anew();
+    if (!resumes) start_at_step_0();
     use_large_pages(simulation_);
     say_begun(found.refused);
     output_->put_mesh();
@@ -65,7 +65,7 @@ class Run {
     while (simulation_.step() < facts_.step_count && !ends_early()) {
       advance_to_next_output();
       if (failed()) break;
-      if (wish_ == StopWish::suspend) return suspend();
+      if (request_ == StopRequest::suspend) return suspend();
     }
     return complete();
   }
@@ -83,7 +83,7 @@ class Run {
   }
 
   // Repeated reports must have the same bits; otherwise this is a different job.
-  void begin_anew() {
+  void start_at_step_0() {
     if (const auto other = find_other_origin(folder_, origin_)) {
       throw CannotContinue{"Restarted from step 0: the job was started by solver " + other->solver_revision() +
                            " with " + other->simd_target() + ", but this is solver " + origin_.solver_revision() +
@@ -124,21 +124,22 @@ class Run {
       piece_ = now - start < std::chrono::milliseconds(25) ? 2 * piece_ : std::max<std::int64_t>(1, piece_ / 2);
       piece_ = std::min(piece_, facts_.step_count);
       output_->put_progress(simulation_.step(), simulation_.strain(), now);
-      wish_ = stop_asked_();
-      if (wish_ == StopWish::cancel) acknowledge_cancel();
-      time_is_up_ = wish_ == StopWish::none && order_.time_limit_s() > 0.0 && clock_seconds() >= order_.time_limit_s();
-      if (wish_ != StopWish::none || time_is_up_) break;
+      request_ = requested_stop_();
+      if (request_ == StopRequest::cancel) acknowledge_cancel();
+      time_is_up_ =
+          request_ == StopRequest::none && order_.time_limit_s() > 0.0 && clock_seconds() >= order_.time_limit_s();
+      if (request_ != StopRequest::none || time_is_up_) break;
       // At a step with output it waits for that output.
       if (simulation_.step() < next) checkpoint_regularly(now);
     }
     // At the time limit it ends with its existing samples: one more would be at another step if this worker were lost
     // now.
-    const bool last = wish_ == StopWish::cancel || simulation_.step() == facts_.step_count;
+    const bool last = request_ == StopRequest::cancel || simulation_.step() == facts_.step_count;
     if (last || simulation_.step() % facts_.sample_interval == 0) put_out_sample();
     if (failed()) return;
     if (last || simulation_.step() % facts_.frame_interval == 0)
       output_->put_frame(simulation_.take_frame(output_->frame_count()));
-    if (!last && !time_is_up_ && wish_ == StopWish::none) checkpoint_regularly(Clock::now());
+    if (!last && !time_is_up_ && request_ == StopRequest::none) checkpoint_regularly(Clock::now());
   }
 
   // Whether the solver declared its own result untrue.
@@ -147,7 +148,7 @@ class Run {
   }
 
   // Whether the run ends now and keeps its results so far.
-  [[nodiscard]] bool ends_early() const { return wish_ == StopWish::cancel || time_is_up_; }
+  [[nodiscard]] bool ends_early() const { return request_ == StopRequest::cancel || time_is_up_; }
 
   [[nodiscard]] std::int64_t next_multiple(std::int64_t interval) const {
     return (simulation_.step() / interval + 1) * interval;
@@ -219,7 +220,7 @@ class Run {
     if (failed()) put_out_last_good_frame();
     Final out = failure(translate::cause_of(status.kind), status.message, status.remedy);
     if (!whole && !failed()) {
-      if (wish_ == StopWish::cancel) {
+      if (request_ == StopRequest::cancel) {
         out.set_cancelled(true);
       } else {
         out = out_of_time();
@@ -247,7 +248,7 @@ class Run {
   const store::JobFolder& folder_;
   const Order& order_;
   ReportLog& log_;
-  const StopAsked& stop_asked_;
+  const RequestedStop& requested_stop_;
   Checkpoint::Origin origin_;
   std::shared_ptr<const Scene> scene_;
   SceneFacts facts_;
@@ -258,7 +259,7 @@ class Run {
   double earlier_clock_seconds_ = 0.0;  ///< wall-clock time before it
   Clock::time_point last_checkpoint_;
   std::int64_t piece_ = 16;
-  StopWish wish_ = StopWish::none;
+  StopRequest request_ = StopRequest::none;
   bool time_is_up_ = false;
 };
 
@@ -276,11 +277,11 @@ Final left_for(const ServiceError& error, const store::JobFolder& folder, const 
   return out;
 }
 
-Final end_of(const store::JobFolder& folder, const Order& order, ReportLog& log, const StopAsked& stop_asked) {
-  if (order.has_given_up()) return give_up(folder, order, log, stop_asked, order.given_up());
+Final end_of(const store::JobFolder& folder, const Order& order, ReportLog& log, const RequestedStop& requested_stop) {
+  if (order.has_given_up()) return give_up(folder, order, log, requested_stop, order.given_up());
   Final loss;
   try {
-    return Run(folder, order, log, stop_asked).to_the_end();
+    return Run(folder, order, log, requested_stop).to_the_end();
   } catch (const CannotContinue& reason) {
     Final out;
     out.set_begin_again(reason.why);
@@ -295,15 +296,15 @@ Final end_of(const store::JobFolder& folder, const Order& order, ReportLog& log,
     loss = failure(v1::WORKER_CRASHED, std::string("The worker stopped: ") + error.what() + ".",
                    "Submit the case again. If the failure repeats, report it together with the case.");
   }
-  return give_up(folder, order, log, stop_asked, std::move(loss));
+  return give_up(folder, order, log, requested_stop, std::move(loss));
 }
 
 }  // namespace
 
-void run_job(const store::JobFolder& folder, const Order& order, const StopAsked& stop_asked) {
+void run_job(const store::JobFolder& folder, const Order& order, const RequestedStop& requested_stop) {
   ReportLog log(folder.reports());
   Report report;
-  *report.mutable_final() = end_of(folder, order, log, stop_asked);
+  *report.mutable_final() = end_of(folder, order, log, requested_stop);
   // An incomplete result is rebuilt from the reports.
   std::error_code ignored;
   std::filesystem::remove(folder.partial_result(), ignored);

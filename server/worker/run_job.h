@@ -8,14 +8,14 @@
 namespace cellcrush::worker {
 
 /// A request to stop a run.
-enum class StopWish {
+enum class StopRequest {
   none,
   suspend,  ///< checkpoint the job and exit
   cancel,   ///< end the job and keep its results so far
 };
 
 /// Polled about every 50 ms.
-using StopAsked = std::function<StopWish()>;
+using RequestedStop = std::function<StopRequest()>;
 
 /// Runs a job from its newest checkpoint, or from step 0, until result.h5 is complete or a request stops it. The
 /// folder's reports receive the mesh, then samples, frames and progress, and finally the outcome. A cancelled run takes
@@ -23,6 +23,6 @@ using StopAsked = std::function<StopWish()>;
 /// earlier results and the last good frame. A run that meets a shortage (shortage.h) leaves the job at its last
 /// checkpoint. A job that another solver or kind of processor began is not run; its final report requests a restart.
 /// Throws ServiceError if the outcome cannot be reported.
-void run_job(const store::JobFolder& folder, const Order& order, const StopAsked& stop_asked);
+void run_job(const store::JobFolder& folder, const Order& order, const RequestedStop& requested_stop);
 
 }  // namespace cellcrush::worker

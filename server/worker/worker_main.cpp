@@ -11,11 +11,11 @@ namespace cellcrush::worker {
 namespace {
 
 // The signals stay blocked; a pending one is visible to all threads.
-StopWish pending_wish() {
+StopRequest pending_request() {
   sigset_t pending;
   sigpending(&pending);
-  if (sigismember(&pending, kCancelSignal) == 1) return StopWish::cancel;
-  return sigismember(&pending, kSuspendSignal) == 1 ? StopWish::suspend : StopWish::none;
+  if (sigismember(&pending, kCancelSignal) == 1) return StopRequest::cancel;
+  return sigismember(&pending, kSuspendSignal) == 1 ? StopRequest::suspend : StopRequest::none;
 }
 
 int run(const store::JobFolder& job) {
@@ -24,7 +24,7 @@ int run(const store::JobFolder& job) {
     Order order;
     std::ifstream file(job.order(), std::ios::binary);
     if (!file || !order.ParseFromIstream(&file)) return kNoReport;
-    run_job(job, order, pending_wish);
+    run_job(job, order, pending_request);
     return kReported;
   } catch (const std::exception& error) {
     return exit_code_of(error);

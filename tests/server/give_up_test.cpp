@@ -19,7 +19,7 @@ class GiveUpTest : public ::testing::Test {
     order_.set_threads(2);
     order_.set_checkpoint_interval_s(60.0);
     int asked = 0;
-    EXPECT_NO_THROW(run_job(job_, order_, [&asked] { return ++asked > 20 ? StopWish::suspend : StopWish::none; }));
+    EXPECT_NO_THROW(run_job(job_, order_, [&asked] { return ++asked > 20 ? StopRequest::suspend : StopRequest::none; }));
     samples_ = said([](const Report& report) { return report.has_sample(); });
     order_.set_threads(1);
     order_.mutable_given_up()->set_cause(v1::WORKER_CRASHED);
@@ -44,7 +44,7 @@ class GiveUpTest : public ::testing::Test {
 
 TEST_F(GiveUpTest, TheResultIsMadeOfWhatWasReported) {
   ASSERT_GT(samples_, 2);
-  ASSERT_NO_THROW(run_job(job_, order_, [] { return StopWish::none; }));
+  ASSERT_NO_THROW(run_job(job_, order_, [] { return StopRequest::none; }));
   EXPECT_EQ(said([](const Report& report) { return report.has_sample(); }), samples_) << "Nothing was run.";
   ASSERT_TRUE(last_.has_final());
   EXPECT_EQ(last_.final().cause(), v1::WORKER_CRASHED);
@@ -55,7 +55,7 @@ TEST_F(GiveUpTest, TheResultIsMadeOfWhatWasReported) {
 TEST_F(GiveUpTest, ACancelIsAcknowledgedOnceAndTheResultIsMade) {
   order_.mutable_given_up()->Clear();
   order_.mutable_given_up()->set_cancelled(true);
-  ASSERT_NO_THROW(run_job(job_, order_, [] { return StopWish::cancel; }));
+  ASSERT_NO_THROW(run_job(job_, order_, [] { return StopRequest::cancel; }));
   EXPECT_EQ(said([](const Report& report) { return report.has_stopping(); }), 1);
   EXPECT_TRUE(last_.final().cancelled());
   EXPECT_TRUE(last_.final().has_summary());
@@ -63,7 +63,7 @@ TEST_F(GiveUpTest, ACancelIsAcknowledgedOnceAndTheResultIsMade) {
 }
 
 TEST_F(GiveUpTest, AskedToLeaveItLeavesTheJobAsItWas) {
-  ASSERT_NO_THROW(run_job(job_, order_, [] { return StopWish::suspend; }));
+  ASSERT_NO_THROW(run_job(job_, order_, [] { return StopRequest::suspend; }));
   EXPECT_EQ(said([](const Report& report) { return report.has_sample(); }), samples_);
   EXPECT_TRUE(last_.final().has_suspended_step());
   EXPECT_FALSE(last_.final().has_summary());
@@ -78,7 +78,7 @@ TEST_F(GiveUpTest, WhatAnotherSolverLeftIsMadeNothingOf) {
     report.mutable_begun()->mutable_origin()->set_solver_revision("another");
     log.append(report);
   }
-  ASSERT_NO_THROW(run_job(job_, order_, [] { return StopWish::none; }));
+  ASSERT_NO_THROW(run_job(job_, order_, [] { return StopRequest::none; }));
   said([](const Report&) { return false; });
   EXPECT_EQ(last_.final().message(), "It was lost.");
   EXPECT_FALSE(last_.final().has_summary());

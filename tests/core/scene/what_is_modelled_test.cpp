@@ -1,9 +1,8 @@
-#include "step/what_is_modelled.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "cellcrush/presets.h"
+#include "cellcrush/simulation.h"
 #include "scenes/frames.h"
 
 namespace cellcrush {
@@ -13,10 +12,10 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-// As `check` and result.h5 tell it: every shortcut with its reason, and what was asked for as such.
+// As in `check` and result.h5: every shortcut with its reason, and what was asked for as such.
 TEST(WhatIsModelled, SaysWhyEachShortcutIsTaken) {
   const SceneSpec spec = scenes::hexagon_specimen(4, 3);
-  const auto said = what_is_modelled(*scenes::build(spec));
+  const auto said = facts_of(*scenes::build(spec)).modelled;
   EXPECT_THAT(said, Contains(HasSubstr("by the faces of the lattice: it is connected, planar and closed")));
   EXPECT_THAT(said, Contains(HasSubstr("perfectly plastic; each stores only its stress")));
   EXPECT_THAT(said, Contains(HasSubstr("in single precision, which halves the memory")));
@@ -31,7 +30,7 @@ TEST(WhatIsModelled, SaysWhatWasAskedFor) {
   spec.numerics.fibre_precision = NumericsSpec::FibrePrecision::double_precision;
   spec.numerics.time_step_s = 1e-8;
   spec.material.hardening_modulus_mpa = 1000.0;
-  const auto said = what_is_modelled(*scenes::build(spec));
+  const auto said = facts_of(*scenes::build(spec)).modelled;
   EXPECT_THAT(said, Contains("Contacts are searched by buckets in space, as requested (contact.search)."));
   EXPECT_THAT(said, Contains("Step: as requested (numerics.time_step_s)."));
   EXPECT_THAT(said,
@@ -42,19 +41,19 @@ TEST(WhatIsModelled, SaysWhatWasAskedFor) {
 TEST(WhatIsModelled, WarnsOfPointsThatAreComputedOneByOne) {
   SceneSpec spec = scenes::hexagon_specimen(4, 3);
   const auto warning = Contains(HasSubstr("these are computed one element at a time"));
-  EXPECT_THAT(what_is_modelled(*scenes::build(spec)), Not(warning));
+  EXPECT_THAT(facts_of(*scenes::build(spec)).modelled, Not(warning));
   spec.section.formulation = SectionSpec::Formulation::displacement_based;
   spec.section.axial_points = 4;
-  EXPECT_THAT(what_is_modelled(*scenes::build(spec)), warning);
+  EXPECT_THAT(facts_of(*scenes::build(spec)).modelled, warning);
   spec.section.axial_points = 2;
-  EXPECT_THAT(what_is_modelled(*scenes::build(spec)), Not(warning));
+  EXPECT_THAT(facts_of(*scenes::build(spec)).modelled, Not(warning));
 }
 
 TEST(WhatIsModelled, NamesTheBoundOfTheStep) {
   const auto step_of = [](const char* preset, double speed) {
     SceneSpec spec = find_preset(preset)->spec;
     spec.loading.speed_m_per_s = speed;
-    for (const std::string& line : what_is_modelled(*scenes::build(spec))) {
+    for (const std::string& line : facts_of(*scenes::build(spec)).modelled) {
       if (line.rfind("Step: ", 0) == 0) {
         return line;
       }
