@@ -19,7 +19,8 @@ class GiveUpTest : public ::testing::Test {
     order_.set_threads(2);
     order_.set_checkpoint_interval_s(60.0);
     int asked = 0;
-    EXPECT_NO_THROW(run_job(job_, order_, [&asked] { return ++asked > 20 ? StopRequest::suspend : StopRequest::none; }));
+    EXPECT_NO_THROW(
+        run_job(job_, order_, [&asked] { return ++asked > 20 ? StopRequest::suspend : StopRequest::none; }));
     samples_ = said([](const Report& report) { return report.has_sample(); });
     order_.set_threads(1);
     order_.mutable_given_up()->set_cause(v1::WORKER_CRASHED);
