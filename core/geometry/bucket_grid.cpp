@@ -1,6 +1,7 @@
 #include "geometry/bucket_grid.h"
 
 #include <cmath>
+#include <numeric>
 
 namespace cellcrush {
 
@@ -15,18 +16,16 @@ BucketGrid::BucketGrid(std::span<const Vector2> points, double size) : origin_(p
   while ((extent.x() / size_ + 1.0) * (extent.y() / size_ + 1.0) > most) {
     size_ *= 2.0;
   }
-  columns_ = column(high.x()) + 1;
-  rows_ = row(high.y()) + 1;
+  columns_ = cell(high, 0) + 1;
+  rows_ = cell(high, 1) + 1;
 
   offset_.assign(static_cast<std::size_t>(columns_) * rows_ + 1, 0);
   std::vector<std::size_t> home(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    home[i] = bucket(column(points[i].x()), row(points[i].y()));
+    home[i] = bucket(cell(points[i], 0), cell(points[i], 1));
     ++offset_[home[i] + 1];
   }
-  for (std::size_t b = 1; b < offset_.size(); ++b) {
-    offset_[b] += offset_[b - 1];
-  }
+  std::partial_sum(offset_.begin(), offset_.end(), offset_.begin());
   sorted_.resize(points.size());
   std::vector<int> next(offset_.begin(), offset_.end() - 1);
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -36,12 +35,8 @@ BucketGrid::BucketGrid(std::span<const Vector2> points, double size) : origin_(p
 
 // Queries may lie far outside the grid, where the floor would overflow an int. They are clamped to one bucket beyond
 // its edge.
-int BucketGrid::column(double x) const {
-  return static_cast<int>(std::clamp(std::floor((x - origin_.x()) / size_), -1.0, 2e9));
-}
-
-int BucketGrid::row(double y) const {
-  return static_cast<int>(std::clamp(std::floor((y - origin_.y()) / size_), -1.0, 2e9));
+int BucketGrid::cell(const Vector2& point, int axis) const {
+  return static_cast<int>(std::clamp(std::floor((point[axis] - origin_[axis]) / size_), -1.0, 2e9));
 }
 
 }  // namespace cellcrush

@@ -24,10 +24,10 @@ class BucketGrid {
   /// Calls visit(point index) for every point in the buckets that the box from `low` to `high` overlaps.
   template <class Visit>
   void visit_box(const Vector2& low, const Vector2& high, Visit&& visit) const {
-    const int x_first = std::max(column(low.x()), 0);
-    const int x_last = std::min(column(high.x()), columns_ - 1);
-    const int y_first = std::max(row(low.y()), 0);
-    const int y_last = std::min(row(high.y()), rows_ - 1);
+    const int x_first = std::max(cell(low, 0), 0);
+    const int x_last = std::min(cell(high, 0), columns_ - 1);
+    const int y_first = std::max(cell(low, 1), 0);
+    const int y_last = std::min(cell(high, 1), rows_ - 1);
     for (int y = y_first; y <= y_last; ++y) {
       for (int k = offset_[bucket(x_first, y)]; x_first <= x_last && k < offset_[bucket(x_last, y) + 1]; ++k) {
         visit(sorted_[k]);
@@ -38,8 +38,8 @@ class BucketGrid {
   [[nodiscard]] double bucket_size() const { return size_; }
 
  private:
-  [[nodiscard]] int column(double x) const;
-  [[nodiscard]] int row(double y) const;
+  /// Column (axis 0) or row (axis 1) of a point.
+  [[nodiscard]] int cell(const Vector2& point, int axis) const;
   [[nodiscard]] std::size_t bucket(int x, int y) const { return static_cast<std::size_t>(y) * columns_ + x; }
 
   Vector2 origin_;
