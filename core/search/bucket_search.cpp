@@ -4,23 +4,19 @@
 #include <span>
 
 #include "geometry/bucket_grid.h"
-#include "geometry/capsule-inl.h"
+#include "geometry/capsule.h"
 #include "search/candidate_lists.h"
 
 namespace cellcrush {
 namespace {
 
 bool list_holds(const Scene& scene, const State& state, const ContactLists& lists) {
-  if (lists.searched_position.size() != state.position.size()) {
-    return false;
-  }
   const double limit = 0.25 * scene.contact.skin * scene.contact.skin;
-  for (std::size_t i = 0; i < state.position.size(); ++i) {
-    if ((state.position[i] - lists.searched_position[i]).squaredNorm() > limit) {
-      return false;
-    }
-  }
-  return true;
+  const auto has_stayed = [limit](const Vector2& now, const Vector2& then) {
+    return !((now - then).squaredNorm() > limit);
+  };
+  return std::equal(state.position.begin(), state.position.end(), lists.searched_position.begin(),
+                    lists.searched_position.end(), has_stayed);
 }
 
 bool all_finite(std::span<const Vector2> points) {
@@ -48,12 +44,8 @@ void list_by_buckets(const Scene& scene, const State& state, ContactLists& lists
     const Vector2 margin = Vector2::Constant(0.5 * element.thickness + scene.largest_radius + skin);
     grid.visit_box(start.cwiseMin(end) - margin, start.cwiseMax(end) + margin, [&](int ball) {
       const double range = scene.radius[ball] + 0.5 * element.thickness + skin;
-      const Vector2 from_start = state.position[ball] - start;
-      const Vector2& axis = state.axis[e];
-      // Inlined by hand: a call of project() would take a fifth of the time of the search.
-      const auto off =
-          HWY_NAMESPACE::project_clamped(from_start.x(), from_start.y(), axis.x(), axis.y(), state.length[e]);
-      const bool is_near = off.x * off.x + off.y * off.y < range * range;
+      const Vector2 offset = project(state.position[ball], start, state.axis[e], state.length[e]).offset;
+      const bool is_near = offset.squaredNorm() < range * range;
       if (ball != element.start && ball != element.end && is_near) {
         const int segment = static_cast<int>(e);
         add_candidate(lists, {ball, segment, scene.reach_of(ball, segment)});

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <span>
 
 #include "geometry/bucket_grid.h"
@@ -40,9 +41,9 @@ class FaceFinder {
         segment_count_(faces.offset[face + 1] - faces.offset[face]),
         particle_(&faces.particle[faces.offset[face]]),
         element_(&faces.element[faces.offset[face]]) {
-    place_.reserve(filled_tiles(count_));
+    place_.resize(filled_tiles(count_));
     for (int corner = 0; corner < count_; ++corner) {
-      place_.push_back(state.position[particle_[corner]]);
+      place_[corner] = state.position[particle_[corner]];
       largest_radius_ = std::max(largest_radius_, scene.radius[particle_[corner]]);
     }
     for (int k = 0; k < segment_count_; ++k) {
@@ -51,30 +52,31 @@ class FaceFinder {
     }
   }
 
-  /// Every pair, a segment after the other: the corners' squared distances from it at once, then what is near.
+  FacePairs find(bool over_grid) {
+    if (over_grid) {
+      visit_near();
+    } else {
+      visit_all();
+    }
+    pairs_.crossed = pairs_.crossed || (is_whole_ && is_turned());
+    return std::move(pairs_);
+  }
+
+ private:
+  /// Every pair, one segment after the other.
   void visit_all() {
-    place_.resize(filled_tiles(place_.size()), place_.back());
-    const std::uint64_t all = (std::uint64_t{1} << count_) - 1;
+    std::array<int, kManyCorners> corners;
+    std::iota(corners.begin(), corners.end(), 0);
     double least = std::numeric_limits<double>::max();
-    NearCorners found;
     for (int k = 0; k < segment_count_; ++k) {
-      const int e = element_[k];
-      const double range = range_of(scene_.elements[e]);
-      find_near_corners(place_, all & ~ends_of(k), segment_of(e), range * range, found);
-      least = std::min(least, found.least_of_others);
-      for (std::uint64_t near = found.near; near != 0; near &= near - 1) {
-        const int i = std::countr_zero(near);
-        if (!keep(i, e, found.squared_distance[i])) {
-          least = std::min(least, found.squared_distance[i]);
-        }
-      }
+      least = std::min(least, keep_near(element_[k], std::span(corners).first(count_), place_));
     }
     pairs_.least_gap = std::max(skin_, std::sqrt(least) - largest_radius_ - 0.5 * thickest_);
   }
 
   /// Those in the buckets round a segment, as many at once as there is room for.
   void visit_near() {
-    const BucketGrid grid(place_, 0.5 * longest_ + largest_radius_ + skin_);
+    const BucketGrid grid({place_.data(), static_cast<std::size_t>(count_)}, 0.5 * longest_ + largest_radius_ + skin_);
     std::array<int, kManyCorners> corners;
     std::array<Vector2, kManyCorners> places;
     for (int k = 0; k < segment_count_; ++k) {
@@ -92,7 +94,9 @@ class FaceFinder {
           count = 0;
         }
       });
-      keep_near(e, std::span(corners).first(count), places);
+      if (count > 0) {
+        keep_near(e, std::span(corners).first(count), places);
+      }
     }
     pairs_.least_gap = skin_;
   }
@@ -102,56 +106,31 @@ class FaceFinder {
     return is_outer_ ? area > 0.0 : area < 0.0;
   }
 
-  FacePairs take() {
-    pairs_.crossed = pairs_.crossed || (is_whole_ && is_turned());
-    return std::move(pairs_);
-  }
-
- private:
   /// Beyond it no corner is listed with a segment, mm.
   [[nodiscard]] double range_of(const Element& segment) const {
     return largest_radius_ + 0.5 * segment.thickness + skin_;
   }
 
-  /// Bits of the corners at which a segment ends.
-  [[nodiscard]] std::uint64_t ends_of(int k) const {
-    if (k < count_) {
-      const int next = k + 1 < count_ ? k + 1 : 0;
-      return std::uint64_t{1} << k | std::uint64_t{1} << next;
-    }
-    const Element& thick = scene_.elements[element_[k]];
-    std::uint64_t ends = 0;
-    for (int corner = 0; corner < count_; ++corner) {
-      const bool is_end = particle_[corner] == thick.start || particle_[corner] == thick.end;
-      ends |= std::uint64_t{is_end} << corner;
-    }
-    return ends;
-  }
-
-  /// Lists those of some corners that are near enough to a segment, but its ends. `places` has room for whole tiles.
-  void keep_near(int segment, std::span<const int> corners, std::span<Vector2> places) {
+  /// Lists those of some corners that are near enough to a segment, but its ends. Returns the least squared distance of
+  /// the others, mm^2. `places` has room for whole tiles. REQUIRES: at least one corner.
+  double keep_near(int segment, std::span<const int> corners, std::span<Vector2> places) {
     const std::size_t count = corners.size();
-    if (count == 0) {
-      return;
-    }
     const std::size_t filled = filled_tiles(count);
     std::fill(places.begin() + count, places.begin() + filled, places[count - 1]);
     const Element& element = scene_.elements[segment];
+    const FaceSegment line = {state_.position[element.start], state_.axis[segment], state_.length[segment]};
     const double range = range_of(element);
     NearCorners found;
-    find_near_corners(places.first(filled), ~std::uint64_t{0} >> (kManyCorners - count), segment_of(segment),
-                      range * range, found);
+    find_near_corners(places.first(filled), count, line, range * range, found);
     for (std::uint64_t near = found.near; near != 0; near &= near - 1) {
       const int i = std::countr_zero(near);
       const int particle = particle_[corners[i]];
-      if (particle != element.start && particle != element.end) {
-        keep(corners[i], segment, found.squared_distance[i]);
+      const bool is_end = particle == element.start || particle == element.end;
+      if (!is_end && !keep(corners[i], segment, found.squared_distance[i])) {
+        found.least_of_others = std::min(found.least_of_others, found.squared_distance[i]);
       }
     }
-  }
-
-  [[nodiscard]] FaceSegment segment_of(int element) const {
-    return {state_.position[scene_.elements[element].start], state_.axis[element], state_.length[element]};
+    return found.least_of_others;
   }
 
   /// Lists a pair that is near enough; says whether it was.
@@ -213,13 +192,7 @@ class FaceFinder {
 
 FacePairs find_face_pairs(const Scene& scene, const State& state, const LatticeBand& band, const FacesOfBand& faces,
                           int face, double skin) {
-  FaceFinder finder(scene, state, band, faces, face, skin);
-  if (has_many_corners(faces, face)) {
-    finder.visit_near();
-  } else {
-    finder.visit_all();
-  }
-  return finder.take();
+  return FaceFinder(scene, state, band, faces, face, skin).find(has_many_corners(faces, face));
 }
 
 }  // namespace cellcrush

@@ -7,13 +7,12 @@
 
 #include <limits>
 
-#include "geometry/capsule-inl.h"
 #include "simd/points-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {
 
-void find_near(std::span<const Vector2> places, std::uint64_t corners, const FaceSegment& segment, double squared_range,
+void find_near(std::span<const Vector2> places, std::size_t count, const FaceSegment& segment, double squared_range,
                NearCorners& found) {
   using D = WideTag<double, kPointTile>;
   const Points<D> start = {segment.start.x(), segment.start.y()};
@@ -23,16 +22,18 @@ void find_near(std::span<const Vector2> places, std::uint64_t corners, const Fac
   Lane<D> least = most;
   std::uint64_t near = 0;
   for (std::size_t i = 0; i < places.size(); i += Lane<D>::kWidth) {
+    // As in project(); no operation is fused, so that all widths round alike.
     const Points<D> from_start = Points<D>::load(&places[i]) - start;
-    const auto off = project_clamped(from_start.x, from_start.y, axis.x, axis.y, length);
-    const auto squared = off.x * off.x + off.y * off.y;
+    const Lane<D> ahead = from_start.x * axis.x + from_start.y * axis.y;
+    const Lane<D> along = min(max(ahead, Lane<D>(0.0)), length);
+    const Points<D> off = from_start - along * axis;
+    const Lane<D> squared = off.x * off.x + off.y * off.y;
     squared.store(&found.squared_distance[i]);
     const auto is_near = squared < squared_range;
-    const auto counts = LaneMask<D>::of_bits(static_cast<unsigned>(corners >> i));
-    near |= std::uint64_t{bits_of(is_near & counts)} << i;
-    least = min(least, select(counts & !is_near, squared, most));
+    near |= std::uint64_t{bits_of(is_near)} << i;
+    least = min(least, select(is_near, most, squared));
   }
-  found.near = near;
+  found.near = near & ~std::uint64_t{0} >> (kManyCorners - count);
   found.least_of_others = least_of_lanes(least);
 }
 
@@ -44,9 +45,9 @@ namespace cellcrush {
 
 HWY_EXPORT(find_near);
 
-void find_near_corners(std::span<const Vector2> places, std::uint64_t corners, const FaceSegment& segment,
+void find_near_corners(std::span<const Vector2> places, std::size_t count, const FaceSegment& segment,
                        double squared_range, NearCorners& found) {
-  HWY_DYNAMIC_DISPATCH(find_near)(places, corners, segment, squared_range, found);
+  HWY_DYNAMIC_DISPATCH(find_near)(places, count, segment, squared_range, found);
 }
 
 }  // namespace cellcrush

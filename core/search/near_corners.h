@@ -31,10 +31,10 @@ struct NearCorners {
   std::array<double, kManyCorners> squared_distance;  ///< mm^2
 };
 
-/// Finds the squared distances of corners from a segment (see project), and the corners within range. Only corners
-/// whose bits are set count as near or as others. Whole tiles round like single points, to the same bits. REQUIRES:
-/// whole tiles of positions, at most kManyCorners.
-void find_near_corners(std::span<const Vector2> places, std::uint64_t corners, const FaceSegment& segment,
+/// Finds the squared distances of `count` corners from a segment (see project), and the corners within range. Whole
+/// tiles round like single points, to the same bits. REQUIRES: whole tiles of positions, at most kManyCorners; those
+/// after the corners repeat the last one.
+void find_near_corners(std::span<const Vector2> places, std::size_t count, const FaceSegment& segment,
                        double squared_range, NearCorners& found);
 
 }  // namespace cellcrush

@@ -34,10 +34,6 @@ struct LaneMask {
   hn::Mask<D> raw;
 
   /// The lowest bit is that of the first lane.
-  static HWY_INLINE LaneMask of_bits(unsigned bits) {
-    const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(bits)};
-    return {hn::LoadMaskBits(D(), bytes)};
-  }
   friend HWY_INLINE unsigned bits_of(LaneMask a) {
     std::uint8_t bytes[8] = {};
     hn::StoreMaskBits(D(), a.raw, bytes);

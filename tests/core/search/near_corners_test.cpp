@@ -18,9 +18,9 @@ constexpr double kSquaredRange = 0.25;
 constexpr double kNoOthers = std::numeric_limits<double>::max();
 const FaceSegment kSegment = {{0.1, 0.2}, Vector2(2.0, 1.0).normalized(), 1.7};
 
-NearCorners near_corners(const std::vector<Vector2>& places, std::uint64_t corners) {
+NearCorners near_corners(const std::vector<Vector2>& places, std::size_t count) {
   NearCorners found;
-  find_near_corners(places, corners, kSegment, kSquaredRange, found);
+  find_near_corners(places, count, kSegment, kSquaredRange, found);
   return found;
 }
 
@@ -46,19 +46,17 @@ TEST(NearCorners, FindsDistancesAndWhatIsWithinRange) {
   std::mt19937 generator(11);
   for (std::size_t count = 1; count <= kManyCorners; ++count) {
     const Corners drawn(count, generator);
-    const std::uint64_t corners = generator() & ~std::uint64_t{0} >> (kManyCorners - count);
     std::uint64_t near = 0;
     double least = kNoOthers;
     for (std::size_t i = 0; i < count; ++i) {
-      const bool counts = (corners >> i & 1) != 0;
-      if (counts && drawn.squared_distance[i] < kSquaredRange) {
+      if (drawn.squared_distance[i] < kSquaredRange) {
         near |= std::uint64_t{1} << i;
-      } else if (counts) {
+      } else {
         least = std::min(least, drawn.squared_distance[i]);
       }
     }
     scenes::for_every_target([&] {
-      const NearCorners found = near_corners(drawn.place, corners);
+      const NearCorners found = near_corners(drawn.place, count);
       EXPECT_EQ(found.near, near);
       EXPECT_NEAR(found.least_of_others, least, least == kNoOthers ? 0.0 : 1e-13);
       for (std::size_t i = 0; i < count; ++i) {
@@ -72,9 +70,9 @@ TEST(NearCorners, FindsDistancesAndWhatIsWithinRange) {
 TEST(NearCorners, HaveTheSameBitsOnEveryTarget) {
   std::mt19937 generator(13);
   const Corners drawn(kManyCorners, generator);
-  const NearCorners expected = near_corners(drawn.place, ~std::uint64_t{0});
+  const NearCorners expected = near_corners(drawn.place, kManyCorners);
   scenes::for_every_target([&] {
-    const NearCorners found = near_corners(drawn.place, ~std::uint64_t{0});
+    const NearCorners found = near_corners(drawn.place, kManyCorners);
     EXPECT_EQ(found.near, expected.near);
     EXPECT_EQ(found.least_of_others, expected.least_of_others);
     EXPECT_EQ(found.squared_distance, expected.squared_distance);
