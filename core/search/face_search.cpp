@@ -84,10 +84,7 @@ bool recheck_face(const Scene& scene, const State& state, const LatticeBand& ban
                   int face, ContactLists& lists) {
   ++lists.face_recheck_count;
   const double clearance = lists.face_clearance[face];
-  double left = clearance;
-  if (clearance > 0.0) {
-    left -= spread_of_displacements(faces, state, lists, face);
-  }
+  double left = clearance - spread_of_displacements(faces, state, lists, face);
   if (!is_finite(faces, state, face)) {
     left = std::numeric_limits<double>::max();
   } else if (left <= kWorthKeeping * clearance) {

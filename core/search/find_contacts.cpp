@@ -30,11 +30,9 @@ void find_contacts(const Scene& scene, State& state, Workers& workers) {
   if (!scene.contact.present) {
     return;
   }
-  if (searches_faces(scene, state)) {
-    if (!search_bands(scene, state, workers)) {
-      state.crossing_step = state.step;
-      merge_band_contacts(state);
-    }
+  if (searches_faces(scene, state) && !search_bands(scene, state, workers)) {
+    state.crossing_step = state.step;
+    merge_band_contacts(state);
   }
   if (!searches_faces(scene, state)) {
     search_buckets(scene, state, state.contacts.front());

@@ -13,18 +13,11 @@ void make_room(List& list, std::size_t size) {
   }
 }
 
-/// Resizes such a list.
-template <class List>
-void resize_with_room(List& list, std::size_t size) {
+/// Resizes such a list, with copies of `fill` at the end if it is given.
+template <class List, class... Fill>
+void resize_with_room(List& list, std::size_t size, const Fill&... fill) {
   make_room(list, size);
-  list.resize(size);
-}
-
-/// The same, with copies of `fill` at the end.
-template <class List>
-void resize_with_room(List& list, std::size_t size, const typename List::value_type& fill) {
-  make_room(list, size);
-  list.resize(size, fill);
+  list.resize(size, fill...);
 }
 
 }  // namespace cellcrush
