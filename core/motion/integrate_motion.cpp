@@ -12,7 +12,6 @@
 #include "motion/near_plates-inl.h"
 #include "motion/particle_motion-inl.h"
 #include "scene/bands.h"
-#include "touch/clear_forces.h"
 #include "touch/contact_tiles.h"
 
 HWY_BEFORE_NAMESPACE();

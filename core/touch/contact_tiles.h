@@ -37,6 +37,10 @@ void mark_contact_tiles(const Scene& scene, State& state, int ball, int segment)
 /// taken.
 void rebuild_contact_tiles(const Scene& scene, State& state, std::int64_t steps);
 
+/// Sets the contacts' forces on the particles `first` ... `end` to 0, friction included: those of the step are added to
+/// it.
+void clear_contact_forces(State& state, int first, int end);
+
 /// Whether one of `count` particles from `first` on may have a contact force, by State::contact_tiles; null: any may.
 /// REQUIRES: count <= kContactTile.
 inline bool may_bear_contact(const std::uint64_t* tiles, std::size_t first, std::size_t count) {

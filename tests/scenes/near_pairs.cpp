@@ -7,9 +7,9 @@
 #include "scene/bands.h"
 #include "scene/face_loops.h"
 #include "search/bucket_search.h"
-#include "touch/clear_forces.h"
 #include "touch/contact_forces.h"
 #include "touch/contact_sums.h"
+#include "touch/contact_tiles.h"
 
 namespace cellcrush::scenes {
 namespace {

@@ -4,8 +4,8 @@
 #include "scenes/frames.h"
 #include "scenes/near_pairs.h"
 #include "search/bucket_search.h"
-#include "touch/clear_forces.h"
 #include "touch/contact_forces.h"
+#include "touch/contact_tiles.h"
 
 namespace cellcrush::scenes {
 

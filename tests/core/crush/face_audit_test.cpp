@@ -11,8 +11,8 @@
 #include "scenes/near_pairs.h"
 #include "scenes/small_specimen.h"
 #include "search/bucket_search.h"
-#include "touch/clear_forces.h"
 #include "touch/contact_forces.h"
+#include "touch/contact_tiles.h"
 
 namespace cellcrush {
 namespace {
