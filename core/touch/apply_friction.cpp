@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <span>
 
-#include "touch/friction.h"
+#include "touch/force_laws.h"
 
 namespace cellcrush {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "simd/lane-inl.h"
 #include "touch/depth_records.h"
-#include "touch/normal_force.h"
+#include "touch/force_laws.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {

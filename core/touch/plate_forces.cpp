@@ -3,8 +3,7 @@
 #include <limits>
 
 #include "touch/contact_tiles.h"
-#include "touch/friction.h"
-#include "touch/normal_force.h"
+#include "touch/force_laws.h"
 
 namespace cellcrush {
 namespace {

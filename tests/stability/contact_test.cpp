@@ -8,7 +8,7 @@
 #include "scenes/beam_over_beam.h"
 #include "scenes/frames.h"
 #include "step/advance_step.h"
-#include "touch/normal_force.h"
+#include "touch/force_laws.h"
 
 namespace cellcrush {
 namespace {

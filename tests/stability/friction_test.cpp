@@ -1,11 +1,11 @@
 // Friction as a function of the sliding speed, beside friction that remembers how far its spring is stretched.
-#include "touch/friction.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
+
+#include "touch/force_laws.h"
 
 namespace cellcrush {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "scenes/direction.h"
 #include "scenes/probe.h"
-#include "touch/normal_force.h"
+#include "touch/force_laws.h"
 
 namespace cellcrush {
 namespace {
