@@ -1,4 +1,6 @@
-#include "touch/apply_normal_forces.h"
+#include <algorithm>
+
+#include "touch/contact_stages.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "touch/apply_normal_forces.cpp"
@@ -6,7 +8,6 @@
 #include <hwy/highway.h>
 
 #include "simd/lane-inl.h"
-#include "touch/depth_records.h"
 #include "touch/force_laws.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -43,6 +44,21 @@ HWY_INLINE void add_share(double share, const double* HWY_RESTRICT pair, Contact
   }
 }
 
+/// Records the depth of a touch, divided by the thickness of the thinner wall, if it is the greatest so far.
+HWY_INLINE void record_depth(const Scene& scene, const TouchMemory& touching, int touch, double depth, bool is_new,
+                             ContactTotals& totals) {
+  // Most touches are rejected before the thicknesses of their walls are loaded.
+  if (!(depth > scene.contact.thinnest * (is_new ? totals.deepest_birth : totals.deepest_penetration))) {
+    return;
+  }
+  const double thinner =
+      std::min(2.0 * scene.radius[touching.ball[touch]], scene.elements[touching.segment[touch]].thickness);
+  totals.deepest_penetration = std::max(totals.deepest_penetration, depth / thinner);
+  if (is_new) {
+    totals.deepest_birth = std::max(totals.deepest_birth, depth / thinner);
+  }
+}
+
 // Raw pointers: a store may alias the pointers of the vectors.
 void add_normal_forces(const Scene& scene, State& state, const TouchMemory& touching, ContactWorkspace& workspace,
                        ContactTotals& totals) {
@@ -50,12 +66,12 @@ void add_normal_forces(const Scene& scene, State& state, const TouchMemory& touc
   const int* balls = touching.ball.data();
   const int* starts = touches.start.data();
   const int* ends = touches.end.data();
+  const int* known = touches.known.data();
   const double* depths = touches.depth.data();
   const double* shares = touches.share.data();
   const Vector2* normals = touches.normal.data();
   const double stiffness = scene.contact.stiffness;
   ContactForce* forces = state.contact_force.data();
-  DepthRecords records(scene, touching, touches, totals);
   double squared_depths = 0.0;
   for (ActiveContact& contact : workspace.active) {
     const int touch = contact.touch;
@@ -73,7 +89,7 @@ void add_normal_forces(const Scene& scene, State& state, const TouchMemory& touc
     if (contact.node_touch != ActiveContact::kNone) {
       subtract_double_count(scene, state, touching, touches, contact.node_touch, totals.stored);
     }
-    records.note(touch);
+    record_depth(scene, touching, touch, depth, known[touch] == Touches::kNew, totals);
   }
   totals.stored += 0.5 * stiffness * squared_depths;
 }

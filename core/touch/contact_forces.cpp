@@ -3,13 +3,8 @@
 #include <vector>
 
 #include "search/candidate_lists.h"
-#include "touch/apply_friction.h"
-#include "touch/apply_normal_forces.h"
+#include "touch/contact_stages.h"
 #include "touch/contact_tiles.h"
-#include "touch/evaluate_touches.h"
-#include "touch/find_active_contacts.h"
-#include "touch/find_overlaps.h"
-#include "touch/remember_touches.h"
 
 namespace cellcrush {
 namespace {

@@ -5,6 +5,7 @@
 
 #include "cellcrush/lane_vector.h"
 #include "cellcrush/state.h"
+#include "search/list_room.h"
 
 namespace cellcrush {
 
@@ -12,15 +13,33 @@ namespace cellcrush {
 struct NewContact {
   int ball = 0;
   int segment = 0;
-  int place = 0;  ///< index into ContactLists::candidate_ball, of the band of the ball or of the band before
+  int index = 0;  ///< index into ContactLists::candidate_ball, of the band of the ball or of the band before
   int next = 0;   ///< index of the first of the earlier pairs that follows it
 };
 
 /// A ball that gained or lost a pair.
 struct ChangedBall {
   int ball = 0;
-  int place = 0;  ///< index of the pair in ContactLists::touching, or of the pair that follows its former position
+  int index = 0;  ///< index of the pair in ContactLists::touching, or of the pair that follows its former position
 };
+
+/// Touching pairs from `first` to `end`.
+struct PairRange {
+  int first = 0;
+  int end = 0;
+};
+
+/// The pairs of a ball. `index` is that of one of them, or of the one after the last; otherwise the range is empty.
+inline PairRange pairs_of_ball(const TouchMemory& touching, int ball, int index) {
+  PairRange range = {index, index};
+  while (range.first > 0 && touching.ball[range.first - 1] == ball) {
+    --range.first;
+  }
+  while (range.end < static_cast<int>(touching.count()) && touching.ball[range.end] == ball) {
+    ++range.end;
+  }
+  return range;
+}
 
 /// Geometry and motion of the pairs of ContactLists::touching in this step; T of them, in the same order.
 struct Touches {
@@ -39,7 +58,10 @@ struct Touches {
 
   static constexpr int kNew = -1;
 
-  void resize(std::size_t count);
+  void resize(std::size_t count) {
+    const auto resize_all = [count](auto&... arrays) { (resize_with_room(arrays, count), ...); };
+    resize_all(start, end, known, share, depth, normal, viscous, slip, node, node_depth, node_normal);
+  }
 };
 
 /// A touch that exerts forces.

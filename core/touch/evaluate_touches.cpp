@@ -1,4 +1,4 @@
-#include "touch/evaluate_touches.h"
+#include "touch/contact_stages.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "touch/evaluate_touches.cpp"
@@ -13,48 +13,31 @@ namespace cellcrush::HWY_NAMESPACE {
 
 /// Inputs and results of the evaluation of pairs. Raw pointers: a store may alias the pointers of the vectors.
 struct PairArrays {
-  const Element* elements;
-  const double* inverse_mass;
-  const Vector2* position;
-  const Vector2* velocity;
-  const Vector2* axis;
-  const double* length;
-  const int* ball;
-  const int* segment;
-  const double* reach;
-  int* side;
-  int* start;
-  int* end;
-  double* share;
-  double* depth;
-  Vector2* normal;
-  double* viscous;
-  double* slip;
-  int* node;
-  double* node_depth;
-  Vector2* node_normal;
+  const Scene& scene;
+  const State& state;
+  ContactLists& lists;
+  Touches& touches;
 
-  PairArrays(const Scene& scene, const State& state, ContactLists& lists, Touches& touches)
-      : elements(scene.elements.data()),
-        inverse_mass(scene.inverse_mass.data()),
-        position(state.position.data()),
-        velocity(state.velocity.data()),
-        axis(state.axis.data()),
-        length(state.length.data()),
-        ball(lists.touching.ball.data()),
-        segment(lists.touching.segment.data()),
-        reach(lists.touching.reach.data()),
-        side(lists.touching.side.data()),
-        start(touches.start.data()),
-        end(touches.end.data()),
-        share(touches.share.data()),
-        depth(touches.depth.data()),
-        normal(touches.normal.data()),
-        viscous(touches.viscous.data()),
-        slip(touches.slip.data()),
-        node(touches.node.data()),
-        node_depth(touches.node_depth.data()),
-        node_normal(touches.node_normal.data()) {}
+  const Element* elements = scene.elements.data();
+  const double* inverse_mass = scene.inverse_mass.data();
+  const Vector2* position = state.position.data();
+  const Vector2* velocity = state.velocity.data();
+  const Vector2* axis = state.axis.data();
+  const double* length = state.length.data();
+  const int* ball = lists.touching.ball.data();
+  const int* segment = lists.touching.segment.data();
+  const double* reach = lists.touching.reach.data();
+  int* side = lists.touching.side.data();
+  int* start = touches.start.data();
+  int* end = touches.end.data();
+  double* share = touches.share.data();
+  double* depth = touches.depth.data();
+  Vector2* normal = touches.normal.data();
+  double* viscous = touches.viscous.data();
+  double* slip = touches.slip.data();
+  int* node = touches.node.data();
+  double* node_depth = touches.node_depth.data();
+  Vector2* node_normal = touches.node_normal.data();
 };
 
 /// Stores the nodes of the segments of the lanes.
@@ -142,29 +125,28 @@ HWY_INLINE Foot<D> evaluate_foot(const PairArrays& arrays, const LanePairs<D>& a
 }
 
 template <class D>
-HWY_INLINE void evaluate_motion(const Scene& scene, const PairArrays& arrays, const LanePairs<D>& at,
-                                const Foot<D>& foot, std::size_t i) {
+HWY_INLINE void evaluate_motion(const PairArrays& arrays, const LanePairs<D>& at, const Foot<D>& foot, std::size_t i) {
   const auto to_end = foot.share;
   const auto to_start = 1.0 - to_end;
   const auto closing = fma(to_start, at.start.velocity, fms(to_end, at.end.velocity, at.ball.velocity));
   const auto of_end = fma(to_end * to_end, at.end.inverse_mass, at.ball.inverse_mass);
   const auto inverse_mass = fma(to_start * to_start, at.start.inverse_mass, of_end);
-  const auto& contact = scene.contact;
+  const auto& contact = arrays.scene.contact;
   const auto rate = dot(foot.normal, closing);
   const auto viscous = 2.0 * contact.damping_ratio * sqrt(contact.stiffness / inverse_mass) * rate;  // Eq. 43, E9
   viscous.store(arrays.viscous + i);
   const auto slide = foot.side * cross(foot.normal, closing);
-  (scene.schedule.time_step * slide).store(arrays.slip + i);
+  (arrays.scene.schedule.time_step * slide).store(arrays.slip + i);
 }
 
 /// Returns the lanes whose pairs are released.
 template <class D>
-HWY_INLINE LaneMask<D> evaluate_pairs(const Scene& scene, const PairArrays& arrays, std::size_t i) {
+HWY_INLINE LaneMask<D> evaluate_pairs(const PairArrays& arrays, std::size_t i) {
   note_nodes<D>(arrays, i);
   const LanePairs<D> at = {gather_particles<D>(arrays, arrays.ball + i), gather_particles<D>(arrays, arrays.start + i),
                            gather_particles<D>(arrays, arrays.end + i)};
   const Foot<D> foot = evaluate_foot(arrays, at, i);
-  evaluate_motion(scene, arrays, at, foot, i);
+  evaluate_motion(arrays, at, foot, i);
   return !(foot.depth > 0.0);
 }
 
@@ -172,14 +154,14 @@ std::size_t evaluate_all(const Scene& scene, const State& state, ContactLists& l
                          std::size_t first, std::size_t end, int* released) {
   using Wide = WideTag<double, 8>;
   using One = hn::CappedTag<double, 1>;
-  const PairArrays arrays(scene, state, lists, touches);
+  const PairArrays arrays = {scene, state, lists, touches};
   std::size_t released_count = 0;
   std::size_t i = first;
   for (; i + Lane<Wide>::kWidth <= end; i += Lane<Wide>::kWidth) {
-    released_count += write_set_lanes(evaluate_pairs<Wide>(scene, arrays, i), i, released + released_count);
+    released_count += write_set_lanes(evaluate_pairs<Wide>(arrays, i), i, released + released_count);
   }
   for (; i < end; ++i) {
-    released_count += write_set_lanes(evaluate_pairs<One>(scene, arrays, i), i, released + released_count);
+    released_count += write_set_lanes(evaluate_pairs<One>(arrays, i), i, released + released_count);
   }
   return released_count;
 }

@@ -1,7 +1,5 @@
-#include "touch/find_active_contacts.h"
-
 #include "search/list_room.h"
-#include "touch/remember_touches.h"
+#include "touch/contact_stages.h"
 
 namespace cellcrush {
 namespace {

@@ -1,4 +1,4 @@
-#include "touch/find_overlaps.h"
+#include "touch/contact_stages.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "touch/find_overlaps.cpp"
@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <vector>
@@ -14,7 +15,6 @@
 #include "cellcrush/tuning.h"
 #include "search/list_room.h"
 #include "simd/points-inl.h"
-#include "touch/awake_candidates.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {
@@ -23,6 +23,55 @@ using Wide = WideTag<double, 8>;
 using One = hn::CappedTag<double, 1>;
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
+
+/// Bits of the awake candidates of a batch.
+struct AwakeBits {
+  const ContactLists& lists;
+  const double* next_checks = lists.candidate_next_check_travel.data();
+  const double* travels = lists.group_travel.data();
+  const int* groups = lists.batch_group.empty() ? nullptr : lists.batch_group.data();
+
+  HWY_INLINE std::uint64_t of_batch(std::size_t batch) const {
+    using Numbers = Lane<WideTag<double, kCandidateBatch>>;
+    // In a search by buckets none sleeps.
+    const Numbers travelled = groups == nullptr ? 0.0 : travels[groups[batch]];
+    std::uint64_t bits = 0;
+    for (std::size_t i = 0; i < kCandidateBatch; i += Numbers::kWidth) {
+      const auto asleep = travelled < Numbers::load(next_checks + batch * kCandidateBatch + i);
+      bits |= std::uint64_t{bits_of(!asleep)} << i;
+    }
+    return bits;
+  }
+};
+
+// Few candidates are awake, in no predictable pattern: with a branch at every batch this takes three times as long.
+std::size_t find_awake(const ContactLists& lists, std::size_t first, std::size_t end, int* awake) {
+  const AwakeBits bits_at = {lists};
+  const std::size_t end_batch = end / kCandidateBatch;
+  std::size_t count = 0;
+#if HWY_TARGET <= HWY_AVX3
+  // The indices of a batch are stored whole, those of awake candidates first.
+  const __m256i lanes = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+  for (std::size_t batch = first / kCandidateBatch; batch < end_batch; ++batch) {
+    const auto bits = static_cast<__mmask8>(bits_at.of_batch(batch));
+    const __m256i numbers = _mm256_add_epi32(lanes, _mm256_set1_epi32(static_cast<int>(batch * kCandidateBatch)));
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(awake + count), _mm256_maskz_compress_epi32(bits, numbers));
+    count += static_cast<std::size_t>(std::popcount(bits));
+  }
+#else
+  constexpr std::size_t kBatchesInWord = 64 / kCandidateBatch;
+  for (std::size_t batch = first / kCandidateBatch; batch < end_batch; batch += kBatchesInWord) {
+    std::uint64_t bits = 0;
+    for (std::size_t i = 0; i < std::min(kBatchesInWord, end_batch - batch); ++i) {
+      bits |= bits_at.of_batch(batch + i) << (i * kCandidateBatch);
+    }
+    for (; bits != 0; bits &= bits - 1) {
+      awake[count++] = static_cast<int>(batch * kCandidateBatch) + std::countr_zero(bits);
+    }
+  }
+#endif
+  return count;
+}
 
 /// Gathered data of the candidates that are tested together.
 struct Tested {
@@ -35,7 +84,7 @@ struct Tested {
 };
 
 // Raw pointers: a store may alias the pointers of the vectors.
-void collect(const Scene& scene, const ContactLists& lists, std::span<const int> places, Tested& tested) {
+void collect(const Scene& scene, const ContactLists& lists, std::span<const int> awake, Tested& tested) {
   const Element* elements = scene.elements.data();
   const int* balls = lists.candidate_ball.data();
   const int* segments = lists.candidate_segment.data();
@@ -43,14 +92,14 @@ void collect(const Scene& scene, const ContactLists& lists, std::span<const int>
   const int* groups = lists.batch_group.data();
   const double* travels = lists.group_travel.data();
   const bool sleeps = !lists.batch_group.empty();
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const int place = places[i];
-    const Element& element = elements[segments[place]];
-    tested.ball[i] = balls[place];
+  for (std::size_t i = 0; i < awake.size(); ++i) {
+    const int index = awake[i];
+    const Element& element = elements[segments[index]];
+    tested.ball[i] = balls[index];
     tested.start[i] = element.start;
     tested.end[i] = element.end;
-    tested.reach[i] = reaches[place];
-    tested.travel[i] = sleeps ? travels[groups[place / kCandidateBatch]] : -kNever;
+    tested.reach[i] = reaches[index];
+    tested.travel[i] = sleeps ? travels[groups[index / kCandidateBatch]] : -kNever;
   }
 }
 
@@ -106,34 +155,34 @@ HWY_INLINE LaneMask<D> test(const Vector2* positions, const Tested& tested, std:
 }
 
 /// Sets the next checks of candidates that are tested together. Appends the indices of those that overlap to `found`.
-void test_some(const Scene& scene, const State& state, ContactLists& lists, std::span<const int> places,
+void test_some(const Scene& scene, const State& state, ContactLists& lists, std::span<const int> awake,
                std::vector<int>& found) {
   Tested tested;
-  collect(scene, lists, places, tested);
+  collect(scene, lists, awake, tested);
   const Vector2* positions = state.position.data();
   double next_checks[kTestedTogether];
   const auto note = [&](std::size_t i, unsigned bits) {
     for (; bits != 0; bits &= bits - 1) {
-      found.push_back(places[i + std::countr_zero(bits)]);
+      found.push_back(awake[i + std::countr_zero(bits)]);
     }
   };
   std::size_t i = 0;
-  for (; i + Lane<Wide>::kWidth <= places.size(); i += Lane<Wide>::kWidth) {
+  for (; i + Lane<Wide>::kWidth <= awake.size(); i += Lane<Wide>::kWidth) {
     note(i, bits_of(test<Wide>(positions, tested, i, next_checks)));
   }
-  for (; i < places.size(); ++i) {
+  for (; i < awake.size(); ++i) {
     note(i, bits_of(test<One>(positions, tested, i, next_checks)));
   }
   double* of_all = lists.candidate_next_check_travel.data();
-  for (i = 0; i < places.size(); ++i) {
-    of_all[places[i]] = next_checks[i];
+  for (i = 0; i < awake.size(); ++i) {
+    of_all[awake[i]] = next_checks[i];
   }
 }
 
-void test_awake(const Scene& scene, const State& state, ContactLists& lists, std::span<const int> places,
+void test_awake(const Scene& scene, const State& state, ContactLists& lists, std::span<const int> awake,
                 std::vector<int>& found) {
-  for (std::size_t i = 0; i < places.size(); i += kTestedTogether) {
-    test_some(scene, state, lists, places.subspan(i, std::min(kTestedTogether, places.size() - i)), found);
+  for (std::size_t i = 0; i < awake.size(); i += kTestedTogether) {
+    test_some(scene, state, lists, awake.subspan(i, std::min(kTestedTogether, awake.size() - i)), found);
   }
 }
 
@@ -144,6 +193,7 @@ HWY_AFTER_NAMESPACE();
 namespace cellcrush {
 namespace {
 
+HWY_EXPORT(find_awake);
 HWY_EXPORT(test_awake);
 
 /// The candidates from `first` to `end` that overlap; sets the next checks of the others that are awake.
@@ -158,6 +208,10 @@ void find_overlaps_in(const Scene& scene, const State& state, ContactLists& list
 }
 
 }  // namespace
+
+std::size_t find_awake_candidates(const ContactLists& lists, std::size_t first, std::size_t end, int* awake) {
+  return HWY_DYNAMIC_DISPATCH(find_awake)(lists, first, end, awake);
+}
 
 void find_overlaps(const Scene& scene, const State& state, ContactLists& lists, ContactWorkspace& workspace,
                    Workers& workers) {

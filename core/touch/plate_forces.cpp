@@ -20,7 +20,7 @@ struct Plate {
 
 /// Pushes one particle (E9c). The plates do not move across the crush, so the slip of a particle is its own motion in
 /// that direction.
-void push(const Scene& scene, State& state, const Plate& plate, std::size_t particle, double radius) {
+void push(const Scene& scene, State& state, const Plate& plate, int particle, double radius) {
   const int axis = scene.plates.axis;
   const double depth = radius - plate.outward * (state.position[particle][axis] - plate.face);
   NormalForce force = {0.0, 0.0};
@@ -31,7 +31,7 @@ void push(const Scene& scene, State& state, const Plate& plate, std::size_t part
     plate.stored += 0.5 * force.elastic * depth;
     state.contact_force[particle].elastic[axis] += plate.outward * force.elastic;
     state.contact_force[particle].viscous[axis] += plate.outward * force.viscous;
-    mark_contact_tile(state, static_cast<int>(particle));
+    mark_contact_tile(state, particle);
     plate.sum.elastic += force.elastic;
     plate.sum.viscous += force.viscous;
   }
@@ -70,17 +70,14 @@ void evaluate_plate_forces(const Scene& scene, State& state, const PlateMotion& 
                          sums.support,        stored, rubs ? state.support_friction.data() : nullptr};
   // For most lattices; then no radius is loaded from memory.
   const bool is_uniform = scene.smallest_radius == scene.largest_radius;
-  const auto push_by_both = [&](std::size_t particle) {
-    const double place = state.position[particle][scene.plates.axis];
+  for (const int particle : near) {
+    const double place = state.position[particle][plates.axis];
     const double radius = is_uniform ? scene.largest_radius : scene.radius[particle];
     const bool rubbed = rubs && (impact.friction[particle] != 0.0 || support.friction[particle] != 0.0);
     if (place - radius < impact.face || place + radius > support.face || rubbed) {
       push(scene, state, impact, particle, radius);
       push(scene, state, support, particle, radius);
     }
-  };
-  for (const int particle : near) {
-    push_by_both(static_cast<std::size_t>(particle));
   }
 }
 

@@ -1,11 +1,10 @@
-#include "touch/remember_touches.h"
-
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
 #include <utility>
 
 #include "search/list_room.h"
+#include "touch/contact_stages.h"
 
 namespace cellcrush {
 namespace {
@@ -16,7 +15,7 @@ bool comes_before(int ball, int segment, const NewContact& pair) {
 
 /// Index of the first earlier pair that does not come before this one. The ball is found by a binary search without a
 /// branch, which no predictor could guess.
-std::size_t place_among(const TouchMemory& touching, const NewContact& pair) {
+std::size_t index_among(const TouchMemory& touching, const NewContact& pair) {
   const int* const balls = touching.ball.data();
   std::size_t first = 0;
   for (std::size_t left = touching.count(); left > 0;) {
@@ -32,12 +31,12 @@ std::size_t place_among(const TouchMemory& touching, const NewContact& pair) {
 
 /// A found pair either touched before and was found again in a rebuilt list, or is a new contact.
 void match_or_add(NewContact pair, TouchMemory& touching, std::vector<NewContact>& new_contacts) {
-  const std::size_t at = place_among(touching, pair);
+  const std::size_t at = index_among(touching, pair);
   pair.next = static_cast<int>(at);
   const bool touches = at < touching.count() && touching.ball[at] == pair.ball &&
                        touching.segment[at] == pair.segment && touching.side[at] != 0;
   if (touches) {
-    touching.place[at] = pair.place;
+    touching.place[at] = pair.index;
   } else {
     new_contacts.push_back(pair);
   }
@@ -52,8 +51,8 @@ void classify_found(const LatticeBand& band, ContactLists& lists, ContactWorkspa
   }
   of_next_band.clear();
   const bool has_all = lists.face_list.empty();  // a search by buckets
-  for (const int place : workspace.found) {
-    const NewContact pair = {lists.candidate_ball[place], lists.candidate_segment[place], place};
+  for (const int index : workspace.found) {
+    const NewContact pair = {lists.candidate_ball[index], lists.candidate_segment[index], index};
     if (has_all || band.owns(pair.ball)) {
       match_or_add(pair, lists.touching, workspace.new_contacts);
     } else {
@@ -76,72 +75,53 @@ void visit_kept(TouchMemory& touching, const TouchMemory& before, Visit&& visit)
 }
 
 /// Writes the pairs that touch from now on, one after the other.
-class Writer {
- public:
-  Writer(const Scene& scene, ContactLists& lists, ContactWorkspace& workspace)
-      : scene_(scene),
-        lists_(lists),
-        changes_(workspace.changes),
-        before_(workspace.before),
-        after_(lists.touching),
-        known_(workspace.touches.known) {
-    const std::size_t count = before_.count() - lists.released.size() + workspace.new_contacts.size();
-    visit_kept(after_, before_, [&](auto& field, const auto&) { resize_with_room(field, count); });
-    workspace.touches.resize(count);
-    changes_.clear();
-  }
+struct Writer {
+  const Scene& scene;
+  const std::vector<int>& released;  ///< indices into the earlier pairs
+  ContactWorkspace& workspace;
+  TouchMemory& after;
+  const TouchMemory& before = workspace.before;
+  LaneVector<int>& known = workspace.touches.known;
+  int count = 0;           ///< pairs written
+  int next = 0;            ///< next of the earlier pairs
+  std::size_t passed = 0;  ///< number of released pairs that have been passed
 
   /// Copies the earlier pairs up to `end`, without the released ones.
   void copy_until(int end) {
-    while (next_ < end) {
-      const bool is_released = released_ < lists_.released.size() && lists_.released[released_] < end;
-      copy_run(is_released ? lists_.released[released_] : end);
-      if (is_released) {
-        note_change(before_.ball[next_]);
-        ++released_;
-        ++next_;
-      }
+    for (; passed < released.size() && released[passed] < end; ++passed) {
+      copy_run(released[passed]);
+      note_change(before.ball[next++]);
     }
+    copy_run(end);
   }
 
   void put(const NewContact& pair) {
     note_change(pair.ball);
-    after_.ball[count_] = pair.ball;
-    after_.segment[count_] = pair.segment;
-    after_.reach[count_] = scene_.reach_of(pair.ball, pair.segment);
-    after_.place[count_] = pair.place;
-    after_.linked[count_] = 0;
-    after_.side[count_] = 0;
-    known_[count_] = Touches::kNew;
-    ++count_;
+    after.ball[count] = pair.ball;
+    after.segment[count] = pair.segment;
+    after.reach[count] = scene.reach_of(pair.ball, pair.segment);
+    after.place[count] = pair.index;
+    after.linked[count] = 0;
+    after.side[count] = 0;
+    known[count] = Touches::kNew;
+    ++count;
   }
 
- private:
-  void note_change(int ball) { changes_.push_back({ball, count_}); }
+  void note_change(int ball) { workspace.changes.push_back({ball, count}); }
 
   void copy_run(int end) {
-    const int count = end - next_;
-    visit_kept(after_, before_,
-               [&](auto& field, const auto& old) { std::copy_n(old.begin() + next_, count, field.begin() + count_); });
-    std::iota(known_.begin() + count_, known_.begin() + count_ + count, next_);
-    count_ += count;
-    next_ = end;
+    const int run = end - next;
+    visit_kept(after, before,
+               [&](auto& field, const auto& old) { std::copy_n(old.begin() + next, run, field.begin() + count); });
+    std::iota(known.begin() + count, known.begin() + count + run, next);
+    count += run;
+    next = end;
   }
-
-  const Scene& scene_;
-  const ContactLists& lists_;
-  std::vector<ChangedBall>& changes_;
-  const TouchMemory& before_;
-  TouchMemory& after_;
-  LaneVector<int>& known_;
-  int count_ = 0;             // pairs written
-  int next_ = 0;              // next of the earlier pairs
-  std::size_t released_ = 0;  // number of ContactLists::released that have been passed
 };
 
 /// Finds which pairs of a ball are linked.
 void link(const Scene& scene, TouchMemory& touching, const ChangedBall& changed) {
-  const auto [begin, end] = pairs_of_ball(touching, changed.ball, changed.place);
+  const auto [begin, end] = pairs_of_ball(touching, changed.ball, changed.index);
   for (int i = begin; i < end; ++i) {
     touching.linked[i] = 0;
     for (int j = begin; j < end; ++j) {
@@ -158,7 +138,11 @@ void remember_touches(const Scene& scene, const LatticeBand& band, ContactLists&
                       std::vector<NewContact>& of_next_band) {
   classify_found(band, lists, workspace, of_next_band);
   std::swap(lists.touching, workspace.before);
-  Writer writer(scene, lists, workspace);
+  const std::size_t count = workspace.before.count() - lists.released.size() + workspace.new_contacts.size();
+  visit_kept(lists.touching, workspace.before, [&](auto& field, const auto&) { resize_with_room(field, count); });
+  workspace.touches.resize(count);
+  workspace.changes.clear();
+  Writer writer = {scene, lists.released, workspace, lists.touching};
   for (const NewContact& pair : workspace.new_contacts) {
     writer.copy_until(pair.next);
     writer.put(pair);

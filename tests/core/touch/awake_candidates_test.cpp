@@ -1,5 +1,3 @@
-#include "touch/awake_candidates.h"
-
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -7,6 +5,7 @@
 #include <vector>
 
 #include "scenes/every_target.h"
+#include "touch/contact_stages.h"
 
 namespace cellcrush {
 namespace {

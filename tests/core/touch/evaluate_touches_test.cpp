@@ -1,5 +1,3 @@
-#include "touch/evaluate_touches.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include "scenes/every_target.h"
 #include "scenes/evidence.h"
 #include "scenes/placed_pairs.h"
+#include "touch/contact_stages.h"
 
 namespace cellcrush {
 namespace {

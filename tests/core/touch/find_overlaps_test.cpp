@@ -1,5 +1,3 @@
-#include "touch/find_overlaps.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 #include "scenes/every_target.h"
 #include "scenes/evidence.h"
 #include "scenes/placed_pairs.h"
+#include "touch/contact_stages.h"
 
 namespace cellcrush {
 namespace {
