@@ -13,11 +13,11 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 
 int batches_for(int count) { return (count + kCandidateBatch - 1) / kCandidateBatch; }
 
-void put(ContactLists& lists, int place, const Candidate& candidate) {
-  lists.candidate_ball[place] = candidate.ball;
-  lists.candidate_segment[place] = candidate.segment;
-  lists.candidate_reach[place] = candidate.reach;
-  lists.candidate_next_check_travel[place] = candidate.reach > 0.0 ? 0.0 : kNever;
+void put(ContactLists& lists, int index, const Candidate& candidate) {
+  lists.candidate_ball[index] = candidate.ball;
+  lists.candidate_segment[index] = candidate.segment;
+  lists.candidate_reach[index] = candidate.reach;
+  lists.candidate_next_check_travel[index] = candidate.reach > 0.0 ? 0.0 : kNever;
 }
 
 void resize(ContactLists& lists, std::size_t size) {
@@ -75,8 +75,8 @@ void replace_list(ContactLists& lists, int face, const std::vector<Candidate>& c
   }
 }
 
-void wake_candidate(ContactLists& lists, int place, int ball, int segment) {
-  const auto k = static_cast<std::size_t>(place);
+void wake_candidate(ContactLists& lists, int index, int ball, int segment) {
+  const auto k = static_cast<std::size_t>(index);
   // If the list has been rebuilt, the candidate is tested in any case unless it was found to overlap.
   if (k < lists.candidate_ball.size() && lists.candidate_ball[k] == ball && lists.candidate_segment[k] == segment) {
     lists.candidate_next_check_travel[k] = 0.0;

@@ -18,8 +18,8 @@ struct Candidate {
 /// of the batches are empty, the lists are compacted in the order of the faces.
 void replace_list(ContactLists& lists, int face, const std::vector<Candidate>& candidates);
 
-/// Notes that the pair found as candidate `place` is released: it is tested again from the next step on.
-void wake_candidate(ContactLists& lists, int place, int ball, int segment);
+/// Notes that the pair found as candidate `index` is released: it is tested again from the next step on.
+void wake_candidate(ContactLists& lists, int index, int ball, int segment);
 
 /// Appends a candidate that belongs to no face.
 void add_candidate(ContactLists& lists, const Candidate& candidate);

@@ -11,32 +11,22 @@
 namespace cellcrush {
 namespace {
 
-/// A pair in one of the lists.
-struct Pair {
-  const TouchMemory* touching;
-  std::size_t place;
-
-  bool operator<(const Pair& other) const {
-    return std::tie(touching->ball[place], touching->segment[place]) <
-           std::tie(other.touching->ball[other.place], other.touching->segment[other.place]);
-  }
-};
-
 /// Leaves out released pairs. REQUIRES: no friction, as always with bands.
 TouchMemory merge(const std::vector<ContactLists>& contacts) {
-  std::vector<Pair> pairs;
+  std::vector<std::tuple<int, int, const TouchMemory*, std::size_t>> pairs;  // by ball and segment
   for (const ContactLists& lists : contacts) {
-    for (std::size_t i = 0; i < lists.touching.count(); ++i) {
-      if (lists.touching.side[i] != 0) {
-        pairs.push_back({&lists.touching, i});
+    const TouchMemory& from = lists.touching;
+    for (std::size_t i = 0; i < from.count(); ++i) {
+      if (from.side[i] != 0) {
+        pairs.emplace_back(from.ball[i], from.segment[i], &from, i);
       }
     }
   }
   std::sort(pairs.begin(), pairs.end());
   TouchMemory merged;
-  for (const auto& [from, i] : pairs) {
-    merged.ball.push_back(from->ball[i]);
-    merged.segment.push_back(from->segment[i]);
+  for (const auto& [ball, segment, from, i] : pairs) {
+    merged.ball.push_back(ball);
+    merged.segment.push_back(segment);
     merged.reach.push_back(from->reach[i]);
     merged.place.push_back(from->place[i]);
     merged.linked.push_back(from->linked[i]);
