@@ -11,7 +11,7 @@
 
 #include "geometry/bucket_grid.h"
 #include "scene/face_loops.h"
-#include "search/near_corners.h"
+#include "search/face_kernels.h"
 
 namespace cellcrush {
 namespace {

@@ -5,7 +5,7 @@
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
 #include "search/candidate_lists.h"
-#include "search/near_corners.h"
+#include "search/face_kernels.h"
 
 namespace cellcrush {
 

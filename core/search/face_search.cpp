@@ -7,8 +7,8 @@
 
 #include "cellcrush/tuning.h"
 #include "search/candidate_lists.h"
+#include "search/face_kernels.h"
 #include "search/face_pairs.h"
-#include "search/velocity_box.h"
 
 namespace cellcrush {
 namespace {

@@ -1,5 +1,3 @@
-#include "search/near_corners.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include <vector>
 
 #include "scenes/every_target.h"
+#include "search/face_kernels.h"
 
 namespace cellcrush {
 namespace {

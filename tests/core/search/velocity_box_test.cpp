@@ -1,5 +1,3 @@
-#include "search/velocity_box.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,6 +5,7 @@
 #include <vector>
 
 #include "scenes/every_target.h"
+#include "search/face_kernels.h"
 
 namespace cellcrush {
 namespace {

@@ -4,9 +4,20 @@
 #include <cstdint>
 #include <span>
 
-#include "cellcrush/vector.h"
+#include "cellcrush/state.h"
+
+// What the search by faces computes for several particles side by side.
 
 namespace cellcrush {
+
+/// Bounding box of velocities, mm/s; v_low and v_high of E8c.
+struct VelocityBox {
+  Vector2 low;
+  Vector2 high;
+};
+
+/// Bounding box of the velocities of some particles. REQUIRES: at least one member.
+VelocityBox box_of_velocities(const State& state, std::span<const int> members);
 
 /// Number of corners from which the particles of a face are sorted into buckets.
 inline constexpr int kManyCorners = 64;
