@@ -33,7 +33,7 @@ namespace cellcrush {
 /// mid-lines of the walls, as in the paper: the moment due to R and h/2 is left out. c is the fraction damping_ratio of
 /// critical damping of k with the effective mass, 1/m_eff = 1/m_ball + (1-s)^2/m_1 + s^2/m_2 (E9).
 ///
-/// Five short loops over arrays (touch/contact_workspace.h) find the candidates that overlap, update the touch history,
+/// Five short loops over arrays (touch/contact_stages.h) find the candidates that overlap, update the touch history,
 /// evaluate overlap and motion, find the active contacts, and compute the forces. All but the second and the fourth use
 /// vector instructions. Forces are summed in the order of balls and segments, so the sums have the same bits however
 /// pairs were found.
