@@ -19,8 +19,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {
 
-using Wide = WideTag<double, 8>;
-using One = hn::CappedTag<double, 1>;
+using Wide = WideTag<double, kCandidateBatch>;
+using Numbers = Lane<Wide>;
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
@@ -32,7 +32,6 @@ struct AwakeBits {
   const int* groups = lists.batch_group.empty() ? nullptr : lists.batch_group.data();
 
   HWY_INLINE std::uint64_t of_batch(std::size_t batch) const {
-    using Numbers = Lane<WideTag<double, kCandidateBatch>>;
     // In a search by buckets none sleeps.
     const Numbers travelled = groups == nullptr ? 0.0 : travels[groups[batch]];
     std::uint64_t bits = 0;
@@ -104,29 +103,26 @@ void collect(const Scene& scene, const ContactLists& lists, std::span<const int>
 }
 
 /// Balls relative to segments. w points from the start of the segment to the ball, u is the segment.
-template <class D>
 struct Standing {
-  Lane<D> reach;
-  Lane<D> squared_distance;  // w.w, from the start
-  Lane<D> foot;              // w.u
-  Lane<D> squared_length;    // u.u
+  Numbers reach;
+  Numbers squared_distance;  // w.w, from the start
+  Numbers foot;              // w.u
+  Numbers squared_length;    // u.u
 };
 
-template <class D>
-HWY_INLINE Standing<D> standing_of(const Vector2* positions, const Tested& tested, std::size_t i) {
-  const Points<D> start = gather<D>(positions, tested.start + i);
-  const Points<D> end = gather<D>(positions, tested.end + i);
-  const Points<D> ball = gather<D>(positions, tested.ball + i);
-  const Points<D> u = end - start;
-  const Points<D> w = ball - start;
-  return {Lane<D>::load(tested.reach + i), dot(w, w), dot(w, u), dot(u, u)};
+HWY_INLINE Standing standing_of(const Vector2* positions, const Tested& tested, std::size_t i) {
+  const Points<Wide> start = gather<Wide>(positions, tested.start + i);
+  const Points<Wide> end = gather<Wide>(positions, tested.end + i);
+  const Points<Wide> ball = gather<Wide>(positions, tested.ball + i);
+  const Points<Wide> u = end - start;
+  const Points<Wide> w = ball - start;
+  return {Numbers::load(tested.reach + i), dot(w, w), dot(w, u), dot(u, u)};
 }
 
 /// Lanes whose ball is nearer to its segment than their reach (E8, E8a): to its line if the ball is beside it,
 /// otherwise to the nearer end. No division is needed: the squared distance from the line is w.w - (w.u)^2 / u.u.
-template <class D>
-HWY_INLINE LaneMask<D> overlap(const Standing<D>& at) {
-  const Lane<D> zero = 0.0;
+HWY_INLINE LaneMask<Wide> overlap(const Standing& at) {
+  const Numbers zero = 0.0;
   const auto beyond_start = fnma(at.reach, at.reach, at.squared_distance);  // w.w - reach^2
   const auto beyond_end = beyond_start - (at.foot + at.foot) + at.squared_length;
   const auto near_line = beyond_start * at.squared_length < at.foot * at.foot;
@@ -135,46 +131,35 @@ HWY_INLINE LaneMask<D> overlap(const Standing<D>& at) {
 }
 
 /// Gaps, mm: distances minus reach.
-template <class D>
-HWY_INLINE Lane<D> gap(const Standing<D>& at) {
-  const Lane<D> zero = 0.0;
+HWY_INLINE Numbers gap(const Standing& at) {
+  const Numbers zero = 0.0;
   const auto share = min(max(at.foot, zero), at.squared_length) / at.squared_length;
   // w.w - 2 s w.u + s^2 u.u
   const auto squared = fnma(share, fnma(share, at.squared_length, at.foot + at.foot), at.squared_distance);
   return sqrt(max(squared, zero)) - at.reach;
 }
 
-/// Finds the travel at which each candidate is next checked, and returns the lanes of those that overlap.
-template <class D>
-HWY_INLINE LaneMask<D> test(const Vector2* positions, const Tested& tested, std::size_t i, double* next_checks) {
-  const Standing<D> at = standing_of<D>(positions, tested, i);
-  const auto overlaps = overlap(at);
-  const auto next = Lane<D>::load(tested.travel + i) + gap(at);
-  select(overlaps, Lane<D>(kNever), next).store(next_checks + i);
-  return overlaps;
-}
-
-/// Sets the next checks of candidates that are tested together. Appends the indices of those that overlap to `found`.
+/// Sets the next checks of candidates that are tested together, whole vectors of them. Appends the indices of those
+/// that overlap to `found`, each once.
 void test_some(const Scene& scene, const State& state, ContactLists& lists, std::span<const int> awake,
                std::vector<int>& found) {
   Tested tested;
   collect(scene, lists, awake, tested);
   const Vector2* positions = state.position.data();
   double next_checks[kTestedTogether];
-  const auto note = [&](std::size_t i, unsigned bits) {
-    for (; bits != 0; bits &= bits - 1) {
-      found.push_back(awake[i + std::countr_zero(bits)]);
+  for (std::size_t i = 0; i < awake.size(); i += Numbers::kWidth) {
+    const Standing at = standing_of(positions, tested, i);
+    const LaneMask<Wide> overlaps = overlap(at);
+    select(overlaps, Numbers(kNever), Numbers::load(tested.travel + i) + gap(at)).store(next_checks + i);
+    for (unsigned bits = bits_of(overlaps); bits != 0; bits &= bits - 1) {
+      const int index = awake[i + std::countr_zero(bits)];
+      if (found.empty() || found.back() != index) {
+        found.push_back(index);
+      }
     }
-  };
-  std::size_t i = 0;
-  for (; i + Lane<Wide>::kWidth <= awake.size(); i += Lane<Wide>::kWidth) {
-    note(i, bits_of(test<Wide>(positions, tested, i, next_checks)));
-  }
-  for (; i < awake.size(); ++i) {
-    note(i, bits_of(test<One>(positions, tested, i, next_checks)));
   }
   double* of_all = lists.candidate_next_check_travel.data();
-  for (i = 0; i < awake.size(); ++i) {
+  for (std::size_t i = 0; i < awake.size(); ++i) {
     of_all[awake[i]] = next_checks[i];
   }
 }
@@ -196,13 +181,17 @@ namespace {
 HWY_EXPORT(find_awake);
 HWY_EXPORT(test_awake);
 
-/// The candidates from `first` to `end` that overlap; sets the next checks of the others that are awake.
+/// The candidates from `first` to `end` that overlap; sets the next checks of the others that are awake. The last of
+/// them is repeated to fill a vector.
 void find_overlaps_in(const Scene& scene, const State& state, ContactLists& lists, std::size_t first, std::size_t end,
                       ContactPart& part) {
   if (part.awake.size() < end - first + kCandidateBatch) {
     resize_with_room(part.awake, end - first + kCandidateBatch);
   }
-  const std::size_t count = find_awake_candidates(lists, first, end, part.awake.data());
+  std::size_t count = find_awake_candidates(lists, first, end, part.awake.data());
+  for (; count % kCandidateBatch != 0; ++count) {
+    part.awake[count] = part.awake[count - 1];
+  }
   part.found.clear();
   HWY_DYNAMIC_DISPATCH(test_awake)(scene, state, lists, std::span(part.awake).first(count), part.found);
 }
