@@ -1,7 +1,5 @@
 #pragma once
 
-#include <algorithm>
-
 #include "cellcrush/vector.h"
 
 namespace cellcrush {
@@ -15,12 +13,7 @@ struct Projection {
   Vector2 offset;  ///< from the foot of the perpendicular to the point
 };
 
-/// `axis`: unit vector along the segment; `length` in mm. search/face_kernels.cpp does the same for several points.
-inline Projection project(const Vector2& point, const Vector2& start, const Vector2& axis, double length) {
-  const Vector2 from_start = point - start;
-  const double ahead = from_start.x() * axis.x() + from_start.y() * axis.y();
-  const double along = std::clamp(ahead, 0.0, length);
-  return {along, from_start - along * axis};
-}
+/// `axis`: unit vector along the segment; `length` in mm (geometry/capsule-inl.h).
+Projection project(const Vector2& point, const Vector2& start, const Vector2& axis, double length);
 
 }  // namespace cellcrush

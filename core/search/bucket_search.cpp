@@ -4,7 +4,7 @@
 #include <span>
 
 #include "geometry/bucket_grid.h"
-#include "geometry/capsule.h"
+#include "geometry/capsule-inl.h"
 #include "search/candidate_lists.h"
 
 namespace cellcrush {
@@ -44,8 +44,12 @@ void list_by_buckets(const Scene& scene, const State& state, ContactLists& lists
     const Vector2 margin = Vector2::Constant(0.5 * element.thickness + scene.largest_radius + skin);
     grid.visit_box(start.cwiseMin(end) - margin, start.cwiseMax(end) + margin, [&](int ball) {
       const double range = scene.radius[ball] + 0.5 * element.thickness + skin;
-      const Vector2 offset = project(state.position[ball], start, state.axis[e], state.length[e]).offset;
-      const bool is_near = offset.squaredNorm() < range * range;
+      const Vector2 from_start = state.position[ball] - start;
+      const Vector2& axis = state.axis[e];
+      // Inlined: a call of project() would take a fifth of the time of the search.
+      const auto off =
+          HWY_NAMESPACE::project_clamped(from_start.x(), from_start.y(), axis.x(), axis.y(), state.length[e]);
+      const bool is_near = off.x * off.x + off.y * off.y < range * range;
       if (ball != element.start && ball != element.end && is_near) {
         const int segment = static_cast<int>(e);
         add_candidate(lists, {ball, segment, scene.reach_of(ball, segment)});

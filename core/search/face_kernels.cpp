@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "geometry/capsule-inl.h"
 #include "simd/points-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -45,11 +46,8 @@ void find_near(std::span<const Vector2> places, std::size_t count, const FaceSeg
   Lane<D> least = most;
   std::uint64_t near = 0;
   for (std::size_t i = 0; i < places.size(); i += Lane<D>::kWidth) {
-    // As in project(); no operation is fused, so that all widths round alike.
     const Points<D> from_start = Points<D>::load(&places[i]) - start;
-    const Lane<D> ahead = from_start.x * axis.x + from_start.y * axis.y;
-    const Lane<D> along = min(max(ahead, Lane<D>(0.0)), length);
-    const Points<D> off = from_start - along * axis;
+    const Offset<Lane<D>> off = project_clamped(from_start.x, from_start.y, axis.x, axis.y, length);
     const Lane<D> squared = off.x * off.x + off.y * off.y;
     squared.store(&found.squared_distance[i]);
     const auto is_near = squared < squared_range;

@@ -1,0 +1,38 @@
+// Included once for each target; see Highway's documentation of foreach_target.h.
+#if defined(CELLCRUSH_GEOMETRY_CAPSULE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef CELLCRUSH_GEOMETRY_CAPSULE_INL_H_
+#undef CELLCRUSH_GEOMETRY_CAPSULE_INL_H_
+#else
+#define CELLCRUSH_GEOMETRY_CAPSULE_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+
+HWY_BEFORE_NAMESPACE();
+namespace cellcrush::HWY_NAMESPACE {
+
+/// See geometry/capsule.h.
+template <class Number>
+struct Offset {
+  Number along;  ///< mm from the segment's start to the foot, 0 to length
+  Number x;      ///< from the foot to the point
+  Number y;
+};
+
+/// Projects points at (x, y) from the start of a segment, one point or one per lane. No operation is fused, so that all
+/// widths round alike.
+template <class Number>
+HWY_INLINE Offset<Number> project_clamped(Number x, Number y, Number axis_x, Number axis_y, Number length) {
+  using std::max;
+  using std::min;
+  const Number ahead = x * axis_x + y * axis_y;
+  const Number along = min(max(ahead, Number(0.0)), length);
+  return {along, x - along * axis_x, y - along * axis_y};
+}
+
+}  // namespace cellcrush::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // CELLCRUSH_GEOMETRY_CAPSULE_INL_H_
