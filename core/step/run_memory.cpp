@@ -29,7 +29,7 @@ constexpr double kOfSamples = 55.0;
 /// Bytes of a run of any size: code that only a large crush runs, the heap's reserve. Measured: 0.2 to 0.7 MB.
 constexpr double kOfRun = 400'000.0;
 
-constexpr int kMostCells = 12;  ///< of a specimen, along either axis
+constexpr int kMostCells = 8;  ///< of a specimen, along either axis
 
 double growth_of(const Scene& scene, bool in_bands) {
   if (!scene.contact.present) {

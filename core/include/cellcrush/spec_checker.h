@@ -12,8 +12,8 @@ namespace cellcrush {
 
 /// Checks many specs. Problems, words and numbers are those of build_scene, to the last bit. Specs share the measures
 /// of one mesh if they differ only in fields on which it does not depend (speed, strains, contact, steps, output). The
-/// first spec builds the mesh; each further one costs microseconds. Keeps the measures of the last meshes, not the
-/// meshes themselves. Not thread-safe.
+/// first spec builds the mesh; each further one costs less than a millisecond, for a specimen that tells its memory.
+/// Keeps the measures of the last meshes, not the meshes themselves. Not thread-safe.
 class SpecChecker {
  public:
   SpecChecker();
