@@ -12,31 +12,31 @@ namespace cellcrush {
 namespace {
 
 constexpr std::size_t kSteps = 23;
-constexpr std::size_t kPlaces = 17;
+constexpr std::size_t kItems = 17;
 constexpr std::size_t kLag = 3;
 constexpr std::size_t kAtOnce = 5;
 
-/// Which places of which steps have been done; not guarded but by the order in which they are.
+/// Which items of which steps have been done; not guarded but by the order in which they are.
 struct Done {
-  bool done[kSteps][kPlaces] = {};
+  bool done[kSteps][kItems] = {};
 
-  [[nodiscard]] bool has(std::size_t step, std::size_t places) const {
-    return std::all_of(done[step], done[step] + std::min(places, kPlaces), [](bool place) { return place; });
+  [[nodiscard]] bool has(std::size_t step, std::size_t items) const {
+    return std::all_of(done[step], done[step] + std::min(items, kItems), [](bool item) { return item; });
   }
 };
 
-TEST(Wavefront, TakesEveryPlaceOfEveryStepOnceAndAfterWhatItNeeds) {
+TEST(Wavefront, TakesEveryItemOfEveryStepOnceAndAfterWhatItNeeds) {
   for (const int threads : {1, 2, 4}) {
-    Wavefront wavefront(kSteps, kPlaces, kLag, kAtOnce);
+    Wavefront wavefront(kSteps, kItems, kLag, kAtOnce);
     Done done;
     std::atomic<int> visits{0};
     std::atomic<int> too_early{0};
-    const auto visit = [&](std::size_t step, std::size_t place) {
-      const bool after_its_own = done.has(step, place) && !done.done[step][place];
-      const bool after_the_step_before = step == 0 || done.has(step - 1, place + kLag);
-      const bool has_room = step < kAtOnce || done.has(step - kAtOnce, kPlaces);
+    const auto visit = [&](std::size_t step, std::size_t index) {
+      const bool after_its_own = done.has(step, index) && !done.done[step][index];
+      const bool after_the_step_before = step == 0 || done.has(step - 1, index + kLag);
+      const bool has_room = step < kAtOnce || done.has(step - kAtOnce, kItems);
       too_early += after_its_own && after_the_step_before && has_room ? 0 : 1;
-      done.done[step][place] = true;
+      done.done[step][index] = true;
       ++visits;
     };
     std::vector<std::thread> others;
@@ -47,7 +47,7 @@ TEST(Wavefront, TakesEveryPlaceOfEveryStepOnceAndAfterWhatItNeeds) {
     for (std::thread& other : others) {
       other.join();
     }
-    EXPECT_EQ(visits, static_cast<int>(kSteps * kPlaces)) << threads;
+    EXPECT_EQ(visits, static_cast<int>(kSteps * kItems)) << threads;
     EXPECT_EQ(too_early, 0) << threads;
   }
 }
@@ -55,7 +55,7 @@ TEST(Wavefront, TakesEveryPlaceOfEveryStepOnceAndAfterWhatItNeeds) {
 TEST(Wavefront, BeginsTheNextStepsWhereTheFirstHaveEnded) {
   Wavefront wavefront(3, 4, 2, 1);
   std::vector<std::pair<std::size_t, std::size_t>> order;
-  wavefront.advance([&](std::size_t step, std::size_t place) { order.emplace_back(step, place); });
+  wavefront.advance([&](std::size_t step, std::size_t index) { order.emplace_back(step, index); });
   for (std::size_t i = 0; i < order.size(); ++i) {
     EXPECT_EQ(order[i], std::pair(i / 4, i % 4));
   }
@@ -65,7 +65,7 @@ TEST(Wavefront, BeginsTheNextStepsWhereTheFirstHaveEnded) {
 TEST(Wavefront, GoesByColumnsWhereOneThreadIsAlone) {
   Wavefront wavefront(2, 4, 2, 2);
   std::vector<std::pair<std::size_t, std::size_t>> order;
-  wavefront.advance([&](std::size_t step, std::size_t place) { order.emplace_back(step, place); });
+  wavefront.advance([&](std::size_t step, std::size_t index) { order.emplace_back(step, index); });
   const std::vector<std::pair<std::size_t, std::size_t>> expected = {{0, 0}, {0, 1}, {0, 2}, {1, 0},
                                                                      {0, 3}, {1, 1}, {1, 2}, {1, 3}};
   EXPECT_EQ(order, expected);
