@@ -16,6 +16,13 @@ struct Band {
   std::vector<bool> inside;  ///< C
 };
 
+/// Mid-lines that are tried: all of these combinations, at positions along the crush that are half a cell apart.
+struct MidLines {
+  std::vector<double> slopes;  ///< distance along the crush over distance across it
+  std::vector<double> points;  ///< where the arms meet, across the lattice over its width
+  std::vector<double> signs;   ///< of the slope
+};
+
 /// Searches the mid-lines of one kind for the band that agrees best with the collapsed cells. A band has one, two or
 /// four arms. In each of them at least a fraction kLeastOfArm of its cells has collapsed. They are at least a fraction
 /// kLeastOfBand of an even share of the collapsed cells of the band.
@@ -30,25 +37,19 @@ class BandSearch {
     bin_of_.resize(field.along.size());
   }
 
-  /// Tries every width round a mid-line. `distance` gives the distance of a cell from it along the crush, mm, and `arm`
-  /// the number of the arm to which the cell would belong.
+  /// Tries every width round all of the lines. At s along the crush and t across it from the point of a line,
+  /// distance(s, t, slope) gives the signed distance from the line along the crush, mm, and arm(s, t) the number of the
+  /// arm to which a cell would belong.
   template <class Distance, class Arm>
-  void try_line(const Distance& distance, const Arm& arm) {
-    counts_.assign((bins_ + 1) * arms_, {});
-    // Cells beyond the widest band share one more bin, the last one.
-    for (std::size_t cell = 0; cell < bin_of_.size(); ++cell) {
-      const double bin = distance(field_.along[cell], field_.across[cell]) * bins_per_mm();
-      bin_of_[cell] = static_cast<int>(std::min(bin, static_cast<double>(bins_)));
-    }
-    for (std::size_t cell = 0; cell < bin_of_.size(); ++cell) {
-      Count& count =
-          counts_[static_cast<std::size_t>(bin_of_[cell]) * arms_ + arm(field_.along[cell], field_.across[cell])];
-      ++count.all;
-      count.hit += hit_[cell];
-    }
-    if (const auto width = find_width()) {
-      best_.inside.resize(bin_of_.size());
-      std::transform(bin_of_.begin(), bin_of_.end(), best_.inside.begin(), [&](int bin) { return bin <= *width; });
+  void try_lines(const MidLines& lines, const Distance& distance, const Arm& arm) {
+    for (const double slope : lines.slopes) {
+      for (const double point : lines.points) {
+        for (const double sign : lines.signs) {
+          for (double place = 0.0; place <= field_.length; place += 0.5 * field_.pitch) {
+            try_line(place, point * field_.width, sign * slope, distance, arm);
+          }
+        }
+      }
     }
   }
 
@@ -60,6 +61,26 @@ class BandSearch {
     int all = 0;
     int hit = 0;
   };
+
+  template <class Distance, class Arm>
+  void try_line(double along, double across, double slope, const Distance& distance, const Arm& arm) {
+    counts_.assign((bins_ + 1) * arms_, {});
+    // Cells beyond the widest band share one more bin, the last one.
+    for (std::size_t cell = 0; cell < bin_of_.size(); ++cell) {
+      const double off = distance(field_.along[cell] - along, field_.across[cell] - across, slope);
+      bin_of_[cell] = static_cast<int>(std::min(std::abs(off) * bins_per_mm(), static_cast<double>(bins_)));
+    }
+    for (std::size_t cell = 0; cell < bin_of_.size(); ++cell) {
+      const int of = arm(field_.along[cell] - along, field_.across[cell] - across);
+      Count& count = counts_[static_cast<std::size_t>(bin_of_[cell]) * arms_ + of];
+      ++count.all;
+      count.hit += hit_[cell];
+    }
+    if (const auto width = find_width()) {
+      best_.inside.resize(bin_of_.size());
+      std::transform(bin_of_.begin(), bin_of_.end(), best_.inside.begin(), [&](int bin) { return bin <= *width; });
+    }
+  }
 
   [[nodiscard]] double bins_per_mm() const { return 2.0 / field_.pitch; }
 
@@ -100,16 +121,7 @@ class BandSearch {
   double collapsed_ = 0.0;
 };
 
-/// Positions along the crush that are tried, half a cell apart.
-template <class Try>
-void for_each_place(const CollapseField& field, const Try& attempt) {
-  for (double place = 0.0; place <= field.length; place += 0.5 * field.pitch) {
-    attempt(place);
-  }
-}
-
-/// Slopes that are tried, distance along the crush over distance across it: those that can be told from 0 in a lattice
-/// of this width.
+/// Slopes that are tried: those that can be told from 0 in a lattice of this width.
 std::vector<double> slopes_of(const CollapseField& field) {
   constexpr double kLeastRun = 3.0;  // cells along the crush over half of the width
   std::vector<double> slopes;
@@ -122,77 +134,36 @@ std::vector<double> slopes_of(const CollapseField& field) {
   return slopes;
 }
 
-void search_i(const CollapseField& field, BandSearch& search) {
-  for_each_place(field, [&](double place) {
-    search.try_line([=](double s, double) { return std::abs(s - place); }, [](double, double) { return 0; });
-  });
-}
-
-void search_v(const CollapseField& field, BandSearch& search) {
-  for (const double slope : slopes_of(field)) {
-    for (const double middle : {0.3, 0.4, 0.5, 0.6, 0.7}) {
-      const double apex = middle * field.width;
-      for (const double hand : {slope, -slope}) {
-        for_each_place(field, [&](double place) {
-          search.try_line([=](double s, double t) { return std::abs(s - place - hand * std::abs(t - apex)); },
-                          [=](double, double t) { return t < apex ? 0 : 1; });
-        });
-      }
-    }
-  }
-}
-
-/// Crossing bands of both slopes, with four arms. If the crossing is on a side, they are a V whose point is there, with
-/// two arms.
-void search_crossing(const CollapseField& field, bool inside, std::initializer_list<double> crossings,
-                     BandSearch& search) {
-  for (const double slope : slopes_of(field)) {
-    for (const double crossing : crossings) {
-      const double across = crossing * field.width;
-      for_each_place(field, [&](double place) {
-        search.try_line(
-            [=](double s, double t) { return std::abs(std::abs(s - place) - slope * std::abs(t - across)); },
-            [=](double s, double t) { return (s < place ? 0 : 1) + (inside && t < across ? 2 : 0); });
-      });
-    }
-  }
-}
-
-void search_c(const CollapseField& field, BandSearch& search) {
-  for (const double slope : slopes_of(field)) {
-    for (const double middle : {0.4, 0.5, 0.6}) {
-      const double apex = middle * field.width;
-      for (const double bow : {2.0 * slope / field.width, -2.0 * slope / field.width}) {
-        for_each_place(field, [&](double place) {
-          search.try_line([=](double s, double t) { return std::abs(s - place - bow * (t - apex) * (t - apex)); },
-                          [=](double, double t) { return t < apex ? 0 : 1; });
-        });
-      }
-    }
-  }
-}
-
 /// The band of any kind that agrees best; a later kind must be clearly better than those before it.
 Band find_band(const CollapseField& field) {
   Band best;
-  const auto consider = [&](CrushMode kind, int arms, const auto& look) {
+  const auto consider = [&](CrushMode kind, int arms, const MidLines& lines, const auto& distance, const auto& arm) {
     const double to_beat = best.agreement + (best.inside.empty() ? 0.0 : kClearlyBetter);
     if (to_beat >= 1.0) {
       return;
     }
     BandSearch search(field, kind, arms, to_beat);
-    look(search);
+    search.try_lines(lines, distance, arm);
     if (!search.best().inside.empty()) {
       best = search.best();
     }
   };
-  consider(CrushMode::i, 1, [&](BandSearch& search) { search_i(field, search); });
-  consider(CrushMode::v, 2, [&](BandSearch& search) { search_v(field, search); });
-  consider(CrushMode::v, 2, [&](BandSearch& search) { search_crossing(field, false, {0.0, 1.0}, search); });
-  consider(CrushMode::x, 4, [&](BandSearch& search) {
-    search_crossing(field, true, {0.3, 0.4, 0.5, 0.6, 0.7}, search);
-  });
-  consider(CrushMode::c, 2, [&](BandSearch& search) { search_c(field, search); });
+  const std::vector<double> slopes = slopes_of(field);
+  const std::vector<double> inside = {0.3, 0.4, 0.5, 0.6, 0.7};
+  const auto straight = [](double s, double, double) { return s; };
+  const auto pointed = [](double s, double t, double slope) { return s - slope * std::abs(t); };
+  const auto crossing = [](double s, double t, double slope) { return std::abs(s) - slope * std::abs(t); };
+  const auto bowed = [&](double s, double t, double slope) { return s - 2.0 * slope / field.width * t * t; };
+  const auto whole = [](double, double) { return 0; };
+  const auto by_s = [](double s, double) { return s < 0.0 ? 0 : 1; };
+  const auto by_t = [](double, double t) { return t < 0.0 ? 0 : 1; };
+  const auto by_both = [&](double s, double t) { return by_s(s, t) + 2 * by_t(s, t); };
+  consider(CrushMode::i, 1, {{0.0}, {0.0}, {1.0}}, straight, whole);
+  consider(CrushMode::v, 2, {slopes, inside, {1.0, -1.0}}, pointed, by_t);
+  // Bands that cross on a side are a V whose point is there.
+  consider(CrushMode::v, 2, {slopes, {0.0, 1.0}, {1.0}}, crossing, by_s);
+  consider(CrushMode::x, 4, {slopes, inside, {1.0}}, crossing, by_both);
+  consider(CrushMode::c, 2, {slopes, {0.4, 0.5, 0.6}, {1.0, -1.0}}, bowed, by_t);
   return best;
 }
 
@@ -206,7 +177,7 @@ double collapsed_fraction_of(const CollapseField& field) {
   return field.collapsed.empty() ? 0.0 : count(field.collapsed) / static_cast<double>(field.collapsed.size());
 }
 
-CrushMode find_crush_mode(const CollapseField& field, double* agreement) {
+CrushMode find_crush_mode(const CollapseField& field) {
   constexpr int kMostBands = 3;
   constexpr double kWorthAnother = 0.25;  // fraction of the collapsed cells
   const double collapsed = count(field.collapsed);
@@ -229,11 +200,7 @@ CrushMode find_crush_mode(const CollapseField& field, double* agreement) {
       break;
     }
   }
-  const double whole = collapsed > 0.0 ? 2.0 * hit / (inside + collapsed) : 0.0;
-  if (agreement != nullptr) {
-    *agreement = whole;
-  }
-  return collapsed == 0.0 || whole >= kLeastAgreement ? kind : CrushMode::mixed;
+  return collapsed == 0.0 || 2.0 * hit / (inside + collapsed) >= kLeastAgreement ? kind : CrushMode::mixed;
 }
 
 }  // namespace cellcrush

@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "cellcrush/sample.h"
-#include "measure/faces.h"
 
 namespace cellcrush {
 
@@ -47,8 +46,7 @@ struct CollapseField {
 /// Fraction of the cells that have collapsed; 0 without cells.
 double collapsed_fraction_of(const CollapseField& field);
 
-/// The kind of bands that the collapsed cells make; NONE if none has collapsed. `agreement`, if given, receives how
-/// well they agree.
-CrushMode find_crush_mode(const CollapseField& field, double* agreement = nullptr);
+/// The kind of bands that the collapsed cells make; NONE if none has collapsed.
+CrushMode find_crush_mode(const CollapseField& field);
 
 }  // namespace cellcrush
