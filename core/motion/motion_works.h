@@ -24,12 +24,12 @@ struct MotionWorks {
     twice_kinetic += other.twice_kinetic;
   }
 
-  void accumulate(Ledger& ledger) const {
-    ledger.contact += contact;
-    ledger.contact_damping += contact_damping;
-    ledger.friction += friction;
-    ledger.mass_damping += mass_damping;
-    ledger.external += external;
+  void accumulate(Ledger& ledger, double factor = 1.0) const {
+    ledger.contact += factor * contact;
+    ledger.contact_damping += factor * contact_damping;
+    ledger.friction += factor * friction;
+    ledger.mass_damping += factor * mass_damping;
+    ledger.external += factor * external;
   }
 };
 

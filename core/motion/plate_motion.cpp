@@ -9,15 +9,16 @@ PlateStep plate_step_of(const Scene& scene, double time, double travel) {
   return {0.5 * step * (speed_before + speed_after), travel + step * speed_after};
 }
 
-void accumulate_plate_work(const State& state, double displacement, Ledger& ledger) {
-  ledger.contact += state.impact_force.elastic * displacement;
-  ledger.contact_damping += state.impact_force.viscous * displacement;
-  ledger.external += state.impact_force.total() * displacement;
+MotionWorks plate_works(const State& state, double displacement) {
+  const PlateForce& force = state.impact_force;
+  return {.contact = force.elastic * displacement,
+          .contact_damping = force.viscous * displacement,
+          .external = force.total() * displacement};
 }
 
 void accumulate_plates(const Scene& scene, const PlateStep& plates, State& state) {
   const double step = scene.schedule.time_step;
-  accumulate_plate_work(state, plates.displacement, state.ledger);
+  plate_works(state, plates.displacement).accumulate(state.ledger);
   state.impact_impulse += step * state.impact_force.total();
   state.support_impulse += step * state.support_force.total();
   state.impact_travel = plates.travel;

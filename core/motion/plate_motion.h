@@ -2,6 +2,7 @@
 
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
+#include "motion/motion_works.h"
 
 namespace cellcrush {
 
@@ -13,9 +14,9 @@ struct PlateStep {
 };
 PlateStep plate_step_of(const Scene& scene, double time, double travel);
 
-/// Adds the work of the forces of the impact plate over a mean displacement, mm, to the ledger (E10). The forces that
-/// it exerts on particles are among the contact forces.
-void accumulate_plate_work(const State& state, double displacement, Ledger& ledger);
+/// The works of the forces of the impact plate over a mean displacement, mm (E10). The forces that it exerts on
+/// particles are among the contact forces.
+MotionWorks plate_works(const State& state, double displacement);
 
 /// Accumulates the work and the impulses of the forces of the plates over a step, and moves the impact plate.
 void accumulate_plates(const Scene& scene, const PlateStep& plates, State& state);

@@ -10,4 +10,7 @@ namespace cellcrush {
 /// kinetic energy at that time (E10).
 MotionWorks half_step_works(const Scene& scene, const State& state);
 
+/// Elastic energy of all elements, N mm, from the current stresses (E10). Accepts any section rule.
+double elastic_energy(const Scene& scene, const State& state);
+
 }  // namespace cellcrush
