@@ -76,7 +76,7 @@ void stagger_velocities(const Scene& scene, State& state) {
   const ParticleArrays<const State> arrays(scene, state);
   with_force_kinds(scene, state, [&](auto kinds) {
     using Kinds = decltype(kinds);
-    for (std::size_t i = first_free_particle(scene); i < scene.particle_count(); ++i) {
+    for (std::size_t i = scene.rigid.particle_count(); i < scene.particle_count(); ++i) {
       const auto motion = motion_of<Kinds>(arrays, step, forces_on<true, Kinds, One>(arrays, i), i);
       const Lane<One> half = 0.5;
       (motion.velocity - half * (motion.next - motion.velocity)).store(&state.velocity[i]);

@@ -9,13 +9,48 @@
 #include <hwy/highway.h>
 
 #include "motion/motion_works-inl.h"
-#include "motion/near_plates-inl.h"
 #include "motion/particle_motion-inl.h"
 #include "scene/bands.h"
 #include "touch/contact_tiles.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {
+
+/// Records the particles that may touch a plate at their new positions, and those with friction at a plate.
+class NearPlatesNotes {
+ public:
+  /// REQUIRES: `near` has room for all recorded particles.
+  NearPlatesNotes(const Scene& scene, const State& state, const PlateReach& reach, int* near)
+      : below_(reach.below),
+        above_(reach.above),
+        along_x_(scene.plates.axis == 0),
+        impact_friction_(state.impact_friction.empty() ? nullptr : state.impact_friction.data()),
+        support_friction_(state.support_friction.data()),
+        near_(near) {}
+
+  template <class D>
+  HWY_INLINE void note(const Points<D>& position, std::size_t i) {
+    const Lane<D> along = along_x_ ? position.x : position.y;
+    LaneMask<D> is_near = (along < below_) | (along > above_);
+    if (impact_friction_ != nullptr) {
+      is_near = is_near | (Lane<D>::load(impact_friction_ + i) != 0) | (Lane<D>::load(support_friction_ + i) != 0);
+    }
+    if (HWY_UNLIKELY(any(is_near))) {
+      count_ += write_set_lanes(is_near, i, near_ + count_);
+    }
+  }
+
+  [[nodiscard]] std::size_t count() const { return count_; }
+
+ private:
+  const double below_;
+  const double above_;
+  const bool along_x_;
+  const double* const impact_friction_;
+  const double* const support_friction_;
+  int* const near_;
+  std::size_t count_ = 0;
+};
 
 /// Whether any lane's particle bears contact forces. Most have none.
 template <class D>
@@ -86,36 +121,32 @@ HWY_EXPORT(move_chunks);
 
 namespace {
 
-std::size_t chunks_of(std::size_t particles) {
-  return (particles + kParticlesMovedTogether - 1) / kParticlesMovedTogether;
-}
+int chunks_of(int particles) { return (particles + kParticlesMovedTogether - 1) / kParticlesMovedTogether; }
 
 /// Particles that are dealt out together, a band's joints or its particles inside walls, and the first of their chunks.
 struct Group {
-  std::size_t first;
-  std::size_t end;
-  std::size_t first_chunk;
+  int first;
+  int end;
+  int first_chunk;
 
-  [[nodiscard]] std::size_t chunk_count() const { return chunks_of(end - first); }
+  [[nodiscard]] int chunk_count() const { return chunks_of(end - first); }
 };
 
 Group joints_of(const Scene& scene, const LatticeBand& band) {
-  const std::size_t rigid = first_free_particle(scene);
-  const std::size_t first = std::max(static_cast<std::size_t>(band.first_joint), rigid);
-  return {first, static_cast<std::size_t>(band.end_joint), chunks_of(first - rigid)};
+  const int rigid = scene.rigid.particle_count();
+  const int first = std::max(band.first_joint, rigid);
+  return {first, band.end_joint, chunks_of(first - rigid)};
 }
 
 Group inner_of(const Scene& scene, const LatticeBand& band) {
-  const auto joints = static_cast<std::size_t>(scene.joint_count);
-  const auto first = static_cast<std::size_t>(band.first_inner);
-  return {first, static_cast<std::size_t>(band.end_inner),
-          chunks_of(joints - first_free_particle(scene)) + chunks_of(first - joints)};
+  const int joint_chunks = chunks_of(scene.joint_count - scene.rigid.particle_count());
+  return {band.first_inner, band.end_inner, joint_chunks + chunks_of(band.first_inner - scene.joint_count)};
 }
 
 /// What a group's chunks have noted, moved together from index `to` on; returns its end.
 std::size_t close_up(const Group& group, const std::vector<MovedChunk>& moved, std::size_t to,
                      std::vector<int>& near_plates) {
-  for (std::size_t c = group.first_chunk; c < group.first_chunk + group.chunk_count(); ++c) {
+  for (int c = group.first_chunk; c < group.first_chunk + group.chunk_count(); ++c) {
     std::copy_n(&near_plates[moved[c].first], moved[c].near_count, &near_plates[to]);
     to += moved[c].near_count;
   }
@@ -145,12 +176,11 @@ NearCounts integrate_motion(const Scene& scene, State& state, const LatticeBand&
   };
   workers.parallel_ranges(static_cast<std::size_t>(workers.count()), 1, move_part);
   // Particles of rigid bodies have moved with them. They are few: all may be near.
-  clear_contact_forces(state, band.first_joint, static_cast<int>(joints.first));
-  std::iota(near_plates.begin() + band.first_joint, near_plates.begin() + static_cast<std::ptrdiff_t>(joints.first),
-            band.first_joint);
+  clear_contact_forces(state, band.first_joint, joints.first);
+  std::iota(near_plates.begin() + band.first_joint, near_plates.begin() + joints.first, band.first_joint);
   const std::size_t end_of_joints = close_up(joints, moved, joints.first, near_plates);
   const std::size_t end_of_inner = close_up(inner, moved, inner.first, near_plates);
-  return {end_of_joints - static_cast<std::size_t>(band.first_joint), end_of_inner - inner.first};
+  return {end_of_joints - band.first_joint, end_of_inner - inner.first};
 }
 
 }  // namespace cellcrush

@@ -12,13 +12,27 @@
 
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
-#include "motion/step_factors.h"
-#include "motion/supports.h"
 #include "simd/lane-inl.h"
 #include "simd/points-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {
+
+/// Factors of the central differences, from the step and the mass damping alpha (E2).
+struct StepFactors {
+  double step;          ///< dt, s
+  double keep;          ///< (1 - a) / (1 + a), the fraction of a velocity that remains
+  double gain;          ///< dt / (1 + a), s, the time during which a force accelerates
+  double half_damping;  ///< alpha / 2, 1/s
+};
+
+/// Mass damping -alpha m v acts on the mean of the velocities half a step before and half a step after. It is then
+/// second-order accurate, and stable for any alpha.
+inline StepFactors step_factors_of(const Scene& scene) {
+  const double step = scene.schedule.time_step;
+  const double damping = 0.5 * scene.mass_damping * step;
+  return {step, (1.0 - damping) / (1.0 + damping), step / (1.0 + damping), 0.5 * scene.mass_damping};
+}
 
 /// Kinds of forces on the particles of a scene besides those of walls, plates and contacts. A kind that is absent costs
 /// nothing.
@@ -161,6 +175,17 @@ HWY_INLINE Lane<D> next_spin(const StepFactors& step, Lane<D> spin, Lane<D> gain
   return fma(gain_per_inertia, moment, Lane<D>(step.keep) * spin);
 }
 
+/// Imposed velocity v_held of a held degree of freedom over the coming step, mm/s or rad/s (E15); 0 if it is held
+/// still.
+inline double held_velocity(const Scene& scene, double time, const Hold& hold) {
+  if (hold.motion < 0) {
+    return 0.0;
+  }
+  const TimeFunction& motion = scene.motions[hold.motion];
+  const double step = scene.schedule.time_step;
+  return (motion.value_at(time + step) - motion.value_at(time)) / step;
+}
+
 /// Replaces the free velocities of held degrees of freedom by the imposed ones, and computes the reactions (E15).
 template <class D, class S>
 HWY_INLINE void apply_supports(const ParticleArrays<S>& arrays, const StepFactors& step, std::size_t i,
@@ -169,7 +194,7 @@ HWY_INLINE void apply_supports(const ParticleArrays<S>& arrays, const StepFactor
   const double mass_per_gain = arrays.mass[i] / step.gain;
   const auto hold = [&](const Hold& support, double per_velocity, Lane<D>& velocity, Lane<D>& reaction) HWY_ATTR {
     if (support.held) {
-      const Lane<D> held = held_velocity(arrays.scene, arrays.state, support);
+      const Lane<D> held = held_velocity(arrays.scene, arrays.state.time, support);
       reaction = Lane<D>(per_velocity) * (held - velocity);
       velocity = held;
     }

@@ -28,7 +28,7 @@ Motion motion_of_body(const ParticleArrays<const State>& arrays, const StepFacto
   Points<One> force = {0, 0};
   Lane<One> moment = 0;
   for (int i = rigid.offset[body]; i < rigid.offset[body + 1]; ++i) {
-    const ParticleForces<One> on_particle = forces_on<true, Kinds, One>(arrays, static_cast<std::size_t>(i));
+    const ParticleForces<One> on_particle = forces_on<true, Kinds, One>(arrays, i);
     const Points<One> arm = to_lane(state.position[i] - state.rigid_centre[body]);
     force = force + on_particle.total;
     moment += on_particle.moment + cross(arm, on_particle.total);
@@ -53,30 +53,29 @@ void visit_bodies(const Scene& scene, const State& state, const Visit& visit) {
   });
 }
 
-/// Motion of a particle of a body.
-Motion motion_in_body(const State& state, std::size_t body, std::size_t i, const Motion& of_body) {
-  const Vector2 arm = state.position[i] - state.rigid_centre[body];
+/// Motion of a particle of a body that has the velocity `next` over the coming step.
+Motion motion_of_particle(const State& state, std::size_t i, const Points<One>& next, const Motion& of_body) {
   Motion motion;
   motion.velocity = to_lane(state.velocity[i]);
   motion.spin = state.spin[i];
-  motion.next = of_body.next + of_body.next_spin * to_lane(normal_of(arm));
+  motion.next = next;
   motion.next_spin = of_body.next_spin;
   return motion;
 }
 
-/// Velocity of a particle that moves from its position to `place`: the chord of the step, so that works and contacts
-/// agree with its displacement.
-Motion motion_to(const State& state, double step, std::size_t i, const Vector2& place, const Motion& of_body) {
-  Motion motion;
-  motion.velocity = to_lane(state.velocity[i]);
-  motion.spin = state.spin[i];
-  motion.next = to_lane((place - state.position[i]) / step);
-  motion.next_spin = of_body.next_spin;
-  return motion;
+/// Velocity over the coming step of a particle of a body that moves by `of_body`.
+Points<One> velocity_in_body(const State& state, std::size_t body, std::size_t i, const Motion& of_body) {
+  return of_body.next + of_body.next_spin * to_lane(normal_of(state.position[i] - state.rigid_centre[body]));
+}
+
+/// Sums the works that visit(tag, particle, works) adds for every particle of a body.
+template <class Visit>
+MotionWorks sum_works_of_body(const Scene& scene, std::size_t body, const Visit& visit) {
+  return sum_works<1>(scene.rigid.offset[body], scene.rigid.offset[body + 1], visit);
 }
 
 void turn_axes(const Scene& scene, State& state) {
-  for (std::size_t e = static_cast<std::size_t>(scene.rigid.first_element); e < scene.element_count(); ++e) {
+  for (std::size_t e = scene.rigid.first_element; e < scene.element_count(); ++e) {
     const Element& element = scene.elements[e];
     state.axis[e] = (state.position[element.end] - state.position[element.start]) * state.inverse_length[e];
   }
@@ -100,9 +99,8 @@ void stagger_rigid_bodies(const Scene& scene, State& state) {
     staggered.next = to_lane(state.rigid_velocity[body]);
     staggered.next_spin = state.rigid_spin[body];
     for (int i = scene.rigid.offset[body]; i < scene.rigid.offset[body + 1]; ++i) {
-      const auto particle = static_cast<std::size_t>(i);
-      state.velocity[particle] = to_vector(motion_in_body(state, body, particle, staggered).next);
-      state.spin[particle] = state.rigid_spin[body];
+      state.velocity[i] = to_vector(velocity_in_body(state, body, i, staggered));
+      state.spin[i] = state.rigid_spin[body];
     }
   });
 }
@@ -119,12 +117,12 @@ MotionWorks move_rigid_bodies(const Scene& scene, State& state) {
     state.rigid_rotation[body] += step.step * state.rigid_spin[body];
     const double cosine = std::cos(state.rigid_rotation[body]);
     const double sine = std::sin(state.rigid_rotation[body]);
-    const auto first = static_cast<std::size_t>(scene.rigid.offset[body]);
-    const auto end = static_cast<std::size_t>(scene.rigid.offset[body + 1]);
-    sum.add(sum_works<1>(first, end, [&](auto, std::size_t i, LaneWorks<One>& works) {
+    sum.add(sum_works_of_body(scene, body, [&](auto, std::size_t i, LaneWorks<One>& works) {
       const Vector2 arm = scene.position[i] - scene.rigid.centre[body];
       const Vector2 place = state.rigid_centre[body] + cosine * arm + sine * normal_of(arm);
-      const Motion of_particle = motion_to(state, step.step, i, place, motion);
+      // The velocity is the chord of the step, so that works and contacts agree with the displacement.
+      const Points<One> chord = to_lane((place - state.position[i]) / step.step);
+      const Motion of_particle = motion_of_particle(state, i, chord, motion);
       add_works_of_step<true, Kinds>(arrays, step, i, forces_on<true, Kinds, One>(arrays, i), of_particle, works);
       state.velocity[i] = to_vector(of_particle.next);
       state.spin[i] = to_number(of_particle.next_spin);
@@ -145,10 +143,8 @@ MotionWorks half_step_works_of_rigid_bodies(const Scene& scene, const State& sta
   const ParticleArrays<const State> arrays(scene, state);
   visit_bodies(scene, state, [&](std::size_t body, const Motion& motion, auto kinds) {
     using Kinds = decltype(kinds);
-    const auto first = static_cast<std::size_t>(scene.rigid.offset[body]);
-    const auto end = static_cast<std::size_t>(scene.rigid.offset[body + 1]);
-    sum.add(sum_works<1>(first, end, [&](auto, std::size_t i, LaneWorks<One>& works) {
-      const Motion of_particle = motion_in_body(state, body, i, motion);
+    sum.add(sum_works_of_body(scene, body, [&](auto, std::size_t i, LaneWorks<One>& works) {
+      const Motion of_particle = motion_of_particle(state, i, velocity_in_body(state, body, i, motion), motion);
       add_works_of_half_step<Kinds>(arrays, step, i, forces_on<true, Kinds, One>(arrays, i), of_particle, works);
     }));
     twice_kinetic += scene.rigid.mass[body] * to_number(dot(motion.velocity, motion.next)) +
