@@ -1,68 +1,44 @@
-#include "cellcrush/sample_bytes.h"
-
 #include <cstdint>
 
 #include "cellcrush/byte_stream.h"
+#include "cellcrush/sample.h"
 
 namespace cellcrush {
 namespace {
 
-/// Calls visitor(field) for every field that is stored on its own; S is Sample or const Sample.
+/// Calls visit(fields) with all fields but front and warnings; S is Sample or const Sample.
 template <class S, class Visitor>
-void visit_plain_fields(S& sample, Visitor&& visitor) {
-  visitor(sample.step);
-  visitor(sample.time);
-  visitor(sample.travel);
-  visitor(sample.strain);
-  visitor(sample.stress_impact);
-  visitor(sample.stress_support);
-  visitor(sample.energy_kinetic);
-  visitor(sample.energy_elastic);
-  visitor(sample.energy_plastic);
-  visitor(sample.energy_contact);
-  visitor(sample.energy_friction);
-  visitor(sample.energy_damping);
-  visitor(sample.work_external);
-  visitor(sample.energy_residual);
-  visitor(sample.energy_contact_stored);
-  visitor(sample.energy_contact_damping);
-  visitor(sample.deepest_penetration);
-  visitor(sample.contact_count);
-  visitor(sample.walls_crossed);
-  visitor(sample.solid_fraction);
-  visitor(sample.collapsed_fraction);
-  visitor(sample.crush_mode);
-  visitor(sample.watched);
+void visit_plain_fields(S& s, const Visitor& visit) {
+  visit(s.step, s.time, s.travel, s.strain, s.stress_impact, s.stress_support, s.energy_kinetic, s.energy_elastic,
+        s.energy_plastic, s.energy_contact, s.energy_friction, s.energy_damping, s.work_external, s.energy_residual,
+        s.energy_contact_stored, s.energy_contact_damping, s.deepest_penetration, s.contact_count, s.walls_crossed,
+        s.solid_fraction, s.collapsed_fraction, s.crush_mode, s.watched);
 }
 
 template <class W, class Visitor>
-void visit_warning(W& warning, Visitor&& visitor) {
-  visitor(warning.kind);
-  visitor(warning.step);
-  visitor(warning.strain);
-  visitor(warning.message);
-  visitor(warning.remedy);
+void visit_warning(W& warning, const Visitor& visit) {
+  visit(warning.kind, warning.step, warning.strain, warning.message, warning.remedy);
 }
 
 void put(ByteWriter& writer, const Sample& sample) {
-  const auto put_field = [&writer](const auto& field) { writer.put(field); };
-  visit_plain_fields(sample, put_field);
+  const auto put_all = [&writer](const auto&... fields) { (writer.put(fields), ...); };
+  visit_plain_fields(sample, put_all);
   writer.put(sample.front.has_value());
   if (sample.front) writer.put(*sample.front);
   writer.put(std::uint64_t{sample.warnings.size()});
-  for (const Warning& warning : sample.warnings) visit_warning(warning, put_field);
+  for (const Warning& warning : sample.warnings) visit_warning(warning, put_all);
 }
 
 Sample take(ByteReader& reader) {
   Sample sample;
-  const auto take_field = [&reader](auto& field) { reader.take(field); };
-  visit_plain_fields(sample, take_field);
+  const auto take_all = [&reader](auto&... fields) { (reader.take(fields), ...); };
+  visit_plain_fields(sample, take_all);
   bool has_front = false;
   reader.take(has_front);
   if (has_front) reader.take(sample.front.emplace());
   std::uint64_t warnings = 0;
   reader.take(warnings);
-  for (; warnings > 0 && reader.sound(); --warnings) visit_warning(sample.warnings.emplace_back(), take_field);
+  for (; warnings > 0 && reader.sound(); --warnings) visit_warning(sample.warnings.emplace_back(), take_all);
   return sample;
 }
 

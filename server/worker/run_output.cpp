@@ -3,7 +3,7 @@
 #include <optional>
 #include <utility>
 
-#include "cellcrush/sample_bytes.h"
+#include "cellcrush/sample.h"
 #include "cellcrush/simd.h"
 #include "revision.h"
 #include "store/durable_file.h"

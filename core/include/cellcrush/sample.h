@@ -2,7 +2,9 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace cellcrush {
@@ -86,6 +88,13 @@ struct Sample {
   std::vector<WatchedNode> watched;  ///< in the order of the frame's watched nodes
   std::vector<Warning> warnings;     ///< of contacts, first seen at this sample
 };
+
+/// Samples in their memory representation, for the same build. A run that is resumed from a checkpoint needs those
+/// taken before.
+std::string bytes_of(std::span<const Sample> samples);
+
+/// Returns nothing if the bytes are not samples.
+std::optional<std::vector<Sample>> samples_of(std::string_view bytes);
 
 /// Fields of a run at one time.
 struct FieldFrame {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "cellcrush/sample_bytes.h"
+#include "cellcrush/sample.h"
 #include "cellcrush/simulation.h"
 #include "cellcrush/state.h"
 #include "scenes/frames.h"
