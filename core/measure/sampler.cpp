@@ -17,7 +17,7 @@ namespace {
 
 /// The crush mode is evaluated each time that this fraction of the cells has newly collapsed, because it takes as long
 /// as many steps.
-constexpr double kLookEvery = 0.04;
+constexpr double kCheckEvery = 0.04;
 
 /// Fraction of the volume of an element whose fibres have yielded.
 class FlowedShare {
@@ -61,7 +61,7 @@ class FlowedShare {
 
 }  // namespace
 
-Sampler::Sampler(const Scene& scene) : next_look_(kModeFrom) {
+Sampler::Sampler(const Scene& scene) : next_check_(kModeFrom) {
   if (scene.plates.present) {
     cells_ = find_cells(scene);
     columns_ = divide_into_columns(scene, cells_.field.pitch);
@@ -84,22 +84,22 @@ void Sampler::measure_collapse(const Scene& scene, const State& state, Sample& s
   sample.solid_fraction = relative_density_ / (1.0 - sample.strain);
   const CollapseField field = find_collapse(cells_, state.position);
   sample.collapsed_fraction = collapsed_fraction_of(field);
-  if (sample.collapsed_fraction >= next_look_ && next_look_ <= kModeTo) {
+  if (sample.collapsed_fraction >= next_check_ && next_check_ <= kModeTo) {
     sample.crush_mode = find_crush_mode(field);
-    next_look_ = sample.collapsed_fraction + kLookEvery;
+    next_check_ = sample.collapsed_fraction + kCheckEvery;
   }
   sample.front = find_front(columns_, scene, state, relative_density_);
 }
 
 void Sampler::find_warnings(const Scene& scene, const State& state, Sample& sample) {
-  if (!told_of_depth_ && state.contact_totals.deepest_penetration > kDeepPenetration) {
+  if (!has_warned_of_depth_ && state.contact_totals.deepest_penetration > kDeepPenetration) {
     sample.warnings.push_back(warn_of_depth(scene, state, sample.strain));
-    told_of_depth_ = true;
+    has_warned_of_depth_ = true;
   }
-  if (!told_of_search_ && has_left_faces(scene, state)) {
+  if (!has_warned_of_search_ && has_left_faces(scene, state)) {
     sample.warnings.push_back(sample.walls_crossed ? warn_of_crossing(scene, state, sample.strain)
-                                                   : warn_of_borders(scene, state, sample.strain));
-    told_of_search_ = true;
+                                                   : warn_of_borders(state, sample.strain));
+    has_warned_of_search_ = true;
   }
 }
 

@@ -24,9 +24,9 @@ class Sampler {
     visitor(last_time_);
     visitor(last_impact_impulse_);
     visitor(last_support_impulse_);
-    visitor(told_of_depth_);
-    visitor(told_of_search_);
-    visitor(next_look_);
+    visitor(has_warned_of_depth_);
+    visitor(has_warned_of_search_);
+    visitor(next_check_);
   }
 
  private:
@@ -40,9 +40,9 @@ class Sampler {
   double last_time_ = 0.0;
   double last_impact_impulse_ = 0.0;
   double last_support_impulse_ = 0.0;
-  bool told_of_depth_ = false;
-  bool told_of_search_ = false;
-  double next_look_;  ///< fraction of collapsed cells at which the crush mode is next evaluated
+  bool has_warned_of_depth_ = false;
+  bool has_warned_of_search_ = false;
+  double next_check_;  ///< fraction of collapsed cells at which the crush mode is next evaluated
 };
 
 /// Overwrites a frame with the positions and, for each element, the fraction of the section area that has yielded.

@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 
 #include "geometry/capsule.h"
-#include "measure/text.h"
+#include "scene/check_spec.h"
 
 namespace cellcrush {
 namespace {
@@ -92,10 +91,9 @@ Warning warn_of_crossing(const Scene& scene, const State& state, double strain) 
           kShorterStep};
 }
 
-Warning warn_of_borders(const Scene& scene, const State& state, double strain) {
+Warning warn_of_borders(const State& state, double strain) {
   return {Warning::Kind::borders_near, state.step, strain,
-          "Distant parts of the lattice's border had come close to each other by " +
-              moment_of(state.step, scene.schedule.time_step * static_cast<double>(state.step)) +
+          "Distant parts of the lattice's border had come close to each other by " + moment_of(state.step, state.time) +
               "; from then on, contacts are searched in space, which finds the same contacts but is slower.",
           "No action is needed: the result is valid. If numerics.time_step_s was given, 0 (an automatic step) may "
           "avoid the slower search."};
@@ -123,5 +121,16 @@ std::vector<Warning> collect_warnings(std::span<const Sample> samples) {
                    [](const Warning& a, const Warning& b) { return a.step < b.step; });
   return warnings;
 }
+
+std::string moment_of(std::int64_t step, double time) {
+  return "step " + std::to_string(step) + ", t = " + to_text(time) + " s";
+}
+
+std::string place_of(const Scene& scene, std::size_t particle) {
+  return "particle " + std::to_string(particle) + ", at (" + to_text(scene.position[particle].x()) + ", " +
+         to_text(scene.position[particle].y()) + ") mm before loading";
+}
+
+std::string percent_of(double share) { return to_text(std::round(1000.0 * share) / 10.0) + " %"; }
 
 }  // namespace cellcrush

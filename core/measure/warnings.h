@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "cellcrush/sample.h"
@@ -24,7 +26,7 @@ Warning warn_of_depth(const Scene& scene, const State& state, double strain);
 Warning warn_of_crossing(const Scene& scene, const State& state, double strain);
 /// Warns that distant parts of the border, which bands do not test against each other, came near
 /// (search/border_check.h). This costs time but no accuracy.
-Warning warn_of_borders(const Scene& scene, const State& state, double strain);
+Warning warn_of_borders(const State& state, double strain);
 
 /// The external work done by the time of a sample, or the kinetic energy including all energy put in at the start,
 /// whichever is greater, N mm. Errors of the energy are compared with it.
@@ -33,5 +35,16 @@ double turnover_of(const Sample& sample);
 /// The warnings of the samples and those of the ledger, in order of steps. Samples before a hundredth of the greatest
 /// turnover do not count, because they compare two small numbers.
 std::vector<Warning> collect_warnings(std::span<const Sample> samples);
+
+// Phrases for warnings and for the errors that end a run.
+
+/// "step 12, t = 3e-6 s".
+std::string moment_of(std::int64_t step, double time);
+
+/// "particle 7, at (1, 2) mm before loading".
+std::string place_of(const Scene& scene, std::size_t particle);
+
+/// "-15.6 %", from a fraction.
+std::string percent_of(double share);
 
 }  // namespace cellcrush

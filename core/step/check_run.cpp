@@ -7,7 +7,6 @@
 #include <span>
 #include <vector>
 
-#include "measure/text.h"
 #include "measure/warnings.h"
 #include "scene/check_spec.h"
 
