@@ -3,7 +3,7 @@
 #include "cellcrush/sample.h"
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
-#include "measure/collapse.h"
+#include "measure/cells.h"
 #include "measure/columns.h"
 
 namespace cellcrush {

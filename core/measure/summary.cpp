@@ -3,8 +3,6 @@
 
 #include "cellcrush/simulation.h"
 #include "measure/curve.h"
-#include "measure/densification.h"
-#include "measure/shock.h"
 #include "measure/theory.h"
 #include "measure/warnings.h"
 
@@ -29,15 +27,13 @@ double energy_error_of(std::span<const Sample> samples) {
 
 /// Sets the mode that most evaluations found; of equally frequent ones, the first.
 void set_crush_mode(std::span<const Sample> samples, Summary& summary) {
-  const auto looks = [&](CrushMode mode) {
+  const auto evaluations = [&](CrushMode mode) {
     return std::count_if(samples.begin(), samples.end(),
                          [&](const Sample& sample) { return sample.crush_mode == mode; });
   };
   for (const Sample& sample : samples) {
-    if (sample.crush_mode == CrushMode::none) {
-      continue;
-    }
-    if (summary.crush_mode == CrushMode::none || looks(sample.crush_mode) > looks(summary.crush_mode)) {
+    if (sample.crush_mode != CrushMode::none &&
+        (summary.crush_mode == CrushMode::none || evaluations(sample.crush_mode) > evaluations(summary.crush_mode))) {
       summary.crush_mode = sample.crush_mode;
       summary.crush_mode_strain = sample.strain;
     }
@@ -84,20 +80,18 @@ std::optional<QuasiStatic> find_quasi_static(std::span<const Sample> samples, co
   return found;
 }
 
+std::optional<double> relative_error(double theory, const std::optional<double>& measured) {
+  return measured && *measured > 0.0 ? std::optional(theory / *measured - 1.0) : std::nullopt;
+}
+
 }  // namespace
 
 std::optional<double> Summary::shock_error() const {
-  if (!plateau_stress_impact || *plateau_stress_impact <= 0.0 || theory.shock <= 0.0) {
-    return std::nullopt;
-  }
-  return theory.shock / *plateau_stress_impact - 1.0;
+  return theory.shock > 0.0 ? relative_error(theory.shock, plateau_stress_impact) : std::nullopt;
 }
 
 std::optional<double> Summary::front_shock_error() const {
-  if (!plateau_stress_impact || *plateau_stress_impact <= 0.0 || !front) {
-    return std::nullopt;
-  }
-  return front->shock / *plateau_stress_impact - 1.0;
+  return front ? relative_error(front->shock, plateau_stress_impact) : std::nullopt;
 }
 
 Summary summarize(const Scene& scene, std::span<const Sample> samples) {

@@ -303,7 +303,7 @@ TEST(Translate, ASummaryCarriesFrontModeSteadinessAndLedger) {
   summary.theory.shock = 2.2;
   summary.crush_mode = CrushMode::v;
   summary.crush_mode_strain = 0.12;
-  summary.front = FrontSummary{0.9, 0.1, 1e5, 2e3, 1.1, 1.05, 0.4, 1.9, 0.75};
+  summary.front = FrontSummary{{0.0, 0.9, 0.1, 1e5, 2e3, 1.1, 1.05}, 0.4, 1.9, 0.75};
   summary.quasi_static = QuasiStatic{0.01, 0.02, 0.003};
   Sample last;
   last.work_external = 10.0;

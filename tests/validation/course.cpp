@@ -4,7 +4,6 @@
 #include <cstdio>
 
 #include "measure/curve.h"
-#include "measure/densification.h"
 
 namespace cellcrush::validation {
 namespace {

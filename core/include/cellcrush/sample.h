@@ -112,14 +112,8 @@ struct Theory {
   double densification_strain = 0.0;  ///< used in Eq. 51: 1 - 1.4 relative density
 };
 
-/// The front of a fast crush over the plateau window: means of the samples that have one (measure/shock.h).
-struct FrontSummary {
-  double strain_behind = 0.0;  ///< the densified strain
-  double strain_ahead = 0.0;
-  double velocity_behind = 0.0;  ///< mm/s
-  double velocity_ahead = 0.0;
-  double solid_fraction_behind = 0.0;
-  double wall_fraction_behind = 0.0;
+/// The front of a fast crush over the plateau window: means of the samples that have one (measure/theory.h).
+struct FrontSummary : Front {
   double stress_ahead = 0.0;  ///< MPa, sigma_A of Eq. 52
   double shock = 0.0;         ///< MPa, Eq. 52
   double window_share = 0.0;  ///< fraction of the samples in the window that have a front
@@ -142,7 +136,7 @@ struct Summary {
 
   std::optional<double> plateau_stress_impact;  ///< MPa; absent if the run ended before the end of the range
   std::optional<double> plateau_stress_support;
-  std::optional<double> densification_strain;  ///< onset; absent without a lasting rise (measure/densification.h)
+  std::optional<double> densification_strain;  ///< onset; absent without a lasting rise (measure/curve.h)
   std::optional<double> plateau_stress_to_densification;  ///< MPa, impact plate
   std::optional<double> solid_fraction_at_densification;  ///< relative density / (1 - densification_strain)
   double absorbed_energy = 0.0;                           ///< N mm, work of the impact plate up to 50 % strain

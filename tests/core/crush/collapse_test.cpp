@@ -1,11 +1,10 @@
-#include "measure/collapse.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
 #include "cellcrush/presets.h"
+#include "measure/cells.h"
 #include "scenes/frames.h"
 
 namespace cellcrush {
@@ -48,6 +47,14 @@ double mean_place(const CollapseField& field) {
     count += field.collapsed[cell] ? 1.0 : 0.0;
   }
   return sum / (count * field.length);
+}
+
+std::vector<Vector2> positions_of(const FieldFrame& frame) {
+  std::vector<Vector2> position;
+  for (std::size_t i = 0; i < frame.position.size(); i += 2) {
+    position.emplace_back(frame.position[i], frame.position[i + 1]);
+  }
+  return position;
 }
 
 TEST(Collapse, AFastCrushIsAnIBandAtTheImpactEndWithAFront) {

@@ -1,5 +1,3 @@
-#include "measure/densification.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,6 +8,7 @@
 #include <vector>
 
 #include "cellcrush/simulation.h"
+#include "measure/curve.h"
 #include "scenes/frames.h"
 #include "scenes/run_frame.h"
 

@@ -1,5 +1,3 @@
-#include "measure/faces.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include <string>
 
 #include "cellcrush/presets.h"
+#include "measure/cells.h"
 #include "scenes/evidence.h"
 #include "scenes/frames.h"
 

@@ -5,8 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "measure/collapse.h"
-#include "measure/shock.h"
+#include "measure/cells.h"
 #include "measure/theory.h"
 #include "scenes/evidence.h"
 #include "scenes/frames.h"

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "cellcrush/scene.h"
+#include "measure/crush_mode.h"
 
 namespace cellcrush {
 
@@ -14,6 +15,9 @@ struct Faces {
   std::vector<double> area;     ///< C, mm^2, undeformed; positive
   std::vector<Vector2> centre;  ///< C, mm, undeformed: mean of the corners of the loop
 
+  [[nodiscard]] std::span<const int> particles_of(std::size_t face) const {
+    return std::span(particles).subspan(offset[face], offset[face + 1] - offset[face]);
+  }
   [[nodiscard]] std::size_t count() const { return area.size(); }
 };
 
@@ -24,5 +28,17 @@ Faces trace_faces(std::span<const Vector2> position, std::span<const Element> el
 /// Areas of the faces at other positions of the same particles, divided by their undeformed areas, C. The area of a
 /// face that is turned inside out is negative.
 std::vector<double> area_ratios(const Faces& faces, std::span<const Vector2> position);
+
+/// The cells of a lattice between plates.
+struct Cells {
+  Faces faces;
+  CollapseField field;  ///< of the undeformed lattice, in which no cell has collapsed
+};
+
+/// Traces the cells. REQUIRES: a scene with plates.
+Cells find_cells(const Scene& scene);
+
+/// The cells that have collapsed at other positions of the particles, those of a state or of a stored frame.
+CollapseField find_collapse(const Cells& cells, std::span<const Vector2> position);
 
 }  // namespace cellcrush
