@@ -5,15 +5,6 @@
 #include "parallel/spin.h"
 
 namespace cellcrush {
-namespace {
-
-/// Waits until a count is 0.
-template <class Count>
-void wait_for_none(const std::atomic<Count>& count) {
-  wait_until([&count] { return count.load(std::memory_order_acquire) == 0; });
-}
-
-}  // namespace
 
 Workers::Workers(int count) : claimed_(static_cast<std::size_t>(count)) {
   for (std::size_t part = 1; part < claimed_.size(); ++part) {
@@ -38,7 +29,7 @@ void Workers::run(const Job& job) {
       do_part(part);
     }
   }
-  wait_for_none(pending_);
+  wait_until([this] { return pending_.load(std::memory_order_acquire) == 0; });
 }
 
 /// Begins a round and returns its number; wakes sleeping threads.
@@ -62,7 +53,7 @@ void Workers::begin_pieces(const PieceJob& job, std::size_t pieces) {
 void Workers::finish_pieces() {
   while (do_piece()) {
   }
-  wait_for_none(pieces_pending_);
+  wait_until([this] { return pieces_pending_.load(std::memory_order_acquire) == 0; });
 }
 
 /// Does one piece that no thread has begun, if there is one. A thread that comes late either finds none left or begins
