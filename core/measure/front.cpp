@@ -8,28 +8,11 @@
 namespace cellcrush {
 namespace {
 
-std::vector<double> strains_of(const Columns& columns, const Profile& profile) {
-  std::vector<double> strains;
-  for (std::size_t k = 0; k + 1 < columns.place.size(); ++k) {
-    strains.push_back((profile.displacement[k] - profile.displacement[k + 1]) /
-                      (columns.place[k + 1] - columns.place[k]));
-  }
-  return strains;
-}
-
-/// Sums of the first n values, n = 0 ... size.
-std::vector<double> running_sums(const std::vector<double>& values) {
-  std::vector<double> sums = {0.0};
-  for (const double value : values) {
-    sums.push_back(sums.back() + value);
-  }
-  return sums;
-}
-
 /// Number of values before the split into two means with the least sum of squared residuals.
 int find_step(const std::vector<double>& values) {
   const auto count = static_cast<int>(values.size());
-  const std::vector<double> sum = running_sums(values);
+  std::vector<double> sum(values.size() + 1, 0.0);  // of the first n values
+  std::partial_sum(values.begin(), values.end(), sum.begin() + 1);
   int best = 0;
   double greatest = 0.0;
   for (int before = 1; before < count; ++before) {
@@ -78,7 +61,10 @@ std::optional<Front> find_front(const Columns& columns, const Scene& scene, cons
   const Profile profile = measure_columns(columns, scene, state);
   const double plate_speed = scene.plates.speed_at(state.time);
   const auto last = static_cast<int>(columns.place.size()) - 1;
-  const std::vector<double> strains = strains_of(columns, profile);
+  std::vector<double> strains;
+  for (int k = 0; k < last; ++k) {
+    strains.push_back(mean_strain(columns, profile, k, k + 1));
+  }
   const int step = find_step(strains);
   const int behind = step - kColumnsOfFront;  // last column behind the front
   const int ahead = step + kColumnsOfFront;   // first column ahead of it
