@@ -64,7 +64,10 @@ State place_particles(const Scene& scene) {
     state.load_moment.assign(n, 0.0);
   }
   state.contacts.resize(scene.bands.size());
-  place_rigid_bodies(scene, state);
+  state.rigid_centre = scene.rigid.centre;
+  state.rigid_velocity.assign(scene.rigid.count(), Vector2::Zero());
+  state.rigid_rotation.assign(scene.rigid.count(), 0.0);
+  state.rigid_spin.assign(scene.rigid.count(), 0.0);
   return state;
 }
 

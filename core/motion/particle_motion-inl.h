@@ -64,41 +64,24 @@ struct ParticleArrays {
   using Pointer = std::conditional_t<std::is_const_v<S>, const T*, T*>;
 
   const Scene& scene;
-  const State& state;
-  const double* mass;
-  const double* inertia;
-  const double* inverse_mass;
-  const double* inverse_inertia;
-  const Vector2* internal_force;
-  const double* internal_moment;
-  const Vector2* load_force;
-  const double* load_moment;
-  const ContactForce* contact_force;
-  const Vector2* friction_force;
-  const std::uint64_t* contact_tiles;
-  Pointer<Vector2> position;
-  Pointer<Vector2> velocity;
-  Pointer<double> rotation;
-  Pointer<double> spin;
+  S& state;
+  const double* mass = scene.mass.data();
+  const double* inertia = scene.inertia.data();
+  const double* inverse_mass = scene.inverse_mass.data();
+  const double* inverse_inertia = scene.inverse_inertia.data();
+  const Vector2* internal_force = state.internal_force.data();
+  const double* internal_moment = state.internal_moment.data();
+  const Vector2* load_force = scene.is_loaded() ? state.load_force.data() : nullptr;
+  const double* load_moment = state.load_moment.data();
+  const ContactForce* contact_force = state.contact_force.data();
+  const Vector2* friction_force = state.friction_force.data();
+  const std::uint64_t* contact_tiles = state.contact_tiles.empty() ? nullptr : state.contact_tiles.data();
+  Pointer<Vector2> position = state.position.data();
+  Pointer<Vector2> velocity = state.velocity.data();
+  Pointer<double> rotation = state.rotation.data();
+  Pointer<double> spin = state.spin.data();
 
-  ParticleArrays(const Scene& of_scene, S& of_state)
-      : scene(of_scene),
-        state(of_state),
-        mass(scene.mass.data()),
-        inertia(scene.inertia.data()),
-        inverse_mass(scene.inverse_mass.data()),
-        inverse_inertia(scene.inverse_inertia.data()),
-        internal_force(state.internal_force.data()),
-        internal_moment(state.internal_moment.data()),
-        load_force(scene.is_loaded() ? state.load_force.data() : nullptr),
-        load_moment(state.load_moment.data()),
-        contact_force(state.contact_force.data()),
-        friction_force(state.friction_force.data()),
-        contact_tiles(state.contact_tiles.empty() ? nullptr : state.contact_tiles.data()),
-        position(of_state.position.data()),
-        velocity(of_state.velocity.data()),
-        rotation(of_state.rotation.data()),
-        spin(of_state.spin.data()) {}
+  ParticleArrays(const Scene& of_scene, S& of_state) : scene(of_scene), state(of_state) {}
 };
 
 /// Forces on the particles of the lanes, N and N mm, without mass damping. Kinds that are absent are left out.
@@ -164,15 +147,11 @@ struct ParticleMotion {
   HWY_INLINE ParticleMotion() : reaction{0, 0}, reaction_moment(0) {}
 };
 
-/// v(n+1/2) from v(n-1/2) under forces F(n) (E2). dt_g is `gain` over the mass.
-template <class D>
-HWY_INLINE Points<D> next_velocity(const StepFactors& step, const Points<D>& velocity, Lane<D> gain_per_mass,
-                                   const Points<D>& force) {
+/// v(n+1/2) from v(n-1/2) under forces F(n) (E2), and the same of spins under moments. `gain_per_mass`: the gain of the
+/// step over mass or inertia.
+template <class D, class V>
+HWY_INLINE V next_velocity(const StepFactors& step, const V& velocity, Lane<D> gain_per_mass, const V& force) {
   return fma(gain_per_mass, force, Lane<D>(step.keep) * velocity);
-}
-template <class D>
-HWY_INLINE Lane<D> next_spin(const StepFactors& step, Lane<D> spin, Lane<D> gain_per_inertia, Lane<D> moment) {
-  return fma(gain_per_inertia, moment, Lane<D>(step.keep) * spin);
 }
 
 /// Imposed velocity v_held of a held degree of freedom over the coming step, mm/s or rad/s (E15); 0 if it is held
@@ -214,7 +193,7 @@ HWY_INLINE ParticleMotion<D> motion_of(const ParticleArrays<S>& arrays, const St
   motion.velocity = Points<D>::load(arrays.velocity + i);
   motion.spin = Lane<D>::load(arrays.spin + i);
   motion.next = next_velocity(step, motion.velocity, gain * Lane<D>::load(arrays.inverse_mass + i), forces.total);
-  motion.next_spin = next_spin(step, motion.spin, gain * Lane<D>::load(arrays.inverse_inertia + i), forces.moment);
+  motion.next_spin = next_velocity(step, motion.spin, gain * Lane<D>::load(arrays.inverse_inertia + i), forces.moment);
   if constexpr (Kinds::kFrame) {
     if (!arrays.scene.supports.empty()) {
       apply_supports(arrays, step, i, motion);

@@ -37,7 +37,7 @@ Motion motion_of_body(const ParticleArrays<const State>& arrays, const StepFacto
   motion.velocity = to_lane(state.rigid_velocity[body]);
   motion.spin = state.rigid_spin[body];
   motion.next = next_velocity<One>(step, motion.velocity, step.gain / rigid.mass[body], force);
-  motion.next_spin = next_spin<One>(step, motion.spin, step.gain / rigid.inertia[body], moment);
+  motion.next_spin = next_velocity<One>(step, motion.spin, step.gain / rigid.inertia[body], moment);
   return motion;
 }
 
@@ -82,14 +82,6 @@ void turn_axes(const Scene& scene, State& state) {
 }
 
 }  // namespace
-
-void place_rigid_bodies(const Scene& scene, State& state) {
-  const std::size_t count = scene.rigid.count();
-  state.rigid_centre = scene.rigid.centre;
-  state.rigid_velocity.assign(count, Vector2::Zero());
-  state.rigid_rotation.assign(count, 0.0);
-  state.rigid_spin.assign(count, 0.0);
-}
 
 void stagger_rigid_bodies(const Scene& scene, State& state) {
   visit_bodies(scene, state, [&](std::size_t body, const Motion& motion, auto) {

@@ -10,9 +10,6 @@ namespace cellcrush {
 // from the sums of the forces and of the moments about the centre, M dV/dt = sum F, I d(omega)/dt = sum (m + r x F).
 // They are integrated by the central differences of the particles (E2).
 
-/// Places the bodies at their undeformed positions, at rest.
-void place_rigid_bodies(const Scene& scene, State& state);
-
 /// Moves the velocities of the bodies from time 0 to half a step before, with the forces at time 0 (E2b).
 void stagger_rigid_bodies(const Scene& scene, State& state);
 
