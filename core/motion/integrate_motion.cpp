@@ -17,39 +17,25 @@ HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {
 
 /// Records the particles that may touch a plate at their new positions, and those with friction at a plate.
-class NearPlatesNotes {
- public:
-  /// REQUIRES: `near` has room for all recorded particles.
-  NearPlatesNotes(const Scene& scene, const State& state, const PlateReach& reach, int* near)
-      : below_(reach.below),
-        above_(reach.above),
-        along_x_(scene.plates.axis == 0),
-        impact_friction_(state.impact_friction.empty() ? nullptr : state.impact_friction.data()),
-        support_friction_(state.support_friction.data()),
-        near_(near) {}
+struct NearPlatesNotes {
+  const PlateReach reach;
+  const bool along_x;
+  const double* const impact_friction;  ///< null without friction
+  const double* const support_friction;
+  int* const near;  ///< room for all recorded particles
+  std::size_t count = 0;
 
   template <class D>
   HWY_INLINE void note(const Points<D>& position, std::size_t i) {
-    const Lane<D> along = along_x_ ? position.x : position.y;
-    LaneMask<D> is_near = (along < below_) | (along > above_);
-    if (impact_friction_ != nullptr) {
-      is_near = is_near | (Lane<D>::load(impact_friction_ + i) != 0) | (Lane<D>::load(support_friction_ + i) != 0);
+    const Lane<D> along = along_x ? position.x : position.y;
+    LaneMask<D> is_near = (along < reach.below) | (along > reach.above);
+    if (impact_friction != nullptr) {
+      is_near = is_near | (Lane<D>::load(impact_friction + i) != 0) | (Lane<D>::load(support_friction + i) != 0);
     }
     if (HWY_UNLIKELY(any(is_near))) {
-      count_ += write_set_lanes(is_near, i, near_ + count_);
+      count += write_set_lanes(is_near, i, near + count);
     }
   }
-
-  [[nodiscard]] std::size_t count() const { return count_; }
-
- private:
-  const double below_;
-  const double above_;
-  const bool along_x_;
-  const double* const impact_friction_;
-  const double* const support_friction_;
-  int* const near_;
-  std::size_t count_ = 0;
 };
 
 /// Whether any lane's particle bears contact forces. Most have none.
@@ -99,14 +85,17 @@ void move_chunks(const Scene& scene, State& state, const PlateReach& reach, std:
                  std::size_t first_chunk, std::size_t end_chunk, MovedChunk* moved, int* near_plates) {
   const StepFactors step = step_factors_of(scene);
   const ParticleArrays<State> arrays(scene, state);
+  const bool along_x = scene.plates.axis == 0;
+  const double* const impact_friction = state.impact_friction.empty() ? nullptr : state.impact_friction.data();
+  const double* const support_friction = state.support_friction.data();
   with_force_kinds(scene, state, [&](auto kinds) HWY_ATTR {
     for (std::size_t c = first_chunk; c < end_chunk; ++c) {
       const std::size_t begin = first + c * kParticlesMovedTogether;
-      NearPlatesNotes near(scene, state, reach, near_plates + begin);
+      NearPlatesNotes near{reach, along_x, impact_friction, support_friction, near_plates + begin};
       const std::size_t chunk_end = std::min(begin + kParticlesMovedTogether, end);
       const MotionWorks works = move_chunk<decltype(kinds)>(arrays, step, begin, chunk_end, near);
       clear_contact_forces(state, static_cast<int>(begin), static_cast<int>(chunk_end));
-      moved[c] = {works, begin, near.count()};
+      moved[c] = {works, begin, near.count};
     }
   });
 }

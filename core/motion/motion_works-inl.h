@@ -63,28 +63,23 @@ struct WorkSums {
   }
 };
 
-template <class D>
-HWY_INLINE void subtract_work(const Points<D>& force, const Points<D>& displacement, Lane<D>& work) {
-  work -= dot(force, displacement);
-}
-
 /// Adds the works of the forces over a mean displacement, mm, and a mean rotation, rad (E10).
 template <bool kContact, class Kinds, class D, class S>
 HWY_INLINE void add_works(const ParticleArrays<S>& arrays, const StepFactors& step, std::size_t i,
                           const ParticleForces<D>& forces, const ParticleMotion<D>& motion,
                           const Points<D>& displacement, Lane<D> turn, LaneWorks<D>& works) {
   if constexpr (kContact) {
-    subtract_work(forces.elastic, displacement, works.contact);
-    subtract_work(forces.viscous, displacement, works.contact_damping);
+    works.contact -= dot(forces.elastic, displacement);
+    works.contact_damping -= dot(forces.viscous, displacement);
   }
   if constexpr (Kinds::kFriction) {
-    subtract_work(forces.friction, displacement, works.friction);
+    works.friction -= dot(forces.friction, displacement);
   }
   if constexpr (Kinds::kMassDamping) {
     const Lane<D> damping = -step.half_damping;
     const Points<D> force = damping * Lane<D>::load(arrays.mass + i) * (motion.velocity + motion.next);
     const Lane<D> moment = damping * Lane<D>::load(arrays.inertia + i) * (motion.spin + motion.next_spin);
-    subtract_work(force, displacement, works.mass_damping);
+    works.mass_damping -= dot(force, displacement);
     works.mass_damping = fnma(moment, turn, works.mass_damping);
   }
   if constexpr (Kinds::kFrame) {
