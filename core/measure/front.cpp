@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <numeric>
 
+#include "measure/theory.h"
+
 namespace cellcrush {
 namespace {
 
@@ -56,8 +58,7 @@ double mean_velocity(const Columns& columns, const Profile& profile, int from, i
 
 }  // namespace
 
-std::optional<Front> find_front(const Columns& columns, const Scene& scene, const State& state,
-                                double relative_density) {
+std::optional<Front> find_front(const Columns& columns, const Scene& scene, const State& state) {
   const Profile profile = measure_columns(columns, scene, state);
   const double plate_speed = scene.plates.speed_at(state.time);
   const auto last = static_cast<int>(columns.place.size()) - 1;
@@ -86,7 +87,7 @@ std::optional<Front> find_front(const Columns& columns, const Scene& scene, cons
   const double length = columns.place[middle] - columns.place[0];
   const double shortening = profile.displacement[0] - profile.displacement[middle];
   front.position = columns.place[0] + (shortening - front.strain_ahead * length) / jump;
-  front.solid_fraction_behind = relative_density / (1.0 - front.strain_behind);
+  front.solid_fraction_behind = relative_density_of(scene) / (1.0 - front.strain_behind);
   const auto walls_behind = [&](const std::vector<double>& area) {
     return std::accumulate(area.begin(), area.begin() + behind + 1, 0.0);
   };

@@ -30,9 +30,7 @@ inline constexpr double kLeastJump = 0.3;
 inline constexpr double kMostScatter = 0.05;
 inline constexpr double kLeastVelocityJump = 0.8;
 
-/// The jump across the front; nothing if there is none. `relative_density`: of the undeformed lattice. REQUIRES: the
-/// lengths in the state are those of its positions.
-std::optional<Front> find_front(const Columns& columns, const Scene& scene, const State& state,
-                                double relative_density);
+/// The jump across the front; nothing if there is none. REQUIRES: the lengths in the state are those of its positions.
+std::optional<Front> find_front(const Columns& columns, const Scene& scene, const State& state);
 
 }  // namespace cellcrush

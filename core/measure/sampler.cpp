@@ -65,7 +65,6 @@ Sampler::Sampler(const Scene& scene) : next_check_(kModeFrom) {
   if (scene.plates.present) {
     cells_ = find_cells(scene);
     columns_ = divide_into_columns(scene, cells_.field.pitch);
-    relative_density_ = relative_density_of(scene);
   }
 }
 
@@ -81,14 +80,14 @@ void Sampler::measure_stress(const Scene& scene, const State& state, Sample& sam
 }
 
 void Sampler::measure_collapse(const Scene& scene, const State& state, Sample& sample) {
-  sample.solid_fraction = relative_density_ / (1.0 - sample.strain);
+  sample.solid_fraction = relative_density_of(scene) / (1.0 - sample.strain);
   const CollapseField field = find_collapse(cells_, state.position);
   sample.collapsed_fraction = collapsed_fraction_of(field);
   if (sample.collapsed_fraction >= next_check_ && next_check_ <= kModeTo) {
     sample.crush_mode = find_crush_mode(field);
     next_check_ = sample.collapsed_fraction + kCheckEvery;
   }
-  sample.front = find_front(columns_, scene, state, relative_density_);
+  sample.front = find_front(columns_, scene, state);
 }
 
 void Sampler::find_warnings(const Scene& scene, const State& state, Sample& sample) {

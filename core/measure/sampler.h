@@ -36,7 +36,6 @@ class Sampler {
 
   Cells cells_;
   Columns columns_;
-  double relative_density_ = 0.0;
   double last_time_ = 0.0;
   double last_impact_impulse_ = 0.0;
   double last_support_impulse_ = 0.0;

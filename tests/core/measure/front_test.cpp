@@ -42,7 +42,7 @@ class MovingFront : public testing::Test {
 
   [[nodiscard]] std::optional<Front> find(State state) const {
     scenes::follow_positions(*scene_, state);
-    return find_front(columns_, *scene_, state, relative_density_of(*scene_));
+    return find_front(columns_, *scene_, state);
   }
 };
 
