@@ -7,6 +7,7 @@
 
 #include "search/list_room.h"
 #include "simd/points-inl.h"
+#include "touch/viscous_force-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {
@@ -133,8 +134,7 @@ HWY_INLINE void evaluate_motion(const PairArrays& arrays, const LanePairs<D>& at
   const auto inverse_mass = fma(to_start * to_start, at.start.inverse_mass, of_end);
   const auto& contact = arrays.scene.contact;
   const auto rate = dot(foot.normal, closing);
-  const auto viscous = 2.0 * contact.damping_ratio * sqrt(contact.stiffness / inverse_mass) * rate;  // Eq. 43, E9
-  viscous.store(arrays.viscous + i);
+  viscous_force(contact.stiffness, contact.damping_ratio, inverse_mass, rate).store(arrays.viscous + i);
   const auto slide = foot.side * cross(foot.normal, closing);
   (arrays.scene.schedule.time_step * slide).store(arrays.slip + i);
 }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 
 namespace cellcrush {
 
@@ -15,11 +14,9 @@ struct NormalForce {
 inline NormalForce without_pull(double elastic, double viscous) { return {elastic, std::max(viscous, -elastic)}; }
 
 /// Penalty force of a contact of depth D > 0 (mm) that deepens at `rate` (mm/s) (Eq. 43, E8). k and c include the
-/// contact area; c = 2 damping_ratio sqrt(k m), with the effective mass m = 1 / inverse_mass (E9).
-inline NormalForce evaluate_normal_force(double stiffness, double damping_ratio, double inverse_mass, double depth,
-                                         double rate) {
-  return without_pull(stiffness * depth, 2.0 * damping_ratio * std::sqrt(stiffness / inverse_mass) * rate);
-}
+/// contact area (E9, touch/viscous_force-inl.h).
+NormalForce evaluate_normal_force(double stiffness, double damping_ratio, double inverse_mass, double depth,
+                                  double rate);
 
 /// Bilinear Coulomb friction (Eq. 44-47, E9b). The force of the step before, minus k times the slip of this step, is
 /// clamped to `limit`, the friction coefficient times the normal force. N; `slip` in mm, in the direction that the
