@@ -12,7 +12,7 @@
 #include "scene/mesh.h"
 #include "scene/number_columns.h"
 #include "scene/rigid_bodies.h"
-#include "scene/stable_step.h"
+#include "scene/time_step.h"
 #include "section/section_rule.h"
 
 namespace cellcrush {

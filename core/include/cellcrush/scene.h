@@ -245,7 +245,7 @@ struct Scene {
   double length = 0.0;           ///< envelope along the crush, mm; reference length of the strain
   double width = 0.0;            ///< envelope across the crush, mm
   double total_mass = 0.0;       ///< real, tonne
-  double stable_step = 0.0;      ///< s, of the undeformed mesh (E11b, scene/stable_step.h)
+  double stable_step = 0.0;      ///< s, of the undeformed mesh (E11b, scene/time_step.h)
   double collapse_stress = 0.0;  ///< MPa, quasi-static plastic collapse after Gibson and Ashby; 0 if unknown
   std::string fidelity;          ///< what the fidelity filled in, as a sentence; empty without one
 

@@ -6,7 +6,7 @@
 #include "cellcrush/scene.h"
 #include "cellcrush/simulation.h"
 #include "cellcrush/state.h"
-#include "scene/stable_step.h"
+#include "scene/time_step.h"
 #include "scenes/evidence.h"
 #include "scenes/frames.h"
 #include "scenes/kernels.h"

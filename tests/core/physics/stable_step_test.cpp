@@ -1,11 +1,10 @@
-#include "scene/stable_step.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "cellcrush/state.h"
+#include "scene/time_step.h"
 #include "scenes/evidence.h"
 #include "scenes/frames.h"
 
