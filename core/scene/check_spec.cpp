@@ -4,50 +4,47 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <set>
 
-#include "scene/check_frame.h"
-#include "scene/field_checker.h"
-#include "scene/mesh_size.h"
+#include "scene/lattices.h"
 
 namespace cellcrush {
 namespace {
 
-/// Checks the fields common to all regular lattices. `walls_per_cell` serves to limit the size of the mesh.
-template <class Lattice>
-void check_regular(const std::string& path, const Lattice& lattice, int fewest_columns, double walls_per_cell,
-                   int elements_per_wall, FieldChecker& check) {
+constexpr double kLargest = 1e12;
+constexpr double kSmallest = 1e-6;  // far below anything real, far above where squares underflow
+
+std::string describe(const FieldChecker::Range& range) {
+  return range.high >= kLargest
+             ? "of at least " + to_text(range.low)
+             : "from " + to_text(range.low) + (range.high_open ? " to below " : " to ") + to_text(range.high);
+}
+
+/// Checks the fields common to all regular lattices. Returns the side, mm; an endless one if it is not valid.
+double check_regular(const SceneSpec& spec, const RegularLattice& lattice, int fewest_columns, FieldChecker& check) {
+  const std::string path = path_of_lattice(spec);
   const bool columns =
       check.in_range(path + "columns", lattice.columns, {static_cast<double>(fewest_columns), 10000}, " cells");
   const bool rows = check.in_range(path + "rows", lattice.rows, {1, 10000}, " cells");
-  const bool side = check.positive(path + "side_mm", lattice.side_mm, " mm");
-  const double thickest = side ? 0.5 * *lattice.side_mm : 1e12;
-  check.in_range(path + "wall_thickness_mm", lattice.wall_thickness_mm, {1e-6, thickest}, " mm (half of side_mm)");
+  const bool is_sound = check.positive(path + "side_mm", lattice.side_mm, " mm");
+  const double side = is_sound ? *lattice.side_mm : std::numeric_limits<double>::infinity();
+  check.in_range(path + "wall_thickness_mm", lattice.wall_thickness_mm, {1e-6, 0.5 * side}, " mm (half of side_mm)");
   if (columns && rows) {
-    const double elements = count_elements(walls_per_cell, *lattice.columns, *lattice.rows, elements_per_wall);
+    const double elements = count_elements(spec);
     if (elements > kMostElements) {
       check.add(path + "columns", std::to_string(*lattice.columns),
                 "makes about " + to_text(std::round(elements)) + " elements with the rows and elements_per_wall given.",
-                "Keep columns x rows x " + to_text(walls_per_cell) + " x elements_per_wall at or below " +
+                "Keep columns x rows x " + to_text(walls_per_cell_of(spec)) + " x elements_per_wall at or below " +
                     to_text(kMostElements) + ".");
     }
   }
+  return side;
 }
 
-void check_hexagons(const HexagonLattice& hexagon, const Inclusions& inclusions, int elements_per_wall,
-                    FieldChecker& check) {
-  const std::string path = "lattice.hexagon.";
-  check_regular(path, hexagon, 2, kWallsOfHexagon, elements_per_wall, check);
-  const double thickest = hexagon.side_mm && *hexagon.side_mm > 0.0 ? 0.5 * *hexagon.side_mm : 1e12;
-  if (hexagon.vertical_wall_thickness_mm) {
-    check.in_range(path + "vertical_wall_thickness_mm", hexagon.vertical_wall_thickness_mm, {1e-6, thickest},
-                   " mm (half of side_mm)");
-  }
-  if (inclusions.rows.empty()) {
-    return;
-  }
+void check_inclusions(const HexagonLattice& hexagon, const Inclusions& inclusions, double side, FieldChecker& check) {
   for (std::size_t i = 0; i < inclusions.rows.size(); ++i) {
-    check.in_range("lattice.inclusions.rows[" + std::to_string(i) + "]", std::optional<int>(inclusions.rows[i]),
+    check.in_range("lattice.inclusions.rows[" + std::to_string(i) + "]", inclusions.rows[i],
                    {1.0, static_cast<double>(hexagon.rows.value_or(10000))}, " (a row of cells, from the bottom)");
   }
   const std::set<int> stiff(inclusions.rows.begin(), inclusions.rows.end());
@@ -57,36 +54,29 @@ void check_hexagons(const HexagonLattice& hexagon, const Inclusions& inclusions,
   }
   const double thickness =
       std::max(hexagon.wall_thickness_mm.value_or(0.0), hexagon.vertical_wall_thickness_mm.value_or(0.0));
-  if (check.in_range("lattice.inclusions.thickness_factor", inclusions.thickness_factor, {1.0, 1e12}, "") &&
-      inclusions.thickness_factor * thickness > thickest) {
+  if (check.in_range("lattice.inclusions.thickness_factor", inclusions.thickness_factor, {1.0, 1e12}) &&
+      inclusions.thickness_factor * thickness > 0.5 * side) {
     check.add("lattice.inclusions.thickness_factor", to_text(inclusions.thickness_factor),
               "makes the stiff walls thicker than half of side_mm.",
-              "Give at most " + to_text(thickest / thickness) + ".");
+              "Give at most " + to_text(0.5 * side / thickness) + ".");
   }
-}
-
-void check_imperfection(const SceneSpec& spec, double side, FieldChecker& check) {
-  check.in_range("lattice.imperfection.amplitude_mm", spec.imperfection.amplitude_mm, {0.0, 0.1 * side},
-                 " mm (a tenth of side_mm)");
 }
 
 void check_lattice(const SceneSpec& spec, FieldChecker& check) {
-  const auto side_of = [](const auto& lattice) {
-    return lattice.side_mm && *lattice.side_mm > 0.0 ? *lattice.side_mm : 1e12;
-  };
-  if (const auto* hexagon = std::get_if<HexagonLattice>(&spec.lattice)) {
-    check_hexagons(*hexagon, spec.inclusions, *spec.elements_per_wall, check);
-    check_imperfection(spec, side_of(*hexagon), check);
-    return;
-  }
-  if (const auto* square = std::get_if<SquareLattice>(&spec.lattice)) {
-    check_regular("lattice.square.", *square, 1, kWallsOfSquare, *spec.elements_per_wall, check);
-    check_imperfection(spec, side_of(*square), check);
-  } else if (const auto* triangle = std::get_if<TriangleLattice>(&spec.lattice)) {
-    check_regular("lattice.triangle.", *triangle, 1, kWallsOfTriangle, *spec.elements_per_wall, check);
-    check_imperfection(spec, side_of(*triangle), check);
-  } else if (const auto* frame = std::get_if<FrameLattice>(&spec.lattice)) {
-    check_frame(*frame, *spec.elements_per_wall, check);
+  const auto* hexagon = std::get_if<HexagonLattice>(&spec.lattice);
+  if (const RegularLattice* lattice = regular_lattice_of(spec)) {
+    const double side = check_regular(spec, *lattice, hexagon != nullptr ? 2 : 1, check);
+    if (hexagon != nullptr && hexagon->vertical_wall_thickness_mm) {
+      check.in_range("lattice.hexagon.vertical_wall_thickness_mm", hexagon->vertical_wall_thickness_mm,
+                     {1e-6, 0.5 * side}, " mm (half of side_mm)");
+    }
+    if (hexagon != nullptr && !spec.inclusions.rows.empty()) {
+      check_inclusions(*hexagon, spec.inclusions, side, check);
+    }
+    check.in_range("lattice.imperfection.amplitude_mm", spec.imperfection.amplitude_mm, {0.0, 0.1 * side},
+                   " mm (a tenth of side_mm)");
+  } else if (std::holds_alternative<FrameLattice>(spec.lattice)) {
+    check_frame(spec, check);
     if (spec.imperfection.amplitude_mm != 0.0) {
       check.add("lattice.imperfection.amplitude_mm", to_text(spec.imperfection.amplitude_mm),
                 "applies to regular lattices only, not to a frame.", "Remove it, and move the frame's nodes instead.");
@@ -95,7 +85,7 @@ void check_lattice(const SceneSpec& spec, FieldChecker& check) {
     check.add("lattice", "", "is missing.",
               "Give one of lattice.hexagon, lattice.square, lattice.triangle, lattice.frame.");
   }
-  if (!spec.inclusions.rows.empty()) {
+  if (hexagon == nullptr && !spec.inclusions.rows.empty()) {
     check.add("lattice.inclusions.rows", std::to_string(spec.inclusions.rows.size()) + " rows",
               "apply to hexagons only.", "Remove them, or use lattice.hexagon.");
   }
@@ -103,11 +93,11 @@ void check_lattice(const SceneSpec& spec, FieldChecker& check) {
 
 void check_section(const SectionSpec& section, FieldChecker& check) {
   const bool force_based = section.formulation == SectionSpec::Formulation::force_based;
-  check.in_range("section.axial_points", std::optional(section.axial_count()),
+  check.in_range("section.axial_points", section.axial_count(),
                  force_based ? FieldChecker::Range{3, 5} : FieldChecker::Range{1, 5},
                  force_based ? " (force-based; displacement-based: 1 to 5)" : "");
   if (section.depth_rule == SectionSpec::DepthRule::lobatto) {
-    check.in_range("section.depth_points", std::optional(section.depth_count()), {2, 10}, "");
+    check.in_range("section.depth_points", section.depth_count(), {2, 10});
   } else if (section.depth_count() != 4 && section.depth_count() != 6) {
     check.add("section.depth_points", std::to_string(section.depth_count()),
               "is not available in the full-moment rule.", "Give 4 or 6, or section.depth_rule LOBATTO with 2 to 10.");
@@ -117,7 +107,7 @@ void check_section(const SectionSpec& section, FieldChecker& check) {
 void check_loading(const LoadingSpec& loading, FieldChecker& check) {
   check.in_range("loading.speed_m_per_s", loading.speed_m_per_s, {1e-6, 1000.0}, " m/s");
   const bool end =
-      check.in_range("loading.end_strain", loading.end_strain, {.low = 1e-4, .high = 0.95, .high_open = true}, "");
+      check.in_range("loading.end_strain", loading.end_strain, {.low = 1e-4, .high = 0.95, .high_open = true});
   const double latest = end ? loading.end_strain : 0.95;
   check.in_range("loading.ramp_strain", loading.ramp_strain, {.low = 0.0, .high = latest, .high_open = true},
                  " (end_strain)");
@@ -128,7 +118,7 @@ void check_numerics(const NumericsSpec& numerics, FieldChecker& check) {
   check.in_range("numerics.mass_damping_per_s", numerics.mass_damping_per_s, {0.0, 1e12}, " 1/s");
   check.in_range("numerics.mass_scaling", numerics.mass_scaling, {1.0, 1e6}, " (1: real masses)");
   check.in_range("numerics.rotary_scaling", numerics.rotary_scaling, {1.0, 1e3}, " (1: real inertias)");
-  check.in_range("numerics.threads", std::optional<int>(numerics.threads), {1, 1024}, " threads");
+  check.in_range("numerics.threads", numerics.threads, {1, 1024}, " threads");
 }
 
 }  // namespace
@@ -139,17 +129,65 @@ std::string to_text(double value) {
   return {buffer.data(), end};
 }
 
+bool FieldChecker::in_range(const std::string& field, std::optional<double> value, Range range,
+                            const std::string& unit) {
+  const char* wrong = nullptr;
+  if (!value) {
+    wrong = "is missing.";
+  } else if (!std::isfinite(*value)) {
+    wrong = "is not a finite number.";
+  } else if (*value < range.low) {
+    wrong = "is too small.";
+  } else if (range.high_open ? *value >= range.high : *value > range.high) {
+    wrong = "is too large.";
+  }
+  if (wrong != nullptr) {
+    add(field, value ? to_text(*value) : "", wrong, "Give a value " + describe(range) + unit + ".");
+  }
+  return wrong == nullptr;
+}
+
+bool FieldChecker::positive(const std::string& field, std::optional<double> value, const std::string& unit) {
+  return in_range(field, value, {kSmallest, kLargest}, unit);
+}
+
+void FieldChecker::add(const std::string& field, const std::string& value, const std::string& message,
+                       const std::string& remedy) {
+  problems_.push_back({field, value, message, remedy});
+}
+
+void check_material(const std::string& path, const MaterialSpec& material, FieldChecker& check) {
+  check.positive(path + "youngs_modulus_mpa", material.youngs_modulus_mpa, " MPa");
+  check.positive(path + "yield_stress_mpa", material.yield_stress_mpa, " MPa");
+  check.in_range(path + "hardening_modulus_mpa", material.hardening_modulus_mpa, {0.0, 1e12}, " MPa");
+  check.in_range(path + "isotropic_fraction", material.isotropic_fraction, {0.0, 1.0});
+  check.in_range(path + "poissons_ratio", material.poissons_ratio, {0.0, 0.5});
+  check.positive(path + "density_kg_per_m3", material.density_kg_per_m3, " kg/m3");
+}
+
+double count_elements(const SceneSpec& spec) {
+  const int elements_per_wall = *spec.elements_per_wall;
+  if (const RegularLattice* lattice = regular_lattice_of(spec)) {
+    return walls_per_cell_of(spec) * *lattice->columns * *lattice->rows * elements_per_wall;
+  }
+  double elements = 0.0;
+  for (const FrameLattice::Beam& beam : std::get<FrameLattice>(spec.lattice).beams) {
+    elements += std::max(1, beam.elements.value_or(elements_per_wall));
+  }
+  return elements;
+}
+
 Problems check_spec(const SceneSpec& spec) {
   FieldChecker check;
   check_lattice(spec, check);
   check.positive("depth_mm", spec.depth_mm, " mm");
-  check.in_range("elements_per_wall", spec.elements_per_wall, {1, 64}, "");
+  check.in_range("elements_per_wall", spec.elements_per_wall, {1, 64});
   check_material("material.", spec.material, check);
   check_section(spec.section, check);
-  check.in_range("contact.friction", spec.contact.friction, {0.0, 10.0}, "");
-  check.in_range("contact.stiffness_factor", spec.contact.stiffness_factor, {1e-6, 1.0}, "");
-  check.in_range("contact.damping_ratio", spec.contact.damping_ratio, {0.0, 1.0}, "");
-  check.in_range("plates.friction", spec.plates.friction, {0.0, 10.0}, "");
+  check.in_range("contact.friction", spec.contact.friction, {0.0, 10.0});
+  check.in_range("contact.stiffness_factor", spec.contact.stiffness_factor, {1e-6, 1.0});
+  check.in_range("contact.damping_ratio", spec.contact.damping_ratio, {0.0, 1.0});
+  check.in_range("plates.friction", spec.plates.friction, {0.0, 10.0});
   if (!std::holds_alternative<FrameLattice>(spec.lattice)) {
     check_loading(spec.loading, check);
   } else if (spec.loading.speed_m_per_s) {
@@ -157,8 +195,8 @@ Problems check_spec(const SceneSpec& spec) {
               "Remove loading; use lattice.frame.loads and motions to load a frame.");
   }
   check_numerics(spec.numerics, check);
-  check.in_range("output.sample_count", std::optional<int>(spec.output.sample_count), {10, 100000}, " samples");
-  check.in_range("output.frame_count", std::optional<int>(spec.output.frame_count), {1, 2000}, " frames");
+  check.in_range("output.sample_count", spec.output.sample_count, {10, 100000}, " samples");
+  check.in_range("output.frame_count", spec.output.frame_count, {1, 2000}, " frames");
   return check.take();
 }
 

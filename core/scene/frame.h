@@ -2,7 +2,7 @@
 
 #include "cellcrush/scene.h"
 #include "cellcrush/scene_spec.h"
-#include "scene/mesh.h"
+#include "scene/layout.h"
 
 namespace cellcrush {
 

@@ -3,7 +3,9 @@
 #include <cstddef>
 #include <vector>
 
+#include "cellcrush/problem.h"
 #include "cellcrush/scene.h"
+#include "cellcrush/scene_spec.h"
 
 namespace cellcrush {
 
@@ -21,13 +23,17 @@ struct InitialOverlap {
 
 struct InitialOverlaps {
   std::vector<InitialOverlap> found;  ///< at most as many as requested, each pair once
-  bool too_dense =
-      false;  ///< given up: walls so thick or tangled that the run's list of candidates would not end either
+  /// Given up: walls so thick or tangled that the run's list of candidates would not end either.
+  bool too_dense = false;
 };
 
 /// Where contacts would push before anything has moved: balls that touch a segment by the rule of the run (E8, E8a),
 /// and elements that cross without a common node, far from any ball. Time and memory grow in proportion to the number
 /// of elements. REQUIRES: a mesh with radii and incidence.
 InitialOverlaps find_initial_overlaps(const Scene& scene, std::size_t most);
+
+/// Problems of walls that overlap before loading: contact would throw them apart in the first step. Names the beams of
+/// a frame, or the thickness of a lattice, and the position. REQUIRES: the mesh of the spec, as for the search.
+Problems check_overlap(const SceneSpec& spec, const Scene& scene);
 
 }  // namespace cellcrush

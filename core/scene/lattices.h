@@ -1,56 +1,41 @@
 #pragma once
 
-#include <optional>
-#include <vector>
+#include <string>
 
 #include "cellcrush/scene_spec.h"
 #include "cellcrush/vector.h"
-#include "scene/lattice_pattern.h"
-#include "scene/mesh.h"
+#include "scene/layout.h"
 
 namespace cellcrush {
 
-// The regular lattices, with the lower left corner of the envelope at the origin. Every joint and wall is created once.
-// REQUIRES everywhere: a checked lattice with all its fields set.
+/// The regular lattice of a spec; null if it has a frame, or no lattice.
+const RegularLattice* regular_lattice_of(const SceneSpec& spec);
 
-/// The parameters that determine the pattern of a regular lattice.
-struct LatticeShape {
-  enum class Cell {
-    hexagon,  ///< walls along y; rows from the bottom up have `columns` and `columns - 1` cells in turn
-    square,   ///< walls along x and y
-    /// Walls along x; `rows` rows between lines that have `columns + 1` and, shifted by half a side, `columns` joints
-    /// in turn.
-    triangle
-  };
-  Cell cell = Cell::hexagon;
-  int columns = 0;
-  int rows = 0;
-  std::vector<int> stiff_rows;  ///< of hexagons, from 1 at the bottom
-};
+/// Path of the fields of the regular lattice of a spec, such as "lattice.hexagon.".
+std::string path_of_lattice(const SceneSpec& spec);
 
-/// The sizes that turn a pattern into a layout.
-struct LatticeSizes {
-  double side = 0.0;          ///< L, mm
-  ByWallKind thickness = {};  ///< mm; stiff walls are at least as thick as the others
-  bool rigid = false;         ///< whether stiff walls are parts of rigid bodies
-  int elements_per_wall = 1;
-};
+/// Walls per cell of a large lattice; the walls along its edges are additional.
+double walls_per_cell_of(const SceneSpec& spec);
 
-struct RegularLattice {
-  LatticeShape shape;
-  LatticeSizes sizes;
-};
+// REQUIRES in the following: a checked spec of a regular lattice.
 
-RegularLattice regular_lattice(const HexagonLattice& lattice, const Inclusions& inclusions, int elements_per_wall);
-RegularLattice regular_lattice(const SquareLattice& lattice, int elements_per_wall);
-RegularLattice regular_lattice(const TriangleLattice& lattice, int elements_per_wall);
-/// The regular lattice of a spec; none for a frame.
-std::optional<RegularLattice> regular_lattice_of(const SceneSpec& spec);
-
-Layout lay_out(const RegularLattice& lattice);
+/// Joints and walls, with the lower left corner of the envelope at the origin. Every joint and wall is created once,
+/// joints in the order of their first use.
+///  - Hexagons: walls along y; rows from the bottom up have `columns` and `columns - 1` cells in turn.
+///  - Triangles: walls along x; `rows` rows between lines that have `columns + 1` and, shifted by half a side,
+///    `columns` joints in turn.
+Layout lay_out_cells(const SceneSpec& spec);
 
 /// Envelope in x and y, mm. Hexagons: sqrt(3) side columns by (1.5 rows + 0.5) side. Squares: side columns by side
 /// rows. Triangles: side columns by sqrt(3)/2 side rows.
-Vector2 envelope_of(const RegularLattice& lattice);
+Vector2 envelope_of(const SceneSpec& spec);
+
+/// Quasi-static plastic collapse stress of rigid, perfectly plastic walls, MPa.
+///  - Hexagons bend: (2/3) sigma_y (h/L)^2 in either direction, with the thickness of the slanted walls (Gibson and
+///    Ashby, Cellular Solids, 2nd ed., section 4.3).
+///  - Squares yield axially: sigma_y h/L.
+///  - Triangles yield axially: (2/sqrt 3) sigma_y h/L along their walls, carried by the walls along the load; sqrt 3
+///    sigma_y h/L across them, carried by the others.
+double collapse_stress_of(const SceneSpec& spec);
 
 }  // namespace cellcrush

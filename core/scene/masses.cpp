@@ -30,51 +30,24 @@ void lump_masses(Scene& scene) {
   }
 }
 
-namespace {
-
-/// Calls visit(joint, index into State::wall_force) for every end of a wall: for each block, first the starts of its
-/// walls, then the ends.
-template <class Visit>
-void visit_wall_ends(const Scene& scene, Visit&& visit) {
-  for (const WallBlock& block : scene.walls.blocks) {
-    for (const std::vector<int>* joints : {&scene.walls.start, &scene.walls.end}) {
-      const int first = 2 * block.first_wall + (joints == &scene.walls.start ? 0 : block.walls);
-      for (int w = 0; w < block.walls; ++w) {
-        visit((*joints)[block.first_wall + w], first + w);
-      }
+void lump_rigid_bodies(Scene& scene) {
+  RigidBodies& rigid = scene.rigid;
+  for (std::size_t body = 0; body + 1 < rigid.offset.size(); ++body) {
+    double mass = 0.0;
+    Vector2 moment = Vector2::Zero();
+    for (int i = rigid.offset[body]; i < rigid.offset[body + 1]; ++i) {
+      mass += scene.mass[i];
+      moment += scene.mass[i] * scene.position[i];
     }
+    const Vector2 centre = moment / mass;
+    double inertia = 0.0;
+    for (int i = rigid.offset[body]; i < rigid.offset[body + 1]; ++i) {
+      inertia += scene.inertia[i] + scene.mass[i] * (scene.position[i] - centre).squaredNorm();
+    }
+    rigid.centre.push_back(centre);
+    rigid.mass.push_back(mass);
+    rigid.inertia.push_back(inertia);
   }
-}
-
-void link_wall_ends(Scene& scene) {
-  scene.wall_end_offset.assign(static_cast<std::size_t>(scene.joint_count) + 1, 0);
-  visit_wall_ends(scene, [&](int joint, int) { ++scene.wall_end_offset[joint + 1]; });
-  for (int joint = 0; joint < scene.joint_count; ++joint) {
-    scene.wall_end_offset[joint + 1] += scene.wall_end_offset[joint];
-  }
-  scene.wall_ends.resize(2 * scene.walls.start.size());
-  std::vector<int> next(scene.wall_end_offset.begin(), scene.wall_end_offset.end() - 1);
-  visit_wall_ends(scene, [&](int joint, int end) { scene.wall_ends[next[joint]++] = end; });
-}
-
-}  // namespace
-
-void link_elements(Scene& scene) {
-  scene.incidence_offset.assign(scene.particle_count() + 1, 0);
-  for (const Element& element : scene.elements) {
-    ++scene.incidence_offset[element.start + 1];
-    ++scene.incidence_offset[element.end + 1];
-  }
-  for (std::size_t node = 0; node < scene.particle_count(); ++node) {
-    scene.incidence_offset[node + 1] += scene.incidence_offset[node];
-  }
-  scene.incidence.resize(2 * scene.element_count());
-  std::vector<int> next(scene.incidence_offset.begin(), scene.incidence_offset.end() - 1);
-  for (std::size_t e = 0; e < scene.element_count(); ++e) {
-    scene.incidence[next[scene.elements[e].start]++] = static_cast<int>(e);
-    scene.incidence[next[scene.elements[e].end]++] = static_cast<int>(e);
-  }
-  link_wall_ends(scene);
 }
 
 }  // namespace cellcrush

@@ -10,7 +10,7 @@ namespace cellcrush {
 /// entered before.
 void lump_masses(Scene& scene);
 
-/// Fills incidence_offset, incidence, wall_end_offset and wall_ends.
-void link_elements(Scene& scene);
+/// Fills centres, masses and inertias of the bodies (M and I of E13). REQUIRES: masses are lumped.
+void lump_rigid_bodies(Scene& scene);
 
 }  // namespace cellcrush

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <numeric>
 
 namespace cellcrush {
 namespace {
@@ -51,48 +52,39 @@ std::vector<int> chunk_offsets(const std::vector<WallBlock>& blocks) {
   return offsets;
 }
 
-/// Calls visit(chunk, joint) for every end of a wall, chunks ascending.
-template <class Visit>
-void visit_chunk_joints(const Walls& walls, Visit&& visit) {
-  for (int chunk = 0; chunk < walls.chunk_count(); ++chunk) {
-    for (int b = walls.chunk_offset[chunk]; b < walls.chunk_offset[chunk + 1]; ++b) {
-      const WallBlock& block = walls.blocks[b];
-      for (int wall = block.first_wall; wall < block.first_wall + block.walls; ++wall) {
-        visit(chunk, walls.start[wall]);
-        visit(chunk, walls.end[wall]);
-      }
+/// Fills first_joint and end_joint of every chunk, so that the former is not before the latter of the chunk before.
+void order_joints(Walls& walls, int joint_count) {
+  const int count = walls.chunk_count();
+  std::vector<int> lowest(count, joint_count);
+  std::vector<int> highest(count, -1);
+  for (int chunk = 0; chunk < count; ++chunk) {
+    const WallBlock& last = walls.blocks[walls.chunk_offset[chunk + 1] - 1];
+    for (int wall = walls.blocks[walls.chunk_offset[chunk]].first_wall; wall < last.first_wall + last.walls; ++wall) {
+      lowest[chunk] = std::min({lowest[chunk], walls.start[wall], walls.end[wall]});
+      highest[chunk] = std::max({highest[chunk], walls.start[wall], walls.end[wall]});
     }
+  }
+  walls.end_joint.assign(count, joint_count);
+  for (int chunk = count - 1; chunk > 0; --chunk) {
+    walls.end_joint[chunk - 1] = std::min(walls.end_joint[chunk], lowest[chunk]);
+  }
+  walls.first_joint.assign(count, 0);
+  for (int chunk = 1; chunk < count; ++chunk) {
+    walls.first_joint[chunk] =
+        std::max({walls.first_joint[chunk - 1], highest[chunk - 1] + 1, walls.end_joint[chunk - 1]});
   }
 }
 
-/// Fills first_joint and end_joint of every chunk. A joint without walls belongs to the chunk of its neighbour.
-void order_joints(Walls& walls, int joint_count) {
-  constexpr int kNone = -1;
-  std::vector<int> first(joint_count, kNone);
-  std::vector<int> last(joint_count, kNone);
-  visit_chunk_joints(walls, [&](int chunk, int joint) {
-    first[joint] = first[joint] == kNone ? chunk : first[joint];
-    last[joint] = chunk;
-  });
-  walls.first_joint.assign(walls.chunk_count(), 0);
-  walls.end_joint.assign(walls.chunk_count(), joint_count);
-  for (int joint = 0; joint < joint_count; ++joint) {
-    if (first[joint] == kNone) {
-      first[joint] = last[joint] = joint == 0 ? 0 : last[joint - 1];
-    }
-    if (first[joint] + 1 < walls.chunk_count()) {
-      walls.first_joint[first[joint] + 1] = joint + 1;
-    }
-    if (last[joint] > 0) {
-      walls.end_joint[last[joint] - 1] = std::min(walls.end_joint[last[joint] - 1], joint);
-    }
-  }
-  for (int chunk = 1; chunk < walls.chunk_count(); ++chunk) {
-    walls.first_joint[chunk] = std::max(walls.first_joint[chunk], walls.first_joint[chunk - 1]);
-  }
-  for (int chunk = walls.chunk_count() - 2; chunk >= 0; --chunk) {
-    walls.end_joint[chunk] = std::min(walls.end_joint[chunk], walls.end_joint[chunk + 1]);
-  }
+/// Sorts items into lists by node: fills `items` list by list, in the order of the visits, and `offset` into it.
+/// visit_all(visit) calls visit(node, item) for each.
+template <class VisitAll>
+void list_by_node(std::size_t nodes, const VisitAll& visit_all, std::vector<int>& offset, std::vector<int>& items) {
+  offset.assign(nodes + 1, 0);
+  visit_all([&](int node, int) { ++offset[node + 1]; });
+  std::partial_sum(offset.begin(), offset.end(), offset.begin());
+  items.resize(static_cast<std::size_t>(offset.back()));
+  std::vector<int> next(offset.begin(), offset.end() - 1);
+  visit_all([&](int node, int item) { items[next[node]++] = item; });
 }
 
 }  // namespace
@@ -130,6 +122,28 @@ void divide_walls(const Layout& layout, Scene& scene) {
   for (auto wall = rigid; wall != layout.walls.end(); ++wall) {
     scene.elements.push_back({wall->start, wall->end, wall->thickness, wall->material});
   }
+}
+
+void link_elements(Scene& scene) {
+  const auto visit_elements = [&](const auto& visit) {
+    for (std::size_t e = 0; e < scene.element_count(); ++e) {
+      visit(scene.elements[e].start, static_cast<int>(e));
+      visit(scene.elements[e].end, static_cast<int>(e));
+    }
+  };
+  // For each block, first the starts of its walls, then the ends.
+  const auto visit_wall_ends = [&](const auto& visit) {
+    int index = 0;  // into State::wall_force
+    for (const WallBlock& block : scene.walls.blocks) {
+      for (const std::vector<int>* joints : {&scene.walls.start, &scene.walls.end}) {
+        for (int wall = block.first_wall; wall < block.first_wall + block.walls; ++wall) {
+          visit((*joints)[wall], index++);
+        }
+      }
+    }
+  };
+  list_by_node(scene.particle_count(), visit_elements, scene.incidence_offset, scene.incidence);
+  list_by_node(scene.joint_count, visit_wall_ends, scene.wall_end_offset, scene.wall_ends);
 }
 
 }  // namespace cellcrush

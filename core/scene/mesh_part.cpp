@@ -3,15 +3,12 @@
 #include <algorithm>
 #include <numbers>
 
-#include "scene/check_overlap.h"
-#include "scene/collapse_stress.h"
 #include "scene/frame.h"
-#include "scene/imperfection.h"
+#include "scene/initial_overlap.h"
 #include "scene/lattices.h"
+#include "scene/layout.h"
 #include "scene/masses.h"
 #include "scene/mesh.h"
-#include "scene/number_columns.h"
-#include "scene/rigid_bodies.h"
 #include "scene/time_step.h"
 #include "section/section_rule.h"
 
@@ -34,16 +31,15 @@ std::vector<Material> materials_of(const SceneSpec& spec) {
 
 /// Lays out the lattice, and computes its measures if it is a regular one.
 Layout lay_out(const SceneSpec& spec, Scene& scene) {
-  const auto lattice = regular_lattice_of(spec);
-  if (!lattice) {
-    return lay_out_frame(std::get<FrameLattice>(spec.lattice), *spec.elements_per_wall);
+  if (const auto* frame = std::get_if<FrameLattice>(&spec.lattice)) {
+    return lay_out_frame(*frame, *spec.elements_per_wall);
   }
-  const Vector2 envelope = envelope_of(*lattice);
+  const Vector2 envelope = envelope_of(spec);
   const int axis = crush_axis_of(spec);
   scene.length = envelope[axis];
   scene.width = envelope[1 - axis];
   scene.collapse_stress = collapse_stress_of(spec);
-  Layout layout = lay_out(*lattice);
+  Layout layout = lay_out_cells(spec);
   const std::vector<Vector2> places = layout.joints;
   perturb(spec.imperfection, layout.joints);
   number_columns(places, layout);

@@ -1,8 +1,8 @@
-#include "cellcrush/plausibility.h"
-
 #include <cmath>
 
+#include "cellcrush/spec_checker.h"
 #include "scene/check_spec.h"
+#include "scene/lattices.h"
 
 namespace cellcrush {
 namespace {
@@ -20,71 +20,61 @@ constexpr double kFastest = 0.1;         // fraction of the speed of an elastic 
 
 std::string percent(double share) { return to_text(std::round(1000.0 * share) / 10.0) + " %"; }
 
-class Notes {
- public:
-  void add(const std::string& field, double value, const std::string& message, const std::string& remedy) {
-    found_.push_back({field, to_text(value), message, remedy});
-  }
-  Problems take() { return std::move(found_); }
-
- private:
-  Problems found_;
-};
-
-void check_density(double density, Notes& notes) {
+void check_density(double density, FieldChecker& notes) {
   const std::string field = "material.density_kg_per_m3";
   if (density < 1e-3) {
-    notes.add(field, density, "is far below that of any solid. Is it in tonne/mm^3?",
+    notes.add(field, to_text(density), "is far below that of any solid. Is it in tonne/mm^3?",
               "Give it in kg/m^3: aluminium has 2700.");
   } else if (density < 30.0) {
-    notes.add(field, density, "is far below that of any solid. Is it in g/cm^3?",
+    notes.add(field, to_text(density), "is far below that of any solid. Is it in g/cm^3?",
               "Give it in kg/m^3: " + to_text(density) + " g/cm^3 is " + to_text(1000.0 * density) + " kg/m^3.");
   } else if (density < kLightest || density > kHeaviest) {
-    notes.add(field, density, density < kLightest ? "is below that of any solid." : "is above that of any metal.",
+    notes.add(field, to_text(density),
+              density < kLightest ? "is below that of any solid." : "is above that of any metal.",
               "Give the density of the wall material, not of the lattice; aluminium has 2700 kg/m^3.");
   }
 }
 
-void check_stiffness(const MaterialSpec& material, Notes& notes) {
+void check_stiffness(const MaterialSpec& material, FieldChecker& notes) {
   const double modulus = *material.youngs_modulus_mpa;
   const std::string field = "material.youngs_modulus_mpa";
   if (modulus < kSoftest) {
-    notes.add(field, modulus, "is typical of rubber. Is it in GPa?",
+    notes.add(field, to_text(modulus), "is typical of rubber. Is it in GPa?",
               "Give it in MPa: " + to_text(modulus) + " GPa is " + to_text(1000.0 * modulus) + " MPa.");
   } else if (modulus > kStiffest) {
-    notes.add(field, modulus, "is above that of diamond. Is it in Pa or kPa?", "Give it in MPa: aluminium has 69000.");
+    notes.add(field, to_text(modulus), "is above that of diamond. Is it in Pa or kPa?",
+              "Give it in MPa: aluminium has 69000.");
   }
   const double yield_strain = *material.yield_stress_mpa / modulus;
   const std::string ratio = "is " + percent(yield_strain) + " of youngs_modulus_mpa";
   if (yield_strain > kGreatestYield) {
-    notes.add("material.yield_stress_mpa", *material.yield_stress_mpa,
+    notes.add("material.yield_stress_mpa", to_text(*material.yield_stress_mpa),
               ratio + "; metals yield at 0.05 to 1 %, polymers at up to 5 %.", "Check the units of both.");
   } else if (yield_strain < kLeastYield) {
-    notes.add("material.yield_stress_mpa", *material.yield_stress_mpa,
+    notes.add("material.yield_stress_mpa", to_text(*material.yield_stress_mpa),
               "is " + to_text(yield_strain) + " of youngs_modulus_mpa; annealed metals yield at 0.0002 or more.",
               "Check the units of both.");
   }
 }
 
-template <class Lattice>
-void check_walls(const std::string& path, const Lattice& lattice, Notes& notes) {
+void check_walls(const std::string& field, const RegularLattice& lattice, FieldChecker& notes) {
   const double slenderness = *lattice.wall_thickness_mm / *lattice.side_mm;
   if (slenderness > kThickest) {
-    notes.add(path + "wall_thickness_mm", *lattice.wall_thickness_mm,
+    notes.add(field, to_text(*lattice.wall_thickness_mm),
               "is " + percent(slenderness) + " of side_mm: walls are modelled as slender beams without shear.",
               "Up to a quarter of the side, use the result for trends only.");
   } else if (slenderness < kThinnest) {
-    notes.add(path + "wall_thickness_mm", *lattice.wall_thickness_mm,
+    notes.add(field, to_text(*lattice.wall_thickness_mm),
               "is " + to_text(slenderness) + " of side_mm, thinner than any honeycomb.", "Check the units of both.");
   }
 }
 
-void check_speed(const SceneSpec& spec, Notes& notes) {
+void check_speed(const SceneSpec& spec, FieldChecker& notes) {
   constexpr double kPascal = 1e6;  // in a MPa
   const double wave = std::sqrt(*spec.material.youngs_modulus_mpa * kPascal / *spec.material.density_kg_per_m3);
   const double share = *spec.loading.speed_m_per_s / wave;
   if (share > kFastest) {
-    notes.add("loading.speed_m_per_s", *spec.loading.speed_m_per_s,
+    notes.add("loading.speed_m_per_s", to_text(*spec.loading.speed_m_per_s),
               "is " + percent(share) + " of the speed of an elastic wave in the walls, " + to_text(std::round(wave)) +
                   " m/s. At such speeds strain-rate and thermal effects matter, which are not modelled.",
               "Check the speed, and the units of youngs_modulus_mpa and density_kg_per_m3.");
@@ -94,13 +84,9 @@ void check_speed(const SceneSpec& spec, Notes& notes) {
 }  // namespace
 
 Problems find_implausible(const SceneSpec& spec) {
-  Notes notes;
-  if (const auto* hexagon = std::get_if<HexagonLattice>(&spec.lattice)) {
-    check_walls("lattice.hexagon.", *hexagon, notes);
-  } else if (const auto* square = std::get_if<SquareLattice>(&spec.lattice)) {
-    check_walls("lattice.square.", *square, notes);
-  } else if (const auto* triangle = std::get_if<TriangleLattice>(&spec.lattice)) {
-    check_walls("lattice.triangle.", *triangle, notes);
+  FieldChecker notes;
+  if (const RegularLattice* lattice = regular_lattice_of(spec)) {
+    check_walls(path_of_lattice(spec) + "wall_thickness_mm", *lattice, notes);
   }
   const MaterialSpec& material = spec.material;
   if (!material.youngs_modulus_mpa || !material.yield_stress_mpa || !material.density_kg_per_m3) {

@@ -7,7 +7,6 @@
 #include "cellcrush/run_memory.h"
 #include "scene/check_spec.h"
 #include "scene/mesh_part.h"
-#include "scene/mesh_size.h"
 #include "scene/run_plan.h"
 
 namespace cellcrush {

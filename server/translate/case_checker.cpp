@@ -1,6 +1,5 @@
 #include "translate/case_checker.h"
 
-#include "cellcrush/plausibility.h"
 #include "cellcrush/spec_checker.h"
 #include "translate/case_size.h"
 #include "translate/case_to_spec.h"

@@ -1,8 +1,8 @@
 #include "translate/check_case.h"
 
-#include "cellcrush/plausibility.h"
 #include "cellcrush/run_memory.h"
 #include "cellcrush/simulation.h"
+#include "cellcrush/spec_checker.h"
 #include "translate/case_size.h"
 #include "translate/case_to_spec.h"
 #include "translate/problems.h"

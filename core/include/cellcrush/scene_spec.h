@@ -14,34 +14,28 @@ namespace cellcrush {
 // ("loading.speed_m_per_s"). Scene holds the same in the units of the solver (mm, tonne, s, N, MPa).
 // A std::optional must be given where it applies, unless its comment names a default; if missing, it is reported.
 
-/// Regular hexagons with walls along y. Rows run along x and have `columns` and `columns - 1` cells in turn.
-struct HexagonLattice {
+/// What all regular lattices have.
+struct RegularLattice {
   std::optional<int> columns;
   std::optional<int> rows;
   std::optional<double> side_mm;
   std::optional<double> wall_thickness_mm;
+
+  bool operator==(const RegularLattice&) const = default;
+};
+
+/// Regular hexagons with walls along y. Rows run along x and have `columns` and `columns - 1` cells in turn.
+struct HexagonLattice : RegularLattice {
   std::optional<double> vertical_wall_thickness_mm;  ///< default: wall_thickness_mm
 
   bool operator==(const HexagonLattice&) const = default;
 };
 
-struct SquareLattice {
-  std::optional<int> columns;
-  std::optional<int> rows;
-  std::optional<double> side_mm;
-  std::optional<double> wall_thickness_mm;
+/// Squares with walls along x and y.
+struct SquareLattice : RegularLattice {};
 
-  bool operator==(const SquareLattice&) const = default;
-};
-
-struct TriangleLattice {
-  std::optional<int> columns;
-  std::optional<int> rows;
-  std::optional<double> side_mm;
-  std::optional<double> wall_thickness_mm;
-
-  bool operator==(const TriangleLattice&) const = default;
-};
+/// Equilateral triangles with walls along x.
+struct TriangleLattice : RegularLattice {};
 
 struct MaterialSpec {
   std::optional<double> youngs_modulus_mpa;

@@ -45,4 +45,9 @@ class SpecChecker {
   std::deque<std::unique_ptr<KnownMesh>> known_;  ///< newest first
 };
 
+/// Reports values of a valid spec that are probably mistakes: another unit, walls too thick for beams, a speed near
+/// that of an elastic wave in the walls. Worded like a Problem, but none of them prevents the run. REQUIRES: the spec
+/// has no problem.
+Problems find_implausible(const SceneSpec& spec);
+
 }  // namespace cellcrush

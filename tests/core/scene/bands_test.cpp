@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "scene/lattices.h"
-#include "scene/number_columns.h"
 #include "scenes/crushes.h"
 #include "scenes/frames.h"
 
@@ -130,7 +129,7 @@ std::vector<PlacedWall> walls_of(const Layout& layout) {
 TEST(NumberColumns, GoesAlongALongLatticeAndChangesNothingElse) {
   SceneSpec spec = scenes::hexagon_specimen(1000, 10);
   spec.elements_per_wall = 4;
-  const Layout rows = lay_out(*regular_lattice_of(spec));
+  const Layout rows = lay_out_cells(spec);
   Layout columns = rows;
   number_columns(rows.joints, columns);
   EXPECT_TRUE(std::is_sorted(columns.joints.begin(), columns.joints.end(),
@@ -147,7 +146,7 @@ TEST(NumberColumns, GoesAlongALongLatticeAndChangesNothingElse) {
 TEST(NumberColumns, LeavesWideAndSmallOnesAsTheyAre) {
   for (SceneSpec spec : {wide_specimen(), scenes::hexagon_specimen(100, 10)}) {
     spec.elements_per_wall = 4;
-    const Layout rows = lay_out(*regular_lattice_of(spec));
+    const Layout rows = lay_out_cells(spec);
     Layout columns = rows;
     number_columns(rows.joints, columns);
     EXPECT_EQ(columns.joints, rows.joints);

@@ -37,8 +37,10 @@ TEST(Hexagons, AreAPlanarLatticeOfEqualWalls) {
   lattice.side_mm = 3.0;
   lattice.wall_thickness_mm = 0.2;
   lattice.vertical_wall_thickness_mm = 0.4;
-  const RegularLattice regular = regular_lattice(lattice, Inclusions{}, 2);
-  const Layout layout = lay_out(regular);
+  SceneSpec spec;
+  spec.lattice = lattice;
+  spec.elements_per_wall = 2;
+  const Layout layout = lay_out_cells(spec);
   const int cells = 3 * 9 + 3 * 8;
   EXPECT_EQ(static_cast<int>(layout.joints.size()) - static_cast<int>(layout.walls.size()) + cells, 1);  // Euler
   std::map<int, int> degree;
@@ -52,7 +54,7 @@ TEST(Hexagons, AreAPlanarLatticeOfEqualWalls) {
   for (const auto& [joint, walls] : degree) {
     EXPECT_TRUE(walls == 2 || walls == 3) << "joint " << joint;
   }
-  const Vector2 envelope = envelope_of(regular);
+  const Vector2 envelope = envelope_of(spec);
   for (const Vector2& joint : layout.joints) {
     EXPECT_TRUE((joint.array() > -1e-9).all() && (joint.array() < envelope.array() + 1e-9).all());
   }

@@ -6,7 +6,6 @@
 
 #include "cellcrush/presets.h"
 #include "cellcrush/scene.h"
-#include "scene/imperfection.h"
 #include "scenes/frames.h"
 
 namespace cellcrush {
@@ -39,17 +38,20 @@ TEST(Presets, ExampleTwoHasOneLengthWidthAndMass) {
 }
 
 template <class Lattice>
-Lattice lattice_of(int columns, int rows) {
+SceneSpec lattice_of(int columns, int rows) {
   Lattice lattice;
   lattice.columns = columns;
   lattice.rows = rows;
   lattice.side_mm = 3.0;
   lattice.wall_thickness_mm = 0.2;
-  return lattice;
+  SceneSpec spec;
+  spec.lattice = lattice;
+  spec.elements_per_wall = 2;
+  return spec;
 }
 
-void expect_planar(const RegularLattice& lattice, int cells) {
-  const Layout layout = lay_out(lattice);
+void expect_planar(const SceneSpec& lattice, int cells) {
+  const Layout layout = lay_out_cells(lattice);
   EXPECT_EQ(static_cast<int>(layout.joints.size()) - static_cast<int>(layout.walls.size()) + cells, 1);  // Euler
   Vector2 high = Vector2::Zero();
   for (const LayoutWall& wall : layout.walls) {
@@ -63,17 +65,16 @@ void expect_planar(const RegularLattice& lattice, int cells) {
 }
 
 TEST(Lattices, SquaresAndTrianglesArePlanarWithEqualWallsAndFillTheirEnvelope) {
-  const auto squares = lattice_of<SquareLattice>(7, 4);
-  expect_planar(regular_lattice(squares, 2), 28);
+  expect_planar(lattice_of<SquareLattice>(7, 4), 28);
   for (const int rows : {3, 4}) {
-    const auto triangles = lattice_of<TriangleLattice>(7, rows);
-    expect_planar(regular_lattice(triangles, 2), rows * 13);
+    expect_planar(lattice_of<TriangleLattice>(7, rows), rows * 13);
   }
 }
 
 TEST(Lattices, StiffRowsThickenAllWallsOfTheirCells) {
-  auto hexagon = lattice_of<HexagonLattice>(5, 4);
-  const Layout layout = lay_out(regular_lattice(hexagon, Inclusions{{2}, 4.0}, 1));
+  SceneSpec spec = lattice_of<HexagonLattice>(5, 4);
+  spec.inclusions = {{2}, 4.0};
+  const Layout layout = lay_out_cells(spec);
   int thick = 0;
   for (const LayoutWall& wall : layout.walls) {
     thick += wall.thickness == 0.8 ? 1 : 0;

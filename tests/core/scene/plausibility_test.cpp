@@ -1,10 +1,9 @@
-#include "cellcrush/plausibility.h"
-
 #include <gmock/gmock.h>
 
 #include <functional>
 
 #include "cellcrush/presets.h"
+#include "cellcrush/spec_checker.h"
 #include "scenes/frames.h"
 
 namespace cellcrush {

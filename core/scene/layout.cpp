@@ -1,0 +1,122 @@
+#include "scene/layout.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <tuple>
+#include <utility>
+
+#include "cellcrush/tuning.h"
+
+namespace cellcrush {
+namespace {
+
+/// SplitMix64 (Steele, Lea and Flood, 2014), because the distributions of the standard library differ between
+/// implementations.
+class Draw {
+ public:
+  explicit Draw(std::uint64_t seed) : state_(seed) {}
+
+  /// Uniform in [-1, 1).
+  double next() {
+    state_ += 0x9e3779b97f4a7c15ULL;
+    std::uint64_t mixed = state_;
+    mixed = (mixed ^ (mixed >> 30U)) * 0xbf58476d1ce4e5b9ULL;
+    mixed = (mixed ^ (mixed >> 27U)) * 0x94d049bb133111ebULL;
+    mixed ^= mixed >> 31U;
+    return static_cast<double>(mixed >> 11U) * 0x1p-52 - 1.0;
+  }
+
+ private:
+  std::uint64_t state_;
+};
+
+bool is_longer_along_x(const std::vector<Vector2>& places) {
+  Vector2 low = places.front();
+  Vector2 high = low;
+  for (const Vector2& place : places) {
+    low = low.cwiseMin(place);
+    high = high.cwiseMax(place);
+  }
+  return (high - low).x() > (high - low).y();
+}
+
+bool is_numbered_by_columns(const std::vector<Vector2>& places, const std::vector<LayoutWall>& walls) {
+  std::size_t elements = 0;
+  for (const LayoutWall& wall : walls) {
+    elements += static_cast<std::size_t>(wall.elements);
+  }
+  return elements >= kLeastElementsOfBands && std::ranges::none_of(walls, &LayoutWall::rigid) &&
+         is_longer_along_x(places);
+}
+
+std::vector<int> numbers_of(const std::vector<Vector2>& joints) {
+  std::vector<int> numbers(joints.size());
+  std::iota(numbers.begin(), numbers.end(), 0);
+  return numbers;
+}
+
+/// Puts the joints into the order given by their present numbers.
+void reorder_joints(const std::vector<int>& order, Layout& layout) {
+  std::vector<int> number(order.size());
+  std::vector<Vector2> joints(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    number[order[i]] = static_cast<int>(i);
+    joints[i] = layout.joints[order[i]];
+  }
+  layout.joints = std::move(joints);
+  for (LayoutWall& wall : layout.walls) {
+    wall.start = number[wall.start];
+    wall.end = number[wall.end];
+  }
+}
+
+}  // namespace
+
+void perturb(const Imperfection& imperfection, std::vector<Vector2>& joints) {
+  if (imperfection.amplitude_mm == 0.0) {
+    return;
+  }
+  Draw draw(imperfection.seed);
+  for (Vector2& joint : joints) {
+    joint.x() += imperfection.amplitude_mm * draw.next();
+    joint.y() += imperfection.amplitude_mm * draw.next();
+  }
+}
+
+void number_columns(const std::vector<Vector2>& places, Layout& layout) {
+  if (!is_numbered_by_columns(places, layout.walls)) {
+    return;
+  }
+  std::vector<int> order = numbers_of(places);
+  std::ranges::sort(order, {}, [&](int joint) { return std::tie(places[joint].x(), places[joint].y()); });
+  reorder_joints(order, layout);
+  std::ranges::sort(layout.walls, {}, [](const LayoutWall& wall) { return std::minmax({wall.start, wall.end}); });
+}
+
+std::vector<int> put_rigid_bodies_first(Layout& layout) {
+  const auto first_rigid = std::stable_partition(layout.walls.begin(), layout.walls.end(),
+                                                 [](const LayoutWall& wall) { return !wall.rigid; });
+  const std::span<const LayoutWall> rigid_walls(first_rigid, layout.walls.end());
+  if (rigid_walls.empty()) {
+    return {};
+  }
+  const auto deformable = static_cast<int>(layout.joints.size());
+  const std::vector<int> part = find_parts(layout.joints.size(), rigid_walls);
+  std::vector<int> body(layout.joints.size(), deformable);
+  for (const LayoutWall& wall : rigid_walls) {
+    body[wall.start] = body[wall.end] = part[wall.start];
+  }
+  std::vector<int> order = numbers_of(layout.joints);
+  std::ranges::stable_sort(order, {}, [&](int joint) { return body[joint]; });
+  std::vector<int> offset = {0};
+  for (std::size_t place = 1; place <= order.size() && body[order[place - 1]] != deformable; ++place) {
+    if (place == order.size() || body[order[place]] != body[order[place - 1]]) {
+      offset.push_back(static_cast<int>(place));
+    }
+  }
+  reorder_joints(order, layout);
+  return offset;
+}
+
+}  // namespace cellcrush

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+#include "cellcrush/scene_spec.h"
+#include "cellcrush/vector.h"
+
+namespace cellcrush {
+
+/// A straight wall between two joints.
+struct LayoutWall {
+  int start = 0;
+  int end = 0;
+  double thickness = 0.0;  ///< mm
+  int elements = 1;        ///< number of elements into which it is divided
+  int material = 0;        ///< index into Scene::materials
+  bool rigid = false;      ///< part of a rigid body: not divided
+};
+
+/// Joints and walls of a structure before it is divided into elements. Lengths in mm.
+struct Layout {
+  std::vector<Vector2> joints;
+  std::vector<LayoutWall> walls;
+};
+
+/// Moves every joint by a uniformly distributed offset of at most the amplitude of the imperfection in x and in y. The
+/// same seed gives the same offsets on every machine.
+void perturb(const Imperfection& imperfection, std::vector<Vector2>& joints);
+
+/// Numbers the joints of a large lattice column by column, and its walls in the order of their joints. Bands
+/// (scene/bands.h) then run across the lattice and are small. This applies if it is longer along x than along y and its
+/// rows run along x. Other lattices, and those with rigid walls, stay as they are. `places` are the positions of the
+/// joints before any imperfection, mm.
+void number_columns(const std::vector<Vector2>& places, Layout& layout);
+
+/// Numbers the joints of rigid walls first, with those of the same body side by side, and moves rigid walls to the end.
+/// Returns RigidBodies::offset.
+std::vector<int> put_rigid_bodies_first(Layout& layout);
+
+/// For each of `count` nodes, the lowest of the nodes to which the links connect it; its own number if none does. Links
+/// run from their `start` to their `end`.
+template <class Links>
+std::vector<int> find_parts(std::size_t count, const Links& links) {
+  std::vector<int> part(count);
+  std::iota(part.begin(), part.end(), 0);
+  const auto root_of = [&](int node) {
+    while (part[node] != node) {
+      part[node] = part[part[node]];
+      node = part[node];
+    }
+    return node;
+  };
+  for (const auto& link : links) {
+    const auto [low, high] = std::minmax({root_of(link.start), root_of(link.end)});
+    part[high] = low;
+  }
+  for (int& node : part) {
+    node = root_of(node);
+  }
+  return part;
+}
+
+}  // namespace cellcrush
