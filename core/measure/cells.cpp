@@ -18,16 +18,14 @@ Vector2 mean_of(std::span<const int> loop, std::span<const Vector2> position) {
 }  // namespace
 
 Faces trace_faces(std::span<const Vector2> position, std::span<const Element> elements) {
-  const FaceLoops loops = trace_loops(position, elements);
   Faces faces;
   faces.offset.push_back(0);
-  for (std::size_t i = 0; i < loops.count(); ++i) {
-    if (loops.area[i] > 0.0) {
-      const std::span<const int> loop = loops.particles_of(i);
-      faces.particles.insert(faces.particles.end(), loop.begin(), loop.end());
+  for (const FaceLoop& loop : trace_loops(position, elements)) {
+    if (loop.area > 0.0) {
+      faces.particles.insert(faces.particles.end(), loop.particle.begin(), loop.particle.end());
       faces.offset.push_back(static_cast<int>(faces.particles.size()));
-      faces.area.push_back(loops.area[i]);
-      faces.centre.push_back(mean_of(loop, position));
+      faces.area.push_back(loop.area);
+      faces.centre.push_back(mean_of(loop.particle, position));
     }
   }
   return faces;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <span>
 
 namespace cellcrush {
 namespace {
@@ -55,18 +54,8 @@ std::vector<LatticeBand> cut(const Scene& scene, int chunks) {
   return bands;
 }
 
-/// The band of the wall of each element.
-std::vector<int> bands_of_elements(const Scene& scene, const std::vector<LatticeBand>& bands) {
-  std::vector<int> band_of(scene.element_count());
-  for (std::size_t b = 0; b < bands.size(); ++b) {
-    const auto end = b + 1 < bands.size() ? band_of.begin() + first_element_of(scene, bands[b + 1]) : band_of.end();
-    std::fill(band_of.begin() + first_element_of(scene, bands[b]), end, static_cast<int>(b));
-  }
-  return band_of;
-}
-
 /// Whether each band interacts with its neighbours only.
-bool are_apart(const Scene& scene, const FaceLoops& loops, const std::vector<LatticeBand>& bands) {
+bool are_apart(const Scene& scene, const std::vector<FaceLoop>& loops, const std::vector<LatticeBand>& bands) {
   const std::vector<int> of_particle = bands_of_particles(scene, bands);
   const std::vector<int> of_element = bands_of_elements(scene, bands);
   for (std::size_t e = 0; e < scene.element_count(); ++e) {
@@ -77,24 +66,21 @@ bool are_apart(const Scene& scene, const FaceLoops& loops, const std::vector<Lat
     }
   }
   std::vector<bool> has_border(bands.size(), false);
-  for (std::size_t loop = 0; loop < loops.count(); ++loop) {
-    const std::span<const int> particles = loops.particles_of(loop);
-    if (loops.area[loop] < 0.0) {
-      for (const int particle : particles) {
+  for (const FaceLoop& loop : loops) {
+    if (loop.is_outer()) {
+      for (const int particle : loop.particle) {
         has_border[of_particle[particle]] = true;
       }
       continue;
     }
-    int first = of_particle[particles.front()];
-    int last = first;
-    for (const int particle : particles) {
-      first = std::min(first, of_particle[particle]);
-      last = std::max(last, of_particle[particle]);
-    }
-    if (last >= first + kBandsAtFace) {
+    const auto by_band = [&](int a, int b) { return of_particle[a] < of_particle[b]; };
+    const auto [low, high] = std::minmax_element(loop.particle.begin(), loop.particle.end(), by_band);
+    const int first = of_particle[*low];
+    const int last = of_particle[*high];
+    if (last > first + 1) {
       return false;
     }
-    for (const int particle : particles) {
+    for (const int particle : loop.particle) {
       for (int k = scene.incidence_offset[particle]; k < scene.incidence_offset[particle + 1]; ++k) {
         const int band = of_element[scene.incidence[k]];
         if (band < last - 1 || band > first + 1) {
@@ -103,7 +89,7 @@ bool are_apart(const Scene& scene, const FaceLoops& loops, const std::vector<Lat
       }
     }
   }
-  return std::all_of(has_border.begin(), has_border.end(), [](bool has) { return has; });
+  return std::find(has_border.begin(), has_border.end(), false) == has_border.end();
 }
 
 }  // namespace
@@ -115,7 +101,7 @@ LatticeBand whole_band(const Scene& scene) {
       0, scene.walls.chunk_count(), 0, scene.joint_count, scene.joint_count, static_cast<int>(scene.particle_count())};
 }
 
-std::vector<LatticeBand> cut_into_bands(const Scene& scene, const FaceLoops& loops) {
+std::vector<LatticeBand> cut_into_bands(const Scene& scene, const std::vector<FaceLoop>& loops) {
   if (may_be_cut(scene)) {
     for (int chunks = kLeastChunksOfBand; are_small(scene, chunks) && chunks * kLeastBands <= scene.walls.chunk_count();
          chunks += kMoreChunksOfBand) {
@@ -133,6 +119,17 @@ std::vector<int> bands_of_particles(const Scene& scene, const std::vector<Lattic
   for (std::size_t b = 0; b < bands.size(); ++b) {
     std::fill(band_of.begin() + bands[b].first_joint, band_of.begin() + bands[b].end_joint, static_cast<int>(b));
     std::fill(band_of.begin() + bands[b].first_inner, band_of.begin() + bands[b].end_inner, static_cast<int>(b));
+  }
+  return band_of;
+}
+
+std::vector<int> bands_of_elements(const Scene& scene, const std::vector<LatticeBand>& bands) {
+  std::vector<int> band_of(scene.element_count());
+  for (std::size_t b = 0; b < bands.size(); ++b) {
+    const WallBlock& first = scene.walls.blocks[scene.walls.chunk_offset[bands[b].first_chunk]];
+    const WallBlock& last = scene.walls.blocks[scene.walls.chunk_offset[bands[b].end_chunk] - 1];
+    std::fill(band_of.begin() + first.first_element, band_of.begin() + last.first_element + last.walls * last.elements,
+              static_cast<int>(b));
   }
   return band_of;
 }

@@ -8,19 +8,11 @@
 
 namespace cellcrush {
 
-/// Most bands that have particles at the same face.
-inline constexpr int kBandsAtFace = 2;
-
 /// Bands by which a step follows the step before, where threads advance bands side by side (step/advance_wavefront.h).
 inline constexpr std::size_t kBandsBehind = 3;
 
 /// Bytes that a step reads and writes for a band: its elements and all data that belongs to them.
 std::size_t bytes_of_band(const Scene& scene);
-
-/// The first of the elements into which the walls of a band are divided.
-inline int first_element_of(const Scene& scene, const LatticeBand& band) {
-  return scene.walls.blocks[scene.walls.chunk_offset[band.first_chunk]].first_element;
-}
 
 /// The whole lattice as one band.
 LatticeBand whole_band(const Scene& scene);
@@ -34,9 +26,12 @@ LatticeBand whole_band(const Scene& scene);
 ///  - it is small,
 ///  - the caches do not hold the bands of two steps, as for rows of many thousand elements,
 ///  - a step needs more than walls, plates and contacts without friction.
-std::vector<LatticeBand> cut_into_bands(const Scene& scene, const FaceLoops& loops);
+std::vector<LatticeBand> cut_into_bands(const Scene& scene, const std::vector<FaceLoop>& loops);
 
 /// The band that owns each particle.
 std::vector<int> bands_of_particles(const Scene& scene, const std::vector<LatticeBand>& bands);
+
+/// The band of the wall of each element.
+std::vector<int> bands_of_elements(const Scene& scene, const std::vector<LatticeBand>& bands);
 
 }  // namespace cellcrush

@@ -17,7 +17,7 @@ namespace cellcrush {
 /// What shares no face is left out without loss or nearly so:
 ///  - a ball above the round end of a segment that runs away from the ball's face: the segments beside it that end at
 ///    the same particle border the face, and give the same touch. The end of a wall that is thicker than these stands
-///    out between them: it is a thick end, and searched with the face (scene/thick_ends.h);
+///    out between them: it is a thick end, and searched with the face (scene/face_loops.h);
 ///  - a ball that reaches a segment through the wall between them, pressed flat at a sharp joint. In crushes of blocks
 ///    of hexagons, squares and triangles these are up to 0.4 % of what overlaps, up to 0.17 of the wall deep; each lies
 ///    above a nearer segment of its polyline, so that none of them pushes (tests/core/crush/face_audit_test.cpp).

@@ -37,27 +37,42 @@ std::vector<int> find_followers(std::span<const Vector2> position, std::span<con
 
 }  // namespace
 
-FaceLoops trace_loops(std::span<const Vector2> position, std::span<const Element> elements) {
+std::vector<FaceLoop> trace_loops(std::span<const Vector2> position, std::span<const Element> elements) {
   const std::vector<int> follower = find_followers(position, elements);
   std::vector<bool> walked(follower.size(), false);
-  FaceLoops loops;
-  loops.particle.reserve(follower.size());
-  loops.element.reserve(follower.size());
-  loops.offset.push_back(0);
+  std::vector<FaceLoop> loops;
   for (int first = 0; first < static_cast<int>(follower.size()); ++first) {
     if (walked[first]) {
       continue;
     }
+    FaceLoop& loop = loops.emplace_back();
     for (int half_edge = first; !walked[half_edge]; half_edge = follower[half_edge]) {
       walked[half_edge] = true;
-      loops.particle.push_back(origin_of(elements, half_edge));
-      loops.element.push_back(half_edge / 2);
+      loop.particle.push_back(origin_of(elements, half_edge));
+      loop.element.push_back(half_edge / 2);
     }
-    loops.corner_count.push_back(static_cast<int>(loops.particle.size()) - loops.offset.back());
-    loops.offset.push_back(static_cast<int>(loops.particle.size()));
-    loops.area.push_back(area_within(std::span(loops.particle).last(loops.corner_count.back()), position));
+    loop.corners = loop.particle.size();
+    loop.area = area_within(loop.particle, position);
   }
   return loops;
+}
+
+void append_thick_ends(const Scene& scene, FaceLoop& loop) {
+  for (std::size_t k = 0; k < loop.corners; ++k) {
+    const int corner = loop.particle[k];
+    const double before = scene.elements[loop.element[(k > 0 ? k : loop.corners) - 1]].thickness;
+    const double thickness = std::max(before, scene.elements[loop.element[k]].thickness);
+    for (int i = scene.incidence_offset[corner]; i < scene.incidence_offset[corner + 1]; ++i) {
+      const Element& element = scene.elements[scene.incidence[i]];
+      // An element that stands out at both of its ends is appended once.
+      const auto first_end = loop.element.begin() + static_cast<std::ptrdiff_t>(loop.corners);
+      if (element.thickness > thickness &&
+          std::find(first_end, loop.element.end(), scene.incidence[i]) == loop.element.end()) {
+        loop.particle.push_back(element.start == corner ? element.end : element.start);
+        loop.element.push_back(scene.incidence[i]);
+      }
+    }
+  }
 }
 
 double area_within(std::span<const int> loop, std::span<const Vector2> position) {

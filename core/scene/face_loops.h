@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -7,27 +8,26 @@
 
 namespace cellcrush {
 
-/// The loops round all faces of a planar drawing, each with its face on the left: inner faces run counter-clockwise,
-/// the outer border of a part clockwise. Every element is in two loops, once in each direction. After its corners, a
-/// loop may have thick ends (scene/thick_ends.h). L loops.
-struct FaceLoops {
-  std::vector<int> offset;        ///< L + 1, into particles and elements
-  std::vector<int> particle;      ///< corners of the loops, one loop after another
-  std::vector<int> element;       ///< the element from each corner to the next
-  std::vector<int> corner_count;  ///< L
-  std::vector<double> area;       ///< L, mm^2; negative for outer borders, 0 round a tree
+/// The loop round a face of a planar drawing, with the face on its left: round inner faces counter-clockwise, round the
+/// outer border of a part clockwise.
+struct FaceLoop {
+  std::vector<int> particle;  ///< the corners, then those of thick ends
+  std::vector<int> element;   ///< from each corner to the next one, then thick ends
+  std::size_t corners = 0;    ///< number of corners
+  double area = 0.0;          ///< mm^2; negative for an outer border, 0 round a tree
 
-  [[nodiscard]] std::size_t count() const { return area.size(); }
-  /// Of the loop and of its thick ends, if they have been appended.
-  [[nodiscard]] std::span<const int> particles_of(std::size_t loop) const {
-    return std::span(particle).subspan(offset[loop], offset[loop + 1] - offset[loop]);
-  }
-  [[nodiscard]] int end_of_corners(std::size_t loop) const { return offset[loop] + corner_count[loop]; }
+  [[nodiscard]] bool is_outer() const { return area < 0.0; }
 };
 
-/// Walks along half-edges. At a particle the walk turns clockwise into the next element, so that the face stays on its
-/// left. REQUIRES: elements of nonzero length.
-FaceLoops trace_loops(std::span<const Vector2> position, std::span<const Element> elements);
+/// The loops round all faces. Every element is in two loops, once in each direction. A walk along half-edges turns
+/// clockwise into the next element at each particle, so that the face stays on its left. REQUIRES: elements of nonzero
+/// length.
+std::vector<FaceLoop> trace_loops(std::span<const Vector2> position, std::span<const Element> elements);
+
+/// Appends to a loop its thick ends: elements that end at a corner of the loop without bordering its face, and are
+/// thicker than both walls of the face there. Only their round ends stand out into the face. `particle` of a thick end
+/// is the end that is not the corner. REQUIRES: incidence; a loop as traced that passes no particle twice.
+void append_thick_ends(const Scene& scene, FaceLoop& loop);
 
 /// Area within a loop of particles, mm^2; negative where it runs clockwise.
 double area_within(std::span<const int> loop, std::span<const Vector2> position);

@@ -88,11 +88,11 @@ void follow_positions(const Scene& scene, State& state) {
 
 FaceNeighbours::FaceNeighbours(const Scene& scene)
     : faces_of_particle_(scene.particle_count()), faces_of_element_(scene.element_count()) {
-  const FaceLoops loops = trace_loops(scene.position, scene.elements);
-  for (std::size_t loop = 0; loop < loops.count(); ++loop) {
-    for (int k = loops.offset[loop]; k < loops.offset[loop + 1]; ++k) {
-      faces_of_particle_[loops.particle[k]].insert(static_cast<int>(loop));
-      faces_of_element_[loops.element[k]].insert(static_cast<int>(loop));
+  const std::vector<FaceLoop> loops = trace_loops(scene.position, scene.elements);
+  for (std::size_t face = 0; face < loops.size(); ++face) {
+    for (std::size_t k = 0; k < loops[face].corners; ++k) {
+      faces_of_particle_[loops[face].particle[k]].insert(static_cast<int>(face));
+      faces_of_element_[loops[face].element[k]].insert(static_cast<int>(face));
     }
   }
   const std::vector<std::set<int>> bordered = faces_of_element_;

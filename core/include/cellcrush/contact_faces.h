@@ -6,7 +6,7 @@ namespace cellcrush {
 
 /// Faces of a band: those with particles of the band but of no earlier band. The last one is the part of the outer face
 /// at the band and its neighbours. With only one band, all faces. Round a face its corners are stored first, then its
-/// thick ends: elements whose round ends stand out into it (scene/thick_ends.h). F faces, S corners and thick ends, G
+/// thick ends: elements whose round ends stand out into it (scene/face_loops.h). F faces, S corners and thick ends, G
 /// groups.
 struct FacesOfBand {
   std::vector<int> number;      ///< F, among all faces

@@ -81,7 +81,7 @@ TEST(Wavefront, GiveThemOfEveryKindOfWalls) {
   }
 }
 
-/// The same with thick ends (scene/thick_ends.h), which meet as the cells close along y.
+/// The same with thick ends (scene/face_loops.h), which meet as the cells close along y.
 SceneSpec wide_specimen_of_thick_ends() {
   SceneSpec spec = scenes::with_the_papers_elements(scenes::hexagon_specimen(1000, 10));
   auto& hexagon = std::get<HexagonLattice>(spec.lattice);
