@@ -5,11 +5,11 @@
 namespace cellcrush {
 namespace {
 
-// Aluminium as usually modelled in studies of this scene.
-MaterialSpec perfectly_plastic_aluminium() {
+/// Perfectly plastic aluminium.
+MaterialSpec aluminium(double youngs_modulus_mpa, double yield_stress_mpa) {
   MaterialSpec material;
-  material.youngs_modulus_mpa = 69000.0;
-  material.yield_stress_mpa = 76.0;
+  material.youngs_modulus_mpa = youngs_modulus_mpa;
+  material.yield_stress_mpa = yield_stress_mpa;
   material.density_kg_per_m3 = 2700.0;
   return material;
 }
@@ -27,19 +27,16 @@ const std::string kStepAssumption =
     "Time step and integration points are the defaults. The paper uses numerics.time_step_s 2e-7, section.formulation "
     "DISPLACEMENT_BASED, section.depth_rule LOBATTO and section.area_rule CONSTANT_AREA.";
 
+const std::string kCountsAssumption =
+    "For Types II and III the paper's text contradicts its particle counts; each reading has its own preset.";
+
 // Example 2 of the paper, Type I, at 100 m/s.
 Preset type_i() {
   SceneSpec spec;
   spec.title = "Type I hexagons";
-  HexagonLattice hexagon;
-  hexagon.columns = 74;
-  hexagon.rows = 21;
-  hexagon.side_mm = 4.0;
-  hexagon.wall_thickness_mm = 0.3464;
-  hexagon.vertical_wall_thickness_mm = 0.3464;
-  spec.lattice = hexagon;
+  spec.lattice = HexagonLattice{{.columns = 74, .rows = 21, .side_mm = 4.0, .wall_thickness_mm = 0.3464}, 0.3464};
   spec.depth_mm = 4.0;
-  spec.material = perfectly_plastic_aluminium();
+  spec.material = aluminium(69000.0, 76.0);
   spec.loading.speed_m_per_s = 100.0;
   return {"type-i",
           "Wu, Tsai and Lee, Example 2, Type I: hexagons at relative density 0.1, 8099 particles",
@@ -59,9 +56,6 @@ Preset hexagon_small() {
   return preset;
 }
 
-const std::string kCountsAssumption =
-    "For Types II and III the paper's text contradicts its particle counts; each reading has its own preset.";
-
 // Example 2, Types II and III. The wall thickness gives relative density 0.1 by Eq. 48 and 49.
 Preset type_ii(const std::string& reading, int columns, int rows, double side) {
   Preset preset = type_i();
@@ -69,28 +63,17 @@ Preset type_ii(const std::string& reading, int columns, int rows, double side) {
   preset.title = "Wu, Tsai and Lee, Example 2, Type II: squares at relative density 0.1, " + reading;
   preset.spec.title = "Type II squares, " + reading;
   preset.assumptions = {kMaterialAssumption, kCountsAssumption, kContactAssumption, kStepAssumption};
-  SquareLattice square;
-  square.columns = columns;
-  square.rows = rows;
-  square.side_mm = side;
-  square.wall_thickness_mm = 0.05132 * side;
-  preset.spec.lattice = square;
+  preset.spec.lattice = SquareLattice{{columns, rows, side, 0.05132 * side}};
   return preset;
 }
 
 Preset type_iii(const std::string& reading, int columns, int rows, double side) {
-  Preset preset = type_i();
+  Preset preset = type_ii(reading, columns, rows, side);
   preset.name = "type-iii-" + reading;
   preset.title = "Wu, Tsai and Lee, Example 2, Type III: triangles at relative density 0.1, " + reading;
   preset.spec.title = "Type III triangles, " + reading;
-  preset.assumptions = {kMaterialAssumption, kCountsAssumption, kContactAssumption, kStepAssumption,
-                        "One family of walls is parallel to the crush direction."};
-  TriangleLattice triangle;
-  triangle.columns = columns;
-  triangle.rows = rows;
-  triangle.side_mm = side;
-  triangle.wall_thickness_mm = 0.02963 * side;
-  preset.spec.lattice = triangle;
+  preset.assumptions.push_back("One family of walls is parallel to the crush direction.");
+  preset.spec.lattice = TriangleLattice{{columns, rows, side, 0.02963 * side}};
   return preset;
 }
 
@@ -98,18 +81,11 @@ Preset type_iii(const std::string& reading, int columns, int rows, double side) 
 Preset papka_kyriakides(const std::string& number, double side, double thickness) {
   SceneSpec spec;
   spec.title = "Hexagons of Papka and Kyriakides, dimensions " + number;
-  HexagonLattice hexagon;
-  hexagon.columns = 10;
-  hexagon.rows = 15;
-  hexagon.side_mm = side;
-  hexagon.wall_thickness_mm = thickness;
-  hexagon.vertical_wall_thickness_mm = 2.0 * thickness;
-  spec.lattice = hexagon;
+  spec.lattice =
+      HexagonLattice{{.columns = 10, .rows = 15, .side_mm = side, .wall_thickness_mm = thickness}, 2.0 * thickness};
   spec.depth_mm = 1.0;
-  spec.material.youngs_modulus_mpa = 69000.0;
-  spec.material.yield_stress_mpa = 292.0;
+  spec.material = aluminium(69000.0, 292.0);
   spec.material.hardening_modulus_mpa = 69000.0 * 690.0 / (69000.0 - 690.0);
-  spec.material.density_kg_per_m3 = 2700.0;
   spec.plates.friction = 0.2;
   spec.loading.direction = LoadingSpec::Direction::y;
   spec.loading.speed_m_per_s = 1.0;
@@ -134,19 +110,11 @@ Preset inclusions(std::vector<int> rows) {
   SceneSpec spec;
   const std::string count = std::to_string(rows.size());
   spec.title = "Hexagons with " + count + " lines of stiff inclusions";
-  HexagonLattice hexagon;
-  hexagon.columns = 20;
-  hexagon.rows = 21;
-  hexagon.side_mm = 5.0;
-  hexagon.wall_thickness_mm = 0.1;
-  hexagon.vertical_wall_thickness_mm = 0.1;
-  spec.lattice = hexagon;
+  spec.lattice = HexagonLattice{{.columns = 20, .rows = 21, .side_mm = 5.0, .wall_thickness_mm = 0.1}, 0.1};
   spec.inclusions.rows = std::move(rows);
   spec.depth_mm = 5.0;
   spec.elements_per_wall = 10;
-  spec.material.youngs_modulus_mpa = 70000.0;
-  spec.material.yield_stress_mpa = 34.0;
-  spec.material.density_kg_per_m3 = 2700.0;
+  spec.material = aluminium(70000.0, 34.0);
   spec.loading.direction = LoadingSpec::Direction::y;
   spec.loading.speed_m_per_s = 1.0;
   spec.loading.end_strain = spec.inclusions.rows.size() > 2 ? 0.65 : 0.85;
@@ -184,9 +152,8 @@ std::span<const Preset> presets() {
 }
 
 const Preset* find_preset(std::string_view name) {
-  const auto all = presets();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const Preset& preset) { return preset.name == name; });
-  return found == all.end() ? nullptr : &*found;
+  const auto found = std::ranges::find(presets(), name, &Preset::name);
+  return found == presets().end() ? nullptr : &*found;
 }
 
 }  // namespace cellcrush
