@@ -6,21 +6,6 @@
 namespace cellcrush {
 namespace {
 
-std::size_t bytes_of_chunks(const Scene& scene, int chunks) {
-  return kBytesOfElement * scene.element_count() * static_cast<std::size_t>(chunks) /
-         static_cast<std::size_t>(scene.walls.chunk_count());
-}
-
-/// Whether the caches hold the bands of two steps, for bands of so many chunks.
-bool are_small(const Scene& scene, int chunks) {
-  return 2 * kBandsBehind * bytes_of_chunks(scene, chunks) <= kCacheOfBands;
-}
-
-bool may_be_cut(const Scene& scene) {
-  return scene.element_count() >= kLeastElementsOfBands && scene.rigid.count() == 0 && scene.supports.empty() &&
-         !scene.is_loaded() && scene.contact.friction == 0.0;
-}
-
 int whole_chunks(int count) {
   return (count + kParticlesMovedTogether - 1) / kParticlesMovedTogether * kParticlesMovedTogether;
 }
@@ -102,13 +87,18 @@ LatticeBand whole_band(const Scene& scene) {
 }
 
 std::vector<LatticeBand> cut_into_bands(const Scene& scene, const std::vector<FaceLoop>& loops) {
-  if (may_be_cut(scene)) {
-    for (int chunks = kLeastChunksOfBand; are_small(scene, chunks) && chunks * kLeastBands <= scene.walls.chunk_count();
-         chunks += kMoreChunksOfBand) {
-      std::vector<LatticeBand> bands = cut(scene, chunks);
-      if (are_apart(scene, loops, bands)) {
-        return bands;
-      }
+  const bool may_be_cut = scene.element_count() >= kLeastElementsOfBands && scene.rigid.count() == 0 &&
+                          scene.supports.empty() && !scene.is_loaded() && scene.contact.friction == 0.0;
+  const int all_chunks = scene.walls.chunk_count();
+  // Whether the caches hold the bands of two steps, for bands of so many chunks.
+  const auto are_small = [&](std::size_t chunks) {
+    return 2 * kBandsBehind * (kBytesOfElement * scene.element_count() * chunks / all_chunks) <= kCacheOfBands;
+  };
+  for (int chunks = kLeastChunksOfBand; may_be_cut && are_small(chunks) && chunks * kLeastBands <= all_chunks;
+       chunks += kMoreChunksOfBand) {
+    std::vector<LatticeBand> bands = cut(scene, chunks);
+    if (are_apart(scene, loops, bands)) {
+      return bands;
     }
   }
   return {whole_band(scene)};

@@ -75,9 +75,7 @@ SceneResult build_scene(const SceneSpec& given, const std::function<void()>& bet
 SceneSpec complete_spec(const SceneSpec& spec, const Scene& scene) {
   SceneSpec complete = fill_in_fidelity(spec);
   if (auto* hexagon = std::get_if<HexagonLattice>(&complete.lattice)) {
-    if (!hexagon->vertical_wall_thickness_mm) {
-      hexagon->vertical_wall_thickness_mm = hexagon->wall_thickness_mm;
-    }
+    hexagon->vertical_wall_thickness_mm = hexagon->vertical_wall_thickness_mm.value_or(*hexagon->wall_thickness_mm);
   }
   complete.section.axial_points = spec.section.axial_count();
   complete.section.depth_points = spec.section.depth_count();

@@ -22,10 +22,10 @@ std::string describe(const FieldChecker::Range& range) {
 }
 
 /// Checks the fields common to all regular lattices. Returns the side, mm; an endless one if it is not valid.
-double check_regular(const SceneSpec& spec, const RegularLattice& lattice, int fewest_columns, FieldChecker& check) {
+double check_regular(const SceneSpec& spec, const RegularLattice& lattice, FieldChecker& check) {
   const std::string path = path_of_lattice(spec);
-  const bool columns =
-      check.in_range(path + "columns", lattice.columns, {static_cast<double>(fewest_columns), 10000}, " cells");
+  const double fewest_columns = std::holds_alternative<HexagonLattice>(spec.lattice) ? 2.0 : 1.0;
+  const bool columns = check.in_range(path + "columns", lattice.columns, {fewest_columns, 10000}, " cells");
   const bool rows = check.in_range(path + "rows", lattice.rows, {1, 10000}, " cells");
   const bool is_sound = check.positive(path + "side_mm", lattice.side_mm, " mm");
   const double side = is_sound ? *lattice.side_mm : std::numeric_limits<double>::infinity();
@@ -65,7 +65,7 @@ void check_inclusions(const HexagonLattice& hexagon, const Inclusions& inclusion
 void check_lattice(const SceneSpec& spec, FieldChecker& check) {
   const auto* hexagon = std::get_if<HexagonLattice>(&spec.lattice);
   if (const RegularLattice* lattice = regular_lattice_of(spec)) {
-    const double side = check_regular(spec, *lattice, hexagon != nullptr ? 2 : 1, check);
+    const double side = check_regular(spec, *lattice, check);
     if (hexagon != nullptr && hexagon->vertical_wall_thickness_mm) {
       check.in_range("lattice.hexagon.vertical_wall_thickness_mm", hexagon->vertical_wall_thickness_mm,
                      {1e-6, 0.5 * side}, " mm (half of side_mm)");

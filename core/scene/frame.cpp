@@ -17,10 +17,6 @@ Component component_of(FrameLattice::Component component) {
   return Component::rotation;
 }
 
-int elements_of(const FrameLattice::Beam& beam, int elements_per_wall) {
-  return beam.elements.value_or(elements_per_wall);
-}
-
 void attach_holds(const FrameLattice& frame, Scene& scene) {
   if (frame.supports.empty() && frame.motions.empty()) {
     return;
@@ -77,7 +73,8 @@ Layout lay_out_frame(const FrameLattice& frame, int elements_per_wall) {
   int own_materials = 0;
   for (const FrameLattice::Beam& beam : frame.beams) {
     const int material = beam.material ? ++own_materials : 0;
-    layout.walls.push_back({beam.start, beam.end, beam.thickness_mm, elements_of(beam, elements_per_wall), material});
+    layout.walls.push_back(
+        {beam.start, beam.end, beam.thickness_mm, beam.elements.value_or(elements_per_wall), material});
   }
   return layout;
 }

@@ -152,8 +152,7 @@ const RegularLattice* regular_lattice_of(const SceneSpec& spec) {
 }
 
 std::string path_of_lattice(const SceneSpec& spec) {
-  constexpr std::array kPaths = {"lattice.", "lattice.hexagon.", "lattice.square.", "lattice.triangle.",
-                                 "lattice.frame."};
+  constexpr std::array kPaths = {"lattice.", "lattice.hexagon.", "lattice.square.", "lattice.triangle."};
   return kPaths.at(spec.lattice.index());
 }
 

@@ -1,6 +1,5 @@
 #include "scene/layout.h"
 
-#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <tuple>
@@ -41,15 +40,6 @@ bool is_longer_along_x(const std::vector<Vector2>& places) {
   return (high - low).x() > (high - low).y();
 }
 
-bool is_numbered_by_columns(const std::vector<Vector2>& places, const std::vector<LayoutWall>& walls) {
-  std::size_t elements = 0;
-  for (const LayoutWall& wall : walls) {
-    elements += static_cast<std::size_t>(wall.elements);
-  }
-  return elements >= kLeastElementsOfBands && std::ranges::none_of(walls, &LayoutWall::rigid) &&
-         is_longer_along_x(places);
-}
-
 std::vector<int> numbers_of(const std::vector<Vector2>& joints) {
   std::vector<int> numbers(joints.size());
   std::iota(numbers.begin(), numbers.end(), 0);
@@ -85,7 +75,8 @@ void perturb(const Imperfection& imperfection, std::vector<Vector2>& joints) {
 }
 
 void number_columns(const std::vector<Vector2>& places, Layout& layout) {
-  if (!is_numbered_by_columns(places, layout.walls)) {
+  if (layout.element_count() < kLeastElementsOfBands || std::ranges::any_of(layout.walls, &LayoutWall::rigid) ||
+      !is_longer_along_x(places)) {
     return;
   }
   std::vector<int> order = numbers_of(places);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <numeric>
 #include <vector>
 
@@ -23,6 +24,11 @@ struct LayoutWall {
 struct Layout {
   std::vector<Vector2> joints;
   std::vector<LayoutWall> walls;
+
+  [[nodiscard]] std::size_t element_count() const {
+    const auto add = [](std::size_t sum, const LayoutWall& wall) { return sum + wall.elements; };
+    return std::accumulate(walls.begin(), walls.end(), std::size_t{0}, add);
+  }
 };
 
 /// Moves every joint by a uniformly distributed offset of at most the amplitude of the imperfection in x and in y. The

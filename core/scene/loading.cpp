@@ -5,8 +5,7 @@
 namespace cellcrush {
 
 double TimeFunction::value_at(double time) const {
-  const auto after = std::upper_bound(points.begin(), points.end(), time,
-                                      [](double t, const std::pair<double, double>& point) { return t < point.first; });
+  const auto after = std::ranges::upper_bound(points, time, {}, &std::pair<double, double>::first);
   if (after == points.begin()) {
     return points.front().second;
   }
@@ -19,10 +18,7 @@ double TimeFunction::value_at(double time) const {
 }
 
 double Plates::speed_at(double time) const {
-  if (ramp_time == 0.0) {
-    return speed;
-  }
-  return time < ramp_time ? speed * std::max(time, 0.0) / ramp_time : speed;
+  return ramp_time == 0.0 || time >= ramp_time ? speed : speed * std::max(time, 0.0) / ramp_time;
 }
 
 }  // namespace cellcrush

@@ -21,7 +21,7 @@ void lump_masses(Scene& scene) {
     }
     scene.total_mass += 2.0 * half_mass;
   }
-  scene.smallest_radius = *std::min_element(scene.radius.begin(), scene.radius.end());
+  scene.smallest_radius = std::ranges::min(scene.radius);
   scene.inverse_mass.reserve(scene.particle_count());
   scene.inverse_inertia.reserve(scene.particle_count());
   for (std::size_t i = 0; i < scene.particle_count(); ++i) {

@@ -7,16 +7,6 @@
 namespace cellcrush {
 namespace {
 
-/// Number of walls from `first` on, before `end`, that go into one block.
-int walls_in_block(const Layout& layout, std::size_t first, std::size_t end) {
-  int count = 0;
-  for (std::size_t w = first;
-       w < end && count < kMostWallsInBlock && layout.walls[w].elements == layout.walls[first].elements; ++w) {
-    ++count;
-  }
-  return count;
-}
-
 void divide_block(const Layout& layout, const WallBlock& block, Scene& scene) {
   const auto inner = [&](int j, int w) { return block.first_inner + j * block.walls + w; };
   for (int j = 0; j < block.elements; ++j) {
@@ -90,23 +80,22 @@ void list_by_node(std::size_t nodes, const VisitAll& visit_all, std::vector<int>
 }  // namespace
 
 void divide_walls(const Layout& layout, Scene& scene) {
-  std::size_t elements = 0;
-  for (const LayoutWall& wall : layout.walls) {
-    elements += static_cast<std::size_t>(wall.elements);
-  }
+  const std::size_t elements = layout.element_count();
   scene.elements.reserve(elements);
   scene.position.reserve(layout.joints.size() + elements - layout.walls.size());
   scene.position.assign(layout.joints.begin(), layout.joints.end());
   scene.joint_count = static_cast<int>(layout.joints.size());
-  const auto rigid =
-      std::find_if(layout.walls.begin(), layout.walls.end(), [](const LayoutWall& wall) { return wall.rigid; });
-  const auto count = static_cast<std::size_t>(rigid - layout.walls.begin());
-  for (std::size_t w = 0; w < count;) {
-    const WallBlock block = {static_cast<int>(w), walls_in_block(layout, w, count), layout.walls[w].elements,
-                             static_cast<int>(scene.elements.size()), static_cast<int>(scene.position.size())};
+  const auto rigid = std::ranges::find(layout.walls, true, &LayoutWall::rigid);
+  for (auto first = layout.walls.begin(); first != rigid;) {
+    const auto most = first + std::min<std::ptrdiff_t>(kMostWallsInBlock, rigid - first);
+    const auto end =
+        std::find_if(first, most, [&](const LayoutWall& wall) { return wall.elements != first->elements; });
+    const WallBlock block = {static_cast<int>(first - layout.walls.begin()), static_cast<int>(end - first),
+                             first->elements, static_cast<int>(scene.elements.size()),
+                             static_cast<int>(scene.position.size())};
     divide_block(layout, block, scene);
     scene.walls.blocks.push_back(block);
-    w += static_cast<std::size_t>(block.walls);
+    first = end;
   }
   scene.walls.chunk_offset = chunk_offsets(scene.walls.blocks);
   for (auto wall = layout.walls.begin(); wall != rigid; ++wall) {

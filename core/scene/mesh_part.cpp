@@ -46,18 +46,6 @@ Layout lay_out(const SceneSpec& spec, Scene& scene) {
   return layout;
 }
 
-void set_material_and_mesh(const SceneSpec& spec, Scene& scene) {
-  scene.depth = *spec.depth_mm;
-  scene.materials = materials_of(spec);
-  scene.section = make_section_rule(spec.section);
-  Layout layout = lay_out(spec, scene);
-  scene.rigid.offset = put_rigid_bodies_first(layout);
-  divide_walls(layout, scene);
-  scene.constant_area = spec.section.area_rule == SectionSpec::AreaRule::constant_area;
-  scene.single_fibres = spec.numerics.fibre_precision == NumericsSpec::FibrePrecision::single_precision &&
-                        scene.fibre_count() <= kMostSingleFibres;
-}
-
 }  // namespace
 
 Material material_of(const MaterialSpec& spec) {
@@ -91,7 +79,15 @@ SceneSpec mesh_part_of(const SceneSpec& spec) {
 
 std::shared_ptr<Scene> build_mesh(const SceneSpec& part) {
   auto scene = std::make_shared<Scene>();
-  set_material_and_mesh(part, *scene);
+  scene->depth = *part.depth_mm;
+  scene->materials = materials_of(part);
+  scene->section = make_section_rule(part.section);
+  scene->constant_area = part.section.area_rule == SectionSpec::AreaRule::constant_area;
+  scene->single_fibres = part.numerics.fibre_precision == NumericsSpec::FibrePrecision::single_precision &&
+                         scene->fibre_count() <= kMostSingleFibres;
+  Layout layout = lay_out(part, *scene);
+  scene->rigid.offset = put_rigid_bodies_first(layout);
+  divide_walls(layout, *scene);
   if (const auto* frame = std::get_if<FrameLattice>(&part.lattice)) {
     attach_to_frame(*frame, *scene);
   }
@@ -108,13 +104,9 @@ MeshMeasures measure_sound_mesh(const SceneSpec& part, const Scene& scene) {
   measures.element_count = scene.element_count();
   measures.length = scene.length;
   measures.stable_step = scene.stable_step;
-  measures.lightest_mass = *std::min_element(scene.mass.begin(), scene.mass.end());
-  measures.shortest_element =
-      *std::min_element(scene.walls.undeformed_length.begin(), scene.walls.undeformed_length.end());
-  measures.thinnest_wall = scene.elements.front().thickness;
-  for (const Element& element : scene.elements) {
-    measures.thinnest_wall = std::min(measures.thinnest_wall, element.thickness);
-  }
+  measures.lightest_mass = std::ranges::min(scene.mass);
+  measures.shortest_element = std::ranges::min(scene.walls.undeformed_length);
+  measures.thinnest_wall = std::ranges::min(scene.elements, {}, &Element::thickness).thickness;
   measures.material = scene.materials.front();
   const auto* frame = std::get_if<FrameLattice>(&part.lattice);
   measures.contact = frame == nullptr || frame->self_contact;

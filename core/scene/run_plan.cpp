@@ -1,6 +1,7 @@
 #include "scene/run_plan.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "scene/check_spec.h"
@@ -93,10 +94,9 @@ RunPlan plan_run(const SceneSpec& spec, const MeshMeasures& mesh, Problems& prob
 }
 
 bool prevents_meshing(const Problems& problems) {
-  return std::any_of(problems.begin(), problems.end(), [](const Problem& problem) {
-    const auto starts_with = [&](const char* path) { return problem.field.rfind(path, 0) == 0; };
-    return starts_with("lattice") || starts_with("material") || starts_with("depth_mm") ||
-           starts_with("elements_per_wall") || starts_with("section");
+  constexpr std::array kPaths = {"lattice", "material", "depth_mm", "elements_per_wall", "section"};
+  return std::ranges::any_of(problems, [&](const Problem& problem) {
+    return std::ranges::any_of(kPaths, [&](const char* path) { return problem.field.starts_with(path); });
   });
 }
 

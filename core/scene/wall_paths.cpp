@@ -66,10 +66,7 @@ void WallPaths::walk_from(int ball, double limit) {
 }
 
 LimitedReaches find_limited_reaches(const Scene& scene) {
-  double thickest = 0.0;
-  for (const Element& element : scene.elements) {
-    thickest = std::max(thickest, element.thickness);
-  }
+  const double thickest = std::ranges::max(scene.elements, {}, &Element::thickness).thickness;
   LimitedReaches limited;
   limited.offset.push_back(0);
   WallPaths paths(scene);
