@@ -11,7 +11,7 @@ namespace cellcrush {
 /// The loop round a face of a planar drawing, with the face on its left: round inner faces counter-clockwise, round the
 /// outer border of a part clockwise.
 struct FaceLoop {
-  std::vector<int> particle;  ///< the corners, then those of thick ends
+  std::vector<int> particle;  ///< the corners, then the far ends of thick ends
   std::vector<int> element;   ///< from each corner to the next one, then thick ends
   std::size_t corners = 0;    ///< number of corners
   double area = 0.0;          ///< mm^2; negative for an outer border, 0 round a tree
