@@ -21,6 +21,9 @@ std::string describe(const FieldChecker::Range& range) {
              : "from " + to_text(range.low) + (range.high_open ? " to below " : " to ") + to_text(range.high);
 }
 
+/// What follows a range that ends at half of a side.
+std::string half_of(double side) { return std::isfinite(side) ? " mm (half of side_mm)" : " mm"; }
+
 /// Checks the fields common to all regular lattices. Returns the side, mm; an endless one if it is not valid.
 double check_regular(const SceneSpec& spec, const RegularLattice& lattice, FieldChecker& check) {
   const std::string path = path_of_lattice(spec);
@@ -29,7 +32,7 @@ double check_regular(const SceneSpec& spec, const RegularLattice& lattice, Field
   const bool rows = check.in_range(path + "rows", lattice.rows, {1, 10000}, " cells");
   const bool is_sound = check.positive(path + "side_mm", lattice.side_mm, " mm");
   const double side = is_sound ? *lattice.side_mm : std::numeric_limits<double>::infinity();
-  check.in_range(path + "wall_thickness_mm", lattice.wall_thickness_mm, {1e-6, 0.5 * side}, " mm (half of side_mm)");
+  check.in_range(path + "wall_thickness_mm", lattice.wall_thickness_mm, {1e-6, 0.5 * side}, half_of(side));
   if (columns && rows) {
     const double elements = count_elements(spec);
     if (elements > kMostElements) {
@@ -68,13 +71,13 @@ void check_lattice(const SceneSpec& spec, FieldChecker& check) {
     const double side = check_regular(spec, *lattice, check);
     if (hexagon != nullptr && hexagon->vertical_wall_thickness_mm) {
       check.in_range("lattice.hexagon.vertical_wall_thickness_mm", hexagon->vertical_wall_thickness_mm,
-                     {1e-6, 0.5 * side}, " mm (half of side_mm)");
+                     {1e-6, 0.5 * side}, half_of(side));
     }
     if (hexagon != nullptr && !spec.inclusions.rows.empty()) {
       check_inclusions(*hexagon, spec.inclusions, side, check);
     }
     check.in_range("lattice.imperfection.amplitude_mm", spec.imperfection.amplitude_mm, {0.0, 0.1 * side},
-                   " mm (a tenth of side_mm)");
+                   std::isfinite(side) ? " mm (a tenth of side_mm)" : " mm");
   } else if (std::holds_alternative<FrameLattice>(spec.lattice)) {
     check_frame(spec, check);
     if (spec.imperfection.amplitude_mm != 0.0) {

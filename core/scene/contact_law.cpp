@@ -13,7 +13,7 @@ constexpr double kMmPerM = 1e3;
 /// Penetration of a free particle at plate speed, as a fraction of the thickness of the thinnest wall (E9).
 constexpr double kImpactDepth = 0.16;
 /// Greatest phase angle omega dt of the lightest particle on its contact at a given step, rad; the 0.6 below E9.
-constexpr double kMostTurn = 0.6;
+constexpr double kMostPhase = 0.6;
 
 /// Angular frequency sqrt(k / m_min) of the lightest particle on its contact, 1/s.
 double contact_frequency(const SceneSpec& spec, const MeshMeasures& mesh) {
@@ -23,7 +23,7 @@ double contact_frequency(const SceneSpec& spec, const MeshMeasures& mesh) {
   }
   const double of_impact = *spec.loading.speed_m_per_s * kMmPerM / (kImpactDepth * mesh.thinnest_wall);
   const double step = spec.numerics.time_step_s;
-  return std::max(of_mesh, step > 0.0 ? std::min(of_impact, kMostTurn / step) : of_impact);
+  return std::max(of_mesh, step > 0.0 ? std::min(of_impact, kMostPhase / step) : of_impact);
 }
 
 }  // namespace

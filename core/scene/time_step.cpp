@@ -19,12 +19,12 @@ bool stacks(const SceneSpec& spec) {
 
 /// Greatest phase angle omega dt of the lightest particle on its contact, rad. It is less where the crush is slow
 /// against sqrt(sigma_y / rho), and its work therefore small.
-double turn_of_stacks(const Material& material, double plate_speed) {
-  constexpr double kTurn = 0.11;
+double phase_of_stacks(const Material& material, double plate_speed) {
+  constexpr double kPhase = 0.11;
   constexpr double kFast = 0.45;  // speed over sqrt(sigma_y / rho)
   constexpr double kLeastShare = 1.0 / 3.0;
   const double speed = plate_speed / std::sqrt(material.yield_stress / material.density);
-  return kTurn * std::clamp(speed / kFast, kLeastShare, 1.0);
+  return kPhase * std::clamp(speed / kFast, kLeastShare, 1.0);
 }
 
 }  // namespace
@@ -65,7 +65,7 @@ TimeStep time_step_of(const SceneSpec& spec, const MeshMeasures& mesh, const Con
     const double lightest = mesh.lightest_mass;
     hold_to(kStepFraction * contact_step_of(contact, lightest), StepBound::contacts);
     if (stacks(spec)) {
-      hold_to(turn_of_stacks(mesh.material, plates.speed) * std::sqrt(lightest / contact.stiffness),
+      hold_to(phase_of_stacks(mesh.material, plates.speed) * std::sqrt(lightest / contact.stiffness),
               StepBound::stacked_walls);
     }
   }

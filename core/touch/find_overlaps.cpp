@@ -103,14 +103,14 @@ void collect(const Scene& scene, const ContactLists& lists, std::span<const int>
 }
 
 /// Balls relative to segments. w points from the start of the segment to the ball, u is the segment.
-struct Standing {
+struct RelativePosition {
   Numbers reach;
   Numbers squared_distance;  // w.w, from the start
   Numbers foot;              // w.u
   Numbers squared_length;    // u.u
 };
 
-HWY_INLINE Standing standing_of(const Vector2* positions, const Tested& tested, std::size_t i) {
+HWY_INLINE RelativePosition relative_position(const Vector2* positions, const Tested& tested, std::size_t i) {
   const Points<Wide> start = gather<Wide>(positions, tested.start + i);
   const Points<Wide> end = gather<Wide>(positions, tested.end + i);
   const Points<Wide> ball = gather<Wide>(positions, tested.ball + i);
@@ -121,7 +121,7 @@ HWY_INLINE Standing standing_of(const Vector2* positions, const Tested& tested, 
 
 /// Lanes whose ball is nearer to its segment than their reach (E8, E8a): to its line if the ball is beside it,
 /// otherwise to the nearer end. No division is needed: the squared distance from the line is w.w - (w.u)^2 / u.u.
-HWY_INLINE LaneMask<Wide> overlap(const Standing& at) {
+HWY_INLINE LaneMask<Wide> overlap(const RelativePosition& at) {
   const Numbers zero = 0.0;
   const auto beyond_start = fnma(at.reach, at.reach, at.squared_distance);  // w.w - reach^2
   const auto beyond_end = beyond_start - (at.foot + at.foot) + at.squared_length;
@@ -131,7 +131,7 @@ HWY_INLINE LaneMask<Wide> overlap(const Standing& at) {
 }
 
 /// Gaps, mm: distances minus reach.
-HWY_INLINE Numbers gap(const Standing& at) {
+HWY_INLINE Numbers gap(const RelativePosition& at) {
   const Numbers zero = 0.0;
   const auto share = min(max(at.foot, zero), at.squared_length) / at.squared_length;
   // w.w - 2 s w.u + s^2 u.u
@@ -148,7 +148,7 @@ void test_some(const Scene& scene, const State& state, ContactLists& lists, std:
   const Vector2* positions = state.position.data();
   double next_checks[kTestedTogether];
   for (std::size_t i = 0; i < awake.size(); i += Numbers::kWidth) {
-    const Standing at = standing_of(positions, tested, i);
+    const RelativePosition at = relative_position(positions, tested, i);
     const LaneMask<Wide> overlaps = overlap(at);
     select(overlaps, Numbers(kNever), Numbers::load(tested.travel + i) + gap(at)).store(next_checks + i);
     for (unsigned bits = bits_of(overlaps); bits != 0; bits &= bits - 1) {
