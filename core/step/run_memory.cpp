@@ -31,13 +31,11 @@ constexpr double kOfRun = 400'000.0;
 
 constexpr int kMostCells = 8;  ///< of a specimen, along either axis
 
-double growth_of(const Scene& scene, bool in_bands) {
-  if (!scene.contact.present) {
-    return 0.0;
+double growth_by_search(const Scene& scene) {
+  if (!scene.faces.are_enough()) {
+    return kGrowth.by_buckets;
   }
-  const double by_faces = in_bands ? kGrowth.by_faces_in_bands : kGrowth.by_faces;
-  const double of_friction = scene.contact.friction > 0.0 ? kGrowth.of_friction : 0.0;
-  return (scene.faces.are_enough() ? by_faces : kGrowth.by_buckets) + of_friction;
+  return scene.bands.size() > 1 ? kGrowth.by_faces_in_bands : kGrowth.by_faces;
 }
 
 SceneSpec specimen_of(SceneSpec spec) {
@@ -63,15 +61,16 @@ double bytes_of_arrays(const Scene& scene) {
   return bytes;
 }
 
-double bytes_of_run(const SceneSpec& spec, double elements, bool in_bands) {
+double bytes_of_run(const SceneSpec& spec, double elements, double growth) {
   const SceneResult specimen = build_scene(specimen_of(spec));
   // A lattice may be sound only as it is: with its imperfection.
   const auto scene = specimen.scene ? specimen.scene : build_scene(spec).scene;
   const bool is_frame = std::holds_alternative<FrameLattice>(spec.lattice);
   const double end_strain = is_frame ? 1.0 : spec.loading.end_strain;  // nobody says how near a frame's beams come
-  const double of_element = bytes_of_arrays(*scene) / static_cast<double>(scene->element_count()) + kOfSamples +
-                            end_strain * growth_of(*scene, in_bands);
-  return of_element * elements + kOfRun;
+  const double of_friction = scene->contact.friction > 0.0 ? kGrowth.of_friction : 0.0;
+  const double of_touches = scene->contact.present ? end_strain * (growth + of_friction) : 0.0;
+  const double of_arrays = bytes_of_arrays(*scene) / static_cast<double>(scene->element_count());
+  return (of_arrays + kOfSamples + of_touches) * elements + kOfRun;
 }
 
 }  // namespace
@@ -81,14 +80,12 @@ std::int64_t memory_of_run(const SceneSpec& spec, const Scene& scene) {
   if (!scene.faces.are_enough()) {
     as_built.contact.search = ContactSpec::Search::buckets;
   }
-  return std::llround(bytes_of_run(as_built, static_cast<double>(scene.element_count()), scene.bands.size() > 1));
+  return std::llround(bytes_of_run(as_built, static_cast<double>(scene.element_count()), growth_by_search(scene)));
 }
 
 std::int64_t most_memory_of_run(const SceneSpec& spec, std::int64_t elements) {
-  SceneSpec by_buckets = spec;
-  by_buckets.contact.search = ContactSpec::Search::buckets;
-  const auto count = static_cast<double>(elements);
-  return std::llround(std::max(bytes_of_run(spec, count, false), bytes_of_run(by_buckets, count, false)));
+  // The arrays are those of the search by faces, which has more of them; the lists are those of the buckets.
+  return std::llround(bytes_of_run(spec, static_cast<double>(elements), kGrowth.by_buckets));
 }
 
 }  // namespace cellcrush
