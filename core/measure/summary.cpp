@@ -11,15 +11,15 @@ namespace {
 
 constexpr double kAbsorbedTo = 0.5;
 
-/// Greatest |residual| over the external work done by then. It counts once a hundredth of the final work is done;
+/// Greatest |residual| over the energy turned over by then. It counts once that is a hundredth of the final turnover;
 /// before that the ratio compares two small numbers.
 double energy_error_of(std::span<const Sample> samples) {
-  const double threshold = 0.01 * std::abs(samples.back().work_external);
+  const double threshold = 0.01 * turnover_of(samples.back());
   double error = 0.0;
   for (const Sample& sample : samples) {
-    const double work = std::abs(sample.work_external);
-    if (work > threshold) {
-      error = std::max(error, std::abs(sample.energy_residual) / work);
+    const double turnover = turnover_of(sample);
+    if (turnover > threshold) {
+      error = std::max(error, std::abs(sample.energy_residual) / turnover);
     }
   }
   return error;

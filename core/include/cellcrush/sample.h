@@ -136,11 +136,12 @@ struct Summary {
 
   std::optional<double> plateau_stress_impact;  ///< MPa; absent if the run ended before the end of the range
   std::optional<double> plateau_stress_support;
-  std::optional<double> densification_strain;  ///< onset; absent without a lasting rise (measure/curve.h)
+  std::optional<double> densification_strain;             ///< onset; absent without a lasting rise (measure/curve.h)
   std::optional<double> plateau_stress_to_densification;  ///< MPa, impact plate
   std::optional<double> solid_fraction_at_densification;  ///< relative density / (1 - densification_strain)
   double absorbed_energy = 0.0;                           ///< N mm, work of the impact plate up to 50 % strain
-  double energy_error_relative = 0.0;                     ///< greatest |residual| over the external work done by then
+  /// Greatest |residual| over the energy turned over by then: the work done, or the energy that was there at the start.
+  double energy_error_relative = 0.0;
   double deepest_penetration = 0.0;
   std::int64_t step_count = 0;
   /// The mode that most evaluations found; of equally frequent ones, the first.

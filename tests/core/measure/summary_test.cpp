@@ -46,6 +46,16 @@ TEST_F(SummaryTest, PlatesAreComparedByTheirMeansBeyondFivePercentOfStrain) {
   EXPECT_NEAR(found->plate_difference, whole / (1.0 + 0.5 * whole), 1e-6);
 }
 
+TEST_F(SummaryTest, LedgerErrorOfARunThatOnlyItsInitialEnergyDrivesIsRelativeToThat) {
+  std::vector<Sample> samples(10);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    samples[i].energy_kinetic = 100.0 - 10.0 * static_cast<double>(i);
+    samples[i].energy_plastic = 9.5 * static_cast<double>(i);
+    samples[i].energy_residual = 0.5 * static_cast<double>(i);  // of 100 at the start
+  }
+  EXPECT_NEAR(summarize(*scene_, samples).energy_error_relative, 4.5 / 110.0, 0.005);
+}
+
 TEST_F(SummaryTest, KineticEnergyIsHeldAgainstPlasticWorkOnceThatOutweighsTheElastic) {
   // At 5 % strain 30 of plastic work outweigh the 10 of elastic energy.
   EXPECT_NEAR(summarize(*scene_, steady_samples()).quasi_static->kinetic_share, 1.0 / 30.0, 1e-9);
