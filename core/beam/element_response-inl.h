@@ -7,85 +7,224 @@
 #endif
 
 #include <cstddef>
+#include <numbers>
 
-#include "beam/section_balance-inl.h"
+#include "beam/force_balance-inl.h"
 #include "section/return_mapping-inl.h"
 #include "simd/lane-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {
 
-/// Return mapping of the fibres of all sections under given increments of membrane strain and of curvature times h (E5,
-/// E6), and the sums over them (E7).
+/// Strain increments of an element over a step (E5).
+template <class D>
+struct ElementStrains {
+  Lane<D> membrane;    ///< Delta / l_m
+  Lane<D> bend_start;  ///< h theta_1 / l_m
+  Lane<D> bend_end;    ///< h theta_2 / l_m
+};
+
+/// Sums over the fibres of an element (Eq. 28, E7), before they are multiplied by area and thickness. MPa.
+template <class D>
+struct ElementSums {
+  Lane<D> axial;
+  Lane<D> moment_start;  ///< m_1 over A h
+  Lane<D> moment_end;    ///< m_2 over A h
+  Lane<D> plastic_work;
+
+  HWY_INLINE ElementSums() : axial(0), moment_start(0), moment_end(0), plastic_work(0) {}
+};
+
+/// Displacement-based element: the curvature varies linearly (Eq. 27, E5a).
 template <bool kHardening, class Rule, class D>
-HWY_INLINE auto return_map_element(const LaneMaterial<D>& material, const Rule& rule, Lane<D> membrane,
-                                   const Lane<D>* HWY_RESTRICT curvature, const Fibres<hn::TFromD<D>>& before,
-                                   const Fibres<hn::TFromD<D>>& after) {
-  FibreWriter<kHardening, D> next(material, before, after);
-  ElementSums<Rule::kSectionRoom, D> element;
+HWY_INLINE ElementSums<D> return_map_element(const LaneMaterial<D>& material, const Rule& rule,
+                                             const ElementStrains<D>& strains, const Fibres<hn::TFromD<D>>& fibres) {
+  FibreWriter<kHardening, D> next(material, fibres);
+  const Lane<D> stretched = material.modulus * strains.membrane;
+  ElementSums<D> element;
   for (int i = 0; i < rule.sections(); ++i) {
     const auto first = static_cast<std::size_t>(i * rule.depth_points());
-    const SectionSums<D> section =
-        return_map_section<kHardening>(material, rule, membrane, curvature[i], before, first, next);
+    const Lane<D> curvature =
+        fma(Lane<D>(rule.bend_start[i]), strains.bend_start, Lane<D>(rule.bend_end[i]) * strains.bend_end);
+    const SectionSums<D> section = return_map_section<kHardening>(
+        material, rule, rule.offset, rule.offset_weight, stretched, material.modulus * curvature, fibres, first, next);
     const Lane<D> weight = rule.along_weight[i];
     element.axial = fma(weight, section.axial, element.axial);
-    element.moments.start = fma(Lane<D>(rule.moment_start[i]), section.moment, element.moments.start);
-    element.moments.end = fma(Lane<D>(rule.moment_end[i]), section.moment, element.moments.end);
+    element.moment_start = fma(Lane<D>(rule.moment_start[i]), section.moment, element.moment_start);
+    element.moment_end = fma(Lane<D>(rule.moment_end[i]), section.moment, element.moment_end);
     element.plastic_work = fma(weight, section.plastic_work, element.plastic_work);
-    element.moment[i] = section.moment;
   }
   next.finish();
   return element;
 }
 
-/// Most passes of a force-based element (E5b); one is enough in 97 of 100 element-steps.
-inline constexpr int kMostPasses = 4;
+/// Where the state keeps what a force-based element remembers.
+template <class T>
+struct ElementMemory {
+  Fibres<T> fibres;
+  T* axial;   ///< n of the sections, `fibres.stride` apart
+  T* moment;  ///< m of the sections, `fibres.stride` apart
+  /// Fibres that yielded in the last step, with a mark if any had in the step before.
+  typename FibreHistory<T>::Bits* yielding;
+};
 
-/// The same for force-based elements: curvature is redistributed between the sections until their moments lie on a
-/// straight line (E5b).
-template <bool kHardening, class Rule, class D>
-HWY_INLINE auto return_map_balanced(const LaneMaterial<D>& material, const Rule& rule, Lane<D> membrane,
-                                    const Bend<D>& bend, const EndMoments<D>& before,
-                                    const Fibres<hn::TFromD<D>>& fibres,
-                                    const SectionHistoryView<hn::TFromD<D>>& memory) {
-  constexpr int kRoom = Rule::kSectionRoom;
-  FibreCopy<kRoom * Rule::kDepthRoom, kHardening, D> copy(fibres, rule.fibres());
-  const Fibres<hn::TFromD<D>> fibres_before = copy.fibres();
-  SectionHistory<kRoom, D> history(memory, rule.sections());
-  const LaneMask<D> straight = history.is_straight(rule.sections());
-  Lane<D> curvature[kRoom];
-  straight_curvatures(rule, bend, curvature);
-  if (!all(straight)) {
-    Lane<D> balanced[kRoom];
-    balanced_curvatures(rule, material, before, !straight, bend, history, balanced);
-    for (int i = 0; i < rule.sections(); ++i) {
-      curvature[i] = select(straight, curvature[i], balanced[i]);
+/// A step of a force-based unit (E5b, E5d): Neuenhofer and Filippou's state determination without iteration (1997),
+/// with an elastic look-ahead. The forces of the unit follow from the strains and the flexibilities of the sections;
+/// they give the strains of the sections; every fibre is mapped back once; and the forces are corrected, to first
+/// order, for what the sections are then out of balance. Nothing else is carried into the next step: its strains are
+/// found from the forces that the sections bear. While no fibre has yielded in the last two steps, the sections are in
+/// balance, and only changes are computed: otherwise the rounding of sums would add up over the steps.
+template <bool kHardening, int kElements, class Rule, class D>
+class UnitResponse {
+  using T = hn::TFromD<D>;
+
+ public:
+  HWY_INLINE explicit UnitResponse(const Rule& rule) : rule_(rule), sections_(rule) {}
+
+  /// `material` must outlive the unit. `compressed`: whether the materials of any lanes are softened; `modulus` is E of
+  /// the wall.
+  HWY_INLINE void set(int e, const LaneMaterial<D>& material, Lane<D> modulus, bool compressed,
+                      const ElementMemory<T>& memory, const ElementStrains<D>& strains) {
+    material_[e] = &material;
+    memory_[e] = memory;
+    yielding_[e] = FibreBits<D>::load(memory.yielding);
+    sections_.compression[e] = compressed ? modulus / material.modulus : Lane<D>(1);
+    for (int i = 0; i < rule_.sections(); ++i) {
+      sections_.force[e][i] = {Lane<D>::load(memory.axial + i * memory.fibres.stride),
+                               Lane<D>::load(memory.moment + i * memory.fibres.stride)};
+    }
+    const Lane<D> gyration = T(kGyrationOfThickness);
+    const Lane<D> of_turn = gyration * material.modulus;
+    strains_.axial[e] = material.modulus * strains.membrane;
+    strains_.outer[e] = e == 0 ? of_turn * strains.bend_start : -(of_turn * strains.bend_end);
+    if (e + 1 == kElements) {
+      // Of two elements, the turn between them, which is that of the start of the second.
+      strains_.shared = gyration * modulus * (kElements == 1 ? -strains.bend_end : strains.bend_start);
     }
   }
-  auto element = return_map_element<kHardening>(material, rule, membrane, curvature, fibres_before, fibres);
-  LaneMask<D> active = !(straight & (element.plastic_work == 0));
-  if (none(active)) {
-    return element;  // elastic: in balance already, with no history to update
-  }
-  Lane<D> moment_before[kRoom];
-  for (int i = 0; i < rule.sections(); ++i) {
-    moment_before[i] = before.at(rule.along[i]) - history.residual[i];
-  }
-  for (int pass = 1;; ++pass) {
-    active = active & !update_section_history(rule, material, moment_before, element, curvature, active, history);
-    if (pass == kMostPasses || none(active)) {
-      break;
+
+  /// Updates the memories of the elements and returns their sums.
+  HWY_INLINE void advance(ElementSums<D> (&sums)[kElements]) {
+    const LaneMask<D> unsettled = bits().lanes();
+    const LaneMask<D> soft = bits().without_mark().lanes();
+    UnitForces<kElements, D> forces = sections_.elastic_change(strains_);
+    if (any(unsettled)) {
+      UnitForces<kElements, D> whole = sections_.solve_elastic(strains_);
+      if (any(soft)) {
+        soften_ahead(whole);
+        whole = select(soft, sections_.solve(strains_), whole);
+      }
+      forces = select(unsettled, whole, forces);
     }
-    Lane<D> moved[kRoom];
-    balanced_curvatures(rule, material, element.moments, active, Bend<D>{0, 0}, history, moved);
-    for (int i = 0; i < rule.sections(); ++i) {
-      curvature[i] += masked(active, moved[i]);
-    }
-    element = return_map_element<kHardening>(material, rule, membrane, curvature, fibres_before, fibres);
+    map_back(forces, unsettled, sums);
+    put(corrected(), soft, sums);
   }
-  history.store(memory, rule.sections());
-  return element;
-}
+
+ private:
+  /// gamma / h.
+  static constexpr double kGyrationOfThickness = 0.5 / std::numbers::sqrt3;
+
+  /// Those of all elements.
+  [[nodiscard]] HWY_INLINE FibreBits<D> bits() const {
+    return kElements > 1 ? yielding_[0] | yielding_[1] : yielding_[0];
+  }
+
+  [[nodiscard]] HWY_INLINE std::size_t first_fibre(int i) const {
+    return static_cast<std::size_t>(i) * rule_.depth_points();
+  }
+
+  /// Calls visit(e, i, bits) for every section in which a fibre of any lane yields, and marks it as soft; the others
+  /// become elastic.
+  template <class Visit>
+  HWY_INLINE void visit_yielding(const Visit& visit) {
+    for (int e = 0; e < kElements; ++e) {
+      sections_.soft[e] = 0;
+      for (int i = 0; i < rule_.sections(); ++i) {
+        const FibreBits<D> of_section = yielding_[e].section(first_fibre(i), rule_.depth_points());
+        if (any(of_section.lanes())) {
+          sections_.soft[e] |= 1U << i;
+          visit(e, i, of_section);
+        }
+      }
+    }
+  }
+
+  /// Flexibilities for the forces that elastic sections would have.
+  HWY_INLINE void soften_ahead(const UnitForces<kElements, D>& elastic) {
+    visit_yielding([&](int e, int i, const FibreBits<D>& yielding) HWY_ATTR {
+      const SectionForce<D> strains = sections_.under(elastic, e, i) - sections_.force[e][i];
+      sections_.flexibility[e][i] =
+          look_ahead<kHardening>(rule_, *material_[e], memory_[e].fibres, yielding, first_fibre(i), strains);
+    });
+  }
+
+  /// Strains of section i of element e. The forces of unsettled lanes are whole, those of the others are changes.
+  [[nodiscard]] HWY_INLINE SectionForce<D> strains_of(const UnitForces<kElements, D>& forces, LaneMask<D> unsettled,
+                                                      int e, int i) const {
+    const SectionForce<D> borne = sections_.force[e][i];
+    const SectionForce<D> more = sections_.under(forces, e, i) -
+                                 SectionForce<D>{masked(unsettled, borne.axial), masked(unsettled, borne.moment)};
+    return sections_.is_soft(e, i) ? sections_.flexibility[e][i].strains_of(more) : more;
+  }
+
+  HWY_INLINE void map_back(const UnitForces<kElements, D>& forces, LaneMask<D> unsettled,
+                           ElementSums<D> (&sums)[kElements]) {
+    for (int e = 0; e < kElements; ++e) {
+      FibreWriter<kHardening, D> next(*material_[e], memory_[e].fibres);
+      sums[e].plastic_work = 0;
+      for (int i = 0; i < rule_.sections(); ++i) {
+        const SectionForce<D> strains = strains_of(forces, unsettled, e, i);
+        const SectionSums<D> now =
+            return_map_section<kHardening>(*material_[e], rule_, rule_.arm, rule_.arm_weight, strains.axial,
+                                           strains.moment, memory_[e].fibres, first_fibre(i), next);
+        sections_.force[e][i] = {now.axial, now.moment};
+        sums[e].plastic_work = fma(Lane<D>(rule_.along_weight[i]), now.plastic_work, sums[e].plastic_work);
+      }
+      next.finish();
+      yielding_[e] = next.yields();
+    }
+  }
+
+  /// Forces that the sections can bear together, with no strain.
+  [[nodiscard]] HWY_INLINE UnitForces<kElements, D> corrected() {
+    const auto none = UnitStrains<kElements, D>::none();
+    const UnitForces<kElements, D> forces = sections_.solve_elastic(none);
+    const LaneMask<D> yields = bits().lanes();
+    if (!any(yields)) {
+      return forces;
+    }
+    visit_yielding([&](int e, int i, const FibreBits<D>& yielding) HWY_ATTR {
+      sections_.flexibility[e][i] =
+          flexibility_of(rule_, *material_[e], [&](int j) HWY_ATTR { return yielding.has(j); });
+    });
+    return select(yields, sections_.solve(none), forces);
+  }
+
+  /// `soft`: lanes in which fibres had yielded before the step; they may be out of balance, and are marked.
+  HWY_INLINE void put(const UnitForces<kElements, D>& forces, LaneMask<D> soft, ElementSums<D> (&sums)[kElements]) {
+    const Lane<D> gyration = T(kGyrationOfThickness);
+    const Lane<D> shared = gyration * forces.shared;
+    for (int e = 0; e < kElements; ++e) {
+      const Lane<D> outer = gyration * forces.outer[e];
+      sums[e].axial = forces.axial[e];
+      sums[e].moment_start = e == 0 ? outer : shared;
+      sums[e].moment_end = e == 0 ? -shared : -outer;
+      for (int i = 0; i < rule_.sections(); ++i) {
+        sections_.force[e][i].axial.store(memory_[e].axial + i * memory_[e].fibres.stride);
+        sections_.force[e][i].moment.store(memory_[e].moment + i * memory_[e].fibres.stride);
+      }
+      yielding_[e].mark(soft);
+      yielding_[e].store(memory_[e].yielding);
+    }
+  }
+
+  const Rule& rule_;
+  UnitSections<kElements, Rule, D> sections_;
+  UnitStrains<kElements, D> strains_;
+  const LaneMaterial<D>* material_[kElements];
+  ElementMemory<T> memory_[kElements];
+  FibreBits<D> yielding_[kElements];
+};
 
 }  // namespace cellcrush::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

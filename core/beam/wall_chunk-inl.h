@@ -27,6 +27,14 @@ struct EndMotion {
   Lane<D> turn;
 };
 
+/// Axial force and end moments of elements (Eq. 28, E7), N and N mm.
+template <class D>
+struct EndForces {
+  Lane<D> axial;
+  Lane<D> moment_on_start;
+  Lane<D> moment_on_end;
+};
+
 /// Forces with which elements resist (Eq. 31, 32, E7), in the fixed frame: N and N mm. The force on the start node is
 /// the opposite of that on the end node.
 template <class D>
@@ -156,22 +164,27 @@ class WallChunk {
     return {gather<D>(position_, joints), Real(step_) * gather<D>(spin_, joints)};
   }
 
-  HWY_INLINE EndMotion<D> load_inner(std::ptrdiff_t particle) const {
-    return {Points<D>::load(position_ + particle), Real(step_) * Real::load(spin_ + particle)};
+  HWY_INLINE EndMotion<D> load_inner(std::ptrdiff_t particle, bool turns) const {
+    return {Points<D>::load(position_ + particle), turns ? Real(step_) * Real::load(spin_ + particle) : Real(0)};
   }
+
+  /// Whether the elements of the walls of a block are solved two by two (E5b).
+  HWY_INLINE static bool has_pairs(const WallBlock& block) { return kForceBased && block.has_pairs(); }
 
   /// From the motion of the ends to the strains of the step (E3 to E5).
   HWY_INLINE void reverse_motions(const WallBlock& block, int lane) {
     const int wall = block.first_wall + lane;
     const CrossSection<D> section(scene_, wall);
     EndMotion<D> start = gather_joint(&scene_.walls.start[wall]);
+    Real turn_before = 0;
+    Real slenderness_before = 0;
     for (int j = 0; j < block.elements; ++j) {
       const std::ptrdiff_t row = row_of(block, j);
       const std::ptrdiff_t e = row + lane;
-      const EndMotion<D> end =
-          j + 1 == block.elements
-              ? gather_joint(&scene_.walls.end[wall])
-              : load_inner(block.first_inner + static_cast<std::ptrdiff_t>(j) * walls_of(block) + lane);
+      const bool is_paired_on = has_pairs(block) && j % 2 == 0;
+      const EndMotion<D> end = j + 1 == block.elements
+                                   ? gather_joint(&scene_.walls.end[wall])
+                                   : load_inner(block.first_inner + (row - block.first_element) + lane, !is_paired_on);
       const Deformation<D> deformation =
           reverse_motion(end.position - start.position, Points<D>::load(axis_ + e), Real::load(length_ + e),
                          Real::load(inverse_length_ + e), start.turn, end.turn);
@@ -181,12 +194,22 @@ class WallChunk {
       const RowStrains<T> strains = scratch_.strains(row, lane, walls_of(block));
       const Real slenderness = section.thickness * deformation.inverse_mean;
       (deformation.stretch * deformation.inverse_mean).store(strains.membrane);
-      (slenderness * deformation.rotation_start).store(strains.bend_start);
-      (slenderness * deformation.rotation_end).store(strains.bend_end);
+      if (has_pairs(block) && !is_paired_on) {
+        // The turn between the two elements, over their mean length: their common node has no rotation.
+        const Real turn = deformation.rotation_start - turn_before;
+        (Real(0.5) * (slenderness + slenderness_before) * turn).store(strains.bend_start);
+      } else {
+        (slenderness * deformation.rotation_start).store(strains.bend_start);
+      }
+      if (!is_paired_on) {
+        (slenderness * deformation.rotation_end).store(strains.bend_end);
+      }
       if (HWY_UNLIKELY(any(section.is_compressed(deformation.length)))) {
         note_modulus(section.modulus_share(deformation.length), strains.modulus_share);
       }
       start = end;
+      turn_before = deformation.rotation_end;
+      slenderness_before = slenderness;
     }
   }
 
@@ -211,21 +234,10 @@ class WallChunk {
             static_cast<std::size_t>(stride)};
   }
 
-  HWY_INLINE SectionHistoryView<T> sections_of(std::ptrdiff_t row, int lane, int stride) const {
+  HWY_INLINE ElementMemory<T> memory_of(std::ptrdiff_t row, int lane, int stride) const {
     const std::ptrdiff_t first = row * rule_.sections() + lane;
-    return {&memory_.section_moment_residual[first], &memory_.section_flexibility[first],
-            static_cast<std::size_t>(stride)};
-  }
-
-  /// Where the sums over the stresses of a row are stored. A force-based element keeps its end moments from step to
-  /// step.
-  HWY_INLINE RowSums<T> sums_of(std::ptrdiff_t row, int lane, int walls) const {
-    RowSums<T> sums = scratch_.sums(row, lane, walls);
-    if constexpr (kForceBased) {
-      sums.moment_start = &memory_.start_moment[row + lane];
-      sums.moment_end = &memory_.end_moment[row + lane];
-    }
-    return sums;
+    return {fibres_of(row, lane, stride), &memory_.section_axial[first], &memory_.section_moment[first],
+            &memory_.yielding[row + lane]};
   }
 
   /// Prefetches the stresses of the lanes kRowsAhead rows ahead.
@@ -237,51 +249,88 @@ class WallChunk {
     }
   }
 
-  /// From the strains to the sums over the stresses (E6).
+  /// From the strains to the sums over the stresses (E5 to E6).
   HWY_INLINE void return_map_fibres(const WallBlock& block, int lane) const {
-    const LaneMaterial<F> of_wall =
+    const LaneMaterial<F> material =
         scene_.materials.size() == 1 ? uniform_ : material_of_walls<F>(scene_, block.first_wall + lane);
-    const int walls = walls_of(block);
-    for (int j = 0; j < block.elements; ++j) {
-      const std::ptrdiff_t row = row_of(block, j);
+    const int together = has_pairs(block) ? 2 : 1;
+    for (int j = 0; j < block.elements; j += together) {
       if (prefetches_) {
-        prefetch_fibres(row, lane, walls);
+        for (int e = 0; e < together; ++e) {
+          prefetch_fibres(row_of(block, j + e), lane, walls_of(block));
+        }
       }
-      const RowStrains<T> strains = scratch_.strains(row, lane, walls);
-      const LaneMaterial<F> material = is_compressed_ ? of_wall.softened(Stress::load(strains.modulus_share)) : of_wall;
-      const Stress membrane = Stress::load(strains.membrane);
-      const Bend<F> bend = {Stress::load(strains.bend_start), Stress::load(strains.bend_end)};
-      const Fibres<T> fibres = fibres_of(row, lane, walls);
-      const RowSums<T> sums = sums_of(row, lane, walls);
-      const auto store = [&](const auto& element) HWY_ATTR {
-        element.axial.store(sums.axial);
-        element.moments.start.store(sums.moment_start);
-        element.moments.end.store(sums.moment_end);
-        element.plastic_work.store(sums.plastic_work);
-      };
       if constexpr (kForceBased) {
-        const EndMoments<F> before = {Stress::load(sums.moment_start), Stress::load(sums.moment_end)};
-        store(return_map_balanced<kHardening>(material, rule_, membrane, bend, before, fibres,
-                                              sections_of(row, lane, walls)));
+        together == 2 ? advance_unit<2>(block, lane, j, material) : advance_unit<1>(block, lane, j, material);
       } else {
-        Stress curvature[Rule::kSectionRoom];
-        straight_curvatures(rule_, bend, curvature);
-        store(return_map_element<kHardening>(material, rule_, membrane, curvature, fibres, fibres));
+        const std::ptrdiff_t row = row_of(block, j);
+        const RowStrains<T> strains = scratch_.strains(row, lane, walls_of(block));
+        put_sums(return_map_element<kHardening>(softened(material, strains), rule_, load_strains(strains),
+                                                fibres_of(row, lane, walls_of(block))),
+                 scratch_.sums(row, lane, walls_of(block)));
       }
     }
   }
 
-  /// From the sums over the stresses to the forces on the particles (E7).
+  /// The elements of a force-based unit, from element j of the wall on.
+  template <int kElements>
+  HWY_INLINE void advance_unit(const WallBlock& block, int lane, int j, const LaneMaterial<F>& material) const {
+    const int walls = walls_of(block);
+    UnitResponse<kHardening, kElements, Rule, F> unit(rule_);
+    LaneMaterial<F> soft[kElements];
+    for (int e = 0; e < kElements; ++e) {
+      const std::ptrdiff_t row = row_of(block, j + e);
+      const RowStrains<T> strains = scratch_.strains(row, lane, walls);
+      if (is_compressed_) {
+        soft[e] = softened(material, strains);
+      }
+      unit.set(e, is_compressed_ ? soft[e] : material, material.modulus, is_compressed_, memory_of(row, lane, walls),
+               load_strains(strains));
+    }
+    ElementSums<F> sums[kElements];
+    unit.advance(sums);
+    for (int e = 0; e < kElements; ++e) {
+      put_sums(sums[e], scratch_.sums(row_of(block, j + e), lane, walls));
+    }
+  }
+
+  HWY_INLINE LaneMaterial<F> softened(const LaneMaterial<F>& material, const RowStrains<T>& strains) const {
+    return is_compressed_ ? material.softened(Stress::load(strains.modulus_share)) : material;
+  }
+
+  HWY_INLINE static ElementStrains<F> load_strains(const RowStrains<T>& strains) {
+    return {Stress::load(strains.membrane), Stress::load(strains.bend_start), Stress::load(strains.bend_end)};
+  }
+
+  HWY_INLINE static void put_sums(const ElementSums<F>& element, const RowSums<T>& sums) {
+    element.axial.store(sums.axial);
+    element.moment_start.store(sums.moment_start);
+    element.moment_end.store(sums.moment_end);
+    element.plastic_work.store(sums.plastic_work);
+  }
+
+  /// From the sums over the stresses to the forces on the particles (E7). At the common node of a pair the section has
+  /// the mean area of both.
   HWY_INLINE void put_forces(const WallBlock& block, int lane, double* HWY_RESTRICT plastic_work) const {
     const CrossSection<D> section(scene_, block.first_wall + lane);
     const std::size_t ends = 2 * static_cast<std::size_t>(block.first_wall) + lane;
     NodalForces<D> before = {{0, 0}, 0, 0};
     Real work = Real::load(plastic_work);
+    Real start_area = section.area(Real::load(inverse_length_ + row_of(block, 0) + lane));
     const int walls = walls_of(block);
     for (int j = 0; j < block.elements; ++j) {
       const std::ptrdiff_t row = row_of(block, j);
-      const RowSums<T> sums = sums_of(row, lane, walls);
-      const NodalForces<D> forces = nodal_forces(section, sums, row + lane);
+      const RowSums<T> sums = scratch_.sums(row, lane, walls);
+      const Real inverse_length = Real::load(inverse_length_ + row + lane);
+      const Real area = section.area(inverse_length);
+      const bool is_paired_on = has_pairs(block) && j % 2 == 0;
+      const Real next_area =
+          j + 1 < block.elements ? section.area(Real::load(inverse_length_ + row + walls + lane)) : area;
+      const Real end_area = is_paired_on ? Real(0.5) * (area + next_area) : area;
+      const NodalForces<D> forces =
+          nodal_forces({area * Real::load(sums.axial), section.thickness * start_area * Real::load(sums.moment_start),
+                        section.thickness * end_area * Real::load(sums.moment_end)},
+                       inverse_length, Points<D>::load(axis_ + row + lane));
       work = fma(section.volume(Real::load(length_ + row + lane)), Real::load(sums.plastic_work), work);
       if (j == 0) {
         put_on_joints(ends, forces.force_on_end, -forces.moment_on_start);
@@ -291,22 +340,18 @@ class WallChunk {
         (-(before.moment_on_end + forces.moment_on_start)).store(internal_moment_ + particle);
       }
       before = forces;
+      start_area = is_paired_on ? end_area : next_area;
     }
     put_on_joints(ends + walls, -before.force_on_end, -before.moment_on_end);
     work.store(plastic_work);
   }
 
-  HWY_INLINE NodalForces<D> nodal_forces(const CrossSection<D>& section, const RowSums<T>& sums,
-                                         std::ptrdiff_t element) const {
-    const Real inverse_length = Real::load(inverse_length_ + element);
-    const Real area = section.area(inverse_length);
-    const Real unit = area * section.thickness;
-    const Real on_start = unit * Real::load(sums.moment_start);
-    const Real on_end = unit * Real::load(sums.moment_end);
-    const Real axial = area * Real::load(sums.axial);
-    const Real shear = -(on_start + on_end) * inverse_length;  // Eq. 31, E7
-    const Points<D> axis = Points<D>::load(axis_ + element);
-    return {{fms(axial, axis.x, shear * axis.y), fma(axial, axis.y, shear * axis.x)}, on_start, on_end};
+  /// Forces of an element from its axial force and end moments (Eq. 31, 32, E7).
+  HWY_INLINE static NodalForces<D> nodal_forces(const EndForces<D>& of, Real inverse_length, const Points<D>& axis) {
+    const Real shear = -(of.moment_on_start + of.moment_on_end) * inverse_length;
+    return {{fms(of.axial, axis.x, shear * axis.y), fma(of.axial, axis.y, shear * axis.x)},
+            of.moment_on_start,
+            of.moment_on_end};
   }
 
   HWY_INLINE void put_on_joints(std::size_t end, const Points<D>& force, Real moment) const {

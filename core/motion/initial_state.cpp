@@ -19,10 +19,9 @@ void place_fibres(const Scene& scene, FibreHistory<T>& fibres) {
     fibres.yielded.assign(elements, 0);
   }
   if (scene.section.force_based) {
-    fibres.section_moment_residual.assign(elements * scene.section.section_count(), T(0.0));
-    fibres.section_flexibility.assign(elements * scene.section.section_count(), T(1.0));
-    fibres.start_moment.assign(elements, T(0.0));
-    fibres.end_moment.assign(elements, T(0.0));
+    fibres.section_axial.assign(elements * scene.section.section_count(), T(0.0));
+    fibres.section_moment.assign(elements * scene.section.section_count(), T(0.0));
+    fibres.yielding.assign(elements, 0);
   }
 }
 
@@ -36,6 +35,11 @@ State place_particles(const Scene& scene) {
   state.velocity.resize(n, Vector2::Zero());
   state.spin.assign(scene.initial_spin.begin(), scene.initial_spin.end());
   state.spin.resize(n, 0.0);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (scene.inertia[i] == 0.0) {
+      state.spin[i] = 0.0;  // a node between a pair of elements (E5b)
+    }
+  }
   state.rotation.assign(n, 0.0);
   state.length.reserve(scene.element_count());
   state.inverse_length.reserve(scene.element_count());

@@ -17,7 +17,7 @@ constexpr double kMostPhase = 0.6;
 
 /// Angular frequency sqrt(k / m_min) of the lightest particle on its contact, 1/s.
 double contact_frequency(const SceneSpec& spec, const MeshMeasures& mesh) {
-  const double of_mesh = std::sqrt(spec.contact.stiffness_factor) / mesh.stable_step;
+  const double of_mesh = std::sqrt(spec.contact.stiffness_factor) / mesh.steps.of_elements;
   if (std::holds_alternative<FrameLattice>(spec.lattice)) {
     return of_mesh;
   }

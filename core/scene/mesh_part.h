@@ -6,6 +6,7 @@
 #include "cellcrush/problem.h"
 #include "cellcrush/scene.h"
 #include "cellcrush/scene_spec.h"
+#include "scene/time_step.h"
 
 namespace cellcrush {
 
@@ -28,7 +29,7 @@ std::shared_ptr<Scene> build_mesh(const SceneSpec& part);
 struct MeshMeasures {
   std::size_t element_count = 0;
   double length = 0.0;  ///< envelope along the crush
-  double stable_step = 0.0;
+  MeshSteps steps;
   double lightest_mass = 0.0;  ///< of a particle
   double shortest_element = 0.0;
   double thinnest_wall = 0.0;

@@ -45,11 +45,10 @@ Schedule schedule_of(const SceneSpec& spec, const TimeStep& step, double end_tim
 }
 
 void check_stability(const SceneSpec& spec, const MeshMeasures& mesh, Problems& problems) {
-  if (spec.numerics.time_step_s > mesh.stable_step) {
-    problems.push_back(
-        {"numerics.time_step_s", to_text(spec.numerics.time_step_s),
-         "is above the largest stable step of this mesh, " + to_text(mesh.stable_step) + " s.",
-         "Use a step of at most " + to_text(kStepFraction * mesh.stable_step) + " s, or 0 for an automatic step."});
+  if (spec.numerics.time_step_s > mesh.steps.stable) {
+    problems.push_back({"numerics.time_step_s", to_text(spec.numerics.time_step_s),
+                        "is above the largest stable step of this mesh, " + to_text(mesh.steps.stable) + " s.",
+                        "Use a step of at most " + to_text(mesh.steps.accurate) + " s, or 0 for an automatic step."});
   }
 }
 

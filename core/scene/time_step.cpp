@@ -6,11 +6,12 @@
 #include <variant>
 
 #include "scene/contact_law.h"
+#include "scene/mesh_part.h"
 
 namespace cellcrush {
 namespace {
 
-constexpr double kTravelPerStep = 0.05;  // travel of the plate as a fraction of the thinnest wall
+constexpr double kTravelPerStep = 0.08;  // travel of the plate as a fraction of the thinnest wall
 
 /// Whether walls lie along the crush and are stacked in that direction.
 bool stacks(const SceneSpec& spec) {
@@ -37,14 +38,33 @@ double stable_step_of_element(double length, double thickness, const Material& m
   return std::sqrt(scaling.mass) * length / wave_speed * std::min(1.0, turning);
 }
 
-double stable_step_of(const Scene& scene) {
+double stable_step_of_pair(double length, double thickness, const Material& material, const MassScaling& scaling) {
+  const double wave_speed = std::sqrt(material.youngs_modulus / material.density);
+  const double slender = thickness * thickness / (12.0 * length * length);
+  const double a = 4.0 / scaling.rotary + 48.0 * slender;
+  const double turning = 0.5 * (a + std::sqrt(a * a - 192.0 * slender / scaling.rotary));
+  return std::sqrt(scaling.mass) * length / wave_speed * std::min(1.0, 2.0 / std::sqrt(turning));
+}
+
+MeshSteps steps_of(const Scene& scene) {
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
   const Walls& walls = scene.walls;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t w = 0; w < walls.start.size(); ++w) {
-    least = std::min(least, stable_step_of_element(walls.undeformed_length[w], walls.thickness[w],
-                                                   scene.materials[walls.material[w]], scene.mass_scaling));
+  MeshSteps steps = {kInfinite, kInfinite, kInfinite};
+  for (const WallBlock& block : walls.blocks) {
+    const bool in_pairs = scene.section.force_based && block.has_pairs();
+    for (int w = block.first_wall; w < block.first_wall + block.walls; ++w) {
+      const Material& material = scene.materials[walls.material[w]];
+      const double alone =
+          stable_step_of_element(walls.undeformed_length[w], walls.thickness[w], material, scene.mass_scaling);
+      const double stable =
+          in_pairs ? stable_step_of_pair(walls.undeformed_length[w], walls.thickness[w], material, scene.mass_scaling)
+                   : alone;
+      steps.stable = std::min(steps.stable, stable);
+      steps.accurate = std::min(steps.accurate, (in_pairs ? kPairStepFraction : kStepFraction) * stable);
+      steps.of_elements = std::min(steps.of_elements, alone);
+    }
   }
-  return least;
+  return steps;
 }
 
 TimeStep time_step_of(const SceneSpec& spec, const MeshMeasures& mesh, const ContactLaw& contact,
@@ -52,7 +72,7 @@ TimeStep time_step_of(const SceneSpec& spec, const MeshMeasures& mesh, const Con
   if (spec.numerics.time_step_s > 0.0) {
     return {spec.numerics.time_step_s, StepBound::asked_for};
   }
-  TimeStep step = {kStepFraction * mesh.stable_step, StepBound::elements};
+  TimeStep step = {mesh.steps.accurate, StepBound::elements};
   const auto hold_to = [&step](double seconds, StepBound bound) {
     if (seconds < step.seconds) {
       step = {seconds, bound};

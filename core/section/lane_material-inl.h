@@ -21,12 +21,13 @@ struct LaneMaterial {
 
   Lane<D> modulus;  ///< E
   Lane<D> yield_stress;
-  Lane<D> hardening;            ///< H
-  Lane<D> isotropic;            ///< beta H
-  Lane<D> kinematic;            ///< (1 - beta) H
-  Lane<D> inverse;              ///< 1 / (E + H)
-  Lane<D> bending_flexibility;  ///< 12 / E: h times the curvature due to a moment over b h^2
+  Lane<D> hardening;      ///< H
+  Lane<D> isotropic;      ///< beta H
+  Lane<D> kinematic;      ///< (1 - beta) H
+  Lane<D> inverse;        ///< 1 / (E + H)
+  Lane<D> elastic_share;  ///< E / (E + H)
 
+  LaneMaterial() = default;
   HWY_INLINE LaneMaterial(Lane<D> youngs_modulus, Lane<D> yield, Lane<D> hardening_modulus, Lane<D> isotropic_fraction)
       : modulus(youngs_modulus),
         yield_stress(yield),
@@ -34,7 +35,7 @@ struct LaneMaterial {
         isotropic(isotropic_fraction * hardening_modulus),
         kinematic((Lane<D>(1) - isotropic_fraction) * hardening_modulus),
         inverse(Lane<D>(1) / (modulus + hardening)),
-        bending_flexibility(Lane<D>(12) / modulus) {}
+        elastic_share(modulus * inverse) {}
 
   /// One material in all lanes.
   HWY_INLINE explicit LaneMaterial(const Material& material)
@@ -47,7 +48,7 @@ struct LaneMaterial {
     LaneMaterial softer = *this;
     softer.modulus = modulus * share;
     softer.inverse = Lane<D>(1) / (softer.modulus + hardening);
-    softer.bending_flexibility = Lane<D>(12) / softer.modulus;
+    softer.elastic_share = softer.modulus * softer.inverse;
     return softer;
   }
 };

@@ -16,8 +16,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {
 
-/// Weighted sums over the fibres of a section: stress, stress times y / h (Eq. 28, E7), and the plastic work of the
-/// step. In MPa; they are to be multiplied by b h, b h^2 and the volume.
+/// Weighted sums over the fibres of a section: stress, stress times its lever arm (Eq. 28, E7), and the plastic work of
+/// the step. MPa.
 template <class D>
 struct SectionSums {
   Lane<D> axial;
@@ -27,49 +27,75 @@ struct SectionSums {
   HWY_INLINE SectionSums() : axial(0), moment(0), plastic_work(0) {}
 };
 
+/// Whether any of several numbers differ in any lane.
+template <class D>
+class Differences {
+ public:
+  HWY_INLINE Differences() : bits_(hn::Zero(D())) {}
+  HWY_INLINE void note(Lane<D> a, Lane<D> b) { bits_ = hn::Or(bits_, hn::Xor(a.raw, b.raw)); }
+  [[nodiscard]] HWY_INLINE bool none() const {
+    const hn::RebindToUnsigned<D> bits;
+    return hn::AllTrue(bits, hn::Eq(hn::BitCast(bits, bits_), hn::Zero(bits)));
+  }
+
+ private:
+  hn::Vec<D> bits_;
+};
+
 /// Return mapping of the fibres of one section over a step (Eq. 33-39, E6). `first` is the index in the element of the
-/// first fibre of the section. The history is read from `before` and written to `after`.
+/// first fibre of the section.
 ///
-/// Strain increments are membrane + bending y / h (E5). `bending` is the increment of curvature times h, positive where
-/// the left side stretches.
+/// The elastic stress increment of a fibre is stretched + bent * arm, MPa (E5): E times the increments of the membrane
+/// strain and of the curvature. `arm` has the distance of each fibre from the axis, in the length with which the
+/// curvature was multiplied: h, or the radius of gyration. `weighted_arm` has the same, times the weights through the
+/// depth. The curvature is positive where the left side stretches.
 ///
 /// Deviation from the paper: the yield test and the plastic increment use the absolute value of the reduced stress. Eq.
 /// 35-38 omit it, so a fibre in compression would never yield. There is no branch: the plastic increment follows from
 /// the part of the reduced stress that the clamp to the yield surface removes.
 template <bool kHardening, class Rule, class D>
-HWY_INLINE SectionSums<D> return_map_section(const LaneMaterial<D>& material, const Rule& rule, Lane<D> membrane,
-                                             Lane<D> bending, const Fibres<hn::TFromD<D>>& before, std::size_t first,
-                                             FibreWriter<kHardening, D>& after) {
-  const Lane<D> stretched = material.modulus * membrane;
-  const Lane<D> bent = material.modulus * bending;
+HWY_INLINE SectionSums<D> return_map_section(const LaneMaterial<D>& material, const Rule& rule,
+                                             const typename Rule::Number* arm,
+                                             const typename Rule::Number* weighted_arm, Lane<D> stretched, Lane<D> bent,
+                                             const Fibres<hn::TFromD<D>>& fibres, std::size_t first,
+                                             FibreWriter<kHardening, D>& next) {
   SectionSums<D> sums;
+  Lane<D> trial[Rule::kDepthRoom];   // of Eq. 34, E6; with hardening, the reduced stress of Eq. 35
+  Lane<D> mapped[Rule::kDepthRoom];  // the same within the yield surface
+  Differences<D> yields;
   for (int i = 0; i < rule.depth_points(); ++i) {
     const std::size_t fibre = first + static_cast<std::size_t>(i);
-    const std::size_t at = fibre * before.stride;
-    const Lane<D> offset = rule.offset[i];
-    const Lane<D> trial = Lane<D>::load(before.stress + at) + fma(bent, offset, stretched);  // Eq. 34, E6
+    const std::size_t at = fibre * fibres.stride;
+    trial[i] = fma(bent, Lane<D>(arm[i]), stretched) + Lane<D>::load(fibres.stress + at);
     Lane<D> stress;
-    Lane<D> increment;
     if constexpr (kHardening) {
-      const Lane<D> reduced = trial - Lane<D>::load(before.back_stress + at);  // Eq. 35, E6
+      const Lane<D> back = Lane<D>::load(fibres.back_stress + at);
+      trial[i] -= back;
       const Lane<D> yield =
-          fma(material.isotropic, Lane<D>::load(before.plastic_strain + at), material.yield_stress);  // Eq. 33, E6
-      const Lane<D> clamped = max(min(reduced, yield), -yield);
-      increment = material.inverse * (reduced - clamped);  // Eq. 37, 38, E6
-      stress = fnma(material.modulus, increment, trial);   // Eq. 36, E6
+          fma(material.isotropic, Lane<D>::load(fibres.plastic_strain + at), material.yield_stress);  // Eq. 33, E6
+      mapped[i] = max(min(trial[i], yield), -yield);
+      stress = fnma(material.elastic_share, trial[i] - mapped[i], trial[i]) + back;  // Eq. 36, E6
     } else {
-      stress = max(min(trial, material.yield_stress), -material.yield_stress);
-      increment = trial - stress;  // times E
+      stress = mapped[i] = max(min(trial[i], material.yield_stress), -material.yield_stress);
     }
-    after.put(fibre, stress, increment);
-    const Lane<D> weighted = Lane<D>(rule.depth_weight[i]) * stress;
-    sums.axial += weighted;
-    sums.moment = fma(weighted, offset, sums.moment);
+    next.put_stress(fibre, stress);
+    yields.note(trial[i], mapped[i]);
+    sums.axial = fma(Lane<D>(rule.depth_weight[i]), stress, sums.axial);
+    sums.moment = fma(Lane<D>(weighted_arm[i]), stress, sums.moment);
+  }
+  if (yields.none()) {
+    return sums;
+  }
+  FibreBits<D> of_section;
+  for (int i = 0; i < rule.depth_points(); ++i) {
+    const std::size_t fibre = first + static_cast<std::size_t>(i);
+    const Lane<D> increment = material.inverse * (trial[i] - mapped[i]);  // Eq. 37, 38, E6
+    next.put_increment(fibre, increment);
+    of_section.add(trial[i] != mapped[i], i);
+    const Lane<D> weighted = Lane<D>(rule.depth_weight[i]) * Lane<D>::load(fibres.stress + fibre * fibres.stride);
     sums.plastic_work = fma(weighted, increment, sums.plastic_work);
   }
-  if constexpr (!kHardening) {
-    sums.plastic_work = material.inverse * sums.plastic_work;
-  }
+  next.put_yields(of_section, first);
   return sums;
 }
 

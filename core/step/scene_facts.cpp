@@ -28,7 +28,9 @@ std::string fibres_text(const Scene& scene) {
   return law +
          (scene.single_fibres
               ? ", in single precision, which halves the memory and adds no error beyond the scatter between seeds."
-              : ", in double precision.");
+              : ", in double precision" + std::string(scene.section.force_based && scene.has_hardening()
+                                                          ? ", as hardening requires in force-based elements."
+                                                          : "."));
 }
 
 std::string friction_text(double friction) {
@@ -53,9 +55,9 @@ std::string search_text(const Scene& scene) {
 std::string step_text(const Scene& scene) {
   switch (scene.schedule.bound) {
     case StepBound::asked_for: return "as requested (numerics.time_step_s).";
-    case StepBound::elements: return "0.9 of the stability limit of the lightest, stiffest element.";
-    case StepBound::plate_travel:
-      return "the time in which the plate moves by one twentieth of the thinnest wall's thickness.";
+    case StepBound::elements:
+      return "0.9 of the stability limit of the lightest, stiffest element, or 0.72 of that of a pair of elements.";
+    case StepBound::plate_travel: return "the time in which the plate moves by 0.08 of the thinnest wall's thickness.";
     case StepBound::contacts: return "0.9 of the stability limit of a row of the lightest particles between contacts.";
     case StepBound::stacked_walls: break;
   }

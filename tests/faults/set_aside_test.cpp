@@ -151,9 +151,11 @@ TEST_F(SetAsideTest, AFileThatIsNoJournalIsNamedWithTheRemedy) {
 
 TEST_F(SetAsideTest, ADamagedPageOfTheEventsCostsOnlyWhatItHeld) {
   start_daemon({"--workers", "1"});
+  std::size_t sample_count = 0;
   {
     auto client = this->client();
     for (int i = 0; i < 2; ++i) ASSERT_TRUE(client.wait_for_state(client.create(small_case()), v1::SUCCEEDED));
+    sample_count = client.history("jobs/2").size();
   }
   stop_daemon();
   std::int64_t page = 0;
@@ -175,7 +177,7 @@ TEST_F(SetAsideTest, ADamagedPageOfTheEventsCostsOnlyWhatItHeld) {
   EXPECT_EQ(status.error_code(), grpc::StatusCode::DATA_LOSS) << status.error_message();
   EXPECT_THAT(status.error_message(), AllOf(HasSubstr(journal().string() + " is damaged"), HasSubstr("restore")));
   EXPECT_EQ(client.get("jobs/1").state(), v1::SUCCEEDED);
-  EXPECT_EQ(client.history("jobs/2").size(), 101U);
+  EXPECT_EQ(client.history("jobs/2").size(), sample_count);
   stop_daemon();
 }
 

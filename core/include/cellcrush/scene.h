@@ -48,8 +48,8 @@ inline bool share_a_node(const Element& a, const Element& b) {
   return a.start == b.start || a.start == b.end || a.end == b.start || a.end == b.end;
 }
 
-/// Most fibres of an element that can be kept in single precision: each needs one of 32 bits.
-inline constexpr std::size_t kMostSingleFibres = 32;
+/// Most fibres of an element that can be kept in single precision: each needs one of 32 bits, and one is a mark.
+inline constexpr std::size_t kMostSingleFibres = 31;
 
 /// Walls with the same number of elements, side by side. Element j of wall w of the block has the index first_element +
 /// j * walls + w. The particle at its end, if inside the wall, has the index first_inner + j * walls + w. The history
@@ -60,6 +60,10 @@ struct WallBlock {
   int elements = 0;    ///< of each wall
   int first_element = 0;
   int first_inner = 0;
+
+  /// Whether force-based elements are solved two by two (E5b): the particle at the end of every other element then has
+  /// no rotation.
+  [[nodiscard]] bool has_pairs() const { return elements % 2 == 0; }
 };
 
 /// The W walls between joints, block by block, in C chunks. All elements of a wall are alike.

@@ -23,11 +23,10 @@ struct FibreHistory {
   LaneVector<T> plastic_strain;  ///< E x F, accumulated (effective), ep of E6; empty without hardening
   LaneVector<Bits> yielded;      ///< E, bit f: fibre f has yielded; empty with hardening
 
-  // Force-based rules only (E5b, beam/section_balance-inl.h), otherwise empty.
-  LaneVector<T> section_moment_residual;  ///< E x P, u_i over b h^2
-  LaneVector<T> section_flexibility;      ///< E x P, 1 / t_i, dimensionless
-  LaneVector<T> start_moment;             ///< E, on the start node, over b h^2
-  LaneVector<T> end_moment;               ///< E, on the end node, over b h^2
+  // Force-based rules only (E5b, E5d, beam/element_response-inl.h), otherwise empty.
+  LaneVector<T> section_axial;   ///< E x P, n: sums over the stresses of the section
+  LaneVector<T> section_moment;  ///< E x P, m
+  LaneVector<Bits> yielding;     ///< E, bit f: fibre f yielded in the last step
 };
 
 /// Contact force on a particle, N. The two parts stand side by side because the same loops write both.
@@ -126,10 +125,8 @@ void visit_fields(S& state, Visitor&& visit) {
          ledger, derived_tiles] = state;
   const auto list = [&visit](auto&... fields) { (visit(fields), ...); };
   const auto list_fibres = [&list](auto& history) {
-    auto& [stress, back_stress, plastic_strain, yielded, section_moment_residual, section_flexibility, start_moment,
-           end_moment] = history;
-    list(stress, back_stress, plastic_strain, yielded, section_moment_residual, section_flexibility, start_moment,
-         end_moment);
+    auto& [stress, back_stress, plastic_strain, yielded, section_axial, section_moment, yielding] = history;
+    list(stress, back_stress, plastic_strain, yielded, section_axial, section_moment, yielding);
   };
   list(step, time, position, velocity, rotation, spin, rigid_centre, rigid_velocity, rigid_rotation, rigid_spin,
        impact_travel, impact_impulse, support_impulse, axis, length, inverse_length);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <memory>
 #include <ostream>
 #include <random>
@@ -57,18 +58,30 @@ struct Hardening {
 constexpr Hardening kHardenings[] = {
     {"none", 0.0, 1.0}, {"isotropic", 700.0, 1.0}, {"kinematic", 700.0, 0.0}, {"mixed", 700.0, 0.4}};
 
-/// Elements side by side: a full block of walls, and some that remain.
-constexpr int kElements = 19;
+/// Beams side by side, of one element and of two: of each a full block of walls, and some that remain.
+constexpr int kShortBeams = 19;
+constexpr int kPairs = 19;
+/// Beams of more elements, by their number.
+constexpr int kLongBeams[] = {3, 4, 6};
+constexpr int kBeams = kShortBeams + kPairs + static_cast<int>(std::size(kLongBeams));
 constexpr int kSteps = 240;
 
-/// An element a beam, none joined, of three thicknesses and two materials.
+int elements_of_beam(int beam) {
+  if (beam < kShortBeams) {
+    return 1;
+  }
+  return beam < kShortBeams + kPairs ? 2 : kLongBeams[beam - kShortBeams - kPairs];
+}
+
+/// Beams that do not touch, of three thicknesses and two materials.
 SceneSpec spec_of(const Rule& rule, const Hardening& hardening, AreaRule area, Precision precision) {
   FrameLattice frame;
-  for (int e = 0; e < kElements; ++e) {
-    const double length = 3.0 + 0.1 * e;
-    frame.nodes.push_back({10.0 * e, 0.0, 0.0, 0.0});
-    frame.nodes.push_back({10.0 * e + length * std::cos(0.7 * e), length * std::sin(0.7 * e), 0.0, 0.0});
-    frame.beams.push_back(scenes::beam(2 * e, 2 * e + 1, 0.2 + 0.15 * (e % 3), 1));
+  for (int w = 0; w < kBeams; ++w) {
+    const int elements = elements_of_beam(w);
+    const double length = (3.0 + 0.1 * (w % kShortBeams)) * elements;
+    frame.nodes.push_back({50.0 * w, 0.0, 0.0, 0.0});
+    frame.nodes.push_back({50.0 * w + length * std::cos(0.7 * w), length * std::sin(0.7 * w), 0.0, 0.0});
+    frame.beams.push_back(scenes::beam(2 * w, 2 * w + 1, 0.2 + 0.15 * (w % 3), elements));
   }
   SceneSpec spec = scenes::elastic_frame(frame);
   spec.depth_mm = 2.5;
@@ -80,8 +93,8 @@ SceneSpec spec_of(const Rule& rule, const Hardening& hardening, AreaRule area, P
   other.youngs_modulus_mpa = 41000.0;
   other.yield_stress_mpa = 120.0;
   auto& beams = std::get<FrameLattice>(spec.lattice).beams;
-  for (int e = 0; e < kElements; e += 4) {
-    beams[e].material = other;
+  for (int w = 0; w < kBeams; w += 4) {
+    beams[w].material = other;
   }
   spec.section = {rule.formulation, rule.depth_rule, area, rule.sections, rule.points};
   spec.numerics.fibre_precision = precision;
@@ -123,10 +136,15 @@ class Walk {
   double stride_;
 };
 
-/// Makes the ends of every element follow paths of stretch, squashing, bending, drift and many turns, step by step.
-void impose_motions(Scene& scene) {
-  Draw draw;
-  const auto follow = [&](Hold& hold, const std::vector<double>& values) {
+/// Displacements of a particle over the steps.
+struct Path {
+  std::vector<double> x = {0.0};
+  std::vector<double> y = {0.0};
+  std::vector<double> rotation = {0.0};
+};
+
+void follow(Scene& scene, int particle, const Path& path) {
+  const auto impose = [&](Hold& hold, const std::vector<double>& values) {
     hold = {true, static_cast<int>(scene.motions.size())};
     TimeFunction motion;
     for (std::size_t n = 0; n < values.size(); ++n) {
@@ -134,36 +152,63 @@ void impose_motions(Scene& scene) {
     }
     scene.motions.push_back(motion);
   };
-  scene.supports.assign(scene.particle_count(), {});
-  for (int e = 0; e < kElements; ++e) {
-    const Vector2 first = scene.position[2 * e];
-    const Vector2 last = scene.position[2 * e + 1];
-    const double length = (last - first).norm();
-    const double angle = std::atan2(last.y() - first.y(), last.x() - first.x());
-    const double stride = std::pow(10.0, draw.between(-4.5, -2.3));  // of strain; the yield strain is 1.1e-3
-    Walk stretch(1.0, 0.35, 1.25, e % 2 == 0 ? stride : -stride);
-    Walk turn(0.0, -1e9, 1e9, draw.between(0.0, 0.15));
-    Walk bend_first(0.0, -0.6, 0.6, 4.0 * stride);
-    Walk bend_last(0.0, -0.6, 0.6, 4.0 * stride);
-    Walk drift(0.0, -50.0, 50.0, 0.1);
-    std::vector<double> path[6] = {{0.0}, {0.0}, {0.0}, {0.0}, {0.0}, {0.0}};
-    for (int n = 0; n < kSteps; ++n) {
-      const double turned = turn.next(draw);
-      const Vector2 start = first + Vector2(drift.next(draw), drift.next(draw));
-      const Vector2 end =
-          start + length * stretch.next(draw) * Vector2(std::cos(angle + turned), std::sin(angle + turned));
-      const double values[] = {start.x() - first.x(), start.y() - first.y(), turned + bend_first.next(draw),
-                               end.x() - last.x(),    end.y() - last.y(),    turned + bend_last.next(draw)};
-      for (int k = 0; k < 6; ++k) {
-        path[k].push_back(values[k]);
+  impose(scene.supports[particle].x, path.x);
+  impose(scene.supports[particle].y, path.y);
+  impose(scene.supports[particle].rotation, path.rotation);
+}
+
+/// The nodes of a wall from its start to its end.
+std::vector<int> nodes_of(const Scene& scene, const std::vector<int>& wall) {
+  std::vector<int> nodes = {scene.elements[wall.front()].start};
+  for (const int e : wall) {
+    nodes.push_back(scene.elements[e].end);
+  }
+  return nodes;
+}
+
+/// Paths of the nodes of a beam whose elements stretch, are squashed, bend, drift and turn many times.
+std::vector<Path> paths_of(const std::vector<Vector2>& nodes, double stride, double first_stretch, Draw& draw) {
+  const Vector2 span = nodes.back() - nodes.front();
+  const double angle = std::atan2(span.y(), span.x());
+  Walk turn(0.0, -1e9, 1e9, draw.between(0.0, 0.15));
+  Walk drift(0.0, -50.0, 50.0, 0.1);
+  std::vector<Walk> stretches(nodes.size() - 1, Walk(1.0, 0.35, 1.25, first_stretch));
+  std::vector<Walk> kinks(nodes.size() - 1, Walk(0.0, -0.3, 0.3, stride));
+  std::vector<Walk> bends(nodes.size(), Walk(0.0, -0.6, 0.6, 4.0 * stride));
+  std::vector<Path> paths(nodes.size());
+  for (int n = 0; n < kSteps; ++n) {
+    const double turned = turn.next(draw);
+    Vector2 at = nodes.front() + Vector2(drift.next(draw), drift.next(draw));
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      if (k > 0) {
+        const double direction = angle + turned + kinks[k - 1].next(draw);
+        at += (nodes[k] - nodes[k - 1]).norm() * stretches[k - 1].next(draw) *
+              Vector2(std::cos(direction), std::sin(direction));
       }
+      paths[k].x.push_back(at.x() - nodes[k].x());
+      paths[k].y.push_back(at.y() - nodes[k].y());
+      paths[k].rotation.push_back(turned + bends[k].next(draw));
     }
-    follow(scene.supports[2 * e].x, path[0]);
-    follow(scene.supports[2 * e].y, path[1]);
-    follow(scene.supports[2 * e].rotation, path[2]);
-    follow(scene.supports[2 * e + 1].x, path[3]);
-    follow(scene.supports[2 * e + 1].y, path[4]);
-    follow(scene.supports[2 * e + 1].rotation, path[5]);
+  }
+  return paths;
+}
+
+/// Makes the nodes of every beam follow such paths. The rotations of nodes without one have no effect.
+void impose_motions(Scene& scene) {
+  Draw draw;
+  scene.supports.assign(scene.particle_count(), {});
+  const std::vector<std::vector<int>> walls = walls_of(scene);
+  for (std::size_t w = 0; w < walls.size(); ++w) {
+    const std::vector<int> nodes = nodes_of(scene, walls[w]);
+    std::vector<Vector2> positions;
+    for (const int node : nodes) {
+      positions.push_back(scene.position[node]);
+    }
+    const double stride = std::pow(10.0, draw.between(-4.5, -2.1));  // of strain; the yield strain is 1.1e-3
+    const std::vector<Path> paths = paths_of(positions, stride, w % 2 == 0 ? stride : -stride, draw);
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      follow(scene, nodes[k], paths[k]);
+    }
   }
 }
 
@@ -173,32 +218,43 @@ struct ElementDifferences {
   double moment = 0.0;          // over sigma_y A h
   double stress = 0.0;          // and back stress, over sigma_y
   double plastic_strain = 0.0;  // over sigma_y / E
-  double shortfall = 0.0;       // u_i / (A h), over sigma_y
-  double flexibility = 0.0;     // of itself
+  double borne = 0.0;           // n and m of the sections, over sigma_y
   double plastic_work = 0.0;    // of the work so far
+  int parted = 0;               // steps of walls in which only one of the two took a fibre as yielding; left out
 
-  double squared_forces = 0.0;  // sum over all elements and steps
-  double worked = 0.0;          // N mm, by the oracle
-  double shortest = 1.0;        // l / l_0
+  double worked = 0.0;    // N mm, by the oracle
+  double shortest = 1.0;  // l / l_0
 };
 
 void note_largest(double& greatest, double difference) { greatest = std::max(greatest, std::abs(difference)); }
 
-void note_forces(const State& state, const Element& element, const reference::ElementData& data,
-                 const reference::ElementForces& forces, ElementDifferences& most) {
+/// Compares the forces on the nodes of a wall with those of the oracle's elements.
+void note_forces(const Scene& scene, const State& state, const std::vector<int>& wall,
+                 const std::vector<reference::ElementForces>& forces, ElementDifferences& most) {
+  const std::vector<int> nodes = nodes_of(scene, wall);
+  std::vector<Vector2> on_nodes(nodes.size(), Vector2::Zero());
+  std::vector<double> moments(nodes.size(), 0.0);
+  for (std::size_t k = 0; k < wall.size(); ++k) {
+    on_nodes[k] += forces[k].on_end;
+    on_nodes[k + 1] -= forces[k].on_end;
+    moments[k] -= forces[k].moment_on_start;
+    moments[k + 1] -= forces[k].moment_on_end;
+  }
+  const reference::ElementData data = element_data_of(scene, wall.front());
   const double yield_force = data.material.yield_stress * data.depth * data.thickness;
-  const double at_start = (state.internal_force[element.start] - forces.on_end).norm() / yield_force;
-  note_largest(most.force, at_start);
-  note_largest(most.force, (state.internal_force[element.end] + forces.on_end).norm() / yield_force);
-  most.squared_forces += at_start * at_start;
   const double yield_moment = yield_force * data.thickness;
-  note_largest(most.moment, (state.internal_moment[element.start] + forces.moment_on_start) / yield_moment);
-  note_largest(most.moment, (state.internal_moment[element.end] + forces.moment_on_end) / yield_moment);
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    note_largest(most.force, (state.internal_force[nodes[k]] - on_nodes[k]).norm() / yield_force);
+    note_largest(most.moment, (state.internal_moment[nodes[k]] - moments[k]) / yield_moment);
+  }
 }
 
 void note_histories(const reference::ElementHistory& solver, const reference::ElementHistory& oracle,
                     const reference::ElementData& data, bool has_hardening, ElementDifferences& most) {
   const double yield = data.material.yield_stress;
+  for (std::size_t i = 0; i < oracle.borne.size(); ++i) {
+    note_largest(most.borne, (solver.borne[i] - oracle.borne[i]).norm() / yield);  // 0 if displacement-based
+  }
   for (std::size_t f = 0; f < oracle.fibres.size(); ++f) {
     note_largest(most.stress, (solver.fibres[f].stress - oracle.fibres[f].stress) / yield);
     if (has_hardening) {
@@ -207,43 +263,96 @@ void note_histories(const reference::ElementHistory& solver, const reference::El
                    (solver.fibres[f].plastic_strain - oracle.fibres[f].plastic_strain) * data.material.modulus / yield);
     }
   }
-  for (std::size_t s = 0; s < oracle.flexibility.size(); ++s) {
-    note_largest(most.shortfall, (solver.shortfall[s] - oracle.shortfall[s]) / yield);
-    note_largest(most.flexibility, solver.flexibility[s] / oracle.flexibility[s] - 1.0);
-  }
+}
+
+/// Whether both remember the same fibres as yielding.
+bool yield_alike(const reference::ElementHistory& solver, const reference::ElementHistory& oracle) {
+  return solver.yields == oracle.yields && solver.yielded_before == oracle.yielded_before;
 }
 
 enum class Start { of_the_step, of_the_run };
 
+/// The oracle's elements of a scene.
+class OracleElements {
+ public:
+  OracleElements(const Scene& scene, const State& state) : scene_(scene), rule_(element_rule_of(scene)) {
+    adopt(state);
+  }
+
+  /// Goes on from the solver's histories.
+  void adopt(const State& state) {
+    histories.clear();
+    for (std::size_t e = 0; e < scene_.element_count(); ++e) {
+      histories.push_back(element_history_of(scene_, state, e));
+    }
+  }
+
+  /// The step that has brought the solver's particles where they are.
+  std::vector<reference::ElementForces> advance(const State& state, const std::vector<int>& wall) {
+    std::vector<reference::ElementForces> forces;
+    for (const std::vector<int>& unit : units_of(rule_, wall)) {
+      std::vector<reference::MovedElement> moved;
+      for (const int e : unit) {
+        moved.push_back({element_data_of(scene_, e), ends_of(state, scene_.elements[e]), &histories[e]});
+      }
+      const std::vector<reference::ElementForces> of_unit = advance_unit(rule_, moved);
+      forces.insert(forces.end(), of_unit.begin(), of_unit.end());
+    }
+    return forces;
+  }
+
+  std::vector<reference::ElementHistory> histories;
+
+ private:
+  [[nodiscard]] reference::ElementEnds ends_of(const State& state, const Element& element) const {
+    const double dt = scene_.schedule.time_step;
+    return {state.position[element.start], state.position[element.end], dt * state.spin[element.start],
+            dt * state.spin[element.end]};
+  }
+
+  const Scene& scene_;
+  reference::ElementRule rule_;
+};
+
+/// Compares the elements of a wall after a step.
+void compare_wall(const Scene& scene, const State& state, const std::vector<int>& wall,
+                  const std::vector<reference::ElementForces>& forces,
+                  const std::vector<reference::ElementHistory>& oracle, ElementDifferences& most) {
+  std::vector<reference::ElementHistory> solver;
+  bool alike = true;
+  for (std::size_t k = 0; k < wall.size(); ++k) {
+    solver.push_back(element_history_of(scene, state, wall[k]));
+    alike = alike && (!scene.section.force_based || yield_alike(solver[k], oracle[wall[k]]));
+    most.worked += forces[k].plastic_work;
+    most.shortest = std::min(most.shortest, solver[k].length / element_data_of(scene, wall[k]).undeformed_length);
+  }
+  if (!alike) {
+    ++most.parted;
+    return;
+  }
+  note_forces(scene, state, wall, forces, most);
+  for (std::size_t k = 0; k < wall.size(); ++k) {
+    note_histories(solver[k], oracle[wall[k]], element_data_of(scene, wall[k]), scene.has_hardening(), most);
+  }
+}
+
 /// Moves the solver and takes the same motion through the oracle, whose elements have the solver's histories at the
 /// start of every step, or only of the run.
 ElementDifferences compare_elements(const Scene& scene, Start same_history) {
-  const reference::ElementRule rule = element_rule_of(scene);
-  const double dt = scene.schedule.time_step;
   State state = make_initial_state(scene);
-  std::vector<reference::ElementHistory> histories;
-  for (std::size_t e = 0; e < scene.element_count(); ++e) {
-    histories.push_back(element_history_of(scene, state, e));
-  }
+  OracleElements oracle(scene, state);
+  const std::vector<std::vector<int>> walls = walls_of(scene);
   ElementDifferences most;
   for (int n = 0; n < kSteps; ++n) {
     advance_step(scene, state, nullptr);
-    for (std::size_t e = 0; e < scene.element_count(); ++e) {
-      const auto& [start, end, thickness, material] = scene.elements[e];
-      const reference::ElementData data = element_data_of(scene, e);
-      const reference::ElementForces forces = advance_element(
-          rule, data, {state.position[start], state.position[end], dt * state.spin[start], dt * state.spin[end]},
-          histories[e]);
-      most.worked += forces.plastic_work;
-      note_forces(state, scene.elements[e], data, forces, most);
-      const reference::ElementHistory solver = element_history_of(scene, state, e);
-      note_histories(solver, histories[e], data, scene.has_hardening(), most);
-      most.shortest = std::min(most.shortest, solver.length / data.undeformed_length);
-      if (same_history == Start::of_the_step) {
-        histories[e] = solver;
-      }
+    for (const std::vector<int>& wall : walls) {
+      const std::vector<reference::ElementForces> forces = oracle.advance(state, wall);
+      compare_wall(scene, state, wall, forces, oracle.histories, most);
     }
     note_largest(most.plastic_work, (state.ledger.plastic - most.worked) / std::max(most.worked, 1e-3));
+    if (same_history == Start::of_the_step) {
+      oracle.adopt(state);
+    }
   }
   return most;
 }
@@ -273,50 +382,48 @@ class OracleOfElements : public testing::TestWithParam<Rule> {
   }
 };
 
-// Every step from the same history. In double precision the largest difference is 2e-11 (flexibility: 3e-8): rounding,
-// which the quotient that gives a section's flexibility makes a thousand times larger. In single precision fibres
-// round stresses of sigma_y by 6e-8 of it; in a section near its full plastic moment the same quotient makes up to
-// 9e-4 of that. Flexibilities are then known to nothing better than a third, and are left out.
+// Every step from the same history. In double precision the largest difference is 5e-12, and no decision differs. In
+// single precision the fibres round stresses of sigma_y by 6e-8 of it, which the flexibility of a section whose fibres
+// are all soft makes up to 100 times larger, as it does the strains; by hardening, stresses come to several sigma_y. A
+// fibre at the edge may then yield in one of the two alone, in up to 3 of 9840 steps of a wall; these are left out.
 TEST_P(OracleOfElements, TakesEveryStepAsTheSolverDoes) {
   compare_all(Start::of_the_step, [](const Scene& scene, const ElementDifferences& most) {
-    const double bound = scene.single_fibres ? 1e-4 : 1e-9;
+    const double bound = scene.single_fibres ? 1e-3 : 1e-9;
     EXPECT_LT(most.force, bound);
     EXPECT_LT(most.moment, bound);
-    EXPECT_LT(most.shortfall, bound);
-    EXPECT_LT(most.plastic_work, 0.01 * bound);
     EXPECT_LT(most.stress, scene.single_fibres ? 1e-2 : bound);
+    EXPECT_LT(most.borne, scene.single_fibres ? 1e-2 : bound);
     EXPECT_LT(most.plastic_strain, scene.single_fibres ? 1e-2 : bound);
+    EXPECT_LT(most.plastic_work, scene.single_fibres ? 1e-4 : 1e-11);
+    EXPECT_LE(most.parted, scene.single_fibres ? 20 : 0);
     const std::string in_single = scene.single_fibres ? " in single precision" : "";
-    scenes::record_bound("forces" + in_single, std::max({most.force, most.moment, most.shortfall}));
-    scenes::record_bound("stresses" + in_single, most.stress);
-    if (!scene.single_fibres) {
-      EXPECT_LT(most.flexibility, 1e-6);
-    }
+    scenes::record_bound("forces" + in_single, std::max(most.force, most.moment));
+    scenes::record_bound("stresses" + in_single, std::max(most.stress, most.borne));
     EXPECT_GT(most.worked, 1000.0);
     EXPECT_LT(most.shortest, 0.5);
   });
 }
 
-// All steps from the undeformed elements. The strains of a displacement-based element are given by its motion, so
-// differences do not grow. Those of a force-based element depend on the flexibilities that its sections showed: a
-// difference grows from step to step while sections yield, until they unload. It then passes through forces of up to
-// 0.05 of the yield force for some steps; the mean and the work show the element.
+// All steps from the undeformed elements: in double precision differences do not grow, whatever the element. In single
+// precision a force-based element in which a fibre has yielded in one of the two alone goes its own way for some steps,
+// and its sections share the plastic strain otherwise from then on; the work shows the element.
 TEST_P(OracleOfElements, TakesAllStepsAsTheSolverDoes) {
   compare_all(Start::of_the_run, [](const Scene& scene, const ElementDifferences& most) {
-    const double mean_force = std::sqrt(most.squared_forces / (kSteps * kElements));
-    if (scene.section.force_based) {
-      EXPECT_LT(mean_force, 1e-2);
-      EXPECT_LT(most.plastic_work, 1e-3);
-      scenes::record_bound("plastic work of force-based elements", most.plastic_work);
-    } else {
-      const double bound = scene.single_fibres ? 1e-4 : 1e-9;
-      EXPECT_LT(most.force, bound);
-      EXPECT_LT(most.moment, bound);
-      EXPECT_LT(most.stress, bound);
-      EXPECT_LT(most.plastic_work, 0.01 * bound);
-      if (!scene.single_fibres) {
-        scenes::record_bound("displacement-based elements", std::max({most.force, most.moment, most.stress}));
-      }
+    if (scene.single_fibres && scene.section.force_based) {
+      EXPECT_LT(most.plastic_work, 1e-2);
+      scenes::record_bound("plastic work of force-based elements in single precision", most.plastic_work);
+      return;
+    }
+    const double bound = scene.single_fibres ? 1e-4 : 1e-9;
+    EXPECT_LT(most.force, bound);
+    EXPECT_LT(most.moment, bound);
+    EXPECT_LT(most.stress, bound);
+    EXPECT_LT(most.borne, bound);
+    EXPECT_LT(most.plastic_work, 0.01 * bound);
+    EXPECT_EQ(most.parted, 0);
+    if (!scene.single_fibres) {
+      const std::string elements = scene.section.force_based ? "force-based" : "displacement-based";
+      scenes::record_bound(elements + " elements", std::max({most.force, most.moment, most.stress}));
     }
   });
 }

@@ -44,16 +44,18 @@ void read_history(const Scene& scene, const FibreHistory<T>& memory, std::size_t
       history.fibres[f].plastic_strain = memory.plastic_strain[i];
     }
   }
-  if (memory.section_flexibility.empty()) {
+  if (memory.yielding.empty()) {
     return;
   }
-  for (std::size_t s = 0; s < history.flexibility.size(); ++s) {
-    const std::size_t i = row.of(scene.section.section_count(), s);
-    history.flexibility[s] = memory.section_flexibility[i];
-    history.shortfall[s] = memory.section_moment_residual[i];
+  for (std::size_t section = 0; section < history.borne.size(); ++section) {
+    const std::size_t i = row.of(scene.section.section_count(), section);
+    history.borne[section] = {memory.section_axial[i], memory.section_moment[i]};
   }
-  history.moment_start = memory.start_moment[element];
-  history.moment_end = memory.end_moment[element];
+  const auto has_bit = [bits = memory.yielding[element]](std::size_t bit) { return (bits >> bit & 1U) != 0; };
+  for (std::size_t f = 0; f < history.yields.size(); ++f) {
+    history.yields[f] = has_bit(f);
+  }
+  history.yielded_before = has_bit(8 * sizeof(typename FibreHistory<T>::Bits) - 1);
 }
 
 }  // namespace
@@ -67,10 +69,6 @@ reference::ElementRule element_rule_of(const Scene& scene) {
   }
   for (Eigen::Index j = 0; j < scene.section.offset.size(); ++j) {
     rule.points.push_back({scene.section.offset[j], scene.section.depth_weight[j]});
-  }
-  if (scene.single_fibres) {
-    rule.no_moment = 2e-6;
-    rule.no_softening = 1e-2;
   }
   return rule;
 }
@@ -90,6 +88,20 @@ reference::ElementHistory element_history_of(const Scene& scene, const State& st
   scene.single_fibres ? read_history(scene, state.single_fibres, element, history)
                       : read_history(scene, state.fibres, element, history);
   return history;
+}
+
+std::vector<std::vector<int>> walls_of(const Scene& scene) {
+  std::vector<std::vector<int>> walls;
+  for (const WallBlock& block : scene.walls.blocks) {
+    for (int w = 0; w < block.walls; ++w) {
+      std::vector<int> wall;
+      for (int j = 0; j < block.elements; ++j) {
+        wall.push_back(block.first_element + j * block.walls + w);
+      }
+      walls.push_back(wall);
+    }
+  }
+  return walls;
 }
 
 reference::Instant instant_of(const Scene& scene, const State& state) {
@@ -116,6 +128,7 @@ reference::Lattice lattice_of(const Scene& scene) {
     lattice.segments.push_back({element.start, element.end, element.thickness, material_of(scene, element)});
   }
   lattice.element_count = scene.rigid.first_element;
+  lattice.walls = walls_of(scene);
   for (std::size_t body = 0; body < scene.rigid.count(); ++body) {
     lattice.bodies.push_back({scene.rigid.offset[body], scene.rigid.offset[body + 1]});
   }

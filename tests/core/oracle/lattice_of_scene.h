@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
 #include "core/reference/reference_crush.h"
@@ -14,6 +16,9 @@ reference::Lattice lattice_of(const Scene& scene);
 
 /// The rule of a scene's elements.
 reference::ElementRule element_rule_of(const Scene& scene);
+
+/// The elements of every wall that can deform, from its start to its end.
+std::vector<std::vector<int>> walls_of(const Scene& scene);
 
 /// Material, section and undeformed length of an element.
 reference::ElementData element_data_of(const Scene& scene, std::size_t element);

@@ -25,7 +25,7 @@ TEST(Diagnosis, AStepBeyondTheLimitEndsWithItsNameItsPlaceAndARemedy) {
   EXPECT_NE(status.remedy.find("numerics.time_step_s"), std::string::npos) << status.remedy;
 }
 
-TEST(Diagnosis, ASoundRunEndsWell) { EXPECT_EQ(run_at(0.9).kind, RunStatus::Kind::finished); }
+TEST(Diagnosis, ASoundRunEndsWell) { EXPECT_EQ(run_at(0.7).kind, RunStatus::Kind::finished); }
 
 TEST(Diagnosis, ANonFiniteMotionIsNamedWithItsParticle) {
   auto scene = scenes::build(scenes::hexagon_specimen(4, 3));

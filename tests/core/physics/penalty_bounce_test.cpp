@@ -73,16 +73,17 @@ TEST(PenaltyBounce, DampingTakesEnergyAndNeverPulls) {
   EXPECT_LT(damped.energy_ratio, 0.45);
 }
 
-// The default stiffness at 100 m/s, two of the lightest particles: k = m (V / 0.16 h)^2, and V dt = 0.05 h.
-TEST(PenaltyBounce, OfTheLightestPairAtTheChosenStepIsWithinSevenPercent) {
+// The default stiffness at 100 m/s, two of the lightest particles: k = m (V / 0.16 h)^2, and V dt = 0.08 h. The dampers
+// of the contacts take up what such a bounce makes: a whole crush makes none (ContactSoundness).
+TEST(PenaltyBounce, OfTheLightestPairAtTheChosenStepIsWithinTwelvePercent) {
   const auto scene = scenes::build(scenes::hexagon_specimen(4, 3));
   const double lightest = *std::min_element(scene->mass.begin(), scene->mass.end());
   const double omega = std::sqrt(scene->contact.stiffness * 2.0 / lightest);
   const double omega_step = omega * scene->schedule.time_step;
-  EXPECT_NEAR(omega_step, std::sqrt(2.0) * 0.05 / 0.16, 1e-3);
+  EXPECT_NEAR(omega_step, std::sqrt(2.0) * 0.08 / 0.16, 1e-3);
   double mass = 0.0;
   double stiffness = 0.0;
-  EXPECT_NEAR(bounce(omega_step, 0.0, mass, stiffness).energy_ratio, 1.0, 0.07);
+  EXPECT_NEAR(bounce(omega_step, 0.0, mass, stiffness).energy_ratio, 1.0, 0.12);
 }
 
 /// A short beam that lies on a held one under gravity, swinging about its resting depth by half of it.

@@ -55,24 +55,38 @@ void Crush::gather_bodies() {
   }
 }
 
+/// Adds the resistance of the elements of a unit to a step.
+void Crush::resist(const std::vector<int>& unit, double step) {
+  std::vector<MovedElement> moved;
+  for (const int e : unit) {
+    const auto& [start, end, thickness, material] = lattice_.segments[e];
+    const double undeformed_length = (lattice_.position[end] - lattice_.position[start]).norm();
+    moved.push_back(
+        {{material, thickness, lattice_.depth, undeformed_length},
+         {now_.motion.position[start], now_.motion.position[end], step * now_.spin[start], step * now_.spin[end]},
+         &now_.elements[e]});
+  }
+  const std::vector<ElementForces> forces = advance_unit(lattice_.rule, moved);
+  for (std::size_t k = 0; k < unit.size(); ++k) {
+    const Segment& segment = lattice_.segments[unit[k]];
+    now_.force[segment.start] += forces[k].on_end;  // resistance acts against the motion (Eq. 4)
+    now_.force[segment.end] -= forces[k].on_end;
+    now_.moment[segment.start] -= forces[k].moment_on_start;
+    now_.moment[segment.end] -= forces[k].moment_on_end;
+    works_.plastic += forces[k].plastic_work;
+  }
+}
+
 /// Forces at the time: of the elements over the step before it, of contacts and of plates.
 void Crush::evaluate_forces() {
   const std::size_t count = lattice_.position.size();
   now_.force.assign(count, Vector::Zero());
   now_.moment.assign(count, 0.0);
   const double step = time_ == 0.0 ? 0.0 : lattice_.time_step;
-  for (int e = 0; e < lattice_.element_count; ++e) {
-    const auto& [start, end, thickness, material] = lattice_.segments[e];
-    const double undeformed_length = (lattice_.position[end] - lattice_.position[start]).norm();
-    const ElementForces forces = advance_element(
-        lattice_.rule, {material, thickness, lattice_.depth, undeformed_length},
-        {now_.motion.position[start], now_.motion.position[end], step * now_.spin[start], step * now_.spin[end]},
-        now_.elements[e]);
-    now_.force[start] += forces.on_end;  // resistance acts against the motion (Eq. 4)
-    now_.force[end] -= forces.on_end;
-    now_.moment[start] -= forces.moment_on_start;
-    now_.moment[end] -= forces.moment_on_end;
-    works_.plastic += forces.plastic_work;
+  for (const std::vector<int>& wall : lattice_.walls) {
+    for (const std::vector<int>& unit : units_of(lattice_.rule, wall)) {
+      resist(unit, step);
+    }
   }
   const std::vector<Vector> none(count, Vector::Zero());
   contacts_ = {none, none, none};
@@ -93,8 +107,10 @@ void Crush::find_next_velocities() {
   for (std::size_t i = 0; i < count; ++i) {
     next_velocity_[i] =
         ((1.0 - a) * now_.motion.velocity[i] + lattice_.time_step * now_.force[i] / particles_.mass[i]) / (1.0 + a);
-    next_spin_[i] =
-        ((1.0 - a) * now_.spin[i] + lattice_.time_step * now_.moment[i] / particles_.inertia[i]) / (1.0 + a);
+    if (particles_.inertia[i] > 0.0) {  // it has a rotation (E5b)
+      next_spin_[i] =
+          ((1.0 - a) * now_.spin[i] + lattice_.time_step * now_.moment[i] / particles_.inertia[i]) / (1.0 + a);
+    }
   }
   for (Body& body : bodies_) {
     find_next_velocities_of(body);

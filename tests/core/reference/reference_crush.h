@@ -63,6 +63,7 @@ class Crush {
   [[nodiscard]] double speed_at(double time) const;
   void gather_bodies();
   void evaluate_forces();
+  void resist(const std::vector<int>& unit, double step);
   void find_next_velocities();
   void find_next_velocities_of(Body& body);
   [[nodiscard]] Vector position_in(const Body& body, std::size_t particle) const;

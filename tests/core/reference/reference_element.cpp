@@ -26,186 +26,312 @@ SquashedBar squash(const ElementRule& rule, const ElementData& data, double leng
                     (1.0 + four_gyration_squared / (length * length))};
 }
 
-/// Sums over the fibres of an element after a step. Moments are over A h, MPa.
-struct Response {
-  std::vector<Fibre> fibres;
-  double axial = 0.0;           // N / A
-  double moment_start = 0.0;    // m_1 / (A h)
-  double moment_end = 0.0;      // m_2 / (A h)
-  double plastic_work = 0.0;    // over the volume
-  std::vector<double> moments;  // M_i / (A h) of the sections
-};
-
-/// One step of one element.
-class Step {
- public:
-  Step(const ElementRule& rule, const ElementData& data, const ElementEnds& ends, ElementHistory& history)
-      : rule_(rule), history_(history), material_(data.material), thickness_(data.thickness) {
+/// An element over a step: its motion without the rigid part, and its section at the end.
+struct DeformedElement {
+  DeformedElement(const ElementRule& rule, const MovedElement& moved)
+      : material(moved.data.material), thickness(moved.data.thickness) {
+    const ElementEnds& ends = moved.ends;
+    const ElementHistory& history = *moved.history;
     const Vector span = ends.end - ends.start;
-    length_ = span.norm();
-    axis_ = span / length_;
-    const double turn = std::atan2(cross(history.axis, axis_), history.axis.dot(axis_));  // Eq. 9, E3
-    const double mean_length = 0.5 * (history.length + length_);                          // E5
-    membrane_ = (length_ - history.length) / mean_length;                                 // Eq. 15, E5
-    bend_start_ = (ends.turn_start - turn) / mean_length;                                 // Eq. 14, E4
-    bend_end_ = (ends.turn_end - turn) / mean_length;                                     // Eq. 14, E4
-    const SquashedBar bar = squash(rule, data, length_);
-    area_ = bar.area;
-    material_.modulus = bar.modulus;
+    length = span.norm();
+    axis = span / length;
+    mean_length = 0.5 * (history.length + length);                                      // E5
+    stretch = length - history.length;                                                  // Eq. 15
+    const double turn = std::atan2(cross(history.axis, axis), history.axis.dot(axis));  // Eq. 9, E3
+    turn_start = ends.turn_start - turn;                                                // Eq. 14, E4
+    turn_end = ends.turn_end - turn;                                                    // Eq. 14, E4
+    const SquashedBar bar = squash(rule, moved.data, length);
+    area = bar.area;
+    material.modulus = bar.modulus;
   }
 
-  ElementForces advance() {
-    const Response response = rule_.force_based ? respond_in_balance() : respond(linear_curvatures());
-    history_.axis = axis_;
-    history_.length = length_;
-    history_.fibres = response.fibres;
-    history_.moment_start = response.moment_start;
-    history_.moment_end = response.moment_end;
-    const double moment_start = area_ * thickness_ * response.moment_start;  // Eq. 28, E7
-    const double moment_end = area_ * thickness_ * response.moment_end;
-    const double shear = -(moment_start + moment_end) / length_;                              // Eq. 31, E7
-    const Vector force_on_end = area_ * response.axial * axis_ + shear * turned_left(axis_);  // Eq. 32, E7
-    return {force_on_end, moment_start, moment_end, area_ * length_ * response.plastic_work};
+  Material material;  // with the modulus of the squashed element
+  double thickness;
+  Vector axis;
+  double length;
+  double mean_length;  // l_m
+  double stretch;      // Delta
+  double turn_start;   // theta_1
+  double turn_end;     // theta_2
+  double area;
+};
+
+/// Nodal forces of an element from its axial force and its end moments (Eq. 31, 32, E7).
+ElementForces nodal_forces(const DeformedElement& element, double axial, double moment_start, double moment_end,
+                           double plastic_work) {
+  const double shear = -(moment_start + moment_end) / element.length;
+  const Vector force_on_end = axial * element.axis + shear * turned_left(element.axis);
+  return {force_on_end, moment_start, moment_end, plastic_work};
+}
+
+/// The displacement-based element: the curvature is linear (Eq. 27, E5a).
+ElementForces respond_to_curvature(const ElementRule& rule, const DeformedElement& element, ElementHistory& history) {
+  double axial = 0.0;
+  double moment_start = 0.0;
+  double moment_end = 0.0;
+  double plastic_work = 0.0;
+  for (std::size_t i = 0; i < rule.sections.size(); ++i) {
+    const auto [s, section_weight] = rule.sections[i];
+    const double curvature =
+        ((4.0 - 6.0 * s) * element.turn_start + (2.0 - 6.0 * s) * element.turn_end) / element.mean_length;
+    for (std::size_t j = 0; j < rule.points.size(); ++j) {
+      const double arm = rule.points[j].position * element.thickness;
+      Fibre& fibre = history.fibres[i * rule.points.size() + j];
+      const double strain = element.stretch / element.mean_length + arm * curvature;  // E5
+      const double plastic_strain = return_fibre(element.material, strain, fibre);
+      const double part = section_weight * rule.points[j].weight;
+      axial += part * element.area * fibre.stress;                                           // Eq. 28, E7
+      moment_start += part * element.area * (4.0 - 6.0 * s) * arm * fibre.stress;            // Eq. 28, E7
+      moment_end += part * element.area * (2.0 - 6.0 * s) * arm * fibre.stress;              // Eq. 28, E7
+      plastic_work += part * element.area * element.length * fibre.stress * plastic_strain;  // E10
+    }
+  }
+  return nodal_forces(element, axial, moment_start, moment_end, plastic_work);
+}
+
+/// One step of a unit of force-based elements (E5b, E5d). Its forces are the axial force of each element over A, then
+/// the moment at each node over A gamma, which is positive where the left side stretches. The moment of an element is
+/// linear between its nodes.
+class ForceBasedStep {
+ public:
+  ForceBasedStep(const ElementRule& rule, const std::vector<DeformedElement>& elements,
+                 const std::vector<MovedElement>& moved)
+      : rule_(rule), elements_(elements), plastic_work_(elements.size(), 0.0) {
+    for (const MovedElement& element : moved) {
+      histories_.push_back(element.history);
+    }
+  }
+
+  std::vector<ElementForces> advance() {
+    const bool had_yielded = any_yields();
+    move_fibres(strains_of_sections());
+    for (ElementHistory* history : histories_) {
+      history->yielded_before = had_yielded;
+    }
+    return nodal_forces_of(balance(no_strains(), yielding_sections(), borne()));
   }
 
  private:
-  /// Curvatures of the displacement-based element (Eq. 27).
-  [[nodiscard]] std::vector<double> linear_curvatures() const {
-    std::vector<double> curvatures;
-    for (const auto& [s, weight] : rule_.sections) {
-      curvatures.push_back((4.0 - 6.0 * s) * bend_start_ + (2.0 - 6.0 * s) * bend_end_);
+  /// A section of the unit.
+  struct Place {
+    std::size_t element;
+    std::size_t section;
+  };
+  /// n and m of a section, or its strain and gamma times its curvature.
+  using OfSection = Eigen::Vector2d;
+  /// Of all sections, element by element.
+  using Flexibilities = std::vector<Eigen::Matrix2d>;
+
+  [[nodiscard]] std::vector<Place> places() const {
+    std::vector<Place> all;
+    for (std::size_t e = 0; e < elements_.size(); ++e) {
+      for (std::size_t i = 0; i < rule_.sections.size(); ++i) {
+        all.push_back({e, i});
+      }
     }
-    return curvatures;
+    return all;
   }
 
-  /// All fibres under given curvatures, from their histories at the start of the step.
-  [[nodiscard]] Response respond(const std::vector<double>& curvatures) const {
-    Response sum;
-    sum.fibres = history_.fibres;
-    for (std::size_t i = 0; i < rule_.sections.size(); ++i) {
-      const auto [s, section_weight] = rule_.sections[i];
-      double moment = 0.0;
+  /// gamma = h / sqrt(12)
+  [[nodiscard]] double gyration(std::size_t e) const { return elements_[e].thickness / std::sqrt(12.0); }
+
+  /// eta = y / gamma
+  [[nodiscard]] double arm(std::size_t j) const { return rule_.points[j].position * std::sqrt(12.0); }
+
+  [[nodiscard]] std::size_t fibre(const Place& at, std::size_t j) const { return at.section * rule_.points.size() + j; }
+
+  /// Index of the moment at a node among the forces.
+  [[nodiscard]] Eigen::Index moment(std::size_t node) const {
+    return static_cast<Eigen::Index>(elements_.size() + node);
+  }
+
+  [[nodiscard]] Eigen::VectorXd no_strains() const { return Eigen::VectorXd::Zero(moment(elements_.size()) + 1); }
+
+  /// What is conjugate to the forces: the stretches and the turns of the step over lengths. The turn at a node of two
+  /// elements is that between them.
+  [[nodiscard]] Eigen::VectorXd strains_of_unit() const {
+    Eigen::VectorXd strains = no_strains();
+    for (std::size_t e = 0; e < elements_.size(); ++e) {
+      strains[static_cast<Eigen::Index>(e)] = elements_[e].stretch / elements_[e].mean_length;
+    }
+    const std::size_t last = elements_.size() - 1;
+    strains[moment(0)] = gyration(0) * elements_.front().turn_start / elements_.front().mean_length;
+    strains[moment(last + 1)] = -gyration(last) * elements_.back().turn_end / elements_.back().mean_length;
+    for (std::size_t node = 1; node <= last; ++node) {
+      const DeformedElement& before = elements_[node - 1];
+      const DeformedElement& after = elements_[node];
+      const double mean_inverse = 0.5 * (1.0 / before.mean_length + 1.0 / after.mean_length);
+      strains[moment(node)] = gyration(node) * mean_inverse * (after.turn_start - before.turn_end);
+    }
+    return strains;
+  }
+
+  /// Forces of a section from those of the unit.
+  [[nodiscard]] Eigen::MatrixXd shape(const Place& at) const {
+    const double s = rule_.sections[at.section].position;
+    Eigen::MatrixXd shape = Eigen::MatrixXd::Zero(2, no_strains().size());  // b_i
+    shape(0, static_cast<Eigen::Index>(at.element)) = 1.0;
+    shape(1, moment(at.element)) = 1.0 - s;
+    shape(1, moment(at.element + 1)) = s;
+    return shape;
+  }
+
+  [[nodiscard]] std::vector<OfSection> borne() const {
+    std::vector<OfSection> all;
+    for (const ElementHistory* history : histories_) {
+      all.insert(all.end(), history->borne.begin(), history->borne.end());
+    }
+    return all;
+  }
+
+  /// Flexibility of a section in which some fibres are soft. The others make up the rest of an elastic section, whose
+  /// stiffness is E_l times the unit matrix.
+  template <class IsSoft>
+  [[nodiscard]] Eigen::Matrix2d flexibility(const Place& at, const IsSoft& is_soft) const {
+    const Material& material = elements_[at.element].material;
+    const double hardening = material.hardening_modulus / (material.modulus + material.hardening_modulus);  // E_T / E
+    const double tangent = std::max(0.01, hardening);
+    Eigen::Matrix2d stiffness = Eigen::Matrix2d::Identity();
+    for (std::size_t j = 0; j < rule_.points.size(); ++j) {
+      if (is_soft(fibre(at, j))) {
+        const Eigen::Vector2d of_strains(1.0, arm(j));
+        stiffness -= rule_.points[j].weight * (1.0 - tangent) * of_strains * of_strains.transpose();
+      }
+    }
+    return (material.modulus * stiffness).inverse();
+  }
+
+  [[nodiscard]] Flexibilities elastic_sections() const {
+    Flexibilities all;
+    for (const Place& at : places()) {
+      all.push_back(flexibility(at, [](std::size_t) { return false; }));
+    }
+    return all;
+  }
+
+  /// Of sections whose fibres that yielded in the newest step are soft.
+  [[nodiscard]] Flexibilities yielding_sections() const {
+    Flexibilities all;
+    for (const Place& at : places()) {
+      all.push_back(flexibility(at, [&](std::size_t f) -> bool { return histories_[at.element]->yields[f]; }));
+    }
+    return all;
+  }
+
+  /// The same, but for those fibres which the sections' strains under the forces of an elastic unit would unload.
+  [[nodiscard]] Flexibilities sections_ahead(const Eigen::VectorXd& elastic_forces) const {
+    Flexibilities all;
+    for (const Place& at : places()) {
+      const ElementHistory& history = *histories_[at.element];
+      const OfSection strains =
+          (shape(at) * elastic_forces - history.borne[at.section]) / elements_[at.element].material.modulus;
+      all.push_back(flexibility(at, [&](std::size_t f) {
+        const Fibre& fibre = history.fibres[f];
+        const double strain = strains[0] + arm(f % rule_.points.size()) * strains[1];
+        return history.yields[f] && (fibre.stress - fibre.back_stress) * strain > 0.0;
+      }));
+    }
+    return all;
+  }
+
+  /// Forces with which the sections take up the strains of the unit, and what they bear out of balance:
+  /// sum W b^T f b Q = q + sum W b^T f S (E5b).
+  [[nodiscard]] Eigen::VectorXd balance(const Eigen::VectorXd& strains, const Flexibilities& sections,
+                                        const std::vector<OfSection>& borne) const {
+    Eigen::MatrixXd flexibility = Eigen::MatrixXd::Zero(strains.size(), strains.size());
+    Eigen::VectorXd right = strains;
+    const std::vector<Place> all = places();
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const double weight = rule_.sections[all[k].section].weight;
+      const Eigen::MatrixXd b = shape(all[k]);
+      flexibility += weight * b.transpose() * sections[k] * b;
+      right += weight * b.transpose() * sections[k] * borne[k];
+    }
+    return flexibility.fullPivLu().solve(right);
+  }
+
+  [[nodiscard]] bool any_yields() const {
+    return std::ranges::any_of(histories_, [](const ElementHistory* history) {
+      return std::ranges::find(history->yields, true) != history->yields.end();
+    });
+  }
+
+  [[nodiscard]] bool is_settled() const {
+    return !any_yields() &&
+           std::ranges::none_of(histories_, [](const ElementHistory* history) { return history->yielded_before; });
+  }
+
+  /// Strains of all sections in the step.
+  [[nodiscard]] std::vector<OfSection> strains_of_sections() const {
+    const Eigen::VectorXd strains = strains_of_unit();
+    Flexibilities sections = elastic_sections();
+    if (is_settled()) {
+      const std::vector<OfSection> nothing(sections.size(), OfSection::Zero());  // what they bear is in balance
+      return strains_under(balance(strains, sections, nothing), sections, nothing);
+    }
+    Eigen::VectorXd forces = balance(strains, sections, borne());
+    if (any_yields()) {
+      sections = sections_ahead(forces);
+      forces = balance(strains, sections, borne());
+    }
+    return strains_under(forces, sections, borne());
+  }
+
+  /// Strains with which the sections go from what they bear to what the forces of the unit put on them.
+  [[nodiscard]] std::vector<OfSection> strains_under(const Eigen::VectorXd& forces, const Flexibilities& sections,
+                                                     const std::vector<OfSection>& borne) const {
+    std::vector<OfSection> strains;
+    const std::vector<Place> all = places();
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      strains.push_back(sections[k] * (shape(all[k]) * forces - borne[k]));
+    }
+    return strains;
+  }
+
+  /// All fibres under the strains of their sections.
+  void move_fibres(const std::vector<OfSection>& strains) {
+    const std::vector<Place> all = places();
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const Place& at = all[k];
+      ElementHistory& history = *histories_[at.element];
+      OfSection& borne = history.borne[at.section];
+      borne.setZero();
       for (std::size_t j = 0; j < rule_.points.size(); ++j) {
-        const auto [offset, point_weight] = rule_.points[j];
-        Fibre& fibre = sum.fibres[i * rule_.points.size() + j];
-        const double strain = membrane_ + offset * thickness_ * curvatures[i];  // E5
-        const double plastic_strain = return_fibre(material_, strain, fibre);
-        const double weight = section_weight * point_weight;
-        moment += point_weight * offset * fibre.stress;                        // Eq. 28
-        sum.axial += weight * fibre.stress;                                    // Eq. 28, E7
-        sum.moment_start += weight * (4.0 - 6.0 * s) * offset * fibre.stress;  // Eq. 28, E7
-        sum.moment_end += weight * (2.0 - 6.0 * s) * offset * fibre.stress;    // Eq. 28, E7
-        sum.plastic_work += weight * fibre.stress * plastic_strain;            // E10
-      }
-      sum.moments.push_back(moment);
-    }
-    return sum;
-  }
-
-  /// The moment M(s) between two end moments (E5b).
-  static double line(double s, double start, double end) { return (1.0 - s) * start - s * end; }
-
-  /// Curvature over moment / (A h) of an elastic section: 1 / (E I) = 12 / (E A h^2).
-  [[nodiscard]] double elastic_flexibility() const { return 12.0 / (material_.modulus * thickness_); }
-
-  [[nodiscard]] bool is_rounding(double moment) const {
-    return std::abs(moment) <= rule_.no_moment * material_.yield_stress;
-  }
-
-  /// Curvatures with which the moments M_i + dM_i lie on a line and the ends turn by the given angles over l_m (E5b). A
-  /// yielded section that unloads becomes elastic, and the curvatures are found again.
-  std::vector<double> balanced_curvatures(double moment_start, double moment_end, double bend_start, double bend_end) {
-    std::vector<double> curvatures(rule_.sections.size());
-    for (bool unloads = true; unloads;) {
-      Eigen::Matrix2d flexibility = Eigen::Matrix2d::Zero();
-      Eigen::Vector2d bends(bend_start, bend_end);
-      for (std::size_t i = 0; i < rule_.sections.size(); ++i) {
-        const auto [s, weight] = rule_.sections[i];
-        const Eigen::Vector2d shape(1.0 - s, -s);                          // N_i
-        const double f = elastic_flexibility() * history_.flexibility[i];  // f_i = 1 / (E I t_i)
-        flexibility += weight * f * shape * shape.transpose();             // sum W_i f_i N_i N_i^T
-        bends -= weight * f * history_.shortfall[i] * shape;               // turned by u_i
-      }
-      const Eigen::Vector2d increment = flexibility.inverse() * bends;  // dm_1, dm_2
-      unloads = false;
-      for (std::size_t i = 0; i < rule_.sections.size(); ++i) {
-        const double s = rule_.sections[i].position;
-        const double f = elastic_flexibility() * history_.flexibility[i];
-        curvatures[i] = f * (line(s, increment[0], increment[1]) + history_.shortfall[i]);
-        const double moment = line(s, moment_start, moment_end) - history_.shortfall[i];
-        if (history_.flexibility[i] > 1.0 && !is_rounding(moment) && curvatures[i] * moment < 0.0) {
-          history_.flexibility[i] = 1.0;
-          unloads = true;
-        }
+        Fibre& moved = history.fibres[fibre(at, j)];
+        const double plastic_strain =
+            return_fibre(elements_[at.element].material, strains[k][0] + arm(j) * strains[k][1], moved);
+        history.yields[fibre(at, j)] = plastic_strain != 0.0;
+        const double weight = rule_.points[j].weight;
+        borne += weight * moved.stress * OfSection(1.0, arm(j));
+        plastic_work_[at.element] += rule_.sections[at.section].weight * weight * moved.stress * plastic_strain;  // E10
       }
     }
-    return curvatures;
   }
 
-  /// Flexibility of a section, 1 / t_i, from what its moment gained in the step: 1 to 100.
-  [[nodiscard]] double shown_flexibility(double elastic, double gained) const {
-    const double shown = elastic / gained;
-    if (!(shown > 0.0 && shown < 100.0)) {
-      return 100.0;
-    }
-    return shown < 1.0 + rule_.no_softening ? 1.0 : shown;
+  /// A of the section at a node: the mean of both elements that meet there.
+  [[nodiscard]] double area_at(std::size_t node) const {
+    const DeformedElement& before = elements_[node == 0 ? node : node - 1];
+    const DeformedElement& after = elements_[node == elements_.size() ? node - 1 : node];
+    return 0.5 * (before.area + after.area);
   }
 
-  /// Brings the sections' histories to a response. Returns whether all are in balance to 2 % of M_p = sigma_y A h / 4.
-  bool remember_sections(const std::vector<double>& moments_before, const std::vector<double>& curvatures,
-                         const Response& response) {
-    double worst = 0.0;
-    for (std::size_t i = 0; i < rule_.sections.size(); ++i) {
-      const double elastic = curvatures[i] / elastic_flexibility();
-      if (!is_rounding(elastic)) {
-        history_.flexibility[i] = shown_flexibility(elastic, response.moments[i] - moments_before[i]);
-      }
-      const double line_moment = line(rule_.sections[i].position, response.moment_start, response.moment_end);
-      const double shortfall = line_moment - response.moments[i];  // u_i
-      history_.shortfall[i] = is_rounding(shortfall) ? 0.0 : shortfall;
-      worst = std::max(worst, std::abs(shortfall));
+  [[nodiscard]] std::vector<ElementForces> nodal_forces_of(const Eigen::VectorXd& forces) const {
+    std::vector<ElementForces> all;
+    for (std::size_t e = 0; e < elements_.size(); ++e) {
+      const DeformedElement& element = elements_[e];
+      const double axial = element.area * forces[static_cast<Eigen::Index>(e)];  // N = A n
+      const double moment_start = area_at(e) * gyration(e) * forces[moment(e)];  // M = A gamma m
+      const double moment_end = -area_at(e + 1) * gyration(e) * forces[moment(e + 1)];
+      all.push_back(
+          nodal_forces(element, axial, moment_start, moment_end, element.area * element.length * plastic_work_[e]));
     }
-    return worst <= 0.02 * material_.yield_stress / 4.0;
-  }
-
-  /// The force-based element (E5b): at most four passes.
-  Response respond_in_balance() {
-    bool at_rest = true;
-    for (std::size_t i = 0; i < rule_.sections.size(); ++i) {
-      at_rest = at_rest && history_.flexibility[i] == 1.0 && history_.shortfall[i] == 0.0;
-    }
-    std::vector<double> curvatures =
-        at_rest ? linear_curvatures()
-                : balanced_curvatures(history_.moment_start, history_.moment_end, bend_start_, bend_end_);
-    Response response = respond(curvatures);
-    if (at_rest && response.plastic_work == 0.0) {
-      return response;  // the linear curvatures of an elastic element have linear moments
-    }
-    std::vector<double> moments_before;
-    for (std::size_t i = 0; i < rule_.sections.size(); ++i) {
-      const double on_line = line(rule_.sections[i].position, history_.moment_start, history_.moment_end);
-      moments_before.push_back(on_line - history_.shortfall[i]);
-    }
-    for (int pass = 1; !remember_sections(moments_before, curvatures, response) && pass < 4; ++pass) {
-      const auto moved = balanced_curvatures(response.moment_start, response.moment_end, 0.0, 0.0);
-      for (std::size_t i = 0; i < moved.size(); ++i) {
-        curvatures[i] += moved[i];
-      }
-      response = respond(curvatures);
-    }
-    return response;
+    return all;
   }
 
   const ElementRule& rule_;
-  ElementHistory& history_;
-  Material material_;  // with the modulus of the squashed element
-  double thickness_;
-  Vector axis_;
-  double length_;
-  double membrane_;
-  double bend_start_;  // theta_1 / l_m
-  double bend_end_;    // theta_2 / l_m
-  double area_;
+  const std::vector<DeformedElement>& elements_;
+  std::vector<ElementHistory*> histories_;
+  std::vector<double> plastic_work_;  // of each element, over its volume
 };
 
 }  // namespace
@@ -216,14 +342,40 @@ ElementHistory undeformed(const ElementRule& rule, const Vector& start, const Ve
   history.length = span.norm();
   history.axis = span / span.norm();
   history.fibres.resize(rule.sections.size() * rule.points.size());
-  history.flexibility.assign(rule.sections.size(), 1.0);
-  history.shortfall.assign(rule.sections.size(), 0.0);
+  history.borne.assign(rule.sections.size(), Eigen::Vector2d::Zero());
+  history.yields.assign(history.fibres.size(), false);
   return history;
 }
 
-ElementForces advance_element(const ElementRule& rule, const ElementData& data, const ElementEnds& ends,
-                              ElementHistory& history) {
-  return Step(rule, data, ends, history).advance();
+std::vector<std::vector<int>> units_of(const ElementRule& rule, const std::vector<int>& wall) {
+  std::vector<std::vector<int>> units;
+  const bool by_twos = rule.force_based && wall.size() % 2 == 0;
+  for (std::size_t k = 0; k < wall.size(); ++k) {
+    if (by_twos && k % 2 == 1) {
+      units.back().push_back(wall[k]);
+    } else {
+      units.push_back({wall[k]});
+    }
+  }
+  return units;
+}
+
+std::vector<ElementForces> advance_unit(const ElementRule& rule, const std::vector<MovedElement>& unit) {
+  std::vector<DeformedElement> elements;
+  for (MovedElement moved : unit) {
+    if (unit.size() == 2) {
+      (elements.empty() ? moved.ends.turn_end : moved.ends.turn_start) = 0.0;  // of the common node
+    }
+    elements.emplace_back(rule, moved);
+  }
+  const std::vector<ElementForces> forces =
+      rule.force_based ? ForceBasedStep(rule, elements, unit).advance()
+                       : std::vector{respond_to_curvature(rule, elements.front(), *unit.front().history)};
+  for (std::size_t e = 0; e < unit.size(); ++e) {
+    unit[e].history->axis = elements[e].axis;
+    unit[e].history->length = elements[e].length;
+  }
+  return forces;
 }
 
 double elastic_energy(const ElementRule& rule, const ElementData& data, const ElementHistory& history) {

@@ -17,8 +17,6 @@ struct RulePoint {
 struct ElementRule {
   bool force_based = false;
   bool constant_area = false;
-  double no_moment = 6e-10;    ///< moments over A h that count as rounding, of sigma_y
-  double no_softening = 1e-6;  ///< flexibility of a section beyond 1 that counts as rounding
   std::vector<RulePoint> sections;
   std::vector<RulePoint> points;  ///< of each section
 };
@@ -33,13 +31,14 @@ struct ElementData {
 
 /// History of an element.
 struct ElementHistory {
-  Vector axis;                      ///< e_a
-  double length = 0.0;              ///< l_a
-  std::vector<Fibre> fibres;        ///< section by section
-  std::vector<double> flexibility;  ///< of each section, 1 / t_i
-  std::vector<double> shortfall;    ///< of each section, u_i over A h, MPa
-  double moment_start = 0.0;        ///< m_1 over A h, MPa
-  double moment_end = 0.0;          ///< m_2 over A h, MPa
+  Vector axis;                ///< e_a
+  double length = 0.0;        ///< l_a
+  std::vector<Fibre> fibres;  ///< section by section
+
+  // Of a force-based element.
+  std::vector<Eigen::Vector2d> borne;  ///< of each section: n = N / A and m = M / (A gamma), MPa
+  std::vector<bool> yields;            ///< of each fibre: whether it yielded in the newest step
+  bool yielded_before = false;         ///< whether any fibre of the unit did in the step before that
 };
 ElementHistory undeformed(const ElementRule& rule, const Vector& start, const Vector& end);
 
@@ -51,6 +50,13 @@ struct ElementEnds {
   double turn_end = 0.0;
 };
 
+/// An element that is to make a step.
+struct MovedElement {
+  ElementData data;
+  ElementEnds ends;
+  ElementHistory* history = nullptr;
+};
+
 /// Forces of the element's resistance (Eq. 28-32), N and N mm. The force on the start is the reverse.
 struct ElementForces {
   Vector on_end;
@@ -59,9 +65,12 @@ struct ElementForces {
   double plastic_work = 0.0;  ///< of the step, N mm
 };
 
-/// A step of an element: Eq. 7-15 and 22-32.
-ElementForces advance_element(const ElementRule& rule, const ElementData& data, const ElementEnds& ends,
-                              ElementHistory& history);
+/// The elements of a wall that are solved together, from the wall's start to its end (E5b): the force-based elements of
+/// a wall with an even number of them two by two, all others one by one. The common node of two has no rotation.
+std::vector<std::vector<int>> units_of(const ElementRule& rule, const std::vector<int>& wall);
+
+/// A step of the elements of a unit: Eq. 7-15 and 22-32. The turn of the common node of two is not used.
+std::vector<ElementForces> advance_unit(const ElementRule& rule, const std::vector<MovedElement>& unit);
 
 /// Energy stored by the stresses, N mm (E10).
 double elastic_energy(const ElementRule& rule, const ElementData& data, const ElementHistory& history);

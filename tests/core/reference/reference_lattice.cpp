@@ -4,15 +4,35 @@
 
 namespace cellcrush::reference {
 
+namespace {
+
+/// Of each particle, whether it has no rotation: the common nodes of two elements that are solved together (E5b).
+std::vector<bool> have_no_rotation(const Lattice& lattice) {
+  std::vector<bool> have_none(lattice.position.size(), false);
+  for (const std::vector<int>& wall : lattice.walls) {
+    for (const std::vector<int>& unit : units_of(lattice.rule, wall)) {
+      if (unit.size() == 2) {
+        have_none[lattice.segments[unit.front()].end] = true;
+      }
+    }
+  }
+  return have_none;
+}
+
+}  // namespace
+
 Particles lump(const Lattice& lattice) {
   const std::size_t count = lattice.position.size();
   Particles particles = {std::vector<double>(count), std::vector<double>(count), std::vector<double>(count)};
+  const std::vector<bool> have_none = have_no_rotation(lattice);
   for (const Segment& segment : lattice.segments) {
     const double length = (lattice.position[segment.end] - lattice.position[segment.start]).norm();
     const double mass = segment.material.density * lattice.depth * segment.thickness * length / 2.0;  // Eq. 2, E1
     for (const int particle : {segment.start, segment.end}) {
+      const int other = particle == segment.start ? segment.end : segment.start;
+      const int turning = have_none[particle] ? other : particle;
       particles.mass[particle] += mass;
-      particles.inertia[particle] += mass * segment.thickness * segment.thickness / 12.0;          // Eq. 3, E1
+      particles.inertia[turning] += mass * segment.thickness * segment.thickness / 12.0;           // Eq. 3, E1
       particles.radius[particle] = std::max(particles.radius[particle], segment.thickness / 2.0);  // R of E8
     }
   }

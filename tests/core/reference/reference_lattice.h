@@ -44,6 +44,8 @@ struct Lattice {
   std::vector<Vector> position;
   std::vector<Segment> segments;  ///< those of rigid bodies last
   int element_count = 0;          ///< segments that are elements
+  /// The elements of each wall between two joints, one after another: each ends where the next one starts.
+  std::vector<std::vector<int>> walls;
   std::vector<BodyData> bodies;
   ElementRule rule;
   double depth = 0.0;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cellcrush/state.h"
+#include "scene/time_step.h"
 #include "scenes/frames.h"
 
 namespace cellcrush {
@@ -59,7 +60,8 @@ TEST(ContactLaw, StiffnessFollowsTheMeshUntilTheSpeedAsksForMore) {
   };
   const auto slow = law_at(1.0, 0.0);
   const double mass = *std::min_element(slow->mass.begin(), slow->mass.end());
-  const double of_mesh = 0.12 * mass / (slow->stable_step * slow->stable_step);
+  const double of_elements = steps_of(*slow).of_elements;
+  const double of_mesh = 0.12 * mass / (of_elements * of_elements);
   EXPECT_NEAR(slow->contact.stiffness, of_mesh, 1e-9 * of_mesh);
   EXPECT_EQ(law_at(50.0, 0.0)->contact.stiffness, slow->contact.stiffness);
   const double rate = 400e3 / (0.16 * 0.3464);  // V sqrt(m / k) = 0.16 h

@@ -22,7 +22,7 @@ TEST(TypeI, HasExactlyTheParticlesElementsAndMassOfThePaper) {
   EXPECT_NEAR(facts.mass * 1e6, 72.15, 0.01);
   EXPECT_NEAR(facts.length, 512.7, 0.05);
   EXPECT_NEAR(facts.width, 128.0, 1e-9);
-  EXPECT_NEAR(scene->stable_step, 2.27e-7, 0.01e-7);
+  EXPECT_NEAR(scene->stable_step, 3.91e-7, 0.01e-7);
   SceneSpec fixed = find_preset("type-i")->spec;
   fixed.numerics.time_step_s = 2e-7;
   EXPECT_NEAR(static_cast<double>(facts_of(*scenes::build(fixed)).step_count), 20500.0, 20.0);

@@ -61,7 +61,7 @@ TEST(WhatIsModelled, NamesTheBoundOfTheStep) {
     return std::string();
   };
   EXPECT_THAT(step_of("type-i", 10.0), HasSubstr("lightest, stiffest element"));
-  EXPECT_THAT(step_of("type-i", 400.0), HasSubstr("plate moves by one twentieth"));
+  EXPECT_THAT(step_of("type-i", 400.0), HasSubstr("plate moves by 0.08"));
   EXPECT_THAT(step_of("type-iii-as-counted", 10.0), HasSubstr("stacked along the crush"));
 }
 

@@ -16,10 +16,10 @@ class Section {
  public:
   Section(const Material& material, int depth_points) : element_(material, make_section_rule(lobatto(depth_points))) {}
 
-  double stretch(double strain_increment) { return element_.strain(strain_increment, 0.0, 0.0).plastic_work; }
+  double stretch(double strain_increment) { return element_.strain({{strain_increment, 0.0, 0.0}}).plastic_work; }
 
   /// Curvature times thickness grows by `increment`. Returns the moment over b h^2, MPa.
-  double bend(double increment) { return element_.strain(0.0, 0.5 * increment, -0.5 * increment).moment_start; }
+  double bend(double increment) { return element_.strain({{0.0, 0.5 * increment, -0.5 * increment}}).moment_start; }
 
   [[nodiscard]] double stress() const { return element_.stress().front(); }
   [[nodiscard]] double plastic_strain() const { return element_.plastic_strain().front(); }
@@ -33,7 +33,7 @@ class Section {
     return spec;
   }
 
-  scenes::OneElement element_;
+  scenes::Unit element_;
 };
 
 Material bilinear(double isotropic_fraction) {

@@ -1,0 +1,176 @@
+// Round-off stays round-off: no threshold of the elements makes it visible before buckling and contact do.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "cellcrush/presets.h"
+#include "cellcrush/state.h"
+#include "scenes/evidence.h"
+#include "scenes/frames.h"
+#include "scenes/kernels.h"
+#include "section/section_rule.h"
+
+namespace cellcrush {
+namespace {
+
+SceneSpec in_double(SceneSpec spec) {
+  spec.numerics.fibre_precision = NumericsSpec::FibrePrecision::double_precision;
+  return spec;
+}
+
+Vector2 turned(const Vector2& vector, double angle) {
+  return {std::cos(angle) * vector.x() - std::sin(angle) * vector.y(),
+          std::sin(angle) * vector.x() + std::cos(angle) * vector.y()};
+}
+
+/// A block of hexagons turned by an angle: its joints at one end move toward those at the other, which are held.
+std::shared_ptr<Scene> turned_block(double angle, double speed, double strain) {
+  SceneSpec spec = in_double(scenes::hexagon_specimen(6, 4));
+  spec.imperfection = {0.02, 1};
+  const auto scene = scenes::build(spec);
+  const double end_time = strain * scene->length / speed;
+  scene->plates.present = false;
+  scene->schedule.step_count = static_cast<std::int64_t>(end_time / scene->schedule.time_step);
+  scene->supports.assign(scene->particle_count(), {});
+  const Vector2 travel = turned({strain * scene->length, 0.0}, angle);
+  scene->motions = {{{{0.0, 0.0}, {end_time, travel.x()}}}, {{{0.0, 0.0}, {end_time, travel.y()}}}};
+  for (int joint = 0; joint < scene->joint_count; ++joint) {
+    const double x = scene->position[joint].x();
+    if (x < 1.0) {
+      scene->supports[joint] = {{true, 0}, {true, 1}, {true, -1}};
+    } else if (x > scene->length - 1.0) {
+      scene->supports[joint] = {{true, -1}, {true, -1}, {true, -1}};
+    }
+  }
+  for (Vector2& position : scene->position) {
+    position = turned(position, angle);
+  }
+  return scene;
+}
+
+/// Greatest distance between the particles of a run and those of a turned one, turned back.
+double parted(const Simulation& straight, const Simulation& other, double angle) {
+  double most = 0.0;
+  for (std::size_t i = 0; i < straight.state().position.size(); ++i) {
+    most = std::max(most, (straight.state().position[i] - turned(other.state().position[i], -angle)).norm());
+  }
+  return most;
+}
+
+TEST(RoundOff, ATurnedBlockIsCrushedLikeAnUpright) {
+  constexpr double kAngle = 37.0 * std::numbers::pi / 180.0;
+  double most = 0.0;
+  for (const double speed : {20e3, 100e3}) {
+    Simulation upright(turned_block(0.0, speed, 0.6));
+    Simulation turned(turned_block(kAngle, speed, 0.6));
+    const std::int64_t steps = upright.scene().schedule.step_count;
+    upright.advance(steps);
+    turned.advance(steps);
+    ASSERT_EQ(upright.step(), steps);
+    EXPECT_GT(upright.state().contact_totals.count, 10) << "walls must touch";
+    EXPECT_GT(upright.state().ledger.plastic, 1.0);
+    const double distance = parted(upright, turned, kAngle);
+    EXPECT_LT(distance, 1e-9) << speed;
+    most = std::max(most, distance);
+  }
+  scenes::record_bound("distance in mm", most);
+}
+
+/// The particle whose place before loading is that of each one, mirrored across the crush.
+std::vector<std::size_t> mirror_images(const Scene& scene) {
+  const double axis = 0.5 * (std::ranges::max(scene.position, {}, [](const Vector2& p) { return p.y(); }).y() +
+                             std::ranges::min(scene.position, {}, [](const Vector2& p) { return p.y(); }).y());
+  std::vector<std::size_t> images;
+  for (const Vector2& place : scene.position) {
+    const Vector2 image(place.x(), 2.0 * axis - place.y());
+    const auto found = std::ranges::min_element(
+        scene.position, {}, [&](const Vector2& other) { return (other - image).squaredNorm(); });
+    images.push_back(static_cast<std::size_t>(found - scene.position.begin()));
+  }
+  return images;
+}
+
+/// How far the particles of a state are from mirror symmetry, mm.
+double asymmetry(const Scene& scene, const State& state, const std::vector<std::size_t>& images) {
+  double most = 0.0;
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    const Vector2 moved = state.position[i] - scene.position[i];
+    const Vector2 image = state.position[images[i]] - scene.position[images[i]];
+    most = std::max({most, std::abs(moved.x() - image.x()), std::abs(moved.y() + image.y())});
+  }
+  return most;
+}
+
+// With steps above 2e-7 s a ball on the axis comes to touch both halves of a wall across it equally deep at strain
+// 0.025, and the touch that counts is one of them.
+TEST(RoundOff, APerfectHoneycombStaysSymmetricUntilItBuckles) {
+  SceneSpec spec = in_double(find_preset("type-i")->spec);
+  spec.imperfection = {};
+  spec.numerics.time_step_s = 1.73e-7;
+  const auto scene = scenes::build(spec);
+  const std::vector<std::size_t> images = mirror_images(*scene);
+  Simulation simulation(scene);
+  for (const auto& [strain, bound] : {std::pair(0.025, 1e-8), {0.045, 1e-7}}) {
+    while (simulation.strain() < strain) {
+      simulation.advance(10);
+    }
+    const double distance = asymmetry(*scene, simulation.state(), images);
+    EXPECT_LT(distance, bound) << "at strain " << strain;
+    scenes::record_bound("distance in mm at " + std::to_string(strain).substr(0, 5), distance);
+  }
+}
+
+/// Reversing strains of a pair of elements, as at the front of a crush: `violence` is their size over the yield strain.
+std::vector<std::vector<scenes::StepStrains>> violent_strains(double violence, int steps) {
+  constexpr double kYieldStrain = 76.0 / 69000.0;
+  std::mt19937_64 generator(1);
+  const auto draw = [&] { return 2.0 * static_cast<double>(generator() >> 11) * 0x1p-53 - 1.0; };
+  std::vector<scenes::StepStrains> rates(2);
+  std::vector<std::vector<scenes::StepStrains>> strains;
+  for (int n = 0; n < steps; ++n) {
+    if (n % 25 == 0) {
+      for (scenes::StepStrains& rate : rates) {
+        const double size = violence * kYieldStrain;
+        rate = {0.2 * size * draw(), size * draw(), size * draw()};
+      }
+    }
+    strains.push_back(rates);
+  }
+  return strains;
+}
+
+TEST(RoundOff, ADisturbanceOfTheStrainsIsNotAmplifiedByThePairs) {
+  const Material material = {69000.0, 76.0, 0.0, 1.0, 2.7e-9};
+  std::mt19937_64 generator(2);
+  const auto disturbed = [&](double value) {
+    return value * (1.0 + 1e-9 * (2.0 * static_cast<double>(generator() >> 11) * 0x1p-53 - 1.0));
+  };
+  double most = 0.0;
+  for (const double violence : {0.01, 0.1, 0.3}) {
+    scenes::Unit unit(material, make_section_rule({}), 2);
+    scenes::Unit other(material, make_section_rule({}), 2);
+    for (const std::vector<scenes::StepStrains>& strains : violent_strains(violence, 3500)) {
+      std::vector<scenes::StepStrains> near = strains;
+      for (scenes::StepStrains& of : near) {
+        of = {disturbed(of.membrane), disturbed(of.bend_start), disturbed(of.bend_end)};
+      }
+      unit.strain(strains);
+      other.strain(near);
+    }
+    for (int element = 0; element < 2; ++element) {
+      for (std::size_t fibre = 0; fibre < unit.stress(element).size(); ++fibre) {
+        most = std::max(most, std::abs(unit.stress(element)[fibre] - other.stress(element)[fibre]) / 76.0);
+      }
+    }
+  }
+  EXPECT_LT(most, 1e-8);
+  scenes::record_bound("distance of the fibres over the yield stress", most);
+}
+
+}  // namespace
+}  // namespace cellcrush
