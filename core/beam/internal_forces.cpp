@@ -40,14 +40,14 @@ class WallLoops {
   }
 
   /// Returns whether any elements are compressed, so that their modulus is reduced.
-  bool deform(std::size_t chunk, T* scratch) const {
+  HWY_NOINLINE bool deform(std::size_t chunk, T* scratch) const {
     bool is_compressed = false;
     with_chunk(chunk, scratch, [&](auto& walls) HWY_ATTR { is_compressed = walls.deform(); });
     return is_compressed;
   }
 
   /// Returns the plastic work.
-  double respond(std::size_t chunk, T* scratch, bool is_compressed) const {
+  HWY_NOINLINE double respond(std::size_t chunk, T* scratch, bool is_compressed) const {
     double work[kMostWallsInBlock] = {};
     with_chunk(chunk, scratch, [&](auto& walls) HWY_ATTR { walls.respond(is_compressed, work); });
     return sum_of(work);
@@ -56,9 +56,7 @@ class WallLoops {
   /// Deforms and responds while the chunk is in the nearest cache. Returns the plastic work.
   double advance(std::size_t chunk, LaneVector<T>& scratch) const {
     scratch.resize(std::max(scratch.size(), kScratchKinds * element_count(chunk)));
-    double work[kMostWallsInBlock] = {};
-    with_chunk(chunk, scratch.data(), [&](auto& walls) HWY_ATTR { walls.respond(walls.deform(), work); });
-    return sum_of(work);
+    return respond(chunk, scratch.data(), deform(chunk, scratch.data()));
   }
 
  private:
@@ -95,25 +93,33 @@ class WallLoops {
   const Rule rule_;
 };
 
-/// Calls use(loops) with the loops of the section rule of the scene.
-template <bool kHardening, class T, class Use>
-void with_loops(const Scene& scene, State& state, FibreHistory<T>& memory, const Use& use) {
-  const bool is_known = has_known_counts(scene.section);
-  if (scene.section.force_based) {
-    is_known ? use(WallLoops<true, kHardening, RuleFactors<4, 6, T>>(scene, state, memory))
-             : use(WallLoops<true, kHardening, RuleFactors<0, 0, T>>(scene, state, memory));
-  } else {
-    is_known ? use(WallLoops<false, kHardening, RuleFactors<2, 6, T>>(scene, state, memory))
-             : use(WallLoops<false, kHardening, RuleFactors<0, 0, T>>(scene, state, memory));
-  }
+template <bool kForceBased, bool kHardening, class T, class Use>
+void with_rule(const Scene& scene, State& state, FibreHistory<T>& memory, const Use& use) {
+  using Common = std::conditional_t<kForceBased, RuleFactors<4, 6, T>, RuleFactors<2, 6, T>>;
+  has_known_counts(scene.section) ? use(WallLoops<kForceBased, kHardening, Common>(scene, state, memory))
+                                  : use(WallLoops<kForceBased, kHardening, RuleFactors<0, 0, T>>(scene, state, memory));
 }
 
+template <bool kHardening, class Use>
+void with_precision(const Scene& scene, State& state, const Use& use) {
+  if (!scene.section.force_based) {
+    scene.single_fibres ? with_rule<false, kHardening>(scene, state, state.single_fibres, use)
+                        : with_rule<false, kHardening>(scene, state, state.fibres, use);
+    return;
+  }
+  if constexpr (!kHardening) {  // allows_single_fibres()
+    if (scene.single_fibres) {
+      with_rule<true, kHardening>(scene, state, state.single_fibres, use);
+      return;
+    }
+  }
+  with_rule<true, kHardening>(scene, state, state.fibres, use);
+}
+
+/// Calls use(loops) with the loops of the section rule, the material and the precision of the scene.
 template <class Use>
 void with_loops(const Scene& scene, State& state, const Use& use) {
-  const auto with_memory = [&](auto& memory) {
-    scene.has_hardening() ? with_loops<true>(scene, state, memory, use) : with_loops<false>(scene, state, memory, use);
-  };
-  scene.single_fibres ? with_memory(state.single_fibres) : with_memory(state.fibres);
+  scene.has_hardening() ? with_precision<true>(scene, state, use) : with_precision<false>(scene, state, use);
 }
 
 /// Sums the forces on the joints between the chunks of two threads.
