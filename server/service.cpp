@@ -85,7 +85,7 @@ struct Service::Parts {
         jobs({folder, journal, reader, deletion, hub, scheduler, admission, gate, calls, checks, mesh_places,
               streams()}),
         sweeps({journal, reader, sweep_reader, deletion, hub, scheduler, admission, gate, calls, checks, mesh_places,
-                threads_of_sweep_check(), streams()}),
+                threads_of_sweep_check(), step_cost, streams()}),
         admin({reader,
                hub,
                scheduler,

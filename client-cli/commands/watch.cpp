@@ -44,19 +44,27 @@ ExitCode watch_job(Session& session, const std::string& name, const Interruption
   return complete ? exit_code_of(job.state()) : say_interrupted(name, is_final(job.state()));
 }
 
-ExitCode watch_sweep(Session& session, const std::string& name, const Interruption& interruption) {
-  const Terminal terminal = find_terminal();
-  const auto display = make_sweep_display(session.json, terminal);
+WatchedSweep show_sweep_to_its_end(Session& session, const std::string& name, const Interruption& interruption) {
+  const auto display = make_sweep_display(session.json, find_terminal());
   const bool complete = follow_sweep(session.connection(), name, interruption, *display);
   const SweepView& view = display->view();
   const int jobs = static_cast<int>(view.jobs().size());
-  if (!complete) return say_interrupted(name, jobs > 0 && view.count_ended() == jobs);
-  display->finish();
+  if (complete) {
+    display->finish();
+  } else {
+    say_interrupted(name, jobs > 0 && view.count_ended() == jobs);
+  }
+  return {view.sweep(), complete, complete && view.count(v1::SUCCEEDED) == jobs};
+}
+
+ExitCode watch_sweep(Session& session, const std::string& name, const Interruption& interruption) {
+  const WatchedSweep watched = show_sweep_to_its_end(session, name, interruption);
+  if (!watched.complete) return ExitCode::interrupted;
   const auto table = fetch_table(session.connection(), name);
   session.json ? print_json(table)
-               : fmt::print("\n{}{}", sweep_table_text(table, view.sweep().case_().lattice()),
-                            sweep_chart_text(table, terminal.unicode, terminal_width()));
-  return view.count(v1::SUCCEEDED) == jobs ? ExitCode::done : ExitCode::job_failed;
+               : fmt::print("\n{}{}", sweep_table_text(table, watched.sweep.case_().lattice()),
+                            sweep_chart_text(table, find_terminal().unicode, terminal_width()));
+  return watched.all_succeeded ? ExitCode::done : ExitCode::job_failed;
 }
 
 void add_watch_command(CLI::App& app, Session& session) {

@@ -36,6 +36,7 @@ constexpr std::array kScopeEntries = {
     ScopeEntry{"/cellcrush.v1.Sweeps/CancelSweep", Scope::submit},
     ScopeEntry{"/cellcrush.v1.Sweeps/CreateSweep", Scope::submit},
     ScopeEntry{"/cellcrush.v1.Sweeps/DeleteSweep", Scope::submit},
+    ScopeEntry{"/cellcrush.v1.Sweeps/GetConvergence", Scope::read},
     ScopeEntry{"/cellcrush.v1.Sweeps/GetSweep", Scope::read},
     ScopeEntry{"/cellcrush.v1.Sweeps/GetSweepTable", Scope::read},
     ScopeEntry{"/cellcrush.v1.Sweeps/ListSweeps", Scope::read},

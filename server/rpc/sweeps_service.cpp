@@ -3,9 +3,11 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "error_table.h"
+#include "jobs/convergence.h"
 #include "jobs/sweep_plan.h"
 #include "jobs/sweep_points.h"
 #include "rpc/change_log.h"
@@ -29,6 +31,7 @@ v1::CreateSweepRequest without_output(v1::CreateSweepRequest request) {
   sweep.clear_state_counts();
   sweep.clear_owner();
   sweep.clear_notes();
+  sweep.clear_predicted_seconds();
   return request;
 }
 
@@ -46,6 +49,12 @@ std::vector<store::QueuedJob> queued_jobs(const store::Journal::CreatedSweep& cr
                    sweep.max_parallel(), sweep.owner()});
   }
   return out;
+}
+
+double predicted_seconds_of(const jobs::SweepPlan& plan, double step_cost) {
+  double element_steps = 0.0;
+  for (const auto& job : plan.jobs) element_steps += static_cast<double>(job.element_steps);
+  return step_cost * element_steps;
 }
 
 }  // namespace
@@ -84,6 +93,7 @@ grpc::ServerUnaryReactor* SweepsService::CreateSweep(grpc::CallbackServerContext
     if (!plan.problems.empty()) return status_of(plan.problems, "sweep");
     const auto answer_with = [&](v1::Sweep answer) {
       *answer.mutable_notes() = plan.notes;
+      answer.set_predicted_seconds(predicted_seconds_of(plan, parts_.step_cost));
       *response = std::move(answer);
       return grpc::Status::OK;
     };
@@ -211,6 +221,22 @@ grpc::ServerUnaryReactor* SweepsService::GetSweepTable(grpc::CallbackServerConte
     auto stored = parts_.sweeps.rows(found.number, page.after, page.room());
     for (auto& row : stored.rows) *response->add_rows() = std::move(row);
     if (stored.has_more) response->set_next_page_token(page_token(stored.last_point, question));
+    return grpc::Status::OK;
+  });
+}
+
+grpc::ServerUnaryReactor* SweepsService::GetConvergence(grpc::CallbackServerContext* context,
+                                                        const v1::GetConvergenceRequest* request,
+                                                        v1::Convergence* response) {
+  return parts_.calls.run(*context, *request, [=, this] {
+    const double wanted = request->wanted_error_relative();
+    if (!(wanted >= 0.0 && wanted <= 1.0)) {
+      throw InvalidField("wanted_error_relative", "is " + std::to_string(wanted) + ", not between 0 and 1.",
+                         "Use a fraction such as 0.05, or 0 for the default.");
+    }
+    const auto found = find(request->name());
+    *response = jobs::convergence_of(found.sweep, parts_.sweeps.rows(found.number).rows,
+                                     wanted > 0.0 ? wanted : jobs::kWantedError);
     return grpc::Status::OK;
   });
 }

@@ -33,7 +33,8 @@ class SweepsService final : public v1::Sweeps::CallbackService {
     CallPool& calls;
     CallPool& checks;  ///< for checks that build meshes and may take seconds
     jobs::MeshPlaces& places;
-    int check_threads = 1;  ///< for checking the points of one sweep
+    int check_threads = 1;   ///< for checking the points of one sweep
+    double step_cost = 0.0;  ///< seconds of one core per element and step
     StreamParts streams;
   };
 
@@ -55,6 +56,9 @@ class SweepsService final : public v1::Sweeps::CallbackService {
                                                                const v1::WatchSweepRequest* request) override;
   grpc::ServerUnaryReactor* GetSweepTable(grpc::CallbackServerContext* context, const v1::GetSweepTableRequest* request,
                                           v1::SweepTable* response) override;
+  grpc::ServerUnaryReactor* GetConvergence(grpc::CallbackServerContext* context,
+                                           const v1::GetConvergenceRequest* request,
+                                           v1::Convergence* response) override;
 
  private:
   struct Found {

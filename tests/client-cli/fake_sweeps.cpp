@@ -102,6 +102,13 @@ grpc::Status FakeSweeps::GetSweepTable(grpc::ServerContext*, const v1::GetSweepT
   return find(request->name());
 }
 
+grpc::Status FakeSweeps::GetConvergence(grpc::ServerContext*, const v1::GetConvergenceRequest* request,
+                                        v1::Convergence* response) {
+  *response = script_.convergence;
+  response->set_wanted_error_relative(request->wanted_error_relative());
+  return find(request->name());
+}
+
 SweepScript make_sweep_script(const std::vector<v1::JobState>& ends) {
   SweepScript script;
   script.sweep.set_name("sweeps/test");

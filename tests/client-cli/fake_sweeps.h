@@ -16,6 +16,7 @@ struct SweepScript {
   std::size_t responses_before_cut = 5;           ///< of one watch
   bool hold = false;                              ///< a watch stays open behind the last response
   v1::SweepTable table;
+  v1::Convergence convergence;
 };
 
 /// What the service was asked.
@@ -47,6 +48,8 @@ class FakeSweeps : public v1::Sweeps::Service {
                           grpc::ServerWriter<v1::WatchSweepResponse>* writer) override;
   grpc::Status GetSweepTable(grpc::ServerContext*, const v1::GetSweepTableRequest* request,
                              v1::SweepTable* response) override;
+  grpc::Status GetConvergence(grpc::ServerContext*, const v1::GetConvergenceRequest* request,
+                              v1::Convergence* response) override;
 
  private:
   [[nodiscard]] grpc::Status find(const std::string& name) const;

@@ -50,6 +50,7 @@ TEST(RequestFields, NoTextOfARequestNamesAFileOfTheDaemon) {
       "DeleteJobRequest.name", "DeleteSweepRequest.name", "WatchJobRequest.name", "GetHistoryRequest.name",
       "GetFrameRequest.name", "DownloadResultRequest.name", "GetSweepRequest.name", "CancelSweepRequest.name",
       "RetryFailedJobsRequest.name", "WatchSweepRequest.name", "GetSweepTableRequest.name", "GetPresetRequest.name",
+      "GetConvergenceRequest.name",
       // Of lists, of repeated calls and of resumed watches.
       "ListJobsRequest.page_token", "ListJobsRequest.filter", "ListJobsRequest.order_by",
       "ListSweepsRequest.page_token", "GetHistoryRequest.page_token", "GetSweepTableRequest.page_token",

@@ -1,0 +1,123 @@
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdio>
+
+#include "case_file/case_source.h"
+#include "commands/commands.h"
+#include "commands/resource_name.h"
+#include "commands/watch.h"
+#include "terminal/convergence_text.h"
+#include "terminal/json_text.h"
+#include "terminal/number_text.h"
+#include "terminal/sweep_text.h"
+#include "terminal/terminal.h"
+
+namespace cellcrush::client {
+
+namespace {
+
+constexpr const char* kAmplitude = "lattice.imperfection.amplitude_mm";
+constexpr std::chrono::minutes kCheckPatience{10};
+
+struct ConvergeOptions {
+  CaseOptions scene;
+  std::vector<int> meshes = {2, 4, 8};
+  int seeds = 5;
+  double wanted_error = 0.05;
+  bool only_cost = false;
+};
+
+v1::CreateSweepRequest build_request(const ConvergeOptions& options, Connection& connection) {
+  v1::CreateSweepRequest request;
+  v1::Sweep& sweep = *request.mutable_sweep();
+  *sweep.mutable_case_() = read_case(options.scene.source, options.scene.assignments, connection);
+  if (options.seeds > 1 && !(sweep.case_().lattice().imperfection().amplitude_mm() > 0.0)) {
+    throw CommandError(ExitCode::refused, fmt::format("{0} is 0, so that all seeds give the same crush: add --set "
+                                                      "{0}=0.01, or compare the meshes only with --seeds 1",
+                                                      kAmplitude));
+  }
+  v1::SweepAxis& meshes = *sweep.add_axes();
+  meshes.set_field("elements_per_wall");
+  for (const int elements : options.meshes) meshes.mutable_list()->add_values(elements);
+  if (options.seeds > 1) {
+    v1::SweepAxis& seeds = *sweep.add_axes();
+    seeds.set_field("lattice.imperfection.seed");
+    seeds.set_seed_count(options.seeds);
+  }
+  return request;
+}
+
+ExitCode show_estimates(Session& session, const std::string& name, double wanted_error) {
+  Connection& connection = session.connection();
+  v1::GetConvergenceRequest request;
+  request.set_name(name);
+  request.set_wanted_error_relative(wanted_error);
+  const auto convergence = connection.call(connection.sweeps(), &v1::Sweeps::Stub::GetConvergence, request);
+  session.json ? print_json(convergence) : fmt::print("{}", convergence_text(convergence, terminal_width()));
+  return ExitCode::done;
+}
+
+ExitCode run_converge(Session& session, const ConvergeOptions& options) {
+  if (names_sweep(options.scene.source)) return show_estimates(session, options.scene.source, options.wanted_error);
+  Connection& connection = session.connection();
+  v1::CreateSweepRequest request = build_request(options, connection);
+  const Interruption interruption;
+  const auto create = [&](bool validate_only) {
+    request.set_validate_only(validate_only);
+    return connection.call(connection.sweeps(), &v1::Sweeps::Stub::CreateSweep, request, kCheckPatience);
+  };
+  const v1::Sweep checked = create(true);
+  if (options.only_cost) {
+    session.json ? print_json(checked)
+                 : fmt::print("{} runs, {} of one core\n", options.meshes.size() * options.seeds,
+                              duration_text(checked.predicted_seconds()));
+    return ExitCode::done;
+  }
+  if (!session.json) {
+    fmt::print(stderr, "{}{} runs, {} of one core\n", notes_text(checked.notes()),
+               options.meshes.size() * options.seeds, duration_text(checked.predicted_seconds()));
+  }
+  const std::string name = create(false).name();
+  if (!session.json) {
+    fmt::print("{}\n", name);
+    std::fflush(stdout);
+  }
+  const WatchedSweep watched = show_sweep_to_its_end(session, name, interruption);
+  if (!watched.complete) return ExitCode::interrupted;
+  if (!session.json) fmt::print("\n");
+  const ExitCode shown = show_estimates(session, name, options.wanted_error);
+  return watched.all_succeeded ? shown : ExitCode::job_failed;
+}
+
+}  // namespace
+
+void add_converge_command(CLI::App& app, Session& session) {
+  const auto options = std::make_shared<ConvergeOptions>();
+  CLI::App* converge = add_command(app, session, "converge", "Find out the error that the mesh leaves in a case",
+                                   [&session, options] { return run_converge(session, *options); });
+  converge->group(kJobCommands);
+  add_case_options(*converge, options->scene);
+  converge->get_option("CASE")->description(
+      "A case file, - for stdin, or preset:NAME; or a sweep over meshes, of which the estimates are printed again");
+  converge->add_option("--meshes", options->meshes, "Elements per wall of the meshes to compare (default: 2,4,8)")
+      ->group(kCaseOptions)
+      ->delimiter(',')
+      ->check(CLI::Range(1, 64));
+  converge
+      ->add_option("--seeds", options->seeds,
+                   "Number of runs with each mesh, with seeds 1 to N of the imperfection (default: 5)")
+      ->group(kCaseOptions)
+      ->check(CLI::Range(1, 100));
+  converge
+      ->add_option("--error", options->wanted_error,
+                   "Relative error that the plateau stresses may have, above 0 and at most 1 (default: 0.05)")
+      ->group(kOutputOptions)
+      ->check(CLI::Range(1e-6, 1.0));
+  converge->add_flag("--cost", options->only_cost, "Print the predicted cost and queue nothing")->group(kOutputOptions);
+  add_examples(*converge, {"cellcrush converge preset:hexagon-small --set lattice.imperfection.amplitude_mm=0.01",
+                           "cellcrush converge my.txtpb --meshes 4,8,16 --seeds 8 --cost",
+                           "cellcrush converge sweeps/3 --error 0.02"});
+}
+
+}  // namespace cellcrush::client

@@ -1,0 +1,111 @@
+#include <google/protobuf/text_format.h>
+#include <google/protobuf/util/json_util.h>
+#include <gtest/gtest.h>
+
+#include "fake_server.h"
+#include "program.h"
+#include "terminal/convergence_text.h"
+
+namespace cellcrush::client::testing {
+namespace {
+
+v1::Convergence convergence() {
+  v1::Convergence found;
+  EXPECT_TRUE(google::protobuf::TextFormat::ParseFromString(
+      R"(quantities { field: "plateau_stress_support_mpa"
+           meshes { elements_per_wall: 2 job_count: 3 mean: 0.327 scatter_relative: 0.008
+                    error_relative: 0.122 uncertainty_relative: 0.012 }
+           meshes { elements_per_wall: 4 job_count: 1 mean: 0.372 error_relative: 0.122 } }
+         quantities { field: "absorbed_energy_mj" meshes { elements_per_wall: 2 job_count: 3 mean: 40700 } }
+         elements_per_wall: 4 wanted_error_relative: 0.1 job_count_left_out: 2)",
+      &found));
+  return found;
+}
+
+Script converge_script() {
+  Script script;
+  script.job = make_job(v1::SUCCEEDED);
+  script.preset.set_name("type-i");
+  *script.preset.mutable_case_() = make_job(v1::RUNNING).case_();
+  script.sweeps = make_sweep_script({v1::SUCCEEDED, v1::SUCCEEDED});
+  script.sweeps.sweep.set_predicted_seconds(12.0);
+  script.sweeps.convergence = convergence();
+  return script;
+}
+
+ProgramResult converge_on(const FakeServer& server, std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), "converge");
+  arguments.insert(arguments.end(), {"--server", server.address()});
+  return run_program(arguments);
+}
+
+const std::vector<std::string> kCase = {"preset:type-i", "--set", "lattice.imperfection.amplitude_mm=0.01"};
+
+TEST(Converge, TellsItsCostQueuesMeshesWithSeedsAndPrintsTheEstimates) {
+  const FakeServer server(converge_script());
+  auto arguments = kCase;
+  arguments.insert(arguments.end(), {"--meshes", "2,4", "--seeds", "3", "--error", "0.1"});
+  const ProgramResult result = converge_on(server, arguments);
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_NE(result.errors.find("6 runs, 12 s of one core"), std::string::npos) << result.errors;
+  EXPECT_EQ(result.output.find("sweeps/test\n"), 0U);
+  EXPECT_NE(result.output.find("4 elements per wall keep both plateau stresses within 10.0 %"), std::string::npos)
+      << result.output;
+  const auto creates = server.asked().sweeps.creates;
+  ASSERT_EQ(creates.size(), 2U);
+  EXPECT_TRUE(creates[0].validate_only());
+  EXPECT_FALSE(creates[1].validate_only());
+  const v1::Sweep& sweep = creates[1].sweep();
+  ASSERT_EQ(sweep.axes_size(), 2);
+  EXPECT_EQ(sweep.axes(0).field(), "elements_per_wall");
+  EXPECT_EQ(sweep.axes(0).list().values(1), 4.0);
+  EXPECT_EQ(sweep.axes(1).seed_count(), 3);
+}
+
+TEST(Converge, ForItsCostAloneNothingIsQueued) {
+  const FakeServer server(converge_script());
+  auto arguments = kCase;
+  arguments.emplace_back("--cost");
+  EXPECT_EQ(converge_on(server, arguments).output, "15 runs, 12 s of one core\n");
+  const auto creates = server.asked().sweeps.creates;
+  ASSERT_EQ(creates.size(), 1U);
+  EXPECT_TRUE(creates[0].validate_only());
+}
+
+TEST(Converge, WithoutAnImperfectionSeedsAreRefusedWithARemedy) {
+  Script script = converge_script();
+  script.preset.mutable_case_()->mutable_lattice()->clear_imperfection();
+  const FakeServer server(std::move(script));
+  const ProgramResult refused = converge_on(server, {"preset:type-i"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.errors.find("--set lattice.imperfection.amplitude_mm=0.01"), std::string::npos) << refused.errors;
+  EXPECT_EQ(converge_on(server, {"preset:type-i", "--seeds", "1"}).exit_code, 0);
+  EXPECT_EQ(server.asked().sweeps.creates.back().sweep().axes_size(), 1);
+}
+
+TEST(Converge, OfASweepPrintsItsEstimatesAgain) {
+  const FakeServer server(converge_script());
+  EXPECT_EQ(converge_on(server, {"sweeps/test", "--error", "0.1"}).output, convergence_text(convergence(), 80));
+  v1::Convergence found;
+  ASSERT_TRUE(
+      google::protobuf::util::JsonStringToMessage(converge_on(server, {"sweeps/test", "--json"}).output, &found).ok());
+  EXPECT_EQ(found.quantities_size(), 2);
+  EXPECT_EQ(converge_on(server, {"sweeps/none"}).exit_code, 5);
+  EXPECT_TRUE(server.asked().sweeps.creates.empty());
+}
+
+TEST(ConvergenceText, HasARowAMeshAndNoIntervalOfASingleRun) {
+  const std::string rows =
+      "  elements per wall  runs   mean  scatter           error\n"
+      "  plateau at the support plate, MPa\n"
+      "                  2     3  0.327    0.8 %  12.2 % ± 1.2 %\n"
+      "                  4     1  0.372               12.2 % ± ?\n"
+      "  absorbed energy, J\n"
+      "                  2     3   40.7                0.0 % ± ?\n\n";
+  EXPECT_EQ(convergence_text(convergence(), 100).substr(0, rows.size()), rows);
+  EXPECT_NE(convergence_text(convergence(), 100).find("2 runs have not succeeded"), std::string::npos);
+  EXPECT_EQ(convergence_text({}, 100), "No estimate yet: jobs with two meshes must have succeeded.\n");
+}
+
+}  // namespace
+}  // namespace cellcrush::client::testing
