@@ -41,18 +41,23 @@ std::vector<std::string> row_of(const v1::FidelityForecast& forecast) {
                                   fmt::format("{}", forecast.elements_per_wall()),
                                   duration_text(forecast.predicted_seconds())};
   for (const v1::MeasuredError& error : forecast.errors()) row.push_back(error_text(error));
-  if (forecast.errors_size() == 0) {
-    row.push_back("unknown: the case sets " + given_text(forecast));
-  }
+  if (forecast.errors_size() == 0) row.emplace_back("not known");
   return row;
 }
 
 // Whether the case's own fields leave nothing for a fidelity to set.
 bool are_all_the_same(const v1::CheckCaseResponse& check) {
-  const auto& first = check.fidelities(0);
   return std::all_of(check.fidelities().begin(), check.fidelities().end(), [&](const v1::FidelityForecast& forecast) {
-    return forecast.errors_size() == 0 && forecast.elements_per_wall() == first.elements_per_wall();
+    return forecast.elements_per_wall() == check.fidelities(0).elements_per_wall();
   });
+}
+
+// Why no error is known, and how to find it out.
+std::string unknown_text(const v1::CheckCaseResponse& check) {
+  const std::string given = given_text(check.fidelities(0));
+  return (given.empty() ? "The error is not known for this mesh"
+                        : "The error is not known: it was measured for no case with this " + given) +
+         ". `cellcrush converge` finds it out.";
 }
 
 std::string scatter_text(const v1::FidelityForecast& measured) {
@@ -68,15 +73,14 @@ std::string scatter_text(const v1::FidelityForecast& measured) {
 
 std::string fidelity_text(const v1::CheckCaseResponse& check, int width) {
   if (check.fidelities_size() == 0) return {};
-  if (are_all_the_same(check)) {
-    return '\n' +
-           wrapped(
-               "cost and accuracy: numerics.fidelity changes nothing, and the error is unknown, because the case "
-               "sets " +
-                   given_text(check.fidelities(0)),
-               width);
-  }
   const v1::FidelityForecast* measured = find_measured(check);
+  if (are_all_the_same(check) && measured == nullptr) {
+    return '\n' + wrapped(
+                      "cost and accuracy: numerics.fidelity changes nothing, because the case sets "
+                      "elements_per_wall. " +
+                          unknown_text(check),
+                      width);
+  }
   std::vector<std::string> heading = {"fidelity", "elements per wall", "predicted time"};
   std::vector<Align> columns = {Align::left, Align::right, Align::right};
   if (measured != nullptr) {
@@ -90,12 +94,13 @@ std::string fidelity_text(const v1::CheckCaseResponse& check, int width) {
   for (const v1::FidelityForecast& forecast : check.fidelities()) table.add(row_of(forecast));
   std::string text = "\ncost and accuracy by numerics.fidelity\n" + table.text(2, width);
   if (measured != nullptr) {
-    text += wrapped(
-        fmt::format(
-            "An error is the difference between the mean over seeds and the converged solution of the named case. "
-            "Single {} runs scatter by {} between seeds.",
-            v1::Numerics::Fidelity_Name(measured->fidelity()), scatter_text(*measured)),
-        width, "  ", "  ");
+    text += wrapped(fmt::format("An error is the difference of the mean over seeds from that of the finest mesh; that "
+                                "of the finest mesh is "
+                                "its difference from the next coarser one. Single {} runs scatter by {} between seeds.",
+                                v1::Numerics::Fidelity_Name(measured->fidelity()), scatter_text(*measured)),
+                    width, "  ", "  ");
+  } else {
+    text += wrapped(unknown_text(check), width, "  ", "  ");
   }
   return text;
 }

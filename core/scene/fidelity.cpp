@@ -1,35 +1,56 @@
 #include "cellcrush/fidelity.h"
 
+#include <algorithm>
+#include <string>
+#include <variant>
+
 #include "cellcrush/simulation.h"
+#include "scene/measured_errors.h"
 
 namespace cellcrush {
 namespace {
 
 using Fidelity = NumericsSpec::Fidelity;
 
-constexpr int kElementsPerWall = 2;  // default without a fidelity
+/// Elements per wall of DRAFT, STANDARD and REFERENCE.
+struct Meshes {
+  int draft;
+  int standard;
+  int reference;
+};
 
-const FidelityPoint* find_point(Fidelity fidelity) {
-  for (const FidelityPoint& point : fidelity_points()) {
-    if (point.fidelity == fidelity) return &point;
-  }
-  return nullptr;
+/// Walls that lie along the crush buckle in half waves shorter than half a wall: squares and triangles.
+bool has_walls_along_crush(const SceneSpec& spec) {
+  return std::holds_alternative<SquareLattice>(spec.lattice) || std::holds_alternative<TriangleLattice>(spec.lattice);
 }
 
-/// Fields that a spec sets to other values than the measurement of a point, and that would change its error.
-std::vector<std::string> fields_beside(const FidelityPoint& point, const SceneSpec& spec) {
+bool is_force_based(const SceneSpec& spec) { return spec.section.formulation == SectionSpec::Formulation::force_based; }
+
+// STANDARD is the coarsest mesh of force-based elements whose plateau stresses lie within 4 % (impact) and 10 %
+// (support) of a mesh twice as fine, as far as tests/bench/results/mesh_study.csv tells. The elements of the paper keep
+// the paper's mesh.
+Meshes meshes_of(const SceneSpec& spec) {
+  return has_walls_along_crush(spec) && is_force_based(spec) ? Meshes{4, 8, 16} : Meshes{1, 2, 8};
+}
+
+FidelityPoint point_of(const SceneSpec& spec) {
+  const std::vector<FidelityPoint> points = fidelity_points(spec);
+  const auto found = std::ranges::find(points, spec.numerics.fidelity, &FidelityPoint::fidelity);
+  return found == points.end() ? points[1] : *found;
+}
+
+/// Fields that keep the measured errors from holding for a spec with this mesh.
+std::vector<std::string> fields_beside(const SceneSpec& spec) {
   SceneSpec plain;
-  plain.section.formulation = spec.section.formulation;
-  std::vector<std::string> fields;
+  std::vector<std::string> fields = fields_beside_measured(spec);
   const auto add_if = [&fields](bool other, const char* field) {
     if (other) fields.emplace_back(field);
   };
-  add_if(spec.elements_per_wall.value_or(point.elements_per_wall) != point.elements_per_wall, "elements_per_wall");
-  add_if(spec.section.formulation != SectionSpec().formulation, "section.formulation");
+  add_if(!is_force_based(spec), "section.formulation");
   add_if(spec.section.depth_rule != plain.section.depth_rule, "section.depth_rule");
   add_if(spec.section.area_rule != plain.section.area_rule, "section.area_rule");
-  add_if(spec.section.axial_count() != plain.section.axial_count(), "section.axial_points");
-  add_if(spec.section.depth_count() != plain.section.depth_count(), "section.depth_points");
+  add_if(is_force_based(spec) && spec.section.axial_count() != plain.section.axial_count(), "section.axial_points");
+  add_if(is_force_based(spec) && spec.section.depth_count() != plain.section.depth_count(), "section.depth_points");
   add_if(spec.numerics.mass_scaling != plain.numerics.mass_scaling, "numerics.mass_scaling");
   add_if(spec.numerics.rotary_scaling != plain.numerics.rotary_scaling, "numerics.rotary_scaling");
   return fields;
@@ -38,50 +59,50 @@ std::vector<std::string> fields_beside(const FidelityPoint& point, const SceneSp
 }  // namespace
 
 // The number of elements per wall trades time for accuracy at every speed, so it is all that a fidelity sets.
-// REFERENCE is the solution from which errors are measured; its own error is known up to the scatter of its seeds. Four
-// elements per wall are no point of the front: they were found no closer to REFERENCE than two.
-const std::vector<FidelityPoint>& fidelity_points() {
-  const std::string fast = "support plateau, Type I, 100 m/s";
-  const std::string slow = "limit stress, Example 1, 1 m/s";
-  // From tests/bench/results/work_precision.csv.
-  static const std::vector<FidelityPoint> kPoints = {
-      {Fidelity::draft, "DRAFT", 1, 1.02, {{fast, 0.0940, 0.0116, 0.0111}, {slow, 0.0213, 0.0037, 0.001}}},
-      {Fidelity::standard, "STANDARD", 2, 1.0, {{fast, 0.0127, 0.0036, 0.0029}, {slow, 0.0074, 0.0042, 0.001}}},
-      {Fidelity::reference, "REFERENCE", 8, 1.05, {{fast, 0.0, 0.0023, 0.0018}, {slow, 0.0, 0.0054, 0.0022}}},
-  };
-  return kPoints;
+std::vector<FidelityPoint> fidelity_points(const SceneSpec& spec) {
+  const Meshes meshes = meshes_of(spec);
+  return {{Fidelity::draft, "DRAFT", meshes.draft},
+          {Fidelity::standard, "STANDARD", meshes.standard},
+          {Fidelity::reference, "REFERENCE", meshes.reference}};
+}
+
+// From tests/bench/results/work_precision.csv; more than 8 elements per wall were not timed.
+double step_cost_of(int elements_per_wall) {
+  if (elements_per_wall < 4) return elements_per_wall == 1 ? 1.02 : 1.0;
+  return elements_per_wall < 8 ? 0.9 : 1.05;
 }
 
 SceneSpec fill_in_fidelity(const SceneSpec& spec) {
-  const FidelityPoint* point = find_point(spec.numerics.fidelity);
   SceneSpec filled = spec;
-  filled.elements_per_wall =
-      spec.elements_per_wall.value_or(point != nullptr ? point->elements_per_wall : kElementsPerWall);
+  filled.elements_per_wall = spec.elements_per_wall.value_or(point_of(spec).elements_per_wall);
   return filled;
 }
 
 std::string describe_fidelity(const SceneSpec& spec) {
-  const FidelityPoint* point = find_point(spec.numerics.fidelity);
-  if (point == nullptr) return {};
-  return "Fidelity " + point->name +
-         (spec.elements_per_wall ? ": no effect, as elements_per_wall is given explicitly."
-                                 : ": elements_per_wall is " + std::to_string(point->elements_per_wall) + ".");
+  if (std::holds_alternative<FrameLattice>(spec.lattice)) return {};
+  const FidelityPoint point = point_of(spec);
+  const bool names_one = spec.numerics.fidelity != Fidelity::unspecified;
+  if (spec.elements_per_wall) {
+    return names_one ? "Fidelity " + point.name + ": no effect, as elements_per_wall is given explicitly." : "";
+  }
+  const std::string mesh = "Mesh: elements_per_wall is " + std::to_string(point.elements_per_wall) + ", " + point.name;
+  if (!is_force_based(spec)) return mesh + "; its error is not known for displacement-based elements.";
+  return mesh + (has_walls_along_crush(spec)
+                     ? " for squares and triangles, whose walls along the crush buckle in short waves."
+                     : " for hexagons.");
 }
 
 std::vector<FidelityForecast> forecast_fidelities(const SceneSpec& spec, SpecChecker& checker) {
   std::vector<FidelityForecast> forecasts;
   if (std::holds_alternative<FrameLattice>(spec.lattice)) return forecasts;
-  for (const FidelityPoint& point : fidelity_points()) {
+  for (const FidelityPoint& point : fidelity_points(spec)) {
     SceneSpec asked = spec;
     asked.numerics.fidelity = point.fidelity;
     const SpecChecker::Verdict verdict = checker.check(asked);
     if (!verdict.problems.empty()) continue;
-    FidelityForecast forecast{point, verdict.step_count, verdict.element_count, fields_beside(point, spec)};
+    FidelityForecast forecast{point, verdict.step_count, verdict.element_count, {}, fields_beside(spec)};
     forecast.point.elements_per_wall = *fill_in_fidelity(asked).elements_per_wall;
-    if (!forecast.given.empty()) {
-      forecast.point.errors.clear();
-      forecast.point.step_cost = 1.0;
-    }
+    if (forecast.given.empty()) forecast.errors = measured_errors_of(spec, forecast.point.elements_per_wall);
     forecasts.push_back(std::move(forecast));
   }
   return forecasts;

@@ -12,9 +12,9 @@ void write_forecast(const FidelityForecast& in, double step_cost, v1::FidelityFo
   out.set_elements_per_wall(in.point.elements_per_wall);
   out.set_element_count(in.element_count);
   out.set_step_count(in.step_count);
-  out.set_predicted_seconds(step_cost * in.point.step_cost * static_cast<double>(in.element_count) *
-                            static_cast<double>(in.step_count));
-  for (const auto& measured : in.point.errors) {
+  const double element_steps = static_cast<double>(in.element_count) * static_cast<double>(in.step_count);
+  out.set_predicted_seconds(step_cost * step_cost_of(in.point.elements_per_wall) * element_steps);
+  for (const auto& measured : in.errors) {
     auto& error = *out.add_errors();
     error.set_measure(measured.measure);
     error.set_error_relative(measured.error);
@@ -28,10 +28,12 @@ void write_forecast(const FidelityForecast& in, double step_cost, v1::FidelityFo
 
 void add_fidelities(const v1::Case& submitted, double step_cost, CaseCheck& check) {
   v1::CheckCaseResponse& response = check.response;
+  const auto asked = submitted.numerics().fidelity();
+  const auto decides = asked == v1::Numerics::FIDELITY_UNSPECIFIED ? v1::Numerics::STANDARD : asked;
   for (const auto& forecast : forecast_fidelities(to_spec(submitted).spec, *check.meshes)) {
     auto& added = *response.add_fidelities();
     write_forecast(forecast, step_cost, added);
-    if (submitted.numerics().fidelity() == added.fidelity()) response.set_predicted_seconds(added.predicted_seconds());
+    if (decides == added.fidelity()) response.set_predicted_seconds(added.predicted_seconds());
   }
 }
 

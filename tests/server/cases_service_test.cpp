@@ -83,7 +83,7 @@ TEST_F(CasesServiceTest, EachFidelityIsToldBeforeAnythingRuns) {
   EXPECT_LT(plain.fidelities(0).predicted_seconds(), plain.fidelities(1).predicted_seconds());
   EXPECT_LT(plain.fidelities(1).predicted_seconds(), plain.fidelities(2).predicted_seconds());
   for (const auto& forecast : plain.fidelities()) {
-    EXPECT_GT(forecast.errors_size(), 0);
+    EXPECT_EQ(forecast.errors_size(), 0) << "few cells are not what was measured";
     v1::Case asked = small_case();
     asked.mutable_numerics()->set_fidelity(forecast.fidelity());
     const auto response = check(asked);
@@ -104,7 +104,23 @@ TEST_F(CasesServiceTest, APresetTakesItsFidelitysElements) {
   const auto response = check(preset.case_());
   ASSERT_EQ(response.fidelities_size(), 3);
   EXPECT_EQ(response.completed_case().elements_per_wall(), response.fidelities(2).elements_per_wall());
-  EXPECT_EQ(response.fidelities(2).given_fields_size(), 0);
+  EXPECT_EQ(response.fidelities(2).elements_per_wall(), 8);
+}
+
+TEST_F(CasesServiceTest, AMeasuredCaseHasItsErrorsAndAnotherTheFieldsThatDiffer) {
+  v1::GetPresetRequest request;
+  request.set_name("type-i");
+  v1::Preset preset;
+  ASSERT_TRUE(client().cases->GetPreset(bounded_context().get(), request, &preset).ok());
+  const auto measured = check(preset.case_()).fidelities(1);
+  ASSERT_EQ(measured.errors_size(), 2);
+  EXPECT_EQ(measured.errors(1).measure(), "support plateau, type-i, 100 m/s");
+  EXPECT_GT(measured.errors(1).uncertainty_relative(), 0.0);
+  preset.mutable_case_()->mutable_loading()->set_speed_m_per_s(5.0);
+  const auto unknown = check(preset.case_()).fidelities(1);
+  EXPECT_EQ(unknown.errors_size(), 0);
+  ASSERT_EQ(unknown.given_fields_size(), 1);
+  EXPECT_EQ(unknown.given_fields(0), "loading.speed_m_per_s");
 }
 
 TEST_F(CasesServiceTest, PresetsAreListedAndEachIsSound) {

@@ -116,6 +116,7 @@ TEST_F(JobLifeTest, ARunThatIsUntrueFailsByNameAndKeepsWhatItComputedBefore) {
   triangle.set_rows(6);
   triangle.set_side_mm(4.0);
   triangle.set_wall_thickness_mm(0.1185);
+  bad.set_elements_per_wall(2);
   bad.mutable_loading()->set_speed_m_per_s(400.0);
   bad.mutable_contact()->set_stiffness_factor(1.0);
   bad.mutable_numerics()->set_time_step_s(2.26e-7);

@@ -53,6 +53,7 @@ struct WatchedRun {
 std::shared_ptr<Scene> specimen(const char* lattice, double speed, double share, double end_strain = 0.8,
                                 double stiffness_factor = 0.12) {
   SceneSpec spec = scenes::spec_of({lattice, speed, 0.0}, 12, 6);
+  spec.elements_per_wall = 2;
   spec.loading.end_strain = end_strain;
   spec.contact.stiffness_factor = stiffness_factor;
   spec.output.sample_count = 200;

@@ -5,6 +5,8 @@
 #include <functional>
 #include <map>
 #include <stdexcept>
+#include <type_traits>
+#include <variant>
 
 #include "cellcrush/presets.h"
 #include "cellcrush/simulation.h"
@@ -47,12 +49,33 @@ Value choice(const std::string& name, const std::string& text, const std::map<st
   throw std::invalid_argument(name + "=" + text + ": is not known; give " + allowed + ".");
 }
 
+/// Throws std::invalid_argument for a frame.
+RegularLattice& cells_of(SceneSpec& spec) {
+  return std::visit(
+      [](auto& lattice) -> RegularLattice& {
+        if constexpr (std::is_base_of_v<RegularLattice, std::decay_t<decltype(lattice)>>) {
+          return lattice;
+        } else {
+          throw std::invalid_argument("columns, rows: a frame has none.");
+        }
+      },
+      spec.lattice);
+}
+
 const std::vector<Option>& all_options() {
   static const std::vector<Option> kOptions = {
       {"speed", "speed of the impact plate, m/s",
        [](Options& o, const std::string& v) { o.spec.loading.speed_m_per_s = number_of("speed", v); }},
       {"end_strain", "nominal strain at which the run ends",
        [](Options& o, const std::string& v) { o.spec.loading.end_strain = number_of("end_strain", v); }},
+      {"direction", "of the crush, x or y",
+       [](Options& o, const std::string& v) {
+         using Direction = LoadingSpec::Direction;
+         o.spec.loading.direction = choice<Direction>("direction", v, {{"x", Direction::x}, {"y", Direction::y}});
+       }},
+      {"columns", "of cells",
+       [](Options& o, const std::string& v) { cells_of(o.spec).columns = count_of("columns", v); }},
+      {"rows", "of cells", [](Options& o, const std::string& v) { cells_of(o.spec).rows = count_of("rows", v); }},
       {"elements", "elements a wall",
        [](Options& o, const std::string& v) { o.spec.elements_per_wall = count_of("elements", v); }},
       {"formulation", "force_based or displacement_based",

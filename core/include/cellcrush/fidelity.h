@@ -9,11 +9,11 @@
 
 namespace cellcrush {
 
-/// Error of a crush at a fidelity point, measured over seeds of a tiny imperfection. Relative to the mean of the
-/// converged crush.
+/// Error that the mesh leaves in one quantity, measured over seeds of a small imperfection. Relative to the mean of the
+/// finest mesh that was measured.
 struct MeasuredError {
-  std::string measure;       ///< the quantity and the scene, in words
-  double error = 0.0;        ///< error of the mean
+  std::string measure;       ///< the quantity, the preset and the speeds, in words
+  double error = 0.0;        ///< of the mean; of the finest mesh itself: its difference from the next coarser one
   double uncertainty = 0.0;  ///< half of the 95 % confidence interval of the error; a smaller error is not significant
   double scatter = 0.0;      ///< standard deviation of one crush
 
@@ -21,33 +21,33 @@ struct MeasuredError {
   [[nodiscard]] double claimed() const { return error > uncertainty ? error : uncertainty; }
 };
 
-/// A point of the measured speed-accuracy front: the settings that it fills in where a spec omits them, and its errors.
-/// These were measured with all other settings at their defaults.
+/// A trade-off between speed and accuracy: the settings that it fills in where a spec omits them.
 struct FidelityPoint {
   NumericsSpec::Fidelity fidelity = NumericsSpec::Fidelity::unspecified;
   std::string name;  ///< as written in a case
   int elements_per_wall = 0;
-  double step_cost = 1.0;  ///< time per element-step relative to STANDARD
-  std::vector<MeasuredError> errors;
 };
 
-/// DRAFT, STANDARD, REFERENCE.
-const std::vector<FidelityPoint>& fidelity_points();
+/// DRAFT, STANDARD, REFERENCE for the lattice and the elements of a spec.
+std::vector<FidelityPoint> fidelity_points(const SceneSpec& spec);
+
+/// Time per element-step with this mesh, relative to 2 elements per wall.
+double step_cost_of(int elements_per_wall);
 
 /// The spec with the settings of its fidelity, or the defaults if it names none, filled in where it omits them. Given
 /// settings are kept.
 SceneSpec fill_in_fidelity(const SceneSpec& spec);
 
-/// What the fidelity fills in, as a sentence; empty without a fidelity.
+/// Which mesh a spec gets and why, as a sentence; empty for a frame.
 std::string describe_fidelity(const SceneSpec& spec);
 
 /// Predicted cost and accuracy of a spec at a fidelity.
 struct FidelityForecast {
-  /// With the elements per wall that the spec would have; without measured errors if `given` is not empty.
-  FidelityPoint point;
+  FidelityPoint point;  ///< with the elements per wall that the spec would have
   std::int64_t step_count = 0;
   std::int64_t element_count = 0;
-  std::vector<std::string> given;  ///< fields that the spec sets to other values than the measurement
+  std::vector<MeasuredError> errors;  ///< empty if none was measured with this mesh, or if `given` is not empty
+  std::vector<std::string> given;     ///< fields in which the spec differs from everything that was measured
 };
 
 /// Forecasts for every fidelity at which the spec, a lattice between plates, can be built. None for frames, for which

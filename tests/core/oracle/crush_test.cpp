@@ -96,8 +96,8 @@ struct Case {
 
 std::vector<Case> cases() {
   return {{"Hexagons", without_friction(specimen("hexagon", 5, 4)), 1000},
-          {"Squares", specimen("square", 5, 4), 1000},
-          {"Triangles", specimen("triangle", 5, 4), 1000},
+          {"Squares", elements_per_wall(specimen("square", 5, 4), 2), 1000},
+          {"Triangles", elements_per_wall(specimen("triangle", 5, 4), 2), 1000},
           {"IsotropicHardening", with_hardening(specimen("hexagon", 4, 3), 1.0), 800},
           {"KinematicHardening", with_hardening(specimen("hexagon", 4, 3), 0.0), 800},
           {"MixedHardeningAndMassDamping", damped(with_hardening(specimen("hexagon", 5, 4), 0.4)), 1000},

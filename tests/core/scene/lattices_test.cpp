@@ -20,7 +20,9 @@ TEST(Presets, HaveExactlyTheParticlesOfThePaper) {
                                                          {"papka-kyriakides-1", 814},
                                                          {"papka-kyriakides-2", 814}};
   for (const auto& [name, particles] : counts) {
-    const auto scene = scenes::build(find_preset(name)->spec);
+    SceneSpec spec = find_preset(name)->spec;
+    spec.elements_per_wall = 2;  // as in the paper
+    const auto scene = scenes::build(spec);
     ASSERT_TRUE(scene) << name;
     EXPECT_EQ(facts_of(*scene).particle_count, particles) << name;
   }

@@ -1,0 +1,135 @@
+#include "scene/measured_errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "cellcrush/presets.h"
+#include "scene/check_spec.h"
+#include "scene/measured_rows.h"
+
+namespace cellcrush {
+namespace {
+
+/// What a spec shares with the preset that was measured: equal up to rounding.
+bool is_near(double one, double other) {
+  return std::abs(one - other) <= 0.01 * std::max(std::abs(one), std::abs(other));
+}
+
+const RegularLattice* cells_of(const SceneSpec& spec) {
+  if (const auto* hexagon = std::get_if<HexagonLattice>(&spec.lattice)) return hexagon;
+  if (const auto* square = std::get_if<SquareLattice>(&spec.lattice)) return square;
+  return std::get_if<TriangleLattice>(&spec.lattice);
+}
+
+/// "lattice.hexagon.", for a regular lattice.
+std::string path_of(const SceneSpec& spec) {
+  if (std::holds_alternative<HexagonLattice>(spec.lattice)) return "lattice.hexagon.";
+  return std::holds_alternative<SquareLattice>(spec.lattice) ? "lattice.square." : "lattice.triangle.";
+}
+
+/// Thickness of the walls along y over that of the others.
+double vertical_ratio_of(const SceneSpec& spec) {
+  const auto* hexagon = std::get_if<HexagonLattice>(&spec.lattice);
+  return hexagon != nullptr
+             ? hexagon->vertical_wall_thickness_mm.value_or(*hexagon->wall_thickness_mm) / *hexagon->wall_thickness_mm
+             : 1.0;
+}
+
+/// Lowest and highest speed at which a preset was measured.
+std::pair<double, double> speeds_of(std::string_view preset) {
+  std::pair<double, double> range = {HUGE_VAL, 0.0};
+  for (const MeasuredRow& row : kMeasuredRows) {
+    if (row.preset != preset) continue;
+    range = {std::min(range.first, row.speed_m_per_s), std::max(range.second, row.speed_m_per_s)};
+  }
+  return range;
+}
+
+/// Nothing if they are different lattices.
+std::optional<std::vector<std::string>> fields_beside(std::string_view preset, const SceneSpec& spec) {
+  const SceneSpec& measured = find_preset(preset)->spec;
+  if (spec.lattice.index() != measured.lattice.index()) return std::nullopt;
+  std::vector<std::string> fields;
+  const auto add_if = [&fields](bool differs, const std::string& field) {
+    if (differs) fields.push_back(field);
+  };
+  const std::string lattice = path_of(spec);
+  const RegularLattice& cells = *cells_of(spec);
+  const RegularLattice& its = *cells_of(measured);
+  add_if(*cells.columns < *its.columns, lattice + "columns");
+  add_if(*cells.rows < *its.rows, lattice + "rows");
+  add_if(!is_near(*cells.wall_thickness_mm / *cells.side_mm, *its.wall_thickness_mm / *its.side_mm) ||
+             !is_near(vertical_ratio_of(spec), vertical_ratio_of(measured)),
+         lattice + "wall_thickness_mm");
+  add_if(!spec.inclusions.rows.empty(), "lattice.inclusions");
+  const MaterialSpec& material = spec.material;
+  add_if(!is_near(*material.youngs_modulus_mpa, *measured.material.youngs_modulus_mpa), "material.youngs_modulus_mpa");
+  add_if(!is_near(*material.yield_stress_mpa, *measured.material.yield_stress_mpa), "material.yield_stress_mpa");
+  add_if(!is_near(*material.density_kg_per_m3, *measured.material.density_kg_per_m3), "material.density_kg_per_m3");
+  add_if(!is_near(material.hardening_modulus_mpa, measured.material.hardening_modulus_mpa),
+         "material.hardening_modulus_mpa");
+  add_if(spec.loading.direction != measured.loading.direction, "loading.direction");
+  const auto [lowest, highest] = speeds_of(preset);
+  add_if(*spec.loading.speed_m_per_s < lowest || *spec.loading.speed_m_per_s > highest, "loading.speed_m_per_s");
+  add_if(spec.contact.friction != measured.contact.friction, "contact.friction");
+  add_if(spec.plates.friction != measured.plates.friction, "plates.friction");
+  return fields;
+}
+
+std::vector<std::string_view> measured_presets() {
+  std::vector<std::string_view> presets;
+  for (const MeasuredRow& row : kMeasuredRows) {
+    if (std::ranges::find(presets, row.preset) == presets.end()) presets.push_back(row.preset);
+  }
+  return presets;
+}
+
+/// The rows of one quantity with one mesh whose speeds are next to that of a crush.
+std::vector<MeasuredRow> neighbours(std::string_view preset, std::string_view quantity, int elements, double speed) {
+  std::optional<MeasuredRow> below;
+  std::optional<MeasuredRow> above;
+  for (const MeasuredRow& row : kMeasuredRows) {
+    if (row.preset != preset || row.quantity != quantity || row.elements_per_wall != elements) continue;
+    if (row.speed_m_per_s <= speed && (!below || row.speed_m_per_s > below->speed_m_per_s)) below = row;
+    if (row.speed_m_per_s >= speed && (!above || row.speed_m_per_s < above->speed_m_per_s)) above = row;
+  }
+  if (!below || !above) return {};
+  return below->speed_m_per_s == above->speed_m_per_s ? std::vector{*below} : std::vector{*below, *above};
+}
+
+std::string words_of(const std::vector<MeasuredRow>& rows) {
+  std::string words = std::string(rows.front().quantity) + ", " + std::string(rows.front().preset) + ", ";
+  if (rows.size() > 1) words += to_text(rows.front().speed_m_per_s) + " to ";
+  return words + to_text(rows.back().speed_m_per_s) + " m/s";
+}
+
+}  // namespace
+
+std::vector<std::string> fields_beside_measured(const SceneSpec& spec) {
+  std::optional<std::vector<std::string>> fewest;
+  for (const std::string_view preset : measured_presets()) {
+    const auto fields = fields_beside(preset, spec);
+    if (fields && (!fewest || fields->size() < fewest->size())) fewest = fields;
+  }
+  return fewest.value_or(std::vector<std::string>{"lattice"});
+}
+
+std::vector<MeasuredError> measured_errors_of(const SceneSpec& spec, int elements_per_wall) {
+  std::vector<MeasuredError> errors;
+  for (const std::string_view preset : measured_presets()) {
+    const auto fields = fields_beside(preset, spec);
+    if (!fields || !fields->empty()) continue;
+    for (const std::string_view quantity : {"impact plateau", "support plateau", "limit stress"}) {
+      const auto rows = neighbours(preset, quantity, elements_per_wall, *spec.loading.speed_m_per_s);
+      if (rows.empty()) continue;
+      const auto worst = std::ranges::max_element(
+          rows, {}, [](const MeasuredRow& row) { return std::max(row.error, row.uncertainty); });
+      errors.push_back({words_of(rows), worst->error, worst->uncertainty, worst->scatter});
+    }
+  }
+  return errors;
+}
+
+}  // namespace cellcrush
