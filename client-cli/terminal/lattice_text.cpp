@@ -115,11 +115,13 @@ void describe_hexagon(const v1::Lattice::Hexagon& hexagon, Lines& lines) {
 }
 
 void describe_changes(const v1::Lattice& lattice, Lines& lines) {
-  if (lattice.imperfection().amplitude_mm() > 0.0) {
-    lines.emplace_back("imperfection",
-                       fmt::format("joints displaced by up to {:.6g} mm, seed {}",
-                                   lattice.imperfection().amplitude_mm(), lattice.imperfection().seed()));
+  const v1::Lattice::Imperfection& imperfection = lattice.imperfection();
+  std::string offsets;
+  if (imperfection.amplitude_mm() > 0.0) {
+    offsets += fmt::format("joints displaced by up to {:.6g} mm, ", imperfection.amplitude_mm());
   }
+  if (imperfection.bow_mm() > 0.0) offsets += fmt::format("walls bowed by up to {:.6g} mm, ", imperfection.bow_mm());
+  if (!offsets.empty()) lines.emplace_back("imperfection", offsets + fmt::format("seed {}", imperfection.seed()));
   if (lattice.inclusions().rows_size() > 0) {
     std::string text = fmt::format("stiff cells in row{} {}", lattice.inclusions().rows_size() == 1 ? "" : "s",
                                    fmt::join(lattice.inclusions().rows(), ", "));

@@ -78,11 +78,21 @@ void check_lattice(const SceneSpec& spec, FieldChecker& check) {
     }
     check.in_range("lattice.imperfection.amplitude_mm", spec.imperfection.amplitude_mm, {0.0, 0.1 * side},
                    std::isfinite(side) ? " mm (a tenth of side_mm)" : " mm");
+    check.in_range("lattice.imperfection.bow_mm", spec.imperfection.bow_mm, {0.0, 0.05 * side},
+                   std::isfinite(side) ? " mm (a twentieth of side_mm)" : " mm");
+    if (spec.imperfection.bow_mm > 0.0 && *spec.elements_per_wall == 1) {
+      check.add("lattice.imperfection.bow_mm", to_text(spec.imperfection.bow_mm),
+                "cannot be shown by one straight element per wall.", "Use an elements_per_wall of at least 2.");
+    }
   } else if (std::holds_alternative<FrameLattice>(spec.lattice)) {
     check_frame(spec, check);
     if (spec.imperfection.amplitude_mm != 0.0) {
       check.add("lattice.imperfection.amplitude_mm", to_text(spec.imperfection.amplitude_mm),
                 "applies to regular lattices only, not to a frame.", "Remove it, and move the frame's nodes instead.");
+    }
+    if (spec.imperfection.bow_mm != 0.0) {
+      check.add("lattice.imperfection.bow_mm", to_text(spec.imperfection.bow_mm),
+                "applies to regular lattices only, not to a frame.", "Remove it, and give bowed beams nodes between.");
     }
   } else {
     check.add("lattice", "", "is missing.",

@@ -226,7 +226,7 @@ Problems check_overlap(const SceneSpec& spec, const Scene& scene) {
     return {};
   }
   return {{field, "", "makes walls overlap before loading, first at " + place_text(overlaps.found.front().place) + ".",
-           "Use thinner walls or a smaller lattice.imperfection.amplitude_mm."}};
+           "Use thinner walls, or a smaller lattice.imperfection.amplitude_mm or bow_mm."}};
 }
 
 }  // namespace cellcrush

@@ -74,6 +74,16 @@ void perturb(const Imperfection& imperfection, std::vector<Vector2>& joints) {
   }
 }
 
+void bow(const Imperfection& imperfection, std::vector<LayoutWall>& walls) {
+  if (imperfection.bow_mm == 0.0) {
+    return;
+  }
+  Draw draw(~imperfection.seed);
+  for (LayoutWall& wall : walls) {
+    wall.bow = imperfection.bow_mm * draw.next();
+  }
+}
+
 void number_columns(const std::vector<Vector2>& places, Layout& layout) {
   if (layout.element_count() < kLeastElementsOfBands || std::ranges::any_of(layout.walls, &LayoutWall::rigid) ||
       !is_longer_along_x(places)) {

@@ -10,14 +10,15 @@
 
 namespace cellcrush {
 
-/// A straight wall between two joints.
+/// A wall between two joints.
 struct LayoutWall {
   int start = 0;
   int end = 0;
   double thickness = 0.0;  ///< mm
   int elements = 1;        ///< number of elements into which it is divided
   int material = 0;        ///< index into Scene::materials
-  bool rigid = false;      ///< part of a rigid body: not divided
+  bool rigid = false;      ///< part of a rigid body: straight and not divided
+  double bow = 0.0;        ///< offset of its middle from the straight line, to the left of start to end, mm
 };
 
 /// Joints and walls of a structure before it is divided into elements. Lengths in mm.
@@ -34,6 +35,10 @@ struct Layout {
 /// Moves every joint by a uniformly distributed offset of at most the amplitude of the imperfection in x and in y. The
 /// same seed gives the same offsets on every machine.
 void perturb(const Imperfection& imperfection, std::vector<Vector2>& joints);
+
+/// Bows every wall, by a uniformly distributed offset of its middle of at most the bow of the imperfection, to either
+/// side. The offsets do not depend on those of the joints.
+void bow(const Imperfection& imperfection, std::vector<LayoutWall>& walls);
 
 /// Numbers the joints of a large lattice column by column, and its walls in the order of their joints. Bands
 /// (scene/bands.h) then run across the lattice and are small. This applies if it is longer along x than along y and its

@@ -1,11 +1,38 @@
 #include "scene/mesh.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <numeric>
 
 namespace cellcrush {
 namespace {
+
+/// Position at a share of a wall, which is bowed to half a sine wave.
+Vector2 place_on(const Layout& layout, const LayoutWall& wall, double share) {
+  const Vector2& from = layout.joints[wall.start];
+  const Vector2 along = layout.joints[wall.end] - from;
+  const Vector2 straight = from + along * share;
+  if (wall.bow == 0.0) {
+    return straight;
+  }
+  const Vector2 to_the_left = Vector2(-along.y(), along.x()).normalized();
+  return straight + wall.bow * std::sin(std::numbers::pi * share) * to_the_left;
+}
+
+/// Length of a wall along its elements.
+double length_of(const Layout& layout, const LayoutWall& wall) {
+  if (wall.bow == 0.0) {
+    return (layout.joints[wall.end] - layout.joints[wall.start]).norm();
+  }
+  double length = 0.0;
+  for (int j = 0; j < wall.elements; ++j) {
+    const auto place_at = [&](int i) { return place_on(layout, wall, static_cast<double>(i) / wall.elements); };
+    length += (place_at(j + 1) - place_at(j)).norm();
+  }
+  return length;
+}
 
 void divide_block(const Layout& layout, const WallBlock& block, Scene& scene) {
   const auto inner = [&](int j, int w) { return block.first_inner + j * block.walls + w; };
@@ -16,9 +43,7 @@ void divide_block(const Layout& layout, const WallBlock& block, Scene& scene) {
       scene.elements.push_back(
           {j == 0 ? wall.start : inner(j - 1, w), is_last ? wall.end : inner(j, w), wall.thickness, wall.material});
       if (!is_last) {
-        const Vector2& from = layout.joints[wall.start];
-        const double share = static_cast<double>(j + 1) / wall.elements;
-        scene.position.emplace_back(from + (layout.joints[wall.end] - from) * share);
+        scene.position.push_back(place_on(layout, wall, static_cast<double>(j + 1) / wall.elements));
       }
     }
   }
@@ -99,11 +124,10 @@ void divide_walls(const Layout& layout, Scene& scene) {
   }
   scene.walls.chunk_offset = chunk_offsets(scene.walls.blocks);
   for (auto wall = layout.walls.begin(); wall != rigid; ++wall) {
-    const double length = (layout.joints[wall->end] - layout.joints[wall->start]).norm();
     scene.walls.start.push_back(wall->start);
     scene.walls.end.push_back(wall->end);
     scene.walls.thickness.push_back(wall->thickness);
-    scene.walls.undeformed_length.push_back(length / wall->elements);
+    scene.walls.undeformed_length.push_back(length_of(layout, *wall) / wall->elements);
     scene.walls.material.push_back(wall->material);
   }
   order_joints(scene.walls, scene.joint_count);

@@ -48,6 +48,7 @@ Layout lay_out(const SceneSpec& spec, Scene& scene) {
   Layout layout = lay_out_cells(spec);
   const std::vector<Vector2> places = layout.joints;
   perturb(spec.imperfection, layout.joints);
+  bow(spec.imperfection, layout.walls);
   number_columns(places, layout);
   return layout;
 }

@@ -45,6 +45,7 @@ void read_lattice(const v1::Lattice& in, SceneSpec& spec, Problems& problems) {
     case v1::Lattice::KIND_NOT_SET: break;
   }
   if (in.imperfection().has_amplitude_mm()) spec.imperfection.amplitude_mm = in.imperfection().amplitude_mm();
+  if (in.imperfection().has_bow_mm()) spec.imperfection.bow_mm = in.imperfection().bow_mm();
   if (in.imperfection().has_seed()) spec.imperfection.seed = in.imperfection().seed();
 }
 

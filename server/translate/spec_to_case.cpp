@@ -114,6 +114,7 @@ void write_lattice(const SceneSpec& spec, v1::Lattice& out) {
     write_frame(*frame, *out.mutable_frame());
   }
   out.mutable_imperfection()->set_amplitude_mm(spec.imperfection.amplitude_mm);
+  out.mutable_imperfection()->set_bow_mm(spec.imperfection.bow_mm);
   out.mutable_imperfection()->set_seed(spec.imperfection.seed);
   if (!spec.inclusions.rows.empty()) {
     out.mutable_inclusions()->mutable_rows()->Assign(spec.inclusions.rows.begin(), spec.inclusions.rows.end());

@@ -115,6 +115,8 @@ const std::vector<Option>& all_options() {
        [](Options& o, const std::string& v) { o.spec.imperfection.seed = count_of("seed", v); }},
       {"amplitude", "of the imperfection, mm",
        [](Options& o, const std::string& v) { o.spec.imperfection.amplitude_mm = number_of("amplitude", v); }},
+      {"bow", "of the walls, mm",
+       [](Options& o, const std::string& v) { o.spec.imperfection.bow_mm = number_of("bow", v); }},
       {"time_step", "s; 0: chosen",
        [](Options& o, const std::string& v) { o.spec.numerics.time_step_s = number_of("time_step", v); }},
       {"step_factor", "of the step that is given or chosen",

@@ -140,8 +140,9 @@ struct Inclusions {
 };
 
 struct Imperfection {
-  double amplitude_mm = 0.0;
+  double amplitude_mm = 0.0;  ///< of the joints
   std::uint64_t seed = 0;
+  double bow_mm = 0.0;  ///< of the middle of the walls
 
   bool operator==(const Imperfection&) const = default;
 };

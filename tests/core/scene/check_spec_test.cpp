@@ -65,14 +65,27 @@ TEST(CheckSpec, RefusesAFixedStepAboveTheStableOneAndSaysBoth) {
 TEST(CheckSpec, ImperfectionAndInclusionsAreBoundedByTheLattice) {
   SceneSpec spec = scenes::hexagon_specimen(20, 7);
   spec.imperfection.amplitude_mm = 0.5;
+  spec.imperfection.bow_mm = 0.21;
   spec.inclusions.rows = {0, 3, 8};
   spec.inclusions.thickness_factor = 100.0;
   const Problems problems = build_scene(spec).problems;
-  for (const char* field : {"lattice.imperfection.amplitude_mm", "lattice.inclusions.rows[0]",
-                            "lattice.inclusions.rows[2]", "lattice.inclusions.thickness_factor"}) {
+  for (const char* field :
+       {"lattice.imperfection.amplitude_mm", "lattice.imperfection.bow_mm", "lattice.inclusions.rows[0]",
+        "lattice.inclusions.rows[2]", "lattice.inclusions.thickness_factor"}) {
     EXPECT_NE(find(problems, field), nullptr) << field;
   }
-  EXPECT_EQ(problems.size(), 4u);
+  EXPECT_EQ(problems.size(), 5u);
+}
+
+TEST(CheckSpec, ABowTakesTwoElementsAndARegularLattice) {
+  SceneSpec spec = scenes::hexagon_specimen(20, 7);
+  spec.imperfection.bow_mm = 0.01;
+  EXPECT_TRUE(build_scene(spec).problems.empty());
+  spec.elements_per_wall = 1;
+  EXPECT_NE(find(build_scene(spec).problems, "lattice.imperfection.bow_mm"), nullptr);
+  SceneSpec frame = scenes::Cantilever::spec(4, FrameLattice::Component::y, 1.0, 0.1, 0.2);
+  frame.imperfection.bow_mm = 0.01;
+  EXPECT_NE(find(build_scene(frame).problems, "lattice.imperfection.bow_mm"), nullptr);
 }
 
 TEST(CheckSpec, RefusesALatticeOfRigidCellsAlone) {

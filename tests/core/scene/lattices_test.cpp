@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "cellcrush/presets.h"
 #include "cellcrush/scene.h"
+#include "cellcrush/simulation.h"
 #include "scenes/frames.h"
 
 namespace cellcrush {
@@ -105,6 +108,72 @@ TEST(Imperfection, IsBoundedSeededAndRepeatable) {
   EXPECT_EQ(different, static_cast<int>(perfect->particle_count()));
   EXPECT_EQ(first->length, perfect->length);
 }
+
+/// Offsets of the particles of each wall of a scene from the straight line between its joints, in their order.
+std::vector<std::vector<double>> bows_of(const Scene& scene) {
+  std::vector<std::vector<double>> bows;
+  for (const WallBlock& block : scene.walls.blocks) {
+    for (int w = 0; w < block.walls; ++w) {
+      const Vector2& from = scene.position[scene.walls.start[block.first_wall + w]];
+      const Vector2 along = (scene.position[scene.walls.end[block.first_wall + w]] - from).normalized();
+      std::vector<double>& bow = bows.emplace_back();
+      for (int j = 0; j + 1 < block.elements; ++j) {
+        const Vector2 offset = scene.position[block.first_inner + j * block.walls + w] - from;
+        bow.push_back(along.x() * offset.y() - along.y() * offset.x());
+      }
+    }
+  }
+  return bows;
+}
+
+SceneSpec crushed_squares(const Imperfection& imperfection) {
+  SceneSpec spec = lattice_of<SquareLattice>(7, 4);
+  spec.depth_mm = 3.0;
+  spec.material = find_preset("type-ii-as-counted")->spec.material;
+  spec.elements_per_wall = 4;
+  spec.imperfection = imperfection;
+  spec.loading.speed_m_per_s = 2.0;
+  spec.loading.end_strain = 0.01;
+  return spec;
+}
+
+TEST(Lattices, BowedWallsAreHalfSineWavesWithinTheBowAndStrangersToTheJoints) {
+  SceneSpec spec = crushed_squares({0.02, 3, 0.05});
+  const auto scene = scenes::build(spec);
+  double largest = 0.0;
+  double sum = 0.0;
+  const auto bows = bows_of(*scene);
+  for (const std::vector<double>& bow : bows) {
+    ASSERT_EQ(bow.size(), 3u);
+    EXPECT_NEAR(bow[0], std::sqrt(0.5) * bow[1], 1e-14);
+    EXPECT_NEAR(bow[2], bow[0], 1e-14);
+    largest = std::max(largest, std::abs(bow[1]));
+    sum += bow[1];
+  }
+  EXPECT_GT(largest, 0.045);
+  EXPECT_LE(largest, 0.05);
+  EXPECT_LT(std::abs(sum) / static_cast<double>(bows.size()), 0.01) << "to either side";
+  spec.imperfection.bow_mm = 0.0;
+  const auto straight = scenes::build(spec);
+  for (int joint = 0; joint < scene->joint_count; ++joint) {
+    EXPECT_EQ(straight->position[joint], scene->position[joint]);
+  }
+  for (const std::vector<double>& bow : bows_of(*straight)) EXPECT_NEAR(bow[1], 0.0, 1e-14);
+}
+
+/// Highest impact stress up to 1 % strain, at which straight walls buckle.
+double first_peak_of_squares(double bow) {
+  Simulation simulation(scenes::build(crushed_squares({0.001, 1, bow})));
+  EXPECT_NEAR(simulation.take_sample().energy_elastic, 0.0, 1e-20) << "walls have no stress in the bowed shape";
+  double peak = 0.0;
+  while (simulation.status().kind == RunStatus::Kind::running) {
+    simulation.advance(50);
+    peak = std::max(peak, simulation.take_sample().stress_impact);
+  }
+  return peak;
+}
+
+TEST(Lattices, BowedWallsBuckleSooner) { EXPECT_LT(first_peak_of_squares(0.14), 0.9 * first_peak_of_squares(0.0)); }
 
 }  // namespace
 }  // namespace cellcrush
