@@ -32,9 +32,11 @@ v1::CreateSweepRequest build_request(const ConvergeOptions& options, Connection&
   v1::CreateSweepRequest request;
   v1::Sweep& sweep = *request.mutable_sweep();
   *sweep.mutable_case_() = read_case(options.scene.source, options.scene.assignments, connection);
-  if (options.seeds > 1 && !(sweep.case_().lattice().imperfection().amplitude_mm() > 0.0)) {
-    throw CommandError(ExitCode::refused, fmt::format("{0} is 0, so that all seeds give the same crush: add --set "
-                                                      "{0}=0.01, or compare the meshes only with --seeds 1",
+  const v1::Lattice::Imperfection& imperfection = sweep.case_().lattice().imperfection();
+  if (options.seeds > 1 && imperfection.amplitude_mm() == 0.0 && imperfection.bow_mm() == 0.0) {
+    throw CommandError(ExitCode::refused, fmt::format("{0} and bow_mm are 0, so every seed gives the same "
+                                                      "crush: add --set {0}=0.01, or compare the meshes without "
+                                                      "scatter by --seeds 1",
                                                       kAmplitude));
   }
   v1::SweepAxis& meshes = *sweep.add_axes();
@@ -68,16 +70,14 @@ ExitCode run_converge(Session& session, const ConvergeOptions& options) {
     return connection.call(connection.sweeps(), &v1::Sweeps::Stub::CreateSweep, request, kCheckPatience);
   };
   const v1::Sweep checked = create(true);
+  const std::string cost = fmt::format("{}, predicted to take {} of one core\n",
+                                       run_count_text(static_cast<int>(options.meshes.size()) * options.seeds),
+                                       duration_text(checked.predicted_seconds()));
   if (options.only_cost) {
-    session.json ? print_json(checked)
-                 : fmt::print("{} runs, {} of one core\n", options.meshes.size() * options.seeds,
-                              duration_text(checked.predicted_seconds()));
+    session.json ? print_json(checked) : fmt::print("{}", cost);
     return ExitCode::done;
   }
-  if (!session.json) {
-    fmt::print(stderr, "{}{} runs, {} of one core\n", notes_text(checked.notes()),
-               options.meshes.size() * options.seeds, duration_text(checked.predicted_seconds()));
-  }
+  if (!session.json) fmt::print(stderr, "{}{}", notes_text(checked.notes()), cost);
   const std::string name = create(false).name();
   if (!session.json) {
     fmt::print("{}\n", name);
@@ -94,12 +94,12 @@ ExitCode run_converge(Session& session, const ConvergeOptions& options) {
 
 void add_converge_command(CLI::App& app, Session& session) {
   const auto options = std::make_shared<ConvergeOptions>();
-  CLI::App* converge = add_command(app, session, "converge", "Find out the error that the mesh leaves in a case",
+  CLI::App* converge = add_command(app, session, "converge", "Estimate the mesh error of a case",
                                    [&session, options] { return run_converge(session, *options); });
   converge->group(kJobCommands);
   add_case_options(*converge, options->scene);
   converge->get_option("CASE")->description(
-      "A case file, - for stdin, or preset:NAME; or a sweep over meshes, of which the estimates are printed again");
+      "A case file, - for stdin, or preset:NAME; or sweeps/NAME, to print the estimates of a sweep over meshes again");
   converge->add_option("--meshes", options->meshes, "Elements per wall of the meshes to compare (default: 2,4,8)")
       ->group(kCaseOptions)
       ->delimiter(',')

@@ -51,37 +51,59 @@ void add_rows(Table& table, const Quantity& quantity) {
   }
 }
 
-std::string remedy_text(const v1::Convergence& convergence) {
+bool has_intervals(const v1::Convergence& convergence) {
+  int plateaus = 0;
+  for (const Quantity& quantity : convergence.quantities()) {
+    if (!quantity.field().starts_with("plateau_stress")) continue;
+    ++plateaus;
+    for (const Estimate& estimate : quantity.meshes()) {
+      if (!estimate.has_uncertainty_relative()) return false;
+    }
+  }
+  return plateaus == 2;
+}
+
+std::string verdict_text(const v1::Convergence& convergence) {
   const std::string wanted = percent_text(convergence.wanted_error_relative());
   if (convergence.has_elements_per_wall()) {
-    return fmt::format("{} elements per wall keep both plateau stresses within {}.", convergence.elements_per_wall(),
-                       wanted);
+    return fmt::format("With {} elements per wall, error and interval of both plateau stresses are within {}.",
+                       convergence.elements_per_wall(), wanted);
+  }
+  if (!has_intervals(convergence)) {
+    return fmt::format(
+        "Whether a mesh meets {} cannot be told: this takes two seeds or more with every mesh, and runs to 40 % "
+        "strain.",
+        wanted);
   }
   return fmt::format(
-      "No mesh keeps both plateau stresses within {}. If the error is the larger part, add a finer mesh; if the ± is, "
-      "use more seeds.",
+      "With no mesh are error and interval of both plateau stresses within {}. If the error is the larger part, add a "
+      "finer mesh; if the interval is, use more seeds.",
       wanted);
 }
 
 }  // namespace
 
+std::string run_count_text(int count) { return fmt::format("{} run{}", count, count == 1 ? "" : "s"); }
+
 std::string convergence_text(const v1::Convergence& convergence, int width) {
   if (convergence.quantities_size() == 0) {
-    return wrapped("No estimate yet: jobs with two meshes must have succeeded.", width);
+    return wrapped("No estimate yet: at least one run must have succeeded with each of two meshes.", width);
   }
   Table table({Align::right, Align::right, Align::right, Align::right, Align::right});
   table.add({"elements per wall", "runs", "mean", "scatter", "error"});
   for (const Quantity& quantity : convergence.quantities()) add_rows(table, quantity);
-  std::string text = table.text(2, width) + '\n' +
-                     wrapped(
-                         "error: difference of the mean from that of the finest mesh, ± half of its 95 % interval. For "
-                         "the finest mesh it is the difference from the next coarser one. scatter: standard deviation "
-                         "of one run.",
-                         width, "", "  ") +
-                     wrapped(remedy_text(convergence), width, "", "  ");
+  std::string text =
+      table.text(2, width) + '\n' +
+      wrapped(
+          "error: difference of the mean from that of the finest mesh, ± half the width of its 95 % confidence "
+          "interval. For the finest mesh it is the difference from the next coarser one. scatter: "
+          "standard deviation between seeds, relative to the mean.",
+          width, "", "  ") +
+      wrapped(verdict_text(convergence), width, "", "  ");
   if (convergence.job_count_left_out() > 0) {
-    text += wrapped(fmt::format("{} runs have not succeeded and are left out.", convergence.job_count_left_out()),
-                    width, "", "  ");
+    text += wrapped(
+        fmt::format("Left out, because they have not succeeded: {}.", run_count_text(convergence.job_count_left_out())),
+        width, "", "  ");
   }
   return text;
 }

@@ -16,10 +16,7 @@ namespace {
 
 using Align = Table::Align;
 
-// No error is claimed that is smaller than the scatter of the seeds.
 std::string error_text(const v1::MeasuredError& error) {
-  if (error.error_relative() <= error.uncertainty_relative())
-    return "under " + unbreakable(percent_text(error.uncertainty_relative()));
   return unbreakable(percent_text(error.error_relative())) + ' ' +
          unbreakable("± " + percent_text(error.uncertainty_relative()));
 }
@@ -55,9 +52,9 @@ bool are_all_the_same(const v1::CheckCaseResponse& check) {
 // Why no error is known, and how to find it out.
 std::string unknown_text(const v1::CheckCaseResponse& check) {
   const std::string given = given_text(check.fidelities(0));
-  return (given.empty() ? "The error is not known for this mesh"
-                        : "The error is not known: it was measured for no case with this " + given) +
-         ". `cellcrush converge` finds it out.";
+  return "The mesh error is not known" +
+         (given.empty() ? "." : ", because the case differs from every measured preset in " + given + '.') +
+         " `cellcrush converge` estimates it.";
 }
 
 std::string scatter_text(const v1::FidelityForecast& measured) {

@@ -150,7 +150,7 @@ const Crush kCrushes[] = {
     {"hexagons_buckets", "type-i", 30, 60, 0.8,
      [](SceneSpec& spec) { spec.contact.search = ContactSpec::Search::buckets; }},
     {"hexagons_in_bands_papers_rule", "type-i", 12, 720, 0.8, with_papers_rule},
-    {"squares", "type-ii-as-counted", 30, 80},
+    {"squares", "type-ii-as-counted", 30, 80, 0.8, [](SceneSpec& spec) { spec.elements_per_wall = 2; }},
     {"triangles_papers_rule", "type-iii-as-counted", 30, 50, 0.8, with_papers_rule},
 };
 
