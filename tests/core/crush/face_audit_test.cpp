@@ -24,6 +24,7 @@ class FaceAudit : public testing::TestWithParam<SmallSpecimen> {
  protected:
   static SceneSpec spec() {
     SceneSpec spec = scenes::spec_of(GetParam(), 8, 6);
+    spec.elements_per_wall = 2;
     spec.loading.end_strain = 0.6;
     return spec;
   }

@@ -34,6 +34,7 @@ SceneSpec block_of(const char* lattice) {
   } else if (std::string(lattice) == "thick ends") {
     spec.lattice = HexagonLattice{5, 4, 4.0, 0.15, 0.4};
   }
+  spec.elements_per_wall = 2;  // brute force takes the square of their number
   spec.numerics.time_step_s = 0.0;
   return spec;
 }
