@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
-#include <chrono>
 #include <cstdio>
 
 #include "case_file/case_source.h"
 #include "commands/commands.h"
 #include "commands/resource_name.h"
+#include "commands/sweep_axis.h"
 #include "commands/watch.h"
 #include "terminal/convergence_text.h"
 #include "terminal/json_text.h"
@@ -18,7 +18,6 @@ namespace cellcrush::client {
 namespace {
 
 constexpr const char* kAmplitude = "lattice.imperfection.amplitude_mm";
-constexpr std::chrono::minutes kCheckPatience{10};
 
 struct ConvergeOptions {
   CaseOptions scene;

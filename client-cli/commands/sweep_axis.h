@@ -1,10 +1,14 @@
 #pragma once
 
+#include <chrono>
 #include <string>
 
 #include "cellcrush/v1/sweep.pb.h"
 
 namespace cellcrush::client {
+
+/// For CreateSweep, which checks up to ten thousand points.
+inline constexpr std::chrono::minutes kCheckPatience{10};
 
 /// Parses the value of `--over`: PATH=V1,V2,... (a list), PATH=FIRST:LAST:COUNT (evenly spaced),
 /// PATH=FIRST:LAST:COUNT:log (logarithmically spaced) or PATH=seeds:N (1 to N). Throws CommandError.

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <cstdio>
 
 #include "case_file/case_source.h"
@@ -18,9 +17,6 @@
 namespace cellcrush::client {
 
 namespace {
-
-/// For the check of ten thousand points.
-constexpr std::chrono::minutes kCheckPatience{10};
 
 struct SweepOptions {
   CaseOptions scene;

@@ -18,7 +18,7 @@ struct MeasuredRow {
 
 /// All that was measured: tests/bench/results/mesh_study.csv (5 seeds of 0.01 mm, to 41 % strain) and, for Example 1,
 /// work_precision.csv (3 seeds of 0.001 mm). tests/bench/fidelity_numbers_test.cpp holds every row to them and prints
-/// them anew.
+/// them for this list.
 inline constexpr auto kMeasuredRows = std::to_array<MeasuredRow>({
     {"type-i", "impact plateau", 25, 1, 0.059, 0.0141, 0.0072},
     {"type-i", "impact plateau", 25, 2, 0.0172, 0.0167, 0.0113},
