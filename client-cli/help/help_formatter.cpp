@@ -10,7 +10,7 @@ namespace cellcrush::client {
 
 namespace {
 
-constexpr int kMostColumns = 100;
+constexpr int kMostHelpColumns = 100;
 // Descriptions stand beside the names, or below them where the terminal is narrow.
 constexpr int kNameColumns = 28;
 constexpr int kNarrowNameColumns = 6;
@@ -28,7 +28,7 @@ std::string wrap_lines(const std::string& text, int width) {
 
 }  // namespace
 
-HelpFormatter::HelpFormatter() : width_(std::min(terminal_width(), kMostColumns)) {
+HelpFormatter::HelpFormatter() : width_(std::min(terminal_width(), kMostHelpColumns)) {
   column_width(static_cast<std::size_t>(width_ < kNarrow ? kNarrowNameColumns : kNameColumns));
   label("SUBCOMMAND", "COMMAND");
   label("Positionals", "Arguments");

@@ -17,7 +17,7 @@ namespace cellcrush::client {
 
 namespace {
 
-constexpr int kMostColumns = 64;
+constexpr int kMostChartColumns = 64;
 constexpr int kLabels = 15;  // left of the canvas
 constexpr int kRows = 14;
 constexpr int kMostTicks = 5;
@@ -149,7 +149,7 @@ std::string sweep_chart_text(const v1::SweepTable& table, bool unicode, int widt
   const Range y = {0.0, 1.05 * top};
   if (!(x.high > x.low && y.high > y.low)) return {};
   const Glyphs& glyphs = unicode ? kUnicode : kPlain;
-  const int columns = std::clamp(width - kLabels, 10, kMostColumns);
+  const int columns = std::clamp(width - kLabels, 10, kMostChartColumns);
   Canvas canvas(x, y, columns);
   for (int column = 0; shock && column < columns; ++column) {
     const double place = x.low + (x.high - x.low) * column / (columns - 1);

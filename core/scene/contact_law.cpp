@@ -5,11 +5,11 @@
 #include <numbers>
 
 #include "cellcrush/tuning.h"
+#include "scene/units.h"
 
 namespace cellcrush {
 namespace {
 
-constexpr double kMmPerM = 1e3;
 /// Penetration of a free particle at plate speed, as a fraction of the thickness of the thinnest wall (E9).
 constexpr double kImpactDepth = 0.16;
 /// Greatest phase angle omega dt of the lightest particle on its contact at a given step, rad; the 0.6 below E9.

@@ -2,11 +2,12 @@
 
 #include <algorithm>
 
+#include "scene/units.h"
+
 namespace cellcrush {
 namespace {
 
 constexpr double kTonnePerGram = 1e-6;
-constexpr double kMmPerM = 1e3;
 
 Component component_of(FrameLattice::Component component) {
   switch (component) {

@@ -7,11 +7,10 @@
 #include "scene/check_spec.h"
 #include "scene/contact_law.h"
 #include "scene/time_step.h"
+#include "scene/units.h"
 
 namespace cellcrush {
 namespace {
-
-constexpr double kMmPerM = 1e3;
 
 Plates plates_of(const SceneSpec& spec, const MeshMeasures& mesh, double stiffness) {
   const double speed = *spec.loading.speed_m_per_s * kMmPerM;

@@ -1,8 +1,8 @@
 #include "search/bucket_search.h"
 
 #include <algorithm>
-#include <span>
 
+#include "geometry/all_finite.h"
 #include "geometry/bucket_grid.h"
 #include "geometry/capsule-inl.h"
 #include "search/candidate_lists.h"
@@ -17,10 +17,6 @@ bool list_holds(const Scene& scene, const State& state, const ContactLists& list
   };
   return std::equal(state.position.begin(), state.position.end(), lists.searched_position.begin(),
                     lists.searched_position.end(), has_stayed);
-}
-
-bool all_finite(std::span<const Vector2> points) {
-  return std::all_of(points.begin(), points.end(), [](const Vector2& point) { return point.allFinite(); });
 }
 
 }  // namespace

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <span>
 #include <vector>
 
+#include "geometry/all_finite.h"
 #include "measure/warnings.h"
 #include "scene/check_spec.h"
 
@@ -18,16 +18,6 @@ constexpr const char* kShorterStep = "Use a shorter numerics.time_step_s, or 0 f
 bool is_finite(const State& state, std::size_t particle) {
   return state.position[particle].allFinite() && state.velocity[particle].allFinite() &&
          std::isfinite(state.spin[particle]);
-}
-
-/// Whether all numbers are finite. Only a non-finite number keeps the sum of the products with 0 from being 0.
-bool all_finite(std::span<const double> numbers) {
-  return (0.0 * Eigen::Map<const Eigen::ArrayXd>(numbers.data(), static_cast<Eigen::Index>(numbers.size()))).sum() ==
-         0.0;
-}
-
-bool all_finite(std::span<const Vector2> points) {
-  return points.empty() || all_finite({points.front().data(), 2 * points.size()});
 }
 
 bool has_finite_forces(const State& state, std::size_t particle) {

@@ -11,7 +11,6 @@ namespace {
 
 const double kLever = CrushedWall::kLength * std::numbers::sqrt3 / 2.0;
 constexpr double kHeight = 1.5 * CrushedWall::kLength;  // of the lattice, for one wall
-constexpr double kDensity = 2700.0;
 
 /// First natural frequency of the wall, clamped below and guided above, 1/s.
 double first_frequency() {

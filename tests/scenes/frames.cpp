@@ -28,7 +28,7 @@ SceneSpec elastic_frame(FrameLattice frame) {
   spec.depth_mm = 1.0;
   spec.material.youngs_modulus_mpa = 70000.0;
   spec.material.yield_stress_mpa = 1e9;
-  spec.material.density_kg_per_m3 = 2700.0;
+  spec.material.density_kg_per_m3 = kDensity;
   return spec;
 }
 

@@ -7,6 +7,8 @@
 
 namespace cellcrush::scenes {
 
+inline constexpr double kDensity = 2700.0;  ///< kg/m^3, of aluminium
+
 /// A scene whose spec has no problems; fails the test with their texts when it has.
 std::shared_ptr<Scene> build(const SceneSpec& spec);
 

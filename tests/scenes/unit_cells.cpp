@@ -11,7 +11,6 @@ namespace {
 using Component = FrameLattice::Component;
 
 constexpr double kSide = UnitCell::kSide;
-constexpr double kDensity = 2700.0;
 
 /// First natural frequency of a half wall as a cantilever, 1/s.
 double half_wall_frequency(double thickness) {

@@ -7,9 +7,9 @@
 namespace cellcrush::worker {
 namespace {
 
-/// Keeps this thread busy for some milliseconds of its own time, however busy the machine is.
-void spend(int milliseconds) {
-  const double end = processor_seconds(CLOCK_THREAD_CPUTIME_ID) + 1e-3 * milliseconds;
+/// Keeps this thread busy for `ms` milliseconds of its own time, however busy the machine is.
+void spend(int ms) {
+  const double end = processor_seconds(CLOCK_THREAD_CPUTIME_ID) + 1e-3 * ms;
   while (processor_seconds(CLOCK_THREAD_CPUTIME_ID) < end) {
   }
 }

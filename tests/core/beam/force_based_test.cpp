@@ -13,9 +13,9 @@ constexpr double kLength = 2.0;
 constexpr double kThickness = 0.3;
 
 /// One element, straight along x, whose ends are turned.
-class Element {
+class TurnedElement {
  public:
-  Element(const Material& material, const SectionSpec& spec)
+  TurnedElement(const Material& material, const SectionSpec& spec)
       : yield_stress_(material.yield_stress), element_(material, make_section_rule(spec)) {}
 
   /// Turns the ends by increments in rad; the moments are those after it, over the full plastic moment.
@@ -53,7 +53,7 @@ SectionSpec rule(SectionSpec::Formulation formulation) {
 }
 
 TEST(ForceBasedElement, IsTheCubicBeamWhileElastic) {
-  Element element(kPerfect, rule(SectionSpec::Formulation::force_based));
+  TurnedElement element(kPerfect, rule(SectionSpec::Formulation::force_based));
   element.turn(1e-4, -3e-5);
   const double stiffness = 69000.0 * std::pow(kThickness, 3) / 12.0 / kLength;
   EXPECT_NEAR(element.start_moment() * element.full_moment(), stiffness * (4.0 * 1e-4 - 2.0 * 3e-5), 1e-9);
@@ -64,7 +64,7 @@ TEST(ForceBasedElement, IsTheCubicBeamWhileElastic) {
 // its moment stays 0, as a free one would.
 TEST(ForceBasedElement, JointBearsExactlyTheFullPlasticMoment) {
   for (const bool force_based : {true, false}) {
-    Element element(kPerfect, rule(force_based ? SectionSpec::Formulation::force_based
+    TurnedElement element(kPerfect, rule(force_based ? SectionSpec::Formulation::force_based
                                                : SectionSpec::Formulation::displacement_based));
     const double stiffness = 69000.0 * std::pow(kThickness, 3) / 12.0 / kLength;
     for (int i = 0; i < 20000; ++i) {
@@ -79,7 +79,7 @@ TEST(ForceBasedElement, JointBearsExactlyTheFullPlasticMoment) {
 // Steps in which the elastic moment would change by up to a fifth of the full plastic one, as at the front of a fast
 // crush.
 TEST(ForceBasedElement, KeepsItsBalanceAndItsEnergyThroughReversalsInLargeSteps) {
-  Element element(kPerfect, rule(SectionSpec::Formulation::force_based));
+  TurnedElement element(kPerfect, rule(SectionSpec::Formulation::force_based));
   const int steps = 4000;
   double worst = 0.0;
   for (int i = 0; i < steps; ++i) {

@@ -25,7 +25,7 @@ SceneSpec with_friction_and_damping(SceneSpec spec) {
 }
 
 /// Hash of the state after a crush that has closed some cells.
-std::uint64_t crush(const SceneSpec& spec, int threads) {
+std::uint64_t hash_after_crush(const SceneSpec& spec, int threads) {
   Simulation simulation(scenes::build(spec), threads);
   simulation.advance(1000);
   EXPECT_GT(simulation.state().contact_totals.count, 0);
@@ -35,9 +35,9 @@ std::uint64_t crush(const SceneSpec& spec, int threads) {
 TEST(Threads, AnyNumberOfThemGivesTheSameBits) {
   for (const SceneSpec& spec :
        {specimen(), scenes::with_the_papers_elements(specimen()), with_friction_and_damping(specimen())}) {
-    const std::uint64_t one = crush(spec, 1);
+    const std::uint64_t one = hash_after_crush(spec, 1);
     for (const int threads : {2, 3, 7}) {
-      EXPECT_EQ(crush(spec, threads), one) << threads;
+      EXPECT_EQ(hash_after_crush(spec, threads), one) << threads;
     }
   }
 }
@@ -58,7 +58,8 @@ TEST(Threads, AnyNumberOfThemGivesTheSameBitsOfALargeLattice) {
 
 TEST(Threads, AnyNumberOfThemGivesTheSameBitsOnTheScalarTarget) {
   ASSERT_TRUE(use_simd_target("scalar"));
-  EXPECT_EQ(crush(with_friction_and_damping(specimen()), 3), crush(with_friction_and_damping(specimen()), 1));
+  EXPECT_EQ(hash_after_crush(with_friction_and_damping(specimen()), 3),
+            hash_after_crush(with_friction_and_damping(specimen()), 1));
   EXPECT_TRUE(use_simd_target(""));
 }
 
