@@ -25,9 +25,13 @@ void WatchContract::see(const v1::JobEvent& event) {
 void WatchContract::see_numbered(const v1::JobEvent& event) {
   require(event.sequence() > sequence_, "No event comes twice or out of order, as " + std::to_string(event.sequence()));
   const bool begins_again = event.has_state() && event.state().begun_again_sequence() == event.sequence();
-  if (begins_again) step_ = -1;
-  require(event.sequence() <= sequence_ + 1 || begins_again,
-          "No event is missing before " + std::to_string(event.sequence()));
+  if (begins_again) {
+    step_ = -1;
+    gap_.reset();
+  } else if (event.sequence() > sequence_ + 1) {
+    require(event.has_state(), "No event is missing before " + std::to_string(event.sequence()));
+    gap_ = event.sequence();
+  }
   require(parts_left_ == 0, "The parts of a frame come together.");
   sequence_ = event.sequence();
   if (event.has_sample()) {
@@ -58,6 +62,7 @@ void WatchContract::see_frame(const v1::FrameChunk& chunk) {
 }
 
 void WatchContract::end(const grpc::Status& status) {
+  require(!gap_, "Events are missing before " + std::to_string(gap_.value_or(0)) + " only if the job begins again.");
   const bool all = job_ended_ || (had_ended_ && numbered_.empty());
   require(!status.ok() || all, "OK comes only behind the job's last state.");
   require(!status.ok() || any_, "A watch that ends with OK had a snapshot.");

@@ -12,8 +12,9 @@
 namespace cellcrush::testing {
 
 /// Holds one watch of a job against what event.proto and WatchJob promise: a snapshot first and once; then every state
-/// and sample behind the number that was given, in order, none twice and none missing; progress and frames between them
-/// in their order; nothing behind the job's last state, and OK only then. Not thread-safe.
+/// and sample behind the number that was given, in order, none twice and none missing, but samples of a run that the
+/// job gives up later, by beginning again; progress and frames between them in their order; nothing behind the job's
+/// last state, and OK only then. Not thread-safe.
 class WatchContract {
  public:
   /// Of a watch with this after_sequence.
@@ -44,8 +45,9 @@ class WatchContract {
   bool job_ended_ = false;
   bool had_ended_ = false;  ///< the snapshot says so
   std::optional<v1::JobState> state_;
-  std::optional<int> frame_;  ///< index of the last one
-  int parts_left_ = 0;        ///< of that frame
+  std::optional<std::int64_t> gap_;  ///< the state before which samples are missing, until the job begins again
+  std::optional<int> frame_;         ///< index of the last one
+  int parts_left_ = 0;               ///< of that frame
   std::vector<v1::JobEvent> numbered_;
   std::vector<std::string> broken_;
 };

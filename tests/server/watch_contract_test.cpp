@@ -54,12 +54,23 @@ TEST(WatchContractTest, ASoundWatchBreaksNothing) {
   EXPECT_EQ(broken_by({snapshot_at(7), sampled_at(8, 1)}, grpc::Status::CANCELLED, 7), 0U);
 }
 
+// A daemon that starts records that the job waits, and only its worker finds that the checkpoint is of another solver.
+TEST(WatchContractTest, SamplesOfARunThatIsGivenUpMayBeMissing) {
+  v1::JobEvent begun_again = state_at(9, v1::PENDING);
+  begun_again.mutable_state()->set_begun_again_sequence(9);
+  EXPECT_EQ(broken_by({snapshot_at(3), state_at(7, v1::PENDING), state_at(8, v1::RUNNING), begun_again,
+                       state_at(10, v1::RUNNING), sampled_at(11, 0)},
+                      grpc::Status::CANCELLED, 3),
+            0U);
+}
+
 TEST(WatchContractTest, EveryPromiseThatIsBrokenIsSeen) {
   const auto pending = state_at(1, v1::PENDING);
   EXPECT_GT(broken_by({pending}), 0U) << "no snapshot";
   EXPECT_GT(broken_by({snapshot_at(0), pending, snapshot_at(1)}), 0U) << "two snapshots";
   EXPECT_GT(broken_by({snapshot_at(1), pending}), 0U) << "a snapshot of another place";
   EXPECT_GT(broken_by({snapshot_at(0), pending, sampled_at(3, 1)}), 0U) << "an event is missing";
+  EXPECT_GT(broken_by({snapshot_at(0), pending, state_at(3, v1::RUNNING)}), 0U) << "and the job does not begin again";
   EXPECT_GT(broken_by({snapshot_at(0), pending, pending}), 0U) << "an event comes twice";
   EXPECT_GT(broken_by({snapshot_at(0), pending, sampled_at(2, 4), sampled_at(3, 4)}), 0U) << "a sample comes twice";
   EXPECT_GT(broken_by({snapshot_at(0), state_at(1, v1::RUNNING)}), 0U) << "a wrong first state";
