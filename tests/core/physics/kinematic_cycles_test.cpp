@@ -1,0 +1,238 @@
+// Cycles of bilinear material with kinematic and mixed hardening, against closed forms. Both ends of one element are
+// moved, so that nothing but the fibres is under test and the bounds can be tight. Blind to: inertia, several elements
+// (Textbook.Cycles has those), and cycles of axial force and moment together.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "cellcrush/scene.h"
+#include "cellcrush/simulation.h"
+#include "cellcrush/state.h"
+#include "scenes/evidence.h"
+#include "scenes/frames.h"
+#include "section/section_rule.h"
+
+namespace cellcrush {
+namespace {
+
+using Component = FrameLattice::Component;
+
+constexpr double kModulus = 200000.0;  // E, MPa
+constexpr double kTangent = 20000.0;   // E_T
+constexpr double kYieldStress = 200.0;
+constexpr double kHardening = kModulus * kTangent / (kModulus - kTangent);  // H
+constexpr double kLength = 10.0;                                            // mm
+constexpr double kThickness = 1.0;
+constexpr int kCycles = 6;
+constexpr double kQuarter = 4e-4;  // s, quarter of a cycle
+
+/// Goes to +amplitude and -amplitude in turn.
+FrameLattice::TimeFunction cycles_of(double amplitude) {
+  FrameLattice::TimeFunction points = {{0.0, 0.0}};
+  for (int i = 0; i < kCycles; ++i) {
+    points.emplace_back((4.0 * i + 1.0) * kQuarter, amplitude);
+    points.emplace_back((4.0 * i + 3.0) * kQuarter, -amplitude);
+  }
+  return points;
+}
+
+SceneSpec cycled(FrameLattice frame, double isotropic_fraction) {
+  frame.nodes = {{0.0, 0.0, 0.0, 0.0}, {kLength, 0.0, 0.0, 0.0}};
+  frame.beams = {scenes::beam(0, 1, kThickness, 1)};
+  frame.end_time_s = (4.0 * kCycles - 1.0) * kQuarter;
+  SceneSpec spec = scenes::elastic_frame(std::move(frame));
+  spec.material.youngs_modulus_mpa = kModulus;
+  spec.material.yield_stress_mpa = kYieldStress;
+  spec.material.hardening_modulus_mpa = kHardening;
+  spec.material.isotropic_fraction = isotropic_fraction;
+  spec.material.density_kg_per_m3 = 7850.0;
+  spec.numerics.time_step_s = kQuarter / 512.0;  // a step ends at every turn
+  return spec;
+}
+
+/// Calls visit(time, force and moment that the element's end bears) after every step.
+void run(const SceneSpec& spec, const std::function<void(double, double, double)>& visit) {
+  const auto scene = scenes::build(spec);
+  Simulation simulation(scene);
+  while (simulation.status().kind == RunStatus::Kind::running) {
+    simulation.advance(1);
+    visit(simulation.time(), -simulation.state().internal_force[1].x(), -simulation.state().internal_moment[1]);
+  }
+  EXPECT_EQ(simulation.step(), scene->schedule.step_count) << simulation.status().message;
+}
+
+/// Stress of a bilinear bar whose strain goes to and fro, in closed form (Lemaitre and Chaboche 1990, chapter 5). From
+/// a turn at one end of the yield range alpha +- Y it is elastic over 2 Y, then has the slope E_T. On the way dp of
+/// plastic strain, Y grows by beta H |dp| and alpha by (1 - beta) H dp.
+class BilinearBar {
+ public:
+  explicit BilinearBar(double isotropic_fraction) : isotropic_(isotropic_fraction) {}
+
+  /// Moves the strain, in one direction since the last turn.
+  double stress_at(double strain) {
+    const double trial = stress_ + kModulus * (strain - strain_);
+    const double excess = std::abs(trial - back_) - yield_;
+    if (excess <= 0.0) return trial;
+    return trial - kModulus * std::copysign(excess / (kModulus + kHardening), trial - back_);
+  }
+
+  void turn_at(double strain) {
+    const double end = stress_at(strain);
+    const double plastic = strain - strain_ - (end - stress_) / kModulus;
+    yield_ += isotropic_ * kHardening * std::abs(plastic);
+    back_ += (1.0 - isotropic_) * kHardening * plastic;
+    stress_ = end;
+    strain_ = strain;
+  }
+
+ private:
+  double isotropic_;
+  double strain_ = 0.0;
+  double stress_ = 0.0;
+  double back_ = 0.0;
+  double yield_ = kYieldStress;
+};
+
+/// Follows the turns of cycles_of.
+template <class Turn>
+class TurnKeeper {
+ public:
+  explicit TurnKeeper(Turn turn) : turn_(std::move(turn)) {}
+  void come_to(double time) {
+    for (; time > (2.0 * turns_ + 1.0) * kQuarter * (1.0 + 1e-9); ++turns_) turn_(turns_ % 2 == 0 ? 1.0 : -1.0);
+  }
+
+ private:
+  Turn turn_;
+  int turns_ = 0;
+};
+
+double value_at(const FrameLattice::TimeFunction& points, double time) { return TimeFunction{points}.value_at(time); }
+
+/// Worst error over the yield stress of the stress of a bar between +-`amplitude` of elongation over length. Strains
+/// are logarithmic and the volume is constant: N = sigma V / l.
+double worst_stress_error(double isotropic_fraction, double amplitude) {
+  FrameLattice frame;
+  const auto points = cycles_of(amplitude * kLength);
+  frame.supports = {{0, true, true, true}, {1, false, true, true}};
+  frame.motions = {{1, Component::x, points}};
+  BilinearBar bar(isotropic_fraction);
+  TurnKeeper turns([&](double side) { bar.turn_at(std::log1p(side * amplitude)); });
+  double worst = 0.0;
+  run(cycled(std::move(frame), isotropic_fraction), [&](double time, double force, double) {
+    turns.come_to(time);
+    const double stretch = value_at(points, time) / kLength;
+    const double stress = force / kThickness * (1.0 + stretch);
+    worst = std::max(worst, std::abs(stress - bar.stress_at(std::log1p(stretch))) / kYieldStress);
+  });
+  return worst;
+}
+
+TEST(KinematicCycles, ABarFollowsTheClosedFormOfItsStressForAnyShareOfIsotropicHardening) {
+  for (const double share : {0.0, 0.25, 0.5, 1.0}) {
+    const double error = worst_stress_error(share, 0.006);
+    EXPECT_LT(error, 1e-8) << share;
+    scenes::record_bound("stress error", error);
+  }
+}
+
+/// The element between two held nodes that turn against each other by kappa l / 2: pure bending.
+SceneSpec bent(double curvature, double isotropic_fraction, FrameLattice::TimeFunction* points) {
+  FrameLattice frame;
+  *points = cycles_of(curvature);
+  FrameLattice::TimeFunction turn = *points;
+  for (auto& [time, value] : turn) value *= 0.5 * kLength;
+  FrameLattice::TimeFunction opposite = turn;
+  for (auto& [time, value] : opposite) value *= -1.0;
+  frame.supports = {{0, true, true, false}, {1, true, true, false}};
+  frame.motions = {{0, Component::rotation, opposite}, {1, Component::rotation, turn}};
+  return cycled(std::move(frame), isotropic_fraction);
+}
+
+constexpr double kYieldMoment = kYieldStress * kThickness * kThickness / 6.0;
+constexpr double kYieldCurvature = 2.0 * kYieldStress / (kModulus * kThickness);
+
+/// Moment of the rectangle that bends for the first time: the stress integrated over the depth.
+double first_moment(double curvature) {
+  const double ratio = curvature / kYieldCurvature;
+  if (ratio <= 1.0) return kYieldMoment * ratio;
+  constexpr double kShare = kTangent / kModulus;
+  return kYieldMoment * ((1.0 - kShare) * (1.5 - 0.5 / (ratio * ratio)) + kShare * ratio);
+}
+
+/// Every fibre of a kinematic section obeys Masing's rule (Masing 1926), so their sum does: from a turn at +-`peak` the
+/// moment changes by twice the first moment of half the change of curvature. Six points through the depth have the
+/// first moment within 2.1 % (section/section_rule.h), so they have every change of moment within that too.
+TEST(KinematicCycles, ASectionInPureBendingFollowsTheLoopsIntegratedOverItsDepth) {
+  constexpr double kPeak = 4.0 * kYieldCurvature;
+  FrameLattice::TimeFunction points;
+  const SceneSpec spec = bent(kPeak, 0.0, &points);
+  double worst = 0.0;
+  double moment_at_turn = 0.0;
+  double last_moment = 0.0;
+  double last_curvature = 0.0;
+  double area = 0.0;  // of the last loop
+  double side = 0.0;
+  TurnKeeper turns([&](double of_turn) {
+    side = of_turn;
+    moment_at_turn = last_moment;
+    EXPECT_NEAR(moment_at_turn / first_moment(kPeak), side, 0.021);
+  });
+  run(spec, [&](double time, double, double moment) {
+    turns.come_to(time);
+    const double curvature = value_at(points, time);
+    const double factor = side == 0.0 ? 1.0 : 2.0;
+    const double change = (curvature - side * kPeak) / factor;
+    const double exact = factor * std::copysign(first_moment(std::abs(change)), change);
+    worst = std::max(worst, std::abs((moment - moment_at_turn) / exact - 1.0));
+    if (time > (4.0 * kCycles - 5.0) * kQuarter * (1.0 + 1e-9)) {
+      area += 0.5 * (moment + last_moment) * (curvature - last_curvature);
+    }
+    last_moment = moment;
+    last_curvature = curvature;
+  });
+  EXPECT_LT(worst, 0.021);
+  // The loop is what lies between its two sides, each 2 f(k / 2) over k from 0 to 2 k_p: twice the integral of both
+  // less the square around them.
+  const double ratio = kPeak / kYieldCurvature;
+  constexpr double kShare = kTangent / kModulus;
+  const double under_first =  // the integral of first_moment to the peak
+      kYieldMoment * kYieldCurvature *
+      (0.5 + (1.0 - kShare) * (1.5 * (ratio - 1.0) + 0.5 * (1.0 / ratio - 1.0)) + 0.5 * kShare * (ratio * ratio - 1.0));
+  const double exact_area = 8.0 * under_first - 4.0 * kPeak * first_moment(kPeak);
+  EXPECT_NEAR(area / exact_area, 1.0, 0.015);
+  scenes::record_figure("worst error of a change of moment in %", 100.0 * worst, 2);
+  scenes::record_figure("area of the last loop", area / exact_area, 4);
+}
+
+TEST(KinematicCycles, TheFibresOfASectionInPureBendingAreBilinearBars) {
+  constexpr double kPeak = 4.0 * kYieldCurvature;
+  const SectionRule rule = make_section_rule({});
+  double worst = 0.0;
+  for (const double share : {0.0, 0.3}) {
+    FrameLattice::TimeFunction points;
+    const SceneSpec spec = bent(kPeak, share, &points);
+    std::vector<BilinearBar> fibres(rule.depth_count(), BilinearBar(share));
+    TurnKeeper turns([&](double side) {
+      for (std::size_t i = 0; i < fibres.size(); ++i) fibres[i].turn_at(side * kPeak * rule.offset[i] * kThickness);
+    });
+    run(spec, [&](double time, double, double moment) {
+      turns.come_to(time);
+      double exact = 0.0;
+      for (std::size_t i = 0; i < fibres.size(); ++i) {
+        const double arm = rule.offset[i] * kThickness;
+        exact += kThickness * rule.depth_weight[i] * arm * fibres[i].stress_at(value_at(points, time) * arm);
+      }
+      worst = std::max(worst, std::abs(moment - exact) / kYieldMoment);
+    });
+  }
+  EXPECT_LT(worst, 1e-3);
+  scenes::record_bound("moment error", worst);
+}
+
+}  // namespace
+}  // namespace cellcrush
