@@ -14,7 +14,7 @@
 #include "scenes/evidence.h"
 #include "scenes/struck_frame.h"
 
-namespace cellcrush {
+namespace cellcrush::invariance {
 namespace {
 
 using scenes::StruckFrame;
@@ -112,4 +112,4 @@ TEST(Invariance, TheUnitsOfLengthStressAndTimeAreFree) {
 }
 
 }  // namespace
-}  // namespace cellcrush
+}  // namespace cellcrush::invariance

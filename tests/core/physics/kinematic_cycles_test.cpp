@@ -16,7 +16,7 @@
 #include "scenes/frames.h"
 #include "section/section_rule.h"
 
-namespace cellcrush {
+namespace cellcrush::kinematic_cycles {
 namespace {
 
 using Component = FrameLattice::Component;
@@ -235,4 +235,4 @@ TEST(KinematicCycles, TheFibresOfASectionInPureBendingAreBilinearBars) {
 }
 
 }  // namespace
-}  // namespace cellcrush
+}  // namespace cellcrush::kinematic_cycles
