@@ -104,7 +104,7 @@ struct Chain {
   static constexpr double kStretching = 70000.0 * kThickness;        // EA, N
   static constexpr double kPull = 0.5 * kWeight * kLength;           // N, of half the chain
 
-  /// Point of the elastic catenary (Irvine 1981, section 2.2) at the undeformed length s from the left pin, under the
+  /// Point of the elastic catenary (Irvine 1981) at the undeformed length s from the left pin, under the
   /// horizontal tension H; y up.
   static Vector2 point(double tension, double s) {
     const double left = kPull / tension;

@@ -1,5 +1,5 @@
 // A mass strikes the end of a bar that is fixed at its other end: St Venant's problem (1883; Timoshenko and Goodier
-// 1970, article 167). Waves run to and fro between the fixed end and the mass, which stays on the bar. Blind to:
+// 1970, chapter 14). Waves run to and fro between the fixed end and the mass, which stays on the bar. Blind to:
 // bending and contact.
 #include <gtest/gtest.h>
 
