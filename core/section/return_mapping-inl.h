@@ -87,13 +87,17 @@ HWY_INLINE SectionSums<D> return_map_section(const LaneMaterial<D>& material, co
     return sums;
   }
   FibreBits<D> of_section;
+  const Lane<D> half_hardening = Lane<D>(hn::TFromD<D>(0.5)) * material.hardening;
   for (int i = 0; i < rule.depth_points(); ++i) {
     const std::size_t fibre = first + static_cast<std::size_t>(i);
     const Lane<D> increment = material.inverse * (trial[i] - mapped[i]);  // Eq. 37, 38, E6
     next.put_increment(fibre, increment);
     of_section.add(trial[i] != mapped[i], i);
-    const Lane<D> weighted = Lane<D>(rule.depth_weight[i]) * Lane<D>::load(fibres.stress + fibre * fibres.stride);
-    sums.plastic_work = fma(weighted, increment, sums.plastic_work);
+    Lane<D> stress = Lane<D>::load(fibres.stress + fibre * fibres.stride);
+    if constexpr (kHardening) {
+      stress = fnma(half_hardening, increment, stress);  // mean of both yield surfaces, E10
+    }
+    sums.plastic_work = fma(Lane<D>(rule.depth_weight[i]) * stress, increment, sums.plastic_work);
   }
   next.put_yields(of_section, first);
   return sums;

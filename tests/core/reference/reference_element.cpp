@@ -78,12 +78,12 @@ ElementForces respond_to_curvature(const ElementRule& rule, const DeformedElemen
       const double arm = rule.points[j].position * element.thickness;
       Fibre& fibre = history.fibres[i * rule.points.size() + j];
       const double strain = element.stretch / element.mean_length + arm * curvature;  // E5
-      const double plastic_strain = return_fibre(element.material, strain, fibre);
+      const Flow flow = return_fibre(element.material, strain, fibre);
       const double part = section_weight * rule.points[j].weight;
-      axial += part * element.area * fibre.stress;                                           // Eq. 28, E7
-      moment_start += part * element.area * (4.0 - 6.0 * s) * arm * fibre.stress;            // Eq. 28, E7
-      moment_end += part * element.area * (2.0 - 6.0 * s) * arm * fibre.stress;              // Eq. 28, E7
-      plastic_work += part * element.area * element.length * fibre.stress * plastic_strain;  // E10
+      axial += part * element.area * fibre.stress;                                 // Eq. 28, E7
+      moment_start += part * element.area * (4.0 - 6.0 * s) * arm * fibre.stress;  // Eq. 28, E7
+      moment_end += part * element.area * (2.0 - 6.0 * s) * arm * fibre.stress;    // Eq. 28, E7
+      plastic_work += part * element.area * element.length * flow.work;            // E10
     }
   }
   return nodal_forces(element, axial, moment_start, moment_end, plastic_work);
@@ -298,12 +298,11 @@ class ForceBasedStep {
       borne.setZero();
       for (std::size_t j = 0; j < rule_.points.size(); ++j) {
         Fibre& moved = history.fibres[fibre(at, j)];
-        const double plastic_strain =
-            return_fibre(elements_[at.element].material, strains[k][0] + arm(j) * strains[k][1], moved);
-        history.yields[fibre(at, j)] = plastic_strain != 0.0;
+        const Flow flow = return_fibre(elements_[at.element].material, strains[k][0] + arm(j) * strains[k][1], moved);
+        history.yields[fibre(at, j)] = flow.strain != 0.0;
         const double weight = rule_.points[j].weight;
         borne += weight * moved.stress * OfSection(1.0, arm(j));
-        plastic_work_[at.element] += rule_.sections[at.section].weight * weight * moved.stress * plastic_strain;  // E10
+        plastic_work_[at.element] += rule_.sections[at.section].weight * weight * flow.work;  // E10
       }
     }
   }

@@ -18,7 +18,13 @@ struct Fibre {
   double plastic_strain = 0.0;  ///< ep, accumulated
 };
 
-/// Return mapping of a fibre under a strain increment (Eq. 33-39). Returns the plastic strain increment with its sign.
-double return_fibre(const Material& material, double strain_increment, Fibre& fibre);
+/// What a fibre does in a step.
+struct Flow {
+  double strain = 0.0;  ///< plastic strain increment, with its sign
+  double work = 0.0;    ///< plastic work, MPa: over the mean of the stresses at which the flow begins and ends (E10)
+};
+
+/// Return mapping of a fibre under a strain increment (Eq. 33-39).
+Flow return_fibre(const Material& material, double strain_increment, Fibre& fibre);
 
 }  // namespace cellcrush::reference
