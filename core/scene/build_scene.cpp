@@ -5,6 +5,7 @@
 #include "scene/bands.h"
 #include "scene/check_spec.h"
 #include "scene/contact_faces.h"
+#include "scene/fibre_precision.h"
 #include "scene/mesh_part.h"
 #include "scene/run_plan.h"
 #include "scene/wall_paths.h"
@@ -53,11 +54,14 @@ SceneResult build_scene(const SceneSpec& given, const std::function<void()>& bet
   const SceneSpec part = mesh_part_of(spec);
   const std::shared_ptr<Scene> scene = build_mesh(part);
   between_stages();
-  const RunPlan plan = plan_run(spec, measure_mesh(part, *scene), result.problems);
+  const MeshMeasures measures = measure_mesh(part, *scene);
+  const RunPlan plan = plan_run(spec, measures, result.problems);
   between_stages();
   if (!result.problems.empty()) {
     return result;
   }
+  scene->slow_loading = scene->single_fibres && steps_to_yield(spec, measures, plan) > kMostSingleSteps;
+  scene->single_fibres = scene->single_fibres && !scene->slow_loading;
   scene->mass_damping = spec.numerics.mass_damping_per_s;
   scene->contact = plan.contact;
   scene->plates = plan.plates;

@@ -38,10 +38,13 @@ double growth_by_search(const Scene& scene) {
   return scene.bands.size() > 1 ? kGrowth.by_faces_in_bands : kGrowth.by_faces;
 }
 
+/// At the strain rate of the whole lattice, on which the precision of fibres depends.
 SceneSpec specimen_of(SceneSpec spec) {
   std::visit(
-      [](auto& lattice) {
+      [&loading = spec.loading](auto& lattice) {
         if constexpr (requires { lattice.columns; }) {
+          const int cells = loading.direction == LoadingSpec::Direction::x ? *lattice.columns : *lattice.rows;
+          *loading.speed_m_per_s *= std::min(1.0, static_cast<double>(kMostCells) / cells);
           lattice.columns = std::min(*lattice.columns, kMostCells);
           lattice.rows = std::min(*lattice.rows, kMostCells);
         }
@@ -77,6 +80,9 @@ double bytes_of_run(const SceneSpec& spec, double elements, double growth) {
 
 std::int64_t memory_of_run(const SceneSpec& spec, const Scene& scene) {
   SceneSpec as_built = spec;
+  if (!scene.single_fibres) {
+    as_built.numerics.fibre_precision = NumericsSpec::FibrePrecision::double_precision;
+  }
   if (!scene.faces.are_enough()) {
     as_built.contact.search = ContactSpec::Search::buckets;
   }

@@ -25,12 +25,15 @@ std::string fibres_text(const Scene& scene) {
       scene.has_hardening()
           ? "Fibres: bilinear with mixed hardening; each stores its back stress and accumulated plastic strain"
           : "Fibres: perfectly plastic; each stores only its stress";
-  return law +
-         (scene.single_fibres
-              ? ", in single precision, which halves the memory and adds no error beyond the scatter between seeds."
-              : ", in double precision" + std::string(scene.section.force_based && scene.has_hardening()
-                                                          ? ", as hardening requires in force-based elements."
-                                                          : "."));
+  if (scene.single_fibres) {
+    return law + ", in single precision, which halves the memory and adds no error beyond the scatter between seeds.";
+  }
+  if (scene.slow_loading) {
+    return law + ", in double precision: the loading is so slow that single precision would round it away.";
+  }
+  return law + ", in double precision" +
+         (scene.section.force_based && scene.has_hardening() ? ", as hardening requires in force-based elements."
+                                                             : ".");
 }
 
 std::string friction_text(double friction) {

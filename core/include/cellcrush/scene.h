@@ -236,6 +236,8 @@ struct Scene {
   std::vector<Material> materials;  ///< at least one
   SectionRule section;
   bool single_fibres = false;  ///< fibre histories are stored and updated in single precision
+  /// Single precision was asked for, but would round so slow a loading away (scene/fibre_precision.h).
+  bool slow_loading = false;
   bool constant_area = false;  ///< walls keep their section area, as in the paper, instead of their volume (E5c)
   ContactLaw contact;
   LimitedReaches limited_reaches;  ///< empty without contact

@@ -20,9 +20,9 @@ void visit_arrays(const Scene& scene, Visitor&& visit) {
   const auto& [position, mass, inertia, inverse_mass, inverse_inertia, radius, largest_radius, smallest_radius,
                elements, walls, bands, rigid, incidence_offset, incidence, joint_count, wall_end_offset, wall_ends,
                supports, motions, loads, element_loads, gravity, initial_velocity, initial_spin, depth, materials,
-               section, single_fibres, constant_area, contact, limited_reaches, faces, plates, mass_scaling,
-               mass_damping, schedule, length, width, total_mass, stable_step, collapse_stress, fidelity, watched] =
-      scene;
+               section, single_fibres, slow_loading, constant_area, contact, limited_reaches, faces, plates,
+               mass_scaling, mass_damping, schedule, length, width, total_mass, stable_step, collapse_stress, fidelity,
+               watched] = scene;
   const auto& [blocks, chunk_offset, first_joint, end_joint, start, end, thickness, undeformed_length, material] =
       walls;
   const auto& [rigid_offset, centre, rigid_mass, rigid_inertia, first_element] = rigid;

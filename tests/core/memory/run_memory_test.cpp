@@ -157,6 +157,19 @@ const Crush kCrushes[] = {
 INSTANTIATE_TEST_SUITE_P(Crushes, RunMemory, testing::ValuesIn(kCrushes),
                          [](const auto& test) { return std::string(test.param.name); });
 
+// Loading so slow that single precision would round it away: the specimen of the prediction must not be crushed faster.
+TEST(PredictedMemory, OfASlowCrushIsThatOfDoublePrecision) {
+  SceneSpec spec = find_preset("type-i")->spec;
+  const auto predicted_at = [&spec](double speed) {
+    spec.loading.speed_m_per_s = speed;
+    return memory_of_run(spec, *scenes::build(spec));
+  };
+  const std::int64_t slow = predicted_at(0.1);
+  EXPECT_GT(slow, predicted_at(1.0));
+  spec.numerics.fibre_precision = NumericsSpec::FibrePrecision::double_precision;
+  EXPECT_EQ(slow, predicted_at(0.1));
+}
+
 /// Type I, wider: minutes.
 const Crush kLargeCrushes[] = {
     {"type_i", "type-i", 74, 21},

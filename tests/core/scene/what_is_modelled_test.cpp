@@ -37,6 +37,15 @@ TEST(WhatIsModelled, SaysWhatWasAskedFor) {
               Contains(HasSubstr("each stores its back stress and accumulated plastic strain, in double precision")));
 }
 
+TEST(WhatIsModelled, SaysThatSlowLoadingNeedsDoublePrecision) {
+  SceneSpec spec = scenes::hexagon_specimen(4, 3);
+  const auto said = Contains(HasSubstr("in double precision: the loading is so slow"));
+  spec.loading.speed_m_per_s = 0.1;
+  EXPECT_THAT(facts_of(*scenes::build(spec)).modelled, Not(said));
+  spec.loading.speed_m_per_s = 0.001;
+  EXPECT_THAT(facts_of(*scenes::build(spec)).modelled, said);
+}
+
 // A formulation that is changed alone keeps the points of the other.
 TEST(WhatIsModelled, WarnsOfPointsThatAreComputedOneByOne) {
   SceneSpec spec = scenes::hexagon_specimen(4, 3);
