@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "beam/element_place.h"
@@ -99,6 +100,13 @@ void Sampler::find_warnings(const Scene& scene, const State& state, Sample& samp
     sample.warnings.push_back(sample.walls_crossed ? warn_of_crossing(scene, state, sample.strain)
                                                    : warn_of_borders(state, sample.strain));
     has_warned_of_search_ = true;
+  }
+  if (has_warned_of_necks_) {
+    return;
+  }
+  if (const std::optional<Warning> necks = warn_of_necks(scene, state, sample.strain)) {
+    sample.warnings.push_back(*necks);
+    has_warned_of_necks_ = true;
   }
 }
 

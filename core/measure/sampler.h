@@ -26,6 +26,7 @@ class Sampler {
     visitor(last_support_impulse_);
     visitor(has_warned_of_depth_);
     visitor(has_warned_of_search_);
+    visitor(has_warned_of_necks_);
     visitor(next_check_);
   }
 
@@ -41,6 +42,7 @@ class Sampler {
   double last_support_impulse_ = 0.0;
   bool has_warned_of_depth_ = false;
   bool has_warned_of_search_ = false;
+  bool has_warned_of_necks_ = false;
   double next_check_;  ///< fraction of collapsed cells at which the crush mode is next evaluated
 };
 

@@ -43,6 +43,32 @@ std::string deepest_place(const Scene& scene, const State& state) {
                   : "; deepest now at " + place_of(scene, ball) + ", in the wall of element " + std::to_string(segment);
 }
 
+/// l / l_0 up to which a wall stretches evenly: until it yields, and then until its true stress reaches H (Considere).
+double even_stretch(const Material& material) {
+  const double elastic = 1.0 + material.yield_stress / material.youngs_modulus;
+  return material.hardening_modulus > material.yield_stress
+             ? elastic * std::exp(1.0 - material.yield_stress / material.hardening_modulus)
+             : elastic;
+}
+
+/// Calls visit(wall, elongation) for all walls: by how much their elements are longer than they can be stretched
+/// evenly, over the thickness.
+template <class Visit>
+void visit_elongations(const Scene& scene, const State& state, const Visit& visit) {
+  const Walls& walls = scene.walls;
+  for (const WallBlock& block : walls.blocks) {
+    for (int w = 0; w < block.walls; ++w) {
+      const int wall = block.first_wall + w;
+      const double even = even_stretch(scene.materials[walls.material[wall]]) * walls.undeformed_length[wall];
+      double elongation = 0.0;
+      for (int j = 0; j < block.elements; ++j) {
+        elongation += std::max(0.0, state.length[block.first_element + j * block.walls + w] - even);
+      }
+      visit(wall, elongation / walls.thickness[wall]);
+    }
+  }
+}
+
 /// Adds the warning about a quantity over the turnover if it exceeds kEnergyDrift, with the time at which it first does
 /// and its maximum.
 template <class Quantity>
@@ -97,6 +123,32 @@ Warning warn_of_borders(const State& state, double strain) {
               "; from then on, contacts are searched in space, which finds the same contacts but is slower.",
           "No action is needed: the result is valid. If numerics.time_step_s was given, 0 (an automatic step) may "
           "avoid the slower search."};
+}
+
+std::optional<Warning> warn_of_necks(const Scene& scene, const State& state, double strain) {
+  std::size_t count = 0;
+  int most = 0;
+  double most_elongation = 0.0;
+  visit_elongations(scene, state, [&](int wall, double elongation) {
+    count += elongation > 1.0 ? 1 : 0;
+    if (elongation > most_elongation) {
+      most = wall;
+      most_elongation = elongation;
+    }
+  });
+  const std::size_t walls = scene.walls.start.size();
+  if (static_cast<double>(count) <= kNeckedWalls * static_cast<double>(walls)) {
+    return std::nullopt;
+  }
+  return Warning{Warning::Kind::walls_neck, state.step, strain,
+                 "Of " + std::to_string(walls) + " walls, " + std::to_string(count) +
+                     " had been stretched by more than their thickness by " + moment_of(state.step, state.time) +
+                     ". Real ones would have necked and torn; these keep their area and their yield force. The wall "
+                     "stretched most starts at " +
+                     place_of(scene, scene.walls.start[most]) + ", by " + percent_of(most_elongation) +
+                     " of its thickness.",
+                 "Fracture is not modelled: take the stresses from here on as an upper bound. If the material hardens, "
+                 "give material.hardening_modulus_mpa."};
 }
 
 double turnover_of(const Sample& sample) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,6 +19,8 @@ namespace cellcrush {
 /// Overlap, as a fraction of the thickness of the thinner wall, from which it is deep; a sound contact stays below a
 /// quarter.
 inline constexpr double kDeepPenetration = 0.5;
+/// Fraction of the walls beyond which walls that would have necked are reported.
+inline constexpr double kNeckedWalls = 0.01;
 /// Fraction of the work done beyond which the ledger drifts, or contacts create energy.
 inline constexpr double kEnergyDrift = 0.01;
 
@@ -27,6 +30,10 @@ Warning warn_of_crossing(const Scene& scene, const State& state, double strain);
 /// Warns that distant parts of the border, which bands do not test against each other, came near
 /// (search/border_check.h). This costs time but no accuracy.
 Warning warn_of_borders(const State& state, double strain);
+
+/// Warns of walls that real metal would have torn: more than kNeckedWalls of all have been stretched by more than their
+/// thickness beyond the strain up to which they stretch evenly (E5c). Names the one that is stretched most.
+std::optional<Warning> warn_of_necks(const Scene& scene, const State& state, double strain);
 
 /// The external work done by the time of a sample, or the kinetic energy including all energy put in at the start,
 /// whichever is greater, N mm. Errors of the energy are compared with it.

@@ -44,6 +44,7 @@ v1::WarningKind to_proto(Warning::Kind kind) {
     case Warning::Kind::deep_penetration: return v1::DEEP_PENETRATION;
     case Warning::Kind::walls_crossed: return v1::WALLS_CROSSED;
     case Warning::Kind::borders_near: return v1::BORDERS_NEAR;
+    case Warning::Kind::walls_neck: return v1::WALLS_NECK;
     case Warning::Kind::energy_drift: return v1::ENERGY_DRIFT;
     case Warning::Kind::contact_energy: return v1::CONTACTS_MAKE_ENERGY;
   }

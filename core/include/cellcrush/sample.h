@@ -48,7 +48,8 @@ struct Warning {
     energy_drift,      ///< the energy balance had an error of more than 1 % of the work done
     contact_energy,    ///< contacts had created more than 1 % of the work done
     /// Distant parts of the border of a large lattice came near each other: the contact search is slower from then on.
-    borders_near
+    borders_near,
+    walls_neck  ///< more than 1 % of the walls were stretched by more than their thickness
   };
   Kind kind = Kind::deep_penetration;
   std::int64_t step = 0;
