@@ -16,9 +16,9 @@
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {
 
-/// Least tangent modulus of a fibre that yields, over the elastic one: the t_min of E5d. A perfectly plastic fibre has
-/// none, and a section of such fibres would be infinitely flexible.
-inline constexpr double kLeastTangent = 0.01;
+/// What is added to the tangent modulus of a fibre that yields, over the elastic one (E5d). A perfectly plastic fibre
+/// has none, and a section of such fibres would be infinitely flexible.
+inline constexpr double kAddedTangent = 0.01;
 
 /// Stresses of a section over its area, MPa (E5b): n = N / A and m = M / (A gamma), with the radius of gyration gamma.
 /// The same numbers are elastic strains times E: n = E e, m = E gamma kappa.
@@ -60,7 +60,7 @@ HWY_INLINE SectionFlexibility<D> flexibility_of(const Rule& rule, const LaneMate
     second = select(soft, second + Lane<D>(rule.square_weight[j]), second);
   }
   const Lane<D> one = 1;
-  const Lane<D> tangent = max(Lane<D>(hn::TFromD<D>(kLeastTangent)), material.hardening * material.inverse);
+  const Lane<D> tangent = fma(material.hardening, material.inverse, Lane<D>(hn::TFromD<D>(kAddedTangent)));
   const Lane<D> lost = one - tangent;
   const Lane<D> axial = fnma(lost, area, one);  // stiffness
   const Lane<D> mixed = lost * first;           // with the opposite sign

@@ -190,7 +190,7 @@ class ForceBasedStep {
   [[nodiscard]] Eigen::Matrix2d flexibility(const Place& at, const IsSoft& is_soft) const {
     const Material& material = elements_[at.element].material;
     const double hardening = material.hardening_modulus / (material.modulus + material.hardening_modulus);  // E_T / E
-    const double tangent = std::max(0.01, hardening);
+    const double tangent = 0.01 + hardening;
     Eigen::Matrix2d stiffness = Eigen::Matrix2d::Identity();
     for (std::size_t j = 0; j < rule_.points.size(); ++j) {
       if (is_soft(fibre(at, j))) {
