@@ -192,8 +192,9 @@ class WallChunk {
       deformation.length.store(length_ + e);
       deformation.inverse_length.store(inverse_length_ + e);
       const RowStrains<T> strains = scratch_.strains(row, lane, walls_of(block));
-      const Real slenderness = section.thickness * deformation.inverse_mean;
-      (deformation.stretch * deformation.inverse_mean).store(strains.membrane);
+      const Real inverse_strained = section.inverse_strained(deformation.inverse_mean);
+      const Real slenderness = section.thickness * inverse_strained;
+      (deformation.stretch * inverse_strained).store(strains.membrane);
       if (has_pairs(block) && !is_paired_on) {
         // The turn between the two elements, over their mean length: their common node has no rotation.
         const Real turn = deformation.rotation_start - turn_before;
@@ -331,7 +332,7 @@ class WallChunk {
           nodal_forces({area * Real::load(sums.axial), section.thickness * start_area * Real::load(sums.moment_start),
                         section.thickness * end_area * Real::load(sums.moment_end)},
                        inverse_length, Points<D>::load(axis_ + row + lane));
-      work = fma(section.volume(Real::load(length_ + row + lane)), Real::load(sums.plastic_work), work);
+      work = fma(section.volume(), Real::load(sums.plastic_work), work);
       if (j == 0) {
         put_on_joints(ends, forces.force_on_end, -forces.moment_on_start);
       } else {

@@ -87,7 +87,7 @@ class LaneEnergy {
     if (HWY_UNLIKELY(any(section.is_compressed(length)))) {
       modulus = modulus * section.modulus_share(length);
     }
-    return section.volume(length) * squares / (modulus + modulus);
+    return section.volume() * squares / (modulus + modulus);
   }
 
   HWY_INLINE Lane<D> modulus_of(int wall) const {

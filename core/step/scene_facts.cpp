@@ -76,9 +76,11 @@ std::vector<std::string> what_is_modelled(const Scene& scene) {
   } else {
     lines.emplace_back("Contact between walls: none, as requested (lattice.frame.self_contact).");
   }
-  lines.emplace_back(scene.constant_area
-                         ? "Cross-section: walls that shorten keep their cross-sectional area."
-                         : "Cross-section: walls that shorten keep their volume and their in-plane thickness.");
+  lines.emplace_back(
+      scene.constant_area
+          ? "Cross-section: walls keep their cross-sectional area; strains are taken over undeformed lengths."
+          : "Cross-section: walls that shorten keep their volume and their in-plane thickness; walls "
+            "that are stretched keep their area and do not neck.");
   if (scene.plates.present) {
     lines.push_back("Plates: rigid, unilateral, not meshed, " + friction_text(scene.plates.friction));
   }

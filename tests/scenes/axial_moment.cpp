@@ -131,7 +131,6 @@ std::vector<double> loads_of_held_beam(int elements, double stiffening, const st
   frame.watched_nodes = {1};
   std::vector<std::pair<double, double>> curve;
   SceneSpec spec = spec_of(std::move(frame), kPeriods, stiffening);
-  spec.section.area_rule = SectionSpec::AreaRule::constant_area;
   for (const ForceAt& at : force_curve(run_frame(spec), &WatchedNode::uy)) {
     curve.emplace_back(at.displacement / PlasticFrame::kThickness,
                        at.force * PlasticFrame::kLength / (8.0 * PlasticFrame::kFullMoment));

@@ -18,7 +18,7 @@ double root_moment_of_pulled_cantilever(double n, int elements, SectionSpec::Are
 std::vector<double> forces_of_folded_strut(int elements, const std::vector<double>& deflections);
 
 /// Load over 8 M_p / L of a beam of two members that is clamped at both ends, held along its axis, and pushed at its
-/// middle, at constant area, at each of `deflections` over thickness, ascending. `stiffening`: factor of Young's
+/// middle, at each of `deflections` over thickness, ascending. `stiffening`: factor of Young's
 /// modulus. Rigid-plastic: 1 + (W / h)^2 up to W = h, then 2 W / h.
 std::vector<double> loads_of_held_beam(int elements, double stiffening, const std::vector<double>& deflections);
 

@@ -133,7 +133,7 @@ INSTANTIATE_TEST_SUITE_P(
     Of, DensificationOfACrush,
     testing::Values(SmallCrush{LoadingSpec::Direction::x, 10.0}, SmallCrush{LoadingSpec::Direction::x, 100.0},
                     SmallCrush{LoadingSpec::Direction::x, 150.0}, SmallCrush{LoadingSpec::Direction::y, 10.0},
-                    SmallCrush{LoadingSpec::Direction::y, 100.0}, SmallCrush{LoadingSpec::Direction::y, 150.0}));
+                    SmallCrush{LoadingSpec::Direction::y, 100.0}, SmallCrush{LoadingSpec::Direction::y, 125.0}));
 
 }  // namespace
 }  // namespace cellcrush

@@ -47,7 +47,7 @@ TEST(AxialForceWithMoment, FoldedStrutHasTheForceOfItsThreeHinges) {
   }
 }
 
-// At constant area: at constant volume the pulled beam thins, and necks in its shortest elements.
+// A pulled beam keeps its area (E5c). If it thinned, it would neck in its shortest elements.
 TEST(AxialForceWithMoment, HeldBeamPassesFromBendingToPull) {
   const std::vector<double> deflections = {0.5, 1.0, 1.5, 2.0};
   const std::vector<double> of_two = scenes::loads_of_held_beam(2, 20.0, deflections);

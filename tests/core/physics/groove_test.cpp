@@ -26,8 +26,8 @@ struct Groove {
     frame.nodes = {{-kLeg * std::sin(half), kLeg * std::cos(half), 0.0, 0.0},
                    {0.0, 0.0, 0.0, 0.0},
                    {kLeg * std::sin(half), kLeg * std::cos(half), 0.0, 0.0},
-                   {0.37, 12.0, 0.0, 0.0},
-                   {0.37, 32.0, 0.0, 0.0}};
+                   {0.36, 12.0, 0.0, 0.0},
+                   {0.36, 32.0, 0.0, 0.0}};
     frame.beams = {scenes::beam(0, 1, 1.0, 1), scenes::beam(1, 2, 1.0, 1), scenes::beam(3, 4, 1.0, 1)};
     frame.supports = {{0, true, true, true},
                       {1, true, true, true},

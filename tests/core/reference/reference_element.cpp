@@ -7,6 +7,14 @@
 namespace cellcrush::reference {
 namespace {
 
+/// L of E5c: the length over which strains are taken.
+double strained_length(const ElementRule& rule, const ElementData& data, double length) {
+  return rule.constant_area ? data.undeformed_length : std::min(length, data.undeformed_length);
+}
+
+/// V_0
+double volume_of(const ElementData& data) { return data.depth * data.thickness * data.undeformed_length; }
+
 /// Area and modulus of an element of the length l, which may be squashed (E5c).
 struct SquashedBar {
   double area;
@@ -14,14 +22,13 @@ struct SquashedBar {
 };
 
 SquashedBar squash(const ElementRule& rule, const ElementData& data, double length) {
-  const double undeformed_area = data.depth * data.thickness;
-  const double area = rule.constant_area ? undeformed_area : undeformed_area * data.undeformed_length / length;
+  const double area = volume_of(data) / strained_length(rule, data, length);
   const double bound = 0.95 * data.undeformed_length;
   if (length >= bound) {
     return {area, data.material.modulus};
   }
   const double four_gyration_squared = 4.0 * data.thickness * data.thickness / 12.0;
-  const double shortening = std::pow(length / bound, rule.constant_area ? 1.0 : 2.0);
+  const double shortening = std::pow(length / bound, rule.constant_area ? 0.0 : 2.0);
   return {area, data.material.modulus * shortening * (1.0 + four_gyration_squared / (bound * bound)) /
                     (1.0 + four_gyration_squared / (length * length))};
 }
@@ -35,13 +42,14 @@ struct DeformedElement {
     const Vector span = ends.end - ends.start;
     length = span.norm();
     axis = span / length;
-    mean_length = 0.5 * (history.length + length);                                      // E5
+    mean_length = strained_length(rule, moved.data, 0.5 * (history.length + length));   // E5
     stretch = length - history.length;                                                  // Eq. 15
     const double turn = std::atan2(cross(history.axis, axis), history.axis.dot(axis));  // Eq. 9, E3
     turn_start = ends.turn_start - turn;                                                // Eq. 14, E4
     turn_end = ends.turn_end - turn;                                                    // Eq. 14, E4
     const SquashedBar bar = squash(rule, moved.data, length);
     area = bar.area;
+    volume = volume_of(moved.data);
     material.modulus = bar.modulus;
   }
 
@@ -49,11 +57,12 @@ struct DeformedElement {
   double thickness;
   Vector axis;
   double length;
-  double mean_length;  // l_m
+  double mean_length;  // L_m
   double stretch;      // Delta
   double turn_start;   // theta_1
   double turn_end;     // theta_2
   double area;
+  double volume;
 };
 
 /// Nodal forces of an element from its axial force and its end moments (Eq. 31, 32, E7).
@@ -83,7 +92,7 @@ ElementForces respond_to_curvature(const ElementRule& rule, const DeformedElemen
       axial += part * element.area * fibre.stress;                                 // Eq. 28, E7
       moment_start += part * element.area * (4.0 - 6.0 * s) * arm * fibre.stress;  // Eq. 28, E7
       moment_end += part * element.area * (2.0 - 6.0 * s) * arm * fibre.stress;    // Eq. 28, E7
-      plastic_work += part * element.area * element.length * flow.work;            // E10
+      plastic_work += part * element.volume * flow.work;                           // E10
     }
   }
   return nodal_forces(element, axial, moment_start, moment_end, plastic_work);
@@ -321,8 +330,7 @@ class ForceBasedStep {
       const double axial = element.area * forces[static_cast<Eigen::Index>(e)];  // N = A n
       const double moment_start = area_at(e) * gyration(e) * forces[moment(e)];  // M = A gamma m
       const double moment_end = -area_at(e + 1) * gyration(e) * forces[moment(e + 1)];
-      all.push_back(
-          nodal_forces(element, axial, moment_start, moment_end, element.area * element.length * plastic_work_[e]));
+      all.push_back(nodal_forces(element, axial, moment_start, moment_end, element.volume * plastic_work_[e]));
     }
     return all;
   }
@@ -383,7 +391,7 @@ double elastic_energy(const ElementRule& rule, const ElementData& data, const El
   for (std::size_t f = 0; f < history.fibres.size(); ++f) {
     const double weight = rule.sections[f / rule.points.size()].weight * rule.points[f % rule.points.size()].weight;
     const double stress = history.fibres[f].stress;
-    energy += weight * bar.area * history.length * stress * stress / (2.0 * bar.modulus);  // E10
+    energy += weight * volume_of(data) * stress * stress / (2.0 * bar.modulus);  // E10
   }
   return energy;
 }
