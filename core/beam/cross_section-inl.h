@@ -6,35 +6,38 @@
 #define CELLCRUSH_BEAM_CROSS_SECTION_INL_H_
 #endif
 
+#include <cstddef>
+
 #include "cellcrush/scene.h"
+#include "geometry/thickening.h"
 #include "simd/lane-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {
 
-/// l / l_0 below which the modulus is reduced (E5c).
-inline constexpr double kModulusCapStretch = 0.95;
-
 /// The constant data of the cross-sections of elements, for the walls from `wall` on (E5c).
 template <class D>
 struct CrossSection {
-  Lane<D> thickness;   ///< h, mm
+  const Scene& scene;
+  int wall;
+  Lane<D> thickness;   ///< h_0, mm
   Lane<D> undeformed;  ///< l_0, mm
   Lane<D> depth;       ///< b, mm
   Lane<D> inverse_undeformed;
   bool constant_area;
 
-  HWY_INLINE CrossSection(const Scene& scene, int wall)
-      : thickness(Lane<D>::load(&scene.walls.thickness[wall])),
-        undeformed(Lane<D>::load(&scene.walls.undeformed_length[wall])),
-        depth(scene.depth),
+  HWY_INLINE CrossSection(const Scene& of_scene, int first_wall)
+      : scene(of_scene),
+        wall(first_wall),
+        thickness(Lane<D>::load(&of_scene.walls.thickness[first_wall])),
+        undeformed(Lane<D>::load(&of_scene.walls.undeformed_length[first_wall])),
+        depth(of_scene.depth),
         inverse_undeformed(Lane<D>(1) / undeformed),
-        constant_area(scene.constant_area) {}
+        constant_area(of_scene.constant_area) {}
 
-  /// Area A = V_0 / L, mm^2 (E5c). Plastic flow keeps the volume of a wall that shortens, with the thickness in the
-  /// plane kept. With constant area, as in the paper, a wall under its yield force would shorten without end, one
-  /// element before the others. A wall that is stretched keeps its area: otherwise it would neck, over the length of an
-  /// element.
+  /// Area A = V_0 / L, mm^2 (E5c). Plastic flow keeps the volume of a wall that shortens. With constant area, as in the
+  /// paper, a wall under its yield force would shorten without end, one element before the others. A wall that is
+  /// stretched keeps its area: otherwise it would neck, over the length of an element.
   HWY_INLINE Lane<D> area(Lane<D> inverse_length) const {
     const Lane<D> area = depth * thickness;
     return constant_area ? area : area * max(undeformed * inverse_length, Lane<D>(1));
@@ -48,24 +51,96 @@ struct CrossSection {
   /// V_0, mm^3, over which the stress does work.
   HWY_INLINE Lane<D> volume() const { return depth * thickness * undeformed; }
 
-  /// Lanes whose elements are compressed so far that their modulus is reduced.
-  HWY_INLINE LaneMask<D> is_compressed(Lane<D> length) const {
-    return length < Lane<D>(kModulusCapStretch) * undeformed;
+  /// Lanes whose elements are squashed: shortened so far that their modulus is reduced and their thickness grows.
+  HWY_INLINE LaneMask<D> is_squashed(Lane<D> length) const { return length < Lane<D>(kSquashedStretch) * undeformed; }
+
+  /// Whether any lanes have elements that grow thicker: in plane strain first.
+  HWY_INLINE bool grows(Lane<D> length) const {
+    constexpr double kFirst = 1.0 / (1.0 + kGrowthLeftOut);
+    return !constant_area && any(length < Lane<D>(kFirst) * undeformed);
+  }
+
+  /// What half of the thickness has grown by, mm (E5f).
+  HWY_INLINE Lane<D> thickening(Lane<D> length) const {
+    if (!grows(length)) {
+      return 0;
+    }
+    const Lane<D> shortening = undeformed / length;
+    const Lane<D> growth = select(is_in_plane_strain(), shortening, sqrt(shortening)) - Lane<D>(1.0 + kGrowthLeftOut);
+    return Lane<D>(0.5) * thickness * min(max(growth, Lane<D>(0)), Lane<D>(kMostThickening - 1.0));
+  }
+
+  /// Derivative of the thickening by the length.
+  HWY_INLINE Lane<D> slope_of_thickening(Lane<D> length, Lane<D> thickening) const {
+    const Lane<D> half = Lane<D>(0.5) * thickness;
+    const Lane<D> power = select(is_in_plane_strain(), Lane<D>(1), Lane<D>(0.5));
+    const Lane<D> whole = fma(half, Lane<D>(1.0 + kGrowthLeftOut), thickening);
+    const LaneMask<D> grows = (thickening > Lane<D>(0)) & (thickening < half * Lane<D>(kMostThickening - 1.0));
+    return masked(grows, -power * whole / length);
   }
 
   /// E_l / E (E5c): with this fraction of its modulus, an element of length l vibrates no faster than at
-  /// kModulusCapStretch. A / L and I / L grow as 1 / l^2 at constant volume. The shear due to bending grows by
-  /// 1 + 4 gamma^2 / l^2 (E11). Such an element yields: its force is that of the yield stress, and its stored energy is
-  /// a small part of its plastic work.
-  HWY_INLINE Lane<D> modulus_share(Lane<D> length) const {
+  /// kSquashedStretch. A / L grows as 1 / l^2 at constant volume; the turn of a node is stiffer by the square of the
+  /// thickness. The shear due to bending grows by 1 + 4 gamma^2 / l^2 (E11), with the gamma of the rotary inertia,
+  /// which stays. Such an element yields: its force is that of the yield stress, and its stored energy is a small part
+  /// of its plastic work.
+  HWY_INLINE Lane<D> modulus_share(Lane<D> length, Lane<D> inverse_length, Lane<D> thickening) const {
     const Lane<D> one = 1;
-    const Lane<D> bound = Lane<D>(kModulusCapStretch) * undeformed;
-    const Lane<D> four_gyration_squared = thickness * thickness * Lane<D>(1.0 / 3.0);
-    const Lane<D> ratio = length / bound;
-    const Lane<D> at_bound = one + four_gyration_squared / (bound * bound);
-    const Lane<D> now = one + four_gyration_squared / (length * length);
-    const Lane<D> share = (constant_area ? one : ratio * ratio) * at_bound / now;
-    return select(is_compressed(length), share, one);
+    const Lane<D> ratio = length * inverse_of_bound();
+    const Lane<D> now = fma(four_gyration_squared() * inverse_length, inverse_length, one);
+    Lane<D> share = (constant_area ? one : ratio * ratio) * shear_at_bound() / now;
+    if (grows(length)) {
+      const Lane<D> over_growth = thickness / (thickness + thickening + thickening);
+      share = share * over_growth * over_growth;
+    }
+    return select(is_squashed(length), share, one);
+  }
+
+  /// -1/2 L (dE_l/dl) / E_l^2, 1/MPa (E5g); 0 of elements that are not squashed. With S = 4 gamma^2 / l^2 and the
+  /// growth g = h / h_0 it is -L g^2 (0.95 l_0 / l)^2 [(1 + 2 S) / l - (1 + S) g' / g] over E and the factor at 0.95
+  /// l_0.
+  HWY_INLINE Lane<D> fall_of_modulus(Lane<D> length, Lane<D> inverse_length, Lane<D> thickening,
+                                     Lane<D> slope_of_thickening) const {
+    const Lane<D> one = 1;
+    const Lane<D> shear = four_gyration_squared() * inverse_length * inverse_length;
+    Lane<D> fall = (constant_area ? shear : one + shear + shear) * inverse_length;
+    if (grows(length)) {
+      const Lane<D> inverse_half = Lane<D>(2) / thickness;
+      const Lane<D> growth = fma(thickening, inverse_half, one);
+      fall = growth * fms(growth, fall, (one + shear) * slope_of_thickening * inverse_half);
+    }
+    const Lane<D> over_ratio = constant_area ? one : Lane<D>(kSquashedStretch) * undeformed * inverse_length;
+    const Lane<D> strained = constant_area ? undeformed : length;
+    return masked(is_squashed(length), -(strained * over_ratio * over_ratio * fall) / (modulus() * shear_at_bound()));
+  }
+
+  /// E of the walls, MPa.
+  HWY_INLINE Lane<D> modulus() const {
+    double moduli[Lane<D>::kWidth];
+    for (std::size_t lane = 0; lane < Lane<D>::kWidth; ++lane) {
+      moduli[lane] = material_of(lane).youngs_modulus;
+    }
+    return Lane<D>::load(moduli);
+  }
+
+ private:
+  HWY_INLINE Lane<D> inverse_of_bound() const { return Lane<D>(1.0 / kSquashedStretch) * inverse_undeformed; }
+  HWY_INLINE Lane<D> four_gyration_squared() const { return thickness * thickness * Lane<D>(1.0 / 3.0); }
+  /// 1 + 4 gamma^2 / l^2 at 0.95 l_0.
+  HWY_INLINE Lane<D> shear_at_bound() const {
+    return fma(four_gyration_squared() * inverse_of_bound(), inverse_of_bound(), Lane<D>(1));
+  }
+
+  HWY_INLINE const Material& material_of(std::size_t lane) const {
+    return scene.materials[scene.materials.size() == 1 ? 0 : scene.walls.material[wall + static_cast<int>(lane)]];
+  }
+
+  HWY_INLINE LaneMask<D> is_in_plane_strain() const {
+    double held[Lane<D>::kWidth];
+    for (std::size_t lane = 0; lane < Lane<D>::kWidth; ++lane) {
+      held[lane] = material_of(lane).plane_strain ? 1.0 : 0.0;
+    }
+    return Lane<D>::load(held) > 0.0;
   }
 };
 

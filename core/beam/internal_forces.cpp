@@ -39,17 +39,22 @@ class WallLoops {
     return &all[kScratchKinds * blocks_of(chunk).front().first_element];
   }
 
-  /// Returns whether any elements are compressed, so that their modulus is reduced.
+  /// Returns whether any elements are squashed, so that their modulus is reduced.
   HWY_NOINLINE bool deform(std::size_t chunk, T* scratch) const {
-    bool is_compressed = false;
-    with_chunk(chunk, scratch, [&](auto& walls) HWY_ATTR { is_compressed = walls.deform(); });
-    return is_compressed;
+    bool is_squashed = false;
+    with_chunk(chunk, scratch, [&](auto& walls) HWY_ATTR {
+      is_squashed = walls.deform();
+      if (!state_.thickening_step.empty()) {
+        state_.thickening_step[chunk] = walls.thickening_step();
+      }
+    });
+    return is_squashed;
   }
 
   /// Returns the plastic work.
-  HWY_NOINLINE double respond(std::size_t chunk, T* scratch, bool is_compressed) const {
+  HWY_NOINLINE double respond(std::size_t chunk, T* scratch, bool is_squashed) const {
     double work[kMostWallsInBlock] = {};
-    with_chunk(chunk, scratch, [&](auto& walls) HWY_ATTR { walls.respond(is_compressed, work); });
+    with_chunk(chunk, scratch, [&](auto& walls) HWY_ATTR { walls.respond(is_squashed, work); });
     return sum_of(work);
   }
 
@@ -168,9 +173,9 @@ void deform_all(const Scene& scene, State& state, WallsWorkspace& workspace, Wor
     using T = typename std::decay_t<decltype(loops)>::T;
     LaneVector<T>& scratch = workspace.all.template of<T>();
     scratch.resize(kScratchKinds * scene.element_count());
-    workers.parallel_for(workspace.compressed.size(), [&](std::size_t first, std::size_t end) HWY_ATTR {
+    workers.parallel_for(workspace.squashed.size(), [&](std::size_t first, std::size_t end) HWY_ATTR {
       for (std::size_t c = first; c < end; ++c) {
-        workspace.compressed[c] = loops.deform(c, loops.scratch_of(scratch, c)) ? 1 : 0;
+        workspace.squashed[c] = loops.deform(c, loops.scratch_of(scratch, c)) ? 1 : 0;
       }
     });
   });
@@ -181,9 +186,9 @@ void respond_piece(const Scene& scene, State& state, WallsWorkspace& workspace, 
   with_loops(scene, state, [&](const auto& loops) HWY_ATTR {
     using T = typename std::decay_t<decltype(loops)>::T;
     LaneVector<T>& scratch = workspace.all.template of<T>();
-    const std::size_t end = std::min(workspace.compressed.size(), (piece + 1) * kChunksInPiece);
+    const std::size_t end = std::min(workspace.squashed.size(), (piece + 1) * kChunksInPiece);
     for (std::size_t c = piece * kChunksInPiece; c < end; ++c) {
-      plastic_work[c] = loops.respond(c, loops.scratch_of(scratch, c), workspace.compressed[c] != 0);
+      plastic_work[c] = loops.respond(c, loops.scratch_of(scratch, c), workspace.squashed[c] != 0);
     }
   });
 }
@@ -198,6 +203,12 @@ HWY_EXPORT(evaluate_band);
 HWY_EXPORT(deform_all);
 HWY_EXPORT(respond_piece);
 
+void size_thickening_step(const Scene& scene, State& state) {
+  if (scene.thickens()) {
+    state.thickening_step.resize(static_cast<std::size_t>(scene.walls.chunk_count()), 0.0);
+  }
+}
+
 void evaluate_internal_forces(const Scene& scene, State& state, const LatticeBand& band, WallsWorkspace& workspace,
                               Workers& workers, double* plastic_work) {
   workspace.of_thread.resize(static_cast<std::size_t>(workers.count()));
@@ -205,7 +216,7 @@ void evaluate_internal_forces(const Scene& scene, State& state, const LatticeBan
 }
 
 void deform_walls(const Scene& scene, State& state, WallsWorkspace& workspace, Workers& workers) {
-  workspace.compressed.resize(static_cast<std::size_t>(scene.walls.chunk_count()));
+  workspace.squashed.resize(static_cast<std::size_t>(scene.walls.chunk_count()));
   HWY_DYNAMIC_DISPATCH(deform_all)(scene, state, workspace, workers);
 }
 

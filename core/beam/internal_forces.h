@@ -9,6 +9,9 @@
 
 namespace cellcrush {
 
+/// Makes room for State::thickening_step, if squashed walls grow thicker. REQUIRED before the functions below.
+void size_thickening_step(const Scene& scene, State& state);
+
 /// Evaluates axes, lengths, fibre histories and internal forces of the elements of a band, chunk by chunk (Eq. 7-32, E3
 /// to E7). They follow from the motion of the particles over the last step. Sums the forces on the joints that have no
 /// walls in later bands. Overwrites the plastic work of each chunk of the band, N mm. REQUIRES: earlier bands have been

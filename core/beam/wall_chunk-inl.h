@@ -10,10 +10,11 @@
 #include <cstddef>
 #include <span>
 
+#include "beam/chunk_scratch-inl.h"
 #include "beam/cross_section-inl.h"
 #include "beam/deformation-inl.h"
 #include "beam/element_response-inl.h"
-#include "beam/walls_workspace.h"
+#include "beam/grown_walls-inl.h"
 #include "cellcrush/state.h"
 #include "parallel/cache_size.h"
 
@@ -42,50 +43,6 @@ struct NodalForces {
   Points<D> force_on_end;
   Lane<D> moment_on_start;
   Lane<D> moment_on_end;
-};
-
-/// Strain increments of the elements of a row (E5), passed from the first loop over a chunk to the second.
-template <class T>
-struct RowStrains {
-  T* membrane;
-  T* bend_start;  ///< h theta_1 / l_m
-  T* bend_end;
-  T* modulus_share;
-};
-
-/// Sums over the stresses of the elements of a row (E7), passed from the second loop to the third.
-template <class T>
-struct RowSums {
-  T* axial;
-  T* moment_start;
-  T* moment_end;
-  T* plastic_work;
-};
-
-/// Values passed between the three loops over the elements of a chunk, in the precision of the fibres, kScratchKinds
-/// per element. Row by row: values of one kind lie side by side, and the kinds of a row one after the other. The sums
-/// overwrite the strains.
-template <class T>
-class ChunkScratch {
- public:
-  ChunkScratch(T* values, std::ptrdiff_t first_element) : values_(values), first_(first_element) {}
-
-  HWY_INLINE RowStrains<T> strains(std::ptrdiff_t row, int lane, int walls) const {
-    T* const at = begin(row, lane);
-    return {at, at + walls, at + 2 * walls, at + 3 * walls};
-  }
-  HWY_INLINE RowSums<T> sums(std::ptrdiff_t row, int lane, int walls) const {
-    T* const at = begin(row, lane);
-    return {at, at + walls, at + 2 * walls, at + 3 * walls};
-  }
-
- private:
-  HWY_INLINE T* begin(std::ptrdiff_t row, int lane) const {
-    return values_ + static_cast<std::ptrdiff_t>(kScratchKinds) * (row - first_) + lane;
-  }
-
-  T* const values_;
-  const std::ptrdiff_t first_;
 };
 
 /// A step of the walls of some adjacent blocks (Eq. 7-32, E3 to E7), in three short loops over geometry, fibres and
@@ -118,6 +75,7 @@ class WallChunk {
         axis_(state.axis.data()),
         length_(state.length.data()),
         inverse_length_(state.inverse_length.data()),
+        grown_(state),
         wall_force_(state.wall_force.data()),
         wall_moment_(state.wall_moment.data()),
         internal_force_(state.internal_force.data()),
@@ -126,17 +84,20 @@ class WallChunk {
         prefetches_(memory.stress.size() * sizeof(T) > last_cache_bytes() / kCacheShareOfFibres),
         uniform_(scene.materials.front()) {}
 
-  /// The first loop: axes, lengths and strains. Returns whether any elements are compressed, so that their modulus is
+  /// The first loop: axes, lengths and strains. Returns whether any elements are squashed, so that their modulus is
   /// reduced (E5c).
   HWY_INLINE bool deform() {
     visit_lanes<D>([&](const WallBlock& block, int lane) HWY_ATTR { reverse_motions(block, lane); });
-    return is_compressed_;
+    return is_squashed_;
   }
 
-  /// The second and the third loop: stresses and forces. `is_compressed` is the result of the first. Adds the plastic
+  /// Greatest growth of half of an element's thickness in the first loop, mm; not below 0.
+  [[nodiscard]] HWY_INLINE double thickening_step() const { return grown_.step(); }
+
+  /// The second and the third loop: stresses and forces. `is_squashed` is the result of the first. Adds the plastic
   /// work to that of the lanes.
-  HWY_INLINE void respond(bool is_compressed, double* HWY_RESTRICT plastic_work) {
-    is_compressed_ = is_compressed;
+  HWY_INLINE void respond(bool is_squashed, double* HWY_RESTRICT plastic_work) {
+    is_squashed_ = is_squashed;
     visit_lanes<F>([&](const WallBlock& block, int lane) HWY_ATTR { return_map_fibres(block, lane); });
     visit_lanes<D>([&](const WallBlock& block, int lane) HWY_ATTR { put_forces(block, lane, plastic_work + lane); });
   }
@@ -176,6 +137,7 @@ class WallChunk {
     const int wall = block.first_wall + lane;
     const CrossSection<D> section(scene_, wall);
     EndMotion<D> start = gather_joint(&scene_.walls.start[wall]);
+    bool grows = false;
     Real turn_before = 0;
     Real slenderness_before = 0;
     for (int j = 0; j < block.elements; ++j) {
@@ -185,15 +147,20 @@ class WallChunk {
       const EndMotion<D> end = j + 1 == block.elements
                                    ? gather_joint(&scene_.walls.end[wall])
                                    : load_inner(block.first_inner + (row - block.first_element) + lane, !is_paired_on);
+      const Real previous_length = Real::load(length_ + e);
       const Deformation<D> deformation =
-          reverse_motion(end.position - start.position, Points<D>::load(axis_ + e), Real::load(length_ + e),
+          reverse_motion(end.position - start.position, Points<D>::load(axis_ + e), previous_length,
                          Real::load(inverse_length_ + e), start.turn, end.turn);
       deformation.axis.store(axis_ + e);
       deformation.length.store(length_ + e);
       deformation.inverse_length.store(inverse_length_ + e);
       const RowStrains<T> strains = scratch_.strains(row, lane, walls_of(block));
+      Real thickness = section.thickness;
+      if (HWY_UNLIKELY(any(section.is_squashed(min(deformation.length, previous_length))))) {
+        thickness += squash(section, e, deformation, previous_length, strains.modulus_share, grows);
+      }
       const Real inverse_strained = section.inverse_strained(deformation.inverse_mean);
-      const Real slenderness = section.thickness * inverse_strained;
+      const Real slenderness = thickness * inverse_strained;
       (deformation.stretch * inverse_strained).store(strains.membrane);
       if (has_pairs(block) && !is_paired_on) {
         // The turn between the two elements, over their mean length: their common node has no rotation.
@@ -205,25 +172,48 @@ class WallChunk {
       if (!is_paired_on) {
         (slenderness * deformation.rotation_end).store(strains.bend_end);
       }
-      if (HWY_UNLIKELY(any(section.is_compressed(deformation.length)))) {
-        note_modulus(section.modulus_share(deformation.length), strains.modulus_share);
-      }
       start = end;
       turn_before = deformation.rotation_end;
       slenderness_before = slenderness;
     }
+    if (HWY_UNLIKELY(grows)) {
+      grow_balls(block, lane);
+    }
   }
 
-  /// Few chunks have compressed elements; in the others these values are never filled.
+  /// Updates the thickness (E5f) and the modulus (E5c) of squashed elements, and of those that no longer are. Returns
+  /// what the mean thickness of the step is above that before loading.
+  HWY_INLINE Real squash(const CrossSection<D>& section, std::ptrdiff_t element, const Deformation<D>& deformation,
+                         Real previous_length, T* modulus_share, bool& grows) {
+    const Real length = deformation.length;
+    typename GrownWalls<D>::Growth growth = {0, 0};
+    if (section.grows(min(length, previous_length))) {
+      growth = grown_.grow(section, element, length);
+      grows = true;
+    }
+    if (any(section.is_squashed(length))) {
+      note_modulus(section.modulus_share(length, deformation.inverse_length, growth.now), modulus_share);
+    }
+    return growth.before + growth.now;
+  }
+
+  HWY_INLINE void grow_balls(const WallBlock& block, int lane) const {
+    for (int j = 1; j < block.elements; ++j) {
+      const std::ptrdiff_t particle = block.first_inner + static_cast<std::ptrdiff_t>(j - 1) * walls_of(block) + lane;
+      grown_.grow_balls(particle, row_of(block, j - 1) + lane, row_of(block, j) + lane);
+    }
+  }
+
+  /// Few chunks have squashed elements; in the others these values are never filled.
   HWY_INLINE void note_modulus(Real share, T* to) {
-    if (!is_compressed_) {
+    if (!is_squashed_) {
       for (const WallBlock& block : blocks_) {
         for (int j = 0; j < block.elements; ++j) {
           const int walls = walls_of(block);
           std::fill_n(scratch_.strains(row_of(block, j), 0, walls).modulus_share, walls, T(1.0));
         }
       }
-      is_compressed_ = true;
+      is_squashed_ = true;
     }
     share.store(to);
   }
@@ -282,10 +272,10 @@ class WallChunk {
     for (int e = 0; e < kElements; ++e) {
       const std::ptrdiff_t row = row_of(block, j + e);
       const RowStrains<T> strains = scratch_.strains(row, lane, walls);
-      if (is_compressed_) {
+      if (is_squashed_) {
         soft[e] = softened(material, strains);
       }
-      unit.set(e, is_compressed_ ? soft[e] : material, material.modulus, is_compressed_, memory_of(row, lane, walls),
+      unit.set(e, is_squashed_ ? soft[e] : material, material.modulus, is_squashed_, memory_of(row, lane, walls),
                load_strains(strains));
     }
     ElementSums<F> sums[kElements];
@@ -296,7 +286,7 @@ class WallChunk {
   }
 
   HWY_INLINE LaneMaterial<F> softened(const LaneMaterial<F>& material, const RowStrains<T>& strains) const {
-    return is_compressed_ ? material.softened(Stress::load(strains.modulus_share)) : material;
+    return is_squashed_ ? material.softened(Stress::load(strains.modulus_share)) : material;
   }
 
   HWY_INLINE static ElementStrains<F> load_strains(const RowStrains<T>& strains) {
@@ -311,13 +301,13 @@ class WallChunk {
   }
 
   /// From the sums over the stresses to the forces on the particles (E7). At the common node of a pair the section has
-  /// the mean area of both.
+  /// the mean of both.
   HWY_INLINE void put_forces(const WallBlock& block, int lane, double* HWY_RESTRICT plastic_work) const {
     const CrossSection<D> section(scene_, block.first_wall + lane);
     const std::size_t ends = 2 * static_cast<std::size_t>(block.first_wall) + lane;
     NodalForces<D> before = {{0, 0}, 0, 0};
     Real work = Real::load(plastic_work);
-    Real start_area = section.area(Real::load(inverse_length_ + row_of(block, 0) + lane));
+    Real start_area = moment_area(section, row_of(block, 0) + lane);
     const int walls = walls_of(block);
     for (int j = 0; j < block.elements; ++j) {
       const std::ptrdiff_t row = row_of(block, j);
@@ -325,11 +315,16 @@ class WallChunk {
       const Real inverse_length = Real::load(inverse_length_ + row + lane);
       const Real area = section.area(inverse_length);
       const bool is_paired_on = has_pairs(block) && j % 2 == 0;
-      const Real next_area =
-          j + 1 < block.elements ? section.area(Real::load(inverse_length_ + row + walls + lane)) : area;
-      const Real end_area = is_paired_on ? Real(0.5) * (area + next_area) : area;
+      const Real own_area = moment_area(section, row + lane);
+      const Real next_area = j + 1 < block.elements ? moment_area(section, row + walls + lane) : own_area;
+      const Real end_area = is_paired_on ? Real(0.5) * (own_area + next_area) : own_area;
+      Real axial = Real::load(sums.axial);
+      if (is_squashed_) {
+        axial += grown_.stress_of_modulus(section, row + lane, axial, Real::load(sums.moment_start),
+                                          -Real::load(sums.moment_end));
+      }
       const NodalForces<D> forces =
-          nodal_forces({area * Real::load(sums.axial), section.thickness * start_area * Real::load(sums.moment_start),
+          nodal_forces({area * axial, section.thickness * start_area * Real::load(sums.moment_start),
                         section.thickness * end_area * Real::load(sums.moment_end)},
                        inverse_length, Points<D>::load(axis_ + row + lane));
       work = fma(section.volume(), Real::load(sums.plastic_work), work);
@@ -345,6 +340,10 @@ class WallChunk {
     }
     put_on_joints(ends + walls, -before.force_on_end, -before.moment_on_end);
     work.store(plastic_work);
+  }
+
+  HWY_INLINE Real moment_area(const CrossSection<D>& section, std::ptrdiff_t element) const {
+    return is_squashed_ ? grown_.moment_area(section, element) : section.area(Real::load(inverse_length_ + element));
   }
 
   /// Forces of an element from its axial force and end moments (Eq. 31, 32, E7).
@@ -373,6 +372,7 @@ class WallChunk {
   Vector2* const axis_;
   double* const length_;
   double* const inverse_length_;
+  GrownWalls<D> grown_;
   Vector2* const wall_force_;
   double* const wall_moment_;
   Vector2* const internal_force_;
@@ -381,7 +381,7 @@ class WallChunk {
 
   const bool prefetches_;
   const LaneMaterial<F> uniform_;
-  bool is_compressed_ = false;
+  bool is_squashed_ = false;
 };
 
 }  // namespace cellcrush::HWY_NAMESPACE

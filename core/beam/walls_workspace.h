@@ -33,8 +33,8 @@ struct WallsWorkspace {
 
   // For steps that deform all chunks before any of them responds.
   WallScratch all;  ///< kScratchKinds E
-  /// C chunks, 1 if any of the elements is compressed, so that its modulus is reduced.
-  std::vector<std::uint8_t> compressed;
+  /// C chunks, 1 if any of the elements is squashed, so that its modulus is reduced.
+  std::vector<std::uint8_t> squashed;
 };
 
 }  // namespace cellcrush

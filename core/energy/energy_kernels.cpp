@@ -83,22 +83,11 @@ class LaneEnergy {
   HWY_INLINE Lane<D> energy_of(int wall, std::size_t element, Lane<D> squares) const {
     const CrossSection<D> section(scene_, wall);
     const Lane<D> length = Lane<D>::load(&state_.length[element]);
-    Lane<D> modulus = modulus_of(wall);
-    if (HWY_UNLIKELY(any(section.is_compressed(length)))) {
-      modulus = modulus * section.modulus_share(length);
+    Lane<D> modulus = section.modulus();
+    if (HWY_UNLIKELY(any(section.is_squashed(length)))) {
+      modulus = modulus * section.modulus_share(length, Lane<D>(1) / length, section.thickening(length));
     }
     return section.volume() * squares / (modulus + modulus);
-  }
-
-  HWY_INLINE Lane<D> modulus_of(int wall) const {
-    if (scene_.materials.size() == 1) {
-      return scene_.materials.front().youngs_modulus;
-    }
-    double values[kMostWallsInBlock];
-    for (std::size_t lane = 0; lane < Lane<D>::kWidth; ++lane) {
-      values[lane] = scene_.materials[scene_.walls.material[wall + lane]].youngs_modulus;
-    }
-    return Lane<D>::load(values);
   }
 
   const Scene& scene_;

@@ -32,6 +32,13 @@ HWY_INLINE Offset<Number> project_clamped(Number x, Number y, Number axis_x, Num
   return {along, x - along * axis_x, y - along * axis_y};
 }
 
+/// Share that the growth of a segment at its end has in that at the foot at `share`; that at its start has the rest
+/// (E8d). The slope is 0 at both nodes, so that a ball that slides over a node feels no jump.
+template <class Number>
+HWY_INLINE Number share_of_end(Number share) {
+  return share * share * (Number(3.0) - Number(2.0) * share);
+}
+
 }  // namespace cellcrush::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

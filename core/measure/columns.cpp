@@ -103,7 +103,10 @@ Profile measure_columns(const Columns& columns, const Scene& scene, const State&
 }
 
 std::vector<double> measure_walls(const Columns& columns, const Scene& scene, const State& state) {
-  return sum_walls(columns, scene, [&](std::size_t e) { return state.length[e]; });
+  return sum_walls(columns, scene, [&](std::size_t e) {
+    const double grown = state.thickening.empty() ? 0.0 : 2.0 * state.thickening[e] / scene.elements[e].thickness;
+    return state.length[e] * (1.0 + grown);
+  });
 }
 
 }  // namespace cellcrush

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geometry/capsule.h"
+#include "geometry/thickening.h"
 #include "scene/check_spec.h"
 
 namespace cellcrush {
@@ -22,7 +23,8 @@ double depth_of(const Scene& scene, const State& state, const TouchMemory& touch
   const Projection foot = project(state.position[ball], state.position[element.start], axis, length);
   const bool inside = foot.along > 0.0 && foot.along < length;
   const double distance = inside ? touching.side[t] * cross(axis, foot.offset) : foot.offset.norm();
-  return (scene.reach_of(ball, segment) - distance) / std::min(2.0 * scene.radius[ball], element.thickness);
+  return (reach_at(scene, state, ball, segment, foot.along / length) - distance) /
+         std::min(2.0 * scene.radius[ball], element.thickness);
 }
 
 /// "; deepest now at particle 7, at (1, 2) mm before loading, in the wall of element 9"; empty while nothing touches.
@@ -142,7 +144,7 @@ std::optional<Warning> warn_of_necks(const Scene& scene, const State& state, dou
   }
   return Warning{Warning::Kind::walls_neck, state.step, strain,
                  "Of " + std::to_string(walls) + " walls, " + std::to_string(count) +
-                     " had been stretched by more than their thickness by " + moment_of(state.step, state.time) +
+                     " had passed their even stretch by a thickness at " + moment_of(state.step, state.time) +
                      ". Real ones would have necked and torn; these keep their area and their yield force. The wall "
                      "stretched most starts at " +
                      place_of(scene, scene.walls.start[most]) + ", by " + percent_of(most_elongation) +

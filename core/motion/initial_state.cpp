@@ -50,6 +50,11 @@ State place_particles(const Scene& scene) {
     state.inverse_length.push_back(1.0 / span.norm());
     state.axis.push_back(span / state.length.back());
   }
+  if (scene.thickens()) {
+    state.thickening.assign(scene.element_count(), 0.0);
+    state.thickening_slope.assign(scene.element_count(), 0.0);
+    state.radius_growth.assign(n, 0.0);
+  }
   scene.single_fibres ? place_fibres(scene, state.single_fibres) : place_fibres(scene, state.fibres);
   state.wall_force.assign(2 * scene.walls.start.size(), Vector2::Zero());
   state.wall_moment.assign(2 * scene.walls.start.size(), 0.0);

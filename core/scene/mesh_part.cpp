@@ -59,9 +59,12 @@ Material material_of(const MaterialSpec& spec) {
   const bool held = spec.plane == MaterialSpec::Plane::strain;
   const double elastic = held ? 1.0 / (1.0 - spec.poissons_ratio * spec.poissons_ratio) : 1.0;
   const double flowing = held ? 2.0 / std::numbers::sqrt3 : 1.0;
-  return {elastic * *spec.youngs_modulus_mpa, flowing * *spec.yield_stress_mpa,
-          flowing * flowing * spec.hardening_modulus_mpa, spec.isotropic_fraction,
-          *spec.density_kg_per_m3 * kTonnePerMm3PerKgPerM3};
+  return {elastic * *spec.youngs_modulus_mpa,
+          flowing * *spec.yield_stress_mpa,
+          flowing * flowing * spec.hardening_modulus_mpa,
+          spec.isotropic_fraction,
+          *spec.density_kg_per_m3 * kTonnePerMm3PerKgPerM3,
+          held};
 }
 
 int crush_axis_of(const SceneSpec& spec) { return spec.loading.direction == LoadingSpec::Direction::x ? 0 : 1; }

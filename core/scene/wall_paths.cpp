@@ -8,13 +8,17 @@
 namespace cellcrush {
 
 double WallPaths::reach_of(int ball, int segment) {
+  const double full = scene_.full_reach_of(ball, segment);
+  return std::min(full, limit_of(ball, segment, full));
+}
+
+double WallPaths::limit_of(int ball, int segment, double most) {
   const Element& element = scene_.elements[segment];
-  const double full = scene_.radius[ball] + 0.5 * element.thickness;
-  const double limit = full / kTouchingShare;
+  const double limit = most / kTouchingShare;
   if (ball != ball_ || limit > limit_) {
     walk_from(ball, limit);
   }
-  return std::min(full, kTouchingShare * std::min(way_[element.start], way_[element.end]));
+  return kTouchingShare * std::min(way_[element.start], way_[element.end]);
 }
 
 std::vector<int> WallPaths::segments_near(int ball, double largest) {
@@ -66,14 +70,16 @@ void WallPaths::walk_from(int ball, double limit) {
 }
 
 LimitedReaches find_limited_reaches(const Scene& scene) {
+  const double growth = scene.thickens() ? kMostThickening : 1.0;
   const double thickest = std::ranges::max(scene.elements, {}, &Element::thickness).thickness;
   LimitedReaches limited;
   limited.offset.push_back(0);
   WallPaths paths(scene);
   for (int ball = 0; ball < static_cast<int>(scene.particle_count()); ++ball) {
-    for (const int segment : paths.segments_near(ball, thickest)) {
-      const double reach = paths.reach_of(ball, segment);
-      if (reach < scene.radius[ball] + 0.5 * scene.elements[segment].thickness) {
+    for (const int segment : paths.segments_near(ball, growth * thickest)) {
+      const double most = growth * scene.full_reach_of(ball, segment);
+      const double reach = paths.limit_of(ball, segment, most);
+      if (reach < most) {
         limited.segment.push_back(segment);
         limited.reach.push_back(reach);
       }

@@ -21,8 +21,10 @@ class WallPaths {
   /// path from the ball to the nearer end of the segment (E8a). Cheap if balls are visited in the order of particles.
   double reach_of(int ball, int segment);
 
-  /// Segments, except those of the ball itself, whose reach_of may be limited, ascending. `largest`: the greatest
-  /// radius plus half thickness, mm.
+  /// kTouchingShare of that path, mm; anything above `most` if it is longer.
+  double limit_of(int ball, int segment, double most);
+
+  /// Segments, except those of the ball itself, whose limit_of may be below `largest`, mm; ascending.
   std::vector<int> segments_near(int ball, double largest);
 
  private:

@@ -79,7 +79,7 @@ bool borders_are_apart(const Scene& scene, const State& state, std::int64_t step
   const double time = scene.schedule.time_step * static_cast<double>(steps);
   const double longest = *std::max_element(scene.walls.undeformed_length.begin(), scene.walls.undeformed_length.end());
   const double speed = highest_speed(scene.faces.border, state);
-  const double margin = longest + 2.0 * scene.largest_radius + 2.0 * (2.0 * speed) * time;
+  const double margin = longest + 2.0 * scene.greatest_radius() + 2.0 * (2.0 * speed) * time;
   const Vector2 directions[] = {Vector2::UnitX(), Vector2::UnitY(), -Vector2::UnitX(), -Vector2::UnitY()};
   return std::any_of(std::begin(directions), std::end(directions),
                      [&](const Vector2& direction) { return follow_each_other(scene, state, direction, margin); }) ||

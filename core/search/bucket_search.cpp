@@ -5,13 +5,15 @@
 #include "geometry/all_finite.h"
 #include "geometry/bucket_grid.h"
 #include "geometry/capsule-inl.h"
+#include "geometry/thickening.h"
 #include "search/candidate_lists.h"
 
 namespace cellcrush {
 namespace {
 
 bool list_holds(const Scene& scene, const State& state, const ContactLists& lists) {
-  const double limit = 0.25 * scene.contact.skin * scene.contact.skin;
+  const double left = std::max(0.0, scene.contact.skin - (lists.reach_growth - lists.searched_growth));
+  const double limit = 0.25 * left * left;
   const auto has_stayed = [limit](const Vector2& now, const Vector2& then) {
     return !((now - then).squaredNorm() > limit);
   };
@@ -22,6 +24,7 @@ bool list_holds(const Scene& scene, const State& state, const ContactLists& list
 }  // namespace
 
 void search_buckets(const Scene& scene, const State& state, ContactLists& lists) {
+  lists.reach_growth += growth_of_reach(scene, state, 0, scene.bands.size());
   if (!list_holds(scene, state, lists) && all_finite(state.position)) {
     list_by_buckets(scene, state, lists);
   }
@@ -32,14 +35,15 @@ void list_by_buckets(const Scene& scene, const State& state, ContactLists& lists
   lists.candidate_count = 0;
   const double longest = *std::max_element(state.length.begin(), state.length.end());
   const double skin = scene.contact.skin;
-  const BucketGrid grid(state.position, 0.5 * longest + scene.largest_radius + skin);
+  const BucketGrid grid(state.position, 0.5 * longest + scene.greatest_radius() + skin);
   for (std::size_t e = 0; e < scene.element_count(); ++e) {
     const Element& element = scene.elements[e];
     const Vector2& start = state.position[element.start];
     const Vector2& end = state.position[element.end];
-    const Vector2 margin = Vector2::Constant(0.5 * element.thickness + scene.largest_radius + skin);
+    const double half_thickness = half_thickness_now(scene, state, static_cast<int>(e));
+    const Vector2 margin = Vector2::Constant(half_thickness + scene.greatest_radius() + skin);
     grid.visit_box(start.cwiseMin(end) - margin, start.cwiseMax(end) + margin, [&](int ball) {
-      const double range = scene.radius[ball] + 0.5 * element.thickness + skin;
+      const double range = radius_now(scene, state, ball) + half_thickness + skin;
       const Vector2 from_start = state.position[ball] - start;
       const Vector2& axis = state.axis[e];
       // Inlined: a call of project() would take a fifth of the time of the search.
@@ -54,6 +58,7 @@ void list_by_buckets(const Scene& scene, const State& state, ContactLists& lists
   }
   fill_batch(lists);
   lists.searched_position = state.position;
+  lists.searched_growth = lists.reach_growth;
   ++lists.search_count;
 }
 

@@ -10,6 +10,7 @@
 #include <span>
 
 #include "geometry/bucket_grid.h"
+#include "geometry/thickening.h"
 #include "scene/face_loops.h"
 #include "search/face_kernels.h"
 
@@ -44,10 +45,10 @@ class FaceFinder {
     place_.resize(filled_tiles(count_));
     for (int corner = 0; corner < count_; ++corner) {
       place_[corner] = state.position[particle_[corner]];
-      largest_radius_ = std::max(largest_radius_, scene.radius[particle_[corner]]);
+      largest_radius_ = std::max(largest_radius_, radius_now(scene, state, particle_[corner]));
     }
     for (int k = 0; k < segment_count_; ++k) {
-      thickest_ = std::max(thickest_, scene.elements[element_[k]].thickness);
+      thickest_ = std::max(thickest_, half_thickness_now(scene, state, element_[k]));
       longest_ = std::max(longest_, state.length[element_[k]]);
     }
   }
@@ -71,7 +72,7 @@ class FaceFinder {
     for (int k = 0; k < segment_count_; ++k) {
       least = std::min(least, keep_near(element_[k], std::span(corners).first(count_), place_));
     }
-    pairs_.least_gap = std::max(skin_, std::sqrt(least) - largest_radius_ - 0.5 * thickest_);
+    pairs_.least_gap = std::max(skin_, std::sqrt(least) - largest_radius_ - thickest_);
   }
 
   /// Those in the buckets round a segment, as many at once as there is room for.
@@ -84,7 +85,7 @@ class FaceFinder {
       const Element& element = scene_.elements[e];
       const Vector2& start = state_.position[element.start];
       const Vector2& end = state_.position[element.end];
-      const Vector2 margin = Vector2::Constant(range_of(element));
+      const Vector2 margin = Vector2::Constant(range_of(e));
       std::size_t count = 0;
       grid.visit_box(start.cwiseMin(end) - margin, start.cwiseMax(end) + margin, [&](int i) {
         corners[count] = i;
@@ -107,8 +108,8 @@ class FaceFinder {
   }
 
   /// Beyond it no corner is listed with a segment, mm.
-  [[nodiscard]] double range_of(const Element& segment) const {
-    return largest_radius_ + 0.5 * segment.thickness + skin_;
+  [[nodiscard]] double range_of(int segment) const {
+    return largest_radius_ + half_thickness_now(scene_, state_, segment) + skin_;
   }
 
   /// Lists those of some corners that are near enough to a segment, but its ends. Returns the least squared distance of
@@ -119,7 +120,7 @@ class FaceFinder {
     std::fill(places.begin() + count, places.begin() + filled, places[count - 1]);
     const Element& element = scene_.elements[segment];
     const FaceSegment line = {state_.position[element.start], state_.axis[segment], state_.length[segment]};
-    const double range = range_of(element);
+    const double range = range_of(segment);
     NearCorners found;
     find_near_corners(places.first(filled), count, line, range * range, found);
     for (std::uint64_t near = found.near; near != 0; near &= near - 1) {
@@ -136,7 +137,7 @@ class FaceFinder {
   /// Lists a pair that is near enough; says whether it was.
   bool keep(int corner, int segment, double squared_distance) {
     const int ball = particle_[corner];
-    const double reach = scene_.reach_of(ball, segment);
+    const double reach = greatest_reach(scene_, state_, ball, segment);
     if (squared_distance >= (reach + skin_) * (reach + skin_)) {
       return false;
     }
@@ -145,7 +146,7 @@ class FaceFinder {
     pairs_.crossed = pairs_.crossed || cross_each_other(state_, scene_.elements[element_[before]], element) ||
                      cross_each_other(state_, scene_.elements[element_[corner]], element);
     if ((!is_outer_ || band_.owns(ball)) && !is_listed_elsewhere(ball, segment)) {
-      pairs_.candidates.push_back({ball, segment, reach});
+      pairs_.candidates.push_back({ball, segment, scene_.reach_of(ball, segment)});
     }
     return true;
   }
@@ -183,7 +184,7 @@ class FaceFinder {
   const int* element_;
   std::vector<Vector2> place_;
   double largest_radius_ = 0.0;
-  double thickest_ = 0.0;
+  double thickest_ = 0.0;  // half of it
   double longest_ = 0.0;
   FacePairs pairs_;
 };

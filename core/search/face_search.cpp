@@ -6,6 +6,7 @@
 #include <span>
 
 #include "cellcrush/tuning.h"
+#include "geometry/thickening.h"
 #include "search/candidate_lists.h"
 #include "search/face_kernels.h"
 #include "search/face_pairs.h"
@@ -23,6 +24,7 @@ void begin(const FacesOfBand& faces, ContactLists& lists) {
   lists.face_clearance.assign(faces.count(), 0.0);
   lists.face_next_check_travel.assign(faces.count(), 0.0);
   lists.face_searched_position.assign(faces.particle.size(), Vector2::Zero());
+  lists.face_searched_growth.assign(faces.count(), 0.0);
   lists.group_travel.assign(faces.group_count(), 0.0);
   lists.group_next_check_travel.assign(faces.group_count(), 0.0);
 }
@@ -74,6 +76,7 @@ bool make_list(const Scene& scene, const State& state, const LatticeBand& band, 
   for (int k = faces.offset[face]; k < faces.offset[face + 1]; ++k) {
     lists.face_searched_position[k] = state.position[faces.particle[k]];
   }
+  lists.face_searched_growth[face] = lists.reach_growth;
   ++lists.face_search_count;
   return true;
 }
@@ -84,7 +87,8 @@ bool recheck_face(const Scene& scene, const State& state, const LatticeBand& ban
                   int face, ContactLists& lists) {
   ++lists.face_recheck_count;
   const double clearance = lists.face_clearance[face];
-  double left = clearance - spread_of_displacements(faces, state, lists, face);
+  double left = clearance - spread_of_displacements(faces, state, lists, face) -
+                (lists.reach_growth - lists.face_searched_growth[face]);
   if (!is_finite(faces, state, face)) {
     left = std::numeric_limits<double>::max();
   } else if (left <= kWorthKeeping * clearance) {
@@ -119,15 +123,20 @@ bool recheck_group(const Scene& scene, const State& state, const LatticeBand& ba
 
 }  // namespace
 
-bool search_faces(const Scene& scene, const State& state, const LatticeBand& band, const FacesOfBand& faces,
-                  ContactLists& lists, Workers& workers) {
+bool search_faces(const Scene& scene, const State& state, std::size_t number, ContactLists& lists, Workers& workers) {
+  const LatticeBand& band = scene.bands[number];
+  const FacesOfBand& faces = scene.faces.bands[number];
   if (lists.face_list.empty()) {
     begin(faces, lists);
   }
+  // The pairs of a band have elements of adjacent bands.
+  const double growth =
+      growth_of_reach(scene, state, number > 0 ? number - 1 : 0, std::min(number + 2, scene.bands.size()));
+  lists.reach_growth += growth;
   workers.parallel_for(lists.group_travel.size(), [&](std::size_t first, std::size_t end) {
     for (std::size_t group = first; group < end; ++group) {
       const double spread = spread_of_velocities(faces, state, static_cast<int>(group));
-      lists.group_travel[group] += std::isfinite(spread) ? scene.schedule.time_step * spread : 0.0;
+      lists.group_travel[group] += growth + (std::isfinite(spread) ? scene.schedule.time_step * spread : 0.0);
     }
   });
   for (int group = 0; group < faces.group_count(); ++group) {

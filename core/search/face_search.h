@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
 #include "parallel/workers.h"
@@ -19,9 +21,11 @@ namespace cellcrush {
 /// displacements of its particles since its list was made. The remaining clearance sets the next check; if it is too
 /// small, the list is rebuilt. A face whose gaps are all wider than the skin has no candidates.
 ///
+/// Squashed walls grow thicker, so gaps also close at rest (E5f). What reaches can have grown by in a step is added to
+/// the travel of all groups of the band.
+///
 /// Searches the faces of a band. Returns false if a recheck finds that walls have crossed. The faces are then no longer
 /// those of the undeformed lattice, and faces that have not been rechecked stay as they are.
-bool search_faces(const Scene& scene, const State& state, const LatticeBand& band, const FacesOfBand& faces,
-                  ContactLists& lists, Workers& workers);
+bool search_faces(const Scene& scene, const State& state, std::size_t band, ContactLists& lists, Workers& workers);
 
 }  // namespace cellcrush

@@ -11,7 +11,7 @@ namespace {
 bool search_bands(const Scene& scene, State& state, Workers& workers) {
   bool is_planar = true;
   for (std::size_t band = 0; band < scene.bands.size() && is_planar; ++band) {
-    is_planar = search_faces(scene, state, scene.bands[band], scene.faces.bands[band], state.contacts[band], workers);
+    is_planar = search_faces(scene, state, band, state.contacts[band], workers);
   }
   return is_planar;
 }

@@ -49,6 +49,7 @@ void merge_band_contacts(State& state) {
   lists.face_clearance.clear();
   lists.face_next_check_travel.clear();
   lists.face_searched_position.clear();
+  lists.face_searched_growth.clear();
   lists.group_travel.clear();
   lists.group_next_check_travel.clear();
   lists.batch_count = 0;

@@ -59,7 +59,8 @@ void evaluate_forces(const Scene& scene, State& state, Workspace& workspace, con
   evaluate_loads(scene, state);
 }
 
-void begin_step(const Scene& scene, const State& state, Workspace& workspace) {
+void begin_step(const Scene& scene, State& state, Workspace& workspace) {
+  size_thickening_step(scene, state);
   workspace.records.resize(1);
   workspace.near_plates.resize(scene.particle_count());
   begin_record(scene, state, state.time, state.impact_travel, workspace.records.front());

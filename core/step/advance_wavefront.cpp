@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "beam/internal_forces.h"
 #include "parallel/cache_size.h"
 #include "parallel/wavefront.h"
 #include "scene/bands.h"
@@ -55,8 +56,7 @@ void advance_band(const Scene& scene, State& state, std::size_t band, StepRecord
   if (band > 0) {
     const std::size_t before = band - 1;
     stage.begin(Stage::find_contacts);
-    const bool is_planar = search_faces(scene, state, scene.bands[before], scene.faces.bands[before],
-                                        state.contacts[before], workspace.workers);
+    const bool is_planar = search_faces(scene, state, before, state.contacts[before], workspace.workers);
     record.has_crossed = record.has_crossed || !is_planar;
     stage.begin(Stage::evaluate_contact_forces);
     evaluate_band_contacts(scene, state, before, record, workspace);
@@ -102,6 +102,7 @@ void advance_wavefront(const Scene& scene, State& state, Workspace& workspace, s
   }
   const std::span<StepRecord> records = workspace.records;
   begin_steps(scene, state, records);
+  size_thickening_step(scene, state);
   rebuild_contact_tiles(scene, state, steps);
   state.step += steps;
   Wavefront wavefront(records.size(), scene.bands.size() + 1, lag_of(workspace), steps_at_once(scene, workspace));

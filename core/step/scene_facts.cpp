@@ -29,7 +29,7 @@ std::string fibres_text(const Scene& scene) {
     return law + ", in single precision, which halves the memory and adds no error beyond the scatter between seeds.";
   }
   if (scene.slow_loading) {
-    return law + ", in double precision: the loading is so slow that single precision would round it away.";
+    return law + ", in double precision: in single precision, rounding errors of slow loading add up.";
   }
   return law + ", in double precision" +
          (scene.section.force_based && scene.has_hardening() ? ", as hardening requires in force-based elements."
@@ -79,8 +79,10 @@ std::vector<std::string> what_is_modelled(const Scene& scene) {
   lines.emplace_back(
       scene.constant_area
           ? "Cross-section: walls keep their cross-sectional area; strains are taken over undeformed lengths."
-          : "Cross-section: walls that shorten keep their volume and their in-plane thickness; walls "
-            "that are stretched keep their area and do not neck.");
+          : "Cross-section: walls that shorten by plastic flow keep their volume and grow thicker, in " +
+                std::string(scene.materials.front().plane_strain ? "the plane (plane strain)."
+                                                                 : "the plane and in depth alike (plane stress).") +
+                " Walls that are stretched keep their area and do not neck.");
   if (scene.plates.present) {
     lines.push_back("Plates: rigid, unilateral, not meshed, " + friction_text(scene.plates.friction));
   }

@@ -9,6 +9,7 @@
 
 #include "simd/lane-inl.h"
 #include "touch/force_laws.h"
+#include "touch/thickening_forces.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {
@@ -18,7 +19,8 @@ HWY_INLINE NormalForce force_of_pair(const Scene& scene, const Touches& touches,
   if (!contact.has_pair) {
     return {0.0, 0.0};
   }
-  const NormalForce net = without_pull(scene.contact.stiffness * contact.net_depth, touches.viscous[contact.touch]);
+  const NormalForce net = without_pull(contact.share * scene.contact.stiffness * contact.net_depth,
+                                       contact.share * touches.viscous[contact.touch]);
   contact.normal_force = net.elastic + net.viscous;
   return net;
 }
@@ -26,13 +28,19 @@ HWY_INLINE NormalForce force_of_pair(const Scene& scene, const Touches& touches,
 /// Subtracts half of the energy and force of the touch of two balls (E8b). The ball of the node counts this pair as
 /// well, and pushes on its own where the node lies under the segments of the ball.
 HWY_INLINE void subtract_double_count(const Scene& scene, State& state, const TouchMemory& touching,
-                                      const Touches& touches, int node_touch, double& stored) {
-  const double stiffness = 0.5 * scene.contact.stiffness;
+                                      const Touches& touches, const ActiveContact& contact, double& stored) {
+  const int node_touch = contact.node_touch;
+  const double stiffness = 0.5 * contact.share * scene.contact.stiffness;
   const double depth = touches.node_depth[node_touch];
   const Vector2 force = stiffness * depth * touches.node_normal[node_touch];
   state.contact_force[touching.ball[node_touch]].elastic -= force;
   state.contact_force[touches.node[node_touch]].elastic += force;
   stored -= 0.5 * stiffness * depth * depth;
+  if (touches.growth[node_touch] > 0.0) {
+    const int segment = touching.segment[node_touch];
+    const double share = touches.node[node_touch] == scene.elements[segment].start ? 0.0 : 1.0;
+    push_by_growth(scene, state, {touching.ball[node_touch], segment, share, 0.0, -stiffness * depth});
+  }
 }
 
 /// Adds a share of the forces of a pair, elastic x and y, viscous x and y, to those of a particle.
@@ -67,6 +75,7 @@ void add_normal_forces(const Scene& scene, State& state, const TouchMemory& touc
   const int* starts = touches.start.data();
   const int* ends = touches.end.data();
   const int* known = touches.known.data();
+  const double* growth = touches.growth.data();
   const double* depths = touches.depth.data();
   const double* shares = touches.share.data();
   const Vector2* normals = touches.normal.data();
@@ -78,16 +87,19 @@ void add_normal_forces(const Scene& scene, State& state, const TouchMemory& touc
     const double depth = depths[touch];
     const Vector2 normal = normals[touch];
     const NormalForce net = force_of_pair(scene, touches, contact);
-    const double elastic = stiffness * depth;
+    const double elastic = contact.share * stiffness * depth;
     const double pair[] = {elastic * normal.x(), elastic * normal.y(), net.viscous * normal.x(),
                            net.viscous * normal.y()};
     const double share = shares[touch];
     add_share(1.0, pair, forces[balls[touch]]);
     add_share(share - 1.0, pair, forces[starts[touch]]);
     add_share(-share, pair, forces[ends[touch]]);
-    squared_depths += depth * depth;
+    squared_depths += contact.share * depth * depth;
     if (contact.node_touch != ActiveContact::kNone) {
-      subtract_double_count(scene, state, touching, touches, contact.node_touch, totals.stored);
+      subtract_double_count(scene, state, touching, touches, contact, totals.stored);
+    }
+    if (HWY_UNLIKELY(growth[touch] > 0.0)) {
+      push_by_growth(scene, state, {balls[touch], touching.segment[touch], share, touches.offset[touch], elastic});
     }
     record_depth(scene, touching, touch, depth, known[touch] == Touches::kNew, totals);
   }

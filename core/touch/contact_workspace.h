@@ -46,6 +46,8 @@ struct Touches {
   LaneVector<int> start;       ///< T, particle at which the segment starts
   LaneVector<int> end;         ///< T, particle at which the segment ends
   LaneVector<int> known;       ///< T, index among the pairs that touched in the step before; kNew: it did not
+  LaneVector<double> growth;   ///< T, mm, what the reach has grown by at the foot (E8d)
+  LaneVector<double> offset;   ///< T, mm, of the ball to the left of the segment
   LaneVector<double> share;    ///< T, s of the foot along the segment: 0 at its start, 1 at its end
   LaneVector<double> depth;    ///< T, D, mm (E8); if not above 0, the pair is released
   LaneVector<Vector2> normal;  ///< T, unit normal from the segment to the ball
@@ -60,13 +62,14 @@ struct Touches {
 
   void resize(std::size_t count) {
     const auto resize_all = [count](auto&... arrays) { (resize_with_room(arrays, count), ...); };
-    resize_all(start, end, known, share, depth, normal, viscous, slip, node, node_depth, node_normal);
+    resize_all(start, end, known, growth, offset, share, depth, normal, viscous, slip, node, node_depth, node_normal);
   }
 };
 
 /// A touch that exerts forces.
 struct ActiveContact {
-  int touch = 0;  ///< index into ContactLists::touching
+  int touch = 0;       ///< index into ContactLists::touching
+  double share = 1.0;  ///< in the contact of the ball with its polyline (E8b)
 
   // Two balls that touch are found by each of them. A ball over a node of a straight chain is also found by the ball of
   // that node. The double count is subtracted, half of it with either touch (E8b).

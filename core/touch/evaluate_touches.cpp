@@ -5,6 +5,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "geometry/capsule-inl.h"
 #include "search/list_room.h"
 #include "simd/points-inl.h"
 #include "touch/viscous_force-inl.h"
@@ -28,9 +29,14 @@ struct PairArrays {
   const int* ball = lists.touching.ball.data();
   const int* segment = lists.touching.segment.data();
   const double* reach = lists.touching.reach.data();
+  const double* radius_growth = state.radius_growth.data();
+  const bool has_grown = lists.reach_growth > 0.0;
+  const bool has_limits = !scene.limited_reaches.segment.empty();
   int* side = lists.touching.side.data();
   int* start = touches.start.data();
   int* end = touches.end.data();
+  double* growth = touches.growth.data();
+  double* offset = touches.offset.data();
   double* share = touches.share.data();
   double* depth = touches.depth.data();
   Vector2* normal = touches.normal.data();
@@ -49,6 +55,46 @@ HWY_INLINE void note_nodes(const PairArrays& arrays, std::size_t i) {
     arrays.start[i + lane] = element.start;
     arrays.end[i + lane] = element.end;
   }
+}
+
+/// Distances at which the pairs of the lanes touch: at the foot of the ball, and at the nearer node.
+template <class D>
+struct Reaches {
+  Lane<D> at_foot;
+  Lane<D> at_node;
+};
+
+/// What limits the growth of the reaches of the lanes (E8a).
+template <class D>
+HWY_INLINE Lane<D> limits_of_growth(const PairArrays& arrays, Lane<D> before, std::size_t i) {
+  double most[Lane<D>::kWidth];
+  for (std::size_t lane = 0; lane < Lane<D>::kWidth; ++lane) {
+    most[lane] = arrays.scene.most_reach_of(arrays.ball[i + lane], arrays.segment[i + lane]);
+  }
+  return Lane<D>::load(most) - before;
+}
+
+/// Current reaches of the lanes (E8d). Stores what they have grown by at the foot.
+template <class D>
+HWY_INLINE Reaches<D> current_reaches(const PairArrays& arrays, Lane<D> share, LaneMask<D> end_is_nearer,
+                                      std::size_t i) {
+  const Lane<D> zero = 0.0;
+  const auto before = Lane<D>::load(arrays.reach + i);
+  if (!arrays.has_grown) {
+    zero.store(arrays.growth + i);
+    return {before, before};
+  }
+  const auto of_ball = gather<D>(arrays.radius_growth, arrays.ball + i);
+  auto at_start = of_ball + gather<D>(arrays.radius_growth, arrays.start + i);
+  auto at_end = of_ball + gather<D>(arrays.radius_growth, arrays.end + i);
+  if (arrays.has_limits && any(at_start + at_end > zero)) {
+    const auto limit = limits_of_growth<D>(arrays, before, i);
+    at_start = min(at_start, limit);
+    at_end = min(at_end, limit);
+  }
+  const auto at_foot = fma(share_of_end(share), at_end - at_start, at_start);
+  at_foot.store(arrays.growth + i);
+  return {before + at_foot, before + select(end_is_nearer, at_end, at_start)};
 }
 
 /// Positions, velocities and inverse masses of the particles of the lanes.
@@ -110,7 +156,8 @@ HWY_INLINE Foot<D> evaluate_foot(const PairArrays& arrays, const LanePairs<D>& a
   const auto apart = node_distance > zero;
   const Points<D> node_normal = select(apart, (one / node_distance) * from_node, across);
   const Points<D> normal = select(inside, across, node_normal);
-  const auto reach = Lane<D>::load(arrays.reach + i);
+  const Reaches<D> reaches = current_reaches<D>(arrays, share, end_is_nearer, i);
+  const auto reach = reaches.at_foot;
   const auto overlap = reach - select(inside, side * signed_distance, node_distance);
   // Pressed through and out of the other side, it no longer touches.
   const auto depth = masked(overlap < reach + reach, overlap);
@@ -120,7 +167,8 @@ HWY_INLINE Foot<D> evaluate_foot(const PairArrays& arrays, const LanePairs<D>& a
   share.store(arrays.share + i);
   normal.store(arrays.normal + i);
   select(end_is_nearer, Lane<D>::load(arrays.end + i), Lane<D>::load(arrays.start + i)).store(arrays.node + i);
-  masked(apart, reach - node_distance).store(arrays.node_depth + i);
+  signed_distance.store(arrays.offset + i);
+  masked(apart, reaches.at_node - node_distance).store(arrays.node_depth + i);
   node_normal.store(arrays.node_normal + i);
   return {depth, share, side, normal};
 }

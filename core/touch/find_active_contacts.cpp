@@ -1,29 +1,44 @@
+#include <cmath>
+
 #include "search/list_room.h"
 #include "touch/contact_stages.h"
 
 namespace cellcrush {
 namespace {
 
+/// Difference up to which two touches are equally deep, over the thickness of the thinnest wall. In a symmetric crush
+/// round-off alone tells them apart.
+constexpr double kEqualDepth = 1e-6;
+
 /// The touches of one ball.
 struct BallTouches {
   const Touches& touches;
   PairRange range;
+  double equal_depth;  ///< mm
 
   /// Whether the segments of two touches share a node.
   [[nodiscard]] bool are_joined(int a, int b) const {
     return share_a_node({touches.start[a], touches.end[a]}, {touches.start[b], touches.end[b]});
   }
 
-  /// Whether another touching segment of the same polyline is deeper.
-  [[nodiscard]] bool yields_to_neighbour(int touch) const {
+  [[nodiscard]] bool is_inside(int touch) const { return touches.share[touch] > 0.0 && touches.share[touch] < 1.0; }
+
+  /// Share of a touch in the contact of its ball with the polyline: all if it is deeper than the touches with joined
+  /// segments, none if one of these is deeper. Two equally deep ones have a half each.
+  [[nodiscard]] double share_in_polyline(int touch) const {
+    int equals = 1;
     for (int other = range.first; other < range.end; ++other) {
+      if (other == touch || !are_joined(touch, other)) {
+        continue;
+      }
       const double lead = touches.depth[other] - touches.depth[touch];
-      const bool deeper = lead > 0.0 || (lead == 0.0 && other < touch);
-      if (other != touch && deeper && are_joined(touch, other)) {
-        return true;
+      if (std::abs(lead) <= equal_depth && is_inside(touch) && is_inside(other)) {
+        ++equals;
+      } else if (lead > 0.0 || (lead == 0.0 && other < touch)) {
+        return 0.0;
       }
     }
-    return false;
+    return 1.0 / equals;
   }
 
   /// The touch with the nearest node of the polyline of the pushing segment, if the ball touches the ball of that node.
@@ -90,8 +105,10 @@ void find_active_contacts(const Scene& scene, const State& state, const ContactL
     contact.net_depth = depth;
     // Most balls touch a single segment, between its ends.
     if (lists.touching.linked[touch] != 0 || touches.node_depth[touch] > 0.0) {
-      const BallTouches of_ball = {touches, pairs_of_ball(lists.touching, lists.touching.ball[touch], touch)};
-      if (of_ball.yields_to_neighbour(touch)) {
+      const BallTouches of_ball = {touches, pairs_of_ball(lists.touching, lists.touching.ball[touch], touch),
+                                   kEqualDepth * scene.contact.thinnest};
+      contact.share = of_ball.share_in_polyline(touch);
+      if (contact.share == 0.0) {
         continue;
       }
       contact.node_touch = of_ball.node_touch(touch);

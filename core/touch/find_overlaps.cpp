@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "cellcrush/tuning.h"
+#include "geometry/capsule-inl.h"
 #include "search/list_room.h"
 #include "simd/points-inl.h"
 
@@ -77,13 +78,28 @@ struct Tested {
   int ball[kTestedTogether];
   int start[kTestedTogether];  ///< nodes of the segment
   int end[kTestedTogether];
-  double reach[kTestedTogether];
+  double reach[kTestedTogether];  ///< at the start of the segment
+  double taper[kTestedTogether];  ///< what it is more at its end (E8d)
   /// Of the group. In a search by buckets -infinity, so that every candidate is tested in every step.
   double travel[kTestedTogether];
 };
 
+/// Sets the reach of a candidate with the current thickness.
+HWY_INLINE void grow(const Scene& scene, const State& state, int segment, Tested& tested, std::size_t i) {
+  const double of_ball = state.radius_growth[tested.ball[i]];
+  const double of_start = state.radius_growth[tested.start[i]];
+  const double of_end = state.radius_growth[tested.end[i]];
+  if (of_ball + of_start + of_end > 0.0) {
+    const double most = scene.most_reach_of(tested.ball[i], segment);
+    const double before = tested.reach[i];
+    tested.reach[i] = std::min(before + of_ball + of_start, most);
+    tested.taper[i] = std::min(before + of_ball + of_end, most) - tested.reach[i];
+  }
+}
+
 // Raw pointers: a store may alias the pointers of the vectors.
-void collect(const Scene& scene, const ContactLists& lists, std::span<const int> awake, Tested& tested) {
+void collect(const Scene& scene, const State& state, const ContactLists& lists, std::span<const int> awake,
+             Tested& tested) {
   const Element* elements = scene.elements.data();
   const int* balls = lists.candidate_ball.data();
   const int* segments = lists.candidate_segment.data();
@@ -91,6 +107,7 @@ void collect(const Scene& scene, const ContactLists& lists, std::span<const int>
   const int* groups = lists.batch_group.data();
   const double* travels = lists.group_travel.data();
   const bool sleeps = !lists.batch_group.empty();
+  const bool has_grown = lists.reach_growth > 0.0;
   for (std::size_t i = 0; i < awake.size(); ++i) {
     const int index = awake[i];
     const Element& element = elements[segments[index]];
@@ -98,6 +115,10 @@ void collect(const Scene& scene, const ContactLists& lists, std::span<const int>
     tested.start[i] = element.start;
     tested.end[i] = element.end;
     tested.reach[i] = reaches[index];
+    tested.taper[i] = 0.0;
+    if (has_grown) {
+      grow(scene, state, segments[index], tested, i);
+    }
     tested.travel[i] = sleeps ? travels[groups[index / kCandidateBatch]] : -kNever;
   }
 }
@@ -105,6 +126,7 @@ void collect(const Scene& scene, const ContactLists& lists, std::span<const int>
 /// Balls relative to segments. w points from the start of the segment to the ball, u is the segment.
 struct RelativePosition {
   Numbers reach;
+  Numbers taper;
   Numbers squared_distance;  // w.w, from the start
   Numbers foot;              // w.u
   Numbers squared_length;    // u.u
@@ -116,7 +138,7 @@ HWY_INLINE RelativePosition relative_position(const Vector2* positions, const Te
   const Points<Wide> ball = gather<Wide>(positions, tested.ball + i);
   const Points<Wide> u = end - start;
   const Points<Wide> w = ball - start;
-  return {Numbers::load(tested.reach + i), dot(w, w), dot(w, u), dot(u, u)};
+  return {Numbers::load(tested.reach + i), Numbers::load(tested.taper + i), dot(w, w), dot(w, u), dot(u, u)};
 }
 
 /// Lanes whose ball is nearer to its segment than their reach (E8, E8a): to its line if the ball is beside it,
@@ -124,19 +146,29 @@ HWY_INLINE RelativePosition relative_position(const Vector2* positions, const Te
 HWY_INLINE LaneMask<Wide> overlap(const RelativePosition& at) {
   const Numbers zero = 0.0;
   const auto beyond_start = fnma(at.reach, at.reach, at.squared_distance);  // w.w - reach^2
-  const auto beyond_end = beyond_start - (at.foot + at.foot) + at.squared_length;
-  const auto near_line = beyond_start * at.squared_length < at.foot * at.foot;
   const auto beside = (at.foot > zero) & (at.foot < at.squared_length);
+  if (HWY_LIKELY(all(at.taper == zero))) {
+    const auto beyond_end = beyond_start - (at.foot + at.foot) + at.squared_length;
+    const auto near_line = beyond_start * at.squared_length < at.foot * at.foot;
+    return (beyond_start < zero) | (beyond_end < zero) | (beside & near_line);
+  }
+  const auto reach_at_end = at.reach + at.taper;
+  const auto from_end = at.squared_distance - (at.foot + at.foot) + at.squared_length;
+  const auto beyond_end = fnma(reach_at_end, reach_at_end, from_end);
+  const auto share = min(max(at.foot, zero), at.squared_length) / at.squared_length;
+  const auto reach_at_foot = fma(at.taper, share_of_end(share), at.reach);
+  const auto beyond_foot = fnma(reach_at_foot, reach_at_foot, at.squared_distance);
+  const auto near_line = beyond_foot * at.squared_length < at.foot * at.foot;
   return (beyond_start < zero) | (beyond_end < zero) | (beside & near_line);
 }
 
-/// Gaps, mm: distances minus reach.
+/// Gaps, mm: distances minus the greatest reach along the segment.
 HWY_INLINE Numbers gap(const RelativePosition& at) {
   const Numbers zero = 0.0;
   const auto share = min(max(at.foot, zero), at.squared_length) / at.squared_length;
   // w.w - 2 s w.u + s^2 u.u
   const auto squared = fnma(share, fnma(share, at.squared_length, at.foot + at.foot), at.squared_distance);
-  return sqrt(max(squared, zero)) - at.reach;
+  return sqrt(max(squared, zero)) - (at.reach + max(at.taper, zero));
 }
 
 /// Sets the next checks of candidates that are tested together, whole vectors of them. Appends the indices of those
@@ -144,7 +176,7 @@ HWY_INLINE Numbers gap(const RelativePosition& at) {
 void test_some(const Scene& scene, const State& state, ContactLists& lists, std::span<const int> awake,
                std::vector<int>& found) {
   Tested tested;
-  collect(scene, lists, awake, tested);
+  collect(scene, state, lists, awake, tested);
   const Vector2* positions = state.position.data();
   double next_checks[kTestedTogether];
   for (std::size_t i = 0; i < awake.size(); i += Numbers::kWidth) {

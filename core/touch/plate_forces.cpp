@@ -2,8 +2,10 @@
 
 #include <limits>
 
+#include "geometry/thickening.h"
 #include "touch/contact_tiles.h"
 #include "touch/force_laws.h"
+#include "touch/thickening_forces.h"
 
 namespace cellcrush {
 namespace {
@@ -16,6 +18,7 @@ struct Plate {
   PlateForce& sum;   ///< sum of its forces on all particles
   double& stored;    ///< stored energy of all contacts, N mm
   double* friction;  ///< friction of each particle; null without friction
+  bool grows;        ///< balls may have grown (E5f)
 };
 
 /// Pushes one particle (E9c). The plates do not move across the crush, so the slip of a particle is its own motion in
@@ -29,6 +32,9 @@ void push(const Scene& scene, State& state, const Plate& plate, int particle, do
     force = evaluate_normal_force(scene.plates.stiffness, scene.contact.damping_ratio, scene.inverse_mass[particle],
                                   depth, rate);
     plate.stored += 0.5 * force.elastic * depth;
+    if (plate.grows && state.radius_growth[particle] > 0.0) {
+      push_elements_apart(scene, state, particle, force.elastic);
+    }
     state.contact_force[particle].elastic[axis] += plate.outward * force.elastic;
     state.contact_force[particle].viscous[axis] += plate.outward * force.viscous;
     mark_contact_tile(state, particle);
@@ -52,7 +58,7 @@ PlateReach reach_of_plates(const Scene& scene, double impact_travel) {
     return {-kFar, kFar};
   }
   constexpr double kRounding = 1e-9;  // mm
-  const double reach = scene.largest_radius + kRounding;
+  const double reach = scene.greatest_radius() + kRounding;
   return {scene.plates.impact_face + impact_travel + reach, scene.plates.support_face - reach};
 }
 
@@ -63,16 +69,22 @@ void evaluate_plate_forces(const Scene& scene, State& state, const PlateMotion& 
     return;
   }
   const bool rubs = plates.friction > 0.0;
+  const bool grows = !state.radius_growth.empty();
   double& stored = sums.walls.stored;
-  const Plate impact = {plates.impact_face + motion.impact_travel,    motion.impact_speed, 1.0, sums.impact, stored,
-                        rubs ? state.impact_friction.data() : nullptr};
-  const Plate support = {plates.support_face, 0.0,    -1.0,
-                         sums.support,        stored, rubs ? state.support_friction.data() : nullptr};
+  const Plate impact = {plates.impact_face + motion.impact_travel,
+                        motion.impact_speed,
+                        1.0,
+                        sums.impact,
+                        stored,
+                        rubs ? state.impact_friction.data() : nullptr,
+                        grows};
+  const Plate support = {
+      plates.support_face, 0.0, -1.0, sums.support, stored, rubs ? state.support_friction.data() : nullptr, grows};
   // For most lattices; then no radius is loaded from memory.
   const bool is_uniform = scene.smallest_radius == scene.largest_radius;
   for (const int particle : near) {
     const double place = state.position[particle][plates.axis];
-    const double radius = is_uniform ? scene.largest_radius : scene.radius[particle];
+    const double radius = is_uniform && !grows ? scene.largest_radius : radius_now(scene, state, particle);
     const bool rubbed = rubs && (impact.friction[particle] != 0.0 || support.friction[particle] != 0.0);
     if (place - radius < impact.face || place + radius > support.face || rubbed) {
       push(scene, state, impact, particle, radius);

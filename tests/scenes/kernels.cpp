@@ -51,7 +51,8 @@ scenes::ElementDeformation reverse(const Vector2& span, const Vector2& axis, dou
 }
 
 double share_of_modulus(const Scene& scene, double length) {
-  return number(CrossSection<One>(scene, 0).modulus_share(length));
+  const CrossSection<One> section(scene, 0);
+  return number(section.modulus_share(length, 1.0 / length, section.thickening(length)));
 }
 
 ElementStrains<One> strains_of(const scenes::ElementStep& step, int e) {
@@ -114,6 +115,7 @@ double modulus_share(double length, double undeformed, double thickness) {
   scene.depth = 1.0;
   scene.walls.thickness = {thickness};
   scene.walls.undeformed_length = {undeformed};
+  scene.materials.resize(1);
   return HWY_DYNAMIC_DISPATCH(share_of_modulus)(scene, length);
 }
 

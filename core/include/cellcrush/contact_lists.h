@@ -12,9 +12,10 @@ namespace cellcrush {
 
 /// History of the T touching pairs of a ball and a segment; sorted by ball, then by segment.
 struct TouchMemory {
-  std::vector<int> ball;      ///< T, particle
-  std::vector<int> segment;   ///< T, element
-  std::vector<double> reach;  ///< T, mm, distance at which the pair touches (E8, E8a)
+  std::vector<int> ball;     ///< T, particle
+  std::vector<int> segment;  ///< T, element
+  std::vector<double>
+      reach;  ///< T, mm, distance at which the pair touches (E8, E8a), with the thickness before loading
   /// T, index of the candidate by which the pair was found, in this list or in that of the band before. The list of the
   /// face may have been rebuilt since.
   std::vector<int> place;
@@ -46,13 +47,16 @@ struct FaceList {
 struct ContactLists {
   // Written by find_contacts. K entries for candidates, in whole batches: balls and segments that may touch before the
   // next search.
-  std::vector<int> candidate_ball;      ///< K, particle
-  std::vector<int> candidate_segment;   ///< K, element
-  std::vector<double> candidate_reach;  ///< K, mm, distance at which the pair touches (E8, E8a); 0: an empty entry
-  std::int64_t candidate_count = 0;     ///< number of entries that are not empty
+  std::vector<int> candidate_ball;     ///< K, particle
+  std::vector<int> candidate_segment;  ///< K, element
+  /// K, mm, distance at which the pair touches (E8, E8a), with the thickness before loading; 0: an empty entry.
+  std::vector<double> candidate_reach;
+  std::int64_t candidate_count = 0;  ///< number of entries that are not empty
+  double reach_growth = 0.0;         ///< mm by which reaches can have grown since the start (E5f)
 
   // Search by buckets only; empty where contacts are searched by faces.
   LaneVector<Vector2> searched_position;  ///< N, positions of the particles when the list was made
+  double searched_growth = 0.0;           ///< reach_growth when the list was made
   std::int64_t search_count = 0;
 
   // Search by faces only (E8c, search/face_search.h); empty where contacts are searched by buckets. F faces, S corners
@@ -61,6 +65,7 @@ struct ContactLists {
   std::vector<double> face_clearance;           ///< F, mm by which gaps may close before an unlisted pair touches
   std::vector<double> face_next_check_travel;   ///< F, travel of its group at which the face is next checked
   std::vector<Vector2> face_searched_position;  ///< S, positions of the face's particles when its list was made
+  std::vector<double> face_searched_growth;     ///< F, reach_growth when the face's list was made
   std::vector<double> group_travel;             ///< G, mm by which gaps of the group can have closed since the start
   std::vector<double> group_next_check_travel;  ///< G, minimum over its faces
   std::vector<int> batch_group;                 ///< K / kCandidateBatch, group of the batch's face
@@ -88,14 +93,15 @@ struct ContactTotals {
 
 template <class L, class Visitor>
 void visit_search_fields(L& lists, Visitor&& visit) {
-  auto& [candidate_ball, candidate_segment, candidate_reach, candidate_count, searched_position, search_count,
-         face_list, face_clearance, face_next_check_travel, face_searched_position, group_travel,
-         group_next_check_travel, batch_group, batch_count, face_recheck_count, face_search_count, touching, released,
-         candidate_next_check_travel] = lists;
+  auto& [candidate_ball, candidate_segment, candidate_reach, candidate_count, reach_growth, searched_position,
+         searched_growth, search_count, face_list, face_clearance, face_next_check_travel, face_searched_position,
+         face_searched_growth, group_travel, group_next_check_travel, batch_group, batch_count, face_recheck_count,
+         face_search_count, touching, released, candidate_next_check_travel] = lists;
   const auto list = [&visit](auto&... fields) { (visit(fields), ...); };
-  list(candidate_ball, candidate_segment, candidate_reach, candidate_count, searched_position, search_count, face_list,
-       face_clearance, face_next_check_travel, face_searched_position, group_travel, group_next_check_travel,
-       batch_group, batch_count, face_recheck_count, face_search_count);
+  list(candidate_ball, candidate_segment, candidate_reach, candidate_count, reach_growth, searched_position,
+       searched_growth, search_count, face_list, face_clearance, face_next_check_travel, face_searched_position,
+       face_searched_growth, group_travel, group_next_check_travel, batch_group, batch_count, face_recheck_count,
+       face_search_count);
 }
 
 template <class L, class Visitor>

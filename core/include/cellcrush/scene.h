@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -12,6 +13,9 @@
 
 namespace cellcrush {
 
+/// Greatest thickness of a squashed wall over that before loading (E5f).
+inline constexpr double kMostThickening = 2.0;
+
 /// Bilinear elastic-plastic law with mixed hardening (E6).
 struct Material {
   double youngs_modulus = 0.0;      ///< E, MPa
@@ -19,6 +23,7 @@ struct Material {
   double hardening_modulus = 0.0;   ///< H = E E_T / (E - E_T), MPa
   double isotropic_fraction = 1.0;  ///< beta: 1 isotropic, 0 kinematic
   double density = 0.0;             ///< tonne / mm^3
+  bool plane_strain = false;        ///< squashed walls grow in thickness alone, not in depth (E5f)
 };
 
 /// Integration points of an element: P sections along it, at s = x / l, times D points through its depth (Eq. 30, E5b);
@@ -173,12 +178,12 @@ struct ContactLaw {
   double thinnest = 0.0;       ///< h_min, mm, thickness of the thinnest wall
 };
 
-/// Pairs of ball and segment whose reach is less than radius plus half thickness, because a short path along the walls
-/// joins them (E8a, scene/wall_paths.h). N particles.
+/// Pairs of ball and segment whose reach is limited, or will be as walls grow thicker, because a short path along the
+/// walls joins them (E8a, scene/wall_paths.h). N particles.
 struct LimitedReaches {
   std::vector<int> offset;    ///< N + 1, by ball, into the other arrays; empty if there are no such pairs
   std::vector<int> segment;   ///< ascending for each ball
-  std::vector<double> reach;  ///< mm
+  std::vector<double> reach;  ///< mm, the greatest
 };
 
 /// Fictitious masses (E11b): real masses times `mass`, real rotary inertias times `mass` and `rotary`.
@@ -261,8 +266,12 @@ struct Scene {
     return std::any_of(materials.begin(), materials.end(),
                        [](const Material& material) { return material.hardening_modulus > 0.0; });
   }
-  /// Distance at which a ball and a segment touch, mm (E8, E8a).
-  [[nodiscard]] double reach_of(int ball, int segment) const {
+  /// Radius plus half thickness before loading, mm (E8).
+  [[nodiscard]] double full_reach_of(int ball, int segment) const {
+    return radius[ball] + 0.5 * elements[segment].thickness;
+  }
+  /// Greatest distance at which a ball and a segment touch, mm (E8a); infinite if no short path joins them.
+  [[nodiscard]] double most_reach_of(int ball, int segment) const {
     if (!limited_reaches.offset.empty()) {
       for (int k = limited_reaches.offset[ball]; k < limited_reaches.offset[ball + 1]; ++k) {
         if (limited_reaches.segment[k] == segment) {
@@ -270,8 +279,17 @@ struct Scene {
         }
       }
     }
-    return radius[ball] + 0.5 * elements[segment].thickness;
+    return std::numeric_limits<double>::infinity();
   }
+  /// Distance at which a ball and a segment touch, mm (E8, E8a), with the thickness before loading.
+  [[nodiscard]] double reach_of(int ball, int segment) const {
+    return std::min(full_reach_of(ball, segment), most_reach_of(ball, segment));
+  }
+
+  /// Whether squashed walls grow in thickness (E5f).
+  [[nodiscard]] bool thickens() const { return !constant_area; }
+  /// Greatest radius that a ball can have, mm.
+  [[nodiscard]] double greatest_radius() const { return (thickens() ? kMostThickening : 1.0) * largest_radius; }
 
   [[nodiscard]] bool is_loaded() const { return !loads.empty() || !element_loads.empty() || !gravity.isZero(); }
   [[nodiscard]] std::size_t particle_count() const { return position.size(); }

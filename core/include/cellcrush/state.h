@@ -74,11 +74,14 @@ struct State {
   double support_impulse = 0.0;         ///< N s, of the support plate on the lattice
 
   // Written by evaluate_internal_forces.
-  LaneVector<Vector2> axis;           ///< E, unit vector from start to end
-  LaneVector<double> length;          ///< E
-  LaneVector<double> inverse_length;  ///< E, 1/mm
-  FibreHistory<double> fibres;        ///< empty where they are in single precision
-  FibreHistory<float> single_fibres;  ///< empty where they are in double precision
+  LaneVector<Vector2> axis;             ///< E, unit vector from start to end
+  LaneVector<double> length;            ///< E
+  LaneVector<double> inverse_length;    ///< E, 1/mm
+  LaneVector<double> thickening;        ///< E, what half of the thickness has grown by (E5f); empty at constant area
+  LaneVector<double> thickening_slope;  ///< E, its derivative by the length; empty at constant area
+  LaneVector<double> radius_growth;     ///< N, what the radius of the ball has grown by (E5f); empty at constant area
+  FibreHistory<double> fibres;          ///< empty where they are in single precision
+  FibreHistory<float> single_fibres;    ///< empty where they are in double precision
   /// 2 W, forces of walls on joints, N: for each block, those at the starts of its walls, then at their ends.
   LaneVector<Vector2> wall_force;
   LaneVector<double> wall_moment;      ///< 2 W, N mm
@@ -107,6 +110,10 @@ struct State {
 
   Ledger ledger;
 
+  /// Derived, so visit_fields leaves it out. C chunks of walls: the greatest growth of half of an element's thickness
+  /// in the newest step. Empty at constant area.
+  std::vector<double> thickening_step;
+
   /// Derived, so visit_fields leaves it out. A bit for each tile of kContactTile particles: whether one of them may
   /// have a contact_force; most have none. Rebuilt from the touching pairs every 64 steps; in between, tiles are only
   /// marked. Empty: any particle may have one.
@@ -119,17 +126,18 @@ struct State {
 template <class S, class Visitor>
 void visit_fields(S& state, Visitor&& visit) {
   auto& [step, time, position, velocity, rotation, spin, rigid_centre, rigid_velocity, rigid_rotation, rigid_spin,
-         impact_travel, impact_impulse, support_impulse, axis, length, inverse_length, fibres, single_fibres,
-         wall_force, wall_moment, internal_force, internal_moment, load_force, load_moment, contacts, crossing_step,
-         contact_force, friction_force, impact_friction, support_friction, impact_force, support_force, contact_totals,
-         ledger, derived_tiles] = state;
+         impact_travel, impact_impulse, support_impulse, axis, length, inverse_length, thickening, thickening_slope,
+         radius_growth, fibres, single_fibres, wall_force, wall_moment, internal_force, internal_moment, load_force,
+         load_moment, contacts, crossing_step, contact_force, friction_force, impact_friction, support_friction,
+         impact_force, support_force, contact_totals, ledger, derived_steps, derived_tiles] = state;
   const auto list = [&visit](auto&... fields) { (visit(fields), ...); };
   const auto list_fibres = [&list](auto& history) {
     auto& [stress, back_stress, plastic_strain, yielded, section_axial, section_moment, yielding] = history;
     list(stress, back_stress, plastic_strain, yielded, section_axial, section_moment, yielding);
   };
   list(step, time, position, velocity, rotation, spin, rigid_centre, rigid_velocity, rigid_rotation, rigid_spin,
-       impact_travel, impact_impulse, support_impulse, axis, length, inverse_length);
+       impact_travel, impact_impulse, support_impulse, axis, length, inverse_length, thickening, thickening_slope,
+       radius_growth);
   list_fibres(fibres);
   list_fibres(single_fibres);
   list(wall_force, wall_moment, internal_force, internal_moment, load_force, load_moment);
@@ -152,6 +160,7 @@ void visit_arrays(const State& state, Visitor&& visit) {
       visit(field);
     }
   });
+  visit(state.thickening_step);
   visit(state.contact_tiles);
 }
 

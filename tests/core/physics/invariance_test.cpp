@@ -100,7 +100,7 @@ TEST(Invariance, TheStruckFrameMayBeSeenFromAMovingPlace) { expect_the_same({.bo
 
 TEST(Invariance, TheNodesAndBeamsOfTheStruckFrameMayBeNumberedOtherwise) { expect_the_same({.renumbered = true}); }
 
-// Three times as large, three times as slow: the stresses are the same (Cauchy's similarity). Gravity is a third.
+// Three times as large, in three times the time: the stresses are the same (Cauchy's similarity). Gravity is a third.
 TEST(Invariance, AStruckFrameOfThreeTimesTheSizeTakesThreeTimesAsLong) {
   expect_the_same({.length = 3.0, .time = 3.0});
 }

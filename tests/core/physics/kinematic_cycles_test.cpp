@@ -113,21 +113,24 @@ class TurnKeeper {
 
 double value_at(const FrameLattice::TimeFunction& points, double time) { return TimeFunction{points}.value_at(time); }
 
-/// Worst error over the yield stress of the stress of a bar between +-`amplitude` of elongation over length. Strains
-/// are logarithmic and the volume is constant: N = sigma V / l.
+/// Strain of a bar (E5): nominal while it is longer than before loading, logarithmic while it is shorter.
+double strain_of(double elongation) { return elongation > 0.0 ? elongation : std::log1p(elongation); }
+
+/// Worst error over the yield stress of the stress of a bar between +-`amplitude` of elongation over length. The area
+/// is kept in tension and the volume in compression: N = sigma V / min(l, l_0).
 double worst_stress_error(double isotropic_fraction, double amplitude) {
   FrameLattice frame;
   const auto points = cycles_of(amplitude * kLength);
   frame.supports = {{0, true, true, true}, {1, false, true, true}};
   frame.motions = {{1, Component::x, points}};
   BilinearBar bar(isotropic_fraction);
-  TurnKeeper turns([&](double side) { bar.turn_at(std::log1p(side * amplitude)); });
+  TurnKeeper turns([&](double side) { bar.turn_at(strain_of(side * amplitude)); });
   double worst = 0.0;
   run(cycled(std::move(frame), isotropic_fraction), [&](double time, double force, double) {
     turns.come_to(time);
     const double stretch = value_at(points, time) / kLength;
-    const double stress = force / kThickness * (1.0 + stretch);
-    worst = std::max(worst, std::abs(stress - bar.stress_at(std::log1p(stretch))) / kYieldStress);
+    const double stress = force / kThickness * (1.0 + std::min(stretch, 0.0));
+    worst = std::max(worst, std::abs(stress - bar.stress_at(strain_of(stretch))) / kYieldStress);
   });
   return worst;
 }

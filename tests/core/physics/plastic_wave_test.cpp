@@ -31,25 +31,21 @@ double stress_of(double strain) {
   return std::min(kModulus * strain, kYieldStress + kTangent * (strain - kYieldStrain));
 }
 
-/// Speed of a strain in the undeformed bar, mm/s. The nominal stress is S = sigma(ln lambda) / lambda at constant
-/// volume, and sqrt(S' / rho) = sqrt((E_T - sigma) / rho) / lambda. That is c_p but for 0.9 %.
-double wave_speed(double strain) {
-  const double tangent = strain < kYieldStrain ? kModulus : kTangent;
-  return std::sqrt((tangent - stress_of(strain)) / kDensity) * std::exp(-strain);
-}
+/// Speed of a strain in the undeformed bar, mm/s. Stress and strain are nominal in tension (E5), so it is c_p.
+double wave_speed(double strain) { return std::sqrt((strain < kYieldStrain ? kModulus : kTangent) / kDensity); }
 
-/// Logarithmic strain at which the end moves with `speed`: that is the integral of the wave speed over the stretch.
+/// Strain at which the end moves with `speed`: that is the integral of the wave speed over the strain.
 double strain_at(double speed) {
   constexpr double kStep = 1e-7;
   double strain = 0.0;
   for (double sum = 0.0; sum < speed; strain += kStep) {
-    sum += wave_speed(strain + 0.5 * kStep) * std::exp(strain + 0.5 * kStep) * kStep;
+    sum += wave_speed(strain + 0.5 * kStep) * kStep;
   }
   return strain;
 }
 
 struct Profile {
-  std::vector<double> strain;    // of pairs of elements, logarithmic
+  std::vector<double> strain;    // of pairs of elements
   std::vector<double> velocity;  // of their middle nodes, away from the bar
   double time = 0.0;
   double end_force = 0.0;  // N, mean over the last tenth of the time
@@ -89,7 +85,7 @@ std::vector<Profile> pull() {
     profile.end_force = counted > 0 ? impulse / static_cast<double>(counted) : 0.0;
     const auto place = [&](int i) { return simulation.state().position[i == 0 ? 0 : i == kElements ? 1 : i + 1].x(); };
     for (int i = 0; i + 2 <= kElements; i += 2) {
-      profile.strain.push_back(std::log((place(i + 2) - place(i)) / (2.0 * kElement)));
+      profile.strain.push_back((place(i + 2) - place(i)) / (2.0 * kElement) - 1.0);
       profile.velocity.push_back(-simulation.state().velocity[i + 2].x());
     }
     profiles.push_back(profile);
@@ -134,13 +130,12 @@ TEST(PlasticWave, RunsAtTheSpeedOfTheTangentModulusBehindAnElasticOne) {
   const double elastic_speed = speed_of(0.5 * kYieldStrain) / wave_speed(0.5 * kYieldStrain);
   // Four times as many elements halve all errors; a front is about six elements wide.
   EXPECT_NEAR(plastic_speed, 1.0, 0.008);
-  EXPECT_NEAR(speed_of(plastic) / std::sqrt(kTangent / kDensity), 1.0, 0.02);
   EXPECT_NEAR(elastic_speed, 1.0, 0.004);
   EXPECT_NEAR(behind(last.strain) / strain, 1.0, 0.006);
   EXPECT_NEAR(behind(last.velocity) / kSpeed, 1.0, 1e-3);
   EXPECT_NEAR(between(last.strain) / kYieldStrain, 1.0, 0.006);
   EXPECT_NEAR(between(last.velocity) / (kYieldStrain * wave_speed(0.0)), 1.0, 0.004);
-  const double force = last.end_force / (kThickness * stress_of(strain) * std::exp(-strain));
+  const double force = last.end_force / (kThickness * stress_of(strain));
   EXPECT_NEAR(force, 1.0, 0.003);
   scenes::record_figure("plastic speed", plastic_speed, 4);
   scenes::record_figure("elastic speed", elastic_speed, 4);

@@ -82,10 +82,10 @@ struct Compared {
 // bit may turn such a decision, as it may where walls touch. Their motions part sooner.
 std::vector<Compared> scenes_to_compare() {
   return {{"paper", scenes::with_the_papers_elements(specimen(2)), 1000, 1e-7},
-          {"one element a wall", scenes::with_the_papers_elements(specimen(1)), 1000, 1e-6},
+          {"one element a wall", scenes::with_the_papers_elements(specimen(1)), 1000, 4e-6},
           {"paper, hardening, friction, damping",
            with_friction_and_hardening(scenes::with_the_papers_elements(specimen(2))), 1000, 1e-7},
-          {"paper, single precision", in_single_precision(scenes::with_the_papers_elements(specimen(2))), 1000, 1e-3},
+          {"paper, single precision", in_single_precision(scenes::with_the_papers_elements(specimen(2))), 1000, 4e-3},
           {"default, single precision", in_single_precision(specimen(2)), 60, 1e-3},
           {"default", specimen(2), 60, 1e-7},
           {"four elements a wall", specimen(4), 60, 1e-7},

@@ -22,12 +22,14 @@ struct Touch {
   int node;            // the segment's particle nearer to the ball
   double node_depth;   // D_n, of the balls of both
   Vector node_normal;  // from the node to the ball
+  double to_the_left;  // of the segment, where the ball is
 };
 
 /// A touch that pushes.
 struct Push {
   Touch touch;
   std::optional<Touch> node;  // with the nearest node of the polyline, where the balls of both overlap
+  double share = 1.0;         // in the contact of the ball with the polyline (E8b)
   bool has_pair = true;       // whether the viscous force and the friction of the two balls are this touch's
   double normal_force = 0.0;  // f
 };
@@ -36,7 +38,14 @@ struct Push {
 class WallContacts {
  public:
   WallContacts(const Lattice& lattice, const Particles& particles, const Motion& motion, std::vector<Pair>& pairs)
-      : lattice_(lattice), particles_(particles), motion_(motion), pairs_(pairs) {}
+      : lattice_(lattice), particles_(particles), motion_(motion), pairs_(pairs) {
+    for (const Segment& segment : lattice.segments) {
+      thinnest_ = std::min(thinnest_, segment.thickness);
+    }
+    for (int ball = 0; ball < count_of(lattice.position); ++ball) {
+      growth_.push_back(growth_of_ball(lattice, particles, motion, ball));
+    }
+  }
 
   void push(ContactForces& forces) {
     std::vector<Push> pushes;
@@ -80,17 +89,20 @@ class WallContacts {
     const Vector from_node = end_is_nearer ? from_end : from_start;
     const double share = std::clamp(from_start.dot(axis) / span.norm(), 0.0, 1.0);  // Eq. 41a, a capsule
     const bool is_inside = share > 0.0 && share < 1.0;
+    const double of_end = share_of_end(share);
+    const double reach =
+        (1.0 - of_end) * reach_at_node(ball, segment, start) + of_end * reach_at_node(ball, segment, end);  // E8d
     const double to_the_left = cross(axis, from_start);
     const double distance = is_inside ? std::abs(to_the_left) : from_node.norm();  // Eq. 42
     const bool touched = pair.side != 0;
-    if (!touched && distance >= pair.reach) {
+    if (!touched && distance >= reach) {
       return;
     }
     if (!touched || !is_inside) {
       pair.side = to_the_left >= 0.0 ? 1 : -1;  // the side of first touch, and of a ball that goes round an end
     }
-    const double depth = pair.reach - (is_inside ? pair.side * to_the_left : distance);  // D
-    if (depth <= 0.0 || depth >= 2.0 * pair.reach) {
+    const double depth = reach - (is_inside ? pair.side * to_the_left : distance);  // D
+    if (depth <= 0.0 || depth >= 2.0 * reach) {
       pair.side = 0;  // it has left, on its own side or on the other
       return;
     }
@@ -98,7 +110,22 @@ class WallContacts {
     const Vector node_normal = from_node.normalized();
     touches.push_back({ball, segment, share, depth, is_inside ? Vector(pair.side * turned_left(axis)) : node_normal,
                        foot_velocity - motion_.velocity[ball], end_is_nearer ? end : start,
-                       pair.reach - from_node.norm(), node_normal});
+                       reach_at_node(ball, segment, end_is_nearer ? end : start) - from_node.norm(), node_normal,
+                       to_the_left});
+  }
+
+  /// What the end of a segment has of the growth at the foot (E8d).
+  [[nodiscard]] static double share_of_end(double share) { return 3.0 * share * share - 2.0 * share * share * share; }
+
+  /// Distance at which the ball and the segment touch with the foot at a node of the segment (E8a, E8d).
+  [[nodiscard]] double reach_at_node(int ball, int segment, int node) const {
+    const Pair& pair = pairs_[index(ball, segment)];
+    return std::min(pair.reach + growth_[ball] + growth_[node], pair.most);
+  }
+
+  /// Whether that follows the growth of both balls.
+  [[nodiscard]] bool grows_at(int ball, int segment, int node) const {
+    return reach_at_node(ball, segment, node) < pairs_[index(ball, segment)].most;
   }
 
   [[nodiscard]] bool are_joined(int a, int b) const {
@@ -107,21 +134,29 @@ class WallContacts {
     return one.start == other.start || one.start == other.end || one.end == other.start || one.end == other.end;
   }
 
-  /// The touches of a ball that push: the deepest of each polyline, the first of equally deep ones (E8b).
+  static bool is_inside(const Touch& touch) { return touch.share > 0.0 && touch.share < 1.0; }
+
+  /// The touches of a ball that push: the deepest of each polyline (E8b). Equally deep ones push alike; the first does
+  /// if they meet at a node.
   void choose(const std::vector<Touch>& touches, std::vector<Push>& pushes) const {
     for (std::size_t i = 0; i < touches.size(); ++i) {
       bool is_deepest = true;
+      int equals = 1;
       std::optional<Touch> node;
       for (std::size_t j = 0; j < touches.size(); ++j) {
         const bool joined = j == i || are_joined(touches[i].segment, touches[j].segment);
         const double lead = touches[j].depth - touches[i].depth;
-        is_deepest = is_deepest && !(joined && (lead > 0.0 || (lead == 0.0 && j < i)));
+        if (joined && j != i && std::abs(lead) <= 1e-6 * thinnest_ && is_inside(touches[i]) && is_inside(touches[j])) {
+          ++equals;
+        } else if (joined && (lead > 0.0 || (lead == 0.0 && j < i))) {
+          is_deepest = false;
+        }
         if (joined && touches[j].node_depth > (node ? node->node_depth : 0.0)) {
           node = touches[j];
         }
       }
       if (is_deepest) {
-        pushes.push_back({touches[i], node});
+        pushes.push_back({touches[i], node, 1.0 / equals});
       }
     }
   }
@@ -159,17 +194,42 @@ class WallContacts {
     forces[segment.end] -= touch.share * force;
   }
 
+  /// Forces of a touch by what its reach is a function of (E8d): the lengths of elements, and the place of the foot.
+  void push_by_reach(const Touch& touch, double share, double force, ContactForces& forces) const {
+    const auto& [start, end, thickness, material] = lattice_.segments[touch.segment];
+    for (const auto& [node, of_node] :
+         {std::pair(start, 1.0 - share_of_end(share)), std::pair(end, share_of_end(share))}) {
+      if (grows_at(touch.ball, touch.segment, node)) {
+        push_elements_apart(lattice_, particles_, motion_, touch.ball, of_node * force, forces);
+        push_elements_apart(lattice_, particles_, motion_, node, of_node * force, forces);
+      }
+    }
+    if (share > 0.0 && share < 1.0) {
+      const Vector span = motion_.position[end] - motion_.position[start];
+      const double taper = (6.0 * share - 6.0 * share * share) * (reach_at_node(touch.ball, touch.segment, end) -
+                                                                  reach_at_node(touch.ball, touch.segment, start));
+      const Vector along = force * taper / span.norm() * span.normalized();
+      const Vector couple = force * taper * touch.to_the_left / span.squaredNorm() * turned_left(span.normalized());
+      forces.elastic[touch.ball] -= along;
+      forces.elastic[start] += (1.0 - share) * along + couple;
+      forces.elastic[end] += share * along - couple;
+    }
+  }
+
   /// Normal force (Eq. 43, E8b, E9).
   void push_apart(Push& push, ContactForces& forces) const {
     const Touch& touch = push.touch;
-    const double k = lattice_.contact.stiffness;
+    const double k = push.share * lattice_.contact.stiffness;
     add(touch, k * touch.depth * touch.normal, forces.elastic);
     forces.stored += k * touch.depth * touch.depth / 2.0;  // E8b
+    push_by_reach(touch, touch.share, k * touch.depth, forces);
     if (push.node) {
       // The gradient of -k D_n^2 / 4.
       const Vector force = k * push.node->node_depth / 2.0 * push.node->node_normal;
       forces.elastic[touch.ball] -= force;
       forces.elastic[push.node->node] += force;
+      const double share_of_node = push.node->node == lattice_.segments[push.node->segment].end ? 1.0 : 0.0;
+      push_by_reach(*push.node, share_of_node, -k * push.node->node_depth / 2.0, forces);
       forces.stored -= k * push.node->node_depth * push.node->node_depth / 4.0;  // E8b
     }
     const double net_elastic = k * net_depth(push);
@@ -180,7 +240,8 @@ class WallContacts {
                                   (1.0 - s) * (1.0 - s) / particles_.mass[segment.start] +
                                   s * s / particles_.mass[segment.end];  // E9
       const double viscous =
-          viscous_force(k, lattice_.contact.damping_ratio, inverse_mass, touch.normal.dot(touch.approach), net_elastic);
+          push.share * viscous_force(lattice_.contact.stiffness, lattice_.contact.damping_ratio, inverse_mass,
+                                     touch.normal.dot(touch.approach), net_elastic / push.share);
       add(touch, viscous * touch.normal, forces.viscous);
       push.normal_force = net_elastic + viscous;
     }
@@ -241,7 +302,9 @@ class WallContacts {
   const Particles& particles_;
   const Motion& motion_;
   std::vector<Pair>& pairs_;
-  std::vector<Pair> before_;  // with the friction of the step before
+  double thinnest_ = std::numeric_limits<double>::infinity();
+  std::vector<double> growth_;  // of each ball
+  std::vector<Pair> before_;    // with the friction of the step before
 };
 
 /// min(R + h/2, 0.4 w), with the shortest path w along the undeformed walls to the nearer end of the segment.
@@ -262,12 +325,32 @@ void find_reaches(const Lattice& lattice, const Particles& particles, int ball, 
     const Segment& segment = lattice.segments[e];
     if (segment.start != ball && segment.end != ball) {
       const double capsule = particles.radius[ball] + segment.thickness / 2.0;  // E8
-      pairs[e].reach = std::min(capsule, 0.4 * std::min(path[segment.start], path[segment.end]));
+      pairs[e].most = 0.4 * std::min(path[segment.start], path[segment.end]);
+      pairs[e].reach = std::min(capsule, pairs[e].most);
     }
   }
 }
 
 }  // namespace
+
+double growth_of_ball(const Lattice& lattice, const Particles& particles, const Motion& motion, int ball) {
+  double growth = 0.0;
+  for (const int e : particles.grown_with[ball]) {
+    growth += thickening_of(lattice, e, motion.position).growth / 2.0;
+  }
+  return growth;
+}
+
+void push_elements_apart(const Lattice& lattice, const Particles& particles, const Motion& motion, int ball,
+                         double force, ContactForces& forces) {
+  for (const int e : particles.grown_with[ball]) {
+    const Segment& ends = lattice.segments[e];
+    const Vector axis = (motion.position[ends.end] - motion.position[ends.start]).normalized();
+    const Vector on_end = -force / 2.0 * thickening_of(lattice, e, motion.position).slope * axis;
+    forces.elastic[ends.end] += on_end;
+    forces.elastic[ends.start] -= on_end;
+  }
+}
 
 std::vector<Pair> no_contact(const Lattice& lattice, const Particles& particles) {
   const std::size_t balls = lattice.position.size();

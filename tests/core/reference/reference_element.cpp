@@ -4,39 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/reference/reference_section.h"
+
 namespace cellcrush::reference {
 namespace {
 
-/// L of E5c: the length over which strains are taken.
-double strained_length(const ElementRule& rule, const ElementData& data, double length) {
-  return rule.constant_area ? data.undeformed_length : std::min(length, data.undeformed_length);
-}
-
-/// V_0
-double volume_of(const ElementData& data) { return data.depth * data.thickness * data.undeformed_length; }
-
-/// Area and modulus of an element of the length l, which may be squashed (E5c).
-struct SquashedBar {
-  double area;
-  double modulus;
-};
-
-SquashedBar squash(const ElementRule& rule, const ElementData& data, double length) {
-  const double area = volume_of(data) / strained_length(rule, data, length);
-  const double bound = 0.95 * data.undeformed_length;
-  if (length >= bound) {
-    return {area, data.material.modulus};
-  }
-  const double four_gyration_squared = 4.0 * data.thickness * data.thickness / 12.0;
-  const double shortening = std::pow(length / bound, rule.constant_area ? 0.0 : 2.0);
-  return {area, data.material.modulus * shortening * (1.0 + four_gyration_squared / (bound * bound)) /
-                    (1.0 + four_gyration_squared / (length * length))};
-}
-
 /// An element over a step: its motion without the rigid part, and its section at the end.
 struct DeformedElement {
-  DeformedElement(const ElementRule& rule, const MovedElement& moved)
-      : material(moved.data.material), thickness(moved.data.thickness) {
+  DeformedElement(const ElementRule& rule, const MovedElement& moved) : material(moved.data.material) {
     const ElementEnds& ends = moved.ends;
     const ElementHistory& history = *moved.history;
     const Vector span = ends.end - ends.start;
@@ -51,10 +26,17 @@ struct DeformedElement {
     area = bar.area;
     volume = volume_of(moved.data);
     material.modulus = bar.modulus;
+    slope_of_modulus = bar.slope;
+    const double thickness_before =
+        moved.data.thickness + 2.0 * thickening_of(rule, moved.data, history.length).growth;  // E5f
+    thickness = moved.data.thickness + 2.0 * thickening_of(rule, moved.data, length).growth;
+    mean_thickness = 0.5 * (thickness_before + thickness);
   }
 
-  Material material;  // with the modulus of the squashed element
-  double thickness;
+  Material material;        // with the modulus of the squashed element
+  double thickness;         // h at the end of the step
+  double mean_thickness;    // over the step
+  double slope_of_modulus;  // d ln E_l / dl
   Vector axis;
   double length;
   double mean_length;  // L_m
@@ -65,9 +47,21 @@ struct DeformedElement {
   double volume;
 };
 
-/// Nodal forces of an element from its axial force and its end moments (Eq. 31, 32, E7).
+/// N / A, and M / (A gamma) at the start and the end, positive where the left side is stretched.
+struct EndStresses {
+  double axial;
+  double left;
+  double right;
+};
+
+/// Nodal forces of an element from its axial force and its end moments (Eq. 31, 32, E7). Where the modulus falls with
+/// the length, the axial force has the derivative of the energy stored by these forces by the length (E5g).
 ElementForces nodal_forces(const DeformedElement& element, double axial, double moment_start, double moment_end,
-                           double plastic_work) {
+                           const EndStresses& stresses, double plastic_work) {
+  const auto& [n, left, right] = stresses;
+  const double energy =
+      element.volume / (2.0 * element.material.modulus) * (n * n + (left * left + left * right + right * right) / 3.0);
+  axial -= energy * element.slope_of_modulus;
   const double shear = -(moment_start + moment_end) / element.length;
   const Vector force_on_end = axial * element.axis + shear * turned_left(element.axis);
   return {force_on_end, moment_start, moment_end, plastic_work};
@@ -84,9 +78,10 @@ ElementForces respond_to_curvature(const ElementRule& rule, const DeformedElemen
     const double curvature =
         ((4.0 - 6.0 * s) * element.turn_start + (2.0 - 6.0 * s) * element.turn_end) / element.mean_length;
     for (std::size_t j = 0; j < rule.points.size(); ++j) {
-      const double arm = rule.points[j].position * element.thickness;
+      const double arm = rule.points[j].position * element.thickness;  // y
+      const double mean_arm = rule.points[j].position * element.mean_thickness;
       Fibre& fibre = history.fibres[i * rule.points.size() + j];
-      const double strain = element.stretch / element.mean_length + arm * curvature;  // E5
+      const double strain = element.stretch / element.mean_length + mean_arm * curvature;  // E5
       const Flow flow = return_fibre(element.material, strain, fibre);
       const double part = section_weight * rule.points[j].weight;
       axial += part * element.area * fibre.stress;                                 // Eq. 28, E7
@@ -95,7 +90,9 @@ ElementForces respond_to_curvature(const ElementRule& rule, const DeformedElemen
       plastic_work += part * element.volume * flow.work;                           // E10
     }
   }
-  return nodal_forces(element, axial, moment_start, moment_end, plastic_work);
+  const double moment_area = element.area * element.thickness / std::sqrt(12.0);
+  return nodal_forces(element, axial, moment_start, moment_end,
+                      {axial / element.area, moment_start / moment_area, -moment_end / moment_area}, plastic_work);
 }
 
 /// One step of a unit of force-based elements (E5b, E5d). Its forces are the axial force of each element over A, then
@@ -141,8 +138,8 @@ class ForceBasedStep {
     return all;
   }
 
-  /// gamma = h / sqrt(12)
-  [[nodiscard]] double gyration(std::size_t e) const { return elements_[e].thickness / std::sqrt(12.0); }
+  /// gamma = h / sqrt(12), of the thickness over the step
+  [[nodiscard]] double mean_gyration(std::size_t e) const { return elements_[e].mean_thickness / std::sqrt(12.0); }
 
   /// eta = y / gamma
   [[nodiscard]] double arm(std::size_t j) const { return rule_.points[j].position * std::sqrt(12.0); }
@@ -164,13 +161,14 @@ class ForceBasedStep {
       strains[static_cast<Eigen::Index>(e)] = elements_[e].stretch / elements_[e].mean_length;
     }
     const std::size_t last = elements_.size() - 1;
-    strains[moment(0)] = gyration(0) * elements_.front().turn_start / elements_.front().mean_length;
-    strains[moment(last + 1)] = -gyration(last) * elements_.back().turn_end / elements_.back().mean_length;
+    strains[moment(0)] = mean_gyration(0) * elements_.front().turn_start / elements_.front().mean_length;
+    strains[moment(last + 1)] = -mean_gyration(last) * elements_.back().turn_end / elements_.back().mean_length;
     for (std::size_t node = 1; node <= last; ++node) {
       const DeformedElement& before = elements_[node - 1];
       const DeformedElement& after = elements_[node];
-      const double mean_inverse = 0.5 * (1.0 / before.mean_length + 1.0 / after.mean_length);
-      strains[moment(node)] = gyration(node) * mean_inverse * (after.turn_start - before.turn_end);
+      const double over_length =
+          0.5 * (mean_gyration(node - 1) / before.mean_length + mean_gyration(node) / after.mean_length);
+      strains[moment(node)] = over_length * (after.turn_start - before.turn_end);
     }
     return strains;
   }
@@ -316,11 +314,11 @@ class ForceBasedStep {
     }
   }
 
-  /// A of the section at a node: the mean of both elements that meet there.
-  [[nodiscard]] double area_at(std::size_t node) const {
+  /// A gamma of the section at a node: the mean of both elements that meet there.
+  [[nodiscard]] double moment_area_at(std::size_t node) const {
     const DeformedElement& before = elements_[node == 0 ? node : node - 1];
     const DeformedElement& after = elements_[node == elements_.size() ? node - 1 : node];
-    return 0.5 * (before.area + after.area);
+    return 0.5 * (before.area * before.thickness + after.area * after.thickness) / std::sqrt(12.0);
   }
 
   [[nodiscard]] std::vector<ElementForces> nodal_forces_of(const Eigen::VectorXd& forces) const {
@@ -328,9 +326,11 @@ class ForceBasedStep {
     for (std::size_t e = 0; e < elements_.size(); ++e) {
       const DeformedElement& element = elements_[e];
       const double axial = element.area * forces[static_cast<Eigen::Index>(e)];  // N = A n
-      const double moment_start = area_at(e) * gyration(e) * forces[moment(e)];  // M = A gamma m
-      const double moment_end = -area_at(e + 1) * gyration(e) * forces[moment(e + 1)];
-      all.push_back(nodal_forces(element, axial, moment_start, moment_end, element.volume * plastic_work_[e]));
+      const double moment_start = moment_area_at(e) * forces[moment(e)];         // M = A gamma m
+      const double moment_end = -moment_area_at(e + 1) * forces[moment(e + 1)];
+      all.push_back(nodal_forces(element, axial, moment_start, moment_end,
+                                 {axial / element.area, forces[moment(e)], forces[moment(e + 1)]},
+                                 element.volume * plastic_work_[e]));
     }
     return all;
   }

@@ -72,6 +72,14 @@ std::vector<std::vector<int>> units_of(const ElementRule& rule, const std::vecto
 /// A step of the elements of a unit: Eq. 7-15 and 22-32. The turn of the common node of two is not used.
 std::vector<ElementForces> advance_unit(const ElementRule& rule, const std::vector<MovedElement>& unit);
 
+/// What half of the thickness of an element of the length `length` has grown by (E5f), and its derivative by the
+/// length.
+struct Thickening {
+  double growth = 0.0;  ///< mm
+  double slope = 0.0;
+};
+Thickening thickening_of(const ElementRule& rule, const ElementData& data, double length);
+
 /// Energy stored by the stresses, N mm (E10).
 double elastic_energy(const ElementRule& rule, const ElementData& data, const ElementHistory& history);
 

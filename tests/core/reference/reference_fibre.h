@@ -9,6 +9,7 @@ struct Material {
   double hardening_modulus = 0.0;   ///< H
   double isotropic_fraction = 1.0;  ///< beta
   double density = 0.0;             ///< rho, tonne / mm^3
+  bool plane_strain = false;        ///< otherwise plane stress
 };
 
 /// History of a fibre. MPa.

@@ -23,7 +23,8 @@ std::vector<bool> have_no_rotation(const Lattice& lattice) {
 
 Particles lump(const Lattice& lattice) {
   const std::size_t count = lattice.position.size();
-  Particles particles = {std::vector<double>(count), std::vector<double>(count), std::vector<double>(count)};
+  Particles particles = {std::vector<double>(count), std::vector<double>(count), std::vector<double>(count),
+                         grown_with(lattice)};
   const std::vector<bool> have_none = have_no_rotation(lattice);
   for (const Segment& segment : lattice.segments) {
     const double length = (lattice.position[segment.end] - lattice.position[segment.start]).norm();
@@ -37,6 +38,26 @@ Particles lump(const Lattice& lattice) {
     }
   }
   return particles;
+}
+
+Thickening thickening_of(const Lattice& lattice, int segment, const std::vector<Vector>& position) {
+  if (segment >= lattice.element_count) {
+    return {};  // of a rigid body
+  }
+  const auto& [start, end, thickness, material] = lattice.segments[segment];
+  const double undeformed_length = (lattice.position[end] - lattice.position[start]).norm();
+  return thickening_of(lattice.rule, {material, thickness, lattice.depth, undeformed_length},
+                       (position[end] - position[start]).norm());
+}
+
+std::vector<std::vector<int>> grown_with(const Lattice& lattice) {
+  std::vector<std::vector<int>> all(lattice.position.size());
+  for (const std::vector<int>& wall : lattice.walls) {
+    for (std::size_t k = 1; k < wall.size(); ++k) {
+      all[lattice.segments[wall[k]].start] = {wall[k - 1], wall[k]};
+    }
+  }
+  return all;
 }
 
 }  // namespace cellcrush::reference

@@ -60,7 +60,14 @@ struct Particles {
   std::vector<double> mass;
   std::vector<double> inertia;
   std::vector<double> radius;
+  std::vector<std::vector<int>> grown_with;
 };
 Particles lump(const Lattice& lattice);
+
+/// What half of the thickness of a segment has grown by (E5f), with its nodes at these positions.
+Thickening thickening_of(const Lattice& lattice, int segment, const std::vector<Vector>& position);
+
+/// Of each ball, the elements with which it grows, by the mean of both: those of a particle inside a wall, or none.
+std::vector<std::vector<int>> grown_with(const Lattice& lattice);
 
 }  // namespace cellcrush::reference

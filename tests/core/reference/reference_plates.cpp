@@ -14,7 +14,9 @@ void push_plates(const Lattice& lattice, const Particles& particles, const Motio
   const int across = 1 - along;
   // Returns the elastic and the viscous force on a particle, towards the inside of the lattice.
   const auto push = [&](std::size_t i, double face, double velocity, double inward, double& friction) {
-    const double surface = motion.position[i][along] - inward * particles.radius[i];
+    const int ball = static_cast<int>(i);
+    const double radius = particles.radius[i] + growth_of_ball(lattice, particles, motion, ball);  // E5f
+    const double surface = motion.position[i][along] - inward * radius;
     const double depth = std::max(inward * (face - surface), 0.0);  // D
     const double elastic = plates.stiffness * depth;
     const double approach = inward * (velocity - motion.velocity[i][along]);  // dD/dt
@@ -24,7 +26,8 @@ void push_plates(const Lattice& lattice, const Particles& particles, const Motio
     forces.elastic[i][along] += inward * elastic;  // Eq. 43
     forces.viscous[i][along] += inward * viscous;
     forces.stored += elastic * depth / 2.0;
-    const double slip = lattice.time_step * motion.velocity[i][across];  // Eq. 44
+    push_elements_apart(lattice, particles, motion, ball, elastic, forces);  // E8d
+    const double slip = lattice.time_step * motion.velocity[i][across];      // Eq. 44
     friction = friction_after(friction, plates.stiffness, slip, plates.friction * (elastic + viscous));
     forces.friction[i][across] += friction;
     return std::pair(elastic, viscous);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <string>
 #include <vector>
@@ -149,7 +150,10 @@ TEST(LimitedReaches, AreThoseOfTheWalkAlongTheWalls) {
       const Element& element = scene->elements[e];
       if (ball != element.start && ball != element.end) {
         ASSERT_EQ(scene->reach_of(ball, e), paths.reach_of(ball, e)) << ball << " " << e;
-        limited += scene->reach_of(ball, e) < scene->radius[ball] + 0.5 * element.thickness ? 1 : 0;
+        const double most = kMostThickening * scene->full_reach_of(ball, e);
+        const bool is_limited = paths.limit_of(ball, e, most) < most;
+        ASSERT_EQ(is_limited, std::isfinite(scene->most_reach_of(ball, e))) << ball << " " << e;
+        limited += is_limited ? 1 : 0;
       }
     }
   }

@@ -39,7 +39,7 @@ TEST(WhatIsModelled, SaysWhatWasAskedFor) {
 
 TEST(WhatIsModelled, SaysThatSlowLoadingNeedsDoublePrecision) {
   SceneSpec spec = scenes::hexagon_specimen(4, 3);
-  const auto said = Contains(HasSubstr("in double precision: the loading is so slow"));
+  const auto said = Contains(HasSubstr("rounding errors of slow loading add up"));
   spec.loading.speed_m_per_s = 0.1;
   EXPECT_THAT(facts_of(*scenes::build(spec)).modelled, Not(said));
   spec.loading.speed_m_per_s = 0.001;

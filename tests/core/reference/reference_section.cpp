@@ -1,0 +1,44 @@
+#include "core/reference/reference_section.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cellcrush::reference {
+
+double strained_length(const ElementRule& rule, const ElementData& data, double length) {
+  return rule.constant_area ? data.undeformed_length : std::min(length, data.undeformed_length);
+}
+
+double volume_of(const ElementData& data) { return data.depth * data.thickness * data.undeformed_length; }
+
+SquashedBar squash(const ElementRule& rule, const ElementData& data, double length) {
+  const double area = volume_of(data) / strained_length(rule, data, length);
+  const double bound = 0.95 * data.undeformed_length;
+  if (length >= bound) {
+    return {area, data.material.modulus, 0.0};
+  }
+  const double four_gyration_squared = 4.0 * data.thickness * data.thickness / 12.0;
+  const double power = rule.constant_area ? 0.0 : 2.0;
+  const Thickening thickening = thickening_of(rule, data, length);
+  const double thickness = 1.0 + 2.0 * thickening.growth / data.thickness;  // h / h_0
+  const double modulus = data.material.modulus * std::pow(length / bound, power) / (thickness * thickness) *
+                         (1.0 + four_gyration_squared / (bound * bound)) /
+                         (1.0 + four_gyration_squared / (length * length));
+  const double of_shear =
+      2.0 * four_gyration_squared / (length * length * length) / (1.0 + four_gyration_squared / (length * length));
+  const double of_thickness = 2.0 * 2.0 * thickening.slope / data.thickness / thickness;
+  return {area, modulus, power / length + of_shear - of_thickness};
+}
+
+Thickening thickening_of(const ElementRule& rule, const ElementData& data, double length) {
+  const double power = data.material.plane_strain ? 1.0 : 0.5;
+  const double relative = std::pow(data.undeformed_length / length, power);  // (l_0 / l)^p
+  const double growth = relative - 1.1;                                      // of h / h_0
+  const double half = data.thickness / 2.0;
+  if (rule.constant_area || growth <= 0.0) {
+    return {};
+  }
+  return growth < 1.0 ? Thickening{half * growth, -half * power * relative / length} : Thickening{half, 0.0};
+}
+
+}  // namespace cellcrush::reference
