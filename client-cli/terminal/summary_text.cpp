@@ -80,7 +80,7 @@ std::string front_text(const v1::FrontSummary& front, int width) {
   row("velocity", front.velocity_behind_m_per_s(), front.velocity_ahead_m_per_s(), "m/s");
   table.add({"stress", "", number_text(front.stress_ahead_mpa()), "MPa, ahead of the front (sigma_A of Eq. 52)"});
   table.add({"solid fraction", number_text(front.solid_fraction_behind()), "", "from the undeformed wall volume"});
-  table.add({"", number_text(front.wall_fraction_behind()), "", "from the current wall lengths"});
+  table.add({"", number_text(front.wall_fraction_behind()), "", "from the current walls"});
   return table.text(2, width);
 }
 

@@ -35,7 +35,7 @@ struct Front {
   double velocity_ahead = 0.0;
   /// Relative density / (1 - strain_behind); above 1, walls overlap or have shortened.
   double solid_fraction_behind = 0.0;
-  /// The same with the current lengths of the walls: the solid fraction in the model.
+  /// The same with the current lengths and thicknesses of the walls: that of the model.
   double wall_fraction_behind = 0.0;
 };
 
