@@ -7,7 +7,9 @@
 
 #include "beam/element_place.h"
 #include "energy/ledger.h"
+#include "geometry/all_finite.h"
 #include "measure/crush_mode.h"
+#include "measure/densest_layer.h"
 #include "measure/front.h"
 #include "measure/theory.h"
 #include "measure/warnings.h"
@@ -19,6 +21,9 @@ namespace {
 /// The crush mode is evaluated each time that this fraction of the cells has newly collapsed, because it takes as long
 /// as many steps.
 constexpr double kCheckEvery = 0.04;
+
+/// Strain after which the densest layer is found anew: it takes as long as a step.
+constexpr double kLayerEvery = 0.005;
 
 /// Fraction of the volume of an element whose fibres have yielded.
 class FlowedShare {
@@ -66,6 +71,7 @@ Sampler::Sampler(const Scene& scene) : next_check_(kModeFrom) {
   if (scene.plates.present) {
     cells_ = find_cells(scene);
     columns_ = divide_into_columns(scene, cells_.field.pitch);
+    layer_depth_ = depth_of_layers(scene, cells_.field.pitch);
   }
 }
 
@@ -89,6 +95,11 @@ void Sampler::measure_collapse(const Scene& scene, const State& state, Sample& s
     next_check_ = sample.collapsed_fraction + kCheckEvery;
   }
   sample.front = find_front(columns_, scene, state);
+  if (sample.strain >= next_layer_strain_ && all_finite(state.position)) {
+    densest_layer_ = find_densest_layer(scene, state, layer_depth_);
+    next_layer_strain_ = sample.strain + kLayerEvery;
+  }
+  sample.densest_layer = densest_layer_;
 }
 
 void Sampler::find_warnings(const Scene& scene, const State& state, Sample& sample) {
@@ -96,10 +107,13 @@ void Sampler::find_warnings(const Scene& scene, const State& state, Sample& samp
     sample.warnings.push_back(warn_of_depth(scene, state, sample.strain));
     has_warned_of_depth_ = true;
   }
-  if (!has_warned_of_search_ && has_left_faces(scene, state)) {
-    sample.warnings.push_back(sample.walls_crossed ? warn_of_crossing(scene, state, sample.strain)
-                                                   : warn_of_borders(state, sample.strain));
+  if (!has_warned_of_search_ && has_left_faces(scene, state) && state.crossing_step < 0) {
+    sample.warnings.push_back(warn_of_borders(state, sample.strain));
     has_warned_of_search_ = true;
+  }
+  if (!has_warned_of_density_ && sample.densest_layer.solid_fraction > kSolid) {
+    sample.warnings.push_back(warn_of_density(state, sample));
+    has_warned_of_density_ = true;
   }
   if (has_warned_of_necks_) {
     return;
@@ -133,7 +147,6 @@ Sample Sampler::take(const Scene& scene, const State& state) {
   sample.energy_contact_damping = energies.contact_damping;
   sample.deepest_penetration = state.contact_totals.deepest_penetration;
   sample.contact_count = state.contact_totals.count;
-  sample.walls_crossed = state.crossing_step >= 0;
   find_warnings(scene, state, sample);
   for (const int node : scene.watched) {
     const Vector2 displacement = state.position[node] - scene.position[node];

@@ -27,7 +27,10 @@ class Sampler {
     visitor(has_warned_of_depth_);
     visitor(has_warned_of_search_);
     visitor(has_warned_of_necks_);
+    visitor(has_warned_of_density_);
     visitor(next_check_);
+    visitor(next_layer_strain_);
+    visitor(densest_layer_);
   }
 
  private:
@@ -37,12 +40,16 @@ class Sampler {
 
   Cells cells_;
   Columns columns_;
+  double layer_depth_ = 0.0;  ///< mm
   double last_time_ = 0.0;
   double last_impact_impulse_ = 0.0;
   double last_support_impulse_ = 0.0;
   bool has_warned_of_depth_ = false;
   bool has_warned_of_search_ = false;
   bool has_warned_of_necks_ = false;
+  bool has_warned_of_density_ = false;
+  double next_layer_strain_ = 0.0;  ///< strain from which the densest layer is found anew
+  DensestLayer densest_layer_;
   double next_check_;  ///< fraction of collapsed cells at which the crush mode is next evaluated
 };
 

@@ -27,24 +27,6 @@ double depth_of(const Scene& scene, const State& state, const TouchMemory& touch
          std::min(2.0 * scene.radius[ball], element.thickness);
 }
 
-/// "; deepest now at particle 7, at (1, 2) mm before loading, in the wall of element 9"; empty while nothing touches.
-std::string deepest_place(const Scene& scene, const State& state) {
-  int ball = -1;
-  int segment = -1;
-  double most = 0.0;
-  for (const ContactLists& lists : state.contacts) {
-    for (std::size_t t = 0; t < lists.touching.count(); ++t) {
-      if (const double depth = depth_of(scene, state, lists.touching, t); ball < 0 || depth > most) {
-        ball = lists.touching.ball[t];
-        segment = lists.touching.segment[t];
-        most = depth;
-      }
-    }
-  }
-  return ball < 0 ? ""
-                  : "; deepest now at " + place_of(scene, ball) + ", in the wall of element " + std::to_string(segment);
-}
-
 /// l / l_0 up to which a wall stretches evenly: until it yields, and then until its true stress reaches H (Considere).
 double even_stretch(const Material& material) {
   const double elastic = 1.0 + material.yield_stress / material.youngs_modulus;
@@ -111,20 +93,19 @@ Warning warn_of_depth(const Scene& scene, const State& state, double strain) {
           std::string(kShorterStep) + " A larger contact.stiffness_factor reduces the overlap of slow walls."};
 }
 
-Warning warn_of_crossing(const Scene& scene, const State& state, double strain) {
-  const double time = static_cast<double>(state.crossing_step) * scene.schedule.time_step;
-  return {Warning::Kind::walls_crossed, state.crossing_step, strain,
-          "Walls were found crossing each other at " + moment_of(state.crossing_step, time) +
-              "; from then on, contacts are searched in space" + deepest_place(scene, state) + ".",
-          kShorterStep};
-}
-
 Warning warn_of_borders(const State& state, double strain) {
   return {Warning::Kind::borders_near, state.step, strain,
           "Distant parts of the lattice's border had come close to each other by " + moment_of(state.step, state.time) +
               "; from then on, contacts are searched in space, which finds the same contacts but is slower.",
           "No action is needed: the result is valid. If numerics.time_step_s was given, 0 (an automatic step) may "
           "avoid the slower search."};
+}
+
+Warning warn_of_density(const State& state, const Sample& sample) {
+  return {Warning::Kind::denser_than_solid, state.step, sample.strain,
+          words_of(sample.densest_layer) + ", at " + moment_of(state.step, state.time) +
+              ". Metal cannot be denser than solid: walls overlap there.",
+          "Take the stresses of solid metal from here on as a lower bound, or give a smaller loading.end_strain."};
 }
 
 std::optional<Warning> warn_of_necks(const Scene& scene, const State& state, double strain) {
@@ -174,6 +155,28 @@ std::vector<Warning> collect_warnings(std::span<const Sample> samples) {
   std::stable_sort(warnings.begin(), warnings.end(),
                    [](const Warning& a, const Warning& b) { return a.step < b.step; });
   return warnings;
+}
+
+std::string deepest_place(const Scene& scene, const State& state) {
+  int ball = -1;
+  int segment = -1;
+  double most = 0.0;
+  for (const ContactLists& lists : state.contacts) {
+    for (std::size_t t = 0; t < lists.touching.count(); ++t) {
+      if (const double depth = depth_of(scene, state, lists.touching, t); ball < 0 || depth > most) {
+        ball = lists.touching.ball[t];
+        segment = lists.touching.segment[t];
+        most = depth;
+      }
+    }
+  }
+  return ball < 0 ? ""
+                  : "; deepest now at " + place_of(scene, ball) + ", in the wall of element " + std::to_string(segment);
+}
+
+std::string words_of(const DensestLayer& layer) {
+  return "Walls fill the layer that was " + to_text(std::round(10.0 * layer.place) / 10.0) +
+         " mm from the impact end before loading by " + percent_of(layer.solid_fraction) + " of its volume";
 }
 
 std::string moment_of(std::int64_t step, double time) {

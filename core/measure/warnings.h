@@ -19,14 +19,17 @@ namespace cellcrush {
 /// Overlap, as a fraction of the thickness of the thinner wall, from which it is deep; a sound contact stays below a
 /// quarter.
 inline constexpr double kDeepPenetration = 0.5;
+/// Solid fraction of a layer from which it is reported.
+inline constexpr double kSolid = 1.0;
 /// Fraction of the walls beyond which walls that would have necked are reported.
 inline constexpr double kNeckedWalls = 0.01;
 /// Fraction of the work done beyond which the ledger drifts, or contacts create energy.
 inline constexpr double kEnergyDrift = 0.01;
 
-/// Warns of deep overlap, or of walls that have crossed. Either message names where walls overlap deepest now.
+/// Warns of deep overlap. Names where walls overlap deepest now.
 Warning warn_of_depth(const Scene& scene, const State& state, double strain);
-Warning warn_of_crossing(const Scene& scene, const State& state, double strain);
+/// Warns of a layer that walls fill by more than its volume: denser than solid metal.
+Warning warn_of_density(const State& state, const Sample& sample);
 /// Warns that distant parts of the border, which bands do not test against each other, came near
 /// (search/border_check.h). This costs time but no accuracy.
 Warning warn_of_borders(const State& state, double strain);
@@ -44,6 +47,12 @@ double turnover_of(const Sample& sample);
 std::vector<Warning> collect_warnings(std::span<const Sample> samples);
 
 // Phrases for warnings and for the errors that end a run.
+
+/// "; deepest now at particle 7, at (1, 2) mm before loading, in the wall of element 9"; empty while nothing touches.
+std::string deepest_place(const Scene& scene, const State& state);
+
+/// "Walls fill the layer that was 12 mm from the impact end before loading by 101.3 % of its volume".
+std::string words_of(const DensestLayer& layer);
 
 /// "step 12, t = 3e-6 s".
 std::string moment_of(std::int64_t step, double time);

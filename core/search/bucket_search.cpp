@@ -7,6 +7,7 @@
 #include "geometry/capsule-inl.h"
 #include "geometry/thickening.h"
 #include "search/candidate_lists.h"
+#include "search/crossing.h"
 
 namespace cellcrush {
 namespace {
@@ -21,18 +22,24 @@ bool list_holds(const Scene& scene, const State& state, const ContactLists& list
                     lists.searched_position.end(), has_stayed);
 }
 
-}  // namespace
-
-void search_buckets(const Scene& scene, const State& state, ContactLists& lists) {
-  lists.reach_growth += growth_of_reach(scene, state, 0, scene.bands.size());
-  if (!list_holds(scene, state, lists) && all_finite(state.position)) {
-    list_by_buckets(scene, state, lists);
-  }
+/// Whether an element that ends in the ball crosses the segment.
+bool crosses_segment(const Scene& scene, const State& state, int ball, const Element& segment) {
+  const auto first = scene.incidence.begin() + scene.incidence_offset[ball];
+  const auto end = scene.incidence.begin() + scene.incidence_offset[ball + 1];
+  return std::any_of(first, end, [&](int e) { return cross_each_other(state, scene.elements[e], segment); });
 }
 
-void list_by_buckets(const Scene& scene, const State& state, ContactLists& lists) {
+}  // namespace
+
+bool search_buckets(const Scene& scene, const State& state, ContactLists& lists) {
+  lists.reach_growth += growth_of_reach(scene, state, 0, scene.bands.size());
+  return list_holds(scene, state, lists) || !all_finite(state.position) || list_by_buckets(scene, state, lists);
+}
+
+bool list_by_buckets(const Scene& scene, const State& state, ContactLists& lists) {
   clear_candidates(lists);
   lists.candidate_count = 0;
+  bool is_planar = true;
   const double longest = *std::max_element(state.length.begin(), state.length.end());
   const double skin = scene.contact.skin;
   const BucketGrid grid(state.position, 0.5 * longest + scene.greatest_radius() + skin);
@@ -53,6 +60,7 @@ void list_by_buckets(const Scene& scene, const State& state, ContactLists& lists
       if (ball != element.start && ball != element.end && is_near) {
         const int segment = static_cast<int>(e);
         add_candidate(lists, {ball, segment, scene.reach_of(ball, segment)});
+        is_planar = is_planar && !crosses_segment(scene, state, ball, element);
       }
     });
   }
@@ -60,6 +68,7 @@ void list_by_buckets(const Scene& scene, const State& state, ContactLists& lists
   lists.searched_position = state.position;
   lists.searched_growth = lists.reach_growth;
   ++lists.search_count;
+  return is_planar;
 }
 
 }  // namespace cellcrush

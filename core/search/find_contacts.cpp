@@ -18,6 +18,13 @@ bool search_bands(const Scene& scene, State& state, Workers& workers) {
 
 }  // namespace
 
+void search_space(const Scene& scene, State& state) {
+  const bool is_planar = search_buckets(scene, state, state.contacts.front());
+  if (!is_planar && state.crossing_step < 0) {
+    state.crossing_step = state.step;
+  }
+}
+
 bool searches_faces(const Scene& scene, const State& state) {
   return scene.faces.are_enough() && state.contacts.front().searched_position.empty() && state.crossing_step < 0;
 }
@@ -35,7 +42,7 @@ void find_contacts(const Scene& scene, State& state, Workers& workers) {
     merge_band_contacts(state);
   }
   if (!searches_faces(scene, state)) {
-    search_buckets(scene, state, state.contacts.front());
+    search_space(scene, state);
   }
 }
 

@@ -75,7 +75,7 @@ void check_search(const Scene& scene, State& state, std::int64_t first, std::spa
     merge_band_contacts(state);
   } else if (!borders_are_apart(scene, state, kMostStepsInWavefront)) {
     merge_band_contacts(state);
-    search_buckets(scene, state, state.contacts.front());
+    search_space(scene, state);
   }
 }
 

@@ -14,6 +14,8 @@ namespace cellcrush {
 namespace {
 
 constexpr const char* kShorterStep = "Use a shorter numerics.time_step_s, or 0 for an automatic step.";
+constexpr const char* kStifferContact =
+    "Use a shorter numerics.time_step_s, or 0 for an automatic step, or a larger contact.stiffness_factor.";
 
 bool is_finite(const State& state, std::size_t particle) {
   return state.position[particle].allFinite() && state.velocity[particle].allFinite() &&
@@ -92,6 +94,25 @@ RunStatus check_energy(const Scene& scene, const State& state, const Sample& sam
   return {};
 }
 
+RunStatus check_walls(const Scene& scene, const State& state, const Sample& sample) {
+  if (state.crossing_step >= 0) {
+    const double time = static_cast<double>(state.crossing_step) * scene.schedule.time_step;
+    return {RunStatus::Kind::wall_crossing,
+            "A wall had passed through another at " + moment_of(state.crossing_step, time) +
+                deepest_place(scene, state) + ".",
+            scene.plates.present ? kShorterStep : kStifferContact};
+  }
+  if (sample.densest_layer.solid_fraction > kMostCompaction) {
+    return {RunStatus::Kind::overcompaction,
+            words_of(sample.densest_layer) + " at " + moment_of(state.step, state.time) + ", strain " +
+                to_text(std::round(1e3 * sample.strain) / 1e3) +
+                ". Walls overlap there by more than contacts can bear: the forces are no longer those of metal.",
+            "Give a smaller loading.end_strain. The samples before are kept; from a solid fraction of 1 on, take their "
+            "stresses as a lower bound."};
+  }
+  return {};
+}
+
 }  // namespace
 
 RunStatus check_run(const Scene& scene, const State& state, const Sample& sample) {
@@ -100,8 +121,11 @@ RunStatus check_run(const Scene& scene, const State& state, const Sample& sample
       return diverged(state, "The motion of " + place_of(scene, *lost) + ",");
     }
   }
-  const RunStatus rotation = check_rotation(scene, state);
-  return rotation.kind != RunStatus::Kind::running ? rotation : check_energy(scene, state, sample);
+  RunStatus status = check_rotation(scene, state);
+  if (status.kind == RunStatus::Kind::running) {
+    status = check_energy(scene, state, sample);
+  }
+  return status.kind == RunStatus::Kind::running ? check_walls(scene, state, sample) : status;
 }
 
 }  // namespace cellcrush

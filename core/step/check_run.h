@@ -15,12 +15,18 @@ inline constexpr double kLargestEnergyError = 0.10;
 /// in it.
 inline constexpr double kLargestRotation = 0.25;
 
+/// Greatest solid fraction of a layer. Walls then overlap by a fifth of their thickness on average, and the deepest
+/// contacts by half of it: pressed to the middle of a wall, a contact no longer resists as metal would.
+inline constexpr double kMostCompaction = 1.25;
+
 /// Checks whether the result of a run can still be trusted. Returns `running`, or one of these with the place, the step
 /// and a remedy in words:
 ///   diverged        a motion, a force or an energy is not finite,
 ///   large_rotation  a particle rotates by more than kLargestRotation in this step,
 ///   energy_balance  the energy balance has an error of more than kLargestEnergyError of the work done,
-///   contact_energy  contacts have created more than that; the ledger counts it like any other work.
+///   contact_energy  contacts have created more than that; the ledger counts it like any other work,
+///   wall_crossing   a wall has passed through another: its contacts push to the wrong side from then on,
+///   overcompaction  a layer is filled to more than kMostCompaction.
 /// Only the current state is checked; events since the last sample show in the sums of the ledger.
 RunStatus check_run(const Scene& scene, const State& state, const Sample& sample);
 

@@ -42,9 +42,9 @@ v1::QuasiStatic to_proto(const QuasiStatic& quasi_static) {
 v1::WarningKind to_proto(Warning::Kind kind) {
   switch (kind) {
     case Warning::Kind::deep_penetration: return v1::DEEP_PENETRATION;
-    case Warning::Kind::walls_crossed: return v1::WALLS_CROSSED;
     case Warning::Kind::borders_near: return v1::BORDERS_NEAR;
     case Warning::Kind::walls_neck: return v1::WALLS_NECK;
+    case Warning::Kind::denser_than_solid: return v1::DENSER_THAN_SOLID;
     case Warning::Kind::energy_drift: return v1::ENERGY_DRIFT;
     case Warning::Kind::contact_energy: return v1::CONTACTS_MAKE_ENERGY;
   }
@@ -121,7 +121,6 @@ v1::Sample to_proto(const Sample& sample, const google::protobuf::RepeatedPtrFie
   out.set_energy_contact_damping_mj(sample.energy_contact_damping);
   out.set_deepest_penetration(sample.deepest_penetration);
   out.set_contact_count(sample.contact_count);
-  out.set_walls_crossed(sample.walls_crossed);
   out.set_solid_fraction(sample.solid_fraction);
   out.set_collapsed_fraction(sample.collapsed_fraction);
   if (sample.front) *out.mutable_front() = to_proto(*sample.front);
@@ -144,6 +143,8 @@ v1::JobCause cause_of(RunStatus::Kind kind) {
     case RunStatus::Kind::large_rotation: return v1::LARGE_ROTATION;
     case RunStatus::Kind::energy_balance: return v1::ENERGY_BALANCE;
     case RunStatus::Kind::contact_energy: return v1::CONTACT_ENERGY;
+    case RunStatus::Kind::wall_crossing: return v1::WALL_CROSSING;
+    case RunStatus::Kind::overcompaction: return v1::OVERCOMPACTION;
   }
   return v1::JOB_CAUSE_UNSPECIFIED;
 }

@@ -31,6 +31,8 @@ const char* name_of(RunStatus::Kind kind) {
     case RunStatus::Kind::large_rotation: return "large_rotation";
     case RunStatus::Kind::energy_balance: return "energy_balance";
     case RunStatus::Kind::contact_energy: return "contact_energy";
+    case RunStatus::Kind::wall_crossing: return "wall_crossing";
+    case RunStatus::Kind::overcompaction: return "overcompaction";
   }
   return "";
 }
@@ -73,7 +75,6 @@ Result crush(const std::string& lattice, const Point& point) {
   result.status = simulation.status().kind;
   result.deepest_penetration = samples.back().deepest_penetration;
   result.end_strain = samples.back().strain;
-  result.walls_crossed = samples.back().walls_crossed;
   const double last = samples.back().work_external;
   for (const Sample& sample : samples) {
     if (sample.work_external > 0.01 * last) {
@@ -81,7 +82,7 @@ Result crush(const std::string& lattice, const Point& point) {
       result.contact_energy = std::max(result.contact_energy, -sample.energy_contact / turnover_of(sample));
     }
   }
-  if (result.status != RunStatus::Kind::finished || result.walls_crossed) {
+  if (result.status != RunStatus::Kind::finished) {
     result.outcome = Outcome::lost;
   } else if (std::max(result.energy_error, result.contact_energy) > kEnergyDrift) {
     result.outcome = Outcome::drifting;
@@ -106,13 +107,11 @@ std::vector<Result> crush_all(const std::string& lattice, const Grid& grid,
 std::string as_csv(const std::vector<Result>& results) {
   std::ostringstream text;
   text.precision(4);
-  text << "speed_m_per_s,penalty,step,outcome,status,energy_error,contact_energy,deepest_penetration,walls_crossed,"
-          "end_strain\n";
+  text << "speed_m_per_s,penalty,step,outcome,status,energy_error,contact_energy,deepest_penetration,end_strain\n";
   for (const Result& result : results) {
     text << result.point.speed << ',' << result.point.penalty << ',' << result.point.step << ','
          << name_of(result.outcome) << ',' << name_of(result.status) << ',' << result.energy_error << ','
-         << result.contact_energy << ',' << result.deepest_penetration << ',' << result.walls_crossed << ','
-         << result.end_strain << '\n';
+         << result.contact_energy << ',' << result.deepest_penetration << ',' << result.end_strain << '\n';
   }
   return text.str();
 }

@@ -12,7 +12,7 @@ namespace cellcrush::stability {
 enum class Outcome {
   stable,
   drifting,  ///< the ledger open, or energy made by contacts, by more than 1 % of the work done
-  lost       ///< ended by the solver's check, or walls crossed
+  lost       ///< ended by the solver's check
 };
 std::string name_of(Outcome outcome);
 
@@ -31,7 +31,6 @@ struct Result {
   double contact_energy = 0.0;  ///< greatest energy that contacts had made, over the work done
   double deepest_penetration = 0.0;
   double end_strain = 0.0;
-  bool walls_crossed = false;
 };
 
 /// The grid: every speed with every penalty and every step.

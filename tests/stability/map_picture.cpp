@@ -118,7 +118,7 @@ void draw_head(cairo_t* context, const std::string& title) {
   };
   key(colour_of(Outcome::stable), "stable: energy error in %");
   key(colour_of(Outcome::drifting), "drifting: over 1 %");
-  key(colour_of(Outcome::lost), "lost: ended by its check, or walls crossed");
+  key(colour_of(Outcome::lost), "lost: ended by its check");
   cairo_arc(context, x + 7.0, 45.0, 7.0, 0.0, 2.0 * std::numbers::pi);
   client::set_colour(context, client::kInk);
   cairo_set_line_width(context, 2.0);

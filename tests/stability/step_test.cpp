@@ -181,7 +181,7 @@ TEST(StepTooLongForTheSpeed, MakesAThousandTimesTheWorkUnlessContactsAreWatched)
 }
 
 // At the longest step that may be given the law of contact is as soft as that step wants, and walls sink in deeper.
-TEST(StepTooLongForTheSpeed, IsAWarningWhileOnlyWallsCross) {
+TEST(StepTooLongForTheSpeed, IsAWarningWhileWallsAreOnlyDeep) {
   SceneSpec spec = scenes::spec_of({"hexagon", 800.0, 0.0}, 12, 6);
   spec.numerics.time_step_s = 2.26e-7;
   spec.output.sample_count = 200;
@@ -189,13 +189,24 @@ TEST(StepTooLongForTheSpeed, IsAWarningWhileOnlyWallsCross) {
   EXPECT_EQ(run.status.kind, Kind::finished) << run.status.message;
   EXPECT_GT(run.summary.deepest_penetration, 0.5);
   ASSERT_TRUE(run.warns_of(Warning::Kind::deep_penetration));
-  EXPECT_EQ(run.warns_of(Warning::Kind::walls_crossed), run.samples.back().walls_crossed);
   for (const Warning& warning : run.summary.warnings) {
     EXPECT_NE(warning.message.find("step "), std::string::npos) << warning.message;
     EXPECT_FALSE(warning.remedy.empty());
   }
   EXPECT_NE(run.summary.warnings.front().message.find("particle "), std::string::npos)
       << run.summary.warnings.front().message;
+}
+
+// Contacts far too soft for the speed: V sqrt(m / k) is several thicknesses, and walls pass through each other without
+// making energy.
+TEST(ContactTooSoftForTheSpeed, EndsTheRunWhenAWallHasPassedThroughAnother) {
+  const auto scene = specimen("hexagon", 200.0, 0.0);
+  scene->contact.stiffness *= 0.01;
+  const WatchedRun run(scene);
+  EXPECT_EQ(run.status.kind, Kind::wall_crossing) << run.status.message;
+  EXPECT_NE(run.status.message.find("passed through another at step "), std::string::npos) << run.status.message;
+  EXPECT_NE(run.status.message.find("particle "), std::string::npos) << run.status.message;
+  expect_last_good_is_kept(run);
 }
 
 /// Energy that contacts had made by a sample, as the greatest fraction of the work done by then.

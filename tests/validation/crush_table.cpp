@@ -30,9 +30,11 @@ std::string name_of(RunStatus::Kind kind) {
     case RunStatus::Kind::diverged: return "diverged";
     case RunStatus::Kind::large_rotation: return "large_rotation";
     case RunStatus::Kind::energy_balance: return "energy_balance";
-    case RunStatus::Kind::contact_energy: break;
+    case RunStatus::Kind::contact_energy: return "contact_energy";
+    case RunStatus::Kind::wall_crossing: return "wall_crossing";
+    case RunStatus::Kind::overcompaction: break;
   }
-  return "contact_energy";
+  return "overcompaction";
 }
 
 std::string name_of(CrushMode mode) {

@@ -39,17 +39,23 @@ struct Front {
   double wall_fraction_behind = 0.0;
 };
 
+/// The layer across the crush that walls fill most (measure/densest_layer.h).
+struct DensestLayer {
+  double solid_fraction = 0.0;  ///< length times thickness of the walls over the area of the layer
+  double place = 0.0;           ///< mm of the undeformed length, from the impact end: mean of its metal
+};
+
 /// Something that does not stop a run but that a reader of its result must know. Each kind is reported once, when it is
 /// first seen.
 struct Warning {
   enum class Kind {
     deep_penetration,  ///< walls overlapped by more than half of the thickness of the thinner one
-    walls_crossed,     ///< a wall passed through another
     energy_drift,      ///< the energy balance had an error of more than 1 % of the work done
     contact_energy,    ///< contacts had created more than 1 % of the work done
     /// Distant parts of the border of a large lattice came near each other: the contact search is slower from then on.
     borders_near,
-    walls_neck  ///< more than 1 % of the walls were stretched by more than their thickness
+    walls_neck,        ///< more than 1 % of the walls were stretched by more than their thickness
+    denser_than_solid  ///< walls filled a layer by more than its volume
   };
   Kind kind = Kind::deep_penetration;
   std::int64_t step = 0;
@@ -80,12 +86,12 @@ struct Sample {
   /// Greatest of wall contacts since the start, divided by the thickness of the thinner wall.
   double deepest_penetration = 0.0;
   std::int64_t contact_count = 0;   ///< wall contacts closed now
-  bool walls_crossed = false;       ///< found by the search by faces, which then switched to buckets
   double solid_fraction = 0.0;      ///< between the plates: relative density / (1 - strain)
   double collapsed_fraction = 0.0;  ///< fraction of the cells that have collapsed (measure/crush_mode.h)
   /// Of the cells that have collapsed by now, in samples in which it was evaluated.
   CrushMode crush_mode = CrushMode::none;
   std::optional<Front> front;
+  DensestLayer densest_layer;        ///< as measured last; 0 before the first time
   std::vector<WatchedNode> watched;  ///< in the order of the frame's watched nodes
   std::vector<Warning> warnings;     ///< of contacts, first seen at this sample
 };

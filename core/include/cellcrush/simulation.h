@@ -77,7 +77,9 @@ struct RunStatus {
     diverged,        ///< a motion or a force is no longer finite
     large_rotation,  ///< a particle rotated by more in one step than the kinematics allow
     energy_balance,  ///< the energy balance has too large an error
-    contact_energy   ///< contacts have created too much energy
+    contact_energy,  ///< contacts have created too much energy
+    wall_crossing,   ///< a wall has passed through another
+    overcompaction   ///< walls are packed more densely than contacts can bear
   };
   Kind kind = Kind::running;
   std::string message;  ///< what happened, where and when; empty while running or finished

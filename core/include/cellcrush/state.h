@@ -95,7 +95,8 @@ struct State {
   /// One entry for each band of the lattice (Scene::bands), in order. A single entry if the lattice is not cut into
   /// bands.
   std::vector<ContactLists> contacts = std::vector<ContactLists>(1);
-  /// Step in which walls were found to have crossed; from then on contacts are searched by buckets. -1: none.
+  /// Step in which walls were found to have crossed; until the check that ends the run, contacts are searched by
+  /// buckets. -1: none.
   std::int64_t crossing_step = -1;
 
   // Written by evaluate_contact_forces and evaluate_plate_forces, which add to forces that integrate_motion has

@@ -83,17 +83,18 @@ TEST(Checkpoint, BytesThatAreNoneOfTheSceneChangeNothing) {
 TEST(Checkpoint, SamplesComeBackAsTheyWere) {
   std::vector<Sample> samples(2);
   samples[0].time = 0.1;
-  samples[0].walls_crossed = true;
+  samples[0].densest_layer = {0.93, 12.5};
   samples[0].crush_mode = CrushMode::v;
   samples[0].watched.push_back({1.0, 2.0, 3.0});
   samples[1].front = Front{.position = 7.0, .wall_fraction_behind = 0.5};
-  samples[1].warnings.push_back({Warning::Kind::walls_crossed, 12, 0.3, "what", "remedy"});
+  samples[1].warnings.push_back({Warning::Kind::denser_than_solid, 12, 0.3, "what", "remedy"});
   const std::string bytes = bytes_of(samples);
   const auto back = samples_of(bytes);
   ASSERT_TRUE(back);
   ASSERT_EQ(back->size(), 2U);
   EXPECT_EQ(back->at(0).time, 0.1);
-  EXPECT_TRUE(back->at(0).walls_crossed);
+  EXPECT_EQ(back->at(0).densest_layer.solid_fraction, 0.93);
+  EXPECT_EQ(back->at(0).densest_layer.place, 12.5);
   EXPECT_EQ(back->at(0).crush_mode, CrushMode::v);
   EXPECT_EQ(back->at(0).watched.at(0).rotation, 3.0);
   EXPECT_FALSE(back->at(0).front);

@@ -12,6 +12,7 @@
 #include "scenes/frames.h"
 #include "scenes/near_pairs.h"
 #include "search/bucket_search.h"
+#include "search/find_contacts.h"
 #include "step/advance_step.h"
 
 namespace cellcrush {
@@ -73,6 +74,34 @@ TEST(ContactSearch, AgreesWithBruteForceOnAShakenLattice) {
   const Pairs near = near_pairs(*scene, state);
   EXPECT_GT(near.size(), 200u);
   EXPECT_EQ(listed_pairs(state), near);
+}
+
+// Two beams side by side; then an end of one is moved through the other.
+TEST(ContactSearch, FindsThatAWallHasCrossedAnother) {
+  FrameLattice frame;
+  for (const Vector2& node : {Vector2(0, 0), Vector2(20, 0), Vector2(10, 2), Vector2(10, 20)}) {
+    frame.nodes.push_back({node.x(), node.y(), 0.0, 0.0});
+  }
+  frame.beams = {scenes::beam(0, 1, 1.0, 1), scenes::beam(2, 3, 1.0, 1)};
+  frame.self_contact = true;
+  const auto scene = scenes::build(scenes::elastic_frame(frame));
+  ASSERT_FALSE(scene->faces.are_enough());
+  State state = make_initial_state(*scene);
+  EXPECT_TRUE(list_by_buckets(*scene, state, state.contacts.front()));
+  state.position[2] = {10.0, -0.5};
+  scenes::follow_positions(*scene, state);
+  EXPECT_FALSE(list_by_buckets(*scene, state, state.contacts.front()));
+  search_space(*scene, state);
+  EXPECT_LT(state.crossing_step, 0) << "the list holds";
+  state.position[2] = {10.0, 15.0};
+  scenes::follow_positions(*scene, state);
+  search_space(*scene, state);
+  EXPECT_LT(state.crossing_step, 0);
+  state.position[2] = {10.0, -0.5};
+  state.step = 7;
+  scenes::follow_positions(*scene, state);
+  search_space(*scene, state);
+  EXPECT_EQ(state.crossing_step, 7);
 }
 
 // Walls of a lattice thrown about at random: sparse and dense, round the origin and far from it, in a line, on one

@@ -7,7 +7,6 @@
 #include <random>
 #include <vector>
 
-#include "measure/sampler.h"
 #include "motion/initial_state.h"
 #include "scenes/crossings.h"
 #include "scenes/frames.h"
@@ -250,19 +249,16 @@ void move_one(const Scene& scene, State& state, int particle, const Vector2& goa
 TEST(FaceSearch, GoesOverToBucketsWhenAWallHasCrossedAnother) {
   const auto scene = scenes::build(scenes::hexagon_specimen(5, 4));
   State state = make_initial_state(*scene);
-  Sampler sampler(*scene);
   const int inner =
       scene->faces.bands.front().particle[scene->faces.bands.front().offset[scene->faces.bands.front().count() / 2]];
   const Vector2 place = state.position[inner];
   move_one(*scene, state, inner, place + Vector2(1.0, 0.7), 100);
   EXPECT_TRUE(scenes::find_crossings(*scene, state).empty());
   EXPECT_LT(state.crossing_step, 0);
-  EXPECT_FALSE(sampler.take(*scene, state).walls_crossed);
 
   move_one(*scene, state, inner, place + Vector2(9.0, 6.0), 400);
   EXPECT_FALSE(scenes::find_crossings(*scene, state).empty());
   EXPECT_GT(state.crossing_step, 100);
-  EXPECT_TRUE(sampler.take(*scene, state).walls_crossed);
   State reference = state;
   list_by_buckets(*scene, reference, reference.contacts.front());
   EXPECT_GT(state.contacts.front().search_count, 0);
