@@ -21,8 +21,8 @@ namespace cellcrush {
 namespace {
 
 /// Bands by which a step follows the step before. A step of a band writes to that band and to the one before. The
-/// contacts of the band before, which it also evaluates, write to one more. Two bands behind, the next step therefore
-/// finds its band complete. If threads do both steps side by side, it must be three bands behind.
+/// contacts and plates of the band before, which it also evaluates, write to one more. Two bands behind, the next step
+/// therefore finds its band complete. If threads do both steps side by side, it must be three bands behind.
 std::size_t lag_of(const Workspace& workspace) { return workspace.shared.workers.count() > 1 ? kBandsBehind : 2; }
 
 std::size_t steps_at_once(const Scene& scene, const Workspace& workspace) {

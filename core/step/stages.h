@@ -42,12 +42,12 @@ void move_band(const Scene& scene, State& state, std::size_t band, StepRecord& r
 void evaluate_band_walls(const Scene& scene, State& state, std::size_t band, StepRecord& record,
                          StageWorkspace& workspace);
 
-/// Evaluates the contact forces on the balls of a band and on the segments that they touch (E8 to E9b). REQUIRES:
+/// Evaluates the contact forces on the balls of a band and on the segments that they touch (E8 to E9e). REQUIRES:
 /// find_contacts, and earlier bands have been evaluated.
 void evaluate_band_contacts(const Scene& scene, State& state, std::size_t band, StepRecord& record,
                             StageWorkspace& workspace);
 
-/// Evaluates the forces of the plates on the particles of a band (E9c).
+/// Evaluates the forces of the plates on the particles of a band (E9c to E9e).
 void evaluate_band_plates(const Scene& scene, State& state, std::size_t band, StepRecord& record,
                           const std::vector<int>& near_plates);
 

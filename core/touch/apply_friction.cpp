@@ -1,9 +1,13 @@
 #include <algorithm>
+#include <cmath>
 #include <span>
 #include <utility>
 
+#include "geometry/capsule-inl.h"
+#include "geometry/thickening.h"
 #include "touch/contact_stages.h"
 #include "touch/force_laws.h"
+#include "touch/rubbed_surface.h"
 
 namespace cellcrush {
 namespace {
@@ -60,6 +64,28 @@ struct Friction {
   }
 };
 
+/// The surfaces of a touch. The point of contact divides the distance of the mid-lines as R and h/2 do, so that the
+/// arms sum to that distance and angular momentum is kept. At its ends a segment turns as the balls there.
+struct RubbedPair {
+  RubbedSurface ball;
+  RubbedSurface segment;
+
+  RubbedPair(const Scene& scene, const State& state, const TouchMemory& touching, const Touches& touches, int touch) {
+    const double share = touches.share[touch];
+    const Element& element = scene.elements[touching.segment[touch]];
+    const double radius = radius_now(scene, state, touching.ball[touch]);
+    const double half_thickness =
+        0.5 * element.thickness + std::lerp(growth_of_ball(state, element.start), growth_of_ball(state, element.end),
+                                            HWY_NAMESPACE::share_of_end(share));
+    const double distance = touching.reach[touch] + touches.growth[touch] - touches.depth[touch];
+    const double of_ball = distance * radius / (radius + half_thickness);
+    ball = {elements_at(scene, touching.ball[touch]), of_ball};
+    segment = {
+        share > 0.0 && share < 1.0 ? std::span(&touching.segment[touch], 1) : elements_at(scene, touches.node[touch]),
+        distance - of_ball};
+  }
+};
+
 }  // namespace
 
 void apply_friction(const Scene& scene, State& state, TouchMemory& touching, const ContactWorkspace& workspace) {
@@ -70,8 +96,13 @@ void apply_friction(const Scene& scene, State& state, TouchMemory& touching, con
   for (const ActiveContact& contact : workspace.active) {
     const int touch = contact.touch;
     const int side = touching.side[touch];
-    const double now = evaluate_friction(friction.initial_friction(contact), scene.contact.stiffness,
-                                         touches.slip[touch], scene.contact.friction * contact.normal_force);
+    const RubbedPair pair(scene, state, touching, touches, touch);
+    const double turning = speed_by_turning(scene, state, pair.ball) + speed_by_turning(scene, state, pair.segment);
+    const double slip = touches.slip[touch] + scene.schedule.time_step * side * turning;
+    const double stiffness =
+        scene.contact.stiffness / std::max(1.0, stiffening(state, pair.ball) + stiffening(state, pair.segment));
+    const double now = evaluate_friction(friction.initial_friction(contact), stiffness, slip,
+                                         scene.contact.friction * contact.normal_force);
     touching.friction[touch] = now;
     touching.pushed[touch] = contact.has_pair ? side : 0;
     // Along the segment where the ball touches its side, turned with the normal round its ends. The nodes of the
@@ -82,6 +113,8 @@ void apply_friction(const Scene& scene, State& state, TouchMemory& touching, con
     state.friction_force[touching.ball[touch]] += force;
     state.friction_force[touches.start[touch]] -= (1.0 - share) * force;
     state.friction_force[touches.end[touch]] -= share * force;
+    add_couple(scene, state, pair.ball, now * side);
+    add_couple(scene, state, pair.segment, now * side);
   }
 }
 

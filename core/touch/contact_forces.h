@@ -10,7 +10,7 @@
 
 namespace cellcrush {
 
-/// Evaluates the contact forces on the balls of a band from its candidates (section 4.2, Eq. 41-47, E8 to E9b). Adds
+/// Evaluates the contact forces on the balls of a band from its candidates (section 4.2, Eq. 41-47, E8 to E9e). Adds
 /// them to contact_force and friction_force, and their totals to the sums. REQUIRES: forces are 0 at first, as
 /// clear_contact_forces leaves them; bands are evaluated in order.
 ///
@@ -30,8 +30,8 @@ namespace cellcrush {
 /// Friction (Eq. 44-47, E9b) grows with the slip perpendicular to the normal, with the k of the normal force, up to the
 /// friction coefficient times the normal force. A ball that slides from a segment to its neighbour keeps its friction
 /// force. A contact with a segment that shares no node with the one before starts from 0. Friction acts at the
-/// mid-lines of the walls, as in the paper: the moment due to R and h/2 is left out. c is the fraction damping_ratio of
-/// critical damping of k with the effective mass, 1/m_eff = 1/m_ball + (1-s)^2/m_1 + s^2/m_2 (E9).
+/// surfaces of the walls, not at their mid-lines as in the paper (E9d, touch/rubbed_surface.h). c is the fraction
+/// damping_ratio of critical damping of k with the effective mass, 1/m_eff = 1/m_ball + (1-s)^2/m_1 + s^2/m_2 (E9).
 ///
 /// Five short loops over arrays (touch/contact_stages.h) find the candidates that overlap, update the touch history,
 /// evaluate overlap and motion, find the active contacts, and compute the forces. All but the second and the fourth use

@@ -33,9 +33,9 @@ void remember_touches(const Scene& scene, const LatticeBand& band, ContactLists&
                       std::vector<NewContact>& of_next_band);
 
 /// Overwrites the geometry of the pairs from `first` to `end` of ContactLists::touching (Eq. 41-42, E8,
-/// geometry/capsule.h), their unlimited viscous force (Eq. 43, E9) and their slip. Updates the sides: a new pair, or a
-/// ball beyond an end of its segment, gets the side on which it is. Overwrites `released` by the pairs that no longer
-/// touch.
+/// geometry/capsule.h), their unlimited viscous force (Eq. 43, E9) and the slip of their mid-lines. Updates the sides:
+/// a new pair, or a ball beyond an end of its segment, gets the side on which it is. Overwrites `released` by the pairs
+/// that no longer touch.
 void evaluate_touches(const Scene& scene, const State& state, ContactLists& lists, Touches& touches, std::size_t first,
                       std::size_t end, std::vector<int>& released);
 
@@ -49,8 +49,8 @@ void find_active_contacts(const Scene& scene, const State& state, const ContactL
 void apply_normal_forces(const Scene& scene, State& state, const TouchMemory& touching, ContactWorkspace& workspace,
                          ContactTotals& totals);
 
-/// Overwrites the friction of all touches by that of the active contacts (Eq. 44-47, E9b, touch/force_laws.h), and
-/// adds the forces to friction_force. REQUIRES: ContactWorkspace::active has the normal forces of this step.
+/// Overwrites the friction of all touches by that of the active contacts (Eq. 44-47, E9b, E9d), and adds the forces
+/// and couples to friction_force. REQUIRES: ContactWorkspace::active has the normal forces of this step.
 void apply_friction(const Scene& scene, State& state, TouchMemory& touching, const ContactWorkspace& workspace);
 
 }  // namespace cellcrush

@@ -52,7 +52,7 @@ struct Touches {
   LaneVector<double> depth;    ///< T, D, mm (E8); if not above 0, the pair is released
   LaneVector<Vector2> normal;  ///< T, unit normal from the segment to the ball
   LaneVector<double> viscous;  ///< T, c dD/dt, N, before it is limited so that the contact does not pull
-  LaneVector<double> slip;     ///< T, mm, slip of the ball along the segment in the step
+  LaneVector<double> slip;     ///< T, mm, slip of the ball along the segment in the step, by their mid-lines
   LaneVector<int> node;        ///< T, node of the segment nearer to the ball
   /// T, mm, D_n, overlap of the ball with the ball at that node (E8b); above 0: they touch; 0 if they coincide.
   LaneVector<double> node_depth;

@@ -1,10 +1,12 @@
 #include "touch/plate_forces.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "geometry/thickening.h"
 #include "touch/contact_tiles.h"
 #include "touch/force_laws.h"
+#include "touch/rubbed_surface.h"
 #include "touch/thickening_forces.h"
 
 namespace cellcrush {
@@ -21,11 +23,25 @@ struct Plate {
   bool grows;        ///< balls may have grown (E5f)
 };
 
-/// Pushes one particle (E9c). The plates do not move across the crush, so the slip of a particle is its own motion in
-/// that direction.
+/// Friction of a plate on one particle whose centre is `distance` mm from the face, at most `limit` N. The plates do
+/// not move across the crush, so the slip is the motion of the ball's surface in that direction (E9d).
+void rub(const Scene& scene, State& state, const Plate& plate, int particle, double distance, double limit) {
+  const int across = 1 - scene.plates.axis;
+  const double side = scene.plates.axis == 0 ? -plate.outward : plate.outward;  // of a turn that moves it across
+  const RubbedSurface surface = {elements_at(scene, particle), distance};
+  const double speed = state.velocity[particle][across] + side * speed_by_turning(scene, state, surface);
+  const double stiffness = scene.plates.stiffness / std::max(1.0, stiffening(state, surface));
+  double& friction = plate.friction[particle];
+  friction = evaluate_friction(friction, stiffness, scene.schedule.time_step * speed, limit);
+  state.friction_force[particle][across] += friction;
+  add_couple(scene, state, surface, side * friction);
+}
+
+/// Pushes one particle (E9c).
 void push(const Scene& scene, State& state, const Plate& plate, int particle, double radius) {
   const int axis = scene.plates.axis;
-  const double depth = radius - plate.outward * (state.position[particle][axis] - plate.face);
+  const double distance = plate.outward * (state.position[particle][axis] - plate.face);
+  const double depth = radius - distance;
   NormalForce force = {0.0, 0.0};
   if (depth > 0.0) {
     const double rate = plate.outward * (plate.velocity - state.velocity[particle][axis]);
@@ -42,11 +58,7 @@ void push(const Scene& scene, State& state, const Plate& plate, int particle, do
     plate.sum.viscous += force.viscous;
   }
   if (plate.friction != nullptr && (depth > 0.0 || plate.friction[particle] != 0.0)) {
-    const double slip = scene.schedule.time_step * state.velocity[particle][1 - axis];
-    double& friction = plate.friction[particle];
-    friction = evaluate_friction(friction, scene.plates.stiffness, slip,
-                                 scene.plates.friction * (force.elastic + force.viscous));
-    state.friction_force[particle][1 - axis] += friction;
+    rub(scene, state, plate, particle, distance, scene.plates.friction * (force.elastic + force.viscous));
   }
 }
 

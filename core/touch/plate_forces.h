@@ -25,8 +25,9 @@ struct PlateMotion {
 
 /// Adds the forces of the rigid, unilateral plates on particles whose balls overlap them, by the penalty law of the
 /// walls (E9c), to contact_force and to the sums. Forces are positive in compression: the impact plate pushes along the
-/// crush, the support plate against it. Friction acts across the crush and is added to friction_force. Only the
-/// particles `near`, ascending, are tested: they include all that may reach a plate or that have friction at one.
+/// crush, the support plate against it. Friction acts across the crush on the surfaces of the balls (E9d). It is added
+/// to friction_force, also of the particles beside them. Only the particles `near`, ascending, are tested: they include
+/// all that may reach a plate or that have friction at one.
 void evaluate_plate_forces(const Scene& scene, State& state, const PlateMotion& motion, std::span<const int> near,
                            ContactSums& sums);
 

@@ -46,17 +46,26 @@ void Probe::evaluate_contacts() {
 
 Vector2 Probe::force_at(const Vector2& place, const Vector2& outward) {
   place_tip(place, outward);
-  state_.velocity[tip_] = Vector2::Zero();
+  state_.velocity.assign(state_.velocity.size(), Vector2::Zero());
   evaluate_contacts();
   return state_.contact_force[tip_].elastic;
 }
 
 Vector2 Probe::drag_to(const Vector2& place, const Vector2& outward) {
   const Vector2 velocity = (place - state_.position[tip_]) / scene_->schedule.time_step;
+  return rub_at(
+      place, outward, [&](const Vector2&) { return velocity; },
+      [](const Vector2&) { return Vector2(Vector2::Zero()); });
+}
+
+Vector2 Probe::rub_at(const Vector2& place, const Vector2& outward, const Velocities& of_beam,
+                      const Velocities& of_chain) {
   place_tip(place, outward);
-  state_.velocity[tip_] = velocity;
+  for (int i = 0; i <= tip_; ++i) {
+    state_.velocity[i] = i < tip_ - 1 ? of_chain(state_.position[i]) : of_beam(state_.position[i]);
+  }
   evaluate_contacts();
-  return state_.friction_force[tip_];
+  return state_.friction_force[tip_] + state_.friction_force[tip_ - 1];
 }
 
 }  // namespace cellcrush::scenes

@@ -35,9 +35,10 @@ SectionSpec papers_elements() {
 
 void record(const std::string& name, double value) { testing::Test::RecordProperty(name, std::to_string(value)); }
 
-CrushRun crush(const Example& example, const SectionSpec& section) {
+CrushRun crush(const Example& example, const SectionSpec& section, const Imperfection& imperfection = {}) {
   SceneSpec spec = find_preset(example.preset)->spec;
   spec.section = section;
+  spec.imperfection = imperfection;
   // The presets end at 80 %, where the densified stress is not yet a third above the plateau of every one.
   spec.loading.end_strain = 0.85;
   CrushRun run = validation::run_crush(spec);
@@ -105,16 +106,20 @@ TEST(Example1, Dimensions2OfThePapersElementsCollapsesAsInOtherPrograms) {
   expect_course(run, kDimensions2, 0.04);
 }
 
+/// The perfect lattice stays even until round-off or the plates' friction part it, which no specimen does: its stress
+/// falls after the limit by 6 or by 11 %, that of seeds of this amplitude by 10 to 12 %.
+constexpr Imperfection kSmall = {0.01, 1, 0.0};
+
 TEST(Example1, Dimensions1OfDefaultElementsCollapsesAtTheStressOfItsExactWall) {
-  const CrushRun run = crush(kDimensions1, {});
+  const CrushRun run = crush(kDimensions1, {}, kSmall);
   expect_quasi_static(run);
   expect_limit_of_the_exact_wall(run, kDimensions1);
-  EXPECT_LT(run.limit.least_after, 0.90 * run.limit.stress);
+  EXPECT_LT(run.limit.least_after, 0.92 * run.limit.stress);
   expect_course(run, kDimensions1, 0.06);
 }
 
 TEST(Example1, Dimensions2OfDefaultElementsCollapsesAtTheStressOfItsExactWall) {
-  const CrushRun run = crush(kDimensions2, {});
+  const CrushRun run = crush(kDimensions2, {}, kSmall);
   expect_quasi_static(run);
   expect_limit_of_the_exact_wall(run, kDimensions2);
   expect_course(run, kDimensions2, 0.06);

@@ -11,6 +11,7 @@
 #include "scenes/evidence.h"
 #include "scenes/frames.h"
 #include "scenes/near_pairs.h"
+#include "step/advance_step.h"
 
 namespace cellcrush {
 namespace {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/reference/reference_penalty.h"
+#include "core/reference/reference_rim.h"
 
 namespace cellcrush::reference {
 namespace {
@@ -23,6 +24,7 @@ struct Touch {
   double node_depth;   // D_n, of the balls of both
   Vector node_normal;  // from the node to the ball
   double to_the_left;  // of the segment, where the ball is
+  double distance;     // of the ball from the foot, against the normal; negative where it has passed the mid-line
 };
 
 /// A touch that pushes.
@@ -101,7 +103,8 @@ class WallContacts {
     if (!touched || !is_inside) {
       pair.side = to_the_left >= 0.0 ? 1 : -1;  // the side of first touch, and of a ball that goes round an end
     }
-    const double depth = reach - (is_inside ? pair.side * to_the_left : distance);  // D
+    const double apart = is_inside ? pair.side * to_the_left : distance;
+    const double depth = reach - apart;  // D
     if (depth <= 0.0 || depth >= 2.0 * reach) {
       pair.side = 0;  // it has left, on its own side or on the other
       return;
@@ -111,7 +114,7 @@ class WallContacts {
     touches.push_back({ball, segment, share, depth, is_inside ? Vector(pair.side * turned_left(axis)) : node_normal,
                        foot_velocity - motion_.velocity[ball], end_is_nearer ? end : start,
                        reach_at_node(ball, segment, end_is_nearer ? end : start) - from_node.norm(), node_normal,
-                       to_the_left});
+                       to_the_left, apart});
   }
 
   /// What the end of a segment has of the growth at the foot (E8d).
@@ -278,6 +281,19 @@ class WallContacts {
     return handed_over(push.node->node, ends_at_ball).value_or(0.0);
   }
 
+  /// How far the surfaces of a touch are from the ball and from the foot, and with which segments they turn (E9d).
+  [[nodiscard]] std::pair<Rim, Rim> rims_of(const Touch& touch) const {
+    const Segment& segment = lattice_.segments[touch.segment];
+    const double of_end = share_of_end(touch.share);
+    const double radius = particles_.radius[touch.ball] + growth_[touch.ball];
+    const double half_thickness =
+        segment.thickness / 2.0 + (1.0 - of_end) * growth_[segment.start] + of_end * growth_[segment.end];
+    const double ball_arm = touch.distance / (1.0 + half_thickness / radius);
+    const double segment_arm = touch.distance / (1.0 + radius / half_thickness);
+    return {{lattice_.segments_at(touch.ball), ball_arm},
+            {is_inside(touch) ? std::vector<int>{touch.segment} : lattice_.segments_at(touch.node), segment_arm}};
+  }
+
   void rub(const std::vector<Push>& pushes, ContactForces& forces) {
     before_ = pairs_;
     for (Pair& pair : pairs_) {
@@ -290,11 +306,18 @@ class WallContacts {
     for (const Push& push : pushes) {
       const Touch& touch = push.touch;
       const Vector tangent = turned_right(touch.normal);
-      const double slip = -lattice_.time_step * tangent.dot(touch.approach);  // Eq. 44, of the ball
-      const double friction = friction_after(friction_before(push), lattice_.contact.stiffness, slip,
-                                             lattice_.contact.friction * push.normal_force);
+      const auto [of_ball, of_segment] = rims_of(touch);
+      const double slide = of_ball.speed(lattice_, motion_) + of_segment.speed(lattice_, motion_);
+      const double slip = lattice_.time_step * (slide - tangent.dot(touch.approach));  // Eq. 44, E9d, of the ball
+      const double stiffness =
+          lattice_.contact.stiffness /
+          std::max(of_ball.leverage(lattice_, motion_) + of_segment.leverage(lattice_, motion_), 1.0);
+      const double friction =
+          friction_after(friction_before(push), stiffness, slip, lattice_.contact.friction * push.normal_force);
       pairs_[index(touch.ball, touch.segment)].friction = friction;
       add(touch, friction * tangent, forces.friction);
+      of_ball.turn(lattice_, motion_, friction, forces.friction);
+      of_segment.turn(lattice_, motion_, friction, forces.friction);
     }
   }
 

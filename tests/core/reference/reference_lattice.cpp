@@ -21,6 +21,16 @@ std::vector<bool> have_no_rotation(const Lattice& lattice) {
 
 }  // namespace
 
+std::vector<int> Lattice::segments_at(int particle) const {
+  std::vector<int> at;
+  for (std::size_t e = 0; e < segments.size(); ++e) {
+    if (segments[e].start == particle || segments[e].end == particle) {
+      at.push_back(static_cast<int>(e));
+    }
+  }
+  return at;
+}
+
 Particles lump(const Lattice& lattice) {
   const std::size_t count = lattice.position.size();
   Particles particles = {std::vector<double>(count), std::vector<double>(count), std::vector<double>(count),

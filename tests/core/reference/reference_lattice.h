@@ -53,6 +53,9 @@ struct Lattice {
   PlateData plates;
   double mass_damping = 0.0;  ///< alpha of E2
   double time_step = 0.0;
+
+  /// Those that end at a particle.
+  [[nodiscard]] std::vector<int> segments_at(int particle) const;
 };
 
 /// Particles' masses and balls.

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/reference/reference_penalty.h"
+#include "core/reference/reference_rim.h"
 
 namespace cellcrush::reference {
 
@@ -27,9 +28,18 @@ void push_plates(const Lattice& lattice, const Particles& particles, const Motio
     forces.viscous[i][along] += inward * viscous;
     forces.stored += elastic * depth / 2.0;
     push_elements_apart(lattice, particles, motion, ball, elastic, forces);  // E8d
-    const double slip = lattice.time_step * motion.velocity[i][across];      // Eq. 44
-    friction = friction_after(friction, plates.stiffness, slip, plates.friction * (elastic + viscous));
+    // Friction acts where the ball meets the plate (E9d). A turn to the left moves that point along the normal, turned
+    // right.
+    Vector normal = Vector::Zero();
+    normal[along] = inward;
+    const Rim rim = {lattice.segments_at(ball), inward * (motion.position[i][along] - face)};
+    const double ahead = turned_right(normal)[across];
+    const double slide = motion.velocity[i][across] + ahead * rim.speed(lattice, motion);
+    const double stiffness = plates.stiffness / std::max(rim.leverage(lattice, motion), 1.0);
+    friction = friction_after(friction, stiffness, lattice.time_step * slide,  // Eq. 44
+                              plates.friction * (elastic + viscous));
     forces.friction[i][across] += friction;
+    rim.turn(lattice, motion, ahead * friction, forces.friction);
     return std::pair(elastic, viscous);
   };
   for (std::size_t i = 0; i < motion.position.size(); ++i) {
