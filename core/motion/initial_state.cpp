@@ -72,6 +72,9 @@ State place_particles(const Scene& scene) {
     state.load_force.assign(n, Vector2::Zero());
     state.load_moment.assign(n, 0.0);
   }
+  if (scene.contact.most_travel > 0.0) {
+    state.fastest_step.resize(1);
+  }
   state.contacts.resize(scene.bands.size());
   state.rigid_centre = scene.rigid.centre;
   state.rigid_velocity.assign(scene.rigid.count(), Vector2::Zero());

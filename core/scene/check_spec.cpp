@@ -200,6 +200,8 @@ Problems check_spec(const SceneSpec& spec) {
   check.in_range("contact.friction", spec.contact.friction, {0.0, 10.0});
   check.in_range("contact.stiffness_factor", spec.contact.stiffness_factor, {1e-6, 1.0});
   check.in_range("contact.damping_ratio", spec.contact.damping_ratio, {0.0, 1.0});
+  check.in_range("contact.impact_speed_m_per_s", spec.contact.impact_speed_m_per_s, {0.0, 1000.0},
+                 " m/s (0: as the case tells)");
   check.in_range("plates.friction", spec.plates.friction, {0.0, 10.0});
   if (!std::holds_alternative<FrameLattice>(spec.lattice)) {
     check_loading(spec.loading, check);

@@ -6,9 +6,13 @@
 
 namespace cellcrush {
 
+/// V of E9, mm/s: the speed of the plate of a lattice, the speed of approach of a frame (E9a), or
+/// contact.impact_speed_m_per_s where that is more.
+double impact_speed_of(const SceneSpec& spec, const MeshMeasures& mesh);
+
 /// The contact law of a case (Eq. 43, E9; the paper gives neither k nor c):
 ///   k = m_min max(stiffness_factor / dt_crit^2, (V / (0.16 h_min))^2).
-/// A particle at plate speed then penetrates by at most 0.16 of the thinnest wall. k depends on the mesh and the speed
+/// A particle at the speed V then penetrates by at most 0.16 of the thinnest wall. k depends on the mesh and the speed
 /// only, so refining the step converges to one solution. One exception: a given step that is too long for the second
 /// term limits it.
 ContactLaw contact_law_of(const SceneSpec& spec, const MeshMeasures& mesh);

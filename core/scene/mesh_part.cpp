@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "scene/approach_speed.h"
 #include "scene/frame.h"
 #include "scene/initial_overlap.h"
 #include "scene/lattices.h"
@@ -117,6 +118,7 @@ MeshMeasures measure_sound_mesh(const SceneSpec& part, const Scene& scene) {
   measures.lightest_mass = std::ranges::min(scene.mass);
   measures.shortest_element = std::ranges::min(scene.walls.undeformed_length);
   measures.thinnest_wall = std::ranges::min(scene.elements, {}, &Element::thickness).thickness;
+  measures.approach_speed = approach_speed_of(scene);
   measures.material = scene.materials.front();
   const auto* frame = std::get_if<FrameLattice>(&part.lattice);
   measures.contact = frame == nullptr || frame->self_contact;

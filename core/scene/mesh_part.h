@@ -33,9 +33,10 @@ struct MeshMeasures {
   double lightest_mass = 0.0;  ///< of a particle
   double shortest_element = 0.0;
   double thinnest_wall = 0.0;
-  Material material;     ///< of the lattice
-  bool contact = false;  ///< whether walls touch each other
-  Problems overlaps;     ///< walls that overlap before loading
+  double approach_speed = 0.0;  ///< mm/s, of the parts of a frame (E9a); 0 for a lattice
+  Material material;            ///< of the lattice
+  bool contact = false;         ///< whether walls touch each other
+  Problems overlaps;            ///< walls that overlap before loading
 };
 
 /// Measures a mesh, and searches for walls that overlap. REQUIRES: `scene` is the mesh of the part.

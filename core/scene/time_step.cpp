@@ -11,8 +11,6 @@
 namespace cellcrush {
 namespace {
 
-constexpr double kTravelPerStep = 0.08;  // travel of the plate as a fraction of the thinnest wall
-
 /// Whether walls lie along the crush and are stacked in that direction.
 bool stacks(const SceneSpec& spec) {
   return std::holds_alternative<SquareLattice>(spec.lattice) || std::holds_alternative<TriangleLattice>(spec.lattice);
@@ -82,6 +80,7 @@ TimeStep time_step_of(const SceneSpec& spec, const MeshMeasures& mesh, const Con
     hold_to(kTravelPerStep * mesh.thinnest_wall / plates.speed, StepBound::plate_travel);
   }
   if (contact.present) {
+    hold_to(kTravelPerStep * mesh.thinnest_wall / impact_speed_of(spec, mesh), StepBound::approach);
     const double lightest = mesh.lightest_mass;
     hold_to(kStepFraction * contact_step_of(contact, lightest), StepBound::contacts);
     if (stacks(spec)) {

@@ -12,6 +12,7 @@
 #include "search/find_contacts.h"
 #include "step/advance_wavefront.h"
 #include "step/stages.h"
+#include "step/watch_approach.h"
 #include "touch/contact_tiles.h"
 
 namespace cellcrush {
@@ -99,6 +100,7 @@ void advance_step(const Scene& scene, State& state, Workspace& workspace, StageO
   }
   ++state.step;
   state.time = static_cast<double>(state.step) * scene.schedule.time_step;
+  watch_approach(scene, state);
 
   evaluate_forces(scene, state, workspace, stage);
 

@@ -15,6 +15,7 @@
 #include "search/find_contacts.h"
 #include "search/merge_band_contacts.h"
 #include "step/stages.h"
+#include "step/watch_approach.h"
 #include "touch/contact_tiles.h"
 
 namespace cellcrush {
@@ -117,6 +118,7 @@ void advance_wavefront(const Scene& scene, State& state, Workspace& workspace, s
     accumulate(scene, record, state);
   }
   state.time = static_cast<double>(state.step) * scene.schedule.time_step;
+  watch_approach(scene, state);
   check_search(scene, state, first, records);
   stage.end_step();
 }

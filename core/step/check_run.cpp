@@ -9,13 +9,14 @@
 #include "geometry/all_finite.h"
 #include "measure/warnings.h"
 #include "scene/check_spec.h"
+#include "scene/time_step.h"
 
 namespace cellcrush {
 namespace {
 
 constexpr const char* kShorterStep = "Use a shorter numerics.time_step_s, or 0 for an automatic step.";
 constexpr const char* kStifferContact =
-    "Use a shorter numerics.time_step_s, or 0 for an automatic step, or a larger contact.stiffness_factor.";
+    "Use a shorter numerics.time_step_s, 0 for an automatic step, or a greater contact.impact_speed_m_per_s.";
 
 bool is_finite(const State& state, std::size_t particle) {
   return state.position[particle].allFinite() && state.velocity[particle].allFinite() &&
@@ -94,6 +95,44 @@ RunStatus check_energy(const Scene& scene, const State& state, const Sample& sam
   return {};
 }
 
+/// Speed of approach for which the step of a scene would be chosen, mm/s.
+double speed_of_step(const Scene& scene) { return kTravelPerStep * scene.contact.thinnest / scene.schedule.time_step; }
+
+/// What makes contacts of a frame safe at a speed of approach, mm/s.
+std::string remedy_for_speed(const Scene& scene, double speed) {
+  const std::string give = "Give contact.impact_speed_m_per_s as " + to_text(std::ceil(1e-3 * speed - 0.01)) +
+                           " or more: contacts and the automatic step then suit that speed.";
+  return scene.schedule.bound == StepBound::asked_for ? std::string(kShorterStep) + " " + give : give;
+}
+
+RunStatus check_contacts(const Scene& scene, const State& state) {
+  if (state.fastest_step.empty()) {
+    return {};
+  }
+  const FastestStep& fastest = state.fastest_step.front();
+  const double step = scene.schedule.time_step;
+  const double speed = fastest.travel / step;
+  if (fastest.travel > scene.contact.most_travel) {
+    return {RunStatus::Kind::contact_lost,
+            "Beams can have passed through each other: in one step parts of the frame approached each other by " +
+                percent_of(fastest.travel / scene.contact.thinnest) + " of the thinnest beam's thickness, more than " +
+                percent_of(scene.contact.most_travel / scene.contact.thinnest) + ", at " +
+                moment_of(fastest.step, static_cast<double>(fastest.step) * step) + "; the fastest particle is " +
+                place_of(scene, static_cast<std::size_t>(fastest.particle)) + ", and velocities differ by " +
+                to_text(std::round(speed / 100.0) / 10.0) + " m/s.",
+            remedy_for_speed(scene, speed)};
+  }
+  if (state.contact_totals.deepest_penetration >= 1.0) {
+    return {RunStatus::Kind::contact_lost,
+            "A beam has sunk into another by " + percent_of(state.contact_totals.deepest_penetration) +
+                " of the thinner one's thickness by " + moment_of(state.step, state.time) +
+                deepest_place(scene, state) + "; velocities differed by up to " +
+                to_text(std::round(speed / 100.0) / 10.0) + " m/s.",
+            remedy_for_speed(scene, 2.0 * std::max(speed, speed_of_step(scene)))};
+  }
+  return {};
+}
+
 RunStatus check_walls(const Scene& scene, const State& state, const Sample& sample) {
   if (state.crossing_step >= 0) {
     const double time = static_cast<double>(state.crossing_step) * scene.schedule.time_step;
@@ -122,10 +161,15 @@ RunStatus check_run(const Scene& scene, const State& state, const Sample& sample
     }
   }
   RunStatus status = check_rotation(scene, state);
-  if (status.kind == RunStatus::Kind::running) {
-    status = check_energy(scene, state, sample);
-  }
-  return status.kind == RunStatus::Kind::running ? check_walls(scene, state, sample) : status;
+  const auto go_on = [&status](const auto& check) {
+    if (status.kind == RunStatus::Kind::running) {
+      status = check();
+    }
+  };
+  go_on([&] { return check_contacts(scene, state); });
+  go_on([&] { return check_energy(scene, state, sample); });
+  go_on([&] { return check_walls(scene, state, sample); });
+  return status;
 }
 
 }  // namespace cellcrush

@@ -26,8 +26,11 @@ inline constexpr double kMostCompaction = 1.25;
 ///   energy_balance  the energy balance has an error of more than kLargestEnergyError of the work done,
 ///   contact_energy  contacts have created more than that; the ledger counts it like any other work,
 ///   wall_crossing   a wall has passed through another: its contacts push to the wrong side from then on,
-///   overcompaction  a layer is filled to more than kMostCompaction.
-/// Only the current state is checked; events since the last sample show in the sums of the ledger.
+///   overcompaction  a layer is filled to more than kMostCompaction,
+///   contact_lost    in a step since the start, particles of a frame could approach each other by more than
+///                   ContactLaw::most_travel, or a beam has sunk into another by the thickness of the thinner one.
+/// Only the current state is checked; events since the last sample show in the sums of the ledger and in what the state
+/// records since the start.
 RunStatus check_run(const Scene& scene, const State& state, const Sample& sample);
 
 }  // namespace cellcrush

@@ -61,6 +61,9 @@ std::string step_text(const Scene& scene) {
     case StepBound::elements:
       return "0.9 of the stability limit of the lightest, stiffest element, or 0.72 of that of a pair of elements.";
     case StepBound::plate_travel: return "the time in which the plate moves by 0.08 of the thinnest wall's thickness.";
+    case StepBound::approach:
+      return "the time in which beams approach each other by 0.08 of the thinnest one's thickness, at the speed that "
+             "contacts are made for (contact.impact_speed_m_per_s).";
     case StepBound::contacts: return "0.9 of the stability limit of a row of the lightest particles between contacts.";
     case StepBound::stacked_walls: break;
   }

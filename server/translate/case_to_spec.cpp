@@ -91,6 +91,7 @@ void read_section(const v1::Section& in, SectionSpec& out, Problems& problems) {
 void read_contact(const v1::Case& in, SceneSpec& spec, Problems& problems) {
   if (in.contact().has_friction()) spec.contact.friction = in.contact().friction();
   if (in.contact().has_stiffness_factor()) spec.contact.stiffness_factor = in.contact().stiffness_factor();
+  if (in.contact().has_impact_speed_m_per_s()) spec.contact.impact_speed_m_per_s = in.contact().impact_speed_m_per_s();
   if (in.contact().has_damping_ratio()) spec.contact.damping_ratio = in.contact().damping_ratio();
   read_choice(in.contact().search(),
               {{v1::Contact::FACES, ContactSpec::Search::faces}, {v1::Contact::BUCKETS, ContactSpec::Search::buckets}},

@@ -145,6 +145,7 @@ v1::JobCause cause_of(RunStatus::Kind kind) {
     case RunStatus::Kind::contact_energy: return v1::CONTACT_ENERGY;
     case RunStatus::Kind::wall_crossing: return v1::WALL_CROSSING;
     case RunStatus::Kind::overcompaction: return v1::OVERCOMPACTION;
+    case RunStatus::Kind::contact_lost: return v1::CONTACT_LOST;
   }
   return v1::JOB_CAUSE_UNSPECIFIED;
 }

@@ -178,6 +178,7 @@ v1::Case to_case(const SceneSpec& spec) {
   out.mutable_contact()->set_friction(spec.contact.friction);
   out.mutable_contact()->set_stiffness_factor(spec.contact.stiffness_factor);
   out.mutable_contact()->set_damping_ratio(spec.contact.damping_ratio);
+  out.mutable_contact()->set_impact_speed_m_per_s(spec.contact.impact_speed_m_per_s);
   out.mutable_contact()->set_search(spec.contact.search == ContactSpec::Search::faces ? v1::Contact::FACES
                                                                                       : v1::Contact::BUCKETS);
   out.mutable_plates()->set_friction(spec.plates.friction);

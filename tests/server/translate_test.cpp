@@ -93,9 +93,11 @@ TEST(Translate, AnEmptyCaseTakesTheSpecsDefaultsAndInventsNothing) {
 TEST(Translate, ZeroIsNotLeftOut) {
   v1::Case given;
   given.mutable_contact()->set_damping_ratio(0.0);
+  given.mutable_contact()->set_impact_speed_m_per_s(400.0);
   given.mutable_loading()->set_speed_m_per_s(0.0);
   const auto reading = translate::to_spec(given);
   EXPECT_EQ(reading.spec.contact.damping_ratio, 0.0);
+  EXPECT_EQ(reading.spec.contact.impact_speed_m_per_s, 400.0);
   EXPECT_EQ(reading.spec.loading.speed_m_per_s, 0.0);
 }
 

@@ -33,6 +33,7 @@ const char* name_of(RunStatus::Kind kind) {
     case RunStatus::Kind::contact_energy: return "contact_energy";
     case RunStatus::Kind::wall_crossing: return "wall_crossing";
     case RunStatus::Kind::overcompaction: return "overcompaction";
+    case RunStatus::Kind::contact_lost: return "contact_lost";
   }
   return "";
 }

@@ -176,6 +176,8 @@ struct ContactLaw {
   double skin = 0.0;           ///< mm, distance beyond touch up to which candidates are collected
   double face_skin = 0.0;      ///< mm, the same in the search by faces
   double thinnest = 0.0;       ///< h_min, mm, thickness of the thinnest wall
+  /// mm, by which beams of a frame may approach in a step; a run in which they do so by more is ended. 0: not checked.
+  double most_travel = 0.0;
 };
 
 /// Pairs of ball and segment whose reach is limited, or will be as walls grow thicker, because a short path along the
@@ -193,7 +195,7 @@ struct MassScaling {
 };
 
 /// The bound that determined the time step (scene/time_step.h).
-enum class StepBound { asked_for, elements, plate_travel, contacts, stacked_walls };
+enum class StepBound { asked_for, elements, plate_travel, approach, contacts, stacked_walls };
 
 /// Length of the run and intervals of its output, in steps.
 struct Schedule {

@@ -183,6 +183,9 @@ struct ContactSpec {
   double friction = 0.0;
   double stiffness_factor = 0.12;  ///< k = m_min max(stiffness_factor / dt_crit^2, ...) (E9)
   double damping_ratio = 0.2;      ///< zeta, fraction of critical damping (E9)
+  /// Least speed of approach for which contacts are made (V of E9). The speed of the plate, or that which a frame's
+  /// velocities, motions and gravity tell (E9a), counts where it is more.
+  double impact_speed_m_per_s = 0.0;
   Search search = Search::faces;
 
   bool operator==(const ContactSpec&) const = default;

@@ -79,7 +79,8 @@ struct RunStatus {
     energy_balance,  ///< the energy balance has too large an error
     contact_energy,  ///< contacts have created too much energy
     wall_crossing,   ///< a wall has passed through another
-    overcompaction   ///< walls are packed more densely than contacts can bear
+    overcompaction,  ///< walls are packed more densely than contacts can bear
+    contact_lost     ///< beams of a frame moved too fast, or sank too deep into each other, for contacts to hold them
   };
   Kind kind = Kind::running;
   std::string message;  ///< what happened, where and when; empty while running or finished

@@ -43,6 +43,13 @@ struct PlateForce {
   [[nodiscard]] double total() const { return elastic + viscous; }
 };
 
+/// The step since the start in which particles could approach each other by the most (step/watch_approach.h).
+struct FastestStep {
+  double travel = 0.0;        ///< mm
+  std::int64_t step = 0;      ///< 0: none yet
+  std::int64_t particle = 0;  ///< whose velocity is farthest from the middle of all
+};
+
 /// Energies and works accumulated over time (E10), N mm. Written by integrate_motion and evaluate_internal_forces.
 struct Ledger {
   double plastic = 0.0;          ///< stress times plastic strain increment
@@ -108,6 +115,7 @@ struct State {
   PlateForce impact_force;                 ///< of the impact plate on the lattice, along the crush
   PlateForce support_force;                ///< of the support plate on the lattice, against the crush
   ContactTotals contact_totals;
+  std::vector<FastestStep> fastest_step;  ///< one where contacts of a frame are watched; otherwise empty
 
   Ledger ledger;
 
@@ -130,7 +138,7 @@ void visit_fields(S& state, Visitor&& visit) {
          impact_travel, impact_impulse, support_impulse, axis, length, inverse_length, thickening, thickening_slope,
          radius_growth, fibres, single_fibres, wall_force, wall_moment, internal_force, internal_moment, load_force,
          load_moment, contacts, crossing_step, contact_force, friction_force, impact_friction, support_friction,
-         impact_force, support_force, contact_totals, ledger, derived_steps, derived_tiles] = state;
+         impact_force, support_force, contact_totals, fastest_step, ledger, derived_steps, derived_tiles] = state;
   const auto list = [&visit](auto&... fields) { (visit(fields), ...); };
   const auto list_fibres = [&list](auto& history) {
     auto& [stress, back_stress, plastic_strain, yielded, section_axial, section_moment, yielding] = history;
@@ -150,7 +158,7 @@ void visit_fields(S& state, Visitor&& visit) {
     visit_touch_fields(lists, visit);
   }
   list(contact_force, friction_force, impact_friction, support_friction, impact_force, support_force, contact_totals,
-       ledger);
+       fastest_step, ledger);
 }
 
 /// The same for the arrays alone, the derived ones too.

@@ -40,9 +40,11 @@ TEST(CheckSpec, NamesAllProblemsAtOnceWithTheirValues) {
   spec.loading.speed_m_per_s = 0.0;
   spec.material.density_kg_per_m3 = std::numeric_limits<double>::quiet_NaN();
   spec.material.isotropic_fraction = -0.5;
+  spec.contact.impact_speed_m_per_s = -1.0;
   spec.section.depth_points = 1;
   const Problems problems = build_scene(spec).problems;
-  EXPECT_EQ(problems.size(), 5u);
+  EXPECT_EQ(problems.size(), 6u);
+  EXPECT_NE(find(problems, "contact.impact_speed_m_per_s"), nullptr);
   ASSERT_NE(find(problems, "lattice.hexagon.wall_thickness_mm"), nullptr);
   EXPECT_EQ(find(problems, "lattice.hexagon.wall_thickness_mm")->value, "-0.1");
   EXPECT_NE(find(problems, "loading.speed_m_per_s"), nullptr);

@@ -63,6 +63,7 @@ std::vector<Change> changes() {
       [](SceneSpec& spec) { spec.loading.direction = LoadingSpec::Direction::y; },
       [](SceneSpec& spec) { spec.contact.stiffness_factor = 0.01; },
       [](SceneSpec& spec) { spec.contact.damping_ratio = 0.9; },
+      [](SceneSpec& spec) { spec.contact.impact_speed_m_per_s = 400.0; },
       [](SceneSpec& spec) { spec.contact.search = ContactSpec::Search::buckets; },
       [](SceneSpec& spec) { spec.plates.friction = 11.0; },
       [](SceneSpec& spec) { spec.numerics.time_step_s = 1e-9; },
