@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "scene/initial_velocity.h"
 #include "scene/units.h"
 
 namespace cellcrush {
@@ -90,14 +91,7 @@ void attach_to_frame(const FrameLattice& frame, Scene& scene) {
   }
   attach_holds(frame, scene);
   attach_loads(frame, scene);
-  if (!frame.initial_velocities.empty()) {
-    scene.initial_velocity.assign(count, Vector2::Zero());
-    scene.initial_spin.assign(count, 0.0);
-    for (const FrameLattice::InitialVelocity& velocity : frame.initial_velocities) {
-      scene.initial_velocity[velocity.node] = Vector2(velocity.x_m_per_s, velocity.y_m_per_s) * kMmPerM;
-      scene.initial_spin[velocity.node] = velocity.rotation_rad_per_s;
-    }
-  }
+  attach_initial_velocities(frame, scene);
   scene.watched = frame.watched_nodes;
 }
 

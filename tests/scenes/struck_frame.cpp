@@ -152,10 +152,6 @@ SceneSpec StruckFrame::spec(const View& view) {
   return spec;
 }
 
-std::shared_ptr<Scene> StruckFrame::scene(const View& view) {
-  auto scene = build(spec(view));
-  for (std::size_t i = scene->joint_count; i < scene->particle_count(); ++i) scene->initial_velocity[i] = view.boost;
-  return scene;
-}
+std::shared_ptr<Scene> StruckFrame::scene(const View& view) { return build(spec(view)); }
 
 }  // namespace cellcrush::scenes

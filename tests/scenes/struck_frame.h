@@ -33,7 +33,7 @@ struct StruckFrame {
   static constexpr double kEnd = 8e-4;     // s, before a change of units
 
   static SceneSpec spec(const View& view);
-  /// Built from the spec, with the boost of the particles inside the beams, of which a spec says nothing.
+  /// Built from the spec.
   static std::shared_ptr<Scene> scene(const View& view);
 };
 
