@@ -123,7 +123,7 @@ std::vector<fs::path> find_stale_files(const fs::path& folder, const std::string
   std::vector<fs::path> stale;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
     const std::string name = entry->path().filename().string();
-    const bool is_nodes = name == "nodes.csv" && begins_with_one_of(entry->path(), {nodes_header()});
+    const bool is_nodes = name == "nodes.csv" && begins_with_one_of(entry->path(), {nodes_signature()});
     const bool is_frame = is_other_job && name.starts_with("frame_") && name.ends_with(".csv") &&
                           begins_with_one_of(entry->path(), {frame_header()});
     const bool is_kept = std::ranges::find(written, entry->path()) != written.end();
@@ -159,7 +159,7 @@ ExitCode run_fetch(Session& session, const FetchOptions& options) {
 void check_may_write_results(const fs::path& folder) {
   check_may_overwrite(folder / "result.h5", kResultStarts);
   check_may_overwrite(folder / "history.csv", {kHistorySignature});
-  check_may_overwrite(folder / "nodes.csv", {nodes_header()});
+  check_may_overwrite(folder / "nodes.csv", {nodes_signature()});
   check_may_overwrite(folder / "case.txtpb", {kCaseSignature});
 }
 
@@ -173,7 +173,7 @@ ResultFiles write_results(Connection& connection, const v1::Job& job, const fs::
   const auto history = fetch_history(connection, job.name());
   files.add(folder / "history.csv", {kHistorySignature}).write(history_csv(history.samples()));
   if (const std::string nodes = nodes_csv(history.samples()); !nodes.empty()) {
-    files.add(folder / "nodes.csv", {nodes_header()}).write(nodes);
+    files.add(folder / "nodes.csv", {nodes_signature()}).write(nodes);
   }
   for (const double time : frame_times) {
     v1::GetFrameRequest request;

@@ -80,14 +80,17 @@ std::string history_csv(const google::protobuf::RepeatedPtrField<v1::Sample>& sa
   return text;
 }
 
-std::string nodes_header() { return "time_s,node,ux_mm,uy_mm,rotation_rad"; }
+std::string nodes_signature() { return "time_s,node,ux_mm,uy_mm,rotation_rad"; }
+
+std::string nodes_header() { return nodes_signature() + ",reaction_x_n,reaction_y_n,reaction_moment_n_mm"; }
 
 std::string nodes_csv(const google::protobuf::RepeatedPtrField<v1::Sample>& samples) {
   std::string text;
   for (const v1::Sample& sample : samples) {
     for (const v1::WatchedNode& node : sample.watched()) {
-      fmt::format_to(std::back_inserter(text), "{},{},{},{},{}\n", sample.time_s(), csv_cell(node.node()), node.ux_mm(),
-                     node.uy_mm(), node.rotation_rad());
+      fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{}\n", sample.time_s(), csv_cell(node.node()),
+                     node.ux_mm(), node.uy_mm(), node.rotation_rad(), node.reaction_x_n(), node.reaction_y_n(),
+                     node.reaction_moment_n_mm());
     }
   }
   return text.empty() ? text : nodes_header() + '\n' + text;

@@ -15,6 +15,9 @@ std::string history_header();
 /// Samples as CSV, one line each. Numbers read back to the same bits; missing values (a front) are empty.
 std::string history_csv(const google::protobuf::RepeatedPtrField<v1::Sample>& samples);
 
+/// How files of watched nodes begin, those of earlier versions too.
+std::string nodes_signature();
+
 /// The header line of a file of watched nodes.
 std::string nodes_header();
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "beam/element_place.h"
@@ -67,11 +68,28 @@ class FlowedShare {
 
 }  // namespace
 
-Sampler::Sampler(const Scene& scene) : next_check_(kModeFrom) {
+Sampler::Sampler(const Scene& scene) : last_reaction_impulse_(scene.watched.size()), next_check_(kModeFrom) {
   if (scene.plates.present) {
     cells_ = find_cells(scene);
     columns_ = divide_into_columns(scene, cells_.field.pitch);
     layer_depth_ = depth_of_layers(scene, cells_.field.pitch);
+  }
+}
+
+void Sampler::measure_watched(const Scene& scene, const State& state, Sample& sample) {
+  const double interval = state.time - last_time_;
+  for (std::size_t k = 0; k < scene.watched.size(); ++k) {
+    const int node = scene.watched[k];
+    const Vector2 displacement = state.position[node] - scene.position[node];
+    WatchedNode watched = {displacement.x(), displacement.y(), state.rotation[node]};
+    if (!state.reaction_impulse.empty() && interval > 0.0) {
+      const ReactionImpulse& now = state.reaction_impulse[node];
+      const ReactionImpulse before = std::exchange(last_reaction_impulse_[k], now);
+      watched.reaction_x = (now.x - before.x) / interval;
+      watched.reaction_y = (now.y - before.y) / interval;
+      watched.reaction_moment = (now.moment - before.moment) / interval;
+    }
+    sample.watched.push_back(watched);
   }
 }
 
@@ -81,7 +99,6 @@ void Sampler::measure_stress(const Scene& scene, const State& state, Sample& sam
     sample.stress_impact = (state.impact_impulse - last_impact_impulse_) / area_times_interval;
     sample.stress_support = (state.support_impulse - last_support_impulse_) / area_times_interval;
   }
-  last_time_ = state.time;
   last_impact_impulse_ = state.impact_impulse;
   last_support_impulse_ = state.support_impulse;
 }
@@ -148,10 +165,8 @@ Sample Sampler::take(const Scene& scene, const State& state) {
   sample.deepest_penetration = state.contact_totals.deepest_penetration;
   sample.contact_count = state.contact_totals.count;
   find_warnings(scene, state, sample);
-  for (const int node : scene.watched) {
-    const Vector2 displacement = state.position[node] - scene.position[node];
-    sample.watched.push_back({displacement.x(), displacement.y(), state.rotation[node]});
-  }
+  measure_watched(scene, state, sample);
+  last_time_ = state.time;
   return sample;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "cellcrush/sample.h"
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
@@ -8,9 +10,9 @@
 
 namespace cellcrush {
 
-/// Takes samples of a run. Stresses are means over the interval between two samples, from the impulses of the plates: a
-/// penalty contact oscillates, so the force at one time says little. Collapse and front follow from the current
-/// positions and velocities. Only a lattice between plates has cells, columns and a front.
+/// Takes samples of a run. Stresses and reactions are means over the interval between two samples, from the impulses of
+/// plates and supports: a penalty contact oscillates, so the force at one time says little. Collapse and front follow
+/// from the current positions and velocities. Only a lattice between plates has cells, columns and a front.
 class Sampler {
  public:
   explicit Sampler(const Scene& scene);
@@ -24,6 +26,7 @@ class Sampler {
     visitor(last_time_);
     visitor(last_impact_impulse_);
     visitor(last_support_impulse_);
+    visitor(last_reaction_impulse_);
     visitor(has_warned_of_depth_);
     visitor(has_warned_of_search_);
     visitor(has_warned_of_necks_);
@@ -34,6 +37,7 @@ class Sampler {
   }
 
  private:
+  void measure_watched(const Scene& scene, const State& state, Sample& sample);
   void measure_stress(const Scene& scene, const State& state, Sample& sample);
   void measure_collapse(const Scene& scene, const State& state, Sample& sample);
   void find_warnings(const Scene& scene, const State& state, Sample& sample);
@@ -44,6 +48,7 @@ class Sampler {
   double last_time_ = 0.0;
   double last_impact_impulse_ = 0.0;
   double last_support_impulse_ = 0.0;
+  std::vector<ReactionImpulse> last_reaction_impulse_;  ///< of the watched particles
   bool has_warned_of_depth_ = false;
   bool has_warned_of_search_ = false;
   bool has_warned_of_necks_ = false;

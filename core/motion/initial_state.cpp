@@ -72,6 +72,7 @@ State place_particles(const Scene& scene) {
     state.load_force.assign(n, Vector2::Zero());
     state.load_moment.assign(n, 0.0);
   }
+  state.reaction_impulse.resize(scene.supports.size());
   if (scene.contact.most_travel > 0.0) {
     state.fastest_step.resize(1);
   }

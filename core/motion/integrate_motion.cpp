@@ -50,12 +50,27 @@ HWY_INLINE bool bear_contact(const ParticleArrays<State>& arrays, std::size_t i)
   return !all(bits == 0);  // not any(bits != 0): the bits of several numbers may be those of a NaN
 }
 
+/// Adds the impulses of the supports of a particle over a step.
+template <class D>
+HWY_INLINE void add_reactions(const ParticleArrays<State>& arrays, const StepFactors& step, std::size_t i,
+                              const ParticleMotion<D>& motion) {
+  if (!arrays.scene.supports.empty()) {
+    ReactionImpulse& impulse = arrays.reaction_impulse[i];
+    impulse.x += step.step * hn::GetLane(motion.reaction.x.raw);
+    impulse.y += step.step * hn::GetLane(motion.reaction.y.raw);
+    impulse.moment += step.step * hn::GetLane(motion.reaction_moment.raw);
+  }
+}
+
 template <bool kContact, class Kinds, class D>
 HWY_INLINE void move(const ParticleArrays<State>& arrays, const StepFactors& step, std::size_t i, LaneWorks<D>& works,
                      NearPlatesNotes& near_plates) {
   const ParticleForces<D> forces = forces_on<kContact, Kinds, D>(arrays, i);
   const ParticleMotion<D> motion = motion_of<Kinds>(arrays, step, forces, i);
   add_works_of_step<kContact, Kinds>(arrays, step, i, forces, motion, works);
+  if constexpr (Kinds::kFrame) {
+    add_reactions(arrays, step, i, motion);
+  }
   const Lane<D> dt = step.step;
   const Points<D> position = fma(dt, motion.next, Points<D>::load(arrays.position + i));
   near_plates.note(position, i);

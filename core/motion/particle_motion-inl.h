@@ -76,6 +76,7 @@ struct ParticleArrays {
   const ContactForce* contact_force = state.contact_force.data();
   const Vector2* friction_force = state.friction_force.data();
   const std::uint64_t* contact_tiles = state.contact_tiles.empty() ? nullptr : state.contact_tiles.data();
+  Pointer<ReactionImpulse> reaction_impulse = state.reaction_impulse.data();  ///< one for each of Scene::supports
   Pointer<Vector2> position = state.position.data();
   Pointer<Vector2> velocity = state.velocity.data();
   Pointer<double> rotation = state.rotation.data();

@@ -12,10 +12,13 @@ struct NodeColumn {
   double (v1::WatchedNode::*get)() const;
 };
 
-constexpr std::array<NodeColumn, 3> kNodeColumns = {{
+constexpr std::array<NodeColumn, kNodeColumnCount> kNodeColumns = {{
     {"ux_mm", &v1::WatchedNode::ux_mm},
     {"uy_mm", &v1::WatchedNode::uy_mm},
     {"rotation_rad", &v1::WatchedNode::rotation_rad},
+    {"reaction_x_n", &v1::WatchedNode::reaction_x_n},
+    {"reaction_y_n", &v1::WatchedNode::reaction_y_n},
+    {"reaction_moment_n_mm", &v1::WatchedNode::reaction_moment_n_mm},
 }};
 
 Hdf5Handle make_group(hid_t parent, const std::string& name) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -9,8 +10,12 @@
 
 namespace cellcrush::store {
 
-/// Writes /nodes/{id}/{ux_mm, uy_mm, rotation_rad} of a result: the motion of a frame's watched nodes, one row per
-/// sample, parallel to /history. Writes nothing without watched nodes. Failures throw ServiceError.
+/// Datasets of a watched node.
+inline constexpr std::size_t kNodeColumnCount = 6;
+
+/// Writes /nodes/{id}/{ux_mm, uy_mm, rotation_rad, reaction_x_n, reaction_y_n, reaction_moment_n_mm} of a result: the
+/// motion and the reactions of a frame's watched nodes, one row per sample, parallel to /history. Writes nothing
+/// without watched nodes. Failures throw ServiceError.
 class NodeHistories {
  public:
   /// Appends the rows of samples with the same watched nodes. `file` is the open result.
@@ -20,7 +25,7 @@ class NodeHistories {
  private:
   struct Node {
     Hdf5Handle group;
-    std::array<Hdf5Handle, 3> columns;
+    std::array<Hdf5Handle, kNodeColumnCount> columns;
   };
 
   void make_nodes(hid_t file, const v1::Sample& sample);

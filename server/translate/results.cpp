@@ -130,6 +130,9 @@ v1::Sample to_proto(const Sample& sample, const google::protobuf::RepeatedPtrFie
     watched.set_ux_mm(sample.watched[i].ux);
     watched.set_uy_mm(sample.watched[i].uy);
     watched.set_rotation_rad(sample.watched[i].rotation);
+    watched.set_reaction_x_n(sample.watched[i].reaction_x);
+    watched.set_reaction_y_n(sample.watched[i].reaction_y);
+    watched.set_reaction_moment_n_mm(sample.watched[i].reaction_moment);
   }
   for (const Warning& warning : sample.warnings) *out.add_warnings() = to_proto(warning);
   return out;

@@ -165,6 +165,9 @@ TEST(Fetch, WritesTheWatchedNodesOfSamplesThatHaveAny) {
       node.set_ux_mm(0.1);
       node.set_uy_mm(-0.25);
       node.set_rotation_rad(1e-3);
+      node.set_reaction_x_n(4.0);
+      node.set_reaction_y_n(-5.0);
+      node.set_reaction_moment_n_mm(6.5);
     }
   }
   script.samples[0].set_time_s(0.001);
@@ -173,9 +176,9 @@ TEST(Fetch, WritesTheWatchedNodesOfSamplesThatHaveAny) {
   const fs::path folder = server.folder() / "run";
   ASSERT_EQ(run_program({"fetch", "test", "-o", folder, "--server", server.address()}).exit_code, 0);
   EXPECT_EQ(read_file(folder / "nodes.csv"),
-            "time_s,node,ux_mm,uy_mm,rotation_rad\n"
-            "0.001,tip,0.1,-0.25,0.001\n0.001,\"a,b\",0.1,-0.25,0.001\n"
-            "0.002,tip,0.1,-0.25,0.001\n0.002,\"a,b\",0.1,-0.25,0.001\n");
+            "time_s,node,ux_mm,uy_mm,rotation_rad,reaction_x_n,reaction_y_n,reaction_moment_n_mm\n"
+            "0.001,tip,0.1,-0.25,0.001,4,-5,6.5\n0.001,\"a,b\",0.1,-0.25,0.001,4,-5,6.5\n"
+            "0.002,tip,0.1,-0.25,0.001,4,-5,6.5\n0.002,\"a,b\",0.1,-0.25,0.001,4,-5,6.5\n");
 }
 
 TEST(Plot, AJobsPngHasTheRightSizeAndIsNotBlank) {

@@ -32,7 +32,10 @@ class TextbookJobs : public DaemonFixture {
     out.energy_elastic = in.energy_elastic_mj();
     out.energy_plastic = in.energy_plastic_mj();
     out.work_external = in.work_external_mj();
-    for (const auto& node : in.watched()) out.watched.push_back({node.ux_mm(), node.uy_mm(), node.rotation_rad()});
+    for (const auto& node : in.watched()) {
+      out.watched.push_back({node.ux_mm(), node.uy_mm(), node.rotation_rad(), node.reaction_x_n(), node.reaction_y_n(),
+                             node.reaction_moment_n_mm()});
+    }
     return out;
   }
 
@@ -69,11 +72,16 @@ TEST_F(TextbookJobs, WatchedNodesStandInTheResultBesideTheHistory) {
   const std::vector<Sample> samples = run(scenes::cycled_bar(0.0, 0.004, 2));
   const auto path = (data_folder() / job_ / "result.h5").string();
   const store::Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "Opening the result");
-  const store::Hdf5Handle column(H5Dopen2(file.id(), "/nodes/1/ux_mm", H5P_DEFAULT), H5Dclose, "Opening the node");
-  ASSERT_EQ(store::shape_of(column.id()), std::vector<hsize_t>{samples.size()});
-  std::vector<double> values(samples.size());
-  store::read_rows(column.id(), H5T_NATIVE_DOUBLE, 0, values.size(), values.data());
-  for (std::size_t i = 0; i < samples.size(); ++i) EXPECT_EQ(values[i], samples[i].watched.front().ux) << i;
+  const auto expect_column = [&](const char* name, double WatchedNode::*field) {
+    const store::Hdf5Handle column(H5Dopen2(file.id(), name, H5P_DEFAULT), H5Dclose, "Opening the node");
+    ASSERT_EQ(store::shape_of(column.id()), std::vector<hsize_t>{samples.size()});
+    std::vector<double> values(samples.size());
+    store::read_rows(column.id(), H5T_NATIVE_DOUBLE, 0, values.size(), values.data());
+    for (std::size_t i = 0; i < samples.size(); ++i) EXPECT_EQ(values[i], samples[i].watched.front().*field) << i;
+  };
+  expect_column("/nodes/1/ux_mm", &WatchedNode::ux);
+  expect_column("/nodes/1/reaction_x_n", &WatchedNode::reaction_x);
+  EXPECT_NE(samples.back().watched.front().reaction_x, 0.0);  // its end is moved
 }
 
 }  // namespace

@@ -9,11 +9,16 @@
 
 namespace cellcrush {
 
-/// Displacements and rotation of a watched particle from its undeformed position: mm, mm, rad.
+/// Displacements and rotation of a watched particle from its undeformed position: mm, mm, rad. The reactions of its
+/// supports and imposed motions, of which its work is force times displacement, are means over the interval since the
+/// previous sample: N, N, N mm; 0 for what is not held (E15).
 struct WatchedNode {
   double ux = 0.0;
   double uy = 0.0;
   double rotation = 0.0;
+  double reaction_x = 0.0;
+  double reaction_y = 0.0;
+  double reaction_moment = 0.0;
 };
 
 /// Where the cells of a lattice collapse; measure/crush_mode.h has the definitions.

@@ -43,6 +43,13 @@ struct PlateForce {
   [[nodiscard]] double total() const { return elastic + viscous; }
 };
 
+/// Impulse of a support on a particle since the start: N s along x and y, and N mm s (E15).
+struct ReactionImpulse {
+  double x = 0.0;
+  double y = 0.0;
+  double moment = 0.0;
+};
+
 /// The step since the start in which particles could approach each other by the most (step/watch_approach.h).
 struct FastestStep {
   double travel = 0.0;        ///< mm
@@ -68,17 +75,18 @@ struct State {
   double time = 0.0;
 
   // Written by integrate_motion.
-  LaneVector<Vector2> position;         ///< N
-  LaneVector<Vector2> velocity;         ///< N, half a step before `time`
-  LaneVector<double> rotation;          ///< N, since the start; for output only
-  LaneVector<double> spin;              ///< N, rad/s, half a step before `time`
-  std::vector<Vector2> rigid_centre;    ///< B rigid bodies, centre of mass
-  std::vector<Vector2> rigid_velocity;  ///< B, half a step before `time`
-  std::vector<double> rigid_rotation;   ///< B, since the start
-  std::vector<double> rigid_spin;       ///< B, half a step before `time`
-  double impact_travel = 0.0;           ///< of the impact plate
-  double impact_impulse = 0.0;          ///< N s, of the impact plate on the lattice
-  double support_impulse = 0.0;         ///< N s, of the support plate on the lattice
+  LaneVector<Vector2> position;                   ///< N
+  LaneVector<Vector2> velocity;                   ///< N, half a step before `time`
+  LaneVector<double> rotation;                    ///< N, since the start; for output only
+  LaneVector<double> spin;                        ///< N, rad/s, half a step before `time`
+  std::vector<Vector2> rigid_centre;              ///< B rigid bodies, centre of mass
+  std::vector<Vector2> rigid_velocity;            ///< B, half a step before `time`
+  std::vector<double> rigid_rotation;             ///< B, since the start
+  std::vector<double> rigid_spin;                 ///< B, half a step before `time`
+  std::vector<ReactionImpulse> reaction_impulse;  ///< N; empty if nothing is held
+  double impact_travel = 0.0;                     ///< of the impact plate
+  double impact_impulse = 0.0;                    ///< N s, of the impact plate on the lattice
+  double support_impulse = 0.0;                   ///< N s, of the support plate on the lattice
 
   // Written by evaluate_internal_forces.
   LaneVector<Vector2> axis;             ///< E, unit vector from start to end
@@ -135,18 +143,19 @@ struct State {
 template <class S, class Visitor>
 void visit_fields(S& state, Visitor&& visit) {
   auto& [step, time, position, velocity, rotation, spin, rigid_centre, rigid_velocity, rigid_rotation, rigid_spin,
-         impact_travel, impact_impulse, support_impulse, axis, length, inverse_length, thickening, thickening_slope,
-         radius_growth, fibres, single_fibres, wall_force, wall_moment, internal_force, internal_moment, load_force,
-         load_moment, contacts, crossing_step, contact_force, friction_force, impact_friction, support_friction,
-         impact_force, support_force, contact_totals, fastest_step, ledger, derived_steps, derived_tiles] = state;
+         reaction_impulse, impact_travel, impact_impulse, support_impulse, axis, length, inverse_length, thickening,
+         thickening_slope, radius_growth, fibres, single_fibres, wall_force, wall_moment, internal_force,
+         internal_moment, load_force, load_moment, contacts, crossing_step, contact_force, friction_force,
+         impact_friction, support_friction, impact_force, support_force, contact_totals, fastest_step, ledger,
+         derived_steps, derived_tiles] = state;
   const auto list = [&visit](auto&... fields) { (visit(fields), ...); };
   const auto list_fibres = [&list](auto& history) {
     auto& [stress, back_stress, plastic_strain, yielded, section_axial, section_moment, yielding] = history;
     list(stress, back_stress, plastic_strain, yielded, section_axial, section_moment, yielding);
   };
   list(step, time, position, velocity, rotation, spin, rigid_centre, rigid_velocity, rigid_rotation, rigid_spin,
-       impact_travel, impact_impulse, support_impulse, axis, length, inverse_length, thickening, thickening_slope,
-       radius_growth);
+       reaction_impulse, impact_travel, impact_impulse, support_impulse, axis, length, inverse_length, thickening,
+       thickening_slope, radius_growth);
   list_fibres(fibres);
   list_fibres(single_fibres);
   list(wall_force, wall_moment, internal_force, internal_moment, load_force, load_moment);
