@@ -92,6 +92,9 @@ void describe_frame(const v1::Frame& frame, Lines& lines) {
     for (const auto& beam : frame.beams()) thicknesses.push_back(beam.thickness_mm());
     lines.emplace_back("beams", fmt::format("{}, {} mm thick", frame.beams_size(), range_text(thicknesses)));
   }
+  int pins = 0;
+  for (const auto& beam : frame.beams()) pins += (beam.pin_start() ? 1 : 0) + (beam.pin_end() ? 1 : 0);
+  if (pins > 0) lines.emplace_back("pins", plural(pins, "end") + " of beams");
   lines.emplace_back("supports", frame.supports_size() == 0 ? std::string("none")
                                                             : names_text(texts_of(frame.supports(), support_text)));
   describe_masses(frame, lines);

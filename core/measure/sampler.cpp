@@ -1,8 +1,10 @@
 #include "measure/sampler.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <ranges>
 #include <utility>
 #include <vector>
 
@@ -66,6 +68,21 @@ class FlowedShare {
   std::vector<std::array<double, 256>> of_byte_;  ///< sum over the fibres whose bits are set in a byte
 };
 
+/// Impulse of the supports at a node, of all joints of its pin together.
+ReactionImpulse impulse_at(const Scene& scene, const State& state, int node) {
+  ReactionImpulse sum = state.reaction_impulse[node];
+  const auto pins = std::views::iota(std::size_t{0}, scene.pins.count());  // in the order of their nodes
+  const auto found =
+      std::ranges::lower_bound(pins, node, {}, [&](std::size_t pin) { return scene.pins.joints_of(pin).front(); });
+  if (found != pins.end() && scene.pins.joints_of(*found).front() == node) {
+    for (const int joint : scene.pins.joints_of(*found).subspan(1)) {
+      sum.x += state.reaction_impulse[joint].x;
+      sum.y += state.reaction_impulse[joint].y;
+    }
+  }
+  return sum;
+}
+
 }  // namespace
 
 Sampler::Sampler(const Scene& scene) : last_reaction_impulse_(scene.watched.size()), next_check_(kModeFrom) {
@@ -83,7 +100,7 @@ void Sampler::measure_watched(const Scene& scene, const State& state, Sample& sa
     const Vector2 displacement = state.position[node] - scene.position[node];
     WatchedNode watched = {displacement.x(), displacement.y(), state.rotation[node]};
     if (!state.reaction_impulse.empty() && interval > 0.0) {
-      const ReactionImpulse& now = state.reaction_impulse[node];
+      const ReactionImpulse now = impulse_at(scene, state, node);
       const ReactionImpulse before = std::exchange(last_reaction_impulse_[k], now);
       watched.reaction_x = (now.x - before.x) / interval;
       watched.reaction_y = (now.y - before.y) / interval;

@@ -28,6 +28,10 @@ class FrameChecker {
     if (frame_.beams.empty()) {
       check_.add("lattice.frame.beams", "", "are missing.", "Give at least one beam.");
     }
+    if (frame_.self_contact && std::ranges::any_of(frame_.beams, is_pinned)) {
+      check_.add("lattice.frame.self_contact", "true", "cannot be computed in a frame with pinned ends.",
+                 "Set lattice.frame.self_contact to false, or pin_start and pin_end of all beams.");
+    }
     std::vector<bool> joined(frame_.nodes.size(), false);
     visit("beams", frame_.beams, [&](const std::string& path, const FrameLattice::Beam& beam) {
       const bool ends = node_exists(path + ".start", beam.start) && node_exists(path + ".end", beam.end);
@@ -44,6 +48,8 @@ class FrameChecker {
       }
       if (ends) {
         joined[beam.start] = joined[beam.end] = true;
+        welded_[beam.start] = welded_[beam.start] || !beam.pin_start;
+        welded_[beam.end] = welded_[beam.end] || !beam.pin_end;
       }
     });
     if (elements > kMostElements) {
@@ -75,8 +81,10 @@ class FrameChecker {
 
   void check_loads() {
     visit("loads", frame_.loads, [&](const std::string& path, const FrameLattice::NodalLoad& load) {
-      node_exists(path + ".node", load.node);
       function_of_time(path + ".force_n_or_n_mm", load.points);
+      if (node_exists(path + ".node", load.node) && load.component == FrameLattice::Component::rotation) {
+        check_turns(path + ".component", load.node);
+      }
     });
     visit("distributed_loads", frame_.distributed_loads,
           [&](const std::string& path, const FrameLattice::DistributedLoad& load) {
@@ -101,6 +109,9 @@ class FrameChecker {
       function_of_time(path + ".displacement_mm_or_rad", motion.points);
       if (node_exists(path + ".node", motion.node)) {
         check_single_motion(path + ".component", motion);
+        if (motion.component == FrameLattice::Component::rotation) {
+          check_turns(path + ".component", motion.node);
+        }
       }
     });
   }
@@ -111,6 +122,16 @@ class FrameChecker {
   static void visit(const std::string& list, const Items& items, const Check& check) {
     for (std::size_t i = 0; i < items.size(); ++i) {
       check("lattice.frame." + list + "[" + std::to_string(i) + "]", items[i]);
+    }
+  }
+
+  static bool is_pinned(const FrameLattice::Beam& beam) { return beam.pin_start || beam.pin_end; }
+
+  /// A node to which all beams are pinned has no rotation to load or to impose.
+  void check_turns(const std::string& field, int node) {
+    if (!welded_[node]) {
+      check_.add(field, "", "turns a node to which all beams are pinned.",
+                 "Leave out the pin_start or pin_end of a beam at this node, or remove the moment or rotation.");
     }
   }
 
@@ -158,6 +179,7 @@ class FrameChecker {
   }
 
   const FrameLattice& frame_;
+  std::vector<bool> welded_ = std::vector<bool>(frame_.nodes.size(), false);  ///< nodes to which a beam is not pinned
   FieldChecker& check_;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "scene/initial_velocity.h"
+#include "scene/pins.h"
 #include "scene/units.h"
 
 namespace cellcrush {
@@ -78,6 +79,7 @@ Layout lay_out_frame(const FrameLattice& frame, int elements_per_wall) {
     layout.walls.push_back(
         {beam.start, beam.end, beam.thickness_mm, beam.elements.value_or(elements_per_wall), material});
   }
+  add_pinned_ends(frame, layout);
   return layout;
 }
 
@@ -90,6 +92,7 @@ void attach_to_frame(const FrameLattice& frame, Scene& scene) {
     scene.inertia[i] = frame.nodes[i].attached_inertia_g_mm2 * kTonnePerGram;
   }
   attach_holds(frame, scene);
+  group_pinned_ends(frame, scene);
   attach_loads(frame, scene);
   attach_initial_velocities(frame, scene);
   scene.watched = frame.watched_nodes;

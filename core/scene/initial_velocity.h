@@ -13,7 +13,8 @@ namespace cellcrush {
 ///   omega(s) = Omega + (1 - 4 s + 3 s^2) (omega_1 - Omega) + (3 s^2 - 2 s) (omega_2 - Omega).
 /// A rigid motion of its nodes is thus a rigid motion of the beam. A beam with a node that is not named is at rest
 /// inside, so that a mass at its end can strike it.
-/// REQUIRES: the mesh of the scene is that of the frame.
+/// Pinned ends turn as the chord of their beam, Omega.
+/// REQUIRES: the mesh of the scene is that of the frame; its pins are grouped.
 void attach_initial_velocities(const FrameLattice& frame, Scene& scene);
 
 }  // namespace cellcrush

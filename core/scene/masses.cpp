@@ -4,6 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "scene/pins.h"
+
 namespace cellcrush {
 
 namespace {
@@ -45,6 +47,7 @@ void lump_masses(Scene& scene) {
     }
     scene.total_mass += 2.0 * half_mass;
   }
+  share_pin_masses(scene);
   scene.smallest_radius = std::ranges::min(scene.radius);
   scene.inverse_mass.reserve(scene.particle_count());
   scene.inverse_inertia.reserve(scene.particle_count());

@@ -8,6 +8,7 @@
 #include "energy/ledger.h"
 #include "motion/initial_state.h"
 #include "motion/loads.h"
+#include "motion/pin_forces.h"
 #include "motion/rigid_motion.h"
 #include "search/find_contacts.h"
 #include "step/advance_wavefront.h"
@@ -58,6 +59,7 @@ void evaluate_forces(const Scene& scene, State& state, Workspace& workspace, con
   }
   stage.begin(Stage::evaluate_loads);
   evaluate_loads(scene, state);
+  share_pin_forces(scene, state);
 }
 
 void begin_step(const Scene& scene, State& state, Workspace& workspace) {

@@ -89,6 +89,11 @@ std::vector<std::string> what_is_modelled(const Scene& scene) {
   if (scene.plates.present) {
     lines.push_back("Plates: rigid, unilateral, not meshed, " + friction_text(scene.plates.friction));
   }
+  if (scene.pins.count() > 0) {
+    const std::size_t ends = scene.pins.joint.size() - scene.pins.count();
+    lines.push_back("Pins: " + std::to_string(ends) + (ends == 1 ? " end of a beam turns" : " ends of beams turn") +
+                    " freely at the node, without friction.");
+  }
   if (scene.rigid.count() > 0) {
     lines.push_back(
         "Stiff cells: rigid, in " + std::to_string(scene.rigid.count()) +

@@ -74,6 +74,8 @@ class FrameReader {
       out.thickness_mm = beam.thickness_mm();
       if (beam.has_material()) out.material = to_spec(beam.material(), path + ".material.", problems_);
       if (beam.has_elements()) out.elements = beam.elements();
+      out.pin_start = beam.pin_start();
+      out.pin_end = beam.pin_end();
       out_.beams.push_back(out);
     }
   }

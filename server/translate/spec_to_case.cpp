@@ -56,6 +56,8 @@ void write_frame_structure(const FrameLattice& in, v1::Frame& out) {
     added.set_end(std::to_string(beam.end));
     added.set_thickness_mm(beam.thickness_mm);
     if (beam.elements) added.set_elements(*beam.elements);
+    if (beam.pin_start) added.set_pin_start(true);
+    if (beam.pin_end) added.set_pin_end(true);
     if (beam.material) write_material(*beam.material, *added.mutable_material());
   }
   for (const auto& support : in.supports) {

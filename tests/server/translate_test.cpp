@@ -213,6 +213,7 @@ TEST(Translate, EveryPartOfAFrameComesThroughBothWays) {
   frame.set_gravity_y_m_per_s2(-9.81);
   frame.add_watched_nodes("right");
   frame.mutable_beams(0)->mutable_material()->set_density_kg_per_m3(1.0);
+  frame.mutable_beams(0)->set_pin_end(true);
   const auto reading = translate::to_spec(given);
   EXPECT_THAT(reading.problems, IsEmpty());
   const auto& spec = std::get<FrameLattice>(reading.spec.lattice);
@@ -222,6 +223,8 @@ TEST(Translate, EveryPartOfAFrameComesThroughBothWays) {
   EXPECT_EQ(spec.gravity_y_m_per_s2, -9.81);
   EXPECT_EQ(spec.watched_nodes, std::vector<int>{1});
   EXPECT_EQ(spec.beams.at(0).material->density_kg_per_m3, 1.0);
+  EXPECT_FALSE(spec.beams.at(0).pin_start);
+  EXPECT_TRUE(spec.beams.at(0).pin_end);
   const v1::Case once = translate::to_case(reading.spec);
   EXPECT_TRUE(MessageDifferencer::Equals(once, translate::to_case(translate::to_spec(once).spec)));
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -112,6 +113,19 @@ struct RigidBodies {
 
   [[nodiscard]] std::size_t count() const { return mass.size(); }
   [[nodiscard]] int particle_count() const { return offset.empty() ? 0 : offset.back(); }
+};
+
+/// Joints that move alike but turn on their own, because ends of beams are pinned there (E16): a node and the joints of
+/// its pinned ends. P pins.
+struct Pins {
+  std::vector<int> offset;  ///< P + 1, into joint; empty if there are no pins
+  std::vector<int> joint;   ///< pin by pin; the node comes first
+
+  [[nodiscard]] std::size_t count() const { return offset.empty() ? 0 : offset.size() - 1; }
+  [[nodiscard]] std::span<const int> joints_of(std::size_t pin) const {
+    return std::span(joint).subspan(static_cast<std::size_t>(offset[pin]),
+                                    static_cast<std::size_t>(offset[pin + 1] - offset[pin]));
+  }
 };
 
 /// A function of time: linear between its points, constant outside them.
@@ -224,6 +238,7 @@ struct Scene {
   /// Of a large lattice, each adjacent to the one before (scene/bands.h); otherwise one.
   std::vector<LatticeBand> bands;
   RigidBodies rigid;
+  Pins pins;
   std::vector<int> incidence_offset;  ///< N + 1, into incidence
   std::vector<int> incidence;         ///< elements at each particle, ascending
   int joint_count = 0;  ///< joints come first, those of rigid bodies before all others; particles inside walls follow

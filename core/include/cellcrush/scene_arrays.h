@@ -18,14 +18,15 @@ void visit_arrays(const FacesOfBand& faces, Visitor&& visit) {
 template <class Visitor>
 void visit_arrays(const Scene& scene, Visitor&& visit) {
   const auto& [position, mass, inertia, inverse_mass, inverse_inertia, radius, largest_radius, smallest_radius,
-               elements, walls, bands, rigid, incidence_offset, incidence, joint_count, wall_end_offset, wall_ends,
-               supports, motions, loads, element_loads, gravity, initial_velocity, initial_spin, depth, materials,
-               section, single_fibres, slow_loading, constant_area, contact, limited_reaches, faces, plates,
+               elements, walls, bands, rigid, pins, incidence_offset, incidence, joint_count, wall_end_offset,
+               wall_ends, supports, motions, loads, element_loads, gravity, initial_velocity, initial_spin, depth,
+               materials, section, single_fibres, slow_loading, constant_area, contact, limited_reaches, faces, plates,
                mass_scaling, mass_damping, schedule, length, width, total_mass, stable_step, collapse_stress, fidelity,
                watched] = scene;
   const auto& [blocks, chunk_offset, first_joint, end_joint, start, end, thickness, undeformed_length, material] =
       walls;
   const auto& [rigid_offset, centre, rigid_mass, rigid_inertia, first_element] = rigid;
+  const auto& [pin_offset, pin_joint] = pins;
   const auto& [reach_offset, segment, reach] = limited_reaches;
   const auto& [premise, side, thick_ends, faces_of_bands, border] = faces;
   const auto list = [&visit](const auto&... arrays) { (visit(arrays), ...); };
@@ -34,6 +35,7 @@ void visit_arrays(const Scene& scene, Visitor&& visit) {
        watched);
   list(blocks, chunk_offset, first_joint, end_joint, start, end, thickness, undeformed_length, material);
   list(rigid_offset, centre, rigid_mass, rigid_inertia);
+  list(pin_offset, pin_joint);
   list(reach_offset, segment, reach);
   list(side, thick_ends, border);
   for (const FacesOfBand& of_band : faces_of_bands) {

@@ -72,6 +72,8 @@ struct FrameLattice {
     double thickness_mm = 0.0;
     std::optional<int> elements;           ///< default: elements_per_wall of the spec
     std::optional<MaterialSpec> material;  ///< default: that of the spec
+    bool pin_start = false;                ///< whether the beam turns freely at its start (E16)
+    bool pin_end = false;
     bool operator==(const Beam&) const = default;
   };
   struct Support {

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "cellcrush/scene.h"
+#include "cellcrush/state.h"
+
+namespace cellcrush {
+
+/// Gives every joint of a pin an equal share of the forces on all of them, those of walls and loads (E16). As their
+/// masses are equal too, they all move by the same numbers. Moments stay with their joints.
+/// REQUIRES: forces of walls and loads are evaluated; no contact acts on pins.
+void share_pin_forces(const Scene& scene, State& state);
+
+}  // namespace cellcrush
