@@ -2,6 +2,7 @@
 
 #include "energy/energy_kernels.h"
 #include "motion/plate_motion.h"
+#include "motion/rigid_wall_motion.h"
 
 namespace cellcrush {
 namespace {
@@ -11,7 +12,8 @@ namespace {
 MotionWorks works_of_half_step(const Scene& scene, const State& state) {
   const double half = 0.5 * scene.schedule.time_step;
   MotionWorks works = half_step_works(scene, state);
-  works.add(plate_works(state, half * scene.plates.speed_at(state.time - half)));
+  works.add(plate_works(state.impact_force, half * scene.plates.speed_at(state.time - half)));
+  works.add(rigid_wall_works(scene, state, state.time - scene.schedule.time_step, state.time));
   return works;
 }
 

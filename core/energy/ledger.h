@@ -5,8 +5,8 @@
 
 namespace cellcrush {
 
-// The ledger of a run (E10): work of plates and loads = kinetic + elastic + plastic + contact + friction + damping +
-// residual. Every term is computed on its own; the residual is the energy lost or created by the integration.
+// The ledger of a run (E10): work of plates, rigid walls and loads = kinetic + elastic + plastic + contact + friction +
+// damping + residual. Every term is computed on its own; the residual is the energy lost or created by the integration.
 //
 // With the works of motion/motion_works.h, the kinetic energy is m v(n-1/2) . v(n+1/2) / 2, and a linear system closes
 // to round-off. The plastic work is the returned stress times the plastic strain increment, and the elastic energy is a

@@ -12,7 +12,7 @@ void visit_plain_fields(S& s, const Visitor& visit) {
   visit(s.step, s.time, s.travel, s.strain, s.stress_impact, s.stress_support, s.energy_kinetic, s.energy_elastic,
         s.energy_plastic, s.energy_contact, s.energy_friction, s.energy_damping, s.work_external, s.energy_residual,
         s.energy_contact_stored, s.energy_contact_damping, s.deepest_penetration, s.contact_count, s.solid_fraction,
-        s.collapsed_fraction, s.crush_mode, s.densest_layer, s.watched);
+        s.collapsed_fraction, s.crush_mode, s.densest_layer, s.watched, s.rigid_walls);
 }
 
 template <class W, class Visitor>

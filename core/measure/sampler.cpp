@@ -85,7 +85,10 @@ ReactionImpulse impulse_at(const Scene& scene, const State& state, int node) {
 
 }  // namespace
 
-Sampler::Sampler(const Scene& scene) : last_reaction_impulse_(scene.watched.size()), next_check_(kModeFrom) {
+Sampler::Sampler(const Scene& scene)
+    : last_reaction_impulse_(scene.watched.size()),
+      last_wall_impulse_(scene.rigid_walls.size()),
+      next_check_(kModeFrom) {
   if (scene.plates.present) {
     cells_ = find_cells(scene);
     columns_ = divide_into_columns(scene, cells_.field.pitch);
@@ -107,6 +110,20 @@ void Sampler::measure_watched(const Scene& scene, const State& state, Sample& sa
       watched.reaction_moment = (now.moment - before.moment) / interval;
     }
     sample.watched.push_back(watched);
+  }
+}
+
+void Sampler::measure_rigid_walls(const Scene& scene, const State& state, Sample& sample) {
+  const double interval = state.time - last_time_;
+  for (std::size_t wall = 0; wall < scene.rigid_walls.size(); ++wall) {
+    RigidWallSample of_wall = {scene.rigid_walls[wall].motion.value_at(state.time), 0.0, 0.0};
+    if (interval > 0.0) {
+      const RigidWallImpulse now = state.rigid_wall_impulse[wall];
+      const RigidWallImpulse before = std::exchange(last_wall_impulse_[wall], now);
+      of_wall.normal_force = (now.normal - before.normal) / interval;
+      of_wall.tangential_force = (now.tangential - before.tangential) / interval;
+    }
+    sample.rigid_walls.push_back(of_wall);
   }
 }
 
@@ -183,6 +200,7 @@ Sample Sampler::take(const Scene& scene, const State& state) {
   sample.contact_count = state.contact_totals.count;
   find_warnings(scene, state, sample);
   measure_watched(scene, state, sample);
+  measure_rigid_walls(scene, state, sample);
   last_time_ = state.time;
   return sample;
 }

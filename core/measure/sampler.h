@@ -11,8 +11,9 @@
 namespace cellcrush {
 
 /// Takes samples of a run. Stresses and reactions are means over the interval between two samples, from the impulses of
-/// plates and supports: a penalty contact oscillates, so the force at one time says little. Collapse and front follow
-/// from the current positions and velocities. Only a lattice between plates has cells, columns and a front.
+/// plates, rigid walls and supports: a penalty contact oscillates, so the force at one time says little. Collapse and
+/// front follow from the current positions and velocities. Only a lattice between plates has cells, columns and a
+/// front.
 class Sampler {
  public:
   explicit Sampler(const Scene& scene);
@@ -27,6 +28,7 @@ class Sampler {
     visitor(last_impact_impulse_);
     visitor(last_support_impulse_);
     visitor(last_reaction_impulse_);
+    visitor(last_wall_impulse_);
     visitor(has_warned_of_depth_);
     visitor(has_warned_of_search_);
     visitor(has_warned_of_necks_);
@@ -38,6 +40,7 @@ class Sampler {
 
  private:
   void measure_watched(const Scene& scene, const State& state, Sample& sample);
+  void measure_rigid_walls(const Scene& scene, const State& state, Sample& sample);
   void measure_stress(const Scene& scene, const State& state, Sample& sample);
   void measure_collapse(const Scene& scene, const State& state, Sample& sample);
   void find_warnings(const Scene& scene, const State& state, Sample& sample);
@@ -49,6 +52,7 @@ class Sampler {
   double last_impact_impulse_ = 0.0;
   double last_support_impulse_ = 0.0;
   std::vector<ReactionImpulse> last_reaction_impulse_;  ///< of the watched particles
+  std::vector<RigidWallImpulse> last_wall_impulse_;     ///< of the rigid walls
   bool has_warned_of_depth_ = false;
   bool has_warned_of_search_ = false;
   bool has_warned_of_necks_ = false;

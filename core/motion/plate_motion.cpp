@@ -9,8 +9,7 @@ PlateStep plate_step_of(const Scene& scene, double time, double travel) {
   return {0.5 * step * (speed_before + speed_after), travel + step * speed_after};
 }
 
-MotionWorks plate_works(const State& state, double displacement) {
-  const PlateForce& force = state.impact_force;
+MotionWorks plate_works(const PlateForce& force, double displacement) {
   return {.contact = force.elastic * displacement,
           .contact_damping = force.viscous * displacement,
           .external = force.total() * displacement};
@@ -18,7 +17,7 @@ MotionWorks plate_works(const State& state, double displacement) {
 
 void accumulate_plates(const Scene& scene, const PlateStep& plates, State& state) {
   const double step = scene.schedule.time_step;
-  plate_works(state, plates.displacement).accumulate(state.ledger);
+  plate_works(state.impact_force, plates.displacement).accumulate(state.ledger);
   state.impact_impulse += step * state.impact_force.total();
   state.support_impulse += step * state.support_force.total();
   state.impact_travel = plates.travel;

@@ -14,9 +14,9 @@ struct PlateStep {
 };
 PlateStep plate_step_of(const Scene& scene, double time, double travel);
 
-/// The works of the forces of the impact plate over a mean displacement, mm (E10). The forces that it exerts on
-/// particles are among the contact forces.
-MotionWorks plate_works(const State& state, double displacement);
+/// The works of the force of a plate or rigid wall over a mean displacement along it, mm (E10). What it exerts on
+/// particles is among the contact forces.
+MotionWorks plate_works(const PlateForce& force, double displacement);
 
 /// Accumulates the work and the impulses of the forces of the plates over a step, and moves the impact plate.
 void accumulate_plates(const Scene& scene, const PlateStep& plates, State& state);

@@ -82,6 +82,14 @@ double speed_of_given_velocities(const Scene& scene) {
                        [&](const Vector2& velocity) { velocities.push_back(velocity); });
     }
   }
+  for (const RigidWall& wall : scene.rigid_walls) {
+    velocities.emplace_back(0.0, 0.0);
+    const auto& points = wall.motion.points;
+    for (std::size_t k = 1; k < points.size(); ++k) {
+      const double speed = (points[k].second - points[k - 1].second) / (points[k].first - points[k - 1].first);
+      velocities.emplace_back(speed * wall.normal);
+    }
+  }
   return diameter_of(velocities);
 }
 
@@ -118,10 +126,25 @@ double speed_of_fall(const Scene& scene) {
   return std::sqrt(2.0 * (high - low));
 }
 
+/// Greatest speed along the normal of a rigid wall with which a particle that falls freely from rest comes to it where
+/// it is farthest away, mm/s.
+double speed_of_fall_on_walls(const Scene& scene) {
+  double square = 0.0;
+  for (const RigidWall& wall : scene.rigid_walls) {
+    const double towards = std::max(0.0, -scene.gravity.dot(wall.normal));
+    const auto lowest = std::ranges::min(wall.motion.points, {}, [](const auto& point) { return point.second; });
+    for (const Vector2& place : scene.position) {
+      square = std::max(square, 2.0 * towards * (wall.normal.dot(place - wall.point) - lowest.second));
+    }
+  }
+  return std::sqrt(square);
+}
+
 }  // namespace
 
 double approach_speed_of(const Scene& scene) {
-  return speed_of_given_velocities(scene) + speed_of_rotations(scene) + speed_of_fall(scene);
+  return speed_of_given_velocities(scene) + speed_of_rotations(scene) +
+         std::max(speed_of_fall(scene), speed_of_fall_on_walls(scene));
 }
 
 }  // namespace cellcrush

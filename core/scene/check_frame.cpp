@@ -2,6 +2,7 @@
 #include <cmath>
 #include <functional>
 
+#include "scene/check_rigid_walls.h"
 #include "scene/check_spec.h"
 
 namespace cellcrush {
@@ -28,7 +29,7 @@ class FrameChecker {
     if (frame_.beams.empty()) {
       check_.add("lattice.frame.beams", "", "are missing.", "Give at least one beam.");
     }
-    if (frame_.self_contact && std::ranges::any_of(frame_.beams, is_pinned)) {
+    if (frame_.self_contact && has_pins(frame_)) {
       check_.add("lattice.frame.self_contact", "true", "cannot be computed in a frame with pinned ends.",
                  "Set lattice.frame.self_contact to false, or pin_start and pin_end of all beams.");
     }
@@ -81,7 +82,7 @@ class FrameChecker {
 
   void check_loads() {
     visit("loads", frame_.loads, [&](const std::string& path, const FrameLattice::NodalLoad& load) {
-      function_of_time(path + ".force_n_or_n_mm", load.points);
+      check_function_of_time(path + ".force_n_or_n_mm", load.points, check_);
       if (node_exists(path + ".node", load.node) && load.component == FrameLattice::Component::rotation) {
         check_turns(path + ".component", load.node);
       }
@@ -93,10 +94,10 @@ class FrameChecker {
                          "Give an index into lattice.frame.beams, counting from 0.");
             }
             if (!load.x_points.empty() || load.y_points.empty()) {
-              function_of_time(path + ".x_n_per_mm", load.x_points);
+              check_function_of_time(path + ".x_n_per_mm", load.x_points, check_);
             }
             if (!load.y_points.empty()) {
-              function_of_time(path + ".y_n_per_mm", load.y_points);
+              check_function_of_time(path + ".y_n_per_mm", load.y_points, check_);
             }
           });
     check_.in_range("lattice.frame.gravity_x_m_per_s2", frame_.gravity_x_m_per_s2, {-1e9, 1e9}, " m/s2");
@@ -106,7 +107,7 @@ class FrameChecker {
 
   void check_motions() {
     visit("motions", frame_.motions, [&](const std::string& path, const FrameLattice::NodalMotion& motion) {
-      function_of_time(path + ".displacement_mm_or_rad", motion.points);
+      check_function_of_time(path + ".displacement_mm_or_rad", motion.points, check_);
       if (node_exists(path + ".node", motion.node)) {
         check_single_motion(path + ".component", motion);
         if (motion.component == FrameLattice::Component::rotation) {
@@ -124,8 +125,6 @@ class FrameChecker {
       check("lattice.frame." + list + "[" + std::to_string(i) + "]", items[i]);
     }
   }
-
-  static bool is_pinned(const FrameLattice::Beam& beam) { return beam.pin_start || beam.pin_end; }
 
   /// A node to which all beams are pinned has no rotation to load or to impose.
   void check_turns(const std::string& field, int node) {
@@ -153,17 +152,6 @@ class FrameChecker {
     }
   }
 
-  void function_of_time(const std::string& field, const FrameLattice::TimeFunction& points) {
-    const bool finite = std::ranges::all_of(
-        points, [](const auto& point) { return std::isfinite(point.first) && std::isfinite(point.second); });
-    const auto descent =
-        std::ranges::adjacent_find(points, std::greater_equal(), [](auto& point) { return point.first; });
-    if (points.empty() || !finite || descent != points.end()) {
-      check_.add(field + ".points", "", "do not define a function of time.",
-                 "Give at least one point, with finite values and ascending times.");
-    }
-  }
-
   bool node_exists(const std::string& field, int node) {
     if (node >= 0 && node < static_cast<int>(frame_.nodes.size())) {
       return true;
@@ -185,6 +173,22 @@ class FrameChecker {
 
 }  // namespace
 
+bool has_pins(const FrameLattice& frame) {
+  return std::ranges::any_of(frame.beams,
+                             [](const FrameLattice::Beam& beam) { return beam.pin_start || beam.pin_end; });
+}
+
+void check_function_of_time(const std::string& field, const FrameLattice::TimeFunction& points, FieldChecker& check) {
+  const bool finite = std::ranges::all_of(
+      points, [](const auto& point) { return std::isfinite(point.first) && std::isfinite(point.second); });
+  const auto descent =
+      std::ranges::adjacent_find(points, std::greater_equal(), [](auto& point) { return point.first; });
+  if (points.empty() || !finite || descent != points.end()) {
+    check.add(field + ".points", "", "do not define a function of time.",
+              "Give at least one point, with finite values and ascending times.");
+  }
+}
+
 void check_frame(const SceneSpec& spec, FieldChecker& check) {
   FrameChecker checker(std::get<FrameLattice>(spec.lattice), check);
   checker.check_nodes();
@@ -192,6 +196,7 @@ void check_frame(const SceneSpec& spec, FieldChecker& check) {
   checker.check_supports();
   checker.check_loads();
   checker.check_motions();
+  check_rigid_walls(std::get<FrameLattice>(spec.lattice), check);
 }
 
 }  // namespace cellcrush

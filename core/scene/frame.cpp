@@ -66,6 +66,16 @@ void attach_loads(const FrameLattice& frame, Scene& scene) {
   scene.gravity = Vector2(frame.gravity_x_m_per_s2, frame.gravity_y_m_per_s2) * kMmPerM;
 }
 
+void attach_rigid_walls(const FrameLattice& frame, Scene& scene) {
+  for (const FrameLattice::RigidWall& wall : frame.rigid_walls) {
+    const FrameLattice::TimeFunction still = {{0.0, 0.0}};
+    scene.rigid_walls.push_back({Vector2(wall.x_mm, wall.y_mm),
+                                 Vector2(wall.normal_x, wall.normal_y).stableNormalized(),
+                                 wall.friction,
+                                 {wall.points.empty() ? still : wall.points}});
+  }
+}
+
 }  // namespace
 
 Layout lay_out_frame(const FrameLattice& frame, int elements_per_wall) {
@@ -95,6 +105,7 @@ void attach_to_frame(const FrameLattice& frame, Scene& scene) {
   group_pinned_ends(frame, scene);
   attach_loads(frame, scene);
   attach_initial_velocities(frame, scene);
+  attach_rigid_walls(frame, scene);
   scene.watched = frame.watched_nodes;
 }
 

@@ -11,8 +11,8 @@ namespace cellcrush {
 /// frame.
 Layout lay_out_frame(const FrameLattice& frame, int elements_per_wall);
 
-/// Adds the attached masses, supports, pins, motions, loads, gravity, initial velocities and watched nodes of a frame
-/// to the scene. REQUIRES: the mesh of the scene is that of the frame; lump_masses has not run yet.
+/// Adds the attached masses, supports, pins, motions, loads, gravity, initial velocities, rigid walls and watched nodes
+/// of a frame to the scene. REQUIRES: the mesh of the scene is that of the frame; lump_masses has not run yet.
 void attach_to_frame(const FrameLattice& frame, Scene& scene);
 
 }  // namespace cellcrush

@@ -121,6 +121,7 @@ MeshMeasures measure_sound_mesh(const SceneSpec& part, const Scene& scene) {
   measures.approach_speed = approach_speed_of(scene);
   measures.material = scene.materials.front();
   const auto* frame = std::get_if<FrameLattice>(&part.lattice);
+  measures.rigid_walls = !scene.rigid_walls.empty();
   measures.contact = frame == nullptr || frame->self_contact;
   return measures;
 }

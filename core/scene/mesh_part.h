@@ -36,6 +36,7 @@ struct MeshMeasures {
   double approach_speed = 0.0;  ///< mm/s, of the parts of a frame (E9a); 0 for a lattice
   Material material;            ///< of the lattice
   bool contact = false;         ///< whether walls touch each other
+  bool rigid_walls = false;     ///< whether a frame has rigid walls
   Problems overlaps;            ///< walls that overlap before loading
 };
 

@@ -79,7 +79,7 @@ TimeStep time_step_of(const SceneSpec& spec, const MeshMeasures& mesh, const Con
   if (plates.present) {
     hold_to(kTravelPerStep * mesh.thinnest_wall / plates.speed, StepBound::plate_travel);
   }
-  if (contact.present) {
+  if (contact.present || mesh.rigid_walls) {
     hold_to(kTravelPerStep * mesh.thinnest_wall / impact_speed_of(spec, mesh), StepBound::approach);
     const double lightest = mesh.lightest_mass;
     hold_to(kStepFraction * contact_step_of(contact, lightest), StepBound::contacts);

@@ -46,7 +46,8 @@ struct TimeStep {
 /// The step of a run: the one that is given, or the least of
 ///  - 0.9 of the stable step of an element (E11b), and 0.72 of that of a pair (E11c),
 ///  - the time in which the plate moves by 0.08 of the thinnest wall (walls approach each other by up to 1.7 times as
-///    much in a step, and a new contact can be as deep); the same of the beams of a frame that approach each other,
+///    much in a step, and a new contact can be as deep); the same of the beams of a frame that approach each other
+///    or a rigid wall,
 ///  - 0.9 of the bound of a row of the lightest particles between contacts (E12, scene/contact_law.h),
 ///  - for squares and triangles, the step for which omega dt of the lightest particle on its contact is 0.11 rad. At
 ///    speeds V below 0.45 sqrt(sigma_y / rho) it is less in proportion, but at least a third of it.

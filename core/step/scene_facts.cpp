@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "cellcrush/contact_faces.h"
 #include "cellcrush/scene.h"
 #include "cellcrush/simulation.h"
@@ -38,6 +40,16 @@ std::string fibres_text(const Scene& scene) {
 
 std::string friction_text(double friction) {
   return friction > 0.0 ? "Coulomb friction, coefficient " + to_text(friction) + "." : "frictionless.";
+}
+
+std::string rigid_walls_text(const Scene& scene) {
+  const std::size_t count = scene.rigid_walls.size();
+  const auto moving =
+      std::ranges::count_if(scene.rigid_walls, [](const RigidWall& wall) { return wall.motion.points.size() > 1; });
+  const double friction = std::ranges::max(scene.rigid_walls, {}, &RigidWall::friction).friction;
+  return "Rigid walls: " + std::to_string(count) + (count == 1 ? " half plane, " : " half planes, ") +
+         std::to_string(moving) + " of them moving, unilateral, not meshed, " +
+         (friction > 0.0 ? "Coulomb friction, coefficient up to " + to_text(friction) + "." : "frictionless.");
 }
 
 std::string search_text(const Scene& scene) {
@@ -88,6 +100,9 @@ std::vector<std::string> what_is_modelled(const Scene& scene) {
                 " Walls that are stretched keep their area and do not neck.");
   if (scene.plates.present) {
     lines.push_back("Plates: rigid, unilateral, not meshed, " + friction_text(scene.plates.friction));
+  }
+  if (!scene.rigid_walls.empty()) {
+    lines.push_back(rigid_walls_text(scene));
   }
   if (scene.pins.count() > 0) {
     const std::size_t ends = scene.pins.joint.size() - scene.pins.count();

@@ -6,6 +6,7 @@
 #include "motion/integrate_motion.h"
 #include "touch/contact_forces.h"
 #include "touch/plate_forces.h"
+#include "touch/rigid_wall_forces.h"
 
 namespace cellcrush {
 
@@ -34,8 +35,11 @@ void evaluate_band_plates(const Scene& scene, State& state, std::size_t band, St
     evaluate_plate_forces(scene, state, record.plate, near.subspan(static_cast<std::size_t>(first), count),
                           record.contacts);
   };
-  evaluate(scene.bands[band].first_joint, counts.joints);
-  evaluate(scene.bands[band].first_inner, counts.inner);
+  const LatticeBand& of = scene.bands[band];
+  evaluate(of.first_joint, counts.joints);
+  evaluate(of.first_inner, counts.inner);
+  evaluate_rigid_wall_forces(scene, state, of.first_joint, of.end_joint, record.contacts);
+  evaluate_rigid_wall_forces(scene, state, of.first_inner, of.end_inner, record.contacts);
 }
 
 }  // namespace cellcrush

@@ -47,7 +47,7 @@ void evaluate_band_walls(const Scene& scene, State& state, std::size_t band, Ste
 void evaluate_band_contacts(const Scene& scene, State& state, std::size_t band, StepRecord& record,
                             StageWorkspace& workspace);
 
-/// Evaluates the forces of the plates on the particles of a band (E9c to E9e).
+/// Evaluates the forces of the plates and rigid walls on the particles of a band (E9c to E9f).
 void evaluate_band_plates(const Scene& scene, State& state, std::size_t band, StepRecord& record,
                           const std::vector<int>& near_plates);
 

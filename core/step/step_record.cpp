@@ -2,10 +2,13 @@
 
 #include <algorithm>
 
+#include "motion/rigid_wall_motion.h"
+
 namespace cellcrush {
 
 void begin_record(const Scene& scene, const State& state, double time, double travel, StepRecord& record) {
   const double dt = scene.schedule.time_step;
+  record.time = time;
   record.plates = plate_step_of(scene, time, travel);
   record.plate = {record.plates.travel, scene.plates.speed_at(time + 0.5 * dt)};
   record.reach = reach_of_plates(scene, record.plates.travel);
@@ -23,6 +26,7 @@ void accumulate(const Scene& scene, const StepRecord& record, State& state) {
     chunk.works.accumulate(state.ledger);
   }
   accumulate_plates(scene, record.plates, state);
+  accumulate_rigid_walls(scene, record.time, state);
   for (const double work : record.plastic_work) {
     state.ledger.plastic += work;
   }

@@ -13,6 +13,7 @@ namespace cellcrush {
 
 /// Record of one step: the data known before it, and the sums over the lattice that its stages compute.
 struct StepRecord {
+  double time = 0.0;  ///< s, at its start
   PlateStep plates;   ///< motion of the impact plate over the step
   PlateMotion plate;  ///< its travel and speed at the end of the step
   PlateReach reach;   ///< positions from which balls reach a plate at that time
@@ -28,8 +29,8 @@ struct StepRecord {
 /// Prepares the record of a step that begins at `time`, s, when the impact plate has travelled by `travel`, mm.
 void begin_record(const Scene& scene, const State& state, double time, double travel, StepRecord& record);
 
-/// Adds the works of a step to the ledger (E10) and its impulses to those of the plates. Stores the plate forces and
-/// contact totals in the state.
+/// Adds the works of a step to the ledger (E10) and its impulses to those of plates and rigid walls. Stores their
+/// forces and the contact totals in the state.
 void accumulate(const Scene& scene, const StepRecord& record, State& state);
 
 }  // namespace cellcrush

@@ -1,65 +1,36 @@
 #include "touch/plate_forces.h"
 
-#include <algorithm>
 #include <limits>
 
 #include "geometry/thickening.h"
-#include "touch/contact_tiles.h"
-#include "touch/force_laws.h"
-#include "touch/rubbed_surface.h"
-#include "touch/thickening_forces.h"
+#include "touch/face_forces.h"
 
 namespace cellcrush {
 namespace {
 
-/// One of the two plates at the current time.
-struct Plate {
-  double face;       ///< mm
-  double velocity;   ///< mm/s
-  double outward;    ///< +1 or -1: direction from its face into the lattice, along the crush
-  PlateForce& sum;   ///< sum of its forces on all particles
-  double& stored;    ///< stored energy of all contacts, N mm
-  double* friction;  ///< friction of each particle; null without friction
-  bool grows;        ///< balls may have grown (E5f)
-};
-
-/// Friction of a plate on one particle whose centre is `distance` mm from the face, at most `limit` N. The plates do
-/// not move across the crush, so the slip is the motion of the ball's surface in that direction (E9d).
-void rub(const Scene& scene, State& state, const Plate& plate, int particle, double distance, double limit) {
-  const int across = 1 - scene.plates.axis;
-  const double side = scene.plates.axis == 0 ? -plate.outward : plate.outward;  // of a turn that moves it across
-  const RubbedSurface surface = {elements_at(scene, particle), distance};
-  const double speed = state.velocity[particle][across] + side * speed_by_turning(scene, state, surface);
-  const double stiffness = scene.plates.stiffness / std::max(1.0, stiffening(state, surface));
-  double& friction = plate.friction[particle];
-  friction = evaluate_friction(friction, stiffness, scene.schedule.time_step * speed, limit);
-  state.friction_force[particle][across] += friction;
-  add_couple(scene, state, surface, side * friction);
+/// A plate at `place` mm along the crush, on the side of the lattice to which `outward` points, +1 or -1 along it.
+Face face_of_plate(const Scene& scene, double place, double outward, double velocity, std::vector<double>& friction_of,
+                   bool grows) {
+  const Plates& plates = scene.plates;
+  Face face = {Vector2::Zero(),
+               Vector2::Zero(),
+               Vector2::Zero(),
+               outward * velocity,
+               plates.stiffness,
+               plates.friction,
+               plates.friction > 0.0 ? friction_of.data() : nullptr,
+               grows};
+  face.point[plates.axis] = place;
+  face.normal[plates.axis] = outward;
+  face.tangent[1 - plates.axis] = 1.0;
+  return face;
 }
 
-/// Pushes one particle (E9c).
-void push(const Scene& scene, State& state, const Plate& plate, int particle, double radius) {
-  const int axis = scene.plates.axis;
-  const double distance = plate.outward * (state.position[particle][axis] - plate.face);
-  const double depth = radius - distance;
-  NormalForce force = {0.0, 0.0};
-  if (depth > 0.0) {
-    const double rate = plate.outward * (plate.velocity - state.velocity[particle][axis]);
-    force = evaluate_normal_force(scene.plates.stiffness, scene.contact.damping_ratio, scene.inverse_mass[particle],
-                                  depth, rate);
-    plate.stored += 0.5 * force.elastic * depth;
-    if (plate.grows && state.radius_growth[particle] > 0.0) {
-      push_elements_apart(scene, state, particle, force.elastic);
-    }
-    state.contact_force[particle].elastic[axis] += plate.outward * force.elastic;
-    state.contact_force[particle].viscous[axis] += plate.outward * force.viscous;
-    mark_contact_tile(state, particle);
-    plate.sum.elastic += force.elastic;
-    plate.sum.viscous += force.viscous;
-  }
-  if (plate.friction != nullptr && (depth > 0.0 || plate.friction[particle] != 0.0)) {
-    rub(scene, state, plate, particle, distance, scene.plates.friction * (force.elastic + force.viscous));
-  }
+/// Adds a force to that of a plate, and to the stored energy.
+void add_force(const FaceForce& force, PlateForce& plate, double& stored) {
+  plate.elastic += force.elastic;
+  plate.viscous += force.viscous;
+  stored += force.stored;
 }
 
 }  // namespace
@@ -82,25 +53,19 @@ void evaluate_plate_forces(const Scene& scene, State& state, const PlateMotion& 
   }
   const bool rubs = plates.friction > 0.0;
   const bool grows = !state.radius_growth.empty();
-  double& stored = sums.walls.stored;
-  const Plate impact = {plates.impact_face + motion.impact_travel,
-                        motion.impact_speed,
-                        1.0,
-                        sums.impact,
-                        stored,
-                        rubs ? state.impact_friction.data() : nullptr,
-                        grows};
-  const Plate support = {
-      plates.support_face, 0.0, -1.0, sums.support, stored, rubs ? state.support_friction.data() : nullptr, grows};
+  const double impact_place = plates.impact_face + motion.impact_travel;
+  const double support_place = plates.support_face;
+  const Face impact = face_of_plate(scene, impact_place, 1.0, motion.impact_speed, state.impact_friction, grows);
+  const Face support = face_of_plate(scene, support_place, -1.0, 0.0, state.support_friction, grows);
   // For most lattices; then no radius is loaded from memory.
   const bool is_uniform = scene.smallest_radius == scene.largest_radius;
   for (const int particle : near) {
     const double place = state.position[particle][plates.axis];
     const double radius = is_uniform && !grows ? scene.largest_radius : radius_now(scene, state, particle);
-    const bool rubbed = rubs && (impact.friction[particle] != 0.0 || support.friction[particle] != 0.0);
-    if (place - radius < impact.face || place + radius > support.face || rubbed) {
-      push(scene, state, impact, particle, radius);
-      push(scene, state, support, particle, radius);
+    const bool rubbed = rubs && (impact.friction_of[particle] != 0.0 || support.friction_of[particle] != 0.0);
+    if (place - radius < impact_place || place + radius > support_place || rubbed) {
+      add_force(push_by_face(scene, state, impact, particle, radius), sums.impact, sums.walls.stored);
+      add_force(push_by_face(scene, state, support, particle, radius), sums.support, sums.walls.stored);
     }
   }
 }

@@ -21,6 +21,13 @@ struct WatchedNode {
   double reaction_moment = 0.0;
 };
 
+/// A rigid wall of a frame (E9f). Its forces on the frame are means over the interval since the previous sample.
+struct RigidWallSample {
+  double displacement = 0.0;      ///< mm along its normal
+  double normal_force = 0.0;      ///< N along its normal, away from the wall; at least 0
+  double tangential_force = 0.0;  ///< N along its tangent, the normal turned clockwise: friction
+};
+
 /// Where the cells of a lattice collapse; measure/crush_mode.h has the definitions.
 enum class CrushMode {
   none,   ///< too few cells have collapsed to identify a mode
@@ -96,9 +103,10 @@ struct Sample {
   /// Of the cells that have collapsed by now, in samples in which it was evaluated.
   CrushMode crush_mode = CrushMode::none;
   std::optional<Front> front;
-  DensestLayer densest_layer;        ///< as measured last; 0 before the first time
-  std::vector<WatchedNode> watched;  ///< in the order of the frame's watched nodes
-  std::vector<Warning> warnings;     ///< of contacts, first seen at this sample
+  DensestLayer densest_layer;                ///< as measured last; 0 before the first time
+  std::vector<WatchedNode> watched;          ///< in the order of the frame's watched nodes
+  std::vector<RigidWallSample> rigid_walls;  ///< in the order of the frame's rigid walls
+  std::vector<Warning> warnings;             ///< of contacts, first seen at this sample
 };
 
 /// Samples in their memory representation, for the same build. A run that is resumed from a checkpoint needs those

@@ -181,6 +181,23 @@ struct Plates {
   [[nodiscard]] double speed_at(double time) const;
 };
 
+/// A rigid wall of a frame: a half plane that pushes on the balls of all particles (E9f). It moves along its normal.
+struct RigidWall {
+  Vector2 point;        ///< on its face at a displacement of 0, mm
+  Vector2 normal;       ///< unit, out of the wall
+  double friction;      ///< Coulomb's coefficient
+  TimeFunction motion;  ///< displacement along the normal, mm
+
+  /// Positive direction of friction: the normal turned clockwise.
+  [[nodiscard]] Vector2 tangent() const { return -normal_of(normal); }
+  /// A point on the face at a time, mm.
+  [[nodiscard]] Vector2 face_at(double time) const { return point + motion.value_at(time) * normal; }
+  /// Travel along the normal from one time to another, mm.
+  [[nodiscard]] double travel_between(double from, double to) const {
+    return motion.value_at(to) - motion.value_at(from);
+  }
+};
+
 /// Penalty contact between walls (Eq. 41-43, E8, E9).
 struct ContactLaw {
   bool present = false;
@@ -265,6 +282,7 @@ struct Scene {
   LimitedReaches limited_reaches;  ///< empty without contact
   ContactFaces faces;              ///< for the contact search, where their premise holds
   Plates plates;
+  std::vector<RigidWall> rigid_walls;  ///< of a frame
   MassScaling mass_scaling;
   double mass_damping = 0.0;  ///< alpha, 1/s: force -alpha m v
   Schedule schedule;

@@ -21,8 +21,8 @@ void visit_arrays(const Scene& scene, Visitor&& visit) {
                elements, walls, bands, rigid, pins, incidence_offset, incidence, joint_count, wall_end_offset,
                wall_ends, supports, motions, loads, element_loads, gravity, initial_velocity, initial_spin, depth,
                materials, section, single_fibres, slow_loading, constant_area, contact, limited_reaches, faces, plates,
-               mass_scaling, mass_damping, schedule, length, width, total_mass, stable_step, collapse_stress, fidelity,
-               watched] = scene;
+               rigid_walls, mass_scaling, mass_damping, schedule, length, width, total_mass, stable_step,
+               collapse_stress, fidelity, watched] = scene;
   const auto& [blocks, chunk_offset, first_joint, end_joint, start, end, thickness, undeformed_length, material] =
       walls;
   const auto& [rigid_offset, centre, rigid_mass, rigid_inertia, first_element] = rigid;
@@ -32,7 +32,7 @@ void visit_arrays(const Scene& scene, Visitor&& visit) {
   const auto list = [&visit](const auto&... arrays) { (visit(arrays), ...); };
   list(position, mass, inertia, inverse_mass, inverse_inertia, radius, elements, bands, incidence_offset, incidence,
        wall_end_offset, wall_ends, supports, motions, loads, element_loads, initial_velocity, initial_spin, materials,
-       watched);
+       rigid_walls, watched);
   list(blocks, chunk_offset, first_joint, end_joint, start, end, thickness, undeformed_length, material);
   list(rigid_offset, centre, rigid_mass, rigid_inertia);
   list(pin_offset, pin_joint);

@@ -112,6 +112,17 @@ struct FrameLattice {
     bool operator==(const InitialVelocity&) const = default;
   };
 
+  /// A half plane that pushes on all beams, and moves along its normal (E9f).
+  struct RigidWall {
+    double x_mm = 0.0;  ///< of a point on its face
+    double y_mm = 0.0;
+    double normal_x = 0.0;  ///< direction out of the wall, towards the frame; of any length but 0
+    double normal_y = 0.0;
+    double friction = 0.0;
+    TimeFunction points;  ///< displacement along the normal, mm; empty: the wall stands still
+    bool operator==(const RigidWall&) const = default;
+  };
+
   std::vector<Node> nodes;
   std::vector<Beam> beams;
   std::vector<Support> supports;
@@ -122,6 +133,7 @@ struct FrameLattice {
   double gravity_x_m_per_s2 = 0.0;
   double gravity_y_m_per_s2 = 0.0;
   bool self_contact = false;
+  std::vector<RigidWall> rigid_walls;
   std::vector<int> watched_nodes;
   std::optional<double> end_time_s;
 
@@ -186,7 +198,7 @@ struct ContactSpec {
   double stiffness_factor = 0.12;  ///< k = m_min max(stiffness_factor / dt_crit^2, ...) (E9)
   double damping_ratio = 0.2;      ///< zeta, fraction of critical damping (E9)
   /// Least speed of approach for which contacts are made (V of E9). The speed of the plate, or that which a frame's
-  /// velocities, motions and gravity tell (E9a), counts where it is more.
+  /// velocities, motions, rigid walls and gravity tell (E9a), counts where it is more.
   double impact_speed_m_per_s = 0.0;
   Search search = Search::faces;
 

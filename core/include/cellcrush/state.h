@@ -43,6 +43,18 @@ struct PlateForce {
   [[nodiscard]] double total() const { return elastic + viscous; }
 };
 
+/// Force of a rigid wall on a frame (E9f).
+struct RigidWallForce {
+  PlateForce normal;        ///< along its normal
+  double tangential = 0.0;  ///< N, friction along its tangent, the normal turned clockwise
+};
+
+/// Impulse of a rigid wall on a frame since the start, N s.
+struct RigidWallImpulse {
+  double normal = 0.0;
+  double tangential = 0.0;
+};
+
 /// Impulse of a support on a particle since the start: N s along x and y, and N mm s (E15).
 struct ReactionImpulse {
   double x = 0.0;
@@ -64,7 +76,7 @@ struct Ledger {
   double contact_damping = 0.0;  ///< work against the viscous forces of contacts
   double friction = 0.0;
   double mass_damping = 0.0;
-  double external = 0.0;  ///< work of the plates and of nodal loads
+  double external = 0.0;  ///< work of the plates, of rigid walls and of nodal loads
   double initial = 0.0;   ///< kinetic energy at the start
 };
 
@@ -75,18 +87,19 @@ struct State {
   double time = 0.0;
 
   // Written by integrate_motion.
-  LaneVector<Vector2> position;                   ///< N
-  LaneVector<Vector2> velocity;                   ///< N, half a step before `time`
-  LaneVector<double> rotation;                    ///< N, since the start; for output only
-  LaneVector<double> spin;                        ///< N, rad/s, half a step before `time`
-  std::vector<Vector2> rigid_centre;              ///< B rigid bodies, centre of mass
-  std::vector<Vector2> rigid_velocity;            ///< B, half a step before `time`
-  std::vector<double> rigid_rotation;             ///< B, since the start
-  std::vector<double> rigid_spin;                 ///< B, half a step before `time`
-  std::vector<ReactionImpulse> reaction_impulse;  ///< N; empty if nothing is held
-  double impact_travel = 0.0;                     ///< of the impact plate
-  double impact_impulse = 0.0;                    ///< N s, of the impact plate on the lattice
-  double support_impulse = 0.0;                   ///< N s, of the support plate on the lattice
+  LaneVector<Vector2> position;                      ///< N
+  LaneVector<Vector2> velocity;                      ///< N, half a step before `time`
+  LaneVector<double> rotation;                       ///< N, since the start; for output only
+  LaneVector<double> spin;                           ///< N, rad/s, half a step before `time`
+  std::vector<Vector2> rigid_centre;                 ///< B rigid bodies, centre of mass
+  std::vector<Vector2> rigid_velocity;               ///< B, half a step before `time`
+  std::vector<double> rigid_rotation;                ///< B, since the start
+  std::vector<double> rigid_spin;                    ///< B, half a step before `time`
+  std::vector<ReactionImpulse> reaction_impulse;     ///< N; empty if nothing is held
+  double impact_travel = 0.0;                        ///< of the impact plate
+  double impact_impulse = 0.0;                       ///< N s, of the impact plate on the lattice
+  double support_impulse = 0.0;                      ///< N s, of the support plate on the lattice
+  std::vector<RigidWallImpulse> rigid_wall_impulse;  ///< one for each of Scene::rigid_walls
 
   // Written by evaluate_internal_forces.
   LaneVector<Vector2> axis;             ///< E, unit vector from start to end
@@ -122,6 +135,9 @@ struct State {
   std::vector<double> support_friction;    ///< N, of the support plate across the crush; empty without friction
   PlateForce impact_force;                 ///< of the impact plate on the lattice, along the crush
   PlateForce support_force;                ///< of the support plate on the lattice, against the crush
+  /// N for each of Scene::rigid_walls, of the wall along its tangent, wall by wall; empty without friction at one.
+  std::vector<double> rigid_wall_friction;
+  std::vector<RigidWallForce> rigid_wall_force;  ///< one for each of Scene::rigid_walls
   ContactTotals contact_totals;
   std::vector<FastestStep> fastest_step;  ///< one where contacts of a frame are watched; otherwise empty
 
@@ -143,19 +159,19 @@ struct State {
 template <class S, class Visitor>
 void visit_fields(S& state, Visitor&& visit) {
   auto& [step, time, position, velocity, rotation, spin, rigid_centre, rigid_velocity, rigid_rotation, rigid_spin,
-         reaction_impulse, impact_travel, impact_impulse, support_impulse, axis, length, inverse_length, thickening,
-         thickening_slope, radius_growth, fibres, single_fibres, wall_force, wall_moment, internal_force,
-         internal_moment, load_force, load_moment, contacts, crossing_step, contact_force, friction_force,
-         impact_friction, support_friction, impact_force, support_force, contact_totals, fastest_step, ledger,
-         derived_steps, derived_tiles] = state;
+         reaction_impulse, impact_travel, impact_impulse, support_impulse, rigid_wall_impulse, axis, length,
+         inverse_length, thickening, thickening_slope, radius_growth, fibres, single_fibres, wall_force, wall_moment,
+         internal_force, internal_moment, load_force, load_moment, contacts, crossing_step, contact_force,
+         friction_force, impact_friction, support_friction, impact_force, support_force, rigid_wall_friction,
+         rigid_wall_force, contact_totals, fastest_step, ledger, derived_steps, derived_tiles] = state;
   const auto list = [&visit](auto&... fields) { (visit(fields), ...); };
   const auto list_fibres = [&list](auto& history) {
     auto& [stress, back_stress, plastic_strain, yielded, section_axial, section_moment, yielding] = history;
     list(stress, back_stress, plastic_strain, yielded, section_axial, section_moment, yielding);
   };
   list(step, time, position, velocity, rotation, spin, rigid_centre, rigid_velocity, rigid_rotation, rigid_spin,
-       reaction_impulse, impact_travel, impact_impulse, support_impulse, axis, length, inverse_length, thickening,
-       thickening_slope, radius_growth);
+       reaction_impulse, impact_travel, impact_impulse, support_impulse, rigid_wall_impulse, axis, length,
+       inverse_length, thickening, thickening_slope, radius_growth);
   list_fibres(fibres);
   list_fibres(single_fibres);
   list(wall_force, wall_moment, internal_force, internal_moment, load_force, load_moment);
@@ -166,8 +182,8 @@ void visit_fields(S& state, Visitor&& visit) {
   for (auto& lists : contacts) {
     visit_touch_fields(lists, visit);
   }
-  list(contact_force, friction_force, impact_friction, support_friction, impact_force, support_force, contact_totals,
-       fastest_step, ledger);
+  list(contact_force, friction_force, impact_friction, support_friction, impact_force, support_force,
+       rigid_wall_friction, rigid_wall_force, contact_totals, fastest_step, ledger);
 }
 
 /// The same for the arrays alone, the derived ones too.
