@@ -124,10 +124,11 @@ std::vector<fs::path> find_stale_files(const fs::path& folder, const std::string
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
     const std::string name = entry->path().filename().string();
     const bool is_nodes = name == "nodes.csv" && begins_with_one_of(entry->path(), {nodes_signature()});
+    const bool is_walls = name == "rigid_walls.csv" && begins_with_one_of(entry->path(), {rigid_walls_header()});
     const bool is_frame = is_other_job && name.starts_with("frame_") && name.ends_with(".csv") &&
                           begins_with_one_of(entry->path(), {frame_header()});
     const bool is_kept = std::ranges::find(written, entry->path()) != written.end();
-    if ((is_nodes || is_frame) && !is_kept) stale.push_back(entry->path());
+    if ((is_nodes || is_walls || is_frame) && !is_kept) stale.push_back(entry->path());
   }
   std::ranges::sort(stale);
   return stale;
@@ -160,6 +161,7 @@ void check_may_write_results(const fs::path& folder) {
   check_may_overwrite(folder / "result.h5", kResultStarts);
   check_may_overwrite(folder / "history.csv", {kHistorySignature});
   check_may_overwrite(folder / "nodes.csv", {nodes_signature()});
+  check_may_overwrite(folder / "rigid_walls.csv", {rigid_walls_header()});
   check_may_overwrite(folder / "case.txtpb", {kCaseSignature});
 }
 
@@ -174,6 +176,9 @@ ResultFiles write_results(Connection& connection, const v1::Job& job, const fs::
   files.add(folder / "history.csv", {kHistorySignature}).write(history_csv(history.samples()));
   if (const std::string nodes = nodes_csv(history.samples()); !nodes.empty()) {
     files.add(folder / "nodes.csv", {nodes_signature()}).write(nodes);
+  }
+  if (const std::string walls = rigid_walls_csv(history.samples()); !walls.empty()) {
+    files.add(folder / "rigid_walls.csv", {rigid_walls_header()}).write(walls);
   }
   for (const double time : frame_times) {
     v1::GetFrameRequest request;
@@ -197,9 +202,9 @@ ResultFiles write_results(Connection& connection, const v1::Job& job, const fs::
 
 void add_fetch_command(CLI::App& app, Session& session) {
   const auto options = std::make_shared<FetchOptions>();
-  CLI::App* command =
-      add_command(app, session, "fetch", "Download a job's result.h5, history.csv, nodes.csv and case.txtpb",
-                  [&session, options] { return run_fetch(session, *options); });
+  CLI::App* command = add_command(app, session, "fetch",
+                                  "Download a job's result.h5, history.csv, nodes.csv, rigid_walls.csv and case.txtpb",
+                                  [&session, options] { return run_fetch(session, *options); });
   command->group(kResultCommands);
   command->add_option("NAME", options->name, "Job name")->required();
   command->add_option("-o,--output", options->folder, "Output folder, created if missing")

@@ -17,9 +17,10 @@ struct ResultFiles {
   std::vector<std::filesystem::path> removed;
 };
 
-/// Writes into a folder, which it creates: case.txtpb, history.csv, nodes.csv if nodes are watched, the frames nearest
-/// to the times in s, and result.h5. No file appears before all of them are on the disk; result.h5 appears last.
-/// Deletes the nodes.csv and frames that it wrote for another job.
+/// Writes into a folder, which it creates: case.txtpb, history.csv, nodes.csv if nodes are watched,
+/// rigid_walls.csv if there are any, the frames nearest to the times in s, and result.h5. No file appears before all of
+/// them are on the disk; result.h5 appears last. Deletes the nodes.csv, rigid_walls.csv and frames that it wrote for
+/// another job.
 ResultFiles write_results(Connection& connection, const v1::Job& job, const std::filesystem::path& folder,
                           const std::vector<double>& frame_times = {});
 

@@ -96,6 +96,19 @@ std::string nodes_csv(const google::protobuf::RepeatedPtrField<v1::Sample>& samp
   return text.empty() ? text : nodes_header() + '\n' + text;
 }
 
+std::string rigid_walls_header() { return "time_s,wall,displacement_mm,normal_force_n,tangential_force_n"; }
+
+std::string rigid_walls_csv(const google::protobuf::RepeatedPtrField<v1::Sample>& samples) {
+  std::string text;
+  for (const v1::Sample& sample : samples) {
+    for (const v1::RigidWallSample& wall : sample.rigid_walls()) {
+      fmt::format_to(std::back_inserter(text), "{},{},{},{},{}\n", sample.time_s(), csv_cell(wall.wall()),
+                     wall.displacement_mm(), wall.normal_force_n(), wall.tangential_force_n());
+    }
+  }
+  return text.empty() ? text : rigid_walls_header() + '\n' + text;
+}
+
 std::string frame_header() { return "element,x0_mm,y0_mm,x1_mm,y1_mm,thickness_mm,plastic_fraction"; }
 
 std::string frame_csv(const MeshFrame& frame) {

@@ -24,6 +24,12 @@ std::string nodes_header();
 /// The watched nodes of samples as CSV, one line per node and sample; empty if no sample has any.
 std::string nodes_csv(const google::protobuf::RepeatedPtrField<v1::Sample>& samples);
 
+/// The header line of a file of rigid walls.
+std::string rigid_walls_header();
+
+/// The rigid walls of samples as CSV, one line per wall and sample; empty if no sample has any.
+std::string rigid_walls_csv(const google::protobuf::RepeatedPtrField<v1::Sample>& samples);
+
 /// The header line of a frame file.
 std::string frame_header();
 

@@ -100,6 +100,12 @@ void describe_frame(const v1::Frame& frame, Lines& lines) {
   describe_masses(frame, lines);
   describe_loads(frame, lines);
   lines.emplace_back("contact between beams", frame.self_contact() ? "modelled" : "ignored");
+  if (frame.rigid_walls_size() > 0) {
+    const auto wall = [](const v1::Frame::RigidWall& of) {
+      return of.id() + (of.has_displacement_mm() ? " (moves)" : "");
+    };
+    lines.emplace_back("rigid walls", names_text(texts_of(frame.rigid_walls(), wall)));
+  }
   if (frame.watched_nodes_size() > 0) lines.emplace_back("watched nodes", names_text(frame.watched_nodes()));
   if (frame.has_end_time_s()) lines.emplace_back("end time", fmt::format("{} s", frame.end_time_s()));
 }

@@ -79,6 +79,7 @@ void ResultWriter::write_gathered() {
     append_rows(history_[i].id(), H5T_NATIVE_DOUBLE, column.size(), column.data());
   }
   nodes_.append(file_.id(), gathered_);
+  rigid_walls_.append(file_.id(), gathered_);
   gathered_.clear();
 }
 
@@ -108,6 +109,7 @@ void ResultWriter::finish(const ResultHeader& header, const v1::Summary& summary
   const std::string what = "Closing the result";
   for (auto& column : history_) column.close(what);
   nodes_.close();
+  rigid_walls_.close();
   for (auto* part : {&frame_time_, &frame_strain_, &frame_position_, &frame_plastic_, &mesh_}) part->close(what);
   check_hdf5(H5Fflush(file_.id(), H5F_SCOPE_GLOBAL), what);
   file_.close(what);

@@ -9,7 +9,7 @@
 #include "cellcrush/v1/case.pb.h"
 #include "cellcrush/v1/sample.pb.h"
 #include "store/hdf5.h"
-#include "store/node_histories.h"
+#include "store/part_histories.h"
 #include "store/result_layout.h"
 
 namespace cellcrush::store {
@@ -48,7 +48,8 @@ class ResultWriter {
   Hdf5Handle file_;
   Hdf5Handle mesh_;
   std::array<Hdf5Handle, kHistoryColumns.size()> history_;
-  NodeHistories nodes_;
+  PartHistories nodes_{kWatchedNodes};
+  PartHistories rigid_walls_{kRigidWalls};
   Hdf5Handle frame_time_;
   Hdf5Handle frame_strain_;
   Hdf5Handle frame_position_;

@@ -11,6 +11,7 @@ namespace {
 
 constexpr int kLongestList = 200'000;
 constexpr int kLongestShortList = 10'000;
+constexpr int kMostRigidWalls = 1'000;  // each of which looks at every ball
 
 // Collects the lists that are too long.
 class ListChecker {
@@ -26,6 +27,7 @@ class ListChecker {
     std::int64_t points = 0;
     for (const auto& load : frame.loads()) points += load.force_n_or_n_mm().points_size();
     for (const auto& motion : frame.motions()) points += motion.displacement_mm_or_rad().points_size();
+    for (const auto& wall : frame.rigid_walls()) points += wall.displacement_mm().points_size();
     for (const auto& load : frame.distributed_loads())
       points += load.x_n_per_mm().points_size() + load.y_n_per_mm().points_size();
     if (points <= kLongestList) return;
@@ -52,6 +54,7 @@ google::protobuf::RepeatedPtrField<v1::Problem> find_long_lists(const v1::Case& 
   lists.check("lattice.frame.initial_velocities", frame.initial_velocities_size(), kLongestList);
   lists.check("lattice.frame.motions", frame.motions_size(), kLongestShortList);
   lists.check("lattice.frame.watched_nodes", frame.watched_nodes_size(), kLongestShortList);
+  lists.check("lattice.frame.rigid_walls", frame.rigid_walls_size(), kMostRigidWalls);
   lists.check("lattice.inclusions.rows", submitted.lattice().inclusions().rows_size(), kLongestShortList);
   lists.check_points(frame);
   return lists.take();

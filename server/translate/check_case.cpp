@@ -29,8 +29,8 @@ void describe(const SceneFacts& facts, v1::CheckCaseResponse& out) {
   for (const auto& sentence : facts.modelled) out.add_modelled(sentence);
 }
 
-// A frame's nodes keep their names from the case.
-void restore_node_names(const v1::Frame& submitted, v1::Frame& completed) {
+// A frame's nodes and rigid walls keep their names from the case.
+void restore_names(const v1::Frame& submitted, v1::Frame& completed) {
   const auto rename = [&submitted](std::string& id) { id = submitted.nodes(std::stoi(id)).id(); };
   for (auto& node : *completed.mutable_nodes()) rename(*node.mutable_id());
   for (auto& beam : *completed.mutable_beams()) {
@@ -42,6 +42,8 @@ void restore_node_names(const v1::Frame& submitted, v1::Frame& completed) {
   for (auto& motion : *completed.mutable_motions()) rename(*motion.mutable_node());
   for (auto& watched : *completed.mutable_watched_nodes()) rename(watched);
   for (auto& velocity : *completed.mutable_initial_velocities()) rename(*velocity.mutable_node());
+  for (int i = 0; i < completed.rigid_walls_size(); ++i)
+    completed.mutable_rigid_walls(i)->set_id(submitted.rigid_walls(i).id());
 }
 
 }  // namespace
@@ -66,8 +68,8 @@ CaseCheck check_case(const v1::Case& submitted, const std::function<void()>& bet
   out.response.set_predicted_memory_bytes(memory_of_run(reading.spec, *built.scene));
   *out.response.mutable_completed_case() = to_case(complete_spec(reading.spec, *built.scene));
   if (submitted.lattice().has_frame()) {
-    restore_node_names(submitted.lattice().frame(),
-                       *out.response.mutable_completed_case()->mutable_lattice()->mutable_frame());
+    restore_names(submitted.lattice().frame(),
+                  *out.response.mutable_completed_case()->mutable_lattice()->mutable_frame());
   }
   out.sample_count = divide_up(facts.step_count, facts.sample_interval);
   out.frame_count = divide_up(facts.step_count, facts.frame_interval) + 1;

@@ -37,6 +37,7 @@ class FrameReader {
     read_motions();
     read_distributed_loads();
     read_watched_nodes();
+    read_rigid_walls();
     out_.gravity_x_m_per_s2 = in_.gravity_x_m_per_s2();
     out_.gravity_y_m_per_s2 = in_.gravity_y_m_per_s2();
     if (in_.has_self_contact()) out_.self_contact = in_.self_contact();
@@ -49,17 +50,23 @@ class FrameReader {
     for (int i = 0; i < in_.nodes_size(); ++i) {
       const auto& node = in_.nodes(i);
       const std::string path = item("nodes", i);
-      if (!is_name(node.id())) {
-        problems_.push_back(invalid_field(path + ".id", node.id(),
-                                          "is not a valid name: names have 1 to 64 letters, digits, '_' or '-'.",
-                                          "Give each node a unique, valid name."));
-      } else if (!positions_.emplace(node.id(), i).second) {
-        problems_.push_back(invalid_field(path + ".id", node.id(), "is the name of another node as well.",
-                                          "Give each node a unique name."));
-      }
+      read_id(path + ".id", "node", node.id(), i, positions_);
       if (!node.has_x_mm()) problems_.push_back(missing(path + ".x_mm"));
       if (!node.has_y_mm()) problems_.push_back(missing(path + ".y_mm"));
       out_.nodes.push_back({node.x_mm(), node.y_mm(), node.attached_mass_g(), node.attached_inertia_g_mm2()});
+    }
+  }
+
+  // Notes the position of a node or wall with a valid id of its own.
+  void read_id(const std::string& field, const std::string& what, const std::string& id, int position,
+               std::unordered_map<std::string, int>& positions) {
+    if (!is_name(id)) {
+      problems_.push_back(invalid_field(field, id,
+                                        "is not a valid name: names have 1 to 64 letters, digits, '_' or '-'.",
+                                        "Give each " + what + " a unique, valid name."));
+    } else if (!positions.emplace(id, position).second) {
+      problems_.push_back(invalid_field(field, id, "is the name of another " + what + " as well.",
+                                        "Give each " + what + " a unique name."));
     }
   }
 
@@ -132,6 +139,23 @@ class FrameReader {
       if (std::find(out_.watched_nodes.begin(), out_.watched_nodes.end(), node) != out_.watched_nodes.end())
         problems_.push_back(invalid_field(field, in_.watched_nodes(i), "is already watched.", "Name each node once."));
       out_.watched_nodes.push_back(node);
+    }
+  }
+
+  void read_rigid_walls() {
+    std::unordered_map<std::string, int> positions;
+    for (int i = 0; i < in_.rigid_walls_size(); ++i) {
+      const auto& wall = in_.rigid_walls(i);
+      const std::string path = item("rigid_walls", i);
+      read_id(path + ".id", "rigid wall", wall.id(), i, positions);
+      if (!wall.has_x_mm()) problems_.push_back(missing(path + ".x_mm"));
+      if (!wall.has_y_mm()) problems_.push_back(missing(path + ".y_mm"));
+      FrameLattice::RigidWall out = {wall.x_mm(), wall.y_mm(), wall.normal_x(), wall.normal_y(), wall.friction(), {}};
+      if (wall.has_displacement_mm()) {
+        out.points = read_function(path + ".displacement_mm", wall.displacement_mm());
+        if (out.points.empty()) problems_.push_back(missing(path + ".displacement_mm.points"));
+      }
+      out_.rigid_walls.push_back(out);
     }
   }
 

@@ -101,7 +101,7 @@ v1::Ledger ledger_of(const Sample& sample) {
 
 }  // namespace
 
-v1::Sample to_proto(const Sample& sample, const google::protobuf::RepeatedPtrField<std::string>& watched_ids) {
+v1::Sample to_proto(const Sample& sample, const v1::Frame& frame) {
   v1::Sample out;
   out.set_step(sample.step);
   out.set_time_s(sample.time);
@@ -126,13 +126,20 @@ v1::Sample to_proto(const Sample& sample, const google::protobuf::RepeatedPtrFie
   if (sample.front) *out.mutable_front() = to_proto(*sample.front);
   for (std::size_t i = 0; i < sample.watched.size(); ++i) {
     auto& watched = *out.add_watched();
-    watched.set_node(watched_ids.Get(static_cast<int>(i)));
+    watched.set_node(frame.watched_nodes(static_cast<int>(i)));
     watched.set_ux_mm(sample.watched[i].ux);
     watched.set_uy_mm(sample.watched[i].uy);
     watched.set_rotation_rad(sample.watched[i].rotation);
     watched.set_reaction_x_n(sample.watched[i].reaction_x);
     watched.set_reaction_y_n(sample.watched[i].reaction_y);
     watched.set_reaction_moment_n_mm(sample.watched[i].reaction_moment);
+  }
+  for (std::size_t i = 0; i < sample.rigid_walls.size(); ++i) {
+    auto& wall = *out.add_rigid_walls();
+    wall.set_wall(frame.rigid_walls(static_cast<int>(i)).id());
+    wall.set_displacement_mm(sample.rigid_walls[i].displacement);
+    wall.set_normal_force_n(sample.rigid_walls[i].normal_force);
+    wall.set_tangential_force_n(sample.rigid_walls[i].tangential_force);
   }
   for (const Warning& warning : sample.warnings) *out.add_warnings() = to_proto(warning);
   return out;

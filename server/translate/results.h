@@ -6,6 +6,7 @@
 #include "cellcrush/sample.h"
 #include "cellcrush/simulation.h"
 #include "cellcrush/stage.h"
+#include "cellcrush/v1/case.pb.h"
 #include "cellcrush/v1/job.pb.h"
 #include "cellcrush/v1/sample.pb.h"
 
@@ -16,8 +17,8 @@ namespace cellcrush::translate {
 /// Why a run that stopped by itself failed; JOB_CAUSE_UNSPECIFIED when it did not.
 v1::JobCause cause_of(RunStatus::Kind kind);
 
-/// `watched_ids`: ids of the frame's watched nodes, in the order of the sample's.
-v1::Sample to_proto(const Sample& sample, const google::protobuf::RepeatedPtrField<std::string>& watched_ids);
+/// `frame`: that of the case, whose ids watched nodes and rigid walls have; empty of a lattice.
+v1::Sample to_proto(const Sample& sample, const v1::Frame& frame);
 v1::FieldFrame to_proto(const FieldFrame& frame);
 v1::Mesh to_proto(const MeshView& mesh, std::int64_t particle_count);
 v1::Theory to_proto(const Theory& theory);

@@ -69,6 +69,20 @@ void write_frame_structure(const FrameLattice& in, v1::Frame& out) {
   }
 }
 
+void write_rigid_walls(const FrameLattice& in, v1::Frame& out) {
+  for (std::size_t i = 0; i < in.rigid_walls.size(); ++i) {
+    const FrameLattice::RigidWall& wall = in.rigid_walls[i];
+    auto& added = *out.add_rigid_walls();
+    added.set_id(std::to_string(i));
+    added.set_x_mm(wall.x_mm);
+    added.set_y_mm(wall.y_mm);
+    added.set_normal_x(wall.normal_x);
+    added.set_normal_y(wall.normal_y);
+    added.set_friction(wall.friction);
+    if (!wall.points.empty()) write_function(wall.points, *added.mutable_displacement_mm());
+  }
+}
+
 void write_frame(const FrameLattice& in, v1::Frame& out) {
   write_frame_structure(in, out);
   for (const auto& load : in.loads) {
@@ -99,6 +113,7 @@ void write_frame(const FrameLattice& in, v1::Frame& out) {
   out.set_gravity_x_m_per_s2(in.gravity_x_m_per_s2);
   out.set_gravity_y_m_per_s2(in.gravity_y_m_per_s2);
   out.set_self_contact(in.self_contact);
+  write_rigid_walls(in, out);
   for (const int node : in.watched_nodes) out.add_watched_nodes(std::to_string(node));
   if (in.end_time_s) out.set_end_time_s(*in.end_time_s);
 }

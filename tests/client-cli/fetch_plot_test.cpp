@@ -181,6 +181,26 @@ TEST(Fetch, WritesTheWatchedNodesOfSamplesThatHaveAny) {
             "0.002,tip,0.1,-0.25,0.001,4,-5,6.5\n0.002,\"a,b\",0.1,-0.25,0.001,4,-5,6.5\n");
 }
 
+TEST(Fetch, WritesTheRigidWallsOfSamplesThatHaveAny) {
+  Script script = finished_script();
+  script.samples.resize(2);
+  for (v1::Sample& sample : script.samples) {
+    v1::RigidWallSample& wall = *sample.add_rigid_walls();
+    wall.set_wall("floor");
+    wall.set_displacement_mm(0.5);
+    wall.set_normal_force_n(12.25);
+    wall.set_tangential_force_n(-3.0);
+  }
+  script.samples[0].set_time_s(0.001);
+  script.samples[1].set_time_s(0.002);
+  const FakeServer server(script);
+  const fs::path folder = server.folder() / "run";
+  ASSERT_EQ(run_program({"fetch", "test", "-o", folder, "--server", server.address()}).exit_code, 0);
+  EXPECT_EQ(read_file(folder / "rigid_walls.csv"),
+            "time_s,wall,displacement_mm,normal_force_n,tangential_force_n\n"
+            "0.001,floor,0.5,12.25,-3\n0.002,floor,0.5,12.25,-3\n");
+}
+
 TEST(Plot, AJobsPngHasTheRightSizeAndIsNotBlank) {
   const FakeServer server(finished_script());
   const std::string file = (server.folder() / "a.png").string();

@@ -64,7 +64,7 @@ TEST(RequestFields, NoTextOfARequestNamesAFileOfTheDaemon) {
       "Sweep.StateCountsEntry.key", "Problem.field", "Problem.value", "Problem.message", "Problem.remedy",
       // Of a case: its title and the ids of a frame.
       "Case.title", "Frame.Node.id", "Frame.Beam.start", "Frame.Beam.end", "Frame.Support.node", "Frame.NodalLoad.node",
-      "Frame.NodalMotion.node", "Frame.InitialVelocity.node", "Frame.watched_nodes"};
+      "Frame.NodalMotion.node", "Frame.InitialVelocity.node", "Frame.RigidWall.id", "Frame.watched_nodes"};
   EXPECT_THAT(texts_of_requests(), ::testing::ContainerEq(known));
 }
 

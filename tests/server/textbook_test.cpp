@@ -1,6 +1,10 @@
 #include "scenes/textbook.h"
 
+#include <algorithm>
+#include <functional>
+
 #include "scenes/dynamic_claims.h"
+#include "scenes/rigid_walls.h"
 #include "scenes/textbook_claims.h"
 #include "server/daemon_fixture.h"
 #include "store/hdf5.h"
@@ -36,7 +40,21 @@ class TextbookJobs : public DaemonFixture {
       out.watched.push_back({node.ux_mm(), node.uy_mm(), node.rotation_rad(), node.reaction_x_n(), node.reaction_y_n(),
                              node.reaction_moment_n_mm()});
     }
+    for (const auto& wall : in.rigid_walls())
+      out.rigid_walls.push_back({wall.displacement_mm(), wall.normal_force_n(), wall.tangential_force_n()});
     return out;
+  }
+
+  /// Holds a dataset of the result to the samples.
+  void expect_column(const char* name, const std::vector<Sample>& samples,
+                     const std::function<double(const Sample& sample)>& value_of) {
+    const auto path = (data_folder() / job_ / "result.h5").string();
+    const store::Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "Opening the result");
+    const store::Hdf5Handle column(H5Dopen2(file.id(), name, H5P_DEFAULT), H5Dclose, "Opening the dataset");
+    ASSERT_EQ(store::shape_of(column.id()), std::vector<hsize_t>{samples.size()});
+    std::vector<double> values(samples.size());
+    store::read_rows(column.id(), H5T_NATIVE_DOUBLE, 0, values.size(), values.data());
+    for (std::size_t i = 0; i < samples.size(); ++i) EXPECT_EQ(values[i], value_of(samples[i])) << name << " " << i;
   }
 
   std::string job_;
@@ -70,18 +88,24 @@ TEST_F(TextbookJobs, EulersColumnRestsAtItsAngles) {
 
 TEST_F(TextbookJobs, WatchedNodesStandInTheResultBesideTheHistory) {
   const std::vector<Sample> samples = run(scenes::cycled_bar(0.0, 0.004, 2));
-  const auto path = (data_folder() / job_ / "result.h5").string();
-  const store::Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "Opening the result");
-  const auto expect_column = [&](const char* name, double WatchedNode::*field) {
-    const store::Hdf5Handle column(H5Dopen2(file.id(), name, H5P_DEFAULT), H5Dclose, "Opening the node");
-    ASSERT_EQ(store::shape_of(column.id()), std::vector<hsize_t>{samples.size()});
-    std::vector<double> values(samples.size());
-    store::read_rows(column.id(), H5T_NATIVE_DOUBLE, 0, values.size(), values.data());
-    for (std::size_t i = 0; i < samples.size(); ++i) EXPECT_EQ(values[i], samples[i].watched.front().*field) << i;
-  };
-  expect_column("/nodes/1/ux_mm", &WatchedNode::ux);
-  expect_column("/nodes/1/reaction_x_n", &WatchedNode::reaction_x);
+  expect_column("/nodes/1/ux_mm", samples, [](const Sample& sample) { return sample.watched.front().ux; });
+  expect_column("/nodes/1/reaction_x_n", samples,
+                [](const Sample& sample) { return sample.watched.front().reaction_x; });
   EXPECT_NE(samples.back().watched.front().reaction_x, 0.0);  // its end is moved
+}
+
+TEST_F(TextbookJobs, RigidWallsStandInTheResultBesideTheHistory) {
+  const std::vector<Sample> samples = run(scenes::TossedFrame::spec(0.3));
+  const auto wall_of = [](const Sample& sample) { return sample.rigid_walls.at(0); };
+  expect_column("/rigid_walls/0/displacement_mm", samples, [&](auto& sample) { return wall_of(sample).displacement; });
+  expect_column("/rigid_walls/0/normal_force_n", samples, [&](auto& sample) { return wall_of(sample).normal_force; });
+  expect_column("/rigid_walls/0/tangential_force_n", samples,
+                [&](auto& sample) { return wall_of(sample).tangential_force; });
+  EXPECT_GT(std::ranges::max(samples, {}, [&](auto& sample) { return wall_of(sample).normal_force; })
+                .rigid_walls[0]
+                .normal_force,
+            0.0);
+  EXPECT_NEAR(samples.back().rigid_walls[0].displacement, scenes::TossedFrame::kWallSpeed * samples.back().time, 1e-9);
 }
 
 }  // namespace

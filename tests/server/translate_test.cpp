@@ -214,6 +214,13 @@ TEST(Translate, EveryPartOfAFrameComesThroughBothWays) {
   frame.add_watched_nodes("right");
   frame.mutable_beams(0)->mutable_material()->set_density_kg_per_m3(1.0);
   frame.mutable_beams(0)->set_pin_end(true);
+  auto& wall = *frame.add_rigid_walls();
+  wall.set_id("floor");
+  wall.set_x_mm(1.0);
+  wall.set_y_mm(-2.0);
+  wall.set_normal_y(3.0);
+  wall.set_friction(0.25);
+  *wall.mutable_displacement_mm()->add_points() = point;
   const auto reading = translate::to_spec(given);
   EXPECT_THAT(reading.problems, IsEmpty());
   const auto& spec = std::get<FrameLattice>(reading.spec.lattice);
@@ -225,8 +232,28 @@ TEST(Translate, EveryPartOfAFrameComesThroughBothWays) {
   EXPECT_EQ(spec.beams.at(0).material->density_kg_per_m3, 1.0);
   EXPECT_FALSE(spec.beams.at(0).pin_start);
   EXPECT_TRUE(spec.beams.at(0).pin_end);
+  const FrameLattice::RigidWall floor = {1.0, -2.0, 0.0, 3.0, 0.25, {{0.5, 2.0}}};
+  EXPECT_EQ(spec.rigid_walls, std::vector{floor});
   const v1::Case once = translate::to_case(reading.spec);
   EXPECT_TRUE(MessageDifferencer::Equals(once, translate::to_case(translate::to_spec(once).spec)));
+}
+
+TEST(Translate, ARigidWallsMissingOrDoubleIdAndPlaceAreProblemsWithTheirPaths) {
+  v1::Case given = frame_case();
+  auto& frame = *given.mutable_lattice()->mutable_frame();
+  for (const char* id : {"floor", "floor", "", "a/b"}) {
+    auto& wall = *frame.add_rigid_walls();
+    wall.set_id(id);
+    wall.set_x_mm(0.0);
+    wall.set_y_mm(0.0);
+    wall.set_normal_x(1.0);
+  }
+  frame.mutable_rigid_walls(0)->clear_x_mm();
+  frame.mutable_rigid_walls(1)->mutable_displacement_mm();
+  EXPECT_THAT(fields_of(translate::to_spec(given).problems),
+              ElementsAre("lattice.frame.rigid_walls[0].x_mm", "lattice.frame.rigid_walls[1].id",
+                          "lattice.frame.rigid_walls[1].displacement_mm.points", "lattice.frame.rigid_walls[2].id",
+                          "lattice.frame.rigid_walls[3].id"));
 }
 
 TEST(Translate, IdsThatMeanSomethingInAPathAndDoubleWatchesAreProblems) {
@@ -251,11 +278,17 @@ TEST(Translate, ACheckTellsTheProblemsOfTheWireAndOfTheSolverAtOnce) {
 TEST(Translate, ACompletedFrameKeepsItsNodesNames) {
   v1::Case given = frame_case();
   given.mutable_lattice()->mutable_frame()->add_watched_nodes("right");
+  auto& wall = *given.mutable_lattice()->mutable_frame()->add_rigid_walls();
+  wall.set_id("ceiling");
+  wall.set_x_mm(0.0);
+  wall.set_y_mm(1000.0);
+  wall.set_normal_y(-1.0);
   const auto check = translate::check_case(given);
   ASSERT_THAT(fields_of(check.response), IsEmpty());
   EXPECT_EQ(check.response.completed_case().lattice().frame().nodes(1).id(), "right");
   EXPECT_EQ(check.response.completed_case().lattice().frame().watched_nodes(0), "right");
   EXPECT_EQ(check.response.completed_case().lattice().frame().beams(0).end(), "right");
+  EXPECT_EQ(check.response.completed_case().lattice().frame().rigid_walls(0).id(), "ceiling");
 }
 
 TEST(Translate, ASummaryKeepsAbsentValuesAbsent) {
