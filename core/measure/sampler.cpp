@@ -25,7 +25,7 @@ namespace {
 /// as many steps.
 constexpr double kCheckEvery = 0.04;
 
-/// Strain after which the densest layer is found anew: it takes as long as a step.
+/// Strain after which the densest layer is found again: it takes as long as a step.
 constexpr double kLayerEvery = 0.005;
 
 /// Fraction of the volume of an element whose fibres have yielded.

@@ -57,7 +57,7 @@ class Sampler {
   bool has_warned_of_search_ = false;
   bool has_warned_of_necks_ = false;
   bool has_warned_of_density_ = false;
-  double next_layer_strain_ = 0.0;  ///< strain from which the densest layer is found anew
+  double next_layer_strain_ = 0.0;  ///< strain from which the densest layer is found again
   DensestLayer densest_layer_;
   double next_check_;  ///< fraction of collapsed cells at which the crush mode is next evaluated
 };
