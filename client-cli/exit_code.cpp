@@ -16,15 +16,15 @@ ExitCode exit_code_of(grpc::StatusCode code) {
   }
 }
 
-ExitCode exit_code_of(v1::JobState state) {
+ExitCode exit_code_of(v1::Job::State state) {
   switch (state) {
-    case v1::SUCCEEDED: return ExitCode::done;
-    case v1::FAILED:
-    case v1::CANCELLED: return ExitCode::job_failed;
+    case v1::Job::SUCCEEDED: return ExitCode::done;
+    case v1::Job::FAILED:
+    case v1::Job::CANCELLED: return ExitCode::job_failed;
     default: return ExitCode::cut_off;
   }
 }
 
-bool is_final(v1::JobState state) { return exit_code_of(state) != ExitCode::cut_off; }
+bool is_final(v1::Job::State state) { return exit_code_of(state) != ExitCode::cut_off; }
 
 }  // namespace cellcrush::client

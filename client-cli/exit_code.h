@@ -21,9 +21,9 @@ enum class ExitCode : int {
 ExitCode exit_code_of(grpc::StatusCode code);
 
 /// The exit code for a watch that ended with the job in `state`.
-ExitCode exit_code_of(v1::JobState state);
+ExitCode exit_code_of(v1::Job::State state);
 
 /// Whether a job in this state will change no more.
-bool is_final(v1::JobState state);
+bool is_final(v1::Job::State state);
 
 }  // namespace cellcrush::client

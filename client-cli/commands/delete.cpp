@@ -20,7 +20,7 @@ std::string job_question(Connection& connection, const std::string& name) {
   request.set_name(name);
   const v1::Job job = connection.call(connection.jobs(), &v1::Jobs::Stub::GetJob, request);
   const std::string title = job.case_().title().empty() ? "" : ", " + printable(job.case_().title());
-  return fmt::format("Delete {} ({}{}) and its results?", name, v1::JobState_Name(job.state()), title);
+  return fmt::format("Delete {} ({}{}) and its results?", name, v1::Job::State_Name(job.state()), title);
 }
 
 std::string sweep_question(Connection& connection, const std::string& name) {

@@ -20,7 +20,7 @@ void change_job(Session& session, const std::string& name, JobMethod<Request> me
   Request request;
   request.set_name(job_name(name));
   const v1::Job job = connection.call(connection.jobs(), method, request);
-  session.json ? print_json(job) : fmt::print("{} {}\n", printable(job.name()), v1::JobState_Name(job.state()));
+  session.json ? print_json(job) : fmt::print("{} {}\n", printable(job.name()), v1::Job::State_Name(job.state()));
 }
 
 void cancel_sweep(Session& session, const std::string& name) {

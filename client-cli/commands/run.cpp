@@ -153,7 +153,7 @@ ExitCode run_case(Session& session, const RunOptions& options) {
     return ExitCode::interrupted;
   }
   if (job.has_summary()) write_results(connection, job, folder);
-  if (job.state() != v1::SUCCEEDED) fs::remove(folder / "case.txtpb");
+  if (job.state() != v1::Job::SUCCEEDED) fs::remove(folder / "case.txtpb");
   daemon.stop();
   data.keep(false);
   return exit_code_of(job.state());

@@ -31,7 +31,7 @@ WatchedJob show_job_to_its_end(Session& session, const std::string& name, const 
   const auto display = make_watch_display(session.json, find_terminal());
   const bool complete = follow_job(session.connection(), name, false, interruption, *display);
   v1::Job job = display->view().job();
-  if (job.cause() == v1::TIME_LIMIT && !time_limit_remedy.empty()) job.set_remedy(time_limit_remedy);
+  if (job.cause() == v1::Job::TIME_LIMIT && !time_limit_remedy.empty()) job.set_remedy(time_limit_remedy);
   if (complete) {
     display->finish();
     if (!session.json) fmt::print("{}", outcome_text(job));
@@ -54,7 +54,7 @@ WatchedSweep show_sweep_to_its_end(Session& session, const std::string& name, co
   } else {
     say_interrupted(name, jobs > 0 && view.count_ended() == jobs);
   }
-  return {view.sweep(), complete, complete && view.count(v1::SUCCEEDED) == jobs};
+  return {view.sweep(), complete, complete && view.count(v1::Job::SUCCEEDED) == jobs};
 }
 
 ExitCode watch_sweep(Session& session, const std::string& name, const Interruption& interruption) {

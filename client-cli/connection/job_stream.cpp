@@ -21,7 +21,7 @@ bool follow_job(Connection& connection, const std::string& name, bool frames, co
   v1::WatchJobRequest request;
   request.set_name(name);
   request.set_frames(frames);
-  v1::JobState state = v1::JOB_STATE_UNSPECIFIED;
+  v1::Job::State state = v1::Job::JOB_STATE_UNSPECIFIED;
   const auto read = [&](grpc::ClientContext& context, const std::function<void()>& heard) {
     StreamReading reading;
     const auto reader = jobs.WatchJob(&context, request);

@@ -24,7 +24,7 @@ class Remaining {
   }
 
  private:
-  void note(const std::string& job, v1::JobState state) {
+  void note(const std::string& job, v1::Job::State state) {
     // A job that is queued again after a failure has not ended.
     is_final(state) ? (void)ended_.insert(job) : (void)ended_.erase(job);
   }

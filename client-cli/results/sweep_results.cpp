@@ -98,7 +98,7 @@ std::vector<ResultSeries> split_series(const v1::SweepTable& table) {
   for (const auto& row : table.rows()) {
     const v1::Summary& summary = row.result().summary();
     const bool plateau = summary.has_plateau_stress_impact_mpa() && summary.has_plateau_stress_support_mpa();
-    if (row.result().state() != v1::SUCCEEDED || !plateau || row.values_size() != table.fields_size()) continue;
+    if (row.result().state() != v1::Job::SUCCEEDED || !plateau || row.values_size() != table.fields_size()) continue;
     const std::string name = other_values_text(table, row);
     auto group = std::find_if(groups.begin(), groups.end(), [&](const auto& known) { return known.first == name; });
     if (group == groups.end()) group = groups.insert(groups.end(), {name, {}});

@@ -53,9 +53,9 @@ std::string job_list_text(const std::vector<v1::Job>& jobs, int width) {
     if (title != title_above) table.add_title(title.empty() ? "untitled" : title);
     title_above = title;
     const bool plateau = job.summary().has_plateau_stress_impact_mpa();
-    const bool started = job.state() != v1::PENDING && job.has_progress();
-    const double done = job.state() == v1::SUCCEEDED ? 1.0 : job.progress().fraction();
-    std::vector<std::string> cells = {job.name(), v1::JobState_Name(job.state()),
+    const bool started = job.state() != v1::Job::PENDING && job.has_progress();
+    const double done = job.state() == v1::Job::SUCCEEDED ? 1.0 : job.progress().fraction();
+    std::vector<std::string> cells = {job.name(), v1::Job::State_Name(job.state()),
                                       started || done > 0.0 ? percent_text(done, 0) : "",
                                       plateau ? number_text(job.summary().plateau_stress_impact_mpa()) : ""};
     for (const std::string& field : fields) cells.push_back(field_value_text(job.case_(), field));

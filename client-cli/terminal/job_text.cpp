@@ -34,7 +34,7 @@ void add_progress_rows(Table& table, const v1::Job& job) {
   table.add({"progress",
              text + fmt::format(", step {} of {}", count_text(progress.step()), count_text(progress.step_count()))});
   if (progress.stalled()) table.add({"", "the worker has stalled; it is replaced if it stays so"});
-  if (job.state() == v1::RUNNING && progress.steps_per_second() > 0) {
+  if (job.state() == v1::Job::RUNNING && progress.steps_per_second() > 0) {
     table.add({"time left", duration_text(progress.seconds_left()) + " at " + number_text(progress.steps_per_second()) +
                                 " steps/s"});
   }
@@ -60,9 +60,9 @@ std::string stage_times_text(const v1::StageTimes& times, int width) {
 }  // namespace
 
 std::string outcome_text(const v1::Job& job, int width) {
-  std::string text = printable(job.name()) + " " + v1::JobState_Name(job.state());
-  if (job.state() == v1::FAILED && job.cause() != v1::JOB_CAUSE_UNSPECIFIED)
-    text += " (" + v1::JobCause_Name(job.cause()) + ")";
+  std::string text = printable(job.name()) + " " + v1::Job::State_Name(job.state());
+  if (job.state() == v1::Job::FAILED && job.cause() != v1::Job::JOB_CAUSE_UNSPECIFIED)
+    text += " (" + v1::Job::Cause_Name(job.cause()) + ")";
   const std::string run_time = run_time_text(job);
   if (!run_time.empty()) text += " within " + run_time;
   if (job.has_summary()) {

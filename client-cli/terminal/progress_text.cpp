@@ -42,19 +42,19 @@ std::vector<std::string> progress_fields(const JobView& view) {
 
 std::string remaining_text(const JobView& view) {
   const v1::Progress& progress = view.progress();
-  if (view.job().state() != v1::RUNNING || progress.steps_per_second() <= 0)
-    return v1::JobState_Name(view.job().state());
+  if (view.job().state() != v1::Job::RUNNING || progress.steps_per_second() <= 0)
+    return v1::Job::State_Name(view.job().state());
   return duration_text(progress.seconds_left()) + " left";
 }
 
 // Rank of a state in a job's life; the display never goes back to an earlier state.
-int rank_of(v1::JobState state) {
+int rank_of(v1::Job::State state) {
   switch (state) {
-    case v1::JOB_STATE_UNSPECIFIED: return 0;
-    case v1::PENDING: return 1;
-    case v1::RUNNING:
-    case v1::SUSPENDED:
-    case v1::CANCELLING: return 2;
+    case v1::Job::JOB_STATE_UNSPECIFIED: return 0;
+    case v1::Job::PENDING: return 1;
+    case v1::Job::RUNNING:
+    case v1::Job::SUSPENDED:
+    case v1::Job::CANCELLING: return 2;
     default: return 3;
   }
 }
@@ -73,7 +73,7 @@ void JobView::apply(const v1::JobEvent& event) {
       if (!job_.has_progress()) *job_.mutable_progress() = known.progress();
       if (!job_.has_case_() && known.has_case_()) *job_.mutable_case_() = known.case_();
       // The last progress was reported a moment before the end.
-      if (job_.state() == v1::SUCCEEDED) job_.mutable_progress()->set_fraction(1.0);
+      if (job_.state() == v1::Job::SUCCEEDED) job_.mutable_progress()->set_fraction(1.0);
       break;
     }
     case v1::JobEvent::kProgress: *job_.mutable_progress() = event.progress(); break;
@@ -107,7 +107,7 @@ std::string bar_text(double fraction, int width, const Terminal& terminal) {
 std::vector<std::string> progress_lines(const JobView& view, int width, const Terminal& terminal) {
   constexpr int kLongestBar = 100;
   constexpr int kShortestBar = 8;
-  if (view.job().state() == v1::PENDING) return {cut("waiting for a worker", width)};
+  if (view.job().state() == v1::Job::PENDING) return {cut("waiting for a worker", width)};
   const std::string percent = fmt::format("{:>8}", percent_text(view.progress().fraction()));
   const std::string remaining = remaining_text(view);
   // Room for the longest duration, so that the bar keeps its width.
@@ -131,8 +131,8 @@ std::vector<std::string> progress_lines(const JobView& view, int width, const Te
 
 std::string progress_line(const JobView& view) {
   std::string line = printable(view.job().name()) + "  ";
-  if (view.job().state() == v1::PENDING) return line + "PENDING: waiting for a worker";
-  if (is_final(view.job().state())) return line + v1::JobState_Name(view.job().state());
+  if (view.job().state() == v1::Job::PENDING) return line + "PENDING: waiting for a worker";
+  if (is_final(view.job().state())) return line + v1::Job::State_Name(view.job().state());
   line += fmt::format("{:>7}", percent_text(view.progress().fraction()));
   for (const std::string& field : progress_fields(view)) line.append("  ").append(field);
   return line.append("  ").append(remaining_text(view));

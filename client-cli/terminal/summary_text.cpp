@@ -96,7 +96,7 @@ void add_quasi_static_rows(Table& table, const v1::Summary& summary) {
 }
 
 std::string warning_text(const v1::Warning& warning, int width) {
-  return wrapped(fmt::format("Warning ({}): {}", v1::WarningKind_Name(warning.kind()), printable(warning.message())),
+  return wrapped(fmt::format("Warning ({}): {}", v1::Warning::Kind_Name(warning.kind()), printable(warning.message())),
                  width, "  ", "    ") +
          wrapped("Remedy: " + printable(warning.remedy()), width, "    ", "    ");
 }
@@ -129,21 +129,21 @@ std::string ledger_text(const v1::Ledger& ledger, int width) {
 
 std::string stress_text(double stress) { return number_text(stress) + " MPa"; }
 
-std::string crush_mode_code(v1::CrushMode mode) {
+std::string crush_mode_code(v1::Summary::CrushMode mode) {
   constexpr std::string_view kPrefix = "CRUSH_MODE_";
-  const std::string& name = v1::CrushMode_Name(mode);
-  if (mode == v1::CRUSH_MODE_UNSPECIFIED || name.size() < kPrefix.size()) return {};
+  const std::string& name = v1::Summary::CrushMode_Name(mode);
+  if (mode == v1::Summary::CRUSH_MODE_UNSPECIFIED || name.size() < kPrefix.size()) return {};
   return name.substr(kPrefix.size());
 }
 
-std::string crush_mode_text(v1::CrushMode mode) {
+std::string crush_mode_text(v1::Summary::CrushMode mode) {
   switch (mode) {
-    case v1::CRUSH_MODE_NONE: return "none (too few cells have collapsed)";
-    case v1::CRUSH_MODE_X: return "crossed bands (X)";
-    case v1::CRUSH_MODE_V: return "V-shaped band (V)";
-    case v1::CRUSH_MODE_I: return "layer by layer (I)";
-    case v1::CRUSH_MODE_C: return "curved band (C)";
-    case v1::CRUSH_MODE_MIXED: return "mixed";
+    case v1::Summary::CRUSH_MODE_NONE: return "none (too few cells have collapsed)";
+    case v1::Summary::CRUSH_MODE_X: return "crossed bands (X)";
+    case v1::Summary::CRUSH_MODE_V: return "V-shaped band (V)";
+    case v1::Summary::CRUSH_MODE_I: return "layer by layer (I)";
+    case v1::Summary::CRUSH_MODE_C: return "curved band (C)";
+    case v1::Summary::CRUSH_MODE_MIXED: return "mixed";
     default: return crush_mode_code(mode);
   }
 }

@@ -12,10 +12,10 @@ namespace cellcrush::client {
 std::string stress_text(double stress);
 
 /// "V" of CRUSH_MODE_V; empty if unknown.
-std::string crush_mode_code(v1::CrushMode mode);
+std::string crush_mode_code(v1::Summary::CrushMode mode);
 
 /// The same in words: "V-shaped band (V)".
-std::string crush_mode_text(v1::CrushMode mode);
+std::string crush_mode_text(v1::Summary::CrushMode mode);
 
 /// Summary of a run. For a crush: plateau stresses with theory, front, crush mode and, for a slow one, how quasi-static
 /// it was. For any run: energy ledger, contact and warnings.

@@ -42,7 +42,7 @@ std::vector<const Entry*> find_shown(const SweepView& view, int room) {
   std::vector<const Entry*> shown;
   for (const bool running : {true, false}) {
     for (const Entry& entry : view.jobs()) {
-      if ((entry.state() == v1::RUNNING) == running && static_cast<int>(shown.size()) < room) shown.push_back(&entry);
+      if ((entry.state() == v1::Job::RUNNING) == running && static_cast<int>(shown.size()) < room) shown.push_back(&entry);
     }
   }
   std::sort(shown.begin(), shown.end());
@@ -51,8 +51,8 @@ std::vector<const Entry*> find_shown(const SweepView& view, int room) {
 
 std::string counts_text(const SweepView& view) {
   std::string text = fmt::format("{} of {} jobs ended", view.count_ended(), view.jobs().size());
-  for (const v1::JobState state : {v1::RUNNING, v1::PENDING, v1::SUSPENDED, v1::FAILED, v1::CANCELLED}) {
-    if (const int count = view.count(state); count > 0) text += fmt::format(", {} {}", count, v1::JobState_Name(state));
+  for (const v1::Job::State state : {v1::Job::RUNNING, v1::Job::PENDING, v1::Job::SUSPENDED, v1::Job::FAILED, v1::Job::CANCELLED}) {
+    if (const int count = view.count(state); count > 0) text += fmt::format(", {} {}", count, v1::Job::State_Name(state));
   }
   return text;
 }
@@ -91,10 +91,10 @@ std::vector<std::string> job_rows(const SweepView& view, const std::vector<const
     const v1::Job& job = entry->view.job();
     std::vector<std::string> cells;
     for (const std::string& field : fields) cells.push_back(field_value_text(job.case_(), field));
-    const bool waits = entry->state() == v1::PENDING;
+    const bool waits = entry->state() == v1::Job::PENDING;
     const bool strained = !waits && !job.case_().lattice().has_frame();
     cells.insert(cells.end(),
-                 {v1::JobState_Name(entry->state()), waits ? "" : percent_text(job.progress().fraction()),
+                 {v1::Job::State_Name(entry->state()), waits ? "" : percent_text(job.progress().fraction()),
                   plateau_text(job), strained ? fmt::format("{:.2f}", job.progress().strain()) : "", entry->name});
     table.add(std::move(cells));
   }
@@ -128,7 +128,7 @@ std::string sweep_progress_line(const SweepView& view) {
   int shown = 0;
   const auto fields = varied_fields(view.sweep());
   for (const Entry& entry : view.jobs()) {
-    if (entry.state() != v1::RUNNING || shown == kShown) continue;
+    if (entry.state() != v1::Job::RUNNING || shown == kShown) continue;
     ++shown;
     const std::string values = field_values_text(entry.view.job().case_(), fields);
     line += fmt::format("; {}: {}", printable(values.empty() ? entry.name : values),

@@ -70,8 +70,8 @@ std::string failures_text(const v1::SweepTable& table, int width) {
   std::string text;
   for (const Row& row : table.rows()) {
     const v1::Job& job = row.result();
-    if (job.state() != v1::FAILED) continue;
-    std::string line = fmt::format("{} FAILED ({})", printable(row.job()), v1::JobCause_Name(job.cause()));
+    if (job.state() != v1::Job::FAILED) continue;
+    std::string line = fmt::format("{} FAILED ({})", printable(row.job()), v1::Job::Cause_Name(job.cause()));
     if (!job.cause_message().empty()) line += ": " + printable(job.cause_message());
     text += '\n' + wrapped(line, width, "", "  ");
     if (!job.remedy().empty()) text += wrapped("Remedy: " + printable(job.remedy()), width, "    ", "    ");
@@ -123,7 +123,7 @@ std::string sweep_table_text(const v1::SweepTable& results, const v1::Lattice& l
     std::vector<std::string> cells;
     for (const double value : row.values()) cells.push_back(value_text(value));
     cells.resize(fields);
-    cells.insert(cells.end(), {row.job(), v1::JobState_Name(row.result().state())});
+    cells.insert(cells.end(), {row.job(), v1::Job::State_Name(row.result().state())});
     for (const ResultColumn& column : result_columns()) {
       const auto value = column.value(row.result().summary());
       cells.push_back(value ? number_text(column.scale * *value, digits) : "-");
@@ -150,7 +150,7 @@ std::string sweep_table_csv(const v1::SweepTable& results) {
     for (int i = 0; i < results.fields_size(); ++i) {
       text += (i < row.values_size() ? value_text(row.values(i)) : std::string()) + ',';
     }
-    text += csv_cell(row.job()) + ',' + v1::JobState_Name(row.result().state());
+    text += csv_cell(row.job()) + ',' + v1::Job::State_Name(row.result().state());
     for (const ResultColumn& column : result_columns()) {
       const auto value = column.value(row.result().summary());
       text += ',' + (value ? fmt::format("{}", *value) : std::string());

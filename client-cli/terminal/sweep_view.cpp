@@ -26,9 +26,9 @@ std::optional<double> duration_of(const Entry& entry) {
 
 }  // namespace
 
-v1::JobState SweepView::Entry::state() const {
-  const v1::JobState state = view.job().state();
-  return state == v1::JOB_STATE_UNSPECIFIED ? v1::PENDING : state;
+v1::Job::State SweepView::Entry::state() const {
+  const v1::Job::State state = view.job().state();
+  return state == v1::Job::JOB_STATE_UNSPECIFIED ? v1::Job::PENDING : state;
 }
 
 void SweepView::apply(const v1::WatchSweepResponse& response) {
@@ -39,12 +39,12 @@ void SweepView::apply(const v1::WatchSweepResponse& response) {
   if (!response.job().empty()) find_entry(response.job()).view.apply(response.event());
 }
 
-int SweepView::count(v1::JobState state) const {
+int SweepView::count(v1::Job::State state) const {
   return static_cast<int>(
       std::count_if(jobs_.begin(), jobs_.end(), [&](const Entry& entry) { return entry.state() == state; }));
 }
 
-int SweepView::count_ended() const { return count(v1::SUCCEEDED) + count(v1::FAILED) + count(v1::CANCELLED); }
+int SweepView::count_ended() const { return count(v1::Job::SUCCEEDED) + count(v1::Job::FAILED) + count(v1::Job::CANCELLED); }
 
 double SweepView::fraction() const {
   double done = 0.0;
@@ -62,13 +62,13 @@ std::optional<double> SweepView::seconds_left() const {
       known += *duration;
       ++known_count;
     }
-    if (entry.state() != v1::RUNNING) continue;
+    if (entry.state() != v1::Job::RUNNING) continue;
     left += entry.view.progress().seconds_left();
     longest = std::max(longest, entry.view.progress().seconds_left());
   }
-  const int running = count(v1::RUNNING);
+  const int running = count(v1::Job::RUNNING);
   if (running == 0 || known_count == 0) return std::nullopt;
-  left += known / known_count * count(v1::PENDING);
+  left += known / known_count * count(v1::Job::PENDING);
   return std::max(left / running, longest);
 }
 

@@ -17,7 +17,7 @@ class SweepView {
     JobView view;
 
     /// PENDING until an event arrives.
-    [[nodiscard]] v1::JobState state() const;
+    [[nodiscard]] v1::Job::State state() const;
   };
 
   void apply(const v1::WatchSweepResponse& response);
@@ -25,7 +25,7 @@ class SweepView {
   [[nodiscard]] const v1::Sweep& sweep() const { return sweep_; }
   /// Its jobs, in the order of the sweep.
   [[nodiscard]] const std::vector<Entry>& jobs() const { return jobs_; }
-  [[nodiscard]] int count(v1::JobState state) const;
+  [[nodiscard]] int count(v1::Job::State state) const;
   /// Number of jobs in a final state.
   [[nodiscard]] int count_ended() const;
 

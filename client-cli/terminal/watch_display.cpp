@@ -33,7 +33,7 @@ class JobJsonDisplay : public WatchDisplay {
 class JobLineDisplay : public WatchDisplay {
  public:
   void on_event(const v1::JobEvent& event) override {
-    const v1::JobState before = view_.job().state();
+    const v1::Job::State before = view_.job().state();
     view_.apply(event);
     pending_ = !event.has_bookmark();
     if (view_.job().state() != before || (pending_ && Clock::now() - printed_ >= 1s)) print();
@@ -64,7 +64,7 @@ class JobLiveDisplay : public WatchDisplay {
   explicit JobLiveDisplay(const Terminal& terminal) : terminal_(terminal) {}
 
   void on_event(const v1::JobEvent& event) override {
-    const v1::JobState before = view_.job().state();
+    const v1::Job::State before = view_.job().state();
     view_.apply(event);
     if (!headed_) fmt::print("{}\n", cut(heading(), terminal_width() - 1));
     headed_ = true;

@@ -59,7 +59,7 @@ std::vector<MeshEstimate> estimates_of(const Measure& measure, const std::vector
                                        std::size_t mesh_index) {
   std::map<int, MeshResult> results;
   for (const auto& row : rows) {
-    if (row.result().state() != v1::SUCCEEDED) continue;
+    if (row.result().state() != v1::Job::SUCCEEDED) continue;
     const int elements = static_cast<int>(row.values(static_cast<int>(mesh_index)));
     results[elements].elements_per_wall = elements;
     if (const auto value = measure.value_of(row.result().summary())) results[elements].values.push_back(*value);
@@ -106,7 +106,7 @@ v1::Convergence convergence_of(const v1::Sweep& sweep, const std::vector<v1::Swe
   v1::Convergence out;
   out.set_wanted_error_relative(wanted_error);
   out.set_job_count_left_out(static_cast<int>(
-      std::ranges::count_if(rows, [](const auto& row) { return row.result().state() != v1::SUCCEEDED; })));
+      std::ranges::count_if(rows, [](const auto& row) { return row.result().state() != v1::Job::SUCCEEDED; })));
   std::vector<std::vector<MeshEstimate>> plateaus;
   for (const Measure& measure : kMeasures) {
     auto estimates = estimates_of(measure, rows, mesh_index);

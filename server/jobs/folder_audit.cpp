@@ -38,7 +38,7 @@ class FolderAudit {
  public:
   FolderAudit(store::JournalReader& reader, const store::DataFolder& folder, Executor& executor)
       : reader_(reader), folder_(folder), executor_(executor) {
-    for (const auto state : {v1::PENDING, v1::RUNNING, v1::SUSPENDED, v1::CANCELLING}) {
+    for (const auto state : {v1::Job::PENDING, v1::Job::RUNNING, v1::Job::SUSPENDED, v1::Job::CANCELLING}) {
       for (const auto& job : reader.queued_jobs(state)) open_.insert(job.job);
     }
   }

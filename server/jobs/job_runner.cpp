@@ -38,23 +38,23 @@ bool JobRunner::run(std::int64_t job, int threads, const Interruptions& interrup
                     const std::stop_token& daemons_end) {
   while (true) {
     Run run{threads, interruptions, daemons_end, {}};
-    v1::JobState state = run_once(job, run);
+    v1::Job::State state = run_once(job, run);
     if (run.trouble) {
       parts_.hold.failed(run.trouble);
       state = put_back(job, run);
     }
     // It is CANCELLING if it was cancelled just after its worker had left it: it then ends with the samples so far.
-    if (state != v1::CANCELLING) return state == v1::PENDING;
+    if (state != v1::Job::CANCELLING) return state == v1::Job::PENDING;
     if (run.trouble && !pause_unless_stopped(daemons_end, kBetweenTries)) return false;
   }
 }
 
-v1::JobState JobRunner::run_once(std::int64_t job, Run& run) {
+v1::Job::State JobRunner::run_once(std::int64_t job, Run& run) {
   store::StateChange next;
   try {
     const auto stored = parts_.reader.find_job(job);
-    if (!stored || stored->job.state() == v1::SUSPENDED || store::is_terminal(stored->job.state()))
-      return v1::JOB_STATE_UNSPECIFIED;
+    if (!stored || stored->job.state() == v1::Job::SUSPENDED || store::is_terminal(stored->job.state()))
+      return v1::Job::JOB_STATE_UNSPECIFIED;
     try {
       next = next_of(*stored, run);
     } catch (const BeginAgain& reason) {
@@ -62,21 +62,21 @@ v1::JobState JobRunner::run_once(std::int64_t job, Run& run) {
     }
   } catch (const Withdrawn&) {
     spdlog::info("{} was cancelled before it started", store::name_of(job));
-    return v1::JOB_STATE_UNSPECIFIED;
+    return v1::Job::JOB_STATE_UNSPECIFIED;
   } catch (const std::exception& error) {
     run.trouble = trouble_of(error);
     end_leftover_if_possible(job);
     next = outcome_of(error);
   }
   parts_.metrics.set_speed(job, 0.0);
-  if (run.trouble) return v1::JOB_STATE_UNSPECIFIED;
+  if (run.trouble) return v1::Job::JOB_STATE_UNSPECIFIED;
   // Its state is unchanged, and it is to be rerun.
-  if (next.state == v1::JOB_STATE_UNSPECIFIED) return v1::PENDING;
+  if (next.state == v1::Job::JOB_STATE_UNSPECIFIED) return v1::Job::PENDING;
   return write(job, next, run.daemons_end);
 }
 
 store::StateChange JobRunner::next_of(const store::StoredJob& stored, Run& run) {
-  const bool has_begun = stored.job.state() == v1::RUNNING || stored.job.state() == v1::CANCELLING;
+  const bool has_begun = stored.job.state() == v1::Job::RUNNING || stored.job.state() == v1::Job::CANCELLING;
   if (!has_begun && !parts_.folder.keep_ballast())
     throw ServiceError(Shortage::full_disk, "The data folder's disk is full.");
   if (!has_begun || parts_.executor.has_worker(parts_.folder.job_folder(stored.number)))
@@ -91,7 +91,7 @@ std::optional<store::StateChange> JobRunner::left_behind(const store::StoredJob&
   if (last_word && last_word->final && last_word->final->has_begin_again())
     throw BeginAgain{last_word->final->begin_again()};
   if (last_word) return outcome_of(*last_word);
-  if (stored.job.state() == v1::CANCELLING) return std::nullopt;
+  if (stored.job.state() == v1::Job::CANCELLING) return std::nullopt;
   return tried_again(worker_missing());
 }
 
@@ -104,15 +104,15 @@ JobRunner::Left JobRunner::reconcile(std::int64_t job) {
     try {
       next = left_behind(*stored);
     } catch (const BeginAgain& reason) {
-      return begin_again(job, reason.why) == v1::CANCELLING ? Left::is_to_run : Left::waits;
+      return begin_again(job, reason.why) == v1::Job::CANCELLING ? Left::is_to_run : Left::waits;
     } catch (const ServiceError& error) {
       if (error.kind() != ServiceError::Kind::data_loss) throw;
       next = outcome_of(error);
     }
     std::string logged;
     const auto written = next ? try_write(job, *next, logged) : std::nullopt;
-    if (!written || *written == v1::CANCELLING) return Left::is_to_run;
-    return next->state == v1::PENDING ? Left::waits : Left::ended;
+    if (!written || *written == v1::Job::CANCELLING) return Left::is_to_run;
+    return next->state == v1::Job::PENDING ? Left::waits : Left::ended;
   } catch (const std::exception& error) {
     spdlog::warn("Could not take over {} from an earlier daemon; trying again: {}", store::name_of(job), error.what());
     return Left::is_to_run;
@@ -162,9 +162,9 @@ WorkerEvents JobRunner::events_of(const store::StoredJob& stored) {
     const auto now = parts_.reader.find_job(job);
     if (!now) throw Withdrawn();
     // An earlier daemon started the worker.
-    if (now->job.state() == v1::CANCELLING || now->job.state() == v1::RUNNING) return parts_.hold.succeeded();
+    if (now->job.state() == v1::Job::CANCELLING || now->job.state() == v1::Job::RUNNING) return parts_.hold.succeeded();
     store::StateChange running;
-    running.state = v1::RUNNING;
+    running.state = v1::Job::RUNNING;
     running.worker_pid = pid;
     try {
       parts_.journal.change_state(job, running);
@@ -241,7 +241,7 @@ bool JobRunner::got_further(std::int64_t job) {
 
 // Makes a result from the reports of lost workers, if possible.
 store::StateChange JobRunner::given_up(const store::StoredJob& stored, store::StateChange loss, Run& run) {
-  const bool is_cancelled = loss.state == v1::CANCELLED;
+  const bool is_cancelled = loss.state == v1::Job::CANCELLED;
   // The next daemon ends it.
   if (is_cancelled && run.daemons_end.stop_requested()) return {};
   // A cancelled job ends even if it was to be suspended or the disk is nearly full.
@@ -272,73 +272,73 @@ store::StateChange JobRunner::given_up(const store::StoredJob& stored, store::St
   return loss;
 }
 
-v1::JobState JobRunner::begin_again(std::int64_t job, const std::string& why) {
+v1::Job::State JobRunner::begin_again(std::int64_t job, const std::string& why) {
   end_leftover(job);
   try {
     parts_.journal.begin_again(job, why);
   } catch (const ServiceError& error) {
-    if (error.kind() == ServiceError::Kind::not_found) return v1::JOB_STATE_UNSPECIFIED;
+    if (error.kind() == ServiceError::Kind::not_found) return v1::Job::JOB_STATE_UNSPECIFIED;
     if (error.kind() != ServiceError::Kind::failed_precondition) throw;
     // A cancelled job ends without a result.
     parts_.folder.discard_run(job);
-    return v1::CANCELLING;
+    return v1::Job::CANCELLING;
   }
   spdlog::warn("{}: {}", store::name_of(job), why);
   parts_.folder.discard_run(job);
   if (const auto channel = parts_.hub.find(job)) channel->forget();
   const MutexLock lock(mutex_);
   losses_.erase(job);
-  return v1::PENDING;
+  return v1::Job::PENDING;
 }
 
-v1::JobState JobRunner::put_back(std::int64_t job, const Run& run) {
+v1::Job::State JobRunner::put_back(std::int64_t job, const Run& run) {
   do {
     try {
       const auto stored = parts_.reader.find_job(job);
-      if (!stored) return v1::JOB_STATE_UNSPECIFIED;
-      if (stored->job.state() != v1::RUNNING) return stored->job.state();
+      if (!stored) return v1::Job::JOB_STATE_UNSPECIFIED;
+      if (stored->job.state() != v1::Job::RUNNING) return stored->job.state();
       return write(job, waits_for(run.trouble), run.daemons_end);
     } catch (const std::exception& error) {
       const Trouble trouble = trouble_of(error);
       if (!trouble) {
         spdlog::error("{} cannot be read and is skipped until the daemon restarts: {}", store::name_of(job),
                       error.what());
-        return v1::JOB_STATE_UNSPECIFIED;
+        return v1::Job::JOB_STATE_UNSPECIFIED;
       }
       parts_.hold.failed(trouble);
     }
   } while (pause_unless_stopped(run.daemons_end, kBetweenTries));
-  return v1::JOB_STATE_UNSPECIFIED;
+  return v1::Job::JOB_STATE_UNSPECIFIED;
 }
 
-v1::JobState JobRunner::write(std::int64_t job, const store::StateChange& change, const std::stop_token& daemons_end) {
+v1::Job::State JobRunner::write(std::int64_t job, const store::StateChange& change, const std::stop_token& daemons_end) {
   // When the daemon ends, the job keeps its state, and the next daemon reconciles it.
   std::string logged;
   do {
     if (const auto written = try_write(job, change, logged)) return *written;
   } while (pause_unless_stopped(daemons_end, kBetweenTries));
-  return v1::JOB_STATE_UNSPECIFIED;
+  return v1::Job::JOB_STATE_UNSPECIFIED;
 }
 
-std::optional<v1::JobState> JobRunner::try_write(std::int64_t job, const store::StateChange& change,
+std::optional<v1::Job::State> JobRunner::try_write(std::int64_t job, const store::StateChange& change,
                                                  std::string& logged) {
   try {
     parts_.stopped(parts_.journal.change_state(job, change));
-    spdlog::info("{} {}{}{}", store::name_of(job), v1::JobState_Name(change.state), change.message.empty() ? "" : ": ",
+    spdlog::info("{} {}{}{}", store::name_of(job), v1::Job::State_Name(change.state), change.message.empty() ? "" : ": ",
                  change.message);
-    if (change.state == v1::SUCCEEDED) parts_.hold.proven();
+    if (change.state == v1::Job::SUCCEEDED) parts_.hold.proven();
     if (store::is_terminal(change.state)) tidy_up(job, change);
     return change.state;
   } catch (const std::exception& error) {
     const auto* refused = dynamic_cast<const ServiceError*>(&error);
     const auto kind = refused != nullptr ? refused->kind() : ServiceError::Kind::internal;
-    if (kind == ServiceError::Kind::not_found) return v1::JOB_STATE_UNSPECIFIED;
+    if (kind == ServiceError::Kind::not_found) return v1::Job::JOB_STATE_UNSPECIFIED;
     // It was cancelled just after its worker had left it, or another call has changed its state.
     if (kind == ServiceError::Kind::failed_precondition)
-      return store::is_terminal(change.state) ? v1::JOB_STATE_UNSPECIFIED : v1::CANCELLING;
+      return store::is_terminal(change.state) ? v1::Job::JOB_STATE_UNSPECIFIED : v1::Job::CANCELLING;
     if (std::exchange(logged, error.what()) != error.what())
       spdlog::error("The state of {} cannot be saved: {}", store::name_of(job), error.what());
-    if (kind == ServiceError::Kind::data_loss) return v1::JOB_STATE_UNSPECIFIED;
+    if (kind == ServiceError::Kind::data_loss) return v1::Job::JOB_STATE_UNSPECIFIED;
     if (kind == ServiceError::Kind::storage_full) parts_.folder.give_up_ballast();
     if (const Trouble trouble = trouble_of(error)) parts_.hold.failed(trouble);
     return std::nullopt;

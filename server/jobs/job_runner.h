@@ -71,7 +71,7 @@ class JobRunner {
 
   worker::Order order_of(const store::StoredJob& stored) const;
   /// The state written: PENDING also if the job is to be rerun as is, CANCELLING if it was cancelled meanwhile.
-  v1::JobState run_once(std::int64_t job, Run& run);
+  v1::Job::State run_once(std::int64_t job, Run& run);
   store::StateChange next_of(const store::StoredJob& stored, Run& run);
   /// The outcome for a job whose worker is gone; nothing if it was cancelled and must be given up.
   std::optional<store::StateChange> left_behind(const store::StoredJob& stored);
@@ -83,16 +83,16 @@ class JobRunner {
   /// No state if the job was cancelled and the daemon ends: the next daemon gives it up.
   store::StateChange given_up(const store::StoredJob& stored, store::StateChange loss, Run& run);
   /// Returns a job that met a shortage to the queue. Returns its state then: CANCELLING if it was cancelled.
-  v1::JobState put_back(std::int64_t job, const Run& run);
+  v1::Job::State put_back(std::int64_t job, const Run& run);
   /// Retries until the write succeeds or the daemon ends. Returns the state written, if any; CANCELLING if the job is
   /// in that state and the transition is not allowed.
-  v1::JobState write(std::int64_t job, const store::StateChange& change, const std::stop_token& daemons_end);
+  v1::Job::State write(std::int64_t job, const store::StateChange& change, const std::stop_token& daemons_end);
   /// Nothing if it cannot be written now. `logged`: the last reason, so that each is logged once.
-  std::optional<v1::JobState> try_write(std::int64_t job, const store::StateChange& change, std::string& logged);
+  std::optional<v1::Job::State> try_write(std::int64_t job, const store::StateChange& change, std::string& logged);
   void end_leftover_if_possible(std::int64_t job);
   /// Discards what workers made of the job, in the journal and its folder, so that it restarts from step 0. Returns its
   /// state then: PENDING, CANCELLING if it was cancelled first, none if it was deleted. Throws ServiceError.
-  v1::JobState begin_again(std::int64_t job, const std::string& why);
+  v1::Job::State begin_again(std::int64_t job, const std::string& why);
   void tidy_up(std::int64_t job, const store::StateChange& change);
 
   struct Losses {

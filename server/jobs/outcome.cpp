@@ -16,9 +16,9 @@ namespace {
 constexpr int kCannotBeRun = 126;
 constexpr int kCannotBeFound = 127;
 
-store::StateChange failed(v1::JobCause cause, std::string message, std::string remedy) {
+store::StateChange failed(v1::Job::Cause cause, std::string message, std::string remedy) {
   store::StateChange out;
-  out.state = v1::FAILED;
+  out.state = v1::Job::FAILED;
   out.cause = cause;
   out.message = std::move(message);
   out.remedy = std::move(remedy);
@@ -34,10 +34,10 @@ std::string signal_name(int number) {
 
 store::StateChange of_final(const worker::Final& final) {
   store::StateChange out;
-  if (final.cause() != v1::JOB_CAUSE_UNSPECIFIED) {
+  if (final.cause() != v1::Job::JOB_CAUSE_UNSPECIFIED) {
     out = failed(final.cause(), final.message(), final.remedy());
   } else {
-    out.state = final.cancelled() ? v1::CANCELLED : v1::SUCCEEDED;
+    out.state = final.cancelled() ? v1::Job::CANCELLED : v1::Job::SUCCEEDED;
   }
   if (final.has_summary()) out.summary = final.summary();
   return out;
@@ -88,7 +88,7 @@ Trouble trouble_of_exit(const WorkerExit& exit) {
 
 store::StateChange waits_for(const Trouble& trouble) {
   store::StateChange out;
-  out.state = v1::PENDING;
+  out.state = v1::Job::PENDING;
   out.message = trouble.reason + " The job resumes from its last checkpoint once that is resolved.";
   out.remedy = remedy_for(trouble.shortage);
   return out;
@@ -109,11 +109,11 @@ store::StateChange outcome_of(const WorkerExit& exit) {
   store::StateChange out;
   switch (exit.kind) {
     case WorkerExit::Kind::stopped:
-      out.state = v1::PENDING;
+      out.state = v1::Job::PENDING;
       out.message = "The worker suspended the job at a checkpoint; another worker resumes it from there.";
       return out;
     case WorkerExit::Kind::suspended:
-      out.state = v1::SUSPENDED;
+      out.state = v1::Job::SUSPENDED;
       out.message = "The job was suspended at a checkpoint";
       if (exit.final) out.message += ", at step " + std::to_string(exit.final->suspended_step());
       out.message += ".";
@@ -122,17 +122,17 @@ store::StateChange outcome_of(const WorkerExit& exit) {
     default: break;
   }
   if (exit.out_of_memory) {
-    return failed(v1::OUT_OF_MEMORY,
+    return failed(v1::Job::OUT_OF_MEMORY,
                   "The kernel killed the worker process: the machine or its control group ran out of memory.",
                   "Use fewer cells or elements_per_wall, run fewer jobs at once (--workers), or provide more memory.");
   }
   const Loss loss = loss_of(exit);
-  return failed(v1::WORKER_CRASHED, loss.what, loss.remedy);
+  return failed(v1::Job::WORKER_CRASHED, loss.what, loss.remedy);
 }
 
 store::StateChange tried_again(store::StateChange lost) {
-  lost.state = v1::PENDING;
-  lost.cause = v1::JOB_CAUSE_UNSPECIFIED;
+  lost.state = v1::Job::PENDING;
+  lost.cause = v1::Job::JOB_CAUSE_UNSPECIFIED;
   lost.message += " Another worker resumes the job from its last checkpoint.";
   lost.remedy.clear();
   return lost;
@@ -141,20 +141,20 @@ store::StateChange tried_again(store::StateChange lost) {
 store::StateChange outcome_of(const std::exception& error) {
   const auto* refused = dynamic_cast<const ServiceError*>(&error);
   if (refused != nullptr && refused->kind() == ServiceError::Kind::data_loss)
-    return failed(v1::STORE_CORRUPT, error.what(), "Check the disk for faults, then submit the case again.");
-  return failed(v1::WORKER_CRASHED, std::string("The run could not continue: ") + error.what(),
+    return failed(v1::Job::STORE_CORRUPT, error.what(), "Check the disk for faults, then submit the case again.");
+  return failed(v1::Job::WORKER_CRASHED, std::string("The run could not continue: ") + error.what(),
                 "Check the daemon's log, then submit the case again.");
 }
 
 store::StateChange cancelled_without_result() {
   store::StateChange out;
-  out.state = v1::CANCELLED;
+  out.state = v1::Job::CANCELLED;
   out.message = "The worker ended before it could write a complete result. The history is kept.";
   return out;
 }
 
 store::StateChange worker_missing() {
-  return failed(v1::WORKER_LOST, "The worker process ended while no daemon was running.", "Submit the case again.");
+  return failed(v1::Job::WORKER_LOST, "The worker process ended while no daemon was running.", "Submit the case again.");
 }
 
 }  // namespace cellcrush::jobs

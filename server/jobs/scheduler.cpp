@@ -17,7 +17,7 @@ void Scheduler::start(int slots) {
   audit_job_folders(parts_.reader, parts_.folder, parts_.executor);
   clean_up();
   const auto adopted = reconcile();
-  const auto waiting = parts_.reader.queued_jobs(v1::PENDING);
+  const auto waiting = parts_.reader.queued_jobs(v1::Job::PENDING);
   // No job runs before all are queued: a job that returned to the queue would be queued twice.
   const MutexLock lock(mutex_);
   free_cores_ += slots;
@@ -43,7 +43,7 @@ void Scheduler::clean_up() {
 
 std::vector<store::QueuedJob> Scheduler::reconcile() {
   std::vector<store::QueuedJob> adopted;
-  for (const v1::JobState state : {v1::RUNNING, v1::CANCELLING}) {
+  for (const v1::Job::State state : {v1::Job::RUNNING, v1::Job::CANCELLING}) {
     for (const auto& job : parts_.reader.queued_jobs(state)) {
       if (parts_.runner.reconcile(job.job) != JobRunner::Left::is_to_run) continue;
       spdlog::info("{} is adopted from an earlier daemon", store::name_of(job.job));
@@ -51,7 +51,7 @@ std::vector<store::QueuedJob> Scheduler::reconcile() {
       --free_cores_;
       waiting_.count_running(job);
       Running& running = begin(job.job);
-      if (state == v1::CANCELLING) running.cancel.request_stop();
+      if (state == v1::Job::CANCELLING) running.cancel.request_stop();
       adopted.push_back(job);
     }
   }
@@ -71,17 +71,17 @@ void Scheduler::cancel(std::int64_t job) {
   // The job may change between reading its state and changing it, but only a few times.
   while (true) {
     const auto stored = find(job);
-    const v1::JobState state = stored.job.state();
-    if (state == v1::CANCELLED || state == v1::CANCELLING) return;
+    const v1::Job::State state = stored.job.state();
+    if (state == v1::Job::CANCELLED || state == v1::Job::CANCELLING) return;
     if (store::is_terminal(state)) {
       throw ServiceError(
           ServiceError::Kind::failed_precondition,
-          store::name_of(job) + " has already ended: it is " + v1::JobState_Name(state) + " and cannot be cancelled.");
+          store::name_of(job) + " has already ended: it is " + v1::Job::State_Name(state) + " and cannot be cancelled.");
     }
     store::StateChange change;
-    change.state = state == v1::RUNNING ? v1::CANCELLING : v1::CANCELLED;
+    change.state = state == v1::Job::RUNNING ? v1::Job::CANCELLING : v1::Job::CANCELLED;
     change.worker_pid = stored.job.worker_pid();
-    if (state == v1::SUSPENDED)
+    if (state == v1::Job::SUSPENDED)
       change.message = "The job was cancelled while suspended and has no result. The history is kept.";
     try {
       parts_.journal.change_state(job, change);
@@ -93,7 +93,7 @@ void Scheduler::cancel(std::int64_t job) {
     {
       const MutexLock lock(mutex_);
       // A CANCELLING job may have returned to the queue meanwhile, to be given up.
-      if (change.state == v1::CANCELLED) waiting_.remove(job);
+      if (change.state == v1::Job::CANCELLED) waiting_.remove(job);
       if (const auto found = running_.find(job); found != running_.end()) worker = found->second.cancel;
     }
     worker.request_stop();
@@ -103,11 +103,11 @@ void Scheduler::cancel(std::int64_t job) {
 
 void Scheduler::suspend(std::int64_t job, const std::function<bool()>& given_up) {
   while (true) {
-    const v1::JobState state = find(job).job.state();
-    if (state == v1::SUSPENDED) return;
-    if (state != v1::PENDING && state != v1::RUNNING) {
+    const v1::Job::State state = find(job).job.state();
+    if (state == v1::Job::SUSPENDED) return;
+    if (state != v1::Job::PENDING && state != v1::Job::RUNNING) {
       throw ServiceError(ServiceError::Kind::failed_precondition,
-                         store::name_of(job) + " is " + v1::JobState_Name(state) + " and cannot be suspended.");
+                         store::name_of(job) + " is " + v1::Job::State_Name(state) + " and cannot be suspended.");
     }
     if (given_up())
       throw ServiceError(ServiceError::Kind::cancelled,
@@ -120,19 +120,19 @@ void Scheduler::suspend(std::int64_t job, const std::function<bool()>& given_up)
                         [this, job]() CELLCRUSH_REQUIRES(mutex_) { return !running_.contains(job); });
       continue;
     }
-    if (state != v1::PENDING) {
+    if (state != v1::Job::PENDING) {
       // Its outcome is about to be written.
       changed_.wait_for(lock, std::chrono::milliseconds(20));
       continue;
     }
     lock.unlock();
-    const auto queued = parts_.reader.queued_job(job, v1::PENDING);
+    const auto queued = parts_.reader.queued_job(job, v1::Job::PENDING);
     lock.lock();
     if (!queued || running_.contains(job)) continue;
     waiting_.remove(job);
     lock.unlock();
     store::StateChange change;
-    change.state = v1::SUSPENDED;
+    change.state = v1::Job::SUSPENDED;
     try {
       parts_.journal.change_state(job, change);
     } catch (const ServiceError& error) {
@@ -145,16 +145,16 @@ void Scheduler::suspend(std::int64_t job, const std::function<bool()>& given_up)
 }
 
 void Scheduler::resume(std::int64_t job) {
-  const v1::JobState state = find(job).job.state();
-  if (state == v1::PENDING || state == v1::RUNNING) return;
-  if (state != v1::SUSPENDED) {
+  const v1::Job::State state = find(job).job.state();
+  if (state == v1::Job::PENDING || state == v1::Job::RUNNING) return;
+  if (state != v1::Job::SUSPENDED) {
     throw ServiceError(ServiceError::Kind::failed_precondition,
-                       store::name_of(job) + " is " + v1::JobState_Name(state) + " and cannot be resumed.");
+                       store::name_of(job) + " is " + v1::Job::State_Name(state) + " and cannot be resumed.");
   }
   // Read before the change: a PENDING job is in the queue.
-  const auto queued = parts_.reader.queued_job(job, v1::SUSPENDED);
+  const auto queued = parts_.reader.queued_job(job, v1::Job::SUSPENDED);
   store::StateChange change;
-  change.state = v1::PENDING;
+  change.state = v1::Job::PENDING;
   parts_.journal.change_state(job, change);
   if (queued) enqueue({*queued});
 }

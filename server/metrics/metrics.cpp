@@ -154,8 +154,8 @@ void Metrics::count_refused_connection() { impl_->refused.Increment(); }
 
 void Metrics::count_skipped_frames(int frames) { impl_->skipped.Increment(frames); }
 
-void Metrics::count_ended(v1::JobState state, const v1::Summary* summary) {
-  impl_->ended.Add({{"state", v1::JobState_Name(state)}}).Increment();
+void Metrics::count_ended(v1::Job::State state, const v1::Summary* summary) {
+  impl_->ended.Add({{"state", v1::Job::State_Name(state)}}).Increment();
   if (summary == nullptr) return;
   impl_->steps.Increment(static_cast<double>(summary->step_count()));
   impl_->add_stages(summary->stage_times());

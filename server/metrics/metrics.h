@@ -53,7 +53,7 @@ class Metrics {
   void count_skipped_frames(int frames);
 
   /// `summary` is null for a job without a result.
-  void count_ended(v1::JobState state, const v1::Summary* summary);
+  void count_ended(v1::Job::State state, const v1::Summary* summary);
 
  private:
   struct Impl;

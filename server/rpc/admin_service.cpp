@@ -44,13 +44,13 @@ grpc::ServerUnaryReactor* AdminService::GetCapabilities(grpc::CallbackServerCont
   });
 }
 
-std::vector<jobs::RunningJob> AdminService::running_jobs(v1::JobState state) {
+std::vector<jobs::RunningJob> AdminService::running_jobs(v1::Job::State state) {
   std::vector<jobs::RunningJob> out;
   for (const auto& job : parts_.reader.queued_jobs(state)) {
     const int cores = parts_.scheduler.cores_of(job.job);
     // A service that was told to stop ends at once.
     double seconds_left = 0.0;
-    if (state == v1::RUNNING) {
+    if (state == v1::Job::RUNNING) {
       const auto channel = parts_.hub.find(job.job);
       const auto progress = channel ? channel->newest().progress : nullptr;
       seconds_left = progress && progress->steps_per_second() > 0.0
@@ -83,13 +83,13 @@ jobs::JobFacts AdminService::facts_of(std::int64_t job) {
 grpc::ServerUnaryReactor* AdminService::GetQueue(grpc::CallbackServerContext* context,
                                                  const v1::GetQueueRequest* request, v1::Queue* response) {
   return parts_.calls.run(*context, *request, [=, this] {
-    auto running = running_jobs(v1::RUNNING);
-    const auto stopping = running_jobs(v1::CANCELLING);
+    auto running = running_jobs(v1::Job::RUNNING);
+    const auto stopping = running_jobs(v1::Job::CANCELLING);
     running.insert(running.end(), stopping.begin(), stopping.end());
     jobs::WorkerFacts workers = parts_.workers;
     const auto holds = parts_.hold.holds();
     if (!holds.empty()) workers.held = holds.front().reason + " " + remedy_for(holds.front().shortage);
-    *response = jobs::forecast_queue(running, parts_.reader.queued_jobs(v1::PENDING), workers,
+    *response = jobs::forecast_queue(running, parts_.reader.queued_jobs(v1::Job::PENDING), workers,
                                      [this](std::int64_t job) { return facts_of(job); });
     for (const auto& hold : holds) *response->add_holds() = to_proto(hold);
     return grpc::Status::OK;

@@ -40,7 +40,7 @@ class AdminService final : public v1::Admin::CallbackService {
                                   v1::DrainResponse* response) override;
 
  private:
-  std::vector<jobs::RunningJob> running_jobs(v1::JobState state);
+  std::vector<jobs::RunningJob> running_jobs(v1::Job::State state);
   jobs::JobFacts facts_of(std::int64_t job);
 
   Parts parts_;

@@ -26,7 +26,7 @@ v1::FieldFrame FrameSource::find_frame() const {
   const auto frame = channel ? channel->newest().frame : nullptr;
   if (!frame) {
     throw ServiceError(ServiceError::Kind::failed_precondition,
-                       job_.job.name() + " is " + v1::JobState_Name(job_.job.state()) +
+                       job_.job.name() + " is " + v1::Job::State_Name(job_.job.state()) +
                            " and has no frames. A running job offers its newest frame. A job that SUCCEEDED, or was "
                            "cancelled or failed while running, offers all.");
   }

@@ -54,20 +54,20 @@ class Reader {
     }
   }
 
-  v1::JobState state() {
+  v1::Job::State state() {
     skip_space();
     const std::size_t start = position_;
     const std::string name = value();
-    v1::JobState out = v1::JOB_STATE_UNSPECIFIED;
-    if (!v1::JobState_Parse(name, &out) || out == v1::JOB_STATE_UNSPECIFIED)
+    v1::Job::State out = v1::Job::JOB_STATE_UNSPECIFIED;
+    if (!v1::Job::State_Parse(name, &out) || out == v1::Job::JOB_STATE_UNSPECIFIED)
       refuse(start, "expected one of " + state_names());
     return out;
   }
 
   static std::string state_names() {
     std::string out;
-    for (int state = v1::PENDING; state <= v1::JobState_MAX; ++state)
-      out += (out.empty() ? "" : ", ") + v1::JobState_Name(static_cast<v1::JobState>(state));
+    for (int state = v1::Job::PENDING; state <= v1::Job::State_MAX; ++state)
+      out += (out.empty() ? "" : ", ") + v1::Job::State_Name(static_cast<v1::Job::State>(state));
     return out;
   }
 

@@ -38,7 +38,7 @@ std::int64_t JobsService::find_own(const grpc::ServerContextBase& context, const
 }
 
 void JobsService::add_progress(store::StoredJob& stored) {
-  if (stored.job.state() != v1::RUNNING && stored.job.state() != v1::CANCELLING) return;
+  if (stored.job.state() != v1::Job::RUNNING && stored.job.state() != v1::Job::CANCELLING) return;
   const auto channel = parts_.hub.find(stored.number);
   if (!channel) return;
   if (const auto progress = channel->newest().progress) *stored.job.mutable_progress() = *progress;
@@ -214,7 +214,7 @@ grpc::ServerWriteReactor<v1::DownloadResultResponse>* JobsService::DownloadResul
         const auto stored = find(request->name());
         if (!stored.job.has_summary()) {
           throw ServiceError(ServiceError::Kind::failed_precondition,
-                             stored.job.name() + " is " + v1::JobState_Name(stored.job.state()) +
+                             stored.job.name() + " is " + v1::Job::State_Name(stored.job.state()) +
                                  " and has no result. A job has a result once it has SUCCEEDED, or was cancelled or "
                                  "failed while running.");
         }

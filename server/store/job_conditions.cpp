@@ -7,7 +7,7 @@
 namespace cellcrush::store {
 
 JobConditions::JobConditions(const JobFilter& filter, int first_parameter) : first_parameter_(first_parameter) {
-  for (const v1::JobState state : filter.states) sql_ += " AND state = " + next_parameter(std::int64_t{state});
+  for (const v1::Job::State state : filter.states) sql_ += " AND state = " + next_parameter(std::int64_t{state});
   for (const auto& owner : filter.owners) sql_ += " AND owner = " + next_parameter(owner);
   for (const auto& [key, value] : filter.labels) {
     sql_ += " AND number IN (SELECT job FROM job_labels WHERE key = " + next_parameter(key);

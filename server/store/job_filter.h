@@ -10,7 +10,7 @@ namespace cellcrush::store {
 
 /// Selects the jobs that meet all conditions.
 struct JobFilter {
-  std::vector<v1::JobState> states;
+  std::vector<v1::Job::State> states;
   std::vector<std::pair<std::string, std::string>> labels;  ///< key and value
   std::vector<std::string> titles;                          ///< each a part of the case's title, ignoring case
   std::vector<std::string> owners;

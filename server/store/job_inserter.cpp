@@ -19,13 +19,13 @@ JobInserter::JobInserter(Database& database)
       labels_(database) {}
 
 std::int64_t JobInserter::insert(v1::Job job, const JobEntry& entry) {
-  job.set_state(v1::PENDING);
+  job.set_state(v1::Job::PENDING);
   *job.mutable_create_time() = google::protobuf::util::TimeUtil::GetCurrentTime();
   // Removed temporarily, so that the bytes are made without copying it.
   const std::unique_ptr<v1::Case> submitted(job.release_case_());
   const std::string bytes = job_bytes(job);
   const std::string case_bytes = submitted ? submitted->SerializeAsString() : "";
-  job_.bind(1, v1::PENDING).bind_blob(2, bytes).bind_blob(3, case_bytes);
+  job_.bind(1, v1::Job::PENDING).bind_blob(2, bytes).bind_blob(3, case_bytes);
   if (entry.request_id.empty()) {
     job_.bind_null(4).bind_null(5);
   } else {

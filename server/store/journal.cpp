@@ -26,7 +26,7 @@ void apply(const StateChange& change, v1::Job& job) {
   job.set_cause_message(change.message);
   job.set_remedy(change.remedy);
   job.set_worker_pid(change.worker_pid);
-  if (change.state == v1::RUNNING) {
+  if (change.state == v1::Job::RUNNING) {
     job.set_attempt(job.attempt() + 1);
     if (!job.has_start_time()) *job.mutable_start_time() = now;
   }
@@ -91,7 +91,7 @@ std::vector<std::int64_t> Journal::change_state(std::int64_t job, const StateCha
         samples = take_gathered(job);
         insert_samples(job, samples[job]);
         write_change(job, change);
-        if (change.state == v1::FAILED) stopped = stop_failing_sweep(job);
+        if (change.state == v1::Job::FAILED) stopped = stop_failing_sweep(job);
       },
       [&] { give_back(std::move(samples)); });
   on_durable_(job);
@@ -121,8 +121,8 @@ void Journal::write_change(std::int64_t job, const StateChange& change) {
   }
   if (!may_follow(stored.state(), change.state)) {
     throw ServiceError(ServiceError::Kind::failed_precondition,
-                       name_of(job) + " is " + v1::JobState_Name(stored.state()) + " and cannot become " +
-                           v1::JobState_Name(change.state) + ".");
+                       name_of(job) + " is " + v1::Job::State_Name(stored.state()) + " and cannot become " +
+                           v1::Job::State_Name(change.state) + ".");
   }
   apply(change, stored);
   const std::int64_t sequence = find_last_sequence(job).value() + 1;

@@ -26,8 +26,8 @@ namespace cellcrush::store {
 
 /// A change of a job's state, with its details. Fields that do not apply stay empty.
 struct StateChange {
-  v1::JobState state = v1::JOB_STATE_UNSPECIFIED;
-  v1::JobCause cause = v1::JOB_CAUSE_UNSPECIFIED;
+  v1::Job::State state = v1::Job::JOB_STATE_UNSPECIFIED;
+  v1::Job::Cause cause = v1::Job::JOB_CAUSE_UNSPECIFIED;
   std::string message;
   std::string remedy;
   std::int64_t worker_pid = 0;
@@ -153,7 +153,7 @@ class Journal {
                                            const std::string& request_id, const std::string& request_hash);
   void write_change(std::int64_t job, const StateChange& change);
   std::vector<std::int64_t> stop_failing_sweep(std::int64_t failed_job);
-  std::vector<std::int64_t> jobs_of_sweep_in(std::int64_t sweep, v1::JobState state);
+  std::vector<std::int64_t> jobs_of_sweep_in(std::int64_t sweep, v1::Job::State state);
   /// Deletes the rows of an ended job.
   void remove_job(std::int64_t job);
   std::optional<std::int64_t> find_last_sequence(std::int64_t job);

@@ -12,10 +12,10 @@
 namespace cellcrush::store {
 namespace {
 
-std::optional<v1::JobState> find_state(Database& database, std::int64_t job) {
+std::optional<v1::Job::State> find_state(Database& database, std::int64_t job) {
   Statement read(database, "SELECT state FROM jobs WHERE number = ?1");
   if (!read.bind(1, job).step()) return std::nullopt;
-  return static_cast<v1::JobState>(read.integer(0));
+  return static_cast<v1::Job::State>(read.integer(0));
 }
 
 }  // namespace
@@ -41,7 +41,7 @@ void Journal::delete_job(std::int64_t job) {
     if (!state) throw ServiceError(ServiceError::Kind::not_found, "There is no " + name_of(job) + ".");
     if (!is_terminal(*state)) {
       throw ServiceError(ServiceError::Kind::failed_precondition,
-                         name_of(job) + " is " + v1::JobState_Name(*state) +
+                         name_of(job) + " is " + v1::Job::State_Name(*state) +
                              " and cannot be deleted. Cancel it, then delete it once it has ended.");
     }
     remove_job(job);

@@ -49,7 +49,7 @@ void write_row(Database& database, const DamagedJob& row) {
 }
 
 void end_job(Database& database, DamagedJob& row, std::int64_t service_seconds) {
-  const bool had_ended = is_terminal(static_cast<v1::JobState>(row.state));
+  const bool had_ended = is_terminal(static_cast<v1::Job::State>(row.state));
   set_corrupt(row.job);
   const auto now = google::protobuf::util::TimeUtil::GetCurrentTime();
   if (!row.job.has_create_time()) *row.job.mutable_create_time() = now;
@@ -67,7 +67,7 @@ void end_job(Database& database, DamagedJob& row, std::int64_t service_seconds) 
 
 void mend(Database& database, DamagedJob& row, std::int64_t service_seconds) {
   const std::string name = name_of(row.number);
-  const bool had_ended = is_terminal(static_cast<v1::JobState>(row.state));
+  const bool had_ended = is_terminal(static_cast<v1::Job::State>(row.state));
   const bool restored = !row.has_job && restore_job(database, row);
   if (restored) {
     spdlog::warn("The journal entry of {} was damaged and has been rebuilt from its newest event.", name);
@@ -96,8 +96,8 @@ ServiceError unreadable_entry(std::int64_t job) {
 }
 
 void set_corrupt(v1::Job& job) {
-  job.set_state(v1::FAILED);
-  job.set_cause(v1::STORE_CORRUPT);
+  job.set_state(v1::Job::FAILED);
+  job.set_cause(v1::Job::STORE_CORRUPT);
   job.set_cause_message("The job's records in the journal cannot be read: the file was damaged.");
   job.set_remedy("Check the disk for faults, then submit the case again.");
   job.clear_worker_pid();

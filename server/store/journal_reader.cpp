@@ -16,7 +16,7 @@ namespace {
 // An event's payload. False when it cannot be read.
 bool read_event(int kind, const std::string& payload, v1::JobEvent& event) {
   if (kind != kStateEvent) return event.mutable_sample()->ParseFromString(payload);
-  return event.mutable_state()->ParseFromString(payload) && event.state().state() != v1::JOB_STATE_UNSPECIFIED;
+  return event.mutable_state()->ParseFromString(payload) && event.state().state() != v1::Job::JOB_STATE_UNSPECIFIED;
 }
 
 ServiceError unreadable_event(std::int64_t job, std::int64_t sequence) {

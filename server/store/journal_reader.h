@@ -72,10 +72,10 @@ class JournalReader {
   std::vector<std::int64_t> deleted_jobs();
 
   /// The jobs in a state, oldest first, with what the scheduler needs.
-  std::vector<QueuedJob> queued_jobs(v1::JobState state);
+  std::vector<QueuedJob> queued_jobs(v1::Job::State state);
 
   /// The same for one job; nothing unless it is in that state.
-  std::optional<QueuedJob> queued_job(std::int64_t job, v1::JobState state);
+  std::optional<QueuedJob> queued_job(std::int64_t job, v1::Job::State state);
 
   /// States (without their cases) and samples after `after`, in order. Ends before an unreadable one; throws data_loss
   /// if that is the first.

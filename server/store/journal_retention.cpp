@@ -20,9 +20,9 @@ std::string unended_jobs(Database& database, std::int64_t sweep) {
   std::string out;
   std::size_t count = 0;
   while (read.step()) {
-    const auto state = static_cast<v1::JobState>(read.integer(1));
+    const auto state = static_cast<v1::Job::State>(read.integer(1));
     if (is_terminal(state) || ++count > kNamedJobs) continue;
-    out += (count == 1 ? "" : ", ") + name_of(read.integer(0)) + " is " + v1::JobState_Name(state);
+    out += (count == 1 ? "" : ", ") + name_of(read.integer(0)) + " is " + v1::Job::State_Name(state);
   }
   return count > kNamedJobs ? out + " and " + std::to_string(count - kNamedJobs) + " more" : out;
 }

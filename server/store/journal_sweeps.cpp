@@ -22,7 +22,7 @@ std::string sweep_bytes(v1::Sweep sweep) {
 StateChange stopped_by_failures(std::int64_t sweep, std::size_t failed, std::int64_t limit) {
   const std::string name = sweep_name_of(sweep);
   StateChange out;
-  out.state = v1::CANCELLED;
+  out.state = v1::Job::CANCELLED;
   out.message = (failed == 1 ? "1 job of " : std::to_string(failed) + " jobs of ") + name +
                 " failed, reaching its max_failures of " + std::to_string(limit) + ", so this job was not started.";
   out.remedy = "Check the failed jobs, then queue them and this one again: cellcrush retry " + name + ".";
@@ -43,7 +43,7 @@ std::vector<Retry> jobs_to_retry(Database& database, std::int64_t sweep) {
       "WHERE sweep_jobs.sweep = ?1 AND NOT sweeps.deleting AND (jobs.state = ?2 OR (jobs.state = ?3 AND "
       "sweep_jobs.stopped)) "
       "ORDER BY sweep_jobs.position");
-  read.bind(1, sweep).bind(2, v1::FAILED).bind(3, v1::CANCELLED);
+  read.bind(1, sweep).bind(2, v1::Job::FAILED).bind(3, v1::Job::CANCELLED);
   std::vector<Retry> out;
   while (read.step()) {
     auto& [job, queued] = out.emplace_back();
@@ -129,9 +129,9 @@ std::vector<std::int64_t> Journal::stop_failing_sweep(std::int64_t failed_job) {
   if (!find.bind(1, failed_job).step()) return {};
   const std::int64_t sweep = find.integer(0);
   const std::int64_t limit = find.integer(1);
-  const auto failed = jobs_of_sweep_in(sweep, v1::FAILED);
+  const auto failed = jobs_of_sweep_in(sweep, v1::Job::FAILED);
   if (static_cast<std::int64_t>(failed.size()) < limit) return {};
-  auto waiting = jobs_of_sweep_in(sweep, v1::PENDING);
+  auto waiting = jobs_of_sweep_in(sweep, v1::Job::PENDING);
   Statement mark(database_, "UPDATE sweep_jobs SET stopped = 1 WHERE job = ?1");
   for (const std::int64_t job : waiting) {
     write_change(job, stopped_by_failures(sweep, failed.size(), limit));
@@ -140,7 +140,7 @@ std::vector<std::int64_t> Journal::stop_failing_sweep(std::int64_t failed_job) {
   return waiting;
 }
 
-std::vector<std::int64_t> Journal::jobs_of_sweep_in(std::int64_t sweep, v1::JobState state) {
+std::vector<std::int64_t> Journal::jobs_of_sweep_in(std::int64_t sweep, v1::Job::State state) {
   Statement read(database_,
                  "SELECT jobs.number FROM sweep_jobs JOIN jobs ON jobs.number = sweep_jobs.job "
                  "WHERE sweep_jobs.sweep = ?1 AND jobs.state = ?2 ORDER BY sweep_jobs.position");
@@ -152,12 +152,12 @@ std::vector<std::int64_t> Journal::jobs_of_sweep_in(std::int64_t sweep, v1::JobS
 
 std::vector<std::int64_t> Journal::cancel_waiting(const std::vector<std::int64_t>& jobs) {
   StateChange cancelled;
-  cancelled.state = v1::CANCELLED;
+  cancelled.state = v1::Job::CANCELLED;
   std::vector<std::int64_t> changed;
   writes_.run([&] {
     for (const std::int64_t job : jobs) {
       Statement read(database_, "SELECT 1 FROM jobs WHERE number = ?1 AND state = ?2");
-      if (!read.bind(1, job).bind(2, v1::PENDING).step()) continue;
+      if (!read.bind(1, job).bind(2, v1::Job::PENDING).step()) continue;
       write_change(job, cancelled);
       changed.push_back(job);
     }

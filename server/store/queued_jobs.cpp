@@ -20,7 +20,7 @@ QueuedJob read_queued(const Statement& row) {
 
 }  // namespace
 
-std::vector<QueuedJob> JournalReader::queued_jobs(v1::JobState state) {
+std::vector<QueuedJob> JournalReader::queued_jobs(v1::Job::State state) {
   const MutexLock lock(mutex_);
   Statement read(database_, kSelectQueued + std::string("ORDER BY jobs.number"));
   read.bind(1, state);
@@ -29,7 +29,7 @@ std::vector<QueuedJob> JournalReader::queued_jobs(v1::JobState state) {
   return out;
 }
 
-std::optional<QueuedJob> JournalReader::queued_job(std::int64_t job, v1::JobState state) {
+std::optional<QueuedJob> JournalReader::queued_job(std::int64_t job, v1::Job::State state) {
   const MutexLock lock(mutex_);
   Statement read(database_, kSelectQueued + std::string("AND jobs.number = ?2"));
   if (!read.bind(1, state).bind(2, job).step()) return std::nullopt;

@@ -32,16 +32,16 @@ void settle_jobs(const std::filesystem::path& path, const std::string& created) 
                           ", and backups contain no checkpoints.";
   Journal journal(path, [](std::int64_t) {});
   JournalReader reader(path);
-  for (const auto state : {v1::PENDING, v1::RUNNING, v1::SUSPENDED}) {
+  for (const auto state : {v1::Job::PENDING, v1::Job::RUNNING, v1::Job::SUSPENDED}) {
     for (const auto& job : reader.queued_jobs(state)) {
       const auto stored = reader.find_job(job.job);
       // A job that waits for its first worker loses nothing.
-      if (stored && (state == v1::RUNNING || stored->job.attempt() > 0)) journal.begin_again(job.job, why);
+      if (stored && (state == v1::Job::RUNNING || stored->job.attempt() > 0)) journal.begin_again(job.job, why);
     }
   }
-  for (const auto& job : reader.queued_jobs(v1::CANCELLING)) {
+  for (const auto& job : reader.queued_jobs(v1::Job::CANCELLING)) {
     StateChange cancelled;
-    cancelled.state = v1::CANCELLED;
+    cancelled.state = v1::Job::CANCELLED;
     cancelled.message = "The data was restored from the backup of " + created +
                         ", taken before the job had a result. The history is kept.";
     journal.change_state(job.job, cancelled);

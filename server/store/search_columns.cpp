@@ -25,7 +25,7 @@ SearchRow read_search_row(const Statement& read) {
   const std::string submitted = read.bytes(3);
   SearchRow out;
   out.number = read.integer(0);
-  out.has_ended = is_terminal(static_cast<v1::JobState>(read.integer(1)));
+  out.has_ended = is_terminal(static_cast<v1::Job::State>(read.integer(1)));
   out.bytes = static_cast<std::int64_t>(2 * job.size() + submitted.size());
   if (!out.job.ParseFromString(job)) out.job.Clear();
   v1::Case parsed;

@@ -9,9 +9,9 @@ namespace cellcrush::store {
 namespace {
 
 // "V" of CRUSH_MODE_V.
-std::string mode_name(v1::CrushMode mode) {
+std::string mode_name(v1::Summary::CrushMode mode) {
   constexpr std::size_t kPrefix = std::string_view("CRUSH_MODE_").size();
-  return v1::CrushMode_Name(mode).substr(kPrefix);
+  return v1::Summary::CrushMode_Name(mode).substr(kPrefix);
 }
 
 void write_front(hid_t file, const v1::FrontSummary& front) {
@@ -47,7 +47,7 @@ void write_collapse(hid_t file, const v1::Summary& summary) {
 void write_warnings(hid_t file, const v1::Summary& summary) {
   std::string lines;
   for (const v1::Warning& warning : summary.warnings())
-    lines += (lines.empty() ? "" : "\n") + v1::WarningKind_Name(warning.kind()) + ": " + warning.message();
+    lines += (lines.empty() ? "" : "\n") + v1::Warning::Kind_Name(warning.kind()) + ": " + warning.message();
   if (!lines.empty()) write_attribute(file, "warnings", lines);
 }
 

@@ -29,7 +29,7 @@ std::optional<v1::Sweep> SweepReader::find_sweep(std::int64_t sweep) {
   auto& counts = *out.mutable_state_counts();
   while (members.step()) {
     out.add_jobs(name_of(members.integer(0)));
-    ++counts[v1::JobState_Name(static_cast<v1::JobState>(members.integer(1)))];
+    ++counts[v1::Job::State_Name(static_cast<v1::Job::State>(members.integer(1)))];
   }
   return out;
 }

@@ -39,16 +39,16 @@ v1::QuasiStatic to_proto(const QuasiStatic& quasi_static) {
   return out;
 }
 
-v1::WarningKind to_proto(Warning::Kind kind) {
+v1::Warning::Kind to_proto(Warning::Kind kind) {
   switch (kind) {
-    case Warning::Kind::deep_penetration: return v1::DEEP_PENETRATION;
-    case Warning::Kind::borders_near: return v1::BORDERS_NEAR;
-    case Warning::Kind::walls_neck: return v1::WALLS_NECK;
-    case Warning::Kind::denser_than_solid: return v1::DENSER_THAN_SOLID;
-    case Warning::Kind::energy_drift: return v1::ENERGY_DRIFT;
-    case Warning::Kind::contact_energy: return v1::CONTACTS_MAKE_ENERGY;
+    case Warning::Kind::deep_penetration: return v1::Warning::DEEP_PENETRATION;
+    case Warning::Kind::borders_near: return v1::Warning::BORDERS_NEAR;
+    case Warning::Kind::walls_neck: return v1::Warning::WALLS_NECK;
+    case Warning::Kind::denser_than_solid: return v1::Warning::DENSER_THAN_SOLID;
+    case Warning::Kind::energy_drift: return v1::Warning::ENERGY_DRIFT;
+    case Warning::Kind::contact_energy: return v1::Warning::CONTACTS_MAKE_ENERGY;
   }
-  return v1::WARNING_KIND_UNSPECIFIED;
+  return v1::Warning::WARNING_KIND_UNSPECIFIED;
 }
 
 v1::Warning to_proto(const Warning& warning) {
@@ -61,16 +61,16 @@ v1::Warning to_proto(const Warning& warning) {
   return out;
 }
 
-v1::CrushMode to_proto(CrushMode mode) {
+v1::Summary::CrushMode to_proto(CrushMode mode) {
   switch (mode) {
-    case CrushMode::none: return v1::CRUSH_MODE_NONE;
-    case CrushMode::x: return v1::CRUSH_MODE_X;
-    case CrushMode::v: return v1::CRUSH_MODE_V;
-    case CrushMode::i: return v1::CRUSH_MODE_I;
-    case CrushMode::c: return v1::CRUSH_MODE_C;
-    case CrushMode::mixed: return v1::CRUSH_MODE_MIXED;
+    case CrushMode::none: return v1::Summary::CRUSH_MODE_NONE;
+    case CrushMode::x: return v1::Summary::CRUSH_MODE_X;
+    case CrushMode::v: return v1::Summary::CRUSH_MODE_V;
+    case CrushMode::i: return v1::Summary::CRUSH_MODE_I;
+    case CrushMode::c: return v1::Summary::CRUSH_MODE_C;
+    case CrushMode::mixed: return v1::Summary::CRUSH_MODE_MIXED;
   }
-  return v1::CRUSH_MODE_UNSPECIFIED;
+  return v1::Summary::CRUSH_MODE_UNSPECIFIED;
 }
 
 v1::StageTimes to_proto(const std::array<double, kStageCount>& seconds) {
@@ -145,19 +145,19 @@ v1::Sample to_proto(const Sample& sample, const v1::Frame& frame) {
   return out;
 }
 
-v1::JobCause cause_of(RunStatus::Kind kind) {
+v1::Job::Cause cause_of(RunStatus::Kind kind) {
   switch (kind) {
     case RunStatus::Kind::running:
-    case RunStatus::Kind::finished: return v1::JOB_CAUSE_UNSPECIFIED;
-    case RunStatus::Kind::diverged: return v1::SOLVER_DIVERGED;
-    case RunStatus::Kind::large_rotation: return v1::LARGE_ROTATION;
-    case RunStatus::Kind::energy_balance: return v1::ENERGY_BALANCE;
-    case RunStatus::Kind::contact_energy: return v1::CONTACT_ENERGY;
-    case RunStatus::Kind::wall_crossing: return v1::WALL_CROSSING;
-    case RunStatus::Kind::overcompaction: return v1::OVERCOMPACTION;
-    case RunStatus::Kind::contact_lost: return v1::CONTACT_LOST;
+    case RunStatus::Kind::finished: return v1::Job::JOB_CAUSE_UNSPECIFIED;
+    case RunStatus::Kind::diverged: return v1::Job::SOLVER_DIVERGED;
+    case RunStatus::Kind::large_rotation: return v1::Job::LARGE_ROTATION;
+    case RunStatus::Kind::energy_balance: return v1::Job::ENERGY_BALANCE;
+    case RunStatus::Kind::contact_energy: return v1::Job::CONTACT_ENERGY;
+    case RunStatus::Kind::wall_crossing: return v1::Job::WALL_CROSSING;
+    case RunStatus::Kind::overcompaction: return v1::Job::OVERCOMPACTION;
+    case RunStatus::Kind::contact_lost: return v1::Job::CONTACT_LOST;
   }
-  return v1::JOB_CAUSE_UNSPECIFIED;
+  return v1::Job::JOB_CAUSE_UNSPECIFIED;
 }
 
 v1::FieldFrame to_proto(const FieldFrame& frame) {

@@ -15,7 +15,7 @@ namespace cellcrush::translate {
 // What a run gives, as it goes over the wire. The solver's N mm is the wire's mJ; all other units are the same.
 
 /// Why a run that stopped by itself failed; JOB_CAUSE_UNSPECIFIED when it did not.
-v1::JobCause cause_of(RunStatus::Kind kind);
+v1::Job::Cause cause_of(RunStatus::Kind kind);
 
 /// `frame`: that of the case, whose ids watched nodes and rigid walls have; empty of a lattice.
 v1::Sample to_proto(const Sample& sample, const v1::Frame& frame);

@@ -27,7 +27,7 @@ namespace {
 
 using Clock = ProgressMeter::Clock;
 
-Final failure(v1::JobCause cause, std::string message, std::string remedy) {
+Final failure(v1::Job::Cause cause, std::string message, std::string remedy) {
   Final out;
   out.set_cause(cause);
   out.set_message(std::move(message));
@@ -144,7 +144,7 @@ class Run {
 
   // Whether the solver declared its own result untrue.
   [[nodiscard]] bool failed() const {
-    return translate::cause_of(simulation_.status().kind) != v1::JOB_CAUSE_UNSPECIFIED;
+    return translate::cause_of(simulation_.status().kind) != v1::Job::JOB_CAUSE_UNSPECIFIED;
   }
 
   // Whether the run ends now and keeps its results so far.
@@ -235,7 +235,7 @@ class Run {
     const double needed = std::ceil(1.3 * order_.time_limit_s() / share);
     const std::string smaller = "with a lower fidelity or a lower end_strain.";
     return failure(
-        v1::TIME_LIMIT,
+        v1::Job::TIME_LIMIT,
         fmt::format("The job reached {} of {:.4g} s at step {} of {} ({:.3g} %).",
                     order_.limit_is_daemons() ? "the daemon's time limit" : "its time limit", order_.time_limit_s(),
                     simulation_.step(), facts_.step_count, 100.0 * share),
@@ -264,7 +264,7 @@ class Run {
 };
 
 Final failure_of(const ServiceError& error) {
-  return failure(v1::WORKER_CRASHED, error.what(), "Check the daemon's log, then submit the case again.");
+  return failure(v1::Job::WORKER_CRASHED, error.what(), "Check the daemon's log, then submit the case again.");
 }
 
 // Another worker resumes from the newest checkpoint, or restarts, with the same bits.
@@ -290,10 +290,10 @@ Final end_of(const store::JobFolder& folder, const Order& order, ReportLog& log,
     if (error.shortage() != Shortage::none) return left_for(error, folder, order);
     loss = failure_of(error);
   } catch (const std::bad_alloc&) {
-    loss = failure(v1::OUT_OF_MEMORY, "The run ran out of memory.",
+    loss = failure(v1::Job::OUT_OF_MEMORY, "The run ran out of memory.",
                    "Use fewer cells or elements_per_wall, or a machine with more memory.");
   } catch (const std::exception& error) {
-    loss = failure(v1::WORKER_CRASHED, std::string("The worker stopped: ") + error.what() + ".",
+    loss = failure(v1::Job::WORKER_CRASHED, std::string("The worker stopped: ") + error.what() + ".",
                    "Submit the case again. If the failure repeats, report it together with the case.");
   }
   return give_up(folder, order, log, requested_stop, std::move(loss));

@@ -158,7 +158,7 @@ TEST(FidelityText, WhereTheCaseLeavesNothingToFillInOneSentenceSaysSo) {
 TEST(JobText, AFramesSummaryHasNoPlateau) {
   v1::Job job;
   job.set_name("jobs/1");
-  job.set_state(v1::SUCCEEDED);
+  job.set_state(v1::Job::SUCCEEDED);
   *job.mutable_case_() = parse(kFrame);
   job.mutable_summary()->set_energy_error_relative(0.001);
   const std::string text = description_text(job);

@@ -24,10 +24,10 @@ v1::Convergence convergence() {
 
 Script converge_script() {
   Script script;
-  script.job = make_job(v1::SUCCEEDED);
+  script.job = make_job(v1::Job::SUCCEEDED);
   script.preset.set_name("type-i");
-  *script.preset.mutable_case_() = make_job(v1::RUNNING).case_();
-  script.sweeps = make_sweep_script({v1::SUCCEEDED, v1::SUCCEEDED});
+  *script.preset.mutable_case_() = make_job(v1::Job::RUNNING).case_();
+  script.sweeps = make_sweep_script({v1::Job::SUCCEEDED, v1::Job::SUCCEEDED});
   script.sweeps.sweep.set_predicted_seconds(12.0);
   script.sweeps.convergence = convergence();
   return script;

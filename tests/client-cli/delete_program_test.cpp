@@ -9,9 +9,9 @@ namespace {
 
 Script deletable_script() {
   Script script;
-  script.job = make_job(v1::SUCCEEDED);
+  script.job = make_job(v1::Job::SUCCEEDED);
   script.changes_jobs = true;
-  script.sweeps = make_sweep_script({v1::SUCCEEDED, v1::FAILED});
+  script.sweeps = make_sweep_script({v1::Job::SUCCEEDED, v1::Job::FAILED});
   return script;
 }
 

@@ -23,10 +23,10 @@ TEST(ExitCode, EveryStatusHasItsCode) {
 }
 
 TEST(ExitCode, AJobsEndHasItsCode) {
-  EXPECT_EQ(exit_code_of(v1::SUCCEEDED), ExitCode::done);
-  EXPECT_EQ(exit_code_of(v1::FAILED), ExitCode::job_failed);
-  EXPECT_EQ(exit_code_of(v1::CANCELLED), ExitCode::job_failed);
-  for (const v1::JobState state : {v1::PENDING, v1::RUNNING, v1::SUSPENDED, v1::CANCELLING})
+  EXPECT_EQ(exit_code_of(v1::Job::SUCCEEDED), ExitCode::done);
+  EXPECT_EQ(exit_code_of(v1::Job::FAILED), ExitCode::job_failed);
+  EXPECT_EQ(exit_code_of(v1::Job::CANCELLED), ExitCode::job_failed);
+  for (const v1::Job::State state : {v1::Job::PENDING, v1::Job::RUNNING, v1::Job::SUSPENDED, v1::Job::CANCELLING})
     EXPECT_FALSE(is_final(state));
 }
 

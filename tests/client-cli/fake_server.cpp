@@ -90,7 +90,7 @@ class FakeServer::Jobs : public v1::Jobs::Service {
     const std::lock_guard lock(shared_.mutex);
     shared_.asked.cancelled.push_back(request->name());
     *response = shared_.script.job;
-    response->set_state(v1::CANCELLING);
+    response->set_state(v1::Job::CANCELLING);
     return grpc::Status::OK;
   }
 

@@ -109,16 +109,16 @@ grpc::Status FakeSweeps::GetConvergence(grpc::ServerContext*, const v1::GetConve
   return find(request->name());
 }
 
-SweepScript make_sweep_script(const std::vector<v1::JobState>& ends) {
+SweepScript make_sweep_script(const std::vector<v1::Job::State>& ends) {
   SweepScript script;
   script.sweep.set_name("sweeps/test");
-  *script.sweep.mutable_case_() = make_job(v1::RUNNING).case_();
+  *script.sweep.mutable_case_() = make_job(v1::Job::RUNNING).case_();
   script.sweep.add_axes()->set_field("loading.speed_m_per_s");
   script.table.add_fields("loading.speed_m_per_s");
   for (std::size_t i = 0; i < ends.size(); ++i) {
     const std::string name = "jobs/test-" + std::to_string(i + 1);
     const double speed = 50.0 * static_cast<double>(i + 1);
-    const auto in_state = [&](v1::JobState state) {
+    const auto in_state = [&](v1::Job::State state) {
       v1::Job job = make_job(state);
       job.set_name(name);
       job.mutable_case_()->mutable_loading()->set_speed_m_per_s(speed);
@@ -127,12 +127,12 @@ SweepScript make_sweep_script(const std::vector<v1::JobState>& ends) {
     };
     script.sweep.add_jobs(name);
     script.sweep.mutable_axes(0)->mutable_list()->add_values(speed);
-    ++(*script.sweep.mutable_state_counts())[v1::JobState_Name(ends[i])];
+    ++(*script.sweep.mutable_state_counts())[v1::Job::State_Name(ends[i])];
     const auto add = [&] {
       script.responses.emplace_back().set_job(name);
       return script.responses.back().mutable_event();
     };
-    *add()->mutable_snapshot()->mutable_job() = in_state(v1::PENDING);
+    *add()->mutable_snapshot()->mutable_job() = in_state(v1::Job::PENDING);
     for (const v1::JobEvent& event : make_events(4, ends[i])) {
       v1::JobEvent& sent = *add();
       sent = event;

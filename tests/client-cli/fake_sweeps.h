@@ -62,6 +62,6 @@ class FakeSweeps : public v1::Sweeps::Service {
 
 /// A sweep "sweeps/test" over speed, a job for each of `ends`: 50, 100, 150 ... m/s. Its jobs run one after the other
 /// to these states; the table has plateaus of 0.3 + 0.0003 V^2 at the impact plate for those that succeed.
-SweepScript make_sweep_script(const std::vector<v1::JobState>& ends);
+SweepScript make_sweep_script(const std::vector<v1::Job::State>& ends);
 
 }  // namespace cellcrush::client::testing

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 Script finished_script() {
   Script script;
-  script.job = make_job(v1::SUCCEEDED);
+  script.job = make_job(v1::Job::SUCCEEDED);
   script.samples = synthetic_samples(400, 0.8);
   for (const double strain : {0.0, 0.2, 0.4, 0.8}) script.stages.push_back(synthetic_stage(20, 6, strain));
   script.stages[2].frame.set_index(20);

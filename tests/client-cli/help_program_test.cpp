@@ -123,7 +123,7 @@ TEST(Help, LinesFitIntoAHundredColumns) {
 
 TEST(SharedOptions, StandBeforeAndAfterTheCommand) {
   Script script;
-  script.job = make_job(v1::SUCCEEDED);
+  script.job = make_job(v1::Job::SUCCEEDED);
   const FakeServer server(script);
   const ProgramResult after = run_program({"list", "--server", server.address(), "--json"});
   EXPECT_EQ(after.exit_code, 0) << after.errors;

@@ -17,11 +17,11 @@ using google::protobuf::util::MessageDifferencer;
 
 Script preset_script() {
   Script script;
-  script.job = make_job(v1::SUCCEEDED);
+  script.job = make_job(v1::Job::SUCCEEDED);
   script.preset.set_name("type-i");
   script.preset.set_title("Type I of the tests");
   script.preset.add_assumptions("The depth is that of the specimen.");
-  *script.preset.mutable_case_() = make_job(v1::RUNNING).case_();
+  *script.preset.mutable_case_() = make_job(v1::Job::RUNNING).case_();
   return script;
 }
 
@@ -94,8 +94,8 @@ TEST(Submit, ReadsTextAndJsonFromStdinAndFiles) {
 
 TEST(Submit, WithWatchFollowsTheJob) {
   Script script = preset_script();
-  script.job = make_job(v1::RUNNING);
-  script.events = make_events(5, v1::FAILED);
+  script.job = make_job(v1::Job::RUNNING);
+  script.events = make_events(5, v1::Job::FAILED);
   const FakeServer server(script);
   const ProgramResult result = run_program({"submit", "preset:type-i", "--watch", "--server", server.address()});
   EXPECT_EQ(result.exit_code, 1);

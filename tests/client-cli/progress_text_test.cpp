@@ -11,7 +11,7 @@ JobView running_view() {
   v1::JobEvent event;
   v1::Job& job = *event.mutable_snapshot()->mutable_job();
   job.set_name("jobs/a");
-  job.set_state(v1::RUNNING);
+  job.set_state(v1::Job::RUNNING);
   v1::Progress& progress = *job.mutable_progress();
   progress.set_fraction(0.473);
   progress.set_strain(0.378);
@@ -67,7 +67,7 @@ TEST(Progress, TheBarIsAsWideAsAskedAndFillsUp) {
 TEST(Progress, APendingJobSaysThatItWaits) {
   v1::JobEvent event;
   event.mutable_snapshot()->mutable_job()->set_name("jobs/a");
-  event.mutable_snapshot()->mutable_job()->set_state(v1::PENDING);
+  event.mutable_snapshot()->mutable_job()->set_state(v1::Job::PENDING);
   JobView view;
   view.apply(event);
   EXPECT_EQ(progress_line(view), "jobs/a  PENDING: waiting for a worker");
@@ -82,12 +82,12 @@ TEST(Progress, SamplesAndStatesKeepWhatIsKnown) {
   view.apply(sample);
   v1::JobEvent state;
   state.mutable_state()->set_name("jobs/a");
-  state.mutable_state()->set_state(v1::CANCELLING);
+  state.mutable_state()->set_state(v1::Job::CANCELLING);
   view.apply(state);
   EXPECT_EQ(view.progress().strain(), 0.4);
   EXPECT_EQ(view.progress().stress_impact_mpa(), 5.0);
   EXPECT_EQ(view.progress().plateau_so_far_mpa(), 3.381);
-  EXPECT_EQ(view.job().state(), v1::CANCELLING);
+  EXPECT_EQ(view.job().state(), v1::Job::CANCELLING);
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ v1::ProblemList two_problems() {
 
 Script refusing_script() {
   Script script;
-  script.job = make_job(v1::RUNNING);
+  script.job = make_job(v1::Job::RUNNING);
   google::rpc::Status envelope;
   envelope.add_details()->PackFrom(two_problems());
   script.create_status = grpc::Status(grpc::StatusCode::INVALID_ARGUMENT, "refused", envelope.SerializeAsString());

@@ -82,7 +82,7 @@ v1::SweepTable grid() {
       auto& row = *table.add_rows();
       row.add_values(speed);
       row.add_values(depth);
-      row.mutable_result()->set_state(v1::SUCCEEDED);
+      row.mutable_result()->set_state(v1::Job::SUCCEEDED);
       v1::Summary& summary = *row.mutable_result()->mutable_summary();
       summary.set_plateau_stress_impact_mpa(speed + depth);
       summary.set_plateau_stress_support_mpa(0.4);
@@ -95,7 +95,7 @@ v1::SweepTable grid() {
 
 TEST(ResultSeries, SplitByTheLaterFieldsAndAscendInTheFirst) {
   v1::SweepTable table = grid();
-  table.mutable_rows(3)->mutable_result()->set_state(v1::FAILED);
+  table.mutable_rows(3)->mutable_result()->set_state(v1::Job::FAILED);
   const auto all = split_series(table);
   ASSERT_EQ(all.size(), 2U);
   EXPECT_EQ(all[0].name, "depth = 1 mm");

@@ -4,7 +4,7 @@
 
 namespace cellcrush::client::testing {
 
-v1::Job make_job(v1::JobState state) {
+v1::Job make_job(v1::Job::State state) {
   v1::Job job;
   job.set_name("jobs/test");
   job.set_state(state);
@@ -13,12 +13,12 @@ v1::Job make_job(v1::JobState state) {
   job.mutable_case_()->mutable_loading()->set_end_strain(0.8);
   job.mutable_case_()->mutable_lattice()->mutable_hexagon()->set_columns(74);
   job.mutable_case_()->mutable_lattice()->mutable_hexagon()->set_rows(21);
-  if (state == v1::FAILED) {
-    job.set_cause(v1::SOLVER_DIVERGED);
+  if (state == v1::Job::FAILED) {
+    job.set_cause(v1::Job::SOLVER_DIVERGED);
     job.set_cause_message("particle 12 left the scene at step 340");
     job.set_remedy("lower numerics.time_step_s");
   }
-  if (state == v1::SUCCEEDED) {
+  if (state == v1::Job::SUCCEEDED) {
     v1::Summary& summary = *job.mutable_summary();
     summary.set_plateau_window_low(0.2);
     summary.set_plateau_window_high(0.4);
@@ -31,7 +31,7 @@ v1::Job make_job(v1::JobState state) {
     summary.set_solver_seconds(45.3);
     summary.mutable_stage_times()->set_evaluate_internal_forces_s(30.0);
     summary.mutable_stage_times()->set_find_contacts_s(10.0);
-    summary.set_crush_mode(v1::CRUSH_MODE_I);
+    summary.set_crush_mode(v1::Summary::CRUSH_MODE_I);
     summary.set_crush_mode_strain(0.11);
     summary.set_shock_error_relative(-0.0123);
     summary.mutable_front()->set_strain_behind(0.905);
@@ -52,10 +52,10 @@ v1::Job make_job(v1::JobState state) {
   return job;
 }
 
-std::vector<v1::JobEvent> make_events(int samples, v1::JobState state) {
+std::vector<v1::JobEvent> make_events(int samples, v1::Job::State state) {
   std::vector<v1::JobEvent> events(1);
   events.back().set_sequence(1);
-  *events.back().mutable_state() = make_job(v1::RUNNING);
+  *events.back().mutable_state() = make_job(v1::Job::RUNNING);
   const auto history = synthetic_samples(samples, 0.8);
   for (int i = 0; i < samples; ++i) {
     v1::JobEvent& sample = events.emplace_back();

@@ -29,7 +29,7 @@ void expect_answers(const std::vector<Misspelling>& misspellings, const std::vec
 // Knows jobs/3 and preset:type-i.
 Script script_of_one_job() {
   Script script;
-  script.job = make_job(v1::SUCCEEDED);
+  script.job = make_job(v1::Job::SUCCEEDED);
   script.job.set_name("jobs/3");
   script.preset.set_name("type-i");
   return script;

@@ -21,7 +21,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 TEST(SummaryText, HasBothShockTheoriesWithTheirErrorsFrontModeAndLedger) {
-  const std::string text = summary_text(testing::make_job(v1::SUCCEEDED).summary(), v1::Lattice(), 120);
+  const std::string text = summary_text(testing::make_job(v1::Job::SUCCEEDED).summary(), v1::Lattice(), 120);
   EXPECT_THAT(text, ContainsRegex("3.41 MPa +3.37 MPa  shock theory \\(Eq. 51\\), 1.2 % lower"));
   EXPECT_THAT(text, ContainsRegex("3.43 MPa  shock theory with measured jumps \\(Eq. 52\\), 0.6 % higher"));
   EXPECT_THAT(text, HasSubstr("crush mode: layer by layer (I), first seen at strain 0.11\n"));
@@ -49,7 +49,7 @@ TEST(SummaryText, NamesWarningsWithTheirRemedies) {
   v1::Summary summary;
   EXPECT_THAT(summary_text(summary, v1::Lattice(), 120), Not(HasSubstr("Warning")));
   v1::Warning& warning = *summary.add_warnings();
-  warning.set_kind(v1::DEEP_PENETRATION);
+  warning.set_kind(v1::Warning::DEEP_PENETRATION);
   warning.set_message("Walls have overlapped by 61 %.");
   warning.set_remedy("Give a shorter numerics.time_step_s.");
   const std::string text = summary_text(summary, v1::Lattice(), 120);
@@ -58,7 +58,7 @@ TEST(SummaryText, NamesWarningsWithTheirRemedies) {
 }
 
 TEST(SummaryText, FitsItsTerminal) {
-  const v1::Summary summary = testing::make_job(v1::SUCCEEDED).summary();
+  const v1::Summary summary = testing::make_job(v1::Job::SUCCEEDED).summary();
   for (const int width : {60, 80, 100}) {
     std::istringstream lines(summary_text(summary, v1::Lattice(), width));
     for (std::string line; std::getline(lines, line);) EXPECT_LE(display_width(line), width) << line;
@@ -66,7 +66,7 @@ TEST(SummaryText, FitsItsTerminal) {
 }
 
 TEST(SummaryText, SaysWhereTheoryDoesNotApply) {
-  const v1::Summary summary = testing::make_job(v1::SUCCEEDED).summary();
+  const v1::Summary summary = testing::make_job(v1::Job::SUCCEEDED).summary();
   v1::Lattice lattice;
   lattice.mutable_hexagon();
   EXPECT_THAT(summary_text(summary, lattice, 80), Not(HasSubstr("Note:")));
@@ -88,7 +88,7 @@ TEST(SummaryText, OfAFrameIsTheLedgerWithWhatItStartedWith) {
 }
 
 JobHistory history_with_damping() {
-  JobHistory history{testing::make_job(v1::SUCCEEDED), testing::synthetic_samples(50, 0.8)};
+  JobHistory history{testing::make_job(v1::Job::SUCCEEDED), testing::synthetic_samples(50, 0.8)};
   for (v1::Sample& sample : history.samples) {
     sample.set_work_external_mj(1000.0 * sample.strain());
     sample.set_energy_plastic_mj(890.0 * sample.strain());
@@ -109,7 +109,7 @@ TEST(EnergyChart, HasALineOfItsOwnForContactDampingAndNoneForWhatStaysZero) {
 }
 
 TEST(JobText, TellsWhereTheTimeWentWhereItIsKnown) {
-  v1::Job job = testing::make_job(v1::SUCCEEDED);
+  v1::Job job = testing::make_job(v1::Job::SUCCEEDED);
   const std::string text = description_text(job);
   EXPECT_THAT(text, HasSubstr("step time by stage  40.0 s"));
   EXPECT_THAT(text, HasSubstr("internal forces     30.0 s  75.0 %"));

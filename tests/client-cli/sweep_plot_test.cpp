@@ -10,8 +10,8 @@ namespace fs = std::filesystem;
 
 TEST(SweepPlot, IsDrawnAsPngAndSvg) {
   Script script;
-  script.job = make_job(v1::SUCCEEDED);
-  script.sweeps = make_sweep_script({v1::SUCCEEDED, v1::SUCCEEDED, v1::SUCCEEDED, v1::FAILED});
+  script.job = make_job(v1::Job::SUCCEEDED);
+  script.sweeps = make_sweep_script({v1::Job::SUCCEEDED, v1::Job::SUCCEEDED, v1::Job::SUCCEEDED, v1::Job::FAILED});
   const FakeServer server(script);
   for (const char* name : {"a.png", "a.svg", "a.pdf"}) {
     const std::string file = (server.folder() / name).string();
@@ -27,8 +27,8 @@ TEST(SweepPlot, IsDrawnAsPngAndSvg) {
 
 TEST(SweepPlot, WithoutAPlateauIsRefusedAndAnUnknownSweepNotFound) {
   Script script;
-  script.job = make_job(v1::SUCCEEDED);
-  script.sweeps = make_sweep_script({v1::CANCELLED, v1::FAILED});
+  script.job = make_job(v1::Job::SUCCEEDED);
+  script.sweeps = make_sweep_script({v1::Job::CANCELLED, v1::Job::FAILED});
   const FakeServer server(script);
   const std::string file = (server.folder() / "a.png").string();
   const ProgramResult refused =

@@ -14,16 +14,16 @@ namespace {
 
 using google::protobuf::util::JsonStringToMessage;
 
-Script sweep_script(const std::vector<v1::JobState>& ends) {
+Script sweep_script(const std::vector<v1::Job::State>& ends) {
   Script script;
-  script.job = make_job(v1::SUCCEEDED);
+  script.job = make_job(v1::Job::SUCCEEDED);
   script.preset.set_name("type-i");
-  *script.preset.mutable_case_() = make_job(v1::RUNNING).case_();
+  *script.preset.mutable_case_() = make_job(v1::Job::RUNNING).case_();
   script.sweeps = make_sweep_script(ends);
   return script;
 }
 
-const std::vector<v1::JobState> kThreeSucceed = {v1::SUCCEEDED, v1::SUCCEEDED, v1::SUCCEEDED};
+const std::vector<v1::Job::State> kThreeSucceed = {v1::Job::SUCCEEDED, v1::Job::SUCCEEDED, v1::Job::SUCCEEDED};
 
 ProgramResult run_on(const FakeServer& server, std::vector<std::string> arguments) {
   arguments.insert(arguments.end(), {"--server", server.address()});
@@ -117,11 +117,11 @@ TEST(SweepWatch, EndsWithTheTableAndZeroWhenAllSucceeded) {
 }
 
 TEST(SweepWatch, EndsWithOneWhenAJobFailedOrWasCancelled) {
-  for (const v1::JobState state : {v1::FAILED, v1::CANCELLED}) {
-    const FakeServer server(sweep_script({v1::SUCCEEDED, state}));
+  for (const v1::Job::State state : {v1::Job::FAILED, v1::Job::CANCELLED}) {
+    const FakeServer server(sweep_script({v1::Job::SUCCEEDED, state}));
     const ProgramResult result = run_on(server, {"watch", "sweeps/test"});
     EXPECT_EQ(result.exit_code, 1) << result.output;
-    EXPECT_NE(result.output.find("1 " + v1::JobState_Name(state)), std::string::npos) << result.output;
+    EXPECT_NE(result.output.find("1 " + v1::Job::State_Name(state)), std::string::npos) << result.output;
   }
 }
 
@@ -196,7 +196,7 @@ TEST(SweepWatch, OnATerminalThereIsALineAJobRedrawnInPlaceWithinItsWidth) {
 }
 
 TEST(SweepTable, IsPrintedAsATextCsvOrJson) {
-  const FakeServer server(sweep_script({v1::SUCCEEDED, v1::FAILED}));
+  const FakeServer server(sweep_script({v1::Job::SUCCEEDED, v1::Job::FAILED}));
   const ProgramResult text = run_on(server, {"table", "test"});
   EXPECT_EQ(text.exit_code, 0) << text.errors;
   EXPECT_NE(text.output.find("jobs/test-2 FAILED (SOLVER_DIVERGED)"), std::string::npos) << text.output;
@@ -212,7 +212,7 @@ TEST(SweepTable, IsPrintedAsATextCsvOrJson) {
 }
 
 TEST(SweepTable, OfManyPagesIsOneTable) {
-  const FakeServer server(sweep_script({v1::SUCCEEDED, v1::FAILED, v1::SUCCEEDED, v1::SUCCEEDED, v1::SUCCEEDED}));
+  const FakeServer server(sweep_script({v1::Job::SUCCEEDED, v1::Job::FAILED, v1::Job::SUCCEEDED, v1::Job::SUCCEEDED, v1::Job::SUCCEEDED}));
   v1::SweepTable table;
   ASSERT_TRUE(JsonStringToMessage(run_on(server, {"table", "test", "--json"}).output, &table).ok());
   EXPECT_EQ(table.fields_size(), 1);
@@ -222,7 +222,7 @@ TEST(SweepTable, OfManyPagesIsOneTable) {
 }
 
 TEST(SweepLife, CancelRetryShowAndListNameTheSweep) {
-  const FakeServer server(sweep_script({v1::SUCCEEDED, v1::FAILED}));
+  const FakeServer server(sweep_script({v1::Job::SUCCEEDED, v1::Job::FAILED}));
   const ProgramResult cancel = run_on(server, {"cancel", "sweeps/test"});
   EXPECT_EQ(cancel.exit_code, 0) << cancel.errors;
   EXPECT_EQ(cancel.output, "sweeps/test: 2 jobs, 1 FAILED, 1 SUCCEEDED\n");

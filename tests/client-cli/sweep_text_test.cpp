@@ -16,12 +16,12 @@
 namespace cellcrush::client {
 namespace {
 
-v1::Job make_job(int number, v1::JobState state, double speed) {
+v1::Job make_job(int number, v1::Job::State state, double speed) {
   v1::Job job;
   job.set_name("jobs/" + std::to_string(number));
   job.set_state(state);
   job.mutable_case_()->mutable_loading()->set_speed_m_per_s(speed);
-  if (state == v1::RUNNING || state == v1::SUCCEEDED) {
+  if (state == v1::Job::RUNNING || state == v1::Job::SUCCEEDED) {
     job.mutable_progress()->set_fraction(0.473);
     job.mutable_progress()->set_strain(0.31);
     job.mutable_progress()->set_plateau_so_far_mpa(3.39);
@@ -36,10 +36,10 @@ v1::SweepTable make_table(int succeeded) {
     const double speed = 50.0 * i;
     auto& row = *table.add_rows();
     row.add_values(speed);
-    *row.mutable_result() = make_job(i, i <= succeeded ? v1::SUCCEEDED : v1::FAILED, speed);
+    *row.mutable_result() = make_job(i, i <= succeeded ? v1::Job::SUCCEEDED : v1::Job::FAILED, speed);
     row.set_job(row.result().name());
     if (i > succeeded) {
-      row.mutable_result()->set_cause(v1::ENERGY_BALANCE);
+      row.mutable_result()->set_cause(v1::Job::ENERGY_BALANCE);
       row.mutable_result()->set_cause_message("the ledger opened");
       continue;
     }
@@ -51,7 +51,7 @@ v1::SweepTable make_table(int succeeded) {
     summary.set_plateau_stress_support_mpa(0.44);
     summary.set_absorbed_energy_mj(12345.0);
     summary.set_energy_error_relative(0.0121);
-    summary.set_crush_mode(i == 1 ? v1::CRUSH_MODE_V : v1::CRUSH_MODE_I);
+    summary.set_crush_mode(i == 1 ? v1::Summary::CRUSH_MODE_V : v1::Summary::CRUSH_MODE_I);
     if (i > 1) summary.mutable_front()->set_shock_mpa(0.27 + 2.9e-4 * speed * speed);
     summary.mutable_theory()->set_gibson_ashby_mpa(0.301);
     summary.mutable_theory()->set_shock_mpa(0.301 + 3.1e-4 * speed * speed);
@@ -127,7 +127,7 @@ TEST(SweepTable, HasAsManyDigitsAsAskedAndSaysWhereTheoryDoesNotApply) {
 TEST(JobList, ShowsWhatDiffersBetweenJobsOfATitleAndFitsItsTerminal) {
   std::vector<v1::Job> jobs;
   for (const double speed : {50.0, 100.0, 200.0}) {
-    v1::Job& job = jobs.emplace_back(make_job(static_cast<int>(jobs.size()), v1::SUCCEEDED, speed));
+    v1::Job& job = jobs.emplace_back(make_job(static_cast<int>(jobs.size()), v1::Job::SUCCEEDED, speed));
     job.mutable_case_()->set_title(
         "7 rows of 20 and 19 hexagons, crushed along the rows at 100 m/s, "
         "loading.speed_m_per_s = " +
@@ -179,7 +179,7 @@ SweepView make_view(int jobs) {
   for (int i = 1; i < jobs; ++i) {
     v1::WatchSweepResponse response;
     response.set_job("jobs/" + std::to_string(i));
-    const v1::JobState state = i == 1 ? v1::SUCCEEDED : i == jobs - 1 ? v1::RUNNING : v1::PENDING;
+    const v1::Job::State state = i == 1 ? v1::Job::SUCCEEDED : i == jobs - 1 ? v1::Job::RUNNING : v1::Job::PENDING;
     *response.mutable_event()->mutable_state() = make_job(i, state, 50.0 * i);
     view.apply(response);
   }

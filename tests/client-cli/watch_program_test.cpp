@@ -11,9 +11,9 @@
 namespace cellcrush::client::testing {
 namespace {
 
-Script run_script(v1::JobState end) {
+Script run_script(v1::Job::State end) {
   Script script;
-  script.job = make_job(v1::RUNNING);
+  script.job = make_job(v1::Job::RUNNING);
   script.events = make_events(20, end);
   return script;
 }
@@ -21,7 +21,7 @@ Script run_script(v1::JobState end) {
 int count_lines(const std::string& text) { return static_cast<int>(std::count(text.begin(), text.end(), '\n')); }
 
 TEST(Watch, ASucceededJobEndsWithItsPlateauBesideTheory) {
-  const FakeServer server(run_script(v1::SUCCEEDED));
+  const FakeServer server(run_script(v1::Job::SUCCEEDED));
   const ProgramResult result = run_program({"watch", "jobs/test", "--server", server.address()});
   EXPECT_EQ(result.exit_code, 0) << result.errors;
   for (const char* part :
@@ -32,7 +32,7 @@ TEST(Watch, ASucceededJobEndsWithItsPlateauBesideTheory) {
 }
 
 TEST(Watch, WithoutATerminalThereIsAtMostOneLineASecond) {
-  const FakeServer server(run_script(v1::SUCCEEDED));
+  const FakeServer server(run_script(v1::Job::SUCCEEDED));
   const ProgramResult result = run_program({"watch", "test", "--server", server.address()});
   const std::string progress = result.output.substr(0, result.output.find("jobs/test SUCCEEDED within"));
   EXPECT_GE(count_lines(progress), 2) << progress;
@@ -41,7 +41,7 @@ TEST(Watch, WithoutATerminalThereIsAtMostOneLineASecond) {
 }
 
 TEST(Watch, AFailedJobGivesItsCauseAndRemedy) {
-  const FakeServer server(run_script(v1::FAILED));
+  const FakeServer server(run_script(v1::Job::FAILED));
   const ProgramResult result = run_program({"watch", "jobs/test", "--server", server.address()});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_NE(result.output.find("jobs/test FAILED (SOLVER_DIVERGED)"), std::string::npos) << result.output;
@@ -50,7 +50,7 @@ TEST(Watch, AFailedJobGivesItsCauseAndRemedy) {
 }
 
 TEST(Watch, ACutStreamIsPickedUpBehindTheLastEvent) {
-  Script script = run_script(v1::SUCCEEDED);
+  Script script = run_script(v1::Job::SUCCEEDED);
   script.cut_streams = 2;
   script.events_before_cut = 7;
   const FakeServer server(script);
@@ -73,7 +73,7 @@ TEST(Watch, ACutStreamIsPickedUpBehindTheLastEvent) {
 }
 
 TEST(Watch, AStreamThatStaysCutEndsWithFour) {
-  Script script = run_script(v1::SUCCEEDED);
+  Script script = run_script(v1::Job::SUCCEEDED);
   script.cut_streams = 1000;
   script.events_before_cut = 0;
   const FakeServer server(script);
@@ -85,14 +85,14 @@ TEST(Watch, AStreamThatStaysCutEndsWithFour) {
 }
 
 TEST(Watch, AnUnknownJobEndsWithFive) {
-  const FakeServer server(run_script(v1::SUCCEEDED));
+  const FakeServer server(run_script(v1::Job::SUCCEEDED));
   const ProgramResult result = run_program({"watch", "jobs/none", "--server", server.address()});
   EXPECT_EQ(result.exit_code, 5);
   EXPECT_NE(result.errors.find("there is no jobs/none"), std::string::npos) << result.errors;
 }
 
 TEST(Watch, CtrlCLeavesTheJobRunningAndSaysSo) {
-  Script script = run_script(v1::SUCCEEDED);
+  Script script = run_script(v1::Job::SUCCEEDED);
   script.events.resize(5);
   script.hold = true;
   const FakeServer server(script);
@@ -107,7 +107,7 @@ TEST(Watch, CtrlCLeavesTheJobRunningAndSaysSo) {
 
 TEST(Watch, APendingJobSaysThatItWaits) {
   Script script;
-  script.job = make_job(v1::PENDING);
+  script.job = make_job(v1::Job::PENDING);
   script.hold = true;
   const FakeServer server(script);
   Program program({"watch", "jobs/test", "--server", server.address()});
@@ -117,7 +117,7 @@ TEST(Watch, APendingJobSaysThatItWaits) {
 }
 
 TEST(Watch, OnATerminalTheDisplayIsRedrawnInPlaceWithinItsWidth) {
-  const FakeServer server(run_script(v1::SUCCEEDED));
+  const FakeServer server(run_script(v1::Job::SUCCEEDED));
   for (const int columns : {40, 80, 132}) {
     const ProgramResult result = Program({"watch", "jobs/test", "--server", server.address()}, columns).wait();
     EXPECT_EQ(result.exit_code, 0) << result.output;

@@ -46,7 +46,7 @@ class BackupLoadTest : public FaultFixture {
         const std::scoped_lock lock(mutex_);
         acknowledged_.jobs[job] = submitted.title();
       }
-      if (!last.empty() && i % 3 == 0 && client.wait_for_state(last, v1::SUCCEEDED)) {
+      if (!last.empty() && i % 3 == 0 && client.wait_for_state(last, v1::Job::SUCCEEDED)) {
         {
           const std::scoped_lock lock(mutex_);
           acknowledged_.deleted.insert(last);
@@ -94,7 +94,7 @@ TEST_F(BackupLoadTest, AllThatWasAcknowledgedBeforeABackupIsInItAndNoneIsMixed) 
   }
   auto live = this->client();
   for (const auto& [name, title] : acknowledged().jobs)
-    EXPECT_TRUE(acknowledged().deleted.contains(name) || live.wait_for_state(name, v1::SUCCEEDED));
+    EXPECT_TRUE(acknowledged().deleted.contains(name) || live.wait_for_state(name, v1::Job::SUCCEEDED));
   const auto results = results_of(live);
   const auto reference = numbers_of(live, data_folder(), results.begin()->first);
   stop_daemon();
@@ -113,10 +113,10 @@ TEST_F(BackupLoadTest, AllThatWasAcknowledgedBeforeABackupIsInItAndNoneIsMixed) 
       EXPECT_TRUE(after[i].deleted.contains(name) || restored.contains(name)) << name << " of backup " << i;
     for (const auto& [name, job] : restored) EXPECT_EQ(job.case_().title(), acknowledged().jobs.at(name)) << name;
     for (const auto& [name, bytes] : results_of(client))
-      EXPECT_TRUE(!results.contains(name) || restored.at(name).state() != v1::SUCCEEDED || bytes == results.at(name))
+      EXPECT_TRUE(!results.contains(name) || restored.at(name).state() != v1::Job::SUCCEEDED || bytes == results.at(name))
           << name;
     for (const auto& [name, job] : restored) {
-      ASSERT_TRUE(client.wait_for_state(name, v1::SUCCEEDED)) << name;
+      ASSERT_TRUE(client.wait_for_state(name, v1::Job::SUCCEEDED)) << name;
       EXPECT_EQ(client.history(name).size(), 21U) << name;
     }
     EXPECT_TRUE(numbers_of(client, data_folder(), restored.rbegin()->first) == reference);

@@ -194,7 +194,7 @@ TEST_P(ConnectionFloodTest, StrangersUnderAHardLimitOf1024DescriptorsShutNobodyO
 TEST_P(ConnectionFloodTest, FloodsLeaveEveryPortThreadsAndMemoryAsTheyWere) {
   auto local = this->client();
   const std::string job = local.create(small_case());
-  ASSERT_TRUE(local.wait_for_state(job, v1::SUCCEEDED));
+  ASSERT_TRUE(local.wait_for_state(job, v1::Job::SUCCEEDED));
   expect_all_ports_answer();
   const std::size_t before = daemon_->resident_bytes();
   int most_threads = threads();
@@ -255,7 +255,7 @@ TEST_P(ConnectionFloodTest, FloodsLeaveEveryPortThreadsAndMemoryAsTheyWere) {
     std::this_thread::sleep_for(seconds(2));
     look();
     EXPECT_TRUE(check(channel()).ok());
-    EXPECT_EQ(local.get(job).state(), v1::SUCCEEDED);
+    EXPECT_EQ(local.get(job).state(), v1::Job::SUCCEEDED);
     for (auto& context : contexts) context.TryCancel();
     for (auto& reader : readers) {
       v1::DownloadResultResponse part;

@@ -96,8 +96,8 @@ TEST_F(CorruptRowTest, AWaitingJobWhoseCaseCannotBeReadFailsAndTheOthersGoOn) {
   auto client = this->client();
   expect_the_others_intact(client, "jobs/77");
   const auto job = client.get("jobs/77");
-  EXPECT_EQ(job.state(), v1::FAILED);
-  EXPECT_EQ(job.cause(), v1::STORE_CORRUPT);
+  EXPECT_EQ(job.state(), v1::Job::FAILED);
+  EXPECT_EQ(job.cause(), v1::Job::STORE_CORRUPT);
   EXPECT_THAT(job.cause_message(), HasSubstr("cannot be read"));
   EXPECT_FALSE(job.remedy().empty());
   std::int64_t last = 0;
@@ -114,7 +114,7 @@ TEST_F(CorruptRowTest, AJobOfWhichNothingCanBeReadFailsAndTheOthersGoOn) {
   start_daemon(arguments_);
   auto client = this->client();
   expect_the_others_intact(client, "jobs/77");
-  EXPECT_EQ(client.get("jobs/77").cause(), v1::STORE_CORRUPT);
+  EXPECT_EQ(client.get("jobs/77").cause(), v1::Job::STORE_CORRUPT);
   std::int64_t last = 0;
   const auto status = watch_soundly(client, "jobs/77", 0, last);
   EXPECT_EQ(status.error_code(), grpc::StatusCode::DATA_LOSS);
@@ -131,13 +131,13 @@ TEST_F(CorruptRowTest, ASampleThatCannotBeReadCostsOnlyItself) {
     auto client = this->client();
     job = client.create(tiny_case());
     next = client.create(tiny_case());
-    for (const auto& name : {job, next}) EXPECT_TRUE(client.wait_for_state(name, v1::SUCCEEDED));
+    for (const auto& name : {job, next}) EXPECT_TRUE(client.wait_for_state(name, v1::Job::SUCCEEDED));
   }
   stop_daemon();
   damage("events", "payload", "job = " + job.substr(5) + " AND sequence = 10");
   start_daemon(arguments_);
   auto client = this->client();
-  EXPECT_EQ(client.get(job).state(), v1::SUCCEEDED);
+  EXPECT_EQ(client.get(job).state(), v1::Job::SUCCEEDED);
   std::int64_t last = 0;
   EXPECT_EQ(watch_soundly(client, job, 0, last).error_code(), grpc::StatusCode::DATA_LOSS);
   EXPECT_EQ(last, 9) << "What comes before it is given.";
@@ -158,11 +158,11 @@ TEST_F(CorruptRowTest, AnAdoptedJobWhoseNewestSampleCannotBeReadFailsAndItsWorke
   pid_t worker = 0;
   damage_a_running_job(job, worker, false);
   auto client = this->client();
-  EXPECT_TRUE(client.wait_for_state(job, v1::FAILED));
-  EXPECT_EQ(client.get(job).cause(), v1::STORE_CORRUPT);
+  EXPECT_TRUE(client.wait_for_state(job, v1::Job::FAILED));
+  EXPECT_EQ(client.get(job).cause(), v1::Job::STORE_CORRUPT);
   EXPECT_TRUE(wait_until_gone(worker, std::chrono::seconds(10)));
   const std::string next = client.create(tiny_case());
-  EXPECT_TRUE(client.wait_for_state(next, v1::SUCCEEDED));
+  EXPECT_TRUE(client.wait_for_state(next, v1::Job::SUCCEEDED));
 }
 
 TEST_F(CorruptRowTest, ALostJobWhoseNewestSampleCannotBeReadFailsAndTheDaemonStarts) {
@@ -170,10 +170,10 @@ TEST_F(CorruptRowTest, ALostJobWhoseNewestSampleCannotBeReadFailsAndTheDaemonSta
   pid_t worker = 0;
   damage_a_running_job(job, worker, true);
   auto client = this->client();
-  EXPECT_EQ(client.get(job).state(), v1::FAILED);
-  EXPECT_EQ(client.get(job).cause(), v1::STORE_CORRUPT);
+  EXPECT_EQ(client.get(job).state(), v1::Job::FAILED);
+  EXPECT_EQ(client.get(job).cause(), v1::Job::STORE_CORRUPT);
   const std::string next = client.create(tiny_case());
-  EXPECT_TRUE(client.wait_for_state(next, v1::SUCCEEDED));
+  EXPECT_TRUE(client.wait_for_state(next, v1::Job::SUCCEEDED));
 }
 
 }  // namespace

@@ -92,7 +92,7 @@ class DaemonKillTest : public FaultFixture {
     for (std::size_t i = 0; i < events.size(); ++i)
       ASSERT_EQ(events[i].sequence(), static_cast<std::int64_t>(i) + 1) << job;
     ASSERT_FALSE(events.empty());
-    EXPECT_EQ(events.back().state().state(), v1::SUCCEEDED) << job;
+    EXPECT_EQ(events.back().state().state(), v1::Job::SUCCEEDED) << job;
     const auto samples = reader.samples(number).samples;
     for (std::size_t i = 1; i < samples.size(); ++i) ASSERT_GT(samples[i].step(), samples[i - 1].step()) << job;
     EXPECT_EQ(store::ResultReader(data_folder() / job / "result.h5").history().size(), samples.size()) << job;
@@ -127,7 +127,7 @@ TEST_F(DaemonKillTest, EveryAcknowledgedJobExistsOnceAndSucceeds) {
   int attempts = 0;
   for (const auto& [name, job] : all_jobs(client)) {
     EXPECT_TRUE(made.emplace(job.labels().at("request"), name).second) << "a duplicate: " << name;
-    EXPECT_EQ(job.state(), v1::SUCCEEDED) << name << " " << job.cause_message();
+    EXPECT_EQ(job.state(), v1::Job::SUCCEEDED) << name << " " << job.cause_message();
     attempts += job.attempt();
   }
   EXPECT_EQ(made, acknowledged);

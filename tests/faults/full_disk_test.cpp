@@ -75,13 +75,13 @@ class FullDiskTest : public FaultFixture {
   JobNumbers undisturbed(Client& client) {
     const std::string job = client.create(submitted());
     EXPECT_TRUE(client.watch(job).status.ok());
-    EXPECT_EQ(client.get(job).state(), v1::SUCCEEDED) << client.get(job).cause_message();
+    EXPECT_EQ(client.get(job).state(), v1::Job::SUCCEEDED) << client.get(job).cause_message();
     return numbers_of(client, data_folder(), job);
   }
 
   void expect_the_same_end(Client& client, const std::string& job, const JobNumbers& whole) const {
-    ASSERT_TRUE(client.wait_for_state(job, v1::SUCCEEDED))
-        << v1::JobState_Name(client.get(job).state()) << " " << client.get(job).cause_message();
+    ASSERT_TRUE(client.wait_for_state(job, v1::Job::SUCCEEDED))
+        << v1::Job::State_Name(client.get(job).state()) << " " << client.get(job).cause_message();
     EXPECT_TRUE(numbers_of(client, data_folder(), job) == whole);
     EXPECT_TRUE(client.remove(job).ok());
   }
@@ -89,7 +89,7 @@ class FullDiskTest : public FaultFixture {
   // What can be read is, and no job has failed.
   static void expect_service(Client& client) {
     for (const auto& [name, job] : all_jobs(client)) {
-      EXPECT_NE(job.state(), v1::FAILED) << name << ": " << job.cause_message();
+      EXPECT_NE(job.state(), v1::Job::FAILED) << name << ": " << job.cause_message();
       EXPECT_EQ(client.get(name).name(), name);
     }
   }
@@ -136,10 +136,10 @@ TEST_F(FullDiskTest, WhileItIsFullNothingIsTakenAndWhatWaitsRunsAfterwards) {
   EXPECT_EQ(status.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED) << status.error_message();
   expect_service(client);
   make_room();
-  EXPECT_TRUE(client.wait_for_state(running, v1::RUNNING));
+  EXPECT_TRUE(client.wait_for_state(running, v1::Job::RUNNING));
   EXPECT_TRUE(client.cancel(running).ok());
-  EXPECT_TRUE(client.wait_for_state(running, v1::CANCELLED));
-  EXPECT_TRUE(client.wait_for_state(waiting, v1::SUCCEEDED));
+  EXPECT_TRUE(client.wait_for_state(running, v1::Job::CANCELLED));
+  EXPECT_TRUE(client.wait_for_state(waiting, v1::Job::SUCCEEDED));
 }
 
 TEST_F(FullDiskTest, AJobThatIsCancelledOrSuspendedMeanwhileIsOnceThereIsRoom) {
@@ -159,7 +159,7 @@ TEST_F(FullDiskTest, AJobThatIsCancelledOrSuspendedMeanwhileIsOnceThereIsRoom) {
     // A cancel that could not be noted is made again.
     for (int look = 0; look < 100 && !client.cancel(cancelled).ok(); ++look)
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    EXPECT_TRUE(client.wait_for_state(cancelled, v1::CANCELLED)) << v1::JobState_Name(client.get(cancelled).state());
+    EXPECT_TRUE(client.wait_for_state(cancelled, v1::Job::CANCELLED)) << v1::Job::State_Name(client.get(cancelled).state());
 
     const std::string suspended = client.create(submitted());
     wait_for_samples(client, suspended, 10);
@@ -171,7 +171,7 @@ TEST_F(FullDiskTest, AJobThatIsCancelledOrSuspendedMeanwhileIsOnceThereIsRoom) {
     make_room();
     expect_service(client);
     // A suspend that could not be noted may be noted only now.
-    for (int look = 0; look < 200 && client.get(suspended).state() != v1::SUCCEEDED; ++look) {
+    for (int look = 0; look < 200 && client.get(suspended).state() != v1::Job::SUCCEEDED; ++look) {
       (void)client.resume(suspended);
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
     }
@@ -210,7 +210,7 @@ TEST_F(FullDiskTest, ADaemonStartsWithNextToNoRoomServesReadingAndRunsNothingUnt
       fill_the_disk();
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
     }
-    EXPECT_NE(client.get(job).state(), v1::FAILED);
+    EXPECT_NE(client.get(job).state(), v1::Job::FAILED);
     expect_service(client);
     make_room();
     expect_the_same_end(client, job, whole);

@@ -33,11 +33,11 @@ class LittleMemoryTest : public DaemonFixture {
 
   // FAILED; or PENDING, where not even the program could be loaded, which holds the queue; or RUNNING, where there was
   // enough.
-  static v1::JobState wait_for_an_end(Client& client, const std::string& job) {
+  static v1::Job::State wait_for_an_end(Client& client, const std::string& job) {
     v1::Job now = client.get(job);
     for (int i = 0; i < 300; ++i) {
-      const bool is_held = now.state() == v1::PENDING && !now.cause_message().empty();
-      if (now.state() == v1::FAILED || is_held) break;
+      const bool is_held = now.state() == v1::Job::PENDING && !now.cause_message().empty();
+      if (now.state() == v1::Job::FAILED || is_held) break;
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
       now = client.get(job);
     }
@@ -53,29 +53,29 @@ TEST_F(LittleMemoryTest, AWorkerThatRunsOutOfMemoryFailsItsJobAndTheDaemonGoesOn
   v1::Case wide = endless_case();
   wide.mutable_lattice()->mutable_hexagon()->set_columns(300);
   wide.mutable_lattice()->mutable_hexagon()->set_rows(300);
-  std::set<v1::JobCause> causes;
+  std::set<v1::Job::Cause> causes;
   const int step = rounds(64, 16);
   for (int mebibytes = 32; mebibytes <= 256; mebibytes += step) {
     limit_memory(std::to_string(mebibytes * 1024));
     const std::string job = client.create(wide);
-    const v1::JobState state = wait_for_an_end(client, job);
-    if (state != v1::FAILED) {
-      std::cout << mebibytes << " MiB: " << v1::JobState_Name(state) << "\n";
+    const v1::Job::State state = wait_for_an_end(client, job);
+    if (state != v1::Job::FAILED) {
+      std::cout << mebibytes << " MiB: " << v1::Job::State_Name(state) << "\n";
       ASSERT_TRUE(client.cancel(job).ok());
-      if (state == v1::PENDING) continue;
+      if (state == v1::Job::PENDING) continue;
       break;
     }
     const auto failed = client.get(job);
-    EXPECT_TRUE(failed.cause() == v1::OUT_OF_MEMORY || failed.cause() == v1::WORKER_CRASHED) << failed.cause();
+    EXPECT_TRUE(failed.cause() == v1::Job::OUT_OF_MEMORY || failed.cause() == v1::Job::WORKER_CRASHED) << failed.cause();
     EXPECT_FALSE(failed.remedy().empty());
     causes.insert(failed.cause());
-    std::cout << mebibytes << " MiB: " << v1::JobCause_Name(failed.cause()) << ", " << failed.cause_message() << "\n";
+    std::cout << mebibytes << " MiB: " << v1::Job::Cause_Name(failed.cause()) << ", " << failed.cause_message() << "\n";
   }
-  EXPECT_TRUE(causes.contains(v1::OUT_OF_MEMORY));
+  EXPECT_TRUE(causes.contains(v1::Job::OUT_OF_MEMORY));
   limit_memory("unlimited");
   const std::string next = client.create(small_case());
   EXPECT_TRUE(client.watch(next).status.ok());
-  EXPECT_EQ(client.get(next).state(), v1::SUCCEEDED) << client.get(next).cause_message();
+  EXPECT_EQ(client.get(next).state(), v1::Job::SUCCEEDED) << client.get(next).cause_message();
 }
 
 }  // namespace

@@ -25,9 +25,9 @@ TEST_F(RestartTest, ADaemonWithManyWaitingJobsServesSoon) {
   start_daemon({"--workers", "1"});
   const double listening = seconds_since(start);
   auto client = this->client();
-  EXPECT_EQ(client.get("jobs/" + std::to_string(count)).state(), v1::PENDING);
+  EXPECT_EQ(client.get("jobs/" + std::to_string(count)).state(), v1::Job::PENDING);
   const double serving = seconds_since(start);
-  EXPECT_TRUE(client.wait_for_state("jobs/1", v1::RUNNING));
+  EXPECT_TRUE(client.wait_for_state("jobs/1", v1::Job::RUNNING));
   const double running = seconds_since(start);
   EXPECT_LT(serving, is_full_round() ? 5.0 : 15.0);
   EXPECT_EQ(all_jobs(client).size(), static_cast<std::size_t>(count));

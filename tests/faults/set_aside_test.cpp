@@ -27,7 +27,7 @@ class SetAsideTest : public FaultFixture {
 
   void expect_that_it_serves(Client& client) {
     const std::string job = client.create(tiny_case());
-    EXPECT_TRUE(client.wait_for_state(job, v1::SUCCEEDED)) << v1::JobState_Name(client.get(job).state());
+    EXPECT_TRUE(client.wait_for_state(job, v1::Job::SUCCEEDED)) << v1::Job::State_Name(client.get(job).state());
   }
 };
 
@@ -35,7 +35,7 @@ TEST_F(SetAsideTest, WhatBelongsToNoJobIsSetAsideAndNeverAdopted) {
   start_daemon();
   {
     auto client = this->client();
-    for (int i = 0; i < 2; ++i) ASSERT_TRUE(client.wait_for_state(client.create(tiny_case()), v1::SUCCEEDED));
+    for (int i = 0; i < 2; ++i) ASSERT_TRUE(client.wait_for_state(client.create(tiny_case()), v1::Job::SUCCEEDED));
   }
   stop_daemon();
   // What a job of another journal left: reports and a result, of another case.
@@ -49,7 +49,7 @@ TEST_F(SetAsideTest, WhatBelongsToNoJobIsSetAsideAndNeverAdopted) {
   std::ofstream(jobs() / "8") << "a file";
   start_daemon();
   auto client = this->client();
-  EXPECT_EQ(client.get("jobs/2").state(), v1::SUCCEEDED);
+  EXPECT_EQ(client.get("jobs/2").state(), v1::Job::SUCCEEDED);
   EXPECT_TRUE(std::filesystem::exists(set_aside() / "3" / "reports"));
   for (const char* name : {"not a number", "007", "8"})
     EXPECT_TRUE(std::filesystem::exists(set_aside() / name)) << name;
@@ -70,7 +70,7 @@ TEST_F(SetAsideTest, AFolderThatCannotBeUsedCostsOnlyItsJob) {
   std::vector<std::string> names;
   {
     auto client = this->client();
-    ASSERT_TRUE(client.wait_for_state(client.create(tiny_case()), v1::SUCCEEDED));
+    ASSERT_TRUE(client.wait_for_state(client.create(tiny_case()), v1::Job::SUCCEEDED));
     for (int i = 0; i < 3; ++i) names.push_back(client.create(case_of_seconds()));
     for (const auto& name : names) wait_for_samples(client, name, 5);
   }
@@ -88,7 +88,7 @@ TEST_F(SetAsideTest, AFolderThatCannotBeUsedCostsOnlyItsJob) {
   auto client = this->client();
   for (const auto& name : names) ASSERT_TRUE(client.watch(name).status.ok());
   for (const auto& name : names) {
-    EXPECT_EQ(client.get(name).state(), v1::SUCCEEDED) << client.get(name).cause_message();
+    EXPECT_EQ(client.get(name).state(), v1::Job::SUCCEEDED) << client.get(name).cause_message();
     EXPECT_EQ(client.history(name).size(), 201U);
     EXPECT_TRUE(numbers_of(client, data_folder(), name) == numbers_of(client, data_folder(), names[2]));
   }
@@ -118,7 +118,7 @@ TEST_F(SetAsideTest, AFolderOfNobodysRightsCostsOnlyItsJob) {
   {
     auto client = this->client();
     ended = client.create(tiny_case());
-    ASSERT_TRUE(client.wait_for_state(ended, v1::SUCCEEDED));
+    ASSERT_TRUE(client.wait_for_state(ended, v1::Job::SUCCEEDED));
     waiting = client.create(case_of_seconds());
     wait_for_samples(client, waiting, 5);
   }
@@ -127,9 +127,9 @@ TEST_F(SetAsideTest, AFolderOfNobodysRightsCostsOnlyItsJob) {
   start_daemon({"--workers", "1"});
   auto client = this->client();
   ASSERT_TRUE(client.watch(waiting).status.ok());
-  EXPECT_EQ(client.get(waiting).state(), v1::SUCCEEDED) << client.get(waiting).cause_message();
+  EXPECT_EQ(client.get(waiting).state(), v1::Job::SUCCEEDED) << client.get(waiting).cause_message();
   EXPECT_EQ(client.history(waiting).size(), 201U);
-  EXPECT_EQ(client.get(ended).state(), v1::SUCCEEDED);
+  EXPECT_EQ(client.get(ended).state(), v1::Job::SUCCEEDED);
   if (geteuid() != 0) {
     grpc::Status status;
     EXPECT_THAT(client.download(ended, 0, status), IsEmpty());
@@ -154,7 +154,7 @@ TEST_F(SetAsideTest, ADamagedPageOfTheEventsCostsOnlyWhatItHeld) {
   std::size_t sample_count = 0;
   {
     auto client = this->client();
-    for (int i = 0; i < 2; ++i) ASSERT_TRUE(client.wait_for_state(client.create(small_case()), v1::SUCCEEDED));
+    for (int i = 0; i < 2; ++i) ASSERT_TRUE(client.wait_for_state(client.create(small_case()), v1::Job::SUCCEEDED));
     sample_count = client.history("jobs/2").size();
   }
   stop_daemon();
@@ -176,7 +176,7 @@ TEST_F(SetAsideTest, ADamagedPageOfTheEventsCostsOnlyWhatItHeld) {
   client.history("jobs/1", status);
   EXPECT_EQ(status.error_code(), grpc::StatusCode::DATA_LOSS) << status.error_message();
   EXPECT_THAT(status.error_message(), AllOf(HasSubstr(journal().string() + " is damaged"), HasSubstr("restore")));
-  EXPECT_EQ(client.get("jobs/1").state(), v1::SUCCEEDED);
+  EXPECT_EQ(client.get("jobs/1").state(), v1::Job::SUCCEEDED);
   EXPECT_EQ(client.history("jobs/2").size(), sample_count);
   stop_daemon();
 }

@@ -48,16 +48,16 @@ class ShortageTest : public FaultFixture {
     return false;
   }
 
-  static std::map<v1::JobState, int> count_states(Client& client) {
-    std::map<v1::JobState, int> out;
+  static std::map<v1::Job::State, int> count_states(Client& client) {
+    std::map<v1::Job::State, int> out;
     for (const auto& [name, job] : all_jobs(client)) ++out[job.state()];
     return out;
   }
 
   static void expect_all_to_succeed(Client& client, int count) {
-    for (int i = 0; i < 1200 && count_states(client)[v1::SUCCEEDED] < count; ++i)
+    for (int i = 0; i < 1200 && count_states(client)[v1::Job::SUCCEEDED] < count; ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    EXPECT_EQ(count_states(client)[v1::SUCCEEDED], count);
+    EXPECT_EQ(count_states(client)[v1::Job::SUCCEEDED], count);
   }
 
   void limit_descriptors(rlim_t limit) const {
@@ -93,8 +93,8 @@ TEST_F(ShortageTest, WithoutDescriptorsTheQueueIsHeldAndNoJobFails) {
   limit_descriptors(4);
   ASSERT_TRUE(wait_until_held_for(client, "descriptors"));
   std::this_thread::sleep_for(std::chrono::seconds(2));
-  EXPECT_EQ(count_states(client)[v1::FAILED], 0);
-  EXPECT_GT(count_states(client)[v1::PENDING], 0);
+  EXPECT_EQ(count_states(client)[v1::Job::FAILED], 0);
+  EXPECT_GT(count_states(client)[v1::Job::PENDING], 0);
   EXPECT_FALSE(is_serving(client.channel, "cellcrush.queue"));
   limit_descriptors(1024);
   expect_all_to_succeed(client, count);
@@ -118,7 +118,7 @@ TEST_F(ShortageTest, WhileTheFolderOfJobsCannotBeWrittenTheQueueIsHeldAndNoJobFa
   start_daemon({"--workers", "2"});
   auto client = this->client();
   ASSERT_TRUE(wait_until_held_for(client, "data_folder"));
-  EXPECT_EQ(count_states(client)[v1::PENDING], 10);
+  EXPECT_EQ(count_states(client)[v1::Job::PENDING], 10);
   ASSERT_EQ(remount(0), 0) << std::strerror(errno);
   expect_all_to_succeed(client, 10);
 }
@@ -151,11 +151,11 @@ TEST_F(ShortageTest, ADamagedPageThatASlotReadsCostsOneJobAndTheDaemonGoesOn) {
   }
   start_daemon({"--workers", "1"});
   auto client = this->client();
-  ASSERT_TRUE(client.wait_for_state("jobs/1", v1::RUNNING));
+  ASSERT_TRUE(client.wait_for_state("jobs/1", v1::Job::RUNNING));
   damage_overflow_pages();
   ASSERT_TRUE(client.cancel("jobs/1").ok());
-  EXPECT_TRUE(client.wait_for_state("jobs/3", v1::SUCCEEDED)) << client.get("jobs/3").cause_message();
-  EXPECT_TRUE(client.wait_for_state("jobs/1", v1::CANCELLED));
+  EXPECT_TRUE(client.wait_for_state("jobs/3", v1::Job::SUCCEEDED)) << client.get("jobs/3").cause_message();
+  EXPECT_TRUE(client.wait_for_state("jobs/1", v1::Job::CANCELLED));
   EXPECT_EQ(held_for(client), "") << "One job's damage holds nobody.";
   EXPECT_THAT(stop_daemon(), HasSubstr("jobs/2"));
 }

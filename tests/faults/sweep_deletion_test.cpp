@@ -26,7 +26,7 @@ class SweepDeletionTest : public FaultFixture {
     cancel.set_name(name);
     v1::Sweep cancelled;
     EXPECT_TRUE(client.sweeps->CancelSweep(bounded_context().get(), cancel, &cancelled).ok());
-    EXPECT_EQ(count_in(cancelled, v1::CANCELLED), points);
+    EXPECT_EQ(count_in(cancelled, v1::Job::CANCELLED), points);
     return name;
   }
 
@@ -48,7 +48,7 @@ TEST_F(SweepDeletionTest, ADaemonThatIsKilledMeanwhileIsContinuedByTheNext) {
     start_daemon({"--workers", "1"});
     auto client = this->client();
     const std::string running = client.create(endless_case());
-    ASSERT_TRUE(client.wait_for_state(running, v1::RUNNING));
+    ASSERT_TRUE(client.wait_for_state(running, v1::Job::RUNNING));
     const std::string kept = client.create(tiny_case());
     const std::string name = make_ended_sweep(client, points);
     auto code = grpc::StatusCode::OK;
@@ -76,7 +76,7 @@ TEST_F(SweepDeletionTest, ADaemonThatIsKilledMeanwhileIsContinuedByTheNext) {
     // First the one that waits: it would run once the other has gone.
     for (const auto& job : {kept, running}) {
       EXPECT_TRUE(next.cancel(job).ok());
-      EXPECT_TRUE(next.wait_for_state(job, v1::CANCELLED));
+      EXPECT_TRUE(next.wait_for_state(job, v1::Job::CANCELLED));
       EXPECT_TRUE(next.remove(job).ok());
     }
     stop_daemon();

@@ -46,9 +46,9 @@ TEST_F(UpgradeTest, AllJobsOfTheVersionBeforeAreServedOrRunToTheirEnd) {
   start_daemon({"--workers", "2"});
   auto client = this->client();
   EXPECT_EQ(all_jobs(client).size(), 7U);
-  EXPECT_EQ(client.get("jobs/1").state(), v1::SUCCEEDED);
+  EXPECT_EQ(client.get("jobs/1").state(), v1::Job::SUCCEEDED);
   EXPECT_EQ(client.history("jobs/1").size(), 21U);
-  EXPECT_EQ(client.get("jobs/2").state(), v1::CANCELLED);
+  EXPECT_EQ(client.get("jobs/2").state(), v1::Job::CANCELLED);
   for (const char* ended : {"jobs/1", "jobs/2"}) {
     grpc::Status status;
     EXPECT_GT(client.download(ended, 0, status).size(), 1000U);
@@ -63,7 +63,7 @@ TEST_F(UpgradeTest, AllJobsOfTheVersionBeforeAreServedOrRunToTheirEnd) {
   contract.end(watched.status);
   EXPECT_THAT(contract.broken(), IsEmpty());
   const auto third = client.get("jobs/3");
-  EXPECT_EQ(third.state(), v1::SUCCEEDED) << third.cause_message();
+  EXPECT_EQ(third.state(), v1::Job::SUCCEEDED) << third.cause_message();
   EXPECT_GT(third.begun_again_sequence(), last_before);
   EXPECT_EQ(client.history("jobs/3").size(), 101U) << "Those of this solver, none twice.";
   const auto again = std::find_if(watched.events.begin(), watched.events.end(), [](const v1::JobEvent& event) {
@@ -73,11 +73,11 @@ TEST_F(UpgradeTest, AllJobsOfTheVersionBeforeAreServedOrRunToTheirEnd) {
   EXPECT_THAT(again->state().cause_message(),
               AllOf(HasSubstr("Restarted from step 0"), HasSubstr("by solver 0.1.0+"), HasSubstr("this is solver")));
 
-  EXPECT_EQ(client.get("jobs/4").state(), v1::SUSPENDED);
+  EXPECT_EQ(client.get("jobs/4").state(), v1::Job::SUSPENDED);
   ASSERT_TRUE(client.resume("jobs/4").ok());
   for (const char* job : {"jobs/4", "jobs/5", "jobs/6", "jobs/7"}) {
     ASSERT_TRUE(client.watch(job).status.ok());
-    EXPECT_EQ(client.get(job).state(), v1::SUCCEEDED) << job << ": " << client.get(job).cause_message();
+    EXPECT_EQ(client.get(job).state(), v1::Job::SUCCEEDED) << job << ": " << client.get(job).cause_message();
   }
   EXPECT_EQ(get_sweep(client, "sweeps/1").jobs_size(), 2);
   EXPECT_TRUE(numbers_of(client, data_folder(), "jobs/3") == numbers_of(client, data_folder(), "jobs/4"));

@@ -69,7 +69,7 @@ TEST_F(WorkerKillTest, AJobWhoseWorkersAreKilledAtRandomMomentsHasTheSameBits) {
     EXPECT_THAT(contract.broken(), ::testing::IsEmpty());
     const auto ended = client.get(job);
     workers += ended.attempt();
-    ASSERT_EQ(ended.state(), v1::SUCCEEDED) << ended.cause_message();
+    ASSERT_EQ(ended.state(), v1::Job::SUCCEEDED) << ended.cause_message();
     EXPECT_TRUE(numbers_of(client, data_folder(), job) == expected);
     EXPECT_EQ(client.history(job).size(), expected.history.size());
     expect_nothing_left(job);

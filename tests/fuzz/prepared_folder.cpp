@@ -39,12 +39,12 @@ v1::Job job_of(const v1::Case& submitted) {
   return out;
 }
 
-void change(store::Journal& journal, std::int64_t job, v1::JobState state, bool has_result = false) {
+void change(store::Journal& journal, std::int64_t job, v1::Job::State state, bool has_result = false) {
   store::StateChange change;
   change.state = state;
   if (has_result) change.summary.emplace().set_step_count(kSamples);
-  if (state == v1::FAILED) {
-    change.cause = v1::WORKER_CRASHED;
+  if (state == v1::Job::FAILED) {
+    change.cause = v1::Job::WORKER_CRASHED;
     change.message = "It failed.";
     change.remedy = "Try again.";
   }
@@ -61,10 +61,10 @@ void add_sweep(store::Journal& journal) {
   std::vector<store::SweepJob> jobs;
   for (const double speed : axis.list().values()) jobs.push_back({job_of(sweep.case_()), {speed}, 1000});
   const auto made = journal.create_sweep(sweep, jobs, "of the sweep", "hash");
-  change(journal, made.jobs[0], v1::RUNNING);
-  change(journal, made.jobs[0], v1::FAILED);
-  change(journal, made.jobs[1], v1::CANCELLED);
-  change(journal, made.jobs[2], v1::SUSPENDED);
+  change(journal, made.jobs[0], v1::Job::RUNNING);
+  change(journal, made.jobs[0], v1::Job::FAILED);
+  change(journal, made.jobs[1], v1::Job::CANCELLED);
+  change(journal, made.jobs[2], v1::Job::SUSPENDED);
 }
 
 }  // namespace
@@ -74,14 +74,14 @@ void prepare_folder(const std::filesystem::path& root) {
   store::Journal journal(folder.journal(), [](std::int64_t) {});
   for (int i = 0; i < 3; ++i)
     journal.create_job(job_of(testing::tiny_case()), "of job " + std::to_string(i), "hash", 9);
-  change(journal, 2, v1::RUNNING);
+  change(journal, 2, v1::Job::RUNNING);
   journal.set_mesh(2, mesh_of_two());
   for (int step = 1; step <= kSamples; ++step) journal.append_sample(2, sample_at(step));
   folder.make_job_folder(2);
   write_result(folder.job_folder(2).result());
-  change(journal, 2, v1::SUCCEEDED, true);
-  change(journal, 3, v1::RUNNING);
-  change(journal, 3, v1::FAILED);
+  change(journal, 2, v1::Job::SUCCEEDED, true);
+  change(journal, 3, v1::Job::RUNNING);
+  change(journal, 3, v1::Job::FAILED);
   add_sweep(journal);
 }
 

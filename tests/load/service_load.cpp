@@ -70,7 +70,7 @@ void measure_events(const std::string& address) {
       watchers.emplace_back([&, i] {
         Client(address).watch(jobs[i / 2], 0, false, [&](const v1::JobEvent& event) {
           if (event.has_snapshot()) ++watching;
-          if (!event.has_state() || event.state().state() != v1::CANCELLED) return;
+          if (!event.has_state() || event.state().state() != v1::Job::CANCELLED) return;
           const double taken = seconds_since(called[i / 2].load());
           const std::scoped_lock lock(mutex);
           latencies.push_back(taken);
@@ -137,7 +137,7 @@ struct Run {
 
 // Waits without costing the daemon what a watch does.
 void wait_for_end(Client& client, const std::string& job) {
-  while (client.get(job).state() != v1::SUCCEEDED) std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  while (client.get(job).state() != v1::Job::SUCCEEDED) std::this_thread::sleep_for(std::chrono::milliseconds(500));
 }
 
 // A watcher of a job and its frames that reads a message a second for as long as it lives.
@@ -255,7 +255,7 @@ int measure(const std::filesystem::path& folder) {
   measure_runs(address, daemon.number());
   Client client(address);
   const std::string busy = client.create(testing::endless_case());
-  client.wait_for_state(busy, v1::RUNNING);
+  client.wait_for_state(busy, v1::Job::RUNNING);
   measure_submits(address);
   measure_events(address);
   fmt::print("the daemon's memory: {:.0f} MiB\n", memory_of(daemon.number()));

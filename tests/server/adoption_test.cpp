@@ -59,9 +59,9 @@ TEST_F(AdoptionTest, AWorkerOutlivesItsDaemonAndTheNextOneGoesAlongWithIt) {
   ASSERT_EQ(daemon.wait_for_addresses(1).size(), 1U);
   Client client(socket());
   const auto now = client.get(job);
-  EXPECT_TRUE(now.state() == v1::RUNNING || now.state() == v1::SUCCEEDED);
+  EXPECT_TRUE(now.state() == v1::Job::RUNNING || now.state() == v1::Job::SUCCEEDED);
   EXPECT_TRUE(client.watch(job).status.ok());
-  EXPECT_EQ(client.get(job).state(), v1::SUCCEEDED) << client.get(job).cause_message();
+  EXPECT_EQ(client.get(job).state(), v1::Job::SUCCEEDED) << client.get(job).cause_message();
   EXPECT_EQ(client.get(job).attempt(), 1);
   expect_every_sample_once(client, job);
   EXPECT_TRUE(wait_until_gone(worker, std::chrono::seconds(2)));
@@ -74,7 +74,7 @@ TEST_F(AdoptionTest, WhatAWorkerFinishedWhileThereWasNoDaemonCounts) {
   DaemonProcess daemon(arguments());
   ASSERT_EQ(daemon.wait_for_addresses(1).size(), 1U);
   Client client(socket());
-  EXPECT_EQ(client.get(job).state(), v1::SUCCEEDED) << "At once: nothing is to be run.";
+  EXPECT_EQ(client.get(job).state(), v1::Job::SUCCEEDED) << "At once: nothing is to be run.";
   EXPECT_EQ(client.get(job).attempt(), 1);
   expect_every_sample_once(client, job);
 }
@@ -88,7 +88,7 @@ TEST_F(AdoptionTest, AWorkerThatWentWhileThereWasNoDaemonIsReplaced) {
   ASSERT_EQ(daemon.wait_for_addresses(1).size(), 1U);
   Client client(socket());
   EXPECT_TRUE(client.watch(job).status.ok());
-  EXPECT_EQ(client.get(job).state(), v1::SUCCEEDED) << client.get(job).cause_message();
+  EXPECT_EQ(client.get(job).state(), v1::Job::SUCCEEDED) << client.get(job).cause_message();
   EXPECT_EQ(client.get(job).attempt(), 2);
   expect_every_sample_once(client, job);
 }
@@ -102,12 +102,12 @@ TEST_F(AdoptionTest, AnAdoptedWorkerHeedsACancel) {
   Client client(socket());
   EXPECT_EQ(client.get(job).worker_pid(), worker);
   ASSERT_TRUE(client.cancel(job).ok());
-  ASSERT_TRUE(client.wait_for_state(job, v1::CANCELLED));
+  ASSERT_TRUE(client.wait_for_state(job, v1::Job::CANCELLED));
   EXPECT_TRUE(client.get(job).has_summary());
   EXPECT_TRUE(wait_until_gone(worker, std::chrono::seconds(2)));
   const std::string next = client.create(small_case());
   EXPECT_TRUE(client.watch(next).status.ok());
-  EXPECT_EQ(client.get(next).state(), v1::SUCCEEDED) << "Its core is free again.";
+  EXPECT_EQ(client.get(next).state(), v1::Job::SUCCEEDED) << "Its core is free again.";
 }
 
 }  // namespace

@@ -40,10 +40,10 @@ class BackupTest : public DaemonFixture {
   void make_ended_jobs(Client& client) {
     for (int i = 0; i < 2; ++i) {
       const std::string job = client.create(tiny_case());
-      ASSERT_TRUE(client.wait_for_state(job, v1::SUCCEEDED));
+      ASSERT_TRUE(client.wait_for_state(job, v1::Job::SUCCEEDED));
     }
     const auto sweep = create(client, sweep_of(tiny_case(), kSpeed, {50.0, 80.0}));
-    ASSERT_TRUE(wait_for_count(client, sweep.name(), v1::SUCCEEDED, 2));
+    ASSERT_TRUE(wait_for_count(client, sweep.name(), v1::Job::SUCCEEDED, 2));
   }
 
   static std::string refusal(const std::function<void()>& call) {
@@ -95,7 +95,7 @@ TEST_F(BackupTest, WhatHadEndedIsRestoredByteForByteAndWhatRanOrWaitedRunsToItsE
   EXPECT_GT(next.get(first).begun_again_sequence(), 0);
   for (const auto& job : {first, second, waiting}) {
     ASSERT_TRUE(next.watch(job).status.ok());
-    EXPECT_EQ(next.get(job).state(), v1::SUCCEEDED) << next.get(job).cause_message();
+    EXPECT_EQ(next.get(job).state(), v1::Job::SUCCEEDED) << next.get(job).cause_message();
   }
   EXPECT_EQ(next.history(first).size(), 201U) << "None twice, none of before.";
   EXPECT_TRUE(numbers_of(next, restored(), first) == numbers_of(next, restored(), second));
@@ -149,8 +149,8 @@ TEST_F(BackupTest, AJobThatWasCancellingIsCancelledAndASuspendedOneWaitsForItsRe
   store::restore_backup(backup(), restored());
   restart_on_the_restored();
   auto next = this->client();
-  EXPECT_EQ(next.get(stuck).state(), v1::CANCELLED);
-  EXPECT_EQ(next.get(suspended).state(), v1::SUSPENDED);
+  EXPECT_EQ(next.get(stuck).state(), v1::Job::CANCELLED);
+  EXPECT_EQ(next.get(suspended).state(), v1::Job::SUSPENDED);
   EXPECT_THAT(next.history(suspended), IsEmpty());
   ASSERT_TRUE(next.resume(suspended).ok());
   ASSERT_TRUE(next.watch(suspended).status.ok());
@@ -258,7 +258,7 @@ TEST_F(BackupTest, TheProgramBacksUpVerifiesAndRestoresAndSaysWhat) {
   ASSERT_EQ(stat(restored().c_str(), &status), 0);
   EXPECT_EQ(status.st_mode & 0777U, 0700U);
   restart_on_the_restored();
-  EXPECT_EQ(this->client().get("jobs/4").state(), v1::SUCCEEDED);
+  EXPECT_EQ(this->client().get("jobs/4").state(), v1::Job::SUCCEEDED);
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ class BeginAgainTest : public JournalTest {
   // A job with a mesh and the samples of steps 0, 10, 20, which runs. Its events: two states and three samples.
   std::int64_t running() {
     const auto job = create();
-    change(job, v1::RUNNING);
+    change(job, v1::Job::RUNNING);
     journal_->set_mesh(job, v1::Mesh());
     for (int step = 0; step <= 20; step += 10) journal_->append_sample(job, sample(step));
     journal_->commit_samples();
@@ -27,7 +27,7 @@ TEST_F(BeginAgainTest, SamplesAndMeshGoAndTheNumbersCountOn) {
   journal_->append_sample(job, sample(30));  // gathered and not durable
   journal_->begin_again(job, "Because.");
   const auto stored = reader_->find_job(job);
-  EXPECT_EQ(stored->job.state(), v1::PENDING);
+  EXPECT_EQ(stored->job.state(), v1::Job::PENDING);
   EXPECT_EQ(stored->job.cause_message(), "Because.");
   EXPECT_EQ(stored->job.worker_pid(), 0);
   EXPECT_EQ(stored->job.attempt(), 1);
@@ -37,7 +37,7 @@ TEST_F(BeginAgainTest, SamplesAndMeshGoAndTheNumbersCountOn) {
   EXPECT_EQ(reader_->last_sampled_step(job), -1);
   journal_->commit_samples();
   EXPECT_TRUE(reader_->samples(job).samples.empty());
-  change(job, v1::RUNNING);
+  change(job, v1::Job::RUNNING);
   journal_->append_sample(job, sample(0));
   journal_->commit_samples();
   const auto events = reader_->events(job, 0, 100);
@@ -52,11 +52,11 @@ TEST_F(BeginAgainTest, SamplesAndMeshGoAndTheNumbersCountOn) {
 
 TEST_F(BeginAgainTest, ASuspendedJobStaysSoAndOneThatHasEndedIsRefused) {
   const auto suspended = running();
-  change(suspended, v1::SUSPENDED);
+  change(suspended, v1::Job::SUSPENDED);
   journal_->begin_again(suspended, "Because.");
-  EXPECT_EQ(reader_->find_job(suspended)->job.state(), v1::SUSPENDED);
+  EXPECT_EQ(reader_->find_job(suspended)->job.state(), v1::Job::SUSPENDED);
   const auto ended = running();
-  change(ended, v1::SUCCEEDED);
+  change(ended, v1::Job::SUCCEEDED);
   EXPECT_THROW(journal_->begin_again(ended, "Because."), ServiceError);
   EXPECT_EQ(reader_->samples(ended).samples.size(), 3U);
   EXPECT_THROW(journal_->begin_again(99, "Because."), ServiceError);

@@ -52,7 +52,7 @@ class CancelRaceTest : public DaemonFixture {
     v1::Job job;
     *job.mutable_case_() = endless_case();
     const auto number = jobs_->journal.create_job(job, "", "").job;
-    jobs_->scheduler.enqueue({*jobs_->reader.queued_job(number, v1::PENDING)});
+    jobs_->scheduler.enqueue({*jobs_->reader.queued_job(number, v1::Job::PENDING)});
     return number;
   }
 
@@ -102,12 +102,12 @@ class CancelRaceTest : public DaemonFixture {
   }
 
   [[nodiscard]] bool wait_until_cancelled(std::int64_t job) {
-    for (int i = 0; i < 3000 && state_of(job) != v1::CANCELLED; ++i)
+    for (int i = 0; i < 3000 && state_of(job) != v1::Job::CANCELLED; ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    return state_of(job) == v1::CANCELLED;
+    return state_of(job) == v1::Job::CANCELLED;
   }
 
-  [[nodiscard]] v1::JobState state_of(std::int64_t job) { return jobs_->reader.find_job(job)->job.state(); }
+  [[nodiscard]] v1::Job::State state_of(std::int64_t job) { return jobs_->reader.find_job(job)->job.state(); }
 
   // Ends what the test holds and starts a daemon on the folder.
   Client daemon_on(const std::filesystem::path& folder) {
@@ -121,7 +121,7 @@ class CancelRaceTest : public DaemonFixture {
   // Of a job that was cancelled: every event once and in order, and a result that ends with the last sample.
   static void expect_sound(Client client) {
     const std::string job = "jobs/1";
-    ASSERT_TRUE(client.wait_for_state(job, v1::CANCELLED)) << v1::JobState_Name(client.get(job).state());
+    ASSERT_TRUE(client.wait_for_state(job, v1::Job::CANCELLED)) << v1::Job::State_Name(client.get(job).state());
     WatchContract contract;
     const auto watched = client.watch(job, 0, false, [&](const v1::JobEvent& event) { contract.see(event); });
     EXPECT_TRUE(watched.status.ok()) << watched.status.error_message();
@@ -148,9 +148,9 @@ TEST_F(CancelRaceTest, ACancelBetweenTheEndOfASuspendedWorkerAndItsStateEndsTheJ
   std::jthread suspends([&] { EXPECT_THROW(jobs_->scheduler.suspend(job, [] { return false; }), ServiceError); });
   at_sample_.open();
   ASSERT_TRUE(left.wait());
-  EXPECT_EQ(state_of(job), v1::RUNNING);
+  EXPECT_EQ(state_of(job), v1::Job::RUNNING);
   jobs_->scheduler.cancel(job);
-  EXPECT_EQ(state_of(job), v1::CANCELLING);
+  EXPECT_EQ(state_of(job), v1::Job::CANCELLING);
   left.open();
   EXPECT_TRUE(wait_until_cancelled(job));
   suspends.join();

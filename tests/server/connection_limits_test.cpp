@@ -107,7 +107,7 @@ TEST_F(ConnectionLimitsTest, AStreamThatNobodyReadsIsLetGo) {
   auto with_frames = small_case();
   with_frames.mutable_output()->set_frame_count(200);
   const std::string job = client.create(with_frames);
-  ASSERT_TRUE(client.wait_for_state(job, v1::SUCCEEDED));
+  ASSERT_TRUE(client.wait_for_state(job, v1::Job::SUCCEEDED));
   v1::DownloadResultRequest request;
   request.set_name(job);
   const auto context = bounded_context();

@@ -26,7 +26,7 @@ v1::CreateSweepRequest sweep_over_meshes(const std::vector<double>& meshes, int 
   return request;
 }
 
-v1::SweepTable::Row row_of(int elements, int seed, v1::JobState state, double plateau) {
+v1::SweepTable::Row row_of(int elements, int seed, v1::Job::State state, double plateau) {
   v1::SweepTable::Row row;
   row.add_values(elements);
   row.add_values(seed);
@@ -40,10 +40,10 @@ v1::SweepTable::Row row_of(int elements, int seed, v1::JobState state, double pl
 
 TEST(SweepConvergence, LeavesOutJobsThatHaveNotSucceededAndPicksTheCoarsestMesh) {
   const auto sweep = sweep_over_meshes({2.0, 4.0, 8.0}, 2).sweep();
-  const std::vector<v1::SweepTable::Row> rows = {row_of(2, 1, v1::SUCCEEDED, 0.90), row_of(2, 2, v1::SUCCEEDED, 0.9002),
-                                                 row_of(4, 1, v1::SUCCEEDED, 0.98), row_of(4, 2, v1::SUCCEEDED, 0.9802),
-                                                 row_of(8, 1, v1::SUCCEEDED, 1.00), row_of(8, 2, v1::SUCCEEDED, 1.0002),
-                                                 row_of(8, 3, v1::FAILED, 5.0),     row_of(8, 4, v1::RUNNING, 5.0)};
+  const std::vector<v1::SweepTable::Row> rows = {row_of(2, 1, v1::Job::SUCCEEDED, 0.90), row_of(2, 2, v1::Job::SUCCEEDED, 0.9002),
+                                                 row_of(4, 1, v1::Job::SUCCEEDED, 0.98), row_of(4, 2, v1::Job::SUCCEEDED, 0.9802),
+                                                 row_of(8, 1, v1::Job::SUCCEEDED, 1.00), row_of(8, 2, v1::Job::SUCCEEDED, 1.0002),
+                                                 row_of(8, 3, v1::Job::FAILED, 5.0),     row_of(8, 4, v1::Job::RUNNING, 5.0)};
   const auto found = jobs::convergence_of(sweep, rows, 0.05);
   EXPECT_EQ(found.elements_per_wall(), 4);
   EXPECT_EQ(found.job_count_left_out(), 2);
@@ -78,7 +78,7 @@ TEST_F(ConvergenceServiceTest, IsThatOfTheTableAndItsCostIsToldBefore) {
   request.set_validate_only(false);
   const auto sweep = create(client, request);
   EXPECT_EQ(sweep.predicted_seconds(), predicted);
-  ASSERT_TRUE(wait_for_count(client, sweep.name(), v1::SUCCEEDED, 4));
+  ASSERT_TRUE(wait_for_count(client, sweep.name(), v1::Job::SUCCEEDED, 4));
   v1::GetConvergenceRequest asked;
   asked.set_name(sweep.name());
   v1::Convergence found;

@@ -101,7 +101,7 @@ Client::Watched Client::watch(const std::string& job, std::int64_t after_sequenc
   return out;
 }
 
-bool Client::wait_for_state(const std::string& job, v1::JobState state) {
+bool Client::wait_for_state(const std::string& job, v1::Job::State state) {
   for (int i = 0; i < 600; ++i) {
     if (get(job).state() == state) return true;
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
@@ -110,9 +110,9 @@ bool Client::wait_for_state(const std::string& job, v1::JobState state) {
 }
 
 pid_t Client::worker_of(const std::string& job) {
-  wait_for_state(job, v1::RUNNING);
+  wait_for_state(job, v1::Job::RUNNING);
   const auto now = get(job);
-  if (now.worker_pid() <= 0) throw std::runtime_error(job + " has no worker: " + v1::JobState_Name(now.state()));
+  if (now.worker_pid() <= 0) throw std::runtime_error(job + " has no worker: " + v1::Job::State_Name(now.state()));
   return static_cast<pid_t>(now.worker_pid());
 }
 

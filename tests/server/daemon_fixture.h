@@ -45,7 +45,7 @@ class Client {
   Watched watch(const std::string& job, std::int64_t after_sequence = 0, bool frames = false,
                 const OnEvent& on_event = {});
   /// Waits until the job is in the state, at most 30 s; false when it never is.
-  bool wait_for_state(const std::string& job, v1::JobState state);
+  bool wait_for_state(const std::string& job, v1::Job::State state);
   /// The worker of a job, for which it waits until it runs; throws when it has none (a signal to process 0 would be for
   /// all of the test's own).
   pid_t worker_of(const std::string& job);

@@ -46,7 +46,7 @@ TEST_F(DaemonTest, EndsInOrderWhileAJobIsWatched) {
   ASSERT_EQ(daemon.wait_for_addresses(1).size(), 1U);
   Client client(socket());
   const std::string job = client.create(endless_case());
-  ASSERT_TRUE(client.wait_for_state(job, v1::RUNNING));
+  ASSERT_TRUE(client.wait_for_state(job, v1::Job::RUNNING));
   const std::string waiting = client.create(small_case());
   v1::WatchJobRequest request;
   request.set_name(waiting);
@@ -70,9 +70,9 @@ TEST_F(DaemonTest, KilledItLosesNothingAndTheNextOneGoesOn) {
     ASSERT_EQ(daemon.wait_for_addresses(1).size(), 1U);
     Client client(socket());
     done = client.create(small_case());
-    ASSERT_TRUE(client.wait_for_state(done, v1::SUCCEEDED));
+    ASSERT_TRUE(client.wait_for_state(done, v1::Job::SUCCEEDED));
     running = client.create(endless_case());
-    ASSERT_TRUE(client.wait_for_state(running, v1::RUNNING));
+    ASSERT_TRUE(client.wait_for_state(running, v1::Job::RUNNING));
     waiting = client.create(small_case());
     daemon.send_signal(SIGKILL);
     EXPECT_EQ(daemon.wait(), -1 - SIGKILL);
@@ -80,12 +80,12 @@ TEST_F(DaemonTest, KilledItLosesNothingAndTheNextOneGoesOn) {
   DaemonProcess daemon({"--data", data(), "--listen", socket(), "--workers", "1"});
   ASSERT_EQ(daemon.wait_for_addresses(1).size(), 1U) << "The stale socket is replaced.";
   Client client(socket());
-  EXPECT_EQ(client.get(running).state(), v1::RUNNING);
-  EXPECT_EQ(client.get(waiting).state(), v1::PENDING);
+  EXPECT_EQ(client.get(running).state(), v1::Job::RUNNING);
+  EXPECT_EQ(client.get(waiting).state(), v1::Job::PENDING);
   ASSERT_TRUE(client.cancel(running).ok());
   EXPECT_TRUE(client.watch(waiting).status.ok());
-  EXPECT_EQ(client.get(waiting).state(), v1::SUCCEEDED);
-  EXPECT_EQ(client.get(done).state(), v1::SUCCEEDED);
+  EXPECT_EQ(client.get(waiting).state(), v1::Job::SUCCEEDED);
+  EXPECT_EQ(client.get(done).state(), v1::Job::SUCCEEDED);
   grpc::Status status;
   EXPECT_GT(client.download(done, 0, status).size(), 10'000U);
 }

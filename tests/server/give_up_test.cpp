@@ -23,7 +23,7 @@ class GiveUpTest : public ::testing::Test {
         run_job(job_, order_, [&asked] { return ++asked > 20 ? StopRequest::suspend : StopRequest::none; }));
     samples_ = said([](const Report& report) { return report.has_sample(); });
     order_.set_threads(1);
-    order_.mutable_given_up()->set_cause(v1::WORKER_CRASHED);
+    order_.mutable_given_up()->set_cause(v1::Job::WORKER_CRASHED);
     order_.mutable_given_up()->set_message("It was lost.");
   }
 
@@ -48,7 +48,7 @@ TEST_F(GiveUpTest, TheResultIsMadeOfWhatWasReported) {
   ASSERT_NO_THROW(run_job(job_, order_, [] { return StopRequest::none; }));
   EXPECT_EQ(said([](const Report& report) { return report.has_sample(); }), samples_) << "Nothing was run.";
   ASSERT_TRUE(last_.has_final());
-  EXPECT_EQ(last_.final().cause(), v1::WORKER_CRASHED);
+  EXPECT_EQ(last_.final().cause(), v1::Job::WORKER_CRASHED);
   EXPECT_TRUE(last_.final().has_summary());
   EXPECT_TRUE(std::filesystem::exists(job_.result()));
 }

@@ -74,13 +74,13 @@ TEST_F(HeldQueueTest, AWorkerProgramThatIsMissingHoldsItUntilItIsThere) {
   EXPECT_FALSE(is_serving(client.channel, "cellcrush.queue"));
   EXPECT_TRUE(is_serving(client.channel, "cellcrush.v1.Jobs"));
   for (const auto& job : jobs) {
-    EXPECT_EQ(client.get(job).state(), v1::PENDING);
+    EXPECT_EQ(client.get(job).state(), v1::Job::PENDING);
     EXPECT_EQ(client.get(job).attempt(), 0) << "It waits as it was.";
   }
 
   install_program();
   for (const auto& job : jobs)
-    EXPECT_TRUE(client.wait_for_state(job, v1::SUCCEEDED)) << client.get(job).cause_message();
+    EXPECT_TRUE(client.wait_for_state(job, v1::Job::SUCCEEDED)) << client.get(job).cause_message();
   EXPECT_TRUE(queue_of(client).holds().empty());
   EXPECT_TRUE(is_serving(client.channel, "cellcrush.queue"));
   EXPECT_EQ(log.count_lines("The queue is held"), 1);
@@ -97,11 +97,11 @@ TEST_F(HeldQueueTest, AJobThatIsCancelledOrSuspendedWhileItIsHeldIs) {
   ASSERT_TRUE(wait_until_held(client, true));
   EXPECT_TRUE(client.cancel(cancelled).ok());
   EXPECT_TRUE(client.suspend(suspended).ok());
-  EXPECT_EQ(client.get(cancelled).state(), v1::CANCELLED);
-  EXPECT_EQ(client.get(suspended).state(), v1::SUSPENDED);
+  EXPECT_EQ(client.get(cancelled).state(), v1::Job::CANCELLED);
+  EXPECT_EQ(client.get(suspended).state(), v1::Job::SUSPENDED);
   install_program();
   EXPECT_TRUE(client.resume(suspended).ok());
-  EXPECT_TRUE(client.wait_for_state(suspended, v1::SUCCEEDED));
+  EXPECT_TRUE(client.wait_for_state(suspended, v1::Job::SUCCEEDED));
 }
 
 TEST_F(HeldQueueTest, AJobFolderThatCannotBeUsedIsSetAsideAndHoldsNobody) {
@@ -114,7 +114,7 @@ TEST_F(HeldQueueTest, AJobFolderThatCannotBeUsedIsSetAsideAndHoldsNobody) {
   auto client = this->client();
   for (int i = 1; i <= 4; ++i) {
     const std::string job = client.create(tiny_case());
-    EXPECT_TRUE(client.wait_for_state(job, v1::SUCCEEDED)) << client.get(job).cause_message();
+    EXPECT_TRUE(client.wait_for_state(job, v1::Job::SUCCEEDED)) << client.get(job).cause_message();
   }
   EXPECT_TRUE(std::filesystem::is_regular_file(data_folder() / "set-aside" / "2"));
   EXPECT_TRUE(std::filesystem::is_directory(data_folder() / "set-aside" / "3"));
@@ -132,10 +132,10 @@ TEST_F(HeldQueueTest, AWorkerThatIsStoppedIsSuspendedAtItsLastCheckpointInBounde
   const pid_t worker = client.worker_of(job);
   ASSERT_EQ(kill(worker, SIGSTOP), 0);
   EXPECT_TRUE(client.suspend(job).ok());
-  EXPECT_EQ(client.get(job).state(), v1::SUSPENDED);
+  EXPECT_EQ(client.get(job).state(), v1::Job::SUSPENDED);
   EXPECT_FALSE(is_alive(worker));
   EXPECT_TRUE(client.resume(job).ok());
-  ASSERT_TRUE(client.wait_for_state(job, v1::RUNNING));
+  ASSERT_TRUE(client.wait_for_state(job, v1::Job::RUNNING));
   EXPECT_TRUE(client.cancel(job).ok());
 }
 

@@ -39,7 +39,7 @@ class JobLifeTest : public DaemonFixture {
     std::string job = client.create(endless_case());
     wait_for_samples(client, job, 5);
     EXPECT_GE(client.history(job).size(), 5U);
-    EXPECT_EQ(client.get(job).state(), v1::RUNNING);
+    EXPECT_EQ(client.get(job).state(), v1::Job::RUNNING);
     return job;
   }
 
@@ -56,19 +56,19 @@ TEST_F(JobLifeTest, AJobThatAsksForThreadsTakesTheCoresThatNobodyElseUses) {
   auto threaded = endless_case();
   threaded.mutable_numerics()->set_threads(8);
   const std::string both = client.create(threaded);
-  ASSERT_TRUE(client.wait_for_state(both, v1::RUNNING));
+  ASSERT_TRUE(client.wait_for_state(both, v1::Job::RUNNING));
   const std::string waits = client.create(threaded);
   wait_for_samples(client, both, 1);
   const auto with_both = threads_of(client.get(both).worker_pid());
-  EXPECT_EQ(client.get(waits).state(), v1::PENDING);
+  EXPECT_EQ(client.get(waits).state(), v1::Job::PENDING);
   ASSERT_TRUE(client.cancel(both).ok());
 
   // With another job at once, each has a core of the two.
-  ASSERT_TRUE(client.wait_for_state(waits, v1::RUNNING));
+  ASSERT_TRUE(client.wait_for_state(waits, v1::Job::RUNNING));
   ASSERT_TRUE(client.cancel(waits).ok());
   const v1::Sweep sweep = create(client, sweep_of(threaded, kSpeed, {1.0, 2.0}));
   for (const auto& job : sweep.jobs()) {
-    ASSERT_TRUE(client.wait_for_state(job, v1::RUNNING));
+    ASSERT_TRUE(client.wait_for_state(job, v1::Job::RUNNING));
     wait_for_samples(client, job, 1);
     EXPECT_EQ(threads_of(client.get(job).worker_pid()), with_both - 1) << job;
   }
@@ -85,12 +85,12 @@ TEST_F(JobLifeTest, ARunningJobStopsAndWhatItHasComputedIsKept) {
   std::cout << "cancelled within " << taken << " s\n";
   EXPECT_LT(taken, 2.0) << "A second, and as much again for a machine that is busy.";
   EXPECT_TRUE(watched.status.ok());
-  EXPECT_EQ(watched.events.back().state().state(), v1::CANCELLED);
+  EXPECT_EQ(watched.events.back().state().state(), v1::Job::CANCELLED);
   EXPECT_FALSE(is_alive(worker));
 
   const auto cancelled = client.get(job);
-  EXPECT_EQ(cancelled.state(), v1::CANCELLED);
-  EXPECT_EQ(cancelled.cause(), v1::JOB_CAUSE_UNSPECIFIED);
+  EXPECT_EQ(cancelled.state(), v1::Job::CANCELLED);
+  EXPECT_EQ(cancelled.cause(), v1::Job::JOB_CAUSE_UNSPECIFIED);
   EXPECT_EQ(cancelled.worker_pid(), 0);
   ASSERT_TRUE(cancelled.has_summary());
   EXPECT_FALSE(cancelled.summary().has_plateau_stress_impact_mpa());
@@ -125,8 +125,8 @@ TEST_F(JobLifeTest, ARunThatIsUntrueFailsByNameAndKeepsWhatItComputedBefore) {
   const std::string job = client.create(bad);
   EXPECT_TRUE(client.watch(job).status.ok());
   const auto failed = client.get(job);
-  EXPECT_EQ(failed.state(), v1::FAILED);
-  EXPECT_THAT(failed.cause(), AnyOf(v1::LARGE_ROTATION, v1::CONTACT_ENERGY));
+  EXPECT_EQ(failed.state(), v1::Job::FAILED);
+  EXPECT_THAT(failed.cause(), AnyOf(v1::Job::LARGE_ROTATION, v1::Job::CONTACT_ENERGY));
   EXPECT_THAT(failed.cause_message(), HasSubstr("step "));
   EXPECT_THAT(failed.cause_message(), HasSubstr("mm before loading"));
   EXPECT_THAT(failed.remedy(), HasSubstr("numerics.time_step_s"));
@@ -151,9 +151,9 @@ TEST_F(JobLifeTest, AWaitingJobIsCancelledAtOnceAndNeverRuns) {
   const std::string waiting = client.create(small_case());
   const std::string next = client.create(small_case());
   ASSERT_TRUE(client.cancel(waiting).ok());
-  EXPECT_EQ(client.get(waiting).state(), v1::CANCELLED);
+  EXPECT_EQ(client.get(waiting).state(), v1::Job::CANCELLED);
   ASSERT_TRUE(client.cancel(first).ok());
-  EXPECT_TRUE(client.wait_for_state(next, v1::SUCCEEDED));
+  EXPECT_TRUE(client.wait_for_state(next, v1::Job::SUCCEEDED));
   EXPECT_EQ(client.watch(waiting).events.size(), 3U) << "Its snapshot, PENDING and CANCELLED.";
   EXPECT_FALSE(client.get(waiting).has_start_time());
   grpc::Status status;
@@ -166,11 +166,11 @@ TEST_F(JobLifeTest, CancellingAgainChangesNothingAndAnEndedJobCannotBeCancelled)
   const std::string job = running_job();
   ASSERT_TRUE(client.cancel(job).ok());
   ASSERT_TRUE(client.cancel(job).ok());
-  ASSERT_TRUE(client.wait_for_state(job, v1::CANCELLED));
+  ASSERT_TRUE(client.wait_for_state(job, v1::Job::CANCELLED));
   ASSERT_TRUE(client.cancel(job).ok());
-  EXPECT_EQ(client.get(job).state(), v1::CANCELLED);
+  EXPECT_EQ(client.get(job).state(), v1::Job::CANCELLED);
   const std::string done = client.create(small_case());
-  ASSERT_TRUE(client.wait_for_state(done, v1::SUCCEEDED));
+  ASSERT_TRUE(client.wait_for_state(done, v1::Job::SUCCEEDED));
   const auto refused = client.cancel(done);
   EXPECT_EQ(refused.error_code(), grpc::StatusCode::FAILED_PRECONDITION);
   EXPECT_THAT(refused.error_message(), HasSubstr("SUCCEEDED"));
@@ -182,7 +182,7 @@ TEST_F(JobLifeTest, ManyCancelledAtAnyMomentAllEndInOrder) {
   for (int i = 0; i < 20; ++i) {
     jobs.push_back(client.create(i % 2 == 0 ? endless_case() : small_case()));
     if (i % 4 == 1) wait_for_samples(client, jobs.back(), 1);
-    if (i % 4 == 2) client.wait_for_state(jobs.back(), v1::RUNNING);
+    if (i % 4 == 2) client.wait_for_state(jobs.back(), v1::Job::RUNNING);
     if (i % 8 == 4) wait_for_samples(client, jobs.back(), 5);
     const auto status = client.cancel(jobs.back());
     EXPECT_TRUE(status.ok() || status.error_code() == grpc::StatusCode::FAILED_PRECONDITION) << status.error_message();
@@ -191,7 +191,7 @@ TEST_F(JobLifeTest, ManyCancelledAtAnyMomentAllEndInOrder) {
     const auto watched = client.watch(job);
     EXPECT_TRUE(watched.status.ok());
     const auto state = watched.events.back().state().state();
-    EXPECT_TRUE(state == v1::CANCELLED || state == v1::SUCCEEDED) << job << v1::JobState_Name(state);
+    EXPECT_TRUE(state == v1::Job::CANCELLED || state == v1::Job::SUCCEEDED) << job << v1::Job::State_Name(state);
     EXPECT_EQ(client.get(job).has_summary(), std::filesystem::exists(folder_of(job) / "result.h5")) << job;
   }
 }
@@ -199,7 +199,7 @@ TEST_F(JobLifeTest, ManyCancelledAtAnyMomentAllEndInOrder) {
 TEST_F(JobLifeTest, ADeletedJobIsGoneWithAllItLeft) {
   auto client = this->client();
   const std::string job = client.create(small_case());
-  ASSERT_TRUE(client.wait_for_state(job, v1::SUCCEEDED));
+  ASSERT_TRUE(client.wait_for_state(job, v1::Job::SUCCEEDED));
   ASSERT_TRUE(std::filesystem::exists(folder_of(job) / "result.h5"));
   ASSERT_TRUE(client.remove(job).ok());
   EXPECT_FALSE(std::filesystem::exists(folder_of(job)));
@@ -218,7 +218,7 @@ TEST_F(JobLifeTest, AJobThatHasNotEndedIsNotDeleted) {
   EXPECT_EQ(refused.error_code(), grpc::StatusCode::FAILED_PRECONDITION);
   EXPECT_THAT(refused.error_message(), HasSubstr("Cancel it, then delete it"));
   ASSERT_TRUE(client.cancel(job).ok());
-  ASSERT_TRUE(client.wait_for_state(job, v1::CANCELLED));
+  ASSERT_TRUE(client.wait_for_state(job, v1::Job::CANCELLED));
   EXPECT_TRUE(client.remove(job).ok());
   EXPECT_FALSE(std::filesystem::exists(folder_of(job)));
 }
@@ -226,7 +226,7 @@ TEST_F(JobLifeTest, AJobThatHasNotEndedIsNotDeleted) {
 TEST_F(JobLifeTest, AFolderThatADeletionLeftBehindGoesAtTheNextStart) {
   auto client = this->client();
   const std::string job = client.create(small_case());
-  ASSERT_TRUE(client.wait_for_state(job, v1::SUCCEEDED));
+  ASSERT_TRUE(client.wait_for_state(job, v1::Job::SUCCEEDED));
   daemon_.reset();
   {
     store::Journal journal(data_folder() / "journal.sqlite", [](std::int64_t) {});

@@ -56,7 +56,7 @@ TEST_F(JobListTest, AFilterFindsStatesLabelsAndTitles) {
   create("Steel hexagons", "one");
   create("Aluminium hexagons", "two");
   create("Aluminium squares", "two");
-  ASSERT_TRUE(client().wait_for_state("jobs/1", v1::RUNNING));
+  ASSERT_TRUE(client().wait_for_state("jobs/1", v1::Job::RUNNING));
   ASSERT_TRUE(client().cancel("jobs/3").ok());
   EXPECT_THAT(found(""), ElementsAre("jobs/3", "jobs/2", "jobs/1"));
   EXPECT_THAT(found("state = RUNNING"), ElementsAre("jobs/1"));

@@ -51,7 +51,7 @@ class JobOrderTest : public DaemonFixture {
     std::vector<std::string> out;
     for (int i = 0; i < 1200 && !jobs.empty(); ++i) {
       const auto running = std::find_if(jobs.begin(), jobs.end(), [&client](const std::string& job) {
-        return client.get(job).state() == v1::RUNNING;
+        return client.get(job).state() == v1::Job::RUNNING;
       });
       if (running == jobs.end()) {
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -78,7 +78,7 @@ TEST_F(JobOrderTest, TheNextDaemonStartsTheRestOfASweepLongestFirstToo) {
     auto client = this->client();
     const std::string running = client.create(endless_case());
     create(client, sweep_of(endless_case(), kSpeed, {4.0, 1.0, 2.0}));
-    ASSERT_TRUE(client.wait_for_state(running, v1::RUNNING));
+    ASSERT_TRUE(client.wait_for_state(running, v1::Job::RUNNING));
   }
   daemon_->stop();
   start_one_worker();
@@ -90,7 +90,7 @@ TEST_F(JobOrderTest, TheNextDaemonStartsTheRestOfASweepLongestFirstToo) {
 TEST_F(JobOrderTest, AJobOfAHigherPriorityStartsBeforeOlderOnesAndStopsNone) {
   auto client = this->client();
   const std::string running = client.create(endless_case());
-  ASSERT_TRUE(client.wait_for_state(running, v1::RUNNING));
+  ASSERT_TRUE(client.wait_for_state(running, v1::Job::RUNNING));
   auto request = sweep_of(endless_case(), kSpeed, {1.0, 2.0});
   request.mutable_sweep()->set_priority(-1);
   const auto sweep = create(client, request);
@@ -98,7 +98,7 @@ TEST_F(JobOrderTest, AJobOfAHigherPriorityStartsBeforeOlderOnesAndStopsNone) {
   EXPECT_EQ(client.get(sweep.jobs(0)).priority(), -1);
   const std::string plain = client.create(endless_case());
   const std::string urgent = create_with_priority(client, endless_case(), 100);
-  EXPECT_EQ(client.get(running).state(), v1::RUNNING);
+  EXPECT_EQ(client.get(running).state(), v1::Job::RUNNING);
   ASSERT_TRUE(client.cancel(running).ok());
   EXPECT_THAT(by_start(client, {sweep.jobs(0), sweep.jobs(1), plain, urgent}),
               ElementsAre(urgent, plain, sweep.jobs(0), sweep.jobs(1)));
@@ -108,7 +108,7 @@ TEST_F(JobOrderTest, TheQueueTellsTheOrderInWhichJobsStartAndWhyTheyWait) {
   auto client = this->client();
   EXPECT_EQ(queue_of(client).entries_size(), 0);
   const std::string running = client.create(endless_case());
-  ASSERT_TRUE(client.wait_for_state(running, v1::RUNNING));
+  ASSERT_TRUE(client.wait_for_state(running, v1::Job::RUNNING));
   auto request = sweep_of(endless_case(), kSpeed, {4.0, 1.0, 2.0});
   request.mutable_sweep()->set_max_parallel(1);
   create(client, request);
@@ -185,7 +185,7 @@ TEST_F(JobOrderTest, AQueueIsToldOfAlsoWhenASampleOfAJobInItCannotBeRead) {
   wait_for_samples(client, damaged, 5);
   ASSERT_TRUE(client.suspend(damaged).ok());
   const std::string running = client.create(endless_case());
-  ASSERT_TRUE(client.wait_for_state(running, v1::RUNNING));
+  ASSERT_TRUE(client.wait_for_state(running, v1::Job::RUNNING));
   store::Database(data_folder() / "journal.sqlite").execute("UPDATE events SET payload = x'ff' WHERE kind = 2");
   ASSERT_TRUE(client.resume(damaged).ok());
   const auto queue = queue_of(client);

@@ -22,7 +22,7 @@ std::string refusal_of(const std::string& filter) {
 
 TEST(JobFilter, ReadsConditionsJoinedByAnd) {
   const auto filter = parse_filter(R"(state = RUNNING AND label.batch="a \"b\""  AND title:"few cells" AND title : x)");
-  EXPECT_EQ(filter.states, std::vector<v1::JobState>{v1::RUNNING});
+  EXPECT_EQ(filter.states, std::vector<v1::Job::State>{v1::Job::RUNNING});
   ASSERT_EQ(filter.labels.size(), 1U);
   EXPECT_EQ(filter.labels[0].first, "batch");
   EXPECT_EQ(filter.labels[0].second, "a \"b\"");

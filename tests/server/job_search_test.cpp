@@ -30,10 +30,10 @@ class JobSearchTest : public JournalTest {
     return out;
   }
 
-  static JobFilter filter_of(v1::JobState state, const std::string& owner, const std::string& batch,
+  static JobFilter filter_of(v1::Job::State state, const std::string& owner, const std::string& batch,
                              const std::string& title) {
     JobFilter out;
-    if (state != v1::JOB_STATE_UNSPECIFIED) out.states = {state};
+    if (state != v1::Job::JOB_STATE_UNSPECIFIED) out.states = {state};
     if (!owner.empty()) out.owners = {owner};
     if (!batch.empty()) out.labels = {{"batch", batch}};
     if (!title.empty()) out.titles = {title};
@@ -46,7 +46,7 @@ std::vector<JobFilter> all_filters() {
   std::vector<JobFilter> out;
   for (int i = 1; i < 16; ++i) {
     JobFilter& filter = out.emplace_back();
-    if ((i & 1) != 0) filter.states = {v1::RUNNING};
+    if ((i & 1) != 0) filter.states = {v1::Job::RUNNING};
     if ((i & 2) != 0) filter.owners = {"anna"};
     if ((i & 4) != 0) filter.labels = {{"batch", "one"}, {"who", "me"}};
     if ((i & 8) != 0) filter.titles = {"few"};
@@ -77,12 +77,12 @@ TEST_F(JobSearchTest, ConditionsNarrowEachOther) {
   const auto first = make("anna", "Steel Hexagons", "one");
   const auto second = make("anna", "steel squares", "two");
   const auto third = make("bob", "Aluminium hexagons", "one");
-  change(second, v1::RUNNING);
+  change(second, v1::Job::RUNNING);
   EXPECT_THAT(found(filter_of({}, "anna", "", "")), ElementsAre(first, second));
   EXPECT_THAT(found(filter_of({}, "", "one", "")), ElementsAre(first, third));
   EXPECT_THAT(found(filter_of({}, "", "", "HEXAGONS")), ElementsAre(first, third));
-  EXPECT_THAT(found(filter_of(v1::PENDING, "anna", "one", "steel")), ElementsAre(first));
-  EXPECT_THAT(found(filter_of(v1::RUNNING, "", "one", "")), IsEmpty());
+  EXPECT_THAT(found(filter_of(v1::Job::PENDING, "anna", "one", "steel")), ElementsAre(first));
+  EXPECT_THAT(found(filter_of(v1::Job::RUNNING, "", "one", "")), IsEmpty());
   journal_->cancel_waiting({first});
   journal_->delete_job(first);
   EXPECT_THAT(found(filter_of({}, "", "one", "")), ElementsAre(third)) << "Its labels went with it.";
@@ -91,7 +91,7 @@ TEST_F(JobSearchTest, ConditionsNarrowEachOther) {
 TEST_F(JobSearchTest, AJournalOfTheThirdVersionIsSearchedAsANewOne) {
   const auto first = make("anna", "Steel Hexagons", "one");
   const auto second = make("bob", "Squares", "two");
-  change(second, v1::CANCELLED);
+  change(second, v1::Job::CANCELLED);
   SweepJob member;
   *member.job.mutable_case_() = testing::small_case();
   member.job.set_owner("anna");
@@ -101,7 +101,7 @@ TEST_F(JobSearchTest, AJournalOfTheThirdVersionIsSearchedAsANewOne) {
   Database(path()).execute(kWithoutSearchColumns);
   reopen();
   EXPECT_THAT(found(filter_of({}, "anna", "one", "hexagons")), ElementsAre(first));
-  EXPECT_THAT(found(filter_of(v1::CANCELLED, "bob", "two", "")), ElementsAre(second));
+  EXPECT_THAT(found(filter_of(v1::Job::CANCELLED, "bob", "two", "")), ElementsAre(second));
   EXPECT_EQ(journal_->create_sweep({}, {member, member}, "id", "hash").sweep, sweep.sweep);
   EXPECT_GT(reader_->bytes_of_owner("bob"), 0);
   ASSERT_EQ(reader_->ended_jobs({}, 10).size(), 1U);

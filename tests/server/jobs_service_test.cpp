@@ -23,7 +23,7 @@ class JobsServiceTest : public DaemonFixture {
     auto client = this->client();
     std::string job = client.create(small_case());
     EXPECT_TRUE(client.watch(job).status.ok());
-    EXPECT_EQ(client.get(job).state(), v1::SUCCEEDED) << client.get(job).cause_message();
+    EXPECT_EQ(client.get(job).state(), v1::Job::SUCCEEDED) << client.get(job).cause_message();
     return job;
   }
 

@@ -35,11 +35,11 @@ class JournalTest : public ::testing::Test {
     return journal_->create_job(job, request_id, hash).job;
   }
 
-  void change(std::int64_t job, v1::JobState state) {
+  void change(std::int64_t job, v1::Job::State state) {
     StateChange change;
     change.state = state;
-    change.worker_pid = state == v1::RUNNING ? 4711 : 0;
-    if (state == v1::SUCCEEDED) change.summary.emplace().set_step_count(99);
+    change.worker_pid = state == v1::Job::RUNNING ? 4711 : 0;
+    if (state == v1::Job::SUCCEEDED) change.summary.emplace().set_step_count(99);
     journal_->change_state(job, change);
   }
 

@@ -20,14 +20,14 @@ namespace {
 
 TEST_F(JournalTest, AJobSurvivesReopening) {
   const auto job = create();
-  change(job, v1::RUNNING);
+  change(job, v1::Job::RUNNING);
   journal_->append_sample(job, sample(1));
-  change(job, v1::SUCCEEDED);
+  change(job, v1::Job::SUCCEEDED);
   reopen();
   const auto stored = reader_->find_job(job);
   ASSERT_TRUE(stored);
   EXPECT_EQ(stored->job.name(), "jobs/" + std::to_string(job));
-  EXPECT_EQ(stored->job.state(), v1::SUCCEEDED);
+  EXPECT_EQ(stored->job.state(), v1::Job::SUCCEEDED);
   EXPECT_EQ(stored->job.labels().at("who"), "me");
   EXPECT_EQ(stored->job.case_().SerializeAsString(), testing::small_case().SerializeAsString());
   EXPECT_EQ(stored->job.summary().step_count(), 99);
@@ -38,16 +38,16 @@ TEST_F(JournalTest, AJobSurvivesReopening) {
 
 TEST_F(JournalTest, EventsCountFromOneWithoutAGapAndStatesComeAfterTheSamplesBeforeThem) {
   const auto job = create();
-  change(job, v1::RUNNING);
+  change(job, v1::Job::RUNNING);
   for (int i = 1; i <= 250; ++i) journal_->append_sample(job, sample(i));
-  change(job, v1::FAILED);
+  change(job, v1::Job::FAILED);
   const auto events = reader_->events(job, 0, 1000);
   ASSERT_EQ(events.size(), 253U);
   for (std::size_t i = 0; i < events.size(); ++i) EXPECT_EQ(events[i].sequence(), static_cast<std::int64_t>(i) + 1);
-  EXPECT_EQ(events[0].state().state(), v1::PENDING);
+  EXPECT_EQ(events[0].state().state(), v1::Job::PENDING);
   EXPECT_EQ(events[1].state().worker_pid(), 4711);
   for (int i = 1; i <= 250; ++i) EXPECT_EQ(events[static_cast<std::size_t>(i) + 1].sample().step(), i);
-  EXPECT_EQ(events.back().state().state(), v1::FAILED);
+  EXPECT_EQ(events.back().state().state(), v1::Job::FAILED);
   EXPECT_EQ(reader_->events(job, 252, 1000).size(), 1U);
   EXPECT_EQ(reader_->samples(job).samples.size(), 250U);
 }
@@ -119,7 +119,7 @@ TEST_F(JournalTest, AskingForSamplesWaitsForThoseThatAnotherIsMakingDurable) {
 
 TEST_F(JournalTest, SamplesThatAreToldAgainAreThereOnce) {
   const auto job = create();
-  change(job, v1::RUNNING);
+  change(job, v1::Job::RUNNING);
   for (int i = 1; i <= 5; ++i) journal_->append_sample(job, sample(i), std::chrono::minutes(1));
   for (int i = 3; i <= 7; ++i) journal_->append_sample(job, sample(i), std::chrono::minutes(1));
   journal_->commit_samples();
@@ -128,7 +128,7 @@ TEST_F(JournalTest, SamplesThatAreToldAgainAreThereOnce) {
   journal_->commit_samples();
   EXPECT_EQ(reader_->find_job(job)->last_sequence, sequence) << "None of them is new.";
   for (int i = 6; i <= 8; ++i) journal_->append_sample(job, sample(i), std::chrono::minutes(1));
-  change(job, v1::FAILED);
+  change(job, v1::Job::FAILED);
   const auto stored = reader_->samples(job).samples;
   ASSERT_EQ(stored.size(), 8U);
   for (std::size_t i = 0; i < stored.size(); ++i) EXPECT_EQ(stored[i].step(), static_cast<std::int64_t>(i) + 1);
@@ -144,9 +144,9 @@ TEST_F(JournalTest, ClosingKeepsWhatIsGathered) {
 
 TEST_F(JournalTest, SamplesAreReadInPartsThatMeet) {
   const auto job = create();
-  change(job, v1::RUNNING);
+  change(job, v1::Job::RUNNING);
   for (int i = 1; i <= 10; ++i) journal_->append_sample(job, sample(i));
-  change(job, v1::FAILED);
+  change(job, v1::Job::FAILED);
   std::vector<std::int64_t> steps;
   std::vector<std::size_t> sizes;
   StoredSamples part;
@@ -193,25 +193,25 @@ TEST_F(JournalTest, ARequestIdMakesOneJobAndNoOtherRequestMayUseIt) {
 
 TEST_F(JournalTest, AChangeThatMayNotBeChangesNothing) {
   const auto job = create();
-  EXPECT_THROW(change(job, v1::SUCCEEDED), ServiceError);
-  EXPECT_EQ(reader_->find_job(job)->job.state(), v1::PENDING);
+  EXPECT_THROW(change(job, v1::Job::SUCCEEDED), ServiceError);
+  EXPECT_EQ(reader_->find_job(job)->job.state(), v1::Job::PENDING);
   EXPECT_EQ(reader_->find_job(job)->last_sequence, 1);
-  EXPECT_THROW(change(job + 1, v1::RUNNING), ServiceError);
+  EXPECT_THROW(change(job + 1, v1::Job::RUNNING), ServiceError);
 }
 
 TEST_F(JournalTest, JobsAreListedNewestFirstAndFoundByState) {
   const auto first = create();
   const auto second = create();
-  change(first, v1::RUNNING);
+  change(first, v1::Job::RUNNING);
   const auto listed = reader_->list_jobs({}, true, 0, 10);
   ASSERT_EQ(listed.size(), 2U);
   EXPECT_EQ(listed[0].number, second);
   EXPECT_EQ(reader_->list_jobs({}, true, second, 10).size(), 1U);
   EXPECT_EQ(reader_->list_jobs({}, false, 0, 10)[0].number, first);
-  ASSERT_EQ(reader_->queued_jobs(v1::RUNNING).size(), 1U);
-  EXPECT_EQ(reader_->queued_jobs(v1::RUNNING)[0].job, first);
-  ASSERT_EQ(reader_->queued_jobs(v1::PENDING).size(), 1U);
-  EXPECT_EQ(reader_->queued_jobs(v1::PENDING)[0].job, second);
+  ASSERT_EQ(reader_->queued_jobs(v1::Job::RUNNING).size(), 1U);
+  EXPECT_EQ(reader_->queued_jobs(v1::Job::RUNNING)[0].job, first);
+  ASSERT_EQ(reader_->queued_jobs(v1::Job::PENDING).size(), 1U);
+  EXPECT_EQ(reader_->queued_jobs(v1::Job::PENDING)[0].job, second);
 }
 
 TEST_F(JournalTest, AMeshIsKept) {
@@ -225,9 +225,9 @@ TEST_F(JournalTest, AMeshIsKept) {
 
 TEST_F(JournalTest, AFilterLooksThroughMoreJobsThanAPageHolds) {
   for (int i = 0; i < 500; ++i) create();
-  change(3, v1::RUNNING);
+  change(3, v1::Job::RUNNING);
   JobFilter filter;
-  filter.states = {v1::RUNNING};
+  filter.states = {v1::Job::RUNNING};
   filter.labels = {{"who", "me"}};
   const auto listed = reader_->list_jobs(filter, true, 0, 10);
   ASSERT_EQ(listed.size(), 1U);
@@ -242,7 +242,7 @@ TEST_F(JournalTest, AFilterLooksThroughMoreJobsThanAPageHolds) {
 TEST_F(JournalTest, ADeletedJobLeavesNothingButTheNoteOnItsFolder) {
   const auto job = create("id", "hash");
   EXPECT_THROW(journal_->delete_job(job), ServiceError);
-  change(job, v1::CANCELLED);
+  change(job, v1::Job::CANCELLED);
   journal_->set_mesh(job, {});
   journal_->delete_job(job);
   EXPECT_FALSE(reader_->has_job(job));

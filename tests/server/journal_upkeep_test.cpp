@@ -43,9 +43,9 @@ TEST_F(JournalUpkeepTest, AfterABurstAndItsDeletionJournalAndWalAreSmallAgain) {
   std::uintmax_t most = 0;
   for (int i = 0; i < 3; ++i) {
     const auto job = create();
-    change(job, v1::RUNNING);
+    change(job, v1::Job::RUNNING);
     fill(job, 4000);
-    change(job, v1::SUCCEEDED);
+    change(job, v1::Job::SUCCEEDED);
     most = std::max(most, size() + size("-wal"));
     journal_->delete_job(job);
     most = std::max(most, size() + size("-wal"));
@@ -54,7 +54,7 @@ TEST_F(JournalUpkeepTest, AfterABurstAndItsDeletionJournalAndWalAreSmallAgain) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   EXPECT_GT(most, kBound) << "The burst was none.";
   EXPECT_LT(size() + size("-wal"), kBound) << size() << " and " << size("-wal");
-  EXPECT_EQ(reader_->find_job(kept)->job.state(), v1::PENDING);
+  EXPECT_EQ(reader_->find_job(kept)->job.state(), v1::Job::PENDING);
   Database database(path());
   Statement check(database, "PRAGMA integrity_check");
   ASSERT_TRUE(check.step());

@@ -60,7 +60,7 @@ TEST_F(LimitsTest, BeyondTheQueuesDepthNothingIsTakenAndTheRemedyIsNamed) {
   start(options);
   auto client = this->client();
   const std::string running = client.create(endless_case());
-  ASSERT_TRUE(client.wait_for_state(running, v1::RUNNING));
+  ASSERT_TRUE(client.wait_for_state(running, v1::Job::RUNNING));
   client.create(small_case());
   ASSERT_TRUE(try_to_create(client, small_case(), "second").ok());
   const auto refused = try_to_create(client, small_case());
@@ -80,14 +80,14 @@ TEST_F(LimitsTest, ACancelledSweepFreesItsPlacesInTheQueueAtOnce) {
   start(options);
   auto client = this->client();
   const std::string running = client.create(endless_case());
-  ASSERT_TRUE(client.wait_for_state(running, v1::RUNNING));
+  ASSERT_TRUE(client.wait_for_state(running, v1::Job::RUNNING));
   for (int i = 0; i < 3; ++i) {
     const auto sweep = create(client, sweep_of(small_case(), kSpeed, {50.0, 100.0, 150.0}));
     v1::CancelSweepRequest cancel;
     cancel.set_name(sweep.name());
     v1::Sweep cancelled;
     ASSERT_TRUE(client.sweeps->CancelSweep(bounded_context().get(), cancel, &cancelled).ok());
-    EXPECT_EQ(count_in(cancelled, v1::CANCELLED), 3);
+    EXPECT_EQ(count_in(cancelled, v1::Job::CANCELLED), 3);
   }
   EXPECT_TRUE(try_to_create(client, small_case()).ok());
 }
@@ -102,16 +102,16 @@ TEST_F(LimitsTest, ASweepThatMaxFailuresStopsFreesItsPlacesAtOnce) {
   request.mutable_sweep()->set_max_failures(1);
   request.mutable_sweep()->set_time_limit_s(1.0);
   const auto sweep = create(client, request);
-  ASSERT_TRUE(wait_for_count(client, sweep.name(), v1::RUNNING, 1));
+  ASSERT_TRUE(wait_for_count(client, sweep.name(), v1::Job::RUNNING, 1));
   // Takes the worker before the others of the sweep could leave the queue through it.
   v1::CreateJobRequest urgent;
   *urgent.mutable_case_() = endless_case();
   urgent.set_priority(100);
   v1::Job next;
   ASSERT_TRUE(client.jobs->CreateJob(bounded_context().get(), urgent, &next).ok());
-  ASSERT_TRUE(wait_for_count(client, sweep.name(), v1::FAILED, 1));
-  ASSERT_TRUE(client.wait_for_state(next.name(), v1::RUNNING));
-  EXPECT_EQ(count_in(get_sweep(client, sweep.name()), v1::CANCELLED), 2);
+  ASSERT_TRUE(wait_for_count(client, sweep.name(), v1::Job::FAILED, 1));
+  ASSERT_TRUE(client.wait_for_state(next.name(), v1::Job::RUNNING));
+  EXPECT_EQ(count_in(get_sweep(client, sweep.name()), v1::Job::CANCELLED), 2);
   for (int i = 0; i < 3; ++i) EXPECT_TRUE(try_to_create(client, small_case()).ok()) << i;
 }
 
@@ -197,9 +197,9 @@ class FullDiskTest : public LimitsTest {
 TEST_F(FullDiskTest, RunningJobsAreLeftUntilThereIsRoom) {
   auto client = this->client();
   const std::string job = client.create(endless_case());
-  ASSERT_TRUE(client.wait_for_state(job, v1::RUNNING));
+  ASSERT_TRUE(client.wait_for_state(job, v1::Job::RUNNING));
   ASSERT_NO_FATAL_FAILURE(take_room());
-  EXPECT_TRUE(client.wait_for_state(job, v1::PENDING));
+  EXPECT_TRUE(client.wait_for_state(job, v1::Job::PENDING));
   v1::Queue queue;
   const auto admin = v1::Admin::NewStub(client.channel);
   ASSERT_TRUE(admin->GetQueue(bounded_context().get(), {}, &queue).ok());
@@ -207,7 +207,7 @@ TEST_F(FullDiskTest, RunningJobsAreLeftUntilThereIsRoom) {
   EXPECT_THAT(queue.entries(0).reason(), HasSubstr("nearly full"));
   EXPECT_EQ(try_to_create(client, small_case()).error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
   std::filesystem::remove(large_file());
-  EXPECT_TRUE(client.wait_for_state(job, v1::RUNNING));
+  EXPECT_TRUE(client.wait_for_state(job, v1::Job::RUNNING));
   EXPECT_EQ(client.get(job).attempt(), 2);
   ASSERT_TRUE(client.cancel(job).ok());
 }
@@ -221,7 +221,7 @@ TEST_F(FullDiskTest, AJobThatIsCancelledEndsBeforeThereIsRoom) {
   ASSERT_NO_FATAL_FAILURE(take_room());
   ASSERT_TRUE(wait_until_held(client));
   ASSERT_TRUE(client.cancel(job).ok());
-  EXPECT_TRUE(client.wait_for_state(job, v1::CANCELLED)) << v1::JobState_Name(client.get(job).state());
+  EXPECT_TRUE(client.wait_for_state(job, v1::Job::CANCELLED)) << v1::Job::State_Name(client.get(job).state());
   EXPECT_TRUE(client.get(job).has_summary()) << client.get(job).cause_message();
 }
 
@@ -233,7 +233,7 @@ TEST_F(LimitsTest, AJobThatEndedLongAgoIsDeletedAndOthersAreNot) {
   auto client = this->client();
   const std::string waits = client.create(endless_case());
   const std::string job = client.create(small_case());
-  ASSERT_TRUE(client.wait_for_state(job, v1::SUCCEEDED));
+  ASSERT_TRUE(client.wait_for_state(job, v1::Job::SUCCEEDED));
   v1::GetJobRequest request;
   request.set_name(job);
   v1::Job found;
@@ -244,7 +244,7 @@ TEST_F(LimitsTest, AJobThatEndedLongAgoIsDeletedAndOthersAreNot) {
     status = client.jobs->GetJob(bounded_context().get(), request, &found);
   }
   EXPECT_EQ(status.error_code(), grpc::StatusCode::NOT_FOUND);
-  EXPECT_EQ(client.get(waits).state(), v1::RUNNING);
+  EXPECT_EQ(client.get(waits).state(), v1::Job::RUNNING);
   ASSERT_TRUE(client.cancel(waits).ok());
 }
 
@@ -255,7 +255,7 @@ TEST_F(LimitsTest, DrainedItTakesNoJobEndsAndLeavesWhatRuns) {
   ASSERT_EQ(daemon.wait_for_addresses(1).size(), 1U);
   Client client(socket);
   const std::string job = client.create(endless_case());
-  ASSERT_TRUE(client.wait_for_state(job, v1::RUNNING));
+  ASSERT_TRUE(client.wait_for_state(job, v1::Job::RUNNING));
   const pid_t worker = client.worker_of(job);
   v1::DrainResponse response;
   ASSERT_TRUE(v1::Admin::NewStub(client.channel)->Drain(bounded_context().get(), {}, &response).ok());
@@ -264,9 +264,9 @@ TEST_F(LimitsTest, DrainedItTakesNoJobEndsAndLeavesWhatRuns) {
   DaemonProcess next(arguments);
   ASSERT_EQ(next.wait_for_addresses(1).size(), 1U);
   Client again(socket);
-  EXPECT_TRUE(again.wait_for_state(job, v1::RUNNING));
+  EXPECT_TRUE(again.wait_for_state(job, v1::Job::RUNNING));
   ASSERT_TRUE(again.cancel(job).ok());
-  EXPECT_TRUE(again.wait_for_state(job, v1::CANCELLED));
+  EXPECT_TRUE(again.wait_for_state(job, v1::Job::CANCELLED));
 }
 
 TEST_F(LimitsTest, WhileItDrainsNewJobsAreRefusedAndOldOnesServed) {

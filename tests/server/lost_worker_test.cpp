@@ -48,16 +48,16 @@ class LostWorkerTest : public DaemonFixture {
   static v1::Job kill_until_it_fails(Client& client, const std::string& job, int signal) {
     pid_t last = 0;
     v1::Job now = client.get(job);
-    for (int i = 0; i < 3000 && now.state() != v1::FAILED; ++i) {
-      if (now.state() == v1::RUNNING && now.worker_pid() > 0 && now.worker_pid() != last) {
+    for (int i = 0; i < 3000 && now.state() != v1::Job::FAILED; ++i) {
+      if (now.state() == v1::Job::RUNNING && now.worker_pid() > 0 && now.worker_pid() != last) {
         last = static_cast<pid_t>(now.worker_pid());
         kill(last, signal);
       }
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
       now = client.get(job);
     }
-    EXPECT_EQ(now.state(), v1::FAILED);
-    EXPECT_EQ(now.cause(), v1::WORKER_CRASHED);
+    EXPECT_EQ(now.state(), v1::Job::FAILED);
+    EXPECT_EQ(now.cause(), v1::Job::WORKER_CRASHED);
     return now;
   }
 
@@ -88,18 +88,18 @@ TEST_F(LostWorkerTest, ASuspendedJobHoldsStillOverARestartAndHasTheSameBitsWhenI
   wait_for_samples(client, job, 20);
   const pid_t worker = client.worker_of(job);
   ASSERT_TRUE(client.suspend(job).ok());
-  EXPECT_EQ(client.get(job).state(), v1::SUSPENDED);
+  EXPECT_EQ(client.get(job).state(), v1::Job::SUSPENDED);
   EXPECT_FALSE(is_alive(worker));
   const auto samples = client.history(job).size();
   ASSERT_TRUE(client.suspend(job).ok()) << "Twice is once.";
 
   start(often_checkpointed());
   auto next = this->client();
-  EXPECT_EQ(next.get(job).state(), v1::SUSPENDED);
+  EXPECT_EQ(next.get(job).state(), v1::Job::SUSPENDED);
   EXPECT_EQ(next.history(job).size(), samples);
   ASSERT_TRUE(next.resume(job).ok());
   ASSERT_TRUE(next.watch(job).status.ok());
-  EXPECT_EQ(next.get(job).state(), v1::SUCCEEDED) << next.get(job).cause_message();
+  EXPECT_EQ(next.get(job).state(), v1::Job::SUCCEEDED) << next.get(job).cause_message();
   EXPECT_EQ(next.get(job).attempt(), 2);
   EXPECT_TRUE(numbers_of(next, job) == numbers_of(next, whole));
   expect_sound_events(next, job);
@@ -117,24 +117,24 @@ TEST_F(LostWorkerTest, AWaitingJobIsSuspendedAtOnceAndCanBeResumedOrCancelled) {
   const std::string third = client.create(small_case());
   for (const auto& job : {second, third}) {
     ASSERT_TRUE(client.suspend(job).ok());
-    EXPECT_EQ(client.get(job).state(), v1::SUSPENDED);
+    EXPECT_EQ(client.get(job).state(), v1::Job::SUSPENDED);
   }
   ASSERT_TRUE(client.cancel(first).ok());
-  ASSERT_TRUE(client.wait_for_state(first, v1::CANCELLED));
+  ASSERT_TRUE(client.wait_for_state(first, v1::Job::CANCELLED));
   ASSERT_TRUE(client.cancel(third).ok());
-  EXPECT_EQ(client.get(third).state(), v1::CANCELLED);
-  EXPECT_EQ(client.get(second).state(), v1::SUSPENDED);
+  EXPECT_EQ(client.get(third).state(), v1::Job::CANCELLED);
+  EXPECT_EQ(client.get(second).state(), v1::Job::SUSPENDED);
   ASSERT_TRUE(client.resume(second).ok());
   ASSERT_TRUE(client.resume(second).ok()) << "Twice is once.";
   ASSERT_TRUE(client.watch(second).status.ok());
-  EXPECT_EQ(client.get(second).state(), v1::SUCCEEDED);
+  EXPECT_EQ(client.get(second).state(), v1::Job::SUCCEEDED);
 }
 
 TEST_F(LostWorkerTest, ACancelThatItsWorkerNeverHeedsKeepsWhatWasComputed) {
   auto client = this->client();
   const auto [job, worker] = cancel_in_vain(client);
-  EXPECT_EQ(client.get(job).state(), v1::CANCELLING);
-  ASSERT_TRUE(client.wait_for_state(job, v1::CANCELLED));
+  EXPECT_EQ(client.get(job).state(), v1::Job::CANCELLING);
+  ASSERT_TRUE(client.wait_for_state(job, v1::Job::CANCELLED));
   EXPECT_FALSE(is_alive(worker));
   EXPECT_FALSE(std::filesystem::exists(file_of(job, "result.h5.partial")));
   ASSERT_TRUE(client.get(job).has_summary()) << client.get(job).cause_message();
@@ -152,7 +152,7 @@ TEST_F(LostWorkerTest, ACancelThatTheDaemonsEndCutsOffIsEndedByTheNextOneWithIts
   EXPECT_FALSE(is_alive(worker));
   start(often_checkpointed());
   auto next = this->client();
-  ASSERT_TRUE(next.wait_for_state(job, v1::CANCELLED)) << v1::JobState_Name(next.get(job).state());
+  ASSERT_TRUE(next.wait_for_state(job, v1::Job::CANCELLED)) << v1::Job::State_Name(next.get(job).state());
   EXPECT_TRUE(next.get(job).has_summary()) << next.get(job).cause_message();
   expect_sound_events(next, job);
 }
@@ -170,7 +170,7 @@ TEST_F(LostWorkerTest, ADaemonsEndLeavesRunningJobsAtACheckpointAndTheNextOneGoe
   start(often_checkpointed());
   auto next = this->client();
   ASSERT_TRUE(next.watch(job).status.ok());
-  EXPECT_EQ(next.get(job).state(), v1::SUCCEEDED) << next.get(job).cause_message();
+  EXPECT_EQ(next.get(job).state(), v1::Job::SUCCEEDED) << next.get(job).cause_message();
   EXPECT_TRUE(numbers_of(next, job) == numbers_of(next, whole));
   expect_sound_events(next, job);
 }
@@ -196,7 +196,7 @@ TEST_F(LostWorkerTest, AWorkerThatStandsStillIsShownAndReplaced) {
   const auto samples = client.history(job).size();
   wait_for_samples(client, job, samples + 5);
   EXPECT_GT(client.history(job).size(), samples);
-  EXPECT_EQ(client.get(job).state(), v1::RUNNING);
+  EXPECT_EQ(client.get(job).state(), v1::Job::RUNNING);
   EXPECT_FALSE(client.get(job).progress().stalled());
 }
 
@@ -217,7 +217,7 @@ TEST_F(LostWorkerTest, AJobWhoseWorkersAreKilledAgainAndAgainAtTheSamePlaceFails
   }
   const std::string next = client.create(small_case());
   ASSERT_TRUE(client.watch(next).status.ok());
-  EXPECT_EQ(client.get(next).state(), v1::SUCCEEDED) << "The daemon goes on.";
+  EXPECT_EQ(client.get(next).state(), v1::Job::SUCCEEDED) << "The daemon goes on.";
 }
 
 TEST_F(LostWorkerTest, WhatKilledWorkersReportedIsKeptAsAResultUpToTheLastSample) {

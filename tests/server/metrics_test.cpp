@@ -108,13 +108,13 @@ TEST_F(MetricsTest, TellWhatRunsAndWaits) {
   options.data_folder = folder_.path() / "one-worker";
   start(options);
   const std::string running = client().create(endless_case());
-  ASSERT_TRUE(client().wait_for_state(running, v1::RUNNING));
+  ASSERT_TRUE(client().wait_for_state(running, v1::Job::RUNNING));
   client().create(endless_case());
   const std::string answer = scrape();
   EXPECT_EQ(value_of(answer, "cellcrush_jobs_running"), 1.0);
   EXPECT_EQ(value_of(answer, "cellcrush_jobs_waiting"), 1.0);
   EXPECT_TRUE(client().cancel(running).ok());
-  ASSERT_TRUE(client().wait_for_state(running, v1::CANCELLED));
+  ASSERT_TRUE(client().wait_for_state(running, v1::Job::CANCELLED));
   scrape_until("cellcrush_jobs_ended_total{state=\"CANCELLED\"}", 1.0);
 }
 

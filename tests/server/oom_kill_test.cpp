@@ -43,13 +43,13 @@ TEST_F(OomKillTest, AKillThatTheKernelCountedIsOutOfMemory) {
   const auto exit = run(7, 8);
   EXPECT_EQ(exit.kind, WorkerExit::Kind::signalled);
   EXPECT_TRUE(exit.out_of_memory);
-  EXPECT_EQ(outcome_of(exit).cause, v1::OUT_OF_MEMORY);
+  EXPECT_EQ(outcome_of(exit).cause, v1::Job::OUT_OF_MEMORY);
 }
 
 TEST_F(OomKillTest, AnyOtherKillIsNot) {
   const auto exit = run(7, 7);
   EXPECT_FALSE(exit.out_of_memory);
-  EXPECT_EQ(outcome_of(exit).cause, v1::WORKER_CRASHED);
+  EXPECT_EQ(outcome_of(exit).cause, v1::Job::WORKER_CRASHED);
 }
 
 TEST_F(OomKillTest, TheCountOfThisMachineCanBeRead) { EXPECT_LE(count_oom_kills(), count_oom_kills()); }

@@ -132,7 +132,7 @@ TEST_F(OwnerTest, AnOwnerBeyondAQuotaIsRefusedAndOthersAreNot) {
   Owner anna(channel({}), tokens_.at("anna"));
   Owner bob(channel({}), tokens_.at("bob"));
   const std::string running = anna.create(endless_case()).name();
-  ASSERT_TRUE(client().wait_for_state(running, v1::RUNNING));
+  ASSERT_TRUE(client().wait_for_state(running, v1::Job::RUNNING));
   const std::string waiting = anna.create(endless_case()).name();
   anna.create(endless_case());
   ASSERT_TRUE(anna.last.ok()) << anna.last.error_message();
@@ -146,15 +146,15 @@ TEST_F(OwnerTest, AnOwnerBeyondAQuotaIsRefusedAndOthersAreNot) {
   EXPECT_EQ(bob.last.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
   EXPECT_THAT(bob.last.error_message(), HasSubstr("priority is 11"));
   const std::string of_bob = bob.create(endless_case(), "", 10).name();
-  EXPECT_TRUE(client().wait_for_state(of_bob, v1::RUNNING));
-  EXPECT_EQ(client().get(waiting).state(), v1::PENDING) << "A worker is free, but not for anna.";
+  EXPECT_TRUE(client().wait_for_state(of_bob, v1::Job::RUNNING));
+  EXPECT_EQ(client().get(waiting).state(), v1::Job::PENDING) << "A worker is free, but not for anna.";
   v1::Queue queue;
   ASSERT_TRUE(v1::Admin::NewStub(client().channel)->GetQueue(bounded_context().get(), {}, &queue).ok());
   ASSERT_EQ(queue.entries_size(), 2);
   EXPECT_THAT(queue.entries(0).reason(),
               HasSubstr("anna, is already running the 1 job that --owner-max-running allows"));
   ASSERT_TRUE(client().cancel(running).ok());
-  EXPECT_TRUE(client().wait_for_state(waiting, v1::RUNNING));
+  EXPECT_TRUE(client().wait_for_state(waiting, v1::Job::RUNNING));
 }
 
 TEST_F(OwnerTest, CallsAtTheSameTimeDoNotOvershootAQuota) {
@@ -164,7 +164,7 @@ TEST_F(OwnerTest, CallsAtTheSameTimeDoNotOvershootAQuota) {
   options.limits.owner.queued_jobs = kQuota;
   start(options);
   const std::string running = Owner(channel({}), tokens_.at("anna")).create(endless_case()).name();
-  ASSERT_TRUE(client().wait_for_state(running, v1::RUNNING));
+  ASSERT_TRUE(client().wait_for_state(running, v1::Job::RUNNING));
   std::atomic<int> taken = 0;
   {
     std::vector<std::jthread> callers;
@@ -189,7 +189,7 @@ TEST_F(OwnerTest, AnOwnerWhoseJobsFillTheirDiskIsRefusedUntilSomeAreDeleted) {
   Owner anna(channel({}), tokens_.at("anna"));
   Owner bob(channel({}), tokens_.at("bob"));
   const std::string job = anna.create(small_case()).name();
-  ASSERT_TRUE(client().wait_for_state(job, v1::SUCCEEDED));
+  ASSERT_TRUE(client().wait_for_state(job, v1::Job::SUCCEEDED));
   // What it left is counted soon after its end.
   for (int i = 0; i < 100 && anna.last.ok(); ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(50));

@@ -34,7 +34,7 @@ v1::Sample full_sample(int step) {
 // A job as it is when it has ended well, with every figure of its summary.
 v1::Job full_job() {
   v1::Job out;
-  out.set_state(v1::SUCCEEDED);
+  out.set_state(v1::Job::SUCCEEDED);
   auto& summary = *out.mutable_summary();
   for (google::protobuf::Message* part : {static_cast<google::protobuf::Message*>(&summary),
                                           static_cast<google::protobuf::Message*>(summary.mutable_theory()),
@@ -67,7 +67,7 @@ class PagesTest : public DaemonFixture {
     const auto number = journal.create_job(job, "", "").job;
     for (int i = 1; i <= count; ++i) journal.append_sample(number, full_sample(i));
     store::StateChange cancelled;
-    cancelled.state = v1::CANCELLED;
+    cancelled.state = v1::Job::CANCELLED;
     journal.change_state(number, cancelled);
   }
 
@@ -85,7 +85,7 @@ class PagesTest : public DaemonFixture {
     }
     store::Database database(journal());
     store::Statement(database, "UPDATE jobs SET state = ?1, job = ?2")
-        .bind(1, v1::SUCCEEDED)
+        .bind(1, v1::Job::SUCCEEDED)
         .bind_blob(2, full_job().SerializeAsString())
         .run();
   }

@@ -69,7 +69,7 @@ class ResultFileTest : public ::testing::Test {
     summary.set_plateau_stress_impact_mpa(3.25);
     summary.set_step_count(12345);
     summary.set_energy_error_relative(0.01);
-    summary.set_crush_mode(v1::CRUSH_MODE_V);
+    summary.set_crush_mode(v1::Summary::CRUSH_MODE_V);
     summary.mutable_front()->set_shock_mpa(3.3);
     summary.mutable_ledger()->set_contact_damping_mj(7.5);
     summary.mutable_stage_times()->set_find_contacts_s(0.25);

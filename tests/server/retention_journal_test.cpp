@@ -42,7 +42,7 @@ class RetentionJournalTest : public JournalTest {
 TEST_F(RetentionJournalTest, AnEndIsCountedByTheTimeInWhichADaemonServed) {
   const auto first = create();
   uptime_ += 100;
-  change(first, v1::CANCELLED);
+  change(first, v1::Job::CANCELLED);
   EXPECT_EQ(end_of(first), 100);
   reader_.reset();
   journal_.reset();
@@ -57,7 +57,7 @@ TEST_F(RetentionJournalTest, AnEndIsCountedByTheTimeInWhichADaemonServed) {
 TEST_F(RetentionJournalTest, ADaemonThatWasKilledIsContinuedFromTheNewestEnd) {
   const auto job = create();
   uptime_ += 50;
-  change(job, v1::CANCELLED);
+  change(job, v1::Job::CANCELLED);
   Database(path()).execute("UPDATE service_clock SET seconds = 0");
   reader_.reset();
   // Without the note that a journal makes when it is closed.
@@ -73,7 +73,7 @@ TEST_F(RetentionJournalTest, WhatAJobTakesIsMeasuredOnceItHasEnded) {
   EXPECT_GT(before, 0);
   EXPECT_THAT(reader_->jobs_to_measure(10), IsEmpty());
   journal_->append_sample(job, sample(1));
-  change(job, v1::CANCELLED);
+  change(job, v1::Job::CANCELLED);
   EXPECT_THAT(reader_->jobs_to_measure(10), ElementsAre(job));
   journal_->set_measured({{job, 5'000'000}});
   EXPECT_THAT(reader_->jobs_to_measure(10), IsEmpty());
@@ -99,7 +99,7 @@ TEST_F(RetentionJournalTest, ASweepHasEndedWithTheLastOfItsJobs) {
 TEST_F(RetentionJournalTest, ASweepIsDeletedOnlyWhenAllItsJobsHaveEndedAndNamesThoseThatHaveNot) {
   const auto made = make_sweep(8);
   journal_->cancel_waiting({made.jobs[0]});
-  change(made.jobs[1], v1::RUNNING);
+  change(made.jobs[1], v1::Job::RUNNING);
   try {
     journal_->begin_sweep_deletion(made.sweep);
     FAIL() << "It was accepted.";

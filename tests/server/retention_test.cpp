@@ -32,7 +32,7 @@ class RetentionTest : public DaemonFixture {
 
   std::string run(Client& client) {
     const std::string job = client.create(tiny_case());
-    EXPECT_TRUE(client.wait_for_state(job, v1::SUCCEEDED));
+    EXPECT_TRUE(client.wait_for_state(job, v1::Job::SUCCEEDED));
     return job;
   }
 
@@ -121,7 +121,7 @@ TEST_F(RetentionTest, OfTooManyThoseThatEndedFirstGoAndASweepGoesWhole) {
   {
     auto client = this->client();
     const auto sweep = make_sweep(client);
-    ASSERT_TRUE(wait_for_count(client, sweep.name(), v1::SUCCEEDED, 2));
+    ASSERT_TRUE(wait_for_count(client, sweep.name(), v1::Job::SUCCEEDED, 2));
     // The clock that tells which ended first has seconds.
     std::this_thread::sleep_for(std::chrono::milliseconds(1100));
     alone = run(client);
@@ -145,9 +145,9 @@ TEST_F(RetentionTest, ASweepThatHasNotEndedIsKept) {
   request.mutable_sweep()->set_max_parallel(1);
   *request.mutable_sweep()->mutable_case_() = endless_case();
   const auto sweep = create(client, request);
-  ASSERT_TRUE(wait_for_count(client, sweep.name(), v1::RUNNING, 1));
+  ASSERT_TRUE(wait_for_count(client, sweep.name(), v1::Job::RUNNING, 1));
   for (const auto& job : sweep.jobs()) {
-    if (client.get(job).state() != v1::PENDING) continue;
+    if (client.get(job).state() != v1::Job::PENDING) continue;
     ASSERT_TRUE(client.cancel(job).ok());
   }
   for (int i = 0; i < 2; ++i) {
@@ -179,7 +179,7 @@ TEST_F(RetentionTest, ASweepIsDeletedWithItsJobsOnceTheyHaveEnded) {
   start(options);
   auto client = this->client();
   const auto sweep = create(client, sweep_of(endless_case(), kSpeed, {50.0, 100.0, 150.0}));
-  ASSERT_TRUE(wait_for_count(client, sweep.name(), v1::RUNNING, 2));
+  ASSERT_TRUE(wait_for_count(client, sweep.name(), v1::Job::RUNNING, 2));
   const std::string alone = client.create(tiny_case());
   const auto refused = delete_sweep(client, sweep.name());
   EXPECT_EQ(refused.error_code(), grpc::StatusCode::FAILED_PRECONDITION);
@@ -188,8 +188,8 @@ TEST_F(RetentionTest, ASweepIsDeletedWithItsJobsOnceTheyHaveEnded) {
   cancel.set_name(sweep.name());
   v1::Sweep cancelled;
   ASSERT_TRUE(client.sweeps->CancelSweep(bounded_context().get(), cancel, &cancelled).ok());
-  ASSERT_TRUE(wait_for_count(client, sweep.name(), v1::CANCELLED, 3));
-  ASSERT_TRUE(client.wait_for_state(alone, v1::SUCCEEDED));
+  ASSERT_TRUE(wait_for_count(client, sweep.name(), v1::Job::CANCELLED, 3));
+  ASSERT_TRUE(client.wait_for_state(alone, v1::Job::SUCCEEDED));
   const auto deleted = delete_sweep(client, sweep.name());
   EXPECT_TRUE(deleted.ok()) << deleted.error_message();
   EXPECT_EQ(look_up(client, sweep.name()), grpc::StatusCode::NOT_FOUND);

@@ -27,7 +27,7 @@ TEST_F(SweepJournalTest, ASweepSurvivesReopening) {
   sweep.add_axes()->set_field("loading.speed_m_per_s");
   sweep.set_max_parallel(2);
   const auto made = journal_->create_sweep(sweep, three_jobs(), "", "");
-  change(made.jobs[0], v1::RUNNING);
+  change(made.jobs[0], v1::Job::RUNNING);
   reopen();
   SweepReader sweeps(path());
   const auto found = sweeps.find_sweep(made.sweep);
@@ -41,17 +41,17 @@ TEST_F(SweepJournalTest, ASweepSurvivesReopening) {
   const auto rows = sweeps.rows(made.sweep).rows;
   ASSERT_EQ(rows.size(), 3U);
   EXPECT_EQ(rows[2].values(0), 150.0);
-  EXPECT_EQ(rows[0].result().state(), v1::RUNNING);
-  const auto waiting = reader_->queued_jobs(v1::PENDING);
+  EXPECT_EQ(rows[0].result().state(), v1::Job::RUNNING);
+  const auto waiting = reader_->queued_jobs(v1::Job::PENDING);
   ASSERT_EQ(waiting.size(), 2U);
   EXPECT_EQ(waiting[0].job, made.jobs[1]);
   EXPECT_EQ(waiting[0].sweep, made.sweep);
   EXPECT_EQ(waiting[0].max_parallel, 2);
-  const auto one = reader_->queued_job(made.jobs[1], v1::PENDING);
+  const auto one = reader_->queued_job(made.jobs[1], v1::Job::PENDING);
   ASSERT_TRUE(one);
   EXPECT_EQ(one->job, made.jobs[1]);
   EXPECT_EQ(one->max_parallel, 2);
-  EXPECT_FALSE(reader_->queued_job(made.jobs[0], v1::PENDING)) << "It runs.";
+  EXPECT_FALSE(reader_->queued_job(made.jobs[0], v1::Job::PENDING)) << "It runs.";
   const auto part = sweeps.rows(made.sweep, 1, {1, 1000});
   ASSERT_EQ(part.rows.size(), 1U);
   EXPECT_EQ(part.rows[0].values(0), 100.0);
@@ -72,7 +72,7 @@ TEST_F(SweepJournalTest, WhatDecidesTheOrderOfWaitingJobsSurvivesReopening) {
   urgent.set_priority(12);
   const auto alone = journal_->create_job(urgent, "", "", 42).job;
   reopen();
-  const auto waiting = reader_->queued_jobs(v1::PENDING);
+  const auto waiting = reader_->queued_jobs(v1::Job::PENDING);
   ASSERT_EQ(waiting.size(), 4U);
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(waiting[i].submission, made.jobs.front());
@@ -99,7 +99,7 @@ TEST_F(SweepJournalTest, AJournalOfTheSecondVersionKeepsItsJobsInTheirOrder) {
     EXPECT_TRUE(check_journal(database).problems.empty());
   }
   reopen();
-  const auto waiting = reader_->queued_jobs(v1::PENDING);
+  const auto waiting = reader_->queued_jobs(v1::Job::PENDING);
   ASSERT_EQ(waiting.size(), 4U);
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(waiting[i].job, made.jobs[i]);
@@ -117,15 +117,15 @@ TEST_F(SweepJournalTest, ARequestIdMakesOneSweep) {
   EXPECT_FALSE(second.is_new);
   EXPECT_EQ(second.sweep, first.sweep);
   EXPECT_THROW(journal_->create_sweep({}, three_jobs(), "id", "another"), ServiceError);
-  EXPECT_EQ(reader_->queued_jobs(v1::PENDING).size(), 3U) << "The others made no jobs.";
+  EXPECT_EQ(reader_->queued_jobs(v1::Job::PENDING).size(), 3U) << "The others made no jobs.";
 }
 
 TEST_F(SweepJournalTest, WaitingJobsAreCancelledTogetherAndDeletedOnesLeaveTheSweep) {
   const auto made = journal_->create_sweep({}, three_jobs(), "", "");
-  change(made.jobs[1], v1::RUNNING);
+  change(made.jobs[1], v1::Job::RUNNING);
   journal_->cancel_waiting(made.jobs);
-  EXPECT_EQ(reader_->queued_jobs(v1::CANCELLED).size(), 2U);
-  EXPECT_EQ(reader_->queued_jobs(v1::RUNNING).size(), 1U);
+  EXPECT_EQ(reader_->queued_jobs(v1::Job::CANCELLED).size(), 2U);
+  EXPECT_EQ(reader_->queued_jobs(v1::Job::RUNNING).size(), 1U);
   journal_->delete_job(made.jobs[0]);
   EXPECT_EQ(SweepReader(path()).jobs_of(made.sweep), (std::vector<std::int64_t>{made.jobs[1], made.jobs[2]}));
 }

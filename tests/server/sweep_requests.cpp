@@ -30,12 +30,12 @@ v1::Sweep get_sweep(Client& client, const std::string& name) {
   return out;
 }
 
-int count_in(const v1::Sweep& sweep, v1::JobState state) {
-  const auto found = sweep.state_counts().find(v1::JobState_Name(state));
+int count_in(const v1::Sweep& sweep, v1::Job::State state) {
+  const auto found = sweep.state_counts().find(v1::Job::State_Name(state));
   return found == sweep.state_counts().end() ? 0 : found->second;
 }
 
-bool wait_for_count(Client& client, const std::string& name, v1::JobState state, int count) {
+bool wait_for_count(Client& client, const std::string& name, v1::Job::State state, int count) {
   for (int i = 0; i < 1200; ++i) {
     if (count_in(get_sweep(client, name), state) == count) return true;
     std::this_thread::sleep_for(std::chrono::milliseconds(50));

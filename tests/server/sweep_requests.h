@@ -20,10 +20,10 @@ v1::Sweep create(Client& client, const v1::CreateSweepRequest& request);
 v1::Sweep get_sweep(Client& client, const std::string& name);
 
 /// How many of its jobs are in that state.
-int count_in(const v1::Sweep& sweep, v1::JobState state);
+int count_in(const v1::Sweep& sweep, v1::Job::State state);
 
 /// Waits until that many of its jobs are in that state, at most 60 s.
-bool wait_for_count(Client& client, const std::string& name, v1::JobState state, int count);
+bool wait_for_count(Client& client, const std::string& name, v1::Job::State state, int count);
 
 /// What a watch gave, and how it ended.
 struct WatchedSweep {

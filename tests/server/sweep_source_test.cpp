@@ -16,20 +16,20 @@ class SweepSourceTest : public ::testing::Test {
  protected:
   SweepSource source(const std::string& token = "") { return {reader_, sweeps_, hub_, made_.sweep, token}; }
 
-  void change(std::int64_t job, v1::JobState state) {
+  void change(std::int64_t job, v1::Job::State state) {
     store::StateChange change;
     change.state = state;
     journal_.change_state(job, change);
   }
 
   void run(std::int64_t job, int samples) {
-    change(job, v1::RUNNING);
+    change(job, v1::Job::RUNNING);
     for (int i = 0; i < samples; ++i) {
       v1::Sample sample;
       sample.set_step(i);
       journal_.append_sample(job, sample);
     }
-    change(job, v1::SUCCEEDED);
+    change(job, v1::Job::SUCCEEDED);
   }
 
   // Each job's numbered events must count on from what is in `seen`.
@@ -105,7 +105,7 @@ TEST_F(SweepSourceTest, NewsOfAJobWakeTheWatcherAndOnlyThatJobSpeaks) {
   }
   EXPECT_FALSE(source.ended());
   woken = 0;
-  change(made_.jobs[1], v1::RUNNING);
+  change(made_.jobs[1], v1::Job::RUNNING);
   EXPECT_GT(woken, 0);
   const auto response = source.next();
   ASSERT_TRUE(response);
@@ -116,7 +116,7 @@ TEST_F(SweepSourceTest, NewsOfAJobWakeTheWatcherAndOnlyThatJobSpeaks) {
   EXPECT_FALSE(bookmark.resume_token().empty());
   source.close();
   woken = 0;
-  change(made_.jobs[1], v1::SUCCEEDED);
+  change(made_.jobs[1], v1::Job::SUCCEEDED);
   EXPECT_EQ(woken, 0);
 }
 

@@ -44,7 +44,7 @@ TEST_F(SweepsServiceTest, ThreeSpeedsGiveATableOfThreeResults) {
   const auto sweep = create(client, request);
   EXPECT_EQ(sweep.name(), "sweeps/1");
   EXPECT_THAT(sweep.jobs(), ElementsAre("jobs/1", "jobs/2", "jobs/3"));
-  ASSERT_TRUE(wait_for_count(client, sweep.name(), v1::SUCCEEDED, 3));
+  ASSERT_TRUE(wait_for_count(client, sweep.name(), v1::Job::SUCCEEDED, 3));
   v1::GetSweepTableRequest asked;
   asked.set_name(sweep.name());
   v1::SweepTable table;
@@ -56,7 +56,7 @@ TEST_F(SweepsServiceTest, ThreeSpeedsGiveATableOfThreeResults) {
     const auto& row = table.rows(i);
     EXPECT_EQ(row.job(), sweep.jobs(i));
     EXPECT_THAT(row.values(), ElementsAre(50.0 * (1 << i)));
-    EXPECT_EQ(row.result().state(), v1::SUCCEEDED);
+    EXPECT_EQ(row.result().state(), v1::Job::SUCCEEDED);
     EXPECT_GT(row.result().summary().plateau_stress_impact_mpa(), plateau) << "Faster is stiffer.";
     EXPECT_GT(row.result().summary().theory().shock_mpa(), 0.0);
     plateau = row.result().summary().plateau_stress_impact_mpa();
@@ -180,27 +180,27 @@ TEST_F(SweepsServiceTest, AThousandPointsAreQueuedTogetherAndCancelledTogether) 
   const auto ended = std::chrono::steady_clock::now();
   std::cout << "1000 points: made in " << std::chrono::duration<double>(made - start).count() << " s, cancelled in "
             << std::chrono::duration<double>(ended - made).count() << " s\n";
-  EXPECT_EQ(count_in(cancelled, v1::PENDING), 0);
-  EXPECT_GT(count_in(cancelled, v1::CANCELLED), 500);
+  EXPECT_EQ(count_in(cancelled, v1::Job::PENDING), 0);
+  EXPECT_GT(count_in(cancelled, v1::Job::CANCELLED), 500);
   const auto watched = watch_sweep(client, sweep.name());
   EXPECT_TRUE(watched.status.ok()) << watched.status.error_message();
   const auto after = get_sweep(client, sweep.name());
-  EXPECT_EQ(count_in(after, v1::CANCELLED) + count_in(after, v1::SUCCEEDED), 1000);
+  EXPECT_EQ(count_in(after, v1::Job::CANCELLED) + count_in(after, v1::Job::SUCCEEDED), 1000);
   EXPECT_EQ(client.get(sweep.jobs(999)).case_().lattice().imperfection().seed(), 1000U);
 }
 
 TEST_F(SweepsServiceTest, CancellingStopsRunningJobsAndKeepsWhatHasEnded) {
   auto client = this->client();
   const auto sweep = create(client, sweep_of(endless_case(), kSpeed, {1.0, 1.5, 2.0}));
-  ASSERT_TRUE(wait_for_count(client, sweep.name(), v1::RUNNING, 2));
+  ASSERT_TRUE(wait_for_count(client, sweep.name(), v1::Job::RUNNING, 2));
   v1::CancelSweepRequest cancel;
   cancel.set_name(sweep.name());
   v1::Sweep out;
   ASSERT_TRUE(client.sweeps->CancelSweep(bounded_context().get(), cancel, &out).ok());
-  EXPECT_EQ(count_in(out, v1::RUNNING) + count_in(out, v1::PENDING), 0);
-  ASSERT_TRUE(wait_for_count(client, sweep.name(), v1::CANCELLED, 3));
+  EXPECT_EQ(count_in(out, v1::Job::RUNNING) + count_in(out, v1::Job::PENDING), 0);
+  ASSERT_TRUE(wait_for_count(client, sweep.name(), v1::Job::CANCELLED, 3));
   EXPECT_TRUE(client.sweeps->CancelSweep(bounded_context().get(), cancel, &out).ok()) << "Again changes nothing.";
-  EXPECT_EQ(count_in(out, v1::CANCELLED), 3);
+  EXPECT_EQ(count_in(out, v1::Job::CANCELLED), 3);
 }
 
 TEST_F(SweepsServiceTest, ASweepKeepsToItsShareOfTheWorkers) {
@@ -209,13 +209,13 @@ TEST_F(SweepsServiceTest, ASweepKeepsToItsShareOfTheWorkers) {
   request.mutable_sweep()->set_max_parallel(1);
   const auto sweep = create(client, request);
   const std::string other = client.create(small_case());
-  EXPECT_TRUE(client.wait_for_state(other, v1::SUCCEEDED)) << "The second worker is free for others.";
+  EXPECT_TRUE(client.wait_for_state(other, v1::Job::SUCCEEDED)) << "The second worker is free for others.";
   const auto now = get_sweep(client, sweep.name());
-  EXPECT_EQ(count_in(now, v1::RUNNING), 1);
-  EXPECT_EQ(count_in(now, v1::PENDING), 2);
+  EXPECT_EQ(count_in(now, v1::Job::RUNNING), 1);
+  EXPECT_EQ(count_in(now, v1::Job::PENDING), 2);
   ASSERT_TRUE(client.cancel(now.jobs(0)).ok());
-  EXPECT_TRUE(client.wait_for_state(now.jobs(1), v1::RUNNING));
-  EXPECT_EQ(client.get(now.jobs(2)).state(), v1::PENDING);
+  EXPECT_TRUE(client.wait_for_state(now.jobs(1), v1::Job::RUNNING));
+  EXPECT_EQ(client.get(now.jobs(2)).state(), v1::Job::PENDING);
 }
 
 TEST_F(SweepsServiceTest, SweepsAreListedInPagesAndUnknownOnesAreNotFound) {
@@ -254,7 +254,7 @@ TEST_F(SweepsServiceTest, AHalfDoneSweepIsFinishedByTheNextDaemon) {
     for (int i = 0; i < 8; ++i) request.mutable_sweep()->mutable_axes(0)->mutable_list()->add_values(50.0 + i);
     request.mutable_sweep()->set_max_parallel(1);
     name = create(client, request).name();
-    ASSERT_TRUE(client.wait_for_state("jobs/2", v1::SUCCEEDED));
+    ASSERT_TRUE(client.wait_for_state("jobs/2", v1::Job::SUCCEEDED));
   }
   daemon_->stop();
   start(options);
@@ -262,8 +262,8 @@ TEST_F(SweepsServiceTest, AHalfDoneSweepIsFinishedByTheNextDaemon) {
   EXPECT_TRUE(watch_sweep(client, name).status.ok());
   const auto sweep = get_sweep(client, name);
   EXPECT_EQ(sweep.jobs_size(), 8);
-  EXPECT_LE(count_in(sweep, v1::FAILED), 1) << "Only the job that ran may be lost.";
-  EXPECT_EQ(count_in(sweep, v1::SUCCEEDED) + count_in(sweep, v1::FAILED), 8);
+  EXPECT_LE(count_in(sweep, v1::Job::FAILED), 1) << "Only the job that ran may be lost.";
+  EXPECT_EQ(count_in(sweep, v1::Job::SUCCEEDED) + count_in(sweep, v1::Job::FAILED), 8);
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ class TextbookJobs : public DaemonFixture {
     for (const auto& event : watched.events) {
       if (event.has_sample()) samples.push_back(sample_of(event.sample()));
     }
-    EXPECT_EQ(client.get(job_).state(), v1::SUCCEEDED) << client.get(job_).cause_message();
+    EXPECT_EQ(client.get(job_).state(), v1::Job::SUCCEEDED) << client.get(job_).cause_message();
     return samples;
   }
 

@@ -34,9 +34,9 @@ class TimeLimitTest : public DaemonFixture {
 
   // That the job ended at its limit, with a result up to there.
   void expect_out_of_time(Client& client, const std::string& name) {
-    ASSERT_TRUE(client.wait_for_state(name, v1::FAILED));
+    ASSERT_TRUE(client.wait_for_state(name, v1::Job::FAILED));
     const auto job = client.get(name);
-    EXPECT_EQ(job.cause(), v1::TIME_LIMIT);
+    EXPECT_EQ(job.cause(), v1::Job::TIME_LIMIT);
     EXPECT_THAT(job.cause_message(), HasSubstr("its time limit of"));
     EXPECT_THAT(job.remedy(), HasSubstr("time_limit_s"));
     ASSERT_TRUE(job.has_summary());
@@ -74,7 +74,7 @@ TEST_F(TimeLimitTest, TheDaemonsLimitHoldsForThoseWithoutOneAndMoreIsRefused) {
   start(options);
   auto client = this->client();
   const std::string limited_by_daemon = create_limited(client, 0.0);
-  ASSERT_TRUE(client.wait_for_state(limited_by_daemon, v1::FAILED));
+  ASSERT_TRUE(client.wait_for_state(limited_by_daemon, v1::Job::FAILED));
   EXPECT_THAT(client.get(limited_by_daemon).cause_message(), HasSubstr("the daemon's time limit of"));
   EXPECT_THAT(client.get(limited_by_daemon).remedy(), HasSubstr("--max-job-time"));
   v1::Job job;

@@ -302,7 +302,7 @@ TEST(Translate, ASummaryKeepsAbsentValuesAbsent) {
   EXPECT_FALSE(out.has_quasi_static());
   EXPECT_FALSE(out.has_crush_mode_strain());
   EXPECT_FALSE(out.has_shock_error_relative());
-  EXPECT_EQ(out.crush_mode(), v1::CRUSH_MODE_NONE);
+  EXPECT_EQ(out.crush_mode(), v1::Summary::CRUSH_MODE_NONE);
   EXPECT_EQ(out.solver_seconds(), 1.5);
 }
 
@@ -351,7 +351,7 @@ TEST(Translate, ASummaryCarriesFrontModeSteadinessAndLedger) {
   last.energy_contact_damping = 2.0;
   last.energy_residual = -0.5;
   const auto out = translate::to_proto(summary, last, {1.5, {1.0, 2.0, 3.0, 4.0, 5.0, 6.0}});
-  EXPECT_EQ(out.crush_mode(), v1::CRUSH_MODE_V);
+  EXPECT_EQ(out.crush_mode(), v1::Summary::CRUSH_MODE_V);
   EXPECT_EQ(out.crush_mode_strain(), 0.12);
   EXPECT_NEAR(out.shock_error_relative(), 0.1, 1e-12);
   EXPECT_NEAR(out.front().shock_error_relative(), -0.05, 1e-12);

@@ -38,8 +38,8 @@ void WatchContract::see_numbered(const v1::JobEvent& event) {
     require(event.sample().step() > step_, "Samples go forward.");
     step_ = event.sample().step();
   } else {
-    const v1::JobState next = event.state().state();
-    require(sequence_ != 1 || next == v1::PENDING, "A job begins PENDING.");
+    const v1::Job::State next = event.state().state();
+    require(sequence_ != 1 || next == v1::Job::PENDING, "A job begins PENDING.");
     require(!state_ || begins_again || store::may_follow(*state_, next), "A state follows one that it may follow.");
     state_ = next;
     job_ended_ = store::is_terminal(next);

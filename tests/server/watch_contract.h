@@ -44,7 +44,7 @@ class WatchContract {
   bool any_ = false;
   bool job_ended_ = false;
   bool had_ended_ = false;  ///< the snapshot says so
-  std::optional<v1::JobState> state_;
+  std::optional<v1::Job::State> state_;
   std::optional<std::int64_t> gap_;  ///< the state before which samples are missing, until the job begins again
   std::optional<int> frame_;         ///< index of the last one
   int parts_left_ = 0;               ///< of that frame

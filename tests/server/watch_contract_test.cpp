@@ -9,11 +9,11 @@ namespace {
 v1::JobEvent snapshot_at(std::int64_t sequence) {
   v1::JobEvent out;
   out.set_sequence(sequence);
-  out.mutable_snapshot()->mutable_job()->set_state(v1::RUNNING);
+  out.mutable_snapshot()->mutable_job()->set_state(v1::Job::RUNNING);
   return out;
 }
 
-v1::JobEvent state_at(std::int64_t sequence, v1::JobState state) {
+v1::JobEvent state_at(std::int64_t sequence, v1::Job::State state) {
   v1::JobEvent out;
   out.set_sequence(sequence);
   out.mutable_state()->set_state(state);
@@ -47,8 +47,8 @@ std::size_t broken_by(const std::vector<v1::JobEvent>& events, const grpc::Statu
 }
 
 TEST(WatchContractTest, ASoundWatchBreaksNothing) {
-  EXPECT_EQ(broken_by({snapshot_at(0), state_at(1, v1::PENDING), state_at(2, v1::RUNNING), frame_at(2, 0, 0),
-                       sampled_at(3, 5), frame_at(3, 4, 3, 0, 2), frame_at(3, 4, 3, 1, 2), state_at(4, v1::SUCCEEDED)},
+  EXPECT_EQ(broken_by({snapshot_at(0), state_at(1, v1::Job::PENDING), state_at(2, v1::Job::RUNNING), frame_at(2, 0, 0),
+                       sampled_at(3, 5), frame_at(3, 4, 3, 0, 2), frame_at(3, 4, 3, 1, 2), state_at(4, v1::Job::SUCCEEDED)},
                       grpc::Status::OK),
             0U);
   EXPECT_EQ(broken_by({snapshot_at(7), sampled_at(8, 1)}, grpc::Status::CANCELLED, 7), 0U);
@@ -56,26 +56,26 @@ TEST(WatchContractTest, ASoundWatchBreaksNothing) {
 
 // A daemon that starts records that the job waits, and only its worker finds that the checkpoint is of another solver.
 TEST(WatchContractTest, SamplesOfARunThatIsGivenUpMayBeMissing) {
-  v1::JobEvent begun_again = state_at(9, v1::PENDING);
+  v1::JobEvent begun_again = state_at(9, v1::Job::PENDING);
   begun_again.mutable_state()->set_begun_again_sequence(9);
-  EXPECT_EQ(broken_by({snapshot_at(3), state_at(7, v1::PENDING), state_at(8, v1::RUNNING), begun_again,
-                       state_at(10, v1::RUNNING), sampled_at(11, 0)},
+  EXPECT_EQ(broken_by({snapshot_at(3), state_at(7, v1::Job::PENDING), state_at(8, v1::Job::RUNNING), begun_again,
+                       state_at(10, v1::Job::RUNNING), sampled_at(11, 0)},
                       grpc::Status::CANCELLED, 3),
             0U);
 }
 
 TEST(WatchContractTest, EveryPromiseThatIsBrokenIsSeen) {
-  const auto pending = state_at(1, v1::PENDING);
+  const auto pending = state_at(1, v1::Job::PENDING);
   EXPECT_GT(broken_by({pending}), 0U) << "no snapshot";
   EXPECT_GT(broken_by({snapshot_at(0), pending, snapshot_at(1)}), 0U) << "two snapshots";
   EXPECT_GT(broken_by({snapshot_at(1), pending}), 0U) << "a snapshot of another place";
   EXPECT_GT(broken_by({snapshot_at(0), pending, sampled_at(3, 1)}), 0U) << "an event is missing";
-  EXPECT_GT(broken_by({snapshot_at(0), pending, state_at(3, v1::RUNNING)}), 0U) << "and the job does not begin again";
+  EXPECT_GT(broken_by({snapshot_at(0), pending, state_at(3, v1::Job::RUNNING)}), 0U) << "and the job does not begin again";
   EXPECT_GT(broken_by({snapshot_at(0), pending, pending}), 0U) << "an event comes twice";
   EXPECT_GT(broken_by({snapshot_at(0), pending, sampled_at(2, 4), sampled_at(3, 4)}), 0U) << "a sample comes twice";
-  EXPECT_GT(broken_by({snapshot_at(0), state_at(1, v1::RUNNING)}), 0U) << "a wrong first state";
-  EXPECT_GT(broken_by({snapshot_at(0), pending, state_at(2, v1::SUCCEEDED)}), 0U) << "a state that cannot follow";
-  EXPECT_GT(broken_by({snapshot_at(0), pending, state_at(2, v1::CANCELLED), sampled_at(3, 1)}), 0U)
+  EXPECT_GT(broken_by({snapshot_at(0), state_at(1, v1::Job::RUNNING)}), 0U) << "a wrong first state";
+  EXPECT_GT(broken_by({snapshot_at(0), pending, state_at(2, v1::Job::SUCCEEDED)}), 0U) << "a state that cannot follow";
+  EXPECT_GT(broken_by({snapshot_at(0), pending, state_at(2, v1::Job::CANCELLED), sampled_at(3, 1)}), 0U)
       << "more behind the end";
   EXPECT_GT(broken_by({snapshot_at(0), pending}, grpc::Status::OK), 0U) << "OK too early";
   EXPECT_GT(broken_by({snapshot_at(0), pending, frame_at(1, 3, 0), frame_at(1, 3, 0)}), 0U) << "a frame twice";

@@ -16,7 +16,7 @@ class WatchCursorTest : public ::testing::Test {
     return {reader_, job_, hub_.open(job_), after, {frames, true}};
   }
 
-  void change(v1::JobState state) {
+  void change(v1::Job::State state) {
     store::StateChange change;
     change.state = state;
     journal_.change_state(job_, change);
@@ -46,9 +46,9 @@ class WatchCursorTest : public ::testing::Test {
 };
 
 TEST_F(WatchCursorTest, ASnapshotThenEverythingInOrderThenTheEnd) {
-  change(v1::RUNNING);
+  change(v1::Job::RUNNING);
   add_samples(600);
-  change(v1::SUCCEEDED);
+  change(v1::Job::SUCCEEDED);
   auto cursor = this->cursor();
   EXPECT_TRUE(cursor.next()->has_snapshot());
   std::int64_t last = 0;
@@ -58,9 +58,9 @@ TEST_F(WatchCursorTest, ASnapshotThenEverythingInOrderThenTheEnd) {
 }
 
 TEST_F(WatchCursorTest, WhatIsAtHandIsGivenWithoutAnotherLookIntoTheJournal) {
-  change(v1::RUNNING);
+  change(v1::Job::RUNNING);
   add_samples(3);
-  change(v1::SUCCEEDED);
+  change(v1::Job::SUCCEEDED);
   auto cursor = this->cursor();
   EXPECT_FALSE(cursor.has_more());
   for (int given = 0; given < 7; ++given) {
@@ -80,7 +80,7 @@ TEST_F(WatchCursorTest, ThePartsOfAFrameAreGivenWithoutALookIntoTheJournal) {
   ASSERT_TRUE(cursor.next()->has_frame());
   ASSERT_TRUE(cursor.has_more());
   // What only a look into the journal can tell.
-  change(v1::RUNNING);
+  change(v1::Job::RUNNING);
   while (cursor.has_more()) ASSERT_TRUE(cursor.next()->has_frame());
   EXPECT_TRUE(cursor.next()->has_state());
 }
@@ -118,13 +118,13 @@ TEST_F(WatchCursorTest, AFrameWakesOnlyThoseWhoWantFrames) {
 }
 
 TEST_F(WatchCursorTest, GoesOnBehindTheNumberItIsGiven) {
-  change(v1::RUNNING);
+  change(v1::Job::RUNNING);
   add_samples(10);
-  change(v1::FAILED);
+  change(v1::Job::FAILED);
   auto cursor = this->cursor(11);
   EXPECT_EQ(cursor.next()->sequence(), 11);
   EXPECT_EQ(cursor.next()->sequence(), 12);
-  EXPECT_EQ(cursor.next()->state().state(), v1::FAILED);
+  EXPECT_EQ(cursor.next()->state().state(), v1::Job::FAILED);
   EXPECT_TRUE(cursor.ended());
   auto done = this->cursor(13);
   EXPECT_FALSE(done.ended());
@@ -141,7 +141,7 @@ TEST_F(WatchCursorTest, TheNewestFrameWinsAndTheGapIsTold) {
   const auto channel = hub_.open(job_);
   auto cursor = this->cursor();
   cursor.next();
-  EXPECT_EQ(cursor.next()->state().state(), v1::PENDING);
+  EXPECT_EQ(cursor.next()->state().state(), v1::Job::PENDING);
   channel->publish(frame(0));
   EXPECT_EQ(cursor.next()->frame().frame().index(), 0);
   for (int i = 1; i <= 4; ++i) channel->publish(frame(i));
@@ -153,14 +153,14 @@ TEST_F(WatchCursorTest, TheNewestFrameWinsAndTheGapIsTold) {
 
 TEST_F(WatchCursorTest, TheLastFrameComesBeforeTheLastEvent) {
   const auto channel = hub_.open(job_);
-  change(v1::RUNNING);
+  change(v1::Job::RUNNING);
   auto cursor = this->cursor();
   channel->publish(frame(7));
-  change(v1::SUCCEEDED);
+  change(v1::Job::SUCCEEDED);
   bool seen = false;
   while (const auto event = cursor.next()) {
     seen = seen || event->has_frame();
-    const bool last = event->has_state() && event->state().state() == v1::SUCCEEDED;
+    const bool last = event->has_state() && event->state().state() == v1::Job::SUCCEEDED;
     EXPECT_TRUE(seen || !last);
   }
   EXPECT_TRUE(cursor.ended());
@@ -174,10 +174,10 @@ TEST_F(WatchCursorTest, FramesAreSentOnlyToThoseWhoAsk) {
 }
 
 TEST_F(WatchCursorTest, AJobThatIsDeletedMeanwhileIsNotFound) {
-  change(v1::RUNNING);
+  change(v1::Job::RUNNING);
   add_samples(600);
-  change(v1::CANCELLING);
-  change(v1::CANCELLED);
+  change(v1::Job::CANCELLING);
+  change(v1::Job::CANCELLED);
   auto cursor = this->cursor();
   for (int i = 0; i < 100; ++i) ASSERT_TRUE(cursor.next());
   journal_.delete_job(job_);

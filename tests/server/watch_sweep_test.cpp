@@ -46,7 +46,7 @@ TEST_F(WatchSweepTest, ASweepIsWatchedFromItsBeginningToTheEndOfItsLastJob) {
     const bool first = begun.insert(response.job()).second;
     const bool is_snapshot = response.has_snapshot() || response.event().has_snapshot();
     EXPECT_EQ(first, is_snapshot) << "Every job's snapshot comes first, and once.";
-    if (response.event().state().state() == v1::SUCCEEDED) ended.insert(response.job());
+    if (response.event().state().state() == v1::Job::SUCCEEDED) ended.insert(response.job());
   }
   EXPECT_EQ(ended.size(), 3U);
 }

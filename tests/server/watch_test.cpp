@@ -35,7 +35,7 @@ class WatchTest : public DaemonFixture {
     contract.end(watched.status);
     EXPECT_THAT(contract.broken(), ::testing::IsEmpty());
     ASSERT_FALSE(watched.events.empty());
-    EXPECT_EQ(watched.events.back().state().state(), v1::SUCCEEDED);
+    EXPECT_EQ(watched.events.back().state().state(), v1::Job::SUCCEEDED);
   }
 };
 
@@ -43,7 +43,7 @@ TEST_F(WatchTest, AWatchIsCompleteAndEndsWhenTheResultCanBeRead) {
   auto client = this->client();
   const std::string job = client.create(small_case());
   const auto watched = client.watch(job, 0, true, [&](const v1::JobEvent& event) {
-    if (!event.has_state() || event.state().state() != v1::SUCCEEDED) return;
+    if (!event.has_state() || event.state().state() != v1::Job::SUCCEEDED) return;
     const auto path = data_folder() / job / "result.h5";
     ASSERT_TRUE(std::filesystem::exists(path));
     EXPECT_GE(store::ResultReader(path).history().size(), 90U);
@@ -52,8 +52,8 @@ TEST_F(WatchTest, AWatchIsCompleteAndEndsWhenTheResultCanBeRead) {
   expect_complete(watched, 0);
   const auto events = numbered(watched.events);
   EXPECT_GE(events.size(), 93U);
-  EXPECT_EQ(events[0].state().state(), v1::PENDING);
-  EXPECT_EQ(events[1].state().state(), v1::RUNNING);
+  EXPECT_EQ(events[0].state().state(), v1::Job::PENDING);
+  EXPECT_EQ(events[1].state().state(), v1::Job::RUNNING);
   EXPECT_GT(events[1].state().worker_pid(), 0);
   EXPECT_EQ(events.back().state().worker_pid(), 0);
   EXPECT_GT(events.back().state().summary().step_count(), 0);
@@ -87,7 +87,7 @@ TEST_F(WatchTest, TwoWatchersAndALateOneSeeTheSame) {
   EXPECT_EQ(numbered(one.events).size(), numbered(other.events).size());
   EXPECT_EQ(numbered(one.events).size(), numbered(late.events).size());
   EXPECT_TRUE(late.events.front().snapshot().has_mesh());
-  EXPECT_EQ(late.events.front().snapshot().job().state(), v1::SUCCEEDED);
+  EXPECT_EQ(late.events.front().snapshot().job().state(), v1::Job::SUCCEEDED);
 }
 
 TEST_F(WatchTest, AWatchGoesOnWhereAnotherWasCutOff) {

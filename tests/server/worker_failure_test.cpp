@@ -17,7 +17,7 @@ TEST_F(WorkerFailureTest, AProgramThatIsNoWorkerFailsItsJobWithItsExitCode) {
   auto client = this->client();
   const std::string job = client.create(small_case());
   EXPECT_TRUE(client.watch(job).status.ok());
-  EXPECT_EQ(client.get(job).cause(), v1::WORKER_CRASHED);
+  EXPECT_EQ(client.get(job).cause(), v1::Job::WORKER_CRASHED);
   EXPECT_THAT(client.get(job).cause_message(), HasSubstr("exited with code 1"));
 }
 
