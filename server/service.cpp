@@ -60,6 +60,7 @@ struct Service::Parts {
             [this](double seconds) { metrics.observe_commit(seconds); }, options.clocks.uptime),
         reader(folder.journal()),
         sweep_reader(folder.journal()),
+        changes(folder.journal()),
         deletion({folder, journal, reader, sweep_reader}),
         executor(options.worker_program, options.stall_limit),
         hold(options.hold_times,
@@ -82,8 +83,8 @@ struct Service::Parts {
         checks({kCheckThreads, kWaitingCalls, options.connections.memory_bytes}),
         cases(step_cost, calls, checks, mesh_places),
         health({board, {pump, metrics, health_limits, options.watch_times}}),
-        jobs({folder, journal, reader, deletion, hub, scheduler, admission, gate, calls, checks, mesh_places,
-              streams()}),
+        jobs({folder, journal, reader, sweep_reader, changes, deletion, hub, scheduler, admission, gate, calls, checks,
+              mesh_places, streams()}),
         sweeps({journal, reader, sweep_reader, deletion, hub, scheduler, admission, gate, calls, checks, mesh_places,
                 threads_of_sweep_check(), step_cost, streams()}),
         admin({reader,
@@ -111,6 +112,7 @@ struct Service::Parts {
   store::Journal journal;
   store::JournalReader reader;
   store::SweepReader sweep_reader;
+  store::ChangeReader changes;
   jobs::Deletion deletion;
   jobs::LocalProcess executor;
   rpc::HealthBoard board;

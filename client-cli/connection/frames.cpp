@@ -25,8 +25,8 @@ MeshFrame fetch_frame(Connection& connection, const v1::GetFrameRequest& request
   MeshFrame whole;
   v1::GetFrameResponse part;
   while (reader->Read(&part)) {
-    if (part.has_mesh()) whole.mesh.Swap(part.mutable_mesh());
-    // Repeated fields are appended by MergeFrom, as the parts of a frame are.
+    // Repeated fields are appended by MergeFrom, as the parts of a mesh and of a frame are.
+    whole.mesh.MergeFrom(part.mesh().mesh());
     whole.frame.MergeFrom(part.chunk().frame());
   }
   const grpc::Status status = reader->Finish();

@@ -151,6 +151,10 @@ SceneFacts facts_of(const Scene& scene) {
 
 MeshView mesh_of(const Scene& scene) {
   MeshView mesh;
+  for (const Vector2& position : scene.position) {
+    mesh.position.push_back(static_cast<float>(position.x()));
+    mesh.position.push_back(static_cast<float>(position.y()));
+  }
   for (const Element& element : scene.elements) {
     mesh.element_nodes.push_back(element.start);
     mesh.element_nodes.push_back(element.end);

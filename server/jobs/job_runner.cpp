@@ -191,7 +191,10 @@ void JobRunner::pass_on(std::int64_t job, std::int64_t& last_step, watch::Channe
         throw BeginAgain{"Restarted from step 0: the reports of its earlier workers are" + epoch.of_before() + "."};
       log_begin(store::name_of(job), report.begun());
       break;
-    case worker::Report::kMesh: parts_.journal.set_mesh(job, report.mesh()); break;
+    case worker::Report::kMesh:
+      parts_.journal.set_mesh(job, report.mesh());
+      channel.publish(std::move(*report.mutable_mesh()));
+      break;
     case worker::Report::kSample:
       if (report.sample().step() <= last_step) break;
       last_step = report.sample().step();
@@ -311,7 +314,8 @@ v1::Job::State JobRunner::put_back(std::int64_t job, const Run& run) {
   return v1::Job::JOB_STATE_UNSPECIFIED;
 }
 
-v1::Job::State JobRunner::write(std::int64_t job, const store::StateChange& change, const std::stop_token& daemons_end) {
+v1::Job::State JobRunner::write(std::int64_t job, const store::StateChange& change,
+                                const std::stop_token& daemons_end) {
   // When the daemon ends, the job keeps its state, and the next daemon reconciles it.
   std::string logged;
   do {
@@ -321,11 +325,11 @@ v1::Job::State JobRunner::write(std::int64_t job, const store::StateChange& chan
 }
 
 std::optional<v1::Job::State> JobRunner::try_write(std::int64_t job, const store::StateChange& change,
-                                                 std::string& logged) {
+                                                   std::string& logged) {
   try {
     parts_.stopped(parts_.journal.change_state(job, change));
-    spdlog::info("{} {}{}{}", store::name_of(job), v1::Job::State_Name(change.state), change.message.empty() ? "" : ": ",
-                 change.message);
+    spdlog::info("{} {}{}{}", store::name_of(job), v1::Job::State_Name(change.state),
+                 change.message.empty() ? "" : ": ", change.message);
     if (change.state == v1::Job::SUCCEEDED) parts_.hold.proven();
     if (store::is_terminal(change.state)) tidy_up(job, change);
     return change.state;

@@ -13,6 +13,8 @@
 namespace cellcrush::rpc {
 namespace {
 
+constexpr std::size_t kLargestPreview = 3'000'000;  // bytes
+
 std::string known_presets() {
   std::string out;
   for (const auto& preset : translate::list_presets()) out += (out.empty() ? "" : ", ") + preset.name();
@@ -40,6 +42,26 @@ grpc::ServerUnaryReactor* CasesService::CheckCase(grpc::CallbackServerContext* c
                                                             check.sample_count, check.frame_count));
     }
     *response = std::move(out);
+    return grpc::Status::OK;
+  });
+}
+
+grpc::ServerUnaryReactor* CasesService::PreviewCase(grpc::CallbackServerContext* context,
+                                                    const v1::PreviewCaseRequest* request,
+                                                    v1::PreviewCaseResponse* response) {
+  return checks_.run(*context, *request, [=, this] {
+    check_size("case", request->case_().ByteSizeLong(), kLargestCase);
+    const auto elements = translate::CaseChecker().elements_to_build(request->case_());
+    const jobs::MeshPlaces::Place place(places_, elements, [context] { return context->IsCancelled(); });
+    auto preview = translate::preview_case(request->case_());
+    if (!preview.problems.empty()) return status_of(preview.problems);
+    if (preview.mesh.ByteSizeLong() > kLargestPreview) {
+      throw ServiceError(ServiceError::Kind::exhausted,
+                         "The mesh of the case has " + std::to_string(preview.mesh.element_nodes_size() / 2) +
+                             " elements, more than a preview can hold. Preview it with fewer cells or with "
+                             "elements_per_wall 1.");
+    }
+    *response->mutable_mesh() = std::move(preview.mesh);
     return grpc::Status::OK;
   });
 }

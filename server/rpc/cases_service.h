@@ -16,6 +16,8 @@ class CasesService final : public v1::Cases::CallbackService {
 
   grpc::ServerUnaryReactor* CheckCase(grpc::CallbackServerContext* context, const v1::CheckCaseRequest* request,
                                       v1::CheckCaseResponse* response) override;
+  grpc::ServerUnaryReactor* PreviewCase(grpc::CallbackServerContext* context, const v1::PreviewCaseRequest* request,
+                                        v1::PreviewCaseResponse* response) override;
   grpc::ServerUnaryReactor* ListPresets(grpc::CallbackServerContext* context, const v1::ListPresetsRequest* request,
                                         v1::ListPresetsResponse* response) override;
   grpc::ServerUnaryReactor* GetPreset(grpc::CallbackServerContext* context, const v1::GetPresetRequest* request,

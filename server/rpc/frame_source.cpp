@@ -1,7 +1,6 @@
 #include "rpc/frame_source.h"
 
 #include <cmath>
-#include <iterator>
 #include <utility>
 
 #include "error.h"
@@ -30,24 +29,23 @@ v1::FieldFrame FrameSource::find_frame() const {
                            " and has no frames. A running job offers its newest frame. A job that SUCCEEDED, or was "
                            "cancelled or failed while running, offers all.");
   }
-  return *frame;
+  return frame->in(v1::FieldFrame::NUMBERS);
 }
 
 void FrameSource::read() {
   const auto frame = find_frame();
-  mesh_ = parts_.reader.mesh(job_.number);
-  auto chunks = watch::chunks_of(frame, watch::chunk_bytes_beside(mesh_ ? mesh_->ByteSizeLong() : 0));
-  chunks_.assign(std::make_move_iterator(chunks.begin()), std::make_move_iterator(chunks.end()));
+  if (const auto mesh = parts_.reader.mesh(job_.number)) {
+    for (auto& chunk : watch::chunks_of(*mesh)) *messages_.emplace_back().mutable_mesh() = std::move(chunk);
+  }
+  for (auto& chunk : watch::chunks_of(frame)) *messages_.emplace_back().mutable_chunk() = std::move(chunk);
   was_read_ = true;
 }
 
 std::optional<FrameSource::Message> FrameSource::next() {
   if (!was_read_) read();
-  if (chunks_.empty()) return std::nullopt;
-  Message out;
-  if (mesh_) *out.mutable_mesh() = *std::exchange(mesh_, std::nullopt);
-  *out.mutable_chunk() = std::move(chunks_.front());
-  chunks_.pop_front();
+  if (messages_.empty()) return std::nullopt;
+  Message out = std::move(messages_.front());
+  messages_.pop_front();
   return out;
 }
 

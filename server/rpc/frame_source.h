@@ -12,7 +12,7 @@
 
 namespace cellcrush::rpc {
 
-/// Source of a GetFrame: one frame in parts, the mesh with the first. Not thread-safe.
+/// Source of a GetFrame: the mesh and one frame, in parts. Not thread-safe.
 class FrameSource {
  public:
   using Message = v1::GetFrameResponse;
@@ -33,8 +33,8 @@ class FrameSource {
   /// Reads the frame on the first call. Throws ServiceError: failed_precondition while the job has no frame,
   /// out_of_range for an index that does not exist, and the errors of store::ResultReader.
   std::optional<Message> next();
-  [[nodiscard]] bool has_more() const { return !chunks_.empty(); }
-  [[nodiscard]] bool ended() const { return was_read_ && chunks_.empty(); }
+  [[nodiscard]] bool has_more() const { return !messages_.empty(); }
+  [[nodiscard]] bool ended() const { return was_read_ && messages_.empty(); }
   [[nodiscard]] std::optional<Message> bookmark() const { return std::nullopt; }
   [[nodiscard]] std::string resume_advice() const { return "for the frame"; }
 
@@ -46,8 +46,7 @@ class FrameSource {
   store::StoredJob job_;
   v1::GetFrameRequest request_;
   bool was_read_ = false;
-  std::optional<v1::Mesh> mesh_;       ///< until the first part was sent
-  std::deque<v1::FrameChunk> chunks_;  ///< still to send
+  std::deque<Message> messages_;  ///< still to send
 };
 
 }  // namespace cellcrush::rpc

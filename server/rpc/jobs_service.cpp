@@ -8,8 +8,11 @@
 #include "rpc/change_log.h"
 #include "rpc/create_request.h"
 #include "rpc/download_source.h"
+#include "rpc/find_job.h"
+#include "rpc/frame_series_source.h"
 #include "rpc/frame_source.h"
 #include "rpc/job_query.h"
+#include "rpc/jobs_source.h"
 #include "rpc/page.h"
 #include "rpc/request_limits.h"
 #include "store/resource_name.h"
@@ -19,17 +22,7 @@
 
 namespace cellcrush::rpc {
 
-store::StoredJob JobsService::find(const std::string& name) {
-  check_length("name", name, kLongestName);
-  const auto number = store::number_of(name);
-  auto stored = number ? parts_.reader.find_job(*number) : std::nullopt;
-  if (!stored) {
-    throw ServiceError(
-        ServiceError::Kind::not_found,
-        "There is no job \"" + name + "\". Job names look like jobs/12; ListJobs (`cellcrush list`) lists them.");
-  }
-  return *std::move(stored);
-}
+store::StoredJob JobsService::find(const std::string& name) { return find_job(parts_.reader, name); }
 
 std::int64_t JobsService::find_own(const grpc::ServerContextBase& context, const std::string& name) {
   const auto stored = find(name);
@@ -191,8 +184,28 @@ grpc::ServerWriteReactor<v1::JobEvent>* JobsService::WatchJob(grpc::CallbackServ
       [&] {
         const std::int64_t job = find(request->name()).number;
         check_epoch(parts_.reader.epoch(), request->epoch());
-        return std::make_unique<watch::JobSource>(parts_.reader, parts_.hub, job, request->after_sequence(),
-                                                  request->frames());
+        return std::make_unique<watch::JobSource>(
+            parts_.reader, parts_.hub, job, request->after_sequence(),
+            watch::WatchCursor::Wanted{request->frames(), true, request->encoding()});
+      });
+}
+
+grpc::ServerWriteReactor<v1::WatchJobsResponse>* JobsService::WatchJobs(grpc::CallbackServerContext* context,
+                                                                        const v1::WatchJobsRequest* request) {
+  return open_stream<JobsSource>(
+      parts_.streams, *context, [&] { return parts_.gate.caller_of(*context).name; },
+      [&] {
+        return std::make_unique<JobsSource>(JobsSource::Parts{parts_.reader, parts_.sweeps, parts_.changes, parts_.hub},
+                                            *request);
+      });
+}
+
+grpc::ServerWriteReactor<v1::StreamFramesResponse>* JobsService::StreamFrames(grpc::CallbackServerContext* context,
+                                                                              const v1::StreamFramesRequest* request) {
+  return open_stream<FrameSeriesSource>(
+      parts_.streams, *context, [&] { return parts_.gate.caller_of(*context).name; },
+      [&] {
+        return std::make_unique<FrameSeriesSource>(parts_.folder, parts_.reader, find(request->name()), *request);
       });
 }
 

@@ -8,9 +8,11 @@
 #include "jobs/scheduler.h"
 #include "rpc/call_pool.h"
 #include "rpc/stream_reactor.h"
+#include "store/change_reader.h"
 #include "store/data_folder.h"
 #include "store/journal.h"
 #include "store/journal_reader.h"
+#include "store/sweep_reader.h"
 #include "watch/hub.h"
 
 namespace cellcrush::rpc {
@@ -23,6 +25,8 @@ class JobsService final : public v1::Jobs::CallbackService {
     const store::DataFolder& folder;
     store::Journal& journal;
     store::JournalReader& reader;
+    store::SweepReader& sweeps;
+    store::ChangeReader& changes;
     const jobs::Deletion& deletion;
     watch::Hub& hub;
     jobs::Scheduler& scheduler;
@@ -54,6 +58,10 @@ class JobsService final : public v1::Jobs::CallbackService {
                                                    const v1::WatchJobRequest* request) override;
   grpc::ServerUnaryReactor* GetHistory(grpc::CallbackServerContext* context, const v1::GetHistoryRequest* request,
                                        v1::GetHistoryResponse* response) override;
+  grpc::ServerWriteReactor<v1::WatchJobsResponse>* WatchJobs(grpc::CallbackServerContext* context,
+                                                             const v1::WatchJobsRequest* request) override;
+  grpc::ServerWriteReactor<v1::StreamFramesResponse>* StreamFrames(grpc::CallbackServerContext* context,
+                                                                   const v1::StreamFramesRequest* request) override;
   grpc::ServerWriteReactor<v1::GetFrameResponse>* GetFrame(grpc::CallbackServerContext* context,
                                                            const v1::GetFrameRequest* request) override;
   grpc::ServerWriteReactor<v1::DownloadResultResponse>* DownloadResult(

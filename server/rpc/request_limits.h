@@ -14,6 +14,10 @@ inline constexpr std::size_t kLongestFilter = 4096;
 inline constexpr std::size_t kLongestOrder = 128;
 inline constexpr std::size_t kLongestPageToken = 128;
 inline constexpr std::size_t kLongestResumeToken = 1024 * 1024;
+inline constexpr std::size_t kLongestJobsToken = 128;
+
+/// Maximum number of jobs that one WatchJobs watches in full.
+inline constexpr int kMostWatchedJobs = 64;
 
 /// Maximum size of a case, or of a sweep with its case and points, in bytes. A returned Job or Sweep adds the daemon's
 /// own fields and must fit in 4 MiB, the default limit of a client.

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "cellcrush/v1/event.pb.h"
+#include "cellcrush/v1/jobs_service.pb.h"
 #include "error_table.h"
 #include "jobs/case_field.h"
 #include "metrics/metrics.h"
@@ -33,6 +34,9 @@ struct StreamParts {
 
 /// Number of frames skipped before this message.
 inline int skipped_before(const v1::JobEvent& event) { return event.has_frame() ? event.frame().skipped() : 0; }
+inline int skipped_before(const v1::WatchJobsResponse& message) {
+  return message.has_watched() ? skipped_before(message.watched().event()) : 0;
+}
 template <class Message>
 int skipped_before(const Message&) {
   return 0;

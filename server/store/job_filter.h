@@ -16,4 +16,7 @@ struct JobFilter {
   std::vector<std::string> owners;
 };
 
+/// Whether a job meets all conditions. Its own title counts, as a job in an event has no case.
+bool matches(const JobFilter& filter, const v1::Job& job);
+
 }  // namespace cellcrush::store

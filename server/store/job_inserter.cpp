@@ -23,6 +23,7 @@ std::int64_t JobInserter::insert(v1::Job job, const JobEntry& entry) {
   *job.mutable_create_time() = google::protobuf::util::TimeUtil::GetCurrentTime();
   // Removed temporarily, so that the bytes are made without copying it.
   const std::unique_ptr<v1::Case> submitted(job.release_case_());
+  if (submitted) job.set_title(submitted->title());
   const std::string bytes = job_bytes(job);
   const std::string case_bytes = submitted ? submitted->SerializeAsString() : "";
   job_.bind(1, v1::Job::PENDING).bind_blob(2, bytes).bind_blob(3, case_bytes);

@@ -7,7 +7,7 @@
 namespace cellcrush::store {
 namespace {
 
-constexpr std::int64_t kVersion = 4;
+constexpr std::int64_t kVersion = 5;
 
 constexpr const char* kJobTables = R"sql(
 CREATE TABLE jobs (
@@ -114,6 +114,35 @@ CREATE INDEX job_labels_by_job ON job_labels(job);
 CREATE INDEX sweeps_in_deletion ON sweeps(number) WHERE deleting = 1;
 )sql";
 
+// From version 4 to 5. Triggers keep the list, so that no writer can forget it. The numbers are those of ChangeKind.
+constexpr const char* kChanges = R"sql(
+CREATE TABLE changes (
+  number INTEGER PRIMARY KEY AUTOINCREMENT,
+  kind INTEGER NOT NULL,
+  resource INTEGER NOT NULL,
+  sequence INTEGER NOT NULL
+) STRICT;
+CREATE TRIGGER note_state AFTER INSERT ON events WHEN new.kind = 1 BEGIN
+  INSERT INTO changes (kind, resource, sequence) VALUES (1, new.job, new.sequence);
+END;
+CREATE TRIGGER note_deleted_job AFTER DELETE ON jobs BEGIN
+  INSERT INTO changes (kind, resource, sequence) VALUES (2, old.number, 0);
+END;
+CREATE TRIGGER note_sweep AFTER INSERT ON sweeps BEGIN
+  INSERT INTO changes (kind, resource, sequence) VALUES (3, new.number, 0);
+END;
+CREATE TRIGGER note_retry AFTER UPDATE OF job ON sweep_jobs BEGIN
+  INSERT INTO changes (kind, resource, sequence) VALUES (3, new.sweep, 0);
+END;
+CREATE TRIGGER note_deleted_sweep AFTER UPDATE OF deleting ON sweeps WHEN new.deleting = 1 AND old.deleting = 0 BEGIN
+  INSERT INTO changes (kind, resource, sequence) VALUES (4, new.number, 0);
+END;
+CREATE TRIGGER forget_changes AFTER INSERT ON changes WHEN new.number % 1000 = 0 BEGIN
+  DELETE FROM changes WHERE number <= new.number - 100000;
+END;
+PRAGMA user_version = 5;
+)sql";
+
 // A killed daemon has recorded too little time. The latest end of a job then shows how far the clock was.
 std::int64_t read_service_clock(Database& database) {
   Statement read(database,
@@ -149,6 +178,7 @@ std::int64_t prepare_journal(Database& database) {
     fill_in_search_columns(database);
     database.execute(kSearchIndexes);
   }
+  if (version < 5) database.execute(kChanges);
   ensure_epoch(database);
   transaction.commit();
   return read_service_clock(database);

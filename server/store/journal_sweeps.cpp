@@ -54,6 +54,7 @@ std::vector<Retry> jobs_to_retry(Database& database, std::int64_t sweep) {
     job.set_time_limit_s(ended.time_limit_s());
     job.set_owner(ended.owner());
     job.set_retry_of(name_of(read.integer(0)));
+    job.set_sweep(sweep_name_of(sweep));
     job.mutable_case_()->ParseFromString(read.bytes(2));
     queued = {read.integer(0), 0, ended.priority(), read.integer(3), sweep, static_cast<int>(read.integer(4)),
               ended.owner()};
@@ -90,7 +91,9 @@ Journal::CreatedSweep Journal::create_sweep(v1::Sweep sweep, const std::vector<S
       point.mutable_values()->Add(made.values.begin(), made.values.end());
       const auto position = static_cast<std::int64_t>(created.jobs.size());
       entry.element_steps = made.element_steps;
-      created.jobs.push_back(inserter.insert(made.job, entry));
+      v1::Job job = made.job;
+      job.set_sweep(sweep_name_of(created.sweep));
+      created.jobs.push_back(inserter.insert(std::move(job), entry));
       entry.submission = created.jobs.front();
       join.bind(1, created.sweep).bind(2, position).bind(3, created.jobs.back());
       join.bind_blob(4, point.SerializeAsString()).run();

@@ -46,33 +46,51 @@ void restore_names(const v1::Frame& submitted, v1::Frame& completed) {
     completed.mutable_rigid_walls(i)->set_id(submitted.rigid_walls(i).id());
 }
 
-}  // namespace
+// A case as the solver reads it.
+struct Built {
+  SceneSpec spec;
+  std::shared_ptr<const Scene> scene;  // null if there are problems
+};
 
-CaseCheck check_case(const v1::Case& submitted, const std::function<void()>& between_stages) {
-  CaseCheck out;
-  *out.response.mutable_problems() = find_long_lists(submitted);
-  if (out.response.problems_size() > 0) return out;
+Built build(const v1::Case& submitted, google::protobuf::RepeatedPtrField<v1::Problem>& found,
+            const std::function<void()>& between_stages) {
+  found = find_long_lists(submitted);
+  if (!found.empty()) return {};
   const auto reading = to_spec(submitted);
   between_stages();
   const auto built = build_scene(reading.spec, between_stages);
   for (const Problems* problems : {&reading.problems, &built.problems}) {
-    for (const auto& problem : *problems) *out.response.add_problems() = to_proto(problem);
+    for (const auto& problem : *problems) *found.Add() = to_proto(problem);
   }
-  cut_problems(*out.response.mutable_problems());
-  if (out.response.problems_size() > 0) return out;
-  for (const auto& note : find_implausible(reading.spec))
-    *out.response.add_notes() = to_proto(note, v1::Problem::IMPLAUSIBLE);
-  out.meshes->know(reading.spec, *built.scene);
-  const auto facts = facts_of(*built.scene);
+  cut_problems(found);
+  return {reading.spec, found.empty() ? built.scene : nullptr};
+}
+
+}  // namespace
+
+CaseCheck check_case(const v1::Case& submitted, const std::function<void()>& between_stages) {
+  CaseCheck out;
+  const auto [spec, scene] = build(submitted, *out.response.mutable_problems(), between_stages);
+  if (!scene) return out;
+  for (const auto& note : find_implausible(spec)) *out.response.add_notes() = to_proto(note, v1::Problem::IMPLAUSIBLE);
+  out.meshes->know(spec, *scene);
+  const auto facts = facts_of(*scene);
   describe(facts, out.response);
-  out.response.set_predicted_memory_bytes(memory_of_run(reading.spec, *built.scene));
-  *out.response.mutable_completed_case() = to_case(complete_spec(reading.spec, *built.scene));
+  out.response.set_predicted_memory_bytes(memory_of_run(spec, *scene));
+  *out.response.mutable_completed_case() = to_case(complete_spec(spec, *scene));
   if (submitted.lattice().has_frame()) {
     restore_names(submitted.lattice().frame(),
                   *out.response.mutable_completed_case()->mutable_lattice()->mutable_frame());
   }
   out.sample_count = divide_up(facts.step_count, facts.sample_interval);
   out.frame_count = divide_up(facts.step_count, facts.frame_interval) + 1;
+  return out;
+}
+
+CasePreview preview_case(const v1::Case& submitted) {
+  CasePreview out;
+  const auto built = build(submitted, out.problems, [] {});
+  if (built.scene) out.mesh = to_proto(mesh_of(*built.scene));
   return out;
 }
 

@@ -170,9 +170,10 @@ v1::FieldFrame to_proto(const FieldFrame& frame) {
   return out;
 }
 
-v1::Mesh to_proto(const MeshView& mesh, std::int64_t particle_count) {
+v1::Mesh to_proto(const MeshView& mesh) {
   v1::Mesh out;
-  out.set_particle_count(static_cast<std::int32_t>(particle_count));
+  out.set_particle_count(static_cast<std::int32_t>(mesh.position.size() / 2));
+  out.mutable_position_mm()->Assign(mesh.position.begin(), mesh.position.end());
   out.mutable_element_nodes()->Assign(mesh.element_nodes.begin(), mesh.element_nodes.end());
   out.mutable_thickness_mm()->Assign(mesh.thickness.begin(), mesh.thickness.end());
   out.set_length_mm(mesh.length);

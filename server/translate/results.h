@@ -20,7 +20,7 @@ v1::Job::Cause cause_of(RunStatus::Kind kind);
 /// `frame`: that of the case, whose ids watched nodes and rigid walls have; empty of a lattice.
 v1::Sample to_proto(const Sample& sample, const v1::Frame& frame);
 v1::FieldFrame to_proto(const FieldFrame& frame);
-v1::Mesh to_proto(const MeshView& mesh, std::int64_t particle_count);
+v1::Mesh to_proto(const MeshView& mesh);
 v1::Theory to_proto(const Theory& theory);
 
 /// Processor time of a run, s; the solver has no clock.

@@ -4,6 +4,12 @@
 
 namespace cellcrush::watch {
 
+void Channel::publish(v1::Mesh mesh) {
+  const MutexLock lock(mutex_);
+  newest_.mesh = std::make_shared<const v1::Mesh>(std::move(mesh));
+  for (const auto& [id, watcher] : watchers_) watcher.wake();
+}
+
 void Channel::publish(v1::Progress progress) {
   const MutexLock lock(mutex_);
   newest_.progress = std::make_shared<const v1::Progress>(std::move(progress));
@@ -14,7 +20,7 @@ void Channel::publish(v1::Progress progress) {
 void Channel::publish(v1::FieldFrame frame) {
   const MutexLock lock(mutex_);
   if (newest_.frame && frame.index() <= newest_.frame->index()) return;
-  newest_.frame = std::make_shared<const v1::FieldFrame>(std::move(frame));
+  newest_.frame = std::make_shared<const PublishedFrame>(std::move(frame), newest_.mesh);
   ++newest_.frame_count;
   for (const auto& [id, watcher] : watchers_) {
     if (watcher.frames) watcher.wake();
@@ -23,6 +29,7 @@ void Channel::publish(v1::FieldFrame frame) {
 
 void Channel::forget() {
   const MutexLock lock(mutex_);
+  newest_.mesh.reset();
   newest_.progress.reset();
   newest_.frame.reset();
 }
@@ -72,8 +79,30 @@ std::shared_ptr<Channel> Hub::find(std::int64_t job) {
   return found == channels_.end() ? nullptr : found->second.lock();
 }
 
+std::vector<std::pair<std::int64_t, std::shared_ptr<Channel>>> Hub::channels() {
+  const MutexLock lock(mutex_);
+  std::vector<std::pair<std::int64_t, std::shared_ptr<Channel>>> out;
+  for (const auto& [job, channel] : channels_) {
+    if (auto held = channel.lock()) out.emplace_back(job, std::move(held));
+  }
+  return out;
+}
+
 void Hub::announce(std::int64_t job) {
   if (const auto channel = find(job)) channel->announce();
+  const MutexLock lock(watchers_mutex_);
+  for (const auto& [id, wake] : watchers_) wake();
+}
+
+std::uint64_t Hub::subscribe(Channel::Wake wake) {
+  const MutexLock lock(watchers_mutex_);
+  watchers_.emplace(next_id_, std::move(wake));
+  return next_id_++;
+}
+
+void Hub::unsubscribe(std::uint64_t id) {
+  const MutexLock lock(watchers_mutex_);
+  watchers_.erase(id);
 }
 
 }  // namespace cellcrush::watch

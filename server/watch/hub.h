@@ -4,14 +4,17 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "cellcrush/v1/job.pb.h"
 #include "cellcrush/v1/sample.pb.h"
 #include "mutex.h"
+#include "watch/published_frame.h"
 
 namespace cellcrush::watch {
 
-/// The newest progress and frame of a job, which are not in the journal, and the watchers of that job. Thread-safe.
+/// The newest progress and frame of a running job, which are not in the journal, its mesh, and the watchers of that job. Thread-safe.
 /// Publishers never wait for watchers.
 class Channel {
  public:
@@ -20,12 +23,14 @@ class Channel {
   using Wake = std::function<void()>;
 
   struct Newest {
+    std::shared_ptr<const v1::Mesh> mesh;          ///< null before a worker has built it
     std::shared_ptr<const v1::Progress> progress;  ///< null before the first
-    std::shared_ptr<const v1::FieldFrame> frame;   ///< null before the first
+    std::shared_ptr<const PublishedFrame> frame;   ///< null before the first
     std::uint64_t progress_count = 0;              ///< published so far
     std::uint64_t frame_count = 0;
   };
 
+  void publish(v1::Mesh mesh);
   void publish(v1::Progress progress);
   /// Ignores a frame that is not newer than the newest: a worker that resumes from a checkpoint resends some.
   void publish(v1::FieldFrame frame);
@@ -63,13 +68,22 @@ class Hub {
   std::shared_ptr<Channel> open(std::int64_t job);
   /// The same, or null if nobody holds it.
   std::shared_ptr<Channel> find(std::int64_t job);
-  /// Announces to the job's channel, if there is one.
+  /// All channels that somebody holds, by job.
+  std::vector<std::pair<std::int64_t, std::shared_ptr<Channel>>> channels();
+  /// Announces to the job's channel, if there is one, and to those who watch all jobs.
   void announce(std::int64_t job);
+
+  /// Has `wake` called whenever a job has new durable events. Works like those of Channel.
+  std::uint64_t subscribe(Channel::Wake wake);
+  void unsubscribe(std::uint64_t id);
 
  private:
   Mutex mutex_;
   std::map<std::int64_t, std::weak_ptr<Channel>> channels_ CELLCRUSH_GUARDED_BY(mutex_);
   std::size_t kept_ CELLCRUSH_GUARDED_BY(mutex_) = 0;  ///< channels when expired ones were last removed
+  Mutex watchers_mutex_;
+  std::map<std::uint64_t, Channel::Wake> watchers_ CELLCRUSH_GUARDED_BY(watchers_mutex_);
+  std::uint64_t next_id_ CELLCRUSH_GUARDED_BY(watchers_mutex_) = 1;
 };
 
 }  // namespace cellcrush::watch

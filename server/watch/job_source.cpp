@@ -4,8 +4,9 @@
 
 namespace cellcrush::watch {
 
-JobSource::JobSource(store::JournalReader& journal, Hub& hub, std::int64_t job, std::int64_t after, bool frames)
-    : channel_(hub.open(job)), frames_(frames), cursor_(journal, job, channel_, after, {frames, true}) {}
+JobSource::JobSource(store::JournalReader& journal, Hub& hub, std::int64_t job, std::int64_t after,
+                     WatchCursor::Wanted wanted)
+    : channel_(hub.open(job)), frames_(wanted.frames), cursor_(journal, job, channel_, after, wanted) {}
 
 void JobSource::open(std::function<void()> wake) { subscription_ = channel_->subscribe(std::move(wake), frames_); }
 

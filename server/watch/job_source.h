@@ -18,7 +18,7 @@ class JobSource {
   static constexpr bool kIsWatch = true;
 
   /// Throws the errors of WatchCursor.
-  JobSource(store::JournalReader& journal, Hub& hub, std::int64_t job, std::int64_t after, bool frames);
+  JobSource(store::JournalReader& journal, Hub& hub, std::int64_t job, std::int64_t after, WatchCursor::Wanted wanted);
 
   /// Calls `wake` from now on whenever there may be another message, on other threads and under locks: it must be
   /// quick.

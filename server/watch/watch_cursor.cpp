@@ -1,7 +1,9 @@
 #include "watch/watch_cursor.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
+#include <vector>
 
 #include "error.h"
 #include "store/job_state.h"
@@ -44,12 +46,20 @@ WatchCursor::WatchCursor(store::JournalReader& journal, std::int64_t job, std::s
 
 std::optional<v1::JobEvent> WatchCursor::next() {
   if (!std::exchange(snapshot_sent_, true)) return snapshot();
+  // Not between the parts of a frame.
+  if (parts_.empty()) {
+    if (auto part = mesh_part()) return part;
+  }
   if (ended_) return std::nullopt;
   // The journal is read before the channel, so that progress and frames from before a job's end precede its last event.
   // Not between the parts of a frame, which are already in memory.
   if (events_.empty() && parts_.empty()) {
     auto read = journal_.events(job_, after_, kEventsAtOnce);
     events_.assign(std::make_move_iterator(read.begin()), std::make_move_iterator(read.end()));
+  }
+  // A mesh is published before the first sample is durable, and comes before it.
+  if (parts_.empty() && !events_.empty() && events_.front().has_sample()) {
+    if (auto part = mesh_part()) return part;
   }
   if (auto event = transient()) return event;
   if (events_.empty()) {
@@ -60,6 +70,7 @@ std::optional<v1::JobEvent> WatchCursor::next() {
   events_.pop_front();
   after_ = event.sequence();
   ended_ = event.has_state() && store::is_terminal(event.state().state());
+  if (event.has_state() && event.state().begun_again_sequence() == after_) mesh_queued_ = false;
   return event;
 }
 
@@ -81,7 +92,29 @@ v1::JobEvent WatchCursor::snapshot() {
     *snapshot.mutable_job()->mutable_progress() = *newest.progress;
     progress_given_ = newest.progress_count;
   }
-  if (auto mesh = wanted_.mesh ? journal_.mesh(job_) : std::nullopt) *snapshot.mutable_mesh() = *std::move(mesh);
+  return event;
+}
+
+// The channel of a running job has its mesh; that of a job that ran before the watch is in the journal.
+void WatchCursor::queue_mesh() {
+  if (!wanted_.mesh || mesh_queued_) return;
+  std::vector<v1::MeshChunk> parts;
+  if (const auto mesh = channel_->newest().mesh) {
+    parts = chunks_of(*mesh);
+  } else if (!std::exchange(mesh_looked_up_, true)) {
+    if (const auto stored = journal_.mesh(job_)) parts = chunks_of(*stored);
+  }
+  mesh_queued_ = !parts.empty();
+  mesh_parts_.assign(std::make_move_iterator(parts.begin()), std::make_move_iterator(parts.end()));
+}
+
+std::optional<v1::JobEvent> WatchCursor::mesh_part() {
+  queue_mesh();
+  if (mesh_parts_.empty()) return std::nullopt;
+  v1::JobEvent event;
+  event.set_sequence(after_);
+  *event.mutable_mesh() = std::move(mesh_parts_.front());
+  mesh_parts_.pop_front();
   return event;
 }
 
@@ -97,7 +130,7 @@ std::optional<v1::JobEvent> WatchCursor::transient() {
     }
     if (wanted_.frames && newest.frame && newest.frame_count > frames_given_) {
       frames_given_ = newest.frame_count;
-      queue_frame(*newest.frame);
+      queue_frame(newest.frame->in(wanted_.encoding));
     }
   }
   if (parts_.empty()) return std::nullopt;

@@ -18,7 +18,8 @@ class WatchCursor {
   /// What to send beside states, samples and progress.
   struct Wanted {
     bool frames = false;
-    bool mesh = true;  ///< in the snapshot
+    bool mesh = true;
+    v1::FieldFrame::Encoding encoding = v1::FieldFrame::NUMBERS;
   };
 
   /// Events up to `after` are not sent again. Throws ServiceError: invalid for a negative `after`, out_of_range if the
@@ -26,16 +27,17 @@ class WatchCursor {
   WatchCursor(store::JournalReader& journal, std::int64_t job, std::shared_ptr<const Channel> channel,
               std::int64_t after, Wanted wanted);
 
-  /// The next message: a snapshot, then states and samples in order, interleaved with the newest progress and frame.
+  /// The next message: a snapshot, then states and samples in order, interleaved with the mesh and the newest progress
+  /// and frame.
   /// Nothing if there is none now. Throws ServiceError: not_found if the job was deleted meanwhile, or if the journal
   /// cannot be read.
   std::optional<v1::JobEvent> next();
 
   /// Whether next has a message without reading the journal.
-  [[nodiscard]] bool has_more() const { return !events_.empty() || !parts_.empty(); }
+  [[nodiscard]] bool has_more() const { return !events_.empty() || !parts_.empty() || !mesh_parts_.empty(); }
 
-  /// Whether the job's last event was sent.
-  [[nodiscard]] bool ended() const { return ended_ && snapshot_sent_; }
+  /// Whether the job's last event was sent, and next has nothing more.
+  [[nodiscard]] bool ended() const { return ended_ && snapshot_sent_ && mesh_parts_.empty(); }
 
   /// A bookmark: everything up to its sequence number was sent.
   [[nodiscard]] v1::JobEvent bookmark() const;
@@ -45,6 +47,8 @@ class WatchCursor {
 
  private:
   v1::JobEvent snapshot();
+  std::optional<v1::JobEvent> mesh_part();
+  void queue_mesh();
   std::optional<v1::JobEvent> transient();
   void queue_frame(const v1::FieldFrame& frame);
 
@@ -57,6 +61,9 @@ class WatchCursor {
   bool ended_ = false;
   std::deque<v1::JobEvent> events_;   ///< read from the journal, not sent yet
   std::deque<v1::FrameChunk> parts_;  ///< of the frame being sent
+  std::deque<v1::MeshChunk> mesh_parts_;
+  bool mesh_queued_ = false;
+  bool mesh_looked_up_ = false;       ///< in the journal, for a job whose mesh was built before the watch
   std::uint64_t progress_given_ = 0;  ///< count of the channel's progress when last sent
   std::uint64_t frames_given_ = 0;
   std::optional<int> last_frame_;  ///< index of the last frame sent

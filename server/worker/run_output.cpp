@@ -24,7 +24,7 @@ RunOutput::RunOutput(const store::JobFolder& folder, ReportLog& log, const Order
       order_(order),
       scene_(std::move(scene)),
       facts_(facts_of(*scene_)),
-      mesh_(translate::to_proto(mesh_of(*scene_), facts_.particle_count)),
+      mesh_(translate::to_proto(mesh_of(*scene_))),
       meter_(meter_of(facts_, 0)),
       writer_(folder.partial_result(), mesh_) {}
 

@@ -140,7 +140,7 @@ class FakeServer::Jobs : public v1::Jobs::Service {
     if (!knows(request->name()) || shared_.script.stages.empty()) return not_found(request->name());
     const MeshFrame& stage = find_stage(*request);
     v1::GetFrameResponse first;
-    *first.mutable_mesh() = stage.mesh;
+    *first.mutable_mesh()->mutable_mesh() = stage.mesh;
     *first.mutable_chunk()->mutable_frame() = stage.frame;
     first.mutable_chunk()->mutable_frame()->clear_plastic_fraction();
     first.mutable_chunk()->set_part_count(2);

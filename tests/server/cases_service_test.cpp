@@ -77,6 +77,44 @@ TEST_F(CasesServiceTest, ASoundCaseIsDescribed) {
   EXPECT_GT(response.theory().shock_mpa(), response.theory().gibson_ashby_mpa());
 }
 
+TEST_F(CasesServiceTest, APreviewHasTheMeshThatARunWouldHave) {
+  v1::PreviewCaseRequest request;
+  *request.mutable_case_() = small_case();
+  v1::PreviewCaseResponse preview;
+  ASSERT_TRUE(client().cases->PreviewCase(bounded_context().get(), request, &preview).ok());
+  const auto facts = check(small_case());
+  EXPECT_EQ(preview.mesh().particle_count(), facts.particle_count());
+  EXPECT_EQ(preview.mesh().position_mm_size(), 2 * facts.particle_count());
+  EXPECT_EQ(preview.mesh().element_nodes_size(), 2 * facts.element_count());
+  EXPECT_EQ(preview.mesh().length_mm(), facts.length_mm());
+  auto client = this->client();
+  const std::string job = client.create(small_case());
+  const auto watched = client.watch(job);
+  ASSERT_TRUE(watched.status.ok());
+  int meshes = 0;
+  for (const auto& event : watched.events) {
+    if (!event.has_mesh()) continue;
+    ++meshes;
+    EXPECT_EQ(event.mesh().mesh().SerializeAsString(), preview.mesh().SerializeAsString());
+  }
+  EXPECT_EQ(meshes, 1);
+}
+
+TEST_F(CasesServiceTest, APreviewOfABadOrHugeCaseIsRefused) {
+  v1::PreviewCaseRequest request;
+  *request.mutable_case_() = small_case();
+  request.mutable_case_()->mutable_lattice()->mutable_hexagon()->set_columns(300);
+  request.mutable_case_()->mutable_lattice()->mutable_hexagon()->set_rows(300);
+  v1::PreviewCaseResponse preview;
+  const auto huge = client().cases->PreviewCase(bounded_context().get(), request, &preview);
+  EXPECT_EQ(huge.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
+  EXPECT_THAT(huge.error_message(), HasSubstr("elements_per_wall"));
+  request.mutable_case_()->set_depth_mm(-1.0);
+  const auto bad = client().cases->PreviewCase(bounded_context().get(), request, &preview);
+  EXPECT_EQ(bad.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
+  EXPECT_THAT(bad.error_message(), HasSubstr("depth_mm"));
+}
+
 TEST_F(CasesServiceTest, EachFidelityIsToldBeforeAnythingRuns) {
   const auto plain = check(small_case());
   ASSERT_EQ(plain.fidelities_size(), 3);

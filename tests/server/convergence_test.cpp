@@ -40,10 +40,11 @@ v1::SweepTable::Row row_of(int elements, int seed, v1::Job::State state, double 
 
 TEST(SweepConvergence, LeavesOutJobsThatHaveNotSucceededAndPicksTheCoarsestMesh) {
   const auto sweep = sweep_over_meshes({2.0, 4.0, 8.0}, 2).sweep();
-  const std::vector<v1::SweepTable::Row> rows = {row_of(2, 1, v1::Job::SUCCEEDED, 0.90), row_of(2, 2, v1::Job::SUCCEEDED, 0.9002),
-                                                 row_of(4, 1, v1::Job::SUCCEEDED, 0.98), row_of(4, 2, v1::Job::SUCCEEDED, 0.9802),
-                                                 row_of(8, 1, v1::Job::SUCCEEDED, 1.00), row_of(8, 2, v1::Job::SUCCEEDED, 1.0002),
-                                                 row_of(8, 3, v1::Job::FAILED, 5.0),     row_of(8, 4, v1::Job::RUNNING, 5.0)};
+  const std::vector<v1::SweepTable::Row> rows = {
+      row_of(2, 1, v1::Job::SUCCEEDED, 0.90), row_of(2, 2, v1::Job::SUCCEEDED, 0.9002),
+      row_of(4, 1, v1::Job::SUCCEEDED, 0.98), row_of(4, 2, v1::Job::SUCCEEDED, 0.9802),
+      row_of(8, 1, v1::Job::SUCCEEDED, 1.00), row_of(8, 2, v1::Job::SUCCEEDED, 1.0002),
+      row_of(8, 3, v1::Job::FAILED, 5.0),     row_of(8, 4, v1::Job::RUNNING, 5.0)};
   const auto found = jobs::convergence_of(sweep, rows, 0.05);
   EXPECT_EQ(found.elements_per_wall(), 4);
   EXPECT_EQ(found.job_count_left_out(), 2);

@@ -33,7 +33,7 @@ class JobsServiceTest : public DaemonFixture {
     const auto reader = client.jobs->GetFrame(context.get(), request);
     v1::GetFrameResponse response;
     while (reader->Read(&response)) {
-      if (response.has_mesh()) mesh = response.mesh();
+      mesh.MergeFrom(response.mesh().mesh());
       frame.MergeFrom(response.chunk().frame());
     }
     return reader->Finish();

@@ -57,6 +57,12 @@ class JournalTest : public ::testing::Test {
 
 /// What the third version had: no columns and labels to search by, no service clock and no facts.
 inline constexpr const char* kWithoutSearchColumns = R"sql(
+DROP TRIGGER note_state;
+DROP TRIGGER note_deleted_job;
+DROP TRIGGER note_sweep;
+DROP TRIGGER note_retry;
+DROP TRIGGER note_deleted_sweep;
+DROP TABLE changes;
 DROP INDEX jobs_by_request;
 DROP INDEX sweeps_by_request;
 DROP INDEX jobs_by_owner;

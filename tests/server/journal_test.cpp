@@ -261,7 +261,7 @@ TEST_F(JournalTest, AJournalOfALaterVersionIsRefused) {
   journal_.reset();
   {
     Database database(path());
-    database.execute("PRAGMA user_version = 5");
+    database.execute("PRAGMA user_version = 6");
   }
   EXPECT_THROW(Journal(path(), [](std::int64_t) {}), ServiceError);
 }

@@ -50,12 +50,12 @@ TEST(RequestFields, NoTextOfARequestNamesAFileOfTheDaemon) {
       "DeleteJobRequest.name", "DeleteSweepRequest.name", "WatchJobRequest.name", "GetHistoryRequest.name",
       "GetFrameRequest.name", "DownloadResultRequest.name", "GetSweepRequest.name", "CancelSweepRequest.name",
       "RetryFailedJobsRequest.name", "WatchSweepRequest.name", "GetSweepTableRequest.name", "GetPresetRequest.name",
-      "GetConvergenceRequest.name",
+      "GetConvergenceRequest.name", "StreamFramesRequest.name",
       // Of lists, of repeated calls and of resumed watches.
-      "ListJobsRequest.page_token", "ListJobsRequest.filter", "ListJobsRequest.order_by",
-      "ListSweepsRequest.page_token", "GetHistoryRequest.page_token", "GetSweepTableRequest.page_token",
-      "CreateJobRequest.request_id", "CreateSweepRequest.request_id", "WatchSweepRequest.resume_token",
-      "WatchJobRequest.epoch",
+      "ListJobsRequest.page_token", "ListJobsRequest.filter", "ListJobsRequest.order_by", "WatchJobsRequest.filter",
+      "WatchJobsRequest.resume_token", "ListSweepsRequest.page_token", "GetHistoryRequest.page_token",
+      "GetSweepTableRequest.page_token", "CreateJobRequest.request_id", "CreateSweepRequest.request_id",
+      "WatchSweepRequest.resume_token", "WatchJobRequest.epoch",
       // Labels: key and value.
       "CreateJobRequest.LabelsEntry.key", "CreateJobRequest.LabelsEntry.value", "Sweep.LabelsEntry.key",
       "Sweep.LabelsEntry.value",

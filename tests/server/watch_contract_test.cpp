@@ -47,10 +47,11 @@ std::size_t broken_by(const std::vector<v1::JobEvent>& events, const grpc::Statu
 }
 
 TEST(WatchContractTest, ASoundWatchBreaksNothing) {
-  EXPECT_EQ(broken_by({snapshot_at(0), state_at(1, v1::Job::PENDING), state_at(2, v1::Job::RUNNING), frame_at(2, 0, 0),
-                       sampled_at(3, 5), frame_at(3, 4, 3, 0, 2), frame_at(3, 4, 3, 1, 2), state_at(4, v1::Job::SUCCEEDED)},
-                      grpc::Status::OK),
-            0U);
+  EXPECT_EQ(
+      broken_by({snapshot_at(0), state_at(1, v1::Job::PENDING), state_at(2, v1::Job::RUNNING), frame_at(2, 0, 0),
+                 sampled_at(3, 5), frame_at(3, 4, 3, 0, 2), frame_at(3, 4, 3, 1, 2), state_at(4, v1::Job::SUCCEEDED)},
+                grpc::Status::OK),
+      0U);
   EXPECT_EQ(broken_by({snapshot_at(7), sampled_at(8, 1)}, grpc::Status::CANCELLED, 7), 0U);
 }
 
@@ -70,7 +71,8 @@ TEST(WatchContractTest, EveryPromiseThatIsBrokenIsSeen) {
   EXPECT_GT(broken_by({snapshot_at(0), pending, snapshot_at(1)}), 0U) << "two snapshots";
   EXPECT_GT(broken_by({snapshot_at(1), pending}), 0U) << "a snapshot of another place";
   EXPECT_GT(broken_by({snapshot_at(0), pending, sampled_at(3, 1)}), 0U) << "an event is missing";
-  EXPECT_GT(broken_by({snapshot_at(0), pending, state_at(3, v1::Job::RUNNING)}), 0U) << "and the job does not begin again";
+  EXPECT_GT(broken_by({snapshot_at(0), pending, state_at(3, v1::Job::RUNNING)}), 0U)
+      << "and the job does not begin again";
   EXPECT_GT(broken_by({snapshot_at(0), pending, pending}), 0U) << "an event comes twice";
   EXPECT_GT(broken_by({snapshot_at(0), pending, sampled_at(2, 4), sampled_at(3, 4)}), 0U) << "a sample comes twice";
   EXPECT_GT(broken_by({snapshot_at(0), state_at(1, v1::Job::RUNNING)}), 0U) << "a wrong first state";

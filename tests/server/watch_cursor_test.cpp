@@ -13,7 +13,7 @@ namespace {
 class WatchCursorTest : public ::testing::Test {
  protected:
   WatchCursor cursor(std::int64_t after = 0, bool frames = true) {
-    return {reader_, job_, hub_.open(job_), after, {frames, true}};
+    return {reader_, job_, hub_.open(job_), after, {frames, true, v1::FieldFrame::NUMBERS}};
   }
 
   void change(v1::Job::State state) {
@@ -85,16 +85,43 @@ TEST_F(WatchCursorTest, ThePartsOfAFrameAreGivenWithoutALookIntoTheJournal) {
   EXPECT_TRUE(cursor.next()->has_state());
 }
 
-TEST(FrameChunks, APartAndTheMeshBesideItPassAStockClient) {
-  constexpr std::size_t kStockClient = 4 * 1024 * 1024;
-  for (const std::size_t mesh : {0U, 120'000U, 1'900'000U, 3'000'000U, 4'000'000U})
-    EXPECT_LT(mesh + chunk_bytes_beside(mesh), kStockClient) << mesh;
-  EXPECT_EQ(chunk_bytes_beside(0), kChunkBytes);
-  v1::FieldFrame large;
-  for (int i = 0; i < 900'000; ++i) large.add_position_mm(1.0F);
-  const auto parts = chunks_of(large, chunk_bytes_beside(2'500'000));
-  ASSERT_GT(parts.size(), 2U);
-  EXPECT_LT(parts.front().ByteSizeLong() + 2'500'000, kStockClient);
+TEST_F(WatchCursorTest, AMeshThatIsBuiltDuringTheWatchPrecedesTheSamplesAndComesAgainAfterARestart) {
+  const auto channel = hub_.open(job_);
+  auto cursor = this->cursor();
+  EXPECT_TRUE(cursor.next()->has_snapshot());
+  EXPECT_TRUE(cursor.next()->has_state());
+  EXPECT_FALSE(cursor.next());
+  change(v1::Job::RUNNING);
+  EXPECT_TRUE(cursor.next()->has_state());
+  v1::Mesh mesh;
+  mesh.set_particle_count(7);
+  journal_.set_mesh(job_, mesh);
+  channel->publish(mesh);
+  add_samples(2);
+  journal_.commit_samples();
+  const auto first = cursor.next();
+  ASSERT_TRUE(first->has_mesh());
+  EXPECT_EQ(first->mesh().mesh().particle_count(), 7);
+  EXPECT_EQ(first->sequence(), 2);
+  EXPECT_TRUE(cursor.next()->has_sample());
+  EXPECT_TRUE(cursor.next()->has_sample());
+  journal_.begin_again(job_, "Restarted.");
+  channel->forget();
+  EXPECT_TRUE(cursor.next()->has_state());
+  EXPECT_FALSE(cursor.next());
+  channel->publish(mesh);
+  EXPECT_TRUE(cursor.next()->has_mesh());
+  EXPECT_FALSE(cursor.next());
+}
+
+TEST_F(WatchCursorTest, AnEndedJobSendsItsMeshToALateWatchBeforeItEnds) {
+  change(v1::Job::RUNNING);
+  journal_.set_mesh(job_, v1::Mesh());
+  change(v1::Job::SUCCEEDED);
+  auto cursor = this->cursor(3);
+  EXPECT_TRUE(cursor.next()->has_snapshot());
+  EXPECT_TRUE(cursor.next()->has_mesh());
+  EXPECT_TRUE(cursor.ended());
 }
 
 TEST_F(WatchCursorTest, AFrameWakesOnlyThoseWhoWantFrames) {

@@ -56,6 +56,7 @@ SceneFacts facts_of(const Scene& scene);
 
 /// Geometry that stays constant during a run, in the units of the solver.
 struct MeshView {
+  std::vector<float> position;     ///< x0 y0 x1 y1 ... of N particles before loading, mm
   std::vector<int> element_nodes;  ///< start0 end0 start1 end1 ... of E elements
   std::vector<float> thickness;    ///< mm, of E elements
   double length = 0.0;             ///< envelope along the crush, mm

@@ -1,0 +1,197 @@
+#include "rpc/jobs_source.h"
+
+#include <algorithm>
+#include <charconv>
+#include <utility>
+
+#include "error.h"
+#include "rpc/job_query.h"
+#include "rpc/request_limits.h"
+#include "store/job_filter.h"
+#include "store/job_state.h"
+#include "store/resource_name.h"
+
+namespace cellcrush::rpc {
+namespace {
+
+constexpr int kChangesAtOnce = 256;
+
+store::JobFilter filter_of(const std::string& text) {
+  check_length("filter", text, kLongestFilter);
+  auto filter = parse_filter(text);
+  if (!filter.states.empty()) {
+    throw InvalidField("filter", "has a condition on state, which changes during a watch.",
+                       "Leave it out; each message has the state of its job.");
+  }
+  return filter;
+}
+
+}  // namespace
+
+JobsSource::JobsSource(const Parts& parts, const v1::WatchJobsRequest& request)
+    : parts_(parts), filter_(filter_of(request.filter())), after_(change_in(request.resume_token())) {
+  if (request.jobs_size() > kMostWatchedJobs) {
+    throw InvalidField("jobs",
+                       "has " + std::to_string(request.jobs_size()) + " entries; at most " +
+                           std::to_string(kMostWatchedJobs) + " are possible.",
+                       "Watch fewer jobs in one call.");
+  }
+  for (const auto& job : request.jobs())
+    watched_.push_back(std::make_unique<WatchedJob>(parts_.journal, parts_.hub, job));
+}
+
+// "EPOCH@CHANGE"
+std::string JobsSource::token() const { return parts_.journal.epoch().id + "@" + std::to_string(after_); }
+
+std::int64_t JobsSource::change_in(const std::string& token) const {
+  if (token.empty()) return parts_.changes.last();
+  check_length("resume_token", token, kLongestJobsToken);
+  const auto at = token.find('@');
+  std::int64_t change = -1;
+  const char* const end = token.data() + token.size();
+  if (at != std::string::npos) {
+    const auto [rest, error] = std::from_chars(token.data() + at + 1, end, change);
+    if (error != std::errc() || rest != end) change = -1;
+  }
+  if (change < 0) {
+    throw InvalidField("resume_token", "does not come from WatchJobs.",
+                       "Use the most recent one, or none to watch from now on.");
+  }
+  if (!parts_.journal.epoch().admits(token.substr(0, at))) {
+    throw ServiceError(ServiceError::Kind::failed_precondition,
+                       "The resume_token comes" + parts_.journal.epoch().of_before() +
+                           ": it may now refer to different changes. Watch without a resume_token, and list the jobs.");
+  }
+  if (change > parts_.changes.last() || !parts_.changes.has_all_after(change)) {
+    throw ServiceError(ServiceError::Kind::out_of_range,
+                       "The changes after the resume_token are no longer stored. Watch without a resume_token, and "
+                       "list the jobs.");
+  }
+  return change;
+}
+
+void JobsSource::open(const std::function<void()>& wake) {
+  subscription_ = parts_.hub.subscribe(wake);
+  for (auto& job : watched_) job->open(wake);
+}
+
+void JobsSource::close() {
+  parts_.hub.unsubscribe(subscription_);
+  for (auto& job : watched_) job->close();
+}
+
+bool JobsSource::has_more() const {
+  if (!changes_.empty()) return true;
+  for (const auto& job : watched_) {
+    if (job->has_more()) return true;
+  }
+  return false;
+}
+
+std::optional<JobsSource::Message> JobsSource::next() {
+  if (!std::exchange(snapshot_sent_, true)) {
+    Message out;
+    out.mutable_snapshot()->set_epoch(parts_.journal.epoch().id);
+    out.set_resume_token(token());
+    return out;
+  }
+  // Progress from before a change of state is outdated, and is not sent after it.
+  if (auto out = next_change()) return out;
+  if (auto out = next_watched()) return out;
+  return next_progress();
+}
+
+std::optional<JobsSource::Message> JobsSource::next_change() {
+  if (changes_.empty()) {
+    const auto read = parts_.changes.after(after_, kChangesAtOnce);
+    changes_.assign(read.begin(), read.end());
+  }
+  while (!changes_.empty()) {
+    const store::Change change = changes_.front();
+    changes_.pop_front();
+    auto out = is_repeated(change) ? std::nullopt : message_of(change);
+    after_ = change.number;
+    if (!out) continue;
+    out->set_resume_token(token());
+    return out;
+  }
+  return std::nullopt;
+}
+
+// A retry of many jobs changes their sweep as often; the last time says it all.
+bool JobsSource::is_repeated(const store::Change& change) const {
+  return change.kind == store::ChangeKind::sweep_changed &&
+         std::any_of(changes_.begin(), changes_.end(), [&](const store::Change& later) {
+           return later.kind == change.kind && later.resource == change.resource;
+         });
+}
+
+// Nothing for what the filter leaves out or was deleted since.
+std::optional<JobsSource::Message> JobsSource::message_of(const store::Change& change) {
+  Message out;
+  switch (change.kind) {
+    case store::ChangeKind::job_state: {
+      auto events = parts_.journal.events(change.resource, change.sequence - 1, 1);
+      if (events.empty() || events.front().sequence() != change.sequence || !events.front().has_state()) break;
+      v1::Job& job = *events.front().mutable_state();
+      const bool passes = store::matches(filter_, job);
+      if (store::is_terminal(job.state())) {
+        wanted_.erase(change.resource);
+        progress_of_.erase(change.resource);
+      } else {
+        wanted_[change.resource] = passes;
+      }
+      if (!passes) break;
+      *out.mutable_job() = std::move(job);
+      return out;
+    }
+    case store::ChangeKind::job_deleted: out.set_deleted_job(store::name_of(change.resource)); return out;
+    case store::ChangeKind::sweep_changed: {
+      auto sweep = parts_.sweeps.find_sweep(change.resource);
+      if (!sweep) break;
+      sweep->clear_case_();
+      *out.mutable_sweep() = *std::move(sweep);
+      return out;
+    }
+    case store::ChangeKind::sweep_deleted: out.set_deleted_sweep(store::sweep_name_of(change.resource)); return out;
+  }
+  return std::nullopt;
+}
+
+std::optional<JobsSource::Message> JobsSource::next_watched() {
+  for (std::size_t i = 0; i < watched_.size(); ++i) {
+    auto out = watched_[turn_++ % watched_.size()]->next();
+    if (out) return out;
+  }
+  return std::nullopt;
+}
+
+std::optional<JobsSource::Message> JobsSource::next_progress() {
+  for (const auto& [job, channel] : parts_.hub.channels()) {
+    const auto newest = channel->newest();
+    if (!newest.progress || progress_of_[job] == newest.progress_count || !is_wanted(job)) continue;
+    progress_of_[job] = newest.progress_count;
+    Message out;
+    out.mutable_progress()->set_job(store::name_of(job));
+    *out.mutable_progress()->mutable_progress() = *newest.progress;
+    return out;
+  }
+  return std::nullopt;
+}
+
+bool JobsSource::is_wanted(std::int64_t job) {
+  const auto known = wanted_.find(job);
+  if (known != wanted_.end()) return known->second;
+  const auto stored = parts_.journal.find_job(job);
+  if (!stored || store::is_terminal(stored->job.state())) return false;
+  return wanted_[job] = store::matches(filter_, stored->job);
+}
+
+JobsSource::Message JobsSource::bookmark() const {
+  Message out;
+  out.mutable_bookmark();
+  out.set_resume_token(token());
+  return out;
+}
+
+}  // namespace cellcrush::rpc

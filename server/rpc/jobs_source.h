@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cellcrush/v1/jobs_service.pb.h"
+#include "rpc/watched_job.h"
+#include "store/change_reader.h"
+#include "store/job_filter.h"
+#include "store/journal_reader.h"
+#include "store/sweep_reader.h"
+#include "watch/hub.h"
+
+namespace cellcrush::rpc {
+
+/// Source of a WatchJobs: a snapshot, then the changes of all jobs and sweeps, the events of the requested jobs, and
+/// the newest progress of running jobs. Not thread-safe, except for `wake`.
+class JobsSource {
+ public:
+  using Message = v1::WatchJobsResponse;
+  static constexpr bool kIsWatch = true;
+
+  /// All of it outlives the source.
+  struct Parts {
+    store::JournalReader& journal;
+    store::SweepReader& sweeps;
+    store::ChangeReader& changes;
+    watch::Hub& hub;
+  };
+
+  /// Throws InvalidField for a filter or token that is not valid, and ServiceError: out_of_range or
+  /// failed_precondition for a token whose changes are gone.
+  JobsSource(const Parts& parts, const v1::WatchJobsRequest& request);
+
+  /// Calls `wake` from now on whenever there may be another message, on other threads and under locks: it must be
+  /// quick.
+  void open(const std::function<void()>& wake);
+  /// Once this returns, `wake` is not called again.
+  void close();
+
+  std::optional<Message> next();
+  [[nodiscard]] bool has_more() const;
+  [[nodiscard]] static bool ended() { return false; }
+  [[nodiscard]] Message bookmark() const;
+  [[nodiscard]] static std::string resume_advice() { return "with the most recent resume_token"; }
+
+ private:
+  [[nodiscard]] std::string token() const;
+  std::int64_t change_in(const std::string& token) const;
+  std::optional<Message> next_change();
+  [[nodiscard]] bool is_repeated(const store::Change& change) const;
+  std::optional<Message> message_of(const store::Change& change);
+  std::optional<Message> next_watched();
+  std::optional<Message> next_progress();
+  bool is_wanted(std::int64_t job);
+
+  Parts parts_;
+  store::JobFilter filter_;
+  std::int64_t after_;  ///< number of the last change sent or passed over
+  bool snapshot_sent_ = false;
+  std::deque<store::Change> changes_;  ///< read, not sent yet
+  std::vector<std::unique_ptr<WatchedJob>> watched_;
+  std::size_t turn_ = 0;                               ///< of the requested jobs
+  std::map<std::int64_t, bool> wanted_;                ///< whether running jobs pass the filter
+  std::map<std::int64_t, std::uint64_t> progress_of_;  ///< count of each job's progress when last sent
+  std::uint64_t subscription_ = 0;
+};
+
+}  // namespace cellcrush::rpc

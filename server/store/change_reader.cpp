@@ -1,0 +1,30 @@
+#include "store/change_reader.h"
+
+namespace cellcrush::store {
+
+ChangeReader::ChangeReader(const std::filesystem::path& path) : database_(path) {}
+
+std::int64_t ChangeReader::last() {
+  const MutexLock lock(mutex_);
+  Statement read(database_, "SELECT COALESCE(MAX(number), 0) FROM changes");
+  return read.step() ? read.integer(0) : 0;
+}
+
+bool ChangeReader::has_all_after(std::int64_t change) {
+  const MutexLock lock(mutex_);
+  Statement read(database_, "SELECT COALESCE(MIN(number), 1) FROM changes");
+  return read.step() && change >= read.integer(0) - 1;
+}
+
+std::vector<Change> ChangeReader::after(std::int64_t change, int limit) {
+  const MutexLock lock(mutex_);
+  Statement read(database_,
+                 "SELECT number, kind, resource, sequence FROM changes WHERE number > ?1 ORDER BY number LIMIT ?2");
+  read.bind(1, change).bind(2, limit);
+  std::vector<Change> out;
+  while (read.step())
+    out.push_back({read.integer(0), static_cast<ChangeKind>(read.integer(1)), read.integer(2), read.integer(3)});
+  return out;
+}
+
+}  // namespace cellcrush::store

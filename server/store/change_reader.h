@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "mutex.h"
+#include "store/sqlite.h"
+
+namespace cellcrush::store {
+
+/// What a row of the table `changes` says (journal_format.md). The numbers are stored.
+enum class ChangeKind { job_state = 1, job_deleted = 2, sweep_changed = 3, sweep_deleted = 4 };
+
+/// A change of a job or sweep. Changes of all of them are numbered in the order of their commits.
+struct Change {
+  std::int64_t number = 0;
+  ChangeKind kind = ChangeKind::job_state;
+  std::int64_t resource = 0;  ///< number of the job or sweep
+  std::int64_t sequence = 0;  ///< of the state event
+};
+
+/// Reads the changes of all jobs and sweeps beside the journal's writer; sees committed data. Thread-safe. Failures
+/// throw ServiceError.
+class ChangeReader {
+ public:
+  /// REQUIRES: a Journal was opened on the same path.
+  explicit ChangeReader(const std::filesystem::path& path);
+
+  /// Number of the last change; 0 before the first.
+  std::int64_t last();
+
+  /// Whether all changes after this one are still there.
+  bool has_all_after(std::int64_t change);
+
+  /// Up to `limit` changes after this one, in order.
+  std::vector<Change> after(std::int64_t change, int limit);
+
+ private:
+  Mutex mutex_;
+  Database database_ CELLCRUSH_GUARDED_BY(mutex_);
+};
+
+}  // namespace cellcrush::store
