@@ -6,11 +6,12 @@
 namespace cellcrush::validation {
 namespace {
 
-constexpr std::uint64_t kMark = 0x31656d6172664343;  // "CCframe1"
+constexpr std::uint64_t kMark = 0x32656d6172664343;  // "CCframe2"
 
 /// The fields of a mesh, and those of a frame, in the order of the file.
 template <class M, class Visitor>
 void visit_mesh(M& mesh, Visitor&& visitor) {
+  visitor(mesh.position);
   visitor(mesh.element_nodes);
   visitor(mesh.thickness);
   visitor(mesh.length);

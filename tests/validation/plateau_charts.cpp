@@ -26,11 +26,14 @@ std::vector<std::string> words_of(const std::string& text) {
   return {std::istream_iterator<std::string>(stream), {}};
 }
 
-/// Whether nothing is changed that a plateau depends on but the speed.
-bool is_plain(const std::vector<std::string>& words) {
-  static const std::set<std::string> kPlain = {"speed", "end_strain", "samples", "frame_count"};
+/// Options that change nothing that a plateau depends on but the speed.
+const std::set<std::string> kPlain = {"speed", "end_strain", "samples", "frame_count"};
+const std::set<std::string> kOfSeeds = {"speed",     "end_strain", "samples", "frame_count",
+                                        "amplitude", "seed",       "elements"};
+
+bool has_only(const std::vector<std::string>& words, const std::set<std::string>& known) {
   return std::all_of(words.begin(), words.end(),
-                     [](const std::string& word) { return kPlain.contains(word.substr(0, word.find('='))); });
+                     [&](const std::string& word) { return known.contains(word.substr(0, word.find('='))); });
 }
 
 std::vector<double> take(const std::vector<Plateau>& plateaus, double Plateau::*field) {
@@ -56,32 +59,48 @@ std::string fit_text(const std::string& preset, const client::QuadraticFit& fit)
 
 }  // namespace
 
-std::vector<Plateau> read_plateaus(const std::vector<std::string>& tables, const std::string& preset) {
-  std::map<double, Plateau> by_speed;
+namespace {
+
+std::multimap<double, Plateau> read_rows(const std::vector<std::string>& tables, const std::string& preset,
+                                         const std::set<std::string>& known) {
+  std::multimap<double, Plateau> by_speed;
   for (const std::string& table : tables) {
     for (const bench::CsvRow& row : bench::read_csv(table)) {
       std::vector<std::string> words = words_of(row.at("options"));
       const double impact = bench::number_in(row, "plateau_stress_impact");
-      if (row.at("preset") != preset || !is_plain(words) || !std::isfinite(impact)) {
+      if (row.at("preset") != preset || !has_only(words, known) || !std::isfinite(impact)) {
         continue;
       }
       words.insert(words.begin(), preset);
       const double speed = *read_options(words).spec.loading.speed_m_per_s;
-      by_speed[speed] = {preset,
-                         speed,
-                         impact,
-                         bench::number_in(row, "plateau_stress_support"),
-                         bench::number_in(row, "theory_shock"),
-                         bench::number_in(row, "front_shock")};
+      by_speed.emplace(speed, Plateau{preset, speed, impact, bench::number_in(row, "plateau_stress_support"),
+                                      bench::number_in(row, "theory_shock"), bench::number_in(row, "front_shock")});
     }
   }
   if (by_speed.empty()) {
     throw std::invalid_argument(preset +
                                 ": stands in none of the tables with a plateau; give the tables that validate wrote.");
   }
+  return by_speed;
+}
+
+}  // namespace
+
+std::vector<Plateau> read_plateaus(const std::vector<std::string>& tables, const std::string& preset) {
+  std::map<double, Plateau> last;
+  for (const auto& [speed, plateau] : read_rows(tables, preset, kPlain)) {
+    last[speed] = plateau;
+  }
   std::vector<Plateau> plateaus;
-  plateaus.reserve(by_speed.size());
-  for (const auto& [speed, plateau] : by_speed) {
+  for (const auto& [speed, plateau] : last) {
+    plateaus.push_back(plateau);
+  }
+  return plateaus;
+}
+
+std::vector<Plateau> read_seeds(const std::vector<std::string>& tables, const std::string& preset) {
+  std::vector<Plateau> plateaus;
+  for (const auto& [speed, plateau] : read_rows(tables, preset, kOfSeeds)) {
     plateaus.push_back(plateau);
   }
   return plateaus;

@@ -21,10 +21,15 @@ struct Plateau {
 /// speed that of the last table. Throws std::invalid_argument on a table that is none, or without such a row.
 std::vector<Plateau> read_plateaus(const std::vector<std::string>& tables, const std::string& preset);
 
+/// Of all crushes of a preset whose imperfection and mesh may differ as well, by speed: several at one speed are seeds.
+/// Throws the same.
+std::vector<Plateau> read_seeds(const std::vector<std::string>& tables, const std::string& preset);
+
 /// The plateaus of a preset at both plates against the speed, with Eq. 51 and 52.
 client::Chart theory_chart(const std::vector<Plateau>& plateaus);
 
-/// The impact plateaus of several presets against the speed, up to a speed, with quadratic fits through all of them.
+/// The impact plateaus of several presets against the speed, up to a speed, with quadratic fits through all of them. A
+/// preset's legend tells the fit, or nothing without one.
 client::Chart fit_chart(const std::vector<std::vector<Plateau>>& presets, double to_speed);
 
 }  // namespace cellcrush::validation

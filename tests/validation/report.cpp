@@ -3,6 +3,7 @@
 //   validation_report curves PICTURE along=travel FILE.csv=TITLE ...           stress against strain or travel
 //   validation_report theory PICTURE tables=A.csv,B.csv PRESET                 plateau against speed, Eq. 51 and 52
 //   validation_report fits PICTURE tables=A.csv,B.csv PRESET ...               the same of several, quadratic fits
+//   validation_report seeds PICTURE tables=A.csv,B.csv PRESET ...              the same, a point for every seed
 //   validation_report courses FILE.csv ...                                     densification and salient peaks, as CSV
 // A picture's name ends in .png or .svg.
 
@@ -89,11 +90,13 @@ void write_curves(const std::string& picture, const Words& words) {
   write_charts(picture, {crush_chart(curves, along == "strain" ? &Sample::strain : &Sample::travel)});
 }
 
-void write_plateaus(const std::string& picture, const Words& words, bool with_theory) {
+using Read = std::vector<Plateau>(const std::vector<std::string>&, const std::string&);
+
+void write_plateaus(const std::string& picture, const Words& words, Read* read, bool with_theory) {
   const Words tables = split(value_of(words.at(0), "tables"), ',');
   std::vector<std::vector<Plateau>> presets;
   for (std::size_t i = 1; i < words.size(); ++i) {
-    presets.push_back(read_plateaus(tables, words[i]));
+    presets.push_back(read(tables, words[i]));
   }
   const double fastest = presets.at(0).back().speed;
   write_charts(picture, with_theory ? std::vector{theory_chart(presets[0])}
@@ -119,8 +122,8 @@ void report(const Words& words) {
     strip(words.at(1), behind(2));
   } else if (verb == "curves") {
     write_curves(words.at(1), behind(2));
-  } else if (verb == "theory" || verb == "fits") {
-    write_plateaus(words.at(1), behind(2), verb == "theory");
+  } else if (verb == "theory" || verb == "fits" || verb == "seeds") {
+    write_plateaus(words.at(1), behind(2), verb == "seeds" ? read_seeds : read_plateaus, verb == "theory");
   } else if (verb == "courses") {
     print_courses(behind(1));
   } else {

@@ -35,8 +35,7 @@ const FieldFrame& nearest_frame(const StripRow& row, double strain) {
 }
 
 MeshFrame stage_of(const KeptFrames& kept, const FieldFrame& frame) {
-  return {translate::to_proto(frame),
-          translate::to_proto(kept.mesh, static_cast<std::int64_t>(frame.position.size() / 2))};
+  return {translate::to_proto(frame), translate::to_proto(kept.mesh)};
 }
 
 std::string title_of(const StripRow& row, const FieldFrame& frame) {
