@@ -41,34 +41,53 @@ class Gate::Check final : public grpc::AuthMetadataProcessor {
   grpc::Status Process(const InputMetadata& metadata, grpc::AuthContext* context, OutputMetadata*,
                        OutputMetadata*) override {
     const auto found = metadata.find(":path");
-    const std::string_view path = found == metadata.end() ? std::string_view() : view_of(found->second);
-    auto status = answer([&] {
-      check(path, metadata, *context);
-      return grpc::Status::OK;
-    });
-    if (!status.ok()) {
-      const bool unknown = status.error_code() == grpc::StatusCode::UNAUTHENTICATED;
-      gate_.note_refusal(std::string(unknown ? "UNAUTHENTICATED: " : "PERMISSION_DENIED: ") +
-                         std::string(path.substr(0, kLongestPath)) + ": " + status.error_message());
-    }
-    return status;
+    return gate_.admit(found == metadata.end() ? std::string_view() : view_of(found->second), metadata, context);
   }
 
  private:
-  // Throws ServiceError: unauthenticated or permission_denied.
-  void check(std::string_view path, const InputMetadata& metadata, const grpc::AuthContext& context) const {
-    const auto needed = needed_scope(path);
-    if (!needed) return;
-    gate_.check_certificate(context);
-    const Caller caller = gate_.identify(metadata, context);
-    if (caller.scope >= *needed) return;
-    throw ServiceError(ServiceError::Kind::permission_denied,
-                       std::string(path.substr(path.rfind('/') + 1)) + " requires scope " + name_of(*needed) + "; " +
-                           caller.name + " has scope " + name_of(caller.scope) + ".");
-  }
-
   const Gate& gate_;
 };
+
+grpc::Status Gate::admit(std::string_view path, const Metadata& metadata, const grpc::AuthContext* context) const {
+  auto status = answer([&] {
+    check(path, metadata, context);
+    return grpc::Status::OK;
+  });
+  if (!status.ok()) {
+    const bool unknown = status.error_code() == grpc::StatusCode::UNAUTHENTICATED;
+    note_refusal(std::string(unknown ? "UNAUTHENTICATED: " : "PERMISSION_DENIED: ") +
+                 std::string(path.substr(0, kLongestPath)) + ": " + status.error_message());
+  }
+  return status;
+}
+
+void Gate::check(std::string_view path, const Metadata& metadata, const grpc::AuthContext* context) const {
+  const auto needed = needed_scope(path);
+  if (!needed) return;
+  if (context != nullptr) check_certificate(*context);
+  const Caller caller = context == nullptr ? caller_of_token(metadata) : identify(metadata, *context);
+  if (caller.scope >= *needed) return;
+  throw ServiceError(ServiceError::Kind::permission_denied, std::string(path.substr(path.rfind('/') + 1)) +
+                                                                " requires scope " + name_of(*needed) + "; " +
+                                                                caller.name + " has scope " + name_of(caller.scope) +
+                                                                ".");
+}
+
+grpc::Status Gate::check_http_call(const std::string& path, const std::vector<std::string>& authorization) const {
+  if (!asks_who_calls()) return grpc::Status::OK;
+  Metadata metadata;
+  for (const auto& value : authorization) metadata.emplace("authorization", value);
+  return admit(path, metadata, nullptr);
+}
+
+void Gate::check_http_address(const ListenAddress& address) const {
+  const std::string start = "Cannot serve HTTP on " + address.text();
+  if (address.kind != ListenAddress::Kind::tcp) refuse_options(start + ": use --http HOST:PORT.");
+  if (!address.is_loopback())
+    refuse_options(start + ", which other machines can reach. Use a loopback address, such as 127.0.0.1:8080.");
+  if (has_tls())
+    refuse_options(start + ": it has no TLS, and --tls-cert was given. Give --http none, or leave out --tls-cert.");
+}
 
 Gate::Gate(const Options& options) : options_(options) {
   if (options.tls_certificate.empty() != options.tls_key.empty())

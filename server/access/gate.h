@@ -7,6 +7,8 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "access/client_certificates.h"
 #include "access/scope.h"
@@ -41,6 +43,15 @@ class Gate {
   /// tokens and client certificates.
   [[nodiscard]] std::shared_ptr<grpc::ServerCredentials> credentials_for(const ListenAddress& address) const;
 
+  /// Checks a call that came over HTTP, before it enters the server in process: `path` as in gRPC, `authorization` all
+  /// values of that header. The rules, refusals and log lines are those of a gRPC call on TCP.
+  [[nodiscard]] grpc::Status check_http_call(const std::string& path,
+                                             const std::vector<std::string>& authorization) const;
+
+  /// Throws ServiceError (invalid) if HTTP must not be served on the address: other machines can reach it, or callers
+  /// are to use TLS.
+  void check_http_address(const ListenAddress& address) const;
+
   /// Rereads the certificates, their authority and the tokens. They apply to every connection and call from now on. The
   /// log names the files read. It also names unusable files, whose previous contents stay in force.
   void read_files_again();
@@ -55,6 +66,11 @@ class Gate {
   using Metadata = std::multimap<grpc::string_ref, grpc::string_ref>;
   class Check;
 
+  /// The answer to a call, and the log line if it is refused. `context` is null for a call without a gRPC connection.
+  [[nodiscard]] grpc::Status admit(std::string_view path, const Metadata& metadata,
+                                   const grpc::AuthContext* context) const;
+  /// Throws ServiceError: unauthenticated or permission_denied.
+  void check(std::string_view path, const Metadata& metadata, const grpc::AuthContext* context) const;
   /// Throws ServiceError (unauthenticated) for a call without the required credentials.
   [[nodiscard]] Caller identify(const Metadata& metadata, const grpc::AuthContext& context) const;
   /// Throws ServiceError (unauthenticated) for a certificate not issued for clients.
