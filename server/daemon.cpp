@@ -14,6 +14,7 @@
 
 #include "access/gate.h"
 #include "error.h"
+#include "http/gateway.h"
 #include "library_log.h"
 #include "limited_log.h"
 #include "listen_address.h"
@@ -51,6 +52,8 @@ ListenAddress metrics_address(const std::string& text) {
   }
   return out;
 }
+
+constexpr const char* kDefaultHttp = "127.0.0.1:8080";
 
 std::vector<ListenAddress> listen_addresses(const DaemonOptions& options) {
   std::vector<ListenAddress> out;
@@ -100,6 +103,7 @@ struct Daemon::Impl {
         service(options, gate, worker::measure_step_cost(), [this] { drain(); }) {
     listen();
     serve_metrics();
+    serve_http();
     service.start();
     for (const char* name : kServices) service.health().set(name, true);
   }
@@ -172,6 +176,21 @@ struct Daemon::Impl {
     spdlog::info("serving metrics on {}", metrics_url);
   }
 
+  void serve_http() {
+    if (options.http == "none") return;
+    const bool is_default = options.http.empty();
+    try {
+      const auto address = parse_listen_address(is_default ? kDefaultHttp : options.http);
+      gateway.emplace(address, gate, *server, options.connections);
+    } catch (const ServiceError& error) {
+      if (!is_default) throw;
+      spdlog::warn("not serving HTTP: {} Choose an address with --http, or give --http none", error.what());
+      return;
+    }
+    http_url = gateway->url();
+    spdlog::info("serving HTTP on {}", http_url);
+  }
+
   void drain() {
     service.health().set_all(false);
     if (options.on_drain) options.on_drain();
@@ -184,6 +203,7 @@ struct Daemon::Impl {
     service.stop();
     probe.reset();
     acceptor->stop();
+    if (gateway) gateway->stop();
     server->Shutdown(std::chrono::system_clock::now() + kCallsMayLast);
     server->Wait();
   }
@@ -195,6 +215,7 @@ struct Daemon::Impl {
   Service service;
   std::vector<std::string> addresses;
   std::string metrics_url;
+  std::string http_url;
   std::vector<std::unique_ptr<grpc::experimental::ExternalConnectionAcceptor>>
       handlers;  ///< of the requested addresses
   LimitedLog refusals{"refused connections", 1};
@@ -203,6 +224,7 @@ struct Daemon::Impl {
   std::optional<net::RefusingServer> refusing_server;
   std::optional<net::Acceptor> acceptor;
   std::optional<net::PortProbe> probe;
+  std::optional<http::Gateway> gateway;
   bool stopped = false;
 };
 
@@ -213,6 +235,8 @@ Daemon::~Daemon() = default;
 const std::vector<std::string>& Daemon::addresses() const { return impl_->addresses; }
 
 const std::string& Daemon::metrics_url() const { return impl_->metrics_url; }
+
+const std::string& Daemon::http_url() const { return impl_->http_url; }
 
 void Daemon::read_files_again() { impl_->gate.read_files_again(); }
 

@@ -25,6 +25,9 @@ class Daemon {
   /// Where metrics are served, with the actual port: "http://HOST:PORT/metrics"; empty: nowhere.
   [[nodiscard]] const std::string& metrics_url() const;
 
+  /// Where the API and the web page are served over HTTP, with the actual port: "http://HOST:PORT"; empty: nowhere.
+  [[nodiscard]] const std::string& http_url() const;
+
   /// Rereads certificates and tokens (Gate::read_files_again). Thread-safe.
   void read_files_again();
 

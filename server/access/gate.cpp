@@ -67,10 +67,9 @@ void Gate::check(std::string_view path, const Metadata& metadata, const grpc::Au
   if (context != nullptr) check_certificate(*context);
   const Caller caller = context == nullptr ? caller_of_token(metadata) : identify(metadata, *context);
   if (caller.scope >= *needed) return;
-  throw ServiceError(ServiceError::Kind::permission_denied, std::string(path.substr(path.rfind('/') + 1)) +
-                                                                " requires scope " + name_of(*needed) + "; " +
-                                                                caller.name + " has scope " + name_of(caller.scope) +
-                                                                ".");
+  throw ServiceError(ServiceError::Kind::permission_denied,
+                     std::string(path.substr(path.rfind('/') + 1)) + " requires scope " + name_of(*needed) + "; " +
+                         caller.name + " has scope " + name_of(caller.scope) + ".");
 }
 
 grpc::Status Gate::check_http_call(const std::string& path, const std::vector<std::string>& authorization) const {

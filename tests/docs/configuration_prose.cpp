@@ -36,6 +36,11 @@ OptionGroup addresses() {
          "",
          {"The host is an IPv4 address, an IPv6 address in brackets, or `localhost`. An address that other machines "
           "can reach requires TLS and a way to identify callers ([let-others-in.md](let-others-in.md))."}}},
+       {"http",
+        {"ADDR",
+         "",
+         {"The port has no TLS, so only loopback addresses are allowed, and it is off with `--tls-cert`. "
+          "[http.md](http.md) shows how to call it."}}},
        {"metrics",
         {"ADDR",
          "",

@@ -141,6 +141,7 @@ DaemonOptions DaemonFixture::default_options() const {
   DaemonOptions options;
   options.data_folder = data_folder();
   options.listen = {"unix:" + (folder_.path() / "socket").string()};
+  options.http = "none";
   options.workers = 2;
   options.worker_program = CELLCRUSHD_PROGRAM;
   return options;

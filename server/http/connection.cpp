@@ -1,0 +1,314 @@
+#include "http/connection.h"
+
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+#include <vector>
+
+#include "error_table.h"
+#include "http/browser_rules.h"
+#include "http/connect_error.h"
+#include "http/envelope.h"
+#include "http/page_files.h"
+
+namespace cellcrush::http {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace bhttp = beast::http;
+using Field = bhttp::field;
+
+constexpr std::uint64_t kLargestBody = 4 * 1024 * 1024 + 5;  // a message of gRPC's largest size in its envelope
+constexpr std::uint32_t kLargestHeader = 16 * 1024;
+constexpr const char* kContentPolicy =
+    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; connect-src 'self'; "
+    "media-src blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+
+grpc::Status failure(grpc::StatusCode code, const std::string& why) { return {code, why}; }
+
+template <class Response>
+void protect(Response& response) {
+  response.set("X-Content-Type-Options", "nosniff");
+  response.set("Referrer-Policy", "no-referrer");
+}
+
+std::vector<std::string> values_of(const bhttp::fields& fields, Field name) {
+  std::vector<std::string> out;
+  const auto [first, last] = fields.equal_range(name);
+  for (auto field = first; field != last; ++field) out.emplace_back(field->value());
+  return out;
+}
+
+// gRPC ends the process over metadata with other characters.
+bool is_printable(const std::string& text) {
+  return std::all_of(text.begin(), text.end(), [](char c) { return c >= 0x20 && c < 0x7F; });
+}
+
+std::optional<std::chrono::milliseconds> read_timeout(std::string_view text) {
+  constexpr std::size_t kMostDigits = 10;
+  std::int64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (text.size() > kMostDigits || error != std::errc() || end != text.data() + text.size() || value < 0)
+    throw ServiceError(ServiceError::Kind::invalid, "Connect-Timeout-Ms must be a number of at most 10 digits.");
+  return std::chrono::milliseconds(value);
+}
+
+Call::Request read_call(const bhttp::request<bhttp::string_body>& request,
+                        const google::protobuf::MethodDescriptor& method, const Encoding& encoding) {
+  Call::Request out;
+  out.path = "/" + method.service()->full_name() + "/" + method.name();
+  std::string_view body = request.body();
+  bool compressed = false;
+  if (encoding.stream) body = read_envelope(body, compressed);
+  out.message = encoding.json && !compressed ? binary_of(*method.input_type(), body) : std::string(body);
+  const auto authorization = values_of(request, Field::authorization);
+  if (authorization.size() == 1 && is_printable(authorization.front())) out.authorization = authorization.front();
+  if (const auto timeout = request["Connect-Timeout-Ms"]; !timeout.empty()) out.timeout = read_timeout(timeout);
+  return out;
+}
+
+bool asks_for_compression(const bhttp::request<bhttp::string_body>& request, const Encoding& encoding) {
+  const auto name = request[encoding.stream ? "Connect-Content-Encoding" : "Content-Encoding"];
+  const bool flagged = encoding.stream && !request.body().empty() &&
+                       (static_cast<std::uint8_t>(request.body().front()) & kCompressed) != 0;
+  return flagged || (!name.empty() && name != "identity");
+}
+
+}  // namespace
+
+asio::awaitable<void> Connection::serve() {
+  const auto self = shared_from_this();
+  try {
+    for (bool first = true; first || keep_alive_; first = false) {
+      Parser parser;
+      parser.body_limit(kLargestBody);
+      parser.header_limit(kLargestHeader);
+      if (!co_await read(parser, first)) break;
+      keep_alive_ = parser.get().keep_alive();
+      co_await answer(parser.get());
+      keep_alive_ = keep_alive_ && !parts_.stopping;
+    }
+  } catch (const boost::system::system_error&) {
+    // The client is gone or too slow.
+  }
+  if (call_) call_->cancel();
+  call_.reset();
+  close(true);
+}
+
+asio::awaitable<bool> Connection::read(Parser& parser, bool first) {
+  stream_.expires_after(first ? parts_.limits.handshake : parts_.limits.idle);
+  if (buffer_.size() == 0) {
+    const std::size_t size = co_await stream_.async_read_some(buffer_.prepare(4096), asio::use_awaitable);
+    buffer_.commit(size);
+  }
+  stream_.expires_after(parts_.limits.handshake);
+  beast::error_code error;
+  co_await bhttp::async_read(stream_, buffer_, parser, asio::redirect_error(asio::use_awaitable, error));
+  if (!error) co_return true;
+  keep_alive_ = false;
+  if (error == bhttp::error::body_limit) {
+    const auto refused = failure(grpc::StatusCode::RESOURCE_EXHAUSTED, "The body is larger than 4 MiB.");
+    co_await send_error(413, refused);
+  } else if (error == bhttp::error::header_limit) {
+    const auto refused = failure(grpc::StatusCode::RESOURCE_EXHAUSTED, "The headers are larger than 16 KiB.");
+    co_await send_error(431, refused);
+  }
+  co_return false;
+}
+
+asio::awaitable<void> Connection::answer(const Request& request) {
+  const BrowserHeaders headers{request[Field::host], request[Field::origin], request["Sec-Fetch-Site"]};
+  auto refusal = check_browser(headers, parts_.port);
+  if (request.count(Field::host) != 1 || request.count(Field::origin) > 1) {
+    refusal = HttpRefusal{400, "One Host header, and at most one Origin header, must be sent."};
+  }
+  if (refusal) {
+    const auto refused = failure(grpc::StatusCode::PERMISSION_DENIED, refusal->why);
+    co_await send_error(refusal->status, refused);
+  } else if (request.method() == bhttp::verb::get || request.method() == bhttp::verb::head) {
+    co_await answer_file(request);
+  } else if (request.method() == bhttp::verb::post) {
+    co_await answer_call(request);
+  } else {
+    const auto refused = failure(grpc::StatusCode::UNIMPLEMENTED, "Use POST for calls and GET for the page.");
+    co_await send_error(405, refused);
+  }
+}
+
+asio::awaitable<void> Connection::answer_call(const Request& request) {
+  const auto encoding = parse_content_type(request[Field::content_type]);
+  const auto* method = find_method(request.target());
+  if (method == nullptr) {
+    const auto refused = failure(grpc::StatusCode::UNIMPLEMENTED, "There is no such method.");
+    co_await send_error(404, refused);
+    co_return;
+  }
+  if (!encoding || encoding->stream != method->server_streaming()) {
+    const std::string kind = method->server_streaming() ? "application/connect+" : "application/";
+    const auto refused = failure(grpc::StatusCode::INVALID_ARGUMENT,
+                                 method->name() + " requires the content type " + kind + "json or " + kind + "proto.");
+    co_await send_error(415, refused);
+    co_return;
+  }
+  Call::Request wanted;
+  auto status = parts_.gate.check_http_call("/" + method->service()->full_name() + "/" + method->name(),
+                                            values_of(request, Field::authorization));
+  if (status.ok() && asks_for_compression(request, *encoding))
+    status = failure(grpc::StatusCode::UNIMPLEMENTED, "Compressed requests are not accepted. Send them uncompressed.");
+  if (status.ok()) {
+    status = cellcrush::answer([&] {
+      wanted = read_call(request, *method, *encoding);
+      return grpc::Status::OK;
+    });
+  }
+  if (!status.ok() && encoding->stream) {
+    co_await send_stream_head(*encoding);
+    const std::string end = envelope(kEndOfStream, end_of_stream_json(status));
+    co_await send_chunk(end);
+    co_await asio::async_write(stream_, bhttp::make_chunk_last(), asio::use_awaitable);
+    co_return;
+  }
+  if (!status.ok()) {
+    co_await send_error(http_status(status.error_code()), status);
+    co_return;
+  }
+  call_ = std::make_shared<Call>(stream_.get_executor());
+  call_->start(parts_.stub, wanted);
+  watch_client();
+  if (encoding->stream) {
+    co_await run_stream(*method, *encoding);
+  } else {
+    co_await run_unary(*method, *encoding);
+  }
+}
+
+asio::awaitable<void> Connection::run_unary(const google::protobuf::MethodDescriptor& method,
+                                            const Encoding& encoding) {
+  const auto call = call_;
+  std::optional<std::string> message = co_await call->next();
+  if (message) {
+    const auto second = co_await call->next();
+    if (second) call->cancel();
+  }
+  grpc::Status status = co_await call->status();
+  call_.reset();
+  stream_.socket().cancel();
+  if (status.ok() && !message) status = failure(grpc::StatusCode::INTERNAL, "The call ended without an answer.");
+  if (status.ok() && encoding.json) {
+    status = cellcrush::answer([&] {
+      *message = json_of(*method.output_type(), *message);
+      return grpc::Status::OK;
+    });
+  }
+  if (status.ok()) {
+    co_await send(200, content_type_of(encoding), std::move(*message));
+  } else {
+    co_await send_error(http_status(status.error_code()), status);
+  }
+}
+
+asio::awaitable<void> Connection::run_stream(const google::protobuf::MethodDescriptor& method,
+                                             const Encoding& encoding) {
+  const auto call = call_;
+  co_await send_stream_head(encoding);
+  grpc::Status status;
+  while (true) {
+    auto message = co_await call->next();
+    if (!message) break;
+    if (encoding.json) *message = json_of(*method.output_type(), *message);
+    const std::string data = envelope(0, *message);
+    co_await send_chunk(data);
+  }
+  status = co_await call->status();
+  call_.reset();
+  stream_.socket().cancel();
+  const std::string end = envelope(kEndOfStream, end_of_stream_json(status));
+  co_await send_chunk(end);
+  co_await asio::async_write(stream_, bhttp::make_chunk_last(), asio::use_awaitable);
+}
+
+void Connection::watch_client() {
+  stream_.socket().async_wait(asio::ip::tcp::socket::wait_read, [self = shared_from_this()](beast::error_code error) {
+    if (error || !self->call_) return;
+    // Either the client is gone, or it sends a request before it has the answer, which no client of Connect does.
+    self->keep_alive_ = false;
+    self->call_->cancel();
+    self->close(true);
+  });
+}
+
+asio::awaitable<void> Connection::answer_file(const Request& request) {
+  const PageFile* file = find_page_file(request.target());
+  if (find_method(request.target()) != nullptr) {
+    const auto refused = failure(grpc::StatusCode::UNIMPLEMENTED, "Use POST for calls.");
+    co_await send_error(405, refused);
+    co_return;
+  }
+  if (file == nullptr) {
+    const auto refused = failure(grpc::StatusCode::NOT_FOUND, "There is no such file.");
+    co_await send_error(404, refused);
+    co_return;
+  }
+  const std::string tag = entity_tag(file->bytes);
+  const bool known = request[Field::if_none_match] == tag;
+  bhttp::response<bhttp::string_body> response(known ? bhttp::status::not_modified : bhttp::status::ok, 11);
+  protect(response);
+  response.set(Field::etag, tag);
+  response.set(Field::cache_control, "no-cache");
+  response.set("Content-Security-Policy", kContentPolicy);
+  response.keep_alive(keep_alive_);
+  if (!known) {
+    response.set(Field::content_type, content_type_of_file(file->name));
+    if (request.method() == bhttp::verb::get) response.body() = file->bytes;
+    response.content_length(file->bytes.size());
+  }
+  stream_.expires_after(parts_.limits.idle);
+  co_await bhttp::async_write(stream_, response, asio::use_awaitable);
+}
+
+asio::awaitable<void> Connection::send(unsigned status, const std::string& type, std::string body) {
+  bhttp::response<bhttp::string_body> response(static_cast<bhttp::status>(status), 11);
+  protect(response);
+  response.set(Field::content_type, type);
+  response.set(Field::cache_control, "no-store");
+  if (status == 405) response.set(Field::allow, "GET, HEAD, POST");
+  response.keep_alive(keep_alive_);
+  response.body() = std::move(body);
+  response.prepare_payload();
+  stream_.expires_after(parts_.limits.idle);
+  co_await bhttp::async_write(stream_, response, asio::use_awaitable);
+}
+
+asio::awaitable<void> Connection::send_error(unsigned status, const grpc::Status& error) {
+  std::string body = error_json(error);
+  co_await send(status, "application/json", std::move(body));
+}
+
+asio::awaitable<void> Connection::send_stream_head(const Encoding& encoding) {
+  bhttp::response<bhttp::empty_body> response(bhttp::status::ok, 11);
+  protect(response);
+  response.set(Field::content_type, content_type_of(encoding));
+  response.set(Field::cache_control, "no-store");
+  response.keep_alive(keep_alive_);
+  response.chunked(true);
+  bhttp::response_serializer<bhttp::empty_body> serializer(response);
+  stream_.expires_after(parts_.limits.idle);
+  co_await bhttp::async_write_header(stream_, serializer, asio::use_awaitable);
+}
+
+asio::awaitable<void> Connection::send_chunk(const std::string& data) {
+  stream_.expires_after(parts_.limits.idle);
+  co_await asio::async_write(stream_, bhttp::make_chunk(asio::buffer(data)), asio::use_awaitable);
+}
+
+void Connection::close(bool also_calls) {
+  if (call_ && !also_calls) return;
+  if (call_) call_->cancel();
+  stream_.close();
+}
+
+}  // namespace cellcrush::http

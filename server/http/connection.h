@@ -1,0 +1,61 @@
+#pragma once
+
+#include <grpcpp/generic/generic_stub.h>
+
+#include <boost/asio.hpp>
+#include <boost/beast.hpp>
+#include <memory>
+#include <string>
+
+#include "access/gate.h"
+#include "http/call.h"
+#include "http/method.h"
+#include "net/connection_limits.h"
+
+namespace cellcrush::http {
+
+/// What all connections of a gateway share; outlives them.
+struct GatewayParts {
+  const access::Gate& gate;
+  grpc::GenericStub stub;
+  net::ConnectionLimits limits;
+  int port = 0;
+  bool stopping = false;
+};
+
+/// One connection of a client, served on the gateway's only thread. Owned by its own coroutine.
+class Connection : public std::enable_shared_from_this<Connection> {
+ public:
+  Connection(boost::asio::ip::tcp::socket socket, GatewayParts& parts) : stream_(std::move(socket)), parts_(parts) {}
+
+  /// Serves requests until either side closes.
+  boost::asio::awaitable<void> serve();
+
+  /// Closes it if no call is running, or else if `also_calls`.
+  void close(bool also_calls);
+
+ private:
+  using Parser = boost::beast::http::request_parser<boost::beast::http::string_body>;
+  using Request = boost::beast::http::request<boost::beast::http::string_body>;
+
+  boost::asio::awaitable<bool> read(Parser& parser, bool first);
+  boost::asio::awaitable<void> answer(const Request& request);
+  boost::asio::awaitable<void> answer_call(const Request& request);
+  boost::asio::awaitable<void> answer_file(const Request& request);
+  boost::asio::awaitable<void> run_unary(const google::protobuf::MethodDescriptor& method, const Encoding& encoding);
+  boost::asio::awaitable<void> run_stream(const google::protobuf::MethodDescriptor& method, const Encoding& encoding);
+  boost::asio::awaitable<void> send(unsigned status, const std::string& type, std::string body);
+  boost::asio::awaitable<void> send_error(unsigned status, const grpc::Status& error);
+  boost::asio::awaitable<void> send_stream_head(const Encoding& encoding);
+  boost::asio::awaitable<void> send_chunk(const std::string& data);
+  /// Cancels the call as soon as the client closes its side.
+  void watch_client();
+
+  boost::beast::tcp_stream stream_;
+  boost::beast::flat_buffer buffer_;
+  GatewayParts& parts_;
+  std::shared_ptr<Call> call_;  ///< null while none runs
+  bool keep_alive_ = false;
+};
+
+}  // namespace cellcrush::http

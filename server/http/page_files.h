@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace cellcrush::http {
+
+/// A file of the web page, compiled into the daemon from server/page/bundle.
+struct PageFile {
+  std::string_view name;
+  std::string_view bytes;
+};
+
+/// The file for the path of a URL; null if there is none. "/" and paths without a dot give index.html, because the page
+/// reads the path itself.
+const PageFile* find_page_file(std::string_view path);
+
+/// By the ending of its name.
+const char* content_type_of_file(std::string_view name);
+
+/// A quoted tag that changes with the contents.
+std::string entity_tag(std::string_view bytes);
+
+}  // namespace cellcrush::http

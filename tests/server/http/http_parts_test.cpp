@@ -1,0 +1,57 @@
+#include <gmock/gmock.h>
+
+#include "error.h"
+#include "http/browser_rules.h"
+#include "http/connect_error.h"
+#include "http/envelope.h"
+#include "http/method.h"
+#include "http/page_files.h"
+
+namespace cellcrush::http {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(HttpEnvelope, IsReadAsItWasWritten) {
+  bool compressed = true;
+  EXPECT_EQ(read_envelope(envelope(0, "abc"), compressed), "abc");
+  EXPECT_FALSE(compressed);
+  static_cast<void>(read_envelope(envelope(kCompressed, ""), compressed));
+  EXPECT_TRUE(compressed);
+  for (const std::string& wrong : {std::string(), std::string("ab"), envelope(0, "abc") + "d"})
+    EXPECT_THROW(static_cast<void>(read_envelope(wrong, compressed)), ServiceError);
+}
+
+TEST(HttpError, IsJsonWithItsCode) {
+  EXPECT_EQ(error_json({grpc::StatusCode::NOT_FOUND, "No \"x\"\n"}),
+            R"({"code":"not_found","message":"No \"x\"\u000a"})");
+  EXPECT_EQ(end_of_stream_json(grpc::Status::OK), "{}");
+  EXPECT_EQ(http_status(grpc::StatusCode::UNAUTHENTICATED), 401U);
+}
+
+TEST(HttpBrowser, PagesOfOtherSitesAreRefused) {
+  EXPECT_FALSE(check_browser({"localhost:80", "http://localhost:80", "same-origin"}, 80));
+  EXPECT_FALSE(check_browser({"[::1]:81", "", ""}, 81));
+  EXPECT_EQ(check_browser({"evil.example:81", "", ""}, 81)->status, 421U);
+  EXPECT_EQ(check_browser({"localhost:82", "", ""}, 81)->status, 421U);
+  EXPECT_EQ(check_browser({"localhost:81", "http://evil.example", ""}, 81)->status, 403U);
+  EXPECT_EQ(check_browser({"localhost:81", "null", ""}, 81)->status, 403U);
+  EXPECT_EQ(check_browser({"localhost:81", "", "cross-site"}, 81)->status, 403U);
+}
+
+TEST(HttpMethod, IsFoundByItsPath) {
+  EXPECT_NE(find_method("/cellcrush.v1.Jobs/GetJob"), nullptr);
+  for (const char* wrong : {"", "/", "cellcrush.v1.Jobs/GetJob", "/cellcrush.v1.Jobs/None", "/cellcrush.v1.Jobs",
+                            "/grpc.reflection.v1.ServerReflection/ServerReflectionInfo"})
+    EXPECT_EQ(find_method(wrong), nullptr) << wrong;
+}
+
+TEST(HttpPage, PathsWithoutADotGiveTheIndex) {
+  ASSERT_NE(find_page_file("/"), nullptr);
+  EXPECT_EQ(find_page_file("/jobs/12"), find_page_file("/index.html"));
+  EXPECT_EQ(find_page_file("/../etc/passwd"), nullptr);
+  EXPECT_THAT(std::string(find_page_file("/")->bytes), HasSubstr("<html"));
+}
+
+}  // namespace
+}  // namespace cellcrush::http
