@@ -1,6 +1,6 @@
 #include "http/connection.h"
 
-#include <sys/socket.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <charconv>
@@ -93,6 +93,8 @@ asio::awaitable<void> Connection::serve() {
     }
   } catch (const boost::system::system_error&) {
     // The client is gone or too slow.
+  } catch (const std::exception& error) {
+    spdlog::error("An HTTP connection was closed: {}", error.what());
   }
   if (call_) call_->cancel();
   call_.reset();

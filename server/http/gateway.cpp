@@ -24,6 +24,7 @@ using asio::ip::tcp;
 
 constexpr std::chrono::milliseconds kPause{100};  // without descriptors, new connections wait in the kernel
 constexpr std::chrono::seconds kCallsMayEnd{1};
+constexpr std::chrono::milliseconds kBetweenLooks{20};
 
 std::shared_ptr<grpc::Channel> channel_to(grpc::Server& server) {
   grpc::ChannelArguments arguments;
@@ -90,14 +91,21 @@ struct Gateway::Impl {
       if (const auto connection = each.lock()) connection->close(also_calls);
   }
 
+  void close_when_ended(std::chrono::steady_clock::time_point limit) {
+    std::erase_if(connections, [](const auto& each) { return each.expired(); });
+    if (connections.empty()) return;
+    if (std::chrono::steady_clock::now() >= limit) return close_connections(true);
+    end.expires_after(kBetweenLooks);
+    end.async_wait([this, limit](boost::system::error_code) { close_when_ended(limit); });
+  }
+
   void stop() {
     if (!thread.joinable()) return;
     asio::post(io, [this] {
       parts.stopping = true;
       for (auto& acceptor : acceptors) acceptor.close();
       close_connections(false);
-      end.expires_after(kCallsMayEnd);
-      end.async_wait([this](boost::system::error_code) { close_connections(true); });
+      close_when_ended(std::chrono::steady_clock::now() + kCallsMayEnd);
     });
     thread.join();
   }

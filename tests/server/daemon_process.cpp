@@ -62,7 +62,7 @@ DaemonProcess::DaemonProcess(const std::vector<std::string>& arguments, int most
   if (pipe2(out.data(), O_CLOEXEC) != 0 || pipe2(error.data(), O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
   // Nobody reads the log before wait; a daemon that fills the pipe would stand still.
   fcntl(error[1], F_SETPIPE_SZ, 1 << 20);
-  std::vector<std::string> words = {CELLCRUSHD_PROGRAM};
+  std::vector<std::string> words = {CELLCRUSHD_PROGRAM, "--http", "none"};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> pointers;
   pointers.reserve(words.size() + 1);
