@@ -80,12 +80,13 @@ class StreamReactor final : public grpc::ServerWriteReactor<typename Source::Mes
 
   void run() override {
     Action action = Action::none;
-    // Messages that follow at once are sent together.
+    // Messages that follow at once are sent together. Not the first: gRPC 1.51 completes the write of the initial
+    // metadata, which go with it, only once they have been sent.
     grpc::WriteOptions options;
     {
       const MutexLock lock(mutex_);
       action = decide();
-      if (action == Action::write && source_->has_more()) options.set_buffer_hint();
+      if (action == Action::write && std::exchange(begun_, true) && source_->has_more()) options.set_buffer_hint();
     }
     switch (action) {
       case Action::none: return;
@@ -226,8 +227,9 @@ class StreamReactor final : public grpc::ServerWriteReactor<typename Source::Mes
   Mutex mutex_;
   StreamLimits::Permit permit_ CELLCRUSH_GUARDED_BY(mutex_);
   std::unique_ptr<Source> source_ CELLCRUSH_GUARDED_BY(mutex_);
-  Message message_;      ///< built under the mutex; owned by gRPC while writing_
-  grpc::Status status_;  ///< likewise while finished_
+  Message message_;                                  ///< built under the mutex; owned by gRPC while writing_
+  grpc::Status status_;                              ///< likewise while finished_
+  bool begun_ CELLCRUSH_GUARDED_BY(mutex_) = false;  ///< the first message was written
   bool writing_ CELLCRUSH_GUARDED_BY(mutex_) = false;
   bool finished_ CELLCRUSH_GUARDED_BY(mutex_) = false;
   bool cancelled_ CELLCRUSH_GUARDED_BY(mutex_) = false;

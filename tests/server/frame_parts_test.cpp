@@ -111,7 +111,7 @@ TEST(FrameChunks, EveryPartPassesAStockClientAndTogetherTheyAreTheFrame) {
     v1::FieldFrame whole;
     std::string data;
     const auto parts = chunks_of(frame, 500'000);
-    ASSERT_GT(parts.size(), 2U);
+    ASSERT_GE(parts.size(), 2U);
     for (std::size_t i = 0; i < parts.size(); ++i) {
       EXPECT_EQ(parts[i].part(), static_cast<int>(i));
       EXPECT_EQ(parts[i].part_count(), static_cast<int>(parts.size()));

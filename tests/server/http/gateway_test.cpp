@@ -103,7 +103,7 @@ TEST_F(HttpGatewayTest, ErrorsHaveTheirStatusCodeAndDetails) {
 
 TEST_F(HttpGatewayTest, AWatchIsStreamedToItsEnd) {
   const std::string job = client().create(small_case());
-  ASSERT_TRUE(client().wait_for_state(job, v1::SUCCEEDED));
+  ASSERT_TRUE(client().wait_for_state(job, v1::Job::SUCCEEDED));
   const std::string body = http::envelope(0, R"({"name":")" + job + "\"}");
   const std::string got = call("WatchJob", "application/connect+json", body);
   EXPECT_THAT(got, StartsWith("HTTP/1.1 200"));
