@@ -43,7 +43,8 @@ std::string subtitle_of(const v1::Job& job) {
   const std::string scene = scene_text(job.case_());
   std::string text = scene.empty() ? job.name() : scene;
   const v1::Summary::CrushMode mode = job.summary().crush_mode();
-  if (mode != v1::Summary::CRUSH_MODE_UNSPECIFIED && mode != v1::Summary::CRUSH_MODE_NONE) text += ", " + crush_mode_text(mode);
+  if (mode != v1::Summary::CRUSH_MODE_UNSPECIFIED && mode != v1::Summary::CRUSH_MODE_NONE)
+    text += ", " + crush_mode_text(mode);
   if (job.state() != v1::Job::SUCCEEDED) text += ", " + v1::Job::State_Name(job.state());
   return text;
 }

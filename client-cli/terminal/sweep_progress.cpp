@@ -42,7 +42,8 @@ std::vector<const Entry*> find_shown(const SweepView& view, int room) {
   std::vector<const Entry*> shown;
   for (const bool running : {true, false}) {
     for (const Entry& entry : view.jobs()) {
-      if ((entry.state() == v1::Job::RUNNING) == running && static_cast<int>(shown.size()) < room) shown.push_back(&entry);
+      if ((entry.state() == v1::Job::RUNNING) == running && static_cast<int>(shown.size()) < room)
+        shown.push_back(&entry);
     }
   }
   std::sort(shown.begin(), shown.end());
@@ -51,8 +52,10 @@ std::vector<const Entry*> find_shown(const SweepView& view, int room) {
 
 std::string counts_text(const SweepView& view) {
   std::string text = fmt::format("{} of {} jobs ended", view.count_ended(), view.jobs().size());
-  for (const v1::Job::State state : {v1::Job::RUNNING, v1::Job::PENDING, v1::Job::SUSPENDED, v1::Job::FAILED, v1::Job::CANCELLED}) {
-    if (const int count = view.count(state); count > 0) text += fmt::format(", {} {}", count, v1::Job::State_Name(state));
+  for (const v1::Job::State state :
+       {v1::Job::RUNNING, v1::Job::PENDING, v1::Job::SUSPENDED, v1::Job::FAILED, v1::Job::CANCELLED}) {
+    if (const int count = view.count(state); count > 0)
+      text += fmt::format(", {} {}", count, v1::Job::State_Name(state));
   }
   return text;
 }

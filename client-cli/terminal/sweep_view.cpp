@@ -44,7 +44,9 @@ int SweepView::count(v1::Job::State state) const {
       std::count_if(jobs_.begin(), jobs_.end(), [&](const Entry& entry) { return entry.state() == state; }));
 }
 
-int SweepView::count_ended() const { return count(v1::Job::SUCCEEDED) + count(v1::Job::FAILED) + count(v1::Job::CANCELLED); }
+int SweepView::count_ended() const {
+  return count(v1::Job::SUCCEEDED) + count(v1::Job::FAILED) + count(v1::Job::CANCELLED);
+}
 
 double SweepView::fraction() const {
   double done = 0.0;

@@ -154,7 +154,8 @@ store::StateChange cancelled_without_result() {
 }
 
 store::StateChange worker_missing() {
-  return failed(v1::Job::WORKER_LOST, "The worker process ended while no daemon was running.", "Submit the case again.");
+  return failed(v1::Job::WORKER_LOST, "The worker process ended while no daemon was running.",
+                "Submit the case again.");
 }
 
 }  // namespace cellcrush::jobs

@@ -74,9 +74,9 @@ void Scheduler::cancel(std::int64_t job) {
     const v1::Job::State state = stored.job.state();
     if (state == v1::Job::CANCELLED || state == v1::Job::CANCELLING) return;
     if (store::is_terminal(state)) {
-      throw ServiceError(
-          ServiceError::Kind::failed_precondition,
-          store::name_of(job) + " has already ended: it is " + v1::Job::State_Name(state) + " and cannot be cancelled.");
+      throw ServiceError(ServiceError::Kind::failed_precondition, store::name_of(job) + " has already ended: it is " +
+                                                                      v1::Job::State_Name(state) +
+                                                                      " and cannot be cancelled.");
     }
     store::StateChange change;
     change.state = state == v1::Job::RUNNING ? v1::Job::CANCELLING : v1::Job::CANCELLED;

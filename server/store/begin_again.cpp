@@ -18,7 +18,8 @@ void begin_again(Database& database, std::int64_t job, const std::string& why) {
     if (!read_job_bytes(read.bytes(0), read.integer(1), stored)) throw unreadable_entry(job);
     sequence = read.integer(2) + 1;
   }
-  if (stored.state() != v1::Job::PENDING && stored.state() != v1::Job::RUNNING && stored.state() != v1::Job::SUSPENDED) {
+  if (stored.state() != v1::Job::PENDING && stored.state() != v1::Job::RUNNING &&
+      stored.state() != v1::Job::SUSPENDED) {
     throw ServiceError(ServiceError::Kind::failed_precondition,
                        name_of(job) + " is " + v1::Job::State_Name(stored.state()) + " and cannot be restarted.");
   }

@@ -34,6 +34,8 @@ bool may_follow(v1::Job::State from, v1::Job::State to) {
   return std::find(kSteps.begin(), kSteps.end(), Step{from, to}) != kSteps.end();
 }
 
-bool is_terminal(v1::Job::State state) { return state == v1::Job::SUCCEEDED || state == v1::Job::FAILED || state == v1::Job::CANCELLED; }
+bool is_terminal(v1::Job::State state) {
+  return state == v1::Job::SUCCEEDED || state == v1::Job::FAILED || state == v1::Job::CANCELLED;
+}
 
 }  // namespace cellcrush::store

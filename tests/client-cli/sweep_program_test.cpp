@@ -212,7 +212,8 @@ TEST(SweepTable, IsPrintedAsATextCsvOrJson) {
 }
 
 TEST(SweepTable, OfManyPagesIsOneTable) {
-  const FakeServer server(sweep_script({v1::Job::SUCCEEDED, v1::Job::FAILED, v1::Job::SUCCEEDED, v1::Job::SUCCEEDED, v1::Job::SUCCEEDED}));
+  const FakeServer server(
+      sweep_script({v1::Job::SUCCEEDED, v1::Job::FAILED, v1::Job::SUCCEEDED, v1::Job::SUCCEEDED, v1::Job::SUCCEEDED}));
   v1::SweepTable table;
   ASSERT_TRUE(JsonStringToMessage(run_on(server, {"table", "test", "--json"}).output, &table).ok());
   EXPECT_EQ(table.fields_size(), 1);

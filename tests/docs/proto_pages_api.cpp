@@ -1,5 +1,6 @@
 #include <google/protobuf/descriptor.pb.h>
 
+#include <array>
 #include <vector>
 
 #include "docs/page.h"
@@ -37,11 +38,29 @@ bool is_of_case(const std::string& name) {
   return false;
 }
 
+constexpr std::array kServiceFiles = {"cases_service", "jobs_service", "sweeps_service", "admin_service"};
+
+// Where a type is described: a request under its rpc.
+std::string place_of(const std::string& name) {
+  for (const char* file_name : kServiceFiles) {
+    const pb::FileDescriptor& file = find_proto(file_name);
+    for (int i = 0; i < file.service_count(); ++i) {
+      const pb::ServiceDescriptor& service = *file.service(i);
+      for (int k = 0; k < service.method_count(); ++k) {
+        const pb::MethodDescriptor& rpc = *service.method(k);
+        if (is_inline(*rpc.input_type()) && rpc.input_type()->name() == name)
+          return anchor_of(service.name() + "." + rpc.name());
+      }
+    }
+  }
+  return anchor_of(name);
+}
+
 // A type's name, linked to where it is described.
 std::string linked(const std::string& text, const std::string& name) {
   std::string code = "`" + text + "`";
   if (name.empty() || name.starts_with("google.")) return code;
-  return link(code, is_of_case(name) ? "fields.md" : "#" + anchor_of(name));
+  return link(code, is_of_case(name) ? "fields.md" : "#" + place_of(name));
 }
 
 bool all_output_only(const pb::Descriptor& type) {
@@ -94,7 +113,7 @@ std::string enum_section(const pb::EnumDescriptor& type) {
                     "\n| Value | Number | Meaning |\n|---|---|---|\n";
   for (int i = 0; i < type.value_count(); ++i) {
     const pb::EnumValueDescriptor& value = *type.value(i);
-    const std::string comment = value.number() == 0 ? "Not set." : comment_above(value);
+    const std::string comment = value.name().ends_with("UNSPECIFIED") ? "Not set." : comment_above(value);
     out += "| `" + value.name() + "` | " + std::to_string(value.number()) + " | " + cell(comment) + " |\n";
   }
   return out;

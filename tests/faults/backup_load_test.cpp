@@ -113,7 +113,8 @@ TEST_F(BackupLoadTest, AllThatWasAcknowledgedBeforeABackupIsInItAndNoneIsMixed) 
       EXPECT_TRUE(after[i].deleted.contains(name) || restored.contains(name)) << name << " of backup " << i;
     for (const auto& [name, job] : restored) EXPECT_EQ(job.case_().title(), acknowledged().jobs.at(name)) << name;
     for (const auto& [name, bytes] : results_of(client))
-      EXPECT_TRUE(!results.contains(name) || restored.at(name).state() != v1::Job::SUCCEEDED || bytes == results.at(name))
+      EXPECT_TRUE(!results.contains(name) || restored.at(name).state() != v1::Job::SUCCEEDED ||
+                  bytes == results.at(name))
           << name;
     for (const auto& [name, job] : restored) {
       ASSERT_TRUE(client.wait_for_state(name, v1::Job::SUCCEEDED)) << name;

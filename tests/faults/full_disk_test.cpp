@@ -159,7 +159,8 @@ TEST_F(FullDiskTest, AJobThatIsCancelledOrSuspendedMeanwhileIsOnceThereIsRoom) {
     // A cancel that could not be noted is made again.
     for (int look = 0; look < 100 && !client.cancel(cancelled).ok(); ++look)
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    EXPECT_TRUE(client.wait_for_state(cancelled, v1::Job::CANCELLED)) << v1::Job::State_Name(client.get(cancelled).state());
+    EXPECT_TRUE(client.wait_for_state(cancelled, v1::Job::CANCELLED))
+        << v1::Job::State_Name(client.get(cancelled).state());
 
     const std::string suspended = client.create(submitted());
     wait_for_samples(client, suspended, 10);

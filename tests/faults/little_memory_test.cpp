@@ -66,7 +66,8 @@ TEST_F(LittleMemoryTest, AWorkerThatRunsOutOfMemoryFailsItsJobAndTheDaemonGoesOn
       break;
     }
     const auto failed = client.get(job);
-    EXPECT_TRUE(failed.cause() == v1::Job::OUT_OF_MEMORY || failed.cause() == v1::Job::WORKER_CRASHED) << failed.cause();
+    EXPECT_TRUE(failed.cause() == v1::Job::OUT_OF_MEMORY || failed.cause() == v1::Job::WORKER_CRASHED)
+        << failed.cause();
     EXPECT_FALSE(failed.remedy().empty());
     causes.insert(failed.cause());
     std::cout << mebibytes << " MiB: " << v1::Job::Cause_Name(failed.cause()) << ", " << failed.cause_message() << "\n";

@@ -65,7 +65,7 @@ TEST(ForceBasedElement, IsTheCubicBeamWhileElastic) {
 TEST(ForceBasedElement, JointBearsExactlyTheFullPlasticMoment) {
   for (const bool force_based : {true, false}) {
     TurnedElement element(kPerfect, rule(force_based ? SectionSpec::Formulation::force_based
-                                               : SectionSpec::Formulation::displacement_based));
+                                                     : SectionSpec::Formulation::displacement_based));
     const double stiffness = 69000.0 * std::pow(kThickness, 3) / 12.0 / kLength;
     for (int i = 0; i < 20000; ++i) {
       element.turn(1e-5, -element.end_moment() * element.full_moment() / (4.0 * stiffness));
