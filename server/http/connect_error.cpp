@@ -1,7 +1,8 @@
 #include "http/connect_error.h"
 
+#include <openssl/evp.h>
+
 #include <array>
-#include <boost/beast/core/detail/base64.hpp>
 #include <cstdio>
 
 #include "google/rpc/status.pb.h"
@@ -58,9 +59,10 @@ std::string quoted(const std::string& text) {
 }
 
 std::string unpadded_base64(const std::string& bytes) {
-  namespace base64 = boost::beast::detail::base64;
-  std::string out(base64::encoded_size(bytes.size()), '\0');
-  out.resize(base64::encode(out.data(), bytes.data(), bytes.size()));
+  std::string out(4 * ((bytes.size() + 2) / 3) + 1, '\0');  // OpenSSL ends it with a zero
+  out.resize(static_cast<std::size_t>(EVP_EncodeBlock(reinterpret_cast<unsigned char*>(out.data()),
+                                                      reinterpret_cast<const unsigned char*>(bytes.data()),
+                                                      static_cast<int>(bytes.size()))));
   while (out.ends_with('=')) out.pop_back();
   return out;
 }

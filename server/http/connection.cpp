@@ -255,18 +255,22 @@ asio::awaitable<void> Connection::answer_file(const Request& request) {
     co_await send_error(404, refused);
     co_return;
   }
-  const std::string tag = entity_tag(file->bytes);
+  const std::string_view small = accepts_gzip(request[Field::accept_encoding]) ? gzip_of(*file) : std::string_view();
+  const std::string_view bytes = small.empty() ? file->bytes : small;
+  const std::string tag = entity_tag(bytes);
   const bool known = request[Field::if_none_match] == tag;
   bhttp::response<bhttp::string_body> response(known ? bhttp::status::not_modified : bhttp::status::ok, 11);
   protect(response);
   response.set(Field::etag, tag);
+  response.set(Field::vary, "Accept-Encoding");
   response.set(Field::cache_control, "no-cache");
   response.set("Content-Security-Policy", kContentPolicy);
   response.keep_alive(keep_alive_);
   if (!known) {
     response.set(Field::content_type, content_type_of_file(file->name));
-    if (request.method() == bhttp::verb::get) response.body() = file->bytes;
-    response.content_length(file->bytes.size());
+    if (!small.empty()) response.set(Field::content_encoding, "gzip");
+    if (request.method() == bhttp::verb::get) response.body() = bytes;
+    response.content_length(bytes.size());
   }
   stream_.expires_after(parts_.limits.idle);
   co_await bhttp::async_write(stream_, response, asio::use_awaitable);

@@ -15,6 +15,13 @@ struct PageFile {
 /// reads the path itself.
 const PageFile* find_page_file(std::string_view path);
 
+/// The file in gzip form, made at the first call; empty if that would not be smaller. `file` is of find_page_file. Not
+/// thread-safe.
+std::string_view gzip_of(const PageFile& file);
+
+/// Whether an Accept-Encoding header permits gzip.
+bool accepts_gzip(std::string_view accept_encoding);
+
 /// By the ending of its name.
 const char* content_type_of_file(std::string_view name);
 
