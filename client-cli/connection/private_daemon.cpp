@@ -91,7 +91,7 @@ bool wait_until_it_listens(int output) {
 PrivateDaemon::PrivateDaemon(const fs::path& data, double time_limit_s)
     : log_(data / "daemon.log"), folder_(make_socket_folder()) {
   // As many workers as cores, since a job may use the cores that no other job waits for.
-  std::vector<std::string> words = {daemon_program(), "--data", data.string(), "--listen", address()};
+  std::vector<std::string> words = {daemon_program(), "--data", data.string(), "--listen", address(), "--http", "none"};
   if (time_limit_s > 0.0) words.insert(words.end(), {"--max-job-time", fmt::format("{}", time_limit_s)});
   std::vector<char*> pointers;
   pointers.reserve(words.size() + 1);

@@ -22,14 +22,14 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-// The daemon's port stays closed, since another one may listen on it: only the Unix socket of this session is open.
+// The daemon's ports stay closed, since another one may listen on them: only the Unix socket of this session is open.
 void write_daemon_wrapper(const fs::path& folder, const fs::path& programs) {
   fs::create_directories(folder / ".local/share/cellcrush");
   fs::create_directories(folder / ".session");
   const fs::path wrapper = folder / ".session/cellcrushd";
   std::ofstream(wrapper) << "#!/bin/bash\ncase \"$1\" in [a-z]*) exec '" << (programs / "cellcrushd").string()
                          << "' \"$@\" ;; esac\nexec '" << (programs / "cellcrushd").string()
-                         << "' --listen \"unix:$HOME/.local/share/cellcrush/cellcrushd.sock\" \"$@\"\n";
+                         << "' --listen \"unix:$HOME/.local/share/cellcrush/cellcrushd.sock\" --http none \"$@\"\n";
   fs::permissions(wrapper, fs::perms::owner_all);
 }
 

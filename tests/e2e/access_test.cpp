@@ -47,7 +47,8 @@ class AccessTest : public ::testing::Test {
 
   /// Starts the daemon on a port, with options; sets port_.
   void start(const std::vector<std::string>& options) {
-    std::vector<std::string> command = {CELLCRUSHD_PROGRAM, "--data", path("data"), "--listen", "127.0.0.1:0"};
+    std::vector<std::string> command = {CELLCRUSHD_PROGRAM, "--data", path("data"), "--listen",
+                                        "127.0.0.1:0",      "--http", "none"};
     command.insert(command.end(), options.begin(), options.end());
     daemon_ = std::make_unique<Process>(command);
     const std::string prefix = "cellcrushd is listening on 127.0.0.1:";
@@ -144,7 +145,8 @@ TEST_F(AccessTest, TlsToAServerInPlainTextEndsWithWords) {
 
 TEST_F(AccessTest, UnsoundFilesKeepTheDaemonFromStarting) {
   const auto refusal = [this](const std::vector<std::string>& options) {
-    const std::vector<std::string> command = {CELLCRUSHD_PROGRAM, "--data", path("data"), "--listen", "127.0.0.1:0"};
+    const std::vector<std::string> command = {CELLCRUSHD_PROGRAM, "--data", path("data"), "--listen",
+                                              "127.0.0.1:0",      "--http", "none"};
     const Outcome outcome = run(command + options, kShortLimit);
     EXPECT_EQ(outcome.exit_code, 1) << outcome.all();
     return outcome.errors;

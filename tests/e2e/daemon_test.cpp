@@ -30,8 +30,9 @@ void DaemonTest::TearDown() {
 }
 
 void DaemonTest::start_daemon() {
-  daemon_ = std::make_unique<Process>(std::vector<std::string>{
-      CELLCRUSHD_PROGRAM, "--data", (folder_ / "data").string(), "--listen", address(), "--listen", "127.0.0.1:0"});
+  daemon_ = std::make_unique<Process>(std::vector<std::string>{CELLCRUSHD_PROGRAM, "--data",
+                                                               (folder_ / "data").string(), "--listen", address(),
+                                                               "--listen", "127.0.0.1:0", "--http", "none"});
   ASSERT_TRUE(daemon_->wait_for_output("cellcrushd is listening on " + address(), kShortLimit))
       << daemon_->output() << daemon_->errors();
 }
