@@ -75,6 +75,22 @@ std::vector<std::shared_ptr<grpc::ServerCredentials>> credentials_for(const acce
   return out;
 }
 
+void warn_without_http(const ServiceError& why) { spdlog::warn("not serving HTTP: {}", why.what()); }
+
+// Where to serve HTTP; nothing for nowhere. Refuses an explicit address before anything is opened.
+std::optional<ListenAddress> http_address(const access::Gate& gate, const DaemonOptions& options) {
+  if (options.http == "none") return std::nullopt;
+  try {
+    auto out = parse_listen_address(options.http.empty() ? kDefaultHttp : options.http, "--http HOST:PORT");
+    gate.check_http_address(out);
+    return out;
+  } catch (const ServiceError& error) {
+    if (!options.http.empty()) throw;
+    warn_without_http(error);
+    return std::nullopt;
+  }
+}
+
 void prepare_grpc_once() {
   static std::once_flag once;
   redirect_library_logs();
@@ -100,6 +116,7 @@ struct Daemon::Impl {
         wanted(listen_addresses(options)),
         gate(options.access),
         credentials(credentials_for(gate, wanted)),
+        wanted_http(http_address(gate, options)),
         service(options, gate, worker::measure_step_cost(), [this] { drain(); }) {
     listen();
     serve_metrics();
@@ -177,14 +194,12 @@ struct Daemon::Impl {
   }
 
   void serve_http() {
-    if (options.http == "none") return;
-    const bool is_default = options.http.empty();
+    if (!wanted_http) return;
     try {
-      const auto address = parse_listen_address(is_default ? kDefaultHttp : options.http);
-      gateway.emplace(address, gate, *server, options.connections);
+      gateway.emplace(*wanted_http, gate, *server, options.connections);
     } catch (const ServiceError& error) {
-      if (!is_default) throw;
-      spdlog::warn("not serving HTTP: {} Choose an address with --http, or give --http none", error.what());
+      if (!options.http.empty()) throw;
+      warn_without_http(error);
       return;
     }
     http_url = gateway->url();
@@ -212,6 +227,7 @@ struct Daemon::Impl {
   std::vector<ListenAddress> wanted;
   access::Gate gate;
   std::vector<std::shared_ptr<grpc::ServerCredentials>> credentials;  ///< of the requested addresses
+  std::optional<ListenAddress> wanted_http;
   Service service;
   std::vector<std::string> addresses;
   std::string metrics_url;

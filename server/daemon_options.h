@@ -27,8 +27,8 @@ struct DaemonOptions {
   net::ConnectionLimits connections;
   /// Loopback address "HOST:PORT" that serves metrics over HTTP. Empty: nowhere.
   std::string metrics;
-  /// Loopback address "HOST:PORT" that serves the API and the web page over HTTP, or "none". Empty: 127.0.0.1:8080, or
-  /// nowhere if that is in use or the other options forbid it.
+  /// Address "HOST:PORT" that serves the API and the web page over HTTP, with TLS if `access` has it, or "none".
+  /// Empty: 127.0.0.1:8080, or nowhere if that is in use or the other options forbid it.
   std::string http;
   /// Number of jobs that run at once. 0: the number of cores.
   int workers = 0;

@@ -56,10 +56,10 @@ bool ListenAddress::is_loopback() const {
   return read_ipv6(place, ipv6) && IN6_IS_ADDR_LOOPBACK(&ipv6);
 }
 
-ListenAddress parse_listen_address(std::string_view text) {
+ListenAddress parse_listen_address(std::string_view text, const std::string& use) {
   if (text.starts_with("unix:")) return parse_unix(text, text.substr(5));
   const auto colon = text.rfind(':');
-  if (colon == std::string_view::npos) refuse(text, "use unix:PATH or HOST:PORT.");
+  if (colon == std::string_view::npos) refuse(text, "use " + use + ".");
   ListenAddress out{ListenAddress::Kind::tcp, std::string(text.substr(0, colon)), 0};
   const std::string_view digits = text.substr(colon + 1);
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), out.port);

@@ -20,8 +20,8 @@ struct ListenAddress {
 };
 
 /// Reads "unix:PATH" or "HOST:PORT", where the host is "localhost", an IPv4 address or an IPv6 address in brackets.
-/// Throws ServiceError (invalid) for anything else, and for a path too long for a socket.
-ListenAddress parse_listen_address(std::string_view text);
+/// Throws ServiceError (invalid) for anything else, and for a path too long for a socket. `use`: what to use instead.
+ListenAddress parse_listen_address(std::string_view text, const std::string& use = "unix:PATH or HOST:PORT");
 
 /// Removes a stale socket at the path. Throws ServiceError (failed_precondition) if something answers there or if it is
 /// not a socket.

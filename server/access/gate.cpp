@@ -7,6 +7,7 @@
 #include <iterator>
 #include <utility>
 
+#include "access/certificate.h"
 #include "access/method_scopes.h"
 #include "access/tls_credentials.h"
 #include "error.h"
@@ -25,6 +26,12 @@ constexpr const char* kAskForToken =
   throw ServiceError(ServiceError::Kind::unauthenticated, why);
 }
 
+[[noreturn]] void refuse_certificate() {
+  refuse_caller(
+      "The certificate of this call is not a client certificate: its extended key usage lacks clientAuth. Ask the "
+      "issuing authority for one with extendedKeyUsage = clientAuth.");
+}
+
 std::string_view view_of(const grpc::string_ref& text) { return {text.data(), text.size()}; }
 
 }  // namespace
@@ -41,17 +48,25 @@ class Gate::Check final : public grpc::AuthMetadataProcessor {
   grpc::Status Process(const InputMetadata& metadata, grpc::AuthContext* context, OutputMetadata*,
                        OutputMetadata*) override {
     const auto found = metadata.find(":path");
-    return gate_.admit(found == metadata.end() ? std::string_view() : view_of(found->second), metadata, context);
+    return gate_.admit(found == metadata.end() ? std::string_view() : view_of(found->second), [&] {
+      gate_.check_certificate(*context);
+      return gate_.identify(metadata, *context);
+    });
   }
 
  private:
   const Gate& gate_;
 };
 
-grpc::Status Gate::admit(std::string_view path, const Metadata& metadata, const grpc::AuthContext* context) const {
+grpc::Status Gate::admit(std::string_view path, const std::function<Caller()>& identify_caller) const {
   auto status = answer([&] {
-    check(path, metadata, context);
-    return grpc::Status::OK;
+    const auto needed = needed_scope(path);
+    if (!needed) return grpc::Status::OK;
+    const Caller caller = identify_caller();
+    if (caller.scope >= *needed) return grpc::Status::OK;
+    throw ServiceError(ServiceError::Kind::permission_denied,
+                       std::string(path.substr(path.rfind('/') + 1)) + " requires scope " + name_of(*needed) + "; " +
+                           caller.name + " has scope " + name_of(caller.scope) + ".");
   });
   if (!status.ok()) {
     const bool unknown = status.error_code() == grpc::StatusCode::UNAUTHENTICATED;
@@ -61,31 +76,30 @@ grpc::Status Gate::admit(std::string_view path, const Metadata& metadata, const 
   return status;
 }
 
-void Gate::check(std::string_view path, const Metadata& metadata, const grpc::AuthContext* context) const {
-  const auto needed = needed_scope(path);
-  if (!needed) return;
-  if (context != nullptr) check_certificate(*context);
-  const Caller caller = context == nullptr ? caller_of_token(metadata) : identify(metadata, *context);
-  if (caller.scope >= *needed) return;
-  throw ServiceError(ServiceError::Kind::permission_denied,
-                     std::string(path.substr(path.rfind('/') + 1)) + " requires scope " + name_of(*needed) + "; " +
-                         caller.name + " has scope " + name_of(caller.scope) + ".");
-}
-
-grpc::Status Gate::check_http_call(const std::string& path, const std::vector<std::string>& authorization) const {
+grpc::Status Gate::check_http_call(const std::string& path, const std::vector<std::string>& authorization,
+                                   const X509* shown) const {
   if (!asks_who_calls()) return grpc::Status::OK;
   Metadata metadata;
   for (const auto& value : authorization) metadata.emplace("authorization", value);
-  return admit(path, metadata, nullptr);
+  return admit(path, [&] {
+    if (asks_for_certificates() && (shown == nullptr || !is_for_clients(*shown))) refuse_certificate();
+    return caller_of_token(metadata);
+  });
 }
 
 void Gate::check_http_address(const ListenAddress& address) const {
   const std::string start = "Cannot serve HTTP on " + address.text();
   if (address.kind != ListenAddress::Kind::tcp) refuse_options(start + ": use --http HOST:PORT.");
-  if (!address.is_loopback())
-    refuse_options(start + ", which other machines can reach. Use a loopback address, such as 127.0.0.1:8080.");
-  if (has_tls())
-    refuse_options(start + ": it has no TLS, and --tls-cert was given. Give --http none, or leave out --tls-cert.");
+  if (asks_for_certificates() && !has_tokens()) {
+    refuse_options(start +
+                   " with --tls-client-ca alone: over HTTP only a token names the caller. Give --tokens FILE as well, "
+                   "or --http none.");
+  }
+  if (address.is_loopback() || (has_tls() && has_tokens())) return;
+  refuse_options(start + ", which other machines can reach, without " +
+                 (has_tls() ? "" : "TLS (--tls-cert FILE --tls-key FILE)") +
+                 (has_tls() || has_tokens() ? "" : " and ") + (has_tokens() ? "" : "tokens (--tokens FILE)") +
+                 ". Give what is missing, or a loopback address, such as --http 127.0.0.1:8080.");
 }
 
 Gate::Gate(const Options& options) : options_(options) {
@@ -183,9 +197,7 @@ void Gate::check_certificate(const grpc::AuthContext& context) const {
   if (!asks_for_certificates()) return;
   const auto shown = context.FindPropertyValues(GRPC_X509_PEM_CERT_PROPERTY_NAME);
   if (shown.size() == 1 && client_certificates_.has_client_use(view_of(shown.front()))) return;
-  refuse_caller(
-      "The certificate of this call is not a client certificate: its extended key usage lacks clientAuth. Ask the "
-      "issuing authority for one with extendedKeyUsage = clientAuth.");
+  refuse_certificate();
 }
 
 Caller Gate::caller_of_certificate(const grpc::AuthContext& context) const {

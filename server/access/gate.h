@@ -2,8 +2,10 @@
 
 #include <grpcpp/grpcpp.h>
 #include <grpcpp/security/auth_metadata_processor.h>
+#include <openssl/x509.h>
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -44,13 +46,17 @@ class Gate {
   [[nodiscard]] std::shared_ptr<grpc::ServerCredentials> credentials_for(const ListenAddress& address) const;
 
   /// Checks a call that came over HTTP, before it enters the server in process: `path` as in gRPC, `authorization` all
-  /// values of that header. The rules, refusals and log lines are those of a gRPC call on TCP.
-  [[nodiscard]] grpc::Status check_http_call(const std::string& path,
-                                             const std::vector<std::string>& authorization) const;
+  /// values of that header, `shown` the certificate of the client or null. The rules, refusals and log lines are those
+  /// of a gRPC call on TCP.
+  [[nodiscard]] grpc::Status check_http_call(const std::string& path, const std::vector<std::string>& authorization,
+                                             const X509* shown) const;
 
-  /// Throws ServiceError (invalid) if HTTP must not be served on the address: other machines can reach it, or callers
-  /// are to use TLS.
+  /// Throws ServiceError (invalid) if HTTP must not be served on the address: other machines can reach it without TLS
+  /// and tokens, or certificates alone tell who calls.
   void check_http_address(const ListenAddress& address) const;
+
+  /// The files read last; null without TLS. The same object until they change.
+  [[nodiscard]] std::shared_ptr<const TlsFiles> tls() const;
 
   /// Rereads the certificates, their authority and the tokens. They apply to every connection and call from now on. The
   /// log names the files read. It also names unusable files, whose previous contents stay in force.
@@ -66,11 +72,9 @@ class Gate {
   using Metadata = std::multimap<grpc::string_ref, grpc::string_ref>;
   class Check;
 
-  /// The answer to a call, and the log line if it is refused. `context` is null for a call without a gRPC connection.
-  [[nodiscard]] grpc::Status admit(std::string_view path, const Metadata& metadata,
-                                   const grpc::AuthContext* context) const;
-  /// Throws ServiceError: unauthenticated or permission_denied.
-  void check(std::string_view path, const Metadata& metadata, const grpc::AuthContext* context) const;
+  /// Answers a call that needs a scope. `identify_caller` says who calls, and throws ServiceError (unauthenticated). If
+  /// the call is refused, the log says so.
+  [[nodiscard]] grpc::Status admit(std::string_view path, const std::function<Caller()>& identify_caller) const;
   /// Throws ServiceError (unauthenticated) for a call without the required credentials.
   [[nodiscard]] Caller identify(const Metadata& metadata, const grpc::AuthContext& context) const;
   /// Throws ServiceError (unauthenticated) for a certificate not issued for clients.
@@ -83,7 +87,6 @@ class Gate {
   [[nodiscard]] bool asks_for_certificates() const { return !options_.tls_client_authority.empty(); }
   [[nodiscard]] bool has_tls() const { return !options_.tls_certificate.empty(); }
   [[nodiscard]] bool has_tokens() const { return !options_.tokens.empty(); }
-  [[nodiscard]] std::shared_ptr<const TlsFiles> tls() const;
   [[nodiscard]] std::shared_ptr<const TokenFile> tokens() const;
   /// Return a description of what was read. Throw ServiceError (invalid) for unusable files.
   std::string read_tls();

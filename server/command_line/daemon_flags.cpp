@@ -58,9 +58,10 @@ void DaemonFlags::add_addresses(CLI::App& app) {
   app.add_option("--listen", options_.listen,
                  "Address to listen on, unix:PATH or HOST:PORT; may be repeated; port 0 picks a free port (default: "
                  "unix:DIR/cellcrushd.sock, where DIR is --data, and 127.0.0.1:50551)");
-  app.add_option("--http", options_.http,
-                 "Loopback HOST:PORT that serves the API and the web page over HTTP; none: nowhere (default: "
-                 "127.0.0.1:8080 if it is free)");
+  app.add_option(
+      "--http", options_.http,
+      "HOST:PORT that serves the API and the web page over HTTP, or over HTTPS with --tls-cert; none: nowhere "
+      "(default: 127.0.0.1:8080 if it is free)");
   app.add_option("--metrics", options_.metrics,
                  "Loopback HOST:PORT for Prometheus metrics, served over HTTP at /metrics (default: not served)");
 }

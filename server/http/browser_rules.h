@@ -18,8 +18,15 @@ struct HttpRefusal {
   std::string why;
 };
 
-/// Refuses requests that a page of another site makes through the user's browser, on a loopback port. A foreign name
-/// that resolves to loopback (DNS rebinding) gives 421, a foreign origin 403.
-std::optional<HttpRefusal> check_browser(const BrowserHeaders& headers, int port);
+/// The port on which a request came.
+struct HttpPort {
+  int number = 0;
+  bool has_tls = false;
+};
+
+/// Refuses requests that a page of another site makes through the user's browser. A foreign origin gives 403. On a port
+/// in plain text, which is on loopback, a foreign name that resolves to loopback (DNS rebinding) gives 421. With TLS
+/// the certificate has the names.
+std::optional<HttpRefusal> check_browser(const BrowserHeaders& headers, const HttpPort& port);
 
 }  // namespace cellcrush::http

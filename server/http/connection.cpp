@@ -23,6 +23,7 @@ using Field = bhttp::field;
 
 constexpr std::uint64_t kLargestBody = 4 * 1024 * 1024 + 5;  // a message of gRPC's largest size in its envelope
 constexpr std::uint32_t kLargestHeader = 16 * 1024;
+constexpr std::chrono::seconds kFarewell{1};
 constexpr const char* kContentPolicy =
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; connect-src 'self'; "
     "media-src blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
@@ -82,15 +83,11 @@ bool asks_for_compression(const bhttp::request<bhttp::string_body>& request, con
 asio::awaitable<void> Connection::serve() {
   const auto self = shared_from_this();
   try {
-    for (bool first = true; first || keep_alive_; first = false) {
-      Parser parser;
-      parser.body_limit(kLargestBody);
-      parser.header_limit(kLargestHeader);
-      if (!co_await read(parser, first)) break;
-      keep_alive_ = parser.get().keep_alive();
-      co_await answer(parser.get());
-      keep_alive_ = keep_alive_ && !parts_.stopping;
-    }
+    stream_.plain().expires_after(parts_.limits.handshake);
+    co_await stream_.begin();
+    co_await serve_requests();
+    stream_.plain().expires_after(kFarewell);
+    co_await stream_.end();
   } catch (const boost::system::system_error&) {
     // The client is gone or too slow.
   } catch (const std::exception& error) {
@@ -101,13 +98,25 @@ asio::awaitable<void> Connection::serve() {
   close(true);
 }
 
+asio::awaitable<void> Connection::serve_requests() {
+  for (bool first = true; first || keep_alive_; first = false) {
+    Parser parser;
+    parser.body_limit(kLargestBody);
+    parser.header_limit(kLargestHeader);
+    if (!co_await read(parser, first)) break;
+    keep_alive_ = parser.get().keep_alive();
+    co_await answer(parser.get());
+    keep_alive_ = keep_alive_ && !parts_.stopping;
+  }
+}
+
 asio::awaitable<bool> Connection::read(Parser& parser, bool first) {
-  stream_.expires_after(first ? parts_.limits.handshake : parts_.limits.idle);
+  stream_.plain().expires_after(first ? parts_.limits.handshake : parts_.limits.idle);
   if (buffer_.size() == 0) {
     const std::size_t size = co_await stream_.async_read_some(buffer_.prepare(4096), asio::use_awaitable);
     buffer_.commit(size);
   }
-  stream_.expires_after(parts_.limits.handshake);
+  stream_.plain().expires_after(parts_.limits.handshake);
   beast::error_code error;
   co_await bhttp::async_read(stream_, buffer_, parser, asio::redirect_error(asio::use_awaitable, error));
   if (!error) co_return true;
@@ -124,7 +133,7 @@ asio::awaitable<bool> Connection::read(Parser& parser, bool first) {
 
 asio::awaitable<void> Connection::answer(const Request& request) {
   const BrowserHeaders headers{request[Field::host], request[Field::origin], request["Sec-Fetch-Site"]};
-  auto refusal = check_browser(headers, parts_.port);
+  auto refusal = check_browser(headers, {parts_.port, parts_.has_tls});
   if (request.count(Field::host) != 1 || request.count(Field::origin) > 1) {
     refusal = HttpRefusal{400, "One Host header, and at most one Origin header, must be sent."};
   }
@@ -158,7 +167,7 @@ asio::awaitable<void> Connection::answer_call(const Request& request) {
   }
   Call::Request wanted;
   auto status = parts_.gate.check_http_call("/" + method->service()->full_name() + "/" + method->name(),
-                                            values_of(request, Field::authorization));
+                                            values_of(request, Field::authorization), stream_.client_certificate());
   if (status.ok() && asks_for_compression(request, *encoding))
     status = failure(grpc::StatusCode::UNIMPLEMENTED, "Compressed requests are not accepted. Send them uncompressed.");
   if (status.ok()) {
@@ -198,7 +207,7 @@ asio::awaitable<void> Connection::run_unary(const google::protobuf::MethodDescri
   }
   grpc::Status status = co_await call->status();
   call_.reset();
-  stream_.socket().cancel();
+  stream_.plain().socket().cancel();
   if (status.ok() && !message) status = failure(grpc::StatusCode::INTERNAL, "The call ended without an answer.");
   if (status.ok() && encoding.json) {
     status = cellcrush::answer([&] {
@@ -227,14 +236,15 @@ asio::awaitable<void> Connection::run_stream(const google::protobuf::MethodDescr
   }
   status = co_await call->status();
   call_.reset();
-  stream_.socket().cancel();
+  stream_.plain().socket().cancel();
   const std::string end = envelope(kEndOfStream, end_of_stream_json(status));
   co_await send_chunk(end);
   co_await asio::async_write(stream_, bhttp::make_chunk_last(), asio::use_awaitable);
 }
 
 void Connection::watch_client() {
-  stream_.socket().async_wait(asio::ip::tcp::socket::wait_read, [self = shared_from_this()](beast::error_code error) {
+  auto& socket = stream_.plain().socket();
+  socket.async_wait(asio::ip::tcp::socket::wait_read, [self = shared_from_this()](beast::error_code error) {
     if (error || !self->call_) return;
     // Either the client is gone, or it sends a request before it has the answer, which no client of Connect does.
     self->keep_alive_ = false;
@@ -272,7 +282,7 @@ asio::awaitable<void> Connection::answer_file(const Request& request) {
     if (request.method() == bhttp::verb::get) response.body() = bytes;
     response.content_length(bytes.size());
   }
-  stream_.expires_after(parts_.limits.idle);
+  stream_.plain().expires_after(parts_.limits.idle);
   co_await bhttp::async_write(stream_, response, asio::use_awaitable);
 }
 
@@ -285,7 +295,7 @@ asio::awaitable<void> Connection::send(unsigned status, const std::string& type,
   response.keep_alive(keep_alive_);
   response.body() = std::move(body);
   response.prepare_payload();
-  stream_.expires_after(parts_.limits.idle);
+  stream_.plain().expires_after(parts_.limits.idle);
   co_await bhttp::async_write(stream_, response, asio::use_awaitable);
 }
 
@@ -302,19 +312,19 @@ asio::awaitable<void> Connection::send_stream_head(const Encoding& encoding) {
   response.keep_alive(keep_alive_);
   response.chunked(true);
   bhttp::response_serializer<bhttp::empty_body> serializer(response);
-  stream_.expires_after(parts_.limits.idle);
+  stream_.plain().expires_after(parts_.limits.idle);
   co_await bhttp::async_write_header(stream_, serializer, asio::use_awaitable);
 }
 
 asio::awaitable<void> Connection::send_chunk(const std::string& data) {
-  stream_.expires_after(parts_.limits.idle);
+  stream_.plain().expires_after(parts_.limits.idle);
   co_await asio::async_write(stream_, bhttp::make_chunk(asio::buffer(data)), asio::use_awaitable);
 }
 
 void Connection::close(bool also_calls) {
   if (call_ && !also_calls) return;
   if (call_) call_->cancel();
-  stream_.close();
+  stream_.plain().close();
 }
 
 }  // namespace cellcrush::http

@@ -10,6 +10,7 @@
 #include "access/gate.h"
 #include "http/call.h"
 #include "http/method.h"
+#include "http/stream.h"
 #include "net/connection_limits.h"
 
 namespace cellcrush::http {
@@ -20,13 +21,16 @@ struct GatewayParts {
   grpc::GenericStub stub;
   net::ConnectionLimits limits;
   int port = 0;
+  bool has_tls = false;
   bool stopping = false;
 };
 
 /// One connection of a client, served on the gateway's only thread. Owned by its own coroutine.
 class Connection : public std::enable_shared_from_this<Connection> {
  public:
-  Connection(boost::asio::ip::tcp::socket socket, GatewayParts& parts) : stream_(std::move(socket)), parts_(parts) {}
+  /// `tls`: null for plain text; need not outlive the constructor.
+  Connection(boost::asio::ip::tcp::socket socket, boost::asio::ssl::context* tls, GatewayParts& parts)
+      : stream_(std::move(socket), tls), parts_(parts) {}
 
   /// Serves requests until either side closes.
   boost::asio::awaitable<void> serve();
@@ -38,6 +42,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
   using Parser = boost::beast::http::request_parser<boost::beast::http::string_body>;
   using Request = boost::beast::http::request<boost::beast::http::string_body>;
 
+  /// Serves requests until the client or the daemon has had enough.
+  boost::asio::awaitable<void> serve_requests();
   boost::asio::awaitable<bool> read(Parser& parser, bool first);
   boost::asio::awaitable<void> answer(const Request& request);
   boost::asio::awaitable<void> answer_call(const Request& request);
@@ -51,7 +57,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   /// Cancels the call as soon as the client closes its side.
   void watch_client();
 
-  boost::beast::tcp_stream stream_;
+  Stream stream_;
   boost::beast::flat_buffer buffer_;
   GatewayParts& parts_;
   std::shared_ptr<Call> call_;  ///< null while none runs

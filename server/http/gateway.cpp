@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "http/connection.h"
+#include "http/tls_context.h"
 #include "limited_log.h"
 #include "net/connection_table.h"
 #include "net/listening_port.h"
@@ -38,10 +39,11 @@ std::shared_ptr<grpc::Channel> channel_to(grpc::Server& server) {
 struct Gateway::Impl {
   Impl(const ListenAddress& address, const access::Gate& gate, grpc::Server& server,
        const net::ConnectionLimits& limits)
-      : port((gate.check_http_address(address), address)),
-        parts{gate, grpc::GenericStub(channel_to(server)), limits, port.address().port},
+      : tls(gate),
+        port(address, "--http"),
+        parts{gate, grpc::GenericStub(channel_to(server)), limits, port.address().port, tls.current() != nullptr},
         table({limits.connections, limits.connections_per_address}),
-        url("http://" + port.address().text()) {
+        url((parts.has_tls ? "https://" : "http://") + port.address().text()) {
     for (const int descriptor : port.descriptors()) {
       sockaddr_storage name{};
       socklen_t size = sizeof(name);
@@ -79,7 +81,7 @@ struct Gateway::Impl {
       return;
     }
     socket.set_option(tcp::no_delay(true), error);
-    const auto connection = std::make_shared<Connection>(std::move(socket), parts);
+    const auto connection = std::make_shared<Connection>(std::move(socket), tls.current(), parts);
     std::erase_if(connections, [](const auto& each) { return each.expired(); });
     connections.push_back(connection);
     asio::co_spawn(
@@ -110,6 +112,7 @@ struct Gateway::Impl {
     thread.join();
   }
 
+  TlsContext tls;
   net::ListeningPort port;
   GatewayParts parts;
   net::ConnectionTable table;

@@ -11,19 +11,19 @@
 
 namespace cellcrush::http {
 
-/// Serves the API over HTTP/1.1 by the Connect protocol, and the files of the web page, on a loopback port. One thread
-/// serves all connections. Thread-safe.
+/// Serves the API over HTTP/1.1 by the Connect protocol, and the files of the web page; with TLS if the gate has its
+/// files. One thread serves all connections. Thread-safe.
 class Gateway {
  public:
-  /// Listens from construction on; `gate` and `server` outlive it. Throws ServiceError: invalid if the gate forbids the
-  /// address, failed_precondition if it is in use.
+  /// Listens from construction on, on an address that the gate permits; `gate` and `server` outlive it. Throws
+  /// ServiceError: failed_precondition if the address is in use, invalid if OpenSSL refuses the files of TLS.
   Gateway(const ListenAddress& address, const access::Gate& gate, grpc::Server& server,
           const net::ConnectionLimits& limits);
   ~Gateway();
   Gateway(const Gateway&) = delete;
   Gateway& operator=(const Gateway&) = delete;
 
-  /// "http://HOST:PORT" with the actual port.
+  /// "http://HOST:PORT", or "https://HOST:PORT", with the actual port.
   [[nodiscard]] const std::string& url() const;
 
   /// Closes the port and idle connections; open calls get a second to end. Safe to repeat.

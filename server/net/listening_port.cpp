@@ -79,23 +79,26 @@ ino_t inode_of(const std::string& path) {
   return lstat(path.c_str(), &status) == 0 ? status.st_ino : 0;
 }
 
-[[noreturn]] void refuse(const ListenAddress& address) {
+[[noreturn]] void refuse(const ListenAddress& address, const char* option) {
   const bool in_use = errno == EADDRINUSE;
   throw ServiceError(
       ServiceError::Kind::failed_precondition,
       "Cannot listen on " + address.text() + ": " +
           (in_use ? "another program is listening there. Stop it," : std::strerror(errno) + std::string(".")) +
-          (in_use ? " or give" : " Give") + " another address with --listen.");
+          (in_use ? " or give" : " Give") + " another address with " + option + ".");
 }
 
 }  // namespace
 
-ListeningPort::ListeningPort(const ListenAddress& wanted) : address_(wanted) { reopen(); }
+ListeningPort::ListeningPort(const ListenAddress& wanted, const char* option) : address_(wanted), option_(option) {
+  reopen();
+}
 
 ListeningPort::~ListeningPort() { close_all(); }
 
 ListeningPort::ListeningPort(ListeningPort&& other) noexcept
     : address_(std::move(other.address_)),
+      option_(other.option_),
       descriptors_(std::exchange(other.descriptors_, {})),
       file_(std::exchange(other.file_, 0)) {}
 
@@ -110,7 +113,7 @@ void ListeningPort::listen_on_unix_socket() {
   name.sun_family = AF_UNIX;
   std::strncpy(name.sun_path, address_.place.c_str(), sizeof(name.sun_path) - 1);
   const int socket = open_socket(reinterpret_cast<const sockaddr*>(&name), sizeof(name));
-  if (socket < 0) refuse(address_);
+  if (socket < 0) refuse(address_, option_);
   descriptors_.push_back(socket);
   file_ = inode_of(address_.place);
 }
@@ -119,7 +122,7 @@ void ListeningPort::listen_on_tcp() {
   // All addresses of both families: one IPv6 socket serves both, if the machine has IPv6.
   if (address_.place == "0.0.0.0") listen_on("::");
   if (descriptors_.empty()) listen_on(address_.place);
-  if (descriptors_.empty()) refuse(address_);
+  if (descriptors_.empty()) refuse(address_, option_);
 }
 
 void ListeningPort::listen_on(const std::string& host) {

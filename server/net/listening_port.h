@@ -13,8 +13,8 @@ namespace cellcrush::net {
 class ListeningPort {
  public:
   /// Starts listening. A Unix socket is accessible to its owner only. Throws ServiceError (failed_precondition) if the
-  /// address is in use or not permitted.
-  explicit ListeningPort(const ListenAddress& wanted);
+  /// address is in use or not permitted, naming the option that gives another.
+  explicit ListeningPort(const ListenAddress& wanted, const char* option = "--listen");
   /// Closes the sockets and removes the file of a Unix socket.
   ~ListeningPort();
   ListeningPort(ListeningPort&& other) noexcept;
@@ -35,6 +35,7 @@ class ListeningPort {
   void close_all();
 
   ListenAddress address_;
+  const char* option_;
   std::vector<int> descriptors_;
   ino_t file_ = 0;  ///< inode of the Unix socket's file
 };

@@ -39,8 +39,9 @@ OptionGroup addresses() {
        {"http",
         {"ADDR",
          "",
-         {"The port has no TLS, so only loopback addresses are allowed, and it is off with `--tls-cert`. "
-          "[http.md](http.md) shows how to call it."}}},
+         {"An address that other machines can reach requires `--tls-cert`, `--tls-key` and `--tokens`. With "
+          "`--tls-client-ca` alone the port is off, since over HTTP only a token names the caller. [http.md](http.md) "
+          "shows how to call it."}}},
        {"metrics",
         {"ADDR",
          "",

@@ -1,78 +1,20 @@
-#include <arpa/inet.h>
 #include <gmock/gmock.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <thread>
 
 #include "http/envelope.h"
-#include "server/gate_fixture.h"
+#include "server/http/http_fixture.h"
 #include "server/small_case.h"
 
 namespace cellcrush::testing {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 
-class HttpGatewayTest : public GateFixture {
- protected:
-  void SetUp() override {
-    GateFixture::SetUp();
-    start(http_options());
-  }
-
-  [[nodiscard]] DaemonOptions http_options() const {
-    DaemonOptions options = default_options();
-    options.http = "127.0.0.1:0";
-    return options;
-  }
-
-  [[nodiscard]] std::string port() const { return daemon_->http_url().substr(daemon_->http_url().rfind(':') + 1); }
-
-  [[nodiscard]] int connect_to_gateway() const {
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_port = htons(static_cast<std::uint16_t>(std::stoi(port())));
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    const int out = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-    const timeval patience{60, 0};
-    setsockopt(out, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof(patience));
-    EXPECT_EQ(connect(out, reinterpret_cast<const sockaddr*>(&address), sizeof(address)), 0);
-    return out;
-  }
-
-  static void send_text(int socket, const std::string& text) {
-    EXPECT_EQ(::send(socket, text.data(), text.size(), MSG_NOSIGNAL), static_cast<ssize_t>(text.size()));
-  }
-
-  static std::string read_to_end(int socket) {
-    std::string out;
-    char piece[4096];
-    for (ssize_t count = 0; (count = read(socket, piece, sizeof(piece))) > 0;)
-      out.append(piece, static_cast<std::size_t>(count));
-    close(socket);
-    return out;
-  }
-
-  [[nodiscard]] std::string request(const std::string& line, const std::string& headers,
-                                    const std::string& body = "") const {
-    return line + " HTTP/1.1\r\nHost: 127.0.0.1:" + port() + "\r\nConnection: close\r\n" + headers +
-           "Content-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body;
-  }
-
-  [[nodiscard]] std::string exchange(const std::string& text) const {
-    const int socket = connect_to_gateway();
-    send_text(socket, text);
-    return read_to_end(socket);
-  }
-
-  [[nodiscard]] std::string call(const std::string& method, const std::string& type, const std::string& body,
-                                 const std::string& headers = "") const {
-    return exchange(request("POST /cellcrush.v1.Jobs/" + method, "Content-Type: " + type + "\r\n" + headers, body));
-  }
-};
+using HttpGatewayTest = HttpFixture;
 
 TEST_F(HttpGatewayTest, AUnaryCallIsAnsweredInJsonAndInBinary) {
   const std::string job = client().create(small_case());
@@ -117,30 +59,29 @@ TEST_F(HttpGatewayTest, AClientThatGoesAwayEndsItsStream) {
   start(options);
   const std::string body = http::envelope(0, R"({"name":")" + client().create(endless_case()) + "\"}");
   for (int i = 0; i < 5; ++i) {
-    const int socket = connect_to_gateway();
-    send_text(socket, request("POST /cellcrush.v1.Jobs/WatchJob", "Content-Type: application/connect+json\r\n", body));
-    char piece[1024];
-    std::string got;
-    while (got.find("\"sequence\"") == std::string::npos) {
-      const ssize_t count = read(socket, piece, sizeof(piece));
-      ASSERT_GT(count, 0) << got;
-      got.append(piece, static_cast<std::size_t>(count));
+    {
+      const HttpSocket socket(port());
+      socket.send(call_text("WatchJob", "application/connect+json", body));
+      std::string got;
+      while (got.find("\"sequence\"") == std::string::npos) {
+        const std::string next = socket.read_some();
+        ASSERT_FALSE(next.empty()) << got;
+        got += next;
+      }
     }
-    close(socket);
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
   }
 }
 
 TEST_F(HttpGatewayTest, OpenStreamsEndWithTheDaemon) {
   const std::string body = http::envelope(0, R"({"name":")" + client().create(endless_case()) + "\"}");
-  const int socket = connect_to_gateway();
-  send_text(socket, request("POST /cellcrush.v1.Jobs/WatchJob", "Content-Type: application/connect+json\r\n", body));
-  char first = 0;
-  ASSERT_EQ(read(socket, &first, 1), 1);
-  const int idle = connect_to_gateway();
+  const HttpSocket socket(port());
+  socket.send(call_text("WatchJob", "application/connect+json", body));
+  ASSERT_FALSE(socket.read_some().empty());
+  const HttpSocket idle(port());
   daemon_->stop();
-  EXPECT_THAT(read_to_end(socket), HasSubstr("\"code\":\"unavailable\""));
-  EXPECT_EQ(read_to_end(idle), "");
+  EXPECT_THAT(socket.read_to_end(), HasSubstr("\"code\":\"unavailable\""));
+  EXPECT_EQ(idle.read_to_end(), "");
 }
 
 TEST_F(HttpGatewayTest, TokensAndScopesAreThoseOfGrpc) {
@@ -148,7 +89,7 @@ TEST_F(HttpGatewayTest, TokensAndScopesAreThoseOfGrpc) {
   EXPECT_THAT(call("ListJobs", "application/json", "{}"), StartsWith("HTTP/1.1 401"));
   EXPECT_THAT(call("ListJobs", "application/json", "{}", "Authorization: Bearer wrong\r\n"),
               StartsWith("HTTP/1.1 401"));
-  const std::string reader = "Authorization: Bearer " + tokens_.at("reader") + "\r\n";
+  const std::string reader = token_of("reader");
   EXPECT_THAT(call("ListJobs", "application/json", "{}", reader), StartsWith("HTTP/1.1 200"));
   EXPECT_THAT(call("CancelJob", "application/json", "{}", reader), StartsWith("HTTP/1.1 403"));
   EXPECT_THAT(call("ListJobs", "application/json", "{}", reader + reader), StartsWith("HTTP/1.1 401"));
@@ -159,19 +100,15 @@ TEST_F(HttpGatewayTest, ForeignPagesAndForeignMachinesAreRefused) {
               StartsWith("HTTP/1.1 421"));
   EXPECT_THAT(call("ListJobs", "application/json", "{}", "Origin: http://evil.example\r\n"),
               StartsWith("HTTP/1.1 403"));
-  DaemonOptions options = http_options();
-  options.http = "0.0.0.0:0";
-  EXPECT_THAT(refusal_of_start(options), HasSubstr("loopback"));
-  EXPECT_THAT(refusal_of_start(with_tls(http_options())), HasSubstr("--http none"));
 }
 
 TEST_F(HttpGatewayTest, SlowAndLargeRequestsAreRefused) {
   DaemonOptions options = http_options();
   options.connections.handshake = std::chrono::milliseconds(300);
   start(options);
-  const int slow = connect_to_gateway();
-  send_text(slow, "POST / HT");
-  EXPECT_EQ(read_to_end(slow), "");
+  const HttpSocket slow(port());
+  slow.send("POST / HT");
+  EXPECT_EQ(slow.read_to_end(), "");
   const std::string head = "POST /cellcrush.v1.Jobs/GetJob HTTP/1.1\r\nHost: x\r\nContent-Length: 5000000\r\n\r\n";
   EXPECT_THAT(exchange(head), StartsWith("HTTP/1.1 413"));
 }
@@ -184,6 +121,37 @@ TEST_F(HttpGatewayTest, ThePageHasItsHeaders) {
   const auto at = page.find("ETag: ") + 6;
   const std::string tag = page.substr(at, page.find("\r\n", at) - at);
   EXPECT_THAT(exchange(request("GET /", "If-None-Match: " + tag + "\r\n")), StartsWith("HTTP/1.1 304"));
+}
+
+TEST_F(HttpGatewayTest, ThePageIsCompressedForWhomAcceptsIt) {
+  const std::string plain = exchange(request("GET /", ""));
+  const std::string small = exchange(request("GET /", "Accept-Encoding: br, gzip\r\n"));
+  EXPECT_THAT(plain, Not(HasSubstr("Content-Encoding")));
+  EXPECT_THAT(small, HasSubstr("Content-Encoding: gzip\r\n"));
+  for (const auto& answer : {plain, small}) EXPECT_THAT(answer, HasSubstr("Vary: Accept-Encoding\r\n"));
+  EXPECT_LT(small.size(), plain.size());
+}
+
+TEST_F(HttpGatewayTest, ACallEndsAtItsTimeLimit) {
+  const std::string body = http::envelope(0, R"({"name":")" + client().create(endless_case()) + "\"}");
+  EXPECT_THAT(call("WatchJob", "application/connect+json", body, "Connect-Timeout-Ms: 300\r\n"),
+              HasSubstr("\"code\":\"deadline_exceeded\""));
+  EXPECT_THAT(call("ListJobs", "application/json", "{}", "Connect-Timeout-Ms: soon\r\n"), StartsWith("HTTP/1.1 400"));
+}
+
+TEST_F(HttpGatewayTest, AJobOfAnotherOwnerCannotBeCancelled) {
+  start(with_tokens(http_options()));
+  v1::CreateJobRequest create;
+  *create.mutable_case_() = endless_case();
+  const std::string made = call("CreateJob", "application/proto", create.SerializeAsString(), token_of("anna"));
+  v1::Job job;
+  ASSERT_TRUE(job.ParseFromString(made.substr(made.find("\r\n\r\n") + 4)));
+  EXPECT_EQ(job.owner(), "anna");
+  const std::string name = R"({"name":")" + job.name() + "\"}";
+  const std::string refused = call("CancelJob", "application/json", name, token_of("bob"));
+  EXPECT_THAT(refused, StartsWith("HTTP/1.1 403"));
+  EXPECT_THAT(refused, HasSubstr("belongs to anna"));
+  EXPECT_THAT(call("CancelJob", "application/json", name, token_of("anna")), StartsWith("HTTP/1.1 200"));
 }
 
 }  // namespace

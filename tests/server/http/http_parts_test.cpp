@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 
 #include "error.h"
+#include "google/rpc/status.pb.h"
 #include "http/browser_rules.h"
 #include "http/connect_error.h"
 #include "http/envelope.h"
@@ -26,17 +27,25 @@ TEST(HttpError, IsJsonWithItsCode) {
   EXPECT_EQ(error_json({grpc::StatusCode::NOT_FOUND, "No \"x\"\n"}),
             R"({"code":"not_found","message":"No \"x\"\u000a"})");
   EXPECT_EQ(end_of_stream_json(grpc::Status::OK), "{}");
+  google::rpc::Status rich;
+  rich.add_details()->set_type_url("type.googleapis.com/a.B");
+  rich.mutable_details(0)->set_value("abcd");
+  EXPECT_EQ(error_json({grpc::StatusCode::ABORTED, "x", rich.SerializeAsString()}),
+            R"({"code":"aborted","message":"x","details":[{"type":"a.B","value":"YWJjZA"}]})");
   EXPECT_EQ(http_status(grpc::StatusCode::UNAUTHENTICATED), 401U);
 }
 
 TEST(HttpBrowser, PagesOfOtherSitesAreRefused) {
-  EXPECT_FALSE(check_browser({"localhost:80", "http://localhost:80", "same-origin"}, 80));
-  EXPECT_FALSE(check_browser({"[::1]:81", "", ""}, 81));
-  EXPECT_EQ(check_browser({"evil.example:81", "", ""}, 81)->status, 421U);
-  EXPECT_EQ(check_browser({"localhost:82", "", ""}, 81)->status, 421U);
-  EXPECT_EQ(check_browser({"localhost:81", "http://evil.example", ""}, 81)->status, 403U);
-  EXPECT_EQ(check_browser({"localhost:81", "null", ""}, 81)->status, 403U);
-  EXPECT_EQ(check_browser({"localhost:81", "", "cross-site"}, 81)->status, 403U);
+  EXPECT_FALSE(check_browser({"localhost:80", "http://localhost:80", "same-origin"}, {80}));
+  EXPECT_FALSE(check_browser({"[::1]:81", "", ""}, {81}));
+  EXPECT_EQ(check_browser({"evil.example:81", "", ""}, {81})->status, 421U);
+  EXPECT_EQ(check_browser({"localhost:82", "", ""}, {81})->status, 421U);
+  EXPECT_EQ(check_browser({"localhost:81", "http://evil.example", ""}, {81})->status, 403U);
+  EXPECT_EQ(check_browser({"localhost:81", "null", ""}, {81})->status, 403U);
+  EXPECT_EQ(check_browser({"localhost:81", "", "cross-site"}, {81})->status, 403U);
+  EXPECT_FALSE(check_browser({"crush.example:81", "https://crush.example:81", ""}, {81, true}));
+  EXPECT_EQ(check_browser({"crush.example:81", "http://crush.example:81", ""}, {81, true})->status, 403U);
+  EXPECT_EQ(check_browser({"crush.example:81", "https://evil.example", ""}, {81, true})->status, 403U);
 }
 
 TEST(HttpMethod, IsFoundByItsPath) {
@@ -51,6 +60,13 @@ TEST(HttpPage, PathsWithoutADotGiveTheIndex) {
   EXPECT_EQ(find_page_file("/jobs/12"), find_page_file("/index.html"));
   EXPECT_EQ(find_page_file("/../etc/passwd"), nullptr);
   EXPECT_THAT(std::string(find_page_file("/")->bytes), HasSubstr("<html"));
+}
+
+TEST(HttpPage, GzipIsForWhomAsksForIt) {
+  for (const char* yes : {"gzip", "br, gzip", "gzip;q=0.5, br", "deflate,gzip ; q=1"})
+    EXPECT_TRUE(accepts_gzip(yes)) << yes;
+  for (const char* no : {"", "br", "gzip;q=0", "gzip; q=0.000", "xgzip"}) EXPECT_FALSE(accepts_gzip(no)) << no;
+  EXPECT_TRUE(gzip_of(*find_page_file("/")).starts_with("\x1f\x8b"));
 }
 
 }  // namespace

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "server/gate_fixture.h"
+
+namespace cellcrush::testing {
+
+/// A plain connection to a port of 127.0.0.1. Reading waits at most 60 s.
+class HttpSocket {
+ public:
+  /// `receive_buffer`: bytes that the kernel keeps unread; 0: its default.
+  explicit HttpSocket(int port, int receive_buffer = 0);
+  ~HttpSocket();
+  HttpSocket(const HttpSocket&) = delete;
+  HttpSocket& operator=(const HttpSocket&) = delete;
+
+  [[nodiscard]] int number() const { return socket_; }
+  void send(const std::string& text) const;
+  /// What comes next; empty at the end.
+  [[nodiscard]] std::string read_some() const;
+  [[nodiscard]] std::string read_to_end() const;
+
+ private:
+  int socket_ = -1;
+};
+
+/// Sends a request with TLS and reads to the end of the answer, at most 60 s; empty if either side refuses the other.
+/// `latest`: the latest version of TLS that the client speaks; 0: any.
+std::string exchange_with_tls(int port, const Visitor& visitor, const std::string& request, int latest = 0);
+
+/// The body of a chunked answer.
+std::string dechunked(const std::string& answer);
+
+/// The messages in the body of a stream, without the last one, which tells how it ended.
+std::vector<std::string> messages_of(const std::string& body);
+
+/// A daemon that serves HTTP on a free port of loopback, and what a client sends it.
+class HttpFixture : public GateFixture {
+ protected:
+  void SetUp() override;
+
+  [[nodiscard]] DaemonOptions http_options() const;
+  [[nodiscard]] int port() const;
+
+  [[nodiscard]] std::string request(const std::string& line, const std::string& headers,
+                                    const std::string& body = "") const;
+  /// Sends it on a connection of its own. The answer.
+  [[nodiscard]] std::string exchange(const std::string& text) const;
+  /// A request for a method of Jobs.
+  [[nodiscard]] std::string call_text(const std::string& method, const std::string& type, const std::string& body,
+                                      const std::string& headers = "") const;
+  [[nodiscard]] std::string call(const std::string& method, const std::string& type, const std::string& body,
+                                 const std::string& headers = "") const;
+  /// The header with the token of that name.
+  [[nodiscard]] std::string token_of(const std::string& name) const;
+};
+
+}  // namespace cellcrush::testing

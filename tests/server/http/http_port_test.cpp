@@ -1,0 +1,170 @@
+// Where HTTP is served, to whom and to how many.
+#include <arpa/inet.h>
+#include <gmock/gmock.h>
+#include <openssl/ssl.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <memory>
+
+#include "log_format.h"
+#include "server/http/http_fixture.h"
+#include "server/log_capture.h"
+
+namespace cellcrush::testing {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+class HttpPortTest : public HttpFixture {
+ protected:
+  void SetUp() override { GateFixture::SetUp(); }
+
+  [[nodiscard]] std::string list_with_tls(const Visitor& visitor, const std::string& headers = "") const {
+    return exchange_with_tls(port(), visitor, call_text("ListJobs", "application/json", "{}", headers));
+  }
+
+  [[nodiscard]] DaemonOptions with_client_authority(DaemonOptions options) const {
+    options.access.tls_client_authority = authority_.certificate();
+    return options;
+  }
+};
+
+TEST_F(HttpPortTest, AnAddressThatOthersReachNeedsTlsAndTokens) {
+  DaemonOptions open = http_options();
+  open.http = "0.0.0.0:0";
+  EXPECT_THAT(refusal_of_start(open), AllOf(HasSubstr("--tls-cert FILE --tls-key FILE"), HasSubstr("--tokens FILE"),
+                                            HasSubstr("--http 127.0.0.1:8080")));
+  EXPECT_THAT(refusal_of_start(with_tokens(open)), HasSubstr("--tls-cert FILE"));
+  EXPECT_THAT(refusal_of_start(with_tls(open)), HasSubstr("--tokens FILE"));
+  EXPECT_THAT(refusal_of_start(with_tls(with_client_authority(http_options()))),
+              AllOf(HasSubstr("--tokens FILE"), HasSubstr("--http none")));
+  DaemonOptions wrong = http_options();
+  for (const char* address : {"unix:/tmp/socket", "8080"}) {
+    wrong.http = address;
+    EXPECT_THAT(refusal_of_start(wrong), HasSubstr("use --http HOST:PORT")) << address;
+  }
+  EXPECT_FALSE(std::filesystem::exists(data_folder())) << "Nothing is opened before.";
+  EXPECT_EQ(refusal_of_start(with_tokens(with_tls(open))), "");
+}
+
+TEST_F(HttpPortTest, TheDefaultPortIsOffWithClientCertificatesAlone) {
+  const LogCapture log(make_text_formatter());
+  DaemonOptions options = with_client_authority(with_tls(default_options()));
+  options.http.clear();
+  start(options);
+  EXPECT_EQ(daemon_->http_url(), "");
+  EXPECT_EQ(log.count_lines("not serving HTTP"), 1) << log.text();
+}
+
+TEST_F(HttpPortTest, ADefaultPortThatIsTakenKeepsNoDaemonFromStarting) {
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(8080);
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  const int taken = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  static_cast<void>(bind(taken, reinterpret_cast<const sockaddr*>(&address), sizeof(address)));
+  listen(taken, 1);  // or another program listens there already
+  const LogCapture log(make_text_formatter());
+  DaemonOptions options = default_options();
+  options.http.clear();
+  start(options);
+  EXPECT_EQ(daemon_->http_url(), "");
+  EXPECT_EQ(log.count_lines("not serving HTTP: Cannot listen on 127.0.0.1:8080"), 1) << log.text();
+  EXPECT_EQ(log.count_lines("--http"), 1) << log.text();
+  v1::ListJobsResponse response;
+  EXPECT_TRUE(client().jobs->ListJobs(bounded_context().get(), {}, &response).ok());
+  options.http = "127.0.0.1:8080";
+  EXPECT_THAT(refusal_of_start(options), HasSubstr("another address with --http"));
+  close(taken);
+}
+
+TEST_F(HttpPortTest, ConnectionsBeyondTheLimitAreClosed) {
+  DaemonOptions options = http_options();
+  options.connections.connections = 3;
+  options.connections.connections_per_address = 2;
+  start(options);
+  const LogCapture log(make_text_formatter());
+  auto first = std::make_unique<HttpSocket>(port());
+  const HttpSocket second(port());
+  const HttpSocket third(port());
+  EXPECT_EQ(third.read_to_end(), "");
+  EXPECT_EQ(log.count_lines("refused a connection to HTTP from 127.0.0.1"), 1) << log.text();
+  first.reset();
+  std::string answer;
+  for (int i = 0; i < 100 && answer.empty(); ++i) {
+    usleep(20'000);
+    answer = call("ListJobs", "application/json", "{}");
+  }
+  EXPECT_THAT(answer, StartsWith("HTTP/1.1 200"));
+}
+
+TEST_F(HttpPortTest, HundredsOfIdleConnectionsHoldUpNobody) {
+  start(http_options());
+  std::vector<std::unique_ptr<HttpSocket>> idle;
+  for (int i = 0; i < 400; ++i) idle.push_back(std::make_unique<HttpSocket>(port()));
+  const auto begin = std::chrono::steady_clock::now();
+  for (int i = 0; i < 50; ++i) ASSERT_THAT(call("ListJobs", "application/json", "{}"), StartsWith("HTTP/1.1 200"));
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
+}
+
+TEST_F(HttpPortTest, WithTlsItSpeaksHttps) {
+  start(with_tls(http_options()));
+  EXPECT_THAT(daemon_->http_url(), StartsWith("https://127.0.0.1:"));
+  const Visitor visitor{authority_.certificate(), {}, ""};
+  EXPECT_THAT(list_with_tls(visitor), StartsWith("HTTP/1.1 200"));
+  EXPECT_EQ(list_with_tls({other_authority_.certificate(), {}, ""}), "") << "The client does not trust it.";
+  EXPECT_EQ(call("ListJobs", "application/json", "{}"), "") << "Plain text.";
+  const std::string page = request("GET /", "");
+  EXPECT_THAT(exchange_with_tls(port(), visitor, page, TLS1_2_VERSION), StartsWith("HTTP/1.1 200"));
+  EXPECT_EQ(exchange_with_tls(port(), visitor, page, TLS1_1_VERSION), "");
+  EXPECT_THAT(list_with_tls(visitor, "Origin: http://127.0.0.1:" + std::to_string(port()) + "\r\n"),
+              StartsWith("HTTP/1.1 403"));
+}
+
+TEST_F(HttpPortTest, AHandshakeThatTakesTooLongIsBrokenOff) {
+  DaemonOptions options = with_tls(http_options());
+  options.connections.handshake = std::chrono::milliseconds(300);
+  start(options);
+  EXPECT_EQ(HttpSocket(port()).read_to_end(), "");
+}
+
+TEST_F(HttpPortTest, ChangedCertificatesAreForNewConnections) {
+  const DaemonOptions options = with_tls(http_options());
+  start(options);
+  const Visitor old{authority_.certificate(), {}, ""};
+  const Visitor newcomer{other_authority_.certificate(), {}, ""};
+  ASSERT_THAT(list_with_tls(old), StartsWith("HTTP/1.1 200"));
+  const std::string key = text_of_file(options.access.tls_key);
+  static_cast<void>(other_authority_.sign("server", {"new-server"}));
+  const std::string new_key = text_of_file(options.access.tls_key);
+  write_secret(options.access.tls_key, key);
+  daemon_->read_files_again();
+  EXPECT_THAT(list_with_tls(old), StartsWith("HTTP/1.1 200")) << "A key of another certificate changes nothing.";
+  write_secret(options.access.tls_key, new_key);
+  daemon_->read_files_again();
+  EXPECT_EQ(list_with_tls(old), "");
+  EXPECT_THAT(list_with_tls(newcomer), StartsWith("HTTP/1.1 200"));
+}
+
+TEST_F(HttpPortTest, ClientCertificatesAreRequiredBesideTokens) {
+  start(with_client_authority(with_tls(with_tokens(http_options()))));
+  const auto status_of = [this](const CertificateFiles& shown, const std::string& headers) {
+    return list_with_tls({authority_.certificate(), shown, ""}, headers).substr(0, 12);
+  };
+  const auto anna = authority_.sign("anna", client_request("anna"));
+  EXPECT_EQ(status_of(anna, token_of("reader")), "HTTP/1.1 200");
+  EXPECT_EQ(status_of(anna, ""), "HTTP/1.1 401");
+  EXPECT_EQ(status_of({}, token_of("reader")), "");
+  EXPECT_EQ(status_of(other_authority_.sign("eve", client_request("anna")), token_of("reader")), "");
+  EXPECT_EQ(status_of(authority_.sign("plain", {"anna"}), token_of("reader")), "HTTP/1.1 401")
+      << "It is not for clients.";
+  CertificateRequest of_server{"anna"};
+  of_server.extended_key_usage = "serverAuth";
+  EXPECT_EQ(status_of(authority_.sign("other", of_server), token_of("reader")), "");
+}
+
+}  // namespace
+}  // namespace cellcrush::testing
