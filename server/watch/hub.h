@@ -14,8 +14,8 @@
 
 namespace cellcrush::watch {
 
-/// The newest progress and frame of a running job, which are not in the journal, its mesh, and the watchers of that job. Thread-safe.
-/// Publishers never wait for watchers.
+/// The newest progress and frame of a running job, which are not in the journal, its mesh, and the watchers of that job.
+/// Thread-safe. Publishers never wait for watchers.
 class Channel {
  public:
   /// Called on every change, on the publishing thread and under the channel's lock: must be quick and must not call
