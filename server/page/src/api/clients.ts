@@ -1,0 +1,25 @@
+// Clients of the daemon's services, on the origin of the page.
+import { createClient, type Client, type Transport } from "@connectrpc/connect";
+import { createConnectTransport } from "@connectrpc/connect-web";
+import { Admin } from "../../gen/cellcrush/v1/admin_service_pb";
+import { Cases } from "../../gen/cellcrush/v1/cases_service_pb";
+import { Jobs } from "../../gen/cellcrush/v1/jobs_service_pb";
+import { Sweeps } from "../../gen/cellcrush/v1/sweeps_service_pb";
+
+export interface Clients {
+  admin: Client<typeof Admin>;
+  cases: Client<typeof Cases>;
+  jobs: Client<typeof Jobs>;
+  sweeps: Client<typeof Sweeps>;
+}
+
+export function clientsOf(transport: Transport): Clients {
+  return {
+    admin: createClient(Admin, transport),
+    cases: createClient(Cases, transport),
+    jobs: createClient(Jobs, transport),
+    sweeps: createClient(Sweeps, transport),
+  };
+}
+
+export const api = clientsOf(createConnectTransport({ baseUrl: location.origin, useBinaryFormat: true }));

@@ -1,0 +1,270 @@
+// A chart: uPlot in the colours of the page, with a playhead that picture and charts share, and a legend with the values
+// there.
+import uPlot from "uplot";
+import { h, replaceChildren, setText } from "../dom/element";
+import { number } from "../dom/format";
+import { themeColour } from "../picture/colours";
+import { indexBefore } from "./smooth";
+
+export interface Series {
+  label: string;
+  /** Name of a colour variable of the style sheet. */
+  colour: string;
+  width?: number;
+  dash?: number[];
+  /** Filled down to 0. */
+  fill?: boolean;
+  opacity?: number;
+  points?: boolean;
+  /** Left out of the legend. */
+  quiet?: boolean;
+  /** The value of the legend, if it is not that of the curve. */
+  legendValue?: (index: number) => number | undefined;
+}
+
+/** A line across the chart at a level, or a shaded band. */
+export interface Level { value: number; colour: string; dash: number[]; label: string; from?: number; to?: number }
+export interface Band { from: number; to: number; label: string }
+export interface Mark { at: number; label: string }
+
+export interface ChartData {
+  series: Series[];
+  /** x, then the values of each series. */
+  columns: (number | null)[][];
+  xLabel: string;
+  yLabel: string;
+  xEnd: number;
+  yLow?: number;
+  yTop: number;
+  levels?: Level[];
+  bands?: Band[];
+  marks?: Mark[];
+  note?: string;
+}
+
+const kFont = "11px ";
+
+export class Chart {
+  readonly element: HTMLElement;
+  private readonly place = h("div", { class: "plot" });
+  private readonly legend = h("div", { class: "legend" });
+  private readonly note = h("p", { class: "note faint" });
+  private readonly playhead = h("div", { class: "playhead", hidden: true });
+  private readonly theme = matchMedia("(prefers-color-scheme: dark)");
+  private readonly observer = new ResizeObserver(() => this.resize());
+  private plot: uPlot | undefined;
+  private data: ChartData | undefined;
+  private values: HTMLElement[] = [];
+  private head: number | undefined;
+  private hoverIndex: number | null = null;
+
+  /** `scrub` is called with the x that the user points at with a button down. */
+  constructor(title: string, private readonly scrub?: (x: number) => void) {
+    this.element = h("figure", { class: "chart" },
+      h("figcaption", {}, h("h3", {}, title)), this.legend, this.place, this.note);
+    this.theme.addEventListener("change", this.rebuild);
+    this.observer.observe(this.place);
+  }
+
+  get shown(): ChartData | undefined {
+    return this.data;
+  }
+
+  private readonly rebuild = (): void => {
+    this.plot?.destroy();
+    this.plot = undefined;
+    this.build();
+  };
+
+  setData(data: ChartData): void {
+    const key = (d: ChartData | undefined): string =>
+      d ? JSON.stringify([d.series, d.xLabel, d.yLabel, d.levels?.map((level) => level.label)]) : "";
+    const isSame = this.plot && key(this.data) === key(data);
+    this.data = data;
+    setText(this.note, data.note ?? "");
+    if (!isSame) return this.rebuild();
+    this.plot!.setData(data.columns as uPlot.AlignedData, false);
+    this.plot!.setScale("y", { min: data.yLow ?? 0, max: data.yTop });
+    this.plot!.setScale("x", { min: 0, max: data.xEnd });
+    this.moveHead();
+    this.showValues();
+  }
+
+  /** Moves the playhead. */
+  setHead(x: number): void {
+    this.head = x;
+    this.moveHead();
+    if (this.hoverIndex === null) this.showValues();
+  }
+
+  private moveHead(): void {
+    const { plot, head } = this;
+    this.playhead.hidden = !plot || head === undefined;
+    if (plot && head !== undefined) {
+      this.playhead.style.transform = `translateX(${plot.valToPos(head, "x").toFixed(1)}px)`;
+    }
+  }
+
+  private resize(): void {
+    const width = this.place.clientWidth;
+    const height = this.place.clientHeight;
+    if (!width || !height) return;
+    if (!this.plot) return this.build();
+    if (this.plot.width !== width || this.plot.height !== height) this.plot.setSize({ width, height });
+    this.moveHead();
+  }
+
+  private build(): void {
+    const { data, place } = this;
+    if (!data || !place.clientWidth) return;
+    const axis = (label: string, size: number): uPlot.Axis => ({
+      label, size, labelSize: 18, labelGap: 0, gap: 4, font: kFont + themeColour("font"),
+      labelFont: kFont + themeColour("font"),
+      stroke: () => themeColour("ink-2"),
+      grid: { stroke: themeColour("grid"), width: 1 },
+      ticks: { stroke: themeColour("grid"), width: 1, size: 4 },
+    });
+    this.plot = new uPlot({
+      width: place.clientWidth,
+      height: place.clientHeight,
+      padding: [8, 10, 0, 0],
+      legend: { show: false },
+      cursor: { drag: { x: false, y: false }, points: { size: 6 }, y: false },
+      scales: {
+        x: { time: false, range: () => [0, this.data!.xEnd] },
+        y: { range: () => [this.data!.yLow ?? 0, this.data!.yTop] },
+      },
+      axes: [{ ...axis(data.xLabel, 30), values: (_, ticks) => ticks.map(String) },
+             { ...axis(data.yLabel, 42), values: (_, ticks) => ticks.map(String) }],
+      series: [{}, ...data.series.map((series) => this.seriesOf(series))],
+      hooks: {
+        drawClear: [(plot) => this.drawBands(plot)],
+        draw: [(plot) => this.drawLevels(plot)],
+        setCursor: [(plot) => this.hover(plot.cursor.idx ?? null)],
+      },
+    }, data.columns as uPlot.AlignedData, place);
+    this.plot.over.append(this.playhead);
+    this.addScrubbing(this.plot);
+    this.buildLegend(data);
+    this.moveHead();
+    this.showValues();
+  }
+
+  private seriesOf(series: Series): uPlot.Series {
+    const colour = themeColour(series.colour);
+    return {
+      stroke: colour, width: series.width ?? 1.5, dash: series.dash, alpha: series.opacity ?? 1,
+      fill: series.fill ? colour : undefined,
+      paths: series.points ? () => null : undefined,
+      points: { show: series.points ?? false, size: 7, fill: colour },
+    };
+  }
+
+  private addScrubbing(plot: uPlot): void {
+    const { scrub } = this;
+    if (!scrub) return;
+    plot.over.classList.add("scrub");
+    const follow = (event: PointerEvent): void => {
+      if (event.buttons & 1) scrub(plot.posToVal(event.clientX - plot.over.getBoundingClientRect().left, "x"));
+    };
+    plot.over.addEventListener("pointerdown", (event) => {
+      plot.over.setPointerCapture(event.pointerId);
+      follow(event);
+    });
+    plot.over.addEventListener("pointermove", follow);
+  }
+
+  private drawBands(plot: uPlot): void {
+    const { ctx, bbox } = plot;
+    for (const band of this.data?.bands ?? []) {
+      const x0 = Math.max(plot.valToPos(band.from, "x", true), bbox.left);
+      const x1 = Math.min(plot.valToPos(band.to, "x", true), bbox.left + bbox.width);
+      if (x1 <= x0) continue;
+      ctx.fillStyle = themeColour("band");
+      ctx.fillRect(x0, bbox.top, x1 - x0, bbox.height);
+      this.label(plot, band.label, 0.5 * (x0 + x1), bbox.top + 13 * devicePixelRatio, "center");
+    }
+  }
+
+  private label(plot: uPlot, text: string, x: number, y: number, align: CanvasTextAlign): void {
+    const { ctx } = plot;
+    ctx.font = `${11 * devicePixelRatio}px ${themeColour("font")}`;
+    ctx.fillStyle = themeColour("ink-3");
+    ctx.textAlign = align;
+    ctx.fillText(text, x, y);
+  }
+
+  private drawLevels(plot: uPlot): void {
+    const { ctx, bbox } = plot;
+    ctx.save();
+    for (const level of this.data?.levels ?? []) {
+      const y = plot.valToPos(level.value, "y", true);
+      if (y < bbox.top || y > bbox.top + bbox.height) continue;
+      ctx.strokeStyle = themeColour(level.colour);
+      ctx.lineWidth = 1.4 * devicePixelRatio;
+      ctx.setLineDash(level.dash.map((length) => length * devicePixelRatio));
+      ctx.beginPath();
+      ctx.moveTo(level.from === undefined ? bbox.left : plot.valToPos(level.from, "x", true), y);
+      ctx.lineTo(level.to === undefined ? bbox.left + bbox.width : plot.valToPos(level.to, "x", true), y);
+      ctx.stroke();
+    }
+    ctx.setLineDash([2 * devicePixelRatio, 3 * devicePixelRatio]);
+    for (const mark of this.data?.marks ?? []) {
+      const x = plot.valToPos(mark.at, "x", true);
+      ctx.strokeStyle = themeColour("ink-3");
+      ctx.beginPath();
+      ctx.moveTo(x, bbox.top);
+      ctx.lineTo(x, bbox.top + bbox.height);
+      ctx.stroke();
+      const isRight = x > bbox.left + 0.7 * bbox.width;
+      this.label(plot, mark.label, x + (isRight ? -5 : 5) * devicePixelRatio, bbox.top + 28 * devicePixelRatio,
+                 isRight ? "right" : "left");
+    }
+    ctx.restore();
+  }
+
+  private buildLegend(data: ChartData): void {
+    const entry = (label: string, colour: string, dash: number[] | undefined, kind: string): HTMLElement => {
+      const swatch = h("i", { class: `swatch ${kind}` });
+      swatch.style.setProperty("--colour", `var(--${colour})`);
+      if (dash) swatch.classList.add("dashed");
+      const value = h("b", {});
+      if (kind !== "level") this.values.push(value);
+      return h("span", { class: "entry" }, swatch, h("span", {}, label), kind === "level" ? null : value);
+    };
+    this.values = [];
+    replaceChildren(this.legend,
+      ...data.series.filter((series) => !series.quiet)
+        .map((series) => entry(series.label, series.colour, series.dash, series.fill ? "area" : "line")),
+      ...(data.levels ?? []).filter((level) => level.label)
+        .map((level) => entry(level.label, level.colour, level.dash, "level")));
+  }
+
+  private hover(index: number | null): void {
+    this.hoverIndex = index;
+    this.showValues();
+  }
+
+  // The values of the legend: at the pointer, otherwise at the playhead.
+  private showValues(): void {
+    const { data } = this;
+    if (!data) return;
+    const x = data.columns[0] as number[];
+    let index = this.hoverIndex;
+    if (index === null && this.head !== undefined && x.length) index = indexBefore(x, this.head);
+    let at = 0;
+    data.series.forEach((series, i) => {
+      if (series.quiet) return;
+      const value = index === null ? undefined
+        : series.legendValue ? series.legendValue(index) : data.columns[i + 1][index] ?? undefined;
+      if (this.values[at]) setText(this.values[at], value === undefined ? "" : number(value));
+      ++at;
+    });
+  }
+
+  destroy(): void {
+    this.theme.removeEventListener("change", this.rebuild);
+    this.observer.disconnect();
+    this.plot?.destroy();
+  }
+}

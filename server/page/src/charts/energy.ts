@@ -1,0 +1,49 @@
+// The energy ledger as stacked areas: what became of the work of the plates.
+import type { Sample } from "../../gen/cellcrush/v1/sample_pb";
+import type { ChartData, Series } from "./chart";
+import { finite, type Axis } from "./curves";
+import { thin } from "./smooth";
+
+interface Term { label: string; colour: string; value(sample: Sample): number }
+
+const kTerms: Term[] = [
+  { label: "plastic", colour: "energy-plastic", value: (s) => s.energyPlasticMj },
+  { label: "kinetic", colour: "energy-kinetic", value: (s) => s.energyKineticMj },
+  { label: "elastic", colour: "energy-elastic", value: (s) => s.energyElasticMj },
+  { label: "contact", colour: "energy-contact", value: (s) => s.energyContactMj },
+  { label: "contact damping", colour: "energy-damping", value: (s) => s.energyContactDampingMj },
+  { label: "mass damping", colour: "energy-mass", value: (s) => s.energyDampingMj - s.energyContactDampingMj },
+  { label: "friction", colour: "energy-friction", value: (s) => s.energyFrictionMj },
+];
+const kVisibleShare = 0.002; // a term that stays below this part of the work is left out
+const kMostPoints = 1500;
+
+export function energyChart(samples: Sample[], axis: Axis): ChartData {
+  let kept = finite(samples, axis);
+  const places = thin(kept.map((s) => s.energyKineticMj), kMostPoints);
+  if (places) kept = places.map((place) => kept[place]);
+  const most = kept.reduce((value, s) => Math.max(value, s.workExternalMj), 0);
+  const [unit, perMj] = most < 100 ? ["mJ", 1] : most < 1e6 ? ["J", 1e-3] : ["kJ", 1e-6];
+  const terms = kTerms.filter((term) => kept.some((s) => Math.abs(term.value(s)) > kVisibleShare * most));
+  const sums = kept.map(() => 0);
+  let low = 0;
+  let high = most * perMj;
+  const stacked = terms.map((term) => kept.map((sample, i) => {
+    sums[i] += term.value(sample) * perMj;
+    low = Math.min(low, sums[i]);
+    high = Math.max(high, sums[i]);
+    return sums[i];
+  }));
+  // The highest area comes first, so that the lower ones cover it.
+  const areas: Series[] = terms.map((term) => ({
+    label: term.label, colour: term.colour, width: 0, fill: true,
+    legendValue: (i) => (kept[i] ? term.value(kept[i]) * perMj : undefined),
+  }));
+  return {
+    series: [...areas.reverse(), { label: "work of the plates", colour: "ink", width: 1.5 }],
+    columns: [kept.map((s) => axis.sample(s)), ...stacked.reverse(), kept.map((s) => s.workExternalMj * perMj)],
+    xLabel: axis.label, yLabel: `energy (${unit})`, xEnd: axis.end,
+    yLow: low < 0 ? 1.1 * low : 0, yTop: high > 0 ? 1.06 * high : 1,
+    note: "totals since the start; the gap between the areas and the work is the residual",
+  };
+}

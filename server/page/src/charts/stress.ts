@@ -1,0 +1,80 @@
+// Stress at both plates against strain, beside theory.
+import type { Sample, Summary, Theory } from "../../gen/cellcrush/v1/sample_pb";
+import { number } from "../dom/format";
+import type { Band, ChartData, Level, Mark } from "./chart";
+import { finite, type Axis } from "./curves";
+import { quantile, runningMean, thin } from "./smooth";
+
+export const kSmoothing = 0.02; // of strain
+const kMostPoints = 3000;
+const kFirstWave = 0.1; // strain; the first wave of a fast crush is far above all that follows
+
+export interface StressCurves { strain: number[]; impact: number[]; support: number[] }
+
+export function smoothedStress(samples: Sample[], axis: Axis): StressCurves {
+  const kept = finite(samples, axis);
+  const strain = kept.map((sample) => axis.sample(sample));
+  return {
+    strain,
+    impact: runningMean(strain, kept.map((sample) => sample.stressImpactMpa), kSmoothing),
+    support: runningMean(strain, kept.map((sample) => sample.stressSupportMpa), kSmoothing),
+  };
+}
+
+/** The upper end of the stress axis: it follows the plateau, not the first wave nor the densified specimen. */
+export function stressTop(smooth: StressCurves, summary: Summary | undefined, theory: Theory | undefined): number {
+  const last = smooth.strain[smooth.strain.length - 1] ?? 0;
+  const solid = summary?.densificationStrain ?? 0.65;
+  const crushing: number[] = [];
+  smooth.strain.forEach((strain, i) => {
+    const inFirstWave = strain < kFirstWave && last > 2 * kFirstWave;
+    if (strain <= solid && !inFirstWave) crushing.push(Math.max(smooth.impact[i], smooth.support[i]));
+  });
+  const top = Math.max(1.3 * quantile(crushing, 0.95), 1.2 * (theory?.shockMpa ?? 0),
+                       1.6 * (summary?.plateauStressImpactMpa ?? 0), 1.6 * (summary?.plateauStressSupportMpa ?? 0));
+  return top > 0 ? top : 1;
+}
+
+function levelsOf(summary: Summary | undefined, theory: Theory | undefined, top: number): Level[] {
+  const levels: Level[] = [];
+  const add = (value: number | undefined, label: string, dash: number[]): void => {
+    if (!value) return;
+    const beyond = value > top ? ", beyond the chart" : "";
+    levels.push({ value, colour: "ink-2", dash, label: `${label}: ${number(value)} MPa${beyond}` });
+  };
+  add(theory?.shockMpa, "shock theory (Eq. 51)", [8, 4]);
+  add(summary?.front?.shockMpa, "shock theory, measured jumps (Eq. 52)", [10, 3, 2, 3]);
+  add(theory?.gibsonAshbyMpa, "quasi-static theory (Gibson-Ashby)", [2, 3]);
+  const plateau = { colour: "ink", dash: [], label: "", from: summary?.plateauWindowLow, to: summary?.plateauWindowHigh };
+  for (const value of [summary?.plateauStressImpactMpa, summary?.plateauStressSupportMpa]) {
+    if (value !== undefined) levels.push({ ...plateau, value });
+  }
+  return levels;
+}
+
+export function stressChart(samples: Sample[], axis: Axis, summary: Summary | undefined,
+                            theory: Theory | undefined): ChartData {
+  const kept = finite(samples, axis);
+  const smooth = smoothedStress(samples, axis);
+  const top = stressTop(smooth, summary, theory);
+  let columns = [smooth.strain, kept.map((s) => s.stressImpactMpa), kept.map((s) => s.stressSupportMpa),
+                 smooth.impact, smooth.support];
+  const places = thin(columns[1], kMostPoints);
+  if (places) columns = columns.map((column) => places.map((place) => column[place]));
+  const peak = kept.reduce((most, s) => Math.max(most, s.stressImpactMpa, s.stressSupportMpa), 0);
+  const bands: Band[] = [{ from: 0.2, to: 0.4, label: "plateau window" }];
+  const marks: Mark[] = [];
+  if (summary?.densificationStrain !== undefined) marks.push({ at: summary.densificationStrain, label: "densification" });
+  const beyond = peak > 1.001 * top ? `; single samples reach ${number(peak, 2)} MPa, off the chart` : "";
+  return {
+    series: [
+      { label: "", colour: "impact", width: 0.8, opacity: 0.3, quiet: true },
+      { label: "", colour: "support", width: 0.8, opacity: 0.3, quiet: true },
+      { label: "impact plate", colour: "impact", width: 2 },
+      { label: "support plate", colour: "support", width: 2 },
+    ],
+    columns, xLabel: axis.label, yLabel: "nominal stress (MPa)", xEnd: axis.end, yTop: top,
+    levels: levelsOf(summary, theory, top), bands, marks,
+    note: `moving mean over ${100 * kSmoothing} % strain; thin: every sample${beyond}`,
+  };
+}

@@ -1,0 +1,68 @@
+// Numbers, times and sizes as text.
+
+const kMissing = "–";
+
+/** A number with the given significant digits, without an exponent in the range that engineers read. */
+export function number(value: number | undefined, digits = 3): string {
+  if (value === undefined || !Number.isFinite(value)) return kMissing;
+  if (value === 0) return "0";
+  const size = Math.abs(value);
+  if (size >= 1e6 || size < 1e-3) return value.toExponential(digits - 1).replace("e+", "e");
+  const decimals = Math.max(0, digits - 1 - Math.floor(Math.log10(size)));
+  return value.toFixed(Math.min(decimals, 6));
+}
+
+export function percent(fraction: number | undefined, digits = 2): string {
+  return fraction === undefined || !Number.isFinite(fraction) ? kMissing : `${number(100 * fraction, digits)} %`;
+}
+
+/** Nominal strain, always with two decimals so that columns align. */
+export function strainText(strain: number): string {
+  return strain.toFixed(2);
+}
+
+export function count(value: number | bigint): string {
+  return Number(value).toLocaleString("en").replaceAll(",", "\u202f");
+}
+
+export function duration(seconds: number | undefined): string {
+  if (seconds === undefined || !Number.isFinite(seconds) || seconds < 0) return kMissing;
+  if (seconds < 1) return seconds < 0.095 ? `${Math.max(1, Math.round(1000 * seconds))} ms` : `${seconds.toFixed(1)} s`;
+  if (seconds < 100) return `${Math.round(seconds)} s`;
+  if (seconds < 6000) return `${Math.round(seconds / 60)} min`;
+  if (seconds < 2 * 86400) return `${Math.floor(seconds / 3600)} h ${Math.round((seconds % 3600) / 60)} min`;
+  return `${number(seconds / 86400, 2)} days`;
+}
+
+export function bytes(size: number | bigint): string {
+  const value = Number(size);
+  if (value < 1e3) return `${value} B`;
+  if (value < 1e6) return `${number(value / 1e3)} kB`;
+  return value < 1e9 ? `${number(value / 1e6)} MB` : `${number(value / 1e9)} GB`;
+}
+
+const kSameDay = new Intl.DateTimeFormat("en-GB", { hour: "2-digit", minute: "2-digit" });
+const kOtherDay = new Intl.DateTimeFormat("en-GB", { day: "numeric", month: "short", hour: "2-digit",
+                                                     minute: "2-digit" });
+const kFull = new Intl.DateTimeFormat("en-GB", { dateStyle: "medium", timeStyle: "medium" });
+
+export interface Instant { seconds: bigint; nanos: number }
+
+export function milliseconds(time: Instant): number {
+  return Number(time.seconds) * 1000 + time.nanos / 1e6;
+}
+
+/** Time of day, with the date if it is not today. */
+export function clock(time: Instant | undefined): string {
+  if (!time) return kMissing;
+  const date = new Date(milliseconds(time));
+  return (date.toDateString() === new Date().toDateString() ? kSameDay : kOtherDay).format(date);
+}
+
+export function fullTime(time: Instant | undefined): string {
+  return time ? kFull.format(new Date(milliseconds(time))) : "";
+}
+
+export function plural(value: number, noun: string): string {
+  return `${count(value)} ${noun}${value === 1 ? "" : "s"}`;
+}

@@ -1,0 +1,65 @@
+// The mesh of a job as arrays for drawing.
+import type { Mesh } from "../../gen/cellcrush/v1/sample_pb";
+
+export interface Box { lowX: number; highX: number; lowY: number; highY: number }
+
+export interface Lattice {
+  /** Indices of the particles at the ends of the elements: start0, end0, ... */
+  ends: Uint32Array;
+  thickness: Float32Array;
+  undeformed: Float32Array;
+  /** Plates across the crush, if any. */
+  plates: boolean;
+  alongY: boolean;
+  length: number;
+  impactPlate: number;
+  supportPlate: number;
+}
+
+export function latticeOf(mesh: Mesh): Lattice {
+  return {
+    ends: Uint32Array.from(mesh.elementNodes),
+    thickness: Float32Array.from(mesh.thicknessMm),
+    undeformed: Float32Array.from(mesh.positionMm),
+    plates: mesh.supportPlateMm > mesh.impactPlateMm,
+    alongY: mesh.alongY,
+    length: mesh.supportPlateMm - mesh.impactPlateMm,
+    impactPlate: mesh.impactPlateMm,
+    supportPlate: mesh.supportPlateMm,
+  };
+}
+
+/** Position of the impact plate's face at a strain. */
+export function impactPlateAt(lattice: Lattice, strain: number): number {
+  return lattice.impactPlate + strain * lattice.length;
+}
+
+export function boxOf(position: Float32Array): Box {
+  const box = { lowX: Infinity, highX: -Infinity, lowY: Infinity, highY: -Infinity };
+  for (let i = 0; i + 1 < position.length; i += 2) {
+    const x = position[i];
+    const y = position[i + 1];
+    if (!Number.isFinite(x + y)) continue;
+    if (x < box.lowX) box.lowX = x;
+    if (x > box.highX) box.highX = x;
+    if (y < box.lowY) box.lowY = y;
+    if (y > box.highY) box.highY = y;
+  }
+  return box;
+}
+
+/** The box that shows the whole crush: the lattice before loading with room for its sides to bulge. */
+export function viewBox(lattice: Lattice): Box {
+  const box = boxOf(lattice.undeformed);
+  const width = box.highX - box.lowX;
+  const height = box.highY - box.lowY;
+  const plate = plateThickness(lattice);
+  const bulge = 0.04 * (lattice.alongY ? width : height);
+  const along = lattice.plates ? 1.6 * plate : 0.04 * Math.max(width, height);
+  const [dx, dy] = lattice.alongY ? [bulge + plate, along] : [along, bulge + plate];
+  return { lowX: box.lowX - dx, highX: box.highX + dx, lowY: box.lowY - dy, highY: box.highY + dy };
+}
+
+export function plateThickness(lattice: Lattice): number {
+  return 0.011 * Math.max(lattice.length, 1e-9);
+}

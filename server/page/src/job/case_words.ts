@@ -1,0 +1,54 @@
+// A case in a few words.
+import { Loading_Direction, Material_Plane, type Case } from "../../gen/cellcrush/v1/case_pb";
+import { number } from "../dom/format";
+
+const given = (value: number | undefined, digits = 4): string => (value === undefined ? "–" : String(Number(
+  value.toPrecision(digits))));
+
+export function latticeWords(value: Case): string {
+  const kind = value.lattice?.kind;
+  switch (kind?.case) {
+    case "hexagon":
+    case "square":
+    case "triangle": {
+      const noun = { hexagon: "hexagons", square: "squares", triangle: "triangles" }[kind.case];
+      return `${noun}, ${given(kind.value.columns)} × ${given(kind.value.rows)} cells`;
+    }
+    case "frame": return `frame of ${kind.value.beams.length} beams`;
+    default: return "no lattice";
+  }
+}
+
+export function loadingWords(value: Case): string {
+  const { loading } = value;
+  if (!loading) return "driven by its own loads";
+  const axis = loading.direction === Loading_Direction.Y ? "y" : "x";
+  return `along ${axis} at ${given(loading.speedMPerS)} m/s to strain ${given(loading.endStrain ?? 0.8)}`;
+}
+
+/** Facts of a case, as pairs of a name and a value. */
+export function caseFacts(value: Case): [string, string][] {
+  const facts: [string, string][] = [["lattice", latticeWords(value)], ["crush", loadingWords(value)]];
+  const kind = value.lattice?.kind;
+  if (kind?.case === "hexagon" || kind?.case === "square" || kind?.case === "triangle") {
+    facts.push(["side of a cell", `${given(kind.value.sideMm)} mm`]);
+    facts.push(["wall thickness", `${given(kind.value.wallThicknessMm)} mm`]);
+  }
+  if (value.depthMm !== undefined) facts.push(["depth", `${given(value.depthMm)} mm`]);
+  const { material } = value;
+  if (material) {
+    facts.push(["Young’s modulus", `${number(material.youngsModulusMpa, 4)} MPa`]);
+    facts.push(["yield stress", `${given(material.yieldStressMpa)} MPa`]);
+    facts.push(["density", `${given(material.densityKgPerM3)} kg/m³`]);
+    if (material.plane === Material_Plane.STRAIN) facts.push(["state of the walls", "plane strain"]);
+  }
+  if (value.elementsPerWall) facts.push(["elements per wall", given(value.elementsPerWall)]);
+  const { imperfection } = value.lattice ?? {};
+  if (imperfection?.amplitudeMm) {
+    facts.push(["offsets of joints", `up to ${given(imperfection.amplitudeMm)} mm, seed ${imperfection.seed ?? 0n}`]);
+  }
+  if (imperfection?.bowMm) facts.push(["bow of walls", `up to ${given(imperfection.bowMm)} mm`]);
+  if (value.plates?.friction) facts.push(["friction at the plates", given(value.plates.friction)]);
+  if (value.contact?.friction) facts.push(["friction between walls", given(value.contact.friction)]);
+  return facts;
+}

@@ -1,0 +1,75 @@
+// The head of a job's page: title, state, progress, cause of a failure, actions.
+import { Job_State, type Job } from "../../gen/cellcrush/v1/job_pb";
+import { idOf, pathOf } from "../api/names";
+import { h, replaceChildren, setText } from "../dom/element";
+import { clock, count, duration, fullTime, strainText } from "../dom/format";
+import { icon } from "../dom/icons";
+import { actionsOf, attempt } from "../jobs/actions";
+import { causeWords, hasEnded, setChip, stateChip, titleOf } from "../jobs/states";
+import type { JobStore } from "../jobs/store";
+import { go } from "../router";
+
+export class JobHeader {
+  readonly element: HTMLElement;
+  private readonly title = h("h1");
+  private readonly chip = stateChip();
+  private readonly about = h("p", { class: "faint about" });
+  private readonly bar = h("progress", { max: 1, "aria-label": "progress" });
+  private readonly progress = h("span", { class: "faint" });
+  private readonly progressRow = h("div", { class: "progress-row" }, this.bar, this.progress);
+  private readonly actions = h("div", { class: "buttons" });
+  private readonly cause = h("div", { class: "banner error", hidden: true });
+  private shownState = -1;
+  private aboutKey = "";
+
+  constructor(private readonly store: JobStore) {
+    this.element = h("header", { class: "job-header" },
+      h("div", { class: "title-row" }, this.title, this.chip, h("span", { class: "spacer" }), this.actions),
+      h("div", { class: "about-row" }, this.about, this.progressRow), this.cause);
+  }
+
+  update(job: Job): void {
+    setText(this.title, titleOf(job));
+    setChip(this.chip, job.state);
+    this.updateAbout(job);
+    this.updateProgress(job);
+    this.updateCause(job);
+    if (this.shownState === job.state) return;
+    this.shownState = job.state;
+    replaceChildren(this.actions, ...actionsOf(job, this.store, () => go("/")).map((action) =>
+      h("button", { type: "button", class: action.danger ? "danger-quiet" : "",
+                    click: () => void attempt(() => action.run(job)) }, icon(action.icon), action.label)));
+  }
+
+  private updateAbout(job: Job): void {
+    const labels = Object.entries(job.labels).map(([key, value]) => `${key}=${value}`).join(", ");
+    const key = [job.sweep, labels, job.owner, job.retryOf, job.attempt, job.state].join("\n");
+    if (key === this.aboutKey) return;
+    this.aboutKey = key;
+    replaceChildren(this.about, `Job ${idOf(job.name)}`,
+      ...(job.sweep ? [" of ", h("a", { href: pathOf(job.sweep) }, `sweep ${idOf(job.sweep)}`)] : []),
+      ...(job.retryOf ? [", retry of ", h("a", { href: pathOf(job.retryOf) }, `job ${idOf(job.retryOf)}`)] : []),
+      h("span", { title: fullTime(job.createTime) }, `, created ${clock(job.createTime)}`),
+      job.owner ? ` by ${job.owner}` : "", job.attempt > 1 ? `, worker ${job.attempt}` : "",
+      labels ? `, labels ${labels}` : "");
+  }
+
+  private updateProgress(job: Job): void {
+    const { progress } = job;
+    // Invisible rather than absent, so that the page does not jump when the job ends.
+    this.progressRow.classList.toggle("invisible", hasEnded(job) || !progress);
+    if (!progress) return;
+    this.bar.value = progress.fraction;
+    const left = job.state === Job_State.RUNNING ? `, ${duration(progress.secondsLeft)} left` : "";
+    setText(this.progress, progress.stalled ? "The worker has not reported for some seconds."
+      : `strain ${strainText(progress.strain)}, step ${count(progress.step)} of ${count(progress.stepCount)}${left}`);
+  }
+
+  private updateCause(job: Job): void {
+    const text = [job.causeMessage, job.remedy].filter(Boolean).join(" ");
+    this.cause.hidden = !text;
+    this.cause.className = `banner ${job.state === Job_State.FAILED ? "error" : "warning"}`;
+    const name = job.state === Job_State.FAILED ? `${causeWords(job.cause)}: ` : "";
+    setText(this.cause, name + text);
+  }
+}

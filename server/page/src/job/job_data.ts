@@ -1,0 +1,188 @@
+// All that the page knows of one job: the job, its samples and its frames, from the past and the present.
+import { Code, ConnectError } from "@connectrpc/connect";
+import type { CheckCaseResponse } from "../../gen/cellcrush/v1/cases_service_pb";
+import type { JobEvent } from "../../gen/cellcrush/v1/event_pb";
+import type { Job } from "../../gen/cellcrush/v1/job_pb";
+import { FieldFrame_Encoding, type Sample } from "../../gen/cellcrush/v1/sample_pb";
+import { api } from "../api/clients";
+import { isAway } from "../api/errors";
+import { Listeners } from "../api/listeners";
+import { watch, type WatchedJob } from "../api/watch";
+import { FrameStore } from "../frames/frame_store";
+import { FrameParts, MeshParts } from "../frames/parts";
+import { hasEnded } from "../jobs/states";
+
+const kAgainMs = 2500;
+
+export class JobData implements WatchedJob {
+  job: Job | undefined;
+  check: CheckCaseResponse | undefined;
+  samples: Sample[] = [];
+  readonly frames = new FrameStore();
+  sequence = 0n;
+  error: unknown;
+  readonly jobChanges = new Listeners<void>();
+  readonly sampleChanges = new Listeners<void>();
+  private readonly meshParts = new MeshParts();
+  private readonly frameParts = new FrameParts();
+  private readonly abort = new AbortController();
+  private stopWatch: (() => void) | undefined;
+  private readonly stops: (() => void)[];
+  private isLoadingFrames = false;
+
+  constructor(readonly name: string, private readonly withFrames = true) {
+    this.stops = [
+      watch.jobs.add((job) => {
+        if (job.name === this.name) this.putJob(job);
+      }),
+      watch.deletedJobs.add((deleted) => {
+        if (deleted === this.name) this.fail(new ConnectError("This job was deleted.", Code.NotFound));
+      }),
+    ];
+    void this.load();
+  }
+
+  private async load(): Promise<void> {
+    const { signal } = this.abort;
+    try {
+      const job = await api.jobs.getJob({ name: this.name }, { signal });
+      this.error = undefined;
+      this.putJob(job);
+      if (hasEnded(job)) await Promise.all([this.loadHistory(), this.loadFrames()]);
+      else this.follow();
+      await this.loadCheck();
+    } catch (error) {
+      if (signal.aborted) return;
+      this.fail(error);
+      if (isAway(error)) setTimeout(() => void (signal.aborted || this.load()), kAgainMs);
+    }
+  }
+
+  private fail(error: unknown): void {
+    this.error = error;
+    this.jobChanges.tell();
+  }
+
+  putJob(job: Job): void {
+    const old = this.job;
+    if (!job.case && old?.case) job.case = old.case;
+    if (!job.title && old?.title) job.title = old.title;
+    if (!job.progress && old?.progress && !hasEnded(job)) job.progress = old.progress;
+    this.job = job;
+    this.jobChanges.tell();
+    if (!old || hasEnded(old) === hasEnded(job)) return;
+    if (hasEnded(job)) void this.completeFrames();
+  }
+
+  // Samples from the start and frames as they come; the frames before are fetched beside.
+  private follow(): void {
+    this.stopWatch = watch.add(this);
+    void this.loadFrames();
+  }
+
+  receive(event: JobEvent): void {
+    const { event: content } = event;
+    switch (content.case) {
+      case "snapshot":
+        if (content.value.job) this.putJob(content.value.job);
+        break;
+      case "state":
+        if (content.value.begunAgainSequence === event.sequence) this.clear();
+        this.putJob(content.value);
+        break;
+      case "sample":
+        this.samples.push(content.value);
+        this.sampleChanges.tell();
+        break;
+      case "progress":
+        if (this.job) this.job.progress = content.value;
+        this.jobChanges.tell();
+        break;
+      case "mesh": {
+        const mesh = this.meshParts.add(content.value);
+        if (mesh) this.frames.setMesh(mesh);
+        break;
+      }
+      case "frame": {
+        const frame = this.frameParts.add(content.value);
+        if (frame) this.frames.add(frame);
+        break;
+      }
+    }
+  }
+
+  // The job restarts from step 0: what was computed is void.
+  private clear(): void {
+    this.samples = [];
+    this.frames.clear();
+    this.sampleChanges.tell();
+  }
+
+  private async loadHistory(): Promise<void> {
+    let pageToken = "";
+    do {
+      const page = await api.jobs.getHistory({ name: this.name, pageToken }, { signal: this.abort.signal });
+      this.samples.push(...page.samples);
+      pageToken = page.nextPageToken;
+      this.sampleChanges.tell();
+    } while (pageToken);
+  }
+
+  private async loadFrames(): Promise<void> {
+    if (this.isLoadingFrames || !this.withFrames) return;
+    this.isLoadingFrames = true;
+    try {
+      await this.streamFrames(this.frames.firstGap());
+    } catch (error) {
+      // A job without a frame yet is no error: the watch brings its frames.
+      const code = ConnectError.from(error).code;
+      if (code !== Code.FailedPrecondition && code !== Code.OutOfRange && !this.abort.signal.aborted) throw error;
+    } finally {
+      this.isLoadingFrames = false;
+    }
+  }
+
+  private async streamFrames(from: number): Promise<void> {
+    const mesh = new MeshParts();
+    const frames = new FrameParts();
+    const request = { name: this.name, from, encoding: FieldFrame_Encoding.PACKED };
+    for await (const { content } of api.jobs.streamFrames(request, { signal: this.abort.signal })) {
+      if (content.case === "mesh") {
+        const whole = mesh.add(content.value);
+        if (whole && !this.frames.lattice) this.frames.setMesh(whole);
+      } else if (content.case === "frame") {
+        const whole = frames.add(content.value);
+        if (whole) this.frames.add(whole);
+      }
+    }
+  }
+
+  // The watch skips frames for a slow reader, and ends before the last frames of a job that was quick.
+  private async completeFrames(): Promise<void> {
+    try {
+      const job = await api.jobs.getJob({ name: this.name }, { signal: this.abort.signal });
+      this.putJob(job);
+      await this.loadFrames();
+      if (job.summary && this.samples.length === 0) await this.loadHistory();
+    } catch {
+      // What came with the watch stays.
+    }
+  }
+
+  // What is modelled, and the theory of a job that has no summary yet.
+  private async loadCheck(): Promise<void> {
+    if (!this.job?.case) return;
+    try {
+      this.check = await api.cases.checkCase({ case: this.job.case }, { signal: this.abort.signal });
+      this.jobChanges.tell();
+    } catch {
+      // The page then shows the job without these notes.
+    }
+  }
+
+  destroy(): void {
+    this.abort.abort();
+    this.stopWatch?.();
+    for (const stop of this.stops) stop();
+  }
+}

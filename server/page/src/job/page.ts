@@ -1,0 +1,243 @@
+// The page of a job: the crush, its curves and its numbers, with one cursor through all.
+import type { Job } from "../../gen/cellcrush/v1/job_pb";
+import type { Sample, Summary, Theory } from "../../gen/cellcrush/v1/sample_pb";
+import { errorText, isAway, isNotFound } from "../api/errors";
+import { idOf } from "../api/names";
+import { Chart } from "../charts/chart";
+import { strainAxis, timeAxis, type Axis } from "../charts/curves";
+import { energyChart } from "../charts/energy";
+import { stressChart } from "../charts/stress";
+import { h, replaceChildren } from "../dom/element";
+import { hasEnded, titleOf, warningWords } from "../jobs/states";
+import { JobStore } from "../jobs/store";
+import { FrameView } from "../picture/frame_view";
+import { colourLegend } from "../picture/legend";
+import { Player } from "../picture/player";
+import { PlayerBar } from "../picture/player_bar";
+import { keepInUrl, setTitle, type View } from "../router";
+import { takeAwayOfChart, takeAwayOfPicture } from "../take_away/menus";
+import { caseFacts } from "./case_words";
+import { JobHeader } from "./header";
+import { JobData } from "./job_data";
+import { resultsList } from "./results";
+
+const kCurvesMs = 200; // at most five updates of the curves in a second
+const kUrlMs = 400;
+
+export class JobPage implements View {
+  title: string;
+  readonly element = h("div", { class: "page job-page" });
+  private readonly data: JobData;
+  private readonly store: JobStore;
+  private readonly header: JobHeader;
+  private readonly player = new Player();
+  private readonly frames: FrameView;
+  private readonly bar: PlayerBar;
+  private readonly stress = new Chart("Stress and strain", (x) => this.player.seek(x));
+  private readonly energy = new Chart("Energy ledger", (x) => this.player.seek(x));
+  private readonly waiting = h("p", { class: "picture-note" }, "Loading the frames…");
+  private readonly numbers = h("section", { class: "card" });
+  private readonly facts = h("section", { class: "card" });
+  private readonly modelled = h("section", { class: "card" });
+  private readonly warnings = h("div", { class: "warnings" });
+  private readonly problem = h("div", { class: "banner error", hidden: true });
+  private axis: Axis = strainAxis(0.8);
+  private wantedStrain: number | undefined;
+  private curvesTimer = 0;
+  private urlTimer = 0;
+  private detailsKey = "";
+  private wasLive = false;
+
+  constructor(name: string, query: URLSearchParams) {
+    this.title = `Job ${idOf(name)}`;
+    this.data = new JobData(name);
+    this.store = new JobStore(() => false);
+    this.header = new JobHeader(this.store);
+    this.frames = new FrameView(this.data.frames, (frame) => this.axis.frame(frame), "The lattice as it is crushed");
+    this.frames.picture.camera.text = query.get("view") ?? "";
+    if (query.has("strain")) this.wantedStrain = Number(query.get("strain"));
+    this.bar = new PlayerBar(this.player, {
+      neighbour: (direction) => this.frames.neighbour(this.player.value, direction),
+      text: (value) => this.axis.text(value),
+      fit: () => this.frames.picture.fit(),
+    });
+    this.build();
+    this.listen();
+  }
+
+  private build(): void {
+    const { picture } = this.frames;
+    picture.element.append(this.waiting);
+    this.stress.element.querySelector("figcaption")!.append(
+      takeAwayOfChart(this.stress, this.data, () => this.axis, "stress"));
+    this.energy.element.querySelector("figcaption")!.append(
+      takeAwayOfChart(this.energy, this.data, () => this.axis, "energy"));
+    replaceChildren(this.element, this.header.element, this.problem, this.warnings,
+      h("div", { class: "job-grid" },
+        h("section", { class: "card crush" },
+          h("div", { class: "picture-head" }, colourLegend(), h("span", { class: "spacer" }),
+            takeAwayOfPicture(picture, this.player, this.data)),
+          picture.element, this.bar.element),
+        h("section", { class: "card curves" }, this.stress.element, this.energy.element)),
+      h("div", { class: "facts-grid" }, this.numbers, this.facts, this.modelled));
+  }
+
+  private listen(): void {
+    this.data.jobChanges.add(() => this.update());
+    this.data.sampleChanges.add(() => this.updateCurvesSoon());
+    this.data.frames.changes.add(() => this.updateFrames());
+    this.player.changes.add(() => this.showPlace());
+    this.frames.picture.moved.add(() => this.keepUrlSoon());
+    // The actions of the header change the job through the store.
+    this.store.changes.add(() => {
+      const job = this.store.jobs.get(this.data.name);
+      if (job && job !== this.data.job) this.data.putJob(job);
+    });
+    document.addEventListener("keydown", this.key);
+  }
+
+  private readonly key = (event: KeyboardEvent): void => {
+    const { picture } = this.frames;
+    if (this.bar.key(event) || !(event.target as Element).matches("canvas, body")) return;
+    if (event.key === "+" || event.key === "=") picture.zoomBy(1.5);
+    else if (event.key === "-") picture.zoomBy(1 / 1.5);
+  };
+
+  private update(): void {
+    const { job, error } = this.data;
+    this.problem.hidden = !error;
+    if (error) this.showError(error);
+    if (!job) return;
+    this.store.jobs.set(job.name, job);
+    this.header.update(job);
+    this.title = titleOf(job);
+    setTitle(this.title);
+    this.followState(job);
+    this.updateDetails(job);
+  }
+
+  private showError(error: unknown): void {
+    replaceChildren(this.problem, isNotFound(error) ? `${this.title} does not exist, or was deleted. ` : "",
+      isNotFound(error) ? h("a", { href: "/" }, "All jobs") : errorText(error),
+      isAway(error) ? " The page tries again." : "");
+    this.waiting.hidden = !this.data.job;
+  }
+
+  private followState(job: Job): void {
+    const { lattice, loading } = job.case ?? {};
+    if (lattice?.kind.case === "frame") this.setAxis(timeAxis(lattice.kind.value.endTimeS ?? 1));
+    else this.setAxis(strainAxis(loading?.endStrain ?? 0.8));
+    const isLive = !hasEnded(job);
+    if (isLive && !this.wasLive && this.wantedStrain === undefined) this.player.follow();
+    this.wasLive ||= isLive;
+    this.bar.setLive(isLive);
+    this.waiting.textContent = hasEnded(job) ? "This job has no frames." : "The first frame comes when the job runs.";
+  }
+
+  private setAxis(axis: Axis): void {
+    if (axis.label === this.axis.label && axis.end === this.axis.end) return;
+    this.axis = axis;
+    this.player.fullEnd = axis.end;
+    this.updateCurvesSoon();
+  }
+
+  private get theory(): Theory | undefined {
+    const theory = this.summary?.theory ?? this.data.check?.theory;
+    return theory?.gibsonAshbyMpa ? theory : undefined;
+  }
+
+  private get summary(): Summary | undefined {
+    return this.data.job?.summary;
+  }
+
+  private updateCurvesSoon(): void {
+    if (this.curvesTimer) return;
+    this.curvesTimer = window.setTimeout(() => {
+      this.curvesTimer = 0;
+      this.updateCurves();
+    }, kCurvesMs);
+  }
+
+  private updateCurves(): void {
+    const { samples } = this.data;
+    this.player.fullEnd = this.axis.end;
+    const isFrame = this.data.job?.case?.lattice?.kind.case === "frame";
+    this.stress.element.hidden = isFrame;
+    if (!isFrame) this.stress.setData(stressChart(samples, this.axis, this.summary, this.theory));
+    this.energy.setData(energyChart(samples, this.axis));
+    this.setEnd();
+  }
+
+  private updateFrames(): void {
+    const { frames } = this.data.frames;
+    this.waiting.hidden ||= frames.length > 0;
+    this.setEnd();
+  }
+
+  // The end so far is that of the samples and the frames.
+  private setEnd(): void {
+    const { samples, frames } = this.data;
+    const lastSample: Sample | undefined = samples[samples.length - 1];
+    const lastFrame = frames.frames[frames.frames.length - 1];
+    const end = Math.max(lastSample ? this.axis.sample(lastSample) : 0, lastFrame ? this.axis.frame(lastFrame) : 0);
+    const isDone = this.data.job !== undefined && hasEnded(this.data.job);
+    this.player.setEnd(Number.isFinite(end) ? end : 0);
+    if (this.wantedStrain !== undefined && (this.wantedStrain <= end || isDone)) {
+      this.player.seek(this.wantedStrain);
+      if (this.wantedStrain <= end + 1e-6) this.wantedStrain = undefined;
+    }
+  }
+
+  private showPlace(): void {
+    const { value, playing } = this.player;
+    this.frames.showAt(value, playing);
+    this.stress.setHead(value);
+    this.energy.setHead(value);
+    this.keepUrlSoon();
+  }
+
+  private keepUrlSoon(): void {
+    clearTimeout(this.urlTimer);
+    this.urlTimer = window.setTimeout(() => {
+      const { player } = this;
+      if (player.playing || this.wantedStrain !== undefined) return;
+      const strain = player.following || player.value === 0 ? undefined : String(Number(player.value.toFixed(4)));
+      keepInUrl({ strain, view: this.frames.picture.camera.text || undefined });
+    }, kUrlMs);
+  }
+
+  private updateDetails(job: Job): void {
+    const { check } = this.data;
+    const key = [job.state, job.summary !== undefined, check !== undefined, job.summary?.warnings.length].join();
+    if (key === this.detailsKey) return;
+    this.detailsKey = key;
+    this.updateCurvesSoon();
+    const summary = job.summary;
+    replaceChildren(this.warnings, ...(summary?.warnings ?? []).map((warning) =>
+      h("div", { class: "banner warning" }, h("strong", {}, `${warningWords(warning.kind)}. `),
+        `${warning.message} ${warning.remedy}`)));
+    this.numbers.hidden = !summary;
+    if (summary) replaceChildren(this.numbers, h("h3", {}, "Result"), resultsList(summary));
+    const completed = check?.completedCase ?? job.case;
+    this.facts.hidden = !completed;
+    if (completed) {
+      replaceChildren(this.facts, h("h3", {}, "Case"), h("dl", { class: "facts" }, ...caseFacts(completed)
+        .map(([name, value]) => h("div", {}, h("dt", {}, name), h("dd", {}, value)))));
+    }
+    this.modelled.hidden = !check?.modelled.length;
+    replaceChildren(this.modelled, h("h3", {}, "What was modelled"),
+      h("ul", {}, ...(check?.modelled ?? []).map((sentence) => h("li", {}, sentence))));
+  }
+
+  destroy(): void {
+    document.removeEventListener("keydown", this.key);
+    clearTimeout(this.curvesTimer);
+    clearTimeout(this.urlTimer);
+    this.player.destroy();
+    this.data.destroy();
+    this.store.destroy();
+    this.frames.destroy();
+    this.stress.destroy();
+    this.energy.destroy();
+  }
+}

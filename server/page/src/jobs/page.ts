@@ -1,0 +1,177 @@
+// The page of all jobs and sweeps, live.
+import { Job_State, type Job } from "../../gen/cellcrush/v1/job_pb";
+import { api } from "../api/clients";
+import { errorText } from "../api/errors";
+import { idOf } from "../api/names";
+import { watch } from "../api/watch";
+import { button, h, setText } from "../dom/element";
+import { plural } from "../dom/format";
+import { go, keepInUrl, type View } from "../router";
+import { QueuePanel } from "./queue";
+import { hasEnded, kActiveStates, kStates, stateWord, titleOf } from "./states";
+import { JobStore } from "./store";
+import { SweepsList } from "./sweeps_list";
+import { JobTable } from "./table";
+
+const kPage = 50;
+const kMostPagesAtOnce = 6; // while few of the jobs on a page pass the filter
+const kMostCompared = 6;
+const kTypingMs = 250;
+
+export class JobsPage implements View {
+  readonly title = "Jobs";
+  readonly element = h("div", { class: "page jobs-page" });
+  private readonly store = new JobStore((job) => this.passes(job));
+  private readonly queue = new QueuePanel(() => this.show());
+  private readonly sweeps = new SweepsList();
+  private readonly table = new JobTable(this.store, (names) => this.showSelection(names));
+  private readonly text = h("input", { type: "search", placeholder: "Title, or a filter such as owner = \"anna\"",
+                                       "aria-label": "Filter of jobs" });
+  private readonly state = h("select", { "aria-label": "State" }, h("option", { value: "" }, "any state"),
+    ...kStates.map((state) => h("option", { value: Job_State[state] }, stateWord(state))));
+  private readonly withSweeps = h("input", { type: "checkbox" });
+  private readonly counts = h("p", { class: "faint counts" });
+  private readonly compare = button("Compare", () => this.openComparison(), { class: "primary", hidden: true });
+  private readonly unselect = button("Clear selection", () => this.table.clearSelection(), { hidden: true });
+  private readonly more = button("Earlier jobs", () => void this.load(false), { class: "quiet", hidden: true });
+  private readonly empty = h("p", { class: "empty", hidden: true });
+  private readonly stops: (() => void)[];
+  private selected: string[] = [];
+  private token = "";
+  private generation = 0;
+  private timer = 0;
+
+  constructor(query: URLSearchParams) {
+    this.text.value = query.get("q") ?? "";
+    this.state.value = query.get("state") ?? "";
+    this.withSweeps.checked = query.get("all") === "1";
+    this.text.addEventListener("input", () => this.filterSoon(kTypingMs));
+    this.state.addEventListener("change", () => this.filterSoon(0));
+    this.withSweeps.addEventListener("change", () => this.filterSoon(0));
+    this.element.append(
+      this.queue.element, this.sweeps.element,
+      h("section", {},
+        h("div", { class: "toolbar" }, h("h2", {}, "Jobs"), this.text, this.state,
+          h("label", {}, this.withSweeps, " jobs of sweeps"), h("span", { class: "spacer" }), this.unselect,
+          this.compare),
+        this.counts, this.table.element, this.empty, this.more));
+    this.stops = [
+      this.store.changes.add(() => this.show()),
+      this.store.stateChanges.add(() => this.queue.refresh()),
+      watch.freshStarts.add(() => void this.load(true)),
+    ];
+    void this.load(true);
+    this.queue.refresh();
+  }
+
+  private filterSoon(delay: number): void {
+    clearTimeout(this.timer);
+    this.timer = window.setTimeout(() => {
+      keepInUrl({ q: this.text.value, state: this.state.value, all: this.withSweeps.checked ? "1" : "" });
+      void this.load(true);
+    }, delay);
+  }
+
+  // The filter of ListJobs: plain text is looked for in titles.
+  private filterText(): string {
+    const text = this.text.value.trim();
+    const parts = [];
+    if (/[=:]/.test(text)) parts.push(text);
+    else if (text) parts.push(`title : "${text.replaceAll("\\", "\\\\").replaceAll('"', '\\"')}"`);
+    return parts.join(" AND ");
+  }
+
+  private passes(job: Job): boolean {
+    const text = this.text.value.trim().toLowerCase();
+    if (/[=:]/.test(text)) return false; // the daemon decides; the next list has it
+    if (text && !titleOf(job).toLowerCase().includes(text)) return false;
+    return !this.state.value || Job_State[job.state] === this.state.value;
+  }
+
+  // Jobs of sweeps are listed by their sweep; here only while they run, unless the user wants all.
+  private isShown(job: Job): boolean {
+    if (this.state.value && Job_State[job.state] !== this.state.value) return false;
+    if (!job.sweep || this.withSweeps.checked) return true;
+    return job.state === Job_State.RUNNING || job.state === Job_State.CANCELLING;
+  }
+
+  private async load(fromStart: boolean): Promise<void> {
+    const generation = ++this.generation;
+    const filter = this.filterText();
+    try {
+      const active = fromStart ? await this.listActive(filter) : [];
+      if (generation !== this.generation) return;
+      if (fromStart) {
+        this.store.clear();
+        this.token = "";
+        active.forEach((job) => this.store.put(job));
+      }
+      await this.loadPages(generation, filter);
+      if (generation === this.generation) this.showEmpty("");
+    } catch (error) {
+      if (generation === this.generation) this.showEmpty(errorText(error));
+    }
+  }
+
+  private async loadPages(generation: number, filter: string): Promise<void> {
+    const state = this.state.value ? [filter, `state = ${this.state.value}`].filter(Boolean).join(" AND ") : filter;
+    let shown = 0;
+    for (let i = 0; i < kMostPagesAtOnce && shown < kPage / 2; ++i) {
+      const page = await api.jobs.listJobs({ pageSize: kPage, pageToken: this.token, filter: state });
+      if (generation !== this.generation) return;
+      page.jobs.forEach((job) => this.store.put(job));
+      shown += page.jobs.filter((job) => this.isShown(job)).length;
+      this.token = page.nextPageToken;
+      if (!this.token) break;
+    }
+    this.more.hidden = !this.token;
+  }
+
+  private async listActive(filter: string): Promise<Job[]> {
+    const lists = await Promise.all(kActiveStates.map((state) =>
+      api.jobs.listJobs({ pageSize: 200, filter: [filter, `state = ${Job_State[state]}`].filter(Boolean)
+        .join(" AND ") })));
+    return lists.flatMap((list) => list.jobs);
+  }
+
+  private show(): void {
+    this.table.update(this.queue.entries, (job) => this.isShown(job));
+    const jobs = [...this.store.jobs.values()];
+    const words = kActiveStates.map((state) => ({ state, n: jobs.filter((job) => job.state === state).length }))
+      .filter(({ n }) => n > 0).map(({ state, n }) => `${n} ${stateWord(state)}`);
+    if (this.table.hiddenCount) words.push(`${this.table.hiddenCount} of the waiting not listed`);
+    setText(this.counts, words.join(" · ") || "no job is running or waiting");
+    this.empty.hidden = this.empty.textContent === "" || jobs.some((job) => !hasEnded(job) || this.isShown(job));
+  }
+
+  private showEmpty(error: string): void {
+    const none = this.text.value || this.state.value ? "No job matches the filter." : "No jobs yet.";
+    setText(this.empty, error || none);
+    this.show();
+    this.empty.hidden = !error && [...this.store.jobs.values()].some((job) => this.isShown(job));
+    if (!error && !this.text.value && !this.state.value && !this.empty.hidden) {
+      this.empty.append(" ", h("a", { href: "/new" }, "Start from a preset."));
+    }
+  }
+
+  private showSelection(names: string[]): void {
+    this.selected = names;
+    this.compare.hidden = this.unselect.hidden = names.length === 0;
+    this.compare.disabled = names.length < 2 || names.length > kMostCompared;
+    setText(this.compare, names.length > kMostCompared ? `At most ${kMostCompared} jobs`
+      : `Compare ${plural(names.length, "job")}`);
+  }
+
+  private openComparison(): void {
+    go(`/compare?jobs=${this.selected.map(idOf).join(",")}`);
+  }
+
+  destroy(): void {
+    clearTimeout(this.timer);
+    ++this.generation;
+    for (const stop of this.stops) stop();
+    this.store.destroy();
+    this.queue.destroy();
+    this.sweeps.destroy();
+  }
+}

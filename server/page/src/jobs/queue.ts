@@ -1,0 +1,52 @@
+// Why jobs wait: the order of the queue, and the shortages that hold it.
+import type { Queue_Entry, Queue_Hold } from "../../gen/cellcrush/v1/admin_service_pb";
+import { api } from "../api/clients";
+import { h, replaceChildren } from "../dom/element";
+import { clock } from "../dom/format";
+
+const kCalmMs = 400; // after a change of states, before the queue is asked for
+const kAgainMs = 20_000; // while jobs wait, as the estimates change
+
+export class QueuePanel {
+  readonly element = h("div", { class: "holds", "aria-live": "polite" });
+  entries = new Map<string, Queue_Entry>();
+  private timer = 0;
+  private again = 0;
+  private isDestroyed = false;
+
+  constructor(private readonly changed: () => void) {}
+
+  /** Asks for the queue soon; several calls in a row make one request. */
+  refresh(): void {
+    clearTimeout(this.timer);
+    this.timer = window.setTimeout(() => void this.fetch(), kCalmMs);
+  }
+
+  private async fetch(): Promise<void> {
+    clearTimeout(this.again);
+    try {
+      const queue = await api.admin.getQueue({});
+      if (this.isDestroyed) return;
+      this.entries = new Map(queue.entries.map((entry) => [entry.job, entry]));
+      this.showHolds(queue.holds);
+      this.changed();
+      if (queue.entries.length > 0 || queue.holds.length > 0) {
+        this.again = window.setTimeout(() => void this.fetch(), kAgainMs);
+      }
+    } catch {
+      // The watch says that the daemon is away; the next change of a state asks again.
+    }
+  }
+
+  private showHolds(holds: Queue_Hold[]): void {
+    replaceChildren(this.element, ...holds.map((hold) =>
+      h("div", { class: "banner warning" }, h("strong", {}, "No job starts. "), `${hold.reason} ${hold.remedy}`,
+        hold.since ? h("span", { class: "faint" }, ` Since ${clock(hold.since)}.`) : null)));
+  }
+
+  destroy(): void {
+    this.isDestroyed = true;
+    clearTimeout(this.timer);
+    clearTimeout(this.again);
+  }
+}

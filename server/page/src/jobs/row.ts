@@ -1,0 +1,99 @@
+// One row of the table of jobs.
+import { Job_State, type Job } from "../../gen/cellcrush/v1/job_pb";
+import type { Queue_Entry } from "../../gen/cellcrush/v1/admin_service_pb";
+import { idOf, pathOf } from "../api/names";
+import { h, setText } from "../dom/element";
+import { clock, duration, fullTime, milliseconds, number, strainText } from "../dom/format";
+import { iconButton } from "../dom/icons";
+import { actionsOf, attempt } from "./actions";
+import { hasEnded, setChip, stateChip, titleOf } from "./states";
+import type { JobStore } from "./store";
+
+/** How long a job has run, in seconds. */
+function tookSeconds(job: Job): number | undefined {
+  if (!job.startTime || !job.endTime) return undefined;
+  return (milliseconds(job.endTime) - milliseconds(job.startTime)) / 1000;
+}
+
+function noteOf(job: Job, entry: Queue_Entry | undefined): string {
+  if (job.state === Job_State.PENDING) return entry?.reason || job.causeMessage;
+  if (job.progress?.stalled) return "The worker has not reported for some seconds.";
+  return job.causeMessage;
+}
+
+export class JobRow {
+  readonly element: HTMLTableRowElement;
+  readonly select = h("input", { type: "checkbox", class: "select" });
+  private readonly title = h("a", { class: "job-title" });
+  private readonly name = h("span", { class: "faint" });
+  private readonly sweep = h("a", { class: "faint" });
+  private readonly chip = stateChip();
+  private readonly note = h("div", { class: "note" });
+  private readonly bar = h("progress", { max: 1 });
+  private readonly strain = h("span", { class: "strain" });
+  private readonly time = h("td", { class: "figure", "data-label": "time" });
+  private readonly impact = h("td", { class: "figure", "data-label": "impact plate" });
+  private readonly support = h("td", { class: "figure", "data-label": "support plate" });
+  private readonly owner = h("td", { class: "owner", "data-label": "owner" });
+  private readonly created = h("td", { class: "figure", "data-label": "created" });
+  private readonly actions = h("td", { class: "actions" });
+  private shownState = -1;
+
+  constructor(private readonly store: JobStore) {
+    this.element = h("tr", {},
+      h("td", { class: "check" }, this.select),
+      h("td", { class: "what" }, this.title, h("div", { class: "under" }, this.name, this.sweep)),
+      h("td", { class: "state" }, this.chip, this.note),
+      h("td", { class: "done" }, h("div", { class: "progress" }, this.bar, this.strain)),
+      this.time, this.impact, this.support, this.owner, this.created, this.actions);
+  }
+
+  update(job: Job, entry: Queue_Entry | undefined): void {
+    setText(this.title, titleOf(job));
+    this.title.href = pathOf(job.name);
+    setText(this.name, `job ${idOf(job.name)}`);
+    setText(this.sweep, job.sweep ? `sweep ${idOf(job.sweep)}` : "");
+    if (job.sweep) this.sweep.href = pathOf(job.sweep);
+    this.select.setAttribute("aria-label", `Select job ${idOf(job.name)} to compare`);
+    this.select.disabled = job.state === Job_State.PENDING;
+    setChip(this.chip, job.state);
+    setText(this.note, noteOf(job, entry));
+    this.note.title = [job.causeMessage, job.remedy].filter(Boolean).join(" ");
+    this.updateProgress(job);
+    this.updateTime(job, entry);
+    const { summary, progress } = job;
+    setText(this.impact, number(summary ? summary.plateauStressImpactMpa : progress?.plateauSoFarMpa));
+    this.impact.classList.toggle("so-far", !summary && progress?.plateauSoFarMpa !== undefined);
+    setText(this.support, number(summary?.plateauStressSupportMpa));
+    setText(this.owner, job.owner);
+    setText(this.created, clock(job.createTime));
+    this.created.title = fullTime(job.createTime);
+    this.updateActions(job);
+  }
+
+  private updateProgress(job: Job): void {
+    const fraction = job.state === Job_State.SUCCEEDED ? 1 : job.progress?.fraction ?? 0;
+    this.bar.value = fraction;
+    const isShown = !hasEnded(job) && job.progress !== undefined;
+    this.bar.hidden = !isShown;
+    this.bar.setAttribute("aria-label", "progress");
+    setText(this.strain, isShown ? `${Math.round(100 * fraction)} %` : "");
+    this.strain.title = job.progress ? `strain ${strainText(job.progress.strain)}` : "";
+  }
+
+  private updateTime(job: Job, entry: Queue_Entry | undefined): void {
+    let text = "";
+    if (hasEnded(job)) text = duration(tookSeconds(job));
+    else if (job.state === Job_State.RUNNING && job.progress) text = `${duration(job.progress.secondsLeft)} left`;
+    else if (entry) text = entry.secondsUntilStart < 1 ? "starts next" : `in ${duration(entry.secondsUntilStart)}`;
+    setText(this.time, text);
+  }
+
+  private updateActions(job: Job): void {
+    if (this.shownState === job.state) return;
+    this.shownState = job.state;
+    this.actions.replaceChildren(...actionsOf(job, this.store).map((action) =>
+      iconButton(action.icon, `${action.label} (job ${idOf(job.name)})`, () =>
+        void attempt(() => action.run(this.store.jobs.get(job.name) ?? job)))));
+  }
+}

@@ -1,0 +1,62 @@
+// Start of the page: the bar at the top, the watch, and the views by path.
+import "uplot/dist/uPlot.min.css";
+import "./style/theme.css";
+import "./style/layout.css";
+import "./style/jobs.css";
+import "./style/job.css";
+import "./style/chart.css";
+import { api } from "./api/clients";
+import { watch, type Connection } from "./api/watch";
+import { ComparePage } from "./compare/page";
+import { button, h, setText } from "./dom/element";
+import { JobPage } from "./job/page";
+import { JobsPage } from "./jobs/page";
+import { NewCasePage } from "./new_case/page";
+import { route, startRouter } from "./router";
+import { SweepPage } from "./sweep/page";
+
+const kConnectionWords: Record<Connection, string> = {
+  connecting: "connecting",
+  live: "live",
+  away: "The daemon does not answer. The page catches up when it is back.",
+  hidden: "paused",
+};
+
+function topBar(): HTMLElement {
+  const status = h("span", { class: "connection", role: "status" });
+  const retry = button("Try now", () => watch.retryNow(), { hidden: true });
+  const version = h("span", { class: "faint version" });
+  const show = (state: Connection): void => {
+    status.dataset.state = state;
+    setText(status, kConnectionWords[state]);
+    retry.hidden = state !== "away";
+  };
+  watch.connection.add(show);
+  show(watch.state);
+  const tellVersion = async (): Promise<void> => {
+    const { version: text, draining } = await api.admin.getCapabilities({});
+    setText(version, draining ? "the daemon drains" : `cellcrush ${text.split("+")[0]}`);
+    version.title = text;
+  };
+  watch.freshStarts.add(() => void tellVersion().catch(() => undefined));
+  return h("header", { class: "top" },
+    h("a", { class: "brand", href: "/" }, h("img", { src: "/icon.svg", alt: "", width: 22, height: 22 }), "cellcrush"),
+    h("nav", {}, h("a", { href: "/" }, "Jobs"), h("a", { href: "/new" }, "New case")),
+    h("span", { class: "spacer" }), version, status, retry);
+}
+
+const main = h("main", {});
+document.body.append(h("a", { class: "skip", href: "#main" }, "To the content"), topBar(), main);
+main.id = "main";
+
+route(/^\/$/, (_, query) => new JobsPage(query));
+route(/^\/jobs\/(\d+)$/, (match, query) => new JobPage(`jobs/${match[1]}`, query));
+route(/^\/sweeps\/(\d+)$/, (match) => new SweepPage(`sweeps/${match[1]}`));
+route(/^\/compare$/, (_, query) => new ComparePage(query));
+route(/^\/new$/, (_, query) => new NewCasePage(query));
+route(/^/, () => ({
+  title: "Not found", destroy: () => undefined,
+  element: h("div", { class: "page" }, h("h1", {}, "There is no such page"), h("a", { href: "/" }, "All jobs")),
+}));
+watch.start();
+startRouter(main);

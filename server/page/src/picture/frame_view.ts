@@ -1,0 +1,75 @@
+// Shows the frames of a store in a picture, at the place of a player.
+import type { FieldFrame } from "../../gen/cellcrush/v1/sample_pb";
+import type { FrameStore } from "../frames/frame_store";
+import type { Fields } from "../frames/packed";
+import { Picture } from "./picture";
+import { mixFields } from "./segments";
+
+export class FrameView {
+  readonly picture: Picture;
+  /** The frame that is shown, or the earlier of the two that a moving picture lies between. */
+  shown: FieldFrame | undefined;
+  private mixed: Fields | undefined;
+  private shownKey = "";
+
+  constructor(private readonly store: FrameStore, private readonly valueOf: (frame: FieldFrame) => number,
+              label: string) {
+    this.picture = new Picture(label);
+  }
+
+  /** Place in the store of the last frame at or before a value. */
+  private placeBefore(value: number): number {
+    const { frames } = this.store;
+    let low = 0;
+    let high = frames.length - 1;
+    while (low < high) {
+      const middle = (low + high + 1) >> 1;
+      if (this.valueOf(frames[middle]) <= value) low = middle;
+      else high = middle - 1;
+    }
+    return low;
+  }
+
+  /** A moving picture lies between two frames; a still one is the nearest frame itself. */
+  showAt(value: number, isMoving: boolean): void {
+    const { store } = this;
+    const { frames, lattice } = store;
+    if (!lattice || frames.length === 0 || lattice.undeformed.length === 0) return;
+    this.picture.setLattice(lattice);
+    const before = this.placeBefore(value);
+    const after = Math.min(before + 1, frames.length - 1);
+    const [a, b] = [this.valueOf(frames[before]), this.valueOf(frames[after])];
+    const mix = b > a ? Math.min(Math.max((value - a) / (b - a), 0), 1) : 0;
+    if (!isMoving) return this.showFrame(mix < 0.5 ? before : after);
+    this.shown = frames[before];
+    this.shownKey = "";
+    this.mixed = mixFields(store.fields(before), store.fields(after), mix, this.mixed);
+    const strain = frames[before].strain + mix * (frames[after].strain - frames[before].strain);
+    this.picture.show(this.mixed, strain);
+  }
+
+  private showFrame(place: number): void {
+    const frame = this.store.frames[place];
+    const key = `${frame.index} ${frame.timeS}`;
+    this.shown = frame;
+    if (key === this.shownKey) return;
+    this.shownKey = key;
+    this.picture.show(this.store.fields(place), frame.strain);
+  }
+
+  /** The value of the next (1) or previous (-1) frame of a place. */
+  neighbour(value: number, direction: 1 | -1): number {
+    const { frames } = this.store;
+    if (frames.length === 0) return 0;
+    const tiny = 1e-9;
+    let place = this.placeBefore(value + tiny);
+    const isOnFrame = Math.abs(this.valueOf(frames[place]) - value) < tiny;
+    if (direction === 1) ++place;
+    else if (isOnFrame) --place;
+    return this.valueOf(frames[Math.min(Math.max(place, 0), frames.length - 1)]);
+  }
+
+  destroy(): void {
+    this.picture.destroy();
+  }
+}

@@ -1,0 +1,90 @@
+// What is drawn over the walls: plates, the place where the impact plate started, a scale bar, the wall under the
+// pointer.
+import { impactPlateAt, plateThickness, type Box, type Lattice } from "../frames/lattice";
+import type { Camera } from "./camera";
+import { themeColour } from "./colours";
+import { kSegmentFloats, type Segments } from "./segments";
+
+export interface OverlayState {
+  lattice: Lattice;
+  /** What the view shows as a whole: plates reach across it. */
+  box: Box;
+  strain: number;
+  segments: Segments | undefined;
+  hovered: number;
+}
+
+function plate(context: CanvasRenderingContext2D, camera: Camera, state: OverlayState, face: number,
+               outwards: number): void {
+  const thickness = plateThickness(state.lattice) * outwards;
+  const { box } = state;
+  const [x0, x1, y0, y1] = state.lattice.alongY ? [box.lowX, box.highX, face, face + thickness]
+    : [face, face + thickness, box.lowY, box.highY];
+  const left = camera.toScreenX(Math.min(x0, x1));
+  const top = camera.toScreenY(Math.max(y0, y1));
+  context.fillRect(left, top, Math.max(3, camera.scale * Math.abs(x1 - x0)),
+                   Math.max(3, camera.scale * Math.abs(y1 - y0)));
+}
+
+function startLine(context: CanvasRenderingContext2D, camera: Camera, { lattice, box }: OverlayState): void {
+  const at = lattice.impactPlate;
+  const [x0, y0, x1, y1] = lattice.alongY ? [box.lowX, at, box.highX, at] : [at, box.lowY, at, box.highY];
+  context.setLineDash([4, 4]);
+  context.beginPath();
+  context.moveTo(camera.toScreenX(x0), camera.toScreenY(y0));
+  context.lineTo(camera.toScreenX(x1), camera.toScreenY(y1));
+  context.stroke();
+  context.setLineDash([]);
+}
+
+// The greatest of 1, 2, 5 times a power of ten that is shorter than a quarter of the view.
+function scaleBar(context: CanvasRenderingContext2D, camera: Camera): void {
+  const longest = Math.min(0.22 * camera.width, 160) / camera.scale;
+  const power = 10 ** Math.floor(Math.log10(longest));
+  const length = power * (longest >= 5 * power ? 5 : longest >= 2 * power ? 2 : 1);
+  const x1 = camera.width - 14;
+  const x0 = x1 - length * camera.scale;
+  const y = camera.height - 14;
+  context.beginPath();
+  for (const [x, dy0, dy1] of [[x0, -4, 4], [x1, -4, 4]]) {
+    context.moveTo(x, y + dy0);
+    context.lineTo(x, y + dy1);
+  }
+  context.moveTo(x0, y);
+  context.lineTo(x1, y);
+  context.stroke();
+  context.textAlign = "right";
+  context.fillText(`${Number(length.toPrecision(1))} mm`, x0 - 7, y + 4);
+  context.textAlign = "left";
+}
+
+function hoveredWall(context: CanvasRenderingContext2D, camera: Camera, segments: Segments, element: number): void {
+  const at = kSegmentFloats * element;
+  const { values } = segments;
+  context.lineCap = "round";
+  context.lineWidth = Math.max(values[at + 4] * camera.scale, 1) + 3;
+  context.globalAlpha = 0.75;
+  context.strokeStyle = themeColour("accent");
+  context.beginPath();
+  context.moveTo(camera.toScreenX(values[at]), camera.toScreenY(values[at + 1]));
+  context.lineTo(camera.toScreenX(values[at + 2]), camera.toScreenY(values[at + 3]));
+  context.stroke();
+  context.globalAlpha = 1;
+}
+
+export function drawOverlay(context: CanvasRenderingContext2D, camera: Camera, state: OverlayState): void {
+  const { lattice } = state;
+  if (lattice.plates) {
+    context.strokeStyle = themeColour("line-strong");
+    context.lineWidth = 1;
+    if (state.strain > 0.005) startLine(context, camera, state);
+    context.fillStyle = themeColour("plate");
+    plate(context, camera, state, impactPlateAt(lattice, state.strain), -1);
+    plate(context, camera, state, lattice.supportPlate, 1);
+  }
+  context.strokeStyle = context.fillStyle = themeColour("ink-2");
+  context.lineWidth = 1.5;
+  context.font = `12px ${themeColour("font")}`;
+  scaleBar(context, camera);
+  if (state.hovered >= 0 && state.segments) hoveredWall(context, camera, state.segments, state.hovered);
+}

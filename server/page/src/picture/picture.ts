@@ -1,0 +1,173 @@
+// The drawing of a lattice: walls on one canvas, plates and marks on another over it.
+import { viewBox, type Box, type Lattice } from "../frames/lattice";
+import type { Fields } from "../frames/packed";
+import { Listeners } from "../api/listeners";
+import { h, replaceChildren } from "../dom/element";
+import { number, percent } from "../dom/format";
+import { Camera } from "./camera";
+import { isDark, themeColour } from "./colours";
+import { addGestures } from "./gestures";
+import { drawOverlay } from "./overlay";
+import { fillSegments, findNearest, kSegmentFloats, type Segments } from "./segments";
+import { createWalls, type Walls } from "./walls";
+
+const kReach = 14; // pixels from the pointer within which a wall is found
+
+export class Picture {
+  readonly camera = new Camera();
+  readonly moved = new Listeners<void>();
+  readonly element: HTMLElement;
+  private readonly wallCanvas = h("canvas", { "aria-hidden": "true" });
+  private readonly topCanvas = h("canvas", { tabindex: 0, role: "img" });
+  private readonly tip = h("div", { class: "tip", hidden: true });
+  private readonly walls: Walls;
+  private readonly observer = new ResizeObserver(() => this.resize());
+  private readonly theme = matchMedia("(prefers-color-scheme: dark)");
+  private lattice: Lattice | undefined;
+  private box: Box | undefined;
+  private segments: Segments | undefined;
+  private strain = 0;
+  private hovered = -1;
+  private scheduled = 0;
+
+  constructor(label: string) {
+    this.element = h("div", { class: "picture" }, this.wallCanvas, this.topCanvas, this.tip);
+    this.topCanvas.setAttribute("aria-label", label);
+    this.walls = createWalls(this.wallCanvas);
+    this.walls.setDark(this.theme.matches);
+    this.theme.addEventListener("change", this.followTheme);
+    addGestures(this.topCanvas, this.camera, {
+      moved: () => this.move(),
+      hover: (point) => this.hover(point),
+    });
+    this.observer.observe(this.element);
+  }
+
+  private readonly followTheme = (): void => {
+    this.walls.setDark(isDark());
+    this.drawSoon();
+  };
+
+  setLattice(lattice: Lattice): void {
+    if (this.lattice === lattice) return;
+    this.lattice = lattice;
+    this.box = viewBox(lattice);
+    this.camera.setBox(this.box);
+    this.segments = undefined;
+    this.drawSoon();
+  }
+
+  show(fields: Fields, strain: number): void {
+    if (!this.lattice) return;
+    this.segments = fillSegments(this.lattice, fields, this.segments);
+    this.walls.setSegments(this.segments);
+    this.strain = strain;
+    this.drawSoon();
+  }
+
+  fit(): void {
+    this.camera.fit();
+    this.move();
+  }
+
+  zoomBy(factor: number): void {
+    this.camera.zoomAt(0.5 * this.camera.width, 0.5 * this.camera.height, factor);
+    this.move();
+  }
+
+  private move(): void {
+    this.moved.tell();
+    this.drawSoon();
+  }
+
+  private resize(): void {
+    const ratio = devicePixelRatio;
+    const { clientWidth, clientHeight } = this.element;
+    if (!clientWidth || !clientHeight) return;
+    for (const canvas of [this.wallCanvas, this.topCanvas]) {
+      canvas.width = Math.round(clientWidth * ratio);
+      canvas.height = Math.round(clientHeight * ratio);
+    }
+    this.camera.setSize(clientWidth, clientHeight);
+    this.draw(); // at once, as a new size clears the canvas
+  }
+
+  private drawSoon(): void {
+    if (!this.scheduled) this.scheduled = requestAnimationFrame(() => this.draw());
+  }
+
+  private draw(): void {
+    cancelAnimationFrame(this.scheduled);
+    this.scheduled = 0;
+    this.drawAt(this.camera, devicePixelRatio, this.hovered);
+  }
+
+  private drawAt(camera: Camera, ratio: number, hovered: number): void {
+    this.walls.draw(camera, ratio);
+    const context = this.topCanvas.getContext("2d")!;
+    context.setTransform(1, 0, 0, 1, 0, 0);
+    context.clearRect(0, 0, this.topCanvas.width, this.topCanvas.height);
+    context.scale(ratio, ratio);
+    const { lattice, box, strain, segments } = this;
+    if (lattice && box) drawOverlay(context, camera, { lattice, box, strain, segments, hovered });
+  }
+
+  /** Draws the picture as it is, with its background, into the corner of a context; both in the given size. */
+  paint(context: CanvasRenderingContext2D, x: number, y: number, width: number, height: number): void {
+    const camera = Object.assign(new Camera(), this.camera);
+    camera.setSize(this.camera.width, this.camera.height);
+    const ratio = width / camera.width;
+    const size: [number, number] = [this.wallCanvas.width, this.wallCanvas.height];
+    for (const canvas of [this.wallCanvas, this.topCanvas]) {
+      canvas.width = Math.round(width);
+      canvas.height = Math.round(height);
+    }
+    this.drawAt(camera, ratio, -1);
+    context.fillStyle = themeColour("canvas");
+    context.fillRect(x, y, width, height);
+    context.drawImage(this.wallCanvas, x, y);
+    context.drawImage(this.topCanvas, x, y);
+    for (const canvas of [this.wallCanvas, this.topCanvas]) [canvas.width, canvas.height] = size;
+    this.draw();
+  }
+
+  private hover(point: [number, number] | undefined): void {
+    const { segments, camera } = this;
+    let found = -1;
+    if (point && segments) found = findNearest(segments, ...camera.toWorld(...point), kReach / camera.scale);
+    if (found !== this.hovered) {
+      this.hovered = found;
+      this.drawSoon();
+    }
+    this.tip.hidden = found < 0;
+    if (found >= 0 && point) this.showTip(found, point);
+  }
+
+  private showTip(element: number, [x, y]: [number, number]): void {
+    const { lattice, segments } = this;
+    if (!lattice || !segments) return;
+    const at = kSegmentFloats * element;
+    const [x0, y0, x1, y1, thickness, plastic] = segments.values.subarray(at, at + kSegmentFloats);
+    const [a, b] = [2 * lattice.ends[2 * element], 2 * lattice.ends[2 * element + 1]];
+    const before = Math.hypot(lattice.undeformed[b] - lattice.undeformed[a],
+                              lattice.undeformed[b + 1] - lattice.undeformed[a + 1]);
+    const row = (label: string, value: string): HTMLElement =>
+      h("div", {}, h("span", {}, label), h("b", {}, value));
+    replaceChildren(this.tip, h("div", {}, `wall element ${element}`),
+      row("plastic fraction", plastic.toFixed(2)),
+      row("thickness", `${number(thickness)} mm`),
+      row("length", `${number(Math.hypot(x1 - x0, y1 - y0))} mm`),
+      row("of its length before", percent(Math.hypot(x1 - x0, y1 - y0) / before, 3)),
+      row("middle", `${number(0.5 * (x0 + x1))}, ${number(0.5 * (y0 + y1))} mm`));
+    const left = x + 190 > this.camera.width ? x - 184 : x + 16;
+    const top = Math.min(y + 14, Math.max(0, this.camera.height - 122));
+    this.tip.style.transform = `translate(${Math.max(0, left)}px, ${top}px)`;
+  }
+
+  destroy(): void {
+    this.theme.removeEventListener("change", this.followTheme);
+    this.observer.disconnect();
+    cancelAnimationFrame(this.scheduled);
+    this.walls.destroy();
+  }
+}

@@ -1,0 +1,79 @@
+// The place in a crush that is shown: one value, the strain (or for a frame of beams the time), for picture and curves.
+import { Listeners } from "../api/listeners";
+
+export const kRates = [0.1, 0.2, 0.5, 1, 2, 5, 10];
+const kSecondsAtOne = 10; // a whole crush at rate 1
+
+export class Player {
+  value = 0;
+  /** The last value so far. */
+  end = 0;
+  /** The value at the end of the whole run. */
+  fullEnd = 1;
+  playing = false;
+  /** Shows the newest frame of a running job. */
+  following = false;
+  rate = 1;
+  readonly changes = new Listeners<void>();
+  private lastTick = 0;
+  private frame = 0;
+
+  setEnd(end: number): void {
+    this.end = end;
+    if (this.following) this.value = end;
+    this.changes.tell();
+  }
+
+  seek(value: number): void {
+    this.stopPlaying();
+    this.following = false;
+    this.value = Math.min(Math.max(value, 0), this.end);
+    this.changes.tell();
+  }
+
+  follow(): void {
+    this.stopPlaying();
+    this.following = true;
+    this.value = this.end;
+    this.changes.tell();
+  }
+
+  setRate(rate: number): void {
+    this.rate = rate;
+    this.changes.tell();
+  }
+
+  toggle(): void {
+    if (this.playing) {
+      this.stopPlaying();
+    } else {
+      if (this.value >= this.end) this.value = 0;
+      this.following = false;
+      this.playing = true;
+      this.lastTick = performance.now();
+      this.frame = requestAnimationFrame(this.tick);
+    }
+    this.changes.tell();
+  }
+
+  private readonly tick = (now: number): void => {
+    this.value += (Math.max(0, now - this.lastTick) / 1000) * this.rate * (this.fullEnd / kSecondsAtOne);
+    this.lastTick = now;
+    if (this.value >= this.end) {
+      this.value = this.end;
+      this.playing = false;
+    } else {
+      this.frame = requestAnimationFrame(this.tick);
+    }
+    this.changes.tell();
+  };
+
+  private stopPlaying(): void {
+    this.playing = false;
+    cancelAnimationFrame(this.frame);
+  }
+
+  destroy(): void {
+    this.stopPlaying();
+  }
+}

@@ -1,0 +1,63 @@
+// The walls of a frame as segments for drawing.
+import type { Lattice } from "../frames/lattice";
+import type { Fields } from "../frames/packed";
+
+export interface Segments {
+  count: number;
+  /** Of each element: x0, y0, x1, y1 in mm, thickness in mm, plastic fraction. */
+  values: Float32Array;
+}
+
+export const kSegmentFloats = 6;
+
+/** Fields between two frames. Only pictures that move use it. */
+export function mixFields(a: Fields, b: Fields, mix: number, into: Fields | undefined): Fields {
+  const fits = into && into.position.length === a.position.length;
+  const out = fits ? into : { position: a.position.slice(), plastic: a.plastic.slice() };
+  for (let i = 0; i < out.position.length; ++i) {
+    out.position[i] = a.position[i] + mix * (b.position[i] - a.position[i]);
+  }
+  for (let i = 0; i < out.plastic.length; ++i) out.plastic[i] = a.plastic[i] + mix * (b.plastic[i] - a.plastic[i]);
+  return out;
+}
+
+export function fillSegments(lattice: Lattice, fields: Fields, old: Segments | undefined): Segments {
+  const count = lattice.thickness.length;
+  const values = old?.count === count ? old.values : new Float32Array(kSegmentFloats * count);
+  const { ends, thickness } = lattice;
+  const { position, plastic } = fields;
+  for (let i = 0, at = 0; i < count; ++i) {
+    const a = 2 * ends[2 * i];
+    const b = 2 * ends[2 * i + 1];
+    values[at++] = position[a];
+    values[at++] = position[a + 1];
+    values[at++] = position[b];
+    values[at++] = position[b + 1];
+    values[at++] = thickness[i];
+    values[at++] = plastic[i] ?? 0;
+  }
+  return { count, values };
+}
+
+/** The element nearest to a point within a distance, or -1. */
+export function findNearest(segments: Segments, x: number, y: number, within: number): number {
+  let nearest = -1;
+  let least = within * within;
+  const { values } = segments;
+  for (let i = 0, at = 0; i < segments.count; ++i, at += kSegmentFloats) {
+    const x0 = values[at];
+    const y0 = values[at + 1];
+    const dx = values[at + 2] - x0;
+    const dy = values[at + 3] - y0;
+    const along = ((x - x0) * dx + (y - y0) * dy) / (dx * dx + dy * dy || 1);
+    const t = along < 0 ? 0 : along > 1 ? 1 : along;
+    const ex = x - x0 - t * dx;
+    const ey = y - y0 - t * dy;
+    const square = ex * ex + ey * ey;
+    if (square < least) {
+      least = square;
+      nearest = i;
+    }
+  }
+  return nearest;
+}

@@ -1,0 +1,113 @@
+// A chart as an SVG file for a paper: black on white, in the colours of the light theme.
+import type { ChartData, Series } from "../charts/chart";
+import { themeColour } from "../picture/colours";
+import { svg } from "../dom/element";
+
+const kWidth = 720;
+const kPlot = { left: 64, top: 40, width: 630, height: 330 };
+const kFont = { "font-family": "sans-serif", "font-size": 12, fill: "#222" };
+
+/** Values 1, 2 or 5 times a power of ten apart, about `wanted` of them. */
+function ticksOf(low: number, high: number, wanted: number): number[] {
+  const rough = (high - low) / wanted;
+  const power = 10 ** Math.floor(Math.log10(rough));
+  const step = power * ([1, 2, 5, 10].find((factor) => factor * power >= rough) ?? 10);
+  const ticks: number[] = [];
+  for (let i = Math.ceil(low / step); i * step <= high * (1 + 1e-9); ++i) ticks.push(Number((i * step).toPrecision(12)));
+  return ticks;
+}
+
+interface Scales { x(value: number): number; y(value: number): number }
+
+function curve(data: ChartData, series: Series, column: (number | null)[], { x, y }: Scales): SVGElement {
+  const colour = themeColour(series.colour);
+  const xs = data.columns[0] as number[];
+  const points = xs.map((value, i) => [value, column[i]] as const).filter(([, value]) => value !== null)
+    .map(([px, py]) => `${x(px).toFixed(2)},${y(py as number).toFixed(2)}`);
+  if (series.points) {
+    return svg("g", { fill: colour }, ...points.map((point) => {
+      const [cx, cy] = point.split(",");
+      return svg("circle", { cx, cy, r: 3.5 });
+    }));
+  }
+  const line = `M${points.join("L")}`;
+  if (series.fill) {
+    const ends = points.length ? `L${x(xs[xs.length - 1]).toFixed(2)},${y(0)}L${x(xs[0]).toFixed(2)},${y(0)}Z` : "";
+    return svg("path", { d: line + ends, fill: colour });
+  }
+  return svg("path", {
+    d: line, fill: "none", stroke: colour, "stroke-width": series.width ?? 1.5, "stroke-linejoin": "round",
+    "stroke-dasharray": series.dash?.join(" "), opacity: series.opacity,
+  });
+}
+
+function frame(data: ChartData, { x, y }: Scales): SVGElement[] {
+  const { left, top, width, height } = kPlot;
+  const bottom = top + height;
+  const parts: SVGElement[] = [svg("rect", { x: left, y: top, width, height, fill: "none", stroke: "#222" })];
+  for (const tick of ticksOf(0, data.xEnd, 8)) {
+    parts.push(svg("path", { d: `M${x(tick)},${bottom}v5`, stroke: "#222" }),
+               svg("text", { x: x(tick), y: bottom + 19, "text-anchor": "middle", ...kFont }, tick));
+  }
+  for (const tick of ticksOf(data.yLow ?? 0, data.yTop, 6)) {
+    parts.push(svg("path", { d: `M${left},${y(tick)}h-5`, stroke: "#222" }),
+               svg("text", { x: left - 9, y: y(tick) + 4, "text-anchor": "end", ...kFont }, tick));
+  }
+  parts.push(svg("text", { x: left + width / 2, y: bottom + 38, "text-anchor": "middle", ...kFont }, data.xLabel));
+  parts.push(svg("text", { transform: `translate(16 ${top + height / 2}) rotate(-90)`, "text-anchor": "middle",
+                           ...kFont }, data.yLabel));
+  return parts;
+}
+
+function marks(data: ChartData, { x, y }: Scales): { below: SVGElement[]; above: SVGElement[] } {
+  const { left, top, width, height } = kPlot;
+  const below = (data.bands ?? []).flatMap((band) => [
+    svg("rect", { x: x(band.from), y: top, width: x(band.to) - x(band.from), height, fill: "#f0ede4" }),
+    svg("text", { x: x(0.5 * (band.from + band.to)), y: top + 15, "text-anchor": "middle", ...kFont, fill: "#777" },
+        band.label)]);
+  const above = (data.levels ?? []).filter((level) => level.value <= data.yTop).map((level) =>
+    svg("path", { d: `M${level.from === undefined ? left : x(level.from)},${y(level.value)}H${
+      level.to === undefined ? left + width : x(level.to)}`, stroke: "#444", "stroke-width": 1.4,
+      "stroke-dasharray": level.dash.join(" ") || undefined }));
+  for (const mark of data.marks ?? []) {
+    above.push(svg("path", { d: `M${x(mark.at)},${top}v${height}`, stroke: "#888", "stroke-dasharray": "2 3" }),
+               svg("text", { x: x(mark.at) + 5, y: top + 30, ...kFont, fill: "#777" }, mark.label));
+  }
+  return { below, above };
+}
+
+function legend(data: ChartData, top: number): SVGElement[] {
+  const entries = [
+    ...data.series.filter((s) => !s.quiet).map((s) => ({ label: s.label, colour: themeColour(s.colour), dash: s.dash,
+                                                          thick: s.fill ? 9 : s.points ? 7 : 2.5 })),
+    ...(data.levels ?? []).filter((l) => l.label).map((l) => ({ label: l.label, colour: "#444", dash: l.dash, thick: 1.5 }))];
+  return entries.flatMap((entry, i) => {
+    const x = kPlot.left + (i % 2) * 330;
+    const y = top + 20 * Math.floor(i / 2);
+    return [svg("path", { d: `M${x},${y}h30`, stroke: entry.colour, "stroke-width": entry.thick,
+                          "stroke-dasharray": entry.dash?.join(" ") || undefined }),
+            svg("text", { x: x + 38, y: y + 4, ...kFont }, entry.label)];
+  });
+}
+
+export function chartSvg(data: ChartData, title: string): Blob {
+  const { left, top, width, height } = kPlot;
+  const low = data.yLow ?? 0;
+  const scales: Scales = {
+    x: (value) => left + (width * value) / data.xEnd,
+    y: (value) => top + height * (1 - (value - low) / (data.yTop - low)),
+  };
+  const { below, above } = marks(data, scales);
+  const bottom = top + height + 62;
+  const legendEntries = legend(data, bottom);
+  const total = bottom + 10 * Math.ceil(legendEntries.length / 2) + 12;
+  const picture = svg("svg", { xmlns: "http://www.w3.org/2000/svg", viewBox: `0 0 ${kWidth} ${total}`,
+                               width: kWidth, height: total },
+    svg("rect", { width: kWidth, height: total, fill: "#fff" }),
+    svg("text", { x: left, y: 24, ...kFont, "font-size": 15, "font-weight": 600 }, title),
+    svg("clipPath", { id: "plot" }, svg("rect", { x: left, y: top, width, height })),
+    svg("g", { "clip-path": "url(#plot)" }, ...below,
+        ...data.series.map((series, i) => curve(data, series, data.columns[i + 1], scales)), ...above),
+    ...frame(data, scales), ...legendEntries);
+  return new Blob([new XMLSerializer().serializeToString(picture)], { type: "image/svg+xml" });
+}

@@ -1,0 +1,68 @@
+// Buttons that save what the page shows.
+import { api } from "../api/clients";
+import { idOf } from "../api/names";
+import type { Chart } from "../charts/chart";
+import type { Axis } from "../charts/curves";
+import { download } from "../dom/download";
+import { button, h, setText } from "../dom/element";
+import { attempt } from "../jobs/actions";
+import { titleOf } from "../jobs/states";
+import type { JobData } from "../job/job_data";
+import type { Picture } from "../picture/picture";
+import type { Player } from "../picture/player";
+import { chartSvg } from "./chart_svg";
+import { historyCsv } from "./history_csv";
+import { picturePng } from "./picture_png";
+import { canRecord, recordCrush } from "./movie";
+
+function saveButton(label: string, what: string, save: (button: HTMLButtonElement) => Promise<void>): HTMLElement {
+  const element = button(label, () => void attempt(async () => {
+    element.disabled = true;
+    try {
+      await save(element);
+    } finally {
+      element.disabled = false;
+      setText(element, label);
+    }
+  }), { title: what, "aria-label": what });
+  return element;
+}
+
+export function takeAwayOfChart(chart: Chart, data: JobData, axis: () => Axis, name: string): HTMLElement {
+  const file = `job-${idOf(data.name)}-${name}`;
+  return h("span", { class: "take-away" },
+    saveButton("SVG", "Save the curves as an SVG file", async () => {
+      if (chart.shown) download(chartSvg(chart.shown, data.job ? titleOf(data.job) : ""), `${file}.svg`);
+    }),
+    saveButton("CSV", "Save all samples as a CSV file", async () =>
+      download(historyCsv(data.samples), `job-${idOf(data.name)}-history.csv`)));
+}
+
+// The result file, collected from its chunks.
+async function fetchResult(name: string, tell: (fraction: number) => void): Promise<Blob> {
+  const parts: BlobPart[] = [];
+  for await (const chunk of api.jobs.downloadResult({ name })) {
+    parts.push(chunk.data as Uint8Array<ArrayBuffer>);
+    tell((Number(chunk.offset) + chunk.data.length) / Math.max(1, Number(chunk.totalSize)));
+  }
+  return new Blob(parts, { type: "application/x-hdf5" });
+}
+
+export function takeAwayOfPicture(picture: Picture, player: Player, data: JobData): HTMLElement {
+  const file = `job-${idOf(data.name)}`;
+  const title = (): string => (data.job ? titleOf(data.job) : "");
+  const result = saveButton("HDF5", "Save the result file, with all samples and frames", async (element) => {
+    const blob = await fetchResult(data.name, (fraction) => setText(element, `${Math.round(100 * fraction)} %`));
+    download(blob, `${file}.h5`);
+  });
+  data.jobChanges.add(() => { result.hidden = !data.job?.summary; });
+  return h("span", { class: "take-away" },
+    saveButton("PNG", "Save this picture as a PNG file", async () =>
+      download(await picturePng(picture, title(), `strain ${player.value.toFixed(3)}`), `${file}.png`)),
+    canRecord() && saveButton("WebM", "Record the crush as a WebM film, at the rate of play", async (element) => {
+      const film = await recordCrush(picture, player, (fraction) =>
+        setText(element, `${Math.round(100 * fraction)} %`));
+      if (film) download(film, `${file}.webm`);
+    }),
+    result);
+}
