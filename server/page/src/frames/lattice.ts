@@ -61,5 +61,5 @@ export function viewBox(lattice: Lattice): Box {
 }
 
 export function plateThickness(lattice: Lattice): number {
-  return 0.011 * Math.max(lattice.length, 1e-9);
+  return 0.009 * Math.max(lattice.length, 1e-9);
 }

@@ -19,11 +19,14 @@ export function latticeWords(value: Case): string {
   }
 }
 
-export function loadingWords(value: Case): string {
+export function speedWords(value: Case): string {
   const { loading } = value;
   if (!loading) return "driven by its own loads";
-  const axis = loading.direction === Loading_Direction.Y ? "y" : "x";
-  return `along ${axis} at ${given(loading.speedMPerS)} m/s to strain ${given(loading.endStrain ?? 0.8)}`;
+  return `along ${loading.direction === Loading_Direction.Y ? "y" : "x"} at ${given(loading.speedMPerS)} m/s`;
+}
+
+function loadingWords(value: Case): string {
+  return speedWords(value) + (value.loading ? ` to strain ${given(value.loading.endStrain ?? 0.8)}` : "");
 }
 
 /** Facts of a case, as pairs of a name and a value. */
@@ -51,4 +54,13 @@ export function caseFacts(value: Case): [string, string][] {
   if (value.plates?.friction) facts.push(["friction at the plates", given(value.plates.friction)]);
   if (value.contact?.friction) facts.push(["friction between walls", given(value.contact.friction)]);
   return facts;
+}
+
+/** Width over height of the undeformed lattice; undefined for a frame. */
+export function aspectOf(value: Case): number | undefined {
+  const kind = value.lattice?.kind;
+  if (kind?.case !== "hexagon" && kind?.case !== "square" && kind?.case !== "triangle") return undefined;
+  const { columns = 1, rows = 1 } = kind.value;
+  if (kind.case === "hexagon") return (Math.sqrt(3) * columns) / (1.5 * rows + 0.5);
+  return kind.case === "square" ? columns / rows : (columns + 0.5) / (0.5 * Math.sqrt(3) * rows);
 }

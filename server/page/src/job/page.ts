@@ -16,7 +16,7 @@ import { Player } from "../picture/player";
 import { PlayerBar } from "../picture/player_bar";
 import { keepInUrl, setTitle, type View } from "../router";
 import { takeAwayOfChart, takeAwayOfPicture } from "../take_away/menus";
-import { caseFacts } from "./case_words";
+import { aspectOf, caseFacts } from "./case_words";
 import { JobHeader } from "./header";
 import { JobData } from "./job_data";
 import { resultsList } from "./results";
@@ -38,7 +38,7 @@ export class JobPage implements View {
   private readonly waiting = h("p", { class: "picture-note" }, "Loading the frames…");
   private readonly numbers = h("section", { class: "card" });
   private readonly facts = h("section", { class: "card" });
-  private readonly modelled = h("section", { class: "card" });
+  private readonly modelled = h("section", { class: "card modelled" });
   private readonly warnings = h("div", { class: "warnings" });
   private readonly problem = h("div", { class: "banner error", hidden: true });
   private axis: Axis = strainAxis(0.8);
@@ -47,6 +47,7 @@ export class JobPage implements View {
   private urlTimer = 0;
   private detailsKey = "";
   private wasLive = false;
+  private isShown = false;
 
   constructor(name: string, query: URLSearchParams) {
     this.title = `Job ${idOf(name)}`;
@@ -74,12 +75,15 @@ export class JobPage implements View {
       takeAwayOfChart(this.energy, this.data, () => this.axis, "energy"));
     replaceChildren(this.element, this.header.element, this.problem, this.warnings,
       h("div", { class: "job-grid" },
-        h("section", { class: "card crush" },
-          h("div", { class: "picture-head" }, colourLegend(), h("span", { class: "spacer" }),
-            takeAwayOfPicture(picture, this.player, this.data)),
-          picture.element, this.bar.element),
-        h("section", { class: "card curves" }, this.stress.element, this.energy.element)),
-      h("div", { class: "facts-grid" }, this.numbers, this.facts, this.modelled));
+        h("div", { class: "column" },
+          h("section", { class: "card" },
+            h("div", { class: "picture-head" }, colourLegend(), h("span", { class: "spacer" }),
+              takeAwayOfPicture(picture, this.player, this.data)),
+            h("div", { class: "picture-box" }, picture.element), this.bar.element),
+          this.numbers),
+        h("div", { class: "column" },
+          h("section", { class: "card" }, this.stress.element, this.energy.element),
+          this.facts, this.modelled)));
   }
 
   private listen(): void {
@@ -125,10 +129,15 @@ export class JobPage implements View {
 
   private followState(job: Job): void {
     const { lattice, loading } = job.case ?? {};
+    const aspect = job.case && aspectOf(job.case);
+    if (aspect) this.frames.picture.setAspect(aspect);
     if (lattice?.kind.case === "frame") this.setAxis(timeAxis(lattice.kind.value.endTimeS ?? 1));
     else this.setAxis(strainAxis(loading?.endStrain ?? 0.8));
     const isLive = !hasEnded(job);
     if (isLive && !this.wasLive && this.wantedStrain === undefined) this.player.follow();
+    // An ended crush opens half way, where there is something to see.
+    if (!isLive && !this.isShown && this.wantedStrain === undefined) this.wantedStrain = 0.5 * this.axis.end;
+    this.isShown = true;
     this.wasLive ||= isLive;
     this.bar.setLive(isLive);
     this.waiting.textContent = hasEnded(job) ? "This job has no frames." : "The first frame comes when the job runs.";

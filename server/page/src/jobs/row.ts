@@ -5,6 +5,7 @@ import { idOf, pathOf } from "../api/names";
 import { h, setText } from "../dom/element";
 import { clock, duration, fullTime, milliseconds, number, strainText } from "../dom/format";
 import { iconButton } from "../dom/icons";
+import { latticeWords, speedWords } from "../job/case_words";
 import { actionsOf, attempt } from "./actions";
 import { hasEnded, setChip, stateChip, titleOf } from "./states";
 import type { JobStore } from "./store";
@@ -21,19 +22,25 @@ function noteOf(job: Job, entry: Queue_Entry | undefined): string {
   return job.causeMessage;
 }
 
+function setFigure(cell: HTMLElement, value: number | undefined): void {
+  setText(cell, number(value));
+  cell.classList.toggle("missing", value === undefined);
+}
+
 export class JobRow {
   readonly element: HTMLTableRowElement;
   readonly select = h("input", { type: "checkbox", class: "select" });
   private readonly title = h("a", { class: "job-title" });
   private readonly name = h("span", { class: "faint" });
   private readonly sweep = h("a", { class: "faint" });
+  private readonly about = h("span", { class: "faint" });
   private readonly chip = stateChip();
   private readonly note = h("div", { class: "note" });
   private readonly bar = h("progress", { max: 1 });
   private readonly strain = h("span", { class: "strain" });
   private readonly time = h("td", { class: "figure", "data-label": "time" });
-  private readonly impact = h("td", { class: "figure", "data-label": "impact plate" });
-  private readonly support = h("td", { class: "figure", "data-label": "support plate" });
+  private readonly impact = h("td", { class: "figure", "data-label": "impact, MPa" });
+  private readonly support = h("td", { class: "figure", "data-label": "support, MPa" });
   private readonly owner = h("td", { class: "owner", "data-label": "owner" });
   private readonly created = h("td", { class: "figure", "data-label": "created" });
   private readonly actions = h("td", { class: "actions" });
@@ -42,7 +49,7 @@ export class JobRow {
   constructor(private readonly store: JobStore) {
     this.element = h("tr", {},
       h("td", { class: "check" }, this.select),
-      h("td", { class: "what" }, this.title, h("div", { class: "under" }, this.name, this.sweep)),
+      h("td", { class: "what" }, this.title, h("div", { class: "under" }, this.name, this.sweep, this.about)),
       h("td", { class: "state" }, this.chip, this.note),
       h("td", { class: "done" }, h("div", { class: "progress" }, this.bar, this.strain)),
       this.time, this.impact, this.support, this.owner, this.created, this.actions);
@@ -54,6 +61,7 @@ export class JobRow {
     setText(this.name, `job ${idOf(job.name)}`);
     setText(this.sweep, job.sweep ? `sweep ${idOf(job.sweep)}` : "");
     if (job.sweep) this.sweep.href = pathOf(job.sweep);
+    if (job.case) setText(this.about, `${latticeWords(job.case)}, ${speedWords(job.case)}`);
     this.select.setAttribute("aria-label", `Select job ${idOf(job.name)} to compare`);
     this.select.disabled = job.state === Job_State.PENDING;
     setChip(this.chip, job.state);
@@ -62,9 +70,9 @@ export class JobRow {
     this.updateProgress(job);
     this.updateTime(job, entry);
     const { summary, progress } = job;
-    setText(this.impact, number(summary ? summary.plateauStressImpactMpa : progress?.plateauSoFarMpa));
+    setFigure(this.impact, summary ? summary.plateauStressImpactMpa : progress?.plateauSoFarMpa);
     this.impact.classList.toggle("so-far", !summary && progress?.plateauSoFarMpa !== undefined);
-    setText(this.support, number(summary?.plateauStressSupportMpa));
+    setFigure(this.support, summary?.plateauStressSupportMpa);
     setText(this.owner, job.owner);
     setText(this.created, clock(job.createTime));
     this.created.title = fullTime(job.createTime);

@@ -48,6 +48,11 @@ export class Picture {
     this.drawSoon();
   };
 
+  /** Makes the picture no higher than a specimen of this width over height needs. */
+  setAspect(aspect: number): void {
+    this.element.style.maxHeight = `calc(100cqw / ${(0.82 * aspect).toFixed(3)} + 44px)`;
+  }
+
   setLattice(lattice: Lattice): void {
     if (this.lattice === lattice) return;
     this.lattice = lattice;
