@@ -5,6 +5,7 @@ import "./style/layout.css";
 import "./style/jobs.css";
 import "./style/job.css";
 import "./style/chart.css";
+import "./style/sweep.css";
 import { api } from "./api/clients";
 import { watch, type Connection } from "./api/watch";
 import { ComparePage } from "./compare/page";

@@ -26,6 +26,8 @@ export interface Series {
 export interface Level { value: number; colour: string; dash: number[]; label: string; from?: number; to?: number }
 export interface Band { from: number; to: number; label: string }
 export interface Mark { at: number; label: string }
+/** A vertical bar from low to high, for the spread of a mean. */
+export interface Spread { x: number; low: number; high: number; colour: string }
 
 export interface ChartData {
   series: Series[];
@@ -39,6 +41,9 @@ export interface ChartData {
   levels?: Level[];
   bands?: Band[];
   marks?: Mark[];
+  spreads?: Spread[];
+  xLow?: number;
+  xLog?: boolean;
   note?: string;
 }
 
@@ -78,14 +83,14 @@ export class Chart {
 
   setData(data: ChartData): void {
     const key = (d: ChartData | undefined): string =>
-      d ? JSON.stringify([d.series, d.xLabel, d.yLabel, d.levels?.map((level) => level.label)]) : "";
+      d ? JSON.stringify([d.series, d.xLog, d.xLabel, d.yLabel, d.levels?.map((level) => level.label)]) : "";
     const isSame = this.plot && key(this.data) === key(data);
     this.data = data;
     setText(this.note, data.note ?? "");
     if (!isSame) return this.rebuild();
     this.plot!.setData(data.columns as uPlot.AlignedData, false);
     this.plot!.setScale("y", { min: data.yLow ?? 0, max: data.yTop });
-    this.plot!.setScale("x", { min: 0, max: data.xEnd });
+    this.plot!.setScale("x", { min: data.xLow ?? 0, max: data.xEnd });
     this.moveHead();
     this.showValues();
   }
@@ -131,10 +136,10 @@ export class Chart {
       legend: { show: false },
       cursor: { drag: { x: false, y: false }, points: { size: 6 }, y: false },
       scales: {
-        x: { time: false, range: () => [0, this.data!.xEnd] },
+        x: { time: false, distr: data.xLog ? 3 : 1, range: () => [this.data!.xLow ?? 0, this.data!.xEnd] },
         y: { range: () => [this.data!.yLow ?? 0, this.data!.yTop] },
       },
-      axes: [{ ...axis(data.xLabel, 30), values: (_, ticks) => ticks.map(String) },
+      axes: [{ ...axis(data.xLabel, 30), values: (_, ticks) => ticks.map((tick) => String(tick ?? "")) },
              { ...axis(data.yLabel, 42), values: (_, ticks) => ticks.map(String) }],
       series: [{}, ...data.series.map((series) => this.seriesOf(series))],
       hooks: {
@@ -156,7 +161,8 @@ export class Chart {
       stroke: colour, width: series.width ?? 1.5, dash: series.dash, alpha: series.opacity ?? 1,
       fill: series.fill ? colour : undefined,
       paths: series.points ? () => null : undefined,
-      points: { show: series.points ?? false, size: 7, fill: colour },
+      points: { show: series.points ?? false, size: 8, fill: colour, stroke: colour },
+      spanGaps: true,
     };
   }
 
@@ -208,6 +214,8 @@ export class Chart {
       ctx.lineTo(level.to === undefined ? bbox.left + bbox.width : plot.valToPos(level.to, "x", true), y);
       ctx.stroke();
     }
+    ctx.setLineDash([]);
+    for (const spread of this.data?.spreads ?? []) this.drawSpread(plot, spread);
     ctx.setLineDash([2 * devicePixelRatio, 3 * devicePixelRatio]);
     for (const mark of this.data?.marks ?? []) {
       const x = plot.valToPos(mark.at, "x", true);
@@ -223,11 +231,28 @@ export class Chart {
     ctx.restore();
   }
 
+  private drawSpread(plot: uPlot, spread: Spread): void {
+    const { ctx } = plot;
+    const [x, y0, y1] = [plot.valToPos(spread.x, "x", true), plot.valToPos(spread.low, "y", true),
+                         plot.valToPos(spread.high, "y", true)];
+    const half = 5 * devicePixelRatio;
+    ctx.strokeStyle = themeColour(spread.colour);
+    ctx.lineWidth = 1.5 * devicePixelRatio;
+    ctx.beginPath();
+    for (const y of [y0, y1]) {
+      ctx.moveTo(x - half, y);
+      ctx.lineTo(x + half, y);
+    }
+    ctx.moveTo(x, y0);
+    ctx.lineTo(x, y1);
+    ctx.stroke();
+  }
+
   private buildLegend(data: ChartData): void {
     const entry = (label: string, colour: string, dash: number[] | undefined, kind: string): HTMLElement => {
       const swatch = h("i", { class: `swatch ${kind}` });
       swatch.style.setProperty("--colour", `var(--${colour})`);
-      if (dash) swatch.classList.add("dashed");
+      if (dash?.length) swatch.classList.add(dash[0] <= 2 ? "dotted" : "dashed");
       const value = h("b", {});
       if (kind !== "level") this.values.push(value);
       return h("span", { class: "entry" }, swatch, h("span", {}, label), kind === "level" ? null : value);
@@ -235,7 +260,7 @@ export class Chart {
     this.values = [];
     replaceChildren(this.legend,
       ...data.series.filter((series) => !series.quiet)
-        .map((series) => entry(series.label, series.colour, series.dash, series.fill ? "area" : "line")),
+        .map((series) => entry(series.label, series.colour, series.dash, series.fill ? "area" : series.points ? "point" : "line")),
       ...(data.levels ?? []).filter((level) => level.label)
         .map((level) => entry(level.label, level.colour, level.dash, "level")));
   }

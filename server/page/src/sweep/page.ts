@@ -1,2 +1,191 @@
-import { h } from '../dom/element'; import type { View } from '../router';
-export class SweepPage implements View { title=''; element=h('div'); constructor(_: unknown) {} destroy(): void {} }
+// The page of a sweep: plateau stresses against the varied field, filling in as jobs end.
+import { Job_State, type Job } from "../../gen/cellcrush/v1/job_pb";
+import type { Sweep, SweepTable_Row } from "../../gen/cellcrush/v1/sweep_pb";
+import { api } from "../api/clients";
+import { errorText, isNotFound } from "../api/errors";
+import { idOf } from "../api/names";
+import { watch } from "../api/watch";
+import { Chart } from "../charts/chart";
+import { ask } from "../dom/dialog";
+import { download } from "../dom/download";
+import { button, h, replaceChildren, setText } from "../dom/element";
+import { clock, plural } from "../dom/format";
+import { icon, type IconName } from "../dom/icons";
+import { latticeWords } from "../job/case_words";
+import { attempt } from "../jobs/actions";
+import { hasEnded, kStates, stateWord } from "../jobs/states";
+import { stateBar } from "../jobs/state_bar";
+import { variedFields } from "../jobs/sweeps_list";
+import { go, setTitle, type View } from "../router";
+import { chartSvg } from "../take_away/chart_svg";
+import { saveButton } from "../take_away/menus";
+import { axisName, isSeed, sweepChart } from "./points";
+import { SweepTableView } from "./table";
+
+const kDrawMs = 300;
+
+export class SweepPage implements View {
+  title: string;
+  readonly element = h("div", { class: "page sweep-page" });
+  private readonly heading = h("h1");
+  private readonly about = h("p", { class: "faint about" });
+  private readonly states = h("div", { class: "sweep-states" });
+  private readonly actions = h("div", { class: "buttons" });
+  private readonly problem = h("div", { class: "banner error", hidden: true });
+  private readonly chart = new Chart("Plateau stress");
+  private readonly axisChoice = h("select", { "aria-label": "Field of the axis" });
+  private readonly table = new SweepTableView();
+  private readonly stops: (() => void)[];
+  private sweep: Sweep | undefined;
+  private rows: SweepTable_Row[] = [];
+  private fields: string[] = [];
+  private timer = 0;
+  private isDestroyed = false;
+
+  constructor(private readonly name: string) {
+    this.title = `Sweep ${idOf(name)}`;
+    this.axisChoice.addEventListener("change", () => this.draw());
+    this.chart.element.querySelector("figcaption")!.append(h("span", { class: "take-away" }, this.axisChoice,
+      saveButton("SVG", "Save the chart as an SVG file", async () => {
+        if (this.chart.shown) download(chartSvg(this.chart.shown, this.title), `sweep-${idOf(name)}.svg`);
+      })));
+    replaceChildren(this.element,
+      h("header", { class: "job-header" },
+        h("div", { class: "title-row" }, this.heading, h("span", { class: "spacer" }), this.actions), this.about,
+        this.states),
+      this.problem, h("section", { class: "card" }, this.chart.element),
+      h("div", { class: "toolbar table-head" }, h("h2", {}, "Jobs"), h("span", { class: "spacer" }),
+        h("span", { class: "take-away" }, saveButton("CSV", "Save the table as a CSV file", async () =>
+          download(this.table.csv(), `sweep-${idOf(name)}.csv`)))),
+      this.table.element);
+    this.stops = [
+      watch.jobs.add((job) => this.takeJob(job)),
+      watch.sweeps.add((sweep) => {
+        if (sweep.name === this.name) void this.load();
+      }),
+      watch.deletedSweeps.add((deleted) => {
+        if (deleted === this.name) this.showProblem("This sweep was deleted.");
+      }),
+      watch.freshStarts.add(() => void this.load()),
+    ];
+    void this.load();
+  }
+
+  private async load(): Promise<void> {
+    try {
+      const sweep = await api.sweeps.getSweep({ name: this.name });
+      const rows: SweepTable_Row[] = [];
+      let pageToken = "";
+      do {
+        const page = await api.sweeps.getSweepTable({ name: this.name, pageToken });
+        if (page.fields.length) this.fields = page.fields;
+        rows.push(...page.rows);
+        pageToken = page.nextPageToken;
+      } while (pageToken && !this.isDestroyed);
+      this.sweep = sweep;
+      this.rows = rows;
+      this.problem.hidden = true;
+      this.showHead();
+      this.draw();
+    } catch (error) {
+      this.showProblem(isNotFound(error) ? `${this.title} does not exist, or was deleted.` : errorText(error));
+    }
+  }
+
+  private showProblem(text: string): void {
+    this.problem.hidden = false;
+    setText(this.problem, text);
+  }
+
+  private takeJob(job: Job): void {
+    const row = this.rows.find((candidate) => candidate.job === job.name);
+    if (!row) return;
+    row.result = job;
+    if (job.state === Job_State.SUCCEEDED && !job.summary) void this.completeRow(row);
+    this.drawSoon();
+  }
+
+  private async completeRow(row: SweepTable_Row): Promise<void> {
+    try {
+      row.result = await api.jobs.getJob({ name: row.job });
+      this.drawSoon();
+    } catch {
+      // The job was deleted meanwhile.
+    }
+  }
+
+  private drawSoon(): void {
+    if (this.timer) return;
+    this.timer = window.setTimeout(() => {
+      this.timer = 0;
+      this.draw();
+    }, kDrawMs);
+  }
+
+  private showHead(): void {
+    const { sweep } = this;
+    if (!sweep) return;
+    this.title = sweep.case?.title || `Sweep ${idOf(sweep.name)}`;
+    setText(this.heading, this.title);
+    setTitle(this.title);
+    setText(this.about, [`Sweep ${idOf(sweep.name)} over ${variedFields(sweep).join(", ")}`,
+      plural(sweep.jobs.length, "job"), sweep.case ? latticeWords(sweep.case) : "",
+      `created ${clock(sweep.createTime)}${sweep.owner ? ` by ${sweep.owner}` : ""}`].filter(Boolean).join(", "));
+    const places = this.fields.map((_, i) => i).filter((i) => !isSeed(this.fields[i]));
+    if (!places.length) places.push(0);
+    if (this.axisChoice.options.length !== places.length) {
+      replaceChildren(this.axisChoice, ...places.map((i) => h("option", { value: i }, axisName(this.fields[i]))));
+    }
+    this.axisChoice.hidden = places.length < 2;
+  }
+
+  private draw(): void {
+    const axis = Number(this.axisChoice.value) || 0;
+    this.chart.setData(sweepChart(this.rows, this.fields, axis));
+    this.table.update(this.rows, this.fields);
+    const counts: Record<string, number> = {};
+    for (const row of this.rows) {
+      const name = Job_State[row.result?.state ?? 0];
+      counts[name] = (counts[name] ?? 0) + 1;
+    }
+    const words = kStates.filter((state) => counts[Job_State[state]])
+      .map((state) => `${counts[Job_State[state]]} ${stateWord(state)}`);
+    replaceChildren(this.states, stateBar(counts), h("span", { class: "faint" }, words.join(" · ")));
+    this.showActions(counts[Job_State[Job_State.FAILED]] ?? 0);
+  }
+
+  private showActions(failed: number): void {
+    const isOver = this.rows.every((row) => row.result && hasEnded(row.result));
+    const action = (name: IconName, label: string, run: () => Promise<void>, attributes = {}): HTMLElement => {
+      const element = button("", () => void attempt(run), attributes);
+      element.append(icon(name), label);
+      return element;
+    };
+    const { name } = this;
+    replaceChildren(this.actions,
+      this.rows.length > 0 && action("fork", "New case from this one", async () => go(`/new?from=${this.rows[0].job}`)),
+      failed > 0 && action("retry", `Retry ${plural(failed, "failed job")}`, async () => {
+        await api.sweeps.retryFailedJobs({ name });
+        await this.load();
+      }),
+      !isOver && action("stop", "Cancel", async () => {
+        if (!await ask(`Cancel sweep ${idOf(name)}?`, "Every job that has not ended stops. Results so far are kept.",
+                       "Cancel the sweep")) return;
+        await api.sweeps.cancelSweep({ name });
+        await this.load();
+      }, { class: "danger-quiet" }),
+      isOver && action("trash", "Delete", async () => {
+        const detail = `Its ${plural(this.rows.length, "job")} disappear with their results. This cannot be undone.`;
+        if (!await ask(`Delete sweep ${idOf(name)}?`, detail, "Delete the sweep")) return;
+        await api.sweeps.deleteSweep({ name });
+        go("/");
+      }, { class: "danger-quiet" }));
+  }
+
+  destroy(): void {
+    this.isDestroyed = true;
+    clearTimeout(this.timer);
+    for (const stop of this.stops) stop();
+    this.chart.destroy();
+  }
+}

@@ -17,6 +17,15 @@ function ticksOf(low: number, high: number, wanted: number): number[] {
   return ticks;
 }
 
+function xTicks(data: ChartData): number[] {
+  if (data.xLog) {
+    const decades = [1, 2, 5].flatMap((factor) => [-6, -5, -4, -3, -2, -1, 0, 1, 2, 3, 4, 5, 6]
+      .map((power) => Number((factor * 10 ** power).toPrecision(1))));
+    return decades.filter((value) => value >= (data.xLow ?? 0) && value <= data.xEnd);
+  }
+  return ticksOf(data.xLow ?? 0, data.xEnd, 8);
+}
+
 interface Scales { x(value: number): number; y(value: number): number }
 
 function curve(data: ChartData, series: Series, column: (number | null)[], { x, y }: Scales): SVGElement {
@@ -45,7 +54,7 @@ function frame(data: ChartData, { x, y }: Scales): SVGElement[] {
   const { left, top, width, height } = kPlot;
   const bottom = top + height;
   const parts: SVGElement[] = [svg("rect", { x: left, y: top, width, height, fill: "none", stroke: "#222" })];
-  for (const tick of ticksOf(0, data.xEnd, 8)) {
+  for (const tick of xTicks(data)) {
     parts.push(svg("path", { d: `M${x(tick)},${bottom}v5`, stroke: "#222" }),
                svg("text", { x: x(tick), y: bottom + 19, "text-anchor": "middle", ...kFont }, tick));
   }
@@ -69,6 +78,11 @@ function marks(data: ChartData, { x, y }: Scales): { below: SVGElement[]; above:
     svg("path", { d: `M${level.from === undefined ? left : x(level.from)},${y(level.value)}H${
       level.to === undefined ? left + width : x(level.to)}`, stroke: "#444", "stroke-width": 1.4,
       "stroke-dasharray": level.dash.join(" ") || undefined }));
+  for (const spread of data.spreads ?? []) {
+    const [px, y0, y1] = [x(spread.x), y(spread.low), y(spread.high)];
+    above.push(svg("path", { d: `M${px - 4},${y0}h8m-4,0V${y1}m-4,0h8`, fill: "none",
+                             stroke: themeColour(spread.colour), "stroke-width": 1.3 }));
+  }
   for (const mark of data.marks ?? []) {
     above.push(svg("path", { d: `M${x(mark.at)},${top}v${height}`, stroke: "#888", "stroke-dasharray": "2 3" }),
                svg("text", { x: x(mark.at) + 5, y: top + 30, ...kFont, fill: "#777" }, mark.label));
@@ -93,8 +107,10 @@ function legend(data: ChartData, top: number): SVGElement[] {
 export function chartSvg(data: ChartData, title: string): Blob {
   const { left, top, width, height } = kPlot;
   const low = data.yLow ?? 0;
+  const [first, last, of] = [data.xLow ?? 0, data.xEnd, data.xLog ? Math.log : (value: number) => value];
+  const share = (value: number): number => (of(value) - of(first)) / (of(last) - of(first));
   const scales: Scales = {
-    x: (value) => left + (width * value) / data.xEnd,
+    x: (value) => left + width * share(value),
     y: (value) => top + height * (1 - (value - low) / (data.yTop - low)),
   };
   const { below, above } = marks(data, scales);

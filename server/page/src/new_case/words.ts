@@ -1,0 +1,55 @@
+// Labels, units and help of the fields, from their names and the comments of the protos.
+import { fieldHelp, valueHelp } from "../help";
+import { fieldAt } from "./fields";
+
+const kUnits: [RegExp, string][] = [[/_kg_per_m3$/, "kg/m³"], [/_m_per_s$/, "m/s"], [/_mpa$/, "MPa"], [/_mm$/, "mm"],
+                                    [/_per_s$/, "1/s"], [/_time_step_s$|time_step_s$/, "s"]];
+const kLabels: Record<string, string> = {
+  youngs_modulus_mpa: "Young’s modulus", poissons_ratio: "Poisson’s ratio", "plates.friction": "Friction at the plates",
+  "contact.friction": "Friction between walls", amplitude_mm: "Offset of joints, at most",
+  bow_mm: "Bow of walls, at most", plane: "Plane stress or strain", direction: "Direction",
+  sample_count: "Samples", frame_count: "Frames", vertical_wall_thickness_mm: "Thickness of the walls along y",
+};
+
+export function unitOf(path: string): string {
+  return kUnits.find(([pattern]) => pattern.test(path))?.[1] ?? "";
+}
+
+export function labelOf(path: string): string {
+  const name = path.slice(path.lastIndexOf(".") + 1);
+  const known = kLabels[path] ?? kLabels[name];
+  if (known) return known;
+  const unit = kUnits.find(([pattern]) => pattern.test(name));
+  const words = (unit && name !== "time_step_s" ? name.replace(unit[0], "") : name.replace(/_s$/, ""))
+    .replaceAll("_", " ");
+  return words.charAt(0).toUpperCase() + words.slice(1);
+}
+
+const messageName = (typeName: string): string => typeName.replace("cellcrush.v1.", "");
+
+export function helpOf(path: string): string {
+  const { field, parent } = fieldAt(path);
+  return fieldHelp(messageName(parent.typeName), field.name);
+}
+
+/** The default of a field as its comment gives it, for an empty input. */
+export function defaultOf(path: string): string {
+  const help = helpOf(path);
+  if (/\bRequired\b/.test(help)) return "required";
+  const found = help.match(/Default ([^;.]*(?:\.\d+)?[^;.]*)/);
+  return found ? found[1].trim() : "";
+}
+
+export interface Choice { value: number; label: string; help: string }
+
+/** The values of an enum field, without the one that stands for the default. */
+export function choicesOf(path: string): Choice[] {
+  const { field } = fieldAt(path);
+  if (field.fieldKind !== "enum") return [];
+  const name = messageName(field.enum.typeName);
+  return field.enum.values.filter((value) => value.number !== 0).map((value) => ({
+    value: value.number,
+    label: value.name.toLowerCase().replaceAll("_", " "),
+    help: valueHelp(name, value.name),
+  }));
+}
