@@ -6,6 +6,8 @@ import "./style/jobs.css";
 import "./style/job.css";
 import "./style/chart.css";
 import "./style/sweep.css";
+import "./style/compare.css";
+import "./style/new_case.css";
 import { api } from "./api/clients";
 import { watch, type Connection } from "./api/watch";
 import { ComparePage } from "./compare/page";

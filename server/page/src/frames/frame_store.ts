@@ -13,10 +13,13 @@ export class FrameStore {
   readonly changes = new Listeners<void>();
   private unpacked = new Map<number, Fields>();
 
+  private base: Float32Array = new Float32Array();
+
   setMesh(mesh: Mesh): void {
     const lattice = latticeOf(mesh);
     if (lattice.undeformed.length === 0 && this.lattice) return;
     this.lattice = lattice;
+    this.base = lattice.undeformed;
     this.unpacked.clear();
     this.changes.tell();
   }
@@ -25,7 +28,7 @@ export class FrameStore {
     const { frames } = this;
     // Jobs of earlier versions have a mesh without positions: the first frame has them.
     if (this.lattice && this.lattice.undeformed.length === 0 && frame.index === 0) {
-      this.lattice.undeformed = Float32Array.from(frame.positionMm);
+      this.lattice.undeformed = fieldsOf(frame, this.base).position;
     }
     let at = frames.length;
     while (at > 0 && frames[at - 1].index >= frame.index) --at;
@@ -46,7 +49,7 @@ export class FrameStore {
     const frame = this.frames[place];
     let fields = this.unpacked.get(frame.index);
     if (!fields) {
-      fields = fieldsOf(frame, this.lattice?.undeformed ?? new Float32Array());
+      fields = fieldsOf(frame, this.base);
       this.unpacked.set(frame.index, fields);
       if (this.unpacked.size > kKept) this.unpacked.delete(this.unpacked.keys().next().value!);
     }

@@ -20,8 +20,8 @@ function addDisplacements(fields: Fields, bytes: Uint8Array, count: number, comp
   }
 }
 
-/** The fields of a frame, packed or plain. `undeformed` is Mesh.position_mm. */
-export function fieldsOf(frame: FieldFrame, undeformed: Float32Array): Fields {
+/** The fields of a frame, packed or plain. `base` is Mesh.position_mm; without it packed displacements count from 0. */
+export function fieldsOf(frame: FieldFrame, base: Float32Array): Fields {
   const { packed } = frame;
   if (!packed) {
     return { position: Float32Array.from(frame.positionMm), plastic: Float32Array.from(frame.plasticFraction) };
@@ -29,7 +29,8 @@ export function fieldsOf(frame: FieldFrame, undeformed: Float32Array): Fields {
   const particles = packed.particleCount;
   const elements = packed.elementCount;
   const bytes = unzlibSync(packed.data, { out: new Uint8Array(4 * particles + elements) });
-  const fields = { position: undeformed.slice(), plastic: new Float32Array(elements) };
+  const position = base.length === 2 * particles ? base.slice() : new Float32Array(2 * particles);
+  const fields = { position, plastic: new Float32Array(elements) };
   addDisplacements(fields, bytes, particles, 0, packed.quantumMm);
   addDisplacements(fields, bytes, particles, 1, packed.quantumMm);
   for (let i = 0; i < elements; ++i) fields.plastic[i] = bytes[4 * particles + i] / 255;

@@ -1,2 +1,200 @@
-import { h } from '../dom/element'; import type { View } from '../router';
-export class NewCasePage implements View { title=''; element=h('div'); constructor(_: unknown) {} destroy(): void {} }
+// A new case: from a preset or another job, checked while it is typed, then started as a job or as a sweep.
+import { clone, create } from "@bufbuild/protobuf";
+import { CaseSchema, type Case } from "../../gen/cellcrush/v1/case_pb";
+import type { CheckCaseResponse } from "../../gen/cellcrush/v1/cases_service_pb";
+import { SweepSchema, type SweepAxis } from "../../gen/cellcrush/v1/sweep_pb";
+import { api } from "../api/clients";
+import { errorText, problemsOf } from "../api/errors";
+import { idOf, pathOf } from "../api/names";
+import { h, replaceChildren, setText } from "../dom/element";
+import { duration, plural } from "../dom/format";
+import { go, keepInUrl, type View } from "../router";
+import { Forecast } from "./forecast";
+import { CaseForm } from "./form";
+import { Preview } from "./preview";
+import { jobCount, SweepInput } from "./sweep_axis";
+import { helpOf, labelOf } from "./words";
+
+const kFirstPreset = "hexagon-small";
+const kTypingMs = 300;
+
+export class NewCasePage implements View {
+  readonly title = "New case";
+  readonly element = h("div", { class: "page new-case" });
+  private readonly source = h("select", { "aria-label": "Start from" });
+  private readonly about = h("p", { class: "faint about" });
+  private readonly form = new CaseForm({ changed: () => this.checkSoon(), focused: (path) => this.showHelp(path) });
+  private readonly preview = new Preview();
+  private readonly forecast = new Forecast();
+  private readonly help = h("p", { class: "faint" }, "Choose a field to read what it means.");
+  private readonly sweepInput = new SweepInput(() => this.checkSoon());
+  private readonly asJob = h("input", { type: "radio", name: "as", id: "as-job", checked: true });
+  private readonly asSweep = h("input", { type: "radio", name: "as", id: "as-sweep" });
+  private readonly start = h("button", { type: "submit", class: "primary", disabled: true }, "Start the job");
+  private readonly cost = h("span", { class: "faint" });
+  private readonly problem = h("div", { class: "banner error", hidden: true });
+  private value: Case = create(CaseSchema);
+  private check: CheckCaseResponse | undefined;
+  private abort = new AbortController();
+  private timer = 0;
+  private readonly requestId = crypto.randomUUID?.() ?? `page-${Date.now()}-${Math.random()}`;
+
+  constructor(query: URLSearchParams) {
+    for (const radio of [this.asJob, this.asSweep]) radio.addEventListener("change", () => {
+      this.sweepInput.element.hidden = !this.asSweep.checked;
+      this.checkSoon();
+    });
+    this.source.addEventListener("change", () => {
+      keepInUrl({ from: this.source.value });
+      void this.load(this.source.value);
+    });
+    const submit = (event: Event): void => {
+      event.preventDefault();
+      void this.submit();
+    };
+    replaceChildren(this.element,
+      h("header", { class: "job-header" }, h("div", { class: "title-row" }, h("h1", {}, "New case"),
+        h("label", { class: "faint" }, "from ", this.source)), this.about),
+      h("form", { class: "new-grid", submit, novalidate: true },
+        h("div", { class: "column" }, h("section", { class: "card" }, this.form.element)),
+        h("div", { class: "column side" }, this.preview.element, this.forecast.element,
+          h("section", { class: "card" },
+            h("div", { class: "as-what" }, h("label", {}, this.asJob, " one job"),
+              h("label", {}, this.asSweep, " a sweep over one field")),
+            this.sweepInput.element, this.problem,
+            h("div", { class: "start-row" }, this.start, this.cost)),
+          h("section", { class: "card help-card" }, h("h3", {}, "The field"), this.help))));
+    const from = query.get("from") ?? `preset:${kFirstPreset}`;
+    void this.listSources(from);
+    void this.load(from);
+  }
+
+  private async listSources(from: string): Promise<void> {
+    try {
+      const { presets } = await api.cases.listPresets({});
+      const options = presets.map((preset) => h("option", { value: `preset:${preset.name}`, title: preset.title },
+                                                preset.name));
+      replaceChildren(this.source, from.startsWith("jobs/") && h("option", { value: from }, `job ${idOf(from)}`),
+                      ...options);
+      this.source.value = from;
+    } catch (error) {
+      this.showProblem(errorText(error));
+    }
+  }
+
+  private async load(from: string): Promise<void> {
+    try {
+      if (from.startsWith("jobs/")) {
+        const job = await api.jobs.getJob({ name: from });
+        setText(this.about, `The case of job ${idOf(from)}`);
+        this.setCase(job.case);
+      } else {
+        const preset = await api.cases.getPreset({ name: from.replace("preset:", "") });
+        setText(this.about, preset.title);
+        this.about.title = preset.assumptions.join(" ");
+        this.setCase(preset.case);
+      }
+    } catch (error) {
+      this.showProblem(errorText(error));
+    }
+  }
+
+  private setCase(value: Case | undefined): void {
+    this.value = clone(CaseSchema, value ?? create(CaseSchema));
+    this.form.setCase(this.value);
+    this.sweepInput.setPaths(this.form.paths);
+    void this.runCheck();
+  }
+
+  private showHelp(path: string): void {
+    replaceChildren(this.help, h("strong", {}, `${labelOf(path)}. `), helpOf(path));
+  }
+
+  private checkSoon(): void {
+    this.start.disabled = true;
+    clearTimeout(this.timer);
+    this.timer = window.setTimeout(() => void this.runCheck(), kTypingMs);
+  }
+
+  private async runCheck(): Promise<void> {
+    this.abort.abort();
+    const abort = (this.abort = new AbortController());
+    this.sweepInput.setPaths(this.form.paths);
+    try {
+      const check = await api.cases.checkCase({ case: this.value }, { signal: abort.signal });
+      if (abort.signal.aborted) return;
+      this.check = check;
+      const isValid = check.problems.length === 0;
+      const unplaced = this.form.showProblems(isValid ? check.notes : check.problems);
+      this.forecast.show(check, unplaced);
+      this.problem.hidden = true;
+      if (isValid) void this.preview.show(this.value, Number(check.elementCount));
+      await this.updateStart(abort.signal);
+    } catch (error) {
+      if (abort.signal.aborted) return;
+      this.start.disabled = true;
+      this.showProblem(errorText(error));
+    }
+  }
+
+  private get canStart(): boolean {
+    return this.check?.problems.length === 0 && this.form.unreadable.size === 0;
+  }
+
+  private async updateStart(signal: AbortSignal): Promise<void> {
+    const axis = this.asSweep.checked ? this.sweepInput.read() : undefined;
+    if (!this.asSweep.checked) {
+      setText(this.start, "Start the job");
+      setText(this.cost, this.canStart ? `about ${duration(this.check?.predictedSeconds)} on one core` : "");
+      this.start.disabled = !this.canStart;
+      return;
+    }
+    setText(this.start, axis ? `Start ${plural(jobCount(axis), "job")}` : "Start the sweep");
+    setText(this.cost, "");
+    this.start.disabled = true;
+    if (!axis || !this.canStart) return;
+    const sweep = await api.sweeps.createSweep({ sweep: this.sweepOf(axis), validateOnly: true }, { signal });
+    setText(this.cost, `about ${duration(sweep.predictedSeconds)} on one core`);
+    this.start.disabled = false;
+  }
+
+  private sweepOf(axis: SweepAxis): ReturnType<typeof create<typeof SweepSchema>> {
+    return create(SweepSchema, { case: this.value, axes: [axis] });
+  }
+
+  private async submit(): Promise<void> {
+    if (this.start.disabled) return;
+    this.start.disabled = true;
+    const requestId = `${this.requestId}-${hashOf(this.value, this.asSweep.checked && this.sweepInput.read())}`;
+    try {
+      const axis = this.asSweep.checked ? this.sweepInput.read() : undefined;
+      const created = axis ? await api.sweeps.createSweep({ sweep: this.sweepOf(axis), requestId })
+        : await api.jobs.createJob({ case: this.value, requestId });
+      go(pathOf(created.name));
+    } catch (error) {
+      const problems = problemsOf(error);
+      this.showProblem(problems.length ? problems.map((p) => `${p.field} ${p.message} ${p.remedy}`).join(" ")
+        : errorText(error));
+      this.start.disabled = false;
+    }
+  }
+
+  private showProblem(text: string): void {
+    this.problem.hidden = false;
+    setText(this.problem, text);
+  }
+
+  destroy(): void {
+    clearTimeout(this.timer);
+    this.abort.abort();
+    this.preview.destroy();
+  }
+}
+
+// Part of the request's id: a second click with the same case starts no second job.
+function hashOf(...values: unknown[]): string {
+  const text = JSON.stringify(values, (_, part) => (typeof part === "bigint" ? `${part}` : part));
+  let hash = 5381;
+  for (let i = 0; i < text.length; ++i) hash = ((hash * 33) ^ text.charCodeAt(i)) >>> 0;
+  return hash.toString(36);
+}

@@ -1,0 +1,33 @@
+// The numbers of several jobs side by side, and the facts in which their cases differ.
+import type { Summary } from "../../gen/cellcrush/v1/sample_pb";
+import { idOf, pathOf } from "../api/names";
+import { h } from "../dom/element";
+import { number, percent, strainText } from "../dom/format";
+import { caseFacts } from "../job/case_words";
+import type { JobData } from "../job/job_data";
+import { modeWords } from "../jobs/states";
+
+const kNumbers: [string, (s: Summary) => string][] = [
+  ["impact plateau, MPa", (s) => number(s.plateauStressImpactMpa)],
+  ["support plateau, MPa", (s) => number(s.plateauStressSupportMpa)],
+  ["shock theory (Eq. 51), MPa", (s) => number(s.theory?.shockMpa)],
+  ["Gibson-Ashby, MPa", (s) => number(s.theory?.gibsonAshbyMpa)],
+  ["densification strain", (s) => (s.densificationStrain === undefined ? "–" : strainText(s.densificationStrain))],
+  ["absorbed energy, J", (s) => number(s.absorbedEnergyMj / 1000)],
+  ["crush mode", (s) => modeWords(s.crushMode)?.split(":")[0] ?? "–"],
+  ["energy ledger error", (s) => percent(s.energyErrorRelative, 3)],
+];
+
+export function comparisonTable(jobs: JobData[]): HTMLElement {
+  const facts = jobs.map((data) => new Map(data.job?.case ? caseFacts(data.check?.completedCase ?? data.job.case) : []));
+  const names = [...new Set(facts.flatMap((map) => [...map.keys()]))];
+  const differing = names.filter((name) => new Set(facts.map((map) => map.get(name))).size > 1);
+  const row = (name: string, values: (string | undefined)[]): HTMLElement =>
+    h("tr", {}, h("th", { scope: "row" }, name), ...values.map((value) => h("td", { class: "figure" }, value ?? "–")));
+  return h("div", { class: "table-scroll" }, h("table", { class: "rows" },
+    h("thead", {}, h("tr", {}, h("td", {}), ...jobs.map((data) =>
+      h("th", { scope: "col", class: "figure" }, h("a", { href: pathOf(data.name) }, `job ${idOf(data.name)}`))))),
+    h("tbody", {}, ...differing.map((name) => row(name, facts.map((map) => map.get(name)))),
+      ...kNumbers.map(([name, text]) => row(name, jobs.map((data) =>
+        data.job?.summary && text(data.job.summary)))))));
+}

@@ -1,0 +1,68 @@
+// One field of the form: label, input, unit, and a line that holds its limits or its problem.
+import type { Problem } from "../../gen/cellcrush/v1/problem_pb";
+import { Problem_Kind } from "../../gen/cellcrush/v1/problem_pb";
+import { h, setText } from "../dom/element";
+import { fieldAt } from "./fields";
+import { choicesOf, defaultOf, helpOf, labelOf, unitOf } from "./words";
+
+/** What a field may be, from its help: "Required, 2 to 10000" or "Default 0.8; 0.0001 to below 0.95". */
+function limitsOf(path: string): string {
+  const help = helpOf(path);
+  const at = help.search(/\b(Required|Default)\b/);
+  return at < 0 ? "" : help.slice(at).replace(/\.$/, "");
+}
+
+let count = 0;
+
+export class FieldInput {
+  readonly element: HTMLElement;
+  private readonly input: HTMLInputElement | HTMLSelectElement;
+  private readonly line = h("div", { class: "limits" });
+  private readonly limits: string;
+
+  constructor(readonly path: string, on: { changed(text: string): void; focused(path: string): void }) {
+    this.limits = limitsOf(path);
+    const id = `field-${++count}`;
+    this.line.id = `${id}-limits`;
+    const attributes = { id, "aria-describedby": this.line.id };
+    const choices = choicesOf(path);
+    if (choices.length) {
+      this.input = h("select", attributes, h("option", { value: "" }, `default: ${defaultOf(path)
+        .toLowerCase().replaceAll("_", " ")}`),
+        ...choices.map((choice) => h("option", { value: choice.value, title: choice.help }, choice.label)));
+    } else {
+      this.input = h("input", { ...attributes, type: "text", inputmode: "decimal", autocomplete: "off",
+                                spellcheck: "false", placeholder: defaultOf(path) });
+    }
+    this.input.addEventListener("input", () => on.changed(this.input.value));
+    this.input.addEventListener("focus", () => on.focused(path));
+    const unit = unitOf(path);
+    this.element = h("div", { class: "field" }, h("label", { for: id, title: helpOf(path) }, labelOf(path)),
+      h("div", { class: "with-unit" }, this.input, unit ? h("span", { class: "unit" }, unit) : null), this.line);
+    this.showProblem(undefined);
+  }
+
+  set text(text: string) {
+    this.input.value = text;
+  }
+
+  /** Whether the text cannot be a value of the field. */
+  showUnreadable(isUnreadable: boolean): void {
+    if (isUnreadable) this.show("error", fieldAt(this.path).field.fieldKind === "scalar" ? "This is not a number."
+      : "This is not a value.");
+  }
+
+  showProblem(problem: Problem | undefined): void {
+    if (!problem) return this.show("", this.limits);
+    const kind = problem.kind === Problem_Kind.IMPLAUSIBLE ? "warning" : "error";
+    const message = `${problem.message} ${problem.remedy}`.trim();
+    this.show(kind, message.charAt(0).toUpperCase() + message.slice(1));
+  }
+
+  private show(kind: string, text: string): void {
+    setText(this.line, text);
+    this.line.title = text;
+    this.element.dataset.kind = kind;
+    this.input.setAttribute("aria-invalid", String(kind === "error"));
+  }
+}

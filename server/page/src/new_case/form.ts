@@ -1,0 +1,114 @@
+// The form of a case: groups of fields that read and write the message.
+import type { Case } from "../../gen/cellcrush/v1/case_pb";
+import { create } from "@bufbuild/protobuf";
+import { LatticeSchema, Lattice_HexagonSchema, Lattice_SquareSchema, Lattice_TriangleSchema } from
+  "../../gen/cellcrush/v1/case_pb";
+import type { Problem } from "../../gen/cellcrush/v1/problem_pb";
+import { h, replaceChildren } from "../dom/element";
+import { FieldInput } from "./field_input";
+import { groupsOf, readField, writeField, type LatticeKind } from "./fields";
+
+const kKinds: [LatticeKind, string][] = [["hexagon", "hexagons"], ["square", "squares"], ["triangle", "triangles"]];
+const kSchemas = { hexagon: Lattice_HexagonSchema, square: Lattice_SquareSchema, triangle: Lattice_TriangleSchema };
+
+export class CaseForm {
+  readonly element = h("div", { class: "case-form" });
+  /** Paths whose text is no value. */
+  readonly unreadable = new Set<string>();
+  private inputs = new Map<string, FieldInput>();
+  private readonly title = h("input", { type: "text", id: "case-title", maxlength: 200, autocomplete: "off" });
+  private readonly kind = h("select", { id: "case-kind" }, ...kKinds.map(([value, label]) =>
+    h("option", { value }, label)));
+  private value!: Case;
+
+  constructor(private readonly on: { changed(): void; focused(path: string): void }) {
+    this.title.addEventListener("input", () => {
+      this.value.title = this.title.value || undefined;
+      on.changed();
+    });
+    this.kind.addEventListener("change", () => {
+      this.changeKind(this.kind.value as LatticeKind);
+      this.build();
+      on.changed();
+    });
+  }
+
+  /** Shows a case, which the form then changes. */
+  setCase(value: Case): void {
+    this.value = value;
+    this.title.value = value.title ?? "";
+    this.build();
+  }
+
+  private get isFrame(): boolean {
+    return this.value.lattice?.kind.case === "frame";
+  }
+
+  /** The numeric fields of the form, for the axis of a sweep. */
+  get paths(): string[] {
+    return [...this.inputs.keys()];
+  }
+
+  private build(): void {
+    this.inputs = new Map();
+    this.unreadable.clear();
+    const kind = this.value.lattice?.kind.case;
+    const isOwnGeometry = this.isFrame;
+    if (kind && kind !== "frame") this.kind.value = kind;
+    const groups = groupsOf(kind && kind !== "frame" ? kind : "hexagon").filter((group) =>
+      !isOwnGeometry || !["Lattice", "Crush", "Imperfection"].includes(group.title));
+    replaceChildren(this.element,
+      h("div", { class: "field wide" }, h("label", { for: "case-title" }, "Title"), this.title),
+      isOwnGeometry ? h("p", { class: "banner warning" },
+        "This case is a frame of beams. Its geometry, loads and motions stay as they are.")
+        : h("div", { class: "field wide" }, h("label", { for: "case-kind" }, "Cells"), this.kind),
+      ...groups.map((group) => this.groupOf(group.title, group.paths, group.isOpen)));
+  }
+
+  private groupOf(title: string, paths: string[], isOpen: boolean): HTMLElement {
+    const fields = h("div", { class: "fields" }, ...paths.map((path) => this.inputOf(path).element));
+    const isGiven = paths.some((path) => readField(this.value, path) !== "");
+    return h("details", { open: isOpen || (isGiven && title === "Imperfection") }, h("summary", {}, title), fields);
+  }
+
+  private inputOf(path: string): FieldInput {
+    const input = new FieldInput(path, {
+      changed: (text) => this.take(path, input, text),
+      focused: (focused) => this.on.focused(focused),
+    });
+    input.text = readField(this.value, path);
+    this.inputs.set(path, input);
+    return input;
+  }
+
+  private take(path: string, input: FieldInput, text: string): void {
+    const isValue = writeField(this.value, path, text);
+    if (isValue) this.unreadable.delete(path);
+    else this.unreadable.add(path);
+    input.showProblem(undefined);
+    input.showUnreadable(!isValue);
+    this.on.changed();
+  }
+
+  // Keeps the sizes, which all regular lattices have.
+  private changeKind(kind: LatticeKind): void {
+    const old = this.value.lattice?.kind;
+    const { columns, rows, sideMm, wallThicknessMm } = old?.case && old.case !== "frame" ? old.value
+      : { columns: 20, rows: 10, sideMm: 4, wallThicknessMm: 0.3 };
+    const value = create(kSchemas[kind], { columns, rows, sideMm, wallThicknessMm });
+    this.value.lattice ??= create(LatticeSchema);
+    this.value.lattice.kind = { case: kind, value } as typeof this.value.lattice.kind;
+    this.value.lattice.inclusions = undefined;
+  }
+
+  /** Shows problems at their fields; returns those without a field of the form. */
+  showProblems(problems: Problem[]): Problem[] {
+    const byPath = new Map(problems.map((problem) => [problem.field, problem]));
+    for (const [path, input] of this.inputs) {
+      if (this.unreadable.has(path)) continue;
+      input.showProblem(byPath.get(path));
+      if (byPath.has(path)) input.element.closest("details")!.open = true;
+    }
+    return problems.filter((problem) => !this.inputs.has(problem.field));
+  }
+}

@@ -1,0 +1,50 @@
+// The drawing of the lattice of a case that does not run yet.
+import type { Case } from "../../gen/cellcrush/v1/case_pb";
+import { api } from "../api/clients";
+import { latticeOf } from "../frames/lattice";
+import { aspectOf } from "../job/case_words";
+import { h, setText } from "../dom/element";
+import { Picture } from "../picture/picture";
+
+const kMostElements = 150_000;
+
+export class Preview {
+  readonly element: HTMLElement;
+  private readonly picture = new Picture("The lattice before loading");
+  private readonly note = h("p", { class: "picture-note" });
+  private abort = new AbortController();
+  private shownKey = "";
+
+  constructor() {
+    this.picture.element.append(this.note);
+    this.element = h("section", { class: "card" }, h("div", { class: "picture-box" }, this.picture.element));
+  }
+
+  /** Draws the lattice of a valid case, if it is another one than before. */
+  async show(value: Case, elementCount: number): Promise<void> {
+    const key = JSON.stringify([value.lattice, value.loading?.direction, value.elementsPerWall,
+                                value.numerics?.fidelity], (_, part) => (typeof part === "bigint" ? `${part}` : part));
+    if (key === this.shownKey) return;
+    this.shownKey = key;
+    this.abort.abort();
+    const abort = (this.abort = new AbortController());
+    if (elementCount > kMostElements) return setText(this.note, "The mesh is too large for a drawing.");
+    try {
+      const { mesh } = await api.cases.previewCase({ case: value }, { signal: abort.signal });
+      if (!mesh || abort.signal.aborted) return;
+      setText(this.note, "");
+      const aspect = aspectOf(value);
+      if (aspect) this.picture.setAspect(aspect);
+      const lattice = latticeOf(mesh);
+      this.picture.setLattice(lattice);
+      this.picture.show({ position: lattice.undeformed, plastic: new Float32Array(lattice.thickness.length) }, 0);
+    } catch {
+      this.shownKey = ""; // the check has told the problem; the next change draws again
+    }
+  }
+
+  destroy(): void {
+    this.abort.abort();
+    this.picture.destroy();
+  }
+}
