@@ -80,10 +80,10 @@ export class JobPage implements View {
             h("div", { class: "picture-head" }, colourLegend(), h("span", { class: "spacer" }),
               takeAwayOfPicture(picture, this.player, this.data)),
             h("div", { class: "picture-box" }, picture.element), this.bar.element),
-          this.numbers),
+          this.numbers, this.facts),
         h("div", { class: "column" },
           h("section", { class: "card" }, this.stress.element, this.energy.element),
-          this.facts, this.modelled)));
+          this.modelled)));
   }
 
   private listen(): void {

@@ -26,7 +26,9 @@ in vec2 place; flat in float span; flat in float radius; flat in float share;
 uniform sampler2D colours; out vec4 colour;
 void main() {
   float beyond = max(max(-place.x, place.x - span), 0.0);
-  float cover = clamp(radius + 0.5 - length(vec2(beyond, place.y)), 0.0, 1.0);
+  // An end is half a pixel smaller, or the soft edges of two elements would add up to a knot.
+  float edge = beyond > 0.0 ? radius : radius + 0.5;
+  float cover = clamp(edge - length(vec2(beyond, place.y)), 0.0, 1.0);
   if (cover <= 0.0) discard;
   colour = texture(colours, vec2((clamp(share, 0.0, 1.0) * ${kShades - 1}.0 + 0.5) / ${kShades}.0, 0.5)) * cover;
 }`;

@@ -1,0 +1,20 @@
+// Runs the tests of test/ in Node, each bundled with the sources that it imports.
+import { build } from "esbuild";
+import { spawnSync } from "node:child_process";
+import { readdirSync } from "node:fs";
+import { dirname, join } from "node:path";
+import { fileURLToPath } from "node:url";
+
+const page = dirname(dirname(fileURLToPath(import.meta.url)));
+const tests = readdirSync(join(page, "test")).filter((name) => name.endsWith(".test.mjs"));
+await build({
+  entryPoints: tests.map((name) => join(page, "test", name)),
+  outdir: join(page, "test-build"),
+  outExtension: { ".js": ".mjs" },
+  bundle: true,
+  format: "esm",
+  platform: "node",
+  logLevel: "warning",
+});
+const files = tests.map((name) => join(page, "test-build", name));
+process.exit(spawnSync(process.execPath, ["--test", ...files], { stdio: "inherit" }).status ?? 1);

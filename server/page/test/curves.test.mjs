@@ -1,0 +1,38 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { create } from "@bufbuild/protobuf";
+import { SampleSchema } from "../gen/cellcrush/v1/sample_pb";
+import { strainAxis } from "../src/charts/curves";
+import { energyChart } from "../src/charts/energy";
+import { runningMean, thin } from "../src/charts/smooth";
+import { duration, number } from "../src/dom/format";
+
+test("the moving mean of a line is the line, away from its ends", () => {
+  const x = Array.from({ length: 101 }, (_, i) => i / 100);
+  const mean = runningMean(x, x.map((value) => 3 * value), 0.105);
+  for (let i = 10; i < 90; ++i) assert.ok(Math.abs(mean[i] - 3 * x[i]) < 1e-9);
+});
+
+test("fewer points keep the least and the greatest value", () => {
+  const y = Array.from({ length: 10000 }, (_, i) => Math.sin(i));
+  y[4321] = 99;
+  y[777] = -99;
+  const places = thin(y, 500);
+  assert.ok(places.length <= 520 && places.includes(4321) && places.includes(777));
+  assert.ok(places.every((place, i) => i === 0 || place > places[i - 1]));
+});
+
+test("the areas of the ledger add up to the work without the residual", () => {
+  const sample = create(SampleSchema, {
+    strain: 0.1, workExternalMj: 100, energyPlasticMj: 60, energyKineticMj: 20, energyElasticMj: 10,
+    energyContactMj: 4, energyDampingMj: 5, energyContactDampingMj: 5, energyResidualMj: 1,
+  });
+  const chart = energyChart([sample], strainAxis(0.8));
+  assert.ok(Math.abs(chart.columns[1][0] - 0.099) < 1e-9); // J: the highest area comes first
+});
+
+test("numbers have three significant digits, times a unit", () => {
+  assert.deepEqual([0.31437, 3.5526, 1544, 0, undefined].map((value) => number(value)),
+                   ["0.314", "3.55", "1544", "0", "–"]);
+  assert.deepEqual([0.05, 12, 300, 7300].map(duration), ["50 ms", "12 s", "5 min", "2 h 2 min"]);
+});

@@ -1,0 +1,53 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { create } from "@bufbuild/protobuf";
+import { CaseSchema, Lattice_HexagonSchema } from "../gen/cellcrush/v1/case_pb";
+import { fieldAt, groupsOf, readField, writeField } from "../src/new_case/fields";
+import { axisOf, jobCount } from "../src/new_case/sweep_axis";
+import { defaultOf, helpOf, labelOf, unitOf } from "../src/new_case/words";
+
+const hexagons = () => create(CaseSchema, {
+  lattice: { kind: { case: "hexagon", value: create(Lattice_HexagonSchema, { columns: 20 }) } },
+});
+
+test("every field of the form is in the protos and has help", () => {
+  for (const kind of ["hexagon", "square", "triangle"]) {
+    for (const path of groupsOf(kind).flatMap((group) => group.paths)) {
+      assert.ok(fieldAt(path).field, path);
+      assert.ok(helpOf(path).length > 10, path);
+      assert.ok(labelOf(path), path);
+    }
+  }
+  assert.equal(unitOf("loading.speed_m_per_s"), "m/s");
+  assert.equal(defaultOf("loading.end_strain"), "0.8");
+  assert.equal(defaultOf("depth_mm"), "required");
+});
+
+test("fields are written and read by path, and cleared by an empty text", () => {
+  const value = hexagons();
+  assert.ok(writeField(value, "loading.speed_m_per_s", "12.5"));
+  assert.ok(writeField(value, "lattice.imperfection.seed", "18446744073709551615"));
+  assert.ok(writeField(value, "lattice.hexagon.rows", "7"));
+  assert.equal(value.loading.speedMPerS, 12.5);
+  assert.equal(value.lattice.imperfection.seed, 18446744073709551615n);
+  assert.equal(readField(value, "lattice.hexagon.rows"), "7");
+  assert.ok(writeField(value, "loading.speed_m_per_s", ""));
+  assert.equal(readField(value, "loading.speed_m_per_s"), "");
+});
+
+test("a text that is no value of its field is refused", () => {
+  const value = hexagons();
+  assert.equal(writeField(value, "depth_mm", "four"), false);
+  assert.equal(writeField(value, "lattice.hexagon.rows", "2.5"), false);
+  assert.equal(writeField(value, "lattice.imperfection.seed", "-1"), false);
+});
+
+test("values of a sweep: a list, ranges, seeds", () => {
+  const count = (text) => jobCount(axisOf("loading.speed_m_per_s", text));
+  assert.equal(count("25, 50, 100"), 3);
+  assert.equal(count("10:200:8"), 8);
+  assert.equal(axisOf("f", "10:200:8:log").values.case, "logarithmic");
+  assert.equal(count("seeds:5"), 5);
+  assert.equal(typeof axisOf("f", "fast"), "string");
+  assert.equal(typeof axisOf("f", ""), "string");
+});

@@ -1,0 +1,61 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { zlibSync } from "fflate";
+import { create } from "@bufbuild/protobuf";
+import { FieldFrameSchema, MeshSchema } from "../gen/cellcrush/v1/sample_pb";
+import { FrameStore } from "../src/frames/frame_store";
+import { fieldsOf } from "../src/frames/packed";
+import { FrameParts } from "../src/frames/parts";
+
+// Packs as the comment of FieldFrame.Packed says, independently of the daemon.
+function pack(displacements, plastic, quantum) {
+  const count = displacements.length / 2;
+  const bytes = new Uint8Array(4 * count + plastic.length);
+  for (const component of [0, 1]) {
+    let last = 0;
+    for (let i = 0; i < count; ++i) {
+      const value = Math.round(displacements[2 * i + component] / quantum);
+      const difference = (value - last) & 0xffff;
+      last = value;
+      bytes[component * count + i] = difference & 0xff;
+      bytes[2 * count + component * count + i] = difference >> 8;
+    }
+  }
+  plastic.forEach((value, i) => { bytes[4 * count + i] = Math.round(255 * value); });
+  return { quantumMm: quantum, particleCount: count, elementCount: plastic.length, data: zlibSync(bytes) };
+}
+
+test("a packed frame gives positions within half a quantum, also across the 16-bit range", () => {
+  const base = new Float32Array([0, 0, 10, 5, -3, 8]);
+  const moved = [100, -99.5, -100, 99.5, 0.004, 0];
+  const quantum = 100 / 32767;
+  const frame = create(FieldFrameSchema, { packed: pack(moved, [0, 0.5, 1], quantum) });
+  const { position, plastic } = fieldsOf(frame, base);
+  moved.forEach((value, i) => assert.ok(Math.abs(position[i] - base[i] - value) <= 0.5 * quantum + 1e-5));
+  assert.deepEqual([...plastic].map((value) => value.toFixed(2)), ["0.00", "0.50", "1.00"]);
+});
+
+test("without positions in the mesh, the first frame is the undeformed lattice and the base stays 0", () => {
+  const store = new FrameStore();
+  store.setMesh(create(MeshSchema, { particleCount: 2, elementNodes: [0, 1], thicknessMm: [1] }));
+  const quantum = 0.001;
+  store.add(create(FieldFrameSchema, { index: 0, packed: pack([1, 2, 3, 4], [0], quantum) }));
+  store.add(create(FieldFrameSchema, { index: 1, packed: pack([1.5, 2, 3, 4], [0], quantum) }));
+  assert.ok(Math.abs(store.lattice.undeformed[2] - 3) < 1e-5);
+  assert.ok(Math.abs(store.fields(1).position[0] - 1.5) < 1e-5);
+});
+
+test("frames are kept in order, replaced by index, and gaps are found", () => {
+  const store = new FrameStore();
+  for (const index of [0, 1, 4, 3, 3]) store.add(create(FieldFrameSchema, { index, strain: 0.1 * index }));
+  assert.deepEqual(store.frames.map((frame) => frame.index), [0, 1, 3, 4]);
+  assert.equal(store.firstGap(), 2);
+});
+
+test("a frame in parts is whole with its last part; an unfinished one is dropped", () => {
+  const parts = new FrameParts();
+  const chunk = (part, positionMm) => ({ frame: create(FieldFrameSchema, { positionMm }), part, partCount: 2 });
+  assert.equal(parts.add(chunk(0, [9, 9])), undefined);
+  assert.equal(parts.add(chunk(0, [1, 2])), undefined);
+  assert.deepEqual(parts.add(chunk(1, [3, 4])).positionMm, [1, 2, 3, 4]);
+});
