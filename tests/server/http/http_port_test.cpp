@@ -5,7 +5,9 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <memory>
+#include <vector>
 
 #include "log_format.h"
 #include "server/http/http_fixture.h"
