@@ -12,7 +12,7 @@ namespace cellcrush::http {
 /// A client's socket with time limits, with or without TLS; an asynchronous stream of Asio. Not thread-safe.
 class Stream {
  public:
-  using executor_type = boost::beast::tcp_stream::executor_type;
+  using executor_type = boost::beast::tcp_stream::executor_type;  // NOLINT(readability-identifier-naming): of Asio
 
   /// `context`: null for plain text; need not outlive the constructor.
   Stream(boost::asio::ip::tcp::socket socket, boost::asio::ssl::context* context) : plain_(std::move(socket)) {

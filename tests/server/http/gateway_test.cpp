@@ -14,7 +14,13 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-using HttpGatewayTest = HttpFixture;
+class HttpGatewayTest : public HttpFixture {
+ protected:
+  void SetUp() override {
+    HttpFixture::SetUp();
+    start(http_options());
+  }
+};
 
 TEST_F(HttpGatewayTest, AUnaryCallIsAnsweredInJsonAndInBinary) {
   const std::string job = client().create(small_case());

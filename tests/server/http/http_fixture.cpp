@@ -96,11 +96,6 @@ std::vector<std::string> messages_of(const std::string& body) {
   return out;
 }
 
-void HttpFixture::SetUp() {
-  GateFixture::SetUp();
-  start(http_options());
-}
-
 DaemonOptions HttpFixture::http_options() const {
   DaemonOptions options = default_options();
   options.http = "127.0.0.1:0";

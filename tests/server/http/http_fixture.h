@@ -36,11 +36,9 @@ std::string dechunked(const std::string& answer);
 /// The messages in the body of a stream, without the last one, which tells how it ended.
 std::vector<std::string> messages_of(const std::string& body);
 
-/// A daemon that serves HTTP on a free port of loopback, and what a client sends it.
+/// A daemon that serves HTTP on a free port of loopback, and what a client sends it. Each test starts the daemon.
 class HttpFixture : public GateFixture {
  protected:
-  void SetUp() override;
-
   [[nodiscard]] DaemonOptions http_options() const;
   [[nodiscard]] int port() const;
 

@@ -22,8 +22,6 @@ using ::testing::StartsWith;
 
 class HttpPortTest : public HttpFixture {
  protected:
-  void SetUp() override { GateFixture::SetUp(); }
-
   [[nodiscard]] std::string list_with_tls(const Visitor& visitor, const std::string& headers = "") const {
     return exchange_with_tls(port(), visitor, call_text("ListJobs", "application/json", "{}", headers));
   }
@@ -106,6 +104,7 @@ TEST_F(HttpPortTest, ConnectionsBeyondTheLimitAreClosed) {
 TEST_F(HttpPortTest, HundredsOfIdleConnectionsHoldUpNobody) {
   start(http_options());
   std::vector<std::unique_ptr<HttpSocket>> idle;
+  idle.reserve(400);
   for (int i = 0; i < 400; ++i) idle.push_back(std::make_unique<HttpSocket>(port()));
   const auto begin = std::chrono::steady_clock::now();
   for (int i = 0; i < 50; ++i) ASSERT_THAT(call("ListJobs", "application/json", "{}"), StartsWith("HTTP/1.1 200"));

@@ -12,7 +12,13 @@
 namespace cellcrush::testing {
 namespace {
 
-using HttpStreamTest = HttpFixture;
+class HttpStreamTest : public HttpFixture {
+ protected:
+  void SetUp() override {
+    HttpFixture::SetUp();
+    start(http_options());
+  }
+};
 
 std::vector<v1::JobEvent> numbered(const std::vector<v1::JobEvent>& events) {
   std::vector<v1::JobEvent> out;
