@@ -71,6 +71,10 @@ export class Chart {
     this.observer.observe(this.place);
   }
 
+  setTitle(title: string): void {
+    setText(this.element.querySelector("h3")!, title);
+  }
+
   get shown(): ChartData | undefined {
     return this.data;
   }
@@ -144,7 +148,7 @@ export class Chart {
       series: [{}, ...data.series.map((series) => this.seriesOf(series))],
       hooks: {
         drawClear: [(plot) => this.drawBands(plot)],
-        draw: [(plot) => this.drawLevels(plot)],
+        draw: [(plot) => this.drawLevels(plot), () => this.moveHead()], // scales are known from here on
         setCursor: [(plot) => this.hover(plot.cursor.idx ?? null)],
       },
     }, data.columns as uPlot.AlignedData, place);

@@ -18,7 +18,7 @@ const kTerms: Term[] = [
 const kVisibleShare = 0.002; // a term that stays below this part of the work is left out
 const kMostPoints = 1500;
 
-export function energyChart(samples: Sample[], axis: Axis): ChartData {
+export function energyChart(samples: Sample[], axis: Axis, workOf = "work of the plates"): ChartData {
   let kept = finite(samples, axis);
   const places = thin(kept.map((s) => s.energyKineticMj), kMostPoints);
   if (places) kept = places.map((place) => kept[place]);
@@ -40,7 +40,7 @@ export function energyChart(samples: Sample[], axis: Axis): ChartData {
     legendValue: (i) => (kept[i] ? term.value(kept[i]) * perMj : undefined),
   }));
   return {
-    series: [...areas.reverse(), { label: "work of the plates", colour: "ink", width: 1.5 }],
+    series: [...areas.reverse(), { label: workOf, colour: "ink", width: 1.5 }],
     columns: [kept.map((s) => axis.sample(s)), ...stacked.reverse(), kept.map((s) => s.workExternalMj * perMj)],
     xLabel: axis.label, yLabel: `energy (${unit})`, xEnd: axis.end,
     yLow: low < 0 ? 1.1 * low : 0, yTop: high > 0 ? 1.06 * high : 1,

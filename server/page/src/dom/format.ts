@@ -13,7 +13,9 @@ export function number(value: number | undefined, digits = 3): string {
 }
 
 export function percent(fraction: number | undefined, digits = 2): string {
-  return fraction === undefined || !Number.isFinite(fraction) ? kMissing : `${number(100 * fraction, digits)} %`;
+  if (fraction === undefined || !Number.isFinite(fraction)) return kMissing;
+  if (fraction !== 0 && Math.abs(fraction) < 1e-4) return "under 0.01 %";
+  return `${number(100 * fraction, digits)} %`;
 }
 
 /** Nominal strain, always with two decimals so that columns align. */

@@ -16,7 +16,7 @@ export class JobHeader {
   private readonly about = h("p", { class: "faint about" });
   private readonly bar = h("progress", { max: 1, "aria-label": "progress" });
   private readonly progress = h("span", { class: "faint" });
-  private readonly progressRow = h("div", { class: "progress-row" }, this.bar, this.progress);
+  private readonly progressRow = h("div", { class: "progress-row invisible" }, this.bar, this.progress);
   private readonly actions = h("div", { class: "buttons" });
   private readonly cause = h("div", { class: "banner error", hidden: true });
   private shownState = -1;

@@ -21,6 +21,8 @@ export class JobData implements WatchedJob {
   readonly frames = new FrameStore();
   sequence = 0n;
   error: unknown;
+  /** All samples and frames of an ended job are here. */
+  isComplete = false;
   readonly jobChanges = new Listeners<void>();
   readonly sampleChanges = new Listeners<void>();
   private readonly meshParts = new MeshParts();
@@ -48,7 +50,7 @@ export class JobData implements WatchedJob {
       const job = await api.jobs.getJob({ name: this.name }, { signal });
       this.error = undefined;
       this.putJob(job);
-      if (hasEnded(job)) await Promise.all([this.loadHistory(), this.loadFrames()]);
+      if (hasEnded(job)) await this.loadPast();
       else this.follow();
       await this.loadCheck();
     } catch (error) {
@@ -56,6 +58,12 @@ export class JobData implements WatchedJob {
       this.fail(error);
       if (isAway(error)) setTimeout(() => void (signal.aborted || this.load()), kAgainMs);
     }
+  }
+
+  private async loadPast(): Promise<void> {
+    await Promise.all([this.loadHistory(), this.loadFrames()]);
+    this.isComplete = true;
+    this.sampleChanges.tell();
   }
 
   private fail(error: unknown): void {

@@ -6,6 +6,7 @@ import { idOf } from "../api/names";
 import { Chart } from "../charts/chart";
 import { strainAxis, timeAxis, type Axis } from "../charts/curves";
 import { energyChart } from "../charts/energy";
+import { forceChart } from "../charts/forces";
 import { stressChart } from "../charts/stress";
 import { h, replaceChildren } from "../dom/element";
 import { hasEnded, titleOf, warningWords } from "../jobs/states";
@@ -36,11 +37,12 @@ export class JobPage implements View {
   private readonly stress = new Chart("Stress and strain", (x) => this.player.seek(x));
   private readonly energy = new Chart("Energy ledger", (x) => this.player.seek(x));
   private readonly waiting = h("p", { class: "picture-note" }, "Loading the frames…");
-  private readonly numbers = h("section", { class: "card" });
-  private readonly facts = h("section", { class: "card" });
-  private readonly modelled = h("section", { class: "card modelled" });
+  private readonly numbers = h("section", { class: "card", hidden: true });
+  private readonly facts = h("section", { class: "card", hidden: true });
+  private readonly modelled = h("section", { class: "card modelled", hidden: true });
   private readonly warnings = h("div", { class: "warnings" });
   private readonly problem = h("div", { class: "banner error", hidden: true });
+  private readonly grid = h("div", { class: "job-grid" });
   private axis: Axis = strainAxis(0.8);
   private wantedStrain: number | undefined;
   private curvesTimer = 0;
@@ -74,16 +76,16 @@ export class JobPage implements View {
     this.energy.element.querySelector("figcaption")!.append(
       takeAwayOfChart(this.energy, this.data, () => this.axis, "energy"));
     replaceChildren(this.element, this.header.element, this.problem, this.warnings,
-      h("div", { class: "job-grid" },
-        h("div", { class: "column" },
-          h("section", { class: "card" },
-            h("div", { class: "picture-head" }, colourLegend(), h("span", { class: "spacer" }),
-              takeAwayOfPicture(picture, this.player, this.data)),
-            h("div", { class: "picture-box" }, picture.element), this.bar.element),
-          this.numbers, this.facts),
-        h("div", { class: "column" },
-          h("section", { class: "card" }, this.stress.element, this.energy.element),
-          this.modelled)));
+      this.grid);
+    replaceChildren(this.grid,
+      h("div", { class: "column" },
+        h("section", { class: "card" },
+          h("div", { class: "picture-head" }, colourLegend(), h("span", { class: "spacer" }),
+            takeAwayOfPicture(picture, this.player, this.data)),
+          h("div", { class: "picture-box" }, picture.element), this.bar.element),
+        this.numbers, this.facts),
+      h("div", { class: "column" },
+        h("section", { class: "card" }, this.stress.element, this.energy.element), this.modelled));
   }
 
   private listen(): void {
@@ -98,6 +100,10 @@ export class JobPage implements View {
       if (job && job !== this.data.job) this.data.putJob(job);
     });
     document.addEventListener("keydown", this.key);
+    // What the user does counts from then on, not the place in the URL.
+    for (const event of ["pointerdown", "keydown"]) {
+      this.grid.addEventListener(event, () => { this.wantedStrain = undefined; }, { capture: true });
+    }
   }
 
   private readonly key = (event: KeyboardEvent): void => {
@@ -124,7 +130,7 @@ export class JobPage implements View {
     replaceChildren(this.problem, isNotFound(error) ? `${this.title} does not exist, or was deleted. ` : "",
       isNotFound(error) ? h("a", { href: "/" }, "All jobs") : errorText(error),
       isAway(error) ? " The page tries again." : "");
-    this.waiting.hidden = !this.data.job;
+    this.header.element.hidden = this.grid.hidden = isNotFound(error);
   }
 
   private followState(job: Job): void {
@@ -171,9 +177,12 @@ export class JobPage implements View {
     const { samples } = this.data;
     this.player.fullEnd = this.axis.end;
     const isFrame = this.data.job?.case?.lattice?.kind.case === "frame";
-    this.stress.element.hidden = isFrame;
-    if (!isFrame) this.stress.setData(stressChart(samples, this.axis, this.summary, this.theory));
-    this.energy.setData(energyChart(samples, this.axis));
+    const stress = isFrame ? forceChart(samples, this.axis)
+      : stressChart(samples, this.axis, this.summary, this.theory);
+    this.stress.setTitle(isFrame ? "Forces of the rigid walls" : "Stress and strain");
+    this.stress.element.hidden = !stress;
+    if (stress) this.stress.setData(stress);
+    this.energy.setData(energyChart(samples, this.axis, isFrame ? "work of all loads" : undefined));
     this.setEnd();
   }
 
@@ -189,12 +198,10 @@ export class JobPage implements View {
     const lastSample: Sample | undefined = samples[samples.length - 1];
     const lastFrame = frames.frames[frames.frames.length - 1];
     const end = Math.max(lastSample ? this.axis.sample(lastSample) : 0, lastFrame ? this.axis.frame(lastFrame) : 0);
-    const isDone = this.data.job !== undefined && hasEnded(this.data.job);
     this.player.setEnd(Number.isFinite(end) ? end : 0);
-    if (this.wantedStrain !== undefined && (this.wantedStrain <= end || isDone)) {
-      this.player.seek(this.wantedStrain);
-      if (this.wantedStrain <= end + 1e-6) this.wantedStrain = undefined;
-    }
+    if (this.wantedStrain === undefined) return;
+    this.player.seek(this.wantedStrain);
+    if (this.wantedStrain <= end || this.data.isComplete) this.wantedStrain = undefined;
   }
 
   private showPlace(): void {

@@ -22,7 +22,7 @@ function resultsOf(s: Summary, theory: Theory | undefined): Result[] {
   if (s.plateauStressImpactMpa !== undefined || theory?.gibsonAshbyMpa) {
     results.push(
       { name: "Plateau stress, impact plate", field: "plateau_stress_impact_mpa", value: number(s.plateauStressImpactMpa),
-        unit: "MPa", beside: besideTheory(s.plateauStressImpactMpa, theory?.shockMpa, "shock theory (Eq. 51)") },
+        unit: "MPa", beside: s.plateauStressImpactMpa === undefined ? "the run ended before strain 0.40" : besideTheory(s.plateauStressImpactMpa, theory?.shockMpa, "shock theory (Eq. 51)") },
       { name: "Plateau stress, support plate", field: "plateau_stress_support_mpa",
         value: number(s.plateauStressSupportMpa), unit: "MPa",
         beside: besideTheory(s.plateauStressSupportMpa, theory?.gibsonAshbyMpa, "Gibson-Ashby") },
@@ -39,7 +39,7 @@ function resultsOf(s: Summary, theory: Theory | undefined): Result[] {
     results.push({ name: "Absorbed energy", field: "absorbed_energy_mj", value: absorbed, unit,
                    beside: "to strain 0.50, or the end of a shorter run" });
   }
-  const mode = modeWords(s.crushMode);
+  const mode = theory?.gibsonAshbyMpa ? modeWords(s.crushMode) : undefined; // a frame has no cells
   if (mode) {
     const since = s.crushModeStrain === undefined ? "" : `first seen at strain ${strainText(s.crushModeStrain)}`;
     results.push({ name: "Crush mode", field: "crush_mode", value: mode, beside: since });

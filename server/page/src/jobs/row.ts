@@ -10,10 +10,11 @@ import { actionsOf, attempt } from "./actions";
 import { hasEnded, setChip, stateChip, titleOf } from "./states";
 import type { JobStore } from "./store";
 
-/** How long a job has run, in seconds. */
-function tookSeconds(job: Job): number | undefined {
-  if (!job.startTime || !job.endTime) return undefined;
-  return (milliseconds(job.endTime) - milliseconds(job.startTime)) / 1000;
+/** How long a job has run. */
+function tookText(job: Job): string {
+  if (!job.startTime || !job.endTime) return duration(undefined);
+  const seconds = (milliseconds(job.endTime) - milliseconds(job.startTime)) / 1000;
+  return seconds < 1 ? "under 1 s" : duration(seconds);
 }
 
 function noteOf(job: Job, entry: Queue_Entry | undefined): string {
@@ -91,7 +92,7 @@ export class JobRow {
 
   private updateTime(job: Job, entry: Queue_Entry | undefined): void {
     let text = "";
-    if (hasEnded(job)) text = duration(tookSeconds(job));
+    if (hasEnded(job)) text = tookText(job);
     else if (job.state === Job_State.RUNNING && job.progress) text = `${duration(job.progress.secondsLeft)} left`;
     else if (entry) text = entry.secondsUntilStart < 1 ? "starts next" : `in ${duration(entry.secondsUntilStart)}`;
     setText(this.time, text);

@@ -11,6 +11,7 @@ export class FrameView {
   shown: FieldFrame | undefined;
   private mixed: Fields | undefined;
   private shownKey = "";
+  private included = -1;
 
   constructor(private readonly store: FrameStore, private readonly valueOf: (frame: FieldFrame) => number,
               label: string) {
@@ -36,6 +37,7 @@ export class FrameView {
     const { frames, lattice } = store;
     if (!lattice || frames.length === 0 || lattice.undeformed.length === 0) return;
     this.picture.setLattice(lattice);
+    if (!lattice.plates) this.includeLast();
     const before = this.placeBefore(value);
     const after = Math.min(before + 1, frames.length - 1);
     const [a, b] = [this.valueOf(frames[before]), this.valueOf(frames[after])];
@@ -46,6 +48,13 @@ export class FrameView {
     this.mixed = mixFields(store.fields(before), store.fields(after), mix, this.mixed);
     const strain = frames[before].strain + mix * (frames[after].strain - frames[before].strain);
     this.picture.show(this.mixed, strain);
+  }
+
+  private includeLast(): void {
+    const last = this.store.frames.length - 1;
+    if (last === this.included) return;
+    this.included = last;
+    this.picture.include(this.store.fields(last).position);
   }
 
   private showFrame(place: number): void {

@@ -1,5 +1,5 @@
 // The drawing of a lattice: walls on one canvas, plates and marks on another over it.
-import { viewBox, type Box, type Lattice } from "../frames/lattice";
+import { boxOf, viewBox, type Box, type Lattice } from "../frames/lattice";
 import type { Fields } from "../frames/packed";
 import { Listeners } from "../api/listeners";
 import { h, replaceChildren } from "../dom/element";
@@ -59,6 +59,20 @@ export class Picture {
     this.box = viewBox(lattice);
     this.camera.setBox(this.box);
     this.segments = undefined;
+    this.drawSoon();
+  }
+
+  /** Widens what `fit` shows, for a frame of beams that moves beyond its undeformed box. */
+  include(position: Float32Array): void {
+    const { box } = this;
+    if (!box) return;
+    const more = boxOf(position);
+    const margin = 0.03 * Math.max(more.highX - more.lowX, more.highY - more.lowY);
+    this.box = {
+      lowX: Math.min(box.lowX, more.lowX - margin), highX: Math.max(box.highX, more.highX + margin),
+      lowY: Math.min(box.lowY, more.lowY - margin), highY: Math.max(box.highY, more.highY + margin),
+    };
+    this.camera.setBox(this.box);
     this.drawSoon();
   }
 
