@@ -85,6 +85,7 @@ export class JobsPage implements View {
     const text = this.text.value.trim().toLowerCase();
     if (/[=:]/.test(text)) return false; // the daemon decides; the next list has it
     if (text && !titleOf(job).toLowerCase().includes(text)) return false;
+    if (!this.isShown(job)) return false;
     return !this.state.value || Job_State[job.state] === this.state.value;
   }
 
@@ -137,9 +138,11 @@ export class JobsPage implements View {
   private show(): void {
     this.table.update(this.queue.entries, (job) => this.isShown(job));
     const jobs = [...this.store.jobs.values()];
-    const words = kActiveStates.map((state) => ({ state, n: jobs.filter((job) => job.state === state).length }))
+    const countOf = (state: Job_State): number =>
+      state === Job_State.PENDING ? this.queue.waitingCount : jobs.filter((job) => job.state === state).length;
+    const words = kActiveStates.map((state) => ({ state, n: countOf(state) }))
       .filter(({ n }) => n > 0).map(({ state, n }) => `${n} ${stateWord(state)}`);
-    if (this.table.hiddenCount) words.push(`${this.table.hiddenCount} of the waiting not listed`);
+    if (this.table.hiddenCount) words.push("the first 100 waiting are listed");
     setText(this.counts, words.join(" · ") || "no job is running or waiting");
     this.empty.hidden = this.empty.textContent === "" || jobs.some((job) => !hasEnded(job) || this.isShown(job));
   }

@@ -10,6 +10,7 @@ const kAgainMs = 20_000; // while jobs wait, as the estimates change
 export class QueuePanel {
   readonly element = h("div", { class: "holds", "aria-live": "polite" });
   entries = new Map<string, Queue_Entry>();
+  waitingCount = 0;
   private timer = 0;
   private again = 0;
   private isDestroyed = false;
@@ -28,6 +29,7 @@ export class QueuePanel {
       const queue = await api.admin.getQueue({});
       if (this.isDestroyed) return;
       this.entries = new Map(queue.entries.map((entry) => [entry.job, entry]));
+      this.waitingCount = queue.entries.length + queue.moreCount;
       this.showHolds(queue.holds);
       this.changed();
       if (queue.entries.length > 0 || queue.holds.length > 0) {
