@@ -9,6 +9,7 @@ import "./style/sweep.css";
 import "./style/compare.css";
 import "./style/new_case.css";
 import { api } from "./api/clients";
+import { forgetToken, hasToken } from "./api/token";
 import { watch, type Connection } from "./api/watch";
 import { ComparePage } from "./compare/page";
 import { button, h, setText } from "./dom/element";
@@ -45,7 +46,8 @@ function topBar(): HTMLElement {
   return h("header", { class: "top" },
     h("a", { class: "brand", href: "/" }, h("img", { src: "/icon.svg", alt: "", width: 22, height: 22 }), "cellcrush"),
     h("nav", {}, h("a", { href: "/" }, "Jobs"), h("a", { href: "/new" }, "New case")),
-    h("span", { class: "spacer" }), version, status, retry);
+    h("span", { class: "spacer" }), version,
+    hasToken() ? button("Forget the token", forgetToken, { class: "quiet" }) : null, status, retry);
 }
 
 const main = h("main", {});

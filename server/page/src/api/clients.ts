@@ -5,6 +5,7 @@ import { Admin } from "../../gen/cellcrush/v1/admin_service_pb";
 import { Cases } from "../../gen/cellcrush/v1/cases_service_pb";
 import { Jobs } from "../../gen/cellcrush/v1/jobs_service_pb";
 import { Sweeps } from "../../gen/cellcrush/v1/sweeps_service_pb";
+import { withToken } from "./token";
 
 export interface Clients {
   admin: Client<typeof Admin>;
@@ -22,4 +23,6 @@ export function clientsOf(transport: Transport): Clients {
   };
 }
 
-export const api = clientsOf(createConnectTransport({ baseUrl: location.origin, useBinaryFormat: true }));
+export const api = clientsOf(createConnectTransport({
+  baseUrl: location.origin, useBinaryFormat: true, interceptors: [withToken],
+}));

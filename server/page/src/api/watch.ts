@@ -122,6 +122,7 @@ class Watch {
   }
 
   private recover(error: ConnectError): void {
+    if (error.code === Code.Unauthenticated) return; // the page asks for a token and starts again
     const tokenIsVoid = error.code === Code.OutOfRange || error.code === Code.FailedPrecondition;
     if (tokenIsVoid) this.token = new Uint8Array();
     this.reconnect();

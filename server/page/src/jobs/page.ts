@@ -25,7 +25,7 @@ export class JobsPage implements View {
   private readonly queue = new QueuePanel(() => this.show());
   private readonly sweeps = new SweepsList();
   private readonly table = new JobTable(this.store, (names) => this.showSelection(names));
-  private readonly text = h("input", { type: "search", placeholder: "Title, or a filter such as owner = \"anna\"",
+  private readonly text = h("input", { type: "search", placeholder: "Title, or owner = \"name\"",
                                        "aria-label": "Filter of jobs" });
   private readonly state = h("select", { "aria-label": "State" }, h("option", { value: "" }, "any state"),
     ...kStates.map((state) => h("option", { value: Job_State[state] }, stateWord(state))));
@@ -40,6 +40,7 @@ export class JobsPage implements View {
   private token = "";
   private generation = 0;
   private timer = 0;
+  private isLoaded = false;
 
   constructor(query: URLSearchParams) {
     this.text.value = query.get("q") ?? "";
@@ -108,7 +109,9 @@ export class JobsPage implements View {
         active.forEach((job) => this.store.put(job));
       }
       await this.loadPages(generation, filter);
-      if (generation === this.generation) this.showEmpty("");
+      if (generation !== this.generation) return;
+      this.isLoaded = true;
+      this.showEmpty("");
     } catch (error) {
       if (generation === this.generation) this.showEmpty(errorText(error));
     }
@@ -143,7 +146,7 @@ export class JobsPage implements View {
     const words = kActiveStates.map((state) => ({ state, n: countOf(state) }))
       .filter(({ n }) => n > 0).map(({ state, n }) => `${n} ${stateWord(state)}`);
     if (this.table.hiddenCount) words.push("the first 100 waiting are listed");
-    setText(this.counts, words.join(" · ") || "no job is running or waiting");
+    setText(this.counts, words.join(" · ") || (this.isLoaded ? "no job is running or waiting" : ""));
     this.empty.hidden = this.empty.textContent === "" || jobs.some((job) => !hasEnded(job) || this.isShown(job));
   }
 

@@ -1,0 +1,69 @@
+// The token that a daemon with --tokens asks for. It stays in the tab, or in the browser if the user wants that.
+import { Code, ConnectError, type Interceptor } from "@connectrpc/connect";
+import { h } from "../dom/element";
+
+const kKey = "cellcrush-token";
+let isAsking = false;
+
+function storedToken(): string {
+  return sessionStorage.getItem(kKey) ?? localStorage.getItem(kKey) ?? "";
+}
+
+export const hasToken = (): boolean => storedToken() !== "";
+
+export function forgetToken(): void {
+  sessionStorage.removeItem(kKey);
+  localStorage.removeItem(kKey);
+  location.reload();
+}
+
+// Asks once, and loads the page again with the token.
+function askForToken(reason: string): void {
+  if (isAsking) return;
+  isAsking = true;
+  const token = h("input", { type: "password", id: "token", autocomplete: "off", required: true });
+  const keep = h("input", { type: "checkbox" });
+  const submit = (event: Event): void => {
+    event.preventDefault();
+    sessionStorage.removeItem(kKey);
+    localStorage.removeItem(kKey);
+    (keep.checked ? localStorage : sessionStorage).setItem(kKey, token.value.trim());
+    location.reload();
+  };
+  const dialog = h("dialog", { class: "token", cancel: (event: Event) => event.preventDefault() },
+    h("h2", {}, "This daemon asks for a token"), h("p", {}, reason),
+    h("form", { submit },
+      h("div", { class: "field" }, h("label", { for: "token" }, "Token"), token),
+      h("label", { class: "keep" }, keep, " keep it in this browser"),
+      h("div", { class: "buttons" }, h("button", { type: "submit", class: "primary" }, "Continue"))));
+  document.body.append(dialog);
+  dialog.showModal();
+}
+
+function checkRefusal(error: unknown): void {
+  const failure = ConnectError.from(error);
+  if (failure.code !== Code.Unauthenticated) return;
+  askForToken(hasToken() ? failure.rawMessage : "The administrator of the daemon gives one to each user.");
+}
+
+async function* watchRefusals<T>(messages: AsyncIterable<T>): AsyncIterable<T> {
+  try {
+    yield* messages;
+  } catch (error) {
+    checkRefusal(error);
+    throw error;
+  }
+}
+
+/** Adds the token to every call, and asks for one where the daemon refuses the call without it. */
+export const withToken: Interceptor = (next) => async (request) => {
+  const token = storedToken();
+  if (token) request.header.set("authorization", `Bearer ${token}`);
+  try {
+    const response = await next(request);
+    return response.stream ? { ...response, message: watchRefusals(response.message) } : response;
+  } catch (error) {
+    checkRefusal(error);
+    throw error;
+  }
+};
