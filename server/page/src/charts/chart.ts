@@ -1,53 +1,18 @@
-// A chart: uPlot in the colours of the page, with a playhead that picture and charts share, and a legend with the values
-// there.
+// A chart: uPlot in the colours of the page, with a playhead that picture and charts share, and a legend with the
+// values there.
 import uPlot from "uplot";
 import { h, replaceChildren, setText } from "../dom/element";
 import { number } from "../dom/format";
 import { themeColour } from "../picture/colours";
+import type { ChartData, Series } from "./chart_data";
+import { drawBands, drawMarks } from "./chart_marks";
 import { indexBefore } from "./smooth";
 
-export interface Series {
-  label: string;
-  /** Name of a colour variable of the style sheet. */
-  colour: string;
-  width?: number;
-  dash?: number[];
-  /** Filled down to 0. */
-  fill?: boolean;
-  opacity?: number;
-  points?: boolean;
-  /** Left out of the legend. */
-  quiet?: boolean;
-  /** The value of the legend, if it is not that of the curve. */
-  legendValue?: (index: number) => number | undefined;
-}
-
-/** A line across the chart at a level, or a shaded band. */
-export interface Level { value: number; colour: string; dash: number[]; label: string; from?: number; to?: number }
-export interface Band { from: number; to: number; label: string }
-export interface Mark { at: number; label: string }
-/** A vertical bar from low to high, for the spread of a mean. */
-export interface Spread { x: number; low: number; high: number; colour: string }
-
-export interface ChartData {
-  series: Series[];
-  /** x, then the values of each series. */
-  columns: (number | null)[][];
-  xLabel: string;
-  yLabel: string;
-  xEnd: number;
-  yLow?: number;
-  yTop: number;
-  levels?: Level[];
-  bands?: Band[];
-  marks?: Mark[];
-  spreads?: Spread[];
-  xLow?: number;
-  xLog?: boolean;
-  note?: string;
-}
-
 const kFont = "11px ";
+
+function kindOf(series: Series): string {
+  return series.fill ? "area" : series.points ? "point" : "line";
+}
 
 export class Chart {
   readonly element: HTMLElement;
@@ -147,8 +112,8 @@ export class Chart {
              { ...axis(data.yLabel, 42), values: (_, ticks) => ticks.map(String) }],
       series: [{}, ...data.series.map((series) => this.seriesOf(series))],
       hooks: {
-        drawClear: [(plot) => this.drawBands(plot)],
-        draw: [(plot) => this.drawLevels(plot), () => this.moveHead()], // scales are known from here on
+        drawClear: [(plot) => drawBands(plot, this.data!)],
+        draw: [(plot) => drawMarks(plot, this.data!), () => this.moveHead()], // scales are known from here on
         setCursor: [(plot) => this.hover(plot.cursor.idx ?? null)],
       },
     }, data.columns as uPlot.AlignedData, place);
@@ -184,74 +149,6 @@ export class Chart {
     plot.over.addEventListener("pointermove", follow);
   }
 
-  private drawBands(plot: uPlot): void {
-    const { ctx, bbox } = plot;
-    for (const band of this.data?.bands ?? []) {
-      const x0 = Math.max(plot.valToPos(band.from, "x", true), bbox.left);
-      const x1 = Math.min(plot.valToPos(band.to, "x", true), bbox.left + bbox.width);
-      if (x1 <= x0) continue;
-      ctx.fillStyle = themeColour("band");
-      ctx.fillRect(x0, bbox.top, x1 - x0, bbox.height);
-      this.label(plot, band.label, 0.5 * (x0 + x1), bbox.top + 13 * devicePixelRatio, "center");
-    }
-  }
-
-  private label(plot: uPlot, text: string, x: number, y: number, align: CanvasTextAlign): void {
-    const { ctx } = plot;
-    ctx.font = `${11 * devicePixelRatio}px ${themeColour("font")}`;
-    ctx.fillStyle = themeColour("ink-3");
-    ctx.textAlign = align;
-    ctx.fillText(text, x, y);
-  }
-
-  private drawLevels(plot: uPlot): void {
-    const { ctx, bbox } = plot;
-    ctx.save();
-    for (const level of this.data?.levels ?? []) {
-      const y = plot.valToPos(level.value, "y", true);
-      if (y < bbox.top || y > bbox.top + bbox.height) continue;
-      ctx.strokeStyle = themeColour(level.colour);
-      ctx.lineWidth = 1.4 * devicePixelRatio;
-      ctx.setLineDash(level.dash.map((length) => length * devicePixelRatio));
-      ctx.beginPath();
-      ctx.moveTo(level.from === undefined ? bbox.left : plot.valToPos(level.from, "x", true), y);
-      ctx.lineTo(level.to === undefined ? bbox.left + bbox.width : plot.valToPos(level.to, "x", true), y);
-      ctx.stroke();
-    }
-    ctx.setLineDash([]);
-    for (const spread of this.data?.spreads ?? []) this.drawSpread(plot, spread);
-    ctx.setLineDash([2 * devicePixelRatio, 3 * devicePixelRatio]);
-    for (const mark of this.data?.marks ?? []) {
-      const x = plot.valToPos(mark.at, "x", true);
-      ctx.strokeStyle = themeColour("ink-3");
-      ctx.beginPath();
-      ctx.moveTo(x, bbox.top);
-      ctx.lineTo(x, bbox.top + bbox.height);
-      ctx.stroke();
-      const isRight = x > bbox.left + 0.7 * bbox.width;
-      this.label(plot, mark.label, x + (isRight ? -5 : 5) * devicePixelRatio, bbox.top + 28 * devicePixelRatio,
-                 isRight ? "right" : "left");
-    }
-    ctx.restore();
-  }
-
-  private drawSpread(plot: uPlot, spread: Spread): void {
-    const { ctx } = plot;
-    const [x, y0, y1] = [plot.valToPos(spread.x, "x", true), plot.valToPos(spread.low, "y", true),
-                         plot.valToPos(spread.high, "y", true)];
-    const half = 5 * devicePixelRatio;
-    ctx.strokeStyle = themeColour(spread.colour);
-    ctx.lineWidth = 1.5 * devicePixelRatio;
-    ctx.beginPath();
-    for (const y of [y0, y1]) {
-      ctx.moveTo(x - half, y);
-      ctx.lineTo(x + half, y);
-    }
-    ctx.moveTo(x, y0);
-    ctx.lineTo(x, y1);
-    ctx.stroke();
-  }
-
   private buildLegend(data: ChartData): void {
     const entry = (label: string, colour: string, dash: number[] | undefined, kind: string): HTMLElement => {
       const swatch = h("i", { class: `swatch ${kind}` });
@@ -264,7 +161,7 @@ export class Chart {
     this.values = [];
     replaceChildren(this.legend,
       ...data.series.filter((series) => !series.quiet)
-        .map((series) => entry(series.label, series.colour, series.dash, series.fill ? "area" : series.points ? "point" : "line")),
+        .map((series) => entry(series.label, series.colour, series.dash, kindOf(series))),
       ...(data.levels ?? []).filter((level) => level.label)
         .map((level) => entry(level.label, level.colour, level.dash, "level")));
   }

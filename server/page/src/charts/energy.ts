@@ -1,6 +1,6 @@
 // The energy ledger as stacked areas: what became of the work of the plates.
 import type { Sample } from "../../gen/cellcrush/v1/sample_pb";
-import type { ChartData, Series } from "./chart";
+import type { ChartData, Series } from "./chart_data";
 import { finite, type Axis } from "./curves";
 import { thin } from "./smooth";
 

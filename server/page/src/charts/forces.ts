@@ -1,6 +1,6 @@
 // Forces of the rigid walls on a frame of beams, against time: what stress is for a lattice.
 import type { Sample } from "../../gen/cellcrush/v1/sample_pb";
-import type { ChartData, Series } from "./chart";
+import type { ChartData, Series } from "./chart_data";
 import type { Axis } from "./curves";
 import { thin } from "./smooth";
 

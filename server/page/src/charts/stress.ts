@@ -1,7 +1,7 @@
 // Stress at both plates against strain, beside theory.
 import type { Sample, Summary, Theory } from "../../gen/cellcrush/v1/sample_pb";
 import { number } from "../dom/format";
-import type { Band, ChartData, Level, Mark } from "./chart";
+import type { Band, ChartData, Level, Mark } from "./chart_data";
 import { finite, type Axis } from "./curves";
 import { quantile, runningMean, thin } from "./smooth";
 
@@ -45,7 +45,8 @@ function levelsOf(summary: Summary | undefined, theory: Theory | undefined, top:
   add(theory?.shockMpa, "shock theory (Eq. 51)", [8, 4]);
   add(summary?.front?.shockMpa, "shock theory, measured jumps (Eq. 52)", [10, 3, 2, 3]);
   add(theory?.gibsonAshbyMpa, "quasi-static theory (Gibson-Ashby)", [2, 3]);
-  const plateau = { colour: "ink", dash: [], label: "", from: summary?.plateauWindowLow, to: summary?.plateauWindowHigh };
+  const [from, to] = [summary?.plateauWindowLow, summary?.plateauWindowHigh];
+  const plateau = { colour: "ink", dash: [], label: "", from, to };
   for (const value of [summary?.plateauStressImpactMpa, summary?.plateauStressSupportMpa]) {
     if (value !== undefined) levels.push({ ...plateau, value });
   }
@@ -64,7 +65,8 @@ export function stressChart(samples: Sample[], axis: Axis, summary: Summary | un
   const peak = kept.reduce((most, s) => Math.max(most, s.stressImpactMpa, s.stressSupportMpa), 0);
   const bands: Band[] = [{ from: 0.2, to: 0.4, label: "plateau window" }];
   const marks: Mark[] = [];
-  if (summary?.densificationStrain !== undefined) marks.push({ at: summary.densificationStrain, label: "densification" });
+  const densification = summary?.densificationStrain;
+  if (densification !== undefined) marks.push({ at: densification, label: "densification" });
   const beyond = peak > 1.001 * top ? `; single samples reach ${number(peak, 2)} MPa, off the chart` : "";
   return {
     series: [

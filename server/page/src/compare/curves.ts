@@ -1,5 +1,5 @@
 // The smoothed stresses of several jobs over one axis of strain.
-import type { ChartData, Series } from "../charts/chart";
+import type { ChartData, Series } from "../charts/chart_data";
 import { strainAxis } from "../charts/curves";
 import { kSmoothing, smoothedStress, stressTop, type StressCurves } from "../charts/stress";
 import { indexBefore } from "../charts/smooth";

@@ -19,7 +19,10 @@ const kNumbers: [string, (s: Summary) => string][] = [
 ];
 
 export function comparisonTable(jobs: JobData[]): HTMLElement {
-  const facts = jobs.map((data) => new Map(data.job?.case ? caseFacts(data.check?.completedCase ?? data.job.case) : []));
+  const facts = jobs.map((data) => {
+    const value = data.check?.completedCase ?? data.job?.case;
+    return new Map(value ? caseFacts(value) : []);
+  });
   const names = [...new Set(facts.flatMap((map) => [...map.keys()]))];
   const differing = names.filter((name) => new Set(facts.map((map) => map.get(name))).size > 1);
   const row = (name: string, values: (string | undefined)[]): HTMLElement =>

@@ -21,8 +21,10 @@ function resultsOf(s: Summary, theory: Theory | undefined): Result[] {
   const results: Result[] = [];
   if (s.plateauStressImpactMpa !== undefined || theory?.gibsonAshbyMpa) {
     results.push(
-      { name: "Plateau stress, impact plate", field: "plateau_stress_impact_mpa", value: number(s.plateauStressImpactMpa),
-        unit: "MPa", beside: s.plateauStressImpactMpa === undefined ? "the run ended before strain 0.40" : besideTheory(s.plateauStressImpactMpa, theory?.shockMpa, "shock theory (Eq. 51)") },
+      { name: "Plateau stress, impact plate", field: "plateau_stress_impact_mpa",
+        value: number(s.plateauStressImpactMpa), unit: "MPa",
+        beside: s.plateauStressImpactMpa === undefined ? "the run ended before strain 0.40"
+          : besideTheory(s.plateauStressImpactMpa, theory?.shockMpa, "shock theory (Eq. 51)") },
       { name: "Plateau stress, support plate", field: "plateau_stress_support_mpa",
         value: number(s.plateauStressSupportMpa), unit: "MPa",
         beside: besideTheory(s.plateauStressSupportMpa, theory?.gibsonAshbyMpa, "Gibson-Ashby") },

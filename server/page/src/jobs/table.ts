@@ -8,8 +8,8 @@ import { hasEnded } from "./states";
 import type { JobStore } from "./store";
 
 const kMostWaiting = 100;
-const kHead = ["", "Job", "State", "Progress", "Time", "Impact plateau, MPa", "Support plateau, MPa", "Owner", "Created",
-               ""];
+const kHead = ["", "Job", "State", "Progress", "Time", "Impact plateau, MPa", "Support plateau, MPa", "Owner",
+               "Created", ""];
 
 export class JobTable {
   readonly element: HTMLElement;

@@ -45,6 +45,14 @@ function scaleBar(context: CanvasRenderingContext2D, camera: Camera): void {
   const x1 = camera.width - 14;
   const x0 = x1 - length * camera.scale;
   const y = camera.height - 14;
+  const text = `${Number(length.toPrecision(1))} mm`;
+  const ink = context.fillStyle;
+  context.globalAlpha = 0.8;
+  context.fillStyle = themeColour("canvas");
+  const left = x0 - context.measureText(text).width - 14;
+  context.fillRect(left, y - 11, x1 - left + 8, 22);
+  context.globalAlpha = 1;
+  context.fillStyle = ink;
   context.beginPath();
   for (const [x, dy0, dy1] of [[x0, -4, 4], [x1, -4, 4]]) {
     context.moveTo(x, y + dy0);
@@ -54,7 +62,7 @@ function scaleBar(context: CanvasRenderingContext2D, camera: Camera): void {
   context.lineTo(x1, y);
   context.stroke();
   context.textAlign = "right";
-  context.fillText(`${Number(length.toPrecision(1))} mm`, x0 - 7, y + 4);
+  context.fillText(text, x0 - 7, y + 4);
   context.textAlign = "left";
 }
 

@@ -176,10 +176,12 @@ export class Picture {
       row("plastic fraction", plastic.toFixed(2)),
       row("thickness", `${number(thickness)} mm`),
       row("length", `${number(Math.hypot(x1 - x0, y1 - y0))} mm`),
-      row("of its length before", percent(Math.hypot(x1 - x0, y1 - y0) / before, 3)),
+      row("of undeformed", percent(Math.hypot(x1 - x0, y1 - y0) / before, 3)),
       row("middle", `${number(0.5 * (x0 + x1))}, ${number(0.5 * (y0 + y1))} mm`));
-    const left = x + 190 > this.camera.width ? x - 184 : x + 16;
-    const top = Math.min(y + 14, Math.max(0, this.camera.height - 122));
+    this.tip.hidden = false;
+    const { offsetWidth, offsetHeight } = this.tip;
+    const left = x + offsetWidth + 20 > this.camera.width ? x - offsetWidth - 10 : x + 16;
+    const top = Math.min(y + 14, Math.max(0, this.camera.height - offsetHeight - 4));
     this.tip.style.transform = `translate(${Math.max(0, left)}px, ${top}px)`;
   }
 

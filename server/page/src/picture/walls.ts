@@ -17,6 +17,9 @@ export interface Walls {
 export const kThinnest = 0.9;
 
 export function createWalls(canvas: HTMLCanvasElement): Walls {
-  const gl = canvas.getContext("webgl2", { antialias: false, premultipliedAlpha: true, alpha: true });
+  const gl = canvas.getContext("webgl2", {
+    antialias: false, premultipliedAlpha: true, alpha: true,
+    failIfMajorPerformanceCaveat: true, // WebGL without a GPU is slower than Canvas2D
+  });
   return gl ? new GlWalls(canvas, gl) : new CanvasWalls(canvas);
 }

@@ -1,5 +1,5 @@
-// Walls as quads of their true thickness with round ends, one instance per element. The edge is smoothed by the distance
-// to the middle line, so no multisampling is needed.
+// Walls as quads of their true thickness with round ends, one instance per element. The edge is smoothed by the
+// distance to the middle line, so no multisampling is needed.
 import type { Camera } from "./camera";
 import { colourTable, kShades } from "./colours";
 import { kSegmentFloats, type Segments } from "./segments";

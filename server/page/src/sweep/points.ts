@@ -1,6 +1,6 @@
 // The points of a sweep for its chart: plateau stresses against one varied field, with mean and spread over seeds.
 import type { SweepTable_Row } from "../../gen/cellcrush/v1/sweep_pb";
-import type { ChartData, Series, Spread } from "../charts/chart";
+import type { ChartData, Series, Spread } from "../charts/chart_data";
 
 export const isSeed = (path: string): boolean => path.endsWith(".seed");
 export const shortName = (path: string): string => path.slice(path.lastIndexOf(".") + 1);

@@ -1,5 +1,5 @@
 // A chart as an SVG file for a paper: black on white, in the colours of the light theme.
-import type { ChartData, Series } from "../charts/chart";
+import type { ChartData, Series } from "../charts/chart_data";
 import { themeColour } from "../picture/colours";
 import { svg } from "../dom/element";
 
@@ -13,7 +13,8 @@ function ticksOf(low: number, high: number, wanted: number): number[] {
   const power = 10 ** Math.floor(Math.log10(rough));
   const step = power * ([1, 2, 5, 10].find((factor) => factor * power >= rough) ?? 10);
   const ticks: number[] = [];
-  for (let i = Math.ceil(low / step); i * step <= high * (1 + 1e-9); ++i) ticks.push(Number((i * step).toPrecision(12)));
+  const last = Math.floor((high / step) * (1 + 1e-9));
+  for (let i = Math.ceil(low / step); i <= last; ++i) ticks.push(Number((i * step).toPrecision(12)));
   return ticks;
 }
 
@@ -94,7 +95,8 @@ function legend(data: ChartData, top: number): SVGElement[] {
   const entries = [
     ...data.series.filter((s) => !s.quiet).map((s) => ({ label: s.label, colour: themeColour(s.colour), dash: s.dash,
                                                           thick: s.fill ? 9 : s.points ? 7 : 2.5 })),
-    ...(data.levels ?? []).filter((l) => l.label).map((l) => ({ label: l.label, colour: "#444", dash: l.dash, thick: 1.5 }))];
+    ...(data.levels ?? []).filter((l) => l.label).map((l) => ({ label: l.label, colour: "#444", dash: l.dash,
+                                                                thick: 1.5 }))];
   return entries.flatMap((entry, i) => {
     const x = kPlot.left + (i % 2) * 330;
     const y = top + 20 * Math.floor(i / 2);

@@ -15,7 +15,8 @@ import { historyCsv } from "./history_csv";
 import { picturePng } from "./picture_png";
 import { canRecord, recordCrush } from "./movie";
 
-export function saveButton(label: string, what: string, save: (button: HTMLButtonElement) => Promise<void>): HTMLElement {
+export function saveButton(label: string, what: string,
+                           save: (button: HTMLButtonElement) => Promise<void>): HTMLElement {
   const element = button(label, () => void attempt(async () => {
     element.disabled = true;
     try {
