@@ -53,11 +53,12 @@ function levelsOf(summary: Summary | undefined, theory: Theory | undefined, top:
   return levels;
 }
 
-export function stressChart(samples: Sample[], axis: Axis, summary: Summary | undefined,
-                            theory: Theory | undefined): ChartData {
+/** `note` says when not to compare with theory. */
+export function stressChart(samples: Sample[], axis: Axis, summary: Summary | undefined, theory: Theory | undefined,
+                            note: string): ChartData {
   const kept = finite(samples, axis);
   const smooth = smoothedStress(samples, axis);
-  const top = stressTop(smooth, summary, theory);
+  const top = stressTop(smooth, summary, note ? undefined : theory);
   let columns = [smooth.strain, kept.map((s) => s.stressImpactMpa), kept.map((s) => s.stressSupportMpa),
                  smooth.impact, smooth.support];
   const places = thin(columns[1], kMostPoints);
@@ -77,6 +78,6 @@ export function stressChart(samples: Sample[], axis: Axis, summary: Summary | un
     ],
     columns, xLabel: axis.label, yLabel: "nominal stress (MPa)", xEnd: axis.end, yTop: top,
     levels: levelsOf(summary, theory, top), bands, marks,
-    note: `moving mean over ${100 * kSmoothing} % strain; thin: every sample${beyond}`,
+    note: `moving mean over ${100 * kSmoothing} % strain; thin: every sample${beyond}${note ? `. ${note}` : ""}`,
   };
 }

@@ -1,4 +1,5 @@
 // The head of a job's page: title, state, progress, cause of a failure, actions.
+import type { Queue_Entry } from "../../gen/cellcrush/v1/admin_service_pb";
 import { Job_State, type Job } from "../../gen/cellcrush/v1/job_pb";
 import { idOf, pathOf } from "../api/names";
 import { h, replaceChildren, setText } from "../dom/element";
@@ -28,11 +29,12 @@ export class JobHeader {
       h("div", { class: "about-row" }, this.about, this.progressRow), this.cause);
   }
 
-  update(job: Job): void {
+  /** `entry` is the place of a waiting job in the queue. */
+  update(job: Job, entry: Queue_Entry | undefined): void {
     setText(this.title, titleOf(job));
     setChip(this.chip, job.state);
     this.updateAbout(job);
-    this.updateProgress(job);
+    this.updateProgress(job, entry);
     this.updateCause(job);
     if (this.shownState === job.state) return;
     this.shownState = job.state;
@@ -54,8 +56,14 @@ export class JobHeader {
       labels ? `, labels ${labels}` : "");
   }
 
-  private updateProgress(job: Job): void {
+  private updateProgress(job: Job, entry: Queue_Entry | undefined): void {
     const { progress } = job;
+    const isWaiting = job.state === Job_State.PENDING && entry !== undefined;
+    this.bar.hidden = isWaiting;
+    if (isWaiting) {
+      this.progressRow.classList.remove("invisible");
+      return setText(this.progress, `${entry.reason} Starts in about ${duration(entry.secondsUntilStart)}.`);
+    }
     // Invisible rather than absent, so that the page does not jump when the job ends.
     this.progressRow.classList.toggle("invisible", hasEnded(job) || !progress);
     if (!progress) return;

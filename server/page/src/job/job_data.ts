@@ -2,7 +2,7 @@
 import { Code, ConnectError } from "@connectrpc/connect";
 import type { CheckCaseResponse } from "../../gen/cellcrush/v1/cases_service_pb";
 import type { JobEvent } from "../../gen/cellcrush/v1/event_pb";
-import type { Job } from "../../gen/cellcrush/v1/job_pb";
+import { Job_State, type Job } from "../../gen/cellcrush/v1/job_pb";
 import { FieldFrame_Encoding, type Sample } from "../../gen/cellcrush/v1/sample_pb";
 import { api } from "../api/clients";
 import { isAway } from "../api/errors";
@@ -32,7 +32,7 @@ export class JobData implements WatchedJob {
   private readonly stops: (() => void)[];
   private isLoadingFrames = false;
 
-  constructor(readonly name: string, private readonly withFrames = true) {
+  constructor(readonly name: string) {
     this.stops = [
       watch.jobs.add((job) => {
         if (job.name === this.name) this.putJob(job);
@@ -52,6 +52,7 @@ export class JobData implements WatchedJob {
       this.putJob(job);
       if (hasEnded(job)) await this.loadPast();
       else this.follow();
+      if (job.state === Job_State.PENDING) await this.loadPreview(job);
       await this.loadCheck();
     } catch (error) {
       if (signal.aborted) return;
@@ -137,7 +138,7 @@ export class JobData implements WatchedJob {
   }
 
   private async loadFrames(): Promise<void> {
-    if (this.isLoadingFrames || !this.withFrames) return;
+    if (this.isLoadingFrames) return;
     this.isLoadingFrames = true;
     try {
       await this.streamFrames(this.frames.firstGap());
@@ -174,6 +175,17 @@ export class JobData implements WatchedJob {
       if (job.summary && this.samples.length === 0) await this.loadHistory();
     } catch {
       // What came with the watch stays.
+    }
+  }
+
+  // The lattice of a job that waits; its watch sends the mesh once it runs.
+  private async loadPreview(job: Job): Promise<void> {
+    if (!job.case) return;
+    try {
+      const { mesh } = await api.cases.previewCase({ case: job.case }, { signal: this.abort.signal });
+      if (mesh && !this.frames.lattice) this.frames.setMesh(mesh);
+    } catch {
+      // A lattice too large for a preview is shown with the first frame.
     }
   }
 

@@ -1,5 +1,5 @@
 // The page of a job: the crush, its curves and its numbers, with one cursor through all.
-import type { Job } from "../../gen/cellcrush/v1/job_pb";
+import { Job_State, type Job } from "../../gen/cellcrush/v1/job_pb";
 import type { Sample, Summary, Theory } from "../../gen/cellcrush/v1/sample_pb";
 import { errorText, isAway, isNotFound } from "../api/errors";
 import { idOf } from "../api/names";
@@ -8,7 +8,9 @@ import { strainAxis, timeAxis, type Axis } from "../charts/curves";
 import { energyChart } from "../charts/energy";
 import { forceChart } from "../charts/forces";
 import { stressChart } from "../charts/stress";
+import { theoryNote } from "../charts/theory_note";
 import { h, replaceChildren } from "../dom/element";
+import { QueuePanel } from "../jobs/queue";
 import { hasEnded, titleOf, warningWords } from "../jobs/states";
 import { JobStore } from "../jobs/store";
 import { FrameView } from "../picture/frame_view";
@@ -31,6 +33,7 @@ export class JobPage implements View {
   private readonly data: JobData;
   private readonly store: JobStore;
   private readonly header: JobHeader;
+  private readonly queue = new QueuePanel(() => this.update());
   private readonly player = new Player();
   private readonly frames: FrameView;
   private readonly bar: PlayerBar;
@@ -50,6 +53,7 @@ export class JobPage implements View {
   private detailsKey = "";
   private wasLive = false;
   private isShown = false;
+  private shownState = Job_State.JOB_STATE_UNSPECIFIED;
 
   constructor(name: string, query: URLSearchParams) {
     this.title = `Job ${idOf(name)}`;
@@ -119,11 +123,13 @@ export class JobPage implements View {
     if (error) this.showError(error);
     if (!job) return;
     this.store.jobs.set(job.name, job);
-    this.header.update(job);
+    this.header.update(job, this.queue.entries.get(job.name));
     this.title = titleOf(job);
     setTitle(this.title);
     this.followState(job);
     this.updateDetails(job);
+    if (job.state === Job_State.PENDING && this.shownState !== job.state) this.queue.refresh();
+    this.shownState = job.state;
   }
 
   private showError(error: unknown): void {
@@ -178,7 +184,7 @@ export class JobPage implements View {
     this.player.fullEnd = this.axis.end;
     const isFrame = this.data.job?.case?.lattice?.kind.case === "frame";
     const stress = isFrame ? forceChart(samples, this.axis)
-      : stressChart(samples, this.axis, this.summary, this.theory);
+      : stressChart(samples, this.axis, this.summary, this.theory, theoryNote(this.data.job?.case));
     this.stress.setTitle(isFrame ? "Forces of the rigid walls" : "Stress and strain");
     this.stress.element.hidden = !stress;
     if (stress) this.stress.setData(stress);
@@ -187,8 +193,8 @@ export class JobPage implements View {
   }
 
   private updateFrames(): void {
-    const { frames } = this.data.frames;
-    this.waiting.hidden ||= frames.length > 0;
+    const { frames, lattice } = this.data.frames;
+    this.waiting.hidden ||= frames.length > 0 || lattice !== undefined;
     this.setEnd();
   }
 
@@ -233,7 +239,7 @@ export class JobPage implements View {
       h("div", { class: "banner warning" }, h("strong", {}, `${warningWords(warning.kind)}. `),
         `${warning.message} ${warning.remedy}`)));
     this.numbers.hidden = !summary;
-    if (summary) replaceChildren(this.numbers, h("h3", {}, "Result"), resultsList(summary));
+    if (summary) replaceChildren(this.numbers, h("h3", {}, "Result"), resultsList(summary, theoryNote(job.case)));
     const completed = check?.completedCase ?? job.case;
     this.facts.hidden = !completed;
     if (completed) {
@@ -249,6 +255,7 @@ export class JobPage implements View {
     document.removeEventListener("keydown", this.key);
     clearTimeout(this.curvesTimer);
     clearTimeout(this.urlTimer);
+    this.queue.destroy();
     this.player.destroy();
     this.data.destroy();
     this.store.destroy();

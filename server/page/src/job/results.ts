@@ -17,17 +17,18 @@ function energy(mj: number): [string, string] {
   return mj < 1000 ? [number(mj), "mJ"] : [number(mj / 1000), "J"];
 }
 
-function resultsOf(s: Summary, theory: Theory | undefined): Result[] {
+function resultsOf(s: Summary, theory: Theory | undefined, note: string): Result[] {
+  const beside = note ? () => "" : besideTheory;
   const results: Result[] = [];
   if (s.plateauStressImpactMpa !== undefined || theory?.gibsonAshbyMpa) {
     results.push(
       { name: "Plateau stress, impact plate", field: "plateau_stress_impact_mpa",
         value: number(s.plateauStressImpactMpa), unit: "MPa",
         beside: s.plateauStressImpactMpa === undefined ? "the run ended before strain 0.40"
-          : besideTheory(s.plateauStressImpactMpa, theory?.shockMpa, "shock theory (Eq. 51)") },
+          : beside(s.plateauStressImpactMpa, theory?.shockMpa, "shock theory (Eq. 51)") },
       { name: "Plateau stress, support plate", field: "plateau_stress_support_mpa",
         value: number(s.plateauStressSupportMpa), unit: "MPa",
-        beside: besideTheory(s.plateauStressSupportMpa, theory?.gibsonAshbyMpa, "Gibson-Ashby") },
+        beside: beside(s.plateauStressSupportMpa, theory?.gibsonAshbyMpa, "Gibson-Ashby") },
       { name: "Densification strain", field: "densification_strain",
         value: s.densificationStrain === undefined ? "–" : strainText(s.densificationStrain),
         beside: s.densificationStrain === undefined ? "no lasting rise of the stress" : "" });
@@ -63,8 +64,9 @@ function resultsOf(s: Summary, theory: Theory | undefined): Result[] {
   return results;
 }
 
-export function resultsList(summary: Summary): HTMLElement {
-  return h("dl", { class: "results" }, ...resultsOf(summary, summary.theory).map((result) =>
+/** `note` says when not to compare with theory. */
+export function resultsList(summary: Summary, note: string): HTMLElement {
+  return h("dl", { class: "results" }, ...resultsOf(summary, summary.theory, note).map((result) =>
     h("div", { title: fieldHelp("Summary", result.field) }, h("dt", {}, result.name),
       h("dd", {}, h("b", {}, result.value), result.unit ? ` ${result.unit}` : "",
         result.beside ? h("span", { class: "faint beside" }, result.beside) : null))));

@@ -63,6 +63,9 @@ export class JobsPage implements View {
     ];
     void this.load(true);
     this.queue.refresh();
+    // The jobs stand below the sweeps, and would jump when these come.
+    this.element.classList.add("invisible");
+    void this.sweeps.firstLoad.then(() => this.element.classList.remove("invisible"));
   }
 
   private filterSoon(delay: number): void {

@@ -22,6 +22,8 @@ export class SweepsList {
   readonly element = h("section", { class: "sweeps", hidden: true });
   private readonly list = h("div", { class: "sweep-rows" });
   private readonly more = button("Earlier sweeps", () => void this.load(true), { class: "quiet" });
+  /** Ends when the first sweeps are shown, or could not be fetched. */
+  readonly firstLoad: Promise<void>;
   private sweeps = new Map<string, Sweep>();
   private token = "";
   private timer = 0;
@@ -43,7 +45,7 @@ export class SweepsList {
       }),
       watch.freshStarts.add(() => void this.load(false)),
     ];
-    void this.load(false);
+    this.firstLoad = this.load(false);
   }
 
   private pending = new Set<string>();

@@ -17,7 +17,7 @@ export class Forecast {
       h("div", {}, h("dt", {}, name), this.values[i]))), this.notes);
   }
 
-  show(check: CheckCaseResponse, unplaced: Problem[]): void {
+  show(check: CheckCaseResponse, unplaced: Problem[], theoryNote: string): void {
     const isValid = check.problems.length === 0;
     this.element.classList.toggle("stale", !isValid);
     if (isValid) {
@@ -33,7 +33,8 @@ export class Forecast {
     const entry = (problem: Problem, kind: string): HTMLElement =>
       h("div", { class: `banner ${kind}` }, problem.field === "case" ? "" : h("strong", {}, `${problem.field} `),
         `${problem.message} ${problem.remedy}`);
-    replaceChildren(this.notes, ...unplaced.map((problem) => entry(problem, isValid ? "warning" : "error")));
+    replaceChildren(this.notes, theoryNote ? h("p", { class: "faint note" }, theoryNote) : null,
+      ...unplaced.map((problem) => entry(problem, isValid ? "warning" : "error")));
   }
 
   showError(text: string): void {

@@ -1,6 +1,7 @@
 // Shows the frames of a store in a picture, at the place of a player.
 import type { FieldFrame } from "../../gen/cellcrush/v1/sample_pb";
 import type { FrameStore } from "../frames/frame_store";
+import type { Lattice } from "../frames/lattice";
 import type { Fields } from "../frames/packed";
 import { Picture } from "./picture";
 import { mixFields } from "./segments";
@@ -35,8 +36,9 @@ export class FrameView {
   showAt(value: number, isMoving: boolean): void {
     const { store } = this;
     const { frames, lattice } = store;
-    if (!lattice || frames.length === 0 || lattice.undeformed.length === 0) return;
+    if (!lattice || lattice.undeformed.length === 0) return;
     this.picture.setLattice(lattice);
+    if (frames.length === 0) return this.showUndeformed(lattice);
     if (!lattice.plates) this.includeLast();
     const before = this.placeBefore(value);
     const after = Math.min(before + 1, frames.length - 1);
@@ -48,6 +50,12 @@ export class FrameView {
     this.mixed = mixFields(store.fields(before), store.fields(after), mix, this.mixed);
     const strain = frames[before].strain + mix * (frames[after].strain - frames[before].strain);
     this.picture.show(this.mixed, strain);
+  }
+
+  // The mesh of a job that has no frame yet.
+  private showUndeformed(lattice: Lattice): void {
+    this.shownKey = "";
+    this.picture.show({ position: lattice.undeformed, plastic: new Float32Array(lattice.thickness.length) }, 0);
   }
 
   private includeLast(): void {

@@ -6,6 +6,7 @@ import { errorText, isNotFound } from "../api/errors";
 import { idOf } from "../api/names";
 import { watch } from "../api/watch";
 import { Chart } from "../charts/chart";
+import { theoryNote } from "../charts/theory_note";
 import { ask } from "../dom/dialog";
 import { download } from "../dom/download";
 import { button, h, replaceChildren, setText } from "../dom/element";
@@ -141,7 +142,9 @@ export class SweepPage implements View {
 
   private draw(): void {
     const axis = Number(this.axisChoice.value) || 0;
-    this.chart.setData(sweepChart(this.rows, this.fields, axis));
+    const data = sweepChart(this.rows, this.fields, axis);
+    const note = theoryNote(this.sweep?.case);
+    this.chart.setData(note ? { ...data, note: `${data.note}. ${note}` } : data);
     this.table.update(this.rows, this.fields);
     const counts: Record<string, number> = {};
     for (const row of this.rows) {
