@@ -14,7 +14,7 @@
 
 namespace cellcrush::watch {
 
-/// The newest progress and frame of a running job, which are not in the journal, its mesh, and the watchers of that job.
+/// The newest progress and frame of a running job, which are not in the journal, its mesh, and the watchers of the job.
 /// Thread-safe. Publishers never wait for watchers.
 class Channel {
  public:
