@@ -1,0 +1,87 @@
+// The web page in Debian's Chromium, against a real daemon that crushes real scenes.
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { after, before, test } from 'node:test';
+import { chromium } from 'playwright-core';
+import { Daemon } from './daemon.mjs';
+
+const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
+const daemon = new Daemon();
+let browser;
+let page;
+const errors = [];
+
+before(async () => {
+  await daemon.start();
+  browser = await chromium.launch({ executablePath: process.env.CHROMIUM, args: ['--no-sandbox'] });
+  page = await browser.newPage({ viewport: { width: 1440, height: 900 } });
+  page.setDefaultTimeout(30000);
+  page.on('pageerror', (error) => errors.push(String(error)));
+});
+
+after(async () => {
+  await browser?.close();
+  await daemon.remove();
+});
+
+async function seriousFindings() {
+  await page.evaluate(axe);
+  const found = await page.evaluate(() => globalThis.axe.run());
+  const serious = found.violations.filter((each) => each.impact === 'serious' || each.impact === 'critical');
+  return serious.map((each) => `${each.id}: ${each.nodes.map((node) => node.html).join(' ')}`);
+}
+
+test('a job started from the form is watched to its end', async () => {
+  await page.goto(daemon.url + '/new');
+  await page.getByRole('button', { name: 'Start the job' }).click();
+  await page.waitForURL('**/jobs/1');
+  await page.getByText('succeeded').first().waitFor();
+  await page.locator('canvas').first().waitFor();
+  const { summary } = await daemon.call('Jobs/GetJob', { name: 'jobs/1' });
+  const shown = summary.plateauStressImpactMpa.toPrecision(3);
+  await page.getByText(shown).first().waitFor();
+});
+
+test('the crush is scrubbed by the keyboard, and the address holds the place', async () => {
+  const slider = page.getByRole('slider').first();
+  await slider.focus();
+  await page.keyboard.press('Home');
+  await page.getByText('strain 0.000').first().waitFor();
+  for (let i = 0; i < 10; ++i) await page.keyboard.press('ArrowRight');
+  await page.waitForFunction(() => /strain=0\.[0-9]*[1-9]/.test(location.href));
+});
+
+test('a title is text, also when it is a script', async () => {
+  const title = '<img src=x onerror="document.title=1">';
+  const submitted = await daemon.presetCase('hexagon-small', (each) => (each.title = title));
+  const job = await daemon.call('Jobs/CreateJob', { case: submitted });
+  await page.goto(`${daemon.url}/${job.name}`);
+  await page.getByText(title).first().waitFor();
+  assert.equal(await page.locator('img[src=x]').count(), 0);
+});
+
+test('a daemon killed in the middle of a crush is waited for, and its job is followed to the end', async () => {
+  const submitted = await daemon.presetCase('type-i', (each) => (each.loading.endStrain = 0.6));
+  const job = await daemon.call('Jobs/CreateJob', { case: submitted });
+  await page.goto(`${daemon.url}/${job.name}`);
+  await page.getByText('running').first().waitFor();
+  await page.waitForTimeout(1000);
+  await daemon.stop('SIGKILL');
+  await page.waitForTimeout(1500);
+  await daemon.start();
+  await page.getByText('succeeded').first().waitFor({ timeout: 90000 });
+});
+
+test('nothing serious stands in the way of people who cannot see or point', async () => {
+  for (const colorScheme of ['light', 'dark']) {
+    await page.emulateMedia({ colorScheme });
+    for (const path of ['/', '/jobs/1', '/new']) {
+      await page.goto(daemon.url + path);
+      await page.waitForTimeout(1500);
+      assert.deepEqual(await seriousFindings(), [], `${path}, ${colorScheme}`);
+    }
+  }
+});
+
+test('no script has failed', () => assert.deepEqual(errors, []));
