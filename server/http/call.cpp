@@ -19,13 +19,14 @@ std::string text_of(const grpc::ByteBuffer& buffer) {
 
 }  // namespace
 
-void Call::start(grpc::GenericStub& stub, const Request& request) {
+void Call::start(std::shared_ptr<grpc::Channel> channel, const Request& request) {
+  stub_.emplace(std::move(channel));
   self_ = shared_from_this();
   if (!request.authorization.empty()) context_.AddMetadata("authorization", request.authorization);
   if (request.timeout) context_.set_deadline(std::chrono::system_clock::now() + *request.timeout);
   const grpc::Slice slice(request.message);
   request_ = grpc::ByteBuffer(&slice, 1);
-  stub.PrepareBidiStreamingCall(&context_, request.path, {}, this);
+  stub_->PrepareBidiStreamingCall(&context_, request.path, {}, this);
   AddHold();
   StartWriteLast(&request_, {});
   StartCall();

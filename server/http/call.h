@@ -26,7 +26,8 @@ class Call final : public grpc::ClientBidiReactor<grpc::ByteBuffer, grpc::ByteBu
 
   explicit Call(const boost::asio::any_io_executor& executor) : work_(executor), news_(executor) {}
 
-  void start(grpc::GenericStub& stub, const Request& request);
+  /// `channel` is the call's own.
+  void start(std::shared_ptr<grpc::Channel> channel, const Request& request);
 
   /// The next message; nothing at the end.
   boost::asio::awaitable<std::optional<std::string>> next();
@@ -46,6 +47,7 @@ class Call final : public grpc::ClientBidiReactor<grpc::ByteBuffer, grpc::ByteBu
   boost::asio::executor_work_guard<boost::asio::any_io_executor> work_;
   boost::asio::steady_timer news_;  ///< never expires; cancelled on every change
   std::shared_ptr<Call> self_;      ///< until OnDone
+  std::optional<grpc::GenericStub> stub_;
   grpc::ClientContext context_;
   grpc::ByteBuffer request_;
   grpc::ByteBuffer message_;  ///< gRPC's while reading_

@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <charconv>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "error_table.h"
 #include "http/browser_rules.h"
 #include "http/connect_error.h"
 #include "http/envelope.h"
+#include "http/loopback_channel.h"
 #include "http/page_files.h"
 
 namespace cellcrush::http {
@@ -166,6 +168,7 @@ asio::awaitable<void> Connection::answer_call(const Request& request) {
     co_return;
   }
   Call::Request wanted;
+  std::shared_ptr<grpc::Channel> channel;
   auto status = parts_.gate.check_http_call("/" + method->service()->full_name() + "/" + method->name(),
                                             values_of(request, Field::authorization), stream_.client_certificate());
   if (status.ok() && asks_for_compression(request, *encoding))
@@ -173,6 +176,7 @@ asio::awaitable<void> Connection::answer_call(const Request& request) {
   if (status.ok()) {
     status = cellcrush::answer([&] {
       wanted = read_call(request, *method, *encoding);
+      channel = connect_to(parts_.server);
       return grpc::Status::OK;
     });
   }
@@ -188,7 +192,7 @@ asio::awaitable<void> Connection::answer_call(const Request& request) {
     co_return;
   }
   call_ = std::make_shared<Call>(stream_.get_executor());
-  call_->start(parts_.stub, wanted);
+  call_->start(std::move(channel), wanted);
   watch_client();
   if (encoding->stream) {
     co_await run_stream(*method, *encoding);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <grpcpp/generic/generic_stub.h>
+#include <grpcpp/server.h>
 
 #include <boost/asio.hpp>
 #include <boost/beast.hpp>
@@ -18,7 +18,7 @@ namespace cellcrush::http {
 /// What all connections of a gateway share; outlives them.
 struct GatewayParts {
   const access::Gate& gate;
-  grpc::GenericStub stub;
+  grpc::Server& server;
   net::ConnectionLimits limits;
   int port = 0;
   bool has_tls = false;

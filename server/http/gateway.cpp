@@ -27,12 +27,6 @@ constexpr std::chrono::milliseconds kPause{100};  // without descriptors, new co
 constexpr std::chrono::seconds kCallsMayEnd{1};
 constexpr std::chrono::milliseconds kBetweenLooks{20};
 
-std::shared_ptr<grpc::Channel> channel_to(grpc::Server& server) {
-  grpc::ChannelArguments arguments;
-  arguments.SetMaxReceiveMessageSize(-1);
-  return server.InProcessChannel(arguments);
-}
-
 }  // namespace
 
 // Members are used on the thread, except in the constructor and the destructor.
@@ -41,7 +35,7 @@ struct Gateway::Impl {
        const net::ConnectionLimits& limits)
       : tls(gate),
         port(address, "--http"),
-        parts{gate, grpc::GenericStub(channel_to(server)), limits, port.address().port, tls.current() != nullptr},
+        parts{gate, server, limits, port.address().port, tls.current() != nullptr},
         table({limits.connections, limits.connections_per_address}),
         url((parts.has_tls ? "https://" : "http://") + port.address().text()) {
     for (const int descriptor : port.descriptors()) {
