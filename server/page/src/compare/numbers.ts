@@ -26,7 +26,8 @@ export function comparisonTable(jobs: JobData[]): HTMLElement {
   const names = [...new Set(facts.flatMap((map) => [...map.keys()]))];
   const differing = names.filter((name) => new Set(facts.map((map) => map.get(name))).size > 1);
   const row = (name: string, values: (string | undefined)[]): HTMLElement =>
-    h("tr", {}, h("th", { scope: "row" }, name), ...values.map((value) => h("td", { class: "figure" }, value ?? "–")));
+    h("tr", {}, h("th", { scope: "row" }, name),
+      ...values.map((value) => h("td", { class: "figure" }, value ?? "–")));
   return h("div", { class: "table-scroll" }, h("table", { class: "rows" },
     h("thead", {}, h("tr", {}, h("td", {}), ...jobs.map((data) =>
       h("th", { scope: "col", class: "figure" }, h("a", { href: pathOf(data.name) }, `job ${idOf(data.name)}`))))),

@@ -27,7 +27,8 @@ export class Forecast {
         count(check.elementCount), count(check.stepCount),
         check.lengthMm ? `${number(check.lengthMm)} × ${number(check.widthMm)} mm` : "–",
         check.relativeDensity ? percent(check.relativeDensity, 3) : "–",
-        hasTheory ? `${number(theory.gibsonAshbyMpa)} MPa` : "–", hasTheory ? `${number(theory.shockMpa)} MPa` : "–"];
+        hasTheory ? `${number(theory.gibsonAshbyMpa)} MPa` : "–",
+        hasTheory ? `${number(theory.shockMpa)} MPa` : "–"];
       texts.forEach((text, i) => setText(this.values[i], text));
     }
     const entry = (problem: Problem, kind: string): HTMLElement =>

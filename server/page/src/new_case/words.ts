@@ -5,7 +5,8 @@ import { fieldAt } from "./fields";
 const kUnits: [RegExp, string][] = [[/_kg_per_m3$/, "kg/m³"], [/_m_per_s$/, "m/s"], [/_mpa$/, "MPa"], [/_mm$/, "mm"],
                                     [/_per_s$/, "1/s"], [/_time_step_s$|time_step_s$/, "s"]];
 const kLabels: Record<string, string> = {
-  youngs_modulus_mpa: "Young’s modulus", poissons_ratio: "Poisson’s ratio", "plates.friction": "Friction at the plates",
+  youngs_modulus_mpa: "Young’s modulus", poissons_ratio: "Poisson’s ratio",
+  "plates.friction": "Friction at the plates",
   "contact.friction": "Friction between walls", amplitude_mm: "Offset of joints, at most",
   bow_mm: "Bow of walls, at most", plane: "Plane stress or strain", direction: "Direction",
   sample_count: "Samples", frame_count: "Frames", vertical_wall_thickness_mm: "Thickness of the walls along y",
