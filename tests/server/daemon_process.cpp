@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <csignal>
 #include <fstream>
@@ -62,7 +63,9 @@ DaemonProcess::DaemonProcess(const std::vector<std::string>& arguments, int most
   if (pipe2(out.data(), O_CLOEXEC) != 0 || pipe2(error.data(), O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
   // Nobody reads the log before wait; a daemon that fills the pipe would stand still.
   fcntl(error[1], F_SETPIPE_SZ, 1 << 20);
-  std::vector<std::string> words = {CELLCRUSHD_PROGRAM, "--http", "none"};
+  std::vector<std::string> words = {CELLCRUSHD_PROGRAM};
+  if (std::find(arguments.begin(), arguments.end(), "--http") == arguments.end())
+    words.insert(words.end(), {"--http", "none"});
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> pointers;
   pointers.reserve(words.size() + 1);

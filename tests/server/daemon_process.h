@@ -13,7 +13,7 @@ namespace cellcrush::testing {
 /// test that is aborted. Workers outlive it all the same.
 class DaemonProcess {
  public:
-  /// Under a hard limit on file descriptors; 0: that of this process.
+  /// Without HTTP, unless the arguments name its port. Under a hard limit on file descriptors; 0: that of this process.
   explicit DaemonProcess(const std::vector<std::string>& arguments, int most_descriptors = 0);
   ~DaemonProcess();
   DaemonProcess(const DaemonProcess&) = delete;

@@ -1,10 +1,7 @@
 #include "server/http/http_fixture.h"
 
-#include <arpa/inet.h>
 #include <openssl/ssl.h>
 #include <openssl/x509v3.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <array>
 #include <functional>
@@ -20,33 +17,6 @@ std::string http_reading(const std::function<long(char*, std::size_t)>& read) {
 }
 
 }  // namespace
-
-HttpSocket::HttpSocket(int port, int receive_buffer) : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_port = htons(static_cast<std::uint16_t>(port));
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  const timeval patience{60, 0};
-  setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof(patience));
-  if (receive_buffer > 0) setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &receive_buffer, sizeof(receive_buffer));
-  EXPECT_EQ(connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof(address)), 0);
-}
-
-HttpSocket::~HttpSocket() { close(socket_); }
-
-void HttpSocket::send(const std::string& text) const {
-  EXPECT_EQ(::send(socket_, text.data(), text.size(), MSG_NOSIGNAL), static_cast<ssize_t>(text.size()));
-}
-
-std::string HttpSocket::read_some() const {
-  return http_reading([this](char* to, std::size_t size) { return read(socket_, to, size); });
-}
-
-std::string HttpSocket::read_to_end() const {
-  std::string out;
-  for (std::string next = read_some(); !next.empty(); next = read_some()) out += next;
-  return out;
-}
 
 std::string exchange_with_tls(int port, const Visitor& visitor, const std::string& request, int latest) {
   const HttpSocket socket(port);

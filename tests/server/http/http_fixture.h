@@ -4,27 +4,9 @@
 #include <vector>
 
 #include "server/gate_fixture.h"
+#include "server/http/http_socket.h"
 
 namespace cellcrush::testing {
-
-/// A plain connection to a port of 127.0.0.1. Reading waits at most 60 s.
-class HttpSocket {
- public:
-  /// `receive_buffer`: bytes that the kernel keeps unread; 0: its default.
-  explicit HttpSocket(int port, int receive_buffer = 0);
-  ~HttpSocket();
-  HttpSocket(const HttpSocket&) = delete;
-  HttpSocket& operator=(const HttpSocket&) = delete;
-
-  [[nodiscard]] int number() const { return socket_; }
-  void send(const std::string& text) const;
-  /// What comes next; empty at the end.
-  [[nodiscard]] std::string read_some() const;
-  [[nodiscard]] std::string read_to_end() const;
-
- private:
-  int socket_ = -1;
-};
 
 /// Sends a request with TLS and reads to the end of the answer, at most 60 s; empty if either side refuses the other.
 /// `latest`: the latest version of TLS that the client speaks; 0: any.

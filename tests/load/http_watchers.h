@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+namespace cellcrush::load {
+
+/// What some watchers of a job received, all together.
+struct Received {
+  std::int64_t messages = 0;
+  std::int64_t bytes = 0;  ///< with the headers of HTTP
+  std::int64_t samples = 0;
+  std::int64_t frames = 0;
+  std::int64_t skipped_frames = 0;
+  std::int64_t wrong_numbers = 0;  ///< states and samples that did not follow the one before
+  int failed = 0;                  ///< watchers whose watch ended otherwise than with the job
+};
+
+/// How the watchers ask.
+struct HttpWatch {
+  int port = 0;     ///< of 127.0.0.1
+  std::string job;  ///< "jobs/{job}"
+  int watchers = 0;
+};
+
+/// Watches the job over HTTP as the web page does: by WatchJobs in binary, with packed frames, each watcher on a
+/// connection of its own. One thread serves them all; it returns once the job has ended for each.
+Received watch_over_http(const HttpWatch& watch);
+
+}  // namespace cellcrush::load
