@@ -196,7 +196,7 @@ struct Daemon::Impl {
   void serve_http() {
     if (!wanted_http) return;
     try {
-      gateway.emplace(*wanted_http, gate, *server, options.connections);
+      gateway.emplace(*wanted_http, gate, *server, service.streams(), options.connections);
     } catch (const ServiceError& error) {
       if (!options.http.empty()) throw;
       warn_without_http(error);

@@ -36,7 +36,8 @@ namespace {
 // Health service name of the queue; not serving while it is held.
 constexpr const char* kQueueHealth = "cellcrush.queue";
 constexpr int kPumpThreads = 2;
-constexpr int kCheckThreads = 12;  // threads for large cases; they wait for each other
+constexpr int kHttpPumpThreads = 1;  // JSON is slow to make, and delays streams over HTTP only
+constexpr int kCheckThreads = 12;    // threads for large cases; they wait for each other
 constexpr std::size_t kWaitingCalls = 10'000;
 
 // More would wait for each other's meshes.
@@ -78,6 +79,7 @@ struct Service::Parts {
         stream_limits(most_streams(options.connections)),
         health_limits(most_streams(options.connections)),
         pump(kPumpThreads),
+        http_pump(kHttpPumpThreads),
         admission({folder, reader, scheduler}, options.limits),
         calls({options.connections.threads, kWaitingCalls, options.connections.memory_bytes}),
         checks({kCheckThreads, kWaitingCalls, options.connections.memory_bytes}),
@@ -101,7 +103,12 @@ struct Service::Parts {
         reflection(rpc::make_reflection_services(
             {v1::Cases::service_full_name(), v1::Jobs::service_full_name(), v1::Sweeps::service_full_name(),
              v1::Admin::service_full_name(), grpc::health::v1::Health::service_full_name()},
-            gate, stream_limits)) {}
+            gate, stream_limits)),
+        table(http_pump) {
+    health.add_streams(table);
+    jobs.add_streams(table);
+    sweeps.add_streams(table);
+  }
 
   [[nodiscard]] rpc::StreamParts streams() { return {pump, metrics, stream_limits, options.watch_times}; }
 
@@ -122,6 +129,7 @@ struct Service::Parts {
   rpc::StreamLimits stream_limits;
   rpc::StreamLimits health_limits;
   watch::Pump pump;
+  watch::Pump http_pump;
   jobs::Admission admission;
   rpc::CallPool calls;
   rpc::CallPool checks;
@@ -132,6 +140,7 @@ struct Service::Parts {
   rpc::SweepsService sweeps;
   rpc::AdminService admin;
   std::vector<std::unique_ptr<grpc::Service>> reflection;
+  rpc::StreamTable table;
   std::optional<jobs::Housekeeping> housekeeping;
 };
 
@@ -147,6 +156,8 @@ void Service::register_with(grpc::ServerBuilder& builder) {
     builder.RegisterService(service);
   for (const auto& service : parts_->reflection) builder.RegisterService(service.get());
 }
+
+const rpc::StreamTable& Service::streams() const { return parts_->table; }
 
 rpc::HealthBoard& Service::health() { return parts_->board; }
 
@@ -176,6 +187,7 @@ void Service::stop() {
   parts_->housekeeping.reset();
   parts_->scheduler.stop();
   parts_->pump.drain();
+  parts_->http_pump.drain();
 }
 
 }  // namespace cellcrush

@@ -9,6 +9,7 @@
 #include "daemon_options.h"
 #include "listen_address.h"
 #include "rpc/health_service.h"
+#include "rpc/stream_table.h"
 
 namespace cellcrush {
 
@@ -26,6 +27,9 @@ class Service {
 
   /// Outlives the server that is built.
   void register_with(grpc::ServerBuilder& builder);
+
+  /// The streams, for callers that are not gRPC. Lives as long as the service.
+  [[nodiscard]] const rpc::StreamTable& streams() const;
 
   /// Statuses for grpc.health.v1. Lives as long as the service.
   rpc::HealthBoard& health();

@@ -77,13 +77,16 @@ grpc::Status Gate::admit(std::string_view path, const std::function<Caller()>& i
 }
 
 grpc::Status Gate::check_http_call(const std::string& path, const std::vector<std::string>& authorization,
-                                   const X509* shown) const {
+                                   const X509* shown, std::string& caller) const {
+  caller = kLocal;
   if (!asks_who_calls()) return grpc::Status::OK;
   Metadata metadata;
   for (const auto& value : authorization) metadata.emplace("authorization", value);
   return admit(path, [&] {
     if (asks_for_certificates() && (shown == nullptr || !is_for_clients(*shown))) refuse_certificate();
-    return caller_of_token(metadata);
+    Caller found = caller_of_token(metadata);
+    caller = found.name;
+    return found;
   });
 }
 

@@ -45,11 +45,12 @@ class Gate {
   /// tokens and client certificates.
   [[nodiscard]] std::shared_ptr<grpc::ServerCredentials> credentials_for(const ListenAddress& address) const;
 
-  /// Checks a call that came over HTTP, before it enters the server in process: `path` as in gRPC, `authorization` all
-  /// values of that header, `shown` the certificate of the client or null. The rules, refusals and log lines are those
-  /// of a gRPC call on TCP.
+  /// Checks a call that came over HTTP, before it reaches a service: `path` as in gRPC, `authorization` all values of
+  /// that header, `shown` the certificate of the client or null. The rules, refusals and log lines are those of a gRPC
+  /// call on TCP. Sets `caller` to the name of the caller: kLocal if the gate asks nobody, or for a method that is open
+  /// to everybody.
   [[nodiscard]] grpc::Status check_http_call(const std::string& path, const std::vector<std::string>& authorization,
-                                             const X509* shown) const;
+                                             const X509* shown, std::string& caller) const;
 
   /// Throws ServiceError (invalid) if HTTP must not be served on the address: other machines can reach it without TLS
   /// and tokens, or certificates alone tell who calls.

@@ -11,10 +11,18 @@
 
 namespace cellcrush::http {
 
-/// One call to the daemon's own gRPC server, by bytes. The next message is read only when it is asked for, so a slow
-/// reader holds up the sender. Used on one io_context with one thread, which it keeps running until gRPC is done with
-/// it.
+/// A call that a connection waits for.
+class AnyCall {
+ public:
+  virtual ~AnyCall() = default;
+  /// Ends the call at once; safe to repeat.
+  virtual void cancel() = 0;
+};
+
+/// One unary call to the daemon's own gRPC server, by bytes. Used on one io_context with one thread, which it keeps
+/// running until gRPC is done with it.
 class Call final : public grpc::ClientBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>,
+                   public AnyCall,
                    public std::enable_shared_from_this<Call> {
  public:
   struct Request {
@@ -35,8 +43,7 @@ class Call final : public grpc::ClientBidiReactor<grpc::ByteBuffer, grpc::ByteBu
   /// How it ended. Waits for the end.
   boost::asio::awaitable<grpc::Status> status();
 
-  /// Ends the call at once; safe to repeat.
-  void cancel();
+  void cancel() override;
 
  private:
   void OnReadDone(bool ok) override;

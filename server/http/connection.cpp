@@ -14,6 +14,7 @@
 #include "http/envelope.h"
 #include "http/loopback_channel.h"
 #include "http/page_files.h"
+#include "http/stream_call.h"
 
 namespace cellcrush::http {
 namespace {
@@ -50,6 +51,10 @@ bool is_printable(const std::string& text) {
   return std::all_of(text.begin(), text.end(), [](char c) { return c >= 0x20 && c < 0x7F; });
 }
 
+std::string path_of(const google::protobuf::MethodDescriptor& method) {
+  return "/" + method.service()->full_name() + "/" + method.name();
+}
+
 std::optional<std::chrono::milliseconds> read_timeout(std::string_view text) {
   constexpr std::size_t kMostDigits = 10;
   std::int64_t value = 0;
@@ -62,7 +67,7 @@ std::optional<std::chrono::milliseconds> read_timeout(std::string_view text) {
 Call::Request read_call(const bhttp::request<bhttp::string_body>& request,
                         const google::protobuf::MethodDescriptor& method, const Encoding& encoding) {
   Call::Request out;
-  out.path = "/" + method.service()->full_name() + "/" + method.name();
+  out.path = path_of(method);
   std::string_view body = request.body();
   bool compressed = false;
   if (encoding.stream) body = read_envelope(body, compressed);
@@ -71,6 +76,17 @@ Call::Request read_call(const bhttp::request<bhttp::string_body>& request,
   if (authorization.size() == 1 && is_printable(authorization.front())) out.authorization = authorization.front();
   if (const auto timeout = request["Connect-Timeout-Ms"]; !timeout.empty()) out.timeout = read_timeout(timeout);
   return out;
+}
+
+// Appends a message of a stream with its prefix.
+void encode_binary(const google::protobuf::Message& message, std::string& to) {
+  begin_envelope(0, message.ByteSizeLong(), to);
+  message.AppendToString(&to);
+}
+void encode_json(const google::protobuf::Message& message, std::string& to) {
+  const std::string json = json_of(message);
+  begin_envelope(0, json.size(), to);
+  to += json;
 }
 
 bool asks_for_compression(const bhttp::request<bhttp::string_body>& request, const Encoding& encoding) {
@@ -168,51 +184,50 @@ asio::awaitable<void> Connection::answer_call(const Request& request) {
     co_return;
   }
   Call::Request wanted;
-  std::shared_ptr<grpc::Channel> channel;
-  auto status = parts_.gate.check_http_call("/" + method->service()->full_name() + "/" + method->name(),
-                                            values_of(request, Field::authorization), stream_.client_certificate());
+  std::string caller;
+  auto status = parts_.gate.check_http_call(path_of(*method), values_of(request, Field::authorization),
+                                            stream_.client_certificate(), caller);
   if (status.ok() && asks_for_compression(request, *encoding))
     status = failure(grpc::StatusCode::UNIMPLEMENTED, "Compressed requests are not accepted. Send them uncompressed.");
   if (status.ok()) {
     status = cellcrush::answer([&] {
       wanted = read_call(request, *method, *encoding);
+      return grpc::Status::OK;
+    });
+  }
+  if (encoding->stream) {
+    co_await run_stream(std::move(wanted), std::move(caller), *encoding, status);
+  } else {
+    co_await run_unary(wanted, *method, *encoding, status);
+  }
+}
+
+asio::awaitable<void> Connection::run_unary(const Call::Request& wanted,
+                                            const google::protobuf::MethodDescriptor& method, const Encoding& encoding,
+                                            grpc::Status status) {
+  std::shared_ptr<grpc::Channel> channel;
+  if (status.ok()) {
+    status = cellcrush::answer([&] {
       channel = connect_to(parts_.server);
       return grpc::Status::OK;
     });
   }
-  if (!status.ok() && encoding->stream) {
-    co_await send_stream_head(*encoding);
-    const std::string end = envelope(kEndOfStream, end_of_stream_json(status));
-    co_await send_chunk(end);
-    co_await asio::async_write(stream_, bhttp::make_chunk_last(), asio::use_awaitable);
-    co_return;
+  std::optional<std::string> message;
+  if (status.ok()) {
+    const auto call = std::make_shared<Call>(stream_.get_executor());
+    call_ = call;
+    call->start(std::move(channel), wanted);
+    watch_client();
+    message = co_await call->next();
+    if (message) {
+      const auto second = co_await call->next();
+      if (second) call->cancel();
+    }
+    status = co_await call->status();
+    call_.reset();
+    stream_.plain().socket().cancel();
+    if (status.ok() && !message) status = failure(grpc::StatusCode::INTERNAL, "The call ended without an answer.");
   }
-  if (!status.ok()) {
-    co_await send_error(http_status(status.error_code()), status);
-    co_return;
-  }
-  call_ = std::make_shared<Call>(stream_.get_executor());
-  call_->start(std::move(channel), wanted);
-  watch_client();
-  if (encoding->stream) {
-    co_await run_stream(*method, *encoding);
-  } else {
-    co_await run_unary(*method, *encoding);
-  }
-}
-
-asio::awaitable<void> Connection::run_unary(const google::protobuf::MethodDescriptor& method,
-                                            const Encoding& encoding) {
-  const auto call = call_;
-  std::optional<std::string> message = co_await call->next();
-  if (message) {
-    const auto second = co_await call->next();
-    if (second) call->cancel();
-  }
-  grpc::Status status = co_await call->status();
-  call_.reset();
-  stream_.plain().socket().cancel();
-  if (status.ok() && !message) status = failure(grpc::StatusCode::INTERNAL, "The call ended without an answer.");
   if (status.ok() && encoding.json) {
     status = cellcrush::answer([&] {
       *message = json_of(*method.output_type(), *message);
@@ -226,21 +241,29 @@ asio::awaitable<void> Connection::run_unary(const google::protobuf::MethodDescri
   }
 }
 
-asio::awaitable<void> Connection::run_stream(const google::protobuf::MethodDescriptor& method,
-                                             const Encoding& encoding) {
-  const auto call = call_;
-  co_await send_stream_head(encoding);
-  grpc::Status status;
-  while (true) {
-    auto message = co_await call->next();
-    if (!message) break;
-    if (encoding.json) *message = json_of(*method.output_type(), *message);
-    const std::string data = envelope(0, *message);
-    co_await send_chunk(data);
+asio::awaitable<void> Connection::run_stream(Call::Request wanted, std::string caller, const Encoding& encoding,
+                                             grpc::Status status) {
+  std::shared_ptr<rpc::MessageStream> stream;
+  if (status.ok()) {
+    stream = parts_.streams.open({std::move(wanted.path), std::move(wanted.message), std::move(caller),
+                                  encoding.json ? encode_json : encode_binary});
+    if (!stream) status = failure(grpc::StatusCode::UNIMPLEMENTED, "There is no such stream.");
   }
-  status = co_await call->status();
-  call_.reset();
-  stream_.plain().socket().cancel();
+  co_await send_stream_head(encoding);
+  if (stream) {
+    const auto call = std::make_shared<StreamCall>(stream_.get_executor(), std::move(stream), wanted.timeout);
+    call_ = call;
+    watch_client();
+    while (true) {
+      const auto batch = co_await call->next();
+      if (!batch.bytes.empty()) co_await send_chunk(batch.bytes);
+      if (!batch.end) continue;
+      status = *batch.end;
+      break;
+    }
+    call_.reset();
+    stream_.plain().socket().cancel();
+  }
   const std::string end = envelope(kEndOfStream, end_of_stream_json(status));
   co_await send_chunk(end);
   co_await asio::async_write(stream_, bhttp::make_chunk_last(), asio::use_awaitable);

@@ -12,13 +12,15 @@
 #include "http/method.h"
 #include "http/stream.h"
 #include "net/connection_limits.h"
+#include "rpc/stream_table.h"
 
 namespace cellcrush::http {
 
 /// What all connections of a gateway share; outlives them.
 struct GatewayParts {
   const access::Gate& gate;
-  grpc::Server& server;
+  grpc::Server& server;  ///< answers unary calls
+  const rpc::StreamTable& streams;
   net::ConnectionLimits limits;
   int port = 0;
   bool has_tls = false;
@@ -48,8 +50,11 @@ class Connection : public std::enable_shared_from_this<Connection> {
   boost::asio::awaitable<void> answer(const Request& request);
   boost::asio::awaitable<void> answer_call(const Request& request);
   boost::asio::awaitable<void> answer_file(const Request& request);
-  boost::asio::awaitable<void> run_unary(const google::protobuf::MethodDescriptor& method, const Encoding& encoding);
-  boost::asio::awaitable<void> run_stream(const google::protobuf::MethodDescriptor& method, const Encoding& encoding);
+  /// Make the call and answer it, or answer at once with a status that is not OK.
+  boost::asio::awaitable<void> run_unary(const Call::Request& wanted, const google::protobuf::MethodDescriptor& method,
+                                         const Encoding& encoding, grpc::Status status);
+  boost::asio::awaitable<void> run_stream(Call::Request wanted, std::string caller, const Encoding& encoding,
+                                          grpc::Status status);
   boost::asio::awaitable<void> send(unsigned status, const std::string& type, std::string body);
   boost::asio::awaitable<void> send_error(unsigned status, const grpc::Status& error);
   boost::asio::awaitable<void> send_stream_head(const Encoding& encoding);
@@ -60,7 +65,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   Stream stream_;
   boost::beast::flat_buffer buffer_;
   GatewayParts& parts_;
-  std::shared_ptr<Call> call_;  ///< null while none runs
+  std::shared_ptr<AnyCall> call_;  ///< null while none runs
   bool keep_alive_ = false;
 };
 

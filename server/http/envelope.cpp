@@ -9,11 +9,15 @@ constexpr std::size_t kPrefix = 5;
 
 }  // namespace
 
+void begin_envelope(std::uint8_t flags, std::size_t size, std::string& to) {
+  to += static_cast<char>(flags);
+  for (const unsigned shift : {24U, 16U, 8U, 0U}) to += static_cast<char>((size >> shift) & 0xFFU);
+}
+
 std::string envelope(std::uint8_t flags, std::string_view message) {
   std::string out;
   out.reserve(kPrefix + message.size());
-  out += static_cast<char>(flags);
-  for (const unsigned shift : {24U, 16U, 8U, 0U}) out += static_cast<char>((message.size() >> shift) & 0xFFU);
+  begin_envelope(flags, message.size(), out);
   return out.append(message);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -13,6 +14,9 @@ inline constexpr std::uint8_t kEndOfStream = 2;
 
 /// A message with its prefix.
 std::string envelope(std::uint8_t flags, std::string_view message);
+
+/// Appends a message of `size` bytes, except for its bytes.
+void begin_envelope(std::uint8_t flags, std::size_t size, std::string& to);
 
 /// The only message in the body of a request. Throws ServiceError (invalid) if it is not exactly one.
 /// Sets `compressed` if its flag says so.

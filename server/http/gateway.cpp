@@ -31,11 +31,11 @@ constexpr std::chrono::milliseconds kBetweenLooks{20};
 
 // Members are used on the thread, except in the constructor and the destructor.
 struct Gateway::Impl {
-  Impl(const ListenAddress& address, const access::Gate& gate, grpc::Server& server,
+  Impl(const ListenAddress& address, const access::Gate& gate, grpc::Server& server, const rpc::StreamTable& streams,
        const net::ConnectionLimits& limits)
       : tls(gate),
         port(address, "--http"),
-        parts{gate, server, limits, port.address().port, tls.current() != nullptr},
+        parts{gate, server, streams, limits, port.address().port, tls.current() != nullptr},
         table({limits.connections, limits.connections_per_address}),
         url((parts.has_tls ? "https://" : "http://") + port.address().text()) {
     for (const int descriptor : port.descriptors()) {
@@ -120,8 +120,8 @@ struct Gateway::Impl {
 };
 
 Gateway::Gateway(const ListenAddress& address, const access::Gate& gate, grpc::Server& server,
-                 const net::ConnectionLimits& limits)
-    : impl_(std::make_unique<Impl>(address, gate, server, limits)) {}
+                 const rpc::StreamTable& streams, const net::ConnectionLimits& limits)
+    : impl_(std::make_unique<Impl>(address, gate, server, streams, limits)) {}
 
 Gateway::~Gateway() { stop(); }
 

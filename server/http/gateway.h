@@ -8,6 +8,7 @@
 #include "access/gate.h"
 #include "listen_address.h"
 #include "net/connection_limits.h"
+#include "rpc/stream_table.h"
 
 namespace cellcrush::http {
 
@@ -15,9 +16,10 @@ namespace cellcrush::http {
 /// files. One thread serves all connections. Thread-safe.
 class Gateway {
  public:
-  /// Listens from construction on, on an address that the gate permits; `gate` and `server` outlive it. Throws
-  /// ServiceError: failed_precondition if the address is in use, invalid if OpenSSL refuses the files of TLS.
-  Gateway(const ListenAddress& address, const access::Gate& gate, grpc::Server& server,
+  /// Listens from construction on, on an address that the gate permits. `server` answers unary calls, `streams` the
+  /// others; these and `gate` outlive it. Throws ServiceError: failed_precondition if the address is in use, invalid if
+  /// OpenSSL refuses the files of TLS.
+  Gateway(const ListenAddress& address, const access::Gate& gate, grpc::Server& server, const rpc::StreamTable& streams,
           const net::ConnectionLimits& limits);
   ~Gateway();
   Gateway(const Gateway&) = delete;

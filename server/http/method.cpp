@@ -1,6 +1,5 @@
 #include "http/method.h"
 
-#include <google/protobuf/message.h>
 #include <google/protobuf/util/json_util.h>
 
 #include <memory>
@@ -53,12 +52,17 @@ std::string binary_of(const protobuf::Descriptor& type, std::string_view json) {
   return message->SerializeAsString();
 }
 
+std::string json_of(const protobuf::Message& message) {
+  std::string out;
+  if (protobuf::util::MessageToJsonString(message, &out).ok()) return out;
+  throw ServiceError(ServiceError::Kind::internal,
+                     "A " + message.GetDescriptor()->full_name() + " cannot be written as JSON.");
+}
+
 std::string json_of(const protobuf::Descriptor& type, const std::string& binary) {
   const auto message = new_message(type);
-  std::string out;
-  if (!message->ParseFromString(binary) || !protobuf::util::MessageToJsonString(*message, &out).ok())
-    throw ServiceError(ServiceError::Kind::internal, "A " + type.full_name() + " cannot be written as JSON.");
-  return out;
+  if (message->ParseFromString(binary)) return json_of(*message);
+  throw ServiceError(ServiceError::Kind::internal, "A " + type.full_name() + " cannot be parsed.");
 }
 
 }  // namespace cellcrush::http

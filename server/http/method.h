@@ -1,6 +1,7 @@
 #pragma once
 
 #include <google/protobuf/descriptor.h>
+#include <google/protobuf/message.h>
 
 #include <optional>
 #include <string>
@@ -26,6 +27,9 @@ const google::protobuf::MethodDescriptor* find_method(std::string_view target);
 
 /// Binary form of a JSON message. Throws ServiceError (invalid), naming what is wrong.
 std::string binary_of(const google::protobuf::Descriptor& type, std::string_view json);
+
+/// JSON form of a message. Throws ServiceError (internal) if it has none.
+std::string json_of(const google::protobuf::Message& message);
 
 /// JSON form of a binary message. Throws ServiceError (internal) if it cannot be parsed.
 std::string json_of(const google::protobuf::Descriptor& type, const std::string& binary);

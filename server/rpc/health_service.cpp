@@ -66,14 +66,20 @@ grpc::ServerUnaryReactor* HealthService::Check(grpc::CallbackServerContext* cont
   return reactor;
 }
 
+std::unique_ptr<HealthSource> HealthService::watch(const HealthCheckRequest& request) {
+  check_length("service", request.service(), kLongestName);
+  return std::make_unique<HealthSource>(parts_.board, request.service());
+}
+
 grpc::ServerWriteReactor<HealthCheckResponse>* HealthService::Watch(grpc::CallbackServerContext* context,
                                                                     const HealthCheckRequest* request) {
   return open_stream<HealthSource>(
-      parts_.streams, *context, [&] { return address_of(context->peer()); },
-      [&] {
-        check_length("service", request->service(), kLongestName);
-        return std::make_unique<HealthSource>(parts_.board, request->service());
-      });
+      parts_.streams, *context, [&] { return address_of(context->peer()); }, [&] { return watch(*request); });
+}
+
+void HealthService::add_streams(StreamTable& table) {
+  table.add<HealthSource, HealthCheckRequest>("/grpc.health.v1.Health/Watch", parts_.streams,
+                                              [this](const HealthCheckRequest& request) { return watch(request); });
 }
 
 }  // namespace cellcrush::rpc

@@ -8,6 +8,7 @@
 #include "grpc/health/v1/health.grpc.pb.h"
 #include "mutex.h"
 #include "rpc/stream_reactor.h"
+#include "rpc/stream_table.h"
 
 namespace cellcrush::rpc {
 
@@ -60,7 +61,7 @@ class HealthSource {
 };
 
 /// grpc.health.v1. Replaces gRPC's own service, which does not limit watches. It is open to everybody, so its watches
-/// are counted separately, by peer address. Thread-safe.
+/// are counted separately: by peer address, and those over HTTP together. Thread-safe.
 class HealthService final : public grpc::health::v1::Health::CallbackService {
  public:
   /// All of it outlives the service.
@@ -77,7 +78,12 @@ class HealthService final : public grpc::health::v1::Health::CallbackService {
   grpc::ServerWriteReactor<grpc::health::v1::HealthCheckResponse>* Watch(
       grpc::CallbackServerContext* context, const grpc::health::v1::HealthCheckRequest* request) override;
 
+  /// Its stream. The service outlives the table.
+  void add_streams(StreamTable& table);
+
  private:
+  std::unique_ptr<HealthSource> watch(const grpc::health::v1::HealthCheckRequest& request);
+
   Parts parts_;
 };
 

@@ -7,18 +7,13 @@
 #include "error_table.h"
 #include "rpc/change_log.h"
 #include "rpc/create_request.h"
-#include "rpc/download_source.h"
 #include "rpc/find_job.h"
-#include "rpc/frame_series_source.h"
-#include "rpc/frame_source.h"
 #include "rpc/job_query.h"
-#include "rpc/jobs_source.h"
 #include "rpc/page.h"
 #include "rpc/request_limits.h"
 #include "store/resource_name.h"
 #include "translate/case_checker.h"
 #include "translate/check_case.h"
-#include "watch/job_source.h"
 
 namespace cellcrush::rpc {
 
@@ -177,62 +172,83 @@ grpc::ServerUnaryReactor* JobsService::DeleteJob(grpc::CallbackServerContext* co
   });
 }
 
+std::unique_ptr<watch::JobSource> JobsService::watch_job(const v1::WatchJobRequest& request) {
+  const std::int64_t job = find(request.name()).number;
+  check_epoch(parts_.reader.epoch(), request.epoch());
+  return std::make_unique<watch::JobSource>(parts_.reader, parts_.hub, job, request.after_sequence(),
+                                            watch::WatchCursor::Wanted{request.frames(), true, request.encoding()});
+}
+
+std::unique_ptr<JobsSource> JobsService::watch_jobs(const v1::WatchJobsRequest& request) {
+  return std::make_unique<JobsSource>(JobsSource::Parts{parts_.reader, parts_.sweeps, parts_.changes, parts_.hub},
+                                      request);
+}
+
+std::unique_ptr<FrameSeriesSource> JobsService::stream_frames(const v1::StreamFramesRequest& request) {
+  return std::make_unique<FrameSeriesSource>(parts_.folder, parts_.reader, find(request.name()), request);
+}
+
+std::unique_ptr<FrameSource> JobsService::get_frame(const v1::GetFrameRequest& request) {
+  return std::make_unique<FrameSource>(FrameSource::Parts{parts_.folder, parts_.reader, parts_.hub},
+                                       find(request.name()), request);
+}
+
+std::unique_ptr<DownloadSource> JobsService::download(const v1::DownloadResultRequest& request) {
+  const auto stored = find(request.name());
+  if (!stored.job.has_summary()) {
+    throw ServiceError(ServiceError::Kind::failed_precondition,
+                       stored.job.name() + " is " + v1::Job::State_Name(stored.job.state()) +
+                           " and has no result. A job has a result once it has SUCCEEDED, or was cancelled or failed "
+                           "while running.");
+  }
+  return std::make_unique<DownloadSource>(parts_.folder.job_folder(stored.number).result(), request.offset());
+}
+
+template <class Source, class Request>
+grpc::ServerWriteReactor<typename Source::Message>* JobsService::open(
+    grpc::CallbackServerContext& context, const Request& request,
+    std::unique_ptr<Source> (JobsService::*make)(const Request&)) {
+  return open_stream<Source>(
+      parts_.streams, context, [&] { return parts_.gate.caller_of(context).name; },
+      [&] { return (this->*make)(request); });
+}
+
 grpc::ServerWriteReactor<v1::JobEvent>* JobsService::WatchJob(grpc::CallbackServerContext* context,
                                                               const v1::WatchJobRequest* request) {
-  return open_stream<watch::JobSource>(
-      parts_.streams, *context, [&] { return parts_.gate.caller_of(*context).name; },
-      [&] {
-        const std::int64_t job = find(request->name()).number;
-        check_epoch(parts_.reader.epoch(), request->epoch());
-        return std::make_unique<watch::JobSource>(
-            parts_.reader, parts_.hub, job, request->after_sequence(),
-            watch::WatchCursor::Wanted{request->frames(), true, request->encoding()});
-      });
+  return open(*context, *request, &JobsService::watch_job);
 }
 
 grpc::ServerWriteReactor<v1::WatchJobsResponse>* JobsService::WatchJobs(grpc::CallbackServerContext* context,
                                                                         const v1::WatchJobsRequest* request) {
-  return open_stream<JobsSource>(
-      parts_.streams, *context, [&] { return parts_.gate.caller_of(*context).name; },
-      [&] {
-        return std::make_unique<JobsSource>(JobsSource::Parts{parts_.reader, parts_.sweeps, parts_.changes, parts_.hub},
-                                            *request);
-      });
+  return open(*context, *request, &JobsService::watch_jobs);
 }
 
 grpc::ServerWriteReactor<v1::StreamFramesResponse>* JobsService::StreamFrames(grpc::CallbackServerContext* context,
                                                                               const v1::StreamFramesRequest* request) {
-  return open_stream<FrameSeriesSource>(
-      parts_.streams, *context, [&] { return parts_.gate.caller_of(*context).name; },
-      [&] {
-        return std::make_unique<FrameSeriesSource>(parts_.folder, parts_.reader, find(request->name()), *request);
-      });
+  return open(*context, *request, &JobsService::stream_frames);
 }
 
 grpc::ServerWriteReactor<v1::GetFrameResponse>* JobsService::GetFrame(grpc::CallbackServerContext* context,
                                                                       const v1::GetFrameRequest* request) {
-  return open_stream<FrameSource>(
-      parts_.streams, *context, [&] { return parts_.gate.caller_of(*context).name; },
-      [&] {
-        return std::make_unique<FrameSource>(FrameSource::Parts{parts_.folder, parts_.reader, parts_.hub},
-                                             find(request->name()), *request);
-      });
+  return open(*context, *request, &JobsService::get_frame);
 }
 
 grpc::ServerWriteReactor<v1::DownloadResultResponse>* JobsService::DownloadResult(
     grpc::CallbackServerContext* context, const v1::DownloadResultRequest* request) {
-  return open_stream<DownloadSource>(
-      parts_.streams, *context, [&] { return parts_.gate.caller_of(*context).name; },
-      [&] {
-        const auto stored = find(request->name());
-        if (!stored.job.has_summary()) {
-          throw ServiceError(ServiceError::Kind::failed_precondition,
-                             stored.job.name() + " is " + v1::Job::State_Name(stored.job.state()) +
-                                 " and has no result. A job has a result once it has SUCCEEDED, or was cancelled or "
-                                 "failed while running.");
-        }
-        return std::make_unique<DownloadSource>(parts_.folder.job_folder(stored.number).result(), request->offset());
-      });
+  return open(*context, *request, &JobsService::download);
+}
+
+void JobsService::add_streams(StreamTable& table) {
+  const auto add = [&]<class Source, class Request>(const char* method,
+                                                    std::unique_ptr<Source> (JobsService::*make)(const Request&)) {
+    table.add<Source, Request>(std::string("/cellcrush.v1.Jobs/") + method, parts_.streams,
+                               [this, make](const Request& request) { return (this->*make)(request); });
+  };
+  add("WatchJob", &JobsService::watch_job);
+  add("WatchJobs", &JobsService::watch_jobs);
+  add("StreamFrames", &JobsService::stream_frames);
+  add("GetFrame", &JobsService::get_frame);
+  add("DownloadResult", &JobsService::download);
 }
 
 grpc::ServerUnaryReactor* JobsService::GetHistory(grpc::CallbackServerContext* context,

@@ -7,13 +7,19 @@
 #include "jobs/mesh_places.h"
 #include "jobs/scheduler.h"
 #include "rpc/call_pool.h"
+#include "rpc/download_source.h"
+#include "rpc/frame_series_source.h"
+#include "rpc/frame_source.h"
+#include "rpc/jobs_source.h"
 #include "rpc/stream_reactor.h"
+#include "rpc/stream_table.h"
 #include "store/change_reader.h"
 #include "store/data_folder.h"
 #include "store/journal.h"
 #include "store/journal_reader.h"
 #include "store/sweep_reader.h"
 #include "watch/hub.h"
+#include "watch/job_source.h"
 
 namespace cellcrush::rpc {
 
@@ -67,7 +73,22 @@ class JobsService final : public v1::Jobs::CallbackService {
   grpc::ServerWriteReactor<v1::DownloadResultResponse>* DownloadResult(
       grpc::CallbackServerContext* context, const v1::DownloadResultRequest* request) override;
 
+  /// Its streams. The service outlives the table.
+  void add_streams(StreamTable& table);
+
  private:
+  // Sources of the streams. They throw what ends the stream.
+  std::unique_ptr<watch::JobSource> watch_job(const v1::WatchJobRequest& request);
+  std::unique_ptr<JobsSource> watch_jobs(const v1::WatchJobsRequest& request);
+  std::unique_ptr<FrameSeriesSource> stream_frames(const v1::StreamFramesRequest& request);
+  std::unique_ptr<FrameSource> get_frame(const v1::GetFrameRequest& request);
+  std::unique_ptr<DownloadSource> download(const v1::DownloadResultRequest& request);
+
+  template <class Source, class Request>
+  grpc::ServerWriteReactor<typename Source::Message>* open(
+      grpc::CallbackServerContext& context, const Request& request,
+      std::unique_ptr<Source> (JobsService::*make)(const Request&));
+
   /// Throws ServiceError (not_found) if there is none.
   store::StoredJob find(const std::string& name);
   /// Number of a job that the caller may change. Also throws ServiceError (permission_denied).

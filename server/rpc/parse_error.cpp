@@ -9,11 +9,7 @@
 #include "error_table.h"
 
 namespace cellcrush::rpc {
-namespace {
 
-namespace grpc_hooks = grpc::experimental;
-
-// `path` is as gRPC has it: "/cellcrush.v1.Jobs/GetJob".
 grpc::Status parse_error(std::string_view path) {
   std::string method(path.substr(path.starts_with('/') ? 1 : 0));
   std::replace(method.begin(), method.end(), '/', '.');
@@ -24,6 +20,10 @@ grpc::Status parse_error(std::string_view path) {
       "request", "of " + method + " is not a " + type + ": its bytes cannot be parsed, or a string is not UTF-8.",
       "Encode it with this server's .proto files, and every string as UTF-8.");
 }
+
+namespace {
+
+namespace grpc_hooks = grpc::experimental;
 
 class ParseErrorInterceptor final : public grpc_hooks::Interceptor {
  public:

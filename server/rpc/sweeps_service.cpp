@@ -17,7 +17,6 @@
 #include "store/resource_name.h"
 #include "translate/case_checker.h"
 #include "translate/check_case.h"
-#include "watch/sweep_source.h"
 
 namespace cellcrush::rpc {
 namespace {
@@ -197,15 +196,23 @@ grpc::ServerUnaryReactor* SweepsService::RetryFailedJobs(grpc::CallbackServerCon
   });
 }
 
+std::unique_ptr<watch::SweepSource> SweepsService::watch_sweep(const v1::WatchSweepRequest& request) {
+  check_length("resume_token", request.resume_token(), kLongestResumeToken);
+  return std::make_unique<watch::SweepSource>(parts_.reader, parts_.sweeps, parts_.hub, find(request.name()).number,
+                                              request.resume_token());
+}
+
 grpc::ServerWriteReactor<v1::WatchSweepResponse>* SweepsService::WatchSweep(grpc::CallbackServerContext* context,
                                                                             const v1::WatchSweepRequest* request) {
   return open_stream<watch::SweepSource>(
       parts_.streams, *context, [&] { return parts_.gate.caller_of(*context).name; },
-      [&] {
-        check_length("resume_token", request->resume_token(), kLongestResumeToken);
-        return std::make_unique<watch::SweepSource>(parts_.reader, parts_.sweeps, parts_.hub,
-                                                    find(request->name()).number, request->resume_token());
-      });
+      [&] { return watch_sweep(*request); });
+}
+
+void SweepsService::add_streams(StreamTable& table) {
+  table.add<watch::SweepSource, v1::WatchSweepRequest>(
+      "/cellcrush.v1.Sweeps/WatchSweep", parts_.streams,
+      [this](const v1::WatchSweepRequest& request) { return watch_sweep(request); });
 }
 
 grpc::ServerUnaryReactor* SweepsService::GetSweepTable(grpc::CallbackServerContext* context,

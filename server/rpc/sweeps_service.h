@@ -10,10 +10,12 @@
 #include "jobs/scheduler.h"
 #include "rpc/call_pool.h"
 #include "rpc/stream_reactor.h"
+#include "rpc/stream_table.h"
 #include "store/journal.h"
 #include "store/journal_reader.h"
 #include "store/sweep_reader.h"
 #include "watch/hub.h"
+#include "watch/sweep_source.h"
 
 namespace cellcrush::rpc {
 
@@ -60,7 +62,12 @@ class SweepsService final : public v1::Sweeps::CallbackService {
                                            const v1::GetConvergenceRequest* request,
                                            v1::Convergence* response) override;
 
+  /// Its stream. The service outlives the table.
+  void add_streams(StreamTable& table);
+
  private:
+  std::unique_ptr<watch::SweepSource> watch_sweep(const v1::WatchSweepRequest& request);
+
   struct Found {
     std::int64_t number = 0;
     v1::Sweep sweep;

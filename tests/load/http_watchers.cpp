@@ -19,17 +19,22 @@ std::string request_text(const HttpWatch& watch) {
   auto& job = *request.add_jobs();
   job.set_name(watch.job);
   job.set_frames(true);
-  job.set_encoding(v1::FieldFrame::PACKED);
-  const std::string body = http::envelope(0, request.SerializeAsString());
+  if (watch.form == HttpWatch::Form::packed) job.set_encoding(v1::FieldFrame::PACKED);
+  const bool json = watch.form == HttpWatch::Form::json;
+  const std::string body = http::envelope(
+      0, json ? R"({"jobs":[{"name":")" + watch.job + R"(","frames":true}]})" : request.SerializeAsString());
   return "POST /cellcrush.v1.Jobs/WatchJobs HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(watch.port) +
-         "\r\nContent-Type: application/connect+proto\r\nContent-Length: " + std::to_string(body.size()) + "\r\n\r\n" +
-         body;
+         "\r\nContent-Type: application/connect+" + (json ? "json" : "proto") +
+         "\r\nContent-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body;
 }
 
 class Watcher {
  public:
   Watcher(const HttpWatch& watch, Received& received)
-      : received_(received), socket_(watch.port), parser_([this](std::string_view message) { count(message); }) {
+      : is_json_(watch.form == HttpWatch::Form::json),
+        received_(received),
+        socket_(watch.port),
+        parser_([this](std::string_view message) { count(message); }) {
     socket_.send(request_text(watch));
   }
 
@@ -53,6 +58,10 @@ class Watcher {
 
   void count(std::string_view bytes) {
     ++received_.messages;
+    if (is_json_) {
+      if (bytes.find("\"watchedEnd\"") != std::string_view::npos) end(true);
+      return;
+    }
     if (!message_.ParseFromArray(bytes.data(), static_cast<int>(bytes.size()))) return end(false);
     if (message_.has_watched_end()) return end(message_.watched_end().status().code() == 0);
     if (!message_.has_watched()) return;
@@ -65,6 +74,7 @@ class Watcher {
     if (event.has_sample() || event.has_state()) received_.wrong_numbers += event.sequence() != ++sequence_;
   }
 
+  const bool is_json_;
   Received& received_;
   testing::HttpSocket socket_;
   StreamParser parser_;

@@ -22,10 +22,11 @@ struct HttpWatch {
   int port = 0;     ///< of 127.0.0.1
   std::string job;  ///< "jobs/{job}"
   int watchers = 0;
+  enum class Form { packed, numbers, json } form = Form::packed;  ///< of the frames; JSON has numbers
 };
 
-/// Watches the job over HTTP as the web page does: by WatchJobs in binary, with packed frames, each watcher on a
-/// connection of its own. One thread serves them all; it returns once the job has ended for each.
+/// Watches the job and its frames over HTTP by WatchJobs, each watcher on a connection of its own. One thread serves
+/// them all; it returns once the job has ended for each. Of JSON it counts messages and bytes only.
 Received watch_over_http(const HttpWatch& watch);
 
 }  // namespace cellcrush::load

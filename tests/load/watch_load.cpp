@@ -1,5 +1,5 @@
 // Measures what watchers over HTTP cost the daemon, on this machine. Prints a figure a line; asserts nothing.
-// usage: watch_load [WATCHERS [ROUNDS]]
+// usage: watch_load [WATCHERS [ROUNDS [packed|numbers|json]]]
 #include <fmt/core.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
@@ -66,11 +66,9 @@ double measure_crush(Client& client, int daemon, HttpWatch watch) {
   return used;
 }
 
-int measure(const std::filesystem::path& folder, int watchers, int rounds) {
+int measure(const std::filesystem::path& folder, HttpWatch watch, int rounds) {
   const std::string address = "unix:" + (folder / "socket").string();
-  HttpWatch watch;
   watch.port = free_port();
-  watch.watchers = watchers;
   testing::DaemonProcess daemon({"--data", (folder / "data").string(), "--listen", address, "--http",
                                  "127.0.0.1:" + std::to_string(watch.port), "--workers", "1"});
   if (daemon.wait_for_addresses(1).empty()) {
@@ -81,7 +79,7 @@ int measure(const std::filesystem::path& folder, int watchers, int rounds) {
   std::vector<double> used;
   for (int i = 0; i < rounds; ++i) used.push_back(measure_crush(client, daemon.number(), watch));
   std::sort(used.begin(), used.end());
-  fmt::print("{} watchers: median {:.2f} s of the daemon's processor time ({:.2f} to {:.2f})\n", watchers,
+  fmt::print("{} watchers: median {:.2f} s of the daemon's processor time ({:.2f} to {:.2f})\n", watch.watchers,
              used[used.size() / 2], used.front(), used.back());
   return 0;
 }
@@ -90,10 +88,15 @@ int measure(const std::filesystem::path& folder, int watchers, int rounds) {
 }  // namespace cellcrush::load
 
 int main(int count, char** words) {
-  const int watchers = count > 1 ? std::atoi(words[1]) : 200;
+  using cellcrush::load::HttpWatch;
+  HttpWatch watch;
+  watch.watchers = count > 1 ? std::atoi(words[1]) : 200;
   const int rounds = count > 2 ? std::max(1, std::atoi(words[2])) : 3;
+  const std::string form = count > 3 ? words[3] : "packed";
+  if (form == "numbers") watch.form = HttpWatch::Form::numbers;
+  if (form == "json") watch.form = HttpWatch::Form::json;
   const cellcrush::testing::TemporaryFolder folder;
-  const int result = cellcrush::load::measure(folder.path(), watchers, rounds);
+  const int result = cellcrush::load::measure(folder.path(), watch, rounds);
   cellcrush::testing::kill_workers(folder.path() / "data");
   return result;
 }

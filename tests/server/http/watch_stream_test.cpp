@@ -6,11 +6,17 @@
 
 #include "http/envelope.h"
 #include "http/gateway.h"
+#include "rpc/stream_table.h"
 #include "server/http/http_fixture.h"
 #include "server/small_case.h"
 
 namespace cellcrush::testing {
 namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
 
 class HttpStreamTest : public HttpFixture {
  protected:
@@ -48,46 +54,108 @@ TEST_F(HttpStreamTest, EventsInBinaryAreThoseOfGrpc) {
   }
 }
 
-// Sends large messages as fast as they are taken.
-class Fountain final : public v1::Jobs::Service {
+// A stream of large messages.
+class Fountain {
  public:
+  using Message = v1::DownloadResultResponse;
+  static constexpr bool kIsWatch = false;
   static constexpr int kMessages = 1000;
   static constexpr std::size_t kSize = 64 * 1024;
 
-  grpc::Status DownloadResult(grpc::ServerContext*, const v1::DownloadResultRequest*,
-                              grpc::ServerWriter<v1::DownloadResultResponse>* writer) override {
-    v1::DownloadResultResponse response;
-    response.set_data(std::string(kSize, 'x'));
-    while (sent < kMessages && writer->Write(response)) ++sent;
-    return grpc::Status::OK;
+  explicit Fountain(std::atomic<int>& sent) : sent_(sent) {}
+  void open(const std::function<void()>&) {}
+  void close() {}
+  std::optional<Message> next() {
+    if (ended()) return std::nullopt;
+    ++sent_;
+    Message out;
+    out.set_data(std::string(kSize, 'x'));
+    return out;
   }
+  [[nodiscard]] bool has_more() const { return !ended(); }
+  [[nodiscard]] bool ended() const { return sent_ == kMessages; }
+  [[nodiscard]] std::optional<Message> bookmark() const { return std::nullopt; }
+  [[nodiscard]] std::string resume_advice() const { return ""; }
 
-  std::atomic<int> sent = 0;
+ private:
+  std::atomic<int>& sent_;
 };
 
 TEST(HttpBackpressure, NoMoreIsReadThanTheClientTakes) {
-  Fountain fountain;
+  std::atomic<int> sent = 0;
+  metrics::Metrics metrics;
+  rpc::StreamLimits limits({10, 10, 100'000'000});
+  watch::Pump pump(2);
+  rpc::StreamTable streams(pump);
+  streams.add<Fountain, v1::DownloadResultRequest>(
+      "/cellcrush.v1.Jobs/DownloadResult", {pump, metrics, limits, {}},
+      [&sent](const v1::DownloadResultRequest&) { return std::make_unique<Fountain>(sent); });
+  v1::Jobs::Service unary;
   grpc::ServerBuilder builder;
-  builder.RegisterService(&fountain);
+  builder.RegisterService(&unary);
   const auto server = builder.BuildAndStart();
   const access::Gate gate({});
-  http::Gateway gateway(parse_listen_address("127.0.0.1:0"), gate, *server, {});
+  http::Gateway gateway(parse_listen_address("127.0.0.1:0"), gate, *server, streams, {});
   const HttpSocket socket(std::stoi(gateway.url().substr(gateway.url().rfind(':') + 1)), 64 * 1024);
   const std::string body = http::envelope(0, "");
   socket.send("POST /cellcrush.v1.Jobs/DownloadResult HTTP/1.1\r\nHost: " + gateway.url().substr(7) +
               "\r\nConnection: close\r\nContent-Type: application/connect+proto\r\nContent-Length: " +
               std::to_string(body.size()) + "\r\n\r\n" + body);
   int before = -1;
-  for (int i = 0; i < 100 && (fountain.sent == 0 || fountain.sent != before); ++i) {
-    before = fountain.sent;
+  for (int i = 0; i < 100 && (sent == 0 || sent != before); ++i) {
+    before = sent;
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
   }
   // The kernel keeps some megabytes; the daemon has two messages.
-  EXPECT_LT(fountain.sent, 200);
+  EXPECT_LT(sent, 200);
   const auto messages = messages_of(dechunked(socket.read_to_end()));
   EXPECT_EQ(messages.size(), static_cast<std::size_t>(Fountain::kMessages));
   gateway.stop();
   server->Shutdown();
+}
+
+TEST_F(HttpStreamTest, EveryMethodThatReturnsAStreamIsServed) {
+  const auto* pool = google::protobuf::DescriptorPool::generated_pool();
+  int streams = 0;
+  for (const char* name : {"cellcrush.v1.Cases", "cellcrush.v1.Jobs", "cellcrush.v1.Sweeps", "cellcrush.v1.Admin",
+                           "grpc.health.v1.Health"}) {
+    const auto* service = pool->FindServiceByName(name);
+    for (int i = 0; i < service->method_count(); ++i) {
+      if (!service->method(i)->server_streaming()) continue;
+      ++streams;
+      const std::string target = "POST /" + service->full_name() + "/" + service->method(i)->name();
+      const std::string answer = exchange(request(
+          target, "Content-Type: application/connect+proto\r\nConnect-Timeout-Ms: 300\r\n", http::envelope(0, "")));
+      EXPECT_THAT(answer, StartsWith("HTTP/1.1 200"));
+      EXPECT_THAT(answer, Not(HasSubstr("unimplemented"))) << target;
+    }
+  }
+  EXPECT_GE(streams, 7);
+}
+
+TEST_F(HttpStreamTest, ARequestThatCannotBeParsedIsRefusedByName) {
+  EXPECT_THAT(dechunked(call("WatchJob", "application/connect+proto", http::envelope(0, "\xff"))),
+              AllOf(HasSubstr("invalid_argument"), HasSubstr("is not a cellcrush.v1.WatchJobRequest")));
+}
+
+TEST_F(HttpStreamTest, AStreamCountsForTheCallerThatItsTokenNames) {
+  DaemonOptions options = with_tokens(http_options());
+  options.connections.streams_per_caller = 1;
+  start(options);
+  const auto watch = [this](const std::string& name, const std::string& timeout) {
+    return call_text("WatchJobs", "application/connect+json", http::envelope(0, "{}"),
+                     token_of(name) + "Connect-Timeout-Ms: " + timeout + "\r\n");
+  };
+  const HttpSocket socket(port());
+  socket.send(watch("anna", "60000"));
+  std::string got;
+  while (got.find("snapshot") == std::string::npos) {
+    const std::string next = socket.read_some();
+    ASSERT_FALSE(next.empty()) << got;
+    got += next;
+  }
+  EXPECT_THAT(exchange(watch("anna", "300")), HasSubstr("anna has 1 streams open"));
+  EXPECT_THAT(exchange(watch("bob", "300")), AllOf(HasSubstr("snapshot"), HasSubstr("deadline_exceeded")));
 }
 
 }  // namespace

@@ -1,0 +1,123 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "mutex.h"
+#include "rpc/message_stream.h"
+#include "rpc/stream_state.h"
+
+namespace cellcrush::rpc {
+
+/// A MessageStream of a source (stream_state.h). A thread of the pump opens the source, as that may read the disk.
+template <class Source>
+class SourceStream final : public MessageStream, public std::enable_shared_from_this<SourceStream<Source>> {
+ public:
+  using Make = std::function<std::unique_ptr<Source>()>;
+
+  /// If `make` throws, the stream ends with its error.
+  SourceStream(const StreamParts& parts, std::string caller, Encode encode, Make make)
+      : parts_(parts), encode_(std::move(encode)), caller_(std::move(caller)), make_(std::move(make)) {}
+  ~SourceStream() override { cancel(); }
+
+  /// Ends it before it begins.
+  void refuse(const grpc::Status& status) {
+    const MutexLock lock(mutex_);
+    finish(status);
+  }
+
+  void ask(Deliver deliver) override {
+    bool is_first = false;
+    {
+      const MutexLock lock(mutex_);
+      deliver_ = std::move(deliver);
+      is_first = !std::exchange(is_known_, true);
+    }
+    is_first ? parts_.pump.add(this->shared_from_this()) : parts_.pump.schedule(this->shared_from_this());
+  }
+
+  void cancel() override {
+    const MutexLock lock(mutex_);
+    finish({grpc::StatusCode::CANCELLED, "The client cancelled the stream."});
+    deliver_ = nullptr;
+  }
+
+  void run() override {
+    Deliver deliver;
+    Batch batch;
+    {
+      const MutexLock lock(mutex_);
+      if (!deliver_) return close_if_stuck();
+      fill(batch);
+      if (batch.bytes.empty() && !batch.end) return;
+      deliver = std::exchange(deliver_, nullptr);
+    }
+    deliver(std::move(batch));
+  }
+
+ private:
+  /// Messages up to this many bytes, and one more, are sent together.
+  static constexpr std::size_t kBatchBytes = 64 * 1024;
+
+  void fill(Batch& batch) CELLCRUSH_REQUIRES(mutex_) {
+    try {
+      if (!status_ && !state_) open();
+      while (!status_ && batch.bytes.size() < kBatchBytes) {
+        const auto next = state_->next();
+        if (!next) {
+          if (state_->status()) finish(grpc::Status(*state_->status()));
+          break;
+        }
+        encode_(*next, batch.bytes);
+        state_->count_skipped(*next);
+      }
+      if (!batch.bytes.empty()) delay_.end(parts_.metrics);
+      if (!status_ && !state_->begin_write(batch.bytes.size())) {
+        batch.bytes.clear();
+        finish(grpc::Status(*state_->status()));
+      }
+    } catch (const std::exception& error) {
+      batch.bytes.clear();
+      finish(status_of(error));
+    }
+    batch.end = status_;
+  }
+
+  void open() CELLCRUSH_REQUIRES(mutex_) {
+    state_.emplace(parts_, caller_, std::exchange(make_, nullptr)());
+    state_->source().open([weak = this->weak_from_this()] {
+      const auto alive = weak.lock();
+      if (!alive) return;
+      alive->delay_.begin();
+      alive->parts_.pump.schedule(alive);
+    });
+  }
+
+  /// The status waits behind the unread batch, for a client that resumes reading.
+  void close_if_stuck() CELLCRUSH_REQUIRES(mutex_) {
+    if (state_ && state_->is_stuck()) finish(state_->status_of_stuck());
+  }
+
+  /// Everything kept for the client is dropped.
+  void finish(const grpc::Status& status) CELLCRUSH_REQUIRES(mutex_) {
+    if (status_) return;
+    status_ = status;
+    if (state_) state_->source().close();
+    state_.reset();
+  }
+
+  StreamParts parts_;
+  Encode encode_;
+  EventDelay delay_;
+
+  Mutex mutex_;
+  std::string caller_;
+  Make make_ CELLCRUSH_GUARDED_BY(mutex_);  ///< until the source is open
+  std::optional<StreamState<Source>> state_ CELLCRUSH_GUARDED_BY(mutex_);
+  std::optional<grpc::Status> status_ CELLCRUSH_GUARDED_BY(mutex_);  ///< once it has ended
+  Deliver deliver_ CELLCRUSH_GUARDED_BY(mutex_);                     ///< null unless a batch is asked for
+  bool is_known_ CELLCRUSH_GUARDED_BY(mutex_) = false;               ///< to the pump
+};
+
+}  // namespace cellcrush::rpc

@@ -1,0 +1,152 @@
+#pragma once
+
+#include <grpcpp/support/status.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "cellcrush/v1/event.pb.h"
+#include "cellcrush/v1/jobs_service.pb.h"
+#include "error_table.h"
+#include "jobs/case_field.h"
+#include "metrics/metrics.h"
+#include "rpc/stream_limits.h"
+#include "watch/pump.h"
+#include "watch/watch_times.h"
+
+namespace cellcrush::rpc {
+
+/// Dependencies of streams; all outlive them.
+struct StreamParts {
+  watch::Pump& pump;
+  metrics::Metrics& metrics;
+  StreamLimits& limits;
+  watch::WatchTimes times;
+};
+
+/// Number of frames skipped before this message.
+inline int skipped_before(const v1::JobEvent& event) { return event.has_frame() ? event.frame().skipped() : 0; }
+inline int skipped_before(const v1::WatchJobsResponse& message) {
+  return message.has_watched() ? skipped_before(message.watched().event()) : 0;
+}
+template <class Message>
+int skipped_before(const Message&) {
+  return 0;
+}
+
+/// For the metrics: how long events wait for their messages. Thread-safe.
+class EventDelay {
+ public:
+  /// Something has changed.
+  void begin() {
+    std::int64_t none = 0;
+    since_.compare_exchange_strong(none, Clock::now().time_since_epoch().count());
+  }
+  /// A message goes out.
+  void end(metrics::Metrics& metrics) {
+    const std::int64_t since = since_.exchange(0);
+    if (since == 0) return;
+    const Clock::duration taken = Clock::now().time_since_epoch() - Clock::duration(since);
+    metrics.observe_event(std::chrono::duration<double>(taken).count());
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::atomic<std::int64_t> since_ = 0;  ///< Clock's count at the first change without a message yet; 0: none
+};
+
+/// What an open stream sends next and how it ends, for StreamReactor and SourceStream, which carry the messages.
+/// Source is JobSource, JobsSource, SweepSource, DownloadSource, FrameSource or HealthSource, or has the same members:
+///   Message, kIsWatch   type of the messages; whether the metrics count it as a watch
+///   open(wake), close   start and end of the calls to `wake` on changes
+///   next, has_more      the next message, if there is one; whether it is available without waiting for the disk
+///   ended               whether the last message was sent
+///   bookmark            message to send after a long idle time; may be absent
+///   resume_advice       how to continue a closed stream, as the end of a sentence
+/// Not thread-safe.
+template <class Source>
+class StreamState {
+ public:
+  using Message = typename Source::Message;
+
+  /// Throws ServiceError (exhausted) if the caller, or all callers, have too many open streams.
+  StreamState(const StreamParts& parts, const std::string& caller, std::unique_ptr<Source> source)
+      : parts_(parts), permit_(parts.limits.admit(caller)), source_(std::move(source)) {
+    if (Source::kIsWatch) parts_.metrics.count_watcher(1);
+  }
+  ~StreamState() {
+    if (Source::kIsWatch) parts_.metrics.count_watcher(-1);
+  }
+  StreamState(const StreamState&) = delete;
+  StreamState& operator=(const StreamState&) = delete;
+
+  Source& source() { return *source_; }
+
+  /// The next message; nothing if there is none now, or if the stream has ended: then `status` says how.
+  std::optional<Message> next() {
+    try {
+      auto out = source_->next();
+      if (!out && source_->ended()) {
+        status_ = grpc::Status::OK;
+      } else if (!out && parts_.pump.draining()) {
+        status_ = {grpc::StatusCode::UNAVAILABLE,
+                   "The daemon is shutting down. Ask again " + source_->resume_advice() + " after it restarts."};
+      } else if (!out && Clock::now() - last_write_ >= parts_.times.bookmark_interval) {
+        out = source_->bookmark();
+      }
+      return out;
+    } catch (const std::exception& error) {
+      status_ = status_of(error);
+      return std::nullopt;
+    }
+  }
+
+  [[nodiscard]] const std::optional<grpc::Status>& status() const { return status_; }
+
+  /// Messages of that many bytes are being sent. False if all streams together would hold too many bytes: the stream
+  /// then ends.
+  bool begin_write(std::size_t bytes) {
+    try {
+      permit_.hold(bytes);
+    } catch (const std::exception& error) {
+      status_ = status_of(error);
+      return false;
+    }
+    last_write_ = Clock::now();
+    return true;
+  }
+
+  /// Whether the client has left a message unread for too long: longer than patience, and `more`.
+  [[nodiscard]] bool is_stuck(std::chrono::milliseconds more = {}) const {
+    return Clock::now() - last_write_ > parts_.times.patience + more;
+  }
+  [[nodiscard]] bool is_to_be_abandoned() const { return is_stuck(parts_.times.grace); }
+
+  [[nodiscard]] grpc::Status status_of_stuck() const {
+    const auto seconds = std::chrono::duration<double>(parts_.times.patience).count();
+    return {grpc::StatusCode::RESOURCE_EXHAUSTED, "The client read nothing from this stream for " +
+                                                      jobs::text_of(seconds) +
+                                                      " s, so the stream was closed. Ask again " +
+                                                      source_->resume_advice() + ", and read messages without delay."};
+  }
+
+  void count_skipped(const Message& message) {
+    if (const int skipped = skipped_before(message); skipped > 0) parts_.metrics.count_skipped_frames(skipped);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  StreamParts parts_;
+  StreamLimits::Permit permit_;
+  std::unique_ptr<Source> source_;
+  std::optional<grpc::Status> status_;
+  Clock::time_point last_write_ = Clock::now();
+};
+
+}  // namespace cellcrush::rpc

@@ -1,0 +1,184 @@
+#include "rpc/source_stream.h"
+
+#include <gmock/gmock.h>
+
+#include <atomic>
+#include <future>
+
+#include "cellcrush/v1/jobs_service.pb.h"
+#include "error.h"
+#include "rpc/stream_table.h"
+
+namespace cellcrush::rpc {
+namespace {
+
+using ::testing::HasSubstr;
+using Batch = MessageStream::Batch;
+
+constexpr std::size_t kMessage = 1000;  // bytes of data
+constexpr const char* kPath = "/cellcrush.v1.Jobs/DownloadResult";
+
+/// What the tests do to a source, and what they see of it.
+struct Tap {
+  std::atomic<int> left = 0;  ///< messages
+  std::atomic<int> given = 0;
+  std::atomic<bool> is_open = false;
+  std::function<void()> wake;
+};
+
+class TapSource {
+ public:
+  using Message = v1::DownloadResultResponse;
+  static constexpr bool kIsWatch = true;
+
+  explicit TapSource(Tap& tap) : tap_(tap) {}
+  void open(std::function<void()> wake) {
+    tap_.wake = std::move(wake);
+    tap_.is_open = true;
+  }
+  void close() { tap_.is_open = false; }
+  std::optional<Message> next() {
+    if (tap_.left <= 0) return std::nullopt;
+    --tap_.left;
+    Message out;
+    out.set_offset(++tap_.given);
+    out.set_data(std::string(kMessage, 'x'));
+    return out;
+  }
+  [[nodiscard]] bool has_more() const { return false; }
+  [[nodiscard]] bool ended() const { return tap_.left < 0; }
+  [[nodiscard]] std::optional<Message> bookmark() const { return std::nullopt; }
+  [[nodiscard]] std::string resume_advice() const { return "with the next offset"; }
+
+ private:
+  Tap& tap_;
+};
+
+class SourceStreamTest : public ::testing::Test {
+ protected:
+  SourceStreamTest() {
+    table_.add<TapSource, v1::DownloadResultRequest>(
+        kPath, {pump_, metrics_, limits_, {{}, kPatience, {}}}, [this](const v1::DownloadResultRequest& request) {
+          if (request.offset() < 0) {
+            throw ServiceError(ServiceError::Kind::out_of_range, "There is no such byte.");
+          }
+          return std::make_unique<TapSource>(tap_);
+        });
+  }
+
+  std::shared_ptr<MessageStream> open(std::string message = "") {
+    return table_.open({kPath, std::move(message), "anna", [](const google::protobuf::Message& each, std::string& to) {
+                          to += each.SerializeAsString();
+                        }});
+  }
+
+  static std::future<Batch> ask(MessageStream& stream) {
+    auto promise = std::make_shared<std::promise<Batch>>();
+    auto out = promise->get_future();
+    stream.ask([promise](Batch batch) { promise->set_value(std::move(batch)); });
+    return out;
+  }
+
+  static Batch next(MessageStream& stream) { return ask(stream).get(); }
+
+  // Waits at most 10 s.
+  template <class Condition>
+  static bool comes_true(const Condition& condition) {
+    for (int i = 0; i < 1000 && !condition(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    return condition();
+  }
+
+  static constexpr std::chrono::milliseconds kPatience{300};
+  Tap tap_;
+  metrics::Metrics metrics_;
+  StreamLimits limits_{{10, 2, 100'000'000}};
+  watch::Pump pump_{2};
+  StreamTable table_{pump_};
+};
+
+TEST_F(SourceStreamTest, NoMoreIsMadeThanIsAskedFor) {
+  tap_.left = 1000;
+  const auto stream = open();
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  EXPECT_EQ(tap_.given, 0);
+  const auto first = next(*stream);
+  EXPECT_LT(first.bytes.size(), 70'000U);
+  const int given = tap_.given;
+  EXPECT_GT(given, 50);
+  EXPECT_LT(given, 70);
+  tap_.wake();
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  EXPECT_EQ(tap_.given, given);
+  std::size_t bytes = first.bytes.size();
+  while (tap_.left > 0) bytes += next(*stream).bytes.size();
+  EXPECT_EQ(tap_.given, 1000);
+  EXPECT_GT(bytes, 1000 * kMessage);
+  stream->cancel();
+}
+
+TEST_F(SourceStreamTest, ABatchComesOnceThereIsSomething) {
+  const auto stream = open();
+  auto batch = ask(*stream);
+  ASSERT_TRUE(comes_true([&] { return tap_.is_open.load(); }));
+  EXPECT_EQ(batch.wait_for(std::chrono::milliseconds(50)), std::future_status::timeout);
+  tap_.left = 3;
+  tap_.wake();
+  v1::DownloadResultResponse last;
+  ASSERT_TRUE(last.ParseFromString(batch.get().bytes));
+  EXPECT_EQ(last.offset(), 3);
+  auto end = ask(*stream);
+  tap_.left = -1;
+  tap_.wake();
+  EXPECT_TRUE(end.get().end->ok());
+  EXPECT_FALSE(tap_.is_open);
+}
+
+TEST_F(SourceStreamTest, AClientThatReadsNothingLosesItsStreamButNotTheReason) {
+  tap_.left = 1;
+  const auto stream = open();
+  EXPECT_FALSE(next(*stream).bytes.empty());
+  EXPECT_EQ(limits_.count(), 1U);
+  EXPECT_TRUE(comes_true([&] { return limits_.count() == 0; }));
+  EXPECT_FALSE(tap_.is_open);
+  const auto end = next(*stream).end;
+  ASSERT_TRUE(end);
+  EXPECT_EQ(end->error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
+  EXPECT_THAT(end->error_message(), HasSubstr("Ask again with the next offset"));
+}
+
+TEST_F(SourceStreamTest, ACancelledStreamIsClosedAndDeliversNothing) {
+  const auto stream = open();
+  auto batch = ask(*stream);
+  ASSERT_TRUE(comes_true([&] { return tap_.is_open.load(); }));
+  stream->cancel();
+  EXPECT_FALSE(tap_.is_open);
+  EXPECT_EQ(limits_.count(), 0U);
+  EXPECT_THROW(batch.get(), std::future_error) << "Nobody keeps the promise.";
+}
+
+TEST_F(SourceStreamTest, RefusalsEndTheStream) {
+  EXPECT_EQ(next(*open("\xff")).end->error_code(), grpc::StatusCode::INVALID_ARGUMENT);
+  v1::DownloadResultRequest before;
+  before.set_offset(-1);
+  EXPECT_EQ(next(*open(before.SerializeAsString())).end->error_code(), grpc::StatusCode::OUT_OF_RANGE);
+  tap_.left = 1000;
+  const auto first = open();
+  const auto second = open();
+  next(*first);
+  next(*second);
+  EXPECT_THAT(next(*open()).end->error_message(), HasSubstr("anna has 2 streams open"));
+  first->cancel();
+  second->cancel();
+  EXPECT_FALSE(table_.open({"/cellcrush.v1.Jobs/GetJob", "", "anna", {}}));
+}
+
+TEST_F(SourceStreamTest, StreamsEndWithTheDaemon) {
+  const auto stream = open();
+  auto batch = ask(*stream);
+  ASSERT_TRUE(comes_true([&] { return tap_.is_open.load(); }));
+  pump_.drain();
+  EXPECT_EQ(batch.get().end->error_code(), grpc::StatusCode::UNAVAILABLE);
+}
+
+}  // namespace
+}  // namespace cellcrush::rpc
