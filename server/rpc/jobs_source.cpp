@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <chrono>
 #include <utility>
 
 #include "error.h"
@@ -102,7 +103,7 @@ std::optional<JobsSource::Message> JobsSource::next() {
 }
 
 std::optional<JobsSource::Message> JobsSource::next_change() {
-  if (changes_.empty()) {
+  if (changes_.empty() && parts_.changes.has_after(after_, stamp())) {
     const auto read = parts_.changes.after(after_, kChangesAtOnce);
     changes_.assign(read.begin(), read.end());
   }
@@ -116,6 +117,11 @@ std::optional<JobsSource::Message> JobsSource::next_change() {
     return out;
   }
   return std::nullopt;
+}
+
+store::ChangeReader::Stamp JobsSource::stamp() const {
+  const auto now = std::chrono::steady_clock::now().time_since_epoch();
+  return {parts_.hub.stamp(), std::chrono::duration_cast<std::chrono::seconds>(now).count()};
 }
 
 // A retry of many jobs changes their sweep as often; the last time says it all.

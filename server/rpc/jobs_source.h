@@ -54,6 +54,7 @@ class JobsSource {
   [[nodiscard]] std::string token() const;
   std::int64_t change_in(const std::string& token) const;
   std::optional<Message> next_change();
+  [[nodiscard]] store::ChangeReader::Stamp stamp() const;
   [[nodiscard]] bool is_repeated(const store::Change& change) const;
   std::optional<Message> message_of(const store::Change& change);
   std::optional<Message> next_watched();

@@ -6,6 +6,19 @@ ChangeReader::ChangeReader(const std::filesystem::path& path) : database_(path) 
 
 std::int64_t ChangeReader::last() {
   const MutexLock lock(mutex_);
+  return read_last();
+}
+
+bool ChangeReader::has_after(std::int64_t change, const Stamp& stamp) {
+  const MutexLock lock(mutex_);
+  if (stamp_ != stamp) {
+    last_ = read_last();
+    stamp_ = stamp;
+  }
+  return last_ > change;
+}
+
+std::int64_t ChangeReader::read_last() {
   Statement read(database_, "SELECT COALESCE(MAX(number), 0) FROM changes");
   return read.step() ? read.integer(0) : 0;
 }

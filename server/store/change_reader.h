@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "mutex.h"
@@ -24,6 +26,9 @@ struct Change {
 /// throw ServiceError.
 class ChangeReader {
  public:
+  /// Count of the announcements of changes, and the time, s: not every change of a sweep is announced.
+  using Stamp = std::pair<std::uint64_t, std::int64_t>;
+
   /// REQUIRES: a Journal was opened on the same path.
   explicit ChangeReader(const std::filesystem::path& path);
 
@@ -33,12 +38,20 @@ class ChangeReader {
   /// Whether all changes after this one are still there.
   bool has_all_after(std::int64_t change);
 
+  /// Whether there are changes after this one. The journal is read only if `stamp` is another one than in the last
+  /// call, and so once for all callers that have seen the same announcements.
+  bool has_after(std::int64_t change, const Stamp& stamp);
+
   /// Up to `limit` changes after this one, in order.
   std::vector<Change> after(std::int64_t change, int limit);
 
  private:
+  std::int64_t read_last() CELLCRUSH_REQUIRES(mutex_);
+
   Mutex mutex_;
   Database database_ CELLCRUSH_GUARDED_BY(mutex_);
+  std::optional<Stamp> stamp_ CELLCRUSH_GUARDED_BY(mutex_);  ///< of the last look
+  std::int64_t last_ CELLCRUSH_GUARDED_BY(mutex_) = 0;       ///< change then
 };
 
 }  // namespace cellcrush::store

@@ -1,5 +1,6 @@
 #include "watch/hub.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace cellcrush::watch {
@@ -34,9 +35,15 @@ void Channel::forget() {
   newest_.frame.reset();
 }
 
-void Channel::announce() {
+void Channel::announce(std::uint64_t stamp) {
   const MutexLock lock(mutex_);
+  stamp_ = std::max(stamp_, stamp);
   for (const auto& [id, watcher] : watchers_) watcher.wake();
+}
+
+std::uint64_t Channel::stamp() const {
+  const MutexLock lock(mutex_);
+  return stamp_;
 }
 
 Channel::Newest Channel::newest() const {
@@ -68,7 +75,7 @@ std::shared_ptr<Channel> Hub::open(std::int64_t job) {
     std::erase_if(channels_, [](const auto& entry) { return entry.second.expired(); });
     kept_ = channels_.size();
   }
-  auto channel = std::make_shared<Channel>();
+  auto channel = std::make_shared<Channel>(stamp_);
   channels_[job] = channel;
   return channel;
 }
@@ -89,7 +96,9 @@ std::vector<std::pair<std::int64_t, std::shared_ptr<Channel>>> Hub::channels() {
 }
 
 void Hub::announce(std::int64_t job) {
-  if (const auto channel = find(job)) channel->announce();
+  // Counted before the channel is looked up: one that is opened meanwhile begins with this stamp.
+  const std::uint64_t stamp = ++stamp_;
+  if (const auto channel = find(job)) channel->announce(stamp);
   const MutexLock lock(watchers_mutex_);
   for (const auto& [id, wake] : watchers_) wake();
 }

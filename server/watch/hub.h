@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -11,6 +12,7 @@
 #include "cellcrush/v1/sample.pb.h"
 #include "mutex.h"
 #include "watch/published_frame.h"
+#include "watch/recent_events.h"
 
 namespace cellcrush::watch {
 
@@ -30,14 +32,19 @@ class Channel {
     std::uint64_t frame_count = 0;
   };
 
+  explicit Channel(std::uint64_t stamp) : stamp_(stamp) {}
+
   void publish(v1::Mesh mesh);
   void publish(v1::Progress progress);
   /// Ignores a frame that is not newer than the newest: a worker that resumes from a checkpoint resends some.
   void publish(v1::FieldFrame frame);
   /// The job restarts from step 0: drops what was published.
   void forget();
-  /// Announces new durable events in the journal.
-  void announce();
+  /// Announces new durable events in the journal; `stamp` is greater than any before.
+  void announce(std::uint64_t stamp);
+
+  /// Stamp of the last announcement: as long as it is the same, the journal has no new events of the job.
+  [[nodiscard]] std::uint64_t stamp() const;
 
   [[nodiscard]] Newest newest() const;
 
@@ -57,6 +64,7 @@ class Channel {
 
   mutable Mutex mutex_;
   Newest newest_ CELLCRUSH_GUARDED_BY(mutex_);
+  std::uint64_t stamp_ CELLCRUSH_GUARDED_BY(mutex_);
   std::map<std::uint64_t, Watcher> watchers_ CELLCRUSH_GUARDED_BY(mutex_);
   std::uint64_t next_id_ CELLCRUSH_GUARDED_BY(mutex_) = 1;
 };
@@ -73,11 +81,18 @@ class Hub {
   /// Announces to the job's channel, if there is one, and to those who watch all jobs.
   void announce(std::int64_t job);
 
+  /// Counts the announcements of all jobs.
+  [[nodiscard]] std::uint64_t stamp() const { return stamp_; }
+
+  RecentEvents& recent() { return recent_; }
+
   /// Has `wake` called whenever a job has new durable events. Works like those of Channel.
   std::uint64_t subscribe(Channel::Wake wake);
   void unsubscribe(std::uint64_t id);
 
  private:
+  RecentEvents recent_;
+  std::atomic<std::uint64_t> stamp_ = 0;
   Mutex mutex_;
   std::map<std::int64_t, std::weak_ptr<Channel>> channels_ CELLCRUSH_GUARDED_BY(mutex_);
   std::size_t kept_ CELLCRUSH_GUARDED_BY(mutex_) = 0;  ///< channels when expired ones were last removed

@@ -6,7 +6,7 @@ namespace cellcrush::watch {
 
 JobSource::JobSource(store::JournalReader& journal, Hub& hub, std::int64_t job, std::int64_t after,
                      WatchCursor::Wanted wanted)
-    : channel_(hub.open(job)), frames_(wanted.frames), cursor_(journal, job, channel_, after, wanted) {}
+    : channel_(hub.open(job)), frames_(wanted.frames), cursor_(journal, hub, job, after, wanted) {}
 
 void JobSource::open(std::function<void()> wake) { subscription_ = channel_->subscribe(std::move(wake), frames_); }
 

@@ -39,7 +39,7 @@ std::optional<std::size_t> SweepSource::News::take() {
 
 SweepSource::SweepSource(store::JournalReader& journal, store::SweepReader& sweeps, Hub& hub, std::int64_t sweep,
                          const std::string& resume_token)
-    : journal_(journal), sweeps_(sweeps), sweep_(sweep) {
+    : journal_(journal), sweeps_(sweeps), hub_(hub), sweep_(sweep) {
   std::map<std::int64_t, JobPlace> given;
   if (!resume_token.empty()) given = places_in(resume_token);
   auto jobs = sweeps.jobs_of(sweep);
@@ -115,8 +115,7 @@ std::optional<v1::WatchSweepResponse> SweepSource::next_of(std::size_t position)
   auto& cursor = members_[position].cursor;
   try {
     if (!cursor) {
-      cursor.emplace(journal_, place.job, members_[position].channel, place.sequence,
-                     WatchCursor::Wanted{false, false});
+      cursor.emplace(journal_, hub_, place.job, place.sequence, WatchCursor::Wanted{false, false});
     }
     auto event = cursor->next();
     has_more_ = cursor->has_more();

@@ -77,6 +77,7 @@ class SweepSource {
 
   store::JournalReader& journal_;
   store::SweepReader& sweeps_;
+  Hub& hub_;
   std::int64_t sweep_;
   std::vector<JobPlace> places_;  ///< of all jobs, in ascending order
   std::vector<Member> members_;   ///< parallel to places_

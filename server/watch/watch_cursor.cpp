@@ -13,23 +13,16 @@
 namespace cellcrush::watch {
 namespace {
 
-constexpr int kEventsAtOnce = 256;
-
-ServiceError no_such(std::int64_t job) {
-  return {ServiceError::Kind::not_found, "There is no " + store::name_of(job) + "."};
-}
-
 store::StoredJob find_job(store::JournalReader& journal, std::int64_t job) {
   auto found = journal.find_job(job);
-  if (!found) throw no_such(job);
+  if (!found) throw ServiceError(ServiceError::Kind::not_found, "There is no " + store::name_of(job) + ".");
   return *std::move(found);
 }
 
 }  // namespace
 
-WatchCursor::WatchCursor(store::JournalReader& journal, std::int64_t job, std::shared_ptr<const Channel> channel,
-                         std::int64_t after, Wanted wanted)
-    : journal_(journal), job_(job), channel_(std::move(channel)), after_(after), wanted_(wanted) {
+WatchCursor::WatchCursor(store::JournalReader& journal, Hub& hub, std::int64_t job, std::int64_t after, Wanted wanted)
+    : journal_(journal), recent_(hub.recent()), job_(job), channel_(hub.open(job)), after_(after), wanted_(wanted) {
   const auto stored = find_job(journal_, job_);
   if (after < 0) {
     throw ServiceError(ServiceError::Kind::invalid,
@@ -54,19 +47,16 @@ std::optional<v1::JobEvent> WatchCursor::next() {
   // The journal is read before the channel, so that progress and frames from before a job's end precede its last event.
   // Not between the parts of a frame, which are already in memory.
   if (events_.empty() && parts_.empty()) {
-    auto read = journal_.events(job_, after_, kEventsAtOnce);
-    events_.assign(std::make_move_iterator(read.begin()), std::make_move_iterator(read.end()));
+    const auto read = recent_.after(journal_, job_, after_, channel_->stamp());
+    events_.assign(read.begin(), read.end());
   }
   // A mesh is published before the first sample is durable, and comes before it.
-  if (parts_.empty() && !events_.empty() && events_.front().has_sample()) {
+  if (parts_.empty() && !events_.empty() && events_.front()->has_sample()) {
     if (auto part = mesh_part()) return part;
   }
   if (auto event = transient()) return event;
-  if (events_.empty()) {
-    if (!journal_.has_job(job_)) throw no_such(job_);
-    return std::nullopt;
-  }
-  v1::JobEvent event = std::move(events_.front());
+  if (events_.empty()) return std::nullopt;
+  v1::JobEvent event = *events_.front();
   events_.pop_front();
   after_ = event.sequence();
   ended_ = event.has_state() && store::is_terminal(event.state().state());

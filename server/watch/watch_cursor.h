@@ -11,8 +11,8 @@
 
 namespace cellcrush::watch {
 
-/// One watcher's position in the events of a job. It reads the journal by sequence number, so that a slow watcher
-/// delays nobody and costs no memory. Not thread-safe.
+/// One watcher's position in the events of a job. It reads them by sequence number, from RecentEvents, so that a slow
+/// watcher delays nobody and costs no memory. Not thread-safe.
 class WatchCursor {
  public:
   /// What to send beside states, samples and progress.
@@ -24,8 +24,7 @@ class WatchCursor {
 
   /// Events up to `after` are not sent again. Throws ServiceError: invalid for a negative `after`, out_of_range if the
   /// job has no such event yet, not_found if there is no such job.
-  WatchCursor(store::JournalReader& journal, std::int64_t job, std::shared_ptr<const Channel> channel,
-              std::int64_t after, Wanted wanted);
+  WatchCursor(store::JournalReader& journal, Hub& hub, std::int64_t job, std::int64_t after, Wanted wanted);
 
   /// The next message: a snapshot, then states and samples in order, interleaved with the mesh and the newest progress
   /// and frame.
@@ -53,14 +52,15 @@ class WatchCursor {
   void queue_frame(const v1::FieldFrame& frame);
 
   store::JournalReader& journal_;
+  RecentEvents& recent_;
   std::int64_t job_;
   std::shared_ptr<const Channel> channel_;
   std::int64_t after_;  ///< sequence number of the last state or sample sent
   Wanted wanted_;
   bool snapshot_sent_ = false;
   bool ended_ = false;
-  std::deque<v1::JobEvent> events_;   ///< read from the journal, not sent yet
-  std::deque<v1::FrameChunk> parts_;  ///< of the frame being sent
+  std::deque<RecentEvents::Event> events_;  ///< read, not sent yet
+  std::deque<v1::FrameChunk> parts_;        ///< of the frame being sent
   std::deque<v1::MeshChunk> mesh_parts_;
   bool mesh_queued_ = false;
   bool mesh_looked_up_ = false;       ///< in the journal, for a job whose mesh was built before the watch

@@ -13,7 +13,7 @@ namespace {
 class WatchCursorTest : public ::testing::Test {
  protected:
   WatchCursor cursor(std::int64_t after = 0, bool frames = true) {
-    return {reader_, job_, hub_.open(job_), after, {frames, true, v1::FieldFrame::NUMBERS}};
+    return {reader_, hub_, job_, after, {frames, true, v1::FieldFrame::NUMBERS}};
   }
 
   void change(v1::Job::State state) {
@@ -136,7 +136,7 @@ TEST_F(WatchCursorTest, AFrameWakesOnlyThoseWhoWantFrames) {
   EXPECT_EQ(plain, 0);
   EXPECT_EQ(framed, 1);
   channel->publish(v1::Progress());
-  channel->announce();
+  hub_.announce(job_);
   EXPECT_EQ(plain, 2);
   EXPECT_EQ(framed, 3);
   channel->unsubscribe(first);
