@@ -36,7 +36,7 @@ namespace {
 // Health service name of the queue; not serving while it is held.
 constexpr const char* kQueueHealth = "cellcrush.queue";
 constexpr int kPumpThreads = 2;
-constexpr int kHttpPumpThreads = 1;  // JSON is slow to make, and delays streams over HTTP only
+constexpr int kHttpPumpThreads = 2;  // JSON is slow to make, and delays streams over HTTP only
 constexpr int kCheckThreads = 12;    // threads for large cases; they wait for each other
 constexpr std::size_t kWaitingCalls = 10'000;
 
