@@ -66,6 +66,7 @@ class SourceStream final : public MessageStream, public std::enable_shared_from_
   void fill(Batch& batch) CELLCRUSH_REQUIRES(mutex_) {
     try {
       if (!status_ && !state_) open();
+      if (state_) state_->end_write();
       while (!status_ && batch.bytes.size() < kBatchBytes) {
         const auto next = state_->next();
         if (!next) {
@@ -75,7 +76,11 @@ class SourceStream final : public MessageStream, public std::enable_shared_from_
         encode_(*next, batch.bytes);
         state_->count_skipped(*next);
       }
-      if (!batch.bytes.empty()) delay_.end(parts_.metrics);
+      if (batch.bytes.empty()) {
+        batch.end = status_;
+        return;
+      }
+      delay_.end(parts_.metrics);
       if (!status_ && !state_->begin_write(batch.bytes.size())) {
         batch.bytes.clear();
         finish(grpc::Status(*state_->status()));

@@ -121,6 +121,9 @@ class StreamState {
     return true;
   }
 
+  /// They were sent.
+  void end_write() { permit_.hold(0); }
+
   /// Whether the client has left a message unread for too long: longer than patience, and `more`.
   [[nodiscard]] bool is_stuck(std::chrono::milliseconds more = {}) const {
     return Clock::now() - last_write_ > parts_.times.patience + more;

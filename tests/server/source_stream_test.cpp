@@ -17,6 +17,7 @@ namespace {
 using ::testing::HasSubstr;
 using Batch = MessageStream::Batch;
 
+constexpr int kBookmark = 77;
 constexpr std::size_t kMessage = 1000;  // bytes of data
 constexpr const char* kPath = "/cellcrush.v1.Jobs/DownloadResult";
 
@@ -49,7 +50,11 @@ class TapSource {
   }
   [[nodiscard]] bool has_more() const { return false; }
   [[nodiscard]] bool ended() const { return tap_.left < 0; }
-  [[nodiscard]] std::optional<Message> bookmark() const { return std::nullopt; }
+  [[nodiscard]] Message bookmark() const {
+    Message out;
+    out.set_offset(kBookmark);
+    return out;
+  }
   [[nodiscard]] std::string resume_advice() const { return "with the next offset"; }
 
  private:
@@ -59,13 +64,14 @@ class TapSource {
 class SourceStreamTest : public ::testing::Test {
  protected:
   SourceStreamTest() {
-    table_.add<TapSource, v1::DownloadResultRequest>(
-        kPath, {pump_, metrics_, limits_, {{}, kPatience, {}}}, [this](const v1::DownloadResultRequest& request) {
-          if (request.offset() < 0) {
-            throw ServiceError(ServiceError::Kind::out_of_range, "There is no such byte.");
-          }
-          return std::make_unique<TapSource>(tap_);
-        });
+    table_.add<TapSource, v1::DownloadResultRequest>(kPath, {pump_, metrics_, limits_, {kUntilBookmark, kPatience, {}}},
+                                                     [this](const v1::DownloadResultRequest& request) {
+                                                       if (request.offset() < 0) {
+                                                         throw ServiceError(ServiceError::Kind::out_of_range,
+                                                                            "There is no such byte.");
+                                                       }
+                                                       return std::make_unique<TapSource>(tap_);
+                                                     });
   }
 
   std::shared_ptr<MessageStream> open(std::string message = "") {
@@ -91,6 +97,7 @@ class SourceStreamTest : public ::testing::Test {
   }
 
   static constexpr std::chrono::milliseconds kPatience{300};
+  static constexpr std::chrono::milliseconds kUntilBookmark{1500};
   Tap tap_;
   metrics::Metrics metrics_;
   StreamLimits limits_{{10, 2, 100'000'000}};
@@ -172,6 +179,16 @@ TEST_F(SourceStreamTest, RefusalsEndTheStream) {
   first->cancel();
   second->cancel();
   EXPECT_FALSE(table_.open({"/cellcrush.v1.Jobs/GetJob", "", "anna", {}}));
+}
+
+TEST_F(SourceStreamTest, AnIdleStreamGetsABookmark) {
+  const auto stream = open();
+  auto batch = ask(*stream);
+  ASSERT_EQ(batch.wait_for(std::chrono::seconds(20)), std::future_status::ready);
+  v1::DownloadResultResponse got;
+  ASSERT_TRUE(got.ParseFromString(batch.get().bytes));
+  EXPECT_EQ(got.offset(), kBookmark);
+  stream->cancel();
 }
 
 TEST_F(SourceStreamTest, StreamsEndWithTheDaemon) {
