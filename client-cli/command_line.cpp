@@ -62,6 +62,7 @@ ExitCode run_command_line(int argc, char** argv) {
   add_fetch_command(app, session);
   add_plot_command(app, session);
   add_movie_command(app, session);
+  add_export_command(app, session);
   add_queue_commands(app, session);
   add_sweep_commands(app, session);
   add_converge_command(app, session);

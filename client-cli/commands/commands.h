@@ -68,6 +68,7 @@ void add_delete_command(CLI::App& app, Session& session);
 void add_fetch_command(CLI::App& app, Session& session);
 void add_plot_command(CLI::App& app, Session& session);
 void add_movie_command(CLI::App& app, Session& session);
+void add_export_command(CLI::App& app, Session& session);
 void add_queue_commands(CLI::App& app, Session& session);  ///< queue, drain
 void add_sweep_commands(CLI::App& app, Session& session);  ///< sweep, retry
 void add_converge_command(CLI::App& app, Session& session);

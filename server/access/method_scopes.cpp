@@ -27,6 +27,7 @@ constexpr std::array kScopeEntries = {
     ScopeEntry{"/cellcrush.v1.Jobs/CreateJob", Scope::submit},
     ScopeEntry{"/cellcrush.v1.Jobs/DeleteJob", Scope::submit},
     ScopeEntry{"/cellcrush.v1.Jobs/DownloadResult", Scope::read},
+    ScopeEntry{"/cellcrush.v1.Jobs/ExportJob", Scope::read},
     ScopeEntry{"/cellcrush.v1.Jobs/GetFrame", Scope::read},
     ScopeEntry{"/cellcrush.v1.Jobs/GetHistory", Scope::read},
     ScopeEntry{"/cellcrush.v1.Jobs/GetJob", Scope::read},

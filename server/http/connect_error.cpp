@@ -1,11 +1,10 @@
 #include "http/connect_error.h"
 
-#include <openssl/evp.h>
-
 #include <array>
 #include <cstdio>
 
 #include "google/rpc/status.pb.h"
+#include "http/base64.h"
 
 namespace cellcrush::http {
 namespace {
@@ -59,10 +58,7 @@ std::string quoted(const std::string& text) {
 }
 
 std::string unpadded_base64(const std::string& bytes) {
-  std::string out(4 * ((bytes.size() + 2) / 3) + 1, '\0');  // OpenSSL ends it with a zero
-  out.resize(static_cast<std::size_t>(EVP_EncodeBlock(reinterpret_cast<unsigned char*>(out.data()),
-                                                      reinterpret_cast<const unsigned char*>(bytes.data()),
-                                                      static_cast<int>(bytes.size()))));
+  std::string out = base64_of(bytes);
   while (out.ends_with('=')) out.pop_back();
   return out;
 }

@@ -1,6 +1,7 @@
 #include "jobs/frame_series.h"
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -28,7 +29,8 @@ class FramesOfResult final : public FrameSeries {
 // A worker that resumes reports some frames again; the first report of each counts.
 class FramesOfReports final : public FrameSeries {
  public:
-  explicit FramesOfReports(const std::filesystem::path& path) : path_(path), reader_(path) {
+  explicit FramesOfReports(const std::filesystem::path& path)
+      : path_(path), reader_(std::make_unique<worker::ReportLogReader>(path)) {
     worker::ReportLogReader reader(path);
     worker::Report report;
     while (reader.read(report) == worker::ReportLogReader::Read::message) {
@@ -41,8 +43,11 @@ class FramesOfReports final : public FrameSeries {
 
   v1::FieldFrame frame(int index) override {
     worker::Report report;
-    while (reader_.read(report) == worker::ReportLogReader::Read::message) {
-      if (report.has_frame() && report.frame().index() == index) return std::move(*report.mutable_frame());
+    if (index < next_) reader_ = std::make_unique<worker::ReportLogReader>(path_);
+    while (reader_->read(report) == worker::ReportLogReader::Read::message) {
+      if (!report.has_frame() || report.frame().index() != index) continue;
+      next_ = index + 1;
+      return std::move(*report.mutable_frame());
     }
     throw ServiceError(ServiceError::Kind::data_loss, "Frame " + std::to_string(index) +
                                                           " can no longer be read from " + path_.string() +
@@ -51,7 +56,8 @@ class FramesOfReports final : public FrameSeries {
 
  private:
   std::filesystem::path path_;
-  worker::ReportLogReader reader_;
+  std::unique_ptr<worker::ReportLogReader> reader_;
+  int next_ = 0;  ///< index after that of the last frame
   v1::StreamFramesResponse::FrameTimes times_;
 };
 

@@ -204,6 +204,11 @@ std::unique_ptr<DownloadSource> JobsService::download(const v1::DownloadResultRe
   return std::make_unique<DownloadSource>(parts_.folder.job_folder(stored.number).result(), request.offset());
 }
 
+std::unique_ptr<ExportSource> JobsService::export_job(const v1::ExportJobRequest& request) {
+  return std::make_unique<ExportSource>(ExportSource::Parts{parts_.folder, parts_.reader, parts_.places},
+                                        find(request.name()), request);
+}
+
 template <class Source, class Request>
 grpc::ServerWriteReactor<typename Source::Message>* JobsService::open(
     grpc::CallbackServerContext& context, const Request& request,
@@ -238,6 +243,11 @@ grpc::ServerWriteReactor<v1::DownloadResultResponse>* JobsService::DownloadResul
   return open(*context, *request, &JobsService::download);
 }
 
+grpc::ServerWriteReactor<v1::ExportJobResponse>* JobsService::ExportJob(grpc::CallbackServerContext* context,
+                                                                        const v1::ExportJobRequest* request) {
+  return open(*context, *request, &JobsService::export_job);
+}
+
 void JobsService::add_streams(StreamTable& table) {
   const auto add = [&]<class Source, class Request>(const char* method,
                                                     std::unique_ptr<Source> (JobsService::*make)(const Request&)) {
@@ -249,6 +259,7 @@ void JobsService::add_streams(StreamTable& table) {
   add("StreamFrames", &JobsService::stream_frames);
   add("GetFrame", &JobsService::get_frame);
   add("DownloadResult", &JobsService::download);
+  add("ExportJob", &JobsService::export_job);
 }
 
 grpc::ServerUnaryReactor* JobsService::GetHistory(grpc::CallbackServerContext* context,

@@ -8,6 +8,7 @@
 #include "jobs/scheduler.h"
 #include "rpc/call_pool.h"
 #include "rpc/download_source.h"
+#include "rpc/export_source.h"
 #include "rpc/frame_series_source.h"
 #include "rpc/frame_source.h"
 #include "rpc/jobs_source.h"
@@ -72,6 +73,8 @@ class JobsService final : public v1::Jobs::CallbackService {
                                                            const v1::GetFrameRequest* request) override;
   grpc::ServerWriteReactor<v1::DownloadResultResponse>* DownloadResult(
       grpc::CallbackServerContext* context, const v1::DownloadResultRequest* request) override;
+  grpc::ServerWriteReactor<v1::ExportJobResponse>* ExportJob(grpc::CallbackServerContext* context,
+                                                             const v1::ExportJobRequest* request) override;
 
   /// Its streams. The service outlives the table.
   void add_streams(StreamTable& table);
@@ -83,6 +86,7 @@ class JobsService final : public v1::Jobs::CallbackService {
   std::unique_ptr<FrameSeriesSource> stream_frames(const v1::StreamFramesRequest& request);
   std::unique_ptr<FrameSource> get_frame(const v1::GetFrameRequest& request);
   std::unique_ptr<DownloadSource> download(const v1::DownloadResultRequest& request);
+  std::unique_ptr<ExportSource> export_job(const v1::ExportJobRequest& request);
 
   template <class Source, class Request>
   grpc::ServerWriteReactor<typename Source::Message>* open(

@@ -174,6 +174,25 @@ class FakeServer::Jobs : public v1::Jobs::Service {
     return end == file.size() ? grpc::Status::OK : grpc::Status(grpc::StatusCode::UNAVAILABLE, "the script cuts here");
   }
 
+  grpc::Status ExportJob(grpc::ServerContext*, const v1::ExportJobRequest* request,
+                         grpc::ServerWriter<v1::ExportJobResponse>* writer) override {
+    const std::string& page = shared_.script.page;
+    if (page.empty()) return {grpc::StatusCode::FAILED_PRECONDITION, "jobs/test is RUNNING. Wait until it has ended."};
+    {
+      const std::lock_guard lock(shared_.mutex);
+      shared_.asked.max_bytes.push_back(request->max_bytes());
+    }
+    v1::ExportJobResponse chunk;
+    chunk.set_data(page.substr(0, page.size() / 2));
+    writer->Write(chunk);
+    if (shared_.script.cut_export) return {grpc::StatusCode::UNAVAILABLE, "the script cuts here"};
+    chunk.set_data(page.substr(page.size() / 2));
+    chunk.set_frame_count(3);
+    chunk.set_job_frame_count(request->max_bytes() == 0 ? 5 : 3);
+    writer->Write(chunk);
+    return grpc::Status::OK;
+  }
+
  private:
   [[nodiscard]] bool knows(const std::string& name) const { return name == shared_.script.job.name(); }
 

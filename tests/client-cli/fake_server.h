@@ -32,6 +32,8 @@ struct Script {
   std::vector<v1::Sample> samples;
   std::vector<MeshFrame> stages;  ///< ascending in strain; frames are sent in two parts
   std::string result;             ///< result.h5
+  std::string page;               ///< of ExportJob; without one the job has not ended
+  bool cut_export = false;        ///< whether it ends half way
   int cut_downloads = 0;          ///< so many downloads end half way
   bool changes_jobs = false;      ///< whether CancelJob and DeleteJob are there
   int message_limit = 0;          ///< bytes of a request it takes; 0 for gRPC's own limit
@@ -44,6 +46,7 @@ struct Asked {
   std::vector<v1::CreateJobRequest> creates;
   std::vector<std::int64_t> after_sequences;
   std::vector<std::int64_t> offsets;
+  std::vector<std::int64_t> max_bytes;  ///< of ExportJob
   v1::Case checked;
   std::vector<v1::ListJobsRequest> lists;
   std::vector<std::string> cancelled;

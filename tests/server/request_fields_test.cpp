@@ -50,7 +50,7 @@ TEST(RequestFields, NoTextOfARequestNamesAFileOfTheDaemon) {
       "DeleteJobRequest.name", "DeleteSweepRequest.name", "WatchJobRequest.name", "GetHistoryRequest.name",
       "GetFrameRequest.name", "DownloadResultRequest.name", "GetSweepRequest.name", "CancelSweepRequest.name",
       "RetryFailedJobsRequest.name", "WatchSweepRequest.name", "GetSweepTableRequest.name", "GetPresetRequest.name",
-      "GetConvergenceRequest.name", "StreamFramesRequest.name",
+      "GetConvergenceRequest.name", "StreamFramesRequest.name", "ExportJobRequest.name",
       // Of lists, of repeated calls and of resumed watches.
       "ListJobsRequest.page_token", "ListJobsRequest.filter", "ListJobsRequest.order_by", "WatchJobsRequest.filter",
       "WatchJobsRequest.resume_token", "ListSweepsRequest.page_token", "GetHistoryRequest.page_token",

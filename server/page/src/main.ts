@@ -9,6 +9,7 @@ import "./style/sweep.css";
 import "./style/compare.css";
 import "./style/new_case.css";
 import { api } from "./api/clients";
+import { exportedBy, isExported } from "./api/exported";
 import { forgetToken, hasToken } from "./api/token";
 import { watch, type Connection } from "./api/watch";
 import { ComparePage } from "./compare/page";
@@ -16,7 +17,7 @@ import { button, h, setText } from "./dom/element";
 import { JobPage } from "./job/page";
 import { JobsPage } from "./jobs/page";
 import { NewCasePage } from "./new_case/page";
-import { route, startRouter } from "./router";
+import { route, startRouter, valuesOfUrl } from "./router";
 import { SweepPage } from "./sweep/page";
 
 const kConnectionWords: Record<Connection, string> = {
@@ -44,15 +45,25 @@ function topBar(): HTMLElement {
   };
   watch.freshStarts.add(() => void tellVersion().catch(() => undefined));
   return h("header", { class: "top" },
-    h("a", { class: "brand", href: "/" }, h("img", { src: "/icon.svg", alt: "", width: 22, height: 22 }), "cellcrush"),
+    h("a", { class: "brand", href: "/" }, iconOfPage(), "cellcrush"),
     h("nav", {}, h("a", { href: "/" }, "Jobs"), h("a", { href: "/new" }, "New case")),
     h("span", { class: "spacer" }), version,
     hasToken() ? button("Forget the token", forgetToken, { class: "quiet" }) : null, status, retry);
 }
 
-const main = h("main", {});
-document.body.append(h("a", { class: "skip", href: "#main" }, "To the content"), topBar(), main);
-main.id = "main";
+function iconOfPage(): HTMLElement {
+  const { href } = document.querySelector<HTMLLinkElement>("link[rel=icon]")!;
+  return h("img", { src: href, alt: "", width: 22, height: 22 });
+}
+
+// The job of a file that was exported.
+async function showExported(main: HTMLElement): Promise<void> {
+  const top = h("header", { class: "top" }, h("span", { class: "brand" }, iconOfPage(), "cellcrush"),
+    h("span", { class: "spacer" }), h("span", { class: "faint version" }, `exported by ${exportedBy()}`));
+  document.body.append(top, main);
+  const { name } = await api.jobs.getJob({});
+  main.append(new JobPage(name, valuesOfUrl()).element);
+}
 
 route(/^\/$/, (_, query) => new JobsPage(query));
 route(/^\/jobs\/(\d+)$/, (match, query) => new JobPage(`jobs/${match[1]}`, query));
@@ -63,5 +74,12 @@ route(/^/, () => ({
   title: "Not found", destroy: () => undefined,
   element: h("div", { class: "page" }, h("h1", {}, "There is no such page"), h("a", { href: "/" }, "All jobs")),
 }));
-watch.start();
-startRouter(main);
+
+const main = h("main", { id: "main" });
+if (isExported) {
+  void showExported(main);
+} else {
+  document.body.append(h("a", { class: "skip", href: "#main" }, "To the content"), topBar(), main);
+  watch.start();
+  startRouter(main);
+}

@@ -1,4 +1,5 @@
 // Views by path, without loading the page again.
+import { isExported } from "./api/exported";
 
 export interface View {
   readonly element: HTMLElement;
@@ -25,7 +26,7 @@ function show(): void {
   for (const { path, build } of routes) {
     const match = location.pathname.match(path);
     if (!match) continue;
-    current = build(match, new URLSearchParams(location.search));
+    current = build(match, valuesOfUrl());
     break;
   }
   if (current) main.replaceChildren(current.element);
@@ -42,15 +43,22 @@ export function go(path: string): void {
   window.scrollTo(0, 0);
 }
 
-/** Writes values into the query of the URL, without a new entry in the history; undefined removes one. */
+/** The values that the URL holds: in its query or, in a file on disk, behind its #. */
+export function valuesOfUrl(): URLSearchParams {
+  return new URLSearchParams(isExported ? location.hash.slice(1) : location.search);
+}
+
+/** Writes values into the URL, without a new entry in the history; undefined removes one. */
 export function keepInUrl(values: Record<string, string | undefined>): void {
-  const url = new URL(location.href);
+  const kept = valuesOfUrl();
   for (const [key, value] of Object.entries(values)) {
-    if (value === undefined || value === "") url.searchParams.delete(key);
-    else url.searchParams.set(key, value);
+    if (value === undefined || value === "") kept.delete(key);
+    else kept.set(key, value);
   }
-  const text = url.pathname + url.search.replaceAll("%2C", ",").replaceAll("%2F", "/").replaceAll("%3A", ":");
-  if (text !== location.pathname + location.search) history.replaceState(null, "", text);
+  const query = String(kept).replaceAll("%2C", ",").replaceAll("%2F", "/").replaceAll("%3A", ":");
+  const [before, mark] = isExported ? [location.hash, "#"] : [location.search, "?"];
+  const text = query ? mark + query : "";
+  if (text !== before) history.replaceState(null, "", text || (isExported ? "#" : location.pathname));
 }
 
 // Links of the page, unless the user asks for a new tab or window.

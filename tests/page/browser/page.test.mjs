@@ -1,36 +1,24 @@
 // The web page in Debian's Chromium, against a real daemon that crushes real scenes.
 import assert from 'node:assert/strict';
-import { readFileSync } from 'node:fs';
-import { createRequire } from 'node:module';
 import { after, before, test } from 'node:test';
-import { chromium } from 'playwright-core';
+import { launch, openPage, seriousFindings } from './browser.mjs';
 import { Daemon } from './daemon.mjs';
 
-const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 const daemon = new Daemon();
 let browser;
 let page;
-const errors = [];
+let errors;
 
 before(async () => {
   await daemon.start();
-  browser = await chromium.launch({ executablePath: process.env.CHROMIUM, args: ['--no-sandbox'] });
-  page = await browser.newPage({ viewport: { width: 1440, height: 900 } });
-  page.setDefaultTimeout(30000);
-  page.on('pageerror', (error) => errors.push(String(error)));
+  browser = await launch();
+  ({ page, errors } = await openPage(browser));
 });
 
 after(async () => {
   await browser?.close();
   await daemon.remove();
 });
-
-async function seriousFindings() {
-  await page.evaluate(axe);
-  const found = await page.evaluate(() => globalThis.axe.run());
-  const serious = found.violations.filter((each) => each.impact === 'serious' || each.impact === 'critical');
-  return serious.map((each) => `${each.id}: ${each.nodes.map((node) => node.html).join(' ')}`);
-}
 
 test('a job started from the form is watched to its end', async () => {
   await page.goto(daemon.url + '/new');
@@ -79,7 +67,7 @@ test('nothing serious stands in the way of people who cannot see or point', asyn
     for (const path of ['/', '/jobs/1', '/new']) {
       await page.goto(daemon.url + path);
       await page.waitForTimeout(1500);
-      assert.deepEqual(await seriousFindings(), [], `${path}, ${colorScheme}`);
+      assert.deepEqual(await seriousFindings(page), [], `${path}, ${colorScheme}`);
     }
   }
 });

@@ -1,10 +1,11 @@
-// Clients of the daemon's services, on the origin of the page.
+// Clients of the daemon's services, on the origin of the page; in an exported page, of the file itself.
 import { createClient, type Client, type Transport } from "@connectrpc/connect";
 import { createConnectTransport } from "@connectrpc/connect-web";
 import { Admin } from "../../gen/cellcrush/v1/admin_service_pb";
 import { Cases } from "../../gen/cellcrush/v1/cases_service_pb";
 import { Jobs } from "../../gen/cellcrush/v1/jobs_service_pb";
 import { Sweeps } from "../../gen/cellcrush/v1/sweeps_service_pb";
+import { exportedTransport, isExported } from "./exported";
 import { withToken } from "./token";
 
 export interface Clients {
@@ -23,6 +24,6 @@ export function clientsOf(transport: Transport): Clients {
   };
 }
 
-export const api = clientsOf(createConnectTransport({
+export const api = clientsOf(isExported ? exportedTransport : createConnectTransport({
   baseUrl: location.origin, useBinaryFormat: true, interceptors: [withToken],
 }));

@@ -1,6 +1,7 @@
 // The head of a job's page: title, state, progress, cause of a failure, actions.
 import type { Queue_Entry } from "../../gen/cellcrush/v1/admin_service_pb";
 import { Job_State, type Job } from "../../gen/cellcrush/v1/job_pb";
+import { isExported } from "../api/exported";
 import { idOf, pathOf } from "../api/names";
 import { h, replaceChildren, setText } from "../dom/element";
 import { clock, count, duration, fullTime, strainText } from "../dom/format";
@@ -9,6 +10,11 @@ import { actionsOf, attempt } from "../jobs/actions";
 import { causeWords, hasEnded, setChip, stateChip, titleOf } from "../jobs/states";
 import type { JobStore } from "../jobs/store";
 import { go } from "../router";
+
+// An exported page has no other pages to link to.
+function link(name: string, text: string): HTMLElement | string {
+  return isExported ? text : h("a", { href: pathOf(name) }, text);
+}
 
 export class JobHeader {
   readonly element: HTMLElement;
@@ -38,6 +44,7 @@ export class JobHeader {
     this.updateCause(job);
     if (this.shownState === job.state) return;
     this.shownState = job.state;
+    if (isExported) return;
     replaceChildren(this.actions, ...actionsOf(job, this.store, () => go("/")).map((action) =>
       h("button", { type: "button", class: action.danger ? "danger-quiet" : "",
                     click: () => void attempt(() => action.run(job)) }, icon(action.icon), action.label)));
@@ -49,8 +56,8 @@ export class JobHeader {
     if (key === this.aboutKey) return;
     this.aboutKey = key;
     replaceChildren(this.about, `Job ${idOf(job.name)}`,
-      ...(job.sweep ? [" of ", h("a", { href: pathOf(job.sweep) }, `sweep ${idOf(job.sweep)}`)] : []),
-      ...(job.retryOf ? [", retry of ", h("a", { href: pathOf(job.retryOf) }, `job ${idOf(job.retryOf)}`)] : []),
+      ...(job.sweep ? [" of ", link(job.sweep, `sweep ${idOf(job.sweep)}`)] : []),
+      ...(job.retryOf ? [", retry of ", link(job.retryOf, `job ${idOf(job.retryOf)}`)] : []),
       h("span", { title: fullTime(job.createTime) }, `, created ${clock(job.createTime)}`),
       job.owner ? ` by ${job.owner}` : "", job.attempt > 1 ? `, worker ${job.attempt}` : "",
       labels ? `, labels ${labels}` : "");

@@ -19,6 +19,8 @@ export class JobData implements WatchedJob {
   check: CheckCaseResponse | undefined;
   samples: Sample[] = [];
   readonly frames = new FrameStore();
+  /** Number of frames of the job; an exported page may have fewer. */
+  frameCount = 0;
   sequence = 0n;
   error: unknown;
   /** All samples and frames of an ended job are here. */
@@ -156,7 +158,9 @@ export class JobData implements WatchedJob {
     const frames = new FrameParts();
     const request = { name: this.name, from, encoding: FieldFrame_Encoding.PACKED };
     for await (const { content } of api.jobs.streamFrames(request, { signal: this.abort.signal })) {
-      if (content.case === "mesh") {
+      if (content.case === "times") {
+        this.frameCount = content.value.timeS.length;
+      } else if (content.case === "mesh") {
         const whole = mesh.add(content.value);
         if (whole && !this.frames.lattice) this.frames.setMesh(whole);
       } else if (content.case === "frame") {

@@ -2,6 +2,7 @@
 import { Job_State, type Job } from "../../gen/cellcrush/v1/job_pb";
 import type { Sample, Summary, Theory } from "../../gen/cellcrush/v1/sample_pb";
 import { errorText, isAway, isNotFound } from "../api/errors";
+import { isExported } from "../api/exported";
 import { idOf } from "../api/names";
 import { Chart } from "../charts/chart";
 import { strainAxis, timeAxis, type Axis } from "../charts/curves";
@@ -9,7 +10,7 @@ import { energyChart } from "../charts/energy";
 import { forceChart } from "../charts/forces";
 import { stressChart } from "../charts/stress";
 import { theoryNote } from "../charts/theory_note";
-import { h, replaceChildren } from "../dom/element";
+import { h, replaceChildren, setText } from "../dom/element";
 import { QueuePanel } from "../jobs/queue";
 import { hasEnded, titleOf, warningWords } from "../jobs/states";
 import { JobStore } from "../jobs/store";
@@ -44,6 +45,7 @@ export class JobPage implements View {
   private readonly facts = h("section", { class: "card", hidden: true });
   private readonly modelled = h("section", { class: "card modelled", hidden: true });
   private readonly warnings = h("div", { class: "warnings" });
+  private readonly thinned = h("p", { class: "faint thinned", hidden: true });
   private readonly problem = h("div", { class: "banner error", hidden: true });
   private readonly grid = h("div", { class: "job-grid" });
   private axis: Axis = strainAxis(0.8);
@@ -86,7 +88,7 @@ export class JobPage implements View {
         h("section", { class: "card" },
           h("div", { class: "picture-head" }, colourLegend(), h("span", { class: "spacer" }),
             takeAwayOfPicture(picture, this.player, this.data)),
-          h("div", { class: "picture-box" }, picture.element), this.bar.element),
+          h("div", { class: "picture-box" }, picture.element), this.bar.element, this.thinned),
         this.numbers, this.facts),
       h("div", { class: "column" },
         h("section", { class: "card" }, this.stress.element, this.energy.element), this.modelled));
@@ -195,6 +197,8 @@ export class JobPage implements View {
   private updateFrames(): void {
     const { frames, lattice } = this.data.frames;
     this.waiting.hidden ||= frames.length > 0 || lattice !== undefined;
+    this.thinned.hidden = !isExported || frames.length >= this.data.frameCount;
+    setText(this.thinned, `This file has ${frames.length} of the ${this.data.frameCount} frames of the job.`);
     this.setEnd();
   }
 

@@ -1,12 +1,14 @@
 // Buttons that save what the page shows.
 import { api } from "../api/clients";
+import { isExported } from "../api/exported";
 import { idOf } from "../api/names";
 import type { Chart } from "../charts/chart";
 import type { Axis } from "../charts/curves";
+import { say } from "../dom/dialog";
 import { download } from "../dom/download";
 import { button, h, setText } from "../dom/element";
 import { attempt } from "../jobs/actions";
-import { titleOf } from "../jobs/states";
+import { hasEnded, titleOf } from "../jobs/states";
 import type { JobData } from "../job/job_data";
 import type { Picture } from "../picture/picture";
 import type { Player } from "../picture/player";
@@ -49,6 +51,19 @@ async function fetchResult(name: string, tell: (fraction: number) => void): Prom
   return new Blob(parts, { type: "application/x-hdf5" });
 }
 
+// The page of an ended job as a file that opens without a daemon.
+async function fetchPage(name: string, tell: (fraction: number) => void): Promise<Blob> {
+  const parts: BlobPart[] = [];
+  let [kept, all] = [0, 0];
+  for await (const chunk of api.jobs.exportJob({ name })) {
+    parts.push(chunk.data as Uint8Array<ArrayBuffer>);
+    tell(chunk.fraction);
+    [kept, all] = [chunk.frameCount, chunk.jobFrameCount];
+  }
+  if (kept < all) say(`The file has ${kept} of the ${all} frames, which keeps it near 20 MB.`);
+  return new Blob(parts, { type: "text/html" });
+}
+
 export function takeAwayOfPicture(picture: Picture, player: Player, data: JobData): HTMLElement {
   const file = `job-${idOf(data.name)}`;
   const title = (): string => (data.job ? titleOf(data.job) : "");
@@ -56,7 +71,14 @@ export function takeAwayOfPicture(picture: Picture, player: Player, data: JobDat
     const blob = await fetchResult(data.name, (fraction) => setText(element, `${Math.round(100 * fraction)} %`));
     download(blob, `${file}.h5`);
   });
-  data.jobChanges.add(() => { result.hidden = !data.job?.summary; });
+  const page = saveButton("HTML", "Save this page as a file that opens without a daemon", async (element) => {
+    const blob = await fetchPage(data.name, (fraction) => setText(element, `${Math.round(100 * fraction)} %`));
+    download(blob, `${file}.html`);
+  });
+  data.jobChanges.add(() => {
+    result.hidden = isExported || !data.job?.summary;
+    page.hidden = isExported || !data.job || !hasEnded(data.job);
+  });
   return h("span", { class: "take-away" },
     saveButton("PNG", "Save this picture as a PNG file", async () =>
       download(await picturePng(picture, title(), `strain ${player.value.toFixed(3)}`), `${file}.png`)),
@@ -65,5 +87,5 @@ export function takeAwayOfPicture(picture: Picture, player: Player, data: JobDat
         setText(element, `${Math.round(100 * fraction)} %`));
       if (film) download(film, `${file}.webm`);
     }),
-    result);
+    page, result);
 }

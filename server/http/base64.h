@@ -1,0 +1,11 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace cellcrush::http {
+
+/// With padding.
+std::string base64_of(std::string_view bytes);
+
+}  // namespace cellcrush::http

@@ -1,0 +1,84 @@
+#include "http/exported_page.h"
+
+#include <openssl/sha.h>
+#include <zlib.h>
+
+#include <array>
+#include <new>
+
+#include "http/base64.h"
+#include "http/page_files.h"
+#include "revision.h"
+
+namespace cellcrush::http {
+namespace {
+
+std::string zlib_of(std::string_view bytes) {
+  uLongf size = compressBound(bytes.size());
+  std::string out(size, '\0');
+  const int status = compress2(reinterpret_cast<Bytef*>(out.data()), &size,
+                               reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(), Z_DEFAULT_COMPRESSION);
+  if (status != Z_OK) throw std::bad_alloc();  // its only failure, as the room suffices
+  out.resize(size);
+  return out;
+}
+
+std::string escaped(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&': out += "&amp;"; break;
+      case '<': out += "&lt;"; break;
+      case '>': out += "&gt;"; break;
+      default: out += c;
+    }
+  }
+  return out;
+}
+
+std::string_view bytes_of_file(std::string_view path) {
+  const PageFile* file = find_page_file(path);
+  return file == nullptr ? std::string_view() : file->bytes;
+}
+
+// A source of a content policy that permits this inline script or style and no other.
+std::string policy_hash(std::string_view text) {
+  std::array<unsigned char, SHA256_DIGEST_LENGTH> digest{};
+  SHA256(reinterpret_cast<const unsigned char*>(text.data()), text.size(), digest.data());
+  return "'sha256-" + base64_of({reinterpret_cast<const char*>(digest.data()), digest.size()}) + "'";
+}
+
+}  // namespace
+
+std::string exported_head(std::string_view title) {
+  const std::string_view script = bytes_of_file("/app.js");
+  const std::string_view style = bytes_of_file("/app.css");
+  std::string out =
+      "<!doctype html>\n<!-- cellcrush export -->\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n";
+  out += "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src " +
+         policy_hash(script) + "; style-src " + policy_hash(style) +
+         "; img-src data: blob:; media-src blob:; base-uri 'none'; form-action 'none'\">\n";
+  out += "<title>" + escaped(title) + "</title>\n";
+  out +=
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+      "<meta name=\"color-scheme\" content=\"light dark\">\n";
+  out += "<meta name=\"generator\" content=\"cellcrush " + std::string(kVersion) + "\">\n";
+  out += "<link rel=\"icon\" href=\"data:image/svg+xml;base64," + base64_of(bytes_of_file("/icon.svg")) + "\">\n";
+  out.append("<style>").append(style).append("</style>\n");
+  out.append("<script type=\"module\">").append(script).append("</script>\n");
+  out += "</head>\n<body>\n<noscript>This page needs JavaScript, which the browser has switched off.</noscript>\n";
+  return out;
+}
+
+std::string exported_block(std::string_view call, const google::protobuf::Message& message, Compression compression) {
+  std::string bytes = message.SerializeAsString();
+  const bool is_small = compression == Compression::zlib;
+  if (is_small) bytes = zlib_of(bytes);
+  std::string out = "<script type=\"application/x-protobuf\" data-call=\"" + std::string(call) + "\"";
+  out += is_small ? " data-zlib>" : ">";
+  return out.append(base64_of(bytes)).append("</script>\n");
+}
+
+std::string_view exported_end() { return "</body>\n</html>\n"; }
+
+}  // namespace cellcrush::http

@@ -1,0 +1,45 @@
+// Chromium with a page whose errors are collected, and the checks that several tests make of a page.
+import { readFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { chromium } from 'playwright-core';
+
+const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
+
+export async function launch() {
+  return chromium.launch({ executablePath: process.env.CHROMIUM, args: ['--no-sandbox'] });
+}
+
+// A page, the errors of its scripts, what its console complains of, and the addresses that it asks for.
+export async function openPage(browser) {
+  const page = await browser.newPage({ viewport: { width: 1440, height: 900 }, acceptDownloads: true });
+  page.setDefaultTimeout(30000);
+  const errors = [];
+  const complaints = [];
+  const requests = [];
+  page.on('pageerror', (error) => errors.push(String(error)));
+  page.on('console', (message) => message.type() === 'error' && complaints.push(message.text()));
+  page.on('request', (request) => requests.push(request.url()));
+  return { page, errors, complaints, requests };
+}
+
+export async function seriousFindings(page) {
+  await page.evaluate(axe);
+  const found = await page.evaluate(() => globalThis.axe.run());
+  const serious = found.violations.filter((each) => each.impact === 'serious' || each.impact === 'critical');
+  return serious.map((each) => `${each.id}: ${each.nodes.map((node) => node.html).join(' ')}`);
+}
+
+// The share of an element whose colour is not that of its corner, 0 to 1, in a picture of the screen.
+export async function paintedShare(page, element) {
+  const picture = (await element.screenshot()).toString('base64');
+  const helper = await page.context().browser().newPage();
+  const share = await helper.evaluate(async (data) => {
+    const image = await createImageBitmap(await (await fetch(`data:image/png;base64,${data}`)).blob());
+    const context = new OffscreenCanvas(image.width, image.height).getContext('2d');
+    context.drawImage(image, 0, 0);
+    const pixels = new Uint32Array(context.getImageData(4, 4, image.width - 8, image.height - 8).data.buffer);
+    return pixels.filter((pixel) => pixel !== pixels[0]).length / pixels.length;
+  }, picture);
+  await helper.close();
+  return share;
+}
