@@ -3,6 +3,7 @@ import { test } from "node:test";
 import { create } from "@bufbuild/protobuf";
 import { CaseSchema, Lattice_HexagonSchema } from "../gen/cellcrush/v1/case_pb";
 import { fieldAt, groupsOf, readField, writeField } from "../src/new_case/fields";
+import { labelsOf } from "../src/new_case/order";
 import { axisOf, jobCount } from "../src/new_case/sweep_axis";
 import { defaultOf, helpOf, labelOf, unitOf } from "../src/new_case/words";
 
@@ -43,11 +44,20 @@ test("a text that is no value of its field is refused", () => {
 });
 
 test("values of a sweep: a list, ranges, seeds", () => {
-  const count = (text) => jobCount(axisOf("loading.speed_m_per_s", text));
+  const count = (text) => jobCount([axisOf("loading.speed_m_per_s", text)]);
   assert.equal(count("25, 50, 100"), 3);
   assert.equal(count("10:200:8"), 8);
   assert.equal(axisOf("f", "10:200:8:log").values.case, "logarithmic");
   assert.equal(count("seeds:5"), 5);
   assert.equal(typeof axisOf("f", "fast"), "string");
   assert.equal(typeof axisOf("f", ""), "string");
+});
+
+test("a sweep over several fields has a job for each combination", () => {
+  assert.equal(jobCount([axisOf("a", "1, 2, 3"), axisOf("b", "seeds:5")]), 15);
+});
+
+test("labels are pairs of key and value", () => {
+  assert.deepEqual(labelsOf(" series = a b , note=x=y,"), { series: "a b", note: "x=y" });
+  for (const wrong of ["series", "=a", "a=1, a=2"]) assert.equal(typeof labelsOf(wrong), "string", wrong);
 });

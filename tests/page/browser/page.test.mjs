@@ -61,6 +61,26 @@ test('a daemon killed in the middle of a crush is waited for, and its job is fol
   await page.getByText('succeeded').first().waitFor({ timeout: 90000 });
 });
 
+test('a sweep over two fields with labels is started from the form', async () => {
+  await page.goto(daemon.url + '/new');
+  await page.getByLabel('a sweep').check();
+  await page.getByLabel('Values').fill('80, 160');
+  await page.getByRole('button', { name: 'Vary another field' }).click();
+  await page.getByLabel('Values').last().fill('seeds:2');
+  await page.getByText('Labels and priority').click();
+  await page.getByLabel('Labels').fill('series');
+  await page.getByText('“series” is not a label').waitFor();
+  await page.getByLabel('Labels').fill('series=form');
+  await page.getByLabel('Priority').fill('7');
+  await page.getByRole('button', { name: 'Start 4 jobs' }).click();
+  await page.waitForURL('**/sweeps/1');
+  const sweep = await daemon.call('Sweeps/GetSweep', { name: 'sweeps/1' });
+  assert.deepEqual(sweep.axes.map(({ field }) => field), ['loading.speed_m_per_s', 'lattice.imperfection.seed']);
+  assert.equal(sweep.jobs.length, 4);
+  assert.deepEqual(sweep.labels, { series: 'form' });
+  assert.equal(sweep.priority, 7);
+});
+
 test('nothing serious stands in the way of people who cannot see or point', async () => {
   for (const colorScheme of ['light', 'dark']) {
     await page.emulateMedia({ colorScheme });

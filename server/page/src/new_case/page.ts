@@ -2,7 +2,7 @@
 import { clone, create } from "@bufbuild/protobuf";
 import { CaseSchema, type Case } from "../../gen/cellcrush/v1/case_pb";
 import type { CheckCaseResponse } from "../../gen/cellcrush/v1/cases_service_pb";
-import { SweepSchema, type SweepAxis } from "../../gen/cellcrush/v1/sweep_pb";
+import { SweepSchema, type Sweep, type SweepAxis } from "../../gen/cellcrush/v1/sweep_pb";
 import { api } from "../api/clients";
 import { errorText, problemsOf } from "../api/errors";
 import { idOf, pathOf } from "../api/names";
@@ -12,6 +12,7 @@ import { duration, plural } from "../dom/format";
 import { go, keepInUrl, type View } from "../router";
 import { Forecast } from "./forecast";
 import { CaseForm } from "./form";
+import { OrderInput } from "./order";
 import { Preview } from "./preview";
 import { jobCount, SweepInput } from "./sweep_axis";
 import { helpOf, labelOf } from "./words";
@@ -29,6 +30,7 @@ export class NewCasePage implements View {
   private readonly forecast = new Forecast();
   private readonly help = h("p", { class: "faint" }, "Choose a field to read what it means.");
   private readonly sweepInput = new SweepInput(() => this.checkSoon());
+  private readonly order = new OrderInput(() => this.checkSoon());
   private readonly asJob = h("input", { type: "radio", name: "as", id: "as-job", checked: true });
   private readonly asSweep = h("input", { type: "radio", name: "as", id: "as-sweep" });
   private readonly start = h("button", { type: "submit", class: "primary", disabled: true }, "Start the job");
@@ -61,8 +63,8 @@ export class NewCasePage implements View {
         h("div", { class: "column side" }, this.preview.element, this.forecast.element,
           h("section", { class: "card" },
             h("div", { class: "as-what" }, h("label", {}, this.asJob, " one job"),
-              h("label", {}, this.asSweep, " a sweep over one field")),
-            this.sweepInput.element, this.problem,
+              h("label", {}, this.asSweep, " a sweep")),
+            this.sweepInput.element, this.order.element, this.problem,
             h("div", { class: "start-row" }, this.start, this.cost)),
           h("section", { class: "card help-card" }, h("h3", {}, "The field"), this.help))));
     const from = query.get("from") ?? `preset:${kFirstPreset}`;
@@ -139,38 +141,39 @@ export class NewCasePage implements View {
   }
 
   private get canStart(): boolean {
-    return this.check?.problems.length === 0 && this.form.unreadable.size === 0;
+    return this.check?.problems.length === 0 && this.form.unreadable.size === 0 && this.order.read() !== undefined;
   }
 
   private async updateStart(signal: AbortSignal): Promise<void> {
-    const axis = this.asSweep.checked ? this.sweepInput.read() : undefined;
+    const axes = this.asSweep.checked ? this.sweepInput.read() : undefined;
     if (!this.asSweep.checked) {
       setText(this.start, "Start the job");
       setText(this.cost, this.canStart ? `about ${duration(this.check?.predictedSeconds)} on one core` : "");
       this.start.disabled = !this.canStart;
       return;
     }
-    setText(this.start, axis ? `Start ${plural(jobCount(axis), "job")}` : "Start the sweep");
+    setText(this.start, axes ? `Start ${plural(jobCount(axes), "job")}` : "Start the sweep");
     setText(this.cost, "");
     this.start.disabled = true;
-    if (!axis || !this.canStart) return;
-    const sweep = await api.sweeps.createSweep({ sweep: this.sweepOf(axis), validateOnly: true }, { signal });
+    if (!axes || !this.canStart) return;
+    const sweep = await api.sweeps.createSweep({ sweep: this.sweepOf(axes), validateOnly: true }, { signal });
     setText(this.cost, `about ${duration(sweep.predictedSeconds)} on one core`);
     this.start.disabled = false;
   }
 
-  private sweepOf(axis: SweepAxis): ReturnType<typeof create<typeof SweepSchema>> {
-    return create(SweepSchema, { case: this.value, axes: [axis] });
+  private sweepOf(axes: SweepAxis[]): Sweep {
+    return create(SweepSchema, { case: this.value, axes, ...this.order.read() });
   }
 
   private async submit(): Promise<void> {
     if (this.start.disabled) return;
     this.start.disabled = true;
-    const requestId = `${this.requestId}-${hashOf(this.value, this.asSweep.checked && this.sweepInput.read())}`;
+    const axes = this.asSweep.checked ? this.sweepInput.read() : undefined;
+    const order = this.order.read();
+    const requestId = `${this.requestId}-${hashOf(this.value, axes, order)}`;
     try {
-      const axis = this.asSweep.checked ? this.sweepInput.read() : undefined;
-      const created = axis ? await api.sweeps.createSweep({ sweep: this.sweepOf(axis), requestId })
-        : await api.jobs.createJob({ case: this.value, requestId });
+      const created = axes ? await api.sweeps.createSweep({ sweep: this.sweepOf(axes), requestId })
+        : await api.jobs.createJob({ case: this.value, requestId, ...order });
       go(pathOf(created.name));
     } catch (error) {
       const problems = problemsOf(error);

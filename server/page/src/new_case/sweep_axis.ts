@@ -1,7 +1,8 @@
-// One field that a sweep varies, and its values: a list, or a range as "10:200:8" or "10:200:8:log".
+// The fields that a sweep varies, and their values: a list, or a range as "10:200:8" or "10:200:8:log".
 import { create } from "@bufbuild/protobuf";
 import { SweepAxisSchema, type SweepAxis } from "../../gen/cellcrush/v1/sweep_pb";
-import { h, replaceChildren, setText } from "../dom/element";
+import { button, h, replaceChildren, setText } from "../dom/element";
+import { iconButton } from "../dom/icons";
 import { fieldAt } from "./fields";
 import { labelOf, unitOf } from "./words";
 
@@ -23,7 +24,7 @@ export function axisOf(field: string, text: string): SweepAxis | string {
   return create(SweepAxisSchema, { field, values: { case: "list", value: { values } } });
 }
 
-export function jobCount(axis: SweepAxis): number {
+function valueCount(axis: SweepAxis): number {
   switch (axis.values.case) {
     case "list": return axis.values.value.values.length;
     case "seedCount": return axis.values.value;
@@ -33,44 +34,132 @@ export function jobCount(axis: SweepAxis): number {
   }
 }
 
-export class SweepInput {
-  readonly element: HTMLElement;
-  private readonly field = h("select", { id: "axis-field" });
-  private readonly values = h("input", { type: "text", id: "axis-values", autocomplete: "off", spellcheck: "false" });
-  private readonly hint = h("div", { class: "limits" });
+/** Number of jobs of a grid over all axes. */
+export function jobCount(axes: SweepAxis[]): number {
+  return axes.reduce((product, axis) => product * valueCount(axis), 1);
+}
 
-  constructor(changed: () => void) {
+let count = 0;
+
+class AxisInput {
+  readonly element: HTMLElement;
+  private readonly field = h("select");
+  private readonly values = h("input", { type: "text", autocomplete: "off", spellcheck: "false" });
+  private readonly hint = h("div", { class: "limits" });
+  readonly remove: HTMLButtonElement;
+
+  constructor(changed: () => void, removed: () => void) {
+    this.field.id = `axis-field-${++count}`;
+    this.values.id = `axis-values-${count}`;
+    this.hint.id = `axis-hint-${count}`;
+    this.values.setAttribute("aria-describedby", this.hint.id);
     this.field.addEventListener("change", () => {
       this.values.value = this.isSeed ? "seeds:5" : "";
       changed();
     });
     this.values.addEventListener("input", changed);
-    this.values.value = "25, 50, 100, 200";
-    this.element = h("div", { class: "fields sweep-input", hidden: true },
-      h("div", { class: "field" }, h("label", { for: "axis-field" }, "Varied field"), this.field),
-      h("div", { class: "field" }, h("label", { for: "axis-values" }, "Values"), this.values, this.hint));
+    this.remove = iconButton("minus", "Leave out this field", removed);
+    this.element = h("div", { class: "axis" },
+      h("div", { class: "field" }, h("label", { for: this.field.id }, "Varied field"), this.field),
+      h("div", { class: "field" }, h("label", { for: this.values.id }, "Values"), this.values, this.hint), this.remove);
   }
 
   private get isSeed(): boolean {
     return this.field.value.endsWith(".seed");
   }
 
+  get path(): string {
+    return this.field.value;
+  }
+
+  /** Chooses a field with its first values. */
+  choose(path: string, values: string): void {
+    this.field.value = path;
+    this.values.value = values;
+  }
+
   setPaths(paths: string[]): void {
-    const chosen = this.field.value || "loading.speed_m_per_s";
-    const numeric = paths.filter((path) => fieldAt(path).field.fieldKind === "scalar");
-    replaceChildren(this.field, ...numeric.map((path) => {
+    const chosen = this.field.value;
+    replaceChildren(this.field, ...paths.map((path) => {
       const unit = unitOf(path);
       return h("option", { value: path }, labelOf(path) + (unit ? ` (${unit})` : ""));
     }));
-    this.field.value = numeric.includes(chosen) ? chosen : numeric[0];
+    this.field.value = paths.includes(chosen) ? chosen : paths[0];
   }
 
-  /** The axis; undefined while the text describes none. */
-  read(): SweepAxis | undefined {
-    const axis = axisOf(this.field.value, this.values.value);
+  focus(): void {
+    this.field.focus();
+  }
+
+  /** `others` are the fields of the axes before. */
+  read(others: string[]): SweepAxis | undefined {
+    const axis = others.includes(this.path) ? "This field is varied already." : axisOf(this.path, this.values.value);
     const isAxis = typeof axis !== "string";
     setText(this.hint, isAxis ? "a list, first:last:count, first:last:count:log, or seeds:count" : axis);
     this.hint.parentElement!.dataset.kind = isAxis ? "" : "error";
     return isAxis ? axis : undefined;
+  }
+}
+
+const kMostAxes = 4; // a sweep over more fields belongs into a script
+
+/** The fields that a sweep varies: one job for each combination of their values. */
+export class SweepInput {
+  readonly element: HTMLElement;
+  private readonly list = h("div", { class: "axes" });
+  private readonly more = button("Vary another field", () => this.add(), { class: "quiet" });
+  private axes: AxisInput[] = [];
+  private paths: string[] = [];
+
+  constructor(private readonly changed: () => void) {
+    this.element = h("div", { class: "sweep-input", hidden: true }, this.list, this.more);
+  }
+
+  setPaths(paths: string[]): void {
+    this.paths = paths.filter((path) => fieldAt(path).field.fieldKind === "scalar");
+    if (this.axes.length === 0 && this.paths.length > 0) {
+      const first = this.append();
+      const speed = "loading.speed_m_per_s";
+      if (this.paths.includes(speed)) first.choose(speed, "25, 50, 100, 200");
+    }
+    for (const axis of this.axes) axis.setPaths(this.paths);
+  }
+
+  private append(): AxisInput {
+    const axis = new AxisInput(this.changed, () => this.removeAxis(axis));
+    axis.setPaths(this.paths);
+    this.axes.push(axis);
+    this.show();
+    return axis;
+  }
+
+  // A further field is most often the seed, for the scatter between specimens.
+  private add(): void {
+    const taken = this.axes.map((axis) => axis.path);
+    const free = this.paths.filter((path) => !taken.includes(path));
+    const seed = free.find((path) => path.endsWith(".seed"));
+    const axis = this.append();
+    axis.choose(seed ?? free[0], seed ? "seeds:5" : "");
+    axis.focus();
+    this.changed();
+  }
+
+  private removeAxis(axis: AxisInput): void {
+    this.axes = this.axes.filter((other) => other !== axis);
+    this.show();
+    this.more.focus();
+    this.changed();
+  }
+
+  private show(): void {
+    replaceChildren(this.list, ...this.axes.map((axis) => axis.element));
+    for (const axis of this.axes) axis.remove.hidden = this.axes.length === 1;
+    this.more.hidden = this.axes.length >= Math.min(kMostAxes, this.paths.length);
+  }
+
+  /** The axes; undefined while one of the texts describes none. */
+  read(): SweepAxis[] | undefined {
+    const read = this.axes.map((axis, i) => axis.read(this.axes.slice(0, i).map((other) => other.path)));
+    return read.length > 0 && read.every((axis) => axis !== undefined) ? read : undefined;
   }
 }

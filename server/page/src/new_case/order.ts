@@ -1,0 +1,49 @@
+// Labels and priority of a new job or sweep.
+import { h, setText } from "../dom/element";
+
+/** The labels that a text such as "series=a, batch=2" gives, or what is wrong with the text. */
+export function labelsOf(text: string): Record<string, string> | string {
+  const labels: Record<string, string> = {};
+  for (const part of text.split(",").map((each) => each.trim()).filter(Boolean)) {
+    const at = part.indexOf("=");
+    if (at < 1) return `“${part}” is not a label: give key=value.`;
+    const key = part.slice(0, at).trim();
+    if (key in labels) return `The key “${key}” is given twice.`;
+    labels[key] = part.slice(at + 1).trim();
+  }
+  return labels;
+}
+
+export interface Order { labels: Record<string, string>; priority: number }
+
+export class OrderInput {
+  readonly element: HTMLElement;
+  private readonly labels = h("input", { type: "text", id: "labels", autocomplete: "off", spellcheck: "false",
+                                         placeholder: "series=a, batch=2", "aria-describedby": "labels-hint" });
+  private readonly priority = h("input", { type: "number", id: "priority", min: -100, max: 100, step: 1, value: 0,
+                                           "aria-describedby": "priority-hint" });
+  private readonly labelsHint = h("div", { class: "limits", id: "labels-hint" });
+  private readonly priorityHint = h("div", { class: "limits", id: "priority-hint" });
+
+  constructor(changed: () => void) {
+    for (const input of [this.labels, this.priority]) input.addEventListener("input", changed);
+    this.element = h("details", { class: "order" }, h("summary", {}, "Labels and priority"),
+      h("div", { class: "fields" },
+        h("div", { class: "field" }, h("label", { for: "labels" }, "Labels"), this.labels, this.labelsHint),
+        h("div", { class: "field" }, h("label", { for: "priority" }, "Priority"), this.priority, this.priorityHint)));
+    this.read();
+  }
+
+  /** Undefined while a text cannot be read. */
+  read(): Order | undefined {
+    const labels = labelsOf(this.labels.value);
+    const areLabels = typeof labels !== "string";
+    setText(this.labelsHint, areLabels ? "key=value, to filter the list of jobs by" : labels);
+    this.labelsHint.parentElement!.dataset.kind = areLabels ? "" : "error";
+    const priority = Number(this.priority.value);
+    const isPriority = Number.isInteger(priority) && Math.abs(priority) <= 100;
+    setText(this.priorityHint, isPriority ? "The highest starts first; -100 to 100." : "A whole number, -100 to 100.");
+    this.priorityHint.parentElement!.dataset.kind = isPriority ? "" : "error";
+    return areLabels && isPriority ? { labels, priority } : undefined;
+  }
+}
