@@ -1,7 +1,7 @@
 // The web page in Debian's Chromium, against a real daemon that crushes real scenes.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { launch, openPage, seriousFindings } from './browser.mjs';
+import { launch, openPage, paintedShare, seriousFindings } from './browser.mjs';
 import { Daemon } from './daemon.mjs';
 
 const daemon = new Daemon();
@@ -79,6 +79,29 @@ test('a sweep over two fields with labels is started from the form', async () =>
   assert.equal(sweep.jobs.length, 4);
   assert.deepEqual(sweep.labels, { series: 'form' });
   assert.equal(sweep.priority, 7);
+});
+
+test('the rigid wall of a frame is in its picture', async () => {
+  const shares = [];
+  for (const rigidWalls of [[], [{ id: 'w', xMm: 10.5, yMm: 0, normalX: -1 }]]) {
+    const submitted = await daemon.presetCase('hexagon-small', (each) => {
+      each.lattice = { frame: {
+        nodes: [{ id: 'a', xMm: 0, yMm: 0 }, { id: 'b', xMm: 10, yMm: 8 }],
+        beams: [{ start: 'a', end: 'b', thicknessMm: 0.5, elements: 8 }],
+        supports: [{ node: 'a', fixX: true, fixY: true, fixRotation: true }],
+        rigidWalls,
+        endTimeS: 0.001,
+      } };
+      delete each.loading;
+      delete each.plates;
+    });
+    const job = await daemon.call('Jobs/CreateJob', { case: submitted });
+    await page.goto(`${daemon.url}/${job.name}`);
+    await page.getByText('succeeded').first().waitFor();
+    await page.waitForTimeout(800);
+    shares.push(await paintedShare(page, page.locator('.picture')));
+  }
+  assert.ok(shares[1] > shares[0] + 0.005, `${shares}`);
 });
 
 test('nothing serious stands in the way of people who cannot see or point', async () => {

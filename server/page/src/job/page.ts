@@ -18,6 +18,7 @@ import { FrameView } from "../picture/frame_view";
 import { colourLegend } from "../picture/legend";
 import { Player } from "../picture/player";
 import { PlayerBar } from "../picture/player_bar";
+import { RigidWalls } from "../picture/rigid_walls";
 import { keepInUrl, setTitle, type View } from "../router";
 import { takeAwayOfChart, takeAwayOfPicture } from "../take_away/menus";
 import { aspectOf, caseFacts } from "./case_words";
@@ -36,6 +37,7 @@ export class JobPage implements View {
   private readonly header: JobHeader;
   private readonly queue = new QueuePanel(() => this.update());
   private readonly player = new Player();
+  private readonly rigidWalls: RigidWalls;
   private readonly frames: FrameView;
   private readonly bar: PlayerBar;
   private readonly stress = new Chart("Stress and strain", (x) => this.player.seek(x));
@@ -62,7 +64,9 @@ export class JobPage implements View {
     this.data = new JobData(name);
     this.store = new JobStore(() => false);
     this.header = new JobHeader(this.store);
-    this.frames = new FrameView(this.data.frames, (frame) => this.axis.frame(frame), "The lattice as it is crushed");
+    this.rigidWalls = new RigidWalls(this.data);
+    this.frames = new FrameView(this.data.frames, (frame) => this.axis.frame(frame), "The lattice as it is crushed",
+                                (time) => this.rigidWalls.at(time));
     this.frames.picture.camera.text = query.get("view") ?? "";
     if (query.has("strain")) this.wantedStrain = Number(query.get("strain"));
     this.bar = new PlayerBar(this.player, {

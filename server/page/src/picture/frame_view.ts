@@ -4,6 +4,7 @@ import type { FrameStore } from "../frames/frame_store";
 import type { Lattice } from "../frames/lattice";
 import type { Fields } from "../frames/packed";
 import { Picture } from "./picture";
+import type { Face } from "./rigid_walls";
 import { mixFields } from "./segments";
 
 export class FrameView {
@@ -14,8 +15,9 @@ export class FrameView {
   private shownKey = "";
   private included = -1;
 
+  /** `facesAt` gives the faces of rigid walls at a time in s. */
   constructor(private readonly store: FrameStore, private readonly valueOf: (frame: FieldFrame) => number,
-              label: string) {
+              label: string, private readonly facesAt: (time: number) => Face[] = () => []) {
     this.picture = new Picture(label);
   }
 
@@ -48,14 +50,16 @@ export class FrameView {
     this.shown = frames[before];
     this.shownKey = "";
     this.mixed = mixFields(store.fields(before), store.fields(after), mix, this.mixed);
-    const strain = frames[before].strain + mix * (frames[after].strain - frames[before].strain);
-    this.picture.show(this.mixed, strain);
+    const between = (a: number, b: number): number => a + mix * (b - a);
+    const faces = this.facesAt(between(frames[before].timeS, frames[after].timeS));
+    this.picture.show(this.mixed, between(frames[before].strain, frames[after].strain), faces);
   }
 
   // The mesh of a job that has no frame yet.
   private showUndeformed(lattice: Lattice): void {
     this.shownKey = "";
-    this.picture.show({ position: lattice.undeformed, plastic: new Float32Array(lattice.thickness.length) }, 0);
+    const plastic = new Float32Array(lattice.thickness.length);
+    this.picture.show({ position: lattice.undeformed, plastic }, 0, this.facesAt(0));
   }
 
   private includeLast(): void {
@@ -67,11 +71,12 @@ export class FrameView {
 
   private showFrame(place: number): void {
     const frame = this.store.frames[place];
-    const key = `${frame.index} ${frame.timeS}`;
+    const faces = this.facesAt(frame.timeS);
+    const key = [frame.index, frame.timeS, ...faces.flatMap(({ x, y }) => [x, y])].join(" ");
     this.shown = frame;
     if (key === this.shownKey) return;
     this.shownKey = key;
-    this.picture.show(this.store.fields(place), frame.strain);
+    this.picture.show(this.store.fields(place), frame.strain, faces);
   }
 
   /** The value of the next (1) or previous (-1) frame of a place. */

@@ -3,6 +3,7 @@
 import { impactPlateAt, plateThickness, type Box, type Lattice } from "../frames/lattice";
 import type { Camera } from "./camera";
 import { themeColour } from "./colours";
+import { drawRigidWalls, type Face } from "./rigid_walls";
 import { kSegmentFloats, type Segments } from "./segments";
 
 export interface OverlayState {
@@ -11,10 +12,14 @@ export interface OverlayState {
   box: Box;
   strain: number;
   segments: Segments | undefined;
+  /** Of rigid walls. */
+  faces: Face[];
   hovered: number;
 }
 
-function plate(context: CanvasRenderingContext2D, camera: Camera, state: OverlayState, face: number,
+type Plates = Pick<OverlayState, "lattice" | "box" | "strain">;
+
+function plate(context: CanvasRenderingContext2D, camera: Camera, state: Plates, face: number,
                outwards: number): void {
   const thickness = plateThickness(state.lattice) * outwards;
   const { box } = state;
@@ -80,16 +85,22 @@ function hoveredWall(context: CanvasRenderingContext2D, camera: Camera, segments
   context.globalAlpha = 1;
 }
 
+/** Both plates; alone, for small pictures. */
+export function drawPlates(context: CanvasRenderingContext2D, camera: Camera, state: Plates): void {
+  context.fillStyle = themeColour("plate");
+  plate(context, camera, state, impactPlateAt(state.lattice, state.strain), -1);
+  plate(context, camera, state, state.lattice.supportPlate, 1);
+}
+
 export function drawOverlay(context: CanvasRenderingContext2D, camera: Camera, state: OverlayState): void {
   const { lattice } = state;
   if (lattice.plates) {
     context.strokeStyle = themeColour("line-strong");
     context.lineWidth = 1;
     if (state.strain > 0.005) startLine(context, camera, state);
-    context.fillStyle = themeColour("plate");
-    plate(context, camera, state, impactPlateAt(lattice, state.strain), -1);
-    plate(context, camera, state, lattice.supportPlate, 1);
+    drawPlates(context, camera, state);
   }
+  drawRigidWalls(context, camera, state.faces, state.box);
   context.strokeStyle = context.fillStyle = themeColour("ink-2");
   context.lineWidth = 1.5;
   context.font = `12px ${themeColour("font")}`;

@@ -8,6 +8,7 @@ import { Camera } from "./camera";
 import { isDark, themeColour } from "./colours";
 import { addGestures } from "./gestures";
 import { drawOverlay } from "./overlay";
+import type { Face } from "./rigid_walls";
 import { fillSegments, findNearest, kSegmentFloats, type Segments } from "./segments";
 import { createWalls, type Walls } from "./walls";
 
@@ -27,6 +28,7 @@ export class Picture {
   private box: Box | undefined;
   private segments: Segments | undefined;
   private strain = 0;
+  private faces: Face[] = [];
   private hovered = -1;
   private scheduled = 0;
 
@@ -76,8 +78,10 @@ export class Picture {
     this.drawSoon();
   }
 
-  show(fields: Fields, strain: number): void {
+  /** `faces` are those of rigid walls. */
+  show(fields: Fields, strain: number, faces: Face[] = []): void {
     if (!this.lattice) return;
+    this.faces = faces;
     this.segments = fillSegments(this.lattice, fields, this.segments);
     this.walls.setSegments(this.segments);
     this.strain = strain;
@@ -127,8 +131,8 @@ export class Picture {
     context.setTransform(1, 0, 0, 1, 0, 0);
     context.clearRect(0, 0, this.topCanvas.width, this.topCanvas.height);
     context.scale(ratio, ratio);
-    const { lattice, box, strain, segments } = this;
-    if (lattice && box) drawOverlay(context, camera, { lattice, box, strain, segments, hovered });
+    const { lattice, box, strain, segments, faces } = this;
+    if (lattice && box) drawOverlay(context, camera, { lattice, box, strain, segments, faces, hovered });
   }
 
   /** Draws the picture as it is, with its background, into the corner of a context; both in the given size. */

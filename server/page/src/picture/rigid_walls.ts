@@ -1,0 +1,71 @@
+// The rigid walls of a frame of beams: where their faces are at a time, and their drawing.
+import type { Case } from "../../gen/cellcrush/v1/case_pb";
+import type { Job } from "../../gen/cellcrush/v1/job_pb";
+import type { Sample } from "../../gen/cellcrush/v1/sample_pb";
+import { indexBefore } from "../charts/smooth";
+import type { Box } from "../frames/lattice";
+import type { Camera } from "./camera";
+import { themeColour } from "./colours";
+
+/** A point of the face in mm, and the unit normal out of the wall. */
+export interface Face { x: number; y: number; normalX: number; normalY: number }
+
+const kThickness = 0.014; // of the diagonal of the view
+
+function facesOf(submitted: Case | undefined): Face[] {
+  const kind = submitted?.lattice?.kind;
+  if (kind?.case !== "frame") return [];
+  return kind.value.rigidWalls.map((wall) => {
+    const [x, y] = [wall.normalX ?? 0, wall.normalY ?? 0];
+    const length = Math.hypot(x, y) || 1;
+    return { x: wall.xMm ?? 0, y: wall.yMm ?? 0, normalX: x / length, normalY: y / length };
+  });
+}
+
+/** The rigid walls of a job, moved by the displacements of its samples. */
+export class RigidWalls {
+  private times: number[] = [];
+
+  constructor(private readonly data: { job: Job | undefined; samples: Sample[] }) {}
+
+  /** The faces at a time in s; empty without rigid walls. */
+  at(time: number): Face[] {
+    const faces = facesOf(this.data.job?.case);
+    const { samples } = this.data;
+    if (faces.length === 0 || samples.length === 0) return faces;
+    if (this.times.length !== samples.length) this.times = samples.map((sample) => sample.timeS);
+    const { times } = this;
+    const before = indexBefore(times, time);
+    const after = Math.min(before + 1, samples.length - 1);
+    const span = times[after] - times[before];
+    const mix = span > 0 ? Math.min(Math.max((time - times[before]) / span, 0), 1) : 0;
+    return faces.map((face, i) => {
+      const low = time < times[0] ? 0 : samples[before].rigidWalls[i]?.displacementMm ?? 0;
+      const high = samples[after].rigidWalls[i]?.displacementMm ?? low;
+      const moved = low + mix * (high - low);
+      return { ...face, x: face.x + moved * face.normalX, y: face.y + moved * face.normalY };
+    });
+  }
+}
+
+/** Draws the walls as bands behind their faces, across the box. */
+export function drawRigidWalls(context: CanvasRenderingContext2D, camera: Camera, faces: Face[], box: Box): void {
+  const [width, height] = [box.highX - box.lowX, box.highY - box.lowY];
+  const [middleX, middleY] = [0.5 * (box.lowX + box.highX), 0.5 * (box.lowY + box.highY)];
+  const depth = Math.max(kThickness * Math.hypot(width, height), 3 / camera.scale);
+  context.fillStyle = themeColour("plate");
+  for (const { x, y, normalX, normalY } of faces) {
+    const [alongX, alongY] = [-normalY, normalX];
+    const half = 0.5 * (Math.abs(alongX) * width + Math.abs(alongY) * height);
+    const place = (middleX - x) * alongX + (middleY - y) * alongY;
+    const corner = (along: number, behind: number): [number, number] => [
+      camera.toScreenX(x + (place + along) * alongX - behind * normalX),
+      camera.toScreenY(y + (place + along) * alongY - behind * normalY)];
+    context.beginPath();
+    context.moveTo(...corner(-half, 0));
+    context.lineTo(...corner(half, 0));
+    context.lineTo(...corner(half, depth));
+    context.lineTo(...corner(-half, depth));
+    context.fill();
+  }
+}

@@ -1,0 +1,28 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { RigidWalls } from "../src/picture/rigid_walls";
+
+const wall = { xMm: 1, yMm: 2, normalX: 0, normalY: -5 };
+const job = { case: { lattice: { kind: { case: "frame", value: { rigidWalls: [wall] } } } } };
+const sample = (timeS, displacementMm) => ({ timeS, rigidWalls: [{ displacementMm }] });
+
+test("a rigid wall moves along its normal, between samples evenly", () => {
+  const walls = new RigidWalls({ job, samples: [sample(1, 10), sample(3, 30)] });
+  const yAt = (time) => walls.at(time)[0].y;
+  assert.equal(yAt(1), 2 - 10);
+  assert.equal(yAt(2), 2 - 20);
+  assert.equal(yAt(9), 2 - 30);
+});
+
+test("before the first sample a rigid wall stands where the case puts it", () => {
+  const samples = [];
+  const walls = new RigidWalls({ job, samples });
+  assert.deepEqual(walls.at(0), [{ x: 1, y: 2, normalX: 0, normalY: -1 }]);
+  samples.push(sample(1, 10));
+  assert.equal(walls.at(0)[0].y, 2);
+  assert.equal(walls.at(1)[0].y, 2 - 10);
+});
+
+test("a honeycomb has no rigid walls", () => {
+  assert.deepEqual(new RigidWalls({ job: { case: {} }, samples: [] }).at(0), []);
+});
