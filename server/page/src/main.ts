@@ -67,7 +67,7 @@ async function showExported(main: HTMLElement): Promise<void> {
 
 route(/^\/$/, (_, query) => new JobsPage(query));
 route(/^\/jobs\/(\d+)$/, (match, query) => new JobPage(`jobs/${match[1]}`, query));
-route(/^\/sweeps\/(\d+)$/, (match) => new SweepPage(`sweeps/${match[1]}`));
+route(/^\/sweeps\/(\d+)$/, (match, query) => new SweepPage(`sweeps/${match[1]}`, query));
 route(/^\/compare$/, (_, query) => new ComparePage(query));
 route(/^\/new$/, (_, query) => new NewCasePage(query));
 route(/^/, () => ({

@@ -1,17 +1,24 @@
 // A chart: uPlot in the colours of the page, with a playhead that picture and charts share, and a legend with the
 // values there.
 import uPlot from "uplot";
-import { h, replaceChildren, setText } from "../dom/element";
+import { h, replaceChildren, setText, svg } from "../dom/element";
 import { number } from "../dom/format";
 import { themeColour } from "../picture/colours";
 import type { ChartData, Series } from "./chart_data";
 import { drawBands, drawMarks } from "./chart_marks";
+import { markPath, type MarkShape } from "./mark_shapes";
 import { indexBefore } from "./smooth";
 
 const kFont = "11px ";
 
 function kindOf(series: Series): string {
   return series.fill ? "area" : series.points ? "point" : "line";
+}
+
+/** A mark in the colour `--colour`, for legends. */
+export function markSwatch(shape: MarkShape): SVGElement {
+  return svg("svg", { viewBox: "-7 -7 14 14", class: "mark", "aria-hidden": "true" },
+    svg("path", { d: markPath(shape, 5) }));
 }
 
 export class Chart {
@@ -130,7 +137,7 @@ export class Chart {
       stroke: colour, width: series.width ?? 1.5, dash: series.dash, alpha: series.opacity ?? 1,
       fill: series.fill ? colour : undefined,
       paths: series.points ? () => null : undefined,
-      points: { show: series.points ?? false, size: 8, fill: colour, stroke: colour },
+      points: { show: false },
       spanGaps: true,
     };
   }
@@ -150,8 +157,9 @@ export class Chart {
   }
 
   private buildLegend(data: ChartData): void {
-    const entry = (label: string, colour: string, dash: number[] | undefined, kind: string): HTMLElement => {
-      const swatch = h("i", { class: `swatch ${kind}` });
+    const entry = (label: string, colour: string, dash: number[] | undefined, kind: string,
+                   mark?: MarkShape): HTMLElement => {
+      const swatch = mark ? markSwatch(mark) : h("i", { class: `swatch ${kind}` });
       swatch.style.setProperty("--colour", `var(--${colour})`);
       if (dash?.length) swatch.classList.add(dash[0] <= 2 ? "dotted" : "dashed");
       const value = h("b", {});
@@ -161,7 +169,7 @@ export class Chart {
     this.values = [];
     replaceChildren(this.legend,
       ...data.series.filter((series) => !series.quiet)
-        .map((series) => entry(series.label, series.colour, series.dash, kindOf(series))),
+        .map((series) => entry(series.label, series.colour, series.dash, kindOf(series), series.mark)),
       ...(data.levels ?? []).filter((level) => level.label)
         .map((level) => entry(level.label, level.colour, level.dash, "level")));
   }

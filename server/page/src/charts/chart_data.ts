@@ -1,4 +1,5 @@
 // What a chart shows: curves as columns, and marks behind and over them.
+import type { MarkShape } from "./mark_shapes";
 
 export interface Series {
   label: string;
@@ -10,6 +11,8 @@ export interface Series {
   fill?: boolean;
   opacity?: number;
   points?: boolean;
+  /** Shape of the points. Default a circle. */
+  mark?: MarkShape;
   /** Left out of the legend. */
   quiet?: boolean;
   /** The value of the legend, if it is not that of the curve. */

@@ -1,7 +1,10 @@
 // Bands behind the curves of a chart; levels, spreads and marked places over them.
 import type uPlot from "uplot";
 import { themeColour } from "../picture/colours";
-import type { ChartData, Level, Mark, Spread } from "./chart_data";
+import type { ChartData, Level, Mark, Series, Spread } from "./chart_data";
+import { markPath } from "./mark_shapes";
+
+const kPointRadius = 4; // CSS pixels
 
 function label(plot: uPlot, text: string, x: number, y: number, align: CanvasTextAlign): void {
   const { ctx } = plot;
@@ -68,8 +71,24 @@ function drawMark(plot: uPlot, mark: Mark): void {
         isRight ? "right" : "left");
 }
 
+function drawPoints(plot: uPlot, series: Series, xs: number[], column: (number | null)[]): void {
+  const { ctx } = plot;
+  const mark = new Path2D(markPath(series.mark ?? "circle", kPointRadius * devicePixelRatio));
+  ctx.fillStyle = themeColour(series.colour);
+  column.forEach((value, i) => {
+    if (value === null) return;
+    ctx.save();
+    ctx.translate(plot.valToPos(xs[i], "x", true), plot.valToPos(value, "y", true));
+    ctx.fill(mark);
+    ctx.restore();
+  });
+}
+
 export function drawMarks(plot: uPlot, data: ChartData): void {
   plot.ctx.save();
+  data.series.forEach((series, i) => {
+    if (series.points) drawPoints(plot, series, data.columns[0] as number[], data.columns[i + 1]);
+  });
   for (const level of data.levels ?? []) drawLevel(plot, level);
   for (const spread of data.spreads ?? []) drawSpread(plot, spread);
   for (const mark of data.marks ?? []) drawMark(plot, mark);

@@ -10,7 +10,7 @@ export interface PlayerBarOptions {
   neighbour(direction: 1 | -1): number;
   /** The place as text, such as "strain 0.40". */
   text(value: number): string;
-  fit(): void;
+  fit?(): void;
 }
 
 export class PlayerBar {
@@ -33,7 +33,7 @@ export class PlayerBar {
       iconButton("previous", "Previous frame (left arrow)", () => player.seek(options.neighbour(-1))),
       iconButton("next", "Next frame (right arrow)", () => player.seek(options.neighbour(1))),
       this.slider, this.text, this.live, this.rate,
-      iconButton("fit", "Show the whole specimen (0)", () => options.fit()));
+      options.fit && iconButton("fit", "Show the whole specimen (0)", () => options.fit?.()));
     player.changes.add(() => this.update());
     this.update();
   }
@@ -65,7 +65,7 @@ export class PlayerBar {
       case "ArrowRight": this.player.seek(this.options.neighbour(1)); break;
       case "Home": this.player.seek(0); break;
       case "End": this.player.seek(this.player.end); break;
-      case "0": this.options.fit(); break;
+      case "0": this.options.fit?.(); break;
       default: return false;
     }
     event.preventDefault();

@@ -17,13 +17,17 @@ import { attempt } from "../jobs/actions";
 import { hasEnded, kStates, stateWord } from "../jobs/states";
 import { stateBar } from "../jobs/state_bar";
 import { variedFields } from "../jobs/sweeps_list";
-import { go, setTitle, type View } from "../router";
+import { go, keepInUrl, setTitle, type View } from "../router";
 import { chartSvg } from "../take_away/chart_svg";
 import { saveButton } from "../take_away/menus";
+import { CrushGrid } from "./crush_grid";
+import { loadSweep, titleOfSweep } from "./load";
+import { SweepOverlay } from "./overlay";
 import { axisName, isSeed, sweepChart } from "./points";
 import { SweepTableView } from "./table";
 
 const kDrawMs = 300;
+const kEndStrain = 0.8; // the default
 
 export class SweepPage implements View {
   title: string;
@@ -37,13 +41,17 @@ export class SweepPage implements View {
   private readonly axisChoice = h("select", { "aria-label": "Field of the axis" });
   private readonly table = new SweepTableView();
   private readonly stops: (() => void)[];
+  private readonly overlay: SweepOverlay;
+  private readonly crushes: CrushGrid;
   private sweep: Sweep | undefined;
   private rows: SweepTable_Row[] = [];
   private fields: string[] = [];
   private timer = 0;
-  private isDestroyed = false;
+  private readonly abort = new AbortController();
 
-  constructor(private readonly name: string) {
+  constructor(private readonly name: string, query: URLSearchParams) {
+    this.overlay = new SweepOverlay(name, (query.get("with") ?? "").split(","));
+    this.crushes = new CrushGrid(Number(query.get("strain") ?? NaN));
     this.title = `Sweep ${idOf(name)}`;
     this.axisChoice.addEventListener("change", () => this.draw());
     this.chart.element.querySelector("figcaption")!.append(h("span", { class: "take-away" }, this.axisChoice,
@@ -54,12 +62,16 @@ export class SweepPage implements View {
       h("header", { class: "job-header" },
         h("div", { class: "title-row" }, this.heading, h("span", { class: "spacer" }), this.actions), this.about,
         this.states),
-      this.problem, h("section", { class: "card" }, this.chart.element),
+      this.problem, h("section", { class: "card" }, this.chart.element, this.overlay.element), this.crushes.element,
       h("div", { class: "toolbar table-head" }, h("h2", {}, "Jobs"), h("span", { class: "spacer" }),
         h("span", { class: "take-away" }, saveButton("CSV", "Save the table as a CSV file", async () =>
           download(this.table.csv(), `sweep-${idOf(name)}.csv`)))),
       this.table.element);
     this.stops = [
+      this.overlay.changes.add(() => {
+        keepInUrl({ with: this.overlay.ids.join(",") });
+        this.draw();
+      }),
       watch.jobs.add((job) => this.takeJob(job)),
       watch.sweeps.add((sweep) => {
         if (sweep.name === this.name) void this.load();
@@ -74,21 +86,15 @@ export class SweepPage implements View {
 
   private async load(): Promise<void> {
     try {
-      const sweep = await api.sweeps.getSweep({ name: this.name });
-      const rows: SweepTable_Row[] = [];
-      let pageToken = "";
-      do {
-        const page = await api.sweeps.getSweepTable({ name: this.name, pageToken });
-        if (page.fields.length) this.fields = page.fields;
-        rows.push(...page.rows);
-        pageToken = page.nextPageToken;
-      } while (pageToken && !this.isDestroyed);
+      const { sweep, rows, fields } = await loadSweep(this.name, this.abort.signal);
       this.sweep = sweep;
       this.rows = rows;
+      this.fields = fields;
       this.problem.hidden = true;
       this.showHead();
       this.draw();
     } catch (error) {
+      if (this.abort.signal.aborted) return;
       this.showProblem(isNotFound(error) ? `${this.title} does not exist, or was deleted.` : errorText(error));
     }
   }
@@ -126,7 +132,7 @@ export class SweepPage implements View {
   private showHead(): void {
     const { sweep } = this;
     if (!sweep) return;
-    this.title = sweep.case?.title || `Sweep ${idOf(sweep.name)}`;
+    this.title = titleOfSweep(sweep);
     setText(this.heading, this.title);
     setTitle(this.title);
     setText(this.about, [`Sweep ${idOf(sweep.name)} over ${variedFields(sweep).join(", ")}`,
@@ -141,11 +147,19 @@ export class SweepPage implements View {
   }
 
   private draw(): void {
-    const axis = Number(this.axisChoice.value) || 0;
-    const data = sweepChart(this.rows, this.fields, axis);
+    if (!this.sweep) return;
+    const path = this.fields[Number(this.axisChoice.value) || 0] ?? "";
+    this.overlay.setPath(path);
+    const others = this.overlay.swept;
+    const label = others.length ? this.overlay.labelOf(this.sweep) : "";
+    const data = sweepChart([{ label, rows: this.rows, fields: this.fields }, ...others], path);
     const note = theoryNote(this.sweep?.case);
     this.chart.setData(note ? { ...data, note: `${data.note}. ${note}` } : data);
     this.table.update(this.rows, this.fields);
+    const { lattice, loading } = this.sweep.case ?? {};
+    // The strain of a frame of beams says nothing.
+    const isCrush = lattice?.kind.case !== "frame";
+    this.crushes.update(isCrush ? this.rows : [], this.fields, loading?.endStrain ?? kEndStrain);
     const counts: Record<string, number> = {};
     for (const row of this.rows) {
       const name = Job_State[row.result?.state ?? 0];
@@ -186,7 +200,9 @@ export class SweepPage implements View {
   }
 
   destroy(): void {
-    this.isDestroyed = true;
+    this.abort.abort();
+    this.overlay.destroy();
+    this.crushes.destroy();
     clearTimeout(this.timer);
     for (const stop of this.stops) stop();
     this.chart.destroy();

@@ -1,6 +1,7 @@
 // The points of a sweep for its chart: plateau stresses against one varied field, with mean and spread over seeds.
 import type { SweepTable_Row } from "../../gen/cellcrush/v1/sweep_pb";
 import type { ChartData, Series, Spread } from "../charts/chart_data";
+import { kMarkShapes } from "../charts/mark_shapes";
 
 export const isSeed = (path: string): boolean => path.endsWith(".seed");
 export const shortName = (path: string): string => path.slice(path.lastIndexOf(".") + 1);
@@ -15,17 +16,30 @@ export function axisName(path: string): string {
   return unit ? `${words} (${unit[1]})` : words;
 }
 
-interface Group { label: string; rows: SweepTable_Row[] }
+/** The place of a field among others, or -1. A field of one lattice is the same as that of another. */
+export function placeOf(path: string, fields: string[]): number {
+  const common = (field: string): string => field.replace(/^lattice\.\w+\./, "lattice.");
+  return fields.findIndex((field) => common(field) === common(path));
+}
+
+/** The rows of a sweep; `label` names it beside others. */
+export interface Swept { label: string; rows: SweepTable_Row[]; fields: string[] }
+
+/** `axis` is the place of the chart's field in the values of the rows. */
+interface Group { label: string; rows: SweepTable_Row[]; axis: number }
 
 // Rows with equal values of all other fields than the axis and the seed.
-function groupsOf(rows: SweepTable_Row[], fields: string[], axis: number): Group[] {
+function groupsOf({ label: sweep, rows, fields }: Swept, path: string): Group[] {
+  const axis = placeOf(path, fields);
   const others = fields.map((_, i) => i).filter((i) => i !== axis && !isSeed(fields[i]));
   const groups = new Map<string, SweepTable_Row[]>();
   for (const row of rows) {
     const label = others.map((i) => `${axisName(fields[i])} ${row.values[i]}`).join(", ");
     groups.set(label, [...(groups.get(label) ?? []), row]);
   }
-  return [...groups].map(([label, members]) => ({ label, rows: members }));
+  return [...groups].map(([label, members]) => ({
+    label: [sweep, label].filter(Boolean).join(": "), rows: members, axis,
+  }));
 }
 
 interface Mean { mean: number; deviation: number; count: number }
@@ -43,32 +57,36 @@ const kSupport: Quantity = (row) => row.result?.summary?.plateauStressSupportMpa
 const kShock: Quantity = (row) => row.result?.summary?.theory?.shockMpa || undefined;
 const kGibsonAshby: Quantity = (row) => row.result?.summary?.theory?.gibsonAshbyMpa || undefined;
 
-const kMostGroups = 6;
+export const kMostGroups = 6;
 const kTheoryPoints = 60;
 
 // Eq. 51 between the points of a sweep over speed, where it grows with the square of the speed above Gibson-Ashby.
-function shockBetween(rows: SweepTable_Row[], axis: number, xs: number[]): (number | null)[] | undefined {
+function shockBetween({ rows, axis }: Group, xs: number[]): (number | null)[] | undefined {
   const row = rows.find((candidate) => kShock(candidate) && candidate.values[axis] > 0);
   if (!row) return undefined;
   const base = kGibsonAshby(row) ?? 0;
   const factor = (kShock(row)! - base) / row.values[axis] ** 2;
-  return xs.map((x) => base + factor * x * x);
+  const values = rows.map((candidate) => candidate.values[axis]);
+  const [first, last] = [Math.min(...values), Math.max(...values)];
+  return xs.map((x) => (x < first || x > last ? null : base + factor * x * x));
 }
 
-export function sweepChart(rows: SweepTable_Row[], fields: string[], axis: number): ChartData {
-  const points = [...new Set(rows.map((row) => row.values[axis]))].sort((a, b) => a - b);
+/** The chart of sweeps over the field `path`, which each of them varies. */
+export function sweepChart(sweeps: Swept[], path: string): ChartData {
+  const groups = sweeps.flatMap((swept) => groupsOf(swept, path));
+  const values = groups.flatMap((group) => group.rows.map((row) => row.values[group.axis]));
+  const points = [...new Set(values)].sort((a, b) => a - b);
   const [first, last] = [points[0] ?? 0, points[points.length - 1] ?? 1];
-  const isSpeed = fields[axis]?.endsWith(".speed_m_per_s") ?? false;
+  const isSpeed = path.endsWith(".speed_m_per_s");
   const between = Array.from({ length: isSpeed ? kTheoryPoints : 0 }, (_, i) =>
     first + ((last - first) * (i + 1)) / (kTheoryPoints + 1));
   const xs = [...new Set([...points, ...between])].sort((a, b) => a - b);
-  const groups = groupsOf(rows, fields, axis);
   const series: Series[] = [];
   const columns: (number | null)[][] = [xs];
   const spreads: Spread[] = [];
   let top = 0;
-  const add = (members: SweepTable_Row[], quantity: Quantity, look: Series, withSpread: boolean): void => {
-    const means = xs.map((x) => meanOf(members.filter((row) => row.values[axis] === x).map(quantity)
+  const add = ({ rows, axis }: Group, quantity: Quantity, look: Series, withSpread: boolean): void => {
+    const means = xs.map((x) => meanOf(rows.filter((row) => row.values[axis] === x).map(quantity)
       .filter((value): value is number => value !== undefined)));
     if (!means.some(Boolean)) return;
     series.push(look);
@@ -85,21 +103,21 @@ export function sweepChart(rows: SweepTable_Row[], fields: string[], axis: numbe
   groups.slice(0, kMostGroups).forEach((group, i) => {
     const isOnly = groups.length === 1;
     const of = isOnly ? "" : `: ${group.label}`;
-    add(group.rows, kShock, { label: `shock theory (Eq. 51)${of}`, colour: isOnly ? "ink-2" : `series-${i}`,
+    add(group, kShock, { label: `shock theory (Eq. 51)${of}`, colour: isOnly ? "ink-2" : `series-${i}`,
                               dash: [8, 4], width: 1.4, quiet: !isOnly }, false);
-    const curve = isSpeed ? shockBetween(group.rows, axis, xs) : undefined;
+    const curve = isSpeed ? shockBetween(group, xs) : undefined;
     if (curve) columns[columns.length - 1] = curve;
-    add(group.rows, kGibsonAshby, { label: `quasi-static theory (Gibson-Ashby)${of}`,
+    add(group, kGibsonAshby, { label: `quasi-static theory (Gibson-Ashby)${of}`,
                                     colour: isOnly ? "ink-2" : `series-${i}`, dash: [2, 3], width: 1.4,
                                     quiet: !isOnly }, false);
-    add(group.rows, kImpact, { label: `impact plate${of}`, colour: isOnly ? "impact" : `series-${i}`, points: true },
-        true);
-    if (isOnly) add(group.rows, kSupport, { label: "support plate", colour: "support", points: true }, true);
+    add(group, kImpact, { label: isOnly ? "impact plate" : group.label, colour: isOnly ? "impact" : `series-${i}`,
+                          points: true, mark: kMarkShapes[i] }, true);
+    if (isOnly) add(group, kSupport, { label: "support plate", colour: "support", points: true, mark: "square" }, true);
   });
   const isLog = first > 0 && last / first > 20;
   const room = 0.05 * (last - first || Math.abs(last) || 1);
   return {
-    series, columns, spreads, xLabel: axisName(fields[axis] ?? ""), yLabel: "plateau stress (MPa)",
+    series, columns, spreads, xLabel: axisName(path), yLabel: "plateau stress (MPa)",
     xLow: isLog ? first / 1.2 : first >= 0 && first < 0.35 * last ? 0 : first - room,
     xEnd: isLog ? last * 1.2 : last + room, xLog: isLog, yTop: top > 0 ? 1.08 * top : 1,
     note: noteOf(groups.length, spreads.length > 0),

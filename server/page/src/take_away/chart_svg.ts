@@ -1,5 +1,6 @@
 // A chart as an SVG file for a paper: black on white, in the colours of the light theme.
 import type { ChartData, Series } from "../charts/chart_data";
+import { markPath } from "../charts/mark_shapes";
 import { themeColour } from "../picture/colours";
 import { svg } from "../dom/element";
 
@@ -35,10 +36,8 @@ function curve(data: ChartData, series: Series, column: (number | null)[], { x, 
   const points = xs.map((value, i) => [value, column[i]] as const).filter(([, value]) => value !== null)
     .map(([px, py]) => `${x(px).toFixed(2)},${y(py as number).toFixed(2)}`);
   if (series.points) {
-    return svg("g", { fill: colour }, ...points.map((point) => {
-      const [cx, cy] = point.split(",");
-      return svg("circle", { cx, cy, r: 3.5 });
-    }));
+    const d = markPath(series.mark ?? "circle", 3.5);
+    return svg("g", { fill: colour }, ...points.map((point) => svg("path", { d, transform: `translate(${point})` })));
   }
   const line = `M${points.join("L")}`;
   if (series.fill) {
@@ -93,15 +92,19 @@ function marks(data: ChartData, { x, y }: Scales): { below: SVGElement[]; above:
 
 function legend(data: ChartData, top: number): SVGElement[] {
   const entries = [
-    ...data.series.filter((s) => !s.quiet).map((s) => ({ label: s.label, colour: themeColour(s.colour), dash: s.dash,
-                                                          thick: s.fill ? 9 : s.points ? 7 : 2.5 })),
-    ...(data.levels ?? []).filter((l) => l.label).map((l) => ({ label: l.label, colour: "#444", dash: l.dash,
-                                                                thick: 1.5 }))];
+    ...data.series.filter((s) => !s.quiet).map((s) => ({
+      label: s.label, colour: themeColour(s.colour), dash: s.dash, thick: s.fill ? 9 : 2.5,
+      mark: s.points ? s.mark ?? "circle" as const : undefined })),
+    ...(data.levels ?? []).filter((l) => l.label).map((l) => ({
+      label: l.label, colour: "#444", dash: l.dash, thick: 1.5, mark: undefined }))];
   return entries.flatMap((entry, i) => {
     const x = kPlot.left + (i % 2) * 330;
     const y = top + 20 * Math.floor(i / 2);
-    return [svg("path", { d: `M${x},${y}h30`, stroke: entry.colour, "stroke-width": entry.thick,
-                          "stroke-dasharray": entry.dash?.join(" ") || undefined }),
+    const sign = entry.mark
+      ? svg("path", { d: markPath(entry.mark, 4), fill: entry.colour, transform: `translate(${x + 15},${y})` })
+      : svg("path", { d: `M${x},${y}h30`, stroke: entry.colour, "stroke-width": entry.thick,
+                      "stroke-dasharray": entry.dash?.join(" ") || undefined });
+    return [sign,
             svg("text", { x: x + 38, y: y + 4, ...kFont }, entry.label)];
   });
 }

@@ -1,0 +1,53 @@
+// A small picture of a lattice and its plates, without gestures. It draws with Canvas2D, as browsers limit the number
+// of WebGL contexts.
+import { viewBox, type Lattice } from "../frames/lattice";
+import type { Fields } from "../frames/packed";
+import { h } from "../dom/element";
+import { Camera } from "./camera";
+import { isDark } from "./colours";
+import { drawPlates } from "./overlay";
+import { fillSegments } from "./segments";
+import { CanvasWalls } from "./walls_2d";
+
+export class SmallPicture {
+  readonly element: HTMLCanvasElement;
+  private readonly camera = new Camera();
+  private readonly walls: CanvasWalls;
+  private readonly observer = new ResizeObserver(() => this.draw());
+  private readonly theme = matchMedia("(prefers-color-scheme: dark)");
+  private shown: { lattice: Lattice; fields: Fields; strain: number } | undefined;
+
+  constructor(label: string) {
+    this.element = h("canvas", { role: "img", "aria-label": label });
+    this.walls = new CanvasWalls(this.element);
+    this.observer.observe(this.element);
+    this.theme.addEventListener("change", this.draw);
+  }
+
+  show(lattice: Lattice, fields: Fields, strain: number): void {
+    this.shown = { lattice, fields, strain };
+    this.walls.setSegments(fillSegments(lattice, fields, undefined));
+    this.draw();
+  }
+
+  private readonly draw = (): void => {
+    const { element, camera, shown } = this;
+    const { clientWidth, clientHeight } = element;
+    if (!clientWidth || !clientHeight || !shown) return;
+    const ratio = devicePixelRatio;
+    element.width = Math.round(clientWidth * ratio);
+    element.height = Math.round(clientHeight * ratio);
+    const box = viewBox(shown.lattice);
+    camera.setSize(clientWidth, clientHeight);
+    camera.setBox(box);
+    this.walls.setDark(isDark());
+    this.walls.draw(camera, ratio);
+    if (shown.lattice.plates) drawPlates(element.getContext("2d")!, camera, { ...shown, box });
+  };
+
+  destroy(): void {
+    this.observer.disconnect();
+    this.theme.removeEventListener("change", this.draw);
+    this.walls.destroy();
+  }
+}

@@ -1,0 +1,147 @@
+// The crushes of a sweep side by side, at equal strain under one slider.
+import type { SweepTable_Row } from "../../gen/cellcrush/v1/sweep_pb";
+import { h, replaceChildren, setText } from "../dom/element";
+import { colourLegend } from "../picture/legend";
+import { Player } from "../picture/player";
+import { PlayerBar } from "../picture/player_bar";
+import { keepInUrl } from "../router";
+import { CrushCell } from "./crush_cell";
+import { axisName, isSeed } from "./points";
+
+const kMostCells = 24;
+const kLoads = 2; // at once, as browsers allow six connections to a host
+const kAgainMs = 5000; // for the frames of running jobs
+const kUrlMs = 400;
+
+export class CrushGrid {
+  readonly element = h("section", { class: "card crush-grid", hidden: true });
+  private readonly grid = h("div", { class: "cells" });
+  private readonly note = h("p", { class: "faint note" });
+  private readonly player = new Player();
+  private readonly bar: PlayerBar;
+  private cells: CrushCell[] = [];
+  private cellsKey = "";
+  private loads = 0;
+  private wanted: number;
+  private again = 0;
+  private urlTimer = 0;
+  private readonly observer = new IntersectionObserver((entries) => this.see(entries), { rootMargin: "200px" });
+
+  /** `strain` is that of the URL. */
+  constructor(strain: number) {
+    this.wanted = Number.isFinite(strain) ? strain : 0.4;
+    this.bar = new PlayerBar(this.player, {
+      neighbour: (direction) => this.player.value + 0.01 * direction,
+      text: (value) => `strain ${value.toFixed(2)}`,
+    });
+    this.player.changes.add(() => this.showPlace());
+    this.element.addEventListener("keydown", (event) => {
+      const { wanted } = this;
+      this.wanted = NaN;
+      if (!this.bar.key(event)) this.wanted = wanted;
+    });
+    // What the user does counts from then on, not the place in the URL.
+    for (const event of ["input", "click"]) {
+      this.bar.element.addEventListener(event, () => { this.wanted = NaN; }, { capture: true });
+    }
+    this.element.append(h("div", { class: "picture-head" }, h("h3", {}, "Crushes at equal strain"),
+      h("span", { class: "spacer" }), colourLegend()), this.bar.element, this.grid, this.note);
+    this.again = window.setInterval(() => this.loadNext(), kAgainMs);
+  }
+
+  /** `endStrain` is the strain at which the crushes end. */
+  update(rows: SweepTable_Row[], fields: string[], endStrain: number): void {
+    this.player.fullEnd = endStrain;
+    const chosen = choose(rows, fields);
+    const key = chosen.map((row) => row.job).join();
+    if (key !== this.cellsKey) this.build(chosen, fields, key);
+    const byJob = new Map(rows.map((row) => [row.job, row]));
+    for (const cell of this.cells) cell.row = byJob.get(cell.row.job) ?? cell.row;
+    this.element.hidden = chosen.length === 0;
+    const isAll = chosen.length === rows.length;
+    setText(this.note, isAll ? "" : `${chosen.length} of ${rows.length} jobs`);
+    this.loadNext();
+    this.showPlace();
+  }
+
+  private build(rows: SweepTable_Row[], fields: string[], key: string): void {
+    this.cellsKey = key;
+    this.observer.disconnect();
+    for (const cell of this.cells) cell.destroy();
+    const varied = fields.map((_, i) => i).filter((i) => new Set(rows.map((row) => row.values[i])).size > 1);
+    this.cells = rows.map((row) => new CrushCell(row, varied.map((i) => valueWords(fields[i], row.values[i]))
+      .join(", ")));
+    replaceChildren(this.grid, ...this.cells.map((cell) => cell.element));
+    for (const cell of this.cells) this.observer.observe(cell.element);
+  }
+
+  private see(entries: IntersectionObserverEntry[]): void {
+    for (const { target, isIntersecting } of entries) {
+      const cell = this.cells.find((candidate) => candidate.element === target);
+      if (cell && isIntersecting) cell.isWanted = true;
+    }
+    this.loadNext();
+  }
+
+  private loadNext(): void {
+    if (document.hidden) return;
+    for (const cell of this.cells) {
+      if (this.loads >= kLoads) return;
+      if (!cell.needsFrames) continue;
+      ++this.loads;
+      void cell.load().then(() => {
+        --this.loads;
+        this.setEnd();
+        this.loadNext();
+      });
+    }
+  }
+
+  private setEnd(): void {
+    const end = Math.max(0, ...this.cells.map((cell) => cell.end));
+    this.player.setEnd(end);
+    if (!Number.isNaN(this.wanted)) this.player.seek(this.wanted);
+  }
+
+  private showPlace(): void {
+    const { value, playing } = this.player;
+    for (const cell of this.cells) cell.showAt(value);
+    clearTimeout(this.urlTimer);
+    if (!playing && Number.isNaN(this.wanted)) {
+      this.urlTimer = window.setTimeout(() => keepInUrl({ strain: String(Number(value.toFixed(3))) }), kUrlMs);
+    }
+  }
+
+  destroy(): void {
+    clearInterval(this.again);
+    clearTimeout(this.urlTimer);
+    this.observer.disconnect();
+    this.player.destroy();
+    for (const cell of this.cells) cell.destroy();
+  }
+}
+
+// A value with its unit, as "speed 50 m/s".
+function valueWords(path: string, value: number): string {
+  const [name, unit] = axisName(path).split(" (");
+  return `${name} ${Number(value.toPrecision(4))}${unit ? ` ${unit.slice(0, -1)}` : ""}`;
+}
+
+// The rows to show, by their values: of too many, as many seeds of each combination as fit, or evenly spaced ones.
+function choose(rows: SweepTable_Row[], fields: string[]): SweepTable_Row[] {
+  const sorted = [...rows].sort((a, b) => {
+    const at = a.values.findIndex((value, i) => value !== b.values[i]);
+    return at < 0 ? 0 : a.values[at] - b.values[at];
+  });
+  if (sorted.length <= kMostCells) return sorted;
+  const combinations = new Map<string, SweepTable_Row[]>();
+  for (const row of sorted) {
+    const key = row.values.filter((_, i) => !isSeed(fields[i])).join();
+    combinations.set(key, [...(combinations.get(key) ?? []), row]);
+  }
+  const seeds = Math.max(1, Math.floor(kMostCells / combinations.size));
+  const candidates = [...combinations.values()].flatMap((members) => members.slice(0, seeds));
+  if (candidates.length <= kMostCells) return candidates;
+  return Array.from({ length: kMostCells }, (_, i) =>
+    candidates[Math.round((i * (candidates.length - 1)) / (kMostCells - 1))]);
+}

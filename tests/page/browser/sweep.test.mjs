@@ -1,0 +1,112 @@
+// Sweeps over the speed: several in one chart, and their crushes side by side at equal strain.
+import assert from 'node:assert/strict';
+import { after, before, test } from 'node:test';
+import { launch, openPage, paintedShare, seriousFindings } from './browser.mjs';
+import { Daemon } from './daemon.mjs';
+
+const daemon = new Daemon();
+let browser;
+let page;
+let errors;
+let complaints;
+
+async function createSweep(title, field, values) {
+  const swept = await daemon.presetCase('hexagon-small', (each) => {
+    each.title = title;
+    each.lattice.hexagon.columns = 10;
+    each.loading.endStrain = 0.45;
+  });
+  const sweep = { case: swept, axes: [{ field, list: { values } }] };
+  return daemon.call('Sweeps/CreateSweep', { sweep });
+}
+
+async function endOf(name) {
+  for (let i = 0; i < 600; ++i) {
+    const { stateCounts, jobs } = await daemon.call('Sweeps/GetSweep', { name });
+    if (stateCounts.SUCCEEDED === jobs.length) return;
+    await new Promise((resolve) => setTimeout(resolve, 100));
+  }
+  throw new Error(`${name} does not end`);
+}
+
+before(async () => {
+  await daemon.start();
+  browser = await launch();
+  ({ page, errors, complaints } = await openPage(browser));
+  const speed = 'loading.speed_m_per_s';
+  await createSweep('Thin walls', speed, [50, 100, 150]);
+  await createSweep('<b>Thick walls</b>', speed, [60, 120]);
+  await createSweep('Thicknesses', 'lattice.hexagon.wall_thickness_mm', [0.3, 0.4]);
+  for (const name of ['sweeps/1', 'sweeps/2', 'sweeps/3']) await endOf(name);
+});
+
+after(async () => {
+  await browser?.close();
+  await daemon.remove();
+});
+
+test('another sweep over the same field joins the chart, and the address holds it', async () => {
+  await page.goto(`${daemon.url}/sweeps/1`);
+  const choice = page.getByLabel('Add a sweep to the chart');
+  await choice.selectOption('sweeps/2');
+  const legend = page.locator('.sweep-page .legend');
+  await legend.getByText('Thin walls').waitFor();
+  await legend.getByText('<b>Thick walls</b>').waitFor();
+  const outlines = await legend.locator('svg.mark path').evaluateAll((marks) =>
+    marks.map((mark) => mark.getAttribute('d')));
+  assert.equal(new Set(outlines).size, 2, 'the marks differ');
+  await page.waitForFunction(() => location.search.includes('with=2'));
+  await page.reload();
+  await legend.getByText('<b>Thick walls</b>').waitFor();
+});
+
+test('a sweep over another field is refused with the reason', async () => {
+  const option = page.locator('option[value="sweeps/3"]');
+  assert.match(await option.textContent(), /varies wall thickness \(mm\), not speed \(m\/s\)/);
+  assert.ok(await option.isDisabled());
+  await page.goto(`${daemon.url}/sweeps/1?with=2,3`);
+  await page.getByText('varies wall thickness (mm), not speed (m/s).').waitFor();
+  assert.equal(await page.locator('.sweep-page .legend .entry').count(), 2);
+  await page.getByRole('button', { name: 'Leave out sweep 3' }).click();
+  await page.waitForFunction(() => location.search === '?with=2');
+});
+
+test('the crushes of a sweep stand side by side at the strain of one slider', async () => {
+  const cells = page.locator('.crush-cell');
+  assert.equal(await cells.count(), 3);
+  for (const words of ['speed 50 m/s', 'speed 100 m/s', 'speed 150 m/s']) await cells.getByText(words).waitFor();
+  await page.waitForFunction(() =>
+    [...document.querySelectorAll('.crush-cell .picture-note')].every((note) => note.hidden));
+  const picture = page.locator('.small-picture').first();
+  assert.ok(await paintedShare(page, picture) > 0.05);
+  await page.getByRole('slider').focus();
+  await page.keyboard.press('Home');
+  await page.getByText('strain 0.00').waitFor();
+  const before = await picture.screenshot();
+  for (let i = 0; i < 20; ++i) await page.keyboard.press('ArrowRight');
+  await page.getByText('strain 0.20').waitFor();
+  assert.notDeepEqual(await picture.screenshot(), before);
+  await page.waitForFunction(() => location.search.includes('strain=0.2'));
+  assert.match(await cells.first().getByRole('link').getAttribute('href'), /^\/jobs\/1\?strain=0\.2/);
+});
+
+test('the SVG of the chart has the curves of both sweeps', async () => {
+  const download = page.waitForEvent('download');
+  await page.getByRole('button', { name: 'Save the chart' }).click();
+  const chunks = [];
+  for await (const chunk of await (await download).createReadStream()) chunks.push(chunk);
+  const svg = Buffer.concat(chunks).toString();
+  assert.match(svg, /Thin walls/);
+  assert.match(svg, /&lt;b&gt;Thick walls/);
+});
+
+test('nothing serious stands in the way of people who cannot see or point', async () => {
+  for (const colorScheme of ['light', 'dark']) {
+    await page.emulateMedia({ colorScheme });
+    await page.goto(`${daemon.url}/sweeps/1?with=2,3`);
+    await page.waitForTimeout(2000);
+    assert.deepEqual(await seriousFindings(page), [], colorScheme);
+  }
+});
+
+test('no script has failed', () => assert.deepEqual([...errors, ...complaints], []));
