@@ -70,19 +70,31 @@ std::string recorded(const Key& key) {
   return "";
 }
 
-/// Writes a row among the others, or keeps the recorded one where `keeps` says so. Tests run side by side.
+/// Keeps other tests that run at the same time from the file.
+class FileLock {
+ public:
+  FileLock() : file_(open(kEvidenceFile, O_RDWR | O_CREAT | O_CLOEXEC, 0644)) {
+    if (file_ < 0 || flock(file_, LOCK_EX) != 0) throw std::runtime_error(std::string("cannot lock ") + kEvidenceFile);
+  }
+  FileLock(const FileLock&) = delete;
+  FileLock& operator=(const FileLock&) = delete;
+  ~FileLock() { ::close(file_); }
+
+ private:
+  int file_;
+};
+
+/// Writes a row among the others, or keeps the recorded one where `keeps` says so.
 template <class Keeps>
 void write(const Key& key, const std::string& text, const Keeps& keeps) {
-  const int lock = open(kEvidenceFile, O_RDWR | O_CREAT | O_CLOEXEC, 0644);
-  if (lock < 0 || flock(lock, LOCK_EX) != 0) throw std::runtime_error(std::string("cannot lock ") + kEvidenceFile);
+  if (key.second.find(',') != std::string::npos) throw std::invalid_argument("a comma in the quantity: " + key.second);
+  const FileLock lock;
   Evidence evidence = read_evidence(kEvidenceFile);
   std::string& value = evidence[key];
   if (value.empty() || !keeps(value)) value = text;
   std::ofstream file(kEvidenceFile);
   file << kEvidenceHeader << "\n";
   for (const auto& [row, number] : evidence) file << row.first << "," << row.second << "," << number << "\n";
-  file.close();
-  ::close(lock);
 }
 
 }  // namespace
