@@ -1,8 +1,8 @@
-// What draws walls: WebGL2 where the browser has it, otherwise Canvas2D.
+// What draws walls: WebGL2 where a GPU draws it, otherwise pixel by pixel into a Canvas2D.
 import type { Camera } from "./camera";
 import type { Segments } from "./segments";
-import { CanvasWalls } from "./walls_2d";
 import { GlWalls } from "./walls_gl";
+import { PixelWalls } from "./walls_pixels";
 
 export interface Walls {
   /** Takes new positions. */
@@ -16,10 +16,22 @@ export interface Walls {
 /** Thinner walls would vanish, in CSS pixels. */
 export const kThinnest = 0.9;
 
+const kSoftware = /swiftshader|llvmpipe|software|basic render/i;
+
+let isFast: boolean | undefined;
+
+// Asked of a canvas of its own: a canvas that has had one kind of context has no other.
+function hasFastGl(): boolean {
+  const gl = document.createElement("canvas").getContext("webgl2", { failIfMajorPerformanceCaveat: true });
+  if (!gl) return false;
+  const info = gl.getExtension("WEBGL_debug_renderer_info");
+  const renderer = String(gl.getParameter(info ? info.UNMASKED_RENDERER_WEBGL : gl.RENDERER));
+  gl.getExtension("WEBGL_lose_context")?.loseContext();
+  return !kSoftware.test(renderer);
+}
+
 export function createWalls(canvas: HTMLCanvasElement): Walls {
-  const gl = canvas.getContext("webgl2", {
-    antialias: false, premultipliedAlpha: true, alpha: true,
-    failIfMajorPerformanceCaveat: true, // WebGL without a GPU is slower than Canvas2D
-  });
-  return gl ? new GlWalls(canvas, gl) : new CanvasWalls(canvas);
+  isFast ??= hasFastGl();
+  const gl = isFast && canvas.getContext("webgl2", { antialias: false, premultipliedAlpha: true, alpha: true });
+  return gl ? new GlWalls(canvas, gl) : new PixelWalls(canvas);
 }
