@@ -2,6 +2,7 @@
 #include <arpa/inet.h>
 #include <gmock/gmock.h>
 #include <openssl/ssl.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -108,6 +109,25 @@ TEST_F(HttpPortTest, HundredsOfIdleConnectionsHoldUpNobody) {
   for (int i = 0; i < 400; ++i) idle.push_back(std::make_unique<HttpSocket>(port()));
   const auto begin = std::chrono::steady_clock::now();
   for (int i = 0; i < 50; ++i) ASSERT_THAT(call("ListJobs", "application/json", "{}"), StartsWith("HTTP/1.1 200"));
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
+}
+
+TEST_F(HttpPortTest, TenThousandConnectionsOfOneMachineHoldUpNoOther) {
+  constexpr int kConnections = 10'000;
+  rlimit files{};
+  getrlimit(RLIMIT_NOFILE, &files);
+  if (files.rlim_max < 12'000) GTEST_SKIP() << "A process may open " << files.rlim_max << " files only.";
+  start(http_options());  // raises the limit of this process
+  std::vector<std::unique_ptr<HttpSocket>> idle;
+  idle.reserve(kConnections);
+  for (int i = 0; i < kConnections; ++i) idle.push_back(std::make_unique<HttpSocket>(port()));
+  EXPECT_EQ(idle.back()->read_to_end(), "") << "One machine may have 500.";
+  const auto begin = std::chrono::steady_clock::now();
+  for (int i = 0; i < 50; ++i) {
+    const HttpSocket other(port(), 0, "127.0.0.2");
+    other.send(call_text("ListJobs", "application/json", "{}"));
+    ASSERT_THAT(other.read_to_end(), StartsWith("HTTP/1.1 200"));
+  }
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
 }
 

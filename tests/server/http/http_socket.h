@@ -8,8 +8,8 @@ namespace cellcrush::testing {
 /// A plain connection to a port of 127.0.0.1. Reading waits at most 60 s.
 class HttpSocket {
  public:
-  /// `receive_buffer`: bytes that the kernel keeps unread; 0: its default.
-  explicit HttpSocket(int port, int receive_buffer = 0);
+  /// `receive_buffer`: bytes that the kernel keeps unread; 0: its default. `from`: an address of loopback.
+  explicit HttpSocket(int port, int receive_buffer = 0, const char* from = "127.0.0.1");
   ~HttpSocket();
   HttpSocket(const HttpSocket&) = delete;
   HttpSocket& operator=(const HttpSocket&) = delete;
