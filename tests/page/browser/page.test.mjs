@@ -49,18 +49,6 @@ test('a title is text, also when it is a script', async () => {
   assert.equal(await page.locator('img[src=x]').count(), 0);
 });
 
-test('a daemon killed in the middle of a crush is waited for, and its job is followed to the end', async () => {
-  const submitted = await daemon.presetCase('type-i', (each) => (each.loading.endStrain = 0.6));
-  const job = await daemon.call('Jobs/CreateJob', { case: submitted });
-  await page.goto(`${daemon.url}/${job.name}`);
-  await page.getByText('running').first().waitFor();
-  await page.waitForTimeout(1000);
-  await daemon.stop('SIGKILL');
-  await page.waitForTimeout(1500);
-  await daemon.start();
-  await page.getByText('succeeded').first().waitFor({ timeout: 90000 });
-});
-
 test('a sweep over two fields with labels is started from the form', async () => {
   await page.goto(daemon.url + '/new');
   await page.getByLabel('a sweep').check();

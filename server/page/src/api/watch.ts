@@ -1,7 +1,8 @@
 // The one stream of a tab: all jobs and sweeps, and the samples and frames of the jobs that a view asks for.
 //
 // The watch reconnects with growing delays and continues with its token, so no change is lost while the daemon is away.
-// A tab that was hidden for a minute closes its stream, as browsers allow only six connections to a host.
+// A tab that was hidden for a minute closes its stream. A tab that has no place for a lasting stream (places.ts) asks
+// every few seconds for what has changed since.
 import { create } from "@bufbuild/protobuf";
 import { Code, ConnectError } from "@connectrpc/connect";
 import type { JobEvent } from "../../gen/cellcrush/v1/event_pb";
@@ -11,6 +12,7 @@ import { FieldFrame_Encoding } from "../../gen/cellcrush/v1/sample_pb";
 import type { Sweep } from "../../gen/cellcrush/v1/sweep_pb";
 import { api } from "./clients";
 import { Listeners } from "./listeners";
+import { takePlace } from "./places";
 
 export type Connection = "connecting" | "live" | "away" | "hidden";
 
@@ -27,6 +29,8 @@ const kFirstDelayMs = 500;
 const kLongestDelayMs = 15_000;
 const kSilenceMs = 45_000; // a live stream sends a bookmark every 15 s
 const kHiddenMs = 60_000;
+const kBriefMs = 1_500; // for which a stream without a place is open, and the time until its next one
+const kBetweenMs = 3_000;
 
 class Watch {
   readonly connection = new Listeners<Connection>();
@@ -74,6 +78,7 @@ class Watch {
     if (this.state === "hidden") return;
     this.abort.abort();
     clearTimeout(this.timer);
+    clearTimeout(this.silence);
     this.timer = window.setTimeout(() => void this.run(), after);
   }
 
@@ -95,6 +100,21 @@ class Watch {
 
   private async run(): Promise<void> {
     const abort = (this.abort = new AbortController());
+    const giveBack = await takePlace();
+    abort.signal.addEventListener("abort", () => giveBack?.());
+    if (abort.signal.aborted) return giveBack?.();
+    if (!giveBack) setTimeout(() => this.pause(abort), kBriefMs);
+    await this.read(abort);
+    giveBack?.();
+  }
+
+  private pause(of: AbortController): void {
+    if (of.signal.aborted) return;
+    if (this.state === "live") this.restart(kBetweenMs);
+    else setTimeout(() => this.pause(of), kBriefMs);
+  }
+
+  private async read(abort: AbortController): Promise<void> {
     const request = {
       resumeToken: this.token,
       jobs: [...this.watched.values()].map((job) =>

@@ -1,5 +1,5 @@
-// A small picture of a lattice and its plates, without gestures. It draws with Canvas2D, as browsers limit the number
-// of WebGL contexts.
+// A small picture of a lattice and its plates, without gestures. It draws pixel by pixel, as browsers limit the
+// number of WebGL contexts.
 import { viewBox, type Lattice } from "../frames/lattice";
 import type { Fields } from "../frames/packed";
 import { h } from "../dom/element";
@@ -7,19 +7,19 @@ import { Camera } from "./camera";
 import { isDark } from "./colours";
 import { drawPlates } from "./overlay";
 import { fillSegments } from "./segments";
-import { CanvasWalls } from "./walls_2d";
+import { PixelWalls } from "./walls_pixels";
 
 export class SmallPicture {
   readonly element: HTMLCanvasElement;
   private readonly camera = new Camera();
-  private readonly walls: CanvasWalls;
+  private readonly walls: PixelWalls;
   private readonly observer = new ResizeObserver(() => this.draw());
   private readonly theme = matchMedia("(prefers-color-scheme: dark)");
   private shown: { lattice: Lattice; fields: Fields; strain: number } | undefined;
 
   constructor(label: string) {
     this.element = h("canvas", { role: "img", "aria-label": label });
-    this.walls = new CanvasWalls(this.element);
+    this.walls = new PixelWalls(this.element);
     this.observer.observe(this.element);
     this.theme.addEventListener("change", this.draw);
   }
@@ -42,7 +42,9 @@ export class SmallPicture {
     camera.setBox(box);
     this.walls.setDark(isDark());
     this.walls.draw(camera, ratio);
-    if (shown.lattice.plates) drawPlates(element.getContext("2d")!, camera, { ...shown, box });
+    const context = element.getContext("2d")!;
+    context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    if (shown.lattice.plates) drawPlates(context, camera, { ...shown, box });
   };
 
   destroy(): void {
