@@ -5,8 +5,8 @@ import { chromium } from 'playwright-core';
 
 const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 
-export async function launch() {
-  return chromium.launch({ executablePath: process.env.CHROMIUM, args: ['--no-sandbox'] });
+export async function launch(more = []) {
+  return chromium.launch({ executablePath: process.env.CHROMIUM, args: ['--no-sandbox', ...more] });
 }
 
 // A page, the errors of its scripts, what its console complains of, and the addresses that it asks for.
@@ -27,6 +27,24 @@ export async function seriousFindings(page) {
   const found = await page.evaluate(() => globalThis.axe.run());
   const serious = found.violations.filter((each) => each.impact === 'serious' || each.impact === 'critical');
   return serious.map((each) => `${each.id}: ${each.nodes.map((node) => node.html).join(' ')}`);
+}
+
+// How far two pictures of one size are apart, and the first one from the colour of its corner: means over the pixels
+// and the colours, 0 to 1.
+export async function meanDifference(browser, a, b) {
+  const helper = await browser.newPage();
+  const means = await helper.evaluate(async (pictures) => {
+    const [one, other] = await Promise.all(pictures.map(async (data) => {
+      const image = await createImageBitmap(await (await fetch(`data:image/png;base64,${data}`)).blob());
+      const context = new OffscreenCanvas(image.width, image.height).getContext('2d');
+      context.drawImage(image, 0, 0);
+      return context.getImageData(4, 4, image.width - 8, image.height - 8).data;
+    }));
+    const mean = (of) => one.reduce((sum, value, i) => sum + Math.abs(value - of(i)), 0) / (255 * one.length);
+    return { difference: mean((i) => other[i]), contrast: mean((i) => one[i % 4]) };
+  }, [a, b].map((picture) => picture.toString('base64')));
+  await helper.close();
+  return means;
 }
 
 // The share of an element whose colour is not that of its corner, 0 to 1, in a picture of the screen.

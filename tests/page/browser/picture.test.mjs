@@ -1,0 +1,59 @@
+// A GPU draws the same picture as the page does by itself.
+import assert from 'node:assert/strict';
+import { after, before, test } from 'node:test';
+import { launch, meanDifference, openPage } from './browser.mjs';
+import { Daemon } from './daemon.mjs';
+
+const daemon = new Daemon();
+let browser;
+let job;
+
+before(async () => {
+  await daemon.start();
+  // WebGL2 in software, which the page does not use by itself.
+  browser = await launch(['--use-angle=swiftshader', '--enable-unsafe-swiftshader']);
+  const submitted = await daemon.presetCase('hexagon-small', (each) => (each.loading.endStrain = 0.5));
+  job = (await daemon.call('Jobs/CreateJob', { case: submitted })).name;
+});
+
+after(async () => {
+  await browser?.close();
+  await daemon.remove();
+});
+
+/** A picture of the lattice, and how its walls were drawn: "webgl2" or "2d". */
+async function drawn(renderer, place, colorScheme) {
+  const { page, errors } = await openPage(browser);
+  await page.emulateMedia({ colorScheme });
+  await page.addInitScript((name) => {
+    const { getParameter } = WebGL2RenderingContext.prototype;
+    const kNames = [0x1f01, 0x9246];
+    WebGL2RenderingContext.prototype.getParameter = function (asked) {
+      return name && kNames.includes(asked) ? name : getParameter.call(this, asked);
+    };
+  }, renderer);
+  await page.goto(`${daemon.url}/${job}?${place}`);
+  await page.getByText('succeeded').first().waitFor();
+  await page.waitForTimeout(1500);
+  const kind = await page.evaluate(() => {
+    const canvas = document.querySelector('.picture canvas');
+    return canvas.getContext('2d') ? '2d' : canvas.getContext('webgl2') ? 'webgl2' : 'none';
+  });
+  const picture = await page.locator('.picture').screenshot();
+  assert.deepEqual(errors, []);
+  await page.close();
+  return { kind, picture };
+}
+
+test('with WebGL2 and with Canvas2D the lattice looks the same, whole and zoomed in', async () => {
+  const cases = [['light', 'strain=0.3'], ['dark', 'strain=0.3&view=4,30,10']];
+  for (const [colorScheme, place] of cases) {
+    const byGpu = await drawn('A GPU', place, colorScheme);
+    const byPage = await drawn('', place, colorScheme);
+    assert.deepEqual([byGpu.kind, byPage.kind], ['webgl2', '2d']);
+    const { difference, contrast } = await meanDifference(browser, byGpu.picture, byPage.picture);
+    assert.ok(contrast > 0.02, `${colorScheme}, ${place}: ${contrast} of the picture is drawn`);
+    assert.ok(difference < 0.04 * contrast, `${colorScheme}, ${place}: ${difference} of ${contrast}`);
+    console.log(`${colorScheme}, ${place}: difference ${difference.toFixed(5)} of ${contrast.toFixed(4)}`);
+  }
+});
