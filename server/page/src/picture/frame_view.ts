@@ -5,6 +5,7 @@ import type { Lattice } from "../frames/lattice";
 import type { Fields } from "../frames/packed";
 import { Picture } from "./picture";
 import type { Face } from "./rigid_walls";
+import { Pace } from "./pace";
 import { mixFields } from "./segments";
 
 export class FrameView {
@@ -14,6 +15,7 @@ export class FrameView {
   private mixed: Fields | undefined;
   private shownKey = "";
   private included = -1;
+  private readonly pace = new Pace();
 
   /** `facesAt` gives the faces of rigid walls at a time in s. */
   constructor(private readonly store: FrameStore, private readonly valueOf: (frame: FieldFrame) => number,
@@ -46,7 +48,12 @@ export class FrameView {
     const after = Math.min(before + 1, frames.length - 1);
     const [a, b] = [this.valueOf(frames[before]), this.valueOf(frames[after])];
     const mix = b > a ? Math.min(Math.max((value - a) / (b - a), 0), 1) : 0;
-    if (!isMoving) return this.showFrame(mix < 0.5 ? before : after);
+    if (!isMoving) {
+      this.pace.stop();
+      this.picture.note("");
+      return this.showFrame(mix < 0.5 ? before : after);
+    }
+    this.picture.note(this.pace.note(performance.now()));
     this.shown = frames[before];
     this.shownKey = "";
     this.mixed = mixFields(store.fields(before), store.fields(after), mix, this.mixed);

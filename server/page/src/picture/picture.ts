@@ -2,7 +2,7 @@
 import { boxOf, viewBox, type Box, type Lattice } from "../frames/lattice";
 import type { Fields } from "../frames/packed";
 import { Listeners } from "../api/listeners";
-import { h, replaceChildren } from "../dom/element";
+import { h, replaceChildren, setText } from "../dom/element";
 import { number, percent } from "../dom/format";
 import { Camera } from "./camera";
 import { isDark, themeColour } from "./colours";
@@ -21,6 +21,7 @@ export class Picture {
   private readonly wallCanvas = h("canvas", { "aria-hidden": "true" });
   private readonly topCanvas = h("canvas", { tabindex: 0, role: "img" });
   private readonly tip = h("div", { class: "tip", hidden: true });
+  private readonly noted = h("div", { class: "noted" });
   private readonly walls: Walls;
   private readonly observer = new ResizeObserver(() => this.resize());
   private readonly theme = matchMedia("(prefers-color-scheme: dark)");
@@ -33,7 +34,7 @@ export class Picture {
   private scheduled = 0;
 
   constructor(label: string) {
-    this.element = h("div", { class: "picture" }, this.wallCanvas, this.topCanvas, this.tip);
+    this.element = h("div", { class: "picture" }, this.wallCanvas, this.topCanvas, this.noted, this.tip);
     this.topCanvas.setAttribute("aria-label", label);
     this.walls = createWalls(this.wallCanvas);
     this.walls.setDark(this.theme.matches);
@@ -86,6 +87,11 @@ export class Picture {
     this.walls.setSegments(this.segments);
     this.strain = strain;
     this.drawSoon();
+  }
+
+  /** A line of text over the picture. */
+  note(text: string): void {
+    setText(this.noted, text);
   }
 
   fit(): void {
