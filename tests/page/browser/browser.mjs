@@ -61,3 +61,15 @@ export async function paintedShare(page, element) {
   await helper.close();
   return share;
 }
+
+// The same once the picture no longer changes.
+export async function settledShare(page, element) {
+  let before = -1;
+  for (let i = 0; i < 20; ++i) {
+    await page.waitForTimeout(400);
+    const share = await paintedShare(page, element);
+    if (share === before) return share;
+    before = share;
+  }
+  throw new Error('the picture does not come to rest');
+}

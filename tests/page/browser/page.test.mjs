@@ -1,7 +1,7 @@
 // The web page in Debian's Chromium, against a real daemon that crushes real scenes.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { launch, openPage, paintedShare, seriousFindings } from './browser.mjs';
+import { launch, openPage, seriousFindings, settledShare } from './browser.mjs';
 import { Daemon } from './daemon.mjs';
 
 const daemon = new Daemon();
@@ -86,8 +86,7 @@ test('the rigid wall of a frame is in its picture', async () => {
     const job = await daemon.call('Jobs/CreateJob', { case: submitted });
     await page.goto(`${daemon.url}/${job.name}`);
     await page.getByText('succeeded').first().waitFor();
-    await page.waitForTimeout(800);
-    shares.push(await paintedShare(page, page.locator('.picture')));
+    shares.push(await settledShare(page, page.locator('.picture')));
   }
   assert.ok(shares[1] > shares[0] + 0.005, `${shares}`);
 });
