@@ -3,10 +3,13 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <new>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace cellcrush::watch {
@@ -29,20 +32,73 @@ std::vector<double> displacements(const v1::FieldFrame& frame, const v1::Mesh* m
   return out;
 }
 
-// The differences of the rounded numbers, their low bytes first.
-std::string bytes_of(const std::vector<double>& moved, double quantum, int particles) {
-  const std::size_t count = moved.size();
-  std::string out(2 * count, '\0');
-  std::uint16_t before = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    if (i == static_cast<std::size_t>(particles)) before = 0;
-    const auto rounded = static_cast<std::uint16_t>(quantum > 0.0 ? std::lround(moved[i] / quantum) : 0);
-    const auto difference = static_cast<std::uint16_t>(rounded - before);
-    out[i] = static_cast<char>(difference & 0xFFU);
-    out[count + i] = static_cast<char>(difference >> 8U);
-    before = rounded;
+/// The particles of lower indices whose motion tells what to expect of a particle's; kNone: the one before it.
+using Guides = std::array<int, 2>;
+constexpr int kNone = -1;
+
+std::vector<Guides> guides_of(const v1::Mesh& mesh, int particles) {
+  std::vector<Guides> guides(static_cast<std::size_t>(particles), {kNone, kNone});
+  for (int e = 0; e + 1 < mesh.element_nodes_size(); e += 2) {
+    const auto [low, high] = std::minmax({mesh.element_nodes(e), mesh.element_nodes(e + 1)});
+    if (low < 0 || high >= particles) continue;
+    auto& [first, second] = guides[high];
+    if (first == kNone) {
+      first = low;
+    } else if (second == kNone) {
+      second = low;
+    }
   }
-  return out;
+  return guides;
+}
+
+/// Differences of rounded numbers from what is expected. `guides` is empty, or has those of each particle.
+class Differences {
+ public:
+  Differences(const std::vector<double>& moved, double quantum, int particles, std::vector<Guides> guides)
+      : guides_(std::move(guides)), particles_(static_cast<std::size_t>(particles)), rounded_(moved.size()) {
+    std::ranges::transform(moved, rounded_.begin(), [quantum](double value) {
+      return static_cast<int>(quantum > 0.0 ? std::lround(value / quantum) : 0);
+    });
+  }
+
+  /// The low bytes, then the high ones.
+  [[nodiscard]] std::string bytes() const {
+    const std::size_t count = rounded_.size();
+    std::string out(2 * count, '\0');
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto difference = static_cast<std::uint16_t>(rounded_[i] - expected(i));
+      out[i] = static_cast<char>(difference & 0xFFU);
+      out[count + i] = static_cast<char>(difference >> 8U);
+    }
+    return out;
+  }
+
+ private:
+  [[nodiscard]] int expected(std::size_t i) const {
+    const std::size_t begin = i < particles_ ? 0 : particles_;
+    const Guides guides = guides_.empty() ? Guides{kNone, kNone} : guides_[i - begin];
+    if (guides[0] == kNone) return i == begin ? 0 : rounded_[i - 1];
+    const int first = rounded_[begin + guides[0]];
+    return guides[1] == kNone ? first : (first + rounded_[begin + guides[1]]) >> 1;
+  }
+
+  std::vector<Guides> guides_;
+  std::size_t particles_;
+  std::vector<int> rounded_;
+};
+
+/// Finer than the thinnest wall can be seen.
+double finest_quantum(const v1::Mesh* mesh) {
+  constexpr double kOfThickness = 1.0 / 16.0;
+  if (mesh == nullptr || mesh->thickness_mm().empty()) return 0.0;
+  return kOfThickness * *std::ranges::min_element(mesh->thickness_mm());
+}
+
+/// Rounded to as many levels as the pictures have colours.
+char byte_of(float plastic_fraction) {
+  constexpr float kLevels = 63.0F;
+  const float rounded = std::round(kLevels * std::clamp(plastic_fraction, 0.0F, 1.0F)) / kLevels;
+  return static_cast<char>(std::lround(255.0F * rounded));
 }
 
 std::string compressed(const std::string& bytes) {
@@ -69,10 +125,11 @@ v1::FieldFrame pack(const v1::FieldFrame& frame, const v1::Mesh* mesh) {
   const auto moved = displacements(frame, mesh);
   double largest = 0.0;
   for (const double value : moved) largest = std::max(largest, std::abs(value));
-  packed.set_quantum_mm(largest / kLargest);
-  std::string bytes = bytes_of(moved, packed.quantum_mm(), particles);
-  for (const float fraction : frame.plastic_fraction())
-    bytes.push_back(static_cast<char>(std::lround(255.0F * std::clamp(fraction, 0.0F, 1.0F))));
+  packed.set_quantum_mm(std::max(largest / kLargest, finest_quantum(mesh)));
+  packed.set_expected_by_elements(mesh != nullptr);
+  std::vector<Guides> guides = mesh == nullptr ? std::vector<Guides>() : guides_of(*mesh, particles);
+  std::string bytes = Differences(moved, packed.quantum_mm(), particles, std::move(guides)).bytes();
+  std::ranges::transform(frame.plastic_fraction(), std::back_inserter(bytes), byte_of);
   packed.set_data(compressed(bytes));
   return out;
 }

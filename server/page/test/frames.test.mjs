@@ -4,25 +4,30 @@ import { zlibSync } from "fflate";
 import { create } from "@bufbuild/protobuf";
 import { FieldFrameSchema, MeshSchema } from "../gen/cellcrush/v1/sample_pb";
 import { FrameStore } from "../src/frames/frame_store";
-import { fieldsOf } from "../src/frames/packed";
+import { fieldsOf, guidesOf } from "../src/frames/packed";
 import { FrameParts } from "../src/frames/parts";
 
-// Packs as the comment of FieldFrame.Packed says, independently of the daemon.
-function pack(displacements, plastic, quantum) {
+// Packs as the comment of FieldFrame.Packed says, independently of the daemon. `elements`: what tells what to expect.
+function pack(displacements, plastic, quantum, elements = []) {
   const count = displacements.length / 2;
   const bytes = new Uint8Array(4 * count + plastic.length);
   for (const component of [0, 1]) {
-    let last = 0;
-    for (let i = 0; i < count; ++i) {
-      const value = Math.round(displacements[2 * i + component] / quantum);
-      const difference = (value - last) & 0xffff;
-      last = value;
+    const numbers = Array.from({ length: count }, (_, i) => Math.round(displacements[2 * i + component] / quantum));
+    numbers.forEach((value, i) => {
+      const joined = elements.filter((ends) => Math.max(...ends) === i).map((ends) => numbers[Math.min(...ends)]);
+      let expected = numbers[i - 1] ?? 0;
+      if (joined.length === 1) expected = joined[0];
+      if (joined.length > 1) expected = Math.floor((joined[0] + joined[1]) / 2);
+      const difference = (value - expected) & 0xffff;
       bytes[component * count + i] = difference & 0xff;
       bytes[2 * count + component * count + i] = difference >> 8;
-    }
+    });
   }
   plastic.forEach((value, i) => { bytes[4 * count + i] = Math.round(255 * value); });
-  return { quantumMm: quantum, particleCount: count, elementCount: plastic.length, data: zlibSync(bytes) };
+  return {
+    quantumMm: quantum, particleCount: count, elementCount: plastic.length, data: zlibSync(bytes),
+    expectedByElements: elements.length > 0,
+  };
 }
 
 test("a packed frame gives positions within half a quantum, also across the 16-bit range", () => {
@@ -30,9 +35,19 @@ test("a packed frame gives positions within half a quantum, also across the 16-b
   const moved = [100, -99.5, -100, 99.5, 0.004, 0];
   const quantum = 100 / 32767;
   const frame = create(FieldFrameSchema, { packed: pack(moved, [0, 0.5, 1], quantum) });
-  const { position, plastic } = fieldsOf(frame, base);
+  const { position, plastic } = fieldsOf(frame, base, new Uint32Array());
   moved.forEach((value, i) => assert.ok(Math.abs(position[i] - base[i] - value) <= 0.5 * quantum + 1e-5));
   assert.deepEqual([...plastic].map((value) => value.toFixed(2)), ["0.00", "0.50", "1.00"]);
+});
+
+test("elements tell what to expect of particles inside walls", () => {
+  // Two joints and the three particles of a wall between them, of which the middle one was numbered last; and a joint.
+  const elements = [[0, 2], [2, 4], [4, 3], [3, 1], [5, 1]];
+  const moved = [100, -100, -99, 100, 31.5, 2, -63, 7, 12, -3, 0.5, 100];
+  const quantum = 100 / 32767;
+  const frame = create(FieldFrameSchema, { packed: pack(moved, [], quantum, elements) });
+  const { position } = fieldsOf(frame, new Float32Array(12), guidesOf(Uint32Array.from(elements.flat()), 6));
+  moved.forEach((value, i) => assert.ok(Math.abs(position[i] - value) <= 0.5 * quantum + 1e-5, `${i}: ${position[i]}`));
 });
 
 test("without positions in the mesh, the first frame is the undeformed lattice and the base stays 0", () => {

@@ -2,7 +2,7 @@
 import type { FieldFrame, Mesh } from "../../gen/cellcrush/v1/sample_pb";
 import { Listeners } from "../api/listeners";
 import { latticeOf, type Lattice } from "./lattice";
-import { fieldsOf, type Fields } from "./packed";
+import { fieldsOf, guidesOf, type Fields } from "./packed";
 
 const kKept = 8; // unpacked frames
 
@@ -14,12 +14,14 @@ export class FrameStore {
   private unpacked = new Map<number, Fields>();
 
   private base: Float32Array = new Float32Array();
+  private guides: Uint32Array = new Uint32Array();
 
   setMesh(mesh: Mesh): void {
     const lattice = latticeOf(mesh);
     if (lattice.undeformed.length === 0 && this.lattice) return;
     this.lattice = lattice;
     this.base = lattice.undeformed;
+    this.guides = guidesOf(lattice.ends, mesh.particleCount);
     this.unpacked.clear();
     this.changes.tell();
   }
@@ -28,7 +30,7 @@ export class FrameStore {
     const { frames } = this;
     // Jobs of earlier versions have a mesh without positions: the first frame has them.
     if (this.lattice && this.lattice.undeformed.length === 0 && frame.index === 0) {
-      this.lattice.undeformed = fieldsOf(frame, this.base).position;
+      this.lattice.undeformed = fieldsOf(frame, this.base, this.guides).position;
     }
     let at = frames.length;
     while (at > 0 && frames[at - 1].index >= frame.index) --at;
@@ -49,7 +51,7 @@ export class FrameStore {
     const frame = this.frames[place];
     let fields = this.unpacked.get(frame.index);
     if (!fields) {
-      fields = fieldsOf(frame, this.base);
+      fields = fieldsOf(frame, this.base, this.guides);
       this.unpacked.set(frame.index, fields);
       if (this.unpacked.size > kKept) this.unpacked.delete(this.unpacked.keys().next().value!);
     }

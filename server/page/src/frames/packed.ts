@@ -9,19 +9,41 @@ export interface Fields {
   plastic: Float32Array;
 }
 
-// The running sums of the differences of one component, times the quantum, added to the undeformed positions.
-function addDisplacements(fields: Fields, bytes: Uint8Array, count: number, component: 0 | 1, quantum: number): void {
+const kNone = 0xffffffff;
+
+/** Of each particle the first two of lower indices that elements join it to: what to expect of its motion. */
+export function guidesOf(ends: Uint32Array, particles: number): Uint32Array {
+  const guides = new Uint32Array(2 * particles).fill(kNone);
+  for (let e = 0; e + 1 < ends.length; e += 2) {
+    const low = Math.min(ends[e], ends[e + 1]);
+    const high = Math.max(ends[e], ends[e + 1]);
+    if (high >= particles) continue;
+    if (guides[2 * high] === kNone) guides[2 * high] = low;
+    else if (guides[2 * high + 1] === kNone) guides[2 * high + 1] = low;
+  }
+  return guides;
+}
+
+// Adds a component of the displacements to the positions. `guides` are empty if they tell nothing.
+function addDisplacements(position: Float32Array, bytes: Uint8Array, count: number, component: 0 | 1, quantum: number,
+                          guides: Uint32Array): void {
   const low = component * count;
   const high = 2 * count + low;
-  let value = 0;
+  const numbers = new Int16Array(count);
   for (let i = 0; i < count; ++i) {
-    value = (value + (bytes[low + i] | (bytes[high + i] << 8))) & 0xffff;
-    fields.position[2 * i + component] += quantum * ((value << 16) >> 16);
+    let expected = i === 0 ? 0 : numbers[i - 1];
+    if (guides.length > 0 && guides[2 * i] !== kNone) {
+      expected = numbers[guides[2 * i]];
+      if (guides[2 * i + 1] !== kNone) expected = (expected + numbers[guides[2 * i + 1]]) >> 1;
+    }
+    numbers[i] = expected + (bytes[low + i] | (bytes[high + i] << 8)); // wraps round
+    position[2 * i + component] += quantum * numbers[i];
   }
 }
 
-/** The fields of a frame, packed or plain. `base` is Mesh.position_mm; without it packed displacements count from 0. */
-export function fieldsOf(frame: FieldFrame, base: Float32Array): Fields {
+/** The fields of a frame, packed or plain. `base` is Mesh.position_mm; without it packed displacements count from 0.
+ *  `guides` are those of the mesh's elements. */
+export function fieldsOf(frame: FieldFrame, base: Float32Array, guides: Uint32Array): Fields {
   const { packed } = frame;
   if (!packed) {
     return { position: Float32Array.from(frame.positionMm), plastic: Float32Array.from(frame.plasticFraction) };
@@ -31,8 +53,9 @@ export function fieldsOf(frame: FieldFrame, base: Float32Array): Fields {
   const bytes = unzlibSync(packed.data, { out: new Uint8Array(4 * particles + elements) });
   const position = base.length === 2 * particles ? base.slice() : new Float32Array(2 * particles);
   const fields = { position, plastic: new Float32Array(elements) };
-  addDisplacements(fields, bytes, particles, 0, packed.quantumMm);
-  addDisplacements(fields, bytes, particles, 1, packed.quantumMm);
+  const used = packed.expectedByElements ? guides : new Uint32Array();
+  addDisplacements(position, bytes, particles, 0, packed.quantumMm, used);
+  addDisplacements(position, bytes, particles, 1, packed.quantumMm, used);
   for (let i = 0; i < elements; ++i) fields.plastic[i] = bytes[4 * particles + i] / 255;
   return fields;
 }
