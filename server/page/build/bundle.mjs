@@ -21,6 +21,13 @@ await build({
 });
 for (const name of ["index.html", "icon.svg"]) copyFileSync(join(page, "src", name), join(bundle, name));
 
+// Exported pages have both inline.
+for (const name of ["app.js", "app.css"]) {
+  if (/<\/(script|style)|<!--/i.test(readFileSync(join(bundle, name), "utf8"))) {
+    throw new Error(`${name} has what would end an inline script or style`);
+  }
+}
+
 let total = 0;
 for (const name of readdirSync(bundle)) {
   const size = gzipSync(readFileSync(join(bundle, name))).length;
