@@ -30,8 +30,10 @@ std::string from_base64(const std::string& text) {
 }
 
 std::string inflated(const std::string& bytes) {
-  std::string out(50'000'000, '\0');
-  uLongf size = out.size();
+  constexpr uLongf kMost = 50'000'000;
+  uLongf size = kMost;
+  std::string out;
+  out.resize(size);
   EXPECT_EQ(uncompress(reinterpret_cast<Bytef*>(out.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
                        bytes.size()),
             Z_OK);

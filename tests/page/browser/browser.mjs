@@ -47,27 +47,32 @@ export async function meanDifference(browser, a, b) {
   return means;
 }
 
-// The share of an element whose colour is not that of its corner, 0 to 1, in a picture of the screen.
-export async function paintedShare(page, element) {
+// The share of an element whose colour is not that of its corner, 0 to 1, in a picture of the screen; with a colour,
+// "#rrggbb", the share that has it.
+export async function paintedShare(page, element, colour) {
   const picture = (await element.screenshot()).toString('base64');
   const helper = await page.context().browser().newPage();
-  const share = await helper.evaluate(async (data) => {
+  const share = await helper.evaluate(async ([data, wanted]) => {
     const image = await createImageBitmap(await (await fetch(`data:image/png;base64,${data}`)).blob());
     const context = new OffscreenCanvas(image.width, image.height).getContext('2d');
     context.drawImage(image, 0, 0);
     const pixels = new Uint32Array(context.getImageData(4, 4, image.width - 8, image.height - 8).data.buffer);
-    return pixels.filter((pixel) => pixel !== pixels[0]).length / pixels.length;
-  }, picture);
+    // Pixels are little-endian: the first byte is red.
+    const [red, green, blue] = [1, 3, 5].map((at) => parseInt(wanted?.slice(at, at + 2), 16));
+    const isCounted = wanted ? (pixel) => (pixel & 0xffffff) === (red | (green << 8) | (blue << 16))
+      : (pixel) => pixel !== pixels[0];
+    return pixels.filter(isCounted).length / pixels.length;
+  }, [picture, colour]);
   await helper.close();
   return share;
 }
 
 // The same once the picture no longer changes.
-export async function settledShare(page, element) {
+export async function settledShare(page, element, colour) {
   let before = -1;
   for (let i = 0; i < 20; ++i) {
     await page.waitForTimeout(400);
-    const share = await paintedShare(page, element);
+    const share = await paintedShare(page, element, colour);
     if (share === before) return share;
     before = share;
   }
