@@ -73,7 +73,7 @@ ExitCode run_export(Session& session, const ExportOptions& options) {
   }
   fmt::print("{}  {}", options.file, size_text(exported.bytes));
   if (exported.frame_count < exported.job_frame_count) {
-    fmt::print("  {} of {} frames; --max-size makes room for more", exported.frame_count, exported.job_frame_count);
+    fmt::print("  {} of {} frames; raise --max-size for more", exported.frame_count, exported.job_frame_count);
   }
   fmt::print("\n");
   return ExitCode::done;
@@ -84,15 +84,14 @@ ExitCode run_export(Session& session, const ExportOptions& options) {
 void add_export_command(CLI::App& app, Session& session) {
   const auto options = std::make_shared<ExportOptions>();
   CLI::App* command =
-      add_command(app, session, "export", "Write an ended job as a web page in one file, which opens without a daemon",
+      add_command(app, session, "export", "Save an ended job as one HTML file that opens without a daemon",
                   [&session, options] { return run_export(session, *options); });
   command->group(kResultCommands);
   command->add_option("NAME", options->name, "Job name")->required();
   command->add_option("-o,--output", options->file, "HTML file, such as FILE.html")->required()->group(kOutputOptions);
   command
       ->add_option("--max-size", options->megabytes,
-                   "Approximate size of the file, in MB; evenly spaced frames are left out of larger ones (default: "
-                   "20)")
+                   "Approximate size of the file, in MB; limits the number of frames (default: 20)")
       ->group(kOutputOptions)
       ->check(CLI::Range(1.0, 1e4));
   add_examples(*command,

@@ -4,7 +4,7 @@
 #include <cstdio>
 
 #include "google/rpc/status.pb.h"
-#include "http/base64.h"
+#include "web/base64.h"
 
 namespace cellcrush::http {
 namespace {
@@ -58,7 +58,7 @@ std::string quoted(const std::string& text) {
 }
 
 std::string unpadded_base64(const std::string& bytes) {
-  std::string out = base64_of(bytes);
+  std::string out = web::base64_of(bytes);
   while (out.ends_with('=')) out.pop_back();
   return out;
 }

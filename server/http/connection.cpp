@@ -13,8 +13,8 @@
 #include "http/connect_error.h"
 #include "http/envelope.h"
 #include "http/loopback_channel.h"
-#include "http/page_files.h"
 #include "http/stream_call.h"
+#include "web/page_files.h"
 
 namespace cellcrush::http {
 namespace {
@@ -281,7 +281,7 @@ void Connection::watch_client() {
 }
 
 asio::awaitable<void> Connection::answer_file(const Request& request) {
-  const PageFile* file = find_page_file(request.target());
+  const web::PageFile* file = web::find_page_file(request.target());
   if (find_method(request.target()) != nullptr) {
     const auto refused = failure(grpc::StatusCode::UNIMPLEMENTED, "Use POST for calls.");
     co_await send_error(405, refused);
@@ -292,9 +292,10 @@ asio::awaitable<void> Connection::answer_file(const Request& request) {
     co_await send_error(404, refused);
     co_return;
   }
-  const std::string_view small = accepts_gzip(request[Field::accept_encoding]) ? gzip_of(*file) : std::string_view();
+  const std::string_view small =
+      web::accepts_gzip(request[Field::accept_encoding]) ? web::gzip_of(*file) : std::string_view();
   const std::string_view bytes = small.empty() ? file->bytes : small;
-  const std::string tag = entity_tag(bytes);
+  const std::string tag = web::entity_tag(bytes);
   const bool known = request[Field::if_none_match] == tag;
   bhttp::response<bhttp::string_body> response(known ? bhttp::status::not_modified : bhttp::status::ok, 11);
   protect(response);
@@ -304,7 +305,7 @@ asio::awaitable<void> Connection::answer_file(const Request& request) {
   response.set("Content-Security-Policy", kContentPolicy);
   response.keep_alive(keep_alive_);
   if (!known) {
-    response.set(Field::content_type, content_type_of_file(file->name));
+    response.set(Field::content_type, web::content_type_of_file(file->name));
     if (!small.empty()) response.set(Field::content_encoding, "gzip");
     if (request.method() == bhttp::verb::get) response.body() = bytes;
     response.content_length(bytes.size());

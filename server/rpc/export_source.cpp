@@ -9,18 +9,18 @@
 #include <vector>
 
 #include "error.h"
-#include "http/exported_page.h"
 #include "rpc/page.h"
 #include "store/job_state.h"
 #include "translate/case_checker.h"
 #include "translate/check_case.h"
 #include "watch/frame_chunks.h"
 #include "watch/packed_frame.h"
+#include "web/exported_page.h"
 
 namespace cellcrush::rpc {
 namespace {
 
-using http::Compression;
+using web::Compression;
 
 constexpr std::size_t kExportChunk = 128 * 1024;
 constexpr std::int64_t kDefaultBytes = 20'000'000;
@@ -31,7 +31,7 @@ void append_frame_chunks(const v1::FieldFrame& frame, std::string& text) {
   v1::StreamFramesResponse message;
   for (auto& chunk : watch::chunks_of(frame)) {
     *message.mutable_frame() = std::move(chunk);
-    text += http::exported_block("StreamFrames", message, Compression::none);
+    text += web::exported_block("StreamFrames", message, Compression::none);
   }
 }
 
@@ -52,7 +52,7 @@ void ExportSource::append_check() {
   const auto never = [] { return false; };
   // Short, as the thread serves other streams.
   const jobs::MeshPlaces::Place place(parts_.places, elements, never, std::chrono::seconds(1));
-  text_ += http::exported_block("CheckCase", translate::check_case(job_.job.case_()).response, Compression::zlib);
+  text_ += web::exported_block("CheckCase", translate::check_case(job_.job.case_()).response, Compression::zlib);
   stage_ = Stage::history;
 }
 
@@ -65,7 +65,7 @@ void ExportSource::append_history() {
   last_sample_ = stored.last_sequence;
   ++page_;
   if (stored.has_more) page.set_next_page_token(std::to_string(page_));
-  text_ += http::exported_block("GetHistory", page, Compression::zlib);
+  text_ += web::exported_block("GetHistory", page, Compression::zlib);
   if (!stored.has_more) stage_ = Stage::times;
 }
 
@@ -76,7 +76,7 @@ void ExportSource::append_times() {
   if (frame_count_ == 0) return;
   v1::StreamFramesResponse message;
   *message.mutable_times() = series_->times();
-  text_ += http::exported_block("StreamFrames", message, Compression::zlib);
+  text_ += web::exported_block("StreamFrames", message, Compression::zlib);
   mesh_ = parts_.reader.mesh(job_.number);
   for (auto& chunk : mesh_ ? watch::chunks_of(*mesh_) : std::vector<v1::MeshChunk>()) {
     mesh_chunks_.push_back(std::move(chunk));
@@ -88,7 +88,7 @@ void ExportSource::append_mesh() {
     v1::StreamFramesResponse message;
     *message.mutable_mesh() = std::move(mesh_chunks_.front());
     mesh_chunks_.pop_front();
-    text_ += http::exported_block("StreamFrames", message, Compression::zlib);
+    text_ += web::exported_block("StreamFrames", message, Compression::zlib);
   }
   if (mesh_chunks_.empty()) stage_ = Stage::frames;
 }
@@ -123,8 +123,8 @@ void ExportSource::append() {
   const std::size_t before = text_.size();
   switch (stage_) {
     case Stage::head:
-      text_ += http::exported_head(job_.job.case_().title().empty() ? job_.job.name() : job_.job.case_().title());
-      text_ += http::exported_block("GetJob", job_.job, Compression::zlib);
+      text_ += web::exported_head(job_.job.case_().title().empty() ? job_.job.name() : job_.job.case_().title());
+      text_ += web::exported_block("GetJob", job_.job, Compression::zlib);
       stage_ = Stage::check;
       break;
     case Stage::check: append_check(); break;
@@ -133,7 +133,7 @@ void ExportSource::append() {
     case Stage::mesh: append_mesh(); break;
     case Stage::frames: append_frame(); break;
     case Stage::end:
-      text_ += http::exported_end();
+      text_ += web::exported_end();
       stage_ = Stage::done;
       break;
     case Stage::done: break;

@@ -15,7 +15,7 @@
 
 namespace cellcrush::rpc {
 
-/// Source of an ExportJob: the HTML file (http/exported_page.h) in chunks. Holds one frame, the mesh and a page of
+/// Source of an ExportJob: the HTML file (web/exported_page.h) in chunks. Holds one frame, the mesh and a page of
 /// samples at most. Not thread-safe.
 class ExportSource {
  public:

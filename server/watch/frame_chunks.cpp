@@ -58,7 +58,7 @@ std::vector<v1::FrameChunk> chunks_of(const v1::FieldFrame& frame, std::size_t c
     part.mutable_packed()->set_quantum_mm(frame.packed().quantum_mm());
     part.mutable_packed()->set_particle_count(frame.packed().particle_count());
     part.mutable_packed()->set_element_count(frame.packed().element_count());
-    part.mutable_packed()->set_expected_by_elements(frame.packed().expected_by_elements());
+    part.mutable_packed()->set_predicted_by_elements(frame.packed().predicted_by_elements());
     room.take(frame.packed().data(), packed, *part.mutable_packed()->mutable_data());
   } while (positions < frame.position_mm_size() || fractions < frame.plastic_fraction_size() ||
            packed < frame.packed().data().size());

@@ -126,7 +126,7 @@ v1::FieldFrame pack(const v1::FieldFrame& frame, const v1::Mesh* mesh) {
   double largest = 0.0;
   for (const double value : moved) largest = std::max(largest, std::abs(value));
   packed.set_quantum_mm(std::max(largest / kLargest, finest_quantum(mesh)));
-  packed.set_expected_by_elements(mesh != nullptr);
+  packed.set_predicted_by_elements(mesh != nullptr);
   std::vector<Guides> guides = mesh == nullptr ? std::vector<Guides>() : guides_of(*mesh, particles);
   std::string bytes = Differences(moved, packed.quantum_mm(), particles, std::move(guides)).bytes();
   std::ranges::transform(frame.plastic_fraction(), std::back_inserter(bytes), byte_of);

@@ -64,7 +64,7 @@ v1::FieldFrame unpacked(const v1::FieldFrame& frame, const v1::Mesh& mesh) {
   for (std::size_t i = 0; i < 2 * particles; ++i) {
     int expected = i % particles == 0 ? 0 : number[i - 1];
     std::vector<int> lower;
-    for (int k = 0; packed.expected_by_elements() && k < mesh.element_nodes_size(); ++k) {
+    for (int k = 0; packed.predicted_by_elements() && k < mesh.element_nodes_size(); ++k) {
       if (mesh.element_nodes(k) != static_cast<int>(i % particles)) continue;
       const int other = mesh.element_nodes(k % 2 == 0 ? k + 1 : k - 1);
       if (other < mesh.element_nodes(k)) lower.push_back(number[i - i % particles + static_cast<std::size_t>(other)]);
@@ -88,7 +88,7 @@ TEST(PackedFrame, HasThePositionsToHalfAQuantumAndThePlasticFractions) {
     EXPECT_EQ(packed.index(), 5);
     EXPECT_EQ(packed.strain(), 0.25);
     EXPECT_NEAR(packed.packed().quantum_mm(), std::max(largest / 32767.0, 0.1 / 16.0), 1e-3);
-    EXPECT_TRUE(packed.packed().expected_by_elements());
+    EXPECT_TRUE(packed.packed().predicted_by_elements());
     const auto back = unpacked(packed, mesh);
     ASSERT_EQ(back.position_mm_size(), frame.position_mm_size());
     for (int i = 0; i < frame.position_mm_size(); ++i)

@@ -26,7 +26,7 @@ function pack(displacements, plastic, quantum, elements = []) {
   plastic.forEach((value, i) => { bytes[4 * count + i] = Math.round(255 * value); });
   return {
     quantumMm: quantum, particleCount: count, elementCount: plastic.length, data: zlibSync(bytes),
-    expectedByElements: elements.length > 0,
+    predictedByElements: elements.length > 0,
   };
 }
 

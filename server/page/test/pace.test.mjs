@@ -11,8 +11,8 @@ function noteAfter(pace, interval, pictures) {
 
 test("a smooth picture has no note, a slow one tells its rate", () => {
   assert.equal(noteAfter(new Pace(), 16, 50), "");
-  assert.equal(noteAfter(new Pace(), 250, 50), "4 pictures a second: frames are skipped");
-  assert.equal(noteAfter(new Pace(), 800, 50), "1.3 pictures a second: frames are skipped");
+  assert.equal(noteAfter(new Pace(), 250, 50), "slow drawing: 4 per second");
+  assert.equal(noteAfter(new Pace(), 800, 50), "slow drawing: 1.3 per second");
   assert.equal(noteAfter(new Pace(), 800, 1), "");
 });
 

@@ -57,7 +57,7 @@ test('a sweep over two fields with labels is started from the form', async () =>
   await page.getByLabel('Values').last().fill('seeds:2');
   await page.getByText('Labels and priority').click();
   await page.getByLabel('Labels').fill('series');
-  await page.getByText('“series” is not a label').waitFor();
+  await page.getByText('“series” is not key=value').waitFor();
   await page.getByLabel('Labels').fill('series=form');
   await page.getByLabel('Priority').fill('7');
   await page.getByRole('button', { name: 'Start 4 jobs' }).click();

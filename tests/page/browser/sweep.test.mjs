@@ -67,7 +67,7 @@ test('a sweep over another field is refused with the reason', async () => {
   await page.goto(`${daemon.url}/sweeps/1?with=2,3`);
   await page.getByText('varies wall thickness (mm), not speed (m/s).').waitFor();
   assert.equal(await page.locator('.sweep-page .legend .entry').count(), 2);
-  await page.getByRole('button', { name: 'Leave out sweep 3' }).click();
+  await page.getByRole('button', { name: 'Remove sweep 3' }).click();
   await page.waitForFunction(() => location.search === '?with=2');
 });
 

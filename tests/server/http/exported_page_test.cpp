@@ -1,13 +1,13 @@
-#include "http/exported_page.h"
+#include "web/exported_page.h"
 
 #include <gmock/gmock.h>
 #include <openssl/sha.h>
 
 #include "cellcrush/v1/job.pb.h"
-#include "http/base64.h"
-#include "http/page_files.h"
+#include "web/base64.h"
+#include "web/page_files.h"
 
-namespace cellcrush::http {
+namespace cellcrush::web {
 namespace {
 
 using ::testing::HasSubstr;
@@ -56,4 +56,4 @@ TEST(ExportedPage, ABlockHoldsItsMessageAsText) {
 }
 
 }  // namespace
-}  // namespace cellcrush::http
+}  // namespace cellcrush::web

@@ -6,7 +6,7 @@
 #include "http/connect_error.h"
 #include "http/envelope.h"
 #include "http/method.h"
-#include "http/page_files.h"
+#include "web/page_files.h"
 
 namespace cellcrush::http {
 namespace {
@@ -56,17 +56,17 @@ TEST(HttpMethod, IsFoundByItsPath) {
 }
 
 TEST(HttpPage, PathsWithoutADotGiveTheIndex) {
-  ASSERT_NE(find_page_file("/"), nullptr);
-  EXPECT_EQ(find_page_file("/jobs/12"), find_page_file("/index.html"));
-  EXPECT_EQ(find_page_file("/../etc/passwd"), nullptr);
-  EXPECT_THAT(std::string(find_page_file("/")->bytes), HasSubstr("<html"));
+  ASSERT_NE(web::find_page_file("/"), nullptr);
+  EXPECT_EQ(web::find_page_file("/jobs/12"), web::find_page_file("/index.html"));
+  EXPECT_EQ(web::find_page_file("/../etc/passwd"), nullptr);
+  EXPECT_THAT(std::string(web::find_page_file("/")->bytes), HasSubstr("<html"));
 }
 
 TEST(HttpPage, GzipIsForWhomAsksForIt) {
   for (const char* yes : {"gzip", "br, gzip", "gzip;q=0.5, br", "deflate,gzip ; q=1"})
-    EXPECT_TRUE(accepts_gzip(yes)) << yes;
-  for (const char* no : {"", "br", "gzip;q=0", "gzip; q=0.000", "xgzip"}) EXPECT_FALSE(accepts_gzip(no)) << no;
-  EXPECT_TRUE(gzip_of(*find_page_file("/")).starts_with("\x1f\x8b"));
+    EXPECT_TRUE(web::accepts_gzip(yes)) << yes;
+  for (const char* no : {"", "br", "gzip;q=0", "gzip; q=0.000", "xgzip"}) EXPECT_FALSE(web::accepts_gzip(no)) << no;
+  EXPECT_TRUE(web::gzip_of(*web::find_page_file("/")).starts_with("\x1f\x8b"));
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ class Compared {
     swatch.style.setProperty("--colour", `var(--series-${index})`);
     this.element = h("section", { class: "card compared" },
       h("div", { class: "compared-head" }, swatch, h("h3", {}, this.title), h("span", { class: "spacer" }), this.place,
-        iconButton("minus", `Leave out job ${idOf(data.name)}`, remove)),
+        iconButton("minus", `Remove job ${idOf(data.name)}`, remove)),
       this.about, h("div", { class: "picture-box" }, this.frames.picture.element));
   }
 

@@ -53,7 +53,7 @@ export function fieldsOf(frame: FieldFrame, base: Float32Array, guides: Uint32Ar
   const bytes = unzlibSync(packed.data, { out: new Uint8Array(4 * particles + elements) });
   const position = base.length === 2 * particles ? base.slice() : new Float32Array(2 * particles);
   const fields = { position, plastic: new Float32Array(elements) };
-  const used = packed.expectedByElements ? guides : new Uint32Array();
+  const used = packed.predictedByElements ? guides : new Uint32Array();
   addDisplacements(position, bytes, particles, 0, packed.quantumMm, used);
   addDisplacements(position, bytes, particles, 1, packed.quantumMm, used);
   for (let i = 0; i < elements; ++i) fields.plastic[i] = bytes[4 * particles + i] / 255;

@@ -6,7 +6,7 @@ export function labelsOf(text: string): Record<string, string> | string {
   const labels: Record<string, string> = {};
   for (const part of text.split(",").map((each) => each.trim()).filter(Boolean)) {
     const at = part.indexOf("=");
-    if (at < 1) return `“${part}” is not a label: give key=value.`;
+    if (at < 1) return `“${part}” is not key=value.`;
     const key = part.slice(0, at).trim();
     if (key in labels) return `The key “${key}” is given twice.`;
     labels[key] = part.slice(at + 1).trim();
@@ -38,11 +38,11 @@ export class OrderInput {
   read(): Order | undefined {
     const labels = labelsOf(this.labels.value);
     const areLabels = typeof labels !== "string";
-    setText(this.labelsHint, areLabels ? "key=value, to filter the list of jobs by" : labels);
+    setText(this.labelsHint, areLabels ? "key=value, to filter the job list" : labels);
     this.labelsHint.parentElement!.dataset.kind = areLabels ? "" : "error";
     const priority = Number(this.priority.value);
     const isPriority = Number.isInteger(priority) && Math.abs(priority) <= 100;
-    setText(this.priorityHint, isPriority ? "The highest starts first; -100 to 100." : "A whole number, -100 to 100.");
+    setText(this.priorityHint, isPriority ? "-100 to 100; higher starts first." : "A whole number, -100 to 100.");
     this.priorityHint.parentElement!.dataset.kind = isPriority ? "" : "error";
     return areLabels && isPriority ? { labels, priority } : undefined;
   }

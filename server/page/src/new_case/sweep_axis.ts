@@ -58,7 +58,7 @@ class AxisInput {
       changed();
     });
     this.values.addEventListener("input", changed);
-    this.remove = iconButton("minus", "Leave out this field", removed);
+    this.remove = iconButton("minus", "Remove field", removed);
     this.element = h("div", { class: "axis" },
       h("div", { class: "field" }, h("label", { for: this.field.id }, "Varied field"), this.field),
       h("div", { class: "field" }, h("label", { for: this.values.id }, "Values"), this.values, this.hint), this.remove);
@@ -93,7 +93,7 @@ class AxisInput {
 
   /** `others` are the fields of the axes before. */
   read(others: string[]): SweepAxis | undefined {
-    const axis = others.includes(this.path) ? "This field is varied already." : axisOf(this.path, this.values.value);
+    const axis = others.includes(this.path) ? "This field is already varied." : axisOf(this.path, this.values.value);
     const isAxis = typeof axis !== "string";
     setText(this.hint, isAxis ? "a list, first:last:count, first:last:count:log, or seeds:count" : axis);
     this.hint.parentElement!.dataset.kind = isAxis ? "" : "error";

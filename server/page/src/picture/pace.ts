@@ -16,7 +16,7 @@ export class Pace {
     this.last = now;
     if (this.mean === undefined || this.mean < kSlowMs) return "";
     const rate = 1000 / this.mean;
-    return `${rate.toFixed(rate < 2 ? 1 : 0)} pictures a second: frames are skipped`;
+    return `slow drawing: ${rate.toFixed(rate < 2 ? 1 : 0)} per second`;
   }
 
   stop(): void {

@@ -32,7 +32,7 @@ export class CrushCell {
   private readonly abort = new AbortController();
 
   constructor(public row: SweepTable_Row, readonly label: string) {
-    this.picture = new SmallPicture(`Job ${idOf(row.job)}, ${label}, as it is crushed`);
+    this.picture = new SmallPicture(`Job ${idOf(row.job)}: deformed shape`);
     setText(this.link, label || `job ${idOf(row.job)}`);
     this.link.title = `Job ${idOf(row.job)}`;
     this.element = h("figure", { class: "crush-cell" },
@@ -102,7 +102,7 @@ export class CrushCell {
     this.note.hidden = frames.length > 0;
     if (!frames.length || !lattice) {
       const isWaiting = result?.state === Job_State.PENDING;
-      setText(this.note, isWaiting ? state : this.wasComplete ? `${state}, without frames` : "");
+      setText(this.note, isWaiting ? state : this.wasComplete ? `${state}, no frames` : "");
       return;
     }
     let place = 0;

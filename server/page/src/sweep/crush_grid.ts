@@ -44,7 +44,7 @@ export class CrushGrid {
     for (const event of ["input", "click"]) {
       this.bar.element.addEventListener(event, () => { this.wanted = NaN; }, { capture: true });
     }
-    this.element.append(h("div", { class: "picture-head" }, h("h3", {}, "Crushes at equal strain"),
+    this.element.append(h("div", { class: "picture-head" }, h("h3", {}, "Deformed shapes at equal strain"),
       h("span", { class: "spacer" }), colourLegend()), this.bar.element, this.grid, this.note);
     this.again = window.setInterval(() => this.loadNext(), kAgainMs);
   }

@@ -146,7 +146,7 @@ export class SweepOverlay {
     const text = loaded ? `Sweep ${idOf(name)}: ${titleOfSweep(loaded.sweep)}` : `Sweep ${idOf(name)}`;
     return h("span", { class: why ? "overlaid refused" : "overlaid" },
       h("span", {}, h("a", { href: pathOf(name) }, text), why && ` ${why}.`),
-      iconButton("minus", `Leave out sweep ${idOf(name)}`, () => this.remove(name)));
+      iconButton("minus", `Remove sweep ${idOf(name)}`, () => this.remove(name)));
   }
 
   destroy(): void {

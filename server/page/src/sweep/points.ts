@@ -128,6 +128,6 @@ function noteOf(groupCount: number, hasSpread: boolean): string {
   const notes = ["mean stress from 20 to 40 % strain"];
   if (hasSpread) notes.push("bars: standard deviation between crushes");
   if (groupCount > 1) notes.push("at the impact plate; dashed: shock theory (Eq. 51), dotted: Gibson-Ashby");
-  if (groupCount > kMostGroups) notes.push(`the first ${kMostGroups} of ${groupCount} combinations`);
+  if (groupCount > kMostGroups) notes.push(`the first ${kMostGroups} of ${groupCount} curves`);
   return notes.join("; ");
 }

@@ -60,7 +60,7 @@ async function fetchPage(name: string, tell: (fraction: number) => void): Promis
     tell(chunk.fraction);
     [kept, all] = [chunk.frameCount, chunk.jobFrameCount];
   }
-  if (kept < all) say(`The file has ${kept} of the ${all} frames, which keeps it near 20 MB.`);
+  if (kept < all) say(`The file has ${kept} of ${all} frames. For more: cellcrush export --max-size.`);
   return new Blob(parts, { type: "text/html" });
 }
 

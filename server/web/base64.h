@@ -3,9 +3,9 @@
 #include <string>
 #include <string_view>
 
-namespace cellcrush::http {
+namespace cellcrush::web {
 
 /// With padding.
 std::string base64_of(std::string_view bytes);
 
-}  // namespace cellcrush::http
+}  // namespace cellcrush::web

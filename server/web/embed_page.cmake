@@ -11,6 +11,6 @@ foreach(file ${files})
   string(APPEND entries "    {\"${name}\", {kFile${number}, sizeof(kFile${number}) - 1}},\n")
   math(EXPR number "${number} + 1")
 endforeach()
-file(WRITE ${OUTPUT} "#include <span>\n\n#include \"http/page_files.h\"\n\nnamespace cellcrush::http {\n\n"
+file(WRITE ${OUTPUT} "#include <span>\n\n#include \"web/page_files.h\"\n\nnamespace cellcrush::web {\n\n"
   "std::span<const PageFile> page_files();\n\n${arrays}constexpr PageFile kFiles[] = {\n${entries}};\n\n"
-  "std::span<const PageFile> page_files() { return kFiles; }\n\n}  // namespace cellcrush::http\n")
+  "std::span<const PageFile> page_files() { return kFiles; }\n\n}  // namespace cellcrush::web\n")

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace cellcrush::http {
+namespace cellcrush::web {
 
 /// The pieces of an exported page: one HTML file with the bundle of the web page inline and, as data, messages of the
 /// daemon, from which the page answers its own calls. head, blocks, then end; the file grows as it is sent. The content
@@ -23,4 +23,4 @@ std::string exported_block(std::string_view call, const google::protobuf::Messag
 
 std::string_view exported_end();
 
-}  // namespace cellcrush::http
+}  // namespace cellcrush::web

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-namespace cellcrush::http {
+namespace cellcrush::web {
 
 /// A file of the web page, compiled into the daemon from server/page/bundle.
 struct PageFile {
@@ -28,4 +28,4 @@ const char* content_type_of_file(std::string_view name);
 /// A quoted tag that changes with the contents.
 std::string entity_tag(std::string_view bytes);
 
-}  // namespace cellcrush::http
+}  // namespace cellcrush::web

@@ -1,4 +1,4 @@
-#include "http/exported_page.h"
+#include "web/exported_page.h"
 
 #include <openssl/sha.h>
 #include <zlib.h>
@@ -6,11 +6,11 @@
 #include <array>
 #include <new>
 
-#include "http/base64.h"
-#include "http/page_files.h"
 #include "revision.h"
+#include "web/base64.h"
+#include "web/page_files.h"
 
-namespace cellcrush::http {
+namespace cellcrush::web {
 namespace {
 
 std::string zlib_of(std::string_view bytes) {
@@ -81,4 +81,4 @@ std::string exported_block(std::string_view call, const google::protobuf::Messag
 
 std::string_view exported_end() { return "</body>\n</html>\n"; }
 
-}  // namespace cellcrush::http
+}  // namespace cellcrush::web

@@ -1,8 +1,8 @@
-#include "http/base64.h"
+#include "web/base64.h"
 
 #include <openssl/evp.h>
 
-namespace cellcrush::http {
+namespace cellcrush::web {
 
 std::string base64_of(std::string_view bytes) {
   std::string out(4 * ((bytes.size() + 2) / 3) + 1, '\0');  // OpenSSL ends it with a zero
@@ -12,4 +12,4 @@ std::string base64_of(std::string_view bytes) {
   return out;
 }
 
-}  // namespace cellcrush::http
+}  // namespace cellcrush::web
