@@ -148,7 +148,8 @@ Service::Service(const DaemonOptions& options, const access::Gate& gate, double 
                  std::function<void()> on_drain)
     : parts_(std::make_unique<Parts>(options, gate, step_cost, std::move(on_drain))) {}
 
-Service::~Service() = default;
+// Before the services whose sources the streams hold.
+Service::~Service() { parts_->http_pump.stop(); }
 
 void Service::register_with(grpc::ServerBuilder& builder) {
   for (grpc::Service* service : std::initializer_list<grpc::Service*>{&parts_->health, &parts_->cases, &parts_->jobs,

@@ -14,7 +14,7 @@ constexpr std::chrono::milliseconds kBetweenLooks{100};
 }  // namespace
 
 MeshPlaces::Place::Place(MeshPlaces& places, std::int64_t elements, const std::function<bool()>& given_up,
-                         std::chrono::seconds patience)
+                         std::chrono::milliseconds patience)
     : places_(places) {
   if (elements == 0) return;
   MutexLock lock(places_.mutex_);

@@ -40,7 +40,7 @@ class MeshPlaces::Place {
   /// Waits for a place for a mesh of this many elements; returns at once for none. Throws ServiceError: cancelled once
   /// `given_up`, polled several times a second, returns true; exhausted if no place is free within `patience`.
   Place(MeshPlaces& places, std::int64_t elements, const std::function<bool()>& given_up,
-        std::chrono::seconds patience = kPatience);
+        std::chrono::milliseconds patience = kPatience);
   ~Place();
   Place(const Place&) = delete;
   Place& operator=(const Place&) = delete;

@@ -51,9 +51,15 @@ void ExportSource::append_check() {
   const auto elements = translate::CaseChecker().elements_to_build(job_.job.case_());
   const auto never = [] { return false; };
   // Short, as the thread serves other streams.
-  const jobs::MeshPlaces::Place place(parts_.places, elements, never, std::chrono::seconds(1));
+  const jobs::MeshPlaces::Place place(parts_.places, elements, never, std::chrono::milliseconds(100));
   text_ += web::exported_block("CheckCase", translate::check_case(job_.job.case_()).response, Compression::zlib);
   stage_ = Stage::history;
+}
+
+// What a deleted job has lost would be missing without a word.
+void ExportSource::check_is_there() {
+  if (parts_.reader.has_job(job_.number)) return;
+  throw ServiceError(ServiceError::Kind::not_found, job_.job.name() + " was deleted while it was exported.");
 }
 
 // Pages as of GetHistory, with their numbers as tokens.
@@ -73,11 +79,12 @@ void ExportSource::append_times() {
   series_ = jobs::open_frame_series(parts_.folder.job_folder(job_.number));
   frame_count_ = series_ ? static_cast<int>(series_->times().time_s_size()) : 0;
   stage_ = frame_count_ > 0 ? Stage::mesh : Stage::end;
-  if (frame_count_ == 0) return;
+  if (frame_count_ == 0) return check_is_there();
   v1::StreamFramesResponse message;
   *message.mutable_times() = series_->times();
   text_ += web::exported_block("StreamFrames", message, Compression::zlib);
   mesh_ = parts_.reader.mesh(job_.number);
+  check_is_there();
   for (auto& chunk : mesh_ ? watch::chunks_of(*mesh_) : std::vector<v1::MeshChunk>()) {
     mesh_chunks_.push_back(std::move(chunk));
   }

@@ -49,6 +49,8 @@ class ExportSource {
   /// Appends the next piece of the file to `text_`.
   void append();
   void append_check();
+  /// Throws ServiceError (not_found) if the job was deleted meanwhile.
+  void check_is_there();
   void append_history();
   /// Opens the frames.
   void append_times();

@@ -29,7 +29,8 @@ class MessageStream : public watch::Pump::Task {
   /// Asks for the next batch, which is delivered once there is one. REQUIRES: the batch before it was delivered.
   virtual void ask(Deliver deliver) = 0;
 
-  /// Ends the stream; nothing is delivered any more, except what is being delivered now. Safe to repeat.
+  /// Ends the stream: quick, as a thread of the pump closes it. Nothing is delivered any more, except what is being
+  /// delivered now. Safe to repeat.
   virtual void cancel() = 0;
 };
 

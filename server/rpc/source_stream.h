@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -22,7 +23,10 @@ class SourceStream final : public MessageStream, public std::enable_shared_from_
   /// If `make` throws, the stream ends with its error.
   SourceStream(const StreamParts& parts, std::string caller, Encode encode, Make make)
       : parts_(parts), encode_(std::move(encode)), caller_(std::move(caller)), make_(std::move(make)) {}
-  ~SourceStream() override { cancel(); }
+  ~SourceStream() override {
+    const MutexLock lock(mutex_);
+    finish(cancelled());
+  }
 
   /// Ends it before it begins.
   void refuse(const grpc::Status& status) {
@@ -40,10 +44,10 @@ class SourceStream final : public MessageStream, public std::enable_shared_from_
     is_first ? parts_.pump.add(this->shared_from_this()) : parts_.pump.schedule(this->shared_from_this());
   }
 
+  // Waits for no batch that is being made.
   void cancel() override {
-    const MutexLock lock(mutex_);
-    finish({grpc::StatusCode::CANCELLED, "The client cancelled the stream."});
-    deliver_ = nullptr;
+    is_cancelled_ = true;
+    parts_.pump.schedule(this->shared_from_this());
   }
 
   void run() override {
@@ -51,8 +55,10 @@ class SourceStream final : public MessageStream, public std::enable_shared_from_
     Batch batch;
     {
       const MutexLock lock(mutex_);
+      if (is_cancelled_) return drop();
       if (!deliver_) return close_if_stuck();
       fill(batch);
+      if (is_cancelled_) return drop();
       if (batch.bytes.empty() && !batch.end) return;
       deliver = std::exchange(deliver_, nullptr);
     }
@@ -63,17 +69,26 @@ class SourceStream final : public MessageStream, public std::enable_shared_from_
   /// Messages up to this many bytes, and one more, are sent together.
   static constexpr std::size_t kBatchBytes = 64 * 1024;
 
+  static grpc::Status cancelled() { return {grpc::StatusCode::CANCELLED, "The client cancelled the stream."}; }
+
+  void drop() CELLCRUSH_REQUIRES(mutex_) {
+    finish(cancelled());
+    deliver_ = nullptr;
+  }
+
   void fill(Batch& batch) CELLCRUSH_REQUIRES(mutex_) {
+    std::size_t whole = 0;  // bytes of the messages that are encoded
     try {
       if (!status_ && !state_) open();
       if (state_) state_->end_write();
-      while (!status_ && batch.bytes.size() < kBatchBytes) {
+      while (!status_ && !is_cancelled_ && batch.bytes.size() < kBatchBytes) {
         const auto next = state_->next();
         if (!next) {
           if (state_->status()) finish(grpc::Status(*state_->status()));
           break;
         }
         encode_(*next, batch.bytes);
+        whole = batch.bytes.size();
         state_->count_skipped(*next);
       }
       if (batch.bytes.empty()) {
@@ -86,7 +101,7 @@ class SourceStream final : public MessageStream, public std::enable_shared_from_
         finish(grpc::Status(*state_->status()));
       }
     } catch (const std::exception& error) {
-      batch.bytes.clear();
+      batch.bytes.resize(whole);
       finish(status_of(error));
     }
     batch.end = status_;
@@ -119,6 +134,7 @@ class SourceStream final : public MessageStream, public std::enable_shared_from_
   Encode encode_;
   EventDelay delay_;
 
+  std::atomic<bool> is_cancelled_ = false;
   Mutex mutex_;
   std::string caller_;
   Make make_ CELLCRUSH_GUARDED_BY(mutex_);  ///< until the source is open

@@ -98,6 +98,7 @@ class StreamState {
                    "The daemon is shutting down. Ask again " + source_->resume_advice() + " after it restarts."};
       } else if (!out && Clock::now() - last_write_ >= parts_.times.bookmark_interval) {
         out = source_->bookmark();
+        last_write_ = Clock::now();  // one is enough
       }
       return out;
     } catch (const std::exception& error) {

@@ -14,9 +14,12 @@ Pump::Pump(int threads) {
   for (int i = 0; i < threads; ++i) threads_.emplace_back([this](const std::stop_token& stop) { work(stop); });
 }
 
-Pump::~Pump() {
+void Pump::stop() {
   for (auto& thread : threads_) thread.request_stop();
   threads_.clear();
+  std::deque<std::shared_ptr<Task>> dropped;  // outside the lock: destroying a task may schedule others
+  const MutexLock lock(mutex_);
+  dropped.swap(queue_);
 }
 
 void Pump::add(const std::shared_ptr<Task>& task) {

@@ -27,7 +27,7 @@ class Pump {
   };
 
   explicit Pump(int threads);
-  ~Pump();
+  ~Pump() { stop(); }
   Pump(const Pump&) = delete;
   Pump& operator=(const Pump&) = delete;
 
@@ -39,6 +39,9 @@ class Pump {
   /// Notifies the tasks that the daemon ends: they see draining() and close.
   void drain();
   [[nodiscard]] bool draining() const;
+
+  /// Ends the threads. Tasks run no more, and those that are scheduled are dropped. Safe to repeat.
+  void stop();
 
  private:
   void work(const std::stop_token& stop);

@@ -57,10 +57,29 @@ RecentEvents::Tail& RecentEvents::tail_of(std::int64_t job, std::int64_t after) 
   return found->second;
 }
 
+std::vector<RecentEvents::Event> RecentEvents::look_behind(store::JournalReader& journal, std::int64_t job, Tail& tail,
+                                                           std::uint64_t stamp) {
+  ++reads_;
+  try {
+    auto out = read_events(journal, job, tail.end());
+    tail.stamp = stamp;
+    // An unreadable event ends what is read; only a look behind it can say so.
+    tail.is_complete = out.empty();
+    for (const auto& event : out) tail.add(event);
+    return out;
+  } catch (const ServiceError&) {
+    tails_.erase(job);
+    throw;
+  }
+}
+
 std::vector<RecentEvents::Event> RecentEvents::after(store::JournalReader& journal, std::int64_t job,
                                                      std::int64_t after, std::uint64_t stamp) {
   MutexLock lock(mutex_);
   Tail& tail = tail_of(job, after);
+  const bool is_up_to_date = tail.is_complete && tail.stamp == stamp;
+  // The job may have begun again, which drops samples.
+  if (after >= tail.begin && after < tail.end() && !is_up_to_date) look_behind(journal, job, tail, stamp);
   if (after < tail.begin) {
     ++reads_;
     lock.unlock();
@@ -72,19 +91,7 @@ std::vector<RecentEvents::Event> RecentEvents::after(store::JournalReader& journ
                          [](std::int64_t sequence, const Event& event) { return sequence < event->sequence(); });
     return {first, tail.events.end()};
   }
-  if (tail.is_complete && tail.stamp == stamp) return {};
-  ++reads_;
-  try {
-    auto out = read_events(journal, job, after);
-    tail.stamp = stamp;
-    // An unreadable event ends what is read; only a look behind it can say so.
-    tail.is_complete = out.empty();
-    for (const auto& event : out) tail.add(event);
-    return out;
-  } catch (const ServiceError&) {
-    tails_.erase(job);
-    throw;
-  }
+  return is_up_to_date ? std::vector<Event>() : look_behind(journal, job, tail, stamp);
 }
 
 std::int64_t RecentEvents::reads() const {

@@ -47,6 +47,9 @@ class RecentEvents {
     void drop_first();
   };
 
+  /// Adds what the journal has behind the tail, and returns it. Throws as `after`.
+  std::vector<Event> look_behind(store::JournalReader& journal, std::int64_t job, Tail& tail, std::uint64_t stamp)
+      CELLCRUSH_REQUIRES(mutex_);
   Tail& tail_of(std::int64_t job, std::int64_t after) CELLCRUSH_REQUIRES(mutex_);
 
   mutable Mutex mutex_;

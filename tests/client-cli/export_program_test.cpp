@@ -30,7 +30,7 @@ TEST(Export, WritesThePageAndSaysWhichFramesItHas) {
   const ProgramResult result = export_to(server, file);
   EXPECT_EQ(result.exit_code, 0) << result.errors;
   EXPECT_EQ(read_file(file), script_with_page().page);
-  EXPECT_EQ(result.output, file.string() + "  66 B  3 of 5 frames; --max-size makes room for more\n");
+  EXPECT_EQ(result.output, file.string() + "  66 B  3 of 5 frames; raise --max-size for more\n");
   const std::string json = export_to(server, file, {"--json"}).output;
   for (const std::string& field :
        {std::string("\"frame_count\":3"), std::string("\"job_frame_count\":5"), "\"path\":\"" + file.string() + '"'})

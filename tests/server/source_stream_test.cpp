@@ -25,6 +25,8 @@ constexpr const char* kPath = "/cellcrush.v1.Jobs/DownloadResult";
 struct Tap {
   std::atomic<int> left = 0;  ///< messages
   std::atomic<int> given = 0;
+  std::atomic<int> bookmarks = 0;
+  std::atomic<bool> is_slow = false;  ///< the next message takes half a second
   std::atomic<bool> is_open = false;
   std::function<void()> wake;
 };
@@ -43,6 +45,7 @@ class TapSource {
   std::optional<Message> next() {
     if (tap_.left <= 0) return std::nullopt;
     --tap_.left;
+    if (tap_.is_slow.exchange(false)) std::this_thread::sleep_for(std::chrono::milliseconds(500));
     Message out;
     out.set_offset(++tap_.given);
     out.set_data(std::string(kMessage, 'x'));
@@ -51,6 +54,7 @@ class TapSource {
   [[nodiscard]] bool has_more() const { return false; }
   [[nodiscard]] bool ended() const { return tap_.left < 0; }
   [[nodiscard]] Message bookmark() const {
+    ++tap_.bookmarks;
     Message out;
     out.set_offset(kBookmark);
     return out;
@@ -160,9 +164,24 @@ TEST_F(SourceStreamTest, ACancelledStreamIsClosedAndDeliversNothing) {
   auto batch = ask(*stream);
   ASSERT_TRUE(comes_true([&] { return tap_.is_open.load(); }));
   stream->cancel();
-  EXPECT_FALSE(tap_.is_open);
-  EXPECT_EQ(limits_.count(), 0U);
+  EXPECT_TRUE(comes_true([&] { return !tap_.is_open && limits_.count() == 0; }));
   EXPECT_THROW(batch.get(), std::future_error) << "Nobody keeps the promise.";
+}
+
+TEST_F(SourceStreamTest, CancellingWaitsForNoBatchThatIsBeingMade) {
+  const auto stream = open();
+  auto batch = ask(*stream);
+  ASSERT_TRUE(comes_true([&] { return tap_.is_open.load(); }));
+  tap_.is_slow = true;
+  tap_.left = 1000;
+  tap_.wake();
+  ASSERT_TRUE(comes_true([&] { return !tap_.is_slow; }));
+  const auto before = std::chrono::steady_clock::now();
+  stream->cancel();
+  EXPECT_LT(std::chrono::steady_clock::now() - before, std::chrono::milliseconds(400));
+  EXPECT_TRUE(comes_true([&] { return !tap_.is_open && limits_.count() == 0; }));
+  EXPECT_EQ(tap_.given, 1) << "The rest of the batch was not made.";
+  EXPECT_THROW(batch.get(), std::future_error) << "Nothing was delivered.";
 }
 
 TEST_F(SourceStreamTest, RefusalsEndTheStream) {
@@ -181,13 +200,14 @@ TEST_F(SourceStreamTest, RefusalsEndTheStream) {
   EXPECT_FALSE(table_.open({"/cellcrush.v1.Jobs/GetJob", "", "anna", {}}));
 }
 
-TEST_F(SourceStreamTest, AnIdleStreamGetsABookmark) {
+TEST_F(SourceStreamTest, AnIdleStreamGetsOneBookmark) {
   const auto stream = open();
   auto batch = ask(*stream);
   ASSERT_EQ(batch.wait_for(std::chrono::seconds(20)), std::future_status::ready);
   v1::DownloadResultResponse got;
   ASSERT_TRUE(got.ParseFromString(batch.get().bytes));
   EXPECT_EQ(got.offset(), kBookmark);
+  EXPECT_EQ(tap_.bookmarks, 1);
   stream->cancel();
 }
 
