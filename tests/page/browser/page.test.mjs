@@ -67,6 +67,15 @@ test('a sweep over two fields with labels is started from the form', async () =>
   assert.equal(sweep.jobs.length, 4);
   assert.deepEqual(sweep.labels, { series: 'form' });
   assert.equal(sweep.priority, 7);
+  // It fills in while its jobs end, without a reload.
+  for (const name of sweep.jobs) {
+    let job = {};
+    while (job.state !== 'SUCCEEDED') {
+      await page.waitForTimeout(100);
+      job = await daemon.call('Jobs/GetJob', { name });
+    }
+    await page.getByRole('cell', { name: job.summary.plateauStressImpactMpa.toPrecision(3) }).first().waitFor();
+  }
 });
 
 test('the rigid wall of a frame is in its picture', async () => {
