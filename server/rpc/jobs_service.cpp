@@ -205,7 +205,7 @@ std::unique_ptr<DownloadSource> JobsService::download(const v1::DownloadResultRe
 }
 
 std::unique_ptr<ExportSource> JobsService::export_job(const v1::ExportJobRequest& request) {
-  return std::make_unique<ExportSource>(ExportSource::Parts{parts_.folder, parts_.reader, parts_.places},
+  return std::make_unique<ExportSource>(ExportSource::Parts{parts_.folder, parts_.reader, parts_.places, exports_},
                                         find(request.name()), request);
 }
 

@@ -101,6 +101,7 @@ class JobsService final : public v1::Jobs::CallbackService {
   void commit_samples();
 
   Parts parts_;
+  ExportPlaces exports_;
 };
 
 }  // namespace cellcrush::rpc
