@@ -78,7 +78,7 @@ test('two jobs are compared at one strain', async () => {
   await tabTo(page.getByRole('button', { name: 'Compare' }));
   await page.keyboard.press('Enter');
   await page.waitForURL('**/compare?jobs=2,1*');
-  await page.waitForTimeout(1500);
+  await page.waitForTimeout(800);
   const pictures = await page.locator('.picture').all();
   assert.equal(pictures.length, 2);
   await tabTo(page.getByRole('slider'));

@@ -108,7 +108,7 @@ test('nothing serious stands in the way of people who cannot see or point', asyn
     await page.emulateMedia({ colorScheme });
     for (const path of ['/', '/jobs/1', '/new']) {
       await page.goto(daemon.url + path);
-      await page.waitForTimeout(1500);
+      await page.waitForTimeout(800);
       assert.deepEqual(await seriousFindings(page), [], `${path}, ${colorScheme}`);
     }
   }

@@ -34,7 +34,7 @@ async function drawn(renderer, place, colorScheme) {
   }, renderer);
   await page.goto(`${daemon.url}/${job}?${place}`);
   await page.getByText('succeeded').first().waitFor();
-  await page.waitForTimeout(1500);
+  await page.waitForTimeout(1000);
   const kind = await page.evaluate(() => {
     const canvas = document.querySelector('.picture canvas');
     return canvas.getContext('2d') ? '2d' : canvas.getContext('webgl2') ? 'webgl2' : 'none';
