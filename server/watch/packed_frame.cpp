@@ -1,16 +1,15 @@
 #include "watch/packed_frame.h"
 
-#include <zlib.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <iterator>
-#include <new>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "zlib_bytes.h"
 
 namespace cellcrush::watch {
 namespace {
@@ -101,16 +100,6 @@ char byte_of(float plastic_fraction) {
   return static_cast<char>(std::lround(255.0F * rounded));
 }
 
-std::string compressed(const std::string& bytes) {
-  uLongf size = compressBound(bytes.size());
-  std::string out(size, '\0');
-  const int status = compress2(reinterpret_cast<Bytef*>(out.data()), &size,
-                               reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(), Z_DEFAULT_COMPRESSION);
-  if (status != Z_OK) throw std::bad_alloc();  // its only failure, as the room suffices
-  out.resize(size);
-  return out;
-}
-
 }  // namespace
 
 v1::FieldFrame pack(const v1::FieldFrame& frame, const v1::Mesh* mesh) {
@@ -130,7 +119,7 @@ v1::FieldFrame pack(const v1::FieldFrame& frame, const v1::Mesh* mesh) {
   std::vector<Guides> guides = mesh == nullptr ? std::vector<Guides>() : guides_of(*mesh, particles);
   std::string bytes = Differences(moved, packed.quantum_mm(), particles, std::move(guides)).bytes();
   std::ranges::transform(frame.plastic_fraction(), std::back_inserter(bytes), byte_of);
-  packed.set_data(compressed(bytes));
+  packed.set_data(zlib_of(bytes));
   return out;
 }
 

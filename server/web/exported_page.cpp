@@ -1,27 +1,16 @@
 #include "web/exported_page.h"
 
 #include <openssl/sha.h>
-#include <zlib.h>
 
 #include <array>
-#include <new>
 
 #include "revision.h"
 #include "web/base64.h"
 #include "web/page_files.h"
+#include "zlib_bytes.h"
 
 namespace cellcrush::web {
 namespace {
-
-std::string zlib_of(std::string_view bytes) {
-  uLongf size = compressBound(bytes.size());
-  std::string out(size, '\0');
-  const int status = compress2(reinterpret_cast<Bytef*>(out.data()), &size,
-                               reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(), Z_DEFAULT_COMPRESSION);
-  if (status != Z_OK) throw std::bad_alloc();  // its only failure, as the room suffices
-  out.resize(size);
-  return out;
-}
 
 std::string escaped(std::string_view text) {
   std::string out;
