@@ -11,6 +11,7 @@ inline std::string job_bytes(v1::Job job) {
   job.clear_name();
   job.clear_case_();
   job.clear_progress();
+  job.clear_place();
   return job.SerializeAsString();
 }
 

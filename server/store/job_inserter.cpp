@@ -7,6 +7,7 @@
 
 #include "store/job_bytes.h"
 #include "store/journal_schema.h"
+#include "store/queued_job.h"
 
 namespace cellcrush::store {
 
@@ -14,12 +15,14 @@ JobInserter::JobInserter(Database& database)
     : database_(database),
       job_(database,
            "INSERT INTO jobs (state, job, submitted_case, request_id, request_hash, last_sequence, priority, "
-           "submission, element_steps, owner, title, bytes) VALUES (?1, ?2, ?3, ?4, ?5, 1, ?6, ?7, ?8, ?9, ?10, ?11)"),
+           "submission, element_steps, owner, title, bytes, executor) "
+           "VALUES (?1, ?2, ?3, ?4, ?5, 1, ?6, ?7, ?8, ?9, ?10, ?11, ?12)"),
       event_(database, "INSERT INTO events (job, sequence, kind, payload) VALUES (?1, 1, ?2, ?3)"),
       labels_(database) {}
 
 std::int64_t JobInserter::insert(v1::Job job, const JobEntry& entry) {
   job.set_state(v1::Job::PENDING);
+  if (job.executor().empty()) job.set_executor(kLocalExecutor);
   *job.mutable_create_time() = google::protobuf::util::TimeUtil::GetCurrentTime();
   // Removed temporarily, so that the bytes are made without copying it.
   const std::unique_ptr<v1::Case> submitted(job.release_case_());
@@ -35,6 +38,7 @@ std::int64_t JobInserter::insert(v1::Job job, const JobEntry& entry) {
   job_.bind(6, job.priority()).bind(8, entry.element_steps).bind_text(9, job.owner());
   job_.bind_text(10, submitted ? folded_title(submitted->title()) : "");
   job_.bind(11, static_cast<std::int64_t>(case_bytes.size() + 2 * bytes.size()));
+  job_.bind_text(12, executor_column(job.executor()));
   entry.submission ? job_.bind(7, *entry.submission) : job_.bind_null(7);
   job_.run();
   const std::int64_t number = database_.last_number();

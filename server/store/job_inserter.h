@@ -23,7 +23,7 @@ class JobInserter {
  public:
   explicit JobInserter(Database& database);
 
-  /// Returns the new job's number.
+  /// Returns the new job's number. A job that names no executor is local.
   std::int64_t insert(v1::Job job, const JobEntry& entry);
 
  private:

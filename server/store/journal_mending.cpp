@@ -8,6 +8,7 @@
 #include "store/job_bytes.h"
 #include "store/job_state.h"
 #include "store/journal_schema.h"
+#include "store/queued_job.h"
 #include "store/resource_name.h"
 
 namespace cellcrush::store {
@@ -85,7 +86,10 @@ void mend(Database& database, DamagedJob& row, std::int64_t service_seconds) {
 }  // namespace
 
 bool read_job_bytes(const std::string& bytes, std::int64_t state, v1::Job& job) {
-  if (job.ParseFromString(bytes) && job.state() == state) return true;
+  if (job.ParseFromString(bytes) && job.state() == state) {
+    if (job.executor().empty()) job.set_executor(kLocalExecutor);
+    return true;
+  }
   job.Clear();
   return false;
 }

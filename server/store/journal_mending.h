@@ -10,6 +10,7 @@
 namespace cellcrush::store {
 
 /// Parses what the journal stores about a job beside its case. False if the bytes are not those of a job in that state.
+/// A job of an earlier version is local.
 bool read_job_bytes(const std::string& bytes, std::int64_t state, v1::Job& job);
 
 /// The error for a row of a job that was damaged since the journal was opened: data_loss.

@@ -77,7 +77,9 @@ std::vector<v1::JobEvent> JournalReader::events(std::int64_t job, std::int64_t a
       out.pop_back();
       break;
     }
-    if (event.has_state()) event.mutable_state()->set_name(name_of(job));
+    if (!event.has_state()) continue;
+    event.mutable_state()->set_name(name_of(job));
+    if (event.state().executor().empty()) event.mutable_state()->set_executor(kLocalExecutor);
   }
   return out;
 }

@@ -71,11 +71,17 @@ class JournalReader {
   /// Numbers of the jobs whose folders still have to be deleted.
   std::vector<std::int64_t> deleted_jobs();
 
-  /// The jobs in a state, oldest first, with what the scheduler needs.
-  std::vector<QueuedJob> queued_jobs(v1::Job::State state);
+  /// The jobs in a state, oldest first, with what the scheduler needs; those of one executor, or of all.
+  std::vector<QueuedJob> queued_jobs(v1::Job::State state, const std::optional<std::string>& executor = {});
 
   /// The same for one job; nothing unless it is in that state.
   std::optional<QueuedJob> queued_job(std::int64_t job, v1::Job::State state);
+
+  /// Executor of the job; nothing if there is no such job.
+  std::optional<std::string> executor_of(std::int64_t job);
+
+  /// Executors that have jobs which have not ended.
+  std::vector<std::string> executors_in_use();
 
   /// States (without their cases) and samples after `after`, in order. Ends before an unreadable one; throws data_loss
   /// if that is the first.

@@ -7,7 +7,7 @@
 namespace cellcrush::store {
 namespace {
 
-constexpr std::int64_t kVersion = 5;
+constexpr std::int64_t kVersion = 6;
 
 constexpr const char* kJobTables = R"sql(
 CREATE TABLE jobs (
@@ -143,6 +143,12 @@ END;
 PRAGMA user_version = 5;
 )sql";
 
+// From version 5 to 6.
+constexpr const char* kExecutor = R"sql(
+ALTER TABLE jobs ADD COLUMN executor TEXT NOT NULL DEFAULT '';
+PRAGMA user_version = 6;
+)sql";
+
 // A killed daemon has recorded too little time. The latest end of a job then shows how far the clock was.
 std::int64_t read_service_clock(Database& database) {
   Statement read(database,
@@ -179,6 +185,7 @@ std::int64_t prepare_journal(Database& database) {
     database.execute(kSearchIndexes);
   }
   if (version < 5) database.execute(kChanges);
+  if (version < 6) database.execute(kExecutor);
   ensure_epoch(database);
   transaction.commit();
   return read_service_clock(database);

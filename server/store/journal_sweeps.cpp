@@ -53,11 +53,13 @@ std::vector<Retry> jobs_to_retry(Database& database, std::int64_t sweep) {
     job.set_priority(ended.priority());
     job.set_time_limit_s(ended.time_limit_s());
     job.set_owner(ended.owner());
+    job.set_executor(ended.executor().empty() ? kLocalExecutor : ended.executor());
     job.set_retry_of(name_of(read.integer(0)));
     job.set_sweep(sweep_name_of(sweep));
     job.mutable_case_()->ParseFromString(read.bytes(2));
-    queued = {read.integer(0), 0, ended.priority(), read.integer(3), sweep, static_cast<int>(read.integer(4)),
-              ended.owner()};
+    queued = {
+        read.integer(0), 0, ended.priority(), read.integer(3), sweep, static_cast<int>(read.integer(4)), ended.owner(),
+        job.executor()};
   }
   return out;
 }

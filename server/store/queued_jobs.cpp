@@ -8,22 +8,26 @@ namespace {
 
 constexpr const char* kSelectQueued =
     "SELECT jobs.number, COALESCE(jobs.submission, jobs.number), jobs.priority, jobs.element_steps, sweeps.number, "
-    "sweeps.max_parallel, jobs.owner FROM jobs LEFT JOIN sweep_jobs ON sweep_jobs.job = jobs.number "
+    "sweeps.max_parallel, jobs.owner, jobs.executor FROM jobs LEFT JOIN sweep_jobs ON sweep_jobs.job = jobs.number "
     "LEFT JOIN sweeps ON sweeps.number = sweep_jobs.sweep WHERE jobs.state = ?1 ";
 
-// Without a sweep the last two columns are null and read as 0.
+std::string executor_in(const std::string& column) { return column.empty() ? kLocalExecutor : column; }
+
+// Without a sweep its columns are null and read as 0.
 QueuedJob read_queued(const Statement& row) {
-  return {row.integer(0), row.integer(1), static_cast<int>(row.integer(2)),
-          row.integer(3), row.integer(4), static_cast<int>(row.integer(5)),
-          row.bytes(6)};
+  return {row.integer(0), row.integer(1),           static_cast<int>(row.integer(2)),
+          row.integer(3), row.integer(4),           static_cast<int>(row.integer(5)),
+          row.bytes(6),   executor_in(row.bytes(7))};
 }
 
 }  // namespace
 
-std::vector<QueuedJob> JournalReader::queued_jobs(v1::Job::State state) {
+std::vector<QueuedJob> JournalReader::queued_jobs(v1::Job::State state, const std::optional<std::string>& executor) {
   const MutexLock lock(mutex_);
-  Statement read(database_, kSelectQueued + std::string("ORDER BY jobs.number"));
+  Statement read(database_,
+                 kSelectQueued + std::string(executor ? "AND jobs.executor = ?2 " : "") + "ORDER BY jobs.number");
   read.bind(1, state);
+  if (executor) read.bind_text(2, executor_column(*executor));
   std::vector<QueuedJob> out;
   while (read.step()) out.push_back(read_queued(read));
   return out;
@@ -34,6 +38,22 @@ std::optional<QueuedJob> JournalReader::queued_job(std::int64_t job, v1::Job::St
   Statement read(database_, kSelectQueued + std::string("AND jobs.number = ?2"));
   if (!read.bind(1, state).bind(2, job).step()) return std::nullopt;
   return read_queued(read);
+}
+
+std::optional<std::string> JournalReader::executor_of(std::int64_t job) {
+  const MutexLock lock(mutex_);
+  Statement read(database_, "SELECT executor FROM jobs WHERE number = ?1");
+  if (!read.bind(1, job).step()) return std::nullopt;
+  return executor_in(read.bytes(0));
+}
+
+std::vector<std::string> JournalReader::executors_in_use() {
+  const MutexLock lock(mutex_);
+  Statement read(database_, "SELECT DISTINCT executor FROM jobs WHERE state IN (?1, ?2, ?3, ?4) ORDER BY executor");
+  read.bind(1, v1::Job::PENDING).bind(2, v1::Job::RUNNING).bind(3, v1::Job::SUSPENDED).bind(4, v1::Job::CANCELLING);
+  std::vector<std::string> out;
+  while (read.step()) out.push_back(executor_in(read.bytes(0)));
+  return out;
 }
 
 }  // namespace cellcrush::store

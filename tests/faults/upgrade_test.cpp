@@ -47,6 +47,7 @@ TEST_F(UpgradeTest, AllJobsOfTheVersionBeforeAreServedOrRunToTheirEnd) {
   auto client = this->client();
   EXPECT_EQ(all_jobs(client).size(), 7U);
   EXPECT_EQ(client.get("jobs/1").state(), v1::Job::SUCCEEDED);
+  EXPECT_EQ(client.get("jobs/1").executor(), "local");
   EXPECT_EQ(client.history("jobs/1").size(), 21U);
   EXPECT_EQ(client.get("jobs/2").state(), v1::Job::CANCELLED);
   for (const char* ended : {"jobs/1", "jobs/2"}) {

@@ -55,8 +55,12 @@ class JournalTest : public ::testing::Test {
   std::optional<JournalReader> reader_;
 };
 
-/// What the third version had: no columns and labels to search by, no service clock and no facts.
+/// What the fifth version had: no executors.
+inline constexpr const char* kWithoutExecutor = "ALTER TABLE jobs DROP COLUMN executor; PRAGMA user_version = 5;";
+
+/// What the third version had: neither that nor columns and labels to search by, no service clock and no facts.
 inline constexpr const char* kWithoutSearchColumns = R"sql(
+ALTER TABLE jobs DROP COLUMN executor;
 DROP TRIGGER note_state;
 DROP TRIGGER note_deleted_job;
 DROP TRIGGER note_sweep;

@@ -261,7 +261,7 @@ TEST_F(JournalTest, AJournalOfALaterVersionIsRefused) {
   journal_.reset();
   {
     Database database(path());
-    database.execute("PRAGMA user_version = 6");
+    database.execute("PRAGMA user_version = 7");
   }
   EXPECT_THROW(Journal(path(), [](std::int64_t) {}), ServiceError);
 }
@@ -285,6 +285,56 @@ TEST_F(JournalTest, AJournalOfTheFirstVersionIsBroughtUpToDate) {
   member.values = {50.0};
   const auto made = journal_->create_sweep({}, {member, member}, "", "");
   EXPECT_EQ(SweepReader(path()).jobs_of(made.sweep), made.jobs);
+}
+
+TEST_F(JournalTest, AnExecutorIsKeptWithItsJob) {
+  v1::Job job;
+  *job.mutable_case_() = testing::small_case();
+  job.set_executor("slurm/test");
+  const auto elsewhere = journal_->create_job(job, "", "").job;
+  const auto here = create();
+  reopen();
+  EXPECT_EQ(reader_->executor_of(elsewhere), "slurm/test");
+  EXPECT_EQ(reader_->executor_of(here), kLocalExecutor);
+  EXPECT_FALSE(reader_->executor_of(99));
+  EXPECT_EQ(reader_->find_job(elsewhere)->job.executor(), "slurm/test");
+  EXPECT_EQ(reader_->find_job(here)->job.executor(), kLocalExecutor);
+  const auto queued = reader_->queued_jobs(v1::Job::PENDING, "slurm/test");
+  ASSERT_EQ(queued.size(), 1U);
+  EXPECT_EQ(queued[0].job, elsewhere);
+  EXPECT_EQ(queued[0].executor, "slurm/test");
+  ASSERT_EQ(reader_->queued_jobs(v1::Job::PENDING, kLocalExecutor).size(), 1U);
+  EXPECT_EQ(reader_->queued_jobs(v1::Job::PENDING).size(), 2U);
+  EXPECT_EQ(reader_->executors_in_use(), (std::vector<std::string>{kLocalExecutor, "slurm/test"}));
+  change(elsewhere, v1::Job::CANCELLED);
+  EXPECT_EQ(reader_->executors_in_use(), std::vector<std::string>{kLocalExecutor});
+}
+
+TEST_F(JournalTest, JobsOfTheFifthVersionAreLocal) {
+  const auto job = create();
+  reader_.reset();
+  journal_.reset();
+  {
+    Database database(path());
+    v1::Job without;
+    Statement read(database, "SELECT job FROM jobs");
+    ASSERT_TRUE(read.step() && without.ParseFromString(read.bytes(0)));
+    without.clear_executor();
+    const std::string bytes = without.SerializeAsString();
+    Statement(database, "UPDATE jobs SET job = ?1").bind_blob(1, bytes).run();
+    Statement(database, "UPDATE events SET payload = ?1").bind_blob(1, bytes).run();
+  }
+  {
+    Database database(path());
+    database.execute(kWithoutExecutor);
+    EXPECT_TRUE(check_journal(database).problems.empty());
+  }
+  reopen();
+  EXPECT_EQ(reader_->executor_of(job), kLocalExecutor);
+  EXPECT_EQ(reader_->find_job(job)->job.executor(), kLocalExecutor);
+  EXPECT_EQ(reader_->events(job, 0, 1).front().state().executor(), kLocalExecutor);
+  EXPECT_EQ(reader_->list_jobs({}, false, 0, 1).front().job.executor(), kLocalExecutor);
+  EXPECT_EQ(reader_->queued_jobs(v1::Job::PENDING).front().executor, kLocalExecutor);
 }
 
 }  // namespace

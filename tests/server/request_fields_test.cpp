@@ -56,6 +56,8 @@ TEST(RequestFields, NoTextOfARequestNamesAFileOfTheDaemon) {
       "WatchJobsRequest.resume_token", "ListSweepsRequest.page_token", "GetHistoryRequest.page_token",
       "GetSweepTableRequest.page_token", "CreateJobRequest.request_id", "CreateSweepRequest.request_id",
       "WatchSweepRequest.resume_token", "WatchJobRequest.epoch",
+      // Of executors: compared with those that the daemon has.
+      "CreateJobRequest.executor", "Sweep.executor",
       // Labels: key and value.
       "CreateJobRequest.LabelsEntry.key", "CreateJobRequest.LabelsEntry.value", "Sweep.LabelsEntry.key",
       "Sweep.LabelsEntry.value",

@@ -110,6 +110,18 @@ TEST_F(SweepJournalTest, AJournalOfTheSecondVersionKeepsItsJobsInTheirOrder) {
   EXPECT_EQ(SweepReader(path()).rows(made.sweep).rows.size(), 3U);
 }
 
+TEST_F(SweepJournalTest, ARetryStaysOnItsExecutor) {
+  auto jobs = three_jobs();
+  for (auto& job : jobs) job.job.set_executor("slurm/test");
+  const auto made = journal_->create_sweep({}, jobs, "", "");
+  change(made.jobs[1], v1::Job::FAILED);
+  const auto retried = journal_->retry_failed(made.sweep);
+  ASSERT_EQ(retried.size(), 1U);
+  EXPECT_EQ(retried[0].executor, "slurm/test");
+  EXPECT_EQ(reader_->find_job(retried[0].job)->job.executor(), "slurm/test");
+  EXPECT_EQ(SweepReader(path()).rows(made.sweep).rows[1].result().executor(), "slurm/test");
+}
+
 TEST_F(SweepJournalTest, ARequestIdMakesOneSweep) {
   const auto first = journal_->create_sweep({}, three_jobs(), "id", "hash");
   const auto second = journal_->create_sweep({}, three_jobs(), "id", "hash");
