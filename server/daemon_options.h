@@ -11,6 +11,7 @@
 #include "access/gate.h"
 #include "clocks.h"
 #include "jobs/admission.h"
+#include "jobs/executor_options.h"
 #include "jobs/queue_hold.h"
 #include "jobs/retention.h"
 #include "net/connection_limits.h"
@@ -30,10 +31,14 @@ struct DaemonOptions {
   /// Address "HOST:PORT" that serves the API and the web page over HTTP, with TLS if `access` has it, or "none".
   /// Empty: 127.0.0.1:8080, or nowhere if that is in use or the other options forbid it.
   std::string http;
-  /// Number of jobs that run at once. 0: the number of cores.
+  /// Number of jobs that run at once on this machine. 0: the number of cores.
   int workers = 0;
   /// Program started as `PROGRAM worker ...`.
   std::filesystem::path worker_program = "/proc/self/exe";
+  /// Executor of jobs and sweeps whose request names none: "local" or one of `executors`.
+  std::string default_executor = store::kLocalExecutor;
+  /// Executors beside that of this machine.
+  std::vector<jobs::ExecutorOptions> executors;
   /// Wall-clock time between two checkpoints of a running job.
   std::chrono::milliseconds checkpoint_interval{60'000};
   /// A worker that reports nothing and uses no processor time for this long is replaced.

@@ -4,7 +4,6 @@
 #include <chrono>
 #include <initializer_list>
 #include <optional>
-#include <set>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -14,8 +13,7 @@
 #include "jobs/housekeeping.h"
 #include "jobs/local_process.h"
 #include "jobs/mesh_places.h"
-#include "jobs/queue_hold.h"
-#include "jobs/scheduler.h"
+#include "jobs/queues.h"
 #include "metrics/metrics.h"
 #include "rpc/admin_service.h"
 #include "rpc/cases_service.h"
@@ -33,7 +31,7 @@
 namespace cellcrush {
 namespace {
 
-// Health service name of the queue; not serving while it is held.
+// Health service name of the queues; not serving while one is held.
 constexpr const char* kQueueHealth = "cellcrush.queue";
 constexpr int kPumpThreads = 2;
 constexpr int kHttpPumpThreads = 2;  // JSON is slow to make, and delays streams over HTTP only
@@ -47,6 +45,16 @@ int threads_of_sweep_check() {
 
 rpc::StreamLimits::Most most_streams(const net::ConnectionLimits& limits) {
   return {limits.streams, limits.streams_per_caller, limits.memory_bytes};
+}
+
+// All executors, that of this machine first.
+std::vector<jobs::Queues::NamedExecutor> executors_of(const DaemonOptions& options) {
+  std::vector<jobs::Queues::NamedExecutor> out;
+  out.push_back({store::kLocalExecutor, options.worker_count(),
+                 std::make_unique<jobs::LocalProcess>(options.worker_program, options.stall_limit)});
+  const jobs::ExecutorSurroundings surroundings{options.data_folder, options.worker_program, options.stall_limit};
+  for (const auto& given : options.executors) out.push_back({given.name, given.slots, given.make(surroundings)});
+  return out;
 }
 
 }  // namespace
@@ -63,37 +71,25 @@ struct Service::Parts {
         sweep_reader(folder.journal()),
         changes(folder.journal()),
         deletion({folder, journal, reader, sweep_reader}),
-        executor(options.worker_program, options.stall_limit),
-        hold(options.hold_times,
-             [this](const std::vector<jobs::Hold>& holds) {
-               std::set<Shortage> shortages;
-               for (const auto& each : holds) shortages.insert(each.shortage);
-               metrics.set_holds(shortages);
-               board.set(kQueueHealth, holds.empty());
-               scheduler.wake();
-             }),
-        runner({folder, journal, reader, hub, executor, metrics, hold, options.checkpoint_interval,
-                std::chrono::duration<double>(options.limits.job_time).count(),
-                [this](const std::vector<std::int64_t>& stopped) { scheduler.forget(stopped); }}),
-        scheduler({folder, journal, reader, metrics, runner, hold, executor}, options.limits.owner.running_jobs),
+        queues({folder, journal, reader, hub, metrics, [this](bool open) { board.set(kQueueHealth, open); },
+                options.hold_times, options.checkpoint_interval,
+                std::chrono::duration<double>(options.limits.job_time).count(), options.limits.owner.running_jobs,
+                options.default_executor},
+               executors_of(options)),
         stream_limits(most_streams(options.connections)),
         health_limits(most_streams(options.connections)),
         pump(kPumpThreads),
         http_pump(kHttpPumpThreads),
-        admission({folder, reader, scheduler}, options.limits),
+        admission({folder, reader, queues}, options.limits),
         calls({options.connections.threads, kWaitingCalls, options.connections.memory_bytes}),
         checks({kCheckThreads, kWaitingCalls, options.connections.memory_bytes}),
         cases(step_cost, calls, checks, mesh_places),
         health({board, {pump, metrics, health_limits, options.watch_times}}),
-        jobs({folder, journal, reader, sweep_reader, changes, deletion, hub, scheduler, admission, gate, calls, checks,
+        jobs({folder, journal, reader, sweep_reader, changes, deletion, hub, queues, admission, gate, calls, checks,
               mesh_places, streams()}),
-        sweeps({journal, reader, sweep_reader, deletion, hub, scheduler, admission, gate, calls, checks, mesh_places,
+        sweeps({journal, reader, sweep_reader, deletion, hub, queues, admission, gate, calls, checks, mesh_places,
                 threads_of_sweep_check(), step_cost, streams()}),
-        admin({reader,
-               hub,
-               scheduler,
-               hold,
-               {options.worker_count(), step_cost, {}, options.limits.owner.running_jobs},
+        admin({{reader, hub, queues, step_cost, options.limits.owner.running_jobs},
                gate,
                calls,
                [this, drained = std::move(on_drain)] {
@@ -121,11 +117,8 @@ struct Service::Parts {
   store::SweepReader sweep_reader;
   store::ChangeReader changes;
   jobs::Deletion deletion;
-  jobs::LocalProcess executor;
   rpc::HealthBoard board;
-  jobs::QueueHold hold;
-  jobs::JobRunner runner;
-  jobs::Scheduler scheduler;
+  jobs::Queues queues;
   rpc::StreamLimits stream_limits;
   rpc::StreamLimits health_limits;
   watch::Pump pump;
@@ -174,11 +167,11 @@ void Service::start() {
   Parts& parts = *parts_;
   parts.board.set(kQueueHealth, true);
   parts.housekeeping.emplace(jobs::Housekeeping::Parts{
-      parts.folder, parts.journal, parts.reader, parts.sweep_reader, parts.deletion, parts.admission, parts.scheduler,
-      parts.hold, parts.options.housekeeping_interval, parts.options.keep, parts.options.clocks});
+      parts.folder, parts.journal, parts.reader, parts.sweep_reader, parts.deletion, parts.admission, parts.queues,
+      parts.options.housekeeping_interval, parts.options.keep, parts.options.clocks});
   parts.housekeeping->check_disk();
   parts.deletion.finish_folders();
-  parts.scheduler.start(parts.options.worker_count());
+  parts.queues.start();
   parts.housekeeping->start();
 }
 
@@ -186,7 +179,7 @@ void Service::refuse_jobs() { parts_->admission.drain(); }
 
 void Service::stop() {
   parts_->housekeeping.reset();
-  parts_->scheduler.stop();
+  parts_->queues.stop();
   parts_->pump.drain();
   parts_->http_pump.drain();
 }

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "error.h"
-#include "jobs/scheduler.h"
+#include "jobs/queues.h"
 
 namespace cellcrush::jobs {
 namespace {
@@ -61,7 +61,7 @@ Admission::Place Admission::admit(const std::string& owner, std::size_t count, s
   if (const auto low = low_disk())
     throw ServiceError(ServiceError::Kind::storage_full, *low + " Free disk space or delete jobs, then submit again.");
   const MutexLock lock(mutex_);
-  std::size_t waiting = parts_.scheduler.waiting_count();
+  std::size_t waiting = parts_.queues.waiting_count();
   for (const auto& [name, jobs] : admitted_) waiting += jobs;
   if (static_cast<std::int64_t>(waiting + count) > limits_.queued_jobs) {
     throw ServiceError(ServiceError::Kind::exhausted,
@@ -71,7 +71,7 @@ Admission::Place Admission::admit(const std::string& owner, std::size_t count, s
   }
   const auto admitted = admitted_.find(owner);
   const std::size_t of_owner = admitted == admitted_.end() ? 0 : admitted->second;
-  quotas_.admit(owner, parts_.scheduler.waiting_count(owner) + of_owner, count,
+  quotas_.admit(owner, parts_.queues.waiting_count(owner) + of_owner, count,
                 [&] { return parts_.reader.bytes_of_owner(owner); });
   admitted_[owner] += count;
   return {*this, owner, count};

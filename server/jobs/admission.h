@@ -16,7 +16,7 @@
 
 namespace cellcrush::jobs {
 
-class Scheduler;
+class Queues;
 
 /// Decides whether the daemon takes new jobs. Thread-safe.
 class Admission {
@@ -33,7 +33,7 @@ class Admission {
   struct Parts {
     const store::DataFolder& folder;
     store::JournalReader& reader;
-    Scheduler& scheduler;
+    Queues& queues;
   };
 
   /// Admitted jobs that are not in the queue yet. While this object lives they count as waiting, so that concurrent

@@ -3,6 +3,7 @@
 #include <functional>
 #include <optional>
 #include <stop_token>
+#include <string>
 
 #include "store/job_folder.h"
 #include "worker/report.pb.h"
@@ -32,7 +33,9 @@ struct WorkerExit {
 struct WorkerEvents {
   std::function<void(int pid)> started;  ///< a worker runs, started by this daemon or an earlier one
   std::function<void(worker::Report&)>
-      reported;                   ///< every report except the final one and `stopping`, to be moved from; some repeat
+      reported;  ///< every report except the final one and `stopping`, to be moved from; some repeat
+  /// Where the executor has the job, as a short phrase (Job.place); empty: nowhere. Called on every change.
+  std::function<void(const std::string& place)> placed;
   std::function<bool()> watched;  ///< whether somebody watches: reports are then delivered 20 times a second
 };
 

@@ -5,7 +5,7 @@
 #include <unistd.h>
 
 #include <cstdint>
-#include <set>
+#include <map>
 #include <string>
 
 #include "error.h"
@@ -13,6 +13,8 @@
 
 namespace cellcrush::jobs {
 namespace {
+
+using EndWorker = std::function<bool(const store::QueuedJob& job)>;
 
 // Entries that belong to the file system.
 constexpr const char* kOfTheFileSystem = "lost+found";
@@ -36,10 +38,10 @@ std::string why_unusable(const store::JobFolder& folder) {
 
 class FolderAudit {
  public:
-  FolderAudit(store::JournalReader& reader, const store::DataFolder& folder, Executor& executor)
-      : reader_(reader), folder_(folder), executor_(executor) {
+  FolderAudit(store::JournalReader& reader, const store::DataFolder& folder, const EndWorker& end_worker)
+      : reader_(reader), folder_(folder), end_worker_(end_worker) {
     for (const auto state : {v1::Job::PENDING, v1::Job::RUNNING, v1::Job::SUSPENDED, v1::Job::CANCELLING}) {
-      for (const auto& job : reader.queued_jobs(state)) open_.insert(job.job);
+      for (const auto& job : reader.queued_jobs(state)) open_.emplace(job.job, job);
     }
   }
 
@@ -48,11 +50,9 @@ class FolderAudit {
     const auto job = store::number_of("jobs/" + name);
     if (!job || !reader_.has_job(*job)) {
       set_aside(name, "it belongs to no job");
-    } else if (open_.contains(*job)) {
+    } else if (const auto open = open_.find(*job); open != open_.end()) {
       const std::string trouble = why_unusable(folder_.job_folder(*job));
-      if (trouble.empty()) return;
-      executor_.end_worker(folder_.job_folder(*job));
-      set_aside(name, trouble);
+      if (!trouble.empty() && end_worker_(open->second)) set_aside(name, trouble);
     }
   }
 
@@ -69,14 +69,14 @@ class FolderAudit {
 
   store::JournalReader& reader_;
   const store::DataFolder& folder_;
-  Executor& executor_;
-  std::set<std::int64_t> open_;  ///< jobs that have not ended
+  const EndWorker& end_worker_;
+  std::map<std::int64_t, store::QueuedJob> open_;  ///< jobs that have not ended
 };
 
 }  // namespace
 
-void audit_job_folders(store::JournalReader& reader, const store::DataFolder& folder, Executor& executor) {
-  FolderAudit audit(reader, folder, executor);
+void audit_job_folders(store::JournalReader& reader, const store::DataFolder& folder, const EndWorker& end_worker) {
+  FolderAudit audit(reader, folder, end_worker);
   for (const auto& name : folder.names_in_jobs()) audit.audit_entry(name);
 }
 

@@ -33,8 +33,8 @@ void Housekeeping::work(const std::stop_token& stop) {
 
 void Housekeeping::check_disk() {
   const auto shortage = parts_.admission.low_disk();
-  parts_.scheduler.hold_for_low_disk(shortage);
-  if (!shortage && parts_.folder.keep_ballast()) parts_.hold.try_now(Shortage::full_disk);
+  parts_.queues.hold_for_low_disk(shortage);
+  if (!shortage && parts_.folder.keep_ballast()) parts_.queues.try_now(Shortage::full_disk);
 }
 
 void Housekeeping::check_clocks() {

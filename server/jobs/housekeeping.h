@@ -8,12 +8,12 @@
 #include "clocks.h"
 #include "jobs/admission.h"
 #include "jobs/clock_watch.h"
+#include "jobs/queues.h"
 #include "jobs/retention.h"
-#include "jobs/scheduler.h"
 
 namespace cellcrush::jobs {
 
-/// Periodic work of the daemon: holds the queue while the disk is nearly full, deletes expired jobs, and logs a change
+/// Periodic work of the daemon: holds the queues while the disk is nearly full, deletes expired jobs, and logs a change
 /// of the wall clock.
 class Housekeeping {
  public:
@@ -25,8 +25,7 @@ class Housekeeping {
     store::SweepReader& sweeps;
     const Deletion& deletion;
     const Admission& admission;
-    Scheduler& scheduler;
-    QueueHold& hold;
+    Queues& queues;
     std::chrono::milliseconds interval;  ///< between two rounds
     Retention::Limits keep;
     Clocks clocks;
@@ -38,7 +37,7 @@ class Housekeeping {
         clock_watch_(parts.clocks),
         noted_(parts.journal.service_seconds()) {}
 
-  /// Holds the queue if the disk is nearly full, before a job starts. Throws ServiceError.
+  /// Holds the queues if the disk is nearly full, before a job starts. Throws ServiceError.
   void check_disk();
 
   /// Repeats all checks from now on, in its own thread.

@@ -39,6 +39,7 @@ bool JobRunner::run(std::int64_t job, int threads, const Interruptions& interrup
   while (true) {
     Run run{threads, interruptions, daemons_end, {}};
     v1::Job::State state = run_once(job, run);
+    if (const auto channel = parts_.hub.find(job)) channel->set_place("");
     if (run.trouble) {
       parts_.hold.failed(run.trouble);
       state = put_back(job, run);
@@ -177,6 +178,11 @@ WorkerEvents JobRunner::events_of(const store::StoredJob& stored) {
     spdlog::info("{} runs in process {}", store::name_of(job), pid);
   };
   const auto channel = parts_.hub.open(job);
+  events.placed = [this, channel](const std::string& place) {
+    channel->set_place(place);
+    // An executor that has accepted a job lacks nothing, though it may start the job much later.
+    if (!place.empty()) parts_.hold.succeeded();
+  };
   events.watched = [channel] { return channel->is_watched(); };
   events.reported = [this, job, channel, last_step = parts_.reader.last_sampled_step(job)](
                         worker::Report& report) mutable { pass_on(job, last_step, *channel, report); };
@@ -214,6 +220,7 @@ void JobRunner::pass_on(std::int64_t job, std::int64_t& last_step, watch::Channe
 
 store::StateChange JobRunner::after(const store::StoredJob& stored, const WorkerExit& exit, Run& run) {
   if (exit.final && exit.final->has_begin_again()) throw BeginAgain{exit.final->begin_again()};
+  if (!exit.final && !is_lost(exit) && !has_started(stored.number)) return before_start(exit);
   auto next = outcome_of(exit);
   if (exit.kind == WorkerExit::Kind::cancelled && !is_last_word(exit)) return given_up(stored, std::move(next), run);
   if (!is_lost(exit)) return next;
@@ -224,6 +231,20 @@ store::StateChange JobRunner::after(const store::StoredJob& stored, const Worker
   if (!got_further(stored.number)) return given_up(stored, std::move(next), run);
   spdlog::warn("{}: {}", store::name_of(stored.number), next.message);
   return tried_again(std::move(next));
+}
+
+// Whether a worker of the job has run since it was last PENDING.
+bool JobRunner::has_started(std::int64_t job) {
+  const auto now = parts_.reader.find_job(job);
+  return now && (now->job.state() == v1::Job::RUNNING || now->job.state() == v1::Job::CANCELLING);
+}
+
+// The outcome for a job that left its executor before a worker ran.
+store::StateChange JobRunner::before_start(const WorkerExit& exit) {
+  if (exit.kind == WorkerExit::Kind::cancelled) throw Withdrawn();
+  store::StateChange out;
+  if (exit.kind == WorkerExit::Kind::suspended) out.state = v1::Job::SUSPENDED;
+  return out;
 }
 
 // Whether the job may be retried after a loss.

@@ -18,8 +18,11 @@ std::string before_it(int count, const char* joint) {
   return joint + std::to_string(count) + (count == 1 ? " job starts before it." : " jobs start before it.");
 }
 
-std::string all_workers(int count) {
-  return count == 1 ? "The only worker is busy" : "All " + std::to_string(count) + " workers are busy";
+std::string all_workers(const WorkerFacts& workers) {
+  const std::string count = std::to_string(workers.count);
+  if (!workers.are_cores())
+    return workers.executor + " has " + count + (workers.count == 1 ? " job" : " jobs") + ", as many as it may";
+  return workers.count == 1 ? "The only worker is busy" : "All " + count + " workers are busy";
 }
 
 std::string at_its_limit(const store::QueuedJob& job) {
@@ -60,7 +63,8 @@ class Play {
           job = *taken;
           seconds = time_;
           const JobFacts facts = facts_of_(job.job);
-          const int cores = 1 + extra_cores(facts.threads, free_ - 1, waiting_.count());
+          const int cores = workers_.are_cores() ? 1 + extra_cores(facts.threads, free_ - 1, waiting_.count())
+                                                 : std::max(facts.threads, 1);
           waiting_.add_cores(job, cores - 1);
           begin(job, predicted_seconds(job, facts, cores, workers_.step_cost), cores);
           return true;
@@ -70,7 +74,7 @@ class Play {
       const End& end = ends_.top();
       time_ = std::max(time_, end.time);
       waiting_.give_back(end.job, end.cores);
-      free_ += end.cores;
+      free_ += held_by(end.cores);
       ends_.pop();
     }
   }
@@ -84,8 +88,9 @@ class Play {
         return at_its_owners_limit(job, workers_.owner_max_running) + before_it(before, ", and ");
       case WaitingJobs::Limit::none: break;
     }
-    if (all_busy_) return all_workers(workers_.count) + before_it(before, ", and ");
-    return seconds > 0.0 ? before_it(before, "") : "A worker is starting it now.";
+    if (all_busy_) return all_workers(workers_) + before_it(before, ", and ");
+    if (seconds > 0.0) return before_it(before, "");
+    return workers_.are_cores() ? "A worker is starting it now." : workers_.executor + " takes it now.";
   }
 
  private:
@@ -98,14 +103,16 @@ class Play {
     bool operator()(const End& one, const End& other) const { return one.time > other.time; }
   };
 
+  [[nodiscard]] int held_by(int cores) const { return workers_.are_cores() ? cores : 1; }
+
   void begin(const store::QueuedJob& job, double seconds, int cores) {
     ends_.push({time_ + seconds, job, cores});
-    free_ -= cores;
+    free_ -= held_by(cores);
   }
 
   WorkerFacts workers_;
   const FactsOf& facts_of_;
-  int free_;  ///< cores
+  int free_;  ///< of the workers
   WaitingJobs waiting_;
   WaitingJobs now_;  ///< jobs that run before anything else starts
   bool all_busy_ = false;
@@ -137,6 +144,7 @@ v1::Queue forecast_queue(const std::vector<RunningJob>& running, const std::vect
     entry.set_reason(play.reason(job, seconds, before));
     entry.set_seconds_until_start(seconds);
     entry.set_priority(job.priority);
+    entry.set_executor(workers.executor);
   }
   out.set_more_count(static_cast<int>(waiting.size()) - out.entries_size());
   return out;

@@ -23,12 +23,16 @@ struct JobFacts {
 };
 using FactsOf = std::function<JobFacts(std::int64_t job)>;
 
-/// State of the workers.
+/// State of the workers of one executor.
 struct WorkerFacts {
   int count = 1;
   double step_cost = 0.0;     ///< seconds of one core per element and step
   std::string held{};         ///< why the queue is held; empty if it is not
   int owner_max_running = 0;  ///< jobs of one owner that run at once; 0: no limit
+  std::string executor = store::kLocalExecutor;
+
+  /// Whether the workers are cores of this machine, which its jobs share.
+  [[nodiscard]] bool are_cores() const { return executor == store::kLocalExecutor; }
 };
 
 /// Maximum number of jobs that a queue lists.
@@ -40,8 +44,8 @@ double predicted_seconds(const store::QueuedJob& job, const JobFacts& facts, int
 /// Cores that a starting job gets beside its first, of those free then; `waiting` other jobs have precedence.
 int extra_cores(int threads, int free, std::size_t waiting);
 
-/// Start time of each waiting job and why it does not start now. Simulates the scheduler's rule (WaitingJobs,
-/// extra_cores) with predicted times. Calls `facts_of` for each job listed.
+/// Start time of each job that waits for one executor, and why it does not start now. Simulates the scheduler's rule
+/// (WaitingJobs, extra_cores) with predicted times. Calls `facts_of` for each job listed.
 v1::Queue forecast_queue(const std::vector<RunningJob>& running, const std::vector<store::QueuedJob>& waiting,
                          const WorkerFacts& workers, const FactsOf& facts_of);
 

@@ -7,8 +7,8 @@
 
 namespace cellcrush::jobs {
 
-QueueHold::QueueHold(const HoldTimes& times, Changed changed, Now now)
-    : times_(times), changed_(std::move(changed)), now_(std::move(now)) {}
+QueueHold::QueueHold(const HoldTimes& times, Changed changed, Now now, std::string queue)
+    : queue_(std::move(queue)), times_(times), changed_(std::move(changed)), now_(std::move(now)) {}
 
 bool QueueHold::set_low_disk(const std::optional<std::string>& reason) {
   {
@@ -16,8 +16,8 @@ bool QueueHold::set_low_disk(const std::optional<std::string>& reason) {
     if (low_disk_.has_value() == reason.has_value()) return false;
     low_disk_ = reason ? std::optional(Hold{Shortage::low_disk, *reason, now_(), {}}) : std::nullopt;
   }
-  reason ? spdlog::warn("The queue is held: {} {}", *reason, remedy_for(Shortage::low_disk))
-         : spdlog::info("Disk space is available again; the queue is no longer held for it");
+  reason ? spdlog::warn("{} is held: {} {}", queue_, *reason, remedy_for(Shortage::low_disk))
+         : spdlog::info("{} is no longer held for low disk space", queue_);
   tell();
   return true;
 }
@@ -39,7 +39,7 @@ void QueueHold::succeeded() {
     const MutexLock lock(mutex_);
     trial_ = false;
     if (!trouble_) return;
-    spdlog::info("The queue is released: the shortage is over ({})", name_of(trouble_->shortage));
+    spdlog::info("{} is released: the shortage is over ({})", queue_, name_of(trouble_->shortage));
     trouble_.reset();
     over_ = now_();
   }
@@ -72,7 +72,7 @@ void QueueHold::failed(const Trouble& trouble) {
     pause_ = goes_on ? std::clamp(2 * pause_, times_.first, times_.longest) : times_.first;
     trial_ = false;
     const auto since = trouble_ ? trouble_->since : now;
-    if (!is_same) spdlog::warn("The queue is held: {} {}", trouble.reason, remedy_for(trouble.shortage));
+    if (!is_same) spdlog::warn("{} is held: {} {}", queue_, trouble.reason, remedy_for(trouble.shortage));
     trouble_.emplace(Hold{trouble.shortage, trouble.reason, since, now + pause_});
   }
   tell();

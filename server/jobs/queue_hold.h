@@ -36,7 +36,9 @@ class QueueHold {
   /// Called after each change with the current holds; the last call has the newest. Must not call back.
   using Changed = std::function<void(const std::vector<Hold>&)>;
 
-  explicit QueueHold(const HoldTimes& times, Changed changed = {}, Now now = Hold::Clock::now);
+  /// `queue`: how the log names it.
+  explicit QueueHold(const HoldTimes& times, Changed changed = {}, Now now = Hold::Clock::now,
+                     std::string queue = "The queue");
 
   /// Sets the hold for low_disk, or releases it if `reason` is absent. Returns whether this is a change.
   bool set_low_disk(const std::optional<std::string>& reason);
@@ -72,6 +74,7 @@ class QueueHold {
  private:
   void tell();
 
+  std::string queue_;
   HoldTimes times_;
   Changed changed_;
   Now now_;

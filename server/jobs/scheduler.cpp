@@ -2,60 +2,65 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <chrono>
 #include <optional>
 #include <utility>
 
 #include "error.h"
-#include "jobs/folder_audit.h"
 #include "jobs/queue_forecast.h"
 #include "store/job_state.h"
 #include "store/resource_name.h"
 
 namespace cellcrush::jobs {
+
 void Scheduler::start(int slots) {
-  audit_job_folders(parts_.reader, parts_.folder, parts_.executor);
-  clean_up();
   const auto adopted = reconcile();
-  const auto waiting = parts_.reader.queued_jobs(v1::Job::PENDING);
+  const auto waiting = parts_.reader.queued_jobs(v1::Job::PENDING, parts_.executor_name);
   // No job runs before all are queued: a job that returned to the queue would be queued twice.
   const MutexLock lock(mutex_);
   free_cores_ += slots;
-  for (const auto& job : waiting) waiting_.add(job);
+  for (const auto& job : waiting) {
+    if (!running_.contains(job.job)) waiting_.add(job);
+  }
   for (const auto& job : adopted) slots_.emplace_back([this, job](const std::stop_token& stop) { run(job, stop); });
   for (int i = 0; i < slots; ++i) slots_.emplace_back([this](const std::stop_token& stop) { run_slot(stop); });
-}
-
-// Completes the deletions of a killed daemon.
-void Scheduler::clean_up() {
-  for (const std::int64_t job : parts_.folder.jobs_with_reports()) {
-    try {
-      const auto stored = parts_.reader.find_job(job);
-      if (!stored || !store::is_terminal(stored->job.state())) continue;
-      parts_.runner.end_leftover(job);
-      parts_.folder.clean_job_folder(job);
-    } catch (const std::exception& error) {
-      spdlog::warn("Leftover files of {} could not be removed; the daemon tries again at its next start: {}",
-                   store::name_of(job), error.what());
-    }
-  }
 }
 
 std::vector<store::QueuedJob> Scheduler::reconcile() {
   std::vector<store::QueuedJob> adopted;
   for (const v1::Job::State state : {v1::Job::RUNNING, v1::Job::CANCELLING}) {
-    for (const auto& job : parts_.reader.queued_jobs(state)) {
+    for (const auto& job : parts_.reader.queued_jobs(state, parts_.executor_name)) {
       if (parts_.runner.reconcile(job.job) != JobRunner::Left::is_to_run) continue;
-      spdlog::info("{} is adopted from an earlier daemon", store::name_of(job.job));
-      const MutexLock lock(mutex_);
-      --free_cores_;
-      waiting_.count_running(job);
-      Running& running = begin(job.job);
-      if (state == v1::Job::CANCELLING) running.cancel.request_stop();
-      adopted.push_back(job);
+      adopt(job, adopted);
+      if (state == v1::Job::CANCELLING) cancel_run(job.job);
     }
   }
+  // A worker of this machine makes its job RUNNING at once.
+  if (shares_cores()) return adopted;
+  for (const auto& job : parts_.reader.queued_jobs(v1::Job::PENDING, parts_.executor_name)) {
+    if (is_placed(job.job)) adopt(job, adopted);
+  }
   return adopted;
+}
+
+bool Scheduler::is_placed(std::int64_t job) {
+  try {
+    return parts_.executor.has_worker(parts_.folder.job_folder(job));
+  } catch (const std::exception& error) {
+    // It waits for a slot, and the executor adopts it then.
+    spdlog::warn("Cannot tell whether {} has {}: {}", parts_.executor_name, store::name_of(job), error.what());
+    return false;
+  }
+}
+
+void Scheduler::adopt(const store::QueuedJob& job, std::vector<store::QueuedJob>& adopted) {
+  spdlog::info("{} is adopted from an earlier daemon", store::name_of(job.job));
+  const MutexLock lock(mutex_);
+  --free_cores_;
+  waiting_.count_running(job);
+  begin(job.job);
+  adopted.push_back(job);
 }
 
 void Scheduler::enqueue(const std::vector<store::QueuedJob>& jobs) {
@@ -89,16 +94,23 @@ void Scheduler::cancel(std::int64_t job) {
       if (error.kind() == ServiceError::Kind::failed_precondition) continue;
       throw;
     }
-    std::stop_source worker(std::nostopstate);
     {
       const MutexLock lock(mutex_);
       // A CANCELLING job may have returned to the queue meanwhile, to be given up.
       if (change.state == v1::Job::CANCELLED) waiting_.remove(job);
-      if (const auto found = running_.find(job); found != running_.end()) worker = found->second.cancel;
     }
-    worker.request_stop();
+    cancel_run(job);
     return;
   }
+}
+
+void Scheduler::cancel_run(std::int64_t job) {
+  std::stop_source cancel(std::nostopstate);
+  {
+    const MutexLock lock(mutex_);
+    if (const auto found = running_.find(job); found != running_.end()) cancel = found->second.cancel;
+  }
+  cancel.request_stop();
 }
 
 void Scheduler::suspend(std::int64_t job, const std::function<bool()>& given_up) {
@@ -159,26 +171,15 @@ void Scheduler::resume(std::int64_t job) {
   if (queued) enqueue({*queued});
 }
 
-void Scheduler::cancel_all(const std::vector<std::int64_t>& jobs) {
-  // Waiting jobs first, so that no slot takes the next of them.
-  forget(parts_.journal.cancel_waiting(jobs));
-  for (const std::int64_t job : jobs) {
-    const auto stored = parts_.reader.find_job(job);
-    if (!stored || store::is_terminal(stored->job.state())) continue;
-    try {
-      cancel(job);
-    } catch (const ServiceError& error) {
-      // It has ended or was deleted meanwhile.
-      const bool gone = error.kind() == ServiceError::Kind::not_found;
-      if (!gone && error.kind() != ServiceError::Kind::failed_precondition) throw;
-    }
-  }
-}
-
 void Scheduler::forget(const std::vector<std::int64_t>& jobs) {
-  if (jobs.empty()) return;
+  for (const std::int64_t job : jobs) {
+    {
+      const MutexLock lock(mutex_);
+      waiting_.remove(job);
+    }
+    cancel_run(job);
+  }
   const MutexLock lock(mutex_);
-  for (const std::int64_t job : jobs) waiting_.remove(job);
   tell_metrics();
 }
 
@@ -203,8 +204,12 @@ std::size_t Scheduler::waiting_count(const std::string& owner) {
   return waiting_.count_of(owner);
 }
 
-void Scheduler::stop() {
+void Scheduler::begin_stop() {
   for (auto& slot : slots_) slot.request_stop();
+}
+
+void Scheduler::stop() {
+  begin_stop();
   slots_.clear();
 }
 
@@ -265,7 +270,7 @@ void Scheduler::run(const store::QueuedJob& taken, const std::stop_token& stop) 
     running_.erase(taken.job);
     waiting_.give_back(taken, 1 + extra);
     if (again) waiting_.add(taken);
-    free_cores_ += 1 + extra;
+    free_cores_ += held_by(1 + extra);
     tell_metrics();
   }
   wake();
@@ -280,8 +285,8 @@ int Scheduler::take_cores(const store::QueuedJob& job) {
     spdlog::warn("Cannot read the number of threads of {}: {}", store::name_of(job.job), error.what());
   }
   const MutexLock lock(mutex_);
-  const int taken = extra_cores(threads, free_cores_, waiting_.count());
-  free_cores_ -= taken;
+  const int taken = shares_cores() ? extra_cores(threads, free_cores_, waiting_.count()) : std::max(threads - 1, 0);
+  if (shares_cores()) free_cores_ -= taken;
   running_[job.job].cores += taken;
   waiting_.add_cores(job, taken);
   return taken;

@@ -21,9 +21,11 @@
 
 namespace cellcrush::jobs {
 
-/// Runs waiting jobs in the order of WaitingJobs, within the number of slots and the limits of their sweeps. Each slot
-/// is a thread that lives as long as the scheduler and runs one job at a time. A job that requests several threads gets
-/// cores that no other job uses or waits for at its start: jobs side by side take precedence. Thread-safe.
+/// Runs the waiting jobs of one executor in the order of WaitingJobs, within the number of slots and the limits of
+/// their sweeps and owners. Each slot is a thread that lives as long as the scheduler and runs one job at a time. On
+/// the daemon's machine a job that requests several threads gets cores that no other job uses or waits for at its
+/// start: jobs side by side take precedence. Elsewhere it gets as many threads as it requests. A scheduler that is not
+/// started keeps its queue and runs nothing. Thread-safe.
 class Scheduler {
  public:
   /// Dependencies; all outlive the scheduler.
@@ -35,6 +37,7 @@ class Scheduler {
     JobRunner& runner;
     QueueHold& hold;
     Executor& executor;
+    std::string executor_name = store::kLocalExecutor;
   };
 
   /// `owner_max_running`: jobs of one owner that run at once; 0: no limit.
@@ -43,8 +46,8 @@ class Scheduler {
   Scheduler(const Scheduler&) = delete;
   Scheduler& operator=(const Scheduler&) = delete;
 
-  /// Adopts the workers that an earlier daemon left running, queues waiting jobs and those whose worker is gone, and
-  /// starts the slots.
+  /// Adopts what an earlier daemon left to the executor: running workers and, elsewhere than on this machine, jobs that
+  /// have not started there. Queues the other waiting jobs and those whose worker is gone, and starts the slots.
   void start(int slots);
 
   /// Queues jobs that are PENDING in the journal.
@@ -54,10 +57,7 @@ class Scheduler {
   /// either state. Throws ServiceError: not_found, or failed_precondition if it has ended otherwise.
   void cancel(std::int64_t job);
 
-  /// Cancels the unfinished ones among the jobs. Waiting jobs leave the queue at once.
-  void cancel_all(const std::vector<std::int64_t>& jobs);
-
-  /// Removes jobs from the queue that are no longer PENDING in the journal.
+  /// Removes CANCELLED jobs from the queue, and has the executor drop those that it has not started.
   void forget(const std::vector<std::int64_t>& jobs);
 
   /// A waiting job is SUSPENDED on return; a running one is SUSPENDED or has ended. No effect on a SUSPENDED job.
@@ -80,11 +80,13 @@ class Scheduler {
   /// Of this owner.
   [[nodiscard]] std::size_t waiting_count(const std::string& owner);
 
-  /// Cores that a running job holds; 1 for a job about to run.
+  /// Cores that a running job computes on; 1 for a job about to run.
   [[nodiscard]] int cores_of(std::int64_t job);
 
-  /// Has running workers checkpoint their jobs, and waits for the slots to finish. These jobs and the waiting ones are
-  /// PENDING for the next daemon.
+  /// Has running workers checkpoint their jobs.
+  void begin_stop();
+
+  /// The same, and waits for the slots to finish. These jobs and the waiting ones are PENDING for the next daemon.
   void stop();
 
  private:
@@ -96,28 +98,38 @@ class Scheduler {
     int cores = 1;
   };
 
-  /// Jobs whose workers an earlier daemon left running, and those to be ended; `run` adopts them.
+  /// Jobs that an earlier daemon left running or to the executor, and those to be ended; `run` adopts them.
   std::vector<store::QueuedJob> reconcile();
-  void clean_up();
+  /// Whether the executor has the job, which no worker has started.
+  bool is_placed(std::int64_t job);
+  void adopt(const store::QueuedJob& job, std::vector<store::QueuedJob>& adopted);
   void run_slot(const std::stop_token& stop);
   /// Waits for a change, at most until `limit`. REQUIRES: `lock` holds mutex_.
   void wait_for_change(MutexLock& lock, const std::stop_token& stop,
                        const std::optional<Hold::Clock::time_point>& limit) CELLCRUSH_REQUIRES(mutex_);
   /// Records that a job runs.
   Running& begin(std::int64_t job) CELLCRUSH_REQUIRES(mutex_);
-  /// Runs the job on this thread. It holds one core, or more if it requests them and they are free. REQUIRES: `begin`
-  /// was called for it. Does not throw.
+  /// Runs the job on this thread. REQUIRES: `begin` was called for it. Does not throw.
   void run(const store::QueuedJob& taken, const std::stop_token& stop);
+  /// Cores for a starting job beside its first.
   int take_cores(const store::QueuedJob& job);
+  /// How many of free_cores_ a job on this many cores holds.
+  [[nodiscard]] int held_by(int cores) const { return shares_cores() ? cores : 1; }
+  /// Whether running jobs share the cores of this machine.
+  [[nodiscard]] bool shares_cores() const { return parts_.executor_name == store::kLocalExecutor; }
+  /// Asks the run of the job, if there is one, to end.
+  void cancel_run(std::int64_t job);
   store::StoredJob find(std::int64_t job);
-  void tell_metrics() CELLCRUSH_REQUIRES(mutex_) { parts_.metrics.set_jobs(waiting_.count(), running_.size()); }
+  void tell_metrics() CELLCRUSH_REQUIRES(mutex_) {
+    parts_.metrics.set_jobs(parts_.executor_name, waiting_.count(), running_.size());
+  }
 
   Parts parts_;
   Mutex mutex_;
   std::condition_variable_any changed_;
   WaitingJobs waiting_ CELLCRUSH_GUARDED_BY(mutex_);
   std::map<std::int64_t, Running> running_ CELLCRUSH_GUARDED_BY(mutex_);
-  /// slots minus cores in use; negative after a restart with fewer
+  /// slots minus what running jobs hold of them; negative after a restart with fewer
   int free_cores_ CELLCRUSH_GUARDED_BY(mutex_) = 0;
   std::uint64_t changes_ CELLCRUSH_GUARDED_BY(mutex_) = 0;  ///< number of events that slots wait for
   bool low_disk_ CELLCRUSH_GUARDED_BY(mutex_) = false;

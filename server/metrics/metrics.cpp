@@ -80,7 +80,7 @@ struct Metrics::Impl {
   prometheus::Gauge& running = gauge(*registry, "cellcrush_jobs_running", "Jobs running.");
   prometheus::Family<prometheus::Gauge>& held = prometheus::BuildGauge()
                                                     .Name("cellcrush_queue_held")
-                                                    .Help("1 while the queue is held for this cause, else 0.")
+                                                    .Help("1 while a queue is held for this cause, else 0.")
                                                     .Register(*registry);
   Counters& ended = counters(*registry, "cellcrush_jobs_ended_total", "Jobs that have ended, by final state.");
   prometheus::Counter& steps =
@@ -100,8 +100,13 @@ struct Metrics::Impl {
                                      .Add({});
   prometheus::Counter& skipped =
       counters(*registry, "cellcrush_skipped_frames_total", "Frames skipped because a watcher was too slow.").Add({});
+  struct JobCount {
+    std::size_t waiting = 0;
+    std::size_t running = 0;
+  };
   Mutex mutex;
   std::map<std::int64_t, double> speeds CELLCRUSH_GUARDED_BY(mutex);  ///< by job
+  std::map<std::string, JobCount> jobs CELLCRUSH_GUARDED_BY(mutex);   ///< by executor
   std::optional<prometheus::Exposer> exposer;
 };
 
@@ -123,9 +128,17 @@ ListenAddress Metrics::serve(const ListenAddress& address) {
   return bound;
 }
 
-void Metrics::set_jobs(std::size_t waiting, std::size_t running) {
-  impl_->waiting.Set(static_cast<double>(waiting));
-  impl_->running.Set(static_cast<double>(running));
+void Metrics::set_jobs(const std::string& executor, std::size_t waiting, std::size_t running) {
+  const MutexLock lock(impl_->mutex);
+  impl_->jobs[executor] = {waiting, running};
+  std::size_t all_waiting = 0;
+  std::size_t all_running = 0;
+  for (const auto& [name, count] : impl_->jobs) {
+    all_waiting += count.waiting;
+    all_running += count.running;
+  }
+  impl_->waiting.Set(static_cast<double>(all_waiting));
+  impl_->running.Set(static_cast<double>(all_running));
 }
 
 void Metrics::set_holds(const std::set<Shortage>& holds) { impl_->set_holds(holds); }

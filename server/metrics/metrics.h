@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <set>
+#include <string>
 
 #include "cellcrush/v1/job.pb.h"
 #include "cellcrush/v1/sample.pb.h"
@@ -14,7 +15,7 @@ namespace cellcrush::metrics {
 
 /// Prometheus metrics of the daemon, in text format at http://HOST:PORT/metrics.
 ///
-///   cellcrush_jobs_waiting, cellcrush_jobs_running   current number of jobs
+///   cellcrush_jobs_waiting, cellcrush_jobs_running   current number of jobs of all executors
 ///   cellcrush_jobs_ended_total{state="SUCCEEDED"}    jobs ended since the daemon started, by final state
 ///   cellcrush_steps_total                            time steps of ended jobs that left a result
 ///   cellcrush_stage_seconds_total{stage="..."}       their processor time by stage (fields of StageTimes)
@@ -24,7 +25,7 @@ namespace cellcrush::metrics {
 ///   cellcrush_watchers                               open watches
 ///   cellcrush_connections                            open gRPC connections
 ///   cellcrush_refused_connections_total              connections beyond the limits
-///   cellcrush_queue_held{cause="full_disk"}          1 while this shortage (shortage.h) holds the queue
+///   cellcrush_queue_held{cause="full_disk"}          1 while this shortage (shortage.h) holds a queue
 ///   cellcrush_skipped_frames_total                   frames skipped for slow watchers
 ///
 /// Thread-safe.
@@ -39,9 +40,10 @@ class Metrics {
   /// (failed_precondition) if it is in use. Call once.
   ListenAddress serve(const ListenAddress& address);
 
-  void set_jobs(std::size_t waiting, std::size_t running);
+  /// Jobs of one executor.
+  void set_jobs(const std::string& executor, std::size_t waiting, std::size_t running);
 
-  /// The shortages that hold the queue now.
+  /// The shortages that hold a queue now.
   void set_holds(const std::set<Shortage>& holds);
 
   void set_speed(std::int64_t job, double steps_per_second);

@@ -5,12 +5,9 @@
 
 #include "access/gate.h"
 #include "cellcrush/v1/admin_service.grpc.pb.h"
-#include "jobs/queue_forecast.h"
-#include "jobs/queue_hold.h"
-#include "jobs/scheduler.h"
+#include "jobs/queues.h"
 #include "rpc/call_pool.h"
-#include "store/journal_reader.h"
-#include "watch/hub.h"
+#include "rpc/queue_listing.h"
 
 namespace cellcrush::rpc {
 
@@ -19,17 +16,13 @@ class AdminService final : public v1::Admin::CallbackService {
  public:
   /// All of it outlives the service.
   struct Parts {
-    store::JournalReader& reader;
-    watch::Hub& hub;
-    jobs::Scheduler& scheduler;
-    jobs::QueueHold& hold;
-    jobs::WorkerFacts workers;
+    QueueListing::Parts listing;
     const access::Gate& gate;
     CallPool& calls;
     std::function<void()> drain;
   };
 
-  explicit AdminService(const Parts& parts) : parts_(parts) {}
+  explicit AdminService(const Parts& parts) : parts_(parts), listing_(parts.listing) {}
 
   grpc::ServerUnaryReactor* GetCapabilities(grpc::CallbackServerContext* context,
                                             const v1::GetCapabilitiesRequest* request,
@@ -40,10 +33,8 @@ class AdminService final : public v1::Admin::CallbackService {
                                   v1::DrainResponse* response) override;
 
  private:
-  std::vector<jobs::RunningJob> running_jobs(v1::Job::State state);
-  jobs::JobFacts facts_of(std::int64_t job);
-
   Parts parts_;
+  QueueListing listing_;
   std::atomic<bool> draining_ = false;
 };
 

@@ -11,6 +11,7 @@
 #include "rpc/job_query.h"
 #include "rpc/page.h"
 #include "rpc/request_limits.h"
+#include "store/job_state.h"
 #include "store/resource_name.h"
 #include "translate/case_checker.h"
 #include "translate/check_case.h"
@@ -25,11 +26,14 @@ std::int64_t JobsService::find_own(const grpc::ServerContextBase& context, const
   return stored.number;
 }
 
-void JobsService::add_progress(store::StoredJob& stored) {
-  if (stored.job.state() != v1::Job::RUNNING && stored.job.state() != v1::Job::CANCELLING) return;
+void JobsService::add_live(store::StoredJob& stored) {
+  const v1::Job::State state = stored.job.state();
   const auto channel = parts_.hub.find(stored.number);
-  if (!channel) return;
-  if (const auto progress = channel->newest().progress) *stored.job.mutable_progress() = *progress;
+  if (!channel || store::is_terminal(state)) return;
+  const auto newest = channel->newest();
+  stored.job.set_place(newest.place);
+  const bool has_worker = state == v1::Job::RUNNING || state == v1::Job::CANCELLING;
+  if (has_worker && newest.progress) *stored.job.mutable_progress() = *newest.progress;
 }
 
 // Samples of an unwatched job may still be gathered in memory. If they cannot be made durable, only those before them
@@ -49,6 +53,8 @@ grpc::ServerUnaryReactor* JobsService::CreateJob(grpc::CallbackServerContext* co
     check_priority(request->priority(), "priority");
     parts_.admission.check_priority(request->priority(), "priority");
     parts_.admission.check_time_limit(request->time_limit_s(), "time_limit_s");
+    check_length("executor", request->executor(), kLongestName);
+    const std::string executor = parts_.queues.executor_for(request->executor(), "executor");
     check_size("case", request->case_().ByteSizeLong(), kLargestCase);
     translate::CaseChecker checker;
     std::optional<jobs::MeshPlaces::Place> mesh;
@@ -61,6 +67,7 @@ grpc::ServerUnaryReactor* JobsService::CreateJob(grpc::CallbackServerContext* co
     *job.mutable_labels() = request->labels();
     job.set_priority(request->priority());
     job.set_time_limit_s(request->time_limit_s());
+    job.set_executor(executor);
     job.set_owner(parts_.gate.caller_of(*context).name);
     const auto answer_with = [&](v1::Job answer) {
       *answer.mutable_notes() = {verdict.notes.begin(), verdict.notes.end()};
@@ -82,11 +89,12 @@ grpc::ServerUnaryReactor* JobsService::CreateJob(grpc::CallbackServerContext* co
         parts_.journal.create_job(std::move(job), request->request_id(), hash, verdict.element_steps, admit);
     if (created.is_new) {
       log_change(store::name_of(created.job), "created", owner, request->request_id());
-      parts_.scheduler.enqueue({{created.job, created.job, request->priority(), verdict.element_steps, 0, 0, owner}});
+      parts_.queues.enqueue(
+          {{created.job, created.job, request->priority(), verdict.element_steps, 0, 0, owner, executor}});
       place.reset();
     }
     auto stored = find(store::name_of(created.job));
-    add_progress(stored);
+    add_live(stored);
     return answer_with(std::move(stored.job));
   });
 }
@@ -95,7 +103,7 @@ grpc::ServerUnaryReactor* JobsService::GetJob(grpc::CallbackServerContext* conte
                                               v1::Job* response) {
   return parts_.calls.run(*context, *request, [=, this] {
     auto stored = find(request->name());
-    add_progress(stored);
+    add_live(stored);
     *response = std::move(stored.job);
     return grpc::Status::OK;
   });
@@ -119,7 +127,7 @@ grpc::ServerUnaryReactor* JobsService::ListJobs(grpc::CallbackServerContext* con
         response->set_next_page_token(page_token(last, question));
         break;
       }
-      add_progress(job);
+      add_live(job);
       last = job.number;
       *response->add_jobs() = std::move(job.job);
     }
@@ -131,10 +139,10 @@ grpc::ServerUnaryReactor* JobsService::CancelJob(grpc::CallbackServerContext* co
                                                  const v1::CancelJobRequest* request, v1::Job* response) {
   return parts_.calls.run(*context, *request, [=, this] {
     const std::int64_t job = find_own(*context, request->name());
-    parts_.scheduler.cancel(job);
+    parts_.queues.cancel(job);
     log_change(store::name_of(job), "cancelled", parts_.gate.caller_of(*context).name);
     auto stored = find(request->name());
-    add_progress(stored);
+    add_live(stored);
     *response = std::move(stored.job);
     return grpc::Status::OK;
   });
@@ -144,7 +152,7 @@ grpc::ServerUnaryReactor* JobsService::SuspendJob(grpc::CallbackServerContext* c
                                                   const v1::SuspendJobRequest* request, v1::Job* response) {
   return parts_.calls.run(*context, *request, [=, this] {
     const std::int64_t job = find_own(*context, request->name());
-    parts_.scheduler.suspend(job, [context] { return context->IsCancelled(); });
+    parts_.queues.suspend(job, [context] { return context->IsCancelled(); });
     log_change(store::name_of(job), "suspended", parts_.gate.caller_of(*context).name);
     *response = find(request->name()).job;
     return grpc::Status::OK;
@@ -155,7 +163,7 @@ grpc::ServerUnaryReactor* JobsService::ResumeJob(grpc::CallbackServerContext* co
                                                  const v1::ResumeJobRequest* request, v1::Job* response) {
   return parts_.calls.run(*context, *request, [=, this] {
     const std::int64_t job = find_own(*context, request->name());
-    parts_.scheduler.resume(job);
+    parts_.queues.resume(job);
     log_change(store::name_of(job), "resumed", parts_.gate.caller_of(*context).name);
     *response = find(request->name()).job;
     return grpc::Status::OK;

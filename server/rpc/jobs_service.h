@@ -5,7 +5,7 @@
 #include "jobs/admission.h"
 #include "jobs/deletion.h"
 #include "jobs/mesh_places.h"
-#include "jobs/scheduler.h"
+#include "jobs/queues.h"
 #include "rpc/call_pool.h"
 #include "rpc/download_source.h"
 #include "rpc/export_source.h"
@@ -36,7 +36,7 @@ class JobsService final : public v1::Jobs::CallbackService {
     store::ChangeReader& changes;
     const jobs::Deletion& deletion;
     watch::Hub& hub;
-    jobs::Scheduler& scheduler;
+    jobs::Queues& queues;
     jobs::Admission& admission;
     const access::Gate& gate;
     CallPool& calls;
@@ -97,7 +97,8 @@ class JobsService final : public v1::Jobs::CallbackService {
   store::StoredJob find(const std::string& name);
   /// Number of a job that the caller may change. Also throws ServiceError (permission_denied).
   std::int64_t find_own(const grpc::ServerContextBase& context, const std::string& name);
-  void add_progress(store::StoredJob& stored);
+  /// Adds what is not in the journal: progress and place.
+  void add_live(store::StoredJob& stored);
   void commit_samples();
 
   Parts parts_;

@@ -41,11 +41,11 @@ void check_numbers(const v1::Sweep& sweep) {
 }
 
 std::vector<store::QueuedJob> queued_jobs(const store::Journal::CreatedSweep& created, const jobs::SweepPlan& plan,
-                                          const v1::Sweep& sweep) {
+                                          const v1::Sweep& sweep, const std::string& executor) {
   std::vector<store::QueuedJob> out;
   for (std::size_t i = 0; i < created.jobs.size(); ++i) {
     out.push_back({created.jobs[i], created.jobs.front(), sweep.priority(), plan.jobs[i].element_steps, created.sweep,
-                   sweep.max_parallel(), sweep.owner()});
+                   sweep.max_parallel(), sweep.owner(), executor});
   }
   return out;
 }
@@ -84,6 +84,8 @@ grpc::ServerUnaryReactor* SweepsService::CreateSweep(grpc::CallbackServerContext
     check_numbers(request.sweep());
     parts_.admission.check_priority(request.sweep().priority(), "sweep.priority");
     parts_.admission.check_time_limit(request.sweep().time_limit_s(), "sweep.time_limit_s");
+    check_length("sweep.executor", request.sweep().executor(), kLongestName);
+    const std::string executor = parts_.queues.executor_for(request.sweep().executor(), "sweep.executor");
     const std::string owner = parts_.gate.caller_of(*context).name;
     const std::string hash = payload_hash(request, owner);
     request.mutable_sweep()->set_owner(owner);
@@ -97,6 +99,7 @@ grpc::ServerUnaryReactor* SweepsService::CreateSweep(grpc::CallbackServerContext
       return grpc::Status::OK;
     };
     if (request.validate_only()) return answer_with(request.sweep());
+    for (auto& made : plan.jobs) made.job.set_executor(executor);
     const std::int64_t memory_bytes = parts_.admission.memory_of_job(plan.most_memory_bytes, [&] {
       const v1::Case& largest = plan.jobs[plan.largest].job.case_();
       const jobs::MeshPlaces::Place mesh(parts_.places, translate::CaseChecker().elements_to_build(largest), given_up);
@@ -111,7 +114,7 @@ grpc::ServerUnaryReactor* SweepsService::CreateSweep(grpc::CallbackServerContext
     const std::string name = store::sweep_name_of(created.sweep);
     if (created.is_new) {
       log_change(name, "created with " + std::to_string(plan.jobs.size()) + " jobs", owner, request.request_id());
-      parts_.scheduler.enqueue(queued_jobs(created, plan, request.sweep()));
+      parts_.queues.enqueue(queued_jobs(created, plan, request.sweep(), executor));
       place.reset();
     }
     return answer_with(find(name).sweep);
@@ -157,7 +160,7 @@ grpc::ServerUnaryReactor* SweepsService::CancelSweep(grpc::CallbackServerContext
   return parts_.calls.run(*context, *request, [=, this] {
     const std::int64_t sweep = find_own(*context, request->name());
     const auto jobs = parts_.sweeps.jobs_of(sweep);
-    parts_.scheduler.cancel_all(jobs);
+    parts_.queues.cancel_all(jobs);
     log_change(store::sweep_name_of(sweep), "cancelled", parts_.gate.caller_of(*context).name);
     *response = find(request->name()).sweep;
     return grpc::Status::OK;
@@ -181,6 +184,8 @@ grpc::ServerUnaryReactor* SweepsService::RetryFailedJobs(grpc::CallbackServerCon
     const std::int64_t sweep = find_own(*context, request->name());
     // The resources for these cases were admitted with the sweep. The new jobs belong to the sweep's owner.
     const std::string owner = find(request->name()).sweep.owner();
+    const auto jobs = parts_.sweeps.jobs_of(sweep);
+    if (!jobs.empty()) parts_.queues.require(parts_.reader.executor_of(jobs.front()).value_or(store::kLocalExecutor));
     std::optional<jobs::Admission::Place> place;
     const auto admit = [&](std::size_t count) {
       place.reset();
@@ -189,7 +194,7 @@ grpc::ServerUnaryReactor* SweepsService::RetryFailedJobs(grpc::CallbackServerCon
     const auto retried = parts_.journal.retry_failed(sweep, admit);
     log_change(store::sweep_name_of(sweep), "retried with " + std::to_string(retried.size()) + " jobs",
                parts_.gate.caller_of(*context).name);
-    parts_.scheduler.enqueue(retried);
+    parts_.queues.enqueue(retried);
     place.reset();
     *response = find(request->name()).sweep;
     return grpc::Status::OK;

@@ -7,7 +7,7 @@
 #include "jobs/admission.h"
 #include "jobs/deletion.h"
 #include "jobs/mesh_places.h"
-#include "jobs/scheduler.h"
+#include "jobs/queues.h"
 #include "rpc/call_pool.h"
 #include "rpc/stream_reactor.h"
 #include "rpc/stream_table.h"
@@ -29,7 +29,7 @@ class SweepsService final : public v1::Sweeps::CallbackService {
     store::SweepReader& sweeps;
     const jobs::Deletion& deletion;
     watch::Hub& hub;
-    jobs::Scheduler& scheduler;
+    jobs::Queues& queues;
     jobs::Admission& admission;
     const access::Gate& gate;
     CallPool& calls;

@@ -28,6 +28,11 @@ void Channel::publish(v1::FieldFrame frame) {
   }
 }
 
+void Channel::set_place(std::string place) {
+  const MutexLock lock(mutex_);
+  newest_.place = std::move(place);
+}
+
 void Channel::forget() {
   const MutexLock lock(mutex_);
   newest_.mesh.reset();

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -16,7 +17,8 @@
 
 namespace cellcrush::watch {
 
-/// The newest progress and frame of a running job, which are not in the journal, its mesh, and the watchers of the job.
+/// The newest progress and frame of a running job and its place, which are not in the journal, its mesh, and the
+/// watchers of the job.
 /// Thread-safe. Publishers never wait for watchers.
 class Channel {
  public:
@@ -28,6 +30,7 @@ class Channel {
     std::shared_ptr<const v1::Mesh> mesh;          ///< null before a worker has built it
     std::shared_ptr<const v1::Progress> progress;  ///< null before the first
     std::shared_ptr<const PublishedFrame> frame;   ///< null before the first
+    std::string place;                             ///< where the executor has the job (Job.place); empty: nowhere
     std::uint64_t progress_count = 0;              ///< published so far
     std::uint64_t frame_count = 0;
   };
@@ -38,6 +41,8 @@ class Channel {
   void publish(v1::Progress progress);
   /// Ignores a frame that is not newer than the newest: a worker that resumes from a checkpoint resends some.
   void publish(v1::FieldFrame frame);
+  /// Wakes no watcher: a place is part of snapshots only.
+  void set_place(std::string place);
   /// The job restarts from step 0: drops what was published.
   void forget();
   /// Announces new durable events in the journal; `stamp` is greater than any before.

@@ -78,6 +78,7 @@ v1::JobEvent WatchCursor::snapshot() {
   snapshot.set_epoch(journal_.epoch().id);
   *snapshot.mutable_job() = find_job(journal_, job_).job;
   const auto newest = channel_->newest();
+  if (!store::is_terminal(snapshot.job().state())) snapshot.mutable_job()->set_place(newest.place);
   if (newest.progress && snapshot.job().state() == v1::Job::RUNNING) {
     *snapshot.mutable_job()->mutable_progress() = *newest.progress;
     progress_given_ = newest.progress_count;

@@ -132,5 +132,25 @@ TEST(QueueForecast, AFullQueueIsCutAtAThousandEntriesAndCountsTheRest) {
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(2));
 }
 
+TEST(QueueForecast, OnAClusterAJobHoldsOnePlaceWhateverItsThreads) {
+  auto on_cluster = [](std::int64_t job) {
+    auto out = lasting(job, 10);
+    out.executor = "slurm/test";
+    return out;
+  };
+  const WorkerFacts cluster{2, kStepCost, {}, 0, "slurm/test"};
+  const auto queue =
+      forecast_queue({{on_cluster(1), 4.0, 8}}, {on_cluster(2), on_cluster(3)}, cluster, [](std::int64_t) {
+        return JobFacts{5, 0};
+      });
+  ASSERT_EQ(queue.entries_size(), 2);
+  expect_entry(queue, 0, "jobs/2", 0.0, "slurm/test takes it now.");
+  expect_entry(queue, 1, "jobs/3", 4.0, "1 job starts before it.");
+  EXPECT_EQ(queue.entries(0).executor(), "slurm/test");
+
+  const auto full = forecast_queue({{on_cluster(1), 4.0}, {on_cluster(2), 6.0}}, {on_cluster(3)}, cluster, plain);
+  expect_entry(full, 0, "jobs/3", 4.0, "slurm/test has 2 jobs, as many as it may.");
+}
+
 }  // namespace
 }  // namespace cellcrush::jobs
