@@ -107,8 +107,12 @@ void DaemonFlags::add_connections(CLI::App& app) {
 }
 
 void DaemonFlags::add_limits(CLI::App& app) {
-  app.add_option("--workers", options_.workers, "Maximum number of jobs running at once (default: one per core)")
+  app.add_option("--workers", options_.workers,
+                 "Maximum number of jobs running at once on this machine (default: one per core)")
       ->check(CLI::Range(1, 1024));
+  app.add_option("--executor", options_.default_executor,
+                 "Executor of jobs and sweeps whose request names none: local, for this machine, or another that this "
+                 "daemon has (default: local)");
   app.add_option("--max-queued-jobs", options_.limits.queued_jobs,
                  "Maximum number of jobs waiting in the queue (default: 100000)")
       ->check(CLI::Range(1, 10'000'000));
@@ -126,7 +130,7 @@ void DaemonFlags::add_owner_limits(CLI::App& app) {
                  "Maximum number of waiting jobs per owner (default: 0, no limit)")
       ->check(CLI::Range(0, 10'000'000));
   app.add_option("--owner-max-running", owner.running_jobs,
-                 "Maximum number of running jobs per owner; further ones wait (default: 0, no limit)")
+                 "Maximum number of running jobs per owner, on each executor; further ones wait (default: 0, no limit)")
       ->check(CLI::Range(0, 1024));
   app.add_option("--owner-max-disk", owner_disk_mib_,
                  "Disk quota per owner in MiB of results and journal; new jobs are refused once it is reached "

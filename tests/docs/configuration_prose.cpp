@@ -96,6 +96,11 @@ OptionGroup jobs() {
              "jobs",
              {"Each job runs in a process of its own. A job that asks for threads gets extra cores only if no other "
               "job uses them or waits for them."}}},
+           {"executor",
+            {"NAME",
+             "",
+             {"Each executor has a queue of its own, and trouble on one holds only its own queue. A job keeps the "
+              "executor that it was created with. The daemon does not start with a name that it does not have."}}},
            {"checkpoint-interval",
             {"SECONDS", "s", {"A job whose worker is lost repeats at most the work since its last checkpoint."}}},
            {"max-queued-jobs", {"N", "jobs", {"Beyond this limit a submission fails with RESOURCE_EXHAUSTED."}}},
