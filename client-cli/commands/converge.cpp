@@ -4,6 +4,7 @@
 
 #include "case_file/case_source.h"
 #include "commands/commands.h"
+#include "commands/executor.h"
 #include "commands/resource_name.h"
 #include "commands/sweep_axis.h"
 #include "commands/watch.h"
@@ -25,11 +26,13 @@ struct ConvergeOptions {
   int seeds = 5;
   double wanted_error = 0.05;
   bool only_cost = false;
+  std::string executor;
 };
 
 v1::CreateSweepRequest build_request(const ConvergeOptions& options, Connection& connection) {
   v1::CreateSweepRequest request;
   v1::Sweep& sweep = *request.mutable_sweep();
+  sweep.set_executor(options.executor);
   *sweep.mutable_case_() = read_case(options.scene.source, options.scene.assignments, connection);
   const v1::Lattice::Imperfection& imperfection = sweep.case_().lattice().imperfection();
   if (options.seeds > 1 && imperfection.amplitude_mm() == 0.0 && imperfection.bow_mm() == 0.0) {
@@ -113,6 +116,7 @@ void add_converge_command(CLI::App& app, Session& session) {
                    "Relative error that the plateau stresses may have, above 0 and at most 1 (default: 0.05)")
       ->group(kOutputOptions)
       ->check(CLI::Range(1e-6, 1.0));
+  add_executor_option(*converge, options->executor);
   converge->add_flag("--cost", options->only_cost, "Print the predicted cost and queue nothing")->group(kOutputOptions);
   add_examples(*converge, {"cellcrush converge preset:hexagon-small --set lattice.imperfection.amplitude_mm=0.01",
                            "cellcrush converge my.txtpb --meshes 4,8,16 --seeds 8 --cost",

@@ -4,6 +4,7 @@
 
 #include "case_file/case_source.h"
 #include "commands/commands.h"
+#include "commands/executor.h"
 #include "commands/labels.h"
 #include "commands/priority.h"
 #include "commands/time_limit.h"
@@ -21,6 +22,7 @@ struct SubmitOptions {
   std::vector<std::string> labels;
   int priority = 0;
   double time_limit_s = 0.0;
+  std::string executor;
 };
 
 ExitCode run_submit(Session& session, const SubmitOptions& options) {
@@ -31,6 +33,7 @@ ExitCode run_submit(Session& session, const SubmitOptions& options) {
   request.set_request_id(options.request_id);
   request.set_priority(options.priority);
   request.set_time_limit_s(options.time_limit_s);
+  request.set_executor(options.executor);
   Connection& connection = session.connection();
   *request.mutable_case_() = read_case(options.scene.source, options.scene.assignments, connection);
   if (options.watch) interruption = std::make_unique<Interruption>();
@@ -61,6 +64,7 @@ void add_submit_command(CLI::App& app, Session& session) {
   add_label_option(*command, options->labels);
   add_priority_option(*command, options->priority);
   add_time_limit_option(*command, options->time_limit_s);
+  add_executor_option(*command, options->executor);
   add_examples(*command, {"cellcrush submit my.txtpb --watch",
                           "cellcrush submit preset:type-i --set loading.speed_m_per_s=50 --time-limit 2h"});
 }

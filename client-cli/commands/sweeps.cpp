@@ -5,6 +5,7 @@
 
 #include "case_file/case_source.h"
 #include "commands/commands.h"
+#include "commands/executor.h"
 #include "commands/labels.h"
 #include "commands/priority.h"
 #include "commands/resource_name.h"
@@ -25,6 +26,7 @@ struct SweepOptions {
   std::string request_id;
   int priority = 0;
   double time_limit_s = 0.0;
+  std::string executor;
   int max_parallel = 0;
   int max_failures = 0;
   bool watch = false;
@@ -37,6 +39,7 @@ v1::CreateSweepRequest build_request(const SweepOptions& options) {
   *sweep.mutable_labels() = parse_labels(options.labels);
   sweep.set_priority(options.priority);
   sweep.set_time_limit_s(options.time_limit_s);
+  sweep.set_executor(options.executor);
   sweep.set_max_parallel(options.max_parallel);
   sweep.set_max_failures(options.max_failures);
   for (const std::string& text : options.axes) {
@@ -108,9 +111,10 @@ void add_sweep_commands(CLI::App& app, Session& session) {
   add_label_option(*sweep, options->labels);
   add_priority_option(*sweep, options->priority);
   add_time_limit_option(*sweep, options->time_limit_s);
+  add_executor_option(*sweep, options->executor);
   sweep
       ->add_option("--max-parallel", options->max_parallel,
-                   "Maximum number of jobs of the sweep that run at once (default: the number of workers)")
+                   "Maximum number of jobs of the sweep that run at once (default: as many as its executor runs)")
       ->group(kScheduleOptions)
       ->check(CLI::PositiveNumber);
   sweep

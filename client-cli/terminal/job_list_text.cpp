@@ -5,6 +5,7 @@
 
 #include "results/case_differences.h"
 #include "results/field_value.h"
+#include "terminal/executor_text.h"
 #include "terminal/job_text.h"
 #include "terminal/number_text.h"
 #include "terminal/table.h"
@@ -35,7 +36,7 @@ std::string job_list_text(const std::vector<v1::Job>& jobs, int width) {
   const std::vector<std::string> fields(varied.begin(), varied.begin() + std::min(varied.size(), kMostFields));
   std::vector<Align> columns = {Align::left, Align::left, Align::right, Align::right};
   columns.insert(columns.end(), fields.size(), Align::right);
-  columns.insert(columns.end(), {Align::right, Align::left, Align::left});
+  columns.insert(columns.end(), {Align::right, Align::left, Align::left, Align::left, Align::left});
   Table table(columns);
   std::vector<std::string> headings = {"NAME", "STATE", "DONE", "PLATEAU"};
   std::vector<std::string> units = {"", "", "", "MPa"};
@@ -44,7 +45,7 @@ std::string job_list_text(const std::vector<v1::Job>& jobs, int width) {
     headings.push_back(words.name);
     units.push_back(words.unit);
   }
-  headings.insert(headings.end(), {"PRIORITY", "LABELS", "CREATED"});
+  headings.insert(headings.end(), {"PRIORITY", "EXECUTOR", "PLACE", "LABELS", "CREATED"});
   table.add(std::move(headings));
   table.add(std::move(units));
   std::string title_above;
@@ -59,8 +60,9 @@ std::string job_list_text(const std::vector<v1::Job>& jobs, int width) {
                                       started || done > 0.0 ? percent_text(done, 0) : "",
                                       plateau ? number_text(job.summary().plateau_stress_impact_mpa()) : ""};
     for (const std::string& field : fields) cells.push_back(field_value_text(job.case_(), field));
-    cells.insert(cells.end(), {job.priority() != 0 ? std::to_string(job.priority()) : "", labels_text(job.labels()),
-                               job.has_create_time() ? time_text(job.create_time()) : ""});
+    cells.insert(cells.end(),
+                 {job.priority() != 0 ? std::to_string(job.priority()) : "", executor_text(job.executor()), job.place(),
+                  labels_text(job.labels()), job.has_create_time() ? time_text(job.create_time()) : ""});
     table.add(std::move(cells));
   }
   const std::string constants = constants_text(table.remove_constant_columns(2, kHeadings), width);

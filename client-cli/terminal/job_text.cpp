@@ -9,6 +9,7 @@
 
 #include "exit_code.h"
 #include "terminal/case_text.h"
+#include "terminal/executor_text.h"
 #include "terminal/number_text.h"
 #include "terminal/summary_text.h"
 #include "terminal/table.h"
@@ -84,6 +85,8 @@ std::string description_text(const v1::Job& job, int width) {
   if (!job.labels().empty()) table.add({"labels", labels_text(job.labels())});
   if (job.priority() != 0) table.add({"priority", std::to_string(job.priority())});
   if (job.time_limit_s() > 0.0) table.add({"time limit", duration_text(job.time_limit_s())});
+  if (const std::string executor = executor_text(job.executor()); !executor.empty()) table.add({"executor", executor});
+  if (!job.place().empty()) table.add({"place", job.place()});
   if (!job.retry_of().empty()) table.add({"retry of", job.retry_of()});
   if (!job.owner().empty()) table.add({"owner", job.owner()});
   if (job.has_create_time()) table.add({"created", time_text(job.create_time())});

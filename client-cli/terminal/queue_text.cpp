@@ -9,6 +9,7 @@
 
 #include "results/case_differences.h"
 #include "results/field_value.h"
+#include "terminal/executor_text.h"
 #include "terminal/number_text.h"
 #include "terminal/table.h"
 
@@ -24,8 +25,10 @@ std::string hold_text(const v1::Queue::Hold& hold) {
   const auto seconds = [](const google::protobuf::Duration& duration) {
     return std::max(static_cast<double>(TimeUtil::DurationToMilliseconds(duration)) / 1e3, 0.0);
   };
-  std::string text = fmt::format("the queue has been on hold ({}) for {}: {} {}", hold.cause(),
-                                 duration_text(seconds(now - hold.since())), hold.reason(), hold.remedy());
+  const std::string executor = executor_text(hold.executor());
+  std::string text =
+      fmt::format("the queue{} has been on hold ({}) for {}: {} {}", executor.empty() ? "" : " of " + executor,
+                  hold.cause(), duration_text(seconds(now - hold.since())), hold.reason(), hold.remedy());
   if (hold.has_next_try_time())
     text += fmt::format(" The next attempt is in {}.", duration_text(seconds(hold.next_try_time() - now)));
   return text;
@@ -53,9 +56,12 @@ std::string queue_text(const v1::Queue& queue, const std::vector<v1::Job>& jobs,
   for (const v1::Job& job : jobs) cases[job.name()] = &job.case_();
   const bool priorities = std::any_of(queue.entries().begin(), queue.entries().end(),
                                       [](const v1::Queue::Entry& entry) { return entry.priority() != 0; });
+  const bool executors = std::any_of(queue.entries().begin(), queue.entries().end(), [](const v1::Queue::Entry& entry) {
+    return !executor_text(entry.executor()).empty();
+  });
   std::vector<Align> columns = {Align::left};
   columns.insert(columns.end(), fields.size() + 1, Align::right);
-  columns.insert(columns.end(), priorities ? 2 : 1, Align::left);
+  columns.insert(columns.end(), 1 + (priorities ? 1 : 0) + (executors ? 1 : 0), Align::left);
   Table table(columns);
   std::vector<std::string> headings = {"JOB"};
   std::vector<std::string> units = {""};
@@ -66,6 +72,7 @@ std::string queue_text(const v1::Queue& queue, const std::vector<v1::Job>& jobs,
   }
   headings.emplace_back("STARTS IN");
   if (priorities) headings.emplace_back("PRIORITY");
+  if (executors) headings.emplace_back("EXECUTOR");
   headings.emplace_back("REASON");
   table.add(std::move(headings));
   table.add(std::move(units));
@@ -80,6 +87,7 @@ std::string queue_text(const v1::Queue& queue, const std::vector<v1::Job>& jobs,
       cells.push_back(known == cases.end() ? std::string() : field_value_text(*known->second, field));
     cells.push_back(entry.seconds_until_start() > 0 ? duration_text(entry.seconds_until_start()) : "");
     if (priorities) cells.push_back(entry.priority() != 0 ? std::to_string(entry.priority()) : "");
+    if (executors) cells.push_back(entry.executor());
     cells.push_back(entry.reason());
     table.add(std::move(cells));
   }

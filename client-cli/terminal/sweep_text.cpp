@@ -9,6 +9,7 @@
 
 #include "results/field_value.h"
 #include "terminal/case_text.h"
+#include "terminal/executor_text.h"
 #include "terminal/job_text.h"
 #include "terminal/number_text.h"
 #include "terminal/table.h"
@@ -88,6 +89,8 @@ std::string description_text(const v1::Sweep& sweep, int width) {
   if (sweep.points_size() > 0) table.add({"points", std::to_string(sweep.points_size())});
   if (sweep.priority() != 0) table.add({"priority", std::to_string(sweep.priority())});
   if (sweep.time_limit_s() > 0.0) table.add({"time limit", duration_text(sweep.time_limit_s())});
+  if (const std::string executor = executor_text(sweep.executor()); !executor.empty())
+    table.add({"executor", executor});
   if (sweep.max_parallel() > 0) table.add({"most jobs at once", std::to_string(sweep.max_parallel())});
   if (sweep.max_failures() > 0) table.add({"most failures", std::to_string(sweep.max_failures())});
   if (!sweep.labels().empty()) table.add({"labels", labels_text(sweep.labels())});

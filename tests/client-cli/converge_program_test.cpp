@@ -44,7 +44,7 @@ const std::vector<std::string> kCase = {"preset:type-i", "--set", "lattice.imper
 TEST(Converge, TellsItsCostQueuesMeshesWithSeedsAndPrintsTheEstimates) {
   const FakeServer server(converge_script());
   auto arguments = kCase;
-  arguments.insert(arguments.end(), {"--meshes", "2,4", "--seeds", "3", "--error", "0.1"});
+  arguments.insert(arguments.end(), {"--meshes", "2,4", "--seeds", "3", "--error", "0.1", "--executor", "slurm/a"});
   const ProgramResult result = converge_on(server, arguments);
   EXPECT_EQ(result.exit_code, 0) << result.errors;
   EXPECT_NE(result.errors.find("6 runs, predicted to take 12 s of one core"), std::string::npos) << result.errors;
@@ -55,6 +55,7 @@ TEST(Converge, TellsItsCostQueuesMeshesWithSeedsAndPrintsTheEstimates) {
   EXPECT_TRUE(creates[0].validate_only());
   EXPECT_FALSE(creates[1].validate_only());
   const v1::Sweep& sweep = creates[1].sweep();
+  EXPECT_EQ(sweep.executor(), "slurm/a");
   ASSERT_EQ(sweep.axes_size(), 2);
   EXPECT_EQ(sweep.axes(0).field(), "elements_per_wall");
   EXPECT_EQ(sweep.axes(0).list().values(1), 4.0);

@@ -170,6 +170,30 @@ TEST(ListAndShow, TellAPriorityOnlyWhereThereIsOne) {
   EXPECT_NE(show.output.find("retry of  jobs/before"), std::string::npos) << show.output;
 }
 
+TEST(SubmitListAndShow, NameTheExecutorOnlyWhereItIsNotTheServersMachine) {
+  Script script = preset_script();
+  script.job.set_executor("local");
+  const FakeServer plain(script);
+  EXPECT_EQ(run_program({"submit", "preset:type-i", "--server", plain.address()}).exit_code, 0);
+  EXPECT_EQ(run_program({"submit", "preset:type-i", "--executor", "slurm/a", "--server", plain.address()}).exit_code,
+            0);
+  const auto creates = plain.asked().creates;
+  ASSERT_EQ(creates.size(), 2U);
+  EXPECT_EQ(creates[0].executor(), "");
+  EXPECT_EQ(creates[1].executor(), "slurm/a");
+  EXPECT_EQ(run_program({"list", "--server", plain.address()}).output.find("EXECUTOR"), std::string::npos);
+  EXPECT_EQ(run_program({"show", "jobs/test", "--server", plain.address()}).output.find("executor"), std::string::npos);
+  script.job.set_executor("slurm/a");
+  script.job.set_place("Slurm job 17, PENDING (Priority)");
+  const FakeServer server(script);
+  const ProgramResult list = run_program({"list", "--server", server.address()});
+  EXPECT_NE(list.output.find("EXECUTOR slurm/a"), std::string::npos) << list.output;
+  EXPECT_NE(list.output.find("PLACE Slurm job 17, PENDING (Priority)"), std::string::npos) << list.output;
+  const ProgramResult show = run_program({"show", "jobs/test", "--server", server.address()});
+  EXPECT_NE(show.output.find("executor  slurm/a\n"), std::string::npos) << show.output;
+  EXPECT_NE(show.output.find("place     Slurm job 17, PENDING (Priority)\n"), std::string::npos) << show.output;
+}
+
 TEST(Queue, IsATableInTheOrderOfTheStartsAndJson) {
   Script script = preset_script();
   v1::Queue& queue = script.queue.emplace();

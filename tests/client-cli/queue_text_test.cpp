@@ -26,6 +26,26 @@ TEST(QueueText, ShowsTheFieldsInWhichTheJobsOfASweepDiffer) {
             "jobs/2    100       20 s  All workers are busy.\n");
 }
 
+TEST(QueueText, NamesTheExecutorsWhereOneIsNotTheServersMachine) {
+  v1::Queue queue;
+  for (const char* executor : {"local", "slurm/a"}) {
+    auto& entry = *queue.add_entries();
+    entry.set_job("jobs/" + std::to_string(queue.entries_size()));
+    entry.set_reason("It waits.");
+    entry.set_executor(executor);
+  }
+  EXPECT_EQ(queue_text(queue, {}, 80),
+            "JOB     STARTS IN  EXECUTOR  REASON\n"
+            "jobs/1             local     It waits.\n"
+            "jobs/2             slurm/a   It waits.\n");
+  auto& hold = *queue.add_holds();
+  hold.set_executor("slurm/a");
+  hold.set_cause("worker");
+  EXPECT_EQ(queue_text(queue, {}, 80).rfind("the queue of slurm/a has been on hold (worker) for", 0), 0U);
+  queue.mutable_entries()->RemoveLast();
+  EXPECT_EQ(queue_text(queue, {}, 80).find("EXECUTOR"), std::string::npos);
+}
+
 TEST(QueueText, StandsInANarrowTerminal) {
   v1::Queue queue;
   auto& entry = *queue.add_entries();

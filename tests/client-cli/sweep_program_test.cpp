@@ -46,10 +46,16 @@ TEST(Sweep, OnATerminalItSaysHowManyPointsAreChecked) {
 
 TEST(Sweep, SendsTheCaseWithAGridOfAxesAndLabelsAndPrintsItsName) {
   const FakeServer server(sweep_script(kThreeSucceed));
-  const ProgramResult result =
-      run_on(server, {"sweep", "preset:type-i", "--set", "depth_mm=5", "--over", "loading.speed_m_per_s=50,100,2e2",
-                      "--over", "lattice.hexagon.columns=20,40", "--label", "who=me", "--request-id", "abc",
-                      "--priority", "-3", "--max-parallel", "4", "--max-failures", "2"});
+  const ProgramResult result = run_on(server, {"sweep",          "preset:type-i",
+                                               "--set",          "depth_mm=5",
+                                               "--over",         "loading.speed_m_per_s=50,100,2e2",
+                                               "--over",         "lattice.hexagon.columns=20,40",
+                                               "--label",        "who=me",
+                                               "--request-id",   "abc",
+                                               "--priority",     "-3",
+                                               "--max-parallel", "4",
+                                               "--max-failures", "2",
+                                               "--executor",     "slurm/a"});
   EXPECT_EQ(result.exit_code, 0) << result.errors;
   EXPECT_EQ(result.output, "sweeps/test\n");
   const auto creates = server.asked().sweeps.creates;
@@ -61,6 +67,7 @@ TEST(Sweep, SendsTheCaseWithAGridOfAxesAndLabelsAndPrintsItsName) {
   EXPECT_EQ(sweep.priority(), -3);
   EXPECT_EQ(sweep.max_parallel(), 4);
   EXPECT_EQ(sweep.max_failures(), 2);
+  EXPECT_EQ(sweep.executor(), "slurm/a");
   ASSERT_EQ(sweep.axes_size(), 2);
   EXPECT_EQ(sweep.axes(0).field(), "loading.speed_m_per_s");
   ASSERT_EQ(sweep.axes(0).list().values_size(), 3);
