@@ -7,6 +7,7 @@ import { h, replaceChildren, setText } from "../dom/element";
 import { clock, count, duration, fullTime, strainText } from "../dom/format";
 import { icon } from "../dom/icons";
 import { actionsOf, attempt } from "../jobs/actions";
+import { whereOf } from "../jobs/executors";
 import { causeWords, hasEnded, setChip, stateChip, titleOf } from "../jobs/states";
 import type { JobStore } from "../jobs/store";
 import { go } from "../router";
@@ -52,14 +53,15 @@ export class JobHeader {
 
   private updateAbout(job: Job): void {
     const labels = Object.entries(job.labels).map(([key, value]) => `${key}=${value}`).join(", ");
-    const key = [job.sweep, labels, job.owner, job.retryOf, job.attempt, job.state].join("\n");
+    const where = whereOf(job);
+    const key = [job.sweep, labels, job.owner, job.retryOf, job.attempt, job.state, where].join("\n");
     if (key === this.aboutKey) return;
     this.aboutKey = key;
     replaceChildren(this.about, `Job ${idOf(job.name)}`,
       ...(job.sweep ? [" of ", link(job.sweep, `sweep ${idOf(job.sweep)}`)] : []),
       ...(job.retryOf ? [", retry of ", link(job.retryOf, `job ${idOf(job.retryOf)}`)] : []),
       h("span", { title: fullTime(job.createTime) }, `, created ${clock(job.createTime)}`),
-      job.owner ? ` by ${job.owner}` : "", job.attempt > 1 ? `, worker ${job.attempt}` : "",
+      job.owner ? ` by ${job.owner}` : "", where ? `, ${where}` : "", job.attempt > 1 ? `, worker ${job.attempt}` : "",
       labels ? `, labels ${labels}` : "");
   }
 
@@ -69,7 +71,8 @@ export class JobHeader {
     this.bar.hidden = isWaiting;
     if (isWaiting) {
       this.progressRow.classList.remove("invisible");
-      return setText(this.progress, `${entry.reason} Starts in about ${duration(entry.secondsUntilStart)}.`);
+      const start = entry.secondsUntilStart > 0 ? ` Starts in about ${duration(entry.secondsUntilStart)}.` : "";
+      return setText(this.progress, entry.reason + start);
     }
     // Invisible rather than absent, so that the page does not jump when the job ends.
     this.progressRow.classList.toggle("invisible", hasEnded(job) || !progress);

@@ -10,9 +10,11 @@ import { Listeners } from "../api/listeners";
 import { watch, type WatchedJob } from "../api/watch";
 import { FrameStore } from "../frames/frame_store";
 import { FrameParts, MeshParts } from "../frames/parts";
+import { elsewhere } from "../jobs/executors";
 import { hasEnded } from "../jobs/states";
 
 const kAgainMs = 2500;
+const kPlaceMs = 10_000; // between questions for the place of a job on a cluster
 
 export class JobData implements WatchedJob {
   job: Job | undefined;
@@ -33,6 +35,7 @@ export class JobData implements WatchedJob {
   private stopWatch: (() => void) | undefined;
   private readonly stops: (() => void)[];
   private isLoadingFrames = false;
+  private placeTimer = 0;
 
   constructor(readonly name: string) {
     this.stops = [
@@ -74,13 +77,33 @@ export class JobData implements WatchedJob {
     this.jobChanges.tell();
   }
 
+  // Events do not tell the place.
+  private async loadPlace(): Promise<void> {
+    const { signal } = this.abort;
+    try {
+      const { place } = await api.jobs.getJob({ name: this.name }, { signal });
+      if (!this.job || hasEnded(this.job)) return;
+      this.job.place = place;
+      this.jobChanges.tell();
+    } catch {
+      // The watch says that the daemon is away.
+    }
+    clearTimeout(this.placeTimer);
+    if (!signal.aborted) this.placeTimer = window.setTimeout(() => void this.loadPlace(), kPlaceMs);
+  }
+
   putJob(job: Job): void {
     const old = this.job;
     if (!job.case && old?.case) job.case = old.case;
     if (!job.title && old?.title) job.title = old.title;
     if (!job.progress && old?.progress && !hasEnded(job)) job.progress = old.progress;
+    if (!job.place && old?.place && !hasEnded(job)) job.place = old.place;
     this.job = job;
     this.jobChanges.tell();
+    if (elsewhere(job.executor) && !hasEnded(job) && old?.state !== job.state) {
+      clearTimeout(this.placeTimer);
+      void this.loadPlace();
+    }
     if (!old || hasEnded(old) === hasEnded(job)) return;
     if (hasEnded(job)) void this.completeFrames();
   }
@@ -206,6 +229,7 @@ export class JobData implements WatchedJob {
 
   destroy(): void {
     this.abort.abort();
+    clearTimeout(this.placeTimer);
     this.stopWatch?.();
     for (const stop of this.stops) stop();
   }

@@ -3,6 +3,7 @@ import type { Queue_Entry, Queue_Hold } from "../../gen/cellcrush/v1/admin_servi
 import { api } from "../api/clients";
 import { h, replaceChildren } from "../dom/element";
 import { clock } from "../dom/format";
+import { elsewhere } from "./executors";
 
 const kCalmMs = 400; // after a change of states, before the queue is asked for
 const kAgainMs = 20_000; // while jobs wait, as the estimates change
@@ -42,7 +43,7 @@ export class QueuePanel {
 
   private showHolds(holds: Queue_Hold[]): void {
     replaceChildren(this.element, ...holds.map((hold) =>
-      h("div", { class: "banner warning" }, h("strong", {}, "No job starts. "), `${hold.reason} ${hold.remedy}`,
+      h("div", { class: "banner warning" }, h("strong", {}, noJobStarts(hold)), `${hold.reason} ${hold.remedy}`,
         hold.since ? h("span", { class: "faint" }, ` Since ${clock(hold.since)}.`) : null)));
   }
 
@@ -51,4 +52,9 @@ export class QueuePanel {
     clearTimeout(this.timer);
     clearTimeout(this.again);
   }
+}
+
+function noJobStarts(hold: Queue_Hold): string {
+  const executor = elsewhere(hold.executor);
+  return executor ? `No job starts on ${executor}. ` : "No job starts. ";
 }

@@ -7,6 +7,7 @@ import { clock, duration, fullTime, milliseconds, number, strainText } from "../
 import { iconButton } from "../dom/icons";
 import { latticeWords, speedWords } from "../job/case_words";
 import { actionsOf, attempt } from "./actions";
+import { elsewhere, whereOf } from "./executors";
 import { hasEnded, setChip, stateChip, titleOf } from "./states";
 import type { JobStore } from "./store";
 
@@ -35,6 +36,7 @@ export class JobRow {
   private readonly name = h("span", { class: "faint" });
   private readonly sweep = h("a", { class: "faint" });
   private readonly about = h("span", { class: "faint" });
+  private readonly where = h("span", { class: "faint" });
   private readonly chip = stateChip();
   private readonly note = h("div", { class: "note" });
   private readonly bar = h("progress", { max: 1 });
@@ -50,7 +52,7 @@ export class JobRow {
   constructor(private readonly store: JobStore) {
     this.element = h("tr", {},
       h("td", { class: "check" }, this.select),
-      h("td", { class: "what" }, this.title, h("div", { class: "under" }, this.name, this.sweep, this.about)),
+      h("td", { class: "what" }, this.title, h("div", { class: "under" }, this.name, this.sweep, this.about, this.where)),
       h("td", { class: "state" }, this.chip, this.note),
       h("td", { class: "done" }, h("div", { class: "progress" }, this.bar, this.strain)),
       this.time, this.impact, this.support, this.owner, this.created, this.actions);
@@ -63,6 +65,7 @@ export class JobRow {
     setText(this.sweep, job.sweep ? `sweep ${idOf(job.sweep)}` : "");
     if (job.sweep) this.sweep.href = pathOf(job.sweep);
     if (job.case) setText(this.about, `${latticeWords(job.case)}, ${speedWords(job.case)}`);
+    setText(this.where, whereOf(job));
     this.select.setAttribute("aria-label", `Select job ${idOf(job.name)} to compare`);
     this.select.disabled = job.state === Job_State.PENDING;
     setChip(this.chip, job.state);
@@ -94,6 +97,7 @@ export class JobRow {
     let text = "";
     if (hasEnded(job)) text = tookText(job);
     else if (job.state === Job_State.RUNNING && job.progress) text = `${duration(job.progress.secondsLeft)} left`;
+    else if (entry && elsewhere(entry.executor) && entry.secondsUntilStart === 0) text = ""; // the executor decides
     else if (entry) text = entry.secondsUntilStart < 1 ? "starts next" : `in ${duration(entry.secondsUntilStart)}`;
     setText(this.time, text);
   }

@@ -30,6 +30,7 @@ export class JobStore {
     if (!job.case && old?.case) job.case = old.case;
     if (!job.title && old?.title) job.title = old.title;
     if (!job.progress && old?.progress && !hasEnded(job)) job.progress = old.progress;
+    if (!job.place && old?.state === job.state) job.place = old.place; // events do not tell it
     this.jobs.set(job.name, job);
     this.schedule();
     if (old?.state !== job.state) this.stateChanges.tell();

@@ -10,6 +10,7 @@ import { theoryNote } from "../charts/theory_note";
 import { h, replaceChildren, setText } from "../dom/element";
 import { duration, plural } from "../dom/format";
 import { go, keepInUrl, type View } from "../router";
+import { ExecutorInput } from "./executor";
 import { Forecast } from "./forecast";
 import { CaseForm } from "./form";
 import { OrderInput } from "./order";
@@ -30,6 +31,7 @@ export class NewCasePage implements View {
   private readonly forecast = new Forecast();
   private readonly help = h("p", { class: "faint" }, "Choose a field to read what it means.");
   private readonly sweepInput = new SweepInput(() => this.checkSoon());
+  private readonly executor = new ExecutorInput(() => this.checkSoon());
   private readonly order = new OrderInput(() => this.checkSoon());
   private readonly asJob = h("input", { type: "radio", name: "as", id: "as-job", checked: true });
   private readonly asSweep = h("input", { type: "radio", name: "as", id: "as-sweep" });
@@ -64,7 +66,7 @@ export class NewCasePage implements View {
           h("section", { class: "card" },
             h("div", { class: "as-what" }, h("label", {}, this.asJob, " one job"),
               h("label", {}, this.asSweep, " a sweep")),
-            this.sweepInput.element, this.order.element, this.problem,
+            this.sweepInput.element, this.executor.element, this.order.element, this.problem,
             h("div", { class: "start-row" }, this.start, this.cost)),
           h("section", { class: "card help-card" }, h("h3", {}, "The field"), this.help))));
     const from = query.get("from") ?? `preset:${kFirstPreset}`;
@@ -162,7 +164,7 @@ export class NewCasePage implements View {
   }
 
   private sweepOf(axes: SweepAxis[]): Sweep {
-    return create(SweepSchema, { case: this.value, axes, ...this.order.read() });
+    return create(SweepSchema, { case: this.value, axes, executor: this.executor.value, ...this.order.read() });
   }
 
   private async submit(): Promise<void> {
@@ -170,10 +172,11 @@ export class NewCasePage implements View {
     this.start.disabled = true;
     const axes = this.asSweep.checked ? this.sweepInput.read() : undefined;
     const order = this.order.read();
-    const requestId = `${this.requestId}-${hashOf(this.value, axes, order)}`;
+    const executor = this.executor.value;
+    const requestId = `${this.requestId}-${hashOf(this.value, axes, order, executor)}`;
     try {
       const created = axes ? await api.sweeps.createSweep({ sweep: this.sweepOf(axes), requestId })
-        : await api.jobs.createJob({ case: this.value, requestId, ...order });
+        : await api.jobs.createJob({ case: this.value, requestId, executor, ...order });
       go(pathOf(created.name));
     } catch (error) {
       const problems = problemsOf(error);
