@@ -188,7 +188,7 @@ TEST(SubmitListAndShow, NameTheExecutorOnlyWhereItIsNotTheServersMachine) {
   const FakeServer server(script);
   const ProgramResult list = run_program({"list", "--server", server.address()});
   EXPECT_NE(list.output.find("EXECUTOR slurm/a"), std::string::npos) << list.output;
-  EXPECT_NE(list.output.find("PLACE Slurm job 17, PENDING (Priority)"), std::string::npos) << list.output;
+  EXPECT_NE(list.output.find("Slurm job 17, PENDING (Priority)"), std::string::npos) << list.output;
   const ProgramResult show = run_program({"show", "jobs/test", "--server", server.address()});
   EXPECT_NE(show.output.find("executor  slurm/a\n"), std::string::npos) << show.output;
   EXPECT_NE(show.output.find("place     Slurm job 17, PENDING (Priority)\n"), std::string::npos) << show.output;
