@@ -2,8 +2,10 @@
 
 #include <spdlog/spdlog.h>
 
+#include <filesystem>
 #include <map>
 #include <set>
+#include <system_error>
 #include <utility>
 
 #include "error.h"
@@ -169,21 +171,32 @@ void Queues::cancel(std::int64_t job) {
   if (!queue.is_present()) end_cancelled(job, queue.name);
 }
 
-// Nobody follows the worker of a job whose executor is absent.
+// Nobody follows the worker of a job whose executor is absent. One that has not started finds no order, and ends.
 void Queues::end_cancelled(std::int64_t job, const std::string& executor) {
+  std::error_code none;
+  std::filesystem::remove(parts_.folder.job_folder(job).order(), none);
   const auto stored = parts_.reader.find_job(job);
   if (!stored || stored->job.state() != v1::Job::CANCELLING) return;
   store::StateChange change;
   change.state = v1::Job::CANCELLED;
   change.message = "The job ran on " + missing(executor) +
                    ", so it has no result. The history is kept. A worker may run there until a daemon with it starts.";
-  parts_.journal.change_state(job, change);
+  try {
+    parts_.journal.change_state(job, change);
+  } catch (const ServiceError& error) {
+    // Another call was first.
+    if (error.kind() != ServiceError::Kind::failed_precondition) throw;
+  }
 }
 
 void Queues::cancel_all(const std::vector<std::int64_t>& jobs) {
   // Waiting jobs first, so that no slot takes the next of them.
   const auto cancelled = parts_.journal.cancel_waiting(jobs);
   for (auto& queue : queues_) queue->scheduler.forget(cancelled);
+  for (const std::int64_t job : cancelled) {
+    const Queue& queue = queue_of(job);
+    if (!queue.is_present()) end_cancelled(job, queue.name);
+  }
   for (const std::int64_t job : jobs) {
     const auto stored = parts_.reader.find_job(job);
     if (!stored || store::is_terminal(stored->job.state())) continue;
@@ -200,9 +213,11 @@ void Queues::cancel_all(const std::vector<std::int64_t>& jobs) {
 void Queues::suspend(std::int64_t job, const std::function<bool()>& given_up) {
   Queue& queue = queue_of(job);
   const auto stored = parts_.reader.find_job(job);
-  if (!queue.is_present() && stored && stored->job.state() == v1::Job::RUNNING) {
+  // The executor may start a job that it has, whatever the journal says.
+  if (!queue.is_present() && stored && !store::is_terminal(stored->job.state()) &&
+      stored->job.state() != v1::Job::SUSPENDED) {
     throw ServiceError(ServiceError::Kind::failed_precondition,
-                       store::name_of(job) + " runs on " + missing(queue.name) +
+                       store::name_of(job) + " is for " + missing(queue.name) +
                            ". Start cellcrushd with it to suspend the job, or cancel the job.");
   }
   queue.scheduler.suspend(job, given_up);

@@ -77,7 +77,7 @@ struct Metrics::Impl {
 
   std::shared_ptr<prometheus::Registry> registry = std::make_shared<prometheus::Registry>();
   prometheus::Gauge& waiting = gauge(*registry, "cellcrush_jobs_waiting", "Jobs waiting in the queue.");
-  prometheus::Gauge& running = gauge(*registry, "cellcrush_jobs_running", "Jobs running.");
+  prometheus::Gauge& running = gauge(*registry, "cellcrush_jobs_running", "Jobs running, or accepted by an executor.");
   prometheus::Family<prometheus::Gauge>& held = prometheus::BuildGauge()
                                                     .Name("cellcrush_queue_held")
                                                     .Help("1 while a queue is held for this cause, else 0.")

@@ -1,17 +1,11 @@
 // Several executors in one daemon: what is chosen, what one cannot do to another, and what a cluster's queue holds.
 #include <gmock/gmock.h>
 
-#include <thread>
-
-#include "cellcrush/v1/admin_service.grpc.pb.h"
 #include "error.h"
 #include "log_format.h"
-#include "server/daemon_fixture.h"
+#include "server/executors_fixture.h"
 #include "server/log_capture.h"
 #include "server/raw_call.h"
-#include "server/small_case.h"
-#include "server/small_cluster.h"
-#include "server/sweep_requests.h"
 
 namespace cellcrush::testing {
 namespace {
@@ -19,79 +13,6 @@ namespace {
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-
-constexpr const char* kCluster = "slurm/test";
-
-class ExecutorsTest : public DaemonFixture {
- protected:
-  void SetUp() override {}
-
-  [[nodiscard]] DaemonOptions with_cluster(int slots = 2) {
-    auto options = default_options();
-    options.executors.push_back(cluster_.executor(kCluster, slots));
-    options.hold_times = {std::chrono::milliseconds(20), std::chrono::milliseconds(200)};
-    return options;
-  }
-
-  // A second executor of workers on this machine, from that program.
-  [[nodiscard]] DaemonOptions with_program(const std::filesystem::path& program) const {
-    auto options = default_options();
-    options.hold_times = {std::chrono::milliseconds(20), std::chrono::milliseconds(200)};
-    options.executors.push_back({kCluster, 2, [program](const jobs::ExecutorSurroundings& given) {
-                                   return std::make_unique<jobs::LocalProcess>(program, given.stall_limit);
-                                 }});
-    return options;
-  }
-
-  void restart(const DaemonOptions& options) {
-    daemon_.reset();
-    start(options);
-  }
-
-  static grpc::Status try_create(Client& client, const std::string& executor, v1::Job& out,
-                                 const v1::Case& submitted = tiny_case()) {
-    v1::CreateJobRequest request;
-    *request.mutable_case_() = submitted;
-    request.set_executor(executor);
-    return client.jobs->CreateJob(bounded_context().get(), request, &out);
-  }
-
-  static std::string create_on(Client& client, const std::string& executor, const v1::Case& submitted = tiny_case()) {
-    v1::Job out;
-    const auto status = try_create(client, executor, out, submitted);
-    EXPECT_TRUE(status.ok()) << status.error_message();
-    return out.name();
-  }
-
-  static v1::Sweep create_sweep_on(Client& client, const std::string& executor, const v1::Case& submitted) {
-    auto request = sweep_of(submitted, "plates.friction", {0.0, 0.1, 0.2});
-    request.mutable_sweep()->set_executor(executor);
-    return create(client, request);
-  }
-
-  static v1::Queue queue_of(const Client& client) {
-    v1::Queue out;
-    const auto status = v1::Admin::NewStub(client.channel)->GetQueue(bounded_context().get(), {}, &out);
-    EXPECT_TRUE(status.ok()) << status.error_message();
-    return out;
-  }
-
-  // Waits for something at most 20 s.
-  template <class Condition>
-  static bool wait_until(const Condition& condition) {
-    for (int i = 0; i < 2000; ++i) {
-      if (condition()) return true;
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-    return false;
-  }
-
-  bool wait_for_place(Client& client, const std::string& job) {
-    return wait_until([&] { return !client.get(job).place().empty(); });
-  }
-
-  SmallCluster cluster_;
-};
 
 TEST_F(ExecutorsTest, AJobRunsOnTheExecutorThatItNamesAndSaysSo) {
   cluster_.open();
@@ -302,99 +223,6 @@ TEST_F(ExecutorsTest, TheNextDaemonAdoptsWhatTheClusterHasBeforeItHandsOverMore)
   cluster_.open();
   for (const auto& job : jobs) EXPECT_TRUE(client.wait_for_state(job, v1::Job::SUCCEEDED)) << job;
   EXPECT_EQ(cluster_.threads().size(), 5U) << "Each was handed over once.";
-}
-
-TEST_F(ExecutorsTest, JobsOfAnExecutorThatIsGoneWaitAndCanBeCancelled) {
-  start(with_cluster(1));
-  std::string placed;
-  std::string waiting;
-  {
-    auto client = this->client();
-    placed = create_on(client, kCluster);
-    ASSERT_TRUE(wait_for_place(client, placed));
-    waiting = create_on(client, kCluster);
-  }
-  const LogCapture log(make_text_formatter());
-  restart(default_options());
-  EXPECT_EQ(log.count_lines("2 unfinished jobs are for slurm/test, an executor that this daemon does not have"), 1);
-  auto client = this->client();
-  EXPECT_TRUE(client.wait_for_state(client.create(tiny_case()), v1::Job::SUCCEEDED)) << "Others run.";
-  const auto queue = queue_of(client);
-  ASSERT_EQ(queue.entries_size(), 2);
-  for (const auto& entry : queue.entries()) {
-    EXPECT_EQ(entry.executor(), kCluster);
-    EXPECT_THAT(entry.reason(), HasSubstr("This daemon does not have slurm/test"));
-  }
-  EXPECT_TRUE(queue.holds().empty());
-  EXPECT_TRUE(is_serving(client.channel, "cellcrush.queue"));
-  EXPECT_TRUE(client.suspend(placed).ok());
-  EXPECT_TRUE(client.resume(placed).ok());
-  EXPECT_EQ(client.get(placed).state(), v1::Job::PENDING);
-  EXPECT_TRUE(client.cancel(waiting).ok());
-  EXPECT_EQ(client.get(waiting).state(), v1::Job::CANCELLED);
-  EXPECT_TRUE(client.remove(waiting).ok());
-
-  cluster_.open();
-  restart(with_cluster(1));
-  auto again = this->client();
-  EXPECT_TRUE(again.wait_for_state(placed, v1::Job::SUCCEEDED)) << again.get(placed).cause_message();
-}
-
-TEST_F(ExecutorsTest, AJobThatRunsOnAnExecutorThatIsGoneEndsOnceItIsCancelled) {
-  const auto options = with_program(CELLCRUSHD_PROGRAM);
-  start(options);
-  std::string job;
-  {
-    auto client = this->client();
-    job = create_on(client, kCluster, endless_case());
-    ASSERT_TRUE(client.wait_for_state(job, v1::Job::RUNNING));
-  }
-  daemon_.reset();
-  {
-    // As a daemon leaves it that is killed.
-    store::Journal journal(data_folder() / "journal.sqlite", [](std::int64_t) {});
-    store::StateChange running;
-    running.state = v1::Job::RUNNING;
-    journal.change_state(1, running);
-  }
-  start(default_options());
-  auto client = this->client();
-  EXPECT_EQ(client.get(job).state(), v1::Job::RUNNING);
-  const auto refused = client.suspend(job);
-  EXPECT_EQ(refused.error_code(), grpc::StatusCode::FAILED_PRECONDITION);
-  EXPECT_THAT(refused.error_message(), HasSubstr("jobs/1 runs on slurm/test"));
-  EXPECT_TRUE(client.cancel(job).ok());
-  EXPECT_EQ(client.get(job).state(), v1::Job::CANCELLED);
-  EXPECT_THAT(client.get(job).cause_message(), HasSubstr("slurm/test"));
-  EXPECT_TRUE(client.cancel(job).ok()) << "It is idempotent.";
-  EXPECT_TRUE(client.remove(job).ok());
-}
-
-TEST_F(ExecutorsTest, ARetryStaysOnTheExecutorOfItsSweep) {
-  start(with_program("/bin/false"));
-  std::string name;
-  v1::RetryFailedJobsRequest request;
-  v1::Sweep sweep;
-  {
-    auto client = this->client();
-    name = create_sweep_on(client, kCluster, tiny_case()).name();
-    ASSERT_TRUE(wait_for_count(client, name, v1::Job::FAILED, 3));
-    EXPECT_EQ(get_sweep(client, name).executor(), kCluster);
-    request.set_name(name);
-  }
-  restart(default_options());
-  {
-    auto client = this->client();
-    const auto refused = client.sweeps->RetryFailedJobs(bounded_context().get(), request, &sweep);
-    EXPECT_EQ(refused.error_code(), grpc::StatusCode::FAILED_PRECONDITION);
-    EXPECT_THAT(refused.error_message(), HasSubstr("slurm/test, an executor that this daemon does not have"));
-  }
-  restart(with_program(CELLCRUSHD_PROGRAM));
-  auto client = this->client();
-  ASSERT_TRUE(client.sweeps->RetryFailedJobs(bounded_context().get(), request, &sweep).ok());
-  EXPECT_TRUE(wait_for_count(client, name, v1::Job::SUCCEEDED, 3));
-  sweep = get_sweep(client, name);
-  for (const auto& job : sweep.jobs()) EXPECT_EQ(client.get(job).executor(), kCluster);
 }
 
 }  // namespace

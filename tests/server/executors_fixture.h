@@ -1,0 +1,91 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <string>
+#include <thread>
+
+#include "cellcrush/v1/admin_service.grpc.pb.h"
+#include "server/daemon_fixture.h"
+#include "server/small_case.h"
+#include "server/small_cluster.h"
+#include "server/sweep_requests.h"
+
+namespace cellcrush::testing {
+
+inline constexpr const char* kCluster = "slurm/test";
+
+/// A daemon with a second executor, which each test chooses.
+class ExecutorsTest : public DaemonFixture {
+ protected:
+  void SetUp() override {}
+
+  [[nodiscard]] DaemonOptions with_cluster(int slots = 2) {
+    auto options = default_options();
+    options.executors.push_back(cluster_.executor(kCluster, slots));
+    options.hold_times = {std::chrono::milliseconds(20), std::chrono::milliseconds(200)};
+    return options;
+  }
+
+  // A second executor of workers on this machine, from that program.
+  [[nodiscard]] DaemonOptions with_program(const std::filesystem::path& program) const {
+    auto options = default_options();
+    options.hold_times = {std::chrono::milliseconds(20), std::chrono::milliseconds(200)};
+    options.executors.push_back({kCluster, 2, [program](const jobs::ExecutorSurroundings& given) {
+                                   return std::make_unique<jobs::LocalProcess>(program, given.stall_limit);
+                                 }});
+    return options;
+  }
+
+  void restart(const DaemonOptions& options) {
+    daemon_.reset();
+    start(options);
+  }
+
+  static grpc::Status try_create(Client& client, const std::string& executor, v1::Job& out,
+                                 const v1::Case& submitted = tiny_case()) {
+    v1::CreateJobRequest request;
+    *request.mutable_case_() = submitted;
+    request.set_executor(executor);
+    return client.jobs->CreateJob(bounded_context().get(), request, &out);
+  }
+
+  static std::string create_on(Client& client, const std::string& executor, const v1::Case& submitted = tiny_case()) {
+    v1::Job out;
+    const auto status = try_create(client, executor, out, submitted);
+    EXPECT_TRUE(status.ok()) << status.error_message();
+    return out.name();
+  }
+
+  static v1::Sweep create_sweep_on(Client& client, const std::string& executor, const v1::Case& submitted) {
+    auto request = sweep_of(submitted, "plates.friction", {0.0, 0.1, 0.2});
+    request.mutable_sweep()->set_executor(executor);
+    return create(client, request);
+  }
+
+  static v1::Queue queue_of(const Client& client) {
+    v1::Queue out;
+    const auto status = v1::Admin::NewStub(client.channel)->GetQueue(bounded_context().get(), {}, &out);
+    EXPECT_TRUE(status.ok()) << status.error_message();
+    return out;
+  }
+
+  // Waits for something at most 20 s.
+  template <class Condition>
+  static bool wait_until(const Condition& condition) {
+    for (int i = 0; i < 2000; ++i) {
+      if (condition()) return true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return false;
+  }
+
+  bool wait_for_place(Client& client, const std::string& job) {
+    return wait_until([&] { return !client.get(job).place().empty(); });
+  }
+
+  SmallCluster cluster_;
+};
+
+}  // namespace cellcrush::testing
