@@ -78,6 +78,30 @@ test('a sweep over two fields with labels is started from the form', async () =>
   }
 });
 
+// A field of a message in protobuf's binary form.
+function field(number, bytes) {
+  return Buffer.concat([Buffer.from([(number << 3) | 2, bytes.length]), Buffer.from(bytes)]);
+}
+
+test('the form asks for an executor where there are several, and sends it', async () => {
+  await page.goto(daemon.url + '/new');
+  await page.getByRole('button', { name: 'Start the job' }).and(page.locator(':enabled')).waitFor();
+  assert.equal(await page.getByLabel('Executor').isVisible(), false);
+  const another = field(6, field(1, Buffer.from('slurm/a')));
+  const address = '**/cellcrush.v1.Admin/GetCapabilities';
+  await page.route(address, async (route) => {
+    const response = await route.fetch();
+    await route.fulfill({ response, body: Buffer.concat([await response.body(), another]) });
+  });
+  await page.goto(daemon.url + '/new');
+  await page.getByLabel('Executor').waitFor();
+  assert.equal(await page.getByLabel('Executor').inputValue(), 'local');
+  await page.getByLabel('Executor').selectOption('slurm/a');
+  await page.getByRole('button', { name: 'Start the job' }).click();
+  await page.getByText('executor is "slurm/a"; this daemon has local.').waitFor();
+  await page.unroute(address);
+});
+
 test('the rigid wall of a frame is in its picture', async () => {
   const plate = '#5b616c';
   const shares = [];
