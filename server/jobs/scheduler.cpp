@@ -116,7 +116,7 @@ void Scheduler::cancel_run(std::int64_t job) {
 void Scheduler::suspend(std::int64_t job, const std::function<bool()>& given_up) {
   while (true) {
     const v1::Job::State state = find(job).job.state();
-    if (state == v1::Job::SUSPENDED) return;
+    if (state == v1::Job::SUSPENDED) return wait_for_end(job);
     if (state != v1::Job::PENDING && state != v1::Job::RUNNING) {
       throw ServiceError(ServiceError::Kind::failed_precondition,
                          store::name_of(job) + " is " + v1::Job::State_Name(state) + " and cannot be suspended.");
@@ -154,6 +154,13 @@ void Scheduler::suspend(std::int64_t job, const std::function<bool()>& given_up)
       throw;
     }
   }
+}
+
+// A job that is resumed while its last run still holds the request to suspend it would be suspended again.
+void Scheduler::wait_for_end(std::int64_t job) {
+  constexpr std::chrono::seconds kLongest{1};
+  MutexLock lock(mutex_);
+  changed_.wait_for(lock, kLongest, [this, job]() CELLCRUSH_REQUIRES(mutex_) { return !running_.contains(job); });
 }
 
 void Scheduler::resume(std::int64_t job) {

@@ -119,6 +119,8 @@ class Scheduler {
   [[nodiscard]] bool shares_cores() const { return parts_.executor_name == store::kLocalExecutor; }
   /// Asks the run of the job, if there is one, to end.
   void cancel_run(std::int64_t job);
+  /// Waits until the run of a SUSPENDED job has ended, which takes moments.
+  void wait_for_end(std::int64_t job);
   store::StoredJob find(std::int64_t job);
   void tell_metrics() CELLCRUSH_REQUIRES(mutex_) {
     parts_.metrics.set_jobs(parts_.executor_name, waiting_.count(), running_.size());

@@ -21,6 +21,9 @@ class ExecutorsTest : public DaemonFixture {
  protected:
   void SetUp() override {}
 
+  // The cluster outlives the daemon.
+  void TearDown() override { daemon_.reset(); }
+
   [[nodiscard]] DaemonOptions with_cluster(int slots = 2) {
     auto options = default_options();
     options.executors.push_back(cluster_.executor(kCluster, slots));

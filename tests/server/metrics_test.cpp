@@ -12,6 +12,7 @@
 #include "error.h"
 #include "server/daemon_fixture.h"
 #include "server/small_case.h"
+#include "server/small_cluster.h"
 
 namespace cellcrush::testing {
 namespace {
@@ -25,6 +26,9 @@ class MetricsTest : public DaemonFixture {
     options.metrics = "127.0.0.1:0";
     start(options);
   }
+
+  // The cluster outlives the daemon.
+  void TearDown() override { daemon_.reset(); }
 
   /// A connection to the metrics, to be closed.
   [[nodiscard]] int connect_to_metrics() const {
@@ -82,6 +86,8 @@ class MetricsTest : public DaemonFixture {
     EXPECT_TRUE(found) << series << " in\n" << answer;
     return found.value_or(-1.0);
   }
+
+  SmallCluster cluster_;
 };
 
 TEST_F(MetricsTest, TellJobsStepsAndTheTimeOfEachStage) {
@@ -116,6 +122,27 @@ TEST_F(MetricsTest, TellWhatRunsAndWaits) {
   EXPECT_TRUE(client().cancel(running).ok());
   ASSERT_TRUE(client().wait_for_state(running, v1::Job::CANCELLED));
   scrape_until("cellcrush_jobs_ended_total{state=\"CANCELLED\"}", 1.0);
+}
+
+TEST_F(MetricsTest, AddUpTheJobsOfAllExecutors) {
+  DaemonOptions options = default_options();
+  options.metrics = "127.0.0.1:0";
+  options.data_folder = folder_.path() / "two-executors";
+  options.worker_program = folder_.path() / "missing";
+  options.executors.push_back(cluster_.executor("slurm/test", 1));
+  start(options);
+  auto client = this->client();
+  client.create(tiny_case());
+  v1::CreateJobRequest request;
+  *request.mutable_case_() = tiny_case();
+  request.set_executor("slurm/test");
+  for (int i = 0; i < 2; ++i) {
+    v1::Job job;
+    ASSERT_TRUE(client.jobs->CreateJob(bounded_context().get(), request, &job).ok());
+  }
+  scrape_until("cellcrush_queue_held{cause=\"worker\"}", 1.0);
+  const std::string answer = scrape_until("cellcrush_jobs_running", 1.0);
+  EXPECT_EQ(value_of(answer, "cellcrush_jobs_waiting"), 2.0) << "One on each.";
 }
 
 TEST_F(MetricsTest, AreServedBesideConnectionsThatSendOrReadNothing) {

@@ -4,7 +4,10 @@
 #include <filesystem>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <set>
+#include <stop_token>
+#include <string>
 #include <vector>
 
 #include "jobs/executor_options.h"
