@@ -35,6 +35,8 @@ class Process {
   Outcome wait(std::chrono::milliseconds limit);
 
   void send(int signal) const;
+  /// -1 when it has ended and was waited for.
+  [[nodiscard]] int id() const { return id_; }
   [[nodiscard]] const std::string& output() const { return output_; }
   [[nodiscard]] const std::string& errors() const { return errors_; }
 

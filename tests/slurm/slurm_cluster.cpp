@@ -1,0 +1,199 @@
+#include "slurm/slurm_cluster.h"
+
+#include <arpa/inet.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <random>
+#include <stdexcept>
+#include <thread>
+
+#include "slurm/process_tree.h"
+
+namespace cellcrush::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+using std::chrono::seconds;
+
+constexpr seconds kStartLimit{60};
+constexpr seconds kStopLimit{20};
+constexpr std::chrono::milliseconds kPause{100};
+
+const std::string kMunged = "/usr/sbin/munged";
+const std::string kSlurmctld = "/usr/sbin/slurmctld";
+const std::string kSlurmd = "/usr/sbin/slurmd";
+
+std::string bytes_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// A socket bound to a free port of loopback. As it does not listen, a daemon may bind to the same port, since both set
+// SO_REUSEADDR; nobody else is given it.
+int reserve_port(int& port) {
+  const int held = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  const int yes = 1;
+  setsockopt(held, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t size = sizeof(address);
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast)
+  auto* generic = reinterpret_cast<sockaddr*>(&address);
+  if (bind(held, generic, size) != 0 || getsockname(held, generic, &size) != 0) {
+    close(held);
+    throw std::runtime_error("no free port on 127.0.0.1");
+  }
+  port = ntohs(address.sin_port);
+  return held;
+}
+
+std::string node_name(int node) { return "n" + std::to_string(node); }
+
+void stop(std::unique_ptr<e2e::Process>& keeper) {
+  if (!keeper) return;
+  keeper->send(SIGTERM);
+  (void)keeper->wait(kStopLimit);
+  keeper.reset();
+}
+
+bool wait_until(const std::function<bool()>& condition, std::chrono::milliseconds limit) {
+  const auto end = Clock::now() + limit;
+  while (!condition()) {
+    if (Clock::now() >= end) return false;
+    std::this_thread::sleep_for(kPause);
+  }
+  return true;
+}
+
+}  // namespace
+
+bool slurm_is_installed() {
+  const std::vector<std::string> programs = {kMunged, kSlurmctld, kSlurmd, "/usr/bin/sbatch"};
+  return std::all_of(programs.begin(), programs.end(),
+                     [](const std::string& program) { return access(program.c_str(), X_OK) == 0; });
+}
+
+SlurmCluster::SlurmCluster(const SlurmOptions& options) : config_(folder_.path() / "slurm.conf") {
+  // munge refuses a socket that others cannot reach.
+  fs::permissions(folder_.path(), fs::perms::owner_all | fs::perms::group_exec | fs::perms::others_exec);
+  for (const char* name : {"state", "spool_n1", "spool_n2", "log", "shared"}) {
+    fs::create_directory(folder_.path() / name);
+  }
+  SlurmPorts ports;
+  ports.nodes.resize(kNodes);
+  reserved_ports_.push_back(reserve_port(ports.controller));
+  for (int& port : ports.nodes) reserved_ports_.push_back(reserve_port(port));
+  std::ofstream(config_) << slurm_conf_text(options, ports, folder_.path(), folder_.path() / "munge/socket");
+  start_munge();
+  start_controller();
+  nodes_.resize(kNodes);
+  for (int node = 1; node <= kNodes; ++node) start_node(node);
+  for (int node = 1; node <= kNodes; ++node) {
+    if (!wait_for_node(node, "idle", kStartLimit))
+      throw std::runtime_error(node_name(node) + " is " + node_state(node) + ", not idle:\n" + logs());
+  }
+}
+
+SlurmCluster::~SlurmCluster() {
+  for (Keeper& node : nodes_) stop(node);
+  for (Keeper& node : lost_) stop(node);
+  stop(controller_);
+  stop(munge_);
+  for (const int held : reserved_ports_) close(held);
+}
+
+SlurmCluster::Keeper SlurmCluster::start(const std::string& name, const std::vector<std::string>& command) const {
+  std::vector<std::string> words = {DAEMON_KEEPER_PROGRAM, (folder_.path() / "log" / (name + ".out")).string()};
+  words.insert(words.end(), command.begin(), command.end());
+  return std::make_unique<e2e::Process>(words);
+}
+
+void SlurmCluster::start_munge() {
+  const fs::path folder = folder_.path() / "munge";
+  fs::create_directory(folder);
+  fs::permissions(folder, fs::perms::owner_all | fs::perms::group_exec | fs::perms::others_exec);
+  std::random_device random;
+  std::string key(128, '\0');
+  for (char& byte : key) byte = static_cast<char>(random());
+  std::ofstream(folder / "key", std::ios::binary) << key;
+  fs::permissions(folder / "key", fs::perms::owner_read | fs::perms::owner_write);
+  const std::string prefix = folder.string() + "/";
+  munge_ = start("munged", {kMunged, "--foreground", "--num-threads=2", "--key-file=" + prefix + "key",
+                            "--socket=" + prefix + "socket", "--pid-file=" + prefix + "pid",
+                            "--log-file=" + prefix + "log", "--seed-file=" + prefix + "seed"});
+  if (!wait_until([&] { return fs::exists(folder / "socket"); }, kStartLimit))
+    throw std::runtime_error("munged does not start:\n" + logs());
+}
+
+e2e::Outcome SlurmCluster::run(const std::vector<std::string>& command, std::chrono::milliseconds limit) const {
+  std::vector<std::string> words = {"/usr/bin/env", "SLURM_CONF=" + config_.string()};
+  words.insert(words.end(), command.begin(), command.end());
+  return e2e::run(words, limit);
+}
+
+bool SlurmCluster::wait_for(const std::vector<std::string>& command, const std::string& output,
+                            std::chrono::milliseconds limit) const {
+  return wait_until(
+      [&] {
+        const e2e::Outcome outcome = run(command);
+        const auto end = outcome.output.find_last_not_of(" \n");
+        return outcome.exit_code == 0 && outcome.output.substr(0, end + 1) == output;
+      },
+      limit);
+}
+
+std::string SlurmCluster::node_state(int node) const {
+  const e2e::Outcome outcome = run({"sinfo", "-h", "-p", "main", "-n", node_name(node), "-o", "%T"});
+  return outcome.output.substr(0, outcome.output.find('\n'));
+}
+
+bool SlurmCluster::wait_for_node(int node, const std::string& state, std::chrono::milliseconds limit) const {
+  return wait_until([&] { return node_state(node) == state; }, limit);
+}
+
+void SlurmCluster::kill_node(int node, JobProcesses processes) {
+  Keeper& keeper = nodes_.at(node - 1);
+  if (processes == JobProcesses::die) {
+    stop(keeper);
+    return;
+  }
+  for (const pid_t process : descendants_of(keeper->id())) {
+    const std::string program = program_of(process);
+    if (program == "slurmd" || program == "slurmstepd") kill(process, SIGKILL);
+  }
+  lost_.push_back(std::move(keeper));
+}
+
+void SlurmCluster::start_node(int node) {
+  const std::string name = node_name(node);
+  nodes_.at(node - 1) = start("slurmd_" + name, {kSlurmd, "-D", "-f", config_.string(), "-N", name});
+}
+
+void SlurmCluster::stop_controller() {
+  for (const pid_t process : children_of(controller_->id())) kill(process, SIGTERM);
+  (void)controller_->wait(kStopLimit);
+  controller_.reset();
+}
+
+void SlurmCluster::start_controller() {
+  controller_ = start("slurmctld", {kSlurmctld, "-D", "-f", config_.string()});
+  if (!wait_until([&] { return run({"scontrol", "ping"}).exit_code == 0; }, kStartLimit))
+    throw std::runtime_error("slurmctld does not answer:\n" + logs());
+}
+
+std::string SlurmCluster::logs() const {
+  std::string text;
+  for (const auto& entry : fs::directory_iterator(folder_.path() / "log"))
+    text += "== " + entry.path().filename().string() + "\n" + bytes_of(entry.path());
+  return text;
+}
+
+}  // namespace cellcrush::testing

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "e2e/process.h"
+#include "server/temporary_folder.h"
+#include "slurm/slurm_conf.h"
+
+namespace cellcrush::testing {
+
+/// Whether the programs of Slurm and munge that a SlurmCluster needs are here. A test without them is skipped:
+///   if (!slurm_is_installed()) GTEST_SKIP() << kSlurmIsMissing;
+bool slurm_is_installed();
+inline constexpr const char* kSlurmIsMissing = "Slurm is not installed; run deploy/install-packages slurm";
+
+/// A Slurm cluster of two nodes on this machine: munged, slurmctld and two slurmd, all of the calling user, in a
+/// temporary folder and on ports of loopback that are its own, so that several clusters run side by side. No service of
+/// the system is touched. Everything below the daemons is killed with the object, and also when the thread that made it
+/// or the test's process dies; whatever jobs have started is part of that. Not thread-safe.
+///
+/// Partition `main` has both nodes, and is the default. With SlurmOptions::preempt_mode there is a second one, `low`,
+/// whose jobs give way to those of `main`.
+class SlurmCluster {
+ public:
+  /// Nodes are counted from 1.
+  static constexpr int kNodes = 2;
+
+  /// What kill_node does to the processes of the node's jobs.
+  enum class JobProcesses {
+    die,      ///< as when the machine loses its power
+    survive,  ///< they run on, and Slurm has lost them
+  };
+
+  /// Returns when both nodes are idle, after about 2 s. Throws std::runtime_error with the daemons' logs when they are
+  /// not within 60 s. REQUIRES: slurm_is_installed().
+  explicit SlurmCluster(const SlurmOptions& options = {});
+  ~SlurmCluster();
+  SlurmCluster(const SlurmCluster&) = delete;
+  SlurmCluster& operator=(const SlurmCluster&) = delete;
+
+  /// Path of slurm.conf, for SLURM_CONF.
+  [[nodiscard]] const std::filesystem::path& config() const { return config_; }
+  /// For scripts and outputs of jobs; both nodes see it. It goes away with the cluster.
+  [[nodiscard]] std::filesystem::path shared_folder() const { return folder_.path() / "shared"; }
+
+  /// Runs a command of Slurm, such as {"sbatch", "job.sh"}, in this cluster. It is killed when its time is up, and the
+  /// outcome's `timed_out` is set.
+  [[nodiscard]] e2e::Outcome run(const std::vector<std::string>& command,
+                                 std::chrono::milliseconds limit = std::chrono::seconds(10)) const;
+
+  /// Runs the command every 100 ms until it succeeds with this output, but for blanks at its end. False when the time
+  /// was up before.
+  [[nodiscard]] bool wait_for(const std::vector<std::string>& command, const std::string& output,
+                              std::chrono::milliseconds limit) const;
+
+  /// As `sinfo` says it, such as `idle`, `allocated`, `down*`; the asterisk is for a node that does not answer.
+  [[nodiscard]] std::string node_state(int node) const;
+  /// False when the node does not come into the state in this time.
+  [[nodiscard]] bool wait_for_node(int node, const std::string& state, std::chrono::milliseconds limit) const;
+
+  /// SIGKILL for slurmd and its slurmstepd. Slurm sees it after about 10 s; the state is then `down*`.
+  void kill_node(int node, JobProcesses processes = JobProcesses::die);
+  /// REQUIRES: the node was killed. Does not wait for the controller to know of it.
+  void start_node(int node);
+
+  /// SIGTERM for slurmctld, which saves its state; waits for its end. Nodes and jobs run on.
+  void stop_controller();
+  /// REQUIRES: the controller was stopped. Returns when it answers.
+  void start_controller();
+
+  /// What the daemons have logged.
+  [[nodiscard]] std::string logs() const;
+
+ private:
+  // A daemon_keeper with the daemon below it.
+  using Keeper = std::unique_ptr<e2e::Process>;
+
+  Keeper start(const std::string& name, const std::vector<std::string>& command) const;
+  void start_munge();
+
+  TemporaryFolder folder_;
+  std::filesystem::path config_;
+  std::vector<int> reserved_ports_;  // sockets, which keep the ports from other programs
+  Keeper munge_;
+  Keeper controller_;
+  std::vector<Keeper> nodes_;
+  std::vector<Keeper> lost_;  // of killed nodes whose jobs survive
+};
+
+}  // namespace cellcrush::testing

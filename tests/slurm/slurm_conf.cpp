@@ -1,0 +1,88 @@
+#include "slurm/slurm_conf.h"
+
+#include <fmt/format.h>
+#include <pwd.h>
+#include <unistd.h>
+
+#include <array>
+
+namespace cellcrush::testing {
+namespace {
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  gethostname(name.data(), name.size() - 1);
+  return name.data();
+}
+
+std::string user_name() {
+  const passwd* user = getpwuid(geteuid());
+  return user != nullptr ? user->pw_name : std::to_string(geteuid());
+}
+
+// Slurm binds to the addresses of this file, so to loopback. Its own files of accounting, processes and tasks need no
+// database, no cgroups and no rights of root. The life of a credential is also the delay of a requeued job.
+constexpr const char* kCommon = R"(ClusterName=test
+SlurmctldHost={host}(127.0.0.1)
+SlurmctldPort={controller_port}
+CommunicationParameters=NoInAddrAny,NoCtldInAddrAny
+SlurmUser={user}
+SlurmdUser={user}
+AuthType=auth/munge
+AuthInfo=socket={munge_socket},cred_expire={requeue_delay_s}
+CredType=cred/munge
+StateSaveLocation={folder}/state
+SlurmdSpoolDir={folder}/spool_%n
+SlurmctldPidFile={folder}/slurmctld.pid
+SlurmdPidFile={folder}/slurmd_%n.pid
+SlurmctldLogFile={folder}/log/slurmctld.log
+SlurmdLogFile={folder}/log/slurmd_%n.log
+MailProg=/bin/true
+ProctrackType=proctrack/linuxproc
+TaskPlugin=task/none
+JobAcctGatherType=jobacct_gather/none
+AccountingStorageType=accounting_storage/none
+JobCompType=jobcomp/none
+SwitchType=switch/none
+MpiDefault=none
+SelectType=select/cons_tres
+SelectTypeParameters=CR_CPU
+SchedulerType=sched/backfill
+SchedulerParameters=sched_interval=1,bf_interval=1,batch_sched_delay=0
+SlurmdParameters=config_overrides
+ReturnToService=2
+MaxArraySize={max_array_size}
+MinJobAge={min_job_age_s}
+KillWait={kill_wait_s}
+SlurmctldTimeout=10
+SlurmdTimeout={slurmd_timeout_s}
+MessageTimeout={message_timeout_s}
+)";
+
+}  // namespace
+
+std::string slurm_conf_text(const SlurmOptions& options, const SlurmPorts& ports, const std::filesystem::path& folder,
+                            const std::filesystem::path& munge_socket) {
+  using fmt::arg;
+  const std::string host = host_name();
+  std::string text = fmt::format(
+      kCommon, arg("host", host), arg("controller_port", ports.controller), arg("user", user_name()),
+      arg("munge_socket", munge_socket.string()), arg("requeue_delay_s", options.requeue_delay_s),
+      arg("folder", folder.string()), arg("max_array_size", options.max_array_size),
+      arg("min_job_age_s", options.min_job_age_s), arg("kill_wait_s", options.kill_wait_s),
+      arg("slurmd_timeout_s", options.slurmd_timeout_s), arg("message_timeout_s", options.message_timeout_s));
+  for (std::size_t i = 0; i < ports.nodes.size(); ++i) {
+    text += fmt::format("NodeName=n{} NodeHostname={} NodeAddr=127.0.0.1 Port={} CPUs={} RealMemory=1000\n", i + 1,
+                        host, ports.nodes[i], options.cpus_per_node);
+  }
+  text += "PartitionName=main Nodes=ALL Default=YES PriorityTier=2 PreemptMode=OFF MaxTime=INFINITE\n";
+  if (!options.preempt_mode.empty()) {
+    text += fmt::format("PreemptType=preempt/partition_prio\nPreemptMode={0}\n", options.preempt_mode);
+    text +=
+        fmt::format("PartitionName=low Nodes=ALL PriorityTier=1 GraceTime={} MaxTime=INFINITE\n", options.grace_time_s);
+  }
+  for (const std::string& line : options.lines) text += line + "\n";
+  return text;
+}
+
+}  // namespace cellcrush::testing
