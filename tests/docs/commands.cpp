@@ -128,7 +128,8 @@ void check_mention(const ProgramHelp& help, const Page& page, const Mention& men
 // An option alone between backticks: any program's, or one of the programs that tests and builds call.
 void check_option(const std::map<std::string, ProgramHelp>& programs, const Page& page, const Code& code,
                   Findings& findings) {
-  static const std::regex kForeign("--(gtest|benchmark)_.*|--preset|--install|--build|--prefix|--user|--now|--array.*");
+  static const std::regex kForeign(
+      "--(gtest|benchmark)_.*|--preset|--install|--build|--prefix|--user|--now|--array.*|--cpus-per-task.*");
   std::istringstream words(code.text);
   std::string word;
   words >> word;

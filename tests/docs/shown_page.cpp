@@ -40,6 +40,7 @@ void expect_shown(const std::string& path) {
   ASSERT_FALSE(steps.empty());
   const fs::path home = folder.path() / "home";
   fs::create_directories(home);
+  fs::create_directory_symlink(CELLCRUSH_SOURCE_ROOT, home / "cellcrush");
   const std::vector<StepOutcome> outcomes = run_session(steps, home, folder.path() / "prefix/bin", kSessionLimit);
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     const std::string place = path + ":" + std::to_string(steps[i].line) + ": $ " + steps[i].command;

@@ -72,7 +72,7 @@ std::string slurm_conf_text(const SlurmOptions& options, const SlurmPorts& ports
       arg("min_job_age_s", options.min_job_age_s), arg("kill_wait_s", options.kill_wait_s),
       arg("slurmd_timeout_s", options.slurmd_timeout_s), arg("message_timeout_s", options.message_timeout_s));
   for (std::size_t i = 0; i < ports.nodes.size(); ++i) {
-    text += fmt::format("NodeName=n{} NodeHostname={} NodeAddr=127.0.0.1 Port={} CPUs={} RealMemory=1000\n", i + 1,
+    text += fmt::format("NodeName=n{} NodeHostname={} NodeAddr=127.0.0.1 Port={} CPUs={} RealMemory=8000\n", i + 1,
                         host, ports.nodes[i], options.cpus_per_node);
   }
   text += "PartitionName=main Nodes=ALL Default=YES PriorityTier=2 PreemptMode=OFF MaxTime=INFINITE\n";

@@ -1,0 +1,23 @@
+// A researcher who types what the pages about clusters show sees what they show.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "docs/shown_page.h"
+#include "slurm/slurm_cluster.h"
+
+namespace cellcrush::docs {
+namespace {
+
+using testing::SlurmCluster;
+
+TEST(JobArrayPage, EveryCommandDoesWhatThePageShows) {
+  if (!testing::slurm_is_installed()) GTEST_SKIP() << testing::kSlurmIsMissing;
+  const SlurmCluster cluster;
+  setenv("SLURM_CONF", cluster.config().c_str(), 1);
+  expect_shown("deploy/slurm/job-array.md");
+  unsetenv("SLURM_CONF");
+}
+
+}  // namespace
+}  // namespace cellcrush::docs
