@@ -1,9 +1,14 @@
 #include "docs/session.h"
 
+#include <pwd.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <fstream>
 #include <regex>
 #include <sstream>
+#include <system_error>
 
 #include "e2e/process.h"
 
@@ -48,6 +53,20 @@ std::string script_of(const std::vector<Step>& steps, const fs::path& folder, co
   }
   script << "exit 0\n";
   return script.str();
+}
+
+// The words before a command that make an ordinary user of root. Gives the folder to that user.
+std::vector<std::string> become_ordinary(const fs::path& folder) {
+  const passwd* nobody = geteuid() == 0 ? getpwnam("nobody") : nullptr;
+  if (nobody == nullptr) return {};
+  const auto give = [nobody](const fs::path& path) {
+    if (lchown(path.c_str(), nobody->pw_uid, nobody->pw_gid) != 0)
+      throw std::system_error(errno, std::generic_category(), "chown " + path.string());
+  };
+  give(folder);
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) give(entry.path());
+  return {"/usr/bin/setpriv", "--reuid=nobody", "--regid=" + std::to_string(nobody->pw_gid), "--clear-groups",
+          "--pdeathsig=KILL"};
 }
 
 }  // namespace
@@ -108,14 +127,17 @@ std::string missing_line(const std::vector<std::string>& shown, const std::strin
 }
 
 std::vector<StepOutcome> run_session(const std::vector<Step>& steps, const fs::path& folder, const fs::path& programs,
-                                     std::chrono::seconds limit) {
+                                     std::chrono::seconds limit, Reader reader) {
   write_daemon_wrapper(folder, programs);
   const fs::path script = folder / ".session/script.sh";
   const fs::path transcript = folder / ".session/transcript";
   std::ofstream(script) << script_of(steps, folder, programs);
   // Into a file and not a pipe, which a daemon in the background would keep open.
-  e2e::Process bash(
-      {"/bin/bash", "-c", "exec /bin/bash '" + script.string() + "' >'" + transcript.string() + "' 2>&1"});
+  std::vector<std::string> words;
+  if (reader == Reader::ordinary_user) words = become_ordinary(folder);
+  words.insert(words.end(),
+               {"/bin/bash", "-c", "exec /bin/bash '" + script.string() + "' >'" + transcript.string() + "' 2>&1"});
+  e2e::Process bash(words);
   (void)bash.wait(limit);
   std::ifstream file(transcript);
   std::ostringstream text;

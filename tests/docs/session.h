@@ -33,10 +33,17 @@ struct StepOutcome {
   std::string output;  ///< both standard output and standard error
 };
 
+/// Who types a session.
+enum class Reader {
+  caller,
+  ordinary_user,  ///< `nobody` if the caller is root, who then gives `folder` away
+};
+
 /// Types the commands into one bash, as a reader would, with `folder` as home and working directory and the programs
 /// first on its PATH. A daemon that is started in the background listens on its default Unix socket only; the session
 /// waits until it answers, and kills it at the end. Returns an outcome for each command that was reached.
 std::vector<StepOutcome> run_session(const std::vector<Step>& steps, const std::filesystem::path& folder,
-                                     const std::filesystem::path& programs, std::chrono::seconds limit);
+                                     const std::filesystem::path& programs, std::chrono::seconds limit,
+                                     Reader reader = Reader::caller);
 
 }  // namespace cellcrush::docs

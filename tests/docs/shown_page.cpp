@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <chrono>
 
-#include "docs/session.h"
 #include "e2e/process.h"
 #include "server/temporary_folder.h"
 
@@ -33,15 +32,22 @@ void install(const fs::path& prefix) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.all();
 }
 
-void expect_shown(const std::string& path) {
+void expect_shown(const std::string& path, Reader reader, const std::map<std::string, std::string>& instead) {
   const TemporaryFolder folder;
-  install(folder.path() / "prefix");
-  const std::vector<Step> steps = steps_of(find_page(path));
-  ASSERT_FALSE(steps.empty());
+  // An ordinary user passes through it.
+  fs::permissions(folder.path(), fs::perms::others_exec, fs::perm_options::add);
   const fs::path home = folder.path() / "home";
-  fs::create_directories(home);
+  install(home / ".local");
+  std::vector<Step> steps = steps_of(find_page(path));
+  ASSERT_FALSE(steps.empty());
+  for (const auto& [words, typed] : instead) {
+    const auto step = std::ranges::find_if(
+        steps, [&](const Step& candidate) { return candidate.command.find(words) != std::string::npos; });
+    ASSERT_NE(step, steps.end()) << path << " has no command with " << words;
+    step->command.replace(step->command.find(words), words.size(), typed);
+  }
   fs::create_directory_symlink(CELLCRUSH_SOURCE_ROOT, home / "cellcrush");
-  const std::vector<StepOutcome> outcomes = run_session(steps, home, folder.path() / "prefix/bin", kSessionLimit);
+  const std::vector<StepOutcome> outcomes = run_session(steps, home, home / ".local/bin", kSessionLimit, reader);
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     const std::string place = path + ":" + std::to_string(steps[i].line) + ": $ " + steps[i].command;
     EXPECT_EQ(outcomes[i].exit_code, 0) << place << "\n" << outcomes[i].output;

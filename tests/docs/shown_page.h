@@ -1,15 +1,20 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
+
+#include "docs/session.h"
 
 namespace cellcrush::docs {
 
 /// `cmake --install` of the build that the test belongs to.
 void install(const std::filesystem::path& prefix);
 
-/// Types the console blocks of a page of the tree, after an installation, in a folder of their own, which has the tree
-/// as `cellcrush`, and expects of each command what the page shows.
-void expect_shown(const std::string& path);
+/// Types the console blocks of a page of the tree, after an installation in ~/.local, in a home of their own, which has
+/// the tree as ~/cellcrush, and expects of each command what the page shows. `instead` has words of the page, and what
+/// is typed instead of each.
+void expect_shown(const std::string& path, Reader reader = Reader::caller,
+                  const std::map<std::string, std::string>& instead = {});
 
 }  // namespace cellcrush::docs
