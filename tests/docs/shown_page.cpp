@@ -41,8 +41,9 @@ void expect_shown(const std::string& path, Reader reader, const std::map<std::st
   std::vector<Step> steps = steps_of(find_page(path));
   ASSERT_FALSE(steps.empty());
   for (const auto& [words, typed] : instead) {
-    const auto step = std::ranges::find_if(
-        steps, [&](const Step& candidate) { return candidate.command.find(words) != std::string::npos; });
+    const auto step = std::ranges::find_if(steps, [&page_words = words](const Step& candidate) {
+      return candidate.command.find(page_words) != std::string::npos;
+    });
     ASSERT_NE(step, steps.end()) << path << " has no command with " << words;
     step->command.replace(step->command.find(words), words.size(), typed);
   }

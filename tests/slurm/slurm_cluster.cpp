@@ -150,6 +150,17 @@ bool SlurmCluster::wait_for(const std::vector<std::string>& command, const std::
       limit);
 }
 
+std::vector<int> SlurmCluster::wait_for_exit_codes(const std::string& job, std::chrono::milliseconds limit) const {
+  std::vector<int> codes;
+  if (!wait_for({"squeue", "-h", "-j", job}, "", limit)) return codes;
+  const std::string tasks = run({"scontrol", "show", "job", "-o", job}).output;
+  const std::string key = " ExitCode=";
+  for (auto at = tasks.find(key); at != std::string::npos; at = tasks.find(key, at + 1))
+    codes.push_back(std::stoi(tasks.substr(at + key.size())));
+  std::sort(codes.begin(), codes.end());
+  return codes;
+}
+
 std::string SlurmCluster::node_state(int node) const {
   const e2e::Outcome outcome = run({"sinfo", "-h", "-p", "main", "-n", node_name(node), "-o", "%T"});
   return outcome.output.substr(0, outcome.output.find('\n'));

@@ -2,7 +2,6 @@
 #include "slurm/slurm_cluster.h"
 
 #include <gmock/gmock.h>
-#include <unistd.h>
 
 #include <fstream>
 #include <iterator>
@@ -49,13 +48,11 @@ TEST_F(SlurmClusterTest, AnArrayRunsOnBothNodes) {
   const SlurmCluster cluster;
   EXPECT_EQ(cluster.node_state(1), "idle");
   EXPECT_EQ(cluster.node_state(2), "idle");
-  const fs::path folder = cluster.shared_folder();
-  const e2e::Outcome outcome = cluster.run(
-      {"sbatch", "--wait", "--array=1-4", "-o", (folder / "%a").string(), "--wrap", "echo $SLURMD_NODENAME; sleep 1"},
-      kLimit);
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.all() << cluster.logs();
+  const std::string job = submit(cluster, {"--array=1-4"}, "echo $SLURMD_NODENAME; sleep 1; exit $SLURM_ARRAY_TASK_ID");
+  EXPECT_EQ(cluster.wait_for_exit_codes(job, kLimit), (std::vector<int>{1, 2, 3, 4})) << cluster.logs();
   std::set<std::string> nodes;
-  for (const char* task : {"1", "2", "3", "4"}) nodes.insert(bytes_of(folder / task));
+  for (const char* task : {"_1.out", "_2.out", "_3.out", "_4.out"})
+    nodes.insert(bytes_of(cluster.shared_folder() / (job + task)));
   EXPECT_EQ(nodes, (std::set<std::string>{"n1\n", "n2\n"}));
 }
 
