@@ -96,7 +96,7 @@ void add_sweep_commands(CLI::App& app, Session& session) {
       ->add_option(
           "--over", options->axes,
           "Values of a field: PATH=V1,V2,...; PATH=FIRST:LAST:COUNT, evenly spaced; PATH=FIRST:LAST:COUNT:log, "
-          "logarithmically spaced; PATH=seeds:N, 1 to N (may be repeated, for up to 32 fields; at most 10000 "
+          "logarithmically spaced; PATH=seeds:N, 1 to N (may be repeated, for up to 32 fields; at most 100000 "
           "jobs in all)")
       ->required()
       ->group(kCaseOptions)

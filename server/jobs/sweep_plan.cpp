@@ -22,6 +22,10 @@ constexpr std::size_t kLongestTitle = 200;                 // of a case, in byte
 constexpr std::size_t kMostCaseBytes = 256 * 1024 * 1024;  // of all cases of a sweep
 // Checked before merging the problems, which may be numerous.
 constexpr std::size_t kPointsAtOnce = 64;
+// Of the sweep with the names of its jobs, each of up to this many bytes: the daemon returns both in one message, which a
+// client accepts up to 4 MiB. It then has room for the other fields.
+constexpr std::size_t kMostNamedBytes = 4'190'000;
+constexpr std::size_t kNameBytes = 17;
 constexpr std::size_t kMostLabelBytes = 16 * 1024 * 1024;  // of the labels of all its jobs
 
 void cut(std::string& text, std::size_t most) {
@@ -68,6 +72,27 @@ v1::Job job_of(const v1::Sweep& sweep, v1::Case made) {
   out.set_time_limit_s(sweep.time_limit_s());
   out.set_owner(sweep.owner());
   return out;
+}
+
+// Throws InvalidField if the sweep is too large for its number of points.
+void check_sizes(const v1::Sweep& sweep, std::size_t points) {
+  if (const std::size_t bytes = sweep.ByteSizeLong(); bytes + kNameBytes * points > kMostNamedBytes) {
+    throw InvalidField(
+        "sweep", "has " + std::to_string(bytes) + " bytes, too many with " + std::to_string(points) + " points.",
+        "Use at most " + std::to_string(kMostNamedBytes - kNameBytes * points) +
+            " bytes for so many points. Lists on axes that advance together (with_previous) take 8 bytes "
+            "a value, entries of `points` several times as much.");
+  }
+  if (sweep.case_().ByteSizeLong() * points > kMostCaseBytes) {
+    throw InvalidField("sweep", "has " + std::to_string(points) + " points, too many for a case of this size.",
+                       "Use fewer points: all cases together may have at most 256 MiB.");
+  }
+  if (bytes_of_labels(sweep) * points > kMostLabelBytes) {
+    throw InvalidField(
+        "sweep.labels",
+        "have " + std::to_string(bytes_of_labels(sweep)) + " bytes, too many for " + std::to_string(points) + " jobs.",
+        "Use fewer or shorter labels, or fewer points: the labels of all jobs together may have at most 16 MiB.");
+  }
 }
 
 struct CheckedPoint {
@@ -128,18 +153,7 @@ class PointChecker {
 
 SweepPlan plan_sweep(const v1::Sweep& sweep, const PointChecking& checking) {
   const SweepPoints points = expand(sweep);
-  if (sweep.case_().ByteSizeLong() * points.values.size() > kMostCaseBytes) {
-    throw InvalidField("sweep",
-                       "has " + std::to_string(points.values.size()) + " points, too many for a case of this size.",
-                       "Use fewer points: all cases together may have at most 256 MiB.");
-  }
-  if (bytes_of_labels(sweep) * points.values.size() > kMostLabelBytes) {
-    throw InvalidField(
-        "sweep.labels",
-        "have " + std::to_string(bytes_of_labels(sweep)) + " bytes, too many for " +
-            std::to_string(points.values.size()) + " jobs.",
-        "Use fewer or shorter labels, or fewer points: the labels of all jobs together may have at most 16 MiB.");
-  }
+  check_sizes(sweep, points.values.size());
   SweepPlan out;
   PointProblems problems(points.values.size(), PointProblems::Merge::equal);
   PointProblems notes(points.values.size(), PointProblems::Merge::but_for_numbers);

@@ -10,7 +10,7 @@
 namespace cellcrush::jobs {
 namespace {
 
-const char* const kFewer = "Use at most 10000 in one sweep.";
+const char* const kFewer = "Use at most 100000 in one sweep; more can be split among several sweeps.";
 constexpr int kMostFields = 32;
 constexpr std::size_t kLongestField = 256;
 
@@ -65,7 +65,7 @@ std::vector<double> values_of(const v1::SweepAxis& axis, const std::string& name
     }
     case v1::SweepAxis::kSeedCount: {
       if (axis.seed_count() < 1 || static_cast<std::size_t>(axis.seed_count()) > kMostPoints)
-        throw InvalidField(name + ".seed_count", "is " + std::to_string(axis.seed_count()) + ".", "Use 1 to 10000.");
+        throw InvalidField(name + ".seed_count", "is " + std::to_string(axis.seed_count()) + ".", "Use 1 to 100000.");
       std::vector<double> out;
       for (int seed = 1; seed <= axis.seed_count(); ++seed) out.push_back(seed);
       return out;
@@ -75,26 +75,59 @@ std::vector<double> values_of(const v1::SweepAxis& axis, const std::string& name
   throw InvalidField(name, "has no values.", "Set list, linear, logarithmic or seed_count.");
 }
 
-std::vector<std::vector<double>> grid(const v1::Sweep& sweep) {
-  std::vector<std::vector<double>> points = {{}};
-  std::set<std::string> seen;
-  for (int i = 0; i < sweep.axes_size(); ++i) {
-    const auto& axis = sweep.axes(i);
-    if (axis.field().empty()) throw InvalidField(axis_field(i) + ".field", "is missing.", "Name a field of the case.");
-    if (!seen.insert(axis.field()).second)
-      throw InvalidField(axis_field(i) + ".field", "is " + axis.field() + ", which an earlier axis already varies.",
-                         "Put all its values on one axis.");
-    const auto values = values_of(axis, axis_field(i));
-    if (values.size() * points.size() > kMostPoints)
-      throw InvalidField("sweep.axes", "have more than 10000 combinations.", kFewer);
-    std::vector<std::vector<double>> next;
-    for (const auto& point : points) {
-      for (const double value : values) {
-        next.push_back(point);
-        next.back().push_back(value);
-      }
+using Points = std::vector<std::vector<double>>;
+
+void check_axis(const v1::Sweep& sweep, int i, std::set<std::string>& seen) {
+  const auto& axis = sweep.axes(i);
+  if (axis.field().empty()) throw InvalidField(axis_field(i) + ".field", "is missing.", "Name a field of the case.");
+  if (!seen.insert(axis.field()).second)
+    throw InvalidField(axis_field(i) + ".field", "is " + axis.field() + ", which an earlier axis already varies.",
+                       "Put all its values on one axis.");
+  if (i == 0 && axis.with_previous())
+    throw InvalidField(axis_field(i) + ".with_previous", "is true, but no axis is before this one.",
+                       "Set it for the second axis of the two that advance together.");
+}
+
+// Appends the value of every step of an axis to the values of the axes with which it advances.
+void append(Points& steps, const std::vector<double>& values, const std::string& name) {
+  if (values.size() != steps.size()) {
+    throw InvalidField(name,
+                       "has " + std::to_string(values.size()) +
+                           " values; the axis before it, with which it advances, has " + std::to_string(steps.size()) +
+                           ".",
+                       "Give both as many values, or leave out with_previous to combine them.");
+  }
+  for (std::size_t i = 0; i < steps.size(); ++i) steps[i].push_back(values[i]);
+}
+
+Points combinations(const Points& points, const Points& steps) {
+  if (steps.size() * points.size() > kMostPoints) {
+    throw InvalidField("sweep.axes", "have " + std::to_string(steps.size() * points.size()) + " combinations or more.",
+                       kFewer);
+  }
+  Points out;
+  out.reserve(points.size() * steps.size());
+  for (const auto& point : points) {
+    for (const auto& step : steps) {
+      out.push_back(point);
+      out.back().insert(out.back().end(), step.begin(), step.end());
     }
-    points = std::move(next);
+  }
+  return out;
+}
+
+Points grid(const v1::Sweep& sweep) {
+  Points points = {{}};
+  std::set<std::string> seen;
+  for (int i = 0; i < sweep.axes_size();) {
+    check_axis(sweep, i, seen);
+    Points steps;
+    for (const double value : values_of(sweep.axes(i), axis_field(i))) steps.push_back({value});
+    for (++i; i < sweep.axes_size() && sweep.axes(i).with_previous(); ++i) {
+      check_axis(sweep, i, seen);
+      append(steps, values_of(sweep.axes(i), axis_field(i)), axis_field(i));
+    }
+    points = combinations(points, steps);
   }
   return points;
 }

@@ -9,7 +9,7 @@
 namespace cellcrush::jobs {
 
 /// Maximum number of points in a sweep.
-inline constexpr std::size_t kMostPoints = 10'000;
+inline constexpr std::size_t kMostPoints = 100'000;
 
 /// The parameters that a sweep varies.
 struct SweepPoints {
@@ -20,8 +20,8 @@ struct SweepPoints {
 /// The fields that a sweep varies: those of its axes in order, or those of its points by name.
 std::vector<std::string> swept_fields(const v1::Sweep& sweep);
 
-/// All points of a sweep: either every combination of its axes' values, the last axis varying fastest, or its explicit
-/// points. Throws InvalidField if axes or points are invalid, or exceed kMostPoints.
+/// All points of a sweep: either every combination of its axes' values, the last axis varying fastest, where axes that
+/// advance together count as one, or its explicit points. Throws InvalidField if axes or points are invalid, or exceed kMostPoints.
 SweepPoints expand(const v1::Sweep& sweep);
 
 }  // namespace cellcrush::jobs

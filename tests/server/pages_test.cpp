@@ -153,7 +153,7 @@ TEST_F(PagesTest, AHistorysPageIsAsLongAsAskedForAndItsTokenIsOfOneJob) {
 }
 
 TEST_F(PagesTest, TheTableOfTheLargestSweepComesInPagesThatMergeIntoOne) {
-  constexpr int kCount = 10'000;
+  constexpr int kCount = 100'000;
   write_sweep(kCount);
   start();
   auto client = this->client();

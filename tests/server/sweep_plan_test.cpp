@@ -56,6 +56,23 @@ TEST(SweepPlan, IsTheSameWhateverTheNumberOfThreads) {
   }
 }
 
+// 38 bytes a point and 17 for the name of its job: 80,000 would not fit in a message of 4 MiB.
+TEST(SweepPlan, MorePointsThanAMessageHoldsAreRefusedWithTheBytesThatFit) {
+  MeshPlaces places;
+  v1::Sweep sweep;
+  *sweep.mutable_case_() = testing::small_case();
+  for (int i = 0; i < 80'000; ++i) (*sweep.add_points()->mutable_fields())["loading.speed_m_per_s"] = 50.0 + 1e-3 * i;
+  try {
+    plan_sweep(sweep, {places, 1, never});
+    ADD_FAILURE() << "accepted";
+  } catch (const InvalidField& refused) {
+    EXPECT_EQ(refused.field(), "sweep");
+    EXPECT_NE(refused.message().find(std::to_string(sweep.ByteSizeLong()) + " bytes"), std::string::npos);
+    EXPECT_NE(refused.remedy().find("2830000 bytes"), std::string::npos) << refused.remedy();
+    EXPECT_NE(refused.remedy().find("with_previous"), std::string::npos);
+  }
+}
+
 TEST(SweepPlan, IsLeftOnceNobodyWaitsForIt) {
   MeshPlaces places;
   std::atomic<int> looks = 0;

@@ -96,7 +96,7 @@ TEST(SweepPoints, WhatCannotBeASweepIsRefusedByField) {
   EXPECT_EQ(refused_field(sweep), "sweep.axes[0].list");
   axis.mutable_linear()->set_count(1);
   EXPECT_EQ(refused_field(sweep), "sweep.axes[0].linear.count");
-  axis.mutable_linear()->set_count(20'000);
+  axis.mutable_linear()->set_count(100'001);
   EXPECT_EQ(refused_field(sweep), "sweep.axes[0].linear.count");
   axis.mutable_linear()->set_count(2);
   axis.mutable_linear()->set_last(std::numeric_limits<double>::infinity());
@@ -105,14 +105,39 @@ TEST(SweepPoints, WhatCannotBeASweepIsRefusedByField) {
   EXPECT_EQ(refused_field(sweep), "sweep.axes[0].logarithmic");
   axis.set_seed_count(-1);
   EXPECT_EQ(refused_field(sweep), "sweep.axes[0].seed_count");
-  axis.set_seed_count(100);
+  axis.set_seed_count(1000);
   add_list(sweep, "a", {1.0});
   EXPECT_EQ(refused_field(sweep), "sweep.axes[1].field");
   sweep.mutable_axes(1)->set_field("b");
   sweep.mutable_axes(1)->set_seed_count(101);
-  EXPECT_EQ(refused_field(sweep), "sweep.axes") << "10100 points";
+  EXPECT_EQ(refused_field(sweep), "sweep.axes") << "101000 points";
   sweep.mutable_axes(1)->set_seed_count(100);
   EXPECT_EQ(expand(sweep).values.size(), kMostPoints);
+}
+
+TEST(SweepPoints, AxesThatAdvanceTogetherListPointsAndCombineWithTheOthers) {
+  v1::Sweep sweep;
+  add_list(sweep, "a", {1.0, 2.0});
+  add_list(sweep, "b", {10.0, 20.0}).set_with_previous(true);
+  add_list(sweep, "c", {5.0, 6.0});
+  const auto points = expand(sweep);
+  EXPECT_THAT(points.fields, ElementsAre("a", "b", "c"));
+  EXPECT_EQ(points.values, (Values{{1, 10, 5}, {1, 10, 6}, {2, 20, 5}, {2, 20, 6}}));
+  sweep.mutable_axes(1)->mutable_list()->add_values(30.0);
+  EXPECT_EQ(refused_field(sweep), "sweep.axes[1]") << "3 values beside 2";
+  sweep.mutable_axes(0)->set_with_previous(true);
+  EXPECT_EQ(refused_field(sweep), "sweep.axes[0].with_previous");
+}
+
+TEST(SweepPoints, AHundredThousandExplicitPointsOfThreeFieldsFitInOneMessage) {
+  v1::Sweep sweep;
+  for (const char* field : {"loading.speed_m_per_s", "plates.friction", "lattice.hexagon.wall_thickness_mm"}) {
+    auto& axis = add_list(sweep, field, std::vector<double>(kMostPoints, 1.0 / 3.0));
+    axis.set_with_previous(sweep.axes_size() > 1);
+  }
+  EXPECT_EQ(expand(sweep).values.size(), kMostPoints);
+  constexpr std::size_t kLongestName = 17;
+  EXPECT_LT(sweep.ByteSizeLong() + kMostPoints * kLongestName, 4'190'000U);
 }
 
 }  // namespace
