@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -21,6 +22,8 @@ namespace {
 std::string queue_name(const std::string& executor) {
   return executor == store::kLocalExecutor ? "The queue" : "The queue of " + executor;
 }
+
+constexpr std::size_t kCancelledAtOnce = 1000;  // jobs, in one transaction of some 20 ms
 
 std::string missing(const std::string& executor) { return executor + ", an executor that this daemon does not have"; }
 
@@ -190,13 +193,7 @@ void Queues::end_cancelled(std::int64_t job, const std::string& executor) {
 }
 
 void Queues::cancel_all(const std::vector<std::int64_t>& jobs) {
-  // Waiting jobs first, so that no slot takes the next of them.
-  const auto cancelled = parts_.journal.cancel_waiting(jobs);
-  for (auto& queue : queues_) queue->scheduler.forget(cancelled);
-  for (const std::int64_t job : cancelled) {
-    const Queue& queue = queue_of(job);
-    if (!queue.is_present()) end_cancelled(job, queue.name);
-  }
+  cancel_waiting(jobs);
   for (const std::int64_t job : jobs) {
     const auto stored = parts_.reader.find_job(job);
     if (!stored || store::is_terminal(stored->job.state())) continue;
@@ -207,6 +204,32 @@ void Queues::cancel_all(const std::vector<std::int64_t>& jobs) {
       const bool gone = error.kind() == ServiceError::Kind::not_found;
       if (!gone && error.kind() != ServiceError::Kind::failed_precondition) throw;
     }
+  }
+}
+
+// All leave their queues first, so that no slot takes the next of them. The journal follows in batches, between which
+// other writers have their turn.
+void Queues::cancel_waiting(const std::vector<std::int64_t>& jobs) {
+  for (auto& queue : queues_) queue->scheduler.dequeue(jobs);
+  try {
+    for (std::size_t first = 0; first < jobs.size(); first += kCancelledAtOnce) {
+      const auto begin = jobs.begin() + static_cast<std::ptrdiff_t>(first);
+      const auto cancelled = parts_.journal.cancel_waiting(
+          {begin, begin + static_cast<std::ptrdiff_t>(std::min(kCancelledAtOnce, jobs.size() - first))});
+      for (auto& queue : queues_) queue->scheduler.forget(cancelled);
+      for (const std::int64_t job : cancelled) {
+        const Queue& queue = queue_of(job);
+        if (!queue.is_present()) end_cancelled(job, queue.name);
+      }
+    }
+  } catch (...) {
+    // Those that could not be cancelled wait as before.
+    std::vector<store::QueuedJob> left;
+    for (const std::int64_t job : jobs) {
+      if (auto queued = parts_.reader.queued_job(job, v1::Job::PENDING)) left.push_back(*std::move(queued));
+    }
+    enqueue(left);
+    throw;
   }
 }
 

@@ -88,6 +88,8 @@ class Queues {
  private:
   struct Queue;
 
+  /// Cancels the waiting ones among the jobs.
+  void cancel_waiting(const std::vector<std::int64_t>& jobs);
   void clean_up();
   bool end_worker(const store::QueuedJob& job);
   /// Queues jobs of an executor that the daemon lacks.

@@ -178,6 +178,12 @@ void Scheduler::resume(std::int64_t job) {
   if (queued) enqueue({*queued});
 }
 
+void Scheduler::dequeue(const std::vector<std::int64_t>& jobs) {
+  const MutexLock lock(mutex_);
+  for (const std::int64_t job : jobs) waiting_.remove(job);
+  tell_metrics();
+}
+
 void Scheduler::forget(const std::vector<std::int64_t>& jobs) {
   for (const std::int64_t job : jobs) {
     {

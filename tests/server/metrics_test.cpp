@@ -13,6 +13,7 @@
 #include "server/daemon_fixture.h"
 #include "server/small_case.h"
 #include "server/small_cluster.h"
+#include "server/sweep_requests.h"
 
 namespace cellcrush::testing {
 namespace {
@@ -198,6 +199,34 @@ TEST_F(MetricsTest, TellWatchersSpeedCommitsAndEvents) {
   // The progress that was read, and what came after it: news that come while a message is written count once.
   EXPECT_GE(value_of(after, "cellcrush_event_seconds_count"), 2.0);
   scrape_until("cellcrush_steps_per_second", 0.0);
+}
+
+// In one transaction all other writers would wait for all of its jobs.
+TEST_F(MetricsTest, ALargeSweepIsCancelledInBatchesBetweenWhichOthersWrite) {
+  auto client = this->client();
+  v1::CreateJobRequest first;
+  *first.mutable_case_() = endless_case();
+  first.set_priority(100);
+  v1::Job job;
+  for (int i = 0; i < default_options().workers; ++i) {
+    ASSERT_TRUE(client.jobs->CreateJob(bounded_context().get(), first, &job).ok());
+    ASSERT_TRUE(client.wait_for_state(job.name(), v1::Job::RUNNING));
+  }
+  std::vector<double> speeds;
+  for (int i = 0; i < 4000; ++i) speeds.push_back(50.0 + 0.01 * i);
+  const auto sweep = create(client, sweep_of(small_case(), kSpeed, speeds));
+  const auto commits = [&] {
+    const std::string text = scrape();
+    const std::string name = "cellcrush_commit_seconds_count ";
+    return std::stoi(text.substr(text.find(name) + name.size()));
+  };
+  const int before = commits();
+  v1::CancelSweepRequest request;
+  request.set_name(sweep.name());
+  v1::Sweep cancelled;
+  ASSERT_TRUE(client.sweeps->CancelSweep(bounded_context().get(), request, &cancelled).ok());
+  EXPECT_GE(commits() - before, 4);
+  EXPECT_EQ(count_in(cancelled, v1::Job::CANCELLED), 4000) << "No slot has taken one of them meanwhile.";
 }
 
 }  // namespace
