@@ -7,6 +7,15 @@
 namespace cellcrush::store {
 
 JobConditions::JobConditions(const JobFilter& filter, int first_parameter) : first_parameter_(first_parameter) {
+  const bool by_label = filter.states.empty() && filter.owners.empty() && filter.titles.empty();
+  if (by_label && filter.labels.size() == 1) {
+    // The rows of a label are in the order of their jobs: a page reads as many as it lists.
+    const auto& [key, value] = filter.labels.front();
+    numbers_ = {"job_labels", "job"};
+    sql_ = " AND key = " + next_parameter(key);
+    sql_ += " AND value = " + next_parameter(value);
+    return;
+  }
   for (const v1::Job::State state : filter.states) sql_ += " AND state = " + next_parameter(std::int64_t{state});
   for (const auto& owner : filter.owners) sql_ += " AND owner = " + next_parameter(owner);
   for (const auto& [key, value] : filter.labels) {

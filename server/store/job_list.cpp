@@ -49,11 +49,14 @@ std::vector<StoredJob> JournalReader::read_batch(const JobFilter& wanted, bool n
                                                  int limit) {
   const MutexLock lock(mutex_);
   const JobConditions conditions(wanted, 4);
-  const std::string order = newest_first ? " ORDER BY number DESC" : " ORDER BY number";
+  const std::string direction = newest_first ? " DESC" : "";
+  const std::string number = conditions.numbers().column;
   Statement read(database_,
                  "SELECT number, job, submitted_case, last_sequence, state FROM jobs WHERE number IN "
-                 "(SELECT number FROM jobs WHERE number > ?1 AND number < ?2" +
-                     conditions.sql() + order + " LIMIT ?3)" + order,
+                 "(SELECT " +
+                     number + " FROM " + conditions.numbers().table + " WHERE " + number + " > ?1 AND " + number +
+                     " < ?2" + conditions.sql() + " ORDER BY " + number + direction + " LIMIT ?3) ORDER BY number" +
+                     direction,
                  Statement::Reuse::no);
   read.bind(1, range.low).bind(2, range.high).bind(3, limit);
   conditions.bind_to(read);
