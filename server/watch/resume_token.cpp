@@ -1,7 +1,9 @@
 #include "watch/resume_token.h"
 
+#include <algorithm>
 #include <charconv>
 #include <string_view>
+#include <utility>
 
 #include "error.h"
 #include "store/resource_name.h"
@@ -13,6 +15,11 @@ namespace {
 // jobs.
 constexpr std::int64_t kMostJobs = 100'000;
 constexpr std::int64_t kLargestNumber = std::int64_t{1} << 62;
+
+bool continues(const JobPlace& before, const JobPlace& place) {
+  return place.job == before.job + 1 && place.ended == before.ended &&
+         (place.ended || place.sequence == before.sequence);
+}
 
 // Parses a token from left to right.
 class Reader {
@@ -45,17 +52,36 @@ class Reader {
 
 }  // namespace
 
-std::string resume_token_of(std::int64_t sweep, const std::vector<JobPlace>& places) {
+JobPlaces::JobPlaces(std::vector<JobPlace> places) : places_(std::move(places)) {
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    if (i == 0 || !continues(places_[i - 1], places_[i])) runs_.insert(runs_.end(), i);
+  }
+}
+
+void JobPlaces::set_sequence(std::size_t index, std::int64_t sequence) {
+  places_[index].sequence = sequence;
+  update_runs(index);
+}
+
+void JobPlaces::set_ended(std::size_t index) {
+  places_[index].ended = true;
+  update_runs(index);
+}
+
+// Only a run that begins at this job or at the next one can have changed.
+void JobPlaces::update_runs(std::size_t index) {
+  for (std::size_t i = std::max<std::size_t>(index, 1); i <= index + 1 && i < places_.size(); ++i)
+    continues(places_[i - 1], places_[i]) ? static_cast<void>(runs_.erase(i)) : static_cast<void>(runs_.insert(i));
+}
+
+std::string JobPlaces::token(std::int64_t sweep) const {
   std::string out = std::to_string(sweep) + ":";
-  for (std::size_t i = 0; i < places.size();) {
-    const JobPlace& first = places[i];
-    std::size_t end = i + 1;
-    while (end < places.size() && places[end].job == first.job + static_cast<std::int64_t>(end - i) &&
-           places[end].ended == first.ended && (first.ended || places[end].sequence == first.sequence))
-      ++end;
-    out += std::to_string(first.job) + "+" + std::to_string(end - i) + "=";
+  for (auto run = runs_.begin(); run != runs_.end();) {
+    const JobPlace& first = places_[*run];
+    const std::size_t begin = *run++;
+    const std::size_t end = run == runs_.end() ? places_.size() : *run;
+    out += std::to_string(first.job) + "+" + std::to_string(end - begin) + "=";
     out += (first.ended ? "e" : std::to_string(first.sequence)) + ";";
-    i = end;
   }
   return out;
 }

@@ -10,6 +10,9 @@ namespace cellcrush::watch {
 namespace {
 
 constexpr int kLongestTurn = 256;
+// Sent with every event. A longer token at most doubles what a watch sends.
+constexpr std::size_t kShortToken = 1024;
+constexpr std::size_t kRunBytes = 16;  // of a token, about
 
 }  // namespace
 
@@ -44,11 +47,13 @@ SweepSource::SweepSource(store::JournalReader& journal, store::SweepReader& swee
   if (!resume_token.empty()) given = places_in(resume_token);
   auto jobs = sweeps.jobs_of(sweep);
   std::sort(jobs.begin(), jobs.end());
+  std::vector<JobPlace> places;
   for (const std::int64_t job : jobs) {
     const auto found = given.find(job);
-    places_.push_back(found == given.end() ? JobPlace{job, 0, false} : found->second);
+    places.push_back(found == given.end() ? JobPlace{job, 0, false} : found->second);
     members_.push_back({hub.open(job), 0, std::nullopt});
   }
+  places_ = JobPlaces(std::move(places));
   news_ = std::make_shared<News>(places_.size());
   for (std::size_t i = 0; i < places_.size(); ++i) {
     if (places_[i].ended) continue;
@@ -58,7 +63,15 @@ SweepSource::SweepSource(store::JournalReader& journal, store::SweepReader& swee
 }
 
 // "EPOCH@" and the positions; a token without an epoch is of an earlier version.
-std::string SweepSource::resume_token() const { return journal_.epoch().id + "@" + resume_token_of(sweep_, places_); }
+std::string SweepSource::resume_token() const { return journal_.epoch().id + "@" + places_.token(sweep_); }
+
+bool SweepSource::is_token_due(std::size_t event_bytes) {
+  const std::size_t token_bytes = places_.run_count() * kRunBytes;
+  bytes_since_token_ += event_bytes;
+  if (token_bytes > kShortToken && bytes_since_token_ < token_bytes) return false;
+  bytes_since_token_ = 0;
+  return true;
+}
 
 std::map<std::int64_t, JobPlace> SweepSource::places_in(const std::string& token) const {
   const auto at = token.find('@');
@@ -111,7 +124,7 @@ std::optional<v1::WatchSweepResponse> SweepSource::next() {
 }
 
 std::optional<v1::WatchSweepResponse> SweepSource::next_of(std::size_t position) {
-  JobPlace& place = places_[position];
+  const JobPlace& place = places_[position];
   auto& cursor = members_[position].cursor;
   try {
     if (!cursor) {
@@ -119,12 +132,13 @@ std::optional<v1::WatchSweepResponse> SweepSource::next_of(std::size_t position)
     }
     auto event = cursor->next();
     has_more_ = cursor->has_more();
-    place.sequence = cursor->sequence();
+    places_.set_sequence(position, cursor->sequence());
     if (cursor->ended()) end(position);
     if (!event) return std::nullopt;
     v1::WatchSweepResponse out;
     out.set_job(store::name_of(place.job));
-    if (event->has_state() || event->has_sample() || place.ended) out.set_resume_token(resume_token());
+    const bool advances = event->has_state() || event->has_sample() || place.ended;
+    if (advances && is_token_due(event->ByteSizeLong())) out.set_resume_token(resume_token());
     *out.mutable_event() = *std::move(event);
     return out;
   } catch (const ServiceError& error) {
@@ -136,7 +150,7 @@ std::optional<v1::WatchSweepResponse> SweepSource::next_of(std::size_t position)
 }
 
 void SweepSource::end(std::size_t position) {
-  places_[position].ended = true;
+  places_.set_ended(position);
   has_more_ = false;
   members_[position].cursor.reset();
   --left_;

@@ -70,6 +70,8 @@ class SweepSource {
   };
 
   [[nodiscard]] std::string resume_token() const;
+  /// Whether an event of this many bytes is to carry a token: a long one only after as many bytes of events.
+  bool is_token_due(std::size_t event_bytes);
   [[nodiscard]] std::map<std::int64_t, JobPlace> places_in(const std::string& token) const;
   v1::WatchSweepResponse snapshot();
   std::optional<v1::WatchSweepResponse> next_of(std::size_t position);
@@ -79,12 +81,13 @@ class SweepSource {
   store::SweepReader& sweeps_;
   Hub& hub_;
   std::int64_t sweep_;
-  std::vector<JobPlace> places_;  ///< of all jobs, in ascending order
-  std::vector<Member> members_;   ///< parallel to places_
+  JobPlaces places_;             ///< of all jobs, in ascending order
+  std::vector<Member> members_;  ///< parallel to places_
   std::shared_ptr<News> news_;
   std::size_t left_ = 0;  ///< jobs whose last event was not sent yet
   bool has_more_ = false;
-  int in_turn_ = 0;  ///< messages sent in the current job's turn
+  std::size_t bytes_since_token_ = 0;  ///< of events
+  int in_turn_ = 0;                    ///< messages sent in the current job's turn
   bool snapshot_sent_ = false;
 };
 

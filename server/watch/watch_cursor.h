@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
+#include <list>
 #include <memory>
 #include <optional>
 
@@ -59,9 +59,10 @@ class WatchCursor {
   Wanted wanted_;
   bool snapshot_sent_ = false;
   bool ended_ = false;
-  std::deque<RecentEvents::Event> events_;  ///< read, not sent yet
-  std::deque<v1::FrameChunk> parts_;        ///< of the frame being sent
-  std::deque<v1::MeshChunk> mesh_parts_;
+  // Lists, as an empty one takes no memory: a watch of a large sweep has a cursor for each job.
+  std::list<RecentEvents::Event> events_;  ///< read, not sent yet
+  std::list<v1::FrameChunk> parts_;        ///< of the frame being sent
+  std::list<v1::MeshChunk> mesh_parts_;
   bool mesh_queued_ = false;
   bool mesh_looked_up_ = false;       ///< in the journal, for a job whose mesh was built before the watch
   std::uint64_t progress_given_ = 0;  ///< count of the channel's progress when last sent

@@ -48,12 +48,12 @@ TEST_F(RequestLimitsTest, TooLongTextsAreRefusedByTheirField) {
   expect_refusal(daemon.jobs->CreateJob(bounded_context().get(), create, &job), "labels");
   v1::WatchSweepRequest watch;
   watch.set_name("sweeps/1");
-  watch.set_resume_token(long_text + long_text);
+  watch.set_resume_token(long_text + long_text + long_text + long_text);
   const auto context = bounded_context();
   const auto stream = daemon.sweeps->WatchSweep(context.get(), watch);
   v1::WatchSweepResponse event;
   EXPECT_FALSE(stream->Read(&event));
-  expect_refusal(stream->Finish(), "resume_token has 2000000 bytes");
+  expect_refusal(stream->Finish(), "resume_token has 4000000 bytes");
 }
 
 TEST_F(RequestLimitsTest, ASweepOverManyFieldsIsRefused) {
