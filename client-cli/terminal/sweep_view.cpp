@@ -75,8 +75,8 @@ std::optional<double> SweepView::seconds_left() const {
 }
 
 SweepView::Entry& SweepView::find_entry(const std::string& name) {
-  const auto found = std::find_if(jobs_.begin(), jobs_.end(), [&](const Entry& entry) { return entry.name == name; });
-  return found == jobs_.end() ? jobs_.emplace_back(Entry{name, {}}) : *found;
+  const auto [place, is_new] = places_.try_emplace(name, jobs_.size());
+  return is_new ? jobs_.emplace_back(Entry{name, {}}) : jobs_[place->second];
 }
 
 }  // namespace cellcrush::client

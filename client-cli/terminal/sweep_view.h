@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "cellcrush/v1/sweeps_service.pb.h"
@@ -40,6 +41,7 @@ class SweepView {
 
   v1::Sweep sweep_;
   std::vector<Entry> jobs_;
+  std::unordered_map<std::string, std::size_t> places_;  ///< in jobs_, by name
 };
 
 }  // namespace cellcrush::client

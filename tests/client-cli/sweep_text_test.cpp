@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <sstream>
 
 #include "chart/sweep_curves.h"
@@ -331,6 +332,26 @@ TEST(SweepChart, TwoFieldsGiveASeriesAValueOfTheSecond) {
   }
   EXPECT_EQ(names, (std::vector<std::string>{"wall thickness = 0.3 mm", "wall thickness = 0.4 mm"}));
   EXPECT_NE(chart.note.find("squares: support plate"), std::string::npos);
+}
+
+// A search through all jobs for each event would take minutes.
+TEST(SweepView, EventsOfAHundredThousandJobsAreAppliedInSeconds) {
+  constexpr int kJobs = 100'000;
+  SweepView view;
+  v1::WatchSweepResponse first;
+  for (int i = 1; i <= kJobs; ++i) first.mutable_snapshot()->add_jobs("jobs/" + std::to_string(i));
+  const auto start = std::chrono::steady_clock::now();
+  view.apply(first);
+  for (int i = 1; i <= kJobs; ++i) {
+    v1::WatchSweepResponse response;
+    response.set_job("jobs/" + std::to_string(i));
+    response.mutable_event()->mutable_state()->set_state(i % 2 == 0 ? v1::Job::SUCCEEDED : v1::Job::RUNNING);
+    view.apply(response);
+  }
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
+  ASSERT_EQ(view.jobs().size(), static_cast<std::size_t>(kJobs));
+  EXPECT_EQ(view.jobs().back().name, "jobs/100000");
+  EXPECT_EQ(view.count_ended(), kJobs / 2);
 }
 
 }  // namespace
