@@ -178,6 +178,17 @@ void Scheduler::resume(std::int64_t job) {
   if (queued) enqueue({*queued});
 }
 
+void Scheduler::requeue(const std::vector<store::QueuedJob>& jobs) {
+  {
+    const MutexLock lock(mutex_);
+    for (const auto& job : jobs) {
+      if (!running_.contains(job.job)) waiting_.add(job);
+    }
+    tell_metrics();
+  }
+  wake();
+}
+
 void Scheduler::dequeue(const std::vector<std::int64_t>& jobs) {
   const MutexLock lock(mutex_);
   for (const std::int64_t job : jobs) waiting_.remove(job);

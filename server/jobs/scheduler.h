@@ -63,6 +63,9 @@ class Scheduler {
   /// Removes jobs from the queue that are about to be cancelled. Those that it holds running stay.
   void dequeue(const std::vector<std::int64_t>& jobs);
 
+  /// Queues jobs that `dequeue` removed and that are still PENDING.
+  void requeue(const std::vector<store::QueuedJob>& jobs);
+
   /// A waiting job is SUSPENDED on return; a running one is SUSPENDED or has ended. No effect on a SUSPENDED job.
   /// Throws ServiceError: not_found, failed_precondition if it has ended or is CANCELLING, or cancelled if `given_up`
   /// returns true first.
