@@ -18,17 +18,19 @@ constexpr std::int64_t kNoteAfter = 600;
 
 void Housekeeping::work(const std::stop_token& stop) {
   std::string logged;
+  bool has_more = false;
   do {
+    has_more = false;
     try {
       check_disk();
-      delete_ended(stop);
+      has_more = delete_ended(stop);
       check_clocks();
       logged.clear();
     } catch (const std::exception& error) {
       if (std::exchange(logged, error.what()) != error.what())
         spdlog::error("Housekeeping failed and will be retried: {}", error.what());
     }
-  } while (pause_unless_stopped(stop, parts_.interval));
+  } while (has_more ? !stop.stop_requested() : pause_unless_stopped(stop, parts_.interval));
 }
 
 void Housekeeping::check_disk() {
@@ -49,11 +51,11 @@ void Housekeeping::check_clocks() {
   noted_ = now;
 }
 
-void Housekeeping::delete_ended(const std::stop_token& stop) {
+bool Housekeeping::delete_ended(const std::stop_token& stop) {
   const auto given_up = [&stop] { return stop.stop_requested(); };
   parts_.deletion.finish_sweeps(given_up);
-  retention_.measure();
-  retention_.enforce(given_up);
+  retention_.measure(given_up);
+  return retention_.enforce(given_up);
 }
 
 }  // namespace cellcrush::jobs

@@ -48,7 +48,8 @@ class Housekeeping {
  private:
   void work(const std::stop_token& stop);
   void check_clocks();
-  void delete_ended(const std::stop_token& stop);
+  /// Whether there may be more to delete at once.
+  bool delete_ended(const std::stop_token& stop);
 
   Parts parts_;
   Retention retention_;

@@ -20,29 +20,35 @@ store::EndedTotals without(const store::EndedTotals& all, const store::EndedTota
 
 }  // namespace
 
-void Retention::measure() const {
-  std::vector<store::Journal::Measured> measured;
-  for (const std::int64_t job : parts_.reader.jobs_to_measure(kReadAtOnce)) {
-    std::error_code failed;
-    const auto size = std::filesystem::file_size(parts_.folder.job_folder(job).result(), failed);
-    measured.push_back({job, failed ? 0 : static_cast<std::int64_t>(size)});
+void Retention::measure(const std::function<bool()>& given_up) const {
+  std::size_t count = kReadAtOnce;
+  while (count == kReadAtOnce && !given_up()) {
+    std::vector<store::Journal::Measured> measured;
+    for (const std::int64_t job : parts_.reader.jobs_to_measure(kReadAtOnce)) {
+      std::error_code failed;
+      const auto size = std::filesystem::file_size(parts_.folder.job_folder(job).result(), failed);
+      measured.push_back({job, failed ? 0 : static_cast<std::int64_t>(size)});
+    }
+    parts_.journal.set_measured(measured);
+    count = measured.size();
   }
-  parts_.journal.set_measured(measured);
 }
 
-void Retention::enforce(const std::function<bool()>& given_up) {
-  if (!has_limit()) return;
+bool Retention::enforce(const std::function<bool()>& given_up) {
+  if (!has_limit()) return false;
   sweeps_.clear();
   auto totals = parts_.reader.ended_totals();
   std::int64_t deleted = 0;
+  bool within_limits = false;
   std::vector<std::int64_t> jobs;  // without a sweep, to be deleted together
   store::EndedJob place;
-  for (auto batch = parts_.reader.ended_jobs(place, kReadAtOnce); !batch.empty() && deleted < kDeleted && !given_up();
+  for (auto batch = parts_.reader.ended_jobs(place, kReadAtOnce);
+       !batch.empty() && !within_limits && deleted < kDeleted && !given_up();
        batch = parts_.reader.ended_jobs(place, kReadAtOnce)) {
     for (const auto& ended : batch) {
       place = ended;
-      if (!is_old(ended.ended_at) && !is_too_much(totals)) deleted = kDeleted;
-      if (deleted >= kDeleted) break;
+      within_limits = !is_old(ended.ended_at) && !is_too_much(totals);
+      if (within_limits || deleted >= kDeleted) break;
       store::EndedTotals part{1, ended.bytes};
       if (ended.sweep == 0) {
         jobs.push_back(ended.job);
@@ -62,6 +68,7 @@ void Retention::enforce(const std::function<bool()>& given_up) {
       spdlog::info("{} is deleted under the --keep-ended limits", store::name_of(job));
     jobs.clear();
   }
+  return deleted >= kDeleted && !within_limits;
 }
 
 bool Retention::is_too_much(const store::EndedTotals& totals) const {

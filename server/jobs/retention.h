@@ -25,11 +25,12 @@ class Retention {
   Retention(const Deletion::Parts& parts, const Deletion& deletion, const Limits& limits)
       : parts_(parts), deletion_(deletion), limits_(limits) {}
 
-  /// Records the size of newly ended jobs, in batches.
-  void measure() const;
+  /// Records the size of newly ended jobs, in batches. Returns early once `given_up` returns true.
+  void measure(const std::function<bool()>& given_up) const;
 
-  /// Deletes what exceeds a limit, at most about a thousand jobs. Returns early once `given_up` returns true.
-  void enforce(const std::function<bool()>& given_up);
+  /// Deletes what exceeds a limit, at most about a thousand jobs; whether there may be more. Returns early once
+  /// `given_up` returns true.
+  bool enforce(const std::function<bool()>& given_up);
 
  private:
   [[nodiscard]] bool has_limit() const { return limits_.age.count() > 0 || limits_.count > 0 || limits_.bytes > 0; }

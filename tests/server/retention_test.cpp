@@ -10,6 +10,8 @@
 #include "server/log_capture.h"
 #include "server/small_case.h"
 #include "server/sweep_requests.h"
+#include "store/journal.h"
+#include "store/journal_reader.h"
 
 namespace cellcrush::testing {
 namespace {
@@ -96,6 +98,43 @@ TEST_F(RetentionTest, AWallClockThatJumpsDeletesNothingAndTheServiceClockDoes) {
   EXPECT_THAT(names(), ElementsAre(job));
   uptime_ahead_ = kMonth;
   EXPECT_THAT(names_once(0), IsEmpty());
+}
+
+// Jobs without a sweep that have ended: cancelled before they ran.
+class ManyEndedTest : public RetentionTest {
+ protected:
+  static constexpr std::size_t kJobs = 1600;
+
+  void SetUp() override {
+    const store::DataFolder folder(data_folder());
+    store::Journal journal(folder.journal(), [](std::int64_t) {});
+    v1::Job job;
+    *job.mutable_case_() = tiny_case();
+    std::vector<std::int64_t> jobs;
+    for (std::size_t i = 0; i < kJobs; ++i) jobs.push_back(journal.create_job(job, "", "").job);
+    journal.cancel_waiting(jobs);
+  }
+
+  [[nodiscard]] DaemonOptions slow_options() const {
+    auto options = default_options();
+    options.housekeeping_interval = std::chrono::hours(1);
+    return options;
+  }
+};
+
+TEST_F(ManyEndedTest, AllThatExceedsTheCountIsDeletedInOneRoundOfHousekeeping) {
+  auto options = slow_options();
+  options.keep.count = 10;
+  start(options);
+  EXPECT_EQ(names_once(10).size(), 10U);
+}
+
+TEST_F(ManyEndedTest, AllAreMeasuredInOneRoundOfHousekeeping) {
+  start(slow_options());
+  store::JournalReader reader(data_folder() / "journal.sqlite");
+  for (int i = 0; i < 200 && !reader.jobs_to_measure(1).empty(); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  EXPECT_TRUE(reader.jobs_to_measure(1).empty());
 }
 
 TEST_F(RetentionTest, TimeWithoutADaemonMakesNothingOld) {
