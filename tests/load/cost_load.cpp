@@ -13,7 +13,7 @@
 namespace cellcrush::load {
 namespace {
 
-constexpr int kJobs = 60;  // of each kind in a round
+constexpr int kJobs = 100;  // of each kind in a round
 
 const char* unit_of(const std::string& figure) {
   if (figure.ends_with("_s")) return "s";

@@ -1,10 +1,12 @@
 #include "load/daemon_costs.h"
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 namespace cellcrush::load {
 namespace {
@@ -29,6 +31,13 @@ constexpr std::array<std::pair<const char*, double DaemonCosts::*>, 17> kFigures
     {"small_samples", &DaemonCosts::small_samples},
 }};
 
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> out;
+  std::istringstream row(line);
+  for (std::string cell; std::getline(row, cell, ',');) out.push_back(cell);
+  return out;
+}
+
 }  // namespace
 
 DaemonCosts costs_of(const std::map<std::string, double>& figures) {
@@ -42,17 +51,18 @@ DaemonCosts costs_of(const std::map<std::string, double>& figures) {
   return out;
 }
 
-DaemonCosts read_costs(const std::string& file) {
+DaemonCosts read_costs(const std::string& file, const std::string& column) {
   std::ifstream table(file);
-  std::map<std::string, double> medians;
-  for (std::string line; std::getline(table, line);) {
-    std::istringstream row(line);
-    std::string name;
-    std::string unit;
-    double median = 0.0;
-    if (std::getline(row, name, ',') && std::getline(row, unit, ',') && row >> median) medians[name] = median;
+  std::string line;
+  std::getline(table, line);
+  const auto names = cells_of(line);
+  const auto place = static_cast<std::size_t>(std::find(names.begin(), names.end(), column) - names.begin());
+  std::map<std::string, double> figures;
+  while (std::getline(table, line)) {
+    const auto cells = cells_of(line);
+    if (place < cells.size()) figures[cells.front()] = std::stod(cells[place]);
   }
-  return costs_of(medians);
+  return costs_of(figures);
 }
 
 }  // namespace cellcrush::load

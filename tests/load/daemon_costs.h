@@ -31,7 +31,7 @@ struct DaemonCosts {
 /// The costs by name. Throws std::runtime_error that names a missing figure, and the remedy.
 DaemonCosts costs_of(const std::map<std::string, double>& figures);
 
-/// Reads the column `median` of a table with the columns name, unit and median. Throws as costs_of.
-DaemonCosts read_costs(const std::string& file);
+/// Reads a column of a table by the name in its first line, such as "median". Throws as costs_of.
+DaemonCosts read_costs(const std::string& file, const std::string& column);
 
 }  // namespace cellcrush::load

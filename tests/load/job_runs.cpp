@@ -76,6 +76,8 @@ JobRuns run_jobs(const std::filesystem::path& folder, const v1::Case& submitted,
   if (daemon.wait_for_addresses(1).empty()) throw std::runtime_error("the daemon does not start");
   testing::Client client(address);
   JobRuns out;
+  // The daemon is done with its own start.
+  std::this_thread::sleep_for(std::chrono::seconds(1));
   const double journal = journal_bytes_in(journal_file);
   const double used = processor_time_of(daemon.number());
   v1::Sweep sweep;

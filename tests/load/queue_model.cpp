@@ -74,10 +74,9 @@ class Simulation {
     at(begin + seconds * speed_loss(), std::move(then));
   }
 
-  // Following the running jobs takes its share of the processors.
+  // Threads that follow running jobs share the processors with it.
   [[nodiscard]] double speed_loss() const {
-    const double free = 1.0 - following_cores() / std::max(1.0, workload_.daemon_cores);
-    return 1.0 / std::max(free, 0.01);
+    return std::max(1.0, (following_cores() + 1.0) / std::max(1.0, workload_.daemon_cores));
   }
 
   [[nodiscard]] double sample_rate() const { return running_ * workload_.samples / workload_.run_s; }

@@ -29,7 +29,8 @@ struct Outcome {
   double jobs_per_s = 0.0;
   double busy_share = 0.0;  ///< of the slots' time in which a solver ran
   double daemon_cpu_s = 0.0;
-  double daemon_cores = 0.0;      ///< mean processor use of the daemon
+  double daemon_cores =
+      0.0;  ///< mean number of processors that the daemon wants; more than it has: events lag without bound
   double journal_share = 0.0;     ///< of the time in which the journal's turn was taken
   double events_per_s = 0.0;      ///< states and samples
   double change_latency_s = 0.0;  ///< of a change of state, from its request until it is durable; mean

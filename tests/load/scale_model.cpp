@@ -38,11 +38,11 @@ constexpr std::array<Setting, 4> kSettings = {{{"1000 samples a job", 1000.0, 0,
                                                {"20 samples a job", 20.0, 0, 0.0},
                                                {"1000 samples, a start every 0.5 s (Slurm array)", 1000.0, 0, 0.5}}};
 
-// Five jobs a slot: a start together, then ends at all times.
+// Three jobs a slot: a start together, then ends at all times.
 Workload workload_of(const Setting& setting, double run_s, int slots) {
   Workload out;
   out.slots = slots;
-  out.jobs = std::max(5 * slots, 100);
+  out.jobs = std::max(3 * slots, 60);
   out.run_s = run_s;
   out.run_spread = kSpread;
   out.samples = setting.samples;
@@ -64,20 +64,32 @@ const char* first_full(const Setting& setting, const Outcome& outcome) {
   return outcome.journal_share > outcome.daemon_cores / kDaemonCores ? "journal" : "processor";
 }
 
+// Slots that would take more of the processors or of the journal's turn than there is; nothing needs to be simulated.
+bool is_beyond(const Workload& workload, const DaemonCosts& costs) {
+  const double jobs_per_s = workload.slots / (workload.run_s + costs.slot_gap_s);
+  const double samples_per_s = jobs_per_s * workload.samples;
+  const double cores = workload.slots * costs.follow_cpu_s + jobs_per_s * costs.job_cpu_s +
+                       samples_per_s * (costs.sample_cpu_s + workload.watchers * costs.watch_cpu_s);
+  const double turn = 2.0 * jobs_per_s * costs.change_s + samples_per_s * costs.sample_commit_s;
+  return kKeptBusy * std::max(cores / workload.daemon_cores, turn) > 1.0 ||
+         kKeptBusy * jobs_per_s * workload.start_interval_s > 1.0;
+}
+
+// By bisection; the ratio of its ends is then below 1.05.
 int find_limit(const Setting& setting, double run_s, const DaemonCosts& costs) {
-  const auto is_kept_busy = [&](int slots) {
-    const Workload workload = workload_of(setting, run_s, slots);
-    return share_of_ideal(workload, simulate(workload, costs)) >= kKeptBusy;
+  const auto is_kept_busy = [&](double slots) {
+    const Workload workload = workload_of(setting, run_s, static_cast<int>(slots));
+    return !is_beyond(workload, costs) && share_of_ideal(workload, simulate(workload, costs)) >= kKeptBusy;
   };
   if (is_kept_busy(kMostSlots)) return kMostSlots;
-  int low = 0;
-  int high = kMostSlots;
-  while (high - low > std::max(1, low / 50)) {
-    const int middle =
-        low < 8 ? (low + high) / (low == 0 && high > 64 ? 8 : 2) : static_cast<int>(std::sqrt(1.0 * low * high));
+  if (!is_kept_busy(1.0)) return 0;
+  double low = 1.0;
+  double high = kMostSlots;
+  while (high > 1.05 * low && high - low > 1.0) {
+    const double middle = std::sqrt(low * high);
     (is_kept_busy(middle) ? low : high) = middle;
   }
-  return low;
+  return static_cast<int>(low);
 }
 
 void write_limits(const DaemonCosts& costs, const std::string& table, const std::string& chart) {
@@ -98,6 +110,7 @@ void write_limits(const DaemonCosts& costs, const std::string& table, const std:
       std::sort(slots.begin(), slots.end());
       for (const int count : slots) {
         const Workload workload = workload_of(setting, run_s, count);
+        if (is_beyond(workload, costs)) continue;
         const Outcome outcome = simulate(workload, costs);
         const double per_hour = 3600.0 / outcome.makespan_s * 1e-6;
         out << fmt::format("\"{}\",{:g},{},{:.3f},{:.4g},{:.4g},{:.3g},{:.3g},{:.3g},{:.4g},{:.4g},{}\n", setting.name,
@@ -113,22 +126,36 @@ void write_limits(const DaemonCosts& costs, const std::string& table, const std:
   draw_limits(chart, curves, kMostSlots);
 }
 
-void predict(const DaemonCosts& costs, int jobs, int workers, double cores) {
-  const Outcome outcome = simulate(small_jobs(jobs, workers, cores, costs), costs);
-  fmt::print("what,predicted\nmakespan_s,{:.1f}\ndaemon_cpu_s,{:.2f}\njournal_mb,{:.3f}\nresults_mb,{:.3f}\n",
-             outcome.makespan_s, outcome.daemon_cpu_s, 1e-6 * outcome.journal_bytes, 1e-6 * outcome.result_bytes);
-  fmt::print("events_per_s,{:.1f}\njournal_share,{:.3f}\nchange_latency_ms,{:.2f}\n", outcome.events_per_s,
-             outcome.journal_share, 1e3 * outcome.change_latency_s);
+// From the medians of the figures, and from all that were lowest and greatest.
+void predict(const std::string& figures, int jobs, int workers, double cores) {
+  constexpr std::array<const char*, 3> kColumns = {"median", "lowest", "greatest"};
+  std::array<Outcome, 3> outcomes;
+  std::transform(kColumns.begin(), kColumns.end(), outcomes.begin(), [&](const char* column) {
+    const DaemonCosts costs = read_costs(figures, column);
+    return simulate(small_jobs(jobs, workers, cores, costs), costs);
+  });
+  const auto print = [&](const char* what, double Outcome::*value, double factor) {
+    fmt::print("{}", what);
+    for (const auto& outcome : outcomes) fmt::print(",{:.4g}", factor * outcome.*value);
+    fmt::print("\n");
+  };
+  fmt::print("what,of_medians,of_lowest,of_greatest\n");
+  print("makespan_s", &Outcome::makespan_s, 1.0);
+  print("daemon_cpu_s", &Outcome::daemon_cpu_s, 1.0);
+  print("journal_mb", &Outcome::journal_bytes, 1e-6);
+  print("results_mb", &Outcome::result_bytes, 1e-6);
+  print("events_per_s", &Outcome::events_per_s, 1.0);
+  print("journal_share", &Outcome::journal_share, 1.0);
+  print("change_latency_ms", &Outcome::change_latency_s, 1e3);
 }
 
 int work(const std::vector<std::string>& words) {
   if (words.size() == 5 && words[1] == "predict") {
-    predict(read_costs(words[0]), std::atoi(words[2].c_str()), std::atoi(words[3].c_str()),
-            std::atof(words[4].c_str()));
+    predict(words[0], std::atoi(words[2].c_str()), std::atoi(words[3].c_str()), std::atof(words[4].c_str()));
     return 0;
   }
   if (words.size() == 4 && words[1] == "limits") {
-    write_limits(read_costs(words[0]), words[2], words[3]);
+    write_limits(read_costs(words[0], "median"), words[2], words[3]);
     return 0;
   }
   fmt::print(stderr,
