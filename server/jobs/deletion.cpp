@@ -12,6 +12,14 @@ namespace {
 
 constexpr std::size_t kJobsAtOnce = 200;
 
+void for_each_batch(const std::vector<std::int64_t>& jobs,
+                    const std::function<void(const std::vector<std::int64_t>& batch)>& act) {
+  for (std::size_t first = 0; first < jobs.size(); first += kJobsAtOnce) {
+    const auto begin = jobs.begin() + static_cast<std::ptrdiff_t>(first);
+    act({begin, begin + static_cast<std::ptrdiff_t>(std::min(kJobsAtOnce, jobs.size() - first))});
+  }
+}
+
 }  // namespace
 
 void Deletion::delete_job(std::int64_t job) const {
@@ -20,11 +28,7 @@ void Deletion::delete_job(std::int64_t job) const {
 }
 
 void Deletion::delete_jobs(const std::vector<std::int64_t>& jobs) const {
-  for (std::size_t first = 0; first < jobs.size(); first += kJobsAtOnce) {
-    const auto begin = jobs.begin() + static_cast<std::ptrdiff_t>(first);
-    const auto end = begin + static_cast<std::ptrdiff_t>(std::min(kJobsAtOnce, jobs.size() - first));
-    remove_folders(parts_.journal.delete_ended({begin, end}));
-  }
+  for_each_batch(jobs, [this](const auto& batch) { remove_folders(parts_.journal.delete_ended(batch)); });
 }
 
 void Deletion::delete_sweep(std::int64_t sweep, const std::function<bool()>& given_up) const {
@@ -37,6 +41,9 @@ void Deletion::delete_sweep(std::int64_t sweep, const std::function<bool()>& giv
 
 void Deletion::finish_sweeps(const std::function<bool()>& given_up) const {
   for (const std::int64_t sweep : parts_.sweeps.sweeps_in_deletion()) {
+    if (parts_.journal.is_being_created(sweep)) continue;
+    // The jobs of an interrupted creation still wait.
+    for_each_batch(parts_.sweeps.jobs_of(sweep), [this](const auto& batch) { parts_.journal.cancel_waiting(batch); });
     if (!remove_sweep(sweep, given_up)) return;
   }
 }

@@ -7,6 +7,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -74,9 +75,17 @@ class Journal {
     std::vector<std::int64_t> jobs;  ///< in the order given; empty unless is_new
     bool is_new = true;
   };
-  /// Creates a sweep and all its jobs, PENDING, or nothing. The request_id works as in create_job, among sweeps.
+  /// Creates a sweep and all its jobs, PENDING, or nothing. The request_id works as in create_job, among sweeps. The jobs
+  /// of a large sweep come in several transactions, between which others write. The sweep stays hidden until the last:
+  /// one whose creation was interrupted is left to Deletion::finish_sweeps.
   CreatedSweep create_sweep(v1::Sweep sweep, const std::vector<SweepJob>& jobs, const std::string& request_id,
                             const std::string& request_hash, const Admit& admit = {});
+
+  /// Whether create_sweep is adding jobs to this hidden sweep.
+  [[nodiscard]] bool is_being_created(std::int64_t sweep) const;
+
+  /// Jobs of a sweep that one transaction creates.
+  static constexpr std::size_t kCreatedAtOnce = 5000;
 
   /// Creates new PENDING jobs for those of the sweep that FAILED or were cancelled by max_failures. They replace the
   /// old jobs, which stay as jobs without a sweep. Returns the new jobs in the order of the points.
@@ -151,6 +160,8 @@ class Journal {
   /// errors of create_job.
   std::optional<std::int64_t> find_request(const std::string& collection, const std::string& owner,
                                            const std::string& request_id, const std::string& request_hash);
+  /// Adds the next jobs of a sweep, at most kCreatedAtOnce.
+  void insert_jobs(CreatedSweep& created, const std::vector<SweepJob>& jobs);
   void write_change(std::int64_t job, const StateChange& change);
   std::vector<std::int64_t> stop_failing_sweep(std::int64_t failed_job);
   std::vector<std::int64_t> jobs_of_sweep_in(std::int64_t sweep, v1::Job::State state);
@@ -170,6 +181,7 @@ class Journal {
   static constexpr auto kNothingIsDue = std::chrono::steady_clock::time_point::max();
   using Gathered = std::map<std::int64_t, std::vector<GatheredSample>>;
   class Taking;
+  class Creation;
   /// Takes all gathered samples, or those of one job.
   Gathered take_gathered(std::optional<std::int64_t> job);
   void give_back(Gathered&& samples);
@@ -179,6 +191,8 @@ class Journal {
   ServiceClock clock_;
   Epoch epoch_;
   GroupCommit writes_;  ///< every access to database_
+  mutable Mutex creations_mutex_;
+  std::set<std::int64_t> creations_ CELLCRUSH_GUARDED_BY(creations_mutex_);  ///< sweeps that create_sweep is adding
   Mutex gather_mutex_;
   Gathered gathered_ CELLCRUSH_GUARDED_BY(gather_mutex_);  ///< samples that no thread is committing yet, by job
   /// Number of writers that may hold samples which are not durable yet.

@@ -1,8 +1,10 @@
 // How sweeps are added to the journal, and operations on several of their jobs.
 #include <google/protobuf/util/time_util.h>
 
+#include <algorithm>
 #include <utility>
 
+#include "store/change_reader.h"
 #include "store/job_inserter.h"
 #include "store/journal.h"
 #include "store/resource_name.h"
@@ -16,6 +18,13 @@ std::string sweep_bytes(v1::Sweep sweep) {
   sweep.clear_jobs();
   sweep.clear_state_counts();
   return sweep.SerializeAsString();
+}
+
+void note_request(Database& database, std::int64_t sweep, const std::string& request_id,
+                  const std::string& request_hash) {
+  if (request_id.empty()) return;
+  Statement note(database, "UPDATE sweeps SET request_id = ?2, request_hash = ?3 WHERE number = ?1");
+  note.bind(1, sweep).bind_text(2, request_id).bind_text(3, request_hash).run();
 }
 
 // The outcome of a waiting job whose sweep has failed too often.
@@ -66,10 +75,40 @@ std::vector<Retry> jobs_to_retry(Database& database, std::int64_t sweep) {
 
 }  // namespace
 
+/// Marks a sweep whose creation takes several transactions, until the last has ended.
+class Journal::Creation {
+ public:
+  explicit Creation(Journal& journal) : journal_(journal) {}
+  ~Creation() {
+    const MutexLock lock(journal_.creations_mutex_);
+    journal_.creations_.erase(sweep_);
+  }
+  Creation(const Creation&) = delete;
+  Creation& operator=(const Creation&) = delete;
+
+  /// Before the sweep is in the journal.
+  void begin(std::int64_t sweep) {
+    sweep_ = sweep;
+    const MutexLock lock(journal_.creations_mutex_);
+    journal_.creations_.insert(sweep);
+  }
+
+ private:
+  Journal& journal_;
+  std::int64_t sweep_ = 0;
+};
+
+bool Journal::is_being_created(std::int64_t sweep) const {
+  const MutexLock lock(creations_mutex_);
+  return creations_.contains(sweep);
+}
+
 Journal::CreatedSweep Journal::create_sweep(v1::Sweep sweep, const std::vector<SweepJob>& jobs,
                                             const std::string& request_id, const std::string& request_hash,
                                             const Admit& admit) {
   CreatedSweep created;
+  Creation creation(*this);
+  const bool in_parts = jobs.size() > kCreatedAtOnce;
   writes_.run([&] {
     if (const auto before = find_request("sweeps", sweep.owner(), request_id, request_hash)) {
       created = {*before, {}, false};
@@ -78,31 +117,53 @@ Journal::CreatedSweep Journal::create_sweep(v1::Sweep sweep, const std::vector<S
     if (admit) admit();
     *sweep.mutable_create_time() = google::protobuf::util::TimeUtil::GetCurrentTime();
     Statement insert(database_,
-                     "INSERT INTO sweeps (sweep, max_parallel, request_id, request_hash, max_failures, owner) "
-                     "VALUES (?1, ?2, ?3, ?4, ?5, ?6)");
-    insert.bind_text(6, sweep.owner());
-    insert.bind_blob(1, sweep_bytes(sweep)).bind(2, sweep.max_parallel()).bind(5, sweep.max_failures());
-    if (!request_id.empty()) insert.bind_text(3, request_id).bind_text(4, request_hash);
-    insert.run();
+                     "INSERT INTO sweeps (sweep, max_parallel, max_failures, owner, deleting) "
+                     "VALUES (?1, ?2, ?3, ?4, ?5)");
+    insert.bind_blob(1, sweep_bytes(sweep)).bind(2, sweep.max_parallel()).bind(3, sweep.max_failures());
+    insert.bind_text(4, sweep.owner()).bind(5, in_parts ? 1 : 0).run();
     created.sweep = database_.last_number();
-    JobInserter inserter(database_);
-    Statement join(database_, "INSERT INTO sweep_jobs (sweep, position, job, point) VALUES (?1, ?2, ?3, ?4)");
-    JobEntry entry;
-    for (const auto& made : jobs) {
-      v1::SweepTable::Row point;
-      point.mutable_values()->Add(made.values.begin(), made.values.end());
-      const auto position = static_cast<std::int64_t>(created.jobs.size());
-      entry.element_steps = made.element_steps;
-      v1::Job job = made.job;
-      job.set_sweep(sweep_name_of(created.sweep));
-      created.jobs.push_back(inserter.insert(std::move(job), entry));
-      entry.submission = created.jobs.front();
-      join.bind(1, created.sweep).bind(2, position).bind(3, created.jobs.back());
-      join.bind_blob(4, point.SerializeAsString()).run();
-    }
+    if (in_parts) creation.begin(created.sweep);
+    insert_jobs(created, jobs);
+    if (!in_parts) note_request(database_, created.sweep, request_id, request_hash);
   });
+  while (created.is_new && created.jobs.size() < jobs.size()) {
+    writes_.run([&] { insert_jobs(created, jobs); });
+  }
+  if (created.is_new && in_parts) {
+    writes_.run([&] {
+      // The same request may have come twice at once. The sweep of the second stays hidden and is deleted.
+      if (const auto before = find_request("sweeps", sweep.owner(), request_id, request_hash)) {
+        created = {*before, {}, false};
+        return;
+      }
+      note_request(database_, created.sweep, request_id, request_hash);
+      Statement(database_, "UPDATE sweeps SET deleting = 0 WHERE number = ?1").bind(1, created.sweep).run();
+      Statement note(database_, "INSERT INTO changes (kind, resource, sequence) VALUES (?1, ?2, 0)");
+      note.bind(1, static_cast<std::int64_t>(ChangeKind::sweep_changed)).bind(2, created.sweep).run();
+    });
+  }
   for (const std::int64_t job : created.jobs) on_durable_(job);
   return created;
+}
+
+void Journal::insert_jobs(CreatedSweep& created, const std::vector<SweepJob>& jobs) {
+  JobInserter inserter(database_);
+  Statement join(database_, "INSERT INTO sweep_jobs (sweep, position, job, point) VALUES (?1, ?2, ?3, ?4)");
+  const std::size_t end = std::min(created.jobs.size() + kCreatedAtOnce, jobs.size());
+  JobEntry entry;
+  while (created.jobs.size() < end) {
+    const auto position = static_cast<std::int64_t>(created.jobs.size());
+    const SweepJob& made = jobs[created.jobs.size()];
+    v1::SweepTable::Row point;
+    point.mutable_values()->Add(made.values.begin(), made.values.end());
+    entry.element_steps = made.element_steps;
+    if (!created.jobs.empty()) entry.submission = created.jobs.front();
+    v1::Job job = made.job;
+    job.set_sweep(sweep_name_of(created.sweep));
+    created.jobs.push_back(inserter.insert(std::move(job), entry));
+    join.bind(1, created.sweep).bind(2, position).bind(3, created.jobs.back());
+    join.bind_blob(4, point.SerializeAsString()).run();
+  }
 }
 
 std::vector<QueuedJob> Journal::retry_failed(std::int64_t sweep, const AdmitMany& admit) {

@@ -1,4 +1,5 @@
-// The waiting and running jobs, with what the scheduler needs.
+// The waiting and running jobs, with what the scheduler needs. Those of a hidden sweep belong to an interrupted creation
+// and do not run.
 #include <string>
 
 #include "store/journal_reader.h"
@@ -9,7 +10,7 @@ namespace {
 constexpr const char* kSelectQueued =
     "SELECT jobs.number, COALESCE(jobs.submission, jobs.number), jobs.priority, jobs.element_steps, sweeps.number, "
     "sweeps.max_parallel, jobs.owner, jobs.executor FROM jobs LEFT JOIN sweep_jobs ON sweep_jobs.job = jobs.number "
-    "LEFT JOIN sweeps ON sweeps.number = sweep_jobs.sweep WHERE jobs.state = ?1 ";
+    "LEFT JOIN sweeps ON sweeps.number = sweep_jobs.sweep WHERE jobs.state = ?1 AND sweeps.deleting IS NOT 1 ";
 
 std::string executor_in(const std::string& column) { return column.empty() ? kLocalExecutor : column; }
 

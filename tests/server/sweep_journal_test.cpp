@@ -1,9 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <vector>
 
 #include "error.h"
+#include "jobs/deletion.h"
 #include "server/journal_fixture.h"
+#include "store/data_folder.h"
 #include "store/journal_check.h"
 #include "store/sweep_reader.h"
 
@@ -140,6 +143,57 @@ TEST_F(SweepJournalTest, WaitingJobsAreCancelledTogetherAndDeletedOnesLeaveTheSw
   EXPECT_EQ(reader_->queued_jobs(v1::Job::RUNNING).size(), 1U);
   journal_->delete_job(made.jobs[0]);
   EXPECT_EQ(SweepReader(path()).jobs_of(made.sweep), (std::vector<std::int64_t>{made.jobs[1], made.jobs[2]}));
+}
+
+class LargeSweepTest : public SweepJournalTest {
+ protected:
+  static std::vector<SweepJob> jobs(std::size_t count) { return std::vector<SweepJob>(count, three_jobs().front()); }
+};
+
+// In one commit all other writers would wait for all of its jobs: 100,000 take 2 to 5 s.
+TEST_F(LargeSweepTest, ALargeSweepComesInSeveralCommitsAndIsHiddenUntilTheLast) {
+  journal_.reset();
+  std::optional<Journal> journal;
+  SweepReader* sweeps = nullptr;
+  std::vector<bool> hidden;
+  journal.emplace(
+      path(), [](std::int64_t) {},
+      [&](double) {
+        if (sweeps == nullptr) return;
+        hidden.push_back(journal->is_being_created(1) && !sweeps->find_sweep(1) &&
+                         reader_->queued_jobs(v1::Job::PENDING).empty());
+      });
+  SweepReader reading(path());
+  sweeps = &reading;
+  const auto made = journal->create_sweep({}, jobs(2 * Journal::kCreatedAtOnce + 1), "id", "hash");
+  sweeps = nullptr;
+  EXPECT_EQ(hidden, (std::vector<bool>{true, true, true, false}));
+  EXPECT_FALSE(journal->is_being_created(made.sweep));
+  const auto queued = reader_->queued_jobs(v1::Job::PENDING);
+  ASSERT_EQ(queued.size(), made.jobs.size());
+  EXPECT_EQ(queued.back().submission, made.jobs.front());
+  EXPECT_EQ(reading.jobs_of(made.sweep), made.jobs);
+  EXPECT_EQ(journal->create_sweep({}, jobs(2 * Journal::kCreatedAtOnce + 1), "id", "hash").sweep, made.sweep);
+}
+
+TEST_F(LargeSweepTest, WhatAnInterruptedCreationLeavesNeverRunsAndIsDeleted) {
+  Database(path()).execute(
+      "CREATE TRIGGER fail BEFORE INSERT ON sweep_jobs WHEN new.position = 7000 BEGIN SELECT RAISE(ABORT, 'no'); END");
+  EXPECT_THROW(journal_->create_sweep({}, jobs(12'000), "id", "hash"), ServiceError);
+  Database(path()).execute("DROP TRIGGER fail");
+  reopen();
+  SweepReader sweeps(path());
+  EXPECT_FALSE(sweeps.find_sweep(1));
+  EXPECT_TRUE(reader_->queued_jobs(v1::Job::PENDING).empty());
+  EXPECT_EQ(sweeps.jobs_of(1).size(), Journal::kCreatedAtOnce);
+  const auto again = journal_->create_sweep({}, three_jobs(), "id", "hash");
+  EXPECT_TRUE(again.is_new) << "The interrupted request has left no id.";
+  const DataFolder folder(folder_.path());
+  cellcrush::jobs::Deletion({folder, *journal_, *reader_, sweeps}).finish_sweeps([] { return false; });
+  EXPECT_TRUE(sweeps.sweeps_in_deletion().empty());
+  EXPECT_TRUE(sweeps.jobs_of(1).empty());
+  EXPECT_EQ(reader_->queued_jobs(v1::Job::PENDING).size(), again.jobs.size());
+  EXPECT_FALSE(reader_->has_job(1));
 }
 
 }  // namespace
