@@ -36,7 +36,8 @@ class Deletion {
   /// that have not ended, or cancelled once `given_up` returns true.
   void delete_sweep(std::int64_t sweep, const std::function<bool()>& given_up) const;
 
-  /// Completes the deletion of sweeps, and deletes those whose creation was interrupted. Returns early once `given_up` returns true.
+  /// Completes the deletion of sweeps, and deletes those whose creation was interrupted. Returns early once `given_up`
+  /// returns true.
   void finish_sweeps(const std::function<bool()>& given_up) const;
 
   /// Removes folders that earlier deletions left behind.

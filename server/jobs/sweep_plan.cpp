@@ -22,8 +22,8 @@ constexpr std::size_t kLongestTitle = 200;                 // of a case, in byte
 constexpr std::size_t kMostCaseBytes = 256 * 1024 * 1024;  // of all cases of a sweep
 // Checked before merging the problems, which may be numerous.
 constexpr std::size_t kPointsAtOnce = 64;
-// Of the sweep with the names of its jobs, each of up to this many bytes: the daemon returns both in one message, which a
-// client accepts up to 4 MiB. It then has room for the other fields.
+// Of the sweep with the names of its jobs, each of up to this many bytes: the daemon returns both in one message, which
+// a client accepts up to 4 MiB. It then has room for the other fields.
 constexpr std::size_t kMostNamedBytes = 4'190'000;
 constexpr std::size_t kNameBytes = 17;
 constexpr std::size_t kMostLabelBytes = 16 * 1024 * 1024;  // of the labels of all its jobs

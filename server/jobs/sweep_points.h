@@ -21,7 +21,8 @@ struct SweepPoints {
 std::vector<std::string> swept_fields(const v1::Sweep& sweep);
 
 /// All points of a sweep: either every combination of its axes' values, the last axis varying fastest, where axes that
-/// advance together count as one, or its explicit points. Throws InvalidField if axes or points are invalid, or exceed kMostPoints.
+/// advance together count as one, or its explicit points. Throws InvalidField if axes or points are invalid, or exceed
+/// kMostPoints.
 SweepPoints expand(const v1::Sweep& sweep);
 
 }  // namespace cellcrush::jobs

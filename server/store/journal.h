@@ -75,9 +75,9 @@ class Journal {
     std::vector<std::int64_t> jobs;  ///< in the order given; empty unless is_new
     bool is_new = true;
   };
-  /// Creates a sweep and all its jobs, PENDING, or nothing. The request_id works as in create_job, among sweeps. The jobs
-  /// of a large sweep come in several transactions, between which others write. The sweep stays hidden until the last:
-  /// one whose creation was interrupted is left to Deletion::finish_sweeps.
+  /// Creates a sweep and all its jobs, PENDING, or nothing. The request_id works as in create_job, among sweeps. The
+  /// jobs of a large sweep come in several transactions, between which others write. The sweep stays hidden until the
+  /// last: one whose creation was interrupted is left to Deletion::finish_sweeps.
   CreatedSweep create_sweep(v1::Sweep sweep, const std::vector<SweepJob>& jobs, const std::string& request_id,
                             const std::string& request_hash, const Admit& admit = {});
 

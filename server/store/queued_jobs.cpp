@@ -1,5 +1,5 @@
-// The waiting and running jobs, with what the scheduler needs. Those of a hidden sweep belong to an interrupted creation
-// and do not run.
+// The waiting and running jobs, with what the scheduler needs. Those of a hidden sweep belong to an interrupted
+// creation and do not run.
 #include <string>
 
 #include "store/journal_reader.h"

@@ -19,8 +19,8 @@ struct JobRuns {
   double events = 0.0;  ///< states and samples
 };
 
-/// Starts a daemon with so many workers in `folder`, queues the jobs as one sweep over the seed, which changes nothing in
-/// a case without imperfection, and waits for their end. Throws std::runtime_error if one does not succeed.
+/// Starts a daemon with so many workers in `folder`, queues the jobs as one sweep over the seed, which changes nothing
+/// in a case without imperfection, and waits for their end. Throws std::runtime_error if one does not succeed.
 JobRuns run_jobs(const std::filesystem::path& folder, const v1::Case& submitted, int jobs, int workers);
 
 /// Bytes of the pages in use of a journal, with what is in its log.

@@ -41,8 +41,8 @@ struct Outcome {
 
 /// Simulates the queue by events: a slot takes a job, the daemon starts its worker, the change to RUNNING waits for the
 /// journal's turn, the job runs, and its end is written likewise. All writes that wait share the next commit
-/// (store/group_commit.h). Samples are committed once a second. Deterministic for a seed. REQUIRES: positive jobs, slots
-/// and run_s.
+/// (store/group_commit.h). Samples are committed once a second. Deterministic for a seed. REQUIRES: positive jobs,
+/// slots and run_s.
 Outcome simulate(const Workload& workload, const DaemonCosts& costs);
 
 }  // namespace cellcrush::load

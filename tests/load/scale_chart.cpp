@@ -1,5 +1,8 @@
 #include "load/scale_chart.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "bench/picture_file.h"
 #include "chart/chart.h"
 #include "chart/palette.h"
@@ -13,10 +16,14 @@ constexpr double kMargin = 12.0;
 
 }  // namespace
 
-void draw_limits(const std::string& file, const std::vector<LimitCurve>& curves, double most_slots) {
+void draw_limits(const std::string& file, const std::vector<LimitCurve>& curves) {
+  double most_slots = 1.0;
+  for (const auto& curve : curves) {
+    for (const double slots : curve.slots) most_slots = std::max(most_slots, slots);
+  }
   client::Chart chart;
   chart.x = {0.8, 4500.0, "run time of a job (s)", true};
-  chart.y = {1.0, 1.5 * most_slots, "slots that one daemon keeps 90 % busy", true};
+  chart.y = {0.8, 2.0 * most_slots, "slots that one daemon keeps 90 % busy", true};
   for (std::size_t i = 0; i < curves.size(); ++i) {
     client::Curve curve;
     curve.x = curves[i].run_s;

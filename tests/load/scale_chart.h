@@ -12,8 +12,8 @@ struct LimitCurve {
   std::vector<double> slots;
 };
 
-/// Draws the curves into a file .svg or .png. Throws std::invalid_argument on another name, std::runtime_error when it
-/// cannot be written.
-void draw_limits(const std::string& file, const std::vector<LimitCurve>& curves, double most_slots);
+/// Draws the curves, at least one of which has a point, into a file .svg or .png. Throws std::invalid_argument on
+/// another name, std::runtime_error when it cannot be written.
+void draw_limits(const std::string& file, const std::vector<LimitCurve>& curves);
 
 }  // namespace cellcrush::load

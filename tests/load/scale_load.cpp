@@ -25,6 +25,7 @@ using testing::Client;
 
 constexpr std::chrono::seconds kLongestCall{600};
 constexpr const char* kSweep = "sweeps/1";
+constexpr int kInFront = 20;  // jobs of about a minute
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
@@ -90,7 +91,8 @@ void occupy(Client& client) {
   *request.mutable_case_() = testing::endless_case();
   request.set_priority(100);
   v1::Job job;
-  for (int i = 0; i < 20; ++i) report_failure("CreateJob", client.jobs->CreateJob(context().get(), request, &job));
+  for (int i = 0; i < kInFront; ++i)
+    report_failure("CreateJob", client.jobs->CreateJob(context().get(), request, &job));
   client.wait_for_state("jobs/1", v1::Job::RUNNING);
 }
 
@@ -259,7 +261,8 @@ void cancel(Measured& daemon, Client& client, CallProbe& probe) {
 void retain(const std::filesystem::path& folder) {
   Measured daemon(folder, {"--keep-ended-count", "10"});
   daemon.print_start("the jobs ended and --keep-ended-count");
-  CallProbe probe(daemon.address(), "jobs/1");
+  // The last job in front has not ended, and is not deleted.
+  CallProbe probe(daemon.address(), "jobs/" + std::to_string(kInFront));
   Client client(daemon.address());
   const auto start = Clock::now();
   v1::ListJobsRequest request;

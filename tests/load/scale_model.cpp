@@ -123,7 +123,7 @@ void write_limits(const DaemonCosts& costs, const std::string& table, const std:
   }
   out.flush();
   if (!out) throw std::runtime_error(table + " cannot be written; give a file in a folder that exists.");
-  draw_limits(chart, curves, kMostSlots);
+  draw_limits(chart, curves);
 }
 
 // From the medians of the figures, and from all that were lowest and greatest.
