@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "jobs/executor.h"
+#include "jobs/report_feed.h"
 #include "jobs/worker_process.h"
-#include "worker/report_log.h"
 
 namespace cellcrush::jobs {
 
@@ -23,31 +23,24 @@ class WorkerFollower {
   /// Delivers the reports of earlier workers. Returns the final report, if the last worker made one. False if a report
   /// is malformed.
   bool catch_up();
-  [[nodiscard]] const std::optional<worker::Final>& last_word() const { return final_; }
+  [[nodiscard]] const std::optional<worker::Final>& last_word() const { return feed_.last_word(); }
 
   /// Follows a worker until it has ended.
   WorkerExit follow(WorkerProcess& process);
 
  private:
   using Clock = std::chrono::steady_clock;
-  enum class Reading { nothing_new, something_new, broken };
 
-  Reading read_reports(bool live);
   void wait(const WorkerProcess& process) const;
   void forward_requests(const WorkerProcess& process);
-  bool is_stalled(const WorkerProcess& process, Reading reading);
-  void report_stall();
+  bool is_stalled(const WorkerProcess& process, ReportFeed::Reading reading);
   WorkerExit exit_of(WorkerProcess& process, WorkerExit::Kind ended_for) const;
 
   const WorkerEvents& events_;
   const Interruptions& interruptions_;
   std::chrono::milliseconds stall_limit_;
   int requested_ = -1;  ///< eventfd, readable once there is a request
-  worker::ReportLogReader reader_;
-  worker::Report report_;  ///< the current report; its memory is reused
-  std::optional<worker::Final> final_;
-  v1::Progress progress_;  ///< the newest
-  bool acknowledged_ = false;
+  ReportFeed feed_;
   std::optional<Clock::time_point> limit_;  ///< when to kill a worker that has received a request
   bool told_to_leave_ = false;
   bool told_to_end_ = false;

@@ -111,18 +111,35 @@ ReportLogReader::Read ReportLogReader::nothing_whole() {
   return Read::end;
 }
 
-ReportLogReader::Read ReportLogReader::read(Report& report) {
+ReportLogReader::Read ReportLogReader::next_record(std::uint32_t& size) {
   if (!fill(kHead)) return nothing_whole();
-  const std::uint32_t size = number_at(buffer_.data() + taken_);
+  size = number_at(buffer_.data() + taken_);
   if (size > kLargest) return Read::broken;
   if (!fill(kHead + size)) return nothing_whole();
   const char* record = buffer_.data() + taken_;
-  const char* message = record + kHead;
-  if (checksum_of(message, size) != number_at(record + 4)) return Read::broken;
-  if (!report.ParseFromArray(message, static_cast<int>(size))) return Read::broken;
+  return checksum_of(record + kHead, size) == number_at(record + 4) ? Read::message : Read::broken;
+}
+
+ReportLogReader::Read ReportLogReader::read(Report& report) {
+  std::uint32_t size = 0;
+  const Read out = next_record(size);
+  if (out != Read::message) return out;
+  if (!report.ParseFromArray(buffer_.data() + taken_ + kHead, static_cast<int>(size))) return Read::broken;
   taken_ += kHead + size;
   offset_ += kHead + size;
   return Read::message;
+}
+
+bool ReportLogReader::read_record(std::string& bytes) {
+  std::uint32_t size = 0;
+  if (next_record(size) != Read::message) {
+    nothing_whole();
+    return false;
+  }
+  bytes.append(buffer_, taken_, kHead + size);
+  taken_ += kHead + size;
+  offset_ += kHead + size;
+  return true;
 }
 
 }  // namespace cellcrush::worker

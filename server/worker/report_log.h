@@ -34,7 +34,7 @@ class ReportLog {
   std::uint64_t size_ = 0;
 };
 
-/// Reads a log from its start.
+/// Reads a log, from its start unless told otherwise.
 class ReportLogReader {
  public:
   /// Throws ServiceError if the file does not exist.
@@ -50,11 +50,19 @@ class ReportLogReader {
   };
   Read read(Report& report);
 
+  /// Appends the next record to `bytes`, with its length and checksum. False if no complete and intact one is available.
+  bool read_record(std::string& bytes);
+
+  /// Continues at this offset, which is that of a record. REQUIRES: nothing was read.
+  void start_at(std::uint64_t offset) { offset_ = offset; }
+
   /// Offset after the last record.
   [[nodiscard]] std::uint64_t offset() const { return offset_; }
 
  private:
   bool fill(std::size_t size);
+  /// Makes the next record available at taken_.
+  Read next_record(std::uint32_t& size);
   /// Whether the file has this many bytes after offset_.
   [[nodiscard]] bool is_so_long(std::size_t size) const;
   Read nothing_whole();
