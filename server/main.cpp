@@ -6,6 +6,8 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -22,6 +24,7 @@
 #include "daemon.h"
 #include "log_format.h"
 #include "revision.h"
+#include "slurm/task.h"
 #include "worker/worker_main.h"
 
 namespace {
@@ -121,6 +124,18 @@ int main(int argc, char** argv) {
   std::filesystem::path job_folder;
   CLI::App* worker = app.add_subcommand("worker")->group("");
   worker->add_option("--folder", job_folder)->required();
+  bool ends_with_parent = false;
+  worker->add_flag("--end-with-parent", ends_with_parent);
+  // For the script of a Slurm job.
+  cellcrush::slurm::TaskOptions task_options;
+  double lease_seconds = 300.0;
+  CLI::App* task = app.add_subcommand("task")->group("");
+  task->add_option("--folder", task_options.folder);
+  task->add_option("--batch", task_options.batch);
+  task->add_option("--daemon", task_options.network.daemon);
+  task->add_option("--ca", task_options.network.authority);
+  task->add_option("--cluster", task_options.cluster);
+  task->add_option("--lease", lease_seconds);
   app.footer(kFooter);  // last, since commands inherit the settings of the program
   try {
     app.parse(argc, argv);
@@ -134,11 +149,15 @@ int main(int argc, char** argv) {
   if (token->parsed()) return print_token(token_name, token_scope);
   if (!choose_kernel()) return 2;
   umask(0077);
-  if (worker->parsed()) cellcrush::worker::worker_main(job_folder);
+  if (worker->parsed()) cellcrush::worker::worker_main(job_folder, ends_with_parent);
   cellcrush::DaemonOptions options = flags.options();
   spdlog::set_default_logger(spdlog::stderr_color_mt("cellcrushd"));
   spdlog::set_formatter(flags.log_format() == "json" ? cellcrush::make_json_formatter()
                                                      : cellcrush::make_text_formatter());
+  if (task->parsed()) {
+    task_options.lease = std::chrono::milliseconds(std::llround(1000.0 * lease_seconds));
+    return cellcrush::slurm::run_task(task_options);
+  }
   if (store_commands.given()) return store_commands.run(options.data_folder);
   if (options.data_folder.empty()) {
     std::fprintf(stderr, "cellcrushd: neither XDG_DATA_HOME nor HOME is set. Give a data folder with --data.\n");

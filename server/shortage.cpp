@@ -18,6 +18,7 @@ const char* name_of(Shortage shortage) {
     case Shortage::data_folder: return "data_folder";
     case Shortage::journal: return "journal";
     case Shortage::worker: return "worker";
+    case Shortage::cluster: return "cluster";
   }
   return "none";
 }
@@ -31,6 +32,7 @@ const char* remedy_for(Shortage shortage) {
     case Shortage::memory: return "Free memory, or raise the limits on memory and processes (ulimit -v, ulimit -u).";
     case Shortage::data_folder: return "Make the data folder readable and writable for the daemon's user.";
     case Shortage::journal: return "Stop the program that locks journal.sqlite, and check the disk for faults.";
+    case Shortage::cluster: return "Check the cluster with sinfo, and the options of --slurm.";
     case Shortage::worker: return "Reinstall cellcrushd at the path it was started from, readable and executable.";
   }
   return "";

@@ -17,11 +17,12 @@ enum class Shortage {
   data_folder,  ///< the folder is unreadable or not writable
   journal,      ///< the SQLite file is locked or not writable
   worker,       ///< the worker program cannot start
+  cluster,      ///< the cluster takes no jobs
 };
 
 inline constexpr std::array kShortages = {Shortage::low_disk, Shortage::full_disk,   Shortage::descriptors,
                                           Shortage::memory,   Shortage::data_folder, Shortage::journal,
-                                          Shortage::worker};
+                                          Shortage::worker,   Shortage::cluster};
 
 /// "full_disk".
 const char* name_of(Shortage shortage);

@@ -5,6 +5,7 @@
 #include <stop_token>
 #include <string>
 
+#include "shortage.h"
 #include "store/job_folder.h"
 #include "worker/report.pb.h"
 
@@ -22,11 +23,16 @@ struct WorkerExit {
     stopped,      ///< checkpointed the job because the daemon ends or the disk is nearly full
     suspended,    ///< checkpointed the job because it is suspended
     cancelled,    ///< the job was cancelled; the worker ended, or was killed after a timeout
+    left,         ///< the daemon ends; the worker keeps running, and the next daemon adopts it
+    displaced,    ///< the cluster ended the worker for a reason of its own: `detail`
+    withdrawn,    ///< somebody cancelled the worker in the cluster: `detail`
   };
   Kind kind = Kind::exited;
   int code = 0;
   bool out_of_memory = false;          ///< the worker was killed while the kernel reported an OOM kill
   std::optional<worker::Final> final;  ///< its last report, if any
+  std::string detail;                  ///< what happened, as a sentence, where the kind does not say it
+  Trouble trouble;                     ///< with not_started: what the executor lacks; `code` then does not count
 };
 
 /// Callbacks during a run, on the thread that called run.

@@ -220,9 +220,15 @@ void JobRunner::pass_on(std::int64_t job, std::int64_t& last_step, watch::Channe
 
 store::StateChange JobRunner::after(const store::StoredJob& stored, const WorkerExit& exit, Run& run) {
   if (exit.final && exit.final->has_begin_again()) throw BeginAgain{exit.final->begin_again()};
+  if (exit.kind == WorkerExit::Kind::left) return {};
   if (!exit.final && !is_lost(exit) && !has_started(stored.number)) return before_start(exit);
   auto next = outcome_of(exit);
-  if (exit.kind == WorkerExit::Kind::cancelled && !is_last_word(exit)) return given_up(stored, std::move(next), run);
+  const bool is_cancelled = exit.kind == WorkerExit::Kind::cancelled || exit.kind == WorkerExit::Kind::withdrawn;
+  if (is_cancelled && !is_last_word(exit)) {
+    auto ended = given_up(stored, std::move(next), run);
+    if (ended.state == v1::Job::CANCELLED && !exit.detail.empty()) ended.message = exit.detail;
+    return ended;
+  }
   if (!is_lost(exit)) return next;
   run.trouble = trouble_of_exit(exit);
   // A worker of an earlier daemon cannot report this through its exit code.
@@ -244,6 +250,7 @@ store::StateChange JobRunner::before_start(const WorkerExit& exit) {
   if (exit.kind == WorkerExit::Kind::cancelled) throw Withdrawn();
   store::StateChange out;
   if (exit.kind == WorkerExit::Kind::suspended) out.state = v1::Job::SUSPENDED;
+  if (exit.kind == WorkerExit::Kind::withdrawn) return outcome_of(exit);
   return out;
 }
 

@@ -18,9 +18,9 @@
 namespace cellcrush::jobs {
 namespace {
 
-// Starts a worker in the folder. It outlives the daemon, so it inherits no descriptors but the standard three, which
+// Starts a worker in the folder. It may outlive the daemon, so it inherits no descriptors but the standard three, which
 // are opened on /dev/null. Returns 0 or an errno.
-int spawn(const std::filesystem::path& program, const store::JobFolder& folder, pid_t& pid) {
+int spawn(const std::filesystem::path& program, const store::JobFolder& folder, LocalProcess::Life life, pid_t& pid) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
@@ -45,7 +45,9 @@ int spawn(const std::filesystem::path& program, const store::JobFolder& folder, 
   std::string command = "worker";
   std::string option = "--folder";
   std::string place = folder.root().string();
-  std::array<char*, 5> arguments = {name.data(), command.data(), option.data(), place.data(), nullptr};
+  std::string ends = "--end-with-parent";
+  std::array<char*, 6> arguments = {name.data(), command.data(), option.data(), place.data(), nullptr, nullptr};
+  if (life == LocalProcess::Life::ends_with_parent) arguments[4] = ends.data();
   const int error = posix_spawn(&pid, name.c_str(), &actions, &attributes, arguments.data(), environ);
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
@@ -115,7 +117,7 @@ WorkerExit LocalProcess::run(const store::JobFolder& folder, const worker::Order
   if (process) return follow(*process, follower, events, oom_kills_);
   write_order(folder, order);
   pid_t child = 0;
-  if (const int error = spawn(program_, folder, child); error != 0) return not_started(error);
+  if (const int error = spawn(program_, folder, life_, child); error != 0) return not_started(error);
   process.emplace(WorkerProcess::of_child(child));
   out = follow(*process, follower, events, oom_kills_);
   if (out.kind != WorkerExit::Kind::exited || out.code != worker::kFolderIsClaimed) return out;

@@ -9,14 +9,17 @@
 
 namespace cellcrush::jobs {
 
-/// Workers as processes on this machine: `program worker --folder DIR`. They outlive the daemon.
+/// Workers as processes on this machine: `program worker --folder DIR`.
 class LocalProcess final : public Executor {
  public:
+  /// Whether a worker outlives the process that started it.
+  enum class Life { outlives_parent, ends_with_parent };
+
   /// A worker that reports nothing and uses no processor time for `stall_limit` has stalled. `oom_kills` defaults to
   /// count_oom_kills; tests replace it.
   LocalProcess(std::filesystem::path program, std::chrono::milliseconds stall_limit,
-               OomKills oom_kills = count_oom_kills)
-      : program_(std::move(program)), stall_limit_(stall_limit), oom_kills_(std::move(oom_kills)) {}
+               OomKills oom_kills = count_oom_kills, Life life = Life::outlives_parent)
+      : program_(std::move(program)), stall_limit_(stall_limit), oom_kills_(std::move(oom_kills)), life_(life) {}
 
   bool has_worker(const store::JobFolder& folder) override;
   std::optional<WorkerExit> read_final_report(const store::JobFolder& folder, const WorkerEvents& events) override;
@@ -28,6 +31,7 @@ class LocalProcess final : public Executor {
   std::filesystem::path program_;
   std::chrono::milliseconds stall_limit_;
   OomKills oom_kills_;
+  Life life_;
 };
 
 }  // namespace cellcrush::jobs

@@ -60,7 +60,8 @@ Loss loss_of(const WorkerExit& exit) {
         return {"The worker process was killed by " + signal_name(exit.code) + ".",
                 "Check whether the machine ran out of memory, then submit the case again."};
       return {"The worker process was killed by " + signal_name(exit.code) + "."};
-    case WorkerExit::Kind::gone: return {"The worker process ended without a final report."};
+    case WorkerExit::Kind::gone:
+      return {exit.detail.empty() ? "The worker process ended without a final report." : exit.detail};
     default: break;
   }
   if (exit.final) return {"Another program told the worker process to suspend the job."};
@@ -71,6 +72,7 @@ Loss loss_of(const WorkerExit& exit) {
 
 Trouble trouble_of_exit(const WorkerExit& exit) {
   if (exit.kind == WorkerExit::Kind::not_started) {
+    if (exit.trouble) return exit.trouble;
     const Shortage shortage = shortage_of_errno(exit.code);
     const bool of_machine = shortage == Shortage::memory || shortage == Shortage::descriptors;
     return {of_machine ? shortage : Shortage::worker,
@@ -100,8 +102,15 @@ bool is_last_word(const WorkerExit& exit) {
 
 bool is_lost(const WorkerExit& exit) {
   if (is_last_word(exit)) return false;
-  return exit.kind != WorkerExit::Kind::stopped && exit.kind != WorkerExit::Kind::suspended &&
-         exit.kind != WorkerExit::Kind::cancelled;
+  switch (exit.kind) {
+    case WorkerExit::Kind::stopped:
+    case WorkerExit::Kind::suspended:
+    case WorkerExit::Kind::cancelled:
+    case WorkerExit::Kind::left:
+    case WorkerExit::Kind::displaced:
+    case WorkerExit::Kind::withdrawn: return false;
+    default: return true;
+  }
 }
 
 store::StateChange outcome_of(const WorkerExit& exit) {
@@ -110,7 +119,16 @@ store::StateChange outcome_of(const WorkerExit& exit) {
   switch (exit.kind) {
     case WorkerExit::Kind::stopped:
       out.state = v1::Job::PENDING;
-      out.message = "The worker suspended the job at a checkpoint; another worker resumes it from there.";
+      out.message = exit.detail.empty() ? "The worker suspended the job at a checkpoint" : exit.detail;
+      out.message += "; another worker resumes it from there.";
+      return out;
+    case WorkerExit::Kind::displaced:
+      out.state = v1::Job::PENDING;
+      out.message = exit.detail + " Another worker resumes the job from its last checkpoint.";
+      return out;
+    case WorkerExit::Kind::withdrawn:
+      out.state = v1::Job::CANCELLED;
+      out.message = exit.detail;
       return out;
     case WorkerExit::Kind::suspended:
       out.state = v1::Job::SUSPENDED;

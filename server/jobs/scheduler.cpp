@@ -213,6 +213,8 @@ void Scheduler::hold_for_low_disk(const std::optional<std::string>& reason) {
   {
     const MutexLock lock(mutex_);
     if (std::exchange(low_disk_, reason.has_value()) == reason.has_value() || !reason) return;
+    // What a cluster computes needs no room here until it has ended.
+    if (!shares_cores()) return;
     for (auto& [job, running] : running_) leave.push_back(running.leave);
   }
   for (auto& source : leave) source.request_stop();
@@ -274,7 +276,7 @@ void Scheduler::wake() {
 
 Scheduler::Running& Scheduler::begin(std::int64_t job) {
   Running& running = running_[job];
-  if (low_disk_) running.leave.request_stop();
+  if (low_disk_ && shares_cores()) running.leave.request_stop();
   tell_metrics();
   return running;
 }

@@ -1,5 +1,6 @@
 #include "worker/worker_main.h"
 
+#include <sys/prctl.h>
 #include <unistd.h>
 
 #include <fstream>
@@ -45,7 +46,11 @@ Shortage shortage_of_exit_code(int code) {
   return Shortage::none;
 }
 
-void worker_main(const std::filesystem::path& folder) {
+void worker_main(const std::filesystem::path& folder, bool ends_with_parent) {
+  if (ends_with_parent) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() == 1) _exit(kNoReport);
+  }
   // Runs inside the folder, wherever that is moved: after a restore the path may belong to another job.
   if (chdir(folder.c_str()) != 0) _exit(kNoReport);
   // _exit: the result is closed and durable, and exit handlers must not turn success into a crash.

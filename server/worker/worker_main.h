@@ -24,8 +24,8 @@ Shortage shortage_of_exit_code(int code);
 inline constexpr int kSuspendSignal = SIGTERM;
 inline constexpr int kCancelSignal = SIGUSR1;
 
-/// The main function of a worker process: claims the job's folder, reads its Order there, runs the job and reports. It
-/// outlives the daemon that started it. Does not return.
-[[noreturn]] void worker_main(const std::filesystem::path& folder);
+/// The main function of a worker process: claims the job's folder, reads its Order there, runs the job and reports.
+/// Unless `ends_with_parent`, it outlives the process that started it. Does not return.
+[[noreturn]] void worker_main(const std::filesystem::path& folder, bool ends_with_parent);
 
 }  // namespace cellcrush::worker
