@@ -21,6 +21,7 @@
 #include "rpc/jobs_service.h"
 #include "rpc/reflection_services.h"
 #include "rpc/sweeps_service.h"
+#include "slurm/workers_service.h"
 #include "store/data_folder.h"
 #include "store/journal.h"
 #include "store/journal_reader.h"
@@ -48,11 +49,12 @@ rpc::StreamLimits::Most most_streams(const net::ConnectionLimits& limits) {
 }
 
 // All executors, that of this machine first.
-std::vector<jobs::Queues::NamedExecutor> executors_of(const DaemonOptions& options) {
+std::vector<jobs::Queues::NamedExecutor> executors_of(const DaemonOptions& options, double step_cost) {
   std::vector<jobs::Queues::NamedExecutor> out;
   out.push_back({store::kLocalExecutor, options.worker_count(),
                  std::make_unique<jobs::LocalProcess>(options.worker_program, options.stall_limit)});
-  const jobs::ExecutorSurroundings surroundings{options.data_folder, options.worker_program, options.stall_limit};
+  const jobs::ExecutorSurroundings surroundings{options.data_folder, options.worker_program, options.stall_limit,
+                                                step_cost, !options.access.tls_client_authority.empty()};
   for (const auto& given : options.executors) out.push_back({given.name, given.slots, given.make(surroundings)});
   return out;
 }
@@ -75,7 +77,7 @@ struct Service::Parts {
                 options.hold_times, options.checkpoint_interval,
                 std::chrono::duration<double>(options.limits.job_time).count(), options.limits.owner.running_jobs,
                 options.default_executor},
-               executors_of(options)),
+               executors_of(options, step_cost)),
         stream_limits(most_streams(options.connections)),
         health_limits(most_streams(options.connections)),
         pump(kPumpThreads),
@@ -96,6 +98,7 @@ struct Service::Parts {
                  admission.drain();
                  drained();
                }}),
+        workers(slurm::own_folder_of_cluster(options.data_folder, ""), calls),
         reflection(rpc::make_reflection_services(
             {v1::Cases::service_full_name(), v1::Jobs::service_full_name(), v1::Sweeps::service_full_name(),
              v1::Admin::service_full_name(), grpc::health::v1::Health::service_full_name()},
@@ -132,6 +135,7 @@ struct Service::Parts {
   rpc::JobsService jobs;
   rpc::SweepsService sweeps;
   rpc::AdminService admin;
+  slurm::WorkersService workers;
   std::vector<std::unique_ptr<grpc::Service>> reflection;
   rpc::StreamTable table;
   std::optional<jobs::Housekeeping> housekeeping;
@@ -145,8 +149,8 @@ Service::Service(const DaemonOptions& options, const access::Gate& gate, double 
 Service::~Service() { parts_->http_pump.stop(); }
 
 void Service::register_with(grpc::ServerBuilder& builder) {
-  for (grpc::Service* service : std::initializer_list<grpc::Service*>{&parts_->health, &parts_->cases, &parts_->jobs,
-                                                                      &parts_->sweeps, &parts_->admin})
+  for (grpc::Service* service : std::initializer_list<grpc::Service*>{
+           &parts_->health, &parts_->cases, &parts_->jobs, &parts_->sweeps, &parts_->admin, &parts_->workers})
     builder.RegisterService(service);
   for (const auto& service : parts_->reflection) builder.RegisterService(service.get());
 }

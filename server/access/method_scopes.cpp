@@ -16,6 +16,12 @@ struct ScopeEntry {
 // The only table of who may call what. A method with scope submit that changes a job or sweep also checks its owner
 // (Gate::require_own).
 constexpr std::array kScopeEntries = {
+    // Its service admits a task by the token of its attempt.
+    ScopeEntry{"/cellcrush.slurm.Workers/ClaimAttempt", kOpen},
+    ScopeEntry{"/cellcrush.slurm.Workers/Contact", kOpen},
+    ScopeEntry{"/cellcrush.slurm.Workers/EndAttempt", kOpen},
+    ScopeEntry{"/cellcrush.slurm.Workers/ReadFile", kOpen},
+    ScopeEntry{"/cellcrush.slurm.Workers/WriteFile", kOpen},
     ScopeEntry{"/cellcrush.v1.Admin/Drain", Scope::admin},
     ScopeEntry{"/cellcrush.v1.Admin/GetCapabilities", Scope::read},
     ScopeEntry{"/cellcrush.v1.Admin/GetQueue", Scope::read},

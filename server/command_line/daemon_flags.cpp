@@ -5,9 +5,11 @@
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <stdexcept>
 
 #include "access/scope.h"
 #include "command_line/checked_config.h"
+#include "slurm/cluster_flag.h"
 
 namespace cellcrush {
 namespace {
@@ -24,6 +26,16 @@ std::filesystem::path default_data_folder() {
 
 std::chrono::milliseconds milliseconds_of(double seconds) {
   return std::chrono::milliseconds(std::llround(1000.0 * seconds));
+}
+
+// Empty for a value of --slurm that can be read.
+std::string cluster_problem(const std::string& text) {
+  try {
+    slurm::parse_cluster(text);
+    return "";
+  } catch (const std::invalid_argument& problem) {
+    return "cannot be used: " + std::string(problem.what());
+  }
 }
 
 }  // namespace
@@ -110,6 +122,12 @@ void DaemonFlags::add_limits(CLI::App& app) {
   app.add_option("--workers", options_.workers,
                  "Maximum number of jobs running at once on this machine (default: one per core)")
       ->check(CLI::Range(1, 1024));
+  app.add_option("--slurm", clusters_,
+                 "Slurm cluster that computes jobs as executor slurm/NAME: NAME:folder=PATH, where PATH lies on a file "
+                 "system that the nodes share; see deploy/slurm/README.md for further settings; may be repeated "
+                 "(default: none)")
+      ->check(cluster_problem)
+      ->type_name("NAME:KEY=VALUE,...");
   app.add_option("--executor", options_.default_executor,
                  "Executor of jobs and sweeps whose request names none: local, for this machine, or another that this "
                  "daemon has (default: local)");
@@ -180,6 +198,7 @@ DaemonOptions DaemonFlags::options() const {
   out.keep.bytes = keep_mib_ * kMebibyte;
   out.keep.age = std::chrono::seconds(std::llround(86400.0 * keep_days_));
   out.checkpoint_interval = milliseconds_of(checkpoint_seconds_);
+  for (const auto& cluster : clusters_) out.executors.push_back(slurm::executor_of(slurm::parse_cluster(cluster)));
   out.watch_times.patience = milliseconds_of(patience_seconds_);
   return out;
 }

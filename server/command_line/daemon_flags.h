@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "daemon_options.h"
 
@@ -31,6 +32,7 @@ class DaemonFlags {
   void add_times(CLI::App& app);
 
   DaemonOptions options_;
+  std::vector<std::string> clusters_;
   std::string certificate_scope_ = "submit";
   std::string log_format_ = "text";
   std::int64_t call_memory_mib_ = 256;

@@ -27,7 +27,7 @@ std::string why_unusable(const store::JobFolder& folder) {
     return "the daemon lacks permission to read and write it";
   for (const auto& path :
        {folder.order(), folder.claim(), folder.reports(), folder.checkpoint(), folder.previous_checkpoint(),
-        folder.partial_checkpoint(), folder.result(), folder.partial_result()}) {
+        folder.partial_checkpoint(), folder.result(), folder.partial_result(), folder.attempt()}) {
     if (lstat(path.c_str(), &status) != 0) continue;
     const std::string name = path.filename().string();
     if (!S_ISREG(status.st_mode)) return name + " in it is not a regular file";

@@ -172,7 +172,7 @@ void DataFolder::clean_job_folder(std::int64_t job) const {
   const auto folder = job_folder(job);
   // Reports are deleted last: they mark a folder that holds more than a result.
   for (const auto& path : {folder.partial_result(), folder.order(), folder.claim(), folder.partial_checkpoint(),
-                           folder.previous_checkpoint(), folder.checkpoint(), folder.reports()})
+                           folder.previous_checkpoint(), folder.checkpoint(), folder.attempt(), folder.reports()})
     remove_file(path);
 }
 

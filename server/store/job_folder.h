@@ -18,6 +18,8 @@ class JobFolder {
   [[nodiscard]] std::filesystem::path checkpoint() const { return root_ / "checkpoint"; }
   [[nodiscard]] std::filesystem::path previous_checkpoint() const { return root_ / "checkpoint.previous"; }
   [[nodiscard]] std::filesystem::path partial_checkpoint() const { return root_ / "checkpoint.partial"; }
+  /// Which attempt computes the job in a cluster.
+  [[nodiscard]] std::filesystem::path attempt() const { return root_ / "attempt"; }
   [[nodiscard]] std::filesystem::path result() const { return root_ / "result.h5"; }
   /// Written by the worker until the result is complete.
   [[nodiscard]] std::filesystem::path partial_result() const { return root_ / "result.h5.partial"; }

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "slurm/attempt.pb.h"
+#include "store/job_folder.h"
+
+namespace cellcrush::slurm {
+
+/// The folder attempts/ID on the shared file system, with which the daemon and one task communicate
+/// (attempt_folder.md). Failures throw ServiceError, with the shortage if there is one.
+class AttemptFolder {
+ public:
+  explicit AttemptFolder(std::filesystem::path root) : root_(std::move(root)) {}
+
+  [[nodiscard]] const std::filesystem::path& root() const { return root_; }
+  /// order, reports, checkpoint, checkpoint.previous and result.h5, named as in a job's folder.
+  [[nodiscard]] store::JobFolder files() const { return store::JobFolder(root_); }
+
+  /// Whether the folder is there.
+  [[nodiscard]] bool exists() const;
+
+  /// Creates the claim. False if there is one, or if the folder is gone: the attempt is then another's. Atomic among
+  /// all machines that share the file system.
+  [[nodiscard]] bool claim(const Claim& claim) const;
+  [[nodiscard]] std::optional<Claim> find_claim() const;
+
+  /// A sign of life: a number that differs from the one before. Needs no room on the disk after the first.
+  void beat(std::uint64_t number) const;
+  /// Nothing if there was none.
+  [[nodiscard]] std::optional<std::uint64_t> last_beat() const;
+
+  void request(Request::Kind kind) const;
+  /// ABANDON if the folder is gone.
+  [[nodiscard]] Request::Kind requested() const;
+
+  void end(const Ended& ended) const;
+  [[nodiscard]] std::optional<Ended> find_ended() const;
+
+  /// The secret by which WorkersService admits the attempt's task; nothing if there is none.
+  void set_token(const std::string& token) const;
+  [[nodiscard]] std::optional<std::string> token() const;
+
+  /// Deletes the folder. Does not throw.
+  void remove() const;
+
+ private:
+  [[nodiscard]] std::filesystem::path file(const char* name) const { return root_ / name; }
+
+  std::filesystem::path root_;
+};
+
+}  // namespace cellcrush::slurm

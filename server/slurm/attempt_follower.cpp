@@ -1,0 +1,376 @@
+#include "slurm/attempt_follower.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <exception>
+#include <filesystem>
+#include <stop_token>
+#include <system_error>
+#include <utility>
+
+#include "error.h"
+#include "slurm/small_file.h"
+#include "worker/worker_main.h"
+
+namespace cellcrush::slurm {
+namespace {
+
+using ExitKind = jobs::WorkerExit::Kind;
+
+// A task that squeue has not listed for so many answers is looked for by its claim.
+constexpr std::uint64_t kMissedAnswers = 3;
+// For an answer of Slurm on which a decision waits.
+constexpr std::chrono::milliseconds kBetweenQuestions{5'000};
+
+std::uint64_t size_of(const std::filesystem::path& path) {
+  std::error_code error;
+  const auto out = std::filesystem::file_size(path, error);
+  return error ? 0 : out;
+}
+
+jobs::WorkerExit exit_with(ExitKind kind, std::string detail = {}) {
+  jobs::WorkerExit out;
+  out.kind = kind;
+  out.detail = std::move(detail);
+  return out;
+}
+
+ExitKind kind_of(Ended::Kind kind) {
+  switch (kind) {
+    case Ended::NOT_STARTED: return ExitKind::not_started;
+    case Ended::EXITED: return ExitKind::exited;
+    case Ended::SIGNALLED: return ExitKind::signalled;
+    case Ended::BROKEN: return ExitKind::broken;
+    case Ended::STALLED: return ExitKind::stalled;
+    case Ended::SUSPENDED: return ExitKind::suspended;
+    case Ended::CANCELLED: return ExitKind::cancelled;
+    case Ended::LEFT: return ExitKind::stopped;
+    default: return ExitKind::gone;
+  }
+}
+
+}  // namespace
+
+std::string slurm_name(const Attempt& attempt) {
+  if (attempt.slurm_job() == 0) return "Slurm job " + (kJobPrefix + attempt.batch());
+  return "Slurm job " + std::to_string(attempt.slurm_job()) +
+         (attempt.is_array() ? "_" + std::to_string(attempt.task()) : "");
+}
+
+AttemptFollower::AttemptFollower(const Parts& parts, const store::JobFolder& job,
+                                 std::shared_ptr<Submission> submission)
+    : parts_(parts),
+      job_(job),
+      submission_(std::move(submission)),
+      folder_(parts.options.folder / "attempts" / submission_->state().attempt.id()),
+      sink_(job),
+      mirror_(folder_.files(), sink_, size_of(job.reports())),
+      feed_(job, parts.events) {}
+
+jobs::WorkerExit AttemptFollower::follow() {
+  const auto wake = [this] {
+    {
+      const std::lock_guard lock(wake_mutex_);
+      is_woken_ = true;
+    }
+    wake_.notify_all();
+  };
+  const std::stop_callback on_stop(parts_.interruptions.stop, wake);
+  const std::stop_callback on_suspend(parts_.interruptions.suspend, wake);
+  const std::stop_callback on_cancel(parts_.interruptions.cancel, wake);
+  feed_.read(false);
+  feed_.forget_last_word();
+  while (true) {
+    if (auto exit = look()) return *std::move(exit);
+    wait();
+  }
+}
+
+void AttemptFollower::wait() {
+  std::unique_lock lock(wake_mutex_);
+  const auto interval = parts_.events.watched() ? parts_.options.times.look / 2 : parts_.options.times.look;
+  wake_.wait_for(lock, interval, [this] { return is_woken_; });
+  is_woken_ = false;
+}
+
+std::optional<jobs::WorkerExit> AttemptFollower::look() {
+  const auto signs = read_folder();
+  if (feed_.read(true) == jobs::ReportFeed::Reading::broken) {
+    close(true);
+    return exit_with(ExitKind::broken);
+  }
+  if (signs && !has_begun_ && signs->claim && !signs->claim->withdrawn()) {
+    parts_.events.started(static_cast<int>(signs->claim->process()));
+    has_begun_ = true;
+    last_sign_ = Clock::now();
+  }
+  look_for_number();
+  if (signs && signs->ended) return exit_of_ended(*signs->ended);
+  if (signs && signs->beat != beat_) {
+    beat_ = signs->beat;
+    last_sign_ = Clock::now();
+  }
+  show_place();
+  if (parts_.interruptions.stop.stop_requested() && !parts_.interruptions.cancel.stop_requested()) {
+    // Gathered attempts were not handed to Slurm; the next daemon submits them.
+    static_cast<void>(submission_->withdraw());
+    return exit_with(ExitKind::left);
+  }
+  if (auto exit = forward_requests()) return exit;
+  return has_begun_ ? look_at_begun() : look_at_waiting();
+}
+
+std::optional<AttemptFollower::Signs> AttemptFollower::read_folder() {
+  try {
+    // Read before the files, so that everything written before the end is copied.
+    Signs out;
+    out.ended = folder_.find_ended();
+    mirror_.pass();
+    if (!has_begun_) out.claim = folder_.find_claim();
+    out.beat = folder_.last_beat();
+    trouble_.clear();
+    return out;
+  } catch (const ServiceError& error) {
+    // The work in the cluster is not lost, whatever the disks are short of at the moment.
+    if (std::exchange(trouble_, error.what()) != error.what())
+      spdlog::warn("jobs/{}: {} The daemon tries again.", job_.root().filename().string(), error.what());
+    return std::nullopt;
+  }
+}
+
+void AttemptFollower::ask_slurm(std::chrono::milliseconds interval) {
+  if (asked_slurm_ && Clock::now() - *asked_slurm_ < interval) return;
+  asked_slurm_ = Clock::now();
+  parts_.view.refresh(submission_->state().attempt.slurm_job());
+}
+
+std::optional<jobs::WorkerExit> AttemptFollower::exit_of_ended(const Ended& ended) {
+  if (!ended_) ended_ = Clock::now();
+  auto out = exit_of(ended);
+  if (ended.kind() == Ended::LEFT && ended.reason() == Ended::TERMINATED) {
+    // Preempted, or cancelled by somebody: Slurm says which, as soon as the task is over.
+    const auto attempt = submission_->state().attempt;
+    const auto seen = parts_.view.find(attempt.slurm_job(), task_index(attempt));
+    const auto meaning = seen ? meaning_of(seen->report.state) : Meaning::unknown;
+    const bool is_open = meaning == Meaning::unknown || meaning == Meaning::runs || meaning == Meaning::waits;
+    if (is_open && Clock::now() - *ended_ < parts_.options.times.unanswered) {
+      ask_slurm(kBetweenQuestions);
+      return std::nullopt;
+    }
+    if (meaning == Meaning::cancelled) {
+      out = exit_with(ExitKind::withdrawn, slurm_name(attempt) + " was cancelled in Slurm" +
+                                               (seen->report.reason.empty() ? "" : " (" + seen->report.reason + ")") +
+                                               ".");
+    }
+  }
+  close(false);
+  return out;
+}
+
+void AttemptFollower::show_place() {
+  const auto state = submission_->state();
+  std::string place;
+  if (state.stage == Submission::Stage::gathered || state.stage == Submission::Stage::taken) {
+    place = "to be submitted to Slurm";
+  } else {
+    place = slurm_name(state.attempt);
+    const auto seen = parts_.view.find(state.attempt.slurm_job(), task_index(state.attempt));
+    if (seen) {
+      place += ", " + seen->report.state;
+      if (!seen->report.reason.empty()) place += " (" + seen->report.reason + ")";
+      if (!seen->report.node.empty()) place += " on " + seen->report.node;
+    } else if (state.stage == Submission::Stage::lost) {
+      place += ", not found yet";
+    }
+  }
+  if (!trouble_.empty()) place += "; " + trouble_;
+  if (std::exchange(place_, place) != place && parts_.events.placed) parts_.events.placed(place);
+}
+
+std::optional<jobs::WorkerExit> AttemptFollower::forward_requests() {
+  const bool cancel = parts_.interruptions.cancel.stop_requested();
+  const bool suspend = parts_.interruptions.suspend.stop_requested();
+  if (!cancel && !suspend) return std::nullopt;
+  const ExitKind kind = cancel ? ExitKind::cancelled : ExitKind::suspended;
+  if (!has_begun_) {
+    // A task that begins meanwhile is asked at the next look.
+    if (!withdraw()) return std::nullopt;
+    close(true);
+    return exit_with(kind);
+  }
+  const auto wanted = cancel ? Request::CANCEL : Request::SUSPEND;
+  if (request_ != wanted) {
+    try {
+      folder_.request(wanted);
+      request_ = wanted;
+    } catch (const ServiceError& error) {
+      spdlog::warn("jobs/{}: {} The daemon tries again.", job_.root().filename().string(), error.what());
+    }
+    if (!asked_ || request_ == wanted) asked_ = Clock::now();
+  }
+  if (Clock::now() - *asked_ < parts_.options.times.leave) return std::nullopt;
+  close(true);
+  return exit_with(kind);
+}
+
+std::optional<jobs::WorkerExit> AttemptFollower::look_at_waiting() {
+  auto state = submission_->state();
+  switch (state.stage) {
+    case Submission::Stage::gathered:
+    case Submission::Stage::taken: last_sign_ = Clock::now(); return std::nullopt;
+    case Submission::Stage::refused:
+    case Submission::Stage::lost: return not_submitted(state);
+    case Submission::Stage::answered: break;
+  }
+  const auto& attempt = state.attempt;
+  const auto seen = parts_.view.find(attempt.slurm_job(), task_index(attempt));
+  const auto answers = parts_.view.answer_count();
+  const auto meaning = seen ? meaning_of(seen->report.state) : Meaning::unknown;
+  const bool is_over = seen && meaning != Meaning::waits && meaning != Meaning::runs && meaning != Meaning::unknown;
+  if ((seen && seen->answer == answers) || unlisted_since_ == 0) {
+    unlisted_since_ = answers + 1;
+    last_sign_ = Clock::now();
+  }
+  const bool is_missed =
+      answers >= unlisted_since_ + kMissedAnswers && Clock::now() - last_sign_ >= parts_.options.times.unanswered;
+  if (is_missed && !is_over) ask_slurm(parts_.options.times.squeue);
+  if (!is_over && !is_missed) return std::nullopt;
+  // A task may have begun just now: the claim decides.
+  if (!withdraw()) return std::nullopt;
+  const std::string log = last_line_of_log(attempt);
+  close(true);
+  if (!is_over) return exit_with(ExitKind::displaced, slurm_name(attempt) + " is no longer known to Slurm.");
+  return exit_by_meaning(meaning,
+                         slurm_name(attempt) + " ended before the crush began: " + seen->report.state + "." + log);
+}
+
+// Slurm may have taken a submission whose answer was lost. It is looked for by its name, and given up by its claim.
+void AttemptFollower::look_for_number() {
+  auto state = submission_->state();
+  if (state.stage != Submission::Stage::lost) return;
+  const auto job = parts_.view.find_job(kJobPrefix + state.attempt.batch());
+  if (!job) return ask_slurm(kBetweenQuestions);
+  state.stage = Submission::Stage::answered;
+  state.attempt.set_slurm_job(*job);
+  try {
+    submission_->keep(job_, state);
+  } catch (const ServiceError& error) {
+    // The next daemon looks for it again.
+    spdlog::warn("The number of {} cannot be kept: {}", slurm_name(state.attempt), error.what());
+  }
+}
+
+std::optional<jobs::WorkerExit> AttemptFollower::not_submitted(const Submission::State& state) {
+  if (state.stage == Submission::Stage::lost && Clock::now() - last_sign_ < parts_.options.times.unanswered)
+    return std::nullopt;
+  if (!withdraw()) return std::nullopt;
+  close(false);
+  auto out = exit_with(ExitKind::not_started);
+  out.trouble = state.trouble ? state.trouble : Trouble{Shortage::cluster, "Slurm took no job. " + state.why};
+  return out;
+}
+
+std::optional<jobs::WorkerExit> AttemptFollower::look_at_begun() {
+  if (Clock::now() - last_sign_ < parts_.options.times.silent) return std::nullopt;
+  feed_.report_stall();
+  return exit_of_silent(submission_->state());
+}
+
+std::optional<jobs::WorkerExit> AttemptFollower::exit_of_silent(const Submission::State& state) {
+  const auto& attempt = state.attempt;
+  ask_slurm(parts_.options.times.squeue);
+  const auto seen = parts_.view.find(attempt.slurm_job(), task_index(attempt));
+  const auto meaning = seen ? meaning_of(seen->report.state) : Meaning::unknown;
+  const bool is_listed = seen && (seen->answer + kMissedAnswers >= parts_.view.answer_count() || seen->is_accounted);
+  if (meaning == Meaning::unknown || meaning == Meaning::runs || meaning == Meaning::waits) {
+    // Slurm shows it alive or does not know. After twice its lease, its task has stopped by itself.
+    const bool is_alive = meaning == Meaning::runs && is_listed && parts_.view.trouble().empty();
+    if (is_alive || Clock::now() - last_sign_ < 2 * parts_.options.times.lease) return std::nullopt;
+    close(true);
+    return exit_with(ExitKind::displaced, slurm_name(attempt) + " gave no sign of life for " +
+                                              std::to_string(2 * parts_.options.times.lease.count() / 1000) + " s.");
+  }
+  const std::string log = last_line_of_log(attempt);
+  const std::string where = seen->report.node.empty() ? "" : " on " + seen->report.node;
+  close(false);
+  return exit_by_meaning(meaning, slurm_name(attempt) + where + " ended without a last word: " + seen->report.state +
+                                      (seen->report.reason.empty() ? "" : " (" + seen->report.reason + ")") + "." +
+                                      log);
+}
+
+jobs::WorkerExit AttemptFollower::exit_by_meaning(Meaning meaning, const std::string& what) const {
+  jobs::WorkerExit out = exit_with(ExitKind::gone, what);
+  out.final = feed_.last_word();
+  if (meaning == Meaning::cancelled) out.kind = ExitKind::withdrawn;
+  if (meaning == Meaning::displaced) out.kind = ExitKind::displaced;
+  out.out_of_memory = meaning == Meaning::no_memory;
+  return out;
+}
+
+jobs::WorkerExit AttemptFollower::exit_of(const Ended& ended) const {
+  const auto attempt = submission_->state().attempt;
+  jobs::WorkerExit out = exit_with(kind_of(ended.kind()));
+  out.code = ended.code();
+  out.out_of_memory = ended.out_of_memory();
+  if (ended.has_final()) out.final = ended.final();
+  if (out.kind == ExitKind::not_started) out.trouble = {Shortage::worker, slurm_name(attempt) + ": " + ended.message()};
+  if (out.kind != ExitKind::stopped) return out;
+  if (ended.reason() == Ended::TIME_LIMIT && !ended.advanced()) {
+    out.kind = ExitKind::gone;
+    out.final.reset();
+    out.detail = slurm_name(attempt) + " came to its time limit before the job got further.";
+  } else if (ended.reason() == Ended::TIME_LIMIT) {
+    out.detail = slurm_name(attempt) + " came to its time limit and left the job at a checkpoint";
+  } else if (ended.reason() == Ended::LEASE) {
+    out.detail = slurm_name(attempt) + " lost its connection to the daemon and left the job at a checkpoint";
+  } else {
+    out.detail = slurm_name(attempt) + " was told to end and left the job at a checkpoint";
+  }
+  return out;
+}
+
+bool AttemptFollower::withdraw() {
+  if (submission_->withdraw()) return true;
+  try {
+    Claim claim;
+    claim.set_withdrawn(true);
+    if (folder_.claim(claim) || !folder_.exists()) return true;
+    const auto found = folder_.find_claim();
+    return found && found->withdrawn();
+  } catch (const ServiceError& error) {
+    spdlog::warn("jobs/{}: {} The daemon tries again.", job_.root().filename().string(), error.what());
+    return false;
+  }
+}
+
+void AttemptFollower::close(bool ends_task) {
+  const auto attempt = submission_->state().attempt;
+  try {
+    if (has_begun_ && folder_.exists()) folder_.request(Request::ABANDON);
+  } catch (const ServiceError&) {
+    // A folder that is gone says the same.
+  }
+  // A task that is shared goes on with its other attempts.
+  if (ends_task && attempt.slurm_job() != 0 && attempt.shares() <= 1)
+    static_cast<void>(parts_.commands.scancel(attempt.slurm_job(), task_index(attempt)));
+  submission_->close(job_);
+  folder_.remove();
+  parts_.closed(attempt);
+}
+
+std::string AttemptFollower::last_line_of_log(const Attempt& attempt) const {
+  try {
+    const auto log = read_small_file(Batcher::batch_folder(parts_.options, attempt.batch()) /
+                                     ("task-" + std::to_string(attempt.task()) + ".log"));
+    if (!log) return "";
+    auto end = log->find_last_not_of(" \n\r\t");
+    if (end == std::string::npos) return "";
+    const auto begin = log->find_last_of('\n', end);
+    return " Its log ends with: " + log->substr(begin == std::string::npos ? 0 : begin + 1, end - begin);
+  } catch (const ServiceError&) {
+    return "";
+  }
+}
+
+}  // namespace cellcrush::slurm

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "jobs/executor.h"
+#include "jobs/report_feed.h"
+#include "slurm/attempt_folder.h"
+#include "slurm/batcher.h"
+#include "slurm/cluster_options.h"
+#include "slurm/cluster_view.h"
+#include "slurm/commands.h"
+#include "slurm/mirror.h"
+
+namespace cellcrush::slurm {
+
+/// Follows one attempt from its submission to its end, and decides what became of it. What counts, in this order: the
+/// last word of its task, the task's heartbeat, sacct, squeue. That something is missing proves nothing: before an
+/// attempt is given to another task, the daemon takes it back by its claim, or its task has ended or lost its lease.
+/// Not thread-safe.
+class AttemptFollower {
+ public:
+  /// All outlive it.
+  struct Parts {
+    const ClusterOptions& options;
+    const Commands& commands;
+    ClusterView& view;
+    const jobs::WorkerEvents& events;
+    const jobs::Interruptions& interruptions;
+    const std::function<void(const Attempt&)>& closed;  ///< called once the attempt is over
+  };
+  AttemptFollower(const Parts& parts, const store::JobFolder& job, std::shared_ptr<Submission> submission);
+
+  /// Returns when the attempt is over, or left to the next daemon. An exception from `events` propagates.
+  jobs::WorkerExit follow();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  /// One look at the attempt; its end, if it is over.
+  std::optional<jobs::WorkerExit> look();
+  std::optional<jobs::WorkerExit> look_at_waiting();
+  std::optional<jobs::WorkerExit> look_at_begun();
+  std::optional<jobs::WorkerExit> forward_requests();
+  /// What the attempt's folder says.
+  struct Signs {
+    std::optional<Ended> ended;
+    std::optional<Claim> claim;
+    std::optional<std::uint64_t> beat;
+  };
+  /// Copies new files, the last word last. Nothing if that is not possible at the moment.
+  std::optional<Signs> read_folder();
+  /// Asks Slurm for news of the task, not more often than this.
+  void ask_slurm(std::chrono::milliseconds interval);
+  std::optional<jobs::WorkerExit> exit_of_ended(const Ended& ended);
+  void show_place();
+  void wait();
+
+  /// Takes the attempt back before a task has begun it. False if one has.
+  bool withdraw();
+  /// The attempt is over: nothing of it counts from now on.
+  void close(bool ends_task);
+  void look_for_number();
+  std::optional<jobs::WorkerExit> not_submitted(const Submission::State& state);
+  jobs::WorkerExit exit_of(const Ended& ended) const;
+  /// A task that is over without a last word.
+  std::optional<jobs::WorkerExit> exit_of_silent(const Submission::State& state);
+  jobs::WorkerExit exit_by_meaning(Meaning meaning, const std::string& what) const;
+  /// What the task's log ends with, as a sentence; empty if it says nothing.
+  [[nodiscard]] std::string last_line_of_log(const Attempt& attempt) const;
+
+  Parts parts_;
+  store::JobFolder job_;
+  std::shared_ptr<Submission> submission_;
+  AttemptFolder folder_;
+  FolderSink sink_;
+  Mirror mirror_;
+  jobs::ReportFeed feed_;
+  bool has_begun_ = false;
+  std::optional<std::uint64_t> beat_;
+  std::optional<Clock::time_point> asked_slurm_;
+  std::optional<Clock::time_point> ended_;      ///< when its last word was read
+  Clock::time_point last_sign_ = Clock::now();  ///< of life
+  std::optional<Clock::time_point> asked_;      ///< when the task was asked to leave or end the job
+  Request::Kind request_ = Request::NONE;
+  std::uint64_t unlisted_since_ = 0;  ///< number of the answer after which a task that is not listed is missed
+  std::string place_;
+  std::string trouble_;  ///< the last that was logged
+  std::mutex wake_mutex_;
+  std::condition_variable wake_;
+  bool is_woken_ = false;
+};
+
+/// "Slurm job 17_3"; "Slurm job cellcrush-NAME" while its number is unknown.
+std::string slurm_name(const Attempt& attempt);
+
+}  // namespace cellcrush::slurm

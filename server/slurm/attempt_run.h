@@ -1,0 +1,67 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <mutex>
+#include <optional>
+#include <stop_token>
+
+#include "jobs/executor.h"
+#include "slurm/attempt.pb.h"
+#include "slurm/link.h"
+#include "slurm/mirror.h"
+#include "store/job_folder.h"
+
+namespace cellcrush::slurm {
+
+/// Why a task ends, for whatever it computes at the moment. Thread-safe.
+class TaskEnd {
+ public:
+  void request(Ended::Reason reason);
+  [[nodiscard]] Ended::Reason reason() const;
+
+ private:
+  mutable std::mutex mutex_;
+  Ended::Reason reason_ = Ended::REASON_UNSPECIFIED;
+};
+
+/// One attempt on a node: a worker in a folder of its own, and beside it the copying of its files to the daemon.
+class AttemptRun {
+ public:
+  /// `lease`: without contact for so long, the worker leaves the job at a checkpoint. All outlive it.
+  AttemptRun(Link& link, jobs::Executor& workers, const TaskEnd& end, std::chrono::milliseconds lease)
+      : link_(link), workers_(workers), end_(end), lease_(lease) {}
+
+  /// Computes the claimed attempt in this folder, which has its order. Returns once the daemon has the last word, or the attempt is
+  /// no longer this task's.
+  void run(const store::JobFolder& folder);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  /// Copies, renews the lease and obeys requests until the worker has ended.
+  void accompany(const std::stop_token& worker_ended);
+  bool keep_contact();
+  void obey(Request::Kind request);
+  Ended last_word_of(const jobs::WorkerExit& exit) const;
+  /// Tries until it succeeds or the attempt is no longer this task's.
+  void hand_over(const Ended& ended);
+
+  Link& link_;
+  jobs::Executor& workers_;
+  const TaskEnd& end_;
+  std::chrono::milliseconds lease_;
+  std::optional<Mirror> mirror_;
+  std::stop_source leave_;
+  std::stop_source suspend_;
+  std::stop_source cancel_;
+  std::uint64_t beats_ = 0;
+  Clock::time_point last_contact_ = Clock::now();
+  Clock::time_point last_beat_{};
+  bool is_lease_lost_ = false;
+  bool is_abandoned_ = false;
+  std::int64_t first_step_ = 0;
+};
+
+}  // namespace cellcrush::slurm

@@ -1,0 +1,252 @@
+#include "slurm/batcher.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <exception>
+#include <numeric>
+#include <random>
+#include <system_error>
+#include <utility>
+
+#include "error.h"
+#include "pause.h"
+#include "slurm/attempt_folder.h"
+#include "slurm/cluster_view.h"
+#include "slurm/small_file.h"
+#include "store/durable_file.h"
+
+namespace cellcrush::slurm {
+namespace {
+
+// Attempts of a sweep arrive within this time.
+constexpr std::chrono::milliseconds kToGather{300};
+// Slurm's MaxArraySize is 1001 unless the site has raised it.
+constexpr std::size_t kMostTasks = 1000;
+
+// Seconds before the time limit at which Slurm sends SIGUSR2; up to 60 s earlier.
+int warning_seconds(std::int64_t minutes) { return minutes > 5 ? 120 : 30; }
+
+// A word for a shell.
+std::string shell_word(const std::string& word) {
+  std::string out = "'";
+  for (const char c : word) c == '\'' ? out += "'\\''" : out += c;
+  return out + "'";
+}
+
+// The ids of the attempts, or of as many as a comment should hold.
+std::string comment_of(const Batch& batch) {
+  constexpr int kMost = 20;
+  std::string out = "cellcrush attempts:";
+  int count = 0;
+  for (const auto& task : batch.tasks()) {
+    for (const auto& attempt : task.attempts()) {
+      if (++count <= kMost) out += " " + attempt;
+    }
+  }
+  return count <= kMost ? out : out + fmt::format(" and {} more", count - kMost);
+}
+
+}  // namespace
+
+Submission::State Submission::state() {
+  const MutexLock lock(mutex_);
+  return state_;
+}
+
+bool Submission::keep(const store::JobFolder& job, State state) {
+  const MutexLock lock(mutex_);
+  if (is_closed_) return false;
+  state_ = std::move(state);
+  write_attempt(job, state_.attempt);
+  return true;
+}
+
+void Submission::close(const store::JobFolder& job) {
+  const MutexLock lock(mutex_);
+  is_closed_ = true;
+  std::error_code ignored;
+  std::filesystem::remove(job.attempt(), ignored);
+}
+
+bool Submission::withdraw() {
+  const MutexLock lock(mutex_);
+  if (state_.stage == Stage::gathered) is_withdrawn_ = true;
+  return is_withdrawn_;
+}
+
+bool Submission::take() {
+  const MutexLock lock(mutex_);
+  if (!is_withdrawn_) state_.stage = Stage::taken;
+  return !is_withdrawn_;
+}
+
+Batcher::Batcher(const ClusterOptions& options, const Commands& commands)
+    : options_(options), commands_(commands), thread_([this](const std::stop_token& stop) { run(stop); }) {}
+
+std::shared_ptr<Submission> Batcher::submit(Attempt attempt, const store::JobFolder& job, const Need& need) {
+  auto submission = std::make_shared<Submission>(std::move(attempt));
+  {
+    const MutexLock lock(mutex_);
+    gathered_.push_back({submission, job, need});
+  }
+  changed_.notify_all();
+  return submission;
+}
+
+std::filesystem::path Batcher::batch_folder(const ClusterOptions& options, const std::string& batch) {
+  return options.folder / "batches" / batch;
+}
+
+void Batcher::run(const std::stop_token& stop) {
+  while (!stop.stop_requested()) {
+    {
+      MutexLock lock(mutex_);
+      changed_.wait(lock, stop, [this]() CELLCRUSH_REQUIRES(mutex_) { return !gathered_.empty(); });
+    }
+    if (!pause_unless_stopped(stop, kToGather)) return;
+    std::vector<Gathered> gathered;
+    {
+      const MutexLock lock(mutex_);
+      gathered.swap(gathered_);
+    }
+    submit_all(std::move(gathered));
+  }
+}
+
+void Batcher::submit_all(std::vector<Gathered> gathered) {
+  std::erase_if(gathered, [](const Gathered& each) { return !each.submission->take(); });
+  std::vector<Need> needs;
+  needs.reserve(gathered.size());
+  for (const auto& each : gathered) needs.push_back(each.need);
+  for (const auto& each : pack(needs, options_.task_length, kMostTasks)) submit_pack(each, gathered);
+}
+
+void Batcher::submit_pack(const Pack& pack, const std::vector<Gathered>& gathered) {
+  Submission::State state;
+  const std::string batch = random_name();
+  try {
+    const auto arguments = prepare(batch, pack, gathered);
+    const Submitted answer = commands_.sbatch(arguments);
+    state.stage = answer.job          ? Submission::Stage::answered
+                  : answer.is_refused ? Submission::Stage::refused
+                                      : Submission::Stage::lost;
+    state.why = answer.why;
+    state.attempt.set_slurm_job(answer.job.value_or(0));
+    if (answer.job)
+      spdlog::info("Slurm job {} of {} computes {} attempts in {} tasks", *answer.job, options_.name,
+                   std::accumulate(pack.tasks.begin(), pack.tasks.end(), std::size_t{0},
+                                   [](std::size_t sum, const Share& share) { return sum + share.size(); }),
+                   pack.tasks.size());
+  } catch (const std::exception& error) {
+    // sbatch was not run.
+    state.stage = Submission::Stage::refused;
+    state.why = error.what();
+    state.trouble = trouble_of(error);
+  }
+  for (const auto& task : pack.tasks) {
+    for (const std::size_t i : task) {
+      auto own = state;
+      own.attempt = gathered[i].submission->state().attempt;
+      own.attempt.set_slurm_job(state.attempt.slurm_job());
+      tell(gathered[i], std::move(own));
+    }
+  }
+}
+
+void Batcher::tell(const Gathered& gathered, Submission::State state) {
+  const auto attempt = state.attempt;
+  try {
+    if (gathered.submission->keep(gathered.job, std::move(state))) return;
+    // It was given up meanwhile: its task has nothing to compute.
+    if (attempt.slurm_job() != 0 && attempt.shares() <= 1)
+      static_cast<void>(commands_.scancel(attempt.slurm_job(), task_index(attempt)));
+  } catch (const std::exception& error) {
+    // The next daemon finds the job by its name.
+    spdlog::warn("The number of Slurm job {} cannot be kept: {}", attempt.slurm_job(), error.what());
+  }
+}
+
+std::vector<std::string> Batcher::prepare(const std::string& batch, const Pack& pack,
+                                          const std::vector<Gathered>& gathered) {
+  const auto folder = batch_folder(options_, batch);
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) store::throw_file_error(folder, "written", error.value());
+  Batch tasks;
+  const bool is_array = pack.tasks.size() > 1;
+  for (std::size_t task = 0; task < pack.tasks.size(); ++task) {
+    auto* own = tasks.add_tasks();
+    for (const std::size_t i : pack.tasks[task]) {
+      auto state = gathered[i].submission->state();
+      state.attempt.set_batch(batch);
+      state.attempt.set_task(static_cast<int>(task));
+      state.attempt.set_is_array(is_array);
+      state.attempt.set_shares(static_cast<int>(pack.tasks[task].size()));
+      own->add_attempts(state.attempt.id());
+      if (!gathered[i].submission->keep(gathered[i].job, std::move(state)))
+        spdlog::info("attempt {} is submitted in vain", own->attempts().at(own->attempts_size() - 1));
+    }
+  }
+  write_small_file(folder / "tasks", tasks.SerializeAsString());
+  write_small_file(folder / "script", script_of(batch, tasks));
+  // Without a shared file system the nodes lack the folder.
+  const bool is_shared = options_.daemon.empty();
+  const std::string log = is_array ? "task-%a.log" : "task-0.log";
+  const auto minutes = time_limit_minutes(pack.need.seconds, options_.longest);
+  std::vector<std::string> out = {"--job-name=" + (kJobPrefix + batch),
+                                  "--comment=" + comment_of(tasks),
+                                  "--nodes=1",
+                                  "--ntasks=1",
+                                  fmt::format("--cpus-per-task={}", pack.need.threads),
+                                  fmt::format("--mem={}M", pack.need.memory_mib),
+                                  fmt::format("--time={}", minutes),
+                                  fmt::format("--signal=B:USR2@{}", warning_seconds(minutes)),
+                                  "--no-requeue",
+                                  "--export=NIL",
+                                  "--chdir=" + (is_shared ? folder.string() : "/tmp"),
+                                  "--output=" + (is_shared ? (folder / log).string() : "/dev/null")};
+  if (is_array) out.push_back(fmt::format("--array=0-{}%{}", pack.tasks.size() - 1, options_.tasks));
+  out.insert(out.end(), options_.sbatch.begin(), options_.sbatch.end());
+  out.push_back((folder / "script").string());
+  return out;
+}
+
+std::string Batcher::script_of(const std::string& batch, const Batch& tasks) const {
+  std::string out = "#!/bin/sh\n# Computes a batch of crushes for cellcrushd.\n";
+  if (!options_.simd.empty()) out += "export CELLCRUSH_SIMD=" + shell_word(options_.simd) + "\n";
+  const std::string begin = fmt::format("exec {} task --lease {}", shell_word(options_.program.string()),
+                                        std::chrono::duration<double>(options_.times.lease).count());
+  if (options_.daemon.empty())
+    return out + fmt::format("{} --folder {} --batch {}\n", begin, shell_word(options_.folder.string()), batch);
+  // In the environment, which other users of a node cannot read, and not among the arguments.
+  out += "case \"${SLURM_ARRAY_TASK_ID:-0}\" in\n";
+  for (int task = 0; task < tasks.tasks_size(); ++task) {
+    out += std::to_string(task) + ") CELLCRUSH_ATTEMPTS='";
+    for (const auto& id : tasks.tasks(task).attempts())
+      out += id + ":" + AttemptFolder(options_.folder / "attempts" / id).token().value_or("") + " ";
+    out += "' ;;\n";
+  }
+  out += "esac\nexport CELLCRUSH_ATTEMPTS\n";
+  out += fmt::format("{} --daemon {} --cluster {}", begin, shell_word(options_.daemon), options_.name);
+  if (!options_.authority.empty()) out += " --ca " + shell_word(options_.authority);
+  return out + "\n";
+}
+
+int task_index(const Attempt& attempt) { return attempt.is_array() ? attempt.task() : -1; }
+
+std::string random_name() {
+  std::random_device random;
+  return fmt::format("{:08x}{:08x}", random(), random());
+}
+
+std::string random_token() { return random_name() + random_name() + random_name() + random_name(); }
+
+void write_attempt(const store::JobFolder& job, const Attempt& attempt) {
+  write_small_file(job.attempt(), attempt.SerializeAsString());
+}
+
+std::optional<Attempt> read_attempt(const store::JobFolder& job) { return read_message<Attempt>(job.attempt()); }
+
+}  // namespace cellcrush::slurm

@@ -1,0 +1,131 @@
+#include "slurm/cluster_flag.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <functional>
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <string_view>
+
+#include "error.h"
+#include "slurm/slurm_executor.h"
+#include "slurm/workers_service.h"
+
+namespace cellcrush::slurm {
+namespace {
+
+constexpr std::size_t kLongestName = 40;
+
+[[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument(what); }
+
+std::filesystem::path absolute_path(const std::string& key, const std::string& value) {
+  if (value.empty() || value.front() != '/')
+    refuse(key + " is '" + value + "'; it must be an absolute path, which begins with /.");
+  return value;
+}
+
+int whole_number(const std::string& key, const std::string& value, int least, int most) {
+  int out = 0;
+  const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), out);
+  if (error != std::errc() || end != value.data() + value.size() || out < least || out > most)
+    refuse(key + " is '" + value + "'; it must be a whole number from " + std::to_string(least) + " to " +
+           std::to_string(most) + ".");
+  return out;
+}
+
+void check_name(const std::string& name) {
+  const auto is_good = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
+  };
+  if (name.empty() || name.size() > kLongestName || !std::all_of(name.begin(), name.end(), is_good))
+    refuse("the cluster's name is '" + name +
+           "'; it must be 1 to 40 letters, digits, - or _, followed by a colon: NAME:folder=PATH.");
+}
+
+using Setter = std::function<void(ClusterOptions&, const std::string& key, const std::string& value)>;
+
+const std::map<std::string, Setter>& setters() {
+  static const std::map<std::string, Setter> out = {
+      {"folder", [](auto& to, const auto& key, const auto& value) { to.folder = absolute_path(key, value); }},
+      {"daemon",
+       [](auto& to, const auto& key, const auto& value) {
+         const auto colon = value.rfind(':');
+         if (colon == std::string::npos || colon == 0)
+           refuse(key + " is '" + value + "'; it must be HOST:PORT, as the nodes reach this daemon.");
+         whole_number(key + "'s port", value.substr(colon + 1), 1, 65535);
+         to.daemon = value;
+       }},
+      {"ca", [](auto& to, const auto& key, const auto& value) { to.authority = absolute_path(key, value); }},
+      {"program", [](auto& to, const auto& key, const auto& value) { to.program = absolute_path(key, value); }},
+      {"commands", [](auto& to, const auto& key, const auto& value) { to.commands = absolute_path(key, value); }},
+      {"simd", [](auto& to, const auto&, const auto& value) { to.simd = value; }},
+      {"sbatch",
+       [](auto& to, const auto& key, const auto& value) {
+         if (value.rfind("--", 0) != 0)
+           refuse(key + " is '" + value + "'; it must be a long option of sbatch, such as --partition=short.");
+         to.sbatch.push_back(value);
+       }},
+      {"jobs", [](auto& to, const auto& key, const auto& value) { to.jobs = whole_number(key, value, 1, 1024); }},
+      {"tasks", [](auto& to, const auto& key, const auto& value) { to.tasks = whole_number(key, value, 1, 1024); }},
+      {"task-length",
+       [](auto& to, const auto& key, const auto& value) {
+         to.task_length = std::chrono::seconds(whole_number(key, value, 0, 86400));
+       }},
+      {"longest",
+       [](auto& to, const auto& key, const auto& value) {
+         to.longest = std::chrono::seconds(whole_number(key, value, 60, 100'000'000));
+       }},
+  };
+  return out;
+}
+
+}  // namespace
+
+ClusterOptions parse_cluster(const std::string& text) {
+  ClusterOptions out;
+  const auto colon = text.find(':');
+  out.name = text.substr(0, colon);
+  check_name(out.name);
+  std::string rest = colon == std::string::npos ? "" : text.substr(colon + 1);
+  while (!rest.empty()) {
+    const auto comma = rest.find(',');
+    const std::string setting = rest.substr(0, comma);
+    rest = comma == std::string::npos ? "" : rest.substr(comma + 1);
+    const auto equals = setting.find('=');
+    const std::string key = setting.substr(0, equals);
+    const auto setter = setters().find(key);
+    if (setter == setters().end() || equals == std::string::npos) {
+      std::string known;
+      for (const auto& [name, unused] : setters()) known += (known.empty() ? "" : ", ") + name;
+      refuse("'" + setting + "' is not a setting of a cluster; write KEY=VALUE with one of " + known + ".");
+    }
+    setter->second(out, key, setting.substr(equals + 1));
+  }
+  if (out.folder.empty() == out.daemon.empty())
+    refuse(
+        "give either folder=PATH, a folder that the daemon and all nodes share, or daemon=HOST:PORT, under which the "
+        "nodes reach this daemon.");
+  if (!out.authority.empty() && out.daemon.empty()) refuse("ca needs daemon=HOST:PORT.");
+  return out;
+}
+
+jobs::ExecutorOptions executor_of(const ClusterOptions& options) {
+  return {"slurm/" + options.name, options.jobs, [options](const jobs::ExecutorSurroundings& around) {
+            ClusterOptions own = options;
+            if (!own.daemon.empty() && around.asks_for_certificates) {
+              throw ServiceError(ServiceError::Kind::invalid,
+                                 "--slurm " + own.name +
+                                     " with daemon does not go with --tls-client-ca: its tasks have no certificates. "
+                                     "Use --tokens instead, or the setting folder.");
+            }
+            // Not the link itself, which names another program on a node.
+            if (own.program.empty()) own.program = std::filesystem::read_symlink("/proc/self/exe");
+            if (own.folder.empty()) own.folder = own_folder_of_cluster(around.data_folder, own.name);
+            return std::make_unique<SlurmExecutor>(
+                own, around.step_cost, std::make_unique<jobs::LocalProcess>(around.worker_program, around.stall_limit));
+          }};
+}
+
+}  // namespace cellcrush::slurm

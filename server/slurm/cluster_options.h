@@ -1,0 +1,39 @@
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace cellcrush::slurm {
+
+/// How the daemon uses one Slurm cluster. Names of options are those of the flag --slurm (cluster_flag.h).
+struct ClusterOptions {
+  std::string name;       ///< the executor is called "slurm/NAME"
+  std::string daemon;     ///< HOST:PORT of the daemon for the nodes; empty: they share `folder` with it
+  std::string authority;  ///< PEM file on the nodes for `daemon`'s certificate; empty: the system's authorities
+  std::filesystem::path
+      folder;  ///< absolute; on a file system that the daemon and all nodes share, unless `daemon` is set
+  std::filesystem::path program;         ///< cellcrushd on the nodes, absolute; empty: the daemon's own path
+  std::filesystem::path commands;        ///< folder of sbatch, squeue, sacct and scancel; empty: found by PATH
+  std::string simd;                      ///< CELLCRUSH_SIMD of the tasks; empty: the fastest kernel of each node
+  std::vector<std::string> sbatch;       ///< further options of sbatch, such as "--partition=short"
+  int jobs = 256;                        ///< jobs that are in the cluster at once
+  int tasks = 64;                        ///< tasks of one array that run at once
+  std::chrono::seconds task_length{60};  ///< predicted time up to which short jobs share a task
+  std::chrono::seconds longest{0};       ///< limit for the time limit of a task; 0: none
+
+  /// Times, replaceable in tests.
+  struct Times {
+    std::chrono::milliseconds look{1'000};         ///< between two readings of an attempt's folder
+    std::chrono::milliseconds squeue{30'000};      ///< between two calls of squeue
+    std::chrono::milliseconds command{60'000};     ///< after which a command of Slurm is killed
+    std::chrono::milliseconds silent{30'000};      ///< without a heartbeat, after which Slurm is asked
+    std::chrono::milliseconds lease{300'000};      ///< without a heartbeat, after which a task stops by itself
+    std::chrono::milliseconds leave{60'000};       ///< for a task to leave or end its job
+    std::chrono::milliseconds unanswered{60'000};  ///< for a submission without an answer to show up
+  };
+  Times times;
+};
+
+}  // namespace cellcrush::slurm

@@ -1,0 +1,154 @@
+#include "slurm/slurm_executor.h"
+
+#include <spdlog/spdlog.h>
+
+#include <exception>
+#include <system_error>
+#include <utility>
+
+#include "error.h"
+#include "jobs/queue_forecast.h"
+#include "slurm/attempt_follower.h"
+#include "slurm/file_link.h"
+#include "slurm/small_file.h"
+#include "store/durable_file.h"
+#include "worker/report_log.h"
+
+namespace cellcrush::slurm {
+namespace {
+
+void make_shared_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) store::throw_file_error(folder, "used", error.value());
+}
+
+// Removes half a report at the end, which a killed daemon or worker may have left.
+void cut_incomplete_report(const store::JobFolder& folder) { worker::ReportLog log(folder.reports()); }
+
+}  // namespace
+
+SlurmExecutor::SlurmExecutor(ClusterOptions options, double step_cost, std::unique_ptr<jobs::LocalProcess> local)
+    : options_(std::move(options)),
+      step_cost_(step_cost),
+      local_(std::move(local)),
+      commands_(options_.commands, options_.times.command),
+      view_(commands_, options_.times.squeue),
+      batcher_(options_, commands_) {
+  make_shared_folder(options_.folder / "attempts");
+  make_shared_folder(options_.folder / "batches");
+}
+
+// The threads of its parts need not wait for a controller that does not answer. A submission without an answer is
+// looked for by the next daemon.
+SlurmExecutor::~SlurmExecutor() { commands_.stop(); }
+
+bool SlurmExecutor::has_worker(const store::JobFolder& folder) {
+  const auto attempt = read_attempt(folder);
+  return (attempt && !attempt->batch().empty()) || local_->has_worker(folder);
+}
+
+std::optional<jobs::WorkerExit> SlurmExecutor::read_final_report(const store::JobFolder& folder,
+                                                                 const jobs::WorkerEvents& events) {
+  return local_->read_final_report(folder, events);
+}
+
+void SlurmExecutor::end_worker(const store::JobFolder& folder) {
+  local_->end_worker(folder);
+  const auto attempt = read_attempt(folder);
+  if (!attempt) return;
+  const AttemptFolder shared = folder_of(*attempt);
+  Claim claim;
+  claim.set_withdrawn(true);
+  if (shared.exists() && !shared.claim(claim)) shared.request(Request::ABANDON);
+  if (attempt->slurm_job() != 0 && attempt->shares() <= 1)
+    static_cast<void>(commands_.scancel(attempt->slurm_job(), task_index(*attempt)));
+  std::error_code ignored;
+  std::filesystem::remove(folder.attempt(), ignored);
+  shared.remove();
+  remove_batch_if_over(*attempt);
+}
+
+// The batch's folder goes with the last attempt's.
+void SlurmExecutor::remove_batch_if_over(const Attempt& attempt) {
+  if (attempt.batch().empty()) return;
+  const auto folder = Batcher::batch_folder(options_, attempt.batch());
+  try {
+    const auto batch = read_message<Batch>(folder / "tasks");
+    if (!batch) return;
+    // From the end: later tasks tend to end later.
+    for (int task = batch->tasks_size(); --task >= 0;) {
+      for (const auto& id : batch->tasks(task).attempts()) {
+        if (AttemptFolder(options_.folder / "attempts" / id).exists()) return;
+      }
+    }
+    std::filesystem::remove_all(folder);
+  } catch (const std::exception& error) {
+    spdlog::warn("{} cannot be removed: {}", folder.string(), error.what());
+  }
+}
+
+Need SlurmExecutor::predict(const worker::Order& order) {
+  const MutexLock lock(checker_mutex_);
+  const auto verdict = checker_.check(order.case_());
+  store::QueuedJob job;
+  job.element_steps = verdict.element_steps;
+  return need_of(order.threads(), verdict.most_memory_bytes,
+                 jobs::predicted_seconds(job, {order.threads(), 0}, order.threads(), step_cost_));
+}
+
+std::shared_ptr<Submission> SlurmExecutor::open_attempt(const store::JobFolder& folder, const worker::Order& order) {
+  Attempt attempt;
+  attempt.set_id(random_name());
+  const Need need = predict(order);
+  const AttemptFolder shared = folder_of(attempt);
+  // Durable first: whatever is in the shared folder belongs to an attempt that the next daemon finds.
+  write_attempt(folder, attempt);
+  try {
+    const AttemptFolder partial(shared.root().string() + ".partial");
+    make_shared_folder(partial.root());
+    write_small_file(partial.files().order(), order.SerializeAsString());
+    copy_run(folder, partial.files());
+    if (!options_.daemon.empty()) partial.set_token(random_token());
+    std::error_code error;
+    std::filesystem::rename(partial.root(), shared.root(), error);
+    if (error) store::throw_file_error(shared.root(), "written", error.value());
+  } catch (...) {
+    std::error_code ignored;
+    std::filesystem::remove(folder.attempt(), ignored);
+    std::filesystem::remove_all(shared.root().string() + ".partial", ignored);
+    throw;
+  }
+  return batcher_.submit(attempt, folder, need);
+}
+
+jobs::WorkerExit SlurmExecutor::run(const store::JobFolder& folder, const worker::Order& order,
+                                    const jobs::WorkerEvents& events, const jobs::Interruptions& interruptions) {
+  // A result from the reports of lost workers takes seconds, and only this machine has all of them.
+  if (order.has_given_up() || local_->has_worker(folder)) return local_->run(folder, order, events, interruptions);
+  cut_incomplete_report(folder);
+  std::shared_ptr<Submission> submission;
+  if (auto attempt = read_attempt(folder)) {
+    const bool is_known = attempt->slurm_job() != 0;
+    if (!attempt->batch().empty() && folder_of(*attempt).exists()) {
+      submission = std::make_shared<Submission>(*std::move(attempt),
+                                                is_known ? Submission::Stage::answered : Submission::Stage::lost);
+    } else {
+      // It was not handed to sbatch, or was taken back.
+      end_worker(folder);
+    }
+  }
+  if (!submission) submission = open_attempt(folder, order);
+  const std::function<void(const Attempt&)> closed = [this](const Attempt& attempt) { remove_batch_if_over(attempt); };
+  try {
+    AttemptFollower follower({options_, commands_, view_, events, interruptions, closed}, folder, submission);
+    return follower.follow();
+  } catch (...) {
+    static_cast<void>(submission->withdraw());
+    end_worker(folder);
+    submission->close(folder);
+    throw;
+  }
+}
+
+}  // namespace cellcrush::slurm

@@ -1,0 +1,208 @@
+#include "slurm/task.h"
+
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <climits>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <memory>
+#include <sstream>
+#include <stop_token>
+#include <system_error>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "jobs/local_process.h"
+#include "slurm/attempt_folder.h"
+#include "slurm/attempt_run.h"
+#include "slurm/file_link.h"
+#include "slurm/link.h"
+#include "slurm/network_link.h"
+#include "slurm/small_file.h"
+#include "store/durable_file.h"
+
+namespace cellcrush::slurm {
+namespace {
+
+constexpr std::chrono::milliseconds kStallLimit{60'000};
+constexpr std::chrono::milliseconds kBetweenTries{1'000};
+constexpr int kTries = 600;
+
+std::string variable(const char* name) {
+  const char* value = std::getenv(name);
+  return value == nullptr ? "" : value;
+}
+
+int own_task() {
+  const std::string text = variable("SLURM_ARRAY_TASK_ID");
+  int out = 0;
+  std::from_chars(text.data(), text.data() + text.size(), out);
+  return out;
+}
+
+Claim own_claim() {
+  std::array<char, HOST_NAME_MAX + 1> host{};
+  gethostname(host.data(), host.size() - 1);
+  Claim out;
+  out.set_host(host.data());
+  out.set_process(getpid());
+  out.set_slurm_job(variable("SLURM_JOB_ID"));
+  out.set_restart(variable("SLURM_RESTART_COUNT"));
+  return out;
+}
+
+// A folder on the node's disk, deleted at the end.
+class ScratchFolder {
+ public:
+  ScratchFolder() {
+    const std::string parent = variable("TMPDIR").empty() ? "/tmp" : variable("TMPDIR");
+    std::string name = parent + "/cellcrush-XXXXXX";
+    if (mkdtemp(name.data()) == nullptr) store::throw_file_error(name, "used", errno);
+    path_ = name;
+  }
+  ~ScratchFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+// Blocked in all threads that are started from now on.
+sigset_t block_ends() {
+  sigset_t out;
+  sigemptyset(&out);
+  for (const int signal : {SIGTERM, SIGINT, SIGUSR2}) sigaddset(&out, signal);
+  pthread_sigmask(SIG_BLOCK, &out, nullptr);
+  return out;
+}
+
+void wait_for_ends(const sigset_t& signals, TaskEnd& end, const std::stop_token& stop) {
+  const timespec interval{0, 100'000'000};
+  while (!stop.stop_requested()) {
+    const int received = sigtimedwait(&signals, nullptr, &interval);
+    if (received < 0) continue;
+    spdlog::info("received {}", strsignal(received));
+    end.request(received == SIGUSR2 ? Ended::TIME_LIMIT : Ended::TERMINATED);
+  }
+}
+
+// Says on behalf of an attempt that was not begun that this task ends.
+void leave_unbegun(Link& link, Ended::Reason reason) {
+  Ended ended;
+  ended.set_kind(Ended::LEFT);
+  ended.set_reason(reason);
+  ended.set_advanced(true);
+  link.end(ended);
+}
+
+// An attempt of the task, and how it reaches the daemon.
+struct Assigned {
+  std::string id;
+  std::unique_ptr<Link> link;
+};
+
+std::vector<Assigned> attempts_by_network(const TaskOptions& options) {
+  std::vector<Assigned> out;
+  const auto channel = open_channel(options.network);
+  std::istringstream words(variable("CELLCRUSH_ATTEMPTS"));
+  for (std::string word; words >> word;) {
+    const auto colon = word.find(':');
+    const std::string id = word.substr(0, colon);
+    const std::string token = colon == std::string::npos ? "" : word.substr(colon + 1);
+    out.push_back({id, std::make_unique<NetworkLink>(channel, options.cluster, id, token)});
+  }
+  // The worker does not inherit what it does not need.
+  unsetenv("CELLCRUSH_ATTEMPTS");
+  return out;
+}
+
+std::vector<Assigned> attempts_by_files(const TaskOptions& options) {
+  std::vector<Assigned> out;
+  const auto batch = read_message<Batch>(options.folder / "batches" / options.batch / "tasks");
+  const int task = own_task();
+  if (!batch || task < 0 || task >= batch->tasks_size()) {
+    spdlog::info("batch {} has no task {} any more", options.batch, task);
+    return out;
+  }
+  for (const auto& id : batch->tasks(task).attempts())
+    out.push_back({id, std::make_unique<FileLink>(AttemptFolder(options.folder / "attempts" / id))});
+  return out;
+}
+
+// Tries for a while: the daemon may be restarting, or the shared folder be full.
+template <typename Call>
+auto patiently(const TaskEnd& end, const Call& call) {
+  for (int i = 0;; ++i) {
+    try {
+      return call();
+    } catch (const std::exception& error) {
+      if (i == kTries || end.reason() != Ended::REASON_UNSPECIFIED) throw;
+      if (i == 0) spdlog::warn("trying again: {}", error.what());
+    }
+    std::this_thread::sleep_for(kBetweenTries);
+  }
+}
+
+void compute(const std::string& id, Link& link, const TaskOptions& options, const TaskEnd& end) {
+  const Claim claim = own_claim();
+  if (!patiently(end, [&] { return link.claim(claim); })) {
+    spdlog::info("attempt {} is not this task's", id);
+    return;
+  }
+  if (const auto reason = end.reason(); reason != Ended::REASON_UNSPECIFIED) return leave_unbegun(link, reason);
+  spdlog::info("attempt {} begins", id);
+  try {
+    const ScratchFolder scratch;
+    const store::JobFolder folder(scratch.path());
+    patiently(end, [&] { link.fetch(folder); });
+    jobs::LocalProcess workers(options.worker_program, kStallLimit, jobs::count_oom_kills,
+                               jobs::LocalProcess::Life::ends_with_parent);
+    AttemptRun(link, workers, end, options.lease).run(folder);
+    spdlog::info("attempt {} has ended", id);
+  } catch (const std::exception& error) {
+    Ended ended;
+    ended.set_kind(Ended::NOT_STARTED);
+    ended.set_message(error.what());
+    patiently(end, [&] { link.end(ended); });
+    throw;
+  }
+}
+
+}  // namespace
+
+int run_task(const TaskOptions& options) {
+  TaskEnd end;
+  const sigset_t signals = block_ends();
+  const std::jthread waits([&](const std::stop_token& stop) { wait_for_ends(signals, end, stop); });
+  int out = 0;
+  try {
+    for (const auto& [id, link] : options.folder.empty() ? attempts_by_network(options) : attempts_by_files(options)) {
+      try {
+        compute(id, *link, options, end);
+      } catch (const std::exception& error) {
+        // The next attempt may have more luck.
+        spdlog::error("attempt {}: {}", id, error.what());
+        out = 1;
+      }
+    }
+  } catch (const std::exception& error) {
+    spdlog::error("{}", error.what());
+    out = 1;
+  }
+  return out;
+}
+
+}  // namespace cellcrush::slurm
