@@ -19,5 +19,16 @@ TEST(JobArrayPage, EveryCommandDoesWhatThePageShows) {
   unsetenv("SLURM_CONF");
 }
 
+TEST(ExecutorPage, EveryCommandDoesWhatThePageShows) {
+  if (!testing::slurm_is_installed()) GTEST_SKIP() << testing::kSlurmIsMissing;
+  const SlurmCluster cluster;
+  const testing::TemporaryFolder data;
+  setenv("SLURM_CONF", cluster.config().c_str(), 1);
+  setenv("SHARED", cluster.shared_folder().c_str(), 1);
+  setenv("DATA", data.path().c_str(), 1);
+  expect_shown("deploy/slurm/executor.md");
+  for (const char* name : {"SLURM_CONF", "SHARED", "DATA"}) unsetenv(name);
+}
+
 }  // namespace
 }  // namespace cellcrush::docs

@@ -1,0 +1,134 @@
+// Commands of Slurm that give no answer, or a wrong one.
+#include <csignal>
+#include <fstream>
+
+#include "slurm/slurm_fixture.h"
+
+namespace cellcrush::testing {
+namespace {
+
+using ::testing::HasSubstr;
+using Kind = jobs::WorkerExit::Kind;
+using std::chrono::milliseconds;
+
+class SlurmAnswerTest : public SlurmFixture {
+ protected:
+  void SetUp() override {
+    SlurmFixture::SetUp();
+    if (!IsSkipped()) start_cluster();
+  }
+};
+
+TEST_F(SlurmAnswerTest, ASubmissionWithoutAnAnswerIsFoundByItsName) {
+  auto options = quick_options();
+  options.commands = replace_command("sbatch", "$REAL \"$@\" > /dev/null; exec sleep 100");
+  options.times.command = milliseconds(1'000);
+  options.program = logging_program();
+  start_executor(options);
+  const auto job = run(slow_case());
+  EXPECT_THAT(job->wait_for_place("RUNNING"), HasSubstr("Slurm job 1,"));
+  EXPECT_EQ(job->wait().kind, Kind::exited);
+  EXPECT_EQ(count_in_log("begins"), 1);
+  EXPECT_EQ(count_in_log("has ended"), 1);
+}
+
+// Neither found nor begun for long: it is taken back. What then starts in Slurm computes nothing.
+TEST_F(SlurmAnswerTest, ASubmissionThatIsNotFoundIsTakenBackAndItsTaskComputesNothing) {
+  auto options = quick_options();
+  options.commands = replace_command("sbatch", "$REAL --begin=now+6 \"$@\" > /dev/null; exec sleep 100");
+  options.commands = replace_command("squeue", "exit 0");
+  options.times.command = milliseconds(1'000);
+  options.times.unanswered = milliseconds(1'500);
+  options.program = logging_program();
+  start_executor(options);
+  const auto exit = run(tiny_case())->wait();
+  EXPECT_EQ(exit.kind, Kind::not_started);
+  EXPECT_THAT(exit.trouble.reason, HasSubstr("did not answer in time"));
+  EXPECT_EQ(attempt_count(), 0U);
+  EXPECT_TRUE(cluster_->wait_for({"squeue", "--noheader"}, "", std::chrono::seconds(40)));
+  EXPECT_EQ(count_in_log("begins"), 0);
+}
+
+// With accounting, a task that squeue has forgotten is still known.
+TEST_F(SlurmAnswerTest, WhatSacctSaysOfASilentTaskCounts) {
+  auto options = quick_options();
+  options.commands = replace_command("squeue", "exit 0");
+  options.commands = replace_command("sacct", "echo \"$@\" >> $HERE/asked; echo '1|NODE_FAIL|n7|cellcrush-x'");
+  start_executor(options);
+  const auto job = run(endless_case());
+  const pid_t task = job->wait_for_start();
+  ASSERT_GT(task, 0);
+  ASSERT_EQ(kill(task, SIGKILL), 0);
+  const auto exit = job->wait();
+  EXPECT_EQ(exit.kind, Kind::displaced);
+  EXPECT_THAT(exit.detail, HasSubstr("Slurm job 1 on n7 ended without a last word: NODE_FAIL"));
+  std::ifstream asked(options.commands / "asked");
+  std::string line;
+  EXPECT_TRUE(std::getline(asked, line));
+  EXPECT_THAT(line, HasSubstr("--jobs=1 "));
+}
+
+// Neither sacct nor squeue knows of the task: that proves nothing, and its lease has to be over, twice.
+TEST_F(SlurmAnswerTest, ASilentTaskOfWhichNobodyKnowsIsGivenUpAfterItsLease) {
+  auto options = quick_options();
+  options.commands = replace_command("squeue", "exit 0");
+  options.times.lease = milliseconds(8'000);
+  start_executor(options);
+  const auto job = run(endless_case());
+  const pid_t task = job->wait_for_start();
+  ASSERT_GT(task, 0);
+  ASSERT_EQ(kill(task, SIGKILL), 0);
+  const auto begin = std::chrono::steady_clock::now();
+  const auto exit = job->wait();
+  EXPECT_GT(std::chrono::steady_clock::now() - begin, milliseconds(12'000));
+  EXPECT_EQ(exit.kind, Kind::displaced);
+  EXPECT_THAT(exit.detail, HasSubstr("no sign of life for 16 s"));
+}
+
+TEST_F(SlurmAnswerTest, AJobThatSqueueNeverShowsRunsToItsEnd) {
+  auto options = quick_options();
+  options.commands = replace_command("squeue", "exit 0");
+  options.times.squeue = milliseconds(200);
+  start_executor(options);
+  const auto job = run(slow_case());
+  EXPECT_EQ(job->wait().kind, Kind::exited);
+  EXPECT_EQ(job->begun_steps(), std::vector<std::int64_t>{0});
+}
+
+TEST_F(SlurmAnswerTest, JobsThatSqueueHidesNowAndThenAreComputedOnce) {
+  auto options = quick_options();
+  options.commands = replace_command("squeue", "$REAL \"$@\" | awk 'BEGIN { srand() } rand() > 0.05'");
+  options.times.squeue = milliseconds(100);
+  options.times.unanswered = milliseconds(1'000);
+  options.program = logging_program();
+  start_executor(options);
+  std::vector<std::unique_ptr<ExecutorRun>> jobs;
+  for (int i = 1; i <= 12; ++i) jobs.push_back(run(case_of_seconds(), i));
+  for (const auto& job : jobs) EXPECT_TRUE(job->wait().final.has_value());
+  EXPECT_EQ(count_in_log("has ended"), 12);
+}
+
+TEST_F(SlurmAnswerTest, AStateThatIsNotKnownIsShown) {
+  auto options = quick_options();
+  options.commands = replace_command("squeue", "$REAL \"$@\" | sed 's/RUNNING/TELEPORTING/'; echo broken line");
+  start_executor(options);
+  const auto job = run(slow_case());
+  EXPECT_THAT(job->wait_for_place("TELEPORTING"), HasSubstr("TELEPORTING on n"));
+  EXPECT_EQ(job->wait().kind, Kind::exited);
+}
+
+// Two tasks of one attempt, as when Slurm starts a job again: the second computes nothing.
+TEST_F(SlurmAnswerTest, AnAttemptIsComputedByOneTask) {
+  auto options = quick_options();
+  options.commands = replace_command("sbatch", "$REAL \"$@\" > /dev/null; exec $REAL \"$@\"");
+  options.program = logging_program();
+  start_executor(options);
+  const auto job = run(slow_case());
+  EXPECT_EQ(job->wait().kind, Kind::exited);
+  EXPECT_TRUE(cluster_->wait_for({"squeue", "--noheader"}, "", std::chrono::seconds(30)));
+  EXPECT_EQ(count_in_log("begins"), 1);
+  EXPECT_EQ(count_in_log("is not this task's") + count_in_log("has no task 0 any more"), 1);
+}
+
+}  // namespace
+}  // namespace cellcrush::testing

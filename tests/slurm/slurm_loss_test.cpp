@@ -1,0 +1,271 @@
+// What becomes of jobs whose nodes, tasks or controller fail, and of those that somebody stops in Slurm itself.
+#include <sys/mount.h>
+
+#include <csignal>
+#include <ctime>
+#include <fstream>
+
+#include "error.h"
+#include "slurm/slurm_fixture.h"
+
+namespace cellcrush::testing {
+namespace {
+
+using ::testing::AnyOf;
+using ::testing::Eq;
+using ::testing::HasSubstr;
+using Kind = jobs::WorkerExit::Kind;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+class SlurmLossTest : public SlurmFixture {
+ protected:
+  // The number of the Slurm job, from a place such as "Slurm job 17, RUNNING on n1".
+  static std::string number_in(const std::string& place) {
+    const auto begin = place.find("job ") + 4;
+    return place.substr(begin, place.find_first_of(", ", begin) - begin);
+  }
+
+  static int node_in(const std::string& place) { return place.back() - '0'; }
+};
+
+TEST_F(SlurmLossTest, AJobOfALostNodeContinuesOnAnotherWithTheSameBits) {
+  start_cluster();
+  start_executor();
+  auto job = run(slow_case());
+  ASSERT_TRUE(job->wait_for_samples(80));
+  cluster_->kill_node(node_in(job->wait_for_place("RUNNING on n")));
+  const auto exit = job->wait();
+  EXPECT_EQ(exit.kind, Kind::displaced) << exit.detail;
+  EXPECT_THAT(exit.detail, AnyOf(HasSubstr("NODE_FAIL"), HasSubstr("no sign of life")));
+  job = run(slow_case());
+  const auto end = job->wait();
+  EXPECT_EQ(end.kind, Kind::exited) << end.detail;
+  EXPECT_EQ(job->begun_steps().size(), 2U);
+  EXPECT_GT(job->begun_steps().back(), 0);
+  EXPECT_EQ(without_repeats(job->samples()), local_samples(slow_case()));
+}
+
+// Slurm says that the node failed, and the task goes on: its heartbeat counts.
+TEST_F(SlurmLossTest, ATaskThatOutlivesItsNodeIsNotComputedAgain) {
+  start_cluster();
+  start_executor();
+  auto slow = slow_case();
+  slow.mutable_loading()->set_speed_m_per_s(0.1);
+  const auto job = run(slow);
+  ASSERT_TRUE(job->wait_for_samples(5));
+  const std::string place = job->wait_for_place("RUNNING on n");
+  cluster_->kill_node(node_in(place), SlurmCluster::JobProcesses::survive);
+  EXPECT_THAT(job->wait_for_place("NODE_FAIL"), HasSubstr("NODE_FAIL"));
+  EXPECT_EQ(job->wait().kind, Kind::exited);
+  EXPECT_EQ(job->begun_steps(), std::vector<std::int64_t>{0});
+  EXPECT_EQ(job->samples(), local_samples(slow));
+}
+
+TEST_F(SlurmLossTest, JobsRunOnWhileTheControllerIsAwayAndNewOnesWaitForIt) {
+  start_cluster();
+  auto options = quick_options();
+  options.times.command = milliseconds(3'000);
+  options.times.unanswered = milliseconds(1'000);
+  start_executor(options);
+  const auto job = run(slow_case(), 1);
+  ASSERT_TRUE(job->wait_for_samples(5));
+  cluster_->stop_controller();
+  auto other = run(small_case(), 2);
+  const auto refused = other->wait();
+  EXPECT_EQ(refused.kind, Kind::not_started);
+  EXPECT_EQ(refused.trouble.shortage, Shortage::cluster);
+  EXPECT_THAT(refused.trouble.reason, HasSubstr("sbatch"));
+  EXPECT_EQ(job->wait().kind, Kind::exited);
+  EXPECT_EQ(job->samples(), local_samples(slow_case()));
+  cluster_->start_controller();
+  other = run(small_case(), 2);
+  EXPECT_EQ(other->wait().kind, Kind::exited);
+}
+
+TEST_F(SlurmLossTest, AJobThatTheAdministratorCancelsIsCancelled) {
+  start_cluster();
+  start_executor();
+  auto job = run(endless_case());
+  ASSERT_TRUE(job->wait_for_samples(3));
+  const std::string number = number_in(job->wait_for_place("RUNNING"));
+  EXPECT_EQ(cluster_->run({"scancel", number}).exit_code, 0);
+  auto exit = job->wait();
+  EXPECT_EQ(exit.kind, Kind::withdrawn) << exit.detail;
+  EXPECT_THAT(exit.detail, HasSubstr("cancelled in Slurm"));
+  // Also one that waits there.
+  EXPECT_EQ(cluster_->run({"scontrol", "update", "NodeName=n1,n2", "State=DRAIN", "Reason=test"}).exit_code, 0);
+  job = run(endless_case(), 2);
+  EXPECT_EQ(cluster_->run({"scancel", number_in(job->wait_for_place("PENDING"))}).exit_code, 0);
+  exit = job->wait();
+  EXPECT_EQ(exit.kind, Kind::withdrawn) << exit.detail;
+}
+
+TEST_F(SlurmLossTest, AJobThatSlurmSuspendsStaysAndGoesOn) {
+  start_cluster();
+  auto options = quick_options();
+  options.times.silent = milliseconds(7'000);
+  options.times.lease = milliseconds(8'000);
+  start_executor(options);
+  const auto job = run(slow_case());
+  ASSERT_TRUE(job->wait_for_samples(5));
+  const std::string number = number_in(job->wait_for_place("RUNNING"));
+  ASSERT_EQ(cluster_->run({"scontrol", "suspend", number}).exit_code, 0);
+  EXPECT_THAT(job->wait_for_place("SUSPENDED"), HasSubstr("SUSPENDED"));
+  // Longer than its lease, twice.
+  std::this_thread::sleep_for(seconds(20));
+  EXPECT_FALSE(job->has_ended());
+  ASSERT_EQ(cluster_->run({"scontrol", "resume", number}).exit_code, 0);
+  const auto exit = job->wait();
+  EXPECT_EQ(exit.kind, Kind::exited) << exit.detail;
+  EXPECT_EQ(job->samples(), local_samples(slow_case()));
+}
+
+TEST_F(SlurmLossTest, APreemptedJobContinuesLater) {
+  SlurmOptions preempting;
+  preempting.preempt_mode = "CANCEL";
+  start_cluster(preempting);
+  auto options = quick_options();
+  options.sbatch = {"--partition=low"};
+  start_executor(options);
+  auto job = run(slow_case());
+  ASSERT_TRUE(job->wait_for_samples(80));
+  // Both nodes are wanted for a second.
+  ASSERT_EQ(
+      cluster_->run({"sbatch", "--partition=main", "--nodes=2", "--output=/dev/null", "--wrap", "sleep 1"}).exit_code,
+      0);
+  const auto exit = job->wait();
+  EXPECT_THAT(exit.kind, AnyOf(Eq(Kind::displaced), Eq(Kind::stopped))) << exit.detail;
+  job = run(slow_case());
+  EXPECT_EQ(job->wait().kind, Kind::exited);
+  EXPECT_EQ(job->begun_steps().size(), 2U);
+  EXPECT_EQ(without_repeats(job->samples()), local_samples(slow_case()));
+}
+
+TEST_F(SlurmLossTest, AKilledTaskTakesItsWorkerAlongAndTheJobContinues) {
+  start_cluster();
+  start_executor();
+  auto job = run(slow_case());
+  ASSERT_TRUE(job->wait_for_samples(80));
+  const pid_t task = job->wait_for_start();
+  ASSERT_EQ(kill(task, SIGKILL), 0);
+  const auto exit = job->wait();
+  EXPECT_EQ(exit.kind, Kind::gone) << exit.detail;
+  EXPECT_THAT(exit.detail, HasSubstr("FAILED"));
+  job = run(slow_case());
+  EXPECT_EQ(job->wait().kind, Kind::exited);
+  EXPECT_EQ(without_repeats(job->samples()), local_samples(slow_case()));
+}
+
+// The clock of the nodes is an hour ahead of the daemon's.
+TEST_F(SlurmLossTest, ClocksThatDifferDoNotMatter) {
+  start_cluster();
+  auto options = quick_options();
+  options.program = folder_.path() / "shifted";
+  std::ofstream(options.program) << "#!/bin/sh\nLD_PRELOAD=" SHIFTED_CLOCK_LIBRARY " exec " CELLCRUSHD_PROGRAM
+                                    " \"$@\" 2>> "
+                                 << (folder_.path() / "log").string() << "\n";
+  std::filesystem::permissions(options.program, std::filesystem::perms::all);
+  start_executor(options);
+  const auto job = run(slow_case());
+  EXPECT_EQ(job->wait().kind, Kind::exited);
+  EXPECT_EQ(job->begun_steps(), std::vector<std::int64_t>{0});
+  EXPECT_EQ(job->samples(), local_samples(slow_case()));
+  // It was ahead.
+  std::ifstream log(folder_.path() / "log");
+  std::string day;
+  std::string hour;
+  log >> day >> hour;
+  std::time_t later = std::time(nullptr) + 3600;
+  char expected[16];
+  std::strftime(expected, sizeof(expected), "%H", std::localtime(&later));
+  EXPECT_EQ(hour.substr(0, 2), expected) << hour;
+}
+
+TEST_F(SlurmLossTest, AFullSharedFolderLosesNothing) {
+  start_cluster();
+  auto options = quick_options();
+  options.folder = folder_.path() / "small";
+  std::filesystem::create_directories(options.folder);
+  if (mount("tmpfs", options.folder.c_str(), "tmpfs", 0, "size=4m") != 0) GTEST_SKIP() << "Only root may mount.";
+  start_executor(options);
+  {
+    const auto job = run(slow_case());
+    ASSERT_TRUE(job->wait_for_samples(20));
+    {
+      std::ofstream filler(options.folder / "filler", std::ios::binary);
+      const std::string block(1 << 16, 'x');
+      while (filler.write(block.data(), static_cast<std::streamsize>(block.size())).flush()) continue;
+    }
+    const std::size_t before = job->samples().size();
+    std::this_thread::sleep_for(seconds(12));
+    EXPECT_FALSE(job->has_ended());
+    EXPECT_LT(job->samples().size(), 200U) << "The folder was not full: " << before;
+    std::filesystem::remove(options.folder / "filler");
+    const auto exit = job->wait();
+    EXPECT_EQ(exit.kind, Kind::exited) << exit.detail;
+    EXPECT_EQ(job->begun_steps(), std::vector<std::int64_t>{0});
+    EXPECT_EQ(job->samples(), local_samples(slow_case()));
+    // A new attempt finds no room either: its queue is held until there is some.
+    {
+      std::ofstream filler(options.folder / "filler", std::ios::binary);
+      const std::string block(1 << 12, 'x');
+      while (filler.write(block.data(), static_cast<std::streamsize>(block.size())).flush()) continue;
+    }
+    const auto next = run(tiny_case(), 2);
+    try {
+      next->wait();
+      FAIL() << "There was room.";
+    } catch (const ServiceError& error) {
+      EXPECT_EQ(error.shortage(), Shortage::full_disk);
+      EXPECT_THAT(error.what(), HasSubstr(options.folder.string()));
+    }
+  }
+  executor_.reset();
+  umount2(options.folder.c_str(), MNT_DETACH);
+}
+
+// Slurm starts the same job again where the site forces it to: the attempt is no longer free, and the daemon makes
+// another one that continues.
+TEST_F(SlurmLossTest, AJobThatIsRequeuedIsComputedByOneTaskAtATime) {
+  start_cluster();
+  auto options = quick_options();
+  options.sbatch = {"--requeue"};
+  options.program = logging_program();
+  start_executor(options);
+  auto job = run(slow_case());
+  ASSERT_TRUE(job->wait_for_samples(80));
+  ASSERT_EQ(cluster_->run({"scontrol", "requeue", number_in(job->wait_for_place("RUNNING"))}).exit_code, 0);
+  const auto exit = job->wait();
+  EXPECT_THAT(exit.kind, AnyOf(Eq(Kind::stopped), Eq(Kind::displaced), Eq(Kind::gone))) << exit.detail;
+  job = run(slow_case());
+  EXPECT_EQ(job->wait().kind, Kind::exited);
+  EXPECT_EQ(without_repeats(job->samples()), local_samples(slow_case()));
+  EXPECT_TRUE(cluster_->wait_for({"squeue", "--noheader"}, "", seconds(60)));
+  EXPECT_EQ(count_in_log("begins"), 2);
+}
+
+TEST_F(SlurmLossTest, AProgramThatIsNotOnTheNodesIsNamed) {
+  start_cluster();
+  auto options = quick_options();
+  options.program = "/nowhere/cellcrushd";
+  start_executor(options);
+  const auto exit = run(tiny_case())->wait();
+  EXPECT_EQ(exit.kind, Kind::gone);
+  EXPECT_THAT(exit.detail, HasSubstr("/nowhere/cellcrushd: not found"));
+}
+
+TEST_F(SlurmLossTest, AnOptionThatSbatchRefusesHoldsTheQueueAndIsNamed) {
+  start_cluster();
+  auto options = quick_options();
+  options.sbatch = {"--partition=nowhere"};
+  start_executor(options);
+  const auto exit = run(tiny_case())->wait();
+  EXPECT_EQ(exit.kind, Kind::not_started);
+  EXPECT_EQ(exit.trouble.shortage, Shortage::cluster);
+  EXPECT_THAT(exit.trouble.reason, HasSubstr("invalid partition"));
+  EXPECT_EQ(attempt_count(), 0U);
+}
+
+}  // namespace
+}  // namespace cellcrush::testing

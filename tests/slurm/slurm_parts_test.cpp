@@ -1,0 +1,248 @@
+// Parts of the Slurm executor that need no Slurm.
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <thread>
+
+#include "error.h"
+#include "server/temporary_folder.h"
+#include "slurm/attempt_folder.h"
+#include "slurm/cluster_flag.h"
+#include "slurm/commands.h"
+#include "slurm/mirror.h"
+#include "slurm/packing.h"
+#include "slurm/program.h"
+#include "slurm/small_file.h"
+#include "worker/report_log.h"
+
+namespace cellcrush::slurm {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+namespace fs = std::filesystem;
+
+std::string refusal_of(const std::string& flag) {
+  try {
+    parse_cluster(flag);
+    return "";
+  } catch (const std::invalid_argument& refused) {
+    return refused.what();
+  }
+}
+
+TEST(ClusterFlag, ReadsEverySetting) {
+  const auto options = parse_cluster(
+      "big:folder=/shared/cc,program=/opt/cellcrushd,commands=/opt/slurm/bin,simd=AVX2,sbatch=--partition=a,"
+      "sbatch=--account=b,jobs=7,tasks=5,task-length=9,longest=3600");
+  EXPECT_EQ(options.name, "big");
+  EXPECT_EQ(options.folder, "/shared/cc");
+  EXPECT_EQ(options.program, "/opt/cellcrushd");
+  EXPECT_EQ(options.commands, "/opt/slurm/bin");
+  EXPECT_EQ(options.simd, "AVX2");
+  EXPECT_THAT(options.sbatch, ElementsAre("--partition=a", "--account=b"));
+  EXPECT_EQ(options.jobs, 7);
+  EXPECT_EQ(options.tasks, 5);
+  EXPECT_EQ(options.task_length, seconds(9));
+  EXPECT_EQ(options.longest, seconds(3600));
+  const auto remote = parse_cluster("far:daemon=login:50551,ca=/etc/ca.pem");
+  EXPECT_EQ(remote.daemon, "login:50551");
+  EXPECT_EQ(remote.authority, "/etc/ca.pem");
+}
+
+TEST(ClusterFlag, NamesWhatIsWrongAndTheRemedy) {
+  EXPECT_THAT(refusal_of("folder=/a"), HasSubstr("NAME:folder=PATH"));
+  EXPECT_THAT(refusal_of("a b:folder=/a"), HasSubstr("'a b'"));
+  EXPECT_THAT(refusal_of("big"), HasSubstr("give either folder=PATH"));
+  EXPECT_THAT(refusal_of("big:folder=/a,daemon=h:1"), HasSubstr("give either folder=PATH"));
+  EXPECT_THAT(refusal_of("big:folder=a"), HasSubstr("folder is 'a'; it must be an absolute path"));
+  EXPECT_THAT(refusal_of("big:folder=/a,tusks=3"), HasSubstr("'tusks=3' is not a setting"));
+  EXPECT_THAT(refusal_of("big:folder=/a,jobs=many"), HasSubstr("whole number from 1 to 1024"));
+  EXPECT_THAT(refusal_of("big:folder=/a,jobs=0"), HasSubstr("jobs is '0'"));
+  EXPECT_THAT(refusal_of("big:folder=/a,sbatch=-p short"), HasSubstr("long option of sbatch"));
+  EXPECT_THAT(refusal_of("big:daemon=login"), HasSubstr("HOST:PORT"));
+  EXPECT_THAT(refusal_of("big:folder=/a,ca=/b"), HasSubstr("ca needs daemon"));
+}
+
+TEST(Packing, FillsTasksUpToTheirLengthInOrder) {
+  const std::vector<Need> needs = {{1, 256, 20.0}, {1, 256, 30.0}, {1, 256, 20.0}, {2, 256, 5.0}, {1, 256, 100.0}};
+  const auto packs = pack(needs, seconds(60), 1000);
+  ASSERT_EQ(packs.size(), 2U);
+  EXPECT_THAT(packs[0].tasks, ElementsAre(Share{0, 1}, Share{2}, Share{4}));
+  EXPECT_EQ(packs[0].need, (Need{1, 256, 100.0}));
+  EXPECT_THAT(packs[1].tasks, ElementsAre(Share{3}));
+  EXPECT_EQ(packs[1].need.threads, 2);
+}
+
+TEST(Packing, KeepsToTheMostTasksOfAnArray) {
+  const std::vector<Need> needs(7, Need{1, 256, 10.0});
+  const auto packs = pack(needs, seconds(0), 3);
+  ASSERT_EQ(packs.size(), 3U);
+  EXPECT_EQ(packs[2].tasks, std::vector<Share>{Share{6}});
+}
+
+TEST(Packing, AsksForMoreThanIsPredicted) {
+  EXPECT_EQ(need_of(2, 100 << 20, 5.0).memory_mib, 384);
+  EXPECT_EQ(time_limit_minutes(60.0, seconds(0)), 13);
+  EXPECT_EQ(time_limit_minutes(1e6, seconds(7200)), 120);
+  EXPECT_EQ(time_limit_minutes(0.0, seconds(1)), 1);
+}
+
+TEST(SlurmCommands, LinesOfSqueueAreRead) {
+  const auto task = parse_squeue_line("17|3|PENDING|Resources, or held|n[1-2]|cellcrush-ab|cd");
+  ASSERT_TRUE(task.has_value());
+  EXPECT_EQ(task->job, 17);
+  EXPECT_EQ(task->task, 3);
+  EXPECT_EQ(task->state, "PENDING");
+  EXPECT_EQ(task->reason, "Resources, or held");
+  EXPECT_EQ(task->node, "n[1-2]");
+  EXPECT_EQ(task->name, "cellcrush-ab|cd");
+  EXPECT_EQ(parse_squeue_line("18|N/A|RUNNING|None|n1|x")->task, -1);
+  EXPECT_EQ(parse_squeue_line("18|N/A|RUNNING|None|n1|x")->reason, "");
+  for (const char* broken : {"", "18", "a|b|c|d|e|f", "||||||", "slurm_load_jobs error: x|y|z|a|b|c"})
+    EXPECT_FALSE(parse_squeue_line(broken).has_value()) << broken;
+}
+
+TEST(SlurmCommands, LinesOfSacctAreRead) {
+  const auto task = parse_sacct_line("17_3|CANCELLED by 1000|n2|cellcrush-ab");
+  ASSERT_TRUE(task.has_value());
+  EXPECT_EQ(task->job, 17);
+  EXPECT_EQ(task->task, 3);
+  EXPECT_EQ(task->state, "CANCELLED");
+  EXPECT_EQ(task->reason, "by 1000");
+  EXPECT_EQ(parse_sacct_line("18|COMPLETED|None assigned|x")->node, "");
+  for (const char* broken : {"", "17_[3-9]|PENDING|n|x", "x|y|z|w"})
+    EXPECT_FALSE(parse_sacct_line(broken).has_value()) << broken;
+}
+
+TEST(SlurmCommands, AStateWithoutAMeaningHereIsUnknown) {
+  EXPECT_EQ(meaning_of("NODE_FAIL"), Meaning::displaced);
+  EXPECT_EQ(meaning_of("OUT_OF_MEMORY"), Meaning::no_memory);
+  EXPECT_EQ(meaning_of("TELEPORTED"), Meaning::unknown);
+}
+
+TEST(RunProgram, KillsWhatTakesTooLongWithAllItStarted) {
+  const auto begin = std::chrono::steady_clock::now();
+  const auto end = run_program({"sh", "-c", "echo said; echo failed >&2; sleep 100 & sleep 100"}, milliseconds(500));
+  EXPECT_TRUE(end.timed_out);
+  EXPECT_FALSE(end.exit_code.has_value());
+  EXPECT_EQ(end.output, "said\n");
+  EXPECT_EQ(end.errors, "failed\n");
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, seconds(10));
+}
+
+TEST(RunProgram, ReadsALongOutputAndTheExitCode) {
+  const auto end = run_program({"sh", "-c", "head -c 3000000 /dev/zero; exit 7"}, seconds(20));
+  EXPECT_EQ(end.exit_code, 7);
+  EXPECT_EQ(end.output.size(), 3'000'000U);
+  // A process left behind keeps the pipes open.
+  EXPECT_EQ(run_program({"sh", "-c", "sleep 5 & echo done"}, seconds(20)).output, "done\n");
+  EXPECT_THROW(run_program({"/nowhere/sbatch"}, seconds(1)), std::system_error);
+}
+
+TEST(AttemptClaim, IsTakenByOneOfMany) {
+  const testing::TemporaryFolder temporary;
+  const AttemptFolder folder(temporary.path() / "a");
+  fs::create_directory(folder.root());
+  std::atomic<int> winners = 0;
+  {
+    std::vector<std::jthread> claimants;
+    for (int i = 0; i < 16; ++i) {
+      claimants.emplace_back([&, i] {
+        Claim claim;
+        claim.set_host("host");
+        claim.set_process(i);
+        if (folder.claim(claim)) ++winners;
+      });
+    }
+  }
+  EXPECT_EQ(winners, 1);
+  EXPECT_TRUE(folder.find_claim().has_value());
+}
+
+TEST(AttemptClaim, CannotBeTakenOnceTheFolderIsGone) {
+  const testing::TemporaryFolder temporary;
+  const AttemptFolder folder(temporary.path() / "a");
+  EXPECT_FALSE(folder.claim(Claim()));
+  EXPECT_EQ(folder.requested(), Request::ABANDON);
+  EXPECT_FALSE(folder.find_ended().has_value());
+}
+
+class MirrorTest : public ::testing::Test {
+ protected:
+  MirrorTest() {
+    fs::create_directory(from_.root());
+    fs::create_directory(to_.root());
+  }
+
+  static std::string content(const fs::path& path) { return read_small_file(path).value_or("(absent)"); }
+
+  static worker::Report progress(int step) {
+    worker::Report out;
+    out.mutable_progress()->set_step(step);
+    return out;
+  }
+
+  testing::TemporaryFolder temporary_;
+  store::JobFolder from_{temporary_.path() / "from"};
+  store::JobFolder to_{temporary_.path() / "to"};
+  FolderSink sink_{to_};
+};
+
+TEST_F(MirrorTest, CopiesWholeReportsOnly) {
+  Mirror mirror(from_, sink_, 0);
+  EXPECT_FALSE(mirror.pass());
+  worker::ReportLog log(from_.reports());
+  log.append(progress(1));
+  EXPECT_TRUE(mirror.pass());
+  const std::string first = content(from_.reports());
+  EXPECT_EQ(content(to_.reports()), first);
+  log.append(progress(2));
+  const std::string both = content(from_.reports());
+  fs::resize_file(from_.reports(), both.size() - 1);
+  EXPECT_FALSE(mirror.pass());
+  EXPECT_EQ(content(to_.reports()), first);
+  std::ofstream(from_.reports(), std::ios::binary | std::ios::app) << both.back();
+  EXPECT_TRUE(mirror.pass());
+  EXPECT_EQ(content(to_.reports()), both);
+}
+
+TEST_F(MirrorTest, PutsTheResultBeforeTheReportThatAnnouncesItAndACheckpointAfterItsReports) {
+  struct Recorder final : FileSink {
+    std::vector<std::string> calls;
+    void write_reports(std::uint64_t, const std::string&) override { calls.emplace_back("reports"); }
+    void put_checkpoint(const std::string& bytes) override { calls.push_back(bytes); }
+    void put_result(const fs::path&) override { calls.emplace_back("result"); }
+  } recorder;
+  Mirror mirror(from_, recorder, 0);
+  worker::ReportLog log(from_.reports());
+  log.append(progress(1));
+  write_small_file(from_.checkpoint(), "checkpoint 1");
+  write_small_file(from_.result(), "result");
+  EXPECT_TRUE(mirror.pass());
+  EXPECT_THAT(recorder.calls, ElementsAre("result", "reports", "checkpoint 1"));
+  recorder.calls.clear();
+  EXPECT_FALSE(mirror.pass());
+  EXPECT_THAT(recorder.calls, IsEmpty());
+  write_small_file(from_.checkpoint(), "checkpoint 2");
+  EXPECT_TRUE(mirror.pass());
+  EXPECT_THAT(recorder.calls, ElementsAre("checkpoint 2"));
+}
+
+TEST_F(MirrorTest, RepeatsWhatFailed) {
+  worker::ReportLog log(from_.reports());
+  log.append(progress(1));
+  const FolderSink nowhere(store::JobFolder(temporary_.path() / "absent"));
+  FolderSink failing = nowhere;
+  Mirror mirror(from_, failing, 0);
+  EXPECT_THROW(mirror.pass(), ServiceError);
+  fs::create_directory(temporary_.path() / "absent");
+  EXPECT_TRUE(mirror.pass());
+  EXPECT_EQ(content(temporary_.path() / "absent" / "reports"), content(from_.reports()));
+}
+
+}  // namespace
+}  // namespace cellcrush::slurm
