@@ -124,8 +124,8 @@ int main(int argc, char** argv) {
   std::filesystem::path job_folder;
   CLI::App* worker = app.add_subcommand("worker")->group("");
   worker->add_option("--folder", job_folder)->required();
-  bool ends_with_parent = false;
-  worker->add_flag("--end-with-parent", ends_with_parent);
+  pid_t parent = 0;
+  worker->add_option("--end-with", parent);
   // For the script of a Slurm job.
   cellcrush::slurm::TaskOptions task_options;
   double lease_seconds = 300.0;
@@ -149,7 +149,7 @@ int main(int argc, char** argv) {
   if (token->parsed()) return print_token(token_name, token_scope);
   if (!choose_kernel()) return 2;
   umask(0077);
-  if (worker->parsed()) cellcrush::worker::worker_main(job_folder, ends_with_parent);
+  if (worker->parsed()) cellcrush::worker::worker_main(job_folder, parent);
   cellcrush::DaemonOptions options = flags.options();
   spdlog::set_default_logger(spdlog::stderr_color_mt("cellcrushd"));
   spdlog::set_formatter(flags.log_format() == "json" ? cellcrush::make_json_formatter()

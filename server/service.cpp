@@ -21,6 +21,7 @@
 #include "rpc/jobs_service.h"
 #include "rpc/reflection_services.h"
 #include "rpc/sweeps_service.h"
+#include "slurm/shared_folder.h"
 #include "slurm/workers_service.h"
 #include "store/data_folder.h"
 #include "store/journal.h"

@@ -64,6 +64,9 @@ class Executor {
   /// it. REQUIRES: no worker runs in the folder.
   virtual std::optional<WorkerExit> read_final_report(const store::JobFolder& folder, const WorkerEvents& events) = 0;
 
+  /// Whether workers go on while the daemon lacks a resource, to be adopted later.
+  [[nodiscard]] virtual bool keeps_workers() const { return false; }
+
   /// Kills the worker that runs in the folder, if any.
   virtual void end_worker(const store::JobFolder& folder) = 0;
 

@@ -66,7 +66,7 @@ v1::Job::State JobRunner::run_once(std::int64_t job, Run& run) {
     return v1::Job::JOB_STATE_UNSPECIFIED;
   } catch (const std::exception& error) {
     run.trouble = trouble_of(error);
-    end_leftover_if_possible(job);
+    if (!run.trouble || !parts_.executor.keeps_workers()) end_leftover_if_possible(job);
     next = outcome_of(error);
   }
   parts_.metrics.set_speed(job, 0.0);

@@ -45,9 +45,14 @@ int spawn(const std::filesystem::path& program, const store::JobFolder& folder, 
   std::string command = "worker";
   std::string option = "--folder";
   std::string place = folder.root().string();
-  std::string ends = "--end-with-parent";
-  std::array<char*, 6> arguments = {name.data(), command.data(), option.data(), place.data(), nullptr, nullptr};
-  if (life == LocalProcess::Life::ends_with_parent) arguments[4] = ends.data();
+  std::string ends = "--end-with";
+  std::string own = std::to_string(getpid());
+  std::array<char*, 7> arguments = {name.data(), command.data(), option.data(), place.data(),
+                                    nullptr,     nullptr,        nullptr};
+  if (life == LocalProcess::Life::ends_with_parent) {
+    arguments[4] = ends.data();
+    arguments[5] = own.data();
+  }
   const int error = posix_spawn(&pid, name.c_str(), &actions, &attributes, arguments.data(), environ);
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);

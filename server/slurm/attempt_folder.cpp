@@ -26,15 +26,23 @@ constexpr std::size_t kBeatSize = 20;
 
 bool AttemptFolder::exists() const {
   struct stat status {};
-  return stat(root_.c_str(), &status) == 0 && S_ISDIR(status.st_mode);
+  if (stat(root_.c_str(), &status) == 0) return S_ISDIR(status.st_mode);
+  const int error = errno;
+  // Without the folder around it, something else is missing.
+  if (error != ENOENT || stat(root_.parent_path().parent_path().append(kMarker).c_str(), &status) != 0)
+    store::throw_file_error(root_, "read", error == ENOENT ? ENODEV : error);
+  return false;
+}
+
+void AttemptFolder::look_again() const {
+  const int folder = open(root_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (folder >= 0) close(folder);
 }
 
 // A hard link is created by one caller only, on NFS too, where exclusive creation of a file may be repeated by the
 // client. If the answer of the server was lost, the number of links tells whether it was made.
 bool AttemptFolder::claim(const Claim& claim) const {
-  const auto own = file((std::string(kClaim) + "." + std::to_string(getpid()) + "." + std::to_string(gettid()) + "." +
-                         (claim.withdrawn() ? "daemon" : claim.host()))
-                            .c_str());
+  const auto own = file((std::string(kClaim) + "." + random_name()).c_str());
   if (!exists()) return false;
   try {
     write_small_file(own, claim.SerializeAsString());
@@ -55,15 +63,10 @@ bool AttemptFolder::claim(const Claim& claim) const {
 std::optional<Claim> AttemptFolder::find_claim() const { return read_message<Claim>(file(kClaim)); }
 
 void AttemptFolder::beat(std::uint64_t number) const {
-  const int beats = open(file(kBeat).c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
-  if (beats < 0) store::throw_file_error(file(kBeat), "written", errno);
   std::array<char, kBeatSize> text{};
   text.fill(' ');
   std::to_chars(text.data(), text.data() + text.size(), number);
-  const auto written = pwrite(beats, text.data(), text.size(), 0);
-  int error = written == static_cast<ssize_t>(text.size()) ? 0 : (written < 0 ? errno : ENOSPC);
-  if (close(beats) != 0 && error == 0) error = errno;
-  if (error != 0) store::throw_file_error(file(kBeat), "written", error);
+  write_in_place(file(kBeat), {text.data(), text.size()});
 }
 
 std::optional<std::uint64_t> AttemptFolder::last_beat() const {
@@ -76,7 +79,7 @@ std::optional<std::uint64_t> AttemptFolder::last_beat() const {
 void AttemptFolder::request(Request::Kind kind) const {
   Request request;
   request.set_kind(kind);
-  write_small_file(file(kRequest), request.SerializeAsString());
+  write_in_place(file(kRequest), request.SerializeAsString());
 }
 
 Request::Kind AttemptFolder::requested() const {

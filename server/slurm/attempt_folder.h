@@ -11,6 +11,9 @@
 
 namespace cellcrush::slurm {
 
+/// A file in a cluster's folder. Without it the folder's file system is not mounted (shared_folder.h).
+inline constexpr const char* kMarker = "cellcrush-folder";
+
 /// The folder attempts/ID on the shared file system, with which the daemon and one task communicate
 /// (attempt_folder.md). Failures throw ServiceError, with the shortage if there is one.
 class AttemptFolder {
@@ -21,8 +24,12 @@ class AttemptFolder {
   /// order, reports, checkpoint, checkpoint.previous and result.h5, named as in a job's folder.
   [[nodiscard]] store::JobFolder files() const { return store::JobFolder(root_); }
 
-  /// Whether the folder is there.
+  /// Whether the folder is there. Throws ServiceError if that cannot be told: the file system is not mounted or does
+  /// not answer.
   [[nodiscard]] bool exists() const;
+
+  /// Opens the folder, so that NFS looks again for files that were absent.
+  void look_again() const;
 
   /// Creates the claim. False if there is one, or if the folder is gone: the attempt is then another's. Atomic among
   /// all machines that share the file system.
@@ -34,6 +41,7 @@ class AttemptFolder {
   /// Nothing if there was none.
   [[nodiscard]] std::optional<std::uint64_t> last_beat() const;
 
+  /// Writes in place: a file that was there before is read anew by other machines.
   void request(Request::Kind kind) const;
   /// ABANDON if the folder is gone.
   [[nodiscard]] Request::Kind requested() const;

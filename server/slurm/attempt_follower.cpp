@@ -20,6 +20,7 @@ using ExitKind = jobs::WorkerExit::Kind;
 
 // A task that squeue has not listed for so many answers is looked for by its claim.
 constexpr std::uint64_t kMissedAnswers = 3;
+constexpr std::chrono::milliseconds kBetweenLooksAtWaiting{10'000};
 // For an answer of Slurm on which a decision waits.
 constexpr std::chrono::milliseconds kBetweenQuestions{5'000};
 
@@ -89,54 +90,76 @@ jobs::WorkerExit AttemptFollower::follow() {
 
 void AttemptFollower::wait() {
   std::unique_lock lock(wake_mutex_);
-  const auto interval = parts_.events.watched() ? parts_.options.times.look / 2 : parts_.options.times.look;
+  auto interval = parts_.events.watched() ? parts_.options.times.look / 2 : parts_.options.times.look;
+  // A task that waits for long in Slurm is looked at rarely.
+  const bool has_waited = Clock::now() - opened_ > parts_.options.times.unanswered;
+  if (!has_begun_ && has_waited) interval = kBetweenLooksAtWaiting;
   wake_.wait_for(lock, interval, [this] { return is_woken_; });
   is_woken_ = false;
 }
 
 std::optional<jobs::WorkerExit> AttemptFollower::look() {
-  const auto signs = read_folder();
+  // A daemon that was held up for long, as by a file system that did not answer, has missed signs of life.
+  if (Clock::now() - std::exchange(last_look_, Clock::now()) > parts_.options.times.silent / 2)
+    last_sign_ = Clock::now();
+  const bool is_read = read_folder();
   if (feed_.read(true) == jobs::ReportFeed::Reading::broken) {
     close(true);
     return exit_with(ExitKind::broken);
   }
-  if (signs && !has_begun_ && signs->claim && !signs->claim->withdrawn()) {
-    parts_.events.started(static_cast<int>(signs->claim->process()));
+  if (!has_begun_ && claim_ && !claim_->withdrawn()) {
+    parts_.events.started(static_cast<int>(claim_->process()));
     has_begun_ = true;
     last_sign_ = Clock::now();
   }
   look_for_number();
-  if (signs && signs->ended) return exit_of_ended(*signs->ended);
-  if (signs && signs->beat != beat_) {
-    beat_ = signs->beat;
-    last_sign_ = Clock::now();
-  }
   show_place();
-  if (parts_.interruptions.stop.stop_requested() && !parts_.interruptions.cancel.stop_requested()) {
+  if (parts_.interruptions.stop.stop_requested()) {
     // Gathered attempts were not handed to Slurm; the next daemon submits them.
     static_cast<void>(submission_->withdraw());
     return exit_with(ExitKind::left);
   }
+  if (last_word_) return is_read && is_complete(*last_word_) ? exit_of_ended(*last_word_) : std::nullopt;
   if (auto exit = forward_requests()) return exit;
+  if (!is_read) return std::nullopt;
   return has_begun_ ? look_at_begun() : look_at_waiting();
 }
 
-std::optional<AttemptFollower::Signs> AttemptFollower::read_folder() {
+bool AttemptFollower::read_folder() {
   try {
+    folder_.look_again();
     // Read before the files, so that everything written before the end is copied.
-    Signs out;
-    out.ended = folder_.find_ended();
+    if (!last_word_) last_word_ = folder_.find_ended();
     mirror_.pass();
-    if (!has_begun_) out.claim = folder_.find_claim();
-    out.beat = folder_.last_beat();
+    if (!has_begun_) claim_ = folder_.find_claim();
+    if (const auto beat = folder_.last_beat(); beat != beat_) {
+      beat_ = beat;
+      last_sign_ = Clock::now();
+    }
     trouble_.clear();
-    return out;
+    return true;
   } catch (const ServiceError& error) {
     // The work in the cluster is not lost, whatever the disks are short of at the moment.
-    if (std::exchange(trouble_, error.what()) != error.what())
-      spdlog::warn("jobs/{}: {} The daemon tries again.", job_.root().filename().string(), error.what());
-    return std::nullopt;
+    note_trouble(error);
+    return false;
   }
+}
+
+// A network file system may show the last word before what it speaks of.
+bool AttemptFollower::is_complete(const Ended& ended) const {
+  if (!ended.has_final()) return true;
+  if (!feed_.last_word()) return false;
+  std::error_code error;
+  return !ended.final().has_summary() || std::filesystem::exists(job_.result(), error);
+}
+
+void AttemptFollower::note_trouble(const ServiceError& error) {
+  if (std::exchange(trouble_, error.what()) != error.what())
+    spdlog::warn("jobs/{}: {} The daemon tries again.", job_.root().filename().string(), error.what());
+}
+
+std::optional<ClusterView::Seen> AttemptFollower::seen_task(const Attempt& attempt) {
+  return parts_.view.find(attempt.slurm_job(), task_index(attempt), kJobPrefix + attempt.batch());
 }
 
 void AttemptFollower::ask_slurm(std::chrono::milliseconds interval) {
@@ -151,7 +174,7 @@ std::optional<jobs::WorkerExit> AttemptFollower::exit_of_ended(const Ended& ende
   if (ended.kind() == Ended::LEFT && ended.reason() == Ended::TERMINATED) {
     // Preempted, or cancelled by somebody: Slurm says which, as soon as the task is over.
     const auto attempt = submission_->state().attempt;
-    const auto seen = parts_.view.find(attempt.slurm_job(), task_index(attempt));
+    const auto seen = seen_task(attempt);
     const auto meaning = seen ? meaning_of(seen->report.state) : Meaning::unknown;
     const bool is_open = meaning == Meaning::unknown || meaning == Meaning::runs || meaning == Meaning::waits;
     if (is_open && Clock::now() - *ended_ < parts_.options.times.unanswered) {
@@ -171,20 +194,16 @@ std::optional<jobs::WorkerExit> AttemptFollower::exit_of_ended(const Ended& ende
 void AttemptFollower::show_place() {
   const auto state = submission_->state();
   std::string place;
-  if (state.stage == Submission::Stage::gathered || state.stage == Submission::Stage::taken) {
-    place = "to be submitted to Slurm";
-  } else {
+  // Only what Slurm has taken has a place: that also says that the cluster takes jobs.
+  if (state.stage == Submission::Stage::answered) {
     place = slurm_name(state.attempt);
-    const auto seen = parts_.view.find(state.attempt.slurm_job(), task_index(state.attempt));
-    if (seen) {
+    if (const auto seen = seen_task(state.attempt)) {
       place += ", " + seen->report.state;
       if (!seen->report.reason.empty()) place += " (" + seen->report.reason + ")";
       if (!seen->report.node.empty()) place += " on " + seen->report.node;
-    } else if (state.stage == Submission::Stage::lost) {
-      place += ", not found yet";
     }
   }
-  if (!trouble_.empty()) place += "; " + trouble_;
+  if (!trouble_.empty() && !place.empty()) place += "; " + trouble_;
   if (std::exchange(place_, place) != place && parts_.events.placed) parts_.events.placed(place);
 }
 
@@ -201,13 +220,14 @@ std::optional<jobs::WorkerExit> AttemptFollower::forward_requests() {
   }
   const auto wanted = cancel ? Request::CANCEL : Request::SUSPEND;
   if (request_ != wanted) {
+    asked_ = Clock::now();
     try {
       folder_.request(wanted);
       request_ = wanted;
     } catch (const ServiceError& error) {
-      spdlog::warn("jobs/{}: {} The daemon tries again.", job_.root().filename().string(), error.what());
+      note_trouble(error);
+      return std::nullopt;
     }
-    if (!asked_ || request_ == wanted) asked_ = Clock::now();
   }
   if (Clock::now() - *asked_ < parts_.options.times.leave) return std::nullopt;
   close(true);
@@ -224,7 +244,7 @@ std::optional<jobs::WorkerExit> AttemptFollower::look_at_waiting() {
     case Submission::Stage::answered: break;
   }
   const auto& attempt = state.attempt;
-  const auto seen = parts_.view.find(attempt.slurm_job(), task_index(attempt));
+  const auto seen = seen_task(attempt);
   const auto answers = parts_.view.answer_count();
   const auto meaning = seen ? meaning_of(seen->report.state) : Meaning::unknown;
   const bool is_over = seen && meaning != Meaning::waits && meaning != Meaning::runs && meaning != Meaning::unknown;
@@ -241,8 +261,11 @@ std::optional<jobs::WorkerExit> AttemptFollower::look_at_waiting() {
   const std::string log = last_line_of_log(attempt);
   close(true);
   if (!is_over) return exit_with(ExitKind::displaced, slurm_name(attempt) + " is no longer known to Slurm.");
-  return exit_by_meaning(meaning,
-                         slurm_name(attempt) + " ended before the crush began: " + seen->report.state + "." + log);
+  auto out = exit_by_meaning(meaning,
+                             slurm_name(attempt) + " ended before the crush began: " + seen->report.state + "." + log);
+  // It may have ended for another attempt of its task, which is then charged with that.
+  if (attempt.shares() > 1 && out.kind == ExitKind::gone) out.kind = ExitKind::displaced;
+  return out;
 }
 
 // Slurm may have taken a submission whose answer was lost. It is looked for by its name, and given up by its claim.
@@ -262,9 +285,15 @@ void AttemptFollower::look_for_number() {
 }
 
 std::optional<jobs::WorkerExit> AttemptFollower::not_submitted(const Submission::State& state) {
-  if (state.stage == Submission::Stage::lost && Clock::now() - last_sign_ < parts_.options.times.unanswered)
-    return std::nullopt;
+  if (state.stage == Submission::Stage::lost) {
+    // An answer that was asked for before sbatch ended, or at the same time, says nothing.
+    const auto answers = parts_.view.answer_count();
+    if (!answers_when_lost_) answers_when_lost_ = answers;
+    const bool is_looked_for = answers >= *answers_when_lost_ + 2;
+    if (!is_looked_for || Clock::now() - last_sign_ < parts_.options.times.unanswered) return std::nullopt;
+  }
   if (!withdraw()) return std::nullopt;
+  // A task that turns up later computes nothing.
   close(false);
   auto out = exit_with(ExitKind::not_started);
   out.trouble = state.trouble ? state.trouble : Trouble{Shortage::cluster, "Slurm took no job. " + state.why};
@@ -280,23 +309,28 @@ std::optional<jobs::WorkerExit> AttemptFollower::look_at_begun() {
 std::optional<jobs::WorkerExit> AttemptFollower::exit_of_silent(const Submission::State& state) {
   const auto& attempt = state.attempt;
   ask_slurm(parts_.options.times.squeue);
-  const auto seen = parts_.view.find(attempt.slurm_job(), task_index(attempt));
+  const auto seen = seen_task(attempt);
   const auto meaning = seen ? meaning_of(seen->report.state) : Meaning::unknown;
-  const bool is_listed = seen && (seen->answer + kMissedAnswers >= parts_.view.answer_count() || seen->is_accounted);
+  const auto silence = Clock::now() - last_sign_;
   if (meaning == Meaning::unknown || meaning == Meaning::runs || meaning == Meaning::waits) {
     // Slurm shows it alive or does not know. After twice its lease, its task has stopped by itself.
+    const bool is_listed = seen && seen->answer + kMissedAnswers >= parts_.view.answer_count();
     const bool is_alive = meaning == Meaning::runs && is_listed && parts_.view.trouble().empty();
-    if (is_alive || Clock::now() - last_sign_ < 2 * parts_.options.times.lease) return std::nullopt;
+    if (is_alive || silence < 2 * parts_.options.times.lease) return std::nullopt;
     close(true);
     return exit_with(ExitKind::displaced, slurm_name(attempt) + " gave no sign of life for " +
                                               std::to_string(2 * parts_.options.times.lease.count() / 1000) + " s.");
   }
+  // A node that Slurm cannot reach may compute all the same, until its task has lost the lease.
+  if (meaning == Meaning::displaced && seen->report.state == "NODE_FAIL" &&
+      silence < parts_.options.times.lease * 5 / 4)
+    return std::nullopt;
   const std::string log = last_line_of_log(attempt);
   const std::string where = seen->report.node.empty() ? "" : " on " + seen->report.node;
+  const std::string reason = seen->report.reason.empty() ? "" : " (" + seen->report.reason + ")";
   close(false);
-  return exit_by_meaning(meaning, slurm_name(attempt) + where + " ended without a last word: " + seen->report.state +
-                                      (seen->report.reason.empty() ? "" : " (" + seen->report.reason + ")") + "." +
-                                      log);
+  return exit_by_meaning(
+      meaning, slurm_name(attempt) + where + " ended without a last word: " + seen->report.state + reason + "." + log);
 }
 
 jobs::WorkerExit AttemptFollower::exit_by_meaning(Meaning meaning, const std::string& what) const {
@@ -314,7 +348,15 @@ jobs::WorkerExit AttemptFollower::exit_of(const Ended& ended) const {
   out.code = ended.code();
   out.out_of_memory = ended.out_of_memory();
   if (ended.has_final()) out.final = ended.final();
-  if (out.kind == ExitKind::not_started) out.trouble = {Shortage::worker, slurm_name(attempt) + ": " + ended.message()};
+  const std::string host = claim_ ? " on " + claim_->host() : "";
+  // What a node lacks is a loss of this attempt: other nodes may have it.
+  const bool lacks = out.final && out.final->shortage() != 0;
+  if (out.kind == ExitKind::not_started || lacks) {
+    out.kind = ExitKind::gone;
+    out.detail = slurm_name(attempt) + host + " could not compute: " + (lacks ? out.final->message() : ended.message());
+    out.final.reset();
+    return out;
+  }
   if (out.kind != ExitKind::stopped) return out;
   if (ended.reason() == Ended::TIME_LIMIT && !ended.advanced()) {
     out.kind = ExitKind::gone;

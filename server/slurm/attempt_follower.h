@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "error.h"
 #include "jobs/executor.h"
 #include "jobs/report_feed.h"
 #include "slurm/attempt_folder.h"
@@ -45,17 +46,17 @@ class AttemptFollower {
 
   /// One look at the attempt; its end, if it is over.
   std::optional<jobs::WorkerExit> look();
+  /// What the view knows of the attempt's task.
+  [[nodiscard]] std::optional<ClusterView::Seen> seen_task(const Attempt& attempt);
   std::optional<jobs::WorkerExit> look_at_waiting();
   std::optional<jobs::WorkerExit> look_at_begun();
   std::optional<jobs::WorkerExit> forward_requests();
-  /// What the attempt's folder says.
-  struct Signs {
-    std::optional<Ended> ended;
-    std::optional<Claim> claim;
-    std::optional<std::uint64_t> beat;
-  };
-  /// Copies new files, the last word last. Nothing if that is not possible at the moment.
-  std::optional<Signs> read_folder();
+  /// Reads what the attempt's folder says, and copies new files. Returns whether all of that was possible.
+  bool read_folder();
+  /// Logs what is tried again, once.
+  void note_trouble(const ServiceError& error);
+  /// Whether everything is here that the last word says.
+  [[nodiscard]] bool is_complete(const Ended& ended) const;
   /// Asks Slurm for news of the task, not more often than this.
   void ask_slurm(std::chrono::milliseconds interval);
   std::optional<jobs::WorkerExit> exit_of_ended(const Ended& ended);
@@ -82,12 +83,17 @@ class AttemptFollower {
   FolderSink sink_;
   Mirror mirror_;
   jobs::ReportFeed feed_;
+  std::optional<Ended> last_word_;
+  std::optional<Claim> claim_;
   bool has_begun_ = false;
   std::optional<std::uint64_t> beat_;
   std::optional<Clock::time_point> asked_slurm_;
   std::optional<Clock::time_point> ended_;      ///< when its last word was read
   Clock::time_point last_sign_ = Clock::now();  ///< of life
-  std::optional<Clock::time_point> asked_;      ///< when the task was asked to leave or end the job
+  Clock::time_point last_look_ = Clock::now();
+  Clock::time_point opened_ = Clock::now();
+  std::optional<std::uint64_t> answers_when_lost_;  ///< number of answers when the answer of sbatch was missed
+  std::optional<Clock::time_point> asked_;          ///< when the task was asked to leave or end the job
   Request::Kind request_ = Request::NONE;
   std::uint64_t unlisted_since_ = 0;  ///< number of the answer after which a task that is not listed is missed
   std::string place_;

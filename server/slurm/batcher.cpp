@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <exception>
 #include <numeric>
-#include <random>
 #include <system_error>
 #include <utility>
 
@@ -111,19 +110,22 @@ void Batcher::run(const std::stop_token& stop) {
       const MutexLock lock(mutex_);
       gathered.swap(gathered_);
     }
-    submit_all(std::move(gathered));
+    std::vector<Need> needs;
+    needs.reserve(gathered.size());
+    for (const auto& each : gathered) needs.push_back(each.need);
+    for (const auto& each : pack(needs, options_.task_length, kMostTasks)) {
+      // The next daemon submits the rest.
+      if (stop.stop_requested()) return;
+      submit_pack(each, gathered);
+    }
   }
 }
 
-void Batcher::submit_all(std::vector<Gathered> gathered) {
-  std::erase_if(gathered, [](const Gathered& each) { return !each.submission->take(); });
-  std::vector<Need> needs;
-  needs.reserve(gathered.size());
-  for (const auto& each : gathered) needs.push_back(each.need);
-  for (const auto& each : pack(needs, options_.task_length, kMostTasks)) submit_pack(each, gathered);
-}
-
-void Batcher::submit_pack(const Pack& pack, const std::vector<Gathered>& gathered) {
+void Batcher::submit_pack(Pack pack, const std::vector<Gathered>& gathered) {
+  // Without those that were withdrawn meanwhile.
+  for (auto& task : pack.tasks) std::erase_if(task, [&](std::size_t i) { return !gathered[i].submission->take(); });
+  std::erase_if(pack.tasks, [](const Share& task) { return task.empty(); });
+  if (pack.tasks.empty()) return;
   Submission::State state;
   const std::string batch = random_name();
   try {
@@ -235,11 +237,6 @@ std::string Batcher::script_of(const std::string& batch, const Batch& tasks) con
 }
 
 int task_index(const Attempt& attempt) { return attempt.is_array() ? attempt.task() : -1; }
-
-std::string random_name() {
-  std::random_device random;
-  return fmt::format("{:08x}{:08x}", random(), random());
-}
 
 std::string random_token() { return random_name() + random_name() + random_name() + random_name(); }
 

@@ -75,8 +75,7 @@ class Batcher {
     Need need;
   };
   void run(const std::stop_token& stop);
-  void submit_all(std::vector<Gathered> gathered);
-  void submit_pack(const Pack& pack, const std::vector<Gathered>& gathered);
+  void submit_pack(Pack pack, const std::vector<Gathered>& gathered);
   void tell(const Gathered& gathered, Submission::State state);
   [[nodiscard]] std::string script_of(const std::string& batch, const Batch& tasks) const;
   /// Writes the batch's folder. Returns the arguments of sbatch.
@@ -93,8 +92,7 @@ class Batcher {
 /// Index of an attempt's task for scancel and in the cluster's view: -1 unless its job is an array.
 int task_index(const Attempt& attempt);
 
-/// A random name of 16 hexadecimal digits, and a secret of 64.
-std::string random_name();
+/// A secret of 64 hexadecimal digits.
 std::string random_token();
 
 /// The file `attempt` of a job's folder.

@@ -10,8 +10,8 @@
 #include <string_view>
 
 #include "error.h"
+#include "slurm/shared_folder.h"
 #include "slurm/slurm_executor.h"
-#include "slurm/workers_service.h"
 
 namespace cellcrush::slurm {
 namespace {
@@ -63,6 +63,11 @@ const std::map<std::string, Setter>& setters() {
       {"simd", [](auto& to, const auto&, const auto& value) { to.simd = value; }},
       {"sbatch",
        [](auto& to, const auto& key, const auto& value) {
+         for (const char* own :
+              {"--array", "--clusters", "--job-name", "--output", "--test-only", "--wait", "--wrap"}) {
+           if (value.rfind(own, 0) == 0)
+             refuse(key + " is '" + value + "'; the daemon itself decides about " + own + ".");
+         }
          if (value.rfind("--", 0) != 0)
            refuse(key + " is '" + value + "'; it must be a long option of sbatch, such as --partition=short.");
          to.sbatch.push_back(value);
@@ -123,6 +128,7 @@ jobs::ExecutorOptions executor_of(const ClusterOptions& options) {
             // Not the link itself, which names another program on a node.
             if (own.program.empty()) own.program = std::filesystem::read_symlink("/proc/self/exe");
             if (own.folder.empty()) own.folder = own_folder_of_cluster(around.data_folder, own.name);
+            prepare_shared_folder(own, around.data_folder);
             return std::make_unique<SlurmExecutor>(
                 own, around.step_cost, std::make_unique<jobs::LocalProcess>(around.worker_program, around.stall_limit));
           }};

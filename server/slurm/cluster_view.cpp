@@ -17,10 +17,11 @@ constexpr std::uint64_t kRemembered = 2'000;
 ClusterView::ClusterView(const Commands& commands, std::chrono::milliseconds interval)
     : commands_(commands), interval_(interval), thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
-std::optional<ClusterView::Seen> ClusterView::find(std::int64_t job, int task) {
+std::optional<ClusterView::Seen> ClusterView::find(std::int64_t job, int task, const std::string& name) {
   const MutexLock lock(mutex_);
   const auto found = tasks_.find({job, task});
-  return found == tasks_.end() ? std::nullopt : std::optional(found->second);
+  if (found == tasks_.end() || found->second.report.name != name) return std::nullopt;
+  return found->second;
 }
 
 std::optional<std::int64_t> ClusterView::find_job(const std::string& name) {

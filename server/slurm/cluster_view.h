@@ -32,7 +32,8 @@ class ClusterView {
     std::uint64_t answer = 0;   ///< number of the answer that listed it last
     bool is_accounted = false;  ///< sacct said so, and not squeue
   };
-  [[nodiscard]] std::optional<Seen> find(std::int64_t job, int task);  // NOLINT(bugprone-easily-swappable-parameters)
+  /// The task of a job with this name: a controller that lost its state counts from 1 again.
+  [[nodiscard]] std::optional<Seen> find(std::int64_t job, int task, const std::string& name);
 
   /// The job of this name.
   [[nodiscard]] std::optional<std::int64_t> find_job(const std::string& name);

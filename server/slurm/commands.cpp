@@ -55,6 +55,8 @@ std::string what_failed(const char* command, const ProgramEnd& end) {
 // Whether sbatch says that Slurm took nothing. Messages about the way to the controller leave that open.
 bool is_refusal(const ProgramEnd& end) {
   if (!end.exit_code || *end.exit_code == 0) return false;
+  // A connection that was never made carried nothing.
+  if (end.errors.find("connect failure") != std::string::npos) return true;
   constexpr std::array kOpen = {"Unable to contact", "timed out",  "Socket",
                                 "Connection",        "Zero Bytes", "Communication"};
   return std::none_of(kOpen.begin(), kOpen.end(),
@@ -117,7 +119,7 @@ std::optional<std::vector<TaskReport>> Commands::squeue(const std::string& prefi
 std::optional<std::vector<TaskReport>> Commands::sacct(const std::vector<std::int64_t>& jobs) const {
   std::string list;
   for (const auto job : jobs) list += (list.empty() ? "" : ",") + std::to_string(job);
-  const ProgramEnd end = run("sacct", {"--noheader", "--parsable2", "--allocations", "--array", "--jobs=" + list,
+  const ProgramEnd end = run("sacct", {"--noheader", "--parsable2", "--allocations", "--jobs=" + list,
                                        "--format=JobID,State,NodeList,JobName"});
   if (!end.is_good()) return std::nullopt;
   return parse_lines(end.output, parse_sacct_line);

@@ -15,7 +15,10 @@ class FileLink final : public Link {
   bool claim(const Claim& claim) override { return folder_.claim(claim); }
   void fetch(const store::JobFolder& to) override;
   void beat(std::uint64_t number) override { folder_.beat(number); }
-  Request::Kind requested() override { return folder_.requested(); }
+  Request::Kind requested() override {
+    folder_.look_again();
+    return folder_.requested();
+  }
   void write_reports(std::uint64_t offset, const std::string& bytes) override { sink_.write_reports(offset, bytes); }
   void put_checkpoint(const std::string& bytes) override { sink_.put_checkpoint(bytes); }
   void put_result(const std::filesystem::path& file) override { sink_.put_result(file); }

@@ -19,6 +19,14 @@ std::optional<Mirror::Version> Mirror::version_of(const std::filesystem::path& p
   return Version{status.st_ino, status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec};
 }
 
+bool Mirror::put_result() {
+  const auto version = version_of(from_.result());
+  if (!version || version == result_) return false;
+  to_.put_result(from_.result());
+  result_ = version;
+  return true;
+}
+
 bool Mirror::pass() {
   // In this order: whatever stands in the reports read below was preceded by the result, and the checkpoint read here
   // was preceded by reports that are there now.
@@ -34,15 +42,13 @@ bool Mirror::pass() {
     std::string records;
     while (records.size() < kPart && (more = reader.read_record(records))) continue;
     if (records.empty()) break;
-    const auto result_version = version_of(from_.result());
-    if (result_version && result_version != result_) {
-      to_.put_result(from_.result());
-      result_ = result_version;
-    }
+    is_new |= put_result();
     to_.write_reports(offset_, records);
     offset_ += records.size();
     is_new = true;
   }
+  // Also without new reports: a network file system may show it after the report that announces it.
+  is_new |= put_result();
   if (checkpoint) {
     to_.put_checkpoint(*checkpoint);
     checkpoint_ = checkpoint_version;

@@ -30,6 +30,7 @@ class Mirror {
     std::int64_t nanoseconds = 0;
     bool operator==(const Version&) const = default;
   };
+  bool put_result();
   static std::optional<Version> version_of(const std::filesystem::path& path);
 
   store::JobFolder from_;

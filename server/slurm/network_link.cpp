@@ -1,5 +1,7 @@
 #include "slurm/network_link.h"
 
+#include <zlib.h>
+
 #include <algorithm>
 #include <chrono>
 #include <fstream>
@@ -16,6 +18,11 @@ constexpr std::chrono::seconds kForACall{30};
 // A task that finds no daemon looks after its worker again soon.
 constexpr std::chrono::seconds kForAContact{5};
 constexpr std::size_t kPartOfCall = std::size_t{1} << 20;
+
+std::uint32_t checksum_after(std::uint32_t before, const std::string& bytes) {
+  return static_cast<std::uint32_t>(
+      crc32_z(before, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()));
+}
 
 bool is_this_machine(const std::string& address) {
   for (const char* begin : {"127.", "localhost:", "[::1]:"}) {
@@ -116,35 +123,42 @@ Request::Kind NetworkLink::requested() {
 
 void NetworkLink::write_reports(std::uint64_t offset, const std::string& bytes) {
   for (std::size_t done = 0; done < bytes.size(); done += kPartOfCall)
-    write_file("reports", static_cast<std::int64_t>(offset + done), bytes.substr(done, kPartOfCall), false);
+    write_file("reports", static_cast<std::int64_t>(offset + done), bytes.substr(done, kPartOfCall));
 }
 
 void NetworkLink::put_checkpoint(const std::string& bytes) {
-  for (std::size_t done = 0; done < bytes.size(); done += kPartOfCall)
+  const std::uint32_t checksum = checksum_after(0, bytes);
+  for (std::size_t done = 0; done < bytes.size(); done += kPartOfCall) {
+    const bool is_last = done + kPartOfCall >= bytes.size();
     write_file("checkpoint", static_cast<std::int64_t>(done), bytes.substr(done, kPartOfCall),
-               done + kPartOfCall >= bytes.size());
+               is_last ? std::optional(checksum) : std::nullopt);
+  }
 }
 
 void NetworkLink::put_result(const std::filesystem::path& file) {
   std::ifstream input(file, std::ios::binary);
   const auto size = static_cast<std::int64_t>(std::filesystem::file_size(file));
+  std::uint32_t checksum = 0;
   for (std::int64_t done = 0; done < size;) {
     std::string part(std::min<std::size_t>(kPartOfCall, static_cast<std::size_t>(size - done)), '\0');
     if (!input.read(part.data(), static_cast<std::streamsize>(part.size())))
       throw ServiceError(ServiceError::Kind::internal, file.string() + " cannot be read.");
+    checksum = checksum_after(checksum, part);
     const auto end = done + static_cast<std::int64_t>(part.size());
-    write_file("result.h5", done, std::move(part), end == size);
+    write_file("result.h5", done, std::move(part), end == size ? std::optional(checksum) : std::nullopt);
     done = end;
   }
 }
 
-void NetworkLink::write_file(const std::string& file, std::int64_t offset, std::string bytes, bool last) {
+void NetworkLink::write_file(const std::string& file, std::int64_t offset, std::string bytes,
+                             std::optional<std::uint32_t> checksum) {
   WriteFileRequest request;
   *request.mutable_name() = name_;
   request.set_file(file);
   request.set_offset(offset);
   request.set_bytes(std::move(bytes));
-  request.set_last(last);
+  request.set_last(checksum.has_value());
+  request.set_checksum(checksum.value_or(0));
   static_cast<void>(call(&Workers::Stub::WriteFile, request));
 }
 

@@ -2,7 +2,9 @@
 
 #include <grpcpp/grpcpp.h>
 
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "slurm/link.h"
@@ -41,7 +43,9 @@ class NetworkLink final : public Link {
   /// Throws ServiceError if the call fails.
   template <typename Request, typename Response>
   Response call(Method<Request, Response> method, const Request& request);
-  void write_file(const std::string& file, std::int64_t offset, std::string bytes, bool last);
+  /// `checksum`: of the whole file, with its last part.
+  void write_file(const std::string& file, std::int64_t offset, std::string bytes,
+                  std::optional<std::uint32_t> checksum = std::nullopt);
 
   std::unique_ptr<Workers::Stub> stub_;
   AttemptName name_;

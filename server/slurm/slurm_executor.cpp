@@ -10,18 +10,13 @@
 #include "jobs/queue_forecast.h"
 #include "slurm/attempt_follower.h"
 #include "slurm/file_link.h"
+#include "slurm/shared_folder.h"
 #include "slurm/small_file.h"
 #include "store/durable_file.h"
 #include "worker/report_log.h"
 
 namespace cellcrush::slurm {
 namespace {
-
-void make_shared_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) store::throw_file_error(folder, "used", error.value());
-}
 
 // Removes half a report at the end, which a killed daemon or worker may have left.
 void cut_incomplete_report(const store::JobFolder& folder) { worker::ReportLog log(folder.reports()); }
@@ -34,10 +29,7 @@ SlurmExecutor::SlurmExecutor(ClusterOptions options, double step_cost, std::uniq
       local_(std::move(local)),
       commands_(options_.commands, options_.times.command),
       view_(commands_, options_.times.squeue),
-      batcher_(options_, commands_) {
-  make_shared_folder(options_.folder / "attempts");
-  make_shared_folder(options_.folder / "batches");
-}
+      batcher_(options_, commands_) {}
 
 // The threads of its parts need not wait for a controller that does not answer. A submission without an answer is
 // looked for by the next daemon.
@@ -58,6 +50,7 @@ void SlurmExecutor::end_worker(const store::JobFolder& folder) {
   const auto attempt = read_attempt(folder);
   if (!attempt) return;
   const AttemptFolder shared = folder_of(*attempt);
+  require_marker(options_.folder);
   Claim claim;
   claim.set_withdrawn(true);
   if (shared.exists() && !shared.claim(claim)) shared.request(Request::ABANDON);
@@ -102,15 +95,18 @@ std::shared_ptr<Submission> SlurmExecutor::open_attempt(const store::JobFolder& 
   attempt.set_id(random_name());
   const Need need = predict(order);
   const AttemptFolder shared = folder_of(attempt);
+  require_marker(options_.folder);
   // Durable first: whatever is in the shared folder belongs to an attempt that the next daemon finds.
   write_attempt(folder, attempt);
   try {
     const AttemptFolder partial(shared.root().string() + ".partial");
-    make_shared_folder(partial.root());
+    std::error_code error;
+    std::filesystem::create_directories(partial.root(), error);
+    if (error) store::throw_file_error(partial.root(), "used", error.value());
     write_small_file(partial.files().order(), order.SerializeAsString());
     copy_run(folder, partial.files());
     if (!options_.daemon.empty()) partial.set_token(random_token());
-    std::error_code error;
+    partial.request(Request::NONE);
     std::filesystem::rename(partial.root(), shared.root(), error);
     if (error) store::throw_file_error(shared.root(), "written", error.value());
   } catch (...) {
@@ -143,12 +139,21 @@ jobs::WorkerExit SlurmExecutor::run(const store::JobFolder& folder, const worker
   try {
     AttemptFollower follower({options_, commands_, view_, events, interruptions, closed}, folder, submission);
     return follower.follow();
+  } catch (const std::exception& error) {
+    // What this machine lacks at the moment is no reason to stop work in the cluster: it is adopted later.
+    if (trouble_of(error)) throw;
+    give_up(folder, *submission);
+    throw;
   } catch (...) {
-    static_cast<void>(submission->withdraw());
-    end_worker(folder);
-    submission->close(folder);
+    give_up(folder, *submission);
     throw;
   }
+}
+
+void SlurmExecutor::give_up(const store::JobFolder& folder, Submission& submission) {
+  static_cast<void>(submission.withdraw());
+  end_worker(folder);
+  submission.close(folder);
 }
 
 }  // namespace cellcrush::slurm

@@ -21,14 +21,15 @@ namespace cellcrush::slurm {
 /// one that runs on this machine. When the daemon ends, attempts go on; the next daemon adopts them.
 class SlurmExecutor final : public jobs::Executor {
  public:
-  /// `step_cost`: seconds of one core per element and step. `local` makes results from reports of lost workers. Throws
-  /// ServiceError if the shared folder cannot be used.
+  /// `step_cost`: seconds of one core per element and step. `local` makes results from reports of lost workers. REQUIRES:
+  /// prepare_shared_folder.
   SlurmExecutor(ClusterOptions options, double step_cost, std::unique_ptr<jobs::LocalProcess> local);
   ~SlurmExecutor() override;
   SlurmExecutor(const SlurmExecutor&) = delete;
   SlurmExecutor& operator=(const SlurmExecutor&) = delete;
 
   bool has_worker(const store::JobFolder& folder) override;
+  [[nodiscard]] bool keeps_workers() const override { return true; }
   std::optional<jobs::WorkerExit> read_final_report(const store::JobFolder& folder,
                                                     const jobs::WorkerEvents& events) override;
   void end_worker(const store::JobFolder& folder) override;
@@ -40,6 +41,7 @@ class SlurmExecutor final : public jobs::Executor {
     return AttemptFolder(options_.folder / "attempts" / attempt.id());
   }
   std::shared_ptr<Submission> open_attempt(const store::JobFolder& folder, const worker::Order& order);
+  void give_up(const store::JobFolder& folder, Submission& submission);
   Need predict(const worker::Order& order);
   void remove_batch_if_over(const Attempt& attempt);
 

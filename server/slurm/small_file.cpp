@@ -1,10 +1,12 @@
 #include "slurm/small_file.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
+#include <random>
 
 #include "store/durable_file.h"
 
@@ -29,6 +31,20 @@ void write_small_file(const std::filesystem::path& path, const std::string& cont
     unlink(partial.c_str());
     throw;
   }
+}
+
+void write_in_place(const std::filesystem::path& path, const std::string& content) {
+  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
+  if (file < 0) store::throw_file_error(path, "written", errno);
+  const auto written = pwrite(file, content.data(), content.size(), 0);
+  int error = written == static_cast<ssize_t>(content.size()) ? 0 : (written < 0 ? errno : ENOSPC);
+  if (close(file) != 0 && error == 0) error = errno;
+  if (error != 0) store::throw_file_error(path, "written", error);
+}
+
+std::string random_name() {
+  std::random_device random;
+  return fmt::format("{:08x}{:08x}", random(), random());
 }
 
 std::optional<std::string> read_small_file(const std::filesystem::path& path) {

@@ -12,6 +12,13 @@ namespace cellcrush::slurm {
 /// loss. Throws ServiceError, with the shortage if there is one.
 void write_small_file(const std::filesystem::path& path, const std::string& content);
 
+/// Writes a few bytes over those of a file, or into a new one. Needs no room if the file had as many. Throws
+/// ServiceError.
+void write_in_place(const std::filesystem::path& path, const std::string& content);
+
+/// A random name of 16 hexadecimal digits.
+std::string random_name();
+
 /// Nothing if the file is absent. Throws ServiceError if it cannot be read for another reason.
 std::optional<std::string> read_small_file(const std::filesystem::path& path);
 

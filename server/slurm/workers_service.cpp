@@ -3,12 +3,15 @@
 #include <fcntl.h>
 #include <openssl/crypto.h>
 #include <unistd.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <fstream>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 #include "error.h"
 #include "slurm/file_link.h"
@@ -46,21 +49,32 @@ std::filesystem::path readable_file(const store::JobFolder& files, const std::st
   refuse_file(file);
 }
 
+std::uint64_t bytes_of(const std::filesystem::path& path) {
+  std::error_code error;
+  const auto out = std::filesystem::file_size(path, error);
+  return error ? 0 : out;
+}
+
+// Parts follow each other; the first begins the file again.
 void write_part(const std::filesystem::path& path, std::int64_t offset, const std::string& bytes) {
-  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
+  const int file = open(path.c_str(), O_WRONLY | O_CREAT | (offset == 0 ? O_TRUNC : 0) | O_CLOEXEC, 0600);
   if (file < 0) store::throw_file_error(path, "written", errno);
-  const bool begins = offset == 0 && ftruncate(file, 0) != 0;
-  const auto written = begins ? -1 : pwrite(file, bytes.data(), bytes.size(), offset);
+  const auto written = pwrite(file, bytes.data(), bytes.size(), offset);
   const int error = written == static_cast<ssize_t>(bytes.size()) ? 0 : (written < 0 ? errno : ENOSPC);
   close(file);
   if (error != 0) store::throw_file_error(path, "written", error);
 }
 
-}  // namespace
-
-std::filesystem::path own_folder_of_cluster(const std::filesystem::path& data_folder, const std::string& cluster) {
-  return data_folder / "slurm" / cluster;
+std::uint32_t checksum_of_file(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string part(kPartOfFile, '\0');
+  auto out = crc32(0, nullptr, 0);
+  while (file.read(part.data(), static_cast<std::streamsize>(part.size())) || file.gcount() > 0)
+    out = crc32_z(out, reinterpret_cast<const unsigned char*>(part.data()), static_cast<std::size_t>(file.gcount()));
+  return static_cast<std::uint32_t>(out);
 }
+
+}  // namespace
 
 AttemptFolder WorkersService::admit(const grpc::CallbackServerContext& context, const AttemptName& name) const {
   if (is_plain_name(name.cluster()) && is_plain_name(name.attempt())) {
@@ -79,6 +93,7 @@ grpc::ServerUnaryReactor* WorkersService::ClaimAttempt(grpc::CallbackServerConte
                                                        ClaimAttemptResponse* response) {
   return calls_.run(*context, *request, [=, this] {
     const auto folder = admit(*context, request->name());
+    if (request->claim().withdrawn()) throw ServiceError(ServiceError::Kind::invalid, "withdrawn is for the daemon.");
     bool taken = folder.claim(request->claim());
     // The answer to an earlier call may have been lost.
     if (const auto found = taken ? std::nullopt : folder.find_claim())
@@ -120,17 +135,28 @@ grpc::ServerUnaryReactor* WorkersService::WriteFile(grpc::CallbackServerContext*
                                                     const WriteFileRequest* request, WriteFileResponse*) {
   return calls_.run(*context, *request, [=, this] {
     const auto files = admit(*context, request->name()).files();
-    if (request->offset() < 0 || request->bytes().size() > kPartOfFile) refuse_file(request->file());
+    if (request->bytes().size() > kPartOfFile) refuse_file(request->file());
     FolderSink sink(files);
-    if (request->file() == files.reports().filename()) {
+    const MutexLock lock(uploads_);
+    const bool is_report = request->file() == files.reports().filename();
+    const bool is_result = request->file() == files.result().filename();
+    if (!is_report && !is_result && request->file() != files.checkpoint().filename()) refuse_file(request->file());
+    const std::filesystem::path partial = (is_result ? files.result() : files.checkpoint()).string() + ".upload";
+    // No holes: a file grows by what was sent.
+    const auto size = static_cast<std::int64_t>(bytes_of(is_report ? files.reports() : partial));
+    if (request->offset() < 0 || request->offset() > size) {
+      throw ServiceError(ServiceError::Kind::out_of_range, request->file() + " has " + std::to_string(size) +
+                                                               " bytes; nothing can be written at offset " +
+                                                               std::to_string(request->offset()) + ".");
+    }
+    if (is_report) {
       sink.write_reports(static_cast<std::uint64_t>(request->offset()), request->bytes());
       return grpc::Status::OK;
     }
-    const bool is_result = request->file() == files.result().filename();
-    if (!is_result && request->file() != files.checkpoint().filename()) refuse_file(request->file());
-    const std::filesystem::path partial = (is_result ? files.result() : files.checkpoint()).string() + ".upload";
     write_part(partial, request->offset(), request->bytes());
     if (!request->last()) return grpc::Status::OK;
+    if (checksum_of_file(partial) != request->checksum())
+      throw ServiceError(ServiceError::Kind::unavailable, request->file() + " arrived damaged. Send it again.");
     if (is_result) {
       store::publish_file(partial, files.result());
     } else {

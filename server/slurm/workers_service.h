@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "mutex.h"
 #include "rpc/call_pool.h"
 #include "slurm/attempt_folder.h"
 #include "slurm/workers.grpc.pb.h"
@@ -33,9 +34,7 @@ class WorkersService final : public Workers::CallbackService {
 
   std::filesystem::path root_;
   rpc::CallPool& calls_;
+  Mutex uploads_;  ///< a part of a file is written as a whole, also by a call that was given up
 };
-
-/// Folder of a cluster whose tasks reach the daemon over the network, in the daemon's data folder.
-std::filesystem::path own_folder_of_cluster(const std::filesystem::path& data_folder, const std::string& cluster);
 
 }  // namespace cellcrush::slurm

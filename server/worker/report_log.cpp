@@ -115,6 +115,8 @@ ReportLogReader::Read ReportLogReader::next_record(std::uint32_t& size) {
   if (!fill(kHead)) return nothing_whole();
   size = number_at(buffer_.data() + taken_);
   if (size > kLargest) return Read::broken;
+  // No report is empty; zeros stand where a network file system or a power loss has left a hole.
+  if (size == 0) return nothing_whole();
   if (!fill(kHead + size)) return nothing_whole();
   const char* record = buffer_.data() + taken_;
   return checksum_of(record + kHead, size) == number_at(record + 4) ? Read::message : Read::broken;

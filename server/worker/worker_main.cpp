@@ -46,10 +46,10 @@ Shortage shortage_of_exit_code(int code) {
   return Shortage::none;
 }
 
-void worker_main(const std::filesystem::path& folder, bool ends_with_parent) {
-  if (ends_with_parent) {
+void worker_main(const std::filesystem::path& folder, pid_t parent) {
+  if (parent != 0) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() == 1) _exit(kNoReport);
+    if (getppid() != parent) _exit(kNoReport);
   }
   // Runs inside the folder, wherever that is moved: after a restore the path may belong to another job.
   if (chdir(folder.c_str()) != 0) _exit(kNoReport);

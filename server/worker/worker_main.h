@@ -1,5 +1,7 @@
 #pragma once
 
+#include <sys/types.h>
+
 #include <csignal>
 #include <filesystem>
 
@@ -25,7 +27,7 @@ inline constexpr int kSuspendSignal = SIGTERM;
 inline constexpr int kCancelSignal = SIGUSR1;
 
 /// The main function of a worker process: claims the job's folder, reads its Order there, runs the job and reports.
-/// Unless `ends_with_parent`, it outlives the process that started it. Does not return.
-[[noreturn]] void worker_main(const std::filesystem::path& folder, bool ends_with_parent);
+/// It ends with the process `parent`, which started it; 0: it outlives that. Does not return.
+[[noreturn]] void worker_main(const std::filesystem::path& folder, pid_t parent);
 
 }  // namespace cellcrush::worker

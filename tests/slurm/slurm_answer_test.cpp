@@ -35,17 +35,18 @@ TEST_F(SlurmAnswerTest, ASubmissionWithoutAnAnswerIsFoundByItsName) {
 // Neither found nor begun for long: it is taken back. What then starts in Slurm computes nothing.
 TEST_F(SlurmAnswerTest, ASubmissionThatIsNotFoundIsTakenBackAndItsTaskComputesNothing) {
   auto options = quick_options();
-  options.commands = replace_command("sbatch", "$REAL --begin=now+6 \"$@\" > /dev/null; exec sleep 100");
+  options.commands = replace_command("sbatch", "$REAL --begin=now+20 \"$@\" > /dev/null; exec sleep 100");
   options.commands = replace_command("squeue", "exit 0");
   options.times.command = milliseconds(1'000);
   options.times.unanswered = milliseconds(1'500);
+  options.times.squeue = milliseconds(300);
   options.program = logging_program();
   start_executor(options);
   const auto exit = run(tiny_case())->wait();
   EXPECT_EQ(exit.kind, Kind::not_started);
   EXPECT_THAT(exit.trouble.reason, HasSubstr("did not answer in time"));
   EXPECT_EQ(attempt_count(), 0U);
-  EXPECT_TRUE(cluster_->wait_for({"squeue", "--noheader"}, "", std::chrono::seconds(40)));
+  EXPECT_TRUE(cluster_->wait_for({"squeue", "--noheader"}, "", std::chrono::seconds(60)));
   EXPECT_EQ(count_in_log("begins"), 0);
 }
 
@@ -53,15 +54,18 @@ TEST_F(SlurmAnswerTest, ASubmissionThatIsNotFoundIsTakenBackAndItsTaskComputesNo
 TEST_F(SlurmAnswerTest, WhatSacctSaysOfASilentTaskCounts) {
   auto options = quick_options();
   options.commands = replace_command("squeue", "exit 0");
-  options.commands = replace_command("sacct", "echo \"$@\" >> $HERE/asked; echo '1|NODE_FAIL|n7|cellcrush-x'");
+  options.commands = replace_command(
+      "sacct",
+      "echo \"$@\" >> $HERE/asked; echo \"1|OUT_OF_MEMORY|n7|$(/usr/bin/squeue --noheader --states=all --format=%j)\"");
   start_executor(options);
   const auto job = run(endless_case());
   const pid_t task = job->wait_for_start();
   ASSERT_GT(task, 0);
   ASSERT_EQ(kill(task, SIGKILL), 0);
   const auto exit = job->wait();
-  EXPECT_EQ(exit.kind, Kind::displaced);
-  EXPECT_THAT(exit.detail, HasSubstr("Slurm job 1 on n7 ended without a last word: NODE_FAIL"));
+  EXPECT_EQ(exit.kind, Kind::gone);
+  EXPECT_TRUE(exit.out_of_memory);
+  EXPECT_THAT(exit.detail, HasSubstr("Slurm job 1 on n7 ended without a last word: OUT_OF_MEMORY"));
   std::ifstream asked(options.commands / "asked");
   std::string line;
   EXPECT_TRUE(std::getline(asked, line));

@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "slurm/shared_folder.h"
+
 namespace cellcrush::testing {
 namespace {
 
@@ -36,7 +38,7 @@ slurm::ClusterOptions SlurmFixture::quick_options() const {
   out.times.squeue = milliseconds(2'000);
   out.times.command = milliseconds(10'000);
   out.times.silent = milliseconds(8'000);
-  out.times.lease = milliseconds(30'000);
+  out.times.lease = milliseconds(12'000);
   out.times.leave = milliseconds(20'000);
   out.times.unanswered = milliseconds(10'000);
   return out;
@@ -44,11 +46,13 @@ slurm::ClusterOptions SlurmFixture::quick_options() const {
 
 void SlurmFixture::start_executor(const slurm::ClusterOptions& options) {
   executor_.reset();
+  std::filesystem::create_directories(options.folder);
+  slurm::prepare_shared_folder(options, folder_.path());
   executor_ = std::make_unique<slurm::SlurmExecutor>(options, 1e-8, local_process());
 }
 
 store::JobFolder SlurmFixture::job_folder(int number) const {
-  store::JobFolder out(folder_.path() / std::to_string(number));
+  store::JobFolder out(folder_.path() / "jobs" / std::to_string(number));
   std::filesystem::create_directories(out.root());
   return out;
 }

@@ -100,8 +100,8 @@ TEST_F(SlurmLongTest, ASweepSurvivesAControllerThatIsAwayForTwoMinutes) {
   cluster_->start_controller();
   ASSERT_TRUE(wait_for_all(client, sweep, seconds(600)));
   ASSERT_TRUE(wait_for_all(client, late, seconds(200)));
-  for (const auto& job : get_sweep(client, sweep.name()).jobs())
-    EXPECT_EQ(client.get(job).attempt(), 1) << client.get(job).cause_message();
+  const auto ended = get_sweep(client, sweep.name());
+  for (const auto& job : ended.jobs()) EXPECT_EQ(client.get(job).attempt(), 1) << client.get(job).cause_message();
   expect_undisturbed(client, get_sweep(client, sweep.name()), long_sweep());
 }
 

@@ -12,6 +12,7 @@
 #include "slurm/mirror.h"
 #include "slurm/packing.h"
 #include "slurm/program.h"
+#include "slurm/shared_folder.h"
 #include "slurm/small_file.h"
 #include "worker/report_log.h"
 
@@ -63,6 +64,7 @@ TEST(ClusterFlag, NamesWhatIsWrongAndTheRemedy) {
   EXPECT_THAT(refusal_of("big:folder=/a,jobs=many"), HasSubstr("whole number from 1 to 1024"));
   EXPECT_THAT(refusal_of("big:folder=/a,jobs=0"), HasSubstr("jobs is '0'"));
   EXPECT_THAT(refusal_of("big:folder=/a,sbatch=-p short"), HasSubstr("long option of sbatch"));
+  EXPECT_THAT(refusal_of("big:folder=/a,sbatch=--clusters=b"), HasSubstr("the daemon itself decides"));
   EXPECT_THAT(refusal_of("big:daemon=login"), HasSubstr("HOST:PORT"));
   EXPECT_THAT(refusal_of("big:folder=/a,ca=/b"), HasSubstr("ca needs daemon"));
 }
@@ -145,8 +147,8 @@ TEST(RunProgram, ReadsALongOutputAndTheExitCode) {
 
 TEST(AttemptClaim, IsTakenByOneOfMany) {
   const testing::TemporaryFolder temporary;
-  const AttemptFolder folder(temporary.path() / "a");
-  fs::create_directory(folder.root());
+  const AttemptFolder folder(temporary.path() / "attempts" / "a");
+  fs::create_directories(folder.root());
   std::atomic<int> winners = 0;
   {
     std::vector<std::jthread> claimants;
@@ -165,10 +167,45 @@ TEST(AttemptClaim, IsTakenByOneOfMany) {
 
 TEST(AttemptClaim, CannotBeTakenOnceTheFolderIsGone) {
   const testing::TemporaryFolder temporary;
-  const AttemptFolder folder(temporary.path() / "a");
+  const AttemptFolder folder(temporary.path() / "attempts" / "a");
+  fs::create_directory(temporary.path() / "attempts");
+  EXPECT_THROW(static_cast<void>(folder.requested()), ServiceError) << "Its file system may not be mounted.";
+  write_small_file(temporary.path() / kMarker, "x");
   EXPECT_FALSE(folder.claim(Claim()));
   EXPECT_EQ(folder.requested(), Request::ABANDON);
   EXPECT_FALSE(folder.find_ended().has_value());
+}
+
+TEST(SharedFolder, BelongsToOneDataFolderAndHasToBeThere) {
+  const testing::TemporaryFolder temporary;
+  ClusterOptions options;
+  options.name = "big";
+  options.folder = temporary.path() / "shared";
+  fs::create_directory(options.folder);
+  const fs::path data = temporary.path() / "data";
+  EXPECT_NO_THROW(prepare_shared_folder(options, data));
+  EXPECT_NO_THROW(prepare_shared_folder(options, data));
+  EXPECT_THROW(prepare_shared_folder(options, temporary.path() / "other"), ServiceError);
+  fs::create_directory(options.folder / "attempts" / "left");
+  prepare_shared_folder(options, data);
+  EXPECT_FALSE(fs::exists(options.folder / "attempts" / "left"));
+  // As when its file system is not mounted.
+  fs::remove_all(options.folder);
+  fs::create_directory(options.folder);
+  EXPECT_THROW(prepare_shared_folder(options, data), ServiceError);
+  EXPECT_THROW(require_marker(options.folder), ServiceError);
+  EXPECT_TRUE(fs::is_empty(options.folder));
+}
+
+TEST(ReportLogReader, TakesAHoleForNothing) {
+  const testing::TemporaryFolder temporary;
+  const fs::path path = temporary.path() / "reports";
+  std::ofstream(path, std::ios::binary) << std::string(4096, '\0');
+  worker::ReportLogReader reader(path);
+  std::string records;
+  EXPECT_FALSE(reader.read_record(records));
+  worker::Report report;
+  EXPECT_EQ(reader.read(report), worker::ReportLogReader::Read::end);
 }
 
 class MirrorTest : public ::testing::Test {
