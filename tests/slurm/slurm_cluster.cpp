@@ -1,17 +1,13 @@
 #include "slurm/slurm_cluster.h"
 
-#include <arpa/inet.h>
-#include <sys/socket.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <csignal>
 #include <fstream>
-#include <functional>
 #include <iterator>
 #include <random>
 #include <stdexcept>
-#include <thread>
 
 #include "slurm/process_tree.h"
 
@@ -19,12 +15,10 @@ namespace cellcrush::testing {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
 using std::chrono::seconds;
 
 constexpr seconds kStartLimit{60};
 constexpr seconds kStopLimit{20};
-constexpr std::chrono::milliseconds kPause{100};
 
 const std::string kMunged = "/usr/sbin/munged";
 const std::string kSlurmctld = "/usr/sbin/slurmctld";
@@ -35,50 +29,19 @@ std::string bytes_of(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// A socket bound to a free port of loopback. As it does not listen, a daemon may bind to the same port, since both set
-// SO_REUSEADDR; nobody else is given it.
-int reserve_port(int& port) {
-  const int held = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  const int yes = 1;
-  setsockopt(held, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  socklen_t size = sizeof(address);
-  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast)
-  auto* generic = reinterpret_cast<sockaddr*>(&address);
-  if (bind(held, generic, size) != 0 || getsockname(held, generic, &size) != 0) {
-    close(held);
-    throw std::runtime_error("no free port on 127.0.0.1");
-  }
-  port = ntohs(address.sin_port);
-  return held;
-}
-
 std::string node_name(int node) { return "n" + std::to_string(node); }
 
-void stop(std::unique_ptr<e2e::Process>& keeper) {
-  if (!keeper) return;
-  keeper->send(SIGTERM);
-  (void)keeper->wait(kStopLimit);
-  keeper.reset();
-}
-
-bool wait_until(const std::function<bool()>& condition, std::chrono::milliseconds limit) {
-  const auto end = Clock::now() + limit;
-  while (!condition()) {
-    if (Clock::now() >= end) return false;
-    std::this_thread::sleep_for(kPause);
-  }
-  return true;
+bool are_executable(const std::vector<std::string>& programs) {
+  return std::all_of(programs.begin(), programs.end(),
+                     [](const std::string& program) { return access(program.c_str(), X_OK) == 0; });
 }
 
 }  // namespace
 
-bool slurm_is_installed() {
-  const std::vector<std::string> programs = {kMunged, kSlurmctld, kSlurmd, "/usr/bin/sbatch"};
-  return std::all_of(programs.begin(), programs.end(),
-                     [](const std::string& program) { return access(program.c_str(), X_OK) == 0; });
+bool slurm_is_installed() { return are_executable({kMunged, kSlurmctld, kSlurmd, "/usr/bin/sbatch"}); }
+
+bool slurm_accounting_is_installed() {
+  return slurm_is_installed() && are_executable({kMariadbd, kSlurmdbd}) && fs::exists(kMariadbTables);
 }
 
 SlurmCluster::SlurmCluster(const SlurmOptions& options) : config_(folder_.path() / "slurm.conf") {
@@ -89,10 +52,16 @@ SlurmCluster::SlurmCluster(const SlurmOptions& options) : config_(folder_.path()
   }
   SlurmPorts ports;
   ports.nodes.resize(kNodes);
-  reserved_ports_.push_back(reserve_port(ports.controller));
-  for (int& port : ports.nodes) reserved_ports_.push_back(reserve_port(port));
-  std::ofstream(config_) << slurm_conf_text(options, ports, folder_.path(), folder_.path() / "munge/socket");
+  ports.controller = reserve_port();
+  for (int& port : ports.nodes) port = reserve_port();
+  const fs::path munge_socket = folder_.path() / "munge/socket";
+  if (options.accounting) {
+    accounting_ = std::make_unique<SlurmAccounting>(folder_.path(), munge_socket);
+    ports.accounting = accounting_->port();
+  }
+  std::ofstream(config_) << slurm_conf_text(options, ports, folder_.path(), munge_socket);
   start_munge();
+  if (accounting_) start_accounting();
   start_controller();
   nodes_.resize(kNodes);
   for (int node = 1; node <= kNodes; ++node) start_node(node);
@@ -103,17 +72,20 @@ SlurmCluster::SlurmCluster(const SlurmOptions& options) : config_(folder_.path()
 }
 
 SlurmCluster::~SlurmCluster() {
-  for (Keeper& node : nodes_) stop(node);
-  for (Keeper& node : lost_) stop(node);
-  stop(controller_);
-  stop(munge_);
-  for (const int held : reserved_ports_) close(held);
+  for (KeptDaemon& node : nodes_) stop_daemon(node);
+  for (KeptDaemon& node : lost_) stop_daemon(node);
+  stop_daemon(controller_);
+  accounting_.reset();
+  stop_daemon(munge_);
 }
 
-SlurmCluster::Keeper SlurmCluster::start(const std::string& name, const std::vector<std::string>& command) const {
-  std::vector<std::string> words = {DAEMON_KEEPER_PROGRAM, (folder_.path() / "log" / (name + ".out")).string()};
-  words.insert(words.end(), command.begin(), command.end());
-  return std::make_unique<e2e::Process>(words);
+int SlurmCluster::reserve_port() {
+  reserved_ports_.push_back(std::make_unique<ReservedPort>());
+  return reserved_ports_.back()->number();
+}
+
+KeptDaemon SlurmCluster::start(const std::string& name, const std::vector<std::string>& command) const {
+  return start_daemon(folder_.path() / "log" / (name + ".out"), command);
 }
 
 void SlurmCluster::start_munge() {
@@ -131,6 +103,16 @@ void SlurmCluster::start_munge() {
                             "--log-file=" + prefix + "log", "--seed-file=" + prefix + "seed"});
   if (!wait_until([&] { return fs::exists(folder / "socket"); }, kStartLimit))
     throw std::runtime_error("munged does not start:\n" + logs());
+}
+
+void SlurmCluster::start_accounting() {
+  const std::vector<std::string> clusters = {"sacctmgr", "-nP", "list", "cluster", "format=Cluster"};
+  bool registered = accounting_->start(kStartLimit) && wait_for(clusters, "", kStartLimit);
+  if (registered) {
+    (void)run({"sacctmgr", "-i", "add", "cluster", "test"}, kStartLimit);
+    registered = wait_for(clusters, "test", kStartLimit);
+  }
+  if (!registered) throw std::runtime_error("the accounting does not start:\n" + logs());
 }
 
 e2e::Outcome SlurmCluster::run(const std::vector<std::string>& command, std::chrono::milliseconds limit) const {
@@ -171,9 +153,9 @@ bool SlurmCluster::wait_for_node(int node, const std::string& state, std::chrono
 }
 
 void SlurmCluster::kill_node(int node, JobProcesses processes) {
-  Keeper& keeper = nodes_.at(node - 1);
+  KeptDaemon& keeper = nodes_.at(node - 1);
   if (processes == JobProcesses::die) {
-    stop(keeper);
+    stop_daemon(keeper);
     return;
   }
   for (const pid_t process : descendants_of(keeper->id())) {

@@ -8,6 +8,8 @@
 
 #include "e2e/process.h"
 #include "server/temporary_folder.h"
+#include "slurm/kept_daemon.h"
+#include "slurm/slurm_accounting.h"
 #include "slurm/slurm_conf.h"
 
 namespace cellcrush::testing {
@@ -16,6 +18,11 @@ namespace cellcrush::testing {
 ///   if (!slurm_is_installed()) GTEST_SKIP() << kSlurmIsMissing;
 bool slurm_is_installed();
 inline constexpr const char* kSlurmIsMissing = "Slurm is not installed; run deploy/install-packages slurm";
+
+/// Whether a SlurmCluster with SlurmOptions::accounting can start here.
+bool slurm_accounting_is_installed();
+inline constexpr const char* kSlurmAccountingIsMissing =
+    "slurmdbd or MariaDB is not installed; run deploy/install-packages slurm";
 
 /// A Slurm cluster of two nodes on this machine: munged, slurmctld and two slurmd, all of the calling user, in a
 /// temporary folder and on ports of loopback that are its own, so that several clusters run side by side. No service of
@@ -35,8 +42,8 @@ class SlurmCluster {
     survive,  ///< they run on, and Slurm has lost them
   };
 
-  /// Returns when both nodes are idle, after about 2 s. Throws std::runtime_error with the daemons' logs when they are
-  /// not within 60 s. REQUIRES: slurm_is_installed().
+  /// Returns when both nodes are idle, after about 2 s, or 3 s with accounting. Throws std::runtime_error with the
+  /// daemons' logs when they are not within 60 s. REQUIRES: slurm_is_installed().
   explicit SlurmCluster(const SlurmOptions& options = {});
   ~SlurmCluster();
   SlurmCluster(const SlurmCluster&) = delete;
@@ -80,19 +87,19 @@ class SlurmCluster {
   [[nodiscard]] std::string logs() const;
 
  private:
-  // A daemon_keeper with the daemon below it.
-  using Keeper = std::unique_ptr<e2e::Process>;
-
-  Keeper start(const std::string& name, const std::vector<std::string>& command) const;
+  int reserve_port();
+  KeptDaemon start(const std::string& name, const std::vector<std::string>& command) const;
   void start_munge();
+  void start_accounting();
 
   TemporaryFolder folder_;
   std::filesystem::path config_;
-  std::vector<int> reserved_ports_;  // sockets, which keep the ports from other programs
-  Keeper munge_;
-  Keeper controller_;
-  std::vector<Keeper> nodes_;
-  std::vector<Keeper> lost_;  // of killed nodes whose jobs survive
+  std::vector<std::unique_ptr<ReservedPort>> reserved_ports_;
+  KeptDaemon munge_;
+  std::unique_ptr<SlurmAccounting> accounting_;
+  KeptDaemon controller_;
+  std::vector<KeptDaemon> nodes_;
+  std::vector<KeptDaemon> lost_;  // of killed nodes whose jobs survive
 };
 
 }  // namespace cellcrush::testing

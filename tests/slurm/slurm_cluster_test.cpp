@@ -2,6 +2,7 @@
 #include "slurm/slurm_cluster.h"
 
 #include <gmock/gmock.h>
+#include <unistd.h>
 
 #include <fstream>
 #include <iterator>
@@ -121,6 +122,45 @@ TEST_F(SlurmClusterTest, AnEndedJobVanishesAfterItsMinimumAge) {
   ASSERT_TRUE(wait_for_state(cluster, job, "COMPLETED")) << cluster.logs();
   EXPECT_TRUE(cluster.wait_for({"squeue", "-h", "-t", "all", "-o", "%i"}, "", 2 * kLimit));
   EXPECT_THAT(cluster.run({"squeue", "-h", "-j", job}).errors, HasSubstr("Invalid job id"));
+}
+
+class SlurmAccountingTest : public SlurmClusterTest {
+ protected:
+  void SetUp() override {
+    if (!slurm_accounting_is_installed()) GTEST_SKIP() << kSlurmAccountingIsMissing;
+  }
+
+  // Whether `sacct` shows these lines of a job within the limit.
+  static bool wait_for_record(const SlurmCluster& cluster, const std::string& job, const std::string& lines) {
+    return cluster.wait_for({"sacct", "--noheader", "--parsable2", "--allocations", "--jobs=" + job,
+                             "--format=JobID,State,NodeList,JobName"},
+                            lines, kLimit);
+  }
+};
+
+TEST_F(SlurmAccountingTest, EndedCancelledAndPendingJobsAreRecorded) {
+  const SlurmCluster cluster({.accounting = true});
+  const std::string user = std::to_string(geteuid());
+  const std::string endless = submit(cluster, {"-J", "endless", "-w", "n1"}, "sleep 1000");
+  const std::string ended = submit(cluster, {"-J", "ended", "-w", "n2"}, "true");
+  const std::string array = submit(cluster, {"-J", "array", "-w", "n2", "--array=1-2"}, "exit $SLURM_ARRAY_TASK_ID");
+  const std::string pending = submit(cluster, {"-J", "pending", "-w", "n1", "--array=1-5%2"}, "true");
+  EXPECT_TRUE(wait_for_record(cluster, endless, endless + "|RUNNING|n1|endless")) << cluster.logs();
+  EXPECT_TRUE(wait_for_record(cluster, ended, ended + "|COMPLETED|n2|ended")) << cluster.logs();
+  EXPECT_TRUE(wait_for_record(cluster, array, array + "_1|FAILED|n2|array\n" + array + "_2|FAILED|n2|array"));
+  EXPECT_TRUE(wait_for_record(cluster, pending, pending + "_[1-5%2]|PENDING|None assigned|pending"));
+  EXPECT_EQ(cluster.run({"scancel", pending, endless}).exit_code, 0);
+  const std::string cancelled = "|CANCELLED by " + user + "|";
+  EXPECT_TRUE(wait_for_record(cluster, endless, endless + cancelled + "n1|endless")) << cluster.logs();
+  EXPECT_TRUE(wait_for_record(cluster, pending, pending + "_[1-5%2]" + cancelled + "None assigned|pending"));
+}
+
+TEST_F(SlurmAccountingTest, AJobOnAKilledNodeIsRecordedAsFailedWithIt) {
+  SlurmCluster cluster({.accounting = true});
+  const std::string job = submit(cluster, {"-J", "lost", "--no-requeue", "-w", "n2"}, "sleep 1000");
+  ASSERT_TRUE(wait_for_state(cluster, job, "RUNNING")) << cluster.logs();
+  cluster.kill_node(2);
+  EXPECT_TRUE(wait_for_record(cluster, job, job + "|NODE_FAIL|n2|lost")) << cluster.logs();
 }
 
 }  // namespace

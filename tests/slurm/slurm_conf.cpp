@@ -15,11 +15,6 @@ std::string host_name() {
   return name.data();
 }
 
-std::string user_name() {
-  const passwd* user = getpwuid(geteuid());
-  return user != nullptr ? user->pw_name : std::to_string(geteuid());
-}
-
 // Slurm binds to the addresses of this file, so to loopback. Its own files of accounting, processes and tasks need no
 // database, no cgroups and no rights of root. The life of a credential is also the delay of a requeued job.
 constexpr const char* kCommon = R"(ClusterName=test
@@ -41,7 +36,6 @@ MailProg=/bin/true
 ProctrackType=proctrack/linuxproc
 TaskPlugin=task/none
 JobAcctGatherType=jobacct_gather/none
-AccountingStorageType=accounting_storage/none
 JobCompType=jobcomp/none
 SwitchType=switch/none
 MpiDefault=none
@@ -59,7 +53,34 @@ SlurmdTimeout={slurmd_timeout_s}
 MessageTimeout={message_timeout_s}
 )";
 
+// Messages to slurmdbd do not heed AuthInfo; the "password" is where their munge is.
+constexpr const char* kSlurmdbdStorage = R"(AccountingStorageType=accounting_storage/slurmdbd
+AccountingStorageHost=127.0.0.1
+AccountingStoragePort={}
+AccountingStoragePass=socket={}
+)";
+
+constexpr const char* kSlurmdbdConf = R"(DbdHost={host}
+DbdAddr=127.0.0.1
+DbdPort={port}
+CommunicationParameters=NoInAddrAny
+SlurmUser={user}
+AuthType=auth/munge
+AuthInfo=socket={munge_socket}
+PidFile={folder}/slurmdbd.pid
+LogFile={folder}/log/slurmdbd.log
+StorageType=accounting_storage/mysql
+StorageHost=localhost
+StorageUser={user}
+StorageLoc=accounting
+)";
+
 }  // namespace
+
+std::string user_name() {
+  const passwd* user = getpwuid(geteuid());
+  return user != nullptr ? user->pw_name : std::to_string(geteuid());
+}
 
 std::string slurm_conf_text(const SlurmOptions& options, const SlurmPorts& ports, const std::filesystem::path& folder,
                             const std::filesystem::path& munge_socket) {
@@ -71,6 +92,8 @@ std::string slurm_conf_text(const SlurmOptions& options, const SlurmPorts& ports
       arg("folder", folder.string()), arg("max_array_size", options.max_array_size),
       arg("min_job_age_s", options.min_job_age_s), arg("kill_wait_s", options.kill_wait_s),
       arg("slurmd_timeout_s", options.slurmd_timeout_s), arg("message_timeout_s", options.message_timeout_s));
+  text += ports.accounting == 0 ? "AccountingStorageType=accounting_storage/none\n"
+                                : fmt::format(kSlurmdbdStorage, ports.accounting, munge_socket.string());
   for (std::size_t i = 0; i < ports.nodes.size(); ++i) {
     text += fmt::format("NodeName=n{} NodeHostname={} NodeAddr=127.0.0.1 Port={} CPUs={} RealMemory=8000\n", i + 1,
                         host, ports.nodes[i], options.cpus_per_node);
@@ -83,6 +106,13 @@ std::string slurm_conf_text(const SlurmOptions& options, const SlurmPorts& ports
   }
   for (const std::string& line : options.lines) text += line + "\n";
   return text;
+}
+
+std::string slurmdbd_conf_text(int port, const std::filesystem::path& folder,
+                               const std::filesystem::path& munge_socket) {
+  using fmt::arg;
+  return fmt::format(kSlurmdbdConf, arg("host", host_name()), arg("port", port), arg("user", user_name()),
+                     arg("munge_socket", munge_socket.string()), arg("folder", folder.string()));
 }
 
 }  // namespace cellcrush::testing
