@@ -96,6 +96,10 @@ OptionGroup jobs() {
              "jobs",
              {"Each job runs in a process of its own. A job that asks for threads gets extra cores only if no other "
               "job uses them or waits for them."}}},
+           {"slurm",
+            {"NAME:KEY=VALUE,...",
+             "",
+             {"[executor.md](../deploy/slurm/executor.md#settings) lists the keys. Values cannot contain commas."}}},
            {"executor",
             {"NAME",
              "",
