@@ -79,6 +79,7 @@ class JobRunner {
   WorkerEvents events_of(const store::StoredJob& stored);
   void pass_on(std::int64_t job, std::int64_t& last_step, watch::Channel& channel, worker::Report& report);
   store::StateChange after(const store::StoredJob& stored, const WorkerExit& exit, Run& run);
+  void note_cancelling(std::int64_t job);
   bool has_started(std::int64_t job);
   static store::StateChange before_start(const WorkerExit& exit);
   bool got_further(std::int64_t job);

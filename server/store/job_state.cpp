@@ -10,7 +10,7 @@ namespace {
 using Step = std::pair<v1::Job::State, v1::Job::State>;
 
 // All allowed transitions.
-constexpr std::array<Step, 16> kSteps = {{
+constexpr std::array<Step, 15> kSteps = {{
     {v1::Job::PENDING, v1::Job::RUNNING},
     {v1::Job::PENDING, v1::Job::CANCELLED},
     {v1::Job::PENDING, v1::Job::SUSPENDED},
@@ -20,7 +20,6 @@ constexpr std::array<Step, 16> kSteps = {{
     {v1::Job::RUNNING, v1::Job::SUSPENDED},
     {v1::Job::RUNNING, v1::Job::PENDING},  // the worker was lost, or the daemon ended
     {v1::Job::RUNNING, v1::Job::CANCELLING},
-    {v1::Job::RUNNING, v1::Job::CANCELLED},  // its worker was cancelled in the cluster
     {v1::Job::SUSPENDED, v1::Job::PENDING},
     {v1::Job::SUSPENDED, v1::Job::CANCELLED},
     {v1::Job::SUSPENDED, v1::Job::FAILED},
