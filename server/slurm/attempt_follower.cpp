@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "error.h"
+#include "slurm/attempt_exit.h"
 #include "slurm/small_file.h"
-#include "worker/worker_main.h"
 
 namespace cellcrush::slurm {
 namespace {
@@ -30,34 +30,7 @@ std::uint64_t size_of(const std::filesystem::path& path) {
   return error ? 0 : out;
 }
 
-jobs::WorkerExit exit_with(ExitKind kind, std::string detail = {}) {
-  jobs::WorkerExit out;
-  out.kind = kind;
-  out.detail = std::move(detail);
-  return out;
-}
-
-ExitKind kind_of(Ended::Kind kind) {
-  switch (kind) {
-    case Ended::NOT_STARTED: return ExitKind::not_started;
-    case Ended::EXITED: return ExitKind::exited;
-    case Ended::SIGNALLED: return ExitKind::signalled;
-    case Ended::BROKEN: return ExitKind::broken;
-    case Ended::STALLED: return ExitKind::stalled;
-    case Ended::SUSPENDED: return ExitKind::suspended;
-    case Ended::CANCELLED: return ExitKind::cancelled;
-    case Ended::LEFT: return ExitKind::stopped;
-    default: return ExitKind::gone;
-  }
-}
-
 }  // namespace
-
-std::string slurm_name(const Attempt& attempt) {
-  if (attempt.slurm_job() == 0) return "Slurm job " + (kJobPrefix + attempt.batch());
-  return "Slurm job " + std::to_string(attempt.slurm_job()) +
-         (attempt.is_array() ? "_" + std::to_string(attempt.task()) : "");
-}
 
 AttemptFollower::AttemptFollower(const Parts& parts, const store::JobFolder& job,
                                  std::shared_ptr<Submission> submission)
@@ -93,7 +66,8 @@ void AttemptFollower::wait() {
   auto interval = parts_.events.watched() ? parts_.options.times.look / 2 : parts_.options.times.look;
   // A task that waits for long in Slurm is looked at rarely.
   const bool has_waited = Clock::now() - opened_ > parts_.options.times.unanswered;
-  if (!has_begun_ && has_waited) interval = kBetweenLooksAtWaiting;
+  if (!has_begun_ && has_waited && submission_->state().stage == Submission::Stage::answered)
+    interval = kBetweenLooksAtWaiting;
   wake_.wait_for(lock, interval, [this] { return is_woken_; });
   is_woken_ = false;
 }
@@ -170,7 +144,7 @@ void AttemptFollower::ask_slurm(std::chrono::milliseconds interval) {
 
 std::optional<jobs::WorkerExit> AttemptFollower::exit_of_ended(const Ended& ended) {
   if (!ended_) ended_ = Clock::now();
-  auto out = exit_of(ended);
+  auto out = exit_of_last_word(ended, submission_->state().attempt, claim_ ? claim_->host() : "");
   if (ended.kind() == Ended::LEFT && ended.reason() == Ended::TERMINATED) {
     // Preempted, or cancelled by somebody: Slurm says which, as soon as the task is over.
     const auto attempt = submission_->state().attempt;
@@ -261,7 +235,7 @@ std::optional<jobs::WorkerExit> AttemptFollower::look_at_waiting() {
   const std::string log = last_line_of_log(attempt);
   close(true);
   if (!is_over) return exit_with(ExitKind::displaced, slurm_name(attempt) + " is no longer known to Slurm.");
-  auto out = exit_by_meaning(meaning,
+  auto out = exit_by_meaning(meaning, feed_.last_word(),
                              slurm_name(attempt) + " ended before the crush began: " + seen->report.state + "." + log);
   // It may have ended for another attempt of its task, which is then charged with that.
   if (attempt.shares() > 1 && out.kind == ExitKind::gone) out.kind = ExitKind::displaced;
@@ -330,46 +304,8 @@ std::optional<jobs::WorkerExit> AttemptFollower::exit_of_silent(const Submission
   const std::string reason = seen->report.reason.empty() ? "" : " (" + seen->report.reason + ")";
   close(false);
   return exit_by_meaning(
-      meaning, slurm_name(attempt) + where + " ended without a last word: " + seen->report.state + reason + "." + log);
-}
-
-jobs::WorkerExit AttemptFollower::exit_by_meaning(Meaning meaning, const std::string& what) const {
-  jobs::WorkerExit out = exit_with(ExitKind::gone, what);
-  out.final = feed_.last_word();
-  if (meaning == Meaning::cancelled) out.kind = ExitKind::withdrawn;
-  if (meaning == Meaning::displaced) out.kind = ExitKind::displaced;
-  out.out_of_memory = meaning == Meaning::no_memory;
-  return out;
-}
-
-jobs::WorkerExit AttemptFollower::exit_of(const Ended& ended) const {
-  const auto attempt = submission_->state().attempt;
-  jobs::WorkerExit out = exit_with(kind_of(ended.kind()));
-  out.code = ended.code();
-  out.out_of_memory = ended.out_of_memory();
-  if (ended.has_final()) out.final = ended.final();
-  const std::string host = claim_ ? " on " + claim_->host() : "";
-  // What a node lacks is a loss of this attempt: other nodes may have it.
-  const bool lacks = out.final && out.final->shortage() != 0;
-  if (out.kind == ExitKind::not_started || lacks) {
-    out.kind = ExitKind::gone;
-    out.detail = slurm_name(attempt) + host + " could not compute: " + (lacks ? out.final->message() : ended.message());
-    out.final.reset();
-    return out;
-  }
-  if (out.kind != ExitKind::stopped) return out;
-  if (ended.reason() == Ended::TIME_LIMIT && !ended.advanced()) {
-    out.kind = ExitKind::gone;
-    out.final.reset();
-    out.detail = slurm_name(attempt) + " came to its time limit before the job got further.";
-  } else if (ended.reason() == Ended::TIME_LIMIT) {
-    out.detail = slurm_name(attempt) + " came to its time limit and left the job at a checkpoint";
-  } else if (ended.reason() == Ended::LEASE) {
-    out.detail = slurm_name(attempt) + " lost its connection to the daemon and left the job at a checkpoint";
-  } else {
-    out.detail = slurm_name(attempt) + " was told to end and left the job at a checkpoint";
-  }
-  return out;
+      meaning, feed_.last_word(),
+      slurm_name(attempt) + where + " ended without a last word: " + seen->report.state + reason + "." + log);
 }
 
 bool AttemptFollower::withdraw() {

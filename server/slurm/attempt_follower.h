@@ -69,10 +69,8 @@ class AttemptFollower {
   void close(bool ends_task);
   void look_for_number();
   std::optional<jobs::WorkerExit> not_submitted(const Submission::State& state);
-  jobs::WorkerExit exit_of(const Ended& ended) const;
   /// A task that is over without a last word.
   std::optional<jobs::WorkerExit> exit_of_silent(const Submission::State& state);
-  jobs::WorkerExit exit_by_meaning(Meaning meaning, const std::string& what) const;
   /// What the task's log ends with, as a sentence; empty if it says nothing.
   [[nodiscard]] std::string last_line_of_log(const Attempt& attempt) const;
 
@@ -102,8 +100,5 @@ class AttemptFollower {
   std::condition_variable wake_;
   bool is_woken_ = false;
 };
-
-/// "Slurm job 17_3"; "Slurm job cellcrush-NAME" while its number is unknown.
-std::string slurm_name(const Attempt& attempt);
 
 }  // namespace cellcrush::slurm

@@ -33,8 +33,8 @@ class AttemptRun {
   AttemptRun(Link& link, jobs::Executor& workers, const TaskEnd& end, std::chrono::milliseconds lease)
       : link_(link), workers_(workers), end_(end), lease_(lease) {}
 
-  /// Computes the claimed attempt in this folder, which has its order. Returns once the daemon has the last word, or the attempt is
-  /// no longer this task's.
+  /// Computes the claimed attempt in this folder, which has its order. Returns once the daemon has the last word, or
+  /// the attempt is no longer this task's.
   void run(const store::JobFolder& folder);
 
  private:

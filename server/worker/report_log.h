@@ -50,7 +50,8 @@ class ReportLogReader {
   };
   Read read(Report& report);
 
-  /// Appends the next record to `bytes`, with its length and checksum. False if no complete and intact one is available.
+  /// Appends the next record to `bytes`, with its length and checksum. False if no complete and intact one is
+  /// available.
   bool read_record(std::string& bytes);
 
   /// Continues at this offset, which is that of a record. REQUIRES: nothing was read.

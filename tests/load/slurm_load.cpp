@@ -1,5 +1,5 @@
-// Measures what Slurm itself needs, on a cluster of two nodes with one processor each on this machine: for the answer of
-// sbatch, for each task of an array, and for squeue. Prints the median, lowest and greatest of some rounds.
+// Measures what Slurm itself needs, on a cluster of two nodes with one processor each on this machine: for the answer
+// of sbatch, for each task of an array, and for squeue. Prints the median, lowest and greatest of some rounds.
 // usage: slurm_load [ROUNDS]
 #include <fmt/core.h>
 

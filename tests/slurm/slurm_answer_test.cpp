@@ -72,6 +72,26 @@ TEST_F(SlurmAnswerTest, WhatSacctSaysOfASilentTaskCounts) {
   EXPECT_THAT(line, HasSubstr("--jobs=1 "));
 }
 
+class SlurmAccountingAnswerTest : public SlurmFixture {};
+
+TEST_F(SlurmAccountingAnswerTest, ARealSacctTellsOfATaskThatSqueueHides) {
+  if (!slurm_accounting_is_installed()) GTEST_SKIP() << kSlurmAccountingIsMissing;
+  SlurmOptions accounting;
+  accounting.accounting = true;
+  start_cluster(accounting);
+  auto options = quick_options();
+  options.commands = replace_command("squeue", "exit 0");
+  options.times.lease = std::chrono::minutes(10);
+  start_executor(options);
+  const auto job = run(endless_case());
+  const pid_t task = job->wait_for_start();
+  ASSERT_GT(task, 0);
+  ASSERT_EQ(kill(task, SIGKILL), 0);
+  const auto exit = job->wait();
+  EXPECT_EQ(exit.kind, Kind::gone);
+  EXPECT_THAT(exit.detail, HasSubstr("ended without a last word: FAILED"));
+}
+
 // Neither sacct nor squeue knows of the task: that proves nothing, and its lease has to be over, twice.
 TEST_F(SlurmAnswerTest, ASilentTaskOfWhichNobodyKnowsIsGivenUpAfterItsLease) {
   auto options = quick_options();

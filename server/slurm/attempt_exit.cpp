@@ -1,0 +1,80 @@
+#include "slurm/attempt_exit.h"
+
+#include <utility>
+
+#include "slurm/cluster_view.h"
+
+namespace cellcrush::slurm {
+namespace {
+
+using ExitKind = jobs::WorkerExit::Kind;
+
+ExitKind kind_of(Ended::Kind kind) {
+  switch (kind) {
+    case Ended::NOT_STARTED: return ExitKind::not_started;
+    case Ended::EXITED: return ExitKind::exited;
+    case Ended::SIGNALLED: return ExitKind::signalled;
+    case Ended::BROKEN: return ExitKind::broken;
+    case Ended::STALLED: return ExitKind::stalled;
+    case Ended::SUSPENDED: return ExitKind::suspended;
+    case Ended::CANCELLED: return ExitKind::cancelled;
+    case Ended::LEFT: return ExitKind::stopped;
+    default: return ExitKind::gone;
+  }
+}
+
+}  // namespace
+
+jobs::WorkerExit exit_with(ExitKind kind, std::string detail) {
+  jobs::WorkerExit out;
+  out.kind = kind;
+  out.detail = std::move(detail);
+  return out;
+}
+
+std::string slurm_name(const Attempt& attempt) {
+  if (attempt.slurm_job() == 0) return "Slurm job " + (kJobPrefix + attempt.batch());
+  return "Slurm job " + std::to_string(attempt.slurm_job()) +
+         (attempt.is_array() ? "_" + std::to_string(attempt.task()) : "");
+}
+
+jobs::WorkerExit exit_by_meaning(Meaning meaning, const std::optional<worker::Final>& final, const std::string& what) {
+  jobs::WorkerExit out = exit_with(ExitKind::gone, what);
+  out.final = final;
+  if (meaning == Meaning::cancelled) out.kind = ExitKind::withdrawn;
+  if (meaning == Meaning::displaced) out.kind = ExitKind::displaced;
+  out.out_of_memory = meaning == Meaning::no_memory;
+  return out;
+}
+
+jobs::WorkerExit exit_of_last_word(const Ended& ended, const Attempt& attempt, const std::string& host) {
+  jobs::WorkerExit out = exit_with(kind_of(ended.kind()));
+  out.code = ended.code();
+  out.out_of_memory = ended.out_of_memory();
+  if (ended.has_final()) out.final = ended.final();
+  const std::string where = host.empty() ? "" : " on " + host;
+  // What a node lacks is a loss of this attempt: other nodes may have it.
+  const bool lacks = out.final && out.final->shortage() != 0;
+  if (out.kind == ExitKind::not_started || lacks) {
+    out.kind = ExitKind::gone;
+    out.detail =
+        slurm_name(attempt) + where + " could not compute: " + (lacks ? out.final->message() : ended.message());
+    out.final.reset();
+    return out;
+  }
+  if (out.kind != ExitKind::stopped) return out;
+  if (ended.reason() == Ended::TIME_LIMIT && !ended.advanced()) {
+    out.kind = ExitKind::gone;
+    out.final.reset();
+    out.detail = slurm_name(attempt) + " came to its time limit before the job got further.";
+  } else if (ended.reason() == Ended::TIME_LIMIT) {
+    out.detail = slurm_name(attempt) + " came to its time limit and left the job at a checkpoint";
+  } else if (ended.reason() == Ended::LEASE) {
+    out.detail = slurm_name(attempt) + " lost its connection to the daemon and left the job at a checkpoint";
+  } else {
+    out.detail = slurm_name(attempt) + " was told to end and left the job at a checkpoint";
+  }
+  return out;
+}
+
+}  // namespace cellcrush::slurm

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "jobs/executor.h"
+#include "slurm/attempt.pb.h"
+#include "slurm/commands.h"
+
+namespace cellcrush::slurm {
+
+/// "Slurm job 17_3"; "Slurm job cellcrush-NAME" while its number is unknown.
+std::string slurm_name(const Attempt& attempt);
+
+jobs::WorkerExit exit_with(jobs::WorkerExit::Kind kind, std::string detail = {});
+
+/// The exit of an attempt that ended with this last word, on this host.
+jobs::WorkerExit exit_of_last_word(const Ended& ended, const Attempt& attempt, const std::string& host);
+
+/// The exit of an attempt that is over without a last word, by what Slurm says of its task. `what`: as a sentence.
+jobs::WorkerExit exit_by_meaning(Meaning meaning, const std::optional<worker::Final>& final, const std::string& what);
+
+}  // namespace cellcrush::slurm
