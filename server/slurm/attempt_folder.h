@@ -41,7 +41,7 @@ class AttemptFolder {
   /// Nothing if there was none.
   [[nodiscard]] std::optional<std::uint64_t> last_beat() const;
 
-  /// Writes in place: a file that was there before is read anew by other machines.
+  /// Writes in place: other machines then read the new bytes of a file that they know.
   void request(Request::Kind kind) const;
   /// ABANDON if the folder is gone.
   [[nodiscard]] Request::Kind requested() const;

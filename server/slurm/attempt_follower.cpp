@@ -329,7 +329,7 @@ void AttemptFollower::close(bool ends_task) {
   } catch (const ServiceError&) {
     // A folder that is gone says the same.
   }
-  // A task that is shared goes on with its other attempts.
+  // A shared task continues with its other attempts.
   if (ends_task && attempt.slurm_job() != 0 && attempt.shares() <= 1)
     static_cast<void>(parts_.commands.scancel(attempt.slurm_job(), task_index(attempt)));
   submission_->close(job_);

@@ -1,5 +1,4 @@
 // Commands of Slurm that give no answer, or a wrong one.
-#include <csignal>
 #include <fstream>
 
 #include "slurm/slurm_fixture.h"
@@ -58,10 +57,7 @@ TEST_F(SlurmAnswerTest, WhatSacctSaysOfASilentTaskCounts) {
       "sacct",
       "echo \"$@\" >> $HERE/asked; echo \"1|OUT_OF_MEMORY|n7|$(/usr/bin/squeue --noheader --states=all --format=%j)\"");
   start_executor(options);
-  const auto job = run(endless_case());
-  const pid_t task = job->wait_for_start();
-  ASSERT_GT(task, 0);
-  ASSERT_EQ(kill(task, SIGKILL), 0);
+  const auto job = run_and_kill_task();
   const auto exit = job->wait();
   EXPECT_EQ(exit.kind, Kind::gone);
   EXPECT_TRUE(exit.out_of_memory);
@@ -83,10 +79,7 @@ TEST_F(SlurmAccountingAnswerTest, ARealSacctTellsOfATaskThatSqueueHides) {
   options.commands = replace_command("squeue", "exit 0");
   options.times.lease = std::chrono::minutes(10);
   start_executor(options);
-  const auto job = run(endless_case());
-  const pid_t task = job->wait_for_start();
-  ASSERT_GT(task, 0);
-  ASSERT_EQ(kill(task, SIGKILL), 0);
+  const auto job = run_and_kill_task();
   const auto exit = job->wait();
   EXPECT_EQ(exit.kind, Kind::gone);
   EXPECT_THAT(exit.detail, HasSubstr("ended without a last word: FAILED"));
@@ -98,10 +91,7 @@ TEST_F(SlurmAnswerTest, ASilentTaskOfWhichNobodyKnowsIsGivenUpAfterItsLease) {
   options.commands = replace_command("squeue", "exit 0");
   options.times.lease = milliseconds(8'000);
   start_executor(options);
-  const auto job = run(endless_case());
-  const pid_t task = job->wait_for_start();
-  ASSERT_GT(task, 0);
-  ASSERT_EQ(kill(task, SIGKILL), 0);
+  const auto job = run_and_kill_task();
   const auto begin = std::chrono::steady_clock::now();
   const auto exit = job->wait();
   EXPECT_GT(std::chrono::steady_clock::now() - begin, milliseconds(12'000));

@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
 
@@ -68,6 +69,16 @@ worker::Order SlurmFixture::order_of(const v1::Case& submitted) {
 
 std::unique_ptr<ExecutorRun> SlurmFixture::run(const v1::Case& submitted, int number) {
   return std::make_unique<ExecutorRun>(*executor_, job_folder(number), order_of(submitted));
+}
+
+std::unique_ptr<ExecutorRun> SlurmFixture::run_and_kill_task() {
+  auto out = run(endless_case());
+  const pid_t task = out->wait_for_start();
+  EXPECT_GT(task, 0) << "The job has not begun.";
+  if (task > 0) {
+    EXPECT_EQ(kill(task, SIGKILL), 0);
+  }
+  return out;
 }
 
 std::vector<std::string> SlurmFixture::local_samples(const v1::Case& submitted) {

@@ -39,6 +39,9 @@ class SlurmFixture : public ::testing::Test {
   /// Runs the job from where it was left.
   [[nodiscard]] std::unique_ptr<ExecutorRun> run(const v1::Case& submitted, int number = 1);
 
+  /// A run without an end, whose task is killed once it has begun.
+  [[nodiscard]] std::unique_ptr<ExecutorRun> run_and_kill_task();
+
   /// The samples of the case as this machine computes them without a cluster.
   std::vector<std::string> local_samples(const v1::Case& submitted);
 

@@ -52,7 +52,8 @@ export class JobRow {
   constructor(private readonly store: JobStore) {
     this.element = h("tr", {},
       h("td", { class: "check" }, this.select),
-      h("td", { class: "what" }, this.title, h("div", { class: "under" }, this.name, this.sweep, this.about, this.where)),
+      h("td", { class: "what" }, this.title,
+        h("div", { class: "under" }, this.name, this.sweep, this.about, this.where)),
       h("td", { class: "state" }, this.chip, this.note),
       h("td", { class: "done" }, h("div", { class: "progress" }, this.bar, this.strain)),
       this.time, this.impact, this.support, this.owner, this.created, this.actions);
