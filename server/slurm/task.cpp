@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <array>
-#include <cerrno>
 #include <charconv>
 #include <climits>
 #include <csignal>
@@ -14,7 +13,6 @@
 #include <memory>
 #include <sstream>
 #include <stop_token>
-#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -25,8 +23,8 @@
 #include "slurm/file_link.h"
 #include "slurm/link.h"
 #include "slurm/network_link.h"
+#include "slurm/scratch_folder.h"
 #include "slurm/small_file.h"
-#include "store/durable_file.h"
 
 namespace cellcrush::slurm {
 namespace {
@@ -57,28 +55,6 @@ Claim own_claim() {
   out.set_restart(variable("SLURM_RESTART_COUNT"));
   return out;
 }
-
-// A folder on the node's disk, deleted at the end.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    const std::string parent = variable("TMPDIR").empty() ? "/tmp" : variable("TMPDIR");
-    std::string name = parent + "/cellcrush-XXXXXX";
-    if (mkdtemp(name.data()) == nullptr) store::throw_file_error(name, "used", errno);
-    path_ = name;
-  }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 // Blocked in all threads that are started from now on.
 sigset_t block_ends() {
@@ -165,7 +141,7 @@ void compute(const std::string& id, Link& link, const TaskOptions& options, cons
   if (const auto reason = end.reason(); reason != Ended::REASON_UNSPECIFIED) return leave_unbegun(link, reason);
   spdlog::info("attempt {} begins", id);
   try {
-    const ScratchFolder scratch;
+    const ScratchFolder scratch(variable("TMPDIR").empty() ? "/tmp" : variable("TMPDIR"));
     const store::JobFolder folder(scratch.path());
     patiently(end, [&] { link.fetch(folder); });
     jobs::LocalProcess workers(options.worker_program, kStallLimit, jobs::count_oom_kills,

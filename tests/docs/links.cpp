@@ -48,6 +48,9 @@ Findings check_links(const fs::path& root, const std::vector<Page>& pages) {
     for (const int line : page.wide_lines) {
       findings.push_back(place_of(page, line) + "more than 120 columns");
     }
+    for (const int line : page.torn_lines) {
+      findings.push_back(place_of(page, line) + "a heading without a space, or a row of a table without its end");
+    }
   }
   return findings;
 }

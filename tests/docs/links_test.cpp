@@ -60,6 +60,12 @@ TEST(Pages, AWideLineIsFound) {
   EXPECT_THAT(check_links(CELLCRUSH_SOURCE_ROOT, {page}), ElementsAre(HasSubstr("core/page.md:1: more than 120")));
 }
 
+TEST(Pages, WhatAFormatterOfCodeHasTornIsFound) {
+  const Page page = parse_page("core/page.md", "#Page\n\n| a | b |\n|---|---|\n| c | d;\ne |\n```\n#include\n```\n");
+  EXPECT_THAT(check_links(CELLCRUSH_SOURCE_ROOT, {page}),
+              ElementsAre(HasSubstr("core/page.md:1: a heading"), HasSubstr("core/page.md:5: a heading")));
+}
+
 TEST(Pages, HeadingsAreNamedAsOnGitHub) {
   const Page page = parse_page("page.md", "# What it's for: `a_b` & c\n## Twice\n## Twice\n");
   EXPECT_THAT(page.anchors, ElementsAre("what-its-for-a_b--c", "twice", "twice-1"));

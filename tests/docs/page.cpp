@@ -50,6 +50,13 @@ bool may_be_wide(const std::string& line) {
   return line.starts_with("|") || line.find("](") != std::string::npos || line.starts_with("<");
 }
 
+// What a formatter of code makes of Markdown.
+bool is_torn(const std::string& line) {
+  static const std::regex kHeadingWithoutSpace("#{1,6}[^#\\s].*");
+  static const std::regex kRowWithoutEnd("\\|.*[^|\\s]\\s*");
+  return std::regex_match(line, kHeadingWithoutSpace) || std::regex_match(line, kRowWithoutEnd);
+}
+
 // The part of a line outside HTML comments.
 std::string without_comments(std::string line, bool& in_comment) {
   std::string rest;
@@ -105,6 +112,7 @@ Page parse_page(std::string path, const std::string& text) {
       continue;
     }
     if (columns_of(line) > kColumns && !may_be_wide(line)) page.wide_lines.push_back(number);
+    if (is_torn(line)) page.torn_lines.push_back(number);
     read_links(without_code(line, number, page.inline_codes), number, page.links);
     if (std::regex_match(line, match, kHeading)) page.anchors.push_back(next_anchor(match[1].str(), seen));
   }

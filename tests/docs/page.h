@@ -27,6 +27,7 @@ struct Page {
   std::vector<Code> blocks;
   std::vector<Code> inline_codes;
   std::vector<int> wide_lines;  ///< prose of more than 120 columns: neither code, table, link nor comment
+  std::vector<int> torn_lines;  ///< headings without a space, rows of a table without their end: a formatter's work
 };
 
 /// The anchor of a heading as GitHub names it: small letters, hyphens for spaces, no punctuation.

@@ -109,16 +109,27 @@ TEST_F(SlurmAnswerTest, AJobThatSqueueNeverShowsRunsToItsEnd) {
   EXPECT_EQ(job->begun_steps(), std::vector<std::int64_t>{0});
 }
 
+// Each line is hidden at random, of jobs that run and of jobs that wait for long.
 TEST_F(SlurmAnswerTest, JobsThatSqueueHidesNowAndThenAreComputedOnce) {
   auto options = quick_options();
-  options.commands = replace_command("squeue", "$REAL \"$@\" | awk 'BEGIN { srand() } rand() > 0.05'");
+  options.commands = replace_command("squeue",
+                                     "$REAL \"$@\" | awk -v seed=$$ -v hidden=$HERE/hidden "
+                                     "'BEGIN { srand(seed) } rand() > 0.05 { print; next } { print >> hidden }'");
   options.times.squeue = milliseconds(100);
   options.times.unanswered = milliseconds(1'000);
   options.program = logging_program();
   start_executor(options);
   std::vector<std::unique_ptr<ExecutorRun>> jobs;
-  for (int i = 1; i <= 12; ++i) jobs.push_back(run(case_of_seconds(), i));
-  for (const auto& job : jobs) EXPECT_TRUE(job->wait().final.has_value());
+  for (int i = 1; i <= 12; ++i) jobs.push_back(run(slow_case(), i));
+  for (const auto& job : jobs) {
+    EXPECT_EQ(job->wait().kind, Kind::exited) << job->wait().detail;
+    EXPECT_EQ(job->begun_steps(), std::vector<std::int64_t>{0});
+  }
+  std::ifstream hidden(options.commands / "hidden");
+  const std::string lines(std::istreambuf_iterator<char>(hidden), {});
+  EXPECT_THAT(lines, HasSubstr("RUNNING"));
+  EXPECT_THAT(lines, HasSubstr("PENDING"));
+  EXPECT_EQ(count_in_log("begins"), 12);
   EXPECT_EQ(count_in_log("has ended"), 12);
 }
 

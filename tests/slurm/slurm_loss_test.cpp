@@ -27,6 +27,33 @@ class SlurmLossTest : public SlurmFixture {
   }
 
   static int node_in(const std::string& place) { return place.back() - '0'; }
+
+  // Leaves less than a block of `block_bytes` free.
+  static void fill(const std::filesystem::path& folder, std::size_t block_bytes) {
+    std::ofstream filler(folder / "filler", std::ios::binary);
+    const std::string block(block_bytes, 'x');
+    while (filler.write(block.data(), static_cast<std::streamsize>(block.size())).flush()) continue;
+  }
+};
+
+// A file system of 4 MiB at a folder. Only root may mount.
+class SmallDisk {
+ public:
+  explicit SmallDisk(std::filesystem::path folder) : folder_(std::move(folder)) {
+    std::filesystem::create_directories(folder_);
+    is_mounted_ = mount("tmpfs", folder_.c_str(), "tmpfs", 0, "size=4m") == 0;
+  }
+  ~SmallDisk() {
+    if (is_mounted_) umount2(folder_.c_str(), MNT_DETACH);
+  }
+  SmallDisk(const SmallDisk&) = delete;
+  SmallDisk& operator=(const SmallDisk&) = delete;
+
+  [[nodiscard]] bool is_mounted() const { return is_mounted_; }
+
+ private:
+  std::filesystem::path folder_;
+  bool is_mounted_ = false;
 };
 
 TEST_F(SlurmLossTest, AJobOfALostNodeContinuesOnAnotherWithTheSameBits) {
@@ -186,17 +213,13 @@ TEST_F(SlurmLossTest, AFullSharedFolderLosesNothing) {
   start_cluster();
   auto options = quick_options();
   options.folder = folder_.path() / "small";
-  std::filesystem::create_directories(options.folder);
-  if (mount("tmpfs", options.folder.c_str(), "tmpfs", 0, "size=4m") != 0) GTEST_SKIP() << "Only root may mount.";
+  const SmallDisk disk(options.folder);
+  if (!disk.is_mounted()) GTEST_SKIP() << "Only root may mount.";
   start_executor(options);
   {
     const auto job = run(slow_case());
     ASSERT_TRUE(job->wait_for_samples(20));
-    {
-      std::ofstream filler(options.folder / "filler", std::ios::binary);
-      const std::string block(1 << 16, 'x');
-      while (filler.write(block.data(), static_cast<std::streamsize>(block.size())).flush()) continue;
-    }
+    fill(options.folder, 1 << 16);
     const std::size_t before = job->samples().size();
     std::this_thread::sleep_for(seconds(12));
     EXPECT_FALSE(job->has_ended());
@@ -207,11 +230,7 @@ TEST_F(SlurmLossTest, AFullSharedFolderLosesNothing) {
     EXPECT_EQ(job->begun_steps(), std::vector<std::int64_t>{0});
     EXPECT_EQ(job->samples(), local_samples(slow_case()));
     // A new attempt finds no room either: its queue is held until there is some.
-    {
-      std::ofstream filler(options.folder / "filler", std::ios::binary);
-      const std::string block(1 << 12, 'x');
-      while (filler.write(block.data(), static_cast<std::streamsize>(block.size())).flush()) continue;
-    }
+    fill(options.folder, 1 << 12);
     const auto next = run(tiny_case(), 2);
     try {
       next->wait();
@@ -222,7 +241,33 @@ TEST_F(SlurmLossTest, AFullSharedFolderLosesNothing) {
     }
   }
   executor_.reset();
-  umount2(options.folder.c_str(), MNT_DETACH);
+}
+
+// The task ends while the daemon has no room for what it computed: all of it waits in the attempt's folder.
+TEST_F(SlurmLossTest, AFullDiskOfTheDaemonKeepsAResultInTheClusterUntilThereIsRoom) {
+  const SmallDisk disk(folder_.path() / "jobs");
+  if (!disk.is_mounted()) GTEST_SKIP() << "Only root may mount.";
+  start_cluster();
+  start_executor();
+  {
+    const auto job = run(slow_case());
+    ASSERT_TRUE(job->wait_for_samples(5));
+    fill(folder_.path() / "jobs", 1 << 10);
+    EXPECT_THAT(job->wait_for_place("; "), HasSubstr(job_folder().root().string()));
+    EXPECT_TRUE(cluster_->wait_for({"squeue", "--noheader"}, "", seconds(60)));
+    std::this_thread::sleep_for(seconds(2));
+    EXPECT_FALSE(job->has_ended());
+    EXPECT_EQ(attempt_count(), 1U);
+    std::filesystem::remove(folder_.path() / "jobs/filler");
+    const auto exit = job->wait();
+    EXPECT_EQ(exit.kind, Kind::exited) << exit.detail;
+    EXPECT_EQ(attempt_count(), 0U);
+    EXPECT_GT(std::filesystem::file_size(job_folder().result()), 10'000U);
+    EXPECT_EQ(job->begun_steps(), std::vector<std::int64_t>{0});
+    const auto samples = job->samples();
+    EXPECT_EQ(samples, local_samples(slow_case()));
+  }
+  executor_.reset();
 }
 
 // Slurm starts the same job again where the site forces it to: the attempt is no longer free, and the daemon makes

@@ -1,13 +1,11 @@
 // Tasks that reach the daemon over the network: with TLS, and with a token of their own.
 #include <gmock/gmock.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include "server/gate_fixture.h"
 #include "server/small_case.h"
 #include "server/sweep_requests.h"
 #include "slurm/cluster_flag.h"
+#include "slurm/kept_daemon.h"
 #include "slurm/network_link.h"
 #include "slurm/slurm_cluster.h"
 #include "slurm/workers_service.h"
@@ -17,18 +15,6 @@ namespace {
 
 using ::testing::HasSubstr;
 
-int free_port() {
-  const int listener = socket(AF_INET, SOCK_STREAM, 0);
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  socklen_t size = sizeof(address);
-  EXPECT_EQ(bind(listener, reinterpret_cast<sockaddr*>(&address), size), 0);
-  EXPECT_EQ(getsockname(listener, reinterpret_cast<sockaddr*>(&address), &size), 0);
-  close(listener);
-  return ntohs(address.sin_port);
-}
-
 class SlurmNetworkTest : public GateFixture {
  protected:
   void SetUp() override {
@@ -36,7 +22,7 @@ class SlurmNetworkTest : public GateFixture {
     GateFixture::SetUp();
     cluster_ = std::make_unique<SlurmCluster>();
     setenv("SLURM_CONF", cluster_->config().c_str(), 1);
-    address_ = "127.0.0.1:" + std::to_string(free_port());
+    address_ = "127.0.0.1:" + std::to_string(port_.number());
   }
 
   // A daemon with TLS and tokens, whose tasks know the authority.
@@ -60,6 +46,7 @@ class SlurmNetworkTest : public GateFixture {
     return out;
   }
 
+  const ReservedPort port_;
   std::unique_ptr<SlurmCluster> cluster_;
   std::string address_;
 };

@@ -1,6 +1,9 @@
 // Parts of the Slurm executor that need no Slurm.
 #include <gmock/gmock.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <csignal>
 #include <fstream>
 #include <thread>
 
@@ -12,6 +15,7 @@
 #include "slurm/mirror.h"
 #include "slurm/packing.h"
 #include "slurm/program.h"
+#include "slurm/scratch_folder.h"
 #include "slurm/shared_folder.h"
 #include "slurm/small_file.h"
 #include "worker/report_log.h"
@@ -174,6 +178,31 @@ TEST(AttemptClaim, CannotBeTakenOnceTheFolderIsGone) {
   EXPECT_FALSE(folder.claim(Claim()));
   EXPECT_EQ(folder.requested(), Request::ABANDON);
   EXPECT_FALSE(folder.find_ended().has_value());
+}
+
+TEST(ScratchFolder, OfAKilledTaskIsRemovedByTheNextOneAndThatOfALivingOneIsNot) {
+  const testing::TemporaryFolder temporary;
+  const auto count = [&] { return std::distance(fs::directory_iterator(temporary.path()), fs::directory_iterator()); };
+  {
+    const ScratchFolder alive(temporary.path());
+    write_small_file(alive.path() / "reports", "text");
+    const pid_t other = fork();
+    if (other == 0) {
+      const ScratchFolder left(temporary.path());
+      write_small_file(left.path() / "reports", "text");
+      raise(SIGKILL);
+    }
+    ASSERT_EQ(waitpid(other, nullptr, 0), other);
+    EXPECT_EQ(count(), 2);
+    {
+      const ScratchFolder next(temporary.path());
+      EXPECT_EQ(count(), 2);
+      EXPECT_TRUE(fs::exists(alive.path() / "reports"));
+      EXPECT_TRUE(fs::exists(next.path()));
+    }
+    EXPECT_EQ(count(), 1);
+  }
+  EXPECT_EQ(count(), 0);
 }
 
 TEST(SharedFolder, BelongsToOneDataFolderAndHasToBeThere) {
