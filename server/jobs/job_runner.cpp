@@ -22,8 +22,6 @@ struct BeginAgain {
   std::string why;
 };
 
-constexpr std::chrono::seconds kBetweenTries{1};
-
 constexpr const char* kReportsAreGone =
     "Restarted from step 0: the reports of its earlier workers are missing from its folder.";
 
@@ -34,6 +32,11 @@ void log_begin(const std::string& job, const worker::Begun& begun) {
 
 }  // namespace
 
+JobRunner::JobRunner(const Parts& parts)
+    : parts_(parts),
+      states_({parts.folder, parts.journal, parts.reader, parts.metrics, parts.hold, parts.stopped,
+               [this](std::int64_t job) { losses_.forget(job); }}) {}
+
 bool JobRunner::run(std::int64_t job, int threads, const Interruptions& interruptions,
                     const std::stop_token& daemons_end) {
   while (true) {
@@ -42,11 +45,11 @@ bool JobRunner::run(std::int64_t job, int threads, const Interruptions& interrup
     if (const auto channel = parts_.hub.find(job)) channel->set_place("");
     if (run.trouble) {
       parts_.hold.failed(run.trouble);
-      state = put_back(job, run);
+      state = states_.put_back(job, run.trouble, daemons_end);
     }
     // It is CANCELLING if it was cancelled just after its worker had left it: it then ends with the samples so far.
     if (state != v1::Job::CANCELLING) return state == v1::Job::PENDING;
-    if (run.trouble && !pause_unless_stopped(daemons_end, kBetweenTries)) return false;
+    if (run.trouble && !pause_unless_stopped(daemons_end, StateWriter::kBetweenTries)) return false;
   }
 }
 
@@ -73,7 +76,7 @@ v1::Job::State JobRunner::run_once(std::int64_t job, Run& run) {
   if (run.trouble) return v1::Job::JOB_STATE_UNSPECIFIED;
   // Its state is unchanged, and it is to be rerun.
   if (next.state == v1::Job::JOB_STATE_UNSPECIFIED) return v1::Job::PENDING;
-  return write(job, next, run.daemons_end);
+  return states_.write(job, next, run.daemons_end);
 }
 
 store::StateChange JobRunner::next_of(const store::StoredJob& stored, Run& run) {
@@ -111,7 +114,7 @@ JobRunner::Left JobRunner::reconcile(std::int64_t job) {
       next = outcome_of(error);
     }
     std::string logged;
-    const auto written = next ? try_write(job, *next, logged) : std::nullopt;
+    const auto written = next ? states_.try_write(job, *next, logged) : std::nullopt;
     if (!written || *written == v1::Job::CANCELLING) return Left::is_to_run;
     return next->state == v1::Job::PENDING ? Left::waits : Left::ended;
   } catch (const std::exception& error) {
@@ -273,13 +276,7 @@ bool JobRunner::got_further(std::int64_t job) {
   } catch (const std::exception&) {
     // The samples stored before count. The journal retries on its own and logs the failure.
   }
-  const std::int64_t step = parts_.reader.last_sampled_step(job);
-  const MutexLock lock(mutex_);
-  Losses& losses = losses_[job];
-  if (step > losses.step) losses = {0, step};
-  if (++losses.count < kMostLosses) return true;
-  losses_.erase(job);
-  return false;
+  return losses_.may_retry(job, parts_.reader.last_sampled_step(job));
 }
 
 // Makes a result from the reports of lost workers, if possible.
@@ -329,78 +326,8 @@ v1::Job::State JobRunner::begin_again(std::int64_t job, const std::string& why) 
   spdlog::warn("{}: {}", store::name_of(job), why);
   parts_.folder.discard_run(job);
   if (const auto channel = parts_.hub.find(job)) channel->forget();
-  const MutexLock lock(mutex_);
-  losses_.erase(job);
+  losses_.forget(job);
   return v1::Job::PENDING;
-}
-
-v1::Job::State JobRunner::put_back(std::int64_t job, const Run& run) {
-  do {
-    try {
-      const auto stored = parts_.reader.find_job(job);
-      if (!stored) return v1::Job::JOB_STATE_UNSPECIFIED;
-      if (stored->job.state() != v1::Job::RUNNING) return stored->job.state();
-      return write(job, waits_for(run.trouble), run.daemons_end);
-    } catch (const std::exception& error) {
-      const Trouble trouble = trouble_of(error);
-      if (!trouble) {
-        spdlog::error("{} cannot be read and is skipped until the daemon restarts: {}", store::name_of(job),
-                      error.what());
-        return v1::Job::JOB_STATE_UNSPECIFIED;
-      }
-      parts_.hold.failed(trouble);
-    }
-  } while (pause_unless_stopped(run.daemons_end, kBetweenTries));
-  return v1::Job::JOB_STATE_UNSPECIFIED;
-}
-
-v1::Job::State JobRunner::write(std::int64_t job, const store::StateChange& change,
-                                const std::stop_token& daemons_end) {
-  // When the daemon ends, the job keeps its state, and the next daemon reconciles it.
-  std::string logged;
-  do {
-    if (const auto written = try_write(job, change, logged)) return *written;
-  } while (pause_unless_stopped(daemons_end, kBetweenTries));
-  return v1::Job::JOB_STATE_UNSPECIFIED;
-}
-
-std::optional<v1::Job::State> JobRunner::try_write(std::int64_t job, const store::StateChange& change,
-                                                   std::string& logged) {
-  try {
-    parts_.stopped(parts_.journal.change_state(job, change));
-    spdlog::info("{} {}{}{}", store::name_of(job), v1::Job::State_Name(change.state),
-                 change.message.empty() ? "" : ": ", change.message);
-    if (change.state == v1::Job::SUCCEEDED) parts_.hold.proven();
-    if (store::is_terminal(change.state)) tidy_up(job, change);
-    return change.state;
-  } catch (const std::exception& error) {
-    const auto* refused = dynamic_cast<const ServiceError*>(&error);
-    const auto kind = refused != nullptr ? refused->kind() : ServiceError::Kind::internal;
-    if (kind == ServiceError::Kind::not_found) return v1::Job::JOB_STATE_UNSPECIFIED;
-    // It was cancelled just after its worker had left it, or another call has changed its state.
-    if (kind == ServiceError::Kind::failed_precondition)
-      return store::is_terminal(change.state) ? v1::Job::JOB_STATE_UNSPECIFIED : v1::Job::CANCELLING;
-    if (std::exchange(logged, error.what()) != error.what())
-      spdlog::error("The state of {} cannot be saved: {}", store::name_of(job), error.what());
-    if (kind == ServiceError::Kind::data_loss) return v1::Job::JOB_STATE_UNSPECIFIED;
-    if (kind == ServiceError::Kind::storage_full) parts_.folder.give_up_ballast();
-    if (const Trouble trouble = trouble_of(error)) parts_.hold.failed(trouble);
-    return std::nullopt;
-  }
-}
-
-void JobRunner::tidy_up(std::int64_t job, const store::StateChange& change) {
-  parts_.metrics.count_ended(change.state, change.summary ? &*change.summary : nullptr);
-  {
-    const MutexLock lock(mutex_);
-    losses_.erase(job);
-  }
-  try {
-    parts_.folder.clean_job_folder(job);
-  } catch (const std::exception& error) {
-    spdlog::warn("Leftover files of {} could not be removed; the daemon tries again at its next start: {}",
-                 store::name_of(job), error.what());
-  }
 }
 
 }  // namespace cellcrush::jobs

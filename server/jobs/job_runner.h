@@ -3,15 +3,15 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "jobs/executor.h"
+#include "jobs/loss_count.h"
 #include "jobs/queue_hold.h"
+#include "jobs/state_writer.h"
 #include "metrics/metrics.h"
-#include "mutex.h"
 #include "store/data_folder.h"
 #include "store/journal.h"
 #include "store/journal_reader.h"
@@ -20,13 +20,11 @@
 namespace cellcrush::jobs {
 
 /// Runs a job in a worker and records the outcome in the journal. A job whose worker is lost waits for another, until
-/// kMostLosses in a row have not got further than their predecessors. A last worker then makes a result from their
+/// LossCount::kMost in a row have not got further than their predecessors. A last worker then makes a result from their
 /// reports. The same happens if the worker of a cancelled job is gone. A shortage ends no job: the job returns to the
 /// queue, and the queue is held. Thread-safe.
 class JobRunner {
  public:
-  static constexpr int kMostLosses = 3;
-
   /// Dependencies; all outlive the runner.
   struct Parts {
     const store::DataFolder& folder;
@@ -42,7 +40,7 @@ class JobRunner {
     std::function<void(const std::vector<std::int64_t>&)> stopped = [](const auto&) {};
   };
 
-  explicit JobRunner(const Parts& parts) : parts_(parts) {}
+  explicit JobRunner(const Parts& parts);
 
   /// Runs a PENDING job, or adopts its worker, until it has ended or was left. Returns whether it is PENDING again, to
   /// be retried. Retries writing the outcome until it succeeds or the daemon ends. Does not throw.
@@ -85,27 +83,14 @@ class JobRunner {
   bool got_further(std::int64_t job);
   /// No state if the job was cancelled and the daemon ends: the next daemon gives it up.
   store::StateChange given_up(const store::StoredJob& stored, store::StateChange loss, Run& run);
-  /// Returns a job that met a shortage to the queue. Returns its state then: CANCELLING if it was cancelled.
-  v1::Job::State put_back(std::int64_t job, const Run& run);
-  /// Retries until the write succeeds or the daemon ends. Returns the state written, if any; CANCELLING if the job is
-  /// in that state and the transition is not allowed.
-  v1::Job::State write(std::int64_t job, const store::StateChange& change, const std::stop_token& daemons_end);
-  /// Nothing if it cannot be written now. `logged`: the last reason, so that each is logged once.
-  std::optional<v1::Job::State> try_write(std::int64_t job, const store::StateChange& change, std::string& logged);
   void end_leftover_if_possible(std::int64_t job);
   /// Discards what workers made of the job, in the journal and its folder, so that it restarts from step 0. Returns its
   /// state then: PENDING, CANCELLING if it was cancelled first, none if it was deleted. Throws ServiceError.
   v1::Job::State begin_again(std::int64_t job, const std::string& why);
-  void tidy_up(std::int64_t job, const store::StateChange& change);
-
-  struct Losses {
-    int count = 0;
-    std::int64_t step = -1;  ///< of the newest sample at the last loss
-  };
 
   Parts parts_;
-  Mutex mutex_;
-  std::map<std::int64_t, Losses> losses_ CELLCRUSH_GUARDED_BY(mutex_);
+  LossCount losses_;
+  StateWriter states_;
 };
 
 }  // namespace cellcrush::jobs
