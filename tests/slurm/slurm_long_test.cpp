@@ -1,4 +1,5 @@
 // Long trials: a daemon that is killed again and again, answers that get lost, a controller that is away for minutes.
+#include <algorithm>
 #include <csignal>
 #include <fstream>
 #include <random>
@@ -40,7 +41,7 @@ class SlurmLongTest : public SlurmFixture {
   static void expect_undisturbed(Client& client, const v1::Sweep& sweep, v1::CreateSweepRequest request) {
     request.mutable_sweep()->set_executor("local");
     const auto here = create(client, request);
-    ASSERT_TRUE(wait_for_all(client, here, seconds(300)));
+    ASSERT_TRUE(wait_for_all(client, here, seconds(1200)));
     const auto expected = get_sweep(client, here.name());
     for (int i = 0; i < sweep.jobs_size(); ++i) {
       const auto samples = client.history(sweep.jobs(i));
@@ -80,7 +81,7 @@ TEST_F(SlurmLongTest, ADaemonKilledAtFiftyRandomMomentsLosesAndRepeatsNothing) {
   DaemonProcess daemon(arguments());
   ASSERT_EQ(daemon.wait_for_addresses(1).size(), 1U);
   Client client(socket());
-  ASSERT_TRUE(wait_for_all(client, sweep, seconds(600)));
+  ASSERT_TRUE(wait_for_all(client, sweep, seconds(1200)));
   // No task computed a point again.
   EXPECT_EQ(count_in_log("begins"), sweep.jobs_size());
   EXPECT_EQ(count_in_log("has ended"), sweep.jobs_size());
@@ -98,11 +99,34 @@ TEST_F(SlurmLongTest, ASweepSurvivesAControllerThatIsAwayForTwoMinutes) {
   const auto late = create(client, sweep_of(case_of_seconds(), kSpeed, {5.0, 6.0}));
   std::this_thread::sleep_for(seconds(120));
   cluster_->start_controller();
-  ASSERT_TRUE(wait_for_all(client, sweep, seconds(600)));
-  ASSERT_TRUE(wait_for_all(client, late, seconds(200)));
+  ASSERT_TRUE(wait_for_all(client, sweep, seconds(1200)));
+  ASSERT_TRUE(wait_for_all(client, late, seconds(1200)));
   const auto ended = get_sweep(client, sweep.name());
   for (const auto& job : ended.jobs()) EXPECT_EQ(client.get(job).attempt(), 1) << client.get(job).cause_message();
   expect_undisturbed(client, get_sweep(client, sweep.name()), long_sweep());
+}
+
+// As many as a cluster has at once by default. All of them are in Slurm before the first ones have ended.
+TEST_F(SlurmLongTest, TwoHundredAndFiftySixJobsAreInTheClusterAtOnceAndComputedOnce) {
+  start_cluster();
+  DaemonProcess daemon(arguments());
+  ASSERT_EQ(daemon.wait_for_addresses(1).size(), 1U);
+  Client client(socket());
+  std::vector<double> speeds;
+  for (int i = 0; i < 256; ++i) speeds.push_back(20.0 + 0.1 * i);
+  const auto sweep = create(client, sweep_of(tiny_case(), kSpeed, speeds));
+  std::ptrdiff_t most = 0;
+  for (int i = 0; i < 60 && most < 240; ++i) {
+    const auto listed = cluster_->run({"squeue", "--noheader", "--array", "--format=%T"}).output;
+    most = std::max(most, std::count(listed.begin(), listed.end(), '\n'));
+    std::this_thread::sleep_for(milliseconds(500));
+  }
+  EXPECT_GE(most, 240);
+  ASSERT_TRUE(wait_for_all(client, sweep, seconds(1200)));
+  EXPECT_EQ(count_in_log("begins"), 256);
+  EXPECT_EQ(count_in_log("has ended"), 256);
+  const auto ended = get_sweep(client, sweep.name());
+  for (const auto& job : ended.jobs()) EXPECT_EQ(client.get(job).attempt(), 1) << client.get(job).cause_message();
 }
 
 // A task of a minute: Slurm warns half a minute before.

@@ -100,7 +100,8 @@ TEST_F(SlurmNetworkTest, ATaskWithoutItsDaemonForLongLeavesTheJobAtACheckpoint) 
     ASSERT_TRUE(client.wait_for_state(job, v1::Job::RUNNING));
   }
   daemon_.reset();
-  std::this_thread::sleep_for(std::chrono::seconds(6));
+  // Longer than a call that was under way waits.
+  std::this_thread::sleep_for(std::chrono::seconds(40));
   start(with_cluster());
   Client client = this->client();
   std::string message;
