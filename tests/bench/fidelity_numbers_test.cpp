@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <iostream>
@@ -21,6 +22,7 @@ namespace cellcrush::bench {
 namespace {
 
 const std::string kFolder = CELLCRUSH_BENCH_FOLDER;
+const std::string kExample2 = kFolder + "/../validation/example_2_";
 constexpr std::size_t kLeastSeeds = 3;
 
 /// The scenes of a list with the rows of its table.
@@ -31,6 +33,21 @@ struct Study {
 
 Study read_study(const std::string& name) {
   return {read_variants(kFolder + "/" + name + ".txt"), read_csv(kFolder + "/results/" + name + ".csv")};
+}
+
+/// Example 2 with the default mesh and with one twice as fine, of which only squares and triangles were crushed.
+Study read_example_2() {
+  Study study = {read_variants(kExample2 + "seeds.txt"), read_csv(kExample2 + "seeds.csv")};
+  const Study fine = {read_variants(kExample2 + "mesh.txt"), read_csv(kExample2 + "mesh.csv")};
+  for (VariedScene& scene : study.scenes) {
+    for (const VariedScene& other : fine.scenes) {
+      if (other.name != scene.name) continue;
+      EXPECT_EQ(other.words, scene.words);
+      scene.variants.insert(scene.variants.end(), other.variants.begin(), other.variants.end());
+    }
+  }
+  study.rows.insert(study.rows.end(), fine.rows.begin(), fine.rows.end());
+  return study;
 }
 
 std::vector<double> values_of(const Study& study, const VariedScene& scene, const Variant& variant,
@@ -84,6 +101,11 @@ std::vector<MeasuredRow> rows_of_tables() {
   for (const VariedScene& scene : meshes.scenes) {
     add_rows(meshes, scene, "impact plateau", "plateau_stress_impact", rows);
     add_rows(meshes, scene, "support plateau", "plateau_stress_support", rows);
+  }
+  const Study example_2 = read_example_2();
+  for (const VariedScene& scene : example_2.scenes) {
+    add_rows(example_2, scene, "impact plateau", "plateau_stress_impact", rows);
+    add_rows(example_2, scene, "support plateau", "plateau_stress_support", rows);
   }
   const Study precision = read_study("work_precision");
   for (const VariedScene& scene : precision.scenes) {
@@ -151,6 +173,21 @@ TEST(FidelityNumbers, StandardIsTheCoarsestMeshWithinTheBounds) {
     }
   }
   for (const auto& [preset, fails] : coarser_fails) EXPECT_TRUE(fails) << preset;
+}
+
+// Squares and triangles scatter so much that means of five seeds do not tell a mesh from one twice as fine within the
+// same bounds: their differences are below the bounds or below what scatter alone makes.
+TEST(FidelityNumbers, StandardOfSquaresAndTrianglesIsNotToldFromAMeshTwiceAsFine) {
+  int compared = 0;
+  for (const MeasuredRow& row : kMeasuredRows) {
+    const SceneSpec& spec = find_preset(row.preset)->spec;
+    const int standard = fidelity_points(spec)[1].elements_per_wall;
+    if (standard != 8 || row.elements_per_wall != standard) continue;
+    const double bound = row.quantity == "impact plateau" ? 0.04 : 0.10;
+    EXPECT_LT(row.error, std::max(bound, row.uncertainty)) << text_of(row);
+    ++compared;
+  }
+  EXPECT_GE(compared, 8);
 }
 
 TEST(FidelityNumbers, TimesOfElementStepsAreThoseOfTheTables) {
