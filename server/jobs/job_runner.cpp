@@ -57,6 +57,8 @@ v1::Job::State JobRunner::run_once(std::int64_t job, Run& run) {
   store::StateChange next;
   try {
     const auto stored = parts_.reader.find_job(job);
+    if (stored && store::is_terminal(stored->job.state()) && parts_.executor.keeps_workers())
+      end_leftover_if_possible(job);
     if (!stored || stored->job.state() == v1::Job::SUSPENDED || store::is_terminal(stored->job.state()))
       return v1::Job::JOB_STATE_UNSPECIFIED;
     try {

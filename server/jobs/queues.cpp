@@ -44,7 +44,10 @@ struct Queues::Queue {
             Hold::Clock::now, queue_name(name)),
         runner({parts.folder, parts.journal, parts.reader, parts.hub, used, parts.metrics, hold,
                 parts.checkpoint_interval, parts.longest_job_s,
-                [this](const std::vector<std::int64_t>& stopped) { scheduler.forget(stopped); }}),
+                [this](const std::vector<std::int64_t>& stopped) {
+                  scheduler.forget(stopped);
+                  for (const std::int64_t job : stopped) scheduler.end_unfollowed(job);
+                }}),
         scheduler({parts.folder, parts.journal, parts.reader, parts.metrics, runner, hold, used, name},
                   parts.owner_max_running) {}
 
@@ -218,8 +221,11 @@ void Queues::cancel_waiting(const std::vector<std::int64_t>& jobs) {
           {begin, begin + static_cast<std::ptrdiff_t>(std::min(kCancelledAtOnce, jobs.size() - first))});
       for (auto& queue : queues_) queue->scheduler.forget(cancelled);
       for (const std::int64_t job : cancelled) {
-        const Queue& queue = queue_of(job);
-        if (!queue.is_present()) end_cancelled(job, queue.name);
+        Queue& queue = queue_of(job);
+        if (queue.is_present())
+          queue.scheduler.end_unfollowed(job);
+        else
+          end_cancelled(job, queue.name);
       }
     }
   } catch (...) {

@@ -100,6 +100,7 @@ void Scheduler::cancel(std::int64_t job) {
       if (change.state == v1::Job::CANCELLED) waiting_.remove(job);
     }
     cancel_run(job);
+    if (change.state == v1::Job::CANCELLED) end_unfollowed(job);
     return;
   }
 }
@@ -111,6 +112,20 @@ void Scheduler::cancel_run(std::int64_t job) {
     if (const auto found = running_.find(job); found != running_.end()) cancel = found->second.cancel;
   }
   cancel.request_stop();
+}
+
+void Scheduler::end_unfollowed(std::int64_t job) {
+  if (!parts_.executor.keeps_workers()) return;
+  {
+    const MutexLock lock(mutex_);
+    if (running_.contains(job)) return;
+  }
+  try {
+    parts_.runner.end_leftover(job);
+  } catch (const std::exception& error) {
+    spdlog::warn("What {} computes of {} could not be ended: {}", parts_.executor_name, store::name_of(job),
+                 error.what());
+  }
 }
 
 void Scheduler::suspend(std::int64_t job, const std::function<bool()>& given_up) {

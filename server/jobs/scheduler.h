@@ -59,6 +59,9 @@ class Scheduler {
 
   /// Removes CANCELLED jobs from the queue, and has the executor drop those that it has not started.
   void forget(const std::vector<std::int64_t>& jobs);
+  /// Ends what the executor still computes of a job that has ended while nobody followed it, as a job of a cluster that
+  /// returned to the queue for a shortage. REQUIRES: a job of this executor. Does not throw.
+  void end_unfollowed(std::int64_t job);
 
   /// Removes jobs from the queue that are about to be cancelled. Those that it holds running stay.
   void dequeue(const std::vector<std::int64_t>& jobs);
