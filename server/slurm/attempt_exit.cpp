@@ -47,6 +47,8 @@ jobs::WorkerExit exit_by_meaning(Meaning meaning, const std::optional<worker::Fi
   return out;
 }
 
+bool ends_job(const Ended& ended) { return ended.has_final() && !ended.final().has_suspended_step(); }
+
 jobs::WorkerExit exit_of_last_word(const Ended& ended, const Attempt& attempt, const std::string& host) {
   jobs::WorkerExit out = exit_with(kind_of(ended.kind()));
   out.code = ended.code();
@@ -62,7 +64,7 @@ jobs::WorkerExit exit_of_last_word(const Ended& ended, const Attempt& attempt, c
     out.final.reset();
     return out;
   }
-  if (out.kind != ExitKind::stopped) return out;
+  if (out.kind != ExitKind::stopped || ends_job(ended)) return out;
   if (ended.reason() == Ended::TIME_LIMIT && !ended.advanced()) {
     out.kind = ExitKind::gone;
     out.final.reset();

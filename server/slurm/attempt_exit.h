@@ -14,6 +14,9 @@ std::string slurm_name(const Attempt& attempt);
 
 jobs::WorkerExit exit_with(jobs::WorkerExit::Kind kind, std::string detail = {});
 
+/// Whether the worker came to the end of the job. It may have been told to leave while it wrote the result.
+bool ends_job(const Ended& ended);
+
 /// The exit of an attempt that ended with this last word, on this host.
 jobs::WorkerExit exit_of_last_word(const Ended& ended, const Attempt& attempt, const std::string& host);
 

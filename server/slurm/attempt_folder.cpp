@@ -52,7 +52,7 @@ bool AttemptFolder::claim(const Claim& claim) const {
   }
   const int error = link(own.c_str(), file(kClaim).c_str()) == 0 ? 0 : errno;
   struct stat status {};
-  const bool is_mine = stat(own.c_str(), &status) == 0 && status.st_nlink == 2;
+  const bool is_mine = error == 0 || (stat(own.c_str(), &status) == 0 && status.st_nlink == 2);
   unlink(own.c_str());
   if (is_mine) return true;
   if (error != 0 && error != EEXIST && error != ENOENT && error != ESTALE)

@@ -54,6 +54,7 @@ jobs::WorkerExit AttemptFollower::follow() {
   const std::stop_callback on_suspend(parts_.interruptions.suspend, wake);
   const std::stop_callback on_cancel(parts_.interruptions.cancel, wake);
   feed_.read(false);
+  final_before_ = feed_.last_word();
   feed_.forget_last_word();
   while (true) {
     if (auto exit = look()) return *std::move(exit);
@@ -65,8 +66,8 @@ void AttemptFollower::wait() {
   std::unique_lock lock(wake_mutex_);
   auto interval = parts_.events.watched() ? parts_.options.times.look / 2 : parts_.options.times.look;
   // A task that waits for long in Slurm is looked at rarely.
-  const bool has_waited = Clock::now() - opened_ > parts_.options.times.unanswered;
-  if (!has_begun_ && has_waited && submission_->state().stage == Submission::Stage::answered)
+  const bool has_waited = Clock::now() - opened_ > 2 * parts_.options.times.unanswered;
+  if (!has_begun_ && has_waited && !answers_when_missed_ && submission_->state().stage == Submission::Stage::answered)
     interval = kBetweenLooksAtWaiting;
   wake_.wait_for(lock, interval, [this] { return is_woken_; });
   is_woken_ = false;
@@ -93,7 +94,8 @@ std::optional<jobs::WorkerExit> AttemptFollower::look() {
     static_cast<void>(submission_->withdraw());
     return exit_with(ExitKind::left);
   }
-  if (last_word_) return is_read && is_complete(*last_word_) ? exit_of_ended(*last_word_) : std::nullopt;
+  if (last_word_ && is_read) return is_complete(*last_word_) ? exit_of_ended(*last_word_) : exit_of_incomplete();
+  if (last_word_) return std::nullopt;
   if (auto exit = forward_requests()) return exit;
   if (!is_read) return std::nullopt;
   return has_begun_ ? look_at_begun() : look_at_waiting();
@@ -105,6 +107,7 @@ bool AttemptFollower::read_folder() {
     // Read before the files, so that everything written before the end is copied.
     if (!last_word_) last_word_ = folder_.find_ended();
     mirror_.pass();
+    if (last_word_ && !ended_) ended_ = Clock::now();
     if (!has_begun_) claim_ = folder_.find_claim();
     if (const auto beat = folder_.last_beat(); beat != beat_) {
       beat_ = beat;
@@ -122,9 +125,18 @@ bool AttemptFollower::read_folder() {
 // A network file system may show the last word before what it speaks of.
 bool AttemptFollower::is_complete(const Ended& ended) const {
   if (!ended.has_final()) return true;
-  if (!feed_.last_word()) return false;
+  const bool was_here = final_before_ && final_before_->SerializeAsString() == ended.final().SerializeAsString();
+  if (!feed_.last_word() && !was_here) return false;
   std::error_code error;
   return !ended.final().has_summary() || std::filesystem::exists(job_.result(), error);
+}
+
+std::optional<worker::Final> AttemptFollower::final_report() const {
+  if (feed_.last_word() || !final_before_) return feed_.last_word();
+  // A job with another attempt was not at its end before.
+  const bool ends_job =
+      !final_before_->has_suspended_step() && !final_before_->has_begin_again() && final_before_->shortage() == 0;
+  return ends_job ? final_before_ : std::nullopt;
 }
 
 void AttemptFollower::note_trouble(const ServiceError& error) {
@@ -142,10 +154,17 @@ void AttemptFollower::ask_slurm(std::chrono::milliseconds interval) {
   parts_.view.refresh(submission_->state().attempt.slurm_job());
 }
 
+// What the last word speaks of does not come.
+std::optional<jobs::WorkerExit> AttemptFollower::exit_of_incomplete() {
+  if (Clock::now() - *ended_ < 2 * parts_.options.times.lease) return std::nullopt;
+  const auto attempt = submission_->state().attempt;
+  close(false);
+  return exit_with(ExitKind::gone, slurm_name(attempt) + " ended, but its files are not in the shared folder.");
+}
+
 std::optional<jobs::WorkerExit> AttemptFollower::exit_of_ended(const Ended& ended) {
-  if (!ended_) ended_ = Clock::now();
   auto out = exit_of_last_word(ended, submission_->state().attempt, claim_ ? claim_->host() : "");
-  if (ended.kind() == Ended::LEFT && ended.reason() == Ended::TERMINATED) {
+  if (ended.kind() == Ended::LEFT && ended.reason() == Ended::TERMINATED && !ends_job(ended)) {
     // Preempted, or cancelled by somebody: Slurm says which, as soon as the task is over.
     const auto attempt = submission_->state().attempt;
     const auto seen = seen_task(attempt);
@@ -224,18 +243,27 @@ std::optional<jobs::WorkerExit> AttemptFollower::look_at_waiting() {
   const bool is_over = seen && meaning != Meaning::waits && meaning != Meaning::runs && meaning != Meaning::unknown;
   if ((seen && seen->answer == answers) || unlisted_since_ == 0) {
     unlisted_since_ = answers + 1;
+    answers_when_missed_.reset();
     last_sign_ = Clock::now();
   }
   const bool is_missed =
       answers >= unlisted_since_ + kMissedAnswers && Clock::now() - last_sign_ >= parts_.options.times.unanswered;
-  if (is_missed && !is_over) ask_slurm(parts_.options.times.squeue);
   if (!is_over && !is_missed) return std::nullopt;
+  if (!is_over) {
+    // The accounting may know it.
+    if (!answers_when_missed_) answers_when_missed_ = answers;
+    ask_slurm(kBetweenQuestions);
+    if (answers < *answers_when_missed_ + 2) return std::nullopt;
+  }
   // A task may have begun just now: the claim decides.
   if (!withdraw()) return std::nullopt;
   const std::string log = last_line_of_log(attempt);
   close(true);
-  if (!is_over) return exit_with(ExitKind::displaced, slurm_name(attempt) + " is no longer known to Slurm.");
-  auto out = exit_by_meaning(meaning, feed_.last_word(),
+  if (!is_over) {
+    spdlog::warn("{} is no longer known to Slurm, and had not begun.", slurm_name(attempt));
+    return exit_with(ExitKind::displaced, slurm_name(attempt) + " is no longer known to Slurm.");
+  }
+  auto out = exit_by_meaning(meaning, final_report(),
                              slurm_name(attempt) + " ended before the crush began: " + seen->report.state + "." + log);
   // It may have ended for another attempt of its task, which is then charged with that.
   if (attempt.shares() > 1 && out.kind == ExitKind::gone) out.kind = ExitKind::displaced;
@@ -304,7 +332,7 @@ std::optional<jobs::WorkerExit> AttemptFollower::exit_of_silent(const Submission
   const std::string reason = seen->report.reason.empty() ? "" : " (" + seen->report.reason + ")";
   close(false);
   return exit_by_meaning(
-      meaning, feed_.last_word(),
+      meaning, final_report(),
       slurm_name(attempt) + where + " ended without a last word: " + seen->report.state + reason + "." + log);
 }
 
@@ -334,7 +362,7 @@ void AttemptFollower::close(bool ends_task) {
     static_cast<void>(parts_.commands.scancel(attempt.slurm_job(), task_index(attempt)));
   submission_->close(job_);
   folder_.remove();
-  parts_.closed(attempt);
+  parts_.closed(attempt, has_begun_);
 }
 
 std::string AttemptFollower::last_line_of_log(const Attempt& attempt) const {

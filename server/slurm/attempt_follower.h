@@ -34,7 +34,8 @@ class AttemptFollower {
     ClusterView& view;
     const jobs::WorkerEvents& events;
     const jobs::Interruptions& interruptions;
-    const std::function<void(const Attempt&)>& closed;  ///< called once the attempt is over
+    /// Called once the attempt is over, with whether a task had begun it.
+    const std::function<void(const Attempt&, bool has_begun)>& closed;
   };
   AttemptFollower(const Parts& parts, const store::JobFolder& job, std::shared_ptr<Submission> submission);
 
@@ -57,9 +58,12 @@ class AttemptFollower {
   void note_trouble(const ServiceError& error);
   /// Whether everything is here that the last word says.
   [[nodiscard]] bool is_complete(const Ended& ended) const;
+  /// The final report of the attempt's worker, which an earlier follower may have copied.
+  [[nodiscard]] std::optional<worker::Final> final_report() const;
   /// Asks Slurm for news of the task, not more often than this.
   void ask_slurm(std::chrono::milliseconds interval);
   std::optional<jobs::WorkerExit> exit_of_ended(const Ended& ended);
+  std::optional<jobs::WorkerExit> exit_of_incomplete();
   void show_place();
   void wait();
 
@@ -81,6 +85,7 @@ class AttemptFollower {
   FolderSink sink_;
   Mirror mirror_;
   jobs::ReportFeed feed_;
+  std::optional<worker::Final> final_before_;  ///< that was in the job's folder when this follower began
   std::optional<Ended> last_word_;
   std::optional<Claim> claim_;
   bool has_begun_ = false;
@@ -90,8 +95,9 @@ class AttemptFollower {
   Clock::time_point last_sign_ = Clock::now();  ///< of life
   Clock::time_point last_look_ = Clock::now();
   Clock::time_point opened_ = Clock::now();
-  std::optional<std::uint64_t> answers_when_lost_;  ///< number of answers when the answer of sbatch was missed
-  std::optional<Clock::time_point> asked_;          ///< when the task was asked to leave or end the job
+  std::optional<std::uint64_t> answers_when_lost_;    ///< number of answers when the answer of sbatch was missed
+  std::optional<std::uint64_t> answers_when_missed_;  ///< number of answers when the task was first missed
+  std::optional<Clock::time_point> asked_;            ///< when the task was asked to leave or end the job
   Request::Kind request_ = Request::NONE;
   std::uint64_t unlisted_since_ = 0;  ///< number of the answer after which a task that is not listed is missed
   std::string place_;

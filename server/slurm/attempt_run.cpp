@@ -62,7 +62,8 @@ void AttemptRun::run(const store::JobFolder& folder) {
   };
   jobs::WorkerExit exit;
   {
-    std::jthread beside([this](const std::stop_token& worker_ended) { accompany(worker_ended); });
+    const std::jthread beside([this](const std::stop_token& worker_ended) { accompany(worker_ended); });
+    const std::jthread watch([this](const std::stop_token& worker_ended) { watch_lease(worker_ended); });
     const jobs::Interruptions interruptions{leave_.get_token(), suspend_.get_token(), cancel_.get_token()};
     exit = workers_.run(folder, *order, events, interruptions);
   }
@@ -79,9 +80,17 @@ void AttemptRun::accompany(const std::stop_token& worker_ended) {
       trouble.clear();
     } catch (const std::exception& error) {
       if (std::exchange(trouble, error.what()) != error.what()) spdlog::warn("trying again: {}", error.what());
-      if (Clock::now() - last_contact_ > lease_ && !std::exchange(is_lease_lost_, true)) leave_.request_stop();
     }
   } while (pause_unless_stopped(worker_ended, kBetweenPasses));
+}
+
+void AttemptRun::watch_lease(const std::stop_token& worker_ended) {
+  while (pause_unless_stopped(worker_ended, kBetweenPasses)) {
+    if (Clock::now() - last_contact_.load() <= lease_) continue;
+    is_lease_lost_ = true;
+    leave_.request_stop();
+    return;
+  }
 }
 
 // False once the attempt is no longer this task's.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
@@ -42,6 +43,8 @@ class AttemptRun {
 
   /// Copies, renews the lease and obeys requests until the worker has ended.
   void accompany(const std::stop_token& worker_ended);
+  /// Makes the worker leave once the lease is over, also while a call to the shared file system does not return.
+  void watch_lease(const std::stop_token& worker_ended);
   bool keep_contact();
   void obey(Request::Kind request);
   Ended last_word_of(const jobs::WorkerExit& exit) const;
@@ -57,9 +60,9 @@ class AttemptRun {
   std::stop_source suspend_;
   std::stop_source cancel_;
   std::uint64_t beats_ = 0;
-  Clock::time_point last_contact_ = Clock::now();
+  std::atomic<Clock::time_point> last_contact_ = Clock::now();
   Clock::time_point last_beat_{};
-  bool is_lease_lost_ = false;
+  std::atomic<bool> is_lease_lost_ = false;
   bool is_abandoned_ = false;
   std::int64_t first_step_ = 0;
 };

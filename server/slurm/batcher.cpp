@@ -143,6 +143,8 @@ void Batcher::submit_pack(Pack pack, const std::vector<Gathered>& gathered) {
                    pack.tasks.size());
   } catch (const std::exception& error) {
     // sbatch was not run.
+    std::error_code ignored;
+    std::filesystem::remove_all(batch_folder(options_, batch), ignored);
     state.stage = Submission::Stage::refused;
     state.why = error.what();
     state.trouble = trouble_of(error);

@@ -79,19 +79,19 @@ void ClusterView::look(const std::set<std::int64_t>& missed) {
     // whoever asks meanwhile waits for the next.
     ++answers_;
     for (const auto& report : *listed) {
-      tasks_[{report.job, report.task}] = {report, answers_, false};
+      tasks_[{report.job, report.task}] = {report, answers_, answers_, false};
       jobs_[report.name] = report.job;
     }
   }
   if (accounted) {
     for (const auto& report : *accounted) {
       auto& seen = tasks_[{report.job, report.task}];
-      seen = {report, seen.answer, true};
+      seen = {report, seen.answer, answers_, true};
       jobs_[report.name] = report.job;
     }
   }
   std::erase_if(tasks_, [this](const auto& each)
-                            CELLCRUSH_REQUIRES(mutex_) { return each.second.answer + kRemembered < answers_; });
+                            CELLCRUSH_REQUIRES(mutex_) { return each.second.heard + kRemembered < answers_; });
   std::erase_if(jobs_, [this](const auto& each) CELLCRUSH_REQUIRES(mutex_) {
     return tasks_.lower_bound({each.second, -1}) == tasks_.end() ||
            tasks_.lower_bound({each.second, -1})->first.first != each.second;

@@ -30,10 +30,10 @@ std::vector<Pack> pack(const std::vector<Need>& attempts, std::chrono::duration<
   for (std::size_t i = 0; i < attempts.size(); ++i) alike[{attempts[i].threads, attempts[i].memory_mib}].push_back(i);
   std::vector<Pack> out;
   for (const auto& [kind, members] : alike) {
-    double filled = task_length.count();  // of the last task: full, so that the first attempt begins one
+    double filled = 0.0;  // of the last task
     bool begins_pack = true;
     for (const std::size_t i : members) {
-      if (filled + attempts[i].seconds > task_length.count()) {
+      if (begins_pack || task_length.count() == 0 || filled + attempts[i].seconds > task_length.count()) {
         if (begins_pack || out.back().tasks.size() == most_tasks) out.push_back({{kind.first, kind.second, 0.0}, {}});
         begins_pack = false;
         out.back().tasks.emplace_back();

@@ -35,6 +35,9 @@ std::set<std::string> named_attempts(const fs::path& data_folder) {
   for (fs::directory_iterator entry(data_folder / "jobs", error), end; !error && entry != end; entry.increment(error)) {
     if (const auto attempt = read_attempt(store::JobFolder(entry->path()))) out.insert(attempt->id());
   }
+  // Attempts are not to be taken for left ones because their jobs could not be read.
+  if (error && error != std::errc::no_such_file_or_directory)
+    store::throw_file_error(data_folder / "jobs", "read", error.value());
   return out;
 }
 

@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <exception>
 #include <system_error>
 #include <utility>
@@ -47,33 +48,41 @@ std::optional<jobs::WorkerExit> SlurmExecutor::read_final_report(const store::Jo
 
 void SlurmExecutor::end_worker(const store::JobFolder& folder) {
   local_->end_worker(folder);
-  const auto attempt = read_attempt(folder);
-  if (!attempt) return;
-  const AttemptFolder shared = folder_of(*attempt);
+  if (const auto attempt = read_attempt(folder)) end_attempt(folder, *attempt);
+}
+
+void SlurmExecutor::end_attempt(const store::JobFolder& folder, const Attempt& attempt) {
+  const AttemptFolder shared = folder_of(attempt);
   require_marker(options_.folder);
   Claim claim;
   claim.set_withdrawn(true);
-  if (shared.exists() && !shared.claim(claim)) shared.request(Request::ABANDON);
-  if (attempt->slurm_job() != 0 && attempt->shares() <= 1)
-    static_cast<void>(commands_.scancel(attempt->slurm_job(), task_index(*attempt)));
+  const bool has_begun = shared.exists() && !shared.claim(claim);
+  if (has_begun) shared.request(Request::ABANDON);
+  if (attempt.slurm_job() != 0 && attempt.shares() <= 1)
+    static_cast<void>(commands_.scancel(attempt.slurm_job(), task_index(attempt)));
   std::error_code ignored;
   std::filesystem::remove(folder.attempt(), ignored);
   shared.remove();
-  remove_batch_if_over(*attempt);
+  tidy_up_after(attempt, has_begun);
 }
 
-// The batch's folder goes with the last attempt's.
-void SlurmExecutor::remove_batch_if_over(const Attempt& attempt) {
+void SlurmExecutor::tidy_up_after(const Attempt& attempt, bool has_begun) {
   if (attempt.batch().empty()) return;
   const auto folder = Batcher::batch_folder(options_, attempt.batch());
+  const auto is_over = [this](const Batch::Task& task) {
+    return std::ranges::none_of(task.attempts(), [this](const std::string& id) {
+      return AttemptFolder(options_.folder / "attempts" / id).exists();
+    });
+  };
   try {
     const auto batch = read_message<Batch>(folder / "tasks");
     if (!batch) return;
+    const bool is_shared = attempt.shares() > 1 && attempt.slurm_job() != 0 && attempt.task() < batch->tasks_size();
+    if (is_shared && !has_begun && is_over(batch->tasks(attempt.task())))
+      static_cast<void>(commands_.scancel(attempt.slurm_job(), task_index(attempt)));
     // From the end: later tasks tend to end later.
     for (int task = batch->tasks_size(); --task >= 0;) {
-      for (const auto& id : batch->tasks(task).attempts()) {
-        if (AttemptFolder(options_.folder / "attempts" / id).exists()) return;
-      }
+      if (!is_over(batch->tasks(task))) return;
     }
     std::filesystem::remove_all(folder);
   } catch (const std::exception& error) {
@@ -135,7 +144,9 @@ jobs::WorkerExit SlurmExecutor::run(const store::JobFolder& folder, const worker
     }
   }
   if (!submission) submission = open_attempt(folder, order);
-  const std::function<void(const Attempt&)> closed = [this](const Attempt& attempt) { remove_batch_if_over(attempt); };
+  const std::function<void(const Attempt&, bool)> closed = [this](const Attempt& attempt, bool has_begun) {
+    tidy_up_after(attempt, has_begun);
+  };
   try {
     AttemptFollower follower({options_, commands_, view_, events, interruptions, closed}, folder, submission);
     return follower.follow();
@@ -152,7 +163,8 @@ jobs::WorkerExit SlurmExecutor::run(const store::JobFolder& folder, const worker
 
 void SlurmExecutor::give_up(const store::JobFolder& folder, Submission& submission) {
   static_cast<void>(submission.withdraw());
-  end_worker(folder);
+  // The job's folder may be gone by now.
+  end_attempt(folder, submission.state().attempt);
   submission.close(folder);
 }
 

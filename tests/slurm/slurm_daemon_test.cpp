@@ -87,6 +87,8 @@ TEST_F(SlurmDaemonTest, AJobIsWatchedSuspendedResumedAndCancelledAsAnyOther) {
   const std::string job = create_there(client, endless_case());
   EXPECT_THAT(place_of(client, job, "RUNNING on n"), HasSubstr("Slurm job "));
   wait_for_samples(client, job, 5);
+  for (int i = 0; i < 100 && client.get(job).progress().step() == 0; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
   EXPECT_GT(client.get(job).progress().step(), 0);
   ASSERT_TRUE(client.suspend(job).ok());
   EXPECT_EQ(client.get(job).state(), v1::Job::SUSPENDED);

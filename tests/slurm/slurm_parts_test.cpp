@@ -90,6 +90,12 @@ TEST(Packing, KeepsToTheMostTasksOfAnArray) {
   EXPECT_EQ(packs[2].tasks, std::vector<Share>{Share{6}});
 }
 
+// A case that a newer version refuses takes no time.
+TEST(Packing, PacksAnAttemptWithoutAPredictedTime) {
+  EXPECT_EQ(pack({Need{1, 256, 0.0}}, seconds(60), 1000).size(), 1U);
+  EXPECT_EQ(pack({Need{1, 256, 0.0}, Need{1, 256, 0.0}}, seconds(0), 1000).at(0).tasks.size(), 2U);
+}
+
 TEST(Packing, AsksForMoreThanIsPredicted) {
   EXPECT_EQ(need_of(2, 100 << 20, 5.0).memory_mib, 384);
   EXPECT_EQ(time_limit_minutes(60.0, seconds(0)), 13);
