@@ -1,6 +1,9 @@
 // Several executors in one daemon: what is chosen, what one cannot do to another, and what a cluster's queue holds.
 #include <gmock/gmock.h>
 
+#include <mutex>
+#include <set>
+
 #include "error.h"
 #include "log_format.h"
 #include "server/executors_fixture.h"
@@ -223,6 +226,68 @@ TEST_F(ExecutorsTest, TheNextDaemonAdoptsWhatTheClusterHasBeforeItHandsOverMore)
   cluster_.open();
   for (const auto& job : jobs) EXPECT_TRUE(client.wait_for_state(job, v1::Job::SUCCEEDED)) << job;
   EXPECT_EQ(cluster_.threads().size(), 5U) << "Each was handed over once.";
+}
+
+// A cluster that computes on while this machine has no room for what it reports.
+class KeepingCluster final : public jobs::Executor {
+ public:
+  struct Calls {
+    std::mutex mutex;
+    std::set<std::string> ended;
+    int begun = 0;
+  };
+  explicit KeepingCluster(Calls& calls) : calls_(calls) {}
+
+  bool has_worker(const store::JobFolder&) override { return false; }
+  [[nodiscard]] bool keeps_workers() const override { return true; }
+  std::optional<jobs::WorkerExit> read_final_report(const store::JobFolder&, const jobs::WorkerEvents&) override {
+    return std::nullopt;
+  }
+  void end_worker(const store::JobFolder& folder) override {
+    const std::lock_guard lock(calls_.mutex);
+    calls_.ended.insert(folder.root().filename());
+  }
+  jobs::WorkerExit run(const store::JobFolder&, const worker::Order&, const jobs::WorkerEvents&,
+                       const jobs::Interruptions&) override {
+    {
+      const std::lock_guard lock(calls_.mutex);
+      ++calls_.begun;
+    }
+    throw ServiceError(Shortage::full_disk, "No room for reports.");
+  }
+
+ private:
+  Calls& calls_;
+};
+
+// Nobody follows them any more, and their tasks would compute to the end.
+TEST_F(ExecutorsTest, JobsOfAClusterThatAreCancelledDuringAShortageAreEndedThere) {
+  KeepingCluster::Calls calls;
+  auto options = default_options();
+  options.hold_times = {std::chrono::milliseconds(20), std::chrono::milliseconds(50)};
+  options.executors.push_back(
+      {kCluster, 4, [&calls](const jobs::ExecutorSurroundings&) { return std::make_unique<KeepingCluster>(calls); }});
+  start(options);
+  auto client = this->client();
+  const std::string single = create_on(client, kCluster);
+  const auto sweep = create_sweep_on(client, kCluster, tiny_case());
+  std::vector<std::string> jobs(sweep.jobs().begin(), sweep.jobs().end());
+  jobs.push_back(single);
+  ASSERT_TRUE(wait_until([&] {
+    const std::lock_guard lock(calls.mutex);
+    return calls.begun > 0;
+  }));
+  EXPECT_TRUE(client.cancel(single).ok());
+  v1::CancelSweepRequest request;
+  request.set_name(sweep.name());
+  v1::Sweep unused;
+  EXPECT_TRUE(client.sweeps->CancelSweep(bounded_context().get(), request, &unused).ok());
+  for (const auto& job : jobs) EXPECT_EQ(client.get(job).state(), v1::Job::CANCELLED);
+  EXPECT_TRUE(wait_until([&] {
+    const std::lock_guard lock(calls.mutex);
+    return calls.ended.size() == jobs.size();
+  }));
+  daemon_.reset();
 }
 
 }  // namespace
