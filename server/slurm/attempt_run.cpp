@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <exception>
 #include <fstream>
 #include <string>
@@ -84,9 +85,19 @@ void AttemptRun::accompany(const std::stop_token& worker_ended) {
   } while (pause_unless_stopped(worker_ended, kBetweenPasses));
 }
 
+// Time in which Slurm had suspended the task does not count: it then makes contact first.
 void AttemptRun::watch_lease(const std::stop_token& worker_ended) {
+  auto contact = last_contact_.load();
+  auto before = Clock::now();
+  Clock::duration silence{};
   while (pause_unless_stopped(worker_ended, kBetweenPasses)) {
-    if (Clock::now() - last_contact_.load() <= lease_) continue;
+    const auto now = Clock::now();
+    silence += std::min<Clock::duration>(now - std::exchange(before, now), 2 * kBetweenPasses);
+    if (const auto newest = last_contact_.load(); newest != contact) {
+      contact = newest;
+      silence = {};
+    }
+    if (silence <= lease_) continue;
     is_lease_lost_ = true;
     leave_.request_stop();
     return;
