@@ -142,7 +142,7 @@ TEST_F(SlurmLongTest, AJobThatIsLongerThanItsTaskContinuesInTheNextWithTheSameBi
   int tasks = 0;
   std::vector<std::string> samples;
   std::int64_t last = -1;
-  for (; exit.kind == Kind::stopped && tasks < 10; ++tasks) {
+  for (; exit.kind == Kind::stopped && tasks < 40; ++tasks) {
     const auto job = run(slow);
     exit = job->wait();
     samples = without_repeats(job->samples());
