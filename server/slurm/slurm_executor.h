@@ -43,7 +43,7 @@ class SlurmExecutor final : public jobs::Executor {
   std::shared_ptr<Submission> open_attempt(const store::JobFolder& folder, const worker::Order& order);
   void give_up(const store::JobFolder& folder, Submission& submission);
   Need predict(const worker::Order& order);
-  /// Takes an attempt back, or asks its task to end it, and removes what there is of it.
+  /// Takes an attempt back, or asks its task to end it, and removes its files.
   void end_attempt(const store::JobFolder& folder, const Attempt& attempt);
   /// An attempt is over. Cancels its task in Slurm if that has nothing left to begin, and removes the batch's folder
   /// with the last attempt.
