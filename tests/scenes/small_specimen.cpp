@@ -18,6 +18,9 @@ SceneSpec spec_of(const SmallSpecimen& specimen, int columns, int rows) {
     spec.lattice = HexagonLattice{columns, rows, kSide, 0.5, 0.9};
     spec.loading.direction = LoadingSpec::Direction::y;
   }
+  if (specimen.elements > 0) {
+    spec.elements_per_wall = specimen.elements;
+  }
   spec.loading.speed_m_per_s = specimen.speed;
   spec.contact.friction = spec.plates.friction = specimen.friction;
   spec.imperfection = {0.01, 1};
@@ -27,7 +30,8 @@ SceneSpec spec_of(const SmallSpecimen& specimen, int columns, int rows) {
 
 std::string name_of(const testing::TestParamInfo<SmallSpecimen>& test) {
   return std::string(test.param.lattice) + "At" + std::to_string(static_cast<int>(test.param.speed)) +
-         (test.param.friction > 0.0 ? "WithFriction" : "");
+         (test.param.friction > 0.0 ? "WithFriction" : "") +
+         (test.param.elements > 0 ? "Of" + std::to_string(test.param.elements) + "Elements" : "");
 }
 
 }  // namespace cellcrush::scenes

@@ -12,8 +12,9 @@ namespace cellcrush::scenes {
 /// thicker vertical walls: "thick" with 0.25 and 0.5 mm, "thick_ends" with 0.5 and 0.9 mm, crushed along them.
 struct SmallSpecimen {
   const char* lattice;
-  double speed;     // m/s
-  double friction;  // of walls and plates
+  double speed;      // m/s
+  double friction;   // of walls and plates
+  int elements = 0;  // per wall; 0: the default of the lattice
 };
 
 /// The specimen with a small imperfection and the chosen step.

@@ -59,7 +59,8 @@ INSTANTIATE_TEST_SUITE_P(Crush, ContactSoundness,
                                          SmallSpecimen{"square", 200, 0.3}, SmallSpecimen{"triangle", 25, 0.0},
                                          SmallSpecimen{"triangle", 50, 0.3}, SmallSpecimen{"triangle", 100, 0.0},
                                          SmallSpecimen{"triangle", 100, 0.3}, SmallSpecimen{"triangle", 200, 0.0},
-                                         SmallSpecimen{"triangle", 200, 0.3}),
+                                         SmallSpecimen{"triangle", 200, 0.3}, SmallSpecimen{"square", 25, 0.0, 2},
+                                         SmallSpecimen{"triangle", 25, 0.0, 2}),
                          scenes::name_of);
 
 }  // namespace

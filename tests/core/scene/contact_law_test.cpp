@@ -9,6 +9,7 @@
 #include "cellcrush/state.h"
 #include "scene/time_step.h"
 #include "scenes/frames.h"
+#include "scenes/small_specimen.h"
 
 namespace cellcrush {
 namespace {
@@ -69,6 +70,29 @@ TEST(ContactLaw, StiffnessFollowsTheMeshUntilTheSpeedAsksForMore) {
   EXPECT_EQ(law_at(400.0, 1e-8)->contact.stiffness, law_at(400.0, 0.0)->contact.stiffness);
   const double held = 0.6 / 2e-7;  // the step cannot bear more
   EXPECT_NEAR(law_at(400.0, 2e-7)->contact.stiffness, mass * held * held, 1e-9 * mass * held * held);
+}
+
+// Contacts of stacked walls make energy at long steps: the more, the slower the crush and the coarser the mesh.
+TEST(ContactLaw, StepOfStackedWallsFollowsSpeedAndMesh) {
+  const auto phase_at = [](const char* lattice, int elements, double speed) {
+    SceneSpec spec = scenes::spec_of({lattice, speed, 0.0}, 6, 4);
+    spec.imperfection.amplitude_mm = 0.0;
+    spec.elements_per_wall = elements;
+    const auto scene = scenes::build(spec);
+    const double lightest = *std::min_element(scene->mass.begin(), scene->mass.end());
+    return std::sqrt(scene->contact.stiffness / lightest) * scene->schedule.time_step;
+  };
+  const Material metal = scenes::build(scenes::spec_of({"square", 1.0, 0.0}, 6, 4))->materials.front();
+  const double fast = 1.44e-3 * std::sqrt(metal.yield_stress / metal.density);  // m/s, of one element per wall
+  for (const char* lattice : {"square", "triangle"}) {
+    for (const int elements : {2, 8}) {
+      const double full = fast / elements;
+      EXPECT_NEAR(phase_at(lattice, elements, 1.01 * full), 0.3, 1e-9) << lattice << " " << elements;
+      EXPECT_NEAR(phase_at(lattice, elements, 0.5 * full), 0.15, 1e-9) << lattice << " " << elements;
+      EXPECT_NEAR(phase_at(lattice, elements, 0.01 * full), 0.3 / 8.0, 1e-9) << lattice << " " << elements;
+    }
+  }
+  EXPECT_GT(phase_at("hexagon", 2, 1.0), 0.3);
 }
 
 // Critical damping shortens the chosen step; at the step of a fifth of critical it makes energy.
