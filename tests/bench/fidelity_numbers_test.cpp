@@ -175,19 +175,22 @@ TEST(FidelityNumbers, StandardIsTheCoarsestMeshWithinTheBounds) {
   for (const auto& [preset, fails] : coarser_fails) EXPECT_TRUE(fails) << preset;
 }
 
-// Squares and triangles scatter so much that means of five seeds do not tell a mesh from one twice as fine within the
-// same bounds: their differences are below the bounds or below what scatter alone makes.
-TEST(FidelityNumbers, StandardOfSquaresAndTrianglesIsNotToldFromAMeshTwiceAsFine) {
+// Squares and triangles scatter so much that means of five seeds hardly tell a mesh from one twice as fine within the
+// same bounds: all differences but one are below the bounds or below what scatter alone makes. The exception is the
+// support of squares at 75 m/s: it is too low.
+TEST(FidelityNumbers, StandardOfSquaresAndTrianglesIsToldFromAMeshTwiceAsFineInOneCase) {
   int compared = 0;
   for (const MeasuredRow& row : kMeasuredRows) {
     const SceneSpec& spec = find_preset(row.preset)->spec;
     const int standard = fidelity_points(spec)[1].elements_per_wall;
     if (standard != 8 || row.elements_per_wall != standard) continue;
     const double bound = row.quantity == "impact plateau" ? 0.04 : 0.10;
-    EXPECT_LT(row.error, std::max(bound, row.uncertainty)) << text_of(row);
+    const bool is_told =
+        row.preset == "type-ii-as-counted" && row.quantity == "support plateau" && row.speed_m_per_s == 75.0;
+    EXPECT_EQ(row.error >= std::max(bound, row.uncertainty), is_told) << text_of(row);
     ++compared;
   }
-  EXPECT_GE(compared, 8);
+  EXPECT_GE(compared, 12);
 }
 
 TEST(FidelityNumbers, TimesOfElementStepsAreThoseOfTheTables) {
