@@ -16,8 +16,8 @@ bool stacks(const SceneSpec& spec) {
   return std::holds_alternative<SquareLattice>(spec.lattice) || std::holds_alternative<TriangleLattice>(spec.lattice);
 }
 
-/// Greatest phase angle omega dt of the lightest particle on its contact, rad. Contacts make energy in proportion to
-/// about its square. A slow crush does little work, and a coarse mesh has heavy particles: there the angle is less.
+/// Greatest phase angle omega dt of the lightest particle on its contact, rad. Contacts make more energy, against the
+/// work of the plate, in slow crushes and on coarse meshes: there the angle is less.
 double phase_of_stacks(const Material& material, double plate_speed, int elements_per_wall) {
   constexpr double kPhase = 0.3;
   constexpr double kFast = 1.44;  // speed over sqrt(sigma_y / rho), times the elements per wall

@@ -72,7 +72,7 @@ TEST(ContactLaw, StiffnessFollowsTheMeshUntilTheSpeedAsksForMore) {
   EXPECT_NEAR(law_at(400.0, 2e-7)->contact.stiffness, mass * held * held, 1e-9 * mass * held * held);
 }
 
-// Contacts of stacked walls make energy at long steps: the more, the slower the crush and the coarser the mesh.
+// Contacts of stacked walls make more energy in slow crushes and on coarse meshes: the step is less there.
 TEST(ContactLaw, StepOfStackedWallsFollowsSpeedAndMesh) {
   const auto phase_at = [](const char* lattice, int elements, double speed) {
     SceneSpec spec = scenes::spec_of({lattice, speed, 0.0}, 6, 4);
