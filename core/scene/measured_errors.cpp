@@ -7,6 +7,7 @@
 
 #include "cellcrush/presets.h"
 #include "scene/check_spec.h"
+#include "scene/lattices.h"
 #include "scene/measured_rows.h"
 
 namespace cellcrush {
@@ -15,12 +16,6 @@ namespace {
 /// What a spec shares with the preset that was measured: equal up to rounding.
 bool is_near(double one, double other) {
   return std::abs(one - other) <= 0.01 * std::max(std::abs(one), std::abs(other));
-}
-
-const RegularLattice* cells_of(const SceneSpec& spec) {
-  if (const auto* hexagon = std::get_if<HexagonLattice>(&spec.lattice)) return hexagon;
-  if (const auto* square = std::get_if<SquareLattice>(&spec.lattice)) return square;
-  return std::get_if<TriangleLattice>(&spec.lattice);
 }
 
 /// "lattice.hexagon.", for a regular lattice.
@@ -37,29 +32,44 @@ double vertical_ratio_of(const SceneSpec& spec) {
              : 1.0;
 }
 
-/// Lowest and highest speed at which a preset was measured.
-std::pair<double, double> speeds_of(std::string_view preset) {
+/// A preset, or that many of its cells, and the direction of its crush.
+struct Specimen {
+  std::string_view preset;
+  int columns;
+  int rows;
+  LoadingSpec::Direction direction;
+
+  bool operator==(const Specimen&) const = default;
+};
+
+bool is_smaller_than_preset(const Specimen& specimen) { return specimen.columns > 0; }
+
+Specimen specimen_of(const MeasuredRow& row) { return {row.preset, row.columns, row.rows, row.direction}; }
+
+/// Lowest and highest speed at which a specimen was measured.
+std::pair<double, double> speeds_of(const Specimen& specimen) {
   std::pair<double, double> range = {HUGE_VAL, 0.0};
   for (const MeasuredRow& row : kMeasuredRows) {
-    if (row.preset != preset) continue;
+    if (specimen_of(row) != specimen) continue;
     range = {std::min(range.first, row.speed_m_per_s), std::max(range.second, row.speed_m_per_s)};
   }
   return range;
 }
 
 /// Nothing if they are different lattices.
-std::optional<std::vector<std::string>> fields_beside(std::string_view preset, const SceneSpec& spec) {
-  const SceneSpec& measured = find_preset(preset)->spec;
+std::optional<std::vector<std::string>> fields_beside(const Specimen& specimen, const SceneSpec& spec) {
+  const SceneSpec& measured = find_preset(specimen.preset)->spec;
   if (spec.lattice.index() != measured.lattice.index()) return std::nullopt;
   std::vector<std::string> fields;
   const auto add_if = [&fields](bool differs, const std::string& field) {
     if (differs) fields.push_back(field);
   };
   const std::string lattice = path_of(spec);
-  const RegularLattice& cells = *cells_of(spec);
-  const RegularLattice& its = *cells_of(measured);
-  add_if(*cells.columns < *its.columns, lattice + "columns");
-  add_if(*cells.rows < *its.rows, lattice + "rows");
+  const RegularLattice& cells = *regular_lattice_of(spec);
+  const RegularLattice& its = *regular_lattice_of(measured);
+  const bool is_smaller = is_smaller_than_preset(specimen);
+  add_if(*cells.columns < (is_smaller ? specimen.columns : *its.columns), lattice + "columns");
+  add_if(*cells.rows < (is_smaller ? specimen.rows : *its.rows), lattice + "rows");
   add_if(!is_near(*cells.wall_thickness_mm / *cells.side_mm, *its.wall_thickness_mm / *its.side_mm) ||
              !is_near(vertical_ratio_of(spec), vertical_ratio_of(measured)),
          lattice + "wall_thickness_mm");
@@ -70,28 +80,28 @@ std::optional<std::vector<std::string>> fields_beside(std::string_view preset, c
   add_if(!is_near(*material.density_kg_per_m3, *measured.material.density_kg_per_m3), "material.density_kg_per_m3");
   add_if(!is_near(material.hardening_modulus_mpa, measured.material.hardening_modulus_mpa),
          "material.hardening_modulus_mpa");
-  add_if(spec.loading.direction != measured.loading.direction, "loading.direction");
-  const auto [lowest, highest] = speeds_of(preset);
+  add_if(spec.loading.direction != specimen.direction, "loading.direction");
+  const auto [lowest, highest] = speeds_of(specimen);
   add_if(*spec.loading.speed_m_per_s < lowest || *spec.loading.speed_m_per_s > highest, "loading.speed_m_per_s");
   add_if(spec.contact.friction != measured.contact.friction, "contact.friction");
   add_if(spec.plates.friction != measured.plates.friction, "plates.friction");
   return fields;
 }
 
-std::vector<std::string_view> measured_presets() {
-  std::vector<std::string_view> presets;
+std::vector<Specimen> measured_specimens() {
+  std::vector<Specimen> specimens;
   for (const MeasuredRow& row : kMeasuredRows) {
-    if (std::ranges::find(presets, row.preset) == presets.end()) presets.push_back(row.preset);
+    if (std::ranges::find(specimens, specimen_of(row)) == specimens.end()) specimens.push_back(specimen_of(row));
   }
-  return presets;
+  return specimens;
 }
 
 /// The rows of one quantity with one mesh whose speeds are next to that of a crush.
-std::vector<MeasuredRow> neighbours(std::string_view preset, std::string_view quantity, int elements, double speed) {
+std::vector<MeasuredRow> neighbours(const Specimen& specimen, std::string_view quantity, int elements, double speed) {
   std::optional<MeasuredRow> below;
   std::optional<MeasuredRow> above;
   for (const MeasuredRow& row : kMeasuredRows) {
-    if (row.preset != preset || row.quantity != quantity || row.elements_per_wall != elements) continue;
+    if (specimen_of(row) != specimen || row.quantity != quantity || row.elements_per_wall != elements) continue;
     if (row.speed_m_per_s <= speed && (!below || row.speed_m_per_s > below->speed_m_per_s)) below = row;
     if (row.speed_m_per_s >= speed && (!above || row.speed_m_per_s < above->speed_m_per_s)) above = row;
   }
@@ -100,7 +110,16 @@ std::vector<MeasuredRow> neighbours(std::string_view preset, std::string_view qu
 }
 
 std::string words_of(const std::vector<MeasuredRow>& rows) {
-  std::string words = std::string(rows.front().quantity) + ", " + std::string(rows.front().preset) + ", ";
+  const Specimen specimen = specimen_of(rows.front());
+  std::string words = std::string(rows.front().quantity) + ", ";
+  if (is_smaller_than_preset(specimen)) {
+    words += std::to_string(specimen.columns) + " x " + std::to_string(specimen.rows) + " cells of ";
+  }
+  words += specimen.preset;
+  if (specimen.direction != find_preset(specimen.preset)->spec.loading.direction) {
+    words += specimen.direction == kAlongY ? " along y" : " along x";
+  }
+  words += ", ";
   if (rows.size() > 1) words += to_text(rows.front().speed_m_per_s) + " to ";
   return words + to_text(rows.back().speed_m_per_s) + " m/s";
 }
@@ -109,8 +128,8 @@ std::string words_of(const std::vector<MeasuredRow>& rows) {
 
 std::vector<std::string> fields_beside_measured(const SceneSpec& spec) {
   std::optional<std::vector<std::string>> fewest;
-  for (const std::string_view preset : measured_presets()) {
-    const auto fields = fields_beside(preset, spec);
+  for (const Specimen& specimen : measured_specimens()) {
+    const auto fields = fields_beside(specimen, spec);
     if (fields && (!fewest || fields->size() < fewest->size())) fewest = fields;
   }
   return fewest.value_or(std::vector<std::string>{"lattice"});
@@ -118,11 +137,11 @@ std::vector<std::string> fields_beside_measured(const SceneSpec& spec) {
 
 std::vector<MeasuredError> measured_errors_of(const SceneSpec& spec, int elements_per_wall) {
   std::vector<MeasuredError> errors;
-  for (const std::string_view preset : measured_presets()) {
-    const auto fields = fields_beside(preset, spec);
+  for (const Specimen& specimen : measured_specimens()) {
+    const auto fields = fields_beside(specimen, spec);
     if (!fields || !fields->empty()) continue;
     for (const std::string_view quantity : {"impact plateau", "support plateau", "limit stress"}) {
-      const auto rows = neighbours(preset, quantity, elements_per_wall, *spec.loading.speed_m_per_s);
+      const auto rows = neighbours(specimen, quantity, elements_per_wall, *spec.loading.speed_m_per_s);
       if (rows.empty()) continue;
       const auto worst = std::ranges::max_element(
           rows, {}, [](const MeasuredRow& row) { return std::max(row.error, row.uncertainty); });

@@ -119,6 +119,26 @@ TEST(Fidelity, BetweenTwoSpeedsTheLargerErrorCounts) {
   EXPECT_EQ(claimed_at(90.0), std::max(claimed_at(75.0), claimed_at(100.0)));
 }
 
+TEST(Fidelity, ErrorsOfASpecimenHoldForMoreCells) {
+  SceneSpec spec = find_preset("type-ii-as-counted")->spec;
+  for (const int elements : {4, 8, 16}) {
+    const std::vector<MeasuredError> errors = measured_errors_of(spec, elements);
+    ASSERT_EQ(errors.size(), 2u);
+    EXPECT_EQ(errors[0].measure, "impact plateau, 18 x 9 cells of type-ii-as-counted, 100 m/s");
+  }
+  std::get<SquareLattice>(spec.lattice).columns = 17;
+  EXPECT_EQ(fields_beside_measured(spec), (std::vector<std::string>{"lattice.square.columns"}));
+  EXPECT_TRUE(measured_errors_of(spec, 8).empty());
+}
+
+TEST(Fidelity, ErrorsAreThoseOfTheDirectionOfTheCrush) {
+  SceneSpec spec = find_preset("type-i")->spec;
+  spec.loading.direction = LoadingSpec::Direction::y;
+  const std::vector<MeasuredError> errors = measured_errors_of(spec, 2);
+  ASSERT_EQ(errors.size(), 2u);
+  EXPECT_EQ(errors[1].measure, "support plateau, 18 x 21 cells of type-i along y, 100 m/s");
+}
+
 TEST(Fidelity, NoErrorIsToldOfWhatWasNotMeasured) {
   SpecChecker checker;
   SceneSpec spec = find_preset("type-i")->spec;
