@@ -18,12 +18,6 @@ bool is_near(double one, double other) {
   return std::abs(one - other) <= 0.01 * std::max(std::abs(one), std::abs(other));
 }
 
-/// "lattice.hexagon.", for a regular lattice.
-std::string path_of(const SceneSpec& spec) {
-  if (std::holds_alternative<HexagonLattice>(spec.lattice)) return "lattice.hexagon.";
-  return std::holds_alternative<SquareLattice>(spec.lattice) ? "lattice.square." : "lattice.triangle.";
-}
-
 /// Thickness of the walls along y over that of the others.
 double vertical_ratio_of(const SceneSpec& spec) {
   const auto* hexagon = std::get_if<HexagonLattice>(&spec.lattice);
@@ -64,7 +58,7 @@ std::optional<std::vector<std::string>> fields_beside(const Specimen& specimen, 
   const auto add_if = [&fields](bool differs, const std::string& field) {
     if (differs) fields.push_back(field);
   };
-  const std::string lattice = path_of(spec);
+  const std::string lattice = path_of_lattice(spec);
   const RegularLattice& cells = *regular_lattice_of(spec);
   const RegularLattice& its = *regular_lattice_of(measured);
   const bool is_smaller = is_smaller_than_preset(specimen);
