@@ -28,8 +28,8 @@ bool is_force_based(const SceneSpec& spec) { return spec.section.formulation == 
 
 // STANDARD of hexagons is the coarsest mesh of force-based elements whose plateau stresses lie within 4 % (impact) and
 // 10 % (support) of a mesh twice as fine, crushed along x. By that rule 18 x 9 cells of squares and triangles need 16
-// elements or more, which take four to five times as long as their 8 (tests/bench/results/mesh_study.csv, core/what-is-
-// computed.md). The elements of the paper keep the paper's mesh.
+// elements or more, which take four to five times as long as their 8 (tests/bench/results/mesh_study.csv and
+// core/what-is-computed.md). The elements of the paper keep the paper's mesh.
 Meshes meshes_of(const SceneSpec& spec) {
   return has_walls_along_crush(spec) && is_force_based(spec) ? Meshes{4, 8, 16} : Meshes{1, 2, 8};
 }
