@@ -15,7 +15,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {
 
-/// The constant data of the cross-sections of elements, for the walls from `wall` on (E5c).
+/// The constant data of the cross-sections of elements, for the walls of a block from `lane` on (E5c).
 template <class D>
 struct CrossSection {
   const Scene& scene;
@@ -25,15 +25,17 @@ struct CrossSection {
   Lane<D> depth;       ///< b, mm
   Lane<D> inverse_undeformed;
   bool constant_area;
+  bool in_pairs;  ///< elements are solved two by two (E5b)
 
-  HWY_INLINE CrossSection(const Scene& of_scene, int first_wall)
+  HWY_INLINE CrossSection(const Scene& of_scene, const WallBlock& block, int lane)
       : scene(of_scene),
-        wall(first_wall),
-        thickness(Lane<D>::load(&of_scene.walls.thickness[first_wall])),
-        undeformed(Lane<D>::load(&of_scene.walls.undeformed_length[first_wall])),
+        wall(block.first_wall + lane),
+        thickness(Lane<D>::load(&of_scene.walls.thickness[wall])),
+        undeformed(Lane<D>::load(&of_scene.walls.undeformed_length[wall])),
         depth(of_scene.depth),
         inverse_undeformed(Lane<D>(1) / undeformed),
-        constant_area(of_scene.constant_area) {}
+        constant_area(of_scene.constant_area),
+        in_pairs(of_scene.section.force_based && block.has_pairs()) {}
 
   /// Area A = V_0 / L, mm^2 (E5c). Plastic flow keeps the volume of a wall that shortens. With constant area, as in the
   /// paper, a wall under its yield force would shorten without end, one element before the others. A wall that is
@@ -79,16 +81,14 @@ struct CrossSection {
     return masked(grows, -power * whole / length);
   }
 
-  /// E_l / E (E5c): with this fraction of its modulus, an element of length l vibrates no faster than at
+  /// E_l / E (E5c): with this fraction of its modulus, an element or pair of length l vibrates no faster than at
   /// kSquashedStretch. A / L grows as 1 / l^2 at constant volume; the turn of a node is stiffer by the square of the
-  /// thickness. The shear due to bending grows by 1 + 4 gamma^2 / l^2 (E11), with the gamma of the rotary inertia,
-  /// which stays. Such an element yields: its force is that of the yield stress, and its stored energy is a small part
-  /// of its plastic work.
+  /// thickness. Bending adds the factor P, with the gamma of the rotary inertia, which stays. Such elements yield:
+  /// their force is that of the yield stress, and their stored energy is a small part of their plastic work.
   HWY_INLINE Lane<D> modulus_share(Lane<D> length, Lane<D> inverse_length, Lane<D> thickening) const {
     const Lane<D> one = 1;
     const Lane<D> ratio = length * inverse_of_bound();
-    const Lane<D> now = fma(four_gyration_squared() * inverse_length, inverse_length, one);
-    Lane<D> share = (constant_area ? one : ratio * ratio) * shear_at_bound() / now;
+    Lane<D> share = (constant_area ? one : ratio * ratio) * bending_at_bound() / bending_of(inverse_length).factor;
     if (grows(length)) {
       const Lane<D> over_growth = thickness / (thickness + thickening + thickening);
       share = share * over_growth * over_growth;
@@ -96,22 +96,22 @@ struct CrossSection {
     return select(is_squashed(length), share, one);
   }
 
-  /// -1/2 L (dE_l/dl) / E_l^2, 1/MPa (E5g); 0 of elements that are not squashed. With S = 4 gamma^2 / l^2 and the
-  /// growth g = h / h_0 it is -L g^2 (0.95 l_0 / l)^2 [(1 + 2 S) / l - (1 + S) g' / g] over E and the factor at 0.95
-  /// l_0.
+  /// -1/2 L (dE_l/dl) / E_l^2, 1/MPa (E5g); 0 of elements that are not squashed. With the factor P, its slope P' =
+  /// -dP/dl l / 2 and the growth g = h / h_0 it is -L g^2 (0.95 l_0 / l)^2 [(P + P') / l - P g' / g] over E and the
+  /// factor at 0.95 l_0.
   HWY_INLINE Lane<D> fall_of_modulus(Lane<D> length, Lane<D> inverse_length, Lane<D> thickening,
                                      Lane<D> slope_of_thickening) const {
     const Lane<D> one = 1;
-    const Lane<D> shear = four_gyration_squared() * inverse_length * inverse_length;
-    Lane<D> fall = (constant_area ? shear : one + shear + shear) * inverse_length;
+    const Bending bending = bending_of(inverse_length);
+    Lane<D> fall = (constant_area ? bending.slope : bending.factor + bending.slope) * inverse_length;
     if (grows(length)) {
       const Lane<D> inverse_half = Lane<D>(2) / thickness;
       const Lane<D> growth = fma(thickening, inverse_half, one);
-      fall = growth * fms(growth, fall, (one + shear) * slope_of_thickening * inverse_half);
+      fall = growth * fms(growth, fall, bending.factor * slope_of_thickening * inverse_half);
     }
     const Lane<D> over_ratio = constant_area ? one : Lane<D>(kSquashedStretch) * undeformed * inverse_length;
     const Lane<D> strained = constant_area ? undeformed : length;
-    return masked(is_squashed(length), -(strained * over_ratio * over_ratio * fall) / (modulus() * shear_at_bound()));
+    return masked(is_squashed(length), -(strained * over_ratio * over_ratio * fall) / (modulus() * bending_at_bound()));
   }
 
   /// E of the walls, MPa.
@@ -124,12 +124,26 @@ struct CrossSection {
   }
 
  private:
-  HWY_INLINE Lane<D> inverse_of_bound() const { return Lane<D>(1.0 / kSquashedStretch) * inverse_undeformed; }
-  HWY_INLINE Lane<D> four_gyration_squared() const { return thickness * thickness * Lane<D>(1.0 / 3.0); }
-  /// 1 + 4 gamma^2 / l^2 at 0.95 l_0.
-  HWY_INLINE Lane<D> shear_at_bound() const {
-    return fma(four_gyration_squared() * inverse_of_bound(), inverse_of_bound(), Lane<D>(1));
+  /// What bending adds to the square of the greatest frequency, with s = h_0^2 / l^2 and real masses: 1 + s / 3 for an
+  /// element (E11), (1 + s + sqrt(1 + s + s^2)) / 2 for a pair (E11c).
+  struct Bending {
+    Lane<D> factor;  ///< P
+    Lane<D> slope;   ///< s dP/ds = -dP/dl l / 2
+  };
+  HWY_INLINE Bending bending_of(Lane<D> inverse_length) const {
+    const Lane<D> one = 1;
+    const Lane<D> half = 0.5;
+    const Lane<D> slenderness = thickness * inverse_length;
+    const Lane<D> s = slenderness * slenderness;
+    if (!in_pairs) {
+      const Lane<D> third = s * Lane<D>(1.0 / 3.0);
+      return {one + third, third};
+    }
+    const Lane<D> root = sqrt(fma(s, s, one + s));
+    return {half * (one + s + root), half * s * fma(half, (one + s + s) / root, one)};
   }
+  HWY_INLINE Lane<D> inverse_of_bound() const { return Lane<D>(1.0 / kSquashedStretch) * inverse_undeformed; }
+  HWY_INLINE Lane<D> bending_at_bound() const { return bending_of(inverse_of_bound()).factor; }
 
   HWY_INLINE const Material& material_of(std::size_t lane) const {
     return scene.materials[scene.materials.size() == 1 ? 0 : scene.walls.material[wall + static_cast<int>(lane)]];

@@ -135,7 +135,7 @@ class WallChunk {
   /// From the motion of the ends to the strains of the step (E3 to E5).
   HWY_INLINE void reverse_motions(const WallBlock& block, int lane) {
     const int wall = block.first_wall + lane;
-    const CrossSection<D> section(scene_, wall);
+    const CrossSection<D> section(scene_, block, lane);
     EndMotion<D> start = gather_joint(&scene_.walls.start[wall]);
     bool grows = false;
     Real turn_before = 0;
@@ -303,7 +303,7 @@ class WallChunk {
   /// From the sums over the stresses to the forces on the particles (E7). At the common node of a pair the section has
   /// the mean of both.
   HWY_INLINE void put_forces(const WallBlock& block, int lane, double* HWY_RESTRICT plastic_work) const {
-    const CrossSection<D> section(scene_, block.first_wall + lane);
+    const CrossSection<D> section(scene_, block, lane);
     const std::size_t ends = 2 * static_cast<std::size_t>(block.first_wall) + lane;
     NodalForces<D> before = {{0, 0}, 0, 0};
     Real work = Real::load(plastic_work);

@@ -63,7 +63,7 @@ class LaneEnergy {
       weighted_squares(&memory_.stress[row * weight_.size()] + lane, block.walls).store(squares + lane);
     }
     for (int lane = 0; lane < block.walls; lane += static_cast<int>(Lane<D>::kWidth)) {
-      const Lane<D> of_lanes = energy_of(block.first_wall + lane, row + lane, Lane<D>::load(squares + lane));
+      const Lane<D> of_lanes = energy_of(block, lane, row + lane, Lane<D>::load(squares + lane));
       (Lane<D>::load(energy + lane) + of_lanes).store(energy + lane);
     }
   }
@@ -80,8 +80,8 @@ class LaneEnergy {
     return squares;
   }
 
-  HWY_INLINE Lane<D> energy_of(int wall, std::size_t element, Lane<D> squares) const {
-    const CrossSection<D> section(scene_, wall);
+  HWY_INLINE Lane<D> energy_of(const WallBlock& block, int lane, std::size_t element, Lane<D> squares) const {
+    const CrossSection<D> section(scene_, block, lane);
     const Lane<D> length = Lane<D>::load(&state_.length[element]);
     Lane<D> modulus = section.modulus();
     if (HWY_UNLIKELY(any(section.is_squashed(length)))) {

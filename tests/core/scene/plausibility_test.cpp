@@ -71,27 +71,6 @@ TEST(Plausibility, WallsAndSpeedsBeyondTheModelAreNoted) {
   EXPECT_THAT(fields_noted([](SceneSpec& spec) { spec.loading.speed_m_per_s = 400; }), IsEmpty());
 }
 
-// Squares with 32 elements that are 0.6 of the thickness long end with ENERGY_BALANCE at 150 m/s; triangles whose 32
-// elements are slightly longer than thick do not (tests/bench/mesh_study.txt).
-TEST(Plausibility, ElementsShorterThanTheWallIsThickAreNoted) {
-  const auto notes_of = [](const char* preset, int elements) {
-    SceneSpec spec = find_preset(preset)->spec;
-    spec.elements_per_wall = elements;
-    return find_implausible(spec);
-  };
-  EXPECT_THAT(notes_of("type-ii-as-counted", 19), IsEmpty());
-  EXPECT_THAT(notes_of("type-iii-as-counted", 32), IsEmpty());
-  const auto notes = notes_of("type-ii-as-counted", 32);
-  ASSERT_EQ(notes.size(), 1U);
-  EXPECT_EQ(notes[0].field, "elements_per_wall");
-  EXPECT_EQ(notes[0].remedy, "Give at most 19.");
-  EXPECT_THAT(fields_noted([](SceneSpec& spec) {
-                spec.elements_per_wall = 4;
-                std::get<HexagonLattice>(spec.lattice).vertical_wall_thickness_mm = 1.1;
-              }),
-              ElementsAre("elements_per_wall"));
-}
-
 TEST(Plausibility, ANoteSaysWhatMayBeMeant) {
   SceneSpec spec = scenes::hexagon_specimen(20, 7);
   spec.material.density_kg_per_m3 = 2.68;
