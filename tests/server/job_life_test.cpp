@@ -126,7 +126,7 @@ TEST_F(JobLifeTest, ARunThatIsUntrueFailsByNameAndKeepsWhatItComputedBefore) {
   EXPECT_TRUE(client.watch(job).status.ok());
   const auto failed = client.get(job);
   EXPECT_EQ(failed.state(), v1::Job::FAILED);
-  EXPECT_THAT(failed.cause(), AnyOf(v1::Job::LARGE_ROTATION, v1::Job::CONTACT_ENERGY));
+  EXPECT_THAT(failed.cause(), AnyOf(v1::Job::LARGE_ROTATION, v1::Job::CONTACT_ENERGY, v1::Job::ENERGY_BALANCE));
   EXPECT_THAT(failed.cause_message(), HasSubstr("step "));
   EXPECT_THAT(failed.cause_message(), HasSubstr("mm before loading"));
   EXPECT_THAT(failed.remedy(), HasSubstr("numerics.time_step_s"));
