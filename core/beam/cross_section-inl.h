@@ -124,8 +124,8 @@ struct CrossSection {
   }
 
  private:
-  /// What bending adds to the square of the greatest frequency, with s = h_0^2 / l^2 and real masses: 1 + s / 3 for an
-  /// element (E11), (1 + s + sqrt(1 + s + s^2)) / 2 for a pair (E11c).
+  /// By what bending multiplies the square of the greatest frequency, with s = q h_0^2 / l^2: 1 + s / 3 for an element
+  /// (E11b), (1 + s + sqrt(1 + s + s^2)) / 2 for a pair (E11c).
   struct Bending {
     Lane<D> factor;  ///< P
     Lane<D> slope;   ///< s dP/ds = -dP/dl l / 2
@@ -134,7 +134,7 @@ struct CrossSection {
     const Lane<D> one = 1;
     const Lane<D> half = 0.5;
     const Lane<D> slenderness = thickness * inverse_length;
-    const Lane<D> s = slenderness * slenderness;
+    const Lane<D> s = Lane<D>(scene.mass_scaling.rotary) * slenderness * slenderness;
     if (!in_pairs) {
       const Lane<D> third = s * Lane<D>(1.0 / 3.0);
       return {one + third, third};

@@ -96,8 +96,7 @@ RunStatus check_energy(const Scene& scene, const State& state, const Sample& sam
             "The energy balance has an error of " + percent_of(sample.energy_residual / turnover) +
                 " of the work done at " + moment_of(state.step, state.time) + ": the time integration is unstable" +
                 fastest_place(scene, state) + ".",
-            "Use a shorter numerics.time_step_s: crushed walls are shorter than the undeformed walls that determine "
-            "the stable step."};
+            "Use a shorter numerics.time_step_s."};
   }
   if (-sample.energy_contact > kLargestEnergyError * turnover) {
     return {RunStatus::Kind::contact_energy,

@@ -51,7 +51,7 @@ scenes::ElementDeformation reverse(const Vector2& span, const Vector2& axis, dou
 }
 
 double share_of_modulus(const Scene& scene, double length) {
-  const CrossSection<One> section(scene, {0, 1, 2, 0, 0}, 0);
+  const CrossSection<One> section(scene, WallBlock{.walls = 1, .elements = 2}, 0);
   return number(section.modulus_share(length, 1.0 / length, section.thickening(length)));
 }
 
@@ -110,8 +110,9 @@ ElementDeformation reverse_motion(const Vector2& span, const Vector2& previous_a
   return HWY_DYNAMIC_DISPATCH(reverse)(span, previous_axis, previous_length, turn_start, turn_end);
 }
 
-double modulus_share(double length, double undeformed, double thickness, bool in_pairs) {
+double modulus_share(double length, double undeformed, double thickness, bool in_pairs, double rotary) {
   Scene scene;
+  scene.mass_scaling.rotary = rotary;
   scene.section.force_based = in_pairs;
   scene.depth = 1.0;
   scene.walls.thickness = {thickness};

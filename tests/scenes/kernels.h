@@ -21,8 +21,9 @@ struct ElementDeformation {
 ElementDeformation reverse_motion(const Vector2& span, const Vector2& previous_axis, double previous_length,
                                   double turn_start, double turn_end);
 
-/// Share of the modulus of an element of constant volume; see CrossSection in beam/cross_section-inl.h.
-double modulus_share(double length, double undeformed, double thickness, bool in_pairs);
+/// Share of the modulus of an element of constant volume, alone or in a pair, with a factor on its rotary inertia; see
+/// CrossSection in beam/cross_section-inl.h.
+double modulus_share(double length, double undeformed, double thickness, bool in_pairs, double rotary);
 
 /// Strain increments of an element; see ElementStrains in beam/element_response-inl.h. Of a pair, bend_start of the
 /// second element is the turn between both, and bend_end of the first has no effect.

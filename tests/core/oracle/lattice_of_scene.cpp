@@ -58,6 +58,15 @@ void read_history(const Scene& scene, const FibreHistory<T>& memory, std::size_t
   history.yielded_before = has_bit(8 * sizeof(typename FibreHistory<T>::Bits) - 1);
 }
 
+/// False of the elements of rigid bodies, which have no blocks.
+bool is_in_pair(const Scene& scene, std::size_t element) {
+  const auto ends_after = [element](const WallBlock& block) {
+    return static_cast<int>(element) < block.first_element + block.elements * block.walls;
+  };
+  const auto found = std::ranges::find_if(scene.walls.blocks, ends_after);
+  return scene.section.force_based && found != scene.walls.blocks.end() && found->elements % 2 == 0;
+}
+
 }  // namespace
 
 reference::ElementRule element_rule_of(const Scene& scene) {
@@ -76,7 +85,7 @@ reference::ElementRule element_rule_of(const Scene& scene) {
 reference::ElementData element_data_of(const Scene& scene, std::size_t element) {
   const Element& given = scene.elements[element];
   const double length = (scene.position[given.end] - scene.position[given.start]).norm();
-  return {material_of(scene, given), given.thickness, scene.depth, length};
+  return {material_of(scene, given), given.thickness, scene.depth, length, is_in_pair(scene, element)};
 }
 
 reference::ElementHistory element_history_of(const Scene& scene, const State& state, std::size_t element) {
@@ -124,8 +133,10 @@ reference::Instant instant_of(const Scene& scene, const State& state) {
 reference::Lattice lattice_of(const Scene& scene) {
   reference::Lattice lattice;
   lattice.position = scene.position;
-  for (const Element& element : scene.elements) {
-    lattice.segments.push_back({element.start, element.end, element.thickness, material_of(scene, element)});
+  for (std::size_t e = 0; e < scene.elements.size(); ++e) {
+    const Element& element = scene.elements[e];
+    lattice.segments.push_back(
+        {element.start, element.end, element.thickness, material_of(scene, element), is_in_pair(scene, e)});
   }
   lattice.element_count = scene.rigid.first_element;
   lattice.walls = walls_of(scene);

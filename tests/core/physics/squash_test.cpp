@@ -78,7 +78,7 @@ TEST(SquashedWall, AtConstantVolumeShortensEvenlyAndTakesTheWorkOfItsVolume) {
   scenes::record_figure("residual in %", 100.0 * worst_residual, 2);
 }
 
-// The energy that the bounded modulus stores at a given stress grows as the wall shortens: by about a fifth of the
+// The energy that the bounded modulus stores at a given stress grows as the wall shortens: by about a third of the
 // plastic work at a tenth of the length. The axial force has its derivative by the length (E5g), so the ledger closes.
 TEST(SquashedWall, SquashedToATenthTheBoundedModulusLeavesTheLedgerClosed) {
   const Squash result = squash(SectionSpec::AreaRule::constant_volume, 0.1);
@@ -100,17 +100,24 @@ TEST(SquashedWall, VibratesNoFasterThanTheUndeformedOne) {
   const double undeformed = 2.0;
   for (const bool in_pairs : {false, true}) {
     const auto step_of = in_pairs ? stable_step_of_pair : stable_step_of_element;
-    for (const double thickness : {0.1 * undeformed, 0.5 * undeformed, 1.6 * undeformed}) {
-      const double bound = step_of(0.95 * undeformed, thickness, material, {});
-      for (const double share : {0.9, 0.5, 0.2, 0.05}) {
-        const double length = share * undeformed;
-        // Mass and volume stay, and so does the density.
-        Material squashed = material;
-        squashed.youngs_modulus *= scenes::modulus_share(length, undeformed, thickness, in_pairs);
-        // The turn of a node is stiffer by the square of the thickness (E5f), the rotary inertia stays.
-        const double growth = std::clamp(std::sqrt(1.0 / share) - 0.1, 1.0, 2.0);
-        EXPECT_NEAR(step_of(length, thickness, squashed, {}) / growth, bound, 1e-9 * bound)
-            << (in_pairs ? "pair, h = " : "element, h = ") << thickness << " mm, l / l_0 = " << share;
+    for (const MassScaling& scaling : {MassScaling{}, MassScaling{1.0, 2.5}}) {
+      for (const double thickness : {0.1 * undeformed, 0.5 * undeformed, 1.6 * undeformed}) {
+        const double bound = step_of(0.95 * undeformed, thickness, material, scaling);
+        for (const double share : {0.9, 0.5, 0.2, 0.05}) {
+          const double length = share * undeformed;
+          // Mass and volume stay, and so does the density.
+          Material squashed = material;
+          squashed.youngs_modulus *= scenes::modulus_share(length, undeformed, thickness, in_pairs, scaling.rotary);
+          // The turn of a node is stiffer by the square of the thickness (E5f), the rotary inertia stays.
+          const double growth = std::clamp(std::sqrt(1.0 / share) - 0.1, 1.0, 2.0);
+          const double step = step_of(length, thickness, squashed, scaling) / growth;
+          SCOPED_TRACE(testing::Message() << (in_pairs ? "pair, h = " : "element, h = ") << thickness
+                                          << " mm, l / l_0 = " << share << ", q = " << scaling.rotary);
+          EXPECT_GE(step, (1.0 - 1e-9) * bound);
+          if (scaling.rotary == 1.0) {  // above, the axial mode may bound the step
+            EXPECT_NEAR(step, bound, 1e-9 * bound);
+          }
+        }
       }
     }
   }

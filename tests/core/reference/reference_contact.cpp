@@ -199,7 +199,8 @@ class WallContacts {
 
   /// Forces of a touch by what its reach is a function of (E8d): the lengths of elements, and the place of the foot.
   void push_by_reach(const Touch& touch, double share, double force, ContactForces& forces) const {
-    const auto& [start, end, thickness, material] = lattice_.segments[touch.segment];
+    const int start = lattice_.segments[touch.segment].start;
+    const int end = lattice_.segments[touch.segment].end;
     for (const auto& [node, of_node] :
          {std::pair(start, 1.0 - share_of_end(share)), std::pair(end, share_of_end(share))}) {
       if (grows_at(touch.ball, touch.segment, node)) {

@@ -59,10 +59,10 @@ void Crush::gather_bodies() {
 void Crush::resist(const std::vector<int>& unit, double step) {
   std::vector<MovedElement> moved;
   for (const int e : unit) {
-    const auto& [start, end, thickness, material] = lattice_.segments[e];
-    const double undeformed_length = (lattice_.position[end] - lattice_.position[start]).norm();
+    const int start = lattice_.segments[e].start;
+    const int end = lattice_.segments[e].end;
     moved.push_back(
-        {{material, thickness, lattice_.depth, undeformed_length},
+        {element_data_of(lattice_, e),
          {now_.motion.position[start], now_.motion.position[end], step * now_.spin[start], step * now_.spin[end]},
          &now_.elements[e]});
   }
@@ -194,10 +194,7 @@ Energies Crush::energies() const {
                                particles_.inertia[i] * now_.spin[i] * next_spin_[i]);
   }
   for (int e = 0; e < lattice_.element_count; ++e) {
-    const auto& [start, end, thickness, material] = lattice_.segments[e];
-    const double undeformed_length = (lattice_.position[end] - lattice_.position[start]).norm();
-    energies.elastic +=
-        elastic_energy(lattice_.rule, {material, thickness, lattice_.depth, undeformed_length}, now_.elements[e]);
+    energies.elastic += elastic_energy(lattice_.rule, element_data_of(lattice_, e), now_.elements[e]);
   }
   return energies;
 }

@@ -27,6 +27,7 @@ struct ElementData {
   double thickness = 0.0;          ///< h
   double depth = 0.0;              ///< b
   double undeformed_length = 0.0;  ///< l_0
+  bool in_pair = false;            ///< solved with its neighbour (E5b)
 };
 
 /// History of an element.

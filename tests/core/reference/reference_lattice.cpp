@@ -50,14 +50,18 @@ Particles lump(const Lattice& lattice) {
   return particles;
 }
 
+ElementData element_data_of(const Lattice& lattice, int segment) {
+  const Segment& of = lattice.segments[segment];
+  const double undeformed_length = (lattice.position[of.end] - lattice.position[of.start]).norm();
+  return {of.material, of.thickness, lattice.depth, undeformed_length, of.in_pair};
+}
+
 Thickening thickening_of(const Lattice& lattice, int segment, const std::vector<Vector>& position) {
   if (segment >= lattice.element_count) {
     return {};  // of a rigid body
   }
-  const auto& [start, end, thickness, material] = lattice.segments[segment];
-  const double undeformed_length = (lattice.position[end] - lattice.position[start]).norm();
-  return thickening_of(lattice.rule, {material, thickness, lattice.depth, undeformed_length},
-                       (position[end] - position[start]).norm());
+  const Segment& of = lattice.segments[segment];
+  return thickening_of(lattice.rule, element_data_of(lattice, segment), (position[of.end] - position[of.start]).norm());
 }
 
 std::vector<std::vector<int>> grown_with(const Lattice& lattice) {

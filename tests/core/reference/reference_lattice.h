@@ -13,6 +13,7 @@ struct Segment {
   int end = 0;    ///< particle
   double thickness = 0.0;
   Material material;
+  bool in_pair = false;  ///< solved with its neighbour (E5b)
 };
 
 /// Penalty contact between walls (Eq. 43-47, E9).
@@ -66,6 +67,8 @@ struct Particles {
   std::vector<std::vector<int>> grown_with;
 };
 Particles lump(const Lattice& lattice);
+
+ElementData element_data_of(const Lattice& lattice, int segment);
 
 /// What half of the thickness of a segment has grown by (E5f), with its nodes at these positions.
 Thickening thickening_of(const Lattice& lattice, int segment, const std::vector<Vector>& position);

@@ -20,7 +20,8 @@ double length_of(const Rim& rim, const Lattice& lattice, const Motion& motion) {
 double Rim::speed(const Lattice& lattice, const Motion& motion) const {
   double turning = 0.0;  // rad/s, the mean by length
   for (const int segment : segments) {
-    const auto& [start, end, thickness, material] = lattice.segments[segment];
+    const int start = lattice.segments[segment].start;
+    const int end = lattice.segments[segment].end;
     const Vector span = span_of(lattice, motion, segment);
     const double of_segment = cross(span, motion.velocity[end] - motion.velocity[start]) / span.squaredNorm();
     turning += of_segment * span.norm() / length_of(*this, lattice, motion);
