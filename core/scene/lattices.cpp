@@ -151,6 +151,10 @@ const RegularLattice* regular_lattice_of(const SceneSpec& spec) {
   return std::visit(regular, spec.lattice);
 }
 
+bool has_walls_along_crush(const SceneSpec& spec) {
+  return std::holds_alternative<SquareLattice>(spec.lattice) || std::holds_alternative<TriangleLattice>(spec.lattice);
+}
+
 std::string path_of_lattice(const SceneSpec& spec) {
   constexpr std::array kPaths = {"lattice.", "lattice.hexagon.", "lattice.square.", "lattice.triangle."};
   return kPaths.at(spec.lattice.index());

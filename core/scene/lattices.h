@@ -11,6 +11,9 @@ namespace cellcrush {
 /// The regular lattice of a spec; null if it has a frame, or no lattice.
 const RegularLattice* regular_lattice_of(const SceneSpec& spec);
 
+/// Squares and triangles: walls lie along the crush and are stacked, in either direction.
+bool has_walls_along_crush(const SceneSpec& spec);
+
 /// Path of the fields of the regular lattice of a spec, such as "lattice.hexagon.".
 std::string path_of_lattice(const SceneSpec& spec);
 

@@ -6,15 +6,11 @@
 #include <variant>
 
 #include "scene/contact_law.h"
+#include "scene/lattices.h"
 #include "scene/mesh_part.h"
 
 namespace cellcrush {
 namespace {
-
-/// Whether walls lie along the crush and are stacked in that direction.
-bool stacks(const SceneSpec& spec) {
-  return std::holds_alternative<SquareLattice>(spec.lattice) || std::holds_alternative<TriangleLattice>(spec.lattice);
-}
 
 /// Greatest phase angle omega dt of the lightest particle on its contact, rad. Contacts make more energy, against the
 /// work of the plate, in slow crushes and on coarse meshes: there the angle is less.
@@ -83,7 +79,7 @@ TimeStep time_step_of(const SceneSpec& spec, const MeshMeasures& mesh, const Con
     hold_to(kTravelPerStep * mesh.thinnest_wall / impact_speed_of(spec, mesh), StepBound::approach);
     const double lightest = mesh.lightest_mass;
     hold_to(kStepFraction * contact_step_of(contact, lightest), StepBound::contacts);
-    if (stacks(spec)) {
+    if (has_walls_along_crush(spec)) {
       const double phase = phase_of_stacks(mesh.material, plates.speed, *spec.elements_per_wall);
       hold_to(phase * std::sqrt(lightest / contact.stiffness), StepBound::stacked_walls);
     }

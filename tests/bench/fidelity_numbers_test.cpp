@@ -42,7 +42,7 @@ Study read_study(const std::string& name) {
   return {read_variants(kFolder + "/" + name + ".txt"), read_csv(kFolder + "/results/" + name + ".csv")};
 }
 
-/// Example 2 with the default mesh and with one twice as fine, of which only squares and triangles were crushed.
+/// Example 2: hexagons with 2 elements per wall, squares and triangles with 8 and with 16.
 Study read_example_2() {
   Study study = {read_variants(kExample2 + "seeds.txt"), read_csv(kExample2 + "seeds.csv")};
   const Study fine = {read_variants(kExample2 + "mesh.txt"), read_csv(kExample2 + "mesh.csv")};
@@ -223,25 +223,47 @@ TEST(FidelityNumbers, StandardOfHexagonsAlongXIsTheCoarsestMeshWithinTheBounds) 
   EXPECT_FALSE(beyond_bounds(study, "type-i-", standard / 2).empty());
 }
 
-// 18 x 9 cells of squares and triangles. 8 elements, their STANDARD, are beyond the bounds: so are 16 of squares, but
-// not of triangles (core/what-is-computed.md).
-TEST(FidelityNumbers, MeshesOfSquaresAndTrianglesBeyondTheBounds) {
-  const Study study = read_study("mesh_study");
-  EXPECT_THAT(beyond_bounds(study, "squares-", 8),
-              ElementsAre("squares-25 plateau_stress_impact", "squares-75 plateau_stress_impact"));
-  EXPECT_THAT(beyond_bounds(study, "squares-", 16),
-              ElementsAre("squares-75 plateau_stress_impact", "squares-100 plateau_stress_impact",
-                          "squares-100 plateau_stress_support"));
-  EXPECT_THAT(beyond_bounds(study, "triangles-", 8),
-              ElementsAre("triangles-25 plateau_stress_impact", "triangles-50 plateau_stress_support"));
-  EXPECT_THAT(beyond_bounds(study, "triangles-", 16), IsEmpty());
+int standard_of(const char* preset, LoadingSpec::Direction direction, double speed) {
+  SceneSpec spec = find_preset(preset)->spec;
+  spec.loading.direction = direction;
+  spec.loading.speed_m_per_s = speed;
+  return *fill_in_fidelity(spec).elements_per_wall;
 }
 
-// Hexagons along y have walls along the crush too: 2 elements, their STANDARD, are beyond the bounds.
+// 18 x 9 cells. STANDARD keeps the bounds, and half as many elements do not.
+TEST(FidelityNumbers, StandardOfTrianglesIsTheCoarsestMeshWithinTheBounds) {
+  const Study study = read_study("mesh_study");
+  const int standard = standard_of("type-iii-as-counted", LoadingSpec::Direction::x, 100.0);
+  EXPECT_THAT(beyond_bounds(study, "triangles-", standard), IsEmpty());
+  EXPECT_THAT(beyond_bounds(study, "triangles-", standard / 2),
+              ElementsAre("triangles-25 plateau_stress_impact", "triangles-50 plateau_stress_support"));
+}
+
+// 18 x 9 cells. Squares have no mesh within the bounds, because their walls do not harden; STANDARD is that of triangles
+// (core/what-is-computed.md).
+TEST(FidelityNumbers, NoMeshOfSquaresIsWithinTheBounds) {
+  const Study study = read_study("mesh_study");
+  const int standard = standard_of("type-ii-as-counted", LoadingSpec::Direction::x, 100.0);
+  EXPECT_THAT(beyond_bounds(study, "squares-", standard / 2),
+              ElementsAre("squares-50 plateau_stress_impact", "squares-75 plateau_stress_impact",
+                          "squares-100 plateau_stress_impact"));
+  EXPECT_THAT(beyond_bounds(study, "squares-", standard),
+              ElementsAre("squares-50 plateau_stress_support", "squares-75 plateau_stress_impact",
+                          "squares-100 plateau_stress_support"));
+}
+
+// 18 x 21 cells. At 25 m/s STANDARD keeps the bounds. Above, half as many elements have another support plateau.
 TEST(FidelityNumbers, MeshesOfHexagonsAlongYBeyondTheBounds) {
   const Study study = read_study("mesh_study");
-  EXPECT_FALSE(beyond_bounds(study, "hexagons-along-y-", 2).empty());
-  EXPECT_FALSE(beyond_bounds(study, "hexagons-along-y-", 4).empty());
+  const int slow = standard_of("type-i", kAlongY, 25.0);
+  EXPECT_THAT(beyond_bounds(study, "hexagons-along-y-25", slow), IsEmpty());
+  const int fast = standard_of("type-i", kAlongY, 100.0);
+  EXPECT_THAT(beyond_bounds(study, "hexagons-along-y-", fast / 2),
+              ElementsAre("hexagons-along-y-50 plateau_stress_impact", "hexagons-along-y-75 plateau_stress_impact",
+                          "hexagons-along-y-75 plateau_stress_support", "hexagons-along-y-150 plateau_stress_support",
+                          "hexagons-along-y-200 plateau_stress_support"));
+  EXPECT_THAT(beyond_bounds(study, "hexagons-along-y-", fast),
+              ElementsAre("hexagons-along-y-50 plateau_stress_impact", "hexagons-along-y-200 plateau_stress_support"));
 }
 
 // Without hardening they differ by 13 % at impact.

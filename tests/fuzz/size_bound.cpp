@@ -7,13 +7,15 @@
 namespace cellcrush::fuzz {
 namespace {
 
+constexpr double kMostByDefault = 32.0;  // elements per wall: REFERENCE of squares and triangles
+
 template <class Lattice>
 double cells_of(const Lattice& lattice) {
   return static_cast<double>(lattice.columns()) * lattice.rows();
 }
 
 double elements_of(const v1::Case& given) {
-  const double per_wall = given.has_elements_per_wall() ? given.elements_per_wall() : 2.0;
+  const double per_wall = given.has_elements_per_wall() ? given.elements_per_wall() : kMostByDefault;
   const v1::Lattice& lattice = given.lattice();
   double out =
       3.0 * per_wall * (cells_of(lattice.hexagon()) + cells_of(lattice.square()) + cells_of(lattice.triangle()));

@@ -6,17 +6,21 @@ namespace cellcrush::scenes {
 
 SceneSpec spec_of(const SmallSpecimen& specimen, int columns, int rows) {
   constexpr double kSide = 4.0;  // mm
+  constexpr int kElementsAlongCrush = 8;
   SceneSpec spec = hexagon_specimen(columns, rows);
   const std::string lattice = specimen.lattice;
   if (lattice == "square") {
     spec.lattice = SquareLattice{columns, rows, kSide, 0.05132 * kSide};
+    spec.elements_per_wall = kElementsAlongCrush;
   } else if (lattice == "triangle") {
     spec.lattice = TriangleLattice{columns, rows, kSide, 0.02963 * kSide};
+    spec.elements_per_wall = kElementsAlongCrush;
   } else if (lattice == "thick") {
     spec.lattice = HexagonLattice{columns, rows, kSide, 0.25, 0.5};
   } else if (lattice == "thick_ends") {
     spec.lattice = HexagonLattice{columns, rows, kSide, 0.5, 0.9};
     spec.loading.direction = LoadingSpec::Direction::y;
+    spec.elements_per_wall = 2;
   }
   if (specimen.elements > 0) {
     spec.elements_per_wall = specimen.elements;

@@ -14,7 +14,7 @@ struct SmallSpecimen {
   const char* lattice;
   double speed;      // m/s
   double friction;   // of walls and plates
-  int elements = 0;  // per wall; 0: the default of the lattice
+  int elements = 0;  // per wall; 0: 2 of hexagons, 8 of squares and triangles
 };
 
 /// The specimen with a small imperfection and the chosen step.

@@ -54,7 +54,7 @@ crush_inclusions inclusions-0-papers-step 0 plate_friction=0.2 time_step=2e-8
 for reading in as-counted as-stated; do
   for speed in 100 50 10 2; do
     for type in ii iii; do
-      run type-$type-$reading-$speed type-$type-$reading speed=$speed end_strain=0.45 frame_count=40
+      run type-$type-$reading-$speed type-$type-$reading speed=$speed elements=2 end_strain=0.45 frame_count=40
     done
   done
 done

@@ -253,7 +253,7 @@ struct SceneSpec {
   Imperfection imperfection;
   Inclusions inclusions;
   std::optional<double> depth_mm;
-  std::optional<int> elements_per_wall;  ///< default: that of the fidelity, else 2
+  std::optional<int> elements_per_wall;  ///< default: that of the fidelity (cellcrush/fidelity.h)
   MaterialSpec material;
   SectionSpec section;
   ContactSpec contact;

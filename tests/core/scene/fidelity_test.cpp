@@ -37,14 +37,46 @@ TEST(Fidelity, WithoutOneTheMeshIsTheLatticesStandard) {
   EXPECT_EQ(describe_fidelity(spec), "Mesh: elements_per_wall is 2, STANDARD for hexagons.");
   for (const char* preset : {"type-ii-as-counted", "type-iii-as-counted"}) {
     spec = find_preset(preset)->spec;
-    EXPECT_EQ(fill_in_fidelity(spec).elements_per_wall, 8) << preset;
-    EXPECT_NE(describe_fidelity(spec).find("is 8, STANDARD for squares and triangles"), std::string::npos);
+    EXPECT_EQ(fill_in_fidelity(spec).elements_per_wall, 16) << preset;
+    EXPECT_NE(describe_fidelity(spec).find("is 16, STANDARD for squares and triangles"), std::string::npos);
     spec.section.formulation = SectionSpec::Formulation::displacement_based;
     EXPECT_EQ(fill_in_fidelity(spec).elements_per_wall, 2) << "the paper's elements keep the paper's mesh";
     EXPECT_NE(describe_fidelity(spec).find("not known"), std::string::npos);
   }
   EXPECT_EQ(fill_in_fidelity(a_frame()).elements_per_wall, 2);
   EXPECT_EQ(describe_fidelity(a_frame()), "");
+}
+
+TEST(Fidelity, EveryLatticeHasACoarserAndAFinerMesh) {
+  const auto meshes_of = [](const SceneSpec& spec) {
+    std::vector<int> meshes;
+    for (const FidelityPoint& point : fidelity_points(spec)) meshes.push_back(point.elements_per_wall);
+    return meshes;
+  };
+  SceneSpec spec = find_preset("type-i")->spec;
+  EXPECT_EQ(meshes_of(spec), (std::vector<int>{1, 2, 8}));
+  spec.loading.direction = LoadingSpec::Direction::y;
+  EXPECT_EQ(meshes_of(spec), (std::vector<int>{2, 8, 16}));
+  for (const char* preset : {"type-ii-as-counted", "type-iii-as-counted"}) {
+    EXPECT_EQ(meshes_of(find_preset(preset)->spec), (std::vector<int>{8, 16, 32})) << preset;
+  }
+}
+
+TEST(Fidelity, FastCrushesOfHexagonsAlongYHaveAFinerMesh) {
+  SceneSpec spec = find_preset("type-i")->spec;
+  const auto standard_at = [&spec](double speed) {
+    spec.loading.speed_m_per_s = speed;
+    return fill_in_fidelity(spec).elements_per_wall;
+  };
+  EXPECT_EQ(standard_at(100.0), 2);
+  spec.loading.direction = LoadingSpec::Direction::y;
+  EXPECT_EQ(standard_at(25.0), 2);
+  EXPECT_EQ(describe_fidelity(spec), "Mesh: elements_per_wall is 2, STANDARD for hexagons.");
+  EXPECT_EQ(standard_at(26.0), 8);
+  EXPECT_EQ(describe_fidelity(spec),
+            "Mesh: elements_per_wall is 8, STANDARD for hexagons crushed along y faster than 25 m/s.");
+  spec.section.formulation = SectionSpec::Formulation::displacement_based;
+  EXPECT_EQ(standard_at(26.0), 2);
 }
 
 TEST(Fidelity, IsTheSameCrushBitForBitAsWhatItFillsIn) {
@@ -121,7 +153,7 @@ TEST(Fidelity, BetweenTwoSpeedsTheLargerErrorCounts) {
 
 TEST(Fidelity, ErrorsOfASpecimenHoldForMoreCells) {
   SceneSpec spec = find_preset("type-ii-as-counted")->spec;
-  for (const int elements : {4, 8, 16}) {
+  for (const int elements : {8, 16, 32}) {
     const std::vector<MeasuredError> errors = measured_errors_of(spec, elements);
     ASSERT_EQ(errors.size(), 2u);
     EXPECT_EQ(errors[0].measure, "impact plateau, 18 x 9 cells of type-ii-as-counted, 100 m/s");
