@@ -239,8 +239,8 @@ TEST(FidelityNumbers, StandardOfTrianglesIsTheCoarsestMeshWithinTheBounds) {
               ElementsAre("triangles-25 plateau_stress_impact", "triangles-50 plateau_stress_support"));
 }
 
-// 18 x 9 cells. Squares have no mesh within the bounds, because their walls do not harden; STANDARD is that of triangles
-// (core/what-is-computed.md).
+// 18 x 9 cells. Squares have no mesh within the bounds, because their walls do not harden; STANDARD is that of
+// triangles (core/what-is-computed.md).
 TEST(FidelityNumbers, NoMeshOfSquaresIsWithinTheBounds) {
   const Study study = read_study("mesh_study");
   const int standard = standard_of("type-ii-as-counted", LoadingSpec::Direction::x, 100.0);
