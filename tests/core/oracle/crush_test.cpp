@@ -31,6 +31,7 @@ SceneSpec specimen(const char* lattice, int columns, int rows) {
   if (auto* hexagon = std::get_if<HexagonLattice>(&spec.lattice)) {
     hexagon->wall_thickness_mm = kThickness;
     hexagon->vertical_wall_thickness_mm = 0.7 * kThickness;
+    spec.elements_per_wall = 2;
   } else if (auto* square = std::get_if<SquareLattice>(&spec.lattice)) {
     square->wall_thickness_mm = kThickness;
   } else {
