@@ -21,11 +21,15 @@ double stable_step_of_element(double length, double thickness, const Material& m
 /// The second mode is the one in which both ends turn in opposite senses.
 double stable_step_of_pair(double length, double thickness, const Material& material, const MassScaling& scaling);
 
-/// Fraction of the stable step of elements that is used.
+/// Fraction of the stable step of displacement-based elements, and of contacts, that is used.
 inline constexpr double kStepFraction = 0.9;
-/// The same of pairs. They stay stable up to 1, but their forces are corrected to first order only: at 0.9, the ledger
-/// of Type I opens by 0.5 to 0.8 % at 25 and 50 m/s; at 0.72, by up to 0.4 %.
-inline constexpr double kPairStepFraction = 0.72;
+/// Fraction at which the fastest mode advances by a quarter of its period in a step, 2 asin(1 / sqrt(2)), and repeats
+/// after four steps as +A, 0, -A, 0. Beyond it, such a cycle of force-based elements feeds itself once walls yield in
+/// it, and spreads (CycleOfFourSteps, core/time-step.md): their forces are corrected to first order only.
+inline constexpr double kCycleStepFraction = 0.7071;
+/// Fraction of the stable step of force-based elements, single or in pairs, that is used: less than the one above,
+/// because squashed elements vibrate faster than undeformed ones.
+inline constexpr double kForceBasedStepFraction = 0.68;
 
 /// Travel of the plate, or approach of a frame's beams, in a step: greatest fraction of the thinnest wall's thickness.
 inline constexpr double kTravelPerStep = 0.08;
@@ -44,7 +48,7 @@ struct TimeStep {
 };
 
 /// The step of a run: the one that is given, or the least of
-///  - 0.9 of the stable step of an element (E11b), and 0.72 of that of a pair (E11c),
+///  - 0.68 of the stable step of an element (E11b) or a pair (E11c), or 0.9 of it if elements are displacement-based,
 ///  - the time in which the plate moves by 0.08 of the thinnest wall (walls approach each other by up to 1.7 times as
 ///    much in a step, and a new contact can be as deep); the same of the beams of a frame that approach each other
 ///    or a rigid wall,

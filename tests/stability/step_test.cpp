@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 #include <string>
 
 #include "cellcrush/state.h"
+#include "scene/time_step.h"
 #include "scenes/dynamic_frames.h"
 #include "scenes/evidence.h"
 #include "scenes/frames.h"
@@ -207,6 +209,38 @@ TEST(ContactTooSoftForTheSpeed, EndsTheRunWhenAWallHasPassedThroughAnother) {
   EXPECT_NE(run.status.message.find("passed through another at step "), std::string::npos) << run.status.message;
   EXPECT_NE(run.status.message.find("particle "), std::string::npos) << run.status.message;
   expect_last_good_is_kept(run);
+}
+
+/// A blow at 10 % strain that sets every joint turning at up to 40000 rad/s: the walls yield.
+void strike_joints(Scene& scene) {
+  const double step = scene.schedule.time_step;
+  const double time = 0.1 * static_cast<double>(scene.schedule.step_count) * step / 0.2;
+  std::mt19937 random(1);
+  for (int joint = 0; joint < scene.joint_count; ++joint) {
+    const double spin = 4e4 * (static_cast<double>(random()) / 0x80000000p0 - 1.0);
+    const double moment = spin * scene.inertia[joint] / step;
+    scene.loads.push_back({joint, Component::rotation, {{{time - step, 0.0}, {time, moment}, {time + step, 0.0}}}});
+  }
+}
+
+// At more than 1 / sqrt(2) of the stable step, modes that turn the joints repeat after four steps. Once walls have
+// yielded in such a cycle, it feeds itself and spreads; at less, the same blow dies out.
+TEST(CycleOfFourSteps, FeedsItselfBeyondTheChosenStep) {
+  const auto struck = [](double share) {
+    const auto scene = specimen("hexagon", 4.0, share, 0.2);
+    strike_joints(*scene);
+    return WatchedRun(scene);
+  };
+  EXPECT_EQ(struck(0.72).status.kind, Kind::energy_balance);
+  for (const double share : {0.70, kForceBasedStepFraction}) {
+    const WatchedRun sound = struck(share);
+    EXPECT_EQ(sound.status.kind, Kind::finished) << sound.status.message;
+    const Sample& end = sound.samples.back();
+    const auto after = std::find_if(sound.samples.begin(), sound.samples.end(),
+                                    [](const Sample& sample) { return sample.strain > 0.11; });
+    ASSERT_NE(after, sound.samples.end());
+    EXPECT_NEAR(end.energy_residual, after->energy_residual, 0.002 * end.work_external) << share;
+  }
 }
 
 /// Energy that contacts had made by a sample, as the greatest fraction of the work done by then.

@@ -37,6 +37,21 @@ TEST(WhatIsModelled, SaysWhatWasAskedFor) {
               Contains(HasSubstr("each stores its back stress and accumulated plastic strain, in double precision")));
 }
 
+// Beyond 1 / sqrt(2) of the stable step force-based elements can vibrate in cycles of four steps.
+TEST(WhatIsModelled, WarnsOfALongStepOfForceBasedElements) {
+  SceneSpec spec = scenes::hexagon_specimen(4, 3);
+  const auto warning = Contains(HasSubstr("more than 0.7 of the stability limit"));
+  const double stable = scenes::build(spec)->stable_step;
+  spec.numerics.time_step_s = 0.7 * stable;
+  EXPECT_THAT(facts_of(*scenes::build(spec)).modelled, Not(warning));
+  spec.numerics.time_step_s = 0.72 * stable;
+  EXPECT_THAT(facts_of(*scenes::build(spec)).modelled, warning);
+  spec.section.formulation = SectionSpec::Formulation::displacement_based;
+  spec.numerics.time_step_s = 0.0;
+  spec.numerics.time_step_s = 0.9 * scenes::build(spec)->stable_step;
+  EXPECT_THAT(facts_of(*scenes::build(spec)).modelled, Not(warning));
+}
+
 TEST(WhatIsModelled, SaysThatSlowLoadingNeedsDoublePrecision) {
   SceneSpec spec = scenes::hexagon_specimen(4, 3);
   const auto said = Contains(HasSubstr("rounding errors of slow loading add up"));
