@@ -7,7 +7,7 @@ set -eu
 report=$1
 folder=$2
 pictures=${3:-$2}
-others=$(dirname "$0")/example_2.csv
+others=$(dirname "$0")/example_2.csv,$(dirname "$0")/records/slow_half_earlier.csv
 mkdir -p "$pictures"
 
 # Whether a crush has come to its end.
@@ -31,8 +31,9 @@ curves() {
   if [ $# -gt 0 ]; then "$report" curves "$pictures/$picture" along="$along" "$@"; fi
 }
 
+strip type-i-2 0.05,0.1,0.2,0.27 "2 m/s"
 for speed in 2 10 50 100; do
-  strip type-i-$speed 0.05,0.1,0.2,0.4 "$speed m/s"
+  if [ $speed != 2 ]; then strip type-i-$speed 0.05,0.1,0.2,0.4 "$speed m/s"; fi
   for type in ii iii; do
     for reading in as-counted as-stated; do strip type-$type-$reading-$speed 0.05,0.1,0.2,0.4 "$speed m/s"; done
   done
