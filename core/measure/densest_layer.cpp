@@ -19,12 +19,12 @@ struct Layer {
   double high = -std::numeric_limits<double>::infinity();
 };
 
-/// Extent across the crush of a layer and of those beside it.
-double width_of(const std::vector<Layer>& layers, std::size_t at) {
-  const std::size_t end = std::min(at + 2, layers.size());
+/// Extent across the crush of a layer and of `reach` layers on either side of it.
+double width_of(const std::vector<Layer>& layers, std::size_t at, std::size_t reach) {
+  const std::size_t end = std::min(at + reach + 1, layers.size());
   double low = layers[at].low;
   double high = layers[at].high;
-  for (std::size_t k = at > 0 ? at - 1 : 0; k < end; ++k) {
+  for (std::size_t k = at - std::min(at, reach); k < end; ++k) {
     low = std::min(low, layers[k].low);
     high = std::max(high, layers[k].high);
   }
@@ -33,15 +33,15 @@ double width_of(const std::vector<Layer>& layers, std::size_t at) {
 
 }  // namespace
 
-double depth_of_layers(const Scene& scene, double pitch) {
+LayerSize size_of_layers(const Scene& scene, double pitch) {
   double thickest = 0.0;
   for (const Element& element : scene.elements) {
     thickest = std::max(thickest, element.thickness);
   }
-  return std::max(kCells * pitch * relative_density_of(scene), kThicknesses * thickest);
+  return {std::max(kCells * pitch * relative_density_of(scene), kThicknesses * thickest), 0.5 * pitch};
 }
 
-DensestLayer find_densest_layer(const Scene& scene, const State& state, double depth) {
+DensestLayer find_densest_layer(const Scene& scene, const State& state, const LayerSize& size) {
   const int axis = scene.plates.axis;
   const auto before = [axis](const Vector2& a, const Vector2& b) { return a[axis] < b[axis]; };
   const auto [first, last] = std::minmax_element(state.position.begin(), state.position.end(), before);
@@ -49,7 +49,7 @@ DensestLayer find_densest_layer(const Scene& scene, const State& state, double d
   const double extent = (*last)[axis] - begin;
   const double origin = (*std::min_element(scene.position.begin(), scene.position.end(), before))[axis];
   const double most = static_cast<double>(scene.particle_count());
-  std::vector<Layer> layers(static_cast<std::size_t>(std::clamp(extent / depth, 1.0, most)));
+  std::vector<Layer> layers(static_cast<std::size_t>(std::clamp(extent / size.depth, 1.0, most)));
   const double per_depth = static_cast<double>(layers.size()) / extent;
   for (std::size_t e = 0; e < scene.element_count(); ++e) {
     const Element& element = scene.elements[e];
@@ -65,9 +65,10 @@ DensestLayer find_densest_layer(const Scene& scene, const State& state, double d
       layer.high = std::max(layer.high, position[1 - axis] + half);
     }
   }
+  const auto reach = static_cast<std::size_t>(std::max(1.0, size.reach * per_depth));
   DensestLayer densest;
   for (std::size_t k = 0; k < layers.size(); ++k) {
-    const double fraction = layers[k].metal * per_depth / width_of(layers, k);
+    const double fraction = layers[k].metal * per_depth / width_of(layers, k, reach);
     if (layers[k].metal > 0.0 && fraction > densest.solid_fraction) {
       densest = {fraction, layers[k].moment / layers[k].metal};
     }

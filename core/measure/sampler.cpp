@@ -92,7 +92,7 @@ Sampler::Sampler(const Scene& scene)
   if (scene.plates.present) {
     cells_ = find_cells(scene);
     columns_ = divide_into_columns(scene, cells_.field.pitch);
-    layer_depth_ = depth_of_layers(scene, cells_.field.pitch);
+    layer_size_ = size_of_layers(scene, cells_.field.pitch);
   }
 }
 
@@ -147,7 +147,7 @@ void Sampler::measure_collapse(const Scene& scene, const State& state, Sample& s
   }
   sample.front = find_front(columns_, scene, state);
   if (sample.strain >= next_layer_strain_ && all_finite(state.position)) {
-    densest_layer_ = find_densest_layer(scene, state, layer_depth_);
+    densest_layer_ = find_densest_layer(scene, state, layer_size_);
     next_layer_strain_ = sample.strain + kLayerEvery;
   }
   sample.densest_layer = densest_layer_;

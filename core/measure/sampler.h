@@ -7,6 +7,7 @@
 #include "cellcrush/state.h"
 #include "measure/cells.h"
 #include "measure/columns.h"
+#include "measure/densest_layer.h"
 
 namespace cellcrush {
 
@@ -47,7 +48,7 @@ class Sampler {
 
   Cells cells_;
   Columns columns_;
-  double layer_depth_ = 0.0;  ///< mm
+  LayerSize layer_size_;
   double last_time_ = 0.0;
   double last_impact_impulse_ = 0.0;
   double last_support_impulse_ = 0.0;

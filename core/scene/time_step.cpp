@@ -43,7 +43,6 @@ double stable_step_of_pair(double length, double thickness, const Material& mate
 MeshSteps steps_of(const Scene& scene) {
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
   const Walls& walls = scene.walls;
-  const double fraction = scene.section.force_based ? kForceBasedStepFraction : kStepFraction;
   MeshSteps steps = {kInfinite, kInfinite, kInfinite};
   for (const WallBlock& block : walls.blocks) {
     const bool in_pairs = scene.section.force_based && block.has_pairs();
@@ -55,10 +54,10 @@ MeshSteps steps_of(const Scene& scene) {
           in_pairs ? stable_step_of_pair(walls.undeformed_length[w], walls.thickness[w], material, scene.mass_scaling)
                    : alone;
       steps.stable = std::min(steps.stable, stable);
-      steps.accurate = std::min(steps.accurate, fraction * stable);
       steps.of_elements = std::min(steps.of_elements, alone);
     }
   }
+  steps.accurate = (scene.section.force_based ? kForceBasedStepFraction : kStepFraction) * steps.stable;
   return steps;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <numbers>
+
 #include "cellcrush/scene.h"
 #include "cellcrush/scene_spec.h"
 
@@ -23,10 +25,10 @@ double stable_step_of_pair(double length, double thickness, const Material& mate
 
 /// Fraction of the stable step of displacement-based elements, and of contacts, that is used.
 inline constexpr double kStepFraction = 0.9;
-/// Fraction at which the fastest mode advances by a quarter of its period in a step, 2 asin(1 / sqrt(2)), and repeats
-/// after four steps as +A, 0, -A, 0. Beyond it, such a cycle of force-based elements feeds itself once walls yield in
-/// it, and spreads (CycleOfFourSteps, core/time-step.md): their forces are corrected to first order only.
-inline constexpr double kCycleStepFraction = 0.7071;
+/// Fraction beyond which some mode advances by a quarter of its period in a step, 2 asin(1 / sqrt(2)), and repeats
+/// after four steps as +A, 0, -A, 0. Force-based elements that yield in such a cycle feed it, and it spreads
+/// (CycleOfFourSteps, core/time-step.md): their forces are accurate to first order only.
+inline constexpr double kCycleStepFraction = 1.0 / std::numbers::sqrt2;
 /// Fraction of the stable step of force-based elements, single or in pairs, that is used: less than the one above,
 /// because squashed elements vibrate faster than undeformed ones.
 inline constexpr double kForceBasedStepFraction = 0.68;
@@ -37,7 +39,7 @@ inline constexpr double kTravelPerStep = 0.08;
 /// Steps that the undeformed mesh allows, s. Attached masses only raise them.
 struct MeshSteps {
   double stable = 0.0;       ///< the least stable step of all elements and pairs
-  double accurate = 0.0;     ///< the least of the fractions above
+  double accurate = 0.0;     ///< the part of it that is used
   double of_elements = 0.0;  ///< the least stable step without pairs: by it contacts are made stiff (E9)
 };
 MeshSteps steps_of(const Scene& scene);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <fstream>
 
 #include "e2e/process.h"
 #include "server/temporary_folder.h"
@@ -14,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::TemporaryFolder;
 
-constexpr std::chrono::seconds kSessionLimit{240};
+constexpr std::chrono::seconds kSessionLimit{480};
 
 Page find_page(const std::string& path) {
   for (Page& page : read_pages(CELLCRUSH_SOURCE_ROOT)) {
@@ -32,13 +33,20 @@ void install(const fs::path& prefix) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.all();
 }
 
-void expect_shown(const std::string& path, Reader reader, const std::map<std::string, std::string>& instead) {
+void expect_shown(const std::string& path, Reader reader, const std::map<std::string, std::string>& instead,
+                  const std::map<std::string, std::string>& saved) {
   const TemporaryFolder folder;
   // An ordinary user passes through it.
   fs::permissions(folder.path(), fs::perms::others_exec, fs::perm_options::add);
   const fs::path home = folder.path() / "home";
   install(home / ".local");
-  std::vector<Step> steps = steps_of(find_page(path));
+  const Page page = find_page(path);
+  for (const auto& [file, language] : saved) {
+    const auto block = std::ranges::find(page.blocks, language, &Code::language);
+    ASSERT_NE(block, page.blocks.end()) << path << " has no block of " << language;
+    std::ofstream(home / file) << block->text;
+  }
+  std::vector<Step> steps = steps_of(page);
   ASSERT_FALSE(steps.empty());
   for (const auto& [words, typed] : instead) {
     const auto step = std::ranges::find_if(steps, [&page_words = words](const Step& candidate) {

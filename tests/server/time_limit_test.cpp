@@ -56,7 +56,7 @@ TEST_F(TimeLimitTest, AtItsLimitAJobEndsWithWhatThereIs) {
 TEST_F(TimeLimitTest, APauseDoesNotCountAndWhatWasRunBeforeDoes) {
   auto client = this->client();
   const std::string job = create_limited(client, 2.0);
-  wait_for_samples(client, job, 1000);
+  wait_for_samples(client, job, 200);
   ASSERT_TRUE(client.suspend(job).ok());
   const auto left_at = client.history(job).size();
   start();

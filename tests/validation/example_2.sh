@@ -4,7 +4,11 @@
 set -eu
 validate=$1
 table=$2
-run() { "$validate" "$1" speed="$2" elements=2 end_strain=0.45 table="$table" >/dev/null; }
+run() {
+  elements=2
+  case $1 in type-i) elements= ;; esac # its default
+  "$validate" "$1" speed="$2" ${elements:+elements=$elements} end_strain=0.45 table="$table" >/dev/null
+}
 for speed in 200 100 50 25; do
   for preset in type-i type-ii-as-counted type-iii-as-counted; do run "$preset" "$speed"; done
 done

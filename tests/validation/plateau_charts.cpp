@@ -26,8 +26,8 @@ std::vector<std::string> words_of(const std::string& text) {
   return {std::istream_iterator<std::string>(stream), {}};
 }
 
-/// Options that change nothing that a plateau depends on but the speed.
-const std::set<std::string> kPlain = {"speed", "end_strain", "samples", "frame_count"};
+/// Options that change nothing that a plateau depends on but the speed and the mesh.
+const std::set<std::string> kPlain = {"speed", "end_strain", "samples", "frame_count", "elements"};
 const std::set<std::string> kOfSeeds = {"speed",     "end_strain", "samples", "frame_count",
                                         "amplitude", "seed",       "elements"};
 

@@ -94,7 +94,7 @@ TEST(RoundOff, ATurnedBlockIsCrushedLikeAnUpright) {
 }
 
 // At 100 m/s and 80 % strain most walls press on others, and round-off grows: places half a unit of the last digit off
-// part a block from itself by 1e-10 to 2e-8 mm, depending on its imperfection. A turned block has its places rounded.
+// part a block from itself by up to 4e-8 mm, depending on its imperfection. A turned block has its places rounded.
 // Turning adds nothing of its own.
 TEST(RoundOff, ATurnedBlockCrushedFlatPartsNoFurtherThanARoundedOne) {
   constexpr double kSpeed = 100e3;

@@ -46,9 +46,9 @@ void expect_sound_contact(const CountedCrush& crush) {
   EXPECT_EQ(crush.crossings, 0u);
   EXPECT_LT(crush.summary.deepest_penetration, 0.25);
   EXPECT_LT(crush.deepest_birth, 0.14);
-  // The first row of balls meets the plate at full speed, in bounces of three steps (PenaltyBounce).
+  // In the first samples the work is small, and a bounce of a few steps makes 0.5 % of it.
   for (const Sample& sample : crush.samples) {
-    const double most = sample.strain < 0.01 ? 0.01 : 0.005;
+    const double most = sample.strain < 0.003 ? 0.007 : 0.005;
     EXPECT_GE(sample.energy_contact, -most * sample.work_external) << "at strain " << sample.strain;
   }
 }

@@ -34,7 +34,7 @@ struct Moved {
     scenes::follow_positions(*scene, state);
   }
 
-  [[nodiscard]] DensestLayer find() const { return find_densest_layer(*scene, state, depth_of_layers(*scene, pitch)); }
+  [[nodiscard]] DensestLayer find() const { return find_densest_layer(*scene, state, size_of_layers(*scene, pitch)); }
 
   /// Length times thickness of the walls now, mm^2.
   [[nodiscard]] double metal() const {
@@ -72,6 +72,23 @@ TEST(DensestLayer, IsFoundWhereTheLatticeIsCompacted) {
     EXPECT_GT(layer.solid_fraction, 3.0 * relative_density_of(*crushed.scene));
     EXPECT_NEAR(layer.place / crushed.scene->length, middle, 0.06);
   }
+}
+
+// Layers of thin foil are far thinner than a cell, and may have a single joint in them.
+TEST(DensestLayer, OfThinFoilIsNotADisplacedJoint) {
+  SceneSpec spec = scenes::hexagon_specimen(9, 12);
+  HexagonLattice& lattice = std::get<HexagonLattice>(spec.lattice);
+  lattice.side_mm = 2.75;
+  lattice.wall_thickness_mm = 0.0254;
+  lattice.vertical_wall_thickness_mm = 0.0508;
+  spec.imperfection = {0.05, 1};
+  const auto scene = scenes::build(spec);
+  State state = make_initial_state(*scene);
+  state.position[scene->joint_count / 2].x() += 0.6;
+  scenes::follow_positions(*scene, state);
+  const LayerSize size = size_of_layers(*scene, find_cells(*scene).field.pitch);
+  EXPECT_GT(find_densest_layer(*scene, state, {size.depth, 0.0}).solid_fraction, 1.0) << "a joint on its own";
+  EXPECT_LT(find_densest_layer(*scene, state, size).solid_fraction, 20.0 * relative_density_of(*scene));
 }
 
 TEST(DensestLayer, OfWallsThatHaveGrownIsDenser) {

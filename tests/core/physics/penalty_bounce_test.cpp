@@ -84,7 +84,8 @@ TEST(PenaltyBounce, OfTheLightestPairAtTheChosenStepIsWithinThirteenPercent) {
     const double lightest = *std::min_element(scene->mass.begin(), scene->mass.end());
     const double omega = std::sqrt(scene->contact.stiffness * 2.0 / lightest);
     const double omega_step = omega * scene->schedule.time_step;
-    const double travel = 1e3 * speed * scene->schedule.time_step / 0.3464;  // of a step, in thicknesses
+    const double travel = 1e3 * speed * scene->schedule.time_step / scene->contact.thinnest;  // in a step
+    EXPECT_EQ(scene->schedule.bound, speed == 100.0 ? StepBound::elements : StepBound::plate_travel);
     EXPECT_NEAR(omega_step, std::sqrt(2.0) * travel / 0.16, 1e-3) << speed;
     double mass = 0.0;
     double stiffness = 0.0;
