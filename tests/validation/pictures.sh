@@ -1,8 +1,8 @@
 #!/bin/sh
 # Draws what slow_half.sh has left in FOLDER: strips like Figures 17, 19, 20 and 26 to 28 of the paper, charts like
-# Figures 18, 21, 24 and 25, and courses.csv with densification and salient peaks. Crushes that
-# have not come to their end are left out. The charts of plateaus have those of example_2.csv and of
-# records/slow_half_earlier.csv as well, unless FOLDER has them again.
+# Figures 18, 21, 24 and 25, and courses.csv with densification and salient peaks. Crushes that have not come to their
+# end are left out, and strips of those without frames. The charts of plateaus also have the crushes of example_2.csv and
+# records/slow_half_earlier.csv; those in FOLDER replace them.
 #   tests/validation/pictures.sh build/ci/bin/validation_report FOLDER [PICTURES]
 set -eu
 report=$1
@@ -16,7 +16,9 @@ has() { grep -q ",$1.csv," "$folder/slow_half.csv"; }
 
 # strip NAME STRAINS TITLE
 strip() {
-  if has "$1"; then "$report" strip "$pictures/$1.png" strains="$2" "$folder/$1.frames=$3"; fi
+  if has "$1" && [ -f "$folder/$1.frames" ]; then
+    "$report" strip "$pictures/$1.png" strains="$2" "$folder/$1.frames=$3"
+  fi
 }
 
 # curves PICTURE ALONG NAME=TITLE ...
