@@ -1,8 +1,8 @@
 #!/bin/sh
 # Draws what slow_half.sh has left in FOLDER: strips like Figures 17, 19, 20 and 26 to 28 of the paper, charts like
 # Figures 18, 21, 24 and 25, and courses.csv with densification and salient peaks. Crushes that have not come to their
-# end are left out, and strips of those without frames. The charts of plateaus also have the crushes of example_2.csv and
-# records/slow_half_earlier.csv; those in FOLDER replace them.
+# end are left out, and strips of those without frames. The charts of plateaus also have the crushes of example_2.csv
+# and records/slow_half_earlier.csv; those in FOLDER replace them.
 #   tests/validation/pictures.sh build/ci/bin/validation_report FOLDER [PICTURES]
 set -eu
 report=$1
