@@ -11,11 +11,9 @@
 #include "scene/bands.h"
 #include "search/border_check.h"
 #include "search/bucket_search.h"
-#include "search/face_search.h"
 #include "search/find_contacts.h"
 #include "search/merge_band_contacts.h"
-#include "step/stages.h"
-#include "step/watch_approach.h"
+#include "step/execute_stages.h"
 #include "touch/contact_tiles.h"
 
 namespace cellcrush {
@@ -45,25 +43,9 @@ void begin_steps(const Scene& scene, const State& state, std::span<StepRecord> r
   }
 }
 
-/// Motion and walls of a band in one step, if there is such a band, and the contacts of the band before.
-void advance_band(const Scene& scene, State& state, std::size_t band, StepRecord& record, StageWorkspace& workspace,
-                  std::vector<int>& near_plates, const StageScope& stage) {
-  if (band < scene.bands.size()) {
-    stage.begin(Stage::integrate_motion);
-    move_band(scene, state, band, record, workspace, near_plates);
-    stage.begin(Stage::evaluate_internal_forces);
-    evaluate_band_walls(scene, state, band, record, workspace);
-  }
-  if (band > 0) {
-    const std::size_t before = band - 1;
-    stage.begin(Stage::find_contacts);
-    const bool is_planar = search_faces(scene, state, before, state.contacts[before], workspace.workers);
-    record.has_crossed = record.has_crossed || !is_planar;
-    stage.begin(Stage::evaluate_contact_forces);
-    evaluate_band_contacts(scene, state, before, record, workspace);
-    stage.begin(Stage::evaluate_plate_forces);
-    evaluate_band_plates(scene, state, before, record, near_plates);
-  }
+/// Places of a wavefront: the bands, and those by which the last stage is behind the first.
+std::size_t place_count(const Scene& scene) {
+  return scene.bands.size() + std::ranges::max(kStages, {}, &StageEntry::bands_behind).bands_behind;
 }
 
 /// Switches to a search by buckets if walls have crossed, or if parts of the border that are searched separately may
@@ -93,7 +75,7 @@ std::int64_t steps_in_wavefront(std::int64_t steps) {
 
 void advance_wavefront(const Scene& scene, State& state, Workspace& workspace, std::int64_t steps,
                        StageObserver* observer) {
-  const StageScope stage(observer);
+  const StageScope scope(observer);
   const std::int64_t first = state.step;
   Workers& workers = workspace.shared.workers;
   workspace.records.resize(static_cast<std::size_t>(steps));
@@ -106,12 +88,13 @@ void advance_wavefront(const Scene& scene, State& state, Workspace& workspace, s
   size_thickening_step(scene, state);
   rebuild_contact_tiles(scene, state, steps);
   state.step += steps;
-  Wavefront wavefront(records.size(), scene.bands.size() + 1, lag_of(workspace), steps_at_once(scene, workspace));
+  Wavefront wavefront(records.size(), place_count(scene), lag_of(workspace), steps_at_once(scene, workspace));
   workers.parallel_ranges(
       static_cast<std::size_t>(workers.count()), 1, [&](std::size_t part, std::size_t, std::size_t) {
-        const StageScope of_part = part == 0 ? stage : StageScope(nullptr);
-        wavefront.advance([&](std::size_t step, std::size_t band) {
-          advance_band(scene, state, band, records[step], workspace.bands[part], workspace.near_plates, of_part);
+        const StageScope of_part = part == 0 ? scope : StageScope(nullptr);
+        wavefront.advance([&](std::size_t number, std::size_t band) {
+          StepInProgress step = {scene, state, records[number], workspace.bands[part], workspace.near_plates};
+          execute_band_stages(kStages, step, band, of_part);
         });
       });
   for (const StepRecord& record : records) {
@@ -120,7 +103,7 @@ void advance_wavefront(const Scene& scene, State& state, Workspace& workspace, s
   state.time = static_cast<double>(state.step) * scene.schedule.time_step;
   watch_approach(scene, state);
   check_search(scene, state, first, records);
-  stage.end_step();
+  scope.end_step();
 }
 
 }  // namespace cellcrush

@@ -1,45 +1,167 @@
 #include "step/stages.h"
 
+#include <algorithm>
 #include <span>
 
 #include "beam/internal_forces.h"
+#include "beam/joint_forces.h"
 #include "motion/integrate_motion.h"
+#include "motion/loads.h"
+#include "motion/pin_forces.h"
+#include "motion/rigid_motion.h"
+#include "search/face_search.h"
+#include "search/find_contacts.h"
 #include "touch/contact_forces.h"
+#include "touch/contact_tiles.h"
 #include "touch/plate_forces.h"
 #include "touch/rigid_wall_forces.h"
 
 namespace cellcrush {
+namespace {
 
-void move_band(const Scene& scene, State& state, std::size_t band, StepRecord& record, StageWorkspace& workspace,
-               std::vector<int>& near_plates) {
-  record.near[band] =
-      integrate_motion(scene, state, scene.bands[band], record.reach, workspace.workers, record.moved, near_plates);
+/// Moves the free particles of a band (E2) and clears the contact forces that moved them.
+void move_band(StepInProgress& step, std::size_t band) {
+  step.record.near[band] = integrate_motion(step.scene, step.state, step.scene.bands[band], step.record.reach,
+                                            step.workspace.workers, step.record.moved, step.near_plates);
 }
 
-void evaluate_band_walls(const Scene& scene, State& state, std::size_t band, StepRecord& record,
-                         StageWorkspace& workspace) {
-  evaluate_internal_forces(scene, state, scene.bands[band], workspace.walls, workspace.workers,
-                           record.plastic_work.data());
+void move_all(StepInProgress& step) {
+  State& state = step.state;
+  step.record.of_rigid_bodies = move_rigid_bodies(step.scene, state);
+  for (std::size_t band = 0; band < step.scene.bands.size(); ++band) {
+    move_band(step, band);
+  }
+  ++state.step;
+  state.time = static_cast<double>(state.step) * step.scene.schedule.time_step;
+  watch_approach(step.scene, state);
 }
 
-void evaluate_band_contacts(const Scene& scene, State& state, std::size_t band, StepRecord& record,
-                            StageWorkspace& workspace) {
-  evaluate_contact_forces(scene, state, band, workspace.contact, workspace.workers, record.contacts);
+void evaluate_band_walls(StepInProgress& step, std::size_t band) {
+  evaluate_internal_forces(step.scene, step.state, step.scene.bands[band], step.workspace.walls, step.workspace.workers,
+                           step.record.plastic_work.data());
 }
 
-void evaluate_band_plates(const Scene& scene, State& state, std::size_t band, StepRecord& record,
-                          const std::vector<int>& near_plates) {
-  const std::span<const int> near(near_plates);
-  const NearCounts& counts = record.near[band];
+void deform_all_walls(StepInProgress& step) {
+  deform_walls(step.scene, step.state, step.workspace.walls, step.workspace.workers);
+}
+
+void respond_piece_of_walls(StepInProgress& step, std::size_t piece) {
+  respond_walls(step.scene, step.state, step.workspace.walls, piece, step.record.plastic_work.data());
+}
+
+void sum_joints(StepInProgress& step) { sum_joint_forces(step.scene, step.state, step.workspace.workers); }
+
+void find_all_contacts(StepInProgress& step) {
+  find_contacts(step.scene, step.state, step.workspace.workers);
+  rebuild_contact_tiles(step.scene, step.state, 1);
+}
+
+void find_band_contacts(StepInProgress& step, std::size_t band) {
+  const bool is_planar = search_faces(step.scene, step.state, band, step.state.contacts[band], step.workspace.workers);
+  step.record.has_crossed = step.record.has_crossed || !is_planar;
+}
+
+/// On the balls of a band and the segments that they touch.
+void evaluate_band_contacts(StepInProgress& step, std::size_t band) {
+  evaluate_contact_forces(step.scene, step.state, band, step.workspace.contact, step.workspace.workers,
+                          step.record.contacts);
+}
+
+void evaluate_band_plates(StepInProgress& step, std::size_t band) {
+  const std::span<const int> near(step.near_plates);
+  const NearCounts& counts = step.record.near[band];
   const auto evaluate = [&](int first, std::size_t count) {
-    evaluate_plate_forces(scene, state, record.plate, near.subspan(static_cast<std::size_t>(first), count),
-                          record.contacts);
+    evaluate_plate_forces(step.scene, step.state, step.record.plate,
+                          near.subspan(static_cast<std::size_t>(first), count), step.record.contacts);
   };
-  const LatticeBand& of = scene.bands[band];
+  const LatticeBand& of = step.scene.bands[band];
   evaluate(of.first_joint, counts.joints);
   evaluate(of.first_inner, counts.inner);
-  evaluate_rigid_wall_forces(scene, state, of.first_joint, of.end_joint, record.contacts);
-  evaluate_rigid_wall_forces(scene, state, of.first_inner, of.end_inner, record.contacts);
+  evaluate_rigid_wall_forces(step.scene, step.state, of.first_joint, of.end_joint, step.record.contacts);
+  evaluate_rigid_wall_forces(step.scene, step.state, of.first_inner, of.end_inner, step.record.contacts);
+}
+
+void evaluate_all_loads(StepInProgress& step) {
+  evaluate_loads(step.scene, step.state);
+  share_pin_forces(step.scene, step.state);
+}
+
+constexpr SplitStage kSplitWalls = {.begin = deform_all_walls,
+                                    .piece_count = wall_piece_count,
+                                    .piece = respond_piece_of_walls,
+                                    .end = sum_joints,
+                                    .reads = kGeometry | kStresses,
+                                    .writes = kStresses | kInternalForces};
+
+constexpr std::array<StageEntry, kStageCount> kList = {{
+    {.stage = Stage::integrate_motion,
+     .reads = kMotion | kInternalForces | kContactForces | kLoads,
+     .writes = kMotion | kContactForces,
+     .on_band = move_band,
+     .on_whole = move_all},
+    {.stage = Stage::evaluate_internal_forces,
+     .reads = kMotion | kGeometry | kStresses,
+     .writes = kGeometry | kStresses | kInternalForces,
+     .on_band = evaluate_band_walls,
+     .split = &kSplitWalls},
+    {.stage = Stage::find_contacts,
+     .reads = kMotion | kGeometry | kContactLists,
+     .writes = kContactLists,
+     .bands_behind = 1,
+     .on_band = find_band_contacts,
+     .on_whole = find_all_contacts},
+    {.stage = Stage::evaluate_contact_forces,
+     .reads = kMotion | kGeometry | kContactLists,
+     .writes = kContactLists | kContactForces,
+     .bands_behind = 1,
+     .on_band = evaluate_band_contacts},
+    {.stage = Stage::evaluate_plate_forces,
+     .reads = kMotion | kGeometry,
+     .writes = kContactForces,
+     .bands_behind = 1,
+     .on_band = evaluate_band_plates},
+    {.stage = Stage::evaluate_loads,
+     .reads = kMotion | kGeometry | kInternalForces,
+     .writes = kLoads | kInternalForces,
+     .on_whole = evaluate_all_loads},
+}};
+
+constexpr bool has_every_stage_in_order() {
+  for (std::size_t i = 0; i < kList.size(); ++i) {
+    if (kList[i].stage != static_cast<Stage>(i)) {
+      return false;
+    }
+  }
+  return true;
+}
+static_assert(has_every_stage_in_order());
+static_assert(runs_beside(kList[static_cast<std::size_t>(Stage::evaluate_plate_forces)], kSplitWalls));
+static_assert(!runs_beside(kList[static_cast<std::size_t>(Stage::evaluate_loads)], kSplitWalls));
+
+}  // namespace
+
+const std::array<StageEntry, kStageCount> kStages = kList;
+
+void watch_approach(const Scene& scene, State& state) {
+  if (state.fastest_step.empty()) {
+    return;
+  }
+  Vector2 low = state.velocity[0];
+  Vector2 high = low;
+  for (const Vector2& velocity : state.velocity) {
+    low = low.cwiseMin(velocity);
+    high = high.cwiseMax(velocity);
+  }
+  const double travel = scene.schedule.time_step * (high - low).norm();
+  FastestStep& fastest = state.fastest_step.front();
+  if (travel > fastest.travel) {
+    const Vector2 middle = 0.5 * (low + high);
+    const auto slower = [&](const Vector2& a, const Vector2& b) {
+      return (a - middle).squaredNorm() < (b - middle).squaredNorm();
+    };
+    const auto particle = std::max_element(state.velocity.begin(), state.velocity.end(), slower);
+    fastest = {travel, state.step, particle - state.velocity.begin()};
+  }
 }
 
 }  // namespace cellcrush

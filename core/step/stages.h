@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -11,44 +12,62 @@
 
 namespace cellcrush {
 
-/// Reports the stages of a step to an observer, if there is one.
-class StageScope {
- public:
-  explicit StageScope(StageObserver* observer) : observer_(observer) {}
-  void begin(Stage stage) const {
-    if (observer_ != nullptr) {
-      observer_->begin(stage);
-    }
-  }
-  void end_step() const {
-    if (observer_ != nullptr) {
-      observer_->end_step();
-    }
-  }
-
- private:
-  StageObserver* observer_;
+/// A step in progress: what the stages read and write.
+struct StepInProgress {
+  const Scene& scene;
+  State& state;
+  StepRecord& record;
+  StageWorkspace& workspace;
+  std::vector<int>& near_plates;  ///< see NearCounts
 };
 
-// The stages of a step for one band of the lattice; a small lattice is a single band. advance_step does all bands stage
-// by stage, advance_wavefront does all stages band by band.
+/// Parts of a state that stages hand to each other. A set of them is a sum.
+enum Data : unsigned {
+  kMotion = 1,          ///< positions and velocities, of plates and rigid bodies too
+  kGeometry = 2,        ///< axes, lengths and thickening of elements
+  kStresses = 4,        ///< histories of fibres and sections
+  kInternalForces = 8,  ///< of walls on particles
+  kContactLists = 16,   ///< pairs that may touch, and those that do
+  kContactForces = 32,  ///< of contacts, plates and rigid walls
+  kLoads = 64,
+};
 
-/// Moves the free particles of a band (E2) and clears the contact forces that moved them.
-void move_band(const Scene& scene, State& state, std::size_t band, StepRecord& record, StageWorkspace& workspace,
-               std::vector<int>& near_plates);
+/// A stage in two parts, so that other stages can run beside the second one.
+struct SplitStage {
+  void (*begin)(StepInProgress& step);
+  std::size_t (*piece_count)(const Scene& scene);
+  /// Beside other stages; any thread may take any piece.
+  void (*piece)(StepInProgress& step, std::size_t piece);
+  void (*end)(StepInProgress& step);
+  unsigned reads;   ///< of the pieces
+  unsigned writes;  ///< of the pieces and the end
+};
 
-/// Evaluates the forces of the walls on the particles of a band (E3 to E7). REQUIRES: earlier bands have been
-/// evaluated.
-void evaluate_band_walls(const Scene& scene, State& state, std::size_t band, StepRecord& record,
-                         StageWorkspace& workspace);
+/// A stage of a step, on the whole lattice or on one band of it (scene/bands.h).
+struct StageEntry {
+  Stage stage;
+  unsigned reads;
+  unsigned writes;
+  /// In a wavefront, by how many bands it follows the first stage: its forces reach into the next band.
+  std::size_t bands_behind = 0;
+  /// REQUIRES: earlier bands have been done. Null: only on the whole; such a lattice is not cut into bands, or the stage
+  /// does nothing on it.
+  void (*on_band)(StepInProgress& step, std::size_t band) = nullptr;
+  void (*on_whole)(StepInProgress& step) = nullptr;  ///< null: band by band
+  const SplitStage* split = nullptr;
+};
 
-/// Evaluates the contact forces on the balls of a band and on the segments that they touch (E8 to E9e). REQUIRES:
-/// find_contacts, and earlier bands have been evaluated.
-void evaluate_band_contacts(const Scene& scene, State& state, std::size_t band, StepRecord& record,
-                            StageWorkspace& workspace);
+/// The step: every stage, in order. The only place where this order stands; execute_stages (plain or overlapped) and
+/// advance_wavefront run the list.
+extern const std::array<StageEntry, kStageCount> kStages;
 
-/// Evaluates the forces of the plates and rigid walls on the particles of a band (E9c to E9f).
-void evaluate_band_plates(const Scene& scene, State& state, std::size_t band, StepRecord& record,
-                          const std::vector<int>& near_plates);
+/// Whether a stage may run beside the pieces of a split one.
+constexpr bool runs_beside(const StageEntry& entry, const SplitStage& split) {
+  return (entry.reads & split.writes) == 0 && (entry.writes & (split.reads | split.writes)) == 0;
+}
+
+/// Records the step in which particles of a frame could approach each other by the most, by E8c for all of them:
+/// dt |v_high - v_low|. Does nothing where contacts are not watched (ContactLaw::most_travel).
+void watch_approach(const Scene& scene, State& state);
 
 }  // namespace cellcrush

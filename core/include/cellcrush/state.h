@@ -62,7 +62,7 @@ struct ReactionImpulse {
   double moment = 0.0;
 };
 
-/// The step since the start in which particles could approach each other by the most (step/watch_approach.h).
+/// The step since the start in which particles could approach each other by the most (watch_approach in step/stages.h).
 struct FastestStep {
   double travel = 0.0;        ///< mm
   std::int64_t step = 0;      ///< 0: none yet
