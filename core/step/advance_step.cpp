@@ -5,16 +5,16 @@
 #include "beam/internal_forces.h"
 #include "beam/joint_forces.h"
 #include "cellcrush/tuning.h"
+#include "contact/contact_search.h"
+#include "contact/contact_tiles.h"
 #include "energy/ledger.h"
 #include "motion/initial_state.h"
 #include "motion/loads.h"
 #include "motion/pin_forces.h"
 #include "motion/rigid_motion.h"
-#include "search/find_contacts.h"
 #include "step/advance_wavefront.h"
 #include "step/stages.h"
 #include "step/watch_approach.h"
-#include "touch/contact_tiles.h"
 
 namespace cellcrush {
 namespace {

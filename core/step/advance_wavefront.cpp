@@ -6,17 +6,13 @@
 #include <vector>
 
 #include "beam/internal_forces.h"
+#include "contact/contact_search.h"
+#include "contact/contact_tiles.h"
+#include "contact/topology/bands.h"
 #include "parallel/cache_size.h"
 #include "parallel/wavefront.h"
-#include "scene/bands.h"
-#include "search/border_check.h"
-#include "search/bucket_search.h"
-#include "search/face_search.h"
-#include "search/find_contacts.h"
-#include "search/merge_band_contacts.h"
 #include "step/stages.h"
 #include "step/watch_approach.h"
-#include "touch/contact_tiles.h"
 
 namespace cellcrush {
 namespace {
@@ -57,7 +53,7 @@ void advance_band(const Scene& scene, State& state, std::size_t band, StepRecord
   if (band > 0) {
     const std::size_t before = band - 1;
     stage.begin(Stage::find_contacts);
-    const bool is_planar = search_faces(scene, state, before, state.contacts[before], workspace.workers);
+    const bool is_planar = find_band_contacts(scene, state, before, workspace.workers);
     record.has_crossed = record.has_crossed || !is_planar;
     stage.begin(Stage::evaluate_contact_forces);
     evaluate_band_contacts(scene, state, before, record, workspace);
@@ -72,11 +68,9 @@ void check_search(const Scene& scene, State& state, std::int64_t first, std::spa
   const auto crossed =
       std::find_if(records.begin(), records.end(), [](const StepRecord& record) { return record.has_crossed; });
   if (crossed != records.end()) {
-    state.crossing_step = first + 1 + (crossed - records.begin());
-    merge_band_contacts(state);
+    change_topology(scene, state, TopologyChange::walls_crossed, first + 1 + (crossed - records.begin()));
   } else if (!borders_are_apart(scene, state, kMostStepsInWavefront)) {
-    merge_band_contacts(state);
-    search_space(scene, state);
+    change_topology(scene, state, TopologyChange::borders_near, state.step);
   }
 }
 

@@ -3,8 +3,8 @@
 #include <span>
 
 #include "beam/internal_forces.h"
+#include "contact/contact_forces.h"
 #include "motion/integrate_motion.h"
-#include "touch/contact_forces.h"
 #include "touch/plate_forces.h"
 #include "touch/rigid_wall_forces.h"
 

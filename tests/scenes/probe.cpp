@@ -1,11 +1,11 @@
 #include "scenes/probe.h"
 
+#include "contact/contact_forces.h"
+#include "contact/contact_tiles.h"
+#include "contact/search/bucket_search.h"
 #include "motion/initial_state.h"
 #include "scenes/frames.h"
 #include "scenes/near_pairs.h"
-#include "search/bucket_search.h"
-#include "touch/contact_forces.h"
-#include "touch/contact_tiles.h"
 
 namespace cellcrush::scenes {
 
