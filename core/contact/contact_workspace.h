@@ -5,7 +5,7 @@
 
 #include "cellcrush/lane_vector.h"
 #include "cellcrush/state.h"
-#include "contact/search/list_room.h"
+#include "contact/search/candidate_lists.h"
 
 namespace cellcrush {
 

@@ -5,7 +5,6 @@
 #include "contact/contact_tiles.h"
 #include "contact/thickening.h"
 #include "contact/touch/force_laws.h"
-#include "contact/touch/rubbed_surface.h"
 
 namespace cellcrush {
 namespace {

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "contact/search/candidate_lists.h"
-#include "contact/search/crossing.h"
 #include "contact/thickening.h"
 #include "geometry/all_finite.h"
 #include "geometry/bucket_grid.h"

@@ -3,8 +3,6 @@
 #include <limits>
 #include <utility>
 
-#include "contact/search/list_room.h"
-
 namespace cellcrush {
 namespace {
 

@@ -9,7 +9,7 @@
 #include <numeric>
 #include <span>
 
-#include "contact/search/crossing.h"
+#include "contact/search/candidate_lists.h"
 #include "contact/search/face_kernels.h"
 #include "contact/thickening.h"
 #include "contact/topology/face_loops.h"

@@ -6,7 +6,6 @@
 #include "contact/thickening.h"
 #include "contact/touch/contact_stages.h"
 #include "contact/touch/force_laws.h"
-#include "contact/touch/rubbed_surface.h"
 #include "geometry/capsule-inl.h"
 
 namespace cellcrush {

@@ -5,7 +5,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "contact/search/list_room.h"
+#include "contact/search/candidate_lists.h"
 #include "contact/touch/viscous_force-inl.h"
 #include "geometry/capsule-inl.h"
 #include "simd/points-inl.h"

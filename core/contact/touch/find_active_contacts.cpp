@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "contact/search/list_room.h"
+#include "contact/search/candidate_lists.h"
 #include "contact/touch/contact_stages.h"
 
 namespace cellcrush {

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "cellcrush/tuning.h"
-#include "contact/search/list_room.h"
+#include "contact/search/candidate_lists.h"
 #include "geometry/capsule-inl.h"
 #include "simd/points-inl.h"
 

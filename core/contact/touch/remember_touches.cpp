@@ -3,7 +3,7 @@
 #include <numeric>
 #include <utility>
 
-#include "contact/search/list_room.h"
+#include "contact/search/candidate_lists.h"
 #include "contact/touch/contact_stages.h"
 
 namespace cellcrush {

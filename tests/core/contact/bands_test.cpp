@@ -18,24 +18,6 @@ namespace {
 
 SceneSpec wide_specimen() { return scenes::with_the_papers_elements(scenes::hexagon_specimen(10, 1000)); }
 
-TEST(Bands, FollowEachOtherAndHaveAll) {
-  const auto scene = scenes::build(wide_specimen());
-  const std::vector<LatticeBand>& bands = scene->bands;
-  ASSERT_GT(bands.size(), 10u);
-  EXPECT_EQ(scene->faces.bands.size(), bands.size());
-  for (std::size_t b = 0; b < bands.size(); ++b) {
-    EXPECT_EQ(bands[b].first_chunk, b > 0 ? bands[b - 1].end_chunk : 0);
-    EXPECT_EQ(bands[b].first_joint, b > 0 ? bands[b - 1].end_joint : 0);
-    EXPECT_EQ(bands[b].first_inner, b > 0 ? bands[b - 1].end_inner : scene->joint_count);
-    EXPECT_LT(bands[b].first_chunk, bands[b].end_chunk);
-  }
-  EXPECT_EQ(bands.back().end_chunk, scene->walls.chunk_count());
-  const int chunks = bands.front().end_chunk;
-  EXPECT_GE(bands.back().end_chunk - bands.back().first_chunk, chunks) << "no band is smaller than the first";
-  EXPECT_EQ(bands.back().end_joint, scene->joint_count);
-  EXPECT_EQ(bands.back().end_inner, static_cast<int>(scene->particle_count()));
-}
-
 TEST(Bands, HaveWallsAndFacesWithTheirNeighboursOnly) {
   const auto scene = scenes::build(wide_specimen());
   const std::vector<int> band_of = bands_of_particles(*scene, scene->bands);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <random>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -20,28 +19,6 @@ namespace {
 
 using scenes::listed_pairs;
 using scenes::Pairs;
-
-TEST(BucketGrid, FindsWhatBruteForceFindsAtNegativeCoordinatesToo) {
-  std::mt19937 generator(7);
-  std::uniform_real_distribution<double> place(-30.0, 20.0);
-  std::vector<Vector2> points;
-  points.reserve(2000);
-  for (int i = 0; i < 2000; ++i) {
-    points.emplace_back(place(generator), place(generator));
-  }
-  const BucketGrid grid(points, 1.3);
-  for (int query = 0; query < 300; ++query) {
-    const Vector2 low(place(generator) - 5.0, place(generator) - 5.0);
-    const Vector2 high = low + Vector2(3.0, 2.0);
-    std::set<int> found;
-    grid.visit_box(low, high, [&](int i) { found.insert(i); });
-    for (int i = 0; i < 2000; ++i) {
-      const bool inside = (points[i].array() >= low.array()).all() && (points[i].array() <= high.array()).all();
-      EXPECT_TRUE(!inside || found.count(i) == 1);
-    }
-    EXPECT_LT(found.size(), 40u);  // a few buckets, not the whole
-  }
-}
 
 TEST(BucketGrid, AParticleThrownFarAwayCostsNoMemory) {
   std::vector<Vector2> points(100, Vector2(0.0, 0.0));
@@ -60,20 +37,6 @@ void search(const Scene& scene, State& state) {
 
 Pairs near_pairs(const Scene& scene, const State& state) {
   return scenes::near_pairs(scene, state, scene.contact.skin);
-}
-
-TEST(ContactSearch, AgreesWithBruteForceOnAShakenLattice) {
-  const auto scene = scenes::build(scenes::hexagon_specimen(6, 5));
-  State state = place_particles(*scene);
-  std::mt19937 generator(3);
-  std::uniform_real_distribution<double> shake(-1.2, 1.2);
-  for (Vector2& position : state.position) {
-    position = Vector2(0.4, 1.0).cwiseProduct(position) + Vector2(shake(generator) - 20.0, shake(generator) - 20.0);
-  }
-  search(*scene, state);
-  const Pairs near = near_pairs(*scene, state);
-  EXPECT_GT(near.size(), 200u);
-  EXPECT_EQ(listed_pairs(state), near);
 }
 
 // Two beams side by side; then an end of one is moved through the other.

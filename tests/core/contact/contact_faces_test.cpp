@@ -56,21 +56,6 @@ TEST(ContactFaces, EveryElementHasAFaceAtEitherSideThatItBorders) {
   }
 }
 
-TEST(ContactFaces, AGroupHasEveryParticleOfItsFacesOnce) {
-  const auto scene = scenes::build(scenes::hexagon_specimen(20, 10));
-  const FacesOfBand& faces = scene->faces.bands.front();
-  ASSERT_GT(faces.group_count(), 3);
-  EXPECT_EQ(faces.group_offset.back(), faces.count());
-  for (int group = 0; group < faces.group_count(); ++group) {
-    const auto corners = faces.particle.begin();
-    const std::set<int> expected(corners + faces.offset[faces.group_offset[group]],
-                                 corners + faces.offset[faces.group_offset[group + 1]]);
-    const std::vector<int> members(faces.member.begin() + faces.member_offset[group],
-                                   faces.member.begin() + faces.member_offset[group + 1]);
-    EXPECT_EQ(members, std::vector<int>(expected.begin(), expected.end()));
-  }
-}
-
 // Each of the 30 vertical walls stands out at both ends, but at the 10 ends where it meets one other wall only.
 TEST(ContactFaces, OfThickWallsHaveTheirEnds) {
   SceneSpec spec = scenes::hexagon_specimen(7, 4);

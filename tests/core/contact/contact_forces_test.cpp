@@ -7,7 +7,6 @@
 #include <numbers>
 #include <vector>
 
-#include "contact/touch/force_laws.h"
 #include "scenes/direction.h"
 #include "scenes/probe.h"
 
@@ -125,16 +124,6 @@ TEST(Contact, NeighboursAtAJointDoNotTouchUntilTheWallsFold) {
   for (std::size_t i = 0; i < probe.scene().particle_count(); ++i) {
     EXPECT_EQ(probe.state().contact_force[i].elastic.norm(), 0.0) << i;
   }
-}
-
-// Eq. 43 with c > 0 pulls on walls that part.
-TEST(Contact, NeverPullsHoweverFastWallsPart) {
-  for (const double rate : {0.0, -1e3, -1e6, 1e4}) {
-    const NormalForce force = evaluate_normal_force(100.0, 0.2, 1e8, 0.01, rate);
-    EXPECT_GE(force.elastic + force.viscous, 0.0);
-    EXPECT_DOUBLE_EQ(force.elastic, 1.0);
-  }
-  EXPECT_EQ(evaluate_normal_force(100.0, 0.2, 1e8, 0.01, -1e6).viscous, -1.0);
 }
 
 }  // namespace

@@ -1,5 +1,3 @@
-#include "contact/touch/rubbed_surface.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include <vector>
 
 #include "contact/contact_tiles.h"
+#include "contact/touch/force_laws.h"
 #include "scenes/direction.h"
 #include "scenes/evidence.h"
 #include "scenes/frames.h"
@@ -25,34 +24,6 @@ using scenes::direction;
 using scenes::Probe;
 
 constexpr double kSticks = 1e6;  // as friction
-
-/// Velocities of a body that turns at 1 rad/s about a place.
-Probe::Velocities turning_about(const Vector2& centre) {
-  return [centre](const Vector2& place) { return normal_of(place - centre); };
-}
-
-Vector2 at_rest(const Vector2&) { return Vector2::Zero(); }
-
-// Over the side of the segment, and round its end. The tip rolls about the point in the middle between the mid-lines.
-TEST(RubbedSurface, DoesNotSlipWhereItRolls) {
-  for (const double angle : {90.0, 60.0, 30.0}) {
-    const Vector2 normal = direction(angle * std::numbers::pi / 180.0);
-    const Vector2 place = angle == 90.0 ? Vector2(-5.0, Probe::kDistance) : Vector2(Probe::kDistance * normal);
-    const Vector2 contact = place - 0.5 * Probe::kDistance * normal;
-    Probe probe({{-20.0, 0.0}, {0.0, 0.0}}, kSticks);
-    probe.force_at(place, normal);
-    const double step = probe.scene().schedule.time_step;
-    const Vector2 rolled = probe.rub_at(place, normal, turning_about(contact), at_rest);
-    EXPECT_LT(rolled.norm(), 1e-12 * probe.stiffness() * step * Probe::kDistance) << angle;
-    // About its own centre it slips by half of the distance, whichever of the two turns.
-    const double slip = 0.5 * Probe::kDistance * step;
-    const Vector2 spun = probe.rub_at(place, normal, turning_about(place), at_rest);
-    EXPECT_NEAR(spun.norm(), probe.stiffness() * slip, 1e-9 * probe.stiffness() * slip) << angle;
-    const Vector2 foot = place - Probe::kDistance * normal;
-    const Vector2 both = probe.rub_at(place, normal, at_rest, turning_about(foot));
-    EXPECT_NEAR((both - 2.0 * spun).norm(), 0.0, 1e-9 * spun.norm()) << angle;
-  }
-}
 
 // Couples on elements shorter than the walls are thick need forces greater than friction, which drive light particles.
 TEST(RubbedSurface, FrictionOfShortElementsDoesNotOutpaceTheNormalForce) {
