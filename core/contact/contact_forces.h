@@ -12,8 +12,8 @@ namespace cellcrush {
 
 /// Evaluates the contact forces on the balls of a band from its candidates (section 4.2, Eq. 41-47, E8 to E9e). Adds
 /// them to contact_force and friction_force, and their totals to the sums. core/contact.md explains the law and its
-/// deviations from the source. REQUIRES: forces are 0 at first, as clear_contact_forces leaves them; bands are evaluated
-/// in order.
+/// deviations from the source. REQUIRES: forces are 0 at first, as clear_contact_forces leaves them; bands are
+/// evaluated in order.
 ///
 /// A face between two bands is searched by the first of them. Pairs found there with balls of the second band are
 /// passed to it in the sums, so all pairs of a ball are in one list.

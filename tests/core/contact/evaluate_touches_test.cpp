@@ -17,39 +17,38 @@ using scenes::PlacedPair;
 
 constexpr double kRounding = 1e-12;
 
-/// All pairs touching, the side of first touch as `side_of(pair)` has it.
-template <class SideOf>
-ContactLists touching_of(const std::vector<PlacedPair>& pairs, SideOf&& side_of) {
-  ContactLists lists;
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    lists.touching.ball.push_back(static_cast<int>(3 * i + 2));
-    lists.touching.segment.push_back(static_cast<int>(i));
-    lists.touching.reach.push_back(pairs[i].reach);
-    lists.touching.side.push_back(side_of(pairs[i]));
-  }
-  return lists;
-}
-
 int side_now(const PlacedPair& pair) { return pair.across >= 0.0 ? 1 : -1; }
 
-PairScene scene_of(const std::vector<PlacedPair>& pairs) {
-  PairScene at(pairs);
-  at.scene.contact.stiffness = 50.0;
-  at.scene.contact.damping_ratio = 0.3;
-  at.scene.schedule.time_step = 0.01;
-  return at;
-}
+/// 203 pairs, all touching, the side of first touch as `side_of(pair)` has it, evaluated by the kernels in use.
+struct Evaluated {
+  std::vector<PlacedPair> pairs = scenes::draw_pairs(203);
+  PairScene at{pairs};
+  ContactLists lists;
+  Touches touches;
+  std::vector<int> released;
+
+  template <class SideOf>
+  explicit Evaluated(SideOf&& side_of) {
+    at.scene.contact.stiffness = 50.0;
+    at.scene.contact.damping_ratio = 0.3;
+    at.scene.schedule.time_step = 0.01;
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      lists.touching.ball.push_back(static_cast<int>(3 * i + 2));
+      lists.touching.segment.push_back(static_cast<int>(i));
+      lists.touching.reach.push_back(pairs[i].reach);
+      lists.touching.side.push_back(side_of(pairs[i]));
+    }
+    touches.resize(pairs.size());
+    evaluate_touches(at.scene, at.state, lists, touches, 0, pairs.size(), released);
+  }
+};
+
+int no_side(const PlacedPair&) { return 0; }
 
 TEST(EvaluateTouches, FindsDepthFootAndNormalOfNewPairs) {
-  const std::vector<PlacedPair> pairs = scenes::draw_pairs(203);
-  const PairScene at = scene_of(pairs);
   double worst = 0.0;
   scenes::for_every_target([&] {
-    ContactLists lists = touching_of(pairs, [](const PlacedPair&) { return 0; });
-    Touches touches;
-    touches.resize(pairs.size());
-    std::vector<int> released;
-    evaluate_touches(at.scene, at.state, lists, touches, 0, pairs.size(), released);
+    const auto [pairs, at, lists, touches, released] = Evaluated(no_side);
     std::vector<int> apart;
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       const PlacedPair& pair = pairs[i];
@@ -75,16 +74,10 @@ TEST(EvaluateTouches, FindsDepthFootAndNormalOfNewPairs) {
 
 // v_foot - v_ball in the frame of the contact; c = 2 zeta sqrt(k m), 1/m of the ball and of the lever's two ends.
 TEST(EvaluateTouches, FindsViscousForceAndSlip) {
-  const std::vector<PlacedPair> pairs = scenes::draw_pairs(203);
-  const PairScene at = scene_of(pairs);
-  const ContactLaw& law = at.scene.contact;
   double worst = 0.0;
   scenes::for_every_target([&] {
-    ContactLists lists = touching_of(pairs, [](const PlacedPair&) { return 0; });
-    Touches touches;
-    touches.resize(pairs.size());
-    std::vector<int> released;
-    evaluate_touches(at.scene, at.state, lists, touches, 0, pairs.size(), released);
+    const auto [pairs, at, lists, touches, released] = Evaluated(no_side);
+    const ContactLaw& law = at.scene.contact;
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       const double s = std::clamp(pairs[i].ahead / pairs[i].length, 0.0, 1.0);
       const Vector2* v = &at.state.velocity[3 * i];
@@ -104,14 +97,9 @@ TEST(EvaluateTouches, FindsViscousForceAndSlip) {
 
 // A ball pressed past the mid-line keeps its side and is deep; beyond an end the side is where it stands.
 TEST(EvaluateTouches, KeepsTheSideOfFirstTouchOverTheInside) {
-  const std::vector<PlacedPair> pairs = scenes::draw_pairs(203);
-  const PairScene at = scene_of(pairs);
   scenes::for_every_target([&] {
-    ContactLists lists = touching_of(pairs, [](const PlacedPair& pair) { return -side_now(pair); });
-    Touches touches;
-    touches.resize(pairs.size());
-    std::vector<int> released;
-    evaluate_touches(at.scene, at.state, lists, touches, 0, pairs.size(), released);
+    const auto [pairs, at, lists, touches, released] =
+        Evaluated([](const PlacedPair& pair) { return -side_now(pair); });
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       const PlacedPair& pair = pairs[i];
       if (pair.is_inside()) {

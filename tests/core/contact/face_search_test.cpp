@@ -220,8 +220,8 @@ TEST(FaceSearch, GivesTheSameBitsAsBucketsWhileAllThatTouchesSharesAFace) {
   EXPECT_TRUE(by_faces.friction_force == by_buckets.friction_force);
 }
 
-// Told of a change in the middle of a crush, the search begins again, by the faces or, where these are no longer enough,
-// by buckets. As no wall has changed here, forces keep their bits.
+// Told of a change in the middle of a crush, the search begins again, by the faces or, where these are no longer
+// enough, by buckets. As no wall has changed here, forces keep their bits.
 TEST(FaceSearch, BeginsAgainWhenToldThatWallsHaveChanged) {
   SceneSpec spec = scenes::hexagon_specimen(8, 5);
   spec.contact.friction = 0.2;
