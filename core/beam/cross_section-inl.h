@@ -9,7 +9,7 @@
 #include <cstddef>
 
 #include "cellcrush/scene.h"
-#include "geometry/thickening.h"
+#include "contact/thickening.h"
 #include "simd/lane-inl.h"
 
 HWY_BEFORE_NAMESPACE();

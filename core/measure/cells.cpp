@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "scene/face_loops.h"
+#include "contact/topology/face_loops.h"
 
 namespace cellcrush {
 namespace {

@@ -21,7 +21,7 @@ struct Faces {
   [[nodiscard]] std::size_t count() const { return area.size(); }
 };
 
-/// Traces the faces of the graph of particles and elements (scene/face_loops.h), without the outer one.
+/// Traces the faces of the graph of particles and elements (contact/topology/face_loops.h), without the outer one.
 /// REQUIRES: a planar drawing, in which elements meet only at particles.
 Faces trace_faces(std::span<const Vector2> position, std::span<const Element> elements);
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "beam/element_place.h"
+#include "contact/contact_search.h"
 #include "energy/ledger.h"
 #include "geometry/all_finite.h"
 #include "measure/crush_mode.h"
@@ -16,7 +17,6 @@
 #include "measure/front.h"
 #include "measure/theory.h"
 #include "measure/warnings.h"
-#include "search/find_contacts.h"
 
 namespace cellcrush {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/thickening.h"
 #include "geometry/capsule.h"
-#include "geometry/thickening.h"
 #include "scene/check_spec.h"
 
 namespace cellcrush {

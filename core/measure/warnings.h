@@ -31,7 +31,7 @@ Warning warn_of_depth(const Scene& scene, const State& state, double strain);
 /// Warns of a layer that walls fill by more than its volume: denser than solid metal.
 Warning warn_of_density(const State& state, const Sample& sample);
 /// Warns that distant parts of the border, which bands do not test against each other, came near
-/// (search/border_check.h). This costs time but no accuracy.
+/// (contact/contact_search.h). This costs time but no accuracy.
 Warning warn_of_borders(const State& state, double strain);
 
 /// Warns of walls that real metal would have torn: more than kNeckedWalls of all have been stretched by more than their

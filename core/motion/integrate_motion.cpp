@@ -8,10 +8,10 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "contact/contact_tiles.h"
+#include "contact/topology/bands.h"
 #include "motion/motion_works-inl.h"
 #include "motion/particle_motion-inl.h"
-#include "scene/bands.h"
-#include "touch/contact_tiles.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace cellcrush::HWY_NAMESPACE {

@@ -2,13 +2,13 @@
 
 #include "cellcrush/fidelity.h"
 #include "cellcrush/simulation.h"
-#include "scene/bands.h"
+#include "contact/topology/bands.h"
+#include "contact/topology/contact_faces.h"
+#include "contact/topology/wall_paths.h"
 #include "scene/check_spec.h"
-#include "scene/contact_faces.h"
 #include "scene/fibre_precision.h"
 #include "scene/mesh_part.h"
 #include "scene/run_plan.h"
-#include "scene/wall_paths.h"
 
 namespace cellcrush {
 namespace {

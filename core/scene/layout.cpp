@@ -1,11 +1,13 @@
 #include "scene/layout.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <tuple>
 #include <utility>
 
 #include "cellcrush/tuning.h"
+#include "geometry/find_parts.h"
 
 namespace cellcrush {
 namespace {

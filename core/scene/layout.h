@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <numeric>
 #include <vector>
@@ -41,36 +40,13 @@ void perturb(const Imperfection& imperfection, std::vector<Vector2>& joints);
 void bow(const Imperfection& imperfection, std::vector<LayoutWall>& walls);
 
 /// Numbers the joints of a large lattice column by column, and its walls in the order of their joints. Bands
-/// (scene/bands.h) then run across the lattice and are small. This applies if it is longer along x than along y and its
-/// rows run along x. Other lattices, and those with rigid walls, stay as they are. `places` are the positions of the
-/// joints before any imperfection, mm.
+/// (contact/topology/bands.h) then run across the lattice and are small. This applies if it is longer along x than
+/// along y and its rows run along x. Other lattices, and those with rigid walls, stay as they are. `places` are the
+/// positions of the joints before any imperfection, mm.
 void number_columns(const std::vector<Vector2>& places, Layout& layout);
 
 /// Numbers the joints of rigid walls first, with those of the same body side by side, and moves rigid walls to the end.
 /// Returns RigidBodies::offset.
 std::vector<int> put_rigid_bodies_first(Layout& layout);
-
-/// For each of `count` nodes, the lowest of the nodes to which the links connect it; its own number if none does. Links
-/// run from their `start` to their `end`.
-template <class Links>
-std::vector<int> find_parts(std::size_t count, const Links& links) {
-  std::vector<int> part(count);
-  std::iota(part.begin(), part.end(), 0);
-  const auto root_of = [&](int node) {
-    while (part[node] != node) {
-      part[node] = part[part[node]];
-      node = part[node];
-    }
-    return node;
-  };
-  for (const auto& link : links) {
-    const auto [low, high] = std::minmax({root_of(link.start), root_of(link.end)});
-    part[high] = low;
-  }
-  for (int& node : part) {
-    node = root_of(node);
-  }
-  return part;
-}
 
 }  // namespace cellcrush

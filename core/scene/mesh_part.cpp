@@ -4,8 +4,8 @@
 #include <numbers>
 
 #include "scene/approach_speed.h"
+#include "scene/check_overlap.h"
 #include "scene/frame.h"
-#include "scene/initial_overlap.h"
 #include "scene/lattices.h"
 #include "scene/layout.h"
 #include "scene/masses.h"

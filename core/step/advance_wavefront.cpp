@@ -6,15 +6,12 @@
 #include <vector>
 
 #include "beam/internal_forces.h"
+#include "contact/contact_search.h"
+#include "contact/contact_tiles.h"
+#include "contact/topology/bands.h"
 #include "parallel/cache_size.h"
 #include "parallel/wavefront.h"
-#include "scene/bands.h"
-#include "search/border_check.h"
-#include "search/bucket_search.h"
-#include "search/find_contacts.h"
-#include "search/merge_band_contacts.h"
 #include "step/execute_stages.h"
-#include "touch/contact_tiles.h"
 
 namespace cellcrush {
 namespace {
@@ -54,11 +51,9 @@ void check_search(const Scene& scene, State& state, std::int64_t first, std::spa
   const auto crossed =
       std::find_if(records.begin(), records.end(), [](const StepRecord& record) { return record.has_crossed; });
   if (crossed != records.end()) {
-    state.crossing_step = first + 1 + (crossed - records.begin());
-    merge_band_contacts(state);
+    change_topology(scene, state, TopologyChange::walls_crossed, first + 1 + (crossed - records.begin()));
   } else if (!borders_are_apart(scene, state, kMostStepsInWavefront)) {
-    merge_band_contacts(state);
-    search_space(scene, state);
+    change_topology(scene, state, TopologyChange::borders_near, state.step);
   }
 }
 

@@ -5,14 +5,13 @@
 
 #include "beam/internal_forces.h"
 #include "beam/joint_forces.h"
+#include "contact/contact_forces.h"
+#include "contact/contact_search.h"
+#include "contact/contact_tiles.h"
 #include "motion/integrate_motion.h"
 #include "motion/loads.h"
 #include "motion/pin_forces.h"
 #include "motion/rigid_motion.h"
-#include "search/face_search.h"
-#include "search/find_contacts.h"
-#include "touch/contact_forces.h"
-#include "touch/contact_tiles.h"
 #include "touch/plate_forces.h"
 #include "touch/rigid_wall_forces.h"
 
@@ -57,7 +56,7 @@ void find_all_contacts(StepInProgress& step) {
 }
 
 void find_band_contacts(StepInProgress& step, std::size_t band) {
-  const bool is_planar = search_faces(step.scene, step.state, band, step.state.contacts[band], step.workspace.workers);
+  const bool is_planar = cellcrush::find_band_contacts(step.scene, step.state, band, step.workspace.workers);
   step.record.has_crossed = step.record.has_crossed || !is_planar;
 }
 

@@ -4,9 +4,9 @@
 
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
+#include "contact/contact_sums.h"
 #include "motion/integrate_motion.h"
 #include "motion/plate_motion.h"
-#include "touch/contact_sums.h"
 #include "touch/plate_forces.h"
 
 namespace cellcrush {

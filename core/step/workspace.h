@@ -6,9 +6,9 @@
 
 #include "beam/walls_workspace.h"
 #include "cellcrush/scene.h"
+#include "contact/contact_workspace.h"
 #include "parallel/workers.h"
 #include "step/step_record.h"
-#include "touch/contact_workspace.h"
 
 namespace cellcrush {
 

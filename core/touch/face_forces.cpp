@@ -2,10 +2,9 @@
 
 #include <algorithm>
 
-#include "touch/contact_tiles.h"
-#include "touch/force_laws.h"
-#include "touch/rubbed_surface.h"
-#include "touch/thickening_forces.h"
+#include "contact/contact_tiles.h"
+#include "contact/thickening.h"
+#include "contact/touch/force_laws.h"
 
 namespace cellcrush {
 namespace {

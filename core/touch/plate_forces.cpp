@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "geometry/thickening.h"
+#include "contact/thickening.h"
 #include "touch/face_forces.h"
 
 namespace cellcrush {

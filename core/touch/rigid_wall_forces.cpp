@@ -1,6 +1,6 @@
 #include "touch/rigid_wall_forces.h"
 
-#include "geometry/thickening.h"
+#include "contact/thickening.h"
 #include "touch/face_forces.h"
 
 namespace cellcrush {

@@ -2,7 +2,7 @@
 
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
-#include "touch/contact_sums.h"
+#include "contact/contact_sums.h"
 
 namespace cellcrush {
 

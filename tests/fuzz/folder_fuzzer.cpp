@@ -15,7 +15,7 @@
 #include <string>
 
 #include "error.h"
-#include "fuzz/memory_folder.h"
+#include "fuzz/prepared_folder.h"
 #include "server/temporary_folder.h"
 #include "worker/checkpoint_file.h"
 #include "worker/claim.h"

@@ -15,4 +15,8 @@ void prepare_folder(const std::filesystem::path& folder);
 /// A small but whole result: 3 particles, 2 elements, 5 samples and 3 frames.
 void write_result(const std::filesystem::path& path);
 
+/// Has temporary folders made where writes are not waited for, if there is such a place: what a run makes durable is of
+/// no worth.
+void use_memory_folder();
+
 }  // namespace cellcrush::fuzz

@@ -23,7 +23,6 @@
 
 #include "error.h"
 #include "fuzz/hostile_result.h"
-#include "fuzz/memory_folder.h"
 #include "fuzz/prepared_folder.h"
 #include "rpc/result_frame.h"
 #include "server/temporary_folder.h"

@@ -20,7 +20,6 @@
 #include "cellcrush/v1/cases_service.pb.h"
 #include "cellcrush/v1/jobs_service.pb.h"
 #include "cellcrush/v1/sweeps_service.pb.h"
-#include "fuzz/memory_folder.h"
 #include "fuzz/message_mutator.h"
 #include "fuzz/prepared_folder.h"
 #include "fuzz/size_bound.h"

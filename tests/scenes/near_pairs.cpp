@@ -4,12 +4,12 @@
 
 #include <algorithm>
 
-#include "scene/bands.h"
-#include "scene/face_loops.h"
-#include "search/bucket_search.h"
-#include "touch/contact_forces.h"
-#include "touch/contact_sums.h"
-#include "touch/contact_tiles.h"
+#include "contact/contact_forces.h"
+#include "contact/contact_sums.h"
+#include "contact/contact_tiles.h"
+#include "contact/search/bucket_search.h"
+#include "contact/topology/bands.h"
+#include "contact/topology/face_loops.h"
 
 namespace cellcrush::scenes {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
+#include "contact/contact_workspace.h"
 #include "parallel/workers.h"
-#include "touch/contact_workspace.h"
 
 namespace cellcrush::scenes {
 

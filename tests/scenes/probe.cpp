@@ -1,11 +1,11 @@
 #include "scenes/probe.h"
 
+#include "contact/contact_forces.h"
+#include "contact/contact_tiles.h"
+#include "contact/search/bucket_search.h"
 #include "motion/initial_state.h"
 #include "scenes/frames.h"
 #include "scenes/near_pairs.h"
-#include "search/bucket_search.h"
-#include "touch/contact_forces.h"
-#include "touch/contact_tiles.h"
 
 namespace cellcrush::scenes {
 
@@ -53,16 +53,9 @@ Vector2 Probe::force_at(const Vector2& place, const Vector2& outward) {
 
 Vector2 Probe::drag_to(const Vector2& place, const Vector2& outward) {
   const Vector2 velocity = (place - state_.position[tip_]) / scene_->schedule.time_step;
-  return rub_at(
-      place, outward, [&](const Vector2&) { return velocity; },
-      [](const Vector2&) { return Vector2(Vector2::Zero()); });
-}
-
-Vector2 Probe::rub_at(const Vector2& place, const Vector2& outward, const Velocities& of_beam,
-                      const Velocities& of_chain) {
   place_tip(place, outward);
   for (int i = 0; i <= tip_; ++i) {
-    state_.velocity[i] = i < tip_ - 1 ? of_chain(state_.position[i]) : of_beam(state_.position[i]);
+    state_.velocity[i] = i < tip_ - 1 ? Vector2(Vector2::Zero()) : velocity;
   }
   evaluate_contacts();
   return state_.friction_force[tip_] + state_.friction_force[tip_ - 1];

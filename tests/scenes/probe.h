@@ -1,13 +1,12 @@
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <vector>
 
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
+#include "contact/contact_workspace.h"
 #include "parallel/workers.h"
-#include "touch/contact_workspace.h"
 
 namespace cellcrush::scenes {
 
@@ -28,12 +27,6 @@ class Probe {
   /// Friction on the tip's beam after the tip has been dragged there from where it was, within one step. The beam has
   /// the velocity of the tip, and so does not turn.
   Vector2 drag_to(const Vector2& place, const Vector2& outward);
-
-  /// Velocity at a place, mm/s.
-  using Velocities = std::function<Vector2(const Vector2&)>;
-
-  /// The same where the tip has come there in a step in which the beam and the chain moved by these velocities.
-  Vector2 rub_at(const Vector2& place, const Vector2& outward, const Velocities& of_beam, const Velocities& of_chain);
 
   [[nodiscard]] const Scene& scene() const { return *scene_; }
   [[nodiscard]] double stiffness() const { return scene_->contact.stiffness; }

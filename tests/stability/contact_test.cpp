@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "cellcrush/state.h"
+#include "contact/touch/force_laws.h"
 #include "scenes/beam_over_beam.h"
 #include "scenes/frames.h"
 #include "step/advance_step.h"
-#include "touch/force_laws.h"
 
 namespace cellcrush {
 namespace {

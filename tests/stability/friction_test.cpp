@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "touch/force_laws.h"
+#include "contact/touch/force_laws.h"
 
 namespace cellcrush {
 namespace {

@@ -6,8 +6,8 @@ namespace cellcrush {
 
 /// Faces of a band: those with particles of the band but of no earlier band. The last one is the part of the outer face
 /// at the band and its neighbours. With only one band, all faces. Round a face its corners are stored first, then its
-/// thick ends: elements whose round ends stand out into it (scene/face_loops.h). F faces, S corners and thick ends, G
-/// groups.
+/// thick ends: elements whose round ends stand out into it (contact/topology/face_loops.h). F faces, S corners and
+/// thick ends, G groups.
 struct FacesOfBand {
   std::vector<int> number;      ///< F, among all faces
   std::vector<int> offset;      ///< F + 1, into corners and thick ends
@@ -43,8 +43,8 @@ struct BorderParticle {
   int last_band = 0;  ///< the last band that has elements at the particle
 };
 
-/// The faces into which the elements divide the plane, for the contact search (E8c, search/face_search.h): the cells
-/// and the outer border. E elements. Built by build_contact_faces; empty where contacts are searched by buckets.
+/// The faces into which the elements divide the plane, for the contact search (E8c, contact/search/face_search.h): the
+/// cells and the outer border. E elements. Built by build_contact_faces; empty where contacts are searched by buckets.
 struct ContactFaces {
   /// Whether a search by faces finds every contact, and if not, why.
   enum class Premise {

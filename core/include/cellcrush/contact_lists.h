@@ -59,8 +59,8 @@ struct ContactLists {
   double searched_growth = 0.0;           ///< reach_growth when the list was made
   std::int64_t search_count = 0;
 
-  // Search by faces only (E8c, search/face_search.h); empty where contacts are searched by buckets. F faces, S corners
-  // and thick ends, G groups.
+  // Search by faces only (E8c, contact/search/face_search.h); empty where contacts are searched by buckets. F faces, S
+  // corners and thick ends, G groups.
   std::vector<FaceList> face_list;              ///< F
   std::vector<double> face_clearance;           ///< F, mm by which gaps may close before an unlisted pair touches
   std::vector<double> face_next_check_travel;   ///< F, travel of its group at which the face is next checked

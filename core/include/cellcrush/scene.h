@@ -212,7 +212,7 @@ struct ContactLaw {
 };
 
 /// Pairs of ball and segment whose reach is limited, or will be as walls grow thicker, because a short path along the
-/// walls joins them (E8a, scene/wall_paths.h). N particles.
+/// walls joins them (E8a, contact/topology/wall_paths.h). N particles.
 struct LimitedReaches {
   std::vector<int> offset;    ///< N + 1, by ball, into the other arrays; empty if there are no such pairs
   std::vector<int> segment;   ///< ascending for each ball
@@ -252,7 +252,7 @@ struct Scene {
   double smallest_radius = 0.0;   ///< mm
   std::vector<Element> elements;  ///< E
   Walls walls;                    ///< W
-  /// Of a large lattice, each adjacent to the one before (scene/bands.h); otherwise one.
+  /// Of a large lattice, each adjacent to the one before (contact/topology/bands.h); otherwise one.
   std::vector<LatticeBand> bands;
   RigidBodies rigid;
   Pins pins;

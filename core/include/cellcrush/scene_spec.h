@@ -191,7 +191,7 @@ struct SectionSpec {
 
 struct ContactSpec {
   enum class Search {
-    faces,   ///< by the faces of the lattice, where these are enough (E8c, scene/contact_faces.h)
+    faces,   ///< by the faces of the lattice, where these are enough (E8c, contact/topology/contact_faces.h)
     buckets  ///< in space, as in the paper (section 4.1)
   };
   double friction = 0.0;

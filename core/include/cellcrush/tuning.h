@@ -18,7 +18,7 @@ inline constexpr int kMostWallsInBlock = 16;
 /// Elements of a chunk: few enough that the values passed between its loops stay in the nearest cache. Changes bits.
 inline constexpr int kElementsInChunk = 128;
 
-// Bands of a large lattice (scene/bands.h).
+// Bands of a large lattice (contact/topology/bands.h).
 
 /// Fewest elements of a lattice that is cut into bands; a smaller lattice stays in the caches as a whole. Changes bits.
 inline constexpr std::size_t kLeastElementsOfBands = 50'000;

@@ -7,8 +7,8 @@
 #include "beam/internal_forces.h"
 #include "cellcrush/scene.h"
 #include "cellcrush/state.h"
+#include "contact/topology/bands.h"
 #include "motion/initial_state.h"
-#include "scene/bands.h"
 #include "scenes/evidence.h"
 #include "scenes/frames.h"
 

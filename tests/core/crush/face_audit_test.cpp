@@ -6,13 +6,13 @@
 
 #include "cellcrush/simulation.h"
 #include "cellcrush/state.h"
+#include "contact/contact_forces.h"
+#include "contact/contact_tiles.h"
+#include "contact/search/bucket_search.h"
 #include "scenes/evidence.h"
 #include "scenes/frames.h"
 #include "scenes/near_pairs.h"
 #include "scenes/small_specimen.h"
-#include "search/bucket_search.h"
-#include "touch/contact_forces.h"
-#include "touch/contact_tiles.h"
 
 namespace cellcrush {
 namespace {

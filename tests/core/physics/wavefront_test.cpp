@@ -9,13 +9,13 @@
 
 #include "cellcrush/simd.h"
 #include "cellcrush/simulation.h"
+#include "contact/contact_search.h"
 #include "measure/sampler.h"
 #include "scenes/crushes.h"
 #include "scenes/evidence.h"
 #include "scenes/frames.h"
 #include "scenes/near_pairs.h"
 #include "scenes/state_hash.h"
-#include "search/border_check.h"
 #include "step/advance_step.h"
 #include "step/advance_wavefront.h"
 
@@ -81,7 +81,7 @@ TEST(Wavefront, GiveThemOfEveryKindOfWalls) {
   }
 }
 
-/// The same with thick ends (scene/face_loops.h), which meet as the cells close along y.
+/// The same with thick ends (contact/topology/face_loops.h), which meet as the cells close along y.
 SceneSpec wide_specimen_of_thick_ends() {
   SceneSpec spec = scenes::with_the_papers_elements(scenes::hexagon_specimen(1000, 10));
   auto& hexagon = std::get<HexagonLattice>(spec.lattice);
