@@ -8,7 +8,7 @@
 #include "case_file/suggestion.h"
 #include "command_error.h"
 #include "help/case_descriptor.h"
-#include "help/field_comment.h"
+#include "help/field_rules.h"
 
 namespace cellcrush::client {
 
@@ -59,7 +59,7 @@ std::string type_of(const FieldDescriptor& field) {
 std::vector<std::pair<std::string, std::string>> list_fields(const Descriptor& type) {
   std::vector<std::pair<std::string, std::string>> fields;
   for (int i = 0; i < type.field_count(); ++i) {
-    fields.emplace_back(type.field(i)->name(), parse_field_comment(comment_of(*type.field(i))).summary);
+    fields.emplace_back(type.field(i)->name(), first_sentence(comment_of(*type.field(i))));
   }
   return fields;
 }
@@ -121,9 +121,8 @@ FieldManual find_field_manual(const std::string& path) {
   manual.type = type_of(field);
   manual.unit = unit_of(field.name());
   manual.comment = comment_of(field);
-  const FieldComment comment = parse_field_comment(manual.comment);
-  manual.default_value = comment.default_value;
-  if (field.message_type() == nullptr) manual.limits = comment.limits;
+  manual.default_value = default_of(field);
+  manual.limits = limits_of(field);
   if (field.message_type() != nullptr) manual.fields = list_fields(*field.message_type());
   for (int i = 0; field.enum_type() != nullptr && i < field.enum_type()->value_count(); ++i) {
     const auto& value = *field.enum_type()->value(i);

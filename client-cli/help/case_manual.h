@@ -9,7 +9,7 @@
 
 namespace cellcrush::client {
 
-/// What the comments of case.proto say about a field or, for an empty path, about the whole case.
+/// What the comments and options of case.proto say about a field or, for an empty path, about the whole case.
 struct FieldManual {
   std::string path;
   std::string type;           ///< as in the proto, such as "double" or "enum Direction"

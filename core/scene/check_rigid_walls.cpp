@@ -64,11 +64,11 @@ void check_rigid_walls(const FrameLattice& frame, FieldChecker& check) {
   for (std::size_t i = 0; i < frame.rigid_walls.size(); ++i) {
     const FrameLattice::RigidWall& wall = frame.rigid_walls[i];
     const std::string path = "lattice.frame.rigid_walls[" + std::to_string(i) + "]";
-    bool placed = check.in_range(path + ".x_mm", wall.x_mm, {-1e9, 1e9}, " mm");
-    placed = check.in_range(path + ".y_mm", wall.y_mm, {-1e9, 1e9}, " mm") && placed;
-    placed = check.in_range(path + ".normal_x", wall.normal_x, {-1e9, 1e9}) && placed;
-    placed = check.in_range(path + ".normal_y", wall.normal_y, {-1e9, 1e9}) && placed;
-    check.in_range(path + ".friction", wall.friction, {0.0, 10.0});
+    bool placed = check.within_limits(path + ".x_mm", wall.x_mm);
+    placed = check.within_limits(path + ".y_mm", wall.y_mm) && placed;
+    placed = check.within_limits(path + ".normal_x", wall.normal_x) && placed;
+    placed = check.within_limits(path + ".normal_y", wall.normal_y) && placed;
+    check.within_limits(path + ".friction", wall.friction);
     if (wall.normal_x == 0.0 && wall.normal_y == 0.0) {
       check.add(path + ".normal_x", "0", "and normal_y give no direction.",
                 "Give the direction out of the wall, towards the frame.");

@@ -2,18 +2,39 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <charconv>
 #include <cmath>
 #include <limits>
 #include <set>
+#include <string_view>
+#include <vector>
 
 #include "scene/lattices.h"
 
 namespace cellcrush {
 namespace {
 
-constexpr double kLargest = 1e12;
-constexpr double kSmallest = 1e-6;  // far below anything real, far above where squares underflow
+constexpr double kLargest = 1e12;  // shown as no limit
+
+struct FieldLimits {
+  std::string_view path;
+  FieldChecker::Range range;
+  std::string unit;
+};
+
+/// The limits of a field at `path`, which may have indices in brackets.
+const FieldLimits& limits_of(std::string path) {
+  static const std::vector<FieldLimits> kLimits = {  // in the order of their paths
+#include "scene/field_limits.inc"
+  };
+  for (std::size_t open = path.find('['); open != std::string::npos; open = path.find('[')) {
+    path.erase(open, path.find(']', open) + 1 - open);
+  }
+  const auto found = std::ranges::lower_bound(kLimits, std::string_view(path), {}, &FieldLimits::path);
+  assert(found != kLimits.end() && found->path == path);
+  return *found;
+}
 
 std::string describe(const FieldChecker::Range& range) {
   return range.high >= kLargest
@@ -27,10 +48,9 @@ std::string half_of(double side) { return std::isfinite(side) ? " mm (half of si
 /// Checks the fields common to all regular lattices. Returns the side, mm; an endless one if it is not valid.
 double check_regular(const SceneSpec& spec, const RegularLattice& lattice, FieldChecker& check) {
   const std::string path = path_of_lattice(spec);
-  const double fewest_columns = std::holds_alternative<HexagonLattice>(spec.lattice) ? 2.0 : 1.0;
-  const bool columns = check.in_range(path + "columns", lattice.columns, {fewest_columns, 10000}, " cells");
-  const bool rows = check.in_range(path + "rows", lattice.rows, {1, 10000}, " cells");
-  const bool is_sound = check.positive(path + "side_mm", lattice.side_mm, " mm");
+  const bool columns = check.within_limits(path + "columns", lattice.columns);
+  const bool rows = check.within_limits(path + "rows", lattice.rows);
+  const bool is_sound = check.within_limits(path + "side_mm", lattice.side_mm);
   const double side = is_sound ? *lattice.side_mm : std::numeric_limits<double>::infinity();
   check.in_range(path + "wall_thickness_mm", lattice.wall_thickness_mm, {1e-6, 0.5 * side}, half_of(side));
   if (columns && rows) {
@@ -57,7 +77,7 @@ void check_inclusions(const HexagonLattice& hexagon, const Inclusions& inclusion
   }
   const double thickness =
       std::max(hexagon.wall_thickness_mm.value_or(0.0), hexagon.vertical_wall_thickness_mm.value_or(0.0));
-  if (check.in_range("lattice.inclusions.thickness_factor", inclusions.thickness_factor, {1.0, 1e12}) &&
+  if (check.within_limits("lattice.inclusions.thickness_factor", inclusions.thickness_factor) &&
       inclusions.thickness_factor * thickness > 0.5 * side) {
     check.add("lattice.inclusions.thickness_factor", to_text(inclusions.thickness_factor),
               "makes the stiff walls thicker than half of side_mm.",
@@ -118,20 +138,19 @@ void check_section(const SectionSpec& section, FieldChecker& check) {
 }
 
 void check_loading(const LoadingSpec& loading, FieldChecker& check) {
-  check.in_range("loading.speed_m_per_s", loading.speed_m_per_s, {1e-6, 1000.0}, " m/s");
-  const bool end =
-      check.in_range("loading.end_strain", loading.end_strain, {.low = 1e-4, .high = 0.95, .high_open = true});
-  const double latest = end ? loading.end_strain : 0.95;
+  check.within_limits("loading.speed_m_per_s", loading.speed_m_per_s);
+  const bool end = check.within_limits("loading.end_strain", loading.end_strain);
+  const double latest = end ? loading.end_strain : limits_of("loading.end_strain").range.high;
   check.in_range("loading.ramp_strain", loading.ramp_strain, {.low = 0.0, .high = latest, .high_open = true},
                  " (end_strain)");
 }
 
 void check_numerics(const NumericsSpec& numerics, FieldChecker& check) {
-  check.in_range("numerics.time_step_s", numerics.time_step_s, {0.0, 1.0}, " s (0: automatic)");
-  check.in_range("numerics.mass_damping_per_s", numerics.mass_damping_per_s, {0.0, 1e12}, " 1/s");
-  check.in_range("numerics.mass_scaling", numerics.mass_scaling, {1.0, 1e6}, " (1: real masses)");
-  check.in_range("numerics.rotary_scaling", numerics.rotary_scaling, {1.0, 1e3}, " (1: real inertias)");
-  check.in_range("numerics.threads", numerics.threads, {1, 1024}, " threads");
+  check.within_limits("numerics.time_step_s", numerics.time_step_s, " (0: automatic)");
+  check.within_limits("numerics.mass_damping_per_s", numerics.mass_damping_per_s);
+  check.within_limits("numerics.mass_scaling", numerics.mass_scaling, " (1: real masses)");
+  check.within_limits("numerics.rotary_scaling", numerics.rotary_scaling, " (1: real inertias)");
+  check.within_limits("numerics.threads", numerics.threads);
 }
 
 }  // namespace
@@ -160,8 +179,9 @@ bool FieldChecker::in_range(const std::string& field, std::optional<double> valu
   return wrong == nullptr;
 }
 
-bool FieldChecker::positive(const std::string& field, std::optional<double> value, const std::string& unit) {
-  return in_range(field, value, {kSmallest, kLargest}, unit);
+bool FieldChecker::within_limits(const std::string& field, std::optional<double> value, const std::string& note) {
+  const FieldLimits& limits = limits_of(field);
+  return in_range(field, value, limits.range, limits.unit + note);
 }
 
 void FieldChecker::add(const std::string& field, const std::string& value, const std::string& message,
@@ -170,12 +190,12 @@ void FieldChecker::add(const std::string& field, const std::string& value, const
 }
 
 void check_material(const std::string& path, const MaterialSpec& material, FieldChecker& check) {
-  check.positive(path + "youngs_modulus_mpa", material.youngs_modulus_mpa, " MPa");
-  check.positive(path + "yield_stress_mpa", material.yield_stress_mpa, " MPa");
-  check.in_range(path + "hardening_modulus_mpa", material.hardening_modulus_mpa, {0.0, 1e12}, " MPa");
-  check.in_range(path + "isotropic_fraction", material.isotropic_fraction, {0.0, 1.0});
-  check.in_range(path + "poissons_ratio", material.poissons_ratio, {0.0, 0.5});
-  check.positive(path + "density_kg_per_m3", material.density_kg_per_m3, " kg/m3");
+  check.within_limits(path + "youngs_modulus_mpa", material.youngs_modulus_mpa);
+  check.within_limits(path + "yield_stress_mpa", material.yield_stress_mpa);
+  check.within_limits(path + "hardening_modulus_mpa", material.hardening_modulus_mpa);
+  check.within_limits(path + "isotropic_fraction", material.isotropic_fraction);
+  check.within_limits(path + "poissons_ratio", material.poissons_ratio);
+  check.within_limits(path + "density_kg_per_m3", material.density_kg_per_m3);
 }
 
 double count_elements(const SceneSpec& spec) {
@@ -193,16 +213,15 @@ double count_elements(const SceneSpec& spec) {
 Problems check_spec(const SceneSpec& spec) {
   FieldChecker check;
   check_lattice(spec, check);
-  check.positive("depth_mm", spec.depth_mm, " mm");
-  check.in_range("elements_per_wall", spec.elements_per_wall, {1, 64});
+  check.within_limits("depth_mm", spec.depth_mm);
+  check.within_limits("elements_per_wall", spec.elements_per_wall);
   check_material("material.", spec.material, check);
   check_section(spec.section, check);
-  check.in_range("contact.friction", spec.contact.friction, {0.0, 10.0});
-  check.in_range("contact.stiffness_factor", spec.contact.stiffness_factor, {1e-6, 1.0});
-  check.in_range("contact.damping_ratio", spec.contact.damping_ratio, {0.0, 1.0});
-  check.in_range("contact.impact_speed_m_per_s", spec.contact.impact_speed_m_per_s, {0.0, 1000.0},
-                 " m/s (0: as the case tells)");
-  check.in_range("plates.friction", spec.plates.friction, {0.0, 10.0});
+  check.within_limits("contact.friction", spec.contact.friction);
+  check.within_limits("contact.stiffness_factor", spec.contact.stiffness_factor);
+  check.within_limits("contact.damping_ratio", spec.contact.damping_ratio);
+  check.within_limits("contact.impact_speed_m_per_s", spec.contact.impact_speed_m_per_s, " (0: as the case tells)");
+  check.within_limits("plates.friction", spec.plates.friction);
   if (!std::holds_alternative<FrameLattice>(spec.lattice)) {
     check_loading(spec.loading, check);
   } else if (spec.loading.speed_m_per_s) {
@@ -210,8 +229,8 @@ Problems check_spec(const SceneSpec& spec) {
               "Remove loading; use lattice.frame.loads and motions to load a frame.");
   }
   check_numerics(spec.numerics, check);
-  check.in_range("output.sample_count", spec.output.sample_count, {10, 100000}, " samples");
-  check.in_range("output.frame_count", spec.output.frame_count, {1, 2000}, " frames");
+  check.within_limits("output.sample_count", spec.output.sample_count);
+  check.within_limits("output.frame_count", spec.output.frame_count);
   return check.take();
 }
 

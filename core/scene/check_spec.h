@@ -35,8 +35,9 @@ class FieldChecker {
   /// Requires a finite value within the range. `unit`, such as " mm", follows the range in the remedy.
   bool in_range(const std::string& field, std::optional<double> value, Range range, const std::string& unit = "");
 
-  /// Requires a value above 0 that is neither absurdly small nor absurdly large.
-  bool positive(const std::string& field, std::optional<double> value, const std::string& unit);
+  /// Requires a finite value within the limits of the field, which field_limits.inc has from case.proto. `note` follows
+  /// limits and unit in the remedy.
+  bool within_limits(const std::string& field, std::optional<double> value, const std::string& note = "");
 
   void add(const std::string& field, const std::string& value, const std::string& message, const std::string& remedy);
 

@@ -1,25 +1,32 @@
 #include "translate/case_size.h"
 
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <utility>
 
+#include "cellcrush/v1/field.pb.h"
 #include "translate/problems.h"
 
 namespace cellcrush::translate {
 namespace {
 
-constexpr int kLongestList = 200'000;
-constexpr int kLongestShortList = 10'000;
-constexpr int kMostRigidWalls = 1'000;  // each of which looks at every ball
+constexpr int kMostPoints = 200'000;
 
 // Collects the lists that are too long.
 class ListChecker {
  public:
-  void check(const std::string& field, int size, int longest) {
-    if (size <= longest) return;
-    *problems_.Add() = to_proto(
-        invalid_field(field, std::to_string(size), "are too many.", "Give at most " + std::to_string(longest) + "."));
+  // The lists of a message at `path`, by their maximum in field.proto.
+  void check(const std::string& path, const google::protobuf::Message& message) {
+    for (int i = 0; i < message.GetDescriptor()->field_count(); ++i) {
+      const auto* field = message.GetDescriptor()->field(i);
+      const v1::FieldRules& rules = field->options().GetExtension(v1::rules);
+      if (!field->is_repeated() || !rules.has_maximum()) continue;
+      const int size = message.GetReflection()->FieldSize(message, field);
+      if (size <= rules.maximum()) continue;
+      *problems_.Add() = to_proto(invalid_field(path + "." + field->name(), std::to_string(size), "are too many.",
+                                                "Give at most " + std::to_string(std::lround(rules.maximum())) + "."));
+    }
   }
 
   // The points of all time functions together.
@@ -30,7 +37,7 @@ class ListChecker {
     for (const auto& wall : frame.rigid_walls()) points += wall.displacement_mm().points_size();
     for (const auto& load : frame.distributed_loads())
       points += load.x_n_per_mm().points_size() + load.y_n_per_mm().points_size();
-    if (points <= kLongestList) return;
+    if (points <= kMostPoints) return;
     *problems_.Add() = to_proto(invalid_field("lattice.frame", std::to_string(points),
                                               "has too many points in its time functions.", "Give at most 200000."));
   }
@@ -46,16 +53,8 @@ class ListChecker {
 google::protobuf::RepeatedPtrField<v1::Problem> find_long_lists(const v1::Case& submitted) {
   ListChecker lists;
   const v1::Frame& frame = submitted.lattice().frame();
-  lists.check("lattice.frame.nodes", frame.nodes_size(), kLongestList);
-  lists.check("lattice.frame.beams", frame.beams_size(), kLongestList);
-  lists.check("lattice.frame.supports", frame.supports_size(), kLongestList);
-  lists.check("lattice.frame.loads", frame.loads_size(), kLongestList);
-  lists.check("lattice.frame.distributed_loads", frame.distributed_loads_size(), kLongestList);
-  lists.check("lattice.frame.initial_velocities", frame.initial_velocities_size(), kLongestList);
-  lists.check("lattice.frame.motions", frame.motions_size(), kLongestShortList);
-  lists.check("lattice.frame.watched_nodes", frame.watched_nodes_size(), kLongestShortList);
-  lists.check("lattice.frame.rigid_walls", frame.rigid_walls_size(), kMostRigidWalls);
-  lists.check("lattice.inclusions.rows", submitted.lattice().inclusions().rows_size(), kLongestShortList);
+  lists.check("lattice.frame", frame);
+  lists.check("lattice.inclusions", submitted.lattice().inclusions());
   lists.check_points(frame);
   return lists.take();
 }

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "help/field_comment.h"
+#include "help/field_rules.h"
 
 namespace cellcrush::docs {
 

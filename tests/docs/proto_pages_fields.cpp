@@ -1,10 +1,14 @@
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <map>
 #include <vector>
 
+#include "cellcrush/v1/field.pb.h"
 #include "docs/page.h"
 #include "docs/proto_comments.h"
 #include "docs/proto_pages.h"
-#include "help/field_comment.h"
+#include "help/field_rules.h"
 
 namespace cellcrush::docs {
 
@@ -16,8 +20,9 @@ constexpr const char* kFieldsHead = R"(<!-- Made from proto/cellcrush/v1/case.pr
      CELLCRUSH_WRITE_PAGES=1 build/ci/bin/proto_pages_test -->
 # Fields of a case
 
-This page lists every field of a case, for authors of case files and of clients. The types and comments of
-[case.proto](cellcrush/v1/case.proto) are its source; `cellcrush explain PATH` prints the same entry of one field.
+This page lists every field of a case, for authors of case files and of clients. The types, comments and
+options of [case.proto](cellcrush/v1/case.proto) are its source; `cellcrush explain PATH` prints the same entry of one
+field.
 
 Each section is a group of fields. Its heading is the path of the group, as messages, `--set` and sweeps write it.
 Ranges include their ends, unless the limit says "below". A missing required field or a value out of limits is a problem
@@ -52,16 +57,6 @@ std::vector<Group> find_groups(const pb::Descriptor* type) {
   return groups;
 }
 
-// All of a comment but the sentence that names default and limits, which have columns of their own.
-std::string description_of(const std::string& comment) {
-  std::string out;
-  for (const std::string& sentence : client::split_sentences(comment)) {
-    if (sentence.starts_with("Default") || sentence.starts_with("Required")) continue;
-    out += (out.empty() ? "" : " ") + sentence;
-  }
-  return out;
-}
-
 std::string type_of(const pb::FieldDescriptor& field, const std::vector<Group>& groups) {
   std::string text = "`" + type_text(field) + "`";
   if (field.message_type() == nullptr) return text;
@@ -71,15 +66,13 @@ std::string type_of(const pb::FieldDescriptor& field, const std::vector<Group>& 
 }
 
 std::string row_of(const pb::FieldDescriptor& field, const std::vector<Group>& groups) {
-  const std::string comment = comment_above(field);
-  const client::FieldComment parsed = client::parse_field_comment(comment);
-  const bool is_group = field.message_type() != nullptr;
-  const std::string unit = client::unit_of(field.name());
-  std::string limits = parsed.limits;
-  if (field.real_containing_oneof() != nullptr) limits = "one of `" + field.real_containing_oneof()->name() + "`";
-  const std::string default_value = parsed.default_value.empty() && !is_group ? "none" : parsed.default_value;
-  return "| `" + field.name() + "` | " + type_of(field, groups) + " | " + unit + " | " + cell(default_value) + " | " +
-         cell(limits) + " | " + cell(description_of(comment)) + " |\n";
+  const std::string own = client::default_of(field);
+  const std::string limits =
+      field.real_containing_oneof() != nullptr ? "one of `" + field.real_containing_oneof()->name() + "`"
+                                               : client::limits_of(field);
+  return "| `" + field.name() + "` | " + type_of(field, groups) + " | " + client::unit_of(field.name()) + " | " +
+         cell(own.empty() && field.message_type() == nullptr ? "none" : own) + " | " + cell(limits) + " | " +
+         cell(comment_above(field)) + " |\n";
 }
 
 std::string values_of(const pb::FieldDescriptor& field) {
@@ -104,7 +97,32 @@ std::string section_of(const Group& group, const std::vector<Group>& groups) {
   return out;
 }
 
+// A line for each number with limits, keyed by its path.
+void list_limits(const pb::Descriptor& type, const std::string& path, std::map<std::string, std::string>& lines) {
+  for (int i = 0; i < type.field_count(); ++i) {
+    const pb::FieldDescriptor& field = *type.field(i);
+    const std::string at = join(path, field.name());
+    if (field.message_type() != nullptr) list_limits(*field.message_type(), at, lines);
+    const v1::FieldRules& rules = field.options().GetExtension(v1::rules);
+    const bool is_number = field.cpp_type() == pb::FieldDescriptor::CPPTYPE_DOUBLE ||
+                           field.cpp_type() == pb::FieldDescriptor::CPPTYPE_INT32;
+    if (!is_number || field.is_repeated() || !rules.has_minimum() || !rules.has_maximum()) continue;
+    const std::string unit = rules.counts().empty() ? client::unit_of(field.name()) : rules.counts();
+    lines[at] = fmt::format("{{\"{}\", {{{}, {}, {}}}, \"{}{}\"}},\n", at, rules.minimum(), rules.maximum(),
+                            rules.below(), unit.empty() ? "" : " ", unit);
+  }
+}
+
 }  // namespace
+
+std::string make_field_limits() {
+  std::map<std::string, std::string> lines;
+  list_limits(*find_proto("case").FindMessageTypeByName("Case"), "", lines);
+  std::string out =
+      "// Made from the options of case.proto: CELLCRUSH_WRITE_PAGES=1 build/ci/bin/proto_pages_test rewrites this.\n";
+  for (const auto& [path, line] : lines) out += line;
+  return out;
+}
 
 std::string make_fields_page() {
   const std::vector<Group> groups = find_groups(find_proto("case").FindMessageTypeByName("Case"));

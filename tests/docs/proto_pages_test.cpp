@@ -24,11 +24,15 @@ void hold(const fs::path& page, const std::string& made) {
   std::ifstream stream(page, std::ios::binary);
   std::ostringstream found;
   found << stream.rdbuf();
-  EXPECT_TRUE(found.str() == made) << page << " is not what the comments in proto/cellcrush/v1 say. Rewrite it: "
+  EXPECT_TRUE(found.str() == made) << page << " is not what proto/cellcrush/v1 says. Rewrite it: "
                                    << "CELLCRUSH_WRITE_PAGES=1 build/ci/bin/proto_pages_test";
 }
 
 TEST(ProtoPages, FieldsAreThoseOfTheCase) { hold(kFolder / "fields.md", make_fields_page()); }
+
+TEST(ProtoPages, TheLimitsOfTheSolverAreThoseOfTheCase) {
+  hold(kFolder.parent_path() / "core/scene/field_limits.inc", make_field_limits());
+}
 
 TEST(ProtoPages, TheApiIsThatOfTheServices) { hold(kFolder / "api.md", make_api_page()); }
 
@@ -72,7 +76,7 @@ class Uncommented {
 
 TEST(ProtoComments, EveryDeclarationHasOne) {
   Uncommented uncommented;
-  for (const char* name : {"admin_service", "case", "cases_service", "event", "job", "jobs_service", "problem",
+  for (const char* name : {"admin_service", "case", "cases_service", "event", "field", "job", "jobs_service", "problem",
                            "sample", "sweep", "sweeps_service"})
     uncommented.add_file(find_proto(name));
   EXPECT_EQ(uncommented.names(), "");

@@ -1,11 +1,12 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { create } from "@bufbuild/protobuf";
-import { CaseSchema, Lattice_HexagonSchema } from "../gen/cellcrush/v1/case_pb";
+import { CaseSchema, Lattice_HexagonSchema, Lattice_InclusionsSchema } from "../gen/cellcrush/v1/case_pb";
 import { fieldAt, groupsOf, readField, writeField } from "../src/new_case/fields";
 import { labelsOf } from "../src/new_case/order";
 import { axisOf, jobCount } from "../src/new_case/sweep_axis";
-import { defaultOf, helpOf, labelOf, unitOf } from "../src/new_case/words";
+import { caseValues } from "../src/compare/differences";
+import { defaultOf, helpOf, labelOf, limitsOf, unitOf } from "../src/new_case/words";
 
 const hexagons = () => create(CaseSchema, {
   lattice: { kind: { case: "hexagon", value: create(Lattice_HexagonSchema, { columns: 20 }) } },
@@ -22,6 +23,10 @@ test("every field of the form is in the protos and has help", () => {
   assert.equal(unitOf("loading.speed_m_per_s"), "m/s");
   assert.equal(defaultOf("loading.end_strain"), "0.8");
   assert.equal(defaultOf("depth_mm"), "required");
+  assert.equal(limitsOf("depth_mm"), "Required, 1e-6 to 1e12");
+  assert.equal(limitsOf("loading.end_strain"), "Default 0.8; 0.0001 to below 0.95");
+  assert.equal(limitsOf("lattice.hexagon.wall_thickness_mm"), "Required, 1e-6 to half of side_mm");
+  assert.equal(limitsOf("output.sample_count"), "Default 1000; 10 to 100000");
 });
 
 test("fields are written and read by path, and cleared by an empty text", () => {
@@ -60,4 +65,17 @@ test("a sweep over several fields has a job for each combination", () => {
 test("labels are pairs of key and value", () => {
   assert.deepEqual(labelsOf(" series = a b , note=x=y,"), { series: "a b", note: "x=y" });
   for (const wrong of ["series", "=a", "a=1, a=2"]) assert.equal(typeof labelsOf(wrong), "string", wrong);
+});
+
+test("a comparison sees every field of a case but its title", () => {
+  const value = hexagons();
+  value.title = "one";
+  assert.ok(writeField(value, "numerics.mass_damping_per_s", "40"));
+  assert.ok(writeField(value, "loading.ramp_strain", "0.01"));
+  assert.ok(writeField(value, "section.formulation", "2"));
+  value.lattice.inclusions = create(Lattice_InclusionsSchema, { rows: [2, 4] });
+  assert.deepEqual(Object.fromEntries(caseValues(value)), {
+    "lattice.hexagon.columns": "20", "lattice.inclusions.rows": "2, 4", "section.formulation": "DISPLACEMENT_BASED",
+    "loading.ramp_strain": "0.01", "numerics.mass_damping_per_s": "40",
+  });
 });

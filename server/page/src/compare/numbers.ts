@@ -1,9 +1,9 @@
-// The numbers of several jobs side by side, and the facts in which their cases differ.
+// The numbers of several jobs side by side, and all fields in which their cases differ.
 import type { Summary } from "../../gen/cellcrush/v1/sample_pb";
 import { idOf, pathOf } from "../api/names";
 import { h } from "../dom/element";
 import { number, percent, strainText } from "../dom/format";
-import { caseFacts } from "../job/case_words";
+import { caseValues } from "./differences";
 import type { JobData } from "../job/job_data";
 import { modeWords } from "../jobs/states";
 
@@ -18,16 +18,19 @@ const kNumbers: [string, (s: Summary) => string][] = [
   ["energy ledger error", (s) => percent(s.energyErrorRelative, 3)],
 ];
 
+const kLongest = 60; // characters of a list, such as the nodes of a frame
+const shortened = (text: string): string => (text.length > kLongest ? `${text.slice(0, kLongest)}…` : text);
+
 export function comparisonTable(jobs: JobData[]): HTMLElement {
   const facts = jobs.map((data) => {
     const value = data.check?.completedCase ?? data.job?.case;
-    return new Map(value ? caseFacts(value) : []);
+    return value ? caseValues(value) : new Map<string, string>();
   });
   const names = [...new Set(facts.flatMap((map) => [...map.keys()]))];
   const differing = names.filter((name) => new Set(facts.map((map) => map.get(name))).size > 1);
   const row = (name: string, values: (string | undefined)[]): HTMLElement =>
     h("tr", {}, h("th", { scope: "row" }, name),
-      ...values.map((value) => h("td", { class: "figure" }, value ?? "–")));
+      ...values.map((value) => h("td", { class: "figure", title: value }, value ? shortened(value) : "–")));
   return h("div", { class: "table-scroll" }, h("table", { class: "rows" },
     h("thead", {}, h("tr", {}, h("td", {}), ...jobs.map((data) =>
       h("th", { scope: "col", class: "figure" }, h("a", { href: pathOf(data.name) }, `job ${idOf(data.name)}`))))),

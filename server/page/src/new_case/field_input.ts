@@ -3,14 +3,7 @@ import type { Problem } from "../../gen/cellcrush/v1/problem_pb";
 import { Problem_Kind } from "../../gen/cellcrush/v1/problem_pb";
 import { h, setText } from "../dom/element";
 import { fieldAt } from "./fields";
-import { choicesOf, defaultOf, helpOf, labelOf, unitOf } from "./words";
-
-/** What a field may be, from its help: "Required, 2 to 10000" or "Default 0.8; 0.0001 to below 0.95". */
-function limitsOf(path: string): string {
-  const help = helpOf(path);
-  const at = help.search(/\b(Required|Default)\b/);
-  return at < 0 ? "" : help.slice(at).replace(/\.$/, "");
-}
+import { choicesOf, defaultOf, helpOf, labelOf, limitsOf, unitOf } from "./words";
 
 let count = 0;
 

@@ -1,4 +1,6 @@
-// Labels, units and help of the fields, from their names and the comments of the protos.
+// Labels, units, limits and help of the fields, from their names, and the options and comments of the protos.
+import { getOption } from "@bufbuild/protobuf";
+import { rules, type FieldRules } from "../../gen/cellcrush/v1/field_pb";
 import { fieldHelp, valueHelp } from "../help";
 import { fieldAt } from "./fields";
 
@@ -33,13 +35,28 @@ export function helpOf(path: string): string {
   return fieldHelp(messageName(parent.typeName), field.name);
 }
 
-/** The default of a field as its comment gives it, for an empty input. */
+const rulesOf = (path: string): FieldRules => getOption(fieldAt(path).field, rules);
+
+/** The default of a field, for an empty input. */
 export function defaultOf(path: string): string {
-  const help = helpOf(path);
-  if (/\bRequired\b/.test(help)) return "required";
-  const found = help.match(/Default ([^;.]*(?:\.\d+)?[^;.]*)/);
-  return found ? found[1].trim() : "";
+  const { required, default: value } = rulesOf(path);
+  return required ? "required" : value;
 }
+
+/** What a field may be, from its options: "Required, 2 to 10000" or "Default 0.8; 0.0001 to below 0.95". */
+export function limitsOf(path: string): string {
+  const { required, default: value, minimum, maximum, below, upTo, limits } = rulesOf(path);
+  const most = maximum === undefined ? upTo : number(maximum);
+  const range = minimum === undefined ? "" : `${number(minimum)} to ${below ? "below " : ""}${most}`;
+  const all = [range, limits].filter(Boolean).join(", ");
+  const start = required ? "Required" : value && `Default ${value}`;
+  return [start, all].filter(Boolean).join(required ? ", " : "; ");
+}
+
+// As in a case file: "1e-6", "100000".
+const number = (value: number): string =>
+  (Math.abs(value) >= 1e6 || (value !== 0 && Math.abs(value) < 1e-4) ? value.toExponential() : String(value))
+    .replace("e+", "e");
 
 export interface Choice { value: number; label: string; help: string }
 

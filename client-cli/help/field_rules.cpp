@@ -1,0 +1,102 @@
+#include "help/field_rules.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cctype>
+#include <sstream>
+#include <utility>
+
+#include "cellcrush/v1/field.pb.h"
+
+namespace cellcrush::client {
+
+namespace {
+
+// Longer suffixes first.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 13> kUnits = {{
+    {"_mm_or_rad", "mm or rad"},
+    {"_kg_per_m3", "kg/m3"},
+    {"_n_or_n_mm", "N or N mm"},
+    {"_rad_per_s", "rad/s"},
+    {"_n_per_mm", "N/mm"},
+    {"_m_per_s2", "m/s2"},
+    {"_m_per_s", "m/s"},
+    {"_per_s", "1/s"},
+    {"_g_mm2", "g mm2"},
+    {"_mpa", "MPa"},
+    {"_mm", "mm"},
+    {"_s", "s"},
+    {"_g", "g"},
+}};
+
+// "1e-6", not "1e-06".
+std::string number(double value) {
+  std::string text = fmt::format("{:g}", value);
+  const std::size_t exponent = text.find('e');
+  if (exponent == std::string::npos) return text;
+  while (text[exponent + 1] == '+' || text[exponent + 1] == '0') text.erase(exponent + 1, 1);
+  while (text[exponent + 1] == '-' && text[exponent + 2] == '0') text.erase(exponent + 2, 1);
+  return text;
+}
+
+std::string range_of(const v1::FieldRules& rules, const std::string& things) {
+  const std::string most = rules.has_maximum() ? number(rules.maximum()) : rules.up_to();
+  const char* to = rules.below() ? "below " : "";
+  if (rules.has_minimum() && !most.empty()) return fmt::format("{} to {}{}{}", number(rules.minimum()), to, most, things);
+  if (rules.has_minimum()) return "at least " + number(rules.minimum()) + things;
+  return most.empty() ? "" : "at most " + most + things;
+}
+
+}  // namespace
+
+std::string default_of(const google::protobuf::FieldDescriptor& field) {
+  const v1::FieldRules& rules = field.options().GetExtension(v1::rules);
+  return rules.required() ? "required" : rules.default_();
+}
+
+std::string limits_of(const google::protobuf::FieldDescriptor& field) {
+  using google::protobuf::FieldDescriptor;
+  const v1::FieldRules& rules = field.options().GetExtension(v1::rules);
+  const bool is_list_of_numbers = field.is_repeated() && field.cpp_type() == FieldDescriptor::CPPTYPE_INT32;
+  std::string things;
+  if (is_list_of_numbers) things = " entries";
+  if (field.cpp_type() == FieldDescriptor::CPPTYPE_STRING && !rules.counts().empty()) things = " " + rules.counts();
+  const std::string range = range_of(rules, things);
+  return range + (range.empty() || rules.limits().empty() ? "" : ", ") + rules.limits();
+}
+
+std::string first_sentence(const std::string& text) {
+  for (std::size_t i = 0; i + 2 < text.size(); ++i) {
+    if (text[i] == '.' && std::isspace(static_cast<unsigned char>(text[i + 1])) != 0 &&
+        std::isdigit(static_cast<unsigned char>(text[i + 2])) == 0) {
+      return text.substr(0, i + 1);
+    }
+  }
+  return text;
+}
+
+std::string join_comment(const std::string& lines) {
+  std::istringstream stream(lines);
+  std::string text;
+  for (std::string line; std::getline(stream, line);) {
+    const std::size_t begin = line.find_first_not_of(' ');
+    if (begin == std::string::npos) {
+      text += "\n\n";
+      continue;
+    }
+    if (!text.empty() && text.back() != '\n') text += ' ';
+    text += line.substr(begin);
+  }
+  return text;
+}
+
+std::string unit_of(std::string_view field_name) {
+  const std::string name = "_" + std::string(field_name);
+  for (const auto& [suffix, unit] : kUnits) {
+    if (name.ends_with(suffix)) return std::string(unit);
+  }
+  return {};
+}
+
+}  // namespace cellcrush::client
