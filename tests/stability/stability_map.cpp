@@ -3,20 +3,20 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
+#include <stdexcept>
 #include <string>
 
-#include "command_error.h"
 #include "stability/map_picture.h"
-#include "terminal/output_file.h"
 
 namespace {
 
 using namespace cellcrush;
 
 void write(const std::filesystem::path& path, const std::string& bytes) {
-  client::OutputFile file(path);
-  file.write(bytes);
-  file.commit();
+  std::ofstream file(path, std::ios::binary);
+  file << bytes << std::flush;
+  if (!file) throw std::runtime_error(path.string() + ": cannot be written; give a folder that exists.");
 }
 
 void draw(const std::filesystem::path& folder, const std::string& lattice) {
@@ -49,7 +49,7 @@ int main(int count, char** words) {
   try {
     draw(words[1], lattice);
     return 0;
-  } catch (const client::CommandError& error) {
+  } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;
   }
