@@ -17,9 +17,8 @@ constexpr double kPlateShare = 0.009;  // a plate's thickness as a share of the 
 constexpr double kMarginShare = 1.5;   // around the drawing, in thicknesses of a plate
 constexpr Colour kPlateColour{0.35, 0.36, 0.40};
 
-double impact_plate_now(const MeshFrame& stage) {
-  const v1::Mesh& mesh = stage.mesh;
-  return mesh.impact_plate_mm() + stage.frame.strain() * (mesh.support_plate_mm() - mesh.impact_plate_mm());
+double impact_plate_now(const LatticeStage& stage) {
+  return stage.impact_plate_mm + stage.strain * (stage.support_plate_mm - stage.impact_plate_mm);
 }
 
 void include(Box& box, double x, double y) {
@@ -31,9 +30,9 @@ void include(Box& box, double x, double y) {
 }
 
 // Identical in every drawing of a crush, even where the box follows the impact plate.
-double plate_thickness(const v1::Mesh& mesh, const Box& box) {
-  const double length = mesh.support_plate_mm() - mesh.impact_plate_mm();
-  return kPlateShare * std::max(length, mesh.along_y() ? box.width() : box.height());
+double plate_thickness(const LatticeStage& stage, const Box& box) {
+  const double length = stage.support_plate_mm - stage.impact_plate_mm;
+  return kPlateShare * std::max(length, stage.along_y ? box.width() : box.height());
 }
 
 // Maps the plane to a rectangle of the picture, with the box centred.
@@ -55,12 +54,12 @@ class Projection {
 };
 
 // A plate with its face at `face`, extending to the side `outwards` (-1 or 1) over the whole width of the box.
-void draw_plate(cairo_t* context, const Projection& projection, const Box& box, const v1::Mesh& mesh, double face,
+void draw_plate(cairo_t* context, const Projection& projection, const Box& box, const LatticeStage& stage, double face,
                 double outwards) {
-  const double thickness = plate_thickness(mesh, box);
+  const double thickness = plate_thickness(stage, box);
   const double low = std::min(face, face + outwards * thickness);
   const double size = projection.scale() * thickness;
-  if (mesh.along_y()) {
+  if (stage.along_y) {
     cairo_rectangle(context, projection.x(box.low_x), projection.y(low + thickness), projection.scale() * box.width(),
                     size);
   } else {
@@ -71,9 +70,9 @@ void draw_plate(cairo_t* context, const Projection& projection, const Box& box, 
 }
 
 // Position of the impact plate's face before loading.
-void draw_start(cairo_t* context, const Projection& projection, const Box& box, const v1::Mesh& mesh) {
-  const double start = mesh.impact_plate_mm();
-  if (mesh.along_y()) {
+void draw_start(cairo_t* context, const Projection& projection, const Box& box, const LatticeStage& stage) {
+  const double start = stage.impact_plate_mm;
+  if (stage.along_y) {
     cairo_move_to(context, projection.x(box.low_x), projection.y(start));
     cairo_line_to(context, projection.x(box.high_x), projection.y(start));
   } else {
@@ -89,17 +88,16 @@ void draw_start(cairo_t* context, const Projection& projection, const Box& box, 
 }
 
 // Walls of one shade and thickness share a path, which keeps a picture of ten thousand walls small.
-void draw_walls(cairo_t* context, const Projection& projection, const MeshFrame& stage) {
-  const v1::Mesh& mesh = stage.mesh;
+void draw_walls(cairo_t* context, const Projection& projection, const LatticeStage& stage) {
   std::map<std::pair<int, float>, std::vector<int>> groups;
-  for (int element = 0; element < mesh.thickness_mm_size(); ++element) {
-    const float share = std::clamp(stage.frame.plastic_fraction(element), 0.0F, 1.0F);
-    groups[{static_cast<int>(std::lround(share * kShades)), mesh.thickness_mm(element)}].push_back(element);
+  for (int element = 0; element < static_cast<int>(stage.thickness_mm.size()); ++element) {
+    const auto at = static_cast<std::size_t>(element);
+    const float share = std::clamp(stage.plastic_fraction[at], 0.0F, 1.0F);
+    groups[{static_cast<int>(std::lround(share * kShades)), stage.thickness_mm[at]}].push_back(element);
   }
   const auto point = [&](int element, int end) {
-    const int node = mesh.element_nodes(2 * element + end);
-    return std::pair(projection.x(stage.frame.position_mm(2 * node)),
-                     projection.y(stage.frame.position_mm(2 * node + 1)));
+    const auto node = 2 * static_cast<std::size_t>(stage.element_nodes[static_cast<std::size_t>(2 * element + end)]);
+    return std::pair(projection.x(stage.position_mm[node]), projection.y(stage.position_mm[node + 1]));
   };
   cairo_set_line_cap(context, CAIRO_LINE_CAP_ROUND);
   for (const auto& [key, elements] : groups) {
@@ -119,54 +117,52 @@ void draw_walls(cairo_t* context, const Projection& projection, const MeshFrame&
 
 }  // namespace
 
-bool has_plates(const v1::Mesh& mesh) { return mesh.support_plate_mm() > mesh.impact_plate_mm(); }
-
 double drawing_scale(const Rectangle& place, const Box& box) {
   return std::min(place.width / box.width(), place.height / box.height());
 }
 
-Box find_box(const std::vector<MeshFrame>& stages) {
-  const auto& first = stages.front().frame.position_mm();
+Box find_box(const std::vector<LatticeStage>& stages) {
+  const auto& first = stages.front().position_mm;
   Box box{first[0], first[0], first[1], first[1]};
-  for (const MeshFrame& stage : stages) {
-    const auto& position = stage.frame.position_mm();
-    for (int i = 0; i + 1 < position.size(); i += 2) include(box, position[i], position[i + 1]);
-    if (!has_plates(stage.mesh)) continue;
-    for (const double face : {stage.mesh.impact_plate_mm(), stage.mesh.support_plate_mm()}) {
-      stage.mesh.along_y() ? include(box, box.low_x, face) : include(box, face, box.low_y);
+  for (const LatticeStage& stage : stages) {
+    const auto& position = stage.position_mm;
+    for (std::size_t i = 0; i + 1 < position.size(); i += 2) include(box, position[i], position[i + 1]);
+    if (!stage.has_plates()) continue;
+    for (const double face : {stage.impact_plate_mm, stage.support_plate_mm}) {
+      stage.along_y ? include(box, box.low_x, face) : include(box, face, box.low_y);
     }
   }
-  const double thickness = has_plates(stages.front().mesh) ? plate_thickness(stages.front().mesh, box)
-                                                           : kPlateShare * std::max(box.width(), box.height());
+  const double thickness = stages.front().has_plates() ? plate_thickness(stages.front(), box)
+                                                       : kPlateShare * std::max(box.width(), box.height());
   const double margin = std::max(thickness, 1e-6) * kMarginShare;
   return {box.low_x - margin, box.high_x + margin, box.low_y - margin, box.high_y + margin};
 }
 
-std::vector<Box> find_boxes(const std::vector<MeshFrame>& stages) {
+std::vector<Box> find_boxes(const std::vector<LatticeStage>& stages) {
   const Box all = find_box(stages);
   std::vector<Box> boxes(stages.size(), all);
   for (std::size_t i = 0; i < stages.size(); ++i) {
-    const v1::Mesh& mesh = stages[i].mesh;
-    if (!has_plates(mesh)) continue;
+    const LatticeStage& stage = stages[i];
+    if (!stage.has_plates()) continue;
     // Up to the impact plate, or to whatever extends beyond it.
-    double low = impact_plate_now(stages[i]);
-    const auto& position = stages[i].frame.position_mm();
-    for (int k = mesh.along_y() ? 1 : 0; k < position.size(); k += 2) {
+    double low = impact_plate_now(stage);
+    const auto& position = stage.position_mm;
+    for (std::size_t k = stage.along_y ? 1 : 0; k < position.size(); k += 2) {
       if (std::isfinite(position[k])) low = std::min(low, static_cast<double>(position[k]));
     }
-    low -= kMarginShare * plate_thickness(mesh, all);
-    mesh.along_y() ? boxes[i].low_y = std::max(low, all.low_y) : boxes[i].low_x = std::max(low, all.low_x);
+    low -= kMarginShare * plate_thickness(stage, all);
+    stage.along_y ? boxes[i].low_y = std::max(low, all.low_y) : boxes[i].low_x = std::max(low, all.low_x);
   }
   return boxes;
 }
 
-void draw_lattice(cairo_t* context, const Rectangle& place, const Box& box, const MeshFrame& stage) {
+void draw_lattice(cairo_t* context, const Rectangle& place, const Box& box, const LatticeStage& stage) {
   const Projection projection(place, box);
-  if (has_plates(stage.mesh)) {
-    const bool start_is_inside = stage.mesh.impact_plate_mm() > (stage.mesh.along_y() ? box.low_y : box.low_x);
-    if (stage.frame.strain() > 0.0 && start_is_inside) draw_start(context, projection, box, stage.mesh);
-    draw_plate(context, projection, box, stage.mesh, impact_plate_now(stage), -1.0);
-    draw_plate(context, projection, box, stage.mesh, stage.mesh.support_plate_mm(), 1.0);
+  if (stage.has_plates()) {
+    const bool start_is_inside = stage.impact_plate_mm > (stage.along_y ? box.low_y : box.low_x);
+    if (stage.strain > 0.0 && start_is_inside) draw_start(context, projection, box, stage);
+    draw_plate(context, projection, box, stage, impact_plate_now(stage), -1.0);
+    draw_plate(context, projection, box, stage, stage.support_plate_mm, 1.0);
   }
   draw_walls(context, projection, stage);
 }

@@ -1,12 +1,25 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "chart/canvas.h"
-#include "connection/frames.h"
 
 namespace cellcrush::client {
+
+/// A lattice at one instant, between two plates or, as an explicit frame, without any.
+struct LatticeStage {
+  std::vector<float> position_mm{};       ///< x and y of each particle
+  std::vector<int> element_nodes{};       ///< two particles per wall
+  std::vector<float> thickness_mm{};      ///< of each wall
+  std::vector<float> plastic_fraction{};  ///< of each wall
+  double impact_plate_mm = 0.0;           ///< face of the plate at the start
+  double support_plate_mm = 0.0;
+  bool along_y = false;  ///< the direction of loading
+  double strain = 0.0;
+  double time_s = 0.0;
+
+  [[nodiscard]] bool has_plates() const { return support_plate_mm > impact_plate_mm; }
+};
 
 /// A range of the plane in mm, y upwards.
 struct Box {
@@ -20,20 +33,17 @@ struct Box {
 };
 
 /// The box that contains every stage with its plates, at the start and now. REQUIRES: stages is not empty.
-Box find_box(const std::vector<MeshFrame>& stages);
+Box find_box(const std::vector<LatticeStage>& stages);
 
 /// For each stage, the part of that box from its impact plate onwards, without the distance the plate has travelled.
 /// The whole box for an explicit frame. REQUIRES: stages is not empty.
-std::vector<Box> find_boxes(const std::vector<MeshFrame>& stages);
-
-/// Whether the lattice stands between two plates; an explicit frame does not.
-bool has_plates(const v1::Mesh& mesh);
+std::vector<Box> find_boxes(const std::vector<LatticeStage>& stages);
 
 /// Picture units per millimetre when `box` is drawn into `place`.
 double drawing_scale(const Rectangle& place, const Box& box);
 
 /// Draws a lattice and its plates into `place`, with the same scale for x and y: walls with their thickness, coloured
 /// by plastic fraction.
-void draw_lattice(cairo_t* context, const Rectangle& place, const Box& box, const MeshFrame& stage);
+void draw_lattice(cairo_t* context, const Rectangle& place, const Box& box, const LatticeStage& stage);
 
 }  // namespace cellcrush::client

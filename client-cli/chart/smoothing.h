@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 namespace cellcrush::client {
@@ -10,5 +11,23 @@ std::vector<double> running_mean(const std::vector<double>& x, const std::vector
 
 /// The quantile of the values at `share`. REQUIRES: values is not empty, 0 <= share <= 1.
 double quantile(std::vector<double> values, double share);
+
+/// y = constant + linear x + quadratic x^2.
+struct QuadraticFit {
+  double constant = 0.0;
+  double linear = 0.0;
+  double quadratic = 0.0;
+  double largest_residual = 0.0;  ///< greatest |y - fit| over the points
+  int point_count = 0;
+
+  /// Whether it passes through any points it was given, so that its residual is round-off only.
+  [[nodiscard]] bool passes_through() const { return point_count == 3; }
+
+  [[nodiscard]] double at(double x) const { return constant + x * (linear + x * quadratic); }
+};
+
+/// The least-squares fit through points; x and y have equal length. Nothing with fewer than three distinct finite x,
+/// where the fit is not unique.
+std::optional<QuadraticFit> find_quadratic_fit(const std::vector<double>& x, const std::vector<double>& y);
 
 }  // namespace cellcrush::client

@@ -1,14 +1,25 @@
 #include "commands/commands.h"
 
+#include <CLI/Validators.hpp>
+#include <map>
+#include <string>
 #include <utility>
 
-#include "connection/server_address.h"
+#include "command_error.h"
+#include "connection/credentials.h"
 
 namespace cellcrush::client {
 
 namespace {
 
 constexpr const char* kSharedOptions = "`cellcrush --help` describes --json and the connection options.";
+
+constexpr const char* kJobs = "jobs/";
+constexpr const char* kSweeps = "sweeps/";
+
+std::string with_prefix(const std::string& name, const char* prefix) {
+  return name.find('/') == std::string::npos ? prefix + name : name;
+}
 
 }  // namespace
 
@@ -63,6 +74,68 @@ void add_case_options(CLI::App& command, CaseOptions& options) {
                   "lists the fields (may be repeated; default: none)")
       ->group(kCaseOptions)
       ->allow_extra_args(false);
+}
+
+void add_priority_option(CLI::App& command, int& priority) {
+  command.add_option("--priority", priority, "Waiting jobs of higher priority start first; -100 to 100 (default: 0)")
+      ->group(kScheduleOptions)
+      ->check(CLI::Range(-100, 100));
+}
+
+void add_executor_option(CLI::App& command, std::string& name) {
+  command
+      .add_option("--executor", name,
+                  "Where jobs are computed: local, for the server's machine, or another executor of the server, such "
+                  "as slurm/NAME (default: the server's --executor)")
+      ->group(kScheduleOptions)
+      ->type_name("NAME");
+}
+
+void add_time_limit_option(CLI::App& command, double& seconds, const std::string& default_text) {
+  const std::map<std::string, double> units = {{"s", 1.0}, {"min", 60.0}, {"h", 3600.0}, {"d", 86400.0}};
+  command
+      .add_option("--time-limit", seconds,
+                  "Wall-clock limit per job in s, min, h or d, such as 90s or 2h, at least 0.001 s; results up to the "
+                  "limit are kept (default: " +
+                      default_text + ")")
+      ->group(kScheduleOptions)
+      ->type_name("TIME")
+      ->transform(CLI::AsNumberWithUnit(units, CLI::AsNumberWithUnit::CASE_SENSITIVE).description(""))
+      ->check(CLI::Range(0.001, 1e9).description(""));
+}
+
+void add_label_option(CLI::App& command, std::vector<std::string>& labels) {
+  command
+      .add_option("--label", labels,
+                  "Label KEY=VALUE for list --filter; KEY up to 63 and VALUE up to 255 characters (may be repeated up "
+                  "to 64 times; "
+                  "default: none)")
+      ->group(kIdentityOptions)
+      ->allow_extra_args(false);
+}
+
+Labels parse_labels(const std::vector<std::string>& texts) {
+  Labels labels;
+  for (const std::string& text : texts) {
+    const std::size_t equals = text.find('=');
+    if (equals == 0 || equals == std::string::npos) {
+      throw CommandError(ExitCode::refused, "--label " + text + ": expected KEY=VALUE");
+    }
+    labels[text.substr(0, equals)] = text.substr(equals + 1);
+  }
+  return labels;
+}
+
+bool names_sweep(const std::string& name) { return name.starts_with(kSweeps); }
+
+std::string job_name(const std::string& name) {
+  if (names_sweep(name)) throw CommandError(ExitCode::refused, name + " is a sweep; name one of its jobs, jobs/NAME");
+  return with_prefix(name, kJobs);
+}
+
+std::string sweep_name(const std::string& name) {
+  if (name.starts_with(kJobs)) throw CommandError(ExitCode::refused, name + " is a job; name a sweep, sweeps/NAME");
+  return with_prefix(name, kSweeps);
 }
 
 }  // namespace cellcrush::client

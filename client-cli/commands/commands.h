@@ -1,13 +1,15 @@
 #pragma once
 
+#include <google/protobuf/map.h>
+
 #include <CLI/App.hpp>
 #include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "command_error.h"
 #include "connection/connection.h"
-#include "exit_code.h"
 
 namespace cellcrush::client {
 
@@ -74,5 +76,31 @@ void add_sweep_commands(CLI::App& app, Session& session);  ///< sweep, retry
 void add_converge_command(CLI::App& app, Session& session);
 void add_table_command(CLI::App& app, Session& session);
 void add_shell_commands(CLI::App& app, Session& session);  ///< completion, man
+
+/// Adds --priority to a command.
+void add_priority_option(CLI::App& command, int& priority);
+
+/// Adds --executor to a command. `name` stays empty without the option.
+void add_executor_option(CLI::App& command, std::string& name);
+
+/// Adds --time-limit to a command. `seconds` stays 0 without the option; `default_text` describes that default.
+void add_time_limit_option(CLI::App& command, double& seconds, const std::string& default_text = "the daemon's limit");
+
+using Labels = google::protobuf::Map<std::string, std::string>;
+
+/// Adds --label, which may be repeated, to a command.
+void add_label_option(CLI::App& command, std::vector<std::string>& labels);
+
+/// Parses "KEY=VALUE" texts as labels. Throws CommandError (refused) for another form.
+Labels parse_labels(const std::vector<std::string>& texts);
+
+/// Whether a name from the command line is a sweep's: "sweeps/NAME".
+bool names_sweep(const std::string& name);
+
+/// A job's full name: "jobs/NAME" for a NAME without a slash. Throws CommandError (refused) for a sweep's name.
+std::string job_name(const std::string& name);
+
+/// A sweep's full name: "sweeps/NAME" for a NAME without a slash. Throws CommandError (refused) for a job's name.
+std::string sweep_name(const std::string& name);
 
 }  // namespace cellcrush::client

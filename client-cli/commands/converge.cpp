@@ -4,8 +4,6 @@
 
 #include "case_file/case_source.h"
 #include "commands/commands.h"
-#include "commands/executor.h"
-#include "commands/resource_name.h"
 #include "commands/sweep_axis.h"
 #include "commands/watch.h"
 #include "terminal/convergence_text.h"

@@ -5,7 +5,6 @@
 #include <cstdint>
 
 #include "commands/commands.h"
-#include "commands/resource_name.h"
 #include "terminal/json_text.h"
 #include "terminal/number_text.h"
 #include "terminal/output_file.h"

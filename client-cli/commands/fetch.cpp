@@ -8,7 +8,6 @@
 
 #include "commands/commands.h"
 #include "commands/history_csv.h"
-#include "commands/resource_name.h"
 #include "connection/pages.h"
 #include "terminal/case_text.h"
 #include "terminal/json_text.h"

@@ -7,7 +7,7 @@
 #include <iterator>
 #include <optional>
 
-#include "terminal/csv_cell.h"
+#include "terminal/table.h"
 
 namespace cellcrush::client {
 

@@ -1,23 +1,69 @@
 #include <fmt/format.h>
 #include <google/protobuf/struct.pb.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <string>
+#include <vector>
 
-#include "chart/movie_frame.h"
+#include "command_error.h"
 #include "commands/commands.h"
-#include "commands/ffmpeg.h"
-#include "commands/resource_name.h"
 #include "connection/frames.h"
+#include "plots/job_picture.h"
 #include "terminal/json_text.h"
 #include "terminal/output_file.h"
 
 namespace cellcrush::client {
 
 namespace {
+
+// Throws CommandError (refused) with a remedy when ffmpeg is not installed.
+void check_ffmpeg() {
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path == nullptr ? "" : path);
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    if (access((folder + "/ffmpeg").c_str(), X_OK) == 0) return;
+  }
+  throw CommandError(
+      ExitCode::refused,
+      "movie: ffmpeg is not installed; install it (apt-get install ffmpeg), or write the frames as numbered "
+      "PNG files with --frames DIR instead of -o");
+}
+
+// Encodes frame_00000.png and so on of a folder as a movie, in the format of the file's name. Throws CommandError
+// (refused) when ffmpeg fails.
+void encode_movie(const std::filesystem::path& frames, int frames_per_second, const std::filesystem::path& movie) {
+  std::vector<std::string> words = {"ffmpeg",
+                                    "-nostdin",
+                                    "-y",
+                                    "-loglevel",
+                                    "error",
+                                    "-framerate",
+                                    std::to_string(frames_per_second),
+                                    "-i",
+                                    (frames / "frame_%05d.png").string(),
+                                    "-pix_fmt",
+                                    "yuv420p",
+                                    movie.string()};
+  std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  pid_t process = 0;
+  int status = -1;
+  const int failure = posix_spawnp(&process, "ffmpeg", nullptr, nullptr, arguments.data(), environ);
+  if (failure == 0) waitpid(process, &status, 0);
+  if (failure == 0 && WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
+  throw CommandError(ExitCode::refused,
+                     "movie: ffmpeg could not write the movie; give -o a name that ends in .mp4, or "
+                     "write the frames with --frames DIR");
+}
 
 namespace fs = std::filesystem;
 
@@ -65,15 +111,15 @@ void save_file(const fs::path& path, std::string_view bytes) {
 int draw_frames(Connection& connection, const std::string& name, const fs::path& folder) {
   const MeshFrame last = fetch_frame_number(connection, name, -1);
   const int count = last.frame.index() + 1;
-  Box box = find_box({last});
+  Box box = find_box({lattice_stage(last)});
   for (int i = 0; i + 1 < count; ++i) {
-    const Box other = find_box({fetch_frame_number(connection, name, i)});
+    const Box other = find_box({lattice_stage(fetch_frame_number(connection, name, i))});
     box = {std::min(box.low_x, other.low_x), std::max(box.high_x, other.high_x), std::min(box.low_y, other.low_y),
            std::max(box.high_y, other.high_y)};
   }
   for (int i = 0; i < count; ++i) {
     const MeshFrame frame = i + 1 < count ? fetch_frame_number(connection, name, i) : last;
-    save_file(folder / fmt::format("frame_{:05}.png", i), render_movie_frame(frame, box));
+    save_file(folder / fmt::format("frame_{:05}.png", i), render_movie_frame(lattice_stage(frame), box));
   }
   return count;
 }

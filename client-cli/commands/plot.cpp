@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "chart/job_picture.h"
 #include "commands/commands.h"
-#include "commands/resource_name.h"
-#include "commands/stages.h"
+#include "connection/frames.h"
 #include "connection/pages.h"
+#include "plots/job_picture.h"
 #include "terminal/json_text.h"
 #include "terminal/output_file.h"
 

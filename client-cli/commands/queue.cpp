@@ -7,8 +7,8 @@
 
 #include "commands/commands.h"
 #include "connection/interruption.h"
+#include "terminal/job_list_text.h"
 #include "terminal/json_text.h"
-#include "terminal/queue_text.h"
 
 namespace cellcrush::client {
 

@@ -9,7 +9,6 @@
 #include "case_file/case_source.h"
 #include "commands/commands.h"
 #include "commands/fetch.h"
-#include "commands/time_limit.h"
 #include "commands/watch.h"
 #include "connection/private_daemon.h"
 #include "terminal/case_text.h"

@@ -2,7 +2,6 @@
 
 #include "case_file/case_source.h"
 #include "commands/commands.h"
-#include "commands/resource_name.h"
 #include "connection/pages.h"
 #include "terminal/case_text.h"
 #include "terminal/job_text.h"

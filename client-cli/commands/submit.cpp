@@ -4,10 +4,6 @@
 
 #include "case_file/case_source.h"
 #include "commands/commands.h"
-#include "commands/executor.h"
-#include "commands/labels.h"
-#include "commands/priority.h"
-#include "commands/time_limit.h"
 #include "commands/watch.h"
 #include "terminal/json_text.h"
 

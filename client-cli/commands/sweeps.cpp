@@ -5,14 +5,11 @@
 
 #include "case_file/case_source.h"
 #include "commands/commands.h"
-#include "commands/executor.h"
-#include "commands/labels.h"
-#include "commands/priority.h"
-#include "commands/resource_name.h"
 #include "commands/sweep_axis.h"
-#include "commands/time_limit.h"
 #include "commands/watch.h"
+#include "connection/pages.h"
 #include "terminal/json_text.h"
+#include "terminal/sweep_table.h"
 #include "terminal/sweep_text.h"
 
 namespace cellcrush::client {
@@ -84,6 +81,28 @@ ExitCode run_retry(Session& session, const std::string& name) {
   return ExitCode::done;
 }
 
+struct TableOptions {
+  std::string name;
+  bool csv = false;
+  int digits = kTableDigits;
+};
+
+ExitCode run_table(Session& session, const TableOptions& options) {
+  if (options.csv && session.json) throw CommandError(ExitCode::refused, "table: give either --csv or --json");
+  Connection& connection = session.connection();
+  const std::string name = sweep_name(options.name);
+  const auto table = fetch_table(connection, name);
+  if (session.json) {
+    print_json(table);
+  } else if (options.csv) {
+    fmt::print("{}", sweep_table_csv(table));
+  } else {
+    const auto sweep = fetch_sweep(connection, name);
+    fmt::print("{}", sweep_table_text(table, sweep.case_().lattice(), options.digits));
+  }
+  return ExitCode::done;
+}
+
 }  // namespace
 
 void add_sweep_commands(CLI::App& app, Session& session) {
@@ -130,6 +149,21 @@ void add_sweep_commands(CLI::App& app, Session& session) {
   retry->group(kJobCommands);
   retry->add_option("SWEEP", *name, "Name of a sweep")->required();
   add_examples(*retry, {"cellcrush retry sweeps/3"});
+}
+
+void add_table_command(CLI::App& app, Session& session) {
+  const auto options = std::make_shared<TableOptions>();
+  CLI::App* table = add_command(app, session, "table", "Print the results of a sweep, one row per job",
+                                [&session, options] { return run_table(session, *options); });
+  table->group(kResultCommands);
+  table->add_option("SWEEP", options->name, "Name of a sweep")->required();
+  table
+      ->add_option("--digits", options->digits,
+                   "Significant digits of the results; varied values are printed in full (default: 3)")
+      ->group(kOutputOptions)
+      ->check(CLI::Range(1, 17));
+  table->add_flag("--csv", options->csv, "Print CSV with all digits")->group(kOutputOptions);
+  add_examples(*table, {"cellcrush table sweeps/3", "cellcrush table sweeps/3 --csv > table.csv"});
 }
 
 }  // namespace cellcrush::client

@@ -5,12 +5,11 @@
 #include <cstdio>
 #include <utility>
 
-#include "commands/resource_name.h"
+#include "commands/commands.h"
 #include "connection/pages.h"
 #include "terminal/job_text.h"
 #include "terminal/json_text.h"
 #include "terminal/sweep_chart_text.h"
-#include "terminal/sweep_display.h"
 #include "terminal/sweep_table.h"
 #include "terminal/watch_display.h"
 

@@ -2,15 +2,114 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "case_file/suggestion.h"
-#include "connection/connection_failure.h"
-#include "connection/nearest_name.h"
+#include "cellcrush/v1/cases_service.grpc.pb.h"
+#include "cellcrush/v1/jobs_service.grpc.pb.h"
+#include "cellcrush/v1/sweeps_service.grpc.pb.h"
+#include "connection/credentials.h"
 
 namespace cellcrush::client {
 
 namespace {
+
+constexpr std::string_view kPreset = "preset:";
+constexpr std::chrono::seconds kProbePatience{5};
+
+// A call that may fail: whether it went well.
+template <typename Stub, typename Request, typename Response>
+bool probe(Stub& stub, grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*),
+           const Request& request, Response& response) {
+  grpc::ClientContext context;
+  context.set_deadline(std::chrono::system_clock::now() + kProbePatience);
+  return (stub.*method)(&context, request, &response).ok();
+}
+
+std::string find_nearest_preset(const std::string& word, v1::Cases::Stub& cases) {
+  v1::ListPresetsResponse presets;
+  if (!probe(cases, &v1::Cases::Stub::ListPresets, v1::ListPresetsRequest(), presets)) return {};
+  std::vector<std::string> names;
+  for (const v1::Preset& preset : presets.presets()) names.push_back(preset.name());
+  const std::string nearest = find_nearest(word, names);
+  return nearest.empty() ? nearest : std::string(kPreset) + nearest;
+}
+
+// An existing name similar to `name`, which does not exist. For "preset:NAME" a similar preset; otherwise the job or
+// sweep with the same number ("job/3", "jobs3"), or a preset given without its prefix. Empty if there is none. Failed
+// calls count as not found.
+std::string find_nearest_name(const std::string& name, v1::Cases::Stub& cases, v1::Jobs::Stub& jobs,
+                              v1::Sweeps::Stub& sweeps) {
+  if (name.starts_with(kPreset)) return find_nearest_preset(name.substr(kPreset.size()), cases);
+  const std::string number = name.substr(name.find_last_not_of("0123456789") + 1);
+  if (number.empty()) return find_nearest_preset(name.substr(name.rfind('/') + 1), cases);
+  std::vector<std::string> names;
+  v1::GetJobRequest job;
+  job.set_name("jobs/" + number);
+  v1::Job found_job;
+  if (probe(jobs, &v1::Jobs::Stub::GetJob, job, found_job)) names.push_back(job.name());
+  v1::GetSweepRequest sweep;
+  sweep.set_name("sweeps/" + number);
+  v1::Sweep found_sweep;
+  if (probe(sweeps, &v1::Sweeps::Stub::GetSweep, sweep, found_sweep)) names.push_back(sweep.name());
+  return names.size() == 1 ? names.front() : find_nearest(name, names);
+}
+
+bool has_part(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
+
+std::string host_of(const std::string& address) { return address.substr(0, address.rfind(':')); }
+
+bool is_socket(const std::string& address) { return address.starts_with("unix:"); }
+
+// There was no connection that could have ended.
+bool was_not_reached(const std::string& reason) {
+  for (const char* part : {"Connection refused", "No route to host", "unreachable", "timed out", "Timeout", "DNS"}) {
+    if (has_part(reason, part)) return true;
+  }
+  return reason.empty() || has_part(reason, "Deadline");
+}
+
+std::string tls_failure_text(const std::string& address, const std::string& reason) {
+  if (has_part(reason, "certificate verify failed") || has_part(reason, "CERTIFICATE_VERIFY_FAILED")) {
+    return "the certificate of the server at " + address +
+           " has expired or is not signed by the authority of --tls-ca; name the authority that signed it, or renew "
+           "the certificate";
+  }
+  if (has_part(reason, "Peer name") || has_part(reason, "Hostname")) {
+    return "the certificate of the server at " + address + " is not valid for " + host_of(address) +
+           "; give --server a host name that the certificate lists";
+  }
+  if (has_part(reason, "wrong version number") || has_part(reason, "WRONG_VERSION_NUMBER")) {
+    return "the server at " + address + " does not use TLS; leave out --tls-ca and CELLCRUSH_TLS_CA";
+  }
+  return "the server at " + address +
+         " closed the connection; if it requires a client certificate, give one signed by its authority with "
+         "--tls-cert and --tls-key";
+}
+
+// Whether a server that could not be reached may still be starting: not if it was reached and closed the connection.
+bool may_still_answer(const std::string& address, const std::string& reason) {
+  return is_socket(address) || was_not_reached(reason);
+}
+
+// Explains why the connection failed and what to do. `reason` is gRPC's message; may be empty.
+std::string connection_failure_text(const std::string& address, const Credentials& credentials,
+                                    const std::string& reason) {
+  std::error_code error;
+  if (!may_still_answer(address, reason)) {
+    if (credentials.tls) return tls_failure_text(address, reason);
+    return "the server at " + address +
+           " does not answer in plain text; if it uses TLS, name the authority of its certificate with --tls-ca";
+  }
+  std::string message = "no server answers at " + address;
+  if (is_socket(address) && !std::filesystem::exists(address.substr(5), error)) message += " (no such socket)";
+  return message + "; start cellcrushd, or name its address with --server";
+}
 
 constexpr std::chrono::milliseconds kHandshakePatience{600};
 constexpr std::chrono::milliseconds kConnectPatience{900};

@@ -8,15 +8,15 @@
 #include <string_view>
 #include <vector>
 
+#include "chart/display_text.h"
 #include "help/command_entries.h"
 #include "help/wrapped_text.h"
-#include "terminal/display_text.h"
 
 namespace cellcrush::client {
 
 namespace {
 
-constexpr int kColumns = 120;
+constexpr int kPageColumns = 120;
 
 constexpr const char* kHead =
     "<!-- Generated from the program. CELLCRUSH_WRITE_PAGES=1 build/ci/bin/commands_page_test writes this page. -->\n"
@@ -41,7 +41,7 @@ std::string markdown(std::string_view text) {
 std::string block(const std::string& bullet, const std::string& text) {
   std::string out;
   const int width = static_cast<int>(bullet.size());
-  for (const std::string& line : wrap_words(text, kColumns - width)) {
+  for (const std::string& line : wrap_words(text, kPageColumns - width)) {
     out += (out.empty() ? bullet : std::string(bullet.size(), ' ')) + line + '\n';
   }
   return out;
@@ -102,7 +102,7 @@ std::vector<std::string> command_groups(const CLI::App& app) {
 
 std::string command_page(const CLI::App& app) {
   std::string text = std::string(kHead) + "```text\ncellcrush [OPTIONS] COMMAND ...\n\n" +
-                     wrap_text(app.get_footer(), kColumns) +
+                     wrap_text(app.get_footer(), kPageColumns) +
                      "\n```\n\n## Options of every command\n\n"
                      "* `-h, --help`: Print the help of the program, or of the command before it.\n";
   for (const std::string& group : app.get_groups()) text += option_items(app, group);

@@ -47,7 +47,7 @@ std::string options_section(const CLI::App& app) {
   return text;
 }
 
-std::string command_section(const CLI::App& command) {
+std::string manual_section(const CLI::App& command) {
   return fmt::format(".SS \"cellcrush {} [OPTIONS] {}\"\n{}\n{}.PP\n{}", roff(command.get_name()),
                      roff(fmt::format("{}", fmt::join(argument_names(command), " "))), roff(command.get_description()),
                      options_section(command), roff_lines(command.get_footer()));
@@ -57,7 +57,7 @@ std::string command_section(const CLI::App& command) {
 
 std::string man_page(const CLI::App& app, const std::string& version) {
   std::string commands;
-  for (const CLI::App* command : visible_commands(app)) commands += command_section(*command);
+  for (const CLI::App* command : visible_commands(app)) commands += manual_section(*command);
   return fmt::format(
       ".TH CELLCRUSH 1 \"\" \"cellcrush {}\" \"User Commands\"\n"
       ".SH NAME\ncellcrush \\- simulate the in-plane crushing of honeycombs\n"

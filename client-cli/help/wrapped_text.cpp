@@ -1,6 +1,6 @@
 #include "help/wrapped_text.h"
 
-#include "terminal/display_text.h"
+#include "chart/display_text.h"
 
 namespace cellcrush::client {
 

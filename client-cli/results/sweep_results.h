@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cellcrush/v1/sweep.pb.h"
-#include "results/quadratic_fit.h"
+#include "chart/smoothing.h"
 
 namespace cellcrush::client {
 

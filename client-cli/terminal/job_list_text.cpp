@@ -1,11 +1,14 @@
 #include "terminal/job_list_text.h"
 
+#include <fmt/format.h>
+#include <google/protobuf/util/time_util.h>
+
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "results/case_differences.h"
 #include "results/field_value.h"
-#include "terminal/executor_text.h"
 #include "terminal/job_text.h"
 #include "terminal/number_text.h"
 #include "terminal/table.h"
@@ -21,6 +24,34 @@ std::string also_varied_text(const std::vector<std::string>& fields, std::size_t
   std::string text = "Also varied: ";
   for (std::size_t i = shown; i < fields.size(); ++i) text += (i == shown ? "" : ", ") + fields[i];
   return wrapped(text, width, "", "  ");
+}
+
+using Align = Table::Align;
+
+std::string hold_text(const v1::Queue::Hold& hold) {
+  using google::protobuf::util::TimeUtil;
+  const auto now = TimeUtil::GetCurrentTime();
+  const auto seconds = [](const google::protobuf::Duration& duration) {
+    return std::max(static_cast<double>(TimeUtil::DurationToMilliseconds(duration)) / 1e3, 0.0);
+  };
+  const std::string executor = executor_text(hold.executor());
+  std::string text =
+      fmt::format("the queue{} has been on hold ({}) for {}: {} {}", executor.empty() ? "" : " of " + executor,
+                  hold.cause(), duration_text(seconds(now - hold.since())), hold.reason(), hold.remedy());
+  if (hold.has_next_try_time())
+    text += fmt::format(" The next attempt is in {}.", duration_text(seconds(hold.next_try_time() - now)));
+  return text;
+}
+
+// The first fields in which the jobs of the queue differ.
+std::vector<std::string> find_shown_fields(const std::vector<v1::Job>& jobs) {
+  constexpr std::size_t kMost = 4;
+  std::vector<const v1::Case*> cases;
+  cases.reserve(jobs.size());
+  for (const v1::Job& job : jobs) cases.push_back(&job.case_());
+  std::vector<std::string> fields = find_varied_fields(cases);
+  fields.resize(std::min(fields.size(), kMost));
+  return fields;
 }
 
 }  // namespace
@@ -67,6 +98,55 @@ std::string job_list_text(const std::vector<v1::Job>& jobs, int width) {
   }
   const std::string constants = constants_text(table.remove_constant_columns(2, kHeadings), width);
   return table.text(0, width) + constants + also_varied_text(varied, fields.size(), width);
+}
+
+std::string queue_text(const v1::Queue& queue, const std::vector<v1::Job>& jobs, int width) {
+  std::string held;
+  for (const auto& hold : queue.holds()) held += wrapped(hold_text(hold), width);
+  if (queue.entries_size() == 0) return held + "the queue is empty\n";
+  const std::vector<std::string> fields = find_shown_fields(jobs);
+  std::map<std::string, const v1::Case*> cases;
+  for (const v1::Job& job : jobs) cases[job.name()] = &job.case_();
+  const bool priorities = std::any_of(queue.entries().begin(), queue.entries().end(),
+                                      [](const v1::Queue::Entry& entry) { return entry.priority() != 0; });
+  const bool executors = std::any_of(queue.entries().begin(), queue.entries().end(), [](const v1::Queue::Entry& entry) {
+    return !executor_text(entry.executor()).empty();
+  });
+  std::vector<Align> columns = {Align::left};
+  columns.insert(columns.end(), fields.size() + 1, Align::right);
+  columns.insert(columns.end(), 1 + (priorities ? 1 : 0) + (executors ? 1 : 0), Align::left);
+  Table table(columns);
+  std::vector<std::string> headings = {"JOB"};
+  std::vector<std::string> units = {""};
+  for (const std::string& field : fields) {
+    const FieldWords words = words_among(field, fields);
+    headings.push_back(words.name);
+    units.push_back(words.unit);
+  }
+  headings.emplace_back("STARTS IN");
+  if (priorities) headings.emplace_back("PRIORITY");
+  if (executors) headings.emplace_back("EXECUTOR");
+  headings.emplace_back("REASON");
+  table.add(std::move(headings));
+  table.add(std::move(units));
+  std::string title_above;
+  for (const auto& entry : queue.entries()) {
+    const auto known = cases.find(entry.job());
+    const std::string title = known == cases.end() ? std::string() : base_title(known->second->title());
+    if (title != title_above) table.add_title(title.empty() ? "untitled" : title);
+    title_above = title;
+    std::vector<std::string> cells = {entry.job()};
+    for (const std::string& field : fields)
+      cells.push_back(known == cases.end() ? std::string() : field_value_text(*known->second, field));
+    cells.push_back(entry.seconds_until_start() > 0 ? duration_text(entry.seconds_until_start()) : "");
+    if (priorities) cells.push_back(entry.priority() != 0 ? std::to_string(entry.priority()) : "");
+    if (executors) cells.push_back(entry.executor());
+    cells.push_back(entry.reason());
+    table.add(std::move(cells));
+  }
+  std::string text = held + table.text(0, width);
+  if (queue.more_count() > 0) text += fmt::format("and {} more\n", count_text(queue.more_count()));
+  return text;
 }
 
 }  // namespace cellcrush::client

@@ -7,9 +7,8 @@
 #include <map>
 #include <utility>
 
-#include "exit_code.h"
+#include "command_error.h"
 #include "terminal/case_text.h"
-#include "terminal/executor_text.h"
 #include "terminal/number_text.h"
 #include "terminal/summary_text.h"
 #include "terminal/table.h"

@@ -20,4 +20,7 @@ std::string labels_text(const google::protobuf::Map<std::string, std::string>& l
 /// "2026-03-01T12:00:00Z".
 std::string time_text(const google::protobuf::Timestamp& time);
 
+/// Name of an executor other than the server's machine; empty for that machine, and from servers without executors.
+inline std::string executor_text(const std::string& executor) { return executor == "local" ? "" : executor; }
+
 }  // namespace cellcrush::client

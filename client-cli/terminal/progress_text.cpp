@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "exit_code.h"
+#include "command_error.h"
 #include "terminal/number_text.h"
 #include "terminal/table.h"
 

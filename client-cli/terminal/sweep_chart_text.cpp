@@ -8,8 +8,8 @@
 #include <optional>
 #include <vector>
 
-#include "chart/sweep_curves.h"
-#include "chart/ticks.h"
+#include "chart/axes.h"
+#include "plots/sweep_curves.h"
 #include "results/sweep_results.h"
 #include "terminal/table.h"
 

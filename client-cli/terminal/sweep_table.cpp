@@ -10,7 +10,6 @@
 #include "results/field_value.h"
 #include "results/sweep_results.h"
 #include "results/theory_note.h"
-#include "terminal/csv_cell.h"
 #include "terminal/number_text.h"
 #include "terminal/summary_text.h"
 #include "terminal/table.h"

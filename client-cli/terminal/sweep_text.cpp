@@ -9,7 +9,6 @@
 
 #include "results/field_value.h"
 #include "terminal/case_text.h"
-#include "terminal/executor_text.h"
 #include "terminal/job_text.h"
 #include "terminal/number_text.h"
 #include "terminal/table.h"

@@ -9,7 +9,7 @@ namespace cellcrush::client {
 
 namespace {
 
-constexpr int kGap = 2;
+constexpr int kColumnGap = 2;
 
 bool is_letter(char character) { return std::isalpha(static_cast<unsigned char>(character)) != 0; }
 
@@ -24,7 +24,7 @@ int longest_word(std::string_view text) {
 }
 
 int total_width(const std::vector<int>& widths) {
-  return std::accumulate(widths.begin(), widths.end(), kGap * (static_cast<int>(widths.size()) - 1));
+  return std::accumulate(widths.begin(), widths.end(), kColumnGap * (static_cast<int>(widths.size()) - 1));
 }
 
 }  // namespace
@@ -113,7 +113,7 @@ void Table::narrow(std::vector<int>& widths, int room) const {
 std::vector<int> Table::widened(std::vector<int> widths, const std::vector<std::size_t>& columns, int room) const {
   const std::vector<int> natural = natural_widths();
   for (const std::size_t column : columns) room -= widths[column];
-  room -= kGap * (static_cast<int>(columns.size()) - 1);
+  room -= kColumnGap * (static_cast<int>(columns.size()) - 1);
   for (const std::size_t column : columns) {
     if (columns_[column] == Align::right) continue;
     const int more = std::clamp(natural[column] - widths[column], 0, std::max(room, 0));
@@ -145,7 +145,7 @@ std::string Table::block(int indent, int width, const std::vector<int>& widths,
       for (std::size_t i = 0; i < columns.size(); ++i) {
         const std::string& cell = number < cells[i].size() ? cells[i][number] : std::string();
         const std::string padding(static_cast<std::size_t>(widths[columns[i]] - display_width(cell)), ' ');
-        line += (i == 0 ? "" : std::string(kGap, ' ')) +
+        line += (i == 0 ? "" : std::string(kColumnGap, ' ')) +
                 (columns_[columns[i]] == Align::right ? padding + cell : cell + padding);
       }
       line.erase(line.find_last_not_of(' ') + 1);
@@ -166,12 +166,12 @@ std::string Table::text(int indent, int width) const {
   std::string text;
   for (std::size_t next = key_count; next < all.size();) {
     std::vector<std::size_t> columns = keys;
-    int used = indent - kGap;
-    for (const std::size_t key : keys) used += widths[key] + kGap;
+    int used = indent - kColumnGap;
+    for (const std::size_t key : keys) used += widths[key] + kColumnGap;
     do {
-      used += widths[next] + kGap;
+      used += widths[next] + kColumnGap;
       columns.push_back(next++);
-    } while (next < all.size() && used + kGap + widths[next] <= width);
+    } while (next < all.size() && used + kColumnGap + widths[next] <= width);
     text += (text.empty() ? "" : "\n") + block(indent, width, widened(widths, columns, width - indent), columns);
   }
   return text;
@@ -182,6 +182,16 @@ std::string constants_text(const std::vector<std::string>& constants, int width)
   std::string text = "The same in all rows: ";
   for (const std::string& constant : constants) text += (&constant == &constants.front() ? "" : "; ") + constant;
   return '\n' + wrapped(text, width, "", "  ");
+}
+
+std::string csv_cell(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char byte : text) {
+    if (byte == '"') quoted += '"';
+    quoted += byte;
+  }
+  return quoted + '"';
 }
 
 }  // namespace cellcrush::client

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "terminal/display_text.h"
+#include "chart/display_text.h"
 
 namespace cellcrush::client {
 
@@ -59,5 +59,8 @@ class Table {
 /// The columns removed by Table::remove_constant_columns(), as text below the table: "\nThe same in all rows: ...";
 /// empty if there are none.
 std::string constants_text(const std::vector<std::string>& constants, int width);
+
+/// A text as a CSV cell: quoted if it contains a comma, a quote or a line break.
+std::string csv_cell(const std::string& text);
 
 }  // namespace cellcrush::client

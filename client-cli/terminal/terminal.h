@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 namespace cellcrush::client {
 
 /// Capabilities of the standard output.
@@ -16,5 +19,14 @@ int terminal_width();
 
 /// Current height of the terminal in lines; 24 if unknown.
 int terminal_height();
+
+/// Lines redrawn in place on a terminal, each redraw in one write. Nothing else may be printed in between.
+class Redraw {
+ public:
+  void show(const std::vector<std::string>& lines);
+
+ private:
+  int lines_ = 0;  ///< lines of the last redraw above the cursor
+};
 
 }  // namespace cellcrush::client

@@ -12,7 +12,7 @@
 #include "bench/label_places.h"
 #include "bench/precision_series.h"
 #include "chart/canvas.h"
-#include "terminal/display_text.h"
+#include "chart/display_text.h"
 
 namespace cellcrush::bench {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <sstream>
 
-#include "terminal/display_text.h"
+#include "chart/display_text.h"
 #include "terminal/fidelity_text.h"
 #include "terminal/job_text.h"
 

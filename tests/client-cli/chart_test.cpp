@@ -6,12 +6,10 @@
 
 #include "chart/axes.h"
 #include "chart/colour_map.h"
-#include "chart/job_picture.h"
 #include "chart/lattice_drawing.h"
-#include "chart/movie_frame.h"
-#include "chart/node_curves.h"
 #include "chart/smoothing.h"
-#include "chart/ticks.h"
+#include "plots/job_curves.h"
+#include "plots/job_picture.h"
 #include "synthetic_crush.h"
 
 namespace cellcrush::client {
@@ -86,7 +84,7 @@ TEST(ColourMap, GrowsBrighterAndStaysReadableOnWhite) {
 }
 
 TEST(LatticeDrawing, TheBoxHoldsAllStagesAndBothPlatesAtTheStart) {
-  const Box box = find_box({synthetic_stage(10, 4, 0.2), synthetic_stage(10, 4, 0.6)});
+  const Box box = find_box({lattice_stage(synthetic_stage(10, 4, 0.2)), lattice_stage(synthetic_stage(10, 4, 0.6))});
   EXPECT_LT(box.low_x, 0.0);
   EXPECT_GT(box.high_x, 10 * 4 * std::sqrt(3.0));
   EXPECT_LT(box.low_y, 0.0);
@@ -208,8 +206,8 @@ TEST(JobChart, TheStressAxisFollowsThePlateauAndAnArrowSaysHowHighTheFirstWaveGo
 }
 
 TEST(Picture, FramesOfAMovieHaveOneEvenSize) {
-  const MeshFrame start = synthetic_stage(20, 6, 0.0);
-  const MeshFrame end = synthetic_stage(20, 6, 0.7);
+  const LatticeStage start = lattice_stage(synthetic_stage(20, 6, 0.0));
+  const LatticeStage end = lattice_stage(synthetic_stage(20, 6, 0.7));
   const Box box = find_box({start, end});
   const Pixels first = read_png(render_movie_frame(start, box));
   const Pixels last = read_png(render_movie_frame(end, box));

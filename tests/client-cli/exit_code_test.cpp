@@ -1,6 +1,6 @@
-#include "exit_code.h"
-
 #include <gtest/gtest.h>
+
+#include "command_error.h"
 
 namespace cellcrush::client {
 namespace {

@@ -1,6 +1,6 @@
-#include "terminal/queue_text.h"
-
 #include <gtest/gtest.h>
+
+#include "terminal/job_list_text.h"
 
 namespace cellcrush::client {
 namespace {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "chart/smoothing.h"
 #include "results/field_value.h"
-#include "results/quadratic_fit.h"
 #include "results/sweep_results.h"
 
 namespace cellcrush::client {

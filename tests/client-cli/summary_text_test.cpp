@@ -5,12 +5,11 @@
 
 #include <sstream>
 
-#include "chart/energy_curves.h"
-#include "chart/job_curves.h"
+#include "chart/display_text.h"
 #include "commands/history_csv.h"
+#include "plots/job_curves.h"
 #include "scripted_job.h"
 #include "synthetic_crush.h"
-#include "terminal/display_text.h"
 #include "terminal/job_text.h"
 
 namespace cellcrush::client {

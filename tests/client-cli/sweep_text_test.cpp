@@ -6,8 +6,8 @@
 #include <chrono>
 #include <sstream>
 
-#include "chart/sweep_curves.h"
 #include "command_error.h"
+#include "plots/sweep_curves.h"
 #include "terminal/job_list_text.h"
 #include "terminal/sweep_chart_text.h"
 #include "terminal/sweep_progress.h"

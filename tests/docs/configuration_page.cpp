@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
+#include "chart/display_text.h"
 #include "command_line/daemon_flags.h"
 #include "docs/configuration_prose.h"
-#include "terminal/display_text.h"
 
 namespace cellcrush::docs {
 namespace {

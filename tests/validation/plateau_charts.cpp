@@ -11,7 +11,7 @@
 
 #include "bench/csv_table.h"
 #include "chart/palette.h"
-#include "results/quadratic_fit.h"
+#include "chart/smoothing.h"
 #include "validation/options.h"
 
 namespace cellcrush::validation {

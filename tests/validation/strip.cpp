@@ -8,12 +8,9 @@
 #include "bench/picture_file.h"
 #include "chart/colour_map.h"
 #include "chart/lattice_drawing.h"
-#include "translate/results.h"
 
 namespace cellcrush::validation {
 namespace {
-
-using client::MeshFrame;
 
 constexpr double kWidth = 700.0;
 constexpr double kMargin = 10.0;
@@ -34,8 +31,17 @@ const FieldFrame& nearest_frame(const StripRow& row, double strain) {
   return *found;
 }
 
-MeshFrame stage_of(const KeptFrames& kept, const FieldFrame& frame) {
-  return {translate::to_proto(frame), translate::to_proto(kept.mesh)};
+client::LatticeStage stage_of(const KeptFrames& kept, const FieldFrame& frame) {
+  const MeshView& mesh = kept.mesh;
+  return {.position_mm = frame.position,
+          .element_nodes = mesh.element_nodes,
+          .thickness_mm = mesh.thickness,
+          .plastic_fraction = frame.plastic_fraction,
+          .impact_plate_mm = mesh.impact_plate,
+          .support_plate_mm = mesh.support_plate,
+          .along_y = mesh.along_y,
+          .strain = frame.strain,
+          .time_s = frame.time};
 }
 
 std::string title_of(const StripRow& row, const FieldFrame& frame) {
@@ -47,7 +53,7 @@ std::string title_of(const StripRow& row, const FieldFrame& frame) {
 }  // namespace
 
 void draw_strip(const std::string& file, const std::vector<StripRow>& rows, const std::vector<double>& strains) {
-  std::vector<MeshFrame> stages;
+  std::vector<client::LatticeStage> stages;
   std::vector<std::string> titles;
   for (const StripRow& row : rows) {
     for (const double strain : strains) {

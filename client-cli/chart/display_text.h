@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace cellcrush::client {
+
+/// Columns of `text` (UTF-8) on a terminal, one per character.
+int display_width(std::string_view text);
+
+/// `text` with non-breaking spaces; wrap_words() and breakable() convert them back to spaces.
+std::string unbreakable(std::string_view text);
+std::string breakable(std::string_view text);
+
+/// `text` truncated to `width` columns, with "..." at the cut if there is room.
+std::string cut(std::string_view text, int width);
+
+/// `text` wrapped to at most `width` columns, between words. A longer word is broken after the last joining sign that
+/// fits, else at the end of the line. At least one line. REQUIRES: width is above 0.
+std::vector<std::string> wrap_words(std::string_view text, int width);
+
+/// The same lines with `first` before the first and `next` before the others, each at most `width` columns in total and
+/// terminated by a line break.
+std::string wrapped(std::string_view text, int width, std::string_view first = {}, std::string_view next = {});
+
+/// `text` with control characters other than line ends, and invalid UTF-8, replaced by escapes such as \x1b, so that
+/// untrusted text cannot control the terminal.
+std::string printable(std::string_view text);
+
+}  // namespace cellcrush::client

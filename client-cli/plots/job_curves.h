@@ -1,0 +1,35 @@
+#pragma once
+
+#include <vector>
+
+#include "cellcrush/v1/job.pb.h"
+#include "cellcrush/v1/sample.pb.h"
+#include "chart/chart.h"
+
+namespace cellcrush::client {
+
+/// A job with its samples.
+struct JobHistory {
+  v1::Job job;
+  std::vector<v1::Sample> samples;
+};
+
+/// Stress at both plates against strain, smoothed over 2 % strain, with the samples as thin lines behind, the plateau
+/// stresses over their window, and theory.
+Chart build_job_chart(const JobHistory& history);
+
+/// The smoothed curves of several jobs, one colour per job: impact plate solid, support plate dashed.
+Chart build_comparison_chart(const std::vector<JobHistory>& histories);
+
+/// A job's label in a picture: its title, or else its name, and its speed.
+std::string picture_name(const v1::Job& job);
+
+/// The energy ledger of a crush against strain, in J: the work of the plates, and one line for each way it was used.
+/// Terms that stay 0 are omitted, except the residual.
+Chart build_energy_chart(const JobHistory& history);
+
+/// An explicit frame over time: displacements of its watched nodes, or their rotations if none moved; energies if it
+/// watches no nodes.
+Chart build_node_chart(const JobHistory& history);
+
+}  // namespace cellcrush::client

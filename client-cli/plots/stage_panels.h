@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+#include "chart/canvas.h"
+#include "chart/lattice_drawing.h"
+
+namespace cellcrush::client {
+
+/// Layout of the drawings of a lattice's stages in a picture, at one scale, each with a title above.
+struct StagePanels {
+  std::vector<Box> boxes{};         ///< of each drawing
+  std::vector<Rectangle> places{};  ///< of the drawings without titles, in rows from the left
+  double bar_right = 0.0;           ///< right end of the scale bar
+  double bar_y = 0.0;               ///< vertical position of the scale bar
+  double bottom = 0.0;              ///< top of the next part of the picture
+};
+
+/// Arranges the stages in rows of `width` from (left, top) down, filled from the left. Stages are drawn from the impact
+/// plate onwards, so that a crushed lattice needs less room. Chooses the number of rows that gives the largest scale
+/// within a page's height, preferring fewer rows if that costs little. REQUIRES: stages is not empty.
+StagePanels lay_stages(const std::vector<LatticeStage>& stages, double left, double top, double width);
+
+/// Draws the stages with their letters, strains (times for a frame) and a scale bar.
+void draw_stages(cairo_t* context, const StagePanels& panels, const std::vector<LatticeStage>& stages);
+
+}  // namespace cellcrush::client

@@ -1,0 +1,262 @@
+#include "plots/sweep_curves.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "chart/palette.h"
+#include "command_error.h"
+#include "results/case_differences.h"
+#include "results/field_value.h"
+#include "results/sweep_results.h"
+
+namespace cellcrush::client {
+
+namespace {
+
+constexpr int kCurvePoints = 200;
+
+double impact(const v1::Summary& summary) { return summary.plateau_stress_impact_mpa(); }
+double support(const v1::Summary& summary) { return summary.plateau_stress_support_mpa(); }
+double shock(const v1::Summary& summary) { return summary.theory().shock_mpa(); }
+double quasi_static(const v1::Summary& summary) { return summary.theory().gibson_ashby_mpa(); }
+
+bool has_theory(const ResultSeries& series) {
+  return std::all_of(series.summaries.begin(), series.summaries.end(),
+                     [](const v1::Summary* summary) { return summary->theory().shock_mpa() > 0.0; });
+}
+
+// The axis of the varied field; starts at 0 if that wastes little room.
+Axis build_axis(const std::string& field, const std::vector<ResultSeries>& all, bool logarithmic) {
+  double low = all.front().x.front();
+  double high = all.front().x.back();
+  for (const ResultSeries& series : all) {
+    low = std::min(low, series.x.front());
+    high = std::max(high, series.x.back());
+  }
+  if (logarithmic) {
+    if (low <= 0.0) {
+      throw CommandError(ExitCode::refused,
+                         field + " has values that are not above 0, which --log x requires; leave --log x out");
+    }
+    return {low / 1.2, 1.2 * high, axis_label(field), true};
+  }
+  const double room = high > low ? 0.06 * (high - low) : 0.1 * std::max(std::abs(low), 1.0);
+  const bool from_zero = low >= 0.0 && low < 0.5 * high;
+  return {from_zero ? 0.0 : low - room, high + room, axis_label(field)};
+}
+
+Curve sampled(const QuadraticFit& curve, double from, double to, bool logarithmic, LineStyle style, std::string name) {
+  Curve result{{}, {}, std::move(style), std::move(name)};
+  for (int i = 0; i <= kCurvePoints; ++i) {
+    const double share = static_cast<double>(i) / kCurvePoints;
+    const double x = logarithmic ? from * std::pow(to / from, share) : from + (to - from) * share;
+    result.x.push_back(x);
+    result.y.push_back(curve.at(x));
+  }
+  return result;
+}
+
+// Three digits; far from 1 with a power of ten: "2.98·10⁻⁴".
+std::string digits_text(double value) {
+  static constexpr std::array kRaised = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  const std::string text = fmt::format("{:.2e}", value);
+  const std::size_t mark = text.find('e');
+  const int exponent = std::stoi(text.substr(mark + 1));
+  if (exponent > -3 && exponent < 4) return fmt::format("{:.3g}", value);
+  std::string raised = exponent < 0 ? "⁻" : "";
+  for (const char digit : std::to_string(std::abs(exponent))) raised += kRaised[static_cast<std::size_t>(digit - '0')];
+  return text.substr(0, mark) + "·10" + raised;
+}
+
+std::string fit_name(const QuadraticFit& fit) {
+  const auto term = [](double value, const char* factor) {
+    return fmt::format(" {} {} {}", std::signbit(value) ? "−" : "+", digits_text(std::abs(value)), factor);
+  };
+  const char* kind = fit.passes_through() ? "quadratic through the points: " : "quadratic fit: ";
+  return kind + digits_text(fit.constant) + term(fit.linear, "V") + term(fit.quadratic, "V²");
+}
+
+// Theory's two stresses over a series, in muted colours or the series' own.
+void add_theory(Chart& chart, const ResultSeries& series, bool speed, const Colour& colour, bool named) {
+  if (!has_theory(series)) return;
+  const LineStyle dashed{colour, 1.4, {8.0, 4.0}};
+  const LineStyle dotted{colour, 1.4, {2.0, 3.0}};
+  const std::string name = named ? "shock theory (Eq. 51)" : "";
+  if (const auto curve = speed ? find_shock_curve(series) : std::nullopt) {
+    chart.curves.push_back(sampled(*curve, chart.x.low, chart.x.high, chart.x.logarithmic, dashed, name));
+    chart.curves.push_back({{chart.x.low, chart.x.high},
+                            {curve->constant, curve->constant},
+                            dotted,
+                            named ? "quasi-static theory (Gibson-Ashby)" : ""});
+    return;
+  }
+  chart.curves.push_back({series.x, values_of(series, shock), dashed, name});
+  chart.curves.push_back(
+      {series.x, values_of(series, quasi_static), dotted, named ? "quasi-static theory (Gibson-Ashby)" : ""});
+}
+
+// Eq. 52 at those jobs that have a front.
+void add_measured_shock(Chart& chart, const ResultSeries& series, const Colour& colour, const char* name) {
+  Curve curve{{}, {}, {colour, 0.0, {}}, name, Marker::cross};
+  for (std::size_t i = 0; i < series.x.size(); ++i) {
+    if (!series.summaries[i]->has_front()) continue;
+    curve.x.push_back(series.x[i]);
+    curve.y.push_back(series.summaries[i]->front().shock_mpa());
+  }
+  if (!curve.x.empty()) chart.curves.push_back(std::move(curve));
+}
+
+// The plateau at the impact plate: marks, and as a line the fit where there is one.
+void add_impact(Chart& chart, const ResultSeries& series, const std::optional<QuadraticFit>& fit, const Colour& colour,
+                const std::string& name) {
+  chart.curves.push_back({series.x, values_of(series, impact), {colour, fit ? 0.0 : 1.6, {}}, name, Marker::disc});
+}
+
+void add_only_series(Chart& chart, const ResultSeries& series, bool speed) {
+  const auto fit = speed ? find_plateau_fit(series) : std::nullopt;
+  add_impact(chart, series, fit, kImpactColour, "impact plate");
+  chart.curves.push_back(
+      {series.x, values_of(series, support), {kSupportColour, 1.2, {}}, "support plate", Marker::square});
+  const LineStyle solid{kImpactColour, 1.6, {}};
+  if (fit)
+    chart.curves.push_back(
+        sampled(*fit, series.x.front(), series.x.back(), chart.x.logarithmic, solid, fit_name(*fit)));
+  add_theory(chart, series, speed, kMutedInk, true);
+  add_measured_shock(chart, series, kInk, "shock theory, measured jumps (Eq. 52)");
+}
+
+void add_series(Chart& chart, const ResultSeries& series, bool speed, const Colour& colour) {
+  const auto fit = speed ? find_plateau_fit(series) : std::nullopt;
+  add_impact(chart, series, fit, colour, series.name);
+  chart.curves.push_back({series.x, values_of(series, support), {colour, 0.9, {}}, "", Marker::square});
+  const LineStyle solid{colour, 1.6, {}};
+  if (fit) chart.curves.push_back(sampled(*fit, series.x.front(), series.x.back(), chart.x.logarithmic, solid, ""));
+  Colour faint = colour;
+  faint.opacity = 0.55;
+  add_theory(chart, series, speed, faint, false);
+  add_measured_shock(chart, series, colour, "");
+}
+
+// The plateau of one of several sweeps, with its own mark and colour; shock theory dashed.
+void add_sweep(Chart& chart, const ResultSeries& series, bool speed, std::size_t index) {
+  const Colour colour = kSeriesColours[index % kSeriesColours.size()];
+  const Marker marker = kSeriesMarkers[index % kSeriesMarkers.size()];
+  chart.curves.push_back({series.x, values_of(series, impact), {colour, 1.6, {}}, series.name, marker});
+  if (!has_theory(series)) return;
+  Colour faint = colour;
+  faint.opacity = 0.55;
+  const LineStyle dashed{faint, 1.4, {8.0, 4.0}};
+  const auto curve = speed ? find_shock_curve(series) : std::nullopt;
+  chart.curves.push_back(curve ? sampled(*curve, chart.x.low, chart.x.high, chart.x.logarithmic, dashed, "")
+                               : Curve{series.x, values_of(series, shock), dashed, ""});
+}
+
+// The label of a sweep: its title; the differences of its case if titles are equal; or its name.
+std::vector<std::string> names_of(const std::vector<SweepResults>& sweeps) {
+  std::vector<const v1::Case*> cases;
+  std::set<std::string> titles;
+  for (const SweepResults& results : sweeps) {
+    cases.push_back(&results.sweep.case_());
+    titles.insert(results.sweep.case_().title());
+  }
+  const auto differences = find_differences(cases);
+  std::vector<std::string> names;
+  for (const SweepResults& results : sweeps) {
+    std::string name = results.sweep.case_().title();
+    if (titles.size() < sweeps.size()) name = field_values_text(results.sweep.case_(), differences);
+    names.push_back(name.empty() ? results.sweep.name() : name);
+  }
+  return names;
+}
+
+// All series of the sweeps; those of several sweeps with the sweep's name.
+std::vector<ResultSeries> collect_series(const std::vector<SweepResults>& sweeps) {
+  const auto names = names_of(sweeps);
+  std::vector<ResultSeries> all;
+  for (std::size_t i = 0; i < sweeps.size(); ++i) {
+    for (ResultSeries& series : split_series(sweeps[i].table)) {
+      if (sweeps.size() > 1) series.name = names[i] + (series.name.empty() ? "" : ", " + series.name);
+      all.push_back(std::move(series));
+    }
+  }
+  return all;
+}
+
+// The y axis: from 0, or logarithmic from below the lowest value above 0.
+void fit_stress_axis(Chart& chart, bool logarithmic) {
+  double low = std::numeric_limits<double>::max();
+  double high = 0.0;
+  for (const Curve& curve : chart.curves) {
+    for (const double value : curve.y) {
+      if (!std::isfinite(value)) continue;
+      high = std::max(high, value);
+      if (value > 0.0) low = std::min(low, value);
+    }
+  }
+  chart.y.logarithmic = logarithmic && high > 0.0;
+  chart.y.low = chart.y.logarithmic ? low / 1.3 : 0.0;
+  chart.y.high = high > 0.0 ? (chart.y.logarithmic ? 1.3 : 1.08) * high : 1.0;
+}
+
+void add_note(Chart& chart, const std::string& sentence) { chart.note += (chart.note.empty() ? "" : "; ") + sentence; }
+
+// A common first field; REQUIRES: there is a sweep.
+const std::string& find_field(const std::vector<SweepResults>& sweeps) {
+  for (const SweepResults& results : sweeps) {
+    if (results.table.fields_size() == 0 || results.table.fields(0) != sweeps.front().table.fields(0)) {
+      throw CommandError(
+          ExitCode::refused,
+          results.sweep.name() + " varies another first field than the others; name sweeps over the same field");
+    }
+  }
+  return sweeps.front().table.fields(0);
+}
+
+}  // namespace
+
+std::string axis_label(const std::string& field) {
+  const FieldWords words = words_of(field);
+  return words.unit.empty() ? words.name : fmt::format("{} ({})", words.name, words.unit);
+}
+
+Chart build_sweep_chart(const std::vector<SweepResults>& sweeps, const LogarithmicAxes& logarithmic) {
+  const auto all = collect_series(sweeps);
+  if (all.empty()) {
+    throw CommandError(ExitCode::refused,
+                       "no job of the sweep has succeeded with a plateau yet; `cellcrush table` shows the state of "
+                       "its jobs");
+  }
+  const std::string& field = find_field(sweeps);
+  const bool speed = varies_speed_first(sweeps.front().table);
+  Chart chart;
+  chart.x = build_axis(field, all, logarithmic.x);
+  chart.y.label = "plateau stress (MPa)";
+  if (sweeps.size() > 1) {
+    for (std::size_t i = 0; i < all.size(); ++i) add_sweep(chart, all[i], speed, i);
+    add_note(chart, "impact plate; dashed: shock theory (Eq. 51)");
+  } else if (all.size() == 1) {
+    add_only_series(chart, all.front(), speed);
+  } else {
+    for (std::size_t i = 0; i < all.size(); ++i)
+      add_series(chart, all[i], speed, kSeriesColours[i % kSeriesColours.size()]);
+    chart.note = "discs: impact plate; squares: support plate; ";
+    if (speed) chart.note += "solid: quadratic fit; ";
+    chart.note += "dashed: Eq. 51; crosses: Eq. 52; dotted: Gibson-Ashby";
+  }
+  fit_stress_axis(chart, logarithmic.y);
+  std::size_t drawn = 0;
+  for (const ResultSeries& series : all) drawn += series.x.size();
+  std::size_t rows = 0;
+  for (const SweepResults& results : sweeps) rows += static_cast<std::size_t>(results.table.rows_size());
+  if (drawn < rows) add_note(chart, fmt::format("{} of {} jobs have no plateau", rows - drawn, rows));
+  return chart;
+}
+
+}  // namespace cellcrush::client
