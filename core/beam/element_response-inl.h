@@ -36,25 +36,27 @@ struct ElementSums {
 };
 
 /// Displacement-based element: the curvature varies linearly (Eq. 27, E5a).
-template <bool kHardening, class Rule, class D>
+template <class Law, class Rule, class D>
 HWY_INLINE ElementSums<D> return_map_element(const LaneMaterial<D>& material, const Rule& rule,
-                                             const ElementStrains<D>& strains, const Fibres<hn::TFromD<D>>& fibres) {
-  FibreWriter<kHardening, D> next(material, fibres);
+                                             const ElementStrains<D>& strains, const Fibres<hn::TFromD<D>>& fibres,
+                                             double step) {
+  const FibreLaw<Law, D> law(material, step);
+  FibreBits<D> yields;
   const Lane<D> stretched = material.modulus * strains.membrane;
   ElementSums<D> element;
   for (int i = 0; i < rule.sections(); ++i) {
     const auto first = static_cast<std::size_t>(i * rule.depth_points());
     const Lane<D> curvature =
         fma(Lane<D>(rule.bend_start[i]), strains.bend_start, Lane<D>(rule.bend_end[i]) * strains.bend_end);
-    const SectionSums<D> section = return_map_section<kHardening>(
-        material, rule, rule.offset, rule.offset_weight, stretched, material.modulus * curvature, fibres, first, next);
+    const SectionSums<D> section = return_map_section(law, rule, rule.offset, rule.offset_weight, stretched,
+                                                      material.modulus * curvature, fibres, first, yields);
     const Lane<D> weight = rule.along_weight[i];
     element.axial = fma(weight, section.axial, element.axial);
     element.moment_start = fma(Lane<D>(rule.moment_start[i]), section.moment, element.moment_start);
     element.moment_end = fma(Lane<D>(rule.moment_end[i]), section.moment, element.moment_end);
     element.plastic_work = fma(weight, section.plastic_work, element.plastic_work);
   }
-  next.finish();
+  keep_yields<Law>(yields, fibres);
   return element;
 }
 
@@ -74,12 +76,12 @@ struct ElementMemory {
 /// order, for what the sections are then out of balance. Nothing else is carried into the next step: its strains are
 /// found from the forces that the sections bear. While no fibre has yielded in the last two steps, the sections are in
 /// balance, and only changes are computed: otherwise the rounding of sums would add up over the steps.
-template <bool kHardening, int kElements, class Rule, class D>
+template <class Law, int kElements, class Rule, class D>
 class UnitResponse {
   using T = hn::TFromD<D>;
 
  public:
-  HWY_INLINE explicit UnitResponse(const Rule& rule) : rule_(rule), sections_(rule) {}
+  HWY_INLINE UnitResponse(const Rule& rule, double step) : rule_(rule), step_(step), sections_(rule) {}
 
   /// `material` must outlive the unit. `compressed`: whether the materials of any lanes are softened; `modulus` is E of
   /// the wall.
@@ -124,6 +126,8 @@ class UnitResponse {
   /// gamma / h.
   static constexpr double kGyrationOfThickness = 0.5 / std::numbers::sqrt3;
 
+  [[nodiscard]] HWY_INLINE FibreLaw<Law, D> law_of(int e) const { return {*material_[e], step_}; }
+
   /// Those of all elements.
   [[nodiscard]] HWY_INLINE FibreBits<D> bits() const {
     return kElements > 1 ? yielding_[0] | yielding_[1] : yielding_[0];
@@ -153,8 +157,7 @@ class UnitResponse {
   HWY_INLINE void soften_ahead(const UnitForces<kElements, D>& elastic) {
     visit_yielding([&](int e, int i, const FibreBits<D>& yielding) HWY_ATTR {
       const SectionForce<D> strains = sections_.under(elastic, e, i) - sections_.force[e][i];
-      sections_.flexibility[e][i] =
-          look_ahead<kHardening>(rule_, *material_[e], memory_[e].fibres, yielding, first_fibre(i), strains);
+      sections_.flexibility[e][i] = look_ahead(rule_, law_of(e), memory_[e].fibres, yielding, first_fibre(i), strains);
     });
   }
 
@@ -170,18 +173,17 @@ class UnitResponse {
   HWY_INLINE void map_back(const UnitForces<kElements, D>& forces, LaneMask<D> unsettled,
                            ElementSums<D> (&sums)[kElements]) {
     for (int e = 0; e < kElements; ++e) {
-      FibreWriter<kHardening, D> next(*material_[e], memory_[e].fibres);
+      const FibreLaw<Law, D> law = law_of(e);
+      yielding_[e] = FibreBits<D>();
       sums[e].plastic_work = 0;
       for (int i = 0; i < rule_.sections(); ++i) {
         const SectionForce<D> strains = strains_of(forces, unsettled, e, i);
-        const SectionSums<D> now =
-            return_map_section<kHardening>(*material_[e], rule_, rule_.arm, rule_.arm_weight, strains.axial,
-                                           strains.moment, memory_[e].fibres, first_fibre(i), next);
+        const SectionSums<D> now = return_map_section(law, rule_, rule_.arm, rule_.arm_weight, strains.axial,
+                                                      strains.moment, memory_[e].fibres, first_fibre(i), yielding_[e]);
         sections_.force[e][i] = {now.axial, now.moment};
         sums[e].plastic_work = fma(Lane<D>(rule_.along_weight[i]), now.plastic_work, sums[e].plastic_work);
       }
-      next.finish();
-      yielding_[e] = next.yields();
+      keep_yields<Law>(yielding_[e], memory_[e].fibres);
     }
   }
 
@@ -194,8 +196,7 @@ class UnitResponse {
       return forces;
     }
     visit_yielding([&](int e, int i, const FibreBits<D>& yielding) HWY_ATTR {
-      sections_.flexibility[e][i] =
-          flexibility_of(rule_, *material_[e], [&](int j) HWY_ATTR { return yielding.has(j); });
+      sections_.flexibility[e][i] = flexibility_of(rule_, law_of(e), [&](int j) HWY_ATTR { return yielding.has(j); });
     });
     return select(yields, sections_.solve(none), forces);
   }
@@ -219,6 +220,7 @@ class UnitResponse {
   }
 
   const Rule& rule_;
+  const double step_;
   UnitSections<kElements, Rule, D> sections_;
   UnitStrains<kElements, D> strains_;
   const LaneMaterial<D>* material_[kElements];

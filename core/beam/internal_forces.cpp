@@ -17,7 +17,7 @@ namespace cellcrush::HWY_NAMESPACE {
 
 /// The loops over the walls of a chunk, for one section rule. Full blocks fill vectors. Other blocks, and rules whose
 /// numbers of points are not known at compile time, are computed wall by wall.
-template <bool kForceBased, bool kHardening, class Rule>
+template <bool kForceBased, class Law, class Rule>
 class WallLoops {
  public:
   using T = typename Rule::Number;
@@ -66,7 +66,7 @@ class WallLoops {
 
  private:
   template <std::size_t kWidth>
-  using Chunk = WallChunk<kForceBased, kHardening, Rule, WideTag<double, kWidth>, WideTag<T, kWidth>>;
+  using Chunk = WallChunk<kForceBased, Law, Rule, WideTag<double, kWidth>, WideTag<T, kWidth>>;
 
   [[nodiscard]] std::span<const WallBlock> blocks_of(std::size_t chunk) const {
     const std::vector<int>& offset = scene_.walls.chunk_offset;
@@ -98,33 +98,33 @@ class WallLoops {
   const Rule rule_;
 };
 
-template <bool kForceBased, bool kHardening, class T, class Use>
+template <bool kForceBased, class Law, class T, class Use>
 void with_rule(const Scene& scene, State& state, FibreHistory<T>& memory, const Use& use) {
   using Common = std::conditional_t<kForceBased, RuleFactors<4, 6, T>, RuleFactors<2, 6, T>>;
-  has_known_counts(scene.section) ? use(WallLoops<kForceBased, kHardening, Common>(scene, state, memory))
-                                  : use(WallLoops<kForceBased, kHardening, RuleFactors<0, 0, T>>(scene, state, memory));
+  has_known_counts(scene.section) ? use(WallLoops<kForceBased, Law, Common>(scene, state, memory))
+                                  : use(WallLoops<kForceBased, Law, RuleFactors<0, 0, T>>(scene, state, memory));
 }
 
-template <bool kHardening, class Use>
+template <class Law, class Use>
 void with_precision(const Scene& scene, State& state, const Use& use) {
   if (!scene.section.force_based) {
-    scene.single_fibres ? with_rule<false, kHardening>(scene, state, state.single_fibres, use)
-                        : with_rule<false, kHardening>(scene, state, state.fibres, use);
+    scene.single_fibres ? with_rule<false, Law>(scene, state, state.single_fibres, use)
+                        : with_rule<false, Law>(scene, state, state.fibres, use);
     return;
   }
-  if constexpr (!kHardening) {  // allows_single_fibres()
+  if constexpr (Law::kFacts.may_be_single_in_force_based) {
     if (scene.single_fibres) {
-      with_rule<true, kHardening>(scene, state, state.single_fibres, use);
+      with_rule<true, Law>(scene, state, state.single_fibres, use);
       return;
     }
   }
-  with_rule<true, kHardening>(scene, state, state.fibres, use);
+  with_rule<true, Law>(scene, state, state.fibres, use);
 }
 
-/// Calls use(loops) with the loops of the section rule, the material and the precision of the scene.
+/// Calls use(loops) with the loops of the section rule, the law of the fibres and the precision of the scene.
 template <class Use>
 void with_loops(const Scene& scene, State& state, const Use& use) {
-  scene.has_hardening() ? with_precision<true>(scene, state, use) : with_precision<false>(scene, state, use);
+  Laws::visit(scene.law, [&](auto law) HWY_ATTR { with_precision<decltype(law)>(scene, state, use); });
 }
 
 /// Sums the forces on the joints between the chunks of two threads.

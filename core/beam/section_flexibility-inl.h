@@ -8,9 +8,8 @@
 
 #include <cstddef>
 
+#include "law/fibre_law-inl.h"
 #include "section/fibre_bits-inl.h"
-#include "section/fibres.h"
-#include "section/lane_material-inl.h"
 #include "simd/lane-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -47,9 +46,8 @@ struct SectionFlexibility {
 };
 
 /// Flexibility of the section whose fibres `is_soft(fibre)` yield; the others are elastic.
-template <class Rule, class D, class IsSoft>
-HWY_INLINE SectionFlexibility<D> flexibility_of(const Rule& rule, const LaneMaterial<D>& material,
-                                                const IsSoft& is_soft) {
+template <class Law, class Rule, class D, class IsSoft>
+HWY_INLINE SectionFlexibility<D> flexibility_of(const Rule& rule, const FibreLaw<Law, D>& law, const IsSoft& is_soft) {
   Lane<D> area = 0;
   Lane<D> first = 0;
   Lane<D> second = 0;
@@ -60,8 +58,7 @@ HWY_INLINE SectionFlexibility<D> flexibility_of(const Rule& rule, const LaneMate
     second = select(soft, second + Lane<D>(rule.square_weight[j]), second);
   }
   const Lane<D> one = 1;
-  const Lane<D> tangent = fma(material.hardening, material.inverse, Lane<D>(hn::TFromD<D>(kAddedTangent)));
-  const Lane<D> lost = one - tangent;
+  const Lane<D> lost = one - law.tangent(Lane<D>(hn::TFromD<D>(kAddedTangent)));
   const Lane<D> axial = fnma(lost, area, one);  // stiffness
   const Lane<D> mixed = lost * first;           // with the opposite sign
   const Lane<D> bending = fnma(lost, second, one);
@@ -72,16 +69,12 @@ HWY_INLINE SectionFlexibility<D> flexibility_of(const Rule& rule, const LaneMate
 /// Flexibility of a section in the coming step: of the fibres that yielded in the last one, those are soft which its
 /// strains would drive further. `first` is the first fibre of the section, `yielding` has its own bits, and `strains`
 /// are those that it would have if it were elastic.
-template <bool kHardening, class Rule, class D>
-HWY_INLINE SectionFlexibility<D> look_ahead(const Rule& rule, const LaneMaterial<D>& material,
+template <class Law, class Rule, class D>
+HWY_INLINE SectionFlexibility<D> look_ahead(const Rule& rule, const FibreLaw<Law, D>& law,
                                             const Fibres<hn::TFromD<D>>& fibres, const FibreBits<D>& yielding,
                                             std::size_t first, const SectionForce<D>& strains) {
-  return flexibility_of(rule, material, [&](int j) HWY_ATTR {
-    const std::size_t at = (first + j) * fibres.stride;
-    Lane<D> reduced = Lane<D>::load(fibres.stress + at);
-    if constexpr (kHardening) {
-      reduced -= Lane<D>::load(fibres.back_stress + at);
-    }
+  return flexibility_of(rule, law, [&](int j) HWY_ATTR {
+    const Lane<D> reduced = law.reduced(fibres, (first + j) * fibres.stride);
     const Lane<D> strain = fma(Lane<D>(rule.arm[j]), strains.moment, strains.axial);
     return yielding.has(j) & (reduced * strain > 0);
   });

@@ -54,7 +54,7 @@ struct NodalForces {
 ///    leaves no strain, and the work of the forces equals that of the stresses;
 ///  - the shear force of Eq. 31 has the current length, as conservation of angular momentum requires (E7);
 ///  - the forward rotation of Eq. 32 is the current axis itself, so no rotation matrix is needed (E7).
-template <bool kForceBased, bool kHardening, class Rule, class D, class F>
+template <bool kForceBased, class Law, class Rule, class D, class F>
 class WallChunk {
   using T = hn::TFromD<F>;
   using Real = Lane<D>;
@@ -220,8 +220,9 @@ class WallChunk {
 
   HWY_INLINE Fibres<T> fibres_of(std::ptrdiff_t row, int lane, int stride) const {
     const std::ptrdiff_t first = row * rule_.fibres() + lane;
-    return {stress_ + first, kHardening ? &memory_.back_stress[first] : nullptr,
-            kHardening ? &memory_.plastic_strain[first] : nullptr, kHardening ? nullptr : &memory_.yielded[row + lane],
+    return {stress_ + first, Law::kFacts.keeps_back_stress ? &memory_.back_stress[first] : nullptr,
+            Law::kFacts.keeps_plastic_strain ? &memory_.plastic_strain[first] : nullptr,
+            Law::kFacts.keeps_plastic_strain ? nullptr : &memory_.yielded[row + lane],
             static_cast<std::size_t>(stride)};
   }
 
@@ -256,8 +257,8 @@ class WallChunk {
       } else {
         const std::ptrdiff_t row = row_of(block, j);
         const RowStrains<T> strains = scratch_.strains(row, lane, walls_of(block));
-        put_sums(return_map_element<kHardening>(softened(material, strains), rule_, load_strains(strains),
-                                                fibres_of(row, lane, walls_of(block))),
+        put_sums(return_map_element<Law>(softened(material, strains), rule_, load_strains(strains),
+                                         fibres_of(row, lane, walls_of(block)), step_),
                  scratch_.sums(row, lane, walls_of(block)));
       }
     }
@@ -267,7 +268,7 @@ class WallChunk {
   template <int kElements>
   HWY_INLINE void advance_unit(const WallBlock& block, int lane, int j, const LaneMaterial<F>& material) const {
     const int walls = walls_of(block);
-    UnitResponse<kHardening, kElements, Rule, F> unit(rule_);
+    UnitResponse<Law, kElements, Rule, F> unit(rule_, step_);
     LaneMaterial<F> soft[kElements];
     for (int e = 0; e < kElements; ++e) {
       const std::ptrdiff_t row = row_of(block, j + e);

@@ -31,8 +31,7 @@ Energies evaluate_energies(const Scene& scene, const State& state) {
   newest.accumulate(now);
   now.kinetic = 0.5 * newest.twice_kinetic;
   now.elastic = elastic_energy(scene, state);
-  now.residual = now.external + now.initial - now.kinetic - now.elastic - now.plastic - now.contact -
-                 now.contact_damping - now.friction - now.mass_damping;
+  now.residual = residual_of(now);
   return now;
 }
 

@@ -16,13 +16,7 @@ namespace cellcrush {
 /// Opens the ledger at time 0: sets the initial kinetic energy and subtracts the work of the half step before.
 void open_ledger(const Scene& scene, State& state);
 
-/// The ledger at the time of the state, N mm, and the energies at that time. Dissipation is positive. The residual is
-/// external + initial minus all others.
-struct Energies : Ledger {
-  double kinetic = 0.0;
-  double elastic = 0.0;
-  double residual = 0.0;
-};
+/// The ledger at the time of the state, and the energies at that time.
 Energies evaluate_energies(const Scene& scene, const State& state);
 
 }  // namespace cellcrush

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "law/laws.h"
 #include "motion/particle_motion-inl.h"
 #include "motion/rigid_motion.h"
 
@@ -14,8 +15,11 @@ template <class T>
 void place_fibres(const Scene& scene, FibreHistory<T>& fibres) {
   const std::size_t elements = scene.element_count();
   fibres.stress.assign(elements * scene.fibre_count(), T(0.0));
-  if (scene.has_hardening()) {
+  const LawFacts& law = law_facts_of(scene);
+  if (law.keeps_back_stress) {
     fibres.back_stress.assign(elements * scene.fibre_count(), T(0.0));
+  }
+  if (law.keeps_plastic_strain) {
     fibres.plastic_strain.assign(elements * scene.fibre_count(), T(0.0));
   } else {
     fibres.yielded.assign(elements, 0);

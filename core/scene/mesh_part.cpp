@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "law/laws.h"
 #include "scene/approach_speed.h"
 #include "scene/check_overlap.h"
 #include "scene/frame.h"
@@ -30,10 +31,9 @@ std::vector<Material> materials_of(const SceneSpec& spec) {
   return materials;
 }
 
-/// Whether fibres may be in single precision. With hardening, no stress of a yielding fibre is exact; a force-based
-/// section that yields would turn the rounding of a slow crush into plastic work: 1.3 % of it in Example 1 at 1 m/s.
 bool allows_single_fibres(const Scene& scene) {
-  return scene.fibre_count() <= kMostSingleFibres && !(scene.section.force_based && scene.has_hardening());
+  return scene.fibre_count() <= kMostSingleFibres &&
+         (!scene.section.force_based || law_facts_of(scene).may_be_single_in_force_based);
 }
 
 /// Lays out the lattice, and computes its measures if it is a regular one.
@@ -92,6 +92,7 @@ std::shared_ptr<Scene> build_mesh(const SceneSpec& part) {
   auto scene = std::make_shared<Scene>();
   scene->depth = *part.depth_mm;
   scene->materials = materials_of(part);
+  scene->law = law_of(scene->materials);
   scene->section = make_section_rule(part.section);
   scene->constant_area = part.section.area_rule == SectionSpec::AreaRule::constant_area;
   scene->single_fibres =

@@ -8,8 +8,8 @@
 
 #include <cstddef>
 
-#include "section/fibre_history-inl.h"
-#include "section/lane_material-inl.h"
+#include "law/fibre_law-inl.h"
+#include "section/fibre_bits-inl.h"
 #include "section/rule_factors.h"
 #include "simd/lane-inl.h"
 
@@ -42,65 +42,56 @@ class Differences {
   hn::Vec<D> bits_;
 };
 
-/// Return mapping of the fibres of one section over a step (Eq. 33-39, E6). `first` is the index in the element of the
-/// first fibre of the section.
+/// Return mapping of the fibres of one section over a step by their law (Eq. 33-39, E6). `first` is the index in the
+/// element of the first fibre of the section. Adds the fibres that yield to `yields`.
 ///
 /// The elastic stress increment of a fibre is stretched + bent * arm, MPa (E5): E times the increments of the membrane
 /// strain and of the curvature. `arm` has the distance of each fibre from the axis, in the length with which the
 /// curvature was multiplied: h, or the radius of gyration. `weighted_arm` has the same, times the weights through the
 /// depth. The curvature is positive where the left side stretches.
-///
-/// Deviation from the paper: the yield test and the plastic increment use the absolute value of the reduced stress. Eq.
-/// 35-38 omit it, so a fibre in compression would never yield. There is no branch: the plastic increment follows from
-/// the part of the reduced stress that the clamp to the yield surface removes.
-template <bool kHardening, class Rule, class D>
-HWY_INLINE SectionSums<D> return_map_section(const LaneMaterial<D>& material, const Rule& rule,
+template <class Law, class Rule, class D>
+HWY_INLINE SectionSums<D> return_map_section(const FibreLaw<Law, D>& law, const Rule& rule,
                                              const typename Rule::Number* arm,
                                              const typename Rule::Number* weighted_arm, Lane<D> stretched, Lane<D> bent,
                                              const Fibres<hn::TFromD<D>>& fibres, std::size_t first,
-                                             FibreWriter<kHardening, D>& next) {
+                                             FibreBits<D>& yields) {
   SectionSums<D> sums;
-  Lane<D> trial[Rule::kDepthRoom];   // of Eq. 34, E6; with hardening, the reduced stress of Eq. 35
-  Lane<D> mapped[Rule::kDepthRoom];  // the same within the yield surface
-  Differences<D> yields;
+  Lane<D> reduced[Rule::kDepthRoom];
+  Lane<D> within[Rule::kDepthRoom];
+  Differences<D> differences;
   for (int i = 0; i < rule.depth_points(); ++i) {
-    const std::size_t fibre = first + static_cast<std::size_t>(i);
-    const std::size_t at = fibre * fibres.stride;
-    trial[i] = fma(bent, Lane<D>(arm[i]), stretched) + Lane<D>::load(fibres.stress + at);
-    Lane<D> stress;
-    if constexpr (kHardening) {
-      const Lane<D> back = Lane<D>::load(fibres.back_stress + at);
-      trial[i] -= back;
-      const Lane<D> yield =
-          fma(material.isotropic, Lane<D>::load(fibres.plastic_strain + at), material.yield_stress);  // Eq. 33, E6
-      mapped[i] = max(min(trial[i], yield), -yield);
-      stress = fnma(material.elastic_share, trial[i] - mapped[i], trial[i]) + back;  // Eq. 36, E6
-    } else {
-      stress = mapped[i] = max(min(trial[i], material.yield_stress), -material.yield_stress);
-    }
-    next.put_stress(fibre, stress);
-    yields.note(trial[i], mapped[i]);
-    sums.axial = fma(Lane<D>(rule.depth_weight[i]), stress, sums.axial);
-    sums.moment = fma(Lane<D>(weighted_arm[i]), stress, sums.moment);
+    const std::size_t at = (first + static_cast<std::size_t>(i)) * fibres.stride;
+    const Lane<D> trial = fma(bent, Lane<D>(arm[i]), stretched) + Lane<D>::load(fibres.stress + at);  // Eq. 34, E6
+    const MappedFibre<D> mapped = law.map(trial, fibres, at);
+    reduced[i] = mapped.reduced;
+    within[i] = mapped.within;
+    mapped.stress.store(fibres.stress + at);
+    differences.note(reduced[i], within[i]);
+    sums.axial = fma(Lane<D>(rule.depth_weight[i]), mapped.stress, sums.axial);
+    sums.moment = fma(Lane<D>(weighted_arm[i]), mapped.stress, sums.moment);
   }
-  if (yields.none()) {
+  if (differences.none()) {
     return sums;
   }
   FibreBits<D> of_section;
-  const Lane<D> half_hardening = Lane<D>(hn::TFromD<D>(0.5)) * material.hardening;
   for (int i = 0; i < rule.depth_points(); ++i) {
-    const std::size_t fibre = first + static_cast<std::size_t>(i);
-    const Lane<D> increment = material.inverse * (trial[i] - mapped[i]);  // Eq. 37, 38, E6
-    next.put_increment(fibre, increment);
-    of_section.add(trial[i] != mapped[i], i);
-    Lane<D> stress = Lane<D>::load(fibres.stress + fibre * fibres.stride);
-    if constexpr (kHardening) {
-      stress = fnma(half_hardening, increment, stress);  // mean of both yield surfaces, E10
-    }
+    const std::size_t at = (first + static_cast<std::size_t>(i)) * fibres.stride;
+    const Lane<D> increment = law.increment(reduced[i], within[i]);
+    law.flow(increment, fibres, at);
+    of_section.add(reduced[i] != within[i], i);
+    const Lane<D> stress = law.dissipating(Lane<D>::load(fibres.stress + at), increment);
     sums.plastic_work = fma(Lane<D>(rule.depth_weight[i]) * stress, increment, sums.plastic_work);
   }
-  next.put_yields(of_section, first);
+  yields.add_section(of_section, first);
   return sums;
+}
+
+/// Adds the fibres that have yielded in a step to those of the state, if the law keeps no plastic strain.
+template <class Law, class D>
+HWY_INLINE void keep_yields(const FibreBits<D>& yields, const Fibres<hn::TFromD<D>>& fibres) {
+  if constexpr (!Law::kFacts.keeps_plastic_strain) {
+    (yields | FibreBits<D>::load(fibres.yielded)).store(fibres.yielded);
+  }
 }
 
 }  // namespace cellcrush::HWY_NAMESPACE

@@ -3,6 +3,7 @@
 #include "cellcrush/contact_faces.h"
 #include "cellcrush/scene.h"
 #include "cellcrush/simulation.h"
+#include "law/laws.h"
 #include "measure/theory.h"
 #include "scene/check_spec.h"
 #include "scene/time_step.h"
@@ -24,10 +25,8 @@ std::string walls_text(const Scene& scene) {
 }
 
 std::string fibres_text(const Scene& scene) {
-  const std::string law =
-      scene.has_hardening()
-          ? "Fibres: bilinear with mixed hardening; each stores its back stress and accumulated plastic strain"
-          : "Fibres: perfectly plastic; each stores only its stress";
+  const LawFacts& facts = law_facts_of(scene);
+  const std::string law = "Fibres: " + std::string(facts.words);
   if (scene.single_fibres) {
     return law + ", in single precision, which halves the memory and adds no error beyond the scatter between seeds.";
   }
@@ -35,8 +34,9 @@ std::string fibres_text(const Scene& scene) {
     return law + ", in double precision: in single precision, rounding errors of slow loading add up.";
   }
   return law + ", in double precision" +
-         (scene.section.force_based && scene.has_hardening() ? ", as hardening requires in force-based elements."
-                                                             : ".");
+         (scene.section.force_based && !facts.may_be_single_in_force_based
+              ? ", as hardening requires in force-based elements."
+              : ".");
 }
 
 std::string friction_text(double friction) {

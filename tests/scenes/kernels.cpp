@@ -68,7 +68,7 @@ template <int kElements>
 void strain_force_based(scenes::ElementStep& step) {
   const RuleFactors<0, 0, double> rule(step.rule);
   const LaneMaterial<One> material(step.material);
-  UnitResponse<true, kElements, RuleFactors<0, 0, double>, One> unit(rule);
+  UnitResponse<MixedHardening, kElements, RuleFactors<0, 0, double>, One> unit(rule, 0.0);
   for (int e = 0; e < kElements; ++e) {
     unit.set(e, material, material.modulus, false,
              {step.fibres[e], step.section_axial[e], step.section_moment[e], step.yielding[e]}, strains_of(step, e));
@@ -84,7 +84,8 @@ void strain_unit(scenes::ElementStep& step) {
   if (!step.rule.force_based) {
     const RuleFactors<0, 0, double> rule(step.rule);
     const LaneMaterial<One> material(step.material);
-    put_sums(return_map_element<true>(material, rule, strains_of(step, 0), step.fibres[0]), step.sums[0]);
+    put_sums(return_map_element<MixedHardening>(material, rule, strains_of(step, 0), step.fibres[0], 0.0),
+             step.sums[0]);
   } else {
     step.elements == 2 ? strain_force_based<2>(step) : strain_force_based<1>(step);
   }

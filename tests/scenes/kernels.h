@@ -49,8 +49,6 @@ class Unit {
   const Sums& strain(const std::vector<StepStrains>& strains);
 
   [[nodiscard]] const Sums& sums(int element = 0) const { return elements_[element].sums; }
-  [[nodiscard]] const std::vector<double>& stress(int element = 0) const { return elements_[element].stress; }
-  [[nodiscard]] const std::vector<double>& plastic_strain() const { return elements_[0].plastic_strain; }
   /// Greatest axial force over A, and moment over A h, that a section bears more or less than the forces of the unit
   /// ask for, MPa. Force-based elements only.
   [[nodiscard]] double residual() const;

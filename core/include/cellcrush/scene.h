@@ -273,6 +273,7 @@ struct Scene {
   // Model.
   double depth = 0.0;               ///< b, mm
   std::vector<Material> materials;  ///< at least one
+  std::size_t law = 0;              ///< of the fibres, into Laws (law/laws.h)
   SectionRule section;
   bool single_fibres = false;  ///< fibre histories are stored and updated in single precision
   /// Single precision was asked for, but would round so slow a loading away (scene/fibre_precision.h).
@@ -297,10 +298,6 @@ struct Scene {
 
   std::vector<int> watched;  ///< particles whose displacements are recorded in samples
 
-  [[nodiscard]] bool has_hardening() const {
-    return std::any_of(materials.begin(), materials.end(),
-                       [](const Material& material) { return material.hardening_modulus > 0.0; });
-  }
   /// Radius plus half thickness before loading, mm (E8).
   [[nodiscard]] double full_reach_of(int ball, int segment) const {
     return radius[ball] + 0.5 * elements[segment].thickness;

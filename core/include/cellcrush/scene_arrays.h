@@ -20,8 +20,8 @@ void visit_arrays(const Scene& scene, Visitor&& visit) {
   const auto& [position, mass, inertia, inverse_mass, inverse_inertia, radius, largest_radius, smallest_radius,
                elements, walls, bands, rigid, pins, incidence_offset, incidence, joint_count, wall_end_offset,
                wall_ends, supports, motions, loads, element_loads, gravity, initial_velocity, initial_spin, depth,
-               materials, section, single_fibres, slow_loading, constant_area, contact, limited_reaches, faces, plates,
-               rigid_walls, mass_scaling, mass_damping, schedule, length, width, total_mass, stable_step,
+               materials, law, section, single_fibres, slow_loading, constant_area, contact, limited_reaches, faces,
+               plates, rigid_walls, mass_scaling, mass_damping, schedule, length, width, total_mass, stable_step,
                collapse_stress, fidelity, watched] = scene;
   const auto& [blocks, chunk_offset, first_joint, end_joint, start, end, thickness, undeformed_length, material] =
       walls;

@@ -7,6 +7,7 @@
 #include "cellcrush/byte_stream.h"
 #include "cellcrush/contact_lists.h"
 #include "cellcrush/lane_vector.h"
+#include "cellcrush/ledger.h"
 #include "cellcrush/tuning.h"
 #include "cellcrush/vector.h"
 
@@ -19,9 +20,9 @@ struct FibreHistory {
   using Bits = std::conditional_t<sizeof(T) == sizeof(std::uint64_t), std::uint64_t, std::uint32_t>;
 
   LaneVector<T> stress;          ///< E x F, sigma of E6
-  LaneVector<T> back_stress;     ///< E x F, centre of the yield surface (alpha of E6); empty without hardening
-  LaneVector<T> plastic_strain;  ///< E x F, accumulated (effective), ep of E6; empty without hardening
-  LaneVector<Bits> yielded;      ///< E, bit f: fibre f has yielded; empty with hardening
+  LaneVector<T> back_stress;     ///< E x F, centre of the yield surface (alpha of E6); empty unless the law keeps it
+  LaneVector<T> plastic_strain;  ///< E x F, accumulated (effective), ep of E6; empty unless the law keeps it
+  LaneVector<Bits> yielded;      ///< E, bit f: fibre f has yielded; empty with plastic_strain
 
   // Force-based rules only (E5b, E5d, beam/element_response-inl.h), otherwise empty.
   LaneVector<T> section_axial;   ///< E x P, n: sums over the stresses of the section
@@ -67,17 +68,6 @@ struct FastestStep {
   double travel = 0.0;        ///< mm
   std::int64_t step = 0;      ///< 0: none yet
   std::int64_t particle = 0;  ///< whose velocity is farthest from the middle of all
-};
-
-/// Energies and works accumulated over time (E10), N mm. Written by integrate_motion and evaluate_internal_forces.
-struct Ledger {
-  double plastic = 0.0;          ///< stress times plastic strain increment
-  double contact = 0.0;          ///< work against the elastic normal forces of contacts, walls' and plates'
-  double contact_damping = 0.0;  ///< work against the viscous forces of contacts
-  double friction = 0.0;
-  double mass_damping = 0.0;
-  double external = 0.0;  ///< work of the plates, of rigid walls and of nodal loads
-  double initial = 0.0;   ///< kinetic energy at the start
 };
 
 /// Everything that a step changes. N particles, E elements, F fibres per element. Units mm, tonne, s, N, MPa, rad.

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <atomic>
 #include <thread>
-#include <utility>
 #include <vector>
 
 namespace cellcrush {
@@ -50,25 +49,6 @@ TEST(Wavefront, TakesEveryItemOfEveryStepOnceAndAfterWhatItNeeds) {
     EXPECT_EQ(visits, static_cast<int>(kSteps * kItems)) << threads;
     EXPECT_EQ(too_early, 0) << threads;
   }
-}
-
-TEST(Wavefront, BeginsTheNextStepsWhereTheFirstHaveEnded) {
-  Wavefront wavefront(3, 4, 2, 1);
-  std::vector<std::pair<std::size_t, std::size_t>> order;
-  wavefront.advance([&](std::size_t step, std::size_t index) { order.emplace_back(step, index); });
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    EXPECT_EQ(order[i], std::pair(i / 4, i % 4));
-  }
-  EXPECT_EQ(order.size(), 12u);
-}
-
-TEST(Wavefront, GoesByColumnsWhereOneThreadIsAlone) {
-  Wavefront wavefront(2, 4, 2, 2);
-  std::vector<std::pair<std::size_t, std::size_t>> order;
-  wavefront.advance([&](std::size_t step, std::size_t index) { order.emplace_back(step, index); });
-  const std::vector<std::pair<std::size_t, std::size_t>> expected = {{0, 0}, {0, 1}, {0, 2}, {1, 0},
-                                                                     {0, 3}, {1, 1}, {1, 2}, {1, 3}};
-  EXPECT_EQ(order, expected);
 }
 
 }  // namespace

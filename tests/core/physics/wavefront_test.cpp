@@ -18,6 +18,7 @@
 #include "scenes/state_hash.h"
 #include "step/advance_step.h"
 #include "step/advance_wavefront.h"
+#include "step/stages.h"
 
 namespace cellcrush {
 namespace {
@@ -41,6 +42,22 @@ std::uint64_t crush_in_wavefronts(const Scene& scene, int threads, int piece, in
   return scenes::hash_of(state);
 }
 
+/// The stages of each step, in the order in which they first begin.
+class StageOrders : public StageObserver {
+ public:
+  void begin(Stage stage) override {
+    if (std::ranges::find(order_, stage) == order_.end()) {
+      order_.push_back(stage);
+    }
+  }
+  void end_step() override { orders_.push_back(std::exchange(order_, {})); }
+  [[nodiscard]] const std::vector<std::vector<Stage>>& orders() const { return orders_; }
+
+ private:
+  std::vector<Stage> order_;
+  std::vector<std::vector<Stage>> orders_;
+};
+
 State crush_step_by_step(const Scene& scene, int steps = kCrushedSteps) {
   State state = make_initial_state(scene);
   Workspace workspace;
@@ -59,6 +76,25 @@ TEST(Wavefront, GiveTheBitsOfSingleStepsWhateverTheirLengthAndTheThreads) {
   for (const auto& [threads, piece] : std::vector<std::pair<int, int>>{{1, 20}, {1, 7}, {1, 1}, {2, 20}, {3, 13}}) {
     EXPECT_EQ(crush_in_wavefronts(*scene, threads, piece), expected) << threads << " threads, pieces of " << piece;
   }
+}
+
+// One list of stages (step/stages.h), whichever executor runs it. No stage but the last is for the whole alone.
+TEST(Wavefront, TakeTheStagesInTheOrderOfPlainAndOverlappedSteps) {
+  std::vector<Stage> expected;
+  for (const StageEntry& entry : kStages) {
+    expected.push_back(entry.stage);
+  }
+  const auto small = scenes::build(scenes::hexagon_specimen(3, 2));
+  for (const int threads : {1, 2}) {
+    StageOrders observer;
+    Simulation(small, threads).advance(2, &observer);
+    EXPECT_EQ(observer.orders(), std::vector(2, expected)) << threads << " threads";
+  }
+  const auto wide = scenes::build(wide_specimen());
+  StageOrders observer;
+  Simulation(wide, 1).advance(3, &observer);
+  expected.pop_back();
+  EXPECT_EQ(observer.orders(), std::vector(1, expected));
 }
 
 TEST(Wavefront, GiveThemOfEveryKindOfWalls) {

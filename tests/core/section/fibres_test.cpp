@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <vector>
 
 #include "scenes/kernels.h"
 #include "section/section_rule.h"
@@ -21,9 +20,6 @@ class Section {
   /// Curvature times thickness grows by `increment`. Returns the moment over b h^2, MPa.
   double bend(double increment) { return element_.strain({{0.0, 0.5 * increment, -0.5 * increment}}).moment_start; }
 
-  [[nodiscard]] double stress() const { return element_.stress().front(); }
-  [[nodiscard]] double plastic_strain() const { return element_.plastic_strain().front(); }
-
  private:
   static SectionSpec lobatto(int depth_points) {
     SectionSpec spec;
@@ -40,62 +36,6 @@ Material bilinear(double isotropic_fraction) {
   const double modulus = 70000.0;
   const double tangent = 700.0;
   return {modulus, 100.0, modulus * tangent / (modulus - tangent), isotropic_fraction, 2.7e-9};
-}
-
-TEST(Fibres, YieldAlikeInTensionAndCompression) {
-  for (const double beta : {0.0, 0.5, 1.0}) {
-    Section pulled(bilinear(beta), 6);
-    Section pushed(bilinear(beta), 6);
-    for (int i = 0; i < 100; ++i) {
-      pulled.stretch(1e-4);
-      pushed.stretch(-1e-4);
-    }
-    EXPECT_DOUBLE_EQ(pulled.stress(), -pushed.stress());
-    EXPECT_NEAR(pulled.stress(), 100.0 + 700.0 * (0.01 - 100.0 / 70000.0), 1e-9) << "beta " << beta;
-  }
-}
-
-TEST(Fibres, ReverseYieldStressTellsIsotropicFromKinematicHardening) {
-  for (const double beta : {0.0, 0.25, 1.0}) {
-    Section section(bilinear(beta), 6);
-    for (int i = 0; i < 100; ++i) {
-      section.stretch(1e-4);
-    }
-    const double top = section.stress();
-    const double plastic = section.plastic_strain();
-    const double hardening = bilinear(beta).hardening_modulus;
-    // Twice the radius of the yield surface below the top: sigma_y + beta H eps_p is the radius.
-    const double reverse = top - 2.0 * (100.0 + beta * hardening * plastic);
-    const double elastic_range = (top - reverse) / 70000.0;
-    section.stretch(-elastic_range * 0.999999);
-    EXPECT_DOUBLE_EQ(section.plastic_strain(), plastic) << "beta " << beta;
-    section.stretch(-elastic_range * 0.01);
-    EXPECT_GT(section.plastic_strain(), plastic) << "beta " << beta;
-  }
-}
-
-// Symmetric strain cycles: kinematic hardening closes its loop from the second cycle on, isotropic hardening grows
-// toward elastic shakedown.
-TEST(Fibres, CyclesCloseWhenKinematicAndGrowWhenIsotropic) {
-  const auto tops = [](double beta) {
-    Section section(bilinear(beta), 6);
-    std::vector<double> stress;
-    for (int cycle = 0; cycle < 6; ++cycle) {
-      section.stretch(cycle == 0 ? 0.005 : 0.01);
-      stress.push_back(section.stress());
-      section.stretch(-0.01);
-    }
-    return stress;
-  };
-  const std::vector<double> kinematic = tops(0.0);
-  for (std::size_t i = 2; i < kinematic.size(); ++i) {
-    EXPECT_NEAR(kinematic[i], kinematic[1], 1e-9);
-  }
-  const std::vector<double> isotropic = tops(1.0);
-  for (std::size_t i = 1; i < isotropic.size(); ++i) {
-    EXPECT_GT(isotropic[i], isotropic[i - 1] + 1.0);
-    EXPECT_LT(isotropic[i], 350.0);  // E eps_max: elastic
-  }
 }
 
 // Moment over M_e = sigma_y b h^2 / 6 of a rectangular bilinear section (exact): (1 - E_T/E)(1.5 - 0.5 (k_e/k)^2) + E_T

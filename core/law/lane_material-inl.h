@@ -1,9 +1,9 @@
 // Included once for each target; see Highway's documentation of foreach_target.h.
-#if defined(CELLCRUSH_SECTION_LANE_MATERIAL_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef CELLCRUSH_SECTION_LANE_MATERIAL_INL_H_
-#undef CELLCRUSH_SECTION_LANE_MATERIAL_INL_H_
+#if defined(CELLCRUSH_LAW_LANE_MATERIAL_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef CELLCRUSH_LAW_LANE_MATERIAL_INL_H_
+#undef CELLCRUSH_LAW_LANE_MATERIAL_INL_H_
 #else
-#define CELLCRUSH_SECTION_LANE_MATERIAL_INL_H_
+#define CELLCRUSH_LAW_LANE_MATERIAL_INL_H_
 #endif
 
 #include <cstddef>
@@ -71,4 +71,4 @@ HWY_INLINE LaneMaterial<D> material_of_walls(const Scene& scene, int wall) {
 }  // namespace cellcrush::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
-#endif  // CELLCRUSH_SECTION_LANE_MATERIAL_INL_H_
+#endif  // CELLCRUSH_LAW_LANE_MATERIAL_INL_H_

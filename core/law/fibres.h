@@ -7,7 +7,7 @@
 namespace cellcrush {
 
 /// History of the fibres of an element: every `stride`-th value of the arrays in the state. MPa; plastic_strain is the
-/// accumulated (effective) one, dimensionless. Without hardening there is neither back stress nor plastic strain, but
+/// accumulated (effective) one, dimensionless. Null: the law does not keep it. Without plastic strain there is
 /// one bit for each fibre that has yielded. T: double or float.
 template <class T>
 struct Fibres {
