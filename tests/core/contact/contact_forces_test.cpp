@@ -99,7 +99,7 @@ TEST(Contact, RemembersTheSideOfABallPressedPastTheMidLine) {
   const Vector2 through = probe.force_at({1.0, -0.2}, {0.0, 1.0});
   EXPECT_NEAR(through.y(), probe.stiffness() * 1.2, 1e-6);
   probe.force_at({1.0, 5.0}, {0.0, 1.0});                        // left: forgotten
-  EXPECT_LT(probe.force_at({1.0, -0.2}, {0.0, -1.0}).y(), 0.0);  // touched anew, from the other side
+  EXPECT_LT(probe.force_at({1.0, -0.2}, {0.0, -1.0}).y(), 0.0);  // touched again, from the other side
 }
 
 TEST(Contact, ForcesOnBallAndSegmentBalanceInForceAndMoment) {

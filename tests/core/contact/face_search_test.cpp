@@ -182,7 +182,7 @@ TEST(FaceSearch, MissesNoTouchUnderRandomKicks) {
   }
 }
 
-TEST(FaceSearch, AnOpenLatticeHasNoCandidatesAndIsSeldomLookedAt) {
+TEST(FaceSearch, AnOpenLatticeHasNoCandidatesAndIsSeldomRechecked) {
   SceneSpec spec = scenes::hexagon_specimen(8, 5);
   const auto scene = scenes::build(spec);
   State state = make_initial_state(*scene);
