@@ -68,11 +68,11 @@ std::string left_text(const SweepView& view) {
 }
 
 std::string bar_line(const SweepView& view, int width, const Terminal& terminal) {
-  constexpr int kLongestBar = 100;
+  constexpr int kWidestBar = 100;
   constexpr int kShortestBar = 8;
   constexpr int kFigures = 26;  // room for the longest, so that the bar keeps its width
   const std::string figures = fmt::format("{:>8}  {}", percent_text(view.fraction()), left_text(view));
-  const int bar = std::min(width - kFigures, kLongestBar);
+  const int bar = std::min(width - kFigures, kWidestBar);
   return bar < kShortestBar ? cut(figures, width) : bar_text(view.fraction(), bar, terminal) + figures;
 }
 

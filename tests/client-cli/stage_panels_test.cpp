@@ -10,14 +10,14 @@
 namespace cellcrush::client {
 namespace {
 
-LatticeStage synthetic_stage(int columns, int rows, double strain, bool along_y = false) {
+LatticeStage drawn_stage(int columns, int rows, double strain, bool along_y = false) {
   return lattice_stage(testing::synthetic_stage(columns, rows, strain, along_y));
 }
 
 std::vector<LatticeStage> stages_of(int columns, int rows, bool along_y, int count) {
   std::vector<LatticeStage> stages;
   stages.reserve(static_cast<std::size_t>(count));
-  for (int i = 0; i < count; ++i) stages.push_back(synthetic_stage(columns, rows, 0.8 * i / count, along_y));
+  for (int i = 0; i < count; ++i) stages.push_back(drawn_stage(columns, rows, 0.8 * i / count, along_y));
   return stages;
 }
 
@@ -31,8 +31,7 @@ int columns_of(const StagePanels& panels) {
 TEST(StagePanels, RowsAreFilled) {
   EXPECT_EQ(columns_of(lay_stages(stages_of(14, 21, true, 3), 0, 0, 948)), 3);
   EXPECT_EQ(columns_of(lay_stages(stages_of(18, 21, true, 3), 0, 0, 948)), 3);
-  const std::vector<LatticeStage> late{synthetic_stage(74, 21, 0.2), synthetic_stage(74, 21, 0.4),
-                                       synthetic_stage(74, 21, 0.8)};
+  const std::vector<LatticeStage> late{drawn_stage(74, 21, 0.2), drawn_stage(74, 21, 0.4), drawn_stage(74, 21, 0.8)};
   EXPECT_EQ(columns_of(lay_stages(late, 0, 0, 948)), 1);
   const StagePanels panels = lay_stages(late, 0, 0, 948);
   EXPECT_EQ(panels.places[1].y, panels.places[2].y) << "the second and the third fit into one row";
@@ -41,7 +40,7 @@ TEST(StagePanels, RowsAreFilled) {
 // The way that the plate has travelled is not drawn; the scale is the same for all.
 TEST(StagePanels, ACrushedLatticeTakesLessRoom) {
   for (const bool along_y : {false, true}) {
-    const std::vector<LatticeStage> stages{synthetic_stage(20, 7, 0.0, along_y), synthetic_stage(20, 7, 0.6, along_y)};
+    const std::vector<LatticeStage> stages{drawn_stage(20, 7, 0.0, along_y), drawn_stage(20, 7, 0.6, along_y)};
     const StagePanels panels = lay_stages(stages, 0, 0, 948);
     const auto length = [&](std::size_t i) { return along_y ? panels.places[i].height : panels.places[i].width; };
     EXPECT_NEAR(length(1) / length(0), 0.4, 0.06) << "40 % are left, and the margins";

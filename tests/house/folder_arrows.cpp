@@ -1,5 +1,6 @@
 #include "house/folder_arrows.h"
 
+#include <algorithm>
 #include <deque>
 #include <string_view>
 
