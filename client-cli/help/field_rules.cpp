@@ -43,7 +43,8 @@ std::string number(double value) {
 std::string range_of(const v1::FieldRules& rules, const std::string& things) {
   const std::string most = rules.has_maximum() ? number(rules.maximum()) : rules.up_to();
   const char* to = rules.below() ? "below " : "";
-  if (rules.has_minimum() && !most.empty()) return fmt::format("{} to {}{}{}", number(rules.minimum()), to, most, things);
+  if (rules.has_minimum() && !most.empty())
+    return fmt::format("{} to {}{}{}", number(rules.minimum()), to, most, things);
   if (rules.has_minimum()) return "at least " + number(rules.minimum()) + things;
   return most.empty() ? "" : "at most " + most + things;
 }

@@ -25,7 +25,8 @@ struct FieldLimits {
 
 /// The limits of a field at `path`, which may have indices in brackets.
 const FieldLimits& limits_of(std::string path) {
-  static const std::vector<FieldLimits> kLimits = {  // in the order of their paths
+  static const std::vector<FieldLimits> kLimits = {
+      // in the order of their paths
 #include "scene/field_limits.inc"
   };
   for (std::size_t open = path.find('['); open != std::string::npos; open = path.find('[')) {

@@ -67,9 +67,9 @@ std::string type_of(const pb::FieldDescriptor& field, const std::vector<Group>& 
 
 std::string row_of(const pb::FieldDescriptor& field, const std::vector<Group>& groups) {
   const std::string own = client::default_of(field);
-  const std::string limits =
-      field.real_containing_oneof() != nullptr ? "one of `" + field.real_containing_oneof()->name() + "`"
-                                               : client::limits_of(field);
+  const std::string limits = field.real_containing_oneof() != nullptr
+                                 ? "one of `" + field.real_containing_oneof()->name() + "`"
+                                 : client::limits_of(field);
   return "| `" + field.name() + "` | " + type_of(field, groups) + " | " + client::unit_of(field.name()) + " | " +
          cell(own.empty() && field.message_type() == nullptr ? "none" : own) + " | " + cell(limits) + " | " +
          cell(comment_above(field)) + " |\n";
