@@ -25,13 +25,13 @@
 #include "net/port_probe.h"
 #include "net/refusing_server.h"
 #include "rpc/parse_error.h"
+#include "rpc/request_limits.h"
 #include "service.h"
 #include "worker/step_cost.h"
 
 namespace cellcrush {
 namespace {
 
-constexpr int kLargestMessage = 4 * 1024 * 1024;
 constexpr std::chrono::seconds kCallsMayLast{2};
 constexpr int kCallsBesideStreams = 100;
 constexpr int kBetweenPingsOfAClient = 10'000;  // ms
@@ -171,7 +171,7 @@ struct Daemon::Impl {
   void limit(grpc::ServerBuilder& builder) const {
     const auto milliseconds = [](std::chrono::milliseconds time) { return static_cast<int>(time.count()); };
     const auto& limits = options.connections;
-    builder.SetMaxReceiveMessageSize(kLargestMessage);
+    builder.SetMaxReceiveMessageSize(rpc::kLargestMessage);
     grpc::ResourceQuota quota("cellcrushd");
     quota.Resize(static_cast<std::size_t>(limits.memory_bytes));
     builder.SetResourceQuota(quota);
@@ -196,7 +196,7 @@ struct Daemon::Impl {
   void serve_http() {
     if (!wanted_http) return;
     try {
-      gateway.emplace(*wanted_http, gate, *server, service.streams(), options.connections);
+      gateway.emplace(*wanted_http, gate, service.methods(), options.connections);
     } catch (const ServiceError& error) {
       if (!options.http.empty()) throw;
       warn_without_http(error);

@@ -132,9 +132,6 @@ int main(int argc, char** argv) {
   CLI::App* task = app.add_subcommand("task")->group("");
   task->add_option("--folder", task_options.folder);
   task->add_option("--batch", task_options.batch);
-  task->add_option("--daemon", task_options.network.daemon);
-  task->add_option("--ca", task_options.network.authority);
-  task->add_option("--cluster", task_options.cluster);
   task->add_option("--lease", lease_seconds);
   app.footer(kFooter);  // last, since commands inherit the settings of the program
   try {

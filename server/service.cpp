@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <initializer_list>
 #include <optional>
 #include <thread>
 #include <utility>
@@ -21,8 +20,6 @@
 #include "rpc/jobs_service.h"
 #include "rpc/reflection_services.h"
 #include "rpc/sweeps_service.h"
-#include "slurm/shared_folder.h"
-#include "slurm/workers_service.h"
 #include "store/data_folder.h"
 #include "store/journal.h"
 #include "store/journal_reader.h"
@@ -55,7 +52,7 @@ std::vector<jobs::Queues::NamedExecutor> executors_of(const DaemonOptions& optio
   out.push_back({store::kLocalExecutor, options.worker_count(),
                  std::make_unique<jobs::LocalProcess>(options.worker_program, options.stall_limit)});
   const jobs::ExecutorSurroundings surroundings{options.data_folder, options.worker_program, options.stall_limit,
-                                                step_cost, !options.access.tls_client_authority.empty()};
+                                                step_cost};
   for (const auto& given : options.executors) out.push_back({given.name, given.slots, given.make(surroundings)});
   return out;
 }
@@ -64,7 +61,7 @@ std::vector<jobs::Queues::NamedExecutor> executors_of(const DaemonOptions& optio
 
 // Members are in order of dependence: each uses only those above it.
 struct Service::Parts {
-  Parts(const DaemonOptions& given, const access::Gate& gate, double step_cost, std::function<void()> on_drain)
+  Parts(const DaemonOptions& given, access::Gate& gate, double step_cost, std::function<void()> on_drain)
       : options(given),
         folder(options.data_folder),
         journal(
@@ -93,21 +90,20 @@ struct Service::Parts {
         sweeps({journal, reader, sweep_reader, deletion, hub, queues, admission, gate, calls, checks, mesh_places,
                 threads_of_sweep_check(), step_cost, streams()}),
         admin({{reader, hub, queues, step_cost, options.limits.owner.running_jobs},
-               gate,
                calls,
                [this, drained = std::move(on_drain)] {
                  admission.drain();
                  drained();
                }}),
-        workers(slurm::own_folder_of_cluster(options.data_folder, ""), calls),
-        reflection(rpc::make_reflection_services(
-            {v1::Cases::service_full_name(), v1::Jobs::service_full_name(), v1::Sweeps::service_full_name(),
-             v1::Admin::service_full_name(), grpc::health::v1::Health::service_full_name()},
-            gate, stream_limits)),
-        table(http_pump) {
-    health.add_streams(table);
-    jobs.add_streams(table);
-    sweeps.add_streams(table);
+        reflection(rpc::make_reflection_services({"cellcrush.v1.Cases", "cellcrush.v1.Jobs", "cellcrush.v1.Sweeps",
+                                                  "cellcrush.v1.Admin", "grpc.health.v1.Health"},
+                                                 gate, stream_limits)),
+        methods(gate, http_pump) {
+    cases.add_methods(methods);
+    health.add_methods(methods);
+    jobs.add_methods(methods);
+    sweeps.add_methods(methods);
+    admin.add_methods(methods);
   }
 
   [[nodiscard]] rpc::StreamParts streams() { return {pump, metrics, stream_limits, options.watch_times}; }
@@ -136,27 +132,23 @@ struct Service::Parts {
   rpc::JobsService jobs;
   rpc::SweepsService sweeps;
   rpc::AdminService admin;
-  slurm::WorkersService workers;
   std::vector<std::unique_ptr<grpc::Service>> reflection;
-  rpc::StreamTable table;
+  rpc::MethodTable methods;
   std::optional<jobs::Housekeeping> housekeeping;
 };
 
-Service::Service(const DaemonOptions& options, const access::Gate& gate, double step_cost,
-                 std::function<void()> on_drain)
+Service::Service(const DaemonOptions& options, access::Gate& gate, double step_cost, std::function<void()> on_drain)
     : parts_(std::make_unique<Parts>(options, gate, step_cost, std::move(on_drain))) {}
 
 // Before the services whose sources the streams hold.
 Service::~Service() { parts_->http_pump.stop(); }
 
 void Service::register_with(grpc::ServerBuilder& builder) {
-  for (grpc::Service* service : std::initializer_list<grpc::Service*>{
-           &parts_->health, &parts_->cases, &parts_->jobs, &parts_->sweeps, &parts_->admin, &parts_->workers})
-    builder.RegisterService(service);
+  parts_->methods.register_with(builder);
   for (const auto& service : parts_->reflection) builder.RegisterService(service.get());
 }
 
-const rpc::StreamTable& Service::streams() const { return parts_->table; }
+const rpc::MethodTable& Service::methods() const { return parts_->methods; }
 
 rpc::HealthBoard& Service::health() { return parts_->board; }
 

@@ -9,7 +9,7 @@
 #include "daemon_options.h"
 #include "listen_address.h"
 #include "rpc/health_service.h"
-#include "rpc/stream_table.h"
+#include "rpc/method_table.h"
 
 namespace cellcrush {
 
@@ -17,10 +17,10 @@ namespace cellcrush {
 /// answered as soon as a server has registered it; jobs run between start and stop.
 class Service {
  public:
-  /// `gate` outlives it; `step_cost`: seconds of one core per element and step. Ignores the options for addresses and
+  /// `gate` outlives it, and guards its methods from now on; `step_cost`: seconds of one core per element and step. Ignores the options for addresses and
   /// access. Calls `on_drain` once a client has asked the daemon to drain and new jobs are refused. Throws ServiceError
   /// if the data folder is taken or unusable.
-  Service(const DaemonOptions& options, const access::Gate& gate, double step_cost, std::function<void()> on_drain);
+  Service(const DaemonOptions& options, access::Gate& gate, double step_cost, std::function<void()> on_drain);
   ~Service();
   Service(const Service&) = delete;
   Service& operator=(const Service&) = delete;
@@ -28,8 +28,8 @@ class Service {
   /// Outlives the server that is built.
   void register_with(grpc::ServerBuilder& builder);
 
-  /// The streams, for callers that are not gRPC. Lives as long as the service.
-  [[nodiscard]] const rpc::StreamTable& streams() const;
+  /// The methods, for callers that are not gRPC. Lives as long as the service.
+  [[nodiscard]] const rpc::MethodTable& methods() const;
 
   /// Statuses for grpc.health.v1. Lives as long as the service.
   rpc::HealthBoard& health();

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "access/certificate.h"
-#include "access/method_scopes.h"
 #include "access/tls_credentials.h"
 #include "error.h"
 #include "error_table.h"
@@ -60,7 +59,8 @@ class Gate::Check final : public grpc::AuthMetadataProcessor {
 
 grpc::Status Gate::admit(std::string_view path, const std::function<Caller()>& identify_caller) const {
   auto status = answer([&] {
-    const auto needed = needed_scope(path);
+    const auto guarded = scopes_.find(path);
+    const auto needed = guarded == scopes_.end() ? Scope::admin : guarded->second;
     if (!needed) return grpc::Status::OK;
     const Caller caller = identify_caller();
     if (caller.scope >= *needed) return grpc::Status::OK;
@@ -77,16 +77,15 @@ grpc::Status Gate::admit(std::string_view path, const std::function<Caller()>& i
 }
 
 grpc::Status Gate::check_http_call(const std::string& path, const std::vector<std::string>& authorization,
-                                   const X509* shown, std::string& caller) const {
-  caller = kLocal;
+                                   const X509* shown, Caller& caller) const {
+  caller = {kLocal, Scope::admin};
   if (!asks_who_calls()) return grpc::Status::OK;
   Metadata metadata;
   for (const auto& value : authorization) metadata.emplace("authorization", value);
   return admit(path, [&] {
     if (asks_for_certificates() && (shown == nullptr || !is_for_clients(*shown))) refuse_certificate();
-    Caller found = caller_of_token(metadata);
-    caller = found.name;
-    return found;
+    caller = caller_of_token(metadata);
+    return caller;
   });
 }
 
@@ -223,9 +222,7 @@ void Gate::note_refusal(const std::string& words) const {
   refusals_.write(spdlog::level::warn, "refused a call with " + words);
 }
 
-void Gate::require_own(const grpc::ServerContextBase& context, const std::string& owner,
-                       const std::string& name) const {
-  const Caller caller = caller_of(context);
+void Gate::require_own(const Caller& caller, const std::string& owner, const std::string& name) const {
   if (caller.scope == Scope::admin || caller.name == owner) return;
   const std::string why = name + " belongs to " + (owner.empty() ? "nobody" : owner) + "; " + caller.name +
                           " has scope " + name_of(caller.scope) +

@@ -8,6 +8,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -45,12 +46,15 @@ class Gate {
   /// tokens and client certificates.
   [[nodiscard]] std::shared_ptr<grpc::ServerCredentials> credentials_for(const ListenAddress& address) const;
 
+  /// Callers of this method need the scope; nothing: everybody may call it. A method without this needs admin. `path`
+  /// has gRPC's form: "/cellcrush.v1.Jobs/GetJob". REQUIRES: no call has come.
+  void guard(std::string path, std::optional<Scope> scope) { scopes_[std::move(path)] = scope; }
+
   /// Checks a call that came over HTTP, before it reaches a service: `path` as in gRPC, `authorization` all values of
   /// that header, `shown` the certificate of the client or null. The rules, refusals and log lines are those of a gRPC
-  /// call on TCP. Sets `caller` to the name of the caller: kLocal if the gate asks nobody, or for a method that is open
-  /// to everybody.
+  /// call on TCP. Sets `caller`: kLocal if the gate asks nobody, or for a method that is open to everybody.
   [[nodiscard]] grpc::Status check_http_call(const std::string& path, const std::vector<std::string>& authorization,
-                                             const X509* shown, std::string& caller) const;
+                                             const X509* shown, Caller& caller) const;
 
   /// Throws ServiceError (invalid) if HTTP must not be served on the address: other machines can reach it without TLS
   /// and tokens, or certificates alone tell who calls.
@@ -67,7 +71,7 @@ class Gate {
   [[nodiscard]] Caller caller_of(const grpc::ServerContextBase& context) const;
 
   /// Throws ServiceError (permission_denied) unless the caller owns `name` or has the scope admin.
-  void require_own(const grpc::ServerContextBase& context, const std::string& owner, const std::string& name) const;
+  void require_own(const Caller& caller, const std::string& owner, const std::string& name) const;
 
  private:
   using Metadata = std::multimap<grpc::string_ref, grpc::string_ref>;
@@ -95,6 +99,7 @@ class Gate {
   void read_again(const char* what, std::string (Gate::*read)());
 
   Options options_;
+  std::map<std::string, std::optional<Scope>, std::less<>> scopes_;
   mutable Mutex mutex_;
   std::shared_ptr<const TlsFiles> tls_ CELLCRUSH_GUARDED_BY(mutex_);      ///< null without TLS
   std::shared_ptr<const TokenFile> tokens_ CELLCRUSH_GUARDED_BY(mutex_);  ///< null without tokens

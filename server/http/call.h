@@ -1,67 +1,40 @@
 #pragma once
 
-#include <grpcpp/generic/generic_stub.h>
-#include <grpcpp/grpcpp.h>
-
 #include <boost/asio.hpp>
 #include <chrono>
 #include <memory>
 #include <optional>
-#include <string>
+
+#include "rpc/message_stream.h"
 
 namespace cellcrush::http {
 
-/// A call that a connection waits for.
-class AnyCall {
+/// A call of a client, unary or a stream, on one io_context with one thread, which runs until the batch has come that
+/// was asked for last. The next batch is made only when it is asked for, so that a slow client costs no more memory than
+/// one.
+class Call final : public std::enable_shared_from_this<Call> {
  public:
-  virtual ~AnyCall() = default;
+  /// `timeout`: after which the call ends with DEADLINE_EXCEEDED; nothing: never.
+  Call(const boost::asio::any_io_executor& executor, std::shared_ptr<rpc::MessageStream> stream,
+       std::optional<std::chrono::milliseconds> timeout);
+  ~Call() { stream_->cancel(); }
+  Call(const Call&) = delete;
+  Call& operator=(const Call&) = delete;
+
+  /// The next batch; the last one has its `end`.
+  boost::asio::awaitable<rpc::MessageStream::Batch> next();
+
   /// Ends the call at once; safe to repeat.
-  virtual void cancel() = 0;
-};
-
-/// One unary call to the daemon's own gRPC server, by bytes. Used on one io_context with one thread, which it keeps
-/// running until gRPC is done with it.
-class Call final : public grpc::ClientBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>,
-                   public AnyCall,
-                   public std::enable_shared_from_this<Call> {
- public:
-  struct Request {
-    std::string path;           ///< "/cellcrush.v1.Jobs/GetJob"
-    std::string message;        ///< binary
-    std::string authorization;  ///< empty: none
-    std::optional<std::chrono::milliseconds> timeout;
-  };
-
-  explicit Call(const boost::asio::any_io_executor& executor) : work_(executor), news_(executor) {}
-
-  /// `channel` is the call's own.
-  void start(std::shared_ptr<grpc::Channel> channel, const Request& request);
-
-  /// The next message; nothing at the end.
-  boost::asio::awaitable<std::optional<std::string>> next();
-
-  /// How it ended. Waits for the end.
-  boost::asio::awaitable<grpc::Status> status();
-
-  void cancel() override;
+  void cancel();
 
  private:
-  void OnReadDone(bool ok) override;
-  void OnDone(const grpc::Status& status) override;
-  void release();
-  boost::asio::awaitable<void> wait();
+  void end(const grpc::Status& status);
 
-  boost::asio::executor_work_guard<boost::asio::any_io_executor> work_;
-  boost::asio::steady_timer news_;  ///< never expires; cancelled on every change
-  std::shared_ptr<Call> self_;      ///< until OnDone
-  std::optional<grpc::GenericStub> stub_;
-  grpc::ClientContext context_;
-  grpc::ByteBuffer request_;
-  grpc::ByteBuffer message_;  ///< gRPC's while reading_
-  std::optional<grpc::Status> status_;
-  bool reading_ = false;
-  bool ended_ = false;  ///< no message follows
-  bool held_ = true;    ///< the hold keeps OnDone behind the last message
+  boost::asio::any_io_executor executor_;
+  boost::asio::steady_timer news_;  ///< expires at the deadline; cancelled on news
+  std::shared_ptr<rpc::MessageStream> stream_;
+  std::chrono::steady_clock::time_point deadline_ = std::chrono::steady_clock::time_point::max();
+  std::optional<rpc::MessageStream::Batch> batch_;  ///< delivered
 };
 
 }  // namespace cellcrush::http

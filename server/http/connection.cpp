@@ -12,8 +12,6 @@
 #include "http/browser_rules.h"
 #include "http/connect_error.h"
 #include "http/envelope.h"
-#include "http/loopback_channel.h"
-#include "http/stream_call.h"
 #include "web/page_files.h"
 
 namespace cellcrush::http {
@@ -46,17 +44,14 @@ std::vector<std::string> values_of(const bhttp::fields& fields, Field name) {
   return out;
 }
 
-// gRPC ends the process over metadata with other characters.
-bool is_printable(const std::string& text) {
-  return std::all_of(text.begin(), text.end(), [](char c) { return c >= 0x20 && c < 0x7F; });
-}
-
 std::string path_of(const google::protobuf::MethodDescriptor& method) {
   return "/" + method.service()->full_name() + "/" + method.name();
 }
 
-std::optional<std::chrono::milliseconds> read_timeout(std::string_view text) {
+std::optional<std::chrono::milliseconds> read_timeout(const bhttp::request<bhttp::string_body>& request) {
   constexpr std::size_t kMostDigits = 10;
+  const std::string_view text = request["Connect-Timeout-Ms"];
+  if (text.empty()) return std::nullopt;
   std::int64_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (text.size() > kMostDigits || error != std::errc() || end != text.data() + text.size() || value < 0)
@@ -64,29 +59,23 @@ std::optional<std::chrono::milliseconds> read_timeout(std::string_view text) {
   return std::chrono::milliseconds(value);
 }
 
-Call::Request read_call(const bhttp::request<bhttp::string_body>& request,
-                        const google::protobuf::MethodDescriptor& method, const Encoding& encoding) {
-  Call::Request out;
-  out.path = path_of(method);
-  std::string_view body = request.body();
-  bool compressed = false;
-  if (encoding.stream) body = read_envelope(body, compressed);
-  out.message = encoding.json && !compressed ? binary_of(*method.input_type(), body) : std::string(body);
-  const auto authorization = values_of(request, Field::authorization);
-  if (authorization.size() == 1 && is_printable(authorization.front())) out.authorization = authorization.front();
-  if (const auto timeout = request["Connect-Timeout-Ms"]; !timeout.empty()) out.timeout = read_timeout(timeout);
-  return out;
-}
+void encode_unary(const google::protobuf::Message& message, std::string& to) { message.AppendToString(&to); }
+void encode_unary_json(const google::protobuf::Message& message, std::string& to) { to += json_of(message); }
 
-// Appends a message of a stream with its prefix.
-void encode_binary(const google::protobuf::Message& message, std::string& to) {
+// With the prefix of a stream's message.
+void encode_streamed(const google::protobuf::Message& message, std::string& to) {
   begin_envelope(0, message.ByteSizeLong(), to);
   message.AppendToString(&to);
 }
-void encode_json(const google::protobuf::Message& message, std::string& to) {
+void encode_streamed_json(const google::protobuf::Message& message, std::string& to) {
   const std::string json = json_of(message);
   begin_envelope(0, json.size(), to);
   to += json;
+}
+
+rpc::MessageStream::Encode encode_for(const Encoding& encoding) {
+  if (encoding.stream) return encoding.json ? encode_streamed_json : encode_streamed;
+  return encoding.json ? encode_unary_json : encode_unary;
 }
 
 bool asks_for_compression(const bhttp::request<bhttp::string_body>& request, const Encoding& encoding) {
@@ -170,90 +159,76 @@ asio::awaitable<void> Connection::answer(const Request& request) {
 
 asio::awaitable<void> Connection::answer_call(const Request& request) {
   const auto encoding = parse_content_type(request[Field::content_type]);
-  const auto* method = find_method(request.target());
+  const auto* method = parts_.methods.find({request.target().data(), request.target().size()});
   if (method == nullptr) {
     const auto refused = failure(grpc::StatusCode::UNIMPLEMENTED, "There is no such method.");
     co_await send_error(404, refused);
     co_return;
   }
-  if (!encoding || encoding->stream != method->server_streaming()) {
-    const std::string kind = method->server_streaming() ? "application/connect+" : "application/";
-    const auto refused = failure(grpc::StatusCode::INVALID_ARGUMENT,
-                                 method->name() + " requires the content type " + kind + "json or " + kind + "proto.");
+  if (!encoding || encoding->stream != method->descriptor->server_streaming()) {
+    const std::string kind = method->descriptor->server_streaming() ? "application/connect+" : "application/";
+    const auto refused =
+        failure(grpc::StatusCode::INVALID_ARGUMENT,
+                method->descriptor->name() + " requires the content type " + kind + "json or " + kind + "proto.");
     co_await send_error(415, refused);
     co_return;
   }
-  Call::Request wanted;
-  std::string caller;
-  auto status = parts_.gate.check_http_call(path_of(*method), values_of(request, Field::authorization),
-                                            stream_.client_certificate(), caller);
-  if (status.ok() && asks_for_compression(request, *encoding))
-    status = failure(grpc::StatusCode::UNIMPLEMENTED, "Compressed requests are not accepted. Send them uncompressed.");
-  if (status.ok()) {
-    status = cellcrush::answer([&] {
-      wanted = read_call(request, *method, *encoding);
-      return grpc::Status::OK;
-    });
-  }
+  grpc::Status status;
+  auto call = begin_call(request, *method, *encoding, status);
   if (encoding->stream) {
-    co_await run_stream(std::move(wanted), std::move(caller), *encoding, status);
+    co_await answer_stream(std::move(call), *encoding, status);
   } else {
-    co_await run_unary(wanted, *method, *encoding, status);
+    co_await answer_unary(std::move(call), *encoding, status);
   }
 }
 
-asio::awaitable<void> Connection::run_unary(const Call::Request& wanted,
-                                            const google::protobuf::MethodDescriptor& method, const Encoding& encoding,
-                                            grpc::Status status) {
-  std::shared_ptr<grpc::Channel> channel;
-  if (status.ok()) {
-    status = cellcrush::answer([&] {
-      channel = connect_to(parts_.server);
-      return grpc::Status::OK;
-    });
+std::shared_ptr<Call> Connection::begin_call(const Request& request, const rpc::MethodTable::Method& method,
+                                             const Encoding& encoding, grpc::Status& status) {
+  rpc::Incoming incoming;
+  status = parts_.gate.check_http_call(path_of(*method.descriptor), values_of(request, Field::authorization),
+                                       stream_.client_certificate(), incoming.caller);
+  if (status.ok() && asks_for_compression(request, encoding))
+    status = failure(grpc::StatusCode::UNIMPLEMENTED, "Compressed requests are not accepted. Send them uncompressed.");
+  if (!status.ok()) return nullptr;
+  status = cellcrush::answer([&] {
+    std::string_view body = request.body();
+    bool compressed = false;
+    if (encoding.stream) body = read_envelope(body, compressed);
+    const auto timeout = read_timeout(request);
+    incoming.decode = [&](google::protobuf::Message& message) { return decode(body, encoding.json, message); };
+    incoming.encode = encode_for(encoding);
+    call_ = std::make_shared<Call>(stream_.get_executor(), method.open(incoming), timeout);
+    return grpc::Status::OK;
+  });
+  if (call_) watch_client();
+  return call_;
+}
+
+void Connection::end_call() {
+  call_.reset();
+  stream_.plain().socket().cancel();
+}
+
+asio::awaitable<void> Connection::answer_unary(std::shared_ptr<Call> call, const Encoding& encoding,
+                                               grpc::Status status) {
+  std::string message;
+  if (call) {
+    auto batch = co_await call->next();
+    end_call();
+    message = std::move(batch.bytes);
+    status = *batch.end;
   }
-  std::optional<std::string> message;
   if (status.ok()) {
-    const auto call = std::make_shared<Call>(stream_.get_executor());
-    call_ = call;
-    call->start(std::move(channel), wanted);
-    watch_client();
-    message = co_await call->next();
-    if (message) {
-      const auto second = co_await call->next();
-      if (second) call->cancel();
-    }
-    status = co_await call->status();
-    call_.reset();
-    stream_.plain().socket().cancel();
-    if (status.ok() && !message) status = failure(grpc::StatusCode::INTERNAL, "The call ended without an answer.");
-  }
-  if (status.ok() && encoding.json) {
-    status = cellcrush::answer([&] {
-      *message = json_of(*method.output_type(), *message);
-      return grpc::Status::OK;
-    });
-  }
-  if (status.ok()) {
-    co_await send(200, content_type_of(encoding), std::move(*message));
+    co_await send(200, content_type_of(encoding), std::move(message));
   } else {
     co_await send_error(http_status(status.error_code()), status);
   }
 }
 
-asio::awaitable<void> Connection::run_stream(Call::Request wanted, std::string caller, const Encoding& encoding,
-                                             grpc::Status status) {
-  std::shared_ptr<rpc::MessageStream> stream;
-  if (status.ok()) {
-    stream = parts_.streams.open({std::move(wanted.path), std::move(wanted.message), std::move(caller),
-                                  encoding.json ? encode_json : encode_binary});
-    if (!stream) status = failure(grpc::StatusCode::UNIMPLEMENTED, "There is no such stream.");
-  }
+asio::awaitable<void> Connection::answer_stream(std::shared_ptr<Call> call, const Encoding& encoding,
+                                                grpc::Status status) {
   co_await send_stream_head(encoding);
-  if (stream) {
-    const auto call = std::make_shared<StreamCall>(stream_.get_executor(), std::move(stream), wanted.timeout);
-    call_ = call;
-    watch_client();
+  if (call) {
     while (true) {
       const auto batch = co_await call->next();
       if (!batch.bytes.empty()) co_await send_chunk(batch.bytes);
@@ -261,8 +236,7 @@ asio::awaitable<void> Connection::run_stream(Call::Request wanted, std::string c
       status = *batch.end;
       break;
     }
-    call_.reset();
-    stream_.plain().socket().cancel();
+    end_call();
   }
   const std::string end = envelope(kEndOfStream, end_of_stream_json(status));
   co_await send_chunk(end);
@@ -282,7 +256,7 @@ void Connection::watch_client() {
 
 asio::awaitable<void> Connection::answer_file(const Request& request) {
   const web::PageFile* file = web::find_page_file(request.target());
-  if (find_method(request.target()) != nullptr) {
+  if (parts_.methods.find({request.target().data(), request.target().size()}) != nullptr) {
     const auto refused = failure(grpc::StatusCode::UNIMPLEMENTED, "Use POST for calls.");
     co_await send_error(405, refused);
     co_return;

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <grpcpp/server.h>
-
 #include <boost/asio.hpp>
 #include <boost/beast.hpp>
 #include <memory>
@@ -12,15 +10,14 @@
 #include "http/method.h"
 #include "http/stream.h"
 #include "net/connection_limits.h"
-#include "rpc/stream_table.h"
+#include "rpc/method_table.h"
 
 namespace cellcrush::http {
 
 /// What all connections of a gateway share; outlives them.
 struct GatewayParts {
   const access::Gate& gate;
-  grpc::Server& server;  ///< answers unary calls
-  const rpc::StreamTable& streams;
+  const rpc::MethodTable& methods;
   net::ConnectionLimits limits;
   int port = 0;
   bool has_tls = false;
@@ -50,11 +47,13 @@ class Connection : public std::enable_shared_from_this<Connection> {
   boost::asio::awaitable<void> answer(const Request& request);
   boost::asio::awaitable<void> answer_call(const Request& request);
   boost::asio::awaitable<void> answer_file(const Request& request);
-  /// Make the call and answer it, or answer at once with a status that is not OK.
-  boost::asio::awaitable<void> run_unary(const Call::Request& wanted, const google::protobuf::MethodDescriptor& method,
-                                         const Encoding& encoding, grpc::Status status);
-  boost::asio::awaitable<void> run_stream(Call::Request wanted, std::string caller, const Encoding& encoding,
-                                          grpc::Status status);
+  /// The call of this request if it may be made; else null, and the status says why.
+  std::shared_ptr<Call> begin_call(const Request& request, const rpc::MethodTable::Method& method,
+                                   const Encoding& encoding, grpc::Status& status);
+  void end_call();
+  /// Answer the call, or at once with a status that is not OK if it is null.
+  boost::asio::awaitable<void> answer_unary(std::shared_ptr<Call> call, const Encoding& encoding, grpc::Status status);
+  boost::asio::awaitable<void> answer_stream(std::shared_ptr<Call> call, const Encoding& encoding, grpc::Status status);
   boost::asio::awaitable<void> send(unsigned status, const std::string& type, std::string body);
   boost::asio::awaitable<void> send_error(unsigned status, const grpc::Status& error);
   boost::asio::awaitable<void> send_stream_head(const Encoding& encoding);
@@ -65,7 +64,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   Stream stream_;
   boost::beast::flat_buffer buffer_;
   GatewayParts& parts_;
-  std::shared_ptr<AnyCall> call_;  ///< null while none runs
+  std::shared_ptr<Call> call_;  ///< null while none runs
   bool keep_alive_ = false;
 };
 

@@ -31,11 +31,11 @@ constexpr std::chrono::milliseconds kBetweenLooks{20};
 
 // Members are used on the thread, except in the constructor and the destructor.
 struct Gateway::Impl {
-  Impl(const ListenAddress& address, const access::Gate& gate, grpc::Server& server, const rpc::StreamTable& streams,
+  Impl(const ListenAddress& address, const access::Gate& gate, const rpc::MethodTable& methods,
        const net::ConnectionLimits& limits)
       : tls(gate),
         port(address, "--http"),
-        parts{gate, server, streams, limits, port.address().port, tls.current() != nullptr},
+        parts{gate, methods, limits, port.address().port, tls.current() != nullptr},
         table({limits.connections, limits.connections_per_address}),
         url((parts.has_tls ? "https://" : "http://") + port.address().text()) {
     for (const int descriptor : port.descriptors()) {
@@ -119,9 +119,9 @@ struct Gateway::Impl {
   std::jthread thread;
 };
 
-Gateway::Gateway(const ListenAddress& address, const access::Gate& gate, grpc::Server& server,
-                 const rpc::StreamTable& streams, const net::ConnectionLimits& limits)
-    : impl_(std::make_unique<Impl>(address, gate, server, streams, limits)) {}
+Gateway::Gateway(const ListenAddress& address, const access::Gate& gate, const rpc::MethodTable& methods,
+                 const net::ConnectionLimits& limits)
+    : impl_(std::make_unique<Impl>(address, gate, methods, limits)) {}
 
 Gateway::~Gateway() { stop(); }
 

@@ -1,14 +1,12 @@
 #pragma once
 
-#include <grpcpp/grpcpp.h>
-
 #include <memory>
 #include <string>
 
 #include "access/gate.h"
 #include "listen_address.h"
 #include "net/connection_limits.h"
-#include "rpc/stream_table.h"
+#include "rpc/method_table.h"
 
 namespace cellcrush::http {
 
@@ -16,10 +14,10 @@ namespace cellcrush::http {
 /// files. One thread serves all connections. Thread-safe.
 class Gateway {
  public:
-  /// Listens from construction on, on an address that the gate permits. `server` answers unary calls, `streams` the
-  /// others; these and `gate` outlive it. Throws ServiceError: failed_precondition if the address is in use, invalid if
+  /// Listens from construction on, on an address that the gate permits. `methods` answers the
+  /// calls; it and `gate` outlive it. Throws ServiceError: failed_precondition if the address is in use, invalid if
   /// OpenSSL refuses the files of TLS.
-  Gateway(const ListenAddress& address, const access::Gate& gate, grpc::Server& server, const rpc::StreamTable& streams,
+  Gateway(const ListenAddress& address, const access::Gate& gate, const rpc::MethodTable& methods,
           const net::ConnectionLimits& limits);
   ~Gateway();
   Gateway(const Gateway&) = delete;

@@ -16,7 +16,6 @@ struct ExecutorSurroundings {
   std::filesystem::path worker_program;   ///< started as `PROGRAM worker --folder DIR`
   std::chrono::milliseconds stall_limit;  ///< a worker that shows no sign of life for this long is replaced
   double step_cost = 0.0;                 ///< seconds of one core per element and step
-  bool asks_for_certificates = false;     ///< whether TCP clients must present a certificate
 };
 
 /// An executor beside that of the daemon's machine.

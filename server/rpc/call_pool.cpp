@@ -21,26 +21,22 @@ CallPool::~CallPool() {
   changed_.notify_all();
 }
 
-grpc::ServerUnaryReactor* CallPool::run(grpc::CallbackServerContext& context, const google::protobuf::Message& request,
-                                        std::function<grpc::Status()> body) {
-  auto* reactor = context.DefaultReactor();
-  const auto bytes = static_cast<std::int64_t>(request.ByteSizeLong());
-  if (const auto refusal = take({&context, reactor, bytes, std::move(body)}); !refusal.ok()) reactor->Finish(refusal);
-  return reactor;
+void CallPool::run(Task task) {
+  if (const auto refusal = take(task); !refusal.ok()) task.finish(refusal);
 }
 
-grpc::Status CallPool::take(Call call) {
+grpc::Status CallPool::take(Task& task) {
   {
     const MutexLock lock(mutex_);
     // A single call may always wait.
-    if (waiting_.size() >= most_.waiting || (bytes_ > 0 && bytes_ + call.bytes > most_.bytes)) {
+    if (waiting_.size() >= most_.waiting || (bytes_ > 0 && bytes_ + task.bytes > most_.bytes)) {
       return {grpc::StatusCode::RESOURCE_EXHAUSTED,
               fmt::format(
                   "{} calls with {} bytes are waiting to be answered, which is the daemon's limit. Try again later.",
                   waiting_.size(), bytes_)};
     }
-    bytes_ += call.bytes;
-    waiting_.push_back(std::move(call));
+    bytes_ += task.bytes;
+    waiting_.push_back(std::move(task));
   }
   changed_.notify_one();
   return grpc::Status::OK;
@@ -48,18 +44,17 @@ grpc::Status CallPool::take(Call call) {
 
 void CallPool::serve() {
   for (;;) {
-    Call call;
+    Task task;
     {
       MutexLock lock(mutex_);
       changed_.wait(lock, [this]() CELLCRUSH_REQUIRES(mutex_) { return ending_ || !waiting_.empty(); });
       if (waiting_.empty()) return;
-      call = std::move(waiting_.front());
+      task = std::move(waiting_.front());
       waiting_.pop_front();
-      bytes_ -= call.bytes;
+      bytes_ -= task.bytes;
     }
-    call.reactor->Finish(call.context->IsCancelled()
-                             ? grpc::Status(grpc::StatusCode::CANCELLED, "The client cancelled the call.")
-                             : answer(call.body));
+    task.finish(task.call->is_cancelled() ? grpc::Status(grpc::StatusCode::CANCELLED, "The client cancelled the call.")
+                                          : answer(task.body));
   }
 }
 

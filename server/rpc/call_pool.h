@@ -1,19 +1,32 @@
 #pragma once
 
-#include <google/protobuf/message.h>
-#include <grpcpp/grpcpp.h>
+#include <grpcpp/support/status.h>
 
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <memory>
 #include <thread>
 #include <vector>
 
+#include "access/scope.h"
 #include "mutex.h"
 
 namespace cellcrush::rpc {
+
+/// An admitted call as its handler sees it, whichever way it came. Thread-safe.
+class Call {
+ public:
+  virtual ~Call() = default;
+
+  /// Throws ServiceError (unauthenticated) if the credentials are no longer known.
+  [[nodiscard]] virtual access::Caller caller() const = 0;
+
+  /// Whether nobody waits for the answer any more: the client is gone, or its time is over.
+  [[nodiscard]] virtual bool is_cancelled() const = 0;
+};
 
 /// Answers unary calls on a few threads of its own, in order of arrival, so that any number of clients may call at
 /// once. Thread-safe.
@@ -25,35 +38,33 @@ class CallPool {
     std::int64_t bytes = 0;   ///< requests of waiting calls
   };
 
+  struct Task {
+    std::shared_ptr<const Call> call;
+    std::int64_t bytes = 0;  ///< of the request
+    std::function<grpc::Status()> body;
+    std::function<void(const grpc::Status&)> finish;
+  };
+
   explicit CallPool(Most most);
   /// Answers the waiting calls. REQUIRES: no further calls arrive.
   ~CallPool();
   CallPool(const CallPool&) = delete;
   CallPool& operator=(const CallPool&) = delete;
 
-  /// Runs `body` on a thread of the pool, and ends the call with the status it returns or that of its exception. The
-  /// objects of the call live until then. A call cancelled while waiting is skipped; one beyond the limits ends with
-  /// RESOURCE_EXHAUSTED.
-  grpc::ServerUnaryReactor* run(grpc::CallbackServerContext& context, const google::protobuf::Message& request,
-                                std::function<grpc::Status()> body);
+  /// Runs the body on a thread of the pool and finishes with the status it returns, or that of its exception. A call
+  /// cancelled while waiting is skipped; one beyond the limits ends with RESOURCE_EXHAUSTED.
+  void run(Task task);
 
  private:
-  struct Call {
-    grpc::CallbackServerContext* context = nullptr;
-    grpc::ServerUnaryReactor* reactor = nullptr;
-    std::int64_t bytes = 0;
-    std::function<grpc::Status()> body;
-  };
-
   void serve();
-  /// Why the call is refused; OK if it is not.
-  grpc::Status take(Call call);
+  /// Why the task is refused; OK, and the task is taken, if it is not.
+  grpc::Status take(Task& task);
 
   const Most most_;
   Mutex mutex_;
   std::condition_variable_any changed_;
-  std::deque<Call> waiting_ CELLCRUSH_GUARDED_BY(mutex_);
-  std::int64_t bytes_ CELLCRUSH_GUARDED_BY(mutex_) = 0;  ///< of the calls in waiting_
+  std::deque<Task> waiting_ CELLCRUSH_GUARDED_BY(mutex_);
+  std::int64_t bytes_ CELLCRUSH_GUARDED_BY(mutex_) = 0;  ///< of the tasks in waiting_
   bool ending_ CELLCRUSH_GUARDED_BY(mutex_) = false;
   std::vector<std::jthread> threads_;
 };

@@ -23,70 +23,65 @@ std::string known_presets() {
 
 }  // namespace
 
-grpc::ServerUnaryReactor* CasesService::CheckCase(grpc::CallbackServerContext* context,
-                                                  const v1::CheckCaseRequest* request,
-                                                  v1::CheckCaseResponse* response) {
-  return checks_.run(*context, *request, [=, this] {
-    const auto elements = translate::CaseChecker().elements_to_build(request->case_());
-    const jobs::MeshPlaces::Place place(places_, elements, [context] { return context->IsCancelled(); });
-    const auto look_up = [context] {
-      if (context->IsCancelled()) throw ServiceError(ServiceError::Kind::cancelled, "The client cancelled the call.");
-    };
-    auto check = translate::check_case(request->case_(), look_up);
-    v1::CheckCaseResponse& out = check.response;
-    if (out.problems_size() == 0) {
-      out.set_predicted_seconds(step_cost_ * static_cast<double>(out.element_count()) *
-                                static_cast<double>(out.step_count()));
-      translate::add_fidelities(request->case_(), step_cost_, check);
-      out.set_predicted_bytes(store::predicted_result_bytes(out.particle_count(), out.element_count(),
-                                                            check.sample_count, check.frame_count));
-    }
-    *response = std::move(out);
-    return grpc::Status::OK;
-  });
+grpc::Status CasesService::check_case(const Call& call, const v1::CheckCaseRequest& request,
+                                      v1::CheckCaseResponse& response) {
+  const auto elements = translate::CaseChecker().elements_to_build(request.case_());
+  const jobs::MeshPlaces::Place place(places_, elements, [&call] { return call.is_cancelled(); });
+  const auto look_up = [&call] {
+    if (call.is_cancelled()) throw ServiceError(ServiceError::Kind::cancelled, "The client cancelled the call.");
+  };
+  auto check = translate::check_case(request.case_(), look_up);
+  v1::CheckCaseResponse& out = check.response;
+  if (out.problems_size() == 0) {
+    out.set_predicted_seconds(step_cost_ * static_cast<double>(out.element_count()) *
+                              static_cast<double>(out.step_count()));
+    translate::add_fidelities(request.case_(), step_cost_, check);
+    out.set_predicted_bytes(store::predicted_result_bytes(out.particle_count(), out.element_count(), check.sample_count,
+                                                          check.frame_count));
+  }
+  response = std::move(out);
+  return grpc::Status::OK;
 }
 
-grpc::ServerUnaryReactor* CasesService::PreviewCase(grpc::CallbackServerContext* context,
-                                                    const v1::PreviewCaseRequest* request,
-                                                    v1::PreviewCaseResponse* response) {
-  return checks_.run(*context, *request, [=, this] {
-    check_size("case", request->case_().ByteSizeLong(), kLargestCase);
-    const auto elements = translate::CaseChecker().elements_to_build(request->case_());
-    const jobs::MeshPlaces::Place place(places_, elements, [context] { return context->IsCancelled(); });
-    auto preview = translate::preview_case(request->case_());
-    if (!preview.problems.empty()) return status_of(preview.problems);
-    if (preview.mesh.ByteSizeLong() > kLargestPreview) {
-      throw ServiceError(ServiceError::Kind::exhausted,
-                         "The mesh of the case has " + std::to_string(preview.mesh.element_nodes_size() / 2) +
-                             " elements, more than a preview can hold. Preview it with fewer cells or with "
-                             "elements_per_wall 1.");
-    }
-    *response->mutable_mesh() = std::move(preview.mesh);
-    return grpc::Status::OK;
-  });
+grpc::Status CasesService::preview_case(const Call& call, const v1::PreviewCaseRequest& request,
+                                        v1::PreviewCaseResponse& response) {
+  check_size("case", request.case_().ByteSizeLong(), kLargestCase);
+  const auto elements = translate::CaseChecker().elements_to_build(request.case_());
+  const jobs::MeshPlaces::Place place(places_, elements, [&call] { return call.is_cancelled(); });
+  auto preview = translate::preview_case(request.case_());
+  if (!preview.problems.empty()) return status_of(preview.problems);
+  if (preview.mesh.ByteSizeLong() > kLargestPreview) {
+    throw ServiceError(ServiceError::Kind::exhausted,
+                       "The mesh of the case has " + std::to_string(preview.mesh.element_nodes_size() / 2) +
+                           " elements, more than a preview can hold. Preview it with fewer cells or with "
+                           "elements_per_wall 1.");
+  }
+  *response.mutable_mesh() = std::move(preview.mesh);
+  return grpc::Status::OK;
 }
 
-grpc::ServerUnaryReactor* CasesService::ListPresets(grpc::CallbackServerContext* context,
-                                                    const v1::ListPresetsRequest* request,
-                                                    v1::ListPresetsResponse* response) {
-  return calls_.run(*context, *request, [=] {
-    for (auto& preset : translate::list_presets()) *response->add_presets() = std::move(preset);
-    return grpc::Status::OK;
-  });
+grpc::Status CasesService::list_presets(const Call&, const v1::ListPresetsRequest&, v1::ListPresetsResponse& response) {
+  for (auto& preset : translate::list_presets()) *response.add_presets() = std::move(preset);
+  return grpc::Status::OK;
 }
 
-grpc::ServerUnaryReactor* CasesService::GetPreset(grpc::CallbackServerContext* context,
-                                                  const v1::GetPresetRequest* request, v1::Preset* response) {
-  return calls_.run(*context, *request, [=] {
-    check_length("name", request->name(), kLongestName);
-    auto preset = translate::find_preset_case(request->name());
-    if (!preset) {
-      throw ServiceError(ServiceError::Kind::not_found,
-                         "There is no preset \"" + request->name() + "\". Available presets: " + known_presets() + ".");
-    }
-    *response = *std::move(preset);
-    return grpc::Status::OK;
-  });
+grpc::Status CasesService::get_preset(const Call&, const v1::GetPresetRequest& request, v1::Preset& response) {
+  check_length("name", request.name(), kLongestName);
+  auto preset = translate::find_preset_case(request.name());
+  if (!preset) {
+    throw ServiceError(ServiceError::Kind::not_found,
+                       "There is no preset \"" + request.name() + "\". Available presets: " + known_presets() + ".");
+  }
+  response = *std::move(preset);
+  return grpc::Status::OK;
+}
+
+void CasesService::add_methods(MethodTable& table) {
+  using access::Scope;
+  table.unary("/cellcrush.v1.Cases/CheckCase", Scope::read, &checks_, *this, &CasesService::check_case);
+  table.unary("/cellcrush.v1.Cases/PreviewCase", Scope::read, &checks_, *this, &CasesService::preview_case);
+  table.unary("/cellcrush.v1.Cases/ListPresets", Scope::read, &calls_, *this, &CasesService::list_presets);
+  table.unary("/cellcrush.v1.Cases/GetPreset", Scope::read, &calls_, *this, &CasesService::get_preset);
 }
 
 }  // namespace cellcrush::rpc

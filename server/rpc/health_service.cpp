@@ -8,11 +8,6 @@ namespace {
 using grpc::health::v1::HealthCheckRequest;
 using grpc::health::v1::HealthCheckResponse;
 
-// "ipv4:127.0.0.1" of "ipv4:127.0.0.1:40312".
-std::string address_of(const std::string& peer) {
-  return peer.starts_with("unix:") ? "unix" : peer.substr(0, peer.rfind(':'));
-}
-
 }  // namespace
 
 void HealthBoard::set(const std::string& service, bool is_serving) {
@@ -54,16 +49,11 @@ std::optional<HealthSource::Message> HealthSource::next() {
   return out;
 }
 
-grpc::ServerUnaryReactor* HealthService::Check(grpc::CallbackServerContext* context, const HealthCheckRequest* request,
-                                               HealthCheckResponse* response) {
-  auto* reactor = context->DefaultReactor();
-  reactor->Finish(answer([&] {
-    check_length("service", request->service(), kLongestName);
-    response->set_status(parts_.board.find(request->service()));
-    if (response->status() != HealthCheckResponse::SERVICE_UNKNOWN) return grpc::Status::OK;
-    return grpc::Status(grpc::StatusCode::NOT_FOUND, "There is no service \"" + request->service() + "\".");
-  }));
-  return reactor;
+grpc::Status HealthService::check(const Call&, const HealthCheckRequest& request, HealthCheckResponse& response) {
+  check_length("service", request.service(), kLongestName);
+  response.set_status(parts_.board.find(request.service()));
+  if (response.status() != HealthCheckResponse::SERVICE_UNKNOWN) return grpc::Status::OK;
+  return {grpc::StatusCode::NOT_FOUND, "There is no service \"" + request.service() + "\"."};
 }
 
 std::unique_ptr<HealthSource> HealthService::watch(const HealthCheckRequest& request) {
@@ -71,15 +61,9 @@ std::unique_ptr<HealthSource> HealthService::watch(const HealthCheckRequest& req
   return std::make_unique<HealthSource>(parts_.board, request.service());
 }
 
-grpc::ServerWriteReactor<HealthCheckResponse>* HealthService::Watch(grpc::CallbackServerContext* context,
-                                                                    const HealthCheckRequest* request) {
-  return open_stream<HealthSource>(
-      parts_.streams, *context, [&] { return address_of(context->peer()); }, [&] { return watch(*request); });
-}
-
-void HealthService::add_streams(StreamTable& table) {
-  table.add<HealthSource, HealthCheckRequest>("/grpc.health.v1.Health/Watch", parts_.streams,
-                                              [this](const HealthCheckRequest& request) { return watch(request); });
+void HealthService::add_methods(MethodTable& table) {
+  table.unary("/grpc.health.v1.Health/Check", std::nullopt, nullptr, *this, &HealthService::check);
+  table.stream("/grpc.health.v1.Health/Watch", std::nullopt, parts_.streams, *this, &HealthService::watch);
 }
 
 }  // namespace cellcrush::rpc

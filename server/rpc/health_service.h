@@ -5,10 +5,9 @@
 #include <optional>
 #include <string>
 
-#include "grpc/health/v1/health.grpc.pb.h"
+#include "grpc/health/v1/health.pb.h"
 #include "mutex.h"
-#include "rpc/stream_reactor.h"
-#include "rpc/stream_table.h"
+#include "rpc/method_table.h"
 
 namespace cellcrush::rpc {
 
@@ -62,7 +61,7 @@ class HealthSource {
 
 /// grpc.health.v1. Replaces gRPC's own service, which does not limit watches. It is open to everybody, so its watches
 /// are counted separately: by peer address, and those over HTTP together. Thread-safe.
-class HealthService final : public grpc::health::v1::Health::CallbackService {
+class HealthService {
  public:
   /// All of it outlives the service.
   struct Parts {
@@ -72,16 +71,12 @@ class HealthService final : public grpc::health::v1::Health::CallbackService {
 
   explicit HealthService(const Parts& parts) : parts_(parts) {}
 
-  grpc::ServerUnaryReactor* Check(grpc::CallbackServerContext* context,
-                                  const grpc::health::v1::HealthCheckRequest* request,
-                                  grpc::health::v1::HealthCheckResponse* response) override;
-  grpc::ServerWriteReactor<grpc::health::v1::HealthCheckResponse>* Watch(
-      grpc::CallbackServerContext* context, const grpc::health::v1::HealthCheckRequest* request) override;
-
-  /// Its stream. The service outlives the table.
-  void add_streams(StreamTable& table);
+  /// The service outlives the table.
+  void add_methods(MethodTable& table);
 
  private:
+  grpc::Status check(const Call&, const grpc::health::v1::HealthCheckRequest& request,
+                     grpc::health::v1::HealthCheckResponse& response);
   std::unique_ptr<HealthSource> watch(const grpc::health::v1::HealthCheckRequest& request);
 
   Parts parts_;

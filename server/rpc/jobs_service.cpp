@@ -20,9 +20,9 @@ namespace cellcrush::rpc {
 
 store::StoredJob JobsService::find(const std::string& name) { return find_job(parts_.reader, name); }
 
-std::int64_t JobsService::find_own(const grpc::ServerContextBase& context, const std::string& name) {
+std::int64_t JobsService::find_own(const Call& call, const std::string& name) {
   const auto stored = find(name);
-  parts_.gate.require_own(context, stored.job.owner(), stored.job.name());
+  parts_.gate.require_own(call.caller(), stored.job.owner(), stored.job.name());
   return stored.number;
 }
 
@@ -46,138 +46,117 @@ void JobsService::commit_samples() {
   }
 }
 
-grpc::ServerUnaryReactor* JobsService::CreateJob(grpc::CallbackServerContext* context,
-                                                 const v1::CreateJobRequest* request, v1::Job* response) {
-  return parts_.checks.run(*context, *request, [=, this] {
-    check_request(request->request_id(), request->labels());
-    check_priority(request->priority(), "priority");
-    parts_.admission.check_priority(request->priority(), "priority");
-    parts_.admission.check_time_limit(request->time_limit_s(), "time_limit_s");
-    check_length("executor", request->executor(), kLongestName);
-    const std::string executor = parts_.queues.executor_for(request->executor(), "executor");
-    check_size("case", request->case_().ByteSizeLong(), kLargestCase);
-    translate::CaseChecker checker;
-    std::optional<jobs::MeshPlaces::Place> mesh;
-    mesh.emplace(parts_.places, checker.elements_to_build(request->case_()),
-                 [context] { return context->IsCancelled(); });
-    const auto verdict = checker.check(request->case_());
-    if (!verdict.problems.empty()) return status_of({verdict.problems.begin(), verdict.problems.end()});
-    v1::Job job;
-    *job.mutable_case_() = request->case_();
-    *job.mutable_labels() = request->labels();
-    job.set_priority(request->priority());
-    job.set_time_limit_s(request->time_limit_s());
-    job.set_executor(executor);
-    job.set_owner(parts_.gate.caller_of(*context).name);
-    const auto answer_with = [&](v1::Job answer) {
-      *answer.mutable_notes() = {verdict.notes.begin(), verdict.notes.end()};
-      *response = std::move(answer);
-      return grpc::Status::OK;
-    };
-    if (request->validate_only()) return answer_with(std::move(job));
-    const std::string hash = payload_hash(*request, job.owner());
-    const std::int64_t memory_bytes = parts_.admission.memory_of_job(
-        verdict.most_memory_bytes, [&] { return translate::predicted_memory(request->case_()); });
-    mesh.reset();
-    const std::string owner = job.owner();
-    std::optional<jobs::Admission::Place> place;
-    const auto admit = [&] {
-      place.reset();
-      place.emplace(parts_.admission.admit(owner, 1, memory_bytes));
-    };
-    const auto created =
-        parts_.journal.create_job(std::move(job), request->request_id(), hash, verdict.element_steps, admit);
-    if (created.is_new) {
-      log_change(store::name_of(created.job), "created", owner, request->request_id());
-      parts_.queues.enqueue(
-          {{created.job, created.job, request->priority(), verdict.element_steps, 0, 0, owner, executor}});
-      place.reset();
+grpc::Status JobsService::create_job(const Call& call, const v1::CreateJobRequest& request, v1::Job& response) {
+  check_request(request.request_id(), request.labels());
+  check_priority(request.priority(), "priority");
+  parts_.admission.check_priority(request.priority(), "priority");
+  parts_.admission.check_time_limit(request.time_limit_s(), "time_limit_s");
+  check_length("executor", request.executor(), kLongestName);
+  const std::string executor = parts_.queues.executor_for(request.executor(), "executor");
+  check_size("case", request.case_().ByteSizeLong(), kLargestCase);
+  translate::CaseChecker checker;
+  std::optional<jobs::MeshPlaces::Place> mesh;
+  mesh.emplace(parts_.places, checker.elements_to_build(request.case_()), [&call] { return call.is_cancelled(); });
+  const auto verdict = checker.check(request.case_());
+  if (!verdict.problems.empty()) return status_of({verdict.problems.begin(), verdict.problems.end()});
+  v1::Job job;
+  *job.mutable_case_() = request.case_();
+  *job.mutable_labels() = request.labels();
+  job.set_priority(request.priority());
+  job.set_time_limit_s(request.time_limit_s());
+  job.set_executor(executor);
+  job.set_owner(call.caller().name);
+  const auto answer_with = [&](v1::Job answer) {
+    *answer.mutable_notes() = {verdict.notes.begin(), verdict.notes.end()};
+    response = std::move(answer);
+    return grpc::Status::OK;
+  };
+  if (request.validate_only()) return answer_with(std::move(job));
+  const std::string hash = payload_hash(request, job.owner());
+  const std::int64_t memory_bytes = parts_.admission.memory_of_job(
+      verdict.most_memory_bytes, [&] { return translate::predicted_memory(request.case_()); });
+  mesh.reset();
+  const std::string owner = job.owner();
+  std::optional<jobs::Admission::Place> place;
+  const auto admit = [&] {
+    place.reset();
+    place.emplace(parts_.admission.admit(owner, 1, memory_bytes));
+  };
+  const auto created =
+      parts_.journal.create_job(std::move(job), request.request_id(), hash, verdict.element_steps, admit);
+  if (created.is_new) {
+    log_change(store::name_of(created.job), "created", owner, request.request_id());
+    parts_.queues.enqueue(
+        {{created.job, created.job, request.priority(), verdict.element_steps, 0, 0, owner, executor}});
+    place.reset();
+  }
+  auto stored = find(store::name_of(created.job));
+  add_live(stored);
+  return answer_with(std::move(stored.job));
+}
+
+grpc::Status JobsService::get_job(const Call&, const v1::GetJobRequest& request, v1::Job& response) {
+  auto stored = find(request.name());
+  add_live(stored);
+  response = std::move(stored.job);
+  return grpc::Status::OK;
+}
+
+grpc::Status JobsService::list_jobs(const Call& call, const v1::ListJobsRequest& request,
+                                    v1::ListJobsResponse& response) {
+  check_length("filter", request.filter(), kLongestFilter);
+  check_length("order_by", request.order_by(), kLongestOrder);
+  const auto filter = parse_filter(request.filter());
+  const bool newest_first = parse_newest_first(request.order_by());
+  const std::string question = request.filter() + "\n" + (newest_first ? "newest" : "oldest");
+  const auto page = read_page(request.page_size(), request.page_token(), question);
+  auto stored = parts_.reader.list_jobs(filter, newest_first, page.after, page.size + 1, kPageBytes,
+                                        [&call] { return call.is_cancelled(); });
+  std::int64_t last = 0;
+  auto room = page.room();
+  for (auto& job : stored) {
+    if (!room.take(job.job.ByteSizeLong())) {
+      response.set_next_page_token(page_token(last, question));
+      break;
     }
-    auto stored = find(store::name_of(created.job));
-    add_live(stored);
-    return answer_with(std::move(stored.job));
-  });
+    add_live(job);
+    last = job.number;
+    *response.add_jobs() = std::move(job.job);
+  }
+  return grpc::Status::OK;
 }
 
-grpc::ServerUnaryReactor* JobsService::GetJob(grpc::CallbackServerContext* context, const v1::GetJobRequest* request,
-                                              v1::Job* response) {
-  return parts_.calls.run(*context, *request, [=, this] {
-    auto stored = find(request->name());
-    add_live(stored);
-    *response = std::move(stored.job);
-    return grpc::Status::OK;
-  });
+grpc::Status JobsService::cancel_job(const Call& call, const v1::CancelJobRequest& request, v1::Job& response) {
+  const std::int64_t job = find_own(call, request.name());
+  parts_.queues.cancel(job);
+  log_change(store::name_of(job), "cancelled", call.caller().name);
+  auto stored = find(request.name());
+  add_live(stored);
+  response = std::move(stored.job);
+  return grpc::Status::OK;
 }
 
-grpc::ServerUnaryReactor* JobsService::ListJobs(grpc::CallbackServerContext* context,
-                                                const v1::ListJobsRequest* request, v1::ListJobsResponse* response) {
-  return parts_.calls.run(*context, *request, [=, this] {
-    check_length("filter", request->filter(), kLongestFilter);
-    check_length("order_by", request->order_by(), kLongestOrder);
-    const auto filter = parse_filter(request->filter());
-    const bool newest_first = parse_newest_first(request->order_by());
-    const std::string question = request->filter() + "\n" + (newest_first ? "newest" : "oldest");
-    const auto page = read_page(request->page_size(), request->page_token(), question);
-    auto stored = parts_.reader.list_jobs(filter, newest_first, page.after, page.size + 1, kPageBytes,
-                                          [context] { return context->IsCancelled(); });
-    std::int64_t last = 0;
-    auto room = page.room();
-    for (auto& job : stored) {
-      if (!room.take(job.job.ByteSizeLong())) {
-        response->set_next_page_token(page_token(last, question));
-        break;
-      }
-      add_live(job);
-      last = job.number;
-      *response->add_jobs() = std::move(job.job);
-    }
-    return grpc::Status::OK;
-  });
+grpc::Status JobsService::suspend_job(const Call& call, const v1::SuspendJobRequest& request, v1::Job& response) {
+  const std::int64_t job = find_own(call, request.name());
+  parts_.queues.suspend(job, [&call] { return call.is_cancelled(); });
+  log_change(store::name_of(job), "suspended", call.caller().name);
+  response = find(request.name()).job;
+  return grpc::Status::OK;
 }
 
-grpc::ServerUnaryReactor* JobsService::CancelJob(grpc::CallbackServerContext* context,
-                                                 const v1::CancelJobRequest* request, v1::Job* response) {
-  return parts_.calls.run(*context, *request, [=, this] {
-    const std::int64_t job = find_own(*context, request->name());
-    parts_.queues.cancel(job);
-    log_change(store::name_of(job), "cancelled", parts_.gate.caller_of(*context).name);
-    auto stored = find(request->name());
-    add_live(stored);
-    *response = std::move(stored.job);
-    return grpc::Status::OK;
-  });
+grpc::Status JobsService::resume_job(const Call& call, const v1::ResumeJobRequest& request, v1::Job& response) {
+  const std::int64_t job = find_own(call, request.name());
+  parts_.queues.resume(job);
+  log_change(store::name_of(job), "resumed", call.caller().name);
+  response = find(request.name()).job;
+  return grpc::Status::OK;
 }
 
-grpc::ServerUnaryReactor* JobsService::SuspendJob(grpc::CallbackServerContext* context,
-                                                  const v1::SuspendJobRequest* request, v1::Job* response) {
-  return parts_.calls.run(*context, *request, [=, this] {
-    const std::int64_t job = find_own(*context, request->name());
-    parts_.queues.suspend(job, [context] { return context->IsCancelled(); });
-    log_change(store::name_of(job), "suspended", parts_.gate.caller_of(*context).name);
-    *response = find(request->name()).job;
-    return grpc::Status::OK;
-  });
-}
-
-grpc::ServerUnaryReactor* JobsService::ResumeJob(grpc::CallbackServerContext* context,
-                                                 const v1::ResumeJobRequest* request, v1::Job* response) {
-  return parts_.calls.run(*context, *request, [=, this] {
-    const std::int64_t job = find_own(*context, request->name());
-    parts_.queues.resume(job);
-    log_change(store::name_of(job), "resumed", parts_.gate.caller_of(*context).name);
-    *response = find(request->name()).job;
-    return grpc::Status::OK;
-  });
-}
-
-grpc::ServerUnaryReactor* JobsService::DeleteJob(grpc::CallbackServerContext* context,
-                                                 const v1::DeleteJobRequest* request, v1::DeleteJobResponse*) {
-  return parts_.calls.run(*context, *request, [=, this] {
-    const std::int64_t job = find_own(*context, request->name());
-    parts_.deletion.delete_job(job);
-    log_change(store::name_of(job), "deleted", parts_.gate.caller_of(*context).name);
-    return grpc::Status::OK;
-  });
+grpc::Status JobsService::delete_job(const Call& call, const v1::DeleteJobRequest& request, v1::DeleteJobResponse&) {
+  const std::int64_t job = find_own(call, request.name());
+  parts_.deletion.delete_job(job);
+  log_change(store::name_of(job), "deleted", call.caller().name);
+  return grpc::Status::OK;
 }
 
 std::unique_ptr<watch::JobSource> JobsService::watch_job(const v1::WatchJobRequest& request) {
@@ -217,72 +196,40 @@ std::unique_ptr<ExportSource> JobsService::export_job(const v1::ExportJobRequest
                                         find(request.name()), request);
 }
 
-template <class Source, class Request>
-grpc::ServerWriteReactor<typename Source::Message>* JobsService::open(
-    grpc::CallbackServerContext& context, const Request& request,
-    std::unique_ptr<Source> (JobsService::*make)(const Request&)) {
-  return open_stream<Source>(
-      parts_.streams, context, [&] { return parts_.gate.caller_of(context).name; },
-      [&] { return (this->*make)(request); });
-}
-
-grpc::ServerWriteReactor<v1::JobEvent>* JobsService::WatchJob(grpc::CallbackServerContext* context,
-                                                              const v1::WatchJobRequest* request) {
-  return open(*context, *request, &JobsService::watch_job);
-}
-
-grpc::ServerWriteReactor<v1::WatchJobsResponse>* JobsService::WatchJobs(grpc::CallbackServerContext* context,
-                                                                        const v1::WatchJobsRequest* request) {
-  return open(*context, *request, &JobsService::watch_jobs);
-}
-
-grpc::ServerWriteReactor<v1::StreamFramesResponse>* JobsService::StreamFrames(grpc::CallbackServerContext* context,
-                                                                              const v1::StreamFramesRequest* request) {
-  return open(*context, *request, &JobsService::stream_frames);
-}
-
-grpc::ServerWriteReactor<v1::GetFrameResponse>* JobsService::GetFrame(grpc::CallbackServerContext* context,
-                                                                      const v1::GetFrameRequest* request) {
-  return open(*context, *request, &JobsService::get_frame);
-}
-
-grpc::ServerWriteReactor<v1::DownloadResultResponse>* JobsService::DownloadResult(
-    grpc::CallbackServerContext* context, const v1::DownloadResultRequest* request) {
-  return open(*context, *request, &JobsService::download);
-}
-
-grpc::ServerWriteReactor<v1::ExportJobResponse>* JobsService::ExportJob(grpc::CallbackServerContext* context,
-                                                                        const v1::ExportJobRequest* request) {
-  return open(*context, *request, &JobsService::export_job);
-}
-
-void JobsService::add_streams(StreamTable& table) {
-  const auto add = [&]<class Source, class Request>(const char* method,
-                                                    std::unique_ptr<Source> (JobsService::*make)(const Request&)) {
-    table.add<Source, Request>(std::string("/cellcrush.v1.Jobs/") + method, parts_.streams,
-                               [this, make](const Request& request) { return (this->*make)(request); });
+void JobsService::add_methods(MethodTable& table) {
+  using access::Scope;
+  const auto unary = [&](const char* path, Scope scope, CallPool& pool, auto handle) {
+    table.unary(path, scope, &pool, *this, handle);
   };
-  add("WatchJob", &JobsService::watch_job);
-  add("WatchJobs", &JobsService::watch_jobs);
-  add("StreamFrames", &JobsService::stream_frames);
-  add("GetFrame", &JobsService::get_frame);
-  add("DownloadResult", &JobsService::download);
-  add("ExportJob", &JobsService::export_job);
+  const auto stream = [&](const char* path, auto make) {
+    table.stream(path, Scope::read, parts_.streams, *this, make);
+  };
+  unary("/cellcrush.v1.Jobs/CreateJob", Scope::submit, parts_.checks, &JobsService::create_job);
+  unary("/cellcrush.v1.Jobs/GetJob", Scope::read, parts_.calls, &JobsService::get_job);
+  unary("/cellcrush.v1.Jobs/ListJobs", Scope::read, parts_.calls, &JobsService::list_jobs);
+  unary("/cellcrush.v1.Jobs/CancelJob", Scope::submit, parts_.calls, &JobsService::cancel_job);
+  unary("/cellcrush.v1.Jobs/SuspendJob", Scope::submit, parts_.calls, &JobsService::suspend_job);
+  unary("/cellcrush.v1.Jobs/ResumeJob", Scope::submit, parts_.calls, &JobsService::resume_job);
+  unary("/cellcrush.v1.Jobs/DeleteJob", Scope::submit, parts_.calls, &JobsService::delete_job);
+  unary("/cellcrush.v1.Jobs/GetHistory", Scope::read, parts_.calls, &JobsService::get_history);
+  stream("/cellcrush.v1.Jobs/WatchJob", &JobsService::watch_job);
+  stream("/cellcrush.v1.Jobs/WatchJobs", &JobsService::watch_jobs);
+  stream("/cellcrush.v1.Jobs/StreamFrames", &JobsService::stream_frames);
+  stream("/cellcrush.v1.Jobs/GetFrame", &JobsService::get_frame);
+  stream("/cellcrush.v1.Jobs/DownloadResult", &JobsService::download);
+  stream("/cellcrush.v1.Jobs/ExportJob", &JobsService::export_job);
 }
 
-grpc::ServerUnaryReactor* JobsService::GetHistory(grpc::CallbackServerContext* context,
-                                                  const v1::GetHistoryRequest* request,
-                                                  v1::GetHistoryResponse* response) {
-  return parts_.calls.run(*context, *request, [=, this] {
-    const std::int64_t job = find(request->name()).number;
-    const std::string question = "history of " + store::name_of(job);
-    const auto page = read_full_page(request->page_size(), request->page_token(), question);
-    commit_samples();
-    auto stored = parts_.reader.samples(job, page.after, page.room());
-    for (auto& sample : stored.samples) *response->add_samples() = std::move(sample);
-    if (stored.has_more) response->set_next_page_token(page_token(stored.last_sequence, question));
-    return grpc::Status::OK;
-  });
+grpc::Status JobsService::get_history(const Call&, const v1::GetHistoryRequest& request,
+                                      v1::GetHistoryResponse& response) {
+  const std::int64_t job = find(request.name()).number;
+  const std::string question = "history of " + store::name_of(job);
+  const auto page = read_full_page(request.page_size(), request.page_token(), question);
+  commit_samples();
+  auto stored = parts_.reader.samples(job, page.after, page.room());
+  for (auto& sample : stored.samples) *response.add_samples() = std::move(sample);
+  if (stored.has_more) response.set_next_page_token(page_token(stored.last_sequence, question));
+  return grpc::Status::OK;
 }
 
 }  // namespace cellcrush::rpc

@@ -1,19 +1,16 @@
 #pragma once
 
 #include "access/gate.h"
-#include "cellcrush/v1/jobs_service.grpc.pb.h"
 #include "jobs/admission.h"
 #include "jobs/deletion.h"
 #include "jobs/mesh_places.h"
 #include "jobs/queues.h"
-#include "rpc/call_pool.h"
 #include "rpc/download_source.h"
 #include "rpc/export_source.h"
 #include "rpc/frame_series_source.h"
 #include "rpc/frame_source.h"
 #include "rpc/jobs_source.h"
-#include "rpc/stream_reactor.h"
-#include "rpc/stream_table.h"
+#include "rpc/method_table.h"
 #include "store/change_reader.h"
 #include "store/data_folder.h"
 #include "store/journal.h"
@@ -25,7 +22,7 @@
 namespace cellcrush::rpc {
 
 /// Jobs and their results. Thread-safe. Streams hold no thread, even for slow readers; the pools run all other calls.
-class JobsService final : public v1::Jobs::CallbackService {
+class JobsService {
  public:
   /// All of it outlives the service.
   struct Parts {
@@ -47,39 +44,19 @@ class JobsService final : public v1::Jobs::CallbackService {
 
   explicit JobsService(const Parts& parts) : parts_(parts) {}
 
-  grpc::ServerUnaryReactor* CreateJob(grpc::CallbackServerContext* context, const v1::CreateJobRequest* request,
-                                      v1::Job* response) override;
-  grpc::ServerUnaryReactor* GetJob(grpc::CallbackServerContext* context, const v1::GetJobRequest* request,
-                                   v1::Job* response) override;
-  grpc::ServerUnaryReactor* ListJobs(grpc::CallbackServerContext* context, const v1::ListJobsRequest* request,
-                                     v1::ListJobsResponse* response) override;
-  grpc::ServerUnaryReactor* CancelJob(grpc::CallbackServerContext* context, const v1::CancelJobRequest* request,
-                                      v1::Job* response) override;
-  grpc::ServerUnaryReactor* SuspendJob(grpc::CallbackServerContext* context, const v1::SuspendJobRequest* request,
-                                       v1::Job* response) override;
-  grpc::ServerUnaryReactor* ResumeJob(grpc::CallbackServerContext* context, const v1::ResumeJobRequest* request,
-                                      v1::Job* response) override;
-  grpc::ServerUnaryReactor* DeleteJob(grpc::CallbackServerContext* context, const v1::DeleteJobRequest* request,
-                                      v1::DeleteJobResponse* response) override;
-  grpc::ServerWriteReactor<v1::JobEvent>* WatchJob(grpc::CallbackServerContext* context,
-                                                   const v1::WatchJobRequest* request) override;
-  grpc::ServerUnaryReactor* GetHistory(grpc::CallbackServerContext* context, const v1::GetHistoryRequest* request,
-                                       v1::GetHistoryResponse* response) override;
-  grpc::ServerWriteReactor<v1::WatchJobsResponse>* WatchJobs(grpc::CallbackServerContext* context,
-                                                             const v1::WatchJobsRequest* request) override;
-  grpc::ServerWriteReactor<v1::StreamFramesResponse>* StreamFrames(grpc::CallbackServerContext* context,
-                                                                   const v1::StreamFramesRequest* request) override;
-  grpc::ServerWriteReactor<v1::GetFrameResponse>* GetFrame(grpc::CallbackServerContext* context,
-                                                           const v1::GetFrameRequest* request) override;
-  grpc::ServerWriteReactor<v1::DownloadResultResponse>* DownloadResult(
-      grpc::CallbackServerContext* context, const v1::DownloadResultRequest* request) override;
-  grpc::ServerWriteReactor<v1::ExportJobResponse>* ExportJob(grpc::CallbackServerContext* context,
-                                                             const v1::ExportJobRequest* request) override;
-
-  /// Its streams. The service outlives the table.
-  void add_streams(StreamTable& table);
+  /// The service outlives the table.
+  void add_methods(MethodTable& table);
 
  private:
+  // The calls; errors as exceptions, or as a status with details.
+  grpc::Status create_job(const Call& call, const v1::CreateJobRequest& request, v1::Job& response);
+  grpc::Status get_job(const Call&, const v1::GetJobRequest& request, v1::Job& response);
+  grpc::Status list_jobs(const Call& call, const v1::ListJobsRequest& request, v1::ListJobsResponse& response);
+  grpc::Status cancel_job(const Call& call, const v1::CancelJobRequest& request, v1::Job& response);
+  grpc::Status suspend_job(const Call& call, const v1::SuspendJobRequest& request, v1::Job& response);
+  grpc::Status resume_job(const Call& call, const v1::ResumeJobRequest& request, v1::Job& response);
+  grpc::Status delete_job(const Call& call, const v1::DeleteJobRequest& request, v1::DeleteJobResponse&);
+  grpc::Status get_history(const Call&, const v1::GetHistoryRequest& request, v1::GetHistoryResponse& response);
   // Sources of the streams. They throw what ends the stream.
   std::unique_ptr<watch::JobSource> watch_job(const v1::WatchJobRequest& request);
   std::unique_ptr<JobsSource> watch_jobs(const v1::WatchJobsRequest& request);
@@ -88,15 +65,10 @@ class JobsService final : public v1::Jobs::CallbackService {
   std::unique_ptr<DownloadSource> download(const v1::DownloadResultRequest& request);
   std::unique_ptr<ExportSource> export_job(const v1::ExportJobRequest& request);
 
-  template <class Source, class Request>
-  grpc::ServerWriteReactor<typename Source::Message>* open(
-      grpc::CallbackServerContext& context, const Request& request,
-      std::unique_ptr<Source> (JobsService::*make)(const Request&));
-
   /// Throws ServiceError (not_found) if there is none.
   store::StoredJob find(const std::string& name);
   /// Number of a job that the caller may change. Also throws ServiceError (permission_denied).
-  std::int64_t find_own(const grpc::ServerContextBase& context, const std::string& name);
+  std::int64_t find_own(const Call& call, const std::string& name);
   /// Adds what is not in the journal: progress and place.
   void add_live(store::StoredJob& stored);
   void commit_samples();

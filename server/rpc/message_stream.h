@@ -7,14 +7,14 @@
 #include <optional>
 #include <string>
 
-#include "watch/pump.h"
-
 namespace cellcrush::rpc {
 
-/// One open stream for a caller that is not gRPC. It gives encoded messages when it is asked for them, and so holds at
-/// most one batch. The pump's threads make the batches. Thread-safe.
-class MessageStream : public watch::Pump::Task {
+/// The answers to one call that did not come over gRPC: those of a stream, or the only one of a unary call. It gives
+/// encoded messages when it is asked for them, and so holds at most one batch. Thread-safe.
+class MessageStream {
  public:
+  virtual ~MessageStream() = default;
+
   /// Appends a message as it goes out. May throw ServiceError.
   using Encode = std::function<void(const google::protobuf::Message& message, std::string& to)>;
 
@@ -23,14 +23,14 @@ class MessageStream : public watch::Pump::Task {
     std::string bytes;
     std::optional<grpc::Status> end;  ///< how the stream ended; nothing follows
   };
-  /// Called on a thread of the pump, without a lock: must be quick.
+  /// Called on the thread that made the batch, without a lock: must be quick.
   using Deliver = std::function<void(Batch batch)>;
 
   /// Asks for the next batch, which is delivered once there is one. REQUIRES: the batch before it was delivered.
   virtual void ask(Deliver deliver) = 0;
 
-  /// Ends the stream: quick, as a thread of the pump closes it. Nothing is delivered any more, except what is being
-  /// delivered now. Safe to repeat.
+  /// Nobody waits for what follows. Quick; safe to repeat. A stream delivers nothing any more, except what is being
+  /// delivered now; a unary call still ends with a batch.
   virtual void cancel() = 0;
 };
 

@@ -10,15 +10,14 @@
 
 namespace cellcrush::rpc {
 
-grpc::Status parse_error(std::string_view path) {
+InvalidField parse_error(std::string_view path) {
   std::string method(path.substr(path.starts_with('/') ? 1 : 0));
   std::replace(method.begin(), method.end(), '/', '.');
   const auto* descriptor = google::protobuf::DescriptorPool::generated_pool()->FindMethodByName(method);
   const std::string type =
       descriptor == nullptr ? "message of the expected type" : descriptor->input_type()->full_name();
-  return invalid_argument(
-      "request", "of " + method + " is not a " + type + ": its bytes cannot be parsed, or a string is not UTF-8.",
-      "Encode it with this server's .proto files, and every string as UTF-8.");
+  return {"request", "of " + method + " is not a " + type + ": its bytes cannot be parsed, or a string is not UTF-8.",
+          "Encode it with this server's .proto files, and every string as UTF-8."};
 }
 
 namespace {
@@ -36,7 +35,7 @@ class ParseErrorInterceptor final : public grpc_hooks::Interceptor {
     if (!has_message_ && methods->QueryInterceptionHookPoint(Point::PRE_SEND_STATUS)) {
       const auto code = methods->GetSendStatus().error_code();
       if (code == grpc::StatusCode::INTERNAL || code == grpc::StatusCode::UNIMPLEMENTED)
-        methods->ModifySendStatus(parse_error(path_));
+        methods->ModifySendStatus(status_of(parse_error(path_)));
     }
     methods->Proceed();
   }

@@ -163,10 +163,12 @@ class ReflectionService final : public Version::Service::CallbackService {
 
 }  // namespace
 
-std::vector<std::unique_ptr<grpc::Service>> make_reflection_services(std::vector<std::string> names,
-                                                                     const access::Gate& gate, StreamLimits& limits) {
+std::vector<std::unique_ptr<grpc::Service>> make_reflection_services(std::vector<std::string> names, access::Gate& gate,
+                                                                     StreamLimits& limits) {
   names.emplace_back(ReflectionV1::Service::service_full_name());
   names.emplace_back(ReflectionV1Alpha::Service::service_full_name());
+  for (const auto* name : {ReflectionV1::Service::service_full_name(), ReflectionV1Alpha::Service::service_full_name()})
+    gate.guard("/" + std::string(name) + "/ServerReflectionInfo", access::Scope::read);
   std::sort(names.begin(), names.end());
   std::vector<std::unique_ptr<grpc::Service>> out;
   out.push_back(std::make_unique<ReflectionService<ReflectionV1>>(names, gate, limits));

@@ -17,6 +17,9 @@ inline constexpr std::size_t kLongestPageToken = 128;
 inline constexpr std::size_t kLongestResumeToken = 3 * 1024 * 1024;
 inline constexpr std::size_t kLongestJobsToken = 128;
 
+/// Maximum size of a request, in bytes.
+inline constexpr int kLargestMessage = 4 * 1024 * 1024;
+
 /// Maximum number of jobs that one WatchJobs watches in full.
 inline constexpr int kMostWatchedJobs = 64;
 

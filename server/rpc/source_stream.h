@@ -16,7 +16,9 @@ namespace cellcrush::rpc {
 
 /// A MessageStream of a source (stream_state.h). A thread of the pump opens the source, as that may read the disk.
 template <class Source>
-class SourceStream final : public MessageStream, public std::enable_shared_from_this<SourceStream<Source>> {
+class SourceStream final : public MessageStream,
+                           public watch::Pump::Task,
+                           public std::enable_shared_from_this<SourceStream<Source>> {
  public:
   using Make = std::function<std::unique_ptr<Source>()>;
 
@@ -26,12 +28,6 @@ class SourceStream final : public MessageStream, public std::enable_shared_from_
   ~SourceStream() override {
     const MutexLock lock(mutex_);
     finish(cancelled());
-  }
-
-  /// Ends it before it begins.
-  void refuse(const grpc::Status& status) {
-    const MutexLock lock(mutex_);
-    finish(status);
   }
 
   void ask(Deliver deliver) override {

@@ -3,14 +3,11 @@
 #include <string>
 
 #include "access/gate.h"
-#include "cellcrush/v1/sweeps_service.grpc.pb.h"
 #include "jobs/admission.h"
 #include "jobs/deletion.h"
 #include "jobs/mesh_places.h"
 #include "jobs/queues.h"
-#include "rpc/call_pool.h"
-#include "rpc/stream_reactor.h"
-#include "rpc/stream_table.h"
+#include "rpc/method_table.h"
 #include "store/journal.h"
 #include "store/journal_reader.h"
 #include "store/sweep_reader.h"
@@ -20,7 +17,7 @@
 namespace cellcrush::rpc {
 
 /// Sweeps: many jobs from one case. Thread-safe. Watches hold no thread; the pools run all other calls.
-class SweepsService final : public v1::Sweeps::CallbackService {
+class SweepsService {
  public:
   /// All of it outlives the service.
   struct Parts {
@@ -42,30 +39,19 @@ class SweepsService final : public v1::Sweeps::CallbackService {
 
   explicit SweepsService(const Parts& parts) : parts_(parts) {}
 
-  grpc::ServerUnaryReactor* CreateSweep(grpc::CallbackServerContext* context, const v1::CreateSweepRequest* request,
-                                        v1::Sweep* response) override;
-  grpc::ServerUnaryReactor* GetSweep(grpc::CallbackServerContext* context, const v1::GetSweepRequest* request,
-                                     v1::Sweep* response) override;
-  grpc::ServerUnaryReactor* ListSweeps(grpc::CallbackServerContext* context, const v1::ListSweepsRequest* request,
-                                       v1::ListSweepsResponse* response) override;
-  grpc::ServerUnaryReactor* CancelSweep(grpc::CallbackServerContext* context, const v1::CancelSweepRequest* request,
-                                        v1::Sweep* response) override;
-  grpc::ServerUnaryReactor* DeleteSweep(grpc::CallbackServerContext* context, const v1::DeleteSweepRequest* request,
-                                        v1::DeleteSweepResponse* response) override;
-  grpc::ServerUnaryReactor* RetryFailedJobs(grpc::CallbackServerContext* context,
-                                            const v1::RetryFailedJobsRequest* request, v1::Sweep* response) override;
-  grpc::ServerWriteReactor<v1::WatchSweepResponse>* WatchSweep(grpc::CallbackServerContext* context,
-                                                               const v1::WatchSweepRequest* request) override;
-  grpc::ServerUnaryReactor* GetSweepTable(grpc::CallbackServerContext* context, const v1::GetSweepTableRequest* request,
-                                          v1::SweepTable* response) override;
-  grpc::ServerUnaryReactor* GetConvergence(grpc::CallbackServerContext* context,
-                                           const v1::GetConvergenceRequest* request,
-                                           v1::Convergence* response) override;
-
-  /// Its stream. The service outlives the table.
-  void add_streams(StreamTable& table);
+  /// The service outlives the table.
+  void add_methods(MethodTable& table);
 
  private:
+  // The calls; errors as exceptions, or as a status with details.
+  grpc::Status create_sweep(const Call& call, const v1::CreateSweepRequest& given, v1::Sweep& response);
+  grpc::Status get_sweep(const Call&, const v1::GetSweepRequest& request, v1::Sweep& response);
+  grpc::Status list_sweeps(const Call& call, const v1::ListSweepsRequest& request, v1::ListSweepsResponse& response);
+  grpc::Status cancel_sweep(const Call& call, const v1::CancelSweepRequest& request, v1::Sweep& response);
+  grpc::Status delete_sweep(const Call& call, const v1::DeleteSweepRequest& request, v1::DeleteSweepResponse&);
+  grpc::Status retry_failed_jobs(const Call& call, const v1::RetryFailedJobsRequest& request, v1::Sweep& response);
+  grpc::Status get_sweep_table(const Call&, const v1::GetSweepTableRequest& request, v1::SweepTable& response);
+  grpc::Status get_convergence(const Call&, const v1::GetConvergenceRequest& request, v1::Convergence& response);
   std::unique_ptr<watch::SweepSource> watch_sweep(const v1::WatchSweepRequest& request);
 
   struct Found {
@@ -75,7 +61,7 @@ class SweepsService final : public v1::Sweeps::CallbackService {
   /// Throws ServiceError (not_found) if there is none.
   Found find(const std::string& name);
   /// Number of a sweep that the caller may change. Also throws ServiceError (permission_denied).
-  std::int64_t find_own(const grpc::ServerContextBase& context, const std::string& name);
+  std::int64_t find_own(const Call& call, const std::string& name);
 
   Parts parts_;
 };

@@ -19,7 +19,6 @@ constexpr const char* kClaim = "claim";
 constexpr const char* kBeat = "heartbeat";
 constexpr const char* kRequest = "request";
 constexpr const char* kEnded = "ended";
-constexpr const char* kToken = "token";
 constexpr std::size_t kBeatSize = 20;
 
 }  // namespace
@@ -90,13 +89,6 @@ Request::Kind AttemptFolder::requested() const {
 void AttemptFolder::end(const Ended& ended) const { write_small_file(file(kEnded), ended.SerializeAsString()); }
 
 std::optional<Ended> AttemptFolder::find_ended() const { return read_message<Ended>(file(kEnded)); }
-
-void AttemptFolder::set_token(const std::string& token) const { write_small_file(file(kToken), token); }
-
-std::optional<std::string> AttemptFolder::token() const {
-  auto out = read_small_file(file(kToken));
-  return out && !out->empty() ? out : std::nullopt;
-}
 
 // Renamed first: a task that claims the attempt meanwhile finds either the whole folder or none.
 void AttemptFolder::remove() const {

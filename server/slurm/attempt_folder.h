@@ -49,10 +49,6 @@ class AttemptFolder {
   void end(const Ended& ended) const;
   [[nodiscard]] std::optional<Ended> find_ended() const;
 
-  /// The secret by which WorkersService admits the attempt's task; nothing if there is none.
-  void set_token(const std::string& token) const;
-  [[nodiscard]] std::optional<std::string> token() const;
-
   /// Deletes the folder. Does not throw.
   void remove() const;
 

@@ -10,7 +10,7 @@
 
 #include "jobs/executor.h"
 #include "slurm/attempt.pb.h"
-#include "slurm/link.h"
+#include "slurm/file_link.h"
 #include "slurm/mirror.h"
 #include "store/job_folder.h"
 

@@ -194,9 +194,7 @@ std::vector<std::string> Batcher::prepare(const std::string& batch, const Pack& 
     }
   }
   write_small_file(folder / "tasks", tasks.SerializeAsString());
-  write_small_file(folder / "script", script_of(batch, tasks));
-  // Without a shared file system the nodes lack the folder.
-  const bool is_shared = options_.daemon.empty();
+  write_small_file(folder / "script", script_of(batch));
   const std::string log = is_array ? "task-%a.log" : "task-0.log";
   const auto minutes = time_limit_minutes(pack.need.seconds, options_.longest);
   std::vector<std::string> out = {"--job-name=" + (kJobPrefix + batch),
@@ -209,38 +207,23 @@ std::vector<std::string> Batcher::prepare(const std::string& batch, const Pack& 
                                   fmt::format("--signal=B:USR2@{}", warning_seconds(minutes)),
                                   "--no-requeue",
                                   "--export=NIL",
-                                  "--chdir=" + (is_shared ? folder.string() : "/tmp"),
-                                  "--output=" + (is_shared ? (folder / log).string() : "/dev/null")};
+                                  "--chdir=" + folder.string(),
+                                  "--output=" + (folder / log).string()};
   if (is_array) out.push_back(fmt::format("--array=0-{}%{}", pack.tasks.size() - 1, options_.tasks));
   out.insert(out.end(), options_.sbatch.begin(), options_.sbatch.end());
   out.push_back((folder / "script").string());
   return out;
 }
 
-std::string Batcher::script_of(const std::string& batch, const Batch& tasks) const {
+std::string Batcher::script_of(const std::string& batch) const {
   std::string out = "#!/bin/sh\n# Computes a batch of crushes for cellcrushd.\n";
   if (!options_.simd.empty()) out += "export CELLCRUSH_SIMD=" + shell_word(options_.simd) + "\n";
-  const std::string begin = fmt::format("exec {} task --lease {}", shell_word(options_.program.string()),
-                                        std::chrono::duration<double>(options_.times.lease).count());
-  if (options_.daemon.empty())
-    return out + fmt::format("{} --folder {} --batch {}\n", begin, shell_word(options_.folder.string()), batch);
-  // In the environment, which other users of a node cannot read, and not among the arguments.
-  out += "case \"${SLURM_ARRAY_TASK_ID:-0}\" in\n";
-  for (int task = 0; task < tasks.tasks_size(); ++task) {
-    out += std::to_string(task) + ") CELLCRUSH_ATTEMPTS='";
-    for (const auto& id : tasks.tasks(task).attempts())
-      out += id + ":" + AttemptFolder(options_.folder / "attempts" / id).token().value_or("") + " ";
-    out += "' ;;\n";
-  }
-  out += "esac\nexport CELLCRUSH_ATTEMPTS\n";
-  out += fmt::format("{} --daemon {} --cluster {}", begin, shell_word(options_.daemon), options_.name);
-  if (!options_.authority.empty()) out += " --ca " + shell_word(options_.authority);
-  return out + "\n";
+  return out + fmt::format("exec {} task --lease {} --folder {} --batch {}\n", shell_word(options_.program.string()),
+                           std::chrono::duration<double>(options_.times.lease).count(),
+                           shell_word(options_.folder.string()), batch);
 }
 
 int task_index(const Attempt& attempt) { return attempt.is_array() ? attempt.task() : -1; }
-
-std::string random_token() { return random_name() + random_name() + random_name() + random_name(); }
 
 void write_attempt(const store::JobFolder& job, const Attempt& attempt) {
   write_small_file(job.attempt(), attempt.SerializeAsString());

@@ -77,7 +77,7 @@ class Batcher {
   void run(const std::stop_token& stop);
   void submit_pack(Pack pack, const std::vector<Gathered>& gathered);
   void tell(const Gathered& gathered, Submission::State state);
-  [[nodiscard]] std::string script_of(const std::string& batch, const Batch& tasks) const;
+  [[nodiscard]] std::string script_of(const std::string& batch) const;
   /// Writes the batch's folder. Returns the arguments of sbatch.
   std::vector<std::string> prepare(const std::string& batch, const Pack& pack, const std::vector<Gathered>& gathered);
 
@@ -91,9 +91,6 @@ class Batcher {
 
 /// Index of an attempt's task for scancel and in the cluster's view: -1 unless its job is an array.
 int task_index(const Attempt& attempt);
-
-/// A secret of 64 hexadecimal digits.
-std::string random_token();
 
 /// The file `attempt` of a job's folder.
 void write_attempt(const store::JobFolder& job, const Attempt& attempt);

@@ -49,15 +49,6 @@ using Setter = std::function<void(ClusterOptions&, const std::string& key, const
 const std::map<std::string, Setter>& setters() {
   static const std::map<std::string, Setter> out = {
       {"folder", [](auto& to, const auto& key, const auto& value) { to.folder = absolute_path(key, value); }},
-      {"daemon",
-       [](auto& to, const auto& key, const auto& value) {
-         const auto colon = value.rfind(':');
-         if (colon == std::string::npos || colon == 0)
-           refuse(key + " is '" + value + "'; it must be HOST:PORT, as the nodes reach this daemon.");
-         whole_number(key + "'s port", value.substr(colon + 1), 1, 65535);
-         to.daemon = value;
-       }},
-      {"ca", [](auto& to, const auto& key, const auto& value) { to.authority = absolute_path(key, value); }},
       {"program", [](auto& to, const auto& key, const auto& value) { to.program = absolute_path(key, value); }},
       {"commands", [](auto& to, const auto& key, const auto& value) { to.commands = absolute_path(key, value); }},
       {"simd", [](auto& to, const auto&, const auto& value) { to.simd = value; }},
@@ -108,26 +99,15 @@ ClusterOptions parse_cluster(const std::string& text) {
     }
     setter->second(out, key, setting.substr(equals + 1));
   }
-  if (out.folder.empty() == out.daemon.empty())
-    refuse(
-        "give either folder=PATH, a folder that the daemon and all nodes share, or daemon=HOST:PORT, under which the "
-        "nodes reach this daemon.");
-  if (!out.authority.empty() && out.daemon.empty()) refuse("ca needs daemon=HOST:PORT.");
+  if (out.folder.empty()) refuse("give folder=PATH, a folder that the daemon and all nodes share.");
   return out;
 }
 
 jobs::ExecutorOptions executor_of(const ClusterOptions& options) {
   return {"slurm/" + options.name, options.jobs, [options](const jobs::ExecutorSurroundings& around) {
             ClusterOptions own = options;
-            if (!own.daemon.empty() && around.asks_for_certificates) {
-              throw ServiceError(ServiceError::Kind::invalid,
-                                 "--slurm " + own.name +
-                                     " with daemon does not go with --tls-client-ca: its tasks have no certificates. "
-                                     "Use --tokens instead, or the setting folder.");
-            }
             // Not the link itself, which names another program on a node.
             if (own.program.empty()) own.program = std::filesystem::read_symlink("/proc/self/exe");
-            if (own.folder.empty()) own.folder = own_folder_of_cluster(around.data_folder, own.name);
             prepare_shared_folder(own, around.data_folder);
             return std::make_unique<SlurmExecutor>(
                 own, around.step_cost, std::make_unique<jobs::LocalProcess>(around.worker_program, around.stall_limit));

@@ -8,7 +8,7 @@
 namespace cellcrush::slurm {
 
 /// Reads the value of the flag --slurm: "NAME:key=value,key=value", such as
-/// "big:folder=/shared/cellcrush,sbatch=--partition=short". Keys: folder or daemon (with ca), program, commands, simd,
+/// "big:folder=/shared/cellcrush,sbatch=--partition=short". Keys: folder, program, commands, simd,
 /// sbatch (may be repeated), jobs, tasks, task-length and longest (seconds). Throws std::invalid_argument with a
 /// sentence that names the key, the value and the remedy.
 ClusterOptions parse_cluster(const std::string& text);

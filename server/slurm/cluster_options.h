@@ -9,11 +9,8 @@ namespace cellcrush::slurm {
 
 /// How the daemon uses one Slurm cluster. Names of options are those of the flag --slurm (cluster_flag.h).
 struct ClusterOptions {
-  std::string name;       ///< the executor is called "slurm/NAME"
-  std::string daemon;     ///< HOST:PORT of the daemon for the nodes; empty: they share `folder` with it
-  std::string authority;  ///< PEM file on the nodes for `daemon`'s certificate; empty: the system's authorities
-  std::filesystem::path
-      folder;  ///< absolute; on a file system that the daemon and all nodes share, unless `daemon` is set
+  std::string name;                      ///< the executor is called "slurm/NAME"
+  std::filesystem::path folder;          ///< absolute; on a file system that the daemon and all nodes share
   std::filesystem::path program;         ///< cellcrushd on the nodes, absolute; empty: the daemon's own path
   std::filesystem::path commands;        ///< folder of sbatch, squeue, sacct and scancel; empty: found by PATH
   std::string simd;                      ///< CELLCRUSH_SIMD of the tasks; empty: the fastest kernel of each node

@@ -54,17 +54,13 @@ void remove_unused(const fs::path& folder, const IsUsed& is_used) {
 
 }  // namespace
 
-fs::path own_folder_of_cluster(const fs::path& data_folder, const std::string& cluster) {
-  return data_folder / "slurm" / cluster;
-}
-
 void require_marker(const fs::path& folder) {
   if (read_small_file(folder / kMarker)) return;
   store::throw_file_error(folder, "used", ENODEV);
 }
 
 void prepare_shared_folder(const ClusterOptions& options, const fs::path& data_folder) {
-  const fs::path own = own_folder_of_cluster(data_folder, options.name) / "identity";
+  const fs::path own = data_folder / "slurm" / options.name / "identity";
   const auto marker = options.folder / kMarker;
   const auto expected = read_small_file(own);
   const auto found = read_small_file(marker);

@@ -13,10 +13,6 @@ namespace cellcrush::slurm {
 /// mounted.
 void prepare_shared_folder(const ClusterOptions& options, const std::filesystem::path& data_folder);
 
-/// Folder of a cluster in the daemon's data folder. It has the attempts of a cluster whose tasks reach the daemon over
-/// the network.
-std::filesystem::path own_folder_of_cluster(const std::filesystem::path& data_folder, const std::string& cluster);
-
 /// Throws ServiceError, with a shortage, unless the marker is there.
 void require_marker(const std::filesystem::path& folder);
 

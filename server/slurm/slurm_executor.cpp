@@ -114,7 +114,6 @@ std::shared_ptr<Submission> SlurmExecutor::open_attempt(const store::JobFolder& 
     if (error) store::throw_file_error(partial.root(), "used", error.value());
     write_small_file(partial.files().order(), order.SerializeAsString());
     copy_run(folder, partial.files());
-    if (!options_.daemon.empty()) partial.set_token(random_token());
     partial.request(Request::NONE);
     std::filesystem::rename(partial.root(), shared.root(), error);
     if (error) store::throw_file_error(shared.root(), "written", error.value());

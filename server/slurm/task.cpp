@@ -11,8 +11,8 @@
 #include <cstring>
 #include <exception>
 #include <memory>
-#include <sstream>
 #include <stop_token>
+#include <string>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -21,8 +21,6 @@
 #include "slurm/attempt_folder.h"
 #include "slurm/attempt_run.h"
 #include "slurm/file_link.h"
-#include "slurm/link.h"
-#include "slurm/network_link.h"
 #include "slurm/scratch_folder.h"
 #include "slurm/small_file.h"
 
@@ -84,38 +82,16 @@ void leave_unbegun(Link& link, Ended::Reason reason) {
   link.end(ended);
 }
 
-// An attempt of the task, and how it reaches the daemon.
-struct Assigned {
-  std::string id;
-  std::unique_ptr<Link> link;
-};
-
-std::vector<Assigned> attempts_by_network(const TaskOptions& options) {
-  std::vector<Assigned> out;
-  const auto channel = open_channel(options.network);
-  std::istringstream words(variable("CELLCRUSH_ATTEMPTS"));
-  for (std::string word; words >> word;) {
-    const auto colon = word.find(':');
-    const std::string id = word.substr(0, colon);
-    const std::string token = colon == std::string::npos ? "" : word.substr(colon + 1);
-    out.push_back({id, std::make_unique<NetworkLink>(channel, options.cluster, id, token)});
-  }
-  // The worker does not inherit what it does not need.
-  unsetenv("CELLCRUSH_ATTEMPTS");
-  return out;
-}
-
-std::vector<Assigned> attempts_by_files(const TaskOptions& options) {
-  std::vector<Assigned> out;
+// Names of the attempts of this task.
+std::vector<std::string> own_attempts(const TaskOptions& options) {
   const auto batch = read_message<Batch>(options.folder / "batches" / options.batch / "tasks");
   const int task = own_task();
   if (!batch || task < 0 || task >= batch->tasks_size()) {
     spdlog::info("batch {} has no task {} any more", options.batch, task);
-    return out;
+    return {};
   }
-  for (const auto& id : batch->tasks(task).attempts())
-    out.push_back({id, std::make_unique<FileLink>(AttemptFolder(options.folder / "attempts" / id))});
-  return out;
+  const auto& attempts = batch->tasks(task).attempts();
+  return {attempts.begin(), attempts.end()};
 }
 
 // Tries for a while: the daemon may be restarting, or the shared folder be full.
@@ -165,9 +141,10 @@ int run_task(const TaskOptions& options) {
   const std::jthread waits([&](const std::stop_token& stop) { wait_for_ends(signals, end, stop); });
   int out = 0;
   try {
-    for (const auto& [id, link] : options.folder.empty() ? attempts_by_network(options) : attempts_by_files(options)) {
+    for (const auto& id : own_attempts(options)) {
       try {
-        compute(id, *link, options, end);
+        FileLink link(AttemptFolder(options.folder / "attempts" / id));
+        compute(id, link, options, end);
       } catch (const std::exception& error) {
         // The next attempt may have more luck.
         spdlog::error("attempt {}: {}", id, error.what());

@@ -6,7 +6,7 @@
 
 namespace cellcrush::load {
 
-/// What each round has measured, by the name of the figure (daemon_costs.h).
+/// What each round has measured, by the name of the figure (deploy/scale/figures.csv).
 using Rounds = std::map<std::string, std::vector<double>>;
 
 /// Adds a round of the journal's costs: commits of one change each, of a thousand changes, and of many samples.

@@ -1,4 +1,4 @@
-// Runs small jobs on a daemon of this machine and prints what they took, as scale_model predicts it.
+// Runs small jobs on a daemon of this machine and prints what they took.
 // usage: run_load [JOBS [WORKERS]]
 #include <fmt/core.h>
 

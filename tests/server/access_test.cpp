@@ -1,12 +1,10 @@
 #include <gmock/gmock.h>
 #include <google/protobuf/descriptor.h>
-#include <google/protobuf/descriptor_database.h>
 #include <sys/stat.h>
 
-#include "access/method_scopes.h"
+#include "access/gate.h"
 #include "access/tls_files.h"
 #include "access/token_file.h"
-#include "cellcrush/v1/admin_service.pb.h"
 #include "error.h"
 #include "server/certificates.h"
 #include "server/temporary_folder.h"
@@ -27,40 +25,6 @@ std::string access_refusal_of(const Action& action) {
     return refused.what();
   }
   return "";
-}
-
-/// Calls visit for every service of this project that is linked here.
-template <class Visit>
-void visit_services(const Visit& visit) {
-  const auto* pool = google::protobuf::DescriptorPool::generated_pool();
-  std::vector<std::string> files;
-  google::protobuf::DescriptorPool::internal_generated_database()->FindAllFileNames(&files);
-  for (const auto& name : files) {
-    if (!name.starts_with("cellcrush/v1/")) continue;
-    const auto* file = pool->FindFileByName(name);
-    for (int i = 0; i < file->service_count(); ++i) visit(*file->service(i));
-  }
-}
-
-TEST(MethodScopes, EveryMethodOfEveryServiceIsInTheTable) {
-  int methods = 0;
-  visit_services([&methods](const google::protobuf::ServiceDescriptor& service) {
-    for (int i = 0; i < service.method_count(); ++i, ++methods) {
-      const std::string path = "/" + service.full_name() + "/" + service.method(i)->name();
-      EXPECT_TRUE(has_scope_entry(path)) << path << " is not in server/access/method_scopes.cpp";
-    }
-  });
-  EXPECT_GT(methods, 20);
-}
-
-TEST(MethodScopes, WhatIsNotInTheTableNeedsAdminAndHealthIsOpen) {
-  for (const char* path : {"", "/", "/cellcrush.v1.Jobs/", "/cellcrush.v1.Jobs/Unknown", "/cellcrush.v1.jobs/GetJob",
-                           "cellcrush.v1.Jobs/GetJob", "/grpc.health.v1.Health/Other"})
-    EXPECT_EQ(needed_scope(path), Scope::admin) << path;
-  EXPECT_EQ(needed_scope("/grpc.health.v1.Health/Check"), std::nullopt);
-  EXPECT_EQ(needed_scope("/cellcrush.v1.Jobs/GetJob"), Scope::read);
-  EXPECT_EQ(needed_scope("/cellcrush.v1.Sweeps/RetryFailedJobs"), Scope::submit);
-  EXPECT_EQ(needed_scope("/cellcrush.v1.Admin/Drain"), Scope::admin);
 }
 
 class TokenFileTest : public ::testing::Test {
@@ -93,6 +57,26 @@ TEST_F(TokenFileTest, ATokenThatWasMadeIsFoundWithItsNameAndScope) {
   const std::string hash = anna.line.substr(anna.line.rfind(' ') + 1);
   for (const auto& wrong : {std::string(), hash, anna.token + "0", anna.token.substr(1), std::string(100'000, 'a')})
     EXPECT_FALSE(tokens.find(wrong)) << wrong.substr(0, 80);
+}
+
+TEST_F(TokenFileTest, AMethodThatIsNotGuardedNeedsAdminAndAnOpenOneNothing) {
+  const auto anna = make_token("anna", Scope::submit);
+  write_secret(path(), anna.line);
+  Options options;
+  options.tokens = path();
+  Gate gate(options);
+  gate.guard("/s.S/Read", Scope::submit);
+  gate.guard("/s.S/Open", std::nullopt);
+  Caller caller;
+  const auto call = [&](const char* method) {
+    return gate.check_http_call(method, {"Bearer " + anna.token}, nullptr, caller).error_code();
+  };
+  EXPECT_EQ(call("/s.S/Read"), grpc::StatusCode::OK);
+  EXPECT_EQ(caller.name, "anna");
+  for (const char* unknown : {"", "/", "/s.S/", "/s.S/Unknown", "/s.s/Read", "s.S/Read"})
+    EXPECT_EQ(call(unknown), grpc::StatusCode::PERMISSION_DENIED) << unknown;
+  EXPECT_EQ(gate.check_http_call("/s.S/Read", {}, nullptr, caller).error_code(), grpc::StatusCode::UNAUTHENTICATED);
+  EXPECT_TRUE(gate.check_http_call("/s.S/Open", {}, nullptr, caller).ok());
 }
 
 TEST_F(TokenFileTest, AWrongLineIsNamedByItsNumberAndNotRepeated) {

@@ -9,7 +9,6 @@
 
 #include "cellcrush/v1/jobs_service.pb.h"
 #include "error.h"
-#include "rpc/stream_table.h"
 
 namespace cellcrush::rpc {
 namespace {
@@ -19,7 +18,6 @@ using Batch = MessageStream::Batch;
 
 constexpr int kBookmark = 77;
 constexpr std::size_t kMessage = 1000;  // bytes of data
-constexpr const char* kPath = "/cellcrush.v1.Jobs/DownloadResult";
 
 /// What the tests do to a source, and what they see of it.
 struct Tap {
@@ -67,21 +65,14 @@ class TapSource {
 
 class SourceStreamTest : public ::testing::Test {
  protected:
-  SourceStreamTest() {
-    table_.add<TapSource, v1::DownloadResultRequest>(kPath, {pump_, metrics_, limits_, {kUntilBookmark, kPatience, {}}},
-                                                     [this](const v1::DownloadResultRequest& request) {
-                                                       if (request.offset() < 0) {
-                                                         throw ServiceError(ServiceError::Kind::out_of_range,
-                                                                            "There is no such byte.");
-                                                       }
-                                                       return std::make_unique<TapSource>(tap_);
-                                                     });
-  }
-
-  std::shared_ptr<MessageStream> open(std::string message = "") {
-    return table_.open({kPath, std::move(message), "anna", [](const google::protobuf::Message& each, std::string& to) {
-                          to += each.SerializeAsString();
-                        }});
+  std::shared_ptr<MessageStream> open(std::int64_t offset = 0) {
+    const auto make = [this, offset] {
+      if (offset < 0) throw ServiceError(ServiceError::Kind::out_of_range, "There is no such byte.");
+      return std::make_unique<TapSource>(tap_);
+    };
+    const auto encode = [](const google::protobuf::Message& each, std::string& to) { to += each.SerializeAsString(); };
+    return std::make_shared<SourceStream<TapSource>>(
+        StreamParts{pump_, metrics_, limits_, {kUntilBookmark, kPatience, {}}}, "anna", encode, make);
   }
 
   static std::future<Batch> ask(MessageStream& stream) {
@@ -106,7 +97,6 @@ class SourceStreamTest : public ::testing::Test {
   metrics::Metrics metrics_;
   StreamLimits limits_{{10, 2, 100'000'000}};
   watch::Pump pump_{2};
-  StreamTable table_{pump_};
 };
 
 TEST_F(SourceStreamTest, NoMoreIsMadeThanIsAskedFor) {
@@ -185,10 +175,7 @@ TEST_F(SourceStreamTest, CancellingWaitsForNoBatchThatIsBeingMade) {
 }
 
 TEST_F(SourceStreamTest, RefusalsEndTheStream) {
-  EXPECT_EQ(next(*open("\xff")).end->error_code(), grpc::StatusCode::INVALID_ARGUMENT);
-  v1::DownloadResultRequest before;
-  before.set_offset(-1);
-  EXPECT_EQ(next(*open(before.SerializeAsString())).end->error_code(), grpc::StatusCode::OUT_OF_RANGE);
+  EXPECT_EQ(next(*open(-1)).end->error_code(), grpc::StatusCode::OUT_OF_RANGE);
   tap_.left = 1000;
   const auto first = open();
   const auto second = open();
@@ -197,7 +184,6 @@ TEST_F(SourceStreamTest, RefusalsEndTheStream) {
   EXPECT_THAT(next(*open()).end->error_message(), HasSubstr("anna has 2 streams open"));
   first->cancel();
   second->cancel();
-  EXPECT_FALSE(table_.open({"/cellcrush.v1.Jobs/GetJob", "", "anna", {}}));
 }
 
 TEST_F(SourceStreamTest, AnIdleStreamGetsOneBookmark) {

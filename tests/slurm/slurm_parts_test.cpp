@@ -53,24 +53,19 @@ TEST(ClusterFlag, ReadsEverySetting) {
   EXPECT_EQ(options.tasks, 5);
   EXPECT_EQ(options.task_length, seconds(9));
   EXPECT_EQ(options.longest, seconds(3600));
-  const auto remote = parse_cluster("far:daemon=login:50551,ca=/etc/ca.pem");
-  EXPECT_EQ(remote.daemon, "login:50551");
-  EXPECT_EQ(remote.authority, "/etc/ca.pem");
 }
 
 TEST(ClusterFlag, NamesWhatIsWrongAndTheRemedy) {
   EXPECT_THAT(refusal_of("folder=/a"), HasSubstr("NAME:folder=PATH"));
   EXPECT_THAT(refusal_of("a b:folder=/a"), HasSubstr("'a b'"));
-  EXPECT_THAT(refusal_of("big"), HasSubstr("give either folder=PATH"));
-  EXPECT_THAT(refusal_of("big:folder=/a,daemon=h:1"), HasSubstr("give either folder=PATH"));
+  EXPECT_THAT(refusal_of("big"), HasSubstr("give folder=PATH"));
+  EXPECT_THAT(refusal_of("big:daemon=h:1"), HasSubstr("'daemon=h:1' is not a setting"));
   EXPECT_THAT(refusal_of("big:folder=a"), HasSubstr("folder is 'a'; it must be an absolute path"));
   EXPECT_THAT(refusal_of("big:folder=/a,tusks=3"), HasSubstr("'tusks=3' is not a setting"));
   EXPECT_THAT(refusal_of("big:folder=/a,jobs=many"), HasSubstr("whole number from 1 to 1024"));
   EXPECT_THAT(refusal_of("big:folder=/a,jobs=0"), HasSubstr("jobs is '0'"));
   EXPECT_THAT(refusal_of("big:folder=/a,sbatch=-p short"), HasSubstr("long option of sbatch"));
   EXPECT_THAT(refusal_of("big:folder=/a,sbatch=--clusters=b"), HasSubstr("the daemon itself decides"));
-  EXPECT_THAT(refusal_of("big:daemon=login"), HasSubstr("HOST:PORT"));
-  EXPECT_THAT(refusal_of("big:folder=/a,ca=/b"), HasSubstr("ca needs daemon"));
 }
 
 TEST(Packing, FillsTasksUpToTheirLengthInOrder) {

@@ -43,7 +43,12 @@ TEST_F(HttpGatewayTest, ErrorsHaveTheirStatusCodeAndDetails) {
   EXPECT_THAT(bad, StartsWith("HTTP/1.1 400"));
   EXPECT_THAT(bad, HasSubstr("\"type\":\"cellcrush.v1.ProblemList\""));
   EXPECT_THAT(call("GetJob", "application/json", R"({"nome":1})"), HasSubstr("nome"));
-  EXPECT_THAT(call("None", "application/json", "{}"), StartsWith("HTTP/1.1 404"));
+  for (const char* none : {"/", "/cellcrush.v1.Jobs", "/cellcrush.v1.Jobs/None",
+                           "/grpc.reflection.v1.ServerReflection/ServerReflectionInfo"})
+    EXPECT_THAT(exchange(request(std::string("POST ") + none, "")), StartsWith("HTTP/1.1 404")) << none;
+  const std::string broken = call("GetJob", "application/proto", "\xff");
+  EXPECT_THAT(broken, StartsWith("HTTP/1.1 400"));
+  EXPECT_THAT(broken, HasSubstr("is not a cellcrush.v1.GetJobRequest"));
   EXPECT_THAT(call("GetJob", "text/plain", "{}"), StartsWith("HTTP/1.1 415"));
   EXPECT_THAT(exchange(request("PUT /cellcrush.v1.Jobs/GetJob", "")), StartsWith("HTTP/1.1 405"));
   EXPECT_THAT(exchange(request("GET /cellcrush.v1.Jobs/GetJob", "")), StartsWith("HTTP/1.1 405"));

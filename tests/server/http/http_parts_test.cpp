@@ -5,7 +5,6 @@
 #include "http/browser_rules.h"
 #include "http/connect_error.h"
 #include "http/envelope.h"
-#include "http/method.h"
 #include "web/page_files.h"
 
 namespace cellcrush::http {
@@ -46,13 +45,6 @@ TEST(HttpBrowser, PagesOfOtherSitesAreRefused) {
   EXPECT_FALSE(check_browser({"crush.example:81", "https://crush.example:81", ""}, {81, true}));
   EXPECT_EQ(check_browser({"crush.example:81", "http://crush.example:81", ""}, {81, true})->status, 403U);
   EXPECT_EQ(check_browser({"crush.example:81", "https://evil.example", ""}, {81, true})->status, 403U);
-}
-
-TEST(HttpMethod, IsFoundByItsPath) {
-  EXPECT_NE(find_method("/cellcrush.v1.Jobs/GetJob"), nullptr);
-  for (const char* wrong : {"", "/", "cellcrush.v1.Jobs/GetJob", "/cellcrush.v1.Jobs/None", "/cellcrush.v1.Jobs",
-                            "/grpc.reflection.v1.ServerReflection/ServerReflectionInfo"})
-    EXPECT_EQ(find_method(wrong), nullptr) << wrong;
 }
 
 TEST(HttpPage, PathsWithoutADotGiveTheIndex) {

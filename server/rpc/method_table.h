@@ -1,0 +1,175 @@
+#pragma once
+
+#include <grpcpp/grpcpp.h>
+#include <grpcpp/impl/codegen/server_callback_handlers.h>
+#include <grpcpp/impl/codegen/service_type.h>
+
+#include <atomic>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "access/gate.h"
+#include "rpc/call_pool.h"
+#include "rpc/source_stream.h"
+#include "rpc/stream_reactor.h"
+
+namespace cellcrush::rpc {
+
+/// A call that did not come over gRPC, once the gate has admitted it.
+struct Incoming {
+  access::Caller caller;
+  /// Reads the request; false if its bytes cannot be parsed. May throw ServiceError.
+  std::function<bool(google::protobuf::Message& request)> decode;
+  MessageStream::Encode encode;  ///< of the answers
+};
+
+/// All methods of the API: what each needs, and who answers it. gRPC and the Connect protocol both call through this
+/// table. Thread-safe once it is complete.
+class MethodTable {
+ public:
+  struct Method {
+    const google::protobuf::MethodDescriptor* descriptor = nullptr;
+    /// Begins to answer. Throws ServiceError, or InvalidField if the request cannot be parsed.
+    std::function<std::shared_ptr<MessageStream>(const Incoming& incoming)> open;
+  };
+
+  /// `http_pump` advances the streams that are not gRPC's. Both outlive the table.
+  MethodTable(access::Gate& gate, watch::Pump& http_pump) : gate_(gate), http_pump_(http_pump) {}
+
+  // In both, `path` is a literal: "/cellcrush.v1.Jobs/GetJob". `scope`: what callers need; nothing: open to everybody.
+  // The service outlives the table. Throws ServiceError (internal) if the .proto files have no such method.
+
+  /// `pool`: answers the calls; null: the thread that brings a call.
+  template <class Service, class Request, class Response>
+  void unary(const char* path, std::optional<access::Scope> scope, CallPool* pool, Service& service,
+             grpc::Status (Service::*handle)(const Call&, const Request&, Response&)) {
+    grpc_.add(path, grpc::internal::RpcMethod::NORMAL_RPC,
+              new grpc::internal::CallbackUnaryHandler<Request, Response>(
+                  [this, pool, &service, handle](grpc::CallbackServerContext* context, const Request* request,
+                                                 Response* response) {
+                    auto* reactor = context->DefaultReactor();
+                    const auto call = std::make_shared<GrpcCall>(gate_, *context);
+                    run(pool, {call, static_cast<std::int64_t>(request->ByteSizeLong()),
+                               [call, &service, handle, request, response] {
+                                 return (service.*handle)(*call, *request, *response);
+                               },
+                               [reactor](const grpc::Status& status) { reactor->Finish(status); }});
+                    return reactor;
+                  }));
+    const auto open = [path, pool, &service, handle](const Incoming& incoming) {
+      auto request = read<Request>(path, incoming);
+      const auto bytes = static_cast<std::int64_t>(request->ByteSizeLong());
+      return std::make_shared<UnaryCall>(
+          pool, incoming.caller, bytes,
+          [&service, handle, request, encode = incoming.encode](const Call& call, std::string& to) {
+            Response response;
+            auto status = (service.*handle)(call, *request, response);
+            if (status.ok()) encode(response, to);
+            return status;
+          });
+    };
+    add(path, scope, {describe(path, *Request::descriptor(), *Response::descriptor(), false), open});
+  }
+
+  /// `make`: opens the source of a stream; what it throws ends the stream. The pump of `parts` advances gRPC's streams.
+  /// They count for the caller, or for the peer's address if the method is open to everybody.
+  template <class Service, class Source, class Request>
+  void stream(const char* path, std::optional<access::Scope> scope, const StreamParts& parts, Service& service,
+              std::unique_ptr<Source> (Service::*make)(const Request&)) {
+    using Message = typename Source::Message;
+    grpc_.add(path, grpc::internal::RpcMethod::SERVER_STREAMING,
+              new grpc::internal::CallbackServerStreamingHandler<Request, Message>(
+                  [this, parts, &service, make, is_open = !scope](grpc::CallbackServerContext* context,
+                                                                  const Request* request) {
+                    return open_stream<Source>(
+                        parts, *context,
+                        [&] { return is_open ? address_of(context->peer()) : gate_.caller_of(*context).name; },
+                        [&] { return (service.*make)(*request); });
+                  }));
+    const StreamParts http_parts{http_pump_, parts.metrics, parts.limits, parts.times};
+    const auto open = [path, http_parts, &service, make](const Incoming& incoming) {
+      auto request = read<Request>(path, incoming);
+      return std::make_shared<SourceStream<Source>>(http_parts, incoming.caller.name, incoming.encode,
+                                                    [&service, make, request] { return (service.*make)(*request); });
+    };
+    add(path, scope, {describe(path, *Request::descriptor(), *Message::descriptor(), true), open});
+  }
+
+  /// Null if there is none.
+  [[nodiscard]] const Method* find(std::string_view path) const;
+
+  /// Lets gRPC call the methods. The table outlives the server that is built.
+  void register_with(grpc::ServerBuilder& builder) { builder.RegisterService(&grpc_); }
+
+ private:
+  class GrpcService final : public grpc::Service {
+   public:
+    void add(const char* path, grpc::internal::RpcMethod::RpcType type, grpc::internal::MethodHandler* handler) {
+      AddMethod(new grpc::internal::RpcServiceMethod(path, type, nullptr));
+      MarkMethodCallback(count_++, handler);
+    }
+
+   private:
+    int count_ = 0;
+  };
+
+  class GrpcCall final : public Call {
+   public:
+    GrpcCall(const access::Gate& gate, const grpc::CallbackServerContext& context) : gate_(gate), context_(context) {}
+    [[nodiscard]] access::Caller caller() const override { return gate_.caller_of(context_); }
+    [[nodiscard]] bool is_cancelled() const override { return context_.IsCancelled(); }
+
+   private:
+    const access::Gate& gate_;
+    const grpc::CallbackServerContext& context_;  ///< until the call is finished
+  };
+
+  /// A unary call that is not gRPC's: its own answer.
+  class UnaryCall final : public Call, public MessageStream, public std::enable_shared_from_this<UnaryCall> {
+   public:
+    using Body = std::function<grpc::Status(const Call& call, std::string& to)>;
+
+    UnaryCall(CallPool* pool, access::Caller caller, std::int64_t bytes, Body body)
+        : pool_(pool), caller_(std::move(caller)), bytes_(bytes), body_(std::move(body)) {}
+
+    [[nodiscard]] access::Caller caller() const override { return caller_; }
+    [[nodiscard]] bool is_cancelled() const override { return is_cancelled_; }
+    void ask(Deliver deliver) override;
+    void cancel() override { is_cancelled_ = true; }
+
+   private:
+    CallPool* pool_;
+    access::Caller caller_;
+    std::int64_t bytes_;
+    Body body_;
+    std::atomic<bool> is_cancelled_ = false;
+  };
+
+  template <class Request>
+  static std::shared_ptr<Request> read(const char* path, const Incoming& incoming) {
+    auto out = std::make_shared<Request>();
+    read_into(*out, path, incoming);
+    return out;
+  }
+
+  static void read_into(google::protobuf::Message& request, const char* path, const Incoming& incoming);
+  static void run(CallPool* pool, CallPool::Task task);
+  static std::string address_of(const std::string& peer);
+  static const google::protobuf::MethodDescriptor* describe(std::string_view path,
+                                                            const google::protobuf::Descriptor& request,
+                                                            const google::protobuf::Descriptor& response,
+                                                            bool is_stream);
+  void add(const char* path, std::optional<access::Scope> scope, Method method);
+
+  access::Gate& gate_;
+  watch::Pump& http_pump_;
+  GrpcService grpc_;
+  std::map<std::string, Method, std::less<>> methods_;
+};
+
+}  // namespace cellcrush::rpc
