@@ -9,7 +9,8 @@
 
 namespace cellcrush::client {
 
-/// Samples as CSV, one line each, with the columns of /history in result.h5. Numbers read back to the same bits; missing values (a front) are empty.
+/// Samples as CSV, one line each, with the columns of /history in result.h5. Numbers read back to the same bits;
+/// missing values (a front) are empty.
 std::string history_csv(const google::protobuf::RepeatedPtrField<v1::Sample>& samples);
 
 /// How files of watched nodes begin, those of earlier versions too.
