@@ -1,11 +1,9 @@
 #include "commands/history_csv.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <array>
 #include <iterator>
-#include <optional>
+#include <vector>
 
 #include "terminal/table.h"
 
@@ -13,66 +11,54 @@ namespace cellcrush::client {
 
 namespace {
 
+using google::protobuf::FieldDescriptor;
+
 struct Column {
-  const char* name;
-  std::optional<double> (*value)(const v1::Sample& sample);
+  std::string name;
+  const FieldDescriptor* field;
+  bool is_of_front;
 };
 
-template <double (v1::Sample::*kGet)() const>
-constexpr Column sample_column(const char* name) {
-  return {name, [](const v1::Sample& sample) { return std::optional((sample.*kGet)()); }};
+void add_columns(const google::protobuf::Descriptor& message, FieldDescriptor::CppType type, const std::string& prefix,
+                 std::vector<Column>& out) {
+  for (int i = 0; i < message.field_count(); ++i) {
+    const FieldDescriptor* field = message.field(i);
+    if (!field->is_repeated() && field->cpp_type() == type)
+      out.push_back({prefix + std::string(field->name()), field, !prefix.empty()});
+  }
 }
 
-template <double (v1::Front::*kGet)() const>
-constexpr Column front_column(const char* name) {
-  return {name, [](const v1::Sample& sample) {
-            return sample.has_front() ? std::optional((sample.front().*kGet)()) : std::nullopt;
-          }};
+// Every number of a sample and its front; the counts last.
+std::vector<Column> make_columns() {
+  std::vector<Column> out;
+  add_columns(*v1::Sample::descriptor(), FieldDescriptor::CPPTYPE_DOUBLE, "", out);
+  add_columns(*v1::Front::descriptor(), FieldDescriptor::CPPTYPE_DOUBLE, "front_", out);
+  add_columns(*v1::Sample::descriptor(), FieldDescriptor::CPPTYPE_INT64, "", out);
+  return out;
 }
 
-constexpr std::array kColumns = {
-    sample_column<&v1::Sample::time_s>("time_s"),
-    sample_column<&v1::Sample::travel_mm>("travel_mm"),
-    sample_column<&v1::Sample::strain>("strain"),
-    sample_column<&v1::Sample::stress_impact_mpa>("stress_impact_mpa"),
-    sample_column<&v1::Sample::stress_support_mpa>("stress_support_mpa"),
-    sample_column<&v1::Sample::energy_kinetic_mj>("energy_kinetic_mj"),
-    sample_column<&v1::Sample::energy_elastic_mj>("energy_elastic_mj"),
-    sample_column<&v1::Sample::energy_plastic_mj>("energy_plastic_mj"),
-    sample_column<&v1::Sample::energy_contact_mj>("energy_contact_mj"),
-    sample_column<&v1::Sample::energy_friction_mj>("energy_friction_mj"),
-    sample_column<&v1::Sample::energy_damping_mj>("energy_damping_mj"),
-    sample_column<&v1::Sample::work_external_mj>("work_external_mj"),
-    sample_column<&v1::Sample::energy_residual_mj>("energy_residual_mj"),
-    sample_column<&v1::Sample::energy_contact_stored_mj>("energy_contact_stored_mj"),
-    sample_column<&v1::Sample::energy_contact_damping_mj>("energy_contact_damping_mj"),
-    sample_column<&v1::Sample::deepest_penetration>("deepest_penetration"),
-    sample_column<&v1::Sample::solid_fraction>("solid_fraction"),
-    sample_column<&v1::Sample::collapsed_fraction>("collapsed_fraction"),
-    front_column<&v1::Front::position_mm>("front_position_mm"),
-    front_column<&v1::Front::strain_behind>("front_strain_behind"),
-    front_column<&v1::Front::strain_ahead>("front_strain_ahead"),
-    front_column<&v1::Front::velocity_behind_m_per_s>("front_velocity_behind_m_per_s"),
-    front_column<&v1::Front::velocity_ahead_m_per_s>("front_velocity_ahead_m_per_s"),
-    front_column<&v1::Front::solid_fraction_behind>("front_solid_fraction_behind"),
-    front_column<&v1::Front::wall_fraction_behind>("front_wall_fraction_behind"),
-};
+void append_value(const v1::Sample& sample, const Column& column, std::string& text) {
+  const google::protobuf::Message* message = &sample;
+  if (column.is_of_front) message = &sample.front();
+  const auto& reflection = *message->GetReflection();
+  if (column.field->cpp_type() == FieldDescriptor::CPPTYPE_INT64)
+    fmt::format_to(std::back_inserter(text), "{}", reflection.GetInt64(*message, column.field));
+  else if (!column.is_of_front || sample.has_front())
+    fmt::format_to(std::back_inserter(text), "{}", reflection.GetDouble(*message, column.field));
+}
 
 }  // namespace
 
-std::string history_header() {
-  std::string header;
-  for (const Column& column : kColumns) header += std::string(header.empty() ? "" : ",") + column.name;
-  return header;
-}
-
 std::string history_csv(const google::protobuf::RepeatedPtrField<v1::Sample>& samples) {
-  std::string text = history_header() + '\n';
+  const auto columns = make_columns();
+  std::string text;
+  for (const Column& column : columns) text += (text.empty() ? "" : ",") + column.name;
+  text += '\n';
   for (const v1::Sample& sample : samples) {
     const char* separator = "";
-    for (const Column& column : kColumns) {
+    for (const Column& column : columns) {
       text += separator;
-      if (const auto value = column.value(sample)) fmt::format_to(std::back_inserter(text), "{}", *value);
+      append_value(sample, column, text);
       separator = ",";
     }
     text += '\n';

@@ -9,10 +9,8 @@
 
 namespace cellcrush::client {
 
-/// The header line of a history file: its columns, those of /history in result.h5 first.
-std::string history_header();
-
-/// Samples as CSV, one line each. Numbers read back to the same bits; missing values (a front) are empty.
+/// Samples as CSV, one line each, with the columns of /history in result.h5. Numbers read back to the same bits;
+/// missing values (a front) are empty.
 std::string history_csv(const google::protobuf::RepeatedPtrField<v1::Sample>& samples);
 
 /// How files of watched nodes begin, those of earlier versions too.

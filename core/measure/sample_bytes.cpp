@@ -6,15 +6,6 @@
 namespace cellcrush {
 namespace {
 
-/// Calls visit(fields) with all fields but front and warnings; S is Sample or const Sample.
-template <class S, class Visitor>
-void visit_plain_fields(S& s, const Visitor& visit) {
-  visit(s.step, s.time, s.travel, s.strain, s.stress_impact, s.stress_support, s.energy_kinetic, s.energy_elastic,
-        s.energy_plastic, s.energy_contact, s.energy_friction, s.energy_damping, s.work_external, s.energy_residual,
-        s.energy_contact_stored, s.energy_contact_damping, s.deepest_penetration, s.contact_count, s.solid_fraction,
-        s.collapsed_fraction, s.crush_mode, s.densest_layer, s.watched, s.rigid_walls);
-}
-
 template <class W, class Visitor>
 void visit_warning(W& warning, const Visitor& visit) {
   visit(warning.kind, warning.step, warning.strain, warning.message, warning.remedy);
@@ -22,7 +13,8 @@ void visit_warning(W& warning, const Visitor& visit) {
 
 void put(ByteWriter& writer, const Sample& sample) {
   const auto put_all = [&writer](const auto&... fields) { (writer.put(fields), ...); };
-  visit_plain_fields(sample, put_all);
+  visit_columns(sample, [&writer](const char* /*name*/, const auto& number, double /*scale*/) { writer.put(number); });
+  put_all(sample.crush_mode, sample.densest_layer, sample.watched, sample.rigid_walls);
   writer.put(sample.front.has_value());
   if (sample.front) writer.put(*sample.front);
   writer.put(std::uint64_t{sample.warnings.size()});
@@ -32,7 +24,8 @@ void put(ByteWriter& writer, const Sample& sample) {
 Sample take(ByteReader& reader) {
   Sample sample;
   const auto take_all = [&reader](auto&... fields) { (reader.take(fields), ...); };
-  visit_plain_fields(sample, take_all);
+  visit_columns(sample, [&reader](const char* /*name*/, auto& number, double /*scale*/) { reader.take(number); });
+  take_all(sample.crush_mode, sample.densest_layer, sample.watched, sample.rigid_walls);
   bool has_front = false;
   reader.take(has_front);
   if (has_front) reader.take(sample.front.emplace());

@@ -98,7 +98,6 @@ class JournalCheck {
   }
 
   void check_sweeps() {
-    if (journal_version(database_) < kVersionWithSweeps) return;
     Statement sweeps(database_, "SELECT number, sweep FROM sweeps");
     while (sweeps.step()) {
       ++found_.sweeps;

@@ -28,8 +28,8 @@ ResultReader::ResultReader(const std::filesystem::path& path) {
   file_ = Hdf5Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "Opening " + path.string());
 }
 
-std::vector<double> ResultReader::column(const char* group, const char* name) const {
-  const Hdf5Handle data = open_result_dataset(file_.id(), group, name, H5T_IEEE_F64LE, 1);
+std::vector<double> ResultReader::column(const char* group, const char* name, hid_t type) const {
+  const Hdf5Handle data = open_result_dataset(file_.id(), group, name, type, 1);
   std::vector<double> out(shape_of(data.id())[0]);
   if (!out.empty()) read_rows(data.id(), H5T_NATIVE_DOUBLE, 0, out.size(), out.data());
   return out;
@@ -39,8 +39,10 @@ std::string ResultReader::text_attribute(const char* name) const { return read_t
 
 std::vector<v1::Sample> ResultReader::history() const {
   std::vector<v1::Sample> out;
-  for (const auto& layout : kHistoryColumns) {
-    const auto values = column("history", layout.name);
+  for (const auto& layout : history_columns()) {
+    const std::string path = "history/" + layout.name;
+    if (layout.is_count && H5Lexists(file_.id(), path.c_str(), H5P_DEFAULT) == 0) continue;
+    const auto values = column("history", layout.name.c_str(), layout.type());
     if (out.empty()) out.resize(values.size());
     if (out.size() != values.size()) throw damaged_result("the columns of its history differ in length");
     for (std::size_t i = 0; i < values.size(); ++i) layout.set(out[i], values[i]);
@@ -48,9 +50,9 @@ std::vector<v1::Sample> ResultReader::history() const {
   return out;
 }
 
-std::vector<double> ResultReader::frame_times() const { return column("frames", "time_s"); }
+std::vector<double> ResultReader::frame_times() const { return column("frames", "time_s", H5T_IEEE_F64LE); }
 
-std::vector<double> ResultReader::frame_strains() const { return column("frames", "strain"); }
+std::vector<double> ResultReader::frame_strains() const { return column("frames", "strain", H5T_IEEE_F64LE); }
 
 v1::FieldFrame ResultReader::frame(int index) const {
   const auto times = frame_times();

@@ -18,7 +18,7 @@ class ResultReader {
 
   /// An attribute of the file.
   [[nodiscard]] std::string text_attribute(const char* name) const;
-  /// All samples; step and contact_count are not stored and stay 0.
+  /// All samples. Columns that a result of an earlier version lacks stay 0.
   [[nodiscard]] std::vector<v1::Sample> history() const;
   [[nodiscard]] std::vector<double> frame_times() const;
   [[nodiscard]] std::vector<double> frame_strains() const;
@@ -26,7 +26,7 @@ class ResultReader {
   [[nodiscard]] v1::FieldFrame frame(int index) const;
 
  private:
-  [[nodiscard]] std::vector<double> column(const char* group, const char* name) const;
+  [[nodiscard]] std::vector<double> column(const char* group, const char* name, hid_t type) const;
 
   Hdf5Handle file_;
 };

@@ -44,8 +44,8 @@ ResultWriter::ResultWriter(const std::filesystem::path& path, const v1::Mesh& me
   file_ = Hdf5Handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, properties.id(), H5P_DEFAULT), H5Fclose, what);
   write_mesh(mesh);
   const Hdf5Handle history = make_group(file_.id(), "history");
-  for (std::size_t i = 0; i < kHistoryColumns.size(); ++i)
-    history_[i] = make_growing_dataset(history.id(), kHistoryColumns[i].name, H5T_IEEE_F64LE, {}, {kHistoryChunkRows});
+  for (const auto& column : history_columns())
+    history_.push_back(make_growing_dataset(history.id(), column.name.c_str(), column.type(), {}, {kHistoryChunkRows}));
   const Hdf5Handle frames = make_group(file_.id(), "frames");
   frame_time_ = make_growing_dataset(frames.id(), "time_s", H5T_IEEE_F64LE, {}, {kHistoryChunkRows});
   frame_strain_ = make_growing_dataset(frames.id(), "strain", H5T_IEEE_F64LE, {}, {kHistoryChunkRows});
@@ -73,10 +73,11 @@ void ResultWriter::add_sample(const v1::Sample& sample) {
 
 void ResultWriter::write_gathered() {
   if (gathered_.empty()) return;
-  std::vector<double> column(gathered_.size());
-  for (std::size_t i = 0; i < kHistoryColumns.size(); ++i) {
-    std::transform(gathered_.begin(), gathered_.end(), column.begin(), kHistoryColumns[i].get);
-    append_rows(history_[i].id(), H5T_NATIVE_DOUBLE, column.size(), column.data());
+  std::vector<double> rows(gathered_.size());
+  for (std::size_t i = 0; i < history_.size(); ++i) {
+    const auto& column = history_columns()[i];
+    std::ranges::transform(gathered_, rows.begin(), [&](const auto& sample) { return column.get(sample); });
+    append_rows(history_[i].id(), H5T_NATIVE_DOUBLE, rows.size(), rows.data());
   }
   nodes_.append(file_.id(), gathered_);
   rigid_walls_.append(file_.id(), gathered_);
@@ -119,7 +120,7 @@ void ResultWriter::finish(const ResultHeader& header, const v1::Summary& summary
 std::int64_t predicted_result_bytes(std::int64_t particles, std::int64_t elements, std::int64_t samples,
                                     std::int64_t frames) {
   constexpr std::int64_t kStructure = 65536;
-  const std::int64_t history = static_cast<std::int64_t>(kHistoryColumns.size()) * 8 * samples;
+  const std::int64_t history = static_cast<std::int64_t>(history_columns().size()) * 8 * samples;
   const std::int64_t mesh = 2 * 4 * particles + 3 * 4 * elements;
   const std::int64_t per_frame = 2 * 8 + 2 * 4 * particles + 4 * elements;
   return kStructure + history + mesh + frames * per_frame;

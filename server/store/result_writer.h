@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -47,7 +46,7 @@ class ResultWriter {
   hsize_t element_count_;
   Hdf5Handle file_;
   Hdf5Handle mesh_;
-  std::array<Hdf5Handle, kHistoryColumns.size()> history_;
+  std::vector<Hdf5Handle> history_;  ///< in the order of history_columns
   PartHistories nodes_{kWatchedNodes};
   PartHistories rigid_walls_{kRigidWalls};
   Hdf5Handle frame_time_;

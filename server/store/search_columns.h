@@ -23,9 +23,4 @@ class LabelInserter {
   Statement insert_;
 };
 
-/// Fills the columns that version 4 of the journal adds beside the messages: owner, title, labels and size of each job,
-/// the owner of each sweep, and second 0 of the service clock for ended jobs. A row with an unreadable message keeps
-/// the defaults. Lives within a transaction. Throws ServiceError.
-void fill_in_search_columns(Database& database);
-
 }  // namespace cellcrush::store

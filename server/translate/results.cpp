@@ -1,30 +1,35 @@
 #include "translate/results.h"
 
+#include <google/protobuf/message.h>
+
+#include <string>
+#include <string_view>
+#include <type_traits>
+
 namespace cellcrush::translate {
 namespace {
 
-constexpr double kMPerMm = 1e-3;
+// Sets the field that a column of the history is named after, if the message has it.
+auto setter_of(google::protobuf::Message& message) {
+  return [&message](std::string_view name, auto number, double scale) {
+    const auto* field = message.GetDescriptor()->FindFieldByName(std::string(name));
+    if (field == nullptr) return;
+    if constexpr (std::is_integral_v<decltype(number)>)
+      message.GetReflection()->SetInt64(&message, field, number);
+    else
+      message.GetReflection()->SetDouble(&message, field, scale * number);
+  };
+}
 
 v1::Front to_proto(const Front& front) {
   v1::Front out;
-  out.set_position_mm(front.position);
-  out.set_strain_behind(front.strain_behind);
-  out.set_strain_ahead(front.strain_ahead);
-  out.set_velocity_behind_m_per_s(kMPerMm * front.velocity_behind);
-  out.set_velocity_ahead_m_per_s(kMPerMm * front.velocity_ahead);
-  out.set_solid_fraction_behind(front.solid_fraction_behind);
-  out.set_wall_fraction_behind(front.wall_fraction_behind);
+  visit_columns_of_front(front, setter_of(out));
   return out;
 }
 
 v1::FrontSummary to_proto(const FrontSummary& front) {
   v1::FrontSummary out;
-  out.set_strain_behind(front.strain_behind);
-  out.set_strain_ahead(front.strain_ahead);
-  out.set_velocity_behind_m_per_s(kMPerMm * front.velocity_behind);
-  out.set_velocity_ahead_m_per_s(kMPerMm * front.velocity_ahead);
-  out.set_solid_fraction_behind(front.solid_fraction_behind);
-  out.set_wall_fraction_behind(front.wall_fraction_behind);
+  visit_columns_of_front(front, setter_of(out));
   out.set_stress_ahead_mpa(front.stress_ahead);
   out.set_shock_mpa(front.shock);
   out.set_window_share(front.window_share);
@@ -85,17 +90,16 @@ v1::StageTimes to_proto(const std::array<double, kStageCount>& seconds) {
   return out;
 }
 
+// A term X_mj of the ledger is the sample's energy_X_mj or X_mj; only mass damping is a difference.
 v1::Ledger ledger_of(const Sample& sample) {
   v1::Ledger out;
-  out.set_work_external_mj(sample.work_external);
-  out.set_kinetic_mj(sample.energy_kinetic);
-  out.set_elastic_mj(sample.energy_elastic);
-  out.set_plastic_mj(sample.energy_plastic);
-  out.set_contact_mj(sample.energy_contact);
-  out.set_friction_mj(sample.energy_friction);
-  out.set_contact_damping_mj(sample.energy_contact_damping);
+  const auto set = setter_of(out);
+  visit_columns(sample, [&](std::string_view name, auto number, double scale) {
+    constexpr std::string_view kEnergy = "energy_";
+    if (name.starts_with(kEnergy)) name.remove_prefix(kEnergy.size());
+    set(name, number, scale);
+  });
   out.set_mass_damping_mj(sample.energy_damping - sample.energy_contact_damping);
-  out.set_residual_mj(sample.energy_residual);
   return out;
 }
 
@@ -103,26 +107,7 @@ v1::Ledger ledger_of(const Sample& sample) {
 
 v1::Sample to_proto(const Sample& sample, const v1::Frame& frame) {
   v1::Sample out;
-  out.set_step(sample.step);
-  out.set_time_s(sample.time);
-  out.set_travel_mm(sample.travel);
-  out.set_strain(sample.strain);
-  out.set_stress_impact_mpa(sample.stress_impact);
-  out.set_stress_support_mpa(sample.stress_support);
-  out.set_energy_kinetic_mj(sample.energy_kinetic);
-  out.set_energy_elastic_mj(sample.energy_elastic);
-  out.set_energy_plastic_mj(sample.energy_plastic);
-  out.set_energy_contact_mj(sample.energy_contact);
-  out.set_energy_friction_mj(sample.energy_friction);
-  out.set_energy_damping_mj(sample.energy_damping);
-  out.set_work_external_mj(sample.work_external);
-  out.set_energy_residual_mj(sample.energy_residual);
-  out.set_energy_contact_stored_mj(sample.energy_contact_stored);
-  out.set_energy_contact_damping_mj(sample.energy_contact_damping);
-  out.set_deepest_penetration(sample.deepest_penetration);
-  out.set_contact_count(sample.contact_count);
-  out.set_solid_fraction(sample.solid_fraction);
-  out.set_collapsed_fraction(sample.collapsed_fraction);
+  visit_columns(sample, setter_of(out));
   if (sample.front) *out.mutable_front() = to_proto(*sample.front);
   for (std::size_t i = 0; i < sample.watched.size(); ++i) {
     auto& watched = *out.add_watched();

@@ -25,7 +25,7 @@ class UpgradeTest : public FaultFixture {
   void SetUp() override {
     std::filesystem::create_directories(data_folder());
     const std::string command =
-        std::string("tar -C ") + data_folder().string() + " -xzf " + SERVER_TEST_DATA + "/journal-3.tar.gz";
+        std::string("tar -C ") + data_folder().string() + " -xzf " + SERVER_TEST_DATA + "/journal-6.tar.gz";
     ASSERT_EQ(std::system(command.c_str()), 0);
     std::filesystem::permissions(data_folder(), std::filesystem::perms::owner_all);
   }
@@ -37,7 +37,7 @@ TEST_F(UpgradeTest, AllJobsOfTheVersionBeforeAreServedOrRunToTheirEnd) {
     store::Database before(journal(), store::Database::Access::read_only);
     store::Statement version(before, "PRAGMA user_version");
     ASSERT_TRUE(version.step());
-    ASSERT_EQ(version.integer(0), 3);
+    ASSERT_EQ(version.integer(0), 6);
     store::Statement last(before, "SELECT last_sequence FROM jobs WHERE number = 3");
     ASSERT_TRUE(last.step());
     last_before = last.integer(0);

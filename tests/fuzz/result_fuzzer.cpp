@@ -127,7 +127,7 @@ void read_all(const std::filesystem::path& path, std::uint8_t choice) {
   try_to([&] { static_cast<void>(result.text_attribute("case")); });
   try_to([&] {
     for (const auto& sample : result.history()) {
-      for (const auto& column : store::kHistoryColumns) expect_own(column.get(sample));
+      for (const auto& column : store::history_columns()) expect_own(column.get(sample));
     }
   });
 }

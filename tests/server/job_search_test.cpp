@@ -116,26 +116,6 @@ TEST_F(JobSearchTest, ConditionsNarrowEachOther) {
   EXPECT_THAT(found(filter_of({}, "", "one", "")), ElementsAre(third)) << "Its labels went with it.";
 }
 
-TEST_F(JobSearchTest, AJournalOfTheThirdVersionIsSearchedAsANewOne) {
-  const auto first = make("anna", "Steel Hexagons", "one");
-  const auto second = make("bob", "Squares", "two");
-  change(second, v1::Job::CANCELLED);
-  SweepJob member;
-  *member.job.mutable_case_() = testing::small_case();
-  member.job.set_owner("anna");
-  const auto sweep = journal_->create_sweep({}, {member, member}, "id", "hash");
-  reader_.reset();
-  journal_.reset();
-  Database(path()).execute(kWithoutSearchColumns);
-  reopen();
-  EXPECT_THAT(found(filter_of({}, "anna", "one", "hexagons")), ElementsAre(first));
-  EXPECT_THAT(found(filter_of(v1::Job::CANCELLED, "bob", "two", "")), ElementsAre(second));
-  EXPECT_EQ(journal_->create_sweep({}, {member, member}, "id", "hash").sweep, sweep.sweep);
-  EXPECT_GT(reader_->bytes_of_owner("bob"), 0);
-  ASSERT_EQ(reader_->ended_jobs({}, 10).size(), 1U);
-  EXPECT_EQ(reader_->ended_jobs({}, 10)[0].job, second) << "It counts as ended when it was first seen.";
-}
-
 TEST_F(JobSearchTest, ARequestIdIsItsOwnersOwn) {
   v1::Job of_anna;
   of_anna.set_owner("anna");

@@ -256,35 +256,13 @@ TEST_F(JournalTest, ADeletedJobLeavesNothingButTheNoteOnItsFolder) {
   EXPECT_GT(create("id", "hash"), job) << "Numbers are not used again.";
 }
 
-TEST_F(JournalTest, AJournalOfALaterVersionIsRefused) {
-  reader_.reset();
-  journal_.reset();
-  {
-    Database database(path());
-    database.execute("PRAGMA user_version = 7");
+TEST_F(JournalTest, AJournalOfAnotherVersionIsRefused) {
+  for (const char* version : {"PRAGMA user_version = 7", "PRAGMA user_version = 5"}) {
+    reader_.reset();
+    journal_.reset();
+    Database(path()).execute(version);
+    EXPECT_THROW(Journal(path(), [](std::int64_t) {}), ServiceError) << version;
   }
-  EXPECT_THROW(Journal(path(), [](std::int64_t) {}), ServiceError);
-}
-
-TEST_F(JournalTest, AJournalOfTheFirstVersionIsBroughtUpToDate) {
-  const auto job = create();
-  reader_.reset();
-  journal_.reset();
-  {
-    // What the first version had: no sweeps, and no note of deletions.
-    Database database(path());
-    database.execute(kWithoutSearchColumns);
-    database.execute("DROP TABLE sweep_jobs; DROP TABLE sweeps; DROP TABLE deleted_jobs;");
-    database.execute(kWithoutQueueColumnsOfJobs);
-    database.execute("PRAGMA user_version = 1;");
-    EXPECT_TRUE(check_journal(database).problems.empty());
-  }
-  reopen();
-  EXPECT_TRUE(reader_->has_job(job));
-  SweepJob member;
-  member.values = {50.0};
-  const auto made = journal_->create_sweep({}, {member, member}, "", "");
-  EXPECT_EQ(SweepReader(path()).jobs_of(made.sweep), made.jobs);
 }
 
 TEST_F(JournalTest, AnExecutorIsKeptWithItsJob) {
@@ -308,33 +286,6 @@ TEST_F(JournalTest, AnExecutorIsKeptWithItsJob) {
   EXPECT_EQ(reader_->executors_in_use(), (std::vector<std::string>{kLocalExecutor, "slurm/test"}));
   change(elsewhere, v1::Job::CANCELLED);
   EXPECT_EQ(reader_->executors_in_use(), std::vector<std::string>{kLocalExecutor});
-}
-
-TEST_F(JournalTest, JobsOfTheFifthVersionAreLocal) {
-  const auto job = create();
-  reader_.reset();
-  journal_.reset();
-  {
-    Database database(path());
-    v1::Job without;
-    Statement read(database, "SELECT job FROM jobs");
-    ASSERT_TRUE(read.step() && without.ParseFromString(read.bytes(0)));
-    without.clear_executor();
-    const std::string bytes = without.SerializeAsString();
-    Statement(database, "UPDATE jobs SET job = ?1").bind_blob(1, bytes).run();
-    Statement(database, "UPDATE events SET payload = ?1").bind_blob(1, bytes).run();
-  }
-  {
-    Database database(path());
-    database.execute(kWithoutExecutor);
-    EXPECT_TRUE(check_journal(database).problems.empty());
-  }
-  reopen();
-  EXPECT_EQ(reader_->executor_of(job), kLocalExecutor);
-  EXPECT_EQ(reader_->find_job(job)->job.executor(), kLocalExecutor);
-  EXPECT_EQ(reader_->events(job, 0, 1).front().state().executor(), kLocalExecutor);
-  EXPECT_EQ(reader_->list_jobs({}, false, 0, 1).front().job.executor(), kLocalExecutor);
-  EXPECT_EQ(reader_->queued_jobs(v1::Job::PENDING).front().executor, kLocalExecutor);
 }
 
 }  // namespace

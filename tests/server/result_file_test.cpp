@@ -49,6 +49,7 @@ class ResultFileTest : public ::testing::Test {
     ResultWriter writer(path_, mesh);
     for (int i = 0; i < kSamples; ++i) {
       v1::Sample sample;
+      sample.set_step(7 * i);
       sample.set_time_s(i);
       sample.set_strain(0.001 * i);
       sample.set_energy_contact_damping_mj(2.0 * i);
@@ -113,6 +114,10 @@ TEST_F(ResultFileTest, HasTheAgreedDatasetsShapesAndTypes) {
     EXPECT_EQ(shape(file_.id(), path), (std::vector<hsize_t>{kSamples})) << path;
     EXPECT_TRUE(is_type(file_.id(), path, H5T_IEEE_F64LE)) << path;
   }
+  for (const char* count : {"/history/step", "/history/contact_count"}) {
+    EXPECT_EQ(shape(file_.id(), count), (std::vector<hsize_t>{kSamples})) << count;
+    EXPECT_TRUE(is_type(file_.id(), count, H5T_STD_I64LE)) << count;
+  }
   EXPECT_EQ(shape(file_.id(), "/mesh/position_mm"), (std::vector<hsize_t>{3, 2}));
   EXPECT_EQ(shape(file_.id(), "/mesh/beam_nodes"), (std::vector<hsize_t>{2, 2}));
   EXPECT_EQ(shape(file_.id(), "/mesh/thickness_mm"), (std::vector<hsize_t>{2}));
@@ -122,6 +127,14 @@ TEST_F(ResultFileTest, HasTheAgreedDatasetsShapesAndTypes) {
   EXPECT_EQ(shape(file_.id(), "/frames/plastic_fraction"), (std::vector<hsize_t>{4, 2}));
   EXPECT_TRUE(is_type(file_.id(), "/frames/position_mm", H5T_IEEE_F32LE));
   EXPECT_TRUE(is_type(file_.id(), "/frames/plastic_fraction", H5T_IEEE_F32LE));
+}
+
+TEST_F(ResultFileTest, EveryColumnOfTheHistoryIsOnThePageOfTheFormat) {
+  std::ifstream file(RESULT_FORMAT);
+  const std::string page{std::istreambuf_iterator<char>(file), {}};
+  ASSERT_FALSE(page.empty());
+  for (const HistoryColumn& column : history_columns())
+    EXPECT_NE(page.find("| `/history/" + column.name + "` | S | "), std::string::npos) << column.name;
 }
 
 TEST_F(ResultFileTest, TheHistoryIsExtendibleAndCompressed) {
@@ -164,6 +177,7 @@ TEST_F(ResultFileTest, IsReadBackAsItWasWritten) {
   for (int i = 0; i < kSamples; ++i) {
     EXPECT_EQ(history[static_cast<std::size_t>(i)].time_s(), i);
     EXPECT_EQ(history[static_cast<std::size_t>(i)].energy_contact_damping_mj(), 2.0 * i);
+    EXPECT_EQ(history[static_cast<std::size_t>(i)].step(), 7 * i);
     EXPECT_EQ(history[static_cast<std::size_t>(i)].has_front(), i >= 100) << i;
   }
   EXPECT_EQ(reader.frame_times(), (std::vector<double>{0.0, 10.0, 20.0, 30.0}));

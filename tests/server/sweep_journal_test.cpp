@@ -88,31 +88,6 @@ TEST_F(SweepJournalTest, WhatDecidesTheOrderOfWaitingJobsSurvivesReopening) {
   EXPECT_EQ(waiting[3].sweep, 0);
 }
 
-TEST_F(SweepJournalTest, AJournalOfTheSecondVersionKeepsItsJobsInTheirOrder) {
-  const auto made = journal_->create_sweep({}, three_jobs(), "", "");
-  const auto alone = create();
-  reader_.reset();
-  journal_.reset();
-  {
-    Database database(path());
-    database.execute(kWithoutSearchColumns);
-    database.execute(kWithoutQueueColumnsOfJobs);
-    database.execute(kWithoutQueueColumnsOfSweeps);
-    database.execute("PRAGMA user_version = 2;");
-    EXPECT_TRUE(check_journal(database).problems.empty());
-  }
-  reopen();
-  const auto waiting = reader_->queued_jobs(v1::Job::PENDING);
-  ASSERT_EQ(waiting.size(), 4U);
-  for (std::size_t i = 0; i < 3; ++i) {
-    EXPECT_EQ(waiting[i].job, made.jobs[i]);
-    EXPECT_EQ(waiting[i].submission, made.jobs.front());
-    EXPECT_EQ(waiting[i].priority, 0);
-  }
-  EXPECT_EQ(waiting[3].submission, alone);
-  EXPECT_EQ(SweepReader(path()).rows(made.sweep).rows.size(), 3U);
-}
-
 TEST_F(SweepJournalTest, ARetryStaysOnItsExecutor) {
   auto jobs = three_jobs();
   for (auto& job : jobs) job.job.set_executor("slurm/test");

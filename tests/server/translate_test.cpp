@@ -2,6 +2,8 @@
 #include <google/protobuf/util/message_differencer.h>
 #include <gtest/gtest.h>
 
+#include <type_traits>
+
 #include "cellcrush/presets.h"
 #include "server/small_case.h"
 #include "translate/case_to_spec.h"
@@ -306,33 +308,38 @@ TEST(Translate, ASummaryKeepsAbsentValuesAbsent) {
   EXPECT_EQ(out.solver_seconds(), 1.5);
 }
 
+// Each number gets the number of the field of its name, which must exist, in the unit of the field.
+auto numberer_of(const google::protobuf::Descriptor& message) {
+  return [&message](const char* name, auto& number, double scale) {
+    const auto* field = message.FindFieldByName(name);
+    ASSERT_NE(field, nullptr) << name;
+    number = static_cast<std::remove_reference_t<decltype(number)>>(field->number() / scale);
+  };
+}
+
+// How many fields are numbers, each equal to its own number.
+int count_numbered(const google::protobuf::Message& message) {
+  int count = 0;
+  for (int i = 0; i < message.GetDescriptor()->field_count(); ++i) {
+    const auto* field = message.GetDescriptor()->field(i);
+    const auto& reflection = *message.GetReflection();
+    if (field->is_repeated() || field->message_type() != nullptr) continue;
+    const bool is_count = field->cpp_type() == google::protobuf::FieldDescriptor::CPPTYPE_INT64;
+    const double value =
+        is_count ? static_cast<double>(reflection.GetInt64(message, field)) : reflection.GetDouble(message, field);
+    EXPECT_NEAR(value, field->number(), 1e-12) << field->name();
+    ++count;
+  }
+  return count;
+}
+
 TEST(Translate, EveryFieldOfASampleGoesOver) {
   Sample sample;
-  sample.step = 1;
-  double value = 2.0;
-  for (double* field : {&sample.time, &sample.travel, &sample.strain, &sample.stress_impact, &sample.stress_support,
-                        &sample.energy_kinetic, &sample.energy_elastic, &sample.energy_plastic, &sample.energy_contact,
-                        &sample.energy_friction, &sample.energy_damping, &sample.work_external, &sample.energy_residual,
-                        &sample.energy_contact_stored, &sample.energy_contact_damping, &sample.deepest_penetration})
-    *field = value++;
-  sample.contact_count = 18;
-  sample.solid_fraction = 20.0;
-  sample.collapsed_fraction = 21.0;
-  sample.front = Front{1.0, 2.0, 3.0, 4e3, 5e3, 6.0, 7.0};
+  visit_columns(sample, numberer_of(*v1::Sample::descriptor()));
+  visit_columns_of_front(sample.front.emplace(), numberer_of(*v1::Front::descriptor()));
   const auto out = translate::to_proto(sample, {});
-  // Fields of the message are numbered in the same order.
-  const auto* reflection = v1::Sample::GetReflection();
-  for (int number = 2; number <= 17; ++number) {
-    EXPECT_EQ(reflection->GetDouble(out, v1::Sample::descriptor()->FindFieldByNumber(number)), number);
-  }
-  EXPECT_EQ(out.step(), 1);
-  EXPECT_EQ(out.contact_count(), 18);
-  EXPECT_EQ(out.solid_fraction(), 20.0);
-  EXPECT_EQ(out.collapsed_fraction(), 21.0);
-  for (int number = 1; number <= 7; ++number) {
-    EXPECT_NEAR(v1::Front::GetReflection()->GetDouble(out.front(), v1::Front::descriptor()->FindFieldByNumber(number)),
-                number, 1e-12);
-  }
+  EXPECT_GE(count_numbered(out), 20);
+  EXPECT_GE(count_numbered(out.front()), 7);
   sample.front.reset();
   EXPECT_FALSE(translate::to_proto(sample, {}).has_front());
 }

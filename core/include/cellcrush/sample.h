@@ -109,6 +109,46 @@ struct Sample {
   std::vector<Warning> warnings;             ///< of contacts, first seen at this sample
 };
 
+/// Calls visit(name, number, scale) for each number of a front, in the order of the outputs: its name there, with the
+/// unit, and what it is multiplied by to have that unit. `F`: Front or const Front.
+template <class F, class Visitor>
+void visit_columns_of_front(F& front, const Visitor& visit) {
+  constexpr double kMPerMm = 1e-3;
+  visit("position_mm", front.position, 1.0);
+  visit("strain_behind", front.strain_behind, 1.0);
+  visit("strain_ahead", front.strain_ahead, 1.0);
+  visit("velocity_behind_m_per_s", front.velocity_behind, kMPerMm);
+  visit("velocity_ahead_m_per_s", front.velocity_ahead, kMPerMm);
+  visit("solid_fraction_behind", front.solid_fraction_behind, 1.0);
+  visit("wall_fraction_behind", front.wall_fraction_behind, 1.0);
+}
+
+/// The columns of the history, besides those of the front: calls visit(name, number, scale) as above. The names are
+/// those of the fields of cellcrush.v1.Sample, from which all outputs take theirs. `S`: Sample or const Sample.
+template <class S, class Visitor>
+void visit_columns(S& sample, const Visitor& visit) {
+  visit("step", sample.step, 1.0);
+  visit("time_s", sample.time, 1.0);
+  visit("travel_mm", sample.travel, 1.0);
+  visit("strain", sample.strain, 1.0);
+  visit("stress_impact_mpa", sample.stress_impact, 1.0);
+  visit("stress_support_mpa", sample.stress_support, 1.0);
+  visit("energy_kinetic_mj", sample.energy_kinetic, 1.0);
+  visit("energy_elastic_mj", sample.energy_elastic, 1.0);
+  visit("energy_plastic_mj", sample.energy_plastic, 1.0);
+  visit("energy_contact_mj", sample.energy_contact, 1.0);
+  visit("energy_friction_mj", sample.energy_friction, 1.0);
+  visit("energy_damping_mj", sample.energy_damping, 1.0);
+  visit("work_external_mj", sample.work_external, 1.0);
+  visit("energy_residual_mj", sample.energy_residual, 1.0);
+  visit("energy_contact_stored_mj", sample.energy_contact_stored, 1.0);
+  visit("energy_contact_damping_mj", sample.energy_contact_damping, 1.0);
+  visit("deepest_penetration", sample.deepest_penetration, 1.0);
+  visit("contact_count", sample.contact_count, 1.0);
+  visit("solid_fraction", sample.solid_fraction, 1.0);
+  visit("collapsed_fraction", sample.collapsed_fraction, 1.0);
+}
+
 /// Samples in their memory representation, for the same build. A run that is resumed from a checkpoint needs those
 /// taken before.
 std::string bytes_of(std::span<const Sample> samples);

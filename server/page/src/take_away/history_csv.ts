@@ -1,30 +1,27 @@
-import type { Sample } from "../../gen/cellcrush/v1/sample_pb";
+import { ScalarType, type DescMessage } from "@bufbuild/protobuf";
+import { FrontSchema, SampleSchema, type Front, type Sample } from "../../gen/cellcrush/v1/sample_pb";
 import { csvBlob } from "../dom/download";
 
-// Columns by the names of the proto.
-const kColumns: [string, (sample: Sample) => number][] = [
-  ["step", (s) => Number(s.step)],
-  ["time_s", (s) => s.timeS],
-  ["travel_mm", (s) => s.travelMm],
-  ["strain", (s) => s.strain],
-  ["stress_impact_mpa", (s) => s.stressImpactMpa],
-  ["stress_support_mpa", (s) => s.stressSupportMpa],
-  ["energy_kinetic_mj", (s) => s.energyKineticMj],
-  ["energy_elastic_mj", (s) => s.energyElasticMj],
-  ["energy_plastic_mj", (s) => s.energyPlasticMj],
-  ["energy_contact_mj", (s) => s.energyContactMj],
-  ["energy_friction_mj", (s) => s.energyFrictionMj],
-  ["energy_damping_mj", (s) => s.energyDampingMj],
-  ["work_external_mj", (s) => s.workExternalMj],
-  ["energy_residual_mj", (s) => s.energyResidualMj],
-  ["energy_contact_stored_mj", (s) => s.energyContactStoredMj],
-  ["energy_contact_damping_mj", (s) => s.energyContactDampingMj],
-  ["deepest_penetration", (s) => s.deepestPenetration],
-  ["contact_count", (s) => Number(s.contactCount)],
-  ["solid_fraction", (s) => s.solidFraction],
-  ["collapsed_fraction", (s) => s.collapsedFraction],
+interface Column { name: string; value: (sample: Sample) => number | undefined }
+
+function columnsOf(schema: DescMessage, scalar: ScalarType, prefix: string,
+                   part: (sample: Sample) => Sample | Front | undefined): Column[] {
+  return schema.fields.filter((field) => field.fieldKind === "scalar" && field.scalar === scalar).map((field) => ({
+    name: prefix + field.name,
+    value: (sample) => {
+      const numbers = part(sample) as Record<string, unknown> | undefined;
+      return numbers && Number(numbers[field.localName]);
+    },
+  }));
+}
+
+// Every number of a sample and its front, as in /history of result.h5; the counts last.
+const kColumns = [
+  ...columnsOf(SampleSchema, ScalarType.DOUBLE, "", (sample) => sample),
+  ...columnsOf(FrontSchema, ScalarType.DOUBLE, "front_", (sample) => sample.front),
+  ...columnsOf(SampleSchema, ScalarType.INT64, "", (sample) => sample),
 ];
 
 export function historyCsv(samples: Sample[]): Blob {
-  return csvBlob(kColumns.map(([name]) => name), samples.map((sample) => kColumns.map(([, value]) => value(sample))));
+  return csvBlob(kColumns.map(({ name }) => name), samples.map((sample) => kColumns.map(({ value }) => value(sample))));
 }
