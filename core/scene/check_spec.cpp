@@ -8,6 +8,7 @@
 #include <set>
 
 #include "scene/lattices.h"
+#include "scene/mesh_part.h"
 
 namespace cellcrush {
 namespace {
@@ -203,11 +204,8 @@ Problems check_spec(const SceneSpec& spec) {
   check.in_range("contact.impact_speed_m_per_s", spec.contact.impact_speed_m_per_s, {0.0, 1000.0},
                  " m/s (0: as the case tells)");
   check.in_range("plates.friction", spec.plates.friction, {0.0, 10.0});
-  if (!std::holds_alternative<FrameLattice>(spec.lattice)) {
+  if (has_plates(spec)) {
     check_loading(spec.loading, check);
-  } else if (spec.loading.speed_m_per_s) {
-    check.add("loading.speed_m_per_s", to_text(*spec.loading.speed_m_per_s), "applies to lattices between plates only.",
-              "Remove loading; use lattice.frame.loads and motions to load a frame.");
   }
   check_numerics(spec.numerics, check);
   check.in_range("output.sample_count", spec.output.sample_count, {10, 100000}, " samples");
