@@ -62,7 +62,7 @@ Cells find_cells(const Scene& scene) {
   cells.field.collapsed.assign(cells.faces.count(), false);
   cells.field.length = (high - low)[axis];
   cells.field.width = (high - low)[1 - axis];
-  cells.field.pitch = extents / static_cast<double>(cells.faces.count());
+  cells.field.pitch = cells.faces.count() > 0 ? extents / static_cast<double>(cells.faces.count()) : 0.0;
   return cells;
 }
 

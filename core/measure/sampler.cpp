@@ -91,6 +91,8 @@ Sampler::Sampler(const Scene& scene)
       next_check_(kModeFrom) {
   if (scene.plates.present) {
     cells_ = find_cells(scene);
+  }
+  if (cells_.faces.count() > 0) {
     columns_ = divide_into_columns(scene, cells_.field.pitch);
     layer_size_ = size_of_layers(scene, cells_.field.pitch);
   }
@@ -139,6 +141,9 @@ void Sampler::measure_stress(const Scene& scene, const State& state, Sample& sam
 
 void Sampler::measure_collapse(const Scene& scene, const State& state, Sample& sample) {
   sample.solid_fraction = relative_density_of(scene) / (1.0 - sample.strain);
+  if (cells_.faces.count() == 0) {
+    return;
+  }
   const CollapseField field = find_collapse(cells_, state.position);
   sample.collapsed_fraction = collapsed_fraction_of(field);
   if (sample.collapsed_fraction >= next_check_ && next_check_ <= kModeTo) {

@@ -42,7 +42,10 @@ Theory theory_of(const Scene& scene) {
   theory.gibson_ashby = scene.collapse_stress;
   theory.densification_strain = 1.0 - 1.4 * relative_density;
   const double density = scene.materials.front().density * relative_density;
-  theory.shock = theory.gibson_ashby + density * scene.plates.speed * scene.plates.speed / theory.densification_strain;
+  if (theory.gibson_ashby > 0.0) {  // known of regular lattices only
+    theory.shock =
+        theory.gibson_ashby + density * scene.plates.speed * scene.plates.speed / theory.densification_strain;
+  }
   return theory;
 }
 

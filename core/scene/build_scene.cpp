@@ -13,9 +13,19 @@
 namespace cellcrush {
 namespace {
 
-/// Places the faces of the plates at the surfaces of the walls.
+/// Places the faces of the plates at the surfaces of the walls. The envelope of a listed lattice is that of its joints.
 void put_plates(Scene& scene) {
   const int axis = scene.plates.axis;
+  if (scene.length == 0.0) {
+    Vector2 least = scene.position.front();
+    Vector2 most = least;
+    for (const Vector2& place : scene.position) {
+      least = least.cwiseMin(place);
+      most = most.cwiseMax(place);
+    }
+    scene.length = (most - least)[axis];
+    scene.width = (most - least)[1 - axis];
+  }
   double low = scene.position.front()[axis];
   double high = low;
   for (std::size_t i = 0; i < scene.particle_count(); ++i) {

@@ -4,6 +4,7 @@
 
 #include "scene/check_rigid_walls.h"
 #include "scene/check_spec.h"
+#include "scene/mesh_part.h"
 
 namespace cellcrush {
 namespace {
@@ -102,7 +103,26 @@ class FrameChecker {
           });
     check_.within_limits("lattice.frame.gravity_x_m_per_s2", frame_.gravity_x_m_per_s2);
     check_.within_limits("lattice.frame.gravity_y_m_per_s2", frame_.gravity_y_m_per_s2);
-    check_.within_limits("lattice.frame.end_time_s", frame_.end_time_s);
+  }
+
+  /// Between plates, the end strain ends the run without an end time.
+  void check_plates(const SceneSpec& spec) {
+    const bool present = has_plates(spec);
+    if (!present || frame_.end_time_s) {
+      check_.within_limits("lattice.frame.end_time_s", frame_.end_time_s);
+    }
+    if (present && has_pins(frame_)) {
+      check_.add("loading.speed_m_per_s", "", "puts plates at a frame with pinned ends, which cannot be computed.",
+                 "Remove loading, or pin_start and pin_end of all beams.");
+    }
+    const auto along = crush_axis_of(spec) == 0 ? &FrameLattice::Node::x_mm : &FrameLattice::Node::y_mm;
+    if (present && !frame_.nodes.empty()) {
+      const auto [low, high] = std::ranges::minmax_element(frame_.nodes, {}, along);
+      if (!((*high).*along > (*low).*along)) {
+        check_.add("lattice.frame.nodes", "", "have no extent along loading.direction, so there is no strain.",
+                   "Choose the other direction, or remove loading.");
+      }
+    }
   }
 
   void check_motions() {
@@ -195,6 +215,7 @@ void check_frame(const SceneSpec& spec, FieldChecker& check) {
   checker.check_beams(count_elements(spec));
   checker.check_supports();
   checker.check_loads();
+  checker.check_plates(spec);
   checker.check_motions();
   check_rigid_walls(std::get<FrameLattice>(spec.lattice), check);
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "scene/lattices.h"
+#include "scene/mesh_part.h"
 
 namespace cellcrush {
 namespace {
@@ -223,11 +224,8 @@ Problems check_spec(const SceneSpec& spec) {
   check.within_limits("contact.damping_ratio", spec.contact.damping_ratio);
   check.within_limits("contact.impact_speed_m_per_s", spec.contact.impact_speed_m_per_s, " (0: as the case tells)");
   check.within_limits("plates.friction", spec.plates.friction);
-  if (!std::holds_alternative<FrameLattice>(spec.lattice)) {
+  if (has_plates(spec)) {
     check_loading(spec.loading, check);
-  } else if (spec.loading.speed_m_per_s) {
-    check.add("loading.speed_m_per_s", to_text(*spec.loading.speed_m_per_s), "applies to lattices between plates only.",
-              "Remove loading; use lattice.frame.loads and motions to load a frame.");
   }
   check_numerics(spec.numerics, check);
   check.within_limits("output.sample_count", spec.output.sample_count);

@@ -29,14 +29,12 @@ double contact_frequency(const SceneSpec& spec, const MeshMeasures& mesh) {
 }  // namespace
 
 double impact_speed_of(const SceneSpec& spec, const MeshMeasures& mesh) {
-  const double known =
-      std::holds_alternative<FrameLattice>(spec.lattice) ? mesh.approach_speed : *spec.loading.speed_m_per_s * kMmPerM;
+  const double known = mesh.approach_speed + spec.loading.speed_m_per_s.value_or(0.0) * kMmPerM;
   return std::max(known, spec.contact.impact_speed_m_per_s * kMmPerM);
 }
 
 ContactLaw contact_law_of(const SceneSpec& spec, const MeshMeasures& mesh) {
   const double frequency = contact_frequency(spec, mesh);
-  const bool is_frame = std::holds_alternative<FrameLattice>(spec.lattice);
   return {mesh.contact,
           mesh.lightest_mass * frequency * frequency,
           spec.contact.damping_ratio,
@@ -44,7 +42,7 @@ ContactLaw contact_law_of(const SceneSpec& spec, const MeshMeasures& mesh) {
           kSkinFraction * mesh.shortest_element,
           kFaceSkinFraction * mesh.shortest_element,
           mesh.thinnest_wall,
-          is_frame && mesh.contact ? kMostTravel * mesh.thinnest_wall : 0.0};
+          mesh.contact && !is_driven_by_plates_alone(spec) ? kMostTravel * mesh.thinnest_wall : 0.0};
 }
 
 double contact_step_of(const ContactLaw& law, double mass) {

@@ -6,8 +6,8 @@
 
 namespace cellcrush {
 
-/// V of E9, mm/s: the speed of the plate of a lattice, the speed of approach of a frame (E9a), or
-/// contact.impact_speed_m_per_s where that is more.
+/// V of E9, mm/s: the speed of the plate with that of what else moves (E9a), or contact.impact_speed_m_per_s where that
+/// is more.
 double impact_speed_of(const SceneSpec& spec, const MeshMeasures& mesh);
 
 /// The contact law of a case (Eq. 43, E9; the paper gives neither k nor c):

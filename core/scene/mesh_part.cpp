@@ -70,6 +70,19 @@ Material material_of(const MaterialSpec& spec) {
 
 int crush_axis_of(const SceneSpec& spec) { return spec.loading.direction == LoadingSpec::Direction::x ? 0 : 1; }
 
+bool has_plates(const SceneSpec& spec) {
+  return spec.loading.speed_m_per_s.has_value() || regular_lattice_of(spec) != nullptr;
+}
+
+bool is_driven_by_plates_alone(const SceneSpec& spec) {
+  if (const auto* frame = std::get_if<FrameLattice>(&spec.lattice)) {
+    return has_plates(spec) && frame->loads.empty() && frame->motions.empty() && frame->distributed_loads.empty() &&
+           frame->initial_velocities.empty() && frame->rigid_walls.empty() && frame->gravity_x_m_per_s2 == 0.0 &&
+           frame->gravity_y_m_per_s2 == 0.0;
+  }
+  return true;
+}
+
 SceneSpec mesh_part_of(const SceneSpec& spec) {
   SceneSpec part = spec;
   part.title.clear();
@@ -111,10 +124,25 @@ std::shared_ptr<Scene> build_mesh(const SceneSpec& part) {
   return scene;
 }
 
+namespace {
+
+/// Of the joints along the crush: a regular lattice has that of its layout, before any imperfection.
+double extent_of(const SceneSpec& part, const Scene& scene) {
+  if (scene.length > 0.0) {
+    return scene.length;
+  }
+  const int axis = crush_axis_of(part);
+  const auto [low, high] =
+      std::ranges::minmax(scene.position, {}, [axis](const Vector2& place) { return place[axis]; });
+  return high[axis] - low[axis];
+}
+
+}  // namespace
+
 MeshMeasures measure_sound_mesh(const SceneSpec& part, const Scene& scene) {
   MeshMeasures measures;
   measures.element_count = scene.element_count();
-  measures.length = scene.length;
+  measures.length = extent_of(part, scene);
   measures.steps = steps_of(scene);
   measures.lightest_mass = std::ranges::min(scene.mass);
   measures.shortest_element = std::ranges::min(scene.walls.undeformed_length);

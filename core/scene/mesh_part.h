@@ -18,6 +18,12 @@ Material material_of(const MaterialSpec& spec);
 /// 0: crushed along x, 1: along y.
 int crush_axis_of(const SceneSpec& spec);
 
+/// Whether the walls stand between two plates: where a speed is given, and around every regular lattice.
+bool has_plates(const SceneSpec& spec);
+
+/// Whether the plates alone move the walls, so that nothing approaches faster than they do.
+bool is_driven_by_plates_alone(const SceneSpec& spec);
+
 /// The spec with defaults in all fields on which its mesh does not depend: speed, strains, contact and plates, steps,
 /// output. Specs that are equal in this part have the same mesh.
 SceneSpec mesh_part_of(const SceneSpec& spec);
@@ -28,12 +34,12 @@ std::shared_ptr<Scene> build_mesh(const SceneSpec& part);
 /// Measures of a mesh on which the rest of a scene depends. Units mm, tonne, s, MPa.
 struct MeshMeasures {
   std::size_t element_count = 0;
-  double length = 0.0;  ///< envelope along the crush
+  double length = 0.0;  ///< envelope of the joints along the crush
   MeshSteps steps;
   double lightest_mass = 0.0;  ///< of a particle
   double shortest_element = 0.0;
   double thinnest_wall = 0.0;
-  double approach_speed = 0.0;  ///< mm/s, of the parts of a frame (E9a); 0 for a lattice
+  double approach_speed = 0.0;  ///< mm/s, of what loads, motions and rigid walls move (E9a)
   Material material;            ///< of the lattice
   bool contact = false;         ///< whether walls touch each other
   bool rigid_walls = false;     ///< whether a frame has rigid walls

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "scene/check_spec.h"
 #include "scene/contact_law.h"
@@ -25,11 +26,15 @@ Plates plates_of(const SceneSpec& spec, const MeshMeasures& mesh, double stiffne
   return plates;
 }
 
+/// The time of end_strain, or end_time_s where that comes first or there are no plates.
 double end_time_of(const SceneSpec& spec, const MeshMeasures& mesh, const Plates& plates) {
-  if (const auto* frame = std::get_if<FrameLattice>(&spec.lattice)) {
-    return *frame->end_time_s;
+  const auto* frame = std::get_if<FrameLattice>(&spec.lattice);
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  const double given = frame != nullptr ? frame->end_time_s.value_or(kNever) : kNever;
+  if (!plates.present) {
+    return given;
   }
-  return spec.loading.end_strain * mesh.length / plates.speed + 0.5 * plates.ramp_time;
+  return std::min(given, spec.loading.end_strain * mesh.length / plates.speed + 0.5 * plates.ramp_time);
 }
 
 Schedule schedule_of(const SceneSpec& spec, const TimeStep& step, double end_time) {
@@ -62,10 +67,11 @@ void check_step_count(const SceneSpec& spec, double count, Problems& problems) {
   if (fixed > 0.0) {
     problems.push_back(
         {"numerics.time_step_s", to_text(fixed), message, "Use a longer step, or 0 for an automatic step."});
-  } else if (const auto* frame = std::get_if<FrameLattice>(&spec.lattice)) {
-    problems.push_back({"lattice.frame.end_time_s", to_text(*frame->end_time_s), message, "Use an earlier end time."});
-  } else {
+  } else if (has_plates(spec)) {
     problems.push_back({"loading.speed_m_per_s", to_text(*spec.loading.speed_m_per_s), message, "Use a higher speed."});
+  } else {
+    const double end = *std::get<FrameLattice>(spec.lattice).end_time_s;
+    problems.push_back({"lattice.frame.end_time_s", to_text(end), message, "Use an earlier end time."});
   }
 }
 
@@ -79,7 +85,7 @@ RunPlan plan_run(const SceneSpec& spec, const MeshMeasures& mesh, Problems& prob
   }
   plan.contact = contact_law_of(spec, mesh);
   problems = mesh.overlaps;
-  if (!std::holds_alternative<FrameLattice>(spec.lattice)) {
+  if (has_plates(spec)) {
     plan.plates = plates_of(spec, mesh, plan.contact.stiffness);
   }
   const TimeStep step = time_step_of(spec, mesh, plan.contact, plan.plates);

@@ -68,8 +68,8 @@ double bytes_of_run(const SceneSpec& spec, double elements, double growth) {
   const SceneResult specimen = build_scene(specimen_of(spec));
   // A lattice may be sound only as it is: with its imperfection.
   const auto scene = specimen.scene ? specimen.scene : build_scene(spec).scene;
-  const bool is_frame = std::holds_alternative<FrameLattice>(spec.lattice);
-  const double end_strain = is_frame ? 1.0 : spec.loading.end_strain;  // nobody says how near a frame's beams come
+  // Without plates, nobody says how near the walls come.
+  const double end_strain = scene->plates.present ? spec.loading.end_strain : 1.0;
   const double of_friction = scene->contact.friction > 0.0 ? kGrowth.of_friction : 0.0;
   const double of_touches = scene->contact.present ? end_strain * (growth + of_friction) : 0.0;
   const double of_arrays = bytes_of_arrays(*scene) / static_cast<double>(scene->element_count());

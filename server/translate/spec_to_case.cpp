@@ -199,8 +199,9 @@ v1::Case to_case(const SceneSpec& spec) {
   out.mutable_contact()->set_search(spec.contact.search == ContactSpec::Search::faces ? v1::Contact::FACES
                                                                                       : v1::Contact::BUCKETS);
   out.mutable_plates()->set_friction(spec.plates.friction);
-  // A frame is loaded through its own fields.
-  if (!std::holds_alternative<FrameLattice>(spec.lattice)) write_loading(spec.loading, *out.mutable_loading());
+  // Without plates there is no loading.
+  const bool listed = std::holds_alternative<FrameLattice>(spec.lattice);
+  if (!listed || spec.loading.speed_m_per_s) write_loading(spec.loading, *out.mutable_loading());
   write_numerics(spec.numerics, *out.mutable_numerics());
   out.mutable_output()->set_sample_count(spec.output.sample_count);
   out.mutable_output()->set_frame_count(spec.output.frame_count);

@@ -135,7 +135,7 @@ struct FrameLattice {
   bool self_contact = false;
   std::vector<RigidWall> rigid_walls;
   std::vector<int> watched_nodes;
-  std::optional<double> end_time_s;
+  std::optional<double> end_time_s;  ///< between plates: default none, the end strain ends the run
 
   bool operator==(const FrameLattice&) const = default;
 };
@@ -211,6 +211,7 @@ struct PlatesSpec {
   bool operator==(const PlatesSpec&) const = default;
 };
 
+/// The two plates. They stand around every regular lattice, and around a frame where a speed is given.
 struct LoadingSpec {
   enum class Direction { x, y };
   Direction direction = Direction::x;

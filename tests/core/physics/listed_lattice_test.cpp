@@ -1,0 +1,93 @@
+// A listed lattice between two plates: what a regular one measures, without being generated.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "cellcrush/simulation.h"
+#include "scenes/frames.h"
+#include "scenes/run_frame.h"
+
+namespace cellcrush {
+namespace {
+
+SceneSpec short_crush() {
+  SceneSpec spec = scenes::hexagon_specimen(4, 3);
+  spec.loading.end_strain = 0.5;
+  spec.output.sample_count = 200;
+  return spec;
+}
+
+/// The joints and walls of a regular lattice as nodes and beams.
+SceneSpec listed(SceneSpec spec) {
+  const auto scene = scenes::build(spec);
+  FrameLattice frame;
+  for (int joint = 0; joint < scene->joint_count; ++joint) {
+    frame.nodes.push_back({scene->position[joint].x(), scene->position[joint].y(), 0.0, 0.0});
+  }
+  for (std::size_t w = 0; w < scene->walls.start.size(); ++w) {
+    const int elements = scene->walls.blocks.front().elements;
+    frame.beams.push_back(
+        scenes::beam(scene->walls.start[w], scene->walls.end[w], scene->walls.thickness[w], elements));
+  }
+  frame.self_contact = true;
+  spec.lattice = frame;
+  spec.imperfection = {};
+  return spec;
+}
+
+Summary summary_of(const SceneSpec& spec) { return summarize(*scenes::build(spec), scenes::run_frame(spec)); }
+
+TEST(ListedLattice, BetweenPlatesMeasuresWhatTheRegularOneDoes) {
+  const Summary regular = summary_of(short_crush());
+  const Summary frame = summary_of(listed(short_crush()));
+  ASSERT_TRUE(regular.plateau_stress_impact && frame.plateau_stress_impact);
+  ASSERT_TRUE(regular.plateau_stress_support && frame.plateau_stress_support);
+  EXPECT_EQ(frame.step_count, regular.step_count);
+  EXPECT_NEAR(*frame.plateau_stress_impact / *regular.plateau_stress_impact, 1.0, 0.01);
+  EXPECT_NEAR(*frame.plateau_stress_support / *regular.plateau_stress_support, 1.0, 0.01);
+  EXPECT_EQ(frame.theory.shock, 0.0) << "no closed form is known of it";
+}
+
+TEST(ListedLattice, WithoutCellsHasStressAndStrain) {
+  FrameLattice frame;
+  frame.nodes = {{0.0, 0.0, 0.0, 0.0}, {10.0, 0.5, 0.0, 0.0}, {20.0, 0.0, 0.0, 0.0}};
+  frame.beams = {scenes::beam(0, 1, 0.5, 4), scenes::beam(1, 2, 0.5, 4)};
+  frame.supports = {{0, false, true, true}, {2, false, true, true}};
+  SceneSpec spec = scenes::elastic_frame(frame);
+  std::get<FrameLattice>(spec.lattice).end_time_s.reset();
+  spec.loading.speed_m_per_s = 1.0;
+  spec.loading.end_strain = 0.02;
+  spec.output.sample_count = 50;
+  const std::vector<Sample> samples = scenes::run_frame(spec);
+  EXPECT_NEAR(samples.back().strain, 0.02, 1e-4);
+  EXPECT_GT(samples.back().stress_impact, 0.0);
+  EXPECT_FALSE(samples.back().front.has_value());
+
+  std::get<FrameLattice>(spec.lattice).end_time_s = 1e-4;  // before the end strain
+  EXPECT_NEAR(scenes::run_frame(spec).back().time, 1e-4, 1e-6);
+}
+
+TEST(ListedLattice, BetweenPlatesIsRefusedWithAField) {
+  const auto fields_of = [](const SceneSpec& spec) {
+    std::string fields;
+    for (const Problem& problem : build_scene(spec).problems) fields += problem.field + ' ';
+    return fields;
+  };
+  SceneSpec spec = listed(short_crush());
+  auto& frame = std::get<FrameLattice>(spec.lattice);
+  spec.loading.speed_m_per_s.reset();
+  EXPECT_EQ(fields_of(spec), "lattice.frame.end_time_s ");
+  spec.loading.speed_m_per_s = 1.0;
+  frame.self_contact = false;
+  frame.beams[0].pin_end = true;
+  EXPECT_EQ(fields_of(spec), "loading.speed_m_per_s ");
+  frame = {};
+  frame.nodes = {{0.0, 0.0, 0.0, 0.0}, {10.0, 0.0, 0.0, 0.0}};
+  frame.beams = {scenes::beam(0, 1, 0.5, 2)};
+  spec.loading.direction = LoadingSpec::Direction::y;
+  EXPECT_EQ(fields_of(spec), "lattice.frame.nodes ");
+}
+
+}  // namespace
+}  // namespace cellcrush
