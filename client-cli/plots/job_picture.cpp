@@ -8,6 +8,7 @@
 #include "chart/colour_map.h"
 #include "plots/job_curves.h"
 #include "plots/stage_panels.h"
+#include "results/field_value.h"
 #include "terminal/case_text.h"
 #include "terminal/summary_text.h"
 
@@ -81,9 +82,9 @@ std::string render_job_picture(PictureFormat format, const JobHistory& history, 
   const std::vector<LatticeStage> stages = lattice_stages(frames);
   constexpr double kTop = kMargin + kTitleHeight;
   const StagePanels panels = stages.empty() ? StagePanels{.bottom = kTop} : lay_stages(stages, kMargin, kTop, kInner);
-  const bool frame = history.job.case_().lattice().has_frame();
+  const bool plates = has_plates(history.job.case_());
   const double curves_bottom = panels.bottom + kChartHeight + kChartGap;
-  const double height = curves_bottom + (frame ? 0.0 : kEnergyHeight) + kMargin;
+  const double height = curves_bottom + (plates ? kEnergyHeight : 0.0) + kMargin;
   return render_picture(format, kWidth, height, [&](cairo_t* context) {
     draw_title(context, fmt::format("{} ({})", picture_name(history.job), history.job.name()), subtitle_of(history.job),
                kInner, kInner - kColourBarRoom);
@@ -92,8 +93,8 @@ std::string render_job_picture(PictureFormat format, const JobHistory& history, 
       draw_stages(context, panels, stages);
     }
     draw_chart(context, {kMargin, panels.bottom, kInner, kChartHeight},
-               frame ? build_node_chart(history) : build_job_chart(history));
-    if (!frame) draw_chart(context, {kMargin, curves_bottom, kInner, kEnergyHeight}, build_energy_chart(history));
+               plates ? build_job_chart(history) : build_node_chart(history));
+    if (plates) draw_chart(context, {kMargin, curves_bottom, kInner, kEnergyHeight}, build_energy_chart(history));
   });
 }
 
@@ -110,7 +111,7 @@ std::string render_wide_picture(PictureFormat format, const JobHistory& history,
     draw_plastic_bar(context, kMargin + 26.0);
     draw_stages(context, panels, stages);
     draw_chart(context, {kChartLeft, kTop, kWidth - kMargin - kChartLeft, height},
-               history.job.case_().lattice().has_frame() ? build_node_chart(history) : build_job_chart(history));
+               has_plates(history.job.case_()) ? build_job_chart(history) : build_node_chart(history));
   });
 }
 

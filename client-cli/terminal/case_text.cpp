@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "command_error.h"
+#include "results/field_value.h"
 #include "results/theory_note.h"
 #include "terminal/fidelity_text.h"
 #include "terminal/lattice_text.h"
@@ -66,12 +67,12 @@ std::string description_text(const v1::Case& scene, int width) {
 }
 
 std::string check_text(const v1::CheckCaseResponse& check, int width) {
-  const bool frame = check.completed_case().lattice().has_frame();
   Table table({Align::left, Align::right, Align::left});
   table.add({"particles", count_text(check.particle_count())});
   table.add({"elements", count_text(check.element_count())});
-  table.add({frame ? "mass of the beams" : "mass of the walls", number_text(check.mass_g(), 4), "g"});
-  if (!frame) add_crush_rows(table, check);
+  table.add({check.completed_case().lattice().has_frame() ? "mass of the beams" : "mass of the walls",
+             number_text(check.mass_g(), 4), "g"});
+  if (has_plates(check.completed_case())) add_crush_rows(table, check);
   table.add({"stable step", number_text(check.stable_step_s(), 4), "s"});
   table.add({"time step", number_text(check.time_step_s(), 4), "s"});
   table.add({"steps", count_text(check.step_count())});

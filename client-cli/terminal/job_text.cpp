@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "command_error.h"
+#include "results/field_value.h"
 #include "terminal/case_text.h"
 #include "terminal/number_text.h"
 #include "terminal/summary_text.h"
@@ -30,7 +31,7 @@ std::string run_time_text(const v1::Job& job) {
 void add_progress_rows(Table& table, const v1::Job& job) {
   const v1::Progress& progress = job.progress();
   std::string text = percent_text(progress.fraction());
-  if (!job.case_().lattice().has_frame()) text += fmt::format(", strain {:.3f}", progress.strain());
+  if (has_plates(job.case_())) text += fmt::format(", strain {:.3f}", progress.strain());
   table.add({"progress",
              text + fmt::format(", step {} of {}", count_text(progress.step()), count_text(progress.step_count()))});
   if (progress.stalled()) table.add({"", "the worker has stalled; it is replaced if it stays so"});
@@ -72,7 +73,7 @@ std::string outcome_text(const v1::Job& job, int width) {
   text = wrapped(text, width, "", "  ");
   if (!job.cause_message().empty()) text += wrapped(printable(job.cause_message()), width, "  ", "  ");
   if (!job.remedy().empty()) text += wrapped("Remedy: " + printable(job.remedy()), width, "  ", "    ");
-  if (job.has_summary()) text += '\n' + summary_text(job.summary(), job.case_().lattice(), width);
+  if (job.has_summary()) text += '\n' + summary_text(job.summary(), job.case_(), width);
   return text;
 }
 

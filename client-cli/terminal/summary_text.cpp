@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "results/field_value.h"
 #include "results/theory_note.h"
 #include "terminal/number_text.h"
 #include "terminal/table.h"
@@ -148,21 +149,21 @@ std::string crush_mode_text(v1::Summary::CrushMode mode) {
   }
 }
 
-std::string summary_text(const v1::Summary& summary, const v1::Lattice& lattice, int width) {
-  const bool frame = lattice.has_frame();
+std::string summary_text(const v1::Summary& summary, const v1::Case& scene, int width) {
+  const bool plates = has_plates(scene);
   Table table({Align::left, Align::right, Align::right, Align::left});
-  if (!frame) {
+  if (plates) {
     add_plateau_rows(table, summary);
     add_quasi_static_rows(table, summary);
   }
   table.add({"energy ledger error", percent_text(summary.energy_error_relative(), 2)});
   table.add({"deepest penetration", percent_text(summary.deepest_penetration()), "", "of the thinner wall"});
   std::string text = table.text(2, width);
-  if (!frame) text += mode_text(summary, width);
-  const std::string note = theory_note(lattice);
+  if (plates) text += mode_text(summary, width);
+  const std::string note = theory_note(scene.lattice());
   if (!note.empty() && summary.theory().shock_mpa() > 0) text += '\n' + wrapped("Note: " + note, width, "  ", "  ");
   for (const v1::Warning& warning : summary.warnings()) text += '\n' + warning_text(warning, width);
-  if (!frame && summary.has_front()) text += '\n' + front_text(summary.front(), width);
+  if (plates && summary.has_front()) text += '\n' + front_text(summary.front(), width);
   if (summary.has_ledger()) text += '\n' + ledger_text(summary.ledger(), width);
   return text;
 }

@@ -19,6 +19,6 @@ std::string crush_mode_text(v1::Summary::CrushMode mode);
 
 /// Summary of a run. For a crush: plateau stresses with theory, front, crush mode and, for a slow one, how quasi-static
 /// it was. For any run: energy ledger, contact and warnings.
-std::string summary_text(const v1::Summary& summary, const v1::Lattice& lattice, int width = terminal_width());
+std::string summary_text(const v1::Summary& summary, const v1::Case& scene, int width = terminal_width());
 
 }  // namespace cellcrush::client

@@ -20,7 +20,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 TEST(SummaryText, HasBothShockTheoriesWithTheirErrorsFrontModeAndLedger) {
-  const std::string text = summary_text(testing::make_job(v1::Job::SUCCEEDED).summary(), v1::Lattice(), 120);
+  const std::string text = summary_text(testing::make_job(v1::Job::SUCCEEDED).summary(), v1::Case(), 120);
   EXPECT_THAT(text, ContainsRegex("3.41 MPa +3.37 MPa  shock theory \\(Eq. 51\\), 1.2 % lower"));
   EXPECT_THAT(text, ContainsRegex("3.43 MPa  shock theory with measured jumps \\(Eq. 52\\), 0.6 % higher"));
   EXPECT_THAT(text, HasSubstr("crush mode: layer by layer (I), first seen at strain 0.11\n"));
@@ -37,21 +37,21 @@ TEST(SummaryText, SaysHowSteadyASlowCrushWasAndNothingOfAFastOne) {
   summary.mutable_quasi_static()->set_plate_difference_relative(0.0058);
   summary.mutable_quasi_static()->set_plate_difference_greatest(0.021);
   summary.mutable_quasi_static()->set_kinetic_share(0.0052);
-  const std::string slow = summary_text(summary, v1::Lattice(), 120);
+  const std::string slow = summary_text(summary, v1::Case(), 120);
   EXPECT_THAT(slow, ContainsRegex("plate stress difference beyond 5 % strain +0.58 %.*at most 2.10 %"));
   EXPECT_THAT(slow, ContainsRegex("largest kinetic energy +0.52 % +of the plastic work"));
   summary.mutable_quasi_static()->set_kinetic_share(0.9);
-  EXPECT_THAT(summary_text(summary, v1::Lattice(), 120), Not(HasSubstr("plate stress difference")));
+  EXPECT_THAT(summary_text(summary, v1::Case(), 120), Not(HasSubstr("plate stress difference")));
 }
 
 TEST(SummaryText, NamesWarningsWithTheirRemedies) {
   v1::Summary summary;
-  EXPECT_THAT(summary_text(summary, v1::Lattice(), 120), Not(HasSubstr("Warning")));
+  EXPECT_THAT(summary_text(summary, v1::Case(), 120), Not(HasSubstr("Warning")));
   v1::Warning& warning = *summary.add_warnings();
   warning.set_kind(v1::Warning::DEEP_PENETRATION);
   warning.set_message("Walls have overlapped by 61 %.");
   warning.set_remedy("Give a shorter numerics.time_step_s.");
-  const std::string text = summary_text(summary, v1::Lattice(), 120);
+  const std::string text = summary_text(summary, v1::Case(), 120);
   EXPECT_THAT(text, HasSubstr("Warning (DEEP_PENETRATION): Walls have overlapped by 61 %.\n"));
   EXPECT_THAT(text, HasSubstr("Remedy: Give a shorter numerics.time_step_s.\n"));
 }
@@ -59,25 +59,25 @@ TEST(SummaryText, NamesWarningsWithTheirRemedies) {
 TEST(SummaryText, FitsItsTerminal) {
   const v1::Summary summary = testing::make_job(v1::Job::SUCCEEDED).summary();
   for (const int width : {60, 80, 100}) {
-    std::istringstream lines(summary_text(summary, v1::Lattice(), width));
+    std::istringstream lines(summary_text(summary, v1::Case(), width));
     for (std::string line; std::getline(lines, line);) EXPECT_LE(display_width(line), width) << line;
   }
 }
 
 TEST(SummaryText, SaysWhereTheoryDoesNotApply) {
   const v1::Summary summary = testing::make_job(v1::Job::SUCCEEDED).summary();
-  v1::Lattice lattice;
-  lattice.mutable_hexagon();
-  EXPECT_THAT(summary_text(summary, lattice, 80), Not(HasSubstr("Note:")));
-  lattice.mutable_square();
-  EXPECT_THAT(summary_text(summary, lattice, 80), HasSubstr("Note: Squares are stretch-dominated"));
-  lattice.mutable_triangle();
-  EXPECT_THAT(summary_text(summary, lattice, 80), HasSubstr("Note: Triangles are stretch-dominated"));
+  v1::Case scene;
+  scene.mutable_lattice()->mutable_hexagon();
+  EXPECT_THAT(summary_text(summary, scene, 80), Not(HasSubstr("Note:")));
+  scene.mutable_lattice()->mutable_square();
+  EXPECT_THAT(summary_text(summary, scene, 80), HasSubstr("Note: Squares are stretch-dominated"));
+  scene.mutable_lattice()->mutable_triangle();
+  EXPECT_THAT(summary_text(summary, scene, 80), HasSubstr("Note: Triangles are stretch-dominated"));
 }
 
 TEST(SummaryText, OfAFrameIsTheLedgerWithWhatItStartedWith) {
-  v1::Lattice frame;
-  frame.mutable_frame();
+  v1::Case frame;
+  frame.mutable_lattice()->mutable_frame();
   v1::Summary summary;
   summary.mutable_ledger()->set_work_external_mj(500.0);
   summary.mutable_ledger()->set_kinetic_mj(2000.0);

@@ -19,6 +19,11 @@ export function latticeWords(value: Case): string {
   }
 }
 
+/** Whether two plates crush the lattice. Those around a frame are given by their speed. */
+export function hasPlates(value: Case | undefined): boolean {
+  return value?.lattice?.kind.case !== "frame" || value.loading?.speedMPerS !== undefined;
+}
+
 export function speedWords(value: Case): string {
   const { loading } = value;
   if (!loading) return "driven by its own loads";

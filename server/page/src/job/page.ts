@@ -21,7 +21,7 @@ import { PlayerBar } from "../picture/player_bar";
 import { RigidWalls } from "../picture/rigid_walls";
 import { keepInUrl, setTitle, type View } from "../router";
 import { takeAwayOfChart, takeAwayOfPicture } from "../take_away/menus";
-import { aspectOf, caseFacts } from "./case_words";
+import { aspectOf, caseFacts, hasPlates } from "./case_words";
 import { JobHeader } from "./header";
 import { JobData } from "./job_data";
 import { resultsList } from "./results";
@@ -149,7 +149,8 @@ export class JobPage implements View {
     const { lattice, loading } = job.case ?? {};
     const aspect = job.case && aspectOf(job.case);
     if (aspect) this.frames.picture.setAspect(aspect);
-    if (lattice?.kind.case === "frame") this.setAxis(timeAxis(lattice.kind.value.endTimeS ?? 1));
+    const { kind } = lattice ?? {};
+    if (kind?.case === "frame" && !hasPlates(job.case)) this.setAxis(timeAxis(kind.value.endTimeS ?? 1));
     else this.setAxis(strainAxis(loading?.endStrain ?? 0.8));
     const isLive = !hasEnded(job);
     if (isLive && !this.wasLive && this.wantedStrain === undefined) this.player.follow();
@@ -188,13 +189,13 @@ export class JobPage implements View {
   private updateCurves(): void {
     const { samples } = this.data;
     this.player.fullEnd = this.axis.end;
-    const isFrame = this.data.job?.case?.lattice?.kind.case === "frame";
-    const stress = isFrame ? forceChart(samples, this.axis)
+    const isDriven = !hasPlates(this.data.job?.case);
+    const stress = isDriven ? forceChart(samples, this.axis)
       : stressChart(samples, this.axis, this.summary, this.theory, theoryNote(this.data.job?.case));
-    this.stress.setTitle(isFrame ? "Forces of the rigid walls" : "Stress and strain");
+    this.stress.setTitle(isDriven ? "Forces of the rigid walls" : "Stress and strain");
     this.stress.element.hidden = !stress;
     if (stress) this.stress.setData(stress);
-    this.energy.setData(energyChart(samples, this.axis, isFrame ? "work of all loads" : undefined));
+    this.energy.setData(energyChart(samples, this.axis, isDriven ? "work of all loads" : undefined));
     this.setEnd();
   }
 

@@ -12,7 +12,7 @@ import { download } from "../dom/download";
 import { button, h, replaceChildren, setText } from "../dom/element";
 import { clock, plural } from "../dom/format";
 import { icon, type IconName } from "../dom/icons";
-import { latticeWords } from "../job/case_words";
+import { hasPlates, latticeWords } from "../job/case_words";
 import { attempt } from "../jobs/actions";
 import { hasEnded, kStates, stateWord } from "../jobs/states";
 import { stateBar } from "../jobs/state_bar";
@@ -156,9 +156,8 @@ export class SweepPage implements View {
     const note = theoryNote(this.sweep?.case);
     this.chart.setData(note ? { ...data, note: `${data.note}. ${note}` } : data);
     this.table.update(this.rows, this.fields);
-    const { lattice, loading } = this.sweep.case ?? {};
-    // The strain of a frame of beams says nothing.
-    const isCrush = lattice?.kind.case !== "frame";
+    const { loading } = this.sweep.case ?? {};
+    const isCrush = hasPlates(this.sweep.case);
     this.crushes.update(isCrush ? this.rows : [], this.fields, loading?.endStrain ?? kEndStrain);
     const counts: Record<string, number> = {};
     for (const row of this.rows) {
