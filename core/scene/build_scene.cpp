@@ -2,6 +2,7 @@
 
 #include "cellcrush/fidelity.h"
 #include "cellcrush/simulation.h"
+#include "lattice/lattice.h"
 #include "scene/bands.h"
 #include "scene/check_spec.h"
 #include "scene/contact_faces.h"
@@ -78,8 +79,8 @@ SceneResult build_scene(const SceneSpec& given, const std::function<void()>& bet
 
 SceneSpec complete_spec(const SceneSpec& spec, const Scene& scene) {
   SceneSpec complete = fill_in_fidelity(spec);
-  if (auto* hexagon = std::get_if<HexagonLattice>(&complete.lattice)) {
-    hexagon->vertical_wall_thickness_mm = hexagon->vertical_wall_thickness_mm.value_or(*hexagon->wall_thickness_mm);
+  if (auto* lattice = std::get_if<RegularLattice>(&complete.lattice)) {
+    complete_own_numbers(*lattice);
   }
   complete.section.axial_points = spec.section.axial_count();
   complete.section.depth_points = spec.section.depth_count();

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "cellcrush/tuning.h"
+#include "lattice/layout.h"
 #include "scene/bands.h"
 #include "scene/face_loops.h"
-#include "scene/layout.h"
 
 namespace cellcrush {
 namespace {

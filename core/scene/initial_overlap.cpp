@@ -7,8 +7,8 @@
 
 #include "geometry/bucket_grid.h"
 #include "geometry/capsule.h"
+#include "lattice/lattice.h"
 #include "scene/check_spec.h"
-#include "scene/lattices.h"
 #include "scene/wall_paths.h"
 
 namespace cellcrush {
