@@ -1,5 +1,6 @@
 #include "validation/options.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <functional>
