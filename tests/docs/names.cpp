@@ -3,6 +3,7 @@
 #include <google/protobuf/descriptor.h>
 
 #include <algorithm>
+#include <algorithm>
 #include <fstream>
 #include <functional>
 #include <regex>
