@@ -5,6 +5,7 @@
 #include "contact/topology/bands.h"
 #include "contact/topology/contact_faces.h"
 #include "contact/topology/wall_paths.h"
+#include "lattice/lattice.h"
 #include "scene/check_spec.h"
 #include "scene/fibre_precision.h"
 #include "scene/mesh_part.h"
@@ -88,8 +89,8 @@ SceneResult build_scene(const SceneSpec& given, const std::function<void()>& bet
 
 SceneSpec complete_spec(const SceneSpec& spec, const Scene& scene) {
   SceneSpec complete = fill_in_fidelity(spec);
-  if (auto* hexagon = std::get_if<HexagonLattice>(&complete.lattice)) {
-    hexagon->vertical_wall_thickness_mm = hexagon->vertical_wall_thickness_mm.value_or(*hexagon->wall_thickness_mm);
+  if (auto* lattice = std::get_if<RegularLattice>(&complete.lattice)) {
+    complete_own_numbers(*lattice);
   }
   complete.section.axial_points = spec.section.axial_count();
   complete.section.depth_points = spec.section.depth_count();

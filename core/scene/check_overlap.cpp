@@ -8,7 +8,7 @@
 
 #include "contact/topology/initial_overlap.h"
 #include "scene/check_spec.h"
-#include "scene/lattices.h"
+#include "lattice/lattice.h"
 
 namespace cellcrush {
 namespace {

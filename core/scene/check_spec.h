@@ -1,10 +1,7 @@
 #pragma once
 
-#include <optional>
-#include <string>
-
-#include "cellcrush/problem.h"
 #include "cellcrush/scene_spec.h"
+#include "scene/field_checker.h"
 
 namespace cellcrush {
 
@@ -19,33 +16,6 @@ inline constexpr double kMostElements = 2e6;
 /// Approximate number of elements of the mesh of a spec, without building it. For a frame it is exact. For a regular
 /// lattice it omits the walls along the edges, and rigid walls have fewer. REQUIRES: beams, or columns and rows.
 double count_elements(const SceneSpec& spec);
-
-/// A number as shown in problems: the shortest text that reads back as the same value.
-std::string to_text(double value);
-
-/// Collects problems field by field. Each call checks one field and returns whether its value is valid.
-class FieldChecker {
- public:
-  struct Range {
-    double low;
-    double high;
-    bool high_open = false;  ///< the upper limit itself is refused
-  };
-
-  /// Requires a finite value within the range. `unit`, such as " mm", follows the range in the remedy.
-  bool in_range(const std::string& field, std::optional<double> value, Range range, const std::string& unit = "");
-
-  /// Requires a finite value within the limits of the field, which field_limits.inc has from case.proto. `note` follows
-  /// limits and unit in the remedy.
-  bool within_limits(const std::string& field, std::optional<double> value, const std::string& note = "");
-
-  void add(const std::string& field, const std::string& value, const std::string& message, const std::string& remedy);
-
-  Problems take() { return std::move(problems_); }
-
- private:
-  Problems problems_;
-};
 
 /// Checks a material; `path` ends with a dot.
 void check_material(const std::string& path, const MaterialSpec& material, FieldChecker& check);

@@ -2,21 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <variant>
+
+#include "lattice/lattice.h"
 
 namespace cellcrush {
 namespace {
 
 /// Largest strain of a wall's fibres over the nominal strain, while the lattice is elastic.
 double bending_share(const SceneSpec& spec, double thickness) {
-  return std::visit(
-      [thickness](const auto& lattice) {
-        if constexpr (requires { lattice.side_mm; }) {
-          return std::min(1.0, 3.0 * thickness / *lattice.side_mm);
-        }
-        return 1.0;
-      },
-      spec.lattice);
+  const RegularLattice* lattice = regular_lattice_of(spec);
+  return lattice == nullptr ? 1.0 : std::min(1.0, 3.0 * thickness / *lattice->side_mm);
 }
 
 }  // namespace

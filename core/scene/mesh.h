@@ -1,7 +1,7 @@
 #pragma once
 
 #include "cellcrush/scene.h"
-#include "scene/layout.h"
+#include "lattice/layout.h"
 
 namespace cellcrush {
 

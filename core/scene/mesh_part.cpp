@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <numbers>
 
+#include "lattice/lattice.h"
+#include "lattice/layout.h"
 #include "law/laws.h"
 #include "scene/approach_speed.h"
 #include "scene/check_overlap.h"
 #include "scene/frame.h"
-#include "scene/lattices.h"
-#include "scene/layout.h"
 #include "scene/masses.h"
 #include "scene/mesh.h"
 #include "scene/time_step.h"
@@ -41,12 +41,13 @@ Layout lay_out(const SceneSpec& spec, Scene& scene) {
   if (const auto* frame = std::get_if<FrameLattice>(&spec.lattice)) {
     return lay_out_frame(*frame, *spec.elements_per_wall);
   }
-  const Vector2 envelope = envelope_of(spec);
+  const LatticeKind& kind = *kind_of(spec);
+  const Vector2 envelope = kind.envelope(spec);
   const int axis = crush_axis_of(spec);
   scene.length = envelope[axis];
   scene.width = envelope[1 - axis];
-  scene.collapse_stress = collapse_stress_of(spec);
-  Layout layout = lay_out_cells(spec);
+  scene.collapse_stress = kind.collapse_stress(spec);
+  Layout layout = kind.lay_out(spec);
   const std::vector<Vector2> places = layout.joints;
   perturb(spec.imperfection, layout.joints);
   bow(spec.imperfection, layout.walls);

@@ -2,7 +2,7 @@
 
 #include "cellcrush/scene.h"
 #include "cellcrush/scene_spec.h"
-#include "scene/layout.h"
+#include "lattice/layout.h"
 
 namespace cellcrush {
 

@@ -1,8 +1,8 @@
 #include <cmath>
 
 #include "cellcrush/spec_checker.h"
+#include "lattice/lattice.h"
 #include "scene/check_spec.h"
-#include "scene/lattices.h"
 
 namespace cellcrush {
 namespace {

@@ -5,8 +5,8 @@
 #include <limits>
 #include <variant>
 
+#include "lattice/lattice.h"
 #include "scene/contact_law.h"
-#include "scene/lattices.h"
 #include "scene/mesh_part.h"
 
 namespace cellcrush {

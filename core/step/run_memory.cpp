@@ -40,16 +40,13 @@ double growth_by_search(const Scene& scene) {
 
 /// At the strain rate of the whole lattice, on which the precision of fibres depends.
 SceneSpec specimen_of(SceneSpec spec) {
-  std::visit(
-      [&loading = spec.loading](auto& lattice) {
-        if constexpr (requires { lattice.columns; }) {
-          const int cells = loading.direction == LoadingSpec::Direction::x ? *lattice.columns : *lattice.rows;
-          *loading.speed_m_per_s *= std::min(1.0, static_cast<double>(kMostCells) / cells);
-          lattice.columns = std::min(*lattice.columns, kMostCells);
-          lattice.rows = std::min(*lattice.rows, kMostCells);
-        }
-      },
-      spec.lattice);
+  if (auto* lattice = std::get_if<RegularLattice>(&spec.lattice)) {
+    const bool is_along_x = spec.loading.direction == LoadingSpec::Direction::x;
+    const int cells = is_along_x ? *lattice->columns : *lattice->rows;
+    *spec.loading.speed_m_per_s *= std::min(1.0, static_cast<double>(kMostCells) / cells);
+    lattice->columns = std::min(*lattice->columns, kMostCells);
+    lattice->rows = std::min(*lattice->rows, kMostCells);
+  }
   spec.imperfection = {};
   spec.inclusions = {};
   spec.numerics.time_step_s = 0.0;

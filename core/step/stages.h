@@ -43,7 +43,7 @@ struct SplitStage {
   unsigned writes;  ///< of the pieces and the end
 };
 
-/// A stage of a step, on the whole lattice or on one band of it (scene/bands.h).
+/// A stage of a step, on the whole lattice or on one band of it (contact/topology/bands.h).
 struct StageEntry {
   Stage stage;
   unsigned reads;

@@ -8,7 +8,7 @@
 #include "translate/case_checker.h"
 #include "translate/check_case.h"
 #include "translate/fidelities.h"
-#include "translate/preset_cases.h"
+#include "translate/presets.h"
 
 namespace cellcrush::rpc {
 namespace {
@@ -17,7 +17,7 @@ constexpr std::size_t kLargestPreview = 3'000'000;  // bytes
 
 std::string known_presets() {
   std::string out;
-  for (const auto& preset : translate::list_presets()) out += (out.empty() ? "" : ", ") + preset.name();
+  for (const auto& [preset, spec] : translate::presets()) out += (out.empty() ? "" : ", ") + preset.name();
   return out;
 }
 
@@ -61,18 +61,21 @@ grpc::Status CasesService::preview_case(const Call& call, const v1::PreviewCaseR
 }
 
 grpc::Status CasesService::list_presets(const Call&, const v1::ListPresetsRequest&, v1::ListPresetsResponse& response) {
-  for (auto& preset : translate::list_presets()) *response.add_presets() = std::move(preset);
+  for (const auto& [preset, spec] : translate::presets()) {
+    v1::Preset& listed = *response.add_presets() = preset;
+    listed.clear_case_();
+  }
   return grpc::Status::OK;
 }
 
 grpc::Status CasesService::get_preset(const Call&, const v1::GetPresetRequest& request, v1::Preset& response) {
   check_length("name", request.name(), kLongestName);
-  auto preset = translate::find_preset_case(request.name());
-  if (!preset) {
+  const translate::Preset* preset = translate::find_preset(request.name());
+  if (preset == nullptr) {
     throw ServiceError(ServiceError::Kind::not_found,
                        "There is no preset \"" + request.name() + "\". Available presets: " + known_presets() + ".");
   }
-  response = *std::move(preset);
+  response = preset->message;
   return grpc::Status::OK;
 }
 

@@ -1,10 +1,14 @@
 #include "translate/case_to_spec.h"
 
+#include <google/protobuf/descriptor.h>
+#include <google/protobuf/message.h>
+
 #include <algorithm>
 #include <initializer_list>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "translate/problems.h"
 
@@ -19,30 +23,36 @@ std::ptrdiff_t character_count(std::string_view text) {
                        [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; });
 }
 
-// Squares and triangles have the same four fields.
-template <class Out, class In>
-Out regular_lattice(const In& in) {
-  Out out;
-  if (in.has_columns()) out.columns = in.columns();
-  if (in.has_rows()) out.rows = in.rows();
-  if (in.has_side_mm()) out.side_mm = in.side_mm();
-  if (in.has_wall_thickness_mm()) out.wall_thickness_mm = in.wall_thickness_mm();
+// The message of any lattice of equal cells. Its fields have the names of RegularLattice's members, or are its own.
+RegularLattice read_regular(const google::protobuf::Message& in, const std::string& kind) {
+  RegularLattice out;
+  out.kind = kind;
+  const google::protobuf::Reflection& reflection = *in.GetReflection();
+  std::vector<const google::protobuf::FieldDescriptor*> given;
+  reflection.ListFields(in, &given);
+  for (const auto* field : given) {
+    if (field->name() == "columns") {
+      out.columns = reflection.GetInt32(in, field);
+    } else if (field->name() == "rows") {
+      out.rows = reflection.GetInt32(in, field);
+    } else if (field->name() == "side_mm") {
+      out.side_mm = reflection.GetDouble(in, field);
+    } else if (field->name() == "wall_thickness_mm") {
+      out.wall_thickness_mm = reflection.GetDouble(in, field);
+    } else {
+      out.own[std::string(field->name())] = reflection.GetDouble(in, field);
+    }
+  }
   return out;
 }
 
 void read_lattice(const v1::Lattice& in, SceneSpec& spec, Problems& problems) {
-  switch (in.kind_case()) {
-    case v1::Lattice::kHexagon: {
-      auto hexagon = regular_lattice<HexagonLattice>(in.hexagon());
-      if (in.hexagon().has_vertical_wall_thickness_mm())
-        hexagon.vertical_wall_thickness_mm = in.hexagon().vertical_wall_thickness_mm();
-      spec.lattice = hexagon;
-      break;
-    }
-    case v1::Lattice::kSquare: spec.lattice = regular_lattice<SquareLattice>(in.square()); break;
-    case v1::Lattice::kTriangle: spec.lattice = regular_lattice<TriangleLattice>(in.triangle()); break;
-    case v1::Lattice::kFrame: spec.lattice = to_spec(in.frame(), problems); break;
-    case v1::Lattice::KIND_NOT_SET: break;
+  const google::protobuf::Reflection& reflection = *in.GetReflection();
+  const auto* kind = reflection.GetOneofFieldDescriptor(in, in.GetDescriptor()->FindOneofByName("kind"));
+  if (in.has_frame()) {
+    spec.lattice = to_spec(in.frame(), problems);
+  } else if (kind != nullptr) {
+    spec.lattice = read_regular(reflection.GetMessage(in, kind), std::string(kind->name()));
   }
   if (in.imperfection().has_amplitude_mm()) spec.imperfection.amplitude_mm = in.imperfection().amplitude_mm();
   if (in.imperfection().has_bow_mm()) spec.imperfection.bow_mm = in.imperfection().bow_mm();

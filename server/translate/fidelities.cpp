@@ -2,26 +2,23 @@
 
 #include "cellcrush/fidelity.h"
 #include "translate/case_to_spec.h"
+#include "translate/measured_errors.h"
 #include "translate/spec_to_case.h"
 
 namespace cellcrush::translate {
 namespace {
 
-void write_forecast(const FidelityForecast& in, double step_cost, v1::FidelityForecast& out) {
-  out.set_fidelity(to_proto(in.point.fidelity));
-  out.set_elements_per_wall(in.point.elements_per_wall);
-  out.set_element_count(in.element_count);
-  out.set_step_count(in.step_count);
-  const double element_steps = static_cast<double>(in.element_count) * static_cast<double>(in.step_count);
-  out.set_predicted_seconds(step_cost * step_cost_of(in.point.elements_per_wall) * element_steps);
-  for (const auto& measured : in.errors) {
+void write_errors(const SceneSpec& spec, v1::FidelityForecast& out) {
+  const std::vector<std::string> beside = fields_beside_measured(spec);
+  out.mutable_given_fields()->Assign(beside.begin(), beside.end());
+  if (!beside.empty()) return;
+  for (const MeasuredError& measured : measured_errors_of(spec, out.elements_per_wall())) {
     auto& error = *out.add_errors();
     error.set_measure(measured.measure);
     error.set_error_relative(measured.error);
     error.set_uncertainty_relative(measured.uncertainty);
     error.set_scatter_relative(measured.scatter);
   }
-  for (const auto& field : in.given) out.add_given_fields(field);
 }
 
 }  // namespace
@@ -30,10 +27,22 @@ void add_fidelities(const v1::Case& submitted, double step_cost, CaseCheck& chec
   v1::CheckCaseResponse& response = check.response;
   const auto asked = submitted.numerics().fidelity();
   const auto decides = asked == v1::Numerics::FIDELITY_UNSPECIFIED ? v1::Numerics::STANDARD : asked;
-  for (const auto& forecast : forecast_fidelities(to_spec(submitted).spec, *check.meshes)) {
-    auto& added = *response.add_fidelities();
-    write_forecast(forecast, step_cost, added);
-    if (decides == added.fidelity()) response.set_predicted_seconds(added.predicted_seconds());
+  const SceneSpec spec = to_spec(submitted).spec;
+  if (!std::holds_alternative<RegularLattice>(spec.lattice)) return;  // nothing was measured
+  for (const FidelityPoint& point : fidelity_points(spec)) {
+    SceneSpec tried = spec;
+    tried.numerics.fidelity = point.fidelity;
+    const SpecChecker::Verdict verdict = check.meshes->check(tried);
+    if (!verdict.problems.empty()) continue;
+    auto& forecast = *response.add_fidelities();
+    forecast.set_fidelity(to_proto(point.fidelity));
+    forecast.set_elements_per_wall(*fill_in_fidelity(tried).elements_per_wall);
+    forecast.set_element_count(verdict.element_count);
+    forecast.set_step_count(verdict.step_count);
+    const double element_steps = static_cast<double>(verdict.element_count) * static_cast<double>(verdict.step_count);
+    forecast.set_predicted_seconds(step_cost * step_cost_of(forecast.elements_per_wall()) * element_steps);
+    write_errors(spec, forecast);
+    if (decides == forecast.fidelity()) response.set_predicted_seconds(forecast.predicted_seconds());
   }
 }
 

@@ -1,17 +1,25 @@
 #include "translate/spec_to_case.h"
 
+#include <google/protobuf/descriptor.h>
+#include <google/protobuf/message.h>
+
 #include <string>
 #include <variant>
 
 namespace cellcrush::translate {
 namespace {
 
-template <class Out, class In>
-void write_regular(const In& in, Out& out) {
-  if (in.columns) out.set_columns(*in.columns);
-  if (in.rows) out.set_rows(*in.rows);
-  if (in.side_mm) out.set_side_mm(*in.side_mm);
-  if (in.wall_thickness_mm) out.set_wall_thickness_mm(*in.wall_thickness_mm);
+// The message of any lattice of equal cells, as case_to_spec.cpp reads it.
+void write_regular(const RegularLattice& in, v1::Lattice& out) {
+  const auto* kind = out.GetDescriptor()->FindFieldByName(in.kind);
+  google::protobuf::Message& message = *out.GetReflection()->MutableMessage(&out, kind);
+  const google::protobuf::Reflection& reflection = *message.GetReflection();
+  const auto field = [&](const std::string& name) { return message.GetDescriptor()->FindFieldByName(name); };
+  if (in.columns) reflection.SetInt32(&message, field("columns"), *in.columns);
+  if (in.rows) reflection.SetInt32(&message, field("rows"), *in.rows);
+  if (in.side_mm) reflection.SetDouble(&message, field("side_mm"), *in.side_mm);
+  if (in.wall_thickness_mm) reflection.SetDouble(&message, field("wall_thickness_mm"), *in.wall_thickness_mm);
+  for (const auto& [name, value] : in.own) reflection.SetDouble(&message, field(name), value);
 }
 
 v1::Frame::Component to_proto(FrameLattice::Component component) {
@@ -119,14 +127,8 @@ void write_frame(const FrameLattice& in, v1::Frame& out) {
 }
 
 void write_lattice(const SceneSpec& spec, v1::Lattice& out) {
-  if (const auto* hexagon = std::get_if<HexagonLattice>(&spec.lattice)) {
-    write_regular(*hexagon, *out.mutable_hexagon());
-    if (hexagon->vertical_wall_thickness_mm)
-      out.mutable_hexagon()->set_vertical_wall_thickness_mm(*hexagon->vertical_wall_thickness_mm);
-  } else if (const auto* square = std::get_if<SquareLattice>(&spec.lattice)) {
-    write_regular(*square, *out.mutable_square());
-  } else if (const auto* triangle = std::get_if<TriangleLattice>(&spec.lattice)) {
-    write_regular(*triangle, *out.mutable_triangle());
+  if (const auto* regular = std::get_if<RegularLattice>(&spec.lattice)) {
+    write_regular(*regular, out);
   } else if (const auto* frame = std::get_if<FrameLattice>(&spec.lattice)) {
     write_frame(*frame, *out.mutable_frame());
   }

@@ -1,7 +1,7 @@
 #include "worker/step_cost.h"
 
-#include "cellcrush/presets.h"
 #include "cellcrush/simulation.h"
+#include "translate/presets.h"
 #include "worker/processor_time.h"
 
 namespace cellcrush::worker {
@@ -14,7 +14,7 @@ constexpr double kUnmeasured = 1e-7;
 }  // namespace
 
 double measure_step_cost() {
-  const Preset* preset = find_preset("hexagon-small");
+  const translate::Preset* preset = translate::find_preset("hexagon-small");
   if (preset == nullptr) return kUnmeasured;
   // About the first third of its crush, with contacts. In a smaller lattice the outer walls, which fill no vectors, and
   // the plates would dominate.

@@ -13,6 +13,7 @@
 #include "cellcrush/simd.h"
 #include "cellcrush/state.h"
 #include "scenes/frames.h"
+#include "scenes/lattices.h"
 #include "worker/large_pages.h"
 #include "worker/stage_timer.h"
 
@@ -29,7 +30,7 @@ double array_bytes(const Arrays& arrays) {
 
 /// What the program itself takes, text above all, is in memory when a few cells have been crushed in the same way.
 void warm_up(SceneSpec spec) {
-  auto& hexagon = std::get<HexagonLattice>(spec.lattice);
+  auto& hexagon = scenes::cells_of(spec);
   hexagon.columns = 6;
   hexagon.rows = 4;
   Simulation simulation(scenes::build(spec));

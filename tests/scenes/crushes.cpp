@@ -1,12 +1,13 @@
 #include "scenes/crushes.h"
 
-#include "cellcrush/presets.h"
+#include "scenes/lattices.h"
+#include "scenes/presets.h"
 
 namespace cellcrush::scenes {
 namespace {
 
 /// Lattices of the other types with the paper's elements, at the step that is chosen for them.
-SceneSpec papers(const char* preset) { return with_the_papers_elements(find_preset(preset)->spec); }
+SceneSpec papers(const char* preset) { return with_the_papers_elements(scenes::preset(preset)); }
 
 SceneSpec with_friction() {
   SceneSpec spec = papers_type_i();
@@ -25,7 +26,7 @@ SceneSpec with_hardening() {
 /// A part of Type I that has about as many elements, at the step that is chosen for it.
 SceneSpec with_elements(int elements, int columns, int rows) {
   SceneSpec spec = papers_type_i();
-  auto& lattice = std::get<HexagonLattice>(spec.lattice);
+  auto& lattice = scenes::cells_of(spec);
   lattice.columns = columns;
   lattice.rows = rows;
   spec.elements_per_wall = elements;
@@ -50,14 +51,14 @@ SceneSpec papers_type_i() {
 
 SceneSpec papers_type_i_wider(int times) {
   SceneSpec spec = papers_type_i();
-  auto& lattice = std::get<HexagonLattice>(spec.lattice);
+  auto& lattice = scenes::cells_of(spec);
   lattice.rows = times * *lattice.rows;
   return spec;
 }
 
 std::vector<Crush> crushes() {
   return {{"type-i-paper", papers_type_i(), {0.20, 0.45, 0.80}},
-          {"type-i-default", find_preset("type-i")->spec, {0.20, 0.45, 0.80}},
+          {"type-i-default", scenes::preset("type-i"), {0.20, 0.45, 0.80}},
           {"squares", papers("type-ii-as-counted"), {0.20}},
           {"triangles", papers("type-iii-as-counted"), {0.20}},
           {"friction", with_friction(), {0.45}},

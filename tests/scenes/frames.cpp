@@ -5,7 +5,8 @@
 #include <cmath>
 #include <random>
 
-#include "cellcrush/presets.h"
+#include "scenes/lattices.h"
+#include "scenes/presets.h"
 
 namespace cellcrush::scenes {
 
@@ -56,8 +57,8 @@ SceneSpec Cantilever::spec(int elements, FrameLattice::Component component, doub
 }
 
 SceneSpec hexagon_specimen(int columns, int rows) {
-  SceneSpec spec = find_preset("hexagon-small")->spec;
-  auto& hexagon = std::get<HexagonLattice>(spec.lattice);
+  SceneSpec spec = scenes::preset("hexagon-small");
+  auto& hexagon = scenes::cells_of(spec);
   hexagon.columns = columns;
   hexagon.rows = rows;
   return spec;

@@ -1,6 +1,7 @@
 #include "scenes/small_specimen.h"
 
 #include "scenes/frames.h"
+#include "scenes/lattices.h"
 
 namespace cellcrush::scenes {
 
@@ -10,15 +11,15 @@ SceneSpec spec_of(const SmallSpecimen& specimen, int columns, int rows) {
   SceneSpec spec = hexagon_specimen(columns, rows);
   const std::string lattice = specimen.lattice;
   if (lattice == "square") {
-    spec.lattice = SquareLattice{columns, rows, kSide, 0.05132 * kSide};
+    spec.lattice = scenes::squares(columns, rows, kSide, 0.05132 * kSide);
     spec.elements_per_wall = kElementsAlongCrush;
   } else if (lattice == "triangle") {
-    spec.lattice = TriangleLattice{columns, rows, kSide, 0.02963 * kSide};
+    spec.lattice = scenes::triangles(columns, rows, kSide, 0.02963 * kSide);
     spec.elements_per_wall = kElementsAlongCrush;
   } else if (lattice == "thick") {
-    spec.lattice = HexagonLattice{columns, rows, kSide, 0.25, 0.5};
+    spec.lattice = scenes::hexagons(columns, rows, kSide, 0.25, 0.5);
   } else if (lattice == "thick_ends") {
-    spec.lattice = HexagonLattice{columns, rows, kSide, 0.5, 0.9};
+    spec.lattice = scenes::hexagons(columns, rows, kSide, 0.5, 0.9);
     spec.loading.direction = LoadingSpec::Direction::y;
     spec.elements_per_wall = 2;
   }

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "cellcrush/presets.h"
+#include "scenes/presets.h"
 #include "scenes/textbook.h"
 #include "translate/check_case.h"
 #include "translate/spec_to_case.h"
@@ -74,8 +74,8 @@ void set_number(Message& message, const Leaf& leaf, double value) {
 std::vector<v1::Case> sound_cases() {
   std::vector<v1::Case> cases;
   for (const char* name : {"hexagon-small", "papka-kyriakides-1", "type-ii-as-counted", "type-iii-as-counted"})
-    cases.push_back(translate::to_case(find_preset(name)->spec));
-  SceneSpec stiff = find_preset("hexagon-small")->spec;
+    cases.push_back(translate::to_case(scenes::preset(name)));
+  SceneSpec stiff = scenes::preset("hexagon-small");
   stiff.inclusions.rows = {2, 4};
   cases.push_back(translate::to_case(stiff));
   cases.push_back(translate::to_case(scenes::bent_cantilever(1.6)));

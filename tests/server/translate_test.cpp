@@ -4,7 +4,8 @@
 
 #include <type_traits>
 
-#include "cellcrush/presets.h"
+#include "scenes/lattices.h"
+#include "scenes/presets.h"
 #include "server/small_case.h"
 #include "translate/case_to_spec.h"
 #include "translate/check_case.h"
@@ -60,8 +61,7 @@ v1::Case frame_case() {
 }
 
 TEST(Translate, EveryPresetSurvivesTheWayToTheWireAndBack) {
-  ASSERT_FALSE(presets().empty());
-  for (const auto& preset : presets()) {
+  for (const auto& preset : scenes::presets()) {
     const v1::Case once = translate::to_case(preset.spec);
     const auto reading = translate::to_spec(once);
     EXPECT_THAT(reading.problems, IsEmpty()) << preset.name;
@@ -73,9 +73,7 @@ TEST(Translate, EveryPresetSurvivesTheWayToTheWireAndBack) {
 }
 
 TEST(Translate, APresetWithAnotherFormulationTakesThePointsThatGoWithIt) {
-  const Preset* const type_i = find_preset("type-i");
-  ASSERT_NE(type_i, nullptr);
-  v1::Case of_preset = translate::to_case(type_i->spec);
+  v1::Case of_preset = translate::to_case(scenes::preset("type-i"));
   EXPECT_EQ(translate::to_spec(of_preset).spec.section.axial_count(), 4);
   of_preset.mutable_section()->set_formulation(v1::Section::DISPLACEMENT_BASED);
   EXPECT_EQ(translate::to_spec(of_preset).spec.section.axial_count(), 2);
@@ -157,10 +155,10 @@ TEST(Translate, SquaresAndTrianglesKeepTheirFields) {
   square.set_side_mm(5.0);
   square.set_wall_thickness_mm(0.1);
   const auto as_square = translate::to_spec(given).spec;
-  EXPECT_EQ(std::get<SquareLattice>(as_square.lattice).side_mm, 5.0);
+  EXPECT_EQ(scenes::cells_of(as_square).side_mm, 5.0);
   EXPECT_TRUE(MessageDifferencer::Equals(translate::to_case(as_square).lattice().square(), given.lattice().square()));
   given.mutable_lattice()->mutable_triangle()->set_rows(7);
-  EXPECT_EQ(std::get<TriangleLattice>(translate::to_spec(given).spec.lattice).rows, 7);
+  EXPECT_EQ(scenes::cells_of(translate::to_spec(given).spec).rows, 7);
 }
 
 TEST(Translate, UnknownEnumNumbersAndALongTitleAreProblems) {

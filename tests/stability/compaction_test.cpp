@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <string>
 
-#include "cellcrush/presets.h"
 #include "cellcrush/state.h"
 #include "scenes/evidence.h"
 #include "scenes/frames.h"
+#include "scenes/presets.h"
 #include "step/check_run.h"
 
 namespace cellcrush {
@@ -20,7 +20,7 @@ struct Compaction {
   std::vector<Warning> warnings;
 
   Compaction(double speed, MaterialSpec::Plane plane, double end_strain) {
-    SceneSpec spec = find_preset("hexagon-small")->spec;
+    SceneSpec spec = scenes::preset("hexagon-small");
     spec.loading.speed_m_per_s = speed;
     spec.loading.end_strain = end_strain;
     spec.material.plane = plane;

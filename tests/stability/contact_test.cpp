@@ -8,6 +8,7 @@
 #include "contact/touch/force_laws.h"
 #include "scenes/beam_over_beam.h"
 #include "scenes/frames.h"
+#include "scenes/lattices.h"
 #include "step/advance_step.h"
 
 namespace cellcrush {
@@ -126,7 +127,7 @@ TEST(Adhesion, AViscousContactPullsOnWallsThatPartUnlessItIsClamped) {
 // and the specimen bursts. Pairs joined by a short way touch at 0.4 of it.
 TEST(ThickNeighbours, TouchAtEveryJointBeforeLoadingWithTheLiteralGap) {
   SceneSpec spec = scenes::hexagon_specimen(4, 3);
-  std::get<HexagonLattice>(spec.lattice).wall_thickness_mm = 0.8;
+  scenes::cells_of(spec).wall_thickness_mm = 0.8;
   spec.elements_per_wall = 8;
   const auto scene = scenes::build(spec);
   const State sound = make_initial_state(*scene);

@@ -4,7 +4,7 @@
 #include <iostream>
 #include <string>
 
-#include "cellcrush/presets.h"
+#include "scenes/presets.h"
 #include "scenes/seeded_crushes.h"
 
 namespace cellcrush {
@@ -26,7 +26,7 @@ class TypeIModes : public testing::TestWithParam<Expectation> {};
 
 TEST_P(TypeIModes, AgreeOverTenSeeds) {
   const auto& [speed, mode, least] = GetParam();
-  SceneSpec spec = find_preset("type-i")->spec;
+  SceneSpec spec = scenes::preset("type-i");
   spec.loading.speed_m_per_s = speed;
   spec.loading.end_strain = 0.6;
   spec.output.sample_count = 200;

@@ -4,8 +4,8 @@
 #include <numbers>
 #include <string>
 
-#include "cellcrush/presets.h"
 #include "core/reference/bilinear_elastica.h"
+#include "scenes/presets.h"
 #include "validation/crush_run.h"
 
 namespace cellcrush {
@@ -36,7 +36,7 @@ SectionSpec papers_elements() {
 void record(const std::string& name, double value) { testing::Test::RecordProperty(name, std::to_string(value)); }
 
 CrushRun crush(const Example& example, const SectionSpec& section, const Imperfection& imperfection = {}) {
-  SceneSpec spec = find_preset(example.preset)->spec;
+  SceneSpec spec = scenes::preset(example.preset);
   spec.section = section;
   spec.imperfection = imperfection;
   // The presets end at 80 %, where the densified stress is not yet a third above the plateau of every one.

@@ -1,5 +1,6 @@
 #include "validation/options.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <functional>
@@ -8,8 +9,8 @@
 #include <type_traits>
 #include <variant>
 
-#include "cellcrush/presets.h"
 #include "cellcrush/simulation.h"
+#include "scenes/presets.h"
 
 namespace cellcrush::validation {
 namespace {
@@ -51,15 +52,9 @@ Value choice(const std::string& name, const std::string& text, const std::map<st
 
 /// Throws std::invalid_argument for a frame.
 RegularLattice& cells_of(SceneSpec& spec) {
-  return std::visit(
-      [](auto& lattice) -> RegularLattice& {
-        if constexpr (std::is_base_of_v<RegularLattice, std::decay_t<decltype(lattice)>>) {
-          return lattice;
-        } else {
-          throw std::invalid_argument("columns, rows: a frame has none.");
-        }
-      },
-      spec.lattice);
+  auto* lattice = std::get_if<RegularLattice>(&spec.lattice);
+  if (lattice == nullptr) throw std::invalid_argument("columns, rows: a frame has none.");
+  return *lattice;
 }
 
 const std::vector<Option>& all_options() {
@@ -194,18 +189,18 @@ void apply_word(Options& options, const std::string& word) {
 }  // namespace
 
 Options read_options(const std::vector<std::string>& words) {
-  const Preset* preset = words.empty() ? nullptr : find_preset(words.front());
-  if (preset == nullptr) {
+  const auto known = std::ranges::find(scenes::presets(), words.empty() ? "" : words.front(), &scenes::NamedSpec::name);
+  if (known == scenes::presets().end()) {
     std::string names;
-    for (const Preset& known : presets()) {
-      names += "\n  " + known.name;
+    for (const auto& preset : scenes::presets()) {
+      names += "\n  " + preset.name;
     }
     throw std::invalid_argument((words.empty() ? "No preset is given" : words.front() + ": is no preset") +
                                 ". The presets are" + names);
   }
   Options options;
-  options.preset = preset->name;
-  options.spec = preset->spec;
+  options.preset = known->name;
+  options.spec = known->spec;
   for (std::size_t i = 1; i < words.size(); ++i) {
     apply_word(options, words[i]);
   }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -14,28 +14,17 @@ namespace cellcrush {
 // ("loading.speed_m_per_s"). Scene holds the same in the units of the solver (mm, tonne, s, N, MPa).
 // A std::optional must be given where it applies, unless its comment names a default; if missing, it is reported.
 
-/// What all regular lattices have.
+/// A lattice of equal cells. Its kind says how cells lie and are counted (core/lattice/kinds).
 struct RegularLattice {
+  std::string kind;  ///< one of lattice_names(): "hexagon" for lattice.hexagon
   std::optional<int> columns;
   std::optional<int> rows;
   std::optional<double> side_mm;
   std::optional<double> wall_thickness_mm;
+  std::map<std::string, double> own;  ///< numbers that only this kind has, by the names of their fields
 
   bool operator==(const RegularLattice&) const = default;
 };
-
-/// Regular hexagons with walls along y. Rows run along x and have `columns` and `columns - 1` cells in turn.
-struct HexagonLattice : RegularLattice {
-  std::optional<double> vertical_wall_thickness_mm;  ///< default: wall_thickness_mm
-
-  bool operator==(const HexagonLattice&) const = default;
-};
-
-/// Squares with walls along x and y.
-struct SquareLattice : RegularLattice {};
-
-/// Equilateral triangles with walls along x.
-struct TriangleLattice : RegularLattice {};
 
 struct MaterialSpec {
   std::optional<double> youngs_modulus_mpa;
@@ -250,7 +239,7 @@ struct OutputSpec {
 
 struct SceneSpec {
   std::string title;
-  std::variant<std::monostate, HexagonLattice, SquareLattice, TriangleLattice, FrameLattice> lattice;
+  std::variant<std::monostate, RegularLattice, FrameLattice> lattice;
   Imperfection imperfection;
   Inclusions inclusions;
   std::optional<double> depth_mm;

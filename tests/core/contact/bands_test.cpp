@@ -9,9 +9,10 @@
 #include <tuple>
 #include <vector>
 
-#include "scene/lattices.h"
+#include "lattice/lattice.h"
 #include "scenes/crushes.h"
 #include "scenes/frames.h"
+#include "scenes/lattices.h"
 
 namespace cellcrush {
 namespace {
@@ -72,9 +73,9 @@ TEST(Bands, HaveEveryFaceOnceAndABallsInItsOwnOrTheOneBefore) {
 TEST(Bands, AreOfLongLatticesAndOfSquaresAndTrianglesToo) {
   const SceneSpec hexagons = wide_specimen();
   SceneSpec squares = hexagons;
-  squares.lattice = SquareLattice{12, 1500, 4.0, 0.3};
+  squares.lattice = scenes::squares(12, 1500, 4.0, 0.3);
   SceneSpec triangles = hexagons;
-  triangles.lattice = TriangleLattice{10, 1000, 4.0, 0.2};
+  triangles.lattice = scenes::triangles(10, 1000, 4.0, 0.2);
   for (const SceneSpec& spec :
        {scenes::hexagon_specimen(1000, 10), scenes::hexagon_specimen(130, 100), squares, triangles}) {
     const auto scene = scenes::build(spec);
@@ -111,7 +112,7 @@ std::vector<PlacedWall> walls_of(const Layout& layout) {
 TEST(NumberColumns, GoesAlongALongLatticeAndChangesNothingElse) {
   SceneSpec spec = scenes::hexagon_specimen(1000, 10);
   spec.elements_per_wall = 4;
-  const Layout rows = lay_out_cells(spec);
+  const Layout rows = kind_of(spec)->lay_out(spec);
   Layout columns = rows;
   number_columns(rows.joints, columns);
   EXPECT_TRUE(std::is_sorted(columns.joints.begin(), columns.joints.end(),
@@ -128,7 +129,7 @@ TEST(NumberColumns, GoesAlongALongLatticeAndChangesNothingElse) {
 TEST(NumberColumns, LeavesWideAndSmallOnesAsTheyAre) {
   for (SceneSpec spec : {wide_specimen(), scenes::hexagon_specimen(100, 10)}) {
     spec.elements_per_wall = 4;
-    const Layout rows = lay_out_cells(spec);
+    const Layout rows = kind_of(spec)->lay_out(spec);
     Layout columns = rows;
     number_columns(rows.joints, columns);
     EXPECT_EQ(columns.joints, rows.joints);

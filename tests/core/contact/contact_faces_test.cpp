@@ -10,6 +10,7 @@
 
 #include "contact/topology/wall_paths.h"
 #include "scenes/frames.h"
+#include "scenes/lattices.h"
 
 namespace cellcrush {
 namespace {
@@ -59,7 +60,7 @@ TEST(ContactFaces, EveryElementHasAFaceAtEitherSideThatItBorders) {
 // Each of the 30 vertical walls stands out at both ends, but at the 10 ends where it meets one other wall only.
 TEST(ContactFaces, OfThickWallsHaveTheirEnds) {
   SceneSpec spec = scenes::hexagon_specimen(7, 4);
-  std::get<HexagonLattice>(spec.lattice).vertical_wall_thickness_mm = 0.5;
+  scenes::cells_of(spec).own["vertical_wall_thickness_mm"] = 0.5;
   const auto scene = scenes::build(spec);
   const FacesOfBand& faces = scene->faces.bands.front();
   std::size_t count = 0;

@@ -14,6 +14,7 @@
 #include "scenes/crossings.h"
 #include "scenes/every_target.h"
 #include "scenes/frames.h"
+#include "scenes/lattices.h"
 #include "scenes/near_pairs.h"
 #include "step/advance_step.h"
 
@@ -27,11 +28,11 @@ using scenes::Pairs;
 SceneSpec block_of(const char* lattice) {
   SceneSpec spec = scenes::hexagon_specimen(5, 4);
   if (std::string(lattice) == "square") {
-    spec.lattice = SquareLattice{6, 5, 4.0, 0.2};
+    spec.lattice = scenes::squares(6, 5, 4.0, 0.2);
   } else if (std::string(lattice) == "triangle") {
-    spec.lattice = TriangleLattice{6, 5, 4.0, 0.12};
+    spec.lattice = scenes::triangles(6, 5, 4.0, 0.12);
   } else if (std::string(lattice) == "thick ends") {
-    spec.lattice = HexagonLattice{5, 4, 4.0, 0.15, 0.4};
+    spec.lattice = scenes::hexagons(5, 4, 4.0, 0.15, 0.4);
   }
   spec.elements_per_wall = 2;  // brute force takes the square of their number
   spec.numerics.time_step_s = 0.0;

@@ -6,9 +6,10 @@
 #include <numbers>
 #include <set>
 
-#include "cellcrush/presets.h"
 #include "cellcrush/state.h"
 #include "scenes/frames.h"
+#include "scenes/lattices.h"
+#include "scenes/presets.h"
 #include "step/advance_step.h"
 
 namespace cellcrush {
@@ -79,7 +80,7 @@ TEST(InitialOverlap, FarFromTheOriginToo) {
 }
 
 TEST(InitialOverlap, NoPresetIsRefused) {
-  for (const Preset& preset : presets()) {
+  for (const auto& preset : scenes::presets()) {
     EXPECT_TRUE(build_scene(preset.spec).problems.empty()) << preset.name;
   }
 }
@@ -91,9 +92,9 @@ TEST(InitialOverlap, AnUndeformedLatticeOfThickWallsIsFreeOfForce) {
     for (const double share : {0.05, 0.3, 0.5}) {
       SceneSpec spec = scenes::hexagon_specimen(4, 3);
       spec.elements_per_wall = elements;
-      const HexagonLattice hexagon = {4, 3, 4.0, share * 4.0, share * 4.0};
-      const SquareLattice square = {4, 3, 4.0, share * 4.0};
-      const TriangleLattice triangle = {4, 3, 4.0, share * 4.0};
+      const RegularLattice hexagon = scenes::hexagons(4, 3, 4.0, share * 4.0, share * 4.0);
+      const RegularLattice square = scenes::squares(4, 3, 4.0, share * 4.0);
+      const RegularLattice triangle = scenes::triangles(4, 3, 4.0, share * 4.0);
       const auto expect_no_force = [&] {
         spec.numerics.time_step_s = 0.0;
         const auto scene = scenes::build(spec);
@@ -115,10 +116,10 @@ TEST(InitialOverlap, AnUndeformedLatticeOfThickWallsIsFreeOfForce) {
 TEST(InitialOverlap, ALatticeWhoseJointsAreThrownOnEachOtherNamesItsThickness) {
   SceneSpec spec = scenes::hexagon_specimen(6, 6);
   spec.numerics.time_step_s = 0.0;
-  spec.lattice = TriangleLattice{6, 6, 4.0, 2.0};
+  spec.lattice = scenes::triangles(6, 6, 4.0, 2.0);
   spec.imperfection = {0.4, 5};
   EXPECT_TRUE(is_refused(spec, "lattice.triangle.wall_thickness_mm", "before loading, first at ("));
-  spec.lattice = TriangleLattice{6, 6, 4.0, 0.2};
+  spec.lattice = scenes::triangles(6, 6, 4.0, 0.2);
   EXPECT_TRUE(scenes::build(spec));
 }
 
@@ -128,14 +129,14 @@ TEST(InitialOverlap, ElementsOfOneStraightWallDoNotCross) {
   SceneSpec spec = scenes::hexagon_specimen(2, 1);
   spec.numerics.time_step_s = 0.0;
   spec.elements_per_wall = 11;
-  spec.lattice = TriangleLattice{2, 1, 4.0, 0.01};
+  spec.lattice = scenes::triangles(2, 1, 4.0, 0.01);
   spec.imperfection = {0.02, 866};
   EXPECT_TRUE(scenes::build(spec));
 }
 
 TEST(InitialOverlap, ThicknessBeyondHalfOfTheSideIsRefused) {
   SceneSpec spec = scenes::hexagon_specimen(4, 3);
-  spec.lattice = SquareLattice{4, 3, 4.0, 2.01};
+  spec.lattice = scenes::squares(4, 3, 4.0, 2.01);
   EXPECT_TRUE(is_refused(spec, "lattice.square.wall_thickness_mm", ""));
 }
 

@@ -12,6 +12,7 @@
 #include "scenes/direction.h"
 #include "scenes/evidence.h"
 #include "scenes/frames.h"
+#include "scenes/lattices.h"
 #include "scenes/near_pairs.h"
 #include "scenes/probe.h"
 #include "scenes/small_specimen.h"
@@ -86,11 +87,11 @@ class HeldWalls {
 /// Hexagons and thick squares, whose walls have grown, after contacts of all kinds.
 std::vector<HeldWalls> held_walls() {
   SceneSpec squares = scenes::spec_of({"square", 200.0, 0.3}, 5, 4);
-  std::get<SquareLattice>(squares.lattice).wall_thickness_mm = 0.5;
+  scenes::cells_of(squares).wall_thickness_mm = 0.5;
   squares.elements_per_wall = 4;
   SceneSpec hexagons = scenes::spec_of({"hexagon", 100.0, 0.3}, 5, 4);
-  std::get<HexagonLattice>(hexagons.lattice).wall_thickness_mm = 0.5;
-  std::get<HexagonLattice>(hexagons.lattice).vertical_wall_thickness_mm = 0.35;
+  scenes::cells_of(hexagons).wall_thickness_mm = 0.5;
+  scenes::cells_of(hexagons).own["vertical_wall_thickness_mm"] = 0.35;
   std::vector<HeldWalls> all = {HeldWalls(squares, 1200), HeldWalls(hexagons, 750)};
   EXPECT_GT(*std::ranges::max_element(all.front().state().radius_growth), 0.05);
   return all;

@@ -9,6 +9,7 @@
 #include "contact/contact_tiles.h"
 #include "scenes/evidence.h"
 #include "scenes/frames.h"
+#include "scenes/lattices.h"
 #include "scenes/near_pairs.h"
 #include "scenes/small_specimen.h"
 #include "step/advance_step.h"
@@ -19,7 +20,7 @@ namespace {
 /// Thick squares, squashed at 200 m/s, with contacts that lose nothing.
 SceneSpec squashed_squares(MaterialSpec::Plane plane) {
   SceneSpec spec = scenes::spec_of({"square", 200.0, 0.3}, 5, 4);
-  std::get<SquareLattice>(spec.lattice).wall_thickness_mm = 0.5;
+  scenes::cells_of(spec).wall_thickness_mm = 0.5;
   spec.elements_per_wall = 4;
   spec.material.plane = plane;
   spec.contact.damping_ratio = 0.0;

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <vector>
 
-#include "cellcrush/presets.h"
 #include "measure/cells.h"
 #include "scenes/frames.h"
 

@@ -6,10 +6,10 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "cellcrush/presets.h"
 #include "cellcrush/simulation.h"
 #include "core/crush/golden_hashes.h"
 #include "scenes/frames.h"
+#include "scenes/presets.h"
 #include "scenes/state_hash.h"
 
 namespace cellcrush {
@@ -43,7 +43,7 @@ TEST(GoldenHash, OfEveryPresetsFirstStepsOnEveryTarget) { expect_recorded_bits_o
 TEST(GoldenHash, OfWholeCrushesOnEveryTarget) { expect_recorded_bits_of(scenes::whole_crushes()); }
 
 TEST(GoldenHash, SeesALastBitOfAPosition) {
-  Simulation simulation(scenes::build(find_preset("hexagon-small")->spec));
+  Simulation simulation(scenes::build(scenes::preset("hexagon-small")));
   simulation.advance(100);
   State state = simulation.state();
   const std::uint64_t before = scenes::hash_of(state);

@@ -8,11 +8,11 @@
 #include <iomanip>
 #include <sstream>
 
-#include "cellcrush/presets.h"
 #include "cellcrush/simd.h"
 #include "cellcrush/simulation.h"
 #include "scenes/crushes.h"
 #include "scenes/frames.h"
+#include "scenes/presets.h"
 #include "scenes/small_specimen.h"
 #include "scenes/state_hash.h"
 
@@ -60,7 +60,7 @@ std::string hash_of_crush(const GoldenCrush& crush) {
 
 std::vector<GoldenCrush> first_steps_of_presets() {
   std::vector<GoldenCrush> crushes;
-  for (const Preset& preset : presets()) {
+  for (const auto& preset : scenes::presets()) {
     crushes.push_back({preset.name, preset.spec, 500});
   }
   return crushes;

@@ -8,11 +8,11 @@
 #include <random>
 #include <vector>
 
-#include "cellcrush/presets.h"
 #include "cellcrush/state.h"
 #include "scenes/evidence.h"
 #include "scenes/frames.h"
 #include "scenes/kernels.h"
+#include "scenes/presets.h"
 #include "section/section_rule.h"
 
 namespace cellcrush {
@@ -143,7 +143,7 @@ double asymmetry(const Scene& scene, const State& state, const std::vector<std::
 // With steps above 2e-7 s a ball on the axis comes to touch both halves of a wall across it equally deep at strain
 // 0.025, and the touch that counts is one of them.
 TEST(RoundOff, APerfectHoneycombStaysSymmetricUntilItBuckles) {
-  SceneSpec spec = in_double(find_preset("type-i")->spec);
+  SceneSpec spec = in_double(scenes::preset("type-i"));
   spec.imperfection = {};
   spec.numerics.time_step_s = 1.73e-7;
   const auto scene = scenes::build(spec);

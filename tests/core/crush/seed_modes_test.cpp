@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "cellcrush/presets.h"
 #include "scenes/evidence.h"
 #include "scenes/frames.h"
 #include "scenes/seeded_crushes.h"

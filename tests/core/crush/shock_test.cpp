@@ -3,7 +3,6 @@
 #include <cmath>
 #include <vector>
 
-#include "cellcrush/presets.h"
 #include "cellcrush/simulation.h"
 #include "scenes/evidence.h"
 #include "scenes/frames.h"

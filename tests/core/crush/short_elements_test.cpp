@@ -4,9 +4,10 @@
 #include <cstdint>
 #include <variant>
 
-#include "cellcrush/presets.h"
 #include "scenes/evidence.h"
 #include "scenes/frames.h"
+#include "scenes/lattices.h"
+#include "scenes/presets.h"
 
 namespace cellcrush {
 namespace {
@@ -16,8 +17,8 @@ namespace {
 TEST(ShortElements, OfSquashedWallsMakeNoEnergy) {
   double worst = 0.0;
   for (const int seed : {1, 2, 3}) {
-    SceneSpec spec = find_preset("type-ii-as-counted")->spec;
-    SquareLattice& lattice = std::get<SquareLattice>(spec.lattice);
+    SceneSpec spec = scenes::preset("type-ii-as-counted");
+    RegularLattice& lattice = scenes::cells_of(spec);
     lattice.columns = 6;
     lattice.rows = 3;
     spec.elements_per_wall = 32;

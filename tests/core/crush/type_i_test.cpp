@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "cellcrush/presets.h"
 #include "cellcrush/state.h"
 #include "scenes/crossings.h"
 #include "scenes/crushes.h"
 #include "scenes/evidence.h"
 #include "scenes/frames.h"
+#include "scenes/presets.h"
 
 namespace cellcrush {
 namespace {
@@ -113,7 +113,7 @@ TEST(TypeI, CrushAt100MetresASecondWithThePapersElementsAndStep) {
 
 // The support stress of the paper's elements falls from 0.46 to 0.39 MPa with 8 of them a wall; ours begin below.
 TEST(TypeI, CrushAt100MetresASecondByDefaultClosesItsLedgerWithinOnePercent) {
-  const CountedCrush ours = crush(find_preset("type-i")->spec);
+  const CountedCrush ours = crush(scenes::preset("type-i"));
   expect_plateaus(ours, 0.30, 0.42);
   EXPECT_LT(ours.summary.energy_error_relative, 0.01);
   expect_sound_contact(ours);

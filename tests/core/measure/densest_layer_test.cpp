@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cellcrush/presets.h"
 #include "measure/cells.h"
 #include "measure/theory.h"
 #include "scenes/evidence.h"
 #include "scenes/frames.h"
+#include "scenes/lattices.h"
 #include "scenes/near_pairs.h"
+#include "scenes/presets.h"
 #include "step/advance_step.h"
 
 namespace cellcrush {
@@ -24,7 +25,7 @@ struct Moved {
 
   template <class PlaceOf>
   Moved(const char* preset, const PlaceOf& place_of)
-      : scene(scenes::build(find_preset(preset)->spec)),
+      : scene(scenes::build(scenes::preset(preset))),
         pitch(find_cells(*scene).field.pitch),
         state(make_initial_state(*scene)) {
     const int axis = scene->plates.axis;
@@ -77,10 +78,10 @@ TEST(DensestLayer, IsFoundWhereTheLatticeIsCompacted) {
 // Layers of thin foil are far thinner than a cell, and may have a single joint in them.
 TEST(DensestLayer, OfThinFoilIsNotADisplacedJoint) {
   SceneSpec spec = scenes::hexagon_specimen(9, 12);
-  HexagonLattice& lattice = std::get<HexagonLattice>(spec.lattice);
+  RegularLattice& lattice = scenes::cells_of(spec);
   lattice.side_mm = 2.75;
   lattice.wall_thickness_mm = 0.0254;
-  lattice.vertical_wall_thickness_mm = 0.0508;
+  lattice.own["vertical_wall_thickness_mm"] = 0.0508;
   spec.imperfection = {0.05, 1};
   const auto scene = scenes::build(spec);
   State state = make_initial_state(*scene);

@@ -6,10 +6,10 @@
 #include <numeric>
 #include <string>
 
-#include "cellcrush/presets.h"
 #include "measure/cells.h"
 #include "scenes/evidence.h"
 #include "scenes/frames.h"
+#include "scenes/presets.h"
 
 namespace cellcrush {
 namespace {
@@ -19,14 +19,9 @@ struct Lattice {
   Faces faces;
 };
 
-template <class Kind>
-Lattice trace(Kind kind, int columns, int rows, int elements_per_wall) {
-  kind.columns = columns;
-  kind.rows = rows;
-  kind.side_mm = 4.0;
-  kind.wall_thickness_mm = 0.2;
-  SceneSpec spec = find_preset("hexagon-small")->spec;
-  spec.lattice = kind;
+Lattice trace(const char* kind, int columns, int rows, int elements_per_wall) {
+  SceneSpec spec = scenes::preset("hexagon-small");
+  spec.lattice = RegularLattice{kind, columns, rows, 4.0, 0.2, {}};
   spec.elements_per_wall = elements_per_wall;
   spec.numerics.time_step_s = 0.0;
   Lattice lattice;
@@ -51,7 +46,7 @@ void expect_areas(const Lattice& lattice, double each, const std::string& cells)
 
 TEST(Faces, OfHexagonsAreTheCells) {
   for (const int elements : {1, 2, 3}) {
-    const Lattice lattice = trace(HexagonLattice(), 7, 4, elements);
+    const Lattice lattice = trace("hexagon", 7, 4, elements);
     EXPECT_EQ(lattice.faces.count(), 7u + 6u + 7u + 6u);
     expect_euler(lattice);
     expect_areas(lattice, 1.5 * std::numbers::sqrt3 * 16.0, "hexagons");
@@ -59,7 +54,7 @@ TEST(Faces, OfHexagonsAreTheCells) {
 }
 
 TEST(Faces, OfSquaresAreTheCells) {
-  const Lattice lattice = trace(SquareLattice(), 6, 5, 2);
+  const Lattice lattice = trace("square", 6, 5, 2);
   EXPECT_EQ(lattice.faces.count(), 30u);
   expect_euler(lattice);
   expect_areas(lattice, 16.0, "squares");
@@ -68,7 +63,7 @@ TEST(Faces, OfSquaresAreTheCells) {
 }
 
 TEST(Faces, OfTrianglesAreTheCells) {
-  const Lattice lattice = trace(TriangleLattice(), 6, 4, 2);
+  const Lattice lattice = trace("triangle", 6, 4, 2);
   EXPECT_EQ(lattice.faces.count(), 4u * 11u);
   expect_euler(lattice);
   expect_areas(lattice, 0.25 * std::numbers::sqrt3 * 16.0, "triangles");
@@ -96,7 +91,7 @@ TEST(Faces, ADanglingElementBelongsToTheFaceAroundIt) {
 }
 
 TEST(Faces, AreasFollowTheParticles) {
-  const Lattice lattice = trace(HexagonLattice(), 5, 3, 2);
+  const Lattice lattice = trace("hexagon", 5, 3, 2);
   std::vector<Vector2> squeezed = lattice.scene->position;
   for (Vector2& position : squeezed) {
     position = {0.3 * position.x() + 0.2 * position.y(), position.y()};

@@ -12,10 +12,10 @@
 #include <string>
 #include <variant>
 
-#include "cellcrush/presets.h"
 #include "cellcrush/simulation.h"
 #include "scenes/crushes.h"
 #include "scenes/frames.h"
+#include "scenes/presets.h"
 
 namespace cellcrush {
 namespace {
@@ -48,14 +48,10 @@ double crush(const SceneSpec& spec) {
 }
 
 void set_size(SceneSpec& spec, int columns, int rows) {
-  std::visit(
-      [&](auto& lattice) {
-        if constexpr (requires { lattice.columns; }) {
-          lattice.columns = columns;
-          lattice.rows = rows;
-        }
-      },
-      spec.lattice);
+  if (auto* lattice = std::get_if<RegularLattice>(&spec.lattice)) {
+    lattice->columns = columns;
+    lattice->rows = rows;
+  }
 }
 
 struct Memory {
@@ -110,7 +106,7 @@ struct Crush {
 void with_papers_rule(SceneSpec& spec) { spec = scenes::with_the_papers_elements(spec); }
 
 SceneSpec spec_of(const Crush& crush) {
-  SceneSpec spec = find_preset(crush.preset)->spec;
+  SceneSpec spec = scenes::preset(crush.preset);
   set_size(spec, crush.columns, crush.rows);
   crush.change(spec);
   spec.loading.speed_m_per_s = 300.0;
@@ -159,7 +155,7 @@ INSTANTIATE_TEST_SUITE_P(Crushes, RunMemory, testing::ValuesIn(kCrushes),
 
 // Loading so slow that single precision would round it away: the specimen of the prediction must not be crushed faster.
 TEST(PredictedMemory, OfASlowCrushIsThatOfDoublePrecision) {
-  SceneSpec spec = find_preset("type-i")->spec;
+  SceneSpec spec = scenes::preset("type-i");
   const auto predicted_at = [&spec](double speed) {
     spec.loading.speed_m_per_s = speed;
     return memory_of_run(spec, *scenes::build(spec));

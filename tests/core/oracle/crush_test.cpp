@@ -15,6 +15,7 @@
 #include "scenes/crushes.h"
 #include "scenes/evidence.h"
 #include "scenes/frames.h"
+#include "scenes/lattices.h"
 #include "scenes/small_specimen.h"
 #include "step/advance_step.h"
 
@@ -28,14 +29,11 @@ using FibrePrecision = NumericsSpec::FibrePrecision;
 SceneSpec specimen(const char* lattice, int columns, int rows) {
   constexpr double kThickness = 0.5;  // mm, of sides of 4 mm
   SceneSpec spec = scenes::spec_of({lattice, 100.0, 0.2}, columns, rows);
-  if (auto* hexagon = std::get_if<HexagonLattice>(&spec.lattice)) {
-    hexagon->wall_thickness_mm = kThickness;
-    hexagon->vertical_wall_thickness_mm = 0.7 * kThickness;
+  RegularLattice& cells = scenes::cells_of(spec);
+  cells.wall_thickness_mm = kThickness;
+  if (cells.kind == "hexagon") {
+    cells.own["vertical_wall_thickness_mm"] = 0.7 * kThickness;
     spec.elements_per_wall = 2;
-  } else if (auto* square = std::get_if<SquareLattice>(&spec.lattice)) {
-    square->wall_thickness_mm = kThickness;
-  } else {
-    std::get<TriangleLattice>(spec.lattice).wall_thickness_mm = kThickness;
   }
   return spec;
 }
@@ -59,7 +57,7 @@ SceneSpec without_friction(SceneSpec spec) {
 /// Thick ends of walls face each other across the cells, and stand out between the thinner walls of these.
 SceneSpec thick_walls_along_y() {
   SceneSpec spec = specimen("hexagon", 4, 4);
-  std::get<HexagonLattice>(spec.lattice).vertical_wall_thickness_mm = 0.9;
+  scenes::cells_of(spec).own["vertical_wall_thickness_mm"] = 0.9;
   spec.loading.direction = LoadingSpec::Direction::y;
   spec.loading.ramp_strain = 0.02;
   return spec;

@@ -6,12 +6,13 @@
 #include <cmath>
 #include <string>
 
-#include "cellcrush/presets.h"
 #include "cellcrush/state.h"
 #include "energy/ledger.h"
 #include "scenes/crushes.h"
 #include "scenes/evidence.h"
 #include "scenes/frames.h"
+#include "scenes/lattices.h"
+#include "scenes/presets.h"
 #include "scenes/state_hash.h"
 
 namespace cellcrush {
@@ -63,8 +64,8 @@ SceneSpec in_single_precision(SceneSpec spec) {
 }
 
 SceneSpec squares() {
-  SceneSpec spec = find_preset("type-ii-as-counted")->spec;
-  auto& lattice = std::get<SquareLattice>(spec.lattice);
+  SceneSpec spec = scenes::preset("type-ii-as-counted");
+  auto& lattice = scenes::cells_of(spec);
   lattice.columns = 9;
   lattice.rows = 5;
   return in_double_precision(spec);

@@ -14,6 +14,7 @@
 #include "scenes/crushes.h"
 #include "scenes/evidence.h"
 #include "scenes/frames.h"
+#include "scenes/lattices.h"
 #include "scenes/near_pairs.h"
 #include "scenes/state_hash.h"
 #include "step/advance_step.h"
@@ -120,9 +121,9 @@ TEST(Wavefront, GiveThemOfEveryKindOfWalls) {
 /// The same with thick ends (contact/topology/face_loops.h), which meet as the cells close along y.
 SceneSpec wide_specimen_of_thick_ends() {
   SceneSpec spec = scenes::with_the_papers_elements(scenes::hexagon_specimen(1000, 10));
-  auto& hexagon = std::get<HexagonLattice>(spec.lattice);
+  auto& hexagon = scenes::cells_of(spec);
   hexagon.wall_thickness_mm = 0.5;
-  hexagon.vertical_wall_thickness_mm = 0.9;
+  hexagon.own["vertical_wall_thickness_mm"] = 0.9;
   spec.loading.direction = LoadingSpec::Direction::y;
   spec.imperfection = {0.01, 1};
   return spec;

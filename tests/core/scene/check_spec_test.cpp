@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <limits>
 
-#include "cellcrush/presets.h"
 #include "cellcrush/simulation.h"
 #include "scenes/frames.h"
+#include "scenes/lattices.h"
+#include "scenes/presets.h"
 
 namespace cellcrush {
 namespace {
@@ -17,7 +18,7 @@ const Problem* find(const Problems& problems, const std::string& field) {
 }
 
 TEST(CheckSpec, EveryPresetIsSound) {
-  for (const Preset& preset : presets()) {
+  for (const auto& preset : scenes::presets()) {
     EXPECT_TRUE(build_scene(preset.spec).problems.empty()) << preset.name;
   }
 }
@@ -34,9 +35,9 @@ TEST(CheckSpec, EmptyCaseNamesEverythingThatIsMissing) {
 
 TEST(CheckSpec, NamesAllProblemsAtOnceWithTheirValues) {
   SceneSpec spec = scenes::hexagon_specimen(20, 7);
-  auto& hexagon = std::get<HexagonLattice>(spec.lattice);
+  auto& hexagon = scenes::cells_of(spec);
   hexagon.wall_thickness_mm = -0.1;
-  hexagon.vertical_wall_thickness_mm.reset();
+  hexagon.own.clear();
   spec.loading.speed_m_per_s = 0.0;
   spec.material.density_kg_per_m3 = std::numeric_limits<double>::quiet_NaN();
   spec.material.isotropic_fraction = -0.5;

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <vector>
 
-#include "cellcrush/presets.h"
 #include "cellcrush/scene.h"
 #include "scenes/frames.h"
+#include "scenes/presets.h"
 
 namespace cellcrush {
 namespace {
@@ -50,12 +50,12 @@ void check_joints_of_chunks(const Scene& scene) {
 TEST(ChunkJoints, AreThoseWithoutWallsElsewhere) {
   for (const char* name : {"type-i", "type-ii-as-counted", "type-iii-as-counted"}) {
     SCOPED_TRACE(name);
-    check_joints_of_chunks(*scenes::build(find_preset(name)->spec));
+    check_joints_of_chunks(*scenes::build(scenes::preset(name)));
   }
 }
 
 TEST(ChunkJoints, HoldForJointsInsideRigidBodiesWhichHaveNoWalls) {
-  const auto scene = scenes::build(find_preset("inclusions-2")->spec);
+  const auto scene = scenes::build(scenes::preset("inclusions-2"));
   const auto chunks = chunks_of_joints(*scene);
   ASSERT_TRUE(std::any_of(chunks.begin(), chunks.end(), [](const auto& of_joint) { return of_joint.empty(); }));
   const Walls& walls = scene->walls;

@@ -1,15 +1,17 @@
-#include "scene/lattices.h"
+#include "scenes/lattices.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <vector>
 
-#include "cellcrush/presets.h"
 #include "cellcrush/scene.h"
 #include "cellcrush/simulation.h"
+#include "lattice/lattice.h"
 #include "scenes/frames.h"
+#include "scenes/presets.h"
 
 namespace cellcrush {
 namespace {
@@ -23,7 +25,7 @@ TEST(Presets, HaveExactlyTheParticlesOfThePaper) {
                                                          {"papka-kyriakides-1", 814},
                                                          {"papka-kyriakides-2", 814}};
   for (const auto& [name, particles] : counts) {
-    SceneSpec spec = find_preset(name)->spec;
+    SceneSpec spec = scenes::preset(name);
     spec.elements_per_wall = 2;  // as in the paper
     const auto scene = scenes::build(spec);
     ASSERT_TRUE(scene) << name;
@@ -31,10 +33,28 @@ TEST(Presets, HaveExactlyTheParticlesOfThePaper) {
   }
 }
 
+TEST(TypeI, HasExactlyTheParticlesElementsAndMassOfThePaper) {
+  const auto scene = scenes::build(scenes::preset("type-i"));
+  ASSERT_TRUE(scene);
+  const SceneFacts facts = facts_of(*scene);
+  EXPECT_EQ(facts.particle_count, 8099);
+  EXPECT_EQ(facts.element_count, 9642);
+  EXPECT_NEAR(facts.mass * 1e6, 4821 * 4.0 * 0.3464 * 4.0 * 2700e-6, 1e-9);  // grams
+  EXPECT_NEAR(facts.mass * 1e6, 72.15, 0.01);
+  EXPECT_NEAR(facts.length, 512.7, 0.05);
+  EXPECT_NEAR(facts.width, 128.0, 1e-9);
+  EXPECT_NEAR(scene->stable_step, 3.91e-7, 0.01e-7);
+  SceneSpec fixed = scenes::preset("type-i");
+  fixed.numerics.time_step_s = 2e-7;
+  EXPECT_NEAR(static_cast<double>(facts_of(*scenes::build(fixed)).step_count), 20500.0, 20.0);
+  EXPECT_EQ(scene->section.section_count(), 4u);
+  EXPECT_EQ(scene->section.depth_count(), 6u);
+}
+
 TEST(Presets, ExampleTwoHasOneLengthWidthAndMass) {
   for (const char* name :
        {"type-i", "type-ii-as-stated", "type-ii-as-counted", "type-iii-as-stated", "type-iii-as-counted"}) {
-    const auto scene = scenes::build(find_preset(name)->spec);
+    const auto scene = scenes::build(scenes::preset(name));
     const SceneFacts facts = facts_of(*scene);
     EXPECT_NEAR(facts.length, 512.0, 1.0) << name;
     EXPECT_NEAR(facts.width, 128.0, 2.5) << name;
@@ -42,21 +62,17 @@ TEST(Presets, ExampleTwoHasOneLengthWidthAndMass) {
   }
 }
 
-template <class Lattice>
-SceneSpec lattice_of(int columns, int rows) {
-  Lattice lattice;
-  lattice.columns = columns;
-  lattice.rows = rows;
-  lattice.side_mm = 3.0;
-  lattice.wall_thickness_mm = 0.2;
+SceneSpec spec_of(const RegularLattice& lattice) {
   SceneSpec spec;
   spec.lattice = lattice;
   spec.elements_per_wall = 2;
   return spec;
 }
 
-void expect_planar(const SceneSpec& lattice, int cells) {
-  const Layout layout = lay_out_cells(lattice);
+/// Layout of a lattice of sides of 3 mm and the cells of their cells' count.
+Layout expect_planar(const RegularLattice& lattice, int cells) {
+  const SceneSpec spec = spec_of(lattice);
+  Layout layout = kind_of(spec)->lay_out(spec);
   EXPECT_EQ(static_cast<int>(layout.joints.size()) - static_cast<int>(layout.walls.size()) + cells, 1);  // Euler
   Vector2 high = Vector2::Zero();
   for (const LayoutWall& wall : layout.walls) {
@@ -66,26 +82,54 @@ void expect_planar(const SceneSpec& lattice, int cells) {
     EXPECT_TRUE((joint.array() > -1e-9).all());
     high = high.cwiseMax(joint);
   }
-  EXPECT_NEAR((high - envelope_of(lattice)).norm(), 0.0, 1e-9);
+  EXPECT_NEAR((high - kind_of(spec)->envelope(spec)).norm(), 0.0, 1e-9);
+  return layout;
 }
 
-TEST(Lattices, SquaresAndTrianglesArePlanarWithEqualWallsAndFillTheirEnvelope) {
-  expect_planar(lattice_of<SquareLattice>(7, 4), 28);
-  for (const int rows : {3, 4}) {
-    expect_planar(lattice_of<TriangleLattice>(7, rows), rows * 13);
+TEST(Lattices, ArePlanarWithEqualWallsAndFillTheirEnvelope) {
+  expect_planar(scenes::squares(7, 4, 3.0, 0.2), 28);
+  for (const int rows : {3, 4}) expect_planar(scenes::triangles(7, rows, 3.0, 0.2), rows * 13);
+  const Layout hexagons = expect_planar(scenes::hexagons(9, 6, 3.0, 0.2, 0.4), 3 * 9 + 3 * 8);
+  std::map<int, int> degree;
+  for (const LayoutWall& wall : hexagons.walls) {
+    const double across = hexagons.joints[wall.end].x() - hexagons.joints[wall.start].x();
+    EXPECT_EQ(wall.thickness, std::abs(across) < 1e-9 ? 0.4 : 0.2);
+    ++degree[wall.start];
+    ++degree[wall.end];
   }
+  for (const auto& [joint, walls] : degree) EXPECT_TRUE(walls == 2 || walls == 3) << "joint " << joint;
 }
 
 TEST(Lattices, StiffRowsThickenAllWallsOfTheirCells) {
-  SceneSpec spec = lattice_of<HexagonLattice>(5, 4);
+  SceneSpec spec = spec_of(scenes::hexagons(5, 4, 3.0, 0.2));
   spec.inclusions = {{2}, 4.0};
-  const Layout layout = lay_out_cells(spec);
   int thick = 0;
-  for (const LayoutWall& wall : layout.walls) {
+  for (const LayoutWall& wall : kind_of(spec)->lay_out(spec).walls) {
     thick += wall.thickness == 0.8 ? 1 : 0;
     EXPECT_TRUE(wall.thickness == 0.8 || wall.thickness == 0.2);
   }
   EXPECT_EQ(thick, 4 * 6 - 3);  // the four cells of row 2 share three walls
+}
+
+TEST(Hexagons, CrushAlongYTurnsLengthAndWidth) {
+  SceneSpec spec = scenes::hexagon_specimen(5, 4);
+  spec.loading.direction = LoadingSpec::Direction::y;
+  const auto scene = scenes::build(spec);
+  ASSERT_TRUE(scene);
+  EXPECT_NEAR(scene->length, 26.0, 1e-9);
+  EXPECT_NEAR(scene->width, 5.0 * 4.0 * std::sqrt(3.0), 1e-9);
+  EXPECT_EQ(scene->plates.axis, 1);
+}
+
+TEST(Hexagons, ElementsAWallDivideEveryWall) {
+  SceneSpec spec = scenes::hexagon_specimen(4, 3);
+  const auto two = scenes::build(spec);
+  spec.elements_per_wall = 5;
+  spec.numerics.time_step_s = 0.0;
+  const auto five = scenes::build(spec);
+  ASSERT_TRUE(two && five);
+  EXPECT_EQ(five->element_count(), two->element_count() / 2 * 5);
+  EXPECT_NEAR(five->total_mass, two->total_mass, 1e-15);
 }
 
 TEST(Imperfection, IsBoundedSeededAndRepeatable) {
@@ -127,9 +171,9 @@ std::vector<std::vector<double>> bows_of(const Scene& scene) {
 }
 
 SceneSpec crushed_squares(const Imperfection& imperfection) {
-  SceneSpec spec = lattice_of<SquareLattice>(7, 4);
+  SceneSpec spec = spec_of(scenes::squares(7, 4, 3.0, 0.2));
   spec.depth_mm = 3.0;
-  spec.material = find_preset("type-ii-as-counted")->spec.material;
+  spec.material = scenes::preset("type-ii-as-counted").material;
   spec.elements_per_wall = 4;
   spec.imperfection = imperfection;
   spec.loading.speed_m_per_s = 2.0;

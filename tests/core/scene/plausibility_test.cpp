@@ -2,9 +2,10 @@
 
 #include <functional>
 
-#include "cellcrush/presets.h"
 #include "cellcrush/spec_checker.h"
 #include "scenes/frames.h"
+#include "scenes/lattices.h"
+#include "scenes/presets.h"
 
 namespace cellcrush {
 namespace {
@@ -22,7 +23,7 @@ std::vector<std::string> fields_noted(const std::function<void(SceneSpec&)>& cha
 }
 
 TEST(Plausibility, PresetsAndSoundMaterialsAreNotNoted) {
-  for (const auto& preset : presets()) EXPECT_THAT(find_implausible(preset.spec), IsEmpty()) << preset.name;
+  for (const auto& preset : scenes::presets()) EXPECT_THAT(find_implausible(preset.spec), IsEmpty()) << preset.name;
   struct Sound {
     double modulus, yield, density;
   };
@@ -59,7 +60,7 @@ TEST(Plausibility, UnitsThatAreMistakenAreAskedAboutByName) {
 TEST(Plausibility, WallsAndSpeedsBeyondTheModelAreNoted) {
   const auto walls = [](double share) {
     return fields_noted([share](SceneSpec& spec) {
-      auto& hexagon = std::get<HexagonLattice>(spec.lattice);
+      auto& hexagon = scenes::cells_of(spec);
       hexagon.wall_thickness_mm = share * *hexagon.side_mm;
     });
   };

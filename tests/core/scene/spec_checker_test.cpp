@@ -7,10 +7,11 @@
 #include <limits>
 #include <string>
 
-#include "cellcrush/presets.h"
 #include "cellcrush/run_memory.h"
 #include "cellcrush/simulation.h"
 #include "scenes/frames.h"
+#include "scenes/lattices.h"
+#include "scenes/presets.h"
 
 namespace cellcrush {
 namespace {
@@ -52,7 +53,7 @@ using Change = std::function<void(SceneSpec&)>;
 
 /// Each way in which a spec may differ from the one before it, good and bad.
 std::vector<Change> changes() {
-  const auto hexagon = [](SceneSpec& spec) -> HexagonLattice& { return std::get<HexagonLattice>(spec.lattice); };
+  const auto hexagon = [](SceneSpec& spec) -> RegularLattice& { return scenes::cells_of(spec); };
   return {
       [](SceneSpec& spec) { spec.loading.speed_m_per_s = 20.0; },
       [](SceneSpec& spec) { spec.loading.speed_m_per_s = -20.0; },
@@ -87,9 +88,7 @@ std::vector<Change> changes() {
       [=](SceneSpec& spec) { hexagon(spec).wall_thickness_mm = 0.1; },
       [=](SceneSpec& spec) { hexagon(spec).wall_thickness_mm = 1.9; },
       [](SceneSpec& spec) { spec.inclusions.rows = {2}; },
-      [](SceneSpec& spec) {
-        spec.lattice = SquareLattice{6, 5, 4.0, 0.2};
-      },
+      [](SceneSpec& spec) { spec.lattice = scenes::squares(6, 5, 4.0, 0.2); },
       [](SceneSpec& spec) { spec.lattice = std::monostate(); },
   };
 }
@@ -170,12 +169,12 @@ TEST(SpecChecker, SaysOfLatticesAtTheLimitOfOverlapWhatBuildingTheirScenesSays) 
     const double thickness = 1.0 + 1.0 * (seed % 15) / 14.0;
     spec.imperfection = {0.16 + 0.24 * (seed % 8) / 7.0, static_cast<std::uint64_t>(seed)};
     spec.elements_per_wall = 1 + seed % 4;
-    spec.lattice = TriangleLattice{9, 8, 4.0, thickness};
+    spec.lattice = scenes::triangles(9, 8, 4.0, thickness);
     check();
     spec.imperfection.amplitude_mm = 0.4;
-    spec.lattice = HexagonLattice{4, 3, 4.0, thickness, 2.0};
+    spec.lattice = scenes::hexagons(4, 3, 4.0, thickness, 2.0);
     check();
-    spec.lattice = SquareLattice{4, 3, 4.0, thickness};
+    spec.lattice = scenes::squares(4, 3, 4.0, thickness);
     check();
   }
   EXPECT_GT(refused, 10) << "triangles whose walls meet at small angles";
@@ -185,11 +184,11 @@ TEST(SpecChecker, SaysOfLatticesAtTheLimitOfOverlapWhatBuildingTheirScenesSays) 
   for (const int elements : {12, 32, 48, 56, 64}) {
     for (double thickness = 0.4; thickness <= 2.0; thickness += 0.2) {
       spec.elements_per_wall = elements;
-      spec.lattice = HexagonLattice{3, 2, 4.0, thickness, std::nullopt};
+      spec.lattice = scenes::hexagons(3, 2, 4.0, thickness, std::nullopt);
       check();
-      spec.lattice = SquareLattice{3, 2, 4.0, thickness};
+      spec.lattice = scenes::squares(3, 2, 4.0, thickness);
       check();
-      spec.lattice = TriangleLattice{4, 4, 4.0, thickness};
+      spec.lattice = scenes::triangles(4, 4, 4.0, thickness);
       check();
     }
   }
@@ -212,7 +211,7 @@ TEST(SpecChecker, BuildsOneMeshForAllSpecsThatShareIt) {
 }
 
 TEST(SpecChecker, BuildsNoMeshOfASceneThatItWasGiven) {
-  for (const Preset& preset : presets()) {
+  for (const auto& preset : scenes::presets()) {
     SCOPED_TRACE(preset.name);
     SpecChecker checker;
     const SceneResult built = build_scene(preset.spec);
@@ -224,7 +223,7 @@ TEST(SpecChecker, BuildsNoMeshOfASceneThatItWasGiven) {
 }
 
 TEST(SpecChecker, KnowsHowManyElementsAMeshHasBeforeItIsBuilt) {
-  for (const Preset& preset : presets()) {
+  for (const auto& preset : scenes::presets()) {
     SCOPED_TRACE(preset.name);
     SpecChecker checker;
     const auto before = static_cast<double>(checker.elements_to_build(preset.spec));

@@ -1,9 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "cellcrush/presets.h"
 #include "cellcrush/simulation.h"
 #include "scenes/frames.h"
+#include "scenes/presets.h"
 
 namespace cellcrush {
 namespace {
@@ -75,7 +75,7 @@ TEST(WhatIsModelled, WarnsOfPointsThatAreComputedOneByOne) {
 
 TEST(WhatIsModelled, NamesTheBoundOfTheStep) {
   const auto step_of = [](const char* preset, double speed) {
-    SceneSpec spec = find_preset(preset)->spec;
+    SceneSpec spec = scenes::preset(preset);
     spec.loading.speed_m_per_s = speed;
     for (const std::string& line : facts_of(*scenes::build(spec)).modelled) {
       if (line.rfind("Step: ", 0) == 0) {

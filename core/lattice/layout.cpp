@@ -1,4 +1,4 @@
-#include "scene/layout.h"
+#include "lattice/layout.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,34 +1,83 @@
-#include "scene/measured_errors.h"
+#include "translate/measured_errors.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <sstream>
 #include <utility>
 
-#include "cellcrush/presets.h"
-#include "scene/check_spec.h"
-#include "scene/lattices.h"
-#include "scene/measured_rows.h"
+#include "translate/presets.h"
 
-namespace cellcrush {
+namespace cellcrush::translate {
 namespace {
+
+/// Error of one quantity of a preset, or of some of its cells, at one plate speed: a row of measured_errors.csv.
+struct MeasuredRow {
+  std::string preset;
+  std::string quantity;
+  std::string speed;  ///< m/s, as written
+  double speed_m_per_s = 0.0;
+  int elements_per_wall = 0;
+  double error = 0.0;
+  double uncertainty = 0.0;
+  double scatter = 0.0;
+  int columns = 0;  ///< cells of the specimen; 0: those of the preset
+  int rows = 0;
+  LoadingSpec::Direction direction = LoadingSpec::Direction::x;
+};
+
+MeasuredRow read_row(const std::string& line) {
+  std::istringstream cells(line);
+  const auto next = [&cells] {
+    std::string cell;
+    std::getline(cells, cell, ',');
+    return cell;
+  };
+  MeasuredRow row;
+  row.preset = next();
+  row.quantity = next();
+  row.speed = next();
+  row.speed_m_per_s = std::stod(row.speed);
+  row.elements_per_wall = std::stoi(next());
+  row.error = std::stod(next());
+  row.uncertainty = std::stod(next());
+  row.scatter = std::stod(next());
+  row.columns = std::stoi(next());
+  row.rows = std::stoi(next());
+  row.direction = next() == "y" ? LoadingSpec::Direction::y : LoadingSpec::Direction::x;
+  return row;
+}
+
+const std::vector<MeasuredRow>& measured_rows() {
+  static const std::vector<MeasuredRow> kRows = [] {
+    std::vector<MeasuredRow> rows;
+    std::istringstream lines(measured_errors_text());
+    std::string line;
+    std::getline(lines, line);  // the names of the columns
+    while (std::getline(lines, line)) rows.push_back(read_row(line));
+    return rows;
+  }();
+  return kRows;
+}
 
 /// What a spec shares with the preset that was measured: equal up to rounding.
 bool is_near(double one, double other) {
   return std::abs(one - other) <= 0.01 * std::max(std::abs(one), std::abs(other));
 }
 
-/// Thickness of the walls along y over that of the others.
-double vertical_ratio_of(const SceneSpec& spec) {
-  const auto* hexagon = std::get_if<HexagonLattice>(&spec.lattice);
-  return hexagon != nullptr
-             ? hexagon->vertical_wall_thickness_mm.value_or(*hexagon->wall_thickness_mm) / *hexagon->wall_thickness_mm
-             : 1.0;
+/// Whether the numbers that only their kind has are alike, over the thickness of the walls.
+bool has_near_own_numbers(const RegularLattice& one, const RegularLattice& other) {
+  const auto ratio = [](const RegularLattice& lattice, const std::string& name) {
+    const auto found = lattice.own.find(name);
+    return found == lattice.own.end() ? 1.0 : found->second / *lattice.wall_thickness_mm;
+  };
+  const auto is_alike = [&](const auto& own) { return is_near(ratio(one, own.first), ratio(other, own.first)); };
+  return std::ranges::all_of(one.own, is_alike) && std::ranges::all_of(other.own, is_alike);
 }
 
 /// A preset, or that many of its cells, and the direction of its crush.
 struct Specimen {
-  std::string_view preset;
+  std::string preset;
   int columns;
   int rows;
   LoadingSpec::Direction direction;
@@ -43,7 +92,7 @@ Specimen specimen_of(const MeasuredRow& row) { return {row.preset, row.columns, 
 /// Lowest and highest speed at which a specimen was measured.
 std::pair<double, double> speeds_of(const Specimen& specimen) {
   std::pair<double, double> range = {HUGE_VAL, 0.0};
-  for (const MeasuredRow& row : kMeasuredRows) {
+  for (const MeasuredRow& row : measured_rows()) {
     if (specimen_of(row) != specimen) continue;
     range = {std::min(range.first, row.speed_m_per_s), std::max(range.second, row.speed_m_per_s)};
   }
@@ -53,19 +102,19 @@ std::pair<double, double> speeds_of(const Specimen& specimen) {
 /// Nothing if they are different lattices.
 std::optional<std::vector<std::string>> fields_beside(const Specimen& specimen, const SceneSpec& spec) {
   const SceneSpec& measured = find_preset(specimen.preset)->spec;
-  if (spec.lattice.index() != measured.lattice.index()) return std::nullopt;
+  const auto* cells = std::get_if<RegularLattice>(&spec.lattice);
+  const auto& its = std::get<RegularLattice>(measured.lattice);
+  if (cells == nullptr || cells->kind != its.kind) return std::nullopt;
   std::vector<std::string> fields;
   const auto add_if = [&fields](bool differs, const std::string& field) {
     if (differs) fields.push_back(field);
   };
-  const std::string lattice = path_of_lattice(spec);
-  const RegularLattice& cells = *regular_lattice_of(spec);
-  const RegularLattice& its = *regular_lattice_of(measured);
+  const std::string lattice = "lattice." + cells->kind + ".";
   const bool is_smaller = is_smaller_than_preset(specimen);
-  add_if(*cells.columns < (is_smaller ? specimen.columns : *its.columns), lattice + "columns");
-  add_if(*cells.rows < (is_smaller ? specimen.rows : *its.rows), lattice + "rows");
-  add_if(!is_near(*cells.wall_thickness_mm / *cells.side_mm, *its.wall_thickness_mm / *its.side_mm) ||
-             !is_near(vertical_ratio_of(spec), vertical_ratio_of(measured)),
+  add_if(*cells->columns < (is_smaller ? specimen.columns : *its.columns), lattice + "columns");
+  add_if(*cells->rows < (is_smaller ? specimen.rows : *its.rows), lattice + "rows");
+  add_if(!is_near(*cells->wall_thickness_mm / *cells->side_mm, *its.wall_thickness_mm / *its.side_mm) ||
+             !has_near_own_numbers(*cells, its),
          lattice + "wall_thickness_mm");
   add_if(!spec.inclusions.rows.empty(), "lattice.inclusions");
   const MaterialSpec& material = spec.material;
@@ -84,7 +133,7 @@ std::optional<std::vector<std::string>> fields_beside(const Specimen& specimen, 
 
 std::vector<Specimen> measured_specimens() {
   std::vector<Specimen> specimens;
-  for (const MeasuredRow& row : kMeasuredRows) {
+  for (const MeasuredRow& row : measured_rows()) {
     if (std::ranges::find(specimens, specimen_of(row)) == specimens.end()) specimens.push_back(specimen_of(row));
   }
   return specimens;
@@ -94,7 +143,7 @@ std::vector<Specimen> measured_specimens() {
 std::vector<MeasuredRow> neighbours(const Specimen& specimen, std::string_view quantity, int elements, double speed) {
   std::optional<MeasuredRow> below;
   std::optional<MeasuredRow> above;
-  for (const MeasuredRow& row : kMeasuredRows) {
+  for (const MeasuredRow& row : measured_rows()) {
     if (specimen_of(row) != specimen || row.quantity != quantity || row.elements_per_wall != elements) continue;
     if (row.speed_m_per_s <= speed && (!below || row.speed_m_per_s > below->speed_m_per_s)) below = row;
     if (row.speed_m_per_s >= speed && (!above || row.speed_m_per_s < above->speed_m_per_s)) above = row;
@@ -105,28 +154,46 @@ std::vector<MeasuredRow> neighbours(const Specimen& specimen, std::string_view q
 
 std::string words_of(const std::vector<MeasuredRow>& rows) {
   const Specimen specimen = specimen_of(rows.front());
-  std::string words = std::string(rows.front().quantity) + ", ";
+  std::string words = rows.front().quantity + ", ";
   if (is_smaller_than_preset(specimen)) {
     words += std::to_string(specimen.columns) + " x " + std::to_string(specimen.rows) + " cells of ";
   }
   words += specimen.preset;
   if (specimen.direction != find_preset(specimen.preset)->spec.loading.direction) {
-    words += specimen.direction == kAlongY ? " along y" : " along x";
+    words += specimen.direction == LoadingSpec::Direction::y ? " along y" : " along x";
   }
   words += ", ";
-  if (rows.size() > 1) words += to_text(rows.front().speed_m_per_s) + " to ";
-  return words + to_text(rows.back().speed_m_per_s) + " m/s";
+  if (rows.size() > 1) words += rows.front().speed + " to ";
+  return words + rows.back().speed + " m/s";
 }
 
-}  // namespace
-
-std::vector<std::string> fields_beside_measured(const SceneSpec& spec) {
+/// Those in which a spec differs from the specimen from which it differs least.
+std::vector<std::string> fields_beside_specimens(const SceneSpec& spec) {
   std::optional<std::vector<std::string>> fewest;
   for (const Specimen& specimen : measured_specimens()) {
     const auto fields = fields_beside(specimen, spec);
     if (fields && (!fewest || fields->size() < fewest->size())) fewest = fields;
   }
   return fewest.value_or(std::vector<std::string>{"lattice"});
+}
+
+}  // namespace
+
+std::vector<std::string> fields_beside_measured(const SceneSpec& spec) {
+  std::vector<std::string> fields = fields_beside_specimens(spec);
+  const SceneSpec plain;
+  const bool is_force_based = spec.section.formulation == SectionSpec::Formulation::force_based;
+  const auto add_if = [&fields](bool other, const char* field) {
+    if (other) fields.emplace_back(field);
+  };
+  add_if(!is_force_based, "section.formulation");
+  add_if(spec.section.depth_rule != plain.section.depth_rule, "section.depth_rule");
+  add_if(spec.section.area_rule != plain.section.area_rule, "section.area_rule");
+  add_if(is_force_based && spec.section.axial_count() != plain.section.axial_count(), "section.axial_points");
+  add_if(is_force_based && spec.section.depth_count() != plain.section.depth_count(), "section.depth_points");
+  add_if(spec.numerics.mass_scaling != plain.numerics.mass_scaling, "numerics.mass_scaling");
+  add_if(spec.numerics.rotary_scaling != plain.numerics.rotary_scaling, "numerics.rotary_scaling");
+  return fields;
 }
 
 std::vector<MeasuredError> measured_errors_of(const SceneSpec& spec, int elements_per_wall) {
@@ -145,4 +212,4 @@ std::vector<MeasuredError> measured_errors_of(const SceneSpec& spec, int element
   return errors;
 }
 
-}  // namespace cellcrush
+}  // namespace cellcrush::translate

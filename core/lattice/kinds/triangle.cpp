@@ -1,0 +1,66 @@
+#include <numbers>
+
+#include "lattice/lattice.h"
+#include "lattice/wall_builder.h"
+
+// Equilateral triangles with walls along x: `rows` rows between lines that have `columns + 1` and, shifted by half a
+// side, `columns` joints in turn.
+namespace cellcrush {
+namespace {
+
+/// Half sides in x, rows in y.
+JointGrid grid_of_triangles(const SceneSpec& spec) {
+  const RegularLattice& triangles = *regular_lattice_of(spec);
+  const double side = *triangles.side_mm;
+  return {{2 * *triangles.columns, *triangles.rows}, {0.5 * side, 0.5 * std::numbers::sqrt3 * side}};
+}
+
+Layout lay_out_triangles(const SceneSpec& spec) {
+  const RegularLattice& triangles = *regular_lattice_of(spec);
+  WallBuilder builder(grid_of_triangles(spec), *spec.elements_per_wall);
+  const double thickness = *triangles.wall_thickness_mm;
+  for (int y = 0; y <= *triangles.rows; ++y) {
+    const int shift = y % 2;
+    const int last = 2 * *triangles.columns - shift;
+    for (int x = shift; x <= last; x += 2) {
+      if (x < last) {
+        builder.add_wall({x, y}, {x + 2, y}, thickness);
+      }
+      for (const int upper : {x - 1, x + 1}) {
+        const bool inside = upper >= 1 - shift && upper <= 2 * *triangles.columns - (1 - shift);
+        if (y < *triangles.rows && inside) {
+          builder.add_wall({x, y}, {upper, y + 1}, thickness);
+        }
+      }
+    }
+  }
+  return builder.take();
+}
+
+/// Walls yield axially: (2/sqrt 3) sigma_y h/L along their walls, carried by the walls along the load; sqrt 3 sigma_y
+/// h/L across them, carried by the others.
+double collapse_stress_of_triangles(const SceneSpec& spec) {
+  const RegularLattice& triangles = *regular_lattice_of(spec);
+  const bool is_along_walls = spec.loading.direction == LoadingSpec::Direction::x;
+  const double factor = is_along_walls ? 2.0 / std::numbers::sqrt3 : std::numbers::sqrt3;
+  return factor * *spec.material.yield_stress_mpa * *triangles.wall_thickness_mm / *triangles.side_mm;
+}
+
+}  // namespace
+
+const LatticeKind& triangle_lattice() {
+  static const LatticeKind kKind = {
+      .name = "triangle",
+      .plural = "triangles",
+      .walls_per_cell = 3.0,
+      .has_walls_along_crush = true,
+      .envelope = [](const SceneSpec& spec) { return grid_of_triangles(spec).envelope(); },
+      .lay_out = lay_out_triangles,
+      .collapse_stress = collapse_stress_of_triangles,
+      .mesh = [](const SceneSpec&) { return mesh_of_stacked_walls("triangles"); },
+      .theory_note = note_of_stretched_walls("Triangles"),
+  };
+  return kKind;
+}
+
+}  // namespace cellcrush

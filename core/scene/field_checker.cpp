@@ -1,0 +1,82 @@
+#include "scene/field_checker.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <charconv>
+#include <cmath>
+#include <string_view>
+#include <vector>
+
+namespace cellcrush {
+namespace {
+
+constexpr double kLargest = 1e12;  // shown as no limit
+
+struct FieldLimits {
+  std::string_view path;
+  FieldChecker::Range range;
+  std::string unit;
+};
+
+/// The limits of a field at `path`, which may have indices in brackets.
+const FieldLimits& limits_of(std::string path) {
+  static const std::vector<FieldLimits> kLimits = {
+      // in the order of their paths
+#include "scene/field_limits.inc"
+  };
+  for (std::size_t open = path.find('['); open != std::string::npos; open = path.find('[')) {
+    path.erase(open, path.find(']', open) + 1 - open);
+  }
+  const auto found = std::ranges::lower_bound(kLimits, std::string_view(path), {}, &FieldLimits::path);
+  assert(found != kLimits.end() && found->path == path);
+  return *found;
+}
+
+std::string describe(const FieldChecker::Range& range) {
+  return range.high >= kLargest
+             ? "of at least " + to_text(range.low)
+             : "from " + to_text(range.low) + (range.high_open ? " to below " : " to ") + to_text(range.high);
+}
+
+}  // namespace
+
+std::string to_text(double value) {
+  std::array<char, 32> buffer{};
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
+  return {buffer.data(), end};
+}
+
+std::string half_of_side(double side) { return std::isfinite(side) ? " mm (half of side_mm)" : " mm"; }
+
+bool FieldChecker::in_range(const std::string& field, std::optional<double> value, Range range,
+                            const std::string& unit) {
+  const char* wrong = nullptr;
+  if (!value) {
+    wrong = "is missing.";
+  } else if (!std::isfinite(*value)) {
+    wrong = "is not a finite number.";
+  } else if (*value < range.low) {
+    wrong = "is too small.";
+  } else if (range.high_open ? *value >= range.high : *value > range.high) {
+    wrong = "is too large.";
+  }
+  if (wrong != nullptr) {
+    add(field, value ? to_text(*value) : "", wrong, "Give a value " + describe(range) + unit + ".");
+  }
+  return wrong == nullptr;
+}
+
+bool FieldChecker::within_limits(const std::string& field, std::optional<double> value, const std::string& note) {
+  const FieldLimits& limits = limits_of(field);
+  return in_range(field, value, limits.range, limits.unit + note);
+}
+
+void FieldChecker::add(const std::string& field, const std::string& value, const std::string& message,
+                       const std::string& remedy) {
+  problems_.push_back({field, value, message, remedy});
+}
+
+double FieldChecker::greatest_of(const std::string& field) { return limits_of(field).range.high; }
+
+}  // namespace cellcrush

@@ -1,0 +1,17 @@
+# Writes OUTPUT, a C++ source with the texts of this folder.
+file(READ ${CMAKE_CURRENT_LIST_DIR}/presets.txtpb presets)
+file(READ ${CMAKE_CURRENT_LIST_DIR}/measured_errors.csv errors)
+file(WRITE ${OUTPUT} "#include \"translate/presets.h\"
+
+namespace cellcrush::translate {
+
+const char* presets_text() {
+  return R\"text(${presets})text\";
+}
+
+const char* measured_errors_text() {
+  return R\"text(${errors})text\";
+}
+
+}  // namespace cellcrush::translate
+")

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cellcrush/scene_spec.h"
+
+namespace cellcrush::translate {
+
+/// Error that the mesh leaves in one quantity, measured over seeds of a small imperfection. Relative to the mean of the
+/// finest mesh that was measured.
+struct MeasuredError {
+  std::string measure;       ///< the quantity, the preset and the speeds, in words
+  double error = 0.0;        ///< of the mean; of the finest mesh itself: its difference from the next coarser one
+  double uncertainty = 0.0;  ///< half of the 95 % confidence interval of the error; a smaller error is not significant
+  double scatter = 0.0;      ///< standard deviation of one crush, relative to its mean
+};
+
+/// Fields that keep all measured errors from holding for a spec: those in which it differs from the specimen from which
+/// it differs least, and those of the elements. Empty if it is one of the specimens, or the same lattice with more
+/// cells.
+std::vector<std::string> fields_beside_measured(const SceneSpec& spec);
+
+/// Errors of a spec that differs in no such field, with a mesh. Between two measured speeds the larger error counts.
+std::vector<MeasuredError> measured_errors_of(const SceneSpec& spec, int elements_per_wall);
+
+}  // namespace cellcrush::translate

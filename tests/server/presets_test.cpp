@@ -1,0 +1,143 @@
+#include "translate/presets.h"
+
+#include <gmock/gmock.h>
+
+#include "cellcrush/fidelity.h"
+#include "cellcrush/lattice_words.h"
+#include "scenes/frames.h"
+#include "scenes/lattices.h"
+#include "scenes/presets.h"
+#include "translate/fidelities.h"
+#include "translate/measured_errors.h"
+#include "translate/spec_to_case.h"
+
+namespace cellcrush {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+using testing::SizeIs;
+using translate::fields_beside_measured;
+using translate::measured_errors_of;
+using translate::MeasuredError;
+
+TEST(Presets, AreThoseOfTheSolversTests) {
+  const auto& ours = translate::presets();
+  ASSERT_EQ(ours.size(), scenes::presets().size());
+  for (std::size_t i = 0; i < ours.size(); ++i) {
+    const auto& [name, spec] = scenes::presets()[i];
+    EXPECT_EQ(ours[i].message.name(), name);
+    EXPECT_EQ(ours[i].spec, spec) << name;
+    EXPECT_THAT(ours[i].message.assumptions(), testing::Not(IsEmpty())) << name;
+  }
+}
+
+// Whatever the registry of lattices lists can be said in a case, and the other way round.
+TEST(Lattices, OfTheSolverAreThoseOfTheCase) {
+  std::vector<std::string> kinds;
+  for (const LatticeName& lattice : lattice_names()) kinds.push_back(lattice.name);
+  std::vector<std::string> fields;
+  const auto* oneof = v1::Lattice::descriptor()->FindOneofByName("kind");
+  for (int i = 0; i < oneof->field_count(); ++i) {
+    if (oneof->field(i)->name() != "frame") fields.emplace_back(oneof->field(i)->name());
+  }
+  EXPECT_THAT(kinds, testing::UnorderedElementsAreArray(fields));
+}
+
+std::vector<v1::FidelityForecast> forecasts_of(const SceneSpec& spec) {
+  translate::CaseCheck check;
+  translate::add_fidelities(translate::to_case(spec), 1e-7, check);
+  return {check.response.fidelities().begin(), check.response.fidelities().end()};
+}
+
+std::vector<std::string> measures_of(const std::vector<MeasuredError>& errors) {
+  std::vector<std::string> measures;
+  for (const MeasuredError& error : errors) measures.push_back(error.measure);
+  return measures;
+}
+
+TEST(Fidelities, EachIsForecastForTheCaseAtHand) {
+  const SceneSpec small = scenes::hexagon_specimen(4, 3);
+  const auto forecasts = forecasts_of(small);
+  ASSERT_THAT(forecasts, SizeIs(3));
+  const std::vector<FidelityPoint> points = fidelity_points(small);
+  for (std::size_t i = 0; i < 3; ++i) {
+    SceneSpec spec = small;
+    spec.elements_per_wall = points[i].elements_per_wall;
+    const SceneFacts facts = facts_of(*scenes::build(spec));
+    EXPECT_EQ(forecasts[i].element_count(), facts.element_count);
+    EXPECT_EQ(forecasts[i].step_count(), facts.step_count);
+    EXPECT_THAT(forecasts[i].given_fields(), testing::Not(IsEmpty())) << "four cells are not what was measured";
+    EXPECT_THAT(forecasts[i].errors(), IsEmpty());
+  }
+  EXPECT_THAT(forecasts_of(scenes::Cantilever::spec(4, FrameLattice::Component::y, 1.0, 0.1, 0.2)), IsEmpty());
+}
+
+// A step that two elements a wall can bear and eight cannot.
+TEST(Fidelities, OneAtWhichTheCaseCannotRunIsNotForecast) {
+  SceneSpec spec = scenes::hexagon_specimen(4, 3);
+  spec.numerics.time_step_s = 2e-7;
+  const auto forecasts = forecasts_of(spec);
+  ASSERT_THAT(forecasts, SizeIs(2));
+  EXPECT_EQ(forecasts.back().fidelity(), v1::Numerics::STANDARD);
+}
+
+TEST(MeasuredErrors, AreThoseOfTheSpeedsBesideTheCases) {
+  SceneSpec spec = scenes::preset("type-i");
+  EXPECT_THAT(measures_of(measured_errors_of(spec, 2)),
+              ElementsAre("impact plateau, type-i, 100 m/s", "support plateau, type-i, 100 m/s"));
+  spec.loading.speed_m_per_s = 90.0;
+  EXPECT_THAT(measures_of(measured_errors_of(spec, 2)),
+              ElementsAre("impact plateau, type-i, 75 to 100 m/s", "support plateau, type-i, 75 to 100 m/s"));
+  for (const double speed : {10.0, 201.0}) {
+    spec.loading.speed_m_per_s = speed;
+    EXPECT_THAT(fields_beside_measured(spec), ElementsAre("loading.speed_m_per_s"));
+  }
+}
+
+TEST(MeasuredErrors, BetweenTwoSpeedsTheLargerCounts) {
+  SceneSpec spec = scenes::preset("type-i");
+  const auto claimed_at = [&spec](double speed) {
+    spec.loading.speed_m_per_s = speed;
+    const MeasuredError error = measured_errors_of(spec, 2).back();
+    return std::max(error.error, error.uncertainty);
+  };
+  EXPECT_EQ(claimed_at(90.0), std::max(claimed_at(75.0), claimed_at(100.0)));
+}
+
+TEST(MeasuredErrors, OfASpecimenHoldForMoreCellsAndForItsDirection) {
+  SceneSpec spec = scenes::preset("type-ii-as-counted");
+  for (const int elements : {8, 16, 32}) {
+    const std::vector<MeasuredError> errors = measured_errors_of(spec, elements);
+    ASSERT_THAT(errors, SizeIs(2));
+    EXPECT_EQ(errors[0].measure, "impact plateau, 18 x 9 cells of type-ii-as-counted, 100 m/s");
+  }
+  scenes::cells_of(spec).columns = 17;
+  EXPECT_THAT(fields_beside_measured(spec), ElementsAre("lattice.square.columns"));
+  EXPECT_THAT(measured_errors_of(spec, 8), IsEmpty());
+  spec = scenes::preset("type-i");
+  spec.loading.direction = LoadingSpec::Direction::y;
+  EXPECT_EQ(measured_errors_of(spec, 2).at(1).measure, "support plateau, 18 x 21 cells of type-i along y, 100 m/s");
+}
+
+TEST(MeasuredErrors, NoneIsToldOfWhatWasNotMeasured) {
+  SceneSpec spec = scenes::preset("type-i");
+  spec.loading.speed_m_per_s = 5.0;
+  spec.material.hardening_modulus_mpa = 100.0;
+  scenes::cells_of(spec).wall_thickness_mm = 0.2;
+  spec.section.depth_rule = SectionSpec::DepthRule::lobatto;
+  spec.numerics.rotary_scaling = 3.0;
+  EXPECT_THAT(fields_beside_measured(spec),
+              ElementsAre("lattice.hexagon.wall_thickness_mm", "material.hardening_modulus_mpa",
+                          "loading.speed_m_per_s", "section.depth_rule", "numerics.rotary_scaling"));
+}
+
+// A mesh that the case itself gives and that was measured has its error too; another has none.
+TEST(MeasuredErrors, AMeshThatIsGivenHasTheErrorOfThatMesh) {
+  const SceneSpec spec = scenes::preset("type-i");
+  EXPECT_THAT(measured_errors_of(spec, 4), testing::Not(IsEmpty()));
+  EXPECT_THAT(measured_errors_of(spec, 3), IsEmpty());
+}
+
+}  // namespace
+}  // namespace cellcrush
