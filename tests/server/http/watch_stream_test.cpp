@@ -6,7 +6,7 @@
 
 #include "http/envelope.h"
 #include "http/gateway.h"
-#include "rpc/stream_table.h"
+#include "rpc/method_table.h"
 #include "server/http/http_fixture.h"
 #include "server/small_case.h"
 
@@ -81,21 +81,22 @@ class Fountain {
   std::atomic<int>& sent_;
 };
 
+struct FountainService {
+  std::unique_ptr<Fountain> open(const v1::DownloadResultRequest&) { return std::make_unique<Fountain>(sent); }
+  std::atomic<int>& sent;
+};
+
 TEST(HttpBackpressure, NoMoreIsReadThanTheClientTakes) {
   std::atomic<int> sent = 0;
   metrics::Metrics metrics;
   rpc::StreamLimits limits({10, 10, 100'000'000});
   watch::Pump pump(2);
-  rpc::StreamTable streams(pump);
-  streams.add<Fountain, v1::DownloadResultRequest>(
-      "/cellcrush.v1.Jobs/DownloadResult", {pump, metrics, limits, {}},
-      [&sent](const v1::DownloadResultRequest&) { return std::make_unique<Fountain>(sent); });
-  v1::Jobs::Service unary;
-  grpc::ServerBuilder builder;
-  builder.RegisterService(&unary);
-  const auto server = builder.BuildAndStart();
-  const access::Gate gate({});
-  http::Gateway gateway(parse_listen_address("127.0.0.1:0"), gate, *server, streams, {});
+  access::Gate gate({});
+  rpc::MethodTable methods(gate, pump);
+  FountainService service{sent};
+  methods.stream("/cellcrush.v1.Jobs/DownloadResult", access::Scope::read, {pump, metrics, limits, {}}, service,
+                 &FountainService::open);
+  http::Gateway gateway(parse_listen_address("127.0.0.1:0"), gate, methods, {});
   const HttpSocket socket(std::stoi(gateway.url().substr(gateway.url().rfind(':') + 1)), 64 * 1024);
   const std::string body = http::envelope(0, "");
   socket.send("POST /cellcrush.v1.Jobs/DownloadResult HTTP/1.1\r\nHost: " + gateway.url().substr(7) +
@@ -110,8 +111,6 @@ TEST(HttpBackpressure, NoMoreIsReadThanTheClientTakes) {
   EXPECT_LT(sent, 200);
   const auto messages = messages_of(dechunked(socket.read_to_end()));
   EXPECT_EQ(messages.size(), static_cast<std::size_t>(Fountain::kMessages));
-  gateway.stop();
-  server->Shutdown();
 }
 
 TEST_F(HttpStreamTest, EveryMethodThatReturnsAStreamIsServed) {
