@@ -49,6 +49,7 @@ class Unit {
   const Sums& strain(const std::vector<StepStrains>& strains);
 
   [[nodiscard]] const Sums& sums(int element = 0) const { return elements_[element].sums; }
+  [[nodiscard]] const std::vector<double>& stress(int element = 0) const { return elements_[element].stress; }
   /// Greatest axial force over A, and moment over A h, that a section bears more or less than the forces of the unit
   /// ask for, MPa. Force-based elements only.
   [[nodiscard]] double residual() const;
