@@ -174,16 +174,17 @@ class UnitResponse {
                            ElementSums<D> (&sums)[kElements]) {
     for (int e = 0; e < kElements; ++e) {
       const FibreLaw<Law, D> law = law_of(e);
-      yielding_[e] = FibreBits<D>();
+      FibreBits<D> yields;  // not the member: a store of a stress may alias it
       sums[e].plastic_work = 0;
       for (int i = 0; i < rule_.sections(); ++i) {
         const SectionForce<D> strains = strains_of(forces, unsettled, e, i);
         const SectionSums<D> now = return_map_section(law, rule_, rule_.arm, rule_.arm_weight, strains.axial,
-                                                      strains.moment, memory_[e].fibres, first_fibre(i), yielding_[e]);
+                                                      strains.moment, memory_[e].fibres, first_fibre(i), yields);
         sections_.force[e][i] = {now.axial, now.moment};
         sums[e].plastic_work = fma(Lane<D>(rule_.along_weight[i]), now.plastic_work, sums[e].plastic_work);
       }
-      keep_yields<Law>(yielding_[e], memory_[e].fibres);
+      yielding_[e] = yields;
+      keep_yields<Law>(yields, memory_[e].fibres);
     }
   }
 

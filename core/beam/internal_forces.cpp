@@ -100,9 +100,14 @@ class WallLoops {
 
 template <bool kForceBased, class Law, class T, class Use>
 void with_rule(const Scene& scene, State& state, FibreHistory<T>& memory, const Use& use) {
+  if constexpr (std::is_same_v<T, double>) {
+    if (!has_known_counts(scene.section)) {
+      use(WallLoops<kForceBased, Law, RuleFactors<0, 0, T>>(scene, state, memory));
+      return;
+    }
+  }
   using Common = std::conditional_t<kForceBased, RuleFactors<4, 6, T>, RuleFactors<2, 6, T>>;
-  has_known_counts(scene.section) ? use(WallLoops<kForceBased, Law, Common>(scene, state, memory))
-                                  : use(WallLoops<kForceBased, Law, RuleFactors<0, 0, T>>(scene, state, memory));
+  use(WallLoops<kForceBased, Law, Common>(scene, state, memory));
 }
 
 template <class Law, class Use>

@@ -12,6 +12,7 @@
 #include "scene/masses.h"
 #include "scene/mesh.h"
 #include "scene/time_step.h"
+#include "section/rule_factors.h"
 #include "section/section_rule.h"
 
 namespace cellcrush {
@@ -32,7 +33,7 @@ std::vector<Material> materials_of(const SceneSpec& spec) {
 }
 
 bool allows_single_fibres(const Scene& scene) {
-  return scene.fibre_count() <= kMostSingleFibres &&
+  return has_known_counts(scene.section) &&
          (!scene.section.force_based || law_facts_of(scene).may_be_single_in_force_based);
 }
 

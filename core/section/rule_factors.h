@@ -12,7 +12,7 @@ inline constexpr int kMostSections = 5;
 inline constexpr int kMostDepthPoints = 10;
 
 /// Whether the numbers of points of a rule are known at compile time: 4 x 6, force-based, the default, and 2 x 6,
-/// displacement-based, the paper. Elements of other rules are computed one at a time.
+/// displacement-based, the paper. Elements of other rules are computed one at a time, in double precision.
 inline bool has_known_counts(const SectionRule& rule) {
   const std::size_t sections = rule.force_based ? 4 : 2;
   return rule.section_count() == sections && rule.depth_count() == 6;
