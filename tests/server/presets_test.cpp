@@ -14,9 +14,9 @@
 namespace cellcrush {
 namespace {
 
-using testing::ElementsAre;
-using testing::IsEmpty;
-using testing::SizeIs;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
 using translate::fields_beside_measured;
 using translate::measured_errors_of;
 using translate::MeasuredError;
@@ -28,7 +28,7 @@ TEST(Presets, AreThoseOfTheSolversTests) {
     const auto& [name, spec] = scenes::presets()[i];
     EXPECT_EQ(ours[i].message.name(), name);
     EXPECT_EQ(ours[i].spec, spec) << name;
-    EXPECT_THAT(ours[i].message.assumptions(), testing::Not(IsEmpty())) << name;
+    EXPECT_THAT(ours[i].message.assumptions(), ::testing::Not(IsEmpty())) << name;
   }
 }
 
@@ -41,7 +41,7 @@ TEST(Lattices, OfTheSolverAreThoseOfTheCase) {
   for (int i = 0; i < oneof->field_count(); ++i) {
     if (oneof->field(i)->name() != "frame") fields.emplace_back(oneof->field(i)->name());
   }
-  EXPECT_THAT(kinds, testing::UnorderedElementsAreArray(fields));
+  EXPECT_THAT(kinds, ::testing::UnorderedElementsAreArray(fields));
 }
 
 std::vector<v1::FidelityForecast> forecasts_of(const SceneSpec& spec) {
@@ -67,7 +67,7 @@ TEST(Fidelities, EachIsForecastForTheCaseAtHand) {
     const SceneFacts facts = facts_of(*scenes::build(spec));
     EXPECT_EQ(forecasts[i].element_count(), facts.element_count);
     EXPECT_EQ(forecasts[i].step_count(), facts.step_count);
-    EXPECT_THAT(forecasts[i].given_fields(), testing::Not(IsEmpty())) << "four cells are not what was measured";
+    EXPECT_THAT(forecasts[i].given_fields(), ::testing::Not(IsEmpty())) << "four cells are not what was measured";
     EXPECT_THAT(forecasts[i].errors(), IsEmpty());
   }
   EXPECT_THAT(forecasts_of(scenes::Cantilever::spec(4, FrameLattice::Component::y, 1.0, 0.1, 0.2)), IsEmpty());
@@ -135,7 +135,7 @@ TEST(MeasuredErrors, NoneIsToldOfWhatWasNotMeasured) {
 // A mesh that the case itself gives and that was measured has its error too; another has none.
 TEST(MeasuredErrors, AMeshThatIsGivenHasTheErrorOfThatMesh) {
   const SceneSpec spec = scenes::preset("type-i");
-  EXPECT_THAT(measured_errors_of(spec, 4), testing::Not(IsEmpty()));
+  EXPECT_THAT(measured_errors_of(spec, 4), ::testing::Not(IsEmpty()));
   EXPECT_THAT(measured_errors_of(spec, 3), IsEmpty());
 }
 

@@ -11,7 +11,7 @@
 namespace cellcrush::jobs {
 namespace {
 
-bool never() { return false; }
+bool is_never_cancelled() { return false; }
 
 v1::Sweep grid() {
   v1::Sweep sweep;
@@ -48,11 +48,11 @@ TEST(SweepPlan, IsTheSameWhateverTheNumberOfThreads) {
     MeshPlaces places;
     v1::Sweep sweep = grid();
     add_thicknesses(sweep, last);
-    const SweepPlan plan = plan_sweep(sweep, {places, 1, never});
+    const SweepPlan plan = plan_sweep(sweep, {places, 1, is_never_cancelled});
     EXPECT_EQ(plan.jobs.size(), 187U);
     EXPECT_EQ(plan.problems.empty(), last < 1.0);
     EXPECT_EQ(plan.notes.empty(), last > 1.0);
-    for (const int threads : {2, 5, 16}) EXPECT_EQ(text_of(plan_sweep(sweep, {places, threads, never})), text_of(plan));
+    for (const int threads : {2, 5, 16}) EXPECT_EQ(text_of(plan_sweep(sweep, {places, threads, is_never_cancelled})), text_of(plan));
   }
 }
 
@@ -63,7 +63,7 @@ TEST(SweepPlan, MorePointsThanAMessageHoldsAreRefusedWithTheBytesThatFit) {
   *sweep.mutable_case_() = testing::small_case();
   for (int i = 0; i < 80'000; ++i) (*sweep.add_points()->mutable_fields())["loading.speed_m_per_s"] = 50.0 + 1e-3 * i;
   try {
-    plan_sweep(sweep, {places, 1, never});
+    plan_sweep(sweep, {places, 1, is_never_cancelled});
     ADD_FAILURE() << "accepted";
   } catch (const InvalidField& refused) {
     EXPECT_EQ(refused.field(), "sweep");
