@@ -26,7 +26,7 @@ struct MappedFibre {
 /// The equations of a law of laws.h for the fibres of the lanes; one file a law specializes it:
 ///
 ///   FibreLaw(material, step)        constants of the lanes' materials, and the time step, s
-///   map(trial, fibres, at)          return mapping of the elastic trial stress; `at` is the fibre's place in the arrays
+///   map(trial, fibres, at)          return mapping of the elastic trial stress; `at`: place of the fibre in the arrays
 ///   increment(reduced, within)      plastic strain increment; 0 where the fibre stays elastic
 ///   flow(increment, fibres, at)     updates the arrays that the law keeps, other than the stress
 ///   dissipating(stress, increment)  mean stress over the step by which the increment dissipates (E10)

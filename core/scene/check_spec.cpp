@@ -24,8 +24,8 @@ double check_regular(const SceneSpec& spec, const RegularLattice& lattice, Field
     if (elements > kMostElements) {
       check.add(path + "columns", std::to_string(*lattice.columns),
                 "makes about " + to_text(std::round(elements)) + " elements with the rows and elements_per_wall given.",
-                "Keep columns x rows x " + to_text(kind_of(spec)->walls_per_cell) + " x elements_per_wall at or below " +
-                    to_text(kMostElements) + ".");
+                "Keep columns x rows x " + to_text(kind_of(spec)->walls_per_cell) +
+                    " x elements_per_wall at or below " + to_text(kMostElements) + ".");
     }
   }
   return side;

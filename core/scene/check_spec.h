@@ -1,7 +1,7 @@
 #pragma once
 
 #include "cellcrush/scene_spec.h"
-#include "scene/field_checker.h"
+#include "fields/field_checker.h"
 
 namespace cellcrush {
 

@@ -50,8 +50,8 @@ struct StageEntry {
   unsigned writes;
   /// In a wavefront, by how many bands it follows the first stage: its forces reach into the next band.
   std::size_t bands_behind = 0;
-  /// REQUIRES: earlier bands have been done. Null: only on the whole; such a lattice is not cut into bands, or the stage
-  /// does nothing on it.
+  /// REQUIRES: earlier bands have been done. Null: only on the whole; such a lattice is not cut into bands, or the
+  /// stage does nothing on it.
   void (*on_band)(StepInProgress& step, std::size_t band) = nullptr;
   void (*on_whole)(StepInProgress& step) = nullptr;  ///< null: band by band
   const SplitStage* split = nullptr;

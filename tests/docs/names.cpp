@@ -3,7 +3,6 @@
 #include <google/protobuf/descriptor.h>
 
 #include <algorithm>
-#include <algorithm>
 #include <fstream>
 #include <functional>
 #include <regex>

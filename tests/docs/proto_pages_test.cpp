@@ -31,7 +31,7 @@ void hold(const fs::path& page, const std::string& made) {
 TEST(ProtoPages, FieldsAreThoseOfTheCase) { hold(kFolder / "fields.md", make_fields_page()); }
 
 TEST(ProtoPages, TheLimitsOfTheSolverAreThoseOfTheCase) {
-  hold(kFolder.parent_path() / "core/scene/field_limits.inc", make_field_limits());
+  hold(kFolder.parent_path() / "core/fields/field_limits.inc", make_field_limits());
 }
 
 TEST(ProtoPages, TheApiIsThatOfTheServices) { hold(kFolder / "api.md", make_api_page()); }

@@ -52,7 +52,9 @@ TEST(SweepPlan, IsTheSameWhateverTheNumberOfThreads) {
     EXPECT_EQ(plan.jobs.size(), 187U);
     EXPECT_EQ(plan.problems.empty(), last < 1.0);
     EXPECT_EQ(plan.notes.empty(), last > 1.0);
-    for (const int threads : {2, 5, 16}) EXPECT_EQ(text_of(plan_sweep(sweep, {places, threads, is_never_cancelled})), text_of(plan));
+    for (const int threads : {2, 5, 16}) {
+      EXPECT_EQ(text_of(plan_sweep(sweep, {places, threads, is_never_cancelled})), text_of(plan));
+    }
   }
 }
 

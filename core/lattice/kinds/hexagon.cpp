@@ -5,7 +5,7 @@
 
 #include "lattice/lattice.h"
 #include "lattice/wall_builder.h"
-#include "scene/field_checker.h"
+#include "fields/field_checker.h"
 
 // Regular hexagons with walls along y. Rows run along x, from the bottom up, and have `columns` and `columns - 1` cells
 // in turn.

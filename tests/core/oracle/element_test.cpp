@@ -222,7 +222,8 @@ void compare_wall(const Scene& scene, const State& state, const std::vector<int>
   }
   note_forces(scene, state, wall, forces, most);
   for (std::size_t k = 0; k < wall.size(); ++k) {
-    note_histories(solver[k], oracle[wall[k]], element_data_of(scene, wall[k]), law_facts_of(scene).keeps_plastic_strain, most);
+    note_histories(solver[k], oracle[wall[k]], element_data_of(scene, wall[k]),
+                   law_facts_of(scene).keeps_plastic_strain, most);
   }
 }
 

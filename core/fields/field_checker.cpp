@@ -1,4 +1,4 @@
-#include "scene/field_checker.h"
+#include "fields/field_checker.h"
 
 #include <algorithm>
 #include <array>
@@ -23,7 +23,7 @@ struct FieldLimits {
 const FieldLimits& limits_of(std::string path) {
   static const std::vector<FieldLimits> kLimits = {
       // in the order of their paths
-#include "scene/field_limits.inc"
+#include "fields/field_limits.inc"
   };
   for (std::size_t open = path.find('['); open != std::string::npos; open = path.find('[')) {
     path.erase(open, path.find(']', open) + 1 - open);
