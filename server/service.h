@@ -17,9 +17,9 @@ namespace cellcrush {
 /// answered as soon as a server has registered it; jobs run between start and stop.
 class Service {
  public:
-  /// `gate` outlives it, and guards its methods from now on; `step_cost`: seconds of one core per element and step. Ignores the options for addresses and
-  /// access. Calls `on_drain` once a client has asked the daemon to drain and new jobs are refused. Throws ServiceError
-  /// if the data folder is taken or unusable.
+  /// `gate` outlives it, and guards its methods from now on; `step_cost`: seconds of one core per element and step.
+  /// Ignores the options for addresses and access. Calls `on_drain` once a client has asked the daemon to drain and new
+  /// jobs are refused. Throws ServiceError if the data folder is taken or unusable.
   Service(const DaemonOptions& options, access::Gate& gate, double step_cost, std::function<void()> on_drain);
   ~Service();
   Service(const Service&) = delete;

@@ -9,9 +9,9 @@
 
 namespace cellcrush::http {
 
-/// A call of a client, unary or a stream, on one io_context with one thread, which runs until the batch has come that
-/// was asked for last. The next batch is made only when it is asked for, so that a slow client costs no more memory than
-/// one.
+/// A call of a client, unary or a stream, on one io_context with one thread, which runs until the last batch that was
+/// asked for has come. The next batch is made only when it is asked for, so that a slow client costs no more memory
+/// than one.
 class Call final : public std::enable_shared_from_this<Call> {
  public:
   /// `timeout`: after which the call ends with DEADLINE_EXCEEDED; nothing: never.
