@@ -73,7 +73,7 @@ Material material_of(const MaterialSpec& spec) {
 int crush_axis_of(const SceneSpec& spec) { return spec.loading.direction == LoadingSpec::Direction::x ? 0 : 1; }
 
 bool has_plates(const SceneSpec& spec) {
-  return spec.loading.speed_m_per_s.has_value() || regular_lattice_of(spec) != nullptr;
+  return spec.loading.speed_m_per_s.has_value() || !std::holds_alternative<FrameLattice>(spec.lattice);
 }
 
 bool is_driven_by_plates_alone(const SceneSpec& spec) {

@@ -15,7 +15,9 @@ function* valuesOf(message: ReflectMessage, prefix: string): Generator<[string, 
     if (field.fieldKind === "message") yield* valuesOf(message.get(field), `${path}.`);
     else if (field.fieldKind === "list") yield [path, [...message.get(field)].map(entry).join(", ")];
     else if (field.fieldKind === "enum") yield [path, field.enum.value[message.get(field)]?.name ?? "unknown"];
-    else if (field.fieldKind === "scalar" && field.scalar !== ScalarType.BYTES) yield [path, String(message.get(field))];
+    else if (field.fieldKind === "scalar" && field.scalar !== ScalarType.BYTES) {
+      yield [path, String(message.get(field))];
+    }
   }
 }
 
