@@ -17,8 +17,7 @@ TEST(Explain, PrintsAFieldWithoutADaemon) {
             "  Default  0 (full speed at once)\n"
             "  Limits   0 to below end_strain\n"
             "\n"
-            "Nominal strain over which the speed rises linearly in time from 0 to V. Default\n"
-            "0 (full speed at once); 0 to below end_strain.\n");
+            "Nominal strain over which the speed rises linearly in time from 0 to V.\n");
 }
 
 TEST(Explain, ListsTheFieldsOfAGroupAndOfTheCase) {
