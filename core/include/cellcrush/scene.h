@@ -54,9 +54,6 @@ inline bool share_a_node(const Element& a, const Element& b) {
   return a.start == b.start || a.start == b.end || a.end == b.start || a.end == b.end;
 }
 
-/// Most fibres of an element that can be kept in single precision: each needs one of 32 bits, and one is a mark.
-inline constexpr std::size_t kMostSingleFibres = 31;
-
 /// Walls with the same number of elements, side by side. Element j of wall w of the block has the index first_element +
 /// j * walls + w. The particle at its end, if inside the wall, has the index first_inner + j * walls + w. The history
 /// of elements is stored in the same order, so that one loop computes the walls of a block side by side.

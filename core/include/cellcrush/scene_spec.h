@@ -218,8 +218,9 @@ struct NumericsSpec {
   /// mass_scaling, rotary inertias also by rotary_scaling.
   double mass_scaling = 1.0;
   double rotary_scaling = 1.0;
-  /// Precision of the fibre stresses; motion, forces and works are always in double precision. Elements of more than
-  /// kMostSingleFibres fibres, and force-based elements with hardening, are in double precision whatever is asked.
+  /// Precision of the fibre stresses; motion, forces and works are always in double precision. Elements of other
+  /// numbers of points than the default ones, and force-based elements with hardening, are in double precision whatever
+  /// is asked.
   enum class FibrePrecision { double_precision, single_precision };
   FibrePrecision fibre_precision = FibrePrecision::single_precision;
   /// A point of the measured speed-accuracy front; it fills in omitted settings (fidelity.h).
