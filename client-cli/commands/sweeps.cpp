@@ -98,7 +98,7 @@ ExitCode run_table(Session& session, const TableOptions& options) {
     fmt::print("{}", sweep_table_csv(table));
   } else {
     const auto sweep = fetch_sweep(connection, name);
-    fmt::print("{}", sweep_table_text(table, sweep.case_().lattice(), options.digits));
+    fmt::print("{}", sweep_table_text(table, sweep.words().theory_note(), options.digits));
   }
   return ExitCode::done;
 }

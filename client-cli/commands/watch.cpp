@@ -61,7 +61,7 @@ ExitCode watch_sweep(Session& session, const std::string& name, const Interrupti
   if (!watched.complete) return ExitCode::interrupted;
   const auto table = fetch_table(session.connection(), name);
   session.json ? print_json(table)
-               : fmt::print("\n{}{}", sweep_table_text(table, watched.sweep.case_().lattice()),
+               : fmt::print("\n{}{}", sweep_table_text(table, watched.sweep.words().theory_note()),
                             sweep_chart_text(table, find_terminal().unicode, terminal_width()));
   return watched.all_succeeded ? ExitCode::done : ExitCode::job_failed;
 }

@@ -8,7 +8,6 @@
 
 #include "chart/palette.h"
 #include "chart/smoothing.h"
-#include "results/theory_note.h"
 #include "terminal/number_text.h"
 
 namespace cellcrush::client {
@@ -52,7 +51,7 @@ double find_top(const JobHistory& history, const PlateCurves& smooth) {
     if (smooth.strain[i] <= solid && !first_wave) crushing.push_back(std::max(smooth.impact[i], smooth.support[i]));
   }
   double top = crushing.empty() ? 0.0 : 1.3 * quantile(crushing, 0.95);
-  if (theory_note(history.job.case_().lattice()).empty()) top = std::max(top, 1.2 * summary.theory().shock_mpa());
+  if (history.job.words().theory_note().empty()) top = std::max(top, 1.2 * summary.theory().shock_mpa());
   top = std::max({top, 1.6 * summary.plateau_stress_impact_mpa(), 1.6 * summary.plateau_stress_support_mpa()});
   return top > 0.0 ? top : 1.0;
 }

@@ -8,7 +8,6 @@
 #include "chart/colour_map.h"
 #include "plots/job_curves.h"
 #include "plots/stage_panels.h"
-#include "results/field_value.h"
 #include "terminal/case_text.h"
 #include "terminal/summary_text.h"
 
@@ -41,11 +40,11 @@ void draw_plastic_bar(cairo_t* context, double top) {
 }
 
 std::string subtitle_of(const v1::Job& job) {
-  const std::string scene = scene_text(job.case_());
+  const std::string scene = scene_text(job.words());
   std::string text = scene.empty() ? job.name() : scene;
   const v1::Summary::CrushMode mode = job.summary().crush_mode();
   if (mode != v1::Summary::CRUSH_MODE_UNSPECIFIED && mode != v1::Summary::CRUSH_MODE_NONE)
-    text += ", " + crush_mode_text(mode);
+    text += ", " + job.summary().crush_mode_words();
   if (job.state() != v1::Job::SUCCEEDED) text += ", " + v1::Job::State_Name(job.state());
   return text;
 }
@@ -82,7 +81,7 @@ std::string render_job_picture(PictureFormat format, const JobHistory& history, 
   const std::vector<LatticeStage> stages = lattice_stages(frames);
   constexpr double kTop = kMargin + kTitleHeight;
   const StagePanels panels = stages.empty() ? StagePanels{.bottom = kTop} : lay_stages(stages, kMargin, kTop, kInner);
-  const bool plates = has_plates(history.job.case_());
+  const bool plates = history.job.words().plates();
   const double curves_bottom = panels.bottom + kChartHeight + kChartGap;
   const double height = curves_bottom + (plates ? kEnergyHeight : 0.0) + kMargin;
   return render_picture(format, kWidth, height, [&](cairo_t* context) {
@@ -111,7 +110,7 @@ std::string render_wide_picture(PictureFormat format, const JobHistory& history,
     draw_plastic_bar(context, kMargin + 26.0);
     draw_stages(context, panels, stages);
     draw_chart(context, {kChartLeft, kTop, kWidth - kMargin - kChartLeft, height},
-               has_plates(history.job.case_()) ? build_job_chart(history) : build_node_chart(history));
+               history.job.words().plates() ? build_job_chart(history) : build_node_chart(history));
   });
 }
 

@@ -6,10 +6,7 @@
 #include <sstream>
 
 #include "command_error.h"
-#include "results/field_value.h"
-#include "results/theory_note.h"
 #include "terminal/fidelity_text.h"
-#include "terminal/lattice_text.h"
 #include "terminal/number_text.h"
 #include "terminal/table.h"
 
@@ -21,15 +18,6 @@ using Align = Table::Align;
 
 constexpr int kHeadingWidth = 78;  // behind the "# " of a comment
 
-std::string material_text(const v1::Material& material) {
-  std::string text = fmt::format("E {:.6g} MPa, yield {:.6g} MPa, hardening {:.6g} MPa", material.youngs_modulus_mpa(),
-                                 material.yield_stress_mpa(), material.hardening_modulus_mpa());
-  if (material.hardening_modulus_mpa() > 0.0 && material.has_isotropic_fraction()) {
-    text += fmt::format(" ({} isotropic)", percent_text(material.isotropic_fraction(), 0));
-  }
-  return text + fmt::format(", {} kg/m3", material.density_kg_per_m3());
-}
-
 // Fields of a crush that a frame with its own loads lacks.
 void add_crush_rows(Table& table, const v1::CheckCaseResponse& check) {
   table.add({"length (crush direction)", number_text(check.length_mm(), 4), "mm"});
@@ -39,30 +27,13 @@ void add_crush_rows(Table& table, const v1::CheckCaseResponse& check) {
 
 }  // namespace
 
-std::string scene_text(const v1::Case& scene) {
-  std::string text = lattice_summary(scene.lattice());
-  if (scene.lattice().has_frame() && scene.lattice().frame().has_end_time_s()) {
-    text += fmt::format(", loaded for {} s", scene.lattice().frame().end_time_s());
-  }
-  if (!scene.loading().has_speed_m_per_s()) return text;
-  const bool along_y = scene.loading().direction() == v1::Loading::Y;
-  text += fmt::format(", crushed along {} at {} m/s", along_y ? 'Y' : 'X', scene.loading().speed_m_per_s());
-  if (scene.loading().has_end_strain()) text += fmt::format(" to strain {}", scene.loading().end_strain());
-  return text;
+std::string scene_text(const v1::CaseWords& words) {
+  return words.lattice() + (words.lattice().empty() || words.loading().empty() ? "" : ", ") + words.loading();
 }
 
-std::string description_text(const v1::Case& scene, int width) {
+std::string facts_text(const v1::CaseWords& words, int width) {
   Table table({Align::left, Align::left});
-  for (const auto& [heading, line] : lattice_description(scene.lattice())) table.add({heading, line});
-  if (scene.has_depth_mm()) table.add({"depth", fmt::format("{} mm", scene.depth_mm())});
-  if (scene.has_material()) table.add({"material", material_text(scene.material())});
-  if (scene.contact().friction() > 0.0)
-    table.add({"friction between walls", fmt::format("{}", scene.contact().friction())});
-  if (scene.plates().friction() > 0.0)
-    table.add({"friction at the plates", fmt::format("{}", scene.plates().friction())});
-  if (scene.numerics().mass_damping_per_s() > 0.0) {
-    table.add({"mass damping", fmt::format("{} 1/s", scene.numerics().mass_damping_per_s())});
-  }
+  for (const auto& fact : words.facts()) table.add({fact.heading(), fact.text()});
   return table.text(2, width);
 }
 
@@ -72,7 +43,7 @@ std::string check_text(const v1::CheckCaseResponse& check, int width) {
   table.add({"elements", count_text(check.element_count())});
   table.add({check.completed_case().lattice().has_frame() ? "mass of the beams" : "mass of the walls",
              number_text(check.mass_g(), 4), "g"});
-  if (has_plates(check.completed_case())) add_crush_rows(table, check);
+  if (check.words().plates()) add_crush_rows(table, check);
   table.add({"stable step", number_text(check.stable_step_s(), 4), "s"});
   table.add({"time step", number_text(check.time_step_s(), 4), "s"});
   table.add({"steps", count_text(check.step_count())});
@@ -87,14 +58,14 @@ std::string check_text(const v1::CheckCaseResponse& check, int width) {
   const v1::Case& completed = check.completed_case();
   std::string text;
   if (!completed.title().empty()) text += wrapped(printable(completed.title()), width);
-  if (const std::string scene = scene_text(completed); !scene.empty()) text += wrapped(scene, width);
-  if (const std::string description = description_text(completed, width); !description.empty())
-    text += '\n' + description;
+  if (const std::string scene = scene_text(check.words()); !scene.empty()) text += wrapped(printable(scene), width);
+  if (const std::string facts = facts_text(check.words(), width); !facts.empty()) text += '\n' + facts;
   if (!text.empty()) text += '\n';
   text += table.text(2, width);
   if (check.notes_size() > 0) text += '\n' + notes_text(check.notes());
-  const std::string note = theory_note(completed.lattice());
-  if (!note.empty() && check.theory().shock_mpa() > 0) text += '\n' + wrapped("Note: " + note, width, "  ", "  ");
+  const std::string& note = check.words().theory_note();
+  if (!note.empty() && check.theory().shock_mpa() > 0)
+    text += '\n' + wrapped("Note: " + printable(note), width, "  ", "  ");
   text += fidelity_text(check, width);
   if (check.modelled_size() > 0) text += "\nmodel and simplifications\n";
   for (const std::string& sentence : check.modelled()) text += wrapped(printable(sentence), width, "  - ", "    ");

@@ -8,10 +8,10 @@
 namespace cellcrush::client {
 
 /// Summary of a case in one line: "hexagons, 74 x 21 cells, crushed along X at 100 m/s to strain 0.8".
-std::string scene_text(const v1::Case& scene);
+std::string scene_text(const v1::CaseWords& words);
 
-/// Contents of a case, one line per heading: lattice or frame, material and friction. Empty for an empty case.
-std::string description_text(const v1::Case& scene, int width = terminal_width());
+/// Contents of a case, one line per heading; empty if there are none.
+std::string facts_text(const v1::CaseWords& words, int width = terminal_width());
 
 /// The predicted cost of a case as a table with units, and what is modelled.
 std::string check_text(const v1::CheckCaseResponse& check, int width = terminal_width());

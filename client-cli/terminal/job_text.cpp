@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "command_error.h"
-#include "results/field_value.h"
 #include "terminal/case_text.h"
 #include "terminal/number_text.h"
 #include "terminal/summary_text.h"
@@ -31,7 +30,7 @@ std::string run_time_text(const v1::Job& job) {
 void add_progress_rows(Table& table, const v1::Job& job) {
   const v1::Progress& progress = job.progress();
   std::string text = percent_text(progress.fraction());
-  if (has_plates(job.case_())) text += fmt::format(", strain {:.3f}", progress.strain());
+  if (job.words().plates()) text += fmt::format(", strain {:.3f}", progress.strain());
   table.add({"progress",
              text + fmt::format(", step {} of {}", count_text(progress.step()), count_text(progress.step_count()))});
   if (progress.stalled()) table.add({"", "the worker has stalled; it is replaced if it stays so"});
@@ -73,14 +72,14 @@ std::string outcome_text(const v1::Job& job, int width) {
   text = wrapped(text, width, "", "  ");
   if (!job.cause_message().empty()) text += wrapped(printable(job.cause_message()), width, "  ", "  ");
   if (!job.remedy().empty()) text += wrapped("Remedy: " + printable(job.remedy()), width, "  ", "    ");
-  if (job.has_summary()) text += '\n' + summary_text(job.summary(), job.case_(), width);
+  if (job.has_summary()) text += '\n' + summary_text(job, width);
   return text;
 }
 
 std::string description_text(const v1::Job& job, int width) {
   Table table({Align::left, Align::left});
   if (!job.case_().title().empty()) table.add({"title", job.case_().title()});
-  const std::string scene = scene_text(job.case_());
+  const std::string scene = scene_text(job.words());
   if (!scene.empty()) table.add({"case", scene});
   if (!job.labels().empty()) table.add({"labels", labels_text(job.labels())});
   if (job.priority() != 0) table.add({"priority", std::to_string(job.priority())});
@@ -99,7 +98,7 @@ std::string description_text(const v1::Job& job, int width) {
                                 job.attempt(), job.attempt() - 1, job.attempt() == 2 ? "was" : "were")});
   }
   if (job.has_progress() && !is_final(job.state())) add_progress_rows(table, job);
-  const std::string scene_lines = description_text(job.case_(), width);
+  const std::string scene_lines = facts_text(job.words(), width);
   const std::string stage_lines = stage_times_text(job.summary().stage_times(), width);
   return outcome_text(job, width) + (stage_lines.empty() ? "" : '\n' + stage_lines) + '\n' + table.text(2, width) +
          (scene_lines.empty() ? "" : '\n' + scene_lines);

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "command_error.h"
-#include "results/field_value.h"
 #include "terminal/number_text.h"
 #include "terminal/table.h"
 
@@ -29,7 +28,7 @@ std::string repeat(std::string_view piece, int times) {
 std::vector<std::string> progress_fields(const JobView& view) {
   const v1::Progress& progress = view.progress();
   std::vector<std::string> fields;
-  if (!has_plates(view.job().case_())) {
+  if (!view.job().words().plates()) {
     fields = {fmt::format("step {} of {}", count_text(progress.step()), count_text(progress.step_count()))};
   } else {
     fields = {fmt::format("strain {:.3f}", progress.strain()), stress_at("impact", progress.stress_impact_mpa()),
@@ -71,7 +70,10 @@ void JobView::apply(const v1::JobEvent& event) {
       if (rank_of(event.state().state()) < rank_of(known.state())) break;
       job_ = event.state();
       if (!job_.has_progress()) *job_.mutable_progress() = known.progress();
-      if (!job_.has_case_() && known.has_case_()) *job_.mutable_case_() = known.case_();
+      if (!job_.has_case_() && known.has_case_()) {
+        *job_.mutable_case_() = known.case_();
+        *job_.mutable_words() = known.words();
+      }
       // The last progress was reported a moment before the end.
       if (job_.state() == v1::Job::SUCCEEDED) job_.mutable_progress()->set_fraction(1.0);
       break;

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <string_view>
 
-#include "results/field_value.h"
-#include "results/theory_note.h"
 #include "terminal/number_text.h"
 #include "terminal/table.h"
 
@@ -62,7 +60,7 @@ void add_plateau_rows(Table& table, const v1::Summary& summary) {
 
 // On a line of its own: words in a column of numbers would widen it.
 std::string mode_text(const v1::Summary& summary, int width) {
-  const std::string mode = crush_mode_text(summary.crush_mode());
+  const std::string mode = printable(summary.crush_mode_words());
   if (mode.empty()) return {};
   return wrapped(fmt::format("crush mode: {}{}", mode,
                              summary.has_crush_mode_strain()
@@ -137,20 +135,9 @@ std::string crush_mode_code(v1::Summary::CrushMode mode) {
   return name.substr(kPrefix.size());
 }
 
-std::string crush_mode_text(v1::Summary::CrushMode mode) {
-  switch (mode) {
-    case v1::Summary::CRUSH_MODE_NONE: return "none (too few cells have collapsed)";
-    case v1::Summary::CRUSH_MODE_X: return "crossed bands (X)";
-    case v1::Summary::CRUSH_MODE_V: return "V-shaped band (V)";
-    case v1::Summary::CRUSH_MODE_I: return "layer by layer (I)";
-    case v1::Summary::CRUSH_MODE_C: return "curved band (C)";
-    case v1::Summary::CRUSH_MODE_MIXED: return "mixed";
-    default: return crush_mode_code(mode);
-  }
-}
-
-std::string summary_text(const v1::Summary& summary, const v1::Case& scene, int width) {
-  const bool plates = has_plates(scene);
+std::string summary_text(const v1::Job& job, int width) {
+  const v1::Summary& summary = job.summary();
+  const bool plates = job.words().plates();
   Table table({Align::left, Align::right, Align::right, Align::left});
   if (plates) {
     add_plateau_rows(table, summary);
@@ -160,8 +147,9 @@ std::string summary_text(const v1::Summary& summary, const v1::Case& scene, int 
   table.add({"deepest penetration", percent_text(summary.deepest_penetration()), "", "of the thinner wall"});
   std::string text = table.text(2, width);
   if (plates) text += mode_text(summary, width);
-  const std::string note = theory_note(scene.lattice());
-  if (!note.empty() && summary.theory().shock_mpa() > 0) text += '\n' + wrapped("Note: " + note, width, "  ", "  ");
+  const std::string& note = job.words().theory_note();
+  if (!note.empty() && summary.theory().shock_mpa() > 0)
+    text += '\n' + wrapped("Note: " + printable(note), width, "  ", "  ");
   for (const v1::Warning& warning : summary.warnings()) text += '\n' + warning_text(warning, width);
   if (plates && summary.has_front()) text += '\n' + front_text(summary.front(), width);
   if (summary.has_ledger()) text += '\n' + ledger_text(summary.ledger(), width);

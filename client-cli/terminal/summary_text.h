@@ -14,11 +14,8 @@ std::string stress_text(double stress);
 /// "V" of CRUSH_MODE_V; empty if unknown.
 std::string crush_mode_code(v1::Summary::CrushMode mode);
 
-/// The same in words: "V-shaped band (V)".
-std::string crush_mode_text(v1::Summary::CrushMode mode);
-
-/// Summary of a run. For a crush: plateau stresses with theory, front, crush mode and, for a slow one, how quasi-static
-/// it was. For any run: energy ledger, contact and warnings.
-std::string summary_text(const v1::Summary& summary, const v1::Case& scene, int width = terminal_width());
+/// Summary of a job's run. For a crush: plateau stresses with theory, front, crush mode and, for a slow one, how
+/// quasi-static it was. For any run: energy ledger, contact and warnings.
+std::string summary_text(const v1::Job& job, int width = terminal_width());
 
 }  // namespace cellcrush::client

@@ -97,7 +97,7 @@ std::vector<std::string> job_rows(const SweepView& view, const std::vector<const
     std::vector<std::string> cells;
     for (const std::string& field : fields) cells.push_back(field_value_text(job.case_(), field));
     const bool waits = entry->state() == v1::Job::PENDING;
-    const bool strained = !waits && has_plates(job.case_());
+    const bool strained = !waits && job.words().plates();
     cells.insert(cells.end(),
                  {v1::Job::State_Name(entry->state()), waits ? "" : percent_text(job.progress().fraction()),
                   plateau_text(job), strained ? fmt::format("{:.2f}", job.progress().strain()) : "", entry->name});

@@ -9,7 +9,6 @@
 
 #include "results/field_value.h"
 #include "results/sweep_results.h"
-#include "results/theory_note.h"
 #include "terminal/number_text.h"
 #include "terminal/summary_text.h"
 #include "terminal/table.h"
@@ -110,7 +109,7 @@ void add_headings(Table& table, const v1::SweepTable& results) {
 
 }  // namespace
 
-std::string sweep_table_text(const v1::SweepTable& results, const v1::Lattice& lattice, int digits, int width) {
+std::string sweep_table_text(const v1::SweepTable& results, const std::string& theory_note, int digits, int width) {
   const auto fields = static_cast<std::size_t>(results.fields_size());
   std::vector<Align> alignment(fields, Align::right);
   alignment.insert(alignment.end(), {Align::left, Align::left});
@@ -127,7 +126,7 @@ std::string sweep_table_text(const v1::SweepTable& results, const v1::Lattice& l
       const auto value = column.value(row.result().summary());
       cells.push_back(value ? number_text(column.scale * *value, digits) : "-");
     }
-    const std::string mode = crush_mode_text(row.result().summary().crush_mode());
+    const std::string& mode = row.result().summary().crush_mode_words();
     cells.push_back(mode.empty() ? "-" : mode);
     table.add(std::move(cells));
   }
@@ -135,7 +134,7 @@ std::string sweep_table_text(const v1::SweepTable& results, const v1::Lattice& l
   if (results.rows_size() > 0)
     constants = constants_text(table.remove_constant_columns(fields + 1, kTableHeadings), width);
   std::string text = table.text(0, width) + constants + legend_text(results, width);
-  if (const std::string note = theory_note(lattice); !note.empty()) text += '\n' + wrapped("Note: " + note, width);
+  if (!theory_note.empty()) text += '\n' + wrapped("Note: " + printable(theory_note), width);
   return text + fit_text(results, width) + failures_text(results, width);
 }
 

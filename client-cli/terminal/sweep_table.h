@@ -10,9 +10,8 @@ namespace cellcrush::client {
 inline constexpr int kTableDigits = 3;
 
 /// A sweep's results as an aligned table, one row per job, with `digits` significant digits. Below it: common values,
-/// the meaning of the columns, whether theory applies to `lattice`, the fit of plateau against speed if any, and why
-/// jobs failed.
-std::string sweep_table_text(const v1::SweepTable& table, const v1::Lattice& lattice, int digits = kTableDigits,
+/// the meaning of the columns, `theory_note` if any, the fit of plateau against speed if any, and why jobs failed.
+std::string sweep_table_text(const v1::SweepTable& table, const std::string& theory_note, int digits = kTableDigits,
                              int width = terminal_width());
 
 /// The same table as CSV with all digits; a missing result is an empty cell.

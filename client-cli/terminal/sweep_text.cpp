@@ -82,7 +82,7 @@ std::string sweep_line(const v1::Sweep& sweep) {
 std::string description_text(const v1::Sweep& sweep, int width) {
   Table table({Align::left, Align::left});
   if (!sweep.case_().title().empty()) table.add({"title", sweep.case_().title()});
-  const std::string scene = scene_text(sweep.case_());
+  const std::string scene = scene_text(sweep.words());
   if (!scene.empty()) table.add({"case", scene});
   for (const v1::SweepAxis& axis : sweep.axes()) table.add({"over " + axis.field(), values_text(axis)});
   if (sweep.points_size() > 0) table.add({"points", std::to_string(sweep.points_size())});

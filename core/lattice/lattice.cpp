@@ -48,20 +48,18 @@ std::string note_of_stretched_walls(const std::string& plural) {
          "Eq. 51, which builds on it, predicts the plateau.";
 }
 
-std::string theory_note_of(const SceneSpec& spec) {
-  const LatticeKind* kind = kind_of(spec);
-  std::string note = kind == nullptr ? "" : kind->theory_note;
-  if (!spec.inclusions.rows.empty()) {
-    note += note.empty() ? "" : " ";
-    note += "The theory ignores the stiff cells.";
+LatticeWords words_of(const RegularLattice& lattice) {
+  const LatticeKind* kind = find_kind(lattice.kind);
+  if (kind == nullptr) {
+    return {};
   }
-  return note;
+  return {std::string(kind->plural), kind->walls_in_words ? kind->walls_in_words(lattice) : "", kind->theory_note};
 }
 
-std::vector<LatticeName> lattice_names() {
-  std::vector<LatticeName> names;
+std::vector<std::string> lattice_names() {
+  std::vector<std::string> names;
   for (const LatticeKind* kind : lattice_kinds()) {
-    names.push_back({std::string(kind->name), std::string(kind->plural)});
+    names.emplace_back(kind->name);
   }
   return names;
 }

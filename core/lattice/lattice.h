@@ -49,6 +49,8 @@ struct LatticeKind {
   double (*collapse_stress)(const SceneSpec& spec) = nullptr;
   /// For force-based elements, at the direction and speed of the spec.
   DefaultMesh (*mesh)(const SceneSpec& spec) = nullptr;
+  /// What its own numbers say of its walls, as in LatticeWords. Numbers may be missing. May be null.
+  std::string (*walls_in_words)(const RegularLattice& lattice) = nullptr;
   /// When not to compare it with theory, as sentences; empty where theory applies.
   std::string theory_note = {};
 };

@@ -12,6 +12,7 @@
 #include "rpc/page.h"
 #include "store/job_state.h"
 #include "translate/case_checker.h"
+#include "translate/case_words.h"
 #include "translate/check_case.h"
 #include "watch/frame_chunks.h"
 #include "watch/packed_frame.h"
@@ -60,7 +61,9 @@ void ExportSource::append_check() {
   const auto never = [] { return false; };
   // Short, as the thread serves other streams.
   const jobs::MeshPlaces::Place place(parts_.places, elements, never, std::chrono::milliseconds(100));
-  text_ += web::exported_block("CheckCase", translate::check_case(job_.job.case_()).response, Compression::zlib);
+  auto check = translate::check_case(job_.job.case_()).response;
+  translate::add_words(check);
+  text_ += web::exported_block("CheckCase", check, Compression::zlib);
   stage_ = Stage::history;
 }
 
@@ -139,6 +142,7 @@ void ExportSource::append() {
   switch (stage_) {
     case Stage::head:
       text_ += web::exported_head(job_.job.case_().title().empty() ? job_.job.name() : job_.job.case_().title());
+      translate::add_words(job_.job);
       text_ += web::exported_block("GetJob", job_.job, Compression::zlib);
       stage_ = Stage::check;
       break;

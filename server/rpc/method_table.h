@@ -18,6 +18,7 @@
 #include "rpc/call_pool.h"
 #include "rpc/source_stream.h"
 #include "rpc/stream_reactor.h"
+#include "translate/case_words.h"
 
 namespace cellcrush::rpc {
 
@@ -57,7 +58,9 @@ class MethodTable {
                     const auto call = std::make_shared<GrpcCall>(gate_, *context);
                     run(pool, {call, static_cast<std::int64_t>(request->ByteSizeLong()),
                                [call, &service, handle, request, response] {
-                                 return (service.*handle)(*call, *request, *response);
+                                 auto status = (service.*handle)(*call, *request, *response);
+                                 translate::add_words(*response);
+                                 return status;
                                },
                                [reactor](const grpc::Status& status) { reactor->Finish(status); }});
                     return reactor;
@@ -70,6 +73,7 @@ class MethodTable {
           [&service, handle, request, encode = incoming.encode](const Call& call, std::string& to) {
             Response response;
             auto status = (service.*handle)(call, *request, response);
+            translate::add_words(response);
             if (status.ok()) encode(response, to);
             return status;
           });

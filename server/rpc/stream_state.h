@@ -16,6 +16,7 @@
 #include "jobs/case_field.h"
 #include "metrics/metrics.h"
 #include "rpc/stream_limits.h"
+#include "translate/case_words.h"
 #include "watch/pump.h"
 #include "watch/watch_times.h"
 
@@ -100,6 +101,7 @@ class StreamState {
         out = source_->bookmark();
         last_write_ = Clock::now();  // one is enough
       }
+      if (out) translate::add_words(*out);
       return out;
     } catch (const std::exception& error) {
       status_ = status_of(error);

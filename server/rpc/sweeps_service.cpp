@@ -33,6 +33,7 @@ v1::CreateSweepRequest without_output(v1::CreateSweepRequest request) {
   sweep.clear_owner();
   sweep.clear_notes();
   sweep.clear_predicted_seconds();
+  sweep.clear_words();
   return request;
 }
 

@@ -24,9 +24,8 @@ std::ptrdiff_t character_count(std::string_view text) {
 }
 
 // The message of any lattice of equal cells. Its fields have the names of RegularLattice's members, or are its own.
-RegularLattice read_regular(const google::protobuf::Message& in, const std::string& kind) {
+RegularLattice read_numbers(const google::protobuf::Message& in) {
   RegularLattice out;
-  out.kind = kind;
   const google::protobuf::Reflection& reflection = *in.GetReflection();
   std::vector<const google::protobuf::FieldDescriptor*> given;
   reflection.ListFields(in, &given);
@@ -47,12 +46,10 @@ RegularLattice read_regular(const google::protobuf::Message& in, const std::stri
 }
 
 void read_lattice(const v1::Lattice& in, SceneSpec& spec, Problems& problems) {
-  const google::protobuf::Reflection& reflection = *in.GetReflection();
-  const auto* kind = reflection.GetOneofFieldDescriptor(in, in.GetDescriptor()->FindOneofByName("kind"));
   if (in.has_frame()) {
     spec.lattice = to_spec(in.frame(), problems);
-  } else if (kind != nullptr) {
-    spec.lattice = read_regular(reflection.GetMessage(in, kind), std::string(kind->name()));
+  } else if (auto regular = read_regular(in)) {
+    spec.lattice = *std::move(regular);
   }
   if (in.imperfection().has_amplitude_mm()) spec.imperfection.amplitude_mm = in.imperfection().amplitude_mm();
   if (in.imperfection().has_bow_mm()) spec.imperfection.bow_mm = in.imperfection().bow_mm();
@@ -137,6 +134,15 @@ void read_numerics(const v1::Numerics& in, NumericsSpec& out, Problems& problems
 }
 
 }  // namespace
+
+std::optional<RegularLattice> read_regular(const v1::Lattice& in) {
+  const google::protobuf::Reflection& reflection = *in.GetReflection();
+  const auto* kind = reflection.GetOneofFieldDescriptor(in, in.GetDescriptor()->FindOneofByName("kind"));
+  if (kind == nullptr || in.has_frame()) return std::nullopt;
+  RegularLattice out = read_numbers(reflection.GetMessage(in, kind));
+  out.kind = kind->name();
+  return out;
+}
 
 MaterialSpec to_spec(const v1::Material& in, const std::string& path, Problems& problems) {
   MaterialSpec out;

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "cellcrush/problem.h"
 #include "cellcrush/scene_spec.h"
 #include "cellcrush/v1/case.pb.h"
@@ -17,6 +20,9 @@ struct CaseReading {
 /// are those of the wire format only: unknown enum numbers, an over-long title, unknown node names, and fields without
 /// a counterpart in the spec.
 CaseReading to_spec(const v1::Case& in);
+
+/// The lattice of equal cells of a case; nothing for a frame, or without a lattice.
+std::optional<RegularLattice> read_regular(const v1::Lattice& in);
 
 /// Converts the frame; appends problems.
 FrameLattice to_spec(const v1::Frame& in, Problems& problems);

@@ -12,6 +12,7 @@ JobView running_view() {
   v1::Job& job = *event.mutable_snapshot()->mutable_job();
   job.set_name("jobs/a");
   job.set_state(v1::Job::RUNNING);
+  job.mutable_words()->set_plates(true);
   v1::Progress& progress = *job.mutable_progress();
   progress.set_fraction(0.473);
   progress.set_strain(0.378);

@@ -13,6 +13,9 @@ v1::Job make_job(v1::Job::State state) {
   job.mutable_case_()->mutable_loading()->set_end_strain(0.8);
   job.mutable_case_()->mutable_lattice()->mutable_hexagon()->set_columns(74);
   job.mutable_case_()->mutable_lattice()->mutable_hexagon()->set_rows(21);
+  job.mutable_words()->set_plates(true);
+  job.mutable_words()->set_lattice("hexagons, 74 x 21 cells");
+  job.mutable_words()->set_loading("crushed along X at 100 m/s to strain 0.8");
   if (state == v1::Job::FAILED) {
     job.set_cause(v1::Job::SOLVER_DIVERGED);
     job.set_cause_message("particle 12 left the scene at step 340");
@@ -32,6 +35,7 @@ v1::Job make_job(v1::Job::State state) {
     summary.mutable_stage_times()->set_evaluate_internal_forces_s(30.0);
     summary.mutable_stage_times()->set_find_contacts_s(10.0);
     summary.set_crush_mode(v1::Summary::CRUSH_MODE_I);
+    summary.set_crush_mode_words("layer by layer (I)");
     summary.set_crush_mode_strain(0.11);
     summary.set_shock_error_relative(-0.0123);
     summary.mutable_front()->set_strain_behind(0.905);

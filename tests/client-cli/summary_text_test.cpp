@@ -20,7 +20,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 TEST(SummaryText, HasBothShockTheoriesWithTheirErrorsFrontModeAndLedger) {
-  const std::string text = summary_text(testing::make_job(v1::Job::SUCCEEDED).summary(), v1::Case(), 120);
+  const std::string text = summary_text(testing::make_job(v1::Job::SUCCEEDED), 120);
   EXPECT_THAT(text, ContainsRegex("3.41 MPa +3.37 MPa  shock theory \\(Eq. 51\\), 1.2 % lower"));
   EXPECT_THAT(text, ContainsRegex("3.43 MPa  shock theory with measured jumps \\(Eq. 52\\), 0.6 % higher"));
   EXPECT_THAT(text, HasSubstr("crush mode: layer by layer (I), first seen at strain 0.11\n"));
@@ -33,55 +33,53 @@ TEST(SummaryText, HasBothShockTheoriesWithTheirErrorsFrontModeAndLedger) {
 }
 
 TEST(SummaryText, SaysHowSteadyASlowCrushWasAndNothingOfAFastOne) {
-  v1::Summary summary;
+  v1::Job job;
+  job.mutable_words()->set_plates(true);
+  v1::Summary& summary = *job.mutable_summary();
   summary.mutable_quasi_static()->set_plate_difference_relative(0.0058);
   summary.mutable_quasi_static()->set_plate_difference_greatest(0.021);
   summary.mutable_quasi_static()->set_kinetic_share(0.0052);
-  const std::string slow = summary_text(summary, v1::Case(), 120);
+  const std::string slow = summary_text(job, 120);
   EXPECT_THAT(slow, ContainsRegex("plate stress difference beyond 5 % strain +0.58 %.*at most 2.10 %"));
   EXPECT_THAT(slow, ContainsRegex("largest kinetic energy +0.52 % +of the plastic work"));
   summary.mutable_quasi_static()->set_kinetic_share(0.9);
-  EXPECT_THAT(summary_text(summary, v1::Case(), 120), Not(HasSubstr("plate stress difference")));
+  EXPECT_THAT(summary_text(job, 120), Not(HasSubstr("plate stress difference")));
 }
 
 TEST(SummaryText, NamesWarningsWithTheirRemedies) {
-  v1::Summary summary;
-  EXPECT_THAT(summary_text(summary, v1::Case(), 120), Not(HasSubstr("Warning")));
+  v1::Job job;
+  v1::Summary& summary = *job.mutable_summary();
+  EXPECT_THAT(summary_text(job, 120), Not(HasSubstr("Warning")));
   v1::Warning& warning = *summary.add_warnings();
   warning.set_kind(v1::Warning::DEEP_PENETRATION);
   warning.set_message("Walls have overlapped by 61 %.");
   warning.set_remedy("Give a shorter numerics.time_step_s.");
-  const std::string text = summary_text(summary, v1::Case(), 120);
+  const std::string text = summary_text(job, 120);
   EXPECT_THAT(text, HasSubstr("Warning (DEEP_PENETRATION): Walls have overlapped by 61 %.\n"));
   EXPECT_THAT(text, HasSubstr("Remedy: Give a shorter numerics.time_step_s.\n"));
 }
 
 TEST(SummaryText, FitsItsTerminal) {
-  const v1::Summary summary = testing::make_job(v1::Job::SUCCEEDED).summary();
+  const v1::Job job = testing::make_job(v1::Job::SUCCEEDED);
   for (const int width : {60, 80, 100}) {
-    std::istringstream lines(summary_text(summary, v1::Case(), width));
+    std::istringstream lines(summary_text(job, width));
     for (std::string line; std::getline(lines, line);) EXPECT_LE(display_width(line), width) << line;
   }
 }
 
 TEST(SummaryText, SaysWhereTheoryDoesNotApply) {
-  const v1::Summary summary = testing::make_job(v1::Job::SUCCEEDED).summary();
-  v1::Case scene;
-  scene.mutable_lattice()->mutable_hexagon();
-  EXPECT_THAT(summary_text(summary, scene, 80), Not(HasSubstr("Note:")));
-  scene.mutable_lattice()->mutable_square();
-  EXPECT_THAT(summary_text(summary, scene, 80), HasSubstr("Note: Squares are stretch-dominated"));
-  scene.mutable_lattice()->mutable_triangle();
-  EXPECT_THAT(summary_text(summary, scene, 80), HasSubstr("Note: Triangles are stretch-dominated"));
+  v1::Job job = testing::make_job(v1::Job::SUCCEEDED);
+  EXPECT_THAT(summary_text(job, 80), Not(HasSubstr("Note:")));
+  job.mutable_words()->set_theory_note("Squares are stretch-dominated.");
+  EXPECT_THAT(summary_text(job, 80), HasSubstr("Note: Squares are stretch-dominated."));
 }
 
 TEST(SummaryText, OfAFrameIsTheLedgerWithWhatItStartedWith) {
-  v1::Case frame;
-  frame.mutable_lattice()->mutable_frame();
-  v1::Summary summary;
+  v1::Job job;
+  v1::Summary& summary = *job.mutable_summary();
   summary.mutable_ledger()->set_work_external_mj(500.0);
   summary.mutable_ledger()->set_kinetic_mj(2000.0);
-  const std::string text = summary_text(summary, frame, 120);
+  const std::string text = summary_text(job, 120);
   EXPECT_THAT(text, ContainsRegex("initial energy +1.50 J +75.00 %"));
   EXPECT_THAT(text, Not(HasSubstr("plateau")));
 }

@@ -22,6 +22,7 @@ v1::Job make_job(int number, v1::Job::State state, double speed) {
   job.set_name("jobs/" + std::to_string(number));
   job.set_state(state);
   job.mutable_case_()->mutable_loading()->set_speed_m_per_s(speed);
+  job.mutable_words()->set_plates(true);
   if (state == v1::Job::RUNNING || state == v1::Job::SUCCEEDED) {
     job.mutable_progress()->set_fraction(0.473);
     job.mutable_progress()->set_strain(0.31);
@@ -53,6 +54,7 @@ v1::SweepTable make_table(int succeeded) {
     summary.set_absorbed_energy_mj(12345.0);
     summary.set_energy_error_relative(0.0121);
     summary.set_crush_mode(i == 1 ? v1::Summary::CRUSH_MODE_V : v1::Summary::CRUSH_MODE_I);
+    summary.set_crush_mode_words(i == 1 ? "V-shaped band (V)" : "layer by layer (I)");
     if (i > 1) summary.mutable_front()->set_shock_mpa(0.27 + 2.9e-4 * speed * speed);
     summary.mutable_theory()->set_gibson_ashby_mpa(0.301);
     summary.mutable_theory()->set_shock_mpa(0.301 + 3.1e-4 * speed * speed);
@@ -89,7 +91,7 @@ TEST(SweepChartText, IsLeftOutWhereThereAreNoTwoPoints) {
 }
 
 TEST(SweepTable, IsAlignedAndFollowedByTheFit) {
-  const std::string text = sweep_table_text(make_table(4), v1::Lattice(), kTableDigits, 120);
+  const std::string text = sweep_table_text(make_table(4), "", kTableDigits, 120);
   const auto lines = lines_of(text);
   ASSERT_GE(lines.size(), 8U);
   EXPECT_EQ(lines[0].find("speed  job     plateau"), 0U) << text;
@@ -107,20 +109,18 @@ TEST(SweepTable, IsAlignedAndFollowedByTheFit) {
 
 TEST(SweepTable, FitsItsTerminalAndSaysOnceWhatDoesNotVary) {
   for (const int width : {60, 80, 100, 200}) {
-    for (const std::string& line : lines_of(sweep_table_text(make_table(4), v1::Lattice(), kTableDigits, width))) {
+    for (const std::string& line : lines_of(sweep_table_text(make_table(4), "", kTableDigits, width))) {
       EXPECT_LE(display_width(line), width) << line;
     }
   }
-  const std::string text = sweep_table_text(make_table(4), v1::Lattice(), kTableDigits, 200);
+  const std::string text = sweep_table_text(make_table(4), "", kTableDigits, 200);
   EXPECT_NE(text.find("The same in all rows: state SUCCEEDED; plateau support plate 0.440 MPa"), std::string::npos)
       << text;
   EXPECT_NE(text.find("layer by layer (I)"), std::string::npos) << text;
 }
 
 TEST(SweepTable, HasAsManyDigitsAsAskedAndSaysWhereTheoryDoesNotApply) {
-  v1::Lattice squares;
-  squares.mutable_square();
-  const std::string text = sweep_table_text(make_table(4), squares, 6);
+  const std::string text = sweep_table_text(make_table(4), "Squares are stretch-dominated.", 6);
   EXPECT_NE(text.find("12.2700"), std::string::npos) << text;
   EXPECT_NE(text.find("Note: Squares are stretch-dominated"), std::string::npos) << text;
 }
@@ -146,16 +146,16 @@ TEST(JobList, ShowsWhatDiffersBetweenJobsOfATitleAndFitsItsTerminal) {
 }
 
 TEST(SweepTable, WithFewerThanThreeResultsThereIsNoFitAndFailuresSayWhy) {
-  const std::string text = sweep_table_text(make_table(2), v1::Lattice(), kTableDigits, 120);
+  const std::string text = sweep_table_text(make_table(2), "", kTableDigits, 120);
   EXPECT_EQ(text.find("least-squares"), std::string::npos) << text;
   EXPECT_NE(text.find("jobs/3 FAILED (ENERGY_BALANCE): the ledger opened"), std::string::npos) << text;
-  const std::string three = sweep_table_text(make_table(3), v1::Lattice(), kTableDigits, 120);
+  const std::string three = sweep_table_text(make_table(3), "", kTableDigits, 120);
   EXPECT_EQ(three.find("least-squares"), std::string::npos) << three;
   EXPECT_EQ(three.find("largest residual"), std::string::npos) << three;
   EXPECT_NE(three.find("quadratic through the three points: 0.25 + 0.0001 V + 0.0003 V^2"), std::string::npos) << three;
   v1::SweepTable depth = make_table(4);
   depth.set_fields(0, "depth_mm");
-  EXPECT_EQ(sweep_table_text(depth, v1::Lattice()).find("least-squares"), std::string::npos);
+  EXPECT_EQ(sweep_table_text(depth, "").find("least-squares"), std::string::npos);
 }
 
 TEST(SweepTable, AsCsvHasAllDigitsAndEmptyCells) {

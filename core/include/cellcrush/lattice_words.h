@@ -7,16 +7,17 @@
 
 namespace cellcrush {
 
-/// When not to compare the lattice of a spec with theory, as sentences; empty where theory applies.
-std::string theory_note_of(const SceneSpec& spec);
-
-/// A kind of lattice of equal cells, as in the case and in sentences.
-struct LatticeName {
-  std::string name;    ///< "hexagon": lattice.hexagon
-  std::string plural;  ///< "hexagons"
+/// A lattice of equal cells in words.
+struct LatticeWords {
+  std::string plural;       ///< "hexagons"
+  std::string walls;        ///< what only this kind has to say of its walls: "along y 0.4 mm"; may be empty
+  std::string theory_note;  ///< when not to compare it with theory, as sentences; empty where theory applies
 };
 
-/// All kinds, by name.
-std::vector<LatticeName> lattice_names();
+/// Numbers may be missing. Empty for a kind that is not one of lattice_names().
+LatticeWords words_of(const RegularLattice& lattice);
+
+/// All kinds, in order: "hexagon" for lattice.hexagon.
+std::vector<std::string> lattice_names();
 
 }  // namespace cellcrush

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 #include <set>
+#include <sstream>
 
 #include "lattice/lattice.h"
 #include "lattice/wall_builder.h"
@@ -100,6 +101,16 @@ DefaultMesh mesh_of_hexagons(const SceneSpec& spec) {
   return {1, 2, 8, "hexagons"};
 }
 
+std::string walls_of_hexagons(const RegularLattice& hexagons) {
+  const double upright = vertical_thickness_of(hexagons);
+  if (upright == hexagons.wall_thickness_mm.value_or(0.0)) {
+    return {};
+  }
+  std::ostringstream text;
+  text << "along y " << upright << " mm";
+  return text.str();
+}
+
 }  // namespace
 
 const LatticeKind& hexagon_lattice() {
@@ -114,6 +125,7 @@ const LatticeKind& hexagon_lattice() {
       .lay_out = lay_out_hexagons,
       .collapse_stress = collapse_stress_of_hexagons,
       .mesh = mesh_of_hexagons,
+      .walls_in_words = walls_of_hexagons,
   };
   return kKind;
 }

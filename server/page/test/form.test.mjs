@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { create } from "@bufbuild/protobuf";
 import { CaseSchema, Lattice_HexagonSchema, Lattice_InclusionsSchema } from "../gen/cellcrush/v1/case_pb";
-import { fieldAt, groupsOf, readField, writeField } from "../src/new_case/fields";
+import { fieldAt, groupsOf, kLatticeKinds, readField, writeField } from "../src/new_case/fields";
 import { labelsOf } from "../src/new_case/order";
 import { axisOf, jobCount } from "../src/new_case/sweep_axis";
 import { caseValues } from "../src/compare/differences";
@@ -13,7 +13,7 @@ const hexagons = () => create(CaseSchema, {
 });
 
 test("every field of the form is in the protos and has help", () => {
-  for (const kind of ["hexagon", "square", "triangle"]) {
+  for (const kind of kLatticeKinds) {
     for (const path of groupsOf(kind).flatMap((group) => group.paths)) {
       assert.ok(fieldAt(path).field, path);
       assert.ok(helpOf(path).length > 10, path);

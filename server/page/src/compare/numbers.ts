@@ -5,7 +5,6 @@ import { h } from "../dom/element";
 import { number, percent, strainText } from "../dom/format";
 import { caseValues } from "./differences";
 import type { JobData } from "../job/job_data";
-import { modeWords } from "../jobs/states";
 
 const kNumbers: [string, (s: Summary) => string][] = [
   ["impact plateau, MPa", (s) => number(s.plateauStressImpactMpa)],
@@ -14,7 +13,7 @@ const kNumbers: [string, (s: Summary) => string][] = [
   ["Gibson-Ashby, MPa", (s) => number(s.theory?.gibsonAshbyMpa)],
   ["densification strain", (s) => (s.densificationStrain === undefined ? "–" : strainText(s.densificationStrain))],
   ["absorbed energy, J", (s) => number(s.absorbedEnergyMj / 1000)],
-  ["crush mode", (s) => modeWords(s.crushMode)?.split(":")[0] ?? "–"],
+  ["crush mode", (s) => s.crushModeWords || "–"],
   ["energy ledger error", (s) => percent(s.energyErrorRelative, 3)],
 ];
 

@@ -6,8 +6,7 @@ import { download } from "../dom/download";
 import { h, replaceChildren, setText } from "../dom/element";
 import { iconButton } from "../dom/icons";
 import { JobData } from "../job/job_data";
-import { aspectOf, latticeWords, speedWords } from "../job/case_words";
-import { titleOf } from "../jobs/states";
+import { sceneWords, titleOf } from "../jobs/states";
 import { FrameView } from "../picture/frame_view";
 import { colourLegend } from "../picture/legend";
 import { Player } from "../picture/player";
@@ -46,9 +45,7 @@ class Compared {
     setText(this.title, `Job ${idOf(this.data.name)}: ${job ? titleOf(job) : ""}`);
     if (error) setText(this.about, isNotFound(error) ? "This job does not exist, or was deleted." : errorText(error));
     if (!job?.case) return;
-    setText(this.about, `${latticeWords(job.case)}, ${speedWords(job.case)}`);
-    const aspect = aspectOf(job.case);
-    if (aspect) this.frames.picture.setAspect(aspect);
+    setText(this.about, sceneWords(job.words));
   }
 
   showAt(strain: number, isMoving: boolean): void {

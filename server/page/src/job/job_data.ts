@@ -94,7 +94,7 @@ export class JobData implements WatchedJob {
 
   putJob(job: Job): void {
     const old = this.job;
-    if (!job.case && old?.case) job.case = old.case;
+    if (!job.case && old?.case) [job.case, job.words] = [old.case, old.words];
     if (!job.title && old?.title) job.title = old.title;
     if (!job.progress && old?.progress && !hasEnded(job)) job.progress = old.progress;
     if (!job.place && old?.place && !hasEnded(job)) job.place = old.place;

@@ -9,10 +9,9 @@ import { strainAxis, timeAxis, type Axis } from "../charts/curves";
 import { energyChart } from "../charts/energy";
 import { forceChart } from "../charts/forces";
 import { stressChart } from "../charts/stress";
-import { theoryNote } from "../charts/theory_note";
 import { h, replaceChildren, setText } from "../dom/element";
 import { QueuePanel } from "../jobs/queue";
-import { hasEnded, titleOf, warningWords } from "../jobs/states";
+import { hasEnded, sceneWords, titleOf, warningWords } from "../jobs/states";
 import { JobStore } from "../jobs/store";
 import { FrameView } from "../picture/frame_view";
 import { colourLegend } from "../picture/legend";
@@ -21,7 +20,6 @@ import { PlayerBar } from "../picture/player_bar";
 import { RigidWalls } from "../picture/rigid_walls";
 import { keepInUrl, setTitle, type View } from "../router";
 import { takeAwayOfChart, takeAwayOfPicture } from "../take_away/menus";
-import { aspectOf, caseFacts, hasPlates } from "./case_words";
 import { JobHeader } from "./header";
 import { JobData } from "./job_data";
 import { resultsList } from "./results";
@@ -147,10 +145,8 @@ export class JobPage implements View {
 
   private followState(job: Job): void {
     const { lattice, loading } = job.case ?? {};
-    const aspect = job.case && aspectOf(job.case);
-    if (aspect) this.frames.picture.setAspect(aspect);
     const { kind } = lattice ?? {};
-    if (kind?.case === "frame" && !hasPlates(job.case)) this.setAxis(timeAxis(kind.value.endTimeS ?? 1));
+    if (kind?.case === "frame" && !job.words?.plates) this.setAxis(timeAxis(kind.value.endTimeS ?? 1));
     else this.setAxis(strainAxis(loading?.endStrain ?? 0.8));
     const isLive = !hasEnded(job);
     if (isLive && !this.wasLive && this.wantedStrain === undefined) this.player.follow();
@@ -189,9 +185,10 @@ export class JobPage implements View {
   private updateCurves(): void {
     const { samples } = this.data;
     this.player.fullEnd = this.axis.end;
-    const isDriven = !hasPlates(this.data.job?.case);
+    const { words } = this.data.job ?? {};
+    const isDriven = words?.plates === false;
     const stress = isDriven ? forceChart(samples, this.axis)
-      : stressChart(samples, this.axis, this.summary, this.theory, theoryNote(this.data.job?.case));
+      : stressChart(samples, this.axis, this.summary, this.theory, words?.theoryNote ?? "");
     this.stress.setTitle(isDriven ? "Forces of the rigid walls" : "Stress and strain");
     this.stress.element.hidden = !stress;
     if (stress) this.stress.setData(stress);
@@ -248,12 +245,12 @@ export class JobPage implements View {
       h("div", { class: "banner warning" }, h("strong", {}, `${warningWords(warning.kind)}. `),
         `${warning.message} ${warning.remedy}`)));
     this.numbers.hidden = !summary;
-    if (summary) replaceChildren(this.numbers, h("h3", {}, "Result"), resultsList(summary, theoryNote(job.case)));
-    const completed = check?.completedCase ?? job.case;
-    this.facts.hidden = !completed;
-    if (completed) {
-      replaceChildren(this.facts, h("h3", {}, "Case"), h("dl", { class: "facts" }, ...caseFacts(completed)
-        .map(([name, value]) => h("div", {}, h("dt", {}, name), h("dd", {}, value)))));
+    if (summary) replaceChildren(this.numbers, h("h3", {}, "Result"), resultsList(summary, job.words?.theoryNote ?? ""));
+    const words = check?.words ?? job.words;
+    this.facts.hidden = !words;
+    if (words) {
+      replaceChildren(this.facts, h("h3", {}, "Case"), h("p", {}, sceneWords(words)), h("dl", { class: "facts" },
+        ...words.facts.map(({ heading, text }) => h("div", {}, h("dt", {}, heading), h("dd", {}, text)))));
     }
     this.modelled.hidden = !check?.modelled.length;
     replaceChildren(this.modelled, h("h3", {}, "What was modelled"),

@@ -3,7 +3,6 @@ import type { Summary, Theory } from "../../gen/cellcrush/v1/sample_pb";
 import { h } from "../dom/element";
 import { count, duration, number, percent, strainText } from "../dom/format";
 import { fieldHelp } from "../help";
-import { modeWords } from "../jobs/states";
 
 interface Result { name: string; field: string; value: string; unit?: string; beside?: string }
 
@@ -42,7 +41,7 @@ function resultsOf(s: Summary, theory: Theory | undefined, note: string): Result
     results.push({ name: "Absorbed energy", field: "absorbed_energy_mj", value: absorbed, unit,
                    beside: "to strain 0.50, or the end of a shorter run" });
   }
-  const mode = theory?.gibsonAshbyMpa ? modeWords(s.crushMode) : undefined; // a frame has no cells
+  const mode = theory?.gibsonAshbyMpa ? s.crushModeWords : undefined; // a frame has no cells
   if (mode) {
     const since = s.crushModeStrain === undefined ? "" : `first seen at strain ${strainText(s.crushModeStrain)}`;
     results.push({ name: "Crush mode", field: "crush_mode", value: mode, beside: since });

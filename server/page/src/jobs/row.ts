@@ -5,10 +5,9 @@ import { idOf, pathOf } from "../api/names";
 import { h, setText } from "../dom/element";
 import { clock, duration, fullTime, milliseconds, number, strainText } from "../dom/format";
 import { iconButton } from "../dom/icons";
-import { latticeWords, speedWords } from "../job/case_words";
 import { actionsOf, attempt } from "./actions";
 import { elsewhere, whereOf } from "./executors";
-import { hasEnded, setChip, stateChip, titleOf } from "./states";
+import { hasEnded, sceneWords, setChip, stateChip, titleOf } from "./states";
 import type { JobStore } from "./store";
 
 /** How long a job has run. */
@@ -65,7 +64,7 @@ export class JobRow {
     setText(this.name, `job ${idOf(job.name)}`);
     setText(this.sweep, job.sweep ? `sweep ${idOf(job.sweep)}` : "");
     if (job.sweep) this.sweep.href = pathOf(job.sweep);
-    if (job.case) setText(this.about, `${latticeWords(job.case)}, ${speedWords(job.case)}`);
+    setText(this.about, sceneWords(job.words));
     setText(this.where, whereOf(job));
     this.select.setAttribute("aria-label", `Select job ${idOf(job.name)} to compare`);
     this.select.disabled = job.state === Job_State.PENDING;

@@ -1,6 +1,7 @@
-// States, causes and modes in words.
+// Jobs in words: states, causes, cases.
 import { Job_Cause, Job_State, type Job } from "../../gen/cellcrush/v1/job_pb";
-import { Summary_CrushMode, Warning_Kind } from "../../gen/cellcrush/v1/sample_pb";
+import type { CaseWords } from "../../gen/cellcrush/v1/problem_pb";
+import { Warning_Kind } from "../../gen/cellcrush/v1/sample_pb";
 import { h, setText } from "../dom/element";
 import { idOf } from "../api/names";
 
@@ -42,17 +43,9 @@ export function warningWords(kind: Warning_Kind): string {
   return words.charAt(0).toUpperCase() + words.slice(1);
 }
 
-const kModes: Partial<Record<Summary_CrushMode, string>> = {
-  [Summary_CrushMode.NONE]: "none: too few cells collapsed",
-  [Summary_CrushMode.X]: "X: two oblique bands that cross",
-  [Summary_CrushMode.V]: "V: two oblique bands that meet",
-  [Summary_CrushMode.I]: "I: layer by layer",
-  [Summary_CrushMode.C]: "C: a curved band",
-  [Summary_CrushMode.MIXED]: "mixed",
-};
-
-export function modeWords(mode: Summary_CrushMode): string | undefined {
-  return kModes[mode];
+/** A case in one line; the words are the server's. */
+export function sceneWords(words: CaseWords | undefined): string {
+  return [words?.lattice, words?.loading].filter(Boolean).join(", ");
 }
 
 /** Title of a job, or its name where it has none. */

@@ -27,7 +27,7 @@ export class JobStore {
   /** Adds or replaces a job. Jobs of the watch come without their case, which does not change. */
   put(job: Job): void {
     const old = this.jobs.get(job.name);
-    if (!job.case && old?.case) job.case = old.case;
+    if (!job.case && old?.case) [job.case, job.words] = [old.case, old.words];
     if (!job.title && old?.title) job.title = old.title;
     if (!job.progress && old?.progress && !hasEnded(job)) job.progress = old.progress;
     if (!job.place && old?.state === job.state) job.place = old.place; // events do not tell it

@@ -1,20 +1,22 @@
 // The fields of the form, and access to them by their paths in the protos.
 import type { Case } from "../../gen/cellcrush/v1/case_pb";
-import { CaseSchema } from "../../gen/cellcrush/v1/case_pb";
+import { CaseSchema, LatticeSchema } from "../../gen/cellcrush/v1/case_pb";
 import { create, type DescField, type DescMessage } from "@bufbuild/protobuf";
 import { reflect, type ReflectMessage } from "@bufbuild/protobuf/reflect";
 
-export type LatticeKind = "hexagon" | "square" | "triangle";
+export type LatticeKind = DescField & { fieldKind: "message" };
 
 export interface Group { title: string; paths: string[]; isOpen: boolean }
 
-const kSize = ["columns", "rows", "side_mm", "wall_thickness_mm"];
+/** All kinds of lattices of equal cells. */
+export const kLatticeKinds = LatticeSchema.oneofs.find(({ name }) => name === "kind")!.fields.filter(
+  (field): field is LatticeKind => field.fieldKind === "message" && field.name !== "frame");
 
 /** The groups of the form for a kind of lattice; rarely changed fields are folded away. */
 export function groupsOf(kind: LatticeKind): Group[] {
-  const size = kind === "hexagon" ? [...kSize, "vertical_wall_thickness_mm"] : kSize;
+  const sizes = kind.message.fields.map(({ name }) => `lattice.${kind.name}.${name}`);
   return [
-    { title: "Lattice", isOpen: true, paths: [...size.map((name) => `lattice.${kind}.${name}`), "depth_mm"] },
+    { title: "Lattice", isOpen: true, paths: [...sizes, "depth_mm"] },
     { title: "Material", isOpen: true, paths: ["youngs_modulus_mpa", "yield_stress_mpa", "density_kg_per_m3",
       "hardening_modulus_mpa"].map((name) => `material.${name}`) },
     { title: "Crush", isOpen: true, paths: ["loading.direction", "loading.speed_m_per_s", "loading.end_strain",

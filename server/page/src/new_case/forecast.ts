@@ -17,7 +17,7 @@ export class Forecast {
       h("div", {}, h("dt", {}, name), this.values[i]))), this.notes);
   }
 
-  show(check: CheckCaseResponse, unplaced: Problem[], theoryNote: string): void {
+  show(check: CheckCaseResponse, unplaced: Problem[]): void {
     const isValid = check.problems.length === 0;
     this.element.classList.toggle("stale", !isValid);
     if (isValid) {
@@ -34,7 +34,8 @@ export class Forecast {
     const entry = (problem: Problem, kind: string): HTMLElement =>
       h("div", { class: `banner ${kind}` }, problem.field === "case" ? "" : h("strong", {}, `${problem.field} `),
         `${problem.message} ${problem.remedy}`);
-    replaceChildren(this.notes, theoryNote ? h("p", { class: "faint note" }, theoryNote) : null,
+    const note = check.words?.theoryNote;
+    replaceChildren(this.notes, note ? h("p", { class: "faint note" }, note) : null,
       ...unplaced.map((problem) => entry(problem, isValid ? "warning" : "error")));
   }
 

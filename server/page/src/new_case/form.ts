@@ -1,15 +1,11 @@
 // The form of a case: groups of fields that read and write the message.
 import type { Case } from "../../gen/cellcrush/v1/case_pb";
 import { create } from "@bufbuild/protobuf";
-import { LatticeSchema, Lattice_HexagonSchema, Lattice_SquareSchema, Lattice_TriangleSchema } from
-  "../../gen/cellcrush/v1/case_pb";
+import { LatticeSchema } from "../../gen/cellcrush/v1/case_pb";
 import type { Problem } from "../../gen/cellcrush/v1/problem_pb";
 import { h, replaceChildren } from "../dom/element";
 import { FieldInput } from "./field_input";
-import { groupsOf, readField, writeField, type LatticeKind } from "./fields";
-
-const kKinds: [LatticeKind, string][] = [["hexagon", "hexagons"], ["square", "squares"], ["triangle", "triangles"]];
-const kSchemas = { hexagon: Lattice_HexagonSchema, square: Lattice_SquareSchema, triangle: Lattice_TriangleSchema };
+import { groupsOf, kLatticeKinds, readField, writeField, type LatticeKind } from "./fields";
 
 export class CaseForm {
   readonly element = h("div", { class: "case-form" });
@@ -17,8 +13,8 @@ export class CaseForm {
   readonly unreadable = new Set<string>();
   private inputs = new Map<string, FieldInput>();
   private readonly title = h("input", { type: "text", id: "case-title", maxlength: 200, autocomplete: "off" });
-  private readonly kind = h("select", { id: "case-kind" }, ...kKinds.map(([value, label]) =>
-    h("option", { value }, label)));
+  private readonly kind = h("select", { id: "case-kind" }, ...kLatticeKinds.map((kind) =>
+    h("option", { value: kind.localName }, `${kind.name.replaceAll("_", " ")}s`)));
   private value!: Case;
 
   constructor(private readonly on: { changed(): void; focused(path: string): void }) {
@@ -27,7 +23,7 @@ export class CaseForm {
       on.changed();
     });
     this.kind.addEventListener("change", () => {
-      this.changeKind(this.kind.value as LatticeKind);
+      this.changeKind(kLatticeKinds[this.kind.selectedIndex]);
       this.build();
       on.changed();
     });
@@ -52,10 +48,10 @@ export class CaseForm {
   private build(): void {
     this.inputs = new Map();
     this.unreadable.clear();
-    const kind = this.value.lattice?.kind.case;
     const isOwnGeometry = this.isFrame;
-    if (kind && kind !== "frame") this.kind.value = kind;
-    const groups = groupsOf(kind && kind !== "frame" ? kind : "hexagon").filter((group) =>
+    const kind = kLatticeKinds.find(({ localName }) => localName === this.value.lattice?.kind.case);
+    if (kind) this.kind.value = kind.localName;
+    const groups = groupsOf(kind ?? kLatticeKinds[0]).filter((group) =>
       !isOwnGeometry || !["Lattice", "Crush", "Imperfection"].includes(group.title));
     replaceChildren(this.element,
       h("div", { class: "field wide" }, h("label", { for: "case-title" }, "Title"), this.title),
@@ -95,9 +91,9 @@ export class CaseForm {
     const old = this.value.lattice?.kind;
     const { columns, rows, sideMm, wallThicknessMm } = old?.case && old.case !== "frame" ? old.value
       : { columns: 20, rows: 10, sideMm: 4, wallThicknessMm: 0.3 };
-    const value = create(kSchemas[kind], { columns, rows, sideMm, wallThicknessMm });
+    const value = create(kind.message, { columns, rows, sideMm, wallThicknessMm });
     this.value.lattice ??= create(LatticeSchema);
-    this.value.lattice.kind = { case: kind, value } as typeof this.value.lattice.kind;
+    this.value.lattice.kind = { case: kind.localName, value } as unknown as typeof this.value.lattice.kind;
     this.value.lattice.inclusions = undefined;
   }
 

@@ -6,7 +6,6 @@ import { SweepSchema, type Sweep, type SweepAxis } from "../../gen/cellcrush/v1/
 import { api } from "../api/clients";
 import { errorText, problemsOf } from "../api/errors";
 import { idOf, pathOf } from "../api/names";
-import { theoryNote } from "../charts/theory_note";
 import { h, replaceChildren, setText } from "../dom/element";
 import { duration, plural } from "../dom/format";
 import { go, keepInUrl, type View } from "../router";
@@ -131,7 +130,7 @@ export class NewCasePage implements View {
       this.check = check;
       const isValid = check.problems.length === 0;
       const unplaced = this.form.showProblems(isValid ? check.notes : check.problems);
-      this.forecast.show(check, unplaced, theoryNote(this.value));
+      this.forecast.show(check, unplaced);
       this.problem.hidden = true;
       if (isValid) void this.preview.show(this.value, Number(check.elementCount));
       await this.updateStart(abort.signal);

@@ -2,7 +2,6 @@
 import type { Case } from "../../gen/cellcrush/v1/case_pb";
 import { api } from "../api/clients";
 import { latticeOf } from "../frames/lattice";
-import { aspectOf } from "../job/case_words";
 import { h, setText } from "../dom/element";
 import { Picture } from "../picture/picture";
 
@@ -33,8 +32,6 @@ export class Preview {
       const { mesh } = await api.cases.previewCase({ case: value }, { signal: abort.signal });
       if (!mesh || abort.signal.aborted) return;
       setText(this.note, "");
-      const aspect = aspectOf(value);
-      if (aspect) this.picture.setAspect(aspect);
       const lattice = latticeOf(mesh);
       this.picture.setLattice(lattice);
       this.picture.show({ position: lattice.undeformed, plastic: new Float32Array(lattice.thickness.length) }, 0);

@@ -51,18 +51,20 @@ export class Picture {
     this.drawSoon();
   };
 
-  /** Makes the picture no higher than a specimen of this width over height needs. */
-  setAspect(aspect: number): void {
-    this.element.style.maxHeight = `calc(100cqw / ${(0.82 * aspect).toFixed(3)} + 44px)`;
-  }
-
   setLattice(lattice: Lattice): void {
     if (this.lattice === lattice) return;
     this.lattice = lattice;
     this.box = viewBox(lattice);
+    if (lattice.plates) this.limitHeight(boxOf(lattice.undeformed));
     this.camera.setBox(this.box);
     this.segments = undefined;
     this.drawSoon();
+  }
+
+  // No higher than a specimen of this width over height needs.
+  private limitHeight({ lowX, highX, lowY, highY }: Box): void {
+    const aspect = (highX - lowX) / (highY - lowY);
+    this.element.style.maxHeight = `calc(100cqw / ${(0.82 * aspect).toFixed(3)} + 44px)`;
   }
 
   /** Widens what `fit` shows, for a frame of beams that moves beyond its undeformed box. */

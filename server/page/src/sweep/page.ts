@@ -6,13 +6,11 @@ import { errorText, isNotFound } from "../api/errors";
 import { idOf } from "../api/names";
 import { watch } from "../api/watch";
 import { Chart } from "../charts/chart";
-import { theoryNote } from "../charts/theory_note";
 import { ask } from "../dom/dialog";
 import { download } from "../dom/download";
 import { button, h, replaceChildren, setText } from "../dom/element";
 import { clock, plural } from "../dom/format";
 import { icon, type IconName } from "../dom/icons";
-import { hasPlates, latticeWords } from "../job/case_words";
 import { attempt } from "../jobs/actions";
 import { hasEnded, kStates, stateWord } from "../jobs/states";
 import { stateBar } from "../jobs/state_bar";
@@ -136,7 +134,7 @@ export class SweepPage implements View {
     setText(this.heading, this.title);
     setTitle(this.title);
     setText(this.about, [`Sweep ${idOf(sweep.name)} over ${variedFields(sweep).join(", ")}`,
-      plural(sweep.jobs.length, "job"), sweep.case ? latticeWords(sweep.case) : "",
+      plural(sweep.jobs.length, "job"), sweep.words?.lattice ?? "",
       `created ${clock(sweep.createTime)}${sweep.owner ? ` by ${sweep.owner}` : ""}`].filter(Boolean).join(", "));
     const places = this.fields.map((_, i) => i).filter((i) => !isSeed(this.fields[i]));
     if (!places.length) places.push(0);
@@ -153,11 +151,11 @@ export class SweepPage implements View {
     const others = this.overlay.swept;
     const label = others.length ? this.overlay.labelOf(this.sweep) : "";
     const data = sweepChart([{ label, rows: this.rows, fields: this.fields }, ...others], path);
-    const note = theoryNote(this.sweep?.case);
+    const note = this.sweep?.words?.theoryNote;
     this.chart.setData(note ? { ...data, note: `${data.note}. ${note}` } : data);
     this.table.update(this.rows, this.fields);
     const { loading } = this.sweep.case ?? {};
-    const isCrush = hasPlates(this.sweep.case);
+    const isCrush = this.sweep.words?.plates ?? true;
     this.crushes.update(isCrush ? this.rows : [], this.fields, loading?.endStrain ?? kEndStrain);
     const counts: Record<string, number> = {};
     for (const row of this.rows) {

@@ -1,0 +1,240 @@
+#include "translate/case_words.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cellcrush/lattice_words.h"
+#include "translate/case_to_spec.h"
+
+namespace cellcrush::translate {
+namespace {
+
+void add_fact(v1::CaseWords& words, const std::string& heading, std::string text) {
+  auto& fact = *words.add_facts();
+  fact.set_heading(heading);
+  fact.set_text(std::move(text));
+}
+
+std::string plural(int count, const char* noun) { return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s"); }
+
+template <typename Values>
+std::string range_text(const Values& values) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  return *low == *high ? fmt::format("{:.6g}", *low) : fmt::format("{:.6g} to {:.6g}", *low, *high);
+}
+
+// The first names of a list, and how many more there are.
+template <typename Names>
+std::string names_text(const Names& names) {
+  constexpr int kShown = 6;
+  const auto count = static_cast<int>(names.size());
+  std::string text = fmt::format("{}", fmt::join(names.begin(), names.begin() + std::min(count, kShown), ", "));
+  if (count > kShown) text += fmt::format(" and {} more", count - kShown);
+  return text;
+}
+
+std::string support_text(const v1::Frame::Support& support) {
+  std::vector<const char*> held;
+  if (support.fix_x()) held.push_back("x");
+  if (support.fix_y()) held.push_back("y");
+  if (support.fix_rotation()) held.push_back("rotation");
+  return fmt::format("{} ({})", support.node(), fmt::join(held, " "));
+}
+
+const char* component_text(v1::Frame::Component component) {
+  switch (component) {
+    case v1::Frame::COMPONENT_X: return "x";
+    case v1::Frame::COMPONENT_Y: return "y";
+    case v1::Frame::COMPONENT_ROTATION: return "rotation";
+    default: return "?";
+  }
+}
+
+// A fact for a list that has entries: the first ones, each as `text` has it.
+template <typename Range, typename Text>
+void add_list(v1::CaseWords& words, const char* heading, const Range& range, Text text) {
+  std::vector<std::string> texts;
+  for (const auto& item : range) texts.push_back(text(item));
+  if (!texts.empty()) add_fact(words, heading, names_text(texts));
+}
+
+void describe_masses(const v1::Frame& frame, v1::CaseWords& words) {
+  const auto has_mass = [](const v1::Frame::Node& node) {
+    return node.attached_mass_g() > 0.0 || node.attached_inertia_g_mm2() > 0.0;
+  };
+  const auto count = std::count_if(frame.nodes().begin(), frame.nodes().end(), has_mass);
+  if (count > 0) add_fact(words, "attached masses", "on " + plural(static_cast<int>(count), "node"));
+}
+
+void describe_loads(const v1::Frame& frame, v1::CaseWords& words) {
+  const auto moved = [](const auto& load) {
+    return fmt::format("{} ({})", load.node(), component_text(load.component()));
+  };
+  add_list(words, "forces and moments", frame.loads(), moved);
+  add_list(words, "prescribed motion", frame.motions(), moved);
+  if (frame.distributed_loads_size() > 0)
+    add_fact(words, "distributed loads", plural(frame.distributed_loads_size(), "load"));
+  add_list(words, "initial velocities", frame.initial_velocities(),
+           [](const auto& velocity) { return velocity.node(); });
+  if (frame.gravity_x_m_per_s2() != 0.0 || frame.gravity_y_m_per_s2() != 0.0) {
+    add_fact(words, "gravity",
+             fmt::format("{} m/s2 along x, {} m/s2 along y", frame.gravity_x_m_per_s2(), frame.gravity_y_m_per_s2()));
+  }
+}
+
+void describe_frame(const v1::Frame& frame, v1::CaseWords& words) {
+  words.set_lattice(
+      fmt::format("frame of {} and {}", plural(frame.nodes_size(), "node"), plural(frame.beams_size(), "beam")));
+  if (frame.beams_size() > 0) {
+    std::vector<double> thicknesses;
+    for (const auto& beam : frame.beams()) thicknesses.push_back(beam.thickness_mm());
+    add_fact(words, "beams", fmt::format("{}, {} mm thick", frame.beams_size(), range_text(thicknesses)));
+  }
+  int pins = 0;
+  for (const auto& beam : frame.beams()) pins += (beam.pin_start() ? 1 : 0) + (beam.pin_end() ? 1 : 0);
+  if (pins > 0) add_fact(words, "pins", plural(pins, "end") + " of beams");
+  add_list(words, "supports", frame.supports(), support_text);
+  if (frame.supports_size() == 0) add_fact(words, "supports", "none");
+  describe_masses(frame, words);
+  describe_loads(frame, words);
+  add_fact(words, "contact between beams", frame.self_contact() ? "modelled" : "ignored");
+  add_list(words, "rigid walls", frame.rigid_walls(),
+           [](const v1::Frame::RigidWall& wall) { return wall.id() + (wall.has_displacement_mm() ? " (moves)" : ""); });
+  if (frame.watched_nodes_size() > 0) add_fact(words, "watched nodes", names_text(frame.watched_nodes()));
+  if (!frame.has_end_time_s()) return;
+  add_fact(words, "end time", fmt::format("{} s", frame.end_time_s()));
+  words.set_loading(fmt::format("loaded for {} s", frame.end_time_s()));
+}
+
+void describe_cells(const RegularLattice& regular, v1::CaseWords& words) {
+  const LatticeWords kind = words_of(regular);
+  const std::string cells = fmt::format("{} x {} cells", regular.columns.value_or(0), regular.rows.value_or(0));
+  words.set_lattice(fmt::format("{}, {}", kind.plural, cells));
+  words.set_theory_note(kind.theory_note);
+  add_fact(words, kind.plural, cells);
+  add_fact(words, "walls",
+           fmt::format("{:.6g} mm long, {:.6g} mm thick{}{}", regular.side_mm.value_or(0.0),
+                       regular.wall_thickness_mm.value_or(0.0), kind.walls.empty() ? "" : "; ", kind.walls));
+}
+
+void describe_changes(const v1::Lattice& lattice, v1::CaseWords& words) {
+  const v1::Lattice::Imperfection& imperfection = lattice.imperfection();
+  std::string offsets;
+  if (imperfection.amplitude_mm() > 0.0)
+    offsets += fmt::format("joints displaced by up to {:.6g} mm, ", imperfection.amplitude_mm());
+  if (imperfection.bow_mm() > 0.0) offsets += fmt::format("walls bowed by up to {:.6g} mm, ", imperfection.bow_mm());
+  if (!offsets.empty()) add_fact(words, "imperfection", offsets + fmt::format("seed {}", imperfection.seed()));
+  const v1::Lattice::Inclusions& inclusions = lattice.inclusions();
+  if (inclusions.rows_size() == 0) return;
+  std::string text = fmt::format("stiff cells in row{} {}", inclusions.rows_size() == 1 ? "" : "s",
+                                 fmt::join(inclusions.rows(), ", "));
+  if (inclusions.has_thickness_factor())
+    text += fmt::format(", walls {} times as thick", inclusions.thickness_factor());
+  text += inclusions.model() == v1::Lattice::Inclusions::MESHED ? ", meshed" : ", rigid";
+  add_fact(words, "inclusions", std::move(text));
+  words.set_theory_note(words.theory_note() + (words.theory_note().empty() ? "" : " ") +
+                        "The theory ignores the stiff cells.");
+}
+
+void describe_loading(const v1::Loading& loading, v1::CaseWords& words) {
+  if (!loading.has_speed_m_per_s()) return;
+  std::string text = words.loading() + (words.loading().empty() ? "" : ", ");
+  text += fmt::format("crushed along {} at {} m/s", loading.direction() == v1::Loading::Y ? 'Y' : 'X',
+                      loading.speed_m_per_s());
+  if (loading.has_end_strain()) text += fmt::format(" to strain {}", loading.end_strain());
+  words.set_loading(std::move(text));
+}
+
+std::string material_text(const v1::Material& material) {
+  std::string text = fmt::format("E {:.6g} MPa, yield {:.6g} MPa, hardening {:.6g} MPa", material.youngs_modulus_mpa(),
+                                 material.yield_stress_mpa(), material.hardening_modulus_mpa());
+  if (material.hardening_modulus_mpa() > 0.0 && material.has_isotropic_fraction())
+    text += fmt::format(" ({:.0f} % isotropic)", 100.0 * material.isotropic_fraction());
+  text += fmt::format(", {} kg/m3", material.density_kg_per_m3());
+  return text + (material.plane() == v1::Material::PLANE_STRAIN ? ", plane strain" : "");
+}
+
+v1::CaseWords describe_case(const v1::Case& scene) {
+  v1::CaseWords words;
+  words.set_plates(!scene.lattice().has_frame() || scene.loading().has_speed_m_per_s());
+  if (scene.lattice().has_frame()) describe_frame(scene.lattice().frame(), words);
+  if (const auto regular = read_regular(scene.lattice())) describe_cells(*regular, words);
+  describe_changes(scene.lattice(), words);
+  describe_loading(scene.loading(), words);
+  if (scene.has_depth_mm()) add_fact(words, "depth", fmt::format("{} mm", scene.depth_mm()));
+  if (scene.has_material()) add_fact(words, "material", material_text(scene.material()));
+  if (scene.elements_per_wall() > 0) add_fact(words, "elements per wall", std::to_string(scene.elements_per_wall()));
+  const auto add_above_zero = [&](const char* heading, double value, const char* unit) {
+    if (value > 0.0) add_fact(words, heading, fmt::format("{}{}", value, unit));
+  };
+  add_above_zero("friction between walls", scene.contact().friction(), "");
+  add_above_zero("friction at the plates", scene.plates().friction(), "");
+  add_above_zero("mass damping", scene.numerics().mass_damping_per_s(), " 1/s");
+  return words;
+}
+
+const char* words_of(v1::Summary::CrushMode mode) {
+  switch (mode) {
+    case v1::Summary::CRUSH_MODE_NONE: return "none (too few cells have collapsed)";
+    case v1::Summary::CRUSH_MODE_X: return "crossed bands (X)";
+    case v1::Summary::CRUSH_MODE_V: return "V-shaped band (V)";
+    case v1::Summary::CRUSH_MODE_I: return "layer by layer (I)";
+    case v1::Summary::CRUSH_MODE_C: return "curved band (C)";
+    case v1::Summary::CRUSH_MODE_MIXED: return "mixed";
+    default: return "";
+  }
+}
+
+}  // namespace
+
+void add_words(v1::CheckCaseResponse& check) {
+  if (check.has_completed_case()) *check.mutable_words() = describe_case(check.completed_case());
+}
+
+void add_words(v1::Job& job) {
+  if (job.has_case_()) *job.mutable_words() = describe_case(job.case_());
+  if (job.has_summary()) job.mutable_summary()->set_crush_mode_words(words_of(job.summary().crush_mode()));
+}
+
+void add_words(v1::ListJobsResponse& jobs) {
+  for (auto& job : *jobs.mutable_jobs()) {
+    add_words(job);
+    if (job.has_words()) job.mutable_words()->clear_facts();
+  }
+}
+
+void add_words(v1::Sweep& sweep) {
+  if (!sweep.has_case_()) return;
+  *sweep.mutable_words() = describe_case(sweep.case_());
+  sweep.mutable_words()->clear_facts();
+}
+
+void add_words(v1::ListSweepsResponse& sweeps) {
+  for (auto& sweep : *sweeps.mutable_sweeps()) add_words(sweep);
+}
+
+void add_words(v1::SweepTable& table) {
+  for (auto& row : *table.mutable_rows()) add_words(*row.mutable_result());
+}
+
+void add_words(v1::JobEvent& event) {
+  if (event.has_snapshot()) add_words(*event.mutable_snapshot()->mutable_job());
+  if (event.has_state()) add_words(*event.mutable_state());
+}
+
+void add_words(v1::WatchJobsResponse& message) {
+  if (message.has_job()) add_words(*message.mutable_job());
+  if (message.has_watched()) add_words(*message.mutable_watched()->mutable_event());
+}
+
+void add_words(v1::WatchSweepResponse& message) {
+  if (message.has_snapshot()) add_words(*message.mutable_snapshot());
+  if (message.has_event()) add_words(*message.mutable_event());
+}
+
+}  // namespace cellcrush::translate
