@@ -133,6 +133,7 @@ JobHistory make_history() {
   JobHistory history;
   history.job.set_name("jobs/a");
   history.job.set_state(v1::Job::SUCCEEDED);
+  history.job.mutable_words()->set_plates(true);
   history.job.mutable_summary()->set_plateau_window_low(0.2);
   history.job.mutable_summary()->set_plateau_window_high(0.4);
   history.job.mutable_summary()->set_plateau_stress_impact_mpa(3.4);

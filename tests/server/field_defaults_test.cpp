@@ -8,7 +8,8 @@
 
 #include "cellcrush/v1/field.pb.h"
 #include "server/small_case.h"
-#include "translate/check_case.h"
+#include "translate/case_to_spec.h"
+#include "translate/spec_to_case.h"
 
 namespace cellcrush {
 namespace {
@@ -68,13 +69,14 @@ int compare_defaults(const Message& given, const Message& completed, const std::
   return count;
 }
 
+// What the spec of the solver fills in, before it chooses a step.
 int compare_completed(const v1::Case& given) {
-  const auto check = translate::check_case(given).response;
-  EXPECT_EQ(check.problems_size(), 0) << check.DebugString();
-  return compare_defaults(given, check.completed_case(), "");
+  const auto reading = translate::to_spec(given);
+  EXPECT_TRUE(reading.problems.empty());
+  return compare_defaults(given, translate::to_case(reading.spec), "");
 }
 
-TEST(FieldDefaults, AreWhatACompletedCaseHas) {
+TEST(FieldDefaults, AreThoseOfTheSolver) {
   v1::Case crush = testing::small_case();
   crush.clear_contact();
   crush.clear_plates();
