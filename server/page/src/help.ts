@@ -1,4 +1,4 @@
-// The comments of the protos, which gen/help.json holds.
+// What fields are called and mean: from their names, and from the comments of the protos, which gen/help.json holds.
 import help from "../gen/help.json";
 
 const messages: Record<string, Record<string, string>> = help.messages;
@@ -11,4 +11,14 @@ export function fieldHelp(message: string, field: string): string {
 
 export function valueHelp(enumName: string, value: string): string {
   return enums[enumName]?.[value] ?? "";
+}
+
+const kUnits: [RegExp, string][] = [[/_kg_per_m3$/, "kg/m³"], [/_m_per_s$/, "m/s"], [/_mpa$/, "MPa"], [/_mm$/, "mm"],
+                                    [/_per_s$/, "1/s"], [/_s$/, "s"]];
+
+/** The last name of a path in words, and its unit: "wall thickness" in "mm". The unit may be empty. */
+export function nameOf(path: string): { words: string; unit: string } {
+  const name = path.slice(path.lastIndexOf(".") + 1);
+  const [pattern, unit] = kUnits.find(([ending]) => ending.test(name)) ?? [/$/, ""];
+  return { words: name.replace(pattern, "").replaceAll("_", " "), unit };
 }

@@ -2,9 +2,8 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { create } from "@bufbuild/protobuf";
 import { SampleSchema } from "../gen/cellcrush/v1/sample_pb";
-import { strainAxis } from "../src/charts/curves";
+import { runningMean, strainAxis, thin } from "../src/charts/curves";
 import { energyChart } from "../src/charts/energy";
-import { runningMean, thin } from "../src/charts/smooth";
 import { duration, number } from "../src/dom/format";
 
 test("the moving mean of a line is the line, away from its ends", () => {

@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { create } from "@bufbuild/protobuf";
 import { JobSchema } from "../gen/cellcrush/v1/job_pb";
-import { elsewhere, whereOf } from "../src/jobs/executors";
+import { elsewhere, whereOf } from "../src/jobs/states";
 
 test("an executor is named unless it is the daemon's machine", () => {
   assert.equal(elsewhere("slurm/a"), "slurm/a");

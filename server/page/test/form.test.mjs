@@ -5,7 +5,7 @@ import { CaseSchema, Lattice_HexagonSchema, Lattice_InclusionsSchema } from "../
 import { fieldAt, groupsOf, kLatticeKinds, readField, writeField } from "../src/new_case/fields";
 import { labelsOf } from "../src/new_case/order";
 import { axisOf, jobCount } from "../src/new_case/sweep_axis";
-import { caseValues } from "../src/compare/differences";
+import { caseValues } from "../src/compare/numbers";
 import { defaultOf, helpOf, labelOf, limitsOf, unitOf } from "../src/new_case/words";
 
 const hexagons = () => create(CaseSchema, {

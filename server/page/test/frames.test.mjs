@@ -5,7 +5,7 @@ import { create } from "@bufbuild/protobuf";
 import { FieldFrameSchema, MeshSchema } from "../gen/cellcrush/v1/sample_pb";
 import { FrameStore } from "../src/frames/frame_store";
 import { fieldsOf, guidesOf } from "../src/frames/packed";
-import { FrameParts } from "../src/frames/parts";
+import { FrameReader } from "../src/frames/parts";
 
 // Packs as the comment of FieldFrame.Packed says, independently of the daemon. `elements`: what tells what to expect.
 function pack(displacements, plastic, quantum, elements = []) {
@@ -68,9 +68,9 @@ test("frames are kept in order, replaced by index, and gaps are found", () => {
 });
 
 test("a frame in parts is whole with its last part; an unfinished one is dropped", () => {
-  const parts = new FrameParts();
+  const added = [];
+  const reader = new FrameReader({ add: (frame) => added.push(frame.positionMm) });
   const chunk = (part, positionMm) => ({ frame: create(FieldFrameSchema, { positionMm }), part, partCount: 2 });
-  assert.equal(parts.add(chunk(0, [9, 9])), undefined);
-  assert.equal(parts.add(chunk(0, [1, 2])), undefined);
-  assert.deepEqual(parts.add(chunk(1, [3, 4])).positionMm, [1, 2, 3, 4]);
+  for (const part of [chunk(0, [9, 9]), chunk(0, [1, 2]), chunk(1, [3, 4])]) reader.addFrame(part);
+  assert.deepEqual(added, [[1, 2, 3, 4]]);
 });

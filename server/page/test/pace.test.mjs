@@ -1,7 +1,7 @@
 // What is said of pictures that are drawn slowly.
 import assert from "node:assert/strict";
 import test from "node:test";
-import { Pace } from "../src/picture/pace";
+import { Pace } from "../src/picture/player";
 
 function noteAfter(pace, interval, pictures) {
   let text = "";

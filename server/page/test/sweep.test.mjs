@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { kMarkShapes, markPath } from "../src/charts/mark_shapes";
+import { kMarkShapes, markPath } from "../src/charts/chart_data";
 import { placeOf, sweepChart } from "../src/sweep/points";
 
 const kSpeed = "loading.speed_m_per_s";

@@ -1,7 +1,7 @@
 // The one stream of a tab: all jobs and sweeps, and the samples and frames of the jobs that a view asks for.
 //
 // The watch reconnects with growing delays and continues with its token, so no change is lost while the daemon is away.
-// A tab that was hidden for a minute closes its stream. A tab that has no place for a lasting stream (places.ts) asks
+// A tab that was hidden for a minute closes its stream. A tab that has no place for a lasting stream (takePlace) asks
 // every few seconds for what has changed since.
 import { create } from "@bufbuild/protobuf";
 import { Code, ConnectError } from "@connectrpc/connect";
@@ -11,8 +11,29 @@ import { WatchJobRequestSchema, type WatchJobsResponse } from "../../gen/cellcru
 import { FieldFrame_Encoding } from "../../gen/cellcrush/v1/sample_pb";
 import type { Sweep } from "../../gen/cellcrush/v1/sweep_pb";
 import { api } from "./clients";
-import { Listeners } from "./listeners";
-import { takePlace } from "./places";
+import { Listeners } from "../dom/calls";
+
+const kPlaces = 4;
+
+/** Takes a place that is free. The returned function gives it back; undefined: none is free. */
+export async function takePlace(): Promise<(() => void) | undefined> {
+  if (!("locks" in navigator)) return () => undefined;
+  for (let place = 0; place < kPlaces; ++place) {
+    const giveBack = await holdIfFree(`cellcrush-stream-${place}`);
+    if (giveBack) return giveBack;
+  }
+  return undefined;
+}
+
+// A lock is held until the promise of its callback is settled, and ends with its tab.
+function holdIfFree(name: string): Promise<(() => void) | undefined> {
+  return new Promise((resolve, reject) => {
+    navigator.locks.request(name, { ifAvailable: true }, (lock) => {
+      if (!lock) return resolve(undefined);
+      return new Promise<void>((giveBack) => resolve(giveBack));
+    }).catch(reject);
+  });
+}
 
 export type Connection = "connecting" | "live" | "away" | "hidden";
 
@@ -167,30 +188,16 @@ class Watch {
     if (message.resumeToken.length > 0) this.token = message.resumeToken;
     const { event } = message;
     switch (event.case) {
-      case "snapshot":
-        if (!hadToken) this.freshStarts.tell();
-        break;
-      case "job":
-        this.jobs.tell(event.value);
-        break;
+      case "snapshot": if (!hadToken) this.freshStarts.tell(); break;
+      case "job": this.jobs.tell(event.value); break;
       case "progress":
         if (event.value.progress) this.progress.tell({ job: event.value.job, progress: event.value.progress });
         break;
-      case "deletedJob":
-        this.deletedJobs.tell(event.value);
-        break;
-      case "sweep":
-        this.sweeps.tell(event.value);
-        break;
-      case "deletedSweep":
-        this.deletedSweeps.tell(event.value);
-        break;
-      case "watched":
-        this.pass(event.value.job, event.value.event);
-        break;
-      case "watchedEnd":
-        this.watched.delete(event.value.job);
-        break;
+      case "deletedJob": this.deletedJobs.tell(event.value); break;
+      case "sweep": this.sweeps.tell(event.value); break;
+      case "deletedSweep": this.deletedSweeps.tell(event.value); break;
+      case "watched": this.pass(event.value.job, event.value.event); break;
+      case "watchedEnd": this.watched.delete(event.value.job); break;
     }
   }
 

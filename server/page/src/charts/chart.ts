@@ -3,11 +3,10 @@
 import uPlot from "uplot";
 import { h, replaceChildren, setText, svg } from "../dom/element";
 import { number } from "../dom/format";
-import { themeColour } from "../picture/colours";
-import type { ChartData, Series } from "./chart_data";
-import { drawBands, drawMarks } from "./chart_marks";
-import { markPath, type MarkShape } from "./mark_shapes";
-import { indexBefore } from "./smooth";
+import { onThemeChange, themeColour } from "../picture/colours";
+import { markPath, type ChartData, type MarkShape, type Series } from "./chart_data";
+import { bandShapes, drawShapes, markShapes } from "./chart_marks";
+import { indexBefore } from "./curves";
 
 const kFont = "11px ";
 
@@ -27,7 +26,7 @@ export class Chart {
   private readonly legend = h("div", { class: "legend" });
   private readonly note = h("p", { class: "note faint" });
   private readonly playhead = h("div", { class: "playhead", hidden: true });
-  private readonly theme = matchMedia("(prefers-color-scheme: dark)");
+  private readonly ignoreTheme = onThemeChange(() => this.rebuild());
   private readonly observer = new ResizeObserver(() => this.resize());
   private plot: uPlot | undefined;
   private data: ChartData | undefined;
@@ -39,7 +38,6 @@ export class Chart {
   constructor(title: string, private readonly scrub?: (x: number) => void) {
     this.element = h("figure", { class: "chart" },
       h("figcaption", {}, h("h3", {}, title)), this.legend, this.place, this.note);
-    this.theme.addEventListener("change", this.rebuild);
     this.observer.observe(this.place);
   }
 
@@ -51,11 +49,11 @@ export class Chart {
     return this.data;
   }
 
-  private readonly rebuild = (): void => {
+  private rebuild(): void {
     this.plot?.destroy();
     this.plot = undefined;
     this.build();
-  };
+  }
 
   setData(data: ChartData): void {
     const key = (d: ChartData | undefined): string =>
@@ -119,8 +117,8 @@ export class Chart {
              { ...axis(data.yLabel, 42), values: (_, ticks) => ticks.map(String) }],
       series: [{}, ...data.series.map((series) => this.seriesOf(series))],
       hooks: {
-        drawClear: [(plot) => drawBands(plot, this.data!)],
-        draw: [(plot) => drawMarks(plot, this.data!), () => this.moveHead()], // scales are known from here on
+        drawClear: [(plot) => drawShapes(plot, this.data!, bandShapes)],
+        draw: [(plot) => drawShapes(plot, this.data!, markShapes), () => this.moveHead()], // scales are known from here on
         setCursor: [(plot) => this.hover(plot.cursor.idx ?? null)],
       },
     }, data.columns as uPlot.AlignedData, place);
@@ -197,7 +195,7 @@ export class Chart {
   }
 
   destroy(): void {
-    this.theme.removeEventListener("change", this.rebuild);
+    this.ignoreTheme();
     this.observer.disconnect();
     this.plot?.destroy();
   }

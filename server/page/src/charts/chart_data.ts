@@ -1,5 +1,29 @@
 // What a chart shows: curves as columns, and marks behind and over them.
-import type { MarkShape } from "./mark_shapes";
+export type MarkShape = "circle" | "square" | "triangle" | "diamond" | "cross" | "wedge";
+
+/** In the order in which curves take them. */
+export const kMarkShapes: MarkShape[] = ["circle", "square", "triangle", "diamond", "cross", "wedge"];
+
+const kUnit: Record<MarkShape, [number, number][]> = {
+  circle: [],
+  square: [[-0.88, -0.88], [0.88, -0.88], [0.88, 0.88], [-0.88, 0.88]],
+  triangle: [[0, -1.2], [1.1, 0.75], [-1.1, 0.75]],
+  diamond: [[0, -1.3], [1.1, 0], [0, 1.3], [-1.1, 0]],
+  cross: [[-0.35, -1.1], [0.35, -1.1], [0.35, -0.35], [1.1, -0.35], [1.1, 0.35], [0.35, 0.35], [0.35, 1.1],
+          [-0.35, 1.1], [-0.35, 0.35], [-1.1, 0.35], [-1.1, -0.35], [-0.35, -0.35]],
+  wedge: [[0, 1.2], [1.1, -0.75], [-1.1, -0.75]],
+};
+
+/** Outline of a mark about a point, as the data of an SVG path. */
+export function markPath(shape: MarkShape, radius: number, x = 0, y = 0): string {
+  if (shape === "circle") {
+    const half = (to: number): string => `a${radius},${radius} 0 1 0 ${to},0`;
+    return `M${x - radius},${y}${half(2 * radius)}${half(-2 * radius)}Z`;
+  }
+  const corner = ([dx, dy]: [number, number]): string =>
+    `${(x + radius * dx).toFixed(2)},${(y + radius * dy).toFixed(2)}`;
+  return `M${kUnit[shape].map(corner).join("L")}Z`;
+}
 
 export interface Series {
   label: string;

@@ -1,96 +1,85 @@
-// Bands behind the curves of a chart; levels, spreads and marked places over them.
+// Bands behind the curves of a chart; points, levels, spreads and marked places over them: as shapes that the screen and
+// an SVG file draw alike.
 import type uPlot from "uplot";
 import { themeColour } from "../picture/colours";
-import type { ChartData, Level, Mark, Series, Spread } from "./chart_data";
-import { markPath } from "./mark_shapes";
+import { markPath, type ChartData } from "./chart_data";
 
 const kPointRadius = 4; // CSS pixels
 
-function label(plot: uPlot, text: string, x: number, y: number, align: CanvasTextAlign): void {
-  const { ctx } = plot;
-  ctx.font = `${11 * devicePixelRatio}px ${themeColour("font")}`;
-  ctx.fillStyle = themeColour("ink-3");
-  ctx.textAlign = align;
-  ctx.fillText(text, x, y);
+/** Where a chart is drawn: from values to its pixels, of which `unit` are one CSS pixel. */
+export interface Place {
+  left: number;
+  top: number;
+  width: number;
+  height: number;
+  unit: number;
+  x(value: number): number;
+  y(value: number): number;
 }
 
-export function drawBands(plot: uPlot, data: ChartData): void {
-  const { ctx, bbox } = plot;
-  for (const band of data.bands ?? []) {
-    const x0 = Math.max(plot.valToPos(band.from, "x", true), bbox.left);
-    const x1 = Math.min(plot.valToPos(band.to, "x", true), bbox.left + bbox.width);
-    if (x1 <= x0) continue;
-    ctx.fillStyle = themeColour("band");
-    ctx.fillRect(x0, bbox.top, x1 - x0, bbox.height);
-    label(plot, band.label, 0.5 * (x0 + x1), bbox.top + 13 * devicePixelRatio, "center");
-  }
-}
+/** A path, as the data of an SVG path, or a text; widths in CSS pixels. `colour` names a colour of the style sheet. */
+export type Shape = { colour: string } & (
+  { path: string; fill?: boolean; width?: number; dash?: number[] } |
+  { text: string; x: number; y: number; anchor: "start" | "middle" | "end" });
 
-function drawLevel(plot: uPlot, level: Level): void {
-  const { ctx, bbox } = plot;
-  const y = plot.valToPos(level.value, "y", true);
-  if (y < bbox.top || y > bbox.top + bbox.height) return;
-  ctx.strokeStyle = themeColour(level.colour);
-  ctx.lineWidth = 1.4 * devicePixelRatio;
-  ctx.setLineDash(level.dash.map((length) => length * devicePixelRatio));
-  ctx.beginPath();
-  ctx.moveTo(level.from === undefined ? bbox.left : plot.valToPos(level.from, "x", true), y);
-  ctx.lineTo(level.to === undefined ? bbox.left + bbox.width : plot.valToPos(level.to, "x", true), y);
-  ctx.stroke();
-}
-
-function drawSpread(plot: uPlot, spread: Spread): void {
-  const { ctx } = plot;
-  const [x, y0, y1] = [plot.valToPos(spread.x, "x", true), plot.valToPos(spread.low, "y", true),
-                       plot.valToPos(spread.high, "y", true)];
-  const half = 5 * devicePixelRatio;
-  ctx.strokeStyle = themeColour(spread.colour);
-  ctx.lineWidth = 1.5 * devicePixelRatio;
-  ctx.setLineDash([]);
-  ctx.beginPath();
-  for (const y of [y0, y1]) {
-    ctx.moveTo(x - half, y);
-    ctx.lineTo(x + half, y);
-  }
-  ctx.moveTo(x, y0);
-  ctx.lineTo(x, y1);
-  ctx.stroke();
-}
-
-function drawMark(plot: uPlot, mark: Mark): void {
-  const { ctx, bbox } = plot;
-  const x = plot.valToPos(mark.at, "x", true);
-  ctx.strokeStyle = themeColour("ink-3");
-  ctx.setLineDash([2 * devicePixelRatio, 3 * devicePixelRatio]);
-  ctx.beginPath();
-  ctx.moveTo(x, bbox.top);
-  ctx.lineTo(x, bbox.top + bbox.height);
-  ctx.stroke();
-  const isRight = x > bbox.left + 0.7 * bbox.width;
-  label(plot, mark.label, x + (isRight ? -5 : 5) * devicePixelRatio, bbox.top + 28 * devicePixelRatio,
-        isRight ? "right" : "left");
-}
-
-function drawPoints(plot: uPlot, series: Series, xs: number[], column: (number | null)[]): void {
-  const { ctx } = plot;
-  const mark = new Path2D(markPath(series.mark ?? "circle", kPointRadius * devicePixelRatio));
-  ctx.fillStyle = themeColour(series.colour);
-  column.forEach((value, i) => {
-    if (value === null) return;
-    ctx.save();
-    ctx.translate(plot.valToPos(xs[i], "x", true), plot.valToPos(value, "y", true));
-    ctx.fill(mark);
-    ctx.restore();
+export function bandShapes(data: ChartData, { left, top, width, height, unit, x }: Place): Shape[] {
+  return (data.bands ?? []).flatMap((band): Shape[] => {
+    const [x0, x1] = [Math.max(x(band.from), left), Math.min(x(band.to), left + width)];
+    return x1 <= x0 ? [] : [
+      { path: `M${x0},${top}H${x1}v${height}H${x0}Z`, fill: true, colour: "band" },
+      { text: band.label, x: 0.5 * (x0 + x1), y: top + 13 * unit, anchor: "middle", colour: "ink-3" }];
   });
 }
 
-export function drawMarks(plot: uPlot, data: ChartData): void {
-  plot.ctx.save();
-  data.series.forEach((series, i) => {
-    if (series.points) drawPoints(plot, series, data.columns[0] as number[], data.columns[i + 1]);
+export function markShapes(data: ChartData, { left, top, width, height, unit, x, y }: Place): Shape[] {
+  const shapes: Shape[] = [];
+  data.series.forEach(({ points, mark, colour }, i) => {
+    if (points) data.columns[i + 1].forEach((value, k) => {
+      if (value === null) return;
+      const path = markPath(mark ?? "circle", kPointRadius * unit, x(data.columns[0][k]!), y(value));
+      shapes.push({ path, fill: true, colour });
+    });
   });
-  for (const level of data.levels ?? []) drawLevel(plot, level);
-  for (const spread of data.spreads ?? []) drawSpread(plot, spread);
-  for (const mark of data.marks ?? []) drawMark(plot, mark);
-  plot.ctx.restore();
+  for (const { value, from, to, colour, dash } of data.levels ?? []) {
+    const at = y(value);
+    if (at < top || at > top + height) continue;
+    const [x0, x1] = [from === undefined ? left : x(from), to === undefined ? left + width : x(to)];
+    shapes.push({ path: `M${x0},${at}H${x1}`, colour, dash, width: 1.4 });
+  }
+  for (const { x: at, low, high, colour } of data.spreads ?? []) {
+    const half = 5 * unit;
+    const bar = `M${x(at) - half},${y(low)}h${2 * half}m${-half},0V${y(high)}m${-half},0h${2 * half}`;
+    shapes.push({ path: bar, colour, width: 1.5 });
+  }
+  for (const mark of data.marks ?? []) {
+    const at = x(mark.at);
+    const isRight = at > left + 0.7 * width;
+    shapes.push({ path: `M${at},${top}v${height}`, colour: "ink-3", dash: [2, 3] },
+                { text: mark.label, x: at + (isRight ? -5 : 5) * unit, y: top + 28 * unit,
+                  anchor: isRight ? "end" : "start", colour: "ink-3" });
+  }
+  return shapes;
+}
+
+/** Draws on the canvas of a plot what a function makes of its data. */
+export function drawShapes(plot: uPlot, data: ChartData, shapesOf: typeof bandShapes): void {
+  const { ctx, bbox } = plot;
+  const unit = devicePixelRatio;
+  ctx.save();
+  const [x, y] = ["x", "y"].map((scale) => (value: number): number => plot.valToPos(value, scale, true));
+  for (const shape of shapesOf(data, { ...bbox, unit, x, y })) {
+    ctx.fillStyle = ctx.strokeStyle = themeColour(shape.colour);
+    if ("text" in shape) {
+      ctx.font = `${11 * unit}px ${themeColour("font")}`;
+      ctx.textAlign = shape.anchor === "middle" ? "center" : shape.anchor;
+      ctx.fillText(shape.text, shape.x, shape.y);
+    } else if (shape.fill) {
+      ctx.fill(new Path2D(shape.path));
+    } else {
+      ctx.lineWidth = (shape.width ?? 1) * unit;
+      ctx.setLineDash((shape.dash ?? []).map((length) => length * unit));
+      ctx.stroke(new Path2D(shape.path));
+    }
+  }
+  ctx.restore();
 }

@@ -1,8 +1,7 @@
 // The energy ledger as stacked areas: what became of the work of the plates.
 import type { Sample } from "../../gen/cellcrush/v1/sample_pb";
 import type { ChartData, Series } from "./chart_data";
-import { finite, type Axis } from "./curves";
-import { thin } from "./smooth";
+import { finite, thin, type Axis } from "./curves";
 
 interface Term { label: string; colour: string; value(sample: Sample): number }
 

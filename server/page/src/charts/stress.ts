@@ -1,9 +1,8 @@
-// Stress at both plates against strain, beside theory.
+// Stress at both plates against strain, beside theory; for a frame without plates, forces of the rigid walls.
 import type { Sample, Summary, Theory } from "../../gen/cellcrush/v1/sample_pb";
 import { number } from "../dom/format";
-import type { Band, ChartData, Level, Mark } from "./chart_data";
-import { finite, type Axis } from "./curves";
-import { quantile, runningMean, thin } from "./smooth";
+import type { Band, ChartData, Level, Mark, Series } from "./chart_data";
+import { finite, quantile, runningMean, thin, type Axis } from "./curves";
 
 export const kSmoothing = 0.02; // of strain
 const kMostPoints = 3000;
@@ -79,5 +78,24 @@ export function stressChart(samples: Sample[], axis: Axis, summary: Summary | un
     columns, xLabel: axis.label, yLabel: "nominal stress (MPa)", xEnd: axis.end, yTop: top,
     levels: levelsOf(summary, theory, top), bands, marks,
     note: `moving mean over ${100 * kSmoothing} % strain; thin: every sample${beyond}${note ? `. ${note}` : ""}`,
+  };
+}
+
+const kMostWalls = 6;
+const kMostForces = 2000;
+
+/** Undefined for a frame without rigid walls. */
+export function forceChart(samples: Sample[], axis: Axis): ChartData | undefined {
+  const walls = samples[0]?.rigidWalls.slice(0, kMostWalls) ?? [];
+  if (walls.length === 0) return undefined;
+  const places = thin(samples.map((s) => s.rigidWalls[0]?.normalForceN ?? 0), kMostForces);
+  const kept = places ? places.map((place) => samples[place]) : samples;
+  const columns = walls.map((_, i) => kept.map((sample) => sample.rigidWalls[i]?.normalForceN ?? null));
+  const top = columns.flat().reduce<number>((most, value) => Math.max(most, value ?? 0), 0);
+  const series: Series[] = walls.map((wall, i) => ({ label: wall.wall, colour: `series-${i}`, width: 1.8 }));
+  return {
+    series, columns: [kept.map((sample) => axis.sample(sample)), ...columns],
+    xLabel: axis.label, yLabel: "normal force (N)", xEnd: axis.end, yTop: top > 0 ? 1.08 * top : 1,
+    note: "forces of the rigid walls on the frame, means between samples",
   };
 }

@@ -1,8 +1,7 @@
 // The smoothed stresses of several jobs over one axis of strain.
 import type { ChartData, Series } from "../charts/chart_data";
-import { strainAxis } from "../charts/curves";
+import { indexBefore, strainAxis } from "../charts/curves";
 import { kSmoothing, smoothedStress, stressTop, type StressCurves } from "../charts/stress";
-import { indexBefore } from "../charts/smooth";
 import type { JobData } from "../job/job_data";
 
 const kPoints = 1200;

@@ -2,19 +2,42 @@
 import type { Summary } from "../../gen/cellcrush/v1/sample_pb";
 import { idOf, pathOf } from "../api/names";
 import { h } from "../dom/element";
-import { number, percent, strainText } from "../dom/format";
-import { caseValues } from "./differences";
+import { number } from "../dom/format";
+import { kSummaryNumbers } from "../job/results";
 import type { JobData } from "../job/job_data";
+import { ScalarType } from "@bufbuild/protobuf";
+import { reflect, type ReflectMessage } from "@bufbuild/protobuf/reflect";
+import { CaseSchema, type Case } from "../../gen/cellcrush/v1/case_pb";
+
+// One entry of a list: a message in one line, or a value.
+const entry = (value: unknown): string =>
+  typeof value === "object" && value !== null ? [...valuesOf(value as ReflectMessage, "")]
+    .map(([name, text]) => `${name} ${text}`).join(" ") : String(value);
+
+function* valuesOf(message: ReflectMessage, prefix: string): Generator<[string, string]> {
+  for (const field of message.fields) {
+    if (!message.isSet(field)) continue;
+    const path = prefix + field.name;
+    if (field.fieldKind === "message") yield* valuesOf(message.get(field), `${path}.`);
+    else if (field.fieldKind === "list") yield [path, [...message.get(field)].map(entry).join(", ")];
+    else if (field.fieldKind === "enum") yield [path, field.enum.value[message.get(field)]?.name ?? "unknown"];
+    else if (field.fieldKind === "scalar" && field.scalar !== ScalarType.BYTES) {
+      yield [path, String(message.get(field))];
+    }
+  }
+}
+
+/** The value of every field of a case, by its path; a title names a job and is none of them. */
+export function caseValues(value: Case): Map<string, string> {
+  const values = new Map(valuesOf(reflect(CaseSchema, value), ""));
+  values.delete("title");
+  return values;
+}
 
 const kNumbers: [string, (s: Summary) => string][] = [
-  ["impact plateau, MPa", (s) => number(s.plateauStressImpactMpa)],
-  ["support plateau, MPa", (s) => number(s.plateauStressSupportMpa)],
-  ["shock theory (Eq. 51), MPa", (s) => number(s.theory?.shockMpa)],
+  ...kSummaryNumbers.map(({ name, value, text }): [string, (s: Summary) => string] => [name, (s) => text(value(s))]),
   ["Gibson-Ashby, MPa", (s) => number(s.theory?.gibsonAshbyMpa)],
-  ["densification strain", (s) => (s.densificationStrain === undefined ? "–" : strainText(s.densificationStrain))],
-  ["absorbed energy, J", (s) => number(s.absorbedEnergyMj / 1000)],
-  ["crush mode", (s) => s.crushModeWords || "–"],
-  ["energy ledger error", (s) => percent(s.energyErrorRelative, 3)],
+  ["Crush mode", (s) => s.crushModeWords || "–"],
 ];
 
 const kLongest = 60; // characters of a list, such as the nodes of a frame

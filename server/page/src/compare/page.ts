@@ -2,18 +2,17 @@
 import { errorText, isNotFound } from "../api/errors";
 import { idOf, pathOf } from "../api/names";
 import { Chart } from "../charts/chart";
-import { download } from "../dom/download";
+import { Later } from "../dom/calls";
 import { h, replaceChildren, setText } from "../dom/element";
 import { iconButton } from "../dom/icons";
 import { JobData } from "../job/job_data";
 import { sceneWords, titleOf } from "../jobs/states";
 import { FrameView } from "../picture/frame_view";
-import { colourLegend } from "../picture/legend";
+import { colourLegend } from "../picture/colours";
 import { Player } from "../picture/player";
 import { PlayerBar } from "../picture/player_bar";
 import { go, keepInUrl, type View } from "../router";
-import { chartSvg } from "../take_away/chart_svg";
-import { saveButton } from "../take_away/menus";
+import { saveChartButton } from "../take_away/menus";
 import { comparisonChart } from "./curves";
 import { comparisonTable } from "./numbers";
 
@@ -68,8 +67,10 @@ export class ComparePage implements View {
   private readonly bar: PlayerBar;
   private readonly jobs: Compared[];
   private wantedStrain: number;
-  private timer = 0;
-  private urlTimer = 0;
+  private readonly drawing = new Later(() => this.draw(), kDrawMs);
+  private readonly url = new Later(() => {
+    if (!Number.isFinite(this.wantedStrain)) keepInUrl({ strain: String(Number(this.player.value.toFixed(4))) });
+  }, kUrlMs);
 
   constructor(query: URLSearchParams) {
     const ids = [...new Set((query.get("jobs") ?? "").split(",").filter((id) => /^\d+$/.test(id)))].slice(0, kMostJobs);
@@ -84,8 +85,8 @@ export class ComparePage implements View {
     this.build();
     for (const job of this.jobs) {
       job.data.jobChanges.add(() => this.update(job));
-      job.data.sampleChanges.add(() => this.drawSoon());
-      job.data.frames.changes.add(() => this.drawSoon());
+      job.data.sampleChanges.add(() => this.drawing.soon());
+      job.data.frames.changes.add(() => this.drawing.soon());
     }
     this.player.changes.add(() => this.showPlace());
     document.addEventListener("keydown", this.key);
@@ -93,9 +94,7 @@ export class ComparePage implements View {
 
   private build(): void {
     this.chart.element.querySelector("figcaption")!.append(h("span", { class: "take-away" },
-      saveButton("SVG", "Save the chart as an SVG file", async () => {
-        if (this.chart.shown) download(chartSvg(this.chart.shown, "Comparison"), "comparison.svg");
-      })));
+      saveChartButton(this.chart, () => "Comparison", "comparison")));
     replaceChildren(this.element,
       h("header", { class: "job-header" }, h("div", { class: "title-row" }, h("h1", {}, this.title),
         h("span", { class: "spacer" }), colourLegend())),
@@ -122,14 +121,7 @@ export class ComparePage implements View {
   private update(job: Compared): void {
     job.update();
     replaceChildren(this.numbers, comparisonTable(this.jobs.map((compared) => compared.data)));
-    this.drawSoon();
-  }
-
-  private drawSoon(): void {
-    if (!this.timer) this.timer = window.setTimeout(() => {
-      this.timer = 0;
-      this.draw();
-    }, kDrawMs);
+    this.drawing.soon();
   }
 
   private draw(): void {
@@ -152,16 +144,14 @@ export class ComparePage implements View {
     const { value, playing } = this.player;
     for (const job of this.jobs) job.showAt(value, playing);
     this.chart.setHead(value);
-    clearTimeout(this.urlTimer);
-    if (!playing) this.urlTimer = window.setTimeout(() => {
-      if (!Number.isFinite(this.wantedStrain)) keepInUrl({ strain: String(Number(value.toFixed(4))) });
-    }, kUrlMs);
+    if (playing) this.url.stop();
+    else this.url.afresh();
   }
 
   destroy(): void {
     document.removeEventListener("keydown", this.key);
-    clearTimeout(this.timer);
-    clearTimeout(this.urlTimer);
+    this.drawing.stop();
+    this.url.stop();
     this.player.destroy();
     this.chart.destroy();
     for (const job of this.jobs) job.destroy();

@@ -19,8 +19,8 @@ export function percent(fraction: number | undefined, digits = 2): string {
 }
 
 /** Nominal strain, always with two decimals so that columns align. */
-export function strainText(strain: number): string {
-  return strain.toFixed(2);
+export function strainText(strain: number | undefined): string {
+  return strain?.toFixed(2) ?? kMissing;
 }
 
 export function count(value: number | bigint): string {

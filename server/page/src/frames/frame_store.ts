@@ -1,6 +1,6 @@
 // The frames of a job, kept packed; the fields of the frames in use are unpacked when they are wanted.
 import type { FieldFrame, Mesh } from "../../gen/cellcrush/v1/sample_pb";
-import { Listeners } from "../api/listeners";
+import { Listeners } from "../dom/calls";
 import { latticeOf, type Lattice } from "./lattice";
 import { fieldsOf, guidesOf, type Fields } from "./packed";
 
@@ -10,6 +10,8 @@ export class FrameStore {
   lattice: Lattice | undefined;
   /** In the order of their indices. */
   frames: FieldFrame[] = [];
+  /** Number of frames of the job; an exported page may have fewer. */
+  jobCount = 0;
   readonly changes = new Listeners<void>();
   private unpacked = new Map<number, Fields>();
 

@@ -3,6 +3,7 @@ import { create } from "@bufbuild/protobuf";
 import type { FrameChunk, MeshChunk } from "../../gen/cellcrush/v1/event_pb";
 import { FieldFrame_PackedSchema, FieldFrameSchema, MeshSchema, type FieldFrame,
          type Mesh } from "../../gen/cellcrush/v1/sample_pb";
+import type { FrameStore } from "./frame_store";
 
 function joinBytes(parts: Uint8Array[]): Uint8Array {
   const all = new Uint8Array(parts.reduce((size, part) => size + part.length, 0));
@@ -57,19 +58,20 @@ class Parts<T> {
   }
 }
 
-export class MeshParts {
-  private readonly parts = new Parts<Mesh>(joinMeshes);
+/** Puts meshes and frames into a store, each with its last part. */
+export class FrameReader {
+  private readonly meshes = new Parts<Mesh>(joinMeshes);
+  private readonly frames = new Parts<FieldFrame>(joinFrames);
 
-  /** The whole mesh with its last part; undefined before. */
-  add(chunk: MeshChunk): Mesh | undefined {
-    return this.parts.add(chunk.mesh, chunk.part, chunk.partCount);
+  constructor(private readonly store: Pick<FrameStore, "setMesh" | "add">) {}
+
+  addMesh({ mesh, part, partCount }: MeshChunk): void {
+    const whole = this.meshes.add(mesh, part, partCount);
+    if (whole) this.store.setMesh(whole);
   }
-}
 
-export class FrameParts {
-  private readonly parts = new Parts<FieldFrame>(joinFrames);
-
-  add(chunk: FrameChunk): FieldFrame | undefined {
-    return this.parts.add(chunk.frame, chunk.part, chunk.partCount);
+  addFrame({ frame, part, partCount }: FrameChunk): void {
+    const whole = this.frames.add(frame, part, partCount);
+    if (whole) this.store.add(whole);
   }
 }

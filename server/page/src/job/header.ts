@@ -7,8 +7,7 @@ import { h, replaceChildren, setText } from "../dom/element";
 import { clock, count, duration, fullTime, strainText } from "../dom/format";
 import { icon } from "../dom/icons";
 import { actionsOf, attempt } from "../jobs/actions";
-import { whereOf } from "../jobs/executors";
-import { causeWords, hasEnded, setChip, stateChip, titleOf } from "../jobs/states";
+import { causeWords, hasEnded, setChip, stateChip, titleOf, whereOf } from "../jobs/states";
 import type { JobStore } from "../jobs/store";
 import { go } from "../router";
 

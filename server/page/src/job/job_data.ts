@@ -6,36 +6,44 @@ import { Job_State, type Job } from "../../gen/cellcrush/v1/job_pb";
 import { FieldFrame_Encoding, type Sample } from "../../gen/cellcrush/v1/sample_pb";
 import { api } from "../api/clients";
 import { isAway } from "../api/errors";
-import { Listeners } from "../api/listeners";
+import { Later, Listeners } from "../dom/calls";
 import { watch, type WatchedJob } from "../api/watch";
 import { FrameStore } from "../frames/frame_store";
-import { FrameParts, MeshParts } from "../frames/parts";
-import { elsewhere } from "../jobs/executors";
-import { hasEnded } from "../jobs/states";
+import { FrameReader } from "../frames/parts";
+import { elsewhere, hasEnded } from "../jobs/states";
 
 const kAgainMs = 2500;
 const kPlaceMs = 10_000; // between questions for the place of a job on a cluster
+
+/** Streams frames of a job into a store: all from `from` on, unless there is more to say. */
+export async function streamFrames(store: FrameStore, signal: AbortSignal,
+                                   range: { name: string; from: number; to?: number; stride?: number }): Promise<void> {
+  const reader = new FrameReader(store);
+  const request = { ...range, encoding: FieldFrame_Encoding.PACKED };
+  for await (const { content } of api.jobs.streamFrames(request, { signal })) {
+    if (content.case === "times") store.jobCount = content.value.timeS.length;
+    else if (content.case === "mesh" && !store.lattice) reader.addMesh(content.value);
+    else if (content.case === "frame") reader.addFrame(content.value);
+  }
+}
 
 export class JobData implements WatchedJob {
   job: Job | undefined;
   check: CheckCaseResponse | undefined;
   samples: Sample[] = [];
   readonly frames = new FrameStore();
-  /** Number of frames of the job; an exported page may have fewer. */
-  frameCount = 0;
   sequence = 0n;
   error: unknown;
   /** All samples and frames of an ended job are here. */
   isComplete = false;
   readonly jobChanges = new Listeners<void>();
   readonly sampleChanges = new Listeners<void>();
-  private readonly meshParts = new MeshParts();
-  private readonly frameParts = new FrameParts();
+  private readonly reader = new FrameReader(this.frames);
   private readonly abort = new AbortController();
   private stopWatch: (() => void) | undefined;
   private readonly stops: (() => void)[];
   private isLoadingFrames = false;
-  private placeTimer = 0;
+  private readonly place = new Later(() => void this.loadPlace(), kPlaceMs);
 
   constructor(readonly name: string) {
     this.stops = [
@@ -88,8 +96,7 @@ export class JobData implements WatchedJob {
     } catch {
       // The watch says that the daemon is away.
     }
-    clearTimeout(this.placeTimer);
-    if (!signal.aborted) this.placeTimer = window.setTimeout(() => void this.loadPlace(), kPlaceMs);
+    if (!signal.aborted) this.place.afresh();
   }
 
   putJob(job: Job): void {
@@ -101,7 +108,7 @@ export class JobData implements WatchedJob {
     this.job = job;
     this.jobChanges.tell();
     if (elsewhere(job.executor) && !hasEnded(job) && old?.state !== job.state) {
-      clearTimeout(this.placeTimer);
+      this.place.stop();
       void this.loadPlace();
     }
     if (!old || hasEnded(old) === hasEnded(job)) return;
@@ -132,16 +139,8 @@ export class JobData implements WatchedJob {
         if (this.job) this.job.progress = content.value;
         this.jobChanges.tell();
         break;
-      case "mesh": {
-        const mesh = this.meshParts.add(content.value);
-        if (mesh) this.frames.setMesh(mesh);
-        break;
-      }
-      case "frame": {
-        const frame = this.frameParts.add(content.value);
-        if (frame) this.frames.add(frame);
-        break;
-      }
+      case "mesh": this.reader.addMesh(content.value); break;
+      case "frame": this.reader.addFrame(content.value); break;
     }
   }
 
@@ -166,30 +165,13 @@ export class JobData implements WatchedJob {
     if (this.isLoadingFrames) return;
     this.isLoadingFrames = true;
     try {
-      await this.streamFrames(this.frames.firstGap());
+      await streamFrames(this.frames, this.abort.signal, { name: this.name, from: this.frames.firstGap() });
     } catch (error) {
       // A job without a frame yet is no error: the watch brings its frames.
       const code = ConnectError.from(error).code;
       if (code !== Code.FailedPrecondition && code !== Code.OutOfRange && !this.abort.signal.aborted) throw error;
     } finally {
       this.isLoadingFrames = false;
-    }
-  }
-
-  private async streamFrames(from: number): Promise<void> {
-    const mesh = new MeshParts();
-    const frames = new FrameParts();
-    const request = { name: this.name, from, encoding: FieldFrame_Encoding.PACKED };
-    for await (const { content } of api.jobs.streamFrames(request, { signal: this.abort.signal })) {
-      if (content.case === "times") {
-        this.frameCount = content.value.timeS.length;
-      } else if (content.case === "mesh") {
-        const whole = mesh.add(content.value);
-        if (whole && !this.frames.lattice) this.frames.setMesh(whole);
-      } else if (content.case === "frame") {
-        const whole = frames.add(content.value);
-        if (whole) this.frames.add(whole);
-      }
     }
   }
 
@@ -229,7 +211,7 @@ export class JobData implements WatchedJob {
 
   destroy(): void {
     this.abort.abort();
-    clearTimeout(this.placeTimer);
+    this.place.stop();
     this.stopWatch?.();
     for (const stop of this.stops) stop();
   }

@@ -7,14 +7,14 @@ import { idOf } from "../api/names";
 import { Chart } from "../charts/chart";
 import { strainAxis, timeAxis, type Axis } from "../charts/curves";
 import { energyChart } from "../charts/energy";
-import { forceChart } from "../charts/forces";
-import { stressChart } from "../charts/stress";
+import { forceChart, stressChart } from "../charts/stress";
+import { Later } from "../dom/calls";
 import { h, replaceChildren, setText } from "../dom/element";
 import { QueuePanel } from "../jobs/queue";
 import { hasEnded, sceneWords, titleOf, warningWords } from "../jobs/states";
 import { JobStore } from "../jobs/store";
 import { FrameView } from "../picture/frame_view";
-import { colourLegend } from "../picture/legend";
+import { colourLegend } from "../picture/colours";
 import { Player } from "../picture/player";
 import { PlayerBar } from "../picture/player_bar";
 import { RigidWalls } from "../picture/rigid_walls";
@@ -50,8 +50,8 @@ export class JobPage implements View {
   private readonly grid = h("div", { class: "job-grid" });
   private axis: Axis = strainAxis(0.8);
   private wantedStrain: number | undefined;
-  private curvesTimer = 0;
-  private urlTimer = 0;
+  private readonly curves = new Later(() => this.updateCurves(), kCurvesMs);
+  private readonly url = new Later(() => this.keepUrl(), kUrlMs);
   private detailsKey = "";
   private wasLive = false;
   private isShown = false;
@@ -98,10 +98,10 @@ export class JobPage implements View {
 
   private listen(): void {
     this.data.jobChanges.add(() => this.update());
-    this.data.sampleChanges.add(() => this.updateCurvesSoon());
+    this.data.sampleChanges.add(() => this.curves.soon());
     this.data.frames.changes.add(() => this.updateFrames());
     this.player.changes.add(() => this.showPlace());
-    this.frames.picture.moved.add(() => this.keepUrlSoon());
+    this.frames.picture.moved.add(() => this.url.afresh());
     // The actions of the header change the job through the store.
     this.store.changes.add(() => {
       const job = this.store.jobs.get(this.data.name);
@@ -162,7 +162,7 @@ export class JobPage implements View {
     if (axis.label === this.axis.label && axis.end === this.axis.end) return;
     this.axis = axis;
     this.player.fullEnd = axis.end;
-    this.updateCurvesSoon();
+    this.curves.soon();
   }
 
   private get theory(): Theory | undefined {
@@ -172,14 +172,6 @@ export class JobPage implements View {
 
   private get summary(): Summary | undefined {
     return this.data.job?.summary;
-  }
-
-  private updateCurvesSoon(): void {
-    if (this.curvesTimer) return;
-    this.curvesTimer = window.setTimeout(() => {
-      this.curvesTimer = 0;
-      this.updateCurves();
-    }, kCurvesMs);
   }
 
   private updateCurves(): void {
@@ -197,10 +189,10 @@ export class JobPage implements View {
   }
 
   private updateFrames(): void {
-    const { frames, lattice } = this.data.frames;
+    const { frames, lattice, jobCount } = this.data.frames;
     this.waiting.hidden ||= frames.length > 0 || lattice !== undefined;
-    this.thinned.hidden = !isExported || frames.length >= this.data.frameCount;
-    setText(this.thinned, `This file has ${frames.length} of the ${this.data.frameCount} frames of the job.`);
+    this.thinned.hidden = !isExported || frames.length >= jobCount;
+    setText(this.thinned, `This file has ${frames.length} of the ${jobCount} frames of the job.`);
     this.setEnd();
   }
 
@@ -221,17 +213,14 @@ export class JobPage implements View {
     this.frames.showAt(value, playing);
     this.stress.setHead(value);
     this.energy.setHead(value);
-    this.keepUrlSoon();
+    this.url.afresh();
   }
 
-  private keepUrlSoon(): void {
-    clearTimeout(this.urlTimer);
-    this.urlTimer = window.setTimeout(() => {
-      const { player } = this;
-      if (player.playing || this.wantedStrain !== undefined) return;
-      const strain = player.following || player.value === 0 ? undefined : String(Number(player.value.toFixed(4)));
-      keepInUrl({ strain, view: this.frames.picture.camera.text || undefined });
-    }, kUrlMs);
+  private keepUrl(): void {
+    const { player } = this;
+    if (player.playing || this.wantedStrain !== undefined) return;
+    const strain = player.following || player.value === 0 ? undefined : String(Number(player.value.toFixed(4)));
+    keepInUrl({ strain, view: this.frames.picture.camera.text || undefined });
   }
 
   private updateDetails(job: Job): void {
@@ -239,7 +228,7 @@ export class JobPage implements View {
     const key = [job.state, job.summary !== undefined, check !== undefined, job.summary?.warnings.length].join();
     if (key === this.detailsKey) return;
     this.detailsKey = key;
-    this.updateCurvesSoon();
+    this.curves.soon();
     const summary = job.summary;
     replaceChildren(this.warnings, ...(summary?.warnings ?? []).map((warning) =>
       h("div", { class: "banner warning" }, h("strong", {}, `${warningWords(warning.kind)}. `),
@@ -259,8 +248,8 @@ export class JobPage implements View {
 
   destroy(): void {
     document.removeEventListener("keydown", this.key);
-    clearTimeout(this.curvesTimer);
-    clearTimeout(this.urlTimer);
+    this.curves.stop();
+    this.url.stop();
     this.queue.destroy();
     this.player.destroy();
     this.data.destroy();

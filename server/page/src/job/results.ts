@@ -1,10 +1,31 @@
 // The numbers of a result, with units, beside theory.
-import type { Summary, Theory } from "../../gen/cellcrush/v1/sample_pb";
+import type { Summary } from "../../gen/cellcrush/v1/sample_pb";
 import { h } from "../dom/element";
 import { count, duration, number, percent, strainText } from "../dom/format";
 import { fieldHelp } from "../help";
 
-interface Result { name: string; field: string; value: string; unit?: string; beside?: string }
+/** A number of a summary for tables: its path in the message, and its text in the unit of the name. */
+export interface SummaryNumber {
+  name: string;
+  field: string;
+  value(s: Summary): number | undefined;
+  text(value: number | undefined): string;
+}
+
+const mpa = (value: number | undefined): string => number(value);
+
+export const kSummaryNumbers: SummaryNumber[] = [
+  { name: "Impact plateau, MPa", field: "plateau_stress_impact_mpa", value: (s) => s.plateauStressImpactMpa, text: mpa },
+  { name: "Support plateau, MPa", field: "plateau_stress_support_mpa", value: (s) => s.plateauStressSupportMpa,
+    text: mpa },
+  { name: "Shock theory (Eq. 51), MPa", field: "theory.shock_mpa", value: (s) => s.theory?.shockMpa, text: mpa },
+  { name: "Densification strain", field: "densification_strain", value: (s) => s.densificationStrain,
+    text: strainText },
+  { name: "Absorbed energy, J", field: "absorbed_energy_mj", value: (s) => s.absorbedEnergyMj,
+    text: (value) => number(value && value / 1000) },
+  { name: "Ledger error", field: "energy_error_relative", value: (s) => s.energyErrorRelative,
+    text: (value) => percent(value, 3) },
+];
 
 function besideTheory(value: number | undefined, theory: number | undefined, name: string): string {
   if (!value || !theory) return "";
@@ -12,61 +33,48 @@ function besideTheory(value: number | undefined, theory: number | undefined, nam
   return `${name} ${number(theory)} MPa, ${percent(Math.abs(ratio))} ${ratio >= 0 ? "higher" : "lower"}`;
 }
 
-function energy(mj: number): [string, string] {
-  return mj < 1000 ? [number(mj), "mJ"] : [number(mj / 1000), "J"];
-}
-
-function resultsOf(s: Summary, theory: Theory | undefined, note: string): Result[] {
-  const beside = note ? () => "" : besideTheory;
-  const results: Result[] = [];
-  if (s.plateauStressImpactMpa !== undefined || theory?.gibsonAshbyMpa) {
-    results.push(
-      { name: "Plateau stress, impact plate", field: "plateau_stress_impact_mpa",
-        value: number(s.plateauStressImpactMpa), unit: "MPa",
-        beside: s.plateauStressImpactMpa === undefined ? "the run ended before strain 0.40"
-          : beside(s.plateauStressImpactMpa, theory?.shockMpa, "shock theory (Eq. 51)") },
-      { name: "Plateau stress, support plate", field: "plateau_stress_support_mpa",
-        value: number(s.plateauStressSupportMpa), unit: "MPa",
-        beside: beside(s.plateauStressSupportMpa, theory?.gibsonAshbyMpa, "Gibson-Ashby") },
-      { name: "Densification strain", field: "densification_strain",
-        value: s.densificationStrain === undefined ? "–" : strainText(s.densificationStrain),
-        beside: s.densificationStrain === undefined ? "no lasting rise of the stress" : "" });
+/** `note` says when not to compare with theory. */
+export function resultsList(s: Summary, note: string): HTMLElement {
+  const { theory } = s;
+  const list = h("dl", { class: "results" });
+  const add = (name: string, field: string, value: string, unit = "", beside = ""): void =>
+    list.append(h("div", { title: fieldHelp("Summary", field) }, h("dt", {}, name),
+      h("dd", {}, h("b", {}, value), unit && ` ${unit}`, beside && h("span", { class: "faint beside" }, beside))));
+  const compared = note ? () => "" : besideTheory;
+  const impact = s.plateauStressImpactMpa;
+  if (impact !== undefined || theory?.gibsonAshbyMpa) {
+    add("Plateau stress, impact plate", "plateau_stress_impact_mpa", number(impact), "MPa",
+        impact === undefined ? "the run ended before strain 0.40"
+          : compared(impact, theory?.shockMpa, "shock theory (Eq. 51)"));
+    add("Plateau stress, support plate", "plateau_stress_support_mpa", number(s.plateauStressSupportMpa), "MPa",
+        compared(s.plateauStressSupportMpa, theory?.gibsonAshbyMpa, "Gibson-Ashby"));
+    add("Densification strain", "densification_strain", strainText(s.densificationStrain), "",
+        s.densificationStrain === undefined ? "no lasting rise of the stress" : "");
   }
   if (s.plateauStressToDensificationMpa !== undefined) {
-    results.push({ name: "Mean stress to densification", field: "plateau_stress_to_densification_mpa",
-                   value: number(s.plateauStressToDensificationMpa), unit: "MPa" });
+    add("Mean stress to densification", "plateau_stress_to_densification_mpa",
+        number(s.plateauStressToDensificationMpa), "MPa");
   }
-  const [absorbed, unit] = energy(s.absorbedEnergyMj);
-  if (s.absorbedEnergyMj) {
-    results.push({ name: "Absorbed energy", field: "absorbed_energy_mj", value: absorbed, unit,
-                   beside: "to strain 0.50, or the end of a shorter run" });
+  const absorbed = s.absorbedEnergyMj;
+  if (absorbed) {
+    add("Absorbed energy", "absorbed_energy_mj", number(absorbed < 1000 ? absorbed : absorbed / 1000),
+        absorbed < 1000 ? "mJ" : "J", "to strain 0.50, or the end of a shorter run");
   }
-  const mode = theory?.gibsonAshbyMpa ? s.crushModeWords : undefined; // a frame has no cells
-  if (mode) {
-    const since = s.crushModeStrain === undefined ? "" : `first seen at strain ${strainText(s.crushModeStrain)}`;
-    results.push({ name: "Crush mode", field: "crush_mode", value: mode, beside: since });
+  if (theory?.gibsonAshbyMpa && s.crushModeWords) { // a frame has no cells
+    add("Crush mode", "crush_mode", s.crushModeWords, "",
+        s.crushModeStrain === undefined ? "" : `first seen at strain ${strainText(s.crushModeStrain)}`);
   }
   if (s.front) {
-    results.push({ name: "Strain behind the front", field: "front", value: number(s.front.strainBehind),
-                   beside: `shock theory, measured jumps (Eq. 52) ${number(s.front.shockMpa)} MPa` });
+    add("Strain behind the front", "front", number(s.front.strainBehind), "",
+        `shock theory, measured jumps (Eq. 52) ${number(s.front.shockMpa)} MPa`);
   }
   if (s.quasiStatic) {
-    results.push({ name: "Difference between the plates", field: "quasi_static",
-                   value: percent(s.quasiStatic.plateDifferenceRelative), beside: "of their mean; 0 if quasi-static" });
+    add("Difference between the plates", "quasi_static", percent(s.quasiStatic.plateDifferenceRelative), "",
+        "of their mean; 0 if quasi-static");
   }
-  results.push({ name: "Energy ledger error", field: "energy_error_relative",
-                 value: percent(s.energyErrorRelative, 3) });
-  results.push({ name: "Deepest penetration", field: "deepest_penetration", value: percent(s.deepestPenetration),
-                 beside: "of the thickness of the thinner wall" });
-  results.push({ name: "Solver time", field: "solver_seconds", value: duration(s.solverSeconds),
-                 beside: `${count(s.stepCount)} steps` });
-  return results;
-}
-
-/** `note` says when not to compare with theory. */
-export function resultsList(summary: Summary, note: string): HTMLElement {
-  return h("dl", { class: "results" }, ...resultsOf(summary, summary.theory, note).map((result) =>
-    h("div", { title: fieldHelp("Summary", result.field) }, h("dt", {}, result.name),
-      h("dd", {}, h("b", {}, result.value), result.unit ? ` ${result.unit}` : "",
-        result.beside ? h("span", { class: "faint beside" }, result.beside) : null))));
+  add("Energy ledger error", "energy_error_relative", percent(s.energyErrorRelative, 3));
+  add("Deepest penetration", "deepest_penetration", percent(s.deepestPenetration), "",
+      "of the thickness of the thinner wall");
+  add("Solver time", "solver_seconds", duration(s.solverSeconds), "", `${count(s.stepCount)} steps`);
+  return list;
 }

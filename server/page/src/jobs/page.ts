@@ -4,6 +4,7 @@ import { api } from "../api/clients";
 import { errorText } from "../api/errors";
 import { idOf } from "../api/names";
 import { watch } from "../api/watch";
+import { Later } from "../dom/calls";
 import { button, h, setText } from "../dom/element";
 import { plural } from "../dom/format";
 import { go, keepInUrl, type View } from "../router";
@@ -39,16 +40,19 @@ export class JobsPage implements View {
   private selected: string[] = [];
   private token = "";
   private generation = 0;
-  private timer = 0;
+  private readonly filtering = new Later(() => {
+    keepInUrl({ q: this.text.value, state: this.state.value, all: this.withSweeps.checked ? "1" : "" });
+    void this.load(true);
+  }, kTypingMs);
   private isLoaded = false;
 
   constructor(query: URLSearchParams) {
     this.text.value = query.get("q") ?? "";
     this.state.value = query.get("state") ?? "";
     this.withSweeps.checked = query.get("all") === "1";
-    this.text.addEventListener("input", () => this.filterSoon(kTypingMs));
-    this.state.addEventListener("change", () => this.filterSoon(0));
-    this.withSweeps.addEventListener("change", () => this.filterSoon(0));
+    this.text.addEventListener("input", () => this.filtering.afresh());
+    this.state.addEventListener("change", () => this.filtering.afresh(0));
+    this.withSweeps.addEventListener("change", () => this.filtering.afresh(0));
     this.element.append(
       this.queue.element, this.sweeps.element,
       h("section", {},
@@ -68,21 +72,11 @@ export class JobsPage implements View {
     void this.sweeps.firstLoad.then(() => this.element.classList.remove("invisible"));
   }
 
-  private filterSoon(delay: number): void {
-    clearTimeout(this.timer);
-    this.timer = window.setTimeout(() => {
-      keepInUrl({ q: this.text.value, state: this.state.value, all: this.withSweeps.checked ? "1" : "" });
-      void this.load(true);
-    }, delay);
-  }
-
   // The filter of ListJobs: plain text is looked for in titles.
   private filterText(): string {
     const text = this.text.value.trim();
-    const parts = [];
-    if (/[=:]/.test(text)) parts.push(text);
-    else if (text) parts.push(`title : "${text.replaceAll("\\", "\\\\").replaceAll('"', '\\"')}"`);
-    return parts.join(" AND ");
+    if (!text || /[=:]/.test(text)) return text;
+    return `title : "${text.replaceAll("\\", "\\\\").replaceAll('"', '\\"')}"`;
   }
 
   private passes(job: Job): boolean {
@@ -176,7 +170,7 @@ export class JobsPage implements View {
   }
 
   destroy(): void {
-    clearTimeout(this.timer);
+    this.filtering.stop();
     ++this.generation;
     for (const stop of this.stops) stop();
     this.store.destroy();

@@ -1,9 +1,10 @@
 // Why jobs wait: the order of the queue, and the shortages that hold it.
 import type { Queue_Entry, Queue_Hold } from "../../gen/cellcrush/v1/admin_service_pb";
 import { api } from "../api/clients";
+import { Later } from "../dom/calls";
 import { h, replaceChildren } from "../dom/element";
 import { clock } from "../dom/format";
-import { elsewhere } from "./executors";
+import { elsewhere } from "./states";
 
 const kCalmMs = 400; // after a change of states, before the queue is asked for
 const kAgainMs = 20_000; // while jobs wait, as the estimates change
@@ -12,20 +13,17 @@ export class QueuePanel {
   readonly element = h("div", { class: "holds", "aria-live": "polite" });
   entries = new Map<string, Queue_Entry>();
   waitingCount = 0;
-  private timer = 0;
-  private again = 0;
+  private readonly next = new Later(() => void this.fetch(), kCalmMs);
   private isDestroyed = false;
 
   constructor(private readonly changed: () => void) {}
 
   /** Asks for the queue soon; several calls in a row make one request. */
   refresh(): void {
-    clearTimeout(this.timer);
-    this.timer = window.setTimeout(() => void this.fetch(), kCalmMs);
+    this.next.afresh();
   }
 
   private async fetch(): Promise<void> {
-    clearTimeout(this.again);
     try {
       const queue = await api.admin.getQueue({});
       if (this.isDestroyed) return;
@@ -33,9 +31,7 @@ export class QueuePanel {
       this.waitingCount = queue.entries.length + queue.moreCount;
       this.showHolds(queue.holds);
       this.changed();
-      if (queue.entries.length > 0 || queue.holds.length > 0) {
-        this.again = window.setTimeout(() => void this.fetch(), kAgainMs);
-      }
+      if (queue.entries.length > 0 || queue.holds.length > 0) this.next.soon(kAgainMs);
     } catch {
       // The watch says that the daemon is away; the next change of a state asks again.
     }
@@ -49,8 +45,7 @@ export class QueuePanel {
 
   destroy(): void {
     this.isDestroyed = true;
-    clearTimeout(this.timer);
-    clearTimeout(this.again);
+    this.next.stop();
   }
 }
 

@@ -6,8 +6,7 @@ import { h, setText } from "../dom/element";
 import { clock, duration, fullTime, milliseconds, number, strainText } from "../dom/format";
 import { iconButton } from "../dom/icons";
 import { actionsOf, attempt } from "./actions";
-import { elsewhere, whereOf } from "./executors";
-import { hasEnded, sceneWords, setChip, stateChip, titleOf } from "./states";
+import { elsewhere, hasEnded, sceneWords, setChip, stateChip, titleOf, whereOf } from "./states";
 import type { JobStore } from "./store";
 
 /** How long a job has run. */

@@ -1,8 +1,9 @@
-// Jobs in words: states, causes, cases.
+// Jobs and sweeps in words and bars: states, causes, cases, places.
 import { Job_Cause, Job_State, type Job } from "../../gen/cellcrush/v1/job_pb";
 import type { CaseWords } from "../../gen/cellcrush/v1/problem_pb";
+import type { Sweep } from "../../gen/cellcrush/v1/sweep_pb";
 import { Warning_Kind } from "../../gen/cellcrush/v1/sample_pb";
-import { h, setText } from "../dom/element";
+import { h, setText, svg } from "../dom/element";
 import { idOf } from "../api/names";
 
 const kWords: Record<Job_State, string> = {
@@ -52,3 +53,48 @@ export function sceneWords(words: CaseWords | undefined): string {
 export function titleOf(job: Job): string {
   return job.title || job.case?.title || `Job ${idOf(job.name)}`;
 }
+
+/** Name of an executor other than the daemon's machine; empty for that machine, and from daemons without executors. */
+export function elsewhere(executor: string): string {
+  return executor === "local" ? "" : executor;
+}
+
+/** "on slurm/a: Slurm job 17, RUNNING on node1"; empty for a job on the daemon's machine. */
+export function whereOf(job: Job): string {
+  const executor = elsewhere(job.executor);
+  return executor && `on ${executor}${job.place ? `: ${job.place}` : ""}`;
+}
+
+const kWidth = 200;
+const kOrder = [Job_State.SUCCEEDED, Job_State.FAILED, Job_State.CANCELLED,
+                ...kStates.filter((state) => state < Job_State.SUCCEEDED)];
+
+/** A bar with a part for each state, from the counts of a sweep by the names of the states. */
+export function stateBar(counts: Record<string, number>): SVGElement {
+  const total = Object.values(counts).reduce((sum, value) => sum + value, 0) || 1;
+  const words: string[] = [];
+  const bar = svg("svg", { class: "state-bar", viewBox: `0 0 ${kWidth} 8`, preserveAspectRatio: "none", role: "img" });
+  let x = 0;
+  for (const state of kOrder) {
+    const value = counts[Job_State[state]] ?? 0;
+    if (!value) continue;
+    const width = (kWidth * value) / total;
+    bar.append(svg("rect", { x, y: 0, width, height: 8, "data-state": stateWord(state) }));
+    words.push(`${value} ${stateWord(state)}`);
+    x += width;
+  }
+  bar.setAttribute("aria-label", words.join(", "));
+  bar.append(svg("title", {}, words.join(", ")));
+  return bar;
+}
+
+export const titleOfSweep = (sweep: Sweep): string => sweep.case?.title || `Sweep ${idOf(sweep.name)}`;
+
+/** Paths of the varied fields of a sweep. */
+export function pathsOf(sweep: Sweep): string[] {
+  return sweep.axes.length ? sweep.axes.map((axis) => axis.field) : Object.keys(sweep.points[0]?.fields ?? {});
+}
+
+/** The same by the last part of their paths. */
+export const variedFields = (sweep: Sweep): string[] =>
+  pathsOf(sweep).map((path) => path.slice(path.lastIndexOf(".") + 1));

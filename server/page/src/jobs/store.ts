@@ -1,6 +1,6 @@
 // The jobs that a view shows, kept up to date by the watch.
 import type { Job, Progress } from "../../gen/cellcrush/v1/job_pb";
-import { Listeners } from "../api/listeners";
+import { Listeners } from "../dom/calls";
 import { watch } from "../api/watch";
 import { hasEnded } from "./states";
 

@@ -5,18 +5,13 @@ import { api } from "../api/clients";
 import { errorText } from "../api/errors";
 import { byNumber, idOf, pathOf } from "../api/names";
 import { watch } from "../api/watch";
+import { Later } from "../dom/calls";
 import { button, h, replaceChildren } from "../dom/element";
 import { clock, fullTime, plural } from "../dom/format";
-import { stateBar } from "./state_bar";
+import { stateBar, titleOfSweep, variedFields } from "./states";
 
 const kPage = 6;
 const kCalmMs = 600;
-
-/** The varied fields of a sweep, by the last part of their paths. */
-export function variedFields(sweep: Sweep): string[] {
-  const paths = sweep.axes.length ? sweep.axes.map((axis) => axis.field) : Object.keys(sweep.points[0]?.fields ?? {});
-  return paths.map((path) => path.slice(path.lastIndexOf(".") + 1));
-}
 
 export class SweepsList {
   readonly element = h("section", { class: "sweeps", hidden: true });
@@ -26,7 +21,7 @@ export class SweepsList {
   readonly firstLoad: Promise<void>;
   private sweeps = new Map<string, Sweep>();
   private token = "";
-  private timer = 0;
+  private readonly refreshing = new Later(() => void this.refresh(), kCalmMs);
   private readonly stops: (() => void)[];
 
   constructor() {
@@ -54,8 +49,7 @@ export class SweepsList {
   private refreshSoon(name: string): void {
     if (!name || !this.sweeps.has(name)) return;
     this.pending.add(name);
-    if (this.timer) return;
-    this.timer = window.setTimeout(() => void this.refresh(), kCalmMs);
+    this.refreshing.soon();
   }
 
   private async refresh(): Promise<void> {
@@ -69,7 +63,6 @@ export class SweepsList {
     } catch {
       // A sweep that was deleted meanwhile disappears by its own event.
     }
-    this.timer = 0;
   }
 
   private async load(isMore: boolean): Promise<void> {
@@ -90,7 +83,7 @@ export class SweepsList {
     this.more.hidden = !this.token;
     replaceChildren(this.list, ...sweeps.map((sweep) =>
       h("div", { class: "sweep-row" },
-        h("a", { href: pathOf(sweep.name), class: "job-title" }, sweep.case?.title || `Sweep ${idOf(sweep.name)}`),
+        h("a", { href: pathOf(sweep.name), class: "job-title" }, titleOfSweep(sweep)),
         h("span", { class: "faint" }, `sweep ${idOf(sweep.name)} over ${variedFields(sweep).join(", ") || "points"}`),
         stateBar(sweep.stateCounts),
         h("span", { class: "faint figure", title: fullTime(sweep.createTime) },
@@ -98,7 +91,7 @@ export class SweepsList {
   }
 
   destroy(): void {
-    clearTimeout(this.timer);
+    this.refreshing.stop();
     for (const stop of this.stops) stop();
   }
 }

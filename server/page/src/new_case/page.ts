@@ -6,19 +6,49 @@ import { SweepSchema, type Sweep, type SweepAxis } from "../../gen/cellcrush/v1/
 import { api } from "../api/clients";
 import { errorText, problemsOf } from "../api/errors";
 import { idOf, pathOf } from "../api/names";
+import { Later } from "../dom/calls";
 import { h, replaceChildren, setText } from "../dom/element";
 import { duration, plural } from "../dom/format";
 import { go, keepInUrl, type View } from "../router";
-import { ExecutorInput } from "./executor";
+import { OrderInput } from "./order";
 import { Forecast } from "./forecast";
 import { CaseForm } from "./form";
-import { OrderInput } from "./order";
 import { Preview } from "./preview";
 import { jobCount, SweepInput } from "./sweep_axis";
 import { helpOf, labelOf } from "./words";
 
 const kFirstPreset = "hexagon-small";
 const kTypingMs = 300;
+
+// The executor of a new job or sweep, where the daemon has several.
+class ExecutorInput {
+  readonly element: HTMLElement;
+  private readonly choice = h("select", { id: "executor" });
+
+  constructor(changed: () => void) {
+    this.choice.addEventListener("change", changed);
+    this.element = h("div", { class: "field executor", hidden: true },
+      h("label", { for: "executor" }, "Executor"), this.choice);
+    void this.load();
+  }
+
+  // Without an answer the daemon decides.
+  private async load(): Promise<void> {
+    try {
+      const { executors, defaultExecutor } = await api.admin.getCapabilities({});
+      replaceChildren(this.choice, ...executors.map(({ name }) => h("option", { value: name }, name)));
+      this.choice.value = defaultExecutor;
+      this.element.hidden = executors.length < 2;
+    } catch {
+      this.element.hidden = true;
+    }
+  }
+
+  /** Name of the chosen executor; empty for the daemon's default. */
+  get value(): string {
+    return this.element.hidden ? "" : this.choice.value;
+  }
+}
 
 export class NewCasePage implements View {
   readonly title = "New case";
@@ -40,7 +70,7 @@ export class NewCasePage implements View {
   private value: Case = create(CaseSchema);
   private check: CheckCaseResponse | undefined;
   private abort = new AbortController();
-  private timer = 0;
+  private readonly checking = new Later(() => void this.runCheck(), kTypingMs);
   private readonly requestId = crypto.randomUUID?.() ?? `page-${Date.now()}-${Math.random()}`;
 
   constructor(query: URLSearchParams) {
@@ -116,8 +146,7 @@ export class NewCasePage implements View {
 
   private checkSoon(): void {
     this.start.disabled = true;
-    clearTimeout(this.timer);
-    this.timer = window.setTimeout(() => void this.runCheck(), kTypingMs);
+    this.checking.afresh();
   }
 
   private async runCheck(): Promise<void> {
@@ -191,7 +220,7 @@ export class NewCasePage implements View {
   }
 
   destroy(): void {
-    clearTimeout(this.timer);
+    this.checking.stop();
     this.abort.abort();
     this.preview.destroy();
   }

@@ -1,11 +1,9 @@
 // Labels, units, limits and help of the fields, from their names, and the options and comments of the protos.
 import { getOption } from "@bufbuild/protobuf";
 import { rules, type FieldRules } from "../../gen/cellcrush/v1/field_pb";
-import { fieldHelp, valueHelp } from "../help";
+import { fieldHelp, nameOf, valueHelp } from "../help";
 import { fieldAt } from "./fields";
 
-const kUnits: [RegExp, string][] = [[/_kg_per_m3$/, "kg/m³"], [/_m_per_s$/, "m/s"], [/_mpa$/, "MPa"], [/_mm$/, "mm"],
-                                    [/_per_s$/, "1/s"], [/_time_step_s$|time_step_s$/, "s"]];
 const kLabels: Record<string, string> = {
   youngs_modulus_mpa: "Young’s modulus", poissons_ratio: "Poisson’s ratio",
   "plates.friction": "Friction at the plates",
@@ -14,17 +12,13 @@ const kLabels: Record<string, string> = {
   sample_count: "Samples", frame_count: "Frames", vertical_wall_thickness_mm: "Thickness of the walls along y",
 };
 
-export function unitOf(path: string): string {
-  return kUnits.find(([pattern]) => pattern.test(path))?.[1] ?? "";
-}
+export const unitOf = (path: string): string => nameOf(path).unit;
 
 export function labelOf(path: string): string {
   const name = path.slice(path.lastIndexOf(".") + 1);
   const known = kLabels[path] ?? kLabels[name];
   if (known) return known;
-  const unit = kUnits.find(([pattern]) => pattern.test(name));
-  const words = (unit && name !== "time_step_s" ? name.replace(unit[0], "") : name.replace(/_s$/, ""))
-    .replaceAll("_", " ");
+  const { words } = nameOf(path);
   return words.charAt(0).toUpperCase() + words.slice(1);
 }
 

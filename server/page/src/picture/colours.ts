@@ -1,5 +1,6 @@
 // The colour of a wall by its plastic fraction: plasma, which readers with colour-blindness can order, cut to the part
 // that contrasts with the background. The pictures of the command line use the same map.
+import { h } from "../dom/element";
 
 type Rgb = [number, number, number];
 
@@ -7,7 +8,16 @@ type Rgb = [number, number, number];
 const kPlasma: Rgb[] = [[13, 8, 135], [84, 2, 163], [139, 10, 165], [185, 50, 137], [219, 92, 104], [244, 136, 73],
                         [254, 188, 43], [244, 228, 37], [240, 249, 33]];
 
-export const isDark = (): boolean => matchMedia("(prefers-color-scheme: dark)").matches;
+const darkTheme = (): MediaQueryList => matchMedia("(prefers-color-scheme: dark)");
+
+export const isDark = (): boolean => darkTheme().matches;
+
+/** Calls when the theme changes, until the returned function is called. */
+export function onThemeChange(call: () => void): () => void {
+  const theme = darkTheme();
+  theme.addEventListener("change", call);
+  return () => theme.removeEventListener("change", call);
+}
 
 function plasma(at: number): Rgb {
   const place = Math.min(Math.max(at, 0), 1) * (kPlasma.length - 1);
@@ -40,4 +50,17 @@ export function cssColour([r, g, b]: Rgb): string {
 /** A colour of the style sheet, by the name of its variable. */
 export function themeColour(name: string): string {
   return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+}
+
+/** The colour map with its ends, which follows the theme. */
+export function colourLegend(): HTMLElement {
+  const canvas = h("canvas", { width: kShades, height: 1, class: "map", "aria-hidden": "true" });
+  const paint = (): void => {
+    const context = canvas.getContext("2d")!;
+    context.putImageData(new ImageData(new Uint8ClampedArray(colourTable(isDark())), kShades, 1), 0, 0);
+  };
+  paint();
+  onThemeChange(paint);
+  return h("div", { class: "colour-legend", title: "Fraction of a wall's section that has yielded" },
+    h("span", {}, "plastic fraction"), h("span", {}, "0"), canvas, h("span", {}, "1"));
 }

@@ -1,11 +1,12 @@
 // Shows the frames of a store in a picture, at the place of a player.
 import type { FieldFrame } from "../../gen/cellcrush/v1/sample_pb";
+import { indexBefore } from "../charts/curves";
 import type { FrameStore } from "../frames/frame_store";
 import type { Lattice } from "../frames/lattice";
 import type { Fields } from "../frames/packed";
 import { Picture } from "./picture";
 import type { Face } from "./rigid_walls";
-import { Pace } from "./pace";
+import { Pace } from "./player";
 import { mixFields } from "./segments";
 
 export class FrameView {
@@ -25,15 +26,7 @@ export class FrameView {
 
   /** Place in the store of the last frame at or before a value. */
   private placeBefore(value: number): number {
-    const { frames } = this.store;
-    let low = 0;
-    let high = frames.length - 1;
-    while (low < high) {
-      const middle = (low + high + 1) >> 1;
-      if (this.valueOf(frames[middle]) <= value) low = middle;
-      else high = middle - 1;
-    }
-    return low;
+    return indexBefore(this.store.frames, value, this.valueOf);
   }
 
   /** A moving picture lies between two frames; a still one is the nearest frame itself. */

@@ -1,11 +1,11 @@
 // The drawing of a lattice: walls on one canvas, plates and marks on another over it.
 import { boxOf, viewBox, type Box, type Lattice } from "../frames/lattice";
 import type { Fields } from "../frames/packed";
-import { Listeners } from "../api/listeners";
+import { Listeners } from "../dom/calls";
 import { h, replaceChildren, setText } from "../dom/element";
 import { number, percent } from "../dom/format";
 import { Camera } from "./camera";
-import { isDark, themeColour } from "./colours";
+import { isDark, onThemeChange, themeColour } from "./colours";
 import { addGestures } from "./gestures";
 import { drawOverlay } from "./overlay";
 import type { Face } from "./rigid_walls";
@@ -24,7 +24,7 @@ export class Picture {
   private readonly noted = h("div", { class: "noted" });
   private readonly walls: Walls;
   private readonly observer = new ResizeObserver(() => this.resize());
-  private readonly theme = matchMedia("(prefers-color-scheme: dark)");
+  private readonly ignoreTheme: () => void;
   private lattice: Lattice | undefined;
   private box: Box | undefined;
   private segments: Segments | undefined;
@@ -37,19 +37,17 @@ export class Picture {
     this.element = h("div", { class: "picture" }, this.wallCanvas, this.topCanvas, this.noted, this.tip);
     this.topCanvas.setAttribute("aria-label", label);
     this.walls = createWalls(this.wallCanvas);
-    this.walls.setDark(this.theme.matches);
-    this.theme.addEventListener("change", this.followTheme);
+    this.walls.setDark(isDark());
+    this.ignoreTheme = onThemeChange(() => {
+      this.walls.setDark(isDark());
+      this.drawSoon();
+    });
     addGestures(this.topCanvas, this.camera, {
       moved: () => this.move(),
       hover: (point) => this.hover(point),
     });
     this.observer.observe(this.element);
   }
-
-  private readonly followTheme = (): void => {
-    this.walls.setDark(isDark());
-    this.drawSoon();
-  };
 
   setLattice(lattice: Lattice): void {
     if (this.lattice === lattice) return;
@@ -198,7 +196,7 @@ export class Picture {
   }
 
   destroy(): void {
-    this.theme.removeEventListener("change", this.followTheme);
+    this.ignoreTheme();
     this.observer.disconnect();
     cancelAnimationFrame(this.scheduled);
     this.walls.destroy();

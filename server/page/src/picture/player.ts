@@ -1,5 +1,5 @@
 // The place in a crush that is shown: one value, the strain (or for a frame of beams the time), for picture and curves.
-import { Listeners } from "../api/listeners";
+import { Listeners } from "../dom/calls";
 
 export const kRates = [0.1, 0.2, 0.5, 1, 2, 5, 10];
 const kSecondsAtOne = 10; // a whole crush at rate 1
@@ -75,5 +75,29 @@ export class Player {
 
   destroy(): void {
     this.stopPlaying();
+  }
+}
+
+const kShare = 0.15; // of the last interval in the mean
+const kSlowMs = 70;
+
+export class Pace {
+  private last: number | undefined;
+  private mean: number | undefined; // ms between pictures
+
+  /** To be called for each picture of a moving crush, with the time in ms. Empty while it moves smoothly. */
+  note(now: number): string {
+    if (this.last !== undefined) {
+      const interval = now - this.last;
+      this.mean = this.mean === undefined ? interval : this.mean + kShare * (interval - this.mean);
+    }
+    this.last = now;
+    if (this.mean === undefined || this.mean < kSlowMs) return "";
+    const rate = 1000 / this.mean;
+    return `slow drawing: ${rate.toFixed(rate < 2 ? 1 : 0)} per second`;
+  }
+
+  stop(): void {
+    this.last = this.mean = undefined;
   }
 }

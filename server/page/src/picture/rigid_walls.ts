@@ -2,7 +2,7 @@
 import type { Case } from "../../gen/cellcrush/v1/case_pb";
 import type { Job } from "../../gen/cellcrush/v1/job_pb";
 import type { Sample } from "../../gen/cellcrush/v1/sample_pb";
-import { indexBefore } from "../charts/smooth";
+import { indexBefore } from "../charts/curves";
 import type { Box } from "../frames/lattice";
 import type { Camera } from "./camera";
 import { themeColour } from "./colours";
@@ -24,8 +24,6 @@ function facesOf(submitted: Case | undefined): Face[] {
 
 /** The rigid walls of a job, moved by the displacements of its samples. */
 export class RigidWalls {
-  private times: number[] = [];
-
   constructor(private readonly data: { job: Job | undefined; samples: Sample[] }) {}
 
   /** The faces at a time in s; empty without rigid walls. */
@@ -33,14 +31,12 @@ export class RigidWalls {
     const faces = facesOf(this.data.job?.case);
     const { samples } = this.data;
     if (faces.length === 0 || samples.length === 0) return faces;
-    if (this.times.length !== samples.length) this.times = samples.map((sample) => sample.timeS);
-    const { times } = this;
-    const before = indexBefore(times, time);
+    const before = indexBefore(samples, time, (sample) => sample.timeS);
     const after = Math.min(before + 1, samples.length - 1);
-    const span = times[after] - times[before];
-    const mix = span > 0 ? Math.min(Math.max((time - times[before]) / span, 0), 1) : 0;
+    const span = samples[after].timeS - samples[before].timeS;
+    const mix = span > 0 ? Math.min(Math.max((time - samples[before].timeS) / span, 0), 1) : 0;
     return faces.map((face, i) => {
-      const low = time < times[0] ? 0 : samples[before].rigidWalls[i]?.displacementMm ?? 0;
+      const low = time < samples[0].timeS ? 0 : samples[before].rigidWalls[i]?.displacementMm ?? 0;
       const high = samples[after].rigidWalls[i]?.displacementMm ?? low;
       const moved = low + mix * (high - low);
       return { ...face, x: face.x + moved * face.normalX, y: face.y + moved * face.normalY };

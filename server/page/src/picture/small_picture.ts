@@ -4,7 +4,7 @@ import { viewBox, type Lattice } from "../frames/lattice";
 import type { Fields } from "../frames/packed";
 import { h } from "../dom/element";
 import { Camera } from "./camera";
-import { isDark } from "./colours";
+import { isDark, onThemeChange } from "./colours";
 import { drawPlates } from "./overlay";
 import { fillSegments } from "./segments";
 import { PixelWalls } from "./walls_pixels";
@@ -14,14 +14,13 @@ export class SmallPicture {
   private readonly camera = new Camera();
   private readonly walls: PixelWalls;
   private readonly observer = new ResizeObserver(() => this.draw());
-  private readonly theme = matchMedia("(prefers-color-scheme: dark)");
+  private readonly ignoreTheme = onThemeChange(() => this.draw());
   private shown: { lattice: Lattice; fields: Fields; strain: number } | undefined;
 
   constructor(label: string) {
     this.element = h("canvas", { role: "img", "aria-label": label });
     this.walls = new PixelWalls(this.element);
     this.observer.observe(this.element);
-    this.theme.addEventListener("change", this.draw);
   }
 
   show(lattice: Lattice, fields: Fields, strain: number): void {
@@ -30,7 +29,7 @@ export class SmallPicture {
     this.draw();
   }
 
-  private readonly draw = (): void => {
+  private draw(): void {
     const { element, camera, shown } = this;
     const { clientWidth, clientHeight } = element;
     if (!clientWidth || !clientHeight || !shown) return;
@@ -45,11 +44,11 @@ export class SmallPicture {
     const context = element.getContext("2d")!;
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     if (shown.lattice.plates) drawPlates(context, camera, { ...shown, box });
-  };
+  }
 
   destroy(): void {
     this.observer.disconnect();
-    this.theme.removeEventListener("change", this.draw);
+    this.ignoreTheme();
     this.walls.destroy();
   }
 }

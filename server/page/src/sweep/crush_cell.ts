@@ -2,13 +2,11 @@
 import { ConnectError, Code } from "@connectrpc/connect";
 import { Job_State } from "../../gen/cellcrush/v1/job_pb";
 import type { SweepTable_Row } from "../../gen/cellcrush/v1/sweep_pb";
-import { FieldFrame_Encoding } from "../../gen/cellcrush/v1/sample_pb";
-import { api } from "../api/clients";
 import { idOf } from "../api/names";
 import { h, setText } from "../dom/element";
 import { strainText } from "../dom/format";
 import { FrameStore } from "../frames/frame_store";
-import { FrameParts, MeshParts } from "../frames/parts";
+import { streamFrames } from "../job/job_data";
 import { hasEnded, stateWord } from "../jobs/states";
 import { SmallPicture } from "../picture/small_picture";
 
@@ -79,19 +77,10 @@ export class CrushCell {
     this.frames.clear();
   }
 
+  // Returns how many frames the job has.
   private async stream(from: number, to: number | undefined, stride: number): Promise<number> {
-    const mesh = new MeshParts();
-    const parts = new FrameParts();
-    let count = 0;
-    const request = { name: this.row.job, from, to, stride, encoding: FieldFrame_Encoding.PACKED };
-    for await (const { content } of api.jobs.streamFrames(request, { signal: this.abort.signal })) {
-      if (content.case === "times") count = content.value.timeS.length;
-      const whole = content.case === "mesh" ? mesh.add(content.value) : undefined;
-      if (whole && !this.frames.lattice) this.frames.setMesh(whole);
-      const frame = content.case === "frame" ? parts.add(content.value) : undefined;
-      if (frame) this.frames.add(frame);
-    }
-    return count;
+    await streamFrames(this.frames, this.abort.signal, { name: this.row.job, from, to, stride });
+    return this.frames.jobCount;
   }
 
   showAt(strain: number): void {

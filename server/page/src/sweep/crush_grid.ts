@@ -1,12 +1,14 @@
 // The crushes of a sweep side by side, at equal strain under one slider.
 import type { SweepTable_Row } from "../../gen/cellcrush/v1/sweep_pb";
+import { Later } from "../dom/calls";
 import { h, replaceChildren, setText } from "../dom/element";
-import { colourLegend } from "../picture/legend";
+import { nameOf } from "../help";
+import { colourLegend } from "../picture/colours";
 import { Player } from "../picture/player";
 import { PlayerBar } from "../picture/player_bar";
 import { keepInUrl } from "../router";
 import { CrushCell } from "./crush_cell";
-import { axisName, isSeed } from "./points";
+import { isSeed } from "./points";
 
 const kMostCells = 24;
 const kLoads = 2; // at once, as browsers allow six connections to a host
@@ -24,7 +26,7 @@ export class CrushGrid {
   private loads = 0;
   private wanted: number;
   private again = 0;
-  private urlTimer = 0;
+  private readonly url = new Later(() => keepInUrl({ strain: String(Number(this.player.value.toFixed(3))) }), kUrlMs);
   private readonly observer = new IntersectionObserver((entries) => this.see(entries), { rootMargin: "200px" });
 
   /** `strain` is that of the URL. */
@@ -106,15 +108,13 @@ export class CrushGrid {
   private showPlace(): void {
     const { value, playing } = this.player;
     for (const cell of this.cells) cell.showAt(value);
-    clearTimeout(this.urlTimer);
-    if (!playing && Number.isNaN(this.wanted)) {
-      this.urlTimer = window.setTimeout(() => keepInUrl({ strain: String(Number(value.toFixed(3))) }), kUrlMs);
-    }
+    if (!playing && Number.isNaN(this.wanted)) this.url.afresh();
+    else this.url.stop();
   }
 
   destroy(): void {
     clearInterval(this.again);
-    clearTimeout(this.urlTimer);
+    this.url.stop();
     this.observer.disconnect();
     this.player.destroy();
     for (const cell of this.cells) cell.destroy();
@@ -123,8 +123,8 @@ export class CrushGrid {
 
 // A value with its unit, as "speed 50 m/s".
 function valueWords(path: string, value: number): string {
-  const [name, unit] = axisName(path).split(" (");
-  return `${name} ${Number(value.toPrecision(4))}${unit ? ` ${unit.slice(0, -1)}` : ""}`;
+  const { words, unit } = nameOf(path);
+  return `${words} ${Number(value.toPrecision(4))} ${unit}`.trim();
 }
 
 // The rows to show, by their values: of too many, as many seeds of each combination as fit, or evenly spaced ones.

@@ -1,17 +1,34 @@
 // Other sweeps over the same field, in the chart of a sweep: which of them, and why not others.
-import type { Sweep } from "../../gen/cellcrush/v1/sweep_pb";
+import type { Sweep, SweepTable_Row } from "../../gen/cellcrush/v1/sweep_pb";
 import { api } from "../api/clients";
 import { errorText, isNotFound } from "../api/errors";
-import { Listeners } from "../api/listeners";
+import { Later, Listeners } from "../dom/calls";
 import { idOf, pathOf } from "../api/names";
 import { watch } from "../api/watch";
 import { h, replaceChildren } from "../dom/element";
 import { iconButton } from "../dom/icons";
-import { loadSweep, pathsOf, titleOfSweep, type LoadedSweep } from "./load";
+import { pathsOf, titleOfSweep } from "../jobs/states";
 import { axisName, isSeed, kMostGroups, placeOf, type Swept } from "./points";
 
 const kListed = 100; // sweeps that can be chosen, the newest
 const kCalmMs = 1500;
+
+/** A sweep with all rows of its table. */
+export interface LoadedSweep { sweep: Sweep; rows: SweepTable_Row[]; fields: string[] }
+
+export async function loadSweep(name: string, signal?: AbortSignal): Promise<LoadedSweep> {
+  const sweep = await api.sweeps.getSweep({ name }, { signal });
+  const rows: SweepTable_Row[] = [];
+  let fields: string[] = [];
+  let pageToken = "";
+  do {
+    const page = await api.sweeps.getSweepTable({ name, pageToken }, { signal });
+    if (page.fields.length) fields = page.fields;
+    rows.push(...page.rows);
+    pageToken = page.nextPageToken;
+  } while (pageToken);
+  return { sweep, rows, fields };
+}
 
 export class SweepOverlay {
   readonly element = h("div", { class: "overlay" });
@@ -24,7 +41,9 @@ export class SweepOverlay {
   private names: string[];
   private listed: Sweep[] = [];
   private path = "";
-  private timer = 0;
+  private readonly reload = new Later(() => {
+    for (const name of this.names) void this.load(name);
+  }, kCalmMs);
   private readonly stops: (() => void)[];
 
   /** `ids` are those of the URL. */
@@ -40,7 +59,7 @@ export class SweepOverlay {
         void this.list();
       }),
       watch.jobs.add((job) => {
-        if (this.names.includes(job.sweep)) this.reloadSoon();
+        if (this.names.includes(job.sweep)) this.reload.soon();
       }),
     ];
     for (const name of this.names) void this.load(name);
@@ -103,14 +122,6 @@ export class SweepOverlay {
     this.changes.tell();
   }
 
-  private reloadSoon(): void {
-    if (this.timer) return;
-    this.timer = window.setTimeout(() => {
-      this.timer = 0;
-      for (const name of this.names) void this.load(name);
-    }, kCalmMs);
-  }
-
   private async list(): Promise<void> {
     try {
       this.listed = (await api.sweeps.listSweeps({ pageSize: kListed }, { signal: this.abort.signal })).sweeps;
@@ -151,7 +162,7 @@ export class SweepOverlay {
 
   destroy(): void {
     this.abort.abort();
-    clearTimeout(this.timer);
+    this.reload.stop();
     for (const stop of this.stops) stop();
   }
 }

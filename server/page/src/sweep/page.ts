@@ -6,22 +6,19 @@ import { errorText, isNotFound } from "../api/errors";
 import { idOf } from "../api/names";
 import { watch } from "../api/watch";
 import { Chart } from "../charts/chart";
+import { Later } from "../dom/calls";
 import { ask } from "../dom/dialog";
 import { download } from "../dom/download";
 import { button, h, replaceChildren, setText } from "../dom/element";
 import { clock, plural } from "../dom/format";
 import { icon, type IconName } from "../dom/icons";
 import { attempt } from "../jobs/actions";
-import { hasEnded, kStates, stateWord } from "../jobs/states";
-import { stateBar } from "../jobs/state_bar";
-import { variedFields } from "../jobs/sweeps_list";
+import { hasEnded, kStates, stateBar, stateWord, titleOfSweep, variedFields } from "../jobs/states";
 import { go, keepInUrl, setTitle, type View } from "../router";
-import { chartSvg } from "../take_away/chart_svg";
-import { saveButton } from "../take_away/menus";
+import { saveButton, saveChartButton } from "../take_away/menus";
 import { CrushGrid } from "./crush_grid";
-import { loadSweep, titleOfSweep } from "./load";
-import { SweepOverlay } from "./overlay";
 import { axisName, isSeed, sweepChart } from "./points";
+import { loadSweep, SweepOverlay } from "./overlay";
 import { SweepTableView } from "./table";
 
 const kDrawMs = 300;
@@ -44,7 +41,7 @@ export class SweepPage implements View {
   private sweep: Sweep | undefined;
   private rows: SweepTable_Row[] = [];
   private fields: string[] = [];
-  private timer = 0;
+  private readonly drawing = new Later(() => this.draw(), kDrawMs);
   private readonly abort = new AbortController();
 
   constructor(private readonly name: string, query: URLSearchParams) {
@@ -53,9 +50,7 @@ export class SweepPage implements View {
     this.title = `Sweep ${idOf(name)}`;
     this.axisChoice.addEventListener("change", () => this.draw());
     this.chart.element.querySelector("figcaption")!.append(h("span", { class: "take-away" }, this.axisChoice,
-      saveButton("SVG", "Save the chart as an SVG file", async () => {
-        if (this.chart.shown) download(chartSvg(this.chart.shown, this.title), `sweep-${idOf(name)}.svg`);
-      })));
+      saveChartButton(this.chart, () => this.title, `sweep-${idOf(name)}`)));
     replaceChildren(this.element,
       h("header", { class: "job-header" },
         h("div", { class: "title-row" }, this.heading, h("span", { class: "spacer" }), this.actions), this.about,
@@ -107,24 +102,16 @@ export class SweepPage implements View {
     if (!row) return;
     row.result = job;
     if (job.state === Job_State.SUCCEEDED && !job.summary) void this.completeRow(row);
-    this.drawSoon();
+    this.drawing.soon();
   }
 
   private async completeRow(row: SweepTable_Row): Promise<void> {
     try {
       row.result = await api.jobs.getJob({ name: row.job });
-      this.drawSoon();
+      this.drawing.soon();
     } catch {
       // The job was deleted meanwhile.
     }
-  }
-
-  private drawSoon(): void {
-    if (this.timer) return;
-    this.timer = window.setTimeout(() => {
-      this.timer = 0;
-      this.draw();
-    }, kDrawMs);
   }
 
   private showHead(): void {
@@ -200,7 +187,7 @@ export class SweepPage implements View {
     this.abort.abort();
     this.overlay.destroy();
     this.crushes.destroy();
-    clearTimeout(this.timer);
+    this.drawing.stop();
     for (const stop of this.stops) stop();
     this.chart.destroy();
   }

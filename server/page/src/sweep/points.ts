@@ -1,19 +1,14 @@
 // The points of a sweep for its chart: plateau stresses against one varied field, with mean and spread over seeds.
 import type { SweepTable_Row } from "../../gen/cellcrush/v1/sweep_pb";
-import type { ChartData, Series, Spread } from "../charts/chart_data";
-import { kMarkShapes } from "../charts/mark_shapes";
+import { kMarkShapes, type ChartData, type Series, type Spread } from "../charts/chart_data";
+import { nameOf } from "../help";
 
 export const isSeed = (path: string): boolean => path.endsWith(".seed");
-export const shortName = (path: string): string => path.slice(path.lastIndexOf(".") + 1);
 
 /** A field's name with its unit in brackets, as "speed (m/s)". */
 export function axisName(path: string): string {
-  const units: [RegExp, string][] = [[/_m_per_s$/, "m/s"], [/_kg_per_m3$/, "kg/m³"], [/_mm$/, "mm"], [/_mpa$/, "MPa"],
-                                     [/_per_s$/, "1/s"], [/_s$/, "s"]];
-  const name = shortName(path);
-  const unit = units.find(([pattern]) => pattern.test(name));
-  const words = (unit ? name.replace(unit[0], "") : name).replaceAll("_", " ");
-  return unit ? `${words} (${unit[1]})` : words;
+  const { words, unit } = nameOf(path);
+  return unit ? `${words} (${unit})` : words;
 }
 
 /** The place of a field among others, or -1. A field of one lattice is the same as that of another. */

@@ -1,6 +1,6 @@
 // A chart as an SVG file for a paper: black on white, in the colours of the light theme.
-import type { ChartData, Series } from "../charts/chart_data";
-import { markPath } from "../charts/mark_shapes";
+import { bandShapes, markShapes, type Place, type Shape } from "../charts/chart_marks";
+import { markPath, type ChartData, type Series } from "../charts/chart_data";
 import { themeColour } from "../picture/colours";
 import { svg } from "../dom/element";
 
@@ -28,17 +28,11 @@ function xTicks(data: ChartData): number[] {
   return ticksOf(data.xLow ?? 0, data.xEnd, 8);
 }
 
-interface Scales { x(value: number): number; y(value: number): number }
-
-function curve(data: ChartData, series: Series, column: (number | null)[], { x, y }: Scales): SVGElement {
+function curve(data: ChartData, series: Series, column: (number | null)[], { x, y }: Place): SVGElement {
   const colour = themeColour(series.colour);
   const xs = data.columns[0] as number[];
   const points = xs.map((value, i) => [value, column[i]] as const).filter(([, value]) => value !== null)
     .map(([px, py]) => `${x(px).toFixed(2)},${y(py as number).toFixed(2)}`);
-  if (series.points) {
-    const d = markPath(series.mark ?? "circle", 3.5);
-    return svg("g", { fill: colour }, ...points.map((point) => svg("path", { d, transform: `translate(${point})` })));
-  }
   const line = `M${points.join("L")}`;
   if (series.fill) {
     const ends = points.length ? `L${x(xs[xs.length - 1]).toFixed(2)},${y(0)}L${x(xs[0]).toFixed(2)},${y(0)}Z` : "";
@@ -50,7 +44,7 @@ function curve(data: ChartData, series: Series, column: (number | null)[], { x, 
   });
 }
 
-function frame(data: ChartData, { x, y }: Scales): SVGElement[] {
+function frame(data: ChartData, { x, y }: Place): SVGElement[] {
   const { left, top, width, height } = kPlot;
   const bottom = top + height;
   const parts: SVGElement[] = [svg("rect", { x: left, y: top, width, height, fill: "none", stroke: "#222" })];
@@ -68,26 +62,18 @@ function frame(data: ChartData, { x, y }: Scales): SVGElement[] {
   return parts;
 }
 
-function marks(data: ChartData, { x, y }: Scales): { below: SVGElement[]; above: SVGElement[] } {
-  const { left, top, width, height } = kPlot;
-  const below = (data.bands ?? []).flatMap((band) => [
-    svg("rect", { x: x(band.from), y: top, width: x(band.to) - x(band.from), height, fill: "#f0ede4" }),
-    svg("text", { x: x(0.5 * (band.from + band.to)), y: top + 15, "text-anchor": "middle", ...kFont, fill: "#777" },
-        band.label)]);
-  const above = (data.levels ?? []).filter((level) => level.value <= data.yTop).map((level) =>
-    svg("path", { d: `M${level.from === undefined ? left : x(level.from)},${y(level.value)}H${
-      level.to === undefined ? left + width : x(level.to)}`, stroke: "#444", "stroke-width": 1.4,
-      "stroke-dasharray": level.dash.join(" ") || undefined }));
-  for (const spread of data.spreads ?? []) {
-    const [px, y0, y1] = [x(spread.x), y(spread.low), y(spread.high)];
-    above.push(svg("path", { d: `M${px - 4},${y0}h8m-4,0V${y1}m-4,0h8`, fill: "none",
-                             stroke: themeColour(spread.colour), "stroke-width": 1.3 }));
+// On paper, texts and lines that are no curves are grey.
+const kPaper: Record<string, string> = { band: "#f0ede4", ink: "#444", "ink-2": "#444", "ink-3": "#777" };
+
+function drawn(shape: Shape): SVGElement {
+  const colour = kPaper[shape.colour] ?? themeColour(shape.colour);
+  if ("text" in shape) {
+    return svg("text", { x: shape.x, y: shape.y, "text-anchor": shape.anchor, ...kFont, fill: colour }, shape.text);
   }
-  for (const mark of data.marks ?? []) {
-    above.push(svg("path", { d: `M${x(mark.at)},${top}v${height}`, stroke: "#888", "stroke-dasharray": "2 3" }),
-               svg("text", { x: x(mark.at) + 5, y: top + 30, ...kFont, fill: "#777" }, mark.label));
-  }
-  return { below, above };
+  const { path, fill, width, dash } = shape;
+  return svg("path", fill ? { d: path, fill: colour } : {
+    d: path, fill: "none", stroke: colour, "stroke-width": width ?? 1, "stroke-dasharray": dash?.join(" ") || undefined,
+  });
 }
 
 function legend(data: ChartData, top: number): SVGElement[] {
@@ -114,11 +100,11 @@ export function chartSvg(data: ChartData, title: string): Blob {
   const low = data.yLow ?? 0;
   const [first, last, of] = [data.xLow ?? 0, data.xEnd, data.xLog ? Math.log : (value: number) => value];
   const share = (value: number): number => (of(value) - of(first)) / (of(last) - of(first));
-  const scales: Scales = {
+  const place: Place = {
+    ...kPlot, unit: 1,
     x: (value) => left + width * share(value),
     y: (value) => top + height * (1 - (value - low) / (data.yTop - low)),
   };
-  const { below, above } = marks(data, scales);
   const bottom = top + height + 62;
   const legendEntries = legend(data, bottom);
   const total = bottom + 10 * Math.ceil(legendEntries.length / 2) + 12;
@@ -127,8 +113,9 @@ export function chartSvg(data: ChartData, title: string): Blob {
     svg("rect", { width: kWidth, height: total, fill: "#fff" }),
     svg("text", { x: left, y: 24, ...kFont, "font-size": 15, "font-weight": 600 }, title),
     svg("clipPath", { id: "plot" }, svg("rect", { x: left, y: top, width, height })),
-    svg("g", { "clip-path": "url(#plot)" }, ...below,
-        ...data.series.map((series, i) => curve(data, series, data.columns[i + 1], scales)), ...above),
-    ...frame(data, scales), ...legendEntries);
+    svg("g", { "clip-path": "url(#plot)" }, ...bandShapes(data, place).map(drawn),
+        ...data.series.map((series, i) => !series.points && curve(data, series, data.columns[i + 1], place)),
+        ...markShapes(data, place).map(drawn)),
+    ...frame(data, place), ...legendEntries);
   return new Blob([new XMLSerializer().serializeToString(picture)], { type: "image/svg+xml" });
 }

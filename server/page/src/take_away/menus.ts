@@ -5,7 +5,7 @@ import { idOf } from "../api/names";
 import type { Chart } from "../charts/chart";
 import type { Axis } from "../charts/curves";
 import { say } from "../dom/dialog";
-import { download } from "../dom/download";
+import { csvBlob, download } from "../dom/download";
 import { button, h, setText } from "../dom/element";
 import { attempt } from "../jobs/actions";
 import { hasEnded, titleOf } from "../jobs/states";
@@ -13,9 +13,33 @@ import type { JobData } from "../job/job_data";
 import type { Picture } from "../picture/picture";
 import type { Player } from "../picture/player";
 import { chartSvg } from "./chart_svg";
-import { historyCsv } from "./history_csv";
-import { picturePng } from "./picture_png";
-import { canRecord, recordCrush } from "./movie";
+import { canRecord, picturePng, recordCrush } from "./picture_files";
+import { ScalarType, type DescMessage } from "@bufbuild/protobuf";
+import { FrontSchema, SampleSchema, type Front, type Sample } from "../../gen/cellcrush/v1/sample_pb";
+
+interface Column { name: string; value: (sample: Sample) => number | undefined }
+
+function columnsOf(schema: DescMessage, scalar: ScalarType, prefix: string,
+                   part: (sample: Sample) => Sample | Front | undefined): Column[] {
+  return schema.fields.filter((field) => field.fieldKind === "scalar" && field.scalar === scalar).map((field) => ({
+    name: prefix + field.name,
+    value: (sample) => {
+      const numbers = part(sample) as Record<string, unknown> | undefined;
+      return numbers && Number(numbers[field.localName]);
+    },
+  }));
+}
+
+// Every number of a sample and its front, as in /history of result.h5; the counts last.
+const kColumns = [
+  ...columnsOf(SampleSchema, ScalarType.DOUBLE, "", (sample) => sample),
+  ...columnsOf(FrontSchema, ScalarType.DOUBLE, "front_", (sample) => sample.front),
+  ...columnsOf(SampleSchema, ScalarType.INT64, "", (sample) => sample),
+];
+
+export function historyCsv(samples: Sample[]): Blob {
+  return csvBlob(kColumns.map(({ name }) => name), samples.map((sample) => kColumns.map(({ value }) => value(sample))));
+}
 
 export function saveButton(label: string, what: string,
                            save: (button: HTMLButtonElement) => Promise<void>): HTMLElement {
@@ -32,47 +56,45 @@ export function saveButton(label: string, what: string,
 }
 
 export function takeAwayOfChart(chart: Chart, data: JobData, axis: () => Axis, name: string): HTMLElement {
-  const file = `job-${idOf(data.name)}-${name}`;
   return h("span", { class: "take-away" },
-    saveButton("SVG", "Save the curves as an SVG file", async () => {
-      if (chart.shown) download(chartSvg(chart.shown, data.job ? titleOf(data.job) : ""), `${file}.svg`);
-    }),
+    saveChartButton(chart, () => (data.job ? titleOf(data.job) : ""), `job-${idOf(data.name)}-${name}`),
     saveButton("CSV", "Save all samples as a CSV file", async () =>
       download(historyCsv(data.samples), `job-${idOf(data.name)}-history.csv`)));
 }
 
-// The result file, collected from its chunks.
-async function fetchResult(name: string, tell: (fraction: number) => void): Promise<Blob> {
+// A file, collected from its chunks.
+async function collect<T extends { data: Uint8Array }>(chunks: AsyncIterable<T>, type: string,
+                                                       see: (chunk: T) => void): Promise<Blob> {
   const parts: BlobPart[] = [];
-  for await (const chunk of api.jobs.downloadResult({ name })) {
+  for await (const chunk of chunks) {
     parts.push(chunk.data as Uint8Array<ArrayBuffer>);
-    tell((Number(chunk.offset) + chunk.data.length) / Math.max(1, Number(chunk.totalSize)));
+    see(chunk);
   }
-  return new Blob(parts, { type: "application/x-hdf5" });
+  return new Blob(parts, { type });
 }
 
-// The page of an ended job as a file that opens without a daemon.
-async function fetchPage(name: string, tell: (fraction: number) => void): Promise<Blob> {
-  const parts: BlobPart[] = [];
-  let [kept, all] = [0, 0];
-  for await (const chunk of api.jobs.exportJob({ name })) {
-    parts.push(chunk.data as Uint8Array<ArrayBuffer>);
-    tell(chunk.fraction);
-    [kept, all] = [chunk.frameCount, chunk.jobFrameCount];
-  }
-  if (kept < all) say(`The file has ${kept} of ${all} frames. For more: cellcrush export --max-size.`);
-  return new Blob(parts, { type: "text/html" });
+/** A button that saves what a chart shows. */
+export function saveChartButton(chart: Chart, title: () => string, file: string): HTMLElement {
+  return saveButton("SVG", "Save the chart as an SVG file", async () => {
+    if (chart.shown) download(chartSvg(chart.shown, title()), `${file}.svg`);
+  });
 }
 
 export function takeAwayOfPicture(picture: Picture, player: Player, data: JobData): HTMLElement {
   const file = `job-${idOf(data.name)}`;
   const title = (): string => (data.job ? titleOf(data.job) : "");
+  const tell = (element: HTMLElement, fraction: number): void => setText(element, `${Math.round(100 * fraction)} %`);
   const result = saveButton("HDF5", "Save the result file, with all samples and frames", async (element) => {
-    const blob = await fetchResult(data.name, (fraction) => setText(element, `${Math.round(100 * fraction)} %`));
-    download(blob, `${file}.h5`);
+    download(await collect(api.jobs.downloadResult({ name: data.name }), "application/x-hdf5", (chunk) =>
+      tell(element, (Number(chunk.offset) + chunk.data.length) / Math.max(1, Number(chunk.totalSize)))), `${file}.h5`);
   });
   const page = saveButton("HTML", "Save this page as a file that opens without a daemon", async (element) => {
-    const blob = await fetchPage(data.name, (fraction) => setText(element, `${Math.round(100 * fraction)} %`));
+    let [kept, all] = [0, 0];
+    const blob = await collect(api.jobs.exportJob({ name: data.name }), "text/html", (chunk) => {
+      tell(element, chunk.fraction);
+      [kept, all] = [chunk.frameCount, chunk.jobFrameCount];
+    });
+    if (kept < all) say(`The file has ${kept} of ${all} frames. For more: cellcrush export --max-size.`);
     download(blob, `${file}.html`);
   });
   data.jobChanges.add(() => {
@@ -83,8 +105,7 @@ export function takeAwayOfPicture(picture: Picture, player: Player, data: JobDat
     saveButton("PNG", "Save this picture as a PNG file", async () =>
       download(await picturePng(picture, title(), `strain ${player.value.toFixed(3)}`), `${file}.png`)),
     canRecord() && saveButton("WebM", "Record the crush as a WebM film, at the rate of play", async (element) => {
-      const film = await recordCrush(picture, player, (fraction) =>
-        setText(element, `${Math.round(100 * fraction)} %`));
+      const film = await recordCrush(picture, player, (fraction) => tell(element, fraction));
       if (film) download(film, `${file}.webm`);
     }),
     page, result);
