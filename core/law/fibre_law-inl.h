@@ -8,7 +8,6 @@
 
 #include "law/fibres.h"
 #include "law/lane_material-inl.h"
-#include "law/laws.h"
 #include "simd/lane-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -23,7 +22,7 @@ struct MappedFibre {
   Lane<D> stress;
 };
 
-/// The equations of a law of laws.h for the fibres of the lanes; one file a law specializes it:
+/// The equations of a law (cellcrush/laws.h) for the fibres of the lanes; one file a law specializes it:
 ///
 ///   FibreLaw(material, step)        constants of the lanes' materials, and the time step, s
 ///   map(trial, fibres, at)          return mapping of the elastic trial stress; `at`: place of the fibre in the arrays

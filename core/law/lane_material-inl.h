@@ -21,35 +21,52 @@ struct LaneMaterial {
 
   Lane<D> modulus;  ///< E
   Lane<D> yield_stress;
-  Lane<D> hardening;      ///< H
-  Lane<D> isotropic;      ///< beta H
-  Lane<D> kinematic;      ///< (1 - beta) H
-  Lane<D> inverse;        ///< 1 / (E + H)
-  Lane<D> elastic_share;  ///< E / (E + H)
+  Lane<D> of_law[kLawParameterCount];  ///< parameters of its law
+  Lane<D> isotropic;                   ///< beta H
+  Lane<D> kinematic;                   ///< (1 - beta) H
+  Lane<D> inverse;                     ///< 1 / (E + H)
+  Lane<D> elastic_share;               ///< E / (E + H)
 
   LaneMaterial() = default;
-  HWY_INLINE LaneMaterial(Lane<D> youngs_modulus, Lane<D> yield, Lane<D> hardening_modulus, Lane<D> isotropic_fraction)
-      : modulus(youngs_modulus),
-        yield_stress(yield),
-        hardening(hardening_modulus),
-        isotropic(isotropic_fraction * hardening_modulus),
-        kinematic((Lane<D>(1) - isotropic_fraction) * hardening_modulus),
-        inverse(Lane<D>(1) / (modulus + hardening)),
-        elastic_share(modulus * inverse) {}
+
+  /// `load(get)` returns the lanes of get(material).
+  template <class Load>
+  HWY_INLINE static LaneMaterial from(const Load& load) {
+    LaneMaterial loaded;
+    loaded.modulus = load([](const Material& material) HWY_ATTR { return material.youngs_modulus; });
+    loaded.yield_stress = load([](const Material& material) HWY_ATTR { return material.yield_stress; });
+    for (std::size_t i = 0; i < kLawParameterCount; ++i) {
+      loaded.of_law[i] = load([i](const Material& material) HWY_ATTR { return material.law.*kLawParameters[i].value; });
+    }
+    const Lane<D> fraction = loaded.template parameter<&LawParameters::isotropic_fraction>();
+    loaded.isotropic = fraction * loaded.hardening();
+    loaded.kinematic = (Lane<D>(1) - fraction) * loaded.hardening();
+    loaded.set_shares();
+    return loaded;
+  }
 
   /// One material in all lanes.
   HWY_INLINE explicit LaneMaterial(const Material& material)
-      : LaneMaterial(static_cast<Number>(material.youngs_modulus), static_cast<Number>(material.yield_stress),
-                     static_cast<Number>(material.hardening_modulus),
-                     static_cast<Number>(material.isotropic_fraction)) {}
+      : LaneMaterial(from([&](const auto& get) HWY_ATTR { return Lane<D>(static_cast<Number>(get(material))); })) {}
+
+  template <double LawParameters::*kValue>
+  [[nodiscard]] HWY_INLINE Lane<D> parameter() const {
+    return of_law[index_of(kValue)];
+  }
+  [[nodiscard]] HWY_INLINE Lane<D> hardening() const { return parameter<&LawParameters::hardening_modulus_mpa>(); }
 
   /// The same with a fraction of the modulus (E5c).
   HWY_INLINE LaneMaterial softened(Lane<D> share) const {
     LaneMaterial softer = *this;
     softer.modulus = modulus * share;
-    softer.inverse = Lane<D>(1) / (softer.modulus + hardening);
-    softer.elastic_share = softer.modulus * softer.inverse;
+    softer.set_shares();
     return softer;
+  }
+
+ private:
+  HWY_INLINE void set_shares() {
+    inverse = Lane<D>(1) / (modulus + hardening());
+    elastic_share = modulus * inverse;
   }
 };
 
@@ -57,15 +74,13 @@ struct LaneMaterial {
 template <class D>
 HWY_INLINE LaneMaterial<D> material_of_walls(const Scene& scene, int wall) {
   using Number = hn::TFromD<D>;
-  const auto load = [&](double Material::*property) HWY_ATTR {
+  return LaneMaterial<D>::from([&](const auto& get) HWY_ATTR {
     Number values[Lane<D>::kWidth];
     for (std::size_t lane = 0; lane < Lane<D>::kWidth; ++lane) {
-      values[lane] = static_cast<Number>(scene.materials[scene.walls.material[wall + lane]].*property);
+      values[lane] = static_cast<Number>(get(scene.materials[scene.walls.material[wall + lane]]));
     }
     return Lane<D>::load(values);
-  };
-  return {load(&Material::youngs_modulus), load(&Material::yield_stress), load(&Material::hardening_modulus),
-          load(&Material::isotropic_fraction)};
+  });
 }
 
 }  // namespace cellcrush::HWY_NAMESPACE

@@ -44,12 +44,12 @@ class FibreLaw<MixedHardening, D> {
   }
   /// Mean of both yield surfaces.
   HWY_INLINE Lane<D> dissipating(Lane<D> stress, Lane<D> increment) const {
-    return fnma(Lane<D>(T(0.5)) * material_.hardening, increment, stress);
+    return fnma(Lane<D>(T(0.5)) * material_.hardening(), increment, stress);
   }
   HWY_INLINE Lane<D> reduced(const Fibres<T>& fibres, std::size_t at) const {
     return Lane<D>::load(fibres.stress + at) - Lane<D>::load(fibres.back_stress + at);
   }
-  HWY_INLINE Lane<D> tangent(Lane<D> added) const { return fma(material_.hardening, material_.inverse, added); }
+  HWY_INLINE Lane<D> tangent(Lane<D> added) const { return fma(material_.hardening(), material_.inverse, added); }
 
  private:
   const LaneMaterial<D>& material_;

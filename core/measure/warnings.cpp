@@ -30,9 +30,8 @@ double depth_of(const Scene& scene, const State& state, const TouchMemory& touch
 /// l / l_0 up to which a wall stretches evenly: until it yields, and then until its true stress reaches H (Considere).
 double even_stretch(const Material& material) {
   const double elastic = 1.0 + material.yield_stress / material.youngs_modulus;
-  return material.hardening_modulus > material.yield_stress
-             ? elastic * std::exp(1.0 - material.yield_stress / material.hardening_modulus)
-             : elastic;
+  const double hardening = material.law.hardening_modulus_mpa;
+  return hardening > material.yield_stress ? elastic * std::exp(1.0 - material.yield_stress / hardening) : elastic;
 }
 
 /// Calls visit(wall, elongation) for all walls: by how much their elements are longer than they can be stretched

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "law/laws.h"
 #include "motion/particle_motion-inl.h"
 #include "motion/rigid_motion.h"
 
@@ -15,7 +14,7 @@ template <class T>
 void place_fibres(const Scene& scene, FibreHistory<T>& fibres) {
   const std::size_t elements = scene.element_count();
   fibres.stress.assign(elements * scene.fibre_count(), T(0.0));
-  const LawFacts& law = law_facts_of(scene);
+  const LawFacts& law = Laws::kFacts[scene.law];
   if (law.keeps_back_stress) {
     fibres.back_stress.assign(elements * scene.fibre_count(), T(0.0));
   }

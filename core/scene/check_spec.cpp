@@ -119,8 +119,9 @@ void check_numerics(const NumericsSpec& numerics, FieldChecker& check) {
 void check_material(const std::string& path, const MaterialSpec& material, FieldChecker& check) {
   check.within_limits(path + "youngs_modulus_mpa", material.youngs_modulus_mpa);
   check.within_limits(path + "yield_stress_mpa", material.yield_stress_mpa);
-  check.within_limits(path + "hardening_modulus_mpa", material.hardening_modulus_mpa);
-  check.within_limits(path + "isotropic_fraction", material.isotropic_fraction);
+  for (const LawParameter& parameter : kLawParameters) {
+    check.within_limits(path + parameter.name, material.*parameter.value);
+  }
   check.within_limits(path + "poissons_ratio", material.poissons_ratio);
   check.within_limits(path + "density_kg_per_m3", material.density_kg_per_m3);
 }

@@ -5,7 +5,6 @@
 
 #include "lattice/lattice.h"
 #include "lattice/layout.h"
-#include "law/laws.h"
 #include "scene/approach_speed.h"
 #include "scene/check_overlap.h"
 #include "scene/frame.h"
@@ -32,9 +31,17 @@ std::vector<Material> materials_of(const SceneSpec& spec) {
   return materials;
 }
 
+/// Index of the law of a scene of some materials.
+std::size_t law_of(const std::vector<Material>& materials) {
+  const auto describes_all = [&](const LawFacts& law) {
+    return std::ranges::all_of(materials, law.describes, &Material::law);
+  };
+  return static_cast<std::size_t>(std::ranges::find_if(Laws::kFacts, describes_all) - Laws::kFacts.begin());
+}
+
 bool allows_single_fibres(const Scene& scene) {
   return has_known_counts(scene.section) &&
-         (!scene.section.force_based || law_facts_of(scene).may_be_single_in_force_based);
+         (!scene.section.force_based || Laws::kFacts[scene.law].may_be_single_in_force_based);
 }
 
 /// Lays out the lattice, and computes its measures if it is a regular one.
@@ -62,12 +69,16 @@ Material material_of(const MaterialSpec& spec) {
   const bool held = spec.plane == MaterialSpec::Plane::strain;
   const double elastic = held ? 1.0 / (1.0 - spec.poissons_ratio * spec.poissons_ratio) : 1.0;
   const double flowing = held ? 2.0 / std::numbers::sqrt3 : 1.0;
-  return {elastic * *spec.youngs_modulus_mpa,
-          flowing * *spec.yield_stress_mpa,
-          flowing * flowing * spec.hardening_modulus_mpa,
-          spec.isotropic_fraction,
-          *spec.density_kg_per_m3 * kTonnePerMm3PerKgPerM3,
-          held};
+  Material material = {elastic * *spec.youngs_modulus_mpa, flowing * *spec.yield_stress_mpa, spec,
+                       *spec.density_kg_per_m3 * kTonnePerMm3PerKgPerM3, held};
+  for (const LawParameter& parameter : kLawParameters) {
+    double factor = 1.0;
+    for (int i = 0; i < parameter.flow_power; ++i) {
+      factor *= flowing;
+    }
+    material.law.*parameter.value *= factor;
+  }
+  return material;
 }
 
 int crush_axis_of(const SceneSpec& spec) { return spec.loading.direction == LoadingSpec::Direction::x ? 0 : 1; }

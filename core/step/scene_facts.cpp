@@ -3,7 +3,6 @@
 #include "cellcrush/contact_faces.h"
 #include "cellcrush/scene.h"
 #include "cellcrush/simulation.h"
-#include "law/laws.h"
 #include "measure/theory.h"
 #include "scene/check_spec.h"
 #include "scene/time_step.h"
@@ -25,7 +24,7 @@ std::string walls_text(const Scene& scene) {
 }
 
 std::string fibres_text(const Scene& scene) {
-  const LawFacts& facts = law_facts_of(scene);
+  const LawFacts& facts = Laws::kFacts[scene.law];
   const std::string law = "Fibres: " + std::string(facts.words);
   if (scene.single_fibres) {
     return law + ", in single precision, which halves the memory and adds no error beyond the scatter between seeds.";

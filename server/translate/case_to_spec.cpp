@@ -148,8 +148,10 @@ MaterialSpec to_spec(const v1::Material& in, const std::string& path, Problems& 
   MaterialSpec out;
   if (in.has_youngs_modulus_mpa()) out.youngs_modulus_mpa = in.youngs_modulus_mpa();
   if (in.has_yield_stress_mpa()) out.yield_stress_mpa = in.yield_stress_mpa();
-  if (in.has_hardening_modulus_mpa()) out.hardening_modulus_mpa = in.hardening_modulus_mpa();
-  if (in.has_isotropic_fraction()) out.isotropic_fraction = in.isotropic_fraction();
+  for (const LawParameter& parameter : kLawParameters) {
+    const auto* field = in.GetDescriptor()->FindFieldByName(parameter.name);
+    if (in.GetReflection()->HasField(in, field)) out.*parameter.value = in.GetReflection()->GetDouble(in, field);
+  }
   if (in.has_density_kg_per_m3()) out.density_kg_per_m3 = in.density_kg_per_m3();
   read_choice(in.plane(),
               {{v1::Material::PLANE_STRESS, MaterialSpec::Plane::stress},

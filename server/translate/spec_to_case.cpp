@@ -34,8 +34,9 @@ v1::Frame::Component to_proto(FrameLattice::Component component) {
 void write_material(const MaterialSpec& in, v1::Material& out) {
   if (in.youngs_modulus_mpa) out.set_youngs_modulus_mpa(*in.youngs_modulus_mpa);
   if (in.yield_stress_mpa) out.set_yield_stress_mpa(*in.yield_stress_mpa);
-  out.set_hardening_modulus_mpa(in.hardening_modulus_mpa);
-  out.set_isotropic_fraction(in.isotropic_fraction);
+  for (const LawParameter& parameter : kLawParameters) {
+    out.GetReflection()->SetDouble(&out, out.GetDescriptor()->FindFieldByName(parameter.name), in.*parameter.value);
+  }
   if (in.density_kg_per_m3) out.set_density_kg_per_m3(*in.density_kg_per_m3);
   out.set_plane(in.plane == MaterialSpec::Plane::stress ? v1::Material::PLANE_STRESS : v1::Material::PLANE_STRAIN);
   out.set_poissons_ratio(in.poissons_ratio);

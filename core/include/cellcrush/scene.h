@@ -9,6 +9,7 @@
 
 #include "cellcrush/contact_faces.h"
 #include "cellcrush/lane_vector.h"
+#include "cellcrush/laws.h"
 #include "cellcrush/tuning.h"
 #include "cellcrush/vector.h"
 
@@ -19,12 +20,11 @@ inline constexpr double kMostThickening = 2.0;
 
 /// Bilinear elastic-plastic law with mixed hardening (E6).
 struct Material {
-  double youngs_modulus = 0.0;      ///< E, MPa
-  double yield_stress = 0.0;        ///< MPa
-  double hardening_modulus = 0.0;   ///< H = E E_T / (E - E_T), MPa
-  double isotropic_fraction = 1.0;  ///< beta: 1 isotropic, 0 kinematic
-  double density = 0.0;             ///< tonne / mm^3
-  bool plane_strain = false;        ///< squashed walls grow in thickness alone, not in depth (E5f)
+  double youngs_modulus = 0.0;  ///< E, MPa
+  double yield_stress = 0.0;    ///< MPa
+  LawParameters law;            ///< in plane strain, those of the wall (E6b)
+  double density = 0.0;         ///< tonne / mm^3
+  bool plane_strain = false;    ///< squashed walls grow in thickness alone, not in depth (E5f)
 };
 
 /// Integration points of an element: P sections along it, at s = x / l, times D points through its depth (Eq. 30, E5b);
@@ -270,7 +270,7 @@ struct Scene {
   // Model.
   double depth = 0.0;               ///< b, mm
   std::vector<Material> materials;  ///< at least one
-  std::size_t law = 0;              ///< of the fibres, into Laws (law/laws.h)
+  std::size_t law = 0;              ///< of the fibres, into Laws
   SectionRule section;
   bool single_fibres = false;  ///< fibre histories are stored and updated in single precision
   /// Single precision was asked for, but would round so slow a loading away (scene/fibre_precision.h).

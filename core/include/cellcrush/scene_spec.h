@@ -8,6 +8,8 @@
 #include <variant>
 #include <vector>
 
+#include "cellcrush/laws.h"
+
 namespace cellcrush {
 
 // The request of a user, before any check. This is the boundary: names carry units and equal the field paths of a case
@@ -26,11 +28,9 @@ struct RegularLattice {
   bool operator==(const RegularLattice&) const = default;
 };
 
-struct MaterialSpec {
+struct MaterialSpec : LawParameters {
   std::optional<double> youngs_modulus_mpa;
   std::optional<double> yield_stress_mpa;
-  double hardening_modulus_mpa = 0.0;
-  double isotropic_fraction = 1.0;  ///< beta of the paper: 1 isotropic, 0 kinematic
   /// Whether a wall can contract along the depth of the lattice (stress) or is held (strain, E6b). Held walls yield at
   /// 2 / sqrt 3 of the yield stress.
   enum class Plane { stress, strain };

@@ -13,7 +13,6 @@
 #include "core/oracle/lattice_of_scene.h"
 #include "core/oracle/random_motions.h"
 #include "core/reference/reference_element.h"
-#include "law/laws.h"
 #include "scenes/evidence.h"
 #include "scenes/frames.h"
 #include "step/advance_step.h"
@@ -223,7 +222,7 @@ void compare_wall(const Scene& scene, const State& state, const std::vector<int>
   note_forces(scene, state, wall, forces, most);
   for (std::size_t k = 0; k < wall.size(); ++k) {
     note_histories(solver[k], oracle[wall[k]], element_data_of(scene, wall[k]),
-                   law_facts_of(scene).keeps_plastic_strain, most);
+                   Laws::kFacts[scene.law].keeps_plastic_strain, most);
   }
 }
 

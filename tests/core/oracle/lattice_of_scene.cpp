@@ -7,8 +7,8 @@ namespace {
 
 reference::Material material_of(const Scene& scene, const Element& element) {
   const Material& material = scene.materials[element.material];
-  return {material.youngs_modulus,     material.yield_stress, material.hardening_modulus,
-          material.isotropic_fraction, material.density,      material.plane_strain};
+  return {material.youngs_modulus,         material.yield_stress, material.law.hardening_modulus_mpa,
+          material.law.isotropic_fraction, material.density,      material.plane_strain};
 }
 
 /// By which the values of an element are found in the arrays of a state.

@@ -1,13 +1,40 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
-#include <span>
-
-#include "cellcrush/scene.h"
+#include <iterator>
 
 namespace cellcrush {
+
+/// Parameters of a material that some laws of its fibres read, beside E and the yield stress.
+struct LawParameters {
+  double hardening_modulus_mpa = 0.0;  ///< H = E E_T / (E - E_T)
+  double isotropic_fraction = 1.0;     ///< beta of the paper: 1 isotropic, 0 kinematic
+
+  bool operator==(const LawParameters&) const = default;
+};
+
+/// A member of LawParameters. Check, translation, plane strain and the lanes of the kernels follow the list of them.
+struct LawParameter {
+  const char* name;  ///< of the field of a material in case.proto
+  double LawParameters::*value;
+  int flow_power = 0;  ///< in plane strain it is multiplied by 2 / sqrt 3 as often (E6b): a stress once
+};
+
+inline constexpr LawParameter kLawParameters[] = {{"hardening_modulus_mpa", &LawParameters::hardening_modulus_mpa, 2},
+                                                  {"isotropic_fraction", &LawParameters::isotropic_fraction}};
+
+inline constexpr std::size_t kLawParameterCount = std::size(kLawParameters);
+static_assert(sizeof(LawParameters) == kLawParameterCount * sizeof(double), "list every parameter");
+
+/// Place of a parameter in the list.
+consteval std::size_t index_of(double LawParameters::*value) {
+  std::size_t i = 0;
+  while (kLawParameters[i].value != value) {
+    ++i;
+  }
+  return i;
+}
 
 /// What the solver asks of a law of the fibres beside its equations, which are in law/fibre_law-inl.h and a file for
 /// each law. State, checkpoint, hash and predicted memory have the arrays that the law keeps.
@@ -19,14 +46,14 @@ struct LawFacts {
   /// is exact; a force-based section that yields would turn the rounding of a slow crush into plastic work: 1.3 % of it
   /// in Example 1 at 1 m/s.
   bool may_be_single_in_force_based = false;
-  bool (*describes)(const Material& material);
+  bool (*describes)(const LawParameters& material);
 };
 
 struct PerfectlyPlastic {
   static constexpr LawFacts kFacts = {
       .words = "perfectly plastic; each stores only its stress",
       .may_be_single_in_force_based = true,
-      .describes = [](const Material& material) { return !(material.hardening_modulus > 0.0); }};
+      .describes = [](const LawParameters& material) { return !(material.hardening_modulus_mpa > 0.0); }};
 };
 
 struct MixedHardening {
@@ -34,7 +61,7 @@ struct MixedHardening {
       .words = "bilinear with mixed hardening; each stores its back stress and accumulated plastic strain",
       .keeps_back_stress = true,
       .keeps_plastic_strain = true,
-      .describes = [](const Material&) { return true; }};
+      .describes = [](const LawParameters&) { return true; }};
 };
 
 template <class... Each>
@@ -51,13 +78,5 @@ struct LawList {
 
 /// All laws. A scene has the first one that describes its materials.
 using Laws = LawList<PerfectlyPlastic, MixedHardening>;
-
-/// Index of the law of a scene of some materials.
-inline std::size_t law_of(std::span<const Material> materials) {
-  const auto describes_all = [&](const LawFacts& law) { return std::ranges::all_of(materials, law.describes); };
-  return static_cast<std::size_t>(std::ranges::find_if(Laws::kFacts, describes_all) - Laws::kFacts.begin());
-}
-
-inline const LawFacts& law_facts_of(const Scene& scene) { return Laws::kFacts[scene.law]; }
 
 }  // namespace cellcrush
