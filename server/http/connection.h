@@ -3,11 +3,12 @@
 #include <boost/asio.hpp>
 #include <boost/beast.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "access/gate.h"
 #include "http/call.h"
-#include "http/method.h"
+#include "http/connect_protocol.h"
 #include "http/stream.h"
 #include "net/connection_limits.h"
 #include "rpc/method_table.h"
@@ -45,7 +46,14 @@ class Connection : public std::enable_shared_from_this<Connection> {
   boost::asio::awaitable<void> serve_requests();
   boost::asio::awaitable<bool> read(Parser& parser, bool first);
   boost::asio::awaitable<void> answer(const Request& request);
-  boost::asio::awaitable<void> answer_call(const Request& request);
+  /// A request that is answered without a call or a file.
+  struct Refusal {
+    unsigned http_status = 0;
+    grpc::Status error;
+  };
+  [[nodiscard]] std::optional<Refusal> refusal_of(const Request& request) const;
+  /// Null if there is none.
+  [[nodiscard]] const rpc::MethodTable::Method* method_of(const Request& request) const;
   boost::asio::awaitable<void> answer_file(const Request& request);
   /// The call of this request if it may be made; else null, and the status says why.
   std::shared_ptr<Call> begin_call(const Request& request, const rpc::MethodTable::Method& method,

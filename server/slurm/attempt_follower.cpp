@@ -24,12 +24,6 @@ constexpr std::chrono::milliseconds kBetweenLooksAtWaiting{10'000};
 // For an answer of Slurm on which a decision waits.
 constexpr std::chrono::milliseconds kBetweenQuestions{5'000};
 
-std::uint64_t size_of(const std::filesystem::path& path) {
-  std::error_code error;
-  const auto out = std::filesystem::file_size(path, error);
-  return error ? 0 : out;
-}
-
 }  // namespace
 
 AttemptFollower::AttemptFollower(const Parts& parts, const store::JobFolder& job,
@@ -38,8 +32,7 @@ AttemptFollower::AttemptFollower(const Parts& parts, const store::JobFolder& job
       job_(job),
       submission_(std::move(submission)),
       folder_(parts.options.folder / "attempts" / submission_->state().attempt.id()),
-      sink_(job),
-      mirror_(folder_.files(), sink_, size_of(job.reports())),
+      mirror_(folder_.files(), job, size_of(job.reports())),
       feed_(job, parts.events) {}
 
 jobs::WorkerExit AttemptFollower::follow() {

@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -10,6 +9,8 @@
 #include <cerrno>
 #include <csignal>
 #include <system_error>
+
+#include "jobs/worker_process.h"
 
 namespace cellcrush::slurm {
 namespace {
@@ -57,35 +58,6 @@ class Pipe {
   std::array<int, 2> ends_{-1, -1};
 };
 
-pid_t start(const std::vector<std::string>& command, const Pipe& output, const Pipe& errors) {
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_adddup2(&actions, output.writing(), STDOUT_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, errors.writing(), STDERR_FILENO);
-  posix_spawn_file_actions_addclosefrom_np(&actions, STDERR_FILENO + 1);
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  sigset_t none;
-  sigset_t all;
-  sigemptyset(&none);
-  sigfillset(&all);
-  posix_spawnattr_setsigmask(&attributes, &none);
-  posix_spawnattr_setsigdefault(&attributes, &all);
-  posix_spawnattr_setpgroup(&attributes, 0);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
-  std::vector<std::string> words = command;
-  std::vector<char*> arguments;
-  for (auto& word : words) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-  pid_t out = 0;
-  const int error = posix_spawnp(&out, arguments.front(), &actions, &attributes, arguments.data(), environ);
-  posix_spawnattr_destroy(&attributes);
-  posix_spawn_file_actions_destroy(&actions);
-  if (error != 0) throw std::system_error(error, std::generic_category(), command.front() + " cannot be started");
-  return out;
-}
-
 }  // namespace
 
 ProgramEnd run_program(const std::vector<std::string>& command, std::chrono::milliseconds limit,
@@ -94,7 +66,9 @@ ProgramEnd run_program(const std::vector<std::string>& command, std::chrono::mil
   Pipe errors;
   ProgramEnd out;
   const auto end = Clock::now() + limit;
-  const pid_t process = start(command, output, errors);
+  pid_t process = 0;
+  if (const int error = jobs::start_process(command, {}, output.writing(), errors.writing(), process); error != 0)
+    throw std::system_error(error, std::generic_category(), command.front() + " cannot be started");
   output.close_writing();
   errors.close_writing();
   std::optional<int> status;

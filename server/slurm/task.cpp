@@ -20,7 +20,6 @@
 #include "jobs/local_process.h"
 #include "slurm/attempt_folder.h"
 #include "slurm/attempt_run.h"
-#include "slurm/file_link.h"
 #include "slurm/scratch_folder.h"
 #include "slurm/small_file.h"
 
@@ -69,17 +68,18 @@ void wait_for_ends(const sigset_t& signals, TaskEnd& end, const std::stop_token&
     const int received = sigtimedwait(&signals, nullptr, &interval);
     if (received < 0) continue;
     spdlog::info("received {}", strsignal(received));
-    end.request(received == SIGUSR2 ? Ended::TIME_LIMIT : Ended::TERMINATED);
+    auto reason = Ended::REASON_UNSPECIFIED;  // the first counts
+    end.compare_exchange_strong(reason, received == SIGUSR2 ? Ended::TIME_LIMIT : Ended::TERMINATED);
   }
 }
 
 // Says on behalf of an attempt that was not begun that this task ends.
-void leave_unbegun(Link& link, Ended::Reason reason) {
+void leave_unbegun(const AttemptFolder& shared, Ended::Reason reason) {
   Ended ended;
   ended.set_kind(Ended::LEFT);
   ended.set_reason(reason);
   ended.set_advanced(true);
-  link.end(ended);
+  shared.end(ended);
 }
 
 // Names of the attempts of this task.
@@ -101,34 +101,37 @@ auto patiently(const TaskEnd& end, const Call& call) {
     try {
       return call();
     } catch (const std::exception& error) {
-      if (i == kTries || end.reason() != Ended::REASON_UNSPECIFIED) throw;
+      if (i == kTries || end.load() != Ended::REASON_UNSPECIFIED) throw;
       if (i == 0) spdlog::warn("trying again: {}", error.what());
     }
     std::this_thread::sleep_for(kBetweenTries);
   }
 }
 
-void compute(const std::string& id, Link& link, const TaskOptions& options, const TaskEnd& end) {
+void compute(const std::string& id, const AttemptFolder& shared, const TaskOptions& options, const TaskEnd& end) {
   const Claim claim = own_claim();
-  if (!patiently(end, [&] { return link.claim(claim); })) {
+  if (!patiently(end, [&] { return shared.claim(claim); })) {
     spdlog::info("attempt {} is not this task's", id);
     return;
   }
-  if (const auto reason = end.reason(); reason != Ended::REASON_UNSPECIFIED) return leave_unbegun(link, reason);
+  if (const auto reason = end.load(); reason != Ended::REASON_UNSPECIFIED) return leave_unbegun(shared, reason);
   spdlog::info("attempt {} begins", id);
   try {
     const ScratchFolder scratch(variable("TMPDIR").empty() ? "/tmp" : variable("TMPDIR"));
     const store::JobFolder folder(scratch.path());
-    patiently(end, [&] { link.fetch(folder); });
+    patiently(end, [&] {
+      copy_durably(shared.files().order(), folder.order());
+      copy_run(shared.files(), folder);
+    });
     jobs::LocalProcess workers(options.worker_program, kStallLimit, jobs::count_oom_kills,
                                jobs::LocalProcess::Life::ends_with_parent);
-    AttemptRun(link, workers, end, options.lease).run(folder);
+    AttemptRun(shared, workers, end, options.lease).run(folder);
     spdlog::info("attempt {} has ended", id);
   } catch (const std::exception& error) {
     Ended ended;
     ended.set_kind(Ended::NOT_STARTED);
     ended.set_message(error.what());
-    patiently(end, [&] { link.end(ended); });
+    patiently(end, [&] { shared.end(ended); });
     throw;
   }
 }
@@ -136,15 +139,14 @@ void compute(const std::string& id, Link& link, const TaskOptions& options, cons
 }  // namespace
 
 int run_task(const TaskOptions& options) {
-  TaskEnd end;
+  TaskEnd end = Ended::REASON_UNSPECIFIED;
   const sigset_t signals = block_ends();
   const std::jthread waits([&](const std::stop_token& stop) { wait_for_ends(signals, end, stop); });
   int out = 0;
   try {
     for (const auto& id : own_attempts(options)) {
       try {
-        FileLink link(AttemptFolder(options.folder / "attempts" / id));
-        compute(id, link, options, end);
+        compute(id, AttemptFolder(options.folder / "attempts" / id), options, end);
       } catch (const std::exception& error) {
         // The next attempt may have more luck.
         spdlog::error("attempt {}: {}", id, error.what());

@@ -1,4 +1,4 @@
-#include "slurm/cluster_flag.h"
+#include "slurm/cluster_options.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include "error.h"
-#include "slurm/shared_folder.h"
+#include "slurm/attempt_folder.h"
 #include "slurm/slurm_executor.h"
 
 namespace cellcrush::slurm {
