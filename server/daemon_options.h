@@ -11,7 +11,7 @@
 #include "access/gate.h"
 #include "clocks.h"
 #include "jobs/admission.h"
-#include "jobs/executor_options.h"
+#include "jobs/executor.h"
 #include "jobs/queue_hold.h"
 #include "jobs/retention.h"
 #include "net/connection_limits.h"

@@ -6,12 +6,12 @@
 #include <atomic>
 #include <chrono>
 #include <future>
+#include <map>
 #include <string>
 #include <utility>
 
 #include "error.h"
 #include "jobs/case_field.h"
-#include "jobs/point_problems.h"
 #include "jobs/sweep_points.h"
 #include "translate/case_checker.h"
 
@@ -93,6 +93,79 @@ void check_sizes(const v1::Sweep& sweep, std::size_t points) {
         "have " + std::to_string(bytes_of_labels(sweep)) + " bytes, too many for " + std::to_string(points) + " jobs.",
         "Use fewer or shorter labels, or fewer points: the labels of all jobs together may have at most 16 MiB.");
   }
+}
+
+constexpr const char* kDigits = "0123456789";
+constexpr const char* kOfNumbers = "0123456789.e+-";
+
+std::string without_numbers(const std::string& text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size();) {
+    const auto number = std::min(text.find_first_of(kDigits, i), text.size());
+    out += text.substr(i, number - i) + "#";
+    i = std::min(text.find_first_not_of(kOfNumbers, number), text.size());
+  }
+  return out;
+}
+
+// Merges problems, or notes, that several points of a sweep share.
+class PointProblems {
+ public:
+  // What to merge: equal problems, or also those that differ only in their numbers.
+  enum class Merge : std::uint8_t { equal, but_for_numbers };
+
+  PointProblems(std::size_t points, Merge merge) : points_(points), merge_(merge) {}
+
+  // Adds a problem of the point at `position`; `point` describes the point.
+  void add(const v1::Problem& problem, std::size_t position, const std::string& point);
+
+  // The merged problems, in the order of their first points and with the numbers of these. The message names the first
+  // point and counts the others, unless every point of the sweep has the same problem.
+  [[nodiscard]] google::protobuf::RepeatedPtrField<v1::Problem> merged() const;
+
+ private:
+  struct Entry {
+    v1::Problem problem;
+    std::size_t first = 0;
+    std::string point;
+    std::size_t count = 0;
+    bool is_equal = true;  // at all its points
+  };
+
+  [[nodiscard]] std::string key_of(const v1::Problem& problem) const;
+
+  std::size_t points_;
+  Merge merge_;
+  std::map<std::string, std::size_t> seen_;
+  std::vector<Entry> entries_;
+};
+
+void PointProblems::add(const v1::Problem& problem, std::size_t position, const std::string& point) {
+  const auto [found, is_new] = seen_.try_emplace(key_of(problem), entries_.size());
+  if (is_new) entries_.push_back({problem, position, point});
+  Entry& entry = entries_[found->second];
+  ++entry.count;
+  if (merge_ == Merge::but_for_numbers && problem.SerializeAsString() != entry.problem.SerializeAsString())
+    entry.is_equal = false;
+}
+
+google::protobuf::RepeatedPtrField<v1::Problem> PointProblems::merged() const {
+  google::protobuf::RepeatedPtrField<v1::Problem> out;
+  for (const auto& entry : entries_) {
+    v1::Problem& problem = *out.Add();
+    problem = entry.problem;
+    if (entry.is_equal && entry.count == points_) continue;
+    std::string where = " This applies to point " + std::to_string(entry.first + 1) + " of " + std::to_string(points_) +
+                        " (" + entry.point + ")";
+    if (entry.count > 1) where += " and to " + std::to_string(entry.count - 1) + " more";
+    problem.set_message(problem.message() + where + ".");
+  }
+  return out;
+}
+
+std::string PointProblems::key_of(const v1::Problem& problem) const {
+  if (merge_ == Merge::equal) return problem.SerializeAsString();
+  return problem.field() + "\n" + without_numbers(problem.message());
 }
 
 struct CheckedPoint {

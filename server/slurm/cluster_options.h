@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "jobs/executor_options.h"
+#include "jobs/executor.h"
 
 namespace cellcrush::slurm {
 
