@@ -32,10 +32,10 @@ struct WorkerExit {
   };
   Kind kind = Kind::exited;
   int code = 0;
-  bool out_of_memory = false;          ///< the worker was killed while the kernel reported an OOM kill
-  std::optional<worker::Final> final;  ///< its last report, if any
-  std::string detail;                  ///< what happened, as a sentence, where the kind does not say it
-  Trouble trouble;                     ///< with not_started: what the executor lacks; `code` then does not count
+  bool out_of_memory = false;            ///< the worker was killed while the kernel reported an OOM kill
+  std::optional<worker::Final> final{};  ///< its last report, if any
+  std::string detail{};                  ///< what happened, as a sentence, where the kind does not say it
+  Trouble trouble{};                     ///< with not_started: what the executor lacks; `code` then does not count
 };
 
 /// Callbacks during a run, on the thread that called run.

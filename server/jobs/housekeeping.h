@@ -7,8 +7,8 @@
 
 #include "clocks.h"
 #include "jobs/admission.h"
+#include "jobs/deletion.h"
 #include "jobs/queues.h"
-#include "jobs/retention.h"
 
 namespace cellcrush::jobs {
 

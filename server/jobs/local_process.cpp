@@ -37,13 +37,6 @@ std::filesystem::path control_group() {
   return {};
 }
 
-WorkerExit not_started(int error) {
-  WorkerExit out;
-  out.kind = WorkerExit::Kind::not_started;
-  out.code = error;
-  return out;
-}
-
 void write_order(const store::JobFolder& folder, const worker::Order& order) {
   errno = 0;
   std::ofstream file(folder.order(), std::ios::binary | std::ios::trunc);
@@ -80,13 +73,9 @@ bool LocalProcess::has_worker(const store::JobFolder& folder) { return WorkerPro
 std::optional<WorkerExit> LocalProcess::read_final_report(const store::JobFolder& folder, const WorkerEvents& events) {
   const Interruptions none;
   WorkerFollower follower(folder, events, none, stall_limit_);
-  WorkerExit out;
-  out.kind = WorkerExit::Kind::broken;
-  if (!follower.catch_up()) return out;
+  if (!follower.catch_up()) return WorkerExit{.kind = WorkerExit::Kind::broken};
   if (!follower.last_word() || follower.last_word()->has_suspended_step()) return std::nullopt;
-  out.kind = WorkerExit::Kind::gone;
-  out.final = follower.last_word();
-  return out;
+  return WorkerExit{.kind = WorkerExit::Kind::gone, .final = follower.last_word()};
 }
 
 void LocalProcess::end_worker(const store::JobFolder& folder) {
@@ -97,11 +86,9 @@ WorkerExit LocalProcess::run(const store::JobFolder& folder, const worker::Order
                              const Interruptions& interruptions) {
   auto process = WorkerProcess::find(folder);
   WorkerFollower follower(folder, events, interruptions, stall_limit_);
-  WorkerExit out;
   if (!follower.catch_up()) {
     if (process) process->end();
-    out.kind = WorkerExit::Kind::broken;
-    return out;
+    return {.kind = WorkerExit::Kind::broken};
   }
   if (process) return follow(*process, follower, events, oom_kills_);
   write_order(folder, order);
@@ -110,9 +97,9 @@ WorkerExit LocalProcess::run(const store::JobFolder& folder, const worker::Order
   if (life_ == Life::ends_with_parent) command.insert(command.end(), {"--end-with", std::to_string(getpid())});
   // It may outlive the daemon, so it inherits no descriptor.
   const int error = start_process(command, {worker::kSuspendSignal, worker::kCancelSignal}, -1, -1, child);
-  if (error != 0) return not_started(error);
+  if (error != 0) return {.kind = WorkerExit::Kind::not_started, .code = error};
   process.emplace(WorkerProcess::of_child(child));
-  out = follow(*process, follower, events, oom_kills_);
+  WorkerExit out = follow(*process, follower, events, oom_kills_);
   if (out.kind != WorkerExit::Kind::exited || out.code != worker::kFolderIsClaimed) return out;
   // A worker that an earlier daemon had just started claimed the folder first.
   auto faster = WorkerProcess::find(folder);

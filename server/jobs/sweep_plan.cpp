@@ -10,7 +10,7 @@
 #include <string>
 #include <utility>
 
-#include "error.h"
+#include "error_table.h"
 #include "jobs/case_field.h"
 #include "jobs/sweep_points.h"
 #include "translate/case_checker.h"
@@ -28,12 +28,6 @@ constexpr std::size_t kMostNamedBytes = 4'190'000;
 constexpr std::size_t kNameBytes = 17;
 constexpr std::size_t kMostLabelBytes = 16 * 1024 * 1024;  // of the labels of all its jobs
 
-void cut(std::string& text, std::size_t most) {
-  if (text.size() <= most) return;
-  while (most > 0 && (static_cast<unsigned char>(text[most]) & 0xC0U) == 0x80U) --most;
-  text.resize(most);
-}
-
 std::size_t bytes_of_labels(const v1::Sweep& sweep) {
   std::size_t out = 0;
   for (const auto& [key, value] : sweep.labels()) out += key.size() + value.size();
@@ -49,19 +43,10 @@ std::string text_of_point(const std::vector<std::string>& fields, const std::vec
 
 // Truncates the case's own title rather than the values.
 std::string title_of(std::string title, std::string point) {
-  cut(point, kLongestTitle);
+  point = cut_text(std::move(point), kLongestTitle);
   if (point.size() + 2 >= kLongestTitle) return point;
-  cut(title, kLongestTitle - point.size() - 2);
+  title = cut_text(std::move(title), kLongestTitle - point.size() - 2);
   return title.empty() ? point : title + ", " + point;
-}
-
-v1::Problem problem_of(const InvalidField& refused) {
-  v1::Problem out;
-  out.set_field(refused.field());
-  out.set_message(refused.message());
-  out.set_remedy(refused.remedy());
-  out.set_kind(v1::Problem::INVALID);
-  return out;
 }
 
 v1::Job job_of(const v1::Sweep& sweep, v1::Case made) {
@@ -205,7 +190,7 @@ class PointChecker {
     try {
       for (std::size_t i = 0; i < values.size(); ++i) set_case_field(out.made, points_.fields[i], values[i]);
     } catch (const InvalidField& refused) {
-      out.verdict.problems.push_back(problem_of(refused));
+      out.verdict.problems.push_back(invalid_problem(refused.field(), refused.message(), refused.remedy()));
       return out;
     }
     // Large lattices of a sweep are built one after another; the sweep waits for places as long as its caller does.

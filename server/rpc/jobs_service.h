@@ -1,9 +1,8 @@
 #pragma once
 
-#include "rpc/download_source.h"
 #include "rpc/export_source.h"
-#include "rpc/frame_sources.h"
 #include "rpc/jobs_source.h"
+#include "rpc/result_sources.h"
 #include "rpc/service_parts.h"
 #include "watch/job_source.h"
 

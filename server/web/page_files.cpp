@@ -2,11 +2,11 @@
 
 #include <absl/strings/str_replace.h>
 #include <absl/strings/str_split.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <cstdio>
 #include <map>
 #include <span>
 #include <string>
@@ -74,9 +74,7 @@ const char* content_type_of_file(std::string_view name) {
 std::string entity_tag(std::string_view bytes) {
   std::uint64_t hash = 0xcbf29ce484222325U;  // FNV-1a
   for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3U;
-  std::array<char, 24> text{};
-  std::snprintf(text.data(), text.size(), "\"%016llx\"", static_cast<unsigned long long>(hash));
-  return text.data();
+  return fmt::format("\"{:016x}\"", hash);
 }
 
 }  // namespace cellcrush::web

@@ -72,7 +72,7 @@ class EndlessWorker : public jobs::Executor {
     was_stopped = stopped.get_future().wait_for(std::chrono::seconds(20)) == std::future_status::ready;
     shared_.request(slurm::Request::ABANDON);
     close(open((shared_.root() / "heartbeat").c_str(), O_RDONLY | O_NONBLOCK));
-    return slurm::exit_with(Kind::stopped);
+    return {.kind = Kind::stopped};
   }
 
   bool was_stopped = false;

@@ -14,9 +14,8 @@
 #include "slurm/cluster_options.h"
 #include "slurm/commands.h"
 #include "slurm/mirror.h"
-#include "slurm/program.h"
-#include "slurm/scratch_folder.h"
 #include "slurm/small_file.h"
+#include "slurm/task.h"
 #include "worker/report_log.h"
 
 namespace cellcrush::slurm {
